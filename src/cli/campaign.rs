@@ -6,7 +6,7 @@
 
 mod summary;
 
-use super::common::{CliError, exit, print, require_threads, text};
+use super::common::{CliError, exit, part, print, require_threads, text};
 use super::job::interrupt;
 use super::output::{Output, make};
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
@@ -127,9 +127,10 @@ fn start(args: &Args) -> Result<State, CliError> {
     }
 
     let part = match &args.shard {
-        Some(given) => parse_part(given)?,
+        Some(given) => part("shard", given)?,
         None => (0, 1),
     };
+    let part = (part.0 as u64, part.1 as u64);
     let new = State::new(args.seed, part, families);
 
     match &args.state {
@@ -162,20 +163,6 @@ fn families(args: &Args) -> Result<Vec<String>, CliError> {
     }
 
     Ok(families)
-}
-
-fn parse_part(given: &str) -> Result<(u64, u64), CliError> {
-    let expected = "i/n with 1 <= i <= n";
-    part_of(given).ok_or_else(|| CliError::option("shard", expected, given))
-}
-
-/// (i - 1, n) of i/n with 1 <= i <= n.
-fn part_of(text: &str) -> Option<(u64, u64)> {
-    let (number, count) = text.split_once('/')?;
-    let number: u64 = number.parse().ok()?;
-    let count: u64 = count.parse().ok()?;
-    let is_part = number >= 1 && number <= count;
-    is_part.then(|| (number - 1, count))
 }
 
 /// Judges a replay file: exit 1 if anything disagrees still.

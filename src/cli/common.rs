@@ -283,6 +283,26 @@ pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
     Ok(())
 }
 
+/// A number given as an option.
+pub(super) fn number(option: &'static str, given: &str) -> Result<Rational, CliError> {
+    parse(given).map_err(|_| CliError::option(option, "a number", given))
+}
+
+/// A part i/n of a run, given as an option: (i - 1, n).
+pub(super) fn part(option: &'static str, given: &str) -> Result<(usize, usize), CliError> {
+    let expected = "i/n with 1 <= i <= n";
+    part_of(given).ok_or_else(|| CliError::option(option, expected, given))
+}
+
+/// (i - 1, n) of i/n with 1 <= i <= n.
+fn part_of(text: &str) -> Option<(usize, usize)> {
+    let (number, count) = text.split_once('/')?;
+    let number: usize = number.parse().ok()?;
+    let count: usize = count.parse().ok()?;
+    let is_part = number >= 1 && number <= count;
+    is_part.then(|| (number - 1, count))
+}
+
 /// A positive number given as an option.
 pub(super) fn positive(option: &'static str, given: &str) -> Result<Rational, CliError> {
     let expected = "a number above 0";

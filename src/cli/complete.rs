@@ -3,7 +3,7 @@
 //! The certificate can be searched in parts (`--shard`, joined by `mceip merge`) and gone on with
 //! (`--resume`). What is printed is what the checker has proved of it.
 
-use super::common::{CliError, exit, load, print, require_threads, text};
+use super::common::{CliError, exit, load, part, print, require_threads, text};
 use super::infinity::{AtInfinity, Files};
 use super::job::Job;
 use super::output::Output;
@@ -61,7 +61,13 @@ const SHOWN: usize = 20;
 /// Searches, prints what is proved and writes the certificate.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, args.window.as_deref())?;
-    let shard = args.shard.as_deref().map(parse_shard).transpose()?;
+    let shard = match &args.shard {
+        Some(given) => {
+            let (index, count) = part("shard", given)?;
+            Some(Shard { index, count })
+        }
+        None => None,
+    };
     require_threads(args.threads)?;
     refuse_useless(args, &problem)?;
 
@@ -133,24 +139,6 @@ fn refuse_useless(args: &Args, problem: &Problem) -> Result<(), CliError> {
 pub(super) fn read(path: &Path) -> Result<Certificate, CliError> {
     let source = text("the certificate", path)?;
     Certificate::from_json(&source).map_err(|source| CliError::file(path, source))
-}
-
-fn parse_shard(given: &str) -> Result<Shard, CliError> {
-    let expected = "i/n with 1 <= i <= n";
-    shard_of(given).ok_or_else(|| CliError::option("shard", expected, given))
-}
-
-/// Part i of n, where 1 <= i <= n.
-fn shard_of(text: &str) -> Option<Shard> {
-    let (number, count) = text.split_once('/')?;
-    let number: usize = number.parse().ok()?;
-    let count: usize = count.parse().ok()?;
-    let is_part = number >= 1 && number <= count;
-
-    is_part.then(|| Shard {
-        index: number - 1,
-        count,
-    })
 }
 
 /// What is printed.

@@ -4,13 +4,13 @@
 //! (S_1, S_2) all solutions of MCEIP-lambda2 are listed as the enumerator finds them, and compared
 //! with the closed form of Table 1 and with what the solver finds and certifies.
 
-use super::common::{CliError, exit, print};
+use super::common::{CliError, exit, number, positive, print};
 use super::output::Output;
 use crate::picture::table1_picture;
 use mceip_engine::multistart::Search;
 use mceip_engine::reduction::reduce;
 use mceip_engine::report::{Listed, Table};
-use mceip_exact::{Rational, parse};
+use mceip_exact::Rational;
 use mceip_model::{Body, Problem, Unknown, Window};
 use mceip_oracle::{TwoParticles, enumerate};
 use mceip_paper::two_particles;
@@ -137,27 +137,6 @@ fn data(args: &Args) -> Result<TwoParticles, CliError> {
         m: positive("m", &args.m)?,
         mu: positive("mu", &args.mu)?,
         signs: (1, 1),
-    })
-}
-
-fn number(option: &'static str, text: &str) -> Result<Rational, CliError> {
-    parse(text).map_err(|_| CliError::Option {
-        option,
-        expected: "a number",
-        got: text.into(),
-    })
-}
-
-fn positive(option: &'static str, text: &str) -> Result<Rational, CliError> {
-    let value = number(option, text)?;
-    if value.is_positive() {
-        return Ok(value);
-    }
-
-    Err(CliError::Option {
-        option,
-        expected: "a number > 0",
-        got: text.into(),
     })
 }
 

@@ -6,7 +6,7 @@
 use super::common::{CliError, exit, print};
 use super::job::Job;
 use mceip_engine::report::Table;
-use mceip_testkit::floors::{Covered, floor};
+use mceip_testkit::floors::{Covered, Shortfall, floor};
 use mceip_testkit::{BlockReport, FamilyReport, Verification, verify};
 use serde_json::{Value, json};
 
@@ -67,7 +67,10 @@ fn text_of(v: &Verification) -> String {
         table.row(row(family));
     }
 
-    let mut out = format!("{table}\n{}\n", coverage_of(v));
+    let mut out = format!(
+        "{table}\n{}\n",
+        coverage_text(&v.covered(), &v.shortfalls())
+    );
     for family in &v.families {
         out += &family_text(family);
     }
@@ -129,19 +132,19 @@ fn block_text(state: &BlockReport) -> String {
 
 /// What was found of the instances that have solutions, each rate beside its floor; then the rates
 /// below it.
-fn coverage_of(v: &Verification) -> String {
+pub(super) fn coverage_text(covered: &[Covered], shortfalls: &[Shortfall]) -> String {
     let mut table = Table::new(&["coverage", "starts", "first start", "all solutions"]);
-    for covered in v.covered() {
+    for family in covered {
         table.row(vec![
-            covered.family.clone(),
-            covered.starts.word().into(),
-            covered.first_text(),
-            covered.all_text(),
+            family.family.clone(),
+            family.starts.word().into(),
+            family.first_text(),
+            family.all_text(),
         ]);
     }
 
     let mut out = table.to_string();
-    for shortfall in v.shortfalls() {
+    for shortfall in shortfalls {
         out += &format!("  DISAGREEMENT: coverage: {shortfall}\n");
     }
 

@@ -25,6 +25,7 @@
 pub mod analysis;
 pub mod candidate;
 pub mod certify;
+mod dense;
 pub mod foreign;
 pub mod lcp;
 pub mod multistart;

@@ -37,8 +37,8 @@ pub struct DoubleBlock {
 }
 
 impl DoubleBlock {
-    /// Meshes and assembles a block. Each entry is within 8 units in the last place of the largest
-    /// entry of its row's diagonal from the exact one (the tests of this file hold it against
+    /// Meshes and assembles a block. Entry (i, j) is within 8 units in the last place of the larger
+    /// of the diagonal entries i and j from the exact one (the tests of this file hold it against
     /// [`super::Block`]).
     ///
     /// # Errors

@@ -11,19 +11,19 @@ mod words;
 
 use super::args::Args;
 use super::scale::cells_of;
-use crate::cli::common::{CliError, exit, print};
+use crate::cli::common::{CliError, exit, number, positive, print};
 use crate::cli::job::Job;
 use crate::cli::output::{Folder, Output};
 use mceip_engine::report::Table;
 use mceip_engine::run::{Cancel, Progress, Watch};
-use mceip_exact::{Integer, Rational, parse, to_f64};
+use mceip_exact::{Integer, Rational, to_f64};
 use mceip_model::ContactState;
 use mceip_paper::path::{
     Bound, Comparison, Contact, Equilibrium, Event, Finder, Interval, Loading, LoadingPath,
     PathEnd, step_path,
 };
 use mceip_paper::{Block, BlockModel, MeshKind, Plane};
-use num_traits::{Signed, ToPrimitive};
+use num_traits::ToPrimitive;
 use pages::Shown;
 use serde_json::{Value, json};
 use states::{Followed, ProvedState, Wanted};
@@ -38,7 +38,8 @@ const MAX_STEPS: usize = 1_000_000;
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let model = model(args)?;
     let loading = loading(args)?;
-    let step = args.step.as_deref().map(positive_step).transpose()?;
+    let step = args.step.as_deref();
+    let step = step.map(|length| positive("step", length)).transpose()?;
     let at_mu = args.at_mu.iter().map(|mu| positive("at-mu", mu));
     let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
     let block = Block::new(&model)?;
@@ -287,28 +288,6 @@ fn loading(args: &Args) -> Result<Loading, CliError> {
         force: number("force", &args.force)?,
         until,
     })
-}
-
-fn number(option: &'static str, text: &str) -> Result<Rational, CliError> {
-    parse(text).map_err(|_| CliError::option(option, "a number", text))
-}
-
-fn positive(option: &'static str, text: &str) -> Result<Rational, CliError> {
-    let value = number(option, text)?;
-    if value.is_positive() {
-        Ok(value)
-    } else {
-        Err(CliError::option(option, "a number > 0", text))
-    }
-}
-
-fn positive_step(text: &str) -> Result<Rational, CliError> {
-    let length = number("step", text)?;
-    if length.is_positive() {
-        Ok(length)
-    } else {
-        Err(CliError::option("step", "a length > 0", text))
-    }
 }
 
 fn text_of(model: &BlockModel, path: &LoadingPath) -> String {

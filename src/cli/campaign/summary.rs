@@ -1,7 +1,7 @@
 //! The summary of a campaign: coverage per family, disagreements, a verdict. No times, so that
 //! equal runs are equal.
 
-use crate::cli::verify::covered_json;
+use crate::cli::verify::{coverage_text, covered_json};
 use mceip_engine::report::Table;
 use mceip_testkit::campaign::{Judgement, Replay, State, Tally};
 use serde_json::{Value, json};
@@ -30,7 +30,8 @@ pub(super) fn text_of(state: &State) -> String {
 
     table.row(row("all", &sum));
 
-    let mut out = format!("{table}\n{}\n", coverage_of(state));
+    let coverage = coverage_text(&state.covered(), &state.shortfalls());
+    let mut out = format!("{table}\n{coverage}\n");
     for (name, tally) in state.families.iter().zip(&state.tallies) {
         let corners = corners_of(tally);
         let pivots = tally.pivots;
@@ -55,27 +56,6 @@ fn corners_of(tally: &Tally) -> String {
     }
 
     corners.join(", ")
-}
-
-/// What was found of the instances that have solutions, each rate beside its floor; then the rates
-/// below it.
-fn coverage_of(state: &State) -> String {
-    let mut table = Table::new(&["coverage", "starts", "first start", "all solutions"]);
-    for covered in state.covered() {
-        table.row(vec![
-            covered.family.clone(),
-            covered.starts.word().into(),
-            covered.first_text(),
-            covered.all_text(),
-        ]);
-    }
-
-    let mut out = table.to_string();
-    for shortfall in state.shortfalls() {
-        out += &format!("  DISAGREEMENT coverage: {shortfall}\n");
-    }
-
-    out
 }
 
 fn add(sum: &mut Tally, t: &Tally) {

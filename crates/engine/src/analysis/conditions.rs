@@ -13,6 +13,7 @@
 //! Input: K* and M* as linear functions of mu ([`MuFamily`]). Output: [`Necessary`]. Called by
 //! [`analyse`](super::analyse) and by the loading path of `mceip block`.
 
+use crate::dense::rounded;
 use crate::reduction::MuFamily;
 use crate::tolerance::{BRACKET_BITS, BRACKET_START_BITS};
 use mceip_exact::{
@@ -217,19 +218,10 @@ fn bracket(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, 
 /// The mu at which A + mu B ceases to be definite, in doubles: 1 + mu t >= 0 for the eigenvalues t
 /// of B v = t A v, so the smallest one decides.
 fn propose_end(a: &Sparse, b: &Sparse) -> Option<Rational> {
-    let eigenvalues = definite_eigenvalues(&dense(b), &dense(a))?;
+    let eigenvalues = definite_eigenvalues(&rounded(b), &rounded(a))?;
     let smallest = eigenvalues.first()?;
     let end = from_f64(-smallest.recip()).ok()?;
     end.is_positive().then_some(end)
-}
-
-fn dense(matrix: &Sparse) -> Vec<Vec<f64>> {
-    let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
-    for (i, j, v) in matrix.entries() {
-        rows[i][j] = to_f64(v);
-    }
-
-    rows
 }
 
 /// What is to be proved on a side of the proposed end.

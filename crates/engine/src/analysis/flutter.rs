@@ -5,9 +5,10 @@
 //! K* and M* as functions of mu. Output: [`Flutter`]; nothing is proved. Called by
 //! [`analyse`](super::analyse).
 
+use crate::dense::{rounded, transposed};
 use crate::reduction::MuFamily;
 use crate::tolerance::FLUTTER_ANGLE;
-use mceip_exact::{Rational, to_f64};
+use mceip_exact::Rational;
 use mceip_mcp::linear::{eigenvalues, solve};
 use mceip_model::Pencil;
 use std::cmp::Ordering;
@@ -62,26 +63,7 @@ pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
 
 /// A + mu B by rows, each entry rounded to the nearest double.
 fn dense_at(pencil: &Pencil, mu: &Rational) -> Vec<Vec<f64>> {
-    let matrix = pencil.a().add_scaled(mu, pencil.b());
-    let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
-    for (i, j, v) in matrix.entries() {
-        rows[i][j] = to_f64(v);
-    }
-
-    rows
-}
-
-/// The columns of a square matrix given by rows, or the rows of one given by columns.
-fn transposed(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let order = matrix.len();
-    let mut transposed = vec![vec![0.0; order]; order];
-    for (i, row) in matrix.iter().enumerate() {
-        for (j, entry) in row.iter().enumerate() {
-            transposed[j][i] = *entry;
-        }
-    }
-
-    transposed
+    rounded(&pencil.a().add_scaled(mu, pencil.b()))
 }
 
 /// Larger Re lambda first; of equal ones the smaller Im lambda^2.

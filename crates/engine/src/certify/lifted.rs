@@ -94,7 +94,7 @@ fn numbers(coefficients: Coefficients) -> Vec<Number> {
     coefficients.into_iter().map(Number).collect()
 }
 
-/// Adds factor t^shift p to a sum.
+/// Adds `factor * t^shift * p` to a sum.
 fn add(sum: &mut Coefficients, factor: &Rational, p: &[Rational], shift: usize) {
     if sum.len() < p.len() + shift {
         sum.resize(p.len() + shift, Rational::zero());
@@ -105,7 +105,7 @@ fn add(sum: &mut Coefficients, factor: &Rational, p: &[Rational], shift: usize) 
     }
 }
 
-/// Adds t^shift matrix v to w.
+/// Adds `t^shift * matrix * v` to w.
 fn add_product(w: &mut [Coefficients], matrix: &Sparse, v: &[Coefficients], shift: usize) {
     for (row, column, value) in matrix.entries() {
         add(&mut w[row], value, &v[column], shift);

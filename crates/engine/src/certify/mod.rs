@@ -21,7 +21,7 @@ mod failure;
 mod lifted;
 mod precise;
 mod proposals;
-mod rows;
+pub(crate) mod rows;
 mod support;
 
 pub use accepted::{Certifier, Sifted, certify, sift};

@@ -90,7 +90,7 @@ fn cleared(value: &Rational, denominator: &Integer) -> Integer {
 }
 
 /// The active variables: free ones and those of the support, ascending.
-pub(super) fn active(pencil: &Pencil, support: &[usize]) -> Vec<usize> {
+pub(crate) fn active(pencil: &Pencil, support: &[usize]) -> Vec<usize> {
     let mut list: Vec<usize> = pencil.free().iter().chain(support).copied().collect();
     list.sort_unstable();
     list

@@ -10,6 +10,7 @@
 //! Input: an accepted claim and the report's numbers in doubles. Called by `judge`.
 
 use super::report::Reported;
+use crate::certify::rows::active;
 use crate::multistart::support;
 use crate::reduction::Reduced;
 use crate::report::Listed;
@@ -100,19 +101,6 @@ impl Proven {
 
         Some(proven)
     }
-}
-
-/// The free variables and those of a support, ascending.
-fn active(pencil: &Pencil, support: &[usize]) -> Vec<usize> {
-    let mut active = Vec::new();
-    for i in 0..pencil.order() {
-        let is_free = pencil.free().binary_search(&i).is_ok();
-        if is_free || support.contains(&i) {
-            active.push(i);
-        }
-    }
-
-    active
 }
 
 /// One of our own decimals as a double.

@@ -166,7 +166,7 @@ impl ScaledRow {
     }
 }
 
-/// v scale, where the scale is a multiple of the denominator of v.
+/// `scale * v`, where the scale is a multiple of the denominator of v.
 fn times(v: &Rational, scale: &Integer) -> Integer {
     v.numer() * (scale / v.denom())
 }

@@ -10,7 +10,7 @@
 #![allow(clippy::float_arithmetic)]
 
 use crate::candidate::Candidate;
-use mceip_exact::{Sparse, to_f64};
+use crate::dense::rounded;
 use mceip_mcp::linear::solve;
 use mceip_model::Pencil;
 
@@ -32,7 +32,7 @@ impl Expansion {
         let a_fs = pencil.a().submatrix(&free, &slip);
 
         // The right-hand sides are the columns of A_fs.
-        let columns = solve(&dense(&a_ff), &dense(&a_fs.transpose()))?;
+        let columns = solve(&rounded(&a_ff), &rounded(&a_fs.transpose()))?;
 
         Some(Expansion {
             order: pencil.order(),
@@ -59,18 +59,10 @@ impl Expansion {
     }
 }
 
-/// A matrix of rationals by rows, each entry rounded to the nearest double.
-fn dense(matrix: &Sparse) -> Vec<Vec<f64>> {
-    let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
-    for (i, j, v) in matrix.entries() {
-        rows[i][j] = to_f64(v);
-    }
-    rows
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use mceip_exact::Sparse;
 
     #[test]
     fn free_rows_balance_after_expansion() {

@@ -6,6 +6,7 @@
 //! `enumerate` and `complete`, by the front door, and by `solutions.rs` beside this file.
 
 use crate::candidate::Candidate;
+use crate::certify::rows::active;
 use crate::certify::{Certifier, flattened};
 use crate::multistart::{exact_value, integer_x};
 use crate::reduction::{Reduced, lift};
@@ -273,9 +274,8 @@ impl Digits {
 fn of_enclosed(problem: &Problem, reduced: &Reduced, enclosed: &EnclosedSolution) -> Listed {
     let pencil = &reduced.pencil;
     let mut x = vec![Rational::default(); pencil.order()];
-    let active = (0..pencil.order())
-        .filter(|i| pencil.free().binary_search(i).is_ok() || enclosed.support.contains(i));
-    for (i, number) in active.zip(&enclosed.center) {
+    let active = active(pencil, &enclosed.support);
+    for (i, number) in active.into_iter().zip(&enclosed.center) {
         x[i] = number.0.clone();
     }
 

@@ -12,6 +12,7 @@
 //! For pictures, and for starts of what is certified elsewhere. Called by `mceip block`.
 
 use super::complete::{CompleteError, Options, complete};
+use crate::dense::rounded;
 use crate::reduction::{Variable, mu_family};
 use crate::run::Watch;
 use mceip_exact::{Sparse, from_f64, to_f64};
@@ -66,10 +67,10 @@ impl Levels {
         Ok(Levels {
             free: family.stiffness.free().len(),
             dofs: system.stiffness().rows(),
-            k0: doubles(family.stiffness.a()),
-            k1: doubles(family.stiffness.b()),
-            m0: mass.map_or_else(|| massless.clone(), |m| doubles(m.a())),
-            m1: mass.map_or_else(|| massless.clone(), |m| doubles(m.b())),
+            k0: rounded(family.stiffness.a()),
+            k1: rounded(family.stiffness.b()),
+            m0: mass.map_or_else(|| massless.clone(), |m| rounded(m.a())),
+            m1: mass.map_or_else(|| massless.clone(), |m| rounded(m.b())),
             variables: family.variables,
         })
     }
@@ -237,15 +238,6 @@ fn exact(rows: &[Vec<f64>]) -> Option<Sparse> {
     }
 
     Some(Sparse::from_entries(rows.len(), rows.len(), entries))
-}
-
-fn doubles(matrix: &Sparse) -> Vec<Vec<f64>> {
-    let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
-    for (i, j, v) in matrix.entries() {
-        rows[i][j] = to_f64(v);
-    }
-
-    rows
 }
 
 #[cfg(test)]

@@ -441,7 +441,8 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
 /// |Phi|_inf <= tolerance is impossible where 2 Psi > n tolerance^2.
 fn is_within_tolerance<P: Mcp + ?Sized>(problem: &P, point: &Point, tolerance: f64) -> bool {
     let n = point.z.len() as f64;
-    if point.merit > MERIT_SLACK * 0.5 * n * tolerance * tolerance {
+    let is_merit_small = point.merit <= MERIT_SLACK * 0.5 * n * tolerance * tolerance;
+    if !is_merit_small {
         return false;
     }
 

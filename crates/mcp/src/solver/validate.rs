@@ -23,6 +23,11 @@ pub(super) fn validate<P: Mcp + ?Sized>(
     check_length("upper", n, problem.upper().len())?;
     check_bounds(problem.lower(), problem.upper())?;
 
+    check_start(n, start)
+}
+
+/// Refuses a start of another length than n, or one that is not finite.
+pub(crate) fn check_start(n: usize, start: &[f64]) -> Result<(), SolverError> {
     if start.len() != n {
         return Err(SolverError::StartLength {
             expected: n,

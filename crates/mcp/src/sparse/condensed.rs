@@ -18,7 +18,8 @@ use super::problem::SparseLinearMcp;
 use crate::linear::SparseLu;
 use crate::mcp::{LinearMcp, McpError};
 use crate::solver::{
-    Options, Outcome, Residuals, SolverError, Termination, solve, solve_linear, unmatched,
+    Options, Outcome, Residuals, SolverError, Termination, check_start, solve, solve_linear,
+    unmatched,
 };
 use crate::tolerance::REFINED;
 use nalgebra::DMatrix;
@@ -224,29 +225,11 @@ impl<'a> CondensedMcp<'a> {
     /// # Errors
     /// [`SparseError::Solver`] for options and starts that make no sense.
     pub fn solve(&self, start: &[f64], options: &Options) -> Result<Outcome, SparseError> {
-        self.check_start(start)?;
+        check_start(self.whole.dimension(), start)?;
         let start = self.partition.bounded_part(start);
         let outcome = solve(&self.problem, &start, options)?;
 
         Ok(self.whole_outcome(outcome, options))
-    }
-
-    /// Refuses a start of another length than n, or one that is not finite.
-    fn check_start(&self, start: &[f64]) -> Result<(), SolverError> {
-        if start.len() != self.whole.dimension() {
-            return Err(SolverError::StartLength {
-                expected: self.whole.dimension(),
-                got: start.len(),
-            });
-        }
-
-        match start.iter().position(|value| !value.is_finite()) {
-            Some(index) => Err(SolverError::StartNotFinite {
-                index,
-                got: start[index],
-            }),
-            None => Ok(()),
-        }
     }
 
     /// All unknowns, length n, for values of the bounded ones: the free rows vanish.

@@ -203,7 +203,7 @@ mod tests {
         line.r.constant[0] += 1;
     }
 
-    /// In equilibrium, but the obstacle pulls: u_N = -2 in contact.
+    /// In equilibrium, but the node stands in the obstacle, which pulls: u_N = 2, r_N = 3.
     fn obstacle_pulls(line: &mut Line) {
         line.u.constant[1] = 2.into();
         line.r.constant[1] = 3.into();

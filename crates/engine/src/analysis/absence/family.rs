@@ -10,6 +10,7 @@
 //! M1). Output: the blocks of G0 and G1 at an s, and a lower bound of the smallest eigenvalue of
 //! the free block. Called by the other files of this folder.
 
+use crate::dense::rounded;
 use mceip_exact::{
     Integer, Rational, Sparse, common_denominator, from_f64, positive_definite, to_f64,
 };
@@ -142,7 +143,7 @@ fn nearest_power(v: f64) -> Rational {
     }
 }
 
-/// factor M.
+/// `factor * matrix`.
 fn times(matrix: &Sparse, factor: &Rational) -> Sparse {
     Sparse::zeros(matrix.rows(), matrix.cols()).add_scaled(factor, matrix)
 }
@@ -172,7 +173,7 @@ fn block(matrix: &Sparse, rows: &[usize], columns: &[usize]) -> IntegerMatrix {
 /// eigenvalue. m is scaled so that one exists unless it is nearly singular.
 fn smallest_eigenvalue(m: &Sparse) -> Option<Integer> {
     let identity = Sparse::identity(m.rows());
-    let eigenvalues = definite_eigenvalues(&dense(m), &dense(&identity))?;
+    let eigenvalues = definite_eigenvalues(&rounded(m), &rounded(&identity))?;
     let estimate = *eigenvalues.first()?;
 
     let sigma = from_f64((0.9 * estimate).floor()).ok()?;
@@ -181,13 +182,4 @@ fn smallest_eigenvalue(m: &Sparse) -> Option<Integer> {
         return None;
     }
     Some(sigma.to_integer())
-}
-
-fn dense(matrix: &Sparse) -> Vec<Vec<f64>> {
-    let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
-    for (i, j, v) in matrix.entries() {
-        rows[i][j] = to_f64(v);
-    }
-
-    rows
 }

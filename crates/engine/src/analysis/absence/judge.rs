@@ -13,6 +13,7 @@
 //! cover in `mod.rs`.
 
 use super::strip::Strip;
+use crate::dense::has_pivots_above;
 use crate::search::complete::game;
 use crate::tolerance::{DEFINITE_PIVOT, WITNESS_MARGIN};
 use mceip_exact::{Rational, Sparse, positive_definite};
@@ -201,19 +202,7 @@ impl Corners {
             }
         }
 
-        for k in 0..n {
-            if rest[k][k] <= DEFINITE_PIVOT {
-                return false;
-            }
-            for i in k + 1..n {
-                let factor = rest[i][k] / rest[k][k];
-                for j in k + 1..n {
-                    rest[i][j] -= factor * rest[k][j];
-                }
-            }
-        }
-
-        true
+        has_pivots_above(rest, DEFINITE_PIVOT)
     }
 
     /// The symmetric part times sign, less its radius, is positive definite at every corner.

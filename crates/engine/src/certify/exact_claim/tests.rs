@@ -209,13 +209,14 @@ fn an_interval_is_narrowed_until_every_sign_is_sure() {
 
     for required in [&nothing, &in_window, &positive, &not_zero] {
         let value = tightened(required);
+        let window = required.window;
+        assert!(value.interval().lo() >= window.min());
+        assert!(window.max().is_none_or(|max| value.interval().hi() <= max));
+
         let slope = value.interval().horner(&value.poly().derivative());
         assert!(slope.certain_sign() != 0);
     }
 
-    let value = tightened(&in_window);
-    assert!(value.interval().lo() >= tight.min());
-    assert!(tight.max().is_some_and(|max| value.interval().hi() <= max));
     assert_eq!(sign_over_interval(&above, &tightened(&positive)), 1);
     assert!(sign_over_interval(&free[0], &tightened(&not_zero)) != 0);
 }

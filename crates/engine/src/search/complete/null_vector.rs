@@ -4,15 +4,16 @@
 //! for both vectors (Unger 1950; Ruhe 1973):
 //!
 //! ```text
-//!     T(t) v' = T'(t) v,    u' T(t) = u T'(t),    t' = t - u'T(t)v' / u'T'(t)v'.
+//!     T(t) v+ = T'(t) v,    T(t)^T u+ = T'(t)^T u,    t+ = t - u+^T T(t) v+ / u+^T T'(t) v+,
 //! ```
 //!
 //! Called by the leaves `root` and `infinity`, by `precise`, and for the x of an accepted solution
 //! (`accepted_x`). Nothing is proved here.
 
 use super::pieces::expansion::Expansion;
-use super::pieces::matrix::{Matrix, bilinear, principal_block, times, transposed};
+use super::pieces::matrix::{Matrix, bilinear, principal_block, times};
 use super::region::{State, support};
+use crate::dense::transposed;
 use crate::tolerance::ROUNDING;
 use mceip_mcp::linear::solve;
 
@@ -136,7 +137,7 @@ impl Vectors {
         }
     }
 
-    /// T^-1 T' v and T'^-T u; `None` where T is singular in doubles.
+    /// T^-1 T' v, and T^-T T'^T u from the left; `None` where T is singular in doubles.
     fn solved(&self, matrix: &Matrix, derivative: &Matrix) -> Option<Vectors> {
         let right = times(derivative, &self.right);
         let left = times(&transposed(derivative), &self.left);

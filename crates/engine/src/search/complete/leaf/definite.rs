@@ -7,6 +7,7 @@
 //! Called by `tree` for every region. The checker's side is `check::cover::definite`, with the test
 //! itself in `check::cover::enclosed_definite`.
 
+use crate::dense::has_pivots_above;
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::pieces::matrix::{Matrix, largest_entry};
 use crate::search::complete::region::{State, possible_support};
@@ -73,25 +74,4 @@ pub(crate) fn is_definite(
     }
 
     has_pivots_above(s, least_pivot)
-}
-
-/// Does elimination on a symmetric matrix meet only pivots above `least`?
-fn has_pivots_above(mut s: Matrix, least: f64) -> bool {
-    let order = s.len();
-    for k in 0..order {
-        if s[k][k] <= least {
-            return false;
-        }
-
-        let (upper, lower) = s.split_at_mut(k + 1);
-        let pivot_row = &upper[k];
-        for row in lower {
-            let factor = row[k] / pivot_row[k];
-            for j in k + 1..order {
-                row[j] -= factor * pivot_row[j];
-            }
-        }
-    }
-
-    true
 }

@@ -9,6 +9,7 @@
 //! reach to infinity. The checker's side is `check::cover::ldl`.
 
 use super::definite::is_definite;
+use crate::dense::eliminate_below;
 use crate::search::complete::given::Given;
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::pieces::matrix::{Matrix, largest_entry};
@@ -141,14 +142,7 @@ fn is_indefinite(s: &[Vec<Rational>]) -> bool {
             continue;
         }
 
-        let (upper, lower) = s.split_at_mut(k + 1);
-        let pivot_row = &upper[k];
-        for row in lower {
-            let factor = row[k] / pivot_row[k];
-            for j in k + 1..order {
-                row[j] -= factor * pivot_row[j];
-            }
-        }
+        eliminate_below(&mut s, k);
     }
 
     false

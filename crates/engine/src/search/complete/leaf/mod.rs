@@ -14,8 +14,9 @@
 //! A file takes a region with its matrices and gives the node, or nothing where the evidence cannot
 //! be had. None of them goes on with the search: that is for `tree`.
 //!
-//! Who adds a kind of leaf touches four places: `certificate/cover.rs` (its data), one file in
-//! `check/cover/`, one file here, and chapter 5 of the book.
+//! Who adds a kind of leaf writes four places: `certificate/cover.rs` (its data), one file in
+//! `check/cover/`, one file here, and chapter 5 of the book. It is then named in `tree`, which
+//! tries the kinds in turn, and in the checker's `walk`.
 
 pub(super) mod definite;
 pub(super) mod farkas;

@@ -109,8 +109,8 @@ impl RootSearch<'_> {
         };
 
         let unique = Unique::of(null, &wide)?;
-        let leaf_and_region_ends = [ends.lo, ends.hi, lo, hi];
-        let leaf = self.root_leaf(null, &unique, &region.states, leaf_and_region_ends)?;
+        let region_and_leaf_ends = [ends.lo, ends.hi, lo, hi];
+        let leaf = self.root_leaf(null, &unique, &region.states, region_and_leaf_ends)?;
 
         let solution = leaf.is_solution().then_some(null.value);
         let [lo, hi] = part;

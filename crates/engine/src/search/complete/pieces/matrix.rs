@@ -27,13 +27,7 @@ pub(crate) fn principal_block(matrix: &Matrix, indices: &[usize]) -> Matrix {
     block
 }
 
-pub(crate) fn transposed(matrix: &Matrix) -> Matrix {
-    (0..matrix.len())
-        .map(|j| matrix.iter().map(|row| row[j]).collect())
-        .collect()
-}
-
-/// matrix x
+/// The product `matrix * x`.
 pub(crate) fn times(matrix: &Matrix, x: &[f64]) -> Vec<f64> {
     matrix
         .iter()
@@ -41,7 +35,7 @@ pub(crate) fn times(matrix: &Matrix, x: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// factor matrix
+/// The multiple `factor * matrix`.
 pub(crate) fn scaled(matrix: &Matrix, factor: f64) -> Matrix {
     matrix
         .iter()

@@ -10,8 +10,9 @@
 //!
 //! The checker decides with exact numbers; margins here make it agree.
 
+use crate::dense::transposed;
 use crate::search::complete::pieces::expansion::Ends;
-use crate::search::complete::pieces::matrix::{Matrix, transposed};
+use crate::search::complete::pieces::matrix::Matrix;
 
 /// rho and eta up to which a witness is offered: less than 1 by a margin.
 const MAX_IDENTITY_ERROR: f64 = 0.9;
@@ -34,7 +35,7 @@ impl Ball {
         }
     }
 
-    /// Adds factor other.
+    /// Adds `factor * other`.
     fn add(&mut self, factor: f64, other: Ball) {
         self.center += factor * other.center;
         self.radius += factor.abs() * other.radius;

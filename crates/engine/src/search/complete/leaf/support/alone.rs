@@ -144,8 +144,8 @@ impl Supported {
         // Tight rows are rows of y: rows of x do not vanish on the support.
         let (rows, multipliers) = tight;
         for (&row, m) in rows.iter().zip(multipliers) {
-            let inactive = row - self.support.len();
-            mu[self.active.len() + inactive] = m.clone();
+            let place = self.active.len() + row - self.support.len();
+            mu[place] = m.clone();
         }
 
         mu

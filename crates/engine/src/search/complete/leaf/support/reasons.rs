@@ -1,10 +1,11 @@
 //! What one support holds at a value or around one, in exact arithmetic: a solution, or a Farkas
 //! vector.
 //!
-//! With V a basis of the kernel of T on the active rows, G z holds the rows of V z that must be
-//! positive (x_J) and those of y = T V z that must not be negative. Either some z has them so, or
-//! some mu >= 0, not zero on J, has mu'G = 0 (Motzkin). The latter gives the Farkas vector: w_R is
-//! mu_R, and w on the active rows solves w'T = -mu_J.
+//! J is the support, R the complementarity variables off it (`inactive`), and *active* are J and
+//! the free variables. With V a basis of the kernel of T on the active rows, G z holds the rows of
+//! V z that must be positive (x_J) and those of y = T V z that must not be negative. Either some z
+//! has them so, or some mu >= 0, not zero on J, has mu'G = 0 (Motzkin). The latter gives the Farkas
+//! vector: w_R is mu_R, and w on the active rows solves w'T = -mu_J.
 //!
 //! Called by the leaf `support`, which puts the reasons together. Where the kernel is wider than a
 //! line, `alone` proves that a solution is the only one.

@@ -1,0 +1,90 @@
+//! Small dense matrices in doubles, by rows: what several parts of the engine do with them.
+//!
+//! Used by the complete search, the analysis and the reduction in doubles. All results are
+//! proposals: exact arithmetic decides later.
+#![allow(clippy::float_arithmetic)]
+
+use mceip_exact::{Sparse, to_f64};
+
+/// A matrix of rationals, each entry rounded to the nearest double.
+pub(crate) fn rounded(matrix: &Sparse) -> Vec<Vec<f64>> {
+    let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
+    for (i, j, v) in matrix.entries() {
+        rows[i][j] = to_f64(v);
+    }
+
+    rows
+}
+
+/// The columns of a square matrix given by rows, or the rows of one given by columns.
+pub(crate) fn transposed(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let order = matrix.len();
+    let mut transposed = vec![vec![0.0; order]; order];
+    for (i, row) in matrix.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate() {
+            transposed[j][i] = *entry;
+        }
+    }
+
+    transposed
+}
+
+/// One step of Gaussian elimination: subtracts multiples of row k from the rows below it, in the
+/// columns after k. Column k keeps its old entries.
+pub(crate) fn eliminate_below(matrix: &mut [Vec<f64>], k: usize) {
+    let order = matrix.len();
+    let (upper, lower) = matrix.split_at_mut(k + 1);
+    let pivot_row = &upper[k];
+
+    for row in lower {
+        let factor = row[k] / pivot_row[k];
+        for j in k + 1..order {
+            row[j] -= factor * pivot_row[j];
+        }
+    }
+}
+
+/// Does elimination on a symmetric matrix meet only pivots above `least`?
+pub(crate) fn has_pivots_above(mut matrix: Vec<Vec<f64>>, least: f64) -> bool {
+    for k in 0..matrix.len() {
+        if matrix[k][k] <= least {
+            return false;
+        }
+
+        eliminate_below(&mut matrix, k);
+    }
+
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::rational;
+
+    #[test]
+    fn entries_are_rounded_and_the_others_are_zero() {
+        let matrix =
+            Sparse::from_entries(2, 3, vec![(0, 2, rational(1, 3)), (1, 0, rational(-2, 1))]);
+
+        assert_eq!(
+            rounded(&matrix),
+            vec![vec![0.0, 0.0, 1.0 / 3.0], vec![-2.0, 0.0, 0.0]]
+        );
+    }
+
+    #[test]
+    fn a_transposed_matrix_has_rows_for_columns() {
+        let matrix = [vec![1.0, 2.0], vec![3.0, 4.0]];
+        assert_eq!(transposed(&matrix), vec![vec![1.0, 3.0], vec![2.0, 4.0]]);
+    }
+
+    /// [[4, 2], [2, 3]] has the pivots 4 and 3 - 2 2/4 = 2.
+    #[test]
+    fn the_smallest_pivot_decides() {
+        let matrix = vec![vec![4.0, 2.0], vec![2.0, 3.0]];
+
+        assert!(has_pivots_above(matrix.clone(), 1.9));
+        assert!(!has_pivots_above(matrix, 2.0));
+    }
+}
