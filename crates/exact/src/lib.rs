@@ -35,18 +35,14 @@ mod sparse;
 
 pub use algebraic::{Algebraic, Sign};
 pub use cofactor::first_row_cofactors;
-#[doc(hidden)]
-pub use cone::dot;
-pub use cone::{Generators, cone_generators};
+pub use cone::{Generators, cone_generators, dot};
 pub use decimal::{enclosing_decimals, ratio_to_decimal, to_decimal};
 pub use definite::{DefiniteError, NotDefinite, positive_definite};
 pub use dense::Dense;
 pub use double::{from_f64, to_f64, truncated};
 pub use interval::Interval;
 pub use kernel::{determinant, generic_kernel, kernel_at, minors, row_echelon_at};
-#[doc(hidden)]
-pub use modular::Residues;
-pub use modular::{CondenseError, schur_complement};
+pub use modular::{CondenseError, Residues, schur_complement};
 pub use poly::Poly;
 pub use prime::{Field, primes};
 pub use quadratic::Quadratic;

@@ -70,7 +70,6 @@ impl Poly {
     /// The remainder of `self` by `divisor` times |lead(divisor)|^steps: with one number of steps
     /// for all entries a vector keeps its direction. `steps` is at least deg self - deg divisor +
     /// 1.
-    #[doc(hidden)]
     pub fn pseudo_rem_steps(&self, divisor: &Poly, steps: usize) -> Poly {
         let divisor = Divisor::new(divisor);
 

@@ -17,9 +17,7 @@ mod write;
 
 pub use market::read_matrix_market;
 pub use number::Number;
-#[doc(hidden)]
-pub use object::word_or_kind;
-pub use object::{Object, Word};
+pub use object::{Object, Word, word_or_kind};
 pub use order::MAX_ORDER;
 pub use write::{write_problem, write_sparse};
 
