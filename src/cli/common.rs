@@ -305,7 +305,7 @@ fn part_of(text: &str) -> Option<(usize, usize)> {
 
 /// A positive number given as an option.
 pub(super) fn positive(option: &'static str, given: &str) -> Result<Rational, CliError> {
-    let expected = "a number above 0";
+    let expected = "a number > 0";
     positive_number(given).ok_or_else(|| CliError::option(option, expected, given))
 }
 
