@@ -3,7 +3,7 @@
 //! Each point of a report is certified as a solution. Where that fails, all solutions near its
 //! value are searched: the complete set proves that the point is none, or lists it after all.
 
-use super::common::{CliError, exit, load, positive_number, print, text};
+use super::common::{CliError, exit, load, positive, print, text};
 use super::job::Job;
 use super::output::{self, Output};
 use mceip_check::AcceptedCover;
@@ -66,7 +66,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     let candidates = candidates(report)?;
     let radius = args.absence_radius.as_deref();
-    let radius = radius.map(parse_radius).transpose()?;
+    let radius = radius
+        .map(|given| positive("absence-radius", given))
+        .transpose()?;
     if let Some(folder) = &args.absence {
         output::make(folder)?;
     }
@@ -113,11 +115,6 @@ fn candidates(report: ForeignReport) -> Result<Vec<Candidate>, CliError> {
     }
 
     Ok(candidates)
-}
-
-fn parse_radius(text: &str) -> Result<Rational, CliError> {
-    let expected = "a number > 0";
-    positive_number(text).ok_or_else(|| CliError::option("absence-radius", expected, text))
 }
 
 /// What became of a report: distinct claims that the checker has accepted, and the rest.
