@@ -1,4 +1,4 @@
-//! What the solver allocates: its own process, whose allocator counts.
+//! What the solver allocates. These tests are a process of their own, because its allocator counts.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[cfg(feature = "testkit")]

@@ -1,6 +1,10 @@
 //! Floors of coverage: measured here on request; held against solvers that miss solutions on
 //! purpose.
 //!
+//! A floor is the least part of the solutions that the solver must find in a family of instances. That
+//! it notices a fault is the claim of this file: each planted solver, which forgets solutions, falls
+//! below a floor, and the project's own solver does not.
+//!
 //! `FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test campaign -- --ignored
 //! --nocapture floors::`
 #![cfg(feature = "testkit")]
@@ -14,7 +18,7 @@ use mceip_paper::{Block, MassKind, PublishedState};
 use mceip_testkit::campaign::{
     Campaign, Engine, FAMILIES, Id, Limit, Pipeline, State, case, treatment,
 };
-use mceip_testkit::floors::{Coverage, Starts, shortfalls};
+use mceip_testkit::floors::{Coverage, Shortfall, Starts, shortfalls};
 use mceip_testkit::targets::{self, Counter, fuzz_treatment};
 use mceip_testkit::{
     BLOCK_STARTS, Instance, Solver, Treatment, Verification, coverage_of, degenerate, mechanical,
@@ -25,42 +29,53 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 type ByStarts = BTreeMap<Starts, Coverage>;
 
 fn measured(instances: &[Instance], treatment: &Treatment) -> ByStarts {
-    let reports: Vec<_> = instances
+    let reports: Vec<Vec<(Starts, Coverage)>> = instances
         .par_iter()
-        .map(|i| coverage_of(i, treatment).unwrap().coverage())
+        .map(|instance| coverage_of(instance, treatment).unwrap().coverage())
         .collect();
+
     let mut sum = ByStarts::new();
-    for (starts, coverage) in reports.into_iter().flatten() {
-        sum.entry(starts).or_default().add(&coverage);
+    for report in reports {
+        add(&mut sum, report);
     }
     sum
 }
 
 /// A row of the table in `crates/testkit/src/floors.rs`.
 fn print(family: &str, sum: &ByStarts) {
-    for (starts, c) in sum {
-        let percent = |count: u64| 100.0 * count as f64 / c.solvable.max(1) as f64;
-        let (first, all) = (percent(c.first), percent(c.all));
-        let (least_first, least_all) = ((first - 2.0).max(0.0), (all - 2.0).max(0.0));
+    for (starts, coverage) in sum {
+        let solvable = coverage.solvable;
+        let first = percent(coverage.first, solvable);
+        let all = percent(coverage.all, solvable);
+
+        // A floor lies two points below what was measured.
+        let least_first = (first - 2.0).max(0.0);
+        let least_all = (all - 2.0).max(0.0);
         println!(
             "    row({family:?}, Starts::{starts:?}, {least_first:.1}, {least_all:.1}), // \
-             {first:.2}, {all:.2} of {}",
-            c.solvable
+             {first:.2}, {all:.2} of {solvable}"
         );
     }
 }
 
-fn numbers(name: &str, default: &str) -> Vec<u64> {
-    let text = std::env::var(name).unwrap_or_else(|_| default.into());
-    text.split(',').map(|s| s.trim().parse().unwrap()).collect()
+fn percent(count: u64, of: u64) -> f64 {
+    100.0 * count as f64 / of.max(1) as f64
 }
 
-fn add(sum: &mut ByStarts, more: ByStarts) {
+/// The numbers of an environment variable, parted by commas.
+fn numbers(name: &str, default: &str) -> Vec<u64> {
+    let text = std::env::var(name).unwrap_or_else(|_| default.into());
+    text.split(',')
+        .map(|number| number.trim().parse().unwrap())
+        .collect()
+}
+
+fn add(sum: &mut ByStarts, more: impl IntoIterator<Item = (Starts, Coverage)>) {
     for (starts, coverage) in more {
         sum.entry(starts).or_default().add(&coverage);
     }
@@ -73,21 +88,24 @@ fn measure_the_families_of_the_campaign() {
     for (family, _, _) in FAMILIES {
         let mut sum = ByStarts::new();
         for seed in numbers("FLOOR_SEEDS", "9001,9002") {
-            let instance = |index: u64| {
-                case(&Id {
-                    family: family.into(),
-                    seed,
-                    index,
-                })
-                .unwrap()
-                .unwrap()
-                .instance
-            };
-            let instances: Vec<Instance> = (0..count).map(instance).collect();
+            let instances: Vec<Instance> = (0..count)
+                .map(|index| drawn_instance(family, seed, index))
+                .collect();
             add(&mut sum, measured(&instances, &treatment(seed)));
         }
         print(family, &sum);
     }
+}
+
+/// An instance of a family of the campaign.
+fn drawn_instance(family: &str, seed: u64, index: u64) -> Instance {
+    let id = Id {
+        family: family.into(),
+        seed,
+        index,
+    };
+
+    case(&id).unwrap().unwrap().instance
 }
 
 #[test]
@@ -95,6 +113,7 @@ fn measure_the_families_of_the_campaign() {
 fn measure_the_families_of_verify() {
     let count = numbers("FLOOR_COUNT", "500")[0] as usize;
     let mut sums: BTreeMap<&str, ByStarts> = BTreeMap::new();
+
     for seed in numbers("FLOOR_SEEDS", "9001,9002") {
         let treatment = Treatment::of(&Search {
             seed,
@@ -106,13 +125,13 @@ fn measure_the_families_of_verify() {
             ("mechanical systems", mechanical(count, seed).unwrap()),
             ("degenerate cases", degenerate().unwrap()),
         ];
+
         for (name, instances) in families {
-            add(
-                sums.entry(name).or_default(),
-                measured(&instances, &treatment),
-            );
+            let sum = sums.entry(name).or_default();
+            add(sum, measured(&instances, &treatment));
         }
     }
+
     for (name, sum) in sums {
         print(name, &sum);
     }
@@ -124,57 +143,73 @@ fn measure_the_families_of_verify() {
 #[ignore = "a measurement: run on request, in release"]
 fn measure_the_fuzz_targets() {
     let count = numbers("FLOOR_COUNT", "500")[0];
-    for (name, length, body) in SOLVER_TARGETS {
-        let corpus = corpus(name.trim_start_matches("fuzz: "));
-        let (random, changed) = (Counter::new("measured"), Counter::new("measured"));
+    for target in SOLVER_TARGETS {
+        let family = target.family;
+        let corpus = corpus(family.trim_start_matches("fuzz: "));
+        let random = Counter::new("measured");
+        let changed = Counter::new("measured");
+
         for seed in numbers("FLOOR_SEEDS", "9001,9002") {
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
             for k in 0..count as usize {
-                let bytes: Vec<u8> = (0..length).map(|_| rng.random_range(0..=255)).collect();
-                body(&bytes, &fuzz_treatment(), &random);
-                body(
-                    &with_changes(&mut rng, &corpus[k % corpus.len()]),
-                    &fuzz_treatment(),
-                    &changed,
-                );
+                let bytes = random_bytes(&mut rng, target.length);
+                (target.body)(&bytes, &fuzz_treatment(), &random);
+
+                let near_corpus = with_changes(&mut rng, &corpus[k % corpus.len()]);
+                (target.body)(&near_corpus, &fuzz_treatment(), &changed);
             }
         }
-        print(&format!("{name}, random"), &random.seen().coverage);
-        print(&format!("{name}, changed"), &changed.seen().coverage);
+
+        print(&format!("{family}, random"), &random.seen().coverage);
+        print(&format!("{family}, changed"), &changed.seen().coverage);
     }
 }
 
-type Body = fn(&[u8], &Treatment, &Counter);
+/// A fuzz target with a solver.
+struct SolverTarget {
+    /// The family whose floor it is held against.
+    family: &'static str,
+    /// The length of a random input.
+    length: usize,
+    /// The body, with a solver of one's own.
+    body: fn(&[u8], &Treatment, &Counter),
+}
 
-/// Family, length of a random input, body with a solver of one's own.
-const SOLVER_TARGETS: [(&str, usize, Body); 3] = [
-    (
-        "fuzz: solver_against_oracle",
-        34,
-        targets::solver_against_oracle_by,
-    ),
-    (
-        "fuzz: mechanical_systems",
-        150,
-        targets::mechanical_systems_by,
-    ),
-    (
-        "fuzz: two_particle_problems",
-        10,
-        targets::two_particle_problems_by,
-    ),
+const SOLVER_TARGETS: [SolverTarget; 3] = [
+    SolverTarget {
+        family: "fuzz: solver_against_oracle",
+        length: 34,
+        body: targets::solver_against_oracle_by,
+    },
+    SolverTarget {
+        family: "fuzz: mechanical_systems",
+        length: 150,
+        body: targets::mechanical_systems_by,
+    },
+    SolverTarget {
+        family: "fuzz: two_particle_problems",
+        length: 10,
+        body: targets::two_particle_problems_by,
+    },
 ];
 
+fn random_bytes(rng: &mut ChaCha8Rng, length: usize) -> Vec<u8> {
+    (0..length).map(|_| rng.random_range(0..=255)).collect()
+}
+
+/// The committed inputs of a fuzz target.
 fn corpus(target: &str) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("fuzz/corpus")
         .join(target);
-    let mut files: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|f| f.unwrap().path())
-        .collect();
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
     files.sort();
-    files.iter().map(|f| std::fs::read(f).unwrap()).collect()
+
+    files
+        .iter()
+        .map(|file| std::fs::read(file).unwrap())
+        .collect()
 }
 
 /// One to four bytes replaced by random ones.
@@ -227,6 +262,7 @@ fn drops_every_second(
         index += 1;
         index % 2 == 0
     });
+
     Ok(found)
 }
 
@@ -243,10 +279,11 @@ fn keeps_every_first(
         index += 1;
         index % 2 == 1
     });
+
     Ok(found)
 }
 
-/// The plants, and whether each leaves the first start's solution alone.
+/// The solvers with a fault.
 const PLANTS: [(&str, Solver); 3] = [
     ("finds nothing", finds_nothing),
     ("drops every second", drops_every_second),
@@ -284,16 +321,14 @@ fn verify_fails_with_a_solver_that_misses_solutions() {
             if plant == "keeps every first" && *name != "Table 1 (two particles)" {
                 continue;
             }
+
             let treatment = Treatment {
                 nodes: 1,
                 ..Treatment::of(&quick_search())
             };
-            let planted = verify_family(
-                name,
-                instances,
-                &treatment.with_solver(solver),
-                &Watch::silent(&stop),
-            );
+            let treatment = treatment.with_solver(solver);
+            let planted = verify_family(name, instances, &treatment, &Watch::silent(&stop));
+
             assert!(
                 planted.disagreements.is_empty(),
                 "{name}: what is found is true: {:?}",
@@ -306,14 +341,8 @@ fn verify_fails_with_a_solver_that_misses_solutions() {
                 block: Vec::new(),
                 interrupted: false,
             };
-            println!(
-                "{plant}: {:?}",
-                verification
-                    .shortfalls()
-                    .iter()
-                    .map(ToString::to_string)
-                    .collect::<Vec<_>>()
-            );
+            print_shortfalls(plant, &verification.shortfalls());
+
             assert!(
                 verification.disagreements() > 0,
                 "{name}: {plant} goes unnoticed"
@@ -325,71 +354,75 @@ fn verify_fails_with_a_solver_that_misses_solutions() {
 /// The campaign with each plant: a finding of the family, and none with the project's own solver.
 #[test]
 fn the_campaign_fails_with_a_solver_that_misses_solutions() {
-    let families: Vec<String> = ["elements", "table1"].map(String::from).to_vec();
-    let run = |treatment: Treatment| {
-        let engines: [Box<dyn Engine>; 1] = [Box::new(Pipeline {
-            treatment: Treatment {
-                nodes: 1,
-                ..treatment
-            },
-        })];
-        let campaign = Campaign {
-            engines: &engines,
-            limit: Limit::Count(40),
-        };
-        campaign.run(
-            State::new(3, (0, 1), families.clone()),
-            &Cancel::new(),
-            &mut |_| {},
-        )
-    };
-
-    let sound = run(treatment(3));
+    let sound = campaign_of_two_families(treatment(3));
     assert_eq!(sound.disagreements(), 0, "{:?}", sound.shortfalls());
+
     for (plant, solver) in PLANTS {
-        let state = run(treatment(3).with_solver(solver));
-        let names: BTreeSet<&str> = state.shortfalls().iter().map(|s| s.floor.family).collect();
-        println!(
-            "{plant}: {:?}",
-            state
-                .shortfalls()
-                .iter()
-                .map(ToString::to_string)
-                .collect::<Vec<_>>()
-        );
+        let state = campaign_of_two_families(treatment(3).with_solver(solver));
+
+        let shortfalls = state.shortfalls();
+        let names: BTreeSet<&str> = shortfalls.iter().map(|s| s.floor.family).collect();
+        print_shortfalls(plant, &shortfalls);
         let expected: &[&str] = if plant == "keeps every first" {
             &["table1"]
         } else {
             &["elements", "table1"]
         };
-        assert!(
-            expected.iter().all(|family| names.contains(family)),
-            "{plant}: {names:?}"
-        );
+
+        for family in expected {
+            assert!(names.contains(family), "{plant}: {names:?}");
+        }
+
         assert!(state.disagreements() >= expected.len());
     }
+}
+
+/// Forty instances of two families by the pipeline, its search held to one node.
+fn campaign_of_two_families(treatment: Treatment) -> State {
+    let families: Vec<String> = ["elements", "table1"].map(String::from).to_vec();
+    let pipeline = Pipeline {
+        treatment: Treatment {
+            nodes: 1,
+            ..treatment
+        },
+    };
+    let engines: [Box<dyn Engine>; 1] = [Box::new(pipeline)];
+    let campaign = Campaign {
+        engines: &engines,
+        limit: Limit::Count(40),
+    };
+
+    let state = State::new(3, (0, 1), families);
+    campaign.run(state, &Cancel::new(), &mut |_| {})
+}
+
+fn print_shortfalls(plant: &str, shortfalls: &[Shortfall]) {
+    let lines: Vec<String> = shortfalls.iter().map(ToString::to_string).collect();
+    println!("{plant}: {lines:?}");
 }
 
 /// The fuzz targets with a solver panic before they have seen 200 random inputs with a plant, and
 /// not without.
 #[test]
 fn the_fuzz_targets_fail_with_a_solver_that_misses_solutions() {
-    for (family, length, body) in SOLVER_TARGETS {
+    for target in SOLVER_TARGETS {
+        let family = target.family;
         for (plant, solver) in &PLANTS[..2] {
             let counter = Counter::new(family);
             let mut rng = ChaCha8Rng::seed_from_u64(5);
             let treatment = Treatment {
                 nodes: 1,
                 ..fuzz_treatment()
-            }
-            .with_solver(*solver);
+            };
+            let treatment = treatment.with_solver(*solver);
 
             let planted = catch_unwind(AssertUnwindSafe(|| {
                 for _ in 0..200 {
-                    let bytes: Vec<u8> = (0..length).map(|_| rng.random_range(0..=255)).collect();
-                    body(&bytes, &treatment, &counter);
+                    let bytes = random_bytes(&mut rng, target.length);
+                    (target.body)(&bytes, &treatment, &counter);
                 }
             }));
+
             let message = *planted.unwrap_err().downcast::<String>().unwrap();
             assert!(
                 message.contains("coverage over"),
@@ -409,11 +442,8 @@ fn the_block_has_floors_of_its_own() {
             first: 0,
             all: 0,
         };
-        assert_eq!(
-            shortfalls(state.name(), Starts::Path, &nothing).len(),
-            2,
-            "{}",
-            state.name()
-        );
+        let found = shortfalls(state.name(), Starts::Path, &nothing);
+
+        assert_eq!(found.len(), 2, "{}", state.name());
     }
 }

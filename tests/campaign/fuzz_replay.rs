@@ -1,4 +1,7 @@
-//! Replays the fuzz corpus and the regressions on stable, without a fuzzer.
+//! Replays the fuzz corpus and the regressions on the stable compiler, without a fuzzer.
+//!
+//! The truth is in the bodies of the fuzz targets, which compare the engine with the oracle and panic
+//! on a difference. The floors of coverage notice a solver that finds fewer solutions than it did.
 #![cfg(feature = "testkit")]
 
 use mceip_testkit::floors::Starts;
@@ -11,20 +14,26 @@ fn fuzz() -> PathBuf {
 
 fn replay(target: &str) {
     let (_, body) = TARGETS.iter().find(|t| t.0 == target).unwrap();
-    let (mut count, mut bytes) = (0, 0);
+    let mut count = 0;
+    let mut bytes = 0;
+
     for folder in ["corpus", "regressions"] {
         let Ok(files) = std::fs::read_dir(fuzz().join(folder).join(target)) else {
             continue;
         };
         for file in files {
             let path = file.unwrap().path();
-            println!("{}", path.display()); // shown when the body panics
+
+            // Shown when the body panics.
+            println!("{}", path.display());
+
             let data = std::fs::read(&path).unwrap();
             body(&data);
             count += 1;
             bytes += data.len();
         }
     }
+
     assert!(count >= 20, "{target}: only {count} inputs");
     assert!(
         bytes < 250_000,
@@ -38,11 +47,9 @@ fn held_against_its_floor(counter: &Counter, least: u64) {
     let seen = counter.seen();
     println!("{seen:?}");
     assert!(seen.coverage[&Starts::Search].solvable >= least, "{seen:?}");
-    assert!(
-        counter.shortfalls().is_empty(),
-        "{:?}",
-        counter.shortfalls()
-    );
+
+    let shortfalls = counter.shortfalls();
+    assert!(shortfalls.is_empty(), "{shortfalls:?}");
 }
 
 #[test]
@@ -93,26 +100,26 @@ fn exact_against_naive() {
     replay("exact_against_naive");
 }
 
-/// Every target has its three lines of glue, its entry for cargo, and a replay above.
+/// Every target has a file of three lines that calls it, its entry for cargo, and a replay above.
 #[test]
 fn every_target_is_built_and_replayed() {
-    let (cargo, this) = (
-        std::fs::read_to_string(fuzz().join("Cargo.toml")).unwrap(),
-        include_str!("fuzz_replay.rs"),
-    );
+    let manifest = std::fs::read_to_string(fuzz().join("Cargo.toml")).unwrap();
+    let this_file = include_str!("fuzz_replay.rs");
+
     for (name, _) in TARGETS {
-        let glue = std::fs::read_to_string(fuzz().join(format!("fuzz_targets/{name}.rs"))).unwrap();
+        let file = fuzz().join(format!("fuzz_targets/{name}.rs"));
+        let program = std::fs::read_to_string(file).unwrap();
+        assert_eq!(program.lines().count(), 3, "{name}");
         assert!(
-            glue.lines().count() == 3 && glue.contains(&format!("targets::{name}(data)")),
+            program.contains(&format!("targets::{name}(data)")),
             "{name}"
         );
-        assert!(
-            cargo.contains(&format!("name = \"{name}\""))
-                && this.contains(&format!("replay(\"{name}\")")),
-            "{name}"
-        );
+
+        assert!(manifest.contains(&format!("name = \"{name}\"")), "{name}");
+        assert!(this_file.contains(&format!("replay(\"{name}\")")), "{name}");
     }
-    assert_eq!(cargo.matches("[[bin]]").count(), TARGETS.len());
+
+    assert_eq!(manifest.matches("[[bin]]").count(), TARGETS.len());
 }
 
 /// The seeds of `corpus/certificate_reader`: `cargo test --test campaign -- --ignored
@@ -120,29 +127,22 @@ fn every_target_is_built_and_replayed() {
 #[test]
 #[ignore = "writes the corpus"]
 fn write_the_certificates() {
+    let folder = fuzz().join("corpus/certificate_reader");
+    let changes = [
+        ("\"1\"", "\"-1\""),
+        ("[0]", "[1]"),
+        ("\"0\"", "\"1\""),
+        ("solution", "solutions"),
+    ];
+
     for (k, text) in targets::certificate_seeds().into_iter().enumerate() {
-        std::fs::write(
-            fuzz().join(format!("corpus/certificate_reader/seed-{k}.json")),
-            &text,
-        )
-        .unwrap();
-        // Near misses, so that the fuzzer starts on both sides.
-        for (m, (from, to)) in [
-            ("\"1\"", "\"-1\""),
-            ("[0]", "[1]"),
-            ("\"0\"", "\"1\""),
-            ("solution", "solutions"),
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            let near = text.replacen(from, to, 1);
-            if near != text && text.len() < 20_000 {
-                std::fs::write(
-                    fuzz().join(format!("corpus/certificate_reader/near-{k}-{m}.json")),
-                    near,
-                )
-                .unwrap();
+        std::fs::write(folder.join(format!("seed-{k}.json")), &text).unwrap();
+
+        // Certificates with one change, so that the fuzzer starts with rejected ones too.
+        for (m, (from, to)) in changes.into_iter().enumerate() {
+            let changed = text.replacen(from, to, 1);
+            if changed != text && text.len() < 20_000 {
+                std::fs::write(folder.join(format!("near-{k}-{m}.json")), changed).unwrap();
             }
         }
     }

@@ -1,4 +1,4 @@
-//! `testkit`: the verification run, the campaign, floors of coverage, replays of fuzzing.
+//! The crate `testkit`: the verification run, the campaign, floors of coverage, replays of fuzzing.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod campaign;

@@ -1,60 +1,64 @@
 //! The verification run as a test: a smaller one than `mceip verify`, the same code.
+//!
+//! The run compares the solver with the oracle, closed forms and proofs. Its report must have no
+//! disagreement, and must show that it reached the cases it is there for: a generator that no longer
+//! makes one of them fails here.
 #![cfg(feature = "testkit")]
 
 use mceip_engine::multistart::Search;
 use mceip_engine::run::{Cancel, Watch};
 use mceip_testkit::floors::{Starts, floor};
 use mceip_testkit::{
-    BLOCK_STARTS, Corner, Treatment, degenerate, random_pencils, verify, verify_family,
+    BLOCK_STARTS, Corner, Instance, Treatment, degenerate, random_pencils, verify, verify_family,
 };
 use std::collections::BTreeSet;
 
 #[test]
 fn no_disagreement() {
-    let v = verify(60, 1, &Watch::nobody()).unwrap();
-    for f in &v.families {
-        assert!(
-            f.disagreements.is_empty(),
-            "{}: {:#?}",
-            f.name,
-            f.disagreements
-        );
-        assert_eq!(f.done, f.instances);
-        println!(
-            "{}: found {} of {}, corners {:?}",
-            f.name, f.found, f.findable, f.corners
-        );
-    }
-    assert_eq!(v.disagreements(), 0);
-    // Table 1: every solution the oracle lists is found.
-    assert_eq!(
-        (v.families[0].found, v.families[0].oracle),
-        (v.families[0].findable, v.families[0].findable)
-    );
-    // Table 1 is counted from starts that are no solutions, too; and every rate has a floor to be
-    // held against.
-    assert_eq!(
-        v.families[0].coverage.keys().copied().collect::<Vec<_>>(),
-        Starts::ALL
-    );
-    assert!(
-        v.block
-            .iter()
-            .all(|b| b.path.solvable == BLOCK_STARTS as u64 && b.unfound == 0)
-    );
-    for c in v.covered() {
-        assert!(
-            floor(&c.family, c.starts).is_some() && c.coverage.solvable > 5,
-            "{c:?}"
-        );
-    }
-    // The generators reach the corners they are there for.
-    let reached: BTreeSet<Corner> = v
-        .families
-        .iter()
-        .flat_map(|f| f.corners.keys().copied())
-        .collect();
     use Corner::*;
+
+    let verification = verify(60, 1, &Watch::nobody()).unwrap();
+
+    for family in &verification.families {
+        let name = &family.name;
+        let disagreements = &family.disagreements;
+        assert!(disagreements.is_empty(), "{name}: {disagreements:#?}");
+        assert_eq!(family.done, family.instances);
+
+        println!(
+            "{name}: found {} of {}, corners {:?}",
+            family.found, family.findable, family.corners
+        );
+    }
+
+    assert_eq!(verification.disagreements(), 0);
+
+    // Table 1: every solution the oracle lists is found, also from starts that are no solutions.
+    let table1 = &verification.families[0];
+    assert_eq!(table1.found, table1.findable);
+    assert_eq!(table1.oracle, table1.findable);
+
+    let starts: Vec<Starts> = table1.coverage.keys().copied().collect();
+    assert_eq!(starts, Starts::ALL);
+
+    for state in &verification.block {
+        assert_eq!(state.path.solvable, BLOCK_STARTS as u64);
+        assert_eq!(state.unfound, 0);
+    }
+
+    // Every rate has a floor to be held against.
+    for covered in verification.covered() {
+        let floor = floor(&covered.family, covered.starts);
+        assert!(floor.is_some(), "{covered:?}");
+        assert!(covered.coverage.solvable > 5, "{covered:?}");
+    }
+
+    // The generators reach the corners they are there for.
+    let mut reached: BTreeSet<Corner> = BTreeSet::new();
+    for family in &verification.families {
+        reached.extend(family.corners.keys().copied());
+    }
+
     for corner in [
         Biactive,
         Repeated,
@@ -74,37 +78,40 @@ fn no_disagreement() {
 
 #[test]
 fn the_number_of_threads_changes_nothing() {
-    let instances: Vec<_> = random_pencils(10, 3)
-        .unwrap()
-        .into_iter()
-        .chain(degenerate().unwrap())
-        .collect();
-    let run = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
-        pool.install(|| {
-            format!(
-                "{:?}",
-                verify_family(
-                    "few",
-                    &instances,
-                    &Treatment::of(&Search::default()),
-                    &Watch::nobody()
-                )
-            )
-        })
-    };
-    assert_eq!(run(1), run(4));
+    let mut instances = random_pencils(10, 3).unwrap();
+    instances.extend(degenerate().unwrap());
+
+    let report_of_one = report_with_threads(1, &instances);
+    let report_of_four = report_with_threads(4, &instances);
+
+    assert_eq!(report_of_one, report_of_four);
+}
+
+/// The whole report of a family, as text, computed by so many threads.
+fn report_with_threads(threads: usize, instances: &[Instance]) -> String {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap();
+    let treatment = Treatment::of(&Search::default());
+
+    pool.install(|| {
+        let report = verify_family("few", instances, &treatment, &Watch::nobody());
+        format!("{report:?}")
+    })
 }
 
 #[test]
 fn a_stopped_run_keeps_what_was_done_and_says_so() {
-    let v = verify(4, 1, &Watch::silent(&Cancel::requested())).unwrap();
-    assert!(
-        v.interrupted
-            && v.block.is_empty()
-            && v.families.iter().all(|f| f.done == 0 && f.instances > 0)
-    );
+    let stop = Cancel::requested();
+
+    let verification = verify(4, 1, &Watch::silent(&stop)).unwrap();
+
+    assert!(verification.interrupted);
+    assert!(verification.block.is_empty());
+
+    for family in &verification.families {
+        assert_eq!(family.done, 0);
+        assert!(family.instances > 0);
+    }
 }

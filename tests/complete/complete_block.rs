@@ -1,6 +1,12 @@
-//! The paper's block, closed: complete sets of its states, from K and M to the accepted claim.
+//! The block of the paper, closed: complete sets of its states.
+//!
+//! From the given K and M to the accepted claim that a state has these solutions and no others. The
+//! truth are the values in spec/measurements.md for published states, the exact enumerator on a block small
+//! enough for it, and the conclusions of the paper on the loading path. The longer tests are run by
+//! `cargo test --release --test complete -- --ignored --nocapture complete_block::`.
 #![cfg(feature = "testkit")]
 
+use mceip_check::AcceptedClaim;
 use mceip_engine::analysis::conditions::excluded_at;
 use mceip_engine::reduction::{mu_family, reduce};
 use mceip_engine::run::Watch;
@@ -8,7 +14,7 @@ use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_exact::{parse, to_f64};
 use mceip_model::{Body, ContactState, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
-use mceip_paper::path::{Contact, Loading, LoadingPath};
+use mceip_paper::path::{Contact, Interval, Loading, LoadingPath};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState};
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -17,21 +23,34 @@ fn search(problem: &Problem) -> Completed {
     complete(problem, &Options::default(), &Watch::nobody()).unwrap()
 }
 
-/// The only solution's value and number of slipping nodes, in a set proved to be complete.
-fn only(found: &Completed) -> (f64, usize) {
-    assert!(found.is_complete(), "{:?}", found.cover.open);
-    assert_eq!(found.cover.solutions.len(), 1);
-    (
-        to_f64(&found.cover.solutions[0].value.mid()),
-        found.cover.solutions[0].support.len(),
-    )
+/// A solution: its value, and the number of nodes that slip.
+#[derive(Debug, Clone, Copy)]
+struct Mode {
+    value: f64,
+    slipping: usize,
 }
 
-fn near(value: f64, expected: f64) {
+impl Mode {
+    fn of(claim: &AcceptedClaim) -> Mode {
+        Mode {
+            value: to_f64(&claim.value.mid()),
+            slipping: claim.support.len(),
+        }
+    }
+}
+
+/// The only solution in a set proved to be complete.
+fn only_mode(found: &Completed) -> Mode {
+    assert!(found.is_complete(), "{:?}", found.cover.open);
+    assert_eq!(found.cover.solutions.len(), 1);
+    Mode::of(&found.cover.solutions[0])
+}
+
+fn assert_near(value: f64, expected: f64) {
     approx::assert_relative_eq!(value, expected, max_relative = 1e-8);
 }
 
-fn lambda2(block: &Block, states: &[ContactState], mu: &str) -> Problem {
+fn lambda2_problem(block: &Block, states: &[ContactState], mu: &str) -> Problem {
     let system = block.system(states, Some(parse(mu).unwrap())).unwrap();
     Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
 }
@@ -40,13 +59,35 @@ fn lambda2(block: &Block, states: &[ContactState], mu: &str) -> Problem {
 #[test]
 fn published_states_have_one_solution_each_and_no_other() {
     let block = Block::of_the_paper(MassKind::Lumped);
-    for (state, mu, slipping) in [
-        (PublishedState::FifteenSlip, 60.805842443327, 14),
-        (PublishedState::SeventeenSlip, 1.704804329580, 17),
-    ] {
-        let (value, moving) = only(&search(&state.problem(&block).unwrap()));
-        near(value, mu);
-        assert_eq!(moving, slipping);
+
+    let fifteen_slip = PublishedState::FifteenSlip.problem(&block).unwrap();
+    let mode = only_mode(&search(&fifteen_slip));
+    assert_near(mode.value, 60.805842443327);
+    assert_eq!(mode.slipping, 14);
+
+    let seventeen_slip = PublishedState::SeventeenSlip.problem(&block).unwrap();
+    let mode = only_mode(&search(&seventeen_slip));
+    assert_near(mode.value, 1.704804329580);
+    assert_eq!(mode.slipping, 17);
+}
+
+/// The cover lists what the enumerator lists; only the region up to infinity may stay open, and only
+/// where there is no tail.
+fn assert_agrees_with_enumerator(problem: &Problem, has_tail: bool, label: &str) {
+    let pencil = reduce(problem).unwrap().pencil;
+    let truth = enumerate(&pencil, problem.window()).unwrap().solutions;
+    let found = search(problem);
+
+    let open = &found.cover.open;
+    assert!(found.is_complete() || !has_tail, "{label}: {open:?}");
+    assert!(open.iter().all(|region| region.max.is_none()));
+
+    let listed = &found.cover.solutions;
+    assert_eq!(listed.len(), truth.len(), "{label}");
+    for (claim, solution) in listed.iter().zip(&truth) {
+        assert_eq!(claim.support, solution.slip);
+        let expected = solution.decimal(17).parse().unwrap();
+        assert_near(Mode::of(claim).value, expected);
     }
 }
 
@@ -54,72 +95,105 @@ fn published_states_have_one_solution_each_and_no_other() {
 #[test]
 fn lambda2_of_a_small_block_is_that_of_the_enumerator() {
     let slip = ContactState::Slip { sign: 1 };
+    let states_at_friction = [
+        ("3", [slip, slip, ContactState::Free]),
+        ("6", [slip, slip, slip]),
+        ("1/2", [slip, slip, slip]),
+    ];
+
     for mass in [MassKind::Lumped, MassKind::Consistent] {
-        let block = Block::new(&BlockModel {
+        let model = BlockModel {
             mass,
             ..BlockModel::of_the_paper().with_cells(2, 1)
-        })
-        .unwrap();
-        for (mu, states) in [
-            ("3", [slip, slip, ContactState::Free]),
-            ("6", [slip, slip, slip]),
-            ("1/2", [slip, slip, slip]),
-        ] {
-            let problem = lambda2(&block, &states, mu);
-            let truth = enumerate(&reduce(&problem).unwrap().pencil, problem.window()).unwrap();
-            let found = search(&problem);
+        };
+        let block = Block::new(&model).unwrap();
+
+        for (mu, states) in states_at_friction {
+            let problem = lambda2_problem(&block, &states, mu);
             // At mu = 6 the consistent M* is no longer definite (it couples normal dofs with mu),
             // so there is no tail: what is beyond the anchors is taken support by support, or stays
             // open, and only that.
             let has_tail = mass == MassKind::Lumped || mu != "6";
-            assert!(
-                found.is_complete() || !has_tail,
-                "{mass:?} {mu}: {:?}",
-                found.cover.open
-            );
-            assert!(found.cover.open.iter().all(|o| o.max.is_none()));
-            assert_eq!(
-                found.cover.solutions.len(),
-                truth.solutions.len(),
-                "{mass:?} {mu}"
-            );
-            for (s, t) in found.cover.solutions.iter().zip(&truth.solutions) {
-                assert_eq!(s.support, t.slip);
-                near(to_f64(&s.value.mid()), t.decimal(17).parse().unwrap());
-            }
+            assert_agrees_with_enumerator(&problem, has_tail, &format!("{mass:?} {mu}"));
         }
     }
 }
+
+/// lambda^2 of the 17-slip state at a friction coefficient.
+struct KnownValue {
+    mass: MassKind,
+    mu: &'static str,
+    lambda2: f64,
+}
+
+const fn known(mass: MassKind, mu: &'static str, lambda2: f64) -> KnownValue {
+    KnownValue { mass, mu, lambda2 }
+}
+
+const VALUES_OF_THE_17_SLIP_STATE: [KnownValue; 6] = [
+    known(MassKind::Lumped, "1.8", 412358.9120),
+    known(MassKind::Lumped, "2", 1896714.8265),
+    known(MassKind::Lumped, "3", 301277635.12),
+    known(MassKind::Consistent, "1.8", 415207.9740),
+    known(MassKind::Consistent, "2", 1924752.8394),
+    known(MassKind::Consistent, "3", 825684809.39),
+];
 
 /// `cargo test --release --test complete -- --ignored --nocapture complete_block::`: the 17-slip
 /// state, both masses.
 #[test]
 #[ignore = "minutes in the dev profile"]
 fn lambda2_of_the_17_slip_state_has_one_solution_at_each_mu() {
-    for (mass, name) in [
-        (MassKind::Lumped, "lumped"),
-        (MassKind::Consistent, "consistent"),
-    ] {
+    for KnownValue { mass, mu, lambda2 } in VALUES_OF_THE_17_SLIP_STATE {
         let block = Block::of_the_paper(mass);
-        for (mu, expected) in [
-            ("1.8", [412358.9120, 415207.9740]),
-            ("2", [1896714.8265, 1924752.8394]),
-            ("3", [301277635.12, 825684809.39]),
-        ] {
-            let start = Instant::now();
-            let found = search(&lambda2(
-                &block,
-                &PublishedState::SeventeenSlip.states(),
-                mu,
-            ));
-            let (value, moving) = only(&found);
-            near(value, expected[usize::from(mass == MassKind::Consistent)]);
-            assert_eq!(moving, 17);
-            println!(
-                "{name} mu = {mu}: lambda^2 = {value}, {} leaves, {:.1} s",
-                found.cover.leaves,
-                start.elapsed().as_secs_f64()
-            );
+        let states = PublishedState::SeventeenSlip.states();
+        let problem = lambda2_problem(&block, &states, mu);
+
+        let start = Instant::now();
+        let found = search(&problem);
+        let seconds = start.elapsed().as_secs_f64();
+
+        let mode = only_mode(&found);
+        assert_near(mode.value, lambda2);
+        assert_eq!(mode.slipping, 17);
+        println!(
+            "{mass:?} mu = {mu}: lambda^2 = {}, {} leaves, {seconds:.1} s",
+            mode.value, found.cover.leaves
+        );
+    }
+}
+
+/// The intervals of the loading path of the paper in which at least one node slips.
+fn slipping_intervals(block: &Block) -> Vec<Interval> {
+    let contact = Contact::of(block).unwrap();
+    let loading = Loading::of_the_paper();
+    let path = LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap();
+
+    let mut intervals = path.intervals;
+    intervals.retain(|interval| count_of_slip_nodes(interval) > 0);
+    intervals
+}
+
+fn count_of_slip_nodes(interval: &Interval) -> usize {
+    let [_, left, right, _] = interval.counts();
+    left + right
+}
+
+/// The complete set of a state of the path.
+struct ClosedState {
+    slip_nodes: usize,
+    modes: Vec<Mode>,
+}
+
+/// Conclusions of the paper: modes in which a slip node gets stuck need a very large mu, all-slip
+/// ones do not, and below those values there is nothing else.
+fn assert_stuck_modes_need_large_friction(state: &ClosedState) {
+    for mode in &state.modes {
+        if mode.slipping < state.slip_nodes {
+            assert!(mode.value > 60.0);
+        }
+        if mode.slipping == state.slip_nodes {
+            assert!(mode.value < 10.0);
         }
     }
 }
@@ -130,56 +204,33 @@ fn lambda2_of_the_17_slip_state_has_one_solution_at_each_mu() {
 #[ignore = "minutes in the dev profile"]
 fn every_state_of_the_loading_path_is_closed() {
     let block = Block::of_the_paper(MassKind::Lumped);
-    let contact = Contact::of(&block).unwrap();
-    let path = LoadingPath::follow(&contact, &Loading::of_the_paper(), &|_, _| {
-        ControlFlow::Continue(())
-    })
-    .unwrap();
-    let mut values: Vec<(usize, Vec<(f64, usize)>)> = Vec::new();
-    for interval in &path.intervals {
-        let [_, left, right, _] = interval.counts();
-        if left + right == 0 {
-            continue;
-        }
+    let mut states = Vec::new();
+
+    for interval in slipping_intervals(&block) {
         let found = search(&interval.problem(&block, None).unwrap());
         assert!(found.is_complete());
-        let set: Vec<(f64, usize)> = found
-            .cover
-            .solutions
-            .iter()
-            .map(|s| (to_f64(&s.value.mid()), s.support.len()))
-            .collect();
-        println!("{} {set:?}", interval.picture());
-        values.push((left + right, set));
+
+        let modes: Vec<Mode> = found.cover.solutions.iter().map(Mode::of).collect();
+        println!("{} {modes:?}", interval.picture());
+        states.push(ClosedState {
+            slip_nodes: count_of_slip_nodes(&interval),
+            modes,
+        });
     }
+
     // Once the sliding has spread: none up to nine slip nodes, one from ten on, never all-slip
     // before the last states.
-    assert_eq!(values.len(), 23);
-    assert!(
-        values[1..]
-            .iter()
-            .all(|(slip, set)| set.len() == usize::from(*slip >= 10))
-    );
-    assert!(
-        values
-            .iter()
-            .any(|(slip, set)| *slip == 15 && set[0].1 < 15)
-    );
-    // Conclusions of the paper: modes in which a slip node gets stuck need a very large mu,
-    // all-slip ones do not, and below those values there is nothing else.
-    let stuck = |slip: usize| move |(_, moving): &&(f64, usize)| *moving < slip;
-    assert!(
-        values
-            .iter()
-            .flat_map(|(slip, set)| set.iter().filter(stuck(*slip)))
-            .all(|(mu, _)| *mu > 60.0)
-    );
-    assert!(
-        values
-            .iter()
-            .flat_map(|(slip, set)| set.iter().filter(|s| s.1 == *slip))
-            .all(|(mu, _)| *mu < 10.0)
-    );
+    assert_eq!(states.len(), 23);
+    for state in &states[1..] {
+        let expected = usize::from(state.slip_nodes >= 10);
+        assert_eq!(state.modes.len(), expected);
+    }
+    let mut with_15_slip_nodes = states.iter().filter(|state| state.slip_nodes == 15);
+    assert!(with_15_slip_nodes.any(|state| state.modes[0].slipping < 15));
+
+    for state in &states {
+        assert_stuck_modes_need_large_friction(state);
+    }
 }
 
 /// `cargo test --release --test complete -- --ignored --nocapture complete_block::`: the question
@@ -190,36 +241,29 @@ fn every_state_of_the_loading_path_is_closed() {
 #[ignore = "minutes in the dev profile"]
 fn at_the_measured_friction_no_state_of_the_path_diverges() {
     let block = Block::of_the_paper(MassKind::Lumped);
-    let contact = Contact::of(&block).unwrap();
-    let path = LoadingPath::follow(&contact, &Loading::of_the_paper(), &|_, _| {
-        ControlFlow::Continue(())
-    })
-    .unwrap();
-    let [mut closed, mut excluded] = [0; 2];
-    for interval in path
-        .intervals
-        .iter()
-        .filter(|i| i.counts()[1] + i.counts()[2] > 0)
-    {
+    let measured_friction = parse("1.1").unwrap();
+    let mut closed = 0;
+    let mut excluded = 0;
+
+    for interval in slipping_intervals(&block) {
+        let picture = interval.picture();
         let start = Instant::now();
-        let found = search(&lambda2(&block, &interval.states, "1.1"));
-        println!(
-            "{} {} leaves, {:.1} s",
-            interval.picture(),
-            found.cover.leaves,
-            start.elapsed().as_secs_f64()
-        );
-        assert!(
-            found.is_complete() && found.cover.proves_absence(),
-            "{}: {:?}",
-            interval.picture(),
-            found.cover.open
-        );
+        let found = search(&lambda2_problem(&block, &interval.states, "1.1"));
+        let seconds = start.elapsed().as_secs_f64();
+        println!("{picture} {} leaves, {seconds:.1} s", found.cover.leaves);
+
+        let open = &found.cover.open;
+        assert!(found.is_complete(), "{picture}: {open:?}");
+        assert!(found.cover.proves_absence(), "{picture}: {open:?}");
         closed += 1;
+
         let system = block.system(&interval.states, None).unwrap();
-        excluded +=
-            usize::from(excluded_at(&mu_family(&system).unwrap(), &parse("1.1").unwrap()).unwrap());
+        let family = mu_family(&system).unwrap();
+        let is_excluded = excluded_at(&family, &measured_friction).unwrap();
+        excluded += usize::from(is_excluded);
     }
+
     // Excluded by (19) alone: where a single node slips.
-    assert_eq!([closed, excluded], [23, 4]);
+    assert_eq!(closed, 23);
+    assert_eq!(excluded, 4);
 }

@@ -1,5 +1,8 @@
-//! Windows that end on a solution or within 1e-15 of one: the solution is inside or outside,
-//! exactly.
+//! Windows that end on a solution or within 1e-15 of one.
+//!
+//! The solution is inside or outside, exactly: a comparison in doubles would put it on either side.
+//! The truth is the exact enumerator, and solutions known by hand: 2 and 3, the root of 2, and one
+//! planted at 3/7. A certificate to resume with must be of the same problem and window.
 #![cfg(feature = "testkit")]
 
 use crate::cover::{disagreements, truth};
@@ -7,121 +10,170 @@ use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Completed, Options, complete, resume};
 use mceip_exact::{Integer, Rational, Sparse, rational, whole};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use num_traits::Signed;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-fn problem(a: Sparse, b: Sparse, lo: &Rational, hi: Option<&Rational>) -> Problem {
+/// The problem with A and B on the window [lo, hi], or from lo on.
+fn problem_on(a: &Sparse, b: &Sparse, lo: &Rational, hi: Option<&Rational>) -> Problem {
+    let pencil = Pencil::new(a.clone(), b.clone(), vec![]).unwrap();
     let window = Window::new(lo.clone(), hi.cloned()).unwrap();
-    Problem::new(
-        Body::Pencil(Pencil::new(a, b, vec![]).unwrap()),
-        Unknown::Lambda2,
-        window,
-    )
-    .unwrap()
+    Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
 }
 
 fn search(problem: &Problem) -> Completed {
-    complete(
-        problem,
-        &Options {
-            pieces: 4,
-            ..Options::default()
-        },
-        &Watch::nobody(),
-    )
-    .unwrap()
+    let options = Options {
+        pieces: 4,
+        ..Options::default()
+    };
+    complete(problem, &options, &Watch::nobody()).unwrap()
 }
 
-/// The complete list, as the enumerator has it.
+/// The number of solutions in the complete list, which must be that of the enumerator.
 #[track_caller]
-fn listed(problem: &Problem) -> usize {
+fn count_of_solutions(problem: &Problem) -> usize {
     let found = search(problem);
     assert!(found.is_complete(), "{:?}", found.cover.open);
-    assert_eq!(
-        disagreements(&found.cover, &truth(problem)),
-        Vec::<String>::new()
-    );
+
+    let wrong = disagreements(&found.cover, &truth(problem));
+    assert!(wrong.is_empty(), "{wrong:?}");
     found.cover.solutions.len()
 }
 
 /// lambda^2 = 2 and 3 on one support.
-fn fold(lo: Rational, hi: Option<Rational>) -> Problem {
-    problem(
-        Sparse::from_ints(&[&[1, -6], &[2, -6]]),
-        Sparse::identity(2),
-        &lo,
-        hi.as_ref(),
-    )
+fn two_and_three(lo: &Rational, hi: Option<&Rational>) -> Problem {
+    let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
+    problem_on(&a, &Sparse::identity(2), lo, hi)
 }
 
 #[test]
 fn a_rational_end_on_a_rational_solution_belongs_to_the_window() {
     let tiny = rational(1, 1_000_000_000_000_000_000);
-    for (lo, hi, count) in [
+    let below_two = whole(2) - &tiny;
+    let above_two = whole(2) + &tiny;
+    let below_three = whole(3) - &tiny;
+    let above_three = whole(3) + &tiny;
+
+    let windows = [
         (whole(0), Some(whole(2)), 1),
         (whole(2), Some(whole(3)), 2),
         (whole(2), Some(whole(2)), 1),
         (whole(3), None, 1),
-        (whole(0), Some(whole(2) - &tiny), 0),
-        (whole(2) + &tiny, Some(whole(3) - &tiny), 0),
-        (whole(3) + &tiny, None, 0),
-        (whole(2) - &tiny, Some(whole(2) + &tiny), 1),
-    ] {
-        assert_eq!(
-            listed(&fold(lo.clone(), hi.clone())),
-            count,
-            "[{lo}, {hi:?}]"
-        );
+        (whole(0), Some(below_two.clone()), 0),
+        (above_two.clone(), Some(below_three), 0),
+        (above_three, None, 0),
+        (below_two, Some(above_two), 1),
+    ];
+    for (lo, hi, expected) in windows {
+        let count = count_of_solutions(&two_and_three(&lo, hi.as_ref()));
+        assert_eq!(count, expected, "[{lo}, {hi:?}]");
     }
+}
+
+/// t^2 = 2.
+fn root_two(lo: &Rational, hi: Option<&Rational>) -> Problem {
+    let a = Sparse::from_ints(&[&[0, -2], &[-1, 0]]);
+    problem_on(&a, &Sparse::identity(2), lo, hi)
+}
+
+/// Convergents of the continued fraction of the root of 2.
+fn convergents_of_root_two(count: usize) -> Vec<Rational> {
+    let mut p = Integer::from(1);
+    let mut q = Integer::from(1);
+    let mut list = Vec::new();
+
+    for _ in 0..count {
+        let next_p = &p + &q * 2;
+        q = &p + &q;
+        p = next_p;
+        list.push(Rational::new(p.clone(), q.clone()));
+    }
+    list
 }
 
 /// t^2 = 2: convergents of sqrt 2 lie on both sides of it, ever nearer.
 #[test]
 fn an_irrational_solution_beside_a_rational_end_is_on_the_right_side() {
-    let root_two = |lo: &Rational, hi: Option<&Rational>| {
-        problem(
-            Sparse::from_ints(&[&[0, -2], &[-1, 0]]),
-            Sparse::identity(2),
-            lo,
-            hi,
-        )
-    };
-    let (mut p, mut q) = (Integer::from(1), Integer::from(1));
-    let (mut below, mut above) = (0, 0);
-    for step in 0..60 {
-        (p, q) = (&p + &q * 2, &p + &q);
-        let end = Rational::new(p.clone(), q.clone());
-        // From 1e-6 to 1e-45 of the value.
+    let mut below = 0;
+    let mut above = 0;
+
+    for (step, end) in convergents_of_root_two(60).iter().enumerate() {
+        // From 1e-6 to 1e-45 of the value, two steps of seven.
         if step < 7 || step % 7 > 1 {
             continue;
         }
-        let is_below = &end * &end < whole(2);
-        assert_eq!(
-            listed(&root_two(&whole(0), Some(&end))),
-            usize::from(!is_below),
-            "up to {end}"
-        );
-        assert_eq!(
-            listed(&root_two(&end, Some(&whole(9)))),
-            usize::from(is_below),
-            "from {end}"
-        );
-        assert_eq!(
-            listed(&root_two(&end, None)),
-            usize::from(is_below),
-            "from {end} on"
-        );
-        if is_below { below += 1 } else { above += 1 }
+        let is_below = end * end < whole(2);
+        let expected_above_end = usize::from(is_below);
+        let expected_below_end = usize::from(!is_below);
+
+        let up_to_end = count_of_solutions(&root_two(&whole(0), Some(end)));
+        assert_eq!(up_to_end, expected_below_end, "up to {end}");
+        let from_end = count_of_solutions(&root_two(end, Some(&whole(9))));
+        assert_eq!(from_end, expected_above_end, "from {end}");
+        let from_end_on = count_of_solutions(&root_two(end, None));
+        assert_eq!(from_end_on, expected_above_end, "from {end} on");
+
+        below += usize::from(is_below);
+        above += usize::from(!is_below);
     }
-    assert!(below >= 4 && above >= 4);
+    assert!(below >= 4);
+    assert!(above >= 4);
+
     // The figure of the issue: 1e-15 relative.
     let near = Rational::new(Integer::from(22_619_537), Integer::from(15_994_428));
-    let distance = (&near * &near - whole(2)) / whole(4);
-    assert!(num_traits::Signed::abs(&distance) < rational(1, 400_000_000_000_000));
-    assert_eq!(
-        listed(&root_two(&near, None)) + listed(&root_two(&whole(0), Some(&near))),
-        1
-    );
+    let relative_distance = (&near * &near - whole(2)) / whole(4);
+    assert!(relative_distance.abs() < rational(1, 400_000_000_000_000));
+    let above_near = count_of_solutions(&root_two(&near, None));
+    let below_near = count_of_solutions(&root_two(&whole(0), Some(&near)));
+    assert_eq!(above_near + below_near, 1);
+}
+
+fn random_rows(rng: &mut ChaCha8Rng, n: usize) -> Vec<Vec<Rational>> {
+    let mut rows = Vec::new();
+    for _ in 0..n {
+        let mut row = Vec::new();
+        for _ in 0..n {
+            row.push(whole(rng.random_range(-9..=9)));
+        }
+        rows.push(row);
+    }
+    rows
+}
+
+fn sparse(rows: &[Vec<Rational>]) -> Sparse {
+    let mut entries = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        for (j, value) in row.iter().enumerate() {
+            entries.push((i, j, value.clone()));
+        }
+    }
+    Sparse::from_entries(rows.len(), rows.len(), entries)
+}
+
+/// A pencil A + t B with a planted solution.
+struct Planted {
+    a: Sparse,
+    b: Sparse,
+}
+
+/// x = (1, ..., 1) solves it at the value: the first column of A takes off what the others leave.
+fn planted_at(value: &Rational, n: usize) -> Planted {
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    let mut a = random_rows(&mut rng, n);
+    let b = random_rows(&mut rng, n);
+
+    for i in 0..n {
+        a[i][i] += whole(60);
+        let mut others = value * &b[i][0];
+        for j in 1..n {
+            others += &a[i][j] + value * &b[i][j];
+        }
+        a[i][0] = -others;
+    }
+    Planted {
+        a: sparse(&a),
+        b: sparse(&b),
+    }
 }
 
 /// A solution planted at 3/7 on all of 12 variables, beyond the reach of exact leaves: the window
@@ -130,80 +182,49 @@ fn an_irrational_solution_beside_a_rational_end_is_on_the_right_side() {
 fn larger_supports_that_end_a_window_are_listed_through_their_claim() {
     let n = 12;
     let value = rational(3, 7);
-    let mut rng = ChaCha8Rng::seed_from_u64(8);
-    let mut draw = || -> Vec<Vec<Rational>> {
-        (0..n)
-            .map(|_| (0..n).map(|_| whole(rng.random_range(-9..=9))).collect())
-            .collect()
-    };
-    let (mut a, b) = (draw(), draw());
-    for i in 0..n {
-        a[i][i] += whole(60);
-        let rest: Rational = (1..n).map(|j| &a[i][j] + &value * &b[i][j]).sum();
-        a[i][0] = -rest - &value * &b[i][0]; // x = (1, ..., 1)
-    }
-    let sparse = |m: &[Vec<Rational>]| {
-        Sparse::from_entries(
-            n,
-            n,
-            m.iter()
-                .enumerate()
-                .flat_map(|(i, r)| r.iter().enumerate().map(move |(j, v)| (i, j, v.clone()))),
-        )
-    };
+    let Planted { a, b } = planted_at(&value, n);
     let all: Vec<usize> = (0..n).collect();
-    let (lo, hi) = (rational(2, 7), rational(4, 7));
-    for (lo, hi) in [
-        (lo.clone(), value.clone()),
-        (value.clone(), hi.clone()),
-        (lo, hi),
-    ] {
-        let found = search(&problem(sparse(&a), sparse(&b), &lo, Some(&hi)));
-        let here: Vec<_> = found
-            .cover
-            .solutions
-            .iter()
-            .filter(|s| s.support == all)
-            .collect();
+    let below = rational(2, 7);
+    let above = rational(4, 7);
+
+    for (lo, hi) in [(&below, &value), (&value, &above), (&below, &above)] {
+        let found = search(&problem_on(&a, &b, lo, Some(hi)));
         assert!(found.is_complete(), "[{lo}, {hi}]: {:?}", found.cover.open);
+
+        let solutions = &found.cover.solutions;
+        let mut on_all = solutions.iter().filter(|s| s.support == all);
+        let planted = on_all.next().unwrap();
         assert!(
-            here.len() == 1 && here[0].value.contains(&value),
-            "[{lo}, {hi}]: {:?}",
-            found.cover.solutions
+            planted.value.contains(&value),
+            "[{lo}, {hi}]: {solutions:?}"
         );
+        assert!(on_all.next().is_none(), "[{lo}, {hi}]: {solutions:?}");
     }
-    let tiny = rational(1, 1_000_000_000_000);
-    let found = search(&problem(
-        sparse(&a),
-        sparse(&b),
-        &(&value + &tiny),
-        Some(&rational(4, 7)),
-    ));
-    assert!(
-        found.cover.solutions.iter().all(|s| s.support != all),
-        "{:?}",
-        found.cover.solutions
-    );
+
+    let just_above = &value + rational(1, 1_000_000_000_000);
+    let found = search(&problem_on(&a, &b, &just_above, Some(&above)));
+    let solutions = &found.cover.solutions;
+    assert!(solutions.iter().all(|s| s.support != all), "{solutions:?}");
 }
 
 /// A certificate to go on with is of one problem and one window.
 #[test]
 fn a_checkpoint_of_another_problem_or_window_is_refused() {
-    let own = fold(whole(0), Some(whole(5)));
+    let zero = whole(0);
+    let five = whole(5);
+    let own = two_and_three(&zero, Some(&five));
     let certificate = search(&own).certificate;
-    let go_on =
-        |p: &Problem| resume(p, &certificate, &Options::default(), &Watch::nobody()).map(|_| ());
-    assert_eq!(go_on(&own), Ok(()));
-    let refused = |p: &Problem| go_on(p).unwrap_err().to_string();
-    assert!(
-        refused(&fold(whole(0), Some(whole(6)))).contains("expected the window [0, 6], got [0, 5]")
-    );
-    assert!(refused(&fold(whole(0), None)).contains("[0, infinity)"));
-    let other = problem(
-        Sparse::from_ints(&[&[1, -6], &[2, -7]]),
-        Sparse::identity(2),
-        &whole(0),
-        Some(&whole(5)),
-    );
-    assert!(refused(&other).contains("expected problem"));
+    let resumed = |p: &Problem| resume(p, &certificate, &Options::default(), &Watch::nobody());
+    let refusal = |p: &Problem| resumed(p).map(|_| ()).unwrap_err().to_string();
+    assert!(resumed(&own).is_ok());
+
+    let longer = two_and_three(&zero, Some(&whole(6)));
+    assert!(refusal(&longer).contains("expected the window [0, 6], got [0, 5]"));
+
+    let endless = two_and_three(&zero, None);
+    assert!(refusal(&endless).contains("[0, infinity)"));
+
+    let other_a = Sparse::from_ints(&[&[1, -6], &[2, -7]]);
+    let other = problem_on(&other_a, &Sparse::identity(2), &zero, Some(&five));
+    assert!(refusal(&other).contains("expected problem"));
 }

@@ -1,10 +1,13 @@
-//! The last interval of an infinite window: masses that are not definite, without some rows, of low
-//! rank; solutions at infinity. All with `cargo test --release --test complete -- --ignored
-//! --nocapture complete_tail::`.
+//! The last interval of an infinite window.
+//!
+//! Masses that are not definite, that are zero in some rows or of low rank, and solutions at
+//! infinity: what makes it hard to say that there is nothing beyond some value. The truth is the
+//! exact enumerator, and pencils with a known solution at infinity. The longer run is `cargo test
+//! --release --test complete -- --ignored --nocapture complete_tail::`.
 #![cfg(feature = "testkit")]
 
 use crate::cover::{disagreements, family_disagreements, truth};
-use mceip_check::certificate::{Node, RootOutcome};
+use mceip_check::certificate::{CompleteSet, Node, RootOutcome};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_exact::{Sparse, whole};
@@ -18,116 +21,213 @@ fn search(problem: &Problem) -> Completed {
     complete(problem, &Options::default(), &Watch::nobody()).unwrap()
 }
 
-fn problem(pencil: Pencil) -> Problem {
+fn problem_of(pencil: Pencil) -> Problem {
     Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap()
 }
 
-fn draw(k: usize, most: usize) -> (Mass, Problem) {
-    let mut rng = ChaCha8Rng::seed_from_u64(77_000 + k as u64);
-    let mass = [Mass::Coupled, Mass::Indefinite, Mass::Partial][k % 3];
-    let (n_s, n_f) = (rng.random_range(2..=most), rng.random_range(0..=3));
-    (mass, problem(tails(&mut rng, n_s, n_f, mass).unwrap()))
+/// The kinds of mass in turn.
+fn mass_of(k: usize) -> Mass {
+    [Mass::Coupled, Mass::Indefinite, Mass::Partial][k % 3]
 }
 
-/// Searches and compares with the enumerator; how many of how many stay open by kind of mass, and
-/// what the covers used.
-fn compare(count: usize, most: usize) -> (BTreeMap<String, (usize, usize)>, usize, usize) {
-    let (mut by_kind, mut reversed, mut chords) = (BTreeMap::new(), 0, 0);
-    for k in 0..count {
-        let (mass, problem) = draw(k, most);
-        let found = search(&problem);
-        let truth = truth(&problem);
-        assert_eq!(
-            disagreements(&found.cover, &truth),
-            Vec::<String>::new(),
-            "{k}: {}",
-            problem.canonical_text()
-        );
-        if !truth.is_plain_list() {
-            assert_eq!(
-                family_disagreements(&problem, &found.cover),
-                Vec::<String>::new(),
-                "{k}"
-            );
-        }
-        let entry: &mut (usize, usize) = by_kind.entry(format!("{mass:?}")).or_default();
-        (entry.0, entry.1) = (entry.0 + usize::from(!found.is_complete()), entry.1 + 1);
-        found
-            .cover
-            .open
-            .first()
-            .into_iter()
-            .for_each(|o| println!("{k} {mass:?}: {} open, first {o:?}", found.cover.open.len()));
-        let set = found.certificate.complete_set.unwrap();
-        reversed += usize::from(
-            set.condensation
-                .is_some_and(|c| c.anchors.iter().any(|a| a.reversed)),
-        );
-        let last = set.pieces.last().unwrap();
-        chords += usize::from(last.tree.iter().any(|n| matches!(n, Node::Root(_))));
+/// The k-th problem, of 2 to `most_slip` slip variables.
+fn random_problem(k: usize, most_slip: usize) -> Problem {
+    let mut rng = ChaCha8Rng::seed_from_u64(77_000 + k as u64);
+    let slip = rng.random_range(2..=most_slip);
+    let free = rng.random_range(0..=3);
+    problem_of(tails(&mut rng, slip, free, mass_of(k)).unwrap())
+}
+
+/// How many problems of a kind stay open, of how many.
+#[derive(Debug, Default)]
+struct OpenCount {
+    open: usize,
+    all: usize,
+}
+
+/// What searches came to, and what their certificates used.
+#[derive(Debug, Default)]
+struct Count {
+    by_mass: BTreeMap<String, OpenCount>,
+    /// Sets with an anchor whose direction is reversed.
+    reversed: usize,
+    /// Sets with roots in their last piece.
+    with_roots: usize,
+}
+
+impl Count {
+    fn add(&mut self, mass: Mass, found: &Completed) {
+        let by_mass = self.by_mass.entry(format!("{mass:?}")).or_default();
+        by_mass.open += usize::from(!found.is_complete());
+        by_mass.all += 1;
+
+        let set = found.certificate.complete_set.as_ref().unwrap();
+        self.reversed += usize::from(has_reversed_anchor(set));
+        self.with_roots += usize::from(has_roots_in_last_piece(set));
     }
-    (by_kind, reversed, chords)
+
+    fn open(&self) -> usize {
+        self.by_mass.values().map(|count| count.open).sum()
+    }
+}
+
+fn has_reversed_anchor(set: &CompleteSet) -> bool {
+    let mut condensations = set.condensation.iter();
+    condensations.any(|condensation| condensation.anchors.iter().any(|a| a.reversed))
+}
+
+fn has_roots_in_last_piece(set: &CompleteSet) -> bool {
+    let last_piece = set.pieces.last().unwrap();
+    let mut nodes = last_piece.tree.iter();
+    nodes.any(|node| matches!(node, Node::Root(_)))
+}
+
+/// The cover lists what the enumerator lists, and holds the families of solutions.
+fn assert_agrees_with_enumerator(k: usize, problem: &Problem, found: &Completed) {
+    let truth = truth(problem);
+    let wrong = disagreements(&found.cover, &truth);
+    let text = problem.canonical_text();
+    assert!(wrong.is_empty(), "{k}: {wrong:?} {text}");
+
+    if !truth.is_plain_list() {
+        let wrong = family_disagreements(problem, &found.cover);
+        assert!(wrong.is_empty(), "{k}: {wrong:?}");
+    }
+}
+
+/// Searches `count` problems and compares with the enumerator.
+fn compare(count: usize, most_slip: usize) -> Count {
+    let mut sum = Count::default();
+
+    for k in 0..count {
+        let mass = mass_of(k);
+        let problem = random_problem(k, most_slip);
+
+        let found = search(&problem);
+
+        assert_agrees_with_enumerator(k, &problem, &found);
+        let open = &found.cover.open;
+        if let Some(first) = open.first() {
+            println!("{k} {mass:?}: {} open, first {first:?}", open.len());
+        }
+        sum.add(mass, &found);
+    }
+    sum
 }
 
 #[test]
 fn the_last_interval_closes_whatever_the_mass() {
-    let (by_kind, reversed, _) = compare(30, 5);
-    println!("{by_kind:?}, {reversed} by reversed anchors");
-    assert!(reversed >= 5, "{reversed}");
-    let open: usize = by_kind.values().map(|(open, _)| open).sum();
-    assert!(open <= 1, "{by_kind:?}");
+    let count = compare(30, 5);
+    println!(
+        "{:?}, {} by reversed anchors",
+        count.by_mass, count.reversed
+    );
+
+    assert!(count.reversed >= 5, "{count:?}");
+    assert!(count.open() <= 1, "{count:?}");
 }
 
 #[test]
 #[ignore = "minutes"]
 fn the_last_interval_closes_on_larger_pencils() {
-    let (by_kind, reversed, chords) = compare(240, 9);
+    let count = compare(240, 9);
     println!(
-        "open of all: {by_kind:?}, {reversed} by reversed anchors, {chords} with roots in the last \
-         piece"
+        "open of all: {:?}, {} by reversed anchors, {} with roots in the last piece",
+        count.by_mass, count.reversed, count.with_roots
     );
-    assert!(reversed >= 50);
+
+    assert!(count.reversed >= 50);
+}
+
+/// The Laplacian of a path graph: its rows sum to zero.
+fn laplacian_of_path(n: usize) -> Sparse {
+    let mut entries = Vec::new();
+    for i in 0..n {
+        let is_end = i == 0 || i + 1 == n;
+        let degree = if is_end { 1 } else { 2 };
+        entries.push((i, i, whole(degree)));
+        if i + 1 < n {
+            entries.push((i, i + 1, whole(-1)));
+            entries.push((i + 1, i, whole(-1)));
+        }
+    }
+    Sparse::from_entries(n, n, entries)
+}
+
+/// The identity plus a skew part beside the diagonal.
+fn identity_plus_skew(n: usize) -> Sparse {
+    let mut entries = Vec::new();
+    for i in 0..n {
+        entries.push((i, i, whole(1)));
+        if i + 1 < n {
+            entries.push((i, i + 1, whole(1)));
+            entries.push((i + 1, i, whole(-1)));
+        }
+    }
+    Sparse::from_entries(n, n, entries)
 }
 
 /// A solution at infinity on {0, ..., n-1} and no finite one beyond: closed by the limit's null
 /// vector, at sizes that exact leaves do not reach.
+///
+/// B is the Laplacian of a path graph (B 1 = 0) and A = I plus a skew part: T(t) is definite for
+/// every t, and singular in the limit. The skew part keeps the search from one definite leaf
+/// without changing x'Tx.
 #[test]
 fn a_solution_at_infinity_does_not_keep_the_window_open() {
     for n in [2usize, 5, 14] {
-        // B = L of a path graph (B 1 = 0), A = I: T(t) is definite for every t, and singular in the
-        // limit.
-        let degree = |i: usize| if i == 0 || i + 1 == n { 1 } else { 2 };
-        let entries = (0..n).flat_map(|i| {
-            let beside = [i.checked_sub(1), Some(i + 1).filter(|&j| j < n)]
-                .into_iter()
-                .flatten();
-            std::iter::once((i, i, whole(degree(i))))
-                .chain(beside.map(move |j| (i, j, whole(-1))))
-                .collect::<Vec<_>>()
-        });
-        let b = Sparse::from_entries(n, n, entries);
-        // A skew part keeps the search from one definite leaf without changing x'Tx.
-        let skew = |i: usize, j: usize| {
-            if j == i + 1 {
-                1
-            } else if i == j + 1 {
-                -1
-            } else {
-                i64::from(i == j)
-            }
-        };
-        let a = Sparse::from_entries(
-            n,
-            n,
-            (0..n * n).map(|k| (k / n, k % n, whole(skew(k / n, k % n)))),
-        );
-        let found = search(&problem(Pencil::new(a, b, vec![]).unwrap()));
-        assert!(
-            found.is_complete() && found.cover.solutions.is_empty(),
-            "{n}: {:?}",
-            found.cover
-        );
+        let a = identity_plus_skew(n);
+        let b = laplacian_of_path(n);
+        let pencil = Pencil::new(a, b, vec![]).unwrap();
+
+        let found = search(&problem_of(pencil));
+
+        assert!(found.is_complete(), "{n}: {:?}", found.cover);
+        assert!(found.cover.solutions.is_empty(), "{n}: {:?}", found.cover);
     }
+}
+
+fn random_rows(rng: &mut ChaCha8Rng, n: usize) -> Vec<Vec<i64>> {
+    let mut rows = vec![vec![0; n]; n];
+    for row in &mut rows {
+        for entry in row {
+            *entry = rng.random_range(-9..=9);
+        }
+    }
+    rows
+}
+
+fn sparse(rows: &[Vec<i64>]) -> Sparse {
+    let rows: Vec<&[i64]> = rows.iter().map(Vec::as_slice).collect();
+    Sparse::from_ints(&rows)
+}
+
+/// A random pencil with B x = y for x = 1 on the moving variables: y = 0 on these and 5 on the
+/// others. Its window begins at 2^20.
+fn problem_with_solution_at_infinity(seed: u64, n: usize, moving: usize) -> Problem {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let a = random_rows(&mut rng, n);
+    let mut b = random_rows(&mut rng, n);
+    for (i, row) in b.iter_mut().enumerate() {
+        let y = if i < moving { 0 } else { 5 };
+        let others: i64 = row[1..moving].iter().sum();
+        row[0] = y - others;
+    }
+
+    let pencil = Pencil::new(sparse(&a), sparse(&b), vec![]).unwrap();
+    let window = Window::new(whole(1 << 20), None).unwrap();
+    problem_of(pencil).with_window(window)
+}
+
+/// The nodes of all trees that are closed by a solution at infinity.
+fn count_of_infinity_outcomes(set: &CompleteSet) -> usize {
+    let mut count = 0;
+    for node in set.pieces.iter().flat_map(|piece| &piece.tree) {
+        if let Node::Root(root) = node {
+            count += usize::from(matches!(root.outcome, RootOutcome::Infinity(_)));
+        }
+    }
+    count
 }
 
 /// B x = y with x = (1, ..., 1, 0) on 12 of 13 variables, too many for exact leaves: only the
@@ -135,38 +235,21 @@ fn a_solution_at_infinity_does_not_keep_the_window_open() {
 /// the Schur complement had a sign there, and the checker refused the leaf.)
 #[test]
 fn the_limit_of_a_large_support_is_named() {
-    let (n, moving) = (13, 12);
-    let (mut named, mut open) = (0, 0);
+    let mut named = 0;
+    let mut open = 0;
+
     for seed in 0..4u64 {
-        let mut rng = ChaCha8Rng::seed_from_u64(500 + seed);
-        let mut draw = || -> Vec<Vec<i64>> {
-            (0..n)
-                .map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect())
-                .collect()
-        };
-        let (a, mut b) = (draw(), draw());
-        for (i, row) in b.iter_mut().enumerate() {
-            row[0] = if i < moving { 0 } else { 5 } - row[1..moving].iter().sum::<i64>();
-        }
-        let sparse =
-            |m: &[Vec<i64>]| Sparse::from_ints(&m.iter().map(Vec::as_slice).collect::<Vec<_>>());
-        let window = Window::new(whole(1 << 20), None).unwrap();
-        let problem =
-            problem(Pencil::new(sparse(&a), sparse(&b), vec![]).unwrap()).with_window(window);
+        let problem = problem_with_solution_at_infinity(500 + seed, 13, 12);
+
         let found = search(&problem);
-        open += found.cover.open.iter().filter(|o| o.max.is_none()).count();
-        let nodes = found
-            .certificate
-            .complete_set
-            .iter()
-            .flat_map(|s| &s.pieces)
-            .flat_map(|p| &p.tree);
-        named += nodes
-            .filter(|n| matches!(n, Node::Root(r) if matches!(r.outcome, RootOutcome::Infinity(_))))
-            .count();
+
+        let regions = found.cover.open.iter();
+        open += regions.filter(|region| region.max.is_none()).count();
+        if let Some(set) = &found.certificate.complete_set {
+            named += count_of_infinity_outcomes(set);
+        }
     }
-    assert!(
-        named >= 3 && open <= 1,
-        "{named} named, {open} open up to infinity"
-    );
+
+    assert!(named >= 3, "{named} named, {open} open up to infinity");
+    assert!(open <= 1, "{named} named, {open} open up to infinity");
 }

@@ -1,133 +1,202 @@
-//! The plain enumerator against answers in closed form: complete lists, cones included.
+//! The enumerator against answers in closed form.
+//!
+//! The truth is `mceip_testkit::known` and `mceip_testkit::pareto`: graphs, diagonal, Jordan and
+//! Z-matrices whose complete lists, cones included, follow from theorems, matrices of the
+//! literature with published numbers of solutions, and problems made around a planted solution.
+//! Answers are compared exactly, and near misses must differ.
 #![cfg(feature = "testkit")]
 
 use mceip_engine::reduction::reduce;
-use mceip_exact::{Algebraic, Poly, Rational, parse, rational, whole};
-use mceip_model::{Admissible, Body, Problem};
-use mceip_oracle::{Enumeration, enumerate, is_rational_solution};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, common_denominator, parse, rational, whole};
+use mceip_model::{Admissible, Body, Pencil, Problem};
+use mceip_oracle::{Enumeration, Solution, enumerate, is_rational_solution};
 use mceip_testkit::known::{Known, complete_graph, cycle, diagonal, jordan, path, star, z_matrix};
-use mceip_testkit::pareto::{pareto_matrices, planted};
+use mceip_testkit::pareto::{Pareto, pareto_matrices, planted};
+use std::f64::consts::PI;
 
 fn solve(problem: &Problem) -> Enumeration {
-    enumerate(&reduce(problem).unwrap().pencil, problem.window()).unwrap()
+    let pencil = reduce(problem).unwrap().pencil;
+    enumerate(&pencil, problem.window()).unwrap()
 }
 
-fn holds(known: &Known) {
+/// The enumerator lists what is known, and nothing else.
+fn assert_known(known: &Known) {
+    let name = &known.name;
+    let expected = &known.expected;
     let found = solve(&known.problem);
-    assert!(
-        found.is_complete_list() && found.ranges.is_empty(),
-        "{}",
-        known.name
-    );
-    assert_eq!(
-        found.solutions.len(),
-        known.expected.solutions.len(),
-        "{}",
-        known.name
-    );
-    assert_eq!(
-        found.cones.len(),
-        known.expected.cones.len(),
-        "{}",
-        known.name
-    );
-    assert_eq!(found, known.expected, "{}", known.name);
+
+    assert!(found.is_complete_list(), "{name}");
+    assert!(found.ranges.is_empty(), "{name}");
+    assert_eq!(found.solutions.len(), expected.solutions.len(), "{name}");
+    assert_eq!(found.cones.len(), expected.cones.len(), "{name}");
+    assert_eq!(found, *expected, "{name}");
 }
 
 #[test]
 fn graphs() {
-    (1..=7).for_each(|n| holds(&path(n).unwrap()));
-    (3..=7).for_each(|n| holds(&cycle(n).unwrap()));
-    (0..=6).for_each(|n| holds(&star(n).unwrap()));
-    (1..=8).for_each(|n| holds(&complete_graph(n).unwrap()));
+    for n in 1..=7 {
+        assert_known(&path(n).unwrap());
+    }
+    for n in 3..=7 {
+        assert_known(&cycle(n).unwrap());
+    }
+    for n in 0..=6 {
+        assert_known(&star(n).unwrap());
+    }
+    for n in 1..=8 {
+        assert_known(&complete_graph(n).unwrap());
+    }
+
     // The counts of `facts.md`.
-    assert_eq!(path(7).unwrap().expected.solutions.len(), 28);
-    assert_eq!(complete_graph(8).unwrap().expected.solutions.len(), 255);
-    assert!(complete_graph(8).unwrap().expected.cones.is_empty());
-    assert!(
-        !path(7).unwrap().expected.cones.is_empty() && !cycle(7).unwrap().expected.cones.is_empty()
-    );
-    assert_eq!(star(5).unwrap().expected.cones.len(), 1); // the leaves at t = 0
+    let path = path(7).unwrap().expected;
+    assert_eq!(path.solutions.len(), 28);
+    assert!(!path.cones.is_empty());
+
+    let complete_graph = complete_graph(8).unwrap().expected;
+    assert_eq!(complete_graph.solutions.len(), 255);
+    assert!(complete_graph.cones.is_empty());
+
+    let cycle = cycle(7).unwrap().expected;
+    assert!(!cycle.cones.is_empty());
+
+    // The leaves at t = 0.
+    let star = star(5).unwrap().expected;
+    assert_eq!(star.cones.len(), 1);
+}
+
+fn value_as_double(solution: &Solution) -> f64 {
+    solution.decimal(17).parse().unwrap()
 }
 
 /// The polynomials really have the trigonometric values that the closed form names.
 #[test]
 fn closed_forms_are_the_named_numbers() {
-    for s in path(9).unwrap().expected.solutions {
-        let named = 2.0 * (std::f64::consts::PI / (s.slip.len() as f64 + 1.0)).cos();
-        assert!(
-            (s.decimal(17).parse::<f64>().unwrap() - named).abs() < 4e-15,
-            "{:?}",
-            s.slip
-        );
+    for solution in path(9).unwrap().expected.solutions {
+        let vertices = solution.slip.len() as f64;
+        let named = 2.0 * (PI / (vertices + 1.0)).cos();
+
+        let error = (value_as_double(&solution) - named).abs();
+        assert!(error < 4e-15, "{:?}", solution.slip);
     }
-    for s in star(4)
-        .unwrap()
-        .expected
-        .solutions
-        .iter()
-        .filter(|s| s.slip.len() > 1)
-    {
-        let named = ((s.slip.len() - 1) as f64).sqrt();
-        assert!((s.decimal(17).parse::<f64>().unwrap() - named).abs() < 4e-15);
+
+    for solution in star(4).unwrap().expected.solutions {
+        if solution.slip.len() <= 1 {
+            continue;
+        }
+        let leaves = solution.slip.len() - 1;
+        let named = (leaves as f64).sqrt();
+
+        let error = (value_as_double(&solution) - named).abs();
+        assert!(error < 4e-15);
     }
 }
 
 #[test]
 fn z_matrices_have_only_the_all_slip_solution() {
-    (1..=8).for_each(|n| holds(&z_matrix(n).unwrap()));
+    for n in 1..=8 {
+        assert_known(&z_matrix(n).unwrap());
+    }
 }
 
 #[test]
 fn diagonal_and_jordan_pencils() {
-    holds(
-        &diagonal(&[
-            whole(3),
-            rational(1, 2),
-            whole(0),
-            whole(-1),
-            rational(7, 3),
-        ])
-        .unwrap(),
-    );
-    holds(
-        &diagonal(&[
-            whole(2),
-            rational(1, 2),
-            whole(2),
-            rational(1, 2),
-            whole(2),
-            whole(-2),
-            whole(-2),
-        ])
-        .unwrap(),
-    );
+    let distinct = [
+        whole(3),
+        rational(1, 2),
+        whole(0),
+        whole(-1),
+        rational(7, 3),
+    ];
+    assert_known(&diagonal(&distinct).unwrap());
+
+    let repeated = [
+        whole(2),
+        rational(1, 2),
+        whole(2),
+        rational(1, 2),
+        whole(2),
+        whole(-2),
+        whole(-2),
+    ];
+    assert_known(&diagonal(&repeated).unwrap());
+
     for n in 1..=6 {
-        holds(&jordan(n, 2, true).unwrap());
-        holds(&jordan(n, 0, false).unwrap());
+        assert_known(&jordan(n, 2, true).unwrap());
+        assert_known(&jordan(n, 0, false).unwrap());
     }
 }
 
 /// A wrong answer is noticed: one ray bent, one solution or one cone left out, one root exchanged.
 #[test]
 fn near_misses_are_different_answers() {
-    let right = path(5).unwrap();
-    let found = solve(&right.problem);
-    let mut bent = right.expected.clone();
+    let path = path(5).unwrap();
+    let right = &path.expected;
+
+    let mut bent = right.clone();
     bent.solutions[7].x[2] = &bent.solutions[7].x[2] + &Poly::from_ints(&[1]);
-    let mut short = right.expected.clone();
-    short.solutions.pop();
-    let mut flat = right.expected.clone();
-    flat.cones.pop();
-    let mut moved = right.expected.clone();
-    moved.solutions[9].value = moved.solutions[10].value.clone();
-    moved.solutions[10].value = Algebraic::rational(whole(1));
-    let mut widened = right.expected.clone();
-    widened.cones[0].biactive.push(4);
-    for wrong in [bent, short, flat, moved, widened] {
-        assert_ne!(found, wrong);
+
+    let mut without_a_solution = right.clone();
+    without_a_solution.solutions.pop();
+
+    let mut without_a_cone = right.clone();
+    without_a_cone.cones.pop();
+
+    let mut with_other_roots = right.clone();
+    with_other_roots.solutions[9].value = with_other_roots.solutions[10].value.clone();
+    with_other_roots.solutions[10].value = Algebraic::rational(whole(1));
+
+    let mut with_a_wider_cone = right.clone();
+    with_a_wider_cone.cones[0].biactive.push(4);
+
+    let found = solve(&path.problem);
+    assert_ne!(found, bent);
+    assert_ne!(found, without_a_solution);
+    assert_ne!(found, without_a_cone);
+    assert_ne!(found, with_other_roots);
+    assert_ne!(found, with_a_wider_cone);
+    assert_eq!(found, *right);
+}
+
+/// The value to forty digits.
+fn value_to_forty_digits(solution: &Solution) -> Rational {
+    parse(&solution.decimal(40)).unwrap()
+}
+
+/// The mechanical system of a matrix has mu = a / (c - lambda), and its own pencil has
+/// t = lambda + c: mu (2 c - t) = a up to the digits, with the same supports and x.
+fn assert_same_solution(a: &Rational, c: &Rational, own: &Solution, mechanical: &Solution) {
+    let t = value_to_forty_digits(own);
+    let mu = value_to_forty_digits(mechanical);
+    let error = &mu * (whole(2) * c - &t) - a;
+    let tiny = Rational::new(1.into(), Integer::from(10).pow(30));
+    assert!(error < tiny);
+    assert!(-error < tiny);
+
+    assert_eq!(own.slip, mechanical.slip);
+    assert_eq!(own.biactive, mechanical.biactive);
+}
+
+fn assert_published_count(pareto: &Pareto) {
+    let a = rational(7, 2);
+    let c = pareto.bound();
+
+    let own = solve(&pareto.pencil().unwrap());
+    assert!(own.is_plain_list());
+    assert_eq!(own.solutions.len(), pareto.count);
+
+    let system = pareto.system(&a, &c).unwrap();
+    assert!(matches!(system.body(), Body::System(_)));
+    let pencil = reduce(&system).unwrap().pencil;
+    assert!(Admissible::new(&pencil, system.unknown()).is_ok());
+    let mechanical = solve(&system);
+    assert_eq!(mechanical.solutions.len(), pareto.count);
+
+    // t and mu are increasing in lambda: both lists are in one order.
+    let slip = pencil.slip();
+    for (left, right) in own.solutions.iter().zip(&mechanical.solutions) {
+        assert_same_solution(&a, &c, left, right);
+        assert_eq!(left.x_decimals(&slip, 30), right.x_decimals(&slip, 30));
     }
-    assert_eq!(found, right.expected);
 }
 
 /// Matrices of the literature: the number of solutions is the published number of Pareto
@@ -135,58 +204,40 @@ fn near_misses_are_different_answers() {
 #[test]
 fn pareto_matrices_in_mechanical_systems() {
     for pareto in pareto_matrices() {
-        let raw = solve(&pareto.pencil().unwrap());
-        assert!(raw.is_plain_list());
-        assert_eq!(raw.solutions.len(), pareto.count);
-        let (a, c) = (rational(7, 2), pareto.bound());
-        let system = pareto.system(&a, &c).unwrap();
-        assert!(matches!(system.body(), Body::System(_)));
-        let reduced = reduce(&system).unwrap();
-        assert!(Admissible::new(&reduced.pencil, system.unknown()).is_ok());
-        let mechanical = solve(&system);
-        assert_eq!(mechanical.solutions.len(), pareto.count);
-        // t = lambda + bound = lambda + c is increasing in lambda, and so is mu: both lists are in
-        // one order.
-        for (s, m) in raw.solutions.iter().zip(&mechanical.solutions) {
-            let number = |text: String| parse(&text).unwrap();
-            let (t, mu): (Rational, Rational) = (number(s.decimal(40)), number(m.decimal(40)));
-            let error = &mu * (whole(2) * &c - &t) - &a;
-            let tiny = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(30));
-            assert!(error < tiny && -error < tiny);
-            assert_eq!((&s.slip, &s.biactive), (&m.slip, &m.biactive));
-            let slip = reduced.pencil.slip();
-            assert_eq!(s.x_decimals(&slip, 30), m.x_decimals(&slip, 30));
-        }
+        assert_published_count(&pareto);
     }
+}
+
+/// The vector times its common denominator, as constant polynomials.
+fn cleared(x: &[Rational]) -> Vec<Poly> {
+    let denominator = common_denominator(x);
+    let mut constants = Vec::new();
+    for value in x {
+        let factor = &denominator / value.denom();
+        constants.push(Poly::constant(value.numer() * factor));
+    }
+    constants
 }
 
 #[test]
 fn planted_solutions_are_found() {
     for seed in 0..40 {
         let n = 2 + seed as usize % 5;
-        let p = planted(n, seed as usize % 3 % n, seed).unwrap();
-        let pencil = reduce(&p.problem).unwrap().pencil;
-        assert!(
-            Admissible::new(&pencil, p.problem.unknown()).is_ok(),
-            "seed {seed}"
-        );
-        assert!(is_rational_solution(&pencil, &p.value, &p.x), "seed {seed}");
-        let clear = mceip_exact::common_denominator(&p.x);
-        let x: Vec<Poly> =
-            p.x.iter()
-                .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))
-                .collect();
-        let found = solve(&p.problem);
-        let value = Algebraic::rational(p.value.clone());
+        let planted = planted(n, seed as usize % 3 % n, seed).unwrap();
+        let pencil: Pencil = reduce(&planted.problem).unwrap().pencil;
+        let admissible = Admissible::new(&pencil, planted.problem.unknown());
+        assert!(admissible.is_ok(), "seed {seed}");
+        let solves = is_rational_solution(&pencil, &planted.value, &planted.x);
+        assert!(solves, "seed {seed}");
+
+        let found = solve(&planted.problem);
+
+        let x = cleared(&planted.x);
+        let value = Algebraic::rational(planted.value.clone());
         assert!(found.contains(&pencil, &value, &x), "seed {seed}");
-        // Beside it, and with another vector, there is nothing.
-        assert!(
-            !found.contains(
-                &pencil,
-                &Algebraic::rational(&p.value + rational(1, 1_000_000_007)),
-                &x
-            ),
-            "seed {seed}"
-        );
+
+        // The same vector solves nothing at a value close by.
+        let beside = Algebraic::rational(&planted.value + rational(1, 1_000_000_007));
+        assert!(!found.contains(&pencil, &beside, &x), "seed {seed}");
     }
 }

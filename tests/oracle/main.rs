@@ -1,4 +1,7 @@
-//! The enumerator, Table 1, exact arithmetic and the way back from the pencil.
+//! The exact side: the enumerator, Table 1, exact arithmetic and the way back from the pencil.
+//!
+//! Each file says which truth it compares with: algebra, closed forms, hand-worked pencils, laws of
+//! the problem, or the independent enumeration in `third`.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[allow(dead_code, unreachable_pub, missing_docs)]

@@ -1,132 +1,148 @@
-//! Lifting, the lines of (9) and the projection for an oblique particle: directions (3/5, 4/5),
-//! friction 1/5, so that every number has a denominator. By hand.
+//! The way from a solution x of the pencil back to the mechanical system, for an oblique particle.
+//!
+//! `lift` makes v and w of x, `check_lines` examines the lines of (9), `project` makes x of v, and
+//! `condense` eliminates the free variables. The truth is worked by hand: the directions of the
+//! particle are (3/5, 4/5) and (-4/5, 3/5), the friction coefficient is 1/5, so that every number
+//! has a denominator and a forgotten scale shows.
 #![cfg(feature = "solver")]
 
 use mceip_engine::reduction::{
     Lifted, Line, Projected, check_lines, condense, lift, project, reduce,
 };
-use mceip_exact::{Algebraic, Poly, Rational, Sparse, rational, whole};
-use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, Sparse, rational, whole};
+use mceip_model::{
+    Admissible, Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window,
+};
+
+fn matrix_of_order_3(rows: &[[Rational; 3]; 3]) -> Sparse {
+    let mut entries = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        for (j, value) in row.iter().enumerate() {
+            entries.push((i, j, value.clone()));
+        }
+    }
+    Sparse::from_entries(3, 3, entries)
+}
 
 /// Dof 0 is free; the particle slips on (1, 2) with sign S.
 fn system(sign: i8) -> System {
-    let (r, w) = (rational, whole);
-    let k = [
-        [w(7), r(1, 2), w(1)],
-        [r(1, 2), w(9), r(1, 3)],
-        [w(1), r(1, 3), w(11)],
-    ];
-    let m = [
-        [w(2), w(0), w(0)],
-        [w(0), r(1, 7), w(0)],
-        [w(0), w(0), r(1, 7)],
-    ];
-    let sparse = |m: &[[Rational; 3]; 3]| {
-        Sparse::from_entries(
-            3,
-            3,
-            (0..3)
-                .flat_map(|i| (0..3).map(move |j| (i, j)))
-                .map(|(i, j)| (i, j, m[i][j].clone()))
-                .collect::<Vec<_>>(),
-        )
-    };
-    let frame = Some([[r(3, 5), r(4, 5)], [r(-4, 5), r(3, 5)]]);
+    let stiffness = matrix_of_order_3(&[
+        [whole(7), rational(1, 2), whole(1)],
+        [rational(1, 2), whole(9), rational(1, 3)],
+        [whole(1), rational(1, 3), whole(11)],
+    ]);
+    let mass = matrix_of_order_3(&[
+        [whole(2), whole(0), whole(0)],
+        [whole(0), rational(1, 7), whole(0)],
+        [whole(0), whole(0), rational(1, 7)],
+    ]);
+    let friction = rational(1, 5);
+
+    let tangential = [rational(3, 5), rational(4, 5)];
+    let normal = [rational(-4, 5), rational(3, 5)];
     let particle = Particle {
-        frame,
+        frame: Some([tangential, normal]),
         ..Particle::plain(1, 2, ContactState::Slip { sign })
     };
-    System::new(sparse(&k), Some(sparse(&m)), Some(r(1, 5)), vec![particle]).unwrap()
+
+    System::new(stiffness, Some(mass), Some(friction), vec![particle]).unwrap()
 }
 
 fn problem(sign: i8, unknown: Unknown) -> Problem {
     Problem::new(Body::System(system(sign)), unknown, Window::all()).unwrap()
 }
 
-fn at(p: &Poly, t: i64, scale: &mceip_exact::Integer) -> Rational {
-    p.eval(&whole(t)) / Rational::from_integer(scale.clone())
+/// The values at t of polynomials that share a scale.
+fn values_at(polynomials: &[Poly], t: i64, scale: &Integer) -> Vec<Rational> {
+    let scale = Rational::from_integer(scale.clone());
+    polynomials
+        .iter()
+        .map(|p| p.eval(&whole(t)) / &scale)
+        .collect()
 }
 
-/// x = (2, 5 t): v = (2, -S 3 t, -S 4 t), w = (K + t M) v, both at t = 3 after their scales are
-/// taken off.
+/// x = (2, 1 + 4 t): v = (2, -S 3/5 (1 + 4 t), -S 4/5 (1 + 4 t)), w = (K + t M) v, or K v if mu is
+/// the unknown; both at t = 3 after their scales are taken off.
 #[test]
 fn a_lifted_vector_is_v_and_w_over_its_scales() {
     for sign in [1, -1] {
         for unknown in [Unknown::Lambda2, Unknown::Mu] {
-            let p = problem(sign, unknown);
-            let variables = reduce(&p).unwrap().variables;
+            let variables = reduce(&problem(sign, unknown)).unwrap().variables;
             let x = [Poly::from_ints(&[2]), Poly::from_ints(&[1, 4])];
-            let l = lift(&system(sign), unknown, &variables, &x);
+
+            let lifted = lift(&system(sign), unknown, &variables, &x);
+
+            // 1 + 4 t = 13.
             let s = whole(sign.into());
-            let v = [whole(2), rational(-39, 5) * &s, rational(-52, 5) * &s]; // 1 + 4 t = 13
-            let got: Vec<Rational> = l.v.iter().map(|p| at(p, 3, &l.v_scale)).collect();
-            assert_eq!(got, v);
-            let mass = if unknown == Unknown::Lambda2 {
-                whole(3)
-            } else {
-                whole(0)
+            let v = [whole(2), rational(-39, 5) * &s, rational(-52, 5) * &s];
+            assert_eq!(values_at(&lifted.v, 3, &lifted.v_scale), v);
+
+            let factor_of_mass = match unknown {
+                Unknown::Lambda2 => whole(3),
+                Unknown::Mu => whole(0),
             };
-            let matrix = system(sign)
-                .stiffness()
-                .add_scaled(&mass, system(sign).mass().unwrap());
-            let got: Vec<Rational> = l.w.iter().map(|p| at(p, 3, &l.w_scale)).collect();
-            assert_eq!(got, matrix.times(&v));
-            assert!(l.v_scale == 5.into() && l.w_scale > l.v_scale);
+            let system = system(sign);
+            let mass = system.mass().unwrap();
+            let matrix = system.stiffness().add_scaled(&factor_of_mass, mass);
+            assert_eq!(values_at(&lifted.w, 3, &lifted.w_scale), matrix.times(&v));
+
+            assert_eq!(lifted.v_scale, 5.into());
+            assert!(lifted.w_scale > lifted.v_scale);
         }
     }
 }
 
-fn lines(sign: i8, v: [i64; 3], w: [i64; 3]) -> Option<Line> {
-    let constant = |v: [i64; 3]| v.map(|c| Poly::from_ints(&[c])).to_vec();
+/// The first line of (9) that v and w break, if any, for the particle that slips with this sign.
+fn broken_line(sign: i8, v: [i64; 3], w: [i64; 3]) -> Option<Line> {
     let lifted = Lifted {
-        v: constant(v),
+        v: constants(v),
         v_scale: 1.into(),
-        w: constant(w),
+        w: constants(w),
         w_scale: 1.into(),
     };
-    check_lines(
-        &system(sign),
-        Unknown::Lambda2,
-        &lifted,
-        &mut Algebraic::rational(whole(1)),
-    )
-    .err()
-    .map(|e| e.line)
+    let mut value = Algebraic::rational(whole(1));
+
+    let checked = check_lines(&system(sign), Unknown::Lambda2, &lifted, &mut value);
+    checked.err().map(|error| error.line)
+}
+
+fn constants(values: [i64; 3]) -> Vec<Poly> {
+    values.map(|c| Poly::from_ints(&[c])).to_vec()
 }
 
 /// v_T = -5, v_N = 0; w_T = -5, w_N = 25: S w_T + w_N / 5 = 0 for S = 1.
 #[test]
 fn the_lines_hold_to_the_last_unit() {
-    assert_eq!(lines(1, [7, -3, -4], [0, -23, 11]), None);
-    assert_eq!(lines(1, [0, -3, -4], [0, -23, 11]), None);
-    assert_eq!(lines(1, [7, 0, 0], [0, -24, 11]), None); // at rest within the cone
-    assert_eq!(
-        lines(1, [0, -3, -4], [0, -23, 12]),
-        Some(Line::FrictionCone)
-    );
-    assert_eq!(
-        lines(1, [0, -3, -4], [0, -23, 10]),
-        Some(Line::Complementarity)
-    );
-    assert_eq!(lines(1, [0, 3, 4], [0, -23, 11]), Some(Line::SlipDirection));
-    assert_eq!(lines(1, [0, -3, -5], [0, -23, 11]), Some(Line::NormalRate));
-    assert_eq!(lines(1, [0, -4, -4], [0, -23, 11]), Some(Line::NormalRate));
-    assert_eq!(
-        lines(1, [0, -3, -4], [1, -23, 11]),
-        Some(Line::FreeReaction)
-    );
-    assert_eq!(lines(1, [0, 0, 0], [0, 0, 0]), Some(Line::NonTrivial));
+    assert_eq!(broken_line(1, [7, -3, -4], [0, -23, 11]), None);
+    assert_eq!(broken_line(1, [0, -3, -4], [0, -23, 11]), None);
+
+    // At rest within the cone.
+    assert_eq!(broken_line(1, [7, 0, 0], [0, -24, 11]), None);
+
+    let forged = broken_line(1, [0, -3, -4], [0, -23, 12]);
+    assert_eq!(forged, Some(Line::FrictionCone));
+    let forged = broken_line(1, [0, -3, -4], [0, -23, 10]);
+    assert_eq!(forged, Some(Line::Complementarity));
+    let forged = broken_line(1, [0, 3, 4], [0, -23, 11]);
+    assert_eq!(forged, Some(Line::SlipDirection));
+    let forged = broken_line(1, [0, -3, -5], [0, -23, 11]);
+    assert_eq!(forged, Some(Line::NormalRate));
+    let forged = broken_line(1, [0, -4, -4], [0, -23, 11]);
+    assert_eq!(forged, Some(Line::NormalRate));
+    let forged = broken_line(1, [0, -3, -4], [1, -23, 11]);
+    assert_eq!(forged, Some(Line::FreeReaction));
+    let forged = broken_line(1, [0, 0, 0], [0, 0, 0]);
+    assert_eq!(forged, Some(Line::NonTrivial));
+
     // S = -1: v_T = 5 and w_T = 5, w_N = 25: t + 5 n = (3/5 - 4, 4/5 + 3) times 5.
-    assert_eq!(lines(-1, [0, 3, 4], [0, -17, 19]), None);
-    assert_eq!(
-        lines(-1, [0, 3, 4], [0, -17, 20]),
-        Some(Line::Complementarity)
-    );
-    assert_eq!(lines(-1, [0, 3, 4], [0, -18, 19]), Some(Line::FrictionCone));
-    assert_eq!(
-        lines(-1, [0, -3, -4], [0, -17, 19]),
-        Some(Line::SlipDirection)
-    );
+    assert_eq!(broken_line(-1, [0, 3, 4], [0, -17, 19]), None);
+
+    let forged = broken_line(-1, [0, 3, 4], [0, -17, 20]);
+    assert_eq!(forged, Some(Line::Complementarity));
+    let forged = broken_line(-1, [0, 3, 4], [0, -18, 19]);
+    assert_eq!(forged, Some(Line::FrictionCone));
+    let forged = broken_line(-1, [0, -3, -4], [0, -17, 19]);
+    assert_eq!(forged, Some(Line::SlipDirection));
 }
 
 /// x = (v_0, -S v_T); what is left of v is its normal part, and the largest component of that is
@@ -135,43 +151,48 @@ fn the_lines_hold_to_the_last_unit() {
 fn a_projection_takes_the_tangential_part_off() {
     for sign in [1, -1] {
         let variables = reduce(&problem(sign, Unknown::Mu)).unwrap().variables;
-        let of = |v: [i64; 3]| project(&variables, &v.map(whole));
+        let project_integers = |v: [i64; 3]| project(&variables, &v.map(whole));
         let s = i64::from(sign);
-        assert_eq!(
-            of([2, 3, 4]),
-            Projected {
-                x: vec![whole(2), whole(-5 * s)],
-                off: None
-            }
-        );
+        let x = vec![whole(2), whole(-5 * s)];
+
+        let tangential = project_integers([2, 3, 4]);
+        let expected = Projected {
+            x: x.clone(),
+            off: None,
+        };
+        assert_eq!(tangential, expected);
+
         // (3, 4) + (-4, 3): the normal part is 5 along (-4/5, 3/5), 4 of a largest component 7.
-        assert_eq!(
-            of([2, -1, 7]),
-            Projected {
-                x: vec![whole(2), whole(-5 * s)],
-                off: Some((1, rational(4, 7)))
-            }
-        );
-        assert_eq!(of([-9, -1, 7]).off, Some((1, rational(4, 9))));
-        assert_eq!(
-            of([0, 0, 0]),
-            Projected {
-                x: vec![whole(0), whole(0)],
-                off: None
-            }
-        );
+        let with_normal_part = project_integers([2, -1, 7]);
+        let expected = Projected {
+            x,
+            off: Some((1, rational(4, 7))),
+        };
+        assert_eq!(with_normal_part, expected);
+
+        let with_large_free_part = project_integers([-9, -1, 7]);
+        assert_eq!(with_large_free_part.off, Some((1, rational(4, 9))));
+
+        let zero = project_integers([0, 0, 0]);
+        let expected = Projected {
+            x: vec![whole(0), whole(0)],
+            off: None,
+        };
+        assert_eq!(zero, expected);
     }
 }
 
-/// One free and one slip variable: A' = a_ss - a_sf a_fs / a_ff.
+/// One free and one slip variable: A' = a_ss - a_sf a_fs / a_ff = 5 - 2 * 2 / 4 = 4, and
+/// B' = 7 - 6 * 2 / 4 = 4.
 #[test]
 fn one_slip_variable_is_condensed() {
     let a = Sparse::from_ints(&[&[4, 2], &[2, 5]]);
     let b = Sparse::from_ints(&[&[0, 0], &[6, 7]]);
-    let pencil = mceip_model::Pencil::new(a, b, vec![0]).unwrap();
-    let small = condense(&mceip_model::Admissible::new(&pencil, Unknown::Mu).unwrap()).unwrap();
-    assert_eq!(
-        (small.a().get(0, 0), small.b().get(0, 0)),
-        (whole(4), whole(4))
-    );
+    let pencil = Pencil::new(a, b, vec![0]).unwrap();
+
+    let admissible = Admissible::new(&pencil, Unknown::Mu).unwrap();
+    let condensed = condense(&admissible).unwrap();
+
+    assert_eq!(condensed.a().get(0, 0), whole(4));
+    assert_eq!(condensed.b().get(0, 0), whole(4));
 }

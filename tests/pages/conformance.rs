@@ -1,4 +1,8 @@
 //! Reads `spec/conformance.md`: every id has a row, every row a status and tests that exist.
+//!
+//! The truth is the chapters of the book for the ids and the test files for the names. A row whose
+//! test was renamed, an equation without a row, or a claim that only ignored tests support without
+//! saying so fails here.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -27,30 +31,38 @@ fn read(path: &str) -> Option<String> {
     std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).ok()
 }
 
-/// (id, status, tests) of each row.
-fn rows(page: &str) -> Vec<(String, String, Vec<String>)> {
-    let cells = |line: &str| {
-        line.trim_matches('|')
-            .split('|')
-            .map(|c| c.trim().to_string())
-            .collect::<Vec<_>>()
-    };
-    let lines = page
-        .lines()
-        .filter(|l| l.starts_with("| ") && !l.starts_with("| id "));
-    lines
-        .map(|line| {
-            let cells = cells(line);
-            assert_eq!(cells.len(), 4, "{line}");
-            let tests = cells[3]
-                .split('`')
-                .skip(1)
-                .step_by(2)
-                .map(str::to_string)
-                .collect();
-            (cells[0].clone(), cells[2].clone(), tests)
-        })
+/// A row of the page.
+struct Row {
+    id: String,
+    claim: String,
+    status: String,
+    /// The tests that it rests on: file and function.
+    tests: Vec<String>,
+}
+
+/// The rows of all tables of the page.
+fn rows(page: &str) -> Vec<Row> {
+    page.lines()
+        .filter(|line| line.starts_with("| ") && !line.starts_with("| id "))
+        .map(read_row)
         .collect()
+}
+
+/// Reads a row `| id | claim | status | tests in backquotes |`.
+fn read_row(line: &str) -> Row {
+    let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+    let [id, claim, status, tests] = cells[..] else {
+        panic!("{line}: expected four cells")
+    };
+
+    // Every second part of a text split at backquotes stood between two of them.
+    let quoted = tests.split('`').skip(1).step_by(2);
+    Row {
+        id: id.into(),
+        claim: claim.into(),
+        status: status.into(),
+        tests: quoted.map(str::to_string).collect(),
+    }
 }
 
 /// Does `file::name` name a test function (or a macro-made one) in that file?
@@ -58,13 +70,16 @@ fn exists(test: &str) -> bool {
     let Some((file, name)) = test.split_once("::") else {
         return false;
     };
-    let Some(text) = read(file) else { return false };
+    let Some(text) = read(file) else {
+        return false;
+    };
     let Some((before, _)) = text.split_once(&format!("fn {name}(")) else {
         return false;
     };
-    // #[test] directly above, or within a proptest! or quickcheck! block.
-    let above: Vec<&str> = before.lines().rev().take(3).collect();
-    above.iter().any(|l| l.trim() == "#[test]") || before.contains("quickcheck! {")
+
+    // The attribute stands in the lines directly above, or a macro makes the function a test.
+    let mut above = before.lines().rev().take(3);
+    above.any(|line| line.trim() == "#[test]") || before.contains("quickcheck! {")
 }
 
 /// Does `cargo test` leave the test out?
@@ -73,27 +88,26 @@ fn is_ignored(test: &str) -> bool {
         return false;
     };
     let text = read(file).unwrap_or_default();
-    let before = text
-        .split(&format!("fn {name}("))
-        .next()
-        .unwrap_or_default();
-    before
-        .lines()
-        .rev()
-        .take(3)
-        .any(|l| l.trim().starts_with("#[ignore"))
+    let declaration = format!("fn {name}(");
+    let before = text.split(&declaration).next().unwrap_or_default();
+
+    let mut above = before.lines().rev().take(3);
+    above.any(|line| line.trim().starts_with("#[ignore"))
 }
 
 /// A claim that rests on ignored tests alone says that it is opt-in.
 #[test]
 fn claims_of_ignored_tests_say_that_they_are_opt_in() {
-    for (id, tests, claim) in claims(&read("spec/conformance.md").unwrap()) {
-        if tests.is_empty() || !tests.iter().all(|t| is_ignored(t)) {
+    for row in rows(&read("spec/conformance.md").unwrap()) {
+        let tests = &row.tests;
+        if tests.is_empty() || !tests.iter().all(|test| is_ignored(test)) {
             continue;
         }
+
         assert!(
-            claim.contains("(opt-in)"),
-            "{id} rests on {tests:?}, which nothing runs by default"
+            row.claim.contains("(opt-in)"),
+            "{} rests on {tests:?}, which nothing runs by default",
+            row.id
         );
     }
 
@@ -105,62 +119,47 @@ fn claims_of_ignored_tests_say_that_they_are_opt_in() {
     ));
 }
 
-/// (id, tests, claim) of each row.
-fn claims(page: &str) -> Vec<(String, Vec<String>, String)> {
-    let mut out = Vec::new();
-    for line in page
-        .lines()
-        .filter(|l| l.starts_with("| ") && !l.starts_with("| id "))
-    {
-        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let tests = cells[3]
-            .split('`')
-            .skip(1)
-            .step_by(2)
-            .map(str::to_string)
-            .collect();
-        out.push((cells[0].to_string(), tests, cells[1].to_string()));
-    }
-    out
-}
-
 #[test]
 fn every_row_names_a_status_and_tests_that_exist() {
     let rows = rows(&read("spec/conformance.md").unwrap());
     let mut seen = BTreeSet::new();
-    for (id, status, tests) in &rows {
+
+    for row in &rows {
+        let id = &row.id;
+        let status = row.status.as_str();
         assert!(seen.insert(id.clone()), "{id} twice");
-        assert!(
-            STATUSES.contains(&status.as_str()),
-            "{id}: status {status:?}"
-        );
+        assert!(STATUSES.contains(&status), "{id}: status {status:?}");
+
+        let tests = &row.tests;
         assert_eq!(
             tests.is_empty(),
             status == "absent",
             "{id} is {status} with tests {tests:?}"
         );
+
         for test in tests {
             assert!(exists(test), "{id}: no test {test}");
         }
     }
+
     assert!(rows.len() > 50);
 }
 
 #[test]
 fn every_id_of_the_equations_page_has_a_row() {
-    let ids: BTreeSet<String> = rows(&read("spec/conformance.md").unwrap())
-        .into_iter()
-        .map(|r| r.0)
-        .collect();
-    let wanted = (1..=34)
-        .map(|k| format!("E{k}"))
-        .chain(["P1", "P2", "R1", "W1", "T1"].map(String::from));
+    let rows = rows(&read("spec/conformance.md").unwrap());
+    let ids: BTreeSet<String> = rows.into_iter().map(|row| row.id).collect();
     let chapters = CHAPTERS.map(|page| read(&format!("spec/{page}.md")).unwrap());
     let equations = chapters.join("\n");
-    for id in wanted {
+
+    let numbered = (1..=34).map(|number| format!("E{number}"));
+    let named = ["P1", "P2", "R1", "W1", "T1"].map(String::from);
+
+    for id in numbered.chain(named) {
         assert!(ids.contains(&id), "no row for {id}");
-        let words = equations.split(|c: char| !c.is_alphanumeric());
-        assert!(words.clone().any(|w| w == id), "no chapter defines {id}");
+
+        let mut words = equations.split(|c: char| !c.is_alphanumeric());
+        assert!(words.any(|word| word == id), "no chapter defines {id}");
     }
 }
 

@@ -1,5 +1,8 @@
 //! The worked examples of `spec/certificates.md`: the checker gives the verdict that the page
 //! states, and every JSON block of the page stands in one of the files.
+//!
+//! The truth is the checker, and the files of `spec/examples/certificates` for the page. A block that
+//! was changed on the page alone, or a kind of evidence without an example, fails here.
 
 use mceip_check::certificate::Certificate;
 use mceip_check::check;
@@ -22,9 +25,10 @@ fn read(path: &Path) -> String {
 /// The names of the examples: each has a problem and a certificate.
 fn names() -> BTreeSet<String> {
     let files = std::fs::read_dir(folder()).unwrap();
-    let names = files.map(|e| e.unwrap().file_name().into_string().unwrap());
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+
     names
-        .filter_map(|n| n.strip_suffix(".problem.json").map(str::to_string))
+        .filter_map(|name| name.strip_suffix(".problem.json").map(str::to_string))
         .collect()
 }
 
@@ -60,6 +64,7 @@ fn the_checker_gives_each_example_its_verdict() {
         let open = accepted.cover.map_or(0, |cover| cover.open.len());
         assert_eq!(open, usize::from(name == "open"), "{name}");
     }
+
     assert!(names.len() > 15);
 }
 
@@ -79,6 +84,7 @@ fn every_kind_of_evidence_has_an_example() {
         .iter()
         .map(|name| read(&folder().join(format!("{name}.json"))))
         .collect();
+
     for kind in EVIDENCE {
         assert!(all.iter().any(|text| text.contains(kind)), "{kind}");
     }
@@ -101,13 +107,16 @@ fn every_block_of_the_page_stands_in_a_file() {
     for part in page.split("```json\n").skip(1) {
         let block = dense(part.split("```").next().unwrap());
         assert!(files.iter().any(|file| file.contains(&block)), "{part}");
+
         blocks += 1;
     }
+
     for name in names() {
         assert!(
             page.contains(&format!("(`{name}`")),
             "{name} is not in the page"
         );
     }
+
     assert!(blocks > 15, "{blocks}");
 }

@@ -1,5 +1,8 @@
-//! Laws of the workspace that can be read off manifests and sources: who depends on whom, who
-//! computes in floats.
+//! Laws of the workspace that can be read off manifests and sources: which crate depends on which,
+//! which part computes in floats, which test files run.
+//!
+//! The truth is the tables of this file. A new dependency, a float in a part that decides, a second
+//! elimination or a test file that no binary names differs from its table and fails here.
 
 use std::path::{Path, PathBuf};
 
@@ -7,12 +10,12 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
 }
 
-/// The rooms that are crates of their own.
+/// The parts that are crates of their own.
 const CRATES: [&str; 8] = [
     "exact", "model", "check", "oracle", "mcp", "engine", "paper", "testkit",
 ];
 
-/// Those that decide.
+/// The crates whose verdicts the others rest on.
 const TRUSTED: [&str; 4] = ["exact", "model", "check", "oracle"];
 
 /// Where the sources of a crate are; for any other name those of the package at the top.
@@ -24,65 +27,85 @@ fn sources_of(package: &str) -> PathBuf {
     }
 }
 
-/// The crate that a room is in.
-fn package_of(room: &str) -> &str {
-    match room {
+/// The crate that a part belongs to.
+fn package_of(part: &str) -> &str {
+    match part {
         "certificate" => "check",
         "solver" | "sparse" | "linear" => "mcp",
         "certify" => "engine",
-        _ if CRATES.contains(&room) => room,
+        _ if CRATES.contains(&part) => part,
         _ => "mceip",
     }
 }
 
-/// The folder and the file a room may consist of.
-fn places(room: &str) -> [PathBuf; 2] {
-    let package = sources_of(package_of(room));
-    let folder = if CRATES.contains(&room) {
+/// The folder and the file that a part may consist of.
+fn places(part: &str) -> [PathBuf; 2] {
+    let package = sources_of(package_of(part));
+    let folder = if CRATES.contains(&part) {
         package
     } else {
-        package.join(room)
+        package.join(part)
     };
     let file = folder.with_extension("rs");
+
     [folder, file]
 }
 
-fn sources(room: &str) -> Vec<(PathBuf, String)> {
+/// A Rust file, and its code without the module of unit tests at its end.
+struct Source {
+    path: PathBuf,
+    code: String,
+}
+
+/// The Rust files of a part, files of unit tests left out.
+fn sources(part: &str) -> Vec<Source> {
     let mut list = Vec::new();
-    let mut stack = places(room).to_vec();
+    let mut stack = places(part).to_vec();
+
     while let Some(path) = stack.pop() {
-        if path.ends_with("tests") || (path.ends_with("tests.rs") && is_for_tests(&path)) {
-            continue; // not the code of the room
+        let is_of_tests =
+            path.ends_with("tests") || (path.ends_with("tests.rs") && is_for_tests(&path));
+        if is_of_tests {
+            continue;
         }
+
         if path.is_dir() {
-            stack.extend(std::fs::read_dir(&path).unwrap().map(|e| e.unwrap().path()));
-        } else if path.extension().is_some_and(|e| e == "rs") && path.exists() {
+            stack.extend(entries(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") && path.exists() {
             let text = std::fs::read_to_string(&path).unwrap();
-            let code = text
-                .split("#[cfg(test)]\nmod tests")
-                .next()
-                .unwrap_or_default()
-                .to_string();
-            list.push((path, code));
+            let code = text.split("#[cfg(test)]\nmod tests").next();
+            let code = code.unwrap_or_default().to_string();
+            list.push(Source { path, code });
         }
     }
-    assert!(!list.is_empty(), "room {room} has no sources");
+
+    assert!(!list.is_empty(), "{part} has no sources");
     list
+}
+
+/// The paths of all that is in a folder.
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    entries.map(|entry| entry.unwrap().path()).collect()
+}
+
+/// The lines of a source that are no comments.
+fn code_lines(code: &str) -> impl Iterator<Item = &str> {
+    code.lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
 }
 
 /// Is this file a module of its parent under `cfg(test)`?
 fn is_for_tests(path: &Path) -> bool {
     let folder = path.parent().unwrap();
-    let parent = [folder.join("mod.rs"), folder.with_extension("rs")]
-        .into_iter()
-        .find(|p| p.is_file())
-        .unwrap();
-    std::fs::read_to_string(parent)
-        .unwrap()
-        .contains("#[cfg(test)]\nmod tests;")
+    let candidates = [folder.join("mod.rs"), folder.with_extension("rs")];
+    let parent = candidates.into_iter().find(|file| file.is_file()).unwrap();
+
+    let text = std::fs::read_to_string(parent).unwrap();
+    text.contains("#[cfg(test)]\nmod tests;")
 }
 
-/// Crate, and all that its manifest may name: Cargo keeps the walls between crates.
+/// Each crate with all that its manifest may name. Cargo refuses any use of a crate not named there.
 const MAY_DEPEND: [(&str, &[&str]); 8] = [
     (
         "exact",
@@ -196,57 +219,69 @@ const MAY_DEPEND: [(&str, &[&str]); 8] = [
 #[test]
 fn manifests_follow_the_house() {
     for (name, allowed) in MAY_DEPEND {
-        let manifest =
-            std::fs::read_to_string(root().join("crates").join(name).join("Cargo.toml")).unwrap();
+        let file = root().join("crates").join(name).join("Cargo.toml");
+        let manifest = std::fs::read_to_string(file).unwrap();
         assert!(
             manifest.contains("[lints]\nworkspace = true"),
             "{name} has lints of its own"
         );
-        let mut section = "";
-        let mut named = Vec::new();
-        for line in manifest
-            .lines()
-            .map(str::trim)
-            .filter(|l| !l.is_empty() && !l.starts_with('#'))
-        {
-            if line.starts_with('[') {
-                section = line;
-                // No other kind of dependency: build, or a table of its own. The trusted crates
-                // have none for tests either.
-                let is_known = section == "[dependencies]"
-                    || section == "[target.'cfg(unix)'.dependencies]"
-                    || (section == "[dev-dependencies]" && !TRUSTED.contains(&name))
-                    || !section.contains("dependencies");
-                assert!(is_known, "{name}: {section}");
-            } else if section.ends_with("dependencies]") && section != "[dev-dependencies]" {
-                named.push(line.split(['.', ' ', '=']).next().unwrap());
-            }
-        }
+
+        let named = dependencies(name, &manifest);
         assert_eq!(named, allowed, "{name}");
     }
-    let crates = std::fs::read_dir(root().join("crates")).unwrap().count();
+
+    let crates = entries(&root().join("crates")).len();
     assert_eq!(crates, MAY_DEPEND.len(), "a crate without a row");
+}
+
+/// The dependencies that the manifest of a crate names, those for tests left out.
+///
+/// Fails on a section for another kind of dependency: for build scripts, or a table of its own. The
+/// trusted crates have no dependencies for tests either.
+#[track_caller]
+fn dependencies<'a>(name: &str, manifest: &'a str) -> Vec<&'a str> {
+    let lines = manifest.lines().map(str::trim);
+    let mut section = "";
+    let mut named = Vec::new();
+
+    for line in lines.filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        if line.starts_with('[') {
+            section = line;
+            let is_known = section == "[dependencies]"
+                || section == "[target.'cfg(unix)'.dependencies]"
+                || (section == "[dev-dependencies]" && !TRUSTED.contains(&name))
+                || !section.contains("dependencies");
+
+            assert!(is_known, "{name}: {section}");
+        } else if section.ends_with("dependencies]") && section != "[dev-dependencies]" {
+            named.push(line.split(['.', ' ', '=']).next().unwrap());
+        }
+    }
+
+    named
 }
 
 /// The elimination (10)-(16) stands in `model`; what judges it (`check`), the enumerator and the
 /// rest of `model` do not use it.
 #[test]
 fn the_elimination_is_not_used_by_what_stands_beside_it() {
-    for room in ["check", "oracle", "model"] {
-        for (path, code) in sources(room) {
-            if path.starts_with(sources_of("model").join("reduction")) {
+    let elimination = sources_of("model").join("reduction");
+
+    for part in ["check", "oracle", "model"] {
+        for source in sources(part) {
+            if source.path.starts_with(&elimination) {
                 continue;
             }
-            let uses = |l: &str| {
-                l.contains("reduction") && !l.starts_with("//") && l != "pub mod reduction;"
-            };
-            assert!(
-                !code.lines().map(str::trim).any(uses),
-                "{} uses the elimination",
-                path.display()
-            );
+
+            let is_used = source.code.lines().map(str::trim).any(uses_the_elimination);
+            assert!(!is_used, "{} uses the elimination", source.path.display());
         }
     }
+}
+
+/// Does this line of code, without the blanks around it, name the module of the elimination?
+fn uses_the_elimination(line: &str) -> bool {
+    line.contains("reduction") && !line.starts_with("//") && line != "pub mod reduction;"
 }
 
 /// "The few parts of exact it names": numbers, polynomials, intervals; nothing that solves.
@@ -260,92 +295,88 @@ fn the_checker_names_only_what_multiplies_and_compares() {
         "Sparse",
         "common_denominator",
     ];
+
     let mut named = 0;
-    for (path, code) in sources("check") {
-        for line in code.lines().filter(|l| !l.trim_start().starts_with("//")) {
-            let Some((_, rest)) = line.split_once("mceip_exact::") else {
+    for source in sources("check") {
+        for line in code_lines(&source.code) {
+            let Some((_, imported)) = line.split_once("mceip_exact::") else {
                 continue;
             };
-            for name in rest
-                .split(|c: char| !(c.is_alphanumeric() || c == '_'))
-                .filter(|n| !n.is_empty())
-            {
-                assert!(
-                    ALLOWED.contains(&name),
-                    "{}: check uses exact::{name}",
-                    path.display()
-                );
+
+            let words = imported.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            for name in words.filter(|word| !word.is_empty()) {
+                let file = source.path.display();
+                assert!(ALLOWED.contains(&name), "{file}: check uses exact::{name}");
+
                 named += 1;
             }
         }
     }
+
     assert!(named > 5);
 }
 
 #[test]
 fn floats_stay_out_of_the_deciding_rooms() {
-    for room in ["exact", "check", "oracle"] {
-        for (path, code) in sources(room) {
-            let name = path.file_name().and_then(|n| n.to_str()).unwrap();
-            let is_border = room == "exact" && (name == "double.rs" || name == "lib.rs");
-            let code: String = code
-                .lines()
-                .filter(|l| !l.trim_start().starts_with("//"))
-                .collect();
+    for part in ["exact", "check", "oracle"] {
+        for source in sources(part) {
+            let name = source.path.file_name().unwrap();
+            let converts = part == "exact" && (name == "double.rs" || name == "lib.rs");
+            let code: String = code_lines(&source.code).collect();
+            let names_a_float = code.contains("f64") || code.contains("f32");
+
             assert!(
-                is_border || !(code.contains("f64") || code.contains("f32")),
+                converts || !names_a_float,
                 "{}: names a float type",
-                path.display()
+                source.path.display()
             );
         }
-    }
-    for room in ["exact", "check", "oracle"] {
-        let module = std::fs::read_to_string(sources_of(room).join("lib.rs")).unwrap();
+
+        let module = std::fs::read_to_string(sources_of(part).join("lib.rs")).unwrap();
         assert!(
             module.contains("#![deny(clippy::float_arithmetic)]"),
-            "{room} does not deny float arithmetic"
+            "{part} does not deny float arithmetic"
         );
     }
 }
 
 #[test]
 fn faer_stands_behind_one_file_and_tolerances_in_theirs() {
-    let mut stack: Vec<PathBuf> = ["mceip"]
-        .iter()
-        .chain(&CRATES)
-        .map(|p| sources_of(p))
-        .collect();
-    let (mut faer, mut small) = (Vec::new(), Vec::new());
+    let mut stack: Vec<PathBuf> = CRATES.iter().map(|package| sources_of(package)).collect();
+    stack.push(sources_of("mceip"));
+    let mut naming_faer = Vec::new();
+    let mut with_tolerances = Vec::new();
+
     while let Some(path) = stack.pop() {
         if path.ends_with("tests") {
             continue;
         }
+
         if path.is_dir() {
-            stack.extend(std::fs::read_dir(&path).unwrap().map(|e| e.unwrap().path()));
+            stack.extend(entries(&path));
             continue;
         }
+
         let text = std::fs::read_to_string(&path).unwrap();
-        let code: Vec<&str> = text
-            .split("#[cfg(test)]")
-            .next()
-            .unwrap_or_default()
-            .lines()
-            .filter(|l| !l.trim_start().starts_with("//"))
-            .collect();
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        if code.iter().any(|l| l.contains("faer::")) {
-            faer.push(name.clone());
+
+        if code_lines(code).any(|line| line.contains("faer::")) {
+            naming_faer.push(name.clone());
         }
-        // A float literal with a negative exponent is a tolerance (options.rs: PATH's own).
-        if name != "tests.rs" && code.iter().any(|l| l.contains("1e-")) {
-            small.push(name);
+
+        // A float literal with a negative exponent is a tolerance; options.rs has those of PATH.
+        if name != "tests.rs" && code_lines(code).any(|line| line.contains("1e-")) {
+            with_tolerances.push(name);
         }
     }
-    assert_eq!(faer, vec!["dense.rs"]);
-    small.sort();
+
+    assert_eq!(naming_faer, ["dense.rs"]);
+
+    with_tolerances.sort();
     assert_eq!(
-        small,
-        vec![
+        with_tolerances,
+        [
             "options.rs",
             "tolerance.rs",
             "tolerance.rs",
@@ -359,29 +390,27 @@ fn faer_stands_behind_one_file_and_tolerances_in_theirs() {
 #[test]
 fn every_file_of_a_group_of_tests_is_named_by_it() {
     let mut files = 0;
-    for group in std::fs::read_dir(root().join("tests"))
-        .unwrap()
-        .map(|e| e.unwrap().path())
-    {
+
+    for group in entries(&root().join("tests")) {
         let Ok(main) = std::fs::read_to_string(group.join("main.rs")) else {
             continue;
         };
-        for file in std::fs::read_dir(&group)
-            .unwrap()
-            .map(|e| e.unwrap().path())
-        {
+
+        for file in entries(&group) {
             let module = file.file_stem().unwrap().to_string_lossy().into_owned();
-            if file.extension().is_none_or(|e| e != "rs") || module == "main" {
+            let is_rust = file.extension().is_some_and(|extension| extension == "rs");
+
+            if !is_rust || module == "main" {
                 continue;
             }
-            assert!(
-                main.lines()
-                    .any(|line| line.ends_with(&format!("mod {module};"))),
-                "{} is not run",
-                file.display()
-            );
+
+            let declaration = format!("mod {module};");
+            let is_named = main.lines().any(|line| line.ends_with(&declaration));
+            assert!(is_named, "{} is not run", file.display());
+
             files += 1;
         }
     }
+
     assert!(files > 50, "{files} files of tests");
 }

@@ -1,4 +1,4 @@
-//! Tests that read the repository's own text: laws of the house, pages, planted bugs, mutants.
+//! Tests that read the repository's own text: manifests, sources, pages, planted bugs, mutants.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod book;

@@ -1,5 +1,8 @@
-//! `spec/mutants`: what it lists exists, and every room has its score. The mutants are run by
-//! `spec/mutants/run`.
+//! `spec/mutants`: the mutants listed as equivalent exist in the sources and have a reason, and every
+//! part has a sufficient score. The mutants themselves are run by `spec/mutants/run`.
+//!
+//! The truth is the source files. An entry whose function or operator is gone, or a score below the
+//! least one, fails here.
 
 use std::path::{Path, PathBuf};
 
@@ -18,98 +21,132 @@ struct Listed {
     count: usize,
 }
 
-/// The entries, each group with its reason.
-fn listed() -> Vec<(Vec<Listed>, String)> {
-    let (mut groups, mut group) = (Vec::new(), Vec::new());
-    for line in read("equivalent.txt")
-        .lines()
-        .filter(|l| !l.starts_with('#') && !l.trim().is_empty())
-    {
-        if let Some(reason) = line.strip_prefix("    ") {
-            groups.push((std::mem::take(&mut group), reason.trim().to_string()));
+/// Entries of the list that share one reason.
+struct Group {
+    mutants: Vec<Listed>,
+    reason: String,
+}
+
+/// The groups of `equivalent.txt`: lines of mutants, and after them the reason, indented.
+fn listed() -> Vec<Group> {
+    let mut groups = Vec::new();
+    let mut mutants = Vec::new();
+    let text = read("equivalent.txt");
+
+    for line in text.lines() {
+        if line.starts_with('#') || line.trim().is_empty() {
             continue;
         }
-        let parts: Vec<&str> = line.splitn(3, " | ").collect();
-        let [file, change, count] = parts[..] else {
-            panic!("{line}: expected file | change | xN")
-        };
-        let count = count
-            .strip_prefix('x')
-            .and_then(|n| n.parse().ok())
-            .unwrap_or_else(|| panic!("{line}: xN"));
-        group.push(Listed {
-            file: file.into(),
-            change: change.into(),
-            count,
-        });
+
+        if let Some(reason) = line.strip_prefix("    ") {
+            groups.push(Group {
+                mutants: std::mem::take(&mut mutants),
+                reason: reason.trim().to_string(),
+            });
+        } else {
+            mutants.push(read_mutant(line));
+        }
     }
-    assert!(group.is_empty(), "entries without a reason at the end");
+
+    assert!(mutants.is_empty(), "entries without a reason at the end");
     groups
+}
+
+/// Reads a line `file | change | xN`.
+fn read_mutant(line: &str) -> Listed {
+    let parts: Vec<&str> = line.splitn(3, " | ").collect();
+    let [file, change, count] = parts[..] else {
+        panic!("{line}: expected file | change | xN")
+    };
+    let count = count
+        .strip_prefix('x')
+        .and_then(|number| number.parse().ok())
+        .unwrap_or_else(|| panic!("{line}: xN"));
+
+    Listed {
+        file: file.into(),
+        change: change.into(),
+        count,
+    }
 }
 
 #[test]
 fn every_equivalent_mutant_has_its_function_and_a_reason() {
     let groups = listed();
-    assert!(groups.iter().map(|(g, _)| g.len()).sum::<usize>() >= 20);
-    for (group, reason) in groups {
-        assert!(
-            reason.len() > 15 && !group.is_empty(),
-            "{reason:?} of {} mutants",
-            group.len()
-        );
-        for m in group {
-            let path = root().join(&m.file);
-            let source = std::fs::read_to_string(&path)
-                .unwrap_or_else(|e| panic!("{}: {e}: gone from under equivalent.txt", m.file));
-            // The function it is in, without its type and generics.
-            let (what, function) = m
-                .change
-                .rsplit_once(" in ")
-                .unwrap_or_else(|| panic!("{}: no function", m.change));
-            let name = function.rsplit("::").next().unwrap();
-            assert!(
-                source.contains(&format!("fn {name}")),
-                "{}: no function {name}",
-                m.file
-            );
-            assert!(m.count >= 1);
-            // What is replaced stands in the file, if it is an operator.
-            if let Some(operator) = what
-                .strip_prefix("replace ")
-                .and_then(|w| w.split_once(" with "))
-                .map(|(o, _)| o)
-                .filter(|o| !o.contains(' '))
-            {
-                assert!(source.contains(operator), "{}: no {operator}", m.file);
-            }
+    let total: usize = groups.iter().map(|group| group.mutants.len()).sum();
+    assert!(total >= 20);
+
+    for group in groups {
+        let reason = &group.reason;
+        assert!(!group.mutants.is_empty(), "{reason:?} of no mutant");
+        assert!(reason.len() > 15, "{reason:?} is no reason");
+
+        for mutant in &group.mutants {
+            exists_in_its_file(mutant);
+            assert!(mutant.count >= 1);
         }
     }
 }
 
-/// Room, score: the rows of the table in `README.md`.
-fn scores() -> Vec<(String, f64)> {
-    let text = read("README.md");
-    let table = text
-        .split_once("<!-- score -->")
-        .unwrap()
-        .1
-        .split_once("<!-- end of score -->")
-        .unwrap()
-        .0
-        .to_string();
-    let row = |line: &str| {
-        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let score = cells.last()?.strip_suffix(" %")?.parse().ok()?;
-        Some((cells[0].to_string(), score))
-    };
-    table.lines().filter_map(row).collect()
+/// The file of a mutant has its function and, if an operator is replaced, that operator.
+#[track_caller]
+fn exists_in_its_file(mutant: &Listed) {
+    let file = &mutant.file;
+    let source = std::fs::read_to_string(root().join(file))
+        .unwrap_or_else(|error| panic!("{file}: {error}: named in equivalent.txt, and gone"));
+
+    // The name of the function, without its type.
+    let (what, function) = mutant
+        .change
+        .rsplit_once(" in ")
+        .unwrap_or_else(|| panic!("{}: no function", mutant.change));
+    let name = function.rsplit("::").next().unwrap();
+
+    assert!(
+        source.contains(&format!("fn {name}")),
+        "{file}: no function {name}"
+    );
+
+    let replacement = what.strip_prefix("replace ");
+    if let Some((replaced, _)) = replacement.and_then(|words| words.split_once(" with ")) {
+        let is_operator = !replaced.contains(' ');
+        assert!(
+            !is_operator || source.contains(replaced),
+            "{file}: no {replaced}"
+        );
+    }
 }
 
-/// All of what decides, and a sample of the rooms that feed it.
+/// The score of a part in percent.
+struct Score {
+    part: String,
+    percent: f64,
+}
+
+/// The rows of the table of scores in `spec/mutants/score.md`.
+fn scores() -> Vec<Score> {
+    let text = read("score.md");
+    let (_, after) = text.split_once("<!-- score -->").unwrap();
+    let (table, _) = after.split_once("<!-- end of score -->").unwrap();
+
+    table.lines().filter_map(read_score).collect()
+}
+
+/// Reads a row of the table; nothing for its head.
+fn read_score(row: &str) -> Option<Score> {
+    let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+    let percent = cells.last()?.strip_suffix(" %")?.parse().ok()?;
+    let part = cells[0].to_string();
+
+    Some(Score { part, percent })
+}
+
+/// Everything that decides has 100 %, the parts that feed it at least 95 %.
 #[test]
 fn every_room_has_its_score() {
     let scores = scores();
-    for room in [
+
+    for part in [
         "check",
         "oracle",
         "reduction",
@@ -118,15 +155,14 @@ fn every_room_has_its_score() {
         "certify",
         "solver",
     ] {
-        let (_, score) = scores
+        let score = scores
             .iter()
-            .find(|(r, _)| r == room)
-            .unwrap_or_else(|| panic!("no score of {room}"));
-        let least = if ["check", "oracle", "reduction"].contains(&room) {
-            100.0
-        } else {
-            95.0
-        };
-        assert!((least..=100.0).contains(score), "{room}: {score}");
+            .find(|score| score.part == part)
+            .unwrap_or_else(|| panic!("no score of {part}"));
+
+        let decides = ["check", "oracle", "reduction"].contains(&part);
+        let least = if decides { 100.0 } else { 95.0 };
+        let percent = score.percent;
+        assert!((least..=100.0).contains(&percent), "{part}: {percent}");
     }
 }

@@ -1,16 +1,30 @@
 //! The planted bugs of `spec/planted`: each still applies to the sources, and names a test that
 //! exists. That the tests fail with them is run by `spec/planted/run`; its last result is
 //! `spec/planted/report.md`.
+//!
+//! The truth is the source files. A bug whose place has changed, whose test is gone, or that the
+//! report does not mention fails here.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+/// A patch of `spec/planted/bugs`.
 struct Bug {
     name: String,
+    /// The file that the patch changes.
     file: String,
+    /// The test that notices the bug: file and function.
     test: String,
-    /// What must be in the file, and what takes its place, hunk by hunk.
-    hunks: Vec<(String, String)>,
+    hunks: Vec<Hunk>,
+}
+
+/// One place of a patch.
+#[derive(Default)]
+struct Hunk {
+    /// The text that must stand in the file.
+    before: String,
+    /// The text that takes its place.
+    after: String,
 }
 
 fn root() -> PathBuf {
@@ -19,42 +33,54 @@ fn root() -> PathBuf {
 
 fn read(path: &Path) -> Bug {
     let text = std::fs::read_to_string(path).unwrap();
-    let after = |key: &str| {
-        text.lines()
-            .find_map(|l| l.strip_prefix(key))
-            .unwrap_or_else(|| panic!("{}: no {key:?}", path.display()))
-    };
-    assert!(!after("bug: ").is_empty());
-    let mut hunks: Vec<(String, String)> = Vec::new();
-    for line in text.lines().skip_while(|l| !l.starts_with("@@")) {
-        if line.starts_with("@@") {
-            hunks.push(Default::default());
-            continue;
-        }
-        let (before, now) = hunks.last_mut().unwrap();
-        let (mark, rest) = line.split_at_checked(1).unwrap_or((" ", ""));
-        if mark != "+" {
-            *before += &format!("{rest}\n");
-        }
-        if mark != "-" {
-            *now += &format!("{rest}\n");
-        }
-    }
+    let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+    assert!(!field(&name, &text, "bug: ").is_empty());
+
     Bug {
-        name: path.file_stem().unwrap().to_string_lossy().into_owned(),
-        file: after("+++ b/").into(),
-        test: after("test: ").into(),
-        hunks,
+        file: field(&name, &text, "+++ b/").into(),
+        test: field(&name, &text, "test: ").into(),
+        hunks: hunks(&text),
+        name,
     }
 }
 
+/// The rest of the first line of a patch that begins with `key`.
+fn field<'a>(name: &str, text: &'a str, key: &str) -> &'a str {
+    text.lines()
+        .find_map(|line| line.strip_prefix(key))
+        .unwrap_or_else(|| panic!("{name}: no {key:?}"))
+}
+
+/// The hunks of a patch in the unified format.
+fn hunks(text: &str) -> Vec<Hunk> {
+    let mut hunks: Vec<Hunk> = Vec::new();
+
+    for line in text.lines().skip_while(|line| !line.starts_with("@@")) {
+        if line.starts_with("@@") {
+            hunks.push(Hunk::default());
+            continue;
+        }
+
+        let hunk = hunks.last_mut().unwrap();
+        let (mark, code) = line.split_at_checked(1).unwrap_or((" ", ""));
+
+        if mark != "+" {
+            hunk.before += &format!("{code}\n");
+        }
+
+        if mark != "-" {
+            hunk.after += &format!("{code}\n");
+        }
+    }
+    hunks
+}
+
 fn bugs() -> Vec<Bug> {
-    let mut files: Vec<PathBuf> = std::fs::read_dir(root().join("spec/planted/bugs"))
-        .unwrap()
-        .map(|e| e.unwrap().path())
-        .collect();
+    let folder = std::fs::read_dir(root().join("spec/planted/bugs")).unwrap();
+    let mut files: Vec<PathBuf> = folder.map(|file| file.unwrap().path()).collect();
     files.sort();
-    files.iter().map(|f| read(f)).collect()
+
+    files.iter().map(|file| read(file)).collect()
 }
 
 #[test]
@@ -62,15 +88,15 @@ fn every_bug_still_applies() {
     for bug in bugs() {
         let source = std::fs::read_to_string(root().join(&bug.file)).unwrap();
         assert!(!bug.hunks.is_empty(), "{}", bug.name);
-        for (before, now) in &bug.hunks {
+
+        for hunk in &bug.hunks {
+            let places = source.matches(&hunk.before).count();
             assert_eq!(
-                source.matches(before).count(),
-                1,
+                places, 1,
                 "{}: its place in {} is gone: make the patch anew",
-                bug.name,
-                bug.file
+                bug.name, bug.file
             );
-            assert_ne!(before, now, "{}", bug.name);
+            assert_ne!(hunk.before, hunk.after, "{}", bug.name);
         }
     }
 }
@@ -81,26 +107,26 @@ fn every_bug_names_a_test_that_exists() {
         let (file, name) = bug.test.split_once("::").unwrap();
         let function = name.rsplit("::").next().unwrap();
         let source = std::fs::read_to_string(root().join(file)).unwrap();
+
         assert!(
             source.contains(&format!("fn {function}(")),
             "{}: no {function} in {file}",
             bug.name
         );
+
         // A bug in the tests' own code would prove nothing.
-        assert!(
-            ["src/", "crates/"].iter().any(|f| bug.file.starts_with(f))
-                && !bug.file.contains("testkit"),
-            "{}",
-            bug.name
-        );
+        let is_in_sources = bug.file.starts_with("src/") || bug.file.starts_with("crates/");
+        let is_in_testkit = bug.file.contains("testkit");
+        assert!(is_in_sources && !is_in_testkit, "{}", bug.name);
     }
 }
 
 #[test]
 fn there_are_bugs_in_every_room_that_decides() {
     let list = bugs();
-    let rooms: BTreeSet<&str> = list.iter().flat_map(|b| b.file.split('/')).collect();
-    for room in [
+    let parts: BTreeSet<&str> = list.iter().flat_map(|bug| bug.file.split('/')).collect();
+
+    for part in [
         "check",
         "oracle",
         "exact",
@@ -110,8 +136,9 @@ fn there_are_bugs_in_every_room_that_decides() {
         "search",
         "solver",
     ] {
-        assert!(rooms.contains(room), "no bug in {room}");
+        assert!(parts.contains(part), "no bug in {part}");
     }
+
     assert!(list.len() >= 30);
 }
 
@@ -120,13 +147,13 @@ fn there_are_bugs_in_every_room_that_decides() {
 fn the_report_lists_every_bug() {
     let report = std::fs::read_to_string(root().join("spec/planted/report.md")).unwrap();
     for bug in bugs() {
+        let quoted = format!("`{}`", bug.name);
         let row = report
             .lines()
-            .find(|l| l.contains(&format!("`{}`", bug.name)))
+            .find(|line| line.contains(&quoted))
             .unwrap_or_else(|| panic!("{} has no row", bug.name));
-        assert!(
-            row.contains(&bug.test) && !row.contains("SURVIVED"),
-            "{row}"
-        );
+
+        assert!(row.contains(&bug.test), "{row}");
+        assert!(!row.contains("SURVIVED"), "{row}");
     }
 }

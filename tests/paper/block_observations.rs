@@ -1,21 +1,36 @@
 //! The observations of section 5 on the block, over meshes, planes and ratios H/L.
+//!
+//! Each state of a loading path has its complete MCEIP-mu set, proved. The observations (mu falls as
+//! slip nodes are added, lambda^2 grows above the smallest mu) are questions to these sets. That the
+//! questions can be answered with no is shown on made-up data.
 #![cfg(feature = "testkit")]
 
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
 use mceip_engine::search::levels::Levels;
 use mceip_exact::{Rational, rational, to_f64, whole};
-use mceip_model::{Body, ContactState, Problem, Unknown, Window};
+use mceip_model::{Body, ContactState, Pencil, Problem, Unknown, Window};
 use mceip_paper::path::{Contact, Interval, Loading, LoadingPath, PathEnd};
 use mceip_paper::{Block, BlockModel, MassKind, MeshKind, Plane};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-/// What one state of a path has: slip nodes, and (mu, slip nodes that move) of its MCEIP-mu set.
+/// A solution of MCEIP-mu.
+struct Solution {
+    mu: f64,
+    /// How many slip nodes move.
+    moving: usize,
+}
+
+/// What one state of a path has.
 struct State {
+    /// The number of slip nodes.
     slip: usize,
+    /// Does every slip node slip to the left?
     all_left: bool,
-    set: Vec<(f64, usize)>,
+    /// The MCEIP-mu set, by mu.
+    set: Vec<Solution>,
+    /// Is the set proved to be complete?
     complete: bool,
 }
 
@@ -25,41 +40,65 @@ struct Observed {
     slides: bool,
     end: &'static str,
     states: Vec<State>,
-    /// Levels of lambda^2 and the all-slip mu there, for the last state.
-    above: Vec<(f64, Option<f64>)>,
+    /// The all-slip mu of the last state on rising levels of lambda^2.
+    above: Vec<Option<f64>>,
+}
+
+/// How many nodes slip, to either side.
+fn slip_nodes(interval: &Interval) -> usize {
+    let [_, left, right, _] = interval.counts();
+    left + right
+}
+
+impl State {
+    fn of(interval: &Interval, pencil: Pencil) -> State {
+        let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all()).unwrap();
+        let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+
+        let mut set = Vec::new();
+        for solution in &found.cover.solutions {
+            set.push(Solution {
+                mu: to_f64(&solution.value.mid()),
+                moving: solution.support.len(),
+            });
+        }
+
+        let [_, _, right, _] = interval.counts();
+        State {
+            slip: slip_nodes(interval),
+            all_left: right == 0,
+            set,
+            complete: found.is_complete(),
+        }
+    }
+
+    fn smallest(&self) -> Option<&Solution> {
+        self.set.first()
+    }
 }
 
 impl Observed {
     fn of(model: &BlockModel) -> Observed {
         let block = Block::new(model).unwrap();
         let contact = Contact::of(&block).unwrap();
-        let path = LoadingPath::follow(&contact, &Loading::of_the_paper(), &|_, _| {
-            ControlFlow::Continue(())
-        })
-        .unwrap();
+        let loading = Loading::of_the_paper();
+        let path =
+            LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap();
+
+        // The path may end with every node stuck: then the last state with slip nodes counts.
         let mut pencils = contact.pencils();
-        let slips = |i: &&Interval| i.counts()[1] + i.counts()[2] > 0;
-        let state = |i: &Interval| {
-            let problem = Problem::new(
-                Body::Pencil(pencils.of(&i.states).unwrap()),
-                Unknown::Mu,
-                Window::all(),
-            )
-            .unwrap();
-            let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
-            let set = found
-                .cover
-                .solutions
-                .iter()
-                .map(|s| (to_f64(&s.value.mid()), s.support.len()))
-                .collect();
-            State {
-                slip: i.counts()[1] + i.counts()[2],
-                all_left: i.counts()[2] == 0,
-                set,
-                complete: found.is_complete(),
-            }
-        };
+        let mut states = Vec::new();
+        let mut above = Vec::new();
+
+        for interval in path.intervals.iter().filter(|i| slip_nodes(i) > 0) {
+            let pencil = pencils.of(&interval.states).unwrap();
+            states.push(State::of(interval, pencil));
+        }
+
+        if let Some(last) = path.intervals.iter().rfind(|i| slip_nodes(i) > 0) {
+            above = all_slip_above(&block, &last.states);
+        }
+
         let end = match &path.end {
             PathEnd::NoFurtherEvent if path.slides() => "slides",
             PathEnd::NoFurtherEvent => "some stick for ever",
@@ -67,14 +106,13 @@ impl Observed {
             PathEnd::NoContinuation { .. } => "no continuation (undecided)",
             _ => "other",
         };
-        let states = path.intervals.iter().filter(slips).map(state).collect();
-        let last = path.intervals.iter().rfind(slips); // the path may end with every node stuck
+
         Observed {
             dofs: block.stiffness.rows(),
             slides: path.slides() && path.end == PathEnd::NoFurtherEvent,
             end,
             states,
-            above: last.map_or_else(Vec::new, |i| above(&block, &i.states)),
+            above,
         }
     }
 
@@ -84,11 +122,9 @@ impl Observed {
 
     /// The all-slip mu of the last state.
     fn all_slip(&self) -> Option<f64> {
-        self.last()
-            .set
-            .iter()
-            .find(|s| s.1 == self.last().slip)
-            .map(|s| s.0)
+        let last = self.last();
+        let all_slip = last.set.iter().find(|s| s.moving == last.slip);
+        all_slip.map(|solution| solution.mu)
     }
 
     /// States after the short stretches in which a corner slips to the right.
@@ -96,89 +132,121 @@ impl Observed {
         self.states.iter().filter(|s| s.all_left)
     }
 
-    /// The smallest number of slip nodes with a solution, and whether every larger one has one too.
-    fn onset(&self) -> Option<(usize, bool)> {
-        let first = self
+    /// From which number of slip nodes on there are solutions.
+    fn onset(&self) -> Option<Onset> {
+        let solvable = self.left().filter(|state| !state.set.is_empty());
+        let slip = solvable.map(|state| state.slip).min()?;
+        let without_gaps = self
             .left()
-            .filter(|s| !s.set.is_empty())
-            .map(|s| s.slip)
-            .min()?;
-        Some((
-            first,
-            self.left().all(|s| s.slip < first || !s.set.is_empty()),
-        ))
+            .all(|state| state.slip < slip || !state.set.is_empty());
+
+        Some(Onset { slip, without_gaps })
     }
 
     /// Does the smallest mu never rise as the path goes on and a slip node is added?
     fn falls(&self) -> bool {
-        let least: Vec<(usize, f64)> = self
-            .left()
-            .filter_map(|s| s.set.first().map(|v| (s.slip, v.0)))
-            .collect();
-        least
-            .windows(2)
-            .all(|p| p[1].0 <= p[0].0 || p[1].1 < p[0].1)
+        let solvable: Vec<&State> = self.left().filter(|state| !state.set.is_empty()).collect();
+
+        solvable.windows(2).all(|pair| {
+            let a_node_is_added = pair[1].slip > pair[0].slip;
+            let mu_falls = pair[1].set[0].mu < pair[0].set[0].mu;
+            !a_node_is_added || mu_falls
+        })
     }
 
     /// "In average": rank correlation (Kendall) of mu and the slip nodes that get stuck, over the
     /// smallest mu of all states.
     fn stuck_at_higher_mu(&self) -> Option<f64> {
-        let points: Vec<(f64, usize)> = self
-            .left()
-            .filter_map(|s| s.set.first().map(|v| (v.0, s.slip - v.1)))
-            .collect();
-        let (mut sum, mut pairs) = (0i64, 0i64);
-        for (i, a) in points.iter().enumerate() {
-            for b in points[..i].iter().filter(|b| b.1 != a.1) {
-                pairs += 1;
-                sum += if (a.0 > b.0) == (a.1 > b.1) { 1 } else { -1 };
+        struct Point {
+            mu: f64,
+            stuck: usize,
+        }
+
+        let mut points: Vec<Point> = Vec::new();
+        for state in self.left() {
+            if let Some(smallest) = state.smallest() {
+                points.push(Point {
+                    mu: smallest.mu,
+                    stuck: state.slip - smallest.moving,
+                });
             }
         }
-        (pairs > 0).then(|| sum as f64 / pairs as f64)
+
+        let mut pairs = 0i64;
+        let mut concordant_minus_discordant = 0i64;
+
+        for (i, a) in points.iter().enumerate() {
+            for b in &points[..i] {
+                if a.stuck == b.stuck {
+                    continue;
+                }
+
+                let is_concordant = (a.mu > b.mu) == (a.stuck > b.stuck);
+                concordant_minus_discordant += if is_concordant { 1 } else { -1 };
+                pairs += 1;
+            }
+        }
+        (pairs > 0).then(|| concordant_minus_discordant as f64 / pairs as f64)
     }
 
     /// Is there an all-slip solution with lambda^2 > 0 at some mu above the last one, rising with
     /// it?
     fn grows_above(&self) -> bool {
-        let mu: Option<Vec<f64>> = std::iter::once(self.all_slip())
-            .chain(self.above.iter().map(|a| a.1))
-            .collect();
-        mu.is_some_and(|mu| mu.windows(2).all(|p| p[0] < p[1]))
+        let at_zero = std::iter::once(self.all_slip());
+        let levels = at_zero.chain(self.above.iter().copied());
+        let mu: Option<Vec<f64>> = levels.collect();
+
+        mu.is_some_and(|mu| mu.windows(2).all(|pair| pair[0] < pair[1]))
     }
 }
 
-/// The smallest all-slip mu on three levels of lambda^2 (1/s^2), in doubles.
-fn above(block: &Block, states: &[ContactState]) -> Vec<(f64, Option<f64>)> {
-    let slip = states
-        .iter()
-        .filter(|s| matches!(s, ContactState::Slip { .. }))
-        .count();
-    let levels = Levels::new(&block.system(states, None).unwrap()).unwrap();
-    let at = |lambda2: f64| {
-        let (found, _) = levels
-            .at(lambda2)
-            .unwrap()
-            .solutions(&Watch::nobody())
-            .unwrap();
-        (
-            lambda2,
-            found
-                .iter()
-                .filter(|s| s.support.len() == slip)
-                .map(|s| s.mu)
-                .min_by(f64::total_cmp),
-        )
-    };
-    [1e4, 1e5, 1e6].map(at).to_vec()
+/// From which number of slip nodes on there are solutions.
+struct Onset {
+    /// The smallest number of slip nodes with a solution.
+    slip: usize,
+    /// Has every larger number a solution too?
+    without_gaps: bool,
 }
 
+/// The smallest all-slip mu on three levels of lambda^2 (1/s^2), in doubles.
+fn all_slip_above(block: &Block, states: &[ContactState]) -> Vec<Option<f64>> {
+    let is_slip = |state: &&ContactState| matches!(state, ContactState::Slip { .. });
+    let slip = states.iter().filter(is_slip).count();
+    let levels = Levels::new(&block.system(states, None).unwrap()).unwrap();
+
+    let mut smallest = Vec::new();
+    for lambda2 in [1e4, 1e5, 1e6] {
+        let level = levels.at(lambda2).unwrap();
+        let (found, _) = level.solutions(&Watch::nobody()).unwrap();
+        let all_slip = found.iter().filter(|s| s.support.len() == slip);
+        smallest.push(all_slip.map(|s| s.mu).min_by(f64::total_cmp));
+    }
+    smallest
+}
+
+fn yes_or_no(answer: bool) -> &'static str {
+    if answer { "yes" } else { "NO" }
+}
+
+fn number(value: Option<f64>) -> String {
+    value.map_or("none".into(), |value| format!("{value:.6}"))
+}
+
+/// A row of the table of spec/measurements.md, D.6.
 fn row(model: &BlockModel, ratio: &Rational, seen: &Observed, seconds: f64) -> String {
-    let yes = |b: bool| if b { "yes" } else { "NO" };
-    let number = |v: Option<f64>| v.map_or("none".into(), |v| format!("{v:.6}"));
-    let least = seen.last().set.first().map(|s| s.0);
-    let onset = seen.onset().map_or("never".into(), |(n, on)| {
-        format!("{n}{}", if on { "" } else { " (gaps)" })
-    });
+    let smallest_mu = seen.last().smallest().map(|solution| solution.mu);
+    let onset = match seen.onset() {
+        None => "never".to_string(),
+        Some(onset) if onset.without_gaps => format!("{}", onset.slip),
+        Some(onset) => format!("{} (gaps)", onset.slip),
+    };
+    let correlation = match seen.stuck_at_higher_mu() {
+        None => "-".to_string(),
+        Some(tau) => format!("{tau:+.2}"),
+    };
+    let all_closed = seen.states.iter().all(|state| state.complete);
+    let open = if all_closed { "" } else { " (open)" };
+
     format!(
         "| {} | {} | {ratio} | {} x {} | {} | {} | {} | {onset} | {} | {} | {} | {} | {} | {} | \
          {:.0} |",
@@ -189,26 +257,22 @@ fn row(model: &BlockModel, ratio: &Rational, seen: &Observed, seconds: f64) -> S
         seen.dofs,
         seen.last().slip,
         seen.end,
-        number(least),
+        number(smallest_mu),
         number(seen.all_slip()),
         seen.last().set.len(),
-        yes(seen.falls()),
-        seen.stuck_at_higher_mu()
-            .map_or("-".into(), |t| format!("{t:+.2}")),
-        yes(seen.grows_above()).to_string()
-            + if seen.states.iter().all(|s| s.complete) {
-                ""
-            } else {
-                " (open)"
-            },
+        yes_or_no(seen.falls()),
+        correlation,
+        yes_or_no(seen.grows_above()).to_string() + open,
         seconds
     )
 }
 
 fn model(mesh: MeshKind, plane: Plane, columns: usize, ratio: &Rational) -> BlockModel {
-    let rows = (ratio * Rational::from_integer(columns.into())).to_integer();
-    let rows: usize = rows.to_string().parse().unwrap();
-    let cell = whole(80) / Rational::from_integer(columns.into());
+    let columns_exact = Rational::from_integer(columns.into());
+    let rows_exact = (ratio * &columns_exact).to_integer();
+    let rows: usize = rows_exact.to_string().parse().unwrap();
+    let cell = whole(80) / columns_exact;
+
     BlockModel {
         mesh,
         plane,
@@ -222,34 +286,38 @@ fn model(mesh: MeshKind, plane: Plane, columns: usize, ratio: &Rational) -> Bloc
 /// Small blocks, quick: the observations hold on the crossed mesh, and a rising mu would be seen.
 #[test]
 fn observations_on_a_small_crossed_block() {
-    let seen = Observed::of(&model(MeshKind::Crossed, Plane::Stress, 8, &rational(1, 2)));
-    assert!(
-        seen.slides && seen.grows_above() && seen.falls(),
-        "{}",
-        row(
-            &model(MeshKind::Crossed, Plane::Stress, 8, &rational(1, 2)),
-            &rational(1, 2),
-            &seen,
-            0.0
-        )
-    );
+    let ratio = rational(1, 2);
+    let model = model(MeshKind::Crossed, Plane::Stress, 8, &ratio);
+    let seen = Observed::of(&model);
+
+    let row = row(&model, &ratio, &seen, 0.0);
+    assert!(seen.slides, "{row}");
+    assert!(seen.grows_above(), "{row}");
+    assert!(seen.falls(), "{row}");
     assert_eq!(seen.last().set.len(), 1);
-    assert!(
-        seen.onset()
-            .is_some_and(|(n, on)| on && n > 1 && n < seen.last().slip)
-    );
-    let state = |slip, mu| State {
-        slip,
-        all_left: true,
-        set: vec![(mu, slip)],
-        complete: true,
-    };
+
+    let onset = seen.onset().unwrap();
+    assert!(onset.without_gaps);
+    assert!(onset.slip > 1 && onset.slip < seen.last().slip);
+
     let rising = Observed {
-        states: vec![state(3, 2.0), state(4, 5.0)],
-        above: vec![(1.0, Some(4.0))],
+        states: vec![with_one_solution(3, 2.0), with_one_solution(4, 5.0)],
+        above: vec![Some(4.0)],
         ..seen
     };
-    assert!(!rising.falls() && !rising.grows_above());
+
+    assert!(!rising.falls());
+    assert!(!rising.grows_above());
+}
+
+/// A state with so many slip nodes and one solution, in which all of them move.
+fn with_one_solution(slip: usize, mu: f64) -> State {
+    State {
+        slip,
+        all_left: true,
+        set: vec![Solution { mu, moving: slip }],
+        complete: true,
+    }
 }
 
 /// `cargo test --release --test paper -- --ignored --nocapture block_observations::`: the table of
@@ -263,37 +331,40 @@ fn observations_over_meshes_planes_and_ratios() {
          the end | mu falls | stuck at higher mu | grows above | s |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
-    for (mesh, plane) in MeshKind::ALL
-        .into_iter()
-        .flat_map(|m| Plane::ALL.map(|p| (m, p)))
-    {
-        for ratio in [rational(1, 4), rational(1, 2), whole(1), whole(2)] {
-            let columns = if ratio > whole(1) { 12 } else { 16 };
-            let (model, start) = (model(mesh, plane, columns, &ratio), Instant::now());
-            let seen = Observed::of(&model);
-            println!(
-                "{}",
-                row(&model, &ratio, &seen, start.elapsed().as_secs_f64())
-            );
-            let sets = seen.left().map(|s| {
-                format!(
-                    "{}: {:?}",
-                    s.slip,
-                    s.set
-                        .iter()
-                        .map(|v| (format!("{:.4e}", v.0), v.1))
-                        .take(3)
-                        .collect::<Vec<_>>()
-                )
-            });
-            println!(
-                "<!-- slip nodes: (mu, nodes that slip), the three smallest\n{}\n-->",
-                sets.collect::<Vec<_>>().join("\n")
-            );
-            assert!(
-                seen.states.iter().all(|s| s.complete),
-                "every MCEIP-mu set is closed"
-            );
+
+    for mesh in MeshKind::ALL {
+        for plane in Plane::ALL {
+            for ratio in [rational(1, 4), rational(1, 2), whole(1), whole(2)] {
+                observe(mesh, plane, &ratio);
+            }
         }
     }
+}
+
+/// Prints a row of the table and the sets behind it.
+fn observe(mesh: MeshKind, plane: Plane, ratio: &Rational) {
+    let columns = if *ratio > whole(1) { 12 } else { 16 };
+    let model = model(mesh, plane, columns, ratio);
+    let start = Instant::now();
+    let seen = Observed::of(&model);
+    let seconds = start.elapsed().as_secs_f64();
+    println!("{}", row(&model, ratio, &seen, seconds));
+
+    println!("<!-- slip nodes: (mu, nodes that slip), the three smallest");
+    for state in seen.left() {
+        let smallest: Vec<(String, usize)> = state
+            .set
+            .iter()
+            .take(3)
+            .map(|solution| (format!("{:.4e}", solution.mu), solution.moving))
+            .collect();
+        println!("{}: {smallest:?}", state.slip);
+    }
+
+    println!("-->");
+
+    assert!(
+        seen.states.iter().all(|state| state.complete),
+        "every MCEIP-mu set is closed"
+    );
 }

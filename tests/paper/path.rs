@@ -1,36 +1,47 @@
 //! The loading path of the block: its laws against the uncondensed K, its events against stepping,
 //! its states against the paper.
+//!
+//! The path is computed on the condensed contact side. The truth is elimination in fractions on the
+//! whole K, the model's own check of (7), backward Euler in small steps, and the two states that the
+//! paper prints. A wrong condensation, a wrong sign or a missed event contradicts one of them.
 #![cfg(feature = "solver")]
 
 use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::{ContactState, Particle, Reaction, System, Unknown};
 use mceip_paper::path::{
-    Bound, Comparison, Contact, Finder, Interval, Loading, LoadingPath, PathEnd, PathError,
-    step_path,
+    Bound, Comparison, Contact, Equilibrium, Finder, Interval, Loading, LoadingPath, PathEnd,
+    PathError, step_path,
 };
 use mceip_paper::{Block, BlockModel, MeshKind, Plane, PublishedState};
 use std::ops::ControlFlow;
 
 fn follow(block: &Block, loading: &Loading) -> LoadingPath {
-    LoadingPath::follow(&Contact::of(block).unwrap(), loading, &|_, _| {
-        ControlFlow::Continue(())
-    })
-    .unwrap()
+    let contact = Contact::of(block).unwrap();
+    follow_contact(&contact, loading).unwrap()
 }
 
+/// The path of a condensed block, never interrupted.
+fn follow_contact(contact: &Contact, loading: &Loading) -> Result<LoadingPath, PathError> {
+    LoadingPath::follow(contact, loading, &|_, _| ControlFlow::Continue(()))
+}
+
+/// Progress of stepping that never interrupts.
 fn go_on(_: usize) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
 fn block(nx: usize, ny: usize, mesh: MeshKind, plane: Plane) -> Block {
-    Block::new(&BlockModel {
+    let cells = BlockModel::of_the_paper().with_cells(nx, ny);
+    let model = BlockModel {
         mesh,
         plane,
-        ..BlockModel::of_the_paper().with_cells(nx, ny)
-    })
-    .unwrap()
+        ..cells
+    };
+
+    Block::new(&model).unwrap()
 }
 
+/// The loading of the paper with another coefficient of friction.
 fn paper(mu: Rational) -> Loading {
     Loading {
         friction: mu,
@@ -41,70 +52,136 @@ fn paper(mu: Rational) -> Loading {
 /// The whole block under the contact displacements of an equilibrium, by plain elimination in
 /// fractions on the uncondensed K: forces vanish inside, and are the reactions on the contact side.
 fn equilibrium_of_the_whole_block(block: &Block, interval: &Interval, depth: &Rational) {
-    let n = block.stiffness.rows();
     let at = &interval.start;
-    let mut w: Vec<Option<Rational>> = vec![None; n]; // relative to the glued side
+    let given = contact_displacements(block, at, depth);
+    let inside: Vec<usize> = (0..given.len()).filter(|&i| given[i].is_none()).collect();
+    let displacement = complete_displacement(block, &given, &inside);
+
+    let force = block.stiffness.times(&displacement);
+
     for (k, &node) in block.contact.iter().enumerate() {
-        let (t, normal) = at.displacement(k);
-        w[2 * node] = Some(t + at.motion());
-        w[2 * node + 1] = Some(depth - normal); // y points away from the obstacle
+        let (tangential, normal) = at.reaction(k);
+        assert_eq!(force[2 * node], tangential);
+        assert_eq!(-&force[2 * node + 1], normal);
     }
-    let inside: Vec<usize> = (0..n).filter(|&i| w[i].is_none()).collect();
-    let known = |i: usize| -> Rational {
-        (0..n)
-            .filter_map(|j| w[j].as_ref().map(|v| block.stiffness.get(i, j) * v))
-            .sum()
-    };
-    let mut m: Vec<Vec<Rational>> = inside
-        .iter()
-        .map(|&i| {
-            inside
-                .iter()
-                .map(|&j| block.stiffness.get(i, j))
-                .chain([-known(i)])
-                .collect()
-        })
-        .collect();
-    for k in 0..m.len() {
-        for i in (0..m.len()).filter(|&i| i != k) {
-            let factor = &m[i][k] / &m[k][k];
+
+    assert!(inside.iter().all(|&i| force[i] == whole(0)));
+}
+
+/// The displacements of the contact nodes relative to the glued side; `None` for all other degrees
+/// of freedom. The coordinate y points away from the obstacle, the normal displacement towards it.
+fn contact_displacements(
+    block: &Block,
+    at: &Equilibrium,
+    depth: &Rational,
+) -> Vec<Option<Rational>> {
+    let mut given: Vec<Option<Rational>> = vec![None; block.stiffness.rows()];
+    for (k, &node) in block.contact.iter().enumerate() {
+        let (tangential, normal) = at.displacement(k);
+        given[2 * node] = Some(tangential + at.motion());
+        given[2 * node + 1] = Some(depth - normal);
+    }
+    given
+}
+
+/// Solves K_ii w_i = -K_ic w_c for the degrees of freedom inside, by Gauss-Jordan elimination
+/// without pivoting: K_ii is positive definite.
+fn complete_displacement(
+    block: &Block,
+    given: &[Option<Rational>],
+    inside: &[usize],
+) -> Vec<Rational> {
+    // Each row of the system with its right side at the end.
+    let mut rows: Vec<Vec<Rational>> = Vec::new();
+    for &i in inside {
+        let mut row: Vec<Rational> = Vec::new();
+        for &j in inside {
+            row.push(block.stiffness.get(i, j));
+        }
+
+        let mut force = whole(0);
+        for (j, value) in given.iter().enumerate() {
+            if let Some(value) = value {
+                force += block.stiffness.get(i, j) * value;
+            }
+        }
+
+        row.push(-force);
+        rows.push(row);
+    }
+
+    for k in 0..rows.len() {
+        for i in 0..rows.len() {
+            if i == k {
+                continue;
+            }
+
+            let factor = &rows[i][k] / &rows[k][k];
             for j in k..=inside.len() {
-                let update = &factor * &m[k][j];
-                m[i][j] -= update;
+                let update = &factor * &rows[k][j];
+                rows[i][j] -= update;
             }
         }
     }
+
+    let mut displacement: Vec<Option<Rational>> = given.to_vec();
     for (k, &i) in inside.iter().enumerate() {
-        w[i] = Some(m[k].last().unwrap() / &m[k][k]);
+        let right_side = rows[k].last().unwrap();
+        displacement[i] = Some(right_side / &rows[k][k]);
     }
-    let w: Vec<Rational> = w.into_iter().flatten().collect();
-    let force = block.stiffness.times(&w);
-    for (k, &node) in block.contact.iter().enumerate() {
-        let (t, normal) = at.reaction(k);
-        assert_eq!((&force[2 * node], -&force[2 * node + 1]), (&t, normal));
-    }
-    assert!(inside.iter().all(|&i| force[i] == whole(0)));
+    displacement.into_iter().flatten().collect()
 }
 
 #[test]
 fn equilibria_are_those_of_the_uncondensed_block() {
     let block = block(3, 1, MeshKind::Crossed, Plane::Stress);
+
     for mu in [rational(11, 10), rational(3, 10)] {
         let path = follow(&block, &paper(mu));
-        assert!(
-            path.slides() && path.intervals.len() >= 4,
-            "{}",
-            path.intervals.len()
-        );
+        let count = path.intervals.len();
+        assert!(path.slides(), "{count}");
+        assert!(count >= 4, "{count}");
+
         for interval in &path.intervals {
             equilibrium_of_the_whole_block(&block, interval, &path.depth);
         }
+
         assert_eq!(
             path.pressed.resultants(),
             (whole(0), whole(-55)),
             "pressed symmetrically until N = 55"
         );
     }
+}
+
+/// The mean of the reactions at both ends of a stretch.
+fn middle_reaction(interval: &Interval, k: usize) -> Reaction {
+    let (start_tangential, start_normal) = interval.start.reaction(k);
+    let (stop_tangential, stop_normal) = interval.stop.as_ref().unwrap().reaction(k);
+    Reaction {
+        tangential: (start_tangential + stop_tangential) / whole(2),
+        normal: (start_normal + stop_normal) / whole(2),
+    }
+}
+
+/// The system with the reactions in the middle of a stretch and these states. The model refuses
+/// states that contradict the reactions.
+fn system_in_the_middle(
+    block: &Block,
+    mu: &Rational,
+    interval: &Interval,
+    states: &[ContactState],
+) -> Result<System, mceip_model::ModelError> {
+    let mut particles = Vec::new();
+    for (k, &state) in states.iter().enumerate() {
+        let tangential = 2 * block.contact[k];
+        particles.push(Particle {
+            normal_direction: -1,
+            reaction: Some(middle_reaction(interval, k)),
+            ..Particle::plain(tangential, tangential + 1, state)
+        });
+    }
+    System::new(block.stiffness.clone(), None, Some(mu.clone()), particles)
 }
 
 /// Reactions in the middle of each stretch go through the model's own check of (7), states and
@@ -114,44 +191,43 @@ fn states_and_reactions_satisfy_7_in_the_middle_of_each_stretch() {
     let block = block(6, 3, MeshKind::Backslash, Plane::Strain);
     let mu = rational(11, 10);
     let path = follow(&block, &paper(mu.clone()));
-    let mut slips = [0, 0];
+    let mut left = 0;
+    let mut right = 0;
+
     for interval in path.intervals.iter().filter(|i| i.stop.is_some()) {
-        let middle = |k: usize| {
-            let (a, b) = (
-                interval.start.reaction(k),
-                interval.stop.as_ref().unwrap().reaction(k),
-            );
-            Reaction {
-                tangential: (a.0 + b.0) / whole(2),
-                normal: (a.1 + b.1) / whole(2),
-            }
-        };
-        let system = |states: &[ContactState]| {
-            let particle = |k: usize| Particle {
-                normal_direction: -1,
-                reaction: Some(middle(k)),
-                ..Particle::plain(2 * block.contact[k], 2 * block.contact[k] + 1, states[k])
-            };
-            System::new(
-                block.stiffness.clone(),
-                None,
-                Some(mu.clone()),
-                (0..states.len()).map(particle).collect(),
-            )
-        };
-        assert!(system(&interval.states).is_ok());
+        assert!(system_in_the_middle(&block, &mu, interval, &interval.states).is_ok());
+
         for (k, state) in interval.states.iter().enumerate() {
-            if let ContactState::Slip { sign } = state {
-                slips[usize::from(*sign < 0)] += 1;
-                let mut wrong = interval.states.clone();
-                wrong[k] = ContactState::Slip { sign: -sign };
-                assert!(system(&wrong).is_err());
-                wrong[k] = ContactState::Stick;
-                assert!(system(&wrong).is_err());
+            let ContactState::Slip { sign } = *state else {
+                continue;
+            };
+            if sign > 0 {
+                left += 1;
+            } else {
+                right += 1;
+            }
+
+            for wrong in [ContactState::Slip { sign: -sign }, ContactState::Stick] {
+                let mut states = interval.states.clone();
+                states[k] = wrong;
+                assert!(system_in_the_middle(&block, &mu, interval, &states).is_err());
             }
         }
     }
-    assert!(slips[0] > 5 && slips[1] > 0, "{slips:?}");
+
+    assert!(left > 5 && right > 0, "{left} {right}");
+}
+
+/// How far a node is from a bound: the distance to the side of the cone, the pressure, or the gap.
+fn distance_to_bound(bound: &Bound, at: &Equilibrium, friction: &Rational) -> Rational {
+    let (tangential, normal) = at.reaction(bound.node());
+    let (_, normal_displacement) = at.displacement(bound.node());
+
+    match bound {
+        Bound::Cone { sign, .. } => -friction * normal - tangential * whole((*sign).into()),
+        Bound::Pressure { .. } => -normal,
+        _ => -normal_displacement,
+    }
 }
 
 /// The bound that an event names is zero there and was not before; stretches join.
@@ -160,69 +236,90 @@ fn events_are_located_exactly() {
     let block = block(6, 3, MeshKind::Backslash, Plane::Strain);
     let loading = paper(rational(11, 10));
     let path = follow(&block, &loading);
-    let mut kinds = [0; 2];
+    let mut by_pressure = 0;
+    let mut by_another_bound = 0;
+
     for pair in path.intervals.windows(2) {
-        let (stop, start) = (pair[0].stop.as_ref().unwrap(), &pair[1].start);
+        let [before, after] = pair else {
+            unreachable!()
+        };
+        let stop = before.stop.as_ref().unwrap();
+        let start = &after.start;
+
         assert_eq!(stop.motion(), start.motion());
-        assert!(pair[0].start.motion() < stop.motion());
-        assert!((0..7).all(|k| stop.reaction(k) == start.reaction(k)
-            && stop.displacement(k) == start.displacement(k)));
-        for bound in &pair[1].begin.causes {
-            let value = |at: &mceip_paper::path::Equilibrium| {
-                let ((t, n), gap) = (at.reaction(bound.node()), -at.displacement(bound.node()).1);
-                match bound {
-                    Bound::Cone { sign, .. } => -&loading.friction * n - t * whole((*sign).into()),
-                    Bound::Pressure { .. } => -n,
-                    _ => gap,
-                }
-            };
-            kinds[usize::from(matches!(bound, Bound::Pressure { .. }))] += 1;
-            assert_eq!(value(stop), whole(0));
-            assert!(value(&pair[0].start) > whole(0));
+        assert!(before.start.motion() < stop.motion());
+
+        for k in 0..7 {
+            assert!(stop.reaction(k) == start.reaction(k));
+            assert!(stop.displacement(k) == start.displacement(k));
         }
-        let k = path
-            .intervals
-            .iter()
-            .position(|i| i.start.motion() == pair[0].start.motion())
-            .unwrap();
-        assert_eq!(path.ending(k), Some(&pair[1].begin));
-        assert!(!pair[1].begin.changes.is_empty() && pair[1].begin.finder == Finder::ActiveSet);
+
+        for bound in &after.begin.causes {
+            if matches!(bound, Bound::Pressure { .. }) {
+                by_pressure += 1;
+            } else {
+                by_another_bound += 1;
+            }
+
+            let at_the_event = distance_to_bound(bound, stop, &loading.friction);
+            let at_the_start = distance_to_bound(bound, &before.start, &loading.friction);
+            assert_eq!(at_the_event, whole(0));
+            assert!(at_the_start > whole(0));
+        }
+
+        let mut intervals = path.intervals.iter();
+        let index = intervals.position(|i| i.start.motion() == before.start.motion());
+        assert_eq!(path.ending(index.unwrap()), Some(&after.begin));
+        assert!(!after.begin.changes.is_empty());
+        assert_eq!(after.begin.finder, Finder::ActiveSet);
     }
-    assert!(kinds[0] > 4 && kinds[1] > 1, "{kinds:?}");
+
+    assert!(by_another_bound > 4, "{by_another_bound}");
+    assert!(by_pressure > 1, "{by_pressure}");
     assert!(
         path.intervals[0].counts()[2] > 0,
         "pressing an oblique mesh makes the corner slip to the right"
     );
 }
 
+/// Compares a path with stepping in `count` steps of length `step`.
+fn compare(
+    path: &LoadingPath,
+    contact: &Contact,
+    loading: &Loading,
+    step: &Rational,
+    count: usize,
+) -> Comparison {
+    let steps = step_path(contact, loading, step, count, &go_on).unwrap();
+    Comparison::of(path, &steps)
+}
+
 #[test]
 fn stepping_finds_the_same_path_but_for_short_stretches() {
     let contact = Contact::of(&block(8, 4, MeshKind::Crossed, Plane::Stress)).unwrap();
     let loading = Loading::of_the_paper();
-    let path = LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap();
+    let path = follow_contact(&contact, &loading).unwrap();
     let last = to_f64(path.intervals.last().unwrap().start.motion());
-    let compare = |h: Rational| {
-        let count = (last / to_f64(&h)) as usize + 10;
-        Comparison::of(
-            &path,
-            &step_path(&contact, &loading, &h, count, &go_on).unwrap(),
-        )
-    };
-    let fine = compare(rational(1, 1000));
-    assert_eq!((fine.skipped, fine.other_states), (vec![], vec![]));
-    // Unit N, of 55. No node turns round within a step here, and then backward Euler is exact at
+
+    let small = rational(1, 1000);
+    let small_steps = (last / to_f64(&small)) as usize + 10;
+    let fine = compare(&path, &contact, &loading, &small, small_steps);
+
+    assert!(fine.skipped.is_empty(), "{:?}", fine.skipped);
+    assert!(fine.other_states.is_empty(), "{:?}", fine.other_states);
+
+    // In N, of 55 N. No node turns round within a step here, and then backward Euler is exact at
     // the end of the step, over events too: what is left is rounding (seen: 1e-13).
     assert!(fine.reaction < 1e-9, "{}", fine.reaction);
-    let coarse = compare(rational(1, 10));
+
+    let large = rational(1, 10);
+    let large_steps = (last / to_f64(&large)) as usize + 10;
+    let coarse = compare(&path, &contact, &loading, &large, large_steps);
+
     assert!(!coarse.skipped.is_empty(), "short stretches are skipped");
-    let moved = Loading {
-        friction: rational(12, 10),
-        ..loading.clone()
-    };
-    let other = Comparison::of(
-        &path,
-        &step_path(&contact, &moved, &rational(1, 100), 300, &go_on).unwrap(),
-    );
+
+    let other_friction = paper(rational(12, 10));
+    let other = compare(&path, &contact, &other_friction, &rational(1, 100), 300);
     assert!(
         other.reaction > 0.1,
         "another friction is another path: {}",
@@ -233,82 +330,72 @@ fn stepping_finds_the_same_path_but_for_short_stretches() {
 #[test]
 fn a_range_an_interrupt_and_refusals() {
     let contact = Contact::of(&block(2, 1, MeshKind::Slash, Plane::Stress)).unwrap();
-    let go = |loading: &Loading| {
-        LoadingPath::follow(&contact, loading, &|_, _| ControlFlow::Continue(()))
-    };
+    let standard = Loading::of_the_paper();
+
     let until = rational(1, 10);
-    let short = go(&Loading {
+    let limited = Loading {
         until: Some(until.clone()),
         ..Loading::of_the_paper()
-    })
-    .unwrap();
-    assert_eq!(
-        (
-            short.end,
-            short
-                .intervals
-                .last()
-                .unwrap()
-                .stop
-                .as_ref()
-                .unwrap()
-                .motion()
-        ),
-        (PathEnd::Range, &until)
-    );
-    let stopped = LoadingPath::follow(&contact, &Loading::of_the_paper(), &|k, _| {
-        if k == 1 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    let stopped = stopped.unwrap();
-    assert_eq!(
-        (&stopped.end, stopped.intervals.len()),
-        (&PathEnd::Interrupted, 1)
-    );
-    let whole_path = go(&Loading::of_the_paper()).unwrap();
-    assert!(whole_path.intervals.len() > 1 && !stopped.slides() && whole_path.slides());
-    for (loading, word) in [
-        (paper(whole(0)), "friction"),
-        (
-            Loading {
-                force: whole(-55),
-                ..Loading::of_the_paper()
-            },
-            "force",
-        ),
-        (
-            Loading {
-                until: Some(whole(0)),
-                ..Loading::of_the_paper()
-            },
-            "range",
-        ),
-    ] {
-        let error = go(&loading).unwrap_err();
+    };
+    let short = follow_contact(&contact, &limited).unwrap();
+    let last_stop = short.intervals.last().unwrap().stop.as_ref().unwrap();
+
+    assert_eq!(short.end, PathEnd::Range);
+    assert_eq!(last_stop.motion(), &until);
+
+    let stopped = LoadingPath::follow(&contact, &standard, &|k, _| stop_at(1, k)).unwrap();
+    assert_eq!(stopped.end, PathEnd::Interrupted);
+    assert_eq!(stopped.intervals.len(), 1);
+
+    let whole_path = follow_contact(&contact, &standard).unwrap();
+    assert!(whole_path.intervals.len() > 1);
+    assert!(!stopped.slides());
+    assert!(whole_path.slides());
+
+    for (loading, word) in not_positive() {
+        let error = follow_contact(&contact, &loading).unwrap_err();
         assert!(
             matches!(&error, PathError::NotPositive { what, .. } if what.contains(word)),
             "{error}"
         );
-        assert!(step_path(&contact, &loading, &whole(1), 1, &go_on).is_err() || word == "range");
+
+        // Stepping has a range of its own.
+        let stepped = step_path(&contact, &loading, &whole(1), 1, &go_on);
+        assert!(stepped.is_err() || word == "range");
     }
-    assert!(step_path(&contact, &Loading::of_the_paper(), &whole(0), 1, &go_on).is_err());
-    let third = |step: usize| {
-        if step == 3 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+
+    assert!(step_path(&contact, &standard, &whole(0), 1, &go_on).is_err());
+
+    let steps = step_path(&contact, &standard, &until, 9, &|step| stop_at(3, step)).unwrap();
+    assert_eq!(steps.len(), 3, "pressing and two steps");
+}
+
+/// Progress that interrupts when `last` is reached.
+fn stop_at(last: usize, index: usize) -> ControlFlow<()> {
+    if index == last {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
+    }
+}
+
+/// Loadings with a number that is not positive, and a word of the refusal.
+fn not_positive() -> [(Loading, &'static str); 3] {
+    let no_friction = paper(whole(0));
+    let pulled = Loading {
+        force: whole(-55),
+        ..Loading::of_the_paper()
     };
-    assert_eq!(
-        step_path(&contact, &Loading::of_the_paper(), &until, 9, &third)
-            .unwrap()
-            .len(),
-        3,
-        "pressing and two steps"
-    );
+    let no_range = Loading {
+        until: Some(whole(0)),
+        ..Loading::of_the_paper()
+    };
+
+    [
+        (no_friction, "friction"),
+        (pulled, "force"),
+        (no_range, "range"),
+    ]
 }
 
 /// With much friction the wedge jams: a node sticks for ever, reactions grow without bound.
@@ -316,16 +403,16 @@ fn a_range_an_interrupt_and_refusals() {
 fn a_jammed_block_does_not_slide() {
     let block = block(6, 3, MeshKind::Crossed, Plane::Stress);
     let path = follow(&block, &paper(whole(10)));
-    assert_eq!(
-        (&path.end, path.slides()),
-        (&PathEnd::NoFurtherEvent, false)
-    );
+    assert_eq!(path.end, PathEnd::NoFurtherEvent);
+    assert!(!path.slides());
+
     let last = path.intervals.last().unwrap();
-    assert!(last.stop.is_none() && last.states.contains(&ContactState::Stick));
-    assert_eq!(
-        last.problem(&block, None).map(|p| p.unknown()).ok(),
-        last.counts()[1].gt(&0).then_some(Unknown::Mu)
-    );
+    assert!(last.stop.is_none());
+    assert!(last.states.contains(&ContactState::Stick));
+
+    let [_, left, _, _] = last.counts();
+    let unknown = last.problem(&block, None).map(|problem| problem.unknown());
+    assert_eq!(unknown.ok(), (left > 0).then_some(Unknown::Mu));
 }
 
 /// With mu = 5 the corner reaches its cone and can then neither stick nor slip (nor open): all sets
@@ -335,24 +422,36 @@ fn a_path_may_end_without_continuation() {
     let block = block(8, 4, MeshKind::Crossed, Plane::Strain);
     let path = follow(&block, &paper(whole(5)));
     assert_eq!(path.intervals.len(), 1);
+    assert!(!path.slides());
+
     let PathEnd::NoContinuation { causes, proved, .. } = &path.end else {
         panic!("{:?}", path.end)
     };
+
+    assert_eq!(causes, &[Bound::Cone { node: 8, sign: -1 }]);
+    assert!(*proved);
+
+    let stop = path.intervals[0].stop.as_ref().unwrap();
+    let (tangential, normal) = stop.reaction(8);
     assert_eq!(
-        (causes, *proved, path.slides()),
-        (&vec![Bound::Cone { node: 8, sign: -1 }], true, false)
+        -tangential,
+        whole(-5) * normal,
+        "on the left side of the cone"
     );
-    let (t, n) = path.intervals[0].stop.as_ref().unwrap().reaction(8);
-    assert_eq!(-t, whole(-5) * n, "on the left side of the cone");
+
     // The condensed slip equation of that node has the wrong sign: S_TT - mu S_NT < 0.
     let mut states = vec![ContactState::Stick; 9];
     states[8] = ContactState::Slip { sign: -1 };
-    let pencil = Contact::of(&block).unwrap().pencils().of(&states).unwrap();
-    assert!(pencil.a().get(0, 0) + whole(5) * pencil.b().get(0, 0) < whole(0));
+    let contact = Contact::of(&block).unwrap();
+    let pencil = contact.pencils().of(&states).unwrap();
+    let slip_stiffness = pencil.a().get(0, 0) + whole(5) * pencil.b().get(0, 0);
+
+    assert!(slip_stiffness < whole(0));
 }
 
 /// Found by the same sweep: an opened node comes back into contact and must slip at once; the
-/// active set goes round in circles and Lemke ends on a ray, so the states are found by trying all.
+/// active set returns to sets it has tried and Lemke ends on a ray, so the states are found by
+/// trying all.
 #[test]
 fn a_gap_that_closes_is_passed_too() {
     let block = block(8, 4, MeshKind::UnionJack, Plane::Stress);
@@ -360,25 +459,26 @@ fn a_gap_that_closes_is_passed_too() {
         until: Some(whole(15)),
         ..paper(whole(5))
     };
+
     let path = follow(&block, &loading);
+
     let closing: Vec<&Interval> = path
         .intervals
         .iter()
-        .filter(|i| i.begin.causes == [Bound::Gap { node: 4 }])
+        .filter(|interval| interval.begin.causes == [Bound::Gap { node: 4 }])
         .collect();
-    assert_eq!((closing.len(), &path.end), (1, &PathEnd::Range));
-    assert_eq!(
-        (closing[0].begin.finder, closing[0].states[4]),
-        (Finder::Enumeration, ContactState::Slip { sign: 1 })
-    );
-    assert_eq!(
-        (
-            closing[0].start.displacement(4).1,
-            closing[0].start.reaction(4)
-        ),
-        (whole(0), (whole(0), whole(0)))
-    );
-    assert!(closing[0].stop.as_ref().unwrap().reaction(4).1 < whole(0));
+
+    assert_eq!(closing.len(), 1);
+    assert_eq!(path.end, PathEnd::Range);
+
+    let closing = closing[0];
+    assert_eq!(closing.begin.finder, Finder::Enumeration);
+    assert_eq!(closing.states[4], ContactState::Slip { sign: 1 });
+    assert_eq!(closing.start.displacement(4).1, whole(0));
+    assert_eq!(closing.start.reaction(4), (whole(0), whole(0)));
+
+    let (_, normal_at_the_end) = closing.stop.as_ref().unwrap().reaction(4);
+    assert!(normal_at_the_end < whole(0));
 }
 
 /// 800 elements. The path is computed, and only then compared with the paper.
@@ -387,56 +487,58 @@ fn both_published_states_lie_on_the_path() {
     let block = Block::new(&BlockModel::of_the_paper()).unwrap();
     let path = follow(&block, &Loading::of_the_paper());
     assert!(path.slides());
-    let at = |state: PublishedState| path.stretches_with(&state.states());
-    assert_eq!(
-        at(PublishedState::SeventeenSlip),
-        vec![path.intervals.len() - 1],
-        "the final state"
-    );
-    assert_eq!(at(PublishedState::FifteenSlip).len(), 1);
+
+    let seventeen = path.stretches_with(&PublishedState::SeventeenSlip.states());
+    let fifteen = path.stretches_with(&PublishedState::FifteenSlip.states());
+    let final_stretch = path.intervals.len() - 1;
+
+    assert_eq!(seventeen, vec![final_stretch], "the final state");
+    assert_eq!(fifteen.len(), 1);
+
     // The corner node slips to the right in one short stretch, which steps of 0.01 mm may miss.
     let right: Vec<usize> = (0..path.intervals.len())
         .filter(|&k| path.intervals[k].counts()[2] > 0)
         .collect();
+
     assert_eq!(right, vec![1]);
-    assert_eq!(
-        path.intervals[1].states[20],
-        ContactState::Slip { sign: -1 }
-    );
+
     let short = &path.intervals[1];
-    assert!(short.stop.as_ref().unwrap().motion() - short.start.motion() < rational(1, 100));
+    assert_eq!(short.states[20], ContactState::Slip { sign: -1 });
+
+    let length = short.stop.as_ref().unwrap().motion() - short.start.motion();
+    assert!(length < rational(1, 100));
+
     // "11 or more nodes": the number of slip nodes takes every value on the way.
     let slips: Vec<usize> = path.intervals.iter().map(|i| i.counts()[1]).collect();
     assert!((2..=17).all(|n| slips.contains(&n)), "{slips:?}");
+
     // "Spreading from right to left": stick on the left, then slip to the left, then free, and
-    // stick only shrinks.
-    let stick = |k: &usize| {
-        path.intervals[*k]
-            .states
-            .iter()
-            .take_while(|s| **s == ContactState::Stick)
-            .count()
-    };
+    // the stick nodes become fewer.
     for k in 2..path.intervals.len() {
-        assert!(stick(&k) <= stick(&(k - 1)), "stretch {k}");
-        let rest = path.intervals[k].states.iter().skip(stick(&k));
-        assert_eq!(
-            rest.take_while(|s| **s == ContactState::Slip { sign: 1 })
-                .count(),
-            slips[k],
-            "stretch {k}"
-        );
+        let states = &path.intervals[k].states;
+        let stuck = leading_stick_nodes(states);
+        let stuck_before = leading_stick_nodes(&path.intervals[k - 1].states);
+
+        assert!(stuck <= stuck_before, "stretch {k}");
+
+        let slip_left = ContactState::Slip { sign: 1 };
+        let after_stick = states.iter().skip(stuck);
+        let slipping = after_stick.take_while(|state| **state == slip_left);
+
+        assert_eq!(slipping.count(), slips[k], "stretch {k}");
     }
-    let problem = path.intervals[at(PublishedState::FifteenSlip)[0]]
-        .problem(&block, None)
-        .unwrap();
-    assert_eq!(
-        problem.sha256(),
-        PublishedState::FifteenSlip
-            .problem(&block)
-            .unwrap()
-            .sha256()
-    );
+
+    let on_the_path = path.intervals[fifteen[0]].problem(&block, None).unwrap();
+    let published = PublishedState::FifteenSlip.problem(&block).unwrap();
+    assert_eq!(on_the_path.sha256(), published.sha256());
+}
+
+/// How many nodes stick, counted from the left until one does not.
+fn leading_stick_nodes(states: &[ContactState]) -> usize {
+    states
+        .iter()
+        .take_while(|state| **state == ContactState::Stick)
+        .count()
 }
 
 /// The target: path with all events and the condensed pencil of every state within 5 s besides the
@@ -445,43 +547,47 @@ fn both_published_states_lie_on_the_path() {
 #[ignore = "a measurement, for the release profile"]
 fn path_and_every_pencil_take_under_five_seconds() {
     use std::time::Instant;
+
     let block = Block::new(&BlockModel::of_the_paper()).unwrap();
     let start = Instant::now();
     let contact = Contact::of(&block).unwrap();
     let condensed = start.elapsed();
+
     let start = Instant::now();
-    let path = LoadingPath::follow(&contact, &Loading::of_the_paper(), &|_, _| {
-        ControlFlow::Continue(())
-    })
-    .unwrap();
+    let path = follow_contact(&contact, &Loading::of_the_paper()).unwrap();
     let followed = start.elapsed();
+
     let mut pencils = contact.pencils();
-    let made = path
-        .intervals
-        .iter()
-        .filter(|i| i.counts()[1] + i.counts()[2] > 0)
-        .map(|i| pencils.of(&i.states).unwrap());
-    let orders: Vec<usize> = made.map(|p| p.order()).collect();
+    let mut orders = Vec::new();
+
+    for interval in &path.intervals {
+        let [_, left, right, _] = interval.counts();
+        if left + right > 0 {
+            orders.push(pencils.of(&interval.states).unwrap().order());
+        }
+    }
+
     let all = start.elapsed();
     println!(
         "condensation {condensed:?}; path {followed:?}; path and pencils of orders {orders:?} \
          {all:?}"
     );
-    let bits = |r: &Rational| (r.numer().bits(), r.denom().bits());
-    println!(
-        "bits: S {}, events {:?}",
-        contact.bits(),
-        path.intervals
-            .iter()
-            .map(|i| bits(i.start.motion()))
-            .collect::<Vec<_>>()
-    );
+
+    let mut event_bits = Vec::new();
+    for interval in &path.intervals {
+        let motion = interval.start.motion();
+        event_bits.push((motion.numer().bits(), motion.denom().bits()));
+    }
+
+    println!("bits: S {}, events {event_bits:?}", contact.bits());
     assert!(all.as_secs_f64() < 5.0);
 }
 
 #[cfg(feature = "cli")]
 mod cli {
-    use std::process::{Command, Output};
+    use serde_json::Value;
+    use std::process::{Command, Output, Stdio};
+    use std::time::Duration;
 
     fn block(args: &[&str]) -> Output {
         Command::new(env!("CARGO_BIN_EXE_mceip"))
@@ -494,30 +600,35 @@ mod cli {
     #[test]
     fn path_is_listed_as_text_and_json() {
         let args = ["--path", "--cells", "4x2", "--step", "0.01"];
-        let text = block(&args);
-        assert_eq!(text.status.code(), Some(0));
-        let text = String::from_utf8(text.stdout).unwrap();
-        assert!(
-            text.contains("<<<<o") && text.contains("pressure vanishes") && text.contains("slides"),
-            "{text}"
-        );
-        assert!(
-            text.contains("stepping:") && text.contains("stretches none"),
-            "{text}"
-        );
-        let json: serde_json::Value =
-            serde_json::from_slice(&block(&[&args[..], &["--json"]].concat()).stdout).unwrap();
+        let output = block(&args);
+        assert_eq!(output.status.code(), Some(0));
+
+        let text = String::from_utf8(output.stdout).unwrap();
+        for words in [
+            "<<<<o",
+            "pressure vanishes",
+            "slides",
+            "stepping:",
+            "stretches none",
+        ] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
+
+        let output = block(&[&args[..], &["--json"]].concat());
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
         let intervals = json["intervals"].as_array().unwrap();
-        assert_eq!((intervals.len(), json["slides"].as_bool()), (7, Some(true)));
-        assert_eq!(intervals[6]["to_mm"], serde_json::Value::Null);
+
+        assert_eq!(intervals.len(), 7);
+        assert_eq!(json["slides"], true);
+        assert_eq!(intervals[6]["to_mm"], Value::Null);
         assert_eq!(intervals[1]["event"]["causes"][0]["node"], 5);
         assert_eq!(intervals[1]["states"][4], "slip left");
+
         let normal = intervals[0]["start"]["resultant_N_N"].as_f64().unwrap();
         assert_eq!(normal, -55.0, "correctly rounded from the exact -55");
-        assert_eq!(
-            json["stepping"]["other_states"].as_array().unwrap().len(),
-            0
-        );
+
+        let other_states = json["stepping"]["other_states"].as_array().unwrap();
+        assert_eq!(other_states.len(), 0);
     }
 
     #[cfg(unix)]
@@ -526,17 +637,19 @@ mod cli {
         let mut command = Command::new(env!("CARGO_BIN_EXE_mceip"));
         let child = command
             .args(["block", "--path", "--cells", "40x20"])
-            .stdout(std::process::Stdio::piped())
+            .stdout(Stdio::piped())
             .spawn()
             .unwrap();
-        std::thread::sleep(std::time::Duration::from_secs(1)); // of a minute or so
-        assert!(
-            Command::new("kill")
-                .args(["-INT", &child.id().to_string()])
-                .status()
-                .unwrap()
-                .success()
-        );
+
+        // The condensation takes about a minute.
+        std::thread::sleep(Duration::from_secs(1));
+        let kill = Command::new("kill")
+            .args(["-INT", &child.id().to_string()])
+            .status()
+            .unwrap();
+
+        assert!(kill.success());
+
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130));
         assert!(output.stdout.is_empty());
@@ -559,13 +672,12 @@ mod cli {
             (&["--mu", "2"], "--path"),
             (&["--path", "--state", "15"], "--state"),
         ] {
-            let out = block(args);
-            let err = String::from_utf8_lossy(&out.stderr).into_owned();
-            assert_eq!(out.status.code(), Some(2), "{args:?}: {err}");
-            assert!(
-                out.stdout.is_empty() && err.lines().count() == 1 && err.contains(word),
-                "{args:?}: {err}"
-            );
+            let output = block(args);
+            let message = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{args:?}: {message}");
+            assert!(output.stdout.is_empty(), "{args:?}");
+            assert_eq!(message.lines().count(), 1, "{args:?}: {message}");
+            assert!(message.contains(word), "{args:?}: {message}");
         }
     }
 }

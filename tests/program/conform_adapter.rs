@@ -1,48 +1,60 @@
 //! The worked example `spec/examples/adapter.py` through `mceip conform`: right where floats
-//! suffice, not on degenerate cases; broken adapters get the right labels. Needs python3 with
-//! numpy.
+//! suffice, not on degenerate cases; broken adapters get the right labels. Needs python3 with numpy.
+//!
+//! The answers of the cases are exact and known, and each fault is built into the adapter by one
+//! change of its source; a label that does not fit the fault fails.
 #![cfg(feature = "cli")]
 
+use crate::common::{read, repository};
 use crate::program::{Folder, mceip};
 use serde_json::Value;
-use std::path::Path;
 use std::process::Command;
 
 fn numpy_is_missing() -> bool {
-    let there = Command::new("python3")
+    let import = Command::new("python3")
         .args(["-c", "import numpy"])
-        .output()
-        .is_ok_and(|o| o.status.success());
-    if !there {
+        .output();
+    let is_there = import.is_ok_and(|output| output.status.success());
+
+    if !is_there {
         eprintln!(
             "SKIPPED: python3 with numpy is not installed: spec/examples/adapter.py was not run"
         );
     }
-    !there
+    !is_there
 }
 
 fn adapter() -> String {
-    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("spec/examples/adapter.py"))
-        .unwrap()
+    read(&repository("spec/examples/adapter.py"))
 }
 
-/// Runs a version of the adapter on the cases with these flags.
-fn run(source: &str, flags: &[&str]) -> Value {
+/// The adapter with a piece of its source replaced.
+#[track_caller]
+fn adapter_with(from: &str, to: &str) -> String {
+    let source = adapter();
+    assert!(source.contains(from), "{from}");
+    source.replace(from, to)
+}
+
+/// The report on a version of the adapter, over the cases with these flags.
+fn report_on(source: &str, flags: &[&str]) -> Value {
     let folder = Folder::new();
     let file = folder.write("adapter.py", source);
-    let only: Vec<&str> = flags.iter().flat_map(|f| ["--only", f]).collect();
-    let options = [
-        &["conform", "--as-pencil", "--json", "--time-limit", "60"][..],
-        &only,
-        &["--", "python3", file.as_str()],
-    ]
-    .concat();
-    let out = mceip(&options);
-    serde_json::from_slice(&out.stdout).unwrap()
+
+    let mut args = vec!["conform", "--as-pencil", "--json", "--time-limit", "60"];
+    for flag in flags {
+        args.extend(["--only", flag]);
+    }
+
+    args.extend(["--", "python3", &file]);
+
+    let output = mceip(&args);
+    serde_json::from_slice(&output.stdout).unwrap()
 }
 
-fn count(report: &Value, label: &str) -> u64 {
-    report["labels"][label].as_u64().unwrap_or(0)
+/// How many cases have this label.
+fn count(labels: &Value, label: &str) -> u64 {
+    labels[label].as_u64().unwrap_or(0)
 }
 
 #[test]
@@ -50,20 +62,24 @@ fn the_adapter_is_right_where_floats_suffice_and_not_on_degenerate_cases() {
     if numpy_is_missing() {
         return;
     }
-    let report = run(&adapter(), &["fold", "coupled_mass", "continuum", "cone"]);
+
+    let report = report_on(&adapter(), &["fold", "coupled_mass", "continuum", "cone"]);
+
     for label in ["crashed", "timed out", "malformed"] {
-        assert_eq!(count(&report, label), 0, "{report:#}");
+        assert_eq!(count(&report["labels"], label), 0, "{report:#}");
     }
-    let coupled = report["flags"]["coupled_mass"].as_object().unwrap();
+
+    let coupled_mass = report["flags"]["coupled_mass"].as_object().unwrap();
     assert!(
-        coupled.keys().all(|l| l == "correct") && coupled["correct"].as_u64().unwrap() > 10,
+        coupled_mass.keys().all(|label| label == "correct"),
         "{report:#}"
     );
+    assert!(coupled_mass["correct"].as_u64().unwrap() > 10, "{report:#}");
+
     for flag in ["continuum", "cone"] {
         let labels = &report["flags"][flag];
-        let short =
-            labels["incomplete"].as_u64().unwrap_or(0) + labels["wrong"].as_u64().unwrap_or(0);
-        assert!(short > 0, "{flag}: {report:#}");
+        let not_correct = count(labels, "incomplete") + count(labels, "wrong");
+        assert!(not_correct > 0, "{flag}: {report:#}");
     }
 }
 
@@ -72,49 +88,40 @@ fn broken_adapters_get_the_right_labels() {
     if numpy_is_missing() {
         return;
     }
-    let broken = |from: &str, to: &str| {
-        assert!(adapter().contains(from), "{from}");
-        adapter().replace(from, to)
-    };
-    let flipped = run(
-        &broken("[float(v) for v in x]", "[-float(v) for v in x]"),
-        &["window_end"],
-    );
-    assert_eq!(flipped["labels"]["wrong"], flipped["cases"], "{flipped:#}");
+
+    let with_turned_sign = adapter_with("[float(v) for v in x]", "[-float(v) for v in x]");
+    let report = report_on(&with_turned_sign, &["window_end"]);
+    assert_eq!(report["labels"]["wrong"], report["cases"], "{report:#}");
+
     // The same value found on two supports is reported once.
-    let merged = run(
-        &broken(
-            "print(json",
-            "found = list({round(s['value'], 6): s for s in found}.values())\n    print(json",
-        ),
-        &["threshold"],
+    let merging = adapter_with(
+        "print(json",
+        "found = list({round(s['value'], 6): s for s in found}.values())\n    print(json",
     );
-    assert!(
-        count(&merged, "incomplete") > 2 && count(&merged, "wrong") == 0,
-        "{merged:#}"
+    let report = report_on(&merging, &["threshold"]);
+
+    assert!(count(&report["labels"], "incomplete") > 2, "{report:#}");
+    assert_eq!(count(&report["labels"], "wrong"), 0, "{report:#}");
+
+    let finding_nothing = "print('{\"format\": \"mceip-solutions/1\", \"solutions\": []}')";
+    let report = report_on(finding_nothing, &["window_end"]);
+    assert_eq!(
+        report["labels"]["incomplete"], report["cases"],
+        "{report:#}"
     );
-    let deaf = run(
-        "print('{\"format\": \"mceip-solutions/1\", \"solutions\": []}')",
-        &["window_end"],
+
+    let without_inequalities = adapter_with(">= -TOLERANCE * np.abs(a).max()", ">= -np.inf");
+    let report = report_on(&without_inequalities, &["coupled_mass"]);
+    assert!(count(&report["labels"], "wrong") > 0, "{report:#}");
+
+    let exiting = adapter_with(
+        "def main():",
+        "def main():\n    raise SystemExit('no licence')",
     );
-    assert_eq!(deaf["labels"]["incomplete"], deaf["cases"], "{deaf:#}");
-    let blind = run(
-        &broken(">= -TOLERANCE * np.abs(a).max()", ">= -np.inf"),
-        &["coupled_mass"],
-    );
-    assert!(count(&blind, "wrong") > 0, "{blind:#}");
-    let dead = run(
-        &broken(
-            "def main():",
-            "def main():\n    raise SystemExit('no licence')",
-        ),
-        &["window_end"],
-    );
-    assert_eq!(dead["labels"]["crashed"], dead["cases"], "{dead:#}");
-    assert!(
-        dead["failures"][0]["detail"]
-            .as_str()
-            .unwrap()
-            .contains("no licence")
-    );
+    let report = report_on(&exiting, &["window_end"]);
+
+    assert_eq!(report["labels"]["crashed"], report["cases"], "{report:#}");
+
+    let detail = report["failures"][0]["detail"].as_str().unwrap();
+    assert!(detail.contains("no licence"), "{detail}");
 }

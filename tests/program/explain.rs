@@ -1,4 +1,7 @@
 //! `mceip explain`: terms, equations, departures, reasons of rejection.
+//!
+//! The truth is the pages of the book: each answer is compared with words that stand there. A page
+//! that the program no longer finds, or a paragraph that ends too early, changes them.
 #![cfg(feature = "cli")]
 
 use std::process::{Command, Output};
@@ -87,7 +90,8 @@ fn a_name_with_two_meanings_has_both() {
 fn no_markdown_is_left() {
     let text = explained("contact state");
 
-    assert!(text.contains("chapter 1, 1.2") && !text.contains("]("));
+    assert!(text.contains("chapter 1, 1.2"), "{text}");
+    assert!(!text.contains("]("), "{text}");
 }
 
 #[test]

@@ -1,7 +1,12 @@
 //! Shards run by an existing engine: GNU parallel starts the processes, `mceip merge` proves that
 //! they cover. `cargo test --test program -- --ignored launcher::` (Debian package `parallel`).
+//!
+//! The complete graph of 9 vertices has 511 solutions, by theory. A part that is lost must keep
+//! `merge` from claiming the whole.
 #![cfg(feature = "cli")]
 
+use crate::common::problem_text;
+use crate::program::Folder;
 use mceip_testkit::known;
 use std::process::Command;
 
@@ -9,21 +14,16 @@ use std::process::Command;
 #[ignore = "needs GNU parallel"]
 fn gnu_parallel_runs_the_shards_and_merge_proves_the_whole() {
     let version = Command::new("parallel").arg("--version").output();
-    let is_gnu = version.is_ok_and(|o| String::from_utf8_lossy(&o.stdout).contains("GNU parallel"));
+    let is_gnu = version.is_ok_and(|output| {
+        let text = String::from_utf8_lossy(&output.stdout);
+        text.contains("GNU parallel")
+    });
+
     assert!(is_gnu, "install GNU parallel: apt-get install parallel");
-    let folder = tempfile::tempdir().unwrap();
+
+    let folder = Folder::new();
     let problem = known::complete_graph(9).unwrap().problem;
-    let mceip_model::Body::Pencil(pencil) = problem.body() else {
-        panic!("a pencil")
-    };
-    let dense = |m: &mceip_exact::Sparse| -> Vec<Vec<String>> {
-        (0..m.rows())
-            .map(|i| (0..m.cols()).map(|j| m.get(i, j).to_string()).collect())
-            .collect()
-    };
-    let pencil = serde_json::json!({ "a": dense(pencil.a()), "b": dense(pencil.b()), "free": [] });
-    let file = serde_json::json!({ "format": "mceip-problem/1", "unknown": problem.unknown().word(), "pencil": pencil });
-    std::fs::write(folder.path().join("problem.json"), file.to_string()).unwrap();
+    folder.write("problem.json", &problem_text(&problem));
 
     // The line of spec/complete-sets.md: exit 3 of a shard (the others' pieces stay open) is no
     // failure.
@@ -34,25 +34,25 @@ fn gnu_parallel_runs_the_shards_and_merge_proves_the_whole() {
          && {mceip} merge --problem problem.json part-*.json --certificate whole.json && {mceip} \
          check problem.json whole.json"
     );
-    let o = Command::new("sh")
+    let run = Command::new("sh")
         .args(["-c", &line])
-        .current_dir(folder.path())
+        .current_dir(folder.path(""))
         .output()
         .unwrap();
-    let (out, err) = (
-        String::from_utf8_lossy(&o.stdout),
-        String::from_utf8_lossy(&o.stderr),
-    );
-    assert_eq!(o.status.code(), Some(0), "{out}{err}");
-    assert!(out.contains("COMPLETE: 511 solutions"), "{out}");
-    assert!(out.contains("ACCEPTED"), "{out}");
+    let text = String::from_utf8_lossy(&run.stdout);
+
+    assert_eq!(run.status.code(), Some(0), "{run:?}");
+    assert!(text.contains("COMPLETE: 511 solutions"), "{text}");
+    assert!(text.contains("ACCEPTED"), "{text}");
+
     // One part lost: no whole.
     let parts = ["part-1.json", "part-2.json", "part-4.json"];
-    let o = Command::new(mceip)
+    let merged = Command::new(mceip)
         .args(["merge", "--problem", "problem.json"])
         .args(parts)
-        .current_dir(folder.path())
+        .current_dir(folder.path(""))
         .output()
         .unwrap();
-    assert_eq!(o.status.code(), Some(2), "{o:?}");
+
+    assert_eq!(merged.status.code(), Some(2), "{merged:?}");
 }

@@ -1,4 +1,4 @@
-//! The program from outside.
+//! The program from outside: its commands, exit codes, text, files and pictures.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[cfg(feature = "cli")]
@@ -12,6 +12,7 @@ mod check_foreign;
 mod check_window;
 mod cli;
 mod cli_enumerate;
+mod common;
 mod complete_cli;
 mod complete_infinity_cli;
 mod conform;

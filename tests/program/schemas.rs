@@ -1,8 +1,12 @@
 //! `spec/schemas/`: what the readers take and what the program writes, held against the JSON
 //! Schemas. The schemas say more or less than the readers only where `spec/conform.md` says so.
+//!
+//! Readers and schemas are two descriptions of one format, each the truth for the other. Thousands of
+//! damaged files go to both; a field that one of them forgets is accepted by one side alone.
 #![cfg(feature = "cli")]
 
-use crate::program::{Folder, mceip};
+use crate::common::{example, exits, pencil_problem, run};
+use crate::program::Folder;
 use jsonschema::Validator;
 use mceip_check::certificate::Certificate;
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport};
@@ -24,15 +28,18 @@ fn schema(name: &str) -> Validator {
         schema["$schema"],
         "https://json-schema.org/draft/2020-12/schema"
     );
+
     jsonschema::draft202012::options().build(&schema).unwrap()
 }
 
+/// Fails with the errors that the schema finds in the value.
 #[track_caller]
 fn valid(validator: &Validator, value: &Value, what: &str) {
-    let errors: Vec<String> = validator
-        .iter_errors(value)
-        .map(|e| format!("{e} at {}", e.instance_path))
-        .collect();
+    let mut errors = Vec::new();
+    for error in validator.iter_errors(value) {
+        errors.push(format!("{error} at {}", error.instance_path));
+    }
+
     assert!(errors.is_empty(), "{what}: {errors:?}");
 }
 
@@ -40,176 +47,176 @@ fn read(path: &Path) -> Value {
     serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
 }
 
-fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
-    let all = std::fs::read_dir(root(folder))
-        .unwrap()
-        .map(|e| e.unwrap().path());
-    let mut list: Vec<PathBuf> = all
-        .filter(|p| p.extension().is_some_and(|e| e == extension))
-        .collect();
+/// The JSON files of a folder, by name.
+fn json_files(folder: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(root(folder)).unwrap();
+    let mut list: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    list.retain(|path| {
+        path.extension()
+            .is_some_and(|extension| extension == "json")
+    });
     list.sort();
+
     list
 }
 
 /// The schemas themselves are schemas.
 #[test]
 fn every_schema_is_one() {
-    let list = files("spec/schemas", "json");
+    let list = json_files("spec/schemas");
     assert!(list.len() >= 8);
+
     for path in list {
-        assert!(
-            jsonschema::meta::is_valid(&read(&path)),
-            "{}",
-            path.display()
-        );
+        let schema = read(&path);
+        let is_valid = jsonschema::meta::is_valid(&schema);
+        assert!(is_valid, "{}", path.display());
     }
 }
 
 #[test]
 fn examples_and_written_files_are_valid() {
-    let (problems, solutions, certificates) = (
-        schema("mceip-problem-1"),
-        schema("mceip-solutions-1"),
-        schema("mceip-certificate-1"),
-    );
-    let folder = Folder::new();
-    for path in files("spec/examples", "json") {
+    let problems = schema("mceip-problem-1");
+
+    for path in json_files("spec/examples") {
         let file = path.display().to_string();
         let example = read(&path);
+
         if example["format"] != "mceip-problem/1" {
             continue;
         }
+
         valid(&problems, &example, &file);
-        let certificate = folder.path("c.json");
-        for args in [
-            &["enumerate", "--json"][..],
-            &["solve", "--json", "--certificate", certificate.as_str()],
-            &["complete", "--json", "--certificate", certificate.as_str()],
-        ] {
-            let out = mceip(&[&[args[0], file.as_str()][..], &args[1..]].concat());
-            valid(
-                &solutions,
-                &serde_json::from_slice(&out.stdout).unwrap(),
-                &format!("{args:?} {file}"),
-            );
-            if args.len() > 2 {
-                valid(
-                    &certificates,
-                    &read(Path::new(&certificate)),
-                    &format!("{args:?} {file}"),
-                );
-            }
-        }
-        let reduced = mceip(&["reduce", &file]);
-        valid(
-            &problems,
-            &serde_json::from_slice(&reduced.stdout).unwrap(),
-            &format!("reduce {file}"),
-        );
+
+        let reduced = serde_json::from_str(&run(&["reduce", &file]).stdout).unwrap();
+        valid(&problems, &reduced, &format!("reduce {file}"));
+
+        what_is_written_for_a_problem_is_valid(&file);
     }
+}
+
+/// The solutions and certificates of all commands that write them.
+fn what_is_written_for_a_problem_is_valid(problem: &str) {
+    let solutions = schema("mceip-solutions-1");
+    let certificates = schema("mceip-certificate-1");
+
+    let listed = run(&["enumerate", problem, "--json"]).stdout;
+    let listed = serde_json::from_str(&listed).unwrap();
+    valid(&solutions, &listed, &format!("enumerate {problem}"));
+
+    for command in ["solve", "complete"] {
+        let folder = Folder::new();
+        let certificate = folder.path("c.json");
+        let what = format!("{command} {problem}");
+
+        let args = [command, problem, "--json", "--certificate", &certificate];
+        let found = serde_json::from_str(&run(&args).stdout).unwrap();
+        valid(&solutions, &found, &what);
+        valid(&certificates, &read(Path::new(&certificate)), &what);
+    }
+}
+
+/// The first line of a trace is a JSON object.
+#[track_caller]
+fn trace_is_valid(trace: &str) {
+    let text = std::fs::read_to_string(trace).unwrap();
+    let first = text.lines().next().unwrap();
+    let head = serde_json::from_str(first).unwrap();
+
+    valid(&schema("mceip-trace-1"), &head, first);
 }
 
 #[test]
 fn traces_and_plain_problems_are_valid() {
     let folder = Folder::new();
-    let example = root("spec/examples/fold.json").display().to_string();
     let trace = folder.path("trace.txt");
-    assert_eq!(
-        mceip(&["solve", &example, "--trace", &trace]).status.code(),
-        Some(0)
-    );
-    let first = std::fs::read_to_string(&trace)
-        .unwrap()
-        .lines()
-        .next()
-        .unwrap()
-        .to_string();
-    valid(
-        &schema("mceip-trace-1"),
-        &serde_json::from_str(&first).unwrap(),
-        "trace",
-    );
-    let (mcp, solution) = (schema("mceip-mcp-1"), folder.path("z.json"));
-    let plain = json!({ "format": "mceip-mcp/1", "m": [[2, 1], [1, 2]], "q": [-5, "-6"], "lower": [null, 0], "upper": [3, null] });
+    exits(0, &["solve", &example("fold"), "--trace", &trace]);
+
+    trace_is_valid(&trace);
+
+    let mcp = schema("mceip-mcp-1");
+    let plain = json!({
+        "format": "mceip-mcp/1",
+        "m": [[2, 1], [1, 2]],
+        "q": [-5, "-6"],
+        "lower": [null, 0],
+        "upper": [3, null],
+    });
+
     valid(&mcp, &plain, "mcp");
-    let file = folder.write("mcp.json", &plain.to_string());
-    assert_eq!(
-        mceip(&["solve", &file, "--certificate", &solution])
-            .status
-            .code(),
-        Some(0)
-    );
+
+    let problem = folder.write("mcp.json", &plain.to_string());
+
+    let solution = folder.path("z.json");
+    exits(0, &["solve", &problem, "--certificate", &solution]);
+
+    let solution = read(Path::new(&solution));
     valid(
         &schema("mceip-mcp-solution-1"),
-        &read(Path::new(&solution)),
+        &solution,
         "solution of an mcp",
     );
-    let listed = mceip(&["solve", &file, "--all", "--json", "--trace", &trace]);
+
+    let listed = run(&["solve", &problem, "--all", "--json", "--trace", &trace]);
+    let listed = serde_json::from_str(&listed.stdout).unwrap();
     valid(
         &schema("mceip-mcp-solutions-1"),
-        &serde_json::from_slice(&listed.stdout).unwrap(),
+        &listed,
         "solutions of an mcp",
     );
-    let first = std::fs::read_to_string(&trace)
-        .unwrap()
-        .lines()
-        .next()
-        .unwrap()
-        .to_string();
-    valid(
-        &schema("mceip-trace-1"),
-        &serde_json::from_str(&first).unwrap(),
-        "trace of an mcp",
-    );
+
+    trace_is_valid(&trace);
+
     for bad in [
         json!({ "format": "mceip-mcp/1", "m": [["nan"]], "q": [-5] }),
         json!({ "format": "mceip-mcp/1", "m": [[1]], "q": [1], "z": 0 }),
     ] {
-        assert!(
-            !mcp.is_valid(&bad) && read_mcp(&bad.to_string()).is_err(),
-            "{bad}"
-        );
+        assert!(!mcp.is_valid(&bad), "{bad}");
+        assert!(read_mcp(&bad.to_string()).is_err(), "{bad}");
     }
 }
 
 /// The pack, the index, and every problem, answer and wrong answer in it.
 #[test]
 fn the_pack_is_valid() {
-    let (problems, solutions) = (schema("mceip-problem-1"), schema("mceip-solutions-1"));
-    let (pack, index) = (schema("mceip-pack-1"), schema("mceip-pack-index-1"));
+    let problems = schema("mceip-problem-1");
+    let solutions = schema("mceip-solutions-1");
+    let pack = schema("mceip-pack-1");
+    let index = schema("mceip-pack-index-1");
     let mut cases = 0;
-    for path in files("spec/conformance-pack", "json") {
+
+    for path in json_files("spec/conformance-pack") {
         let file = read(&path);
         if file["format"] == "mceip-pack-index/1" {
             valid(&index, &file, "index");
             continue;
         }
+
         valid(&pack, &file, &path.display().to_string());
         for case in file["cases"].as_array().unwrap() {
             let id = case["id"].as_str().unwrap();
             valid(&problems, &case["problem"], id);
             valid(&solutions, &case["answer"], id);
-            case["wrong"]
-                .as_array()
-                .unwrap()
-                .iter()
-                .for_each(|w| valid(&solutions, &w["report"], id));
+
+            for wrong in case["wrong"].as_array().unwrap() {
+                valid(&solutions, &wrong["report"], id);
+            }
+
             cases += 1;
         }
     }
+
     assert!(cases > 200, "{cases}");
 }
 
 /// Is this a complaint about the shape of the file, which the schema must share?
-fn of_shape(e: &ModelError) -> bool {
-    use ModelError as E;
+fn of_shape(error: &ModelError) -> bool {
     matches!(
-        e,
-        E::Json { .. }
-            | E::Format { .. }
-            | E::Body { .. }
-            | E::Sign { .. }
-            | E::ZeroReactionState { .. }
+        error,
+        ModelError::Json { .. }
+            | ModelError::Format { .. }
+            | ModelError::Body { .. }
+            | ModelError::Sign { .. }
+            | ModelError::ZeroReactionState { .. }
     )
 }
 
@@ -232,46 +239,52 @@ fn malformed_problems_are_invalid_or_wrong_in_meaning() {
     ];
     let problems = schema("mceip-problem-1");
     let mut seen = 0;
-    for path in files("tests/malformed", "json") {
+
+    for path in json_files("tests/malformed") {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         let text = std::fs::read_to_string(&path).unwrap();
         let error = read_problem(&text, Path::new("/nonexistent")).unwrap_err();
-        let accepted = serde_json::from_str::<Value>(&text).is_ok_and(|v| problems.is_valid(&v));
+        let value = serde_json::from_str::<Value>(&text);
+        let accepted = value.is_ok_and(|value| problems.is_valid(&value));
+
         // A duplicate key is gone before a schema sees the value: the reader is stricter by nature.
         let stricter = name == "duplicate-key";
-        assert_eq!(
-            accepted,
-            stricter || meaning.contains(&name.as_str()),
-            "{name}: {error}"
-        );
-        assert!(
-            stricter || !(accepted && of_shape(&error)),
-            "{name}: {error}"
-        );
+        let of_meaning = meaning.contains(&name.as_str());
+        assert_eq!(accepted, stricter || of_meaning, "{name}: {error}");
+
+        if accepted && !stricter {
+            assert!(!of_shape(&error), "{name}: {error}");
+        }
+
         seen += usize::from(accepted && !stricter);
     }
+
     assert_eq!(seen, meaning.len());
 }
 
-/// All places of a value, as JSON pointers.
-fn places(value: &Value, at: &str, out: &mut Vec<String>) {
-    out.push(at.to_string());
+/// Adds all places of a value, as JSON pointers.
+fn add_places(value: &Value, at: &str, places: &mut Vec<String>) {
+    places.push(at.to_string());
+
     match value {
-        Value::Object(fields) => fields
-            .iter()
-            .for_each(|(k, v)| places(v, &format!("{at}/{k}"), out)),
-        Value::Array(items) => items
-            .iter()
-            .enumerate()
-            .for_each(|(i, v)| places(v, &format!("{at}/{i}"), out)),
+        Value::Object(fields) => {
+            for (key, field) in fields {
+                add_places(field, &format!("{at}/{key}"), places);
+            }
+        }
+        Value::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                add_places(item, &format!("{at}/{index}"), places);
+            }
+        }
         _ => {}
     }
 }
 
-/// Every place of a file replaced by values of other kinds, left out, or with a stranger beside it.
+/// Every place of a file replaced by values of other kinds, left out, or with an unknown field in it.
 fn damaged(file: &Value) -> Vec<Value> {
-    let mut spots = Vec::new();
-    places(file, "", &mut spots);
+    let mut places = Vec::new();
+    add_places(file, "", &mut places);
     let replacements = [
         json!(null),
         json!(true),
@@ -285,220 +298,284 @@ fn damaged(file: &Value) -> Vec<Value> {
         json!(" +.5 "),
         json!("7/-14"),
     ];
-    let mut out = Vec::new();
-    for (k, spot) in spots.iter().enumerate().skip(1) {
+
+    let mut list = Vec::new();
+    for (k, place) in places.iter().enumerate().skip(1) {
         for turn in 0..3 {
+            let replacement = &replacements[(3 * k + turn) % replacements.len()];
             let mut copy = file.clone();
-            *copy.pointer_mut(spot).unwrap() =
-                replacements[(3 * k + turn) % replacements.len()].clone();
-            out.push(copy);
+            *copy.pointer_mut(place).unwrap() = replacement.clone();
+            list.push(copy);
         }
-        let mut copy = file.clone();
-        let (parent, last) = spot.rsplit_once('/').unwrap();
-        match copy.pointer_mut(parent).unwrap() {
+
+        let mut without = file.clone();
+        let (parent, last) = place.rsplit_once('/').unwrap();
+
+        match without.pointer_mut(parent).unwrap() {
             Value::Object(fields) => drop(fields.remove(last)),
             Value::Array(items) => drop(items.remove(last.parse().unwrap())),
             _ => unreachable!(),
         }
-        out.push(copy);
-        let mut copy = file.clone();
-        if let Value::Object(fields) = copy.pointer_mut(spot).unwrap() {
+
+        list.push(without);
+
+        let mut with_unknown_field = file.clone();
+        if let Value::Object(fields) = with_unknown_field.pointer_mut(place).unwrap() {
             fields.insert("stranger".into(), json!(1));
-            out.push(copy);
+            list.push(with_unknown_field);
         }
-        // A list of the fields in place of an object.
-        let mut copy = file.clone();
-        let place = copy.pointer_mut(spot).unwrap();
-        if let Value::Object(fields) = place {
-            *place = fields.values().cloned().collect();
-            out.push(copy);
+
+        let mut list_for_object = file.clone();
+        let target = list_for_object.pointer_mut(place).unwrap();
+
+        if let Value::Object(fields) = target {
+            *target = fields.values().cloned().collect();
+            list.push(list_for_object);
         }
     }
-    out
+    list
+}
+
+/// A problem with every form that a matrix may have, and its window.
+fn problem_with_all_forms() -> Value {
+    json!({
+        "format": "mceip-problem/1",
+        "unknown": "mu",
+        "name": null,
+        "comment": "c",
+        "window": { "min": 0, "max": null },
+        "pencil": {
+            "a": { "dense": [[1]], "read_as": "f64" },
+            "b": { "rows": 1, "cols": 1, "symmetric": true, "entries": [[0, 0, "1/2"]] },
+            "free": [0],
+        },
+    })
 }
 
 /// The reader of problems and the schema agree on the shape of thousands of damaged files.
 #[test]
 fn the_reader_of_problems_and_the_schema_agree() {
     let problems = schema("mceip-problem-1");
-    let mut count = [0usize; 3];
-    let forms = json!({
-        "format": "mceip-problem/1", "unknown": "mu", "name": null, "comment": "c", "window": { "min": 0, "max": null },
-        "pencil": { "a": { "dense": [[1]], "read_as": "f64" }, "b": { "rows": 1, "cols": 1, "symmetric": true, "entries": [[0, 0, "1/2"]] }, "free": [0] },
-    });
-    let market = json!({ "format": "mceip-problem/1", "unknown": "mu", "pencil": { "a": { "matrix_market": "a.mtx" }, "b": [[1]] } });
-    let examples = ["two-particles", "oblique", "fold"]
-        .map(|n| read(&root(&format!("spec/examples/{n}.json"))));
-    for file in examples.into_iter().chain([forms, market]) {
-        for copy in damaged(&file) {
-            let valid = problems.is_valid(&copy);
-            let text = copy.to_string();
-            match read_problem(&text, &root("spec/examples")) {
-                Ok(_) => {
-                    assert!(valid, "read, and invalid: {text}");
-                    count[0] += 1;
-                }
-                Err(e) => {
-                    // What is wrong in shape comes before what is wrong in meaning only within one
-                    // step of the reader.
-                    assert!(!(valid && of_shape(&e)), "refused ({e}), and valid: {text}");
-                    count[if valid { 1 } else { 2 }] += 1;
-                }
+    let market = json!({ "a": { "matrix_market": "a.mtx" }, "b": [[1]] });
+    let market = serde_json::from_str(&pencil_problem("mu", market)).unwrap();
+    let files = [
+        read(&root("spec/examples/two-particles.json")),
+        read(&root("spec/examples/oblique.json")),
+        read(&root("spec/examples/fold.json")),
+        problem_with_all_forms(),
+        market,
+    ];
+    let mut accepted = 0;
+    let mut wrong_in_meaning = 0;
+    let mut wrong_in_shape = 0;
+
+    for copy in files.iter().flat_map(damaged) {
+        let valid = problems.is_valid(&copy);
+        let text = copy.to_string();
+
+        match read_problem(&text, &root("spec/examples")) {
+            Ok(_) => {
+                assert!(valid, "read, and invalid: {text}");
+                accepted += 1;
             }
+            // What is wrong in shape comes before what is wrong in meaning only within one step of
+            // the reader.
+            Err(error) if valid => {
+                assert!(!of_shape(&error), "refused ({error}), and valid: {text}");
+                wrong_in_meaning += 1;
+            }
+            Err(_) => wrong_in_shape += 1,
         }
     }
-    assert!(
-        count[0] > 40 && count[1] > 30 && count[2] > 400,
-        "read, wrong in meaning, wrong in shape: {count:?}"
-    );
+
+    assert!(accepted > 40, "{accepted}");
+    assert!(wrong_in_meaning > 30, "{wrong_in_meaning}");
+    assert!(wrong_in_shape > 400, "{wrong_in_shape}");
 }
 
 /// Every certificate of the corpus that is read is valid, and a support leaf that is none is not.
 #[test]
 fn the_corpus_is_valid() {
-    let (certificates, mcp, mcp_solution) = (
-        schema("mceip-certificate-1"),
-        schema("mceip-mcp-1"),
-        schema("mceip-mcp-solution-1"),
-    );
+    let certificates = schema("mceip-certificate-1");
+    let mcp = schema("mceip-mcp-1");
+    let mcp_solution = schema("mceip-mcp-solution-1");
+
+    let mut judged = json_files("spec/corpus/accept");
+    judged.extend(json_files("spec/corpus/reject"));
     let mut plain = 0;
-    for path in files("spec/corpus/accept", "json")
-        .iter()
-        .chain(&files("spec/corpus/reject", "json"))
-    {
-        let file = read(path);
-        if file["problem"]["format"] == "mceip-mcp/1" {
-            valid(&mcp, &file["problem"], &path.display().to_string());
-            file.get("certificate")
-                .iter()
-                .for_each(|c| valid(&mcp_solution, c, &path.display().to_string()));
+
+    for path in judged {
+        let file = read(&path);
+        let name = path.display().to_string();
+        let is_plain = file["problem"]["format"] == "mceip-mcp/1";
+
+        if is_plain {
+            valid(&mcp, &file["problem"], &name);
             plain += 1;
-        } else if file.get("certificate").is_some() {
-            valid(
-                &certificates,
-                &file["certificate"],
-                &path.display().to_string(),
-            );
+        }
+
+        let its_schema = if is_plain {
+            &mcp_solution
+        } else {
+            &certificates
+        };
+
+        if let Some(certificate) = file.get("certificate") {
+            valid(its_schema, certificate, &name);
         }
     }
+
     assert!(plain >= 19, "{plain}");
-    let is_leaf = |p: &&PathBuf| {
-        p.file_stem()
-            .unwrap()
-            .to_string_lossy()
-            .starts_with("support-leaf-")
-    };
-    let malformed = files("spec/corpus/malformed", "json");
-    let leaves: Vec<&PathBuf> = malformed.iter().filter(is_leaf).collect();
+
+    let mut leaves = json_files("spec/corpus/malformed");
+    leaves.retain(|path| {
+        let name = path.file_stem().unwrap().to_string_lossy();
+        name.starts_with("support-leaf-")
+    });
+
     assert!(leaves.len() >= 8);
     for path in leaves {
-        let text = read(path)["certificate_text"].as_str().unwrap().to_string();
-        // Is 1/2 an integer? A schema cannot divide.
+        let file = read(&path);
+        let text = file["certificate_text"].as_str().unwrap();
+        let certificate = serde_json::from_str(text).unwrap();
+
+        // That 1/2 is no integer follows from its meaning: a schema cannot divide.
         let of_meaning = path.ends_with("support-leaf-coefficient-fraction.json");
-        assert_eq!(
-            certificates.is_valid(&serde_json::from_str(&text).unwrap()),
-            of_meaning,
-            "{}",
-            path.display()
-        );
+        let is_valid = certificates.is_valid(&certificate);
+        assert_eq!(is_valid, of_meaning, "{}", path.display());
+    }
+}
+
+/// How many files a schema took and refused.
+#[derive(Debug, Default)]
+struct Tally {
+    valid: usize,
+    invalid: usize,
+}
+
+impl Tally {
+    fn count(&mut self, is_valid: bool) {
+        if is_valid {
+            self.valid += 1;
+        } else {
+            self.invalid += 1;
+        }
     }
 }
 
 /// The same for foreign reports and certificates, whose readers check shapes only.
 #[test]
 fn the_readers_of_reports_and_certificates_agree_with_the_schemas() {
-    let (solutions, certificates) = (schema("mceip-solutions-1"), schema("mceip-certificate-1"));
-    let example = std::fs::read_to_string(root("spec/examples/fold.json")).unwrap();
-    let problem = read_problem(&example, &root("spec/examples")).unwrap();
+    let mut tally = Tally::default();
+
+    damaged_reports_agree(&mut tally);
+    damaged_certificates_agree(&mut tally);
+
+    assert!(tally.invalid > 50, "{tally:?}");
+    assert!(tally.valid > 5, "{tally:?}");
+}
+
+fn damaged_reports_agree(tally: &mut Tally) {
+    let solutions = schema("mceip-solutions-1");
+    let text = std::fs::read_to_string(example("fold")).unwrap();
+    let problem = read_problem(&text, &root("spec/examples")).unwrap();
     let reduced = reduce(&problem).unwrap();
-    let continua = json!([{ "slip": [0], "intervals": [{ "from": { "value": "0", "included": true }, "to": null }] }]);
-    let solutions_of = json!([{ "value": 1, "x": ["1/2", 3] }]);
-    let report = json!({ "format": "mceip-solutions/1", "problem_sha256": problem.sha256(), "solutions": solutions_of, "continua": continua });
-    let mut count = [0usize; 2];
+    let interval = json!({ "from": { "value": "0", "included": true }, "to": null });
+
+    let report = json!({
+        "format": "mceip-solutions/1",
+        "problem_sha256": problem.sha256(),
+        "solutions": [{ "value": 1, "x": ["1/2", 3] }],
+        "continua": [{ "slip": [0], "intervals": [interval] }],
+    });
+
     for copy in damaged(&report) {
-        let (valid, read) = (
-            solutions.is_valid(&copy),
-            ForeignReport::read(&copy.to_string(), &problem, &reduced),
-        );
-        // 1e400 is a number and no double; lengths and digests are not of the shape.
-        let of_meaning = matches!(
-            read,
-            Err(ForeignError::File(ModelError::Number { .. }) | ForeignError::Digest { .. })
-        );
-        // A solution without x is judged by itself; the schema wants one in each.
-        let has_no_vector = |bad: &BadPoint| matches!(bad, BadPoint::NoVector { .. });
-        let is_bare = read.as_ref().is_ok_and(|r| {
-            r.solutions
-                .iter()
-                .filter_map(|s| s.as_ref().err())
-                .any(has_no_vector)
-        });
-        assert_eq!(
-            valid,
-            (read.is_ok() && !is_bare) || of_meaning,
-            "{copy}: {read:?}"
-        );
-        count[usize::from(valid)] += 1;
+        let is_valid = solutions.is_valid(&copy);
+        let read = ForeignReport::read(&copy.to_string(), &problem, &reduced);
+
+        let expected = match &read {
+            // A solution without x is judged by itself; the schema wants one in each.
+            Ok(report) => !has_a_solution_without_vector(report),
+            // 1e400 is a number and no double; digests are not of the shape.
+            Err(ForeignError::File(ModelError::Number { .. })) => true,
+            Err(ForeignError::Digest { .. }) => true,
+            Err(_) => false,
+        };
+
+        assert_eq!(is_valid, expected, "{copy}: {read:?}");
+        tally.count(is_valid);
     }
+}
+
+fn has_a_solution_without_vector(report: &ForeignReport) -> bool {
+    let mut bad_points = report.solutions.iter().filter_map(|s| s.as_ref().err());
+    bad_points.any(|bad| matches!(bad, BadPoint::NoVector { .. }))
+}
+
+fn damaged_certificates_agree(tally: &mut Tally) {
+    let schema = schema("mceip-certificate-1");
     let folder = Folder::new();
-    let file = folder.path("c.json");
-    assert_eq!(
-        mceip(&[
-            "complete",
-            &root("spec/examples/fold.json").display().to_string(),
-            "--certificate",
-            &file
-        ])
-        .status
-        .code(),
-        Some(0)
+    let written = folder.path("c.json");
+
+    exits(
+        0,
+        &["complete", &example("fold"), "--certificate", &written],
     );
-    let corpus = [
+
+    let mut certificates = vec![read(Path::new(&written))];
+    for name in [
         "one-support-cone",
         "one-support-alone-by-inequalities",
         "one-support-free",
         "absence-ldl-interval",
         "lifted",
-    ];
-    let of_corpus = corpus
-        .map(|name| read(&root(&format!("spec/corpus/accept/{name}.json")))["certificate"].take());
-    for copy in of_corpus
-        .iter()
-        .chain([&read(Path::new(&file))])
-        .flat_map(damaged)
-    {
-        let (valid, read) = (
-            certificates.is_valid(&copy),
-            Certificate::from_json(&copy.to_string()),
-        );
-        // The schema is open for kinds of claims and nodes; it must take all that is read.
-        assert!(valid || read.is_err(), "read, and invalid: {copy}");
-        count[usize::from(valid)] += 1;
+    ] {
+        let mut case = read(&root(&format!("spec/corpus/accept/{name}.json")));
+        certificates.push(case["certificate"].take());
     }
-    assert!(count[0] > 50 && count[1] > 5, "{count:?}");
+
+    for copy in certificates.iter().flat_map(damaged) {
+        let is_valid = schema.is_valid(&copy);
+        let read = Certificate::from_json(&copy.to_string());
+
+        // The schema is open for kinds of claims and nodes; it must take all that is read.
+        assert!(is_valid || read.is_err(), "read, and invalid: {copy}");
+        tally.count(is_valid);
+    }
 }
 
 /// Plain problems and their solution files.
 #[test]
 fn the_readers_of_plain_problems_agree_with_the_schemas() {
-    let (mcp, solution) = (schema("mceip-mcp-1"), schema("mceip-mcp-solution-1"));
+    let mut tally = Tally::default();
+
+    let problems = schema("mceip-mcp-1");
     let problem = read(&root("spec/examples/bounded-mcp.json"));
-    let mut count = [0usize; 2];
+
     for copy in damaged(&problem) {
-        let (valid, read) = (mcp.is_valid(&copy), read_mcp(&copy.to_string()));
+        let is_valid = problems.is_valid(&copy);
+        let read = read_mcp(&copy.to_string());
+
         // Lengths that do not fit and crossed bounds are of the meaning.
-        assert_eq!(
-            valid,
-            read.is_ok() || matches!(read, Err(FileError::Mcp(_))),
-            "{copy}: {read:?}"
-        );
-        count[usize::from(valid)] += 1;
+        let of_meaning = matches!(read, Err(FileError::Mcp(_)));
+        assert_eq!(is_valid, read.is_ok() || of_meaning, "{copy}: {read:?}");
+        tally.count(is_valid);
     }
-    let file = json!({ "format": "mceip-mcp-solution/1", "problem_sha256": "ab", "z": [["4/3", 2], [1, "-0.5"]] });
-    for copy in damaged(&file) {
-        let (valid, read) = (solution.is_valid(&copy), read_solution(&copy.to_string()));
-        assert_eq!(valid, read.is_ok(), "{copy}: {read:?}");
-        count[usize::from(valid)] += 1;
+
+    let solutions = schema("mceip-mcp-solution-1");
+    let solution = json!({
+        "format": "mceip-mcp-solution/1",
+        "problem_sha256": "ab",
+        "z": [["4/3", 2], [1, "-0.5"]],
+    });
+
+    for copy in damaged(&solution) {
+        let is_valid = solutions.is_valid(&copy);
+        let read = read_solution(&copy.to_string());
+        assert_eq!(is_valid, read.is_ok(), "{copy}: {read:?}");
+        tally.count(is_valid);
     }
-    assert!(count[0] > 50 && count[1] > 20, "{count:?}");
+
+    assert!(tally.invalid > 50, "{tally:?}");
+    assert!(tally.valid > 20, "{tally:?}");
 }

@@ -1,4 +1,8 @@
-//! Propositions 1 and 2 both ways, the Remark, and the zeta window, between oracle and embedding.
+//! Propositions 1 and 2 of the paper: the eigenproblem as a mixed complementarity problem.
+//!
+//! The truth is the exact enumerator. Each solution it lists must solve the embedding, and nothing
+//! beside it; what the solver finds in the embedding must be certified, or reported. Further the
+//! Remark on definite K0, the window in zeta, the constant c, and that no embedding is monotone.
 #![cfg(feature = "testkit")]
 
 use mceip_engine::multistart::{Search, multistart};
@@ -6,49 +10,64 @@ use mceip_engine::reduction::{Embedding, Side, reduce};
 use mceip_exact::{to_f64, whole};
 use mceip_mcp::mcp::Mcp;
 use mceip_mcp::solver::{Options, Residuals, solve};
-use mceip_model::{Admissible, Unknown, Window};
-use mceip_oracle::enumerate;
+use mceip_model::{Admissible, Pencil, Unknown, Window};
+use mceip_oracle::{Solution, enumerate};
 use mceip_testkit::{Instance, mechanical, random_pencils};
 
 fn instances() -> Vec<Instance> {
-    random_pencils(40, 11)
-        .unwrap()
-        .into_iter()
-        .chain(mechanical(20, 11).unwrap())
-        .collect()
+    let mut instances = random_pencils(40, 11).unwrap();
+    instances.extend(mechanical(20, 11).unwrap());
+    instances
+}
+
+fn pencil_of(instance: &Instance) -> Pencil {
+    reduce(&instance.problem).unwrap().pencil
+}
+
+/// The embedding of the whole half line.
+fn embedding_of(instance: &Instance, pencil: &Pencil) -> Embedding {
+    let admissible = Admissible::new(pencil, instance.problem.unknown()).unwrap();
+    Embedding::new(&admissible, Side::Above(0.0))
+}
+
+fn solutions(pencil: &Pencil) -> Vec<Solution> {
+    enumerate(pencil, &Window::all()).unwrap().solutions
+}
+
+fn value_as_double(solution: &Solution) -> f64 {
+    solution.decimal(17).parse().unwrap()
+}
+
+/// The point of the embedding that stands for a solution.
+fn point_of(embedding: &Embedding, pencil: &Pencil, solution: &Solution) -> Vec<f64> {
+    let mut x = Vec::new();
+    for decimal in solution.x_decimals(&pencil.slip(), 17) {
+        x.push(decimal.parse().unwrap());
+    }
+    embedding.point(value_as_double(solution), &x)
 }
 
 /// "Only if": every solution of the eigenproblem, normalised, solves the MCP with gamma = 0.
 #[test]
 fn solutions_of_the_eigenproblem_solve_the_mcp() {
     let mut count = 0;
+
     for instance in instances() {
-        let pencil = reduce(&instance.problem).unwrap().pencil;
-        let embedding = Embedding::new(
-            &Admissible::new(&pencil, instance.problem.unknown()).unwrap(),
-            Side::Above(0.0),
-        );
-        for s in enumerate(&pencil, &Window::all()).unwrap().solutions {
-            let x: Vec<f64> = s
-                .x_decimals(&pencil.slip(), 17)
-                .iter()
-                .map(|v| v.parse().unwrap())
-                .collect();
-            let z = embedding.point(s.decimal(17).parse().unwrap(), &x);
-            let r = Residuals::at(&embedding, &z);
+        let label = &instance.label;
+        let pencil = pencil_of(&instance);
+        let embedding = embedding_of(&instance, &pencil);
+
+        for solution in solutions(&pencil) {
+            let point = point_of(&embedding, &pencil, &solution);
+            let residuals = Residuals::at(&embedding, &point);
             // Basis: 17-digit data of order one in units of the scaled pencil.
-            assert!(
-                r.minimum_map < 1e-9 && r.normal_map < 1e-9,
-                "{}: {r:?}",
-                instance.label
-            );
-            let mut off = z.clone();
-            off[0] += 0.1;
-            assert!(
-                Residuals::at(&embedding, &off).minimum_map > 1e-6,
-                "{}",
-                instance.label
-            );
+            assert!(residuals.minimum_map < 1e-9, "{label}: {residuals:?}");
+            assert!(residuals.normal_map < 1e-9, "{label}: {residuals:?}");
+
+            let mut beside = point;
+            beside[0] += 0.1;
+            let residuals = Residuals::at(&embedding, &beside);
+            assert!(residuals.minimum_map > 1e-6, "{label}");
             count += 1;
         }
     }
@@ -59,126 +78,151 @@ fn solutions_of_the_eigenproblem_solve_the_mcp() {
 #[test]
 fn solutions_of_the_mcp_are_certified_or_reported() {
     for instance in instances() {
-        let pencil = reduce(&instance.problem).unwrap().pencil;
+        let pencil = pencil_of(&instance);
         let admissible = Admissible::new(&pencil, instance.problem.unknown()).unwrap();
+
         let found = multistart(&instance.problem, &admissible, &Search::default()).unwrap();
-        let reached = found
-            .terminations
-            .iter()
-            .filter(|(t, _)| t.reached_tolerance())
-            .map(|(_, n)| n)
-            .sum::<usize>();
-        assert_eq!(
-            reached,
-            found.certified.len() + found.uncertified.len() + found.repeated + found.outside,
-            "{}",
-            instance.label
-        );
+
+        let mut reached = 0;
+        for (termination, count) in &found.terminations {
+            if termination.reached_tolerance() {
+                reached += count;
+            }
+        }
+        let certified = found.certified.len();
+        let reported = found.uncertified.len() + found.repeated + found.outside;
+        assert_eq!(reached, certified + reported, "{}", instance.label);
     }
 }
 
 /// The Remark: K0 definite makes every MCEIP-mu value positive.
 #[test]
 fn mu_is_positive_when_k0_is_definite() {
-    for instance in instances()
-        .iter()
-        .filter(|i| i.problem.unknown() == Unknown::Mu)
-    {
-        let pencil = reduce(&instance.problem).unwrap().pencil;
-        let at_zero = enumerate(&pencil, &Window::new(whole(0), Some(whole(0))).unwrap()).unwrap();
-        assert!(
-            at_zero.solutions.is_empty() && at_zero.wide.is_empty(),
-            "{}",
-            instance.label
-        );
+    let zero = Window::new(whole(0), Some(whole(0))).unwrap();
+
+    for instance in instances() {
+        if instance.problem.unknown() != Unknown::Mu {
+            continue;
+        }
+        let label = &instance.label;
+        let at_zero = enumerate(&pencil_of(&instance), &zero).unwrap();
+        assert!(at_zero.solutions.is_empty(), "{label}");
+        assert!(at_zero.wide.is_empty(), "{label}");
     }
+}
+
+/// The values that six starts find in an embedding.
+fn found_values(embedding: &Embedding) -> Vec<f64> {
+    let mut values = Vec::new();
+    for start in embedding.starts(6, 3) {
+        let outcome = solve(embedding, &start, &Options::default()).unwrap();
+        if outcome.termination.reached_tolerance() {
+            values.push(embedding.candidate(&outcome.point).value);
+        }
+    }
+    values
 }
 
 /// zeta = t - t0 finds only values above t0, zeta = t0 - t only values below.
 #[test]
 fn windows_keep_to_their_side() {
-    let mut sides = [0, 0];
+    let mut found_above = 0;
+    let mut found_below = 0;
+
     for instance in instances() {
-        let pencil = reduce(&instance.problem).unwrap().pencil;
+        let pencil = pencil_of(&instance);
         let admissible = Admissible::new(&pencil, instance.problem.unknown()).unwrap();
-        let values: Vec<f64> = enumerate(&pencil, &Window::all())
-            .unwrap()
-            .solutions
-            .iter()
-            .map(|s| to_f64(&s.value.interval().mid()))
-            .collect();
-        let Some(&origin) = values.first() else {
+        let solutions = solutions(&pencil);
+        let Some(first) = solutions.first() else {
             continue;
         };
-        for (k, side) in [Side::Above(origin * 0.5), Side::Below(origin * 1.5)]
-            .into_iter()
-            .enumerate()
-        {
-            let embedding = Embedding::new(&admissible, side);
-            for start in embedding.starts(6, 3) {
-                let outcome = solve(&embedding, &start, &Options::default()).unwrap();
-                if outcome.termination.reached_tolerance() {
-                    let value = embedding.candidate(&outcome.point).value;
-                    let slack = 1e-9 * (1.0 + origin);
-                    assert!(if k == 0 {
-                        value >= origin * 0.5 - slack
-                    } else {
-                        value <= origin * 1.5 + slack
-                    });
-                    sides[k] += 1;
-                }
-            }
+        let value = to_f64(&first.value.interval().mid());
+        let slack = 1e-9 * (1.0 + value);
+
+        let lower = value * 0.5;
+        let above = Embedding::new(&admissible, Side::Above(lower));
+        for found in found_values(&above) {
+            assert!(found >= lower - slack);
+            found_above += 1;
+        }
+
+        let upper = value * 1.5;
+        let below = Embedding::new(&admissible, Side::Below(upper));
+        for found in found_values(&below) {
+            assert!(found <= upper + slack);
+            found_below += 1;
         }
     }
-    assert!(sides[0] > 10 && sides[1] > 10, "{sides:?}");
+
+    assert!(found_above > 10, "{found_above} {found_below}");
+    assert!(found_below > 10, "{found_above} {found_below}");
 }
 
 /// c only sets the scale of x; gamma vanishes wherever t > 0.
 #[test]
 fn the_constant_c_scales_x_and_nothing_else() {
     let mut count = 0;
+
     for instance in instances() {
-        let pencil = reduce(&instance.problem).unwrap().pencil;
-        let one = Embedding::new(
-            &Admissible::new(&pencil, instance.problem.unknown()).unwrap(),
-            Side::Above(0.0),
-        );
-        assert!(one.clone().with_c(0.0).is_none() && one.clone().with_c(f64::NAN).is_none());
-        let five = one.clone().with_c(5.0).unwrap();
-        for s in enumerate(&pencil, &Window::all()).unwrap().solutions {
-            let x: Vec<f64> = s
-                .x_decimals(&pencil.slip(), 17)
-                .iter()
-                .map(|v| v.parse().unwrap())
-                .collect();
-            let z = five.point(s.decimal(17).parse().unwrap(), &x);
-            assert!(Residuals::at(&five, &z).minimum_map < 1e-8 && five.gamma(&z).abs() < 1e-12);
-            assert!((one.gamma(&z) - 4.0).abs() < 1e-12);
+        let label = &instance.label;
+        let pencil = pencil_of(&instance);
+        let with_one = embedding_of(&instance, &pencil);
+        assert!(with_one.clone().with_c(0.0).is_none());
+        assert!(with_one.clone().with_c(f64::NAN).is_none());
+        let with_five = with_one.clone().with_c(5.0).unwrap();
+
+        for solution in solutions(&pencil) {
+            let point = point_of(&with_five, &pencil, &solution);
+            assert!(Residuals::at(&with_five, &point).minimum_map < 1e-8);
+            assert!(with_five.gamma(&point).abs() < 1e-12);
+            assert!((with_one.gamma(&point) - 4.0).abs() < 1e-12);
+
             // The point of the other constant is no solution: e'x_s = c is asked for. // E28, E33
-            let other = one.point(s.decimal(17).parse().unwrap(), &x);
-            assert!(
-                Residuals::at(&five, &other).minimum_map > 1e-3,
-                "{}",
-                instance.label
-            );
-            let outcome = solve(&five, &z, &Options::default()).unwrap();
+            let point_of_one = point_of(&with_one, &pencil, &solution);
+            let residuals = Residuals::at(&with_five, &point_of_one);
+            assert!(residuals.minimum_map > 1e-3, "{label}");
+
+            let outcome = solve(&with_five, &point, &Options::default()).unwrap();
             assert!(outcome.termination.reached_tolerance());
-            let (a, b) = (
-                five.candidate(&outcome.point),
-                one.candidate(&one.point(s.decimal(17).parse().unwrap(), &x)),
-            );
-            assert!((a.value - b.value).abs() <= 1e-7 * (1.0 + b.value));
-            assert!(
-                a.x.iter()
-                    .zip(&b.x)
-                    .all(|(p, q)| (p - 5.0 * q).abs() < 1e-6),
-                "{}",
-                instance.label
-            );
+            let scaled = with_five.candidate(&outcome.point);
+            let plain = with_one.candidate(&point_of_one);
+            let error = (scaled.value - plain.value).abs();
+            assert!(error <= 1e-7 * (1.0 + plain.value));
+            for (component, plain_component) in scaled.x.iter().zip(&plain.x) {
+                let error = (component - 5.0 * plain_component).abs();
+                assert!(error < 1e-6, "{label}");
+            }
             count += 1;
         }
     }
     assert!(count > 20);
+}
+
+/// A point of the embedding, and its function there.
+struct Evaluated {
+    z: Vec<f64>,
+    f: Vec<f64>,
+}
+
+/// Everything zero but one slip variable and zeta, which is the last variable.
+fn evaluated_at(embedding: &Embedding, slip_index: usize, slip: f64, zeta: f64) -> Evaluated {
+    let dimension = embedding.dimension();
+    let mut z = vec![0.0; dimension];
+    z[slip_index] = slip;
+    z[dimension - 1] = zeta;
+
+    let mut f = vec![0.0; dimension];
+    embedding.function(&z, &mut f);
+    Evaluated { z, f }
+}
+
+/// (F(p) - F(q))'(p - q), which is never negative if F is monotone.
+fn monotonicity_product(p: &Evaluated, q: &Evaluated) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..p.z.len() {
+        sum += (p.f[i] - q.f[i]) * (p.z[i] - q.z[i]);
+    }
+    sum
 }
 
 /// Section 4: neither problem is monotone. With F(x, t) = ((A + tB) x, e'x_s - c), points (0, t +
@@ -186,27 +230,15 @@ fn the_constant_c_scales_x_and_nothing_else() {
 #[test]
 fn neither_mcp_is_monotone() {
     for instance in instances() {
-        let pencil = reduce(&instance.problem).unwrap().pencil;
-        let mcp = Embedding::new(
-            &Admissible::new(&pencil, instance.problem.unknown()).unwrap(),
-            Side::Above(0.0),
-        );
-        let n = mcp.dimension() - 1;
-        let at = |slip: f64, zeta: f64| {
-            let mut z = vec![0.0; n + 1];
-            (z[pencil.slip()[0]], z[n]) = (slip, zeta);
-            let mut f = vec![0.0; n + 1];
-            mcp.function(&z, &mut f);
-            (z, f)
+        let pencil = pencil_of(&instance);
+        let embedding = embedding_of(&instance, &pencil);
+        let slip_index = pencil.slip()[0];
+
+        let higher = evaluated_at(&embedding, slip_index, 0.0, 1.0);
+        let is_negative = |halvings: i32| {
+            let slipping = evaluated_at(&embedding, slip_index, 0.5f64.powi(halvings), 0.0);
+            monotonicity_product(&higher, &slipping) < 0.0
         };
-        let product = |s: f64| {
-            let ((z, f), (w, g)) = (at(0.0, 1.0), at(s, 0.0));
-            (0..=n).map(|i| (f[i] - g[i]) * (z[i] - w[i])).sum::<f64>()
-        };
-        assert!(
-            (1..60).any(|k| product(0.5f64.powi(k)) < 0.0),
-            "{}",
-            instance.label
-        );
+        assert!((1..60).any(is_negative), "{}", instance.label);
     }
 }

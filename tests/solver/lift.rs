@@ -1,111 +1,142 @@
-//! The way back to (9): lifted solutions satisfy every line, and each line notices its own breach.
+//! The way back to (9): from a solution of the pencil to motion v and force w of the system.
+//!
+//! The truth is the exact enumerator. Its solutions, lifted, must satisfy every line of (9), and the
+//! same lines as a variational inequality in doubles. On the other side each line must notice a
+//! vector that breaks it, and the inequality a reaction outside the friction cone.
 #![cfg(feature = "testkit")]
 
 use mceip_engine::reduction::{Lifted, Line, check_lines, lift, reduce};
 use mceip_exact::{Algebraic, Poly, Rational, Sparse, to_f64, whole};
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
-use mceip_oracle::enumerate;
+use mceip_oracle::{Solution, enumerate};
 use mceip_testkit::mechanical;
+
+fn system_of(problem: &Problem) -> &System {
+    match problem.body() {
+        Body::System(system) => system,
+        Body::Pencil(_) => panic!("a system"),
+    }
+}
+
+/// A solution that the enumerator lists, and its motion and force.
+struct LiftedAnswer {
+    solution: Solution,
+    lifted: Lifted,
+}
+
+/// All solutions of a system, lifted.
+fn lifted_answers(problem: &Problem) -> Vec<LiftedAnswer> {
+    let system = system_of(problem);
+    let reduced = reduce(problem).unwrap();
+    let answer = enumerate(&reduced.pencil, problem.window()).unwrap();
+
+    let mut list = Vec::new();
+    for solution in answer.solutions {
+        let lifted = lift(system, problem.unknown(), &reduced.variables, &solution.x);
+        list.push(LiftedAnswer { solution, lifted });
+    }
+    list
+}
 
 #[test]
 fn every_solution_of_random_systems_lifts() {
     let mut count = 0;
+
     for instance in mechanical(60, 5).unwrap() {
-        let Body::System(system) = instance.problem.body() else {
-            panic!("a system")
-        };
-        let reduced = reduce(&instance.problem).unwrap();
-        for s in enumerate(&reduced.pencil, instance.problem.window())
-            .unwrap()
-            .solutions
-        {
-            let lifted = lift(system, instance.problem.unknown(), &reduced.variables, &s.x);
-            assert_eq!(
-                check_lines(
-                    system,
-                    instance.problem.unknown(),
-                    &lifted,
-                    &mut s.value.clone()
-                ),
-                Ok(()),
-                "{}",
-                instance.label
-            );
+        let problem = &instance.problem;
+        let system = system_of(problem);
+
+        for answer in lifted_answers(problem) {
+            let mut value = answer.solution.value;
+            let checked = check_lines(system, problem.unknown(), &answer.lifted, &mut value);
+            assert_eq!(checked, Ok(()), "{}", instance.label);
             count += 1;
         }
     }
     assert!(count > 20, "{count}");
 }
 
+/// A system, and motion and force of its first solution.
+struct Example {
+    system: System,
+    lifted: Lifted,
+    value: Algebraic,
+}
+
 /// Free dof 0, slip particle (1, 2) with S = 1, stick particle (3, 4), a second slip particle (5,
 /// 6).
-fn example() -> (System, Lifted, Algebraic) {
-    let mut k = vec![
-        (0, 1, 1),
-        (1, 0, 1),
-        (1, 2, -9),
-        (2, 1, -9),
-        (1, 5, -1),
-        (5, 1, -1),
-    ];
-    k.extend((0..7).map(|i| (i, i, 4)));
-    let k = Sparse::from_entries(7, 7, k.into_iter().map(|(i, j, v)| (i, j, whole(v))));
+fn example() -> Example {
+    let mut stiffness = Vec::new();
+    for dof in 0..7 {
+        stiffness.push((dof, dof, whole(4)));
+    }
+    for (i, j, value) in [(0, 1, 1), (1, 2, -9), (1, 5, -1)] {
+        stiffness.push((i, j, whole(value)));
+        stiffness.push((j, i, whole(value)));
+    }
+    let stiffness = Sparse::from_entries(7, 7, stiffness);
+    let mass = Sparse::identity(7);
+
     let slip = ContactState::Slip { sign: 1 };
     let particles = vec![
         Particle::plain(1, 2, slip),
         Particle::plain(3, 4, ContactState::Stick),
         Particle::plain(5, 6, slip),
     ];
-    let system = System::new(k, Some(Sparse::identity(7)), Some(whole(2)), particles).unwrap();
-    let problem = Problem::new(
-        Body::System(system.clone()),
-        Unknown::Lambda2,
-        Window::all(),
-    )
-    .unwrap();
-    let reduced = reduce(&problem).unwrap();
-    let s = enumerate(&reduced.pencil, problem.window())
-        .unwrap()
-        .solutions
-        .remove(0);
-    let lifted = lift(&system, Unknown::Lambda2, &reduced.variables, &s.x);
-    (system, lifted, s.value)
+    let system = System::new(stiffness, Some(mass), Some(whole(2)), particles).unwrap();
+    let body = Body::System(system.clone());
+    let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
+
+    let first = lifted_answers(&problem).remove(0);
+    Example {
+        system,
+        lifted: first.lifted,
+        value: first.solution.value,
+    }
+}
+
+impl Example {
+    /// The line of (9) that breaks when motion or force are changed, if any.
+    fn broken_line(&self, change: impl Fn(&mut Lifted)) -> Option<Line> {
+        let mut changed = self.lifted.clone();
+        change(&mut changed);
+
+        let mut value = self.value.clone();
+        let checked = check_lines(&self.system, Unknown::Lambda2, &changed, &mut value);
+        checked.err().map(|error| error.line)
+    }
 }
 
 #[test]
 fn each_line_notices_its_breach() {
-    let (system, good, mut value) = example();
-    let line = |lifted: &Lifted, value: &mut Algebraic| {
-        check_lines(&system, Unknown::Lambda2, lifted, value)
-            .err()
-            .map(|e| e.line)
-    };
-    assert_eq!(line(&good, &mut value), None);
+    let example = example();
     let one = Poly::from_ints(&[1]);
-    let breach = |change: &dyn Fn(&mut Lifted)| {
-        let mut lifted = good.clone();
-        change(&mut lifted);
-        line(&lifted, &mut value.clone())
-    };
-    assert_eq!(
-        breach(&|l| l.v.iter_mut().for_each(|p| *p = Poly::default())),
-        Some(Line::NonTrivial)
-    );
-    assert_eq!(breach(&|l| l.w[0] = one.clone()), Some(Line::FreeReaction));
-    assert_eq!(breach(&|l| l.v[3] = one.clone()), Some(Line::StickRate));
-    assert_eq!(breach(&|l| l.v[2] = one.clone()), Some(Line::NormalRate));
-    assert_eq!(
-        breach(&|l| l.v.iter_mut().for_each(|p| *p = -&*p)),
-        Some(Line::SlipDirection)
-    );
-    assert_eq!(
-        breach(&|l| l.w[1] = &l.w[1] + &one),
-        Some(Line::FrictionCone)
-    );
-    assert_eq!(
-        breach(&|l| l.w[1] = &l.w[1] - &one),
-        Some(Line::Complementarity)
-    );
+    assert_eq!(example.broken_line(|_| ()), None);
+
+    let without_motion = example.broken_line(|l| l.v.fill(Poly::default()));
+    assert_eq!(without_motion, Some(Line::NonTrivial));
+
+    let free_dof_loaded = example.broken_line(|l| l.w[0] = one.clone());
+    assert_eq!(free_dof_loaded, Some(Line::FreeReaction));
+
+    let stick_particle_moving = example.broken_line(|l| l.v[3] = one.clone());
+    assert_eq!(stick_particle_moving, Some(Line::StickRate));
+
+    let slip_particle_lifting = example.broken_line(|l| l.v[2] = one.clone());
+    assert_eq!(slip_particle_lifting, Some(Line::NormalRate));
+
+    let backwards = example.broken_line(|l| {
+        for component in &mut l.v {
+            *component = -&*component;
+        }
+    });
+    assert_eq!(backwards, Some(Line::SlipDirection));
+
+    let outside_the_cone = example.broken_line(|l| l.w[1] = &l.w[1] + &one);
+    assert_eq!(outside_the_cone, Some(Line::FrictionCone));
+
+    let inside_the_cone = example.broken_line(|l| l.w[1] = &l.w[1] - &one);
+    assert_eq!(inside_the_cone, Some(Line::Complementarity));
 }
 
 /// The terms of (9) at the slip particles, in doubles.
@@ -139,6 +170,15 @@ impl AtSlip {
             at_slip.cone.push(s * w_t + mu * w_n);
         }
         at_slip
+    }
+
+    /// The sum of the magnitudes of all terms.
+    fn scale(&self) -> f64 {
+        let mut scale = 0.0;
+        for term in self.cone.iter().chain(&self.slip) {
+            scale += term.abs();
+        }
+        scale
     }
 
     /// (S w_T + mu w_N)'(z - S v_T), which is at least 0 for every z <= 0 if (9) holds.
@@ -184,37 +224,25 @@ fn along(direction: &[(usize, Rational)], vector: &[Poly], value: f64) -> f64 {
 #[test]
 fn lifted_solutions_solve_the_variational_inequality() {
     let mut count = 0;
-    for instance in mechanical(60, 5).unwrap() {
-        let Body::System(system) = instance.problem.body() else {
-            panic!("a system")
-        };
-        let unknown = instance.problem.unknown();
-        let reduced = reduce(&instance.problem).unwrap();
-        let answer = enumerate(&reduced.pencil, instance.problem.window()).unwrap();
 
-        for s in answer.solutions {
-            let lifted = lift(system, unknown, &reduced.variables, &s.x);
-            let value = s.decimal(17).parse().unwrap();
-            let mut at_slip = AtSlip::new(system, unknown, &lifted, value);
-            let scale: f64 = at_slip
-                .cone
-                .iter()
-                .chain(&at_slip.slip)
-                .map(|v| v.abs())
-                .sum();
+    for instance in mechanical(60, 5).unwrap() {
+        let label = &instance.label;
+        let problem = &instance.problem;
+        let system = system_of(problem);
+
+        for answer in lifted_answers(problem) {
+            let value = answer.solution.decimal(17).parse().unwrap();
+            let mut at_slip = AtSlip::new(system, problem.unknown(), &answer.lifted, value);
 
             // Basis: sums of a few dozen doubles of this size.
+            let scale = at_slip.scale();
             let rounding = 1e-11 * (1.0 + scale * scale);
-            assert!(
-                at_slip.slip.iter().all(|s| *s <= rounding),
-                "{}",
-                instance.label
-            );
-            assert!(at_slip.least_side() >= -rounding, "{}", instance.label);
+            assert!(at_slip.slip.iter().all(|s| *s <= rounding), "{label}");
+            assert!(at_slip.least_side() >= -rounding, "{label}");
 
             // A reaction outside the friction cone.
             at_slip.cone[0] = 1.0 + scale;
-            assert!(at_slip.least_side() < -rounding, "{}", instance.label);
+            assert!(at_slip.least_side() < -rounding, "{label}");
             count += 1;
         }
     }

@@ -1,4 +1,8 @@
 //! The solver, the embedding, certification and lifting of what it finds.
+//!
+//! The files named `solver_*` take the solver alone: answers of the literature, hostile input,
+//! paths, curves. The others go on to certificates: what is certified must be accepted by the
+//! checker and listed by the exact enumerator.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[cfg(feature = "testkit")]

@@ -1,11 +1,13 @@
+//! The solver and the certificates on both sides of a threshold, and beside a fold.
+//!
 //! Just below a threshold a solver's residual is tiny and no solution exists: everything it "finds"
-//! is refused with a proof of absence. Just above, everything is certified. (Table 1, all sign
-//! patterns that have thresholds, relative gaps from 1e-3 to 1e-15; peers' solvers report success
-//! on both sides.) The search itself: on neither side, nor beside a fold, is an uncertified point
-//! among its solutions.
+//! must be refused with a proof of absence. Just above, everything must be certified. The truth is
+//! Table 1 in exact numbers, for all sign patterns that have thresholds, with relative gaps from
+//! 1e-3 to 1e-15; peers' solvers report success on both sides. Of the search itself no uncertified
+//! point may stand among its solutions.
 #![cfg(feature = "solver")]
 
-use mceip_check::check;
+use mceip_check::{AcceptedClaim, check};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, propose};
 use mceip_engine::multistart::{Found, Search, multistart};
@@ -14,7 +16,7 @@ use mceip_engine::search::near::{Near, near};
 use mceip_exact::{Rational, Sparse, from_f64, parse, to_f64, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Body, Pencil, Problem, Unknown, Window};
-use mceip_oracle::{TwoParticles, enumerate, table1};
+use mceip_oracle::{Solution, TwoParticles, enumerate, table1};
 use mceip_paper::{pythagorean_angles, two_particles};
 
 const GAPS: [&str; 13] = [
@@ -22,133 +24,191 @@ const GAPS: [&str; 13] = [
     "1e-14", "1e-15",
 ];
 
-/// A threshold of Table 1 to 40 digits from below: mu, and the x that appears there.
+/// The angles with a threshold.
+const ANGLES: usize = 6;
+
+/// The solutions just above the thresholds of one angle: one for each pattern of equal signs, two
+/// for (1, -1).
+const SOLUTIONS_OF_AN_ANGLE: usize = 1 + 1 + 2;
+
+fn gaps() -> impl Iterator<Item = Rational> {
+    GAPS.iter().map(|text| parse(text).unwrap())
+}
+
+/// A threshold of Table 1 to 40 digits from below: the data with mu, and the x that appears there.
 struct Threshold {
     data: TwoParticles,
     x: Vec<f64>,
 }
 
-/// mu = sqrt(c^2 + 2) / s for equal signs; (c^2 + 1) / (c s) for (1, -1), where one particle slips.
-fn thresholds() -> Vec<Threshold> {
-    let mut out = Vec::new();
-    for (c, s) in pythagorean_angles()
-        .into_iter()
-        .filter(|(c, s)| c * s > whole(0))
-    {
-        for signs in [(1, 1), (-1, -1), (1, -1)] {
-            let (mu, x) = if signs.0 == signs.1 {
-                let root = root(&(&c * &c + whole(2)));
-                // x_2 / x_1 = c^2 + 1 - S c sqrt(c^2 + 2)
-                let ratio = to_f64(&(&c * &c + whole(1) - &c * &root * whole(signs.0.into())));
-                (root / &s, vec![1.0, ratio])
-            } else {
-                ((&c * &c + whole(1)) / (&c * &s), vec![1.0, 0.0])
-            };
-            out.push(Threshold {
-                data: TwoParticles {
-                    c: c.clone(),
-                    s: s.clone(),
-                    k: whole(7),
-                    m: whole(2),
-                    mu,
-                    signs,
-                },
-                x,
-            });
+impl Threshold {
+    /// mu = sqrt(c^2 + 2) / s, where x_2 / x_1 = c^2 + 1 - S c sqrt(c^2 + 2).
+    fn of_equal_signs(c: &Rational, s: &Rational, sign: i8) -> Threshold {
+        let c_squared = c * c;
+        let root = root_to_40_digits(&(&c_squared + whole(2)));
+        let ratio = &c_squared + whole(1) - c * &root * whole(sign.into());
+        Threshold {
+            data: two_particles_with(c, s, root / s, (sign, sign)),
+            x: vec![1.0, to_f64(&ratio)],
         }
     }
-    out
+
+    /// mu = (c^2 + 1) / (c s) for (1, -1), where one particle slips.
+    fn of_opposite_signs(c: &Rational, s: &Rational) -> Threshold {
+        let mu = (c * c + whole(1)) / (c * s);
+        Threshold {
+            data: two_particles_with(c, s, mu, (1, -1)),
+            x: vec![1.0, 0.0],
+        }
+    }
+
+    /// The data with mu multiplied by a factor.
+    fn data_beside(&self, factor: &Rational) -> TwoParticles {
+        TwoParticles {
+            mu: &self.data.mu * factor,
+            ..self.data.clone()
+        }
+    }
+}
+
+fn two_particles_with(c: &Rational, s: &Rational, mu: Rational, signs: (i8, i8)) -> TwoParticles {
+    TwoParticles {
+        c: c.clone(),
+        s: s.clone(),
+        k: whole(7),
+        m: whole(2),
+        mu,
+        signs,
+    }
+}
+
+/// The thresholds of all angles with c s > 0.
+fn thresholds() -> Vec<Threshold> {
+    let mut list = Vec::new();
+    for (c, s) in pythagorean_angles() {
+        if &c * &s > whole(0) {
+            list.push(Threshold::of_equal_signs(&c, &s, 1));
+            list.push(Threshold::of_equal_signs(&c, &s, -1));
+            list.push(Threshold::of_opposite_signs(&c, &s));
+        }
+    }
+    list
 }
 
 /// The square root to 40 digits, rounded down.
-fn root(v: &Rational) -> Rational {
-    let scale = parse("1e80").unwrap();
-    Rational::from_integer((v * &scale).to_integer().sqrt()) / parse("1e40").unwrap()
+fn root_to_40_digits(value: &Rational) -> Rational {
+    let scale = parse("1e40").unwrap();
+    let scaled = value * &scale * &scale;
+    Rational::from_integer(scaled.to_integer().sqrt()) / scale
 }
 
-fn problem(t: &Threshold, factor: &Rational) -> (Problem, TwoParticles) {
-    let data = TwoParticles {
-        mu: &t.data.mu * factor,
-        ..t.data.clone()
+fn problem_of(data: &TwoParticles) -> Problem {
+    let body = Body::System(two_particles(data).unwrap());
+    Problem::new(body, Unknown::Lambda2, Window::all()).unwrap()
+}
+
+/// No claim is made for this candidate, and a cover of an interval above it proves that there is
+/// nothing.
+fn assert_absence_is_proved(problem: &Problem, candidate: &Candidate, label: &str) {
+    let pencil = reduce(problem).unwrap().pencil;
+    assert!(propose(&pencil, problem.window(), candidate).is_err());
+
+    let absence = match near(problem, candidate, None, &Watch::nobody()).unwrap() {
+        Near::Absent(absence) => absence,
+        other => panic!("{label}: {other:?}"),
     };
-    let body = Body::System(two_particles(&data).unwrap());
-    (
-        Problem::new(body, Unknown::Lambda2, Window::all()).unwrap(),
-        data,
-    )
+    let cover = check(problem, &absence.certificate).unwrap().cover.unwrap();
+    assert!(cover.solutions.is_empty());
+    assert!(cover.open.is_empty());
+
+    let window = &absence.certificate.window;
+    let value = from_f64(candidate.value).unwrap();
+    let beyond = &value + parse("1e-10").unwrap();
+    assert!(*window.min() <= value);
+    assert!(*window.max().unwrap() >= beyond);
 }
 
 #[test]
 fn below_the_threshold_absence_is_proved() {
     let mut absent = 0;
-    for t in thresholds() {
-        for gap in GAPS {
-            let gap = parse(gap).unwrap();
-            let (problem, data) = problem(&t, &(whole(1) - &gap));
+
+    for threshold in thresholds() {
+        for gap in gaps() {
+            let data = threshold.data_beside(&(whole(1) - &gap));
             assert!(table1(&data).is_empty());
-            let pencil = reduce(&problem).unwrap().pencil;
+            let problem = problem_of(&data);
+
             // What a peer reports: lambda^2 at its bound, at the size of its residual, and at the
             // gap.
             for value in [0.0, 1e-13, to_f64(&gap)] {
-                let claimed = Candidate {
+                let reported = Candidate {
                     value,
-                    x: t.x.clone(),
+                    x: threshold.x.clone(),
                 };
-                assert!(propose(&pencil, problem.window(), &claimed).is_err());
-                match near(&problem, &claimed, None, &Watch::nobody()).unwrap() {
-                    Near::Absent(c) => {
-                        let cover = check(&problem, &c.certificate).unwrap().cover.unwrap();
-                        assert!(cover.solutions.is_empty() && cover.open.is_empty());
-                        let (window, at) = (&c.certificate.window, from_f64(value).unwrap());
-                        assert!(
-                            *window.min() <= at
-                                && *window.max().unwrap() >= at + parse("1e-10").unwrap()
-                        );
-                        absent += 1;
-                    }
-                    other => panic!("{data:?} at {value}: {other:?}"),
-                }
+                let label = format!("{data:?} at {value}");
+                assert_absence_is_proved(&problem, &reported, &label);
+                absent += 1;
             }
         }
     }
-    assert_eq!(absent, 6 * 3 * GAPS.len() * 3);
+    assert_eq!(absent, ANGLES * 3 * GAPS.len() * 3);
+}
+
+/// A solution of the enumerator to 17 digits, as a candidate.
+fn candidate_of(solution: &Solution, pencil: &Pencil) -> Candidate {
+    let mut x = Vec::new();
+    for decimal in solution.x_decimals(&pencil.slip(), 17) {
+        x.push(decimal.parse().unwrap());
+    }
+    Candidate {
+        value: solution.decimal(17).parse().unwrap(),
+        x,
+    }
 }
 
 #[test]
 fn above_the_threshold_everything_is_certified() {
     let mut accepted = 0;
-    for t in thresholds() {
-        for gap in GAPS {
-            let (problem, data) = problem(&t, &(whole(1) + parse(gap).unwrap()));
+
+    for threshold in thresholds() {
+        for gap in gaps() {
+            let data = threshold.data_beside(&(whole(1) + gap));
+            let problem = problem_of(&data);
             let pencil = reduce(&problem).unwrap().pencil;
             let truth = enumerate(&pencil, problem.window()).unwrap().solutions;
             assert_eq!(truth.len(), table1(&data).len());
-            for s in truth {
-                let x = s
-                    .x_decimals(&pencil.slip(), 17)
-                    .iter()
-                    .map(|t| t.parse().unwrap())
-                    .collect();
-                let claimed = Candidate {
-                    value: s.decimal(17).parse().unwrap(),
-                    x,
-                };
-                let claim = propose(&pencil, problem.window(), &claimed).unwrap();
-                let accepted_claims = check(&problem, &certificate(&problem, vec![claim]))
-                    .unwrap()
-                    .claims;
-                assert_eq!(accepted_claims[0].support, s.slip);
+
+            for solution in truth {
+                let candidate = candidate_of(&solution, &pencil);
+                let claim = propose(&pencil, problem.window(), &candidate).unwrap();
+                let certificate = certificate(&problem, vec![claim]);
+                let claims = check(&problem, &certificate).unwrap().claims;
+                assert_eq!(claims[0].support, solution.slip);
                 accepted += 1;
             }
         }
     }
-    // One solution with equal signs, two with (1, -1).
-    assert_eq!(accepted, 6 * (1 + 1 + 2) * GAPS.len());
+    assert_eq!(accepted, ANGLES * SOLUTIONS_OF_AN_ANGLE * GAPS.len());
+}
+
+/// Is an accepted claim one of these solutions? The same support, and intervals that meet.
+fn is_listed(claim: &AcceptedClaim, truth: &[Solution]) -> bool {
+    let mut same_support = truth.iter().filter(|s| s.slip == claim.support);
+    same_support.any(|solution| {
+        let interval = solution.value.interval();
+        interval.hi() >= claim.value.lo() && interval.lo() <= claim.value.hi()
+    })
+}
+
+/// What the search found, and how many solutions there are.
+struct Searched {
+    found: Found,
+    truth: usize,
 }
 
 /// What the search says of a problem: every claim is checked against the problem and the exact
 /// enumeration.
-fn searched(problem: &Problem) -> (Found, usize) {
+fn searched(problem: &Problem) -> Searched {
     let pencil = reduce(problem).unwrap().pencil;
     let admissible = Admissible::new(&pencil, problem.unknown()).unwrap();
     let search = Search {
@@ -156,46 +216,77 @@ fn searched(problem: &Problem) -> (Found, usize) {
         window_starts: 1,
         ..Search::default()
     };
+
     let found = multistart(problem, &admissible, &search).unwrap();
     let truth = enumerate(&pencil, problem.window()).unwrap().solutions;
+
+    let claimed = found.certified.len();
     assert!(
-        found.certified.len() <= truth.len(),
-        "{} claims of {}",
-        found.certified.len(),
+        claimed <= truth.len(),
+        "{claimed} claims of {}",
         truth.len()
     );
-    if !found.certified.is_empty() {
+    if claimed > 0 {
         let claims = found.certified.iter().map(|c| c.claim.clone()).collect();
-        let accepted = check(problem, &certificate(problem, claims))
-            .unwrap()
-            .claims;
-        let is_true = |c: &mceip_check::AcceptedClaim| {
-            truth.iter().any(|s| {
-                s.slip == c.support
-                    && s.value.interval().hi() >= c.value.lo()
-                    && s.value.interval().lo() <= c.value.hi()
-            })
-        };
-        assert!(accepted.iter().all(is_true));
+        let certificate = certificate(problem, claims);
+        let accepted = check(problem, &certificate).unwrap().claims;
+        assert!(accepted.iter().all(|claim| is_listed(claim, &truth)));
     }
-    (found, truth.len())
+
+    Searched {
+        found,
+        truth: truth.len(),
+    }
+}
+
+/// What searches on both sides of thresholds came to.
+#[derive(Default)]
+struct Sides {
+    /// Problems below with an uncertified point within the tolerance.
+    trapped: usize,
+    /// Certified solutions above.
+    certified: usize,
+    /// Solutions above.
+    exist: usize,
+}
+
+impl Sides {
+    /// Below there is nothing, and nothing is claimed.
+    fn add_below(&mut self, problem: &Problem, label: &str) {
+        let below = searched(problem);
+        assert_eq!(below.truth, 0, "{label}");
+        assert!(below.found.certified.is_empty(), "{label}");
+        self.trapped += usize::from(!below.found.uncertified.is_empty());
+    }
+
+    fn add_above(&mut self, problem: &Problem) -> usize {
+        let above = searched(problem);
+        self.certified += above.found.certified.len();
+        self.exist += above.truth;
+        above.truth
+    }
 }
 
 /// Peers' trap on our own solver: within the tolerance below the threshold, where nothing exists.
 #[test]
 fn the_search_claims_nothing_below_and_only_what_exists_above() {
-    let (mut trapped, mut certified, mut exist) = (0, 0, 0);
-    for t in thresholds() {
-        for gap in GAPS {
-            let gap = parse(gap).unwrap();
-            let (below, truth) = searched(&problem(&t, &(whole(1) - &gap)).0);
-            assert_eq!((below.certified.len(), truth), (0, 0));
-            trapped += usize::from(!below.uncertified.is_empty());
-            let (above, truth) = searched(&problem(&t, &(whole(1) + &gap)).0);
-            certified += above.certified.len();
-            exist += truth;
+    let mut sides = Sides::default();
+
+    for threshold in thresholds() {
+        for gap in gaps() {
+            let below = threshold.data_beside(&(whole(1) - &gap));
+            sides.add_below(&problem_of(&below), &format!("{below:?}"));
+
+            let above = threshold.data_beside(&(whole(1) + &gap));
+            sides.add_above(&problem_of(&above));
         }
     }
+
+    let Sides {
+        trapped,
+        certified,
+        exist,
+    } = sides;
     println!(
         "uncertified points below in {trapped} of 234 problems, certified above {certified} of \
          {exist}"
@@ -204,49 +295,44 @@ fn the_search_claims_nothing_below_and_only_what_exists_above() {
     // springs. (71 problems in the run of 2026-11-21; a solver that is never trapped would leave
     // this test empty.)
     assert!(trapped >= 40, "{trapped}");
-    assert_eq!(exist, 6 * (1 + 1 + 2) * GAPS.len());
+    assert_eq!(exist, ANGLES * SOLUTIONS_OF_AN_ANGLE * GAPS.len());
     assert_eq!(certified, exist);
 }
 
-/// A pair of solutions is born at lambda^2 > 0 (fold of `facts.md`: K0 = diag(1, 2), K1 = [[0, -3],
-/// [1, -4]], M = I) at mu = 1 + sqrt(3) / 2. Below it the residual is small at the double root's
-/// place, and there is no solution.
+/// K0 + mu K1 with K0 = diag(1, 2), K1 = [[0, -3], [1, -4]] and M = I.
+fn fold_problem(mu: &Rational) -> Problem {
+    let entries = [
+        (0, 0, whole(1)),
+        (0, 1, mu * whole(-3)),
+        (1, 0, mu.clone()),
+        (1, 1, whole(2) - mu * whole(4)),
+    ];
+    let a = Sparse::from_entries(2, 2, entries);
+    let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+    Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap()
+}
+
+/// A pair of solutions is born at lambda^2 > 0 (fold of `facts.md`) at mu = 1 + sqrt(3) / 2. Below
+/// it the residual is small at the double root's place, and there is no solution.
 #[test]
 fn beside_a_fold_nothing_false_is_claimed() {
-    let fold = whole(1) + root(&whole(3)) / whole(2);
-    let (mut trapped, mut certified, mut exist) = (0, 0, 0);
-    for gap in GAPS {
-        let gap = parse(gap).unwrap();
-        for (side, count) in [(-1, 0), (1, 2)] {
-            let mu = &fold * (whole(1) + &gap * whole(side));
-            let entries = [
-                whole(1),
-                &mu * whole(-3),
-                mu.clone(),
-                whole(2) - &mu * whole(4),
-            ];
-            let a = Sparse::from_entries(
-                2,
-                2,
-                entries
-                    .into_iter()
-                    .enumerate()
-                    .map(|(k, v)| (k / 2, k % 2, v)),
-            );
-            let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
-            let problem =
-                Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
-            let (found, truth) = searched(&problem);
-            assert_eq!(truth, count, "gap {gap}, side {side}");
-            if side < 0 {
-                assert!(found.certified.is_empty());
-                trapped += usize::from(!found.uncertified.is_empty());
-            } else {
-                certified += found.certified.len();
-                exist += truth;
-            }
-        }
+    let fold = whole(1) + root_to_40_digits(&whole(3)) / whole(2);
+    let mut sides = Sides::default();
+
+    for gap in gaps() {
+        let below = &fold * (whole(1) - &gap);
+        sides.add_below(&fold_problem(&below), &format!("gap {gap}"));
+
+        let above = &fold * (whole(1) + &gap);
+        let truth = sides.add_above(&fold_problem(&above));
+        assert_eq!(truth, 2, "gap {gap}");
     }
+
+    let Sides {
+        trapped,
+        certified,
+        exist,
+    } = sides;
     println!(
         "fold: uncertified points below in {trapped} of 13 problems, certified above {certified} \
          of {exist}"

@@ -1,36 +1,54 @@
-//! The real job: complementarity eigenproblems embedded as MCP, against brute-force enumeration.
+//! The solver on what it is for: complementarity eigenproblems embedded as MCP.
+//!
+//! The truth is the closed form of Table 1 and an enumeration of all supports in doubles
+//! (`tests/support`), which shares nothing with the solver. What the solver returns within its
+//! tolerance must be in that list, and over a grid it must find all of the list.
 #![cfg(feature = "solver")]
 
-use crate::support::*;
-use mceip_mcp::solver::{Options, PathEnd, PathRecord, Start, multistart, solve};
+use crate::support::{Embedded, Truth, contains, enumerate, random_pencil, table1};
+use mceip_mcp::solver::{Options, Outcome, PathEnd, PathRecord, Start, multistart, solve};
+use nalgebra::DVector;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+/// Cosine and sine of the angle.
 const C: f64 = 0.6;
 const S: f64 = 0.8;
 
+/// The friction coefficient in the tests of single problems.
+const MU: f64 = 8.0;
+
+/// Table 1 for the angle above and these signs, embedded.
+fn two_particles(mu: f64, s1: f64, s2: f64) -> Embedded {
+    let (a, b) = table1(C, S, mu, s1, s2);
+    Embedded::new(a, b, 0)
+}
+
 /// Distinct (t, x) among the runs that reached the tolerance.
-fn distinct(problem: &Embedded, starts: Vec<Vec<f64>>) -> Vec<Truth> {
+fn distinct_solutions(problem: &Embedded, starts: Vec<Vec<f64>>) -> Vec<Truth> {
     let n = problem.a.nrows();
     let mut found: Vec<Truth> = Vec::new();
+
     for outcome in multistart(problem, starts, &Options::default()).unwrap() {
-        let (x, t) = (&outcome.point[..n], outcome.point[n]);
+        let x = &outcome.point[..n];
+        let t = outcome.point[n];
         if outcome.termination.reached_tolerance() && !contains(&found, t, x) {
-            found.push(Truth {
-                t,
-                x: nalgebra::DVector::from_column_slice(x),
-            });
+            let x = DVector::from_column_slice(x);
+            found.push(Truth { t, x });
         }
     }
     found
 }
 
+/// q = mu c s and d = c^2 + 1: the solutions are q - d with one particle, q - d - 1 with both.
 #[test]
 fn opposite_signs_have_three_solutions() {
-    let (a, b) = table1(C, S, 8.0, 1.0, -1.0);
-    let problem = Embedded::new(a, b, 0);
-    let (q, d) = (8.0 * C * S, C * C + 1.0);
-    let found = distinct(&problem, problem.starts(22, 5.0, 1));
+    let problem = two_particles(MU, 1.0, -1.0);
+    let q = MU * C * S;
+    let d = C * C + 1.0;
+
+    let found = distinct_solutions(&problem, problem.starts(22, 5.0, 1));
+
     assert_eq!(found.len(), 3, "{found:?}");
     assert!(contains(&found, q - d, &[1.0, 0.0]));
     assert!(contains(&found, q - d, &[0.0, 1.0]));
@@ -39,118 +57,162 @@ fn opposite_signs_have_three_solutions() {
 
 #[test]
 fn equal_signs_have_one_solution() {
-    let (a, b) = table1(C, S, 8.0, 1.0, 1.0);
-    let problem = Embedded::new(a, b, 0);
-    let (q, d) = (8.0 * C * S, C * C + 1.0);
+    let problem = two_particles(MU, 1.0, 1.0);
+    let q = MU * C * S;
+    let d = C * C + 1.0;
     let root = q.hypot(1.0);
     let ratio = 1.0 / (root + q);
     let x = [1.0 / (1.0 + ratio), ratio / (1.0 + ratio)];
-    let found = distinct(&problem, problem.starts(22, 5.0, 1));
+
+    let found = distinct_solutions(&problem, problem.starts(22, 5.0, 1));
+
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(contains(&found, root - d, &x), "{found:?} {x:?}");
 }
 
 #[test]
 fn the_other_opposite_signs_have_none() {
-    let (a, b) = table1(C, S, 8.0, -1.0, 1.0);
-    let problem = Embedded::new(a, b, 0);
-    assert!(distinct(&problem, problem.starts(22, 5.0, 1)).is_empty());
+    let problem = two_particles(MU, -1.0, 1.0);
+    let found = distinct_solutions(&problem, problem.starts(22, 5.0, 1));
+    assert!(found.is_empty());
 }
 
 #[test]
 fn every_solution_of_a_table_1_grid_in_22_starts() {
-    let (mut solutions, mut found) = (0, 0);
+    let sign_patterns = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+    let mut solutions = 0;
+    let mut found = 0;
+
     for phi in [20.0f64, 45.0, 70.0] {
         let (s, c) = phi.to_radians().sin_cos();
         for mu in [1.0, 4.0, 8.0, 20.0] {
-            for (s1, s2) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            for (s1, s2) in sign_patterns {
                 let (a, b) = table1(c, s, mu, s1, s2);
                 let truth = enumerate(&a, &b, 0);
                 let problem = Embedded::new(a, b, 0);
-                let seen = distinct(&problem, problem.starts(22, 10.0, 1));
-                solutions += truth.len();
-                found += truth
-                    .iter()
-                    .filter(|s| contains(&seen, s.t, s.x.as_slice()))
-                    .count();
-                assert!(
-                    seen.iter().all(|s| contains(&truth, s.t, s.x.as_slice())),
-                    "{seen:?} {truth:?}"
-                );
+
+                let seen = distinct_solutions(&problem, problem.starts(22, 10.0, 1));
+
+                for solution in &seen {
+                    let is_true = contains(&truth, solution.t, solution.x.as_slice());
+                    assert!(is_true, "{seen:?} {truth:?}");
+                }
+                for solution in &truth {
+                    let is_seen = contains(&seen, solution.t, solution.x.as_slice());
+                    found += usize::from(is_seen);
+                    solutions += 1;
+                }
             }
         }
     }
+
     assert!(solutions >= 25, "{solutions}");
     assert_eq!(found, solutions);
+}
+
+/// A random pencil of MCEIP-mu, or of MCEIP-lambda2 with mu = 3.
+fn random_problem(rng: &mut ChaCha8Rng, family: &str, n: usize) -> Embedded {
+    let (k0, k1, m0, free) = random_pencil(rng, n);
+    if family == "mu" {
+        Embedded::new(k0, k1, free)
+    } else {
+        Embedded::new(k0 + k1 * 3.0, m0, free)
+    }
+}
+
+fn is_complete_ray(path: &PathRecord) -> bool {
+    path.start == Start::Ray && path.end == PathEnd::Complete
+}
+
+/// The steps whose second path, from a ray start, led to the Newton point.
+fn steps_by_ray(outcome: &Outcome) -> usize {
+    let mut count = 0;
+    for step in &outcome.log {
+        let is_by_ray = step.paths.len() == 2 && is_complete_ray(&step.paths[1]);
+        count += usize::from(is_by_ray);
+    }
+    count
+}
+
+/// What came of first starts.
+#[derive(Default)]
+struct FirstStarts {
+    solvable: usize,
+    converged: usize,
+    by_ray: usize,
+}
+
+impl FirstStarts {
+    /// Solves a problem from its first starts with t = 0 and t = 1, if it has a solution.
+    fn add(&mut self, problem: &Embedded) {
+        let n = problem.a.nrows();
+        let truth = enumerate(&problem.a, &problem.b, problem.free);
+        if truth.is_empty() {
+            return;
+        }
+
+        for t in [0.0, 1.0] {
+            let outcome = solve(problem, &problem.first_start(t), &Options::default()).unwrap();
+
+            let is_true = contains(&truth, outcome.point[n], &outcome.point[..n]);
+            let is_claimed = outcome.termination.reached_tolerance();
+            assert!(is_true || !is_claimed, "{outcome:?} {truth:?}");
+
+            self.by_ray += steps_by_ray(&outcome);
+            self.solvable += 1;
+            self.converged += usize::from(is_true);
+        }
+    }
 }
 
 #[test]
 fn random_pencils_converge_from_the_first_start() {
     for family in ["lambda2", "mu"] {
-        let (mut solvable, mut converged, mut by_ray) = (0, 0, 0);
-        for n in [5, 10] {
+        let mut first_starts = FirstStarts::default();
+        for (n, count) in [(5, 30), (10, 12)] {
             let mut rng = ChaCha8Rng::seed_from_u64(1000 * n as u64 + 7);
-            for _ in 0..if n == 5 { 30 } else { 12 } {
-                let (k0, k1, m0, free) = random_pencil(&mut rng, n);
-                let problem = if family == "mu" {
-                    Embedded::new(k0, k1, free)
-                } else {
-                    Embedded::new(k0 + k1 * 3.0, m0, free)
-                };
-                let truth = enumerate(&problem.a, &problem.b, free);
-                if truth.is_empty() {
-                    continue;
-                }
-                for t in [0.0, 1.0] {
-                    let outcome =
-                        solve(&problem, &problem.first_start(t), &Options::default()).unwrap();
-                    let right = contains(&truth, outcome.point[n], &outcome.point[..n]);
-                    assert!(
-                        right || !outcome.termination.reached_tolerance(),
-                        "{outcome:?} {truth:?}"
-                    );
-                    let ray = |p: &PathRecord| p.start == Start::Ray && p.end == PathEnd::Complete;
-                    by_ray += outcome
-                        .log
-                        .iter()
-                        .filter(|r| r.paths.len() == 2 && ray(&r.paths[1]))
-                        .count();
-                    solvable += 1;
-                    converged += usize::from(right);
-                }
+            for _ in 0..count {
+                first_starts.add(&random_problem(&mut rng, family, n));
             }
         }
+
+        let FirstStarts {
+            solvable,
+            converged,
+            by_ray,
+        } = first_starts;
         println!("{family}: {converged} of {solvable}, {by_ray} Newton points by a ray start");
         assert!(by_ray > 0);
-        assert!(
-            converged * 100 >= 95 * solvable,
-            "{family}: {converged} of {solvable}"
-        );
+        let is_enough = converged * 100 >= 95 * solvable;
+        assert!(is_enough, "{family}: {converged} of {solvable}");
     }
 }
 
 #[test]
 fn runs_repeat_bit_by_bit() {
-    let (k0, k1, _, free) = random_pencil(&mut ChaCha8Rng::seed_from_u64(3), 10);
-    let problem = Embedded::new(k0, k1, free);
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    let problem = random_problem(&mut rng, "mu", 10);
     let run = || multistart(&problem, problem.starts(6, 10.0, 5), &Options::default()).unwrap();
+
     assert_eq!(run(), run());
 }
 
+/// (+,+): solutions begin where 1 + q^2 = (c^2 + 1)^2. Just below there are none.
 #[test]
 fn next_to_a_threshold_there_is_a_reason_and_no_panic() {
-    // (+,+): solutions begin where 1 + q^2 = (c^2 + 1)^2. Just below there are none.
     let d: f64 = C * C + 1.0;
     let threshold = (d * d - 1.0).sqrt() / (C * S);
+
     for gap in [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
-        let (a, b) = table1(C, S, threshold * (1.0 - gap), 1.0, 1.0);
-        let problem = Embedded::new(a, b, 0);
-        let outcomes =
-            multistart(&problem, problem.starts(22, 2.0, 1), &Options::default()).unwrap();
-        let reached = outcomes
-            .iter()
-            .filter(|o| o.termination.reached_tolerance())
-            .count();
+        let problem = two_particles(threshold * (1.0 - gap), 1.0, 1.0);
+        let starts = problem.starts(22, 2.0, 1);
+
+        let outcomes = multistart(&problem, starts, &Options::default()).unwrap();
+
+        let mut reached = 0;
+        for outcome in &outcomes {
+            reached += usize::from(outcome.termination.reached_tolerance());
+        }
         println!("gap {gap:e}: {reached} of 22 within tolerance where no solution exists");
         assert!(gap < 1e-9 || reached == 0, "gap {gap:e}: {reached}");
     }

@@ -1,575 +1,733 @@
 //! Claims of solutions: what is accepted, and a forgery of each obligation.
+//!
+//! Exact claims name the value by a polynomial and an interval, x by polynomials in the value;
+//! enclosed claims are boxes that hold one solution; lifted claims are the motion of a system's
+//! degrees of freedom. The solutions are computed by hand or, for the system, by the enumerator
+//! (`mceip_oracle`). A deviation of 1e-12 or 1e-30 is rejected, which no checker in doubles sees.
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;
 use mceip_check::certificate::{
     Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution,
 };
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::propose;
 use mceip_exact::{Integer, Rational, rational, whole};
 use mceip_model::file::Number;
-use mceip_model::{Unknown, Window};
+use mceip_model::{Problem, Unknown, Window};
 
 pub fn exact_claims(cases: &mut Cases) {
-    let (p, good) = root_two();
-    let own = |c: &ExactSolution| claims(&p, Claim::ExactSolution(c.clone()));
+    spellings_of_one_solution(cases);
+
+    let (problem, good) = root_two();
+    for forgery in VALUES.iter().chain(&VECTORS) {
+        let name = format!("exact-{}", forgery.name);
+        let forged = exact_certificate(&problem, &forgery.of(&good));
+        cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
+    }
+
+    frame(cases);
+    signs(cases);
+    signs_by_intervals(cases);
+    threshold(cases);
+    free_variable(cases);
+}
+
+fn spellings_of_one_solution(cases: &mut Cases) {
+    let (problem, good) = root_two();
     cases.accept(
         "exact",
         "t = sqrt 2 - 1 on two of three variables",
-        &p,
-        &own(&good),
+        &problem,
+        &exact_certificate(&problem, &good),
     );
-    let scaled = ExactSolution {
-        x: good
-            .x
-            .iter()
-            .map(|g| g.iter().map(|n| Number(&n.0 * rational(7, 3))).collect())
-            .collect(),
-        ..good.clone()
-    };
+
+    let mut scaled = good.clone();
+    for coefficient in scaled.x.iter_mut().flatten() {
+        coefficient.0 *= rational(7, 3);
+    }
     cases.accept(
         "exact-scaled",
         "x times 7/3 is the same solution",
-        &p,
-        &own(&scaled),
+        &problem,
+        &exact_certificate(&problem, &scaled),
     );
+
     let unreduced = ExactSolution {
         x: vec![
             numbers(&["1"]),
             numbers(&["0", "3", "1"]),
             numbers(&["-1", "2", "1"]),
         ],
-        ..good.clone()
+        ..good
     };
     cases.accept(
         "exact-unreduced",
         "polynomials of higher degree that are equal mod p, one of them 0 mod p",
-        &p,
-        &own(&unreduced),
+        &problem,
+        &exact_certificate(&problem, &unreduced),
     );
-    type Change = fn(&mut ExactSolution);
-    let forged: [(&str, &str, &str, Change); 22] = [
-        ("degree", "TooLarge", "513 coefficients", |c| {
-            c.polynomial = vec![Integer::from(1); 513]
-        }),
-        ("degree-of-x", "TooLarge", "x of 513 coefficients", |c| {
-            c.x[0] = vec![Number(whole(1)); 513]
-        }),
-        ("wrong-root", "NoSignChange", "p of another number", |c| {
-            c.polynomial[0] = Integer::from(-2)
-        }),
-        (
-            "other-root",
-            "YNotZero",
-            "a root in the interval that is no eigenvalue",
-            |c| c.polynomial = vec![(-9).into(), 20.into()],
-        ),
-        (
-            "interval-shifted",
-            "NoSignChange",
-            "the interval beside the root",
-            |c| c.interval = [q("1/2"), q("3/5")],
-        ),
-        (
-            "interval-end-1e-30",
-            "NoSignChange",
-            "lower end 1e-30 above the root",
-            |c| c.interval[0] = q("0.414213562373095048801688724210"),
-        ),
-        (
-            "not-isolated",
-            "NotIsolated",
-            "a turning point of p in the interval",
-            |c| c.interval = [q("-2"), q("1")],
-        ),
-        ("interval-reversed", "ReversedInterval", "a > b", |c| {
-            c.interval.swap(0, 1)
-        }),
-        ("point-no-root", "NotARoot", "a = b, p(a) != 0", |c| {
-            c.interval[1] = c.interval[0].clone()
-        }),
-        (
-            "negative-value",
-            "OutsideWindow",
-            "the other root of p, lambda^2 < 0",
-            |c| c.interval = [q("-3"), q("-2")],
-        ),
-        ("constant-polynomial", "ConstantPolynomial", "p = 0", |c| {
-            c.polynomial = vec![0.into()]
-        }),
-        ("sign-flipped", "XNotPositive", "x_0 negative", |c| {
-            c.x[0][0].0 = whole(-1)
-        }),
-        ("zero-x", "XNotPositive", "x = 0", |c| c.x = vec![vec![]; 3]),
-        (
-            "kernel-off",
-            "YNotZero",
-            "kernel vector off by 1e-12 in one coefficient",
-            |c| c.x[1][0].0 += tiny(),
-        ),
-        (
-            "support-short",
-            "XOffSupport",
-            "a moving variable is not listed",
-            |c| c.support = vec![0],
-        ),
-        (
-            "support-long",
-            "XNotPositive",
-            "a resting variable is listed",
-            |c| c.support.push(2),
-        ),
-        ("support-not-ascending", "IndexSet", "support [1, 0]", |c| {
-            c.support = vec![1, 0]
-        }),
-        (
-            "support-out-of-range",
-            "IndexSet",
-            "index 3 of 3 variables",
-            |c| c.support = vec![0, 1, 3],
-        ),
-        (
-            "biactive-invented",
-            "Biactive",
-            "y_2 > 0 called zero",
-            |c| c.biactive = vec![2],
-        ),
-        (
-            "biactive-on-support",
-            "Biactive",
-            "a moving variable called biactive",
-            |c| c.biactive = vec![0],
-        ),
-        ("x-long", "Length", "one polynomial too many", |c| {
-            c.x.push(vec![])
-        }),
-        (
-            "resting-moves",
-            "XOffSupport",
-            "x_2 = 1 off the support",
-            |c| c.x[2] = numbers(&["1"]),
-        ),
-    ];
-    for (name, reason, note, change) in forged {
-        let mut c = good.clone();
-        change(&mut c);
-        cases.reject(&format!("exact-{name}"), reason, note, &p, &own(&c));
-    }
-    frame(cases);
-    signs(cases);
-    free(cases);
 }
 
+/// The value of `root_two`: p = t^2 + 2 t - 1 in [2/5, 1/2].
+const VALUES: [Forgery<ExactSolution>; 10] = [
+    Forgery {
+        name: "degree",
+        reason: "TooLarge",
+        note: "513 coefficients",
+        change: |claim| claim.polynomial = vec![Integer::from(1); 513],
+    },
+    Forgery {
+        name: "wrong-root",
+        reason: "NoSignChange",
+        note: "p of another number",
+        change: |claim| claim.polynomial[0] = Integer::from(-2),
+    },
+    Forgery {
+        name: "other-root",
+        reason: "YNotZero",
+        note: "a root in the interval that is no eigenvalue",
+        change: |claim| claim.polynomial = vec![(-9).into(), 20.into()],
+    },
+    Forgery {
+        name: "interval-shifted",
+        reason: "NoSignChange",
+        note: "the interval beside the root",
+        change: |claim| claim.interval = [q("1/2"), q("3/5")],
+    },
+    Forgery {
+        name: "interval-end-1e-30",
+        reason: "NoSignChange",
+        note: "lower end 1e-30 above the root",
+        change: |claim| claim.interval[0] = q("0.414213562373095048801688724210"),
+    },
+    Forgery {
+        name: "not-isolated",
+        reason: "NotIsolated",
+        note: "a turning point of p in the interval",
+        change: |claim| claim.interval = [q("-2"), q("1")],
+    },
+    Forgery {
+        name: "interval-reversed",
+        reason: "ReversedInterval",
+        note: "a > b",
+        change: |claim| claim.interval.swap(0, 1),
+    },
+    Forgery {
+        name: "point-no-root",
+        reason: "NotARoot",
+        note: "a = b, p(a) != 0",
+        change: |claim| claim.interval[1] = claim.interval[0].clone(),
+    },
+    Forgery {
+        name: "negative-value",
+        reason: "OutsideWindow",
+        note: "the other root of p, lambda^2 < 0",
+        change: |claim| claim.interval = [q("-3"), q("-2")],
+    },
+    Forgery {
+        name: "constant-polynomial",
+        reason: "ConstantPolynomial",
+        note: "p = 0",
+        change: |claim| claim.polynomial = vec![0.into()],
+    },
+];
+
+/// The vector of `root_two`: x = (1, t + 1, 0), support {0, 1}, nothing biactive.
+const VECTORS: [Forgery<ExactSolution>; 12] = [
+    Forgery {
+        name: "degree-of-x",
+        reason: "TooLarge",
+        note: "x of 513 coefficients",
+        change: |claim| claim.x[0] = vec![Number(whole(1)); 513],
+    },
+    Forgery {
+        name: "sign-flipped",
+        reason: "XNotPositive",
+        note: "x_0 negative",
+        change: |claim| claim.x[0][0].0 = whole(-1),
+    },
+    Forgery {
+        name: "zero-x",
+        reason: "XNotPositive",
+        note: "x = 0",
+        change: |claim| claim.x = vec![vec![]; 3],
+    },
+    Forgery {
+        name: "kernel-off",
+        reason: "YNotZero",
+        note: "kernel vector off by 1e-12 in one coefficient",
+        change: |claim| claim.x[1][0].0 += tiny(),
+    },
+    Forgery {
+        name: "support-short",
+        reason: "XOffSupport",
+        note: "a moving variable is not listed",
+        change: |claim| claim.support = vec![0],
+    },
+    Forgery {
+        name: "support-long",
+        reason: "XNotPositive",
+        note: "a resting variable is listed",
+        change: |claim| claim.support.push(2),
+    },
+    Forgery {
+        name: "support-not-ascending",
+        reason: "IndexSet",
+        note: "support [1, 0]",
+        change: |claim| claim.support = vec![1, 0],
+    },
+    Forgery {
+        name: "support-out-of-range",
+        reason: "IndexSet",
+        note: "index 3 of 3 variables",
+        change: |claim| claim.support = vec![0, 1, 3],
+    },
+    Forgery {
+        name: "biactive-invented",
+        reason: "Biactive",
+        note: "y_2 > 0 called zero",
+        change: |claim| claim.biactive = vec![2],
+    },
+    Forgery {
+        name: "biactive-on-support",
+        reason: "Biactive",
+        note: "a moving variable called biactive",
+        change: |claim| claim.biactive = vec![0],
+    },
+    Forgery {
+        name: "x-long",
+        reason: "Length",
+        note: "one polynomial too many",
+        change: |claim| claim.x.push(vec![]),
+    },
+    Forgery {
+        name: "resting-moves",
+        reason: "XOffSupport",
+        note: "x_2 = 1 off the support",
+        change: |claim| claim.x[2] = numbers(&["1"]),
+    },
+];
+
+/// What a certificate says beside its claims.
 fn frame(cases: &mut Cases) {
-    let (p, good) = root_two();
-    let own = claims(&p, Claim::ExactSolution(good));
-    let other = fold("0", None);
+    let (problem, good) = root_two();
+    let own = exact_certificate(&problem, &good);
+
     cases.reject(
         "other-problem",
         "Digest",
         "another problem's certificate",
-        &other,
+        &fold("0", None),
         &own,
     );
+
+    let other_unknown = Certificate {
+        unknown: Unknown::Mu,
+        ..own.clone()
+    };
     cases.reject(
         "other-unknown",
         "Unknown",
         "made for MCEIP-mu",
-        &p,
-        &Certificate {
-            unknown: Unknown::Mu,
-            ..own.clone()
-        },
+        &problem,
+        &other_unknown,
     );
+
+    let nothing_claimed = Certificate {
+        claims: vec![],
+        ..own.clone()
+    };
     cases.reject(
         "nothing-claimed",
         "NoClaims",
         "no claim, no cover",
-        &p,
-        &Certificate {
-            claims: vec![],
-            ..own.clone()
-        },
+        &problem,
+        &nothing_claimed,
     );
-    let window = Window::new(whole(0), Some(rational(9, 20))).unwrap();
+
+    let short_window = Certificate {
+        window: Window::new(whole(0), Some(rational(9, 20))).unwrap(),
+        ..own
+    };
     cases.reject(
         "outside-own-window",
         "OutsideWindow",
         "the interval leaves the certificate's window",
-        &p,
-        &Certificate { window, ..own },
+        &problem,
+        &short_window,
     );
 }
 
+/// x = (1, 0) at t = 1, where y_1 is the given number.
+fn with_reaction(y: &str) -> Problem {
+    pencil(&[&["-1", "0"], &[y, "5"]], I2, &[])
+}
+
 fn signs(cases: &mut Cases) {
-    let with = |y: &str| pencil(&[&["-1", "0"], &[y, "5"]], I2, &[]);
-    let c = exact(&[0], &[-1, 1], ("1", "1"), &[&["1"], &[]]);
-    let of =
-        |p: &mceip_model::Problem, c: &ExactSolution| claims(p, Claim::ExactSolution(c.clone()));
-    let (positive, zero, negative) = (with("1e-30"), with("0"), with("-1e-30"));
+    let not_biactive = exact(&[0], &[-1, 1], ["1", "1"], &[&["1"], &[]]);
+    let biactive = ExactSolution {
+        biactive: vec![1],
+        ..not_biactive.clone()
+    };
+    let positive = with_reaction("1e-30");
+    let zero = with_reaction("0");
+    let negative = with_reaction("-1e-30");
+
     cases.accept(
         "exact-y-1e-30",
         "y_1 = 1e-30 > 0",
         &positive,
-        &of(&positive, &c),
+        &exact_certificate(&positive, &not_biactive),
     );
     cases.reject(
         "exact-y-negative-1e-30",
         "YNotPositive",
         "y_1 = -1e-30: no double sees it",
         &negative,
-        &of(&negative, &c),
+        &exact_certificate(&negative, &not_biactive),
     );
     cases.reject(
         "exact-biactive-missing",
         "Biactive",
         "y_1 = 0 not listed",
         &zero,
-        &of(&zero, &c),
+        &exact_certificate(&zero, &not_biactive),
     );
-    let biactive = ExactSolution {
-        biactive: vec![1],
-        ..c.clone()
-    };
     cases.accept(
         "exact-biactive",
         "x_1 = y_1 = 0",
         &zero,
-        &of(&zero, &biactive),
+        &exact_certificate(&zero, &biactive),
     );
     cases.reject(
         "exact-biactive-1e-30",
         "Biactive",
         "y_1 = 1e-30 called zero",
         &positive,
-        &of(&positive, &biactive),
+        &exact_certificate(&positive, &biactive),
     );
-    let at_end = exact(&[0], &[-1, 1], ("1", "2"), &[&["1"], &[]]);
+
+    let root_at_end = exact(&[0], &[-1, 1], ["1", "2"], &[&["1"], &[]]);
     cases.reject(
         "exact-root-at-end",
         "NoSignChange",
         "the root is an end of the interval",
         &positive,
-        &of(&positive, &at_end),
+        &exact_certificate(&positive, &root_at_end),
     );
-    // y_2 = (t - 9/20) x_0 is negative at the root but changes sign in [2/5, 1/2].
-    let open = |shift: &str| {
-        pencil(
-            &[&["1", "-1", "0"], &["-2", "1", "0"], &[shift, "0", "9"]],
-            &[&["1", "0", "0"], &["0", "1", "0"], &["1", "0", "1"]],
-            &[],
-        )
-    };
-    let (bad, good, (_, wide)) = (open("-9/20"), open("-2/5"), root_two());
+}
+
+/// `root_two` with y_2 = (t + shift) x_0.
+fn with_shift(shift: &str) -> Problem {
+    let a: &[&[&str]] = &[&["1", "-1", "0"], &["-2", "1", "0"], &[shift, "0", "9"]];
+    let b: &[&[&str]] = &[&["1", "0", "0"], &["0", "1", "0"], &["1", "0", "1"]];
+    pencil(a, b, &[])
+}
+
+/// y_2 = (t - 9/20) x_0 is negative at the root but changes sign in [2/5, 1/2]; y_2 = (t - 2/5) x_0
+/// is positive at the root.
+fn signs_by_intervals(cases: &mut Cases) {
+    let negative = with_shift("-9/20");
+    let positive = with_shift("-2/5");
+    let (_, wide) = root_two();
     let narrow = ExactSolution {
-        interval: [q("41/100"), q("42/100")],
+        interval: ["41/100", "42/100"].map(q),
         ..wide.clone()
     };
+
     cases.reject(
         "exact-sign-open",
         "YNotPositive",
         "the interval leaves the sign of y_2 open",
-        &bad,
-        &of(&bad, &wide),
+        &negative,
+        &exact_certificate(&negative, &wide),
     );
     cases.reject(
         "exact-sign-closed-negative",
         "YNotPositive",
         "the same, on an interval that shows y_2 < 0",
-        &bad,
-        &of(&bad, &narrow),
+        &negative,
+        &exact_certificate(&negative, &narrow),
     );
     cases.accept(
         "exact-sign-narrow",
         "an interval narrow enough for the sign of y_2",
-        &good,
-        &of(&good, &narrow),
+        &positive,
+        &exact_certificate(&positive, &narrow),
     );
-    let zero = pencil(&[&["1", "-1"], &["-1", "1"]], I2, &[]);
-    let at_zero = exact(&[0, 1], &[0, 1], ("0", "0"), &[&["1"], &["1"]]);
+}
+
+fn threshold(cases: &mut Cases) {
+    let at_zero = exact(&[0, 1], &[0, 1], ["0", "0"], &[&["1"], &["1"]]);
+
+    let threshold = pencil(&[&["1", "-1"], &["-1", "1"]], I2, &[]);
     cases.accept(
         "threshold-lambda2-zero",
         "lambda^2 = 0: a threshold; gamma of Proposition 2 is free and not stated",
-        &zero,
-        &of(&zero, &at_zero),
+        &threshold,
+        &exact_certificate(&threshold, &at_zero),
     );
-    let above = pencil(&[&["1.000000000001", "-1"], &["-1", "1"]], I2, &[]);
+
+    let missed = pencil(&[&["1.000000000001", "-1"], &["-1", "1"]], I2, &[]);
     cases.reject(
         "threshold-missed",
         "YNotZero",
         "the threshold missed by 1e-12",
-        &above,
-        &of(&above, &at_zero),
+        &missed,
+        &exact_certificate(&missed, &at_zero),
     );
 }
 
-fn free(cases: &mut Cases) {
-    let p = pencil(&[&["-1", "0"], &["3", "2"]], I2, &[0]);
-    let c = exact(&[], &[-1, 1], ("1", "1"), &[&["1"], &[]]);
-    let own = |c: ExactSolution| claims(&p, Claim::ExactSolution(c));
+/// The free variable 0 alone, x = (1, 0) at t = 1.
+const FREE: [Forgery<ExactSolution>; 3] = [
+    Forgery {
+        name: "exact-x-zero",
+        reason: "XZero",
+        note: "nothing moves",
+        change: |claim| claim.x = vec![vec![], vec![]],
+    },
+    Forgery {
+        name: "exact-free-row",
+        reason: "YNotZero",
+        note: "E13: a free row out of balance",
+        change: |claim| {
+            claim.polynomial = vec![(-2).into(), 1.into()];
+            claim.interval = [q("2"), q("2")];
+        },
+    },
+    Forgery {
+        name: "exact-free-in-support",
+        reason: "IndexSet",
+        note: "a free variable in the support",
+        change: |claim| claim.support = vec![0],
+    },
+];
+
+fn free_variable(cases: &mut Cases) {
+    let problem = pencil(&[&["-1", "0"], &["3", "2"]], I2, &[0]);
+    let good = exact(&[], &[-1, 1], ["1", "1"], &[&["1"], &[]]);
     cases.accept(
         "exact-free-only",
         "a free variable moves alone",
-        &p,
-        &own(c.clone()),
+        &problem,
+        &exact_certificate(&problem, &good),
     );
-    cases.reject(
-        "exact-x-zero",
-        "XZero",
-        "nothing moves",
-        &p,
-        &own(ExactSolution {
-            x: vec![vec![], vec![]],
-            ..c.clone()
-        }),
-    );
-    let at_two = ExactSolution {
-        polynomial: vec![(-2).into(), 1.into()],
-        interval: [q("2"), q("2")],
-        ..c.clone()
-    };
-    cases.reject(
-        "exact-free-row",
-        "YNotZero",
-        "E13: a free row out of balance",
-        &p,
-        &own(at_two),
-    );
-    cases.reject(
-        "exact-free-in-support",
-        "IndexSet",
-        "a free variable in the support",
-        &p,
-        &own(ExactSolution {
-            support: vec![0],
-            ..c
-        }),
-    );
+
+    for forgery in FREE {
+        let forged = exact_certificate(&problem, &forgery.of(&good));
+        cases.reject(
+            forgery.name,
+            forgery.reason,
+            forgery.note,
+            &problem,
+            &forged,
+        );
+    }
+}
+
+/// The box of `boxed`: centre (1/2, 1/2, 3), radius 2^-20, an exact preconditioner.
+const BOXES: [Forgery<EnclosedSolution>; 10] = [
+    Forgery {
+        name: "zero-preconditioner",
+        reason: "NotContracting",
+        note: "a zero row",
+        change: |claim| claim.preconditioner[2] = vec![0.into(); 3],
+    },
+    Forgery {
+        name: "centre-off",
+        reason: "NotContracting",
+        note: "centre off by more than the box",
+        change: |claim| claim.center[2].0 += rational(1, 1 << 18),
+    },
+    Forgery {
+        name: "box-too-large",
+        reason: "NotContracting",
+        note: "radius 4",
+        change: |claim| claim.radius = vec![Number(whole(4)); 3],
+    },
+    Forgery {
+        name: "no-width",
+        reason: "Radius",
+        note: "a radius of zero",
+        change: |claim| claim.radius[1].0 = whole(0),
+    },
+    Forgery {
+        name: "short-centre",
+        reason: "Length",
+        note: "an unknown missing",
+        change: |claim| claim.center.truncate(2),
+    },
+    Forgery {
+        name: "short-radius",
+        reason: "Length",
+        note: "a radius missing",
+        change: |claim| claim.radius.truncate(1),
+    },
+    Forgery {
+        name: "short-preconditioner",
+        reason: "Length",
+        note: "a row missing",
+        change: |claim| claim.preconditioner.truncate(2),
+    },
+    Forgery {
+        name: "ragged-preconditioner",
+        reason: "Length",
+        note: "an entry missing",
+        change: |claim| claim.preconditioner[0].truncate(2),
+    },
+    Forgery {
+        name: "exponent",
+        reason: "TooLarge",
+        note: "a small file that asks for gigabytes",
+        change: |claim| claim.exponent = u32::MAX,
+    },
+    Forgery {
+        name: "empty-support",
+        reason: "XZero",
+        note: "nothing moves",
+        change: |claim| claim.support.clear(),
+    },
+];
+
+fn enclosed_certificate(problem: &Problem, claim: &EnclosedSolution) -> Certificate {
+    claims(problem, Claim::EnclosedSolution(claim.clone()))
 }
 
 pub fn enclosed_claims(cases: &mut Cases) {
-    let (p, good) = boxed();
-    let own = |c: &EnclosedSolution| claims(&p, Claim::EnclosedSolution(c.clone()));
-    cases.accept("enclosed", "a box around t = 3", &p, &own(&good));
-    let wide = |r: Rational| EnclosedSolution {
-        radius: vec![Number(r); 3],
-        ..good.clone()
-    };
+    let (problem, good) = boxed();
+    cases.accept(
+        "enclosed",
+        "a box around t = 3",
+        &problem,
+        &enclosed_certificate(&problem, &good),
+    );
+
+    for forgery in BOXES {
+        let name = format!("enclosed-{}", forgery.name);
+        let forged = enclosed_certificate(&problem, &forgery.of(&good));
+        cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
+    }
+
+    radius_at_its_bound(cases);
+    biactive_in_a_box(cases);
+}
+
+/// The box of `boxed` contracts for radii below 1/4.
+fn radius_at_its_bound(cases: &mut Cases) {
+    let (problem, _) = boxed();
+
+    let below = with_radius(rational(1, 4) - rational(1, 1_000_000));
     cases.accept(
         "enclosed-wide",
         "radius just below the bound 1/4",
-        &p,
-        &own(&wide(rational(1, 4) - rational(1, 1_000_000))),
+        &problem,
+        &enclosed_certificate(&problem, &below),
     );
+
+    let at_the_bound = with_radius(rational(1, 4));
     cases.reject(
         "enclosed-bound",
         "NotContracting",
         "radius at its bound: equality proves nothing",
-        &p,
-        &own(&wide(rational(1, 4))),
-    );
-    type Change = fn(&mut EnclosedSolution);
-    let forged: [(&str, &str, &str, Change); 10] = [
-        ("zero-preconditioner", "NotContracting", "a zero row", |c| {
-            c.preconditioner[2] = vec![0.into(); 3]
-        }),
-        (
-            "centre-off",
-            "NotContracting",
-            "centre off by more than the box",
-            |c| c.center[2].0 += rational(1, 1 << 18),
-        ),
-        ("box-too-large", "NotContracting", "radius 4", |c| {
-            c.radius = vec![Number(whole(4)); 3]
-        }),
-        ("no-width", "Radius", "a radius of zero", |c| {
-            c.radius[1].0 = whole(0)
-        }),
-        ("short-centre", "Length", "an unknown missing", |c| {
-            c.center.truncate(2)
-        }),
-        ("short-radius", "Length", "a radius missing", |c| {
-            c.radius.truncate(1)
-        }),
-        ("short-preconditioner", "Length", "a row missing", |c| {
-            c.preconditioner.truncate(2)
-        }),
-        ("ragged-preconditioner", "Length", "an entry missing", |c| {
-            c.preconditioner[0].truncate(2)
-        }),
-        (
-            "exponent",
-            "TooLarge",
-            "a small file that asks for gigabytes",
-            |c| c.exponent = u32::MAX,
-        ),
-        ("empty-support", "XZero", "nothing moves", |c| {
-            c.support.clear()
-        }),
-    ];
-    for (name, reason, note, change) in forged {
-        let mut c = good.clone();
-        change(&mut c);
-        cases.reject(&format!("enclosed-{name}"), reason, note, &p, &own(&c));
-    }
-    let a: &[&[&str]] = &[&["-1", "-2", "0"], &["-2", "-1", "0"], &["1", "-1", "9"]];
-    let stuck = pencil(
-        a,
-        &[&["1", "0", "0"], &["0", "1", "0"], &["0", "0", "1"]],
-        &[],
-    );
-    let note = "y_2 = 0 at the solution: no strict sign over a box";
-    cases.reject(
-        "enclosed-biactive",
-        "YNotPositive",
-        note,
-        &stuck,
-        &claims(&stuck, Claim::EnclosedSolution(good)),
+        &problem,
+        &enclosed_certificate(&problem, &at_the_bound),
     );
 }
 
-pub fn lifted_claims(cases: &mut Cases) {
-    for (unknown, name) in [(Unknown::Lambda2, "lifted"), (Unknown::Mu, "lifted-mu")] {
-        let p = mechanical(unknown);
-        let listed = mceip_model::reduction::reduce(&p).unwrap().pencil;
-        let found = mceip_oracle::enumerate(&listed, p.window())
-            .unwrap()
-            .solutions;
-        let s = found.first().unwrap();
-        let candidate = mceip_engine::candidate::Candidate {
-            value: s.decimal(17).parse().unwrap(),
-            x: s.x_decimals(&listed.slip(), 17)
-                .iter()
-                .map(|t| t.parse().unwrap())
-                .collect(),
-        };
-        let Claim::ExactSolution(exact) =
-            mceip_engine::certify::propose(&listed, p.window(), &candidate).unwrap()
-        else {
-            unreachable!()
-        };
-        let good = lift(&p, &exact);
-        let own = |c: &LiftedSolution| claims(&p, Claim::LiftedSolution(c.clone()));
-        cases.accept(
-            name,
-            "v and w of (9), the second particle at rest",
-            &p,
-            &own(&good),
-        );
-        cases.accept(
-            &format!("{name}-as-pencil"),
-            "the same solution about the pencil",
-            &p,
-            &claims(&p, Claim::ExactSolution(exact)),
-        );
-        if unknown == Unknown::Mu {
-            continue;
-        }
-        let add = |p: &mut Vec<Number>, k: usize, by: &Rational| {
-            p.resize_with(p.len().max(k + 1), || Number(whole(0)));
-            p[k].0 += by;
-        };
-        // v at one dof together with w = (t M + K) v, so that only a later line breaks.
-        let moved = |dof: usize| {
-            let mut c = good.clone();
-            add(&mut c.v[dof], 0, &tiny());
-            let s = system(&p);
-            s.stiffness()
-                .entries()
-                .filter(|e| e.1 == dof)
-                .for_each(|(i, _, k)| add(&mut c.w[i], 0, &(k * tiny())));
-            s.mass()
-                .unwrap()
-                .entries()
-                .filter(|e| e.1 == dof)
-                .for_each(|(i, _, m)| add(&mut c.w[i], 1, &(m * tiny())));
-            c
-        };
-        let with = |change: &dyn Fn(&mut LiftedSolution)| {
-            let mut c = good.clone();
-            change(&mut c);
-            c
-        };
-        let backwards = |c: &mut LiftedSolution| {
-            c.v.iter_mut()
-                .chain(&mut c.w)
-                .flatten()
-                .for_each(|n| n.0 = -n.0.clone())
-        };
-        let forged = [
-            (
-                "motion",
-                "Line",
-                "w off by 1e-12: (t M + K) v = w",
-                with(&|c| add(&mut c.w[6], 0, &tiny())),
-            ),
-            ("free-reaction", "Line", "w_f = 1e-12", moved(0)),
-            (
-                "stick-tangential",
-                "Line",
-                "a sticking particle slides",
-                moved(3),
-            ),
-            (
-                "stick-normal",
-                "Line",
-                "a sticking particle lifts off",
-                moved(4),
-            ),
-            (
-                "normal-rate",
-                "Line",
-                "a slipping particle lifts off",
-                moved(6),
-            ),
-            ("slip-backwards", "Line", "S v_T > 0", with(&backwards)),
-            (
-                "rest-called-slip",
-                "Line",
-                "support lists a particle at rest",
-                with(&|c| c.support = vec![1, 2]),
-            ),
-            (
-                "slip-called-rest",
-                "Line",
-                "support hides a slipping particle",
-                with(&|c| c.support.clear()),
-            ),
-            (
-                "rest-called-biactive",
-                "Line",
-                "strictly inside the cone, called on it",
-                with(&|c| c.biactive = vec![2]),
-            ),
-            (
-                "v-zero",
-                "Line",
-                "v = w = 0",
-                with(&|c| c.v.iter_mut().chain(&mut c.w).for_each(Vec::clear)),
-            ),
-            (
-                "v-short",
-                "Length",
-                "a dof missing",
-                with(&|c| c.v.truncate(6)),
-            ),
-            (
-                "w-long",
-                "Length",
-                "a dof too many",
-                with(&|c| c.w.push(Vec::new())),
-            ),
-        ];
-        for (name, reason, note, c) in forged {
-            cases.reject(&format!("lifted-{name}"), reason, note, &p, &own(&c));
-        }
-        let pencil = root_two().0;
-        let note = "physical vectors for a problem without dofs";
-        cases.reject(
-            "lifted-for-a-pencil",
-            "NotASystem",
-            note,
-            &pencil,
-            &claims(&pencil, Claim::LiftedSolution(good)),
-        );
+fn with_radius(radius: Rational) -> EnclosedSolution {
+    let (_, good) = boxed();
+    EnclosedSolution {
+        radius: vec![Number(radius); 3],
+        ..good
     }
 }
+
+fn biactive_in_a_box(cases: &mut Cases) {
+    let a: &[&[&str]] = &[&["-1", "-2", "0"], &["-2", "-1", "0"], &["1", "-1", "9"]];
+    let problem = pencil(a, I3, &[]);
+    let (_, claim) = boxed();
+
+    cases.reject(
+        "enclosed-biactive",
+        "YNotPositive",
+        "y_2 = 0 at the solution: no strict sign over a box",
+        &problem,
+        &enclosed_certificate(&problem, &claim),
+    );
+}
+
+fn lifted_certificate(problem: &Problem, claim: &LiftedSolution) -> Certificate {
+    claims(problem, Claim::LiftedSolution(claim.clone()))
+}
+
+pub fn lifted_claims(cases: &mut Cases) {
+    accepted_lifts(cases, "lifted", Unknown::Lambda2);
+    accepted_lifts(cases, "lifted-mu", Unknown::Mu);
+
+    let problem = mechanical(Unknown::Lambda2);
+    let good = lift(&problem, &first_solution(&problem));
+    for forgery in LIFTS {
+        let name = format!("lifted-{}", forgery.name);
+        let forged = lifted_certificate(&problem, &forgery.of(&good));
+        cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
+    }
+
+    let (without_dofs, _) = root_two();
+    cases.reject(
+        "lifted-for-a-pencil",
+        "NotASystem",
+        "physical vectors for a problem without dofs",
+        &without_dofs,
+        &lifted_certificate(&without_dofs, &good),
+    );
+}
+
+fn accepted_lifts(cases: &mut Cases, name: &str, unknown: Unknown) {
+    let problem = mechanical(unknown);
+    let exact = first_solution(&problem);
+
+    cases.accept(
+        name,
+        "v and w of (9), the second particle at rest",
+        &problem,
+        &lifted_certificate(&problem, &lift(&problem, &exact)),
+    );
+    cases.accept(
+        &format!("{name}-as-pencil"),
+        "the same solution about the pencil",
+        &problem,
+        &exact_certificate(&problem, &exact),
+    );
+}
+
+/// An exact claim for the first solution that the enumerator lists.
+fn first_solution(problem: &Problem) -> ExactSolution {
+    let pencil = mceip_model::reduction::reduce(problem).unwrap().pencil;
+    let listed = mceip_oracle::enumerate(&pencil, problem.window()).unwrap();
+    let solution = listed.solutions.first().unwrap();
+
+    let decimals = solution.x_decimals(&pencil.slip(), 17);
+    let candidate = Candidate {
+        value: solution.decimal(17).parse().unwrap(),
+        x: decimals.iter().map(|text| text.parse().unwrap()).collect(),
+    };
+    match propose(&pencil, problem.window(), &candidate).unwrap() {
+        Claim::ExactSolution(claim) => claim,
+        other => unreachable!("{other:?}"),
+    }
+}
+
+/// Adds to the coefficient of t^power.
+fn add(polynomial: &mut Vec<Number>, power: usize, by: &Rational) {
+    let length = polynomial.len().max(power + 1);
+    polynomial.resize_with(length, || Number(whole(0)));
+    polynomial[power].0 += by;
+}
+
+/// Changes v at one degree of freedom together with w = (t M + K) v, so that only a later line
+/// breaks.
+fn move_dof(claim: &mut LiftedSolution, dof: usize) {
+    let problem = mechanical(Unknown::Lambda2);
+    let system = system(&problem);
+    add(&mut claim.v[dof], 0, &tiny());
+
+    for (row, column, stiffness) in system.stiffness().entries() {
+        if column == dof {
+            add(&mut claim.w[row], 0, &(stiffness * tiny()));
+        }
+    }
+    for (row, column, mass) in system.mass().unwrap().entries() {
+        if column == dof {
+            add(&mut claim.w[row], 1, &(mass * tiny()));
+        }
+    }
+}
+
+/// The motion -v with -w.
+fn turn_around(claim: &mut LiftedSolution) {
+    for coefficient in claim.v.iter_mut().chain(&mut claim.w).flatten() {
+        coefficient.0 = -coefficient.0.clone();
+    }
+}
+
+/// The motion of the system: free dof 0, slip particle (1, 2), stick particle (3, 4), slip particle
+/// (5, 6) at rest.
+const LIFTS: [Forgery<LiftedSolution>; 12] = [
+    Forgery {
+        name: "motion",
+        reason: "Line",
+        note: "w off by 1e-12: (t M + K) v = w",
+        change: |claim| add(&mut claim.w[6], 0, &tiny()),
+    },
+    Forgery {
+        name: "free-reaction",
+        reason: "Line",
+        note: "w_f = 1e-12",
+        change: |claim| move_dof(claim, 0),
+    },
+    Forgery {
+        name: "stick-tangential",
+        reason: "Line",
+        note: "a sticking particle slides",
+        change: |claim| move_dof(claim, 3),
+    },
+    Forgery {
+        name: "stick-normal",
+        reason: "Line",
+        note: "a sticking particle lifts off",
+        change: |claim| move_dof(claim, 4),
+    },
+    Forgery {
+        name: "normal-rate",
+        reason: "Line",
+        note: "a slipping particle lifts off",
+        change: |claim| move_dof(claim, 6),
+    },
+    Forgery {
+        name: "slip-backwards",
+        reason: "Line",
+        note: "S v_T > 0",
+        change: turn_around,
+    },
+    Forgery {
+        name: "rest-called-slip",
+        reason: "Line",
+        note: "support lists a particle at rest",
+        change: |claim| claim.support = vec![1, 2],
+    },
+    Forgery {
+        name: "slip-called-rest",
+        reason: "Line",
+        note: "support hides a slipping particle",
+        change: |claim| claim.support.clear(),
+    },
+    Forgery {
+        name: "rest-called-biactive",
+        reason: "Line",
+        note: "strictly inside the cone, called on it",
+        change: |claim| claim.biactive = vec![2],
+    },
+    Forgery {
+        name: "v-zero",
+        reason: "Line",
+        note: "v = w = 0",
+        change: |claim| {
+            for polynomial in claim.v.iter_mut().chain(&mut claim.w) {
+                polynomial.clear();
+            }
+        },
+    },
+    Forgery {
+        name: "v-short",
+        reason: "Length",
+        note: "a dof missing",
+        change: |claim| claim.v.truncate(6),
+    },
+    Forgery {
+        name: "w-long",
+        reason: "Length",
+        note: "a dof too many",
+        change: |claim| claim.w.push(Vec::new()),
+    },
+];

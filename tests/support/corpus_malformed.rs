@@ -1,574 +1,693 @@
 //! Files that say nothing that could be judged: exit 2, one line, bounded time and memory. Long
 //! ones are spelt short: `certificate_text` with `mark` replaced by `count` copies of `unit`.
+//!
+//! Each file is the text of an accepted certificate with one change, by which the text leaves the
+//! grammar of `spec/formats.md`. A reader that is more lenient than the grammar accepts or rejects
+//! the file, and exits with 0 or 1.
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;
-use mceip_check::certificate::{Claim, Node};
-use mceip_model::file::write_problem;
-use serde_json::{Value, json};
+use mceip_check::certificate::{Claim, Node, RootOutcome};
+use mceip_model::Problem;
+use serde_json::json;
+
+/// `root_two` and the text of its certificate, which is accepted.
+fn accepted() -> (Problem, String) {
+    let (problem, claim) = root_two();
+    let text = claims(&problem, Claim::ExactSolution(claim)).to_json();
+    (problem, text)
+}
+
+/// A text with one mark, to be replaced by copies of a unit.
+struct Repeated<'a> {
+    text: String,
+    unit: &'a str,
+    count: usize,
+}
+
+fn push_repeated(cases: &mut Cases, name: &str, note: &str, repeated: &Repeated<'_>) {
+    let (problem, _) = accepted();
+    let file = json!({
+        "verdict": "malformed",
+        "problem": problem_json(&problem),
+        "certificate_text": repeated.text,
+        "repeat": { "mark": "@", "unit": repeated.unit, "count": repeated.count },
+    });
+    cases.push("malformed", name, file, note);
+}
 
 pub fn malformed(cases: &mut Cases) {
-    let (p, good) = root_two();
-    let problem: Value = serde_json::from_str(&write_problem(&p)).unwrap();
-    let text = claims(&p, Claim::ExactSolution(good)).to_json();
-    let mut add = |name: &str, note: &str, text: String, repeat: Option<(&str, usize)>| {
-        let mut file =
-            json!({ "verdict": "malformed", "problem": problem, "certificate_text": text });
-        if let Some((unit, count)) = repeat {
-            file["repeat"] = json!({ "mark": "@", "unit": unit, "count": count });
-        }
-        cases.push("malformed", name, file, note);
-    };
-    let swap = |from: &str, to: &str| {
-        assert!(text.contains(from), "{from} not in {text}");
-        text.replacen(from, to, 1)
-    };
-    add("empty", "no byte", String::new(), None);
-    add("not-json", "prose", "t is about 0.41".into(), None);
-    add(
-        "truncated",
-        "cut in the middle",
-        text[..text.len() / 2].into(),
-        None,
-    );
-    add(
-        "truncated-by-one",
-        "the last brace missing",
-        text[..text.len() - 1].into(),
-        None,
-    );
-    add(
-        "trailing",
-        "two certificates in one file",
-        format!("{text}{text}"),
-        None,
-    );
-    add("list", "a list of certificates", format!("[{text}]"), None);
-    let note = "500 coefficients of 5,000 digits for 3 kB: an exponent beyond 400";
-    add(
-        "hostile-exponent",
-        note,
-        swap("\"polynomial\":[", "\"polynomial\":[@"),
-        Some(("1e5000,", 500)),
-    );
-    add(
-        "wrong-version",
-        "version 2",
-        swap("mceip-certificate/1", "mceip-certificate/2"),
-        None,
-    );
-    add(
-        "wrong-format",
-        "a solution report",
-        swap("mceip-certificate/1", "mceip-solutions/1"),
-        None,
-    );
-    add(
-        "no-format",
-        "no version at all",
-        swap("\"format\":\"mceip-certificate/1\",", ""),
-        None,
-    );
-    add(
-        "duplicate-key",
-        "claims twice, the second one empty",
-        swap("\"claims\":", "\"claims\":[],\"claims\":"),
-        None,
-    );
-    add(
-        "duplicate-key-inside",
-        "support twice",
-        swap("\"support\":[0,1]", "\"support\":[0,1],\"support\":[0]"),
-        None,
-    );
-    add(
-        "unknown-field",
-        "a field that might mean something",
-        swap("\"claims\":", "\"trust\":true,\"claims\":"),
-        None,
-    );
-    add(
-        "unknown-field-inside",
-        "the same in a claim",
-        swap("\"support\":", "\"trust\":true,\"support\":"),
-        None,
-    );
-    add(
-        "unknown-claim",
-        "a kind of a later version",
-        swap("exact_solution", "oracle_says_so"),
-        None,
-    );
-    add(
-        "claims-missing",
-        "no list of claims",
-        swap("\"claims\":", "\"complete_set\":"),
-        None,
-    );
-    add(
-        "window-missing",
-        "no window",
-        swap("\"window\":", "\"complete_set\":"),
-        None,
-    );
-    add(
-        "window-reversed",
-        "min > max",
-        swap("\"max\":null", "\"max\":\"-1\""),
-        None,
-    );
-    add(
-        "window-negative",
-        "min < 0",
-        swap("\"min\":\"0\"", "\"min\":\"-1\""),
-        None,
-    );
-    add(
-        "unknown-word",
-        "an unknown that is none",
-        swap("\"lambda2\"", "\"lambda\""),
-        None,
-    );
-    add(
-        "support-negative",
-        "index -1",
-        swap("\"support\":[0,1]", "\"support\":[-1,1]"),
-        None,
-    );
-    add(
-        "support-string",
-        "an index as a string",
-        swap("\"support\":[0,1]", "\"support\":[\"0\",1]"),
-        None,
-    );
-    add(
-        "support-fraction",
-        "index 0.5",
-        swap("\"support\":[0,1]", "\"support\":[0.5,1]"),
-        None,
-    );
-    add(
-        "support-no-list",
-        "a number for a list",
-        swap("\"support\":[0,1]", "\"support\":1"),
-        None,
-    );
-    add(
-        "polynomial-fraction",
-        "a coefficient that is no integer",
-        swap("\"-1\"", "\"-1.5\""),
-        None,
-    );
-    add(
-        "polynomial-object",
-        "an object for a list",
-        swap("\"polynomial\":[", "\"polynomial\":{\"0\":[").replacen(
-            "\"interval\"",
-            "}\"interval\"",
-            1,
+    let (problem, text) = accepted();
+
+    no_certificate(cases);
+    cases.misspelt("", &problem, &text, &FRAME);
+    cases.misspelt("", &problem, &text, &VALUES);
+    repeated(cases);
+
+    let window = fold("15/8", Some("17/8"));
+    let tree = vec![Node::Split(q("2")), farkas(&[1, 2]), Node::Open];
+    let text = cover(&window, tree).to_json();
+    cases.misspelt("", &window, &text, &NODES);
+}
+
+/// Texts that are not one JSON object with the right brackets.
+fn no_certificate(cases: &mut Cases) {
+    let (problem, text) = accepted();
+    let middle = text.len() / 2;
+    let before_last = text.len() - 1;
+    let as_object = replaced(&text, "\"polynomial\":[", "\"polynomial\":{\"0\":[");
+
+    let texts = [
+        ("empty", "no byte", String::new()),
+        ("not-json", "prose", "t is about 0.41".into()),
+        ("truncated", "cut in the middle", text[..middle].into()),
+        (
+            "truncated-by-one",
+            "the last brace missing",
+            text[..before_last].into(),
         ),
-        None,
+        (
+            "trailing",
+            "two certificates in one file",
+            format!("{text}{text}"),
+        ),
+        ("list", "a list of certificates", format!("[{text}]")),
+        (
+            "polynomial-object",
+            "an object for a list",
+            as_object.replacen("\"interval\"", "}\"interval\"", 1),
+        ),
+    ];
+    for (name, note, text) in texts {
+        cases.malformed(name, note, &problem, &text);
+    }
+}
+
+/// Short files that spell long texts.
+fn repeated(cases: &mut Cases) {
+    let (_, text) = accepted();
+
+    let long_numbers = Repeated {
+        text: replaced(&text, "\"polynomial\":[", "\"polynomial\":[@"),
+        unit: "1e5000,",
+        count: 500,
+    };
+    push_repeated(
+        cases,
+        "hostile-exponent",
+        "500 coefficients of 5,000 digits for 3 kB: an exponent beyond 400",
+        &long_numbers,
     );
-    add("interval-short", "one end", swap("\"2/5\",", ""), None);
-    add(
-        "interval-long",
-        "three ends",
-        swap("\"2/5\",", "\"2/5\",\"2/5\","),
-        None,
-    );
-    add("interval-null", "no end", swap("\"2/5\"", "null"), None);
-    add("zero-denominator", "2/0", swap("\"2/5\"", "\"2/0\""), None);
-    add("nan", "NaN as a number", swap("\"2/5\"", "NaN"), None);
-    add(
-        "nan-string",
-        "NaN as a string",
-        swap("\"2/5\"", "\"NaN\""),
-        None,
-    );
-    add(
-        "infinity",
-        "an infinite end",
-        swap("\"1/2\"", "\"inf\""),
-        None,
-    );
-    add(
-        "gigabyte-integer",
-        "ten bytes that spell a gigabyte",
-        swap("\"-1\"", "\"1e999999999\""),
-        None,
-    );
-    add(
-        "gigabyte-number",
-        "the same as a JSON number",
-        swap("\"-1\"", "1e999999999"),
-        None,
-    );
-    add(
-        "gigabyte-fraction",
-        "the same below the point",
-        swap("\"2/5\"", "\"1e-999999999\""),
-        None,
-    );
-    add(
-        "exponent-5001",
-        "one beyond the limit",
-        swap("\"1/2\"", "\"1e5001\""),
-        None,
-    );
-    add(
+
+    let many_digits = Repeated {
+        text: replaced(&text, "\"1/2\"", "\"@\""),
+        unit: "7",
+        count: 100_001,
+    };
+    push_repeated(
+        cases,
         "digits-100001",
         "one digit beyond the limit",
-        swap("\"1/2\"", "\"@\""),
-        Some(("7", 100_001)),
+        &many_digits,
     );
-    add(
-        "deep",
-        "a hundred thousand brackets",
-        swap("\"claims\":", "\"claims\":@"),
-        Some(("[", 100_000)),
-    );
-    add(
+
+    let brackets = Repeated {
+        text: replaced(&text, "\"claims\":", "\"claims\":@"),
+        unit: "[",
+        count: 100_000,
+    };
+    push_repeated(cases, "deep", "a hundred thousand brackets", &brackets);
+
+    let objects = Repeated {
+        text: "@".into(),
+        unit: "{\"format\":",
+        count: 100_000,
+    };
+    push_repeated(
+        cases,
         "deep-objects",
         "a hundred thousand objects",
-        "@".into(),
-        Some(("{\"format\":", 100_000)),
-    );
-    let plain = fold("15/8", Some("17/8"));
-    let problem: Value = serde_json::from_str(&write_problem(&plain)).unwrap();
-    let text = cover(
-        &plain,
-        vec![Node::Split(q("2")), Node::Farkas(vec![1, 2]), Node::Open],
-    )
-    .to_json();
-    let mut add = |name: &str, note: &str, from: &str, to: &str| {
-        assert!(text.contains(from), "{from} not in {text}");
-        let file = json!({ "verdict": "malformed", "problem": problem, "certificate_text": text.replacen(from, to, 1) });
-        cases.push("malformed", name, file, note);
-    };
-    add(
-        "leaf-unknown",
-        "a leaf that is none",
-        "\"open\"",
-        "\"closed\"",
-    );
-    add(
-        "leaf-with-data",
-        "a word with a value",
-        "\"open\"",
-        "{\"open\":1}",
-    );
-    add(
-        "leaf-two-kinds",
-        "two kinds in one node",
-        "{\"split\":\"2\"}",
-        "{\"split\":\"2\",\"branch\":0}",
-    );
-    add(
-        "branch-string",
-        "an index as a string",
-        "{\"split\":\"2\"}",
-        "{\"branch\":\"0\"}",
-    );
-    add(
-        "farkas-65-bits",
-        "a weight beyond 64 bits",
-        "[1,2]",
-        "[1,9223372036854775808]",
-    );
-    add(
-        "farkas-string",
-        "a weight as a string",
-        "[1,2]",
-        "[1,\"2\"]",
-    );
-    add(
-        "farkas-fraction",
-        "a weight that is no integer",
-        "[1,2]",
-        "[1,2.5]",
-    );
-    add(
-        "pieces-object",
-        "an object for a list",
-        "\"pieces\":[",
-        "\"pieces\":{\"0\":[",
-    );
-    add(
-        "piece-without-max",
-        "a piece that does not end",
-        "\"max\":\"17/8\",\"tree\"",
-        "\"tree\"",
+        &objects,
     );
 }
+
+/// The fields of a certificate, and which of them there are.
+const FRAME: [Misspelling; 13] = [
+    Misspelling {
+        name: "wrong-version",
+        note: "version 2",
+        from: "mceip-certificate/1",
+        to: "mceip-certificate/2",
+    },
+    Misspelling {
+        name: "wrong-format",
+        note: "a solution report",
+        from: "mceip-certificate/1",
+        to: "mceip-solutions/1",
+    },
+    Misspelling {
+        name: "no-format",
+        note: "no version at all",
+        from: "\"format\":\"mceip-certificate/1\",",
+        to: "",
+    },
+    Misspelling {
+        name: "duplicate-key",
+        note: "claims twice, the second one empty",
+        from: "\"claims\":",
+        to: "\"claims\":[],\"claims\":",
+    },
+    Misspelling {
+        name: "duplicate-key-inside",
+        note: "support twice",
+        from: "\"support\":[0,1]",
+        to: "\"support\":[0,1],\"support\":[0]",
+    },
+    Misspelling {
+        name: "unknown-field",
+        note: "a field that might mean something",
+        from: "\"claims\":",
+        to: "\"trust\":true,\"claims\":",
+    },
+    Misspelling {
+        name: "unknown-field-inside",
+        note: "the same in a claim",
+        from: "\"support\":",
+        to: "\"trust\":true,\"support\":",
+    },
+    Misspelling {
+        name: "unknown-claim",
+        note: "a kind of a later version",
+        from: "exact_solution",
+        to: "oracle_says_so",
+    },
+    Misspelling {
+        name: "claims-missing",
+        note: "no list of claims",
+        from: "\"claims\":",
+        to: "\"complete_set\":",
+    },
+    Misspelling {
+        name: "window-missing",
+        note: "no window",
+        from: "\"window\":",
+        to: "\"complete_set\":",
+    },
+    Misspelling {
+        name: "window-reversed",
+        note: "min > max",
+        from: "\"max\":null",
+        to: "\"max\":\"-1\"",
+    },
+    Misspelling {
+        name: "window-negative",
+        note: "min < 0",
+        from: "\"min\":\"0\"",
+        to: "\"min\":\"-1\"",
+    },
+    Misspelling {
+        name: "unknown-word",
+        note: "an unknown that is none",
+        from: "\"lambda2\"",
+        to: "\"lambda\"",
+    },
+];
+
+/// What stands in the fields of a claim.
+const VALUES: [Misspelling; 16] = [
+    Misspelling {
+        name: "support-negative",
+        note: "index -1",
+        from: "\"support\":[0,1]",
+        to: "\"support\":[-1,1]",
+    },
+    Misspelling {
+        name: "support-string",
+        note: "an index as a string",
+        from: "\"support\":[0,1]",
+        to: "\"support\":[\"0\",1]",
+    },
+    Misspelling {
+        name: "support-fraction",
+        note: "index 0.5",
+        from: "\"support\":[0,1]",
+        to: "\"support\":[0.5,1]",
+    },
+    Misspelling {
+        name: "support-no-list",
+        note: "a number for a list",
+        from: "\"support\":[0,1]",
+        to: "\"support\":1",
+    },
+    Misspelling {
+        name: "polynomial-fraction",
+        note: "a coefficient that is no integer",
+        from: "\"-1\"",
+        to: "\"-1.5\"",
+    },
+    Misspelling {
+        name: "interval-short",
+        note: "one end",
+        from: "\"2/5\",",
+        to: "",
+    },
+    Misspelling {
+        name: "interval-long",
+        note: "three ends",
+        from: "\"2/5\",",
+        to: "\"2/5\",\"2/5\",",
+    },
+    Misspelling {
+        name: "interval-null",
+        note: "no end",
+        from: "\"2/5\"",
+        to: "null",
+    },
+    Misspelling {
+        name: "zero-denominator",
+        note: "2/0",
+        from: "\"2/5\"",
+        to: "\"2/0\"",
+    },
+    Misspelling {
+        name: "nan",
+        note: "NaN as a number",
+        from: "\"2/5\"",
+        to: "NaN",
+    },
+    Misspelling {
+        name: "nan-string",
+        note: "NaN as a string",
+        from: "\"2/5\"",
+        to: "\"NaN\"",
+    },
+    Misspelling {
+        name: "infinity",
+        note: "an infinite end",
+        from: "\"1/2\"",
+        to: "\"inf\"",
+    },
+    Misspelling {
+        name: "gigabyte-integer",
+        note: "ten bytes that spell a gigabyte",
+        from: "\"-1\"",
+        to: "\"1e999999999\"",
+    },
+    Misspelling {
+        name: "gigabyte-number",
+        note: "the same as a JSON number",
+        from: "\"-1\"",
+        to: "1e999999999",
+    },
+    Misspelling {
+        name: "gigabyte-fraction",
+        note: "the same below the point",
+        from: "\"2/5\"",
+        to: "\"1e-999999999\"",
+    },
+    Misspelling {
+        name: "exponent-5001",
+        note: "one beyond the limit",
+        from: "\"1/2\"",
+        to: "\"1e5001\"",
+    },
+];
+
+/// The nodes of a cover that splits [15/8, 17/8] at 2.
+const NODES: [Misspelling; 9] = [
+    Misspelling {
+        name: "leaf-unknown",
+        note: "a leaf that is none",
+        from: "\"open\"",
+        to: "\"closed\"",
+    },
+    Misspelling {
+        name: "leaf-with-data",
+        note: "a word with a value",
+        from: "\"open\"",
+        to: "{\"open\":1}",
+    },
+    Misspelling {
+        name: "leaf-two-kinds",
+        note: "two kinds in one node",
+        from: "{\"split\":\"2\"}",
+        to: "{\"split\":\"2\",\"branch\":0}",
+    },
+    Misspelling {
+        name: "branch-string",
+        note: "an index as a string",
+        from: "{\"split\":\"2\"}",
+        to: "{\"branch\":\"0\"}",
+    },
+    Misspelling {
+        name: "farkas-65-bits",
+        note: "a weight beyond 64 bits",
+        from: "[1,2]",
+        to: "[1,9223372036854775808]",
+    },
+    Misspelling {
+        name: "farkas-string",
+        note: "a weight as a string",
+        from: "[1,2]",
+        to: "[1,\"2\"]",
+    },
+    Misspelling {
+        name: "farkas-fraction",
+        note: "a weight that is no integer",
+        from: "[1,2]",
+        to: "[1,2.5]",
+    },
+    Misspelling {
+        name: "pieces-object",
+        note: "an object for a list",
+        from: "\"pieces\":[",
+        to: "\"pieces\":{\"0\":[",
+    },
+    Misspelling {
+        name: "piece-without-max",
+        note: "a piece that does not end",
+        from: "\"max\":\"17/8\",\"tree\"",
+        to: "\"tree\"",
+    },
+];
+
+/// Spellings of the numbers of `root_two` that are unusual and allowed.
+const ALLOWED: [(&str, &str); 5] = [
+    ("\"2/5\"", "\".4\""),
+    ("\"1/2\"", "\"+5.E-0001\""),
+    ("\"-1\"", "-1.000e+0"),
+    ("\"2\"", "\"-14/-7\""),
+    ("\"1\"", "\"1.\""),
+];
+
+/// A claim with the right shape that is false: no root of t - 7 lies in [1, 2].
+const FALSE_CLAIM: &str = "{\"exact_solution\":{\"support\":[0],\"biactive\":[],\
+                           \"polynomial\":[\"-7\",\"1\"],\"interval\":[\"1\",\"2\"],\"x\":[[]]}},";
 
 /// The grammar of numbers, words and keys (spec/formats.md, Spelling): what two readers have read
 /// differently.
 pub fn spelling(cases: &mut Cases) {
-    let (p, good) = root_two();
-    let problem: Value = serde_json::from_str(&write_problem(&p)).unwrap();
-    let text = claims(&p, Claim::ExactSolution(good)).to_json();
-    let swap = |text: &str, from: &str, to: &str| {
-        assert!(text.contains(from), "{from} not in {text}");
-        text.replacen(from, to, 1)
-    };
-    let numbers = [
-        ("\"2/5\"", "\".4\""),
-        ("\"1/2\"", "\"+5.E-0001\""),
-        ("\"-1\"", "-1.000e+0"),
-        ("\"2\"", "\"-14/-7\""),
-        ("\"1\"", "\"1.\""),
-    ];
-    let spelt = numbers
-        .iter()
-        .fold(text.clone(), |text, (from, to)| swap(&text, from, to));
-    let note = "points without digits beside them, signs, leading zeros, a negative denominator: \
-                numbers all the same";
+    let (problem, text) = accepted();
+
+    let mut respelt = text.clone();
+    for (from, to) in ALLOWED {
+        respelt = replaced(&respelt, from, to);
+    }
+    let file = json!({
+        "verdict": "accepted",
+        "problem": problem_json(&problem),
+        "certificate_text": respelt,
+    });
     cases.push(
         "accept",
         "spelling-numbers",
-        json!({ "verdict": "accepted", "problem": problem, "certificate_text": spelt }),
-        note,
+        file,
+        "points without digits beside them, signs, leading zeros, a negative denominator: numbers \
+         all the same",
     );
 
-    let mut add = |name: &str, note: &str, from: &str, to: &str| {
-        let file = json!({ "verdict": "malformed", "problem": problem, "certificate_text": swap(&text, from, to) });
-        cases.push("malformed", &format!("spelling-{name}"), file, note);
-    };
-    add("blanks", "blanks around a number", "\"2/5\"", "\" 2/5 \"");
-    add(
-        "newline",
-        "a line end after a number",
-        "\"2/5\"",
-        "\"2/5\\n\"",
-    );
-    add(
-        "no-break-space",
-        "a blank of Unicode",
-        "\"2/5\"",
-        "\"2/5\\u00a0\"",
-    );
-    add(
-        "blank-inside",
-        "a blank beside the stroke",
-        "\"2/5\"",
-        "\"2 /5\"",
-    );
-    add(
-        "arabic-digit",
-        "a digit that is not ASCII",
-        "\"2/5\"",
-        "\"\\u0662/5\"",
-    );
-    add("hexadecimal", "0x", "\"-1\"", "\"0x1\"");
-    add("underscore", "1_0", "\"-1\"", "\"-1_0\"");
-    add("two-strokes", "p/q/r", "\"2/5\"", "\"2/5/1\"");
-    add("two-signs", "a sign too many", "\"-1\"", "\"+-1\"");
-    add("point-alone", "a point and no digit", "\"-1\"", "\".\"");
-    add(
-        "exponent-empty",
-        "an exponent without digits",
-        "\"-1\"",
-        "\"-1e\"",
-    );
-    add(
-        "exponent-fraction",
-        "an exponent that is no integer",
-        "\"-1\"",
-        "\"-1e0.0\"",
-    );
-    add(
-        "decimal-quotient",
-        "a quotient of decimals",
-        "\"2/5\"",
-        "\"0.4/1\"",
-    );
-    add("json-plus", "a JSON number with a plus sign", "\"2\"", "+2");
-    add(
-        "json-zero",
-        "a JSON number that begins with 0",
-        "\"2\"",
-        "02",
-    );
-    add(
-        "json-point",
-        "a JSON number that ends with a point",
-        "\"2\"",
-        "2.",
-    );
-    add(
-        "minus-zero",
-        "the index -0",
-        "\"support\":[0,1]",
-        "\"support\":[-0,1]",
-    );
-    add(
-        "index-point",
-        "the index 1.0",
-        "\"support\":[0,1]",
-        "\"support\":[0,1.0]",
-    );
-    add(
-        "index-exponent",
-        "the index 1e0",
-        "\"support\":[0,1]",
-        "\"support\":[0,1e0]",
-    );
-    add(
-        "index-65-bits",
-        "an index beyond 64 bits",
-        "\"support\":[0,1]",
-        "\"support\":[0,18446744073709551616]",
-    );
-    add(
-        "byte-order-mark",
-        "a byte order mark",
-        "{\"format\"",
-        "\u{feff}{\"format\"",
-    );
-    add(
-        "private-key",
-        "an object that a reader takes for a number",
-        "\"2/5\"",
-        "{\"$serde_json::private::Number\":\"0.4\"}",
-    );
-    let escaped = "{\"\\u0024serde_json::private::Number\":\"0.4\"}";
-    add(
-        "private-key-escaped",
-        "the same spelt with an escape",
-        "\"2/5\"",
-        escaped,
-    );
-    add(
-        "word-object",
-        "a word as an object",
-        "\"lambda2\"",
-        "{\"lambda2\":null}",
-    );
-    add(
-        "escaped-duplicate",
-        "a key twice, once with an escape",
-        "\"claims\":",
-        "\"cl\\u0061ims\":[],\"claims\":",
-    );
-    add(
-        "claims-null",
-        "null for a list",
-        "\"biactive\":[]",
-        "\"biactive\":null",
-    );
-    add(
-        "digest-number",
-        "a number for a digest",
-        "\"problem_sha256\":\"",
-        "\"problem_sha256\":1,\"problem_sha256\":\"",
-    );
-    add(
-        "surrogate",
-        "half of a character",
-        "\"problem_sha256\":\"",
-        "\"problem_sha256\":\"\\ud800",
-    );
-    let first = "\"claims\":[";
-    let false_one = "{\"exact_solution\":{\"support\":[0],\"biactive\":[],\"polynomial\":[\"-7\",\"1\"],\"interval\":[\"1\",\"2\"],\"x\":[[]]}},";
-    add(
-        "after-a-false-claim",
+    cases.misspelt("spelling-", &problem, &text, &NUMBERS);
+    cases.misspelt("spelling-", &problem, &text, &WORDS_AND_KEYS);
+
+    // A reader that judges while it reads answers before it meets the second claim.
+    let list = "\"claims\":[";
+    let two_claims = format!("{list}{FALSE_CLAIM}{{\"exact_solution\":{{}}}},");
+    cases.malformed(
+        "spelling-after-a-false-claim",
         "a false claim, then one without shape",
-        first,
-        &format!("{first}{false_one}{{\"exact_solution\":{{}}}},"),
+        &problem,
+        &replaced(&text, list, &two_claims),
     );
 
-    let plain = fold("15/8", Some("17/8"));
-    let problem: Value = serde_json::from_str(&write_problem(&plain)).unwrap();
-    let around = ("31/16", "33/16");
-    let tree = fold_tree(root_node(
-        around,
-        mceip_check::certificate::RootOutcome::Solution,
-    ));
-    let solved = cover(&plain, tree).to_json();
-    let open = cover(&plain, vec![Node::Open]).to_json();
-    let mut add = |name: &str, note: &str, text: &str, from: &str, to: &str| {
-        let file = json!({ "verdict": "malformed", "problem": problem, "certificate_text": swap(text, from, to) });
-        cases.push("malformed", &format!("spelling-{name}"), file, note);
-    };
-    add(
-        "open-object",
-        "a leaf that is a word, as an object",
-        &open,
-        "\"open\"",
-        "{\"open\":null}",
-    );
-    add(
-        "outcome-object",
-        "an outcome that is a word, as an object",
-        &solved,
-        "\"solution\"",
-        "{\"solution\":null}",
-    );
-    add(
-        "outcome-word",
-        "an outcome that is an object, as a word",
-        &solved,
-        "\"solution\"",
-        "\"infinity\"",
-    );
-    add(
-        "pivot-minus-zero",
-        "the pivot -0",
-        &solved,
-        "\"pivot\":0",
-        "\"pivot\":-0",
-    );
-    add(
-        "exponent-33-bits",
-        "an exponent beyond 32 bits",
-        &solved,
-        "\"exponent\":20",
-        "\"exponent\":4294967296",
-    );
-    add(
-        "after-a-false-leaf",
-        "a false leaf, then one that is none",
-        &solved,
-        "{\"farkas\":[0,0]}",
-        "{\"farkas\":[1]},{\"farkas\":[\"1\"]}",
-    );
+    let window = fold("15/8", Some("17/8"));
+    let open = cover(&window, vec![Node::Open]).to_json();
+    cases.misspelt("spelling-", &window, &open, &OPEN_LEAF);
+
+    let tree = fold_tree(root_node(AROUND_TWO, RootOutcome::Solution));
+    let solved = cover(&window, tree).to_json();
+    cases.misspelt("spelling-", &window, &solved, &ROOT_LEAF);
 }
+
+/// Spellings of numbers that are not allowed.
+const NUMBERS: [Misspelling; 18] = [
+    Misspelling {
+        name: "blanks",
+        note: "blanks around a number",
+        from: "\"2/5\"",
+        to: "\" 2/5 \"",
+    },
+    Misspelling {
+        name: "newline",
+        note: "a line end after a number",
+        from: "\"2/5\"",
+        to: "\"2/5\\n\"",
+    },
+    Misspelling {
+        name: "no-break-space",
+        note: "a blank of Unicode",
+        from: "\"2/5\"",
+        to: "\"2/5\\u00a0\"",
+    },
+    Misspelling {
+        name: "blank-inside",
+        note: "a blank beside the stroke",
+        from: "\"2/5\"",
+        to: "\"2 /5\"",
+    },
+    Misspelling {
+        name: "arabic-digit",
+        note: "a digit that is not ASCII",
+        from: "\"2/5\"",
+        to: "\"\\u0662/5\"",
+    },
+    Misspelling {
+        name: "hexadecimal",
+        note: "0x",
+        from: "\"-1\"",
+        to: "\"0x1\"",
+    },
+    Misspelling {
+        name: "underscore",
+        note: "1_0",
+        from: "\"-1\"",
+        to: "\"-1_0\"",
+    },
+    Misspelling {
+        name: "two-strokes",
+        note: "p/q/r",
+        from: "\"2/5\"",
+        to: "\"2/5/1\"",
+    },
+    Misspelling {
+        name: "two-signs",
+        note: "a sign too many",
+        from: "\"-1\"",
+        to: "\"+-1\"",
+    },
+    Misspelling {
+        name: "point-alone",
+        note: "a point and no digit",
+        from: "\"-1\"",
+        to: "\".\"",
+    },
+    Misspelling {
+        name: "exponent-empty",
+        note: "an exponent without digits",
+        from: "\"-1\"",
+        to: "\"-1e\"",
+    },
+    Misspelling {
+        name: "exponent-fraction",
+        note: "an exponent that is no integer",
+        from: "\"-1\"",
+        to: "\"-1e0.0\"",
+    },
+    Misspelling {
+        name: "decimal-quotient",
+        note: "a quotient of decimals",
+        from: "\"2/5\"",
+        to: "\"0.4/1\"",
+    },
+    Misspelling {
+        name: "json-plus",
+        note: "a JSON number with a plus sign",
+        from: "\"2\"",
+        to: "+2",
+    },
+    Misspelling {
+        name: "json-zero",
+        note: "a JSON number that begins with 0",
+        from: "\"2\"",
+        to: "02",
+    },
+    Misspelling {
+        name: "json-point",
+        note: "a JSON number that ends with a point",
+        from: "\"2\"",
+        to: "2.",
+    },
+    Misspelling {
+        name: "private-key",
+        note: "an object that a reader takes for a number",
+        from: "\"2/5\"",
+        to: "{\"$serde_json::private::Number\":\"0.4\"}",
+    },
+    Misspelling {
+        name: "private-key-escaped",
+        note: "the same spelt with an escape",
+        from: "\"2/5\"",
+        to: "{\"\\u0024serde_json::private::Number\":\"0.4\"}",
+    },
+];
+
+/// Indices, words, keys and characters that are not allowed.
+const WORDS_AND_KEYS: [Misspelling; 10] = [
+    Misspelling {
+        name: "minus-zero",
+        note: "the index -0",
+        from: "\"support\":[0,1]",
+        to: "\"support\":[-0,1]",
+    },
+    Misspelling {
+        name: "index-point",
+        note: "the index 1.0",
+        from: "\"support\":[0,1]",
+        to: "\"support\":[0,1.0]",
+    },
+    Misspelling {
+        name: "index-exponent",
+        note: "the index 1e0",
+        from: "\"support\":[0,1]",
+        to: "\"support\":[0,1e0]",
+    },
+    Misspelling {
+        name: "index-65-bits",
+        note: "an index beyond 64 bits",
+        from: "\"support\":[0,1]",
+        to: "\"support\":[0,18446744073709551616]",
+    },
+    Misspelling {
+        name: "byte-order-mark",
+        note: "a byte order mark",
+        from: "{\"format\"",
+        to: "\u{feff}{\"format\"",
+    },
+    Misspelling {
+        name: "word-object",
+        note: "a word as an object",
+        from: "\"lambda2\"",
+        to: "{\"lambda2\":null}",
+    },
+    Misspelling {
+        name: "escaped-duplicate",
+        note: "a key twice, once with an escape",
+        from: "\"claims\":",
+        to: "\"cl\\u0061ims\":[],\"claims\":",
+    },
+    Misspelling {
+        name: "claims-null",
+        note: "null for a list",
+        from: "\"biactive\":[]",
+        to: "\"biactive\":null",
+    },
+    Misspelling {
+        name: "digest-number",
+        note: "a number for a digest",
+        from: "\"problem_sha256\":\"",
+        to: "\"problem_sha256\":1,\"problem_sha256\":\"",
+    },
+    Misspelling {
+        name: "surrogate",
+        note: "half of a character",
+        from: "\"problem_sha256\":\"",
+        to: "\"problem_sha256\":\"\\ud800",
+    },
+];
+
+/// Changes of an open leaf.
+const OPEN_LEAF: [Misspelling; 1] = [Misspelling {
+    name: "open-object",
+    note: "a leaf that is a word, as an object",
+    from: "\"open\"",
+    to: "{\"open\":null}",
+}];
+
+/// Changes of a tree whose last leaf is a root leaf.
+const ROOT_LEAF: [Misspelling; 5] = [
+    Misspelling {
+        name: "outcome-object",
+        note: "an outcome that is a word, as an object",
+        from: "\"solution\"",
+        to: "{\"solution\":null}",
+    },
+    Misspelling {
+        name: "outcome-word",
+        note: "an outcome that is an object, as a word",
+        from: "\"solution\"",
+        to: "\"infinity\"",
+    },
+    Misspelling {
+        name: "pivot-minus-zero",
+        note: "the pivot -0",
+        from: "\"pivot\":0",
+        to: "\"pivot\":-0",
+    },
+    Misspelling {
+        name: "exponent-33-bits",
+        note: "an exponent beyond 32 bits",
+        from: "\"exponent\":20",
+        to: "\"exponent\":4294967296",
+    },
+    Misspelling {
+        name: "after-a-false-leaf",
+        note: "a false leaf, then one that is none",
+        from: "{\"farkas\":[0,0]}",
+        to: "{\"farkas\":[1]},{\"farkas\":[\"1\"]}",
+    },
+];
 
 /// Small files that ask for much: rejected, with the limit named.
 pub fn hostile(cases: &mut Cases) {
-    let (p, good) = root_two();
-    let problem: Value = serde_json::from_str(&write_problem(&p)).unwrap();
-    let text = claims(&p, Claim::ExactSolution(good)).to_json();
-    let mut add = |name: &str, note: &str, from: &str, to: &str, unit: &str, count: usize| {
-        assert!(text.contains(from), "{from} not in {text}");
-        let file = json!({ "verdict": "rejected", "reason": "TooLarge", "problem": problem, "certificate_text": text.replacen(from, to, 1),
-            "repeat": { "mark": "@", "unit": unit, "count": count } });
-        cases.push("reject", name, file, note);
+    let (_, text) = accepted();
+    let long_polynomial = replaced(&text, "\"polynomial\":[", "\"polynomial\":[@");
+    let long_component = replaced(&text, "\"x\":[[", "\"x\":[[@");
+    let five_thousand_digits = format!("{},", "7".repeat(5000));
+
+    let degree = Repeated {
+        text: long_polynomial.clone(),
+        unit: "0,",
+        count: 1_000_000,
     };
-    add(
-        "hostile-degree",
-        "degree 10^6",
-        "\"polynomial\":[",
-        "\"polynomial\":[@",
-        "0,",
-        1_000_000,
-    );
-    add(
-        "hostile-degree-x",
-        "x of degree 10^6",
-        "\"x\":[[",
-        "\"x\":[[@",
-        "1,",
-        1_000_000,
-    );
-    let digits = format!("{},", "7".repeat(5000));
-    let note = "500 coefficients of 5,000 digits, spelt out";
-    add(
+    push_too_large(cases, "hostile-degree", "degree 10^6", &degree);
+
+    let degree_of_x = Repeated {
+        text: long_component,
+        unit: "1,",
+        count: 1_000_000,
+    };
+    push_too_large(cases, "hostile-degree-x", "x of degree 10^6", &degree_of_x);
+
+    let size = Repeated {
+        text: long_polynomial,
+        unit: &five_thousand_digits,
+        count: 500,
+    };
+    push_too_large(
+        cases,
         "hostile-size-spelt",
-        note,
-        "\"polynomial\":[",
-        "\"polynomial\":[@",
-        &digits,
-        500,
+        "500 coefficients of 5,000 digits, spelt out",
+        &size,
     );
+}
+
+fn push_too_large(cases: &mut Cases, name: &str, note: &str, repeated: &Repeated<'_>) {
+    let (problem, _) = accepted();
+    let file = json!({
+        "verdict": "rejected",
+        "reason": "TooLarge",
+        "problem": problem_json(&problem),
+        "certificate_text": repeated.text,
+        "repeat": { "mark": "@", "unit": repeated.unit, "count": repeated.count },
+    });
+    cases.push("reject", name, file, note);
 }

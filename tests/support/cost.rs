@@ -1,4 +1,7 @@
 //! The runs behind `spec/figures/complete-cost.svg`, as a table.
+//!
+//! The table is `spec/figures/complete-cost.csv`: written from measured runs, read back for the
+//! picture, and compared with the picture in the repository.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
 use mceip::picture::{CostSeries, Picture, cost_picture};
@@ -62,52 +65,53 @@ impl Run {
         else {
             return None;
         };
-        let number = |s: &str| s.parse::<usize>().ok();
         Some(Run {
             case: case.into(),
-            slip: number(slip)?,
-            free: number(free)?,
+            slip: slip.parse().ok()?,
+            free: free.parse().ok()?,
             complete: complete.parse().ok()?,
             check: check.parse().ok()?,
-            leaves: number(leaves)?,
-            solutions: number(solutions)?,
-            open: number(open)?,
-            kilobytes: number(kilobytes)?,
+            leaves: leaves.parse().ok()?,
+            solutions: solutions.parse().ok()?,
+            open: open.parse().ok()?,
+            kilobytes: kilobytes.parse().ok()?,
         })
     }
 }
 
 /// The runs of a table; lines with a # are comments.
 pub fn read(csv: &str) -> Option<Vec<Run>> {
-    let mut lines = csv.lines().filter(|l| !l.starts_with('#'));
-    (lines.next() == Some(HEAD)).then(|| lines.map(Run::read).collect())?
+    let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
+    if lines.next() != Some(HEAD) {
+        return None;
+    }
+    lines.map(Run::read).collect()
 }
 
 pub fn picture(runs: &[Run]) -> Picture {
-    let of = |case: &str, part: &str, seconds: fn(&Run) -> f64| {
-        let points = runs
-            .iter()
-            .filter(|r| r.case == case)
-            .map(|r| (r.slip as f64, seconds(r)))
-            .collect();
-        CostSeries {
-            name: format!("{case}: {part}"),
-            points,
-        }
-    };
-    let both = |case| {
-        [
-            of(case, "search and check", |r| r.complete),
-            of(case, "check alone", |r| r.check),
-        ]
-    };
-    let series: Vec<CostSeries> = ["all slip", "a tenth stuck"]
-        .into_iter()
-        .flat_map(both)
-        .collect();
+    let mut series = Vec::new();
+    for case in ["all slip", "a tenth stuck"] {
+        series.push(CostSeries {
+            name: format!("{case}: search and check"),
+            points: points(runs, case, |run| run.complete),
+        });
+        series.push(CostSeries {
+            name: format!("{case}: check alone"),
+            points: points(runs, case, |run| run.check),
+        });
+    }
+
     cost_picture(
         "Complete MCEIP-\u{3bc} set over [0, \u{221e}) from K, refined crossed meshes",
         "slip nodes",
         &series,
     )
+}
+
+/// Seconds over the number of slip nodes, for the runs of one case.
+fn points(runs: &[Run], case: &str, seconds: fn(&Run) -> f64) -> Vec<(f64, f64)> {
+    runs.iter()
+        .filter(|run| run.case == case)
+        .map(|run| (run.slip as f64, seconds(run)))
+        .collect()
 }

@@ -1,136 +1,188 @@
 //! A cover against the exact enumerator: the same set, or open exactly where something is missing;
 //! and certificates to forge.
+//!
+//! The enumerator (`mceip_oracle`) goes through all supports one by one and shares no proof with
+//! the cover: a solution that a leaf has lost, a solution listed twice and a family that is none
+//! are differences between the two. What differs comes back as sentences, so that a test can assert
+//! that there are none and print those that there are.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
 use mceip_check::certificate::{Certificate, CompleteSet, Node};
-use mceip_check::{AcceptedClaim, AcceptedCover, SolutionFamily, check};
+use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily, check};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
-use mceip_exact::{Algebraic, Interval, Sparse, whole};
+use mceip_exact::{Algebraic, Interval, Rational, Sparse, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_oracle::{End, Enumeration, Piece, Solution, SupportRange, enumerate, examine_support};
 use mceip_testkit::{mechanical_pencil, random_pencils};
 use std::cmp::Ordering;
 
+/// What the enumerator finds in the window of a problem.
 pub fn truth(problem: &Problem) -> Enumeration {
-    enumerate(&reduce(problem).unwrap().pencil, problem.window()).unwrap()
+    let pencil = reduce(problem).unwrap().pencil;
+    enumerate(&pencil, problem.window()).unwrap()
 }
 
 /// What a cover says that is not so; empty where it is right. Everything the enumerator lists is in
 /// the cover's list or in an open region, and the cover lists nothing else.
 pub fn disagreements(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
+    let mut wrong = listed_in_vain(cover, truth);
+    wrong.extend(solutions_not_listed_once(cover, truth));
+    wrong.extend(cones_left_out(cover, truth));
+    wrong.extend(ranges_left_out(cover, truth));
+    wrong.extend(families_in_vain(cover, truth));
+
+    if is_no_list(truth) && cover.open.is_empty() && cover.families.is_empty() {
+        wrong.push("complete, but the answer is no list".into());
+    }
+    wrong
+}
+
+/// Listed solutions that are not one solution of the enumerator.
+fn listed_in_vain(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
     let mut wrong = Vec::new();
-    for s in &cover.solutions {
-        let matches = truth.solutions.iter().filter(|t| is_same(t, s)).count()
-            + usize::from(is_last_of_range(truth, s));
+    for listed in &cover.solutions {
+        let isolated = truth.solutions.iter().filter(|t| is_same(t, listed));
+        let matches = isolated.count() + usize::from(is_last_of_range(truth, listed));
+
         if matches != 1 {
             wrong.push(format!(
                 "listed: {:?} in {:?}, {matches} of the enumerator's match",
-                s.support, s.value
+                listed.support, listed.value
             ));
         }
     }
-    for t in &truth.solutions {
-        let listed = cover.solutions.iter().filter(|s| is_same(t, s)).count();
-        if listed > 1 || (listed == 0 && !is_open(cover, &t.slip, &t.value)) {
+    wrong
+}
+
+/// Solutions of the enumerator that are listed twice, or neither listed nor open.
+fn solutions_not_listed_once(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for solution in &truth.solutions {
+        let matches = cover.solutions.iter().filter(|s| is_same(solution, s));
+        let listed = matches.count();
+        let is_lost = listed == 0 && !is_open(cover, &solution.slip, &solution.value);
+
+        if listed > 1 || is_lost {
             wrong.push(format!(
                 "slip {:?} at {} is listed {listed} times and not open",
-                t.slip,
-                t.decimal(12)
+                solution.slip,
+                solution.decimal(12)
             ));
         }
     }
-    // More than one solution at a value or a range of values: in a family or open.
-    for c in truth.cones.iter().filter(|c| c.dimension > 1) {
-        if !is_open(cover, &c.slip, &c.value) && !is_in_family(cover, &c.slip, &c.value) {
+    wrong
+}
+
+/// More than one solution at a value has to be a family or open.
+fn cones_left_out(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for cone in truth.cones.iter().filter(|cone| cone.dimension > 1) {
+        if !is_open_or_in_family(cover, &cone.slip, &cone.value) {
             wrong.push(format!(
                 "the cone of slip {:?} is neither open nor a family",
-                c.slip
+                cone.slip
             ));
         }
     }
-    for r in &truth.ranges {
-        for value in r.pieces.iter().flat_map(probes) {
-            if !is_open(cover, &r.support, &value)
-                && !is_in_family(cover, &r.support, &value)
-                && !is_end_listed(cover, truth, r, &value)
-            {
+    wrong
+}
+
+/// A range of values has to be a family or open; an end of it may be listed.
+fn ranges_left_out(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for range in &truth.ranges {
+        for value in range.pieces.iter().flat_map(probes) {
+            let is_told = is_open_or_in_family(cover, &range.support, &value)
+                || is_end_listed(cover, truth, range, &value);
+            if !is_told {
                 wrong.push(format!(
                     "the range of support {:?} is neither open nor a family",
-                    r.support
+                    range.support
                 ));
             }
         }
     }
-    // No family without a cone or a range; which of a cone's faces have one, `family_disagreements`
-    // asks.
-    for f in &cover.families {
-        let cone = truth.cones.iter().any(|c| {
-            f.is_point && f.support.iter().all(|i| c.slip.contains(i)) && within(&c.value, &f.from)
+    wrong
+}
+
+/// Families without a cone or a range. Which of a cone's faces have one, `family_disagreements`
+/// asks.
+fn families_in_vain(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for family in &cover.families {
+        let is_face_of_cone = truth.cones.iter().any(|cone| {
+            family.is_point
+                && family.support.iter().all(|i| cone.slip.contains(i))
+                && within(&cone.value, &family.from)
         });
-        if !cone && !is_in_ranges(truth, f) {
-            wrong.push(format!("the family {f:?} is not there"));
+        if !is_face_of_cone && !is_in_ranges(truth, family) {
+            wrong.push(format!("the family {family:?} is not there"));
         }
     }
-    // Ranges that the window cuts to single values are lists within it; each value was asked for
-    // above.
-    let long = truth
-        .ranges
-        .iter()
-        .flat_map(|r| &r.pieces)
-        .any(|p| !is_one(p));
-    let no_list =
-        long || !truth.undescribed.is_empty() || truth.cones.iter().any(|c| c.dimension > 1);
-    if cover.open.is_empty() && cover.families.is_empty() && no_list {
-        wrong.push("complete, but the answer is no list".into());
-    }
     wrong
+}
+
+/// Does the answer hold more than single solutions? Ranges that the window cuts to single values
+/// are lists within it; `ranges_left_out` asks for each such value.
+fn is_no_list(truth: &Enumeration) -> bool {
+    let mut pieces = truth.ranges.iter().flat_map(|range| &range.pieces);
+    let has_long_range = pieces.any(|piece| !is_one_value(piece));
+    let has_wide_cone = truth.cones.iter().any(|cone| cone.dimension > 1);
+    has_long_range || has_wide_cone || !truth.undescribed.is_empty()
 }
 
 /// Families against what the oracle finds on their very supports, each support by itself.
 pub fn family_disagreements(problem: &Problem, cover: &AcceptedCover) -> Vec<String> {
     let pencil = reduce(problem).unwrap().pencil;
     let slip = pencil.slip();
+
     let mut wrong = Vec::new();
     for subset in 1u32..1 << slip.len() {
-        let support: Vec<usize> = slip
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| subset >> k & 1 == 1)
-            .map(|(_, &i)| i)
-            .collect();
+        let chosen = (0..slip.len()).filter(|k| subset >> k & 1 == 1);
+        let support: Vec<usize> = chosen.map(|k| slip[k]).collect();
+
         let mut own = Enumeration::default();
         examine_support(&pencil, &support, problem.window(), &mut own);
         own.describe(&pencil, problem.window());
-        for value in own
-            .cones
+
+        wrong.extend(families_missing(cover, &own, &support));
+        wrong.extend(families_invented(cover, &own, &support));
+    }
+    wrong
+}
+
+/// Values at which one support has more solutions than the cover lists.
+fn families_missing(cover: &AcceptedCover, own: &Enumeration, support: &[usize]) -> Vec<String> {
+    let cones = own.cones.iter().filter(|cone| cone.slip == support);
+    let mut values: Vec<Algebraic> = cones.map(|cone| cone.value.clone()).collect();
+    values.extend(values_in_ranges(own, support));
+
+    let mut wrong = Vec::new();
+    for value in values {
+        let is_listed = own
+            .ranges
             .iter()
-            .filter(|c| c.slip == support)
-            .map(|c| c.value.clone())
-            .chain(ranges(&own, &support))
-        {
-            let listed = own
-                .ranges
-                .iter()
-                .any(|r| is_end_listed(cover, &own, r, &value));
-            if !is_open(cover, &support, &value)
-                && !is_in_family(cover, &support, &value)
-                && !listed
-            {
-                wrong.push(format!(
-                    "support {support:?}: more solutions than listed, no family"
-                ));
-            }
+            .any(|range| is_end_listed(cover, own, range, &value));
+        if !is_open_or_in_family(cover, support, &value) && !is_listed {
+            wrong.push(format!(
+                "support {support:?}: more solutions than listed, no family"
+            ));
         }
-        for f in cover.families.iter().filter(|f| f.support == support) {
-            let cone = own
-                .cones
-                .iter()
-                .any(|c| f.is_point && c.slip == support && within(&c.value, &f.from));
-            if !cone && !is_in_ranges(&own, f) {
-                wrong.push(format!("the family {f:?} is not there"));
-            }
+    }
+    wrong
+}
+
+/// Families of one support that are no cone and no range of it.
+fn families_invented(cover: &AcceptedCover, own: &Enumeration, support: &[usize]) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for family in cover.families.iter().filter(|f| f.support == support) {
+        let is_cone = own.cones.iter().any(|cone| {
+            family.is_point && cone.slip == support && within(&cone.value, &family.from)
+        });
+        if !is_cone && !is_in_ranges(own, family) {
+            wrong.push(format!("the family {family:?} is not there"));
         }
     }
     wrong
@@ -138,107 +190,124 @@ pub fn family_disagreements(problem: &Problem, cover: &AcceptedCover) -> Vec<Str
 
 /// Is this the one value that the window leaves of a range? The oracle calls that a range (no
 /// window decides what is isolated), the cover, which knows the window only, a single solution.
-fn is_last_of_range(truth: &Enumeration, s: &AcceptedClaim) -> bool {
-    let at = |p: &Piece| s.value.is_point() && within(&p.from.value, &s.value);
-    truth
-        .ranges
-        .iter()
-        .filter(|r| r.support == s.support)
-        .any(|r| r.pieces.iter().any(|p| is_one(p) && at(p)))
+fn is_last_of_range(truth: &Enumeration, listed: &AcceptedClaim) -> bool {
+    let mut pieces = pieces_of(truth, &listed.support);
+    pieces.any(|piece| {
+        is_one_value(piece) && listed.value.is_point() && within(&piece.from.value, &listed.value)
+    })
 }
 
-fn is_one(p: &Piece) -> bool {
-    p.to.as_ref()
-        .is_some_and(|to| to.value.clone().equals(&mut p.from.value.clone()))
+/// The pieces of the ranges of one support.
+fn pieces_of<'a>(
+    truth: &'a Enumeration,
+    support: &'a [usize],
+) -> impl Iterator<Item = &'a Piece> + 'a {
+    let ranges = truth.ranges.iter();
+    ranges
+        .filter(move |range| range.support == support)
+        .flat_map(|range| &range.pieces)
 }
 
+fn is_one_value(piece: &Piece) -> bool {
+    let Some(to) = &piece.to else { return false };
+    to.value.clone().equals(&mut piece.from.value.clone())
+}
+
+/// Is this value of a range listed, because the window leaves no other?
 fn is_end_listed(
     cover: &AcceptedCover,
     truth: &Enumeration,
-    r: &SupportRange,
+    range: &SupportRange,
     value: &Algebraic,
 ) -> bool {
-    cover
-        .solutions
-        .iter()
-        .any(|s| s.support == r.support && within(value, &s.value) && is_last_of_range(truth, s))
+    cover.solutions.iter().any(|listed| {
+        listed.support == range.support
+            && within(value, &listed.value)
+            && is_last_of_range(truth, listed)
+    })
 }
 
-fn ranges<'a>(
-    truth: &'a Enumeration,
-    support: &'a [usize],
-) -> impl Iterator<Item = Algebraic> + 'a {
-    truth
-        .ranges
-        .iter()
-        .filter(move |r| r.support == support)
-        .flat_map(|r| r.pieces.iter().flat_map(probes))
+/// Values of the ranges of one support, as `probes` chooses them.
+fn values_in_ranges(truth: &Enumeration, support: &[usize]) -> Vec<Algebraic> {
+    pieces_of(truth, support).flat_map(probes).collect()
 }
 
 /// The ends of a piece that belong to it, and a number inside.
 fn probes(piece: &Piece) -> Vec<Algebraic> {
-    let mut out: Vec<Algebraic> = std::iter::once(&piece.from)
-        .chain(&piece.to)
-        .filter(|e| e.included)
-        .map(|e| e.value.clone())
-        .collect();
+    let ends = std::iter::once(&piece.from).chain(&piece.to);
+    let included = ends.filter(|end| end.included);
+    let mut values: Vec<Algebraic> = included.map(|end| end.value.clone()).collect();
+
+    values.extend(inside(piece).map(Algebraic::rational));
+    values
+}
+
+/// A rational number strictly between the ends of a piece, if it has more than one value.
+fn inside(piece: &Piece) -> Option<Rational> {
     let mut from = piece.from.value.clone();
-    let inside = match piece.to.as_ref().map(|t| t.value.clone()) {
-        None => from.interval().hi() + whole(1),
-        Some(mut to) if from.clone().cmp_exact(&mut to.clone()) == Ordering::Less => {
-            while from.interval().hi() >= to.interval().lo() {
-                from.refine();
-                to.refine();
-            }
-            (from.interval().hi() + to.interval().lo()) / whole(2)
-        }
-        Some(_) => return out,
+    let Some(end) = &piece.to else {
+        return Some(from.interval().hi() + whole(1));
     };
-    out.push(Algebraic::rational(inside));
-    out
+
+    let mut to = end.value.clone();
+    if from.clone().cmp_exact(&mut to.clone()) != Ordering::Less {
+        return None;
+    }
+    while from.interval().hi() >= to.interval().lo() {
+        from.refine();
+        to.refine();
+    }
+    Some((from.interval().hi() + to.interval().lo()) / whole(2))
+}
+
+fn is_open_or_in_family(cover: &AcceptedCover, support: &[usize], value: &Algebraic) -> bool {
+    is_open(cover, support, value) || is_in_family(cover, support, value)
 }
 
 fn is_in_family(cover: &AcceptedCover, support: &[usize], value: &Algebraic) -> bool {
-    cover
-        .families
-        .iter()
-        .filter(|f| f.support == support)
-        .any(|f| {
-            let mut value = value.clone();
-            let above =
-                |end: &Interval, v: &mut Algebraic| v.cmp_rational(end.lo()) == Ordering::Greater;
-            let below = |v: &mut Algebraic| {
-                f.to.as_ref()
-                    .is_none_or(|end| v.cmp_rational(end.hi()) == Ordering::Less)
-            };
-            if f.is_point {
-                within(&value, &f.from)
-            } else {
-                above(&f.from, &mut value) && below(&mut value)
-            }
-        })
+    let mut families = cover.families.iter().filter(|f| f.support == support);
+    families.any(|family| has_value(family, value))
+}
+
+/// Is this a value of the family: the enclosed one, or one between the outer ends of the two
+/// enclosures?
+fn has_value(family: &SolutionFamily, value: &Algebraic) -> bool {
+    if family.is_point {
+        return within(value, &family.from);
+    }
+
+    let mut value = value.clone();
+    let is_above = value.cmp_rational(family.from.lo()) == Ordering::Greater;
+    let is_below = match &family.to {
+        None => true,
+        Some(end) => value.cmp_rational(end.hi()) == Ordering::Less,
+    };
+    is_above && is_below
 }
 
 /// Is a number of the family (at a point: possibly this one) in a range of its support?
-fn is_in_ranges(truth: &Enumeration, f: &SolutionFamily) -> bool {
-    let inside = match &f.to {
-        _ if f.is_point => f.from.mid(),
-        None => f.from.hi() + whole(1),
-        Some(to) => (f.from.hi() + to.lo()) / whole(2),
+fn is_in_ranges(truth: &Enumeration, family: &SolutionFamily) -> bool {
+    let number = match &family.to {
+        _ if family.is_point => family.from.mid(),
+        None => family.from.hi() + whole(1),
+        Some(to) => (family.from.hi() + to.lo()) / whole(2),
     };
-    let inside = Algebraic::rational(inside);
-    let is_end = |e: &End| f.is_point && e.included && within(&e.value, &f.from);
-    let has =
-        |p: &Piece| p.contains(&inside) || is_end(&p.from) || p.to.as_ref().is_some_and(is_end);
-    truth
-        .ranges
-        .iter()
-        .filter(|r| r.support == f.support)
-        .any(|r| r.pieces.iter().any(has))
+    let number = Algebraic::rational(number);
+
+    pieces_of(truth, &family.support).any(|piece| {
+        piece.contains(&number)
+            || is_point_at(family, &piece.from)
+            || piece.to.as_ref().is_some_and(|to| is_point_at(family, to))
+    })
 }
 
-fn is_same(t: &Solution, s: &AcceptedClaim) -> bool {
-    t.slip == s.support && within(&t.value, &s.value)
+/// Is the family a point that encloses this end of a range?
+fn is_point_at(family: &SolutionFamily, end: &End) -> bool {
+    family.is_point && end.included && within(&end.value, &family.from)
+}
+
+fn is_same(solution: &Solution, listed: &AcceptedClaim) -> bool {
+    solution.slip == listed.support && within(&solution.value, &listed.value)
 }
 
 fn within(value: &Algebraic, interval: &Interval) -> bool {
@@ -250,19 +319,27 @@ fn within(value: &Algebraic, interval: &Interval) -> bool {
 /// Is the solution in an open region: value in its interval, support between its moving set and
 /// that with the undecided added?
 fn is_open(cover: &AcceptedCover, support: &[usize], value: &Algebraic) -> bool {
-    cover.open.iter().any(|r| {
-        let mut value = value.clone();
-        r.moving.iter().all(|i| support.contains(i))
-            && support
-                .iter()
-                .all(|i| r.moving.contains(i) || r.undecided.contains(i))
-            && value.cmp_rational(&r.min) != Ordering::Less
-            && r.max
-                .as_ref()
-                .is_none_or(|max| value.cmp_rational(max) != Ordering::Greater)
-    })
+    let mut regions = cover.open.iter();
+    regions.any(|region| has_support(region, support) && is_on(region, value))
 }
 
+fn has_support(region: &OpenRegion, support: &[usize]) -> bool {
+    let all_moving = region.moving.iter().all(|i| support.contains(i));
+    let mut others = support.iter().filter(|i| !region.moving.contains(i));
+    all_moving && others.all(|i| region.undecided.contains(i))
+}
+
+fn is_on(region: &OpenRegion, value: &Algebraic) -> bool {
+    let mut value = value.clone();
+    let is_below = value.cmp_rational(&region.min) == Ordering::Less;
+    let is_above = match &region.max {
+        None => false,
+        Some(max) => value.cmp_rational(max) == Ordering::Greater,
+    };
+    !is_below && !is_above
+}
+
+/// The certificate of the complete set, which the checker accepts.
 pub fn proved(problem: &Problem) -> Certificate {
     let options = Options {
         pieces: 6,
@@ -271,6 +348,7 @@ pub fn proved(problem: &Problem) -> Certificate {
     let certificate = complete(problem, &options, &Watch::nobody())
         .unwrap()
         .certificate;
+
     assert!(check(problem, &certificate).is_ok());
     certificate
 }
@@ -284,31 +362,26 @@ pub fn plain() -> (Problem, Certificate) {
 
 /// MCEIP-mu with free variables: a condensation in the certificate.
 pub fn condensed() -> (Problem, Certificate) {
-    let is_fit = |p: &Problem| {
-        let pencil = reduce(p).unwrap().pencil;
-        p.unknown() == Unknown::Mu
-            && pencil.free().len() >= 2
-            && pencil.slip().len() >= 3
-            && !truth(p).solutions.is_empty()
-    };
-    let problem = random_pencils(60, 3)
-        .unwrap()
-        .into_iter()
-        .map(|i| i.problem)
-        .find(is_fit)
-        .unwrap();
+    let instances = random_pencils(60, 3).unwrap();
+    let mut problems = instances.into_iter().map(|instance| instance.problem);
+    let problem = problems.find(is_fit_to_condense).unwrap();
+
     let certificate = proved(&problem);
     (problem, certificate)
 }
 
+fn is_fit_to_condense(problem: &Problem) -> bool {
+    let pencil = reduce(problem).unwrap().pencil;
+    problem.unknown() == Unknown::Mu
+        && pencil.free().len() >= 2
+        && pencil.slip().len() >= 3
+        && !truth(problem).solutions.is_empty()
+}
+
 /// lambda^2 = 2 and 3 on one support.
 pub fn fold(window: Window) -> Problem {
-    let pencil = Pencil::new(
-        Sparse::from_ints(&[&[1, -6], &[2, -6]]),
-        Sparse::identity(2),
-        vec![],
-    )
-    .unwrap();
+    let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
+    let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
     Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
 }
 
@@ -316,13 +389,27 @@ pub fn set(certificate: &mut Certificate) -> &mut CompleteSet {
     certificate.complete_set.as_mut().unwrap()
 }
 
-pub fn trees(certificate: &Certificate) -> impl Iterator<Item = ((usize, usize), &Node)> {
+/// A node of a certificate.
+pub fn node_at(certificate: &mut Certificate, place: NodePlace) -> &mut Node {
+    &mut set(certificate).pieces[place.piece].tree[place.node]
+}
+
+/// Where a node of a certificate is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NodePlace {
+    pub piece: usize,
+    pub node: usize,
+}
+
+/// All nodes of all pieces, with their places.
+pub fn trees(certificate: &Certificate) -> Vec<(NodePlace, &Node)> {
     let pieces = &certificate.complete_set.as_ref().unwrap().pieces;
-    pieces.iter().enumerate().flat_map(|(p, piece)| {
-        piece
-            .tree
-            .iter()
-            .enumerate()
-            .map(move |(k, node)| ((p, k), node))
-    })
+
+    let mut nodes = Vec::new();
+    for (piece, part) in pieces.iter().enumerate() {
+        for (node, content) in part.tree.iter().enumerate() {
+            nodes.push((NodePlace { piece, node }, content));
+        }
+    }
+    nodes
 }

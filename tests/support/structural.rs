@@ -1,5 +1,9 @@
 //! Structural mutants of certificate files: changes of the JSON text's tree, with no knowledge of
 //! what a field means.
+//!
+//! The draws know only what JSON shows: numbers, lists, nodes with an outcome or a tree. They reach
+//! combinations that nobody would forge by hand, and as the two checkers read the same text, a
+//! difference between them shows whatever the mutant means.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
 use mceip_exact::{Rational, parse, rational};
@@ -65,24 +69,38 @@ fn draw_rational(rng: &mut ChaCha8Rng) -> Rational {
 }
 
 fn change_number(certificate: &mut Value, rng: &mut ChaCha8Rng) {
-    let spelt = places(certificate, &|v| as_number(v).is_some());
-    let counted = places(certificate, &Value::is_number);
-
     if rng.random_range(0..4) == 0 {
-        let Some(place) = draw(&counted, rng) else {
-            return;
-        };
-        let Some(value) = certificate.pointer_mut(place) else {
-            return;
-        };
-        let old = value.as_i64().unwrap_or(0);
-        *value = json!([old + 1, old - 1, 0, 2 * old, -old][rng.random_range(0..5)]);
-        return;
+        change_index(certificate, rng);
+    } else {
+        change_rational(certificate, rng);
     }
+}
 
-    let (Some(place), Some(other)) = (draw(&spelt, rng), draw(&spelt, rng)) else {
+/// Indices and counts are JSON numbers.
+fn change_index(certificate: &mut Value, rng: &mut ChaCha8Rng) {
+    let indices = places(certificate, &Value::is_number);
+    let Some(place) = draw(&indices, rng) else {
         return;
     };
+    let Some(value) = certificate.pointer_mut(place) else {
+        return;
+    };
+
+    let old = value.as_i64().unwrap_or(0);
+    let candidates = [old + 1, old - 1, 0, 2 * old, -old];
+    *value = json!(candidates[rng.random_range(0..5)]);
+}
+
+/// Rational numbers are spelt in strings.
+fn change_rational(certificate: &mut Value, rng: &mut ChaCha8Rng) {
+    let rationals = places(certificate, &|value| as_number(value).is_some());
+    let Some(place) = draw(&rationals, rng) else {
+        return;
+    };
+    let Some(other) = draw(&rationals, rng) else {
+        return;
+    };
+
     let lent = certificate.pointer(other).cloned();
     let Some(value) = certificate.pointer_mut(place) else {
         return;
@@ -110,15 +128,14 @@ fn change_number(certificate: &mut Value, rng: &mut ChaCha8Rng) {
 
 /// Drops, doubles or exchanges items of a list.
 fn change_list(certificate: &mut Value, rng: &mut ChaCha8Rng) {
-    let lists = places(certificate, &|v| {
-        v.as_array().is_some_and(|items| !items.is_empty())
-    });
-    let Some(items) = draw(&lists, rng)
-        .and_then(|at| certificate.pointer_mut(at))
-        .and_then(Value::as_array_mut)
-    else {
+    let lists = places(certificate, &is_filled_list);
+    let Some(place) = draw(&lists, rng) else {
         return;
     };
+    let Some(Value::Array(items)) = certificate.pointer_mut(place) else {
+        return;
+    };
+
     let first = rng.random_range(0..items.len());
     let second = rng.random_range(0..items.len());
 
@@ -129,6 +146,10 @@ fn change_list(certificate: &mut Value, rng: &mut ChaCha8Rng) {
         1 => items.insert(second, items[first].clone()),
         _ => items.swap(first, second),
     }
+}
+
+fn is_filled_list(value: &Value) -> bool {
+    value.as_array().is_some_and(|items| !items.is_empty())
 }
 
 /// Another window, with the ends of the cover moved along; every third time with those left as they
@@ -148,12 +169,15 @@ fn change_window(certificate: &mut Value, rng: &mut ChaCha8Rng) {
     }
 
     certificate["window"]["max"] = max.clone();
-    let last = certificate
-        .pointer_mut("/complete_set/pieces")
-        .and_then(Value::as_array_mut)
-        .and_then(|list| list.last_mut());
-    if let Some(piece) = last.filter(|_| rng.random_range(0..3) != 0) {
-        piece["max"] = max;
+    let pieces = certificate.pointer_mut("/complete_set/pieces");
+    let Some(Value::Array(pieces)) = pieces else {
+        return;
+    };
+    let Some(last) = pieces.last_mut() else {
+        return;
+    };
+    if rng.random_range(0..3) != 0 {
+        last["max"] = max;
     }
 }
 

@@ -70,13 +70,8 @@ struct Entries {
 
 impl Entries {
     fn draw(rng: &mut ChaCha8Rng, order: usize) -> Self {
-        let mut rows = |low: i64, high: i64| -> Vec<Vec<i64>> {
-            (0..order)
-                .map(|_| (0..order).map(|_| rng.random_range(low..=high)).collect())
-                .collect()
-        };
-        let a = rows(-9, 9);
-        let mut b = rows(-2, 2);
+        let a = draw_rows(rng, order, 9);
+        let mut b = draw_rows(rng, order, 2);
 
         // A third with B = I, as in the worked examples.
         if rng.random_range(0..3) == 0 {
@@ -90,8 +85,6 @@ impl Entries {
     }
 
     fn problem(&self, lo: &Rational, hi: Option<&Rational>) -> Problem {
-        let sparse =
-            |rows: &[Vec<i64>]| Sparse::from_ints(&rows.iter().map(|r| &r[..]).collect::<Vec<_>>());
         let pencil = Pencil::new(sparse(&self.a), sparse(&self.b), Vec::new()).unwrap();
         let window = Window::new(lo.clone(), hi.cloned()).unwrap();
         Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
@@ -99,13 +92,12 @@ impl Entries {
 
     /// Entry of A + tB with its row divided by the power of two above the row's largest entry of A.
     fn scaled(&self, i: usize, j: usize, t: &Rational) -> Rational {
-        let largest = self.a[i]
-            .iter()
-            .map(|v| v.unsigned_abs())
-            .max()
-            .unwrap_or(0);
+        let sizes = self.a[i].iter().map(|entry| entry.unsigned_abs());
+        let largest = sizes.max().unwrap_or(0);
         let bits = (u64::BITS - largest.leading_zeros()).max(1);
-        (whole(self.a[i][j]) + t * whole(self.b[i][j])) / whole(1 << bits)
+
+        let entry = whole(self.a[i][j]) + t * whole(self.b[i][j]);
+        entry / whole(1 << bits)
     }
 
     /// det(A + tB) on a support.
@@ -114,11 +106,27 @@ impl Entries {
     }
 }
 
+/// A square matrix with entries between -largest and largest, by rows.
+fn draw_rows(rng: &mut ChaCha8Rng, order: usize, largest: i64) -> Vec<Vec<i64>> {
+    let mut rows = vec![vec![0; order]; order];
+    for entry in rows.iter_mut().flatten() {
+        *entry = rng.random_range(-largest..=largest);
+    }
+    rows
+}
+
+fn sparse(rows: &[Vec<i64>]) -> Sparse {
+    let rows: Vec<&[i64]> = rows.iter().map(|row| &row[..]).collect();
+    Sparse::from_ints(&rows)
+}
+
+/// The rows and columns of a support.
 fn block(rows: &[Vec<i64>], support: &[usize]) -> Vec<Vec<Integer>> {
-    support
-        .iter()
-        .map(|&i| support.iter().map(|&j| rows[i][j].into()).collect())
-        .collect()
+    let mut block = Vec::new();
+    for &i in support {
+        block.push(support.iter().map(|&j| rows[i][j].into()).collect());
+    }
+    block
 }
 
 fn draw_end(rng: &mut ChaCha8Rng) -> Rational {
@@ -230,40 +238,53 @@ fn root(rng: &mut ChaCha8Rng, entries: &Entries, support: &[usize], region: &Reg
     let needs_width = !matches!(outcome, RootOutcome::Absent | RootOutcome::Infinity(_));
     let interval = draw_interval(rng, &value, region, needs_width);
 
-    let rounded = |list: &[Rational]| list.iter().map(in_units).collect::<Vec<Integer>>();
     Root {
         pivot,
         interval: interval.map(Number),
-        inverse: inverse.iter().map(|row| rounded(row)).collect(),
+        inverse: inverse.iter().map(|row| in_units(row)).collect(),
         inverse_exponent: EXPONENT,
-        left: rounded(&left),
-        right: rounded(&right),
+        left: in_units(&left),
+        right: in_units(&right),
         exponent: EXPONENT,
         outcome,
     }
 }
 
-fn in_units(v: &Rational) -> Integer {
-    (v * Rational::from_integer(Integer::one() << EXPONENT))
-        .round()
-        .to_integer()
+/// The numbers in units of 2^-EXPONENT, rounded.
+fn in_units(list: &[Rational]) -> Vec<Integer> {
+    let unit = Rational::from_integer(Integer::one() << EXPONENT);
+    list.iter()
+        .map(|number| (number * &unit).round().to_integer())
+        .collect()
 }
 
 /// The inverse of the scaled block of order at most 2; zero where it is singular.
 fn inverse(entries: &Entries, block: &[usize], t: &Rational) -> Vec<Vec<Rational>> {
-    let at = |i: usize, j: usize| entries.scaled(block[i], block[j], t);
-    let reciprocal = |v: Rational| if v.is_zero() { v } else { v.recip() };
+    match *block {
+        [] => Vec::new(),
+        [i] => vec![vec![reciprocal(entries.scaled(i, i, t))]],
+        [i, j] => {
+            let a = entries.scaled(i, i, t);
+            let b = entries.scaled(i, j, t);
+            let c = entries.scaled(j, i, t);
+            let d = entries.scaled(j, j, t);
 
-    match block.len() {
-        0 => Vec::new(),
-        1 => vec![vec![reciprocal(at(0, 0))]],
-        _ => {
-            let factor = reciprocal(at(0, 0) * at(1, 1) - at(0, 1) * at(1, 0));
+            let factor = reciprocal(&a * &d - &b * &c);
             vec![
-                vec![at(1, 1) * &factor, -at(0, 1) * &factor],
-                vec![-at(1, 0) * &factor, at(0, 0) * &factor],
+                vec![&d * &factor, -&b * &factor],
+                vec![-&c * &factor, &a * &factor],
             ]
         }
+        _ => unreachable!("order 3 less the pivot"),
+    }
+}
+
+/// 1 / number, and zero for zero.
+fn reciprocal(number: Rational) -> Rational {
+    if number.is_zero() {
+        number
+    } else {
+        number.recip()
     }
 }
 
@@ -283,8 +304,9 @@ fn draw_interval(
         _ => value.clone(),
     };
 
-    let part = [0, 1, 50, 300][rng.random_range(usize::from(needs_width)..4)];
-    let width = &center * rational(part, 1000);
+    let first_width = usize::from(needs_width);
+    let thousandths = [0, 1, 50, 300][rng.random_range(first_width..4)];
+    let width = &center * rational(thousandths, 1000);
     let [mut a, mut b] = [&center - &width, &center + &width];
 
     let is_clamped = rng.random_range(0..5) != 0;
@@ -306,14 +328,17 @@ fn draw_outcome(rng: &mut ChaCha8Rng, entries: &Entries, support: &[usize]) -> R
         3 | 4 => RootOutcome::Absent,
         5 => RootOutcome::NegativeX(rng.random_range(0..order)),
         6 => RootOutcome::NegativeY(rng.random_range(0..order)),
-        _ => {
-            let mut vector = vec![Integer::zero(); order];
-            for &i in support {
-                vector[i] = rng.random_range(-2..=2).into();
-            }
-            RootOutcome::Infinity(vector)
-        }
+        _ => RootOutcome::Infinity(draw_vector(rng, order, support)),
     }
+}
+
+/// Small integers on the support.
+fn draw_vector(rng: &mut ChaCha8Rng, order: usize, support: &[usize]) -> Vec<Integer> {
+    let mut vector = vec![Integer::zero(); order];
+    for &i in support {
+        vector[i] = rng.random_range(-2..=2).into();
+    }
+    vector
 }
 
 /// Every support in a leaf of its own, in preorder: all open but the one with the given support and

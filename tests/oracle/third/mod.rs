@@ -1,13 +1,20 @@
-//! The enumeration of (24)-(26) once more, by another route: minors by Laplace expansion, roots by
-//! Descartes' rule, null spaces by Gauss over Q(alpha), extreme rays by trying all sets of active
-//! constraints.
+//! A second enumeration of the solutions of (24)-(26), to compare the first one with.
+//!
+//! It takes another way at every step: determinants by Laplace expansion over all minors, roots by
+//! Descartes' rule ([`poly`]), null spaces by Gauss elimination over Q(alpha) ([`field`]), and
+//! extreme rays by trying all sets of active constraints. It shares no line and no number type with
+//! `mceip_exact` and `mceip_oracle`, so that a fault there has no twin here.
+//!
+//! The pencil is A + t B with y = (A + t B) x. Of the complementarity variables x_i >= 0, y_i >= 0
+//! and x_i y_i = 0, of the free ones y_i = 0. A support is the set of the complementarity variables
+//! with x_i > 0. `tests/oracle/third_opinion.rs` does the comparison.
 
 pub mod field;
 pub mod poly;
 
 use dashu_ratio::RBig;
 use field::Alpha;
-use poly::{P, add, mul, q, scale};
+use poly::{Polynomial, add, integer, multiply, negate, nonnegative_roots, squarefree, trim};
 
 /// A pencil of small integers.
 pub struct Third {
@@ -16,279 +23,364 @@ pub struct Third {
     pub free: Vec<usize>,
 }
 
+/// The values at which a pencil can have solutions.
+pub struct Spectrum {
+    /// All distinct roots >= 0 of the determinants that are not identically zero.
+    pub values: Vec<Alpha>,
+    /// The supports whose determinant is identically zero.
+    pub singular: Vec<Vec<usize>>,
+}
+
 /// A solution that is an extreme ray of the cone of its support.
 #[derive(Debug, Clone)]
 pub struct Ray {
-    pub x: Vec<P>,
+    pub x: Vec<Polynomial>,
     pub slip: Vec<usize>,
     pub y_zero: Vec<usize>,
 }
 
+impl Ray {
+    /// The complementarity variables with x_i = y_i = 0.
+    pub fn biactive(&self) -> Vec<usize> {
+        without(&self.y_zero, &self.slip)
+    }
+
+    /// Does the ray belong to the closed cone x_i = 0 off the support, y_i = 0 on it?
+    fn is_in_cone_of(&self, support: &[usize]) -> bool {
+        is_subset(&self.slip, support) && is_subset(support, &self.y_zero)
+    }
+}
+
+/// The cone of a support that two or more rays span.
+#[derive(Clone)]
+pub struct SpannedCone {
+    pub support: Vec<usize>,
+    /// Indices into the list of rays that the cone was made from.
+    pub rays: Vec<usize>,
+}
+
 impl Third {
+    /// The complementarity variables.
     pub fn slips(&self) -> Vec<usize> {
-        (0..self.a.len())
-            .filter(|i| !self.free.contains(i))
-            .collect()
+        let all: Vec<usize> = (0..self.a.len()).collect();
+        without(&all, &self.free)
     }
 
     pub fn supports(&self) -> Vec<Vec<usize>> {
         subsets(&self.slips())
     }
 
-    fn entry(&self, i: usize, j: usize) -> P {
-        poly::trim(vec![q(self.a[i][j]), q(self.b[i][j])])
+    /// The entry of A + t B as a polynomial in t.
+    fn entry(&self, i: usize, j: usize) -> Polynomial {
+        trim(vec![integer(self.a[i][j]), integer(self.b[i][j])])
     }
 
     fn with_free(&self, set: &[usize]) -> Vec<usize> {
-        self.free.iter().chain(set).copied().collect()
+        [&self.free[..], set].concat()
     }
 
-    /// det of the pencil on the free variables and a support: minors of the first k rows, all
-    /// column sets.
-    pub fn determinant(&self, support: &[usize]) -> P {
+    /// The determinant of the pencil on the free variables and a support.
+    ///
+    /// By Laplace expansion: the minors of the first k rows, for all sets of k columns, from the
+    /// minors of the first k - 1 rows. A set of columns is a bit pattern.
+    pub fn determinant(&self, support: &[usize]) -> Polynomial {
         let active = self.with_free(support);
-        let n = active.len();
-        let mut minors: Vec<P> = vec![Vec::new(); 1 << n];
-        minors[0] = vec![q(1)];
-        for set in 1usize..1 << n {
-            let row = active[set.count_ones() as usize - 1];
-            let mut sum = Vec::new();
-            for (place, c) in (0..n).filter(|c| set >> c & 1 == 1).enumerate() {
-                let sign = if (set.count_ones() as usize - 1 - place).is_multiple_of(2) {
-                    1
-                } else {
-                    -1
-                };
-                let term = mul(&self.entry(row, active[c]), &minors[set & !(1 << c)]);
-                sum = add(&sum, &scale(&term, &q(sign)));
+        let order = active.len();
+        let mut minors = vec![Polynomial::new(); 1 << order];
+        minors[0] = vec![integer(1)];
+
+        for columns in 1usize..1 << order {
+            let last_row = columns.count_ones() as usize - 1;
+            let mut minor = Polynomial::new();
+            let mut place = 0;
+
+            for column in 0..order {
+                if columns >> column & 1 == 0 {
+                    continue;
+                }
+                let entry = self.entry(active[last_row], active[column]);
+                let term = multiply(&entry, &minors[columns & !(1 << column)]);
+                let is_even = (last_row - place).is_multiple_of(2);
+                let signed_term = if is_even { term } else { negate(&term) };
+
+                minor = add(&minor, &signed_term);
+                place += 1;
             }
-            minors[set] = sum;
+            minors[columns] = minor;
         }
-        minors[(1 << n) - 1].clone()
+        minors[(1 << order) - 1].clone()
     }
 
-    /// All distinct roots >= 0 of the determinants that are not identically zero; supports whose
-    /// are.
-    pub fn values(&self) -> (Vec<Alpha>, Vec<Vec<usize>>) {
-        let (mut values, mut singular): (Vec<Alpha>, Vec<Vec<usize>>) = (Vec::new(), Vec::new());
-        for support in self
-            .supports()
-            .into_iter()
-            .filter(|s| !self.with_free(s).is_empty())
-        {
-            let det = self.determinant(&support);
-            if det.is_empty() {
+    pub fn spectrum(&self) -> Spectrum {
+        let mut values: Vec<Alpha> = Vec::new();
+        let mut singular = Vec::new();
+
+        for support in self.supports() {
+            if self.with_free(&support).is_empty() {
+                continue;
+            }
+            let determinant = self.determinant(&support);
+            if determinant.is_empty() {
                 singular.push(support);
                 continue;
             }
-            let p = poly::squarefree(&det);
-            for place in poly::roots(&det) {
-                let mut new = Alpha::new(&p, place);
-                if !values
-                    .iter()
-                    .any(|old: &Alpha| new.is_root_in(&old.p, &old.lo, &old.hi))
-                {
+
+            let p = squarefree(&determinant);
+            for bracket in nonnegative_roots(&determinant) {
+                let mut new = Alpha::new(&p, bracket);
+                let mut known = values.iter();
+                if !known.any(|old| new.is_root_in(&old.p, &old.lo, &old.hi)) {
                     values.push(new);
                 }
             }
         }
-        (values, singular)
+        Spectrum { values, singular }
     }
 
-    /// Every extreme ray of every support's cone at alpha: supports J and sets E off J such that
-    /// x = 0 off J, y = 0 on J and E leaves one line, with x > 0 on J and y > 0 on the rest.
+    /// Every extreme ray of every support's cone at alpha.
+    ///
+    /// These are supports J and sets E off J such that x = 0 off J, y = 0 on J and y = 0 on E leave
+    /// one line, with x > 0 on J and y > 0 on the rest.
     pub fn rays(&self, alpha: &mut Alpha) -> Vec<Ray> {
         self.rays_without(alpha, &[])
     }
 
-    /// Free variables that can be set to zero by adding a line (x_s = 0 and y = 0 along it), one
-    /// for each dimension of the space of lines.
+    /// Free variables that can be set to zero by adding a line, one for each dimension of the space
+    /// of lines. Along a line x_s = 0 and y = 0.
     fn lines(&self, alpha: &mut Alpha) -> Vec<usize> {
         let lines = self.null_space(alpha, &[], &self.slips(), &[]);
-        // Gauss leaves one basis vector for each free column: 1 there, 0 at the others'.
-        let own = |k: usize| {
-            self.free.iter().copied().find(|&f| {
-                lines
-                    .iter()
-                    .enumerate()
-                    .all(|(l, v)| v[f].is_empty() == (l != k))
-            })
-        };
-        (0..lines.len()).filter_map(own).collect()
+        let mut representatives = Vec::new();
+
+        for own in 0..lines.len() {
+            // Gauss leaves one basis vector for each free column: 1 there, 0 at the others'.
+            let is_zero_in_all_others = |variable: usize| {
+                let mut numbered = lines.iter().enumerate();
+                numbered.all(|(k, line)| line[variable].is_empty() == (k != own))
+            };
+            let mut free = self.free.iter().copied();
+            representatives.extend(free.find(|&variable| is_zero_in_all_others(variable)));
+        }
+        representatives
     }
 
     /// [`Third::rays`] among the vectors with zeros at some of the free variables.
     fn rays_without(&self, alpha: &mut Alpha, zeros: &[usize]) -> Vec<Ray> {
         let mut found = Vec::new();
+
         for support in self.supports() {
-            let off: Vec<usize> = self
-                .slips()
-                .into_iter()
-                .filter(|i| !support.contains(i))
-                .collect();
-            let width = self.null_space(alpha, &support, &[], zeros).len();
-            for extra in subsets(&off)
-                .into_iter()
-                .filter(|e| width > 1 || (width == 1 && e.is_empty()))
-            {
-                let kernel = self.null_space(alpha, &support, &extra, zeros);
-                let [x] = &kernel[..] else { continue };
-                for sign in [1, -1] {
-                    let x: Vec<P> = x.iter().map(|p| scale(p, &q(sign))).collect();
-                    found.extend(self.ray(
-                        alpha,
-                        &support,
-                        if width > 1 { Some(&extra) } else { None },
-                        x,
-                    ));
-                }
+            let kernel_dimension = self.null_space(alpha, &support, &[], zeros).len();
+            if kernel_dimension == 0 {
+                continue;
+            }
+            if kernel_dimension == 1 {
+                self.rays_of_line(alpha, &support, None, zeros, &mut found);
+                continue;
+            }
+
+            let off_support = without(&self.slips(), &support);
+            for active in subsets(&off_support) {
+                self.rays_of_line(alpha, &support, Some(&active), zeros, &mut found);
             }
         }
         found
     }
 
+    /// Appends the rays of a support, if the active constraints of y leave one line.
+    ///
+    /// With `active` given, these must be all the zeros of y off the support; without, none is asked
+    /// for and any may occur.
+    fn rays_of_line(
+        &self,
+        alpha: &mut Alpha,
+        support: &[usize],
+        active: Option<&[usize]>,
+        zeros: &[usize],
+        found: &mut Vec<Ray>,
+    ) {
+        let kernel = self.null_space(alpha, support, active.unwrap_or(&[]), zeros);
+        let [x] = &kernel[..] else {
+            return;
+        };
+
+        let opposite: Vec<Polynomial> = x.iter().map(|p| negate(p)).collect();
+        for direction in [x.clone(), opposite] {
+            let Some(ray) = self.ray(alpha, support, direction) else {
+                continue;
+            };
+            if active.is_none_or(|active| ray.biactive() == active) {
+                found.push(ray);
+            }
+        }
+    }
+
+    /// The vectors x with x = 0 off the support and at `zeros`, y = 0 on the support, on the free
+    /// variables and at `active`.
     fn null_space(
         &self,
         alpha: &mut Alpha,
         support: &[usize],
-        extra: &[usize],
+        active: &[usize],
         zeros: &[usize],
-    ) -> Vec<Vec<P>> {
-        let columns: Vec<usize> = self
-            .with_free(support)
-            .into_iter()
-            .filter(|j| !zeros.contains(j))
-            .collect();
-        let rows = self
-            .with_free(support)
-            .into_iter()
-            .chain(extra.iter().copied());
-        let m = rows
-            .map(|i| {
-                columns
-                    .iter()
-                    .map(|&j| alpha.reduce(&self.entry(i, j)))
-                    .collect()
-            })
-            .collect();
-        let kernel = alpha.null_space(m, columns.len());
-        let spread = |v: Vec<P>| {
-            let mut x = vec![Vec::new(); self.a.len()];
-            columns.iter().zip(v).for_each(|(&j, p)| x[j] = p);
-            x
-        };
-        kernel.into_iter().map(spread).collect()
+    ) -> Vec<Vec<Polynomial>> {
+        let columns = without(&self.with_free(support), zeros);
+        let rows = [&self.with_free(support)[..], active].concat();
+
+        let mut matrix = Vec::new();
+        for &row in &rows {
+            let mut entries = Vec::new();
+            for &column in &columns {
+                entries.push(alpha.reduce(&self.entry(row, column)));
+            }
+            matrix.push(entries);
+        }
+
+        let mut basis = Vec::new();
+        for vector in alpha.null_space(matrix, columns.len()) {
+            let mut x = vec![Polynomial::new(); self.a.len()];
+            for (&column, component) in columns.iter().zip(vector) {
+                x[column] = component;
+            }
+            basis.push(x);
+        }
+        basis
     }
 
-    /// The ray if it has exactly this support and (where it matters) exactly these further zeros of
-    /// y.
-    fn ray(
-        &self,
-        alpha: &mut Alpha,
-        support: &[usize],
-        extra: Option<&Vec<usize>>,
-        x: Vec<P>,
-    ) -> Option<Ray> {
+    /// Row i of (A + t B) x.
+    fn y(&self, i: usize, x: &[Polynomial]) -> Polynomial {
+        let mut sum = Polynomial::new();
+        for (j, component) in x.iter().enumerate() {
+            let product = multiply(&self.entry(i, j), component);
+            sum = add(&sum, &product);
+        }
+        sum
+    }
+
+    /// The ray of x, if x solves the problem with exactly this support.
+    fn ray(&self, alpha: &mut Alpha, support: &[usize], x: Vec<Polynomial>) -> Option<Ray> {
         let mut y_zero = Vec::new();
+
         for i in self.slips() {
-            let y = (0..x.len()).fold(Vec::new(), |s, j| add(&s, &mul(&self.entry(i, j), &x[j])));
-            let (s_x, s_y) = (alpha.sign(&x[i]), alpha.sign(&y));
-            let inside = support.contains(&i);
-            if s_y < 0 || (inside && (s_x <= 0 || s_y != 0)) {
+            let sign_of_x = alpha.sign(&x[i]);
+            let sign_of_y = alpha.sign(&self.y(i, &x));
+
+            let in_support = support.contains(&i);
+            let slips = sign_of_x > 0 && sign_of_y == 0;
+            if sign_of_y < 0 || (in_support && !slips) {
                 return None;
             }
-            if s_y == 0 {
+            if sign_of_y == 0 {
                 y_zero.push(i);
             }
         }
-        let further: Vec<usize> = y_zero
-            .iter()
-            .copied()
-            .filter(|i| !support.contains(i))
-            .collect();
-        extra.is_none_or(|e| *e == further).then(|| Ray {
+
+        Some(Ray {
             x,
             slip: support.to_vec(),
             y_zero,
         })
     }
 
-    /// The maximal cones of two or more rays, as support and indices into `rays`.
+    /// The maximal cones of two or more rays.
     pub fn cones(
         &self,
         alpha: &mut Alpha,
         rays: &[Ray],
         supports: &[Vec<usize>],
-    ) -> Vec<(Vec<usize>, Vec<usize>)> {
-        let subset = |a: &[usize], b: &[usize]| a.iter().all(|i| b.contains(i));
-        let of = |j: &Vec<usize>| -> Vec<usize> {
-            (0..rays.len())
-                .filter(|&r| subset(&rays[r].slip, j) && subset(j, &rays[r].y_zero))
-                .collect()
+    ) -> Vec<SpannedCone> {
+        let mut cones = Vec::new();
+
+        for support in supports {
+            let mut members = Vec::new();
+            for (index, ray) in rays.iter().enumerate() {
+                if ray.is_in_cone_of(support) {
+                    members.push(index);
+                }
+            }
+            let slips_in_a_ray = |i: &usize| members.iter().any(|&k| rays[k].slip.contains(i));
+            let fills_support = support.iter().all(slips_in_a_ray);
+
+            if members.len() > 1 && fills_support && !is_line(alpha, rays, &members) {
+                cones.push(SpannedCone {
+                    support: support.clone(),
+                    rays: members,
+                });
+            }
+        }
+
+        let is_maximal = |cone: &&SpannedCone| {
+            let mut others = cones.iter().filter(|other| other.support != cone.support);
+            !others.any(|other| is_subset(&cone.rays, &other.rays))
         };
-        let candidates: Vec<(Vec<usize>, Vec<usize>)> = supports
-            .iter()
-            .map(|j| (j.clone(), of(j)))
-            .filter(|(_, r)| r.len() > 1)
-            .collect();
-        // x and -x are a line, not a cone of two dimensions.
-        let opposite = |r: &[usize], alpha: &mut Alpha| {
-            let minus: Vec<P> = rays[r[0]].x.iter().map(|p| scale(p, &q(-1))).collect();
-            r.len() == 2 && same_ray(alpha, &minus, &rays[r[1]].x)
-        };
-        let covered = |j: &[usize], r: &[usize]| {
-            j.iter()
-                .all(|i| r.iter().any(|&k| rays[k].slip.contains(i)))
-        };
-        let full: Vec<_> = candidates
-            .into_iter()
-            .filter(|(j, r)| covered(j, r) && !opposite(r, alpha))
-            .collect();
-        full.iter()
-            .filter(|(j, r)| !full.iter().any(|(k, s)| j != k && subset(r, s)))
-            .cloned()
-            .collect()
+        cones.iter().filter(is_maximal).cloned().collect()
     }
 
     /// Does a solution with exactly this support exist at alpha? Some sum of rays has it.
     pub fn exists(&self, alpha: &mut Alpha, support: &[usize]) -> bool {
         let lines = self.lines(alpha);
         let rays = self.rays_without(alpha, &lines);
-        let subset = |a: &[usize], b: &[usize]| a.iter().all(|i| b.contains(i));
-        let on: Vec<&Ray> = rays
-            .iter()
-            .filter(|r| subset(&r.slip, support) && subset(support, &r.y_zero))
-            .collect();
-        !(on.is_empty() && lines.is_empty())
-            && support
-                .iter()
-                .all(|i| on.iter().any(|r| r.slip.contains(i)))
+
+        let in_cone: Vec<&Ray> = rays.iter().filter(|r| r.is_in_cone_of(support)).collect();
+        if in_cone.is_empty() && lines.is_empty() {
+            return false;
+        }
+
+        let slips_in_a_ray = |i: &usize| in_cone.iter().any(|ray| ray.slip.contains(i));
+        support.iter().all(slips_in_a_ray)
     }
 }
 
+/// Are these two rays x and -x? They are a line, not a cone of two dimensions.
+fn is_line(alpha: &mut Alpha, rays: &[Ray], members: &[usize]) -> bool {
+    let &[first, second] = members else {
+        return false;
+    };
+    let opposite: Vec<Polynomial> = rays[first].x.iter().map(|p| negate(p)).collect();
+    same_ray(alpha, &opposite, &rays[second].x)
+}
+
+fn is_subset(small: &[usize], large: &[usize]) -> bool {
+    small.iter().all(|i| large.contains(i))
+}
+
+/// The elements of `set` that are not in `removed`, in their order.
+fn without(set: &[usize], removed: &[usize]) -> Vec<usize> {
+    let mut kept = set.to_vec();
+    kept.retain(|i| !removed.contains(i));
+    kept
+}
+
+/// All subsets; the k-th element of `set` belongs to those whose number has bit k.
 pub fn subsets(set: &[usize]) -> Vec<Vec<usize>> {
-    (0..1usize << set.len())
-        .map(|m| {
-            set.iter()
-                .enumerate()
-                .filter(|(k, _)| m >> k & 1 == 1)
-                .map(|(_, &i)| i)
-                .collect()
-        })
-        .collect()
+    let mut all = Vec::new();
+
+    for pattern in 0..1usize << set.len() {
+        let mut subset = Vec::new();
+        for (bit, &element) in set.iter().enumerate() {
+            if pattern >> bit & 1 == 1 {
+                subset.push(element);
+            }
+        }
+        all.push(subset);
+    }
+    all
 }
 
 /// Do two vectors agree up to a positive factor?
-pub fn same_ray(alpha: &mut Alpha, u: &[P], v: &[P]) -> bool {
+pub fn same_ray(alpha: &mut Alpha, u: &[Polynomial], v: &[Polynomial]) -> bool {
     let Some(k) = (0..u.len()).find(|&k| !alpha.is_zero(&u[k])) else {
         return false;
     };
-    (0..u.len())
-        .all(|i| alpha.is_zero(&add(&mul(&u[k], &v[i]), &scale(&mul(&u[i], &v[k]), &q(-1)))))
-        && alpha.sign(&u[k]) == alpha.sign(&v[k])
+
+    for i in 0..u.len() {
+        let difference = add(&multiply(&u[k], &v[i]), &negate(&multiply(&u[i], &v[k])));
+        if !alpha.is_zero(&difference) {
+            return false;
+        }
+    }
+    alpha.sign(&u[k]) == alpha.sign(&v[k])
 }
 
-/// A rational test value.
-pub fn at(n: i64, d: i64) -> Alpha {
-    Alpha::rational(RBig::from(n) / RBig::from(d))
+/// The rational number as a value to test at.
+pub fn rational_value(numerator: i64, denominator: i64) -> Alpha {
+    Alpha::rational(RBig::from(numerator) / RBig::from(denominator))
 }
