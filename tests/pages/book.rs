@@ -78,6 +78,24 @@ fn every_link_leads_to_a_file() {
     assert!(links > 50, "{links}");
 }
 
+/// mdBook makes a page of HTML of each page in the summary, and of no other file; a README becomes
+/// `index.html`, under which links do not find it.
+#[test]
+fn links_between_pages_lead_to_pages_of_the_book() {
+    let spec = root().join("spec");
+    let listed = targets(&read(&spec.join("SUMMARY.md")));
+
+    for page in pages() {
+        for target in targets(&read(&spec.join(&page))) {
+            let is_page = target.ends_with(".md") && !target.starts_with("..");
+            let is_readme = target.ends_with("README.md");
+            let is_listed = listed.contains(&target) && !is_readme;
+
+            assert!(!is_page || is_listed, "{page}: {target}");
+        }
+    }
+}
+
 /// Tables aside, and what programs print, a page can be read in a window of 100 columns.
 #[test]
 fn lines_have_at_most_a_hundred_columns() {
