@@ -18,7 +18,8 @@ use rand_chacha::ChaCha8Rng;
 fn problem_on(a: &Sparse, b: &Sparse, lo: &Rational, hi: Option<&Rational>) -> Problem {
     let pencil = Pencil::new(a.clone(), b.clone(), vec![]).unwrap();
     let window = Window::new(lo.clone(), hi.cloned()).unwrap();
-    Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
+    let body = Body::Pencil(pencil);
+    Problem::new(body, Unknown::Lambda2, window).unwrap()
 }
 
 fn search(problem: &Problem) -> Completed {
@@ -43,7 +44,8 @@ fn count_of_solutions(problem: &Problem) -> usize {
 /// lambda^2 = 2 and 3 on one support.
 fn two_and_three(lo: &Rational, hi: Option<&Rational>) -> Problem {
     let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
-    problem_on(&a, &Sparse::identity(2), lo, hi)
+    let b = Sparse::identity(2);
+    problem_on(&a, &b, lo, hi)
 }
 
 #[test]
@@ -73,7 +75,8 @@ fn a_rational_end_on_a_rational_solution_belongs_to_the_window() {
 /// t^2 = 2.
 fn root_two(lo: &Rational, hi: Option<&Rational>) -> Problem {
     let a = Sparse::from_ints(&[&[0, -2], &[-1, 0]]);
-    problem_on(&a, &Sparse::identity(2), lo, hi)
+    let b = Sparse::identity(2);
+    problem_on(&a, &b, lo, hi)
 }
 
 /// Convergents of the continued fraction of the root of 2.

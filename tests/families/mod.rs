@@ -84,7 +84,10 @@ fn table1_pencil(phi: f64, mu: f64, s1: f64, s2: f64) -> Pencil {
     let d = c * c + 1.0;
     let q = mu * c * s;
 
-    let a = dmatrix![d - q * s1, -s1 * s2; -s1 * s2, d + q * s2];
+    let a = dmatrix![
+        d - q * s1, -s1 * s2;
+        -s1 * s2, d + q * s2
+    ];
     Pencil::new(sparse(&a), Sparse::identity(2), vec![]).unwrap()
 }
 

@@ -121,7 +121,9 @@ fn random_problem(rng: &mut ChaCha8Rng, family: &str, n: usize) -> Embedded {
 }
 
 fn is_complete_ray(path: &PathRecord) -> bool {
-    path.start == Start::Ray && path.end == PathEnd::Complete
+    let is_ray = path.start == Start::Ray;
+    let is_complete = path.end == PathEnd::Complete;
+    is_ray && is_complete
 }
 
 /// The steps whose second path, from a ray start, led to the Newton point.
