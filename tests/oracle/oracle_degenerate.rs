@@ -311,8 +311,8 @@ fn a_range_that_only_touches_zero_is_no_isolated_solution() {
     assert_eq!(rows(&found), [row("0", &[0], &[1, 2])]);
 }
 
-/// Kernel of dimension 2 for every t: x_0, x_1 > 0 with y_2 = (t - 1) x_0 - x_1 >= 0 exist for t >
-/// 1.
+/// Kernel of dimension 2 for every t: for t > 1 there are x_0, x_1 > 0 with
+/// y_2 = (t - 1) x_0 - x_1 >= 0.
 #[test]
 fn a_singular_support_of_higher_dimension() {
     let pencil = pencil(

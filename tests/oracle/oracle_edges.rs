@@ -408,8 +408,8 @@ fn rays_are_canonical_beside_a_lineality_space() {
     }
 }
 
-/// Two free directions that no ray can be written without: the lineality (1, 1, 1) of y_3 = x_0 -
-/// x_1 and y_4 = x_1 - x_2.
+/// Three free variables with y_3 = x_0 - x_1 and y_4 = x_1 - x_2: a wedge of two rays beside the line
+/// (1, 1, 1), by which each ray is reduced.
 #[test]
 fn rays_of_a_wedge_are_reduced_by_its_line() {
     let pencil = pencil(

@@ -106,8 +106,8 @@ fn cleared(x: &[Rational]) -> Vec<Poly> {
     constants
 }
 
-/// A definite matrix for index = 1 modulo 3, an indefinite one otherwise, with a random skew part:
-/// its symmetric part is not the whole.
+/// GG' + I for index = 1 modulo 3, otherwise GG' - 2 I, which may be indefinite; with a random skew
+/// part, so that the symmetric part is not the whole.
 fn skewed_stiffness(rng: &mut ChaCha8Rng, index: u64, order: usize) -> Vec<Vec<i64>> {
     let shift = if index % 3 == 1 { 1 } else { -2 };
     let mut stiffness = gram(rng, order, shift);

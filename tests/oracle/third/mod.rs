@@ -94,25 +94,32 @@ impl Third {
         minors[0] = vec![integer(1)];
 
         for columns in 1usize..1 << order {
-            let last_row = columns.count_ones() as usize - 1;
-            let mut minor = Polynomial::new();
-            let mut place = 0;
-
-            for column in 0..order {
-                if columns >> column & 1 == 0 {
-                    continue;
-                }
-                let entry = self.entry(active[last_row], active[column]);
-                let term = multiply(&entry, &minors[columns & !(1 << column)]);
-                let is_even = (last_row - place).is_multiple_of(2);
-                let signed_term = if is_even { term } else { negate(&term) };
-
-                minor = add(&minor, &signed_term);
-                place += 1;
-            }
-            minors[columns] = minor;
+            minors[columns] = self.minor(&active, columns, &minors);
         }
         minors[(1 << order) - 1].clone()
+    }
+
+    /// The minor of a set of k columns and the first k rows, expanded by its last row: `minors` has
+    /// those of all smaller sets.
+    fn minor(&self, active: &[usize], columns: usize, minors: &[Polynomial]) -> Polynomial {
+        let last_row = columns.count_ones() as usize - 1;
+        let mut minor = Polynomial::new();
+        let mut place = 0;
+
+        for column in 0..active.len() {
+            if columns >> column & 1 == 0 {
+                continue;
+            }
+            let entry = self.entry(active[last_row], active[column]);
+            let smaller_minor = &minors[columns & !(1 << column)];
+            let term = multiply(&entry, smaller_minor);
+
+            let is_even = (last_row - place).is_multiple_of(2);
+            let signed_term = if is_even { term } else { negate(&term) };
+            minor = add(&minor, &signed_term);
+            place += 1;
+        }
+        minor
     }
 
     pub fn spectrum(&self) -> Spectrum {
