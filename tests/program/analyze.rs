@@ -1,8 +1,9 @@
 //! `mceip analyze`: the engineer's answers against closed forms, the oracle and certificates;
 //! refusals.
 //!
-//! The truth is Table 1 in closed form, the equations of motion, the fold and its flutter by hand, and
-//! the enumerator on many levels of lambda^2. Every proof that an answer rests on goes to the checker.
+//! The truth is Table 1 in closed form, the equations of motion, the fold and its flutter by hand,
+//! and the enumerator on many levels of lambda^2. Every proof that an answer rests on goes to the
+//! checker.
 #![cfg(feature = "cli")]
 
 use crate::common::{contains_all, example, exit_code, exits, exits_with_json, read, run};

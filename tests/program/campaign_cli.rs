@@ -1,7 +1,7 @@
 //! `mceip campaign` from outside: exit codes, summary, state file, replay.
 //!
-//! A campaign is a function of its seed and its families: its text must not depend on threads, and its
-//! state file must continue the same campaign alone.
+//! A campaign is a function of its seed and its families: its text must not depend on threads, and
+//! its state file must continue the same campaign alone.
 #![cfg(feature = "cli")]
 
 use crate::common::{contains_all, exits, exits_with_json};

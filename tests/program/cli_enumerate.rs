@@ -1,7 +1,7 @@
 //! `mceip enumerate` from outside: its list, limits, an interrupt; and what `merge` refuses.
 //!
-//! The limits are part of the book; a problem one beyond each of them must be refused with the limit
-//! and its own figure. An interrupted enumeration must not claim to be complete.
+//! The limits are part of the book; a problem one beyond each of them must be refused with the
+//! limit and its own figure. An interrupted enumeration must not claim to be complete.
 #![cfg(feature = "cli")]
 
 use crate::common::{example, exits_with_json, pencil_problem};

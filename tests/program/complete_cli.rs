@@ -2,8 +2,8 @@
 //! refusals.
 //!
 //! The truth is the enumerator, the checker, and the run by one thread without shards: every other
-//! way to the end must give the same certificate or the same set. What is no whole must be refused by
-//! the name of the file or the piece.
+//! way to the end must give the same certificate or the same set. What is no whole must be refused
+//! by the name of the file or the piece.
 #![cfg(feature = "cli")]
 
 use crate::common::{example, exits, exits_with_json, problem_text, read, repository, run};

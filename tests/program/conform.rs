@@ -2,8 +2,8 @@
 //! answers are called correct and wrong ones are not, foreign programs of every kind get the right
 //! labels.
 //!
-//! The exact answer of each case is known. It is written in other ways, which must stay correct, and
-//! falsified in every way of [`Bug`], each with its expected label; `certify`, `check` and the
+//! The exact answer of each case is known. It is written in other ways, which must stay correct,
+//! and falsified in every way of [`Bug`], each with its expected label; `certify`, `check` and the
 //! enumerator refute it by their own means.
 #![cfg(feature = "cli")]
 

@@ -1,8 +1,8 @@
 //! `mceip convert`: Matrix Market, CalculiX and tables of contacts to problem files; refusals leave
 //! no file.
 //!
-//! One problem is written in every format; each way must give the same digest. Each bad file has one
-//! fault, whose place the refusal must name.
+//! One problem is written in every format; each way must give the same digest. Each bad file has
+//! one fault, whose place the refusal must name.
 #![cfg(feature = "cli")]
 
 use crate::common::{exits, read};

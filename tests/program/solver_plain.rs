@@ -1,7 +1,7 @@
 //! `mceip solve` on plain LCP and MCP files, trace and replay, through the program.
 //!
-//! The solutions of the problems are known, certificates are exact and judged by `mceip check`, and a
-//! trace must be repeated to the letter. Forged certificates and changed traces must be noticed.
+//! The solutions of the problems are known, certificates are exact and judged by `mceip check`, and
+//! a trace must be repeated to the letter. Forged certificates and changed traces must be noticed.
 #![cfg(feature = "cli")]
 
 use crate::common::{contains_all, example, exits, exits_with_json, read, repository, run};
