@@ -104,6 +104,7 @@ fn checking_takes_milliseconds() {
         ..BlockModel::of_the_paper()
     };
     let the_block = Block::new(&model).unwrap();
+
     for state in PublishedState::ALL {
         let subject = block(&the_block, state);
         println!(

@@ -120,6 +120,7 @@ fn entries(folder: &Path) -> Vec<Entry> {
             list.push(read_entry(kind, &file.unwrap().path(), folder));
         }
     }
+
     list.sort_by(|a, b| a.name.cmp(&b.name));
     list
 }
@@ -135,6 +136,7 @@ fn read_entry(kind: &str, path: &Path, folder: &Path) -> Entry {
     std::fs::write(&problem, file["problem"].to_string()).unwrap();
     let certificate = folder.join(format!("{name}.certificate.json"));
     std::fs::write(&certificate, spelt_out(&file)).unwrap();
+
     Entry {
         name,
         file,
@@ -192,6 +194,7 @@ fn judge(entry: &Entry) -> Judgement {
     let Ok(certificate) = Certificate::from_json(&entry.certificate_text()) else {
         return Judgement::without_reason(MALFORMED);
     };
+
     match check(&problem, &certificate) {
         Ok(accepted) => {
             let is_open = accepted.cover.is_some_and(|cover| !cover.open.is_empty());
@@ -207,6 +210,7 @@ fn judge_plain(entry: &Entry) -> Judgement {
     let Ok(certificate) = lcp::read_solution(&entry.certificate_text()) else {
         return Judgement::without_reason(MALFORMED);
     };
+
     match lcp::judge(&problem, &certificate) {
         Ok(_) => Judgement::without_reason(ACCEPTED),
         Err(rejected) => Judgement::rejected(rejected.name()),
@@ -235,6 +239,7 @@ fn our_checker_gives_every_verdict_and_reason() {
         }
         seen[usize::try_from(entry.code()).unwrap()] += 1;
     }
+
     assert!(wrong.is_empty(), "{wrong:#?}");
 
     println!("accepted, rejected, malformed, undecided: {seen:?}");
@@ -266,6 +271,7 @@ fn every_obligation_has_a_forgery() {
             missing.push(name);
         }
     }
+
     for name in variants("crates/check/src/cover/fault.rs", "CoverFault") {
         let reason = format!("Cover.{name}");
         if !all.contains(&reason) {
@@ -280,6 +286,7 @@ fn every_obligation_has_a_forgery() {
             missing.push(format!("plain {name}"));
         }
     }
+
     assert!(missing.is_empty(), "no forgery for {missing:?}");
 }
 
@@ -379,6 +386,7 @@ fn the_second_checker_gives_every_verdict() {
             ));
         }
     }
+
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
@@ -389,6 +397,7 @@ fn second_codes(entries: &[Entry]) -> Vec<i32> {
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .args(["-c", RUN_ALL])
         .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("spec"));
+
     for entry in entries {
         python.args([&entry.problem, &entry.certificate]);
     }

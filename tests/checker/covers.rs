@@ -151,6 +151,7 @@ fn pieces_rise_to_the_end_of_the_window() {
     let finite = window("1", Some("3"));
     assert!(definite_pieces(&finite, &[Some("3")]).is_ok());
     assert!(definite_pieces(&finite, &[Some("2"), Some("3")]).is_ok());
+
     for (first, got) in [(Some("3"), "3"), (Some("4"), "4"), (None, "infinity")] {
         let too_far = definite_pieces(&finite, &[first, Some("3")]);
         assert_eq!(too_far, piece_end(above, got));
@@ -317,6 +318,7 @@ fn the_value_of_a_claim_lies_in_the_interval_of_its_leaf() {
         ["17/16", "9/8"],
         ["7/8", "15/16"],
     ];
+
     for interval in elsewhere {
         let both = claim(&[0, 1], &[], value, [1, 1]);
         assert_eq!(

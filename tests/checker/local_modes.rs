@@ -34,6 +34,7 @@ fn chain(end: i64) -> Problem {
             entries.push((i, i + 1, whole(-1)));
         }
     }
+
     entries.push((0, 1, whole(-1)));
     entries.push((LINKS, last, whole(-1)));
     entries.push((last, LINKS, whole(end)));
@@ -146,6 +147,7 @@ fn one_radius_for_all_components_is_refused() {
     for radius in &mut wide.radius {
         radius.0 = rational(1, 1 << 40);
     }
+
     let sifted = sift(&problem, vec![Claim::EnclosedSolution(wide), good.clone()]);
     assert_eq!(sifted.accepted, [good]);
 

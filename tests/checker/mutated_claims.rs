@@ -40,6 +40,7 @@ impl Subject {
         let truth = enumerate(&reduced.pencil, problem.window()).unwrap();
         let slip = reduced.pencil.slip();
         let mut certificates = Vec::new();
+
         for solution in &truth.solutions {
             let decimals = solution.x_decimals(&slip, 17);
             let candidate = Candidate {
@@ -55,6 +56,7 @@ impl Subject {
             }
             certificates.push(certificate(&problem, vec![claim]));
         }
+
         Subject {
             problem,
             reduced,
@@ -204,6 +206,7 @@ fn subjects() -> Vec<Subject> {
             subjects.push(subject);
         }
     }
+
     subjects.push(boxed());
     subjects
 }

@@ -232,6 +232,7 @@ fn both_checkers_agree_on_support_leaves() {
     let folder = tempfile::tempdir().unwrap();
     let problem = folder.path().join("problem.json");
     let mut seen = [0; 4];
+
     for [a, b] in DEGENERATE {
         let text = format!(
             r#"{{"format":"mceip-problem/1","unknown":"lambda2","pencil":{{"a":{a},"b":{b}}}}}"#
@@ -322,6 +323,7 @@ fn listed() -> MadeUp {
         support: vec![0, 2],
         value: interval([3, 5]),
     };
+
     MadeUp {
         ours: AcceptedCover {
             solutions: vec![solution],
@@ -340,6 +342,7 @@ fn family(last: Option<[i64; 2]>) -> MadeUp {
         is_point: false,
         is_alone: true,
     };
+
     MadeUp {
         ours: AcceptedCover {
             families: vec![family],
@@ -359,6 +362,7 @@ fn open_region(states: [usize; 3], last: Option<i64>) -> MadeUp {
         undecided: (0..3).filter(|&i| states[i] == 2).collect(),
     };
     let words = states.map(|state| STATES[state]);
+
     MadeUp {
         ours: AcceptedCover {
             open: vec![region],

@@ -84,6 +84,7 @@ fn falsehoods(problem: &Problem, certificate: &Certificate, accepted: &Accepted)
             wrong.push(format!("{claim:?}"));
         }
     }
+
     if let Some(cover) = &accepted.cover {
         wrong.extend(crate::cover::disagreements(cover, &truth));
     }
@@ -92,15 +93,20 @@ fn falsehoods(problem: &Problem, certificate: &Certificate, accepted: &Accepted)
 
 /// Is the claim a solution of the list, of a cone or of a range?
 fn is_solution(truth: &Enumeration, claim: &AcceptedClaim) -> bool {
-    let mut list = truth.solutions.iter();
-    let in_list = list.any(|s| s.slip == claim.support && is_within(&s.value, claim));
+    for solution in &truth.solutions {
+        if solution.slip == claim.support && is_within(&solution.value, claim) {
+            return true;
+        }
+    }
 
-    let mut cones = truth.cones.iter();
-    let in_cone = cones.any(|c| is_subset(&claim.support, &c.slip) && is_within(&c.value, claim));
+    for cone in &truth.cones {
+        if is_subset(&claim.support, &cone.slip) && is_within(&cone.value, claim) {
+            return true;
+        }
+    }
 
     let mut ranges = truth.ranges.iter();
-    let in_range = ranges.any(|range| range.support == claim.support);
-    in_list || in_cone || in_range
+    ranges.any(|range| range.support == claim.support)
 }
 
 fn is_subset(part: &[usize], whole: &[usize]) -> bool {
@@ -244,6 +250,7 @@ fn structural_mutants(count: usize, seed: u64) -> Vec<Forgery> {
     for base in &bases {
         parsed.push(serde_json::from_str(&base.text).unwrap());
     }
+
     let pool: Vec<Value> = parsed.iter().flat_map(nodes).collect();
 
     let mut mutants = Vec::new();
@@ -313,9 +320,12 @@ fn between(rng: &mut ChaCha8Rng) -> Window {
     Window::new(min, Some(max)).unwrap()
 }
 
+/// A free variable and an indefinite mass: `complete` closes the last interval by a reversed anchor.
 fn reversed_anchor() -> Problem {
-    let a = Sparse::from_ints(&[&[4, 1, -1], &[1, 3, 0], &[-1, 1, 2]]);
-    let b = Sparse::from_ints(&[&[1, 0, 1], &[0, 1, 3], &[1, 3, 1]]);
+    let a: [&[i64]; 3] = [&[4, 1, -1], &[1, 3, 0], &[-1, 1, 2]];
+    let b: [&[i64]; 3] = [&[1, 0, 1], &[0, 1, 3], &[1, 3, 1]];
+    let a = Sparse::from_ints(&a);
+    let b = Sparse::from_ints(&b);
     let pencil = Pencil::new(a, b, vec![0]).unwrap();
     Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap()
 }

@@ -35,6 +35,7 @@ fn cases() -> Vec<Case> {
             cases.extend(read_case(kind, &entry.unwrap().path()));
         }
     }
+
     cases.sort_by(|a, b| a.name.cmp(&b.name));
     cases
 }
@@ -83,6 +84,7 @@ fn accepted_lines(accepted: &Accepted) -> Vec<String> {
             claim.support
         ));
     }
+
     if let Some(cover) = &accepted.cover {
         lines.extend(cover_lines(cover));
     }
@@ -95,9 +97,11 @@ fn cover_lines(cover: &AcceptedCover) -> Vec<String> {
         let value = spelt(&solution.value);
         lines.push(format!("only support {:?} in {value}", solution.support));
     }
+
     for family in &cover.families {
         lines.push(family_line(family));
     }
+
     for region in &cover.open {
         let max = region.max.as_ref().map(ToString::to_string);
         lines.push(format!(
@@ -149,6 +153,7 @@ fn every_verdict_is_the_same_to_the_last_digit() {
             wrong.push(format!("expected {expected}\n     got {got}"));
         }
     }
+
     wrong.truncate(5);
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert_eq!(expected.lines().count(), got.lines().count());
