@@ -106,19 +106,23 @@ fn table(words: &[String]) {
     if wanted(words, "published") {
         published();
     }
+
     for mesh in &REFINED {
         let kind = if mesh.tenth_stuck { "stuck" } else { "slip" };
         if wanted(words, &format!("refined-{}-{kind}", mesh.slip)) {
             refined(mesh);
         }
     }
+
     if wanted(words, "complete-graph") {
         let graph = known::complete_graph(12).expect("n > 0");
         row("complete graph n=12", &graph.problem);
     }
+
     if wanted(words, "backslash") {
         backslash();
     }
+
     for unknown in [Unknown::Mu, Unknown::Lambda2] {
         for (order, seeds) in RANDOM {
             if wanted(words, &format!("random-{order}-{}", unknown.word())) {
@@ -252,6 +256,7 @@ fn refined(mesh: &Refined) {
         "all slip"
     };
     row(&format!("refined {kind} n_s={n_s}, mesh"), &problem);
+
     if mesh.slip > CONDENSED_UP_TO {
         return;
     }
@@ -304,6 +309,7 @@ fn print_summary(name: &str, runs: &[Measured], count: u64) {
     let check = sorted(runs.iter().map(|run| run.check));
     let mut leaves: Vec<_> = runs.iter().map(|run| run.completed.cover.leaves).collect();
     leaves.sort_unstable();
+
     let closed = runs
         .iter()
         .filter(|run| run.completed.is_complete())
@@ -316,6 +322,7 @@ fn print_summary(name: &str, runs: &[Measured], count: u64) {
     let median = runs.len() / 2;
     let ninth_of_ten = (9 * runs.len()).div_ceil(10) - 1;
     let last = runs.len() - 1;
+
     println!(
         "random mechanical {name}: {closed}/{count} closed; search + check {:.3} median {:.3} \
          ninth of ten {:.3} max; search {:.3} median {:.3} max; check {:.3} median {:.3} max; \

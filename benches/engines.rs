@@ -34,6 +34,7 @@ fn one_digit(n: usize) -> Pencil {
     let mut state = 42u64;
     let a = matrix(n, |_, _| next_digit(&mut state));
     let b = matrix(n, |_, _| next_digit(&mut state));
+
     Pencil::new(a, b, vec![]).expect("square")
 }
 
@@ -52,6 +53,7 @@ fn chain(n: usize) -> Pencil {
         1 => -1,
         _ => 0,
     });
+
     Pencil::new(a, Sparse::identity(n), vec![]).expect("square")
 }
 
@@ -64,22 +66,26 @@ fn engines(c: &mut Criterion) {
 fn enumerator(c: &mut Criterion) {
     let mut group = c.benchmark_group("enumerator");
     group.sample_size(10);
+
     for n in [2, 4, 6, 8] {
         let pencil = complete_graph(n);
         group.bench_with_input(BenchmarkId::from_parameter(n), &pencil, |b, p| {
             b.iter(|| enumerate(black_box(p), &Window::all()))
         });
     }
+
     group.finish();
 
     let mut group = c.benchmark_group("enumerator, one-digit pencils");
     group.sample_size(10);
+
     for n in [6, 8, 10] {
         let pencil = one_digit(n);
         group.bench_with_input(BenchmarkId::from_parameter(n), &pencil, |b, p| {
             b.iter(|| enumerate(black_box(p), &Window::all()))
         });
     }
+
     group.finish();
 }
 
@@ -106,6 +112,7 @@ fn solver(c: &mut Criterion) {
 fn condensation(c: &mut Criterion) {
     let mut group = c.benchmark_group("condensation, exact");
     group.sample_size(10);
+
     for cells in [(4, 2), (8, 4), (20, 10)] {
         let block = Block::new(&BlockModel {
             cells,
@@ -120,6 +127,7 @@ fn condensation(c: &mut Criterion) {
             b.iter(|| condense(&Admissible::new(p, Unknown::Mu).expect("definite")));
         });
     }
+
     group.finish();
 }
 

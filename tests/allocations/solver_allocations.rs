@@ -1,8 +1,8 @@
 //! A solver that keeps its storage allocates nothing in its iterations.
 //!
-//! The truth is an allocator that counts. A vector made in an iteration, a restart, a ray, a watchdog
-//! step or a gradient step raises the count of a warm run above 0; that the allocator does count is
-//! shown by a cold run.
+//! The truth is an allocator that counts. A vector made in an iteration, a restart, a ray, a
+//! watchdog step or a gradient step raises the count of a warm run above 0; that the allocator does
+//! count is shown by a cold run.
 #![cfg(feature = "testkit")]
 
 use crate::families::{Case, random_case, table1_cases};

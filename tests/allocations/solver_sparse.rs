@@ -1,8 +1,8 @@
 //! Sparse linear problems: the same pivots as the dense code, and no dense matrix of all unknowns.
 //!
-//! The truth is the dense solver on 200 random problems, pivot by pivot, and an allocator that counts
-//! bytes on a problem whose dense matrix would take 3 GB. Its solution is held against the definition
-//! by the sparse matrix alone.
+//! The truth is the dense solver on 200 random problems, pivot by pivot, and an allocator that
+//! counts bytes on a problem whose dense matrix would take 3 GB. Its solution is held against the
+//! definition by the sparse matrix alone.
 #![cfg(feature = "solver")]
 
 use allocation_counter::measure;

@@ -1,9 +1,9 @@
 //! Floors of coverage: measured here on request; held against solvers that miss solutions on
 //! purpose.
 //!
-//! A floor is the least part of the solutions that the solver must find in a family of instances. That
-//! it notices a fault is the claim of this file: each planted solver, which forgets solutions, falls
-//! below a floor, and the project's own solver does not.
+//! A floor is the least part of the solutions that the solver must find in a family of instances.
+//! That it notices a fault is the claim of this file: each planted solver, which forgets solutions,
+//! falls below a floor, and the project's own solver does not.
 //!
 //! `FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test campaign -- --ignored
 //! --nocapture floors::`

@@ -1,7 +1,8 @@
 //! Replays the fuzz corpus and the regressions on the stable compiler, without a fuzzer.
 //!
-//! The truth is in the bodies of the fuzz targets, which compare the engine with the oracle and panic
-//! on a difference. The floors of coverage notice a solver that finds fewer solutions than it did.
+//! The truth is in the bodies of the fuzz targets, which compare the engine with the oracle and
+//! panic on a difference. The floors of coverage notice a solver that finds fewer solutions than it
+//! did.
 #![cfg(feature = "testkit")]
 
 use mceip_testkit::floors::Starts;

@@ -1,8 +1,8 @@
 //! The verification run as a test: a smaller one than `mceip verify`, the same code.
 //!
 //! The run compares the solver with the oracle, closed forms and proofs. Its report must have no
-//! disagreement, and must show that it reached the cases it is there for: a generator that no longer
-//! makes one of them fails here.
+//! disagreement, and must show that it reached the cases it is there for: a generator that no
+//! longer makes one of them fails here.
 #![cfg(feature = "testkit")]
 
 use mceip_engine::multistart::Search;

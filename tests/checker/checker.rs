@@ -24,6 +24,7 @@ fn sparse(rows: &[&[&str]]) -> Sparse {
             entries.push((i, j, parse(entry).unwrap()));
         }
     }
+
     Sparse::from_entries(rows.len(), rows.len(), entries)
 }
 
@@ -136,6 +137,7 @@ fn the_true_certificate_is_accepted() {
     for coefficient in scaled.x.iter_mut().flatten() {
         coefficient.0 *= rational(7, 3);
     }
+
     assert_eq!(verdict(&problem, &scaled), Ok(()));
 }
 
@@ -150,6 +152,7 @@ fn each_obligation_has_a_forgery() {
         forgery.assert_rejected(result);
         count += 1;
     }
+
     assert_eq!(count, 24);
 }
 
@@ -678,9 +681,11 @@ fn the_bound_of_a_box_is_told_in_its_own_units() {
     // A preconditioner twice too large: |I - 2I| r is r again, and |Y| d comes on top: d = 2 r_t
     // (r_0, r_1).
     let mut doubled = uneven;
+
     for entry in &mut doubled.preconditioner[0] {
         *entry *= 2;
     }
+
     let d_0 = rational(2 * 7 * 3, 64 * 64);
     let d_1 = rational(2 * 7 * 5, 64 * 64);
     let expected = Reason::NotContracting {

@@ -124,6 +124,7 @@ fn pieces_that_do_not_cover(problem: &Problem, certificate: &Certificate) {
         |forged| set(forged).pieces[1].max = set(forged).pieces[0].max.clone(),
         |forged| set(forged).pieces.clear(),
     ];
+
     for change in changes {
         let fault = fault_of(problem, certificate, change);
         assert!(matches!(fault, CoverFault::PieceEnd { .. }), "{fault:?}");
@@ -140,6 +141,7 @@ fn cuts_outside(problem: &Problem, certificate: &Certificate) {
     if has_upper_end {
         outside.push(whole(1_000_000_000));
     }
+
     for value in outside {
         let fault = fault_of(problem, certificate, |forged| {
             *node_at(forged, place) = Node::Split(Number(value));
@@ -183,6 +185,7 @@ fn an_audit_opens_exactly_the_leaves_that_fail() {
     for &place in &forged_places {
         *node_at(&mut forged, place) = Node::Farkas(vec![0; 6]);
     }
+
     let (accepted, refused) = audit(&problem, &forged).unwrap();
     let expected: Vec<(usize, usize)> = forged_places
         .iter()
@@ -194,6 +197,7 @@ fn an_audit_opens_exactly_the_leaves_that_fail() {
     for &place in &forged_places {
         *node_at(&mut forged, place) = Node::Open;
     }
+
     assert_eq!(accepted, check(&problem, &forged).unwrap());
     assert_eq!(accepted.cover.unwrap().open.len(), forged_places.len());
 
@@ -365,6 +369,7 @@ impl Listed {
         let Node::Root(root) = leaf else {
             unreachable!()
         };
+
         Listed {
             problem,
             certificate,
@@ -427,6 +432,7 @@ fn false_intervals(listed: &Listed) {
         |root| root.interval.reverse(),
         |root| root.interval[0] = Number(whole(-1)),
     ];
+
     for change in changes {
         let fault = listed.fault_of(change);
         assert!(matches!(fault, CoverFault::Interval { .. }), "{fault:?}");
@@ -566,6 +572,7 @@ fn the_claim_of_another_solution_is_rejected() {
             }
         }
     }
+
     assert!(refused > 2, "{refused}");
 }
 
@@ -578,6 +585,7 @@ fn problems_with_claims() -> Vec<Problem> {
         let solved = known.into_iter().filter_map(Result::ok);
         problems.extend(solved.map(|answer| answer.problem));
     }
+
     problems.retain(|problem| reduce(problem).unwrap().pencil.free().is_empty());
     problems
 }

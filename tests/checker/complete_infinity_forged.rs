@@ -76,9 +76,11 @@ fn forgeries(good: &Certificate, order: usize) -> Vec<Forgery> {
         good,
         forgeries: Vec::new(),
     };
+
     for anchor in reversed_anchors(good) {
         forge_anchor(&mut forge, anchor);
     }
+
     forge_last_piece(&mut forge, order);
     let mut forgeries = forge.forgeries;
 
@@ -258,6 +260,7 @@ impl Case {
             ..Options::default()
         };
         let found = complete(&problem, &options, &Watch::nobody()).unwrap();
+
         Case {
             name,
             order,

@@ -44,6 +44,7 @@ impl Drawn {
         let other_piece = rng.random_range(0..pieces.len());
         let node = rng.random_range(0..pieces[piece].tree.len().max(1));
         let other_node = rng.random_range(0..pieces[other_piece].tree.len().max(1));
+
         Drawn {
             piece,
             node,
@@ -58,6 +59,7 @@ fn mutate(set: &mut CompleteSet, pool: &[Node], rng: &mut ChaCha8Rng) {
     let factor = draw_factor(rng);
     let drawn = Drawn::from(&set.pieces, rng);
     let kind = rng.random_range(0..14);
+
     match kind {
         0 => set.pieces.swap(drawn.piece, drawn.other_piece),
         1 => {

@@ -364,6 +364,7 @@ fn a_weight_that_must_not_be_negative_is_refused() {
         assert!(is_place_0(&fault), "{fault:?}");
         forgeries += 1;
     }
+
     assert!(forgeries > 0);
 }
 

@@ -1,6 +1,10 @@
 //! Walking a cover: what one region has computed must not serve another, pieces and tails end where
 //! they say, a leaf that refers to a claim refers to the right one. Small covers by hand, each
 //! beside its forgery.
+//!
+//! The pencils have two variables, so that solutions and the definiteness of every region are seen
+//! by hand. A checker that carries a half, a bound or a claim from one region to another accepts
+//! one of the forgeries.
 
 use mceip_check::certificate::{
     Certificate, Claim, CompleteSet, Condensation, ExactSolution, Factor, Node, Piece, Root,
@@ -11,27 +15,26 @@ use mceip_exact::{Integer, Sparse, parse, whole};
 use mceip_model::file::Number;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 
-fn number(v: &str) -> Number {
-    Number(parse(v).unwrap())
+const I2: [[i64; 2]; 2] = [[1, 0], [0, 1]];
+
+fn number(text: &str) -> Number {
+    Number(parse(text).unwrap())
 }
 
 fn window(min: &str, max: Option<&str>) -> Window {
-    Window::new(number(min).0, max.map(|v| number(v).0)).unwrap()
+    let max = max.map(|text| number(text).0);
+    Window::new(number(min).0, max).unwrap()
+}
+
+fn sparse(rows: [[i64; 2]; 2]) -> Sparse {
+    let places = [(0, 0), (0, 1), (1, 0), (1, 1)];
+    Sparse::from_entries(2, 2, places.map(|(i, j)| (i, j, whole(rows[i][j]))))
 }
 
 fn problem(a: [[i64; 2]; 2], b: [[i64; 2]; 2], free: &[usize], window: Window) -> Problem {
-    let sparse = |m: [[i64; 2]; 2]| {
-        Sparse::from_entries(
-            2,
-            2,
-            [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| (i, j, whole(m[i][j]))),
-        )
-    };
     let pencil = Pencil::new(sparse(a), sparse(b), free.to_vec()).unwrap();
     Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
 }
-
-const I2: [[i64; 2]; 2] = [[1, 0], [0, 1]];
 
 fn piece(max: Option<&str>, tree: Vec<Node>) -> Piece {
     Piece {
@@ -41,23 +44,22 @@ fn piece(max: Option<&str>, tree: Vec<Node>) -> Piece {
     }
 }
 
-fn verdict(
-    p: &Problem,
-    claims: &[ExactSolution],
-    condensation: Option<Condensation>,
-    pieces: Vec<Piece>,
-) -> Result<AcceptedCover, CoverFault> {
-    let c = Certificate {
-        problem_sha256: p.sha256(),
-        unknown: p.unknown(),
-        window: p.window().clone(),
-        claims: claims.iter().cloned().map(Claim::ExactSolution).collect(),
+/// A complete set of these pieces, without claims and without a condensation.
+fn certificate(problem: &Problem, pieces: Vec<Piece>) -> Certificate {
+    Certificate {
+        problem_sha256: problem.sha256(),
+        unknown: problem.unknown(),
+        window: problem.window().clone(),
+        claims: vec![],
         complete_set: Some(CompleteSet {
-            condensation,
+            condensation: None,
             pieces,
         }),
-    };
-    match check(p, &c) {
+    }
+}
+
+fn verdict(problem: &Problem, certificate: &Certificate) -> Result<AcceptedCover, CoverFault> {
+    match check(problem, certificate) {
         Ok(accepted) => Ok(accepted.cover.unwrap()),
         Err(rejected) => match rejected.reason {
             Reason::Cover { fault, .. } => Err(fault),
@@ -66,8 +68,20 @@ fn verdict(
     }
 }
 
-fn split(v: &str) -> Node {
-    Node::Split(number(v))
+/// T = [[1, 0], [0, 2 - t]] on [0, 4], cut at 1 where x_1 rests; the last leaf is that of x_1
+/// moving.
+fn cut_where_x_1_rests(last: Node) -> Result<AcceptedCover, CoverFault> {
+    let window = window("0", Some("4"));
+    let problem = problem([[1, 0], [0, 2]], [[0, 0], [0, -1]], &[], window);
+    let tree = vec![
+        Node::Branch(1),
+        Node::Split(number("1")),
+        Node::PositiveDefinite,
+        Node::PositiveDefinite,
+        last,
+    ];
+    let certificate = certificate(&problem, vec![piece(Some("4"), tree)]);
+    verdict(&problem, &certificate)
 }
 
 /// T = [[1, 0], [0, 2 - t]] on [0, 4]: with x_1 at rest it is definite everywhere, with x_1 moving
@@ -75,135 +89,160 @@ fn split(v: &str) -> Node {
 /// interval elsewhere, x_1 = 1 at t = 2 were lost.
 #[test]
 fn a_half_of_one_region_does_not_stand_for_another() {
-    let p = problem(
-        [[1, 0], [0, 2]],
-        [[0, 0], [0, -1]],
-        &[],
-        window("0", Some("4")),
-    );
-    let tree = |last: Node| {
-        vec![piece(
-            Some("4"),
-            vec![
-                Node::Branch(1),
-                split("1"),
-                Node::PositiveDefinite,
-                Node::PositiveDefinite,
-                last,
-            ],
-        )]
+    let open = cut_where_x_1_rests(Node::Open).unwrap();
+    assert_eq!(open.open.len(), 1);
+
+    let not_definite = CoverFault::NotDefinite {
+        index: 1,
+        end: "upper",
     };
     assert_eq!(
-        verdict(&p, &[], None, tree(Node::Open)).unwrap().open.len(),
-        1
+        cut_where_x_1_rests(Node::PositiveDefinite),
+        Err(not_definite)
     );
+
+    // The row of the weight is divided by 4.
+    let not_negative = CoverFault::NotNegative {
+        index: 1,
+        end: "upper",
+        got: number("1/2").0,
+    };
     assert_eq!(
-        verdict(&p, &[], None, tree(Node::PositiveDefinite)),
-        Err(CoverFault::NotDefinite {
-            index: 1,
-            end: "upper"
-        })
+        cut_where_x_1_rests(Node::Farkas(vec![0, -1])),
+        Err(not_negative)
     );
-    let farkas = Node::Farkas(vec![0, -1]); // its row is divided by 4
-    assert_eq!(
-        verdict(&p, &[], None, tree(farkas)),
-        Err(CoverFault::NotNegative {
-            index: 1,
-            end: "upper",
-            got: number("1/2").0
-        })
-    );
+}
+
+/// A positive definite pencil, covered by pieces with these upper ends; `None` is infinity.
+fn definite_pieces(window: &Window, ends: &[Option<&str>]) -> Result<AcceptedCover, CoverFault> {
+    let problem = problem(I2, I2, &[], window.clone());
+    let mut pieces = Vec::new();
+    for end in ends {
+        pieces.push(piece(*end, vec![Node::PositiveDefinite]));
+    }
+    verdict(&problem, &certificate(&problem, pieces))
+}
+
+fn piece_end(expected: &str, got: &str) -> Result<AcceptedCover, CoverFault> {
+    Err(CoverFault::PieceEnd {
+        expected: expected.into(),
+        got: got.into(),
+    })
 }
 
 #[test]
 fn pieces_rise_to_the_end_of_the_window() {
-    let definite = |max: Option<&str>| piece(max, vec![Node::PositiveDefinite]);
-    let infinite = problem(I2, I2, &[], window("1", None));
-    let of = |p: &Problem, pieces: &[Option<&str>]| {
-        verdict(p, &[], None, pieces.iter().map(|m| definite(*m)).collect())
-    };
-    assert_eq!(of(&infinite, &[Some("2"), None]).unwrap().leaves, 2);
-    let fault = |expected: &str, got: &str| {
-        Err(CoverFault::PieceEnd {
-            expected: expected.into(),
-            got: got.into(),
-        })
-    };
     let above = "a value above 1 within the window";
+
+    let infinite = window("1", None);
+    let two = definite_pieces(&infinite, &[Some("2"), None]).unwrap();
+    assert_eq!(two.leaves, 2);
+
     // Of no width, and not the last.
-    assert_eq!(of(&infinite, &[Some("1"), None]), fault(above, "1"));
-    assert_eq!(of(&infinite, &[Some("1/2"), None]), fault(above, "1/2"));
-    assert_eq!(of(&infinite, &[Some("2")]), fault("infinity", "2"));
-    assert_eq!(of(&infinite, &[None, None]), fault(above, "infinity"));
-    let finite = problem(I2, I2, &[], window("1", Some("3")));
-    assert!(of(&finite, &[Some("3")]).is_ok() && of(&finite, &[Some("2"), Some("3")]).is_ok());
+    let no_width = definite_pieces(&infinite, &[Some("1"), None]);
+    assert_eq!(no_width, piece_end(above, "1"));
+    let falling = definite_pieces(&infinite, &[Some("1/2"), None]);
+    assert_eq!(falling, piece_end(above, "1/2"));
+    let too_short = definite_pieces(&infinite, &[Some("2")]);
+    assert_eq!(too_short, piece_end("infinity", "2"));
+    let beyond_infinity = definite_pieces(&infinite, &[None, None]);
+    assert_eq!(beyond_infinity, piece_end(above, "infinity"));
+
+    let finite = window("1", Some("3"));
+    assert!(definite_pieces(&finite, &[Some("3")]).is_ok());
+    assert!(definite_pieces(&finite, &[Some("2"), Some("3")]).is_ok());
+
     for (first, got) in [(Some("3"), "3"), (Some("4"), "4"), (None, "infinity")] {
-        assert_eq!(of(&finite, &[first, Some("3")]), fault(above, got));
+        let too_far = definite_pieces(&finite, &[first, Some("3")]);
+        assert_eq!(too_far, piece_end(above, got));
     }
+
     // A window of one point is one piece.
-    let point = problem(I2, I2, &[], window("1", Some("1")));
-    assert!(of(&point, &[Some("1")]).unwrap().proves_absence());
-    assert_eq!(of(&point, &[Some("1"), Some("1")]), fault(above, "1"));
+    let point = window("1", Some("1"));
+    let one = definite_pieces(&point, &[Some("1")]).unwrap();
+    assert!(one.proves_absence());
+    let two = definite_pieces(&point, &[Some("1"), Some("1")]);
+    assert_eq!(two, piece_end(above, "1"));
+}
+
+/// A full factor, all entries of which are the same integer.
+fn factor(entry: i64, order: usize) -> Factor {
+    Factor {
+        first: (0..order).collect(),
+        rows: vec![vec![Integer::from(entry)]; order],
+        exponent: 0,
+    }
+}
+
+/// The tail of sym(A + B) = 5 I > 4 I.
+fn tail_from_one() -> Tail {
+    Tail {
+        from: number("1"),
+        factor: factor(2, 2),
+        mass_factor: None,
+    }
+}
+
+/// Variable 0 is free: A_ff = 4 = sigma. An open piece up to `from`, then a tail leaf.
+fn tail_leaf(tail: Option<Tail>, from: &str) -> Result<AcceptedCover, CoverFault> {
+    let problem = problem([[4, 0], [0, 4]], I2, &[0], window("0", None));
+    let condensation = Condensation {
+        sigma: number("4"),
+        stiffness_factor: factor(0, 1),
+        mass_sigma: number("0"),
+        mass_factor: None,
+        anchors: vec![],
+        tail,
+    };
+
+    let below = piece(Some(from), vec![Node::Open]);
+    let above = piece(None, vec![Node::Tail]);
+    let mut certificate = certificate(&problem, vec![below, above]);
+    let set = certificate.complete_set.as_mut().unwrap();
+    set.condensation = Some(condensation);
+    verdict(&problem, &certificate)
 }
 
 /// Variable 0 is free: A_ff = 4 = sigma. sym(A + B) = 5 I > 4 I: nothing lies above 1.
 #[test]
 fn a_tail_leaf_begins_at_the_tail_or_above() {
-    let p = problem([[4, 0], [0, 4]], I2, &[0], window("0", None));
-    let factor = |entry: i64, n: usize| Factor {
-        first: (0..n).collect(),
-        rows: vec![vec![Integer::from(entry)]; n],
-        exponent: 0,
-    };
-    let of = |has_tail: bool, from: &str| {
-        let condensation = Condensation {
-            sigma: number("4"),
-            stiffness_factor: factor(0, 1),
-            mass_sigma: number("0"),
-            mass_factor: None,
-            anchors: vec![],
-            tail: has_tail.then(|| Tail {
-                from: number("1"),
-                factor: factor(2, 2),
-                mass_factor: None,
-            }),
-        };
-        verdict(
-            &p,
-            &[],
-            Some(condensation),
-            vec![
-                piece(Some(from), vec![Node::Open]),
-                piece(None, vec![Node::Tail]),
-            ],
-        )
-    };
     for from in ["1", "2"] {
-        assert_eq!(of(true, from).unwrap().open.len(), 1);
+        let cover = tail_leaf(Some(tail_from_one()), from).unwrap();
+        assert_eq!(cover.open.len(), 1);
     }
-    let fault = Err(CoverFault::Hypothesis {
+
+    let fault = CoverFault::Hypothesis {
         expected: "a tail that begins at or below the region",
         row: 0,
-    });
-    assert_eq!([of(true, "1/2"), of(false, "2")], [fault.clone(), fault]);
+    };
+    assert_eq!(tail_leaf(Some(tail_from_one()), "1/2"), Err(fault.clone()));
+    assert_eq!(tail_leaf(None, "2"), Err(fault));
 }
 
-fn claim(
-    support: &[usize],
-    biactive: &[usize],
-    interval: [&str; 2],
-    x: [&str; 2],
-) -> ExactSolution {
+/// A claim of t = 1, which lies in the interval.
+fn claim(support: &[usize], biactive: &[usize], interval: [&str; 2], x: [i64; 2]) -> ExactSolution {
     ExactSolution {
         support: support.to_vec(),
         biactive: biactive.to_vec(),
         polynomial: vec![(-1).into(), 1.into()],
         interval: interval.map(number),
-        x: x.iter()
-            .map(|v| if *v == "0" { vec![] } else { vec![number(v)] })
-            .collect(),
+        x: x.map(constant).to_vec(),
     }
 }
+
+/// The constant polynomial; zero has no coefficients.
+fn constant(value: i64) -> Vec<Number> {
+    if value == 0 {
+        vec![]
+    } else {
+        vec![Number(whole(value))]
+    }
+}
+
+/// An interval around t = 1 in which a leaf is unique.
+const AROUND_ONE: [&str; 2] = ["15/16", "17/16"];
+/// The claimed value as a point.
+const ONE: [&str; 2] = ["1", "1"];
 
 /// A leaf that refers to claim 0, for both variables moving; `right` and `left` are the other
 /// component of the null vectors.
@@ -220,9 +259,17 @@ fn leaf(interval: [&str; 2], right: i64, left: i64) -> Node {
     }))
 }
 
-/// [[t - 1, 0], [c, t - 2]] on [7/8, 9/8], the leaf of both variables moving alone.
-fn both_moving(c: i64, claims: &[ExactSolution], leaf: Node) -> Result<AcceptedCover, CoverFault> {
-    let p = problem([[-1, 0], [c, -2]], I2, &[], window("7/8", Some("9/8")));
+/// T = [[t - 1, 0], [c, t - 2]] on [7/8, 9/8], with a tree and a claim to which a leaf refers.
+fn claimed(c: i64, claim: ExactSolution, tree: Vec<Node>) -> Result<AcceptedCover, CoverFault> {
+    let window = window("7/8", Some("9/8"));
+    let problem = problem([[-1, 0], [c, -2]], I2, &[], window);
+    let mut certificate = certificate(&problem, vec![piece(Some("9/8"), tree)]);
+    certificate.claims = vec![Claim::ExactSolution(claim)];
+    verdict(&problem, &certificate)
+}
+
+/// The leaf of both variables moving alone.
+fn both_moving(c: i64, claim: ExactSolution, leaf: Node) -> Result<AcceptedCover, CoverFault> {
     let tree = vec![
         Node::Branch(0),
         Node::Open,
@@ -230,98 +277,85 @@ fn both_moving(c: i64, claims: &[ExactSolution], leaf: Node) -> Result<AcceptedC
         Node::Open,
         leaf,
     ];
-    verdict(&p, claims, None, vec![piece(Some("9/8"), tree)])
+    claimed(c, claim, tree)
 }
 
 /// x = (1, 0) at t = 1 is a null vector of both rows if y_1 = c is zero, which a claim says by its
 /// biactive set.
 #[test]
 fn a_claim_leaf_refers_to_a_null_vector_of_its_block() {
-    let around = ["15/16", "17/16"];
-    let biactive = claim(&[0], &[1], ["1", "1"], ["1", "0"]);
-    assert_eq!(
-        both_moving(0, &[biactive], leaf(around, 0, 0))
-            .unwrap()
-            .solutions,
-        []
-    );
+    let biactive = claim(&[0], &[1], ONE, [1, 0]);
+    let cover = both_moving(0, biactive, leaf(AROUND_ONE, 0, 0)).unwrap();
+    assert_eq!(cover.solutions, []);
+
     // y_1 = 1 > 0: it solves, and is no null vector of both rows. That is (1, 1), of the other
     // support.
-    let not = Err(CoverFault::NotTheClaim { claim: 0 });
+    let first_alone = claim(&[0], &[], ONE, [1, 0]);
     assert_eq!(
-        both_moving(
-            1,
-            &[claim(&[0], &[], ["1", "1"], ["1", "0"])],
-            leaf(around, 1, 0)
-        ),
-        not
+        both_moving(1, first_alone, leaf(AROUND_ONE, 1, 0)),
+        Err(CoverFault::NotTheClaim { claim: 0 })
     );
-    let both = both_moving(
-        1,
-        &[claim(&[0, 1], &[], ["1", "1"], ["1", "1"])],
-        leaf(around, 1, 0),
-    )
-    .unwrap();
-    assert_eq!(
-        both.solutions
-            .iter()
-            .map(|s| &s.support)
-            .collect::<Vec<_>>(),
-        [&vec![0, 1]]
-    );
+
+    let both = claim(&[0, 1], &[], ONE, [1, 1]);
+    let cover = both_moving(1, both, leaf(AROUND_ONE, 1, 0)).unwrap();
+    assert_eq!(cover.solutions.len(), 1);
+    assert_eq!(cover.solutions[0].support, [0, 1]);
 }
 
 /// The claimed value lies within the leaf's interval, ends included.
 #[test]
 fn the_value_of_a_claim_lies_in_the_interval_of_its_leaf() {
-    let of = |value: [&str; 2], interval: [&str; 2]| {
-        both_moving(
-            1,
-            &[claim(&[0, 1], &[], value, ["1", "1"])],
-            leaf(interval, 1, 0),
-        )
-        .map(|_| ())
-    };
-    let not = Err(CoverFault::NotTheClaim { claim: 0 });
-    for interval in [["15/16", "17/16"], ["31/32", "33/32"]] {
-        assert_eq!(of(["31/32", "33/32"], interval), Ok(()));
+    let value = ["31/32", "33/32"];
+
+    for interval in [AROUND_ONE, value] {
+        let both = claim(&[0, 1], &[], value, [1, 1]);
+        assert!(both_moving(1, both, leaf(interval, 1, 0)).is_ok());
     }
-    for interval in [
+
+    let elsewhere = [
         ["63/64", "17/16"],
         ["15/16", "65/64"],
         ["17/16", "9/8"],
         ["7/8", "15/16"],
-    ] {
-        assert_eq!(of(["31/32", "33/32"], interval), not);
+    ];
+
+    for interval in elsewhere {
+        let both = claim(&[0, 1], &[], value, [1, 1]);
+        assert_eq!(
+            both_moving(1, both, leaf(interval, 1, 0)),
+            Err(CoverFault::NotTheClaim { claim: 0 })
+        );
     }
+}
+
+/// The leaf in which only variable 0 moves, with claim 0.
+fn first_moving(claim: ExactSolution) -> Result<AcceptedCover, CoverFault> {
+    let alone = Root {
+        pivot: 0,
+        interval: AROUND_ONE.map(number),
+        inverse: vec![],
+        inverse_exponent: 0,
+        left: vec![],
+        right: vec![],
+        exponent: 0,
+        outcome: RootOutcome::Claim(0),
+    };
+    let tree = vec![
+        Node::Branch(0),
+        Node::Open,
+        Node::Branch(1),
+        Node::Root(Box::new(alone)),
+        Node::Open,
+    ];
+    claimed(1, claim, tree)
 }
 
 /// A claim that moves more than the leaf does is not its null vector.
 #[test]
 fn a_claim_moves_nothing_that_rests_in_its_leaf() {
-    let p = problem([[-1, 0], [1, -2]], I2, &[], window("7/8", Some("9/8")));
-    let mut alone = leaf(["15/16", "17/16"], 0, 0);
-    if let Node::Root(root) = &mut alone {
-        (root.inverse, root.left, root.right) = (vec![], vec![], vec![]);
-    }
-    let tree = |leaf: Node| {
-        vec![piece(
-            Some("9/8"),
-            vec![
-                Node::Branch(0),
-                Node::Open,
-                Node::Branch(1),
-                leaf,
-                Node::Open,
-            ],
-        )]
-    };
-    let of = |c: ExactSolution| {
-        verdict(&p, &[c], None, tree(alone.clone())).map(|cover| cover.solutions.len())
-    };
-    assert_eq!(of(claim(&[0], &[], ["1", "1"], ["1", "0"])), Ok(1));
-    assert_eq!(
-        of(claim(&[0, 1], &[], ["1", "1"], ["1", "1"])),
-        Err(CoverFault::NotTheClaim { claim: 0 })
-    );
+    let cover = first_moving(claim(&[0], &[], ONE, [1, 0])).unwrap();
+    assert_eq!(cover.solutions.len(), 1);
+
+    let moves_both = first_moving(claim(&[0, 1], &[], ONE, [1, 1]));
+    assert_eq!(moves_both, Err(CoverFault::NotTheClaim { claim: 0 }));
 }

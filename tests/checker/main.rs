@@ -1,4 +1,8 @@
 //! The checker: verdicts, forgeries, the corpus, and the second checker beside it.
+//!
+//! `checker`, `covers` and the `*_forged` files break one obligation at a time; `complete_mutants`,
+//! `mutated_claims` and `two_checkers` change certificates at random and ask the exact enumerator;
+//! `corpus` and `verdicts` read the files of `spec/corpus`.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[cfg(feature = "testkit")]

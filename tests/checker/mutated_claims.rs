@@ -1,5 +1,9 @@
 //! Random forgeries of solution claims: what the checker accepts is true, and the oracle says what
 //! is true.
+//!
+//! The oracle enumerates the solutions exactly and judges a claim by itself: it evaluates the
+//! claimed polynomials at the claimed number and lifts x back to the degrees of freedom. It shares
+//! no obligation with the checker.
 #![cfg(feature = "testkit")]
 
 use mceip_check::certificate::{
@@ -10,7 +14,8 @@ use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, flattened, lifted, propose};
 use mceip_engine::reduction::{Reduced, lift, reduce};
 use mceip_exact::{
-    Algebraic, Integer, Interval, Poly, Sign, Sparse, common_denominator, rational, roots_in, whole,
+    Algebraic, Integer, Interval, Poly, Rational, Sign, Sparse, common_denominator, rational,
+    roots_in, whole,
 };
 use mceip_model::file::Number;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
@@ -35,29 +40,23 @@ impl Subject {
         let truth = enumerate(&reduced.pencil, problem.window()).unwrap();
         let slip = reduced.pencil.slip();
         let mut certificates = Vec::new();
-        for s in &truth.solutions {
-            let x = s
-                .x_decimals(&slip, 17)
-                .iter()
-                .map(|t| t.parse().unwrap())
-                .collect();
-            let claim = propose(
-                &reduced.pencil,
-                problem.window(),
-                &Candidate {
-                    value: s.decimal(17).parse().unwrap(),
-                    x,
-                },
-            )
-            .unwrap();
-            if let (Body::System(system), Claim::ExactSolution(c)) = (problem.body(), &claim) {
-                certificates.push(certificate(
-                    &problem,
-                    vec![Claim::LiftedSolution(lifted(system, problem.unknown(), c))],
-                ));
+
+        for solution in &truth.solutions {
+            let decimals = solution.x_decimals(&slip, 17);
+            let candidate = Candidate {
+                value: solution.decimal(17).parse().unwrap(),
+                x: decimals.iter().map(|text| text.parse().unwrap()).collect(),
+            };
+            let claim = propose(&reduced.pencil, problem.window(), &candidate).unwrap();
+
+            if let (Body::System(system), Claim::ExactSolution(exact)) = (problem.body(), &claim) {
+                let motion = lifted(system, problem.unknown(), exact);
+                let claims = vec![Claim::LiftedSolution(motion)];
+                certificates.push(certificate(&problem, claims));
             }
             certificates.push(certificate(&problem, vec![claim]));
         }
+
         Subject {
             problem,
             reduced,
@@ -76,191 +75,208 @@ impl Subject {
             })
     }
 
-    fn exact_is_true(&self, c: &ExactSolution) -> bool {
-        let Some(mut value) = value(&c.polynomial, &c.interval) else {
+    /// The polynomials solve at the number, and the support is where x is positive.
+    fn exact_is_true(&self, claim: &ExactSolution) -> bool {
+        let Some(mut value) = value(&claim.polynomial, &claim.interval) else {
             return false;
         };
-        let x = polynomials(&c.x);
-        let slip = self.reduced.pencil.slip();
-        let positive: Vec<usize> = slip
-            .iter()
-            .copied()
-            .filter(|&i| value.sign_of(&x[i]) == Sign::Positive)
-            .collect();
-        is_solution(&self.reduced.pencil, &value, &x) && positive == c.support
+        let x = polynomials(&claim.x);
+
+        let mut positive = self.reduced.pencil.slip();
+        positive.retain(|&i| value.sign_of(&x[i]) == Sign::Positive);
+        is_solution(&self.reduced.pencil, &value, &x) && positive == claim.support
     }
 
     /// v is the lift of a solution, and w = (t M + K) v.
-    fn lifted_is_true(&self, c: &LiftedSolution) -> bool {
+    fn lifted_is_true(&self, claim: &LiftedSolution) -> bool {
         let Body::System(system) = self.problem.body() else {
             return false;
         };
-        let flat = flattened(system, c);
-        let Some(mut value) = value(&c.polynomial, &c.interval) else {
+        let Some(mut value) = value(&claim.polynomial, &claim.interval) else {
             return false;
         };
-        let again = lift(
-            system,
-            self.problem.unknown(),
-            &self.reduced.variables,
-            &polynomials(&flat.x),
-        );
+
+        let flat = flattened(system, claim);
+        let x = polynomials(&flat.x);
+        let again = lift(system, self.problem.unknown(), &self.reduced.variables, &x);
+
         // Up to the factors that clear denominators.
-        let clear = common_denominator(flat.x.iter().flatten().map(|n| &n.0));
-        let mut agrees = |ours: &[Poly], scale: &Integer, theirs: &[Vec<Number>]| {
-            let own = common_denominator(theirs.iter().flatten().map(|n| &n.0));
-            let integral = |p: &Vec<Number>| {
-                Poly::new(
-                    p.iter()
-                        .map(|n| n.0.numer() * (&own / n.0.denom()))
-                        .collect(),
-                )
-            };
-            ours.iter().zip(theirs).all(|(a, b)| {
-                value.sign_of(&(&a.scale(&own) - &integral(b).scale(&(scale * &clear))))
-                    == Sign::Zero
-            })
-        };
-        agrees(&again.v, &again.v_scale, &c.v)
-            && agrees(&again.w, &again.w_scale, &c.w)
+        let cleared = clearing_factor(&flat.x);
+        let v_scale = &again.v_scale * &cleared;
+        let w_scale = &again.w_scale * &cleared;
+        agree(&mut value, &again.v, &v_scale, &claim.v)
+            && agree(&mut value, &again.w, &w_scale, &claim.w)
             && self.exact_is_true(&flat)
     }
 
     /// Exactly one solution of the oracle has this support and its value in the box.
-    fn enclosed_is_true(&self, c: &EnclosedSolution) -> bool {
-        let (t, r) = (&c.center.last().unwrap().0, &c.radius.last().unwrap().0);
-        let within = |v: &Algebraic| {
-            let mut v = v.clone();
-            v.cmp_rational(&(t - r)) != Ordering::Less
-                && v.cmp_rational(&(t + r)) != Ordering::Greater
-        };
-        self.truth
-            .solutions
-            .iter()
-            .filter(|s| s.slip == c.support && within(&s.value))
-            .count()
-            == 1
+    fn enclosed_is_true(&self, claim: &EnclosedSolution) -> bool {
+        let center = &claim.center.last().unwrap().0;
+        let radius = &claim.radius.last().unwrap().0;
+        let lo = center - radius;
+        let hi = center + radius;
+
+        let solutions = self.truth.solutions.iter();
+        let in_box = solutions.filter(|solution| {
+            solution.slip == claim.support && is_between(&solution.value, &lo, &hi)
+        });
+        in_box.count() == 1
     }
 }
 
-/// The number that polynomial and interval name; `None` if it is not one number.
-fn value(p: &[Integer], interval: &[Number; 2]) -> Option<Algebraic> {
-    let p = Poly::new(p.to_vec());
-    let interval = Interval::new(interval[0].0.clone(), interval[1].0.clone())?;
-    let roots = roots_in(&p, interval.lo(), Some(interval.hi()));
-    (roots.len() == 1).then(|| roots.into_iter().next().unwrap())
+fn is_between(value: &Algebraic, lo: &Rational, hi: &Rational) -> bool {
+    let mut value = value.clone();
+    value.cmp_rational(lo) != Ordering::Less && value.cmp_rational(hi) != Ordering::Greater
 }
 
-/// Integer polynomials, all times one positive number.
+/// Is `ours` at the value the same as `theirs` times the scale?
+fn agree(value: &mut Algebraic, ours: &[Poly], scale: &Integer, theirs: &[Vec<Number>]) -> bool {
+    let cleared = clearing_factor(theirs);
+    let theirs = polynomials(theirs);
+
+    let mut pairs = ours.iter().zip(&theirs);
+    pairs.all(|(ours, theirs)| {
+        let difference = &ours.scale(&cleared) - &theirs.scale(scale);
+        value.sign_of(&difference) == Sign::Zero
+    })
+}
+
+/// The number that polynomial and interval name; `None` if it is not one number.
+fn value(polynomial: &[Integer], interval: &[Number; 2]) -> Option<Algebraic> {
+    let polynomial = Poly::new(polynomial.to_vec());
+    let [lo, hi] = interval.clone().map(|end| end.0);
+    let interval = Interval::new(lo, hi)?;
+
+    let mut roots = roots_in(&polynomial, interval.lo(), Some(interval.hi()));
+    if roots.len() == 1 { roots.pop() } else { None }
+}
+
+/// The common denominator of all coefficients.
+fn clearing_factor(list: &[Vec<Number>]) -> Integer {
+    common_denominator(list.iter().flatten().map(|number| &number.0))
+}
+
+/// Integer polynomials: all times the common denominator of their coefficients.
 fn polynomials(list: &[Vec<Number>]) -> Vec<Poly> {
-    let clear = common_denominator(list.iter().flatten().map(|n| &n.0));
-    list.iter()
-        .map(|p| {
-            Poly::new(
-                p.iter()
-                    .map(|n| n.0.numer() * (&clear / n.0.denom()))
-                    .collect(),
-            )
-        })
-        .collect()
+    let clear = clearing_factor(list);
+    let mut polynomials = Vec::new();
+    for polynomial in list {
+        let numbers = polynomial.iter().map(|number| &number.0);
+        let coefficients = numbers.map(|number| number.numer() * (&clear / number.denom()));
+        polynomials.push(Poly::new(coefficients.collect()));
+    }
+    polynomials
 }
 
 /// t = 3 with x = (1/2, 1/2), in a box.
 fn boxed() -> Subject {
-    let pencil = Pencil::new(
-        Sparse::from_ints(&[&[-1, -2], &[-2, -1]]),
-        Sparse::identity(2),
-        vec![],
-    )
-    .unwrap();
-    let mut subject =
-        Subject::of(Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap());
-    let preconditioner = [[2, -2, 8], [-2, 2, 8], [16, 16, 0]]
-        .map(|r| r.map(Integer::from).to_vec())
-        .to_vec();
-    let half = || Number(rational(1, 2));
-    let radius = vec![Number(rational(1, 1 << 20)); 3];
+    let a = Sparse::from_ints(&[&[-1, -2], &[-2, -1]]);
+    let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+    let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
+
+    let sixteen_times_inverse = [[2, -2, 8], [-2, 2, 8], [16, 16, 0]];
     let claim = EnclosedSolution {
         support: vec![0, 1],
-        center: vec![half(), half(), Number(whole(3))],
-        radius,
-        preconditioner,
+        center: [rational(1, 2), rational(1, 2), whole(3)]
+            .map(Number)
+            .to_vec(),
+        radius: vec![Number(rational(1, 1 << 20)); 3],
+        preconditioner: sixteen_times_inverse
+            .map(|row| row.map(Integer::from).to_vec())
+            .to_vec(),
         exponent: 4,
     };
-    let c = certificate(&subject.problem, vec![Claim::EnclosedSolution(claim)]);
-    subject.certificates = vec![c];
+
+    let mut subject = Subject::of(problem);
+    let enclosed = certificate(&subject.problem, vec![Claim::EnclosedSolution(claim)]);
+    subject.certificates = vec![enclosed];
     subject
 }
 
+/// Degenerate pencils, random pencils and random systems that have a solution, and `boxed`.
 fn subjects() -> Vec<Subject> {
-    let mut problems: Vec<Problem> = degenerate()
-        .unwrap()
-        .into_iter()
-        .map(|i| i.problem)
-        .collect();
-    problems.extend(
-        random_pencils(25, 11)
-            .unwrap()
-            .into_iter()
-            .map(|i| i.problem),
-    );
-    problems.extend(mechanical(25, 12).unwrap().into_iter().map(|i| i.problem));
-    let mut list: Vec<Subject> = problems
-        .into_iter()
-        .map(Subject::of)
-        .filter(|s| !s.certificates.is_empty())
-        .collect();
-    list.push(boxed());
-    list
+    let mut instances = degenerate().unwrap();
+    instances.extend(random_pencils(25, 11).unwrap());
+    instances.extend(mechanical(25, 12).unwrap());
+
+    let mut subjects = Vec::new();
+    for instance in instances {
+        let subject = Subject::of(instance.problem);
+        if !subject.certificates.is_empty() {
+            subjects.push(subject);
+        }
+    }
+
+    subjects.push(boxed());
+    subjects
+}
+
+/// What the checker said of the forgeries.
+#[derive(Debug, Default)]
+struct Judged {
+    accepted: usize,
+    rejected: usize,
+    reasons: BTreeSet<String>,
 }
 
 fn forgeries(count: usize, seed: u64) {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let subjects = subjects();
-    for s in &subjects {
-        s.certificates.iter().for_each(|c| {
-            assert!(
-                check(&s.problem, c).is_ok() && s.is_true(c),
-                "{}",
-                c.to_json()
-            )
-        });
+    for subject in &subjects {
+        assert_honest(subject);
     }
-    let (mut accepted, mut rejected, mut reasons) = (0, 0, BTreeSet::new());
-    while accepted + rejected < count {
-        let s = &subjects[rng.random_range(0..subjects.len())];
-        let original = &s.certificates[rng.random_range(0..s.certificates.len())];
+
+    let mut judged = Judged::default();
+    while judged.accepted + judged.rejected < count {
+        let subject = &subjects[rng.random_range(0..subjects.len())];
+        let original = &subject.certificates[rng.random_range(0..subject.certificates.len())];
+
         let mut forged = original.clone();
         for _ in 0..rng.random_range(1..=3) {
             mutate(&mut forged, &mut rng);
         }
-        if forged == *original {
-            continue;
-        }
-        match check(&s.problem, &forged) {
-            Ok(_) => {
-                accepted += 1;
-                assert!(
-                    s.is_true(&forged),
-                    "accepted and false:\n{}\n{}",
-                    s.problem.canonical_text(),
-                    forged.to_json()
-                );
-            }
-            Err(e) => {
-                rejected += 1;
-                reasons.insert(e.reason.name());
-            }
+        if forged != *original {
+            judge(subject, &forged, &mut judged);
         }
     }
+
     println!(
-        "{accepted} forgeries accepted and true, {rejected} rejected for {} reasons: {reasons:?}",
-        reasons.len()
+        "{} forgeries accepted and true, {} rejected for {} reasons: {:?}",
+        judged.accepted,
+        judged.rejected,
+        judged.reasons.len(),
+        judged.reasons
     );
-    assert!(
-        accepted > count / 20 && rejected > count / 4 && reasons.len() >= 12,
-        "{accepted} {rejected} {reasons:?}"
-    );
+    assert!(judged.accepted > count / 20, "{judged:?}");
+    assert!(judged.rejected > count / 4, "{judged:?}");
+    assert!(judged.reasons.len() >= 12, "{judged:?}");
+}
+
+/// The unchanged certificates are accepted and true.
+fn assert_honest(subject: &Subject) {
+    for certificate in &subject.certificates {
+        let verdict = check(&subject.problem, certificate);
+        assert!(verdict.is_ok(), "{}", certificate.to_json());
+        assert!(subject.is_true(certificate), "{}", certificate.to_json());
+    }
+}
+
+fn judge(subject: &Subject, forged: &Certificate, judged: &mut Judged) {
+    match check(&subject.problem, forged) {
+        Ok(_) => {
+            judged.accepted += 1;
+            assert!(
+                subject.is_true(forged),
+                "accepted and false:\n{}\n{}",
+                subject.problem.canonical_text(),
+                forged.to_json()
+            );
+        }
+        Err(rejected) => {
+            judged.rejected += 1;
+            judged.reasons.insert(rejected.reason.name());
+        }
+    }
 }
 
 #[test]

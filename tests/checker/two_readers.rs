@@ -1,5 +1,8 @@
 //! `mceip check` and `spec/checker.py` read the same problem files and refuse the same ones.
 //! Without python3 only the first is asked.
+//!
+//! The certificate is one that every problem rejects, so that the exit code tells whether the
+//! problem was read. What has to be read follows from `spec/formats.md`.
 #![cfg(feature = "cli")]
 
 use serde_json::{Value, json};
@@ -21,6 +24,7 @@ fn stray_certificate() -> Value {
     })
 }
 
+/// Both programs read the problem, or both refuse it.
 fn assert_verdict(folder: &Path, problem: &Value, expected: i32, what: &str) {
     let problem_file = folder.join("problem.json");
     let certificate_file = folder.join("certificate.json");
@@ -54,11 +58,17 @@ fn assert_verdict(folder: &Path, problem: &Value, expected: i32, what: &str) {
     }
 }
 
+/// A problem whose matrix A is in a Matrix Market file.
 fn market_problem(file: &str) -> Value {
     let matrix = json!({ "matrix_market": file });
-    json!({ "format": "mceip-problem/1", "unknown": "mu", "pencil": { "a": matrix, "b": [["1"]], "free": [] } })
+    json!({
+        "format": "mceip-problem/1",
+        "unknown": "mu",
+        "pencil": { "a": matrix, "b": [["1"]], "free": [] },
+    })
 }
 
+/// The matrix [-6] with this separator between the words.
 fn market(separator: &str) -> String {
     format!("%%MatrixMarket matrix coordinate real general\n1 1 1\n1{separator}1{separator}-6\n")
 }
@@ -117,11 +127,18 @@ fn links_out_of_the_folder() {
     );
 }
 
+/// A system of six degrees of freedom with unit stiffness.
 fn system(particles: Value) -> Value {
-    let identity: Vec<Vec<&str>> = (0..6)
-        .map(|i| (0..6).map(|j| if i == j { "1" } else { "0" }).collect())
-        .collect();
-    json!({ "format": "mceip-problem/1", "unknown": "mu", "system": { "stiffness": identity, "particles": particles } })
+    let mut identity = vec![vec!["0"; 6]; 6];
+    for (i, row) in identity.iter_mut().enumerate() {
+        row[i] = "1";
+    }
+
+    json!({
+        "format": "mceip-problem/1",
+        "unknown": "mu",
+        "system": { "stiffness": identity, "particles": particles },
+    })
 }
 
 /// No degree of freedom belongs to two particles, free ones included, and one particle has to be in
@@ -153,6 +170,7 @@ fn particles_of_a_system() {
             "no particle in impending slip",
         ),
     ];
+
     for (particles, expected, what) in cases {
         assert_verdict(folder.path(), &system(particles), expected, what);
     }

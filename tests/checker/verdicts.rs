@@ -6,7 +6,8 @@
 //!     cargo test --test checker -- --ignored verdicts::write_the_verdicts
 
 use mceip_check::certificate::Certificate;
-use mceip_check::{audit, check};
+use mceip_check::{Accepted, AcceptedCover, Rejected, SolutionFamily, audit, check};
+use mceip_exact::Interval;
 use mceip_model::Problem;
 use mceip_model::file::read_problem;
 use serde_json::Value;
@@ -17,121 +18,143 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
 }
 
-/// The files whose certificates can be read, by name; hostile ones, which repeat a unit, are for
-/// `corpus.rs`.
-fn cases() -> Vec<(String, Problem, Certificate)> {
-    let mut list = Vec::new();
-    for kind in ["accept", "reject"] {
-        for path in std::fs::read_dir(root().join("spec/corpus").join(kind))
-            .unwrap()
-            .map(|e| e.unwrap().path())
-        {
-            let file: Value =
-                serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
-            // Certificates of another kind.
-            let is_plain = file["problem"]["format"] == "mceip-mcp/1";
-            if file.get("repeat").is_some() || is_plain {
-                continue;
-            }
-            let name = format!("{kind}/{}", path.file_stem().unwrap().to_str().unwrap());
-            let text = file["certificate_text"]
-                .as_str()
-                .map_or_else(|| file["certificate"].to_string(), String::from);
-            list.push((
-                name,
-                read_problem(&file["problem"].to_string(), Path::new("/")).unwrap(),
-                Certificate::from_json(&text).unwrap(),
-            ));
-        }
-    }
-    list.sort_by(|a, b| a.0.cmp(&b.0));
-    list
+/// A file of the corpus whose certificate can be read.
+struct Case {
+    name: String,
+    problem: Problem,
+    certificate: Certificate,
 }
 
+/// The files whose certificates can be read, by name; hostile ones, which repeat a unit, are for
+/// `corpus.rs`.
+fn cases() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for kind in ["accept", "reject"] {
+        let folder = root().join("spec/corpus").join(kind);
+        for entry in std::fs::read_dir(folder).unwrap() {
+            cases.extend(read_case(kind, &entry.unwrap().path()));
+        }
+    }
+
+    cases.sort_by(|a, b| a.name.cmp(&b.name));
+    cases
+}
+
+fn read_case(kind: &str, path: &Path) -> Option<Case> {
+    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let is_repeated = file.get("repeat").is_some();
+    let is_plain = file["problem"]["format"] == "mceip-mcp/1";
+    if is_repeated || is_plain {
+        return None;
+    }
+
+    let problem = file["problem"].to_string();
+    let certificate = match file["certificate_text"].as_str() {
+        Some(text) => text.to_string(),
+        None => file["certificate"].to_string(),
+    };
+    Some(Case {
+        name: format!("{kind}/{}", path.file_stem().unwrap().to_str().unwrap()),
+        problem: read_problem(&problem, Path::new("/")).unwrap(),
+        certificate: Certificate::from_json(&certificate).unwrap(),
+    })
+}
+
+/// The text of `tests/verdicts.txt`: each line begins with the name of a file.
 fn verdicts() -> String {
     let mut text = String::new();
-    for (name, problem, certificate) in cases() {
-        match check(&problem, &certificate) {
-            Ok(accepted) => {
-                for (k, claim) in accepted.claims.iter().enumerate() {
-                    writeln!(
-                        text,
-                        "{name}: claim {k}: support {:?} in [{}, {}]",
-                        claim.support,
-                        claim.value.lo(),
-                        claim.value.hi()
-                    )
-                    .unwrap();
-                }
-                let Some(cover) = accepted.cover else {
-                    continue;
-                };
-                for s in &cover.solutions {
-                    writeln!(
-                        text,
-                        "{name}: only support {:?} in [{}, {}]",
-                        s.support,
-                        s.value.lo(),
-                        s.value.hi()
-                    )
-                    .unwrap();
-                }
-                for f in &cover.families {
-                    let (from, to) = (
-                        &f.from,
-                        f.to.as_ref().map(|t| format!("[{}, {}]", t.lo(), t.hi())),
-                    );
-                    let kind = (f.is_point, f.is_alone);
-                    writeln!(
-                        text,
-                        "{name}: family {:?} from [{}, {}] to {to:?} (point, alone): {kind:?}",
-                        f.support,
-                        from.lo(),
-                        from.hi()
-                    )
-                    .unwrap();
-                }
-                for o in &cover.open {
-                    let max = o.max.as_ref().map(ToString::to_string);
-                    writeln!(
-                        text,
-                        "{name}: open [{}, {max:?}] moving {:?} undecided {:?}",
-                        o.min, o.moving, o.undecided
-                    )
-                    .unwrap();
-                }
-                let said = (cover.leaves, cover.is_plain_list(), cover.proves_absence());
-                writeln!(text, "{name}: (leaves, plain list, absence): {said:?}").unwrap();
-            }
-            Err(rejected) => {
-                writeln!(text, "{name}: {}: {rejected}", rejected.reason.name()).unwrap();
-                match audit(&problem, &certificate) {
-                    Ok((_, refused)) => writeln!(
-                        text,
-                        "{name}: audit: leaves refused (piece, node): {refused:?}"
-                    )
-                    .unwrap(),
-                    Err(again) => assert_eq!(again, rejected, "{name}"),
-                }
-            }
+    for case in cases() {
+        let lines = match check(&case.problem, &case.certificate) {
+            Ok(accepted) => accepted_lines(&accepted),
+            Err(rejected) => rejected_lines(&case, &rejected),
+        };
+        for line in lines {
+            writeln!(text, "{}: {line}", case.name).unwrap();
         }
     }
     text
 }
 
+fn accepted_lines(accepted: &Accepted) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (number, claim) in accepted.claims.iter().enumerate() {
+        let value = spelt(&claim.value);
+        lines.push(format!(
+            "claim {number}: support {:?} in {value}",
+            claim.support
+        ));
+    }
+
+    if let Some(cover) = &accepted.cover {
+        lines.extend(cover_lines(cover));
+    }
+    lines
+}
+
+fn cover_lines(cover: &AcceptedCover) -> Vec<String> {
+    let mut lines = Vec::new();
+    for solution in &cover.solutions {
+        let value = spelt(&solution.value);
+        lines.push(format!("only support {:?} in {value}", solution.support));
+    }
+
+    for family in &cover.families {
+        lines.push(family_line(family));
+    }
+
+    for region in &cover.open {
+        let max = region.max.as_ref().map(ToString::to_string);
+        lines.push(format!(
+            "open [{}, {max:?}] moving {:?} undecided {:?}",
+            region.min, region.moving, region.undecided
+        ));
+    }
+
+    let is_plain_list = cover.is_plain_list();
+    let is_absence = cover.proves_absence();
+    lines.push(format!(
+        "(leaves, plain list, absence): ({}, {is_plain_list}, {is_absence})",
+        cover.leaves
+    ));
+    lines
+}
+
+fn family_line(family: &SolutionFamily) -> String {
+    let from = spelt(&family.from);
+    let to = family.to.as_ref().map(spelt);
+    format!(
+        "family {:?} from {from} to {to:?} (point, alone): ({}, {})",
+        family.support, family.is_point, family.is_alone
+    )
+}
+
+fn spelt(interval: &Interval) -> String {
+    format!("[{}, {}]", interval.lo(), interval.hi())
+}
+
+/// The reason, and for a cover the leaves that an audit refuses.
+fn rejected_lines(case: &Case, rejected: &Rejected) -> Vec<String> {
+    let mut lines = vec![format!("{}: {rejected}", rejected.reason.name())];
+    match audit(&case.problem, &case.certificate) {
+        Ok((_, refused)) => lines.push(format!("audit: leaves refused (piece, node): {refused:?}")),
+        Err(again) => assert_eq!(again, *rejected, "{}", case.name),
+    }
+    lines
+}
+
 #[test]
 fn every_verdict_is_the_same_to_the_last_digit() {
-    let (expected, got) = (
-        std::fs::read_to_string(root().join("tests/verdicts.txt")).unwrap(),
-        verdicts(),
-    );
-    let wrong: Vec<String> = expected
-        .lines()
-        .zip(got.lines())
-        .filter(|(e, g)| e != g)
-        .map(|(e, g)| format!("expected {e}\n     got {g}"))
-        .take(5)
-        .collect();
+    let expected = std::fs::read_to_string(root().join("tests/verdicts.txt")).unwrap();
+    let got = verdicts();
+
+    let mut wrong = Vec::new();
+    for (expected, got) in expected.lines().zip(got.lines()) {
+        if expected != got {
+            wrong.push(format!("expected {expected}\n     got {got}"));
+        }
+    }
+
+    wrong.truncate(5);
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert_eq!(expected.lines().count(), got.lines().count());
 }

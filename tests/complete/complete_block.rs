@@ -51,8 +51,10 @@ fn assert_near(value: f64, expected: f64) {
 }
 
 fn lambda2_problem(block: &Block, states: &[ContactState], mu: &str) -> Problem {
-    let system = block.system(states, Some(parse(mu).unwrap())).unwrap();
-    Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
+    let friction = parse(mu).unwrap();
+    let system = block.system(states, Some(friction)).unwrap();
+    let body = Body::System(system);
+    Problem::new(body, Unknown::Lambda2, Window::all()).unwrap()
 }
 
 /// 60.81 comes out, 1.71 does not, and each is the only value over [0, infinity).

@@ -21,7 +21,12 @@ fn runs_of_the_table() -> Vec<Run> {
 
 /// Has the table a run of this case with so many slip nodes?
 fn has_run(runs: &[Run], case: &str, slip: usize) -> bool {
-    runs.iter().any(|run| run.case == case && run.slip >= slip)
+    for run in runs {
+        if run.case == case && run.slip >= slip {
+            return true;
+        }
+    }
+    false
 }
 
 #[test]

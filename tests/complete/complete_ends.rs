@@ -6,6 +6,7 @@
 #![cfg(feature = "testkit")]
 
 use crate::cover::{disagreements, truth};
+use mceip_check::certificate::Certificate;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Completed, Options, complete, resume};
 use mceip_exact::{Integer, Rational, Sparse, rational, whole};
@@ -18,7 +19,8 @@ use rand_chacha::ChaCha8Rng;
 fn problem_on(a: &Sparse, b: &Sparse, lo: &Rational, hi: Option<&Rational>) -> Problem {
     let pencil = Pencil::new(a.clone(), b.clone(), vec![]).unwrap();
     let window = Window::new(lo.clone(), hi.cloned()).unwrap();
-    Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
+    let body = Body::Pencil(pencil);
+    Problem::new(body, Unknown::Lambda2, window).unwrap()
 }
 
 fn search(problem: &Problem) -> Completed {
@@ -43,7 +45,8 @@ fn count_of_solutions(problem: &Problem) -> usize {
 /// lambda^2 = 2 and 3 on one support.
 fn two_and_three(lo: &Rational, hi: Option<&Rational>) -> Problem {
     let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
-    problem_on(&a, &Sparse::identity(2), lo, hi)
+    let b = Sparse::identity(2);
+    problem_on(&a, &b, lo, hi)
 }
 
 #[test]
@@ -73,7 +76,8 @@ fn a_rational_end_on_a_rational_solution_belongs_to_the_window() {
 /// t^2 = 2.
 fn root_two(lo: &Rational, hi: Option<&Rational>) -> Problem {
     let a = Sparse::from_ints(&[&[0, -2], &[-1, 0]]);
-    problem_on(&a, &Sparse::identity(2), lo, hi)
+    let b = Sparse::identity(2);
+    problem_on(&a, &b, lo, hi)
 }
 
 /// Convergents of the continued fraction of the root of 2.
@@ -207,6 +211,21 @@ fn larger_supports_that_end_a_window_are_listed_through_their_claim() {
     assert!(solutions.iter().all(|s| s.support != all), "{solutions:?}");
 }
 
+/// The search of a problem, gone on with from a certificate.
+fn resumed(problem: &Problem, certificate: &Certificate) -> Result<Completed, String> {
+    let options = Options::default();
+    let outcome = resume(problem, certificate, &options, &Watch::nobody());
+    outcome.map_err(|error| error.to_string())
+}
+
+/// Why a problem is not gone on with from a certificate.
+fn refusal(problem: &Problem, certificate: &Certificate) -> String {
+    match resumed(problem, certificate) {
+        Ok(_) => panic!("the certificate is taken"),
+        Err(reason) => reason,
+    }
+}
+
 /// A certificate to go on with is of one problem and one window.
 #[test]
 fn a_checkpoint_of_another_problem_or_window_is_refused() {
@@ -214,17 +233,15 @@ fn a_checkpoint_of_another_problem_or_window_is_refused() {
     let five = whole(5);
     let own = two_and_three(&zero, Some(&five));
     let certificate = search(&own).certificate;
-    let resumed = |p: &Problem| resume(p, &certificate, &Options::default(), &Watch::nobody());
-    let refusal = |p: &Problem| resumed(p).map(|_| ()).unwrap_err().to_string();
-    assert!(resumed(&own).is_ok());
+    assert!(resumed(&own, &certificate).is_ok());
 
     let longer = two_and_three(&zero, Some(&whole(6)));
-    assert!(refusal(&longer).contains("expected the window [0, 6], got [0, 5]"));
+    assert!(refusal(&longer, &certificate).contains("expected the window [0, 6], got [0, 5]"));
 
     let endless = two_and_three(&zero, None);
-    assert!(refusal(&endless).contains("[0, infinity)"));
+    assert!(refusal(&endless, &certificate).contains("[0, infinity)"));
 
     let other_a = Sparse::from_ints(&[&[1, -6], &[2, -7]]);
     let other = problem_on(&other_a, &Sparse::identity(2), &zero, Some(&five));
-    assert!(refusal(&other).contains("expected problem"));
+    assert!(refusal(&other, &certificate).contains("expected problem"));
 }

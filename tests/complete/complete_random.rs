@@ -339,7 +339,8 @@ struct Share {
 
 impl Share {
     fn ratio(&self) -> f64 {
-        self.undecided as f64 / self.all.max(1) as f64
+        let all = self.all.max(1) as f64;
+        self.undecided as f64 / all
     }
 }
 

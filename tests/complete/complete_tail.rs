@@ -22,7 +22,8 @@ fn search(problem: &Problem) -> Completed {
 }
 
 fn problem_of(pencil: Pencil) -> Problem {
-    Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap()
+    let body = Body::Pencil(pencil);
+    Problem::new(body, Unknown::Lambda2, Window::all()).unwrap()
 }
 
 /// The kinds of mass in turn.
@@ -72,8 +73,10 @@ impl Count {
 }
 
 fn has_reversed_anchor(set: &CompleteSet) -> bool {
-    let mut condensations = set.condensation.iter();
-    condensations.any(|condensation| condensation.anchors.iter().any(|a| a.reversed))
+    let Some(condensation) = &set.condensation else {
+        return false;
+    };
+    condensation.anchors.iter().any(|anchor| anchor.reversed)
 }
 
 fn has_roots_in_last_piece(set: &CompleteSet) -> bool {

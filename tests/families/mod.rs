@@ -41,6 +41,7 @@ pub fn random_case(family: &str, n: usize, seed: u64, k: u64) -> Case {
 
     let label = format!("{family} n={n} seed={seed} k={k}");
     let free = (0..free).collect();
+
     if family == "mu" {
         return Case {
             label,
@@ -48,6 +49,7 @@ pub fn random_case(family: &str, n: usize, seed: u64, k: u64) -> Case {
             unknown: Unknown::Mu,
         };
     }
+
     let stiffness = k0 + k1.map(round) * 3.0;
     Case {
         label,
@@ -84,7 +86,10 @@ fn table1_pencil(phi: f64, mu: f64, s1: f64, s2: f64) -> Pencil {
     let d = c * c + 1.0;
     let q = mu * c * s;
 
-    let a = dmatrix![d - q * s1, -s1 * s2; -s1 * s2, d + q * s2];
+    let a = dmatrix![
+        d - q * s1, -s1 * s2;
+        -s1 * s2, d + q * s2
+    ];
     Pencil::new(sparse(&a), Sparse::identity(2), vec![]).unwrap()
 }
 
@@ -96,6 +101,7 @@ fn round(value: f64) -> f64 {
 /// The matrix with its entries rounded.
 fn sparse(matrix: &DMatrix<f64>) -> Sparse {
     let mut entries = Vec::new();
+
     for i in 0..matrix.nrows() {
         for j in 0..matrix.ncols() {
             let rounded = round(matrix[(i, j)]);
@@ -110,6 +116,7 @@ fn normal(rng: &mut ChaCha8Rng) -> f64 {
     let u = 1.0 - rng.random::<f64>();
     let v = rng.random::<f64>();
     let radius = (-2.0 * u.ln()).sqrt();
+
     radius * (TAU * v).cos()
 }
 

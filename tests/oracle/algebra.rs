@@ -85,6 +85,11 @@ fn order_laws_hold(a: &Quadratic, b: &Quadratic) -> bool {
     multiplicative && odd && (!both_positive || sum_is_positive)
 }
 
+/// The integer that an element of the field stands for.
+fn integer_of(field: &Field, element: u64) -> Integer {
+    Integer::from(field.leave(element))
+}
+
 /// The ring laws for three elements of a prime field, and what zero and one are.
 fn is_commutative_ring(field: &Field, [a, b, c]: [u64; 3]) -> bool {
     let zero = field.enter(0);
@@ -150,13 +155,17 @@ fn error_of_double(value: f64, exact: &Rational) -> Rational {
 
 /// G G' + I, where G has these entries row by row, and zeros where they end.
 fn gram_plus_identity(entries: &[i8], order: usize) -> Vec<Vec<i64>> {
-    let entry = |i: usize, j: usize| i64::from(entries.get(i * order + j).copied().unwrap_or(0));
+    let mut g = vec![vec![0; order]; order];
+    for (k, &entry) in entries.iter().take(order * order).enumerate() {
+        g[k / order][k % order] = i64::from(entry);
+    }
+
     let mut gram = vec![vec![0; order]; order];
 
     for i in 0..order {
         for j in 0..order {
             for k in 0..order {
-                gram[i][j] += entry(i, k) * entry(j, k);
+                gram[i][j] += g[i][k] * g[j][k];
             }
         }
         gram[i][i] += 1;
@@ -190,9 +199,8 @@ quickcheck! {
         let invertible = a == zero || field.mul(a, field.invert(a)) == one;
 
         // The product is the one of the integers modulo p.
-        let integer = |v: u64| Integer::from(field.leave(v));
-        let expected_product = (integer(a) * integer(b)) % p;
-        let product = expected_product == integer(field.mul(a, b));
+        let product_of_integers = integer_of(&field, a) * integer_of(&field, b);
+        let product = product_of_integers % p == integer_of(&field, field.mul(a, b));
 
         ring && product && invertible
     }

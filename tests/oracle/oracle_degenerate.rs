@@ -14,7 +14,9 @@ use mceip_oracle::{
 };
 
 fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
-    Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec()).unwrap()
+    let a = Sparse::from_ints(a);
+    let b = Sparse::from_ints(b);
+    Pencil::new(a, b, free.to_vec()).unwrap()
 }
 
 /// (t - 1) I of order 3.
@@ -127,6 +129,11 @@ fn a_cone_is_listed_once_and_its_faces_are_not() {
     assert_eq!(center, ["0.33333", "0.33333", "0.33333"]);
 }
 
+/// The factor times the value t itself.
+fn times_value(factor: i64) -> Poly {
+    Poly::from_ints(&[0, factor])
+}
+
 /// The adjacency matrix of a path of seven vertices, minus t I.
 fn path_of_7() -> Pencil {
     let order = 7;
@@ -172,15 +179,13 @@ fn an_irrational_cone() {
 
     // (1, sqrt 2, 1, 0, 2, 2 sqrt 2, 2) is inside; with 3 sqrt 2 it is not even a solution.
     let root_2 = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
-    let times_root_2 = |factor: i64| Poly::from_ints(&[0, factor]);
-
     let mut x = constants([1, 0, 1, 0, 2, 0, 2]);
-    x[1] = times_root_2(1);
-    x[5] = times_root_2(2);
+    x[1] = times_value(1);
+    x[5] = times_value(2);
     assert!(is_solution(&pencil, &root_2, &x));
     assert!(found.contains(&pencil, &root_2, &x));
 
-    x[5] = times_root_2(3);
+    x[5] = times_value(3);
     assert!(!is_solution(&pencil, &root_2, &x));
     assert!(!found.contains(&pencil, &root_2, &x));
 }
@@ -306,8 +311,8 @@ fn a_range_that_only_touches_zero_is_no_isolated_solution() {
     assert_eq!(rows(&found), [row("0", &[0], &[1, 2])]);
 }
 
-/// Kernel of dimension 2 for every t: x_0, x_1 > 0 with y_2 = (t - 1) x_0 - x_1 >= 0 exist for t >
-/// 1.
+/// Kernel of dimension 2 for every t: for t > 1 there are x_0, x_1 > 0 with
+/// y_2 = (t - 1) x_0 - x_1 >= 0.
 #[test]
 fn a_singular_support_of_higher_dimension() {
     let pencil = pencil(
@@ -320,11 +325,13 @@ fn a_singular_support_of_higher_dimension() {
     assert_ranges(&found, &[(&[0], "[1, inf)"), (&[0, 1], "(1, inf)")]);
     assert!(found.solutions.is_empty());
 
-    let holds = |t: i64, x: [i64; 3]| found.contains(&pencil, &integer(t), &constants(x));
-    assert!(holds(2, [3, 2, 0]));
-    assert!(!holds(2, [2, 3, 0]));
-    assert!(holds(1, [1, 0, 0]));
-    assert!(!holds(1, [1, 1, 0]));
+    let two = integer(2);
+    assert!(found.contains(&pencil, &two, &constants([3, 2, 0])));
+    assert!(!found.contains(&pencil, &two, &constants([2, 3, 0])));
+
+    let one = integer(1);
+    assert!(found.contains(&pencil, &one, &constants([1, 0, 0])));
+    assert!(!found.contains(&pencil, &one, &constants([1, 1, 0])));
 }
 
 /// Nothing but zeros: every support at every value.

@@ -15,7 +15,9 @@ use mceip_oracle::{
 use std::ops::ControlFlow;
 
 fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
-    Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec()).unwrap()
+    let a = Sparse::from_ints(a);
+    let b = Sparse::from_ints(b);
+    Pencil::new(a, b, free.to_vec()).unwrap()
 }
 
 fn sparse(rows: &[Vec<i64>]) -> Sparse {
@@ -28,12 +30,17 @@ fn integer(value: i64) -> Algebraic {
 }
 
 fn constants(values: &[i64]) -> Vec<Poly> {
-    values.iter().map(|&c| Poly::from_ints(&[c])).collect()
+    let mut polynomials = Vec::new();
+    for &value in values {
+        polynomials.push(Poly::from_ints(&[value]));
+    }
+    polynomials
 }
 
 /// Every x >= 0 solves it at every t.
 fn zero_pencil() -> Pencil {
-    pencil(&[&[0, 0], &[0, 0]], &[&[0, 0], &[0, 0]], &[])
+    let zero = Sparse::zeros(2, 2);
+    Pencil::new(zero.clone(), zero, vec![]).unwrap()
 }
 
 fn solution(value: i64, slip: &[usize], x: &[i64]) -> Solution {
@@ -115,10 +122,14 @@ fn a_vector_of_the_wrong_length_or_at_a_negative_value_is_no_solution() {
     assert!(!is_solution(&diagonal, &integer(-2), &first_unit));
 
     let zero = zero_pencil();
-    assert!(is_solution(&zero, &integer(2), &first_unit));
-    assert!(!is_solution(&zero, &integer(2), &constants(&[0, 0])));
+    let two = integer(2);
+    assert!(is_solution(&zero, &two, &first_unit));
+
+    let zero_vector = constants(&[0, 0]);
+    assert!(!is_solution(&zero, &two, &zero_vector));
     for x in [vec![1], vec![1, 0, 0], vec![]] {
-        assert!(!is_solution(&zero, &integer(2), &constants(&x)), "{x:?}");
+        let of_wrong_length = constants(&x);
+        assert!(!is_solution(&zero, &two, &of_wrong_length), "{x:?}");
     }
 }
 
@@ -136,6 +147,11 @@ fn matrix_of_fractions(rows: [[&str; 2]; 2]) -> Sparse {
     Sparse::from_entries(2, 2, entries)
 }
 
+fn fractions_solve(pencil: &Pencil, t: &str, x: [&str; 2]) -> bool {
+    let x = x.map(fraction);
+    is_rational_solution(pencil, &fraction(t), &x)
+}
+
 /// Rows and vectors with several denominators: x = (1/2, 1/3), rows (2/3 - t/6, -3/4 ...) made to
 /// vanish at t = 1.
 ///
@@ -145,47 +161,48 @@ fn fractions_are_cleared_row_by_row() {
     let a = matrix_of_fractions([["2/3", "-3/4"], ["1/5", "-4/5"]]);
     let b = matrix_of_fractions([["-1/6", "0"], ["1/7", "2/7"]]);
     let pencil = Pencil::new(a, b, vec![]).unwrap();
-    let solves = |t: &str, x: [&str; 2]| {
-        let x = x.map(fraction);
-        is_rational_solution(&pencil, &fraction(t), &x)
-    };
 
-    assert!(solves("1", ["1/2", "1/3"]));
-    assert!(solves("1", ["3/5", "2/5"]));
+    assert!(fractions_solve(&pencil, "1", ["1/2", "1/3"]));
+    assert!(fractions_solve(&pencil, "1", ["3/5", "2/5"]));
 
-    assert!(!solves("1", ["1/2", "1/4"]));
-    assert!(!solves("1", ["1/3", "1/2"]));
-    assert!(!solves("1", ["1", "1"]));
-    assert!(!solves("2", ["1/2", "1/3"]));
-    assert!(!solves("1", ["-1/2", "-1/3"]));
+    assert!(!fractions_solve(&pencil, "1", ["1/2", "1/4"]));
+    assert!(!fractions_solve(&pencil, "1", ["1/3", "1/2"]));
+    assert!(!fractions_solve(&pencil, "1", ["1", "1"]));
+    assert!(!fractions_solve(&pencil, "2", ["1/2", "1/3"]));
+    assert!(!fractions_solve(&pencil, "1", ["-1/2", "-1/3"]));
+}
+
+fn integers_solve(pencil: &Pencil, t: i64, x: [i64; 2]) -> bool {
+    let x = constants(&x);
+    is_solution(pencil, &integer(t), &x)
 }
 
 /// (t - 1) x_0 - x_1 = 0 for the free row, x_0 + x_1 for the other.
 #[test]
 fn free_rows_are_zero_and_free_variables_of_any_sign() {
     let pencil = pencil(&[&[-1, -1], &[1, 1]], &[&[1, 0], &[0, 0]], &[0]);
-    let solves = |t: i64, x: [i64; 2]| is_solution(&pencil, &integer(t), &constants(&x));
 
-    assert!(solves(0, [-1, 1]));
-    assert!(solves(1, [1, 0]));
-    assert!(solves(0, [-2, 2]));
+    assert!(integers_solve(&pencil, 0, [-1, 1]));
+    assert!(integers_solve(&pencil, 1, [1, 0]));
+    assert!(integers_solve(&pencil, 0, [-2, 2]));
 
-    assert!(!solves(0, [1, 1]));
-    assert!(!solves(1, [-1, 0]));
-    assert!(!solves(2, [1, 0]));
-    assert!(!solves(0, [1, -1]));
-    assert!(!solves(3, [1, 2]));
+    assert!(!integers_solve(&pencil, 0, [1, 1]));
+    assert!(!integers_solve(&pencil, 1, [-1, 0]));
+    assert!(!integers_solve(&pencil, 2, [1, 0]));
+    assert!(!integers_solve(&pencil, 0, [1, -1]));
+    assert!(!integers_solve(&pencil, 3, [1, 2]));
+}
+
+/// Does an answer for the zero pencil hold x at t?
+fn holds(answer: &Enumeration, t: Rational, x: [i64; 2]) -> bool {
+    let value = Algebraic::rational(t);
+    let x = constants(&x);
+    answer.contains(&zero_pencil(), &value, &x)
 }
 
 /// A listed solution holds its own ray at its own value, a cone what it spans, a range its values.
 #[test]
 fn an_answer_holds_what_it_lists_and_nothing_else() {
-    let zero = zero_pencil();
-    let holds = |answer: &Enumeration, t: Rational, x: [i64; 2]| {
-        let value = Algebraic::rational(t);
-        answer.contains(&zero, &value, &constants(&x))
-    };
-
     let answer = answer_of_solution(solution(1, &[0, 1], &[1, 1]));
     assert!(holds(&answer, whole(1), [1, 1]));
     assert!(holds(&answer, whole(1), [3, 3]));
@@ -233,17 +250,20 @@ fn ends_pieces_and_ranges_are_equal_in_all_their_parts() {
     assert!(included(1) != excluded(1));
     assert!(included(1) != excluded(2));
 
-    assert!(piece(1, Some(2)) == piece(1, Some(2)));
-    assert!(piece(1, None) == piece(1, None));
-    assert!(piece(1, Some(2)) != piece(1, None));
-    assert!(piece(1, Some(2)) != piece(0, Some(2)));
-    assert!(piece(1, Some(2)) != piece(1, Some(3)));
-    assert!(piece(1, Some(2)) != piece(0, Some(3)));
+    let bounded = piece(1, Some(2));
+    assert!(bounded == piece(1, Some(2)));
+    assert!(bounded != piece(1, None));
+    assert!(bounded != piece(0, Some(2)));
+    assert!(bounded != piece(1, Some(3)));
+    assert!(bounded != piece(0, Some(3)));
+    let unbounded = piece(1, None);
+    assert!(unbounded == piece(1, None));
 
-    assert!(range(&[0], 1, None) == range(&[0], 1, None));
-    assert!(range(&[0], 1, None) != range(&[1], 1, None));
-    assert!(range(&[0], 1, None) != range(&[0], 2, None));
-    assert!(range(&[0], 1, None) != range(&[1], 2, None));
+    let of_first = range(&[0], 1, None);
+    assert!(of_first == range(&[0], 1, None));
+    assert!(of_first != range(&[1], 1, None));
+    assert!(of_first != range(&[0], 2, None));
+    assert!(of_first != range(&[1], 2, None));
 }
 
 /// The cone of both unit vectors, with a line.
@@ -388,8 +408,8 @@ fn rays_are_canonical_beside_a_lineality_space() {
     }
 }
 
-/// Two free directions that no ray can be written without: the lineality (1, 1, 1) of y_3 = x_0 -
-/// x_1 and y_4 = x_1 - x_2.
+/// Three free variables with y_3 = x_0 - x_1 and y_4 = x_1 - x_2: a wedge of two rays beside the line
+/// (1, 1, 1), by which each ray is reduced.
 #[test]
 fn rays_of_a_wedge_are_reduced_by_its_line() {
     let pencil = pencil(
@@ -625,6 +645,12 @@ fn wide_kernel(value: i64, support: &[usize], dimension: usize) -> WideKernel {
     }
 }
 
+/// The dimension of the kernel of the solution with this value and support.
+fn dimension(answer: &Enumeration, value: i64, slip: &[usize]) -> usize {
+    let solution = solution(value, slip, &[1, 1]);
+    answer.kernel_dimension(&solution)
+}
+
 #[test]
 fn the_kernel_of_a_solution_is_that_of_its_support_and_value() {
     let answer = Enumeration {
@@ -635,19 +661,15 @@ fn the_kernel_of_a_solution_is_that_of_its_support_and_value() {
         ],
         ..Enumeration::default()
     };
-    let dimension = |value: i64, slip: &[usize]| {
-        let solution = solution(value, slip, &[1, 1]);
-        answer.kernel_dimension(&solution)
-    };
 
-    assert_eq!(dimension(1, &[0, 1]), 2);
-    assert_eq!(dimension(2, &[0]), 3);
-    assert_eq!(dimension(1, &[0]), 4);
+    assert_eq!(dimension(&answer, 1, &[0, 1]), 2);
+    assert_eq!(dimension(&answer, 2, &[0]), 3);
+    assert_eq!(dimension(&answer, 1, &[0]), 4);
 
     // No wide kernel has both this value and this support.
-    assert_eq!(dimension(2, &[0, 1]), 1);
-    assert_eq!(dimension(3, &[0]), 1);
-    assert_eq!(dimension(1, &[1]), 1);
+    assert_eq!(dimension(&answer, 2, &[0, 1]), 1);
+    assert_eq!(dimension(&answer, 3, &[0]), 1);
+    assert_eq!(dimension(&answer, 1, &[1]), 1);
 }
 
 /// The pencil of one support and of the free variables alone, as (24) has it.
@@ -662,8 +684,12 @@ impl WithoutStick {
         let mut kept = [support, whole.free()].concat();
         kept.sort_unstable();
 
-        let is_free = |k: &usize| whole.free().contains(&kept[*k]);
-        let free = (0..kept.len()).filter(is_free).collect();
+        let mut free = Vec::new();
+        for (position, index) in kept.iter().enumerate() {
+            if whole.free().contains(index) {
+                free.push(position);
+            }
+        }
         let a = whole.a().submatrix(&kept, &kept);
         let b = whole.b().submatrix(&kept, &kept);
         let pencil = Pencil::new(a, b, free).unwrap();

@@ -107,7 +107,11 @@ fn reversed_pencil(pencil: &Pencil) -> Pencil {
 
 /// The same set in the numbers of the opposite order, ascending.
 fn reversed_set(set: &[usize], order: usize) -> Vec<usize> {
-    set.iter().map(|i| order - 1 - i).rev().collect()
+    let mut reversed = Vec::new();
+    for i in set.iter().rev() {
+        reversed.push(order - 1 - i);
+    }
+    reversed
 }
 
 proptest! {

@@ -151,15 +151,23 @@ fn rows_of(system: System) -> Vec<Row> {
 
 /// Particle 0 or 1, which slips with this sign on the dofs 2 index and 2 index + 1.
 fn slipping_particle(index: usize, sign: i8) -> Particle {
-    Particle::plain(2 * index, 2 * index + 1, ContactState::Slip { sign })
+    let tangential = 2 * index;
+    let normal = 2 * index + 1;
+    Particle::plain(tangential, normal, ContactState::Slip { sign })
 }
 
-/// The body with the normal dofs 1 and 3 mirrored: their rows and columns of K change sign.
+/// The body with the normal dofs 1 and 3 mirrored: their rows and columns of K change sign, so that
+/// the entries between a normal and a tangential dof do.
 fn mirrored_system(plain: &System, normal_direction: i8) -> System {
-    let direction_of = |dof: usize| if dof % 2 == 1 { whole(-1) } else { whole(1) };
     let mut entries = Vec::new();
     for (i, j, value) in plain.stiffness().entries() {
-        entries.push((i, j, value * direction_of(i) * direction_of(j)));
+        let is_between_directions = (i + j) % 2 == 1;
+        let mirrored = if is_between_directions {
+            -value
+        } else {
+            value.clone()
+        };
+        entries.push((i, j, mirrored));
     }
     let stiffness = Sparse::from_entries(4, 4, entries);
 

@@ -74,6 +74,10 @@ fn is_same_value(alpha: &mut Alpha, value: &Algebraic) -> bool {
     alpha.is_root_in(&p, &interval.lo, &interval.hi)
 }
 
+fn are_equal(left: &Algebraic, right: &Algebraic) -> bool {
+    left.clone().equals(&mut right.clone())
+}
+
 fn is_irrational(value: &Algebraic) -> bool {
     let mut value = value.clone();
     value.try_rational();
@@ -346,20 +350,24 @@ impl Comparison<'_> {
     }
 
     fn is_in_our_range(&self, support: &[usize], value: &Algebraic) -> bool {
-        let mut ranges = self.ours.ranges.iter();
-        ranges.any(|range| range.support == support && range.contains(value))
+        let ranges = self.ours.ranges.iter();
+        let mut of_support = ranges.filter(|range| range.support == support);
+        of_support.any(|range| range.contains(value))
     }
 
     /// Is a solution or a cone of this support listed at the value?
     fn is_listed_at(&self, support: &[usize], value: &Algebraic) -> bool {
-        let is_at_value = |listed: &Algebraic| listed.clone().equals(&mut value.clone());
-
-        let mut solutions = self.ours.solutions.iter();
-        let as_solution = solutions.any(|s| s.slip == support && is_at_value(&s.value));
-        let mut cones = self.ours.cones.iter();
-        let as_cone = cones.any(|c| c.slip == support && is_at_value(&c.value));
-
-        as_solution || as_cone
+        for solution in &self.ours.solutions {
+            if solution.slip == support && are_equal(&solution.value, value) {
+                return true;
+            }
+        }
+        for cone in &self.ours.cones {
+            if cone.slip == support && are_equal(&cone.value, value) {
+                return true;
+            }
+        }
+        false
     }
 
     /// Is the support part of the support of a cone at the value?
@@ -367,7 +375,7 @@ impl Comparison<'_> {
         let mut cones = self.ours.cones.iter();
         cones.any(|cone| {
             let is_part = support.iter().all(|i| cone.slip.contains(i));
-            is_part && cone.value.clone().equals(&mut value.clone())
+            is_part && are_equal(&cone.value, value)
         })
     }
 }

@@ -49,7 +49,8 @@ fn system(sign: i8) -> System {
 }
 
 fn problem(sign: i8, unknown: Unknown) -> Problem {
-    Problem::new(Body::System(system(sign)), unknown, Window::all()).unwrap()
+    let body = Body::System(system(sign));
+    Problem::new(body, unknown, Window::all()).unwrap()
 }
 
 /// The values at t of polynomials that share a scale.
@@ -151,11 +152,10 @@ fn the_lines_hold_to_the_last_unit() {
 fn a_projection_takes_the_tangential_part_off() {
     for sign in [1, -1] {
         let variables = reduce(&problem(sign, Unknown::Mu)).unwrap().variables;
-        let project_integers = |v: [i64; 3]| project(&variables, &v.map(whole));
         let s = i64::from(sign);
         let x = vec![whole(2), whole(-5 * s)];
 
-        let tangential = project_integers([2, 3, 4]);
+        let tangential = project(&variables, &[2, 3, 4].map(whole));
         let expected = Projected {
             x: x.clone(),
             off: None,
@@ -163,17 +163,17 @@ fn a_projection_takes_the_tangential_part_off() {
         assert_eq!(tangential, expected);
 
         // (3, 4) + (-4, 3): the normal part is 5 along (-4/5, 3/5), 4 of a largest component 7.
-        let with_normal_part = project_integers([2, -1, 7]);
+        let with_normal_part = project(&variables, &[2, -1, 7].map(whole));
         let expected = Projected {
             x,
             off: Some((1, rational(4, 7))),
         };
         assert_eq!(with_normal_part, expected);
 
-        let with_large_free_part = project_integers([-9, -1, 7]);
+        let with_large_free_part = project(&variables, &[-9, -1, 7].map(whole));
         assert_eq!(with_large_free_part.off, Some((1, rational(4, 9))));
 
-        let zero = project_integers([0, 0, 0]);
+        let zero = project(&variables, &[0, 0, 0].map(whole));
         let expected = Projected {
             x: vec![whole(0), whole(0)],
             off: None,
@@ -188,7 +188,8 @@ fn a_projection_takes_the_tangential_part_off() {
 fn one_slip_variable_is_condensed() {
     let a = Sparse::from_ints(&[&[4, 2], &[2, 5]]);
     let b = Sparse::from_ints(&[&[0, 0], &[6, 7]]);
-    let pencil = Pencil::new(a, b, vec![0]).unwrap();
+    let free = vec![0];
+    let pencil = Pencil::new(a, b, free).unwrap();
 
     let admissible = Admissible::new(&pencil, Unknown::Mu).unwrap();
     let condensed = condense(&admissible).unwrap();

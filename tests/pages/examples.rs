@@ -1,8 +1,8 @@
 //! The worked examples of `spec/certificates.md`: the checker gives the verdict that the page
 //! states, and every JSON block of the page stands in one of the files.
 //!
-//! The truth is the checker, and the files of `spec/examples/certificates` for the page. A block that
-//! was changed on the page alone, or a kind of evidence without an example, fails here.
+//! The truth is the checker, and the files of `spec/examples/certificates` for the page. A block
+//! that was changed on the page alone, or a kind of evidence without an example, fails here.
 
 use mceip_check::certificate::Certificate;
 use mceip_check::check;

@@ -105,7 +105,8 @@ fn is_for_tests(path: &Path) -> bool {
     text.contains("#[cfg(test)]\nmod tests;")
 }
 
-/// Each crate with all that its manifest may name. Cargo refuses any use of a crate not named there.
+/// Each crate with all that its manifest may name. Cargo refuses any use of a crate not named
+/// there.
 const MAY_DEPEND: [(&str, &[&str]); 8] = [
     (
         "exact",

@@ -1,5 +1,5 @@
-//! `spec/mutants`: the mutants listed as equivalent exist in the sources and have a reason, and every
-//! part has a sufficient score. The mutants themselves are run by `spec/mutants/run`.
+//! `spec/mutants`: the mutants listed as equivalent exist in the sources and have a reason, and
+//! every part has a sufficient score. The mutants themselves are run by `spec/mutants/run`.
 //!
 //! The truth is the source files. An entry whose function or operator is gone, or a score below the
 //! least one, fails here.

@@ -1,8 +1,8 @@
 //! The observations of section 5 on the block, over meshes, planes and ratios H/L.
 //!
-//! Each state of a loading path has its complete MCEIP-mu set, proved. The observations (mu falls as
-//! slip nodes are added, lambda^2 grows above the smallest mu) are questions to these sets. That the
-//! questions can be answered with no is shown on made-up data.
+//! Each state of a loading path has its complete MCEIP-mu set, proved. The observations (mu falls
+//! as slip nodes are added, lambda^2 grows above the smallest mu) are questions to these sets. That
+//! the questions can be answered with no is shown on made-up data.
 #![cfg(feature = "testkit")]
 
 use mceip_engine::run::Watch;

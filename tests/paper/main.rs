@@ -1,5 +1,5 @@
-//! The polyurethane block of the paper: its states, its loading path, its observations over meshes, and
-//! finer meshes.
+//! The polyurethane block of the paper: its states, its loading path, its observations over meshes,
+//! and finer meshes.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod block;

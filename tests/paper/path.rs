@@ -2,8 +2,8 @@
 //! its states against the paper.
 //!
 //! The path is computed on the condensed contact side. The truth is elimination in fractions on the
-//! whole K, the model's own check of (7), backward Euler in small steps, and the two states that the
-//! paper prints. A wrong condensation, a wrong sign or a missed event contradicts one of them.
+//! whole K, the model's own check of (7), backward Euler in small steps, and the two states that
+//! the paper prints. A wrong condensation, a wrong sign or a missed event contradicts one of them.
 #![cfg(feature = "solver")]
 
 use mceip_exact::{Rational, rational, to_f64, whole};

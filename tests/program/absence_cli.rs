@@ -1,8 +1,8 @@
 //! `certify` from outside on what is no solution: the refusal, the proof in a file, and `check` on
 //! it.
 //!
-//! The solutions of the problems are known, so the right answer to each report is too. `check` judges
-//! each certificate of absence, and rejects it for another problem.
+//! The solutions of the problems are known, so the right answer to each report is too. `check`
+//! judges each certificate of absence, and rejects it for another problem.
 #![cfg(feature = "cli")]
 
 use crate::common::{

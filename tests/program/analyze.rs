@@ -1,22 +1,26 @@
 //! `mceip analyze`: the engineer's answers against closed forms, the oracle and certificates;
 //! refusals.
+//!
+//! The truth is Table 1 in closed form, the equations of motion, the fold and its flutter by hand,
+//! and the enumerator on many levels of lambda^2. Every proof that an answer rests on goes to the
+//! checker.
 #![cfg(feature = "cli")]
 
-use crate::program::{Folder, mceip, refused};
+use crate::common::{contains_all, example, exit_code, exits, exits_with_json, read, run};
+use crate::program::{Folder, refused};
 use mceip_check::check;
-use mceip_engine::analysis::{Analysis, Evidence, Options, Verdict, analyse};
+use mceip_engine::analysis::{Analysis, Evidence, Mode, Options, Verdict, analyse};
 use mceip_engine::reduction::reduce;
 use mceip_engine::run::{Cancel, Watch};
-use mceip_exact::{Rational, Sparse, enclosing_decimals, rational, to_f64, whole};
-use mceip_model::{ContactState, Particle, System, Unknown, Window};
-use mceip_oracle::{TwoParticles, enumerate, table1, thresholds};
+use mceip_exact::{Rational, Sparse, enclosing_decimals, from_f64, rational, to_f64, whole};
+use mceip_model::file::read_problem_file;
+use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
+use mceip_oracle::{Enumeration, TwoParticles, enumerate, table1, thresholds};
 use mceip_paper::{Block, BlockModel, two_particles};
-use serde_json::Value;
+use std::f64::consts::PI;
+use std::path::Path;
 
-fn example(name: &str) -> String {
-    format!("{}/spec/examples/{name}", env!("CARGO_MANIFEST_DIR"))
-}
-
+/// The analysis of a system, whose certificates the checker has accepted.
 #[track_caller]
 fn answer(system: &System, mu: &Rational, samples: usize) -> Analysis {
     let options = Options {
@@ -25,16 +29,32 @@ fn answer(system: &System, mu: &Rational, samples: usize) -> Analysis {
         ..Options::default()
     };
     let analysis = analyse(None, system, mu, &options, &Watch::nobody()).unwrap();
+
     for proof in &analysis.proofs {
         check(&proof.problem, &proof.certificate).unwrap();
     }
     analysis
 }
 
+/// Two particles with c = 3/5, s = 4/5, k = 5, m = 1/7.
+fn two_particles_with(signs: (i8, i8), mu: Rational) -> TwoParticles {
+    TwoParticles {
+        c: rational(3, 5),
+        s: rational(4, 5),
+        k: whole(5),
+        m: rational(1, 7),
+        mu,
+        signs,
+    }
+}
+
 /// All answers for the two particles, against Table 1 in closed form.
 #[test]
 fn two_particles_as_in_the_table() {
-    let mut counts = [0; 3];
+    let mut without_mode = 0;
+    let mut with_one_mode = 0;
+    let mut with_more_modes = 0;
+
     for (signs, mu) in [
         ((1, 1), rational(3, 2)),
         ((1, 1), whole(3)),
@@ -44,232 +64,281 @@ fn two_particles_as_in_the_table() {
         ((1, -1), whole(8)),
         ((-1, 1), whole(8)),
     ] {
-        let data = TwoParticles {
-            c: rational(3, 5),
-            s: rational(4, 5),
-            k: whole(5),
-            m: rational(1, 7),
-            mu: mu.clone(),
-            signs,
-        };
-        let a = answer(&two_particles(&data).unwrap(), &mu, 0);
-        let table = table1(&data);
-        assert_eq!(a.divergence.modes.len(), table.len(), "{signs:?} {mu}");
-        assert_eq!(
-            a.divergence.verdict,
-            if table.is_empty() {
-                Verdict::Absent
-            } else {
-                Verdict::Present
-            }
-        );
-        for mode in &a.divergence.modes {
-            let closed = table
-                .iter()
-                .find(|t| {
-                    t.slip == mode.slipping && t.value.within(mode.lambda2.lo(), mode.lambda2.hi())
-                })
-                .unwrap();
-            assert!(
-                (mode.v[0].abs() + mode.v[2].abs() - 1.0).abs() < 1e-12 && mode.v[1] == 0.0,
-                "{:?}",
-                mode.v
-            );
-            let lambda2 = mode.growth_rate * mode.growth_rate;
-            assert!(
-                lambda2 < to_f64(mode.lambda2.hi()) * (1.0 + 1e-12)
-                    && closed.slip.len() + mode.sticking.len() == 2
-            );
+        let data = two_particles_with(signs, mu.clone());
+        let analysis = answer(&two_particles(&data).unwrap(), &mu, 0);
+
+        modes_are_those_of_the_table(&analysis, &data);
+        thresholds_are_those_of_the_table(&analysis, &data);
+        match analysis.divergence.modes.len() {
+            0 => without_mode += 1,
+            1 => with_one_mode += 1,
+            _ => with_more_modes += 1,
         }
-        let all_slip = table.iter().any(|t| t.slip == [0, 1]);
-        assert_eq!(a.sufficient, Some(all_slip));
-        let known = thresholds(&data).unwrap();
-        match (known.first(), a.threshold.smallest()) {
-            (Some(t), Some(mu)) => assert!(t.value.within(mu.lo(), mu.hi())),
-            (None, None) => assert!(a.threshold.open.is_empty()),
-            other => panic!("{signs:?}: {other:?}"),
-        }
-        // No folds here: the critical mu is the static threshold.
-        let below = a.critical.absent_below.as_ref();
-        match known.first() {
-            Some(t) => {
-                let below = below.unwrap();
-                assert!(
-                    t.value.within(below, &(below * rational(10_001, 10_000))),
-                    "{signs:?}: {below}"
-                );
-                assert_eq!(
-                    a.critical.solution.as_ref().unwrap().evidence,
-                    Evidence::Certificate(1)
-                );
-            }
-            None => assert!(
-                below.is_none_or(|b| *b > whole(1_000_000)) && a.critical.solution.is_none()
-            ),
-        }
-        if a.necessary.holds_at(&mu) == Some(false) {
-            assert!(table.is_empty());
-        }
-        counts[table.len().min(2)] += 1;
     }
-    assert!(counts.iter().all(|c| *c > 0), "{counts:?}");
+
+    assert!(without_mode > 0);
+    assert!(with_one_mode > 0);
+    assert!(with_more_modes > 0);
+}
+
+#[track_caller]
+fn modes_are_those_of_the_table(analysis: &Analysis, data: &TwoParticles) {
+    let table = table1(data);
+    let divergence = &analysis.divergence;
+    let expected = if table.is_empty() {
+        Verdict::Absent
+    } else {
+        Verdict::Present
+    };
+
+    assert_eq!(divergence.modes.len(), table.len(), "{data:?}");
+    assert_eq!(divergence.verdict, expected);
+
+    for mode in &divergence.modes {
+        let closed = table.iter().find(|entry| {
+            let is_enclosed = entry.value.within(mode.lambda2.lo(), mode.lambda2.hi());
+            entry.slip == mode.slipping && is_enclosed
+        });
+
+        assert_eq!(closed.unwrap().slip.len() + mode.sticking.len(), 2);
+
+        let slip_rates = mode.v[0].abs() + mode.v[2].abs();
+        assert!((slip_rates - 1.0).abs() < 1e-12, "{:?}", mode.v);
+        assert_eq!(mode.v[1], 0.0, "{:?}", mode.v);
+
+        let upper = to_f64(mode.lambda2.hi()) * (1.0 + 1e-12);
+        assert!(mode.growth_rate * mode.growth_rate < upper);
+    }
+
+    let all_slip = table.iter().any(|entry| entry.slip == [0, 1]);
+    assert_eq!(analysis.sufficient, Some(all_slip));
+
+    if analysis.necessary.holds_at(&data.mu) == Some(false) {
+        assert!(table.is_empty());
+    }
+}
+
+/// There are no folds here: the critical mu is the static threshold.
+#[track_caller]
+fn thresholds_are_those_of_the_table(analysis: &Analysis, data: &TwoParticles) {
+    let known = thresholds(data).unwrap();
+    let found = analysis.threshold.smallest();
+    let critical = &analysis.critical;
+
+    let Some(smallest) = known.first() else {
+        assert!(found.is_none(), "{data:?}: {found:?}");
+        assert!(analysis.threshold.open.is_empty());
+
+        let far = whole(1_000_000);
+        assert!(critical.absent_below.as_ref().is_none_or(|mu| *mu > far));
+        assert!(critical.solution.is_none());
+        return;
+    };
+
+    let mu = found.unwrap();
+    assert!(smallest.value.within(mu.lo(), mu.hi()));
+
+    let below = critical.absent_below.as_ref().unwrap();
+    let a_little_above = below * rational(10_001, 10_000);
+    assert!(
+        smallest.value.within(below, &a_little_above),
+        "{data:?}: {below}"
+    );
+
+    let evidence = &critical.solution.as_ref().unwrap().evidence;
+    assert_eq!(*evidence, Evidence::Certificate(1));
+}
+
+/// (matrix v)_i in doubles.
+fn row_times(matrix: &Sparse, i: usize, v: &[f64]) -> f64 {
+    let mut sum = 0.0;
+    for (j, value) in v.iter().enumerate() {
+        sum += to_f64(&matrix.get(i, j)) * value;
+    }
+    sum
+}
+
+/// How often a particle stuck and slipped at the times that were looked at.
+#[derive(Debug, Default)]
+struct Met {
+    sticking: usize,
+    slipping: usize,
 }
 
 /// The modes are motions: u = u0 + alpha v with alpha = alpha0 cosh(lambda t) satisfies momentum
-/// balance, contact and friction at all times while the reactions stay compressive. // E1, E2, E3,
-/// E4, E8
+/// balance, contact and friction at all times while the reactions stay compressive (equations E1,
+/// E2, E3, E4, E8).
 #[test]
 fn a_mode_is_a_motion_along_a_constant_direction() {
-    let mut moved = [0, 0];
+    let mut met = Met::default();
+
     for (signs, mu) in [((1, 1), 3), ((-1, -1), 3), ((1, -1), 8)] {
-        let data = TwoParticles {
-            c: rational(3, 5),
-            s: rational(4, 5),
-            k: whole(5),
-            m: rational(1, 7),
-            mu: whole(mu),
-            signs,
-        };
+        let data = two_particles_with(signs, whole(mu));
         let system = two_particles(&data).unwrap();
-        let entry = |m: &Sparse, i: usize, j: usize| to_f64(&m.get(i, j));
-        let mu = f64::from(mu as i32);
+
         for mode in answer(&system, &data.mu, 0).divergence.modes {
-            let (lambda, v) = (mode.growth_rate, &mode.v);
-            let row = |m: &Sparse, i: usize| (0..4).map(|j| entry(m, i, j) * v[j]).sum::<f64>();
-            let w: Vec<f64> = (0..4)
-                .map(|i| {
-                    lambda * lambda * row(system.mass().unwrap(), i) + row(system.stiffness(), i)
-                })
-                .collect();
-            for step in 0..20 {
-                let t = 0.1 * f64::from(step) / lambda;
-                let (alpha, rate) = (
-                    1e-3 * (lambda * t).cosh(),
-                    1e-3 * lambda * (lambda * t).sinh(),
-                );
-                for (p, s) in [(0, f64::from(signs.0)), (1, f64::from(signs.1))] {
-                    // At equilibrium r_N = -100 and r_T = S mu 100, on the cone.
-                    let (r_t, r_n) = (
-                        s * mu * 100.0 + alpha * w[2 * p],
-                        -100.0 + alpha * w[2 * p + 1],
-                    );
-                    let velocity = rate * v[2 * p];
-                    assert!(v[2 * p + 1] == 0.0 && r_n < 0.0, "contact is kept");
-                    assert!(r_t.abs() + mu * r_n <= 1e-9, "in the cone: {r_t} {r_n}");
-                    assert!(
-                        (velocity.abs() * r_t - mu * velocity * r_n).abs() <= 1e-6 * velocity.abs(),
-                        "on it, and opposed to slip"
-                    );
-                    moved[usize::from(v[2 * p] != 0.0)] += 1;
-                }
+            mode_is_a_motion(&mode, &system, &data, &mut met);
+        }
+    }
+
+    assert!(met.slipping > 0, "{met:?}");
+    assert!(met.sticking > 0, "{met:?}");
+    free_dofs_carry_no_reaction();
+}
+
+/// Looks at 20 times of the motion along a mode of the two particles.
+fn mode_is_a_motion(mode: &Mode, system: &System, data: &TwoParticles, met: &mut Met) {
+    let lambda = mode.growth_rate;
+    let v = &mode.v;
+    let mu = to_f64(&data.mu);
+    let (first_sign, second_sign) = data.signs;
+    let signs = [f64::from(first_sign), f64::from(second_sign)];
+
+    // w = (lambda^2 M + K) v: the reactions change by alpha w.
+    let mut w = [0.0; 4];
+    for (i, entry) in w.iter_mut().enumerate() {
+        let inertia = lambda * lambda * row_times(system.mass().unwrap(), i, v);
+        *entry = inertia + row_times(system.stiffness(), i, v);
+    }
+
+    for step in 0..20 {
+        let time = 0.1 * f64::from(step) / lambda;
+        let alpha = 1e-3 * (lambda * time).cosh();
+        let alpha_rate = 1e-3 * lambda * (lambda * time).sinh();
+
+        for (particle, sign) in signs.into_iter().enumerate() {
+            let tangential = 2 * particle;
+            let normal = tangential + 1;
+            let velocity = alpha_rate * v[tangential];
+
+            // At equilibrium r_N = -100 and r_T = S mu 100, on the cone.
+            let r_t = sign * mu * 100.0 + alpha * w[tangential];
+            let r_n = -100.0 + alpha * w[normal];
+
+            assert!(v[normal] == 0.0 && r_n < 0.0, "contact is kept");
+            assert!(r_t.abs() + mu * r_n <= 1e-9, "in the cone: {r_t} {r_n}");
+
+            let dissipated = velocity.abs() * r_t - mu * velocity * r_n;
+            assert!(
+                dissipated.abs() <= 1e-6 * velocity.abs(),
+                "on the cone, and opposed to slip"
+            );
+
+            if v[tangential] == 0.0 {
+                met.sticking += 1;
+            } else {
+                met.slipping += 1;
             }
         }
     }
-    assert!(
-        moved[0] > 0 && moved[1] > 0,
-        "slipping and sticking were met: {moved:?}"
-    );
-    // Free dofs carry no reaction: w_f = 0 in the example with free variables.
-    let problem =
-        mceip_model::file::read_problem_file(std::path::Path::new(&example("oblique.json")))
-            .unwrap();
-    let mceip_model::Body::System(system) = problem.body() else {
+}
+
+/// Free dofs carry no reaction: w_f = 0 in the example with free variables.
+#[track_caller]
+fn free_dofs_carry_no_reaction() {
+    let problem = read_problem_file(Path::new(&example("oblique"))).unwrap();
+    let Body::System(system) = problem.body() else {
         panic!("a system")
     };
     let mode = answer(system, &whole(9), 0).divergence.modes.remove(0);
-    let lambda2 = mode.growth_rate * mode.growth_rate;
+    let lambda2 = from_f64(mode.growth_rate * mode.growth_rate).unwrap();
+    let dynamic_stiffness = system
+        .stiffness()
+        .add_scaled(&lambda2, system.mass().unwrap());
+
     for i in system.free_dofs() {
-        let m = system.stiffness().add_scaled(
-            &mceip_exact::from_f64(lambda2).unwrap(),
-            system.mass().unwrap(),
-        );
-        let w: f64 = (0..6).map(|j| to_f64(&m.get(i, j)) * mode.v[j]).sum();
+        let w = row_times(&dynamic_stiffness, i, &mode.v);
         assert!(w.abs() < 1e-12, "w[{i}] = {w}");
     }
 }
 
 /// The fold of errata.md as a mechanical system: K0 = diag(1, 2), K1 = [[0, -3], [1, -4]], M = I.
 fn fold() -> System {
-    let k = Sparse::from_ints(&[
+    let stiffness = Sparse::from_ints(&[
         &[1, 0, 0, 1],
         &[0, 2, -3, -4],
         &[0, -3, 99, 0],
         &[1, -4, 0, 99],
     ]);
-    let particle = |i: usize| Particle::plain(i, i + 2, ContactState::Slip { sign: 1 });
-    System::new(
-        k,
-        Some(Sparse::identity(4)),
-        None,
-        vec![particle(0), particle(1)],
-    )
-    .unwrap()
+    let mass = Sparse::identity(4);
+    let slip = ContactState::Slip { sign: 1 };
+    let particles = vec![Particle::plain(0, 2, slip), Particle::plain(1, 3, slip)];
+
+    System::new(stiffness, Some(mass), None, particles).unwrap()
+}
+
+/// The MCEIP-mu of a system at a fixed lambda^2, by the enumerator.
+fn enumerate_at(system: &System, lambda2: &Rational, window: &Window) -> Enumeration {
+    let stiffness = system
+        .stiffness()
+        .add_scaled(lambda2, system.mass().unwrap());
+    let particles = system.particles().to_vec();
+    let at_lambda2 = System::new(stiffness, None, None, particles).unwrap();
+    let problem = Problem::new(Body::System(at_lambda2), Unknown::Mu, Window::all()).unwrap();
+
+    enumerate(&reduce(&problem).unwrap().pencil, window).unwrap()
 }
 
 #[test]
 fn a_fold_lies_below_every_static_threshold() {
-    let a = answer(&fold(), &whole(2), 8);
-    assert_eq!(
-        (a.divergence.verdict, a.divergence.modes.len()),
-        (Verdict::Present, 2)
-    );
-    assert!(a.threshold.values.is_empty() && a.threshold.open.is_empty());
-    let (below, solution) = (
-        a.critical.absent_below.clone().unwrap(),
-        a.critical.solution.clone().unwrap(),
-    );
+    let analysis = answer(&fold(), &whole(2), 8);
+    assert_eq!(analysis.divergence.verdict, Verdict::Present);
+    assert_eq!(analysis.divergence.modes.len(), 2);
+    assert!(analysis.threshold.values.is_empty());
+    assert!(analysis.threshold.open.is_empty());
+
     // 3 mu^2 - 4 u mu + u (u + 1) = 0 with u = 1 + t: mu = (2u - sqrt(u (u - 3))) / 3 is least at u
     // = (3 + 2 sqrt 3) / 2, where mu = 1 + sqrt(3) / 2: the root of 4 mu^2 - 8 mu + 1 above 1.
-    let side = |mu: &Rational| whole(4) * mu * mu - whole(8) * mu + whole(1);
-    assert!(
-        below > whole(1) && side(&below) < whole(0) && side(solution.mu.hi()) > whole(0),
-        "{below} {solution:?}"
-    );
-    assert!(to_f64(&below) > 0.999 * to_f64(solution.mu.hi()));
+    let below = analysis.critical.absent_below.clone().unwrap();
+    let solution = analysis.critical.solution.clone().unwrap();
+    let above = solution.mu.hi();
+
+    assert!(below > whole(1), "{below}");
+    assert!(side_of_the_least_mu(&below) < whole(0), "{below}");
+    assert!(side_of_the_least_mu(above) > whole(0), "{solution:?}");
+    assert!(to_f64(&below) > 0.999 * to_f64(above));
     assert!(solution.lambda2.lo() > &whole(0));
-    // Independent of the search: the oracle finds nothing below at many lambda^2, and something at
-    // the solution's.
-    let mass = Sparse::identity(4);
+
+    // Independent of the search: the enumerator finds nothing below at many lambda^2.
+    let window = Window::new(whole(0), Some(below)).unwrap();
     for k in 0..60 {
-        let k_t = fold().stiffness().add_scaled(&rational(k, 8), &mass);
-        let system = System::new(k_t, None, None, fold().particles().to_vec()).unwrap();
-        let problem = mceip_model::Problem::new(
-            mceip_model::Body::System(system),
-            Unknown::Mu,
-            Window::all(),
-        )
-        .unwrap();
-        let window = Window::new(whole(0), Some(below.clone())).unwrap();
-        assert!(
-            enumerate(&reduce(&problem).unwrap().pencil, &window)
-                .unwrap()
-                .solutions
-                .is_empty()
-        );
+        let found = enumerate_at(&fold(), &rational(k, 8), &window);
+        assert!(found.solutions.is_empty(), "{k}");
     }
-    assert_eq!(a.ranges.first().unwrap().verdict, Verdict::Absent);
-    assert!(a.ranges.iter().any(|r| r.verdict == Verdict::Present));
+
+    let ranges = &analysis.ranges;
+    assert_eq!(ranges.first().unwrap().verdict, Verdict::Absent);
+    assert!(ranges.iter().any(|range| range.verdict == Verdict::Present));
+}
+
+/// 4 mu^2 - 8 mu + 1.
+fn side_of_the_least_mu(mu: &Rational) -> Rational {
+    whole(4) * mu * mu - whole(8) * mu + whole(1)
 }
 
 /// Between nothing and divergence the eigenvalues are complex: absence is not stability.
 #[test]
 fn flutter_is_a_warning_where_divergence_is_absent() {
-    let a = answer(&fold(), &whole(1), 0);
-    assert_eq!(a.divergence.verdict, Verdict::Absent);
-    let flutter = a.flutter.as_ref().unwrap();
-    // -K* = [[-1, 3], [-1, 2]], lambda^4 - lambda^2 + 1 = 0: lambda^2 = 1/2 + i sqrt(3)/2.
+    let analysis = answer(&fold(), &whole(1), 0);
+    assert_eq!(analysis.divergence.verdict, Verdict::Absent);
+
+    // -K* = [[-1, 3], [-1, 2]], lambda^4 - lambda^2 + 1 = 0: lambda^2 = 1/2 + i sqrt(3)/2, and
+    // lambda = cos(pi/6) + i/2.
+    let flutter = analysis.flutter.as_ref().unwrap();
     assert_eq!(flutter.eigenvalues.len(), 1);
-    assert!(
-        (flutter.eigenvalues[0].0 - 0.5).abs() < 1e-9
-            && (flutter.eigenvalues[0].1 - 0.75f64.sqrt()).abs() < 1e-9
-    );
-    assert!(
-        (flutter.growth_rate - (std::f64::consts::PI / 6.0).cos()).abs() < 1e-9
-            && (flutter.frequency - 0.5).abs() < 1e-9
-    );
-    let words: String = a.sentences().iter().map(|s| s.text.clone()).collect();
-    assert!(words.contains("WARNING of flutter") && words.contains("not stability"));
-    assert!(!words.contains("is stable") && !words.contains("is STABLE"));
+
+    let (real, imaginary) = flutter.eigenvalues[0];
+    assert!((real - 0.5).abs() < 1e-9, "{real}");
+    assert!((imaginary - 0.75f64.sqrt()).abs() < 1e-9, "{imaginary}");
+    assert!((flutter.growth_rate - (PI / 6.0).cos()).abs() < 1e-9);
+    assert!((flutter.frequency - 0.5).abs() < 1e-9);
+
+    let sentences = analysis.sentences();
+    let words: String = sentences.iter().map(|s| s.text.as_str()).collect();
+    contains_all(&words, &["WARNING of flutter", "not stability"]);
+
+    assert!(!words.contains("is stable"), "{words}");
+    assert!(!words.contains("is STABLE"), "{words}");
 }
 
 /// A block with free variables: the cover works on the condensed family, and agrees with the
@@ -278,89 +347,72 @@ fn flutter_is_a_warning_where_divergence_is_absent() {
 fn a_small_block_with_free_variables() {
     let block = Block::new(&BlockModel::of_the_paper().with_cells(2, 1)).unwrap();
     let slip = ContactState::Slip { sign: 1 };
-    let system = block
-        .system(&[slip, slip, ContactState::Free], None)
-        .unwrap();
+    let states = [slip, slip, ContactState::Free];
+    let system = block.system(&states, None).unwrap();
+
     assert!(!system.free_dofs().is_empty());
-    let a = answer(&system, &whole(3), 0);
-    let below = a.critical.absent_below.clone().unwrap();
-    let mass = system.mass().unwrap();
-    let mut met = f64::INFINITY;
+
+    let analysis = answer(&system, &whole(3), 0);
+
+    // The smallest mu on twelve levels of lambda^2: 0 and the powers of ten.
+    let mut smallest = f64::INFINITY;
     for k in 0..12 {
         let lambda2 = if k == 0 { whole(0) } else { whole(10).pow(k) };
-        let at = System::new(
-            system.stiffness().add_scaled(&lambda2, mass),
-            None,
-            None,
-            system.particles().to_vec(),
-        )
-        .unwrap();
-        let problem =
-            mceip_model::Problem::new(mceip_model::Body::System(at), Unknown::Mu, Window::all())
-                .unwrap();
-        let found = enumerate(&reduce(&problem).unwrap().pencil, &Window::all()).unwrap();
-        met = found
-            .solutions
-            .iter()
-            .map(|s| s.decimal(17).parse::<f64>().unwrap())
-            .fold(met, f64::min);
+        for solution in enumerate_at(&system, &lambda2, &Window::all()).solutions {
+            let mu: f64 = solution.decimal(17).parse().unwrap();
+            smallest = smallest.min(mu);
+        }
     }
-    assert!(to_f64(&below) <= met, "{below} {met}");
-    let excluded = a.necessary.excluded_below().unwrap();
+
+    let below = analysis.critical.absent_below.clone().unwrap();
+    assert!(to_f64(&below) <= smallest, "{below} {smallest}");
+
+    let excluded = analysis.necessary.excluded_below().unwrap();
     assert!(
         below > excluded,
         "the cover goes beyond the condition: {below} {excluded}"
     );
-    if let Some(s) = &a.critical.solution {
-        assert!(
-            below <= *s.mu.hi() && to_f64(s.mu.hi()) < 1.01 * met,
-            "{} {met}",
-            enclosing_decimals(&s.mu, 9).1
-        );
+
+    if let Some(solution) = &analysis.critical.solution {
+        let upper = solution.mu.hi();
+        let (_, printed) = enclosing_decimals(&solution.mu, 9);
+        assert!(below <= *upper, "{printed}");
+        assert!(to_f64(upper) < 1.01 * smallest, "{printed} {smallest}");
     }
 }
 
 #[test]
 fn certificates_are_written_and_accepted() {
     let folder = Folder::new();
-    let dir = folder.path("proofs");
-    let file = example("oblique.json");
-    let out = mceip(&[
-        "analyze",
-        &file,
-        "--json",
-        "--samples",
-        "4",
-        "--certificates",
-        &dir,
-    ]);
-    assert_eq!(
-        out.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&out.stderr)
-    );
-    let report: Value = serde_json::from_slice(&out.stdout).unwrap();
+    let proofs = folder.path("proofs");
+    let problem = example("oblique");
+
+    let args = ["analyze", &problem, "--json", "--samples", "4"];
+    let report = exits_with_json(0, &[&args[..], &["--certificates", &proofs]].concat());
     assert_eq!(report["format"], "mceip-analysis/1");
     assert_eq!(report["divergence"]["verdict"], "present");
+
     let mut checked = 0;
-    for s in report["sentences"].as_array().unwrap() {
-        let kind = s["evidence"]["kind"].as_str().unwrap();
+    for sentence in report["sentences"].as_array().unwrap() {
+        let evidence = &sentence["evidence"];
+        let kind = evidence["kind"].as_str().unwrap();
         assert!(["certificate", "exact", "measured"].contains(&kind));
-        if let Some(path) = s["evidence"]["path"].as_str() {
-            let problem = path.replace(".certificate.json", ".problem.json");
-            assert_eq!(mceip(&["check", &problem, path]).status.code(), Some(0));
+
+        if let Some(certificate) = evidence["path"].as_str() {
+            let problem = certificate.replace(".certificate.json", ".problem.json");
+            exits(0, &["check", &problem, certificate]);
             checked += 1;
         }
     }
+
     assert!(checked >= 3);
+
     // A certificate of another question is refused.
-    let (mu, lambda2) = (
-        folder.path("proofs/mu.problem.json"),
-        folder.path("proofs/lambda2.certificate.json"),
-    );
-    assert_eq!(mceip(&["check", &mu, &lambda2]).status.code(), Some(1));
-    let words = String::from_utf8(mceip(&["analyze", &file, "--samples", "0"]).stdout).unwrap();
+    let mu_problem = folder.path("proofs/mu.problem.json");
+    let lambda2_certificate = folder.path("proofs/lambda2.certificate.json");
+    exits(1, &["check", &mu_problem, &lambda2_certificate]);
+
+    let words = run(&["analyze", &problem, "--samples", "0"]).stdout;
     assert!(
         words.contains(
             "taken as impending slip at mu = 9, divergence instability of the form (8) is PRESENT"
@@ -369,140 +421,122 @@ fn certificates_are_written_and_accepted() {
     );
 }
 
-/// An interrupt leaves everything undecided that was not done, and claims nothing.
 /// One page with every sentence and mode, or none at all.
 #[test]
 fn the_report_says_what_the_text_says() {
     let folder = Folder::new();
+    let problem = example("two-particles");
     let page = folder.path("out.html");
-    let o = mceip(&[
-        "analyze",
-        &example("two-particles.json"),
-        "--report",
-        &page,
-        "--samples",
-        "0",
-    ]);
-    assert_eq!(o.status.code(), Some(0));
-    let html = std::fs::read_to_string(&page).unwrap();
-    assert!(html.starts_with("<!DOCTYPE html>") && !html.contains("http"));
-    let text = String::from_utf8(o.stdout).unwrap();
+
+    let text = exits(
+        0,
+        &["analyze", &problem, "--report", &page, "--samples", "0"],
+    );
+
+    let html = read(&page);
+    assert!(html.starts_with("<!DOCTYPE html>"));
+    assert!(!html.contains("http"));
+
+    contains_all(&html, &["<td>proved</td>", "Mode 1:"]);
+
+    // Each sentence of the text follows a line with its heading.
     let sentences: Vec<&str> = text.lines().skip(1).step_by(2).collect();
     assert!(sentences.len() > 5);
+
     for sentence in sentences {
         let escaped = sentence
             .replace('&', "&amp;")
             .replace('<', "&lt;")
             .replace('>', "&gt;");
+
         assert!(html.contains(&escaped), "{sentence}");
     }
-    assert!(html.contains("<td>proved</td>") && html.contains("Mode 1:"));
+
     let nowhere = folder.path("none/out.html");
     refused(
-        &[
-            "analyze",
-            &example("two-particles.json"),
-            "--report",
-            &nowhere,
-        ],
+        &["analyze", &problem, "--report", &nowhere],
         &["cannot write"],
     );
+
+    let of_a_pencil = folder.path("fold.html");
     refused(
-        &[
-            "analyze",
-            &example("fold.json"),
-            "--report",
-            &folder.path("fold.html"),
-        ],
+        &["analyze", &example("fold"), "--report", &of_a_pencil],
         &["mechanical system"],
     );
-    assert!(!std::path::Path::new(&folder.path("fold.html")).exists());
+    assert!(!Path::new(&of_a_pencil).exists());
 }
 
+/// An interrupt leaves everything undecided that was not done, and claims nothing.
 #[test]
 fn interrupted_work_is_undecided() {
     let stop = Cancel::requested();
-    let a = analyse(
-        None,
-        &fold(),
-        &whole(2),
-        &Options::default(),
-        &Watch::silent(&stop),
-    )
-    .unwrap();
-    assert!(a.interrupted && !a.is_decided() && a.divergence.modes.is_empty());
-    assert!(a.threshold.smallest().is_none() && a.samples.len() <= Options::default().samples);
-    assert!(a.critical.solution.is_none() && a.sufficient.is_none());
-    assert!(a.sentences()[0].text.contains("UNDECIDED"));
+    let options = Options::default();
+
+    let watch = Watch::silent(&stop);
+    let analysis = analyse(None, &fold(), &whole(2), &options, &watch).unwrap();
+
+    assert!(analysis.interrupted);
+    assert!(!analysis.is_decided());
+    assert!(analysis.divergence.modes.is_empty());
+    assert!(analysis.threshold.smallest().is_none());
+    assert!(analysis.samples.len() <= options.samples);
+    assert!(analysis.critical.solution.is_none());
+    assert!(analysis.sufficient.is_none());
+    assert!(analysis.sentences()[0].text.contains("UNDECIDED"));
 }
 
 /// One answer for any number of threads.
 #[test]
 fn the_answer_does_not_depend_on_threads() {
-    let run = |threads: &str| {
-        mceip(&[
-            "analyze",
-            &example("two-particles.json"),
-            "--json",
-            "--threads",
-            threads,
-        ])
-        .stdout
-    };
-    assert!(!run("1").is_empty());
-    assert_eq!(run("1"), run("3"));
+    let problem = example("two-particles");
+
+    let by_one = run(&["analyze", &problem, "--json", "--threads", "1"]);
+    let by_three = run(&["analyze", &problem, "--json", "--threads", "3"]);
+
+    assert!(!by_one.stdout.is_empty());
+    assert_eq!(by_one.stdout, by_three.stdout);
+}
+
+/// The text of a mechanical problem with one particle. `friction` is a field with its comma.
+fn system_text(stiffness: &str, friction: &str) -> String {
+    let particles = r#"[{"tangential":0,"normal":1,"state":"slip","sign":1,
+        "reaction":{"tangential":"1","normal":"-1"}}]"#;
+    format!(
+        r#"{{"format":"mceip-problem/1","unknown":"lambda2","system":{{
+            "stiffness":{stiffness},"mass":[[1,0],[0,1]],{friction}"particles":{particles}}}}}"#
+    )
 }
 
 #[test]
 fn bad_input_is_one_line() {
     let folder = Folder::new();
-    let system = |k: &str, friction: &str| {
-        let particles = r#"[{"tangential":0,"normal":1,"state":"slip","sign":1,"reaction":{"tangential":"1","normal":"-1"}}]"#;
-        format!(
-            r#"{{"format":"mceip-problem/1","unknown":"lambda2","system":{{"stiffness":{k},"mass":[[1,0],[0,1]],{friction}"particles":{particles}}}}}"#
-        )
-    };
-    let write = |name: &str, k: &str, friction: &str| folder.write(name, &system(k, friction));
     let good = "[[2,0],[0,2]]";
+    let huge = r#"[["1e300",0],[0,"1e300"]]"#;
+    let friction = r#""friction":1,"#;
+    let other_friction = r#""friction":2,"#;
+
+    let nowhere = folder.path("nowhere.json");
+    refused(&["analyze", &nowhere], &["nowhere.json"]);
     refused(
-        &["analyze", &folder.path("nowhere.json")],
-        &["nowhere.json"],
-    );
-    refused(
-        &["analyze", &example("fold.json")],
+        &["analyze", &example("fold")],
         &["mechanical system", "pencil"],
     );
-    refused(
-        &[
-            "analyze",
-            &write("skew.json", "[[2,1],[0,2]]", "\"friction\":1,"),
-        ],
-        &["E3", "symmetric"],
-    );
-    refused(
-        &["analyze", &write("cone.json", good, "\"friction\":2,")],
-        &["E7", "particle 0"],
-    );
-    refused(
-        &[
-            "analyze",
-            &write(
-                "units.json",
-                "[[\"1e300\",0],[0,\"1e300\"]]",
-                "\"friction\":1,",
-            ),
-        ],
-        &["K[0][0]", "units"],
-    );
-    let fine = write("fine.json", good, "\"friction\":1,");
+
+    let skew = folder.write("skew.json", &system_text("[[2,1],[0,2]]", friction));
+    refused(&["analyze", &skew], &["E3", "symmetric"]);
+
+    let off_the_cone = folder.write("cone.json", &system_text(good, other_friction));
+    refused(&["analyze", &off_the_cone], &["E7", "particle 0"]);
+
+    let beyond_units = folder.write("units.json", &system_text(huge, friction));
+    refused(&["analyze", &beyond_units], &["K[0][0]", "units"]);
+
+    let fine = folder.write("fine.json", &system_text(good, friction));
     refused(&["analyze", &fine, "--friction", "-1"], &["--friction"]);
     refused(&["analyze", &fine, "--threads", "0"], &["--threads"]);
     refused(
         &["analyze", &fine, "--certificates", "/dev/null/x"],
         &["cannot write"],
     );
-    assert_eq!(
-        mceip(&["analyze", &fine, "--samples", "3"]).status.code(),
-        Some(0)
-    );
+    assert_eq!(exit_code(&["analyze", &fine, "--samples", "3"]), Some(0));
 }

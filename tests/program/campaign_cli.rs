@@ -1,72 +1,78 @@
 //! `mceip campaign` from outside: exit codes, summary, state file, replay.
+//!
+//! A campaign is a function of its seed and its families: its text must not depend on threads, and
+//! its state file must continue the same campaign alone.
 #![cfg(feature = "cli")]
 
-use crate::program::{Folder, mceip, refused};
+use crate::common::{contains_all, exits, exits_with_json};
+use crate::program::{Folder, refused};
+use serde_json::Value;
+use std::path::Path;
 
 #[test]
 fn a_short_campaign_is_clean_and_the_same_on_any_number_of_threads() {
     let folder = Folder::new();
     let replays = folder.path("replays");
-    let run = |threads: &str, more: &[&str]| {
-        let base = [
-            "campaign",
-            "--count",
-            "3",
-            "--family",
-            "table1",
-            "degenerate",
-            "--seed",
-            "5",
-            "--threads",
-            threads,
-            "--replays",
-            &replays,
-        ];
-        let o = mceip(&[&base[..], more].concat());
-        assert_eq!(
-            o.status.code(),
-            Some(0),
-            "{}",
-            String::from_utf8_lossy(&o.stderr)
-        );
-        String::from_utf8(o.stdout).unwrap()
-    };
-    let text = run("1", &[]);
-    assert!(
-        text.contains("CLEAN: no disagreement in 6 instances (seed 5)")
-            && text.contains("corners reached"),
-        "{text}"
+    let args = [
+        "campaign",
+        "--count",
+        "3",
+        "--family",
+        "table1",
+        "degenerate",
+        "--seed",
+        "5",
+        "--replays",
+        &replays,
+    ];
+    let on_one_thread = [&args[..], &["--threads", "1"]].concat();
+    let on_two_threads = [&args[..], &["--threads", "2"]].concat();
+
+    let text = exits(0, &on_one_thread);
+    contains_all(
+        &text,
+        &[
+            "CLEAN: no disagreement in 6 instances (seed 5)",
+            "corners reached",
+        ],
     );
-    assert_eq!(text, run("2", &[]));
-    assert!(!std::path::Path::new(&replays).exists());
-    let json: serde_json::Value = serde_json::from_str(&run("2", &["--json"])).unwrap();
-    assert_eq!(
-        (&json["instances"], &json["families"][1]["name"]),
-        (&6.into(), &"degenerate".into())
+
+    assert_eq!(text, exits(0, &on_two_threads));
+    assert!(!Path::new(&replays).exists());
+
+    let report = exits_with_json(0, &[&on_two_threads[..], &["--json"]].concat());
+    assert_eq!(report["instances"], 6);
+    assert_eq!(report["families"][1]["name"], "degenerate");
+}
+
+/// Goes on from a state file to so many instances of a family; how many there are then.
+#[track_caller]
+fn instances_after(count: &str, state: &str) -> Value {
+    let report = exits_with_json(
+        0,
+        &[
+            "campaign", "--count", count, "--family", "planted", "--state", state, "--json",
+        ],
     );
+
+    report["instances"].clone()
 }
 
 #[test]
 fn a_state_file_is_gone_on_from() {
     let folder = Folder::new();
     let state = folder.path("state.json");
-    let run = |count: &str| {
-        let o = mceip(&[
-            "campaign", "--count", count, "--family", "planted", "--state", &state, "--json",
-        ]);
-        assert_eq!(o.status.code(), Some(0));
-        serde_json::from_slice::<serde_json::Value>(&o.stdout).unwrap()["instances"].clone()
-    };
-    assert_eq!(
-        (run("2"), run("5"), run("1")),
-        (2.into(), 5.into(), 5.into())
-    );
+    assert_eq!(instances_after("2", &state), 2);
+    assert_eq!(instances_after("5", &state), 5);
+    assert_eq!(instances_after("1", &state), 5);
+
     refused(
         &[
             "campaign", "--count", "5", "--family", "planted", "--seed", "2", "--state", &state,
         ],
         &["seed 2, got 1"],
     );
+
     let broken = folder.write("broken.json", "[]");
     refused(
         &["campaign", "--count", "5", "--state", &broken],
@@ -77,17 +83,16 @@ fn a_state_file_is_gone_on_from() {
 #[test]
 fn a_replay_is_judged_again() {
     let folder = Folder::new();
-    let problem = r#"{"format":"mceip-problem/1","unknown":"mu","pencil":{"a":[["-9"]],"b":[["4"]],"free":[]}}"#;
-    let text = format!(
-        r#"{{"format":"mceip-replay/1","family":"digits","seed":1,"index":3,"engine":"pipeline","kind":"refused","disagreement":"d","as_drawn":"d","problem":{problem},"shrunk":true}}"#
-    );
-    let o = mceip(&["campaign", "--replay", &folder.write("replay.json", &text)]);
-    assert_eq!(o.status.code(), Some(0));
-    assert!(
-        String::from_utf8(o.stdout)
-            .unwrap()
-            .contains("CLEAN: 1 solutions")
-    );
+    let text = r#"{"format":"mceip-replay/1","family":"digits","seed":1,"index":3,
+        "engine":"pipeline","kind":"refused","disagreement":"d","as_drawn":"d",
+        "problem":{"format":"mceip-problem/1","unknown":"mu",
+            "pencil":{"a":[["-9"]],"b":[["4"]],"free":[]}},
+        "shrunk":true}"#;
+    let replay = folder.write("replay.json", text);
+
+    let judged = exits(0, &["campaign", "--replay", &replay]);
+    assert!(judged.contains("CLEAN: 1 solutions"), "{judged}");
+
     refused(
         &["campaign", "--replay", &folder.write("no.json", "{}")],
         &["no.json", "format"],

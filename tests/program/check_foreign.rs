@@ -1,9 +1,9 @@
 //! `mceip check PROBLEM REPORT`: somebody's solutions accepted, refuted or left undecided, in one
 //! line each.
 //!
-//! The problems are solved by hand or by the enumerator, so the right verdict of each point is known.
-//! Points lie on both sides of each tolerance; a verdict that is too mild or too strict, or a point
-//! that costs too much, fails.
+//! The problems are solved by hand or by the enumerator, so the right verdict of each point is
+//! known. Points lie on both sides of each tolerance; a verdict that is too mild or too strict, or
+//! a point that costs too much, fails.
 #![cfg(feature = "cli")]
 
 use crate::common::{

@@ -1,116 +1,119 @@
 //! `mceip check`: claims are printed beside a cover with their place in it; a window smaller than
 //! the problem's is said, and `--window` demands one. Reports of `complete` and `merge` and the
 //! number of threads say what they are.
+//!
+//! The fold has solutions at 2 and 3, so what holds in a window is known. A verdict that hides that
+//! its window is smaller, or a report whose word does not fit its families, fails.
 #![cfg(feature = "cli")]
 
-use crate::program::{Folder, mceip, refused};
-use serde_json::Value;
-use std::path::Path;
-
-fn root(path: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join(path)
-        .display()
-        .to_string()
-}
-
-/// Exit code and stdout.
-fn run(args: &[&str]) -> (i32, String) {
-    let out = mceip(args);
-    (
-        out.status.code().unwrap(),
-        String::from_utf8(out.stdout).unwrap(),
-    )
-}
+use crate::common::{Run, example, exits, pencil_problem, read, repository, run};
+use crate::program::{Folder, refused};
+use serde_json::{Value, json};
 
 /// `check` on a file of the corpus.
-fn check_corpus(name: &str) -> (i32, String) {
+fn check_corpus(name: &str) -> Run {
     let folder = Folder::new();
-    let file: Value = serde_json::from_str(
-        &std::fs::read_to_string(root(&format!("spec/corpus/accept/{name}.json"))).unwrap(),
-    )
-    .unwrap();
-    let problem = folder.write("p.json", &file["problem"].to_string());
-    let certificate = folder.write("c.json", &file["certificate"].to_string());
+    let case = read(&repository(&format!("spec/corpus/accept/{name}.json")));
+    let case: Value = serde_json::from_str(&case).unwrap();
+    let problem = folder.write("p.json", &case["problem"].to_string());
+    let certificate = folder.write("c.json", &case["certificate"].to_string());
+
     run(&["check", &problem, &certificate])
 }
 
 #[test]
 fn claims_beside_a_cover_are_printed_with_their_place() {
-    let (code, text) = check_corpus("beside-listed");
+    let listed = check_corpus("beside-listed");
+    assert_eq!(listed.code, Some(0), "{listed:?}");
     assert!(
-        code == 0
-            && text.starts_with(
-                "claim: lambda2 in [2, 2], slip [0, 1]; solution 1 of the list below\nsolution: "
-            ),
-        "{text}"
+        listed.stdout.starts_with(
+            "claim: lambda2 in [2, 2], slip [0, 1]; solution 1 of the list below\nsolution: "
+        ),
+        "{listed:?}"
     );
-    let (code, text) = check_corpus("beside-open");
+
+    let open = check_corpus("beside-open");
+    assert_eq!(open.code, Some(3), "{open:?}");
     assert!(
-        code == 3
-            && text.starts_with("claim: lambda2 in [2, 2], slip [0, 1]; in open region 1 below\n"),
-        "{text}"
+        open.stdout
+            .starts_with("claim: lambda2 in [2, 2], slip [0, 1]; in open region 1 below\n"),
+        "{open:?}"
     );
-    let (code, text) = check_corpus("beside-family");
+
+    let family = check_corpus("beside-family");
+    assert_eq!(family.code, Some(0), "{family:?}");
     assert!(
-        code == 0 && text.contains("claim: lambda2 in [2, 2], slip [0, 1]; in family 1 below\n"),
-        "{text}"
+        family
+            .stdout
+            .contains("claim: lambda2 in [2, 2], slip [0, 1]; in family 1 below\n"),
+        "{family:?}"
     );
-    let (code, text) = check_corpus("cover");
-    assert!(code == 0 && !text.contains("claim: "), "{text}");
+
+    let alone = check_corpus("cover");
+    assert_eq!(alone.code, Some(0), "{alone:?}");
+    assert!(!alone.stdout.contains("claim: "), "{alone:?}");
+}
+
+/// Certificates of the fold on its whole window, on a part with a solution, and on one without.
+struct Certificates {
+    whole: String,
+    part: String,
+    absent: String,
+}
+
+impl Certificates {
+    fn of_the_fold(folder: &Folder) -> Certificates {
+        let certificates = Certificates {
+            whole: folder.path("whole.json"),
+            part: folder.path("part.json"),
+            absent: folder.path("absent.json"),
+        };
+        let Certificates {
+            whole,
+            part,
+            absent,
+        } = &certificates;
+
+        let complete_fold = ["complete", &example("fold"), "--certificate"];
+        exits(0, &[&complete_fold[..], &[whole]].concat());
+        exits(
+            0,
+            &[&complete_fold[..], &[part, "--window", "1,5/2"]].concat(),
+        );
+        exits(
+            0,
+            &[&complete_fold[..], &[absent, "--window", "4,5"]].concat(),
+        );
+
+        certificates
+    }
 }
 
 /// The fold has solutions at 2 and 3, its problem file the window [0, infinity).
 #[test]
 fn a_smaller_window_is_said_and_another_one_may_be_demanded() {
     let folder = Folder::new();
-    let fold = root("spec/examples/fold.json");
-    let (whole, part, absent) = (
-        folder.path("whole.json"),
-        folder.path("part.json"),
-        folder.path("absent.json"),
-    );
-    assert_eq!(run(&["complete", &fold, "--certificate", &whole]).0, 0);
-    assert_eq!(
-        run(&[
-            "complete",
-            &fold,
-            "--window",
-            "1,5/2",
-            "--certificate",
-            &part
-        ])
-        .0,
-        0
-    );
-    assert_eq!(
-        run(&[
-            "complete",
-            &fold,
-            "--window",
-            "4,5",
-            "--certificate",
-            &absent
-        ])
-        .0,
-        0
-    );
+    let fold = example("fold");
+    let Certificates {
+        whole,
+        part,
+        absent,
+    } = Certificates::of_the_fold(&folder);
 
-    let (_, text) = run(&["check", &fold, &whole]);
+    let text = run(&["check", &fold, &whole]).stdout;
     assert!(text.trim_end().ends_with("in [0, infinity)"), "{text}");
-    let (code, text) = run(&["check", &fold, &part]);
+
+    let text = exits(0, &["check", &fold, &part]);
     assert!(
-        code == 0
-            && text
-                .trim_end()
-                .ends_with("in [1, 5/2]; NOT the whole window [0, infinity) of the problem"),
+        text.trim_end()
+            .ends_with("in [1, 5/2]; NOT the whole window [0, infinity) of the problem"),
         "{text}"
     );
-    let (code, text) = run(&["check", &fold, &absent]);
+
+    let text = exits(0, &["check", &fold, &absent]);
+    assert!(text.starts_with("ABSENT in [4, 5]: "), "{text}");
     assert!(
-        code == 0
-            && text.starts_with("ABSENT in [4, 5]: ")
-            && text.contains("; NOT the whole window [0, infinity)"),
+        text.contains("; NOT the whole window [0, infinity)"),
         "{text}"
     );
 
@@ -126,22 +129,18 @@ fn a_smaller_window_is_said_and_another_one_may_be_demanded() {
         (&absent, "4,5", 0),
         (&absent, "3,5", 1),
     ] {
-        let (code, text) = run(&["check", &fold, certificate, "--window", window]);
-        assert_eq!(code, expected, "{window}: {text}");
-        assert_eq!(
-            text.contains("REJECTED: window: expected one that covers ["),
-            expected == 1,
-            "{text}"
-        );
+        let text = exits(expected, &["check", &fold, certificate, "--window", window]);
+        let is_rejected = text.contains("REJECTED: window: expected one that covers [");
+        assert_eq!(is_rejected, expected == 1, "{window}: {text}");
     }
+
     refused(&["check", &fold, &whole, "--window", "2,1"], &["--window"]);
     refused(
         &["check", &fold, &whole, "--tolerance", "1e-6"],
         &["--tolerance", "solutions only"],
     );
-    let mcp = root("spec/examples/bounded-mcp.json");
     refused(
-        &["check", &mcp, &whole, "--window", "0,1"],
+        &["check", &example("bounded-mcp"), &whole, "--window", "0,1"],
         &["--window", "plain problem"],
     );
 }
@@ -150,56 +149,55 @@ fn a_smaller_window_is_said_and_another_one_may_be_demanded() {
 #[test]
 fn a_report_with_families_claims_them() {
     let folder = Folder::new();
-    let problem = |a: &str| {
-        format!(
-            r#"{{"format":"mceip-problem/1","unknown":"lambda2","pencil":{{"a":{a},"b":[[1,0],[0,1]]}}}}"#
-        )
-    };
-    let cone = folder.write("cone.json", &problem("[[-1,0],[0,-1]]"));
-    let list = folder.write("list.json", &problem("[[-1,0],[0,-2]]"));
-    for (file, claim, has_families) in [
+    let cone = json!({ "a": [[-1, 0], [0, -1]], "b": [[1, 0], [0, 1]] });
+    let cone = folder.write("cone.json", &pencil_problem("lambda2", cone));
+    let list = json!({ "a": [[-1, 0], [0, -2]], "b": [[1, 0], [0, 1]] });
+    let list = folder.write("list.json", &pencil_problem("lambda2", list));
+    let schema = read(&repository("spec/schemas/mceip-solutions-1.json"));
+    let schema: Value = serde_json::from_str(&schema).unwrap();
+    let validator = jsonschema::draft202012::options().build(&schema).unwrap();
+
+    for (problem, claim, has_families) in [
         (&cone, "complete_with_families", true),
         (&list, "complete", false),
     ] {
-        let (code, text) = run(&["complete", file, "--json"]);
+        let text = exits(0, &["complete", problem, "--json"]);
         let report: Value = serde_json::from_str(&text).unwrap();
-        assert_eq!((code, report["claim"].as_str()), (0, Some(claim)), "{text}");
-        assert_eq!(
-            !report["families"].as_array().unwrap().is_empty(),
-            has_families,
-            "{text}"
-        );
-
-        let schema: Value = serde_json::from_str(
-            &std::fs::read_to_string(root("spec/schemas/mceip-solutions-1.json")).unwrap(),
-        )
-        .unwrap();
-        let validator = jsonschema::draft202012::options().build(&schema).unwrap();
+        let families = report["families"].as_array().unwrap();
+        assert_eq!(report["claim"], claim, "{text}");
+        assert_eq!(!families.is_empty(), has_families, "{text}");
         assert!(validator.is_valid(&report), "{text}");
+
         // The word without the families, or the families under the other word.
-        let mut bare = report.clone();
-        bare["families"] = serde_json::json!([]);
-        assert_eq!(validator.is_valid(&bare), !has_families, "{bare}");
-        let mut other = report.clone();
-        other["claim"] = "complete".into();
-        assert_eq!(validator.is_valid(&other), !has_families, "{other}");
+        let mut without_families = report.clone();
+        without_families["families"] = json!([]);
+        let is_valid = validator.is_valid(&without_families);
+        assert_eq!(is_valid, !has_families, "{without_families}");
+
+        let mut under_the_other_word = report.clone();
+        under_the_other_word["claim"] = "complete".into();
+        let is_valid = validator.is_valid(&under_the_other_word);
+        assert_eq!(is_valid, !has_families, "{under_the_other_word}");
     }
 }
 
 #[test]
 fn threads_that_the_machine_does_not_give_are_said() {
-    let fold = root("spec/examples/fold.json");
-    let said = |threads: &str| {
-        let out = mceip(&["complete", &fold, "--threads", threads]);
-        assert_eq!(out.status.code(), Some(0));
-        String::from_utf8(out.stderr).unwrap()
-    };
-    assert_eq!(said("1"), "");
-    let many = said("200");
+    let fold = example("fold");
+
+    let one = run(&["complete", &fold, "--threads", "1"]);
+    assert_eq!(one.code, Some(0));
+    assert_eq!(one.stderr, "");
+
+    let many = run(&["complete", &fold, "--threads", "200"]);
+    let message = &many.stderr;
+    assert_eq!(many.code, Some(0));
+    assert_eq!(message.lines().count(), 1, "{message}");
     assert!(
-        many.lines().count() == 1 && many.starts_with("mceip: --threads 200: the machine runs "),
-        "{many}"
+        message.starts_with("mceip: --threads 200: the machine runs "),
+        "{message}"
     );
+
     refused(
         &["complete", &fold, "--threads", "0"],
         &["--threads", "at least 1"],

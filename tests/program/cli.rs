@@ -1,40 +1,28 @@
 //! The program from outside: malformed input, the chain of commands, exit codes.
+//!
+//! The truth is the list of expected words below, the number of solutions of each example, and the
+//! agreement of the commands: what one writes the next must take, and what was changed it must not.
 #![cfg(feature = "cli")]
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use crate::common::{example, exit_code, exits, exits_with_json, repository, run, solutions_text};
+use crate::program::Folder;
+use serde_json::Value;
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
-fn mceip(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mceip"))
-        .args(args)
-        .output()
-        .unwrap()
-}
-
-fn root(path: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join(path)
-        .display()
-        .to_string()
-}
-
-fn stdout(o: &Output) -> String {
-    String::from_utf8(o.stdout.clone()).unwrap()
-}
-
-/// Exit 2, nothing on stdout, one line on stderr that mentions each of `words`.
+/// Exit 2, nothing on stdout, one line on stderr of at most 600 bytes that has each of `words`.
 #[track_caller]
-fn refused(o: &Output, words: &[&str]) {
-    let err = String::from_utf8_lossy(&o.stderr);
-    assert_eq!(o.status.code(), Some(2), "{err}");
-    assert!(
-        o.stdout.is_empty() && err.lines().count() == 1 && err.len() < 600,
-        "{err}"
-    );
-    assert!(
-        words.iter().all(|w| err.contains(w)),
-        "{words:?} not in: {err}"
-    );
+fn refused(args: &[&str], words: &[&str]) {
+    let run = run(args);
+    let message = &run.stderr;
+    assert_eq!(run.code, Some(2), "{message}");
+    assert!(run.stdout.is_empty(), "{run:?}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    assert!(message.len() < 600, "{message}");
+
+    for word in words {
+        assert!(message.contains(word), "{word:?} not in: {message}");
+    }
 }
 
 #[test]
@@ -67,231 +55,205 @@ fn malformed_problems_are_refused_in_one_line() {
         ("reaction-outside-cone", &["E7", "particle 0", "-mu r_N"]),
         ("not-square", &["E3", "K"]),
     ];
-    let mut files: Vec<String> = std::fs::read_dir(root("tests/malformed"))
-        .unwrap()
-        .map(|e| {
-            e.unwrap()
-                .path()
-                .file_stem()
-                .unwrap()
-                .to_string_lossy()
-                .into_owned()
-        })
-        .collect();
-    files.sort();
-    let mut listed: Vec<String> = expected.iter().map(|e| e.0.to_string()).collect();
+    let mut listed: Vec<&str> = expected.iter().map(|(name, _)| *name).collect();
     listed.sort();
-    assert_eq!(files, listed, "every malformed file is tested");
+
+    assert_eq!(malformed_files(), listed, "every malformed file is tested");
+
     for (name, words) in expected {
+        let file = repository(&format!("tests/malformed/{name}.json"));
         for command in ["enumerate", "solve", "reduce"] {
-            refused(
-                &mceip(&[command, &root(&format!("tests/malformed/{name}.json"))]),
-                words,
-            );
+            refused(&[command, &file], words);
         }
     }
 }
 
+/// The names of the files of `tests/malformed`, sorted.
+fn malformed_files() -> Vec<String> {
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(repository("tests/malformed")).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_string_lossy();
+        names.push(name.into_owned());
+    }
+
+    names.sort();
+    names
+}
+
 #[test]
 fn options_and_files_are_refused_in_one_line() {
-    let file = root("spec/examples/fold.json");
-    refused(&mceip(&["enumerate", "/nowhere.json"]), &["/nowhere.json"]);
+    let fold = example("fold");
+
+    refused(&["enumerate", "/nowhere.json"], &["/nowhere.json"]);
     refused(
-        &mceip(&["enumerate", &file, "--window", "3,2"]),
+        &["enumerate", &fold, "--window", "3,2"],
         &["--window", "3,2"],
     );
+    refused(&["enumerate", &fold, "--window=-1,2"], &["--window"]);
     refused(
-        &mceip(&["enumerate", &file, "--window=-1,2"]),
-        &["--window"],
-    );
-    refused(&mceip(&["solve", &file, "--starts", "0"]), &["--starts"]);
-    refused(
-        &mceip(&["table1", "--c", "0.5", "--s", "0.5"]),
-        &["--s", "c^2 + s^2 = 1"],
-    );
-    refused(&mceip(&["table1", "--mu", "0"]), &["--mu"]);
-    refused(
-        &mceip(&["block", "--state", "16"]),
-        &["--state", "15 or 17"],
-    );
-    refused(&mceip(&["check", &file, &file]), &["mceip-certificate/1"]);
-    refused(&mceip(&["certify", &file, &file]), &["mceip-solutions/1"]);
-    refused(&mceip(&["frobnicate"]), &["frobnicate"]);
-    refused(
-        &mceip(&["solve", &file, "--starts", "many"]),
-        &["many", "--starts"],
-    );
-    refused(
-        &mceip(&["enumerate", &file, "--window", "-1,2"]),
+        &["enumerate", &fold, "--window", "-1,2"],
         &["--window", "-1,2"],
     );
-    refused(&mceip(&["table1", "--mu", "-1"]), &["--mu", "> 0"]);
+
+    refused(&["solve", &fold, "--starts", "0"], &["--starts"]);
+    refused(&["solve", &fold, "--starts", "many"], &["many", "--starts"]);
     refused(
-        &mceip(&["solve", &file, "--certificate", "/nowhere/c.json"]),
+        &["solve", &fold, "--certificate", "/nowhere/c.json"],
         &["/nowhere/c.json"],
     );
     refused(
-        &mceip(&["solve", &file, "--certificate", &file]),
+        &["solve", &fold, "--certificate", &fold],
         &["--certificate", "input"],
     );
-    assert_eq!(mceip(&["--help"]).status.code(), Some(0));
+
+    refused(
+        &["table1", "--c", "0.5", "--s", "0.5"],
+        &["--s", "c^2 + s^2 = 1"],
+    );
+    refused(&["table1", "--mu", "0"], &["--mu"]);
+    refused(&["table1", "--mu", "-1"], &["--mu", "> 0"]);
+
+    refused(&["block", "--state", "16"], &["--state", "15 or 17"]);
+    refused(&["check", &fold, &fold], &["mceip-certificate/1"]);
+    refused(&["certify", &fold, &fold], &["mceip-solutions/1"]);
+    refused(&["frobnicate"], &["frobnicate"]);
+    assert_eq!(exit_code(&["--help"]), Some(0));
 }
 
-fn scratch(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
-    let path = folder.path().join(name);
-    std::fs::write(&path, text).unwrap();
-    path
+/// A report has this claim and so many solutions.
+#[track_caller]
+fn claims(report: &Value, claim: &str, count: usize) {
+    assert_eq!(report["claim"], claim);
+    assert_eq!(report["solutions"].as_array().unwrap().len(), count);
 }
 
-/// enumerate -> certify -> check, solve -> check, a forged file -> exit 1.
+/// enumerate -> certify -> check, solve -> check, another problem -> exit 1.
 #[test]
 fn the_chain_of_commands() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
+
     for (name, count) in [
         ("two-particles", 3),
         ("two-particles-mu", 1),
         ("fold", 2),
         ("oblique", 1),
     ] {
-        let file = root(&format!("spec/examples/{name}.json"));
-        let listed = mceip(&["enumerate", &file, "--json"]);
-        assert_eq!(listed.status.code(), Some(0));
-        let json: serde_json::Value = serde_json::from_slice(&listed.stdout).unwrap();
-        assert_eq!(
-            (
-                json["claim"].as_str(),
-                json["solutions"].as_array().unwrap().len()
-            ),
-            (Some("complete"), count)
+        let problem = example(name);
+
+        let listed = exits(0, &["enumerate", &problem, "--json"]);
+        claims(&serde_json::from_str(&listed).unwrap(), "complete", count);
+        let report = folder.write("report.json", &listed);
+
+        let certificate = folder.path("certificate.json");
+        exits(0, &["certify", &problem, &report, "--out", &certificate]);
+        let accepted = exits(0, &["check", &problem, &certificate]);
+        assert!(
+            accepted.contains(&format!("ACCEPTED: {count} claim(s)")),
+            "{accepted}"
         );
-        let report = scratch(&folder, "report.json", &stdout(&listed));
-        let certificate = folder.path().join(format!("{name}.certificate.json"));
-        let (report, certificate) = (
-            report.display().to_string(),
-            certificate.display().to_string(),
-        );
-        assert_eq!(
-            mceip(&["certify", &file, &report, "--out", &certificate])
-                .status
-                .code(),
-            Some(0)
-        );
-        let accepted = mceip(&["check", &file, &certificate]);
-        assert_eq!(accepted.status.code(), Some(0));
-        assert!(stdout(&accepted).contains(&format!("ACCEPTED: {count} claim(s)")));
-        let solved = folder.path().join("solved.json").display().to_string();
-        let solve = mceip(&["solve", &file, "--all", "--json", "--certificate", &solved]);
-        assert_eq!(solve.status.code(), Some(0));
-        let json: serde_json::Value = serde_json::from_slice(&solve.stdout).unwrap();
-        assert_eq!(
-            (
-                json["claim"].as_str(),
-                json["solutions"].as_array().unwrap().len()
-            ),
-            (Some("solutions"), count)
-        );
-        assert_eq!(mceip(&["check", &file, &solved]).status.code(), Some(0));
-        assert_eq!(
-            mceip(&[
-                "check",
-                &root("spec/examples/two-particles.json"),
-                &certificate
-            ])
-            .status
-            .code(),
-            Some(i32::from(name != "two-particles"))
+
+        let solved = folder.path("solved.json");
+        let args = [
+            "solve",
+            &problem,
+            "--all",
+            "--json",
+            "--certificate",
+            &solved,
+        ];
+        claims(&exits_with_json(0, &args), "solutions", count);
+        exits(0, &["check", &problem, &solved]);
+
+        // The certificate holds for its own problem alone.
+        let expected = i32::from(name != "two-particles");
+        exits(
+            expected,
+            &["check", &example("two-particles"), &certificate],
         );
     }
+}
+
+/// The exit code of `certify` on the fold with these solutions.
+fn certify_fold(solutions: &str) -> Option<i32> {
+    let folder = Folder::new();
+    let report = folder.write("r.json", &solutions_text(solutions));
+    exit_code(&["certify", &example("fold"), &report])
 }
 
 #[test]
 fn foreign_digits_suffice_and_false_ones_do_not() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = root("spec/examples/fold.json");
-    let certify = |solutions: &str| {
-        let text = format!(r#"{{"format":"mceip-solutions/1","solutions":{solutions}}}"#);
-        mceip(&[
-            "certify",
-            &file,
-            &scratch(&folder, "r.json", &text).display().to_string(),
-        ])
-        .status
-        .code()
-    };
-    assert_eq!(
-        certify(r#"[{"value":2.00000,"x":[0.666667,0.333333]}]"#),
-        Some(0)
-    );
+    let rounded = r#"[{"value":2.00000,"x":[0.666667,0.333333]}]"#;
+    assert_eq!(certify_fold(rounded), Some(0));
+
     // No solution near 2.5; at 2 another x: both are proved, so the report is rejected.
-    assert_eq!(
-        certify(r#"[{"value":2.5,"x":[0.666667,0.333333]}]"#),
-        Some(1)
-    );
-    assert_eq!(certify(r#"[{"value":2,"x":[0.333333,0.666667]}]"#), Some(1));
-    assert_eq!(certify(r#"[{"value":2,"x":[0,0]}]"#), Some(1));
-    assert_eq!(certify("[]"), Some(3));
-    assert_eq!(certify(r#"[{"value":2,"x":[1]}]"#), Some(2));
-    assert_eq!(certify(r#"[{"value":1e999,"x":[1,1]}]"#), Some(2));
-    let foreign = r#"{"format":"mceip-solutions/1","problem_sha256":"00","solutions":[]}"#;
-    assert_eq!(
-        mceip(&[
-            "certify",
-            &file,
-            &scratch(&folder, "f.json", foreign).display().to_string()
-        ])
-        .status
-        .code(),
-        Some(1)
-    );
+    let wrong_value = r#"[{"value":2.5,"x":[0.666667,0.333333]}]"#;
+    let wrong_x = r#"[{"value":2,"x":[0.333333,0.666667]}]"#;
+    assert_eq!(certify_fold(wrong_value), Some(1));
+    assert_eq!(certify_fold(wrong_x), Some(1));
+    assert_eq!(certify_fold(r#"[{"value":2,"x":[0,0]}]"#), Some(1));
+
+    assert_eq!(certify_fold("[]"), Some(3));
+    assert_eq!(certify_fold(r#"[{"value":2,"x":[1]}]"#), Some(2));
+    assert_eq!(certify_fold(r#"[{"value":1e999,"x":[1,1]}]"#), Some(2));
+
+    let folder = Folder::new();
+    let of_another_problem =
+        r#"{"format":"mceip-solutions/1","problem_sha256":"00","solutions":[]}"#;
+    let report = folder.write("f.json", of_another_problem);
+
+    exits(1, &["certify", &example("fold"), &report]);
+}
+
+/// The values that the enumerator lists.
+fn values(problem: &str) -> Vec<String> {
+    let report: Value =
+        serde_json::from_str(&run(&["enumerate", problem, "--json"]).stdout).unwrap();
+    let solutions = report["solutions"].as_array().unwrap().iter();
+    let values = solutions.map(|solution| solution["value"].as_str().unwrap());
+
+    values.map(String::from).collect()
 }
 
 #[test]
 fn reduced_and_condensed_problems_have_the_same_solutions() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = root("spec/examples/two-particles-mu.json");
-    let values = |path: &str| {
-        let json: serde_json::Value =
-            serde_json::from_slice(&mceip(&["enumerate", path, "--json"]).stdout).unwrap();
-        json["solutions"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|s| s["value"].as_str().unwrap().to_string())
-            .collect::<Vec<_>>()
-    };
-    let direct = values(&file);
-    assert_eq!(direct, vec!["1.920286436967152"]); // sqrt(59)/5 / (4/5) = sqrt(59)/4
-    for extra in [&["reduce", &file][..], &["reduce", &file, "--condense"]] {
-        let path = scratch(&folder, "reduced.json", &stdout(&mceip(extra)));
-        assert_eq!(values(&path.display().to_string()), direct);
+    let folder = Folder::new();
+    let problem = example("two-particles-mu");
+
+    // sqrt(59)/5 / (4/5) = sqrt(59)/4
+    let direct = values(&problem);
+    assert_eq!(direct, ["1.920286436967152"]);
+
+    for args in [
+        &["reduce", &problem][..],
+        &["reduce", &problem, "--condense"],
+    ] {
+        let reduced = folder.write("reduced.json", &run(args).stdout);
+        assert_eq!(values(&reduced), direct);
     }
+
     refused(
-        &mceip(&[
-            "reduce",
-            &root("spec/examples/two-particles.json"),
-            "--condense",
-        ]),
+        &["reduce", &example("two-particles"), "--condense"],
         &["E16", "lambda2"],
     );
 }
 
 #[test]
 fn table1_agrees_and_verify_ends_with_a_verdict() {
-    let table = mceip(&["table1"]);
-    assert_eq!(table.status.code(), Some(0));
-    assert!(stdout(&table).contains("closed form = enumerator = certified"));
+    let table = exits(0, &["table1"]);
     assert!(
-        stdout(&mceip(&["table1", "--c", "0", "--s", "1"]))
-            .lines()
-            .filter(|l| l.contains("[0, 1]"))
-            .count()
-            == 2
+        table.contains("closed form = enumerator = certified"),
+        "{table}"
     );
-    let verify = mceip(&["verify", "--random", "4", "--json"]);
-    assert_eq!(verify.status.code(), Some(0));
-    let json: serde_json::Value = serde_json::from_slice(&verify.stdout).unwrap();
-    assert_eq!(json["disagreements"], 0);
-    assert!(json["verdict"].as_str().unwrap().starts_with("VERIFIED"));
+
+    let table = run(&["table1", "--c", "0", "--s", "1"]).stdout;
+    let all_slip = table.lines().filter(|line| line.contains("[0, 1]"));
+    assert_eq!(all_slip.count(), 2, "{table}");
+
+    let report = exits_with_json(0, &["verify", "--random", "4", "--json"]);
+    let verdict = report["verdict"].as_str().unwrap();
+    assert_eq!(report["disagreements"], 0);
+    assert!(verdict.starts_with("VERIFIED"), "{verdict}");
 }
 
 #[cfg(unix)]
@@ -299,18 +261,20 @@ fn table1_agrees_and_verify_ends_with_a_verdict() {
 fn an_interrupt_keeps_what_was_found() {
     let child = Command::new(env!("CARGO_BIN_EXE_mceip"))
         .arg("verify")
-        .stdout(std::process::Stdio::piped())
+        .stdout(Stdio::piped())
         .spawn()
         .unwrap();
-    std::thread::sleep(std::time::Duration::from_secs(3));
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &child.id().to_string()])
-            .status()
-            .unwrap()
-            .success()
-    );
+    std::thread::sleep(Duration::from_secs(3));
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+
+    assert!(kill.success());
+
     let output = child.wait_with_output().unwrap();
+
+    let text = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(130));
-    assert!(stdout(&output).contains("INTERRUPTED: no disagreement"));
+    assert!(text.contains("INTERRUPTED: no disagreement"), "{text}");
 }

@@ -1,103 +1,145 @@
 //! The conformance pack and `mceip conform`: the committed pack is the regenerated one, right
 //! answers are called correct and wrong ones are not, foreign programs of every kind get the right
 //! labels.
+//!
+//! The exact answer of each case is known. It is written in other ways, which must stay correct,
+//! and falsified in every way of [`Bug`], each with its expected label; `certify`, `check` and the
+//! enumerator refute it by their own means.
 #![cfg(feature = "cli")]
 
-use crate::program::{Folder, mceip, refused};
+use crate::common::{read, repository, run};
+use crate::program::{Folder, refused};
 use mceip_engine::foreign::{Effort, ForeignReport, Verdict, judge};
 use mceip_testkit::conform::{Bug, Case, Flag, Label, groups, pack_files};
 use rayon::prelude::*;
 use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
-
-fn root(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
 
 /// `mceip conform --write spec/conformance-pack` after a change of the groups, and look at the
 /// difference.
 #[test]
 fn the_committed_pack_is_the_regenerated_one() {
     let files = pack_files(&groups().unwrap()).unwrap();
-    let folder = root("spec/conformance-pack");
-    let there: BTreeSet<String> = std::fs::read_dir(&folder)
-        .unwrap()
-        .map(|e| e.unwrap().file_name().into_string().unwrap())
+
+    let committed = std::fs::read_dir(repository("spec/conformance-pack")).unwrap();
+    let committed: BTreeSet<String> = committed
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
-    assert_eq!(there, files.iter().map(|f| f.0.clone()).collect());
-    let bytes: usize = files.iter().map(|f| f.1.len()).sum();
-    assert!(bytes < 3_000_000, "{bytes}");
+    let regenerated: BTreeSet<String> = files.iter().map(|(name, _)| name.clone()).collect();
+
+    assert_eq!(committed, regenerated);
+
+    let mut bytes = 0;
     for (name, text) in &files {
-        assert!(
-            std::fs::read_to_string(folder.join(name)).unwrap() == *text,
-            "{name} differs: mceip conform --write"
-        );
+        let committed = read(&repository(&format!("spec/conformance-pack/{name}")));
+        assert!(committed == *text, "{name} differs: mceip conform --write");
+        bytes += text.len();
     }
-    let index: Value = serde_json::from_str(&files.last().unwrap().1).unwrap();
-    let missing: Vec<&str> = Flag::ALL
-        .iter()
-        .map(|f| f.word())
-        .filter(|w| index["flags"][w].is_null())
-        .collect();
-    assert!(missing.is_empty(), "no case for {missing:?}");
+
+    assert!(bytes < 3_000_000, "{bytes}");
+
+    let (_, index) = files.last().unwrap();
+    let index: Value = serde_json::from_str(index).unwrap();
+
+    for flag in Flag::ALL {
+        let word = flag.word();
+        assert!(!index["flags"][word].is_null(), "no case for {word}");
+    }
 }
 
+/// All cases of the pack with their exact answers.
 fn cases() -> Vec<Case> {
-    let drafts: Vec<_> = groups()
-        .unwrap()
-        .into_iter()
-        .flat_map(|g| g.drafts)
-        .collect();
+    let groups = groups().unwrap();
+    let drafts: Vec<_> = groups.into_iter().flat_map(|group| group.drafts).collect();
     drafts
         .par_iter()
-        .map(|d| Case::answer(d, false).unwrap())
+        .map(|draft| Case::answer(draft, false).unwrap())
         .collect()
+}
+
+/// A report on a case with these solutions and the continua of the exact answer.
+fn report(answer: &Value, solutions: &[Value]) -> String {
+    let report = json!({
+        "format": "mceip-solutions/1",
+        "solutions": solutions,
+        "continua": answer["continua"],
+    });
+
+    report.to_string()
+}
+
+#[track_caller]
+fn is_judged_correct(case: &Case, report: &str) {
+    let judged = case.judge(report);
+    assert_eq!(
+        judged.label,
+        Label::Correct,
+        "{}: {}",
+        case.id,
+        judged.detail
+    );
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_str().unwrap().parse().unwrap()
+}
+
+/// Value and x of a solution, x three times as long.
+fn scaled(solution: &Value) -> Value {
+    let x = solution["x"].as_array().unwrap();
+    let scaled: Vec<f64> = x.iter().map(|entry| 3.0 * number(entry)).collect();
+    json!({ "value": solution["value"], "x": scaled })
+}
+
+/// Value and x of a solution to six digits.
+fn rounded(solution: &Value) -> Value {
+    let x = solution["x"].as_array().unwrap();
+    let rounded: Vec<String> = x.iter().map(six_digits).collect();
+    json!({ "value": six_digits(&solution["value"]), "x": rounded })
+}
+
+fn six_digits(value: &Value) -> String {
+    format!("{:.5e}", number(value))
 }
 
 /// The exact answer, the same with value and x alone, in reverse, twice and in another scale.
 #[test]
 fn right_answers_are_correct_in_any_order_and_scale() {
     let all = cases();
-    let ids = all.par_iter().map(|case| {
+
+    all.par_iter().for_each(|case| {
         let answer = case.answer_json();
-        let full = case.judge(&answer.to_string());
-        assert_eq!(full.label, Label::Correct, "{}: {}", case.id, full.detail);
-        let bare = |s: &Value| {
-            let scaled: Vec<f64> = s["x"].as_array().unwrap().iter().map(|v| 3.0 * v.as_str().unwrap().parse::<f64>().unwrap()).collect();
-            json!({ "value": s["value"], "x": scaled })
-        };
-        let mut solutions: Vec<Value> = answer["solutions"].as_array().unwrap().iter().map(bare).collect();
-        solutions.reverse();
-        solutions.extend(solutions.clone());
-        let report = json!({ "format": "mceip-solutions/1", "solutions": solutions, "continua": answer["continua"] });
-        let judged = case.judge(&report.to_string());
-        assert_eq!(judged.label, Label::Correct, "{}: {}", case.id, judged.detail);
-        case.id.clone()
+        is_judged_correct(case, &answer.to_string());
+
+        let listed = answer["solutions"].as_array().unwrap();
+        let reversed: Vec<Value> = listed.iter().rev().map(scaled).collect();
+        let twice = [reversed.clone(), reversed].concat();
+        is_judged_correct(case, &report(&answer, &twice));
     });
-    let ids: BTreeSet<String> = ids.collect();
+
+    let ids: BTreeSet<&String> = all.iter().map(|case| &case.id).collect();
     assert_eq!(ids.len(), all.len(), "every id once");
 }
 
 /// Six digits suffice where the flags do not say that they cannot.
 #[test]
 fn six_digits_are_enough_away_from_close_values() {
-    let all = cases();
-    let count = all.par_iter().map(|case| {
-        if [Flag::CloseValues, Flag::TinyComponent, Flag::NearThreshold].iter().any(|f| case.flags.contains(f)) {
-            return 0usize;
-        }
-        let answer = case.answer_json();
-        let six = |v: &Value| format!("{:.5e}", v.as_str().unwrap().parse::<f64>().unwrap());
-        let bare = |s: &Value| json!({ "value": six(&s["value"]), "x": s["x"].as_array().unwrap().iter().map(six).collect::<Vec<_>>() });
-        let solutions: Vec<Value> = answer["solutions"].as_array().unwrap().iter().map(bare).collect();
-        // Rounded into the window's outside by the last digit: the closed end itself.
-        let report = json!({ "format": "mceip-solutions/1", "solutions": solutions, "continua": answer["continua"] });
-        let judged = case.judge(&report.to_string());
-        assert_eq!(judged.label, Label::Correct, "{}: {}", case.id, judged.detail);
-        1
+    let mut all = cases();
+    all.retain(|case| {
+        let needs_more = [Flag::CloseValues, Flag::TinyComponent, Flag::NearThreshold];
+        !needs_more.iter().any(|flag| case.flags.contains(flag))
     });
-    assert!(count.sum::<usize>() > 150);
+
+    assert!(all.len() > 150, "{}", all.len());
+
+    // A value at a closed end of the window may be rounded to the outside: it counts as the end.
+    all.par_iter().for_each(|case| {
+        let answer = case.answer_json();
+        let listed = answer["solutions"].as_array().unwrap();
+        let rounded: Vec<Value> = listed.iter().map(rounded).collect();
+        is_judged_correct(case, &report(&answer, &rounded));
+    });
 }
 
 /// Every wrong answer gets its label, and what is false in it is refuted by certify, check and
@@ -105,165 +147,185 @@ fn six_digits_are_enough_away_from_close_values() {
 #[test]
 fn wrong_answers_are_rejected() {
     let all = cases();
-    let counts = all.par_iter().map(|case| {
-        let mut seen: BTreeMap<Bug, usize> = BTreeMap::new();
-        for wrong in case.wrong_answers() {
-            let text = wrong.report.to_string();
-            let judged = case.judge(&text);
-            assert_eq!(
-                judged.label,
-                wrong.bug.expected(),
-                "{} {:?}: {}",
-                case.id,
-                wrong.bug,
-                judged.detail
-            );
-            *seen.entry(wrong.bug).or_default() += 1;
-            let report = ForeignReport::read(&text, &case.problem, &case.reduced).unwrap();
-            if wrong.bug.expected() == Label::Wrong && wrong.bug != Bug::EndlessContinuum {
-                let verdict = judge(
-                    &case.problem,
-                    &case.reduced,
-                    report.solutions[0].as_ref().unwrap(),
-                    1e-6,
-                    &mut Effort::default(),
-                );
-                // (1, 0) at t = 1 + 1e-5 is wrong, and as near to the solution (1, 1e-5) at t = 1
-                // as its rounding would be.
-                let rounding = case.flags.contains(&Flag::TinyComponent)
-                    && matches!(verdict, Verdict::Undecided { .. });
-                assert!(
-                    rounding
-                        || matches!(verdict, Verdict::Rejected(_) | Verdict::Inaccurate { .. }),
-                    "{} {:?}: {verdict:?}",
-                    case.id,
-                    wrong.bug
-                );
-            }
-        }
-        seen
-    });
-    let total = counts.reduce(BTreeMap::new, |mut a, b| {
-        b.into_iter()
-            .for_each(|(bug, n)| *a.entry(bug).or_default() += n);
-        a
-    });
-    assert_eq!(total.len(), 11, "every kind of bug: {total:?}");
-    assert!(total.values().sum::<usize>() > 500, "{total:?}");
+    let bugs: Vec<Vec<Bug>> = all.par_iter().map(wrong_answers_of_a_case).collect();
+
+    let mut counts: BTreeMap<Bug, usize> = BTreeMap::new();
+    for bug in bugs.into_iter().flatten() {
+        *counts.entry(bug).or_default() += 1;
+    }
+
+    let total: usize = counts.values().sum();
+    assert_eq!(counts.len(), 11, "every kind of bug: {counts:?}");
+    assert!(total > 500, "{counts:?}");
 }
 
-fn conform(options: &[&str], command: &[&str]) -> (i32, String) {
-    let out = mceip(&[&["conform"][..], options, &["--"], command].concat());
-    (
-        out.status.code().unwrap(),
-        String::from_utf8(out.stdout).unwrap(),
-    )
+/// Judges the wrong answers of a case; the kind of each.
+fn wrong_answers_of_a_case(case: &Case) -> Vec<Bug> {
+    let mut bugs = Vec::new();
+
+    for wrong in case.wrong_answers() {
+        let bug = wrong.bug;
+        let text = wrong.report.to_string();
+        let judged = case.judge(&text);
+
+        assert_eq!(
+            judged.label,
+            bug.expected(),
+            "{} {bug:?}: {}",
+            case.id,
+            judged.detail
+        );
+
+        let report = ForeignReport::read(&text, &case.problem, &case.reduced).unwrap();
+        if bug.expected() == Label::Wrong && bug != Bug::EndlessContinuum {
+            first_solution_is_refuted(case, bug, &report);
+        }
+
+        bugs.push(bug);
+    }
+    bugs
+}
+
+fn first_solution_is_refuted(case: &Case, bug: Bug, report: &ForeignReport) {
+    let solution = report.solutions[0].as_ref().unwrap();
+    let mut effort = Effort::default();
+    let verdict = judge(&case.problem, &case.reduced, solution, 1e-6, &mut effort);
+
+    // (1, 0) at t = 1 + 1e-5 is wrong, and as near to the solution (1, 1e-5) at t = 1 as its
+    // rounding would be.
+    let is_refuted = match verdict {
+        Verdict::Rejected(_) | Verdict::Inaccurate { .. } => true,
+        Verdict::Undecided { .. } => case.flags.contains(&Flag::TinyComponent),
+        _ => false,
+    };
+
+    assert!(is_refuted, "{} {bug:?}: {verdict:?}", case.id);
+}
+
+/// The end of `conform` on a program.
+#[derive(Debug, PartialEq)]
+struct Conformed {
+    code: Option<i32>,
+    text: String,
+}
+
+impl Conformed {
+    /// The text is a JSON report.
+    #[track_caller]
+    fn report(&self) -> Value {
+        serde_json::from_str(&self.text).unwrap()
+    }
+}
+
+fn conform(options: &[&str], command: &[&str]) -> Conformed {
+    let run = run(&[&["conform"][..], options, &["--"], command].concat());
+    Conformed {
+        code: run.code,
+        text: run.stdout,
+    }
 }
 
 #[test]
 fn our_own_programs_conform() {
     let ours = env!("CARGO_BIN_EXE_mceip");
-    let (code, text) = conform(&[], &[ours, "enumerate", "-", "--json"]);
-    assert_eq!(code, 0, "{text}");
-    let (_, text) = conform(
-        &["--only", "fold", "--only", "threshold", "--json"],
-        &[ours, "solve", "-", "--json"],
-    );
-    let report: Value = serde_json::from_str(&text).unwrap();
-    assert!(
-        report["labels"]["wrong"].is_null() && report["labels"]["correct"].as_u64().unwrap() > 10,
-        "{text}"
-    );
-    assert!(
-        report["labels"]["crashed"].is_null() && report["labels"]["malformed"].is_null(),
-        "{text}"
-    );
+    let enumerator = conform(&[], &[ours, "enumerate", "-", "--json"]);
+    assert_eq!(enumerator.code, Some(0), "{enumerator:?}");
+
+    let options = ["--only", "fold", "--only", "threshold", "--json"];
+    let solver = conform(&options, &[ours, "solve", "-", "--json"]);
+    let labels = &solver.report()["labels"];
+
+    assert!(labels["correct"].as_u64().unwrap() > 10, "{solver:?}");
+    for label in ["wrong", "crashed", "malformed"] {
+        assert!(labels[label].is_null(), "{label}: {solver:?}");
+    }
 }
+
+/// A line of the shell that prints a report of another version.
+#[cfg(unix)]
+const OTHER_FORMAT: &str = r#"echo '{"format":"mceip-solutions/2","solutions":[]}'"#;
+/// One that prints an x of the wrong length.
+#[cfg(unix)]
+const SHORT_X: &str = r#"echo '{"format":"mceip-solutions/1","solutions":[{"value":1,"x":[1]}]}'"#;
+/// One that prints a number beyond doubles.
+#[cfg(unix)]
+const HUGE_VALUE: &str =
+    r#"echo '{"format":"mceip-solutions/1","solutions":[{"value":1e999,"x":[1,1]}]}'"#;
+/// One that prints a report without solutions.
+#[cfg(unix)]
+const NOTHING_FOUND: &str = r#"echo '{"format":"mceip-solutions/1","solutions":[]}'"#;
+/// One that prints a report on another problem.
+#[cfg(unix)]
+const OTHER_PROBLEM: &str =
+    r#"echo '{"format":"mceip-solutions/1","problem_sha256":"00","solutions":[]}'"#;
 
 /// One label for all of a few cases, whatever the program does.
 #[cfg(unix)]
 #[test]
 fn hostile_programs_get_their_labels() {
     let only = ["--only", "window_end", "--time-limit", "0.5", "--json"];
+
     for (script, label) in [
         ("cat > /dev/null; echo nonsense", "malformed"),
         ("true", "malformed"),
-        (
-            "echo '{\"format\":\"mceip-solutions/2\",\"solutions\":[]}'",
-            "malformed",
-        ),
-        (
-            "echo '{\"format\":\"mceip-solutions/1\",\"solutions\":[{\"value\":1,\"x\":[1]}]}'",
-            "malformed",
-        ),
-        (
-            "echo '{\"format\":\"mceip-solutions/1\",\"solutions\":[{\"value\":1e999,\"x\":[1,1]}]}'",
-            "malformed",
-        ),
+        (OTHER_FORMAT, "malformed"),
+        (SHORT_X, "malformed"),
+        (HUGE_VALUE, "malformed"),
         ("yes", "malformed"),
         ("printf '\\377'", "malformed"),
         ("cat; exit 1", "crashed"),
         ("kill -11 $$", "crashed"),
         ("exec sleep 60", "timed out"),
-        (
-            "echo '{\"format\":\"mceip-solutions/1\",\"solutions\":[]}'",
-            "incomplete",
-        ),
-        (
-            "echo '{\"format\":\"mceip-solutions/1\",\"problem_sha256\":\"00\",\"solutions\":[]}'",
-            "wrong",
-        ),
+        (NOTHING_FOUND, "incomplete"),
+        (OTHER_PROBLEM, "wrong"),
     ] {
-        let (code, text) = conform(&only, &["sh", "-c", script]);
-        let report: Value = serde_json::from_str(&text).unwrap();
-        assert_eq!(code, 1, "{script}: {text}");
-        assert!(
-            report["cases"].as_u64().unwrap() > 4 && report["labels"][label] == report["cases"],
-            "{script}: {text}"
-        );
+        let ended = conform(&only, &["sh", "-c", script]);
+        let report = ended.report();
+
+        let cases = report["cases"].as_u64().unwrap();
+        assert_eq!(ended.code, Some(1), "{script}: {ended:?}");
+        assert!(cases > 4, "{script}: {ended:?}");
+        assert_eq!(report["labels"][label], cases, "{script}: {ended:?}");
     }
+}
+
+/// Options for thirty random problems of a seed, whose table goes to a page.
+#[cfg(unix)]
+fn random_cases<'a>(threads: &'a str, seed: &'a str, page: &'a str) -> [&'a str; 10] {
+    [
+        "--threads",
+        threads,
+        "--count",
+        "30",
+        "--seed",
+        seed,
+        "--only",
+        "random",
+        "--markdown",
+        page,
+    ]
 }
 
 #[cfg(unix)]
 #[test]
 fn threads_do_not_change_the_output() {
-    let program = [
-        "sh",
-        "-c",
-        "echo '{\"format\":\"mceip-solutions/1\",\"solutions\":[]}'",
-    ];
+    let program = ["sh", "-c", NOTHING_FOUND];
     let folder = Folder::new();
-    let run = |threads: &str| {
-        let page = folder.path(threads);
-        let text = conform(
-            &[
-                "--threads",
-                threads,
-                "--count",
-                "30",
-                "--seed",
-                "7",
-                "--only",
-                "random",
-                "--markdown",
-                &page,
-            ],
-            &program,
-        );
-        (text, std::fs::read_to_string(&page).unwrap())
-    };
-    let (one, four) = (run("1"), run("4"));
-    assert_eq!(one, four);
-    assert!(
-        one.0.1.contains("126 cases") && one.1.contains("| random | 126 |"),
-        "{}",
-        one.0.1
-    );
-    let other = conform(
-        &["--count", "30", "--seed", "8", "--only", "random"],
-        &program,
-    );
-    assert_ne!(one.0.1, other.1, "another seed, other cases");
+    let first_page = folder.path("one.md");
+    let second_page = folder.path("four.md");
+    let third_page = folder.path("other.md");
+
+    let by_one = conform(&random_cases("1", "7", &first_page), &program);
+    let by_four = conform(&random_cases("4", "7", &second_page), &program);
+    assert_eq!(by_one, by_four);
+    assert!(by_one.text.contains("126 cases"), "{by_one:?}");
+
+    let page = read(&first_page);
+    assert_eq!(page, read(&second_page));
+    assert!(page.contains("| random | 126 |"), "{page}");
+
+    let other = conform(&random_cases("1", "8", &third_page), &program);
+    assert_ne!(by_one.text, other.text, "another seed, other cases");
 }
 
 #[test]
@@ -287,66 +349,71 @@ fn bad_usage_and_damaged_packs_are_refused() {
         &["conform", "--pack", "/nowhere", "--", "true"],
         &["index.json"],
     );
-    let folder = Folder::new();
-    let pack = folder.path("");
-    let write = |group: &str, digest: bool, name: &str| {
-        use sha2::{Digest, Sha256};
-        let sum: String = Sha256::digest(group)
-            .iter()
-            .map(|b| format!("{b:02x}"))
-            .collect();
-        let sum = if digest { sum } else { "0".repeat(64) };
-        let entry = json!({ "file": name, "comment": "", "cases": 1, "wrong": 0, "sha256": sum });
-        let index = json!({ "format": "mceip-pack-index/1", "cases": 1, "groups": [entry], "flags": {}, "bugs": {} });
+
+    let good = read(&repository("spec/conformance-pack/folds.json"));
+    let digest = sha256(&good);
+    let undamaged = Pack::of("folds.json", &good, &digest);
+    let ours = [env!("CARGO_BIN_EXE_mceip"), "enumerate", "-", "--json"];
+    let ended = conform(&["--pack", &undamaged.0.path("")], &ours);
+
+    assert_eq!(ended.code, Some(0), "{ended:?}");
+
+    let other_digest = Pack::of("folds.json", &good, &"0".repeat(64));
+    other_digest.is_refused(&["folds.json", "sha256"]);
+
+    let outside = Pack::of("../folds.json", &good, &digest);
+    outside.is_refused(&["../folds.json"]);
+
+    let kernel = "\"kernel_dimension\":1";
+    assert!(good.contains(kernel));
+
+    let other_answer = good.replacen(kernel, "\"kernel_dimension\":2", 1);
+    Pack::of("folds.json", &other_answer, &sha256(&other_answer))
+        .is_refused(&["fold-00", "not the exact one"]);
+
+    let other_flag = good.replacen("\"fold\"", "\"unfold\"", 1);
+    Pack::of("folds.json", &other_flag, &sha256(&other_flag)).is_refused(&["unfold"]);
+
+    let cut = &good[..good.len() / 2];
+    Pack::of("folds.json", cut, &sha256(cut)).is_refused(&["folds.json", "line"]);
+}
+
+fn sha256(text: &str) -> String {
+    let bytes = Sha256::digest(text);
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A folder with a pack of one group.
+struct Pack(Folder);
+
+impl Pack {
+    /// The group stands in `folds.json`; the index says this name and this digest.
+    fn of(name: &str, group: &str, digest: &str) -> Pack {
+        let entry = json!({
+            "file": name,
+            "comment": "",
+            "cases": 1,
+            "wrong": 0,
+            "sha256": digest,
+        });
+        let index = json!({
+            "format": "mceip-pack-index/1",
+            "cases": 1,
+            "groups": [entry],
+            "flags": {},
+            "bugs": {},
+        });
+
+        let folder = Folder::new();
         folder.write("index.json", &index.to_string());
         folder.write("folds.json", group);
-    };
-    let good = std::fs::read_to_string(root("spec/conformance-pack/folds.json")).unwrap();
-    write(&good, true, "folds.json");
-    assert_eq!(
-        mceip(&[
-            "conform",
-            "--pack",
-            &pack,
-            "--",
-            env!("CARGO_BIN_EXE_mceip"),
-            "enumerate",
-            "-",
-            "--json"
-        ])
-        .status
-        .code(),
-        Some(0)
-    );
-    write(&good, false, "folds.json");
-    refused(
-        &["conform", "--pack", &pack, "--", "true"],
-        &["folds.json", "sha256"],
-    );
-    write(&good, true, "../folds.json");
-    refused(
-        &["conform", "--pack", &pack, "--", "true"],
-        &["../folds.json"],
-    );
-    assert!(good.contains("\"kernel_dimension\":1"));
-    write(
-        &good.replacen("\"kernel_dimension\":1", "\"kernel_dimension\":2", 1),
-        true,
-        "folds.json",
-    );
-    refused(
-        &["conform", "--pack", &pack, "--", "true"],
-        &["fold-00", "not the exact one"],
-    );
-    write(
-        &good.replacen("\"fold\"", "\"unfold\"", 1),
-        true,
-        "folds.json",
-    );
-    refused(&["conform", "--pack", &pack, "--", "true"], &["unfold"]);
-    write(&good[..good.len() / 2], true, "folds.json");
-    refused(
-        &["conform", "--pack", &pack, "--", "true"],
-        &["folds.json", "line"],
-    );
+
+        Pack(folder)
+    }
+
+    #[track_caller]
+    fn is_refused(&self, words: &[&str]) {
+        let path = self.0.path("");
+        refused(&["conform", "--pack", &path, "--", "true"], words);
+    }
 }

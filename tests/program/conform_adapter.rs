@@ -1,5 +1,6 @@
 //! The worked example `spec/examples/adapter.py` through `mceip conform`: right where floats
-//! suffice, not on degenerate cases; broken adapters get the right labels. Needs python3 with numpy.
+//! suffice, not on degenerate cases; broken adapters get the right labels. Needs python3 with
+//! numpy.
 //!
 //! The answers of the cases are exact and known, and each fault is built into the adapter by one
 //! change of its source; a label that does not fit the fault fails.

@@ -1,4 +1,7 @@
 //! The programs of `examples/` run and say what their text promises.
+//!
+//! Their problem has the solutions lambda^2 = 2 and 3; a program that no longer compiles, fails, or
+//! prints something else is noticed.
 #![cfg(feature = "cli")]
 
 use std::process::Command;
@@ -11,6 +14,7 @@ fn output(example: &str) -> String {
         .output()
         .unwrap();
     let complaint = String::from_utf8_lossy(&run.stderr);
+
     assert!(run.status.success(), "{example}: {complaint}");
     String::from_utf8(run.stdout).unwrap()
 }
@@ -19,7 +23,9 @@ fn output(example: &str) -> String {
 fn the_first_program_is_short_and_finds_both_solutions() {
     let source = include_str!("../../examples/first_program.rs");
     let body = source.split_once("fn main").unwrap().1;
-    let statements = body.lines().filter(|l| l.trim_end().ends_with([';', '{']));
+    let statements = body
+        .lines()
+        .filter(|line| line.trim_end().ends_with([';', '{']));
 
     assert!(statements.count() <= 10);
     assert_eq!(

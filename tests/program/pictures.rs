@@ -1,7 +1,13 @@
 //! Pictures and reports from outside: what is drawn is the data, nothing comes from the net, and
 //! files appear whole or not at all.
+//!
+//! A picture is read back as XML: its marks, points and attributes must be the numbers it was made
+//! from, inside the paper. A mark too many, a curve of other data or a word that leaves the paper
+//! fails.
 #![cfg(feature = "cli")]
 
+use crate::common::{exit_code, exits_with_json, read};
+use crate::program::{Folder, refused};
 use mceip::picture::{
     BranchPoint, Branches, CostSeries, Mark, Mode, Picture, Threshold, ThresholdColumn,
     branch_picture, cost_picture, mode_picture, path_picture, table1_picture, threshold_picture,
@@ -9,38 +15,50 @@ use mceip::picture::{
 use mceip_exact::to_f64;
 use mceip_model::ContactState;
 use mceip_paper::path::{Contact, Loading, LoadingPath};
-use mceip_paper::{Block, BlockModel};
+use mceip_paper::{Block, BlockModel, Triangulation};
 use roxmltree::{Document, Node};
 use serde_json::Value;
 use std::ops::ControlFlow;
-use std::path::Path;
-use std::process::{Command, Output};
 
 fn small() -> BlockModel {
     BlockModel::of_the_paper().with_cells(6, 3)
 }
 
 fn path() -> LoadingPath {
-    let contact = Contact::of(&Block::new(&small()).unwrap()).unwrap();
-    LoadingPath::follow(&contact, &Loading::of_the_paper(), &|_, _| {
-        ControlFlow::Continue(())
-    })
-    .unwrap()
+    let block = Block::new(&small()).unwrap();
+    let contact = Contact::of(&block).unwrap();
+    let loading = Loading::of_the_paper();
+
+    LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap()
 }
 
+/// The elements that have this class, perhaps among others.
 fn of_class<'a>(tree: &'a Document<'_>, class: &str) -> Vec<Node<'a, 'a>> {
-    let has = |n: &Node<'_, '_>| {
-        n.attribute("class")
-            .is_some_and(|c| c.split(' ').any(|c| c == class))
-    };
-    tree.descendants().filter(has).collect()
+    let mut nodes = Vec::new();
+    for node in tree.descendants() {
+        let classes = node.attribute("class").unwrap_or_default();
+        if classes.split(' ').any(|word| word == class) {
+            nodes.push(node);
+        }
+    }
+    nodes
 }
 
+/// How many elements have this class.
+fn count(tree: &Document<'_>, class: &str) -> usize {
+    of_class(tree, class).len()
+}
+
+/// An attribute of each element, as a number.
 fn data(nodes: &[Node<'_, '_>], name: &str) -> Vec<f64> {
-    nodes
-        .iter()
-        .map(|n| n.attribute(name).unwrap().parse().unwrap())
-        .collect()
+    let values = nodes.iter().map(|node| node.attribute(name).unwrap());
+    values.map(|value| value.parse().unwrap()).collect()
+}
+
+/// An attribute as a number, if there is one.
+fn number(node: &Node<'_, '_>, name: &str) -> Option<f64> {
+    let value = node.attribute(name)?;
+    value.parse().ok()
 }
 
 /// Well-formed, inside its paper, and (with the feature) drawn as PNG of twice the size.
@@ -48,66 +66,78 @@ fn data(nodes: &[Node<'_, '_>], name: &str) -> Vec<f64> {
 fn sound(picture: &Picture) -> String {
     let text = picture.to_svg();
     let tree = Document::parse(&text).unwrap();
-    let (width, height) = picture.size();
-    let number =
-        |n: &Node<'_, '_>, name: &str| n.attribute(name).and_then(|v| v.parse::<f64>().ok());
-    for node in tree
-        .descendants()
-        .filter(|n| n.attribute("transform").is_none())
-    {
-        for (name, limit) in [
-            ("x", width),
-            ("cx", width),
-            ("x1", width),
-            ("x2", width),
-            ("y", height),
-            ("cy", height),
-            ("y1", height),
-        ] {
-            assert!(
-                number(&node, name).is_none_or(|v| (0.0..=limit).contains(&v)),
-                "{name} of {:?} leaves the paper",
-                node.tag_name()
-            );
+
+    for node in tree.descendants() {
+        if node.attribute("transform").is_some() {
+            continue;
+        }
+
+        is_inside_its_paper(&node, picture.size());
+        if node.has_tag_name("text") {
+            word_fits(&node, picture.size());
         }
     }
-    // Every word fits: at most 0.65 of its height a letter, which is wide for the font.
-    for node in tree
-        .descendants()
-        .filter(|n| n.has_tag_name("text") && n.attribute("transform").is_none())
-    {
-        let (x, size) = (
-            number(&node, "x").unwrap(),
-            number(&node, "font-size").unwrap_or(13.0),
-        );
-        let length = 0.65 * size * node.text().unwrap_or_default().chars().count() as f64;
-        let (from, to) = match node.attribute("text-anchor") {
-            Some("middle") => (x - length / 2.0, x + length / 2.0),
-            Some("end") => (x - length, x),
-            _ => (x, x + length),
-        };
-        assert!(
-            from > -1.0 && to < width + 1.0,
-            "{:?} from {from} to {to} of {width}",
-            node.text()
-        );
-    }
+
     #[cfg(feature = "png")]
     assert_png_of_twice_the_size(picture);
     text
+}
+
+/// The coordinates of an element lie on the paper.
+#[track_caller]
+fn is_inside_its_paper(node: &Node<'_, '_>, (width, height): (f64, f64)) {
+    for (name, limit) in [
+        ("x", width),
+        ("cx", width),
+        ("x1", width),
+        ("x2", width),
+        ("y", height),
+        ("cy", height),
+        ("y1", height),
+    ] {
+        let is_inside = number(node, name).is_none_or(|value| (0.0..=limit).contains(&value));
+        assert!(
+            is_inside,
+            "{name} of {:?} leaves the paper",
+            node.tag_name()
+        );
+    }
+}
+
+/// A word does not leave the paper, where a letter takes 0.65 of its height: that is wide for the
+/// font.
+#[track_caller]
+fn word_fits(node: &Node<'_, '_>, (width, _): (f64, f64)) {
+    let x = number(node, "x").unwrap();
+    let size = number(node, "font-size").unwrap_or(13.0);
+    let letters = node.text().unwrap_or_default().chars().count();
+    let length = 0.65 * size * letters as f64;
+
+    let from = match node.attribute("text-anchor") {
+        Some("middle") => x - length / 2.0,
+        Some("end") => x - length,
+        _ => x,
+    };
+    let to = from + length;
+
+    assert!(
+        from > -1.0 && to < width + 1.0,
+        "{:?} from {from} to {to} of {width}",
+        node.text()
+    );
 }
 
 #[cfg(feature = "png")]
 fn assert_png_of_twice_the_size(picture: &Picture) {
     let (width, height) = picture.size();
     let png = picture.to_png(2.0).unwrap();
-    let side = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
 
+    // The header of a PNG has its width and its height from bytes 16 and 20 on.
+    let png_width = u32::from_be_bytes(png[16..20].try_into().unwrap());
+    let png_height = u32::from_be_bytes(png[20..24].try_into().unwrap());
     assert!(png.starts_with(b"\x89PNG"));
-    assert_eq!(
-        (side(16), side(20)),
-        ((2.0 * width).ceil() as u32, (2.0 * height).ceil() as u32)
-    );
+    assert_eq!(png_width, (2.0 * width).ceil() as u32);
+    assert_eq!(png_height, (2.0 * height).ceil() as u32);
 }
 
 #[test]
@@ -124,48 +154,46 @@ fn a_mode_has_the_mark_of_every_node_and_every_edge() {
         ContactState::Free,
     ];
     let marks = Mark::of_mode(&states, &[0, 2, 3]);
-    let mut displacement = vec![0.0; 2 * mesh.nodes.iter().flatten().count()];
-    let third = mesh.nodes[mesh.contact[4]].unwrap();
-    displacement[2 * third] = -1.0;
-    let picture = mode_picture(
-        "a < b & c",
-        &Mode {
-            mesh: &mesh,
-            displacement: &displacement,
-            marks: &marks,
-        },
-    );
-    let text = sound(&picture);
+
+    let text = sound(&picture_of_one_moved_node(&mesh, &marks, -1.0));
+
     let tree = Document::parse(&text).unwrap();
-    let counts = Mark::ALL.map(|m| of_class(&tree, m.class()).len());
+    let counts = Mark::ALL.map(|mark| count(&tree, mark.class()));
     assert_eq!(counts, [1, 2, 1, 1, 2], "stick, left, right, caught, free");
-    assert_eq!(of_class(&tree, "mark").len(), states.len());
+    assert_eq!(count(&tree, "mark"), states.len());
+
     // Euler: points + triangles - 1 edges, each once.
-    let edges = of_class(&tree, "deformed")[0]
-        .attribute("d")
-        .unwrap()
-        .matches('M')
-        .count();
+    let deformed = of_class(&tree, "deformed")[0];
+    let edges = deformed.attribute("d").unwrap().matches('M').count();
     assert_eq!(edges, mesh.points.len() + mesh.triangles.len() - 1);
     assert!(text.contains("a &lt; b &amp; c"));
+
     // A mode turned round is drawn on the other side; one that is zero or not finite is drawn at
     // rest.
-    let of = |v: f64| {
-        let mut d = displacement.clone();
-        d[2 * third] = v;
-        mode_picture(
-            "a < b & c",
-            &Mode {
-                mesh: &mesh,
-                displacement: &d,
-                marks: &marks,
-            },
-        )
-        .to_svg()
+    let longer = picture_of_one_moved_node(&mesh, &marks, -2.0).to_svg();
+    let turned = picture_of_one_moved_node(&mesh, &marks, 1.0).to_svg();
+    let at_rest = picture_of_one_moved_node(&mesh, &marks, 0.0).to_svg();
+    let not_finite = picture_of_one_moved_node(&mesh, &marks, f64::NAN).to_svg();
+
+    assert_eq!(longer, text, "only the direction matters");
+    assert_ne!(turned, text);
+    assert_eq!(not_finite, at_rest);
+}
+
+/// A mode in which one contact node moves along the obstacle.
+fn picture_of_one_moved_node(mesh: &Triangulation, marks: &[Mark], motion: f64) -> Picture {
+    let nodes = mesh.nodes.iter().flatten().count();
+    let moved = mesh.nodes[mesh.contact[4]].unwrap();
+    let mut displacement = vec![0.0; 2 * nodes];
+    displacement[2 * moved] = motion;
+
+    let mode = Mode {
+        mesh,
+        displacement: &displacement,
+        marks,
     };
-    assert_eq!(of(-2.0), text, "only the direction matters");
-    assert_ne!(of(1.0), text);
-    assert_eq!(of(f64::NAN), of(0.0));
+
+    mode_picture("a < b & c", &mode)
 }
 
 #[test]
@@ -173,46 +201,61 @@ fn the_path_is_drawn_as_it_is() {
     let path = path();
     let text = sound(&path_picture("path", &path));
     let tree = Document::parse(&text).unwrap();
-    let states = || path.intervals.iter().flat_map(|i| &i.states);
+
     for mark in Mark::ALL {
-        assert_eq!(
-            of_class(&tree, mark.class()).len(),
-            states().filter(|s| Mark::of(**s) == mark).count(),
-            "{mark:?}"
-        );
+        let states = path.intervals.iter().flat_map(|interval| &interval.states);
+        let expected = states.filter(|state| Mark::of(**state) == mark).count();
+        assert_eq!(count(&tree, mark.class()), expected, "{mark:?}");
     }
+
     let points = of_class(&tree, "point");
-    let expected: Vec<f64> = path
-        .intervals
-        .iter()
-        .map(|i| to_f64(i.start.motion()))
-        .collect();
-    assert_eq!(data(&points, "data-x"), expected);
-    let tangential: Vec<f64> = path
-        .intervals
-        .iter()
-        .map(|i| to_f64(&i.start.resultants().0))
-        .collect();
-    assert_eq!(data(&points, "data-y"), tangential);
+    let mut motions = Vec::new();
+    let mut tangential_forces = Vec::new();
+
+    for interval in &path.intervals {
+        let (tangential, _) = interval.start.resultants();
+        motions.push(to_f64(interval.start.motion()));
+        tangential_forces.push(to_f64(&tangential));
+    }
+
+    assert_eq!(data(&points, "data-x"), motions);
+    assert_eq!(data(&points, "data-y"), tangential_forces);
+
     let places = data(&points, "cx");
-    assert!(places.windows(2).all(|p| p[0] <= p[1]) && places[0] < places[places.len() - 1]);
-    assert_eq!(of_class(&tree, "curve").len(), 3);
+    assert!(places.windows(2).all(|pair| pair[0] <= pair[1]));
+    assert!(places[0] < places[places.len() - 1]);
+    assert_eq!(count(&tree, "curve"), 3);
+}
+
+/// The solutions of one stretch of the path. Where mu > 5 one slip node does not move.
+fn column(stretch: usize, slip: usize, mu: &[f64]) -> ThresholdColumn {
+    let mut solutions = Vec::new();
+    for &mu in mu {
+        let stuck = usize::from(mu > 5.0);
+        solutions.push(Threshold {
+            mu,
+            moving: slip - stuck,
+        });
+    }
+
+    ThresholdColumn {
+        stretch,
+        slip,
+        solutions,
+        necessary: Some(0.25),
+    }
+}
+
+fn branch_point(mu: f64, lambda2: f64, support: &[usize]) -> BranchPoint {
+    BranchPoint {
+        mu,
+        lambda2,
+        support: support.to_vec(),
+    }
 }
 
 #[test]
 fn thresholds_and_branches_are_the_numbers_given() {
-    let column = |stretch, slip, mu: &[f64]| ThresholdColumn {
-        stretch,
-        slip,
-        solutions: mu
-            .iter()
-            .map(|&mu| Threshold {
-                mu,
-                moving: slip - usize::from(mu > 5.0),
-            })
-            .collect(),
-        necessary: Some(0.25),
-    };
     let columns = [
         column(1, 3, &[]),
         column(2, 4, &[60.8]),
@@ -220,311 +263,273 @@ fn thresholds_and_branches_are_the_numbers_given() {
     ];
     let text = sound(&threshold_picture("t", &columns, 1.1));
     let tree = Document::parse(&text).unwrap();
-    assert_eq!(
-        data(&of_class(&tree, "threshold"), "data-mu"),
-        [60.8, 1.7, 7000.0]
-    );
-    assert_eq!(
-        (
-            of_class(&tree, "all-slip").len(),
-            of_class(&tree, "some-stick").len()
-        ),
-        (1, 2)
-    );
-    assert_eq!(
-        data(&of_class(&tree, "necessary"), "data-stretch"),
-        [1.0, 2.0, 3.0]
-    );
+    let drawn = of_class(&tree, "threshold");
+    let necessary = of_class(&tree, "necessary");
 
-    let point = |mu, lambda2, support: &[usize]| BranchPoint {
-        mu,
-        lambda2,
-        support: support.to_vec(),
+    assert_eq!(data(&drawn, "data-mu"), [60.8, 1.7, 7000.0]);
+    assert_eq!(count(&tree, "all-slip"), 1);
+    assert_eq!(count(&tree, "some-stick"), 2);
+    assert_eq!(data(&necessary, "data-stretch"), [1.0, 2.0, 3.0]);
+
+    let branches = Branches {
+        levels: vec![
+            vec![
+                branch_point(1.7, 0.0, &[0, 1]),
+                branch_point(9.0, 0.0, &[0]),
+            ],
+            vec![
+                branch_point(1.8, 1e5, &[0, 1]),
+                branch_point(9.5, 1e5, &[1]),
+            ],
+            vec![branch_point(2.0, 1e6, &[0, 1])],
+        ],
+        certified: vec![branch_point(1.9, 5e5, &[0, 1])],
     };
-    let levels = vec![
-        vec![point(1.7, 0.0, &[0, 1]), point(9.0, 0.0, &[0])],
-        vec![point(1.8, 1e5, &[0, 1]), point(9.5, 1e5, &[1])],
-        vec![point(2.0, 1e6, &[0, 1])],
-    ];
-    let text = sound(&branch_picture(
-        "b",
-        &Branches {
-            levels,
-            certified: vec![point(1.9, 5e5, &[0, 1])],
-        },
-    ));
+    let text = sound(&branch_picture("b", &branches));
     let tree = Document::parse(&text).unwrap();
-    assert_eq!(
-        data(&of_class(&tree, "point"), "data-x"),
-        [1.7, 9.0, 1.8, 9.5, 2.0]
-    );
-    assert_eq!(
-        (
-            of_class(&tree, "branch").len(),
-            of_class(&tree, "change").len(),
-            of_class(&tree, "certified").len()
-        ),
-        (2, 1, 1)
-    );
-    for empty in [
-        branch_picture("e", &Branches::default()),
-        threshold_picture("e", &[], 1.1),
-    ] {
-        sound(&empty); // nothing to draw is drawn as nothing
-    }
+    let points = of_class(&tree, "point");
+
+    assert_eq!(data(&points, "data-x"), [1.7, 9.0, 1.8, 9.5, 2.0]);
+    assert_eq!(count(&tree, "branch"), 2);
+    assert_eq!(count(&tree, "change"), 1);
+    assert_eq!(count(&tree, "certified"), 1);
+
+    // Pictures without data.
+    sound(&branch_picture("e", &Branches::default()));
+    sound(&threshold_picture("e", &[], 1.1));
 }
 
 #[test]
 fn table1_has_its_regions() {
     let text = sound(&table1_picture());
     let tree = Document::parse(&text).unwrap();
-    let panels = of_class(&tree, "panel");
-    let regions = |signs: &str| -> Vec<&str> {
-        let panel = panels
-            .iter()
-            .find(|p| p.attribute("data-signs") == Some(signs))
-            .unwrap();
-        panel
-            .descendants()
-            .filter(|n| n.attribute("class") == Some("count"))
-            .map(|n| n.text().unwrap())
-            .collect()
-    };
-    assert_eq!(regions("+1 +1"), ["0", "1"]);
-    assert_eq!(regions("-1 -1"), ["0", "1"]);
-    assert_eq!(regions("+1 -1"), ["0", "2", "3"]);
-    assert_eq!(regions("-1 +1"), ["0"]);
+
+    assert_eq!(regions(&tree, "+1 +1"), ["0", "1"]);
+    assert_eq!(regions(&tree, "-1 -1"), ["0", "1"]);
+    assert_eq!(regions(&tree, "+1 -1"), ["0", "2", "3"]);
+    assert_eq!(regions(&tree, "-1 +1"), ["0"]);
 }
 
-fn mceip(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mceip"))
-        .args(args)
-        .output()
-        .unwrap()
+/// The numbers of solutions in the regions of the panel for these signs.
+fn regions(tree: &Document<'_>, signs: &str) -> Vec<String> {
+    let panels = of_class(tree, "panel");
+    let panel = panels
+        .iter()
+        .find(|panel| panel.attribute("data-signs") == Some(signs))
+        .unwrap();
+
+    let counts = panel
+        .descendants()
+        .filter(|node| node.attribute("class") == Some("count"));
+    counts
+        .map(|node| node.text().unwrap().to_string())
+        .collect()
 }
 
-fn names(folder: &Path) -> Vec<String> {
-    let mut names: Vec<String> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
-        .collect();
+/// The names of the files of a folder, sorted.
+fn names(folder: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let name = entry.unwrap().file_name();
+        names.push(name.to_string_lossy().into_owned());
+    }
+
     names.sort();
     names
 }
 
+fn list<'a>(value: &'a Value, field: &str) -> &'a [Value] {
+    value[field].as_array().unwrap()
+}
+
 #[test]
 fn a_report_is_one_page_that_needs_nothing_else() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str| folder.path().join(name).display().to_string();
-    let (page, pictures) = (file("out.html"), file("pictures"));
-    let run = mceip(&[
-        "block",
-        "--cells",
-        "6x3",
-        "--at-mu",
-        "3",
-        "--report",
-        &page,
-        "--pictures",
-        &pictures,
-        "--json",
-    ]);
-    assert_eq!(
-        run.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&run.stderr)
+    let folder = Folder::new();
+    let page = folder.path("out.html");
+    let pictures = folder.path("pictures");
+
+    let json = exits_with_json(
+        0,
+        &[
+            "block",
+            "--cells",
+            "6x3",
+            "--at-mu",
+            "3",
+            "--report",
+            &page,
+            "--pictures",
+            &pictures,
+            "--json",
+        ],
     );
-    assert_eq!(names(folder.path()), ["out.html", "pictures"]);
-    let text = std::fs::read_to_string(&page).unwrap();
-    assert!(!text.contains("http:") && !text.contains("https:") && !text.contains("src="));
-    let tree = Document::parse(text.strip_prefix("<!DOCTYPE html>\n").unwrap()).unwrap();
-    assert!(tree.descendants().all(|n| {
-        !["script", "link", "img", "iframe", "image", "use"].contains(&n.tag_name().name())
-    }));
-    let json: Value = serde_json::from_slice(&run.stdout).unwrap();
-    let states = json["complete_sets"].as_array().unwrap();
-    let sections = tree
-        .descendants()
-        .filter(|n| n.has_tag_name("section"))
-        .count();
-    assert!(states.len() > 3);
-    assert_eq!(
-        sections,
-        3 + states.len(),
-        "model, path, instability, and every state"
-    );
-    let modes: usize = states
-        .iter()
-        .map(|s| {
-            s["solutions"].as_array().unwrap().len()
-                + s["lambda2"][0]["solutions"].as_array().unwrap().len()
-        })
-        .sum();
-    assert_eq!(
-        tree.descendants().filter(|n| n.has_tag_name("svg")).count(),
-        3 + modes
-    );
-    let files = names(Path::new(&pictures));
-    let formats = if cfg!(feature = "png") { 2 } else { 1 };
-    assert_eq!(files.len(), formats * (3 + modes), "{files:?}");
-    for name in files.iter().filter(|n| n.ends_with(".svg")) {
-        Document::parse(&std::fs::read_to_string(Path::new(&pictures).join(name)).unwrap())
-            .unwrap();
-        assert_eq!(
-            files.contains(&name.replace(".svg", ".png")),
-            cfg!(feature = "png")
-        );
+
+    assert_eq!(names(&folder.path("")), ["out.html", "pictures"]);
+
+    let text = read(&page);
+    for outside in ["http:", "https:", "src="] {
+        assert!(!text.contains(outside), "{outside}");
     }
+
+    let tree = Document::parse(text.strip_prefix("<!DOCTYPE html>\n").unwrap()).unwrap();
+    for loading in ["script", "link", "img", "iframe", "image", "use"] {
+        assert_eq!(count_tags(&tree, loading), 0, "{loading}");
+    }
+
+    // Sections for the model, the path, the instability, and every state.
+    let states = list(&json, "complete_sets");
+    assert!(states.len() > 3);
+    assert_eq!(count_tags(&tree, "section"), 3 + states.len());
+
+    let mut modes = 0;
+    for state in states {
+        modes += list(state, "solutions").len();
+        modes += list(&state["lambda2"][0], "solutions").len();
+    }
+
+    assert_eq!(count_tags(&tree, "svg"), 3 + modes);
+
+    let files = names(&pictures);
+    let has_png = cfg!(feature = "png");
+    let formats = if has_png { 2 } else { 1 };
+
+    assert_eq!(files.len(), formats * (3 + modes), "{files:?}");
+    for name in files.iter().filter(|name| name.ends_with(".svg")) {
+        let svg = read(&format!("{pictures}/{name}"));
+        assert!(Document::parse(&svg).is_ok(), "{name}");
+
+        let png = name.replace(".svg", ".png");
+        assert_eq!(files.contains(&png), has_png);
+    }
+}
+
+/// How many elements have this tag.
+fn count_tags(tree: &Document<'_>, tag: &str) -> usize {
+    let all = tree.descendants();
+    all.filter(|node| node.tag_name().name() == tag).count()
 }
 
 #[test]
 fn every_state_is_listed_with_its_evidence() {
     let base = ["block", "--path", "--complete", "--cells", "4x2", "--json"];
-    let of = |more: &[&str]| -> Value {
-        let run = mceip(&[&base[..], more].concat());
-        assert_eq!(
-            run.status.code(),
-            Some(0),
-            "{}",
-            String::from_utf8_lossy(&run.stderr)
-        );
-        serde_json::from_slice(&run.stdout).unwrap()
-    };
-    let (condensed, whole) = (
-        of(&["--conditions", "--modes", "--at-mu", "2,3"]),
-        of(&["--uncondensed"]),
-    );
-    let (states, same) = (
-        condensed["complete_sets"].as_array().unwrap(),
-        whole["complete_sets"].as_array().unwrap(),
-    );
-    assert_eq!(states.len(), same.len());
+    let options = ["--conditions", "--modes", "--at-mu", "2,3"];
+    let condensed = exits_with_json(0, &[&base[..], &options].concat());
+    let whole = exits_with_json(0, &[&base[..], &["--uncondensed"]].concat());
+
+    let states = list(&condensed, "complete_sets");
+    let same_states = list(&whole, "complete_sets");
+    let nodes = list(&condensed, "nodes_mm").len();
+
+    assert_eq!(states.len(), same_states.len());
+
     let mut growing = 0;
-    for (state, other) in states.iter().zip(same) {
-        let (a, b) = (
-            state["solutions"].as_array().unwrap(),
-            other["solutions"].as_array().unwrap(),
-        );
-        assert_eq!(a.len(), b.len());
-        for (a, b) in a.iter().zip(b) {
-            approx::assert_relative_eq!(
-                a["mu"].as_f64().unwrap(),
-                b["mu"].as_f64().unwrap(),
-                max_relative = 1e-6
-            );
-            assert_eq!(a["moving"], b["moving"]);
-            assert_eq!(
-                a["mode"].as_array().unwrap().len(),
-                2 * condensed["nodes_mm"].as_array().unwrap().len()
-            );
-            assert!(b.get("mode").is_none());
-            // The necessary condition (19) comes no later than any solution.
-            assert!(
-                state["necessary"]["holds_from"].as_f64().unwrap() <= a["mu"].as_f64().unwrap()
-            );
-        }
-        assert!(other.get("necessary").is_none());
-        assert!(state["from_mm"].is_number() && state["nodes"].as_str().unwrap().len() == 5);
-        assert_eq!(
-            state["lambda2"]
-                .as_array()
-                .unwrap()
-                .iter()
-                .map(|l| l["mu"].as_str().unwrap())
-                .collect::<Vec<_>>(),
-            ["2", "3"]
-        );
-        for s in state["lambda2"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .flat_map(|l| l["solutions"].as_array().unwrap())
-        {
-            let (rate, value) = (
-                s["growth_rate_per_s"].as_f64().unwrap(),
-                s["lambda2"].as_f64().unwrap(),
-            );
+    for (state, uncondensed) in states.iter().zip(same_states) {
+        solutions_are_those_of_the_uncondensed_block(state, uncondensed, nodes);
+        assert!(state["from_mm"].is_number());
+        assert_eq!(state["nodes"].as_str().unwrap().len(), 5);
+
+        let levels = list(state, "lambda2");
+        assert_eq!(levels.len(), 2);
+        assert_eq!(levels[0]["mu"], "2");
+        assert_eq!(levels[1]["mu"], "3");
+
+        for solution in levels.iter().flat_map(|level| list(level, "solutions")) {
+            let rate = solution["growth_rate_per_s"].as_f64().unwrap();
+            let value = solution["lambda2"].as_f64().unwrap();
             approx::assert_relative_eq!(rate * rate, value, max_relative = 1e-12);
             growing += 1;
         }
     }
+
     assert!(growing > 0);
+}
+
+/// The solutions of a state, with modes over so many nodes, against those of the uncondensed block,
+/// which has no modes and no conditions.
+#[track_caller]
+fn solutions_are_those_of_the_uncondensed_block(state: &Value, uncondensed: &Value, nodes: usize) {
+    let solutions = list(state, "solutions");
+    let same_solutions = list(uncondensed, "solutions");
+    assert_eq!(solutions.len(), same_solutions.len());
+    assert!(uncondensed.get("necessary").is_none());
+
+    for (solution, same) in solutions.iter().zip(same_solutions) {
+        let mu = solution["mu"].as_f64().unwrap();
+        let same_mu = same["mu"].as_f64().unwrap();
+        approx::assert_relative_eq!(mu, same_mu, max_relative = 1e-6);
+        assert_eq!(solution["moving"], same["moving"]);
+        assert_eq!(list(solution, "mode").len(), 2 * nodes);
+        assert!(same.get("mode").is_none());
+
+        // The necessary condition (19) comes no later than any solution.
+        assert!(state["necessary"]["holds_from"].as_f64().unwrap() <= mu);
+    }
 }
 
 /// Exit 2, one line, and no file where there was none.
 #[test]
 fn refusals_leave_nothing_behind() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str| folder.path().join(name).display().to_string();
-    std::fs::write(file("taken"), "x").unwrap();
-    let (missing, page, taken) = (file("missing/out.html"), file("out.html"), file("taken"));
-    let refused: [(&[&str], &str); 9] = [
-        (&["block", "--report", &missing], "missing/out.html"),
-        (
-            &["block", "--report", &folder.path().display().to_string()],
-            "cannot write",
-        ),
+    let folder = Folder::new();
+    let taken = folder.write("taken", "x");
+    let page = folder.path("out.html");
+    let missing_page = folder.path("missing/out.html");
+    let missing_chart = folder.path("missing/chart.svg");
+    let pdf = folder.path("chart.pdf");
+    let the_folder = folder.path("").trim_end_matches('/').to_string();
+
+    let cases: [(&[&str], &str); 9] = [
+        (&["block", "--report", &missing_page], "missing/out.html"),
+        (&["block", "--report", &the_folder], "cannot write"),
         (&["block", "--pictures", &taken], "taken"),
         (&["block", "--report", &page, "--at-mu", "2,-1"], "--at-mu"),
         (&["block", "--report", &page, "--at-mu", "nan"], "--at-mu"),
         (&["block", "--report", &page, "--cells", "0x3"], "cells"),
         (&["block", "--state", "15", "--report", &page], "--state"),
-        (
-            &["table1", "--chart", &file("chart.pdf")],
-            "a name ending in .svg",
-        ),
-        (
-            &["table1", "--chart", &file("missing/chart.svg")],
-            "missing/chart.svg",
-        ),
+        (&["table1", "--chart", &pdf], "a name ending in .svg"),
+        (&["table1", "--chart", &missing_chart], "missing/chart.svg"),
     ];
-    for (args, word) in refused {
-        let run = mceip(args);
-        let err = String::from_utf8_lossy(&run.stderr);
-        assert_eq!(
-            (run.status.code(), err.lines().count()),
-            (Some(2), 1),
-            "{args:?}: {err}"
-        );
-        assert!(err.contains(word) && run.stdout.is_empty(), "{word}: {err}");
-        assert_eq!(names(folder.path()), ["taken"], "{args:?}");
+
+    for (args, word) in cases {
+        refused(args, &[word]);
+        assert_eq!(names(&the_folder), ["taken"], "{args:?}");
     }
-    assert_eq!(std::fs::read_to_string(file("taken")).unwrap(), "x");
+
+    assert_eq!(read(&taken), "x");
+
     for (name, is_drawn) in [("chart.svg", true), ("chart.png", cfg!(feature = "png"))] {
-        let expected = if is_drawn { 0 } else { 2 };
-        assert_eq!(
-            mceip(&["table1", "--chart", &file(name)]).status.code(),
-            Some(expected)
-        );
-        assert_eq!(
-            std::fs::metadata(file(name)).is_ok_and(|data| data.len() > 5000),
-            is_drawn,
-            "{name}"
-        );
+        let chart = folder.path(name);
+        let code = exit_code(&["table1", "--chart", &chart]);
+        assert_eq!(code, Some(if is_drawn { 0 } else { 2 }));
+
+        let length = std::fs::metadata(&chart).map_or(0, |data| data.len());
+        assert_eq!(length > 5000, is_drawn, "{name}");
     }
 }
 
 #[test]
 fn cost_series_are_the_numbers_given() {
-    let series = |name: &str, points: &[(f64, f64)]| CostSeries {
-        name: name.into(),
-        points: points.to_vec(),
+    let search = CostSeries {
+        name: "search".into(),
+        points: vec![(10.0, 0.01), (80.0, 5.5)],
     };
-    let list = [
-        series("search", &[(10.0, 0.01), (80.0, 5.5)]),
-        series("check", &[(10.0, 0.002), (80.0, 2.0), (150.0, 31.0)]),
-    ];
-    let text = sound(&cost_picture("cost", "slip nodes", &list));
+    let check = CostSeries {
+        name: "check".into(),
+        points: vec![(10.0, 0.002), (80.0, 2.0), (150.0, 31.0)],
+    };
+
+    let text = sound(&cost_picture("cost", "slip nodes", &[search, check]));
+
     let tree = Document::parse(&text).unwrap();
     let points = of_class(&tree, "point");
     assert_eq!(data(&points, "data-x"), [10.0, 80.0, 10.0, 80.0, 150.0]);
     assert_eq!(data(&points, "data-y"), [0.01, 5.5, 0.002, 2.0, 31.0]);
-    assert_eq!(of_class(&tree, "series").len(), 2);
+    assert_eq!(count(&tree, "series"), 2);
+
     // Dearer is higher, larger is further to the right.
-    assert!(
-        data(&points, "cy").windows(2).take(1).all(|p| p[0] > p[1])
-            && data(&points, "cx")[0] < data(&points, "cx")[1]
-    );
+    let heights = data(&points, "cy");
+    let places = data(&points, "cx");
+    assert!(heights[0] > heights[1]);
+    assert!(places[0] < places[1]);
+
     sound(&cost_picture("nothing", "slip nodes", &[]));
 }

@@ -1,8 +1,8 @@
 //! `spec/schemas/`: what the readers take and what the program writes, held against the JSON
 //! Schemas. The schemas say more or less than the readers only where `spec/conform.md` says so.
 //!
-//! Readers and schemas are two descriptions of one format, each the truth for the other. Thousands of
-//! damaged files go to both; a field that one of them forgets is accepted by one side alone.
+//! Readers and schemas are two descriptions of one format, each the truth for the other. Thousands
+//! of damaged files go to both; a field that one of them forgets is accepted by one side alone.
 #![cfg(feature = "cli")]
 
 use crate::common::{example, exits, pencil_problem, run};
@@ -281,7 +281,8 @@ fn add_places(value: &Value, at: &str, places: &mut Vec<String>) {
     }
 }
 
-/// Every place of a file replaced by values of other kinds, left out, or with an unknown field in it.
+/// Every place of a file replaced by values of other kinds, left out, or with an unknown field in
+/// it.
 fn damaged(file: &Value) -> Vec<Value> {
     let mut places = Vec::new();
     add_places(file, "", &mut places);

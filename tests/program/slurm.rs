@@ -2,8 +2,8 @@
 //! machine is started for it. `cargo test --test program -- --ignored slurm::` as root (Debian
 //! packages `slurm-wlm` and `munge`); two minutes.
 //!
-//! `mceip check` judges the certificates. A part that was interrupted must not be taken for a whole: the
-//! states and exit codes of Slurm, and the size of the part, show what became of it.
+//! `mceip check` judges the certificates. A part that was interrupted must not be taken for a
+//! whole: the states and exit codes of Slurm, and the size of the part, show what became of it.
 #![cfg(all(unix, feature = "cli"))]
 
 use crate::common::{exit_code, problem_text, repository};

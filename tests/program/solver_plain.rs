@@ -1,351 +1,213 @@
 //! `mceip solve` on plain LCP and MCP files, trace and replay, through the program.
+//!
+//! The solutions of the problems are known, certificates are exact and judged by `mceip check`, and
+//! a trace must be repeated to the letter. Forged certificates and changed traces must be noticed.
 #![cfg(feature = "cli")]
 
-use std::path::Path;
-use std::process::{Command, Output};
+use crate::common::{contains_all, example, exits, exits_with_json, read, repository, run};
+use crate::program::{Folder, refused};
 
-fn mceip(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mceip"))
-        .args(args)
-        .output()
-        .unwrap()
-}
-
-fn stdout(o: &Output) -> String {
-    String::from_utf8_lossy(&o.stdout).into_owned()
-}
-
-fn write(folder: &Path, name: &str, text: &str) -> String {
-    let path = folder.join(name);
-    std::fs::write(&path, text).unwrap();
-    path.display().to_string()
+/// The run of `args` ends with this exit code and a text that begins with these words.
+#[track_caller]
+fn says(args: &[&str], code: i32, start: &str) {
+    let text = exits(code, args);
+    assert!(text.starts_with(start), "{start}: {text}");
 }
 
 #[test]
 fn an_lcp_is_solved_certified_and_checked() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = write(
-        folder.path(),
+    let folder = Folder::new();
+    let problem = folder.write(
         "lcp.json",
         r#"{"format":"mceip-mcp/1","m":[["0.2","0.1"],["1/10","2/10"]],"q":["-0.5","-0.6"]}"#,
     );
-    let certificate = folder.path().join("c.json").display().to_string();
-    let out = mceip(&["solve", &file, "--certificate", &certificate]);
-    assert_eq!(out.status.code(), Some(0));
-    assert!(
-        stdout(&out).contains("z[0] = 4/3") && stdout(&out).contains("completeness unknown"),
-        "{}",
-        stdout(&out)
+    let certificate = folder.path("c.json");
+
+    let text = exits(0, &["solve", &problem, "--certificate", &certificate]);
+    contains_all(&text, &["z[0] = 4/3", "completeness unknown"]);
+    says(
+        &["solve", &problem, "--check", &certificate],
+        0,
+        "ACCEPTED: 1",
     );
-    let accepted = mceip(&["solve", &file, "--check", &certificate]);
-    assert!(accepted.status.code() == Some(0) && stdout(&accepted).starts_with("ACCEPTED: 1"));
+
     // A forged digit, and a certificate of another problem.
-    let forged = write(
-        folder.path(),
-        "f.json",
-        &std::fs::read_to_string(&certificate)
-            .unwrap()
-            .replace("4/3", "4/5"),
+    let forged = read(&certificate).replace("4/3", "4/5");
+    let forged = folder.write("f.json", &forged);
+    says(
+        &["solve", &problem, "--check", &forged],
+        1,
+        "REJECTED: solution 0: F[0]",
     );
-    let rejected = mceip(&["solve", &file, "--check", &forged]);
-    assert!(
-        rejected.status.code() == Some(1)
-            && stdout(&rejected).starts_with("REJECTED: solution 0: F[0]"),
-        "{}",
-        stdout(&rejected)
-    );
-    let other = write(
-        folder.path(),
+    let other = folder.write(
         "o.json",
         r#"{"format":"mceip-mcp/1","m":[[2,1],[1,3]],"q":[-5,-6]}"#,
     );
-    for verb in [
-        &["check", other.as_str(), certificate.as_str()][..],
-        &["solve", &other, "--check", &certificate],
-    ] {
-        let foreign = mceip(verb);
-        assert!(
-            foreign.status.code() == Some(1)
-                && stdout(&foreign).starts_with("REJECTED: digest: expected"),
-            "{}",
-            stdout(&foreign)
-        );
-    }
+    let rejected = "REJECTED: digest: expected";
+    says(&["check", &other, &certificate], 1, rejected);
+    says(&["solve", &other, "--check", &certificate], 1, rejected);
 }
 
 /// `mceip check` by the format of the problem: plain and eigenproblem, each with its own
 /// certificates only.
 #[test]
 fn check_dispatches_on_the_format() {
-    let folder = tempfile::tempdir().unwrap();
-    let plain = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/spec/examples/bounded-mcp.json"
+    let folder = Folder::new();
+    let plain = example("bounded-mcp");
+    let pencil = example("fold");
+    let of_plain = folder.path("p.json");
+    let of_pencil = folder.path("q.json");
+
+    exits(0, &["solve", &plain, "--all", "--certificate", &of_plain]);
+    exits(0, &["solve", &pencil, "--certificate", &of_pencil]);
+
+    says(&["check", &plain, &of_plain], 0, "ACCEPTED: 3 solution(s)");
+    exits(0, &["check", &pencil, &of_pencil]);
+
+    let text = read(&of_plain);
+    let (head, _) = text.split_once("\"z\"").unwrap();
+    let none = folder.write("none.json", &format!("{head}\"z\": []}}"));
+    says(
+        &["check", &plain, &none],
+        1,
+        "REJECTED: z: expected at least one",
     );
-    let pencil = concat!(env!("CARGO_MANIFEST_DIR"), "/spec/examples/fold.json");
-    let (of_plain, of_pencil) = (
-        folder.path().join("p.json").display().to_string(),
-        folder.path().join("q.json").display().to_string(),
-    );
-    assert_eq!(
-        mceip(&["solve", plain, "--all", "--certificate", &of_plain])
-            .status
-            .code(),
-        Some(0)
-    );
-    assert_eq!(
-        mceip(&["solve", pencil, "--certificate", &of_pencil])
-            .status
-            .code(),
-        Some(0)
-    );
-    let accepted = mceip(&["check", plain, &of_plain]);
-    assert!(
-        accepted.status.code() == Some(0)
-            && stdout(&accepted).starts_with("ACCEPTED: 3 solution(s)"),
-        "{}",
-        stdout(&accepted)
-    );
-    assert_eq!(mceip(&["check", pencil, &of_pencil]).status.code(), Some(0));
-    let text = std::fs::read_to_string(&of_plain).unwrap();
-    let none = write(
-        folder.path(),
-        "none.json",
-        &format!("{}\"z\": []}}", text.split_once("\"z\"").unwrap().0),
-    );
-    let rejected = mceip(&["check", plain, &none]);
-    assert!(
-        rejected.status.code() == Some(1)
-            && stdout(&rejected).starts_with("REJECTED: z: expected at least one"),
-        "{}",
-        stdout(&rejected)
-    );
-    for (problem, certificate, word) in [
-        (plain, &of_pencil, "mceip-mcp-solution/1"),
-        (pencil, &of_plain, "mceip-certificate/1"),
-    ] {
-        let refused = mceip(&["check", problem, certificate]);
-        let err = String::from_utf8_lossy(&refused.stderr).into_owned();
-        assert!(
-            refused.status.code() == Some(2) && err.lines().count() == 1 && err.contains(word),
-            "{err}"
-        );
-    }
+
+    refused(&["check", &plain, &of_pencil], &["mceip-mcp-solution/1"]);
+    refused(&["check", &pencil, &of_plain], &["mceip-certificate/1"]);
+}
+
+/// A trace with a piece of its text replaced, as a file.
+#[track_caller]
+fn changed_trace(folder: &Folder, trace: &str, from: &str, to: &str) -> String {
+    let text = read(trace);
+    assert!(text.contains(from), "{from}");
+    folder.write("changed.txt", &text.replacen(from, to, 1))
 }
 
 /// The trace of a plain problem: its own replay, and what each change does to it.
 #[test]
 fn a_plain_trace_replays_and_a_changed_one_does_not() {
-    let folder = tempfile::tempdir().unwrap();
-    let problem = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/spec/examples/bounded-mcp.json"
+    let folder = Folder::new();
+    let problem = example("bounded-mcp");
+    let trace = folder.path("t.txt");
+    let options = ["--all", "--starts", "6", "--seed", "3", "--trace", &trace];
+
+    exits(0, &[&["solve", &problem][..], &options].concat());
+
+    contains_all(
+        &read(&trace),
+        &["run from", "curve from", "certified: 5/6 1/2 1 2"],
     );
-    let trace = folder.path().join("t.txt").display().to_string();
-    assert_eq!(
-        mceip(&[
-            "solve", problem, "--all", "--starts", "6", "--seed", "3", "--trace", &trace
-        ])
-        .status
-        .code(),
-        Some(0)
-    );
-    let text = std::fs::read_to_string(&trace).unwrap();
-    assert!(
-        text.contains("run from")
-            && text.contains("curve from")
-            && text.contains("certified: 5/6 1/2 1 2"),
-        "{text}"
-    );
-    let same = mceip(&["solve", "--replay", &trace]);
-    assert!(
-        same.status.code() == Some(0) && stdout(&same).starts_with("IDENTICAL"),
-        "{}",
-        stdout(&same)
-    );
-    for (k, (from, to)) in [
+    says(&["solve", "--replay", &trace], 0, "IDENTICAL");
+
+    for (from, to) in [
         ("certified: 5/6", "certified: 6/6"),
         ("\"seed\":3", "\"seed\":4"),
         ("1/3", "1/2"),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        assert!(text.contains(from), "{from}");
-        let changed = write(
-            folder.path(),
-            &format!("{k}.txt"),
-            &text.replacen(from, to, 1),
-        );
-        let different = mceip(&["solve", "--replay", &changed]);
-        assert!(
-            different.status.code() == Some(1) && stdout(&different).starts_with("DIFFERENT"),
-            "{from}: {}",
-            stdout(&different)
-        );
+    ] {
+        let changed = changed_trace(&folder, &trace, from, to);
+        says(&["solve", "--replay", &changed], 1, "DIFFERENT");
     }
-    for (k, (from, to)) in [
+
+    for (from, to) in [
         ("\"starts\":6", "\"starts\":0"),
         ("mceip-mcp/1", "mceip-mcp/2"),
         ("mceip-trace/1", "mceip-trace/2"),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let bad = write(
-            folder.path(),
-            &format!("b{k}.txt"),
-            &text.replacen(from, to, 1),
-        );
-        let refused = mceip(&["solve", "--replay", &bad]);
-        assert_eq!(
-            (
-                refused.status.code(),
-                String::from_utf8_lossy(&refused.stderr).lines().count()
-            ),
-            (Some(2), 1),
-            "{from}"
-        );
+    ] {
+        let bad = changed_trace(&folder, &trace, from, to);
+        refused(&["solve", "--replay", &bad], &[]);
     }
 }
 
 #[test]
 fn bounds_of_every_kind_and_all_solutions() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
+
     // z0 fixed at 1, z1 free, z2 in [0, 2] with F2 = 1 - z2 (solutions 0, 1 and 2).
-    let text = r#"{"format":"mceip-mcp/1","m":[[0,0,0],[1,2,0],[0,0,-1]],"q":[-9,"-4",1],"lower":[1,null,0],"upper":[1,null,2]}"#;
-    let file = write(folder.path(), "mcp.json", text);
-    let out = mceip(&["solve", &file, "--all", "--json"]);
-    let value: serde_json::Value = serde_json::from_str(&stdout(&out)).unwrap();
-    let mut last: Vec<String> = value["solutions"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|s| s["z"][2].as_str().unwrap().to_string())
-        .collect();
-    last.sort();
-    assert_eq!(last, ["0", "1", "2"]);
-    assert!(
-        value["solutions"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .all(|s| s["z"][0] == "1" && s["z"][1] == "3/2")
+    let problem = folder.write(
+        "mcp.json",
+        r#"{"format":"mceip-mcp/1","m":[[0,0,0],[1,2,0],[0,0,-1]],"q":[-9,"-4",1],
+            "lower":[1,null,0],"upper":[1,null,2]}"#,
     );
+
+    let report = exits_with_json(0, &["solve", &problem, "--all", "--json"]);
+
+    let mut last_components = Vec::new();
+    for solution in report["solutions"].as_array().unwrap() {
+        let z = &solution["z"];
+        assert_eq!(z[0], "1");
+        assert_eq!(z[1], "3/2");
+        last_components.push(z[2].as_str().unwrap());
+    }
+
+    last_components.sort();
+    assert_eq!(last_components, ["0", "1", "2"]);
 }
 
 #[test]
 fn no_solution_is_undecided_and_bad_files_are_one_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = write(
-        folder.path(),
+    let folder = Folder::new();
+    let unsolvable = folder.write(
         "none.json",
         r#"{"format":"mceip-mcp/1","m":[[-1]],"q":[-1]}"#,
     );
-    let out = mceip(&["solve", &file]);
-    assert!(
-        out.status.code() == Some(3) && stdout(&out).contains("0 certified"),
-        "{}",
-        stdout(&out)
-    );
+    let text = exits(3, &["solve", &unsolvable]);
+
+    assert!(text.contains("0 certified"), "{text}");
+
     // An option of the other kind of problem is refused, not ignored.
-    let windowed = mceip(&["solve", &file, "--window", "0,1"]);
-    let err = String::from_utf8_lossy(&windowed.stderr).into_owned();
-    assert!(
-        windowed.status.code() == Some(2) && err.lines().count() == 1 && err.contains("--window"),
-        "{err}"
-    );
+    refused(&["solve", &unsolvable, "--window", "0,1"], &["--window"]);
+
     for text in [
         r#"{"format":"mceip-mcp/1","m":[[1,2]],"q":[-1]}"#,
         r#"{"format":"mceip-mcp/1","m":[[1]],"q":["1e999999"]}"#,
         "{}",
     ] {
-        let bad = mceip(&["solve", &write(folder.path(), "bad.json", text)]);
-        assert_eq!(
-            (
-                bad.status.code(),
-                String::from_utf8_lossy(&bad.stderr).lines().count()
-            ),
-            (Some(2), 1),
-            "{text}"
-        );
+        refused(&["solve", &folder.write("bad.json", text)], &[]);
     }
 }
 
 #[test]
 fn a_trace_replays_and_a_changed_one_does_not() {
-    let folder = tempfile::tempdir().unwrap();
-    let problem = concat!(env!("CARGO_MANIFEST_DIR"), "/spec/examples/fold.json");
-    let trace = folder.path().join("t.txt").display().to_string();
-    assert_eq!(
-        mceip(&[
-            "solve", problem, "--all", "--starts", "4", "--seed", "7", "--trace", &trace
-        ])
-        .status
-        .code(),
-        Some(0)
-    );
-    let text = std::fs::read_to_string(&trace).unwrap();
-    assert!(text.contains("leaves") && text.contains("curve") && text.contains("certified in run"));
-    let same = mceip(&["solve", "--replay", &trace]);
-    assert!(
-        same.status.code() == Some(0) && stdout(&same).starts_with("IDENTICAL"),
-        "{}",
-        stdout(&same)
-    );
-    let changed = write(
-        folder.path(),
-        "u.txt",
-        &text.replacen("Exchange", "Flip", 1),
-    );
-    let different = mceip(&["solve", "--replay", &changed]);
-    assert!(
-        different.status.code() == Some(1) && stdout(&different).starts_with("DIFFERENT"),
-        "{}",
-        stdout(&different)
-    );
-    let seed = write(
-        folder.path(),
-        "s.txt",
-        &text.replacen("\"seed\":7", "\"seed\":8", 1),
-    );
-    assert_eq!(mceip(&["solve", "--replay", &seed]).status.code(), Some(1));
-    assert_eq!(
-        mceip(&["solve", "--replay", problem]).status.code(),
-        Some(2)
-    );
+    let folder = Folder::new();
+    let problem = example("fold");
+    let trace = folder.path("t.txt");
+    let options = ["--all", "--starts", "4", "--seed", "7", "--trace", &trace];
+
+    exits(0, &[&["solve", &problem][..], &options].concat());
+
+    contains_all(&read(&trace), &["leaves", "curve", "certified in run"]);
+    says(&["solve", "--replay", &trace], 0, "IDENTICAL");
+
+    let changed = changed_trace(&folder, &trace, "Exchange", "Flip");
+    says(&["solve", "--replay", &changed], 1, "DIFFERENT");
+    let other_seed = changed_trace(&folder, &trace, "\"seed\":7", "\"seed\":8");
+
+    exits(1, &["solve", "--replay", &other_seed]);
+    assert_eq!(run(&["solve", "--replay", &problem]).code, Some(2));
 }
 
 /// Written before the crash could be chosen: its options do not name it, and it was projected
 /// Newton.
 #[test]
 fn a_trace_from_before_the_choice_of_a_crash_replays() {
-    let folder = tempfile::tempdir().unwrap();
-    let old = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/tests/traces/before-crash-method.trace"
-    );
-    let same = mceip(&["solve", "--replay", old]);
-    assert!(
-        same.status.code() == Some(0) && stdout(&same).starts_with("IDENTICAL"),
-        "{}",
-        stdout(&same)
-    );
-    let text = std::fs::read_to_string(old).unwrap();
-    assert!(!text.contains("crash_method") && text.contains("Crash"));
-    let other = text.replacen(
+    let folder = Folder::new();
+    let old = repository("tests/traces/before-crash-method.trace");
+
+    let text = read(&old);
+    assert!(!text.contains("crash_method"));
+    assert!(text.contains("Crash"));
+
+    says(&["solve", "--replay", &old], 0, "IDENTICAL");
+
+    let with_another_crash = changed_trace(
+        &folder,
+        &old,
         "crash_iteration_limit: 50",
         "crash_method: FischerNewton, crash_iteration_limit: 50",
-        1,
     );
-    let different = mceip(&[
-        "solve",
-        "--replay",
-        &write(folder.path(), "other.txt", &other),
-    ]);
-    assert!(
-        different.status.code() == Some(1) && stdout(&different).contains("line 1"),
-        "{}",
-        stdout(&different)
-    );
+    let text = exits(1, &["solve", "--replay", &with_another_crash]);
+
+    assert!(text.contains("line 1"), "{text}");
 }

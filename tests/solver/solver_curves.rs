@@ -196,7 +196,9 @@ impl CapitalStock {
 
     /// What a unit of activity k takes of a good, less ALPHA times what it gives.
     fn discounted_loss(good: usize, k: usize) -> f64 {
-        Self::INPUTS[good][k] - Self::ALPHA * Self::OUTPUTS[good][k]
+        let taken = Self::INPUTS[good][k];
+        let given = Self::OUTPUTS[good][k];
+        taken - Self::ALPHA * given
     }
 
     /// What a unit of activity k adds to the stock of a good.

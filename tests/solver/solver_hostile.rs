@@ -154,14 +154,20 @@ fn values_that_are_not_finite_are_reasons() {
 /// log x = 0 from 5: the full Newton step leaves the domain.
 #[test]
 fn a_domain_is_respected_by_going_back() {
-    let outcome = solve_one(f64::ln, |x| 1.0 / x, 5.0);
-    assert!((outcome.point[0] - 1.0).abs() < 1e-10, "{outcome:?}");
+    let start = 5.0;
+    let outcome = solve_one(f64::ln, |x| 1.0 / x, start);
+
+    let error = (outcome.point[0] - 1.0).abs();
+    assert!(error < 1e-10, "{outcome:?}");
 }
 
 #[test]
 fn a_solution_at_infinity_is_none() {
-    let outcome = solve_one(|x| 1.0 / x, |x| -1.0 / (x * x), 1.0);
-    assert!(!outcome.termination.reached_tolerance(), "{outcome:?}");
+    let start = 1.0;
+    let outcome = solve_one(|x| 1.0 / x, |x| -1.0 / (x * x), start);
+
+    let is_claimed = outcome.termination.reached_tolerance();
+    assert!(!is_claimed, "{outcome:?}");
 }
 
 #[test]
@@ -201,7 +207,8 @@ impl Mcp for Resizing {
 }
 
 fn solve_resizing(order: usize) -> Outcome {
-    solve(&Resizing { order }, &[3.0, 3.0], &Options::default()).unwrap()
+    let problem = Resizing { order };
+    solve(&problem, &[3.0, 3.0], &Options::default()).unwrap()
 }
 
 #[test]
@@ -224,7 +231,10 @@ fn a_jacobian_of_the_wrong_shape_is_a_reason() {
 /// is kept.
 #[test]
 fn a_structurally_singular_start_is_named() {
-    let m = dmatrix![1.0, 0.0; 1.0, 0.0];
+    let m = dmatrix![
+        1.0, 0.0;
+        1.0, 0.0
+    ];
     let twice = LinearMcp::new(m, vec![1.0, -1.0], vec![-INF; 2], vec![INF; 2]).unwrap();
     let outcome = solve(&twice, &[5.0, 7.0], &Options::default()).unwrap();
     let singular = Termination::StructurallySingular { row: 1, col: 1 };
@@ -234,7 +244,10 @@ fn a_structurally_singular_start_is_named() {
     assert!(outcome.point[1].is_finite(), "{outcome:?}");
 
     // One bound is enough to make it solvable: F1 >= 0 at z1 = 0.
-    let m = dmatrix![1.0, 0.0; -1.0, 0.0];
+    let m = dmatrix![
+        1.0, 0.0;
+        -1.0, 0.0
+    ];
     let bounded = LinearMcp::new(m, vec![1.0, -0.5], vec![-INF, 0.0], vec![INF; 2]).unwrap();
     let outcome = solve(&bounded, &[5.0, 7.0], &Options::default()).unwrap();
     assert!(outcome.termination.reached_tolerance());

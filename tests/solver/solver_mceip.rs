@@ -7,7 +7,7 @@
 
 use crate::support::{Embedded, Truth, contains, enumerate, random_pencil, table1};
 use mceip_mcp::solver::{Options, Outcome, PathEnd, PathRecord, Start, multistart, solve};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -77,37 +77,50 @@ fn the_other_opposite_signs_have_none() {
     assert!(found.is_empty());
 }
 
+/// Solutions of a grid, and how many of them are found.
+#[derive(Default)]
+struct GridCount {
+    solutions: usize,
+    found: usize,
+}
+
+impl GridCount {
+    /// Solves a problem from 22 starts; what is found must be in the enumeration.
+    fn add(&mut self, a: DMatrix<f64>, b: DMatrix<f64>) {
+        let truth = enumerate(&a, &b, 0);
+        let problem = Embedded::new(a, b, 0);
+
+        let seen = distinct_solutions(&problem, problem.starts(22, 10.0, 1));
+
+        for solution in &seen {
+            let is_true = contains(&truth, solution.t, solution.x.as_slice());
+            assert!(is_true, "{seen:?} {truth:?}");
+        }
+        for solution in &truth {
+            let is_seen = contains(&seen, solution.t, solution.x.as_slice());
+            self.found += usize::from(is_seen);
+            self.solutions += 1;
+        }
+    }
+}
+
 #[test]
 fn every_solution_of_a_table_1_grid_in_22_starts() {
     let sign_patterns = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
-    let mut solutions = 0;
-    let mut found = 0;
+    let mut count = GridCount::default();
 
     for phi in [20.0f64, 45.0, 70.0] {
         let (s, c) = phi.to_radians().sin_cos();
         for mu in [1.0, 4.0, 8.0, 20.0] {
             for (s1, s2) in sign_patterns {
                 let (a, b) = table1(c, s, mu, s1, s2);
-                let truth = enumerate(&a, &b, 0);
-                let problem = Embedded::new(a, b, 0);
-
-                let seen = distinct_solutions(&problem, problem.starts(22, 10.0, 1));
-
-                for solution in &seen {
-                    let is_true = contains(&truth, solution.t, solution.x.as_slice());
-                    assert!(is_true, "{seen:?} {truth:?}");
-                }
-                for solution in &truth {
-                    let is_seen = contains(&seen, solution.t, solution.x.as_slice());
-                    found += usize::from(is_seen);
-                    solutions += 1;
-                }
+                count.add(a, b);
             }
         }
     }
 
-    assert!(solutions >= 25, "{solutions}");
-    assert_eq!(found, solutions);
+    assert!(count.solutions >= 25, "{}", count.solutions);
+    assert_eq!(count.found, count.solutions);
 }
 
 /// A random pencil of MCEIP-mu, or of MCEIP-lambda2 with mu = 3.
@@ -121,7 +134,9 @@ fn random_problem(rng: &mut ChaCha8Rng, family: &str, n: usize) -> Embedded {
 }
 
 fn is_complete_ray(path: &PathRecord) -> bool {
-    path.start == Start::Ray && path.end == PathEnd::Complete
+    let is_ray = path.start == Start::Ray;
+    let is_complete = path.end == PathEnd::Complete;
+    is_ray && is_complete
 }
 
 /// The steps whose second path, from a ray start, led to the Newton point.

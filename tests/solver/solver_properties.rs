@@ -151,7 +151,8 @@ impl Contact {
 
 /// A factor of small integers; zeros are what it shrinks to.
 fn factors() -> impl Strategy<Value = Vec<Vec<i8>>> {
-    prop::collection::vec(prop::collection::vec(-2i8..=2, MOST), MOST)
+    let row = prop::collection::vec(-2i8..=2, MOST);
+    prop::collection::vec(row, MOST)
 }
 
 fn contacts() -> impl Strategy<Value = Contact> {
@@ -224,7 +225,11 @@ fn systems_of_any_structure_agree_with_the_enumerator() {
 }
 
 fn count_of_nonzero_entries(matrix: &[Vec<i8>]) -> usize {
-    matrix.iter().flatten().filter(|entry| **entry != 0).count()
+    let mut count = 0;
+    for entry in matrix.iter().flatten() {
+        count += usize::from(*entry != 0);
+    }
+    count
 }
 
 /// Structures shrink: from any system with a solution to few entries, no inner degree of freedom
@@ -500,8 +505,11 @@ impl Arbitrary for Two {
 }
 
 fn is_in_table(claim: &AcceptedClaim, truth: &[ClosedSolution]) -> bool {
+    let lo = claim.value.lo();
+    let hi = claim.value.hi();
+
     let mut same_support = truth.iter().filter(|t| t.slip == claim.support);
-    same_support.any(|t| t.value.within(claim.value.lo(), claim.value.hi()))
+    same_support.any(|solution| solution.value.within(lo, hi))
 }
 
 /// What the checker accepts of what is certified.

@@ -84,8 +84,12 @@ fn one_by_one() {
 #[test]
 fn no_unknowns_at_all() {
     let empty = lcp(DMatrix::zeros(0, 0), &[]);
-    assert_solves(&solve(&empty, &[], &Options::default()).unwrap(), &[]);
-    assert_solves(&solve_linear(&empty, &Options::default()).unwrap(), &[]);
+    let options = Options::default();
+
+    let outcome = solve(&empty, &[], &options).unwrap();
+    assert_solves(&outcome, &[]);
+    let lemke = solve_linear(&empty, &options).unwrap();
+    assert_solves(&lemke, &[]);
 }
 
 #[test]
@@ -124,7 +128,11 @@ fn murty() {
 #[test]
 fn ties_do_not_cycle() {
     // Cottle, Pang and Stone: ties in every ratio test, the classic cyclic example.
-    let m = dmatrix![1.0, 2.0, 0.0; 0.0, 1.0, 2.0; 2.0, 0.0, 1.0];
+    let m = dmatrix![
+        1.0, 2.0, 0.0;
+        0.0, 1.0, 2.0;
+        2.0, 0.0, 1.0
+    ];
     let cyclic = lcp(m, &[-1.0; 3]);
     assert_all_methods_solve(&cyclic, &[1.0 / 3.0; 3]);
 
@@ -139,12 +147,20 @@ fn ties_do_not_cycle() {
 
 #[test]
 fn two_sided_bounds() {
-    let m = dmatrix![2.0, 0.5, 0.0; 0.0, 1.0, 0.3; 0.1, 0.0, 1.0];
-    let problem = with_bounds(m, &[-9.0, 5.0, -0.5], &[0.0; 3], &[1.0; 3]);
+    let m = dmatrix![
+        2.0, 0.5, 0.0;
+        0.0, 1.0, 0.3;
+        0.1, 0.0, 1.0
+    ];
+    let q = [-9.0, 5.0, -0.5];
+    let problem = with_bounds(m, &q, &[0.0; 3], &[1.0; 3]);
     assert_all_methods_solve(&problem, &[1.0, 0.0, 0.4]);
 
     // Indefinite: several solutions, each a vertex; whatever is reported is one.
-    let m = dmatrix![-1.0, 0.0; 0.0, -1.0];
+    let m = dmatrix![
+        -1.0, 0.0;
+        0.0, -1.0
+    ];
     let saddle = with_bounds(m, &[0.5, 0.5], &[0.0; 2], &[1.0; 2]);
     let starts = [vec![0.0, 0.0], vec![1.0, 0.0], vec![0.3, 0.8]];
     for outcome in multistart(&saddle, starts, &Options::default()).unwrap() {
@@ -155,19 +171,29 @@ fn two_sided_bounds() {
 #[test]
 fn free_unknowns() {
     // min (x - 3)^2 / 2 with x <= 1: x free, multiplier >= 0.
-    let m = dmatrix![1.0, 1.0; -1.0, 0.0];
+    let m = dmatrix![
+        1.0, 1.0;
+        -1.0, 0.0
+    ];
     let optimality = with_bounds(m, &[-3.0, 1.0], &[-INF, 0.0], &[INF; 2]);
     assert_all_methods_solve(&optimality, &[1.0, 2.0]);
 
     // A linear system, with zero diagonal.
-    let m = dmatrix![0.0, 2.0; 1.0, 1.0];
+    let m = dmatrix![
+        0.0, 2.0;
+        1.0, 1.0
+    ];
     let system = with_bounds(m, &[-4.0, -5.0], &[-INF; 2], &[INF; 2]);
     assert_all_methods_solve(&system, &[3.0, 2.0]);
 }
 
 #[test]
 fn equal_bounds() {
-    let m = dmatrix![1.0, 1.0, 0.0; 1.0, 2.0, 0.0; 0.0, 0.0, 1.0];
+    let m = dmatrix![
+        1.0, 1.0, 0.0;
+        1.0, 2.0, 0.0;
+        0.0, 0.0, 1.0
+    ];
     let lower = [1.0, 0.0, -1.0];
     let upper = [1.0, INF, -1.0];
     let problem = with_bounds(m, &[-9.0, -4.0, 2.0], &lower, &upper);
@@ -290,10 +316,11 @@ impl Mcp for FourByFour {
         };
         let c_in_f2 = self.z3_in_f2;
         let d_in_f3 = self.z4_in_f3;
+        let constant = self.constant_of_f3;
 
         f[0] = 3.0 * a * a + 2.0 * a * b + 2.0 * b * b + c + 3.0 * d - 6.0;
         f[1] = 2.0 * a * a + a + b * b + c_in_f2 * c + 2.0 * d - 2.0;
-        f[2] = 3.0 * a * a + a * b + 2.0 * b * b + 2.0 * c + d_in_f3 * d - self.constant_of_f3;
+        f[2] = 3.0 * a * a + a * b + 2.0 * b * b + 2.0 * c + d_in_f3 * d - constant;
         f[3] = a * a + 3.0 * b * b + 2.0 * c + 3.0 * d - 3.0;
     }
 
@@ -361,10 +388,20 @@ fn kojima_and_shindo_has_two_solutions_one_of_them_degenerate() {
 fn the_log_tells_the_whole_run() {
     let problem = FourByFour::josephy();
 
-    let outcome = solve(&problem, &[0.0, 5.0, 0.0, 5.0], &Options::default()).unwrap();
+    let start = [0.0, 5.0, 0.0, 5.0];
 
-    assert_eq!(outcome.trace().count(), outcome.counters.pivots);
-    let steps_with_paths = outcome.log.iter().filter(|step| !step.paths.is_empty());
-    assert_eq!(steps_with_paths.count(), outcome.counters.majors);
-    assert!(outcome.trace().all(|pivot| pivot.t <= 1.0));
+    let outcome = solve(&problem, &start, &Options::default()).unwrap();
+
+    let mut pivots = 0;
+    for pivot in outcome.trace() {
+        assert!(pivot.t <= 1.0);
+        pivots += 1;
+    }
+    assert_eq!(pivots, outcome.counters.pivots);
+
+    let mut steps_with_paths = 0;
+    for step in &outcome.log {
+        steps_with_paths += usize::from(!step.paths.is_empty());
+    }
+    assert_eq!(steps_with_paths, outcome.counters.majors);
 }

@@ -54,6 +54,7 @@ pub fn beside(cases: &mut Cases) {
         &problem,
         fold_tree(root_node(AROUND_TWO, RootOutcome::Absent)),
     );
+
     cases.reject(
         "beside-false-cover",
         "Cover.SignChange",

@@ -76,12 +76,14 @@ fn node(points: Vec<Point>, cells: Vec<usize>, reasons: Vec<Exact>) -> Node {
 
 /// One reason over all of [0, 4].
 fn throughout(reason: Exact) -> Node {
-    node(vec![at(0, 0), at(4, 0)], vec![0], vec![reason])
+    let ends = vec![at(0, 0), at(4, 0)];
+    node(ends, vec![0], vec![reason])
 }
 
 /// One reason over all of [0, infinity).
 fn to_infinity(reason: Exact) -> Node {
-    node(vec![at(0, 0)], vec![0], vec![reason])
+    let lower_end = vec![at(0, 0)];
+    node(lower_end, vec![0], vec![reason])
 }
 
 fn nothing_moves() -> Node {

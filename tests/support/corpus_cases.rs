@@ -156,12 +156,16 @@ pub fn sparse(rows: &[&[&str]]) -> Sparse {
             entries.push((i, j, parse(entry).unwrap()));
         }
     }
+
     Sparse::from_entries(rows.len(), rows.len(), entries)
 }
 
 /// The eigenproblem of A + t B for t = lambda^2 in [0, infinity).
 pub fn pencil(a: &[&[&str]], b: &[&[&str]], free: &[usize]) -> Problem {
-    let pencil = Pencil::new(sparse(a), sparse(b), free.to_vec()).unwrap();
+    let a = sparse(a);
+    let b = sparse(b);
+    let pencil = Pencil::new(a, b, free.to_vec()).unwrap();
+
     Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap()
 }
 
@@ -286,6 +290,7 @@ pub fn cover(problem: &Problem, tree: Vec<Node>) -> Certificate {
         anchor: None,
         tree,
     };
+
     Certificate {
         complete_set: Some(CompleteSet {
             condensation: None,

@@ -23,6 +23,7 @@ pub fn exact_claims(cases: &mut Cases) {
     for forgery in VALUES.iter().chain(&VECTORS) {
         let name = format!("exact-{}", forgery.name);
         let forged = exact_certificate(&problem, &forgery.of(&good));
+
         cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
     }
 
@@ -61,6 +62,7 @@ fn spellings_of_one_solution(cases: &mut Cases) {
         ],
         ..good
     };
+
     cases.accept(
         "exact-unreduced",
         "polynomials of higher degree that are equal mod p, one of them 0 mod p",
@@ -226,6 +228,7 @@ fn frame(cases: &mut Cases) {
         unknown: Unknown::Mu,
         ..own.clone()
     };
+
     cases.reject(
         "other-unknown",
         "Unknown",
@@ -238,6 +241,7 @@ fn frame(cases: &mut Cases) {
         claims: vec![],
         ..own.clone()
     };
+
     cases.reject(
         "nothing-claimed",
         "NoClaims",
@@ -250,6 +254,7 @@ fn frame(cases: &mut Cases) {
         window: Window::new(whole(0), Some(rational(9, 20))).unwrap(),
         ..own
     };
+
     cases.reject(
         "outside-own-window",
         "OutsideWindow",
@@ -280,6 +285,7 @@ fn signs(cases: &mut Cases) {
         &positive,
         &exact_certificate(&positive, &not_biactive),
     );
+
     cases.reject(
         "exact-y-negative-1e-30",
         "YNotPositive",
@@ -287,6 +293,7 @@ fn signs(cases: &mut Cases) {
         &negative,
         &exact_certificate(&negative, &not_biactive),
     );
+
     cases.reject(
         "exact-biactive-missing",
         "Biactive",
@@ -294,12 +301,14 @@ fn signs(cases: &mut Cases) {
         &zero,
         &exact_certificate(&zero, &not_biactive),
     );
+
     cases.accept(
         "exact-biactive",
         "x_1 = y_1 = 0",
         &zero,
         &exact_certificate(&zero, &biactive),
     );
+
     cases.reject(
         "exact-biactive-1e-30",
         "Biactive",
@@ -343,6 +352,7 @@ fn signs_by_intervals(cases: &mut Cases) {
         &negative,
         &exact_certificate(&negative, &wide),
     );
+
     cases.reject(
         "exact-sign-closed-negative",
         "YNotPositive",
@@ -350,6 +360,7 @@ fn signs_by_intervals(cases: &mut Cases) {
         &negative,
         &exact_certificate(&negative, &narrow),
     );
+
     cases.accept(
         "exact-sign-narrow",
         "an interval narrow enough for the sign of y_2",
@@ -416,6 +427,7 @@ fn free_variable(cases: &mut Cases) {
 
     for forgery in FREE {
         let forged = exact_certificate(&problem, &forgery.of(&good));
+
         cases.reject(
             forgery.name,
             forgery.reason,
@@ -506,6 +518,7 @@ pub fn enclosed_claims(cases: &mut Cases) {
     for forgery in BOXES {
         let name = format!("enclosed-{}", forgery.name);
         let forged = enclosed_certificate(&problem, &forgery.of(&good));
+
         cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
     }
 
@@ -570,6 +583,7 @@ pub fn lifted_claims(cases: &mut Cases) {
     for forgery in LIFTS {
         let name = format!("lifted-{}", forgery.name);
         let forged = lifted_certificate(&problem, &forgery.of(&good));
+
         cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
     }
 
@@ -593,6 +607,7 @@ fn accepted_lifts(cases: &mut Cases, name: &str, unknown: Unknown) {
         &problem,
         &lifted_certificate(&problem, &lift(&problem, &exact)),
     );
+
     cases.accept(
         &format!("{name}-as-pencil"),
         "the same solution about the pencil",
@@ -612,6 +627,7 @@ fn first_solution(problem: &Problem) -> ExactSolution {
         value: solution.decimal(17).parse().unwrap(),
         x: decimals.iter().map(|text| text.parse().unwrap()).collect(),
     };
+
     match propose(&pencil, problem.window(), &candidate).unwrap() {
         Claim::ExactSolution(claim) => claim,
         other => unreachable!("{other:?}"),
@@ -637,6 +653,7 @@ fn move_dof(claim: &mut LiftedSolution, dof: usize) {
             add(&mut claim.w[row], 0, &(stiffness * tiny()));
         }
     }
+
     for (row, column, mass) in system.mass().unwrap().entries() {
         if column == dof {
             add(&mut claim.w[row], 1, &(mass * tiny()));

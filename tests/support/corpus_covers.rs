@@ -67,6 +67,7 @@ fn whole_covers(cases: &mut Cases) {
         &problem,
         &cover(&problem, one_value_tree()),
     );
+
     cases.undecided(
         "cover-open",
         "an open leaf: nothing is wrong, nothing is proved (exit 3)",
@@ -135,6 +136,7 @@ fn frames(cases: &mut Cases) {
     for forgery in FRAMES {
         let name = format!("cover-{}", forgery.name);
         let forged = forgery.of(&good);
+
         cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
     }
 }
@@ -225,6 +227,7 @@ fn trees(cases: &mut Cases) {
     for forgery in TREES {
         let name = format!("cover-{}", forgery.name);
         let forged = cover(&problem, forgery.of(&good));
+
         cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
     }
 }
@@ -323,6 +326,7 @@ fn roots(cases: &mut Cases) {
         let name = format!("cover-{}", forgery.name);
         let leaf = Node::Root(Box::new(forgery.of(&good)));
         let forged = cover(&problem, fold_tree(leaf));
+
         cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
     }
 }
@@ -339,6 +343,7 @@ fn halves(cases: &mut Cases) {
         &problem,
         &in_both_halves(&problem, ["61/32", "65/32"], ["63/32", "67/32"]),
     );
+
     cases.accept(
         "cover-twice-the-same",
         "the same solution seen from both sides of a split",
@@ -381,6 +386,7 @@ fn claimed(cases: &mut Cases) {
         claims: vec![],
         ..good
     };
+
     cases.reject(
         "cover-claim-removed",
         "Cover.NotTheClaim",
@@ -521,6 +527,7 @@ pub fn absence(cases: &mut Cases) {
         no_root(),
         no_solution_at_a_point(),
     ];
+
     for row in rows {
         row.push(cases);
     }
@@ -544,6 +551,7 @@ fn ldl_half_line() -> Absence {
 
     let true_pivots = diagonal_factor(&["2", "2"]);
     let false_pivots = diagonal_factor(&["2", "2.000000000001"]);
+
     Absence {
         name: "ldl-half-line",
         accepted: Covered {
@@ -568,6 +576,7 @@ fn ldl_interval() -> Absence {
 
     let upper_before = diagonal_factor(&["0.000000000001", "2"]);
     let upper_at = diagonal_factor(&["0", "2"]);
+
     Absence {
         name: "ldl-interval",
         accepted: Covered {

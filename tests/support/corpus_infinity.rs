@@ -70,7 +70,8 @@ impl Witness {
 
 /// The outcome "x is the null vector at infinity".
 fn null_vector(x: &[i64]) -> RootOutcome {
-    RootOutcome::Infinity(x.iter().map(|&v| Integer::from(v)).collect())
+    let components = x.iter().map(|&component| Integer::from(component));
+    RootOutcome::Infinity(components.collect())
 }
 
 /// [[1, -6], [2, -6]] + t I has no value on {0, 1} above 3. From 64 on: Y = 1/8, v = 1/16, u =
@@ -132,6 +133,7 @@ fn chord(cases: &mut Cases) {
     for forgery in CHORDS {
         let name = format!("infinity-{}", forgery.name);
         let forged = cover(&problem, two_variables(forgery.of(&good)));
+
         cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
     }
 }
@@ -199,6 +201,7 @@ fn limit(cases: &mut Cases) {
     for forgery in LIMITS {
         let name = format!("infinity-{}", forgery.name);
         let forged = cover(&problem, two_variables(forgery.of(&good)));
+
         cases.reject(&name, forgery.reason, forgery.note, &problem, &forged);
     }
 }
@@ -338,6 +341,7 @@ fn scales(cases: &mut Cases) {
         &from_thousandth,
         &one_variable(&from_thousandth, ["5000", "7000"], RootOutcome::Solution),
     );
+
     cases.reject(
         "infinity-scale-true",
         "Cover.OutcomeOnHalfLine",
@@ -345,6 +349,7 @@ fn scales(cases: &mut Cases) {
         &from_thousandth,
         &one_variable(&from_thousandth, ["5", "7"], RootOutcome::Solution),
     );
+
     cases.reject(
         "infinity-scale-negative-y",
         "Cover.OutcomeOnHalfLine",

@@ -33,6 +33,7 @@ fn push_repeated(cases: &mut Cases, name: &str, note: &str, repeated: &Repeated<
         "certificate_text": repeated.text,
         "repeat": { "mark": "@", "unit": repeated.unit, "count": repeated.count },
     });
+
     cases.push("malformed", name, file, note);
 }
 
@@ -78,6 +79,7 @@ fn no_certificate(cases: &mut Cases) {
             as_object.replacen("\"interval\"", "}\"interval\"", 1),
         ),
     ];
+
     for (name, note, text) in texts {
         cases.malformed(name, note, &problem, &text);
     }
@@ -92,6 +94,7 @@ fn repeated(cases: &mut Cases) {
         unit: "1e5000,",
         count: 500,
     };
+
     push_repeated(
         cases,
         "hostile-exponent",
@@ -104,6 +107,7 @@ fn repeated(cases: &mut Cases) {
         unit: "7",
         count: 100_001,
     };
+
     push_repeated(
         cases,
         "digits-100001",
@@ -116,6 +120,7 @@ fn repeated(cases: &mut Cases) {
         unit: "[",
         count: 100_000,
     };
+
     push_repeated(cases, "deep", "a hundred thousand brackets", &brackets);
 
     let objects = Repeated {
@@ -123,6 +128,7 @@ fn repeated(cases: &mut Cases) {
         unit: "{\"format\":",
         count: 100_000,
     };
+
     push_repeated(
         cases,
         "deep-objects",
@@ -393,11 +399,13 @@ pub fn spelling(cases: &mut Cases) {
     for (from, to) in ALLOWED {
         respelt = replaced(&respelt, from, to);
     }
+
     let file = json!({
         "verdict": "accepted",
         "problem": problem_json(&problem),
         "certificate_text": respelt,
     });
+
     cases.push(
         "accept",
         "spelling-numbers",
@@ -658,6 +666,7 @@ pub fn hostile(cases: &mut Cases) {
         unit: "0,",
         count: 1_000_000,
     };
+
     push_too_large(cases, "hostile-degree", "degree 10^6", &degree);
 
     let degree_of_x = Repeated {
@@ -665,6 +674,7 @@ pub fn hostile(cases: &mut Cases) {
         unit: "1,",
         count: 1_000_000,
     };
+
     push_too_large(cases, "hostile-degree-x", "x of degree 10^6", &degree_of_x);
 
     let size = Repeated {
@@ -672,6 +682,7 @@ pub fn hostile(cases: &mut Cases) {
         unit: &five_thousand_digits,
         count: 500,
     };
+
     push_too_large(
         cases,
         "hostile-size-spelt",
@@ -689,5 +700,6 @@ fn push_too_large(cases: &mut Cases, name: &str, note: &str, repeated: &Repeated
         "certificate_text": repeated.text,
         "repeat": { "mark": "@", "unit": repeated.unit, "count": repeated.count },
     });
+
     cases.push("reject", name, file, note);
 }

@@ -79,6 +79,7 @@ fn accept(cases: &mut Cases, name: &str, note: &str, problem: &Value, points: &[
         "problem": problem,
         "certificate": solution(problem, points),
     });
+
     cases.push("accept", &format!("mcp-{name}"), file, note);
 }
 
@@ -133,6 +134,7 @@ fn accepted(cases: &mut Cases) {
         &lcp(),
         &[LCP_SOLUTION],
     );
+
     accept(
         cases,
         "bounds",
@@ -140,6 +142,7 @@ fn accepted(cases: &mut Cases) {
         &every_bound("2"),
         &[EVERY_BOUND_SOLUTION],
     );
+
     accept(
         cases,
         "degenerate",
@@ -147,6 +150,7 @@ fn accepted(cases: &mut Cases) {
         &segment(),
         &[&["1/3", "2/3"], &["1", "0"], &["0", "1"]],
     );
+
     accept(
         cases,
         "biactive",
@@ -154,6 +158,7 @@ fn accepted(cases: &mut Cases) {
         &json!({ "format": "mceip-mcp/1", "m": [[1]], "q": [0] }),
         &[&["0"]],
     );
+
     accept(
         cases,
         "three",
@@ -197,6 +202,7 @@ fn points_beside_the_definition(cases: &mut Cases) {
             points: &[&["4/3", "7/3", "0"]],
         },
     ];
+
     for forged in list {
         forged.push(cases);
     }
@@ -226,6 +232,7 @@ fn points_off_the_bounds(cases: &mut Cases) {
             points: &[&["5/6", "1/2", "1", "1.999999999999999999999999999999"]],
         },
     ];
+
     for forged in list {
         forged.push(cases);
     }
@@ -286,6 +293,7 @@ fn points_of_the_wrong_sign(cases: &mut Cases) {
             points: &[&["1e6"]],
         },
     ];
+
     for forged in list {
         forged.push(cases);
     }
@@ -313,6 +321,7 @@ fn hostile(cases: &mut Cases) {
         "certificate_text": text,
         "repeat": { "mark": "@", "unit": "7", "count": 99_999 },
     });
+
     cases.push(
         "reject",
         "mcp-hostile-size",

@@ -62,6 +62,7 @@ pub fn supports(cases: &mut Cases) {
         ];
         let name = format!("support-{}", forgery.name);
         let forged = cover(&wide_kernel, tree);
+
         cases.reject(&name, forgery.reason, forgery.note, &wide_kernel, &forged);
     }
 }

@@ -127,8 +127,8 @@ fn families_in_vain(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
 /// Does the answer hold more than single solutions? Ranges that the window cuts to single values
 /// are lists within it; `ranges_left_out` asks for each such value.
 fn is_no_list(truth: &Enumeration) -> bool {
-    let mut pieces = truth.ranges.iter().flat_map(|range| &range.pieces);
-    let has_long_range = pieces.any(|piece| !is_one_value(piece));
+    let mut ranges = truth.ranges.iter();
+    let has_long_range = ranges.any(|range| !range.pieces.iter().all(is_one_value));
     let has_wide_cone = truth.cones.iter().any(|cone| cone.dimension > 1);
     has_long_range || has_wide_cone || !truth.undescribed.is_empty()
 }
@@ -253,10 +253,12 @@ fn inside(piece: &Piece) -> Option<Rational> {
     if from.clone().cmp_exact(&mut to.clone()) != Ordering::Less {
         return None;
     }
+
     while from.interval().hi() >= to.interval().lo() {
         from.refine();
         to.refine();
     }
+
     Some((from.interval().hi() + to.interval().lo()) / whole(2))
 }
 
@@ -381,7 +383,9 @@ fn is_fit_to_condense(problem: &Problem) -> bool {
 /// lambda^2 = 2 and 3 on one support.
 pub fn fold(window: Window) -> Problem {
     let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
-    let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+    let b = Sparse::identity(2);
+    let pencil = Pencil::new(a, b, vec![]).unwrap();
+
     Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
 }
 

@@ -26,6 +26,7 @@ impl Embedded {
         let lower = (0..=n)
             .map(|i| if i < free { f64::NEG_INFINITY } else { 0.0 })
             .collect();
+
         Embedded {
             a,
             b,
@@ -152,8 +153,9 @@ pub fn enumerate(a: &DMatrix<f64>, b: &DMatrix<f64>, free: usize) -> Vec<Truth> 
     let mut found: Vec<Truth> = Vec::new();
 
     for mask in 1u32..(1 << (n - free)) {
-        let moves = |i: &usize| *i < free || mask >> (i - free) & 1 == 1;
-        let support: Vec<usize> = (0..n).filter(moves).collect();
+        let mut support: Vec<usize> = (0..n).collect();
+        support.retain(|&i| i < free || mask >> (i - free) & 1 == 1);
+
         let a_on_support = a.select_rows(&support).select_columns(&support);
         let b_on_support = b.select_rows(&support).select_columns(&support);
 
@@ -217,8 +219,12 @@ fn spread(components: &DVector<f64>, support: &[usize], n: usize, free: usize) -
 /// x_s >= 0, y_s >= 0 and y_f = 0 for y = (A + t B) x, to rounding.
 fn solves(a: &DMatrix<f64>, b: &DMatrix<f64>, free: usize, t: f64, x: &DVector<f64>) -> bool {
     let y = (a + b * t) * x;
-    let has_signs = (free..a.nrows()).all(|i| x[i] >= -1e-9 && y[i] >= -1e-8 * (1.0 + t));
-    has_signs && y.rows(0, free).amax() < 1e-7 * (1.0 + t)
+    let scale = 1.0 + t;
+
+    let mut slip = free..a.nrows();
+    let has_signs = slip.all(|i| x[i] >= -1e-9 && y[i] >= -1e-8 * scale);
+    let is_balanced = y.rows(0, free).amax() < 1e-7 * scale;
+    has_signs && is_balanced
 }
 
 /// Is (t, x) in the list, to 1e-6?
@@ -259,7 +265,10 @@ pub fn normal_matrix(rng: &mut impl Rng, n: usize) -> DMatrix<f64> {
 /// A random matrix with eigenvalues of at least 1/2.
 pub fn definite(rng: &mut impl Rng, n: usize) -> DMatrix<f64> {
     let g = normal_matrix(rng, n);
-    &g * g.transpose() / n as f64 + DMatrix::identity(n, n) * 0.5
+    let semidefinite = &g * g.transpose() / n as f64;
+    let half = DMatrix::identity(n, n) * 0.5;
+
+    semidefinite + half
 }
 
 /// "Random pencils" of peers.md: (K0, K1, M0, n_f).

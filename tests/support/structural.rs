@@ -45,6 +45,7 @@ fn collect(value: &Value, at: String, wanted: &dyn Fn(&Value) -> bool, out: &mut
         }
         _ => {}
     }
+
     if wanted(value) {
         out.push(at);
     }
@@ -64,8 +65,11 @@ fn as_number(value: &Value) -> Option<Rational> {
 
 /// A rational, an end of a window as a rule: not an integer.
 fn draw_rational(rng: &mut ChaCha8Rng) -> Rational {
-    let denominator = [1, 2, 3, 7, 1000][rng.random_range(0..5)];
-    rational(rng.random_range(0..=9 * denominator), denominator)
+    let denominators = [1, 2, 3, 7, 1000];
+    let denominator = denominators[rng.random_range(0..5)];
+
+    let largest = 9 * denominator;
+    rational(rng.random_range(0..=largest), denominator)
 }
 
 fn change_number(certificate: &mut Value, rng: &mut ChaCha8Rng) {

@@ -56,6 +56,7 @@ pub fn case(rng: &mut ChaCha8Rng) -> Case {
             pieces,
         }),
     };
+
     Case {
         problem,
         certificate,
@@ -81,12 +82,16 @@ impl Entries {
                 }
             }
         }
+
         Entries { a, b }
     }
 
     fn problem(&self, lo: &Rational, hi: Option<&Rational>) -> Problem {
-        let pencil = Pencil::new(sparse(&self.a), sparse(&self.b), Vec::new()).unwrap();
+        let a = sparse(&self.a);
+        let b = sparse(&self.b);
+        let pencil = Pencil::new(a, b, Vec::new()).unwrap();
         let window = Window::new(lo.clone(), hi.cloned()).unwrap();
+
         Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
     }
 
@@ -96,13 +101,17 @@ impl Entries {
         let largest = sizes.max().unwrap_or(0);
         let bits = (u64::BITS - largest.leading_zeros()).max(1);
 
-        let entry = whole(self.a[i][j]) + t * whole(self.b[i][j]);
-        entry / whole(1 << bits)
+        let a = whole(self.a[i][j]);
+        let b = whole(self.b[i][j]);
+        let scale = whole(1 << bits);
+        (a + t * b) / scale
     }
 
     /// det(A + tB) on a support.
     fn determinant(&self, support: &[usize]) -> Poly {
-        determinant(&block(&self.a, support), &block(&self.b, support))
+        let a = block(&self.a, support);
+        let b = block(&self.b, support);
+        determinant(&a, &b)
     }
 }
 
@@ -130,8 +139,11 @@ fn block(rows: &[Vec<i64>], support: &[usize]) -> Vec<Vec<Integer>> {
 }
 
 fn draw_end(rng: &mut ChaCha8Rng) -> Rational {
-    let denominator = [1, 2, 3, 7, 10, 1000, 1024][rng.random_range(0..7)];
-    rational(rng.random_range(1..=6 * denominator), denominator)
+    let denominators = [1, 2, 3, 7, 10, 1000, 1024];
+    let denominator = denominators[rng.random_range(0..7)];
+
+    let largest = 6 * denominator;
+    rational(rng.random_range(1..=largest), denominator)
 }
 
 fn draw_window(rng: &mut ChaCha8Rng) -> (Rational, Option<Rational>) {
@@ -151,8 +163,12 @@ fn draw_window(rng: &mut ChaCha8Rng) -> (Rational, Option<Rational>) {
 
 /// A set of variables that is not empty, ascending.
 fn draw_support(rng: &mut ChaCha8Rng, order: usize) -> Vec<usize> {
-    let bits = rng.random_range(1..1u32 << order);
-    (0..order).filter(|i| bits >> i & 1 == 1).collect()
+    let subsets = 1u32 << order;
+    let subset = rng.random_range(1..subsets);
+
+    let mut support: Vec<usize> = (0..order).collect();
+    support.retain(|i| subset >> i & 1 == 1);
+    support
 }
 
 /// The interval of the leaf, and where the window was cut for it.
@@ -174,6 +190,7 @@ impl Region {
             Some(hi) => lo + (hi - lo) * rational(rng.random_range(1..=6), 7),
             None => lo + draw_end(rng),
         };
+
         match rng.random_range(0..3) {
             0 => Region {
                 lo: lo.clone(),
@@ -227,6 +244,7 @@ fn root(rng: &mut ChaCha8Rng, entries: &Entries, support: &[usize], region: &Reg
     let size = others.len();
     let mut right = vec![Rational::zero(); size];
     let mut left = vec![Rational::zero(); size];
+
     for i in 0..size {
         for j in 0..size {
             right[i] -= &inverse[i][j] * entries.scaled(others[j], pivot, &value);
@@ -385,6 +403,7 @@ impl TreeWriter<'_> {
             self.tree.push(Node::Open);
             return;
         }
+
         let leaf = self.leaf.clone();
 
         let Some(cut) = &self.region.cut else {

@@ -47,7 +47,9 @@ impl Ray {
 
     /// Does the ray belong to the closed cone x_i = 0 off the support, y_i = 0 on it?
     fn is_in_cone_of(&self, support: &[usize]) -> bool {
-        is_subset(&self.slip, support) && is_subset(support, &self.y_zero)
+        let x_fits = is_subset(&self.slip, support);
+        let y_fits = is_subset(support, &self.y_zero);
+        x_fits && y_fits
     }
 }
 
@@ -72,7 +74,9 @@ impl Third {
 
     /// The entry of A + t B as a polynomial in t.
     fn entry(&self, i: usize, j: usize) -> Polynomial {
-        trim(vec![integer(self.a[i][j]), integer(self.b[i][j])])
+        let constant = integer(self.a[i][j]);
+        let linear = integer(self.b[i][j]);
+        trim(vec![constant, linear])
     }
 
     fn with_free(&self, set: &[usize]) -> Vec<usize> {
@@ -90,25 +94,32 @@ impl Third {
         minors[0] = vec![integer(1)];
 
         for columns in 1usize..1 << order {
-            let last_row = columns.count_ones() as usize - 1;
-            let mut minor = Polynomial::new();
-            let mut place = 0;
-
-            for column in 0..order {
-                if columns >> column & 1 == 0 {
-                    continue;
-                }
-                let entry = self.entry(active[last_row], active[column]);
-                let term = multiply(&entry, &minors[columns & !(1 << column)]);
-                let is_even = (last_row - place).is_multiple_of(2);
-                let signed_term = if is_even { term } else { negate(&term) };
-
-                minor = add(&minor, &signed_term);
-                place += 1;
-            }
-            minors[columns] = minor;
+            minors[columns] = self.minor(&active, columns, &minors);
         }
         minors[(1 << order) - 1].clone()
+    }
+
+    /// The minor of a set of k columns and the first k rows, expanded by its last row: `minors` has
+    /// those of all smaller sets.
+    fn minor(&self, active: &[usize], columns: usize, minors: &[Polynomial]) -> Polynomial {
+        let last_row = columns.count_ones() as usize - 1;
+        let mut minor = Polynomial::new();
+        let mut place = 0;
+
+        for column in 0..active.len() {
+            if columns >> column & 1 == 0 {
+                continue;
+            }
+            let entry = self.entry(active[last_row], active[column]);
+            let smaller_minor = &minors[columns & !(1 << column)];
+            let term = multiply(&entry, smaller_minor);
+
+            let is_even = (last_row - place).is_multiple_of(2);
+            let signed_term = if is_even { term } else { negate(&term) };
+            minor = add(&minor, &signed_term);
+            place += 1;
+        }
+        minor
     }
 
     pub fn spectrum(&self) -> Spectrum {
@@ -152,13 +163,8 @@ impl Third {
         let mut representatives = Vec::new();
 
         for own in 0..lines.len() {
-            // Gauss leaves one basis vector for each free column: 1 there, 0 at the others'.
-            let is_zero_in_all_others = |variable: usize| {
-                let mut numbered = lines.iter().enumerate();
-                numbered.all(|(k, line)| line[variable].is_empty() == (k != own))
-            };
             let mut free = self.free.iter().copied();
-            representatives.extend(free.find(|&variable| is_zero_in_all_others(variable)));
+            representatives.extend(free.find(|&variable| is_only_in(variable, &lines, own)));
         }
         representatives
     }
@@ -296,10 +302,8 @@ impl Third {
                     members.push(index);
                 }
             }
-            let slips_in_a_ray = |i: &usize| members.iter().any(|&k| rays[k].slip.contains(i));
-            let fills_support = support.iter().all(slips_in_a_ray);
-
-            if members.len() > 1 && fills_support && !is_line(alpha, rays, &members) {
+            let spanning: Vec<&Ray> = members.iter().map(|&index| &rays[index]).collect();
+            if members.len() > 1 && fill(&spanning, support) && !is_line(alpha, &spanning) {
                 cones.push(SpannedCone {
                     support: support.clone(),
                     rays: members,
@@ -307,11 +311,9 @@ impl Third {
             }
         }
 
-        let is_maximal = |cone: &&SpannedCone| {
-            let mut others = cones.iter().filter(|other| other.support != cone.support);
-            !others.any(|other| is_subset(&cone.rays, &other.rays))
-        };
-        cones.iter().filter(is_maximal).cloned().collect()
+        let mut maximal = cones.clone();
+        maximal.retain(|cone| is_maximal(cone, &cones));
+        maximal
     }
 
     /// Does a solution with exactly this support exist at alpha? Some sum of rays has it.
@@ -319,23 +321,42 @@ impl Third {
         let lines = self.lines(alpha);
         let rays = self.rays_without(alpha, &lines);
 
-        let in_cone: Vec<&Ray> = rays.iter().filter(|r| r.is_in_cone_of(support)).collect();
+        let mut in_cone: Vec<&Ray> = rays.iter().collect();
+        in_cone.retain(|ray| ray.is_in_cone_of(support));
         if in_cone.is_empty() && lines.is_empty() {
             return false;
         }
-
-        let slips_in_a_ray = |i: &usize| in_cone.iter().any(|ray| ray.slip.contains(i));
-        support.iter().all(slips_in_a_ray)
+        fill(&in_cone, support)
     }
 }
 
+/// Does the variable occur in one of the vectors and in no other?
+///
+/// Gauss leaves one basis vector for each free column: 1 there, 0 at the others'.
+fn is_only_in(variable: usize, vectors: &[Vec<Polynomial>], own: usize) -> bool {
+    let mut numbered = vectors.iter().enumerate();
+    numbered.all(|(k, vector)| vector[variable].is_empty() == (k != own))
+}
+
+/// Is each variable of the support positive in one of the rays?
+fn fill(rays: &[&Ray], support: &[usize]) -> bool {
+    let mut variables = support.iter();
+    variables.all(|i| rays.iter().any(|ray| ray.slip.contains(i)))
+}
+
 /// Are these two rays x and -x? They are a line, not a cone of two dimensions.
-fn is_line(alpha: &mut Alpha, rays: &[Ray], members: &[usize]) -> bool {
-    let &[first, second] = members else {
+fn is_line(alpha: &mut Alpha, rays: &[&Ray]) -> bool {
+    let &[first, second] = rays else {
         return false;
     };
-    let opposite: Vec<Polynomial> = rays[first].x.iter().map(|p| negate(p)).collect();
-    same_ray(alpha, &opposite, &rays[second].x)
+    let opposite: Vec<Polynomial> = first.x.iter().map(|p| negate(p)).collect();
+    same_ray(alpha, &opposite, &second.x)
+}
+
+/// Does no cone of another support contain the rays of this one?
+fn is_maximal(cone: &SpannedCone, cones: &[SpannedCone]) -> bool {
+    let mut others = cones.iter().filter(|other| other.support != cone.support);
+    !others.any(|other| is_subset(&cone.rays, &other.rays))
 }
 
 fn is_subset(small: &[usize], large: &[usize]) -> bool {
