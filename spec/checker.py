@@ -791,9 +791,9 @@ def rational_bits(q):
     return abs(q.numerator).bit_length() + q.denominator.bit_length()
 
 
-def affordable(ns, coefficients, lo, hi):
+def affordable(ns, coefficients, lo, hi, bound_bits=0):
     """The matrices of a region have a largest size (C, Limits)."""
-    bits = BITS + rational_bits(lo) + (0 if hi is None else rational_bits(hi))
+    bits = BITS + bound_bits + rational_bits(lo) + (0 if hi is None else rational_bits(hi))
     demand(ns * ns * coefficients * bits <= 2**29, "a region's matrices are too large")
 
 
@@ -902,6 +902,7 @@ class CondensedPencil:
     def __init__(self, p, rows, obj):
         sigma, self.stiffness, mass_sigma, anchors, mass, self.tail = fields(obj, "sigma stiffness_factor mass_sigma anchors", "mass_factor tail")
         self.p, self.sigma, self.tau = p, number(sigma), number(mass_sigma)
+        self.bound_bits = rational_bits(self.sigma) + rational_bits(self.tau)
         self.place = {i: k for k, i in enumerate(p.free)}
         nf = len(p.free)
         aff, bff = ([{self.place[j]: v for j, v in m[i].items() if j in self.place} for i in p.free] for m in (p.a, p.b))
@@ -1015,11 +1016,11 @@ class CondensedPencil:
     def ends(self, lo, hi, anchor):
         demand(anchor is not None, "a leaf of a piece without an anchor")
         key = lo, hi, anchor
-        affordable(len(self.p.s), self.coefficients[anchor], lo, hi)
+        affordable(len(self.p.s), self.coefficients[anchor], lo, hi, self.bound_bits)
         if key not in self.cache:
             if len(self.cache) > 8:
                 self.cache.clear()
-            spend_matrix(len(self.p.s), self.coefficients[anchor], self.words[anchor], rational_bits(self.anchors[anchor][0]), lo, hi)
+            spend_matrix(len(self.p.s), self.coefficients[anchor], self.words[anchor], rational_bits(self.anchors[anchor][0]) + self.bound_bits, lo, hi)
             self.cache[key] = self.backwards(lo, hi, anchor) if self.anchors[anchor][-1] else self.enclose(lo, hi, self.anchors[anchor])
         return self.cache[key]
 
@@ -1586,7 +1587,7 @@ def complete_set(p, rows, window, claims, obj):
     """The number of solutions, of families and of open leaves of the cover."""
     pieces, condensation = fields(obj, "pieces", "condensation")
     demand((condensation is not None) == bool(p.free), "condensation is present exactly if there are free variables")
-    demand(len(p.s) <= 900, "cover: more than 900 complementarity variables")
+    demand(len(p.s) <= 512, "cover: more than 512 complementarity variables")
     if condensation is not None:
         anchors = fields(condensation, "sigma stiffness_factor mass_sigma anchors", "mass_factor tail")[3]
         demand(len(sequence(anchors)) * len(p.s) ** 2 <= 3 << 20, "cover: too many anchors for matrices of this order")
@@ -1596,7 +1597,7 @@ def complete_set(p, rows, window, claims, obj):
     nodes = sum(len(sequence(piece["tree"])) for piece in pieces if isinstance(piece, dict) and "tree" in piece)
     Budget.matrices = (1 << 30) + (nodes << 24)
     entries = sum(len({*ra, *rb}) for _, ra, rb in rows)
-    definite_left = (1 << 29) + (nodes << 20) + (entries << 16)
+    definite_left = (1 << 26) + (nodes << 20) + (entries << 16)
     start, found, families, left_open = window[0], [], [], []
     for number_of, piece in enumerate(pieces):
         if not isinstance(piece, dict) or "max" not in piece:

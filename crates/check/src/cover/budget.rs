@@ -12,7 +12,7 @@ use std::cell::Cell;
 
 /// Orders cubed of definite leaves, summed over a file: without any node or entry, for each node,
 /// and for each entry of the pencil. Elimination takes a third of the cube.
-const DEFINITE_BASE: u64 = 1 << 29;
+const DEFINITE_BASE: u64 = 1 << 26;
 const DEFINITE_PER_NODE: u64 = 1 << 20;
 const DEFINITE_PER_ENTRY: u64 = 1 << 16;
 

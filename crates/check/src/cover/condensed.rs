@@ -354,6 +354,7 @@ impl Blocks {
             unit,
             drift: self.drift(sigma),
             gain: tau / sigma,
+            bound_bits: rational_bits(sigma) + rational_bits(tau),
             coefficients,
             reversed: false,
         })

@@ -52,6 +52,8 @@ pub(super) struct Expanded {
     pub(super) drift: Rational,
     /// tau / sigma: the weights hold at t = 0, at t they are divided by 1 + t tau / sigma.
     pub(super) gain: Rational,
+    /// Bits of sigma and tau, by which every number of a remainder is longer.
+    pub(super) bound_bits: u64,
     /// How many coefficients W and V have, and one more: a bound of the coefficients of Z.
     pub(super) coefficients: usize,
     /// Is this B + sA, and the value expanded in s = 1 / t?

@@ -92,6 +92,7 @@ impl Family {
                 within_matrix_bits(what, linear.a.len(), 1, per_coefficient)
             }
             (_, Some(e)) => {
+                let per_coefficient = per_coefficient + e.bound_bits;
                 within_matrix_bits(what, e.weight.len(), e.coefficients, per_coefficient)
             }
             (_, None) => Ok(()),
@@ -122,7 +123,7 @@ impl Family {
                 order: e.weight.len(),
                 coefficients: e.coefficients,
                 coefficient_words: words(e.unit.bits()),
-                end_words: words(bits + rational_bits(&e.center)),
+                end_words: words(bits + rational_bits(&e.center) + e.bound_bits),
             }
             .products(),
             (_, None) => 0,
@@ -458,6 +459,56 @@ mod tests {
             within_matrix_bits("", 1024, 4, 129).is_err()
                 && within_matrix_bits("", usize::MAX, 2, 2).is_err()
         );
+    }
+
+    /// A constant expansion about 0 in units of 1, whose sigma and tau have so many bits.
+    fn expansion(order: usize, bound_bits: u64) -> Family {
+        let expanded = Expanded {
+            center: whole(0),
+            z: vec![],
+            unit: Integer::one(),
+            left: vec![],
+            right: vec![],
+            weight: vec![whole(1); order],
+            v: vec![],
+            rounding: vec![],
+            rounding_weight: vec![whole(1); order],
+            drift: whole(0),
+            gain: whole(0),
+            bound_bits,
+            coefficients: 1,
+            reversed: false,
+        };
+        Family::Condensed(vec![AnchorExpansion {
+            expanded,
+            short: None,
+        }])
+    }
+
+    /// 512^2 entries of 128 bits, 2 bits of the end 1, and those of sigma and tau.
+    #[test]
+    fn bounds_of_a_condensation_make_its_matrices_longer() {
+        let longest = expansion(512, (1 << 11) - 130);
+        assert_eq!(longest.affordable(Some(0), &whole(1), None), Ok(()));
+
+        let longer = expansion(512, (1 << 11) - 129);
+        let too_large = CoverFault::TooLarge {
+            what: "bits of a region's matrix",
+            limit: 1 << 29,
+            got: (1 << 29) + (1 << 18),
+        };
+        assert_eq!(longer.affordable(Some(0), &whole(1), None), Err(too_large));
+    }
+
+    /// The end 1 has 2 bits and the center 0 has one: 131 bits are 3 words, 61 more are 4. The unit
+    /// has one word.
+    #[test]
+    fn bounds_of_a_condensation_make_its_matrices_dearer() {
+        let without = expansion(2, 0).matrix_work(Some(0), &whole(1), None);
+        assert_eq!(without, 4 * 3 * (1 + 3));
+
+        let with = expansion(2, 61).matrix_work(Some(0), &whole(1), None);
+        assert_eq!(with, 4 * 4 * (1 + 4));
     }
 
     /// The short numbers are there for ordinary matrices, or every leaf would be computed with long

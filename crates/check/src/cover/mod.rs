@@ -71,7 +71,7 @@ use walk::{NodeFault, Walk, end};
 
 /// Largest number of complementarity variables of a cover: a region has dense matrices of this
 /// order.
-pub const MAX_COVERED: usize = 900;
+pub const MAX_COVERED: usize = 512;
 
 /// Largest product of the number of anchors and the square of the number of complementarity
 /// variables: an anchor is expanded into dense matrices of that order.
@@ -337,7 +337,7 @@ mod tests {
         assert_eq!(walk.spend_definite(&region), Err(too_large));
     }
 
-    /// What a file may spend on definite leaves: 2^29, 2^20 a node, 2^16 an entry that is not zero.
+    /// What a file may spend on definite leaves: 2^26, 2^20 a node, 2^16 an entry that is not zero.
     #[test]
     fn the_budget_grows_with_nodes_and_entries() {
         let mut rows = diagonal(2, 3);
@@ -357,7 +357,7 @@ mod tests {
         let definite = WorkBudget::of_definite_leaves(&rows, &cover);
         let matrices = WorkBudget::of_matrices(&cover);
 
-        assert_eq!(definite.left(), (1 << 29) + 7 * (1 << 20) + 2 * (1 << 16));
+        assert_eq!(definite.left(), (1 << 26) + 7 * (1 << 20) + 2 * (1 << 16));
         assert_eq!(matrices.left(), (1 << 30) + 7 * (1 << 24));
     }
 

@@ -13,6 +13,7 @@
 mod agreement;
 mod refute;
 mod report;
+mod singular;
 mod verdict;
 
 pub use agreement::{Agreement, Component};

@@ -6,6 +6,7 @@
 //!
 //! Called by [`judge`](super::judge) for a point that could not be certified.
 
+use super::singular::has_singular_support;
 use super::verdict::Refutation;
 use crate::candidate::Candidate;
 use crate::reduction::Reduced;
@@ -16,6 +17,10 @@ use mceip_oracle::{Enumeration, MAX_FREE, Solution, coefficient_bits, enumerate}
 
 /// Most complementarity variables for which absence near a candidate is proved by enumeration.
 pub const REFUTE_SLIP: usize = 10;
+
+/// What a support whose determinant vanishes identically holds is described by its minors, of which
+/// there are up to 2^order: with such supports an enumeration costs 2^(order + 4) times as much.
+const SINGULAR_SHIFT: u64 = 4;
 
 /// What may still be enumerated for the points of one report, in products of words
 /// (spec/formats.md, mceip-solutions/1).
@@ -34,9 +39,13 @@ impl Default for Effort {
 impl Effort {
     /// Takes the cost of one enumeration of a pencil from what is left.
     fn spend(&mut self, pencil: &Pencil) -> Result<(), String> {
-        let slip = pencil.slip().len() as u64;
+        let indices = pencil.slip();
+        let slip = indices.len() as u64;
         let free = pencil.free().len() as u64;
-        let cost = enumeration_cost(slip, free, coefficient_bits(pencil));
+        let mut cost = enumeration_cost(slip, free, coefficient_bits(pencil));
+        if has_singular_support(pencil, &indices) {
+            cost = cost.saturating_mul(1 << (slip + SINGULAR_SHIFT));
+        }
 
         let Some(left) = self.left.checked_sub(cost) else {
             return Err(format!(
@@ -50,9 +59,10 @@ impl Effort {
     }
 }
 
-/// Sum over all supports of m^5 words^2, m the order of the block: Bareiss's elimination takes m^3
-/// products of polynomials with up to m coefficients, each of so many words. A determinant of order
-/// m has its share of the `bits` of the largest.
+/// Sum over all supports of m^5 (words^2 + 3), m the order of the block: Bareiss's elimination
+/// takes m^3 products of polynomials with up to m coefficients, each of so many words, and a product
+/// of short numbers costs as much as three products of words besides. A determinant of order m has
+/// its share of the `bits` of the largest.
 fn enumeration_cost(slip: u64, free: u64, bits: u64) -> u64 {
     let order = (slip + free).max(1);
     let mut supports: u64 = 1; // of k variables
@@ -61,7 +71,7 @@ fn enumeration_cost(slip: u64, free: u64, bits: u64) -> u64 {
     for k in 0..=slip {
         let m = free + k;
         let words = 1 + bits.saturating_mul(m) / (64 * order);
-        let cost_of_product = words.saturating_mul(words);
+        let cost_of_product = words.saturating_mul(words).saturating_add(3);
         let cost_of_support = m.saturating_pow(5).saturating_mul(cost_of_product);
 
         cost = cost.saturating_add(supports.saturating_mul(cost_of_support));

@@ -40,6 +40,7 @@ fn linear() -> Expanded {
         rounding_weight: vec![rational(1, 50), rational(3, 70)],
         drift: whole(0),
         gain: rational(3, 5),
+        bound_bits: 0,
         coefficients: 4,
         reversed: false,
     }
@@ -298,6 +299,7 @@ fn in_t() -> Expanded {
         rounding_weight: vec![rational(1, 50_000), rational(1, 60_000)],
         drift: whole(0),
         gain: whole(0),
+        bound_bits: 0,
         coefficients: 4,
         reversed: false,
     }
