@@ -39,6 +39,13 @@ type t = {
   condensation : condensation option;
   pieces : piece list }
 
+(* A non-negative exponent within the limits (5.16). *)
+let exponent_of item =
+  let e = counter item in
+  if e < 0 then malformed "a negative exponent";
+  if e > 16_384 then Problem.not_verified "an exponent beyond the limits";
+  e
+
 let integers item = List.map integer (list item)
 
 let read_root item =
@@ -57,7 +64,7 @@ let read_root item =
     | [a; b] -> rational a, rational b
     | _ -> malformed "an interval has two ends" in
   { pivot = counter (field "pivot"); interval; left = integers (field "left");
-    right = integers (field "right"); exponent = counter (field "exponent"); outcome }
+    right = integers (field "right"); exponent = exponent_of (field "exponent"); outcome }
 
 let read_node = function
   | String "positive_definite" -> Definite false
@@ -75,14 +82,14 @@ let read_node = function
 let read_factor item =
   let field = fields ["first"; "rows"; "exponent"] [] item in
   { first = List.map counter (list (field "first"));
-    rows = List.map integers (list (field "rows")); exponent = counter (field "exponent") }
+    rows = List.map integers (list (field "rows")); exponent = exponent_of (field "exponent") }
 
 (* An anchor of the linear family at center 0; None for others. *)
 let read_anchor item =
   let field = fields ["center"; "right"; "left"] ["reversed"] item in
   let coefficient m =
     let field = fields ["exponent"; "rows"] [] m in
-    counter (field "exponent"), List.map integers (list (field "rows")) in
+    exponent_of (field "exponent"), List.map integers (list (field "rows")) in
   let right = List.map coefficient (list (field "right")) in
   let left = List.map coefficient (list (field "left")) in
   let plain = Q.sign (rational (field "center")) = 0 && field "reversed" <> Bool true
