@@ -20,6 +20,8 @@
    motion with (9) and its value in the window lies in a region yielded, and each region yielded
    has exactly one, up to a positive factor.  [system_none], [system_one]: none, exactly one.
 
+   [system_claim]: an exact solution claim about the pencil gives a motion with (9).
+
    The pencil is in the order of spec/certificates.md: free degrees of freedom, then slip
    particles.  Frames and particles at zero reaction are not covered.
 
@@ -28,7 +30,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Condensation Pencil Whole Complete.
+From Mceip Require Import Condensation Pencil Whole Complete Claim.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -117,6 +119,8 @@ Definition check_system w tr lo hi := system_wellformed && check_complete pencil
 
 Definition check_system_excluded tr lo hi :=
   system_wellformed && check_excluded pencil_of tr lo hi.
+
+Definition check_system_claim k := system_wellformed && check_claim pencil_of k.
 
 End Checker.
 
@@ -495,4 +499,12 @@ Theorem system_excluded (R : rcfType) s u tr lo hi : check_system_excluded s u t
 Proof.
 case/andP=> wf excluded t v sat.
 exact: (excluded_sound (R := R) excluded (solution_of_motion wf sat)).
+Qed.
+
+Theorem system_claim (R : rcfType) s u k : check_system_claim s u k -> exists (t : R) v,
+  [/\ toR (claim_from k) <= toR (claim_denominator k) * t,
+      toR (claim_denominator k) * t <= toR (claim_to k) & satisfies_9 s u t v].
+Proof.
+case/andP=> wf /(@claim_sound R)[t [x [at_from at_to sol _]]].
+by exists t, (motion s x); split=> //; apply/(system_pencil wf).
 Qed.

@@ -32,7 +32,15 @@ type condensation = { sigma : Q.t; factor : factor_rows; anchors : anchor option
 
 type piece = { max : Q.t option; anchor : int; tree : node list }
 
+type exact = {
+  support : int list;
+  biactive : int list;
+  polynomial : Z.t list;
+  value : Q.t * Q.t;
+  x : Q.t list list }
+
 type t = {
+  claims : exact list;
   digest : string;
   unknown : string;
   window : Q.t * Q.t option;
@@ -108,6 +116,19 @@ let read_piece item =
     anchor = (match field "anchor" with Null -> 0 | v -> counter v);
     tree = List.map read_node (list (field "tree")) }
 
+let read_claim = function
+  | Object ["exact_solution", body] ->
+    let field = fields ["support"; "biactive"; "polynomial"; "interval"; "x"] [] body in
+    let value = match list (field "interval") with
+      | [a; b] -> rational a, rational b
+      | _ -> malformed "an interval has two ends" in
+    { support = List.map counter (list (field "support"));
+      biactive = List.map counter (list (field "biactive"));
+      polynomial = integers (field "polynomial"); value;
+      x = List.map (fun p -> List.map rational (list p)) (list (field "x")) }
+  | Object [kind, _] -> Problem.not_verified "%s" kind
+  | _ -> malformed "a claim is an object with one key"
+
 let read path =
   let document = Json.read path in
   (match document with
@@ -117,14 +138,11 @@ let read path =
       ["complete_set"] document in
   let digest = text (field "problem_sha256") and unknown = text (field "unknown") in
   let window = Problem.read_window (field "window") in
-  (match list (field "claims") with
-   | [] -> ()
-   | Object [kind, _] :: _ -> Problem.not_verified "%s" kind
-   | _ -> malformed "a claim is an object with one key");
+  let claims = List.map read_claim (list (field "claims")) in
   let condensation, pieces = match field "complete_set" with
     | Null -> None, []
     | set ->
       let field = fields ["pieces"] ["condensation"] set in
       (match field "condensation" with Null -> None | c -> Some (read_condensation c)),
       List.map read_piece (list (field "pieces")) in
-  { digest; unknown; window; condensation; pieces }
+  { claims; digest; unknown; window; condensation; pieces }

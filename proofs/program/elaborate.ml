@@ -486,3 +486,46 @@ let elimination (pencil : Kernel.pencil) slip common (condensation : condensatio
         bound_d = Z.mul common (Z.mul power (Q.num c.sigma));
         factor_scale = Z.mul common (Q.den c.sigma);
         stiffness_factor = List.combine c.factor.first c.factor.rows }
+
+(* ---------- exact solution claims *)
+
+let strip p =
+  let rec drop = function c :: rest when Q.sign c = 0 -> drop rest | p -> p in
+  List.rev (drop (List.rev p))
+
+(* Quotient and rest of g by p over the rationals, constant terms first. *)
+let divide g p =
+  let p = Array.of_list (strip p) and r = Array.of_list g in
+  let m = Array.length p and n = Array.length r in
+  if m = 0 then no_witness "a polynomial that is zero";
+  let q = Array.make (max 0 (n - m + 1)) Q.zero in
+  for k = n - m downto 0 do
+    let c = Q.div r.(k + m - 1) p.(m - 1) in
+    q.(k) <- c;
+    if Q.sign c <> 0 then
+      for i = 0 to m - 1 do r.(k + i) <- Q.sub r.(k + i) (Q.mul c p.(i)) done
+  done;
+  Array.to_list q, strip (Array.to_list r)
+
+let reduction modulus g =
+  let quotient, rest = divide (List.map Q.of_bigint g) modulus in
+  let c = List.fold_left (fun c v -> Z.lcm c (Q.den v)) Z.one (quotient @ rest) in
+  let times = List.map (fun v -> Q.num (Q.mul v (Q.of_bigint c))) in
+  { Kernel.multiplier = c; quotient = times quotient; rest = times rest }
+
+let claim_of (pencil : Kernel.pencil) (e : exact) =
+  let a, b = e.value in
+  let d = Z.lcm (Q.den a) (Q.den b) in
+  let over q = Q.num (Q.mul q (Q.of_bigint d)) in
+  let common = List.fold_left (fun c p ->
+      List.fold_left (fun c v -> Z.lcm c (Q.den v)) c p) Z.one e.x in
+  let components = List.map (List.map (fun v -> Q.num (Q.mul v (Q.of_bigint common)))) e.x in
+  let bare = { Kernel.modulus = e.polynomial; claim_from = over a; claim_to = over b;
+               claim_denominator = d; support = e.support;
+               biactive = e.biactive; components;
+               component_reductions = []; reaction_reductions = [] } in
+  let modulus = List.map Q.of_bigint e.polynomial in
+  { bare with
+    component_reductions = List.map (reduction modulus) components;
+    reaction_reductions = List.init pencil.order (fun i ->
+        reduction modulus (Kernel.reaction_poly pencil bare i)) }

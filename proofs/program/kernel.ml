@@ -1670,6 +1670,222 @@ let check_excluded q tr lo hi =
   (&&) (wellformed q)
     (check_tree (size (slip q)) (check_whole q) tr (window lo hi))
 
+type polynomial = Big_int_Z.big_int list
+
+type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial;
+                   rest : polynomial }
+
+type claim = { modulus : polynomial; claim_from : Big_int_Z.big_int;
+               claim_to : Big_int_Z.big_int;
+               claim_denominator : Big_int_Z.big_int; support : int list;
+               biactive : int list; components : polynomial list;
+               component_reductions : reduction list;
+               reaction_reductions : reduction list }
+
+(** val scale_poly : Big_int_Z.big_int -> polynomial -> polynomial **)
+
+let scale_poly c p =
+  map0 (fun a -> Z.mul c a) p
+
+(** val add_poly : polynomial -> polynomial -> polynomial **)
+
+let rec add_poly p q =
+  match p with
+  | [] -> q
+  | a :: p' ->
+    (match q with
+     | [] -> p
+     | b :: q' -> (Z.add a b) :: (add_poly p' q'))
+
+(** val mul_poly : polynomial -> polynomial -> polynomial **)
+
+let mul_poly p q =
+  foldr (fun a product ->
+    add_poly (scale_poly a q) (Big_int_Z.zero_big_int :: product)) [] p
+
+(** val zero_poly : polynomial -> bool **)
+
+let zero_poly p =
+  all (fun a -> Z.eqb a Big_int_Z.zero_big_int) p
+
+(** val horner_interval :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    -> (Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int **)
+
+let rec horner_interval a b d = function
+| [] ->
+  ((Big_int_Z.zero_big_int, Big_int_Z.zero_big_int), Big_int_Z.unit_big_int)
+| c :: p' ->
+  let (p0, power) = horner_interval a b d p' in
+  let (lo, hi) = p0 in
+  let constant = Z.mul c (Z.mul power d) in
+  (((Z.add
+      (if Z.leb Big_int_Z.zero_big_int lo then Z.mul a lo else Z.mul b lo)
+      constant),
+  (Z.add (if Z.leb Big_int_Z.zero_big_int hi then Z.mul b hi else Z.mul a hi)
+    constant)), (Z.mul power d))
+
+(** val lower_value :
+    claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int **)
+
+let lower_value k x y p =
+  fst (fst (horner_interval x y k.claim_denominator p))
+
+(** val upper_value :
+    claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int **)
+
+let upper_value k x y p =
+  snd (fst (horner_interval x y k.claim_denominator p))
+
+(** val modulus_changes_sign : claim -> bool **)
+
+let modulus_changes_sign k =
+  let p = k.modulus in
+  (||)
+    ((&&)
+      (Z.leb (upper_value k k.claim_from k.claim_from p)
+        Big_int_Z.zero_big_int)
+      (Z.leb Big_int_Z.zero_big_int (lower_value k k.claim_to k.claim_to p)))
+    ((&&)
+      (Z.leb Big_int_Z.zero_big_int
+        (lower_value k k.claim_from k.claim_from p))
+      (Z.leb (upper_value k k.claim_to k.claim_to p) Big_int_Z.zero_big_int))
+
+(** val no_reduction : reduction **)
+
+let no_reduction =
+  { multiplier = Big_int_Z.unit_big_int; quotient = []; rest = [] }
+
+(** val reduces : claim -> polynomial -> reduction -> bool **)
+
+let reduces k g w =
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.multiplier)
+    (zero_poly
+      (add_poly (scale_poly w.multiplier g)
+        (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
+          (add_poly (mul_poly k.modulus w.quotient) w.rest))))
+
+(** val shows_zero : claim -> polynomial -> reduction -> bool **)
+
+let shows_zero k g w =
+  (&&) (reduces k g w) (zero_poly w.rest)
+
+(** val shows_positive : claim -> polynomial -> reduction -> bool **)
+
+let shows_positive k g w =
+  (&&) (reduces k g w)
+    (Z.ltb Big_int_Z.zero_big_int
+      (lower_value k k.claim_from k.claim_to w.rest))
+
+(** val shows_negative : claim -> polynomial -> reduction -> bool **)
+
+let shows_negative k g w =
+  (&&) (reduces k g w)
+    (Z.ltb (upper_value k k.claim_from k.claim_to w.rest)
+      Big_int_Z.zero_big_int)
+
+(** val component : claim -> int -> Big_int_Z.big_int list **)
+
+let component k i =
+  nth [] k.components i
+
+(** val combine_row : claim -> sparse_row -> polynomial **)
+
+let combine_row k row =
+  foldr (fun e sum ->
+    add_poly (scale_poly (snd e) (component k (fst e))) sum) [] row
+
+(** val reaction_poly : pencil -> claim -> int -> polynomial **)
+
+let reaction_poly q k i =
+  add_poly (combine_row k (row_a q i))
+    (Big_int_Z.zero_big_int :: (combine_row k (row_b q i)))
+
+(** val component_witness : claim -> int -> reduction **)
+
+let component_witness k i =
+  nth no_reduction k.component_reductions i
+
+(** val reaction_witness : claim -> int -> reduction **)
+
+let reaction_witness k i =
+  nth no_reduction k.reaction_reductions i
+
+(** val x_zero : claim -> int -> bool **)
+
+let x_zero k i =
+  shows_zero k (component k i) (component_witness k i)
+
+(** val x_positive : claim -> int -> bool **)
+
+let x_positive k i =
+  shows_positive k (component k i) (component_witness k i)
+
+(** val x_negative : claim -> int -> bool **)
+
+let x_negative k i =
+  shows_negative k (component k i) (component_witness k i)
+
+(** val y_zero : pencil -> claim -> int -> bool **)
+
+let y_zero q k i =
+  shows_zero k (reaction_poly q k i) (reaction_witness k i)
+
+(** val y_positive : pencil -> claim -> int -> bool **)
+
+let y_positive q k i =
+  shows_positive k (reaction_poly q k i) (reaction_witness k i)
+
+(** val columns_in_order : pencil -> bool **)
+
+let columns_in_order q =
+  (&&)
+    (all (fun row ->
+      all (fun e -> leq (Stdlib.Int.succ (fst e)) q.order) row) q.rows_a)
+    (all (fun row ->
+      all (fun e -> leq (Stdlib.Int.succ (fst e)) q.order) row) q.rows_b)
+
+(** val check_claim : pencil -> claim -> bool **)
+
+let check_claim q k =
+  (&&) (wellformed q)
+    ((&&) (columns_in_order q)
+      ((&&)
+        ((&&) (Z.leb Big_int_Z.zero_big_int k.claim_from)
+          ((&&) (Z.leb k.claim_from k.claim_to)
+            ((&&) (Z.ltb Big_int_Z.zero_big_int k.claim_denominator)
+              (modulus_changes_sign k))))
+        ((&&) (all (fun i -> y_zero q k i) q.free)
+          ((&&)
+            (all (fun i ->
+              in_mem (Obj.magic i)
+                (mem (seq_predType nat_eqType) (Obj.magic slip q)))
+              (cat k.support k.biactive))
+            ((&&)
+              (all (fun i ->
+                if in_mem i
+                     (mem (seq_predType nat_eqType) (Obj.magic k.support))
+                then (&&) (x_positive k (Obj.magic i))
+                       ((&&) (y_zero q k (Obj.magic i))
+                         (negb
+                           (in_mem i
+                             (mem (seq_predType nat_eqType)
+                               (Obj.magic k.biactive)))))
+                else (&&) (x_zero k (Obj.magic i))
+                       (if in_mem i
+                             (mem (seq_predType nat_eqType)
+                               (Obj.magic k.biactive))
+                        then y_zero q k (Obj.magic i)
+                        else y_positive q k (Obj.magic i))) (slip q))
+              ((||)
+                (has (fun i ->
+                  in_mem i
+                    (mem (seq_predType nat_eqType) (Obj.magic k.support)))
+                  (slip q))
+                (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
+
 type slip_particle = { tangential : int; normal : int;
                        sign_of : Big_int_Z.big_int;
                        direction : Big_int_Z.big_int }
@@ -1817,3 +2033,8 @@ let check_system s u w tr lo hi =
 
 let check_system_excluded s u tr lo hi =
   (&&) (system_wellformed s u) (check_excluded (pencil_of s u) tr lo hi)
+
+(** val check_system_claim : system -> unknown -> claim -> bool **)
+
+let check_system_claim s u k =
+  (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)

@@ -586,6 +586,74 @@ val found : whole leaf tree -> point -> point -> (region * isolation) list
 
 val check_excluded : pencil -> whole tree -> point -> point -> bool
 
+type polynomial = Big_int_Z.big_int list
+
+type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial;
+                   rest : polynomial }
+
+type claim = { modulus : polynomial; claim_from : Big_int_Z.big_int;
+               claim_to : Big_int_Z.big_int;
+               claim_denominator : Big_int_Z.big_int; support : int list;
+               biactive : int list; components : polynomial list;
+               component_reductions : reduction list;
+               reaction_reductions : reduction list }
+
+val scale_poly : Big_int_Z.big_int -> polynomial -> polynomial
+
+val add_poly : polynomial -> polynomial -> polynomial
+
+val mul_poly : polynomial -> polynomial -> polynomial
+
+val zero_poly : polynomial -> bool
+
+val horner_interval :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+  -> (Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int
+
+val lower_value :
+  claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+  Big_int_Z.big_int
+
+val upper_value :
+  claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+  Big_int_Z.big_int
+
+val modulus_changes_sign : claim -> bool
+
+val no_reduction : reduction
+
+val reduces : claim -> polynomial -> reduction -> bool
+
+val shows_zero : claim -> polynomial -> reduction -> bool
+
+val shows_positive : claim -> polynomial -> reduction -> bool
+
+val shows_negative : claim -> polynomial -> reduction -> bool
+
+val component : claim -> int -> Big_int_Z.big_int list
+
+val combine_row : claim -> sparse_row -> polynomial
+
+val reaction_poly : pencil -> claim -> int -> polynomial
+
+val component_witness : claim -> int -> reduction
+
+val reaction_witness : claim -> int -> reduction
+
+val x_zero : claim -> int -> bool
+
+val x_positive : claim -> int -> bool
+
+val x_negative : claim -> int -> bool
+
+val y_zero : pencil -> claim -> int -> bool
+
+val y_positive : pencil -> claim -> int -> bool
+
+val columns_in_order : pencil -> bool
+
+val check_claim : pencil -> claim -> bool
+
 type slip_particle = { tangential : int; normal : int;
                        sign_of : Big_int_Z.big_int;
                        direction : Big_int_Z.big_int }
@@ -634,3 +702,5 @@ val check_system :
 
 val check_system_excluded :
   system -> unknown -> whole tree -> point -> point -> bool
+
+val check_system_claim : system -> unknown -> claim -> bool

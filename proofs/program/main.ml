@@ -57,13 +57,51 @@ let rec only_whole = function
   | (Certificate.Ldl | Tail | Split _ | Branch _) :: rest -> only_whole rest
   | _ -> false
 
+(* Larger claims are answered with "not verified", so that every file ends in short time. *)
+let work_of (pencil : Kernel.pencil) (e : Certificate.exact) =
+  let bits q = Z.numbits (Q.num q) + Z.numbits (Q.den q) in
+  let longest = List.fold_left (fun m p -> max m (List.length p)) 0 e.x in
+  let degree = List.length e.polynomial in
+  let top = List.fold_left (List.fold_left (fun m v -> max m (bits v)))
+      (bits (fst e.value) + bits (snd e.value)) (List.map Q.of_bigint e.polynomial :: e.x) in
+  let size = (degree + longest) * top in
+  if degree > 512 || longest > 512 || size > 1 lsl 17 || (longest - degree) * top > 1 lsl 13 then
+    Problem.not_verified "a claim beyond the limits of this program";
+  pencil.order * size * size
+
+let limit_work pencil claims =
+  let entries = List.fold_left (fun n row -> n + List.length row) 0 in
+  let n = pencil.Kernel.order in
+  if claims <> [] && n * n + entries pencil.rows_a + entries pencil.rows_b > 1 lsl 22 then
+    Problem.not_verified "claims about more than 2,048 variables";
+  let total = List.fold_left (fun sum e -> sum + work_of pencil e) 0 claims in
+  if total > 1 lsl 36 then Problem.not_verified "claims beyond the limits of this program"
+
+(* Each claim: its support has a solution with a value in its interval, which is in the window. *)
+let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) (e : Certificate.exact) =
+  let a, b = e.value and lo, hi = certificate.window in
+  if Q.lt a lo || (match hi with Some h -> Q.gt b h | None -> false) then
+    raise (Rejected "a claim outside the window");
+  if List.length e.x <> pencil.Kernel.order then raise (Rejected "a claim with too few components");
+  let rec ascending = function a :: (b :: _ as rest) -> a < b && ascending rest | _ -> true in
+  if not (ascending e.support && ascending e.biactive) then
+    raise (Rejected "a claim whose lists are not ascending");
+  let claim = Elaborate.claim_of pencil e in
+  let accepted = match problem.question with
+    | Raw pencil -> Kernel.check_claim pencil claim
+    | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim in
+  if not accepted then raise (Rejected "the kernel refuses a claim");
+  fun () ->
+    Printf.printf "claim: a solution with a value in [%s, %s], support %s\n" (Q.to_string a)
+      (Q.to_string b) (String.concat " " (List.map string_of_int e.support))
+
 let verify problem_path certificate_path =
   let problem = timed "problem" (fun () -> Problem.read problem_path) in
   let certificate = timed "certificate" (fun () -> Certificate.read certificate_path) in
   if certificate.digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
   if certificate.unknown <> problem.unknown then raise (Rejected "the unknown is not the problem's");
-  if certificate.pieces = [] then raise (Rejected "no claim");
+  if certificate.pieces = [] && certificate.claims = [] then raise (Rejected "no claim");
 
   let pencil = timed "pencil" (fun () -> match problem.question with
       | Raw pencil -> pencil
@@ -77,9 +115,19 @@ let verify problem_path certificate_path =
     | Mechanical (_, Lambda2 (_, q)) -> Z.mul q problem.common
     | _ -> problem.common in
 
+  let claims = timed "claims" (fun () ->
+      limit_work pencil certificate.claims;
+      List.map (verify_claim problem pencil certificate) certificate.claims) in
+  let report_claims () = List.iter (fun print -> print ()) claims in
+
   let whole_only = pencil.free <> []
                    && List.for_all (fun (p : Certificate.piece) -> only_whole p.tree) certificate.pieces in
-  if whole_only then begin
+  if certificate.pieces = [] then begin
+    Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
+      (List.length claims);
+    report_claims ()
+  end
+  else if whole_only then begin
     (* Definite leaves of the whole pencil; free rows may depend on t. *)
     let leaf _ region _ = match Elaborate.whole_leaf pencil region with
       | Some w -> Kernel.Leaf w
@@ -90,7 +138,8 @@ let verify problem_path certificate_path =
         | Raw pencil -> Kernel.check_excluded pencil tree lo hi
         | Mechanical (system, unknown) -> Kernel.check_system_excluded system unknown tree lo hi) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
-    report slip lo hi []
+    report slip lo hi [];
+    report_claims ()
   end
   else begin
     if not (Kernel.free_rows_constant pencil) then
@@ -112,7 +161,8 @@ let verify problem_path certificate_path =
         | Mechanical (system, unknown) ->
           Kernel.check_system system unknown elimination tree lo hi) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
-    report slip lo hi (Kernel.found tree lo hi)
+    report slip lo hi (Kernel.found tree lo hi);
+    report_claims ()
   end
 
 let () =
