@@ -479,7 +479,8 @@ split=> H.
   move=> k Hk; apply/eqP; rewrite -subr_eq0; apply/eqP.
   apply: (F_injective (z := fun k => xf k - free_part xs k)) Hk => i Hi.
   under eq_bigr do rewrite mulrBr; rewrite sumrB F_part // opprK; exact: H.
-by move=> i Hi; rewrite /free_row; under eq_big_seq => k Hk do rewrite H //; rewrite F_part // addNr.
+move=> i Hi; rewrite /free_row; under eq_big_seq => k Hk do rewrite H //.
+by rewrite F_part // addNr.
 Qed.
 
 Lemma condensed_image t xf xs i :

@@ -80,7 +80,8 @@ Lemma toR_sum_from T (d : T) f l a :
   toR (sum_from f a l) = \sum_(j <- iota a (size l)) toR (f j (nth d l (j - a))) :> R.
 Proof.
 elim: l a => [|x l IH] a; first by rewrite big_nil.
-rewrite /= big_cons toRD IH subnn; congr (_ + _); rewrite big_seq [RHS]big_seq; apply: eq_bigr => j; rewrite mem_iota => /andP[aj _].
+rewrite /= big_cons toRD IH subnn; congr (_ + _).
+apply: sum_eq => j; rewrite mem_iota => /andP[aj _].
 by rewrite -(subnSK aj).
 Qed.
 

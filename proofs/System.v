@@ -314,7 +314,8 @@ rewrite ltnNge leq_addr /= addKn !(nth_map (SlipParticle 0 0 0 0)) // -/(particl
 set p := particle s j; rewrite /slip_row_a /slip_row_b /lambda2_of /mu_of.
 have := row_factor_gt0; rewrite /row_factor; case: (u) => [_|m q q0].
   rewrite !sum_multiple !k_product_columns !toRN.
-  by move: (k_product _ _) (k_product _ _) (m_product _ _) (m_product _ _) (toR _) (toR _) => *; ring.
+  move: (k_product _ _) (k_product _ _) (m_product _ _) (m_product _ _) => k1 k2 m1 m2.
+  by move: (toR _) (toR _) => *; ring.
 rewrite !sum_cat !sum_multiple !k_product_columns !m_product_columns !toRN !toRM.
 move: (k_product _ _) (k_product _ _) (m_product _ _) (m_product _ _) => k1 k2 m1 m2.
 move: (toR (sign_of p)) (toR (direction p)) => sg dir.

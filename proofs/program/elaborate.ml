@@ -28,7 +28,8 @@ let cholesky s =
       for j = 0 to i do
         let sum = ref s.(i).(j) in
         for k = 0 to j - 1 do sum := !sum -. l.(i).(k) *. l.(j).(k) done;
-        if i = j then (if !sum <= 0.0 || Float.is_nan !sum then ok := false else l.(i).(i) <- sqrt !sum)
+        if i = j && (!sum <= 0.0 || Float.is_nan !sum) then ok := false
+        else if i = j then l.(i).(i) <- sqrt !sum
         else if !ok then l.(i).(j) <- !sum /. l.(j).(j)
       done
   done;
@@ -89,7 +90,8 @@ let factor_rows strict s =
     let rec attempt = function
       | [] -> None
       | d :: rest ->
-        let x = Array.mapi (fun i row -> Array.mapi (fun j v -> if i = j then v -. d *. scale else v) row) f in
+        let x = Array.mapi (fun i row ->
+            Array.mapi (fun j v -> if i = j then v -. d *. scale else v) row) f in
         match cholesky x with
         | Some l -> Some (Array.map (Array.map (fun v -> round_scaled v (shift / 2))) l)
         | None -> attempt rest in
@@ -150,9 +152,11 @@ let whole_end pencil negative strict e region =
       let common = Array.fold_left (fun c v -> Z.lcm c (Q.den v)) Z.one in
       let cl = Array.fold_left (fun c row -> Z.lcm c (common row)) Z.one l and cd = common d in
       let times c v = Q.num (Q.mul v (Q.of_bigint c)) in
+      let weights = Array.to_list (Array.map (times cd) d) in
+      let rows = Array.to_list (Array.map (fun row ->
+          Array.to_list (Array.map (times cl) row)) l) in
       let w = { Kernel.end_scale = Z.mul (two_to k) (Z.mul cd (Z.mul cl cl));
-                end_factor = Kernel.Dense (Array.to_list (Array.map (times cd) d),
-                  Array.to_list (Array.map (fun row -> Array.to_list (Array.map (times cl) row)) l)) } in
+                end_factor = Kernel.Dense (weights, rows) } in
       if accepted w then Some w else None in
   let rec first = function
     | [] -> None
@@ -180,7 +184,8 @@ let whole_leaf pencil (region : Kernel.region) =
 let definite_leaf p negative (region : Kernel.region) =
   let active = Array.of_list (Kernel.active p region) in
   let factor strict e =
-    let s = Array.map (fun i -> Array.map (fun j -> Kernel.symmetric_part p negative e i j) active) active in
+    let s = Array.map (fun i ->
+        Array.map (fun j -> Kernel.symmetric_part p negative e i j) active) active in
     match factor_rows strict s with
     | None -> None
     | Some rows ->
@@ -226,7 +231,8 @@ let box_of (p : Kernel.enclosed) f j_list k_list v (e1, e2) t =
   | Some (_, exponent) when exponent < 0 -> None
   | Some (y, exponent) ->
     let y = table p.size_of k k y in
-    let unit_at e = if Z.sign (snd e) > 0 then Z.mul (two_to exponent) (snd e) else two_to exponent in
+    let unit_at e =
+      if Z.sign (snd e) > 0 then Z.mul (two_to exponent) (snd e) else two_to exponent in
     let widths = List.concat_map (fun e ->
         let u = unit_at e in
         List.map (fun i ->
@@ -260,7 +266,8 @@ let null_vectors n f j_list k t =
 let unique_of (p : Kernel.enclosed) f j_list k v eps (e1, e2) t =
   let j = Array.of_list j_list in
   let v_float = Array.of_list (List.map Z.to_float v) in
-  let h = Array.map (fun l -> Array.fold_left (fun s c -> s +. f.b.(l).(c) *. v_float.(c)) 0.0 j) j in
+  let h = Array.map (fun l ->
+      Array.fold_left (fun s c -> s +. f.b.(l).(c) *. v_float.(c)) 0.0 j) j in
   let size_h = Array.fold_left (fun m x -> max m (abs_float x)) 0.0 h in
   let size_t = Array.fold_left (fun m l -> Array.fold_left (fun m c ->
       if c = k then m else max m (abs_float (at f t l c))) m j) 0.0 j in
@@ -317,9 +324,11 @@ let isolated_leaf p f (region : Kernel.region) (r : root) outcome =
             (match unique_of p f j_list k v wide_box.width wide (middle lo hi) with
              | None -> None
              | Some unique ->
-               let c = { Kernel.pivot = k; vector = v; from_point = point_of a; to_point = point_of b;
-                         wide_box; narrow_box; unique; left_vector = left } in
-               if Kernel.check_root p region c outcome then Some (Kernel.Root (c, outcome)) else None)
+               let c = { Kernel.pivot = k; vector = v; from_point = point_of a;
+                         to_point = point_of b; wide_box; narrow_box; unique;
+                         left_vector = left } in
+               if Kernel.check_root p region c outcome then Some (Kernel.Root (c, outcome))
+               else None)
           | _ -> None) vectors in
     List.find_map attempt pivots
   end
@@ -336,7 +345,8 @@ let absent_leaf p f (region : Kernel.region) =
       match box_of p f j_list k_list v (region.lower, region.upper) t with
       | None -> None
       | Some box ->
-        let c = { Kernel.absent_pivot = k; absent_vector = v; absent_box = box; absent_left = left } in
+        let c = { Kernel.absent_pivot = k; absent_vector = v; absent_box = box;
+                  absent_left = left } in
         if Kernel.check_absent p region c then Some (Kernel.Absent c) else None in
   List.find_map attempt j_list
 

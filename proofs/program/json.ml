@@ -116,7 +116,10 @@ let parse (text : string) : t =
     Number (String.sub text start (!position - start)) in
   let word name value =
     let n = String.length name in
-    if !position + n <= length && String.sub text !position n = name then (position := !position + n; value)
+    if !position + n <= length && String.sub text !position n = name then begin
+      position := !position + n;
+      value
+    end
     else malformed "a value was expected at byte %d" !position in
   let rec value depth =
     if depth > 200 then malformed "nested too deeply";
@@ -187,8 +190,8 @@ let rational_of_spelling s =
   let all_digits a = a <> "" && String.for_all (fun c -> c >= '0' && c <= '9') a in
   let signed a =
     let negative = a <> "" && a.[0] = '-' in
-    let body = if a <> "" && (a.[0] = '-' || a.[0] = '+') then String.sub a 1 (String.length a - 1) else a in
-    (negative, body) in
+    let has_sign = a <> "" && (a.[0] = '-' || a.[0] = '+') in
+    (negative, if has_sign then String.sub a 1 (String.length a - 1) else a) in
   let integer a =
     let negative, body = signed a in
     if not (all_digits body) then bad ();

@@ -78,7 +78,8 @@ let limit_work pencil claims =
   if total > 1 lsl 36 then Problem.not_verified "claims beyond the limits of this program"
 
 (* Each claim: its support has a solution with a value in its interval, which is in the window. *)
-let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) (e : Certificate.exact) =
+let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t)
+    (e : Certificate.exact) =
   let a, b = e.value and lo, hi = certificate.window in
   if Q.lt a lo || (match hi with Some h -> Q.gt b h | None -> false) then
     raise (Rejected "a claim outside the window");
@@ -100,7 +101,8 @@ let verify problem_path certificate_path =
   let certificate = timed "certificate" (fun () -> Certificate.read certificate_path) in
   if certificate.digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
-  if certificate.unknown <> problem.unknown then raise (Rejected "the unknown is not the problem's");
+  if certificate.unknown <> problem.unknown then
+    raise (Rejected "the unknown is not the problem's");
   if certificate.pieces = [] && certificate.claims = [] then raise (Rejected "no claim");
 
   let pencil = timed "pencil" (fun () -> match problem.question with
@@ -120,8 +122,9 @@ let verify problem_path certificate_path =
       List.map (verify_claim problem pencil certificate) certificate.claims) in
   let report_claims () = List.iter (fun print -> print ()) claims in
 
-  let whole_only = pencil.free <> []
-                   && List.for_all (fun (p : Certificate.piece) -> only_whole p.tree) certificate.pieces in
+  let whole_only =
+    pencil.free <> []
+    && List.for_all (fun (p : Certificate.piece) -> only_whole p.tree) certificate.pieces in
   if certificate.pieces = [] then begin
     Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
       (List.length claims);

@@ -156,7 +156,11 @@ let read_particle order mu item =
   if not (List.mem state ["free"; "stick"; "slip"]) then malformed "the state %S" state;
   let unit_of what = function
     | Null -> None
-    | v -> (match counter v with 1 -> Some 1 | -1 -> Some (-1) | _ -> malformed "%s is 1 or -1" what) in
+    | v ->
+      (match counter v with
+       | 1 -> Some 1
+       | -1 -> Some (-1)
+       | _ -> malformed "%s is 1 or -1" what) in
   let sign = unit_of "sign" (field "sign") in
   if (sign <> None) <> (state = "slip") then malformed "sign: exactly for slip";
   let sign = Option.value sign ~default:0 in
@@ -175,7 +179,8 @@ let read_system unknown item =
   List.iter (fun x ->
       if x.rows <> k.rows || not (symmetric x) then
         malformed "stiffness and mass must be symmetric, of one order") matrices;
-  if unknown = "lambda2" && (m = None || mu = None) then malformed "lambda2 needs mass and friction";
+  if unknown = "lambda2" && (m = None || mu = None) then
+    malformed "lambda2 needs mass and friction";
 
   let particles = List.map (read_particle k.rows mu) (list (field "particles")) in
   let dofs = List.concat_map (fun p -> [p.t; p.n]) particles in
@@ -185,7 +190,10 @@ let read_system unknown item =
   if slips = [] then malformed "no slip particle";
   let held = Hashtbl.create 64 in
   List.iter (fun p ->
-      if p.state <> "free" then (Hashtbl.replace held p.t (); Hashtbl.replace held p.n ())) particles;
+      if p.state <> "free" then begin
+        Hashtbl.replace held p.t ();
+        Hashtbl.replace held p.n ()
+      end) particles;
   let free = List.filter (fun d -> not (Hashtbl.mem held d)) (List.init k.rows Fun.id) in
 
   let describe p =
