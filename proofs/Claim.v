@@ -1,0 +1,391 @@
+(* Exact solution claims: a solution whose components are polynomials in an algebraic number.
+
+   A claim gives a polynomial p, an interval [a/d, b/d] with 0 <= a <= b, and for each variable i of
+   the pencil a polynomial x_i; all have integer coefficients, constant term first.  p changes its
+   sign on the interval, so it has a root t there.  For each polynomial g that matters, a witness
+   (c, q, r) with c > 0 shows
+
+       c g = p q + r,      hence c g(t) = r(t);
+
+   r = 0 shows g(t) = 0, and a positive lower end of interval Horner of r shows g(t) > 0.
+
+   Theorem [claim_sound]: if the claim is checked, then the pencil has a solution (t, x) with t in
+   the interval; x_i > 0 on the support, x_i = 0 for the other complementarity variables, and of
+   these y_i = 0 for the biactive ones and y_i > 0 for the rest.
+
+   That p has no other root in the interval is not needed for this statement.
+
+   Page: spec/certificates.md, 5.3.  Rust: crates/check/src/exact_solution.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Root Existence Condensation Pencil.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+Definition polynomial := seq Z.
+
+(* c g = p q + r *)
+Record reduction := Reduction { multiplier : Z; quotient : polynomial; rest : polynomial }.
+
+Record claim := Claim {
+  modulus : polynomial;
+  claim_from : Z;
+  claim_to : Z;
+  claim_denominator : Z;
+  support : seq nat;
+  biactive : seq nat;
+  components : seq polynomial;
+  component_reductions : seq reduction;
+  reaction_reductions : seq reduction }.
+
+Section Checker.
+
+Local Open Scope Z_scope.
+
+Definition scale_poly (c : Z) (p : polynomial) : polynomial := [seq c * a | a <- p].
+
+Fixpoint add_poly (p q : polynomial) : polynomial :=
+  match p, q with
+  | a :: p', b :: q' => a + b :: add_poly p' q'
+  | [::], _ => q
+  | _, [::] => p
+  end.
+
+Definition mul_poly (p q : polynomial) : polynomial :=
+  foldr (fun a product => add_poly (scale_poly a q) (0 :: product)) [::] p.
+
+Definition zero_poly (p : polynomial) := all (fun a => a =? 0) p.
+
+(* For a <= d t <= b and 0 <= a: an interval that contains d^n p(t), n the length of p, and d^n. *)
+Fixpoint horner_interval (a b d : Z) (p : polynomial) : Z * Z * Z :=
+  match p with
+  | [::] => (0, 0, 1)
+  | c :: p' =>
+      let: (lo, hi, power) := horner_interval a b d p' in
+      let constant := c * (power * d) in
+      ((if 0 <=? lo then a * lo else b * lo) + constant,
+       (if 0 <=? hi then b * hi else a * hi) + constant, power * d)
+  end.
+
+Variables (Q : pencil) (k : claim).
+
+Notation a := (claim_from k).
+Notation b := (claim_to k).
+Notation d := (claim_denominator k).
+
+Definition lower_value x y p := (horner_interval x y d p).1.1.
+Definition upper_value x y p := (horner_interval x y d p).1.2.
+
+Definition modulus_changes_sign :=
+  let p := modulus k in
+  (upper_value a a p <=? 0) && (0 <=? lower_value b b p) ||
+  (0 <=? lower_value a a p) && (upper_value b b p <=? 0).
+
+Definition no_reduction := Reduction 1 [::] [::].
+
+Definition reduces (g : polynomial) (w : reduction) :=
+  (0 <? multiplier w) &&
+  zero_poly (add_poly (scale_poly (multiplier w) g)
+               (scale_poly (-1) (add_poly (mul_poly (modulus k) (quotient w)) (rest w)))).
+
+Definition shows_zero g w := reduces g w && zero_poly (rest w).
+Definition shows_positive g w := reduces g w && (0 <? lower_value a b (rest w)).
+Definition shows_negative g w := reduces g w && (upper_value a b (rest w) <? 0).
+
+Definition component i := nth [::] (components k) i.
+
+Definition combine_row (row : sparse_row) : polynomial :=
+  foldr (fun e sum => add_poly (scale_poly e.2 (component e.1)) sum) [::] row.
+
+(* y_i as a polynomial in t. *)
+Definition reaction_poly i : polynomial :=
+  add_poly (combine_row (row_a Q i)) (0 :: combine_row (row_b Q i)).
+
+Definition component_witness i := nth no_reduction (component_reductions k) i.
+Definition reaction_witness i := nth no_reduction (reaction_reductions k) i.
+
+Definition x_zero i := shows_zero (component i) (component_witness i).
+Definition x_positive i := shows_positive (component i) (component_witness i).
+Definition x_negative i := shows_negative (component i) (component_witness i).
+Definition y_zero i := shows_zero (reaction_poly i) (reaction_witness i).
+Definition y_positive i := shows_positive (reaction_poly i) (reaction_witness i).
+
+Definition columns_in_order :=
+  all (fun row => all (fun e => e.1 < order Q)%N row) (rows_a Q) &&
+  all (fun row => all (fun e => e.1 < order Q)%N row) (rows_b Q).
+
+Definition check_claim :=
+  [&& wellformed Q, columns_in_order,
+      [&& 0 <=? a, a <=? b, 0 <? d & modulus_changes_sign],
+      all (fun i => y_zero i) (free Q),
+      all (fun i => i \in slip Q) (support k ++ biactive k),
+      all (fun i => if i \in support k then [&& x_positive i, y_zero i & i \notin biactive k]
+                    else x_zero i && (if i \in biactive k then y_zero i else y_positive i))
+        (slip Q) &
+      has (fun i => i \in support k) (slip Q) ||
+      has (fun i => x_positive i || x_negative i) (free Q)].
+
+End Checker.
+
+Section Sound.
+
+Variable R : rcfType.
+
+(* The value of a polynomial. *)
+Definition eval (p : polynomial) (t : R) := foldr (fun a s => toR a + t * s) 0 p.
+
+Lemma eval_scale c p t : eval (scale_poly c p) t = toR c * eval p t.
+Proof.
+elim: p => [|a p IH] /=; first by rewrite mulr0.
+by rewrite -/(eval _ t) IH toRM -/(eval p t); move: (eval p t) (toR c) (toR a) => *; ring.
+Qed.
+
+Lemma eval_add p q t : eval (add_poly p q) t = eval p t + eval q t.
+Proof.
+elim: p q => [|a p IH] [|b q] /=; rewrite ?add0r ?addr0 //.
+rewrite -/(eval _ t) IH toRD -/(eval p t) -/(eval q t).
+by move: (eval p t) (eval q t) (toR a) (toR b) => *; ring.
+Qed.
+
+Lemma eval_mul p q t : eval (mul_poly p q) t = eval p t * eval q t.
+Proof.
+elim: p => [|a p IH] /=; first by rewrite mul0r.
+rewrite eval_add eval_scale /= -/(mul_poly p q) -/(eval _ t) IH toR0 -/(eval p t).
+by move: (eval p t) (eval q t) (toR a) => *; ring.
+Qed.
+
+Lemma eval_zero p t : zero_poly p -> eval p t = 0.
+Proof.
+elim: p => //= a p IH /andP[/Z.eqb_spec-> /IH]; rewrite /eval => ->.
+by rewrite toR0 mulr0 addr0.
+Qed.
+
+(* The polynomial of the algebra library. *)
+Definition to_poly (p : polynomial) : {poly R} :=
+  foldr (fun a s => (toR a)%:P + 'X * s) 0 p.
+
+Lemma horner_to_poly p t : (to_poly p).[t] = eval p t.
+Proof.
+elim: p => [|a p IH] /=; first by rewrite horner0.
+by rewrite hornerD hornerC hornerM hornerX IH.
+Qed.
+
+Lemma product_lower (u e a b lo : R) : 0 <= a -> a <= u -> u <= b -> lo <= e ->
+  (if 0 <= lo then a * lo else b * lo) <= u * e.
+Proof.
+move=> a0 au ub le; apply: (@le_trans _ _ (u * lo)); last first.
+  by rewrite ler_wpmul2l // (le_trans a0).
+case: (lerP 0 lo) => sign; first exact: ler_wpmul2r.
+by rewrite ler_nmul2r.
+Qed.
+
+Lemma product_upper (u e a b hi : R) : 0 <= a -> a <= u -> u <= b -> e <= hi ->
+  u * e <= (if 0 <= hi then b * hi else a * hi).
+Proof.
+move=> a0 au ub le; apply: (@le_trans _ _ (u * hi)).
+  by rewrite ler_wpmul2l // (le_trans a0).
+case: (lerP 0 hi) => sign; first exact: ler_wpmul2r.
+by rewrite ler_nmul2r.
+Qed.
+
+Lemma horner_interval_sound (a b d : Z) p t :
+  0 <= toR a :> R -> toR a <= toR d * t -> toR d * t <= toR b -> 0 < toR d :> R ->
+  let: (lo, hi, power) := horner_interval a b d p in
+  [/\ 0 < toR power :> R, toR lo <= toR power * eval p t & toR power * eval p t <= toR hi].
+Proof.
+move=> a0 at_ tb d0; elim: p => [|c p IH] /=.
+  by rewrite toR1 toR0 mulr0; split; rewrite ?ltr01 ?lexx.
+case: (horner_interval a b d p) IH => [[lo hi] power] [power0 le_lo le_hi].
+rewrite -/(eval p t).
+have valueE : toR (power * d)%Z * (toR c + t * eval p t) =
+              toR d * t * (toR power * eval p t) + toR (c * (power * d))%Z.
+  by rewrite !toRM; move: (toR power) (toR d) (toR c) (eval p t) => *; ring.
+rewrite valueE !toRD !ler_add2r; split.
+- by rewrite toRM mulr_gt0.
+- have := product_lower a0 at_ tb le_lo; rewrite -(@toR_ge0 R).
+  by case: (0 <= toR lo); rewrite toRM.
+have := product_upper a0 at_ tb le_hi; rewrite -(@toR_ge0 R).
+by case: (0 <= toR hi); rewrite toRM.
+Qed.
+
+Section Claim.
+
+Variables (Q : pencil) (k : claim).
+Hypothesis checked : check_claim Q k.
+
+Notation a := (claim_from k).
+Notation b := (claim_to k).
+Notation d := (claim_denominator k).
+
+Lemma claim_parts :
+  [/\ wellformed Q, columns_in_order Q,
+      [/\ 0 <= toR a :> R, toR a <= toR b :> R, 0 < toR d :> R & modulus_changes_sign k] &
+      [/\ forall i, i \in free Q -> y_zero Q k i,
+          forall i, i \in slip Q ->
+            if i \in support k then [&& x_positive k i, y_zero Q k i & i \notin biactive k]
+            else x_zero k i && (if i \in biactive k then y_zero Q k i else y_positive Q k i) &
+          has (fun i => i \in support k) (slip Q) ||
+          has (fun i => x_positive k i || x_negative k i) (free Q)]].
+Proof.
+case/and5P: checked => wf cols /and4P[a0 ab d0 sign] /allP yf /and3P[_ /allP xs nz].
+by split=> //; split=> //; rewrite ?toR_ge0 ?toR_le ?toR_gt0.
+Qed.
+
+(* Signs over the interval, or at a point of it. *)
+Lemma value_signs x y p t : 0 <= toR x :> R -> toR x <= toR d * t -> toR d * t <= toR y ->
+  [/\ (0 <=? lower_value k x y p)%Z -> 0 <= eval p t,
+      (upper_value k x y p <=? 0)%Z -> eval p t <= 0,
+      (0 <? lower_value k x y p)%Z -> 0 < eval p t &
+      (upper_value k x y p <? 0)%Z -> eval p t < 0].
+Proof.
+move=> x0 xt ty; have [_ _ [_ _ d0 _] _] := claim_parts.
+have := horner_interval_sound p x0 xt ty d0; rewrite /lower_value /upper_value.
+case: (horner_interval x y d p) => [[lo hi] power] [power0 le_lo le_hi] /=.
+split; rewrite -?(@toR_ge0 R) -?(@toR_le0 R) -?(@toR_gt0 R) -?(@toR_lt0 R) => sign.
+- by rewrite -(pmulr_rge0 _ power0); apply: le_trans le_lo.
+- by rewrite -(pmulr_rle0 _ power0); apply: le_trans sign.
+- by rewrite -(pmulr_rgt0 _ power0); apply: lt_le_trans le_lo.
+- by rewrite -(pmulr_rlt0 _ power0); apply: le_lt_trans sign.
+Qed.
+
+Lemma modulus_root : exists t : R,
+  [/\ toR a <= toR d * t, toR d * t <= toR b & eval (modulus k) t = 0].
+Proof.
+have [_ _ [a0 ab d0 sign] _] := claim_parts.
+have nz : toR d != 0 :> R by rewrite gt_eqF.
+pose ta : R := toR a / toR d; pose tb : R := toR b / toR d.
+have eq_a : toR d * ta = toR a by rewrite /ta mulrC divfK.
+have eq_b : toR d * tb = toR b by rewrite /tb mulrC divfK.
+have tab : ta <= tb by rewrite /ta /tb ler_pmul2r ?invr_gt0.
+have b0 : 0 <= toR b :> R := le_trans a0 ab.
+have [a1 a2 _ _] := @value_signs a a (modulus k) ta a0
+  (eq_ind_r (fun v => toR a <= v) (lexx _) eq_a) (eq_ind_r (fun v => v <= toR a) (lexx _) eq_a).
+have [b1 b2 _ _] := @value_signs b b (modulus k) tb b0
+  (eq_ind_r (fun v => toR b <= v) (lexx _) eq_b) (eq_ind_r (fun v => v <= toR b) (lexx _) eq_b).
+
+have [t /andP[ta_t t_tb] /rootP root_t] :
+    exists2 t, ta <= t <= tb & root (to_poly (modulus k)) t.
+  apply: root_between => //; rewrite !horner_to_poly.
+  by case/orP: sign => /andP[s1 s2]; [apply: mulr_le0_ge0 | apply: mulr_ge0_le0]; auto.
+exists t; rewrite -eq_a -eq_b !ler_pmul2l //; split=> //.
+by rewrite -horner_to_poly.
+Qed.
+
+Section AtRoot.
+
+Variable t : R.
+Hypotheses (at_ : toR a <= toR d * t) (tb : toR d * t <= toR b).
+Hypothesis root_t : eval (modulus k) t = 0.
+
+Lemma reduces_eval g w : reduces k g w ->
+  0 < toR (multiplier w) :> R /\ toR (multiplier w) * eval g t = eval (rest w) t.
+Proof.
+case/andP=> c0 zero; split; first by rewrite toR_gt0.
+have := eval_zero t zero; rewrite eval_add !eval_scale eval_add eval_mul root_t mul0r add0r.
+by rewrite -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r => /eqP; rewrite subr_eq0 => /eqP.
+Qed.
+
+Lemma zero_sound g w : shows_zero k g w -> eval g t = 0.
+Proof.
+case/andP=> /reduces_eval[c0 eq] /(eval_zero t) r0.
+by apply: (mulfI (lt0r_neq0 c0)); rewrite eq r0 mulr0.
+Qed.
+
+Lemma positive_sound g w : shows_positive k g w -> 0 < eval g t.
+Proof.
+have [_ _ [a0 _ _ _] _] := claim_parts.
+case/andP=> /reduces_eval[c0 eq] sign; rewrite -(pmulr_rgt0 _ c0) eq.
+by have [_ _ pos _] := value_signs (rest w) a0 at_ tb; apply: pos.
+Qed.
+
+Lemma negative_sound g w : shows_negative k g w -> eval g t < 0.
+Proof.
+have [_ _ [a0 _ _ _] _] := claim_parts.
+case/andP=> /reduces_eval[c0 eq] sign; rewrite -(pmulr_rlt0 _ c0) eq.
+by have [_ _ _ neg] := value_signs (rest w) a0 at_ tb; apply: neg.
+Qed.
+
+Definition x_at i := eval (component k i) t.
+
+Lemma combine_rowE row : all (fun e => e.1 < order Q)%N row ->
+  eval (combine_row k row) t = \sum_(j <- iota 0 (order Q)) toR (lookup row j) * x_at j.
+Proof.
+move=> range; rewrite (sum_lookup _ range); elim: row {range} => [|e row IH] /=.
+  by rewrite big_nil.
+by rewrite big_cons eval_add eval_scale IH.
+Qed.
+
+Lemma rows_range i :
+  all (fun e => e.1 < order Q)%N (row_a Q i) /\ all (fun e => e.1 < order Q)%N (row_b Q i).
+Proof.
+have [_ /andP[/allP ca /allP cb] _ _] := claim_parts; rewrite /row_a /row_b; split.
+  by have [l|l] := ltnP i (size (rows_a Q)); [apply/ca/mem_nth | rewrite nth_default].
+by have [l|l] := ltnP i (size (rows_b Q)); [apply/cb/mem_nth | rewrite nth_default].
+Qed.
+
+Lemma reaction_polyE i : eval (reaction_poly Q k i) t = reaction Q t x_at i.
+Proof.
+have [ra rb] := rows_range i.
+rewrite /reaction_poly eval_add /= -/(eval _ t) toR0 add0r !combine_rowE //.
+rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
+by rewrite /a_entry /b_entry mulrDl mulrA.
+Qed.
+
+End AtRoot.
+
+Theorem claim_sound : exists (t : R) x,
+  [/\ toR a <= toR d * t, toR d * t <= toR b, solution Q t x &
+      forall i, i \in slip Q ->
+        [/\ i \in support k -> 0 < x i, i \notin support k -> x i = 0,
+            i \notin support k -> i \in biactive k -> reaction Q t x i = 0 &
+            i \notin support k -> i \notin biactive k -> 0 < reaction Q t x i]].
+Proof.
+have [wf cols [a0 ab d0 sign] [yf xs nz]] := claim_parts.
+have [t [at_ tb root_t]] := modulus_root.
+exists t, (x_at t).
+have support_signs i : i \in slip Q ->
+    (i \in support k -> 0 < x_at t i) /\ (i \notin support k -> x_at t i = 0).
+  move=> /xs; case: (i \in support k) => /andP[x_sign _]; split=> // _.
+    exact: (positive_sound at_ tb root_t x_sign).
+  exact: (zero_sound root_t x_sign).
+have reaction_signs i : i \in slip Q -> i \notin support k ->
+    (i \in biactive k -> reaction Q t (x_at t) i = 0) /\
+    (i \notin biactive k -> 0 < reaction Q t (x_at t) i).
+  move=> /xs + /negbTE ns; rewrite ns -reaction_polyE // => /andP[_].
+  case: (i \in biactive k) => y_sign; split=> // _; first exact: (zero_sound root_t y_sign).
+  exact: (positive_sound at_ tb root_t y_sign).
+have on_support i : i \in slip Q -> i \in support k -> reaction Q t (x_at t) i = 0.
+  by move=> /xs + i_s; rewrite i_s => /and3P[_ /(zero_sound root_t) <- _]; rewrite reaction_polyE.
+
+split=> //; last first.
+  move=> i Hi; have [pos zero] := support_signs _ Hi.
+  by split=> // ns; have [] := reaction_signs _ Hi ns.
+
+split.
+- by rewrite -(pmulr_rge0 _ d0); apply: le_trans at_.
+- case/orP: nz => /hasP[i Hi]; last first.
+    move=> sign_i; exists i; first exact: (free_indices wf).
+    case/orP: sign_i => [/(positive_sound at_ tb root_t) p|/(negative_sound at_ tb root_t) n].
+      by rewrite gt_eqF.
+    by rewrite lt_eqF.
+  move=> in_support; exists i; first exact: slip_indices.
+  by have [/(_ in_support) pos _] := support_signs _ Hi; rewrite gt_eqF.
+- by move=> i /yf y0; rewrite -reaction_polyE //; apply: (zero_sound root_t y0).
+move=> i Hi; have [pos zero] := support_signs _ Hi.
+have [i_s|ns] := boolP (i \in support k).
+  by rewrite on_support // mulr0 lexx; split=> //; apply/ltW/pos.
+rewrite zero // mul0r lexx; split=> //; have [y_zero y_pos] := reaction_signs _ Hi ns.
+by have [i_b|nb] := boolP (i \in biactive k); [rewrite y_zero | apply/ltW/y_pos].
+Qed.
+
+End Claim.
+
+End Sound.

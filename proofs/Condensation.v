@@ -1,0 +1,540 @@
+(* Elimination of the free variables behind a rounded inverse.
+
+   A pencil in blocks, f for the free variables and s for the complementarity variables, with no t
+   in the free rows:
+
+       [ F    G   ]     F symmetric, regular        y_f = F x_f + G x_s = 0
+       [ H(t) D(t)]     H = H_a + t H_b,            y_s = H(t) x_f + D(t) x_s
+                        D = D_a + t D_b
+
+   With x_f = -F^-1 G x_s the complementarity rows are those of the condensed pencil
+   T(t) = D(t) - H(t) F^-1 G.  F^-1 G is not known; an integer matrix W with F W about u G is, and
+   V_a, V_b with F V about u H'.  With r = u G - F W and l = u H' - F V,
+
+       u^2 (D - H F^-1 G) = u^2 D - u H W - V' r - l' F^-1 r.
+
+   The last term is the radius: if F >= (d/c) I, then |F^-1 r|_max <= (c/d) |r|_1, so
+   |l' F^-1 r| <= (c/d) |l|_1 |r|_1.  The lower bound d/c is shown by a factor that covers
+   c F - d I (Covered.v).
+
+   Theorem [condensation_encloses]: the integer matrices computed here enclose the exact condensed
+   pencil.  Theorem [condensation_exact]: (x_f, x_s) solves the pencil in blocks if and only if x_s
+   solves the condensed one and x_f = -F^-1 G x_s.
+
+   Page: spec/certificates.md, 5.14 (the linear family at center 0).
+   Rust: crates/check/src/cover/condensed.rs, expanded.rs, psd.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+(* A sparse row: column and entry. *)
+Definition sparse_row := seq (nat * Z).
+
+Definition lookup (row : sparse_row) (j : nat) : Z :=
+  foldr (fun entry sum => if entry.1 == j then (entry.2 + sum)%Z else sum) 0%Z row.
+
+(* Sparse rows of F; one list over the free variables for each column of G and for each row of H_a
+   and H_b; dense D_a and D_b. *)
+Record blocks := Blocks {
+  free_count : nat;
+  slip_count : nat;
+  ff : seq sparse_row;
+  fs : matrix;
+  sf_a : matrix;
+  sf_b : matrix;
+  ss_a : matrix;
+  ss_b : matrix }.
+
+(* A positive factor for each row, u, W, V_a, V_b (lists over the free variables, one for each
+   complementarity variable), and c, d, m, L with c F - d I covered by m L L'. *)
+Record elimination := Elimination {
+  row_scale : seq Z;
+  unit_of : Z;
+  right_w : matrix;
+  left_va : matrix;
+  left_vb : matrix;
+  bound_c : Z;
+  bound_d : Z;
+  factor_scale : Z;
+  stiffness_factor : seq late_row }.
+
+Section Checker.
+
+Local Open Scope Z_scope.
+
+Fixpoint map_from T U (f : nat -> T -> U) (k : nat) (l : seq T) : seq U :=
+  if l is x :: l' then f k x :: map_from f k.+1 l' else [::].
+
+Definition sparse_dot (row : sparse_row) (x : seq Z) : Z :=
+  foldr (fun entry sum => entry.2 * nth 0 x entry.1 + sum) 0 row.
+
+Definition norm1 (l : seq Z) : Z := foldr (fun x sum => Z.abs x + sum) 0 l.
+
+Definition row_of (m : matrix) i := nth [::] m i.
+
+(* The least integer that is at least x / d, for d > 0. *)
+Definition divide_up x d := - ((- x) / d).
+
+Variables (D : blocks) (w : elimination).
+
+(* c F - d I *)
+Definition shifted (a b : nat * sparse_row) :=
+  bound_c w * lookup a.2 b.1 - (if a.1 == b.1 then bound_d w else 0).
+
+Definition numbered_rows := zip (iota 0 (free_count D)) (ff D).
+
+Definition stiffness_symmetric :=
+  all_from (fun i row => all_from (fun j col => lookup row j =? lookup col i) 0 (ff D)) 0 (ff D).
+
+Definition stiffness_bounded :=
+  covered shifted (fun a b => factor_scale w * late_dot a b) false
+    (zip numbered_rows (stiffness_factor w)).
+
+Definition stiffness_positive :=
+  [&& 0 <? bound_c w, 0 <? bound_d w, 0 <=? factor_scale w, size (ff D) == free_count D,
+      size (stiffness_factor w) == free_count D,
+      all (fun row => all (fun entry => entry.1 < free_count D)%N row) (ff D),
+      stiffness_symmetric & stiffness_bounded].
+
+(* u G_j - F X_j for a column j *)
+Definition residual_column (G X : matrix) j :=
+  let g := row_of G j in
+  let x := row_of X j in
+  map_from (fun i row => unit_of w * nth 0 g i - sparse_dot row x) 0 (ff D).
+
+Definition table (f : nat -> nat -> Z) : matrix :=
+  [seq [seq f i j | j <- iota 0 (slip_count D)] | i <- iota 0 (slip_count D)].
+
+Definition condensed_center ss sf v (r : matrix) : matrix := table (fun i j =>
+  nth 0 (row_scale w) i *
+  (unit_of w * unit_of w * entry ss i j - unit_of w * dot (row_of sf i) (row_of (right_w w) j)
+   - dot (row_of v i) (row_of r j))).
+
+Definition condensed_radius (norms_l norms_r : seq Z) : matrix := table (fun i j =>
+  divide_up (nth 0 (row_scale w) i * (nth 0 norms_l i * nth 0 norms_r j * bound_c w)) (bound_d w)).
+
+Definition condensed : enclosed :=
+  let columns G X := [seq residual_column G X j | j <- iota 0 (slip_count D)] in
+  let r := columns (fs D) (right_w w) in
+  let norms_r := [seq norm1 c | c <- r] in
+  let norms_a := [seq norm1 c | c <- columns (sf_a D) (left_va w)] in
+  let norms_b := [seq norm1 c | c <- columns (sf_b D) (left_vb w)] in
+  Enclosed (slip_count D)
+    (condensed_center (ss_a D) (sf_a D) (left_va w) r)
+    (condensed_center (ss_b D) (sf_b D) (left_vb w) r)
+    (condensed_radius norms_a norms_r) (condensed_radius norms_b norms_r).
+
+Definition shapes :=
+  [&& 0 <? unit_of w,
+      all (fun i => 0 <? nth 0 (row_scale w) i) (iota 0 (slip_count D)) &
+      all (fun i => all (fun m => size (row_of m i) <= free_count D)%N
+             [:: fs D; sf_a D; sf_b D; right_w w; left_va w; left_vb w])
+        (iota 0 (slip_count D))].
+
+Definition check_elimination := stiffness_positive && shapes.
+
+End Checker.
+
+Section Lists.
+
+Variable R : realFieldType.
+
+Lemma nth_map_from T U (d : T) (e : U) f l a j :
+  (j < size l)%N -> nth e (map_from f a l) j = f (a + j)%N (nth d l j).
+Proof.
+elim: l a j => [|x l IH] a [|j] //= jl; first by rewrite addn0.
+by rewrite IH // addSnnS.
+Qed.
+
+Lemma size_map_from T U (f : nat -> T -> U) l a : size (map_from f a l) = size l.
+Proof. by elim: l a => //= x l IH a; rewrite IH. Qed.
+
+Lemma toR_lookup row j :
+  toR (lookup row j) = \sum_(e <- row) (if e.1 == j then toR e.2 else 0) :> R.
+Proof.
+elim: row => [|e row IH]; rewrite ?big_nil ?big_cons //= -IH.
+by case: eqP => _; rewrite ?toRD ?add0r.
+Qed.
+
+(* A row times a vector is the sum over its entries. *)
+Lemma sum_lookup n (row : sparse_row) (x : nat -> R) : all (fun e => e.1 < n)%N row ->
+  \sum_(k <- iota 0 n) toR (lookup row k) * x k = \sum_(e <- row) toR e.2 * x e.1.
+Proof.
+move=> /allP columns; under eq_bigr do rewrite toR_lookup mulr_suml.
+rewrite exchange_big big_seq [RHS]big_seq; apply: eq_bigr => e e_row.
+rewrite (bigD1_seq e.1) ?iota_uniq //=; last by rewrite mem_iota add0n; apply: columns.
+rewrite eqxx big1 ?addr0 // => k /negbTE; rewrite eq_sym => ->.
+by rewrite mul0r.
+Qed.
+
+Lemma toR_sparse_dot n row x : all (fun e => e.1 < n)%N row ->
+  toR (sparse_dot row x) = \sum_(k <- iota 0 n) toR (lookup row k) * toR (nth 0%Z x k) :> R.
+Proof.
+move=> columns; rewrite sum_lookup //; elim: row {columns} => [|e row IH].
+  by rewrite big_nil.
+by rewrite big_cons /= toRD toRM IH.
+Qed.
+
+Lemma toR_norm1 l n : (size l <= n)%N ->
+  toR (norm1 l) = \sum_(k <- iota 0 n) `|toR (nth 0%Z l k)| :> R.
+Proof.
+elim: l n => [|x l IH] n; first by move=> _; rewrite sum_zero // => k _; rewrite nth_nil normr0.
+case: n => // n sn; rewrite /= big_cons toRD toR_abs (IH n) //; congr (_ + _).
+by rewrite (sum_shift 1).
+Qed.
+
+End Lists.
+
+Lemma divide_up_ge x d : (0 <? d)%Z -> (x <=? divide_up x d * d)%Z.
+Proof.
+move=> /Z.ltb_spec0 d0; apply/Z.leb_spec0; rewrite /divide_up.
+have := Z.mul_div_le (- x) _ d0; move: ((- x) / d)%Z => q; clear; nia.
+Qed.
+
+Section Sound.
+
+Variable R : rcfType.
+Variables (D : blocks) (w : elimination).
+Notation free_ix := (iota 0 (free_count D)).
+Notation slip_ix := (iota 0 (slip_count D)).
+Notation u := (toR (unit_of w) : R).
+
+Definition F i k : R := toR (lookup (nth [::] (ff D) i) k).
+Definition at_ (m : matrix) j k : R := toR (nth 0%Z (row_of m j) k).
+Definition scale_of i : R := toR (nth 0%Z (row_scale w) i).
+
+Definition free_row (xf xs : nat -> R) i :=
+  \sum_(k <- free_ix) F i k * xf k + \sum_(j <- slip_ix) at_ (fs D) j i * xs j.
+
+Definition slip_row t (xf xs : nat -> R) i :=
+  \sum_(k <- free_ix) (at_ (sf_a D) i k + t * at_ (sf_b D) i k) * xf k +
+  \sum_(j <- slip_ix) (toR (entry (ss_a D) i j) + t * toR (entry (ss_b D) i j)) * xs j.
+
+(* A solution of the pencil in blocks. *)
+Definition block_solution t (xf xs : nat -> R) :=
+  [/\ 0 <= t,
+      (exists2 i, i \in free_ix & xf i != 0) \/ (exists2 i, i \in slip_ix & xs i != 0),
+      forall i, i \in free_ix -> free_row xf xs i = 0 &
+      forall i, i \in slip_ix ->
+        [/\ 0 <= xs i, 0 <= slip_row t xf xs i & xs i * slip_row t xf xs i = 0]].
+
+Hypotheses (positive : stiffness_positive D w) (shaped : shapes D w).
+
+Lemma unit_gt0 : 0 < u.
+Proof. by case/and3P: shaped => ? _ _; rewrite toR_gt0. Qed.
+
+Lemma c_gt0 : 0 < toR (bound_c w) :> R.
+Proof. by case/and5P: positive => ? *; rewrite toR_gt0. Qed.
+
+Lemma d_gt0 : 0 < toR (bound_d w) :> R.
+Proof. by case/and5P: positive => _ ? *; rewrite toR_gt0. Qed.
+
+Lemma scale_gt0 i : i \in slip_ix -> 0 < scale_of i.
+Proof. by case/and3P: shaped => _ /allP H _ /H; rewrite /scale_of toR_gt0. Qed.
+
+Lemma size_ff : size (ff D) = free_count D.
+Proof. by case/and5P: positive => _ _ _ /eqP. Qed.
+
+Lemma size_factor : size (stiffness_factor w) = free_count D.
+Proof. by case/and5P: positive => _ _ _ _ /and4P[/eqP]. Qed.
+
+Lemma columns_ff i : all (fun e => e.1 < free_count D)%N (nth [::] (ff D) i).
+Proof.
+case/and5P: positive => _ _ _ _ /and4P[_ /allP columns _ _].
+have [l|l] := ltnP i (size (ff D)); last by rewrite nth_default.
+by apply/columns/mem_nth.
+Qed.
+
+Lemma lookup_sym i k : (i < free_count D)%N -> (k < free_count D)%N ->
+  lookup (nth [::] (ff D) i) k = lookup (nth [::] (ff D) k) i.
+Proof.
+rewrite -size_ff => Hi Hk; case/and5P: positive => _ _ _ _ /and4P[_ _ sym _].
+have := all_from_nth [::] sym Hi => /(all_from_nth [::])/(_ _ Hk).
+by rewrite !add0n => /Z.eqb_spec.
+Qed.
+
+Lemma F_sym i k : i \in free_ix -> k \in free_ix -> F i k = F k i.
+Proof. by rewrite !mem_iota !add0n /= => Hi Hk; rewrite /F lookup_sym. Qed.
+
+(* c z'Fz >= d z'z *)
+Lemma F_bounded (z : nat -> R) :
+  toR (bound_d w) * (\sum_(k <- free_ix) z k ^+ 2) <=
+  toR (bound_c w) * (\sum_(i <- free_ix) \sum_(k <- free_ix) z i * F i k * z k).
+Proof.
+case/and5P: positive => _ _ m0 _ /and4P[_ _ _ cov].
+set rows := zip (numbered_rows D) (stiffness_factor w) in cov.
+pose d := ((0%N, [::] : sparse_row), (0%N, [::] : seq Z)).
+have size_n : size (numbered_rows D) = free_count D.
+  by rewrite size_zip size_iota size_ff minnn.
+have size_r : size rows = free_count D by rewrite size_zip size_n size_factor minnn.
+have rowE i : (i < free_count D)%N -> (nth d rows i).1 = (i, nth [::] (ff D) i).
+  move=> lt_i; rewrite nth_zip ?size_n ?size_factor //=.
+  by rewrite nth_zip ?size_iota ?size_ff // nth_iota.
+
+have sym : symmetric_rows d (shifted w) rows.
+  move=> i j; rewrite size_r => Hi Hj; rewrite !rowE // /shifted /= eq_sym.
+  by rewrite (lookup_sym Hi Hj).
+have [form0 _] := covered_form (strict := false) z (late_gram R d rows m0) sym cov.
+
+move: form0; rewrite /form size_r.
+have -> : \sum_(i <- free_ix) \sum_(j <- free_ix)
+            z i * toR (shifted w (nth d rows i).1 (nth d rows j).1) * z j =
+          toR (bound_c w) * (\sum_(i <- free_ix) \sum_(k <- free_ix) z i * F i k * z k) -
+          toR (bound_d w) * (\sum_(k <- free_ix) z k ^+ 2).
+  have -> : \sum_(k <- free_ix) z k ^+ 2 =
+            \sum_(i <- free_ix) \sum_(j <- free_ix) (if i == j then z i * z j else 0).
+    apply: sum_eq => i Hi; rewrite (bigD1_seq i) ?iota_uniq //= eqxx big1 ?addr0 //.
+    by move=> j /negbTE; rewrite eq_sym => ->.
+  rewrite !mulr_sumr -sumrB; apply: sum_eq => i; rewrite mem_iota add0n /= => Hi.
+  rewrite !mulr_sumr -sumrB; apply: sum_eq => j; rewrite mem_iota add0n /= => Hj.
+  rewrite !rowE // /shifted /= toRB toRM /F; move: (toR (lookup _ _)) => f.
+  by case: eqP => _; rewrite ?toR0; move: (toR _) (toR _) => *; ring.
+by rewrite subr_ge0.
+Qed.
+
+Lemma F_injective (z : nat -> R) :
+  (forall i, i \in free_ix -> \sum_(k <- free_ix) F i k * z k = 0) ->
+  forall k, k \in free_ix -> z k = 0.
+Proof.
+move=> Fz k Hk; have := F_bounded z.
+rewrite [X in _ <= _ * X]sum_zero ?mulr0 => [|i Hi]; last first.
+  by under eq_bigr do rewrite -mulrA; rewrite -mulr_sumr Fz // mulr0.
+rewrite pmulr_rle0 ?d_gt0 // => squares.
+apply/eqP; rewrite -sqrf_eq0 eq_le sqr_ge0 andbT; apply: le_trans squares.
+by rewrite (bigD1_seq k) ?iota_uniq //= ler_addl sumr_ge0 // => j _; rewrite sqr_ge0.
+Qed.
+
+(* F^-1 b *)
+Definition solve (b : nat -> R) :=
+  at_index (K := free_ix) (invmx (block free_ix F) *m \col_i b (nth 0%N free_ix i)).
+
+Lemma solveP b i : i \in free_ix -> \sum_(k <- free_ix) F i k * solve b k = b i.
+Proof.
+have U := iota_uniq 0 (free_count D).
+have inj : injective_on free_ix F by move=> z; apply: F_injective.
+have unit_F : block free_ix F \in unitmx by rewrite unitmxE unitfE block_det.
+move=> /(nthP 0%N)[i' li <-]; rewrite -(block_mul U F _ (Ordinal li)).
+by rewrite mulKVmx // mxE.
+Qed.
+
+(* |F^-1 r|_max <= (c/d) |r|_1 *)
+Lemma solve_bounded (r z : nat -> R) :
+  (forall i, i \in free_ix -> \sum_(k <- free_ix) F i k * z k = r i) ->
+  forall k, k \in free_ix ->
+  toR (bound_d w) * `|z k| <= toR (bound_c w) * \sum_(i <- free_ix) `|r i|.
+Proof.
+move=> Fz k Hk; have free0 : free_ix != [::] by apply: contraTneq Hk => ->.
+have [m Hm largest_m] := largest z free0.
+apply: (@le_trans _ _ (toR (bound_d w) * `|z m|)); first by rewrite ler_pmul2l ?d_gt0 ?largest_m.
+have [->|zm] := eqVneq (z m) 0.
+  by rewrite normr0 mulr0 mulr_ge0 ?(ltW c_gt0) ?sum_ge0.
+
+have zm0 : 0 < `|z m| by rewrite normr_gt0.
+rewrite -(ler_pmul2r zm0) -mulrA -expr2 -normrX ger0_norm ?sqr_ge0 //.
+apply: (@le_trans _ _ (toR (bound_d w) * \sum_(k <- free_ix) z k ^+ 2)).
+  rewrite ler_pmul2l ?d_gt0 // (bigD1_seq m) ?iota_uniq //= ler_addl sumr_ge0 // => j _.
+  by rewrite sqr_ge0.
+apply: le_trans (F_bounded z) _; rewrite -mulrA ler_pmul2l ?c_gt0 // mulr_suml.
+apply: sum_le => i Hi.
+have -> : \sum_(k <- free_ix) z i * F i k * z k = z i * r i.
+  by rewrite -Fz // mulr_sumr; apply: eq_bigr => j _; rewrite mulrA.
+by apply: le_trans (ler_norm _) _; rewrite normrM mulrC ler_wpmul2l // largest_m.
+Qed.
+
+(* The exact condensed pencil, its rows multiplied by scale_i u^2. *)
+Definition inverse_fs j := solve (fun i => at_ (fs D) j i).
+
+Definition condensed_entry (sf ss : matrix) i j : R :=
+  scale_of i * u ^+ 2 *
+  (toR (entry ss i j) - \sum_(k <- free_ix) at_ sf i k * inverse_fs j k).
+
+Definition A_condensed := condensed_entry (sf_a D) (ss_a D).
+Definition B_condensed := condensed_entry (sf_b D) (ss_b D).
+
+Lemma residual_columnE (G X : matrix) j i : i \in free_ix ->
+  toR (nth 0%Z (residual_column D w G X j) i) =
+  u * at_ G j i - \sum_(k <- free_ix) F i k * at_ X j k.
+Proof.
+rewrite mem_iota add0n /= => Hi.
+rewrite /residual_column (nth_map_from [::]) ?size_ff // add0n toRB toRM.
+by rewrite (toR_sparse_dot R _ (columns_ff i)).
+Qed.
+
+Lemma size_residual G X j : size (residual_column D w G X j) = free_count D.
+Proof. by rewrite size_map_from size_ff. Qed.
+
+Lemma condensed_near (sf ss v : matrix) i j :
+  i \in slip_ix -> j \in slip_ix ->
+  (size (row_of sf i) <= free_count D)%N -> (size (row_of v i) <= free_count D)%N ->
+  forall r, r = [seq residual_column D w (fs D) (right_w w) j | j <- slip_ix] ->
+  `|condensed_entry sf ss i j - toR (entry (condensed_center D w ss sf v r) i j)| <=
+  toR (entry (condensed_radius D w
+               [seq norm1 c | c <- [seq residual_column D w sf v j | j <- slip_ix]]
+               [seq norm1 c | c <- r]) i j).
+Proof.
+move=> Hi Hj size_sf size_v r Er.
+have := Hi; have := Hj; rewrite !mem_iota !add0n /= => lt_j lt_i.
+have n_i : nth 0%N slip_ix i = i by rewrite nth_iota.
+have n_j : nth 0%N slip_ix j = j by rewrite nth_iota.
+have tableE f : entry (table D f) i j = f i j.
+  by rewrite /entry /table (nth_map 0%N) ?size_iota // (nth_map 0%N) ?size_iota // n_i n_j.
+have r_j : row_of r j = residual_column D w (fs D) (right_w w) j.
+  by rewrite /row_of Er (nth_map 0%N) ?size_iota // n_j.
+rewrite /condensed_center /condensed_radius !tableE r_j Er -!map_comp.
+rewrite !(nth_map 0%N) ?size_iota // n_i n_j /=.
+
+set rr := residual_column D w (fs D) (right_w w) j; set ll := residual_column D w sf v i.
+pose z k := u * inverse_fs j k - at_ (right_w w) j k.
+pose L k : R := toR (nth 0%Z ll k); pose Rr k : R := toR (nth 0%Z rr k).
+
+(* F z = r *)
+have Fz k : k \in free_ix -> \sum_(k' <- free_ix) F k k' * z k' = Rr k.
+  move=> Hk; rewrite /Rr residual_columnE //; under eq_bigr do rewrite mulrBr mulrCA.
+  rewrite sumrB -mulr_sumr; congr (_ * _ - _).
+  exact: (solveP (fun i => at_ (fs D) j i)).
+
+(* The error is scale l' z. *)
+have error : condensed_entry sf ss i j -
+    toR (nth 0 (row_scale w) i *
+         (unit_of w * unit_of w * entry ss i j -
+          unit_of w * dot (row_of sf i) (row_of (right_w w) j) - dot (row_of v i) rr))%Z =
+    - (scale_of i * \sum_(k <- free_ix) L k * z k).
+  rewrite toRM !toRB !toRM (toR_dot R _ size_sf) (toR_dot R _ size_v).
+  rewrite /condensed_entry -/(scale_of i).
+  have -> : \sum_(k <- free_ix) L k * z k =
+      u * (\sum_(k <- free_ix) at_ sf i k * (u * inverse_fs j k)) -
+      u * (\sum_(k <- free_ix) at_ sf i k * at_ (right_w w) j k) -
+      \sum_(k <- free_ix) at_ v i k * Rr k.
+    have -> : \sum_(k <- free_ix) L k * z k =
+        u * (\sum_(k <- free_ix) at_ sf i k * z k) -
+        \sum_(k <- free_ix) (\sum_(k' <- free_ix) F k k' * at_ v i k') * z k.
+      rewrite mulr_sumr -sumrB; apply: sum_eq => k Hk.
+      rewrite /L residual_columnE // mulrBl mulrA; congr (_ - _).
+    congr (_ - _).
+      by rewrite -mulrBr -sumrB; congr (_ * _); apply: eq_bigr => k _; rewrite mulrBr.
+    under eq_bigr do rewrite mulr_suml; rewrite exchange_big; apply: sum_eq => k Hk.
+    rewrite -Fz // mulr_sumr; apply: sum_eq => k' Hk'; rewrite (F_sym Hk' Hk).
+    by move: (F _ _) (at_ _ _ _) (z _) => *; ring.
+  have -> : \sum_(k <- free_ix) at_ sf i k * (u * inverse_fs j k) =
+            u * \sum_(k <- free_ix) at_ sf i k * inverse_fs j k.
+    by rewrite mulr_sumr; apply: eq_bigr => k _; rewrite mulrCA.
+  rewrite /at_ /Rr; set a := \sum_(k <- free_ix) _ * inverse_fs j k.
+  set b := \sum_(k <- free_ix) _ * toR (nth 0%Z (row_of (right_w w) j) k).
+  set c' := \sum_(k <- free_ix) _ * toR (nth 0%Z rr k).
+  by move: a b c' (toR (entry ss i j)) (toR (unit_of w)) (scale_of i) => a b c' e x s; ring.
+
+rewrite error normrN normrM gtr0_norm ?scale_gt0 //.
+have norm_l : toR (norm1 ll) = \sum_(k <- free_ix) `|L k|.
+  by rewrite (toR_norm1 R (n := free_count D)) // size_residual.
+have norm_r : toR (norm1 rr) = \sum_(k <- free_ix) `|Rr k|.
+  by rewrite (toR_norm1 R (n := free_count D)) // size_residual.
+
+rewrite -(ler_pmul2r d_gt0); apply: (@le_trans _ _
+    (toR (nth 0%Z (row_scale w) i * (norm1 ll * norm1 rr * bound_c w))%Z)); last first.
+  rewrite -toRM toR_le; apply: divide_up_ge; by case/and5P: positive.
+rewrite !toRM -/(scale_of i) -[X in X <= _]mulrA ler_pmul2l ?scale_gt0 //.
+rewrite norm_l norm_r -mulrA [X in _ <= X]mulr_suml.
+apply: (@le_trans _ _ ((\sum_(k <- free_ix) `|L k * z k|) * toR (bound_d w))).
+  by rewrite ler_pmul2r ?d_gt0 // sum_norm.
+rewrite mulr_suml; apply: sum_le => k Hk; rewrite normrM -mulrA; apply: ler_wpmul2l => //.
+by rewrite mulrC [X in _ <= X]mulrC; apply: (solve_bounded Fz).
+Qed.
+
+Lemma sizes i : i \in slip_ix ->
+  forall m, m \in [:: fs D; sf_a D; sf_b D; right_w w; left_va w; left_vb w] ->
+  (size (row_of m i) <= free_count D)%N.
+Proof. by case/and3P: shaped => _ _ /allP H /H/allP. Qed.
+
+Theorem condensation_encloses : encloses (condensed D w) A_condensed B_condensed.
+Proof.
+move=> i j Hi Hj; have s := sizes Hi.
+by split; apply: condensed_near => //; apply: s; rewrite !inE eqxx ?orbT.
+Qed.
+
+(* The free variables of a solution. *)
+Definition free_part xs k := - \sum_(j <- slip_ix) inverse_fs j k * xs j.
+
+Lemma free_rows_vanish (xf xs : nat -> R) :
+  (forall i, i \in free_ix -> free_row xf xs i = 0) <->
+  (forall k, k \in free_ix -> xf k = free_part xs k).
+Proof.
+have F_part i : i \in free_ix ->
+    \sum_(k <- free_ix) F i k * free_part xs k = - \sum_(j <- slip_ix) at_ (fs D) j i * xs j.
+  move=> Hi; rewrite /free_part; under eq_bigr do rewrite mulrN mulr_sumr.
+  rewrite sumrN exchange_big; congr (- _); apply: eq_bigr => j _.
+  under eq_bigr do rewrite mulrA; rewrite -mulr_suml; congr (_ * _).
+  exact: (solveP (fun i => at_ (fs D) j i)).
+
+split=> H.
+  move=> k Hk; apply/eqP; rewrite -subr_eq0; apply/eqP.
+  apply: (F_injective (z := fun k => xf k - free_part xs k)) Hk => i Hi.
+  under eq_bigr do rewrite mulrBr; rewrite sumrB F_part // opprK; exact: H.
+move=> i Hi; rewrite /free_row; under eq_big_seq => k Hk do rewrite H //.
+by rewrite F_part // addNr.
+Qed.
+
+Lemma condensed_image t xf xs i :
+  (forall k, k \in free_ix -> xf k = free_part xs k) -> i \in slip_ix ->
+  image (condensed D w) A_condensed B_condensed t xs i =
+  scale_of i * u ^+ 2 * slip_row t xf xs i.
+Proof.
+move=> H Hi; rewrite /image /slip_row.
+have -> : \sum_(k <- free_ix) (at_ (sf_a D) i k + t * at_ (sf_b D) i k) * xf k =
+    - \sum_(j <- slip_ix) (\sum_(k <- free_ix) at_ (sf_a D) i k * inverse_fs j k +
+                           t * (\sum_(k <- free_ix) at_ (sf_b D) i k * inverse_fs j k)) * xs j.
+  under eq_big_seq => k Hk do rewrite H // /free_part mulrN mulr_sumr.
+  rewrite sumrN exchange_big; congr (- _); apply: eq_bigr => j _.
+  rewrite mulr_sumr -big_split mulr_suml; apply: eq_bigr => k _ /=.
+  by move: (at_ _ _ _) (at_ _ _ _) (inverse_fs _ _) (xs _) => *; ring.
+
+rewrite -sumrN -big_split mulr_sumr; apply: eq_bigr => j _ /=.
+rewrite /T /A_condensed /B_condensed /condensed_entry.
+move: (\sum_(k <- free_ix) at_ (sf_a D) i k * inverse_fs j k) => a.
+move: (\sum_(k <- free_ix) at_ (sf_b D) i k * inverse_fs j k) => b.
+move: (scale_of i) (toR (unit_of w)) (toR (entry (ss_a D) i j)) => p q e.
+by move: (toR (entry (ss_b D) i j)) (xs j) => f x; ring.
+Qed.
+
+Lemma positive_multiple i y : i \in slip_ix ->
+  ((0 <= scale_of i * u ^+ 2 * y) = (0 <= y)) *
+  (forall x, (x * (scale_of i * u ^+ 2 * y) == 0) = (x * y == 0)).
+Proof.
+move=> Hi; have p : 0 < scale_of i * u ^+ 2.
+  by rewrite mulr_gt0 ?scale_gt0 // exprn_gt0 // unit_gt0.
+by split=> [|x]; rewrite ?pmulr_rge0 // mulrCA mulf_eq0 gt_eqF.
+Qed.
+
+Theorem condensation_exact t xf xs :
+  block_solution t xf xs <->
+  solves (condensed D w) A_condensed B_condensed t xs /\
+  forall k, k \in free_ix -> xf k = free_part xs k.
+Proof.
+split=> [[t0 nonzero /free_rows_vanish xfE rows]|[[t0 nonzero rows] xfE]].
+  split=> //; split=> //; last first.
+    move=> i Hi; have [x0 y0 xy] := rows _ Hi.
+    rewrite (condensed_image t xfE Hi) positive_multiple //; split=> //.
+    by apply/eqP; rewrite positive_multiple //; apply/eqP.
+  case: nonzero => // -[k Hk xk].
+  have [/hasP[i Hi xi]|/hasPn all0] := boolP (has (fun i => xs i != 0) slip_ix).
+    by exists i.
+  move: xk; rewrite xfE // /free_part sum_zero ?oppr0 ?eqxx // => j Hj.
+  by have /negPn/eqP-> := all0 _ Hj; rewrite mulr0.
+
+split=> //; first by right.
+  exact/free_rows_vanish.
+move=> i Hi; have [x0 + xy] := rows _ Hi.
+rewrite (condensed_image t xfE Hi) positive_multiple // => y0; split=> //.
+by apply/eqP; rewrite -(positive_multiple _ Hi).2 -(condensed_image t xfE Hi); apply/eqP.
+Qed.
+
+End Sound.

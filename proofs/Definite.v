@@ -1,0 +1,212 @@
+(* Definite leaves: a quadratic form that has one sign on the region.
+
+   For a solution x' T(t) x = x' y = 0.  Let S_e be the integer matrix, over the variables that may
+   move,
+
+       S_e,ij = +- (center_e,ij + center_e,ji) - radius_e,ij - radius_e,ji ;
+
+   since x >= 0, x' S_e x <= +- 2 x' T_e x for the pencil at the end e.
+
+   Theorem [definite_sound]: if S_e is strictly covered by a factor (Covered.v) at the lower end,
+   and at the upper end (covered without "strictly" if that end is infinity), then the region has
+   no solution.
+
+   Page: spec/certificates.md, 5.9.  There the radius is taken off the diagonal by its row sums;
+   taking it off entry by entry, as here, is enough because x >= 0.
+   Rust: crates/check/src/cover/definite.rs, enclosed_definite.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Covered.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+Record factor := Factor { weights : seq Z; factor_rows : matrix }.
+
+Section Checker.
+
+Variables (P : enclosed) (negative : bool).
+Local Open Scope Z_scope.
+
+(* The variables that may move. *)
+Definition active (r : region) := [seq i <- indices P | ~~ is_resting (state_of r i)].
+
+Definition symmetric_part e i j :=
+  (if negative then - center P e i j - center P e j i else center P e i j + center P e j i)
+  - radius P e i j - radius P e j i.
+
+Definition definite_end (strict : bool) e r f :=
+  [&& all (fun w => 0 <=? w) (weights f), size (factor_rows f) == size (active r) &
+      covered (symmetric_part e) (weighted_dot (weights f)) strict
+        (zip (active r) (factor_rows f))].
+
+Definition definite r low high :=
+  definite_end true (lower r) r low && definite_end (0 <? (upper r).2) (upper r) r high.
+
+End Checker.
+
+Lemma symmetric_part_sym P negative e i j :
+  symmetric_part P negative e i j = symmetric_part P negative e j i.
+Proof.
+rewrite /symmetric_part; move: (center P e i j) (center P e j i) => a b.
+move: (radius P e i j) (radius P e j i) => c d.
+by case: negative; lia.
+Qed.
+
+Lemma finite_end lo hi : ordered lo hi -> hi.2 <> 0%Z -> (0 <? hi.2)%Z.
+Proof. by case/and5P=> _ _ _ + _; move: hi.2 => q; lia. Qed.
+
+Section Sound.
+
+Variable R : realFieldType.
+Variables (P : enclosed) (A B : nat -> nat -> R).
+Hypothesis E : encloses P A B.
+
+Variables (negative : bool) (r : region) (x : nat -> R).
+Hypotheses (x0 : forall i, i \in indices P -> 0 <= x i) (ag : agrees (size_of P) r x).
+
+Notation rows f := (zip (active P r) (factor_rows f)).
+
+Definition sign : R := if negative then -1 else 1.
+
+(* x' T_e x *)
+Definition quadratic e :=
+  \sum_(i <- indices P) \sum_(j <- indices P) x i * T_end A B e i j * x j.
+
+Lemma near_sum (u v a b c d : R) : `|a - u| <= c -> `|b - v| <= d ->
+  u + v - c - d <= a + b /\ - u - v - c - d <= - (a + b).
+Proof.
+rewrite !ler_distl => /andP[lo_a hi_a] /andP[lo_b hi_b].
+have -> : u + v - c - d = (u - c) + (v - d) by ring.
+have -> : - u - v - c - d = - ((u + c) + (v + d)) by ring.
+by rewrite ler_opp2; split; apply: ler_add.
+Qed.
+
+Lemma symmetric_part_le e i j :
+  0 <= toR e.1 :> R -> 0 <= toR e.2 :> R -> i \in indices P -> j \in indices P ->
+  toR (symmetric_part P negative e i j) <= sign * (T_end A B e i j + T_end A B e j i).
+Proof.
+move=> p q Hi Hj.
+have [plus minus] := near_sum (T_end_enclosed E Hi Hj p q) (T_end_enclosed E Hj Hi p q).
+rewrite /symmetric_part /sign !toRB; case: (negative).
+  by rewrite toRB toRN mulN1r.
+by rewrite toRD mul1r.
+Qed.
+
+Lemma zero_unless_active i : i \in indices P -> i \notin active P r -> x i = 0.
+Proof.
+move=> Hi; rewrite mem_filter Hi andbT negbK => rest.
+by have := agrees_at ag Hi; move: rest; case: (state_of r i).
+Qed.
+
+Lemma sum_over_active (f : nat -> R) : (forall i, x i = 0 -> f i = 0) ->
+  \sum_(i <- indices P) f i = \sum_(i <- active P r) f i.
+Proof.
+move=> f0; rewrite /active big_filter [RHS]big_mkcond; apply: sum_eq => i Hi.
+case: ifP => // /negbFE rest; apply: f0; apply: zero_unless_active => //.
+by rewrite mem_filter rest.
+Qed.
+
+Lemma active_indices i : i \in active P r -> i \in indices P.
+Proof. by rewrite mem_filter => /andP[]. Qed.
+
+(* x' S_e x, written with the positions of the list of active variables. *)
+Lemma form_of_active e f : size (factor_rows f) == size (active P r) ->
+  form (0%N, [::]) (symmetric_part P negative e) (rows f)
+       (fun k => x (nth 0%N (active P r) k)) =
+  \sum_(i <- active P r) \sum_(j <- active P r)
+    x i * toR (symmetric_part P negative e i j) * x j.
+Proof.
+move=> /eqP sz; have szz : size (rows f) = size (active P r) by rewrite size_zip sz minnn.
+rewrite /form szz [RHS](big_nth 0%N) /index_iota subn0; apply: eq_bigr => i _.
+rewrite [RHS](big_nth 0%N) /index_iota subn0; apply: eq_bigr => j _.
+by rewrite !nth_zip.
+Qed.
+
+Lemma definite_end_sound strict e f :
+  0 <= toR e.1 :> R -> 0 <= toR e.2 :> R -> definite_end P negative strict e r f ->
+  0 <= sign * quadratic e /\
+  (strict -> (exists2 i, i \in indices P & x i != 0) -> 0 < sign * quadratic e).
+Proof.
+move=> p q /and3P[w0 sz C].
+pose z k := x (nth 0%N (active P r) k).
+have szz : size (rows f) = size (active P r) by rewrite size_zip (eqP sz) minnn.
+
+have sym : symmetric_rows (0%N, [::]) (symmetric_part P negative e) (rows f).
+  by move=> i j _ _; apply: symmetric_part_sym.
+have [form0 form1] := covered_form z (weighted_gram R (0%N, [::]) (rows f) w0) sym C.
+
+(* x' S_e x <= 2 sign x' T_e x *)
+have form_le : form (0%N, [::]) (symmetric_part P negative e) (rows f) z <=
+               2%:R * (sign * quadratic e).
+  rewrite form_of_active //.
+  have -> : 2%:R * (sign * quadratic e) = \sum_(i <- active P r) \sum_(j <- active P r)
+               x i * (sign * (T_end A B e i j + T_end A B e j i)) * x j.
+    have transposed : \sum_(i <- indices P) \sum_(j <- indices P)
+                        x i * T_end A B e j i * x j = quadratic e.
+      rewrite exchange_big; apply: eq_bigr => i _; apply: eq_bigr => j _ /=.
+      by move: (x i) (x j) (T_end _ _ _ _ _) => *; ring.
+    have -> : 2%:R * (sign * quadratic e) = sign * (quadratic e + quadratic e).
+      by rewrite mulrCA -mulr2n mulr_natl.
+    rewrite -{2}transposed /quadratic -big_split mulr_sumr sum_over_active; last first.
+      move=> i xi; rewrite /= !sum_zero ?addr0 ?mulr0 // => j _; by rewrite xi !mul0r.
+    apply: eq_bigr => i _; rewrite -big_split mulr_sumr sum_over_active; last first.
+      by move=> j xj; rewrite /= xj !mulr0 addr0 mulr0.
+    apply: eq_bigr => j _ /=.
+    by move: (x i) (x j) (T_end _ _ _ _ _) (T_end _ _ _ _ _) sign => *; ring.
+  apply: sum_le => i /active_indices Hi; apply: sum_le => j /active_indices Hj.
+  by rewrite ler_wpmul2r ?x0 // ler_wpmul2l ?x0 // symmetric_part_le.
+
+split; first by rewrite -(@pmulr_rge0 _ 2%:R) ?ltr0n // (le_trans form0).
+
+move=> st [i Hi xi]; rewrite -(@pmulr_rgt0 _ 2%:R) ?ltr0n // (lt_le_trans _ form_le) //.
+have i_act : i \in active P r by apply: contraNT xi => /(zero_unless_active Hi)->.
+apply: form1 => //; exists (index i (active P r)); last by rewrite /z nth_index.
+by rewrite mem_iota add0n /= szz index_mem.
+Qed.
+
+End Sound.
+
+Section Leaf.
+
+Variable R : realFieldType.
+Variables (P : enclosed) (A B : nat -> nat -> R).
+Hypothesis E : encloses P A B.
+
+Theorem definite_sound negative r low high t x :
+  ordered (lower r) (upper r) -> definite P negative r low high -> in_region_of P t x r ->
+  solves P A B t x -> False.
+Proof.
+move=> O /andP[L H] [W ag] [_ x_nonzero compl].
+have [p q p' q'] := ordered_ge0 R O.
+have [a [b [a0 b0 Tab [ab a_gt0]]]] := T_between A B O W.
+have x0 i : i \in indices P -> 0 <= x i by case/compl.
+have [low0 low1] := definite_end_sound E x0 ag p q L.
+have [high0 high1] := definite_end_sound E x0 ag p' q' H.
+
+(* x' T(t) x = 0 is a combination of the forms at the ends. *)
+have zero : a * (sign R negative * quadratic P A B x (lower r)) +
+            b * (sign R negative * quadratic P A B x (upper r)) = 0.
+  transitivity (sign R negative * \sum_(i <- indices P) x i * image P A B t x i); last first.
+    by rewrite sum_zero ?mulr0 // => i /compl[].
+  rewrite !(mulrCA _ (sign R negative)) -mulrDr; congr (_ * _).
+  rewrite /quadratic !mulr_sumr -big_split; apply: eq_bigr => i _.
+  rewrite /image !mulr_sumr -big_split; apply: eq_bigr => j _ /=; rewrite Tab.
+  by move: (x i) (x j) (T_end _ _ _ _ _) (T_end _ _ _ _ _) => *; ring.
+
+move: zero; apply/eqP; rewrite gt_eqF //; case: ab => [a_pos|b_pos].
+  by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0 => //; apply: low1].
+have [infinite|finite] := eqVneq (upper r).2 0%Z.
+  by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0; [apply: a_gt0 | apply: low1]].
+have finite' := finite_end O (elimN eqP finite).
+by apply: ltr_paddl; [apply: mulr_ge0 | apply: mulr_gt0 => //; apply: high1].
+Qed.
+
+End Leaf.

@@ -1,0 +1,204 @@
+(* The tree of a cover: its leaves reach every solution of the window.
+
+   A point is a pair of integers (p, q) with q >= 0: the value p/q, or infinity for (1, 0).
+   A region is an interval [lower, upper] of values t together with a state for each
+   complementarity variable: open (nothing known), resting (x_i = 0) or moving (x_i > 0).
+
+   A tree divides a region.  "split t" cuts the interval at t; "branch i" decides whether
+   variable i rests or moves; a leaf is a piece of evidence about its region.
+
+   Theorem [every_point_reaches_a_leaf]: if the tree is checked, then each pair (t, x) with
+   x >= 0 in the region of the root lies in the region of a leaf, and the evidence of that leaf has
+   been checked for that region.
+
+   The theorem does not ask that (t, x) solves anything; what a leaf proves is the matter of
+   Cover.v.  The proof is an induction over the tree.
+
+   Page: spec/certificates.md, 5.6 (trees).  Rust: crates/check/src/cover/walk.rs, region.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+Definition point := (Z * Z)%type.
+
+Definition zero : point := (0%Z, 1%Z).
+Definition infinity : point := (1%Z, 0%Z).
+
+Inductive state := Open | Resting | Moving.
+
+Definition is_resting s := if s is Resting then true else false.
+Definition is_moving s := if s is Moving then true else false.
+
+Record region := Region { lower : point; upper : point; states : seq state }.
+
+(* A variable without an entry in the list is open. *)
+Definition state_of (r : region) i := nth Open (states r) i.
+
+Definition decide i s (r : region) :=
+  Region (lower r) (upper r) (set_nth Open (states r) i s).
+
+Definition below t (r : region) := Region (lower r) t (states r).
+Definition above t (r : region) := Region t (upper r) (states r).
+
+(* 0 <= lo <= hi; lo is finite, hi may be infinity. *)
+Definition ordered (lo hi : point) :=
+  [&& (0 <=? lo.1)%Z, (0 <? lo.2)%Z, (0 <=? hi.1)%Z, (0 <=? hi.2)%Z,
+      (0 <? hi.1 + hi.2)%Z & (lo.1 * hi.2 <=? hi.1 * lo.2)%Z].
+
+Lemma in_cat_or T (x : T) (a b : seq T) :
+  List.In x (a ++ b) <-> List.In x a \/ List.In x b.
+Proof. exact: List.in_app_iff. Qed.
+
+Section Tree.
+
+Variable leaf : Type.
+
+Inductive tree :=
+  | Split of point & tree & tree
+  | Branch of nat & tree & tree
+  | Leaf of leaf.
+
+(* n is the number of complementarity variables; [evidence] checks a leaf. *)
+Variables (n : nat) (evidence : region -> leaf -> bool).
+
+Fixpoint check_tree (tr : tree) (r : region) : bool :=
+  match tr with
+  | Split t tr1 tr2 =>
+      [&& ordered (lower r) t, ordered t (upper r),
+          check_tree tr1 (below t r) & check_tree tr2 (above t r)]
+  | Branch i tr1 tr2 =>
+      [&& (i < n)%N, check_tree tr1 (decide i Resting r) & check_tree tr2 (decide i Moving r)]
+  | Leaf l => ordered (lower r) (upper r) && evidence r l
+  end.
+
+Fixpoint leaves (tr : tree) (r : region) : seq (region * leaf) :=
+  match tr with
+  | Split t tr1 tr2 => leaves tr1 (below t r) ++ leaves tr2 (above t r)
+  | Branch i tr1 tr2 =>
+      leaves tr1 (decide i Resting r) ++ leaves tr2 (decide i Moving r)
+  | Leaf l => [:: (r, l)]
+  end.
+
+Lemma leaves_are_checked tr r : check_tree tr r ->
+  forall rl, List.In rl (leaves tr r) ->
+  ordered (lower rl.1) (upper rl.1) /\ evidence rl.1 rl.2.
+Proof.
+elim: tr r => [t tr1 IH1 tr2 IH2|i tr1 IH1 tr2 IH2|l] r /=.
+- by case/and4P=> _ _ c1 c2 rl /in_cat_or[]; [exact: IH1 c1 rl | exact: IH2 c2 rl].
+- by case/and3P=> _ c1 c2 rl /in_cat_or[]; [exact: IH1 c1 rl | exact: IH2 c2 rl].
+- by move=> /andP[? ?] rl [<-|].
+Qed.
+
+Section Sound.
+
+Variable R : realFieldType.
+Implicit Types (t : R) (x : nat -> R).
+
+(* lo <= t <= hi, without division. *)
+Definition between t (lo hi : point) :=
+  toR lo.1 <= t * toR lo.2 /\ t * toR hi.2 <= toR hi.1.
+
+Definition agrees (r : region) x := forall i, (i < n)%N ->
+  match state_of r i with Open => True | Resting => x i = 0 | Moving => 0 < x i end.
+
+Definition in_region t x (r : region) := between t (lower r) (upper r) /\ agrees r x.
+
+Lemma agrees_decide i s r x : (i < n)%N -> agrees r x ->
+  match s with Open => True | Resting => x i = 0 | Moving => 0 < x i end ->
+  agrees (decide i s r) x.
+Proof.
+move=> lt_i ag xi j lt_j; rewrite /state_of /decide /= nth_set_nth /=.
+by case: eqP => [->|_] //; apply: ag.
+Qed.
+
+Theorem every_point_reaches_a_leaf tr r t x :
+  check_tree tr r -> (forall i, (i < n)%N -> 0 <= x i) -> in_region t x r ->
+  exists2 rl, List.In rl (leaves tr r) &
+    [/\ in_region t x rl.1, ordered (lower rl.1) (upper rl.1) & evidence rl.1 rl.2].
+Proof.
+move=> + x0; elim: tr r => [c tr1 IH1 tr2 IH2|i tr1 IH1 tr2 IH2|l] r /=.
+
+(* Split: t lies on one side of the cut. *)
+- case/and4P=> _ _ c1 c2 [[lo_t t_hi] ag]; case: (lerP (t * toR c.2) (toR c.1)) => t_c.
+    have [|rl rl_in rl_ok] := IH1 _ c1; first by [].
+    by exists rl => //; apply/in_cat_or; left.
+  have [|rl rl_in rl_ok] := IH2 _ c2; first by split=> //; split=> //; apply: ltW.
+  by exists rl => //; apply/in_cat_or; right.
+
+(* Branch: x_i is zero or positive. *)
+- case/and3P=> lt_i c1 c2 [bt ag]; have [xi|xi] := eqVneq (x i) 0.
+    have [|rl rl_in rl_ok] := IH1 _ c1; first by split=> //; apply: agrees_decide.
+    by exists rl => //; apply/in_cat_or; left.
+  have [|rl rl_in rl_ok] := IH2 _ c2.
+    by split=> //; apply: agrees_decide => //; rewrite lt_neqAle eq_sym xi x0.
+  by exists rl => //; apply/in_cat_or; right.
+
+(* Leaf. *)
+- by case/andP=> o e tx; exists (r, l) => //; left.
+Qed.
+
+End Sound.
+
+End Tree.
+
+(* The interval of a region is a convex combination of its ends, with weights a and b that do not
+   depend on the matrices: 1 = a lo.2 + b hi.2 and t = a lo.1 + b hi.1. *)
+Section Ends.
+
+Variable R : realFieldType.
+Implicit Types (t : R).
+
+Lemma ordered_ge0 lo hi : ordered lo hi ->
+  [/\ 0 <= toR lo.1 :> R, 0 <= toR lo.2 :> R, 0 <= toR hi.1 :> R & 0 <= toR hi.2 :> R].
+Proof. by case/and5P=> a b c d e; split; rewrite toR_ge0; lia. Qed.
+
+Lemma weights_of_ends t lo hi : ordered lo hi -> between t lo hi ->
+  exists a b, [/\ 0 <= a, 0 <= b,
+    a * toR lo.2 + b * toR hi.2 = 1 /\ a * toR lo.1 + b * toR hi.1 = t &
+    (0 < a \/ 0 < b) /\ (hi.2 = 0%Z -> 0 < a)].
+Proof.
+case: lo hi => [p q] [p' q'] /and5P[/= p0 q0 p'0 q'0 /andP[pos le]] [/= lo_t t_hi].
+have Q0 : 0 < toR q :> R by rewrite toR_gt0.
+
+have [eq|neq] := eqVneq (p * q')%Z (p' * q)%Z.
+(* A window of one point. *)
+  have q'_gt0 : (0 <? q')%Z by nia.
+  have Q'0 : 0 < toR q' :> R by rewrite toR_gt0.
+  have eqR : toR p * toR q' = toR p' * toR q :> R by rewrite -!toRM eq.
+  exists (toR q)^-1, 0; split; rewrite ?invr_ge0 ?(ltW Q0) //.
+    rewrite !mul0r !addr0 mulVf ?gt_eqF //; split=> //.
+    apply: (mulIf (lt0r_neq0 Q0)); rewrite mulrAC mulVf ?gt_eqF // mul1r.
+    apply/eqP; rewrite eq_le lo_t /= -(ler_pmul2r Q'0) eqR mulrAC.
+    by rewrite ler_pmul2r.
+  by split=> [|z]; [left|]; rewrite ?invr_gt0 //; move: q'_gt0; rewrite z.
+
+(* An interval with two ends. *)
+pose d : R := toR p' * toR q - toR p * toR q'.
+have d0 : 0 < d.
+  rewrite /d -!toRM subr_gt0 toR_lt; apply/Z.ltb_spec0; move/eqP: neq; move/Z.leb_spec0: le.
+  by clear; lia.
+pose a := (toR p' - t * toR q') / d; pose b := (t * toR q - toR p) / d.
+have a0 : 0 <= a by apply: divr_ge0; [rewrite subr_ge0 | exact: ltW].
+have b0 : 0 <= b by apply: divr_ge0; [rewrite subr_ge0 | exact: ltW].
+have one : a * toR q + b * toR q' = 1.
+  rewrite /a /b /d; field; exact: lt0r_neq0 d0.
+have val : a * toR p + b * toR p' = t.
+  rewrite /a /b /d; field; exact: lt0r_neq0 d0.
+exists a, b; split=> //; split=> [|z].
+  move: a0 b0 one; rewrite !le_eqVlt; case/orP=> [/eqP<-|]; last by left.
+  by case/orP=> [/eqP<-|]; [rewrite !mul0r addr0 => /esym/eqP; rewrite oner_eq0 | right].
+rewrite /= in z; rewrite /a z toR0 mulr0 subr0 divr_gt0 //.
+by move: d0; rewrite /d z toR0 mulr0 subr0 pmulr_lgt0.
+Qed.
+
+End Ends.

@@ -1,0 +1,242 @@
+(* Definite leaves of the whole pencil, before any condensation.
+
+   For a solution x' (A + t B) x = x' y = 0, free variables included.  Let S_e, for an end
+   e = (p, q), be the matrix
+
+       +- c (q (A + A') + p (B + B'))     over the free variables and those that may move.
+
+   Theorem [whole_sound]: if S_e is strictly covered by a factor at the lower end, and at the upper
+   end (covered without "strictly" if that end is infinity), then the region has no solution.
+
+   This closes the leaves `ldl` (dense factor with weights) and `tail` (factor whose rows begin at
+   their first entry) of a certificate.  An exact L D L' = S gives strict coverage of S after a
+   small multiple of the identity is taken off; at infinity, where S may be singular, L D L' = S
+   itself covers S.
+
+   Pages: spec/certificates.md, 5.10 and 5.13.
+   Rust: crates/check/src/cover/ldl.rs, psd.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Condensation Pencil.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+(* Weights and rows; or a multiplier and rows that begin late. *)
+Inductive whole_factor :=
+  | Dense of seq Z & matrix
+  | Late of Z & seq late_row.
+
+Record whole_end := WholeEnd { end_scale : Z; end_factor : whole_factor }.
+
+Record whole := WholeLeaf { whole_negative : bool; low_end : whole_end; high_end : whole_end }.
+
+(* A variable with its rows of A and B. *)
+Definition member := (nat * (sparse_row * sparse_row))%type.
+
+Section Checker.
+
+Variable Q : pencil.
+Local Open Scope Z_scope.
+
+Definition may_move (r : region) : seq nat :=
+  free Q ++ [seq nth 0%N (slip Q) j | j <- iota 0 (size (slip Q)) &
+             ~~ is_resting (state_of r j)].
+
+Definition members r : seq member := [seq (i, (row_a Q i, row_b Q i)) | i <- may_move r].
+
+Definition member_entry (e : point) (i j : member) :=
+  e.2 * lookup i.2.1 j.1 + e.1 * lookup i.2.2 j.1.
+
+Definition member_form (negative : bool) c e (i j : member) :=
+  c * (if negative then - member_entry e i j - member_entry e j i
+       else member_entry e i j + member_entry e j i).
+
+Definition check_end (strict negative : bool) e r (w : whole_end) :=
+  (0 <? end_scale w) &&
+  match end_factor w with
+  | Dense weights rows =>
+      [&& all (fun u => 0 <=? u) weights, size rows == size (members r) &
+          covered (member_form negative (end_scale w) e) (weighted_dot weights) strict
+            (zip (members r) rows)]
+  | Late m rows =>
+      [&& 0 <=? m, size rows == size (members r) &
+          covered (member_form negative (end_scale w) e) (fun a b => m * late_dot a b) strict
+            (zip (members r) rows)]
+  end.
+
+Definition check_whole (r : region) (w : whole) :=
+  check_end true (whole_negative w) (lower r) r (low_end w) &&
+  check_end (0 <? (upper r).2) (whole_negative w) (upper r) r (high_end w).
+
+End Checker.
+
+Lemma member_form_sym negative c e i j :
+  member_form negative c e i j = member_form negative c e j i.
+Proof.
+rewrite /member_form; move: (member_entry e i j) (member_entry e j i) => a b.
+congr (c * _)%Z; by case: negative; lia.
+Qed.
+
+Section Sound.
+
+Variables (R : rcfType) (Q : pencil).
+Hypothesis wf : wellformed Q.
+Notation indices := (iota 0 (order Q)).
+
+Variables (r : region) (x : nat -> R).
+Hypothesis ag : agrees (size (slip Q)) r (slip_of Q x).
+
+Definition end_entry (e : point) i j : R := toR e.2 * a_entry R Q i j + toR e.1 * b_entry R Q i j.
+
+Definition whole_quadratic e :=
+  \sum_(i <- indices) \sum_(j <- indices) x i * end_entry e i j * x j.
+
+Lemma may_move_indices i : i \in may_move Q r -> i \in indices.
+Proof.
+rewrite mem_cat => /orP[/(free_indices wf)//|/mapP[j]].
+by rewrite mem_filter mem_iota add0n => /andP[_ lt_j] ->; apply/slip_indices/mem_nth.
+Qed.
+
+Lemma uniq_may_move : uniq (may_move Q r).
+Proof.
+rewrite cat_uniq (uniq_free wf) /=; apply/andP; split.
+  apply/hasPn => i /mapP[j]; rewrite mem_filter mem_iota add0n => /andP[_ lt_j] ->.
+  by have := mem_nth 0%N lt_j; rewrite mem_filter => /andP[].
+rewrite map_inj_in_uniq ?filter_uniq ?iota_uniq // => i j.
+rewrite !mem_filter !mem_iota !add0n => /andP[_ lt_i] /andP[_ lt_j] /eqP.
+by rewrite nth_uniq ?uniq_slip // => /eqP.
+Qed.
+
+Lemma zero_unless_may_move i : i \in indices -> i \notin may_move Q r -> x i = 0.
+Proof.
+move=> Hi; rewrite mem_cat negb_or => /andP[not_free].
+have : i \in slip Q by have := free_or_slip Hi; rewrite (negbTE not_free).
+case/(nthP 0%N)=> j lt_j <- not_listed; have := ag lt_j; rewrite /slip_of.
+case state_j: (state_of r j) => // _;
+  by move/negP: not_listed; case; apply/mapP; exists j; rewrite // mem_filter mem_iota state_j.
+Qed.
+
+Lemma sum_over_may_move (f : nat -> R) : (forall i, x i = 0 -> f i = 0) ->
+  \sum_(i <- indices) f i = \sum_(i <- may_move Q r) f i.
+Proof.
+move=> f0; rewrite (bigID (fun i => i \in may_move Q r)) /= [X in _ + X]big_seq_cond.
+rewrite [X in _ + X]big1 ?addr0 => [|i /andP[Hi out]]; last first.
+  by apply: f0; apply: zero_unless_may_move.
+rewrite -big_filter; apply: perm_big; apply: uniq_perm.
+- by rewrite filter_uniq ?iota_uniq.
+- exact: uniq_may_move.
+move=> i; rewrite mem_filter; apply/andP/idP => [[]//|i_in].
+by split=> //; apply: may_move_indices.
+Qed.
+
+Notation nobody := ((0%N, ([::], [::])) : member).
+
+Lemma member_entryE e i j :
+  toR (member_entry e (i, (row_a Q i, row_b Q i)) (j, (row_a Q j, row_b Q j))) =
+  end_entry e i j.
+Proof. by rewrite /member_entry toRD !toRM. Qed.
+
+(* The integer form is 2 c times the form of the pencil, up to the sign. *)
+Lemma member_form_quadratic U (d : U) negative c e (rows : seq U) :
+  size rows == size (members Q r) ->
+  form (nobody, d) (member_form negative c e) (zip (members Q r) rows)
+       (fun k => x (nth 0%N (may_move Q r) k)) =
+  2%:R * (toR c * (sign R negative * whole_quadratic e)).
+Proof.
+move=> /eqP sz; set z := fun k => _.
+have szm : size (members Q r) = size (may_move Q r) by rewrite size_map.
+have szz : size (zip (members Q r) rows) = size (may_move Q r) by rewrite size_zip sz minnn szm.
+pose G i j := toR c * (sign R negative * (end_entry e i j + end_entry e j i)).
+
+have formE : form (nobody, d) (member_form negative c e) (zip (members Q r) rows) z =
+             \sum_(i <- may_move Q r) \sum_(j <- may_move Q r) x i * G i j * x j.
+  rewrite /form szz [RHS]sum_positions; apply: sum_eq => i; rewrite mem_iota add0n /= => Hi.
+  rewrite [RHS]sum_positions; apply: sum_eq => j; rewrite mem_iota add0n /= => Hj.
+  rewrite !nth_zip /= ?sz // !(nth_map 0%N) // /G /z.
+  congr (_ * _ * _); rewrite /member_form toRM /sign; congr (_ * _); case: (negative).
+    by rewrite toRB toRN !member_entryE mulN1r [RHS]opprD.
+  by rewrite toRD !member_entryE mul1r.
+
+rewrite formE; have transposed :
+    \sum_(i <- indices) \sum_(j <- indices) x i * end_entry e j i * x j = whole_quadratic e.
+  rewrite exchange_big; apply: eq_bigr => i _; apply: eq_bigr => j _ /=.
+  by move: (x i) (x j) (end_entry _ _ _) => *; ring.
+have -> : 2%:R * (toR c * (sign R negative * whole_quadratic e)) =
+          toR c * (sign R negative * (whole_quadratic e + whole_quadratic e)).
+  by move: (whole_quadratic e) (toR c) (sign R negative) => *; ring.
+rewrite -{2}transposed /whole_quadratic -big_split !mulr_sumr sum_over_may_move; last first.
+  by move=> i xi; rewrite /= !sum_zero ?addr0 ?mulr0 // => j _; rewrite xi !mul0r.
+apply: eq_bigr => i _; rewrite -big_split !mulr_sumr sum_over_may_move; last first.
+  by move=> j xj; rewrite /= xj !mulr0 addr0 !mulr0.
+apply: eq_bigr => j _ /=; rewrite /G.
+by move: (x i) (x j) (end_entry _ _ _) (end_entry _ _ _) (toR c) (sign _ _) => *; ring.
+Qed.
+
+Lemma covered_end_sound U (d : U) product strict negative c e (rows : seq U) :
+  (0 <? c)%Z -> size rows == size (members Q r) ->
+  gram R (nobody, d) product (zip (members Q r) rows) ->
+  covered (member_form negative c e) product strict (zip (members Q r) rows) ->
+  0 <= sign R negative * whole_quadratic e /\
+  (strict -> (exists2 i, i \in indices & x i != 0) -> 0 < sign R negative * whole_quadratic e).
+Proof.
+move=> c0 sz gr cov; pose z k := x (nth 0%N (may_move Q r) k).
+have sym : symmetric_rows (nobody, d) (member_form negative c e) (zip (members Q r) rows).
+  by move=> i j _ _; apply: member_form_sym.
+have [] := covered_form z gr sym cov; rewrite member_form_quadratic //.
+have c_pos : 0 < toR c :> R by rewrite toR_gt0.
+rewrite pmulr_rge0 ?ltr0n // pmulr_rgt0 ?ltr0n // pmulr_rge0 // pmulr_rgt0 // => q0 q1.
+
+split=> // st [i Hi xi]; apply: q1 => //.
+have i_in : i \in may_move Q r by apply: contraNT xi => /(zero_unless_may_move Hi)->.
+exists (index i (may_move Q r)); last by rewrite /z nth_index.
+by rewrite mem_iota add0n /= size_zip (eqP sz) minnn size_map index_mem.
+Qed.
+
+Lemma check_end_sound strict negative e w : check_end Q strict negative e r w ->
+  0 <= sign R negative * whole_quadratic e /\
+  (strict -> (exists2 i, i \in indices & x i != 0) -> 0 < sign R negative * whole_quadratic e).
+Proof.
+case/andP=> c0; case: (end_factor w) => [weights rows|m rows] /and3P[w0 sz cov].
+  exact: (covered_end_sound c0 sz (weighted_gram R (nobody, [::]) _ w0) cov).
+exact: (covered_end_sound c0 sz (late_gram R (nobody, (0%N, [::])) _ w0) cov).
+Qed.
+
+End Sound.
+
+Theorem whole_sound (R : rcfType) Q r w (t : R) x :
+  wellformed Q -> ordered (lower r) (upper r) -> check_whole Q r w ->
+  between t (lower r) (upper r) -> agrees (size (slip Q)) r (slip_of Q x) ->
+  solution Q t x -> False.
+Proof.
+move=> wf O /andP[L H] bt ag [_ x_nonzero rows_f rows_s].
+have [a [b [a0 b0 [one val] [ab a_gt0]]]] := weights_of_ends O bt.
+have [low0 low1] := check_end_sound wf ag L.
+have [high0 high1] := check_end_sound wf ag H.
+set s := sign R (whole_negative w) in low0 low1 high0 high1.
+
+(* x'(A + t B)x = x'y = 0 *)
+have zero : a * (s * whole_quadratic Q x (lower r)) + b * (s * whole_quadratic Q x (upper r)) = 0.
+  transitivity (s * \sum_(i <- iota 0 (order Q)) x i * reaction Q t x i); last first.
+    rewrite sum_zero ?mulr0 // => i Hi; case/orP: (free_or_slip Hi) => [/rows_f->|/rows_s[]//].
+    exact: mulr0.
+  rewrite !(mulrCA _ s) -mulrDr; congr (_ * _).
+  rewrite /whole_quadratic !mulr_sumr -big_split; apply: eq_bigr => i _.
+  rewrite /reaction !mulr_sumr -big_split; apply: eq_bigr => j _ /=.
+  rewrite /end_entry -[X in X + t * _]mul1r -one -[in RHS]val.
+  by move: (x i) (x j) (a_entry _ _ _ _) (b_entry _ _ _ _) => *; ring.
+
+move: zero; apply/eqP; rewrite gt_eqF //; case: ab => [a_pos|b_pos].
+  by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0 => //; apply: low1].
+have [infinite|finite] := eqVneq (upper r).2 0%Z.
+  by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0; [apply: a_gt0 | apply: low1]].
+have finite' := finite_end O (elimN eqP finite).
+by apply: ltr_paddl; [apply: mulr_ge0 | apply: mulr_gt0 => //; apply: high1].
+Qed.

@@ -1,0 +1,148 @@
+(* Certificates: the file mceip-certificate/1, as far as the kernel has theorems for it.
+
+   The window and the digest are part of the statement that is verified.  The tree is only material
+   for the elaborator: the kernel checks what the elaborator makes of it. *)
+
+open Json
+
+type outcome = Absent | Solution | Negative_x of int | Negative_y of int
+
+type root = {
+  pivot : int;
+  interval : Q.t * Q.t;
+  left : Z.t list;
+  right : Z.t list;
+  exponent : int;
+  outcome : outcome }
+
+type factor_rows = { first : int list; rows : Z.t list list; exponent : int }
+
+type node =
+  | Split of Q.t
+  | Branch of int
+  | Farkas of Z.t list
+  | Definite of bool  (* negative *)
+  | Ldl
+  | Tail
+  | Root of root
+
+type anchor = { right : (int * Z.t list list) list; left : (int * Z.t list list) list }
+
+type condensation = { sigma : Q.t; factor : factor_rows; anchors : anchor option list }
+
+type piece = { max : Q.t option; anchor : int; tree : node list }
+
+type exact = {
+  support : int list;
+  biactive : int list;
+  polynomial : Z.t list;
+  value : Q.t * Q.t;
+  x : Q.t list list }
+
+type t = {
+  claims : exact list;
+  digest : string;
+  unknown : string;
+  window : Q.t * Q.t option;
+  condensation : condensation option;
+  pieces : piece list }
+
+(* A non-negative exponent within the limits (5.16). *)
+let exponent_of item =
+  let e = counter item in
+  if e < 0 then malformed "a negative exponent";
+  if e > 16_384 then Problem.not_verified "an exponent beyond the limits";
+  e
+
+let integers item = List.map integer (list item)
+
+let read_root item =
+  let field = fields
+      ["pivot"; "interval"; "inverse"; "inverse_exponent"; "left"; "right"; "exponent"; "outcome"]
+      [] item in
+  let outcome = match field "outcome" with
+    | String "solution" -> Solution
+    | String "absent" -> Absent
+    | Object ["negative_x", i] -> Negative_x (counter i)
+    | Object ["negative_y", i] -> Negative_y (counter i)
+    | Object ["claim", _] -> Problem.not_verified "root claim"
+    | Object ["infinity", _] -> Problem.not_verified "root infinity"
+    | _ -> malformed "an outcome" in
+  let interval = match list (field "interval") with
+    | [a; b] -> rational a, rational b
+    | _ -> malformed "an interval has two ends" in
+  { pivot = counter (field "pivot"); interval; left = integers (field "left");
+    right = integers (field "right"); exponent = exponent_of (field "exponent"); outcome }
+
+let read_node = function
+  | String "positive_definite" -> Definite false
+  | String "negative_definite" -> Definite true
+  | String "tail" -> Tail
+  | String "open" -> Problem.not_verified "open"
+  | Object ["split", t] -> Split (rational t)
+  | Object ["branch", i] -> Branch (counter i)
+  | Object ["farkas", w] -> Farkas (integers w)
+  | Object ["ldl", _] -> Ldl
+  | Object ["root", r] -> Root (read_root r)
+  | Object ["support", _] -> Problem.not_verified "support"
+  | _ -> malformed "a node of a tree"
+
+let read_factor item =
+  let field = fields ["first"; "rows"; "exponent"] [] item in
+  { first = List.map counter (list (field "first"));
+    rows = List.map integers (list (field "rows")); exponent = exponent_of (field "exponent") }
+
+(* An anchor of the linear family at center 0; None for others. *)
+let read_anchor item =
+  let field = fields ["center"; "right"; "left"] ["reversed"] item in
+  let coefficient m =
+    let field = fields ["exponent"; "rows"] [] m in
+    exponent_of (field "exponent"), List.map integers (list (field "rows")) in
+  let right = List.map coefficient (list (field "right")) in
+  let left = List.map coefficient (list (field "left")) in
+  let plain = Q.sign (rational (field "center")) = 0 && field "reversed" <> Bool true
+              && List.length right <= 1 && List.length left <= 2 in
+  if plain then Some { right; left } else None
+
+let read_condensation item =
+  let field = fields ["sigma"; "stiffness_factor"; "mass_sigma"; "anchors"]
+      ["mass_factor"; "tail"] item in
+  { sigma = rational (field "sigma"); factor = read_factor (field "stiffness_factor");
+    anchors = List.map read_anchor (list (field "anchors")) }
+
+let read_piece item =
+  let field = fields ["tree"] ["max"; "anchor"] item in
+  { max = (match field "max" with Null -> None | v -> Some (rational v));
+    anchor = (match field "anchor" with Null -> 0 | v -> counter v);
+    tree = List.map read_node (list (field "tree")) }
+
+let read_claim = function
+  | Object ["exact_solution", body] ->
+    let field = fields ["support"; "biactive"; "polynomial"; "interval"; "x"] [] body in
+    let value = match list (field "interval") with
+      | [a; b] -> rational a, rational b
+      | _ -> malformed "an interval has two ends" in
+    { support = List.map counter (list (field "support"));
+      biactive = List.map counter (list (field "biactive"));
+      polynomial = integers (field "polynomial"); value;
+      x = List.map (fun p -> List.map rational (list p)) (list (field "x")) }
+  | Object [kind, _] -> Problem.not_verified "%s" kind
+  | _ -> malformed "a claim is an object with one key"
+
+let read path =
+  let document = Json.read path in
+  (match document with
+   | Object members when List.assoc_opt "format" members = Some (String "mceip-certificate/1") -> ()
+   | _ -> malformed "format: mceip-certificate/1 was expected");
+  let field = fields ["format"; "problem_sha256"; "unknown"; "window"; "claims"]
+      ["complete_set"] document in
+  let digest = text (field "problem_sha256") and unknown = text (field "unknown") in
+  let window = Problem.read_window (field "window") in
+  let claims = List.map read_claim (list (field "claims")) in
+  let condensation, pieces = match field "complete_set" with
+    | Null -> None, []
+    | set ->
+      let field = fields ["pieces"] ["condensation"] set in
+      (match field "condensation" with Null -> None | c -> Some (read_condensation c)),
+      List.map read_piece (list (field "pieces")) in
+  { claims; digest; unknown; window; condensation; pieces }

@@ -1,0 +1,541 @@
+(* The elaborator: from the tree of a certificate to the tree of the kernel. Untrusted.
+
+   It computes, in doubles and then rounded to integers, the witnesses that the kernel asks for: a
+   factor at each end of a definite leaf, approximate inverses and widths for a root leaf.  If a
+   witness is wrong, the kernel refuses it; nothing that is done here can make a false statement
+   accepted.  [No_witness] means that no witness was found for a leaf. *)
+
+open Certificate
+
+exception No_witness of string
+
+let no_witness fmt = Printf.ksprintf (fun text -> raise (No_witness text)) fmt
+
+let two_to k = Z.shift_left Z.one k
+let point_of q = (Q.num q, Q.den q)
+let bits z = Z.numbits (Z.abs z)
+
+let value_of (p, q) = Q.make p q
+
+(* ---------- matrices of doubles *)
+
+let cholesky s =
+  let n = Array.length s in
+  let l = Array.make_matrix n n 0.0 in
+  let ok = ref true in
+  for i = 0 to n - 1 do
+    if !ok then
+      for j = 0 to i do
+        let sum = ref s.(i).(j) in
+        for k = 0 to j - 1 do sum := !sum -. l.(i).(k) *. l.(j).(k) done;
+        if i = j && (!sum <= 0.0 || Float.is_nan !sum) then ok := false
+        else if i = j then l.(i).(i) <- sqrt !sum
+        else if !ok then l.(i).(j) <- !sum /. l.(j).(j)
+      done
+  done;
+  if !ok then Some l else None
+
+let inverse s =
+  let n = Array.length s in
+  let x = Array.init n (fun i -> Array.init (2 * n) (fun j ->
+      if j < n then s.(i).(j) else if j - n = i then 1.0 else 0.0)) in
+  let regular = ref true in
+  for c = 0 to n - 1 do
+    if !regular then begin
+      let p = ref c in
+      for i = c + 1 to n - 1 do
+        if abs_float x.(i).(c) > abs_float x.(!p).(c) then p := i
+      done;
+      if x.(!p).(c) = 0.0 || Float.is_nan x.(!p).(c) then regular := false
+      else begin
+        let row = x.(!p) in
+        x.(!p) <- x.(c);
+        let d = row.(c) in
+        x.(c) <- Array.map (fun v -> v /. d) row;
+        for i = 0 to n - 1 do
+          let g = x.(i).(c) in
+          if i <> c && g <> 0.0 then
+            for j = c to 2 * n - 1 do x.(i).(j) <- x.(i).(j) -. g *. x.(c).(j) done
+        done
+      end
+    end
+  done;
+  if !regular then Some (Array.map (fun row -> Array.sub row n n) x) else None
+
+let largest s =
+  Array.fold_left (fun m row -> Array.fold_left (fun m v -> max m (abs_float v)) m row) 0.0 s
+
+let round_scaled v k =
+  if Float.is_nan v || Float.is_integer v && v = 0.0 then Z.zero
+  else if Float.abs v = infinity then no_witness "an overflow"
+  else
+    let mantissa, exponent = Float.frexp v in
+    let z = Z.of_float (Float.ldexp mantissa 53) in
+    let shift = exponent - 53 + k in
+    if shift >= 0 then Z.shift_left z shift
+    else if shift < -2000 then Z.zero
+    else Z.shift_right (Z.add z (two_to (-shift - 1))) (-shift)
+
+(* ---------- factors of integer matrices *)
+
+(* Rows L with L L' a little below the integer matrix s. *)
+let factor_rows strict s =
+  let n = Array.length s in
+  let top = Array.fold_left (fun m row -> Array.fold_left (fun m v -> max m (bits v)) m row) 0 s in
+  if top = 0 then (if strict && n > 0 then None else Some (Array.make_matrix n n Z.zero))
+  else begin
+    let shift = let k = max 0 (top - 900) in k + (k land 1) in
+    let f = Array.map (Array.map (fun v -> Z.to_float (Z.shift_right v shift))) s in
+    let scale = largest f in
+    let rec attempt = function
+      | [] -> None
+      | d :: rest ->
+        let x = Array.mapi (fun i row ->
+            Array.mapi (fun j v -> if i = j then v -. d *. scale else v) row) f in
+        match cholesky x with
+        | Some l -> Some (Array.map (Array.map (fun v -> round_scaled v (shift / 2))) l)
+        | None -> attempt rest in
+    attempt [1e-4; 1e-6; 1e-7; 1e-8; 1e-9; 1e-10; 1e-11; 1e-12; 1e-13]
+  end
+
+let late_row row =
+  let n = Array.length row in
+  let first = ref 0 in
+  while !first < n && Z.sign row.(!first) = 0 do incr first done;
+  (!first, Array.to_list (Array.sub row !first (n - !first)))
+
+(* Exact L D L' of a rational symmetric matrix, with D >= 0. *)
+let exact_ldl s =
+  let n = Array.length s in
+  let l = Array.init n (fun i -> Array.init n (fun j -> if i = j then Q.one else Q.zero)) in
+  let d = Array.make n Q.zero in
+  let ok = ref true in
+  for j = 0 to n - 1 do
+    if !ok then begin
+      let sum = ref s.(j).(j) in
+      for k = 0 to j - 1 do sum := Q.sub !sum (Q.mul d.(k) (Q.mul l.(j).(k) l.(j).(k))) done;
+      d.(j) <- !sum;
+      if Q.sign !sum < 0 then ok := false;
+      for i = j + 1 to n - 1 do
+        let sum = ref s.(i).(j) in
+        for k = 0 to j - 1 do sum := Q.sub !sum (Q.mul d.(k) (Q.mul l.(i).(k) l.(j).(k))) done;
+        if Q.sign d.(j) > 0 then l.(i).(j) <- Q.div !sum d.(j)
+        else if Q.sign !sum <> 0 then ok := false
+      done
+    end
+  done;
+  if !ok then Some (l, d) else None
+
+let whole_end pencil negative strict e region =
+  let members = Array.of_list (Kernel.members pencil region) in
+  let n = Array.length members in
+  let form c = Array.init n (fun i -> Array.init n (fun j ->
+      Kernel.member_form negative c e members.(i) members.(j))) in
+  let accepted w = Kernel.check_end pencil strict negative e region w in
+  let rounded () =
+    let c = two_to 112 in
+    match factor_rows strict (form c) with
+    | None -> None
+    | Some rows ->
+      let w = { Kernel.end_scale = c;
+                end_factor = Kernel.Late (Z.one, Array.to_list (Array.map late_row rows)) } in
+      if accepted w then Some w else None in
+  (* 2^k S - I for a strict end, S for a weak one. *)
+  let exact k =
+    let s = form Z.one in
+    let s = Array.mapi (fun i row -> Array.mapi (fun j v ->
+        let v = Z.shift_left v k in
+        Q.of_bigint (if strict && i = j then Z.pred v else v)) row) s in
+    match exact_ldl s with
+    | None -> None
+    | Some (l, d) ->
+      let common = Array.fold_left (fun c v -> Z.lcm c (Q.den v)) Z.one in
+      let cl = Array.fold_left (fun c row -> Z.lcm c (common row)) Z.one l and cd = common d in
+      let times c v = Q.num (Q.mul v (Q.of_bigint c)) in
+      let weights = Array.to_list (Array.map (times cd) d) in
+      let rows = Array.to_list (Array.map (fun row ->
+          Array.to_list (Array.map (times cl) row)) l) in
+      let w = { Kernel.end_scale = Z.mul (two_to k) (Z.mul cd (Z.mul cl cl));
+                end_factor = Kernel.Dense (weights, rows) } in
+      if accepted w then Some w else None in
+  let rec first = function
+    | [] -> None
+    | f :: rest -> (match f () with Some w -> Some w | None -> first rest) in
+  let exact_ways = if n > 128 then [] else
+      List.map (fun k () -> exact k) (if strict then [0; 8; 24; 60; 120; 300; 1000] else [0]) in
+  first (rounded :: exact_ways)
+
+(* A definite leaf of the whole pencil, of either sign. *)
+let whole_leaf pencil (region : Kernel.region) =
+  let finite = Z.sign (snd region.upper) > 0 in
+  let attempt negative =
+    match whole_end pencil negative true region.lower region with
+    | None -> None
+    | Some low_end ->
+      match whole_end pencil negative finite region.upper region with
+      | None -> None
+      | Some high_end -> Some { Kernel.whole_negative = negative; low_end; high_end } in
+  match attempt false with
+  | Some w -> Some w
+  | None -> attempt true
+
+(* ---------- leaves of the condensed pencil *)
+
+let definite_leaf p negative (region : Kernel.region) =
+  let active = Array.of_list (Kernel.active p region) in
+  let factor strict e =
+    let s = Array.map (fun i ->
+        Array.map (fun j -> Kernel.symmetric_part p negative e i j) active) active in
+    match factor_rows strict s with
+    | None -> None
+    | Some rows ->
+      let f = { Kernel.weights = List.init (Array.length active) (fun _ -> Z.one);
+                factor_rows = Array.to_list (Array.map Array.to_list rows) } in
+      if Kernel.definite_end p negative strict e region f then Some f else None in
+  match factor true region.lower, factor (Z.sign (snd region.upper) > 0) region.upper with
+  | Some low, Some high -> Some (Kernel.Definite (negative, low, high))
+  | _ -> None
+
+(* T(t) in doubles, and B. *)
+type doubles = { a : float array array; b : float array array }
+
+let doubles_of (p : Kernel.enclosed) =
+  let convert m = Array.of_list (List.map (fun row -> Array.of_list (List.map Z.to_float row)) m) in
+  { a = convert p.center_a; b = convert p.center_b }
+
+let at f t i j = f.a.(i).(j) +. t *. f.b.(i).(j)
+
+let middle lo hi = Q.to_float (Q.div (Q.add lo hi) (Q.of_int 2))
+
+(* An n x n table with the given block. *)
+let table n rows cols block =
+  let t = Array.make_matrix n n Z.zero in
+  Array.iteri (fun i r -> Array.iteri (fun j c -> t.(r).(c) <- block.(i).(j)) cols) rows;
+  Array.to_list (Array.map Array.to_list t)
+
+let precision = 50
+
+(* Y and the exponent of the unit: Y S is about 2^exponent I. *)
+let rounded_inverse s =
+  let _, top = Float.frexp (max (largest s) 1e-300) in
+  match inverse (Array.map (Array.map (fun v -> Float.ldexp v (-top))) s) with
+  | None -> None
+  | Some y -> Some (Array.map (Array.map (fun v -> round_scaled v precision)) y, top + precision)
+
+let box_of (p : Kernel.enclosed) f j_list k_list v (e1, e2) t =
+  let k = Array.of_list k_list in
+  let s = Array.map (fun i -> Array.map (fun j -> at f t i j) k) k in
+  let y = if k = [||] then Some ([||], 60) else rounded_inverse s in
+  match y with
+  | None -> None
+  | Some (_, exponent) when exponent < 0 -> None
+  | Some (y, exponent) ->
+    let y = table p.size_of k k y in
+    let unit_at e =
+      if Z.sign (snd e) > 0 then Z.mul (two_to exponent) (snd e) else two_to exponent in
+    let widths = List.concat_map (fun e ->
+        let u = unit_at e in
+        List.map (fun i ->
+            let gap = Z.sub u (Kernel.defect p k_list y u e i) in
+            if Z.sign gap <= 0 then None
+            else Some (Z.cdiv (Kernel.residual p j_list k_list v y e i) gap)) k_list) [e1; e2] in
+    if List.mem None widths then None
+    else
+      let width = List.fold_left Z.max Z.zero (List.filter_map Fun.id widths) in
+      Some { Kernel.inverse = y; unit_low = unit_at e1; unit_high = unit_at e2; width }
+
+(* Null vectors of T(t) on both sides, 1 at the pivot, in units of 2^-52. *)
+let null_vectors n f j_list k t =
+  let others = Array.of_list (List.filter (fun j -> j <> k) j_list) in
+  let block = Array.map (fun i -> Array.map (fun j -> at f t i j) others) others in
+  match inverse block with
+  | None -> None
+  | Some y ->
+    let unit = 52 in
+    let right = Array.make n Z.zero and left = Array.make n Z.zero in
+    right.(k) <- two_to unit; left.(k) <- two_to unit;
+    Array.iteri (fun a i ->
+        let r = ref 0.0 and l = ref 0.0 in
+        Array.iteri (fun b j ->
+            r := !r -. y.(a).(b) *. at f t j k;
+            l := !l -. at f t k j *. y.(b).(a)) others;
+        right.(i) <- round_scaled !r unit;
+        left.(i) <- round_scaled !l unit) others;
+    Some (Array.to_list right, Array.to_list left)
+
+let unique_of (p : Kernel.enclosed) f j_list k v eps (e1, e2) t =
+  let j = Array.of_list j_list in
+  let v_float = Array.of_list (List.map Z.to_float v) in
+  let h = Array.map (fun l ->
+      Array.fold_left (fun s c -> s +. f.b.(l).(c) *. v_float.(c)) 0.0 j) j in
+  let size_h = Array.fold_left (fun m x -> max m (abs_float x)) 0.0 h in
+  let size_t = Array.fold_left (fun m l -> Array.fold_left (fun m c ->
+      if c = k then m else max m (abs_float (at f t l c))) m j) 0.0 j in
+  let balanced =
+    if size_h = 0.0 then 0
+    else if size_t = 0.0 then 0
+    else max 0 (snd (Float.frexp size_h) - snd (Float.frexp size_t)) in
+  let attempt w =
+    if w < 0 then None
+    else
+      let s = Array.mapi (fun a l -> Array.map (fun c ->
+          if c = k then Float.ldexp h.(a) (-w) else at f t l c) j) j in
+      match rounded_inverse s with
+      | None -> None
+      | Some (_, exponent) when exponent < 0 -> None
+      | Some (y, exponent) ->
+        let unit_at e =
+          if Z.sign (snd e) > 0 then Z.mul (two_to (w + exponent)) (snd e) else Z.one in
+        let u = { Kernel.system_inverse = table p.size_of j j y; system_unit_low = unit_at e1;
+                  system_unit_high = unit_at e2; rate = two_to w } in
+        if Kernel.check_unique p j_list k v u eps e1 e2 then Some u else None in
+  let rec search = function
+    | [] -> None
+    | d :: rest -> (match attempt (balanced + d) with Some u -> Some u | None -> search rest) in
+  search [0; 2; -2; 4; -4; 6; -6; 8; -8; 11; -11; 14; -14; 18; -18; 22; -22; 28; -28; 36; -36]
+
+let finite (_, q) = Z.sign q > 0
+
+let isolated_leaf p f (region : Kernel.region) (r : root) outcome =
+  let j_list = Kernel.moving p region in
+  if not (finite region.upper) then None
+  else begin
+    let a, b = r.interval in
+    let lo = value_of region.lower and hi = value_of region.upper in
+    let pivots = r.pivot :: List.filter (fun j -> j <> r.pivot) j_list in
+    let attempt k =
+      let k_list = List.filter (fun j -> j <> k) j_list in
+      let vectors =
+        let own = Option.to_list (null_vectors p.Kernel.size_of f j_list k (middle a b)) in
+        if k <> r.pivot || List.length r.right <> List.length k_list then own
+        else begin
+          let spread l =
+            let v = Array.make p.Kernel.size_of Z.zero in
+            v.(k) <- two_to r.exponent;
+            List.iter2 (fun i x -> v.(i) <- x) k_list l;
+            Array.to_list v in
+          (spread r.right, spread r.left) :: own
+        end in
+      List.find_map (fun (v, left) ->
+          let wide = (region.lower, region.upper) and narrow = (point_of a, point_of b) in
+          match box_of p f j_list k_list v wide (middle lo hi),
+                box_of p f j_list k_list v narrow (middle a b) with
+          | Some wide_box, Some narrow_box ->
+            (match unique_of p f j_list k v wide_box.width wide (middle lo hi) with
+             | None -> None
+             | Some unique ->
+               let c = { Kernel.pivot = k; vector = v; from_point = point_of a;
+                         to_point = point_of b; wide_box; narrow_box; unique;
+                         left_vector = left } in
+               if Kernel.check_root p region c outcome then Some (Kernel.Root (c, outcome))
+               else None)
+          | _ -> None) vectors in
+    List.find_map attempt pivots
+  end
+
+let absent_leaf p f (region : Kernel.region) =
+  let j_list = Kernel.moving p region in
+  let lo = value_of region.lower in
+  let t = if finite region.upper then middle lo (value_of region.upper) else Q.to_float lo in
+  let attempt k =
+    let k_list = List.filter (fun j -> j <> k) j_list in
+    match null_vectors p.Kernel.size_of f j_list k t with
+    | None -> None
+    | Some (v, left) ->
+      match box_of p f j_list k_list v (region.lower, region.upper) t with
+      | None -> None
+      | Some box ->
+        let c = { Kernel.absent_pivot = k; absent_vector = v; absent_box = box;
+                  absent_left = left } in
+        if Kernel.check_absent p region c then Some (Kernel.Absent c) else None in
+  List.find_map attempt j_list
+
+(* A decided interval without a null vector, in pieces. *)
+let rec absent_tree p f depth (region : Kernel.region) =
+  let ways = [ (fun () -> absent_leaf p f region); (fun () -> definite_leaf p false region);
+               (fun () -> definite_leaf p true region) ] in
+  match List.find_map (fun way -> way ()) ways with
+  | Some leaf -> Kernel.Leaf leaf
+  | None ->
+    if depth = 0 then no_witness "absent";
+    let lo = value_of region.lower in
+    let cut =
+      if finite region.upper then Q.div (Q.add lo (value_of region.upper)) (Q.of_int 2)
+      else Q.add (Q.mul lo (Q.of_int 4)) Q.one in
+    let cut = point_of cut in
+    let first = absent_tree p f (depth - 1) { region with upper = cut } in
+    Kernel.Split (cut, first, absent_tree p f (depth - 1) { region with lower = cut })
+
+(* An isolated null vector: in one leaf, or between two absent intervals. *)
+let rec root_tree p f depth (region : Kernel.region) r outcome =
+  match isolated_leaf p f region r outcome with
+  | Some leaf -> Kernel.Leaf leaf
+  | None ->
+    if depth = 0 then no_witness "root";
+    let a, b = r.interval in
+    let lo = value_of region.lower in
+    if Q.lt a lo || (finite region.upper && Q.gt b (value_of region.upper)) then
+      no_witness "a root whose interval leaves its region";
+    let half x y = Q.div (Q.add x y) (Q.of_int 2) in
+    let low = half lo a in
+    let high =
+      if finite region.upper then half b (value_of region.upper)
+      else Q.add (Q.mul b (Q.of_int 2)) Q.one in
+    let low = point_of low and high = point_of high in
+    let inner = root_tree p f (depth - 1) { region with lower = low; upper = high } r outcome in
+    let above = absent_tree p f 12 { region with lower = high } in
+    let below = absent_tree p f 12 { region with upper = low } in
+    Kernel.Split (low, below, Kernel.Split (high, inner, above))
+
+(* ---------- trees *)
+
+type context = {
+  pencil : Kernel.pencil;
+  slip : int array;
+  enclosed : Kernel.enclosed;
+  doubles : doubles }
+
+let position slip i =
+  let rec search k =
+    if k = Array.length slip then no_witness "the index %d names nothing" i
+    else if slip.(k) = i then k else search (k + 1) in
+  search 0
+
+let build_leaf c (region : Kernel.region) node =
+  let p = c.enclosed and f = c.doubles in
+  let leaf what = function Some l -> Kernel.Leaf l | None -> no_witness "%s" what in
+  match node with
+  | Farkas w -> Kernel.Leaf (Kernel.Farkas w)
+  | Definite negative ->
+    (match definite_leaf p negative region with
+     | Some l -> Kernel.Leaf l
+     | None -> leaf "definite" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region)))
+  | Ldl -> leaf "ldl" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region))
+  | Tail -> leaf "tail" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region))
+  | Root r ->
+    let r = { r with pivot = position c.slip r.pivot } in
+    (match r.outcome with
+     | Absent -> absent_tree p f 12 region
+     | Solution -> root_tree p f 8 region r Kernel.Solution
+     | Negative_x i -> root_tree p f 8 region r (Kernel.NegativeX (position c.slip i))
+     | Negative_y i -> root_tree p f 8 region r (Kernel.NegativeY (position c.slip i)))
+  | Split _ | Branch _ -> assert false
+
+(* The nodes of a piece in preorder; [leaf] makes a tree of a leaf. *)
+let build_piece slip leaf nodes (region : Kernel.region) =
+  let rec build (region : Kernel.region) = function
+    | [] -> no_witness "a tree ends too early"
+    | Split t :: rest ->
+      let t = point_of t in
+      let first, rest = build { region with upper = t } rest in
+      let second, rest = build { region with lower = t } rest in
+      Kernel.Split (t, first, second), rest
+    | Branch i :: rest ->
+      let i = position slip i in
+      let first, rest = build (Kernel.decide i Kernel.Resting region) rest in
+      let second, rest = build (Kernel.decide i Kernel.Moving region) rest in
+      Kernel.Branch (i, first, second), rest
+    | node :: rest -> leaf region node, rest in
+  match build region nodes with
+  | tree, [] -> tree
+  | _ -> no_witness "a tree has a node too many"
+
+let upper_point = function Some q -> point_of q | None -> Kernel.infinity
+
+(* The pieces of a window as one tree. *)
+let build_pieces slip leaf (lo, _) pieces =
+  let rec build lower = function
+    | [] -> no_witness "a complete set without pieces"
+    | piece :: rest ->
+      let upper = upper_point piece.max in
+      let tree = build_piece slip (leaf piece) piece.tree { Kernel.lower; upper; states = [] } in
+      if rest = [] then tree else Kernel.Split (upper, tree, build upper rest) in
+  build (point_of lo) pieces
+
+(* ---------- condensation *)
+
+let transpose columns rows =
+  let rows = Array.of_list (List.map Array.of_list rows) in
+  List.init columns (fun j -> Array.to_list (Array.map (fun row -> row.(j)) rows))
+
+(* f_i / 2^b_i for each slip row, as positive integers in a common unit. *)
+let row_scales (pencil : Kernel.pencil) slip common =
+  let a = Array.of_list pencil.rows_a and b = Array.of_list pencil.rows_b in
+  let scales = List.map (fun i ->
+      let entries = List.map snd a.(i) @ List.map snd b.(i) in
+      let g = List.fold_left Z.gcd common entries in
+      let f = Z.divexact common g in
+      let longest = List.fold_left (fun m (_, v) ->
+          max m (bits (Z.divexact (Z.mul f v) common))) 1 a.(i) in
+      (f, longest)) slip in
+  let top = List.fold_left (fun m (_, b) -> max m b) 1 scales in
+  List.map (fun (f, b) -> Z.shift_left f (top - b)) scales
+
+let elimination (pencil : Kernel.pencil) slip common (condensation : condensation option) anchor =
+  let ns = List.length slip and nf = List.length pencil.free in
+  let row_scale = row_scales pencil slip common in
+  if nf = 0 then
+    let none = List.init ns (fun _ -> []) in
+    { Kernel.row_scale; unit_of = two_to 56; right_w = none; left_va = none; left_vb = none;
+      bound_c = Z.one; bound_d = Z.one; factor_scale = Z.zero; stiffness_factor = [] }
+  else match condensation with
+    | None -> no_witness "a condensation is missing"
+    | Some c ->
+      let a = match List.nth_opt c.anchors anchor with
+        | Some (Some a) -> a
+        | _ -> Problem.not_verified "condensation with powers of t" in
+      let e = List.fold_left (fun m (k, _) -> max m k) 0 (a.right @ a.left) in
+      let columns (k, rows) =
+        transpose ns (List.map (List.map (fun z -> Z.shift_left z (e - k))) rows) in
+      let zero = List.init ns (fun _ -> List.init nf (fun _ -> Z.zero)) in
+      let nth l k = match List.nth_opt l k with Some m -> columns m | None -> zero in
+      let power = two_to (2 * c.factor.exponent) in
+      { Kernel.row_scale; unit_of = two_to e; right_w = nth a.right 0;
+        left_va = nth a.left 0; left_vb = nth a.left 1;
+        bound_c = Z.mul power (Q.den c.sigma);
+        bound_d = Z.mul common (Z.mul power (Q.num c.sigma));
+        factor_scale = Z.mul common (Q.den c.sigma);
+        stiffness_factor = List.combine c.factor.first c.factor.rows }
+
+(* ---------- exact solution claims *)
+
+let strip p =
+  let rec drop = function c :: rest when Q.sign c = 0 -> drop rest | p -> p in
+  List.rev (drop (List.rev p))
+
+(* Quotient and rest of g by p over the rationals, constant terms first. *)
+let divide g p =
+  let p = Array.of_list (strip p) and r = Array.of_list g in
+  let m = Array.length p and n = Array.length r in
+  if m = 0 then no_witness "a polynomial that is zero";
+  let q = Array.make (max 0 (n - m + 1)) Q.zero in
+  for k = n - m downto 0 do
+    let c = Q.div r.(k + m - 1) p.(m - 1) in
+    q.(k) <- c;
+    if Q.sign c <> 0 then
+      for i = 0 to m - 1 do r.(k + i) <- Q.sub r.(k + i) (Q.mul c p.(i)) done
+  done;
+  Array.to_list q, strip (Array.to_list r)
+
+let reduction modulus g =
+  let quotient, rest = divide (List.map Q.of_bigint g) modulus in
+  let c = List.fold_left (fun c v -> Z.lcm c (Q.den v)) Z.one (quotient @ rest) in
+  let times = List.map (fun v -> Q.num (Q.mul v (Q.of_bigint c))) in
+  { Kernel.multiplier = c; quotient = times quotient; rest = times rest }
+
+let claim_of (pencil : Kernel.pencil) (e : exact) =
+  let a, b = e.value in
+  let d = Z.lcm (Q.den a) (Q.den b) in
+  let over q = Q.num (Q.mul q (Q.of_bigint d)) in
+  let common = List.fold_left (fun c p ->
+      List.fold_left (fun c v -> Z.lcm c (Q.den v)) c p) Z.one e.x in
+  let components = List.map (List.map (fun v -> Q.num (Q.mul v (Q.of_bigint common)))) e.x in
+  let bare = { Kernel.modulus = e.polynomial; claim_from = over a; claim_to = over b;
+               claim_denominator = d; support = e.support;
+               biactive = e.biactive; components;
+               component_reductions = []; reaction_reductions = [] } in
+  let modulus = List.map Q.of_bigint e.polynomial in
+  { bare with
+    component_reductions = List.map (reduction modulus) components;
+    reaction_reductions = List.init pencil.order (fun i ->
+        reduction modulus (Kernel.reaction_poly pencil bare i)) }

@@ -1,0 +1,2040 @@
+
+type __ = Obj.t
+let __ = let rec f _ = Obj.repr f in Obj.repr f
+
+(** val negb : bool -> bool **)
+
+let negb = function
+| true -> false
+| false -> true
+
+(** val fst : ('a1 * 'a2) -> 'a1 **)
+
+let fst = function
+| (x, _) -> x
+
+(** val snd : ('a1 * 'a2) -> 'a2 **)
+
+let snd = function
+| (_, y) -> y
+
+type comparison =
+| Eq
+| Lt
+| Gt
+
+(** val add : int -> int -> int **)
+
+let rec add = (+)
+
+(** val sub : int -> int -> int **)
+
+let rec sub = fun n m -> Stdlib.max 0 (n-m)
+
+type reflect =
+| ReflectT
+| ReflectF
+
+module Pos =
+ struct
+  (** val succ : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let rec succ = Big_int_Z.succ_big_int
+
+  (** val add :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let rec add = Big_int_Z.add_big_int
+
+  (** val add_carry :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  and add_carry x y =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q ->
+        (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+        (add_carry p q))
+        (fun q -> Big_int_Z.mult_int_big_int 2 (add_carry p q))
+        (fun _ ->
+        (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+        (succ p))
+        y)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> Big_int_Z.mult_int_big_int 2 (add_carry p q))
+        (fun q ->
+        (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+        (add p q))
+        (fun _ -> Big_int_Z.mult_int_big_int 2 (succ p))
+        y)
+      (fun _ ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q ->
+        (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+        (succ q))
+        (fun q -> Big_int_Z.mult_int_big_int 2 (succ q))
+        (fun _ ->
+        (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+        Big_int_Z.unit_big_int)
+        y)
+      x
+
+  (** val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let rec pred_double x =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p ->
+      (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+      (Big_int_Z.mult_int_big_int 2 p))
+      (fun p ->
+      (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+      (pred_double p))
+      (fun _ -> Big_int_Z.unit_big_int)
+      x
+
+  (** val mul :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let rec mul = Big_int_Z.mult_big_int
+
+  (** val compare_cont :
+      comparison -> Big_int_Z.big_int -> Big_int_Z.big_int -> comparison **)
+
+  let rec compare_cont = (fun c x y -> let s = Big_int_Z.compare_big_int x y in
+  if s = 0 then c else if s < 0 then Lt else Gt)
+
+  (** val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison **)
+
+  let compare = (fun x y -> let s = Big_int_Z.compare_big_int x y in
+  if s = 0 then Eq else if s < 0 then Lt else Gt)
+
+  (** val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
+
+  let rec eqb p q =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p0 ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q0 -> eqb p0 q0)
+        (fun _ -> false)
+        (fun _ -> false)
+        q)
+      (fun p0 ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun _ -> false)
+        (fun q0 -> eqb p0 q0)
+        (fun _ -> false)
+        q)
+      (fun _ ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun _ -> false)
+        (fun _ -> false)
+        (fun _ -> true)
+        q)
+      p
+ end
+
+module Z =
+ struct
+  (** val double : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let double x =
+    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
+  if s = 0 then fO () else if s > 0 then fp z
+  else fn (Big_int_Z.minus_big_int z))
+      (fun _ -> Big_int_Z.zero_big_int)
+      (fun p -> (Big_int_Z.mult_int_big_int 2 p))
+      (fun p -> Big_int_Z.minus_big_int (Big_int_Z.mult_int_big_int 2 p))
+      x
+
+  (** val succ_double : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let succ_double x =
+    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
+  if s = 0 then fO () else if s > 0 then fp z
+  else fn (Big_int_Z.minus_big_int z))
+      (fun _ -> Big_int_Z.unit_big_int)
+      (fun p ->
+      ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+      p))
+      (fun p -> Big_int_Z.minus_big_int (Pos.pred_double p))
+      x
+
+  (** val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let pred_double x =
+    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
+  if s = 0 then fO () else if s > 0 then fp z
+  else fn (Big_int_Z.minus_big_int z))
+      (fun _ -> Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
+      (fun p -> (Pos.pred_double p))
+      (fun p -> Big_int_Z.minus_big_int
+      ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x)) p))
+      x
+
+  (** val pos_sub :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let rec pos_sub x y =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> double (pos_sub p q))
+        (fun q -> succ_double (pos_sub p q))
+        (fun _ -> (Big_int_Z.mult_int_big_int 2 p))
+        y)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> pred_double (pos_sub p q))
+        (fun q -> double (pos_sub p q))
+        (fun _ -> (Pos.pred_double p))
+        y)
+      (fun _ ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> Big_int_Z.minus_big_int (Big_int_Z.mult_int_big_int 2
+        q))
+        (fun q -> Big_int_Z.minus_big_int (Pos.pred_double q))
+        (fun _ -> Big_int_Z.zero_big_int)
+        y)
+      x
+
+  (** val add :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let add = Big_int_Z.add_big_int
+
+  (** val opp : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let opp = Big_int_Z.minus_big_int
+
+  (** val sub :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let sub = Big_int_Z.sub_big_int
+
+  (** val mul :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let mul = Big_int_Z.mult_big_int
+
+  (** val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison **)
+
+  let compare = (fun x y -> let s = Big_int_Z.compare_big_int x y in
+  if s = 0 then Eq else if s < 0 then Lt else Gt)
+
+  (** val leb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
+
+  let leb x y =
+    match compare x y with
+    | Gt -> false
+    | _ -> true
+
+  (** val ltb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
+
+  let ltb x y =
+    match compare x y with
+    | Lt -> true
+    | _ -> false
+
+  (** val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
+
+  let eqb = Big_int_Z.eq_big_int
+
+  (** val abs : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let abs = Big_int_Z.abs_big_int
+
+  (** val pos_div_eucl :
+      Big_int_Z.big_int -> Big_int_Z.big_int ->
+      Big_int_Z.big_int * Big_int_Z.big_int **)
+
+  let rec pos_div_eucl a b =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun a' ->
+      let (q, r) = pos_div_eucl a' b in
+      let r' =
+        add (mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) r)
+          Big_int_Z.unit_big_int
+      in
+      if ltb r' b
+      then ((mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) q), r')
+      else ((add
+              (mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) q)
+              Big_int_Z.unit_big_int), (sub r' b)))
+      (fun a' ->
+      let (q, r) = pos_div_eucl a' b in
+      let r' = mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) r in
+      if ltb r' b
+      then ((mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) q), r')
+      else ((add
+              (mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) q)
+              Big_int_Z.unit_big_int), (sub r' b)))
+      (fun _ ->
+      if leb (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) b
+      then (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)
+      else (Big_int_Z.unit_big_int, Big_int_Z.zero_big_int))
+      a
+
+  (** val div_eucl :
+      Big_int_Z.big_int -> Big_int_Z.big_int ->
+      Big_int_Z.big_int * Big_int_Z.big_int **)
+
+  let div_eucl = Big_int_Z.(fun x y ->
+  match sign_big_int y with
+  | 0 -> (zero_big_int, x)
+  | 1 -> quomod_big_int x y
+  | _ -> let (q, r) = quomod_big_int (add_int_big_int (-1) x) y in
+          (add_int_big_int (-1) q, add_big_int (add_int_big_int 1 y) r))
+
+  (** val div :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let div = Big_int_Z.(fun x y ->
+  match sign_big_int y with
+  | 0 -> zero_big_int
+  | 1 -> div_big_int x y
+  | _ -> add_int_big_int (-1) (div_big_int (add_int_big_int (-1) x) y))
+ end
+
+module Option =
+ struct
+  (** val apply : ('a1 -> 'a2) -> 'a2 -> 'a1 option -> 'a2 **)
+
+  let apply f x = function
+  | Some y -> f y
+  | None -> x
+
+  (** val bind : ('a1 -> 'a2 option) -> 'a1 option -> 'a2 option **)
+
+  let bind f =
+    apply f None
+
+  (** val map : ('a1 -> 'a2) -> 'a1 option -> 'a2 option **)
+
+  let map f =
+    bind (fun x -> Some (f x))
+ end
+
+type ('aT, 'rT) simpl_fun =
+  'aT -> 'rT
+  (* singleton inductive, whose constructor was SimplFun *)
+
+(** val fun_of_simpl : ('a1, 'a2) simpl_fun -> 'a1 -> 'a2 **)
+
+let fun_of_simpl f =
+  f
+
+(** val iffP : bool -> reflect -> reflect **)
+
+let iffP _ pb =
+  let _evar_0_ = fun _ _ _ -> ReflectT in
+  let _evar_0_0 = fun _ _ _ -> ReflectF in
+  (match pb with
+   | ReflectT -> _evar_0_ __ __ __
+   | ReflectF -> _evar_0_0 __ __ __)
+
+(** val idP : bool -> reflect **)
+
+let idP = function
+| true -> ReflectT
+| false -> ReflectF
+
+type 't pred = 't -> bool
+
+type 't predType =
+  __ -> 't pred
+  (* singleton inductive, whose constructor was PredType *)
+
+type 't pred_sort = __
+
+type 't simpl_pred = ('t, bool) simpl_fun
+
+(** val simplPred : 'a1 pred -> 'a1 simpl_pred **)
+
+let simplPred p =
+  p
+
+module PredOfSimpl =
+ struct
+  (** val coerce : 'a1 simpl_pred -> 'a1 pred **)
+
+  let coerce =
+    fun_of_simpl
+ end
+
+type 't rel = 't -> 't pred
+
+type 't mem_pred = 't pred
+  (* singleton inductive, whose constructor was Mem *)
+
+(** val pred_of_mem : 'a1 mem_pred -> 'a1 pred_sort **)
+
+let pred_of_mem mp =
+  Obj.magic mp
+
+(** val in_mem : 'a1 -> 'a1 mem_pred -> bool **)
+
+let in_mem x mp =
+  Obj.magic pred_of_mem mp x
+
+(** val mem : 'a1 predType -> 'a1 pred_sort -> 'a1 mem_pred **)
+
+let mem pT =
+  pT
+
+module Equality =
+ struct
+  type 't axiom = 't -> 't -> reflect
+
+  type 't mixin_of = { op : 't rel; mixin_of__1 : 't axiom }
+
+  (** val op : 'a1 mixin_of -> 'a1 rel **)
+
+  let op m =
+    m.op
+
+  type coq_type =
+    __ mixin_of
+    (* singleton inductive, whose constructor was Pack *)
+
+  type sort = __
+
+  (** val coq_class : coq_type -> sort mixin_of **)
+
+  let coq_class cT =
+    cT
+ end
+
+(** val eq_op : Equality.coq_type -> Equality.sort rel **)
+
+let eq_op t =
+  (Equality.coq_class t).Equality.op
+
+(** val pred1 :
+    Equality.coq_type -> Equality.sort -> Equality.sort simpl_pred **)
+
+let pred1 t a1 =
+  simplPred (fun x -> eq_op t x a1)
+
+(** val eqnP : int Equality.axiom **)
+
+let eqnP n m =
+  iffP ((fun (a : int) (b : int) -> a = b) n m)
+    (idP ((fun (a : int) (b : int) -> a = b) n m))
+
+(** val nat_eqMixin : int Equality.mixin_of **)
+
+let nat_eqMixin =
+  { Equality.op = (fun (a : int) (b : int) -> a = b); Equality.mixin_of__1 =
+    eqnP }
+
+(** val nat_eqType : Equality.coq_type **)
+
+let nat_eqType =
+  Obj.magic nat_eqMixin
+
+(** val addn_rec : int -> int -> int **)
+
+let addn_rec =
+  add
+
+(** val addn : int -> int -> int **)
+
+let addn =
+  addn_rec
+
+(** val subn_rec : int -> int -> int **)
+
+let subn_rec =
+  sub
+
+(** val subn : int -> int -> int **)
+
+let subn =
+  subn_rec
+
+(** val leq : int -> int -> bool **)
+
+let leq m n =
+  eq_op nat_eqType (Obj.magic subn m n) (Obj.magic 0)
+
+(** val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1 **)
+
+let rec iter n f x =
+  (fun fO fS n -> if n=0 then fO () else fS (n-1))
+    (fun _ -> x)
+    (fun i -> f (iter i f x))
+    n
+
+(** val size : 'a1 list -> int **)
+
+let rec size = function
+| [] -> 0
+| _ :: s' -> Stdlib.Int.succ (size s')
+
+(** val ncons : int -> 'a1 -> 'a1 list -> 'a1 list **)
+
+let ncons n x =
+  iter n (fun x0 -> x :: x0)
+
+(** val cat : 'a1 list -> 'a1 list -> 'a1 list **)
+
+let rec cat s1 s2 =
+  match s1 with
+  | [] -> s2
+  | x :: s1' -> x :: (cat s1' s2)
+
+(** val nth : 'a1 -> 'a1 list -> int -> 'a1 **)
+
+let rec nth x0 s n =
+  match s with
+  | [] -> x0
+  | x :: s' ->
+    ((fun fO fS n -> if n=0 then fO () else fS (n-1))
+       (fun _ -> x)
+       (fun n' -> nth x0 s' n')
+       n)
+
+(** val set_nth : 'a1 -> 'a1 list -> int -> 'a1 -> 'a1 list **)
+
+let rec set_nth x0 s n y =
+  match s with
+  | [] -> ncons n x0 (y :: [])
+  | x :: s' ->
+    ((fun fO fS n -> if n=0 then fO () else fS (n-1))
+       (fun _ -> y :: s')
+       (fun n' -> x :: (set_nth x0 s' n' y))
+       n)
+
+(** val find : 'a1 pred -> 'a1 list -> int **)
+
+let rec find a = function
+| [] -> 0
+| x :: s' -> if a x then 0 else Stdlib.Int.succ (find a s')
+
+(** val filter : 'a1 pred -> 'a1 list -> 'a1 list **)
+
+let rec filter a = function
+| [] -> []
+| x :: s' -> if a x then x :: (filter a s') else filter a s'
+
+(** val has : 'a1 pred -> 'a1 list -> bool **)
+
+let rec has a = function
+| [] -> false
+| x :: s' -> (||) (a x) (has a s')
+
+(** val all : 'a1 pred -> 'a1 list -> bool **)
+
+let rec all a = function
+| [] -> true
+| x :: s' -> (&&) (a x) (all a s')
+
+(** val drop : int -> 'a1 list -> 'a1 list **)
+
+let rec drop n s = match s with
+| [] -> s
+| _ :: s' ->
+  ((fun fO fS n -> if n=0 then fO () else fS (n-1))
+     (fun _ -> s)
+     (fun n' -> drop n' s')
+     n)
+
+(** val mem_seq :
+    Equality.coq_type -> Equality.sort list -> Equality.sort -> bool **)
+
+let rec mem_seq t = function
+| [] -> (fun _ -> false)
+| y :: s' -> let p = mem_seq t s' in (fun x -> (||) (eq_op t x y) (p x))
+
+type seq_eqclass = Equality.sort list
+
+(** val pred_of_seq :
+    Equality.coq_type -> seq_eqclass -> Equality.sort pred_sort **)
+
+let pred_of_seq t s =
+  Obj.magic mem_seq t s
+
+(** val seq_predType : Equality.coq_type -> Equality.sort predType **)
+
+let seq_predType t =
+  Obj.magic pred_of_seq t
+
+(** val uniq : Equality.coq_type -> Equality.sort list -> bool **)
+
+let rec uniq t = function
+| [] -> true
+| x :: s' ->
+  (&&) (negb (in_mem x (mem (seq_predType t) (Obj.magic s')))) (uniq t s')
+
+(** val index :
+    Equality.coq_type -> Equality.sort -> Equality.sort list -> int **)
+
+let index t x =
+  find (PredOfSimpl.coerce (pred1 t x))
+
+(** val map0 : ('a1 -> 'a2) -> 'a1 list -> 'a2 list **)
+
+let rec map0 f = function
+| [] -> []
+| x :: s' -> (f x) :: (map0 f s')
+
+(** val pmap : ('a1 -> 'a2 option) -> 'a1 list -> 'a2 list **)
+
+let rec pmap f = function
+| [] -> []
+| x :: s' -> let r = pmap f s' in Option.apply (fun x0 -> x0 :: r) r (f x)
+
+(** val iota : int -> int -> int list **)
+
+let rec iota m n =
+  (fun fO fS n -> if n=0 then fO () else fS (n-1))
+    (fun _ -> [])
+    (fun n' -> m :: (iota (Stdlib.Int.succ m) n'))
+    n
+
+(** val foldr : ('a1 -> 'a2 -> 'a2) -> 'a2 -> 'a1 list -> 'a2 **)
+
+let rec foldr f z0 = function
+| [] -> z0
+| x :: s' -> f x (foldr f z0 s')
+
+(** val zip : 'a1 list -> 'a2 list -> ('a1 * 'a2) list **)
+
+let rec zip s t =
+  match s with
+  | [] -> []
+  | x :: s' -> (match t with
+                | [] -> []
+                | y :: t' -> (x, y) :: (zip s' t'))
+
+type matrix = Big_int_Z.big_int list list
+
+(** val entry : matrix -> int -> int -> Big_int_Z.big_int **)
+
+let entry m i j =
+  nth Big_int_Z.zero_big_int (nth [] m i) j
+
+(** val sumZ : int list -> (int -> Big_int_Z.big_int) -> Big_int_Z.big_int **)
+
+let sumZ l f =
+  foldr (fun i a -> Z.add (f i) a) Big_int_Z.zero_big_int l
+
+type point = Big_int_Z.big_int * Big_int_Z.big_int
+
+(** val zero : point **)
+
+let zero =
+  (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)
+
+(** val infinity : point **)
+
+let infinity =
+  (Big_int_Z.unit_big_int, Big_int_Z.zero_big_int)
+
+type state =
+| Open
+| Resting
+| Moving
+
+(** val is_resting : state -> bool **)
+
+let is_resting = function
+| Resting -> true
+| _ -> false
+
+(** val is_moving : state -> bool **)
+
+let is_moving = function
+| Moving -> true
+| _ -> false
+
+type region = { lower : point; upper : point; states : state list }
+
+(** val state_of : region -> int -> state **)
+
+let state_of r i =
+  nth Open r.states i
+
+(** val decide : int -> state -> region -> region **)
+
+let decide i s r =
+  { lower = r.lower; upper = r.upper; states = (set_nth Open r.states i s) }
+
+(** val below : point -> region -> region **)
+
+let below t r =
+  { lower = r.lower; upper = t; states = r.states }
+
+(** val above : point -> region -> region **)
+
+let above t r =
+  { lower = t; upper = r.upper; states = r.states }
+
+(** val ordered : point -> point -> bool **)
+
+let ordered lo hi =
+  (&&) (Z.leb Big_int_Z.zero_big_int (fst lo))
+    ((&&) (Z.ltb Big_int_Z.zero_big_int (snd lo))
+      ((&&) (Z.leb Big_int_Z.zero_big_int (fst hi))
+        ((&&) (Z.leb Big_int_Z.zero_big_int (snd hi))
+          ((&&) (Z.ltb Big_int_Z.zero_big_int (Z.add (fst hi) (snd hi)))
+            (Z.leb (Z.mul (fst lo) (snd hi)) (Z.mul (fst hi) (snd lo)))))))
+
+type 'leaf tree =
+| Split of point * 'leaf tree * 'leaf tree
+| Branch of int * 'leaf tree * 'leaf tree
+| Leaf of 'leaf
+
+(** val check_tree :
+    int -> (region -> 'a1 -> bool) -> 'a1 tree -> region -> bool **)
+
+let rec check_tree n evidence tr r =
+  match tr with
+  | Split (t, tr1, tr2) ->
+    (&&) (ordered r.lower t)
+      ((&&) (ordered t r.upper)
+        ((&&) (check_tree n evidence tr1 (below t r))
+          (check_tree n evidence tr2 (above t r))))
+  | Branch (i, tr1, tr2) ->
+    (&&) (leq (Stdlib.Int.succ i) n)
+      ((&&) (check_tree n evidence tr1 (decide i Resting r))
+        (check_tree n evidence tr2 (decide i Moving r)))
+  | Leaf l -> (&&) (ordered r.lower r.upper) (evidence r l)
+
+(** val leaves : 'a1 tree -> region -> (region * 'a1) list **)
+
+let rec leaves tr r =
+  match tr with
+  | Split (t, tr1, tr2) ->
+    cat (leaves tr1 (below t r)) (leaves tr2 (above t r))
+  | Branch (i, tr1, tr2) ->
+    cat (leaves tr1 (decide i Resting r)) (leaves tr2 (decide i Moving r))
+  | Leaf l -> (r, l) :: []
+
+type enclosed = { size_of : int; center_a : matrix; center_b : matrix;
+                  radius_a : matrix; radius_b : matrix }
+
+(** val indices : enclosed -> int list **)
+
+let indices p =
+  iota 0 p.size_of
+
+(** val center : enclosed -> point -> int -> int -> Big_int_Z.big_int **)
+
+let center p e i j =
+  Z.add (Z.mul (snd e) (entry p.center_a i j))
+    (Z.mul (fst e) (entry p.center_b i j))
+
+(** val radius : enclosed -> point -> int -> int -> Big_int_Z.big_int **)
+
+let radius p e i j =
+  Z.add (Z.mul (snd e) (entry p.radius_a i j))
+    (Z.mul (fst e) (entry p.radius_b i j))
+
+(** val column_bound :
+    enclosed -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int **)
+
+let column_bound p w e j =
+  sumZ (indices p) (fun i ->
+    Z.add (Z.mul (nth Big_int_Z.zero_big_int w i) (center p e i j))
+      (Z.mul (Z.abs (nth Big_int_Z.zero_big_int w i)) (radius p e i j)))
+
+(** val strict_column :
+    enclosed -> region -> Big_int_Z.big_int list -> int -> bool **)
+
+let strict_column p r w j =
+  (&&) (Z.ltb (column_bound p w r.lower j) Big_int_Z.zero_big_int)
+    ((||) (Z.eqb (snd r.upper) Big_int_Z.zero_big_int)
+      (Z.ltb (column_bound p w r.upper j) Big_int_Z.zero_big_int))
+
+(** val signs_of_weights :
+    enclosed -> region -> Big_int_Z.big_int list -> bool **)
+
+let signs_of_weights p r w =
+  all (fun i ->
+    (||) (is_moving (state_of r i))
+      (Z.leb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int w i)))
+    (indices p)
+
+(** val columns_at_most_zero :
+    enclosed -> region -> Big_int_Z.big_int list -> bool **)
+
+let columns_at_most_zero p r w =
+  all (fun j ->
+    (||) (is_resting (state_of r j))
+      ((&&) (Z.leb (column_bound p w r.lower j) Big_int_Z.zero_big_int)
+        (Z.leb (column_bound p w r.upper j) Big_int_Z.zero_big_int)))
+    (indices p)
+
+(** val every_column_strict :
+    enclosed -> region -> Big_int_Z.big_int list -> bool **)
+
+let every_column_strict p r w =
+  all (fun j -> (||) (is_resting (state_of r j)) (strict_column p r w j))
+    (indices p)
+
+(** val some_moving_column_strict :
+    enclosed -> region -> Big_int_Z.big_int list -> bool **)
+
+let some_moving_column_strict p r w =
+  has (fun j -> (&&) (is_moving (state_of r j)) (strict_column p r w j))
+    (indices p)
+
+(** val farkas : enclosed -> region -> Big_int_Z.big_int list -> bool **)
+
+let farkas p r w =
+  (&&) (signs_of_weights p r w)
+    ((&&) (columns_at_most_zero p r w)
+      ((||) (every_column_strict p r w) (some_moving_column_strict p r w)))
+
+(** val sum_from :
+    (int -> 'a1 -> Big_int_Z.big_int) -> int -> 'a1 list -> Big_int_Z.big_int **)
+
+let rec sum_from f k = function
+| [] -> Big_int_Z.zero_big_int
+| x :: l' -> Z.add (f k x) (sum_from f (Stdlib.Int.succ k) l')
+
+(** val all_from : (int -> 'a1 -> bool) -> int -> 'a1 list -> bool **)
+
+let rec all_from f k = function
+| [] -> true
+| x :: l' -> (&&) (f k x) (all_from f (Stdlib.Int.succ k) l')
+
+(** val remainder :
+    ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
+    ('a1 * 'a2) -> ('a1 * 'a2) -> Big_int_Z.big_int **)
+
+let remainder s product a b =
+  Z.sub (s (fst a) (fst b)) (product (snd a) (snd b))
+
+(** val off_diagonal :
+    ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
+    ('a1 * 'a2) list -> Equality.sort -> ('a1 * 'a2) -> Big_int_Z.big_int **)
+
+let off_diagonal s product rows i a =
+  sum_from (fun j b ->
+    if eq_op nat_eqType (Obj.magic j) i
+    then Big_int_Z.zero_big_int
+    else Z.abs (remainder s product a b)) 0 rows
+
+(** val covered :
+    ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
+    bool -> ('a1 * 'a2) list -> bool **)
+
+let covered s product strict rows =
+  all_from (fun i a ->
+    if strict
+    then Z.ltb (off_diagonal s product rows (Obj.magic i) a)
+           (remainder s product a a)
+    else Z.leb (off_diagonal s product rows (Obj.magic i) a)
+           (remainder s product a a)) 0 rows
+
+(** val weighted_dot :
+    Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int **)
+
+let rec weighted_dot w a b =
+  match w with
+  | [] -> Big_int_Z.zero_big_int
+  | u :: w' ->
+    (match a with
+     | [] -> Big_int_Z.zero_big_int
+     | x :: a' ->
+       (match b with
+        | [] -> Big_int_Z.zero_big_int
+        | y :: b' -> Z.add (Z.mul u (Z.mul x y)) (weighted_dot w' a' b')))
+
+(** val dot :
+    Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let rec dot a b =
+  match a with
+  | [] -> Big_int_Z.zero_big_int
+  | x :: a' ->
+    (match b with
+     | [] -> Big_int_Z.zero_big_int
+     | y :: b' -> Z.add (Z.mul x y) (dot a' b'))
+
+type late_row = int * Big_int_Z.big_int list
+
+(** val late_dot : late_row -> late_row -> Big_int_Z.big_int **)
+
+let late_dot a b =
+  if leq (fst a) (fst b)
+  then dot (drop (subn (fst b) (fst a)) (snd a)) (snd b)
+  else dot (snd a) (drop (subn (fst a) (fst b)) (snd b))
+
+type factor = { weights : Big_int_Z.big_int list; factor_rows : matrix }
+
+(** val active : enclosed -> region -> int list **)
+
+let active p r =
+  filter (fun i -> negb (is_resting (state_of r i))) (indices p)
+
+(** val symmetric_part :
+    enclosed -> bool -> point -> int -> int -> Big_int_Z.big_int **)
+
+let symmetric_part p negative e i j =
+  Z.sub
+    (Z.sub
+      (if negative
+       then Z.sub (Z.opp (center p e i j)) (center p e j i)
+       else Z.add (center p e i j) (center p e j i)) (radius p e i j))
+    (radius p e j i)
+
+(** val definite_end :
+    enclosed -> bool -> bool -> point -> region -> factor -> bool **)
+
+let definite_end p negative strict e r f =
+  (&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
+    ((&&)
+      (eq_op nat_eqType (Obj.magic size f.factor_rows)
+        (Obj.magic size (active p r)))
+      (covered (symmetric_part p negative e) (weighted_dot f.weights) strict
+        (zip (active p r) f.factor_rows)))
+
+(** val definite : enclosed -> bool -> region -> factor -> factor -> bool **)
+
+let definite p negative r low high =
+  (&&) (definite_end p negative true r.lower r low)
+    (definite_end p negative (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+      r.upper r high)
+
+type box = { inverse : matrix; unit_low : Big_int_Z.big_int;
+             unit_high : Big_int_Z.big_int; width : Big_int_Z.big_int }
+
+type uniqueness = { system_inverse : matrix;
+                    system_unit_low : Big_int_Z.big_int;
+                    system_unit_high : Big_int_Z.big_int;
+                    rate : Big_int_Z.big_int }
+
+(** val unit_entry : Big_int_Z.big_int -> int -> int -> Big_int_Z.big_int **)
+
+let unit_entry u i j =
+  if eq_op nat_eqType (Obj.magic j) (Obj.magic i)
+  then u
+  else Big_int_Z.zero_big_int
+
+(** val product_center :
+    enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int **)
+
+let product_center p l y e i j =
+  sumZ l (fun l0 -> Z.mul (entry y i l0) (center p e l0 j))
+
+(** val product_radius :
+    enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int **)
+
+let product_radius p l y e i j =
+  sumZ l (fun l0 -> Z.mul (Z.abs (entry y i l0)) (radius p e l0 j))
+
+(** val defect :
+    enclosed -> int list -> matrix -> Big_int_Z.big_int -> point -> int ->
+    Big_int_Z.big_int **)
+
+let defect p k y u e i =
+  sumZ k (fun j ->
+    Z.add (Z.abs (Z.sub (unit_entry u i j) (product_center p k y e i j)))
+      (product_radius p k y e i j))
+
+(** val residual :
+    enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
+    point -> int -> Big_int_Z.big_int **)
+
+let residual p j k v y e i =
+  Z.add
+    (Z.abs
+      (sumZ j (fun j0 ->
+        Z.mul (product_center p k y e i j0) (nth Big_int_Z.zero_big_int v j0))))
+    (sumZ j (fun j0 ->
+      Z.mul (product_radius p k y e i j0)
+        (Z.abs (nth Big_int_Z.zero_big_int v j0))))
+
+(** val box_row :
+    enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
+    Big_int_Z.big_int -> Big_int_Z.big_int -> point -> int -> bool **)
+
+let box_row p j k v y u eps e i =
+  (&&) (Z.ltb (defect p k y u e i) u)
+    (Z.leb (Z.add (Z.mul (defect p k y u e i) eps) (residual p j k v y e i))
+      (Z.mul u eps))
+
+(** val box_end :
+    enclosed -> int list -> int list -> Big_int_Z.big_int list -> box ->
+    Big_int_Z.big_int -> point -> bool **)
+
+let box_end p j k v b u e =
+  (&&) (Z.ltb Big_int_Z.zero_big_int u)
+    (all (box_row p j k v b.inverse u b.width e) k)
+
+(** val check_box :
+    enclosed -> int list -> int list -> Big_int_Z.big_int list -> box ->
+    point -> point -> bool **)
+
+let check_box p j k v b lo hi =
+  (&&) (Z.leb Big_int_Z.zero_big_int b.width)
+    ((&&) (box_end p j k v b b.unit_low lo)
+      (box_end p j k v b b.unit_high hi))
+
+(** val sum_center :
+    int list -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int) ->
+    Big_int_Z.big_int **)
+
+let sum_center j v f =
+  sumZ j (fun j0 -> Z.mul (f j0) (nth Big_int_Z.zero_big_int v j0))
+
+(** val sum_radius :
+    int list -> int -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int)
+    -> (int -> Big_int_Z.big_int) -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+let sum_radius j k v f r eps =
+  sumZ j (fun j0 ->
+    Z.add (Z.mul (r j0) (Z.abs (nth Big_int_Z.zero_big_int v j0)))
+      (if eq_op nat_eqType (Obj.magic j0) (Obj.magic k)
+       then Big_int_Z.zero_big_int
+       else Z.mul (Z.add (Z.abs (f j0)) (r j0)) eps))
+
+(** val rate_center :
+    enclosed -> int list -> Big_int_Z.big_int list -> matrix -> int ->
+    Big_int_Z.big_int **)
+
+let rate_center p j v y i =
+  sumZ j (fun l -> Z.mul (entry y i l) (sum_center j v (entry p.center_b l)))
+
+(** val rate_radius :
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
+    Big_int_Z.big_int -> int -> Big_int_Z.big_int **)
+
+let rate_radius p j k v y eps i =
+  sumZ j (fun l ->
+    Z.mul (Z.abs (entry y i l))
+      (sum_radius j k v (entry p.center_b l) (entry p.radius_b l) eps))
+
+(** val system_center :
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
+    Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) -> int ->
+    Equality.sort -> Big_int_Z.big_int **)
+
+let system_center p j k v y w e i j0 =
+  if eq_op nat_eqType j0 (Obj.magic k)
+  then Z.mul (snd e) (rate_center p j v y i)
+  else Z.mul w (product_center p j y e i (Obj.magic j0))
+
+(** val system_radius :
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
+    Big_int_Z.big_int -> Big_int_Z.big_int ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> Equality.sort ->
+    Big_int_Z.big_int **)
+
+let system_radius p j k v y w eps e i j0 =
+  if eq_op nat_eqType j0 (Obj.magic k)
+  then Z.mul (snd e) (rate_radius p j k v y eps i)
+  else Z.mul w (product_radius p j y e i (Obj.magic j0))
+
+(** val unique_row :
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> bool **)
+
+let unique_row p j k v y u w eps e i =
+  Z.ltb
+    (sumZ j (fun j0 ->
+      Z.add
+        (Z.abs
+          (Z.sub (unit_entry u i j0)
+            (system_center p j k v y w e i (Obj.magic j0))))
+        (system_radius p j k v y w eps e i (Obj.magic j0)))) u
+
+(** val unique_end :
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness ->
+    Big_int_Z.big_int -> Big_int_Z.big_int ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> bool **)
+
+let unique_end p j k v c u eps e =
+  (&&) (Z.ltb Big_int_Z.zero_big_int u)
+    (all (unique_row p j k v c.system_inverse u c.rate eps e) j)
+
+(** val check_unique :
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness ->
+    Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> bool **)
+
+let check_unique p j k v c eps lo hi =
+  (&&) (Z.ltb Big_int_Z.zero_big_int c.rate)
+    ((&&) (Z.leb Big_int_Z.zero_big_int eps)
+      ((&&) (unique_end p j k v c c.system_unit_low eps lo)
+        (unique_end p j k v c c.system_unit_high eps hi)))
+
+type isolation = { pivot : int; vector : Big_int_Z.big_int list;
+                   from_point : point; to_point : point; wide_box : box;
+                   narrow_box : box; unique : uniqueness;
+                   left_vector : Big_int_Z.big_int list }
+
+type outcome =
+| Solution
+| NegativeX of int
+| NegativeY of int
+
+type absence = { absent_pivot : int; absent_vector : Big_int_Z.big_int list;
+                 absent_box : box; absent_left : Big_int_Z.big_int list }
+
+(** val moving : enclosed -> region -> int list **)
+
+let moving p r =
+  filter (fun i -> is_moving (state_of r i)) (indices p)
+
+(** val others : enclosed -> region -> Equality.sort -> Equality.sort list **)
+
+let others p r k =
+  filter (fun i -> negb (eq_op nat_eqType i k)) (Obj.magic moving p r)
+
+(** val decided : enclosed -> region -> bool **)
+
+let decided p r =
+  all (fun i -> (||) (is_resting (state_of r i)) (is_moving (state_of r i)))
+    (indices p)
+
+(** val point_le : point -> point -> bool **)
+
+let point_le a b =
+  Z.leb (Z.mul (fst a) (snd b)) (Z.mul (fst b) (snd a))
+
+(** val left_center :
+    enclosed -> region -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    point -> Big_int_Z.big_int **)
+
+let left_center p r v u e =
+  sum_center (moving p r) v (product_center p (moving p r) (u :: []) e 0)
+
+(** val left_radius :
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int -> point -> Big_int_Z.big_int **)
+
+let left_radius p r k v u eps e =
+  sum_radius (moving p r) k v (product_center p (moving p r) (u :: []) e 0)
+    (product_radius p (moving p r) (u :: []) e 0) eps
+
+(** val left_negative :
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int -> point -> bool **)
+
+let left_negative p r k v u eps e =
+  Z.ltb (Z.add (left_center p r v u e) (left_radius p r k v u eps e))
+    Big_int_Z.zero_big_int
+
+(** val left_positive :
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int -> point -> bool **)
+
+let left_positive p r k v u eps e =
+  Z.ltb Big_int_Z.zero_big_int
+    (Z.sub (left_center p r v u e) (left_radius p r k v u eps e))
+
+(** val row_center :
+    enclosed -> region -> Big_int_Z.big_int list -> point -> int ->
+    Big_int_Z.big_int **)
+
+let row_center p r v e i =
+  sum_center (moving p r) v (center p e i)
+
+(** val row_radius :
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    -> point -> int -> Big_int_Z.big_int **)
+
+let row_radius p r k v eps e i =
+  sum_radius (moving p r) k v (center p e i) (radius p e i) eps
+
+(** val row_positive :
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    -> point -> int -> bool **)
+
+let row_positive p r k v eps e i =
+  Z.ltb Big_int_Z.zero_big_int
+    (Z.sub (row_center p r v e i) (row_radius p r k v eps e i))
+
+(** val row_negative :
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    -> point -> int -> bool **)
+
+let row_negative p r k v eps e i =
+  Z.ltb (Z.add (row_center p r v e i) (row_radius p r k v eps e i))
+    Big_int_Z.zero_big_int
+
+(** val interval_inside : region -> isolation -> bool **)
+
+let interval_inside r c =
+  (&&) (ordered c.from_point c.to_point)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int (snd c.to_point))
+      ((&&) (point_le r.lower c.from_point) (point_le c.to_point r.upper)))
+
+(** val sign_change : enclosed -> region -> isolation -> bool **)
+
+let sign_change p r c =
+  (&&)
+    (Z.ltb Big_int_Z.zero_big_int
+      (nth Big_int_Z.zero_big_int c.left_vector c.pivot))
+    ((||)
+      ((&&)
+        (left_negative p r c.pivot c.vector c.left_vector c.narrow_box.width
+          c.from_point)
+        (left_positive p r c.pivot c.vector c.left_vector c.narrow_box.width
+          c.to_point))
+      ((&&)
+        (left_positive p r c.pivot c.vector c.left_vector c.narrow_box.width
+          c.from_point)
+        (left_negative p r c.pivot c.vector c.left_vector c.narrow_box.width
+          c.to_point)))
+
+(** val isolated : enclosed -> region -> isolation -> bool **)
+
+let isolated p r c =
+  (&&) (decided p r)
+    ((&&)
+      (in_mem (Obj.magic c.pivot)
+        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+      ((&&)
+        (Z.ltb Big_int_Z.zero_big_int
+          (nth Big_int_Z.zero_big_int c.vector c.pivot))
+        ((&&) (interval_inside r c)
+          ((&&) (sign_change p r c)
+            ((&&)
+              (check_box p (moving p r) (Obj.magic others p r c.pivot)
+                c.vector c.wide_box r.lower r.upper)
+              ((&&)
+                (check_box p (moving p r) (Obj.magic others p r c.pivot)
+                  c.vector c.narrow_box c.from_point c.to_point)
+                (check_unique p (moving p r) c.pivot c.vector c.unique
+                  c.wide_box.width r.lower r.upper)))))))
+
+(** val both_ends : isolation -> (point -> bool) -> bool **)
+
+let both_ends c f =
+  (&&) (f c.from_point) (f c.to_point)
+
+(** val solution_signs : enclosed -> region -> isolation -> bool **)
+
+let solution_signs p r c =
+  (&&)
+    (all (fun j ->
+      Z.ltb c.narrow_box.width
+        (nth Big_int_Z.zero_big_int c.vector (Obj.magic j)))
+      (others p r (Obj.magic c.pivot)))
+    (all (fun i ->
+      (||) (is_moving (state_of r i))
+        (both_ends c (fun e ->
+          row_positive p r c.pivot c.vector c.narrow_box.width e i)))
+      (indices p))
+
+(** val outcome_signs : enclosed -> region -> isolation -> outcome -> bool **)
+
+let outcome_signs p r c = function
+| Solution -> solution_signs p r c
+| NegativeX i ->
+  (&&)
+    (in_mem (Obj.magic i)
+      (mem (seq_predType nat_eqType) (Obj.magic others p r c.pivot)))
+    (Z.ltb (nth Big_int_Z.zero_big_int c.vector i) (Z.opp c.narrow_box.width))
+| NegativeY i ->
+  (&&)
+    (in_mem (Obj.magic i)
+      (mem (seq_predType nat_eqType) (Obj.magic indices p)))
+    ((&&) (negb (is_moving (state_of r i)))
+      (both_ends c (fun e ->
+        row_negative p r c.pivot c.vector c.narrow_box.width e i)))
+
+(** val check_root : enclosed -> region -> isolation -> outcome -> bool **)
+
+let check_root p r c o =
+  (&&) (isolated p r c) (outcome_signs p r c o)
+
+(** val check_absent : enclosed -> region -> absence -> bool **)
+
+let check_absent p r c =
+  let k = c.absent_pivot in
+  let v = c.absent_vector in
+  let eps = c.absent_box.width in
+  (&&) (decided p r)
+    ((&&)
+      (in_mem (Obj.magic k)
+        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v k))
+        ((&&)
+          (check_box p (moving p r) (Obj.magic others p r k) v c.absent_box
+            r.lower r.upper)
+          ((||)
+            ((&&) (left_positive p r k v c.absent_left eps r.lower)
+              (left_positive p r k v c.absent_left eps r.upper))
+            ((&&) (left_negative p r k v c.absent_left eps r.lower)
+              (left_negative p r k v c.absent_left eps r.upper))))))
+
+type 'whole leaf =
+| Farkas of Big_int_Z.big_int list
+| Definite of bool * factor * factor
+| Absent of absence
+| Root of isolation * outcome
+| Whole of 'whole
+
+(** val yielded : (region * 'a1 leaf) -> (region * isolation) option **)
+
+let yielded rl =
+  match snd rl with
+  | Root (c, o) -> (match o with
+                    | Solution -> Some ((fst rl), c)
+                    | _ -> None)
+  | _ -> None
+
+(** val yields : 'a1 leaf tree -> region -> (region * isolation) list **)
+
+let yields tr r =
+  pmap yielded (leaves tr r)
+
+(** val window : point -> point -> region **)
+
+let window lo hi =
+  { lower = lo; upper = hi; states = [] }
+
+(** val check_leaf :
+    enclosed -> (region -> 'a1 -> bool) -> region -> 'a1 leaf -> bool **)
+
+let check_leaf p check_whole0 r = function
+| Farkas w -> farkas p r w
+| Definite (negative, low, high) -> definite p negative r low high
+| Absent c -> check_absent p r c
+| Root (c, o) -> check_root p r c o
+| Whole w -> check_whole0 r w
+
+(** val check_cover :
+    enclosed -> (region -> 'a1 -> bool) -> 'a1 leaf tree -> point -> point ->
+    bool **)
+
+let check_cover p check_whole0 tr lo hi =
+  check_tree p.size_of (check_leaf p check_whole0) tr (window lo hi)
+
+type sparse_row = (int * Big_int_Z.big_int) list
+
+(** val lookup : sparse_row -> int -> Big_int_Z.big_int **)
+
+let lookup row j =
+  foldr (fun entry0 sum ->
+    if eq_op nat_eqType (fst (Obj.magic entry0)) (Obj.magic j)
+    then Z.add (snd entry0) sum
+    else sum) Big_int_Z.zero_big_int row
+
+type blocks = { free_count : int; slip_count : int; ff : sparse_row list;
+                fs : matrix; sf_a : matrix; sf_b : matrix; ss_a : matrix;
+                ss_b : matrix }
+
+type elimination = { row_scale : Big_int_Z.big_int list;
+                     unit_of : Big_int_Z.big_int; right_w : matrix;
+                     left_va : matrix; left_vb : matrix;
+                     bound_c : Big_int_Z.big_int;
+                     bound_d : Big_int_Z.big_int;
+                     factor_scale : Big_int_Z.big_int;
+                     stiffness_factor : late_row list }
+
+(** val map_from : (int -> 'a1 -> 'a2) -> int -> 'a1 list -> 'a2 list **)
+
+let rec map_from f k = function
+| [] -> []
+| x :: l' -> (f k x) :: (map_from f (Stdlib.Int.succ k) l')
+
+(** val sparse_dot :
+    sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let sparse_dot row x =
+  foldr (fun entry0 sum ->
+    Z.add (Z.mul (snd entry0) (nth Big_int_Z.zero_big_int x (fst entry0))) sum)
+    Big_int_Z.zero_big_int row
+
+(** val norm1 : Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let norm1 l =
+  foldr (fun x sum -> Z.add (Z.abs x) sum) Big_int_Z.zero_big_int l
+
+(** val row_of : matrix -> int -> Big_int_Z.big_int list **)
+
+let row_of m i =
+  nth [] m i
+
+(** val divide_up :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+let divide_up x d =
+  Z.opp (Z.div (Z.opp x) d)
+
+(** val shifted :
+    elimination -> (int * sparse_row) -> (int * sparse_row) ->
+    Big_int_Z.big_int **)
+
+let shifted w a b =
+  Z.sub (Z.mul w.bound_c (lookup (snd a) (fst b)))
+    (if eq_op nat_eqType (fst (Obj.magic a)) (fst (Obj.magic b))
+     then w.bound_d
+     else Big_int_Z.zero_big_int)
+
+(** val numbered_rows : blocks -> (int * sparse_row) list **)
+
+let numbered_rows d =
+  zip (iota 0 d.free_count) d.ff
+
+(** val stiffness_symmetric : blocks -> bool **)
+
+let stiffness_symmetric d =
+  all_from (fun i row ->
+    all_from (fun j col -> Z.eqb (lookup row j) (lookup col i)) 0 d.ff) 0 d.ff
+
+(** val stiffness_bounded : blocks -> elimination -> bool **)
+
+let stiffness_bounded d w =
+  covered (shifted w) (fun a b -> Z.mul w.factor_scale (late_dot a b)) false
+    (zip (numbered_rows d) w.stiffness_factor)
+
+(** val stiffness_positive : blocks -> elimination -> bool **)
+
+let stiffness_positive d w =
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.bound_c)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int w.bound_d)
+      ((&&) (Z.leb Big_int_Z.zero_big_int w.factor_scale)
+        ((&&)
+          (eq_op nat_eqType (Obj.magic size d.ff) (Obj.magic d.free_count))
+          ((&&)
+            (eq_op nat_eqType (Obj.magic size w.stiffness_factor)
+              (Obj.magic d.free_count))
+            ((&&)
+              (all (fun row ->
+                all (fun entry0 ->
+                  leq (Stdlib.Int.succ (fst entry0)) d.free_count) row) d.ff)
+              ((&&) (stiffness_symmetric d) (stiffness_bounded d w)))))))
+
+(** val residual_column :
+    blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list **)
+
+let residual_column d w g x j =
+  let g0 = row_of g j in
+  let x0 = row_of x j in
+  map_from (fun i row ->
+    Z.sub (Z.mul w.unit_of (nth Big_int_Z.zero_big_int g0 i))
+      (sparse_dot row x0)) 0 d.ff
+
+(** val table : blocks -> (int -> int -> Big_int_Z.big_int) -> matrix **)
+
+let table d f =
+  map0 (fun i -> map0 (fun j -> f i j) (iota 0 d.slip_count))
+    (iota 0 d.slip_count)
+
+(** val condensed_center :
+    blocks -> elimination -> matrix -> matrix -> matrix -> matrix -> matrix **)
+
+let condensed_center d w ss sf v r =
+  table d (fun i j ->
+    Z.mul (nth Big_int_Z.zero_big_int w.row_scale i)
+      (Z.sub
+        (Z.sub (Z.mul (Z.mul w.unit_of w.unit_of) (entry ss i j))
+          (Z.mul w.unit_of (dot (row_of sf i) (row_of w.right_w j))))
+        (dot (row_of v i) (row_of r j))))
+
+(** val condensed_radius :
+    blocks -> elimination -> Big_int_Z.big_int list -> Big_int_Z.big_int list
+    -> matrix **)
+
+let condensed_radius d w norms_l norms_r =
+  table d (fun i j ->
+    divide_up
+      (Z.mul (nth Big_int_Z.zero_big_int w.row_scale i)
+        (Z.mul
+          (Z.mul (nth Big_int_Z.zero_big_int norms_l i)
+            (nth Big_int_Z.zero_big_int norms_r j)) w.bound_c)) w.bound_d)
+
+(** val condensed : blocks -> elimination -> enclosed **)
+
+let condensed d w =
+  let columns0 = fun g x ->
+    map0 (fun j -> residual_column d w g x j) (iota 0 d.slip_count)
+  in
+  let r = columns0 d.fs w.right_w in
+  let norms_r = map0 norm1 r in
+  let norms_a = map0 norm1 (columns0 d.sf_a w.left_va) in
+  let norms_b = map0 norm1 (columns0 d.sf_b w.left_vb) in
+  { size_of = d.slip_count; center_a =
+  (condensed_center d w d.ss_a d.sf_a w.left_va r); center_b =
+  (condensed_center d w d.ss_b d.sf_b w.left_vb r); radius_a =
+  (condensed_radius d w norms_a norms_r); radius_b =
+  (condensed_radius d w norms_b norms_r) }
+
+(** val shapes : blocks -> elimination -> bool **)
+
+let shapes d w =
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.unit_of)
+    ((&&)
+      (all (fun i ->
+        Z.ltb Big_int_Z.zero_big_int
+          (nth Big_int_Z.zero_big_int w.row_scale i)) (iota 0 d.slip_count))
+      (all (fun i ->
+        all (fun m -> leq (size (row_of m i)) d.free_count)
+          (d.fs :: (d.sf_a :: (d.sf_b :: (w.right_w :: (w.left_va :: (w.left_vb :: [])))))))
+        (iota 0 d.slip_count)))
+
+(** val check_elimination : blocks -> elimination -> bool **)
+
+let check_elimination d w =
+  (&&) (stiffness_positive d w) (shapes d w)
+
+type pencil = { order : int; rows_a : sparse_row list;
+                rows_b : sparse_row list; free : int list }
+
+(** val slip : pencil -> Equality.sort list **)
+
+let slip q =
+  filter (fun i ->
+    negb (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free))))
+    (Obj.magic iota 0 q.order)
+
+(** val row_a : pencil -> int -> (int * Big_int_Z.big_int) list **)
+
+let row_a q i =
+  nth [] q.rows_a i
+
+(** val row_b : pencil -> int -> (int * Big_int_Z.big_int) list **)
+
+let row_b q i =
+  nth [] q.rows_b i
+
+(** val wellformed : pencil -> bool **)
+
+let wellformed q =
+  (&&) (uniq nat_eqType (Obj.magic q.free))
+    (all (fun i -> leq (Stdlib.Int.succ i) q.order) q.free)
+
+(** val free_rows_constant : pencil -> bool **)
+
+let free_rows_constant q =
+  all (fun i ->
+    all (fun e -> Z.eqb (snd e) Big_int_Z.zero_big_int) (row_b q i)) q.free
+
+(** val restrict : sparse_row -> int list -> sparse_row **)
+
+let restrict row columns0 =
+  map0 (fun e ->
+    ((index nat_eqType (fst (Obj.magic e)) (Obj.magic columns0)), (snd e)))
+    (filter (fun e ->
+      in_mem (fst (Obj.magic e))
+        (mem (seq_predType nat_eqType) (Obj.magic columns0))) row)
+
+(** val blocks_of : pencil -> blocks **)
+
+let blocks_of q =
+  { free_count = (size q.free); slip_count = (size (slip q)); ff =
+    (map0 (fun i -> restrict (row_a q i) q.free) q.free); fs =
+    (map0 (fun j -> map0 (fun i -> lookup (row_a q i) (Obj.magic j)) q.free)
+      (slip q)); sf_a =
+    (map0 (fun i -> map0 (fun j -> lookup (row_a q (Obj.magic i)) j) q.free)
+      (slip q)); sf_b =
+    (map0 (fun i -> map0 (fun j -> lookup (row_b q (Obj.magic i)) j) q.free)
+      (slip q)); ss_a =
+    (map0 (fun i ->
+      map0 (fun j -> lookup (row_a q (Obj.magic i)) (Obj.magic j)) (slip q))
+      (slip q)); ss_b =
+    (map0 (fun i ->
+      map0 (fun j -> lookup (row_b q (Obj.magic i)) (Obj.magic j)) (slip q))
+      (slip q)) }
+
+type whole_factor =
+| Dense of Big_int_Z.big_int list * matrix
+| Late of Big_int_Z.big_int * late_row list
+
+type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
+
+type whole = { whole_negative : bool; low_end : whole_end;
+               high_end : whole_end }
+
+type member = int * (sparse_row * sparse_row)
+
+(** val may_move : pencil -> region -> int list **)
+
+let may_move q r =
+  cat q.free
+    (map0 (fun j -> nth 0 (Obj.magic slip q) j)
+      (filter (fun j -> negb (is_resting (state_of r j)))
+        (iota 0 (size (slip q)))))
+
+(** val members : pencil -> region -> member list **)
+
+let members q r =
+  map0 (fun i -> (i, ((row_a q i), (row_b q i)))) (may_move q r)
+
+(** val member_entry : point -> member -> member -> Big_int_Z.big_int **)
+
+let member_entry e i j =
+  Z.add (Z.mul (snd e) (lookup (fst (snd i)) (fst j)))
+    (Z.mul (fst e) (lookup (snd (snd i)) (fst j)))
+
+(** val member_form :
+    bool -> Big_int_Z.big_int -> point -> member -> member ->
+    Big_int_Z.big_int **)
+
+let member_form negative c e i j =
+  Z.mul c
+    (if negative
+     then Z.sub (Z.opp (member_entry e i j)) (member_entry e j i)
+     else Z.add (member_entry e i j) (member_entry e j i))
+
+(** val check_end :
+    pencil -> bool -> bool -> point -> region -> whole_end -> bool **)
+
+let check_end q strict negative e r w =
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.end_scale)
+    (match w.end_factor with
+     | Dense (weights0, rows) ->
+       (&&) (all (fun u -> Z.leb Big_int_Z.zero_big_int u) weights0)
+         ((&&)
+           (eq_op nat_eqType (Obj.magic size rows)
+             (Obj.magic size (members q r)))
+           (covered (member_form negative w.end_scale e)
+             (weighted_dot weights0) strict (zip (members q r) rows)))
+     | Late (m, rows) ->
+       (&&) (Z.leb Big_int_Z.zero_big_int m)
+         ((&&)
+           (eq_op nat_eqType (Obj.magic size rows)
+             (Obj.magic size (members q r)))
+           (covered (member_form negative w.end_scale e) (fun a b ->
+             Z.mul m (late_dot a b)) strict (zip (members q r) rows))))
+
+(** val check_whole : pencil -> region -> whole -> bool **)
+
+let check_whole q r w =
+  (&&) (check_end q true w.whole_negative r.lower r w.low_end)
+    (check_end q (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+      w.whole_negative r.upper r w.high_end)
+
+(** val check_complete :
+    pencil -> elimination -> whole leaf tree -> point -> point -> bool **)
+
+let check_complete q w tr lo hi =
+  (&&) (wellformed q)
+    ((&&) (free_rows_constant q)
+      ((&&) (check_elimination (blocks_of q) w)
+        (check_cover (condensed (blocks_of q) w) (check_whole q) tr lo hi)))
+
+(** val found :
+    whole leaf tree -> point -> point -> (region * isolation) list **)
+
+let found tr lo hi =
+  yields tr (window lo hi)
+
+(** val check_excluded : pencil -> whole tree -> point -> point -> bool **)
+
+let check_excluded q tr lo hi =
+  (&&) (wellformed q)
+    (check_tree (size (slip q)) (check_whole q) tr (window lo hi))
+
+type polynomial = Big_int_Z.big_int list
+
+type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial;
+                   rest : polynomial }
+
+type claim = { modulus : polynomial; claim_from : Big_int_Z.big_int;
+               claim_to : Big_int_Z.big_int;
+               claim_denominator : Big_int_Z.big_int; support : int list;
+               biactive : int list; components : polynomial list;
+               component_reductions : reduction list;
+               reaction_reductions : reduction list }
+
+(** val scale_poly : Big_int_Z.big_int -> polynomial -> polynomial **)
+
+let scale_poly c p =
+  map0 (fun a -> Z.mul c a) p
+
+(** val add_poly : polynomial -> polynomial -> polynomial **)
+
+let rec add_poly p q =
+  match p with
+  | [] -> q
+  | a :: p' ->
+    (match q with
+     | [] -> p
+     | b :: q' -> (Z.add a b) :: (add_poly p' q'))
+
+(** val mul_poly : polynomial -> polynomial -> polynomial **)
+
+let mul_poly p q =
+  foldr (fun a product ->
+    add_poly (scale_poly a q) (Big_int_Z.zero_big_int :: product)) [] p
+
+(** val zero_poly : polynomial -> bool **)
+
+let zero_poly p =
+  all (fun a -> Z.eqb a Big_int_Z.zero_big_int) p
+
+(** val horner_interval :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    -> (Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int **)
+
+let rec horner_interval a b d = function
+| [] ->
+  ((Big_int_Z.zero_big_int, Big_int_Z.zero_big_int), Big_int_Z.unit_big_int)
+| c :: p' ->
+  let (p0, power) = horner_interval a b d p' in
+  let (lo, hi) = p0 in
+  let constant = Z.mul c (Z.mul power d) in
+  (((Z.add
+      (if Z.leb Big_int_Z.zero_big_int lo then Z.mul a lo else Z.mul b lo)
+      constant),
+  (Z.add (if Z.leb Big_int_Z.zero_big_int hi then Z.mul b hi else Z.mul a hi)
+    constant)), (Z.mul power d))
+
+(** val lower_value :
+    claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int **)
+
+let lower_value k x y p =
+  fst (fst (horner_interval x y k.claim_denominator p))
+
+(** val upper_value :
+    claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int **)
+
+let upper_value k x y p =
+  snd (fst (horner_interval x y k.claim_denominator p))
+
+(** val modulus_changes_sign : claim -> bool **)
+
+let modulus_changes_sign k =
+  let p = k.modulus in
+  (||)
+    ((&&)
+      (Z.leb (upper_value k k.claim_from k.claim_from p)
+        Big_int_Z.zero_big_int)
+      (Z.leb Big_int_Z.zero_big_int (lower_value k k.claim_to k.claim_to p)))
+    ((&&)
+      (Z.leb Big_int_Z.zero_big_int
+        (lower_value k k.claim_from k.claim_from p))
+      (Z.leb (upper_value k k.claim_to k.claim_to p) Big_int_Z.zero_big_int))
+
+(** val no_reduction : reduction **)
+
+let no_reduction =
+  { multiplier = Big_int_Z.unit_big_int; quotient = []; rest = [] }
+
+(** val reduces : claim -> polynomial -> reduction -> bool **)
+
+let reduces k g w =
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.multiplier)
+    (zero_poly
+      (add_poly (scale_poly w.multiplier g)
+        (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
+          (add_poly (mul_poly k.modulus w.quotient) w.rest))))
+
+(** val shows_zero : claim -> polynomial -> reduction -> bool **)
+
+let shows_zero k g w =
+  (&&) (reduces k g w) (zero_poly w.rest)
+
+(** val shows_positive : claim -> polynomial -> reduction -> bool **)
+
+let shows_positive k g w =
+  (&&) (reduces k g w)
+    (Z.ltb Big_int_Z.zero_big_int
+      (lower_value k k.claim_from k.claim_to w.rest))
+
+(** val shows_negative : claim -> polynomial -> reduction -> bool **)
+
+let shows_negative k g w =
+  (&&) (reduces k g w)
+    (Z.ltb (upper_value k k.claim_from k.claim_to w.rest)
+      Big_int_Z.zero_big_int)
+
+(** val component : claim -> int -> Big_int_Z.big_int list **)
+
+let component k i =
+  nth [] k.components i
+
+(** val combine_row : claim -> sparse_row -> polynomial **)
+
+let combine_row k row =
+  foldr (fun e sum ->
+    add_poly (scale_poly (snd e) (component k (fst e))) sum) [] row
+
+(** val reaction_poly : pencil -> claim -> int -> polynomial **)
+
+let reaction_poly q k i =
+  add_poly (combine_row k (row_a q i))
+    (Big_int_Z.zero_big_int :: (combine_row k (row_b q i)))
+
+(** val component_witness : claim -> int -> reduction **)
+
+let component_witness k i =
+  nth no_reduction k.component_reductions i
+
+(** val reaction_witness : claim -> int -> reduction **)
+
+let reaction_witness k i =
+  nth no_reduction k.reaction_reductions i
+
+(** val x_zero : claim -> int -> bool **)
+
+let x_zero k i =
+  shows_zero k (component k i) (component_witness k i)
+
+(** val x_positive : claim -> int -> bool **)
+
+let x_positive k i =
+  shows_positive k (component k i) (component_witness k i)
+
+(** val x_negative : claim -> int -> bool **)
+
+let x_negative k i =
+  shows_negative k (component k i) (component_witness k i)
+
+(** val y_zero : pencil -> claim -> int -> bool **)
+
+let y_zero q k i =
+  shows_zero k (reaction_poly q k i) (reaction_witness k i)
+
+(** val y_positive : pencil -> claim -> int -> bool **)
+
+let y_positive q k i =
+  shows_positive k (reaction_poly q k i) (reaction_witness k i)
+
+(** val columns_in_order : pencil -> bool **)
+
+let columns_in_order q =
+  (&&)
+    (all (fun row ->
+      all (fun e -> leq (Stdlib.Int.succ (fst e)) q.order) row) q.rows_a)
+    (all (fun row ->
+      all (fun e -> leq (Stdlib.Int.succ (fst e)) q.order) row) q.rows_b)
+
+(** val check_claim : pencil -> claim -> bool **)
+
+let check_claim q k =
+  (&&) (wellformed q)
+    ((&&) (columns_in_order q)
+      ((&&)
+        ((&&) (Z.leb Big_int_Z.zero_big_int k.claim_from)
+          ((&&) (Z.leb k.claim_from k.claim_to)
+            ((&&) (Z.ltb Big_int_Z.zero_big_int k.claim_denominator)
+              (modulus_changes_sign k))))
+        ((&&) (all (fun i -> y_zero q k i) q.free)
+          ((&&)
+            (all (fun i ->
+              in_mem (Obj.magic i)
+                (mem (seq_predType nat_eqType) (Obj.magic slip q)))
+              (cat k.support k.biactive))
+            ((&&)
+              (all (fun i ->
+                if in_mem i
+                     (mem (seq_predType nat_eqType) (Obj.magic k.support))
+                then (&&) (x_positive k (Obj.magic i))
+                       ((&&) (y_zero q k (Obj.magic i))
+                         (negb
+                           (in_mem i
+                             (mem (seq_predType nat_eqType)
+                               (Obj.magic k.biactive)))))
+                else (&&) (x_zero k (Obj.magic i))
+                       (if in_mem i
+                             (mem (seq_predType nat_eqType)
+                               (Obj.magic k.biactive))
+                        then y_zero q k (Obj.magic i)
+                        else y_positive q k (Obj.magic i))) (slip q))
+              ((||)
+                (has (fun i ->
+                  in_mem i
+                    (mem (seq_predType nat_eqType) (Obj.magic k.support)))
+                  (slip q))
+                (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
+
+type slip_particle = { tangential : int; normal : int;
+                       sign_of : Big_int_Z.big_int;
+                       direction : Big_int_Z.big_int }
+
+type system = { dofs : int; stiffness : sparse_row list;
+                mass : sparse_row list; free_dofs : int list;
+                particles : slip_particle list }
+
+type unknown =
+| Mu
+| Lambda2 of Big_int_Z.big_int * Big_int_Z.big_int
+
+(** val free_number : system -> int **)
+
+let free_number s =
+  size s.free_dofs
+
+(** val tangentials : system -> int list **)
+
+let tangentials s =
+  map0 (fun p -> p.tangential) s.particles
+
+(** val moving_dofs : system -> int list **)
+
+let moving_dofs s =
+  cat s.free_dofs (tangentials s)
+
+(** val particle : system -> int -> slip_particle **)
+
+let particle s j =
+  nth { tangential = 0; normal = 0; sign_of = Big_int_Z.zero_big_int;
+    direction = Big_int_Z.zero_big_int } s.particles j
+
+(** val k_row : system -> int -> (int * Big_int_Z.big_int) list **)
+
+let k_row s d =
+  nth [] s.stiffness d
+
+(** val m_row : system -> int -> (int * Big_int_Z.big_int) list **)
+
+let m_row s d =
+  nth [] s.mass d
+
+(** val column :
+    system -> Equality.sort -> (int * Big_int_Z.big_int) option **)
+
+let column s d =
+  if in_mem d (mem (seq_predType nat_eqType) (Obj.magic s.free_dofs))
+  then Some ((index nat_eqType d (Obj.magic s.free_dofs)),
+         Big_int_Z.unit_big_int)
+  else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic tangentials s))
+       then let j = index nat_eqType d (Obj.magic tangentials s) in
+            Some ((addn (free_number s) j), (Z.opp (particle s j).sign_of))
+       else None
+
+(** val columns : system -> sparse_row -> sparse_row **)
+
+let columns s row =
+  pmap (fun e ->
+    Option.map (fun c -> ((fst c), (Z.mul (snd c) (snd e))))
+      (column s (fst (Obj.magic e)))) row
+
+(** val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row **)
+
+let multiple c row =
+  map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
+
+(** val free_row_b :
+    system -> unknown -> int -> (int * Big_int_Z.big_int) list **)
+
+let free_row_b s u d =
+  match u with
+  | Mu -> []
+  | Lambda2 (_, _) -> columns s (m_row s d)
+
+(** val slip_row_a : system -> unknown -> slip_particle -> sparse_row **)
+
+let slip_row_a s u p =
+  match u with
+  | Mu -> multiple (Z.opp p.sign_of) (columns s (k_row s p.tangential))
+  | Lambda2 (m, q) ->
+    cat
+      (multiple (Z.opp (Z.mul q p.sign_of))
+        (columns s (k_row s p.tangential)))
+      (multiple (Z.opp (Z.mul m p.direction)) (columns s (k_row s p.normal)))
+
+(** val slip_row_b : system -> unknown -> slip_particle -> sparse_row **)
+
+let slip_row_b s u p =
+  match u with
+  | Mu -> multiple (Z.opp p.direction) (columns s (k_row s p.normal))
+  | Lambda2 (m, q) ->
+    cat
+      (multiple (Z.opp (Z.mul q p.sign_of))
+        (columns s (m_row s p.tangential)))
+      (multiple (Z.opp (Z.mul m p.direction)) (columns s (m_row s p.normal)))
+
+(** val pencil_of : system -> unknown -> pencil **)
+
+let pencil_of s u =
+  { order = (addn (free_number s) (size s.particles)); rows_a =
+    (cat (map0 (fun d -> columns s (k_row s d)) s.free_dofs)
+      (map0 (fun p -> slip_row_a s u p) s.particles)); rows_b =
+    (cat (map0 (fun d -> free_row_b s u d) s.free_dofs)
+      (map0 (fun p -> slip_row_b s u p) s.particles)); free =
+    (iota 0 (free_number s)) }
+
+(** val columns_in_range : system -> sparse_row list -> bool **)
+
+let columns_in_range s rows =
+  all (fun row -> all (fun e -> leq (Stdlib.Int.succ (fst e)) s.dofs) row)
+    rows
+
+(** val system_wellformed : system -> unknown -> bool **)
+
+let system_wellformed s u =
+  (&&) (uniq nat_eqType (Obj.magic moving_dofs s))
+    ((&&) (all (fun d -> leq (Stdlib.Int.succ d) s.dofs) (moving_dofs s))
+      ((&&)
+        (all (fun p ->
+          Z.eqb (Z.mul p.sign_of p.sign_of) Big_int_Z.unit_big_int)
+          s.particles)
+        ((&&)
+          (all (fun p ->
+            negb
+              (in_mem (Obj.magic p.normal)
+                (mem (seq_predType nat_eqType) (Obj.magic moving_dofs s))))
+            s.particles)
+          ((&&)
+            ((&&) (columns_in_range s s.stiffness)
+              (columns_in_range s s.mass))
+            (match u with
+             | Mu -> true
+             | Lambda2 (_, q) -> Z.ltb Big_int_Z.zero_big_int q)))))
+
+(** val check_system :
+    system -> unknown -> elimination -> whole leaf tree -> point -> point ->
+    bool **)
+
+let check_system s u w tr lo hi =
+  (&&) (system_wellformed s u) (check_complete (pencil_of s u) w tr lo hi)
+
+(** val check_system_excluded :
+    system -> unknown -> whole tree -> point -> point -> bool **)
+
+let check_system_excluded s u tr lo hi =
+  (&&) (system_wellformed s u) (check_excluded (pencil_of s u) tr lo hi)
+
+(** val check_system_claim : system -> unknown -> claim -> bool **)
+
+let check_system_claim s u k =
+  (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)

@@ -1,0 +1,706 @@
+
+type __ = Obj.t
+
+val negb : bool -> bool
+
+val fst : ('a1 * 'a2) -> 'a1
+
+val snd : ('a1 * 'a2) -> 'a2
+
+type comparison =
+| Eq
+| Lt
+| Gt
+
+val add : int -> int -> int
+
+val sub : int -> int -> int
+
+type reflect =
+| ReflectT
+| ReflectF
+
+module Pos :
+ sig
+  val succ : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val add : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val add_carry : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val mul : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val compare_cont :
+    comparison -> Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
+
+  val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
+
+  val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+ end
+
+module Z :
+ sig
+  val double : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val succ_double : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val pos_sub : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val add : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val opp : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val sub : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val mul : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
+
+  val leb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+
+  val ltb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+
+  val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+
+  val abs : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val pos_div_eucl :
+    Big_int_Z.big_int -> Big_int_Z.big_int ->
+    Big_int_Z.big_int * Big_int_Z.big_int
+
+  val div_eucl :
+    Big_int_Z.big_int -> Big_int_Z.big_int ->
+    Big_int_Z.big_int * Big_int_Z.big_int
+
+  val div : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+ end
+
+module Option :
+ sig
+  val apply : ('a1 -> 'a2) -> 'a2 -> 'a1 option -> 'a2
+
+  val bind : ('a1 -> 'a2 option) -> 'a1 option -> 'a2 option
+
+  val map : ('a1 -> 'a2) -> 'a1 option -> 'a2 option
+ end
+
+type ('aT, 'rT) simpl_fun =
+  'aT -> 'rT
+  (* singleton inductive, whose constructor was SimplFun *)
+
+val fun_of_simpl : ('a1, 'a2) simpl_fun -> 'a1 -> 'a2
+
+val iffP : bool -> reflect -> reflect
+
+val idP : bool -> reflect
+
+type 't pred = 't -> bool
+
+type 't predType =
+  __ -> 't pred
+  (* singleton inductive, whose constructor was PredType *)
+
+type 't pred_sort = __
+
+type 't simpl_pred = ('t, bool) simpl_fun
+
+val simplPred : 'a1 pred -> 'a1 simpl_pred
+
+module PredOfSimpl :
+ sig
+  val coerce : 'a1 simpl_pred -> 'a1 pred
+ end
+
+type 't rel = 't -> 't pred
+
+type 't mem_pred = 't pred
+  (* singleton inductive, whose constructor was Mem *)
+
+val pred_of_mem : 'a1 mem_pred -> 'a1 pred_sort
+
+val in_mem : 'a1 -> 'a1 mem_pred -> bool
+
+val mem : 'a1 predType -> 'a1 pred_sort -> 'a1 mem_pred
+
+module Equality :
+ sig
+  type 't axiom = 't -> 't -> reflect
+
+  type 't mixin_of = { op : 't rel; mixin_of__1 : 't axiom }
+
+  val op : 'a1 mixin_of -> 'a1 rel
+
+  type coq_type =
+    __ mixin_of
+    (* singleton inductive, whose constructor was Pack *)
+
+  type sort = __
+
+  val coq_class : coq_type -> sort mixin_of
+ end
+
+val eq_op : Equality.coq_type -> Equality.sort rel
+
+val pred1 : Equality.coq_type -> Equality.sort -> Equality.sort simpl_pred
+
+val eqnP : int Equality.axiom
+
+val nat_eqMixin : int Equality.mixin_of
+
+val nat_eqType : Equality.coq_type
+
+val addn_rec : int -> int -> int
+
+val addn : int -> int -> int
+
+val subn_rec : int -> int -> int
+
+val subn : int -> int -> int
+
+val leq : int -> int -> bool
+
+val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1
+
+val size : 'a1 list -> int
+
+val ncons : int -> 'a1 -> 'a1 list -> 'a1 list
+
+val cat : 'a1 list -> 'a1 list -> 'a1 list
+
+val nth : 'a1 -> 'a1 list -> int -> 'a1
+
+val set_nth : 'a1 -> 'a1 list -> int -> 'a1 -> 'a1 list
+
+val find : 'a1 pred -> 'a1 list -> int
+
+val filter : 'a1 pred -> 'a1 list -> 'a1 list
+
+val has : 'a1 pred -> 'a1 list -> bool
+
+val all : 'a1 pred -> 'a1 list -> bool
+
+val drop : int -> 'a1 list -> 'a1 list
+
+val mem_seq : Equality.coq_type -> Equality.sort list -> Equality.sort -> bool
+
+type seq_eqclass = Equality.sort list
+
+val pred_of_seq : Equality.coq_type -> seq_eqclass -> Equality.sort pred_sort
+
+val seq_predType : Equality.coq_type -> Equality.sort predType
+
+val uniq : Equality.coq_type -> Equality.sort list -> bool
+
+val index : Equality.coq_type -> Equality.sort -> Equality.sort list -> int
+
+val map0 : ('a1 -> 'a2) -> 'a1 list -> 'a2 list
+
+val pmap : ('a1 -> 'a2 option) -> 'a1 list -> 'a2 list
+
+val iota : int -> int -> int list
+
+val foldr : ('a1 -> 'a2 -> 'a2) -> 'a2 -> 'a1 list -> 'a2
+
+val zip : 'a1 list -> 'a2 list -> ('a1 * 'a2) list
+
+type matrix = Big_int_Z.big_int list list
+
+val entry : matrix -> int -> int -> Big_int_Z.big_int
+
+val sumZ : int list -> (int -> Big_int_Z.big_int) -> Big_int_Z.big_int
+
+type point = Big_int_Z.big_int * Big_int_Z.big_int
+
+val zero : point
+
+val infinity : point
+
+type state =
+| Open
+| Resting
+| Moving
+
+val is_resting : state -> bool
+
+val is_moving : state -> bool
+
+type region = { lower : point; upper : point; states : state list }
+
+val state_of : region -> int -> state
+
+val decide : int -> state -> region -> region
+
+val below : point -> region -> region
+
+val above : point -> region -> region
+
+val ordered : point -> point -> bool
+
+type 'leaf tree =
+| Split of point * 'leaf tree * 'leaf tree
+| Branch of int * 'leaf tree * 'leaf tree
+| Leaf of 'leaf
+
+val check_tree : int -> (region -> 'a1 -> bool) -> 'a1 tree -> region -> bool
+
+val leaves : 'a1 tree -> region -> (region * 'a1) list
+
+type enclosed = { size_of : int; center_a : matrix; center_b : matrix;
+                  radius_a : matrix; radius_b : matrix }
+
+val indices : enclosed -> int list
+
+val center : enclosed -> point -> int -> int -> Big_int_Z.big_int
+
+val radius : enclosed -> point -> int -> int -> Big_int_Z.big_int
+
+val column_bound :
+  enclosed -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int
+
+val strict_column :
+  enclosed -> region -> Big_int_Z.big_int list -> int -> bool
+
+val signs_of_weights : enclosed -> region -> Big_int_Z.big_int list -> bool
+
+val columns_at_most_zero :
+  enclosed -> region -> Big_int_Z.big_int list -> bool
+
+val every_column_strict : enclosed -> region -> Big_int_Z.big_int list -> bool
+
+val some_moving_column_strict :
+  enclosed -> region -> Big_int_Z.big_int list -> bool
+
+val farkas : enclosed -> region -> Big_int_Z.big_int list -> bool
+
+val sum_from :
+  (int -> 'a1 -> Big_int_Z.big_int) -> int -> 'a1 list -> Big_int_Z.big_int
+
+val all_from : (int -> 'a1 -> bool) -> int -> 'a1 list -> bool
+
+val remainder :
+  ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
+  ('a1 * 'a2) -> ('a1 * 'a2) -> Big_int_Z.big_int
+
+val off_diagonal :
+  ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
+  ('a1 * 'a2) list -> Equality.sort -> ('a1 * 'a2) -> Big_int_Z.big_int
+
+val covered :
+  ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
+  bool -> ('a1 * 'a2) list -> bool
+
+val weighted_dot :
+  Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int list
+  -> Big_int_Z.big_int
+
+val dot :
+  Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
+
+type late_row = int * Big_int_Z.big_int list
+
+val late_dot : late_row -> late_row -> Big_int_Z.big_int
+
+type factor = { weights : Big_int_Z.big_int list; factor_rows : matrix }
+
+val active : enclosed -> region -> int list
+
+val symmetric_part :
+  enclosed -> bool -> point -> int -> int -> Big_int_Z.big_int
+
+val definite_end :
+  enclosed -> bool -> bool -> point -> region -> factor -> bool
+
+val definite : enclosed -> bool -> region -> factor -> factor -> bool
+
+type box = { inverse : matrix; unit_low : Big_int_Z.big_int;
+             unit_high : Big_int_Z.big_int; width : Big_int_Z.big_int }
+
+type uniqueness = { system_inverse : matrix;
+                    system_unit_low : Big_int_Z.big_int;
+                    system_unit_high : Big_int_Z.big_int;
+                    rate : Big_int_Z.big_int }
+
+val unit_entry : Big_int_Z.big_int -> int -> int -> Big_int_Z.big_int
+
+val product_center :
+  enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int
+
+val product_radius :
+  enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int
+
+val defect :
+  enclosed -> int list -> matrix -> Big_int_Z.big_int -> point -> int ->
+  Big_int_Z.big_int
+
+val residual :
+  enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
+  point -> int -> Big_int_Z.big_int
+
+val box_row :
+  enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
+  Big_int_Z.big_int -> Big_int_Z.big_int -> point -> int -> bool
+
+val box_end :
+  enclosed -> int list -> int list -> Big_int_Z.big_int list -> box ->
+  Big_int_Z.big_int -> point -> bool
+
+val check_box :
+  enclosed -> int list -> int list -> Big_int_Z.big_int list -> box -> point
+  -> point -> bool
+
+val sum_center :
+  int list -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int) ->
+  Big_int_Z.big_int
+
+val sum_radius :
+  int list -> int -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int) ->
+  (int -> Big_int_Z.big_int) -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+val rate_center :
+  enclosed -> int list -> Big_int_Z.big_int list -> matrix -> int ->
+  Big_int_Z.big_int
+
+val rate_radius :
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
+  Big_int_Z.big_int -> int -> Big_int_Z.big_int
+
+val system_center :
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
+  Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) -> int ->
+  Equality.sort -> Big_int_Z.big_int
+
+val system_radius :
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
+  Big_int_Z.big_int -> Big_int_Z.big_int ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> Equality.sort ->
+  Big_int_Z.big_int
+
+val unique_row :
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> bool
+
+val unique_end :
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness ->
+  Big_int_Z.big_int -> Big_int_Z.big_int ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> bool
+
+val check_unique :
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness ->
+  Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> bool
+
+type isolation = { pivot : int; vector : Big_int_Z.big_int list;
+                   from_point : point; to_point : point; wide_box : box;
+                   narrow_box : box; unique : uniqueness;
+                   left_vector : Big_int_Z.big_int list }
+
+type outcome =
+| Solution
+| NegativeX of int
+| NegativeY of int
+
+type absence = { absent_pivot : int; absent_vector : Big_int_Z.big_int list;
+                 absent_box : box; absent_left : Big_int_Z.big_int list }
+
+val moving : enclosed -> region -> int list
+
+val others : enclosed -> region -> Equality.sort -> Equality.sort list
+
+val decided : enclosed -> region -> bool
+
+val point_le : point -> point -> bool
+
+val left_center :
+  enclosed -> region -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  point -> Big_int_Z.big_int
+
+val left_radius :
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int -> point -> Big_int_Z.big_int
+
+val left_negative :
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int -> point -> bool
+
+val left_positive :
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int -> point -> bool
+
+val row_center :
+  enclosed -> region -> Big_int_Z.big_int list -> point -> int ->
+  Big_int_Z.big_int
+
+val row_radius :
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+  point -> int -> Big_int_Z.big_int
+
+val row_positive :
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+  point -> int -> bool
+
+val row_negative :
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+  point -> int -> bool
+
+val interval_inside : region -> isolation -> bool
+
+val sign_change : enclosed -> region -> isolation -> bool
+
+val isolated : enclosed -> region -> isolation -> bool
+
+val both_ends : isolation -> (point -> bool) -> bool
+
+val solution_signs : enclosed -> region -> isolation -> bool
+
+val outcome_signs : enclosed -> region -> isolation -> outcome -> bool
+
+val check_root : enclosed -> region -> isolation -> outcome -> bool
+
+val check_absent : enclosed -> region -> absence -> bool
+
+type 'whole leaf =
+| Farkas of Big_int_Z.big_int list
+| Definite of bool * factor * factor
+| Absent of absence
+| Root of isolation * outcome
+| Whole of 'whole
+
+val yielded : (region * 'a1 leaf) -> (region * isolation) option
+
+val yields : 'a1 leaf tree -> region -> (region * isolation) list
+
+val window : point -> point -> region
+
+val check_leaf :
+  enclosed -> (region -> 'a1 -> bool) -> region -> 'a1 leaf -> bool
+
+val check_cover :
+  enclosed -> (region -> 'a1 -> bool) -> 'a1 leaf tree -> point -> point ->
+  bool
+
+type sparse_row = (int * Big_int_Z.big_int) list
+
+val lookup : sparse_row -> int -> Big_int_Z.big_int
+
+type blocks = { free_count : int; slip_count : int; ff : sparse_row list;
+                fs : matrix; sf_a : matrix; sf_b : matrix; ss_a : matrix;
+                ss_b : matrix }
+
+type elimination = { row_scale : Big_int_Z.big_int list;
+                     unit_of : Big_int_Z.big_int; right_w : matrix;
+                     left_va : matrix; left_vb : matrix;
+                     bound_c : Big_int_Z.big_int;
+                     bound_d : Big_int_Z.big_int;
+                     factor_scale : Big_int_Z.big_int;
+                     stiffness_factor : late_row list }
+
+val map_from : (int -> 'a1 -> 'a2) -> int -> 'a1 list -> 'a2 list
+
+val sparse_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val norm1 : Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val row_of : matrix -> int -> Big_int_Z.big_int list
+
+val divide_up : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+val shifted :
+  elimination -> (int * sparse_row) -> (int * sparse_row) -> Big_int_Z.big_int
+
+val numbered_rows : blocks -> (int * sparse_row) list
+
+val stiffness_symmetric : blocks -> bool
+
+val stiffness_bounded : blocks -> elimination -> bool
+
+val stiffness_positive : blocks -> elimination -> bool
+
+val residual_column :
+  blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list
+
+val table : blocks -> (int -> int -> Big_int_Z.big_int) -> matrix
+
+val condensed_center :
+  blocks -> elimination -> matrix -> matrix -> matrix -> matrix -> matrix
+
+val condensed_radius :
+  blocks -> elimination -> Big_int_Z.big_int list -> Big_int_Z.big_int list
+  -> matrix
+
+val condensed : blocks -> elimination -> enclosed
+
+val shapes : blocks -> elimination -> bool
+
+val check_elimination : blocks -> elimination -> bool
+
+type pencil = { order : int; rows_a : sparse_row list;
+                rows_b : sparse_row list; free : int list }
+
+val slip : pencil -> Equality.sort list
+
+val row_a : pencil -> int -> (int * Big_int_Z.big_int) list
+
+val row_b : pencil -> int -> (int * Big_int_Z.big_int) list
+
+val wellformed : pencil -> bool
+
+val free_rows_constant : pencil -> bool
+
+val restrict : sparse_row -> int list -> sparse_row
+
+val blocks_of : pencil -> blocks
+
+type whole_factor =
+| Dense of Big_int_Z.big_int list * matrix
+| Late of Big_int_Z.big_int * late_row list
+
+type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
+
+type whole = { whole_negative : bool; low_end : whole_end;
+               high_end : whole_end }
+
+type member = int * (sparse_row * sparse_row)
+
+val may_move : pencil -> region -> int list
+
+val members : pencil -> region -> member list
+
+val member_entry : point -> member -> member -> Big_int_Z.big_int
+
+val member_form :
+  bool -> Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int
+
+val check_end : pencil -> bool -> bool -> point -> region -> whole_end -> bool
+
+val check_whole : pencil -> region -> whole -> bool
+
+val check_complete :
+  pencil -> elimination -> whole leaf tree -> point -> point -> bool
+
+val found : whole leaf tree -> point -> point -> (region * isolation) list
+
+val check_excluded : pencil -> whole tree -> point -> point -> bool
+
+type polynomial = Big_int_Z.big_int list
+
+type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial;
+                   rest : polynomial }
+
+type claim = { modulus : polynomial; claim_from : Big_int_Z.big_int;
+               claim_to : Big_int_Z.big_int;
+               claim_denominator : Big_int_Z.big_int; support : int list;
+               biactive : int list; components : polynomial list;
+               component_reductions : reduction list;
+               reaction_reductions : reduction list }
+
+val scale_poly : Big_int_Z.big_int -> polynomial -> polynomial
+
+val add_poly : polynomial -> polynomial -> polynomial
+
+val mul_poly : polynomial -> polynomial -> polynomial
+
+val zero_poly : polynomial -> bool
+
+val horner_interval :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+  -> (Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int
+
+val lower_value :
+  claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+  Big_int_Z.big_int
+
+val upper_value :
+  claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+  Big_int_Z.big_int
+
+val modulus_changes_sign : claim -> bool
+
+val no_reduction : reduction
+
+val reduces : claim -> polynomial -> reduction -> bool
+
+val shows_zero : claim -> polynomial -> reduction -> bool
+
+val shows_positive : claim -> polynomial -> reduction -> bool
+
+val shows_negative : claim -> polynomial -> reduction -> bool
+
+val component : claim -> int -> Big_int_Z.big_int list
+
+val combine_row : claim -> sparse_row -> polynomial
+
+val reaction_poly : pencil -> claim -> int -> polynomial
+
+val component_witness : claim -> int -> reduction
+
+val reaction_witness : claim -> int -> reduction
+
+val x_zero : claim -> int -> bool
+
+val x_positive : claim -> int -> bool
+
+val x_negative : claim -> int -> bool
+
+val y_zero : pencil -> claim -> int -> bool
+
+val y_positive : pencil -> claim -> int -> bool
+
+val columns_in_order : pencil -> bool
+
+val check_claim : pencil -> claim -> bool
+
+type slip_particle = { tangential : int; normal : int;
+                       sign_of : Big_int_Z.big_int;
+                       direction : Big_int_Z.big_int }
+
+type system = { dofs : int; stiffness : sparse_row list;
+                mass : sparse_row list; free_dofs : int list;
+                particles : slip_particle list }
+
+type unknown =
+| Mu
+| Lambda2 of Big_int_Z.big_int * Big_int_Z.big_int
+
+val free_number : system -> int
+
+val tangentials : system -> int list
+
+val moving_dofs : system -> int list
+
+val particle : system -> int -> slip_particle
+
+val k_row : system -> int -> (int * Big_int_Z.big_int) list
+
+val m_row : system -> int -> (int * Big_int_Z.big_int) list
+
+val column : system -> Equality.sort -> (int * Big_int_Z.big_int) option
+
+val columns : system -> sparse_row -> sparse_row
+
+val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row
+
+val free_row_b : system -> unknown -> int -> (int * Big_int_Z.big_int) list
+
+val slip_row_a : system -> unknown -> slip_particle -> sparse_row
+
+val slip_row_b : system -> unknown -> slip_particle -> sparse_row
+
+val pencil_of : system -> unknown -> pencil
+
+val columns_in_range : system -> sparse_row list -> bool
+
+val system_wellformed : system -> unknown -> bool
+
+val check_system :
+  system -> unknown -> elimination -> whole leaf tree -> point -> point ->
+  bool
+
+val check_system_excluded :
+  system -> unknown -> whole tree -> point -> point -> bool
+
+val check_system_claim : system -> unknown -> claim -> bool

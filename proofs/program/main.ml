@@ -1,0 +1,182 @@
+(* mceip-verified PROBLEM CERTIFICATE
+
+   Exit codes: 0 accepted, 1 rejected, 2 malformed, 3 not verified: the certificate has evidence
+   that the kernel has no theorem for, or no witness was found.
+
+   The verdict "accepted" is printed only after a function of the kernel returned true for the
+   problem and the window that were read; the window and the list of solutions are printed from the
+   arguments and the result of that function. *)
+
+exception Rejected of string
+
+let show_point (p, q) = if Z.sign q = 0 then "infinity" else Q.to_string (Q.make p q)
+
+let show_decimal (p, q) =
+  if Z.sign q = 0 then "infinity" else Printf.sprintf "%.12g" (Q.to_float (Q.make p q))
+
+(* The moving variables of a region, as positions among the complementarity variables. *)
+let moving (region : Kernel.region) =
+  List.filter_map Fun.id
+    (List.mapi (fun i s -> if s = Kernel.Moving then Some i else None) region.states)
+
+(* No two of the regions can hold the same solution. *)
+let apart (r1, (c1 : Kernel.isolation)) (r2, (c2 : Kernel.isolation)) =
+  let less (p, q) (p', q') = Z.lt (Z.mul p q') (Z.mul p' q) in
+  moving r1 <> moving r2 || less c1.to_point c2.from_point || less c2.to_point c1.from_point
+
+let rec all_apart = function
+  | [] -> true
+  | x :: rest -> List.for_all (apart x) rest && all_apart rest
+
+let report slip lo hi found =
+  let window = Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
+      (if Z.sign (snd hi) = 0 then ")" else "]") in
+  let count = List.length found in
+  let sentence =
+    if count = 0 then "no solution"
+    else if not (all_apart found) then
+      Printf.sprintf "%d regions, each with exactly one solution, and no other solution" count
+    else if count = 1 then "exactly one solution"
+    else Printf.sprintf "exactly %d solutions" count in
+  Printf.printf "ACCEPTED, VERIFIED: %s in %s\n" sentence window;
+  List.iter (fun (region, (c : Kernel.isolation)) ->
+      Printf.printf "solution: value in [%s, %s], moving %s\n" (show_decimal c.from_point)
+        (show_decimal c.to_point)
+        (String.concat " " (List.map (fun i -> string_of_int slip.(i)) (moving region)))) found
+
+let time = Sys.getenv_opt "MCEIP_VERIFIED_TIMES" <> None
+
+let timed name f =
+  let start = Sys.time () in
+  let result = f () in
+  if time then Printf.eprintf "%s: %.3f s\n%!" name (Sys.time () -. start);
+  result
+
+let rec only_whole = function
+  | [] -> true
+  | (Certificate.Ldl | Tail | Split _ | Branch _) :: rest -> only_whole rest
+  | _ -> false
+
+(* Larger claims are answered with "not verified", so that every file ends in short time. *)
+let work_of (pencil : Kernel.pencil) (e : Certificate.exact) =
+  let bits q = Z.numbits (Q.num q) + Z.numbits (Q.den q) in
+  let longest = List.fold_left (fun m p -> max m (List.length p)) 0 e.x in
+  let degree = List.length e.polynomial in
+  let top = List.fold_left (List.fold_left (fun m v -> max m (bits v)))
+      (bits (fst e.value) + bits (snd e.value)) (List.map Q.of_bigint e.polynomial :: e.x) in
+  let size = (degree + longest) * top in
+  if degree > 512 || longest > 512 || size > 1 lsl 17 || (longest - degree) * top > 1 lsl 13 then
+    Problem.not_verified "a claim beyond the limits of this program";
+  pencil.order * size * size
+
+let limit_work pencil claims =
+  let entries = List.fold_left (fun n row -> n + List.length row) 0 in
+  let n = pencil.Kernel.order in
+  if claims <> [] && n * n + entries pencil.rows_a + entries pencil.rows_b > 1 lsl 22 then
+    Problem.not_verified "claims about more than 2,048 variables";
+  let total = List.fold_left (fun sum e -> sum + work_of pencil e) 0 claims in
+  if total > 1 lsl 36 then Problem.not_verified "claims beyond the limits of this program"
+
+(* Each claim: its support has a solution with a value in its interval, which is in the window. *)
+let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t)
+    (e : Certificate.exact) =
+  let a, b = e.value and lo, hi = certificate.window in
+  if Q.lt a lo || (match hi with Some h -> Q.gt b h | None -> false) then
+    raise (Rejected "a claim outside the window");
+  if List.length e.x <> pencil.Kernel.order then raise (Rejected "a claim with too few components");
+  let rec ascending = function a :: (b :: _ as rest) -> a < b && ascending rest | _ -> true in
+  if not (ascending e.support && ascending e.biactive) then
+    raise (Rejected "a claim whose lists are not ascending");
+  let claim = Elaborate.claim_of pencil e in
+  let accepted = match problem.question with
+    | Raw pencil -> Kernel.check_claim pencil claim
+    | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim in
+  if not accepted then raise (Rejected "the kernel refuses a claim");
+  fun () ->
+    Printf.printf "claim: a solution with a value in [%s, %s], support %s\n" (Q.to_string a)
+      (Q.to_string b) (String.concat " " (List.map string_of_int e.support))
+
+let verify problem_path certificate_path =
+  let problem = timed "problem" (fun () -> Problem.read problem_path) in
+  let certificate = timed "certificate" (fun () -> Certificate.read certificate_path) in
+  if certificate.digest <> problem.digest then
+    raise (Rejected ("the digest of the problem is " ^ problem.digest));
+  if certificate.unknown <> problem.unknown then
+    raise (Rejected "the unknown is not the problem's");
+  if certificate.pieces = [] && certificate.claims = [] then raise (Rejected "no claim");
+
+  let pencil = timed "pencil" (fun () -> match problem.question with
+      | Raw pencil -> pencil
+      | Mechanical (system, unknown) -> Kernel.pencil_of system unknown) in
+  let slip_list = Obj.magic (Kernel.slip pencil) in
+  let slip = Array.of_list slip_list in
+  if Array.length slip > 300 then Problem.not_verified "more than 300 complementarity variables";
+  let lo = Elaborate.point_of (fst certificate.window) in
+  let hi = Elaborate.upper_point (snd certificate.window) in
+  let common = match problem.question with
+    | Mechanical (_, Lambda2 (_, q)) -> Z.mul q problem.common
+    | _ -> problem.common in
+
+  let claims = timed "claims" (fun () ->
+      limit_work pencil certificate.claims;
+      List.map (verify_claim problem pencil certificate) certificate.claims) in
+  let report_claims () = List.iter (fun print -> print ()) claims in
+
+  let whole_only =
+    pencil.free <> []
+    && List.for_all (fun (p : Certificate.piece) -> only_whole p.tree) certificate.pieces in
+  if certificate.pieces = [] then begin
+    Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
+      (List.length claims);
+    report_claims ()
+  end
+  else if whole_only then begin
+    (* Definite leaves of the whole pencil; free rows may depend on t. *)
+    let leaf _ region _ = match Elaborate.whole_leaf pencil region with
+      | Some w -> Kernel.Leaf w
+      | None -> Elaborate.no_witness "ldl or tail" in
+    let tree = timed "elaboration" (fun () ->
+        Elaborate.build_pieces slip leaf certificate.window certificate.pieces) in
+    let accepted = timed "kernel" (fun () -> match problem.question with
+        | Raw pencil -> Kernel.check_excluded pencil tree lo hi
+        | Mechanical (system, unknown) -> Kernel.check_system_excluded system unknown tree lo hi) in
+    if not accepted then raise (Rejected "the kernel refuses the tree");
+    report slip lo hi [];
+    report_claims ()
+  end
+  else begin
+    if not (Kernel.free_rows_constant pencil) then
+      Problem.not_verified "free rows that depend on the unknown";
+    let anchor = match List.sort_uniq compare (List.map (fun (p : Certificate.piece) -> p.anchor)
+                                                 certificate.pieces) with
+      | [a] -> a
+      | _ when pencil.free = [] -> 0
+      | _ -> Problem.not_verified "several anchors" in
+    let elimination, enclosed = timed "condensation" (fun () ->
+        let e = Elaborate.elimination pencil slip_list common certificate.condensation anchor in
+        e, Kernel.condensed (Kernel.blocks_of pencil) e) in
+    let context = { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed } in
+    let tree = timed "elaboration" (fun () ->
+        Elaborate.build_pieces slip (fun _ -> Elaborate.build_leaf context)
+          certificate.window certificate.pieces) in
+    let accepted = timed "kernel" (fun () -> match problem.question with
+        | Raw pencil -> Kernel.check_complete pencil elimination tree lo hi
+        | Mechanical (system, unknown) ->
+          Kernel.check_system system unknown elimination tree lo hi) in
+    if not accepted then raise (Rejected "the kernel refuses the tree");
+    report slip lo hi (Kernel.found tree lo hi);
+    report_claims ()
+  end
+
+let () =
+  let finish code text = print_endline text; exit code in
+  match Sys.argv with
+  | [| _; problem; certificate |] ->
+    (try verify problem certificate with
+     | Rejected reason -> finish 1 ("REJECTED: " ^ reason)
+     | Json.Malformed reason -> finish 2 ("MALFORMED: " ^ reason)
+     | Sys_error reason -> finish 2 reason
+     | Problem.Not_verified kind -> finish 3 ("NOT VERIFIED: " ^ kind)
+     | Elaborate.No_witness what -> finish 3 ("NOT VERIFIED: no witness for " ^ what))
+  | _ ->
+    prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE"; exit 2

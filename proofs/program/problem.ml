@@ -1,0 +1,244 @@
+(* Problems: the file mceip-problem/1, its digest, and the integers given to the kernel. Trusted.
+
+   A pencil is given to the kernel with all entries multiplied by one positive integer; a system
+   with K and M multiplied by one positive integer.  Solutions do not change. *)
+
+open Json
+
+(* What the kernel has no theorem for. *)
+exception Not_verified of string
+
+let not_verified fmt = Printf.ksprintf (fun text -> raise (Not_verified text)) fmt
+
+type matrix = { rows : int; cols : int; entries : (int * Q.t) list array }
+
+type question =
+  | Raw of Kernel.pencil
+  | Mechanical of Kernel.system * Kernel.unknown
+
+type t = {
+  unknown : string;
+  digest : string;
+  question : question;
+  common : Z.t }  (* the factor of the entries *)
+
+let matrix_of_table rows cols table =
+  { rows; cols;
+    entries = Array.map (fun row ->
+        List.sort compare (List.filter (fun (_, v) -> Q.sign v <> 0)
+          (Hashtbl.fold (fun j v rest -> (j, v) :: rest) row []))) table }
+
+let read_dense item =
+  let lines = List.map list (list item) in
+  let rows = List.length lines in
+  let cols = match lines with [] -> 0 | line :: _ -> List.length line in
+  let table = Array.init rows (fun _ -> Hashtbl.create 16) in
+  List.iteri (fun i line ->
+      if List.length line <> cols then malformed "a matrix with lines of different lengths";
+      List.iteri (fun j v -> Hashtbl.replace table.(i) j (rational v)) line) lines;
+  matrix_of_table rows cols table
+
+let read_sparse field symmetric =
+  let rows = counter (field "rows") and cols = counter (field "cols") in
+  if rows < 0 || cols < 0 || rows > 1_000_000 || cols > 1_000_000 then malformed "a matrix size";
+  let table = Array.init rows (fun _ -> Hashtbl.create 16) in
+  let put i j v =
+    if Hashtbl.mem table.(i) j then malformed "a matrix entry is given twice";
+    Hashtbl.replace table.(i) j v in
+  List.iter (fun item ->
+      match list item with
+      | [i; j; v] ->
+        let i = index rows i and j = index cols j and v = rational v in
+        put i j v;
+        if symmetric && i <> j then begin
+          if i >= cols || j >= rows then malformed "a symmetric matrix is not square";
+          put j i v
+        end
+      | _ -> malformed "an entry is [i, j, v]") (list (field "entries"));
+  matrix_of_table rows cols table
+
+let read_matrix = function
+  | List _ as item -> read_dense item
+  | Object members as item ->
+    let field = fields []
+        ["dense"; "rows"; "cols"; "entries"; "matrix_market"; "symmetric"; "read_as"] item in
+    (match field "read_as" with
+     | Null | String "exact" -> ()
+     | String "f64" -> not_verified "read_as f64"
+     | _ -> malformed "read_as");
+    let symmetric = match List.assoc_opt "symmetric" members with
+      | None -> false
+      | Some (Bool b) -> b
+      | Some _ -> malformed "symmetric" in
+    let given = List.filter (fun key -> field key <> Null)
+        ["dense"; "rows"; "cols"; "entries"; "matrix_market"] in
+    (match given with
+     | ["dense"] when not symmetric -> read_dense (field "dense")
+     | ["rows"; "cols"; "entries"] -> read_sparse field symmetric
+     | ["matrix_market"] when not symmetric -> not_verified "matrix_market"
+     | _ -> malformed "one way to give a matrix was expected")
+  | _ -> malformed "a matrix was expected"
+
+let read_window item =
+  match item with
+  | Null -> Q.zero, None
+  | _ ->
+    let field = fields [] ["min"; "max"] item in
+    let lo = match field "min" with Null -> Q.zero | v -> rational v in
+    let hi = match field "max" with Null -> None | v -> Some (rational v) in
+    if Q.lt lo Q.zero || (match hi with Some h -> Q.lt h lo | None -> false) then
+      malformed "0 <= min <= max";
+    lo, hi
+
+let canonical_matrix name m =
+  Printf.sprintf "%s %d %d" name m.rows m.cols ::
+  List.concat (List.mapi (fun i row ->
+      List.map (fun (j, v) -> Printf.sprintf "%d %d %s" i j (Q.to_string v)) row)
+      (Array.to_list m.entries))
+
+let common_denominator matrices =
+  List.fold_left (fun d m ->
+      Array.fold_left (fun d row ->
+          List.fold_left (fun d (_, v) -> Z.lcm d (Q.den v)) d row) d m.entries) Z.one matrices
+
+let integer_rows common m =
+  List.map (List.map (fun (j, v) -> (j, Q.num (Q.mul v (Q.of_bigint common)))))
+    (Array.to_list m.entries)
+
+let read_pencil item =
+  let field = fields ["a"; "b"] ["free"] item in
+  let a = read_matrix (field "a") and b = read_matrix (field "b") in
+  let n = a.rows in
+  if n = 0 || a.cols <> n || b.rows <> n || b.cols <> n then
+    malformed "a and b must be square, of one order";
+  let free = match List.assoc_opt "free" (match item with Object m -> m | _ -> []) with
+    | None -> []
+    | Some items -> List.map (index n) (list items) in
+  let sorted = List.sort_uniq compare free in
+  if List.length sorted < List.length free then malformed "an index of free twice";
+  let common = common_denominator [a; b] in
+  let text = ["pencil"; String.concat " " ("free" :: List.map string_of_int sorted)]
+             @ canonical_matrix "a" a @ canonical_matrix "b" b in
+  let pencil = { Kernel.order = n; rows_a = integer_rows common a;
+                 rows_b = integer_rows common b; free = sorted } in
+  text, Raw pencil, common
+
+let symmetric m =
+  m.rows = m.cols &&
+  (let table = Array.map (fun row -> Hashtbl.of_seq (List.to_seq row)) m.entries in
+   let same = ref true in
+   Array.iteri (fun i row ->
+       List.iter (fun (j, v) ->
+           match Hashtbl.find_opt table.(j) i with
+           | Some w when Q.equal v w -> ()
+           | _ -> same := false) row) m.entries;
+   !same)
+
+type particle = { t : int; n : int; state : string; sign : int; into : int }
+
+(* Reactions, where given, must agree with (7), the state and the sign. *)
+let check_reaction mu state sign item =
+  let field = fields ["normal"; "tangential"] [] item in
+  let rn = rational (field "normal") and rt = rational (field "tangential") in
+  let bound = Option.map (fun mu -> Q.neg (Q.mul mu rn)) mu in
+  let bad = match state with
+    | "free" -> Q.sign rn <> 0 || Q.sign rt <> 0
+    | "slip" -> Q.sign rn >= 0 || Q.sign rt * sign <= 0 ||
+                (match bound with Some b -> not (Q.equal (Q.abs rt) b) | None -> false)
+    | _ -> Q.sign rn >= 0 || (match bound with Some b -> Q.geq (Q.abs rt) b | None -> false) in
+  if bad then malformed "a reaction against (7), the state or the sign"
+
+let read_particle order mu item =
+  let field = fields ["tangential"; "normal"; "state"]
+      ["sign"; "normal_direction"; "frame"; "reaction"] item in
+  let t = index order (field "tangential") and n = index order (field "normal") in
+  let state = text (field "state") in
+  if not (List.mem state ["free"; "stick"; "slip"]) then malformed "the state %S" state;
+  let unit_of what = function
+    | Null -> None
+    | v ->
+      (match counter v with
+       | 1 -> Some 1
+       | -1 -> Some (-1)
+       | _ -> malformed "%s is 1 or -1" what) in
+  let sign = unit_of "sign" (field "sign") in
+  if (sign <> None) <> (state = "slip") then malformed "sign: exactly for slip";
+  let sign = Option.value sign ~default:0 in
+  let into = Option.value (unit_of "normal_direction" (field "normal_direction")) ~default:1 in
+  if field "frame" <> Null then not_verified "frame";
+  (match field "reaction" with Null -> () | v -> check_reaction mu state sign v);
+  { t; n; state; sign; into }
+
+let read_system unknown item =
+  let field = fields ["stiffness"; "particles"] ["mass"; "friction"] item in
+  let k = read_matrix (field "stiffness") in
+  let m = match field "mass" with Null -> None | v -> Some (read_matrix v) in
+  let mu = match field "friction" with Null -> None | v -> Some (rational v) in
+  (match mu with Some q when Q.sign q <= 0 -> malformed "friction must be positive" | _ -> ());
+  let matrices = k :: Option.to_list m in
+  List.iter (fun x ->
+      if x.rows <> k.rows || not (symmetric x) then
+        malformed "stiffness and mass must be symmetric, of one order") matrices;
+  if unknown = "lambda2" && (m = None || mu = None) then
+    malformed "lambda2 needs mass and friction";
+
+  let particles = List.map (read_particle k.rows mu) (list (field "particles")) in
+  let dofs = List.concat_map (fun p -> [p.t; p.n]) particles in
+  if List.length (List.sort_uniq compare dofs) < List.length dofs then
+    malformed "a degree of freedom in two particles";
+  let slips = List.filter (fun p -> p.state = "slip") particles in
+  if slips = [] then malformed "no slip particle";
+  let held = Hashtbl.create 64 in
+  List.iter (fun p ->
+      if p.state <> "free" then begin
+        Hashtbl.replace held p.t ();
+        Hashtbl.replace held p.n ()
+      end) particles;
+  let free = List.filter (fun d -> not (Hashtbl.mem held d)) (List.init k.rows Fun.id) in
+
+  let describe p =
+    [ Printf.sprintf "particle %d %d %s%s" p.t p.n p.state
+        (if p.state = "slip" then " " ^ string_of_int p.sign else "");
+      Printf.sprintf "tangent %d 1" p.t; Printf.sprintf "normal %d %d" p.n p.into ] in
+  let text =
+    ["system"] @ (match mu with Some q -> ["friction " ^ Q.to_string q] | None -> [])
+    @ List.concat_map describe particles @ canonical_matrix "stiffness" k
+    @ (match m with Some m -> canonical_matrix "mass" m | None -> []) in
+
+  let common = common_denominator matrices in
+  let system = {
+    Kernel.dofs = k.rows;
+    stiffness = integer_rows common k;
+    mass = (match m with Some m -> integer_rows common m | None -> []);
+    free_dofs = free;
+    particles = List.map (fun p ->
+        { Kernel.tangential = p.t; normal = p.n; sign_of = Z.of_int p.sign;
+          direction = Z.of_int p.into }) slips } in
+  let kind = match unknown, mu with
+    | "lambda2", Some q -> Kernel.Lambda2 (Q.num q, Q.den q)
+    | _ -> Kernel.Mu in
+  text, Mechanical (system, kind), common
+
+let read path =
+  let document = Json.read path in
+  (match document with
+   | Object members ->
+     (match List.assoc_opt "format" members with
+      | Some (String "mceip-problem/1") -> ()
+      | Some (String "mceip-mcp/1") -> not_verified "mceip-mcp/1"
+      | _ -> malformed "format: mceip-problem/1 was expected")
+   | _ -> malformed "an object was expected");
+  let field = fields ["format"; "unknown"]
+      ["window"; "pencil"; "system"; "name"; "comment"] document in
+  List.iter (fun key -> match field key with
+      | Null -> () | v -> ignore (text v)) ["name"; "comment"];
+  let unknown = text (field "unknown") in
+  if unknown <> "lambda2" && unknown <> "mu" then malformed "unknown is lambda2 or mu";
+  ignore (read_window (field "window"));
+  let lines, question, common = match field "pencil", field "system" with
+    | pencil, Null when pencil <> Null -> read_pencil pencil
+    | Null, system when system <> Null -> read_system unknown system
+    | _ -> malformed "exactly one of pencil and system" in
+  let lines = ["mceip-canonical/1"; "unknown " ^ unknown] @ lines in
+  let digest = Sha256.hex (String.concat "" (List.map (fun line -> line ^ "\n") lines)) in
+  { unknown; digest; question; common }
