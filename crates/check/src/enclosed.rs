@@ -325,22 +325,63 @@ mod tests {
         list.map(Number).to_vec()
     }
 
-    /// At c = (1/2, 1/2), t = 1: e = (3, 0), sum e c = 3/2 and sum B c = 3/2. With radii 1/8 and
-    /// r_t = 1/4 the slack is 3/8 + 3/2 1/4 + 3 1/8 1/4 = 27/32.
+    /// The box |x_0 - 1/2| <= 3/8, |x_1 - 1/2| <= 1/8, |t - 1| <= 1/4 for two active variables.
+    fn box_of_two() -> EnclosedSolution {
+        EnclosedSolution {
+            support: vec![0, 1],
+            center: numbers([rational(1, 2), rational(1, 2), rational(1, 1)]),
+            radius: numbers([rational(3, 8), rational(1, 8), rational(1, 4)]),
+            preconditioner: vec![],
+            exponent: 0,
+        }
+    }
+
+    fn integers<const N: usize>(list: [i64; N]) -> Vec<Integer> {
+        list.map(Integer::from).to_vec()
+    }
+
+    /// At c, t = 1: e = (3, 0), sum e c = 3/2 and sum B c = 3/2. The slack is 3 3/8 + 3/2 1/4 +
+    /// (2 3/8 + 1 1/8) 1/4 = 55/32.
     #[test]
     fn a_row_over_the_box_by_hand() {
         let rows = resting_row();
-        let claim = EnclosedSolution {
-            support: vec![0, 1],
-            center: numbers([rational(1, 2), rational(1, 2), rational(1, 1)]),
-            radius: numbers([rational(1, 8), rational(1, 8), rational(1, 4)]),
-            preconditioner: vec![],
-            exponent: 0,
-        };
+        let claim = box_of_two();
+
         let image = Krawczyk::new(&rows, &claim, &[0, 1]).row_over_box(&rows.rows[2]);
-        assert_eq!(
-            (image.lo().clone(), image.hi().clone()),
-            (rational(21, 32), rational(75, 32))
-        );
+
+        assert_eq!(*image.lo(), rational(48 - 55, 32));
+        assert_eq!(*image.hi(), rational(48 + 55, 32));
+    }
+
+    /// Row 2 as an active one, in units of 1/8, where c = (4, 4, 8) and r = (3, 1, 2). Its
+    /// coefficients at c are (3, 0) and its derivative by t is 2/2 + 1/2, so unit^2 F = 3 8 4 and
+    /// unit^2 d = 2 (2 3 2 + 1 1 2).
+    #[test]
+    fn the_row_of_an_equation_by_hand() {
+        let rows = resting_row();
+        let mut system = Krawczyk::new(&rows, &box_of_two(), &[0, 1]);
+
+        system.push_row(&rows.rows[2]);
+
+        assert_eq!(system.f.last(), Some(&Integer::from(96)));
+        assert_eq!(system.d.last(), Some(&Integer::from(28)));
+        let expected: Vec<(usize, Integer)> = (0..3).zip(integers([24, 0, 12])).collect();
+        assert_eq!(system.jacobian.last(), Some(&expected));
+    }
+
+    /// e'c - 1 = 1/4 at c = (3/4, 1/2): 16 in units of 1/64, with the unit 8 as its coefficients.
+    #[test]
+    fn the_normalisation_by_hand() {
+        let rows = resting_row();
+        let mut claim = box_of_two();
+        claim.center = numbers([rational(3, 4), rational(1, 2), rational(1, 1)]);
+
+        let system = Krawczyk::new(&rows, &claim, &[0, 1]);
+
+        assert_eq!(system.unit, Integer::from(8));
+        assert_eq!(system.f.last(), Some(&Integer::from(16)));
+        assert_eq!(system.d.last(), Some(&Integer::zero()));
+        let expected: Vec<(usize, Integer)> = (0..2).zip(integers([8, 8])).collect();
+        assert_eq!(system.jacobian.last(), Some(&expected));
     }
 }

@@ -452,6 +452,30 @@ mod tests {
         Err(Reason::TooLarge { what, limit, got })
     }
 
+    #[test]
+    fn index_sets_ascend_strictly() {
+        let rows = Rows {
+            rows: vec![vec![]; 3],
+            factor: vec![1.into(); 3],
+            is_free: vec![false, true, false],
+        };
+        let refusal = |position: usize, got: usize| {
+            Err(Reason::IndexSet {
+                set: "support",
+                position,
+                got,
+            })
+        };
+
+        assert_eq!(index_set(&rows, "support", &[]), Ok(()));
+        assert_eq!(index_set(&rows, "support", &[0, 2]), Ok(()));
+
+        assert_eq!(index_set(&rows, "support", &[2, 0]), refusal(1, 0));
+        assert_eq!(index_set(&rows, "support", &[2, 2]), refusal(1, 2));
+        assert_eq!(index_set(&rows, "support", &[0, 1]), refusal(1, 1)); // free
+        assert_eq!(index_set(&rows, "support", &[3]), refusal(0, 3));
+    }
+
     /// Equal, unequal and cancelling denominators, a zero among the factors, polynomials of unequal
     /// length.
     #[test]
