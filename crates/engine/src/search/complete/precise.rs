@@ -171,12 +171,7 @@ fn may_have_root(region: &Region) -> bool {
 }
 
 /// The only null vector of a decided region, and what its signs say.
-fn root(
-    given: &Given<'_>,
-    view: &View,
-    expansion: &Expansion,
-    region: &Region,
-) -> Option<Root> {
+fn root(given: &Given<'_>, view: &View, expansion: &Expansion, region: &Region) -> Option<Root> {
     let region_hi = region.hi.as_ref()?;
     let lo = to_f64(&region.lo);
     let hi = to_f64(region_hi);

@@ -241,7 +241,11 @@ impl Prepared {
     /// A null vector near that end is a threshold: it has just entered the window, or is about to.
     /// The coarse anchors misplace a value by up to a thousandth of the lowest frequency, and so
     /// leave open what lies between.
-    pub(crate) fn with_lower_anchor(mut self, window: &Window, pencil: &Pencil) -> Option<Prepared> {
+    pub(crate) fn with_lower_anchor(
+        mut self,
+        window: &Window,
+        pencil: &Pencil,
+    ) -> Option<Prepared> {
         let condensation = self.condensation.as_mut()?;
         let before = condensation.anchors.len();
         let min = to_f64(window.min());
@@ -469,4 +473,63 @@ fn cuts(
 
     ends.push(max.cloned());
     ends
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::Sparse;
+    use mceip_model::{Body, Unknown};
+
+    /// One variable is free, with the frequency 1, and one slips.
+    fn small_pencil() -> Pencil {
+        let a = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
+        Pencil::new(a, Sparse::identity(2), vec![0]).unwrap()
+    }
+
+    fn lambda2_problem() -> Problem {
+        let body = Body::Pencil(small_pencil());
+        Problem::new(body, Unknown::Lambda2, Window::all()).unwrap()
+    }
+
+    fn anchor_centers(prepared: &Prepared) -> Vec<f64> {
+        let anchors = &prepared.condensation.as_ref().unwrap().anchors;
+        anchors.iter().map(|a| to_f64(&a.center.0)).collect()
+    }
+
+    #[test]
+    fn the_lower_end_gets_an_anchor_and_a_piece_of_the_first_one() {
+        let window = Window::all();
+        let pencil = small_pencil();
+        let coarse = Prepared::new(&lambda2_problem(), &pencil, 16).unwrap();
+        let coarse_count = anchor_centers(&coarse).len();
+        assert_eq!(coarse.count_of_lower_pieces(&window), 1);
+
+        let lower = coarse.clone().with_lower_anchor(&window, &pencil).unwrap();
+
+        assert_eq!(anchor_centers(&lower)[coarse_count..], [0.0]);
+        assert_eq!(lower.intervals.len(), coarse.intervals.len() + 1);
+        assert_eq!(lower.intervals[0].anchor, Some(coarse_count));
+        assert_eq!(lower.intervals[1].anchor, coarse.intervals[0].anchor);
+        assert_eq!(lower.intervals[1].max, coarse.intervals[0].max);
+
+        let end = to_f64(lower.intervals[0].max.as_ref().unwrap());
+        approx::assert_relative_eq!(end, NEAR, max_relative = 0.25);
+    }
+
+    #[test]
+    fn values_next_to_the_lower_end_share_its_anchor() {
+        let pencil = small_pencil();
+        let problem = lambda2_problem();
+        let values = [0.5 * SHARED, 0.2];
+
+        let coarse = Prepared::new(&problem, &pencil, 16).unwrap();
+        let coarse_count = anchor_centers(&coarse).len();
+        let apart = coarse.clone().refined(&problem, &pencil, &values);
+        assert_eq!(anchor_centers(&apart)[coarse_count..], values);
+
+        let lower = coarse.with_lower_anchor(&Window::all(), &pencil).unwrap();
+        let shared = lower.refined(&problem, &pencil, &values);
+        assert_eq!(anchor_centers(&shared)[coarse_count..], [0.0, 0.2]);
+    }
 }
