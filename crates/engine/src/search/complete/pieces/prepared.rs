@@ -481,9 +481,9 @@ mod tests {
     use mceip_exact::Sparse;
     use mceip_model::{Body, Unknown};
 
-    /// One variable is free, with the frequency 1, and one slips.
+    /// One variable is free, with the frequency 1, and one slips. The tail begins above 2.3.
     fn small_pencil() -> Pencil {
-        let a = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
+        let a = Sparse::from_ints(&[&[1, 1], &[1, -2]]);
         Pencil::new(a, Sparse::identity(2), vec![0]).unwrap()
     }
 
