@@ -14,6 +14,7 @@ use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_exact::{parse, to_f64};
 use mceip_model::{Body, ContactState, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
+use mceip_paper::PublishedState::{FifteenSlip, SeventeenSlip};
 use mceip_paper::path::{Contact, Interval, Loading, LoadingPath};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState};
 use std::ops::ControlFlow;
@@ -162,6 +163,84 @@ fn lambda2_of_the_17_slip_state_has_one_solution_at_each_mu() {
             "{mass:?} mu = {mu}: lambda^2 = {}, {} leaves, {seconds:.1} s",
             mode.value, found.cover.leaves
         );
+    }
+}
+
+/// Near a threshold: at mu = 1.71 lambda^2 is 1.6e-4 of the scale of values. The coarse anchors
+/// misplace it by a tenth.
+#[test]
+fn just_above_its_threshold_the_17_slip_state_has_one_solution() {
+    let block = Block::of_the_paper(MassKind::Lumped);
+    let states = PublishedState::SeventeenSlip.states();
+
+    let mode = only_mode(&search(&lambda2_problem(&block, &states, "1.71")));
+
+    approx::assert_relative_eq!(mode.value, 19674.533, max_relative = 1e-6);
+    assert_eq!(mode.slipping, 17);
+}
+
+/// A published state near its threshold.
+struct NearThreshold {
+    state: PublishedState,
+    mu: &'static str,
+    /// For the consistent and the lumped mass; `None` where there is no solution.
+    lambda2: Option<[f64; 2]>,
+}
+
+impl NearThreshold {
+    fn expected(&self, mass: MassKind) -> Option<f64> {
+        let [consistent, lumped] = self.lambda2?;
+        match mass {
+            MassKind::Consistent => Some(consistent),
+            MassKind::Lumped => Some(lumped),
+        }
+    }
+}
+
+const fn near(state: PublishedState, mu: &'static str, lambda2: Option<[f64; 2]>) -> NearThreshold {
+    NearThreshold { state, mu, lambda2 }
+}
+
+const NEAR_THRESHOLDS: [NearThreshold; 13] = [
+    near(SeventeenSlip, "1.60", None),
+    near(SeventeenSlip, "1.70", None),
+    near(SeventeenSlip, "1.7049", Some([361.6880, 359.7182])),
+    near(SeventeenSlip, "1.705", Some([739.848, 735.817])),
+    near(SeventeenSlip, "1.706", Some([4527.260, 4502.547])),
+    near(SeventeenSlip, "1.71", Some([19783.459, 19674.533])),
+    near(FifteenSlip, "60", None),
+    near(FifteenSlip, "60.8", None),
+    near(FifteenSlip, "60.806", Some([50.32719, 49.87951])),
+    near(FifteenSlip, "60.81", Some([1328.092, 1316.277])),
+    near(FifteenSlip, "60.82", Some([4523.129, 4482.874])),
+    near(FifteenSlip, "60.9", Some([30115.519, 29846.726])),
+    near(FifteenSlip, "61", Some([62186.450, 61629.407])),
+];
+
+/// `cargo test --release --test complete -- --ignored --nocapture complete_block::`: both states
+/// above and below the friction at which lambda^2 = 0, both masses.
+#[test]
+#[ignore = "minutes in the dev profile"]
+fn both_states_are_closed_near_their_thresholds() {
+    for mass in [MassKind::Lumped, MassKind::Consistent] {
+        let block = Block::of_the_paper(mass);
+        for near in NEAR_THRESHOLDS {
+            let problem = lambda2_problem(&block, &near.state.states(), near.mu);
+
+            let start = Instant::now();
+            let found = search(&problem);
+            let seconds = start.elapsed().as_secs_f64();
+
+            let label = format!("{mass:?} mu = {}", near.mu);
+            println!("{label}: {} leaves, {seconds:.1} s", found.cover.leaves);
+            match near.expected(mass) {
+                None => assert!(found.cover.proves_absence(), "{label}"),
+                Some(expected) => {
+                    let value = only_mode(&found).value;
+                    approx::assert_relative_eq!(value, expected, max_relative = 1e-5);
+                }
+            }
+        }
     }
 }
 

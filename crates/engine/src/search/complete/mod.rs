@@ -56,7 +56,7 @@ use mceip_check::{Accepted, AcceptedClaim, AcceptedCover, check};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Problem};
 use pieces::prepared::Prepared;
-use rounds::{Rounds, values_met};
+use rounds::{Rounds, is_open_below, values_met};
 
 /// What a search has proved.
 #[derive(Debug, Clone)]
@@ -140,16 +140,7 @@ pub fn complete(
 
     let given = Given::new(problem, &pencil);
     if prepared.is_expanded() {
-        // A first search without remainders finds where the solutions are, so that the enclosure
-        // is tight there. Every shard does it, for all pieces.
-        let all_pieces = Options {
-            shard: None,
-            ..*options
-        };
-
-        let loose = prepared.without_remainders();
-        let values = values_met(&given, &all_pieces, &loose, watch);
-        prepared = prepared.refined(problem, &pencil, &values);
+        prepared = with_fine_anchors(&given, prepared, options, watch);
     }
 
     let start = with_set(problem, prepared.open_set());
@@ -178,6 +169,44 @@ pub fn resume(
     let prepared = Prepared::again(&pencil, set)?;
     let given = Given::new(problem, &pencil);
     run(&given, prepared, earlier.clone(), options, watch)
+}
+
+/// Gives fine anchors to the solutions, and to the lower end of the window where the search would
+/// stay open next to it.
+fn with_fine_anchors(
+    given: &Given<'_>,
+    coarse: Prepared,
+    options: &Options,
+    watch: &Watch<'_>,
+) -> Prepared {
+    // Every shard does this for all pieces, so that all shards have the same ones.
+    let all_pieces = Options {
+        shard: None,
+        ..*options
+    };
+
+    let refined = about_solutions(given, coarse.clone(), &all_pieces, watch);
+    if !is_open_below(given, &all_pieces, &refined, watch) {
+        return refined;
+    }
+
+    match coarse.with_lower_anchor(given.window(), given.pencil) {
+        Some(graded) => about_solutions(given, graded, &all_pieces, watch),
+        None => refined,
+    }
+}
+
+/// Gives a fine anchor to each solution that a first search without remainders finds, so that the
+/// enclosure is tight there.
+fn about_solutions(
+    given: &Given<'_>,
+    prepared: Prepared,
+    options: &Options,
+    watch: &Watch<'_>,
+) -> Prepared {
+    let loose = prepared.without_remainders();
+    let values = values_met(given, options, &loose, watch);
+    prepared.refined(given.problem, given.pencil, &values)
 }
 
 /// The answer where the whole window is closed by one definite matrix pencil.

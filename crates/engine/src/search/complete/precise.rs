@@ -14,6 +14,7 @@ use super::null_vector::{NullVector, null_vector};
 use super::pieces::expansion::Expansion;
 use super::pieces::precise_anchor::precise_anchor;
 use super::pieces::prepared::Prepared;
+use super::pieces::view::View;
 use super::region::{Region, State, support};
 use crate::candidate::Candidate;
 use crate::certify::{ENCLOSED_ORDER, precise_null};
@@ -29,6 +30,10 @@ const VECTOR_BITS: u32 = 128;
 /// Half width of a value's interval, relative: 2^-this. Basis: the signs of components of 2^-80 are
 /// decided, and a sign change over the interval stands out from entries that are cut off at 2^-128.
 const INTERVAL_BITS: u32 = 96;
+/// A value below 2^-this of the view's scale has the interval of that one. Basis: near a threshold
+/// lambda^2 is 2^-20 of the scale, and an interval relative to it moves T by less than 2^-116, which
+/// the rounding of W hides.
+const LEAST_VALUE_BITS: u32 = 10;
 
 /// An open region with every variable decided, by its place in the cover.
 struct OpenLeaf {
@@ -95,7 +100,7 @@ fn placed_root(
 ) -> Option<PlacedRoot> {
     let anchor = set.pieces[leaf.piece].anchor;
     let expansion = prepared.view.expansion(anchor);
-    let root = root(given, &prepared.view.index, expansion, &leaf.region)?;
+    let root = root(given, &prepared.view, expansion, &leaf.region)?;
     Some(PlacedRoot {
         node: leaf.node,
         root,
@@ -165,33 +170,23 @@ fn may_have_root(region: &Region) -> bool {
     region.states.contains(&State::InSupport)
 }
 
-/// The only null vector of a decided region, and what its signs say. `index` gives the variables of
-/// the positions.
-fn root(
-    given: &Given<'_>,
-    index: &[usize],
-    expansion: &Expansion,
-    region: &Region,
-) -> Option<Root> {
+/// The only null vector of a decided region, and what its signs say.
+fn root(given: &Given<'_>, view: &View, expansion: &Expansion, region: &Region) -> Option<Root> {
     let region_hi = region.hi.as_ref()?;
     let lo = to_f64(&region.lo);
     let hi = to_f64(region_hi);
     let null = null_vector(expansion, &region.states, lo, hi)?;
     let unique = Unique::of(&null, &expansion.ends(lo, hi))?;
 
-    let mut support = support(&region.states);
-    for variable in &mut support {
-        *variable = index[*variable];
-    }
-
+    let support = view.variables(&support(&region.states));
     if given.pencil.free().len() + support.len() > ENCLOSED_ORDER {
         return None;
     }
 
-    let candidate = over_all_variables(given, index, expansion, &null);
+    let candidate = over_all_variables(given, &view.index, expansion, &null);
     let precise = precise_null(given.pencil, &support, &candidate, VECTOR_BITS)?;
 
-    let half = half_width(&precise.value)?;
+    let half = half_width(&precise.value, view.scale)?;
     let begin = &precise.value - &half;
     let end = &precise.value + &half;
     let is_inside = begin >= region.lo && end <= *region_hi && begin >= *given.window().min();
@@ -199,7 +194,7 @@ fn root(
         return None;
     }
 
-    let mut root = unique.witness(index, [begin, end], RootOutcome::Solution);
+    let mut root = unique.witness(&view.index, [begin, end], RootOutcome::Solution);
     write_signs(&mut root, &precise.x, &precise.y)?;
     Some(root)
 }
@@ -287,14 +282,16 @@ fn fixed(v: &Rational) -> Integer {
     (v * unit).round().to_integer()
 }
 
-/// 2^-[`INTERVAL_BITS`] of a power of two near a positive value.
-fn half_width(value: &Rational) -> Option<Rational> {
+/// 2^-[`INTERVAL_BITS`] of a power of two near a positive value, or near the least one that the
+/// scale of values allows.
+fn half_width(value: &Rational, scale: f64) -> Option<Rational> {
     if !value.is_positive() {
         return None;
     }
 
+    let least_magnitude = scale.log2().floor() as i64 - i64::from(LEAST_VALUE_BITS);
     let magnitude = value.numer().bits() as i64 - value.denom().bits() as i64;
-    let exponent = magnitude - i64::from(INTERVAL_BITS);
+    let exponent = magnitude.max(least_magnitude) - i64::from(INTERVAL_BITS);
     let power = Rational::from_integer(Integer::one() << exponent.unsigned_abs());
     Some(if exponent < 0 { power.recip() } else { power })
 }
@@ -323,10 +320,25 @@ mod tests {
     fn half_widths_are_relative() {
         let unit = Rational::from_integer(Integer::one() << INTERVAL_BITS);
         for value in [rational(1, 1000), whole(1), whole(4_000_000_000)] {
-            let ratio = half_width(&value).unwrap() * &unit / &value;
+            let ratio = half_width(&value, 1.0).unwrap() * &unit / &value;
             assert!(ratio > rational(1, 4) && ratio <= whole(2), "{value}");
         }
 
-        assert!(half_width(&whole(0)).is_none());
+        assert!(half_width(&whole(0), 1.0).is_none());
+    }
+
+    #[test]
+    fn values_near_zero_have_the_width_of_the_least_one() {
+        let unit = Rational::from_integer(Integer::one() << INTERVAL_BITS);
+        let scale = 2.0f64.powi(30);
+        let least = Rational::from_integer(Integer::one() << 20);
+
+        for value in [rational(1, 1000), whole(361), least.clone()] {
+            let half = half_width(&value, scale).unwrap();
+            assert_eq!(half, &least / &unit, "{value}");
+        }
+
+        let value = whole(4_000_000_000);
+        assert_eq!(half_width(&value, scale), half_width(&value, 1.0));
     }
 }

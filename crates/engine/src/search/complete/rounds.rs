@@ -15,7 +15,7 @@ use super::options::Options;
 use super::pieces::prepared::Prepared;
 use super::precise;
 use super::shares::Shares;
-use super::splice::{Chosen, Pass, numbered};
+use super::splice::{Chosen, Pass, SearchedPiece, numbered};
 use crate::run::Watch;
 use mceip_check::certificate::{Certificate, CompleteSet};
 
@@ -108,6 +108,28 @@ impl Rounds<'_> {
             _ => before,
         }
     }
+}
+
+/// Does a search leave regions open in the pieces next to the lower end of the window?
+pub(super) fn is_open_below(
+    given: &Given<'_>,
+    options: &Options,
+    prepared: &Prepared,
+    watch: &Watch<'_>,
+) -> bool {
+    let lower_pieces = 0..prepared.count_of_lower_pieces(given.window());
+    let chosen = Chosen::Again(lower_pieces.clone().map(|piece| (piece, 0)).collect());
+    let pass = Pass {
+        given,
+        prepared,
+        set: &prepared.open_set(),
+        options,
+        chosen: &chosen,
+        shares: &Shares::new(watch.quiet()),
+    };
+
+    let found = in_threads(options.threads, || pass.run());
+    found[lower_pieces].iter().any(SearchedPiece::is_open)
 }
 
 /// The values of the null vectors that a first search of an open cover meets, ascending.

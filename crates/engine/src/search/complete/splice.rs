@@ -25,6 +25,14 @@ pub(super) struct SearchedPiece {
     pub(super) met: Vec<f64>,
 }
 
+impl SearchedPiece {
+    /// Is a region left open?
+    pub(super) fn is_open(&self) -> bool {
+        let mut items = self.items.iter();
+        items.any(|item| matches!(item, Item::Node(Node::Open)))
+    }
+}
+
 /// The place of a leaf in a cover: piece, node of its tree.
 pub(super) type LeafPlace = (usize, usize);
 

@@ -3,11 +3,13 @@
 //! Without free variables the window is cut into equal steps of theta. With free variables every
 //! anchor of the condensation has an interval, which is cut likewise; above the last one follows
 //! the tail, the reversed anchor, or a piece that stays open. After a first look at where the
-//! solutions are, each of them gets an anchor and a piece of its own ([`Prepared::refined`]).
+//! solutions are, each of them gets an anchor and a piece of its own ([`Prepared::refined`]). Where
+//! a null vector lies so near the lower end of the window that the coarse anchors cannot tell on
+//! which side, that end gets one as well ([`Prepared::with_lower_anchor`]).
 //!
 //! Called by `complete` (a new search) and `resume` (from the pieces of a certificate).
 
-use super::anchor::NEAR;
+use super::anchor::{NEAR, SHARED};
 use super::condense::{Condensed, condense, refine, view_of};
 use super::expansion::Expansion;
 use super::view::View;
@@ -46,11 +48,14 @@ struct Interval {
 }
 
 /// What a search needs before it begins.
+#[derive(Clone)]
 pub(crate) struct Prepared {
     pub(crate) view: View,
     condensation: Option<Condensation>,
     /// Smallest eigenvalue of (A_ff, B_ff), where the elimination depends on the unknown.
     lowest_frequency: f64,
+    /// Values up to this share the anchor of the window's lower end; 0 where there is none.
+    shared_up_to: f64,
     intervals: Vec<Interval>,
 }
 
@@ -95,6 +100,7 @@ impl Prepared {
             view,
             condensation: None,
             lowest_frequency: 0.0,
+            shared_up_to: 0.0,
             intervals,
         })
     }
@@ -111,6 +117,7 @@ impl Prepared {
             view: condensed.view,
             condensation: Some(condensed.condensation),
             lowest_frequency: condensed.lowest_frequency,
+            shared_up_to: 0.0,
             intervals,
         }
     }
@@ -140,6 +147,7 @@ impl Prepared {
             view,
             condensation: set.condensation.clone(),
             lowest_frequency: 0.0,
+            shared_up_to: 0.0,
             intervals,
         })
     }
@@ -182,13 +190,14 @@ impl Prepared {
         Prepared {
             view,
             condensation: self.condensation.clone(),
-            lowest_frequency: self.lowest_frequency,
             intervals: self.intervals.clone(),
+            ..*self
         }
     }
 
     /// Gives each of these values (ascending) an anchor and a piece around it, cut out of the
-    /// pieces there are. Values near one another share one.
+    /// pieces there are. Values near one another share one, and those next to the lower end of the
+    /// window that of [`Prepared::with_lower_anchor`].
     pub(crate) fn refined(
         mut self,
         problem: &Problem,
@@ -196,7 +205,7 @@ impl Prepared {
         values: &[f64],
     ) -> Prepared {
         let mut apart: Vec<f64> = Vec::new();
-        for &value in values.iter().filter(|v| **v > 0.0) {
+        for &value in values.iter().filter(|v| **v > self.shared_up_to) {
             let least_distance = 3.0 * self.reach(value);
             if apart.last().is_none_or(|l| value - l > least_distance) {
                 apart.push(value);
@@ -214,10 +223,57 @@ impl Prepared {
         }
 
         for (k, value) in apart.iter().enumerate() {
-            self.cut_out(problem.window().min(), *value, before + k);
+            let reach = self.reach(*value);
+            let slack = SLACK_OF_REACH * reach;
+            let begin = short_near(value - reach, slack);
+            let end = short_near(value + reach, slack);
+            if let (Some(begin), Some(end)) = (begin, end) {
+                self.cut_out(problem.window().min(), &[begin, end], before + k);
+            }
         }
 
         self
+    }
+
+    /// Gives the lower end of the window a fine anchor and a piece above it; `None` where the
+    /// expansion fails.
+    ///
+    /// A null vector near that end is a threshold: it has just entered the window, or is about to.
+    /// The coarse anchors misplace a value by up to a thousandth of the lowest frequency, and so
+    /// leave open what lies between.
+    pub(crate) fn with_lower_anchor(
+        mut self,
+        window: &Window,
+        pencil: &Pencil,
+    ) -> Option<Prepared> {
+        let condensation = self.condensation.as_mut()?;
+        let before = condensation.anchors.len();
+        let min = to_f64(window.min());
+        refine(pencil, condensation, &mut self.view, &[min]);
+        if condensation.anchors.len() == before {
+            return None;
+        }
+
+        let reach = self.lower_reach(window);
+        let end = short_near(min + reach, SLACK_OF_REACH * reach)?;
+        self.cut_out(window.min(), &[window.min().clone(), end], before);
+        self.shared_up_to = min + SHARED * (min + self.lowest_frequency);
+        Some(self)
+    }
+
+    /// How far above the lower end of the window an anchor at that end is used.
+    fn lower_reach(&self, window: &Window) -> f64 {
+        NEAR * (to_f64(window.min()) + self.lowest_frequency)
+    }
+
+    /// How many pieces begin where an anchor at the lower end of the window would be used.
+    pub(crate) fn count_of_lower_pieces(&self, window: &Window) -> usize {
+        let end = to_f64(window.min()) + self.lower_reach(window);
+        let begins_higher = self.intervals.iter().position(|interval| {
+            let max = interval.max.as_ref();
+            max.is_none_or(|max| to_f64(max) >= end)
+        });
+        begins_higher.map_or(self.intervals.len(), |last| last + 1)
     }
 
     /// Up to where the anchor about a value is used: the expansions reach as far as value + lowest
@@ -227,24 +283,14 @@ impl Prepared {
         by_frequency.min(0.5 * value)
     }
 
-    /// Gives the interval around a value to this anchor; the rest of the intervals that it meets
-    /// stays as it is.
-    fn cut_out(&mut self, min: &Rational, value: f64, anchor: usize) {
-        let reach = self.reach(value);
-        let slack = SLACK_OF_REACH * reach;
-        let Some(begin) = short_near(value - reach, slack) else {
-            return;
-        };
-
-        let Some(end) = short_near(value + reach, slack) else {
-            return;
-        };
-
+    /// Gives the interval [begin, end] to this anchor; the rest of the intervals that it meets stays
+    /// as it is. `min` is the lower end of the window.
+    fn cut_out(&mut self, min: &Rational, [begin, end]: &[Rational; 2], anchor: usize) {
         let mut intervals = Vec::new();
         let mut lo = min.clone();
         for interval in &self.intervals {
             let mut cuts = Vec::new();
-            for cut in [&begin, &end] {
+            for cut in [begin, end] {
                 let is_inside = *cut > lo && interval.max.as_ref().is_none_or(|max| cut < max);
                 if is_inside {
                     cuts.push(cut.clone());
@@ -255,7 +301,7 @@ impl Prepared {
 
             for max in cuts.into_iter().map(Some).chain([interval.max.clone()]) {
                 // A part between begin and end belongs to the new anchor.
-                let is_near = lo >= begin && max.as_ref().is_some_and(|max| *max <= end);
+                let is_near = lo >= *begin && max.as_ref().is_some_and(|max| max <= end);
                 lo = max.clone().unwrap_or(lo);
                 let anchor = if is_near {
                     Some(anchor)
@@ -427,4 +473,63 @@ fn cuts(
 
     ends.push(max.cloned());
     ends
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::Sparse;
+    use mceip_model::{Body, Unknown};
+
+    /// One variable is free, with the frequency 1, and one slips. The tail begins above 2.3.
+    fn small_pencil() -> Pencil {
+        let a = Sparse::from_ints(&[&[1, 1], &[1, -2]]);
+        Pencil::new(a, Sparse::identity(2), vec![0]).unwrap()
+    }
+
+    fn lambda2_problem() -> Problem {
+        let body = Body::Pencil(small_pencil());
+        Problem::new(body, Unknown::Lambda2, Window::all()).unwrap()
+    }
+
+    fn anchor_centers(prepared: &Prepared) -> Vec<f64> {
+        let anchors = &prepared.condensation.as_ref().unwrap().anchors;
+        anchors.iter().map(|a| to_f64(&a.center.0)).collect()
+    }
+
+    #[test]
+    fn the_lower_end_gets_an_anchor_and_a_piece_of_the_first_one() {
+        let window = Window::all();
+        let pencil = small_pencil();
+        let coarse = Prepared::new(&lambda2_problem(), &pencil, 16).unwrap();
+        let coarse_count = anchor_centers(&coarse).len();
+        assert_eq!(coarse.count_of_lower_pieces(&window), 1);
+
+        let lower = coarse.clone().with_lower_anchor(&window, &pencil).unwrap();
+
+        assert_eq!(anchor_centers(&lower)[coarse_count..], [0.0]);
+        assert_eq!(lower.intervals.len(), coarse.intervals.len() + 1);
+        assert_eq!(lower.intervals[0].anchor, Some(coarse_count));
+        assert_eq!(lower.intervals[1].anchor, coarse.intervals[0].anchor);
+        assert_eq!(lower.intervals[1].max, coarse.intervals[0].max);
+
+        let end = to_f64(lower.intervals[0].max.as_ref().unwrap());
+        approx::assert_relative_eq!(end, NEAR, max_relative = 0.25);
+    }
+
+    #[test]
+    fn values_next_to_the_lower_end_share_its_anchor() {
+        let pencil = small_pencil();
+        let problem = lambda2_problem();
+        let values = [0.5 * SHARED, 0.2];
+
+        let coarse = Prepared::new(&problem, &pencil, 16).unwrap();
+        let coarse_count = anchor_centers(&coarse).len();
+        let apart = coarse.clone().refined(&problem, &pencil, &values);
+        assert_eq!(anchor_centers(&apart)[coarse_count..], values);
+
+        let lower = coarse.with_lower_anchor(&Window::all(), &pencil).unwrap();
+        let shared = lower.refined(&problem, &pencil, &values);
+        assert_eq!(anchor_centers(&shared)[coarse_count..], [0.0, 0.2]);
+    }
 }

@@ -12,6 +12,7 @@ use num_traits::One;
 
 /// The pencil on the complementarity variables: one polynomial matrix, or several about their
 /// centres.
+#[derive(Clone)]
 pub(crate) struct View {
     /// Complementarity variables by position.
     pub(crate) index: Vec<usize>,
