@@ -181,3 +181,9 @@ pub const CHANCE: f64 = 1e-4;
 /// of a block state. Unit: none. Reason: runs stop at residuals of 1e-10, and values of one state
 /// lie apart by more than a part in a thousand.
 pub const PATH_VALUE: f64 = 1e-8;
+
+/// Distance from the lower end of the window up to which a solution shares the anchor of that end.
+/// Unit: of the end + the lowest frequency of the free variables. Basis: W and V lack the third
+/// power of it and the remainder the sixth, which is below the rounding of doubles. Reason: two
+/// anchors so near one another would cut the pieces beside a threshold without need.
+pub(crate) const SHARED_ANCHOR: f64 = 1e-3;

@@ -57,11 +57,6 @@ pub(crate) const FINE: Precision = Precision {
 /// frequency.
 pub(crate) const NEAR: f64 = 0.03;
 
-/// Distance from the lower end of the window, relative to end + lowest frequency, up to which a
-/// solution shares the anchor of that end. Basis: W and V lack the third power of this, and the
-/// remainder its sixth, which is below the rounding of doubles.
-pub(crate) const SHARED: f64 = 1e-3;
-
 /// Bits that each degree needs less.
 const BITS_PER_DEGREE: i32 = 2;
 

@@ -9,12 +9,13 @@
 //!
 //! Called by `complete` (a new search) and `resume` (from the pieces of a certificate).
 
-use super::anchor::{NEAR, SHARED};
+use super::anchor::NEAR;
 use super::condense::{Condensed, condense, refine, view_of};
 use super::expansion::Expansion;
 use super::view::View;
 use crate::search::complete::dyadic::short_near;
 use crate::search::complete::error::CompleteError;
+use crate::tolerance::SHARED_ANCHOR;
 use mceip_check::MAX_COVERED;
 use mceip_check::certificate::{CompleteSet, Condensation, Node, Piece};
 use mceip_exact::{Rational, to_f64};
@@ -257,7 +258,7 @@ impl Prepared {
         let reach = self.lower_reach(window);
         let end = short_near(min + reach, SLACK_OF_REACH * reach)?;
         self.cut_out(window.min(), &[window.min().clone(), end], before);
-        self.shared_up_to = min + SHARED * (min + self.lowest_frequency);
+        self.shared_up_to = min + SHARED_ANCHOR * (min + self.lowest_frequency);
         Some(self)
     }
 
@@ -521,7 +522,7 @@ mod tests {
     fn values_next_to_the_lower_end_share_its_anchor() {
         let pencil = small_pencil();
         let problem = lambda2_problem();
-        let values = [0.5 * SHARED, 0.2];
+        let values = [0.5 * SHARED_ANCHOR, 0.2];
 
         let coarse = Prepared::new(&problem, &pencil, 16).unwrap();
         let coarse_count = anchor_centers(&coarse).len();
