@@ -1,0 +1,496 @@
+(* Leaves over the region of an anchor.
+
+   Continues Anchor.v.  Over a proper interval [lo, hi] let u in [0, 1] with t = lo + u (hi - lo),
+   and let X(u) be the exact condensed matrix at t, its rows multiplied by positive numbers.
+
+   Theorems [local_line], [local_chord]: X is near a line, and near chords, of the local pencil.
+   Theorem [anchored_excludes]: a checked leaf that is not a solution excludes every solution of the
+   region.  Theorem [anchored_yields]: a checked root leaf with the outcome "solution" has exactly
+   one solution in its region, up to a positive factor.
+
+   Page: spec/certificates.md, 5.14.
+   Rust: crates/check/src/cover/expanded.rs, family.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence RootLeaf Cover.
+From Mceip Require Import Condensation Pencil Claim Norms Elimination Curved Series Anchor.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+Lemma floor_bounds x g : (0 <? g)%Z -> (x / g * g <=? x)%Z && (x <=? (x / g + 1) * g)%Z.
+Proof.
+move=> /Z.ltb_spec0 g0; have := Z.mul_div_le x g g0; have := Z.mul_succ_div_gt x g g0.
+move: (x / g)%Z => f; clear g0 => above below.
+by apply/andP; split; apply/Z.leb_spec0; move: above below; clear; nia.
+Qed.
+
+Section Rounding.
+
+Variable R : rcfType.
+
+Lemma divide_up_real x d : (0 <? d)%Z -> toR x / toR d <= toR (divide_up x d) :> R.
+Proof.
+move=> d0; have d0R : 0 < toR d :> R by rewrite toR_gt0.
+by rewrite ler_pdivr_mulr // -toRM toR_le divide_up_ge.
+Qed.
+
+Lemma divide_up_le (x : R) z d : 0 < toR d :> R -> x = toR z / toR d -> x <= toR (divide_up z d).
+Proof. by rewrite toR_gt0 => d0 ->; apply: divide_up_real. Qed.
+
+(* The radii of Anchor.v, for n = n1/n2 and so on, and s = b/c. *)
+Lemma radius_le (pw n1 n2 r1 r2 b c : Z) (n r : R) :
+  0 < toR n2 :> R -> 0 < toR r2 :> R -> 0 < toR b :> R -> 0 < toR c :> R ->
+  toR n1 = toR n2 * n -> toR r1 = toR r2 * r ->
+  toR pw * (n * r / (toR b / toR c)) <= toR (divide_up (pw * n1 * r1 * c) (n2 * r2 * b)).
+Proof.
+move=> n0 r0 b0 c0 nE rE; apply: divide_up_le; first by rewrite !toRM !mulr_gt0.
+by rewrite !toRM nE rE; field; rewrite !gt_eqF.
+Qed.
+
+Lemma slope_le (pw e y n1 n2 r1 r2 b c : Z) (n r : R) :
+  0 < toR y :> R -> 0 < toR n2 :> R -> 0 < toR r2 :> R -> 0 < toR b :> R -> 0 < toR c :> R ->
+  toR n1 = toR n2 * n -> toR r1 = toR r2 * r ->
+  toR pw * (toR e / toR y) * (n * r / (toR b / toR c)) <=
+  toR (divide_up (pw * e * n1 * r1 * c) (y * n2 * r2 * b)).
+Proof.
+move=> y0 n0 r0 b0 c0 nE rE; apply: divide_up_le; first by rewrite !toRM !mulr_gt0.
+by rewrite !toRM nE rE; field; rewrite !gt_eqF.
+Qed.
+
+Lemma square_le (pw e y n1 n2 r1 r2 b c m : Z) (n r : R) :
+  0 < toR y :> R -> 0 < toR n2 :> R -> 0 < toR r2 :> R -> 0 < toR b :> R -> 0 < toR c :> R ->
+  toR n1 = toR n2 * n -> toR r1 = toR r2 * r ->
+  toR pw * (toR e / toR y) * (n * r * toR m / (toR b / toR c) ^+ 2) <=
+  toR (divide_up (pw * e * n1 * r1 * m * c * c) (y * n2 * r2 * b * b)).
+Proof.
+move=> y0 n0 r0 b0 c0 nE rE; apply: divide_up_le; first by rewrite !toRM !mulr_gt0.
+by rewrite !toRM nE rE; field; rewrite !gt_eqF.
+Qed.
+
+Lemma rounding g scale e r (alpha : R) : (0 <? g)%Z -> 0 < toR scale :> R ->
+  `|alpha - toR e| <= toR r ->
+  `|toR scale / toR g * alpha - toR (scale * e / g)%Z| <= toR (divide_up (scale * r) g + 1)%Z.
+Proof.
+move=> g0 s0 near; have g0R : 0 < toR g :> R by rewrite toR_gt0.
+set f := (scale * e / g)%Z.
+have floor : 0 <= toR scale * toR e / toR g - toR f :> R /\
+             toR scale * toR e / toR g - toR f <= 1 :> R.
+  rewrite subr_ge0 ler_subl_addr ler_pdivl_mulr // ler_pdivr_mulr // -toR1 -toRD -!toRM !toR_le.
+  have /andP[le1 le2] := floor_bounds (scale * e) g0.
+  by rewrite [(1 + f)%Z]Z.add_comm.
+have -> : toR scale / toR g * alpha - toR f =
+    toR scale / toR g * (alpha - toR e) + (toR scale * toR e / toR g - toR f) by ring.
+rewrite toRD toR1 (le_trans (ler_norm_add _ _)) // ler_add //; last first.
+  by rewrite ger0_norm; case: floor.
+rewrite normrM ger0_norm ?divr_ge0 ?(ltW s0) ?(ltW g0R) //.
+apply: (@le_trans _ _ (toR scale * toR r / toR g)).
+  by rewrite [X in X <= _]mulrAC ler_pmul2r ?invr_gt0 // ler_pmul2l.
+by rewrite -toRM divide_up_real.
+Qed.
+
+End Rounding.
+
+Section Local.
+
+Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : family) (low_a low_b : form_bound).
+Variables (lo hi : point) (grain : Z).
+Hypotheses (wf : wellformed Q) (expanded : expand Q a = Some fam).
+Notation ns := (size (slip Q)).
+Notation nf := (size (free Q)).
+Notation fi := (iota 0 nf).
+Notation si := (iota 0 ns).
+Hypothesis bounded_a : bounded_rows nf (ff_block Q (row_a Q)) low_a.
+Hypothesis bounded_b : bounded_rows nf (ff_block Q (row_b Q)) low_b.
+Hypotheses (proper : proper_interval a low_a low_b lo hi) (grain0 : (0 <? grain)%Z).
+
+Notation p := (anchor_center a).1.
+Notation q := (anchor_center a).2.
+Notation off := (offset a lo hi).
+Notation ext := (extent a lo hi).
+Notation uy := (unit_y a lo hi).
+Notation width := (interval_width lo hi).
+Notation bn := (bound_n a low_a low_b lo).
+Notation bd := (bound_d low_a low_b lo).
+
+Lemma proper_parts :
+  [/\ 0 <= toR lo.1 :> R, 0 < toR lo.2 :> R, 0 < toR hi.2 :> R, 0 < toR width :> R &
+      0 < toR bn :> R].
+Proof. by case/and5P: proper => *; split; rewrite ?toR_ge0 ?toR_gt0. Qed.
+
+Lemma q_gt0 : 0 < toR q :> R.
+Proof. by have [] := expand_parts R expanded. Qed.
+
+Lemma uy_gt0 : 0 < toR uy :> R.
+Proof. by have [_ l2 h2 _ _] := proper_parts; rewrite !toRM !mulr_gt0 // q_gt0. Qed.
+
+Lemma ext_gt0 : 0 < toR ext :> R.
+Proof. by have [_ _ _ w0 _] := proper_parts; rewrite toRM mulr_gt0 // q_gt0. Qed.
+
+Lemma bd_gt0 : 0 < toR bd :> R.
+Proof.
+have [_ l2 _ _ _] := proper_parts.
+by rewrite !toRM !mulr_gt0 // ?(bound_times_gt0 R bounded_a) ?(bound_times_gt0 R bounded_b).
+Qed.
+
+(* t and d at u. *)
+Definition t_of (u : R) := (toR (lo.1 * hi.2)%Z + u * toR width) / toR (lo.2 * hi.2)%Z.
+Definition d_of (u : R) := (toR off + u * toR ext) / toR uy.
+
+Definition s_low : R := toR bn / toR bd.
+
+Lemma s_low_gt0 : 0 < s_low.
+Proof. by have [_ _ _ _ b0] := proper_parts; rewrite divr_gt0 // bd_gt0. Qed.
+
+Lemma d_ofE u : toR off + toR ext * u = toR uy * d_of u.
+Proof. by rewrite /d_of [RHS]mulrC divfK ?gt_eqF ?uy_gt0 // [toR ext * u]mulrC. Qed.
+
+Lemma t_ofE u : toR q * t_of u = toR p + toR q * d_of u.
+Proof.
+have [_ l2 h2 _ _] := proper_parts; have q0 := q_gt0.
+have [/lt0r_neq0 l2' /lt0r_neq0 h2' /lt0r_neq0 q0'] := And3 l2 h2 q0.
+rewrite /t_of /d_of /unit_y /extent /offset /interval_width !toRM !toRB !toRM.
+by field; rewrite l2' h2' q0'.
+Qed.
+
+Section AtU.
+
+Variable u : R.
+Hypotheses (u0 : 0 <= u) (u1 : u <= 1).
+
+Lemma lo_le_t : toR lo.1 / toR lo.2 <= t_of u.
+Proof.
+have [_ l2 h2 w0 _] := proper_parts; rewrite -subr_ge0 /t_of.
+have -> : (toR (lo.1 * hi.2)%Z + u * toR width) / toR (lo.2 * hi.2)%Z - toR lo.1 / toR lo.2 =
+          u * toR width / (toR lo.2 * toR hi.2).
+  by rewrite !toRM; field; rewrite !gt_eqF.
+by rewrite divr_ge0 // mulr_ge0 // ltW.
+Qed.
+
+Lemma t_of_ge0 : 0 <= t_of u.
+Proof.
+have [l1 l2 _ _ _] := proper_parts; apply: le_trans lo_le_t.
+by rewrite divr_ge0 // ltW.
+Qed.
+
+Lemma below_at_u : bounded_below nf (F_at Q a (d_of u)) s_low.
+Proof.
+have [l1 l2 _ _ _] := proper_parts.
+have ca := bound_times_gt0 R bounded_a; have cb := bound_times_gt0 R bounded_b.
+have lo0 : 0 <= toR lo.1 / toR lo.2 :> R by rewrite divr_ge0 // ltW.
+have := F_below wf expanded bounded_a bounded_b (t_ofE u) lo0 lo_le_t.
+congr (bounded_below _ _ _); rewrite /s_low /bound_n /bound_d !toRM !toRD !toRM.
+have [/lt0r_neq0 l2' /lt0r_neq0 ca' /lt0r_neq0 cb'] := And3 l2 ca cb.
+by field; rewrite l2' ca' cb'.
+Qed.
+
+Definition b_reach : R := toR (reach a lo hi) / toR uy.
+
+Lemma d_bounded : `|d_of u| <= b_reach.
+Proof.
+have y0 := uy_gt0; rewrite /d_of /b_reach normrM [`|_^-1|]ger0_norm ?invr_ge0 ?(ltW y0) //.
+rewrite ler_pmul2r ?invr_gt0 //.
+have -> : toR off + u * toR ext = (1 - u) * toR off + u * (toR off + toR ext) by ring.
+have v0 : 0 <= 1 - u by rewrite subr_ge0.
+rewrite (le_trans (ler_norm_add _ _)) // !normrM (ger0_norm u0) (ger0_norm v0).
+have one : `|toR off| <= toR (reach a lo hi) :> R.
+  by rewrite -toR_abs toR_le /reach; move: (Z.abs _) (Z.abs _) => x y; clear; lia.
+have two : `|toR off + toR ext| <= toR (reach a lo hi) :> R.
+  by rewrite -toRD -toR_abs toR_le /reach; move: (Z.abs _) (Z.abs _) => x y; clear; lia.
+have -> : toR (reach a lo hi) = (1 - u) * toR (reach a lo hi) + u * toR (reach a lo hi) :> R.
+  by ring.
+by rewrite ler_add // ler_wpmul2l.
+Qed.
+
+End AtU.
+
+Lemma reachE : toR (reach a lo hi) = toR uy * b_reach.
+Proof. by rewrite /b_reach mulrC divfK // gt_eqF // uy_gt0. Qed.
+
+(* Bounds of norms over the interval. *)
+Notation l_series := (residual_left Q a).
+Notation r_series := (residual_right Q a).
+
+Definition nl i : R := eval (norms l_series i) b_reach.
+Definition nr j : R := eval (norms r_series j) b_reach.
+Definition dl i : R := eval (derivative (norms l_series i)) b_reach.
+Definition dr j : R := eval (derivative (norms r_series j)) b_reach.
+
+Definition remainder_at u i j := \sum_(k <- fi) value l_series (d_of u) k i *
+  solve nf (F_at Q a (d_of u)) (fun k => value r_series (d_of u) k j) k.
+
+Lemma small_l : all (fun M => size M <= nf)%N l_series.
+Proof. by have [_ _ _ []] := expand_parts R expanded. Qed.
+
+Lemma small_r : all (fun M => size M <= nf)%N r_series.
+Proof. by have [_ _ _ []] := expand_parts R expanded. Qed.
+
+Lemma remainder_bound u i j : 0 <= u -> u <= 1 ->
+  `|remainder_at u i j| <= nl i * nr j / s_low.
+Proof.
+move=> u0 u1; rewrite -mulrA; apply: dot_bound.
+  exact: (series_norm i small_l (d_bounded u0 u1)).
+apply: (solve_norm s_low_gt0 (below_at_u u0)).
+exact: (series_norm j small_r (d_bounded u0 u1)).
+Qed.
+
+Lemma remainder_quotient u u' i j : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 ->
+  exists2 x, remainder_at u i j - remainder_at u' i j = (u - u') * x &
+    `|x| <= toR ext / toR uy *
+      ((dl i * nr j + nl i * dr j) / s_low + nl i * nr j * toR (drift fam) / s_low ^+ 2).
+Proof.
+move=> u0 u1 v0 v1.
+have diff m k : m \in fi -> k \in fi -> F_at Q a (d_of u) m k - F_at Q a (d_of u') m k =
+    (d_of u - d_of u') * toR (lookup (row_1 Q a (nth 0%N (free Q) m)) (nth 0%N (free Q) k)).
+  by move=> _ _; rewrite /F_at /shifted_entry; move: (toR _) (toR _) => *; ring.
+have [x xE x_le] := remainder_difference s_low_gt0 (below_at_u u0) (below_at_u v0)
+  (F_symmetric a wf bounded_a bounded_b (d_of u')) (F1_symmetric R a wf bounded_b) diff
+  (fun m Hm => drift_bound R wf expanded Hm) (drift_ge0 R expanded)
+  (fun k => quotient_valueE l_series (d_of u) (d_of u') k i)
+  (fun k => quotient_valueE r_series (d_of u) (d_of u') k j)
+  (series_norm i small_l (d_bounded v0 v1)) (series_norm j small_r (d_bounded u0 u1))
+  (series_difference i small_l (d_bounded u0 u1) (d_bounded v0 v1))
+  (series_difference j small_r (d_bounded u0 u1) (d_bounded v0 v1)).
+exists (toR ext / toR uy * x).
+  rewrite /remainder_at xE mulrA; congr (_ * _); rewrite /d_of.
+  by rewrite -mulrBl opprD addrACA subrr add0r -mulrBl mulrA.
+by rewrite normrM ger0_norm ?divr_ge0 ?(ltW ext_gt0) ?(ltW uy_gt0) // ler_wpmul2l //
+  divr_ge0 ?(ltW ext_gt0) ?(ltW uy_gt0).
+Qed.
+
+(* The same with the integers of the checker. *)
+Definition at_reach := homogeneous (reach a lo hi) uy.
+
+Lemma at_reachE n : toR (at_reach n).1 = toR (at_reach n).2 * eval n b_reach /\
+  0 < toR (at_reach n).2 :> R.
+Proof.
+split; first exact: homogeneousE reachE.
+exact: homogeneous_power uy_gt0.
+Qed.
+
+Lemma remainder_radius_bound power i j : 0 < toR power :> R ->
+  toR power * (nl i * nr j / s_low) <=
+  toR (remainder_radius a low_a low_b lo power (at_reach (norms l_series i))
+         (at_reach (norms r_series j))).
+Proof.
+move=> p0; have [_ _ _ _ b0] := proper_parts; have d0 := bd_gt0.
+have [lE l0] := at_reachE (norms l_series i); have [rE r0] := at_reachE (norms r_series j).
+exact: radius_le.
+Qed.
+
+Lemma remainder_slope_bound power i j : 0 < toR power :> R ->
+  toR power * (toR ext / toR uy *
+      ((dl i * nr j + nl i * dr j) / s_low + nl i * nr j * toR (drift fam) / s_low ^+ 2)) <=
+  toR (remainder_slope a low_a low_b fam lo hi power
+         (at_reach (norms l_series i)) (at_reach (norms r_series j))
+         (at_reach (derivative (norms l_series i))) (at_reach (derivative (norms r_series j)))).
+Proof.
+move=> p0; have [_ _ _ _ b0] := proper_parts; have d0 := bd_gt0; have y0 := uy_gt0.
+have [lE l0] := at_reachE (norms l_series i); have [rE r0] := at_reachE (norms r_series j).
+have [dlE dl0] := at_reachE (derivative (norms l_series i)).
+have [drE dr0] := at_reachE (derivative (norms r_series j)).
+rewrite /remainder_slope !toRD; apply: (@le_trans _ _
+  (toR power * (toR ext / toR uy) * (dl i * nr j / s_low) +
+   toR power * (toR ext / toR uy) * (nl i * dr j / s_low) +
+   toR power * (toR ext / toR uy) * (nl i * nr j * toR (drift fam) / s_low ^+ 2))).
+  by rewrite -!mulrDr -mulrDl mulrA.
+by apply: ler_add; first apply: ler_add; [apply: slope_le | apply: slope_le | apply: square_le].
+Qed.
+
+(* The exact entries, multiplied by 4, by the power of the substitution and by u^2. *)
+Notation u2 := (toR (anchor_unit a) ^+ 2 : R).
+Definition power_z : Z := (substituted off ext uy (poly_of (series_z fam) 0 0)).2.
+
+Definition raw u i j := 4%:R * toR power_z * (u2 * condensed_family Q a (d_of u) i j).
+
+Definition coefficients i j : polynomial :=
+  (substituted off ext uy (poly_of (series_z fam) i j)).1.
+
+Definition exact_entry slopes i j : local_entry :=
+  entry_of a low_a low_b fam lo hi slopes (poly_of (series_z fam) i j)
+    (at_reach (norms l_series i)) (at_reach (norms r_series j))
+    (at_reach (derivative (norms l_series i))) (at_reach (derivative (norms r_series j))).
+
+Lemma power_same i j :
+  (substituted off ext uy (poly_of (series_z fam) i j)).2 = power_z.
+Proof. by apply: substituted_power_size; rewrite !size_map. Qed.
+
+Lemma power_gt0 : 0 < toR power_z :> R.
+Proof. exact: substituted_power uy_gt0. Qed.
+
+Lemma four z : toR (4 * z)%Z = 4%:R * toR z :> R.
+Proof. by rewrite toRM. Qed.
+
+Definition entry_radius i j : Z :=
+  remainder_radius a low_a low_b lo power_z (at_reach (norms l_series i))
+    (at_reach (norms r_series j)).
+
+Definition entry_slope i j : Z :=
+  remainder_slope a low_a low_b fam lo hi power_z
+    (at_reach (norms l_series i)) (at_reach (norms r_series j))
+    (at_reach (derivative (norms l_series i))) (at_reach (derivative (norms r_series j))).
+
+Section Parts.
+
+Variables (slopes : bool) (i j : nat).
+Notation c := (coefficients i j).
+Notation e := (exact_entry slopes i j).
+
+Lemma part_a : local_a e = (4 * constant_of c)%Z.
+Proof. by []. Qed.
+
+Lemma part_b : local_b e = (4 * chord_of c)%Z.
+Proof. by []. Qed.
+
+Lemma part_rb : local_rb e = if slopes then (8 * spread c + 4 * entry_slope i j)%Z else 0%Z.
+Proof. by rewrite /exact_entry /entry_of power_same. Qed.
+
+Lemma part_ra : local_ra e = (spread c + 4 * entry_radius i j + local_rb e)%Z.
+Proof. by rewrite part_rb /exact_entry /entry_of power_same. Qed.
+
+End Parts.
+
+Lemma rawE u i j : 0 <= u -> (i < ns)%N -> (j < ns)%N ->
+  raw u i j = 4%:R * eval (coefficients i j) u - 4%:R * (toR power_z * remainder_at u i j).
+Proof.
+move=> u0 Hi Hj; rewrite /raw (family_identity wf expanded bounded_a bounded_b s_low_gt0) //;
+  last exact: below_at_u.
+rewrite (substitutedE _ (d_ofE u)) power_same -/(value _ _ _ _) -/(remainder_at u i j).
+by rewrite mulrBr !mulrA.
+Qed.
+
+Lemma raw_line slopes u i j : 0 <= u -> u <= 1 -> (i < ns)%N -> (j < ns)%N ->
+  let e := exact_entry slopes i j in
+  `|raw u i j - (toR (local_a e) + u * toR (local_b e))| <= toR (local_ra e) - toR (local_rb e).
+Proof.
+move=> u0 u1 Hi Hj; cbv zeta; rewrite part_a part_b part_ra rawE // !toRD addrK !four.
+set c := coefficients i j; set x := eval c u; set y := toR power_z * _.
+have -> : 4%:R * x - 4%:R * y - (4%:R * toR (constant_of c) + u * (4%:R * toR (chord_of c))) =
+          (x - (toR (constant_of c) + u * toR (chord_of c))) *+ 4 - y *+ 4 by ring.
+rewrite (le_trans (ler_norm_sub _ _)) // ler_add //.
+  by rewrite normrMn; apply: near_chord_poly.
+rewrite normrMn mulr_natl ler_muln2r /= /y normrM (gtr0_norm power_gt0).
+apply: le_trans (remainder_radius_bound _ _ power_gt0).
+by rewrite ler_pmul2l ?power_gt0 // remainder_bound.
+Qed.
+
+Lemma raw_chord u u' i j : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 -> (i < ns)%N -> (j < ns)%N ->
+  let e := exact_entry true i j in
+  exists2 x, raw u i j - raw u' i j = (u - u') * (toR (local_b e) + x) &
+    `|x| <= toR (local_rb e).
+Proof.
+move=> u0 u1 v0 v1 Hi Hj; cbv zeta; rewrite part_b part_rb !rawE // toRD !four.
+rewrite [toR (8 * _)%Z]toRM -[toR 8]/(8%:R : R); set c := coefficients i j.
+have [x xE x_le] := chord_difference c u0 u1 v0 v1.
+have [y yE y_le] := remainder_quotient i j u0 u1 v0 v1.
+exists (4%:R * x - 4%:R * (toR power_z * y)).
+  move: xE yE; set a1 := eval c u; set a2 := eval c u'.
+  set b1 := remainder_at u i j; set b2 := remainder_at u' i j => xE yE.
+  have -> : 4%:R * a1 - 4%:R * (toR power_z * b1) - (4%:R * a2 - 4%:R * (toR power_z * b2)) =
+            4%:R * (a1 - a2) - 4%:R * toR power_z * (b1 - b2) by ring.
+  by rewrite xE yE; ring.
+rewrite (le_trans (ler_norm_sub _ _)) // ler_add //.
+  rewrite normrM ger0_norm ?ler0n // (_ : 8%:R = 4%:R * 2%:R :> R); last by ring.
+  by rewrite -mulrA ler_pmul2l ?ltr0n //; apply: le_trans x_le _; rewrite toRM.
+rewrite normrM ger0_norm ?ler0n // ler_pmul2l ?ltr0n // normrM (gtr0_norm power_gt0).
+apply: le_trans (remainder_slope_bound _ _ power_gt0).
+by rewrite ler_pmul2l ?power_gt0.
+Qed.
+
+(* The family of the local pencil. *)
+Definition scale_at i : R := toR (nth 0%Z (anchor_scale a) i) / toR grain.
+Definition local_family u i j := scale_at i * raw u i j.
+
+Notation pencil_for := (local_pencil ns a low_a low_b fam lo hi).
+
+Lemma scale_gt0_ i : (i < ns)%N -> 0 < toR (nth 0%Z (anchor_scale a) i) :> R.
+Proof. by have [_ _ s0 _] := expand_parts R expanded; apply: s0. Qed.
+
+Lemma local_entriesE slopes i j (f : local_entry -> Z) : (i < ns)%N -> (j < ns)%N ->
+  entry [seq [seq f e | e <- row] | row <- local_entries ns a low_a low_b fam lo hi slopes grain]
+    i j = f (rounded grain (nth 0%Z (anchor_scale a) i) (exact_entry slopes i j)).
+Proof.
+move=> Hi Hj; have [_ _ _ [_ _ _ famE]] := expand_parts R expanded.
+have nthE (T : Type) (d : T) (g : polynomial -> T) (L : seq matrix) k : (k < ns)%N ->
+    nth d [seq g n | n <- [seq norms L i | i <- si]] k = g (norms L k).
+  by move=> Hk; rewrite -map_comp (nth_map 0%N) ?size_iota // nth_iota.
+rewrite /entry /local_entries (nth_map [::]) ?size_map ?size_iota //.
+rewrite (nth_map 0%N) ?size_iota // (nth_map (LocalEntry 0 0 0 0)) ?size_map ?size_iota //.
+rewrite (nth_map 0%N) ?size_iota // !nth_iota // !add0n; congr (f (rounded _ _ _)).
+by rewrite /exact_entry famE /expand_from /= !nthE.
+Qed.
+
+Lemma in_local i slopes : i \in indices (pencil_for slopes grain) -> (i < ns)%N.
+Proof. by rewrite mem_iota. Qed.
+
+(* A pencil through given values is enclosed if its entries are near. *)
+Lemma local_encloses slopes (A B : nat -> nat -> R) :
+  (forall i j, (i < ns)%N -> (j < ns)%N ->
+     `|A i j - toR (local_a (exact_entry slopes i j))| <= toR (local_ra (exact_entry slopes i j)) /\
+     `|B i j - toR (local_b (exact_entry slopes i j))| <= toR (local_rb (exact_entry slopes i j))) ->
+  encloses (pencil_for slopes grain) (fun i j => scale_at i * A i j) (fun i j => scale_at i * B i j).
+Proof.
+move=> near i j /in_local Hi /in_local Hj; have [near_a near_b] := near i j Hi Hj.
+rewrite /local_pencil /= !local_entriesE //=.
+by split; apply: rounding => //; apply: scale_gt0_.
+Qed.
+
+Theorem local_line slopes u : 0 <= u -> u <= 1 ->
+  near_line (pencil_for slopes grain) local_family u.
+Proof.
+move=> u0 u1; pose e i j := exact_entry slopes i j.
+pose B i j : R := toR (local_b (e i j)); pose A i j := raw u i j - u * B i j.
+exists (fun i j => scale_at i * A i j), (fun i j => scale_at i * B i j); split; last first.
+  move=> i j _ _; rewrite /Enclosed.T /local_family /A.
+  by move: (scale_at i) (raw u i j) (B i j) => *; ring.
+apply: local_encloses => i j Hi Hj; have := raw_line slopes u0 u1 Hi Hj; cbv zeta => near.
+have rb0 : 0 <= toR (local_rb (e i j)) :> R.
+  rewrite /e part_rb; case: slopes {near e A B} => //.
+  have [x _ x_le] := raw_chord u0 u1 u0 u1 Hi Hj; move: x_le; rewrite part_rb.
+  exact: le_trans.
+split; last by rewrite subrr normr0.
+rewrite /A /B -/(e i j) -addrA -opprD [u * _ + _]addrC.
+by apply: le_trans near _; rewrite ler_subl_addr ler_addl.
+Qed.
+
+Theorem local_chord u u' : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 ->
+  near_chord (pencil_for true grain) local_family u u'.
+Proof.
+move=> u0 u1 v0 v1; pose e i j := exact_entry true i j.
+pose slope i j := (raw u i j - raw u' i j) / (u - u').
+pose B i j : R := if u == u' then toR (local_b (e i j)) else slope i j.
+pose A i j := raw u i j - u * B i j.
+have B_near i j : (i < ns)%N -> (j < ns)%N ->
+    `|B i j - toR (local_b (e i j))| <= toR (local_rb (e i j)).
+  move=> Hi Hj; have [x xE x_le] := raw_chord u0 u1 v0 v1 Hi Hj.
+  rewrite /B; case: eqP => [_|/eqP uu]; first by rewrite subrr normr0; apply: le_trans x_le.
+  by rewrite /slope xE mulrAC mulfV ?subr_eq0 // mul1r [_ + x]addrC addrK.
+exists (fun i j => scale_at i * A i j), (fun i j => scale_at i * B i j); split.
+- apply: local_encloses => i j Hi Hj; split; last exact: B_near.
+  have near := raw_line true u0 u1 Hi Hj; cbv zeta in near; rewrite -/(e i j) in near *.
+  have -> : A i j - toR (local_a (e i j)) =
+      (raw u i j - (toR (local_a (e i j)) + u * toR (local_b (e i j)))) -
+      u * (B i j - toR (local_b (e i j))).
+    by rewrite /A; move: (raw u i j) (B i j) (toR _) (toR _) => *; ring.
+  rewrite (le_trans (ler_norm_sub _ _)) // -[toR (local_ra _)](subrK (toR (local_rb (e i j)))).
+  rewrite ler_add // normrM ger0_norm //; apply: le_trans (B_near _ _ Hi Hj).
+  by rewrite ler_pimull.
+- move=> i j _ _; rewrite /Enclosed.T /local_family /A.
+  by move: (scale_at i) (raw u i j) (B i j) => *; ring.
+move=> i j _ _; rewrite /Enclosed.T /local_family /A /B /slope; case: eqP => [<-|/eqP uu].
+  by move: (scale_at i) (raw u i j) (toR _) => *; ring.
+have d0 : u - u' != 0 by rewrite subr_eq0.
+have : raw u' i j = raw u i j - (u - u') * ((raw u i j - raw u' i j) / (u - u')).
+  by rewrite mulrC divfK // opprB addrC subrK.
+set x := (_ / _); move: (raw u i j) x => y x ->.
+by move: (scale_at i) => *; ring.
+Qed.
+
+End Local.
