@@ -493,4 +493,254 @@ set x := (_ / _); move: (raw u i j) x => y x ->.
 by move: (scale_at i) => *; ring.
 Qed.
 
+(* Between t and u. *)
+Definition u_of (t : R) := (t * toR (lo.2 * hi.2)%Z - toR (lo.1 * hi.2)%Z) / toR width.
+
+Lemma t_of_u t : t_of (u_of t) = t.
+Proof.
+have [_ l2 h2 w0 _] := proper_parts; rewrite /t_of /u_of.
+have m0 : toR (lo.2 * hi.2)%Z != 0 :> R by rewrite toRM mulf_neq0 ?gt_eqF.
+by rewrite divfK ?gt_eqF // addrC subrK mulfK.
+Qed.
+
+Lemma u_of_between t : between t lo hi -> 0 <= u_of t /\ u_of t <= 1.
+Proof.
+have [_ l2 h2 w0 _] := proper_parts; case=> lo_t t_hi; rewrite /u_of; split.
+  rewrite divr_ge0 ?(ltW w0) // subr_ge0 !toRM mulrA ler_pmul2r //.
+rewrite ler_pdivr_mulr // mul1r /interval_width toRB !toRM ler_sub //.
+by rewrite mulrCA mulrC ler_pmul2r.
+Qed.
+
+Lemma between_local u (e e' : point) :
+  between u (local_point lo hi e) (local_point lo hi e') -> between (t_of u) e e'.
+Proof.
+have [_ l2 h2 w0 _] := proper_parts.
+have m0 : 0 < toR (lo.2 * hi.2)%Z :> R by rewrite toRM mulr_gt0.
+have tE : t_of u * toR (lo.2 * hi.2)%Z = toR (lo.1 * hi.2)%Z + u * toR width.
+  by rewrite /t_of divfK // gt_eqF.
+have localE (x : point) : t_of u * toR x.2 * toR (lo.2 * hi.2)%Z - toR x.1 * toR (lo.2 * hi.2)%Z =
+    u * toR (local_point lo hi x).2 - toR (local_point lo hi x).1.
+  have -> : t_of u * toR x.2 * toR (lo.2 * hi.2)%Z = toR x.2 * (t_of u * toR (lo.2 * hi.2)%Z).
+    by rewrite mulrAC mulrC.
+  by rewrite tE /local_point /= !toRM !toRB !toRM; ring.
+case=> le1 le2; split.
+  rewrite -(ler_pmul2r m0) -subr_ge0 localE subr_ge0; exact: le1.
+rewrite -(ler_pmul2r m0) -subr_le0 localE subr_le0; exact: le2.
+Qed.
+
+Lemma between_t u : 0 <= u -> u <= 1 -> between (t_of u) lo hi.
+Proof.
+move=> u0 u1; have [_ l2 h2 w0 _] := proper_parts; split.
+  by rewrite -ler_pdivr_mulr // lo_le_t.
+rewrite -(ler_pmul2r l2) -mulrA [toR hi.2 * _]mulrC -toRM /t_of divfK; last first.
+  by rewrite toRM mulf_neq0 // gt_eqF.
+apply: (@le_trans _ _ (toR (lo.1 * hi.2)%Z + toR width)).
+  by rewrite ler_add2l ler_pimull // ltW.
+by rewrite /interval_width -toRD -toRM toR_le; move: (hi.1 * lo.2)%Z => x; clear; lia.
+Qed.
+
+(* Solutions of the pencil and of the family. *)
+Definition free_values u xs := Elimination.free_part nf (F_at Q a (d_of u)) ns (G_at Q a (d_of u)) xs.
+
+Definition row_factor_at i : R := scale_at i * (4%:R * toR power_z * u2) * toR q.
+
+Lemma row_factor_gt0_ i : (i < ns)%N -> 0 < row_factor_at i.
+Proof.
+move=> Hi; have [q0 u0 s0 _] := expand_parts R expanded.
+rewrite !mulr_gt0 ?power_gt0 ?exprn_gt0 ?ltr0n // ?s0 //.
+by rewrite invr_gt0 toR_gt0.
+Qed.
+
+Lemma local_image slopes u x i : 0 <= u -> (i < ns)%N ->
+  (forall k, k \in fi -> free_of Q x k = free_values u (slip_of Q x) k) ->
+  family_image (pencil_for slopes grain) local_family u (slip_of Q x) i =
+  row_factor_at i * reaction Q (t_of u) x (nth 0%N (slip Q) i).
+Proof.
+move=> u0 Hi part; rewrite /row_factor_at -!mulrA.
+rewrite (reaction_slip_at wf x (t_ofE u) Hi) (condensed_row _ _ i part) !mulr_sumr.
+by rewrite /family_image; apply: eq_bigr => j _; rewrite /local_family /raw !mulrA.
+Qed.
+
+Lemma to_family slopes u x : 0 <= u -> solution Q (t_of u) x ->
+  family_solves (pencil_for slopes grain) local_family u (slip_of Q x) /\
+  forall k, k \in fi -> free_of Q x k = free_values u (slip_of Q x) k.
+Proof.
+move=> u0 [_ [i0 Hi0 xi0] rows_f rows_s].
+have part k : k \in fi -> free_of Q x k = free_values u (slip_of Q x) k.
+  apply/(free_rows_vanish s_low_gt0 (below_at_u u0)) : k => k Hk; have lt_k := in_free Hk.
+  by rewrite -(reaction_free_at wf x (t_ofE u)) // rows_f ?mulr0 // mem_nth.
+split=> //; split=> //.
+  have [/hasP[i Hi xi]|/hasPn all0] := boolP (has (fun i => slip_of Q x i != 0) si).
+    by exists i.
+  case/orP: (free_or_slip Hi0) => /(nthP 0%N)[k lt_k eq_k]; move: xi0; rewrite -eq_k.
+    have Hk : k \in fi by rewrite mem_iota.
+    rewrite -[x _]/(free_of Q x k) part // /free_values /Elimination.free_part.
+    rewrite sum_zero ?oppr0 ?eqxx // => j Hj.
+    by have /negPn/eqP-> := all0 _ Hj; rewrite mulr0.
+  by move=> xk; exists k; rewrite // mem_iota.
+move=> i /in_local Hi; have [x0 y0 xy] := rows_s _ (mem_nth 0%N Hi).
+rewrite (local_image _ u0 Hi part) pmulr_rge0 ?row_factor_gt0_ //; split=> //.
+by rewrite mulrCA [x _ * _]xy mulr0.
+Qed.
+
+Lemma from_family slopes u xs : 0 <= u ->
+  family_solves (pencil_for slopes grain) local_family u xs ->
+  solution Q (t_of u) (join Q (free_values u xs) xs).
+Proof.
+move=> u0 [_ [i0 Hi0 xi0] rows]; set x := join Q _ xs.
+have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_join.
+have freeE k : (k < nf)%N -> free_of Q x k = free_values u xs k by move=> Hk; rewrite /x free_of_join.
+have part k : k \in fi -> free_of Q x k = free_values u (slip_of Q x) k.
+  move=> /in_free Hk; rewrite freeE // /free_values /Elimination.free_part; congr (- _).
+  by apply: sum_eq => j; rewrite mem_iota => Hj; rewrite slipE.
+split.
+- exact: t_of_ge0.
+- have lt0 := in_local Hi0; exists (nth 0%N (slip Q) i0); first exact/slip_indices/mem_nth.
+  by rewrite -[x _]/(slip_of Q x i0) slipE.
+- move=> i /(nthP 0%N)[k Hk <-]; apply: (mulfI (lt0r_neq0 q_gt0)); rewrite mulr0.
+  rewrite (reaction_free_at wf x (t_ofE u)) //; move: k Hk.
+  have vanish := (free_rows_vanish s_low_gt0 (below_at_u u0) _ _ _ _).2 part.
+  by move=> k Hk; apply: vanish; rewrite mem_iota.
+move=> i /(nthP 0%N)[k Hk <-].
+have Hk' : k \in indices (pencil_for slopes grain) by rewrite mem_iota.
+have [x0 y0 xy] := rows _ Hk'; have f0 := row_factor_gt0_ Hk.
+have imageE : family_image (pencil_for slopes grain) local_family u xs k =
+    row_factor_at k * reaction Q (t_of u) x (nth 0%N (slip Q) k).
+  rewrite -(local_image slopes u0 Hk part); apply: sum_eq => j /in_local Hj.
+  by rewrite slipE.
+rewrite -[x (nth _ _ _)]/(slip_of Q x k) slipE //; split=> //.
+  by rewrite -(pmulr_rge0 _ f0) -imageE.
+by apply: (mulfI (lt0r_neq0 f0)); rewrite mulr0 mulrCA -imageE.
+Qed.
+
+(* Leaves *)
+Section Leaf.
+
+Variables (W : Type) (states_ : seq state) (l : leaf W).
+Notation r := (Region lo hi states_).
+Hypothesis checked : check_anchored ns a low_a low_b fam lo hi r grain l.
+
+Notation local_r := (local_region r).
+
+Lemma local_ordered : ordered (lower local_r) (upper local_r).
+Proof. by []. Qed.
+
+Lemma between_unit (u : R) : between u (lower local_r) (upper local_r) -> 0 <= u /\ u <= 1.
+Proof. by rewrite /between /= toR0 toR1 !mulr1. Qed.
+
+Lemma in_local_region u (xs : nat -> R) : 0 <= u -> u <= 1 -> agrees ns r xs ->
+  in_region ns u xs local_r.
+Proof. by move=> u0 u1 ag; split=> //; rewrite /between /= toR0 toR1 !mulr1. Qed.
+
+Theorem anchored_excludes (t : R) x : ~~ wants_slopes l -> solution Q t x ->
+  between t lo hi -> agrees ns r (slip_of Q x) -> False.
+Proof.
+move=> /negbTE tight sol bt ag; have [u0 u1] := u_of_between bt.
+rewrite -(t_of_u t) in sol; move: u0 u1 sol; set u := u_of t => u0 u1 sol.
+case/and3P: checked => _ _; rewrite tight => ok.
+have [fam_sol _] := to_family false u0 sol.
+have [A [B [E lin_sol]]] := line_solution (local_line false u0 u1) fam_sol.
+have no_whole r' (w' : W) (t' : R) x' : ordered (lower r') (upper r') -> false ->
+    in_region_of (pencil_for false grain) t' x' r' ->
+    solves (pencil_for false grain) A B t' x' -> False by [].
+have [c] := leaf_sound E no_whole local_ordered ok (in_local_region u0 u1 ag) lin_sol.
+by rewrite /yielded; move: tight; case: (l) => //= c' [].
+Qed.
+
+(* Polynomials of the blocks in u. *)
+Definition shifted_poly i j : {poly R} :=
+  (toR (lookup (row_0 Q a i) j))%:P +
+  ((toR off / toR uy)%:P + (toR ext / toR uy)%:P * 'X) * (toR (lookup (row_1 Q a i) j))%:P.
+
+Lemma shifted_polyE (u : R) i j : (shifted_poly i j).[u] = shifted_entry Q a (d_of u) i j.
+Proof.
+rewrite /shifted_poly /shifted_entry /d_of !(hornerD, hornerM, hornerC, hornerX).
+have -> : (toR off + u * toR ext) / toR uy = toR off / toR uy + toR ext / toR uy * u by ring.
+by [].
+Qed.
+
+Definition F_poly i k := shifted_poly (nth 0%N (free Q) i) (nth 0%N (free Q) k).
+Definition G_poly i j := shifted_poly (nth 0%N (free Q) i) (nth 0%N (slip Q) j).
+Definition H_poly i k := shifted_poly (nth 0%N (slip Q) i) (nth 0%N (free Q) k).
+Definition D_poly i j := shifted_poly (nth 0%N (slip Q) i) (nth 0%N (slip Q) j).
+
+Definition family_poly i j : {poly R} :=
+  (scale_at i * (4%:R * toR power_z * u2))%:P * condensed_poly nf F_poly G_poly H_poly D_poly i j.
+
+Lemma block_at u : block fi (fun i j => (F_poly i j).[u]) = block fi (F_at Q a (d_of u)).
+Proof. by apply/matrixP=> i j; rewrite !mxE shifted_polyE. Qed.
+
+Lemma unit_at_u u : 0 <= u -> block fi (F_at Q a (d_of u)) \in unitmx.
+Proof. by move=> u0; apply: block_unit s_low_gt0 (below_at_u u0). Qed.
+
+Lemma family_polyE u i j : 0 <= u -> (family_poly i j).[u] =
+  (free_det nf F_poly).[u] * local_family u i j.
+Proof.
+move=> u0; rewrite /family_poly hornerM hornerC condensed_polynomial ?block_at ?unit_at_u //.
+have -> : condensed_at nf (fun i j => (F_poly i j).[u]) (fun i j => (G_poly i j).[u])
+    (fun i j => (H_poly i j).[u]) (fun i j => (D_poly i j).[u]) i j =
+    condensed_family Q a (d_of u) i j.
+  rewrite /condensed_family /condensed_at /D_poly shifted_polyE; congr (_ - _).
+  apply: eq_bigr => k _; rewrite /H_poly shifted_polyE; congr (_ * _).
+  rewrite /solve block_at; congr (at_index (_ *m _) _); apply/colP=> m; rewrite !mxE.
+  exact: shifted_polyE.
+by rewrite /local_family /raw mulrCA !mulrA.
+Qed.
+
+Lemma free_det_neq0 u : 0 <= u -> (free_det nf F_poly).[u] != 0.
+Proof. by move=> u0; rewrite free_detE block_at -unitfE -unitmxE unit_at_u. Qed.
+
+End Leaf.
+
+Theorem anchored_yields W (st : seq state) c :
+  check_anchored ns a low_a low_b fam lo hi (Region lo hi st) grain (Root W c Solution) ->
+  exists (t : R) x, [/\ between t (from_point c) (to_point c), solution Q t x,
+    between t lo hi /\ agrees ns (Region lo hi st) (slip_of Q x) &
+    forall t' x', solution Q t' x' -> between t' lo hi ->
+      agrees ns (Region lo hi st) (slip_of Q x') ->
+      t' = t /\ exists2 f, 0 < f & forall i, i \in iota 0 (order Q) -> x' i = f * x i].
+Proof.
+move=> checked; case/and3P: (checked) => _ _ root_ok.
+have D : decided (pencil_for true grain) (local_region (Region lo hi st)).
+  by case/andP: root_ok => /and5P[].
+have unit_u (u : R) : between u (lower (local_region (Region lo hi st)))
+    (upper (local_region (Region lo hi st))) -> 0 <= u /\ u <= 1 by apply: between_unit.
+have [u [xs [bu sol reg uniq]]] : exists u xs,
+    [/\ between u (local_point lo hi (from_point c)) (local_point lo hi (to_point c)),
+        family_solves (pencil_for true grain) local_family u xs,
+        in_region ns u xs (local_region (Region lo hi st)) &
+        forall u' x', family_solves (pencil_for true grain) local_family u' x' ->
+          in_region ns u' x' (local_region (Region lo hi st)) ->
+          u' = u /\ exists2 g, 0 < g &
+            forall i, i \in indices (pencil_for true grain) -> x' i = g * xs i].
+  apply: (@curved_solution _ _ _ _ _ (local_ordered st) D root_ok _
+            (free_det nf F_poly) family_poly).
+  - by move=> u u' /unit_u[u0 u1] /unit_u[v0 v1]; apply: local_chord.
+  - by move=> u /unit_u[u0 _]; apply: free_det_neq0.
+  by move=> u i j /unit_u[u0 _] _ _; apply: family_polyE.
+have [u0 u1] := unit_u _ (proj1 reg).
+pose x := join Q (free_values u xs) xs.
+have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_join.
+have agree_ext (y z : nat -> R) : (forall j, (j < ns)%N -> y j = z j) ->
+    agrees ns (Region lo hi st) y -> agrees ns (Region lo hi st) z.
+  by move=> same ag j lt_j; have := ag j lt_j; rewrite same.
+exists (t_of u), x; split.
+- exact: between_local bu.
+- exact: from_family sol.
+- split; last by apply: agree_ext (proj2 reg) => j Hj; rewrite slipE.
+  exact: between_t.
+move=> t' x' sol' bt' ag'; have [v0 v1] := u_of_between bt'.
+rewrite -(t_of_u t') in sol' *; move: v0 v1 sol'; set v := u_of t' => v0 v1 sol'.
+have [fam_sol part'] := to_family true v0 sol'.
+have [vu [f f0 scaled]] := uniq v _ fam_sol (in_local_region v0 v1 ag').
+rewrite vu in part' *.
+split=> //; exists f => // i Hi; case/orP: (free_or_slip Hi) => /(nthP 0%N)[k lt_k <-].
+  have Hk : k \in fi by rewrite mem_iota.
+  rewrite -[LHS]/(free_of Q x' k) -[X in _ = f * X]/(free_of Q x k) part'; last exact: Hk.
+  rewrite (free_of_join wf) // /free_values /Elimination.free_part mulrN mulr_sumr.
+  by congr (- _); apply: sum_eq => j Hj; rewrite scaled // mulrCA.
+rewrite -[LHS]/(slip_of Q x' k) -[X in _ = f * X]/(slip_of Q x k) slipE //.
+by apply: scaled; rewrite mem_iota.
+Qed.
+
 End Local.
