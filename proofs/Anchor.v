@@ -22,12 +22,14 @@
    that of the region.  [anchored_excludes]: a leaf that is not a solution excludes the solutions of
    the region.  [anchored_yields]: a root leaf with the outcome "solution" has exactly one.
 
+   (AnchorLeaf.v has both theorems.)
+
    Page: spec/certificates.md, 5.14.
    Rust: crates/check/src/cover/condensed.rs, expanded.rs, family.rs. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence RootLeaf Cover.
+From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf Existence.
 From Mceip Require Import Condensation Pencil Claim Norms Elimination Curved Series.
 
 Set Implicit Arguments.
@@ -67,6 +69,13 @@ Record local_entry := LocalEntry {
   local_b : Z;
   local_ra : Z;
   local_rb : Z }.
+
+(* What is shown of a region with an anchor. *)
+Inductive local_leaf :=
+  | LocalFarkas of seq Z
+  | LocalDefinite of bool & factor & factor
+  | LocalAbsent of absence
+  | LocalRoot of isolation & outcome.
 
 Section Bounds.
 
@@ -213,18 +222,25 @@ Definition local_isolation (c : isolation) : isolation :=
   Isolation (pivot c) (vector c) (local_point (from_point c)) (local_point (to_point c))
     (wide_box c) (narrow_box c) (unique c) (left_vector c).
 
-Definition local_leaf W (l : leaf W) : leaf W :=
-  if l is Root c o then Root W (local_isolation c) o else l.
+Definition moved_leaf (l : local_leaf) : local_leaf :=
+  if l is LocalRoot c o then LocalRoot (local_isolation c) o else l.
 
-Definition wants_slopes W (l : leaf W) := if l is Root _ Solution then true else false.
+Definition wants_slopes (l : local_leaf) := if l is LocalRoot _ Solution then true else false.
 
 Definition local_region (r : region) : region := Region (0, 1) (1, 1) (states r).
 
+Definition check_local (P : enclosed) (r : region) (l : local_leaf) : bool :=
+  match l with
+  | LocalFarkas w => farkas P r w
+  | LocalDefinite negative low high => definite P negative r low high
+  | LocalAbsent c => check_absent P r c
+  | LocalRoot c o => check_root P r c o
+  end.
+
 (* A leaf of a region with the interval [lo, hi]. *)
-Definition check_anchored W (r : region) grain (l : leaf W) :=
+Definition check_anchored (r : region) grain (l : local_leaf) :=
   [&& proper_interval, 0 <? grain &
-      check_leaf (local_pencil (wants_slopes l) grain) (fun _ _ => false) (local_region r)
-        (local_leaf l)].
+      check_local (local_pencil (wants_slopes l) grain) (local_region r) (moved_leaf l)].
 
 End Region.
 

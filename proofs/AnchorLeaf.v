@@ -13,7 +13,7 @@
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence RootLeaf Cover.
+From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf Existence.
 From Mceip Require Import Condensation Pencil Claim Norms Elimination Curved Series Anchor.
 
 Set Implicit Arguments.
@@ -616,7 +616,7 @@ Qed.
 (* Leaves *)
 Section Leaf.
 
-Variables (W : Type) (states_ : seq state) (l : leaf W).
+Variables (states_ : seq state) (l : local_leaf).
 Notation r := (Region lo hi states_).
 Hypothesis checked : check_anchored ns a low_a low_b fam lo hi r grain l.
 
@@ -640,11 +640,17 @@ rewrite -(t_of_u t) in sol; move: u0 u1 sol; set u := u_of t => u0 u1 sol.
 case/and3P: checked => _ _; rewrite tight => ok.
 have [fam_sol _] := to_family false u0 sol.
 have [A [B [E lin_sol]]] := line_solution (local_line false u0 u1) fam_sol.
-have no_whole r' (w' : W) (t' : R) x' : ordered (lower r') (upper r') -> false ->
-    in_region_of (pencil_for false grain) t' x' r' ->
-    solves (pencil_for false grain) A B t' x' -> False by [].
-have [c] := leaf_sound E no_whole local_ordered ok (in_local_region u0 u1 ag) lin_sol.
-by rewrite /yielded; move: tight; case: (l) => //= c' [].
+have reg := in_local_region u0 u1 ag.
+move: tight ok; case: (l) => [w|negative low high|c|c o] /= tight ok.
+- exact: (farkas_sound E local_ordered ok reg lin_sol).
+- exact: (definite_sound E local_ordered ok reg lin_sol).
+- have D : decided (pencil_for false grain) local_r by case/and5P: ok.
+  exact: (absent_sound E local_ordered D ok reg lin_sol).
+case/andP: ok => iso signs.
+have D : decided (pencil_for false grain) local_r by case/and5P: iso.
+case: o tight signs => [//|i _ /andP[iK neg]|i _ /and3P[Hi nm neg]].
+  exact: (negative_x_sound E local_ordered D iso iK neg reg lin_sol).
+exact: (negative_y_sound E local_ordered D iso Hi nm neg reg lin_sol).
 Qed.
 
 (* Polynomials of the blocks in u. *)
@@ -692,8 +698,8 @@ Proof. by move=> u0; rewrite free_detE block_at -unitfE -unitmxE unit_at_u. Qed.
 
 End Leaf.
 
-Theorem anchored_yields W (st : seq state) c :
-  check_anchored ns a low_a low_b fam lo hi (Region lo hi st) grain (Root W c Solution) ->
+Theorem anchored_yields (st : seq state) c :
+  check_anchored ns a low_a low_b fam lo hi (Region lo hi st) grain (LocalRoot c Solution) ->
   exists (t : R) x, [/\ between t (from_point c) (to_point c), solution Q t x,
     between t lo hi /\ agrees ns (Region lo hi st) (slip_of Q x) &
     forall t' x', solution Q t' x' -> between t' lo hi ->

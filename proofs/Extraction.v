@@ -10,6 +10,7 @@ From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
 From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Cover.
 From Mceip Require Import Condensation Pencil Whole Complete Claim System.
+From Mceip Require Import Series Anchor Varying.
 
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
@@ -22,4 +23,6 @@ Extraction "kernel.ml"
   condensed slip zero infinity window check_leaf check_tree check_whole check_end
   stiffness_positive shapes wellformed free_rows_constant system_wellformed
   symmetric_part definite_end farkas check_absent check_root active moving members member_form
-  defect residual check_unique decide.
+  defect residual check_unique decide
+  check_varying check_system_varying varying_found check_varying_leaf families_of expand_anchor
+  local_pencil local_point bounded_rows ff_block swap_pencil swap_region.
