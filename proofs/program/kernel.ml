@@ -37,6 +37,14 @@ type reflect =
 
 module Pos =
  struct
+  type mask =
+  | IsNul
+  | IsPos of Big_int_Z.big_int
+  | IsNeg
+ end
+
+module Coq_Pos =
+ struct
   (** val succ : Big_int_Z.big_int -> Big_int_Z.big_int **)
 
   let rec succ = Big_int_Z.succ_big_int
@@ -109,6 +117,104 @@ module Pos =
       (fun _ -> Big_int_Z.unit_big_int)
       x
 
+  type mask = Pos.mask =
+  | IsNul
+  | IsPos of Big_int_Z.big_int
+  | IsNeg
+
+  (** val succ_double_mask : mask -> mask **)
+
+  let succ_double_mask = function
+  | IsNul -> IsPos Big_int_Z.unit_big_int
+  | IsPos p ->
+    IsPos ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+      p)
+  | IsNeg -> IsNeg
+
+  (** val double_mask : mask -> mask **)
+
+  let double_mask = function
+  | IsPos p -> IsPos (Big_int_Z.mult_int_big_int 2 p)
+  | x0 -> x0
+
+  (** val double_pred_mask : Big_int_Z.big_int -> mask **)
+
+  let double_pred_mask x =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p -> IsPos (Big_int_Z.mult_int_big_int 2
+      (Big_int_Z.mult_int_big_int 2 p)))
+      (fun p -> IsPos (Big_int_Z.mult_int_big_int 2
+      (pred_double p)))
+      (fun _ -> IsNul)
+      x
+
+  (** val sub_mask : Big_int_Z.big_int -> Big_int_Z.big_int -> mask **)
+
+  let rec sub_mask x y =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> double_mask (sub_mask p q))
+        (fun q -> succ_double_mask (sub_mask p q))
+        (fun _ -> IsPos (Big_int_Z.mult_int_big_int 2 p))
+        y)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> succ_double_mask (sub_mask_carry p q))
+        (fun q -> double_mask (sub_mask p q))
+        (fun _ -> IsPos (pred_double p))
+        y)
+      (fun _ ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun _ -> IsNeg)
+        (fun _ -> IsNeg)
+        (fun _ -> IsNul)
+        y)
+      x
+
+  (** val sub_mask_carry : Big_int_Z.big_int -> Big_int_Z.big_int -> mask **)
+
+  and sub_mask_carry x y =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> succ_double_mask (sub_mask_carry p q))
+        (fun q -> double_mask (sub_mask p q))
+        (fun _ -> IsPos (pred_double p))
+        y)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> double_mask (sub_mask_carry p q))
+        (fun q -> succ_double_mask (sub_mask_carry p q))
+        (fun _ -> double_pred_mask p)
+        y)
+      (fun _ -> IsNeg)
+      x
+
   (** val mul :
       Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
@@ -160,6 +266,84 @@ module Pos =
         (fun _ -> true)
         q)
       p
+
+  (** val leb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
+
+  let leb x y =
+    match compare x y with
+    | Gt -> false
+    | _ -> true
+
+  (** val sqrtrem_step :
+      (Big_int_Z.big_int -> Big_int_Z.big_int) -> (Big_int_Z.big_int ->
+      Big_int_Z.big_int) -> (Big_int_Z.big_int * mask) ->
+      Big_int_Z.big_int * mask **)
+
+  let sqrtrem_step f g = function
+  | (s, y) ->
+    (match y with
+     | IsPos r ->
+       let s' =
+         (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+         (Big_int_Z.mult_int_big_int 2 s)
+       in
+       let r' = g (f r) in
+       if leb s' r'
+       then (((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+              s), (sub_mask r' s'))
+       else ((Big_int_Z.mult_int_big_int 2 s), (IsPos r'))
+     | _ ->
+       ((Big_int_Z.mult_int_big_int 2 s),
+         (sub_mask (g (f Big_int_Z.unit_big_int))
+           (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+           Big_int_Z.unit_big_int)))))
+
+  (** val sqrtrem : Big_int_Z.big_int -> Big_int_Z.big_int * mask **)
+
+  let rec sqrtrem p =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p0 ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun p1 ->
+        sqrtrem_step (fun x ->
+          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+          x) (fun x ->
+          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+          x) (sqrtrem p1))
+        (fun p1 ->
+        sqrtrem_step (fun x -> Big_int_Z.mult_int_big_int 2 x) (fun x ->
+          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+          x) (sqrtrem p1))
+        (fun _ -> (Big_int_Z.unit_big_int, (IsPos
+        (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))))
+        p0)
+      (fun p0 ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun p1 ->
+        sqrtrem_step (fun x ->
+          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+          x) (fun x -> Big_int_Z.mult_int_big_int 2 x) (sqrtrem p1))
+        (fun p1 ->
+        sqrtrem_step (fun x -> Big_int_Z.mult_int_big_int 2 x) (fun x ->
+          Big_int_Z.mult_int_big_int 2 x) (sqrtrem p1))
+        (fun _ -> (Big_int_Z.unit_big_int, (IsPos Big_int_Z.unit_big_int)))
+        p0)
+      (fun _ -> (Big_int_Z.unit_big_int, IsNul))
+      p
+
+  (** val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let sqrt p =
+    fst (sqrtrem p)
  end
 
 module Z =
@@ -185,7 +369,7 @@ module Z =
       (fun p ->
       ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
       p))
-      (fun p -> Big_int_Z.minus_big_int (Pos.pred_double p))
+      (fun p -> Big_int_Z.minus_big_int (Coq_Pos.pred_double p))
       x
 
   (** val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int **)
@@ -195,7 +379,7 @@ module Z =
   if s = 0 then fO () else if s > 0 then fp z
   else fn (Big_int_Z.minus_big_int z))
       (fun _ -> Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
-      (fun p -> (Pos.pred_double p))
+      (fun p -> (Coq_Pos.pred_double p))
       (fun p -> Big_int_Z.minus_big_int
       ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x)) p))
       x
@@ -224,7 +408,7 @@ module Z =
   if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
         (fun q -> pred_double (pos_sub p q))
         (fun q -> double (pos_sub p q))
-        (fun _ -> (Pos.pred_double p))
+        (fun _ -> (Coq_Pos.pred_double p))
         y)
       (fun _ ->
       (fun f2p1 f2p f1 p ->
@@ -233,7 +417,7 @@ module Z =
   if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
         (fun q -> Big_int_Z.minus_big_int (Big_int_Z.mult_int_big_int 2
         q))
-        (fun q -> Big_int_Z.minus_big_int (Pos.pred_double q))
+        (fun q -> Big_int_Z.minus_big_int (Coq_Pos.pred_double q))
         (fun _ -> Big_int_Z.zero_big_int)
         y)
       x
@@ -246,6 +430,14 @@ module Z =
   (** val opp : Big_int_Z.big_int -> Big_int_Z.big_int **)
 
   let opp = Big_int_Z.minus_big_int
+
+  (** val succ : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let succ = Big_int_Z.succ_big_int
+
+  (** val pred : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let pred = Big_int_Z.pred_big_int
 
   (** val sub :
       Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
@@ -279,6 +471,11 @@ module Z =
   (** val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
 
   let eqb = Big_int_Z.eq_big_int
+
+  (** val max :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let max = Big_int_Z.max_big_int
 
   (** val abs : Big_int_Z.big_int -> Big_int_Z.big_int **)
 
@@ -337,6 +534,24 @@ module Z =
   | 0 -> zero_big_int
   | 1 -> div_big_int x y
   | _ -> add_int_big_int (-1) (div_big_int (add_int_big_int (-1) x) y))
+
+  (** val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let sqrt n =
+    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
+  if s = 0 then fO () else if s > 0 then fp z
+  else fn (Big_int_Z.minus_big_int z))
+      (fun _ -> Big_int_Z.zero_big_int)
+      (fun p -> (Coq_Pos.sqrt p))
+      (fun _ -> Big_int_Z.zero_big_int)
+      n
+
+  (** val sqrt_up : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let sqrt_up a =
+    match compare Big_int_Z.zero_big_int a with
+    | Lt -> succ (sqrt (pred a))
+    | _ -> Big_int_Z.zero_big_int
  end
 
 module Option =
@@ -382,32 +597,33 @@ let idP = function
 | true -> ReflectT
 | false -> ReflectF
 
-type 't pred = 't -> bool
+type 't pred0 = 't -> bool
 
 type 't predType =
-  __ -> 't pred
+  __ -> 't pred0
   (* singleton inductive, whose constructor was PredType *)
 
 type 't pred_sort = __
 
 type 't simpl_pred = ('t, bool) simpl_fun
 
-(** val simplPred : 'a1 pred -> 'a1 simpl_pred **)
+(** val simplPred : 'a1 pred0 -> 'a1 simpl_pred **)
 
 let simplPred p =
   p
 
 module PredOfSimpl =
  struct
-  (** val coerce : 'a1 simpl_pred -> 'a1 pred **)
+  (** val coerce : 'a1 simpl_pred -> 'a1 pred0 **)
 
   let coerce =
     fun_of_simpl
  end
 
-type 't rel = 't -> 't pred
+type 't rel = 't -> 't pred0
 
-type 't mem_pred = 't pred
+type 't mem_pred =
+  't pred0
   (* singleton inductive, whose constructor was Mem *)
 
 (** val pred_of_mem : 'a1 mem_pred -> 'a1 pred_sort **)
@@ -515,6 +731,12 @@ let rec size = function
 | [] -> 0
 | _ :: s' -> Stdlib.Int.succ (size s')
 
+(** val behead : 'a1 list -> 'a1 list **)
+
+let behead = function
+| [] -> []
+| _ :: s' -> s'
+
 (** val ncons : int -> 'a1 -> 'a1 list -> 'a1 list **)
 
 let ncons n x =
@@ -549,25 +771,25 @@ let rec set_nth x0 s n y =
        (fun n' -> x :: (set_nth x0 s' n' y))
        n)
 
-(** val find : 'a1 pred -> 'a1 list -> int **)
+(** val find : 'a1 pred0 -> 'a1 list -> int **)
 
 let rec find a = function
 | [] -> 0
 | x :: s' -> if a x then 0 else Stdlib.Int.succ (find a s')
 
-(** val filter : 'a1 pred -> 'a1 list -> 'a1 list **)
+(** val filter : 'a1 pred0 -> 'a1 list -> 'a1 list **)
 
 let rec filter a = function
 | [] -> []
 | x :: s' -> if a x then x :: (filter a s') else filter a s'
 
-(** val has : 'a1 pred -> 'a1 list -> bool **)
+(** val has : 'a1 pred0 -> 'a1 list -> bool **)
 
 let rec has a = function
 | [] -> false
 | x :: s' -> (||) (a x) (has a s')
 
-(** val all : 'a1 pred -> 'a1 list -> bool **)
+(** val all : 'a1 pred0 -> 'a1 list -> bool **)
 
 let rec all a = function
 | [] -> true
@@ -848,30 +1070,30 @@ let rec all_from f k = function
     ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
     ('a1 * 'a2) -> ('a1 * 'a2) -> Big_int_Z.big_int **)
 
-let remainder s product a b =
-  Z.sub (s (fst a) (fst b)) (product (snd a) (snd b))
+let remainder s product0 a b =
+  Z.sub (s (fst a) (fst b)) (product0 (snd a) (snd b))
 
 (** val off_diagonal :
     ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
     ('a1 * 'a2) list -> Equality.sort -> ('a1 * 'a2) -> Big_int_Z.big_int **)
 
-let off_diagonal s product rows i a =
+let off_diagonal s product0 rows i a =
   sum_from (fun j b ->
     if eq_op nat_eqType (Obj.magic j) i
     then Big_int_Z.zero_big_int
-    else Z.abs (remainder s product a b)) 0 rows
+    else Z.abs (remainder s product0 a b)) 0 rows
 
 (** val covered :
     ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
     bool -> ('a1 * 'a2) list -> bool **)
 
-let covered s product strict rows =
+let covered s product0 strict rows =
   all_from (fun i a ->
     if strict
-    then Z.ltb (off_diagonal s product rows (Obj.magic i) a)
-           (remainder s product a a)
-    else Z.leb (off_diagonal s product rows (Obj.magic i) a)
-           (remainder s product a a)) 0 rows
+    then Z.ltb (off_diagonal s product0 rows (Obj.magic i) a)
+           (remainder s product0 a a)
+    else Z.leb (off_diagonal s product0 rows (Obj.magic i) a)
+           (remainder s product0 a a)) 0 rows
 
 (** val weighted_dot :
     Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
@@ -1700,8 +1922,8 @@ let rec add_poly p q =
 (** val mul_poly : polynomial -> polynomial -> polynomial **)
 
 let mul_poly p q =
-  foldr (fun a product ->
-    add_poly (scale_poly a q) (Big_int_Z.zero_big_int :: product)) [] p
+  foldr (fun a product0 ->
+    add_poly (scale_poly a q) (Big_int_Z.zero_big_int :: product0)) [] p
 
 (** val zero_poly : polynomial -> bool **)
 
@@ -2038,3 +2260,636 @@ let check_system_excluded s u tr lo hi =
 
 let check_system_claim s u k =
   (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)
+
+(** val add_lists :
+    ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list **)
+
+let rec add_lists add0 p q =
+  match p with
+  | [] -> q
+  | a :: p' ->
+    (match q with
+     | [] -> p
+     | b :: q' -> (add0 a b) :: (add_lists add0 p' q'))
+
+(** val add_matrix : matrix -> matrix -> matrix **)
+
+let add_matrix =
+  add_lists add_poly
+
+(** val add_series : matrix list -> matrix list -> matrix list **)
+
+let add_series =
+  add_lists add_matrix
+
+(** val scale_series : Big_int_Z.big_int -> matrix list -> matrix list **)
+
+let scale_series c l =
+  map0 (fun m -> map0 (fun row -> scale_poly c row) m) l
+
+(** val combine : matrix -> sparse_row -> Big_int_Z.big_int list **)
+
+let combine x row =
+  foldr (fun e s -> add_poly (scale_poly (snd e) (nth [] x (fst e))) s) [] row
+
+(** val product : sparse_row list -> matrix -> matrix **)
+
+let product rows x =
+  map0 (fun row -> combine x row) rows
+
+(** val product_series : sparse_row list -> matrix list -> matrix list **)
+
+let product_series rows l =
+  map0 (fun x -> product rows x) l
+
+(** val column_of : matrix -> int -> Big_int_Z.big_int list **)
+
+let column_of x j =
+  map0 (fun row -> nth Big_int_Z.zero_big_int row j) x
+
+(** val columns_of : int -> matrix -> Big_int_Z.big_int list list **)
+
+let columns_of n x =
+  map0 (fun j -> column_of x j) (iota 0 n)
+
+(** val cross : matrix -> matrix -> matrix **)
+
+let cross cx cy =
+  map0 (fun a -> map0 (fun b -> dot a b) cy) cx
+
+(** val cross_series : int -> matrix list -> matrix list -> matrix list **)
+
+let cross_series n x y =
+  let cys = map0 (fun m -> columns_of n m) y in
+  foldr (fun m s ->
+    let cx = columns_of n m in
+    add_series (map0 (fun cy -> cross cx cy) cys) ([] :: s)) [] x
+
+(** val squares : Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let squares x =
+  foldr (fun a s -> Z.add (Z.mul a a) s) Big_int_Z.zero_big_int x
+
+(** val norm2 : Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let norm2 x =
+  Z.sqrt_up (squares x)
+
+(** val norms : matrix list -> int -> polynomial **)
+
+let norms l j =
+  map0 (fun m -> norm2 (column_of m j)) l
+
+(** val derivative : polynomial -> polynomial **)
+
+let rec derivative = function
+| [] -> []
+| _ :: p' -> add_poly p' (Big_int_Z.zero_big_int :: (derivative p'))
+
+(** val homogeneous :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int * Big_int_Z.big_int **)
+
+let homogeneous x y p =
+  foldr (fun c s ->
+    let power = Z.mul (snd s) y in
+    ((Z.add (Z.mul c power) (Z.mul x (fst s))), power))
+    (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int) p
+
+(** val substituted :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    -> polynomial * Big_int_Z.big_int **)
+
+let substituted x v y p =
+  foldr (fun c s ->
+    let power = Z.mul (snd s) y in
+    ((add_poly ((Z.mul c power) :: [])
+       (add_poly (scale_poly x (fst s))
+         (Big_int_Z.zero_big_int :: (scale_poly v (fst s))))), power)) ([],
+    Big_int_Z.unit_big_int) p
+
+(** val spread_of : polynomial -> Big_int_Z.big_int **)
+
+let rec spread_of = function
+| [] -> Big_int_Z.zero_big_int
+| _ :: p' -> Z.add (norm1 p') (spread_of p')
+
+(** val total : polynomial -> Big_int_Z.big_int **)
+
+let total p =
+  foldr Z.add Big_int_Z.zero_big_int p
+
+(** val constant_of : polynomial -> Big_int_Z.big_int **)
+
+let constant_of p =
+  nth Big_int_Z.zero_big_int p 0
+
+(** val chord_of : polynomial -> Big_int_Z.big_int **)
+
+let chord_of p =
+  total (behead p)
+
+(** val spread : polynomial -> Big_int_Z.big_int **)
+
+let spread p =
+  spread_of (behead p)
+
+(** val poly_of : matrix list -> int -> int -> polynomial **)
+
+let poly_of l i j =
+  map0 (fun m -> entry m i j) l
+
+type form_bound = { bound_times : Big_int_Z.big_int;
+                    bound_at : Big_int_Z.big_int;
+                    gram_times : Big_int_Z.big_int; gram_rows : late_row list }
+
+type anchor = { anchor_center : point; anchor_unit : Big_int_Z.big_int;
+                anchor_right : matrix list; anchor_left : matrix list;
+                anchor_scale : Big_int_Z.big_int list }
+
+type family = { series_z : matrix list; left_norms : polynomial list;
+                right_norms : polynomial list; drift : Big_int_Z.big_int }
+
+type local_entry = { local_a : Big_int_Z.big_int;
+                     local_b : Big_int_Z.big_int;
+                     local_ra : Big_int_Z.big_int;
+                     local_rb : Big_int_Z.big_int }
+
+type local_leaf =
+| LocalFarkas of Big_int_Z.big_int list
+| LocalDefinite of bool * factor * factor
+| LocalAbsent of absence
+| LocalRoot of isolation * outcome
+
+(** val bounded_rows :
+    Equality.sort -> sparse_row list -> form_bound -> bool **)
+
+let bounded_rows n rows b =
+  let entry_of0 = fun r s ->
+    Z.sub (Z.mul b.bound_times (lookup (snd r) (fst (Obj.magic s))))
+      (if eq_op nat_eqType (fst r) (fst s)
+       then b.bound_at
+       else Big_int_Z.zero_big_int)
+  in
+  (&&) (Z.ltb Big_int_Z.zero_big_int b.bound_times)
+    ((&&) (Z.leb Big_int_Z.zero_big_int b.bound_at)
+      ((&&) (Z.leb Big_int_Z.zero_big_int b.gram_times)
+        ((&&) (eq_op nat_eqType (Obj.magic size rows) n)
+          ((&&) (eq_op nat_eqType (Obj.magic size b.gram_rows) n)
+            ((&&)
+              (all_from (fun i row ->
+                all_from (fun j col -> Z.eqb (lookup row j) (lookup col i)) 0
+                  rows) 0 rows)
+              (covered (Obj.magic entry_of0) (fun r s ->
+                Z.mul b.gram_times (late_dot r s)) false
+                (zip (zip (iota 0 (Obj.magic n)) rows) b.gram_rows)))))))
+
+(** val times : Big_int_Z.big_int -> sparse_row -> sparse_row **)
+
+let times c row =
+  map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
+
+(** val row_0 : pencil -> anchor -> int -> (int * Big_int_Z.big_int) list **)
+
+let row_0 q a i =
+  cat (times (snd a.anchor_center) (row_a q i))
+    (times (fst a.anchor_center) (row_b q i))
+
+(** val row_1 : pencil -> anchor -> int -> sparse_row **)
+
+let row_1 q a i =
+  times (snd a.anchor_center) (row_b q i)
+
+(** val ff_block : pencil -> (int -> sparse_row) -> sparse_row list **)
+
+let ff_block q row =
+  map0 (fun i -> restrict (row i) q.free) q.free
+
+(** val fs_block : pencil -> (int -> sparse_row) -> matrix **)
+
+let fs_block q row =
+  map0 (fun i -> map0 (fun j -> lookup (row i) (Obj.magic j)) (slip q)) q.free
+
+(** val sf_block : pencil -> (int -> sparse_row) -> matrix **)
+
+let sf_block q row =
+  map0 (fun j -> map0 (fun i -> lookup (Obj.magic row i) j) (slip q)) q.free
+
+(** val ss_block : pencil -> (int -> sparse_row) -> matrix **)
+
+let ss_block q row =
+  map0 (fun i ->
+    map0 (fun j -> lookup (Obj.magic row i) (Obj.magic j)) (slip q)) 
+    (slip q)
+
+(** val residual_series :
+    pencil -> anchor -> matrix list -> matrix list -> matrix list **)
+
+let residual_series q a y x =
+  add_series (scale_series a.anchor_unit y)
+    (scale_series (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
+      (add_series (product_series (ff_block q (row_0 q a)) x)
+        ([] :: (product_series (ff_block q (row_1 q a)) x))))
+
+(** val residual_right : pencil -> anchor -> matrix list **)
+
+let residual_right q a =
+  residual_series q a
+    ((fs_block q (row_0 q a)) :: ((fs_block q (row_1 q a)) :: []))
+    a.anchor_right
+
+(** val residual_left : pencil -> anchor -> matrix list **)
+
+let residual_left q a =
+  residual_series q a
+    ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
+    a.anchor_left
+
+(** val center_series : pencil -> anchor -> matrix list -> matrix list **)
+
+let center_series q a r =
+  let u = a.anchor_unit in
+  add_series
+    (scale_series (Z.mul u u)
+      ((ss_block q (row_0 q a)) :: ((ss_block q (row_1 q a)) :: [])))
+    (scale_series (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
+      (add_series
+        (scale_series u
+          (cross_series (size (slip q))
+            ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
+            a.anchor_right)) (cross_series (size (slip q)) a.anchor_left r)))
+
+(** val row_sum : sparse_row -> Big_int_Z.big_int **)
+
+let row_sum row =
+  foldr (fun e s -> Z.add (Z.abs (snd e)) s) Big_int_Z.zero_big_int row
+
+(** val expand_from :
+    pencil -> anchor -> matrix list -> matrix list -> family **)
+
+let expand_from q a l r =
+  { series_z = (center_series q a r); left_norms =
+    (map0 (fun i -> norms l i) (iota 0 (size (slip q)))); right_norms =
+    (map0 (fun j -> norms r j) (iota 0 (size (slip q)))); drift =
+    (foldr Z.max Big_int_Z.zero_big_int
+      (map0 row_sum (ff_block q (row_1 q a)))) }
+
+(** val small : pencil -> matrix list -> bool **)
+
+let small q l =
+  all (fun m -> leq (size m) (size q.free)) l
+
+(** val expand : pencil -> anchor -> family option **)
+
+let expand q a =
+  let l = residual_left q a in
+  let r = residual_right q a in
+  if (&&) (Z.ltb Big_int_Z.zero_big_int (snd a.anchor_center))
+       ((&&) (Z.ltb Big_int_Z.zero_big_int a.anchor_unit)
+         ((&&)
+           (all (fun i ->
+             Z.ltb Big_int_Z.zero_big_int
+               (nth Big_int_Z.zero_big_int a.anchor_scale i))
+             (iota 0 (size (slip q))))
+           ((&&) (small q a.anchor_left) ((&&) (small q l) (small q r)))))
+  then Some (expand_from q a l r)
+  else None
+
+(** val interval_width : point -> point -> Big_int_Z.big_int **)
+
+let interval_width lo hi =
+  Z.sub (Z.mul (fst hi) (snd lo)) (Z.mul (fst lo) (snd hi))
+
+(** val offset : anchor -> point -> point -> Big_int_Z.big_int **)
+
+let offset a lo hi =
+  Z.mul
+    (Z.sub (Z.mul (fst lo) (snd a.anchor_center))
+      (Z.mul (fst a.anchor_center) (snd lo))) (snd hi)
+
+(** val extent : anchor -> point -> point -> Big_int_Z.big_int **)
+
+let extent a lo hi =
+  Z.mul (interval_width lo hi) (snd a.anchor_center)
+
+(** val unit_y : anchor -> point -> point -> Big_int_Z.big_int **)
+
+let unit_y a lo hi =
+  Z.mul (Z.mul (snd lo) (snd hi)) (snd a.anchor_center)
+
+(** val reach : anchor -> point -> point -> Big_int_Z.big_int **)
+
+let reach a lo hi =
+  Z.max (Z.abs (offset a lo hi))
+    (Z.abs (Z.add (offset a lo hi) (extent a lo hi)))
+
+(** val bound_n :
+    anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int **)
+
+let bound_n a low_a low_b lo =
+  Z.mul (snd a.anchor_center)
+    (Z.add (Z.mul (Z.mul low_a.bound_at low_b.bound_times) (snd lo))
+      (Z.mul (Z.mul (fst lo) low_b.bound_at) low_a.bound_times))
+
+(** val bound_d0 : form_bound -> form_bound -> point -> Big_int_Z.big_int **)
+
+let bound_d0 low_a low_b lo =
+  Z.mul (Z.mul low_a.bound_times low_b.bound_times) (snd lo)
+
+(** val proper_interval :
+    anchor -> form_bound -> form_bound -> point -> point -> bool **)
+
+let proper_interval a low_a low_b lo hi =
+  (&&) (Z.leb Big_int_Z.zero_big_int (fst lo))
+    ((&&) (Z.ltb Big_int_Z.zero_big_int (snd lo))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd hi))
+        ((&&) (Z.ltb Big_int_Z.zero_big_int (interval_width lo hi))
+          (Z.ltb Big_int_Z.zero_big_int (bound_n a low_a low_b lo)))))
+
+(** val remainder_radius :
+    anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int **)
+
+let remainder_radius a low_a low_b lo power nl nr =
+  divide_up
+    (Z.mul (Z.mul (Z.mul power (fst nl)) (fst nr)) (bound_d0 low_a low_b lo))
+    (Z.mul (Z.mul (snd nl) (snd nr)) (bound_n a low_a low_b lo))
+
+(** val remainder_slope :
+    anchor -> form_bound -> form_bound -> family -> point -> point ->
+    Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int **)
+
+let remainder_slope a low_a low_b fam lo hi power nl nr dl dr =
+  Z.add
+    (Z.add
+      (divide_up
+        (Z.mul
+          (Z.mul (Z.mul (Z.mul power (extent a lo hi)) (fst dl)) (fst nr))
+          (bound_d0 low_a low_b lo))
+        (Z.mul (Z.mul (Z.mul (unit_y a lo hi) (snd dl)) (snd nr))
+          (bound_n a low_a low_b lo)))
+      (divide_up
+        (Z.mul
+          (Z.mul (Z.mul (Z.mul power (extent a lo hi)) (fst nl)) (fst dr))
+          (bound_d0 low_a low_b lo))
+        (Z.mul (Z.mul (Z.mul (unit_y a lo hi) (snd nl)) (snd dr))
+          (bound_n a low_a low_b lo))))
+    (divide_up
+      (Z.mul
+        (Z.mul
+          (Z.mul
+            (Z.mul (Z.mul (Z.mul power (extent a lo hi)) (fst nl)) (fst nr))
+            fam.drift) (bound_d0 low_a low_b lo)) (bound_d0 low_a low_b lo))
+      (Z.mul
+        (Z.mul (Z.mul (Z.mul (unit_y a lo hi) (snd nl)) (snd nr))
+          (bound_n a low_a low_b lo)) (bound_n a low_a low_b lo)))
+
+(** val entry_of :
+    anchor -> form_bound -> form_bound -> family -> point -> point -> bool ->
+    polynomial -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> local_entry **)
+
+let entry_of a low_a low_b fam lo hi slopes z0 nl nr dl dr =
+  let c = substituted (offset a lo hi) (extent a lo hi) (unit_y a lo hi) z0 in
+  let rb =
+    if slopes
+    then Z.add
+           (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+             (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)))
+             (spread (fst c)))
+           (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+             Big_int_Z.unit_big_int))
+             (remainder_slope a low_a low_b fam lo hi (snd c) nl nr dl dr))
+    else Big_int_Z.zero_big_int
+  in
+  { local_a =
+  (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+    Big_int_Z.unit_big_int)) (constant_of (fst c))); local_b =
+  (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+    Big_int_Z.unit_big_int)) (chord_of (fst c))); local_ra =
+  (Z.add
+    (Z.add (spread (fst c))
+      (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+        Big_int_Z.unit_big_int))
+        (remainder_radius a low_a low_b lo (snd c) nl nr))) rb); local_rb =
+  rb }
+
+(** val rounded :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry **)
+
+let rounded grain scale e =
+  { local_a = (Z.div (Z.mul scale e.local_a) grain); local_b =
+    (Z.div (Z.mul scale e.local_b) grain); local_ra =
+    (Z.add (divide_up (Z.mul scale e.local_ra) grain) Big_int_Z.unit_big_int);
+    local_rb =
+    (Z.add (divide_up (Z.mul scale e.local_rb) grain) Big_int_Z.unit_big_int) }
+
+(** val local_entries :
+    int -> anchor -> form_bound -> form_bound -> family -> point -> point ->
+    bool -> Big_int_Z.big_int -> local_entry list list **)
+
+let local_entries ns a low_a low_b fam lo hi slopes grain =
+  let at_reach = homogeneous (reach a lo hi) (unit_y a lo hi) in
+  let nl = map0 at_reach fam.left_norms in
+  let nr = map0 at_reach fam.right_norms in
+  let dl = map0 (fun n -> at_reach (derivative n)) fam.left_norms in
+  let dr = map0 (fun n -> at_reach (derivative n)) fam.right_norms in
+  let get = fun l i ->
+    nth (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int) l i
+  in
+  map0 (fun i ->
+    map0 (fun j ->
+      rounded grain (nth Big_int_Z.zero_big_int a.anchor_scale i)
+        (entry_of a low_a low_b fam lo hi slopes (poly_of fam.series_z i j)
+          (get nl i) (get nr j) (get dl i) (get dr j))) (iota 0 ns))
+    (iota 0 ns)
+
+(** val local_pencil :
+    int -> anchor -> form_bound -> form_bound -> family -> point -> point ->
+    bool -> Big_int_Z.big_int -> enclosed **)
+
+let local_pencil ns a low_a low_b fam lo hi slopes grain =
+  let t = local_entries ns a low_a low_b fam lo hi slopes grain in
+  let table0 = fun f -> map0 (fun row -> map0 f row) t in
+  { size_of = ns; center_a = (table0 (fun l -> l.local_a)); center_b =
+  (table0 (fun l -> l.local_b)); radius_a = (table0 (fun l -> l.local_ra));
+  radius_b = (table0 (fun l -> l.local_rb)) }
+
+(** val local_point : point -> point -> point -> point **)
+
+let local_point lo hi e =
+  ((Z.mul (Z.sub (Z.mul (fst e) (snd lo)) (Z.mul (fst lo) (snd e))) (snd hi)),
+    (Z.mul (snd e) (interval_width lo hi)))
+
+(** val local_isolation : point -> point -> isolation -> isolation **)
+
+let local_isolation lo hi c =
+  { pivot = c.pivot; vector = c.vector; from_point =
+    (local_point lo hi c.from_point); to_point =
+    (local_point lo hi c.to_point); wide_box = c.wide_box; narrow_box =
+    c.narrow_box; unique = c.unique; left_vector = c.left_vector }
+
+(** val moved_leaf : point -> point -> local_leaf -> local_leaf **)
+
+let moved_leaf lo hi l = match l with
+| LocalRoot (c, o) -> LocalRoot ((local_isolation lo hi c), o)
+| _ -> l
+
+(** val wants_slopes : local_leaf -> bool **)
+
+let wants_slopes = function
+| LocalRoot (_, o) -> (match o with
+                       | Solution -> true
+                       | _ -> false)
+| _ -> false
+
+(** val local_region : region -> region **)
+
+let local_region r =
+  { lower = (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int); upper =
+    (Big_int_Z.unit_big_int, Big_int_Z.unit_big_int); states = r.states }
+
+(** val check_local : enclosed -> region -> local_leaf -> bool **)
+
+let check_local p r = function
+| LocalFarkas w -> farkas p r w
+| LocalDefinite (negative, low, high) -> definite p negative r low high
+| LocalAbsent c -> check_absent p r c
+| LocalRoot (c, o) -> check_root p r c o
+
+(** val check_anchored :
+    int -> anchor -> form_bound -> form_bound -> family -> point -> point ->
+    region -> Big_int_Z.big_int -> local_leaf -> bool **)
+
+let check_anchored ns a low_a low_b fam lo hi r grain l =
+  (&&) (proper_interval a low_a low_b lo hi)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
+      (check_local
+        (local_pencil ns a low_a low_b fam lo hi (wants_slopes l) grain)
+        (local_region r) (moved_leaf lo hi l)))
+
+type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
+                   anchors : (bool * anchor) list }
+
+type varying_leaf =
+| OfAnchor of int * Big_int_Z.big_int * local_leaf
+| OfWhole of whole
+
+(** val swap_pencil : pencil -> pencil **)
+
+let swap_pencil q =
+  { order = q.order; rows_a = q.rows_b; rows_b = q.rows_a; free = q.free }
+
+(** val swap_point : point -> point **)
+
+let swap_point e =
+  ((snd e), (fst e))
+
+(** val swap_region : region -> region **)
+
+let swap_region r =
+  { lower = (swap_point r.upper); upper = (swap_point r.lower); states =
+    r.states }
+
+(** val swap_isolation : isolation -> isolation **)
+
+let swap_isolation c =
+  { pivot = c.pivot; vector = c.vector; from_point = (swap_point c.to_point);
+    to_point = (swap_point c.from_point); wide_box = c.wide_box; narrow_box =
+    c.narrow_box; unique = c.unique; left_vector = c.left_vector }
+
+(** val swap_leaf : local_leaf -> local_leaf **)
+
+let swap_leaf l = match l with
+| LocalRoot (c, o) -> LocalRoot ((swap_isolation c), o)
+| _ -> l
+
+(** val expand_anchor : pencil -> (bool * anchor) -> family option **)
+
+let expand_anchor q ra =
+  if fst ra then expand (swap_pencil q) (snd ra) else expand q (snd ra)
+
+(** val no_anchor : bool * anchor **)
+
+let no_anchor =
+  (false, { anchor_center = zero; anchor_unit = Big_int_Z.zero_big_int;
+    anchor_right = []; anchor_left = []; anchor_scale = [] })
+
+(** val finite_root : local_leaf -> bool **)
+
+let finite_root = function
+| LocalRoot (c, _) -> Z.ltb Big_int_Z.zero_big_int (snd c.to_point)
+| _ -> true
+
+(** val check_varying_leaf :
+    pencil -> anchoring -> family option list -> region -> varying_leaf ->
+    bool **)
+
+let check_varying_leaf q w families r = function
+| OfAnchor (n, grain, e) ->
+  let (reverse, a) = nth no_anchor w.anchors n in
+  (match nth None families n with
+   | Some fam ->
+     if reverse
+     then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
+            ((&&) (finite_root e)
+              (check_anchored (size (slip q)) a w.mass_bound
+                w.stiffness_bound fam (swap_point r.upper)
+                (swap_point r.lower) (swap_region r) grain (swap_leaf e)))
+     else check_anchored (size (slip q)) a w.stiffness_bound w.mass_bound fam
+            r.lower r.upper r grain e
+   | None -> false)
+| OfWhole e -> check_whole q r e
+
+(** val families_of : pencil -> anchoring -> family option list **)
+
+let families_of q w =
+  map0 (fun ra -> expand_anchor q ra) w.anchors
+
+(** val check_varying :
+    pencil -> anchoring -> varying_leaf tree -> point -> point -> bool **)
+
+let check_varying q w tr lo hi =
+  let families = families_of q w in
+  (&&) (wellformed q)
+    ((&&)
+      (bounded_rows (Obj.magic size q.free) (ff_block q (row_a q))
+        w.stiffness_bound)
+      ((&&)
+        (bounded_rows (Obj.magic size q.free) (ff_block q (row_b q))
+          w.mass_bound)
+        (check_tree (size (slip q)) (check_varying_leaf q w families) tr
+          { lower = lo; upper = hi; states = [] })))
+
+(** val varying_yield :
+    (region * varying_leaf) -> (region * isolation) option **)
+
+let varying_yield rl =
+  match snd rl with
+  | OfAnchor (_, _, l) ->
+    (match l with
+     | LocalRoot (c, o) ->
+       (match o with
+        | Solution -> Some ((fst rl), c)
+        | _ -> None)
+     | _ -> None)
+  | OfWhole _ -> None
+
+(** val varying_found :
+    varying_leaf tree -> point -> point -> (region * isolation) list **)
+
+let varying_found tr lo hi =
+  pmap varying_yield (leaves tr { lower = lo; upper = hi; states = [] })
+
+(** val check_system_varying :
+    system -> unknown -> anchoring -> varying_leaf tree -> point -> point ->
+    bool **)
+
+let check_system_varying s u w tr lo hi =
+  (&&) (system_wellformed s u) (check_varying (pencil_of s u) w tr lo hi)

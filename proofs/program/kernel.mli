@@ -22,6 +22,14 @@ type reflect =
 
 module Pos :
  sig
+  type mask =
+  | IsNul
+  | IsPos of Big_int_Z.big_int
+  | IsNeg
+ end
+
+module Coq_Pos :
+ sig
   val succ : Big_int_Z.big_int -> Big_int_Z.big_int
 
   val add : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
@@ -29,6 +37,21 @@ module Pos :
   val add_carry : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
   val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  type mask = Pos.mask =
+  | IsNul
+  | IsPos of Big_int_Z.big_int
+  | IsNeg
+
+  val succ_double_mask : mask -> mask
+
+  val double_mask : mask -> mask
+
+  val double_pred_mask : Big_int_Z.big_int -> mask
+
+  val sub_mask : Big_int_Z.big_int -> Big_int_Z.big_int -> mask
+
+  val sub_mask_carry : Big_int_Z.big_int -> Big_int_Z.big_int -> mask
 
   val mul : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
@@ -38,6 +61,17 @@ module Pos :
   val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
 
   val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+
+  val leb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+
+  val sqrtrem_step :
+    (Big_int_Z.big_int -> Big_int_Z.big_int) -> (Big_int_Z.big_int ->
+    Big_int_Z.big_int) -> (Big_int_Z.big_int * mask) ->
+    Big_int_Z.big_int * mask
+
+  val sqrtrem : Big_int_Z.big_int -> Big_int_Z.big_int * mask
+
+  val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int
  end
 
 module Z :
@@ -54,6 +88,10 @@ module Z :
 
   val opp : Big_int_Z.big_int -> Big_int_Z.big_int
 
+  val succ : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val pred : Big_int_Z.big_int -> Big_int_Z.big_int
+
   val sub : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
   val mul : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
@@ -66,6 +104,8 @@ module Z :
 
   val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
 
+  val max : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
   val abs : Big_int_Z.big_int -> Big_int_Z.big_int
 
   val pos_div_eucl :
@@ -77,6 +117,10 @@ module Z :
     Big_int_Z.big_int * Big_int_Z.big_int
 
   val div : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val sqrt_up : Big_int_Z.big_int -> Big_int_Z.big_int
  end
 
 module Option :
@@ -98,26 +142,27 @@ val iffP : bool -> reflect -> reflect
 
 val idP : bool -> reflect
 
-type 't pred = 't -> bool
+type 't pred0 = 't -> bool
 
 type 't predType =
-  __ -> 't pred
+  __ -> 't pred0
   (* singleton inductive, whose constructor was PredType *)
 
 type 't pred_sort = __
 
 type 't simpl_pred = ('t, bool) simpl_fun
 
-val simplPred : 'a1 pred -> 'a1 simpl_pred
+val simplPred : 'a1 pred0 -> 'a1 simpl_pred
 
 module PredOfSimpl :
  sig
-  val coerce : 'a1 simpl_pred -> 'a1 pred
+  val coerce : 'a1 simpl_pred -> 'a1 pred0
  end
 
-type 't rel = 't -> 't pred
+type 't rel = 't -> 't pred0
 
-type 't mem_pred = 't pred
+type 't mem_pred =
+  't pred0
   (* singleton inductive, whose constructor was Mem *)
 
 val pred_of_mem : 'a1 mem_pred -> 'a1 pred_sort
@@ -167,6 +212,8 @@ val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1
 
 val size : 'a1 list -> int
 
+val behead : 'a1 list -> 'a1 list
+
 val ncons : int -> 'a1 -> 'a1 list -> 'a1 list
 
 val cat : 'a1 list -> 'a1 list -> 'a1 list
@@ -175,13 +222,13 @@ val nth : 'a1 -> 'a1 list -> int -> 'a1
 
 val set_nth : 'a1 -> 'a1 list -> int -> 'a1 -> 'a1 list
 
-val find : 'a1 pred -> 'a1 list -> int
+val find : 'a1 pred0 -> 'a1 list -> int
 
-val filter : 'a1 pred -> 'a1 list -> 'a1 list
+val filter : 'a1 pred0 -> 'a1 list -> 'a1 list
 
-val has : 'a1 pred -> 'a1 list -> bool
+val has : 'a1 pred0 -> 'a1 list -> bool
 
-val all : 'a1 pred -> 'a1 list -> bool
+val all : 'a1 pred0 -> 'a1 list -> bool
 
 val drop : int -> 'a1 list -> 'a1 list
 
@@ -704,3 +751,211 @@ val check_system_excluded :
   system -> unknown -> whole tree -> point -> point -> bool
 
 val check_system_claim : system -> unknown -> claim -> bool
+
+val add_lists : ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list
+
+val add_matrix : matrix -> matrix -> matrix
+
+val add_series : matrix list -> matrix list -> matrix list
+
+val scale_series : Big_int_Z.big_int -> matrix list -> matrix list
+
+val combine : matrix -> sparse_row -> Big_int_Z.big_int list
+
+val product : sparse_row list -> matrix -> matrix
+
+val product_series : sparse_row list -> matrix list -> matrix list
+
+val column_of : matrix -> int -> Big_int_Z.big_int list
+
+val columns_of : int -> matrix -> Big_int_Z.big_int list list
+
+val cross : matrix -> matrix -> matrix
+
+val cross_series : int -> matrix list -> matrix list -> matrix list
+
+val squares : Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val norm2 : Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val norms : matrix list -> int -> polynomial
+
+val derivative : polynomial -> polynomial
+
+val homogeneous :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+  Big_int_Z.big_int * Big_int_Z.big_int
+
+val substituted :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+  -> polynomial * Big_int_Z.big_int
+
+val spread_of : polynomial -> Big_int_Z.big_int
+
+val total : polynomial -> Big_int_Z.big_int
+
+val constant_of : polynomial -> Big_int_Z.big_int
+
+val chord_of : polynomial -> Big_int_Z.big_int
+
+val spread : polynomial -> Big_int_Z.big_int
+
+val poly_of : matrix list -> int -> int -> polynomial
+
+type form_bound = { bound_times : Big_int_Z.big_int;
+                    bound_at : Big_int_Z.big_int;
+                    gram_times : Big_int_Z.big_int; gram_rows : late_row list }
+
+type anchor = { anchor_center : point; anchor_unit : Big_int_Z.big_int;
+                anchor_right : matrix list; anchor_left : matrix list;
+                anchor_scale : Big_int_Z.big_int list }
+
+type family = { series_z : matrix list; left_norms : polynomial list;
+                right_norms : polynomial list; drift : Big_int_Z.big_int }
+
+type local_entry = { local_a : Big_int_Z.big_int;
+                     local_b : Big_int_Z.big_int;
+                     local_ra : Big_int_Z.big_int;
+                     local_rb : Big_int_Z.big_int }
+
+type local_leaf =
+| LocalFarkas of Big_int_Z.big_int list
+| LocalDefinite of bool * factor * factor
+| LocalAbsent of absence
+| LocalRoot of isolation * outcome
+
+val bounded_rows : Equality.sort -> sparse_row list -> form_bound -> bool
+
+val times : Big_int_Z.big_int -> sparse_row -> sparse_row
+
+val row_0 : pencil -> anchor -> int -> (int * Big_int_Z.big_int) list
+
+val row_1 : pencil -> anchor -> int -> sparse_row
+
+val ff_block : pencil -> (int -> sparse_row) -> sparse_row list
+
+val fs_block : pencil -> (int -> sparse_row) -> matrix
+
+val sf_block : pencil -> (int -> sparse_row) -> matrix
+
+val ss_block : pencil -> (int -> sparse_row) -> matrix
+
+val residual_series :
+  pencil -> anchor -> matrix list -> matrix list -> matrix list
+
+val residual_right : pencil -> anchor -> matrix list
+
+val residual_left : pencil -> anchor -> matrix list
+
+val center_series : pencil -> anchor -> matrix list -> matrix list
+
+val row_sum : sparse_row -> Big_int_Z.big_int
+
+val expand_from : pencil -> anchor -> matrix list -> matrix list -> family
+
+val small : pencil -> matrix list -> bool
+
+val expand : pencil -> anchor -> family option
+
+val interval_width : point -> point -> Big_int_Z.big_int
+
+val offset : anchor -> point -> point -> Big_int_Z.big_int
+
+val extent : anchor -> point -> point -> Big_int_Z.big_int
+
+val unit_y : anchor -> point -> point -> Big_int_Z.big_int
+
+val reach : anchor -> point -> point -> Big_int_Z.big_int
+
+val bound_n : anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int
+
+val bound_d0 : form_bound -> form_bound -> point -> Big_int_Z.big_int
+
+val proper_interval :
+  anchor -> form_bound -> form_bound -> point -> point -> bool
+
+val remainder_radius :
+  anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int
+
+val remainder_slope :
+  anchor -> form_bound -> form_bound -> family -> point -> point ->
+  Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int
+
+val entry_of :
+  anchor -> form_bound -> form_bound -> family -> point -> point -> bool ->
+  polynomial -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> local_entry
+
+val rounded :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry
+
+val local_entries :
+  int -> anchor -> form_bound -> form_bound -> family -> point -> point ->
+  bool -> Big_int_Z.big_int -> local_entry list list
+
+val local_pencil :
+  int -> anchor -> form_bound -> form_bound -> family -> point -> point ->
+  bool -> Big_int_Z.big_int -> enclosed
+
+val local_point : point -> point -> point -> point
+
+val local_isolation : point -> point -> isolation -> isolation
+
+val moved_leaf : point -> point -> local_leaf -> local_leaf
+
+val wants_slopes : local_leaf -> bool
+
+val local_region : region -> region
+
+val check_local : enclosed -> region -> local_leaf -> bool
+
+val check_anchored :
+  int -> anchor -> form_bound -> form_bound -> family -> point -> point ->
+  region -> Big_int_Z.big_int -> local_leaf -> bool
+
+type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
+                   anchors : (bool * anchor) list }
+
+type varying_leaf =
+| OfAnchor of int * Big_int_Z.big_int * local_leaf
+| OfWhole of whole
+
+val swap_pencil : pencil -> pencil
+
+val swap_point : point -> point
+
+val swap_region : region -> region
+
+val swap_isolation : isolation -> isolation
+
+val swap_leaf : local_leaf -> local_leaf
+
+val expand_anchor : pencil -> (bool * anchor) -> family option
+
+val no_anchor : bool * anchor
+
+val finite_root : local_leaf -> bool
+
+val check_varying_leaf :
+  pencil -> anchoring -> family option list -> region -> varying_leaf -> bool
+
+val families_of : pencil -> anchoring -> family option list
+
+val check_varying :
+  pencil -> anchoring -> varying_leaf tree -> point -> point -> bool
+
+val varying_yield : (region * varying_leaf) -> (region * isolation) option
+
+val varying_found :
+  varying_leaf tree -> point -> point -> (region * isolation) list
+
+val check_system_varying :
+  system -> unknown -> anchoring -> varying_leaf tree -> point -> point ->
+  bool
