@@ -26,9 +26,18 @@ type node =
   | Tail
   | Root of root
 
-type anchor = { right : (int * Z.t list list) list; left : (int * Z.t list list) list }
+type anchor = {
+  center : Q.t;
+  reversed : bool;
+  right : (int * Z.t list list) list;
+  left : (int * Z.t list list) list }
 
-type condensation = { sigma : Q.t; factor : factor_rows; anchors : anchor option list }
+type condensation = {
+  sigma : Q.t;
+  factor : factor_rows;
+  mass_sigma : Q.t;
+  mass_factor : factor_rows option;
+  anchors : anchor list }
 
 type piece = { max : Q.t option; anchor : int; tree : node list }
 
@@ -92,22 +101,28 @@ let read_factor item =
   { first = List.map counter (list (field "first"));
     rows = List.map integers (list (field "rows")); exponent = exponent_of (field "exponent") }
 
-(* An anchor of the linear family at center 0; None for others. *)
 let read_anchor item =
   let field = fields ["center"; "right"; "left"] ["reversed"] item in
   let coefficient m =
     let field = fields ["exponent"; "rows"] [] m in
     exponent_of (field "exponent"), List.map integers (list (field "rows")) in
-  let right = List.map coefficient (list (field "right")) in
-  let left = List.map coefficient (list (field "left")) in
-  let plain = Q.sign (rational (field "center")) = 0 && field "reversed" <> Bool true
-              && List.length right <= 1 && List.length left <= 2 in
-  if plain then Some { right; left } else None
+  let coefficients name =
+    let l = list (field name) in
+    if List.length l > 8 then Problem.not_verified "more than 8 coefficients of an anchor";
+    List.map coefficient l in
+  let reversed = match field "reversed" with
+    | Null | Bool false -> false
+    | Bool true -> true
+    | _ -> malformed "reversed" in
+  { center = rational (field "center"); reversed; right = coefficients "right";
+    left = coefficients "left" }
 
 let read_condensation item =
   let field = fields ["sigma"; "stiffness_factor"; "mass_sigma"; "anchors"]
       ["mass_factor"; "tail"] item in
   { sigma = rational (field "sigma"); factor = read_factor (field "stiffness_factor");
+    mass_sigma = rational (field "mass_sigma");
+    mass_factor = (match field "mass_factor" with Null -> None | f -> Some (read_factor f));
     anchors = List.map read_anchor (list (field "anchors")) }
 
 let read_piece item =

@@ -296,7 +296,7 @@ let unique_of (p : Kernel.enclosed) f j_list k v eps (e1, e2) t =
 
 let finite (_, q) = Z.sign q > 0
 
-let isolated_leaf p f (region : Kernel.region) (r : root) outcome =
+let isolated_leaf ?ends p f (region : Kernel.region) (r : root) outcome =
   let j_list = Kernel.moving p region in
   if not (finite region.upper) then None
   else begin
@@ -317,15 +317,16 @@ let isolated_leaf p f (region : Kernel.region) (r : root) outcome =
           (spread r.right, spread r.left) :: own
         end in
       List.find_map (fun (v, left) ->
-          let wide = (region.lower, region.upper) and narrow = (point_of a, point_of b) in
+          let wide = (region.lower, region.upper) in
+          let narrow = Option.value ends ~default:(point_of a, point_of b) in
           match box_of p f j_list k_list v wide (middle lo hi),
                 box_of p f j_list k_list v narrow (middle a b) with
           | Some wide_box, Some narrow_box ->
             (match unique_of p f j_list k v wide_box.width wide (middle lo hi) with
              | None -> None
              | Some unique ->
-               let c = { Kernel.pivot = k; vector = v; from_point = point_of a;
-                         to_point = point_of b; wide_box; narrow_box; unique;
+               let c = { Kernel.pivot = k; vector = v; from_point = fst narrow;
+                         to_point = snd narrow; wide_box; narrow_box; unique;
                          left_vector = left } in
                if Kernel.check_root p region c outcome then Some (Kernel.Root (c, outcome))
                else None)
@@ -482,20 +483,217 @@ let elimination (pencil : Kernel.pencil) slip common (condensation : condensatio
     | None -> no_witness "a condensation is missing"
     | Some c ->
       let a = match List.nth_opt c.anchors anchor with
-        | Some (Some a) -> a
-        | _ -> Problem.not_verified "condensation with powers of t" in
+        | Some a when not a.reversed && a.right <> [] -> a
+        | _ -> no_witness "an anchor of a linear family" in
       let e = List.fold_left (fun m (k, _) -> max m k) 0 (a.right @ a.left) in
       let columns (k, rows) =
         transpose ns (List.map (List.map (fun z -> Z.shift_left z (e - k))) rows) in
       let zero = List.init ns (fun _ -> List.init nf (fun _ -> Z.zero)) in
       let nth l k = match List.nth_opt l k with Some m -> columns m | None -> zero in
+      (* V(t) = left_0 + (t - center) left_1 as V_a + t V_b; V need not be exact. *)
+      let left_vb = nth a.left 1 in
+      let shifted v0 v1 =
+        Z.sub v0 (Z.fdiv (Z.mul (Q.num a.center) v1) (Q.den a.center)) in
+      let left_va = List.map2 (List.map2 shifted) (nth a.left 0) left_vb in
       let power = two_to (2 * c.factor.exponent) in
       { Kernel.row_scale; unit_of = two_to e; right_w = nth a.right 0;
-        left_va = nth a.left 0; left_vb = nth a.left 1;
+        left_va; left_vb;
         bound_c = Z.mul power (Q.den c.sigma);
         bound_d = Z.mul common (Z.mul power (Q.num c.sigma));
         factor_scale = Z.mul common (Q.den c.sigma);
         stiffness_factor = List.combine c.factor.first c.factor.rows }
+
+(* ---------- condensation about anchors *)
+
+type varying = {
+  whole_pencil : Kernel.pencil;
+  slip_list : int array;
+  anchoring : Kernel.anchoring;
+  families : Kernel.family option list;
+  numbers : (int * int) list  (* anchors of the certificate, as numbers of the anchoring *) }
+
+(* Factors of the free rows and of the others: the given pencil times them is that of the kernel. *)
+let form_bound nf free_factor (sigma : Q.t) (factor : factor_rows option) =
+  match factor with
+  | Some f ->
+    let power = two_to (2 * f.exponent) in
+    { Kernel.bound_times = Z.mul power (Q.den sigma);
+      bound_at = Z.mul free_factor (Z.mul power (Q.num sigma));
+      gram_times = Z.mul free_factor (Q.den sigma);
+      gram_rows = (try List.combine f.first f.rows with Invalid_argument _ ->
+          no_witness "a factor with rows missing") }
+  | None ->
+    { Kernel.bound_times = Q.den sigma; bound_at = Z.mul free_factor (Q.num sigma);
+      gram_times = Z.zero; gram_rows = List.init nf (fun _ -> (0, [])) }
+
+let kernel_anchor (pencil : Kernel.pencil) slip_list free_factor slip_factor (a : anchor) =
+  let e = List.fold_left (fun m (k, _) -> max m k) 0 (a.right @ a.left) in
+  let shifted factor (k, rows) =
+    List.map (List.map (fun z -> Z.mul factor (Z.shift_left z (e - k)))) rows in
+  let ratio = Z.divexact slip_factor free_factor in
+  let scaled = if a.reversed then Kernel.swap_pencil pencil else pencil in
+  a.reversed, { Kernel.anchor_center = point_of a.center; anchor_unit = two_to e;
+                anchor_right = List.map (shifted Z.one) a.right;
+                anchor_left = List.map (shifted ratio) a.left;
+                anchor_scale = row_scales scaled slip_list slip_factor }
+
+let rec needs_anchor = function
+  | [] -> false
+  | (Ldl | Tail | Split _ | Branch _) :: rest -> needs_anchor rest
+  | _ -> true
+
+let varying_of (pencil : Kernel.pencil) slip_list free_factor slip_factor
+    (condensation : condensation option) pieces =
+  let c = match condensation with Some c -> c | None -> no_witness "a condensation is missing" in
+  let nf = List.length pencil.free and ns = List.length slip_list in
+  let used = List.sort_uniq compare
+      (List.filter_map (fun (p : piece) -> if needs_anchor p.tree then Some p.anchor else None)
+         pieces) in
+  let given k = match List.nth_opt c.anchors k with
+    | Some a -> a
+    | None -> no_witness "a piece names no anchor" in
+  (* 12 anchors of three matrices of 786 x 17 each, twice. *)
+  let work = List.fold_left (fun sum k ->
+      let a = given k in
+      let matrices = List.length a.right + List.length a.left in
+      sum + matrices * matrices * nf * ns * ns) 0 used in
+  if work > 500_000_000 then Problem.not_verified "anchors beyond the limits of this program";
+  let anchoring = {
+    Kernel.stiffness_bound = form_bound nf free_factor c.sigma (Some c.factor);
+    mass_bound = form_bound nf free_factor c.mass_sigma c.mass_factor;
+    anchors = List.map (fun k ->
+        kernel_anchor pencil slip_list free_factor slip_factor (given k)) used } in
+  { whole_pencil = pencil; slip_list = Array.of_list slip_list; anchoring;
+    families = Kernel.families_of pencil anchoring;
+    numbers = List.mapi (fun i k -> (k, i)) used }
+
+let local_unit = { Kernel.lower = (Z.zero, Z.one); upper = (Z.one, Z.one); states = [] }
+
+(* The interval of a region for an anchor, and the bounds of its two blocks. *)
+let interval_for v n (region : Kernel.region) =
+  let reverse, a = List.nth v.anchoring.anchors n in
+  let stiffness = v.anchoring.stiffness_bound and mass = v.anchoring.mass_bound in
+  if reverse then
+    (a, mass, stiffness, Kernel.swap_point region.upper, Kernel.swap_point region.lower)
+  else (a, stiffness, mass, region.lower, region.upper)
+
+(* The pencil over [0, 1], with entries of some 160 bits, and its grain. *)
+let local_pencil v n region slopes =
+  match List.nth v.families n with
+  | None -> None
+  | Some fam ->
+    let a, low_a, low_b, lo, hi = interval_for v n region in
+    if not (Kernel.proper_interval a low_a low_b lo hi) then None
+    else begin
+      let ns = Array.length v.slip_list in
+      let make grain = Kernel.local_pencil ns a low_a low_b fam lo hi slopes grain in
+      let top = List.fold_left (List.fold_left (fun m z -> max m (bits z))) 0
+          ((make Z.one).center_a @ (make Z.one).center_b) in
+      let grain = two_to (max 0 (top - 160)) in
+      Some (make grain, grain)
+    end
+
+(* The evidence of [make] for a region, if the kernel accepts it. *)
+let anchored v n (region : Kernel.region) slopes make =
+  match local_pencil v n region slopes with
+  | None -> None
+  | Some (p, grain) ->
+    let evidence = make p (doubles_of p) { local_unit with states = region.states } in
+    Option.bind evidence (fun e ->
+        let leaf = Kernel.OfAnchor (n, grain, e) in
+        if Kernel.check_varying_leaf v.whole_pencil v.anchoring v.families region leaf
+        then Some (Kernel.Leaf leaf) else None)
+
+let local_of = function
+  | Kernel.Farkas w -> Some (Kernel.LocalFarkas w)
+  | Kernel.Definite (negative, low, high) -> Some (Kernel.LocalDefinite (negative, low, high))
+  | Kernel.Absent c -> Some (Kernel.LocalAbsent c)
+  | Kernel.Root (c, o) -> Some (Kernel.LocalRoot (c, o))
+  | _ -> None
+
+let by_farkas v n w region = anchored v n region false (fun _ _ _ -> Some (Kernel.LocalFarkas w))
+
+let by_definite v n negative region =
+  anchored v n region false (fun p _ r -> Option.bind (definite_leaf p negative r) local_of)
+
+let by_absent v n region =
+  anchored v n region false (fun p f r -> Option.bind (absent_leaf p f r) local_of)
+
+let by_root v n (r : root) outcome region =
+  let a, b = r.interval in
+  let _, _, _, lo, hi = interval_for v n region in
+  let reverse, _ = List.nth v.anchoring.anchors n in
+  let from_point, to_point =
+    if reverse then Kernel.swap_point (point_of b), Kernel.swap_point (point_of a)
+    else point_of a, point_of b in
+  let ends = (Kernel.local_point lo hi from_point, Kernel.local_point lo hi to_point) in
+  if Z.sign (snd (fst ends)) <= 0 || Z.sign (snd (snd ends)) <= 0 then None
+  else
+    let interval = (value_of (fst ends), value_of (snd ends)) in
+    anchored v n region (outcome = Kernel.Solution) (fun p f unit_region ->
+        match isolated_leaf ~ends p f unit_region { r with interval } outcome with
+        | Some (Kernel.Root (c, o)) ->
+          Some (Kernel.LocalRoot ({ c with from_point = point_of a; to_point = point_of b }, o))
+        | _ -> None)
+
+let cut_of (region : Kernel.region) =
+  let lo = value_of region.lower in
+  if finite region.upper then Q.div (Q.add lo (value_of region.upper)) (Q.of_int 2)
+  else if Q.sign lo = 0 then Q.one
+  else Q.mul lo (Q.of_int 2)
+
+(* One of the ways closes the region, or its halves are closed. *)
+let rec close what depth ways (region : Kernel.region) =
+  match List.find_map (fun way -> way region) ways with
+  | Some leaf -> leaf
+  | None ->
+    if depth = 0 then no_witness "%s" what;
+    let cut = point_of (cut_of region) in
+    let first = close what (depth - 1) ways { region with upper = cut } in
+    Kernel.Split (cut, first, close what (depth - 1) ways { region with lower = cut })
+
+let absent_ways v n = [ by_absent v n; by_definite v n false; by_definite v n true ]
+
+let rec varying_root v n depth (region : Kernel.region) (r : root) outcome =
+  match by_root v n r outcome region with
+  | Some leaf -> leaf
+  | None ->
+    if depth = 0 then no_witness "root";
+    let a, b = r.interval in
+    let lo = value_of region.lower in
+    if Q.lt a lo || (finite region.upper && Q.gt b (value_of region.upper)) then
+      no_witness "a root whose interval leaves its region";
+    let half x y = Q.div (Q.add x y) (Q.of_int 2) in
+    let low = point_of (half lo a) in
+    let high =
+      if finite region.upper then half b (value_of region.upper) else Q.mul b (Q.of_int 2) in
+    let high = point_of high in
+    let inner = varying_root v n (depth - 1) { region with lower = low; upper = high } r outcome in
+    let outside = close "absent" 12 (absent_ways v n) in
+    let above = outside { region with lower = high } in
+    let below = outside { region with upper = low } in
+    Kernel.Split (low, below, Kernel.Split (high, inner, above))
+
+let varying_leaf v (piece : piece) (region : Kernel.region) node =
+  let n = match List.assoc_opt piece.anchor v.numbers with Some n -> n | None -> 0 in
+  let whole what = match whole_leaf v.whole_pencil region with
+    | Some w -> Kernel.Leaf (Kernel.OfWhole w)
+    | None -> no_witness "%s" what in
+  match node with
+  | Farkas w -> close "farkas" 6 [by_farkas v n w] region
+  | Definite negative -> close "definite" 6 [by_definite v n negative] region
+  | Ldl -> whole "ldl"
+  | Tail -> whole "tail"
+  | Root r ->
+    let r = { r with pivot = position v.slip_list r.pivot } in
+    (match r.outcome with
+     | Absent -> close "absent" 12 (absent_ways v n) region
+     | Solution -> varying_root v n 12 region r Kernel.Solution
+     | Negative_x i ->
+       varying_root v n 12 region r (Kernel.NegativeX (position v.slip_list i))
+     | Negative_y i ->
+       varying_root v n 12 region r (Kernel.NegativeY (position v.slip_list i)))
+  | Split _ | Branch _ -> assert false
 
 (* ---------- exact solution claims *)
 

@@ -144,14 +144,25 @@ let verify problem_path certificate_path =
     report slip lo hi [];
     report_claims ()
   end
+  else if not (Kernel.free_rows_constant pencil) then begin
+    (* Condensation about anchors. *)
+    let varying = timed "condensation" (fun () ->
+        Elaborate.varying_of pencil slip_list problem.common common certificate.condensation
+          certificate.pieces) in
+    let tree = timed "elaboration" (fun () ->
+        Elaborate.build_pieces slip (Elaborate.varying_leaf varying)
+          certificate.window certificate.pieces) in
+    let accepted = timed "kernel" (fun () -> match problem.question with
+        | Raw pencil -> Kernel.check_varying pencil varying.anchoring tree lo hi
+        | Mechanical (system, unknown) ->
+          Kernel.check_system_varying system unknown varying.anchoring tree lo hi) in
+    if not accepted then raise (Rejected "the kernel refuses the tree");
+    report slip lo hi (Kernel.varying_found tree lo hi);
+    report_claims ()
+  end
   else begin
-    if not (Kernel.free_rows_constant pencil) then
-      Problem.not_verified "free rows that depend on the unknown";
-    let anchor = match List.sort_uniq compare (List.map (fun (p : Certificate.piece) -> p.anchor)
-                                                 certificate.pieces) with
-      | [a] -> a
-      | _ when pencil.free = [] -> 0
-      | _ -> Problem.not_verified "several anchors" in
+    (* The family is linear: any anchor serves for all pieces. *)
+    let anchor = match certificate.pieces with p :: _ -> p.anchor | [] -> 0 in
     let elimination, enclosed = timed "condensation" (fun () ->
         let e = Elaborate.elimination pencil slip_list common certificate.condensation anchor in
         e, Kernel.condensed (Kernel.blocks_of pencil) e) in
