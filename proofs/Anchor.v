@@ -29,7 +29,8 @@
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf Existence.
+From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf.
+From Mceip Require Import Existence.
 From Mceip Require Import Condensation Pencil Claim Norms Elimination Curved Series.
 
 Set Implicit Arguments.
@@ -112,20 +113,26 @@ Definition row_1 i := times q (row_b Q i).
 
 Definition ff_block (row : nat -> sparse_row) := [seq restrict (row i) (free Q) | i <- free Q].
 Definition fs_block (row : nat -> sparse_row) : matrix :=
-  [seq [seq lookup (row i) j | j <- slip Q] | i <- free Q].
+  let columns := slip Q in
+  [seq (let entries := row i in [seq lookup entries j | j <- columns]) | i <- free Q].
 Definition sf_block (row : nat -> sparse_row) : matrix :=
-  [seq [seq lookup (row i) j | i <- slip Q] | j <- free Q].
+  let rows := [seq row i | i <- slip Q] in
+  [seq [seq lookup entries j | entries <- rows] | j <- free Q].
 Definition ss_block (row : nat -> sparse_row) : matrix :=
-  [seq [seq lookup (row i) j | j <- slip Q] | i <- slip Q].
+  let columns := slip Q in
+  [seq (let entries := row i in [seq lookup entries j | j <- columns]) | i <- columns].
 
-(* u Y - F X *)
-Definition residual_series (Y X : seq matrix) : seq matrix :=
+(* u Y - F X, for F = f_0 + d f_1 *)
+Definition residual_series (f0 f1 : seq sparse_row) (Y X : seq matrix) : seq matrix :=
   add_series (scale_series (anchor_unit a) Y)
-    (scale_series (-1) (add_series (product_series (ff_block row_0) X)
-                          ([::] :: product_series (ff_block row_1) X))).
+    (scale_series (-1) (add_series (product_series f0 X) ([::] :: product_series f1 X))).
 
-Definition residual_right := residual_series [:: fs_block row_0; fs_block row_1] (anchor_right a).
-Definition residual_left := residual_series [:: sf_block row_0; sf_block row_1] (anchor_left a).
+Definition residual_right :=
+  residual_series (ff_block row_0) (ff_block row_1) [:: fs_block row_0; fs_block row_1]
+    (anchor_right a).
+Definition residual_left :=
+  residual_series (ff_block row_0) (ff_block row_1) [:: sf_block row_0; sf_block row_1]
+    (anchor_left a).
 
 (* Z for a given r. *)
 Definition center_series (r : seq matrix) : seq matrix :=
@@ -138,19 +145,21 @@ Definition center_series (r : seq matrix) : seq matrix :=
 
 Definition row_sum (row : sparse_row) := foldr (fun e s => Z.abs e.2 + s) 0 row.
 
-Definition expand_from (l r : seq matrix) : family := Family (center_series r)
-  [seq norms l i | i <- iota 0 ns] [seq norms r j | j <- iota 0 ns]
-  (foldr Z.max 0 [seq row_sum row | row <- ff_block row_1]).
+Definition expand_from (f1 : seq sparse_row) (l r : seq matrix) : family :=
+  Family (center_series r) [seq norms l i | i <- iota 0 ns] [seq norms r j | j <- iota 0 ns]
+    (foldr Z.max 0 [seq row_sum row | row <- f1]).
 
 Definition small (L : seq matrix) := all (fun M => size M <= nf)%N L.
 
 (* None if a part has not the right shape. *)
 Definition expand : option family :=
-  let l := residual_left in
-  let r := residual_right in
+  let f0 := ff_block row_0 in
+  let f1 := ff_block row_1 in
+  let l := residual_series f0 f1 [:: sf_block row_0; sf_block row_1] (anchor_left a) in
+  let r := residual_series f0 f1 [:: fs_block row_0; fs_block row_1] (anchor_right a) in
   if [&& 0 <? q, 0 <? anchor_unit a, all (fun i => 0 <? nth 0 (anchor_scale a) i) (iota 0 ns),
          small (anchor_left a), small l & small r]
-  then Some (expand_from l r) else None.
+  then Some (expand_from f1 l r) else None.
 
 End Expansion.
 
@@ -394,7 +403,7 @@ Lemma value_sf d i k : (i < ns)%N -> (k < nf)%N ->
   value [:: sf_block Q (row_0 Q a); sf_block Q (row_1 Q a)] d k i = H_at d i k.
 Proof.
 move=> Hi Hk; rewrite !value_cons value_nil mulr0 addr0 /entry /sf_block.
-by rewrite !(nth_map 0%N) ?size_map // !(nth_map 0%N).
+by rewrite !(nth_map 0%N) // !(nth_map [::]) ?size_map // !(nth_map 0%N).
 Qed.
 
 Lemma ff_range (row : nat -> sparse_row) i :
@@ -410,7 +419,7 @@ Lemma lookup_ff (row : nat -> sparse_row) i k : (i < nf)%N -> (k < nf)%N ->
 Proof. by move=> Hi Hk; rewrite (nth_map 0%N) // lookup_restrict. Qed.
 
 Lemma value_residual Y X d k j : (k < nf)%N ->
-  value (residual_series Q a Y X) d k j =
+  value (residual_series a (ff_block Q (row_0 Q a)) (ff_block Q (row_1 Q a)) Y X) d k j =
   toR (anchor_unit a) * value Y d k j - \sum_(m <- fi) F_at d k m * value X d m j.
 Proof.
 move=> Hk; rewrite /residual_series value_add !value_scale value_add value_shift.
@@ -430,7 +439,7 @@ Lemma expand_parts :
   [/\ 0 < toR q :> R, 0 < toR (anchor_unit a) :> R,
       forall i, (i < ns)%N -> 0 < toR (nth 0%Z (anchor_scale a) i) :> R &
       [/\ small Q (anchor_left a), small Q l_series, small Q r_series &
-          fam = expand_from Q a l_series r_series]].
+          fam = expand_from Q a (ff_block Q (row_1 Q a)) l_series r_series]].
 Proof.
 move: expanded; rewrite /expand; case: ifP => // /and5P[q0 u0 /allP s0 sa /andP[sl sr]] [<-].
 split; rewrite ?toR_gt0 // => i Hi; rewrite toR_gt0; apply: s0; rewrite mem_iota; exact: Hi.
@@ -450,7 +459,8 @@ rewrite !lookup_both !lookup_times -!lookup_ff //.
 by rewrite (bounded_lookup_sym bounded_a Hi Hk) (bounded_lookup_sym bounded_b Hi Hk).
 Qed.
 
-Lemma F1_symmetric : symmetric_on nf (fun i k => toR (lookup (row_1 Q a (free_at i)) (free_at k)) : R).
+Lemma F1_symmetric :
+  symmetric_on nf (fun i k => toR (lookup (row_1 Q a (free_at i)) (free_at k)) : R).
 Proof.
 move=> i k /in_free Hi /in_free Hk; rewrite /row_1 !lookup_times -!lookup_ff //.
 by rewrite (bounded_lookup_sym bounded_b Hi Hk).

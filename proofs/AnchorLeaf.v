@@ -13,7 +13,8 @@
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf Existence.
+From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf.
+From Mceip Require Import Existence.
 From Mceip Require Import Condensation Pencil Claim Norms Elimination Curved Series Anchor.
 
 Set Implicit Arguments.
@@ -433,9 +434,11 @@ Proof. by rewrite mem_iota. Qed.
 (* A pencil through given values is enclosed if its entries are near. *)
 Lemma local_encloses slopes (A B : nat -> nat -> R) :
   (forall i j, (i < ns)%N -> (j < ns)%N ->
-     `|A i j - toR (local_a (exact_entry slopes i j))| <= toR (local_ra (exact_entry slopes i j)) /\
-     `|B i j - toR (local_b (exact_entry slopes i j))| <= toR (local_rb (exact_entry slopes i j))) ->
-  encloses (pencil_for slopes grain) (fun i j => scale_at i * A i j) (fun i j => scale_at i * B i j).
+     let e := exact_entry slopes i j in
+     `|A i j - toR (local_a e)| <= toR (local_ra e) /\
+     `|B i j - toR (local_b e)| <= toR (local_rb e)) ->
+  encloses (pencil_for slopes grain)
+    (fun i j => scale_at i * A i j) (fun i j => scale_at i * B i j).
 Proof.
 move=> near i j /in_local Hi /in_local Hj; have [near_a near_b] := near i j Hi Hj.
 rewrite /local_pencil /= !local_entriesE //=.
@@ -540,7 +543,8 @@ by rewrite /interval_width -toRD -toRM toR_le; move: (hi.1 * lo.2)%Z => x; clear
 Qed.
 
 (* Solutions of the pencil and of the family. *)
-Definition free_values u xs := Elimination.free_part nf (F_at Q a (d_of u)) ns (G_at Q a (d_of u)) xs.
+Definition free_values u xs :=
+  Elimination.free_part nf (F_at Q a (d_of u)) ns (G_at Q a (d_of u)) xs.
 
 Definition row_factor_at i : R := scale_at i * (4%:R * toR power_z * u2) * toR q.
 
@@ -589,7 +593,8 @@ Lemma from_family slopes u xs : 0 <= u ->
 Proof.
 move=> u0 [_ [i0 Hi0 xi0] rows]; set x := join Q _ xs.
 have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_join.
-have freeE k : (k < nf)%N -> free_of Q x k = free_values u xs k by move=> Hk; rewrite /x free_of_join.
+have freeE k : (k < nf)%N -> free_of Q x k = free_values u xs k.
+  by move=> Hk; rewrite /x free_of_join.
 have part k : k \in fi -> free_of Q x k = free_values u (slip_of Q x) k.
   move=> /in_free Hk; rewrite freeE // /free_values /Elimination.free_part; congr (- _).
   by apply: sum_eq => j; rewrite mem_iota => Hj; rewrite slipE.

@@ -69,7 +69,8 @@ Definition no_anchor := (false, Anchor zero 0 [::] [::] [::]).
 (* The value of a root is finite. *)
 Definition finite_root l := if l is LocalRoot c _ then (0 <? (to_point c).2)%Z else true.
 
-Definition check_varying_leaf (families : seq (option family)) (r : region) (l : varying_leaf) :=
+Definition check_varying_leaf ns (families : seq (option family)) (r : region)
+    (l : varying_leaf) :=
   match l with
   | OfWhole e => check_whole Q r e
   | OfAnchor n grain e =>
@@ -77,10 +78,10 @@ Definition check_varying_leaf (families : seq (option family)) (r : region) (l :
       if nth None families n is Some fam then
         if reverse then
           [&& (0 <? (lower r).1)%Z, finite_root e &
-              check_anchored (size (slip Q)) a (mass_bound w) (stiffness_bound w) fam
+              check_anchored ns a (mass_bound w) (stiffness_bound w) fam
                 (swap_point (upper r)) (swap_point (lower r)) (swap_region r) grain (swap_leaf e)]
         else
-          check_anchored (size (slip Q)) a (stiffness_bound w) (mass_bound w) fam
+          check_anchored ns a (stiffness_bound w) (mass_bound w) fam
             (lower r) (upper r) r grain e
       else false
   end.
@@ -89,9 +90,10 @@ Definition families_of := [seq expand_anchor ra | ra <- anchors w].
 
 Definition check_varying (tr : tree varying_leaf) (lo hi : point) :=
   let families := families_of in
+  let ns := size (slip Q) in
   [&& wellformed Q, bounded_rows (size (free Q)) (ff_block Q (row_a Q)) (stiffness_bound w),
       bounded_rows (size (free Q)) (ff_block Q (row_b Q)) (mass_bound w) &
-      check_tree (size (slip Q)) (check_varying_leaf families) tr (Region lo hi [::])].
+      check_tree ns (check_varying_leaf ns families) tr (Region lo hi [::])].
 
 Definition varying_yield (rl : region * varying_leaf) : option (region * isolation) :=
   if rl.2 is OfAnchor _ _ (LocalRoot c Solution) then Some (rl.1, c) else None.
@@ -168,7 +170,7 @@ Notation found := (varying_found tr lo hi).
 Lemma varying_parts :
   [/\ wellformed Q, bounded_rows (size (free Q)) (ff_block Q (row_a Q)) (stiffness_bound w),
       bounded_rows (size (free Q)) (ff_block Q (row_b Q)) (mass_bound w) &
-      check_tree ns (check_varying_leaf Q w (families_of Q w)) tr (Region lo hi [::])].
+      check_tree ns (check_varying_leaf Q w ns (families_of Q w)) tr (Region lo hi [::])].
 Proof. by case/and4P: checked. Qed.
 
 Definition one_solution_within (r : region) (c : isolation) := exists (t : R) x,
@@ -187,7 +189,7 @@ Lemma check_anchored_proper ns' a low_a low_b fam lo' hi' r grain l :
   proper_interval a low_a low_b lo' hi' /\ (0 <? grain)%Z.
 Proof. by case/and3P. Qed.
 
-Lemma leaf_excludes r l (t : R) x : check_varying_leaf Q w (families_of Q w) r l ->
+Lemma leaf_excludes r l (t : R) x : check_varying_leaf Q w ns (families_of Q w) r l ->
   ordered (lower r) (upper r) -> varying_yield (r, l) = None ->
   solution Q t x -> lies_in Q r t x -> False.
 Proof.
@@ -212,7 +214,7 @@ apply: (anchored_excludes wf expanded ba bb proper grain0 ok _ sol bt ag).
 by move: none; case: (e) => //= c [].
 Qed.
 
-Lemma leaf_yields r l r' c : check_varying_leaf Q w (families_of Q w) r l ->
+Lemma leaf_yields r l r' c : check_varying_leaf Q w ns (families_of Q w) r l ->
   ordered (lower r) (upper r) -> varying_yield (r, l) = Some (r', c) ->
   r' = r /\ one_solution_within r c.
 Proof.

@@ -601,7 +601,8 @@ let anchored v n (region : Kernel.region) slopes make =
     let evidence = make p (doubles_of p) { local_unit with states = region.states } in
     Option.bind evidence (fun e ->
         let leaf = Kernel.OfAnchor (n, grain, e) in
-        if Kernel.check_varying_leaf v.whole_pencil v.anchoring v.families region leaf
+        if Kernel.check_varying_leaf v.whole_pencil v.anchoring (Array.length v.slip_list) v.families
+            region leaf
         then Some (Kernel.Leaf leaf) else None)
 
 let local_of = function

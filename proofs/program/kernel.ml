@@ -2468,42 +2468,33 @@ let ff_block q row =
 (** val fs_block : pencil -> (int -> sparse_row) -> matrix **)
 
 let fs_block q row =
-  map0 (fun i -> map0 (fun j -> lookup (row i) (Obj.magic j)) (slip q)) q.free
+  let columns0 = slip q in
+  map0 (fun i ->
+    let entries = row i in
+    map0 (fun j -> lookup entries (Obj.magic j)) columns0) q.free
 
 (** val sf_block : pencil -> (int -> sparse_row) -> matrix **)
 
 let sf_block q row =
-  map0 (fun j -> map0 (fun i -> lookup (Obj.magic row i) j) (slip q)) q.free
+  let rows = map0 (fun i -> Obj.magic row i) (slip q) in
+  map0 (fun j -> map0 (fun entries -> lookup entries j) rows) q.free
 
 (** val ss_block : pencil -> (int -> sparse_row) -> matrix **)
 
 let ss_block q row =
+  let columns0 = slip q in
   map0 (fun i ->
-    map0 (fun j -> lookup (Obj.magic row i) (Obj.magic j)) (slip q)) 
-    (slip q)
+    let entries = Obj.magic row i in
+    map0 (fun j -> lookup entries (Obj.magic j)) columns0) columns0
 
 (** val residual_series :
-    pencil -> anchor -> matrix list -> matrix list -> matrix list **)
+    anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix
+    list -> matrix list **)
 
-let residual_series q a y x =
+let residual_series a f0 f1 y x =
   add_series (scale_series a.anchor_unit y)
     (scale_series (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
-      (add_series (product_series (ff_block q (row_0 q a)) x)
-        ([] :: (product_series (ff_block q (row_1 q a)) x))))
-
-(** val residual_right : pencil -> anchor -> matrix list **)
-
-let residual_right q a =
-  residual_series q a
-    ((fs_block q (row_0 q a)) :: ((fs_block q (row_1 q a)) :: []))
-    a.anchor_right
-
-(** val residual_left : pencil -> anchor -> matrix list **)
-
-let residual_left q a =
-  residual_series q a
-    ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
-    a.anchor_left
+      (add_series (product_series f0 x) ([] :: (product_series f1 x))))
 
 (** val center_series : pencil -> anchor -> matrix list -> matrix list **)
 
@@ -2525,14 +2516,14 @@ let row_sum row =
   foldr (fun e s -> Z.add (Z.abs (snd e)) s) Big_int_Z.zero_big_int row
 
 (** val expand_from :
-    pencil -> anchor -> matrix list -> matrix list -> family **)
+    pencil -> anchor -> sparse_row list -> matrix list -> matrix list ->
+    family **)
 
-let expand_from q a l r =
+let expand_from q a f1 l r =
   { series_z = (center_series q a r); left_norms =
     (map0 (fun i -> norms l i) (iota 0 (size (slip q)))); right_norms =
     (map0 (fun j -> norms r j) (iota 0 (size (slip q)))); drift =
-    (foldr Z.max Big_int_Z.zero_big_int
-      (map0 row_sum (ff_block q (row_1 q a)))) }
+    (foldr Z.max Big_int_Z.zero_big_int (map0 row_sum f1)) }
 
 (** val small : pencil -> matrix list -> bool **)
 
@@ -2542,8 +2533,18 @@ let small q l =
 (** val expand : pencil -> anchor -> family option **)
 
 let expand q a =
-  let l = residual_left q a in
-  let r = residual_right q a in
+  let f0 = ff_block q (row_0 q a) in
+  let f1 = ff_block q (row_1 q a) in
+  let l =
+    residual_series a f0 f1
+      ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
+      a.anchor_left
+  in
+  let r =
+    residual_series a f0 f1
+      ((fs_block q (row_0 q a)) :: ((fs_block q (row_1 q a)) :: []))
+      a.anchor_right
+  in
   if (&&) (Z.ltb Big_int_Z.zero_big_int (snd a.anchor_center))
        ((&&) (Z.ltb Big_int_Z.zero_big_int a.anchor_unit)
          ((&&)
@@ -2552,7 +2553,7 @@ let expand q a =
                (nth Big_int_Z.zero_big_int a.anchor_scale i))
              (iota 0 (size (slip q))))
            ((&&) (small q a.anchor_left) ((&&) (small q l) (small q r)))))
-  then Some (expand_from q a l r)
+  then Some (expand_from q a f1 l r)
   else None
 
 (** val interval_width : point -> point -> Big_int_Z.big_int **)
@@ -2828,10 +2829,10 @@ let finite_root = function
 | _ -> true
 
 (** val check_varying_leaf :
-    pencil -> anchoring -> family option list -> region -> varying_leaf ->
-    bool **)
+    pencil -> anchoring -> int -> family option list -> region ->
+    varying_leaf -> bool **)
 
-let check_varying_leaf q w families r = function
+let check_varying_leaf q w ns families r = function
 | OfAnchor (n, grain, e) ->
   let (reverse, a) = nth no_anchor w.anchors n in
   (match nth None families n with
@@ -2839,11 +2840,11 @@ let check_varying_leaf q w families r = function
      if reverse
      then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
             ((&&) (finite_root e)
-              (check_anchored (size (slip q)) a w.mass_bound
-                w.stiffness_bound fam (swap_point r.upper)
-                (swap_point r.lower) (swap_region r) grain (swap_leaf e)))
-     else check_anchored (size (slip q)) a w.stiffness_bound w.mass_bound fam
-            r.lower r.upper r grain e
+              (check_anchored ns a w.mass_bound w.stiffness_bound fam
+                (swap_point r.upper) (swap_point r.lower) (swap_region r)
+                grain (swap_leaf e)))
+     else check_anchored ns a w.stiffness_bound w.mass_bound fam r.lower
+            r.upper r grain e
    | None -> false)
 | OfWhole e -> check_whole q r e
 
@@ -2857,6 +2858,7 @@ let families_of q w =
 
 let check_varying q w tr lo hi =
   let families = families_of q w in
+  let ns = size (slip q) in
   (&&) (wellformed q)
     ((&&)
       (bounded_rows (Obj.magic size q.free) (ff_block q (row_a q))
@@ -2864,8 +2866,8 @@ let check_varying q w tr lo hi =
       ((&&)
         (bounded_rows (Obj.magic size q.free) (ff_block q (row_b q))
           w.mass_bound)
-        (check_tree (size (slip q)) (check_varying_leaf q w families) tr
-          { lower = lo; upper = hi; states = [] })))
+        (check_tree ns (check_varying_leaf q w ns families) tr { lower = lo;
+          upper = hi; states = [] })))
 
 (** val varying_yield :
     (region * varying_leaf) -> (region * isolation) option **)

@@ -841,17 +841,15 @@ val sf_block : pencil -> (int -> sparse_row) -> matrix
 val ss_block : pencil -> (int -> sparse_row) -> matrix
 
 val residual_series :
-  pencil -> anchor -> matrix list -> matrix list -> matrix list
-
-val residual_right : pencil -> anchor -> matrix list
-
-val residual_left : pencil -> anchor -> matrix list
+  anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix list
+  -> matrix list
 
 val center_series : pencil -> anchor -> matrix list -> matrix list
 
 val row_sum : sparse_row -> Big_int_Z.big_int
 
-val expand_from : pencil -> anchor -> matrix list -> matrix list -> family
+val expand_from :
+  pencil -> anchor -> sparse_row list -> matrix list -> matrix list -> family
 
 val small : pencil -> matrix list -> bool
 
@@ -944,7 +942,8 @@ val no_anchor : bool * anchor
 val finite_root : local_leaf -> bool
 
 val check_varying_leaf :
-  pencil -> anchoring -> family option list -> region -> varying_leaf -> bool
+  pencil -> anchoring -> int -> family option list -> region -> varying_leaf
+  -> bool
 
 val families_of : pencil -> anchoring -> family option list
 
