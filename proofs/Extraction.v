@@ -25,4 +25,4 @@ Extraction "kernel.ml"
   symmetric_part definite_end farkas check_absent check_root active moving members member_form
   defect residual check_unique decide
   check_varying check_system_varying varying_found check_varying_leaf families_of expand_anchor
-  local_pencil local_point proper_interval bounded_rows ff_block swap_pencil swap_point.
+  local_pencil local_point proper_interval bounded_rows ff_block swap_pencil swap_point scale_free.

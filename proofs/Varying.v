@@ -40,10 +40,17 @@ Record anchoring := Anchoring {
   mass_bound : form_bound;
   anchors : seq (bool * anchor) }.
 
-(* The number of an anchor, the grain of its local pencil, evidence; or evidence about the whole. *)
+(* The number of an anchor, the grain of its local pencil, evidence; or evidence about the whole
+   pencil, its free rows multiplied by a positive integer. *)
 Inductive varying_leaf :=
   | OfAnchor of nat & Z & local_leaf
-  | OfWhole of whole.
+  | OfWhole of Z & whole.
+
+(* The pencil with its free rows multiplied by c. *)
+Definition scale_free c Q :=
+  let scaled (row : nat -> sparse_row) :=
+    [seq if i \in free Q then times c (row i) else row i | i <- iota 0 (order Q)] in
+  Pencil (order Q) (scaled (row_a Q)) (scaled (row_b Q)) (free Q).
 
 Definition swap_pencil Q := Pencil (order Q) (rows_b Q) (rows_a Q) (free Q).
 
@@ -72,7 +79,7 @@ Definition finite_root l := if l is LocalRoot c _ then (0 <? (to_point c).2)%Z e
 Definition check_varying_leaf ns (families : seq (option family)) (r : region)
     (l : varying_leaf) :=
   match l with
-  | OfWhole e => check_whole Q r e
+  | OfWhole c e => (0 <? c)%Z && check_whole (scale_free c Q) r e
   | OfAnchor n grain e =>
       let: (reverse, a) := nth no_anchor (anchors w) n in
       if nth None families n is Some fam then
@@ -121,6 +128,35 @@ split=> [/IH[x xl fx]|[x [ax|xl] fx]].
 - by move: fx; rewrite -ax fa.
 - by apply/IH; exists x.
 Qed.
+
+Section ScaleFree.
+
+Variables (R : rcfType) (Q : pencil) (c : Z).
+Hypothesis wf : wellformed Q.
+
+Lemma scaled_reaction (t : R) x i : i \in iota 0 (order Q) ->
+  reaction (scale_free c Q) t x i =
+  (if i \in free Q then toR c else 1) * reaction Q t x i.
+Proof.
+move=> Hi; have lt_i : (i < order Q)%N by move: Hi; rewrite mem_iota.
+rewrite /reaction mulr_sumr; apply: eq_bigr => j _.
+rewrite /a_entry /b_entry ![row_a (scale_free c Q) i]/row_a ![row_b (scale_free c Q) i]/row_b /=.
+rewrite !(nth_map 0%N) ?size_iota // nth_iota // add0n.
+case: ifP => _; last by rewrite mul1r.
+by rewrite !lookup_times; move: (toR _) (toR _) (toR _) (x j) => *; ring.
+Qed.
+
+Lemma scaled_solution (t : R) x : solution Q t x -> solution (scale_free c Q) t x.
+Proof.
+case=> t0 nz rows_f rows_s; split=> //.
+  move=> i Hi; rewrite scaled_reaction; last exact: (free_indices wf).
+  by rewrite rows_f // mulr0.
+move=> i Hi; rewrite scaled_reaction; last exact: (slip_indices (Q := Q)).
+have /negbTE-> : i \notin free Q by move: Hi; rewrite mem_filter => /andP[].
+by rewrite mul1r; apply: rows_s.
+Qed.
+
+End ScaleFree.
 
 Section Swap.
 
@@ -193,8 +229,9 @@ Lemma leaf_excludes r l (t : R) x : check_varying_leaf Q w ns (families_of Q w) 
   ordered (lower r) (upper r) -> varying_yield (r, l) = None ->
   solution Q t x -> lies_in Q r t x -> False.
 Proof.
-have [wf ba bb _] := varying_parts; case: l => [n grain e|e] /=; last first.
-  by move=> ok O _ sol [bt ag]; apply: (whole_sound wf O ok bt ag sol).
+have [wf ba bb _] := varying_parts; case: l => [n grain e|c e] /=; last first.
+  case/andP=> _ ok O _ sol [bt ag].
+  exact: (whole_sound (Q := scale_free c Q) wf O ok bt ag (scaled_solution c wf sol)).
 case anchor_n: (nth no_anchor (anchors w) n) => [reverse a].
 case fam_n: (nth None (families_of Q w) n) => [fam|//].
 have expanded := family_at fam_n; rewrite anchor_n /expand_anchor /= in expanded.
@@ -218,7 +255,7 @@ Lemma leaf_yields r l r' c : check_varying_leaf Q w ns (families_of Q w) r l ->
   ordered (lower r) (upper r) -> varying_yield (r, l) = Some (r', c) ->
   r' = r /\ one_solution_within r c.
 Proof.
-have [wf ba bb _] := varying_parts; case: l => [n grain e|e] //=.
+have [wf ba bb _] := varying_parts; case: l => [n grain e|k e] //=.
 rewrite /varying_yield /=; case: e => // c' [] //= + O [<- <-].
 case anchor_n: (nth no_anchor (anchors w) n) => [reverse a].
 case fam_n: (nth None (families_of Q w) n) => [fam|//].

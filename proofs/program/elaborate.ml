@@ -461,7 +461,14 @@ let transpose columns rows =
 
 (* f_i / 2^b_i for each slip row, as positive integers in a common unit. *)
 let row_scales (pencil : Kernel.pencil) slip common =
-  let a = Array.of_list pencil.rows_a and b = Array.of_list pencil.rows_b in
+  let merged row =
+    let sums = Hashtbl.create 64 in
+    List.iter (fun (j, v) ->
+        Hashtbl.replace sums j (Z.add v (Option.value (Hashtbl.find_opt sums j) ~default:Z.zero)))
+      row;
+    Hashtbl.fold (fun j v row -> (j, v) :: row) sums [] in
+  let a = Array.map merged (Array.of_list pencil.rows_a) in
+  let b = Array.map merged (Array.of_list pencil.rows_b) in
   let scales = List.map (fun i ->
       let entries = List.map snd a.(i) @ List.map snd b.(i) in
       let g = List.fold_left Z.gcd common entries in
