@@ -37,6 +37,7 @@ type condensation = {
   factor : factor_rows;
   mass_sigma : Q.t;
   mass_factor : factor_rows option;
+  tail : (Q.t * factor_rows) option;
   anchors : anchor list }
 
 type piece = { max : Q.t option; anchor : int; tree : node list }
@@ -117,12 +118,17 @@ let read_anchor item =
   { center = rational (field "center"); reversed; right = coefficients "right";
     left = coefficients "left" }
 
+let read_tail item =
+  let field = fields ["from"; "factor"] ["mass_factor"] item in
+  rational (field "from"), read_factor (field "factor")
+
 let read_condensation item =
   let field = fields ["sigma"; "stiffness_factor"; "mass_sigma"; "anchors"]
       ["mass_factor"; "tail"] item in
   { sigma = rational (field "sigma"); factor = read_factor (field "stiffness_factor");
     mass_sigma = rational (field "mass_sigma");
     mass_factor = (match field "mass_factor" with Null -> None | f -> Some (read_factor f));
+    tail = (match field "tail" with Null -> None | t -> Some (read_tail t));
     anchors = List.map read_anchor (list (field "anchors")) }
 
 let read_piece item =

@@ -517,6 +517,9 @@ type varying = {
   slip_list : int array;
   anchoring : Kernel.anchoring;
   families : Kernel.family option list;
+  row_ratio : Z.t;  (* factor of the rows of complementarity variables over that of the free rows *)
+  uniform_factor : Z.t;
+  tail : (Q.t * factor_rows) option;
   numbers : (int * int) list  (* anchors of the certificate, as numbers of the anchoring *) }
 
 (* Factors of the free rows and of the others: the given pencil times them is that of the kernel. *)
@@ -572,6 +575,7 @@ let varying_of (pencil : Kernel.pencil) slip_list free_factor slip_factor
         kernel_anchor pencil slip_list free_factor slip_factor (given k)) used } in
   { whole_pencil = pencil; slip_list = Array.of_list slip_list; anchoring;
     families = Kernel.families_of pencil anchoring;
+    row_ratio = Z.divexact slip_factor free_factor; uniform_factor = slip_factor; tail = c.tail;
     numbers = List.mapi (fun i k -> (k, i)) used }
 
 let local_unit = { Kernel.lower = (Z.zero, Z.one); upper = (Z.one, Z.one); states = [] }
@@ -682,10 +686,32 @@ let rec varying_root v n depth (region : Kernel.region) (r : root) outcome =
     let below = outside { region with upper = low } in
     Kernel.Split (low, below, Kernel.Split (high, inner, above))
 
+(* The factor of the certificate for sym(A + from B); nothing for sym(B), which is diagonal. *)
+let tail_leaf v (region : Kernel.region) =
+  let pencil = Kernel.scale_free v.row_ratio v.whole_pencil in
+  match v.tail with
+  | Some (from, f) when Q.equal from (value_of region.lower) && not (finite region.upper)
+                        && List.length f.first = List.length f.rows ->
+    let power = two_to (2 * f.exponent) and two = Z.of_int 2 in
+    let low = Z.mul two (Z.mul v.uniform_factor (snd region.lower)) in
+    let rows = List.combine f.first f.rows in
+    let w = { Kernel.whole_negative = false;
+              low_end = { Kernel.end_scale = power; end_factor = Kernel.Late (low, rows) };
+              high_end = { Kernel.end_scale = Z.one;
+                           end_factor = Kernel.Late (Z.zero, List.map (fun _ -> (0, [])) rows) } }
+    in
+    if Kernel.check_whole pencil region w then Some w else None
+  | _ -> None
+
 let varying_leaf v (piece : piece) (region : Kernel.region) node =
   let n = match List.assoc_opt piece.anchor v.numbers with Some n -> n | None -> 0 in
-  let whole what = match whole_leaf v.whole_pencil region with
-    | Some w -> Kernel.Leaf (Kernel.OfWhole w)
+  let whole what =
+    let given = if what = "tail" then tail_leaf v region else None in
+    let found = match given with
+      | Some w -> Some w
+      | None -> whole_leaf (Kernel.scale_free v.row_ratio v.whole_pencil) region in
+    match found with
+    | Some w -> Kernel.Leaf (Kernel.OfWhole (v.row_ratio, w))
     | None -> no_witness "%s" what in
   match node with
   | Farkas w -> close "farkas" 6 [by_farkas v n w] region

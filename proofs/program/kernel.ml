@@ -2780,7 +2780,20 @@ type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
 
 type varying_leaf =
 | OfAnchor of int * Big_int_Z.big_int * local_leaf
-| OfWhole of whole
+| OfWhole of Big_int_Z.big_int * whole
+
+(** val scale_free : Big_int_Z.big_int -> pencil -> pencil **)
+
+let scale_free c q =
+  let scaled = fun row ->
+    map0 (fun i ->
+      if in_mem (Obj.magic i)
+           (mem (seq_predType nat_eqType) (Obj.magic q.free))
+      then times c (row i)
+      else row i) (iota 0 q.order)
+  in
+  { order = q.order; rows_a = (scaled (row_a q)); rows_b =
+  (scaled (row_b q)); free = q.free }
 
 (** val swap_pencil : pencil -> pencil **)
 
@@ -2846,7 +2859,8 @@ let check_varying_leaf q w ns families r = function
      else check_anchored ns a w.stiffness_bound w.mass_bound fam r.lower
             r.upper r grain e
    | None -> false)
-| OfWhole e -> check_whole q r e
+| OfWhole (c, e) ->
+  (&&) (Z.ltb Big_int_Z.zero_big_int c) (check_whole (scale_free c q) r e)
 
 (** val families_of : pencil -> anchoring -> family option list **)
 
@@ -2881,7 +2895,7 @@ let varying_yield rl =
         | Solution -> Some ((fst rl), c)
         | _ -> None)
      | _ -> None)
-  | OfWhole _ -> None
+  | OfWhole (_, _) -> None
 
 (** val varying_found :
     varying_leaf tree -> point -> point -> (region * isolation) list **)

@@ -923,7 +923,9 @@ type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
 
 type varying_leaf =
 | OfAnchor of int * Big_int_Z.big_int * local_leaf
-| OfWhole of whole
+| OfWhole of Big_int_Z.big_int * whole
+
+val scale_free : Big_int_Z.big_int -> pencil -> pencil
 
 val swap_pencil : pencil -> pencil
 
