@@ -24,5 +24,5 @@ Extraction "kernel.ml"
   stiffness_positive shapes wellformed free_rows_constant system_wellformed
   symmetric_part definite_end farkas check_absent check_root active moving members member_form
   defect residual check_unique decide
-  check_varying check_system_varying varying_found check_varying_leaf families_of expand_anchor
+  check_varying check_system_varying varying_found check_local families_of expand_anchor
   local_pencil local_point proper_interval bounded_rows ff_block swap_pencil swap_point scale_free.

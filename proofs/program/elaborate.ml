@@ -589,7 +589,7 @@ let interval_for v n (region : Kernel.region) =
   else (a, stiffness, mass, region.lower, region.upper)
 
 (* The pencil over [0, 1], with entries of some 160 bits, and its grain. *)
-let local_pencil v n region slopes =
+let new_local_pencil v n region slopes =
   match List.nth v.families n with
   | None -> None
   | Some fam ->
@@ -598,23 +598,36 @@ let local_pencil v n region slopes =
     else begin
       let ns = Array.length v.slip_list in
       let make grain = Kernel.local_pencil ns a low_a low_b fam lo hi slopes grain in
+      let exact = make Z.one in
       let top = List.fold_left (List.fold_left (fun m z -> max m (bits z))) 0
-          ((make Z.one).center_a @ (make Z.one).center_b) in
+          (exact.center_a @ exact.center_b) in
       let grain = two_to (max 0 (top - 160)) in
-      Some (make grain, grain)
+      let p = make grain in
+      Some (p, doubles_of p, grain)
     end
 
-(* The evidence of [make] for a region, if the kernel accepts it. *)
-let anchored v n (region : Kernel.region) slopes make =
+(* The leaves of a branched interval share it; the last few are kept. *)
+let kept = ref []
+
+let local_pencil v n (region : Kernel.region) slopes =
+  let key = (n, slopes, region.lower, region.upper) in
+  match List.assoc_opt key !kept with
+  | Some found -> found
+  | None ->
+    let found = new_local_pencil v n region slopes in
+    kept := (key, found) :: List.filteri (fun i _ -> i < 7) !kept;
+    found
+
+(* The evidence of [make] for a region, if the kernel accepts it; [placed] gives a root the points
+   of the region. *)
+let anchored ?(placed = Fun.id) v n (region : Kernel.region) slopes make =
   match local_pencil v n region slopes with
   | None -> None
-  | Some (p, grain) ->
-    let evidence = make p (doubles_of p) { local_unit with states = region.states } in
-    Option.bind evidence (fun e ->
-        let leaf = Kernel.OfAnchor (n, grain, e) in
-        if Kernel.check_varying_leaf v.whole_pencil v.anchoring (Array.length v.slip_list) v.families
-            region leaf
-        then Some (Kernel.Leaf leaf) else None)
+  | Some (p, f, grain) ->
+    let unit_region = { local_unit with states = region.states } in
+    Option.bind (make p f unit_region) (fun e ->
+        if Kernel.check_local p unit_region e
+        then Some (Kernel.Leaf (Kernel.OfAnchor (n, grain, placed e))) else None)
 
 let local_of = function
   | Kernel.Farkas w -> Some (Kernel.LocalFarkas w)
@@ -642,11 +655,12 @@ let by_root v n (r : root) outcome region =
   if Z.sign (snd (fst ends)) <= 0 || Z.sign (snd (snd ends)) <= 0 then None
   else
     let interval = (value_of (fst ends), value_of (snd ends)) in
-    anchored v n region (outcome = Kernel.Solution) (fun p f unit_region ->
-        match isolated_leaf ~ends p f unit_region { r with interval } outcome with
-        | Some (Kernel.Root (c, o)) ->
-          Some (Kernel.LocalRoot ({ c with from_point = point_of a; to_point = point_of b }, o))
-        | _ -> None)
+    let placed = function
+      | Kernel.LocalRoot (c, o) ->
+        Kernel.LocalRoot ({ c with from_point = point_of a; to_point = point_of b }, o)
+      | e -> e in
+    anchored ~placed v n region (outcome = Kernel.Solution) (fun p f unit_region ->
+        Option.bind (isolated_leaf ~ends p f unit_region { r with interval } outcome) local_of)
 
 let cut_of (region : Kernel.region) =
   let lo = value_of region.lower in
