@@ -303,6 +303,7 @@ let isolated_leaf ?ends p f (region : Kernel.region) (r : root) outcome =
     let a, b = r.interval in
     let lo = value_of region.lower and hi = value_of region.upper in
     let pivots = r.pivot :: List.filter (fun j -> j <> r.pivot) j_list in
+    let pivots = if ends = None then pivots else List.filteri (fun i _ -> i < 3) pivots in
     let attempt k =
       let k_list = List.filter (fun j -> j <> k) j_list in
       let vectors =
@@ -562,12 +563,16 @@ let varying_of (pencil : Kernel.pencil) slip_list free_factor slip_factor
   let given k = match List.nth_opt c.anchors k with
     | Some a -> a
     | None -> no_witness "a piece names no anchor" in
-  (* 12 anchors of three matrices of 786 x 17 each, twice. *)
+  if nf > 2_000 then Problem.not_verified "more than 2,000 free variables that depend on the value";
+  (* The ten anchors of the block, with six matrices of 786 x 17 entries each, count 82 million. *)
   let work = List.fold_left (fun sum k ->
       let a = given k in
       let matrices = List.length a.right + List.length a.left in
-      sum + matrices * matrices * nf * ns * ns) 0 used in
-  if work > 500_000_000 then Problem.not_verified "anchors beyond the limits of this program";
+      let exponent = List.fold_left (fun m (e, _) -> max m e) 0 (a.right @ a.left) in
+      if bits (Q.num a.center) + bits (Q.den a.center) > 2_048 then
+        Problem.not_verified "a center of more than 2,048 bits";
+      sum + matrices * matrices * nf * ns * ns * (1 + exponent / 256)) 0 used in
+  if work > 400_000_000 then Problem.not_verified "anchors beyond the limits of this program";
   let anchoring = {
     Kernel.stiffness_bound = form_bound nf free_factor c.sigma (Some c.factor);
     mass_bound = form_bound nf free_factor c.mass_sigma c.mass_factor;
@@ -588,11 +593,24 @@ let interval_for v n (region : Kernel.region) =
     (a, mass, stiffness, Kernel.swap_point region.upper, Kernel.swap_point region.lower)
   else (a, stiffness, mass, region.lower, region.upper)
 
+(* What local pencils may cost together: entries, coefficients and words. *)
+let spent = ref 0
+
+let spend v n (region : Kernel.region) fam =
+  let point_bits (p, q) = bits p + bits q in
+  let _, a = List.nth v.anchoring.anchors n in
+  let words = 1 + (point_bits region.lower + point_bits region.upper
+                   + point_bits a.anchor_center) / 64 in
+  let ns = Array.length v.slip_list and length = List.length fam.Kernel.series_z in
+  spent := !spent + ns * ns * length * length * words;
+  if !spent > 1 lsl 30 then Problem.not_verified "regions beyond the limits of this program"
+
 (* The pencil over [0, 1], with entries of some 160 bits, and its grain. *)
 let new_local_pencil v n region slopes =
   match List.nth v.families n with
   | None -> None
   | Some fam ->
+    spend v n region fam;
     let a, low_a, low_b, lo, hi = interval_for v n region in
     if not (Kernel.proper_interval a low_a low_b lo hi) then None
     else begin
