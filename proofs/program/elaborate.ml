@@ -491,6 +491,8 @@ let elimination (pencil : Kernel.pencil) slip common (condensation : condensatio
     | None -> no_witness "a condensation is missing"
     | Some c ->
       let a = match List.nth_opt c.anchors anchor with
+        | Some a when bits (Q.num a.center) + bits (Q.den a.center) > 2_048 ->
+          Problem.not_verified "a center of more than 2,048 bits"
         | Some a when not a.reversed && a.right <> [] -> a
         | _ -> no_witness "an anchor of a linear family" in
       let e = List.fold_left (fun m (k, _) -> max m k) 0 (a.right @ a.left) in
