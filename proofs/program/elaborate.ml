@@ -709,10 +709,11 @@ let rec varying_root v n depth (region : Kernel.region) (r : root) outcome =
     let lo = value_of region.lower in
     if Q.lt a lo || (finite region.upper && Q.gt b (value_of region.upper)) then
       no_witness "a root whose interval leaves its region";
-    let half x y = Q.div (Q.add x y) (Q.of_int 2) in
-    let low = point_of (half lo a) in
+    (* Much nearer to the interval: the radii fall with the square of the width. *)
+    let near x y = Q.div (Q.add x (Q.mul (Q.of_int 15) y)) (Q.of_int 16) in
+    let low = point_of (near lo a) in
     let high =
-      if finite region.upper then half b (value_of region.upper) else Q.mul b (Q.of_int 2) in
+      if finite region.upper then near (value_of region.upper) b else Q.mul b (Q.of_int 2) in
     let high = point_of high in
     let inner = varying_root v n (depth - 1) { region with lower = low; upper = high } r outcome in
     let outside = close "absent" 12 (absent_ways v n) in
