@@ -21,5 +21,5 @@ Extraction "kernel.ml"
   reaction_poly found left_open solutions_found pencil_of blocks_of
   condensed slip zero infinity window check_leaf check_tree check_whole check_end
   stiffness_positive shapes wellformed free_rows_constant system_wellformed
-  symmetric_part definite_end farkas check_absent check_root pinned check_claimed check_infinite active moving members member_form
-  defect residual check_unique decide.
+  symmetric_part definite_end farkas check_absent check_root pinned check_claimed check_infinite
+  active moving members member_form defect residual check_unique decide.

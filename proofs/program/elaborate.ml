@@ -222,8 +222,16 @@ let rounded_inverse s =
   | None -> None
   | Some y -> Some (Array.map (Array.map (fun v -> round_scaled v precision)) y, top + precision)
 
+(* The work of the search for witnesses: a file ends in bounded time. *)
+let work = ref 0
+
+let spend order =
+  work := !work + 1_000 + order * order * order;
+  if !work > 1 lsl 32 then no_witness "limits of this program"
+
 let box_of (p : Kernel.enclosed) f j_list k_list v (e1, e2) t =
   let k = Array.of_list k_list in
+  spend (Array.length k);
   let s = Array.map (fun i -> Array.map (fun j -> at f t i j) k) k in
   let y = if k = [||] then Some ([||], 60) else rounded_inverse s in
   match y with
@@ -276,6 +284,7 @@ let unique_of (p : Kernel.enclosed) f j_list k v eps (e1, e2) t =
     else if size_t = 0.0 then 0
     else max 0 (snd (Float.frexp size_h) - snd (Float.frexp size_t)) in
   let attempt w =
+    spend (Array.length j);
     if w < 0 then None
     else
       let s = Array.mapi (fun a l -> Array.map (fun c ->
@@ -598,6 +607,12 @@ let row_scales (pencil : Kernel.pencil) slip common =
   let top = List.fold_left (fun m (_, b) -> max m b) 1 scales in
   List.map (fun (f, b) -> Z.shift_left f (top - b)) scales
 
+(* A matrix in units of 2^-k, with the least k: units of 2^-900 for zeros leave no double finite. *)
+let shortened (k, rows) =
+  let zeros = List.fold_left (List.fold_left (fun m z ->
+      if Z.sign z = 0 then m else min m (Z.trailing_zeros z))) k rows in
+  (k - zeros, List.map (List.map (fun z -> Z.shift_right z zeros)) rows)
+
 let elimination (pencil : Kernel.pencil) slip common (condensation : condensation option) anchor =
   let ns = List.length slip and nf = List.length pencil.free in
   let row_scale = row_scales pencil slip common in
@@ -611,14 +626,15 @@ let elimination (pencil : Kernel.pencil) slip common (condensation : condensatio
       let a = match List.nth_opt c.anchors anchor with
         | Some (Some a) -> a
         | _ -> Problem.not_verified "condensation with powers of t" in
-      let e = List.fold_left (fun m (k, _) -> max m k) 0 (a.right @ a.left) in
+      let right = List.map shortened a.right and left = List.map shortened a.left in
+      let e = List.fold_left (fun m (k, _) -> max m k) 56 (right @ left) in
       let columns (k, rows) =
         transpose ns (List.map (List.map (fun z -> Z.shift_left z (e - k))) rows) in
       let zero = List.init ns (fun _ -> List.init nf (fun _ -> Z.zero)) in
       let nth l k = match List.nth_opt l k with Some m -> columns m | None -> zero in
       let power = two_to (2 * c.factor.exponent) in
-      { Kernel.row_scale; unit_of = two_to e; right_w = nth a.right 0;
-        left_va = nth a.left 0; left_vb = nth a.left 1;
+      { Kernel.row_scale; unit_of = two_to e; right_w = nth right 0;
+        left_va = nth left 0; left_vb = nth left 1;
         bound_c = Z.mul power (Q.den c.sigma);
         bound_d = Z.mul common (Z.mul power (Q.num c.sigma));
         factor_scale = Z.mul common (Q.den c.sigma);
