@@ -205,6 +205,7 @@ let () =
      | Rejected reason -> finish 1 ("REJECTED: " ^ reason)
      | Json.Malformed reason -> finish 2 ("MALFORMED: " ^ reason)
      | Sys_error reason -> finish 2 reason
+     | Stack_overflow | Out_of_memory -> finish 3 "NOT VERIFIED: the memory of this program"
      | Problem.Not_verified kind -> finish 3 ("NOT VERIFIED: " ^ kind)
      | Elaborate.No_witness what -> finish 3 ("NOT VERIFIED: no witness for " ^ what))
   | _ ->
