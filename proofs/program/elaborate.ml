@@ -471,9 +471,10 @@ let row_scales (pencil : Kernel.pencil) slip common =
   let top = List.fold_left (fun m (_, b) -> max m b) 1 scales in
   List.map (fun (f, b) -> Z.shift_left f (top - b)) scales
 
-let elimination (pencil : Kernel.pencil) slip common (condensation : condensation option) anchor =
+let elimination (pencil : Kernel.pencil) slip common slip_common
+    (condensation : condensation option) anchor =
   let ns = List.length slip and nf = List.length pencil.free in
-  let row_scale = row_scales pencil slip common in
+  let row_scale = row_scales pencil slip slip_common in
   if nf = 0 then
     let none = List.init ns (fun _ -> []) in
     { Kernel.row_scale; unit_of = two_to 56; right_w = none; left_va = none; left_vb = none;

@@ -1886,13 +1886,15 @@ let check_claim q k =
                   (slip q))
                 (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
 
-type slip_particle = { tangential : int; normal : int;
-                       sign_of : Big_int_Z.big_int;
-                       direction : Big_int_Z.big_int }
+type planar = Big_int_Z.big_int * Big_int_Z.big_int
+
+type slip_particle = { first_dof : int; second_dof : int; tangent : planar;
+                       normal : planar; sign_of : Big_int_Z.big_int }
 
 type system = { dofs : int; stiffness : sparse_row list;
                 mass : sparse_row list; free_dofs : int list;
-                particles : slip_particle list }
+                particles : slip_particle list;
+                unit_length : Big_int_Z.big_int }
 
 type unknown =
 | Mu
@@ -1903,21 +1905,27 @@ type unknown =
 let free_number s =
   size s.free_dofs
 
-(** val tangentials : system -> int list **)
+(** val first_dofs : system -> int list **)
 
-let tangentials s =
-  map0 (fun p -> p.tangential) s.particles
+let first_dofs s =
+  map0 (fun p -> p.first_dof) s.particles
+
+(** val second_dofs : system -> int list **)
+
+let second_dofs s =
+  map0 (fun p -> p.second_dof) s.particles
 
 (** val moving_dofs : system -> int list **)
 
 let moving_dofs s =
-  cat s.free_dofs (tangentials s)
+  cat s.free_dofs (cat (first_dofs s) (second_dofs s))
 
 (** val particle : system -> int -> slip_particle **)
 
 let particle s j =
-  nth { tangential = 0; normal = 0; sign_of = Big_int_Z.zero_big_int;
-    direction = Big_int_Z.zero_big_int } s.particles j
+  nth { first_dof = 0; second_dof = 0; tangent = (Big_int_Z.zero_big_int,
+    Big_int_Z.zero_big_int); normal = (Big_int_Z.zero_big_int,
+    Big_int_Z.zero_big_int); sign_of = Big_int_Z.zero_big_int } s.particles j
 
 (** val k_row : system -> int -> (int * Big_int_Z.big_int) list **)
 
@@ -1934,12 +1942,19 @@ let m_row s d =
 
 let column s d =
   if in_mem d (mem (seq_predType nat_eqType) (Obj.magic s.free_dofs))
-  then Some ((index nat_eqType d (Obj.magic s.free_dofs)),
-         Big_int_Z.unit_big_int)
-  else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic tangentials s))
-       then let j = index nat_eqType d (Obj.magic tangentials s) in
-            Some ((addn (free_number s) j), (Z.opp (particle s j).sign_of))
-       else None
+  then Some ((index nat_eqType d (Obj.magic s.free_dofs)), s.unit_length)
+  else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic first_dofs s))
+       then let j = index nat_eqType d (Obj.magic first_dofs s) in
+            Some ((addn (free_number s) j),
+            (Z.opp
+              (Z.mul (particle s j).sign_of (fst (particle s j).tangent))))
+       else if in_mem d
+                 (mem (seq_predType nat_eqType) (Obj.magic second_dofs s))
+            then let j = index nat_eqType d (Obj.magic second_dofs s) in
+                 Some ((addn (free_number s) j),
+                 (Z.opp
+                   (Z.mul (particle s j).sign_of (snd (particle s j).tangent))))
+            else None
 
 (** val columns : system -> sparse_row -> sparse_row **)
 
@@ -1951,7 +1966,24 @@ let columns s row =
 (** val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row **)
 
 let multiple c row =
-  map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
+  if Z.eqb c Big_int_Z.zero_big_int
+  then []
+  else map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
+
+(** val rows_along :
+    system -> (int -> sparse_row) -> slip_particle -> planar ->
+    (int * Big_int_Z.big_int) list **)
+
+let rows_along s rows p factors =
+  cat (multiple (fst factors) (columns s (rows p.first_dof)))
+    (multiple (snd factors) (columns s (rows p.second_dof)))
+
+(** val direction :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar **)
+
+let direction a b p =
+  ((Z.add (Z.mul a (fst p.tangent)) (Z.mul b (fst p.normal))),
+    (Z.add (Z.mul a (snd p.tangent)) (Z.mul b (snd p.normal))))
 
 (** val free_row_b :
     system -> unknown -> int -> (int * Big_int_Z.big_int) list **)
@@ -1961,27 +1993,29 @@ let free_row_b s u d =
   | Mu -> []
   | Lambda2 (_, _) -> columns s (m_row s d)
 
-(** val slip_row_a : system -> unknown -> slip_particle -> sparse_row **)
+(** val slip_row_a :
+    system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list **)
 
 let slip_row_a s u p =
   match u with
-  | Mu -> multiple (Z.opp p.sign_of) (columns s (k_row s p.tangential))
+  | Mu ->
+    rows_along s (k_row s) p
+      (direction (Z.opp p.sign_of) Big_int_Z.zero_big_int p)
   | Lambda2 (m, q) ->
-    cat
-      (multiple (Z.opp (Z.mul q p.sign_of))
-        (columns s (k_row s p.tangential)))
-      (multiple (Z.opp (Z.mul m p.direction)) (columns s (k_row s p.normal)))
+    rows_along s (k_row s) p
+      (direction (Z.opp (Z.mul q p.sign_of)) (Z.opp m) p)
 
-(** val slip_row_b : system -> unknown -> slip_particle -> sparse_row **)
+(** val slip_row_b :
+    system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list **)
 
 let slip_row_b s u p =
   match u with
-  | Mu -> multiple (Z.opp p.direction) (columns s (k_row s p.normal))
+  | Mu ->
+    rows_along s (k_row s) p
+      (direction Big_int_Z.zero_big_int (Z.opp Big_int_Z.unit_big_int) p)
   | Lambda2 (m, q) ->
-    cat
-      (multiple (Z.opp (Z.mul q p.sign_of))
-        (columns s (m_row s p.tangential)))
-      (multiple (Z.opp (Z.mul m p.direction)) (columns s (m_row s p.normal)))
+    rows_along s (m_row s) p
+      (direction (Z.opp (Z.mul q p.sign_of)) (Z.opp m) p)
 
 (** val pencil_of : system -> unknown -> pencil **)
 
@@ -1999,24 +2033,30 @@ let columns_in_range s rows =
   all (fun row -> all (fun e -> leq (Stdlib.Int.succ (fst e)) s.dofs) row)
     rows
 
+(** val inner : planar -> planar -> Big_int_Z.big_int **)
+
+let inner a b =
+  Z.add (Z.mul (fst a) (fst b)) (Z.mul (snd a) (snd b))
+
+(** val particle_wellformed : system -> slip_particle -> bool **)
+
+let particle_wellformed s p =
+  (&&) (Z.eqb (Z.mul p.sign_of p.sign_of) Big_int_Z.unit_big_int)
+    ((&&)
+      (Z.eqb (inner p.tangent p.tangent) (Z.mul s.unit_length s.unit_length))
+      ((&&)
+        (Z.eqb (inner p.normal p.normal) (Z.mul s.unit_length s.unit_length))
+        (Z.eqb (inner p.tangent p.normal) Big_int_Z.zero_big_int)))
+
 (** val system_wellformed : system -> unknown -> bool **)
 
 let system_wellformed s u =
   (&&) (uniq nat_eqType (Obj.magic moving_dofs s))
     ((&&) (all (fun d -> leq (Stdlib.Int.succ d) s.dofs) (moving_dofs s))
-      ((&&)
-        (all (fun p ->
-          Z.eqb (Z.mul p.sign_of p.sign_of) Big_int_Z.unit_big_int)
-          s.particles)
+      ((&&) (all (particle_wellformed s) s.particles)
         ((&&)
-          (all (fun p ->
-            negb
-              (in_mem (Obj.magic p.normal)
-                (mem (seq_predType nat_eqType) (Obj.magic moving_dofs s))))
-            s.particles)
-          ((&&)
-            ((&&) (columns_in_range s s.stiffness)
-              (columns_in_range s s.mass))
+          ((&&) (columns_in_range s s.stiffness) (columns_in_range s s.mass))
+          ((&&) (Z.ltb Big_int_Z.zero_big_int s.unit_length)
             (match u with
              | Mu -> true
              | Lambda2 (_, q) -> Z.ltb Big_int_Z.zero_big_int q)))))

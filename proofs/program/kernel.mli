@@ -654,13 +654,15 @@ val columns_in_order : pencil -> bool
 
 val check_claim : pencil -> claim -> bool
 
-type slip_particle = { tangential : int; normal : int;
-                       sign_of : Big_int_Z.big_int;
-                       direction : Big_int_Z.big_int }
+type planar = Big_int_Z.big_int * Big_int_Z.big_int
+
+type slip_particle = { first_dof : int; second_dof : int; tangent : planar;
+                       normal : planar; sign_of : Big_int_Z.big_int }
 
 type system = { dofs : int; stiffness : sparse_row list;
                 mass : sparse_row list; free_dofs : int list;
-                particles : slip_particle list }
+                particles : slip_particle list;
+                unit_length : Big_int_Z.big_int }
 
 type unknown =
 | Mu
@@ -668,7 +670,9 @@ type unknown =
 
 val free_number : system -> int
 
-val tangentials : system -> int list
+val first_dofs : system -> int list
+
+val second_dofs : system -> int list
 
 val moving_dofs : system -> int list
 
@@ -684,15 +688,28 @@ val columns : system -> sparse_row -> sparse_row
 
 val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row
 
+val rows_along :
+  system -> (int -> sparse_row) -> slip_particle -> planar ->
+  (int * Big_int_Z.big_int) list
+
+val direction :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar
+
 val free_row_b : system -> unknown -> int -> (int * Big_int_Z.big_int) list
 
-val slip_row_a : system -> unknown -> slip_particle -> sparse_row
+val slip_row_a :
+  system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list
 
-val slip_row_b : system -> unknown -> slip_particle -> sparse_row
+val slip_row_b :
+  system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list
 
 val pencil_of : system -> unknown -> pencil
 
 val columns_in_range : system -> sparse_row list -> bool
+
+val inner : planar -> planar -> Big_int_Z.big_int
+
+val particle_wellformed : system -> slip_particle -> bool
 
 val system_wellformed : system -> unknown -> bool
 

@@ -113,10 +113,6 @@ let verify problem_path certificate_path =
   if Array.length slip > 300 then Problem.not_verified "more than 300 complementarity variables";
   let lo = Elaborate.point_of (fst certificate.window) in
   let hi = Elaborate.upper_point (snd certificate.window) in
-  let common = match problem.question with
-    | Mechanical (_, Lambda2 (_, q)) -> Z.mul q problem.common
-    | _ -> problem.common in
-
   let claims = timed "claims" (fun () ->
       limit_work pencil certificate.claims;
       List.map (verify_claim problem pencil certificate) certificate.claims) in
@@ -153,7 +149,8 @@ let verify problem_path certificate_path =
       | _ when pencil.free = [] -> 0
       | _ -> Problem.not_verified "several anchors" in
     let elimination, enclosed = timed "condensation" (fun () ->
-        let e = Elaborate.elimination pencil slip_list common certificate.condensation anchor in
+        let e = Elaborate.elimination pencil slip_list problem.common problem.slip_common
+            certificate.condensation anchor in
         e, Kernel.condensed (Kernel.blocks_of pencil) e) in
     let context = { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed } in
     let tree = timed "elaboration" (fun () ->
