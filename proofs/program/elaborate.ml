@@ -458,15 +458,24 @@ let transpose columns rows =
   let rows = Array.of_list (List.map Array.of_list rows) in
   List.init columns (fun j -> Array.to_list (Array.map (fun row -> row.(j)) rows))
 
+(* The entries of a sparse row; a row may name a column more than once. *)
+let sums_of row =
+  let sums = Hashtbl.create 16 in
+  List.iter (fun (j, v) ->
+      let so_far = Option.value (Hashtbl.find_opt sums j) ~default:Z.zero in
+      Hashtbl.replace sums j (Z.add so_far v)) row;
+  Hashtbl.fold (fun _ v rest -> v :: rest) sums []
+
 (* f_i / 2^b_i for each slip row, as positive integers in a common unit. *)
 let row_scales (pencil : Kernel.pencil) slip common =
   let a = Array.of_list pencil.rows_a and b = Array.of_list pencil.rows_b in
   let scales = List.map (fun i ->
-      let entries = List.map snd a.(i) @ List.map snd b.(i) in
+      let entries_a = sums_of a.(i) in
+      let entries = entries_a @ sums_of b.(i) in
       let g = List.fold_left Z.gcd common entries in
       let f = Z.divexact common g in
-      let longest = List.fold_left (fun m (_, v) ->
-          max m (bits (Z.divexact (Z.mul f v) common))) 1 a.(i) in
+      let longest = List.fold_left (fun m v ->
+          max m (bits (Z.divexact (Z.mul f v) common))) 1 entries_a in
       (f, longest)) slip in
   let top = List.fold_left (fun m (_, b) -> max m b) 1 scales in
   List.map (fun (f, b) -> Z.shift_left f (top - b)) scales
@@ -490,9 +499,11 @@ let elimination (pencil : Kernel.pencil) slip common slip_common
         transpose ns (List.map (List.map (fun z -> Z.shift_left z (e - k))) rows) in
       let zero = List.init ns (fun _ -> List.init nf (fun _ -> Z.zero)) in
       let nth l k = match List.nth_opt l k with Some m -> columns m | None -> zero in
+      let ratio = Z.divexact slip_common common in
+      let left k = List.map (List.map (Z.mul ratio)) (nth a.left k) in
       let power = two_to (2 * c.factor.exponent) in
       { Kernel.row_scale; unit_of = two_to e; right_w = nth a.right 0;
-        left_va = nth a.left 0; left_vb = nth a.left 1;
+        left_va = left 0; left_vb = left 1;
         bound_c = Z.mul power (Q.den c.sigma);
         bound_d = Z.mul common (Z.mul power (Q.num c.sigma));
         factor_scale = Z.mul common (Q.den c.sigma);
