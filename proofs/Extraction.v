@@ -9,7 +9,7 @@ From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
 From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Condensation Pencil Whole Complete Claim System.
+From Mceip Require Import Condensation Pencil Whole Complete Claim System Lifted EnclosedClaim PlainMcp.
 
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
@@ -18,6 +18,7 @@ Set Extraction AccessOpaque.
 
 Extraction "kernel.ml"
   check_complete check_excluded check_system check_system_excluded check_claim check_system_claim
+  check_lifted check_enclosed_claim check_system_enclosed check_mcp
   reaction_poly found pencil_of blocks_of
   condensed slip zero infinity window check_leaf check_tree check_whole check_end
   stiffness_positive shapes wellformed free_rows_constant system_wellformed

@@ -39,8 +39,16 @@ type exact = {
   value : Q.t * Q.t;
   x : Q.t list list }
 
+(* The motion stands in place of x. *)
+type lifted = { motion : exact; forces : Q.t list list }
+
+(* The preconditioner is read and not used. *)
+type enclosed = { box_support : int list; center : Q.t list; radius : Q.t list }
+
+type claim = Exact of exact | Lifted of lifted | Enclosed of enclosed
+
 type t = {
-  claims : exact list;
+  claims : claim list;
   digest : string;
   unknown : string;
   window : Q.t * Q.t option;
@@ -116,17 +124,30 @@ let read_piece item =
     anchor = (match field "anchor" with Null -> 0 | v -> counter v);
     tree = List.map read_node (list (field "tree")) }
 
+let polynomials item = List.map (fun p -> List.map rational (list p)) (list item)
+
+(* The fields that an exact and a lifted solution have in common. *)
+let read_exact field x =
+  let value = match list (field "interval") with
+    | [a; b] -> rational a, rational b
+    | _ -> malformed "an interval has two ends" in
+  { support = List.map counter (list (field "support"));
+    biactive = List.map counter (list (field "biactive"));
+    polynomial = integers (field "polynomial"); value; x = polynomials (field x) }
+
 let read_claim = function
   | Object ["exact_solution", body] ->
-    let field = fields ["support"; "biactive"; "polynomial"; "interval"; "x"] [] body in
-    let value = match list (field "interval") with
-      | [a; b] -> rational a, rational b
-      | _ -> malformed "an interval has two ends" in
-    { support = List.map counter (list (field "support"));
-      biactive = List.map counter (list (field "biactive"));
-      polynomial = integers (field "polynomial"); value;
-      x = List.map (fun p -> List.map rational (list p)) (list (field "x")) }
-  | Object [kind, _] -> Problem.not_verified "%s" kind
+    Exact (read_exact (fields ["support"; "biactive"; "polynomial"; "interval"; "x"] [] body) "x")
+  | Object ["lifted_solution", body] ->
+    let field = fields ["support"; "biactive"; "polynomial"; "interval"; "v"; "w"] [] body in
+    Lifted { motion = read_exact field "v"; forces = polynomials (field "w") }
+  | Object ["enclosed_solution", body] ->
+    let field = fields ["support"; "center"; "radius"; "preconditioner"; "exponent"] [] body in
+    ignore (List.map integers (list (field "preconditioner")));
+    if counter (field "exponent") < 0 then malformed "a negative exponent";
+    let rationals key = List.map rational (list (field key)) in
+    Enclosed { box_support = List.map counter (list (field "support"));
+               center = rationals "center"; radius = rationals "radius" }
   | _ -> malformed "a claim is an object with one key"
 
 let read path =

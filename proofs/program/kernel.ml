@@ -515,6 +515,11 @@ let rec size = function
 | [] -> 0
 | _ :: s' -> Stdlib.Int.succ (size s')
 
+(** val nilp : 'a1 list -> bool **)
+
+let nilp s =
+  eq_op nat_eqType (Obj.magic size s) (Obj.magic 0)
+
 (** val ncons : int -> 'a1 -> 'a1 list -> 'a1 list **)
 
 let ncons n x =
@@ -1753,6 +1758,14 @@ let modulus_changes_sign k =
         (lower_value k k.claim_from k.claim_from p))
       (Z.leb (upper_value k k.claim_to k.claim_to p) Big_int_Z.zero_big_int))
 
+(** val root_interval : claim -> bool **)
+
+let root_interval k =
+  (&&) (Z.leb Big_int_Z.zero_big_int k.claim_from)
+    ((&&) (Z.leb k.claim_from k.claim_to)
+      ((&&) (Z.ltb Big_int_Z.zero_big_int k.claim_denominator)
+        (modulus_changes_sign k)))
+
 (** val no_reduction : reduction **)
 
 let no_reduction =
@@ -1852,11 +1865,7 @@ let columns_in_order q =
 let check_claim q k =
   (&&) (wellformed q)
     ((&&) (columns_in_order q)
-      ((&&)
-        ((&&) (Z.leb Big_int_Z.zero_big_int k.claim_from)
-          ((&&) (Z.leb k.claim_from k.claim_to)
-            ((&&) (Z.ltb Big_int_Z.zero_big_int k.claim_denominator)
-              (modulus_changes_sign k))))
+      ((&&) (root_interval k)
         ((&&) (all (fun i -> y_zero q k i) q.free)
           ((&&)
             (all (fun i ->
@@ -2078,3 +2087,318 @@ let check_system_excluded s u tr lo hi =
 
 let check_system_claim s u k =
   (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)
+
+type lifted = { motion_claim : claim; forces : polynomial list;
+                force_reductions : reduction list;
+                balance_reductions : reduction list;
+                normal_reductions : reduction list;
+                rate_reductions : reduction list;
+                cone_reductions : reduction list }
+
+(** val witness : reduction list -> int -> reduction **)
+
+let witness list0 i =
+  nth no_reduction list0 i
+
+(** val subtract : polynomial -> polynomial -> polynomial **)
+
+let subtract p q =
+  add_poly p (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) q)
+
+(** val v_poly : lifted -> int -> Big_int_Z.big_int list **)
+
+let v_poly l d =
+  component l.motion_claim d
+
+(** val w_poly : lifted -> int -> Big_int_Z.big_int list **)
+
+let w_poly l d =
+  nth [] l.forces d
+
+(** val balance_poly : system -> unknown -> lifted -> int -> polynomial **)
+
+let balance_poly s u l d =
+  let stiff = combine_row l.motion_claim (k_row s d) in
+  let inertia =
+    match u with
+    | Mu -> []
+    | Lambda2 (_, _) ->
+      Big_int_Z.zero_big_int :: (combine_row l.motion_claim (m_row s d))
+  in
+  subtract (add_poly stiff inertia) (w_poly l d)
+
+(** val along_poly :
+    planar -> slip_particle -> (int -> polynomial) -> polynomial **)
+
+let along_poly e p f =
+  add_poly (scale_poly (fst e) (f p.first_dof))
+    (scale_poly (snd e) (f p.second_dof))
+
+(** val normal_poly : lifted -> slip_particle -> polynomial **)
+
+let normal_poly l p =
+  along_poly p.normal p (v_poly l)
+
+(** val rate_poly : lifted -> slip_particle -> polynomial **)
+
+let rate_poly l p =
+  scale_poly p.sign_of (along_poly p.tangent p (v_poly l))
+
+(** val cone_poly : unknown -> lifted -> slip_particle -> polynomial **)
+
+let cone_poly u l p =
+  match u with
+  | Mu ->
+    add_poly (scale_poly p.sign_of (along_poly p.tangent p (w_poly l)))
+      (Big_int_Z.zero_big_int :: (along_poly p.normal p (w_poly l)))
+  | Lambda2 (m, q) ->
+    add_poly
+      (scale_poly (Z.mul q p.sign_of) (along_poly p.tangent p (w_poly l)))
+      (scale_poly m (along_poly p.normal p (w_poly l)))
+
+(** val balanced : system -> unknown -> lifted -> int -> bool **)
+
+let balanced s u l d =
+  shows_zero l.motion_claim (balance_poly s u l d)
+    (witness l.balance_reductions d)
+
+(** val without_force : lifted -> int -> bool **)
+
+let without_force l d =
+  shows_zero l.motion_claim (w_poly l d) (witness l.force_reductions d)
+
+(** val at_rest : lifted -> int -> bool **)
+
+let at_rest l d =
+  shows_zero l.motion_claim (v_poly l d) (component_witness l.motion_claim d)
+
+(** val moves : lifted -> int -> bool **)
+
+let moves l d =
+  (||)
+    (shows_positive l.motion_claim (v_poly l d)
+      (component_witness l.motion_claim d))
+    (shows_negative l.motion_claim (v_poly l d)
+      (component_witness l.motion_claim d))
+
+(** val in_support : system -> lifted -> int -> bool **)
+
+let in_support s l j =
+  in_mem (Obj.magic addn (free_number s) j)
+    (mem (seq_predType nat_eqType) (Obj.magic l.motion_claim.support))
+
+(** val is_biactive : system -> lifted -> int -> bool **)
+
+let is_biactive s l j =
+  in_mem (Obj.magic addn (free_number s) j)
+    (mem (seq_predType nat_eqType) (Obj.magic l.motion_claim.biactive))
+
+(** val particle_states : system -> unknown -> lifted -> int -> bool **)
+
+let particle_states s u l j =
+  let p = particle s j in
+  let rate0 = witness l.rate_reductions j in
+  let reaction = witness l.cone_reductions j in
+  (&&)
+    (shows_zero l.motion_claim (normal_poly l p)
+      (witness l.normal_reductions j))
+    ((&&)
+      (if in_support s l j
+       then shows_negative l.motion_claim (rate_poly l p) rate0
+       else shows_zero l.motion_claim (rate_poly l p) rate0)
+      (if (||) (in_support s l j) (is_biactive s l j)
+       then shows_zero l.motion_claim (cone_poly u l p) reaction
+       else shows_negative l.motion_claim (cone_poly u l p) reaction))
+
+(** val slip_variables : system -> int list -> bool **)
+
+let slip_variables s =
+  all (fun i ->
+    (&&) (leq (free_number s) i)
+      (leq (Stdlib.Int.succ i) (addn (free_number s) (size s.particles))))
+
+(** val check_lifted : system -> unknown -> lifted -> bool **)
+
+let check_lifted s u l =
+  (&&) (system_wellformed s u)
+    ((&&) (root_interval l.motion_claim)
+      ((&&)
+        (slip_variables s
+          (cat l.motion_claim.support l.motion_claim.biactive))
+        ((&&) (all (balanced s u l) (iota 0 s.dofs))
+          ((&&) (all (without_force l) s.free_dofs)
+            ((&&)
+              (all (fun d ->
+                (||)
+                  (in_mem (Obj.magic d)
+                    (mem (seq_predType nat_eqType) (Obj.magic moving_dofs s)))
+                  (at_rest l d)) (iota 0 s.dofs))
+              ((&&) (all (particle_states s u l) (iota 0 (size s.particles)))
+                ((||) (has (in_support s l) (iota 0 (size s.particles)))
+                  (has (moves l) s.free_dofs))))))))
+
+type enclosed_claim = { box_support : int list; interval_low : point;
+                        interval_high : point; null_box : isolation }
+
+(** val dense : pencil -> (int -> sparse_row) -> matrix **)
+
+let dense q rows =
+  map0 (fun i -> map0 (fun j -> lookup (rows i) j) (iota 0 q.order))
+    (iota 0 q.order)
+
+(** val whole_pencil : pencil -> enclosed **)
+
+let whole_pencil q =
+  { size_of = q.order; center_a = (dense q (row_a q)); center_b =
+    (dense q (row_b q)); radius_a = []; radius_b = [] }
+
+(** val is_active : pencil -> enclosed_claim -> Equality.sort -> bool **)
+
+let is_active q k i =
+  (||) (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free)))
+    (in_mem i (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
+
+(** val active_region : pencil -> enclosed_claim -> region **)
+
+let active_region q k =
+  { lower = k.interval_low; upper = k.interval_high; states =
+    (map0 (fun i -> if is_active q k (Obj.magic i) then Moving else Resting)
+      (iota 0 q.order)) }
+
+(** val positive_on_support : enclosed_claim -> Equality.sort -> bool **)
+
+let positive_on_support k j =
+  (||) (eq_op nat_eqType j (Obj.magic k.null_box.pivot))
+    (Z.ltb k.null_box.narrow_box.width
+      (nth Big_int_Z.zero_big_int k.null_box.vector (Obj.magic j)))
+
+(** val positive_off_support : pencil -> enclosed_claim -> int -> bool **)
+
+let positive_off_support q k i =
+  both_ends k.null_box (fun x ->
+    row_positive (whole_pencil q) (active_region q k) k.null_box.pivot
+      k.null_box.vector k.null_box.narrow_box.width x i)
+
+(** val check_enclosed_claim : pencil -> enclosed_claim -> bool **)
+
+let check_enclosed_claim q k =
+  (&&) (wellformed q)
+    ((&&) (ordered k.interval_low k.interval_high)
+      ((&&)
+        (in_mem (Obj.magic k.null_box.pivot)
+          (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
+        ((&&)
+          (all (fun i ->
+            in_mem (Obj.magic i)
+              (mem (seq_predType nat_eqType) (Obj.magic slip q)))
+            k.box_support)
+          ((&&) (isolated (whole_pencil q) (active_region q k) k.null_box)
+            ((&&) (all (Obj.magic positive_on_support k) k.box_support)
+              (all (fun i ->
+                (||)
+                  (in_mem i
+                    (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
+                  (positive_off_support q k (Obj.magic i))) (slip q)))))))
+
+(** val check_system_enclosed :
+    system -> unknown -> enclosed_claim -> bool **)
+
+let check_system_enclosed s u k =
+  (&&) (system_wellformed s u) (check_enclosed_claim (pencil_of s u) k)
+
+type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
+
+type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int;
+                 lower_bound : bound; upper_bound : bound }
+
+type mcp = mcp_row list
+
+type mcp_point = { numerators : Big_int_Z.big_int list;
+                   denominator : Big_int_Z.big_int }
+
+(** val no_row : mcp_row **)
+
+let no_row =
+  { row_m = []; row_q = Big_int_Z.zero_big_int; lower_bound = None;
+    upper_bound = None }
+
+(** val mcp_row_at : mcp -> int -> mcp_row **)
+
+let mcp_row_at p i =
+  nth no_row p i
+
+(** val bound_wellformed : bound -> bool **)
+
+let bound_wellformed = function
+| Some p0 -> let (_, den) = p0 in Z.ltb Big_int_Z.zero_big_int den
+| None -> true
+
+(** val row_wellformed : mcp -> mcp_row -> bool **)
+
+let row_wellformed p r =
+  (&&) (all (fun e -> leq (Stdlib.Int.succ (fst e)) (size p)) r.row_m)
+    ((&&) (bound_wellformed r.lower_bound) (bound_wellformed r.upper_bound))
+
+(** val coordinate : mcp_point -> int -> Big_int_Z.big_int **)
+
+let coordinate z0 i =
+  nth Big_int_Z.zero_big_int z0.numerators i
+
+(** val function_value : mcp -> mcp_point -> int -> Big_int_Z.big_int **)
+
+let function_value p z0 i =
+  Z.add (sparse_dot (mcp_row_at p i).row_m z0.numerators)
+    (Z.mul z0.denominator (mcp_row_at p i).row_q)
+
+(** val bounds_kept : mcp -> mcp_point -> int -> bool **)
+
+let bounds_kept p z0 i =
+  (&&)
+    (match (mcp_row_at p i).lower_bound with
+     | Some p0 ->
+       let (num, den) = p0 in
+       Z.leb (Z.mul num z0.denominator) (Z.mul (coordinate z0 i) den)
+     | None -> true)
+    (match (mcp_row_at p i).upper_bound with
+     | Some p0 ->
+       let (num, den) = p0 in
+       Z.leb (Z.mul (coordinate z0 i) den) (Z.mul num z0.denominator)
+     | None -> true)
+
+(** val at_bound : mcp_point -> bound -> int -> bool **)
+
+let at_bound z0 b i =
+  match b with
+  | Some p0 ->
+    let (num, den) = p0 in
+    Z.eqb (Z.mul (coordinate z0 i) den) (Z.mul num z0.denominator)
+  | None -> false
+
+(** val row_holds : mcp -> mcp_point -> int -> bool **)
+
+let row_holds p z0 i =
+  (&&) (bounds_kept p z0 i)
+    ((&&)
+      ((||) (at_bound z0 (mcp_row_at p i).upper_bound i)
+        (Z.leb Big_int_Z.zero_big_int (function_value p z0 i)))
+      ((||) (at_bound z0 (mcp_row_at p i).lower_bound i)
+        (Z.leb (function_value p z0 i) Big_int_Z.zero_big_int)))
+
+(** val check_point : mcp -> mcp_point -> bool **)
+
+let check_point p z0 =
+  (&&) (Z.ltb Big_int_Z.zero_big_int z0.denominator)
+    ((&&)
+      (eq_op nat_eqType (Obj.magic size z0.numerators) (Obj.magic size p))
+      (all (row_holds p z0) (iota 0 (size p))))
+
+(** val mcp_wellformed : mcp -> bool **)
+
+let mcp_wellformed p =
+  all (row_wellformed p) p
+
+(** val check_mcp : mcp -> mcp_point list -> bool **)
+
+let check_mcp p points =
+  (&&) (mcp_wellformed p)
+    ((&&) (negb (nilp points)) (all (check_point p) points))

@@ -167,6 +167,8 @@ val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1
 
 val size : 'a1 list -> int
 
+val nilp : 'a1 list -> bool
+
 val ncons : int -> 'a1 -> 'a1 list -> 'a1 list
 
 val cat : 'a1 list -> 'a1 list -> 'a1 list
@@ -620,6 +622,8 @@ val upper_value :
 
 val modulus_changes_sign : claim -> bool
 
+val root_interval : claim -> bool
+
 val no_reduction : reduction
 
 val reduces : claim -> polynomial -> reduction -> bool
@@ -721,3 +725,99 @@ val check_system_excluded :
   system -> unknown -> whole tree -> point -> point -> bool
 
 val check_system_claim : system -> unknown -> claim -> bool
+
+type lifted = { motion_claim : claim; forces : polynomial list;
+                force_reductions : reduction list;
+                balance_reductions : reduction list;
+                normal_reductions : reduction list;
+                rate_reductions : reduction list;
+                cone_reductions : reduction list }
+
+val witness : reduction list -> int -> reduction
+
+val subtract : polynomial -> polynomial -> polynomial
+
+val v_poly : lifted -> int -> Big_int_Z.big_int list
+
+val w_poly : lifted -> int -> Big_int_Z.big_int list
+
+val balance_poly : system -> unknown -> lifted -> int -> polynomial
+
+val along_poly : planar -> slip_particle -> (int -> polynomial) -> polynomial
+
+val normal_poly : lifted -> slip_particle -> polynomial
+
+val rate_poly : lifted -> slip_particle -> polynomial
+
+val cone_poly : unknown -> lifted -> slip_particle -> polynomial
+
+val balanced : system -> unknown -> lifted -> int -> bool
+
+val without_force : lifted -> int -> bool
+
+val at_rest : lifted -> int -> bool
+
+val moves : lifted -> int -> bool
+
+val in_support : system -> lifted -> int -> bool
+
+val is_biactive : system -> lifted -> int -> bool
+
+val particle_states : system -> unknown -> lifted -> int -> bool
+
+val slip_variables : system -> int list -> bool
+
+val check_lifted : system -> unknown -> lifted -> bool
+
+type enclosed_claim = { box_support : int list; interval_low : point;
+                        interval_high : point; null_box : isolation }
+
+val dense : pencil -> (int -> sparse_row) -> matrix
+
+val whole_pencil : pencil -> enclosed
+
+val is_active : pencil -> enclosed_claim -> Equality.sort -> bool
+
+val active_region : pencil -> enclosed_claim -> region
+
+val positive_on_support : enclosed_claim -> Equality.sort -> bool
+
+val positive_off_support : pencil -> enclosed_claim -> int -> bool
+
+val check_enclosed_claim : pencil -> enclosed_claim -> bool
+
+val check_system_enclosed : system -> unknown -> enclosed_claim -> bool
+
+type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
+
+type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int;
+                 lower_bound : bound; upper_bound : bound }
+
+type mcp = mcp_row list
+
+type mcp_point = { numerators : Big_int_Z.big_int list;
+                   denominator : Big_int_Z.big_int }
+
+val no_row : mcp_row
+
+val mcp_row_at : mcp -> int -> mcp_row
+
+val bound_wellformed : bound -> bool
+
+val row_wellformed : mcp -> mcp_row -> bool
+
+val coordinate : mcp_point -> int -> Big_int_Z.big_int
+
+val function_value : mcp -> mcp_point -> int -> Big_int_Z.big_int
+
+val bounds_kept : mcp -> mcp_point -> int -> bool
+
+val at_bound : mcp_point -> bound -> int -> bool
+
+val row_holds : mcp -> mcp_point -> int -> bool
+
+val check_point : mcp -> mcp_point -> bool
+
+val mcp_wellformed : mcp -> bool
+
+val check_mcp : mcp -> mcp_point list -> bool

@@ -58,46 +58,138 @@ let rec only_whole = function
   | _ -> false
 
 (* Larger claims are answered with "not verified", so that every file ends in short time. *)
-let work_of (pencil : Kernel.pencil) (e : Certificate.exact) =
+let size_of (e : Certificate.exact) polynomials =
   let bits q = Z.numbits (Q.num q) + Z.numbits (Q.den q) in
-  let longest = List.fold_left (fun m p -> max m (List.length p)) 0 e.x in
+  let longest = List.fold_left (fun m p -> max m (List.length p)) 0 polynomials in
   let degree = List.length e.polynomial in
   let top = List.fold_left (List.fold_left (fun m v -> max m (bits v)))
-      (bits (fst e.value) + bits (snd e.value)) (List.map Q.of_bigint e.polynomial :: e.x) in
+      (bits (fst e.value) + bits (snd e.value))
+      (List.map Q.of_bigint e.polynomial :: polynomials) in
   let size = (degree + longest) * top in
   if degree > 512 || longest > 512 || size > 1 lsl 17 || (longest - degree) * top > 1 lsl 13 then
     Problem.not_verified "a claim beyond the limits of this program";
-  pencil.order * size * size
+  size
 
-let limit_work pencil claims =
+let largest_enclosed = 64
+
+let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
+  | Certificate.Exact e ->
+    let size = size_of e e.x in
+    pencil.order * size * size
+  | Lifted l ->
+    let polynomials = l.motion.x @ l.forces in
+    let size = size_of l.motion polynomials in
+    List.length polynomials * size * size
+  | Enclosed _ ->
+    if pencil.order > largest_enclosed then
+      Problem.not_verified "an enclosed solution of more than %d variables" largest_enclosed;
+    1 lsl 31
+
+let limit_work (problem : Problem.t) pencil claims =
   let entries = List.fold_left (fun n row -> n + List.length row) 0 in
   let n = pencil.Kernel.order in
-  if claims <> [] && n * n + entries pencil.rows_a + entries pencil.rows_b > 1 lsl 22 then
+  let size = match problem.question with
+    | Mechanical (system, _) when
+        List.exists (function Certificate.Lifted _ -> true | _ -> false) claims ->
+      system.dofs * system.dofs + entries system.stiffness + entries system.mass
+    | _ -> n * n + entries pencil.rows_a + entries pencil.rows_b in
+  if claims <> [] && size > 1 lsl 22 then
     Problem.not_verified "claims about more than 2,048 variables";
-  let total = List.fold_left (fun sum e -> sum + work_of pencil e) 0 claims in
+  let total = List.fold_left (fun sum claim -> sum + work_of problem pencil claim) 0 claims in
   if total > 1 lsl 36 then Problem.not_verified "claims beyond the limits of this program"
 
-(* Each claim: its support has a solution with a value in its interval, which is in the window. *)
-let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t)
-    (e : Certificate.exact) =
-  let a, b = e.value and lo, hi = certificate.window in
-  if Q.lt a lo || (match hi with Some h -> Q.gt b h | None -> false) then
-    raise (Rejected "a claim outside the window");
-  if List.length e.x <> pencil.Kernel.order then raise (Rejected "a claim with too few components");
-  let rec ascending = function a :: (b :: _ as rest) -> a < b && ascending rest | _ -> true in
-  if not (ascending e.support && ascending e.biactive) then
-    raise (Rejected "a claim whose lists are not ascending");
-  let claim = Elaborate.claim_of pencil e in
-  let accepted = match problem.question with
-    | Raw pencil -> Kernel.check_claim pencil claim
-    | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim in
-  if not accepted then raise (Rejected "the kernel refuses a claim");
-  fun () ->
-    Printf.printf "claim: a solution with a value in [%s, %s], support %s\n" (Q.to_string a)
-      (Q.to_string b) (String.concat " " (List.map string_of_int e.support))
+let rec ascending = function a :: (b :: _ as rest) -> a < b && ascending rest | _ -> true
 
-let verify problem_path certificate_path =
-  let problem = timed "problem" (fun () -> Problem.read problem_path) in
+let in_window (certificate : Certificate.t) (a, b) =
+  let lo, hi = certificate.window in
+  if Q.lt a lo || (match hi with Some h -> Q.gt b h | None -> false) then
+    raise (Rejected "a claim outside the window")
+
+let refuse_unless accepted = if not accepted then raise (Rejected "the kernel refuses a claim")
+
+let show_claim (a, b) support () =
+  Printf.printf "claim: a solution with a value in [%s, %s], support %s\n" (Q.to_string a)
+    (Q.to_string b) (String.concat " " (List.map string_of_int support))
+
+let verify_exact (problem : Problem.t) pencil (e : Certificate.exact) =
+  if List.length e.x <> pencil.Kernel.order then raise (Rejected "a claim with too few components");
+  let claim = Elaborate.claim_of pencil e in
+  refuse_unless (match problem.question with
+      | Raw pencil -> Kernel.check_claim pencil claim
+      | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim)
+
+let verify_lifted (problem : Problem.t) (l : Certificate.lifted) =
+  match problem.question with
+  | Raw _ -> raise (Rejected "a lifted solution of a pencil")
+  | Mechanical (system, unknown) ->
+    if List.length l.motion.x <> system.dofs || List.length l.forces <> system.dofs then
+      raise (Rejected "a motion with too few or too many components");
+    if List.exists (fun i -> List.mem i l.motion.support) l.motion.biactive then
+      raise (Rejected "a biactive variable of the support");
+    let factor = Z.divexact problem.common system.unit_length in
+    let claim = Elaborate.lifted_of system unknown factor l in
+    refuse_unless (Kernel.check_lifted system unknown claim)
+
+(* The interval that is proved lies in that of the claim. *)
+let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
+    (e : Certificate.enclosed) =
+  let active = List.length pencil.Kernel.free + List.length e.box_support in
+  if e.box_support = [] || not (ascending e.box_support)
+  || List.exists (fun i -> i >= pencil.order || List.mem i pencil.free) e.box_support
+  || List.length e.center <> active + 1 || List.length e.radius <> active + 1
+  || List.exists (fun r -> Q.sign r <= 0) e.radius then
+    raise (Rejected "a box that does not fit the pencil");
+  let center = List.nth e.center active and radius = List.nth e.radius active in
+  let value = Q.sub center radius, Q.add center radius in
+  in_window certificate value;
+  match Elaborate.enclosed_claim_of pencil e with
+  | None -> raise (Elaborate.No_witness "an enclosed solution")
+  | Some claim ->
+    let low = Elaborate.value_of claim.null_box.from_point in
+    let high = Elaborate.value_of claim.null_box.to_point in
+    refuse_unless (claim.box_support = e.box_support && Q.geq low (fst value)
+                   && Q.leq high (snd value));
+    refuse_unless (match problem.question with
+        | Raw pencil -> Kernel.check_enclosed_claim pencil claim
+        | Mechanical (system, unknown) -> Kernel.check_system_enclosed system unknown claim);
+    low, high
+
+(* Each claim: its support has a solution with a value in its interval, which is in the window. *)
+let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) claim =
+  let check_root (e : Certificate.exact) =
+    in_window certificate e.value;
+    if not (ascending e.support && ascending e.biactive) then
+      raise (Rejected "a claim whose lists are not ascending") in
+  match claim with
+  | Certificate.Exact e ->
+    check_root e;
+    verify_exact problem pencil e;
+    show_claim e.value e.support
+  | Lifted l ->
+    check_root l.motion;
+    verify_lifted problem l;
+    show_claim l.motion.value l.motion.support
+  | Enclosed e ->
+    let value = verify_enclosed problem pencil certificate e in
+    show_claim value e.box_support
+
+let verify_plain document certificate_path =
+  let problem = Plain.read document in
+  let digest, points = Plain.read_points certificate_path in
+  if digest <> problem.digest then
+    raise (Rejected ("the digest of the problem is " ^ problem.digest));
+  if points = [] then raise (Rejected "no point");
+  let n = List.length problem.rows in
+  if List.exists (fun z -> List.length z <> n) points then
+    raise (Rejected "a point of the wrong length");
+  Plain.limit_work problem points;
+  let accepted = Kernel.check_mcp problem.rows (List.map (Plain.point_of n) points) in
+  if not accepted then raise (Rejected "the kernel refuses a point");
+  Printf.printf "ACCEPTED, VERIFIED: %d point(s) solve the problem, nothing said about others\n"
+    (List.length points)
+
+let verify_eigenproblem document problem_path certificate_path =
+  let problem = timed "problem" (fun () -> Problem.read problem_path document) in
   let certificate = timed "certificate" (fun () -> Certificate.read certificate_path) in
   if certificate.digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
@@ -114,7 +206,7 @@ let verify problem_path certificate_path =
   let lo = Elaborate.point_of (fst certificate.window) in
   let hi = Elaborate.upper_point (snd certificate.window) in
   let claims = timed "claims" (fun () ->
-      limit_work pencil certificate.claims;
+      limit_work problem pencil certificate.claims;
       List.map (verify_claim problem pencil certificate) certificate.claims) in
   let report_claims () = List.iter (fun print -> print ()) claims in
 
@@ -164,6 +256,11 @@ let verify problem_path certificate_path =
     report slip lo hi (Kernel.found tree lo hi);
     report_claims ()
   end
+
+let verify problem_path certificate_path =
+  let document = Json.read problem_path in
+  if Plain.is_plain document then verify_plain document certificate_path
+  else verify_eigenproblem document problem_path certificate_path
 
 let () =
   let finish code text = print_endline text; exit code in

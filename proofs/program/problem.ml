@@ -271,13 +271,11 @@ let read_system folder unknown item =
   let free_common = Z.mul common unit_length in
   text, Mechanical (system, kind), free_common, Z.mul free_common (Z.mul unit_length friction)
 
-let read path =
-  let document = Json.read path in
+let read path document =
   (match document with
    | Object members ->
      (match List.assoc_opt "format" members with
       | Some (String "mceip-problem/1") -> ()
-      | Some (String "mceip-mcp/1") -> not_verified "mceip-mcp/1"
       | _ -> malformed "format: mceip-problem/1 was expected")
    | _ -> malformed "an object was expected");
   let field = fields ["format"; "unknown"]
