@@ -8,8 +8,9 @@
 From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
-From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Condensation Pencil Whole Complete Claim System Lifted EnclosedClaim PlainMcp.
+From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned Cover.
+From Mceip Require Import Number Condensation Pencil Whole Complete Claim System Lifted.
+From Mceip Require Import EnclosedClaim PlainMcp.
 
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
@@ -19,8 +20,8 @@ Set Extraction AccessOpaque.
 Extraction "kernel.ml"
   check_complete check_excluded check_system check_system_excluded check_claim check_system_claim
   check_lifted check_enclosed_claim check_system_enclosed check_mcp
-  reaction_poly found pencil_of blocks_of
+  reaction_poly found left_open solutions_found pencil_of blocks_of
   condensed slip zero infinity window check_leaf check_tree check_whole check_end
   stiffness_positive shapes wellformed free_rows_constant system_wellformed
-  symmetric_part definite_end farkas check_absent check_root active moving members member_form
-  defect residual check_unique decide.
+  symmetric_part definite_end farkas check_absent check_root pinned check_claimed check_infinite
+  active moving members member_form defect residual check_unique decide.

@@ -19,30 +19,43 @@ let moving (region : Kernel.region) =
   List.filter_map Fun.id
     (List.mapi (fun i s -> if s = Kernel.Moving then Some i else None) region.states)
 
-(* No two of the regions can hold the same solution. *)
-let apart (r1, (c1 : Kernel.isolation)) (r2, (c2 : Kernel.isolation)) =
-  let less (p, q) (p', q') = Z.lt (Z.mul p q') (Z.mul p' q) in
-  moving r1 <> moving r2 || less c1.to_point c2.from_point || less c2.to_point c1.from_point
+let resting (region : Kernel.region) =
+  List.filter_map Fun.id
+    (List.mapi (fun i s -> if s = Kernel.Resting then Some i else None) region.states)
 
-let rec all_apart = function
-  | [] -> true
-  | x :: rest -> List.for_all (apart x) rest && all_apart rest
+let show_interval lo hi =
+  Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
+    (if Z.sign (snd hi) = 0 then ")" else "]")
 
-let report slip lo hi found =
-  let window = Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
-      (if Z.sign (snd hi) = 0 then ")" else "]") in
-  let count = List.length found in
-  let sentence =
-    if count = 0 then "no solution"
-    else if not (all_apart found) then
-      Printf.sprintf "%d regions, each with exactly one solution, and no other solution" count
-    else if count = 1 then "exactly one solution"
-    else Printf.sprintf "exactly %d solutions" count in
-  Printf.printf "ACCEPTED, VERIFIED: %s in %s\n" sentence window;
-  List.iter (fun (region, (c : Kernel.isolation)) ->
-      Printf.printf "solution: value in [%s, %s], moving %s\n" (show_decimal c.from_point)
-        (show_decimal c.to_point)
-        (String.concat " " (List.map (fun i -> string_of_int slip.(i)) (moving region)))) found
+let shown_regions = 20
+
+(* Prints what the theorem [system_number] says of the solutions found and the regions left open;
+   the exit code. *)
+let report slip lo hi found left_open =
+  let names positions = String.concat " " (List.map (fun i -> string_of_int slip.(i)) positions) in
+  let window = show_interval lo hi and count = List.length found in
+  if left_open = [] then
+    Printf.printf "ACCEPTED, VERIFIED: %s in %s\n"
+      (match count with
+       | 0 -> "no solution"
+       | 1 -> "exactly one solution"
+       | _ -> Printf.sprintf "exactly %d solutions" count) window
+  else
+    Printf.printf "UNDECIDED, VERIFIED: %s in %s lies in one of %d open region(s)\n"
+      (match count with
+       | 0 -> "every solution"
+       | 1 -> "one solution; every other one"
+       | _ -> Printf.sprintf "%d solutions; every other one" count)
+      window (List.length left_open);
+  List.iter (fun (y : Kernel.yield) ->
+      Printf.printf "solution: value in [%s, %s], moving %s\n" (show_decimal y.yield_from)
+        (show_decimal y.yield_to) (names (moving y.yield_region))) found;
+  List.iteri (fun k (r : Kernel.region) ->
+      if k < shown_regions then
+        Printf.printf "open: values in %s, moving {%s}, at rest {%s}\n"
+          (show_interval r.lower r.upper) (names (moving r)) (names (resting r))
+      else if k = shown_regions then Printf.printf "open: more regions\n") left_open;
+  if left_open = [] then 0 else 3
 
 let time = Sys.getenv_opt "MCEIP_VERIFIED_TIMES" <> None
 
@@ -116,9 +129,10 @@ let verify_exact (problem : Problem.t) pencil (e : Certificate.exact) =
   let claim = Elaborate.claim_of pencil e in
   refuse_unless (match problem.question with
       | Raw pencil -> Kernel.check_claim pencil claim
-      | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim)
+      | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim);
+  lazy claim
 
-let verify_lifted (problem : Problem.t) (l : Certificate.lifted) =
+let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
   match problem.question with
   | Raw _ -> raise (Rejected "a lifted solution of a pencil")
   | Mechanical (system, unknown) ->
@@ -128,7 +142,8 @@ let verify_lifted (problem : Problem.t) (l : Certificate.lifted) =
       raise (Rejected "a biactive variable of the support");
     let factor = Z.divexact problem.common system.unit_length in
     let claim = Elaborate.lifted_of system unknown factor l in
-    refuse_unless (Kernel.check_lifted system unknown claim)
+    refuse_unless (Kernel.check_lifted system unknown claim);
+    lazy (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l))
 
 (* The interval that is proved lies in that of the claim. *)
 let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
@@ -154,7 +169,8 @@ let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
         | Mechanical (system, unknown) -> Kernel.check_system_enclosed system unknown claim);
     low, high
 
-(* Each claim: its support has a solution with a value in its interval, which is in the window. *)
+(* Each claim: its support has a solution with a value in its interval, which is in the window.
+   With it comes the same claim about the pencil as a root leaf may refer to it, if it is exact. *)
 let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) claim =
   let check_root (e : Certificate.exact) =
     in_window certificate e.value;
@@ -163,15 +179,19 @@ let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) clai
   match claim with
   | Certificate.Exact e ->
     check_root e;
-    verify_exact problem pencil e;
-    show_claim e.value e.support
+    Some (verify_exact problem pencil e), show_claim e.value e.support
   | Lifted l ->
     check_root l.motion;
-    verify_lifted problem l;
-    show_claim l.motion.value l.motion.support
+    Some (verify_lifted problem pencil l), show_claim l.motion.value l.motion.support
   | Enclosed e ->
     let value = verify_enclosed problem pencil certificate e in
-    show_claim value e.box_support
+    None, show_claim value e.box_support
+
+(* The claims in their places, for root leaves that refer to them. *)
+let exact_claims =
+  List.map (function
+      | Some claim, _ -> Lazy.force claim
+      | None, _ -> Problem.not_verified "a cover that refers to enclosed solutions")
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in
@@ -186,7 +206,8 @@ let verify_plain document certificate_path =
   let accepted = Kernel.check_mcp problem.rows (List.map (Plain.point_of n) points) in
   if not accepted then raise (Rejected "the kernel refuses a point");
   Printf.printf "ACCEPTED, VERIFIED: %d point(s) solve the problem, nothing said about others\n"
-    (List.length points)
+    (List.length points);
+  0
 
 let verify_eigenproblem document problem_path certificate_path =
   let problem = timed "problem" (fun () -> Problem.read problem_path document) in
@@ -208,7 +229,7 @@ let verify_eigenproblem document problem_path certificate_path =
   let claims = timed "claims" (fun () ->
       limit_work problem pencil certificate.claims;
       List.map (verify_claim problem pencil certificate) certificate.claims) in
-  let report_claims () = List.iter (fun print -> print ()) claims in
+  let report_claims () = List.iter (fun (_, print) -> print ()) claims in
 
   let whole_only =
     pencil.free <> []
@@ -216,7 +237,8 @@ let verify_eigenproblem document problem_path certificate_path =
   if certificate.pieces = [] then begin
     Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
       (List.length claims);
-    report_claims ()
+    report_claims ();
+    0
   end
   else if whole_only then begin
     (* Definite leaves of the whole pencil; free rows may depend on t. *)
@@ -229,8 +251,9 @@ let verify_eigenproblem document problem_path certificate_path =
         | Raw pencil -> Kernel.check_excluded pencil tree lo hi
         | Mechanical (system, unknown) -> Kernel.check_system_excluded system unknown tree lo hi) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
-    report slip lo hi [];
-    report_claims ()
+    let code = report slip lo hi [] [] in
+    report_claims ();
+    code
   end
   else begin
     if not (Kernel.free_rows_constant pencil) then
@@ -244,17 +267,28 @@ let verify_eigenproblem document problem_path certificate_path =
         let e = Elaborate.elimination pencil slip_list problem.common problem.slip_common
             certificate.condensation anchor in
         e, Kernel.condensed (Kernel.blocks_of pencil) e) in
-    let context = { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed } in
+    (* The kernel is given the claims that the tree refers to, in their places. *)
+    let needed = List.exists (fun (p : Certificate.piece) -> List.exists (function
+        | Certificate.Root { outcome = Claim _; _ } -> true
+        | _ -> false) p.tree) certificate.pieces in
+    let claims = if needed then exact_claims claims else [] in
+    let known = Array.of_list (Kernel.known_solutions pencil claims) in
+    let context =
+      { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed; known } in
     let tree = timed "elaboration" (fun () ->
         Elaborate.build_pieces slip (fun _ -> Elaborate.build_leaf context)
           certificate.window certificate.pieces) in
     let accepted = timed "kernel" (fun () -> match problem.question with
-        | Raw pencil -> Kernel.check_complete pencil elimination tree lo hi
+        | Raw pencil -> Kernel.check_complete pencil claims elimination tree lo hi
         | Mechanical (system, unknown) ->
-          Kernel.check_system system unknown elimination tree lo hi) in
+          Kernel.check_system system unknown claims elimination tree lo hi) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
-    report slip lo hi (Kernel.found tree lo hi);
-    report_claims ()
+    match Kernel.solutions_found pencil claims tree lo hi with
+    | None -> Problem.not_verified "regions that may hold the same solution"
+    | Some found ->
+      let code = report slip lo hi (List.rev found) (Kernel.left_open tree lo hi) in
+      report_claims ();
+      code
   end
 
 let verify problem_path certificate_path =
@@ -266,7 +300,7 @@ let () =
   let finish code text = print_endline text; exit code in
   match Sys.argv with
   | [| _; problem; certificate |] ->
-    (try verify problem certificate with
+    (try exit (verify problem certificate) with
      | Rejected reason -> finish 1 ("REJECTED: " ^ reason)
      | Json.Malformed reason -> finish 2 ("MALFORMED: " ^ reason)
      | Sys_error reason -> finish 2 reason
