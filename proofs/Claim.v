@@ -126,8 +126,7 @@ Definition columns_in_order :=
   all (fun row => all (fun e => e.1 < order Q)%N row) (rows_b Q).
 
 Definition check_claim :=
-  [&& wellformed Q, columns_in_order,
-      root_interval,
+  [&& wellformed Q, columns_in_order, root_interval,
       all (fun i => y_zero i) (free Q),
       all (fun i => i \in slip Q) (support k ++ biactive k),
       all (fun i => if i \in support k then [&& x_positive i, y_zero i & i \notin biactive k]
@@ -321,17 +320,14 @@ Notation b := (claim_to k).
 Notation d := (claim_denominator k).
 
 Lemma claim_parts :
-  [/\ wellformed Q, columns_in_order Q,
-      root_interval k &
+  [/\ wellformed Q, columns_in_order Q, root_interval k &
       [/\ forall i, i \in free Q -> y_zero Q k i,
           forall i, i \in slip Q ->
             if i \in support k then [&& x_positive k i, y_zero Q k i & i \notin biactive k]
             else x_zero k i && (if i \in biactive k then y_zero Q k i else y_positive Q k i) &
           has (fun i => i \in support k) (slip Q) ||
           has (fun i => x_positive k i || x_negative k i) (free Q)]].
-Proof.
-by case/and5P: checked => wf cols interval /allP yf /and3P[_ /allP xs nz].
-Qed.
+Proof. by case/and5P: checked => wf cols interval /allP yf /and3P[_ /allP xs nz]. Qed.
 
 Section AtRoot.
 
@@ -400,9 +396,9 @@ split.
 - by rewrite -(pmulr_rge0 _ d0); apply: le_trans at_.
 - case/orP: nz => /hasP[i Hi]; last first.
     move=> sign_i; exists i; first exact: (free_indices wf).
-    case/orP: sign_i => [/(positive_sound interval at_ tb root_t) p|/(negative_sound interval at_ tb root_t) n].
-      by rewrite gt_eqF.
-    by rewrite lt_eqF.
+    case/orP: sign_i => sign_i.
+      by rewrite gt_eqF // (positive_sound interval at_ tb root_t sign_i).
+    by rewrite lt_eqF // (negative_sound interval at_ tb root_t sign_i).
   move=> in_support; exists i; first exact: slip_indices.
   by have [/(_ in_support) pos _] := support_signs _ Hi; rewrite gt_eqF.
 - by move=> i /yf y0; rewrite -reaction_polyE //; apply: (zero_sound root_t y0).

@@ -206,7 +206,8 @@ exists t, (on_active x); split=> //.
     by rewrite zero_rows ?support_moving // mulr0 /on_active support_moving // ltW ?positive.
   by rewrite /on_active slip_moving // (negbTE out) mul0r lexx ltW ?reaction_off.
 - by move=> i Hi i_s; rewrite /on_active support_moving ?positive.
-- by move=> i Hi out; rewrite {1}/on_active slip_moving // (negbTE out); split=> //; apply: reaction_off.
+- move=> i Hi out; rewrite {1}/on_active slip_moving // (negbTE out).
+  by split=> //; apply: reaction_off.
 
 (* Any other one, scaled, lies in the box as well. *)
 move=> t' x' sol' bt' pos' zero'; have [null' xk' off'] := solution_null sol' pos' zero'.

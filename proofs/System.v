@@ -4,8 +4,8 @@
    positive integer each), a list of free degrees of freedom, and slip particles.  A slip particle
    has two degrees of freedom, the unit tangent t_p and the unit normal n_p as vectors over these
    two (frame and normal direction applied), and the sign S_p of the tangential reaction.  All
-   tangents and normals are multiplied by one positive integer, [unit_length], so that they are integer
-   vectors.  All other degrees of freedom do not move: those of the particles that stick.
+   tangents and normals are multiplied by one positive integer, [unit_length], so that they are
+   integer vectors.  All other degrees of freedom do not move: those of particles that stick.
 
    [conditions_9] are the conditions (9) for such a system, for values of lambda^2 and mu:
 
@@ -24,11 +24,11 @@
 
    Theorem [system_complete]: the main theorem for mechanical systems.  If the check succeeds, each
    motion with (9) and its value in the window lies in a region yielded or left undecided, and each
-   region yielded
-   has exactly one, up to a positive factor.  [system_none]: none.  [system_number],
+   region yielded has exactly one, up to a positive factor.  [system_none]: none.  [system_number],
    [system_exactly]: how many there are, as in Complete.v.
 
-   [system_claim]: an exact solution claim about the pencil gives a motion with (9).
+   [system_claim]: an exact solution claim about the pencil gives a motion with (9) and with the
+   support and the biactive variables of the claim ([has_support]).
 
    The pencil is in the order of spec/certificates.md: free degrees of freedom, then slip
    particles.  Particles at zero reaction are not covered.
@@ -134,12 +134,13 @@ Definition pencil_of : pencil := Pencil (free_number + size (particles s))
 Definition columns_in_range (rows : seq sparse_row) :=
   all (fun row => all (fun e => e.1 < dofs s)%N row) rows.
 
-(* |a|^2 and a'b *)
+(* a'b *)
 Definition inner (a b : planar) := a.1 * b.1 + a.2 * b.2.
 
 Definition particle_wellformed p :=
-  [&& sign_of p * sign_of p =? 1, inner (tangent p) (tangent p) =? unit_length s * unit_length s,
-      inner (normal p) (normal p) =? unit_length s * unit_length s & inner (tangent p) (normal p) =? 0].
+  let unit_square := unit_length s * unit_length s in
+  [&& sign_of p * sign_of p =? 1, inner (tangent p) (tangent p) =? unit_square,
+      inner (normal p) (normal p) =? unit_square & inner (tangent p) (normal p) =? 0].
 
 Definition system_wellformed :=
   [&& uniq moving_dofs, all (fun d => d < dofs s)%N moving_dofs,

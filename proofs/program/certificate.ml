@@ -131,6 +131,12 @@ let read_piece item =
     anchor = (match field "anchor" with Null -> 0 | v -> counter v);
     tree = List.map read_node (list (field "tree")) }
 
+(* An index that may name nothing; a negative one is malformed. *)
+let place item =
+  let i = counter item in
+  if i < 0 then malformed "a negative index";
+  i
+
 let polynomials item = List.map (fun p -> List.map rational (list p)) (list item)
 
 (* The fields that an exact and a lifted solution have in common. *)
@@ -138,8 +144,8 @@ let read_exact field x =
   let value = match list (field "interval") with
     | [a; b] -> rational a, rational b
     | _ -> malformed "an interval has two ends" in
-  { support = List.map counter (list (field "support"));
-    biactive = List.map counter (list (field "biactive"));
+  { support = List.map place (list (field "support"));
+    biactive = List.map place (list (field "biactive"));
     polynomial = integers (field "polynomial"); value; x = polynomials (field x) }
 
 let read_claim = function
@@ -153,9 +159,15 @@ let read_claim = function
     ignore (List.map integers (list (field "preconditioner")));
     if counter (field "exponent") < 0 then malformed "a negative exponent";
     let rationals key = List.map rational (list (field key)) in
-    Enclosed { box_support = List.map counter (list (field "support"));
+    Enclosed { box_support = List.map place (list (field "support"));
                center = rationals "center"; radius = rationals "radius" }
   | _ -> malformed "a claim is an object with one key"
+
+(* The window of a certificate says where it begins. *)
+let read_window = function
+  | Object members as item when List.mem_assoc "min" members
+                             && List.assoc "min" members <> Null -> Problem.read_window item
+  | _ -> malformed "a window with min was expected"
 
 let read path =
   let document = Json.read path in
@@ -165,7 +177,7 @@ let read path =
   let field = fields ["format"; "problem_sha256"; "unknown"; "window"; "claims"]
       ["complete_set"] document in
   let digest = text (field "problem_sha256") and unknown = text (field "unknown") in
-  let window = Problem.read_window (field "window") in
+  let window = read_window (field "window") in
   let claims = List.map read_claim (list (field "claims")) in
   let condensation, pieces = match field "complete_set" with
     | Null -> None, []

@@ -2339,11 +2339,10 @@ let inner a b =
 (** val particle_wellformed : system -> slip_particle -> bool **)
 
 let particle_wellformed s p =
+  let unit_square = Z.mul s.unit_length s.unit_length in
   (&&) (Z.eqb (Z.mul p.sign_of p.sign_of) Big_int_Z.unit_big_int)
-    ((&&)
-      (Z.eqb (inner p.tangent p.tangent) (Z.mul s.unit_length s.unit_length))
-      ((&&)
-        (Z.eqb (inner p.normal p.normal) (Z.mul s.unit_length s.unit_length))
+    ((&&) (Z.eqb (inner p.tangent p.tangent) unit_square)
+      ((&&) (Z.eqb (inner p.normal p.normal) unit_square)
         (Z.eqb (inner p.tangent p.normal) Big_int_Z.zero_big_int)))
 
 (** val system_wellformed : system -> unknown -> bool **)

@@ -124,9 +124,17 @@ let show_claim (a, b) support () =
   Printf.printf "claim: a solution with a value in [%s, %s], support %s\n" (Q.to_string a)
     (Q.to_string b) (String.concat " " (List.map string_of_int support))
 
+(* The kernel's claim has the support and the interval of the certificate. *)
+let states (claim : Kernel.claim) (e : Certificate.exact) =
+  let over p = Q.make p claim.claim_denominator in
+  Z.sign claim.claim_denominator > 0
+  && Q.equal (over claim.claim_from) (fst e.value) && Q.equal (over claim.claim_to) (snd e.value)
+  && claim.support = e.support && claim.biactive = e.biactive
+
 let verify_exact (problem : Problem.t) pencil (e : Certificate.exact) =
   if List.length e.x <> pencil.Kernel.order then raise (Rejected "a claim with too few components");
   let claim = Elaborate.claim_of pencil e in
+  refuse_unless (states claim e);
   refuse_unless (match problem.question with
       | Raw pencil -> Kernel.check_claim pencil claim
       | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim);
@@ -142,6 +150,7 @@ let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
       raise (Rejected "a biactive variable of the support");
     let factor = Z.divexact problem.common system.unit_length in
     let claim = Elaborate.lifted_of system unknown factor l in
+    refuse_unless (states claim.motion_claim l.motion);
     refuse_unless (Kernel.check_lifted system unknown claim);
     lazy (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l))
 
