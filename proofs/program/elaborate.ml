@@ -785,22 +785,34 @@ let enclosed_claim_of pencil (e : enclosed) =
         v.(i) <- Q.to_bigint (Q.div (Q.mul c (Q.of_bigint (two_to unit))) top)) active x;
     Array.to_list v in
 
+  (* The boxes and the uniqueness hold as they were computed; only the signs are tried here. *)
+  let signs_hold (claim : Kernel.enclosed_claim) =
+    Kernel.sign_change p (Kernel.active_region pencil claim) claim.null_box
+    && List.for_all (fun j -> Kernel.positive_on_support claim (Obj.magic j)) e.box_support
+    && List.for_all (fun i ->
+        List.mem i e.box_support || Kernel.positive_off_support pencil claim i)
+      (Obj.magic (Kernel.slip pencil)) in
   let attempt k (v, left) (low, high) (from, upto) =
     let k_list = List.filter (fun j -> j <> k) active in
     let wide = (point_of low, point_of high) and narrow = (point_of from, point_of upto) in
-    match box_of p f active k_list v wide (middle low high),
-          box_of p f active k_list v narrow (middle from upto) with
-    | Some wide_box, Some narrow_box ->
-      (match unique_of p f active k v wide_box.width wide (middle low high) with
-       | None -> None
-       | Some unique ->
-         let null_box = { Kernel.pivot = k; vector = v; from_point = fst narrow;
-                          to_point = snd narrow; wide_box; narrow_box; unique;
-                          left_vector = left } in
-         let claim = { Kernel.box_support = e.box_support; interval_low = fst wide;
-                       interval_high = snd wide; null_box } in
-         if Kernel.check_enclosed_claim pencil claim then Some claim else None)
-    | _ -> None in
+    match box_of p f active k_list v narrow (middle from upto) with
+    | None -> None
+    | Some narrow_box ->
+      let wide_box =
+        if narrow = wide then Some narrow_box
+        else box_of p f active k_list v wide (middle low high) in
+      match wide_box with
+      | None -> None
+      | Some wide_box ->
+        match unique_of p f active k v wide_box.width wide (middle low high) with
+        | None -> None
+        | Some unique ->
+          let null_box = { Kernel.pivot = k; vector = v; from_point = fst narrow;
+                           to_point = snd narrow; wide_box; narrow_box; unique;
+                           left_vector = left } in
+          let claim = { Kernel.box_support = e.box_support; interval_low = fst wide;
+                        interval_high = snd wide; null_box } in
+          if signs_hold claim then Some claim else None in
 
   (* The interval of the claim, or intervals about a zero in it that is known in doubles. *)
   let ways k =
@@ -827,6 +839,7 @@ let enclosed_claim_of pencil (e : enclosed) =
             | Some claim -> Some claim
             | None -> attempt k vectors (from, upto) (from, upto)
       end in
-    as_claimed :: List.map about [44; 38; 32; 26; 20; 14; 8] in
-  let first_pivots = List.filteri (fun i _ -> i < 3) pivots in
+    as_claimed
+    :: List.map about (if n <= 16 then [44; 38; 32; 26; 20; 14; 8] else [44; 32; 20]) in
+  let first_pivots = List.filteri (fun i _ -> i < (if n <= 16 then 3 else 1)) pivots in
   List.find_map (fun way -> way ()) (List.concat_map ways first_pivots)

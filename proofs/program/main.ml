@@ -83,6 +83,7 @@ let size_of (e : Certificate.exact) polynomials =
     Problem.not_verified "a claim beyond the limits of this program";
   size
 
+(* The kernel needs about order^4 steps for an enclosed solution. *)
 let largest_enclosed = 64
 
 let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
@@ -96,7 +97,7 @@ let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
   | Enclosed _ ->
     if pencil.order > largest_enclosed then
       Problem.not_verified "an enclosed solution of more than %d variables" largest_enclosed;
-    1 lsl 31
+    pencil.order * pencil.order * pencil.order * pencil.order * (1 lsl 12)
 
 let limit_work (problem : Problem.t) pencil claims =
   let entries = List.fold_left (fun n row -> n + List.length row) 0 in
@@ -173,9 +174,10 @@ let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
     let high = Elaborate.value_of claim.null_box.to_point in
     refuse_unless (claim.box_support = e.box_support && Q.geq low (fst value)
                    && Q.leq high (snd value));
-    refuse_unless (match problem.question with
-        | Raw pencil -> Kernel.check_enclosed_claim pencil claim
-        | Mechanical (system, unknown) -> Kernel.check_system_enclosed system unknown claim);
+    let accepted = match problem.question with
+      | Raw pencil -> Kernel.check_enclosed_claim pencil claim
+      | Mechanical (system, unknown) -> Kernel.check_system_enclosed system unknown claim in
+    if not accepted then raise (Elaborate.No_witness "an enclosed solution");
     low, high
 
 (* Each claim: its support has a solution with a value in its interval, which is in the window.
