@@ -15,9 +15,10 @@
    other solution in the window lies in an undecided region.  [complete_exactly]: with nothing
    undecided there are exactly these N solutions.
 
-   The claims of a certificate are checked with it (claim_sound, Claim.v).  Claims and cover are
-   about the same pencil: each claim has a solution, which is one of the N, or in an undecided
-   region.  So nothing is to be checked about places of claims.
+   Claims and cover are about the same pencil, so they agree.  Theorem [claim_place]: a claim that
+   is checked, with its interval in the window, has a solution that lies in a region yielded, with
+   its value in the interval yielded, or in an undecided region.  The checker need not look for the
+   places of claims.
 
    Theorem [excluded_sound]: for pencils whose free rows depend on t a tree may use definite leaves
    of the whole pencil only; if the check succeeds, the window has no solution.
@@ -290,6 +291,28 @@ Proof.
 move=> none closed t x sol bt; have [[y]|[r]] := complete_sound.1 t x sol bt.
   by rewrite none.
 by rewrite closed.
+Qed.
+
+Theorem claim_place k : check_claim Q k ->
+  within (known_from (known_of Q k), known_to (known_of Q k)) (lo, hi) ->
+  exists (t : R) x,
+    [/\ between t (known_from (known_of Q k)) (known_to (known_of Q k)), solution Q t x,
+        forall i, i \in slip Q -> (0 < x i) = (i \in support k) &
+        (exists2 y, List.In y found & between t (yield_from y) (yield_to y) /\
+                                      lies_in (yield_region y) t x) \/
+        (exists2 r, List.In r left_open & lies_in r t x)].
+Proof.
+move=> ok inside; have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
+have bt : between t (known_from (known_of Q k)) (known_to (known_of Q k)).
+  by rewrite /between /= ![t * _]mulrC.
+exists t, x; split=> // [i Hi|].
+  have [pos zero _ _] := signs _ Hi; have [i_s|i_s] := boolP (i \in support k).
+    exact: pos.
+  by rewrite zero // ltxx.
+have [every each] := complete_sound.
+have [[y y_found reg]|in_open] := every t x sol (within_between inside bt); last by right.
+left; exists y => //; have [t' [x' [bt' _ _ uniq]]] := each y y_found.
+by have [eq_t _] := uniq t x sol reg; split=> //; rewrite eq_t.
 Qed.
 
 Theorem complete_number ys : solutions_found Q claims tr lo hi = Some ys ->
