@@ -13,10 +13,10 @@
      at the value      c g = p q + r with c > 0: the sign of r, by interval Horner; r = 0: zero.
      near a value      c g = p^i h with c > 0, and h > 0 on the whole interval of the value: as
                        p > 0 above the value, g > 0 there.  Below it, -p stands for p.
-     in [l, u)         t = (l1 + u1 y) / (l2 + u2 y) with y >= 0; the integer coefficients of
-                       g(t) (l2 + u2 y)^n as a polynomial in y are not negative, and the first one is
-                       positive; in (l, u) some coefficient is.  This is Descartes' rule where no
-                       coefficient changes its sign.  u may be infinity.
+     in [l, u)         t = (l1 + u1 y) / (l2 + u2 y) with y >= 0; the coefficients of
+                       g(t) (l2 + u2 y)^n as a polynomial in y are not negative, and the first
+                       one is positive; in (l, u) some coefficient is.  This is Descartes' rule
+                       without a change of sign.  u may be infinity.
 
    An interval between two values is covered by a part near each of them and by intervals [l, u)
    between.
@@ -66,7 +66,8 @@ Local Open Scope Z_scope.
 Definition low_on (a b d : Z) p := (horner_interval a b d p).1.1.
 Definition high_on (a b d : Z) p := (horner_interval a b d p).1.2.
 
-(* Interval Horner of p, and a lower bound of d^n S(s, t), for s and t in [a/d, b/d]; n coefficients. *)
+(* Interval Horner of p, and a lower bound of d^n S(s, t), for s and t in [a/d, b/d]; p has n
+   coefficients. *)
 Fixpoint slope_interval (a b d : Z) (p : polynomial) : Z * Z * Z * Z :=
   match p with
   | [::] => (0, 0, 1, 0)
@@ -390,8 +391,8 @@ Proof.
 move=> sub; elim: g => [|c g IH]; first by rewrite /= expr0 toR1 !mulr0 addr0.
 have two (a b : Z) : eval [:: a; b] y = toR a + y * toR b by rewrite /= mulr0 addr0.
 rewrite moebius_cons; case: (moebius l u g) IH => numerator power [eq_power eq_num].
-cbv zeta beta iota; rewrite eval_add eval_scale !eval_mul !two eq_num -sub exprS -eq_power; split=> //=.
-rewrite -/(eval g t).
+cbv zeta beta iota; rewrite eval_add eval_scale !eval_mul !two eq_num -sub exprS -eq_power.
+split=> //=; rewrite -/(eval g t).
 by move: (toR l.2) (toR u.2) (toR c) (eval power y) (eval g t) => *; ring.
 Qed.
 
