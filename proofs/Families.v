@@ -59,7 +59,7 @@ Definition away (v : value) (pl : place) :=
 Definition isolated_value (l : support_leaf) (h : holding) : option value :=
   match h with
   | Holding (PointAt v) true =>
-      if rational v || all (fun h' => away v (held_place h')) (holdings l) then Some v else None
+      if all (fun h' => away v (held_place h')) (holdings l) then Some v else None
   | _ => None
   end.
 
@@ -236,11 +236,9 @@ have bt' : between t' (lower r) (upper r).
   by rewrite toRM mulrAC ler_wpmul2r // mulrC.
 have sol_in' : solution_in Q r t' x' by [].
 have is_t' : is_value v t'.
-  case/orP: isolated => [rat|every].
-    by rewrite (rational_value ok rat is_s at' t'b).
   have [h' h'_in at_h'] := support_covers O checked sol_in'.
   have [ok' _] := holding_checked h'_in.
-  exact: away_sound ok ok' (all_In every h'_in) at' t'b at_h'.
+  exact: away_sound ok ok' (all_In isolated h'_in) at' t'b at_h'.
 have eq_t := value_unique ok is_s is_t'; split=> //.
 by apply: (alone isT x x') => //; rewrite /solution_in eq_t.
 Qed.

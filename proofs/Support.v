@@ -43,17 +43,17 @@ Inductive claimed_sign := IsZero | IsPositive | IsNegative.
 Definition signed := (claimed_sign * sign_evidence)%type.
 
 (* One polynomial for each variable of the pencil. *)
-Definition vector := seq polynomial.
+Definition poly_vector := seq polynomial.
 
 Record refutation := Refutation {
-  weights : vector;
+  row_weights : poly_vector;
   weight_signs : seq signed;
   column_signs : seq signed }.
 
 Record bound := Bound { bounded : nat; bound_signs : refutation }.
 
 Record branch := SolvedBy {
-  branch_x : vector;
+  branch_x : poly_vector;
   x_signs : seq signed;
   y_signs : seq signed;
   alone_by : option (nat * seq bound) }.
@@ -94,30 +94,30 @@ Variables (Q : pencil) (r : region).
 Notation indices := (iota 0 (order Q)).
 
 (* The role of variable i in the region. *)
-Definition is_free i := i \in free Q.
-Definition moves i := ~~ is_free i && is_moving (state_of r (index i (slip Q))).
-Definition rests i := ~~ is_free i && is_resting (state_of r (index i (slip Q))).
-Definition is_active i := is_free i || moves i.
+Definition is_free (i : nat) := i \in free Q.
+Definition moves (i : nat) := ~~ is_free i && is_moving (state_of r (index i (slip Q))).
+Definition rests (i : nat) := ~~ is_free i && is_resting (state_of r (index i (slip Q))).
+Definition is_active (i : nat) := is_free i || moves i.
 
 Definition decided_region := all (fun i => is_active i || rests i) indices.
 
-Definition component_of (x : vector) i := nth [::] x i.
+Definition component_of (x : poly_vector) i := nth [::] x i.
 
 (* p T_ij *)
 Definition times_entry i j p := mul_poly [:: lookup (row_a Q i) j; lookup (row_b Q i) j] p.
 Arguments times_entry : simpl never.
 
 (* (w'T)_j *)
-Definition column_poly (w : vector) j : polynomial :=
+Definition column_poly (w : poly_vector) j : polynomial :=
   foldr (fun i sum =>
            if component_of w i is [::] then sum
            else add_poly (times_entry i j (component_of w i)) sum) [::] indices.
 
-Definition product_with (x : vector) (row : sparse_row) : polynomial :=
+Definition product_with (x : poly_vector) (row : sparse_row) : polynomial :=
   foldr (fun e sum => add_poly (scale_poly e.2 (component_of x e.1)) sum) [::] row.
 
 (* y_i *)
-Definition row_poly (x : vector) i : polynomial :=
+Definition row_poly (x : poly_vector) i : polynomial :=
   add_poly (product_with x (row_a Q i)) (0 :: product_with x (row_b Q i)).
 
 Section Place.
@@ -127,11 +127,11 @@ Variable pl : place.
 Definition check_refutation (f : refutation) :=
   [&& all (fun i => ~~ rests i ||
         ~~ is_negative (sign_at (weight_signs f) i) &&
-        shows pl (component_of (weights f) i) (sign_at (weight_signs f) i)) indices,
+        shows pl (component_of (row_weights f) i) (sign_at (weight_signs f) i)) indices,
       all (fun j => ~~ is_active j ||
         [&& ~~ is_positive (sign_at (column_signs f) j),
             ~~ is_free j || is_zero (sign_at (column_signs f) j) &
-            shows pl (column_poly (weights f) j) (sign_at (column_signs f) j)]) indices &
+            shows pl (column_poly (row_weights f) j) (sign_at (column_signs f) j)]) indices &
       has (fun j => moves j && is_negative (sign_at (column_signs f) j)) indices].
 
 Definition check_branch (b : branch) :=
@@ -147,16 +147,16 @@ Definition check_branch (b : branch) :=
                         ~~ is_active i || is_zero (sign_at (y_signs b) i) &
                         shows pl (row_poly (branch_x b) i) (sign_at (y_signs b) i)]) indices].
 
-Definition check_bound (b : branch) k (o : bound) :=
+Definition check_bound (b : branch) (k : nat) (o : bound) :=
   let f := bound_signs o in
   [&& is_active (bounded o), (bounded o < order Q)%N,
       all (fun i => ~~ rests i ||
         [&& ~~ is_negative (sign_at (weight_signs f) i),
             is_zero (sign_at (weight_signs f) i) || is_zero (sign_at (y_signs b) i) &
-            shows pl (component_of (weights f) i) (sign_at (weight_signs f) i)]) indices &
+            shows pl (component_of (row_weights f) i) (sign_at (weight_signs f) i)]) indices &
       all (fun j => [|| ~~ is_active j, j == k |
         ((j == bounded o) || is_zero (sign_at (column_signs f) j)) &&
-        shows pl (column_poly (weights f) j) (sign_at (column_signs f) j)]) indices].
+        shows pl (column_poly (row_weights f) j) (sign_at (column_signs f) j)]) indices].
 
 Definition own_sign (o : bound) := sign_at (column_signs (bound_signs o)) (bounded o).
 
@@ -345,7 +345,7 @@ Section AtValue.
 Variables (pl : place) (t : R).
 Hypotheses (ok : place_checked pl) (at_t : in_place pl t).
 
-Definition value_at (w : vector) i : R := eval (component_of w i) t.
+Definition value_at (w : poly_vector) i : R := eval (component_of w i) t.
 
 Lemma column_polyE w j : eval (column_poly Q w j) t =
   \sum_(i <- indices) value_at w i * (a_entry R Q i j + t * b_entry R Q i j).
@@ -372,19 +372,19 @@ Qed.
 Lemma refutation_sound f x : check_refutation Q r pl f -> ~ solution_in t x.
 Proof.
 case/and3P=> /allP weight_ok /allP column_ok some [sol [_ ag]].
-have wy : 0 <= \sum_(i <- indices) value_at (weights f) i * reaction Q t x i.
+have wy : 0 <= \sum_(i <- indices) value_at (row_weights f) i * reaction Q t x i.
   apply: sum_ge0 => i Hi; have [y0 y_ge0] := solution_roles sol ag Hi.
   have := weight_ok _ Hi; case: (role Hi) => [fr _|[mv _|rs]].
   - by rewrite y0 ?mulr0 // /is_active fr.
   - by rewrite y0 ?mulr0 // /is_active mv orbT.
   rewrite rs /= => /andP[sg shown]; rewrite mulr_ge0 // ?y_ge0 //.
   exact: not_negativeE sg (shows_sound ok at_t shown).
-suff : \sum_(j <- indices) eval (column_poly Q (weights f) j) t * x j < 0.
+suff : \sum_(j <- indices) eval (column_poly Q (row_weights f) j) t * x j < 0.
   by rewrite -weighted_reaction ltNge wy.
 have column j : j \in indices -> is_active Q r j ->
     [/\ ~~ is_positive (sign_at (column_signs f) j),
         ~~ is_free Q j || is_zero (sign_at (column_signs f) j) &
-        holds_sign (sign_at (column_signs f) j) (eval (column_poly Q (weights f) j) t)].
+        holds_sign (sign_at (column_signs f) j) (eval (column_poly Q (row_weights f) j) t)].
   by move=> Hj act; have := column_ok _ Hj; rewrite act => /and3P[np fz /(shows_sound ok at_t)].
 apply: sum_lt0 => [j Hj|].
   case: (role Hj) => [fr|[mv|/(resting_zero ag Hj)->]]; last by rewrite mulr0.
@@ -487,10 +487,10 @@ Qed.
 
 (* c (x_k z_j - x_j z_k) >= 0 *)
 Lemma bound_sound o z : List.In o bounds -> bounded o != k -> solution_in t z ->
-  0 <= eval (column_poly Q (weights (bound_signs o)) (bounded o)) t *
+  0 <= eval (column_poly Q (row_weights (bound_signs o)) (bounded o)) t *
        (x k * z (bounded o) - x (bounded o) * z k).
 Proof.
-move=> o_in jk [sol [_ ag]]; set l := weights _; set j := bounded o.
+move=> o_in jk [sol [_ ag]]; set l := row_weights _; set j := bounded o.
 have [Hk mk] := pivot_ok.
 move: alone_ok; rewrite /check_alone alone => /and4P[_ _ bounds_ok _].
 have := all_In bounds_ok o_in.
@@ -548,7 +548,7 @@ have find (P : bound -> bool) : has P bounds -> exists2 o, List.In o bounds & P 
   elim: (bounds) => //= o l IH /orP[Po|/IH[o' o'_in Po']]; first by exists o => //; left.
   by exists o' => //; right.
 have own o : List.In o bounds -> bounded o = i ->
-    holds_sign (own_sign o) (eval (column_poly Q (weights (bound_signs o)) i) t).
+    holds_sign (own_sign o) (eval (column_poly Q (row_weights (bound_signs o)) i) t).
   move=> o_in eq_i; have := all_In bounds_ok o_in.
   case/and4P=> _ _ _ /allP/(_ _ Hi).
   by rewrite act (negbTE ik) /own_sign eq_i eqxx /= => /(shows_sound ok at_t).
