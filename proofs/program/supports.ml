@@ -26,15 +26,43 @@ let spend units =
   if !work > work_limit || units < 0 then beyond ()
 
 let longest p = List.fold_left (fun m z -> max m (bits z)) 1 p
-let to_rationals = List.map Q.of_bigint
 let negate = List.map Z.neg
 
-let integral p =
-  let c = List.fold_left (fun c v -> Z.lcm c (Q.den v)) Z.one p in
-  c, List.map (fun v -> Q.num (Q.mul v (Q.of_bigint c))) p
+let rec strip_zeros = function z :: rest when Z.sign z = 0 -> strip_zeros rest | p -> p
 
-let evaluate p t =
-  List.fold_right (fun c sum -> Q.add (Q.of_bigint c) (Q.mul t sum)) p Q.zero
+(* The sign of p(n/d), from the integer d^k p(n/d), k the degree. *)
+let sign_of_poly p t =
+  let n = Q.num t and d = Q.den t in
+  let value, _ = List.fold_left (fun (sum, power) c ->
+      Z.add (Z.mul sum n) (Z.mul c power), Z.mul power d) (Z.zero, Z.one) (List.rev p) in
+  Z.sign value
+
+(* c g = p q + r in integers, r shorter than p; constant terms first. *)
+let divide_integers g p =
+  let p = Array.of_list (List.rev (strip_zeros (List.rev p))) in
+  let m = Array.length p in
+  if m = 0 then no_witness "a polynomial that is zero";
+  let r = Array.of_list g in
+  let n = Array.length r in
+  let q = Array.make (max 0 (n - m + 1)) Z.zero in
+  let lead = p.(m - 1) in
+  let factor = ref Z.one in
+  for k = n - m downto 0 do
+    let top = r.(k + m - 1) in
+    if Z.sign top <> 0 then begin
+      let common = Z.gcd top lead in
+      let up = Z.abs (Z.divexact lead common) in
+      let c = Z.divexact (Z.mul up top) lead in
+      if not (Z.equal up Z.one) then begin
+        Array.iteri (fun i v -> if i < k + m then r.(i) <- Z.mul up v) r;
+        Array.iteri (fun i v -> q.(i) <- Z.mul up v) q;
+        factor := Z.mul up !factor
+      end;
+      q.(k) <- Z.add q.(k) c;
+      for i = 0 to m - 1 do r.(k + i) <- Z.sub r.(k + i) (Z.mul c p.(i)) done
+    end
+  done;
+  !factor, Array.to_list q, List.rev (strip_zeros (List.rev (Array.to_list r)))
 
 let words n = 1 + n / 64
 
@@ -53,7 +81,7 @@ let value_from_interval p (a, b) =
 
 let bisect p (a, b) =
   let m = half a b in
-  match Q.sign (evaluate p m) with
+  match sign_of_poly p m with
   | 0 -> (m, m)
   | s -> if s < 0 then (m, b) else (a, m)
 
@@ -63,7 +91,7 @@ let value_of_point precision (point : place_point) =
   if Q.sign a < 0 || Q.gt a b then no_witness "a point of a support leaf";
   let p = point.point_polynomial in
   spend_evaluation p (bits (Q.num b) + bits (Q.den b) + bits (Q.den a));
-  let p = if Q.equal a b || Q.sign (evaluate p b) > 0 then p else negate p in
+  let p = if Q.equal a b || sign_of_poly p b > 0 then p else negate p in
   let rec refine n (a, b) =
     let v = value_from_interval p (a, b) in
     if Q.equal a b || n <= 0 && Kernel.check_value v then v
@@ -85,7 +113,8 @@ let spend_division g p =
 let sign_at_value (v : Kernel.value) g =
   let p = v.value_poly in
   spend_division g p;
-  let red = reduction (to_rationals p) g in
+  let multiplier, quotient, rest = divide_integers g p in
+  let red = { Kernel.multiplier; quotient; rest } in
   spend_evaluation red.rest (bits_of_value v);
   let on f = f v.value_from v.value_to v.value_den red.rest in
   if Kernel.zero_poly red.rest then Kernel.IsZero, Kernel.Remainder red
@@ -100,14 +129,12 @@ let no_near = { Kernel.near_multiplier = Z.one; near_power = 0; near_cofactor = 
 let near_value (v : Kernel.value) p g =
   if Kernel.rational v then no_near
   else begin
-    let p = to_rationals p in
-    let rec divided i h =
-      spend_division g v.value_poly;
-      match divide h p with
-      | quotient, [] when quotient <> [] -> divided (i + 1) quotient
-      | _ -> i, h in
-    let i, h = divided 0 (to_rationals g) in
-    let c, h = integral h in
+    let rec divided factor i h =
+      spend_division h v.value_poly;
+      match divide_integers h p with
+      | c, (_ :: _ as quotient), [] -> divided (Z.mul c factor) (i + 1) quotient
+      | _ -> factor, i, h in
+    let c, i, h = divided Z.one 0 g in
     spend_evaluation h (bits_of_value v);
     if Z.sign (Kernel.low_on v.value_from v.value_to v.value_den h) <= 0 then raise No_sign;
     { near_multiplier = c; near_power = i; near_cofactor = h }
@@ -125,7 +152,7 @@ let cuts_of g lower upper =
       if depth = 0 || !count > cuts_in_all then raise No_sign;
       let m = if finite u then half (value_of l) (value_of u)
         else Q.add (Q.mul (value_of l) (Q.of_int 2)) Q.one in
-      if Q.sign (evaluate g m) <= 0 then raise No_sign;
+      if sign_of_poly g m <= 0 then raise No_sign;
       let cut = point_of m in
       let below = cover first l cut (depth - 1) in
       below @ cut :: cover false cut u (depth - 1)
@@ -138,7 +165,7 @@ let sign_in_cell (v : Kernel.value) (next : Kernel.value option) g =
   let inside = match next with
     | Some _ -> half (value_of lower) (value_of upper)
     | None -> Q.add (value_of lower) Q.one in
-  let positive, sign = match Q.sign (evaluate g inside) with
+  let positive, sign = match sign_of_poly g inside with
     | 0 -> raise No_sign
     | s -> if s > 0 then g, Kernel.IsPositive else negate g, Kernel.IsNegative in
   let after = near_value v v.value_poly positive in
