@@ -16,7 +16,7 @@ let cuts_deep = 24
 let cuts_in_all = 200
 
 (* Work of the file, about in products of words. *)
-let work_limit = 1 lsl 32
+let work_limit = 1 lsl 31
 let work = ref 0
 
 let beyond () = Problem.not_verified "support leaves beyond the limits of this program"
@@ -69,6 +69,11 @@ let words n = 1 + n / 64
 let spend_evaluation p extra =
   let c = List.length p in
   spend (c * c * words (longest p + c * extra))
+
+(* The products of [Kernel.positive_on]. *)
+let spend_substitution p extra =
+  let c = List.length p in
+  spend (c * c * words (longest p + c * extra) * (1 + words extra / 4))
 
 (* ---------- values *)
 
@@ -145,7 +150,7 @@ let cuts_of g lower upper =
   let count = ref 0 in
   let size (p, q) = bits p + bits q in
   let rec cover first l u depth =
-    spend_evaluation g (size l + size u);
+    spend_substitution g (size l + size u);
     if Kernel.positive_on first l u g then []
     else begin
       incr count;
