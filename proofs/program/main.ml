@@ -39,8 +39,8 @@ let show_place = function
 
 let shown_regions = 20
 
-(* Prints what the theorem [system_number] says of the solutions found and the regions left open;
-   the exit code. *)
+(* Prints what the theorems [system_families_number] and [system_families_hold] say of the
+   solutions found, the families and the regions left open; the exit code. *)
 let report slip lo hi found families left_open =
   let names positions = String.concat " " (List.map (fun i -> string_of_int slip.(i)) positions) in
   let window = show_interval lo hi and count = List.length found in

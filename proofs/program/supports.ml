@@ -239,10 +239,10 @@ let solved roles place x alone =
         pivot, List.concat_map (bounds_of roles place pivot) rows) alone }
 
 let reason_in roles reasons place number =
-  match List.nth_opt reasons number with
-  | Some (Nothing w) -> Kernel.Refuted (refuted roles place (over_rows roles w))
-  | Some (Something (x, alone)) -> Kernel.Solved (solved roles place x alone)
-  | None -> no_witness "a reason that is not there"
+  if number >= Array.length reasons then no_witness "a reason that is not there";
+  match reasons.(number) with
+  | Nothing w -> Kernel.Refuted (refuted roles place (over_rows roles w))
+  | Something (x, alone) -> Kernel.Solved (solved roles place x alone)
 
 (* ---------- leaves *)
 
@@ -261,7 +261,7 @@ let attempt roles (leaf : support_leaf) precision =
   match points with
   | [] -> no_witness "a support leaf without points"
   | (first_value, number) :: points ->
-    let reason = reason_in roles leaf.reasons in
+    let reason = reason_in roles (Array.of_list leaf.reasons) in
     { Kernel.first_value; first_reason = reason (Kernel.PointAt first_value) number;
       further = chain_of reason first_value points leaf.cells }
 
@@ -282,7 +282,8 @@ let limit order (leaf : support_leaf) =
   if List.exists (fun p -> List.length p > 256) polynomials || (count + places) * top > 1 lsl 23
   then beyond ();
   let vectors = List.length vectors in
-  if order > 300 then beyond ();
+  if order > 300 || places > 4096 then beyond ();
+  spend (places * places * words top);
   spend (places * vectors * order * order * (order + 64))
 
 (* [factor i]: the factor of row i of the kernel's pencil. *)
