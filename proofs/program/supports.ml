@@ -1,8 +1,8 @@
 (* The elaborator of support leaves: signs of polynomials with evidence. Untrusted.
 
-   A support leaf of a certificate gives points, cells and reasons.  The kernel asks for evidence for
-   each sign at each place (Signs.v): a quotient and a remainder at a point; in a cell a factor at
-   each end and cuts between.  Intervals of points are bisected until the signs can be told. *)
+   A support leaf of a certificate gives points, cells and reasons.  The kernel asks for evidence
+   for each sign at each place (Signs.v): a quotient and a remainder at a point; in a cell a factor
+   at each end and cuts between.  Intervals of points are bisected until the signs can be told. *)
 
 open Certificate
 open Elaborate
