@@ -37,6 +37,22 @@ let show_place = function
   | Between (v, v') -> Printf.sprintf "values between %s and %s" (show_value v) (show_value v')
   | Above v -> "values above " ^ show_value v
 
+(* Two leaves share the value at their common end: it is listed once, as alone if one says so. *)
+let listed_once families =
+  let kept = Hashtbl.create 64 in
+  let key number (region, (h : Kernel.holding)) = match h.held_place with
+    | PointAt v when Kernel.rational v ->
+      moving region, Some (Q.to_string (Q.make v.value_from v.value_den)), 0
+    | _ -> [], None, number in
+  List.iteri (fun number f ->
+      let k = key number f in
+      match Hashtbl.find_opt kept k with
+      | Some (first, (_, (h : Kernel.holding))) ->
+        if not h.held_alone then Hashtbl.replace kept k (first, f)
+      | None -> Hashtbl.add kept k (number, f)) families;
+  List.map snd (List.sort (fun (i, _) (j, _) -> compare i j)
+                  (List.of_seq (Hashtbl.to_seq_values kept)))
+
 let shown_regions = 20
 
 (* Prints what the theorems [system_families_number] and [system_families_hold] say of the
@@ -226,8 +242,9 @@ let verify problem_path certificate_path =
     | None ->
       Problem.not_verified "regions that may hold the same solution, or a value beside the window"
     | Some found ->
-      let code = report slip lo hi (List.rev found) (Kernel.families tree lo hi supports)
-          (Kernel.still_open tree lo hi supports) in
+      let families = listed_once (Kernel.families tree lo hi supports) in
+      let code =
+        report slip lo hi (List.rev found) families (Kernel.still_open tree lo hi supports) in
       report_claims ();
       code
   end
