@@ -9,6 +9,9 @@
      family     every other place that holds something: an interval of values or one value, with a
                 solution at each, and only one where the place is called alone.
 
+   Regions yielded whose value belongs to a family with the same moving variables are dropped: the
+   value is one more of that family.
+
    Theorem [families_number]: if the check succeeds and [all_solutions] gives a list of N regions,
    then there are N solutions with a value in the window, one in each of them and no two of them
    equal; every other solution in the window belongs to a family or lies in an open region.
@@ -88,16 +91,29 @@ Definition families_of rs ls : seq family :=
 Definition open_of rs ls : seq region :=
   pmap (fun rl => if rl.2 is Some _ then None else Some rl.1) (pairs rs ls).
 
+(* The value of y, and so its solution, belongs to the family; n complementarity variables. *)
+Definition belongs n (y : yield) (f : family) :=
+  match held_place f.2 with
+  | PointAt v => rational v && within (value_of y) (start_of v, end_of v)
+  | Between v v' =>
+      point_lt (end_of v) (yield_from y) && point_lt (yield_to y) (start_of v')
+  | Above v => point_lt (end_of v) (yield_from y)
+  end && all_same n (yield_region y) f.1.
+
 Section Complete.
 
 Variables (Q : pencil) (claims : seq claim) (tr : tree (leaf whole)) (lo hi : point).
 Variable ls : seq (option support_leaf).
 
+Definition families := families_of (left_open tr lo hi) ls.
+
+Definition all_yields := found Q claims tr lo hi ++ isolated_of (left_open tr lo hi) ls.
+
+(* The solutions that do not belong to a family. *)
 Definition all_solutions :=
   distinct_yields (size (slip Q)) lo hi
-    (found Q claims tr lo hi ++ isolated_of (left_open tr lo hi) ls).
+    [seq y <- all_yields | ~~ has (belongs (size (slip Q)) y) families].
 
-Definition families := families_of (left_open tr lo hi) ls.
 Definition still_open := open_of (left_open tr lo hi) ls.
 
 Definition check_families w :=
@@ -129,6 +145,12 @@ case pa: (p a) => /=; split.
 - by case=> -[<-|xl] px; [left | right; apply/IH].
 - by case/IH=> xl px; split=> //; right.
 by case=> -[<-|xl] px; [rewrite pa in px | apply/IH].
+Qed.
+
+Lemma has_In_family (p : family -> bool) l : has p l -> exists2 f, List.In f l & p f.
+Proof.
+elim: l => //= f l IH /orP[pf|/IH[g gl pg]]; first by exists f => //; left.
+by exists g => //; right.
 Qed.
 
 Lemma in_zip T U (rs : seq T) (ls : seq U) r : size rs = size ls -> List.In r rs ->
@@ -287,6 +309,42 @@ case/in_pmap=> h h_in; case iso: (isolated_value l h) => [v|] //= [<-].
 by have [] := isolated_sound O ok h_in iso.
 Qed.
 
+Lemma family_inside f : List.In f (families_of rs ls) ->
+  place_checked (held_place f.2) /\
+  forall t, in_place (held_place f.2) t -> between t (lower f.1) (upper f.1).
+Proof.
+case/in_flatten_map=> -[r [l|]] //= rl; have [O ok] := leaf_checked rl.
+case/List.in_map_iff=> h [<- /in_filter[h_in _]].
+have [ok_h ins] := holding_checked ok h_in.
+by split=> //; have [_ bt] := inside_sound R O ok_h ins.
+Qed.
+
+Lemma belongs_sound y f t x : List.In f (families_of rs ls) -> belongs ns y f ->
+  between t (yield_from y) (yield_to y) -> lies_in Q (yield_region y) t x -> in_family f t x.
+Proof.
+move=> f_in /andP[inside states] bt [_ ag]; have [ok into] := family_inside f_in.
+suff at_t : in_place (held_place f.2) t.
+  by split=> //; split; [apply: into | apply: same_states_agree states ag].
+have after v : check_value v -> point_lt (end_of v) (yield_from y) ->
+    forall s, is_value v s -> s < t.
+  move=> ok_v lt s [_ sb _]; rewrite ltNge; apply/negP => ts.
+  have [_ _ d0 _] := value_parts R ok_v; case: bt => from_t _.
+  apply: (point_lt_sound lt (t := t) _ from_t erefl).
+  by rewrite /= mulrC (le_trans _ sb) // ler_pmul2l.
+have before v : check_value v -> point_lt (yield_to y) (start_of v) ->
+    forall s, is_value v s -> t < s.
+  move=> ok_v lt s [as_ _ _]; rewrite ltNge; apply/negP => st.
+  have [_ _ d0 _] := value_parts R ok_v; case: bt => _ t_to.
+  apply: (point_lt_sound lt t_to (t' := t) _ erefl).
+  by rewrite /= mulrC (le_trans as_) // ler_pmul2l.
+move: ok inside; case: (held_place f.2) => [v|v v'|v] /=.
+- move=> ok /andP[rat win]; have [s is_s] := value_exists R ok.
+  have [/= at_ tb] := within_between win bt.
+  by rewrite (rational_value ok rat is_s (t := t)) // mulrC.
+- by case/andP=> ok ok' /andP[lt lt']; split; [apply: after | apply: before].
+by move=> ok lt; apply: after.
+Qed.
+
 Theorem supports_families f : List.In f (families_of rs ls) -> family_holds f.
 Proof.
 case/in_flatten_map=> -[r [l|]] //= rl; have [O ok] := leaf_checked rl.
@@ -303,7 +361,6 @@ Variables (tr : tree (leaf whole)) (lo hi : point) (ls : seq (option support_lea
 Hypothesis checked : check_families Q claims tr lo hi ls w.
 
 Notation ns := (size (slip Q)).
-Notation isolated := (isolated_of (left_open tr lo hi) ls).
 Notation families := (families tr lo hi ls).
 Notation still_open := (still_open tr lo hi ls).
 
@@ -321,25 +378,39 @@ Theorem families_number ys : all_solutions Q claims tr lo hi ls = Some ys ->
 Proof.
 case/andP: checked => complete supports dist.
 have [every each] := complete_sound R complete.
-have has_one y : List.In y (found Q claims tr lo hi ++ isolated) ->
+have one_each y : List.In y (all_yields Q claims tr lo hi ls) -> one_solution_in R Q y.
+  by case/in_cat_or=> [/each|/(supports_isolated R supports)].
+have has_one y :
+    List.In y [seq y <- all_yields Q claims tr lo hi ls | ~~ has (belongs ns y) families] ->
     exists s, the_solution (R := R) ns (slip_of Q) (solution Q) (proportional Q) y s.
-  move=> y_in; have : one_solution_in R Q y.
-    by case/in_cat_or: y_in => [/each|/(supports_isolated R supports)].
-  by move=> [t [x [bt sol reg uniq]]]; exists (t, x); split.
+  case/in_filter=> /one_each[t [x [bt sol reg uniq]]] _.
+  by exists (t, x); split.
 have [l [[sols pairs] win all_found]] :=
   distinct_sound (@proportional_slip R Q) (@proportional_sym R Q) (@proportional_trans R Q)
     has_one dist.
-have covered y t x : List.In y (found Q claims tr lo hi ++ isolated) -> solution Q t x ->
-    lies_in Q (yield_region y) t x -> exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x.
-  by move=> y_in sol reg; have [s sl one] := all_found y y_in t x sol reg; exists s.
+have covered y t x : List.In y (all_yields Q claims tr lo hi ls) -> solution Q t x ->
+    lies_in Q (yield_region y) t x ->
+    (exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x) \/
+    (exists2 f, List.In f families & in_family Q f t x).
+  move=> y_in sol reg; case of_family: (has (belongs ns y) families).
+    have [f f_in bel] := has_In_family of_family.
+    have [t0 [x0 [bt _ _ uniq]]] := one_each y y_in; have [eq_t _] := uniq t x sol reg.
+    right; exists f => //; apply: (belongs_sound supports f_in bel) => //.
+    by rewrite eq_t.
+  left; have [|s sl one] := all_found y _ t x sol reg; last by exists s.
+  by apply/in_filter; rewrite of_family.
 exists l; split=> //.
 - exact/esym/(Forall2_size sols).
 - by move=> s sl; have [y _ [_ sol _ _]] := Forall2_in sols sl; split=> //; apply: win.
 - by apply: Forall2_impl sols => y s [bt _ reg _].
 move=> t x sol bt; case: (every t x sol bt) => -[y y_in reg].
-  by apply: Or31; apply: (covered y) => //; apply/in_cat_or; left.
+  have [|one|fam] := covered y t x _ sol reg; first by apply/in_cat_or; left.
+    exact: Or31.
+  exact: Or32.
 have [[y' y'_in reg']|fam|op] := supports_cover supports y_in sol reg.
-- by apply: Or31; apply: (covered y') => //; apply/in_cat_or; right.
+- have [|one|fam] := covered y' t x _ sol reg'; first by apply/in_cat_or; right.
+    exact: Or31.
+  exact: Or32.
 - exact: Or32.
 exact: Or33.
 Qed.

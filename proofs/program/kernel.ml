@@ -2956,13 +2956,18 @@ let open_of rs ls =
                   | Some _ -> None
                   | None -> Some (fst rl)) (pairs rs ls)
 
-(** val all_solutions :
-    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-    option list -> yield list option **)
+(** val belongs : int -> yield -> family -> bool **)
 
-let all_solutions q claims tr lo hi ls =
-  distinct_yields (size (slip q)) lo hi
-    (cat (found q claims tr lo hi) (isolated_of (left_open tr lo hi) ls))
+let belongs n y f =
+  (&&)
+    (match (snd f).held_place with
+     | PointAt v ->
+       (&&) (rational v) (within (value_of y) ((start_of v), (end_of v)))
+     | Between (v, v') ->
+       (&&) (point_lt (end_of v) y.yield_from)
+         (point_lt y.yield_to (start_of v'))
+     | Above v -> point_lt (end_of v) y.yield_from)
+    (all_same n y.yield_region (fst f))
 
 (** val families :
     whole leaf tree -> point -> point -> support_leaf option list -> family
@@ -2970,6 +2975,23 @@ let all_solutions q claims tr lo hi ls =
 
 let families tr lo hi ls =
   families_of (left_open tr lo hi) ls
+
+(** val all_yields :
+    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+    option list -> yield list **)
+
+let all_yields q claims tr lo hi ls =
+  cat (found q claims tr lo hi) (isolated_of (left_open tr lo hi) ls)
+
+(** val all_solutions :
+    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+    option list -> yield list option **)
+
+let all_solutions q claims tr lo hi ls =
+  distinct_yields (size (slip q)) lo hi
+    (filter (fun y ->
+      negb (has (belongs (size (slip q)) y) (families tr lo hi ls)))
+      (all_yields q claims tr lo hi ls))
 
 (** val still_open :
     whole leaf tree -> point -> point -> support_leaf option list -> region

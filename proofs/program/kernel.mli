@@ -977,12 +977,18 @@ val families_of : region list -> support_leaf option list -> family list
 
 val open_of : region list -> support_leaf option list -> region list
 
-val all_solutions :
-  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-  option list -> yield list option
+val belongs : int -> yield -> family -> bool
 
 val families :
   whole leaf tree -> point -> point -> support_leaf option list -> family list
+
+val all_yields :
+  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+  option list -> yield list
+
+val all_solutions :
+  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+  option list -> yield list option
 
 val still_open :
   whole leaf tree -> point -> point -> support_leaf option list -> region list

@@ -238,6 +238,8 @@ let verify problem_path certificate_path =
     if not accepted then raise (Rejected "the kernel refuses the tree");
     if List.length (Kernel.found pencil claims tree lo hi) > 10_000 then
       Problem.not_verified "more than 10,000 regions with a solution";
+    if List.length (Kernel.families tree lo hi supports) > 10_000 then
+      Problem.not_verified "more than 10,000 families";
     match Kernel.all_solutions pencil claims tree lo hi supports with
     | None ->
       Problem.not_verified "regions that may hold the same solution, or a value beside the window"
