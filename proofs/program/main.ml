@@ -261,7 +261,6 @@ let () =
      | Sys_error reason -> finish 2 reason
      | Stack_overflow | Out_of_memory -> finish 3 "NOT VERIFIED: the memory of this program"
      | Problem.Not_verified kind -> finish 3 ("NOT VERIFIED: " ^ kind)
-     | Elaborate.No_witness what -> finish 3 ("NOT VERIFIED: no witness for " ^ what)
-     | Stack_overflow -> finish 3 "NOT VERIFIED: lists beyond the limits of this program")
+     | Elaborate.No_witness what -> finish 3 ("NOT VERIFIED: no witness for " ^ what))
   | _ ->
     prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE"; exit 2
