@@ -51,10 +51,10 @@ Definition dense (rows : nat -> sparse_row) : matrix :=
 (* The pencil without condensation: all variables, radii 0. *)
 Definition whole_pencil := Enclosed n (dense (row_a Q)) (dense (row_b Q)) [::] [::].
 
-Definition is_active i := (i \in free Q) || (i \in box_support k).
+Definition in_active_block i := (i \in free Q) || (i \in box_support k).
 
 Definition active_region := Region (interval_low k) (interval_high k)
-  [seq if is_active i then Moving else Resting | i <- iota 0 n].
+  [seq if in_active_block i then Moving else Resting | i <- iota 0 n].
 
 Notation P := whole_pencil.
 Notation r := active_region.
@@ -112,27 +112,27 @@ move=> i j Hi Hj; rewrite /= !dense_entry // /entry !nth_nil !toR0.
 by rewrite /a_entry /b_entry !subrr normr0.
 Qed.
 
-Lemma active_moving i : (i \in J) = (i \in variables) && is_active Q k i.
+Lemma active_moving i : (i \in J) = (i \in variables) && in_active_block Q k i.
 Proof.
 rewrite mem_filter andbC; apply: andb_id2l; rewrite mem_iota add0n => /= lt_i.
-by rewrite /state_of /= (nth_map 0%N) ?size_iota // nth_iota //; case: is_active.
+by rewrite /state_of /= (nth_map 0%N) ?size_iota // nth_iota //; case: in_active_block.
 Qed.
 
 Lemma support_moving j : j \in box_support k -> j \in J.
 Proof.
 have [[_ _ _ sup] _] := claim_parts => j_s.
-by rewrite active_moving /is_active j_s orbT andbT; apply/slip_indices/sup.
+by rewrite active_moving /in_active_block j_s orbT andbT; apply/slip_indices/sup.
 Qed.
 
 Lemma free_moving i : i \in free Q -> i \in J.
 Proof.
 have [[wf _ _ _] _] := claim_parts => i_f.
-by rewrite active_moving /is_active i_f andbT; apply: free_indices.
+by rewrite active_moving /in_active_block i_f andbT; apply: free_indices.
 Qed.
 
 Lemma slip_moving i : i \in slip Q -> (i \in J) = (i \in box_support k).
 Proof.
-move=> Hi; rewrite active_moving slip_indices //= /is_active.
+move=> Hi; rewrite active_moving slip_indices //= /in_active_block.
 by move: Hi; rewrite mem_filter => /andP[/negbTE->].
 Qed.
 

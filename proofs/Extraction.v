@@ -10,8 +10,8 @@ From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
 From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned Cover.
-From Mceip Require Import Number Condensation Pencil Whole Complete Claim System Lifted.
-From Mceip Require Import EnclosedClaim PlainMcp.
+From Mceip Require Import Number Condensation Pencil Whole Complete Claim System.
+From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
@@ -25,4 +25,6 @@ Extraction "kernel.ml"
   condensed slip zero infinity window check_leaf check_tree check_whole check_end
   stiffness_positive shapes wellformed free_rows_constant system_wellformed
   symmetric_part definite_end farkas check_absent check_root pinned check_claimed check_infinite
-  active moving members member_form defect residual check_unique decide.
+  active moving members member_form defect residual check_unique decide
+  check_families check_system_families all_solutions families still_open check_supports
+  check_support column_poly row_poly positive_on check_value low_on high_on zero_poly scale_poly.

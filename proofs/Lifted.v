@@ -86,7 +86,7 @@ Definition balanced d := shows_zero k (balance_poly d) (witness (balance_reducti
 Definition without_force d := shows_zero k (w_poly d) (witness (force_reductions l) d).
 Definition at_rest d := shows_zero k (v_poly d) (component_witness k d).
 
-Definition moves d :=
+Definition dof_moves d :=
   shows_positive k (v_poly d) (component_witness k d) ||
   shows_negative k (v_poly d) (component_witness k d).
 
@@ -110,7 +110,7 @@ Definition check_lifted :=
       all balanced (iota 0 (dofs s)), all without_force (free_dofs s),
       all (fun d => (d \in moving_dofs s) || at_rest d) (iota 0 (dofs s)),
       all particle_states (iota 0 ns) &
-      has in_support (iota 0 ns) || has moves (free_dofs s)].
+      has in_support (iota 0 ns) || has dof_moves (free_dofs s)].
 
 End Checker.
 
@@ -135,7 +135,7 @@ Lemma lifted_parts :
   [/\ forall i, i \in free_dofs s -> without_force l i,
       forall i, i \in all_dofs -> i \notin moving_dofs s -> at_rest l i,
       forall j, (j < ns)%N -> particle_states s u l j &
-      has (in_support s l) (iota 0 ns) || has (moves l) (free_dofs s)].
+      has (in_support s l) (iota 0 ns) || has (dof_moves l) (free_dofs s)].
 Proof.
 case/and5P: checked => wf interval _ /allP bal /and4P[/allP free /allP rest /allP ps nz].
 split; split=> //; last by move=> j lt_j; apply: ps; rewrite mem_iota.

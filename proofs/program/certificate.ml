@@ -23,6 +23,20 @@ type root = {
 
 type factor_rows = { first : int list; rows : Z.t list list; exponent : int }
 
+(* A support leaf: polynomials are lists of integers, constant term first. *)
+type vector = Z.t list list
+
+type reason =
+  | Nothing of vector
+  | Something of vector * (int * (int * vector) list) option
+
+type place_point = { point_polynomial : Z.t list; point_interval : Q.t * Q.t; point_reason : int }
+
+type support_leaf = {
+  points : place_point list;
+  cells : int list;
+  reasons : reason list }
+
 type node =
   | Split of Q.t
   | Branch of int
@@ -32,6 +46,7 @@ type node =
   | Tail
   | Open
   | Root of root
+  | Support of support_leaf
 
 type anchor = { right : (int * Z.t list list) list; left : (int * Z.t list list) list }
 
@@ -89,6 +104,42 @@ let read_root item =
   { pivot = counter (field "pivot"); interval; left = integers (field "left");
     right = integers (field "right"); exponent = exponent_of (field "exponent"); outcome }
 
+(* An index that may name nothing, but not a negative one. *)
+let ordinal item =
+  let i = counter item in
+  if i < 0 then malformed "a negative index";
+  i
+
+let read_vector item = List.map integers (list item)
+
+let read_reason = function
+  | Object ["none", w] -> Nothing (read_vector w)
+  | Object ["some", body] ->
+    let field = fields ["x"] ["alone"] body in
+    let alone = match field "alone" with
+      | Null -> None
+      | item ->
+        let field = fields ["pivot"; "rows"] [] item in
+        let row item = match list item with
+          | [j; l] -> ordinal j, read_vector l
+          | _ -> malformed "a row of alone is [j, l]" in
+        Some (ordinal (field "pivot"), List.map row (list (field "rows"))) in
+    Something (read_vector (field "x"), alone)
+  | _ -> malformed "a reason of a support leaf"
+
+let read_support item =
+  let field = fields ["points"; "cells"; "reasons"] [] item in
+  let point item =
+    let field = fields ["polynomial"; "interval"; "reason"] [] item in
+    let point_interval = match list (field "interval") with
+      | [a; b] -> rational a, rational b
+      | _ -> malformed "an interval has two ends" in
+    { point_polynomial = integers (field "polynomial"); point_interval;
+      point_reason = ordinal (field "reason") } in
+  { points = List.map point (list (field "points"));
+    cells = List.map ordinal (list (field "cells"));
+    reasons = List.map read_reason (list (field "reasons")) }
+
 let read_node = function
   | String "positive_definite" -> Definite false
   | String "negative_definite" -> Definite true
@@ -99,7 +150,7 @@ let read_node = function
   | Object ["farkas", w] -> Farkas (integers w)
   | Object ["ldl", _] -> Ldl
   | Object ["root", r] -> Root (read_root r)
-  | Object ["support", _] -> Problem.not_verified "support"
+  | Object ["support", s] -> Support (read_support s)
   | _ -> malformed "a node of a tree"
 
 let read_factor item =

@@ -547,7 +547,7 @@ let build_leaf c (region : Kernel.region) node =
        let components = Array.of_list x in
        infinite_tree p f 12 region x (Array.map (fun i -> components.(i)) c.slip))
   | Open -> Kernel.Leaf Kernel.Undecided
-  | Split _ | Branch _ -> assert false
+  | Split _ | Branch _ | Support _ -> assert false
 
 (* The nodes of a piece in preorder; [leaf] makes a tree of a leaf. *)
 let build_piece slip leaf nodes (region : Kernel.region) =

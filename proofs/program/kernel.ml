@@ -367,6 +367,12 @@ type ('aT, 'rT) simpl_fun =
 let fun_of_simpl f =
   f
 
+(** val isSome : 'a1 option -> bool **)
+
+let isSome = function
+| Some _ -> true
+| None -> false
+
 (** val iffP : bool -> reflect -> reflect **)
 
 let iffP _ pb =
@@ -520,6 +526,12 @@ let rec size = function
 let nilp s =
   eq_op nat_eqType (Obj.magic size s) (Obj.magic 0)
 
+(** val head : 'a1 -> 'a1 list -> 'a1 **)
+
+let head x0 = function
+| [] -> x0
+| x :: _ -> x
+
 (** val ncons : int -> 'a1 -> 'a1 list -> 'a1 list **)
 
 let ncons n x =
@@ -655,6 +667,11 @@ let rec zip s t =
   | x :: s' -> (match t with
                 | [] -> []
                 | y :: t' -> (x, y) :: (zip s' t'))
+
+(** val flatten : 'a1 list list -> 'a1 list **)
+
+let flatten s =
+  foldr cat [] s
 
 type matrix = Big_int_Z.big_int list list
 
@@ -2273,9 +2290,9 @@ let multiple c row =
     system -> (int -> sparse_row) -> slip_particle -> planar ->
     (int * Big_int_Z.big_int) list **)
 
-let rows_along s rows p factors =
-  cat (multiple (fst factors) (columns s (rows p.first_dof)))
-    (multiple (snd factors) (columns s (rows p.second_dof)))
+let rows_along s rows p factors0 =
+  cat (multiple (fst factors0) (columns s (rows p.first_dof)))
+    (multiple (snd factors0) (columns s (rows p.second_dof)))
 
 (** val direction :
     Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar **)
@@ -2462,9 +2479,9 @@ let without_force l d =
 let at_rest l d =
   shows_zero l.motion_claim (v_poly l d) (component_witness l.motion_claim d)
 
-(** val moves : lifted -> int -> bool **)
+(** val dof_moves : lifted -> int -> bool **)
 
-let moves l d =
+let dof_moves l d =
   (||)
     (shows_positive l.motion_claim (v_poly l d)
       (component_witness l.motion_claim d))
@@ -2525,7 +2542,7 @@ let check_lifted s u l =
                   (at_rest l d)) (iota 0 s.dofs))
               ((&&) (all (particle_states s u l) (iota 0 (size s.particles)))
                 ((||) (has (in_support s l) (iota 0 (size s.particles)))
-                  (has (moves l) s.free_dofs))))))))
+                  (has (dof_moves l) s.free_dofs))))))))
 
 type enclosed_claim = { box_support : int list; interval_low : point;
                         interval_high : point; null_box : isolation }
@@ -2542,9 +2559,10 @@ let whole_pencil q =
   { size_of = q.order; center_a = (dense q (row_a q)); center_b =
     (dense q (row_b q)); radius_a = []; radius_b = [] }
 
-(** val is_active : pencil -> enclosed_claim -> Equality.sort -> bool **)
+(** val in_active_block :
+    pencil -> enclosed_claim -> Equality.sort -> bool **)
 
-let is_active q k i =
+let in_active_block q k i =
   (||) (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free)))
     (in_mem i (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
 
@@ -2552,7 +2570,8 @@ let is_active q k i =
 
 let active_region q k =
   { lower = k.interval_low; upper = k.interval_high; states =
-    (map0 (fun i -> if is_active q k (Obj.magic i) then Moving else Resting)
+    (map0 (fun i ->
+      if in_active_block q k (Obj.magic i) then Moving else Resting)
       (iota 0 q.order)) }
 
 (** val positive_on_support : enclosed_claim -> Equality.sort -> bool **)
@@ -2692,3 +2711,672 @@ let mcp_wellformed p =
 let check_mcp p points =
   (&&) (mcp_wellformed p)
     ((&&) (negb (nilp points)) (all (check_point p) points))
+
+type value = { value_poly : polynomial; value_from : Big_int_Z.big_int;
+               value_to : Big_int_Z.big_int; value_den : Big_int_Z.big_int }
+
+type place =
+| PointAt of value
+| Between of value * value
+| Above of value
+
+type near = { near_multiplier : Big_int_Z.big_int; near_power : int;
+              near_cofactor : polynomial }
+
+type sign_evidence =
+| Identity
+| Remainder of reduction
+| Parts of near * point list * near
+
+(** val low_on :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    -> Big_int_Z.big_int **)
+
+let low_on a b d p =
+  fst (fst (horner_interval a b d p))
+
+(** val high_on :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    -> Big_int_Z.big_int **)
+
+let high_on a b d p =
+  snd (fst (horner_interval a b d p))
+
+(** val slope_interval :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    ->
+    ((Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int) * Big_int_Z.big_int **)
+
+let rec slope_interval a b d = function
+| [] ->
+  (((Big_int_Z.zero_big_int, Big_int_Z.zero_big_int),
+    Big_int_Z.unit_big_int), Big_int_Z.zero_big_int)
+| c :: p' ->
+  let (p0, slope) = slope_interval a b d p' in
+  let (p1, power) = p0 in
+  let (lo, hi) = p1 in
+  let constant = Z.mul c (Z.mul power d) in
+  ((((Z.add
+       (if Z.leb Big_int_Z.zero_big_int lo then Z.mul a lo else Z.mul b lo)
+       constant),
+  (Z.add (if Z.leb Big_int_Z.zero_big_int hi then Z.mul b hi else Z.mul a hi)
+    constant)), (Z.mul power d)),
+  (Z.add (Z.mul d lo)
+    (if Z.leb Big_int_Z.zero_big_int slope
+     then Z.mul a slope
+     else Z.mul b slope)))
+
+(** val slope_low :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    -> Big_int_Z.big_int **)
+
+let slope_low a b d p =
+  snd (slope_interval a b d p)
+
+(** val check_value : value -> bool **)
+
+let check_value v =
+  let { value_poly = p; value_from = a; value_to = b; value_den = d } = v in
+  (&&) (Z.leb Big_int_Z.zero_big_int a)
+    ((&&) (Z.leb a b)
+      ((&&) (Z.ltb Big_int_Z.zero_big_int d)
+        ((&&) (Z.leb (high_on a a d p) Big_int_Z.zero_big_int)
+          ((&&) (Z.leb Big_int_Z.zero_big_int (low_on b b d p))
+            ((||) (Z.eqb a b)
+              (Z.ltb Big_int_Z.zero_big_int (slope_low a b d p)))))))
+
+(** val low_of : value -> polynomial -> Big_int_Z.big_int **)
+
+let low_of v g =
+  low_on v.value_from v.value_to v.value_den g
+
+(** val same_poly : polynomial -> polynomial -> bool **)
+
+let same_poly p q =
+  zero_poly
+    (add_poly p
+      (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) q))
+
+(** val reduces_by : polynomial -> polynomial -> reduction -> bool **)
+
+let reduces_by p g w =
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.multiplier)
+    (same_poly (scale_poly w.multiplier g)
+      (add_poly (mul_poly p w.quotient) w.rest))
+
+(** val power_poly : polynomial -> int -> polynomial **)
+
+let power_poly p i =
+  iter i (mul_poly p) (Big_int_Z.unit_big_int :: [])
+
+(** val factors : polynomial -> polynomial -> near -> bool **)
+
+let factors p g w =
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.near_multiplier)
+    (same_poly (scale_poly w.near_multiplier g)
+      (mul_poly (power_poly p w.near_power) w.near_cofactor))
+
+(** val rational : value -> bool **)
+
+let rational v =
+  Z.eqb v.value_from v.value_to
+
+(** val positive_after : value -> polynomial -> near -> bool **)
+
+let positive_after v g w =
+  (||) (rational v)
+    ((&&) (factors v.value_poly g w)
+      (Z.ltb Big_int_Z.zero_big_int (low_of v w.near_cofactor)))
+
+(** val positive_before : value -> polynomial -> near -> bool **)
+
+let positive_before v g w =
+  (||) (rational v)
+    ((&&)
+      (factors
+        (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
+          v.value_poly) g w)
+      (Z.ltb Big_int_Z.zero_big_int (low_of v w.near_cofactor)))
+
+(** val moebius : point -> point -> polynomial -> polynomial * polynomial **)
+
+let rec moebius l u = function
+| [] -> ([], (Big_int_Z.unit_big_int :: []))
+| c :: g' ->
+  let (numerator, power) = moebius l u g' in
+  let power' = mul_poly ((snd l) :: ((snd u) :: [])) power in
+  ((add_poly (scale_poly c power')
+     (mul_poly ((fst l) :: ((fst u) :: [])) numerator)), power')
+
+(** val positive_on : bool -> point -> point -> polynomial -> bool **)
+
+let positive_on open0 l u g =
+  let (numerator, _) = moebius l u g in
+  (&&) (all (fun c -> Z.leb Big_int_Z.zero_big_int c) numerator)
+    (if open0
+     then has (fun c -> Z.ltb Big_int_Z.zero_big_int c) numerator
+     else Z.ltb Big_int_Z.zero_big_int (head Big_int_Z.zero_big_int numerator))
+
+(** val positive_between :
+    bool -> point -> point list -> point -> polynomial -> bool **)
+
+let rec positive_between open0 l cuts u g =
+  match cuts with
+  | [] -> positive_on open0 l u g
+  | c :: cuts' ->
+    (&&) (Z.ltb Big_int_Z.zero_big_int (snd c))
+      ((&&) (positive_on open0 l c g) (positive_between false c cuts' u g))
+
+(** val end_of : value -> point **)
+
+let end_of v =
+  (v.value_to, v.value_den)
+
+(** val start_of : value -> point **)
+
+let start_of v =
+  (v.value_from, v.value_den)
+
+(** val positive_in : place -> polynomial -> sign_evidence -> bool **)
+
+let positive_in pl g e =
+  match pl with
+  | PointAt v ->
+    (match e with
+     | Remainder w ->
+       (&&) (reduces_by v.value_poly g w)
+         (Z.ltb Big_int_Z.zero_big_int (low_of v w.rest))
+     | _ -> false)
+  | Between (v, v') ->
+    (match e with
+     | Parts (n, cuts, n') ->
+       (&&) (positive_after v g n)
+         ((&&) (positive_before v' g n')
+           (positive_between true (end_of v) cuts (start_of v') g))
+     | _ -> false)
+  | Above v ->
+    (match e with
+     | Parts (n, cuts, _) ->
+       (&&) (positive_after v g n)
+         (positive_between true (end_of v) cuts infinity g)
+     | _ -> false)
+
+(** val zero_in : place -> polynomial -> sign_evidence -> bool **)
+
+let zero_in pl g e =
+  match pl with
+  | PointAt v ->
+    (match e with
+     | Identity -> zero_poly g
+     | Remainder w -> (&&) (reduces_by v.value_poly g w) (zero_poly w.rest)
+     | Parts (_, _, _) -> false)
+  | _ -> (match e with
+          | Identity -> zero_poly g
+          | _ -> false)
+
+(** val place_checked : place -> bool **)
+
+let place_checked = function
+| PointAt v -> check_value v
+| Between (v, v') -> (&&) (check_value v) (check_value v')
+| Above v -> check_value v
+
+type claimed_sign =
+| IsZero
+| IsPositive
+| IsNegative
+
+type signed = claimed_sign * sign_evidence
+
+type poly_vector = polynomial list
+
+type refutation = { row_weights : poly_vector; weight_signs : signed list;
+                    column_signs : signed list }
+
+type bound0 = { bounded : int; bound_signs : refutation }
+
+type branch = { branch_x : poly_vector; x_signs : signed list;
+                y_signs : signed list; alone_by : (int * bound0 list) option }
+
+type reason =
+| Refuted of refutation
+| Solved of branch
+
+type chain =
+| Stop
+| Last of reason
+| Next of reason * value * reason * chain
+
+type support_leaf = { first_value : value; first_reason : reason;
+                      further : chain }
+
+type holding = { held_place : place; held_alone : bool }
+
+(** val shows : place -> polynomial -> signed -> bool **)
+
+let shows pl g c =
+  match fst c with
+  | IsZero -> zero_in pl g (snd c)
+  | IsPositive -> positive_in pl g (snd c)
+  | IsNegative ->
+    positive_in pl
+      (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) g) 
+      (snd c)
+
+(** val is_zero : signed -> bool **)
+
+let is_zero c =
+  match fst c with
+  | IsZero -> true
+  | _ -> false
+
+(** val is_positive : signed -> bool **)
+
+let is_positive c =
+  match fst c with
+  | IsPositive -> true
+  | _ -> false
+
+(** val is_negative : signed -> bool **)
+
+let is_negative c =
+  match fst c with
+  | IsNegative -> true
+  | _ -> false
+
+(** val sign_at : signed list -> int -> claimed_sign * sign_evidence **)
+
+let sign_at signs i =
+  nth (IsZero, Identity) signs i
+
+(** val is_free : pencil -> int -> bool **)
+
+let is_free q i =
+  in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic q.free))
+
+(** val moves : pencil -> region -> int -> bool **)
+
+let moves q r i =
+  (&&) (negb (is_free q i))
+    (is_moving (state_of r (index nat_eqType (Obj.magic i) (slip q))))
+
+(** val rests : pencil -> region -> int -> bool **)
+
+let rests q r i =
+  (&&) (negb (is_free q i))
+    (is_resting (state_of r (index nat_eqType (Obj.magic i) (slip q))))
+
+(** val is_active : pencil -> region -> int -> bool **)
+
+let is_active q r i =
+  (||) (is_free q i) (moves q r i)
+
+(** val decided_region : pencil -> region -> bool **)
+
+let decided_region q r =
+  all (fun i -> (||) (is_active q r i) (rests q r i)) (iota 0 q.order)
+
+(** val component_of : poly_vector -> int -> Big_int_Z.big_int list **)
+
+let component_of x i =
+  nth [] x i
+
+(** val times_entry : pencil -> int -> int -> polynomial -> polynomial **)
+
+let times_entry q i j p =
+  mul_poly ((lookup (row_a q i) j) :: ((lookup (row_b q i) j) :: [])) p
+
+(** val column_poly : pencil -> poly_vector -> int -> polynomial **)
+
+let column_poly q w j =
+  foldr (fun i sum ->
+    match component_of w i with
+    | [] -> sum
+    | _ :: _ -> add_poly (times_entry q i j (component_of w i)) sum) []
+    (iota 0 q.order)
+
+(** val product_with : poly_vector -> sparse_row -> polynomial **)
+
+let product_with x row =
+  foldr (fun e sum ->
+    add_poly (scale_poly (snd e) (component_of x (fst e))) sum) [] row
+
+(** val row_poly : pencil -> poly_vector -> int -> polynomial **)
+
+let row_poly q x i =
+  add_poly (product_with x (row_a q i))
+    (Big_int_Z.zero_big_int :: (product_with x (row_b q i)))
+
+(** val check_refutation : pencil -> region -> place -> refutation -> bool **)
+
+let check_refutation q r pl f =
+  (&&)
+    (all (fun i ->
+      (||) (negb (rests q r i))
+        ((&&) (negb (is_negative (sign_at f.weight_signs i)))
+          (shows pl (component_of f.row_weights i) (sign_at f.weight_signs i))))
+      (iota 0 q.order))
+    ((&&)
+      (all (fun j ->
+        (||) (negb (is_active q r j))
+          ((&&) (negb (is_positive (sign_at f.column_signs j)))
+            ((&&)
+              ((||) (negb (is_free q j)) (is_zero (sign_at f.column_signs j)))
+              (shows pl (column_poly q f.row_weights j)
+                (sign_at f.column_signs j))))) (iota 0 q.order))
+      (has (fun j ->
+        (&&) (moves q r j) (is_negative (sign_at f.column_signs j)))
+        (iota 0 q.order)))
+
+(** val check_branch : pencil -> region -> place -> branch -> bool **)
+
+let check_branch q r pl b =
+  (&&) (columns_in_order q)
+    ((&&) (has (moves q r) (iota 0 q.order))
+      ((&&)
+        (all (fun i ->
+          (||) (negb (moves q r i))
+            ((&&) (is_positive (sign_at b.x_signs i))
+              (shows pl (component_of b.branch_x i) (sign_at b.x_signs i))))
+          (iota 0 q.order))
+        ((&&)
+          (all (fun i ->
+            (||) (negb (rests q r i))
+              ((&&) (is_zero (sign_at b.x_signs i))
+                (shows pl (component_of b.branch_x i) (sign_at b.x_signs i))))
+            (iota 0 q.order))
+          (all (fun i ->
+            (&&) (negb (is_negative (sign_at b.y_signs i)))
+              ((&&)
+                ((||) (negb (is_active q r i))
+                  (is_zero (sign_at b.y_signs i)))
+                (shows pl (row_poly q b.branch_x i) (sign_at b.y_signs i))))
+            (iota 0 q.order)))))
+
+(** val check_bound :
+    pencil -> region -> place -> branch -> int -> bound0 -> bool **)
+
+let check_bound q r pl b k o =
+  let f = o.bound_signs in
+  (&&) (is_active q r o.bounded)
+    ((&&) (leq (Stdlib.Int.succ o.bounded) q.order)
+      ((&&)
+        (all (fun i ->
+          (||) (negb (rests q r i))
+            ((&&) (negb (is_negative (sign_at f.weight_signs i)))
+              ((&&)
+                ((||) (is_zero (sign_at f.weight_signs i))
+                  (is_zero (sign_at b.y_signs i)))
+                (shows pl (component_of f.row_weights i)
+                  (sign_at f.weight_signs i))))) (iota 0 q.order))
+        (all (fun j ->
+          (||) (negb (is_active q r j))
+            ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic k))
+              ((&&)
+                ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic o.bounded))
+                  (is_zero (sign_at f.column_signs j)))
+                (shows pl (column_poly q f.row_weights j)
+                  (sign_at f.column_signs j))))) (iota 0 q.order))))
+
+(** val own_sign : bound0 -> claimed_sign * sign_evidence **)
+
+let own_sign o =
+  sign_at o.bound_signs.column_signs o.bounded
+
+(** val check_alone : pencil -> region -> place -> branch -> bool **)
+
+let check_alone q r pl b =
+  match b.alone_by with
+  | Some p ->
+    let (k, bounds) = p in
+    (&&) (moves q r k)
+      ((&&) (leq (Stdlib.Int.succ k) q.order)
+        ((&&) (all (check_bound q r pl b k) bounds)
+          (all (fun j ->
+            (||) (negb (is_active q r j))
+              ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic k))
+                ((&&)
+                  (has (fun o ->
+                    (&&)
+                      (eq_op nat_eqType (Obj.magic o.bounded) (Obj.magic j))
+                      (is_positive (own_sign o))) bounds)
+                  (has (fun o ->
+                    (&&)
+                      (eq_op nat_eqType (Obj.magic o.bounded) (Obj.magic j))
+                      (is_negative (own_sign o))) bounds)))) (iota 0 q.order))))
+  | None -> true
+
+(** val inside : region -> place -> bool **)
+
+let inside r pl =
+  let above0 = fun v ->
+    Z.leb (Z.mul (fst r.lower) v.value_den) (Z.mul v.value_from (snd r.lower))
+  in
+  let below0 = fun v ->
+    Z.leb (Z.mul v.value_to (snd r.upper)) (Z.mul (fst r.upper) v.value_den)
+  in
+  (match pl with
+   | PointAt v -> (&&) (above0 v) (below0 v)
+   | Between (v, v') ->
+     (&&) (above0 v)
+       ((&&) (below0 v')
+         (Z.ltb (Z.mul v.value_to v'.value_den)
+           (Z.mul v'.value_from v.value_den)))
+   | Above v -> (&&) (above0 v) (Z.eqb (snd r.upper) Big_int_Z.zero_big_int))
+
+(** val check_reason : pencil -> region -> place -> reason -> bool **)
+
+let check_reason q r pl e =
+  (&&) (place_checked pl)
+    (match e with
+     | Refuted f -> check_refutation q r pl f
+     | Solved b ->
+       (&&) (inside r pl)
+         ((&&) (check_branch q r pl b) (check_alone q r pl b)))
+
+(** val chain_places : value -> chain -> (place * reason) list **)
+
+let rec chain_places v = function
+| Stop -> []
+| Last e -> ((Above v), e) :: []
+| Next (e, v', e', c') ->
+  ((Between (v, v')), e) :: (((PointAt v'), e') :: (chain_places v' c'))
+
+(** val leaf_places : support_leaf -> (place * reason) list **)
+
+let leaf_places l =
+  ((PointAt l.first_value),
+    l.first_reason) :: (chain_places l.first_value l.further)
+
+(** val reaches_end : region -> value -> chain -> bool **)
+
+let rec reaches_end r v = function
+| Stop ->
+  (&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+    (Z.leb (Z.mul (fst r.upper) v.value_den)
+      (Z.mul v.value_from (snd r.upper)))
+| Last _ -> true
+| Next (_, v', _, c') -> reaches_end r v' c'
+
+(** val check_support : pencil -> region -> support_leaf -> bool **)
+
+let check_support q r l =
+  (&&) (wellformed q)
+    ((&&) (decided_region q r)
+      ((&&)
+        (Z.leb (Z.mul l.first_value.value_to (snd r.lower))
+          (Z.mul (fst r.lower) l.first_value.value_den))
+        ((&&) (reaches_end r l.first_value l.further)
+          (all (fun pe -> check_reason q r (fst pe) (snd pe)) (leaf_places l)))))
+
+(** val holding_of : (place * reason) -> holding option **)
+
+let holding_of pe =
+  match snd pe with
+  | Refuted _ -> None
+  | Solved b ->
+    Some { held_place = (fst pe); held_alone = (isSome b.alone_by) }
+
+(** val holdings : support_leaf -> holding list **)
+
+let holdings l =
+  pmap holding_of (leaf_places l)
+
+type family = region * holding
+
+(** val same_value : value -> value -> bool **)
+
+let same_value v v' =
+  (&&) (Z.eqb v.value_from v'.value_from)
+    ((&&) (Z.eqb v.value_to v'.value_to)
+      ((&&) (Z.eqb v.value_den v'.value_den)
+        (same_poly v.value_poly v'.value_poly)))
+
+(** val ends_before : value -> value -> bool **)
+
+let ends_before v v' =
+  Z.ltb (Z.mul v.value_to v'.value_den) (Z.mul v'.value_from v.value_den)
+
+(** val away : value -> place -> bool **)
+
+let away v = function
+| PointAt v' ->
+  (||) (same_value v v') ((||) (ends_before v v') (ends_before v' v))
+| Between (v', v'') -> (||) (ends_before v v') (ends_before v'' v)
+| Above v' -> ends_before v v'
+
+(** val isolated_value : support_leaf -> holding -> value option **)
+
+let isolated_value l h =
+  let { held_place = held_place0; held_alone = held_alone0 } = h in
+  (match held_place0 with
+   | PointAt v ->
+     if held_alone0
+     then if all (fun h' -> away v h'.held_place) (holdings l)
+          then Some v
+          else None
+     else None
+   | _ -> None)
+
+(** val yield_of : region -> value -> yield **)
+
+let yield_of r v =
+  { yield_region = { lower = (start_of v); upper = (end_of v); states =
+    r.states }; yield_from = (start_of v); yield_to = (end_of v) }
+
+(** val isolated_in : region -> support_leaf -> yield list **)
+
+let isolated_in r l =
+  pmap (fun h -> Option.map (yield_of r) (isolated_value l h)) (holdings l)
+
+(** val families_in : region -> support_leaf -> family list **)
+
+let families_in r l =
+  map0 (fun h -> (r, h))
+    (filter (fun h -> negb (isSome (isolated_value l h))) (holdings l))
+
+(** val pairs :
+    region list -> support_leaf option list -> (region * support_leaf option)
+    list **)
+
+let pairs =
+  zip
+
+(** val check_supports :
+    pencil -> region list -> support_leaf option list -> bool **)
+
+let check_supports q rs ls =
+  (&&) (eq_op nat_eqType (Obj.magic size rs) (Obj.magic size ls))
+    (all (fun rl ->
+      match snd rl with
+      | Some l ->
+        (&&) (ordered (fst rl).lower (fst rl).upper)
+          (check_support q (fst rl) l)
+      | None -> true) (pairs rs ls))
+
+(** val isolated_of :
+    region list -> support_leaf option list -> yield list **)
+
+let isolated_of rs ls =
+  flatten
+    (map0 (fun rl ->
+      match snd rl with
+      | Some l -> isolated_in (fst rl) l
+      | None -> []) (pairs rs ls))
+
+(** val families_of :
+    region list -> support_leaf option list -> family list **)
+
+let families_of rs ls =
+  flatten
+    (map0 (fun rl ->
+      match snd rl with
+      | Some l -> families_in (fst rl) l
+      | None -> []) (pairs rs ls))
+
+(** val open_of : region list -> support_leaf option list -> region list **)
+
+let open_of rs ls =
+  pmap (fun rl -> match snd rl with
+                  | Some _ -> None
+                  | None -> Some (fst rl)) (pairs rs ls)
+
+(** val belongs : int -> yield -> family -> bool **)
+
+let belongs n y f =
+  (&&)
+    (match (snd f).held_place with
+     | PointAt v ->
+       (&&) (rational v) (within (value_of y) ((start_of v), (end_of v)))
+     | Between (v, v') ->
+       (&&) (point_lt (end_of v) y.yield_from)
+         (point_lt y.yield_to (start_of v'))
+     | Above v -> point_lt (end_of v) y.yield_from)
+    (all_same n y.yield_region (fst f))
+
+(** val families :
+    whole leaf tree -> point -> point -> support_leaf option list -> family
+    list **)
+
+let families tr lo hi ls =
+  families_of (left_open tr lo hi) ls
+
+(** val all_yields :
+    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+    option list -> yield list **)
+
+let all_yields q claims tr lo hi ls =
+  cat (found q claims tr lo hi) (isolated_of (left_open tr lo hi) ls)
+
+(** val all_solutions :
+    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+    option list -> yield list option **)
+
+let all_solutions q claims tr lo hi ls =
+  distinct_yields (size (slip q)) lo hi
+    (filter (fun y ->
+      negb (has (belongs (size (slip q)) y) (families tr lo hi ls)))
+      (all_yields q claims tr lo hi ls))
+
+(** val still_open :
+    whole leaf tree -> point -> point -> support_leaf option list -> region
+    list **)
+
+let still_open tr lo hi ls =
+  open_of (left_open tr lo hi) ls
+
+(** val check_families :
+    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+    option list -> elimination -> bool **)
+
+let check_families q claims tr lo hi ls w =
+  (&&) (check_complete q claims w tr lo hi)
+    (check_supports q (left_open tr lo hi) ls)
+
+(** val check_system_families :
+    system -> unknown -> claim list -> elimination -> whole leaf tree ->
+    point -> point -> support_leaf option list -> bool **)
+
+let check_system_families s u claims w tr lo hi ls =
+  (&&) (check_system s u claims w tr lo hi)
+    (check_supports (pencil_of s u) (left_open tr lo hi) ls)

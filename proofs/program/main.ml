@@ -27,14 +27,47 @@ let show_interval lo hi =
   Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
     (if Z.sign (snd hi) = 0 then ")" else "]")
 
+let show_value (v : Kernel.value) =
+  let lo = Kernel.start_of v and hi = Kernel.end_of v in
+  if Z.equal v.value_from v.value_to then show_point lo
+  else Printf.sprintf "a root in [%s, %s]" (show_decimal lo) (show_decimal hi)
+
+let show_place = function
+  | Kernel.PointAt v -> "value " ^ show_value v
+  | Between (v, v') -> Printf.sprintf "values between %s and %s" (show_value v) (show_value v')
+  | Above v -> "values above " ^ show_value v
+
+(* Two leaves share the value at their common end: it is listed once, as alone if one says so. *)
+let listed_once families =
+  let kept = Hashtbl.create 64 in
+  let key number (region, (h : Kernel.holding)) = match h.held_place with
+    | PointAt v when Kernel.rational v ->
+      moving region, Some (Q.to_string (Q.make v.value_from v.value_den)), 0
+    | _ -> [], None, number in
+  List.iteri (fun number f ->
+      let k = key number f in
+      match Hashtbl.find_opt kept k with
+      | Some (first, (_, (h : Kernel.holding))) ->
+        if not h.held_alone then Hashtbl.replace kept k (first, f)
+      | None -> Hashtbl.add kept k (number, f)) families;
+  List.map snd (List.sort (fun (i, _) (j, _) -> compare i j)
+                  (List.of_seq (Hashtbl.to_seq_values kept)))
+
 let shown_regions = 20
 
-(* Prints what the theorem [system_number] says of the solutions found and the regions left open;
-   the exit code. *)
-let report slip lo hi found left_open =
+(* Prints what the theorems [system_families_number] and [system_families_hold] say of the
+   solutions found, the families and the regions left open; the exit code. *)
+let report slip lo hi found families left_open =
   let names positions = String.concat " " (List.map (fun i -> string_of_int slip.(i)) positions) in
   let window = show_interval lo hi and count = List.length found in
-  if left_open = [] then
+  let families_found = match List.length families with
+    | 0 -> ""
+    | 1 -> " and one family"
+    | n -> Printf.sprintf " and %d families" n in
+  if left_open = [] && families <> [] then
+    Printf.printf "ACCEPTED, VERIFIED: %d solution(s)%s, and no others, in %s\n" count
+      families_found window
+  else if left_open = [] then
     Printf.printf "ACCEPTED, VERIFIED: %s in %s\n"
       (match count with
        | 0 -> "no solution"
@@ -42,14 +75,19 @@ let report slip lo hi found left_open =
        | _ -> Printf.sprintf "exactly %d solutions" count) window
   else
     Printf.printf "UNDECIDED, VERIFIED: %s in %s lies in one of %d open region(s)\n"
-      (match count with
-       | 0 -> "every solution"
-       | 1 -> "one solution; every other one"
-       | _ -> Printf.sprintf "%d solutions; every other one" count)
+      (match count, families with
+       | 0, [] -> "every solution"
+       | 1, [] -> "one solution; every other one"
+       | _ -> Printf.sprintf "%d solutions%s; every other one" count families_found)
       window (List.length left_open);
   List.iter (fun (y : Kernel.yield) ->
       Printf.printf "solution: value in [%s, %s], moving %s\n" (show_decimal y.yield_from)
         (show_decimal y.yield_to) (names (moving y.yield_region))) found;
+  List.iter (fun (region, (h : Kernel.holding)) ->
+      Printf.printf "family: %s, moving %s, %s\n" (show_place h.held_place)
+        (names (moving region))
+        (if h.held_alone then "one solution at each value" else "solutions at each value"))
+    families;
   List.iteri (fun k (r : Kernel.region) ->
       if k < shown_regions then
         Printf.printf "open: values in %s, moving {%s}, at rest {%s}\n"
@@ -262,7 +300,7 @@ let verify_eigenproblem document problem_path certificate_path =
         | Raw pencil -> Kernel.check_excluded pencil tree lo hi
         | Mechanical (system, unknown) -> Kernel.check_system_excluded system unknown tree lo hi) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
-    let code = report slip lo hi [] [] in
+    let code = report slip lo hi [] [] [] in
     report_claims ();
     code
   end
@@ -286,21 +324,37 @@ let verify_eigenproblem document problem_path certificate_path =
     let known = Array.of_list (Kernel.known_solutions pencil claims) in
     let context =
       { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed; known } in
+    (* Support leaves stand beside the tree, one for each region that the tree leaves undecided, or
+       none where it stays open. *)
+    let supports = ref [] in
+    let undecided s = supports := s :: !supports; Kernel.Leaf Kernel.Undecided in
+    let factor i = if List.mem i pencil.free then problem.common else problem.slip_common in
+    let leaf _ region = function
+      | Certificate.Open -> undecided None
+      | Support s ->
+        (match Supports.support_leaf pencil factor region s with
+         | Some l -> undecided (Some l)
+         | None -> Elaborate.build_leaf context region (Farkas []))
+      | node -> Elaborate.build_leaf context region node in
     let tree = timed "elaboration" (fun () ->
-        Elaborate.build_pieces slip (fun _ -> Elaborate.build_leaf context)
-          certificate.window certificate.pieces) in
+        Elaborate.build_pieces slip leaf certificate.window certificate.pieces) in
+    let supports = List.rev !supports in
     let accepted = timed "kernel" (fun () -> match problem.question with
-        | Raw pencil -> Kernel.check_complete pencil claims elimination tree lo hi
+        | Raw pencil -> Kernel.check_families pencil claims tree lo hi supports elimination
         | Mechanical (system, unknown) ->
-          Kernel.check_system system unknown claims elimination tree lo hi) in
+          Kernel.check_system_families system unknown claims elimination tree lo hi supports) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
     if List.length (Kernel.found pencil claims tree lo hi) > 10_000 then
       Problem.not_verified "more than 10,000 regions with a solution";
-    match Kernel.solutions_found pencil claims tree lo hi with
+    if List.length (Kernel.families tree lo hi supports) > 10_000 then
+      Problem.not_verified "more than 10,000 families";
+    match Kernel.all_solutions pencil claims tree lo hi supports with
     | None ->
       Problem.not_verified "regions that may hold the same solution, or a value beside the window"
     | Some found ->
-      let code = report slip lo hi (List.rev found) (Kernel.left_open tree lo hi) in
+      let families = listed_once (Kernel.families tree lo hi supports) in
+      let code =
+        report slip lo hi (List.rev found) families (Kernel.still_open tree lo hi supports) in
       report_claims ();
       code
   end
