@@ -547,7 +547,7 @@ let build_leaf c (region : Kernel.region) node =
        let components = Array.of_list x in
        infinite_tree p f 12 region x (Array.map (fun i -> components.(i)) c.slip))
   | Open -> Kernel.Leaf Kernel.Undecided
-  | Split _ | Branch _ -> assert false
+  | Split _ | Branch _ | Support _ -> assert false
 
 (* The nodes of a piece in preorder; [leaf] makes a tree of a leaf. *)
 let build_piece slip leaf nodes (region : Kernel.region) =
@@ -616,9 +616,10 @@ let shortened (k, rows) =
       if Z.sign z = 0 then m else min m (Z.trailing_zeros z))) k rows in
   (k - zeros, List.map (List.map (fun z -> Z.shift_right z zeros)) rows)
 
-let elimination (pencil : Kernel.pencil) slip common (condensation : condensation option) anchor =
+let elimination (pencil : Kernel.pencil) slip common slip_common
+    (condensation : condensation option) anchor =
   let ns = List.length slip and nf = List.length pencil.free in
-  let row_scale = row_scales pencil slip common in
+  let row_scale = row_scales pencil slip slip_common in
   if nf = 0 then
     let none = List.init ns (fun _ -> []) in
     { Kernel.row_scale; unit_of = two_to 56; right_w = none; left_va = none; left_vb = none;
@@ -635,9 +636,11 @@ let elimination (pencil : Kernel.pencil) slip common (condensation : condensatio
         transpose ns (List.map (List.map (fun z -> Z.shift_left z (e - k))) rows) in
       let zero = List.init ns (fun _ -> List.init nf (fun _ -> Z.zero)) in
       let nth l k = match List.nth_opt l k with Some m -> columns m | None -> zero in
+      let ratio = Z.divexact slip_common common in
+      let scaled_left k = List.map (List.map (Z.mul ratio)) (nth left k) in
       let power = two_to (2 * c.factor.exponent) in
       { Kernel.row_scale; unit_of = two_to e; right_w = nth right 0;
-        left_va = nth left 0; left_vb = nth left 1;
+        left_va = scaled_left 0; left_vb = scaled_left 1;
         bound_c = Z.mul power (Q.den c.sigma);
         bound_d = Z.mul common (Z.mul power (Q.num c.sigma));
         factor_scale = Z.mul common (Q.den c.sigma);
@@ -646,42 +649,200 @@ let elimination (pencil : Kernel.pencil) slip common (condensation : condensatio
 (* ---------- exact solution claims *)
 
 let strip p =
-  let rec drop = function c :: rest when Q.sign c = 0 -> drop rest | p -> p in
+  let rec drop = function c :: rest when Z.sign c = 0 -> drop rest | p -> p in
   List.rev (drop (List.rev p))
 
-(* Quotient and rest of g by p over the rationals, constant terms first. *)
+(* (c, q, r) with c g = p q + r and r shorter than p, constant terms first; c a power of the
+   leading coefficient of p in size. *)
 let divide g p =
-  let p = Array.of_list (strip p) and r = Array.of_list g in
+  let p = Array.of_list (strip p) and r = Array.of_list (strip g) in
   let m = Array.length p and n = Array.length r in
   if m = 0 then no_witness "a polynomial that is zero";
-  let q = Array.make (max 0 (n - m + 1)) Q.zero in
+  let lead = p.(m - 1) in
+  let size = Z.abs lead in
+  let q = Array.make (max 0 (n - m + 1)) Z.zero in
+  let c = ref Z.one in
   for k = n - m downto 0 do
-    let c = Q.div r.(k + m - 1) p.(m - 1) in
-    q.(k) <- c;
-    if Q.sign c <> 0 then
-      for i = 0 to m - 1 do r.(k + i) <- Q.sub r.(k + i) (Q.mul c p.(i)) done
+    let top = r.(k + m - 1) in
+    if Z.sign top <> 0 then begin
+      let factor = if Z.sign lead > 0 then top else Z.neg top in
+      if not (Z.equal size Z.one) then begin
+        for i = 0 to k + m - 1 do r.(i) <- Z.mul size r.(i) done;
+        Array.iteri (fun i v -> q.(i) <- Z.mul size v) q;
+        c := Z.mul size !c
+      end;
+      q.(k) <- Z.add q.(k) factor;
+      for i = 0 to m - 1 do r.(k + i) <- Z.sub r.(k + i) (Z.mul factor p.(i)) done
+    end
   done;
-  Array.to_list q, strip (Array.to_list r)
+  !c, Array.to_list q, strip (Array.to_list r)
 
+(* The witness of g modulo p, without a common factor. *)
 let reduction modulus g =
-  let quotient, rest = divide (List.map Q.of_bigint g) modulus in
-  let c = List.fold_left (fun c v -> Z.lcm c (Q.den v)) Z.one (quotient @ rest) in
-  let times = List.map (fun v -> Q.num (Q.mul v (Q.of_bigint c))) in
-  { Kernel.multiplier = c; quotient = times quotient; rest = times rest }
+  let c, quotient, rest = divide g modulus in
+  let common = List.fold_left (fun d v -> if Z.equal d Z.one then d else Z.gcd d v) c
+      (rest @ quotient) in
+  let over = List.map (fun v -> Z.divexact v common) in
+  { Kernel.multiplier = Z.divexact c common; quotient = over quotient; rest = over rest }
 
-let claim_of (pencil : Kernel.pencil) (e : exact) =
+(* Polynomials with integer coefficients, multiplied by one positive integer. *)
+let common_of = List.fold_left (List.fold_left (fun c v -> Z.lcm c (Q.den v)))
+let integer_polynomials common =
+  List.map (List.map (fun v -> Q.num (Q.mul v (Q.of_bigint common))))
+
+let bare_claim (e : exact) components =
   let a, b = e.value in
   let d = Z.lcm (Q.den a) (Q.den b) in
   let over q = Q.num (Q.mul q (Q.of_bigint d)) in
-  let common = List.fold_left (fun c p ->
-      List.fold_left (fun c v -> Z.lcm c (Q.den v)) c p) Z.one e.x in
-  let components = List.map (List.map (fun v -> Q.num (Q.mul v (Q.of_bigint common)))) e.x in
-  let bare = { Kernel.modulus = e.polynomial; claim_from = over a; claim_to = over b;
-               claim_denominator = d; support = e.support;
-               biactive = e.biactive; components;
-               component_reductions = []; reaction_reductions = [] } in
-  let modulus = List.map Q.of_bigint e.polynomial in
+  { Kernel.modulus = e.polynomial; claim_from = over a; claim_to = over b;
+    claim_denominator = d; support = e.support; biactive = e.biactive; components;
+    component_reductions = []; reaction_reductions = [] }
+
+let claim_of (pencil : Kernel.pencil) (e : exact) =
+  let components = integer_polynomials (common_of Z.one e.x) e.x in
+  let bare = bare_claim e components in
   { bare with
-    component_reductions = List.map (reduction modulus) components;
+    component_reductions = List.map (reduction e.polynomial) components;
     reaction_reductions = List.init pencil.order (fun i ->
-        reduction modulus (Kernel.reaction_poly pencil bare i)) }
+        reduction e.polynomial (Kernel.reaction_poly pencil bare i)) }
+
+(* [factor] is that of K and M in the system. *)
+let lifted_of (system : Kernel.system) unknown factor (l : lifted) =
+  let common = common_of (common_of Z.one l.motion.x) l.forces in
+  let v = integer_polynomials common l.motion.x in
+  let w = integer_polynomials (Z.mul factor common) l.forces in
+  let reduce = reduction l.motion.polynomial in
+  let bare = { Kernel.motion_claim = bare_claim l.motion v; forces = w; force_reductions = [];
+               balance_reductions = []; normal_reductions = []; rate_reductions = [];
+               cone_reductions = [] } in
+  let particles make = List.map (fun p -> reduce (make p)) system.particles in
+  { bare with
+    motion_claim = { bare.motion_claim with component_reductions = List.map reduce v };
+    force_reductions = List.map reduce w;
+    balance_reductions = List.init system.dofs (fun d ->
+        reduce (Kernel.balance_poly system unknown bare d));
+    normal_reductions = particles (Kernel.normal_poly bare);
+    rate_reductions = particles (Kernel.rate_poly bare);
+    cone_reductions = particles (Kernel.cone_poly unknown bare) }
+
+(* The solution of the pencil whose motion is that of the claim: x_d = v_d, x_p = -S t'v. *)
+let exact_of_lifted (system : Kernel.system) (l : lifted) =
+  let v = Array.of_list l.motion.x in
+  let times c = List.map (Q.mul c) in
+  let rec add p q = match p, q with
+    | a :: p, b :: q -> Q.add a b :: add p q
+    | rest, [] | [], rest -> rest in
+  let slip (p : Kernel.slip_particle) =
+    let factor c = Q.make (Z.neg (Z.mul p.sign_of c)) system.unit_length in
+    let first, second = p.tangent in
+    add (times (factor first) v.(p.first_dof)) (times (factor second) v.(p.second_dof)) in
+  { l.motion with
+    x = List.map (fun d -> v.(d)) system.free_dofs @ List.map slip system.particles }
+
+(* ---------- enclosed solution claims: root leaves of the whole pencil *)
+
+(* From t, some steps of Newton's method for row k of T(t) x, with x_k = 1 and the other rows 0. *)
+let newton_value n f j_list k t =
+  let rec step count t =
+    if count = 0 then t
+    else match null_vectors n f j_list k t with
+      | None -> t
+      | Some (right, left) ->
+        let x = Array.of_list (List.map Z.to_float right) in
+        let u = Array.of_list (List.map Z.to_float left) in
+        let row i entry = List.fold_left (fun s j -> s +. entry i j *. x.(j)) 0.0 j_list in
+        let phi = u.(k) *. row k (at f t) in
+        let slope = List.fold_left (fun s i ->
+            s +. u.(i) *. row i (fun i j -> f.b.(i).(j))) 0.0 j_list in
+        let next = t -. phi /. slope in
+        if Float.is_nan next || Float.is_integer (next -. t) && next = t then t
+        else step (count - 1) next in
+  step 12 t
+
+let max_rational = List.fold_left (fun m v -> if Q.gt v m then v else m)
+
+let enclosed_claim_of pencil (e : enclosed) =
+  let p = Kernel.whole_pencil pencil in
+  let n = pencil.Kernel.order in
+  let f = doubles_of p in
+  let active = List.filter (fun i -> List.mem i pencil.free || List.mem i e.box_support)
+      (List.init n Fun.id) in
+  let rec split = function
+    | [t] -> [], t
+    | x :: rest -> let xs, t = split rest in x :: xs, t
+    | [] -> no_witness "a box without a value" in
+  let x, center = split e.center in
+  let _, radius = split e.radius in
+  let lowest = Q.sub center radius and highest = Q.add center radius in
+  let sizes = List.combine active (List.map Q.abs x) in
+  let pivots = List.sort (fun i j -> Q.compare (List.assoc j sizes) (List.assoc i sizes))
+      e.box_support in
+
+  (* The centre as integers: fine beside the least radius. *)
+  let top = max_rational Q.zero (List.map snd sizes) in
+  let least = List.fold_left Q.min (List.hd e.radius) e.radius in
+  let fine = Z.numbits (Q.to_bigint (Q.div top least)) + 24 in
+  let centers unit =
+    let v = Array.make n Z.zero in
+    List.iter2 (fun i c ->
+        v.(i) <- Q.to_bigint (Q.div (Q.mul c (Q.of_bigint (two_to unit))) top)) active x;
+    Array.to_list v in
+
+  (* The boxes and the uniqueness hold as they were computed; only the signs are tried here. *)
+  let signs_hold (claim : Kernel.enclosed_claim) =
+    Kernel.sign_change p (Kernel.active_region pencil claim) claim.null_box
+    && List.for_all (fun j -> Kernel.positive_on_support claim (Obj.magic j)) e.box_support
+    && List.for_all (fun i ->
+        List.mem i e.box_support || Kernel.positive_off_support pencil claim i)
+      (Obj.magic (Kernel.slip pencil)) in
+  let attempt k (v, left) (low, high) (from, upto) =
+    let k_list = List.filter (fun j -> j <> k) active in
+    let wide = (point_of low, point_of high) and narrow = (point_of from, point_of upto) in
+    match box_of p f active k_list v narrow (middle from upto) with
+    | None -> None
+    | Some narrow_box ->
+      let wide_box =
+        if narrow = wide then Some narrow_box
+        else box_of p f active k_list v wide (middle low high) in
+      match wide_box with
+      | None -> None
+      | Some wide_box ->
+        match unique_of p f active k v wide_box.width wide (middle low high) with
+        | None -> None
+        | Some unique ->
+          let null_box = { Kernel.pivot = k; vector = v; from_point = fst narrow;
+                           to_point = snd narrow; wide_box; narrow_box; unique;
+                           left_vector = left } in
+          let claim = { Kernel.box_support = e.box_support; interval_low = fst wide;
+                        interval_high = snd wide; null_box } in
+          if signs_hold claim then Some claim else None in
+
+  (* The interval of the claim, or intervals about a zero in it that is known in doubles. *)
+  let ways k =
+    let whole = lowest, highest in
+    let as_claimed () =
+      match null_vectors n f active k (Q.to_float center) with
+      | Some (_, left) when Q.sign top > 0 && fine < 4_000 ->
+        attempt k (centers fine, left) whole whole
+      | _ -> None in
+    let t = newton_value n f active k (Q.to_float center) in
+    let about bits () =
+      if Float.is_nan t || Float.abs t = infinity then None
+      else begin
+        let value = Q.of_float t in
+        let size = if t = 0.0 then Q.one else Q.abs value in
+        let width = Q.div size (Q.of_bigint (two_to bits)) in
+        let from = Q.max lowest (Q.sub value width) in
+        let upto = Q.min highest (Q.add value width) in
+        if Q.geq from upto then None
+        else match null_vectors n f active k t with
+          | None -> None
+          | Some vectors ->
+            match attempt k vectors whole (from, upto) with
+            | Some claim -> Some claim
+            | None -> attempt k vectors (from, upto) (from, upto)
+      end in
+    as_claimed
+    :: List.map about (if n <= 16 then [44; 38; 32; 26; 20; 14; 8] else [44; 32; 20]) in
+  let first_pivots = List.filteri (fun i _ -> i < (if n <= 16 then 3 else 1)) pivots in
+  List.find_map (fun way -> way ()) (List.concat_map ways first_pivots)
