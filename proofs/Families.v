@@ -484,11 +484,10 @@ have [[x [sol reg]] alone] := each t at_t; split.
   exists (motion s x); split; first exact/(system_pencil wf).
   exact: (lies_in_motion sys).
 move=> al v v' sat reg_v sat' reg_v'.
-have [c c0 scaled] : proportional Q (variables_of s v) (variables_of s v').
+have prop : proportional Q (variables_of s v) (variables_of s v').
   by apply: (alone al); split=> //; apply: solution_of_motion.
-exists c => // d Hd; rewrite -(system_onto wf sat') // -(system_onto wf sat) // /motion.
-case col: (column s d) => [[j a]|]; last by rewrite mulr0.
-by rewrite scaled; [rewrite mulrCA | rewrite mem_iota add0n; apply: column_in_range col].
+have [c c0 scaled] := motion_proportional prop.
+by exists c => // d Hd; rewrite -(system_onto wf sat') // scaled (system_onto wf sat).
 Qed.
 
 End Systems.
