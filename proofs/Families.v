@@ -15,6 +15,7 @@
    Theorem [families_number]: if the check succeeds and [all_solutions] gives a list of N regions,
    then there are N solutions with a value in the window, one in each of them and no two of them
    equal; every other solution in the window belongs to a family or lies in an open region.
+   [cover_number] is the same for any cover with undecided regions.
    [families_hold]: at each value of a family there is a solution in its region, and any two are
    positive multiples of each other if the family is called alone.
 
@@ -354,6 +355,75 @@ Qed.
 
 End Sound.
 
+(* Any cover that yields regions with one solution each, and leaves the regions rs undecided. *)
+Section Cover.
+
+Variables (R : rcfType) (Q : pencil) (lo hi : point).
+Variables (yields : seq yield) (rs : seq region) (ls : seq (option support_leaf)).
+
+Notation ns := (size (slip Q)).
+Notation families := (families_of rs ls).
+Notation candidates := (yields ++ isolated_of rs ls).
+
+Hypothesis supports : check_supports Q rs ls.
+Hypothesis every : forall (t : R) x, solution Q t x -> between t lo hi ->
+  (exists2 y, List.In y yields & lies_in Q (yield_region y) t x) \/
+  (exists2 r, List.In r rs & lies_in Q r t x).
+Hypothesis each : forall y, List.In y yields -> one_solution_in R Q y.
+
+Theorem cover_number ys :
+  distinct_yields ns lo hi [seq y <- candidates | ~~ has (belongs ns y) families] = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
+        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
+                                 lies_in Q (yield_region y) s.1 s.2) ys l,
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
+        forall t x, solution Q t x -> between t lo hi ->
+          [\/ exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x,
+              exists2 f, List.In f families & in_family Q f t x |
+              exists2 r, List.In r (open_of rs ls) & lies_in Q r t x]].
+Proof.
+move=> dist.
+have one_each y : List.In y candidates -> one_solution_in R Q y.
+  by case/in_cat_or=> [/each|/(supports_isolated R supports)].
+have has_one y :
+    List.In y [seq y <- candidates | ~~ has (belongs ns y) families] ->
+    exists s, the_solution (R := R) ns (slip_of Q) (solution Q) (proportional Q) y s.
+  case/in_filter=> /one_each[t [x [bt sol reg uniq]]] _.
+  by exists (t, x); split.
+have [l [[sols pairs] win all_found]] :=
+  distinct_sound (@proportional_slip R Q) (@proportional_sym R Q) (@proportional_trans R Q)
+    has_one dist.
+have covered y t x : List.In y candidates -> solution Q t x ->
+    lies_in Q (yield_region y) t x ->
+    (exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x) \/
+    (exists2 f, List.In f families & in_family Q f t x).
+  move=> y_in sol reg; case of_family: (has (belongs ns y) families).
+    have [f f_in bel] := has_In_family of_family.
+    have [t0 [x0 [bt _ _ uniq]]] := one_each y y_in; have [eq_t _] := uniq t x sol reg.
+    right; exists f => //; apply: (belongs_sound supports f_in bel) => //.
+    by rewrite eq_t.
+  left; have [|s sl one] := all_found y _ t x sol reg; last by exists s.
+  by apply/in_filter; rewrite of_family.
+exists l; split=> //.
+- exact/esym/(Forall2_size sols).
+- by move=> s sl; have [y _ [_ sol _ _]] := Forall2_in sols sl; split=> //; apply: win.
+- by apply: Forall2_impl sols => y s [bt _ reg _].
+move=> t x sol bt; case: (every sol bt) => -[y y_in reg].
+  have [|one|fam] := covered y t x _ sol reg; first by apply/in_cat_or; left.
+    exact: Or31.
+  exact: Or32.
+have [[y' y'_in reg']|fam|op] := supports_cover supports y_in sol reg.
+- have [|one|fam] := covered y' t x _ sol reg'; first by apply/in_cat_or; right.
+    exact: Or31.
+  exact: Or32.
+- exact: Or32.
+exact: Or33.
+Qed.
+
+End Cover.
+
 Section Pencils.
 
 Variables (R : rcfType) (Q : pencil) (claims : seq claim) (w : elimination).
@@ -376,43 +446,8 @@ Theorem families_number ys : all_solutions Q claims tr lo hi ls = Some ys ->
               exists2 f, List.In f families & in_family Q f t x |
               exists2 r, List.In r still_open & lies_in Q r t x]].
 Proof.
-case/andP: checked => complete supports dist.
-have [every each] := complete_sound R complete.
-have one_each y : List.In y (all_yields Q claims tr lo hi ls) -> one_solution_in R Q y.
-  by case/in_cat_or=> [/each|/(supports_isolated R supports)].
-have has_one y :
-    List.In y [seq y <- all_yields Q claims tr lo hi ls | ~~ has (belongs ns y) families] ->
-    exists s, the_solution (R := R) ns (slip_of Q) (solution Q) (proportional Q) y s.
-  case/in_filter=> /one_each[t [x [bt sol reg uniq]]] _.
-  by exists (t, x); split.
-have [l [[sols pairs] win all_found]] :=
-  distinct_sound (@proportional_slip R Q) (@proportional_sym R Q) (@proportional_trans R Q)
-    has_one dist.
-have covered y t x : List.In y (all_yields Q claims tr lo hi ls) -> solution Q t x ->
-    lies_in Q (yield_region y) t x ->
-    (exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x) \/
-    (exists2 f, List.In f families & in_family Q f t x).
-  move=> y_in sol reg; case of_family: (has (belongs ns y) families).
-    have [f f_in bel] := has_In_family of_family.
-    have [t0 [x0 [bt _ _ uniq]]] := one_each y y_in; have [eq_t _] := uniq t x sol reg.
-    right; exists f => //; apply: (belongs_sound supports f_in bel) => //.
-    by rewrite eq_t.
-  left; have [|s sl one] := all_found y _ t x sol reg; last by exists s.
-  by apply/in_filter; rewrite of_family.
-exists l; split=> //.
-- exact/esym/(Forall2_size sols).
-- by move=> s sl; have [y _ [_ sol _ _]] := Forall2_in sols sl; split=> //; apply: win.
-- by apply: Forall2_impl sols => y s [bt _ reg _].
-move=> t x sol bt; case: (every t x sol bt) => -[y y_in reg].
-  have [|one|fam] := covered y t x _ sol reg; first by apply/in_cat_or; left.
-    exact: Or31.
-  exact: Or32.
-have [[y' y'_in reg']|fam|op] := supports_cover supports y_in sol reg.
-- have [|one|fam] := covered y' t x _ sol reg'; first by apply/in_cat_or; right.
-    exact: Or31.
-  exact: Or32.
-- exact: Or32.
-exact: Or33.
+case/andP: checked => complete supports; have [every each] := complete_sound R complete.
+exact: (cover_number supports every each).
 Qed.
 
 Theorem families_hold f : List.In f families -> family_holds R Q f.
@@ -484,11 +519,10 @@ have [[x [sol reg]] alone] := each t at_t; split.
   exists (motion s x); split; first exact/(system_pencil wf).
   exact: (lies_in_motion sys).
 move=> al v v' sat reg_v sat' reg_v'.
-have [c c0 scaled] : proportional Q (variables_of s v) (variables_of s v').
+have prop : proportional Q (variables_of s v) (variables_of s v').
   by apply: (alone al); split=> //; apply: solution_of_motion.
-exists c => // d Hd; rewrite -(system_onto wf sat') // -(system_onto wf sat) // /motion.
-case col: (column s d) => [[j a]|]; last by rewrite mulr0.
-by rewrite scaled; [rewrite mulrCA | rewrite mem_iota add0n; apply: column_in_range col].
+have [c c0 scaled] := motion_proportional prop.
+by exists c => // d Hd; rewrite -(system_onto wf sat') // scaled (system_onto wf sat).
 Qed.
 
 End Systems.

@@ -346,13 +346,14 @@ let verify_eigenproblem document problem_path certificate_path =
     if not accepted then raise (Rejected "the kernel refuses the tree");
     if List.length (Kernel.found pencil claims tree lo hi) > 10_000 then
       Problem.not_verified "more than 10,000 regions with a solution";
-    if List.length (Kernel.families tree lo hi supports) > 10_000 then
+    let families = Kernel.families tree lo hi supports in
+    if List.length families > 10_000 then
       Problem.not_verified "more than 10,000 families";
     match Kernel.all_solutions pencil claims tree lo hi supports with
     | None ->
       Problem.not_verified "regions that may hold the same solution, or a value beside the window"
     | Some found ->
-      let families = listed_once (Kernel.families tree lo hi supports) in
+      let families = listed_once families in
       let code =
         report slip lo hi (List.rev found) families (Kernel.still_open tree lo hi supports) in
       report_claims ();
