@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 fn no_disagreement() {
     use Corner::*;
 
-    let verification = verify(60, 1, &Watch::nobody()).unwrap();
+    let verification = verify(60, 1, None, &Watch::nobody()).unwrap();
 
     for family in &verification.families {
         let name = &family.name;
@@ -105,7 +105,7 @@ fn report_with_threads(threads: usize, instances: &[Instance]) -> String {
 fn a_stopped_run_keeps_what_was_done_and_says_so() {
     let stop = Cancel::requested();
 
-    let verification = verify(4, 1, &Watch::silent(&stop)).unwrap();
+    let verification = verify(4, 1, None, &Watch::silent(&stop)).unwrap();
 
     assert!(verification.interrupted);
     assert!(verification.block.is_empty());
