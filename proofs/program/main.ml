@@ -11,8 +11,8 @@ exception Rejected of string
 
 let show_point (p, q) = if Z.sign q = 0 then "infinity" else Q.to_string (Q.make p q)
 
-let show_decimal (p, q) =
-  if Z.sign q = 0 then "infinity" else Printf.sprintf "%.12g" (Q.to_float (Q.make p q))
+let show_decimal rounded (p, q) =
+  if Z.sign q = 0 then "infinity" else rounded (Q.make p q)
 
 (* The moving variables of a region, as positions among the complementarity variables. *)
 let moving (region : Kernel.region) =
@@ -40,8 +40,7 @@ let report slip lo hi found =
     else Printf.sprintf "exactly %d solutions" count in
   Printf.printf "ACCEPTED, VERIFIED: %s in %s\n" sentence window;
   List.iter (fun (region, (c : Kernel.isolation)) ->
-      Printf.printf "solution: value in [%s, %s], moving %s\n" (show_decimal c.from_point)
-        (show_decimal c.to_point)
+      Printf.printf "solution: value in [%s, %s], moving %s\n" (show_decimal Decimal.lower c.from_point) (show_decimal Decimal.upper c.to_point)
         (String.concat " " (List.map (fun i -> string_of_int slip.(i)) (moving region)))) found
 
 let time = Sys.getenv_opt "MCEIP_VERIFIED_TIMES" <> None
@@ -168,15 +167,30 @@ let verify problem_path certificate_path =
     report_claims ()
   end
 
+(* The exit code for a problem and a certificate, after the verdict has been printed. *)
+let answer problem certificate =
+  let say code text = print_endline text; code in
+  try verify problem certificate; 0 with
+  | Rejected reason -> say 1 ("REJECTED: " ^ reason)
+  | Json.Malformed reason -> say 2 ("MALFORMED: " ^ reason)
+  | Sys_error reason -> say 2 reason
+  | Problem.Not_verified kind -> say 3 ("NOT VERIFIED: " ^ kind)
+  | Elaborate.No_witness what -> say 3 ("NOT VERIFIED: no witness for " ^ what)
+
+(* For tests with many files: each line of stdin has the paths of a problem and a certificate,
+   without blanks; after what is printed for them comes a line "exit CODE". *)
+let answer_lines () =
+  try
+    while true do
+      match String.split_on_char ' ' (input_line stdin) with
+      | [problem; certificate] -> Printf.printf "exit %d\n%!" (answer problem certificate)
+      | _ -> prerr_endline "a line has two paths"; exit 2
+    done
+  with End_of_file -> ()
+
 let () =
-  let finish code text = print_endline text; exit code in
   match Sys.argv with
-  | [| _; problem; certificate |] ->
-    (try verify problem certificate with
-     | Rejected reason -> finish 1 ("REJECTED: " ^ reason)
-     | Json.Malformed reason -> finish 2 ("MALFORMED: " ^ reason)
-     | Sys_error reason -> finish 2 reason
-     | Problem.Not_verified kind -> finish 3 ("NOT VERIFIED: " ^ kind)
-     | Elaborate.No_witness what -> finish 3 ("NOT VERIFIED: no witness for " ^ what))
+  | [| _; "--lines" |] -> answer_lines ()
+  | [| _; problem; certificate |] -> exit (answer problem certificate)
   | _ ->
     prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE"; exit 2
