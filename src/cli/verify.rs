@@ -40,8 +40,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
 
     let job = Job::begin("verify");
-    let outcome =
-        job.watched(|watch| verify(args.random, args.seed, checker.as_ref(), watch))?;
+    let outcome = job.watched(|watch| verify(args.random, args.seed, checker.as_ref(), watch))?;
     job.end();
 
     let counts = checker.is_some().then(|| outcome.verified());
@@ -104,7 +103,13 @@ fn text_of(v: &Verification, counts: Option<&VerifiedCounts>) -> String {
 
 /// Verdicts of the verified checker: by kind of evidence, then what it has no theorem for.
 fn verified_text(counts: &VerifiedCounts) -> String {
-    let mut table = Table::new(&["verified checker", "certificates", "accepted", "not verified", "refused"]);
+    let mut table = Table::new(&[
+        "verified checker",
+        "certificates",
+        "accepted",
+        "not verified",
+        "refused",
+    ]);
     for (kind, of_kind) in &counts.kinds {
         table.row(vec![
             kind.to_string(),

@@ -128,7 +128,11 @@ mod tests {
 
     #[test]
     fn each_certificate_counts_once_and_once_for_each_of_its_kinds() {
-        let definite = cover(vec![Node::Branch(0), Node::PositiveDefinite, Node::PositiveDefinite]);
+        let definite = cover(vec![
+            Node::Branch(0),
+            Node::PositiveDefinite,
+            Node::PositiveDefinite,
+        ]);
         let open = cover(vec![Node::Branch(0), Node::PositiveDefinite, Node::Open]);
 
         let mut first = VerifiedCounts::default();
