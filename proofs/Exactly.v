@@ -13,7 +13,8 @@
    of N solutions, no two of which are positive multiples of each other, and every solution in the
    window is a positive multiple of one of them.
 
-   Theorem [system_exactly]: the same for the motions that satisfy (9).
+   Theorem [system_exactly]: the same for the motions that satisfy (9).  [by_computation]: its form
+   for a check that Coq itself evaluates (Examples.v).
 
    Page: spec/certificates.md, 5.15.  Program: the sentence "exactly N solutions". *)
 
@@ -90,7 +91,7 @@ have [sols size_sols all_sols] : exists2 sols, size sols = size l &
   by apply: IH => rc' in_l; apply: each; right.
 have [t [x [bt sol reg uniq]]] := each rc (or_introl erefl).
 exists ((t, x) :: sols) => [/=|]; first by rewrite size_sols.
-by case=> [|i] //= lt_i; [split | apply: all_sols].
+by case=> [|i] //= lt_i; apply: all_sols.
 Qed.
 
 Lemma less_values a b t t' : less a b -> t * toR a.2 <= toR a.1 -> toR b.1 <= t' * toR b.2 ->
@@ -148,6 +149,13 @@ case: j => // j; case: i => [|i] /= lt_ij lt_j; last exact: IH.
 exact: (all_nthP nowhere all_a).
 Qed.
 
+Lemma position nowhere (l : seq (region * isolation)) rc :
+  List.In rc l -> exists2 i, (i < size l)%N & nth nowhere l i = rc.
+Proof.
+elim: l => //= a l IH [->|/IH[i lt_i <-]]; first by exists 0%N.
+by exists i.+1.
+Qed.
+
 Variables (w : elimination) (tr : tree (leaf whole)).
 
 Theorem complete_exactly :
@@ -157,11 +165,9 @@ Theorem complete_exactly :
       exists2 i, (i < size l)%N & same_solution (nth nothing l i) (t, x)].
 Proof.
 move=> complete /andP[all_inside all_ap]; have [every each] := complete_sound R complete.
-have [no_region|nonempty] := posnP (size (found tr lo hi)).
-  exists [::]; rewrite no_region; split=> // t x sol bt.
-  by have [rc] := every t x sol bt; rewrite (size0nil no_region).
-pose nowhere := (Region lo hi [::], (head (nth (Region lo hi [::], _) (found tr lo hi) 0)
-   (found tr lo hi)).2).
+case: (found tr lo hi) all_inside all_ap every each => [|nowhere others] all_inside all_ap every each.
+  by exists [::]; split=> // t x sol bt; have [rc] := every t x sol bt.
+set regions := nowhere :: others in all_inside all_ap every each *.
 have [l size_l of_l] := choose nowhere each.
 exists l; split=> //.
   split=> [i|i j]; rewrite size_l => lt_i.
@@ -170,31 +176,39 @@ exists l; split=> //.
   move=> lt_j; apply: apart_sound (of_l _ (ltn_trans lt_i lt_j)) (of_l _ lt_j).
   exact: all_apartP.
 move=> t x sol bt; have [rc in_found reg] := every t x sol bt.
-have [i lt_i is_rc] : exists2 i, (i < size (found tr lo hi))%N & nth nowhere (found tr lo hi) i = rc.
-  elim: (found tr lo hi) in_found => //= a rest IH [->|/IH[i lt_i <-]]; first by exists 0%N.
-  by exists i.+1.
+have [i lt_i is_rc] := position nowhere in_found.
 exists i; first by rewrite size_l.
 by have [_ _ _] := of_l _ lt_i; apply=> //; rewrite is_rc.
 Qed.
 
 End Sound.
 
-(* The motions of a list of solutions x of the pencil: each satisfies (9), and each motion with (9)
-   and its value in the window is a positive multiple of one of them. *)
-Theorem system_exactly (R : rcfType) s u w tr lo hi :
-  check_system s u w tr lo hi ->
-  check_exactly (size (slip (pencil_of s u))) lo hi (found tr lo hi) ->
-  exists l : seq (R * (nat -> R)), [/\ size l = size (found tr lo hi),
-    solutions (pencil_of s u) lo hi l,
+(* Exactly N motions satisfy (9) with a value in the window: there is a list of N solutions x of the
+   pencil, no two the same, the motion of each satisfies (9), and every motion with (9) and its value
+   in the window is a positive multiple of one of them. *)
+Definition has_exactly (R : rcfType) s u lo hi count :=
+  exists l : seq (R * (nat -> R)), [/\ size l = count, solutions (pencil_of s u) lo hi l,
     forall i, (i < size l)%N ->
       satisfies_9 s u (nth (nothing R) l i).1 (motion s (nth (nothing R) l i).2) &
     forall t v, satisfies_9 s u t v -> between t lo hi -> exists2 i, (i < size l)%N &
       t = (nth (nothing R) l i).1 /\ same_motion s (motion s (nth (nothing R) l i).2) v].
+
+Theorem system_exactly (R : rcfType) s u w tr lo hi :
+  check_system s u w tr lo hi ->
+  check_exactly (size (slip (pencil_of s u))) lo hi (found tr lo hi) ->
+  has_exactly R s u lo hi (size (found tr lo hi)).
 Proof.
 case/andP=> wf complete exact.
 have [l [size_l sols all_sols]] := complete_exactly R complete exact.
 exists l; split=> // [i /(proj1 sols)[sol _]|t v sat bt]; first exact/(system_pencil wf).
-have [i lt_i [-> prop]] := all_sols _ _ (solution_of_motion wf sat) bt.
+have [i lt_i [/= same_t prop]] := all_sols _ _ (solution_of_motion wf sat) bt.
 have [f f0 scaled] := motion_proportional prop.
 by exists i => //; split=> //; exists f => // d Hd; rewrite -scaled (system_onto wf sat).
 Qed.
+
+Corollary by_computation (R : rcfType) s u w tr lo hi count :
+  [&& check_system s u w tr lo hi,
+      check_exactly (size (slip (pencil_of s u))) lo hi (found tr lo hi) &
+      size (found tr lo hi) == count] ->
+  has_exactly R s u lo hi count.
+Proof. by case/and3P=> checked exact /eqP <-; exact: (system_exactly R checked exact). Qed.

@@ -95,6 +95,15 @@ let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t)
     Printf.printf "claim: a solution with a value in [%s, %s], support %s\n" (Q.to_string a)
       (Q.to_string b) (String.concat " " (List.map string_of_int e.support))
 
+(* Print the accepted question and its witness as a Coq file instead of the verdict. *)
+let as_coq = ref false
+
+let print_coq (problem : Problem.t) elimination tree lo hi =
+  match problem.question with
+  | Raw _ -> Problem.not_verified "Coq files are made for mechanical systems"
+  | Mechanical (system, unknown) ->
+    Coq.print system unknown elimination tree lo hi (List.length (Kernel.found tree lo hi))
+
 let verify problem_path certificate_path =
   let problem = timed "problem" (fun () -> Problem.read problem_path) in
   let certificate = timed "certificate" (fun () -> Certificate.read certificate_path) in
@@ -163,8 +172,11 @@ let verify problem_path certificate_path =
         | Mechanical (system, unknown) ->
           Kernel.check_system system unknown elimination tree lo hi) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
-    report slip lo hi (Kernel.found tree lo hi);
-    report_claims ()
+    if !as_coq then print_coq problem elimination tree lo hi
+    else begin
+      report slip lo hi (Kernel.found tree lo hi);
+      report_claims ()
+    end
   end
 
 (* The exit code for a problem and a certificate, after the verdict has been printed. *)
@@ -191,6 +203,7 @@ let answer_lines () =
 let () =
   match Sys.argv with
   | [| _; "--lines" |] -> answer_lines ()
+  | [| _; "--coq"; problem; certificate |] -> as_coq := true; exit (answer problem certificate)
   | [| _; problem; certificate |] -> exit (answer problem certificate)
   | _ ->
     prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE"; exit 2
