@@ -2038,3 +2038,57 @@ let check_system_excluded s u tr lo hi =
 
 let check_system_claim s u k =
   (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)
+
+(** val opposite : state -> state -> bool **)
+
+let opposite a b =
+  match a with
+  | Open -> false
+  | Resting -> (match b with
+                | Moving -> true
+                | _ -> false)
+  | Moving -> (match b with
+               | Resting -> true
+               | _ -> false)
+
+(** val less : point -> point -> bool **)
+
+let less a b =
+  (&&) (Z.leb Big_int_Z.zero_big_int (snd a))
+    ((&&) (Z.leb Big_int_Z.zero_big_int (snd b))
+      (Z.ltb (Z.mul (fst a) (snd b)) (Z.mul (fst b) (snd a))))
+
+(** val apart :
+    int -> (region * isolation) -> (region * isolation) -> bool **)
+
+let apart n a b =
+  (||)
+    (has (fun i -> opposite (state_of (fst a) i) (state_of (fst b) i))
+      (iota 0 n))
+    ((||) (less (snd a).to_point (snd b).from_point)
+      (less (snd b).to_point (snd a).from_point))
+
+(** val all_apart : int -> (region * isolation) list -> bool **)
+
+let rec all_apart n = function
+| [] -> true
+| a :: rest0 -> (&&) (all (apart n a) rest0) (all_apart n rest0)
+
+(** val inside : point -> point -> (region * isolation) -> bool **)
+
+let inside lo hi a =
+  (&&) (Z.ltb Big_int_Z.zero_big_int (snd (snd a).from_point))
+    ((&&) (Z.leb Big_int_Z.zero_big_int (snd lo))
+      ((&&)
+        (Z.leb (Z.mul (fst lo) (snd (snd a).from_point))
+          (Z.mul (fst (snd a).from_point) (snd lo)))
+        ((&&) (Z.ltb Big_int_Z.zero_big_int (snd (snd a).to_point))
+          ((&&) (Z.leb Big_int_Z.zero_big_int (snd hi))
+            (Z.leb (Z.mul (fst (snd a).to_point) (snd hi))
+              (Z.mul (fst hi) (snd (snd a).to_point)))))))
+
+(** val check_exactly :
+    int -> point -> point -> (region * isolation) list -> bool **)
+
+let check_exactly n lo hi l =
+  (&&) (all (inside lo hi) l) (all_apart n l)

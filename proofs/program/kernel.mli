@@ -704,3 +704,15 @@ val check_system_excluded :
   system -> unknown -> whole tree -> point -> point -> bool
 
 val check_system_claim : system -> unknown -> claim -> bool
+
+val opposite : state -> state -> bool
+
+val less : point -> point -> bool
+
+val apart : int -> (region * isolation) -> (region * isolation) -> bool
+
+val all_apart : int -> (region * isolation) list -> bool
+
+val inside : point -> point -> (region * isolation) -> bool
+
+val check_exactly : int -> point -> point -> (region * isolation) list -> bool

@@ -19,28 +19,20 @@ let moving (region : Kernel.region) =
   List.filter_map Fun.id
     (List.mapi (fun i s -> if s = Kernel.Moving then Some i else None) region.states)
 
-(* No two of the regions can hold the same solution. *)
-let apart (r1, (c1 : Kernel.isolation)) (r2, (c2 : Kernel.isolation)) =
-  let less (p, q) (p', q') = Z.lt (Z.mul p q') (Z.mul p' q) in
-  moving r1 <> moving r2 || less c1.to_point c2.from_point || less c2.to_point c1.from_point
-
-let rec all_apart = function
-  | [] -> true
-  | x :: rest -> List.for_all (apart x) rest && all_apart rest
-
 let report slip lo hi found =
   let window = Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
       (if Z.sign (snd hi) = 0 then ")" else "]") in
   let count = List.length found in
   let sentence =
     if count = 0 then "no solution"
-    else if not (all_apart found) then
+    else if not (Kernel.check_exactly (Array.length slip) lo hi found) then
       Printf.sprintf "%d regions, each with exactly one solution, and no other solution" count
     else if count = 1 then "exactly one solution"
     else Printf.sprintf "exactly %d solutions" count in
   Printf.printf "ACCEPTED, VERIFIED: %s in %s\n" sentence window;
   List.iter (fun (region, (c : Kernel.isolation)) ->
-      Printf.printf "solution: value in [%s, %s], moving %s\n" (show_decimal Decimal.lower c.from_point) (show_decimal Decimal.upper c.to_point)
+      Printf.printf "solution: value in [%s, %s], moving %s\n"
+        (show_decimal Decimal.lower c.from_point) (show_decimal Decimal.upper c.to_point)
         (String.concat " " (List.map (fun i -> string_of_int slip.(i)) (moving region)))) found
 
 let time = Sys.getenv_opt "MCEIP_VERIFIED_TIMES" <> None
