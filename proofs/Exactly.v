@@ -10,11 +10,11 @@
 
    Theorem [complete_exactly]: if the check succeeds, all regions are inside and any two are apart,
    then the pencil has exactly N solutions in the window, N the number of regions: there is a list
-   of N solutions, no two of which are positive multiples of each other, and every solution in the
-   window is a positive multiple of one of them.
+   of N solutions, one in each region, no two of which are positive multiples of each other, and
+   every solution in the window is a positive multiple of one of them.
 
-   Theorem [system_exactly]: the same for the motions that satisfy (9).  [by_computation]: its form
-   for a check that Coq itself evaluates (Examples.v).
+   Theorem [system_exactly]: the same for the motions that satisfy (9).  [by_computation]: what is
+   left of it without the regions, for a check that Coq itself evaluates (Examples.v).
 
    Page: spec/certificates.md, 5.15.  Program: the sentence "exactly N solutions". *)
 
@@ -75,6 +75,12 @@ Definition solutions (l : seq (R * (nat -> R))) :=
      solution Q (nth nothing l i).1 (nth nothing l i).2 /\ between (nth nothing l i).1 lo hi) /\
   (forall i j, (i < j)%N -> (j < size l)%N ->
      ~ same_solution (nth nothing l i) (nth nothing l j)).
+
+(* The solutions of a list lie in the regions of another, one in each. *)
+Definition located (regions : seq (region * isolation)) (l : seq (R * (nat -> R))) :=
+  forall nowhere i, (i < size regions)%N ->
+    let rc := nth nowhere regions i in let s := nth nothing l i in
+    between s.1 (from_point rc.2) (to_point rc.2) /\ lies_in Q rc.1 s.1 s.2.
 
 (* What is known of the solution of a region. *)
 Definition solution_of (rc : region * isolation) s :=
@@ -160,7 +166,8 @@ Variables (w : elimination) (tr : tree (leaf whole)).
 
 Theorem complete_exactly :
   check_complete Q w tr lo hi -> check_exactly n lo hi (found tr lo hi) ->
-  exists l : seq (R * (nat -> R)), [/\ size l = size (found tr lo hi), solutions l &
+  exists l : seq (R * (nat -> R)), [/\ size l = size (found tr lo hi), solutions l,
+    located (found tr lo hi) l &
     forall t x, solution Q t x -> between t lo hi ->
       exists2 i, (i < size l)%N & same_solution (nth nothing l i) (t, x)].
 Proof.
@@ -169,46 +176,62 @@ case: (found tr lo hi) all_inside all_ap every each => [|nowhere others] all_ins
   by exists [::]; split=> // t x sol bt; have [rc] := every t x sol bt.
 set regions := nowhere :: others in all_inside all_ap every each *.
 have [l size_l of_l] := choose nowhere each.
-exists l; split=> //.
-  split=> [i|i j]; rewrite size_l => lt_i.
+exists l; split=> //; last 1 first.
+- move=> t x sol bt; have [rc in_found reg] := every t x sol bt.
+  have [i lt_i is_rc] := position nowhere in_found.
+  exists i; first by rewrite size_l.
+  by have [_ _ _] := of_l _ lt_i; apply=> //; rewrite is_rc.
+- split=> [i|i j]; rewrite size_l => lt_i.
     have of_i := of_l _ lt_i; split; first by have [] := of_i.
     by apply: inside_sound of_i; apply: (all_nthP nowhere all_inside).
   move=> lt_j; apply: apart_sound (of_l _ (ltn_trans lt_i lt_j)) (of_l _ lt_j).
   exact: all_apartP.
-move=> t x sol bt; have [rc in_found reg] := every t x sol bt.
-have [i lt_i is_rc] := position nowhere in_found.
-exists i; first by rewrite size_l.
-by have [_ _ _] := of_l _ lt_i; apply=> //; rewrite is_rc.
+move=> other i lt_i; rewrite (set_nth_default nowhere) //.
+by have [] := of_l _ lt_i.
 Qed.
 
 End Sound.
 
-(* Exactly N motions satisfy (9) with a value in the window: there is a list of N solutions x of the
-   pencil, no two the same, the motion of each satisfies (9), and every motion with (9) and its value
-   in the window is a positive multiple of one of them. *)
-Definition has_exactly (R : rcfType) s u lo hi count :=
-  exists l : seq (R * (nat -> R)), [/\ size l = count, solutions (pencil_of s u) lo hi l,
-    forall i, (i < size l)%N ->
-      satisfies_9 s u (nth (nothing R) l i).1 (motion s (nth (nothing R) l i).2) &
-    forall t v, satisfies_9 s u t v -> between t lo hi -> exists2 i, (i < size l)%N &
-      t = (nth (nothing R) l i).1 /\ same_motion s (motion s (nth (nothing R) l i).2) v].
+Section Motions.
 
-Theorem system_exactly (R : rcfType) s u w tr lo hi :
-  check_system s u w tr lo hi ->
-  check_exactly (size (slip (pencil_of s u))) lo hi (found tr lo hi) ->
-  has_exactly R s u lo hi (size (found tr lo hi)).
+Variables (R : rcfType) (s : system) (u : unknown) (lo hi : point).
+Implicit Types (l : seq (R * (nat -> R))).
+
+(* A list of solutions x of the pencil, no two the same: the motion of each satisfies (9), and every
+   motion with (9) and its value in the window is a positive multiple of one of them. *)
+Definition lists_motions l :=
+  [/\ solutions (pencil_of s u) lo hi l,
+      forall i, (i < size l)%N ->
+        satisfies_9 s u (nth (nothing R) l i).1 (motion s (nth (nothing R) l i).2) &
+      forall t v, satisfies_9 s u t v -> between t lo hi -> exists2 i, (i < size l)%N &
+        t = (nth (nothing R) l i).1 /\ same_motion s (motion s (nth (nothing R) l i).2) v].
+
+(* Exactly so many motions satisfy (9) with a value in the window, up to positive factors. *)
+Definition has_exactly count := exists2 l, size l = count & lists_motions l.
+
+Variables (w : elimination) (tr : tree (leaf whole)).
+Notation regions := (found tr lo hi).
+
+Theorem system_exactly :
+  check_system s u w tr lo hi -> check_exactly (size (slip (pencil_of s u))) lo hi regions ->
+  exists l, [/\ size l = size regions, located (pencil_of s u) regions l & lists_motions l].
 Proof.
 case/andP=> wf complete exact.
-have [l [size_l sols all_sols]] := complete_exactly R complete exact.
-exists l; split=> // [i /(proj1 sols)[sol _]|t v sat bt]; first exact/(system_pencil wf).
+have [l [size_l sols at_regions all_sols]] := complete_exactly R complete exact.
+exists l; split=> //; split=> // [i /(proj1 sols)[sol _]|t v sat bt].
+  exact/(system_pencil wf).
 have [i lt_i [/= same_t prop]] := all_sols _ _ (solution_of_motion wf sat) bt.
 have [f f0 scaled] := motion_proportional prop.
 by exists i => //; split=> //; exists f => // d Hd; rewrite -scaled (system_onto wf sat).
 Qed.
 
-Corollary by_computation (R : rcfType) s u w tr lo hi count :
+Corollary by_computation count :
   [&& check_system s u w tr lo hi,
-      check_exactly (size (slip (pencil_of s u))) lo hi (found tr lo hi) &
-      size (found tr lo hi) == count] ->
-  has_exactly R s u lo hi count.
-Proof. by case/and3P=> checked exact /eqP <-; exact: (system_exactly R checked exact). Qed.
+      check_exactly (size (slip (pencil_of s u))) lo hi regions & size regions == count] ->
+  has_exactly count.
+Proof.
+case/and3P=> checked exact /eqP <-.
+by have [l [size_l _ listed]] := system_exactly checked exact; exists l.
+Qed.
+
+End Motions.

@@ -101,7 +101,7 @@ false (Factor [:: 1; 1] [:: [:: 21319946796503216128; 0]; [:: 608854340502674304
 2547493284792173568]])))))))))))))))))).
 
 Theorem exactly_3 (R : rcfType) : has_exactly R body asked lo hi 3.
-Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
+Proof. by apply: (@by_computation _ _ _ _ _ eliminated cover); vm_compute. Qed.
 
 End PlusMinus.
 
@@ -166,7 +166,7 @@ whole false (Factor [:: 1] [:: [:: 19831216689485033472]]) (Factor [:: 1] [:: [:
 [:: 2547493284792173568; 0]; [:: 0; 2547493284792173568]])))))))))))))))))).
 
 Theorem exactly_1 (R : rcfType) : has_exactly R body asked lo hi 1.
-Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
+Proof. by apply: (@by_computation _ _ _ _ _ eliminated cover); vm_compute. Qed.
 
 End PlusPlus.
 
@@ -231,7 +231,7 @@ whole false (Factor [:: 1] [:: [:: 19831216689485033472]]) (Factor [:: 1] [:: [:
 [:: 2547493284792173568; 0]; [:: 0; 2547493284792173568]])))))))))))))))))).
 
 Theorem exactly_1 (R : rcfType) : has_exactly R body asked lo hi 1.
-Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
+Proof. by apply: (@by_computation _ _ _ _ _ eliminated cover); vm_compute. Qed.
 
 End MinusMinus.
 
@@ -264,7 +264,7 @@ Definition cover : tree (leaf whole) :=
 509498656958434688])]))))).
 
 Theorem exactly_0 (R : rcfType) : has_exactly R body asked lo hi 0.
-Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
+Proof. by apply: (@by_computation _ _ _ _ _ eliminated cover); vm_compute. Qed.
 
 End MinusPlus.
 
@@ -327,6 +327,6 @@ false (Factor [:: 1] [:: [:: 5487468473469715456]]) (Factor [:: 1] [:: [:: 26960
 0]))))))))))))))))).
 
 Theorem exactly_1 (R : rcfType) : has_exactly R body asked lo hi 1.
-Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
+Proof. by apply: (@by_computation _ _ _ _ _ eliminated cover); vm_compute. Qed.
 
 End InMu.

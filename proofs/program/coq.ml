@@ -86,4 +86,4 @@ let print s u w tr lo hi count =
   define "eliminated" "elimination" (elimination w);
   define "cover" "tree (leaf whole)" (tree tr);
   Printf.printf "Theorem exactly_%d (R : rcfType) : has_exactly R body asked lo hi %d.\n" count count;
-  print_string "Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.\n"
+  print_string "Proof. by apply: (@by_computation _ _ _ _ _ eliminated cover); vm_compute. Qed.\n"
