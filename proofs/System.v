@@ -17,8 +17,10 @@
    satisfies (9) is v(x) for some x.
 
    Theorem [system_complete]: the main theorem for mechanical systems.  If the check succeeds, each
-   motion with (9) and its value in the window lies in a region yielded, and each region yielded
-   has exactly one, up to a positive factor.  [system_none], [system_one]: none, exactly one.
+   motion with (9) and its value in the window lies in a region yielded or left undecided, and each
+   region yielded
+   has exactly one, up to a positive factor.  [system_none]: none.  [system_number],
+   [system_exactly]: how many there are, as in Complete.v.
 
    [system_claim]: an exact solution claim about the pencil gives a motion with (9).
 
@@ -30,7 +32,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Condensation Pencil Whole Complete Claim.
+From Mceip Require Import Number Condensation Pencil Whole Claim Complete.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -115,7 +117,8 @@ Definition system_wellformed :=
       columns_in_range (stiffness s) && columns_in_range (mass s) &
       if u is Lambda2 _ q then 0 <? q else true].
 
-Definition check_system w tr lo hi := system_wellformed && check_complete pencil_of w tr lo hi.
+Definition check_system claims w tr lo hi :=
+  system_wellformed && check_complete pencil_of claims w tr lo hi.
 
 Definition check_system_excluded tr lo hi :=
   system_wellformed && check_excluded pencil_of tr lo hi.
@@ -434,6 +437,13 @@ move=> sat; apply/system_pencil; apply: (satisfies_9_ext _ sat) => d Hd.
 by rewrite (system_onto sat).
 Qed.
 
+Lemma variables_of_motion x i : i \in variables -> variables_of (motion x) i = x i.
+Proof.
+rewrite mem_iota add0n /= => lt_i; rewrite /variables_of.
+have [lt_nf|ge_nf] := ltnP i nf; first exact: motion_free.
+by rewrite motion_slip ?opprK ?subnKC // -(ltn_add2l nf) subnKC.
+Qed.
+
 Lemma motion_proportional x x' :
   proportional Q x x' ->
   exists2 f, 0 < f & forall d, motion x' d = f * motion x d.
@@ -459,38 +469,109 @@ Definition same_motion (v v' : nat -> R) :=
 Definition motion_in r t (v : nat -> R) :=
   lies_in (pencil_of s u) r t (variables_of s v).
 
+Variables (claims : seq claim).
 Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
-Hypothesis checked : check_system s u w tr lo hi.
+Hypothesis checked : check_system s u claims w tr lo hi.
+
+Notation Q := (pencil_of s u).
+Notation found := (found Q claims tr lo hi).
+Notation left_open := (left_open tr lo hi).
+
+Lemma lies_in_motion r t x : lies_in Q r t x -> motion_in r t (motion s x).
+Proof.
+have [wf _] := andP checked; case=> bt ag; split=> // j lt_j; have := ag j lt_j.
+rewrite /slip_of (variables_of_motion wf) //.
+exact: (slip_indices (Q := Q) (mem_nth 0%N lt_j)).
+Qed.
+
+Lemma proportional_motion x x' : proportional Q x x' -> same_motion (motion s x) (motion s x').
+Proof.
+by move/motion_proportional=> [f f0 scaled]; exists f.
+Qed.
+
+(* x and x' give one motion only if they are proportional. *)
+Lemma motion_injective x x' : same_motion (motion s x) (motion s x') -> proportional Q x x'.
+Proof.
+have [wf _] := andP checked; case=> f f0 scaled; exists f => // i Hi.
+rewrite -(variables_of_motion wf x' Hi) -(variables_of_motion wf x Hi) /variables_of.
+case: ifP => [lt_i|ge_i]; first by rewrite scaled // (moving_dof_in wf) // mem_cat mem_nth.
+have lt_j : (i - free_number s < size (particles s))%N.
+  move: Hi; rewrite mem_iota add0n /= => lt_i.
+  by rewrite -(ltn_add2l (free_number s)) subnKC // leqNgt ge_i.
+rewrite scaled ?mulrN 1?mulrCA //; apply: (moving_dof_in wf).
+by rewrite mem_cat tangential_particle // [X in _ || X]mem_nth ?orbT // size_map.
+Qed.
 
 Theorem system_complete :
   (forall t v, satisfies_9 s u t v -> between t lo hi ->
-     exists2 rc, List.In rc (found tr lo hi) & motion_in rc.1 t v) /\
-  (forall rc, List.In rc (found tr lo hi) -> exists (t : R) v,
-     [/\ between t (from_point rc.2) (to_point rc.2), satisfies_9 s u t v &
-      forall t' v', satisfies_9 s u t' v' -> motion_in rc.1 t' v' -> t' = t /\ same_motion v v']).
+     (exists2 y, List.In y found & motion_in (yield_region y) t v) \/
+     (exists2 r, List.In r left_open & motion_in r t v)) /\
+  (forall y, List.In y found -> exists (t : R) v,
+     [/\ between t (yield_from y) (yield_to y), satisfies_9 s u t v,
+         motion_in (yield_region y) t v &
+      forall t' v', satisfies_9 s u t' v' -> motion_in (yield_region y) t' v' ->
+        t' = t /\ same_motion v v']).
 Proof.
-case/andP: checked => wf complete; have [every each] := complete_sound R complete.
-split=> [t v sat bt|rc in_found].
-  exact: every (solution_of_motion wf sat) bt.
+case/andP: (checked) => wf complete; have [every each] := complete_sound R complete.
+split=> [t v sat bt|y in_found]; first exact: every (solution_of_motion wf sat) bt.
 
-have [t [x [bt sol _ uniq]]] := each _ in_found.
-exists t, (motion s x); split=> //; first exact/(system_pencil wf).
+have [t [x [bt sol reg uniq]]] := each _ in_found.
+exists t, (motion s x); split=> //; [exact/(system_pencil wf) | exact: lies_in_motion |].
 move=> t' v' sat' reg'; have [-> prop] := uniq _ _ (solution_of_motion wf sat') reg'.
 have [f f0 scaled] := motion_proportional prop.
 by split=> //; exists f => // d Hd; rewrite -scaled (system_onto wf sat').
 Qed.
 
-Corollary system_none : found tr lo hi = [::] ->
+Corollary system_none : found = [::] -> left_open = [::] ->
   forall (t : R) v, satisfies_9 s u t v -> between t lo hi -> False.
-Proof. by move=> none t v sat bt; have [rc] := system_complete.1 t v sat bt; rewrite none. Qed.
-
-Corollary system_one rc : found tr lo hi = [:: rc] -> exists (t : R) v,
-  [/\ between t (from_point rc.2) (to_point rc.2), satisfies_9 s u t v &
-   forall t' v', satisfies_9 s u t' v' -> between t' lo hi -> t' = t /\ same_motion v v'].
 Proof.
-move=> one; have [|t [v [bt sat uniq]]] := system_complete.2 rc; first by rewrite one; left.
-exists t, v; split=> // t' v' sat' bt'; apply: uniq => //.
-by have [rc' + reg'] := system_complete.1 t' v' sat' bt'; rewrite one => -[->|].
+move=> none closed t v sat bt; have [[y]|[r]] := system_complete.1 t v sat bt.
+  by rewrite none.
+by rewrite closed.
+Qed.
+
+Theorem system_number ys : solutions_found Q claims tr lo hi = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 motion_in (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion m.2 m'.2)) l &
+        forall t v, satisfies_9 s u t v -> between t lo hi ->
+          (exists2 m, List.In m l & t = m.1 /\ same_motion m.2 v) \/
+          (exists2 r, List.In r left_open & motion_in r t v)].
+Proof.
+case/andP: (checked) => wf complete; case/(complete_number R complete).
+move=> l [sz sols vals pairs every].
+exists [seq (p.1, motion s p.2) | p <- l]; split=> //.
+- by rewrite size_map.
+- move=> m /List.in_map_iff[p [<- /sols[sol bt]]]; split=> //=; exact/(system_pencil wf).
+- elim: vals => [|y p ys' l' [bt reg] _ IH] /=; constructor=> //.
+  by split=> //; apply: lies_in_motion.
+- elim: pairs => [|p l' different _ IH] /=; constructor=> //.
+  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t /motion_injective prop].
+  by have /List.Forall_forall/(_ _ p'_in) := different; apply.
+move=> t v sat bt; have [[p p_in [-> prop]]|] := every t _ (solution_of_motion wf sat) bt.
+  left; exists (p.1, motion s p.2); first by apply/List.in_map_iff; exists p.
+  split=> //=; have [f f0 scaled] := motion_proportional prop.
+  by exists f => // d Hd; rewrite -scaled (system_onto wf sat).
+by right.
+Qed.
+
+Corollary system_exactly ys :
+  solutions_found Q claims tr lo hi = Some ys -> left_open = [::] ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 motion_in (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion m.2 m'.2)) l &
+        forall t v, satisfies_9 s u t v -> between t lo hi ->
+          exists2 m, List.In m l & t = m.1 /\ same_motion m.2 v].
+Proof.
+move=> number closed; have [l [sz sols vals pairs every]] := system_number number.
+exists l; split=> // t v sat bt; have [//|[r]] := every t v sat bt.
+by rewrite closed.
 Qed.
 
 End Main.

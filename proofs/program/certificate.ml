@@ -5,7 +5,13 @@
 
 open Json
 
-type outcome = Absent | Solution | Negative_x of int | Negative_y of int
+type outcome =
+  | Absent
+  | Solution
+  | Negative_x of int
+  | Negative_y of int
+  | Claim of int
+  | Infinity of Z.t list
 
 type root = {
   pivot : int;
@@ -24,6 +30,7 @@ type node =
   | Definite of bool  (* negative *)
   | Ldl
   | Tail
+  | Open
   | Root of root
 
 type anchor = { right : (int * Z.t list list) list; left : (int * Z.t list list) list }
@@ -65,8 +72,8 @@ let read_root item =
     | String "absent" -> Absent
     | Object ["negative_x", i] -> Negative_x (counter i)
     | Object ["negative_y", i] -> Negative_y (counter i)
-    | Object ["claim", _] -> Problem.not_verified "root claim"
-    | Object ["infinity", _] -> Problem.not_verified "root infinity"
+    | Object ["claim", c] -> Claim (counter c)
+    | Object ["infinity", x] -> Infinity (integers x)
     | _ -> malformed "an outcome" in
   let interval = match list (field "interval") with
     | [a; b] -> rational a, rational b
@@ -78,7 +85,7 @@ let read_node = function
   | String "positive_definite" -> Definite false
   | String "negative_definite" -> Definite true
   | String "tail" -> Tail
-  | String "open" -> Problem.not_verified "open"
+  | String "open" -> Open
   | Object ["split", t] -> Split (rational t)
   | Object ["branch", i] -> Branch (counter i)
   | Object ["farkas", w] -> Farkas (integers w)

@@ -222,8 +222,16 @@ let rounded_inverse s =
   | None -> None
   | Some y -> Some (Array.map (Array.map (fun v -> round_scaled v precision)) y, top + precision)
 
+(* The work of the search for witnesses: a file ends in bounded time. *)
+let work = ref 0
+
+let spend order =
+  work := !work + 1_000 + order * order * order;
+  if !work > 1 lsl 32 then no_witness "limits of this program"
+
 let box_of (p : Kernel.enclosed) f j_list k_list v (e1, e2) t =
   let k = Array.of_list k_list in
+  spend (Array.length k);
   let s = Array.map (fun i -> Array.map (fun j -> at f t i j) k) k in
   let y = if k = [||] then Some ([||], 60) else rounded_inverse s in
   match y with
@@ -276,6 +284,7 @@ let unique_of (p : Kernel.enclosed) f j_list k v eps (e1, e2) t =
     else if size_t = 0.0 then 0
     else max 0 (snd (Float.frexp size_h) - snd (Float.frexp size_t)) in
   let attempt w =
+    spend (Array.length j);
     if w < 0 then None
     else
       let s = Array.mapi (fun a l -> Array.map (fun c ->
@@ -296,42 +305,122 @@ let unique_of (p : Kernel.enclosed) f j_list k v eps (e1, e2) t =
 
 let finite (_, q) = Z.sign q > 0
 
+let smaller a b = if Q.lt b a then b else a
+let larger a b = if Q.lt a b then b else a
+
+(* The smallest interval with that of the region and [a, b]. *)
+let hull (region : Kernel.region) (a, b) =
+  point_of (smaller (value_of region.lower) a),
+  if finite region.upper then point_of (larger (value_of region.upper) b) else region.upper
+
+(* The vectors of a root leaf, over all complementarity variables. *)
+let spread n j_list k exponent l =
+  let others = List.filter (fun j -> j <> k) j_list in
+  if List.length l <> List.length others then None
+  else begin
+    let v = Array.make n Z.zero in
+    v.(k) <- two_to exponent;
+    List.iter2 (fun i x -> v.(i) <- x) others l;
+    Some (Array.to_list v)
+  end
+
 let isolated_leaf p f (region : Kernel.region) (r : root) outcome =
   let j_list = Kernel.moving p region in
   if not (finite region.upper) then None
   else begin
     let a, b = r.interval in
-    let lo = value_of region.lower and hi = value_of region.upper in
+    let wide = hull region r.interval and narrow = (point_of a, point_of b) in
+    let extended = Kernel.extended region wide in
+    let center = middle (value_of (fst wide)) (value_of (snd wide)) in
     let pivots = r.pivot :: List.filter (fun j -> j <> r.pivot) j_list in
     let attempt k =
       let k_list = List.filter (fun j -> j <> k) j_list in
-      let vectors =
-        let own = Option.to_list (null_vectors p.Kernel.size_of f j_list k (middle a b)) in
-        if k <> r.pivot || List.length r.right <> List.length k_list then own
-        else begin
-          let spread l =
-            let v = Array.make p.Kernel.size_of Z.zero in
-            v.(k) <- two_to r.exponent;
-            List.iter2 (fun i x -> v.(i) <- x) k_list l;
-            Array.to_list v in
-          (spread r.right, spread r.left) :: own
-        end in
+      let n = p.Kernel.size_of in
+      let own = Option.to_list (null_vectors n f j_list k (middle a b)) in
+      let given =
+        if k <> r.pivot then None
+        else match spread n j_list k r.exponent r.right, spread n j_list k r.exponent r.left with
+          | Some right, Some left -> Some (right, left)
+          | _ -> None in
       List.find_map (fun (v, left) ->
-          let wide = (region.lower, region.upper) and narrow = (point_of a, point_of b) in
-          match box_of p f j_list k_list v wide (middle lo hi),
+          match box_of p f j_list k_list v wide center,
                 box_of p f j_list k_list v narrow (middle a b) with
           | Some wide_box, Some narrow_box ->
-            (match unique_of p f j_list k v wide_box.width wide (middle lo hi) with
+            (match unique_of p f j_list k v wide_box.width wide center with
              | None -> None
              | Some unique ->
                let c = { Kernel.pivot = k; vector = v; from_point = point_of a;
                          to_point = point_of b; wide_box; narrow_box; unique;
                          left_vector = left } in
-               if Kernel.check_root p region c outcome then Some (Kernel.Root (c, outcome))
+               if Kernel.check_root p extended c outcome then Some (Kernel.Root (wide, c, outcome))
                else None)
-          | _ -> None) vectors in
+          | _ -> None) (Option.to_list given @ own) in
     List.find_map attempt pivots
   end
+
+(* A region with at most one null vector, near v: boxes and uniqueness over the interval [wide]. *)
+let pinning_of p f j_list k v wide center =
+  let k_list = List.filter (fun j -> j <> k) j_list in
+  match box_of p f j_list k_list v wide center with
+  | None -> None
+  | Some box ->
+    Option.map (fun unique ->
+        { Kernel.pin_pivot = k; pin_vector = v; pin_box = box; pin_unique = unique;
+          pin_reversed = false })
+      (unique_of p f j_list k v box.width wide center)
+
+(* The same for an interval [lo, infinity), with s = 1/t in [0, 1/lo] and A and B exchanged. *)
+let reversed_pinning_of p f j_list k v (lower, upper) =
+  if Z.sign (fst lower) <= 0 then None
+  else begin
+    let ends = (Kernel.swap upper, Kernel.swap lower) in
+    let center = Q.to_float (Q.div (Q.inv (value_of lower)) (Q.of_int 2)) in
+    Option.map (fun (c : Kernel.pinning) ->
+        let box = c.pin_box in
+        { c with
+          Kernel.pin_box = { box with Kernel.unit_low = box.unit_high; unit_high = box.unit_low };
+          pin_reversed = true })
+      (pinning_of (Kernel.reversed p) { a = f.b; b = f.a } j_list k v ends center)
+  end
+
+(* The region of a claim: at most one null vector, that of the known solution. *)
+let claimed_leaf p f (region : Kernel.region) (r : root) number (q : Kernel.known) =
+  let j_list = Kernel.moving p region and n = p.Kernel.size_of in
+  let value = (value_of q.known_from, value_of q.known_to) in
+  let wide = hull region value in
+  let extended = Kernel.extended region wide in
+  let pivots = List.filter (fun j -> List.mem j q.known_support) j_list in
+  let first, others = List.partition (fun k -> k = r.pivot) pivots in
+  let attempt k =
+    let own = Option.map fst (null_vectors n f j_list k (middle (fst value) (snd value))) in
+    let given = if k = r.pivot then spread n j_list k r.exponent r.right else None in
+    List.find_map (fun v ->
+        let pinning =
+          if finite (snd wide) then
+            pinning_of p f j_list k v wide (middle (value_of (fst wide)) (value_of (snd wide)))
+          else reversed_pinning_of p f j_list k v wide in
+        match pinning with
+        | Some c when Kernel.check_claimed p extended c q ->
+          Some (Kernel.Claimed (wide, c, number))
+        | _ -> None) (Option.to_list given @ Option.to_list own) in
+  List.find_map attempt (first @ others)
+
+(* The region of a limit: at most one null vector, that at infinity. [x] is over the pencil, [at]
+   are its components at the complementarity variables. *)
+let infinite_leaf p f (region : Kernel.region) x at =
+  let j_list = Kernel.moving p region in
+  let wide = (region.lower, region.upper) in
+  let size k = Z.abs at.(k) in
+  let pivots = List.sort (fun k l -> Z.compare (size l) (size k))
+      (List.filter (fun k -> Z.sign at.(k) <> 0) j_list) in
+  let attempt k =
+    let sign = Z.of_int (Z.sign at.(k)) in
+    let shift = max 0 (52 - bits at.(k)) in
+    let v = Array.to_list (Array.map (fun z -> Z.shift_left (Z.mul sign z) shift) at) in
+    match reversed_pinning_of p f j_list k v wide with
+    | Some c when Kernel.check_infinite p region c -> Some (Kernel.Infinite (wide, c, x))
+    | _ -> None in
+  List.find_map attempt pivots
 
 let absent_leaf p f (region : Kernel.region) =
   let j_list = Kernel.moving p region in
@@ -366,26 +455,55 @@ let rec absent_tree p f depth (region : Kernel.region) =
     let first = absent_tree p f (depth - 1) { region with upper = cut } in
     Kernel.Split (cut, first, absent_tree p f (depth - 1) { region with lower = cut })
 
-(* An isolated null vector: in one leaf, or between two absent intervals. *)
-let rec root_tree p f depth (region : Kernel.region) r outcome =
-  match isolated_leaf p f region r outcome with
+let half x y = Q.div (Q.add x y) (Q.of_int 2)
+
+(* A null vector in [a, b]: in one leaf, or between two absent intervals.  [a, b] may reach beyond
+   the region, or lie beside it. *)
+let rec narrow_tree p f what depth attempt (a, b) (region : Kernel.region) =
+  match attempt region with
   | Some leaf -> Kernel.Leaf leaf
   | None ->
-    if depth = 0 then no_witness "root";
-    let a, b = r.interval in
+    if depth = 0 then no_witness "%s" what;
     let lo = value_of region.lower in
-    if Q.lt a lo || (finite region.upper && Q.gt b (value_of region.upper)) then
-      no_witness "a root whose interval leaves its region";
-    let half x y = Q.div (Q.add x y) (Q.of_int 2) in
-    let low = half lo a in
-    let high =
-      if finite region.upper then half b (value_of region.upper)
-      else Q.add (Q.mul b (Q.of_int 2)) Q.one in
-    let low = point_of low and high = point_of high in
-    let inner = root_tree p f (depth - 1) { region with lower = low; upper = high } r outcome in
-    let above = absent_tree p f 12 { region with lower = high } in
-    let below = absent_tree p f 12 { region with upper = low } in
-    Kernel.Split (low, below, Kernel.Split (high, inner, above))
+    let beside = Q.lt b lo || finite region.upper && Q.gt a (value_of region.upper) in
+    if beside then absent_tree p f 12 region
+    else begin
+      let low = if Q.gt a lo then Some (point_of (half lo a)) else None in
+      let high =
+        if not (finite region.upper) then Some (point_of (Q.add (Q.mul b (Q.of_int 2)) Q.one))
+        else
+          let hi = value_of region.upper in
+          if Q.lt b hi then Some (point_of (half b hi)) else None in
+      if low = None && high = None then no_witness "%s" what;
+      let lower = Option.value low ~default:region.lower in
+      let upper = Option.value high ~default:region.upper in
+      let inner =
+        narrow_tree p f what (depth - 1) attempt (a, b) { region with lower; upper } in
+      let inner = match high with
+        | None -> inner
+        | Some cut -> Kernel.Split (cut, inner, absent_tree p f 12 { region with lower = cut }) in
+      match low with
+      | None -> inner
+      | Some cut -> Kernel.Split (cut, absent_tree p f 12 { region with upper = cut }, inner)
+    end
+
+let root_tree p f region r outcome =
+  let attempt region = isolated_leaf p f region r outcome in
+  narrow_tree p f "root" 8 attempt r.interval region
+
+let claim_tree p f region r number (q : Kernel.known) =
+  let attempt region = claimed_leaf p f region r number q in
+  narrow_tree p f "a claimed root" 12 attempt (value_of q.known_from, value_of q.known_to) region
+
+(* A null vector at infinity: in one leaf, or behind an absent interval. *)
+let rec infinite_tree p f depth (region : Kernel.region) x at =
+  match infinite_leaf p f region x at with
+  | Some leaf -> Kernel.Leaf leaf
+  | None ->
+    if depth = 0 then no_witness "a root at infinity";
+    let cut = point_of (Q.add (Q.mul (value_of region.lower) (Q.of_int 4)) Q.one) in
+    let beyond = infinite_tree p f (depth - 1) { region with lower = cut } x at in
+    Kernel.Split (cut, absent_tree p f 12 { region with upper = cut }, beyond)
 
 (* ---------- trees *)
 
@@ -393,7 +511,8 @@ type context = {
   pencil : Kernel.pencil;
   slip : int array;
   enclosed : Kernel.enclosed;
-  doubles : doubles }
+  doubles : doubles;
+  known : Kernel.known array }  (* the claims *)
 
 let position slip i =
   let rec search k =
@@ -416,9 +535,18 @@ let build_leaf c (region : Kernel.region) node =
     let r = { r with pivot = position c.slip r.pivot } in
     (match r.outcome with
      | Absent -> absent_tree p f 12 region
-     | Solution -> root_tree p f 8 region r Kernel.Solution
-     | Negative_x i -> root_tree p f 8 region r (Kernel.NegativeX (position c.slip i))
-     | Negative_y i -> root_tree p f 8 region r (Kernel.NegativeY (position c.slip i)))
+     | Solution -> root_tree p f region r Kernel.Solution
+     | Negative_x i -> root_tree p f region r (Kernel.NegativeX (position c.slip i))
+     | Negative_y i -> root_tree p f region r (Kernel.NegativeY (position c.slip i))
+     | Claim number ->
+       if number < 0 || number >= Array.length c.known then no_witness "a claim that is not there";
+       claim_tree p f region r number c.known.(number)
+     | Infinity x ->
+       if List.length x <> c.pencil.Kernel.order || finite region.upper then
+         no_witness "a root at infinity";
+       let components = Array.of_list x in
+       infinite_tree p f 12 region x (Array.map (fun i -> components.(i)) c.slip))
+  | Open -> Kernel.Leaf Kernel.Undecided
   | Split _ | Branch _ -> assert false
 
 (* The nodes of a piece in preorder; [leaf] makes a tree of a leaf. *)
@@ -460,16 +588,30 @@ let transpose columns rows =
 
 (* f_i / 2^b_i for each slip row, as positive integers in a common unit. *)
 let row_scales (pencil : Kernel.pencil) slip common =
-  let a = Array.of_list pencil.rows_a and b = Array.of_list pencil.rows_b in
+  let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
+  (* A row of a system has two parts, so a column may stand in it twice. *)
+  let summed row =
+    let sums = Hashtbl.create 64 in
+    List.iter (fun (j, v) ->
+        let sum = Option.value (Hashtbl.find_opt sums j) ~default:Z.zero in
+        Hashtbl.replace sums j (Z.add sum v)) row;
+    Hashtbl.fold (fun j v rest -> (j, v) :: rest) sums [] in
   let scales = List.map (fun i ->
-      let entries = List.map snd a.(i) @ List.map snd b.(i) in
+      let a = summed rows_a.(i) and b = summed rows_b.(i) in
+      let entries = List.map snd a @ List.map snd b in
       let g = List.fold_left Z.gcd common entries in
       let f = Z.divexact common g in
       let longest = List.fold_left (fun m (_, v) ->
-          max m (bits (Z.divexact (Z.mul f v) common))) 1 a.(i) in
+          max m (bits (Z.divexact (Z.mul f v) common))) 1 a in
       (f, longest)) slip in
   let top = List.fold_left (fun m (_, b) -> max m b) 1 scales in
   List.map (fun (f, b) -> Z.shift_left f (top - b)) scales
+
+(* A matrix in units of 2^-k, with the least k: units of 2^-900 for zeros leave no double finite. *)
+let shortened (k, rows) =
+  let zeros = List.fold_left (List.fold_left (fun m z ->
+      if Z.sign z = 0 then m else min m (Z.trailing_zeros z))) k rows in
+  (k - zeros, List.map (List.map (fun z -> Z.shift_right z zeros)) rows)
 
 let elimination (pencil : Kernel.pencil) slip common (condensation : condensation option) anchor =
   let ns = List.length slip and nf = List.length pencil.free in
@@ -484,14 +626,15 @@ let elimination (pencil : Kernel.pencil) slip common (condensation : condensatio
       let a = match List.nth_opt c.anchors anchor with
         | Some (Some a) -> a
         | _ -> Problem.not_verified "condensation with powers of t" in
-      let e = List.fold_left (fun m (k, _) -> max m k) 0 (a.right @ a.left) in
+      let right = List.map shortened a.right and left = List.map shortened a.left in
+      let e = List.fold_left (fun m (k, _) -> max m k) 56 (right @ left) in
       let columns (k, rows) =
         transpose ns (List.map (List.map (fun z -> Z.shift_left z (e - k))) rows) in
       let zero = List.init ns (fun _ -> List.init nf (fun _ -> Z.zero)) in
       let nth l k = match List.nth_opt l k with Some m -> columns m | None -> zero in
       let power = two_to (2 * c.factor.exponent) in
-      { Kernel.row_scale; unit_of = two_to e; right_w = nth a.right 0;
-        left_va = nth a.left 0; left_vb = nth a.left 1;
+      { Kernel.row_scale; unit_of = two_to e; right_w = nth right 0;
+        left_va = nth left 0; left_vb = nth left 1;
         bound_c = Z.mul power (Q.den c.sigma);
         bound_d = Z.mul common (Z.mul power (Q.num c.sigma));
         factor_scale = Z.mul common (Q.den c.sigma);

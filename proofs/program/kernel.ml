@@ -1310,48 +1310,284 @@ let check_absent p r c =
             ((&&) (left_negative p r k v c.absent_left eps r.lower)
               (left_negative p r k v c.absent_left eps r.upper))))))
 
+type pinning = { pin_pivot : int; pin_vector : Big_int_Z.big_int list;
+                 pin_box : box; pin_unique : uniqueness; pin_reversed : 
+                 bool }
+
+type known = { known_from : point; known_to : point;
+               known_support : int list; known_biactive : int list }
+
+(** val swap : point -> point **)
+
+let swap e =
+  ((snd e), (fst e))
+
+(** val reversed : enclosed -> enclosed **)
+
+let reversed p =
+  { size_of = p.size_of; center_a = p.center_b; center_b = p.center_a;
+    radius_a = p.radius_b; radius_b = p.radius_a }
+
+(** val pinned : enclosed -> region -> pinning -> bool **)
+
+let pinned p r c =
+  let k = c.pin_pivot in
+  let v = c.pin_vector in
+  let eps = c.pin_box.width in
+  (&&) (decided p r)
+    ((&&)
+      (in_mem (Obj.magic k)
+        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v k))
+        ((&&)
+          (check_box p (moving p r) (Obj.magic others p r k) v c.pin_box
+            r.lower r.upper)
+          (if c.pin_reversed
+           then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
+                  (check_unique (reversed p) (moving p r) k v c.pin_unique
+                    eps (swap r.upper) (swap r.lower))
+           else check_unique p (moving p r) k v c.pin_unique eps r.lower
+                  r.upper))))
+
+(** val known_inside : region -> known -> bool **)
+
+let known_inside r q =
+  (&&) (ordered q.known_from q.known_to)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int (snd q.known_to))
+      ((&&) (point_le r.lower q.known_from) (point_le q.known_to r.upper)))
+
+(** val check_claimed : enclosed -> region -> pinning -> known -> bool **)
+
+let check_claimed p r c q =
+  (&&) (pinned p r c)
+    ((&&)
+      (in_mem (Obj.magic c.pin_pivot)
+        (mem (seq_predType nat_eqType) (Obj.magic q.known_support)))
+      ((&&) (known_inside r q)
+        ((&&)
+          (all (fun i ->
+            in_mem (Obj.magic i)
+              (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+            q.known_support)
+          (all (fun i ->
+            in_mem (Obj.magic i)
+              (mem (seq_predType nat_eqType)
+                (Obj.magic cat q.known_support q.known_biactive)))
+            (moving p r)))))
+
+(** val supports_region : enclosed -> region -> known -> bool **)
+
+let supports_region p r q =
+  all (fun i ->
+    in_mem (Obj.magic i)
+      (mem (seq_predType nat_eqType) (Obj.magic q.known_support)))
+    (moving p r)
+
+(** val check_infinite : enclosed -> region -> pinning -> bool **)
+
+let check_infinite p r c =
+  (&&) (pinned p r c)
+    ((&&) c.pin_reversed (Z.eqb (snd r.upper) Big_int_Z.zero_big_int))
+
+type interval = point * point
+
 type 'whole leaf =
 | Farkas of Big_int_Z.big_int list
 | Definite of bool * factor * factor
 | Absent of absence
-| Root of isolation * outcome
+| Root of interval * isolation * outcome
+| Claimed of interval * pinning * int
+| Infinite of interval * pinning * Big_int_Z.big_int list
 | Whole of 'whole
+| Undecided
 
-(** val yielded : (region * 'a1 leaf) -> (region * isolation) option **)
+type yield = { yield_region : region; yield_from : point; yield_to : point }
 
-let yielded rl =
-  match snd rl with
-  | Root (c, o) -> (match o with
-                    | Solution -> Some ((fst rl), c)
-                    | _ -> None)
-  | _ -> None
+(** val extended : region -> interval -> region **)
 
-(** val yields : 'a1 leaf tree -> region -> (region * isolation) list **)
+let extended r h =
+  { lower = (fst h); upper = (snd h); states = r.states }
 
-let yields tr r =
-  pmap yielded (leaves tr r)
+(** val reaches : region -> interval -> bool **)
+
+let reaches r h =
+  (&&) (ordered (fst h) (snd h))
+    ((&&) (point_le (fst h) r.lower) (point_le r.upper (snd h)))
 
 (** val window : point -> point -> region **)
 
 let window lo hi =
   { lower = lo; upper = hi; states = [] }
 
-(** val check_leaf :
-    enclosed -> (region -> 'a1 -> bool) -> region -> 'a1 leaf -> bool **)
+(** val enclosed_order : int -> enclosed **)
 
-let check_leaf p check_whole0 r = function
+let enclosed_order n =
+  { size_of = n; center_a = []; center_b = []; radius_a = []; radius_b = [] }
+
+(** val nothing_known : known **)
+
+let nothing_known =
+  { known_from = zero; known_to = zero; known_support = []; known_biactive =
+    [] }
+
+(** val known_at : known list -> int -> known **)
+
+let known_at solutions n =
+  nth nothing_known solutions n
+
+(** val yielded :
+    enclosed -> known list -> (region * 'a1 leaf) -> yield option **)
+
+let yielded p solutions rl =
+  match snd rl with
+  | Root (h, c, o) ->
+    (match o with
+     | Solution ->
+       Some { yield_region = (extended (fst rl) h); yield_from =
+         c.from_point; yield_to = c.to_point }
+     | _ -> None)
+  | Claimed (h, _, n) ->
+    let q = known_at solutions n in
+    if supports_region p (fst rl) q
+    then Some { yield_region = (extended (fst rl) h); yield_from =
+           q.known_from; yield_to = q.known_to }
+    else None
+  | _ -> None
+
+(** val yields :
+    enclosed -> known list -> 'a1 leaf tree -> region -> yield list **)
+
+let yields p solutions tr r =
+  pmap (yielded p solutions) (leaves tr r)
+
+(** val undecided : 'a1 leaf tree -> region -> region list **)
+
+let undecided tr r =
+  pmap (fun rl -> match snd rl with
+                  | Undecided -> Some (fst rl)
+                  | _ -> None) (leaves tr r)
+
+(** val check_leaf :
+    enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
+    Big_int_Z.big_int list -> bool) -> region -> 'a1 leaf -> bool **)
+
+let check_leaf p solutions check_whole0 check_limit0 r = function
 | Farkas w -> farkas p r w
 | Definite (negative, low, high) -> definite p negative r low high
 | Absent c -> check_absent p r c
-| Root (c, o) -> check_root p r c o
+| Root (h, c, o) -> (&&) (reaches r h) (check_root p (extended r h) c o)
+| Claimed (h, c, n) ->
+  (&&) (reaches r h)
+    ((&&) (leq (Stdlib.Int.succ n) (size solutions))
+      (check_claimed p (extended r h) c (known_at solutions n)))
+| Infinite (h, c, x) ->
+  (&&) (reaches r h)
+    ((&&) (check_infinite p (extended r h) c) (check_limit0 r c.pin_pivot x))
 | Whole w -> check_whole0 r w
+| Undecided -> true
 
 (** val check_cover :
-    enclosed -> (region -> 'a1 -> bool) -> 'a1 leaf tree -> point -> point ->
-    bool **)
+    enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
+    Big_int_Z.big_int list -> bool) -> 'a1 leaf tree -> point -> point -> bool **)
 
-let check_cover p check_whole0 tr lo hi =
-  check_tree p.size_of (check_leaf p check_whole0) tr (window lo hi)
+let check_cover p solutions check_whole0 check_limit0 tr lo hi =
+  check_tree p.size_of (check_leaf p solutions check_whole0 check_limit0) tr
+    (window lo hi)
+
+(** val same_state : state -> state -> bool **)
+
+let same_state a b =
+  match a with
+  | Open -> (match b with
+             | Open -> true
+             | _ -> false)
+  | Resting -> (match b with
+                | Resting -> true
+                | _ -> false)
+  | Moving -> (match b with
+               | Moving -> true
+               | _ -> false)
+
+(** val opposite_state : state -> state -> bool **)
+
+let opposite_state a b =
+  match a with
+  | Open -> false
+  | Resting -> (match b with
+                | Moving -> true
+                | _ -> false)
+  | Moving -> (match b with
+               | Resting -> true
+               | _ -> false)
+
+(** val some_opposite : int -> region -> region -> bool **)
+
+let some_opposite n r r' =
+  has (fun i -> opposite_state (state_of r i) (state_of r' i)) (iota 0 n)
+
+(** val all_same : int -> region -> region -> bool **)
+
+let all_same n r r' =
+  all (fun i -> same_state (state_of r i) (state_of r' i)) (iota 0 n)
+
+(** val within : interval -> interval -> bool **)
+
+let within inner outer =
+  (&&) (ordered (fst inner) (snd inner))
+    ((&&) (ordered (fst outer) (snd outer))
+      ((&&) (point_le (fst outer) (fst inner))
+        (point_le (snd inner) (snd outer))))
+
+(** val ends : region -> interval **)
+
+let ends r =
+  (r.lower, r.upper)
+
+(** val value_of : yield -> interval **)
+
+let value_of y =
+  (y.yield_from, y.yield_to)
+
+(** val point_lt : point -> point -> bool **)
+
+let point_lt a b =
+  (&&) (Z.leb Big_int_Z.zero_big_int (snd a))
+    ((&&) (Z.leb Big_int_Z.zero_big_int (snd b))
+      (Z.ltb (Z.mul (fst a) (snd b)) (Z.mul (fst b) (snd a))))
+
+(** val same_solution : int -> yield -> yield -> bool **)
+
+let same_solution n f g =
+  (&&) (all_same n f.yield_region g.yield_region)
+    ((||) (within (value_of f) (ends g.yield_region))
+      (within (value_of g) (ends f.yield_region)))
+
+(** val different_solutions : int -> yield -> yield -> bool **)
+
+let different_solutions n f g =
+  (||) (some_opposite n f.yield_region g.yield_region)
+    ((||) (point_lt f.yield_to g.yield_from)
+      (point_lt g.yield_to f.yield_from))
+
+(** val distinct :
+    int -> point -> point -> yield list -> yield list -> yield list -> yield
+    list option **)
+
+let rec distinct n lo hi seen kept = function
+| [] -> Some kept
+| y :: rest' ->
+  if has (same_solution n y) seen
+  then distinct n lo hi (y :: seen) kept rest'
+  else if (&&) (within (value_of y) (lo, hi))
+            (all (different_solutions n y) kept)
+       then distinct n lo hi (y :: seen) (y :: kept) rest'
+       else None
+
+(** val distinct_yields :
+    int -> point -> point -> yield list -> yield list option **)
+
+let distinct_yields n lo hi =
+  distinct n lo hi [] []
 
 type sparse_row = (int * Big_int_Z.big_int) list
 
@@ -1649,27 +1885,6 @@ let check_whole q r w =
     (check_end q (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
       w.whole_negative r.upper r w.high_end)
 
-(** val check_complete :
-    pencil -> elimination -> whole leaf tree -> point -> point -> bool **)
-
-let check_complete q w tr lo hi =
-  (&&) (wellformed q)
-    ((&&) (free_rows_constant q)
-      ((&&) (check_elimination (blocks_of q) w)
-        (check_cover (condensed (blocks_of q) w) (check_whole q) tr lo hi)))
-
-(** val found :
-    whole leaf tree -> point -> point -> (region * isolation) list **)
-
-let found tr lo hi =
-  yields tr (window lo hi)
-
-(** val check_excluded : pencil -> whole tree -> point -> point -> bool **)
-
-let check_excluded q tr lo hi =
-  (&&) (wellformed q)
-    (check_tree (size (slip q)) (check_whole q) tr (window lo hi))
-
 type polynomial = Big_int_Z.big_int list
 
 type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial;
@@ -1886,6 +2101,80 @@ let check_claim q k =
                   (slip q))
                 (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
 
+(** val positions : pencil -> int list -> int list **)
+
+let positions q l =
+  map0 (fun i -> index nat_eqType (Obj.magic i) (slip q)) l
+
+(** val known_of : pencil -> claim -> known **)
+
+let known_of q k =
+  { known_from = (k.claim_from, k.claim_denominator); known_to = (k.claim_to,
+    k.claim_denominator); known_support = (positions q k.support);
+    known_biactive = (positions q k.biactive) }
+
+(** val known_solutions : pencil -> claim list -> known list **)
+
+let known_solutions q claims =
+  map0 (fun k -> known_of q k) claims
+
+(** val check_limit :
+    pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
+
+let check_limit q r k x =
+  let at_slip = fun j ->
+    nth Big_int_Z.zero_big_int x (nth 0 (Obj.magic slip q) j)
+  in
+  (&&) (columns_in_order q)
+    ((&&) (negb (Z.eqb (at_slip k) Big_int_Z.zero_big_int))
+      ((&&) (leq (Stdlib.Int.succ k) (size (slip q)))
+        ((&&)
+          (all (fun i ->
+            Z.eqb (sparse_dot (row_a q i) x) Big_int_Z.zero_big_int) q.free)
+          (all (fun j ->
+            if is_moving (state_of r j)
+            then Z.eqb (sparse_dot (row_b q (nth 0 (Obj.magic slip q) j)) x)
+                   Big_int_Z.zero_big_int
+            else Z.eqb (at_slip j) Big_int_Z.zero_big_int)
+            (iota 0 (size (slip q)))))))
+
+(** val check_complete :
+    pencil -> claim list -> elimination -> whole leaf tree -> point -> point
+    -> bool **)
+
+let check_complete q claims w tr lo hi =
+  (&&) (wellformed q)
+    ((&&) (free_rows_constant q)
+      ((&&) (check_elimination (blocks_of q) w)
+        ((&&) (all (check_claim q) claims)
+          (check_cover (condensed (blocks_of q) w) (known_solutions q claims)
+            (check_whole q) (check_limit q) tr lo hi))))
+
+(** val found :
+    pencil -> claim list -> whole leaf tree -> point -> point -> yield list **)
+
+let found q claims tr lo hi =
+  yields (enclosed_order (size (slip q))) (known_solutions q claims) tr
+    (window lo hi)
+
+(** val left_open : whole leaf tree -> point -> point -> region list **)
+
+let left_open tr lo hi =
+  undecided tr (window lo hi)
+
+(** val solutions_found :
+    pencil -> claim list -> whole leaf tree -> point -> point -> yield list
+    option **)
+
+let solutions_found q claims tr lo hi =
+  distinct_yields (size (slip q)) lo hi (found q claims tr lo hi)
+
+(** val check_excluded : pencil -> whole tree -> point -> point -> bool **)
+
+let check_excluded q tr lo hi =
+  (&&) (wellformed q)
+    (check_tree (size (slip q)) (check_whole q) tr (window lo hi))
+
 type slip_particle = { tangential : int; normal : int;
                        sign_of : Big_int_Z.big_int;
                        direction : Big_int_Z.big_int }
@@ -2022,11 +2311,12 @@ let system_wellformed s u =
              | Lambda2 (_, q) -> Z.ltb Big_int_Z.zero_big_int q)))))
 
 (** val check_system :
-    system -> unknown -> elimination -> whole leaf tree -> point -> point ->
-    bool **)
+    system -> unknown -> claim list -> elimination -> whole leaf tree ->
+    point -> point -> bool **)
 
-let check_system s u w tr lo hi =
-  (&&) (system_wellformed s u) (check_complete (pencil_of s u) w tr lo hi)
+let check_system s u claims w tr lo hi =
+  (&&) (system_wellformed s u)
+    (check_complete (pencil_of s u) claims w tr lo hi)
 
 (** val check_system_excluded :
     system -> unknown -> whole tree -> point -> point -> bool **)
@@ -2038,57 +2328,3 @@ let check_system_excluded s u tr lo hi =
 
 let check_system_claim s u k =
   (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)
-
-(** val opposite : state -> state -> bool **)
-
-let opposite a b =
-  match a with
-  | Open -> false
-  | Resting -> (match b with
-                | Moving -> true
-                | _ -> false)
-  | Moving -> (match b with
-               | Resting -> true
-               | _ -> false)
-
-(** val less : point -> point -> bool **)
-
-let less a b =
-  (&&) (Z.leb Big_int_Z.zero_big_int (snd a))
-    ((&&) (Z.leb Big_int_Z.zero_big_int (snd b))
-      (Z.ltb (Z.mul (fst a) (snd b)) (Z.mul (fst b) (snd a))))
-
-(** val apart :
-    int -> (region * isolation) -> (region * isolation) -> bool **)
-
-let apart n a b =
-  (||)
-    (has (fun i -> opposite (state_of (fst a) i) (state_of (fst b) i))
-      (iota 0 n))
-    ((||) (less (snd a).to_point (snd b).from_point)
-      (less (snd b).to_point (snd a).from_point))
-
-(** val all_apart : int -> (region * isolation) list -> bool **)
-
-let rec all_apart n = function
-| [] -> true
-| a :: rest0 -> (&&) (all (apart n a) rest0) (all_apart n rest0)
-
-(** val inside : point -> point -> (region * isolation) -> bool **)
-
-let inside lo hi a =
-  (&&) (Z.ltb Big_int_Z.zero_big_int (snd (snd a).from_point))
-    ((&&) (Z.leb Big_int_Z.zero_big_int (snd lo))
-      ((&&)
-        (Z.leb (Z.mul (fst lo) (snd (snd a).from_point))
-          (Z.mul (fst (snd a).from_point) (snd lo)))
-        ((&&) (Z.ltb Big_int_Z.zero_big_int (snd (snd a).to_point))
-          ((&&) (Z.leb Big_int_Z.zero_big_int (snd hi))
-            (Z.leb (Z.mul (fst (snd a).to_point) (snd hi))
-              (Z.mul (fst hi) (snd (snd a).to_point)))))))
-
-(** val check_exactly :
-    int -> point -> point -> (region * isolation) list -> bool **)
-
-let check_exactly n lo hi l =
-  (&&) (all (inside lo hi) l) (all_apart n l)

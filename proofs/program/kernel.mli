@@ -463,25 +463,92 @@ val check_root : enclosed -> region -> isolation -> outcome -> bool
 
 val check_absent : enclosed -> region -> absence -> bool
 
+type pinning = { pin_pivot : int; pin_vector : Big_int_Z.big_int list;
+                 pin_box : box; pin_unique : uniqueness; pin_reversed : 
+                 bool }
+
+type known = { known_from : point; known_to : point;
+               known_support : int list; known_biactive : int list }
+
+val swap : point -> point
+
+val reversed : enclosed -> enclosed
+
+val pinned : enclosed -> region -> pinning -> bool
+
+val known_inside : region -> known -> bool
+
+val check_claimed : enclosed -> region -> pinning -> known -> bool
+
+val supports_region : enclosed -> region -> known -> bool
+
+val check_infinite : enclosed -> region -> pinning -> bool
+
+type interval = point * point
+
 type 'whole leaf =
 | Farkas of Big_int_Z.big_int list
 | Definite of bool * factor * factor
 | Absent of absence
-| Root of isolation * outcome
+| Root of interval * isolation * outcome
+| Claimed of interval * pinning * int
+| Infinite of interval * pinning * Big_int_Z.big_int list
 | Whole of 'whole
+| Undecided
 
-val yielded : (region * 'a1 leaf) -> (region * isolation) option
+type yield = { yield_region : region; yield_from : point; yield_to : point }
 
-val yields : 'a1 leaf tree -> region -> (region * isolation) list
+val extended : region -> interval -> region
+
+val reaches : region -> interval -> bool
 
 val window : point -> point -> region
 
+val enclosed_order : int -> enclosed
+
+val nothing_known : known
+
+val known_at : known list -> int -> known
+
+val yielded : enclosed -> known list -> (region * 'a1 leaf) -> yield option
+
+val yields : enclosed -> known list -> 'a1 leaf tree -> region -> yield list
+
+val undecided : 'a1 leaf tree -> region -> region list
+
 val check_leaf :
-  enclosed -> (region -> 'a1 -> bool) -> region -> 'a1 leaf -> bool
+  enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
+  Big_int_Z.big_int list -> bool) -> region -> 'a1 leaf -> bool
 
 val check_cover :
-  enclosed -> (region -> 'a1 -> bool) -> 'a1 leaf tree -> point -> point ->
-  bool
+  enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
+  Big_int_Z.big_int list -> bool) -> 'a1 leaf tree -> point -> point -> bool
+
+val same_state : state -> state -> bool
+
+val opposite_state : state -> state -> bool
+
+val some_opposite : int -> region -> region -> bool
+
+val all_same : int -> region -> region -> bool
+
+val within : interval -> interval -> bool
+
+val ends : region -> interval
+
+val value_of : yield -> interval
+
+val point_lt : point -> point -> bool
+
+val same_solution : int -> yield -> yield -> bool
+
+val different_solutions : int -> yield -> yield -> bool
+
+val distinct :
+  int -> point -> point -> yield list -> yield list -> yield list -> yield
+  list option
+
+val distinct_yields : int -> point -> point -> yield list -> yield list option
 
 type sparse_row = (int * Big_int_Z.big_int) list
 
@@ -579,13 +646,6 @@ val check_end : pencil -> bool -> bool -> point -> region -> whole_end -> bool
 
 val check_whole : pencil -> region -> whole -> bool
 
-val check_complete :
-  pencil -> elimination -> whole leaf tree -> point -> point -> bool
-
-val found : whole leaf tree -> point -> point -> (region * isolation) list
-
-val check_excluded : pencil -> whole tree -> point -> point -> bool
-
 type polynomial = Big_int_Z.big_int list
 
 type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial;
@@ -654,6 +714,29 @@ val columns_in_order : pencil -> bool
 
 val check_claim : pencil -> claim -> bool
 
+val positions : pencil -> int list -> int list
+
+val known_of : pencil -> claim -> known
+
+val known_solutions : pencil -> claim list -> known list
+
+val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool
+
+val check_complete :
+  pencil -> claim list -> elimination -> whole leaf tree -> point -> point ->
+  bool
+
+val found :
+  pencil -> claim list -> whole leaf tree -> point -> point -> yield list
+
+val left_open : whole leaf tree -> point -> point -> region list
+
+val solutions_found :
+  pencil -> claim list -> whole leaf tree -> point -> point -> yield list
+  option
+
+val check_excluded : pencil -> whole tree -> point -> point -> bool
+
 type slip_particle = { tangential : int; normal : int;
                        sign_of : Big_int_Z.big_int;
                        direction : Big_int_Z.big_int }
@@ -697,22 +780,10 @@ val columns_in_range : system -> sparse_row list -> bool
 val system_wellformed : system -> unknown -> bool
 
 val check_system :
-  system -> unknown -> elimination -> whole leaf tree -> point -> point ->
-  bool
+  system -> unknown -> claim list -> elimination -> whole leaf tree -> point
+  -> point -> bool
 
 val check_system_excluded :
   system -> unknown -> whole tree -> point -> point -> bool
 
 val check_system_claim : system -> unknown -> claim -> bool
-
-val opposite : state -> state -> bool
-
-val less : point -> point -> bool
-
-val apart : int -> (region * isolation) -> (region * isolation) -> bool
-
-val all_apart : int -> (region * isolation) list -> bool
-
-val inside : point -> point -> (region * isolation) -> bool
-
-val check_exactly : int -> point -> point -> (region * isolation) list -> bool

@@ -19,21 +19,44 @@ let moving (region : Kernel.region) =
   List.filter_map Fun.id
     (List.mapi (fun i s -> if s = Kernel.Moving then Some i else None) region.states)
 
-let report slip lo hi found =
-  let window = Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
-      (if Z.sign (snd hi) = 0 then ")" else "]") in
-  let count = List.length found in
-  let sentence =
-    if count = 0 then "no solution"
-    else if not (Kernel.check_exactly (Array.length slip) lo hi found) then
-      Printf.sprintf "%d regions, each with exactly one solution, and no other solution" count
-    else if count = 1 then "exactly one solution"
-    else Printf.sprintf "exactly %d solutions" count in
-  Printf.printf "ACCEPTED, VERIFIED: %s in %s\n" sentence window;
-  List.iter (fun (region, (c : Kernel.isolation)) ->
+let resting (region : Kernel.region) =
+  List.filter_map Fun.id
+    (List.mapi (fun i s -> if s = Kernel.Resting then Some i else None) region.states)
+
+let show_interval lo hi =
+  Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
+    (if Z.sign (snd hi) = 0 then ")" else "]")
+
+let shown_regions = 20
+
+(* Prints what the theorem [system_number] says of the solutions found and the regions left open;
+   the exit code. *)
+let report slip lo hi found left_open =
+  let names positions = String.concat " " (List.map (fun i -> string_of_int slip.(i)) positions) in
+  let window = show_interval lo hi and count = List.length found in
+  if left_open = [] then
+    Printf.printf "ACCEPTED, VERIFIED: %s in %s\n"
+      (match count with
+       | 0 -> "no solution"
+       | 1 -> "exactly one solution"
+       | _ -> Printf.sprintf "exactly %d solutions" count) window
+  else
+    Printf.printf "UNDECIDED, VERIFIED: %s in %s lies in one of %d open region(s)\n"
+      (match count with
+       | 0 -> "every solution"
+       | 1 -> "one solution; every other one"
+       | _ -> Printf.sprintf "%d solutions; every other one" count)
+      window (List.length left_open);
+  List.iter (fun (y : Kernel.yield) ->
       Printf.printf "solution: value in [%s, %s], moving %s\n"
-        (show_decimal Decimal.lower c.from_point) (show_decimal Decimal.upper c.to_point)
-        (String.concat " " (List.map (fun i -> string_of_int slip.(i)) (moving region)))) found
+        (show_decimal Decimal.lower y.yield_from) (show_decimal Decimal.upper y.yield_to)
+        (names (moving y.yield_region))) found;
+  List.iteri (fun k (r : Kernel.region) ->
+      if k < shown_regions then
+        Printf.printf "open: values in %s, moving {%s}, at rest {%s}\n"
+          (show_interval r.lower r.upper) (names (moving r)) (names (resting r))
+      else if k = shown_regions then Printf.printf "open: more regions\n") left_open;
+  if left_open = [] then 0 else 3
 
 let time = Sys.getenv_opt "MCEIP_VERIFIED_TIMES" <> None
 
@@ -83,18 +106,18 @@ let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t)
     | Raw pencil -> Kernel.check_claim pencil claim
     | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim in
   if not accepted then raise (Rejected "the kernel refuses a claim");
-  fun () ->
+  claim, fun () ->
     Printf.printf "claim: a solution with a value in [%s, %s], support %s\n" (Q.to_string a)
       (Q.to_string b) (String.concat " " (List.map string_of_int e.support))
 
 (* Print the accepted question and its witness as a Coq file instead of the verdict. *)
 let as_coq = ref false
 
-let print_coq (problem : Problem.t) elimination tree lo hi =
+let print_coq (problem : Problem.t) elimination tree lo hi found =
   match problem.question with
   | Raw _ -> Problem.not_verified "Coq files are made for mechanical systems"
   | Mechanical (system, unknown) ->
-    Coq.print system unknown elimination tree lo hi (List.length (Kernel.found tree lo hi))
+    Coq.print system unknown elimination tree lo hi (List.length found)
 
 let verify problem_path certificate_path =
   let problem = timed "problem" (fun () -> Problem.read problem_path) in
@@ -120,7 +143,7 @@ let verify problem_path certificate_path =
   let claims = timed "claims" (fun () ->
       limit_work pencil certificate.claims;
       List.map (verify_claim problem pencil certificate) certificate.claims) in
-  let report_claims () = List.iter (fun print -> print ()) claims in
+  let report_claims () = List.iter (fun (_, print) -> print ()) claims in
 
   let whole_only =
     pencil.free <> []
@@ -128,7 +151,8 @@ let verify problem_path certificate_path =
   if certificate.pieces = [] then begin
     Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
       (List.length claims);
-    report_claims ()
+    report_claims ();
+    0
   end
   else if whole_only then begin
     (* Definite leaves of the whole pencil; free rows may depend on t. *)
@@ -141,8 +165,9 @@ let verify problem_path certificate_path =
         | Raw pencil -> Kernel.check_excluded pencil tree lo hi
         | Mechanical (system, unknown) -> Kernel.check_system_excluded system unknown tree lo hi) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
-    report slip lo hi [];
-    report_claims ()
+    let code = report slip lo hi [] [] in
+    report_claims ();
+    code
   end
   else begin
     if not (Kernel.free_rows_constant pencil) then
@@ -155,26 +180,35 @@ let verify problem_path certificate_path =
     let elimination, enclosed = timed "condensation" (fun () ->
         let e = Elaborate.elimination pencil slip_list common certificate.condensation anchor in
         e, Kernel.condensed (Kernel.blocks_of pencil) e) in
-    let context = { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed } in
+    (* The kernel is given the claims that the tree refers to, in their places. *)
+    let needed = List.exists (fun (p : Certificate.piece) -> List.exists (function
+        | Certificate.Root { outcome = Claim _; _ } -> true
+        | _ -> false) p.tree) certificate.pieces in
+    let claims = if needed then List.map fst claims else [] in
+    let known = Array.of_list (Kernel.known_solutions pencil claims) in
+    let context =
+      { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed; known } in
     let tree = timed "elaboration" (fun () ->
         Elaborate.build_pieces slip (fun _ -> Elaborate.build_leaf context)
           certificate.window certificate.pieces) in
     let accepted = timed "kernel" (fun () -> match problem.question with
-        | Raw pencil -> Kernel.check_complete pencil elimination tree lo hi
+        | Raw pencil -> Kernel.check_complete pencil claims elimination tree lo hi
         | Mechanical (system, unknown) ->
-          Kernel.check_system system unknown elimination tree lo hi) in
+          Kernel.check_system system unknown claims elimination tree lo hi) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
-    if !as_coq then print_coq problem elimination tree lo hi
-    else begin
-      report slip lo hi (Kernel.found tree lo hi);
-      report_claims ()
-    end
+    match Kernel.solutions_found pencil claims tree lo hi with
+    | None -> Problem.not_verified "regions that may hold the same solution"
+    | Some found when !as_coq -> print_coq problem elimination tree lo hi found; 0
+    | Some found ->
+      let code = report slip lo hi (List.rev found) (Kernel.left_open tree lo hi) in
+      report_claims ();
+      code
   end
 
 (* The exit code for a problem and a certificate, after the verdict has been printed. *)
 let answer problem certificate =
   let say code text = print_endline text; code in
-  try verify problem certificate; 0 with
+  try verify problem certificate with
   | Rejected reason -> say 1 ("REJECTED: " ^ reason)
   | Json.Malformed reason -> say 2 ("MALFORMED: " ^ reason)
   | Sys_error reason -> say 2 reason

@@ -80,7 +80,7 @@ impl Entry {
     }
 
     /// About an LCP or MCP, not an eigenproblem.
-    fn is_plain(&self) -> bool {
+    pub(crate) fn is_plain(&self) -> bool {
         self.file["problem"]["format"] == lcp::MCP_FORMAT
     }
 

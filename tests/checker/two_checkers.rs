@@ -219,7 +219,7 @@ fn wrongly_verified(
         if is_accepted_by_us {
             faults.extend(verdict.refusal());
         }
-        if let VerifiedVerdict::Accepted(lines) = verdict {
+        if let Some(lines) = verdict.statement() {
             faults.extend(crate::verified_checker::falsehoods(problem, text, lines));
         }
 
@@ -240,6 +240,7 @@ fn summary(verdicts: &[VerifiedVerdict]) -> BTreeMap<String, usize> {
     for verdict in verdicts {
         let word = match verdict {
             VerifiedVerdict::Accepted(_) => "accepted".to_string(),
+            VerifiedVerdict::Undecided(_) => "undecided".to_string(),
             VerifiedVerdict::Rejected(_) => "rejected".to_string(),
             VerifiedVerdict::Malformed(_) => "malformed".to_string(),
             VerifiedVerdict::NotVerified(what) => format!("not verified: {what}"),

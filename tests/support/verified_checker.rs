@@ -6,10 +6,10 @@
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
 use mceip_check::certificate::Certificate;
-use mceip_check::{AcceptedClaim, AcceptedCover};
+use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, Rational, parse};
 use mceip_model::reduction::reduce;
-use mceip_model::{Problem, Window};
+use mceip_model::{Pencil, Problem, Window};
 use mceip_oracle::{Enumeration, enumerate};
 use mceip_testkit::verified::{VerifiedChecker, VerifiedVerdict};
 use std::fs::File;
@@ -60,13 +60,14 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
     let Ok(certificate) = Certificate::from_json(certificate) else {
         return vec!["accepted, but malformed".into()];
     };
-    match Statement::read(lines) {
-        Some(statement) => statement.falsehoods(problem, &certificate.window),
+    let pencil = reduce(problem).unwrap().pencil;
+    match Statement::read(lines, &pencil.slip()) {
+        Some(statement) => statement.falsehoods(&pencil, &certificate.window),
         None => vec![format!("an unknown sentence in {lines:?}")],
     }
 }
 
-/// The sentences of an acceptance.
+/// The sentences about a complete set, about claims, or both.
 #[derive(Debug)]
 pub struct Statement {
     /// All solutions in the window; `None` where nothing is said about others.
@@ -78,51 +79,73 @@ pub struct Statement {
 #[derive(Debug)]
 struct SaidCover {
     window: Window,
-    /// May two regions hold the same solution?
-    may_repeat: bool,
-    /// Solutions announced in the first line.
-    count: usize,
+    /// What the first line announces.
+    announced: Announced,
+    /// What the other lines say.
+    said: AcceptedCover,
+    /// Are open regions left out of the list?
+    leaves_out: bool,
+}
+
+/// How many there are of each sort.
+#[derive(Debug, PartialEq, Eq)]
+struct Announced {
+    solutions: usize,
+    families: usize,
+    open: usize,
+}
+
+/// What follows the first line.
+#[derive(Debug, Default)]
+struct Listed {
     solutions: Vec<AcceptedClaim>,
+    families: Vec<SolutionFamily>,
+    open: Vec<OpenRegion>,
+    leaves_out: bool,
+    claims: Vec<AcceptedClaim>,
 }
 
 impl Statement {
-    /// Reads the lines of an acceptance. `None` for a sentence that is not known here.
-    pub fn read(lines: &[String]) -> Option<Statement> {
+    /// Reads the lines of a verdict; `slip` are the complementarity variables. `None` for a
+    /// sentence that is not known here.
+    pub fn read(lines: &[String], slip: &[usize]) -> Option<Statement> {
         let (first_line, others) = lines.split_first()?;
-        let mut solutions = Vec::new();
-        let mut claims = Vec::new();
-
+        let mut listed = Listed::default();
         for line in others {
-            if let Some(rest) = line.strip_prefix("solution: value in ") {
-                solutions.push(valued(rest, ", moving")?);
-            } else {
-                let rest = line.strip_prefix("claim: a solution with a value in ")?;
-                claims.push(valued(rest, ", support")?);
-            }
+            listed.read(line, slip)?;
         }
 
-        let claims_only = format!(
-            "{} solution(s) claimed, nothing said about others",
-            claims.len()
-        );
+        let count = listed.claims.len();
+        let claims_only = format!("{count} solution(s) claimed, nothing said about others");
         if *first_line == claims_only {
-            return solutions.is_empty().then_some(Statement {
+            return Some(Statement {
                 cover: None,
-                claims,
+                claims: listed.claims,
             });
         }
 
+        let (window, announced) = first_sentence(first_line)?;
+        let said = AcceptedCover {
+            solutions: listed.solutions,
+            families: listed.families,
+            open: listed.open,
+            leaves: 1,
+        };
         Some(Statement {
-            cover: Some(said_cover(first_line, solutions)?),
-            claims,
+            cover: Some(SaidCover {
+                window,
+                announced,
+                said,
+                leaves_out: listed.leaves_out,
+            }),
+            claims: listed.claims,
         })
     }
 
     /// What is said and is not so; empty where all is true. `asked` is the window of the
     /// certificate, which has to be the one that the statement is about.
-    pub fn falsehoods(&self, problem: &Problem, asked: &Window) -> Vec<String> {
-        let pencil = reduce(problem).unwrap().pencil;
-        let truth = enumerate(&pencil, asked).unwrap();
+    pub fn falsehoods(&self, pencil: &Pencil, asked: &Window) -> Vec<String> {
+        let truth = enumerate(pencil, asked).unwrap();
 
         let mut wrong = Vec::new();
         for claim in &self.claims {
@@ -131,72 +154,95 @@ impl Statement {
             }
         }
 
-        if let Some(said) = &self.cover {
-            if said.window != *asked {
-                wrong.push(format!("about {:?} in place of {asked:?}", said.window));
-            }
-            if said.count != said.solutions.len() {
-                wrong.push(format!("{} solutions announced: {said:?}", said.count));
-            }
-            wrong.extend(crate::cover::disagreements(&said.as_cover(), &truth));
+        if let Some(cover) = &self.cover {
+            wrong.extend(cover.falsehoods(&truth, asked));
         }
         wrong
     }
 }
 
 impl SaidCover {
-    /// In the words of our checker; of regions that overlap and may hold the same solution, the
-    /// first.
-    fn as_cover(&self) -> AcceptedCover {
-        let mut solutions: Vec<AcceptedClaim> = Vec::new();
-        for solution in &self.solutions {
-            let is_repeated = solutions.iter().any(|other| overlap(other, solution));
-            if !(self.may_repeat && is_repeated) {
-                solutions.push(solution.clone());
-            }
+    fn falsehoods(&self, truth: &Enumeration, asked: &Window) -> Vec<String> {
+        let mut wrong = Vec::new();
+        if self.window != *asked {
+            wrong.push(format!("about {:?} in place of {asked:?}", self.window));
         }
 
-        AcceptedCover {
-            solutions,
-            families: vec![],
-            open: vec![],
-            leaves: 1,
+        // What the regions that are not listed hold, the sentences do not say.
+        if self.leaves_out {
+            return wrong;
         }
+
+        let listed = Announced {
+            solutions: self.said.solutions.len(),
+            families: self.said.families.len(),
+            open: self.said.open.len(),
+        };
+        if self.announced != listed {
+            wrong.push(format!("{:?} announced, {listed:?}", self.announced));
+        }
+        wrong.extend(crate::cover::disagreements(&self.said, truth));
+        wrong
     }
 }
 
-fn overlap(a: &AcceptedClaim, b: &AcceptedClaim) -> bool {
-    let begins_in_time = a.value.lo() <= b.value.hi();
-    let ends_late_enough = a.value.hi() >= b.value.lo();
-    a.support == b.support && begins_in_time && ends_late_enough
+impl Listed {
+    fn read(&mut self, line: &str, slip: &[usize]) -> Option<()> {
+        let (sort, rest) = line.split_once(": ")?;
+        match sort {
+            "solution" => {
+                let rest = rest.strip_prefix("value in ")?;
+                self.solutions.push(valued(rest, ", moving")?);
+            }
+            "claim" => {
+                let rest = rest.strip_prefix("a solution with a value in ")?;
+                self.claims.push(valued(rest, ", support")?);
+            }
+            "family" => self.families.push(family(rest)?),
+            "open" if rest == "more regions" => self.leaves_out = true,
+            "open" => self.open.push(open_region(rest, slip)?),
+            _ => return None,
+        }
+        Some(())
+    }
 }
 
-/// The first line: how many solutions, in which window.
-fn said_cover(line: &str, solutions: Vec<AcceptedClaim>) -> Option<SaidCover> {
-    let (count, window) = line.rsplit_once(" in ")?;
-    let window = read_window(window)?;
-    let may_repeat = count.contains(" regions, ");
-
-    let count = match count {
-        "no solution" => 0,
-        "exactly one solution" => 1,
-        _ if may_repeat => {
-            let (number, rest) = count.split_once(' ')?;
-            let expected = "regions, each with exactly one solution, and no other solution";
-            (rest == expected).then(|| number.parse().ok())??
-        }
-        _ => {
-            let rest = count.strip_prefix("exactly ")?;
-            rest.strip_suffix(" solutions")?.parse().ok()?
-        }
+/// `exactly 2 solutions in W`, `2 solution(s) and one family, and no others, in W`, or
+/// `one solution; every other one in W lies in one of 3 open region(s)`.
+fn first_sentence(line: &str) -> Option<(Window, Announced)> {
+    let (closed_part, open) = match line.split_once(" lies in one of ") {
+        None => (line, 0),
+        Some((part, regions)) => (part, first_word(regions)?.parse().ok()?),
     };
 
-    Some(SaidCover {
-        window,
-        may_repeat,
-        count,
+    let (counts, window) = closed_part.rsplit_once(" in ")?;
+    let counts = counts.trim_end_matches(", and no others,");
+    let counts = counts.trim_end_matches("; every other one");
+    let (solutions, families) = counts.split_once(" and ").unwrap_or((counts, ""));
+
+    let solutions = match solutions {
+        "no solution" | "every solution" => 0,
+        "exactly one solution" | "one solution" => 1,
+        many => first_word(many.trim_start_matches("exactly "))?
+            .parse()
+            .ok()?,
+    };
+    let families = match families {
+        "" => 0,
+        "one family" => 1,
+        many => first_word(many)?.parse().ok()?,
+    };
+
+    let announced = Announced {
         solutions,
-    })
+        families,
+        open,
+    };
+    Some((read_window(window)?, announced))
+}
+
+fn first_word(text: &str) -> Option<&str> {
+    text.split_whitespace().next()
 }
 
 /// `[a, b]` or `[a, infinity)`.
@@ -212,18 +258,77 @@ fn read_window(text: &str) -> Option<Window> {
 /// `[a, b], moving 0 2`: an interval, a word, the support.
 fn valued(text: &str, word: &str) -> Option<AcceptedClaim> {
     let (interval, support) = text.split_once(word)?;
-    let inner = interval.strip_prefix('[')?.strip_suffix(']')?;
-    let (min, max) = inner.split_once(", ")?;
-
-    let mut indices = Vec::new();
-    for index in support.split_whitespace() {
-        indices.push(index.parse().ok()?);
-    }
-
     Some(AcceptedClaim {
-        support: indices,
-        value: Interval::new(number(min)?, number(max)?)?,
+        support: indices(support)?,
+        value: read_interval(interval)?,
     })
+}
+
+/// `values between V and V, moving 0 2, one solution at each value`; V is a number or
+/// `a root in [a, b]`.
+fn family(text: &str) -> Option<SolutionFamily> {
+    let (rest, how_many) = text.rsplit_once(", ")?;
+    let (place, support) = rest.rsplit_once(", moving")?;
+
+    let (from, to, is_point) = if let Some(value) = place.strip_prefix("value ") {
+        let value = enclosed(value)?;
+        (value.clone(), Some(value), true)
+    } else if let Some(value) = place.strip_prefix("values above ") {
+        (enclosed(value)?, None, false)
+    } else {
+        let ends = place.strip_prefix("values between ")?;
+        let (from, to) = ends.split_once(" and ")?;
+        (enclosed(from)?, Some(enclosed(to)?), false)
+    };
+
+    Some(SolutionFamily {
+        support: indices(support)?,
+        from,
+        to,
+        is_point,
+        is_alone: how_many == "one solution at each value",
+    })
+}
+
+/// `values in [a, b], moving {0 2}, at rest {1}`; the other variables are undecided.
+fn open_region(text: &str, slip: &[usize]) -> Option<OpenRegion> {
+    let (window, states) = text.strip_prefix("values in ")?.split_once(", moving {")?;
+    let (moving, resting) = states.strip_suffix('}')?.split_once("}, at rest {")?;
+    let window = read_window(window)?;
+    let moving = indices(moving)?;
+    let resting = indices(resting)?;
+
+    let is_undecided = |i: &usize| !moving.contains(i) && !resting.contains(i);
+    let undecided = slip.iter().copied().filter(is_undecided).collect();
+    Some(OpenRegion {
+        min: window.min().clone(),
+        max: window.max().cloned(),
+        moving,
+        undecided,
+    })
+}
+
+fn enclosed(text: &str) -> Option<Interval> {
+    match text.strip_prefix("a root in ") {
+        Some(interval) => read_interval(interval),
+        None => Some(Interval::point(number(text)?)),
+    }
+}
+
+fn read_interval(text: &str) -> Option<Interval> {
+    let (min, max) = text
+        .strip_prefix('[')?
+        .strip_suffix(']')?
+        .split_once(", ")?;
+    Interval::new(number(min)?, number(max)?)
+}
+
+fn indices(text: &str) -> Option<Vec<usize>> {
+    let mut list = Vec::new();
+    for index in text.split_whitespace() {
+        list.push(index.parse().ok()?);
+    }
+    Some(list)
 }
 
 fn number(text: &str) -> Option<Rational> {
@@ -247,4 +352,43 @@ pub fn is_solution(truth: &Enumeration, claim: &AcceptedClaim) -> bool {
 
     let mut ranges = truth.ranges.iter();
     ranges.any(|range| range.support == claim.support)
+}
+
+/// Sentences as the program prints them, beside some that are none.
+#[test]
+fn sentences_are_read() {
+    let read = |text: &str| {
+        let lines: Vec<String> = text.lines().map(String::from).collect();
+        Statement::read(&lines, &[0, 1, 2])
+    };
+
+    let one = "exactly one solution in [0, infinity)\nsolution: value in [1.4, 3/2], moving 0 2";
+    let cover = read(one).unwrap().cover.unwrap();
+    assert_eq!(cover.said.solutions[0].support, [0, 2]);
+    assert_eq!(cover.announced.solutions, 1);
+
+    let open = "2 solutions and one family; every other one in [0, 4] lies in one of 1 open \
+                region(s)\nopen: values in [1, 2], moving {0}, at rest {}";
+    let cover = read(open).unwrap().cover.unwrap();
+    assert_eq!(cover.said.open[0].undecided, [1, 2]);
+    let announced = Announced {
+        solutions: 2,
+        families: 1,
+        open: 1,
+    };
+    assert_eq!(cover.announced, announced);
+
+    let family = "0 solution(s) and one family, and no others, in [0, 4]\nfamily: values between \
+                  a root in [1, 2] and 3, moving 1, solutions at each value";
+    let cover = read(family).unwrap().cover.unwrap();
+    assert_eq!(cover.said.families[0].support, [1]);
+    assert!(!cover.said.families[0].is_alone);
+
+    let claim = "1 solution(s) claimed, nothing said about others\n\
+                 claim: a solution with a value in [1, 2], support 0";
+    assert_eq!(read(claim).unwrap().claims.len(), 1);
+
+    assert!(read("exactly some solutions in [0, 4]").is_none());
+    assert!(read("no solution in [4, 0]").is_none());
+    assert!(read("no solution in [0, 4]\nbelieve: me").is_none());
 }

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// Verdicts on certificates.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct VerifiedCounts {
-    /// Certificates accepted.
+    /// Certificates whose statement is proved, those with open regions among them.
     pub accepted: usize,
     /// Certificates refused, or without a verdict: each is a failure.
     pub refused: usize,
@@ -25,7 +25,7 @@ pub struct VerifiedCounts {
 /// Verdicts on the certificates that hold one kind of evidence.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct KindCounts {
-    /// Accepted.
+    /// With a proved statement.
     pub accepted: usize,
     /// Refused, or without a verdict.
     pub refused: usize,
@@ -41,7 +41,7 @@ impl KindCounts {
 
     fn count(&mut self, verdict: &VerifiedVerdict) {
         match verdict {
-            VerifiedVerdict::Accepted(_) => self.accepted += 1,
+            VerifiedVerdict::Accepted(_) | VerifiedVerdict::Undecided(_) => self.accepted += 1,
             VerifiedVerdict::NotVerified(_) => self.not_verified += 1,
             _ => self.refused += 1,
         }
@@ -71,7 +71,7 @@ impl VerifiedCounts {
     /// Counts the verdict on a certificate.
     pub fn count(&mut self, certificate: &Certificate, verdict: &VerifiedVerdict) {
         match verdict {
-            VerifiedVerdict::Accepted(_) => self.accepted += 1,
+            VerifiedVerdict::Accepted(_) | VerifiedVerdict::Undecided(_) => self.accepted += 1,
             VerifiedVerdict::NotVerified(what) => {
                 *self.not_verified.entry(what.clone()).or_default() += 1;
             }

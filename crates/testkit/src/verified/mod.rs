@@ -7,6 +7,7 @@
 //! | exit | output | verdict |
 //! |---|---|---|
 //! | 0 | `ACCEPTED, VERIFIED: statement` | a theorem stands behind the statement |
+//! | 3 | `UNDECIDED, VERIFIED: statement` | the same; the statement names open regions |
 //! | 1 | `REJECTED: reason` | refused |
 //! | 2 | `MALFORMED: reason` | refused |
 //! | 3 | `NOT VERIFIED: kind` | no theorem for this evidence; nothing is said |

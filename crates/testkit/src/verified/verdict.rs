@@ -5,6 +5,8 @@
 pub enum VerifiedVerdict {
     /// Accepted: the statement that is proved, one line for each sentence.
     Accepted(Vec<String>),
+    /// The same where regions are left open: the proved statement names them.
+    Undecided(Vec<String>),
     /// Rejected, with the reason.
     Rejected(String),
     /// No file of the format, with the reason.
@@ -22,12 +24,14 @@ impl VerifiedVerdict {
         let (word, rest) = first_line.split_once(": ").unwrap_or((first_line, ""));
         let rest = rest.to_string();
 
+        let statement = || {
+            let others = output.lines().skip(1).map(String::from);
+            std::iter::once(rest.clone()).chain(others).collect()
+        };
+
         match (code?, word) {
-            (0, "ACCEPTED, VERIFIED") => {
-                let mut statement = vec![rest];
-                statement.extend(output.lines().skip(1).map(String::from));
-                Some(VerifiedVerdict::Accepted(statement))
-            }
+            (0, "ACCEPTED, VERIFIED") => Some(VerifiedVerdict::Accepted(statement())),
+            (3, "UNDECIDED, VERIFIED") => Some(VerifiedVerdict::Undecided(statement())),
             (1, "REJECTED") => Some(VerifiedVerdict::Rejected(rest)),
             (2, "MALFORMED") => Some(VerifiedVerdict::Malformed(rest)),
             (3, "NOT VERIFIED") => Some(VerifiedVerdict::NotVerified(rest)),
@@ -35,15 +39,20 @@ impl VerifiedVerdict {
         }
     }
 
-    /// Is the statement proved?
-    pub fn is_accepted(&self) -> bool {
-        matches!(self, VerifiedVerdict::Accepted(_))
+    /// The statement that is proved, if one is.
+    pub fn statement(&self) -> Option<&[String]> {
+        match self {
+            VerifiedVerdict::Accepted(lines) | VerifiedVerdict::Undecided(lines) => Some(lines),
+            _ => None,
+        }
     }
 
     /// Why the certificate is refused, if it is. "Not verified" is no refusal.
     pub fn refusal(&self) -> Option<String> {
         match self {
-            VerifiedVerdict::Accepted(_) | VerifiedVerdict::NotVerified(_) => None,
+            VerifiedVerdict::Accepted(_)
+            | VerifiedVerdict::Undecided(_)
+            | VerifiedVerdict::NotVerified(_) => None,
             VerifiedVerdict::Rejected(reason) => Some(format!("rejected: {reason}")),
             VerifiedVerdict::Malformed(reason) => Some(format!("malformed: {reason}")),
             VerifiedVerdict::None(ending) => Some(format!("no verdict: {ending}")),
@@ -71,8 +80,14 @@ mod tests {
 
         let open = Verdict::read(Some(3), "NOT VERIFIED: open\n").unwrap();
         assert_eq!(open, Verdict::NotVerified("open".into()));
-        assert!(!open.is_accepted());
+        assert_eq!(open.statement(), None);
         assert_eq!(open.refusal(), None);
+
+        let undecided =
+            "UNDECIDED, VERIFIED: every solution in [0, 1] lies in one of 1 open region(s)";
+        let undecided = Verdict::read(Some(3), undecided).unwrap();
+        assert_eq!(undecided.statement().map(<[String]>::len), Some(1));
+        assert_eq!(undecided.refusal(), None);
 
         // A crash of an OCaml program has exit code 2 and nothing on stdout.
         assert_eq!(Verdict::read(Some(2), ""), None);
