@@ -326,6 +326,7 @@ pub(super) fn covered_json(covered: &Covered) -> Value {
 mod tests {
     use super::*;
     use mceip_testkit::floors::{Coverage, Starts};
+    use mceip_testkit::verified::KindCounts;
 
     /// A run over 100 instances with solutions, found from the first start and all of them in so
     /// many.
@@ -374,5 +375,47 @@ mod tests {
             ..run_with_coverage(100, 100)
         };
         assert_eq!(exit_code(&interrupted), exit::INTERRUPTED);
+    }
+
+    /// A certificate that is accepted, one that is not verified, one that is refused.
+    fn three_verdicts() -> VerifiedCounts {
+        let counts = KindCounts {
+            accepted: 1,
+            refused: 1,
+            not_verified: 1,
+        };
+        VerifiedCounts {
+            accepted: 1,
+            refused: 1,
+            not_verified: [("support".to_string(), 1)].into(),
+            kinds: [("support", counts)].into(),
+        }
+    }
+
+    #[test]
+    fn verdicts_of_the_verified_checker_are_printed_by_kind() {
+        let run = run_with_coverage(100, 100);
+        let without = text_of(&run, None);
+        assert!(!without.contains("verified checker"), "{without}");
+        assert!(json_of(&run, None)["verified"].is_null());
+
+        let counts = three_verdicts();
+        let text = text_of(&run, Some(&counts));
+        let last = "1 of 3 certificates accepted, 1 not verified, 1 refused";
+        assert!(text.contains(last), "{text}");
+        assert!(text.contains("not verified: support: 1"), "{text}");
+
+        let json = json_of(&run, Some(&counts));
+        assert_eq!(json["verified"]["refused"], 1);
+        assert_eq!(json["verified"]["kinds"]["support"]["not_verified"], 1);
+    }
+
+    #[test]
+    fn a_refusal_is_a_disagreement_and_exit_1() {
+        let mut run = run_with_coverage(100, 100);
+        run.families[0]
+            .disagreements
+            .push("random pencils 3: the verified checker".into());
+        assert_eq!(exit_code(&run), exit::REJECTED);
     }
 }
