@@ -66,13 +66,14 @@ Definition value_of (y : yield) : interval := (yield_from y, yield_to y).
 Definition point_lt (a b : point) :=
   [&& (0 <=? a.2)%Z, (0 <=? b.2)%Z & (a.1 * b.2 <? b.1 * a.2)%Z].
 
+(* The comparison of the values comes first: it is cheap, and it decides for most pairs. *)
 Definition same_solution (f g : yield) :=
-  all_same (yield_region f) (yield_region g) &&
-  (within (value_of f) (ends (yield_region g)) || within (value_of g) (ends (yield_region f))).
+  (within (value_of f) (ends (yield_region g)) || within (value_of g) (ends (yield_region f))) &&
+  all_same (yield_region f) (yield_region g).
 
 Definition different_solutions (f g : yield) :=
-  [|| some_opposite (yield_region f) (yield_region g), point_lt (yield_to f) (yield_from g) |
-      point_lt (yield_to g) (yield_from f)].
+  [|| point_lt (yield_to f) (yield_from g), point_lt (yield_to g) (yield_from f) |
+      some_opposite (yield_region f) (yield_region g)].
 
 (* The yields with different solutions; None if the tests do not tell. *)
 Fixpoint distinct (seen kept rest : seq yield) : option (seq yield) :=
@@ -159,7 +160,7 @@ Proof. by move/allP=> s; apply/allP=> i /s; case: state_of; case: state_of. Qed.
 Lemma same_sound f g s s' : same_solution n f g -> the_solution f s -> the_solution g s' ->
   one_solution s s'.
 Proof.
-move=> /andP[states inside] [bt sol reg uniq] [bt' sol' reg' uniq'].
+move=> /andP[inside states] [bt sol reg uniq] [bt' sol' reg' uniq'].
 case/orP: inside => w.
   apply/one_sym; case: s {uniq} bt sol reg => t x /= bt sol [_ ag].
   by apply: uniq' => //; split; [exact: within_between w bt | exact: same_states_agree ag].
@@ -172,13 +173,13 @@ Lemma different_sound f g s s' : different_solutions n f g -> the_solution f s -
   the_solution g s' -> ~ one_solution s s'.
 Proof.
 move=> diff [[from_t t_to] _ [_ ag] _] [[from_t' t_to'] _ [_ ag'] _] [eq_t /multiple_slip].
-case=> c c0 scaled; case/or3P: diff => [/hasP[i]|lt|lt].
-- rewrite mem_iota add0n => /= lt_i; have := ag i lt_i; have := ag' i lt_i; rewrite scaled //.
-  case: (state_of (yield_region f) i); case: (state_of (yield_region g) i) => //= + + _.
-    by move=> + x0; rewrite x0 mulr0 ltxx.
-  by move=> /eqP; rewrite mulf_eq0 gt_eqF //= => /eqP->; rewrite ltxx.
+case=> c c0 scaled; case/or3P: diff => [lt|lt|/hasP[i]].
 - exact: (point_lt_sound lt t_to from_t' (esym eq_t)).
-exact: (point_lt_sound lt t_to' from_t eq_t).
+- exact: (point_lt_sound lt t_to' from_t eq_t).
+rewrite mem_iota add0n => /= lt_i; have := ag i lt_i; have := ag' i lt_i; rewrite scaled //.
+case: (state_of (yield_region f) i); case: (state_of (yield_region g) i) => //= + + _.
+  by move=> + x0; rewrite x0 mulr0 ltxx.
+by move=> /eqP; rewrite mulf_eq0 gt_eqF //= => /eqP->; rewrite ltxx.
 Qed.
 
 (* Every solution in the region of y is one of l. *)

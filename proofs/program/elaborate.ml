@@ -551,20 +551,22 @@ let build_leaf c (region : Kernel.region) node =
 
 (* The nodes of a piece in preorder; [leaf] makes a tree of a leaf. *)
 let build_piece slip leaf nodes (region : Kernel.region) =
-  let rec build (region : Kernel.region) = function
+  let rec build depth (region : Kernel.region) nodes =
+    if depth > 2_000 then no_witness "a tree of more than 2,000 levels";
+    match nodes with
     | [] -> no_witness "a tree ends too early"
     | Split t :: rest ->
       let t = point_of t in
-      let first, rest = build { region with upper = t } rest in
-      let second, rest = build { region with lower = t } rest in
+      let first, rest = build (depth + 1) { region with upper = t } rest in
+      let second, rest = build (depth + 1) { region with lower = t } rest in
       Kernel.Split (t, first, second), rest
     | Branch i :: rest ->
       let i = position slip i in
-      let first, rest = build (Kernel.decide i Kernel.Resting region) rest in
-      let second, rest = build (Kernel.decide i Kernel.Moving region) rest in
+      let first, rest = build (depth + 1) (Kernel.decide i Kernel.Resting region) rest in
+      let second, rest = build (depth + 1) (Kernel.decide i Kernel.Moving region) rest in
       Kernel.Branch (i, first, second), rest
     | node :: rest -> leaf region node, rest in
-  match build region nodes with
+  match build 0 region nodes with
   | tree, [] -> tree
   | _ -> no_witness "a tree has a node too many"
 
@@ -572,6 +574,7 @@ let upper_point = function Some q -> point_of q | None -> Kernel.infinity
 
 (* The pieces of a window as one tree. *)
 let build_pieces slip leaf (lo, _) pieces =
+  if List.length pieces > 10_000 then no_witness "more than 10,000 pieces";
   let rec build lower = function
     | [] -> no_witness "a complete set without pieces"
     | piece :: rest ->

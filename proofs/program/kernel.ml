@@ -1558,16 +1558,17 @@ let point_lt a b =
 (** val same_solution : int -> yield -> yield -> bool **)
 
 let same_solution n f g =
-  (&&) (all_same n f.yield_region g.yield_region)
+  (&&)
     ((||) (within (value_of f) (ends g.yield_region))
       (within (value_of g) (ends f.yield_region)))
+    (all_same n f.yield_region g.yield_region)
 
 (** val different_solutions : int -> yield -> yield -> bool **)
 
 let different_solutions n f g =
-  (||) (some_opposite n f.yield_region g.yield_region)
-    ((||) (point_lt f.yield_to g.yield_from)
-      (point_lt g.yield_to f.yield_from))
+  (||) (point_lt f.yield_to g.yield_from)
+    ((||) (point_lt g.yield_to f.yield_from)
+      (some_opposite n f.yield_region g.yield_region))
 
 (** val distinct :
     int -> point -> point -> yield list -> yield list -> yield list -> yield

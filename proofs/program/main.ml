@@ -196,8 +196,11 @@ let verify problem_path certificate_path =
         | Mechanical (system, unknown) ->
           Kernel.check_system system unknown claims elimination tree lo hi) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
+    if List.length (Kernel.found pencil claims tree lo hi) > 10_000 then
+      Problem.not_verified "more than 10,000 regions with a solution";
     match Kernel.solutions_found pencil claims tree lo hi with
-    | None -> Problem.not_verified "regions that may hold the same solution"
+    | None ->
+      Problem.not_verified "regions that may hold the same solution, or a value beside the window"
     | Some found when !as_coq -> print_coq problem elimination tree lo hi found; 0
     | Some found ->
       let code = report slip lo hi (List.rev found) (Kernel.left_open tree lo hi) in
@@ -212,6 +215,7 @@ let answer problem certificate =
   | Rejected reason -> say 1 ("REJECTED: " ^ reason)
   | Json.Malformed reason -> say 2 ("MALFORMED: " ^ reason)
   | Sys_error reason -> say 2 reason
+  | Stack_overflow | Out_of_memory -> say 3 "NOT VERIFIED: the memory of this program"
   | Problem.Not_verified kind -> say 3 ("NOT VERIFIED: " ^ kind)
   | Elaborate.No_witness what -> say 3 ("NOT VERIFIED: no witness for " ^ what)
 
