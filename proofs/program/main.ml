@@ -11,8 +11,8 @@ exception Rejected of string
 
 let show_point (p, q) = if Z.sign q = 0 then "infinity" else Q.to_string (Q.make p q)
 
-let show_decimal (p, q) =
-  if Z.sign q = 0 then "infinity" else Printf.sprintf "%.12g" (Q.to_float (Q.make p q))
+let show_decimal rounded (p, q) =
+  if Z.sign q = 0 then "infinity" else rounded (Q.make p q)
 
 (* The moving variables of a region, as positions among the complementarity variables. *)
 let moving (region : Kernel.region) =
@@ -81,8 +81,9 @@ let report slip lo hi found families left_open =
        | _ -> Printf.sprintf "%d solutions%s; every other one" count families_found)
       window (List.length left_open);
   List.iter (fun (y : Kernel.yield) ->
-      Printf.printf "solution: value in [%s, %s], moving %s\n" (show_decimal y.yield_from)
-        (show_decimal y.yield_to) (names (moving y.yield_region))) found;
+      Printf.printf "solution: value in [%s, %s], moving %s\n"
+        (show_decimal Decimal.lower y.yield_from) (show_decimal Decimal.upper y.yield_to)
+        (names (moving y.yield_region))) found;
   List.iter (fun (region, (h : Kernel.holding)) ->
       Printf.printf "family: %s, moving %s, %s\n" (show_place h.held_place)
         (names (moving region))
@@ -258,6 +259,15 @@ let verify_plain document certificate_path =
     (List.length points);
   0
 
+(* Print the accepted question and its witness as a Coq file instead of the verdict. *)
+let as_coq = ref false
+
+let print_coq (problem : Problem.t) elimination tree lo hi found =
+  match problem.question with
+  | Raw _ -> Problem.not_verified "Coq files are made for mechanical systems"
+  | Mechanical (system, unknown) ->
+    Coq.print system unknown elimination tree lo hi (List.length found)
+
 let verify_eigenproblem document problem_path certificate_path =
   let problem = timed "problem" (fun () -> Problem.read problem_path document) in
   let certificate = timed "certificate" (fun () -> Certificate.read certificate_path) in
@@ -352,6 +362,7 @@ let verify_eigenproblem document problem_path certificate_path =
     match Kernel.all_solutions pencil claims tree lo hi supports with
     | None ->
       Problem.not_verified "regions that may hold the same solution, or a value beside the window"
+    | Some found when !as_coq -> print_coq problem elimination tree lo hi found; 0
     | Some found ->
       let families = listed_once families in
       let code =
@@ -365,16 +376,32 @@ let verify problem_path certificate_path =
   if Plain.is_plain document then verify_plain document certificate_path
   else verify_eigenproblem document problem_path certificate_path
 
+(* The exit code for a problem and a certificate, after the verdict has been printed. *)
+let answer problem certificate =
+  let say code text = print_endline text; code in
+  try verify problem certificate with
+  | Rejected reason -> say 1 ("REJECTED: " ^ reason)
+  | Json.Malformed reason -> say 2 ("MALFORMED: " ^ reason)
+  | Sys_error reason -> say 2 reason
+  | Stack_overflow | Out_of_memory -> say 3 "NOT VERIFIED: the memory of this program"
+  | Problem.Not_verified kind -> say 3 ("NOT VERIFIED: " ^ kind)
+  | Elaborate.No_witness what -> say 3 ("NOT VERIFIED: no witness for " ^ what)
+
+(* For tests with many files: each line of stdin has the paths of a problem and a certificate,
+   without blanks; after what is printed for them comes a line "exit CODE". *)
+let answer_lines () =
+  try
+    while true do
+      match String.split_on_char ' ' (input_line stdin) with
+      | [problem; certificate] -> Printf.printf "exit %d\n%!" (answer problem certificate)
+      | _ -> prerr_endline "a line has two paths"; exit 2
+    done
+  with End_of_file -> ()
+
 let () =
-  let finish code text = print_endline text; exit code in
   match Sys.argv with
-  | [| _; problem; certificate |] ->
-    (try exit (verify problem certificate) with
-     | Rejected reason -> finish 1 ("REJECTED: " ^ reason)
-     | Json.Malformed reason -> finish 2 ("MALFORMED: " ^ reason)
-     | Sys_error reason -> finish 2 reason
-     | Stack_overflow | Out_of_memory -> finish 3 "NOT VERIFIED: the memory of this program"
-     | Problem.Not_verified kind -> finish 3 ("NOT VERIFIED: " ^ kind)
-     | Elaborate.No_witness what -> finish 3 ("NOT VERIFIED: no witness for " ^ what))
+  | [| _; "--lines" |] -> answer_lines ()
+  | [| _; "--coq"; problem; certificate |] -> as_coq := true; exit (answer problem certificate)
+  | [| _; problem; certificate |] -> exit (answer problem certificate)
   | _ ->
     prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE"; exit 2
