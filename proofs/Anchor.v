@@ -30,7 +30,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf.
-From Mceip Require Import Existence.
+From Mceip Require Import Existence Pinned.
 From Mceip Require Import Condensation Pencil Claim Norms Elimination Curved Series.
 
 Set Implicit Arguments.
@@ -58,7 +58,7 @@ Record anchor := Anchor {
   anchor_scale : seq Z }.
 
 (* Z, bounds of the norms of l and r, and of the row sums of A_1,ff. *)
-Record family := Family {
+Record anchor_family := AnchorFamily {
   series_z : seq matrix;
   left_norms : seq polynomial;
   right_norms : seq polynomial;
@@ -145,14 +145,14 @@ Definition center_series (r : seq matrix) : seq matrix :=
 
 Definition row_sum (row : sparse_row) := foldr (fun e s => Z.abs e.2 + s) 0 row.
 
-Definition expand_from (f1 : seq sparse_row) (l r : seq matrix) : family :=
-  Family (center_series r) [seq norms l i | i <- iota 0 ns] [seq norms r j | j <- iota 0 ns]
+Definition expand_from (f1 : seq sparse_row) (l r : seq matrix) : anchor_family :=
+  AnchorFamily (center_series r) [seq norms l i | i <- iota 0 ns] [seq norms r j | j <- iota 0 ns]
     (foldr Z.max 0 [seq row_sum row | row <- f1]).
 
 Definition small (L : seq matrix) := all (fun M => size M <= nf)%N L.
 
 (* None if a part has not the right shape. *)
-Definition expand : option family :=
+Definition expand : option anchor_family :=
   let f0 := ff_block row_0 in
   let f1 := ff_block row_1 in
   let l := residual_series f0 f1 [:: sf_block row_0; sf_block row_1] (anchor_left a) in
@@ -165,7 +165,7 @@ End Expansion.
 
 Section Region.
 
-Variables (ns : nat) (a : anchor) (low_a low_b : form_bound) (fam : family) (lo hi : point).
+Variables (ns : nat) (a : anchor) (low_a low_b : form_bound) (fam : anchor_family) (lo hi : point).
 
 Notation p := (anchor_center a).1.
 Notation q := (anchor_center a).2.
@@ -231,6 +231,10 @@ Definition local_isolation (c : isolation) : isolation :=
   Isolation (pivot c) (vector c) (local_point (from_point c)) (local_point (to_point c))
     (wide_box c) (narrow_box c) (unique c) (left_vector c).
 
+Definition local_known (q : known) : known :=
+  Known (local_point (known_from q)) (local_point (known_to q)) (known_support q)
+    (known_biactive q).
+
 Definition moved_leaf (l : local_leaf) : local_leaf :=
   if l is LocalRoot c o then LocalRoot (local_isolation c) o else l.
 
@@ -250,6 +254,15 @@ Definition check_local (P : enclosed) (r : region) (l : local_leaf) : bool :=
 Definition check_anchored (r : region) grain (l : local_leaf) :=
   [&& proper_interval, 0 <? grain &
       check_local (local_pencil (wants_slopes l) grain) (local_region r) (moved_leaf l)].
+
+(* The region of a known solution. *)
+Definition check_anchored_claim (r : region) grain (c : pinning) (q : known) :=
+  [&& proper_interval, 0 <? grain &
+      check_claimed (local_pencil true grain) (local_region r) c (local_known q)].
+
+(* A region with at most one null vector. *)
+Definition check_anchored_limit (r : region) grain (c : pinning) :=
+  [&& proper_interval, 0 <? grain & pinned (local_pencil true grain) (local_region r) c].
 
 End Region.
 
@@ -429,7 +442,7 @@ rewrite mem_iota add0n => /andP[_ Hm]; rewrite !lookup_ff // /F_at /shifted_entr
 by rewrite mulrDl mulrA.
 Qed.
 
-Variable fam : family.
+Variable fam : anchor_family.
 Hypothesis expanded : expand Q a = Some fam.
 
 Notation l_series := (residual_left Q a).

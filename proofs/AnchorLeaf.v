@@ -8,14 +8,19 @@
    region.  Theorem [anchored_yields]: a checked root leaf with the outcome "solution" has exactly
    one solution in its region, up to a positive factor.
 
+   A pinned region has at most one null vector, by the chord through two values.  Theorems
+   [anchored_claimed], [anchored_beside]: the region of a known solution has exactly this one, or
+   none.  [anchored_limit]: if there is a null vector at the lower end lo, then every solution of the
+   region has the value lo.
+
    Page: spec/certificates.md, 5.14.
    Rust: crates/check/src/cover/expanded.rs, family.rs. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf.
-From Mceip Require Import Existence.
-From Mceip Require Import Condensation Pencil Claim Norms Elimination Curved Series Anchor.
+From Mceip Require Import Existence Pinned Cover.
+From Mceip Require Import Condensation Pencil Claim Complete Norms Elimination Curved Series Anchor.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -101,7 +106,7 @@ End Rounding.
 
 Section Local.
 
-Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : family) (low_a low_b : form_bound).
+Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : anchor_family) (low_a low_b : form_bound).
 Variables (lo hi : point) (grain : Z).
 Hypotheses (wf : wellformed Q) (expanded : expand Q a = Some fam).
 Notation ns := (size (slip Q)).
@@ -618,6 +623,21 @@ rewrite -[x (nth _ _ _)]/(slip_of Q x k) slipE //; split=> //.
 by apply: (mulfI (lt0r_neq0 f0)); rewrite mulr0 mulrCA -imageE.
 Qed.
 
+(* A multiple on the complementarity variables is one everywhere. *)
+Lemma scaled_all u (x x' : nat -> R) f :
+  (forall k, k \in fi -> free_of Q x k = free_values u (slip_of Q x) k) ->
+  (forall k, k \in fi -> free_of Q x' k = free_values u (slip_of Q x') k) ->
+  (forall j, (j < ns)%N -> slip_of Q x' j = f * slip_of Q x j) ->
+  forall i, i \in iota 0 (order Q) -> x' i = f * x i.
+Proof.
+move=> part part' scaled i Hi; case/orP: (free_or_slip Hi) => /(nthP 0%N)[k lt_k <-].
+  have Hk : k \in fi by rewrite mem_iota.
+  rewrite -[LHS]/(free_of Q x' k) -[X in _ = f * X]/(free_of Q x k) part' // part //.
+  rewrite /free_values /Elimination.free_part mulrN mulr_sumr.
+  by congr (- _); apply: sum_eq => j; rewrite mem_iota => Hj; rewrite scaled // mulrCA.
+exact: scaled.
+Qed.
+
 (* Leaves *)
 Section Leaf.
 
@@ -744,14 +764,182 @@ move=> t' x' sol' bt' ag'; have [v0 v1] := u_of_between bt'.
 rewrite -(t_of_u t') in sol' *; move: v0 v1 sol'; set v := u_of t' => v0 v1 sol'.
 have [fam_sol part'] := to_family true v0 sol'.
 have [vu [f f0 scaled]] := uniq v _ fam_sol (in_local_region v0 v1 ag').
-rewrite vu in part' *.
-split=> //; exists f => // i Hi; case/orP: (free_or_slip Hi) => /(nthP 0%N)[k lt_k <-].
-  have Hk : k \in fi by rewrite mem_iota.
-  rewrite -[LHS]/(free_of Q x' k) -[X in _ = f * X]/(free_of Q x k) part'; last exact: Hk.
-  rewrite (free_of_join wf) // /free_values /Elimination.free_part mulrN mulr_sumr.
-  by congr (- _); apply: sum_eq => j Hj; rewrite scaled // mulrCA.
-rewrite -[LHS]/(slip_of Q x' k) -[X in _ = f * X]/(slip_of Q x k) slipE //.
-by apply: scaled; rewrite mem_iota.
+rewrite vu in part' *; split=> //; exists f => //.
+apply: (scaled_all (u := u)) => //.
+  by move=> k Hk; rewrite /x (free_of_join wf) ?in_free //; congr (- _); apply: sum_eq => j;
+     rewrite mem_iota => Hj; rewrite slipE.
+by move=> j Hj; rewrite slipE //; apply: scaled; rewrite mem_iota.
 Qed.
+
+(* Regions with at most one null vector *)
+Section Pinned.
+
+Variable st : seq state.
+Notation r := (Region lo hi st).
+Notation local_r := (local_region r).
+Notation P := (pencil_for true grain).
+
+Lemma local_between t (e e' : point) :
+  between t e e' -> between (u_of t) (local_point lo hi e) (local_point lo hi e').
+Proof.
+have [_ l2 h2 w0 _] := proper_parts; set u := u_of t.
+have m0 : 0 < toR (lo.2 * hi.2)%Z :> R by rewrite toRM mulr_gt0.
+have uE : u * toR width = t * toR (lo.2 * hi.2)%Z - toR (lo.1 * hi.2)%Z.
+  by rewrite /u /u_of divfK // gt_eqF.
+have localE (x : point) : u * toR (local_point lo hi x).2 - toR (local_point lo hi x).1 =
+    toR (lo.2 * hi.2)%Z * (t * toR x.2 - toR x.1).
+  have -> : u * toR (local_point lo hi x).2 = toR x.2 * (u * toR width).
+    by rewrite /local_point /= toRM mulrCA.
+  by rewrite uE /local_point /= !toRM !toRB !toRM; ring.
+case=> le1 le2; split.
+  by rewrite -subr_ge0 localE pmulr_rge0 // subr_ge0.
+by rewrite -subr_le0 localE pmulr_rle0 // subr_le0.
+Qed.
+
+Let O_local : ordered (lower local_r) (upper local_r).
+Proof. by []. Qed.
+
+Lemma local_supports q :
+  supports_region P local_r (local_known lo hi q) = supports_region (enclosed_order ns) r q.
+Proof. by []. Qed.
+
+Section Claimed.
+
+Variables (c : pinning) (q : known) (t : R) (x : nat -> R).
+Hypothesis checked : check_anchored_claim ns a low_a low_b fam lo hi r grain c q.
+Hypothesis known_x : known_solution Q q t x.
+
+Let claimed : check_claimed P local_r c (local_known lo hi q).
+Proof. by case/and3P: checked. Qed.
+
+Lemma known_inside_local : 0 <= u_of t /\ u_of t <= 1.
+Proof.
+case/and5P: claimed => _ _ /and4P[o t2 le_lo le_hi] _ _; case: known_x => bt _ _.
+by apply: (between_unit (states_ := st)); apply: between_wider (local_between bt).
+Qed.
+
+(* With the chord through t and t' it is a known solution of a pencil. *)
+Lemma chord_known t' : between t' lo hi -> exists A B, [/\ encloses P A B,
+  is_known P A B (local_known lo hi q) (u_of t) (slip_of Q x) &
+  forall x', solution Q t' x' -> solves P A B (u_of t') (slip_of Q x')].
+Proof.
+move=> bt'; have [u0 u1] := known_inside_local; have [v0 v1] := u_of_between bt'.
+have [A [B [E on on']]] := local_chord u0 u1 v0 v1; case: known_x => bt sol signs.
+exists A, B; split=> // [|x' sol']; last first.
+  rewrite -(t_of_u t') in sol'.
+  by apply/(pencil_solution _ on'); case: (to_family true v0 sol').
+rewrite -(t_of_u t) in sol signs.
+have [fam_sol part] := to_family true u0 sol.
+split; [exact: local_between | exact/(pencil_solution _ on) |].
+move=> j Hj; have lt_j := in_local Hj; have [pos zero biactive] := signs j lt_j.
+split=> // ns_j b_j.
+have -> : image P A B (u_of t) (slip_of Q x) j = family_image P local_family (u_of t) (slip_of Q x) j.
+  by apply: sum_eq => i Hi; rewrite on.
+by rewrite (local_image true u0 lt_j part) biactive // mulr0.
+Qed.
+
+Lemma claimed_parts_of (t' : R) x' : solution Q t' x' -> between t' lo hi ->
+  agrees ns r (slip_of Q x') ->
+  exists A B, [/\ encloses P A B,
+    is_known P A B (local_known lo hi q) (u_of t) (slip_of Q x),
+    solves P A B (u_of t') (slip_of Q x') &
+    in_region_of P (u_of t') (slip_of Q x') local_r].
+Proof.
+move=> sol' bt' ag'; have [A [B [E known_u into]]] := chord_known bt'.
+have [v0 v1] := u_of_between bt'.
+by exists A, B; split=> //; [exact: into | exact: in_local_region].
+Qed.
+
+Theorem anchored_beside (t' : R) x' : ~~ supports_region (enclosed_order ns) r q ->
+  solution Q t' x' -> between t' lo hi -> agrees ns r (slip_of Q x') -> False.
+Proof.
+rewrite -local_supports => beside sol' bt' ag'; have [A [B [E known_u sol_u reg_u]]] := claimed_parts_of sol' bt' ag'.
+exact: (claimed_beside (r := local_r) E O_local claimed known_u beside sol_u reg_u).
+Qed.
+
+Theorem anchored_claimed : supports_region (enclosed_order ns) r q ->
+  [/\ between t lo hi, agrees ns r (slip_of Q x) &
+    forall (t' : R) x', solution Q t' x' -> between t' lo hi -> agrees ns r (slip_of Q x') ->
+      t' = t /\ exists2 f, 0 < f & forall i, i \in iota 0 (order Q) -> x' i = f * x i].
+Proof.
+rewrite -local_supports => supports; have [u0 u1] := known_inside_local; case: (known_x) => _ sol _.
+have bt : between t lo hi by rewrite -(t_of_u t); apply: between_t.
+have [A [B [E known_u _]]] := chord_known bt.
+have [[_ ag] _] := claimed_sound (r := local_r) E O_local claimed known_u supports.
+split=> // t' x' sol' bt' ag'.
+have [A' [B' [E' known_u' sol_u reg_u]]] := claimed_parts_of sol' bt' ag'.
+have [_ uniq] := claimed_sound (r := local_r) E' O_local claimed known_u' supports.
+have [eq_u [f f0 scaled]] := uniq _ _ sol_u reg_u.
+have eq_t : t' = t by rewrite -(t_of_u t') eq_u t_of_u.
+rewrite {}eq_t in sol' *; split=> //; exists f => //.
+rewrite -(t_of_u t) in sol sol'.
+have [_ part] := to_family true u0 sol; have [_ part'] := to_family true u0 sol'.
+by apply: (scaled_all part part') => j Hj; apply: scaled; rewrite mem_iota.
+Qed.
+
+End Claimed.
+
+(* A null vector at the lower end *)
+Section Limit.
+
+Variables (c : pinning) (x : nat -> R).
+Hypothesis checked : check_anchored_limit ns a low_a low_b fam lo hi r grain c.
+Hypothesis free_rows : forall i, i \in free Q -> reaction Q (toR lo.1 / toR lo.2) x i = 0.
+Hypothesis slip_rows : forall j, (j < ns)%N ->
+  if is_moving (state_of r j) then reaction Q (toR lo.1 / toR lo.2) x (nth 0%N (slip Q) j) = 0
+  else slip_of Q x j = 0.
+Hypothesis pivot_moves : slip_of Q x (pin_pivot c) != 0.
+
+Let pin : pinned P local_r c.
+Proof. by case/and3P: checked. Qed.
+
+Lemma t_of_0 : t_of 0 = toR lo.1 / toR lo.2.
+Proof.
+have [_ l2 h2 _ _] := proper_parts; rewrite /t_of mul0r addr0 !toRM.
+by field; rewrite !gt_eqF.
+Qed.
+
+Theorem anchored_limit (t' : R) x' : solution Q t' x' -> between t' lo hi ->
+  agrees ns r (slip_of Q x') -> t' = toR lo.1 / toR lo.2.
+Proof.
+move=> sol' bt' ag'; have [v0 v1] := u_of_between bt'.
+have [A [B [E on on']]] := local_chord (lexx 0) ler01 v0 v1.
+have part k : k \in fi -> free_of Q x k = free_values 0 (slip_of Q x) k.
+  apply/(free_rows_vanish s_low_gt0 (below_at_u (lexx 0))) : k => k Hk; have lt_k := in_free Hk.
+  by rewrite -(reaction_free_at wf x (t_ofE 0)) // t_of_0 free_rows ?mulr0 // mem_nth.
+have xk := pivot_moves.
+have [D kJ V0 _] := pinned_parts pin; set k := pin_pivot c in xk kJ V0.
+set V := nth _ _ _ in V0.
+have null : null_vector A B (moving P local_r) 0 (slip_of Q x).
+  move=> l lJ; have Hl := moving_indices lJ; have lt_l := in_local Hl.
+  have moves : is_moving (state_of r l) by move: lJ; rewrite mem_filter => /andP[].
+  have := slip_rows lt_l; rewrite moves => row0.
+  have image0 : image P A B 0 (slip_of Q x) l = 0.
+    have -> : image P A B 0 (slip_of Q x) l = family_image P local_family 0 (slip_of Q x) l.
+      by apply: sum_eq => i Hi; rewrite on.
+    by rewrite (local_image true (lexx 0) lt_l part) t_of_0 row0 mulr0.
+  rewrite -[RHS]image0 /image [RHS](bigID (fun j => is_moving (state_of r j))) /=.
+  rewrite [X in _ = _ + X]big_seq_cond [X in _ = _ + X]big1 ?addr0 /moving ?big_filter //.
+  move=> j /andP[Hj /negbTE rest]; have := slip_rows (in_local Hj); rewrite rest => ->.
+  by rewrite mulr0.
+
+have sol_v : solves P A B (u_of t') (slip_of Q x').
+  rewrite -(t_of_u t') in sol'.
+  by apply/(pencil_solution _ on'); case: (to_family true v0 sol').
+have reg_v : in_region_of P (u_of t') (slip_of Q x') local_r by apply: in_local_region.
+have [g g0 [xk' null']] := scaled_solution D kJ V0 sol_v reg_v.
+pose f := toR V / slip_of Q x k.
+have null_f : null_vector A B (moving P local_r) 0 (fun j => f * slip_of Q x j).
+  by move=> l lJ; under eq_bigr do rewrite mulrCA; rewrite -mulr_sumr null // mulr0.
+have fxk : f * slip_of Q x k = toR V by rewrite /f divfK.
+have b0 : between (0 : R) (lower local_r) (upper local_r).
+  by rewrite /between /= toR0 toR1 !mul0r lexx ler01.
+have [u0 _] := pinned_sound (r := local_r) E O_local pin b0 (proj1 reg_v) fxk xk' null_f null'.
+by rewrite -(t_of_u t') -u0 t_of_0.
+Qed.
+
+End Limit.
+
+End Pinned.
 
 End Local.
