@@ -38,8 +38,8 @@ Module PlusMinus.
 Definition body : system :=
   (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
 41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat 1
-1); (SlipParticle 2%nat 3%nat (-1) 1)]).
+25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
+0) (0, 1) 1); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) (-1))] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -133,8 +133,8 @@ Module PlusPlus.
 Definition body : system :=
   (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
 41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat 1
-1); (SlipParticle 2%nat 3%nat 1 1)]).
+25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
+0) (0, 1) 1); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -198,8 +198,8 @@ Module MinusMinus.
 Definition body : system :=
   (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
 41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat
-(-1) 1); (SlipParticle 2%nat 3%nat (-1) 1)]).
+25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
+0) (0, 1) (-1)); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) (-1))] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -264,8 +264,8 @@ Module MinusPlus.
 Definition body : system :=
   (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
 41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat
-(-1) 1); (SlipParticle 2%nat 3%nat 1 1)]).
+25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
+0) (0, 1) (-1)); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -297,7 +297,7 @@ Module InMu.
 Definition body : system :=
   (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
 41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: ] [:: ] [::
-(SlipParticle 0%nat 1%nat 1 1); (SlipParticle 2%nat 3%nat 1 1)]).
+(SlipParticle 0%nat 1%nat (1, 0) (0, 1) 1); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
 
 Definition asked : unknown :=
   Mu.

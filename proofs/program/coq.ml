@@ -71,13 +71,15 @@ let elimination w =
         matrix w.left_va; matrix w.left_vb; integer w.bound_c; integer w.bound_d;
         integer w.factor_scale; list late_row w.stiffness_factor]
 
+let planar = pair integer integer
+
 let particle p =
-  term ["SlipParticle"; number p.tangential; number p.normal; integer p.sign_of;
-        integer p.direction]
+  term ["SlipParticle"; number p.first_dof; number p.second_dof; planar p.tangent;
+        planar p.normal; integer p.sign_of]
 
 let system s =
   term ["System"; number s.dofs; list sparse_row s.stiffness; list sparse_row s.mass;
-        list number s.free_dofs; list particle s.particles]
+        list number s.free_dofs; list particle s.particles; integer s.unit_length]
 
 let unknown = function
   | Mu -> "Mu"

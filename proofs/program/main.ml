@@ -30,7 +30,8 @@ let show_interval lo hi =
 let show_value (v : Kernel.value) =
   let lo = Kernel.start_of v and hi = Kernel.end_of v in
   if Z.equal v.value_from v.value_to then show_point lo
-  else Printf.sprintf "a root in [%s, %s]" (show_decimal Decimal.lower lo)
+  else
+    Printf.sprintf "a root in [%s, %s]" (show_decimal Decimal.lower lo)
       (show_decimal Decimal.upper hi)
 
 let show_place = function
