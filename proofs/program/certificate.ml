@@ -209,7 +209,15 @@ let place item =
   if i < 0 then malformed "a negative index";
   i
 
-let polynomials item = List.map (fun p -> List.map rational (list p)) (list item)
+(* A polynomial, constant term first, without zeros at its end. *)
+let strip is_zero p =
+  let rec drop = function c :: rest when is_zero c -> drop rest | p -> p in
+  List.rev (drop (List.rev p))
+
+let strip_integers = strip (fun c -> Z.sign c = 0)
+
+let polynomials item =
+  List.map (fun p -> strip (fun c -> Q.sign c = 0) (List.map rational (list p))) (list item)
 
 (* The fields that an exact and a lifted solution have in common. *)
 let read_exact field x =
@@ -218,7 +226,8 @@ let read_exact field x =
     | _ -> malformed "an interval has two ends" in
   { support = List.map place (list (field "support"));
     biactive = List.map place (list (field "biactive"));
-    polynomial = integers (field "polynomial"); value; x = polynomials (field x) }
+    polynomial = strip_integers (integers (field "polynomial")); value;
+    x = polynomials (field x) }
 
 let read_claim = function
   | Object ["exact_solution", body] ->

@@ -982,14 +982,10 @@ let varying_leaf v (piece : piece) (region : Kernel.region) node =
 
 (* ---------- exact solution claims *)
 
-let strip p =
-  let rec drop = function c :: rest when Z.sign c = 0 -> drop rest | p -> p in
-  List.rev (drop (List.rev p))
-
 (* (c, q, r) with c g = p q + r and r shorter than p, constant terms first; c a power of the
    leading coefficient of p in size. *)
 let divide g p =
-  let p = Array.of_list (strip p) and r = Array.of_list (strip g) in
+  let p = Array.of_list (strip_integers p) and r = Array.of_list (strip_integers g) in
   let m = Array.length p and n = Array.length r in
   if m = 0 then no_witness "a polynomial that is zero";
   let lead = p.(m - 1) in
@@ -1009,7 +1005,7 @@ let divide g p =
       for i = 0 to m - 1 do r.(k + i) <- Z.sub r.(k + i) (Z.mul factor p.(i)) done
     end
   done;
-  !c, Array.to_list q, strip (Array.to_list r)
+  !c, Array.to_list q, strip_integers (Array.to_list r)
 
 (* The witness of g modulo p, without a common factor. *)
 let reduction modulus g =
