@@ -10,8 +10,8 @@
 
    A pinned region has at most one null vector, by the chord through two values.  Theorems
    [anchored_claimed], [anchored_beside]: the region of a known solution has exactly this one, or
-   none.  [anchored_limit]: if there is a null vector at the lower end lo, then every solution of the
-   region has the value lo.
+   none.  [anchored_limit]: if there is a null vector at the lower end lo, then every solution of
+   the region has the value lo.
 
    Page: spec/certificates.md, 5.14.
    Rust: crates/check/src/cover/expanded.rs, family.rs. *)
@@ -833,7 +833,8 @@ have [fam_sol part] := to_family true u0 sol.
 split; [exact: local_between | exact/(pencil_solution _ on) |].
 move=> j Hj; have lt_j := in_local Hj; have [pos zero biactive] := signs j lt_j.
 split=> // ns_j b_j.
-have -> : image P A B (u_of t) (slip_of Q x) j = family_image P local_family (u_of t) (slip_of Q x) j.
+have -> : image P A B (u_of t) (slip_of Q x) j =
+    family_image P local_family (u_of t) (slip_of Q x) j.
   by apply: sum_eq => i Hi; rewrite on.
 by rewrite (local_image true u0 lt_j part) biactive // mulr0.
 Qed.
@@ -853,7 +854,8 @@ Qed.
 Theorem anchored_beside (t' : R) x' : ~~ supports_region (enclosed_order ns) r q ->
   solution Q t' x' -> between t' lo hi -> agrees ns r (slip_of Q x') -> False.
 Proof.
-rewrite -local_supports => beside sol' bt' ag'; have [A [B [E known_u sol_u reg_u]]] := claimed_parts_of sol' bt' ag'.
+rewrite -local_supports => beside sol' bt' ag'.
+have [A [B [E known_u sol_u reg_u]]] := claimed_parts_of sol' bt' ag'.
 exact: (claimed_beside (r := local_r) E O_local claimed known_u beside sol_u reg_u).
 Qed.
 

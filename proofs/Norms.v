@@ -41,7 +41,8 @@ move: (y k) (z k) => p q S_le A0 B0.
 
 (* 2 p q S <= A q^2 + p^2 B *)
 have mixed : (p * q) * S *+ 2 <= A * q ^+ 2 + p ^+ 2 * B.
-  have right0 : 0 <= A * q ^+ 2 + p ^+ 2 * B by apply: addr_ge0; apply: mulr_ge0 => //; apply: sqr_ge0.
+  have right0 : 0 <= A * q ^+ 2 + p ^+ 2 * B.
+    by apply: addr_ge0; apply: mulr_ge0 => //; apply: sqr_ge0.
   have [neg|pos] := lerP ((p * q) * S *+ 2) 0; first exact: le_trans neg right0.
   rewrite -(@ler_pexpn2r _ 2) ?nnegrE ?(ltW pos) //.
   apply: (@le_trans _ _ ((p * q) ^+ 2 * (A * B) *+ 4)).

@@ -62,7 +62,8 @@ Definition scale_series c (L : seq matrix) : seq matrix :=
 Definition combine (X : matrix) (row : sparse_row) : seq Z :=
   foldr (fun e s => add_poly (scale_poly e.2 (nth [::] X e.1)) s) [::] row.
 
-Definition product (rows : seq sparse_row) (X : matrix) : matrix := [seq combine X row | row <- rows].
+Definition product (rows : seq sparse_row) (X : matrix) : matrix :=
+  [seq combine X row | row <- rows].
 
 Definition product_series rows (L : seq matrix) := [seq product rows X | X <- L].
 
@@ -432,7 +433,8 @@ move=> u0 u1 v0 v1; case: p => [|a p].
 have twice : toR (2 * spread (a :: p))%Z = toR (spread_of p) + toR (spread_of p) :> R.
   by rewrite -toRD; congr toR; rewrite -[spread (a :: p)]/(spread_of p); clear; lia.
 exists ((eval p u - toR (total p)) + u' * quotient_poly p u u').
-  rewrite quotient_polyE -[chord_of (a :: p)]/(total p) -[quotient_poly (a :: p) u u']/(eval p u + u' * quotient_poly p u u').
+  rewrite quotient_polyE -[chord_of (a :: p)]/(total p).
+  rewrite -[quotient_poly (a :: p) u u']/(eval p u + u' * quotient_poly p u u').
   congr (_ * _).
   by move: (toR (total p)) (eval p u) (quotient_poly _ _ _) => *; ring.
 rewrite twice (le_trans (ler_norm_add _ _)) // ler_add //; first exact: (eval_total u0 u1 p).1.

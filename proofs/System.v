@@ -749,7 +749,8 @@ exists [seq (p.1, motion s p.2) | p <- l]; split=> //.
 - elim: vals => [|y p ys' l' [bt reg] _ IH] /=; constructor=> //.
   by split=> //; apply: (lies_in_motion wf).
 - elim: pairs => [|p l' different _ IH] /=; constructor=> //.
-  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t /(motion_injective wf) prop].
+  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t].
+  move/(motion_injective wf) => prop.
   by have /List.Forall_forall/(_ _ p'_in) := different; apply.
 move=> t v sat bt; have [[p p_in [-> prop]]|] := every t _ (solution_of_motion wf sat) bt.
   left; exists (p.1, motion s p.2); first by apply/List.in_map_iff; exists p.

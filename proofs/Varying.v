@@ -342,7 +342,8 @@ case: reverse expanded lo0 ok => expanded lo0 /andP[_ ok].
   - by case: (e) tight => //= c [].
   - exact: (swap_solution Q x t0).1.
   exact: swap_between.
-case/and3P: (ok) => proper grain0 _; case: r O ok bt ag proper {lo0} => lo' hi' st O ok bt ag proper.
+case/and3P: (ok) => proper grain0 _.
+case: r O ok bt ag proper {lo0} => lo' hi' st O ok bt ag proper.
 exact: (anchored_excludes wf expanded ba bb proper grain0 ok tight sol bt ag).
 Qed.
 
@@ -446,7 +447,8 @@ have cb i : all (fun e => e.1 < order Q)%N (row_b Q i).
   by have [l|l] := ltnP i (size (rows_b Q)); [apply/cb/mem_nth | rewrite nth_default].
 have rowE i : reaction (swap_pencil Q) (toR (upper r).2 / toR (upper r).1) X i =
     toR (sparse_dot (row_b Q i) x) :> R.
-  have -> : toR (upper r).2 = 0 :> R by rewrite -[(upper r).2]/(lower (swap_region r)).1 lo_zero toR0.
+  have -> : toR (upper r).2 = 0 :> R.
+    by rewrite -[(upper r).2]/(lower (swap_region r)).1 lo_zero toR0.
   rewrite mul0r (toR_sparse_dot R x (cb _)) /reaction; apply: eq_bigr => j _.
   by rewrite mul0r addr0.
 have [] : t^-1 = 0 -> False by apply/eqP; rewrite invr_eq0 gt_eqF.

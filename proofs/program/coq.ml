@@ -94,5 +94,6 @@ let print s u w tr lo hi count =
   define "hi" "point" (point hi);
   define "eliminated" "elimination" (elimination w);
   define "cover" "tree (leaf whole)" (tree tr);
-  Printf.printf "Theorem exactly_%d (R : rcfType) : has_exactly R body asked lo hi %d.\n" count count;
+  Printf.printf "Theorem exactly_%d (R : rcfType) : has_exactly R body asked lo hi %d.\n" count
+    count;
   print_string "Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.\n"

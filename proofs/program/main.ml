@@ -305,7 +305,8 @@ let elaborate q ~leaf ~left_open ~nothing =
       Elaborate.build_pieces q.slip leaf q.certificate.window q.certificate.pieces) in
   tree, List.rev !supports
 
-let refuse_tree_unless accepted = if not accepted then raise (Rejected "the kernel refuses the tree")
+let refuse_tree_unless accepted =
+  if not accepted then raise (Rejected "the kernel refuses the tree")
 
 (* Free rows that do not depend on the unknown: any anchor serves for all pieces. *)
 let verify_constant q =
@@ -322,7 +323,8 @@ let verify_constant q =
     elaborate q ~leaf:(fun _ -> Elaborate.build_leaf context) ~left_open:Kernel.Undecided
       ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
   refuse_tree_unless (timed "kernel" (fun () -> match problem.question with
-      | Raw pencil -> Kernel.check_families pencil q.known_claims tree q.lo q.hi supports elimination
+      | Raw pencil ->
+        Kernel.check_families pencil q.known_claims tree q.lo q.hi supports elimination
       | Mechanical (system, unknown) ->
         Kernel.check_system_families system unknown q.known_claims elimination tree q.lo q.hi
           supports));
@@ -346,12 +348,13 @@ let verify_varying q =
       | Raw pencil ->
         Kernel.check_varying_families pencil q.known_claims anchoring tree q.lo q.hi supports
       | Mechanical (system, unknown) ->
-        Kernel.check_system_varying system unknown q.known_claims anchoring tree q.lo q.hi supports));
+        Kernel.check_system_varying system unknown q.known_claims anchoring tree q.lo q.hi
+          supports));
   { yielded = Kernel.varying_found q.pencil q.known_claims tree q.lo q.hi;
     families = Kernel.varying_families tree q.lo q.hi supports;
     still_open = Kernel.varying_still_open tree q.lo q.hi supports;
     solutions = lazy (Kernel.varying_solutions q.pencil q.known_claims tree q.lo q.hi supports);
-    print_coq = (fun _ -> Problem.not_verified "as a Coq file: free rows that depend on the unknown") }
+    print_coq = (fun _ -> Problem.not_verified "as a Coq file: condensation about anchors") }
 
 let verify_eigenproblem document problem_path certificate_path =
   let problem = timed "problem" (fun () -> Problem.read problem_path document) in
