@@ -21,7 +21,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Root Existence RootLeaf.
-From Mceip Require Import Condensation Pencil Whole Complete Claim System.
+From Mceip Require Import Condensation Pencil.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -231,18 +231,3 @@ by rewrite xx // mulKf // gt_eqF.
 Qed.
 
 End Sound.
-
-Definition check_system_enclosed (s : system) (u : unknown) (k : enclosed_claim) :=
-  system_wellformed s u && check_enclosed_claim (pencil_of s u) k.
-
-Theorem system_enclosed (R : rcfType) s u k : check_system_enclosed s u k ->
-  exists (t : R) v,
-    [/\ between t (from_point (null_box k)) (to_point (null_box k)), satisfies_9 s u t v &
-        has_support s u (box_support k) [::] t v].
-Proof.
-case/andP=> wf /(@enclosed_claim_sound R)[t [x [bt sol pos zero _]]].
-exists t, (motion s x); split=> //; first exact/(system_pencil wf).
-apply: (motion_support wf) => i Hi; split=> //; first exact: pos.
-  by move/(zero _ Hi)=> [].
-by move/(zero _ Hi)=> [].
-Qed.

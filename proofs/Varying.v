@@ -1,7 +1,7 @@
 (* Complete sets for pencils whose free rows depend on the value: condensation about anchors.
 
-   The checker gets a pencil, a window [lo, hi] (hi may be infinity), exact solution claims, factors
-   that bound A_ff and B_ff from below, a list of anchors (Anchor.v), and a tree.  A leaf is
+   The checker gets a pencil, a window [lo, hi] (hi may be infinity), claims (Complete.v),
+   factors that bound A_ff and B_ff from below, a list of anchors (Anchor.v), and a tree.  A leaf is
 
      OfAnchor n g h e     evidence e about the pencil that is condensed about anchor n, with the
                           grain g, over the interval h, which contains that of the region and may
@@ -19,7 +19,8 @@
      1. each solution with a value in the window lies in a region yielded or in one left open;
      2. each region yielded has exactly one solution up to a positive factor, and its value lies in
         the interval yielded with it.
-   [varying_none]: nothing yielded or left open, no solution in the window.
+   [varying_none]: nothing yielded or left open, no solution in the window.  [varying_place]: where
+   the solution of a claim lies.
 
    As in Families.v, a support leaf (Support.v) may stand for each region left open.
    [varying_number]: if [varying_solutions] gives a list of N regions, then there are N solutions in
@@ -82,7 +83,7 @@ Definition swap_known q :=
 
 Section Checker.
 
-Variables (Q : pencil) (claims : seq claim) (w : anchoring).
+Variables (Q : pencil) (claims : seq any_claim) (w : anchoring).
 
 Notation ns := (size (slip Q)).
 
@@ -150,7 +151,7 @@ Definition bounds_hold :=
 Definition check_varying (tr : tree varying_leaf) (lo hi : point) :=
   let families := expansions in
   let solutions := known_solutions Q claims in
-  [&& wellformed Q, nilp (anchors w) || bounds_hold, all (check_claim Q) claims &
+  [&& wellformed Q, nilp (anchors w) || bounds_hold, all (check_any_claim Q) claims &
       check_tree ns (check_varying_leaf families solutions) tr (window lo hi)].
 
 Definition claim_yield (r : region) (q : known) : option yield :=
@@ -262,7 +263,7 @@ End Swap.
 
 Section Sound.
 
-Variables (R : rcfType) (Q : pencil) (claims : seq claim) (w : anchoring).
+Variables (R : rcfType) (Q : pencil) (claims : seq any_claim) (w : anchoring).
 Variables (tr : tree varying_leaf) (lo hi : point).
 Hypothesis checked : check_varying Q claims w tr lo hi.
 
@@ -273,7 +274,7 @@ Notation left_open := (varying_open tr lo hi).
 Notation check_leaf := (check_varying_leaf Q w (expansions Q w) solutions).
 
 Lemma varying_parts :
-  [/\ wellformed Q, nilp (anchors w) || bounds_hold Q w, all (check_claim Q) claims &
+  [/\ wellformed Q, nilp (anchors w) || bounds_hold Q w, all (check_any_claim Q) claims &
       check_tree ns check_leaf tr (window lo hi)].
 Proof. by case/and4P: checked. Qed.
 
@@ -281,7 +282,7 @@ Lemma known_exists k : (k < size solutions)%N ->
   exists (t : R) x, known_solution Q (known_at solutions k) t x.
 Proof.
 have [_ _ ok _] := varying_parts; rewrite size_map => lt_k.
-pose k0 := Claim.Claim [::] 0 0 0 [::] [::] [::] [::] [::].
+pose k0 := IsExact (Claim.Claim [::] 0 0 0 [::] [::] [::] [::] [::]).
 rewrite /known_at (nth_map k0) //; apply: claim_known.
 by move/all_nthP: ok; apply.
 Qed.
@@ -530,11 +531,21 @@ move=> none closed t x sol bt; have [[y]|[r]] := varying_sound.1 t x sol bt.
 by rewrite closed.
 Qed.
 
+Theorem varying_place k : check_any_claim Q k ->
+  within (known_from (known_of Q k), known_to (known_of Q k)) (lo, hi) ->
+  exists (t : R) x, known_solution Q (known_of Q k) t x /\
+    ((exists2 y, List.In y found & between t (yield_from y) (yield_to y) /\
+                                   lies_in Q (yield_region y) t x) \/
+     (exists2 r, List.In r left_open & lies_in Q r t x)).
+Proof.
+by have [every each] := varying_sound; move/(claim_known R); apply: known_place every each.
+Qed.
+
 End Sound.
 
 Section Number.
 
-Variables (R : rcfType) (Q : pencil) (claims : seq claim) (w : anchoring).
+Variables (R : rcfType) (Q : pencil) (claims : seq any_claim) (w : anchoring).
 Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
 Hypothesis checked : check_varying_families Q claims w tr lo hi ls.
 
@@ -582,7 +593,7 @@ End Number.
 
 Section Systems.
 
-Variables (R : rcfType) (s : system) (u : unknown) (claims : seq claim) (w : anchoring).
+Variables (R : rcfType) (s : system) (u : unknown) (claims : seq any_claim) (w : anchoring).
 Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
 Hypothesis checked : check_system_varying s u claims w tr lo hi ls.
 

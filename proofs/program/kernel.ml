@@ -2350,19 +2350,98 @@ let check_claim q k =
                   (slip q))
                 (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
 
+type enclosed_claim = { box_support : int list; interval_low : point;
+                        interval_high : point; null_box : isolation }
+
+(** val dense : pencil -> (int -> sparse_row) -> matrix **)
+
+let dense q rows =
+  map0 (fun i -> map0 (fun j -> lookup (rows i) j) (iota 0 q.order))
+    (iota 0 q.order)
+
+(** val whole_pencil : pencil -> enclosed **)
+
+let whole_pencil q =
+  { size_of = q.order; center_a = (dense q (row_a q)); center_b =
+    (dense q (row_b q)); radius_a = []; radius_b = [] }
+
+(** val in_active_block :
+    pencil -> enclosed_claim -> Equality.sort -> bool **)
+
+let in_active_block q k i =
+  (||) (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free)))
+    (in_mem i (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
+
+(** val active_region : pencil -> enclosed_claim -> region **)
+
+let active_region q k =
+  { lower = k.interval_low; upper = k.interval_high; states =
+    (map0 (fun i ->
+      if in_active_block q k (Obj.magic i) then Moving else Resting)
+      (iota 0 q.order)) }
+
+(** val positive_on_support : enclosed_claim -> Equality.sort -> bool **)
+
+let positive_on_support k j =
+  (||) (eq_op nat_eqType j (Obj.magic k.null_box.pivot))
+    (Z.ltb k.null_box.narrow_box.width
+      (nth Big_int_Z.zero_big_int k.null_box.vector (Obj.magic j)))
+
+(** val positive_off_support : pencil -> enclosed_claim -> int -> bool **)
+
+let positive_off_support q k i =
+  both_ends k.null_box (fun x ->
+    row_positive (whole_pencil q) (active_region q k) k.null_box.pivot
+      k.null_box.vector k.null_box.narrow_box.width x i)
+
+(** val check_enclosed_claim : pencil -> enclosed_claim -> bool **)
+
+let check_enclosed_claim q k =
+  (&&) (wellformed q)
+    ((&&) (ordered k.interval_low k.interval_high)
+      ((&&)
+        (in_mem (Obj.magic k.null_box.pivot)
+          (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
+        ((&&)
+          (all (fun i ->
+            in_mem (Obj.magic i)
+              (mem (seq_predType nat_eqType) (Obj.magic slip q)))
+            k.box_support)
+          ((&&) (isolated (whole_pencil q) (active_region q k) k.null_box)
+            ((&&) (all (Obj.magic positive_on_support k) k.box_support)
+              (all (fun i ->
+                (||)
+                  (in_mem i
+                    (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
+                  (positive_off_support q k (Obj.magic i))) (slip q)))))))
+
+type any_claim =
+| IsExact of claim
+| IsEnclosed of enclosed_claim
+
 (** val positions : pencil -> int list -> int list **)
 
 let positions q l =
   map0 (fun i -> index nat_eqType (Obj.magic i) (slip q)) l
 
-(** val known_of : pencil -> claim -> known **)
+(** val check_any_claim : pencil -> any_claim -> bool **)
 
-let known_of q k =
-  { known_from = (k.claim_from, k.claim_denominator); known_to = (k.claim_to,
-    k.claim_denominator); known_support = (positions q k.support);
-    known_biactive = (positions q k.biactive) }
+let check_any_claim q = function
+| IsExact k0 -> check_claim q k0
+| IsEnclosed k0 -> check_enclosed_claim q k0
 
-(** val known_solutions : pencil -> claim list -> known list **)
+(** val known_of : pencil -> any_claim -> known **)
+
+let known_of q = function
+| IsExact k0 ->
+  { known_from = (k0.claim_from, k0.claim_denominator); known_to =
+    (k0.claim_to, k0.claim_denominator); known_support =
+    (positions q k0.support); known_biactive = (positions q k0.biactive) }
+| IsEnclosed k0 ->
+  { known_from = k0.null_box.from_point; known_to = k0.null_box.to_point;
+    known_support = (positions q k0.box_support); known_biactive = [] }
+
+(** val known_solutions : pencil -> any_claim list -> known list **)
 
 let known_solutions q claims =
   map0 (fun k -> known_of q k) claims
@@ -2388,19 +2467,20 @@ let check_limit q r k x =
             (iota 0 (size (slip q)))))))
 
 (** val check_complete :
-    pencil -> claim list -> elimination -> whole leaf tree -> point -> point
-    -> bool **)
+    pencil -> any_claim list -> elimination -> whole leaf tree -> point ->
+    point -> bool **)
 
 let check_complete q claims w tr lo hi =
   (&&) (wellformed q)
     ((&&) (free_rows_constant q)
       ((&&) (check_elimination (blocks_of q) w)
-        ((&&) (all (check_claim q) claims)
+        ((&&) (all (check_any_claim q) claims)
           (check_cover (condensed (blocks_of q) w) (known_solutions q claims)
             (check_whole q) (check_limit q) tr lo hi))))
 
 (** val found :
-    pencil -> claim list -> whole leaf tree -> point -> point -> yield list **)
+    pencil -> any_claim list -> whole leaf tree -> point -> point -> yield
+    list **)
 
 let found q claims tr lo hi =
   yields (enclosed_order (size (slip q))) (known_solutions q claims) tr
@@ -2412,8 +2492,8 @@ let left_open tr lo hi =
   undecided tr (window lo hi)
 
 (** val solutions_found :
-    pencil -> claim list -> whole leaf tree -> point -> point -> yield list
-    option **)
+    pencil -> any_claim list -> whole leaf tree -> point -> point -> yield
+    list option **)
 
 let solutions_found q claims tr lo hi =
   distinct_yields (size (slip q)) lo hi (found q claims tr lo hi)
@@ -2599,7 +2679,7 @@ let system_wellformed s u =
              | Lambda2 (_, q) -> Z.ltb Big_int_Z.zero_big_int q)))))
 
 (** val check_system :
-    system -> unknown -> claim list -> elimination -> whole leaf tree ->
+    system -> unknown -> any_claim list -> elimination -> whole leaf tree ->
     point -> point -> bool **)
 
 let check_system s u claims w tr lo hi =
@@ -2616,6 +2696,12 @@ let check_system_excluded s u tr lo hi =
 
 let check_system_claim s u k =
   (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)
+
+(** val check_system_enclosed :
+    system -> unknown -> enclosed_claim -> bool **)
+
+let check_system_enclosed s u k =
+  (&&) (system_wellformed s u) (check_enclosed_claim (pencil_of s u) k)
 
 type lifted = { motion_claim : claim; forces : polynomial list;
                 force_reductions : reduction list;
@@ -2765,77 +2851,6 @@ let check_lifted s u l =
               ((&&) (all (particle_states s u l) (iota 0 (size s.particles)))
                 ((||) (has (in_support s l) (iota 0 (size s.particles)))
                   (has (dof_moves l) s.free_dofs))))))))
-
-type enclosed_claim = { box_support : int list; interval_low : point;
-                        interval_high : point; null_box : isolation }
-
-(** val dense : pencil -> (int -> sparse_row) -> matrix **)
-
-let dense q rows =
-  map0 (fun i -> map0 (fun j -> lookup (rows i) j) (iota 0 q.order))
-    (iota 0 q.order)
-
-(** val whole_pencil : pencil -> enclosed **)
-
-let whole_pencil q =
-  { size_of = q.order; center_a = (dense q (row_a q)); center_b =
-    (dense q (row_b q)); radius_a = []; radius_b = [] }
-
-(** val in_active_block :
-    pencil -> enclosed_claim -> Equality.sort -> bool **)
-
-let in_active_block q k i =
-  (||) (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free)))
-    (in_mem i (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
-
-(** val active_region : pencil -> enclosed_claim -> region **)
-
-let active_region q k =
-  { lower = k.interval_low; upper = k.interval_high; states =
-    (map0 (fun i ->
-      if in_active_block q k (Obj.magic i) then Moving else Resting)
-      (iota 0 q.order)) }
-
-(** val positive_on_support : enclosed_claim -> Equality.sort -> bool **)
-
-let positive_on_support k j =
-  (||) (eq_op nat_eqType j (Obj.magic k.null_box.pivot))
-    (Z.ltb k.null_box.narrow_box.width
-      (nth Big_int_Z.zero_big_int k.null_box.vector (Obj.magic j)))
-
-(** val positive_off_support : pencil -> enclosed_claim -> int -> bool **)
-
-let positive_off_support q k i =
-  both_ends k.null_box (fun x ->
-    row_positive (whole_pencil q) (active_region q k) k.null_box.pivot
-      k.null_box.vector k.null_box.narrow_box.width x i)
-
-(** val check_enclosed_claim : pencil -> enclosed_claim -> bool **)
-
-let check_enclosed_claim q k =
-  (&&) (wellformed q)
-    ((&&) (ordered k.interval_low k.interval_high)
-      ((&&)
-        (in_mem (Obj.magic k.null_box.pivot)
-          (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
-        ((&&)
-          (all (fun i ->
-            in_mem (Obj.magic i)
-              (mem (seq_predType nat_eqType) (Obj.magic slip q)))
-            k.box_support)
-          ((&&) (isolated (whole_pencil q) (active_region q k) k.null_box)
-            ((&&) (all (Obj.magic positive_on_support k) k.box_support)
-              (all (fun i ->
-                (||)
-                  (in_mem i
-                    (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
-                  (positive_off_support q k (Obj.magic i))) (slip q)))))))
-
-(** val check_system_enclosed :
-    system -> unknown -> enclosed_claim -> bool **)
-
-let check_system_enclosed s u k =
-  (&&) (system_wellformed s u) (check_enclosed_claim (pencil_of s u) k)
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
@@ -3564,15 +3579,15 @@ let families tr lo hi ls =
   families_of (left_open tr lo hi) ls
 
 (** val all_yields :
-    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-    option list -> yield list **)
+    pencil -> any_claim list -> whole leaf tree -> point -> point ->
+    support_leaf option list -> yield list **)
 
 let all_yields q claims tr lo hi ls =
   cat (found q claims tr lo hi) (isolated_of (left_open tr lo hi) ls)
 
 (** val all_solutions :
-    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-    option list -> yield list option **)
+    pencil -> any_claim list -> whole leaf tree -> point -> point ->
+    support_leaf option list -> yield list option **)
 
 let all_solutions q claims tr lo hi ls =
   distinct_yields (size (slip q)) lo hi
@@ -3588,15 +3603,15 @@ let still_open tr lo hi ls =
   open_of (left_open tr lo hi) ls
 
 (** val check_families :
-    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-    option list -> elimination -> bool **)
+    pencil -> any_claim list -> whole leaf tree -> point -> point ->
+    support_leaf option list -> elimination -> bool **)
 
 let check_families q claims tr lo hi ls w =
   (&&) (check_complete q claims w tr lo hi)
     (check_supports q (left_open tr lo hi) ls)
 
 (** val check_system_families :
-    system -> unknown -> claim list -> elimination -> whole leaf tree ->
+    system -> unknown -> any_claim list -> elimination -> whole leaf tree ->
     point -> point -> support_leaf option list -> bool **)
 
 let check_system_families s u claims w tr lo hi ls =
@@ -4313,15 +4328,15 @@ let bounds_hold q w =
     (bounded_rows (Obj.magic size q.free) (ff_block q (row_b q)) w.mass_bound)
 
 (** val check_varying :
-    pencil -> claim list -> anchoring -> varying_leaf tree -> point -> point
-    -> bool **)
+    pencil -> any_claim list -> anchoring -> varying_leaf tree -> point ->
+    point -> bool **)
 
 let check_varying q claims w tr lo hi =
   let families0 = expansions q w in
   let solutions = known_solutions q claims in
   (&&) (wellformed q)
     ((&&) ((||) (nilp w.anchors) (bounds_hold q w))
-      ((&&) (all (check_claim q) claims)
+      ((&&) (all (check_any_claim q) claims)
         (check_tree (size (slip q))
           (check_varying_leaf q w families0 solutions) tr (window lo hi))))
 
@@ -4334,7 +4349,7 @@ let claim_yield q r q0 =
   else None
 
 (** val varying_yield :
-    pencil -> claim list -> (region * varying_leaf) -> yield option **)
+    pencil -> any_claim list -> (region * varying_leaf) -> yield option **)
 
 let varying_yield q claims rl =
   match snd rl with
@@ -4353,7 +4368,8 @@ let varying_yield q claims rl =
   | _ -> None
 
 (** val varying_found :
-    pencil -> claim list -> varying_leaf tree -> point -> point -> yield list **)
+    pencil -> any_claim list -> varying_leaf tree -> point -> point -> yield
+    list **)
 
 let varying_found q claims tr lo hi =
   pmap (varying_yield q claims) (leaves tr (window lo hi))
@@ -4380,7 +4396,7 @@ let varying_still_open tr lo hi ls =
   open_of (varying_open tr lo hi) ls
 
 (** val varying_solutions :
-    pencil -> claim list -> varying_leaf tree -> point -> point ->
+    pencil -> any_claim list -> varying_leaf tree -> point -> point ->
     support_leaf option list -> yield list option **)
 
 let varying_solutions q claims tr lo hi ls =
@@ -4391,15 +4407,15 @@ let varying_solutions q claims tr lo hi ls =
         (isolated_of (varying_open tr lo hi) ls)))
 
 (** val check_varying_families :
-    pencil -> claim list -> anchoring -> varying_leaf tree -> point -> point
-    -> support_leaf option list -> bool **)
+    pencil -> any_claim list -> anchoring -> varying_leaf tree -> point ->
+    point -> support_leaf option list -> bool **)
 
 let check_varying_families q claims w tr lo hi ls =
   (&&) (check_varying q claims w tr lo hi)
     (check_supports q (varying_open tr lo hi) ls)
 
 (** val check_system_varying :
-    system -> unknown -> claim list -> anchoring -> varying_leaf tree ->
+    system -> unknown -> any_claim list -> anchoring -> varying_leaf tree ->
     point -> point -> support_leaf option list -> bool **)
 
 let check_system_varying s u claims w tr lo hi ls =

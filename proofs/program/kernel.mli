@@ -771,25 +771,48 @@ val columns_in_order : pencil -> bool
 
 val check_claim : pencil -> claim -> bool
 
+type enclosed_claim = { box_support : int list; interval_low : point;
+                        interval_high : point; null_box : isolation }
+
+val dense : pencil -> (int -> sparse_row) -> matrix
+
+val whole_pencil : pencil -> enclosed
+
+val in_active_block : pencil -> enclosed_claim -> Equality.sort -> bool
+
+val active_region : pencil -> enclosed_claim -> region
+
+val positive_on_support : enclosed_claim -> Equality.sort -> bool
+
+val positive_off_support : pencil -> enclosed_claim -> int -> bool
+
+val check_enclosed_claim : pencil -> enclosed_claim -> bool
+
+type any_claim =
+| IsExact of claim
+| IsEnclosed of enclosed_claim
+
 val positions : pencil -> int list -> int list
 
-val known_of : pencil -> claim -> known
+val check_any_claim : pencil -> any_claim -> bool
 
-val known_solutions : pencil -> claim list -> known list
+val known_of : pencil -> any_claim -> known
+
+val known_solutions : pencil -> any_claim list -> known list
 
 val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool
 
 val check_complete :
-  pencil -> claim list -> elimination -> whole leaf tree -> point -> point ->
-  bool
+  pencil -> any_claim list -> elimination -> whole leaf tree -> point ->
+  point -> bool
 
 val found :
-  pencil -> claim list -> whole leaf tree -> point -> point -> yield list
+  pencil -> any_claim list -> whole leaf tree -> point -> point -> yield list
 
 val left_open : whole leaf tree -> point -> point -> region list
 
 val solutions_found :
-  pencil -> claim list -> whole leaf tree -> point -> point -> yield list
+  pencil -> any_claim list -> whole leaf tree -> point -> point -> yield list
   option
 
 val check_excluded : pencil -> whole tree -> point -> point -> bool
@@ -854,13 +877,15 @@ val particle_wellformed : system -> slip_particle -> bool
 val system_wellformed : system -> unknown -> bool
 
 val check_system :
-  system -> unknown -> claim list -> elimination -> whole leaf tree -> point
-  -> point -> bool
+  system -> unknown -> any_claim list -> elimination -> whole leaf tree ->
+  point -> point -> bool
 
 val check_system_excluded :
   system -> unknown -> whole tree -> point -> point -> bool
 
 val check_system_claim : system -> unknown -> claim -> bool
+
+val check_system_enclosed : system -> unknown -> enclosed_claim -> bool
 
 type lifted = { motion_claim : claim; forces : polynomial list;
                 force_reductions : reduction list;
@@ -904,25 +929,6 @@ val particle_states : system -> unknown -> lifted -> int -> bool
 val slip_variables : system -> int list -> bool
 
 val check_lifted : system -> unknown -> lifted -> bool
-
-type enclosed_claim = { box_support : int list; interval_low : point;
-                        interval_high : point; null_box : isolation }
-
-val dense : pencil -> (int -> sparse_row) -> matrix
-
-val whole_pencil : pencil -> enclosed
-
-val in_active_block : pencil -> enclosed_claim -> Equality.sort -> bool
-
-val active_region : pencil -> enclosed_claim -> region
-
-val positive_on_support : enclosed_claim -> Equality.sort -> bool
-
-val positive_off_support : pencil -> enclosed_claim -> int -> bool
-
-val check_enclosed_claim : pencil -> enclosed_claim -> bool
-
-val check_system_enclosed : system -> unknown -> enclosed_claim -> bool
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
@@ -1147,23 +1153,23 @@ val families :
   whole leaf tree -> point -> point -> support_leaf option list -> family list
 
 val all_yields :
-  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-  option list -> yield list
+  pencil -> any_claim list -> whole leaf tree -> point -> point ->
+  support_leaf option list -> yield list
 
 val all_solutions :
-  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-  option list -> yield list option
+  pencil -> any_claim list -> whole leaf tree -> point -> point ->
+  support_leaf option list -> yield list option
 
 val still_open :
   whole leaf tree -> point -> point -> support_leaf option list -> region list
 
 val check_families :
-  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-  option list -> elimination -> bool
+  pencil -> any_claim list -> whole leaf tree -> point -> point ->
+  support_leaf option list -> elimination -> bool
 
 val check_system_families :
-  system -> unknown -> claim list -> elimination -> whole leaf tree -> point
-  -> point -> support_leaf option list -> bool
+  system -> unknown -> any_claim list -> elimination -> whole leaf tree ->
+  point -> point -> support_leaf option list -> bool
 
 val add_lists : ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list
 
@@ -1400,16 +1406,17 @@ val check_varying_leaf :
 val bounds_hold : pencil -> anchoring -> bool
 
 val check_varying :
-  pencil -> claim list -> anchoring -> varying_leaf tree -> point -> point ->
-  bool
+  pencil -> any_claim list -> anchoring -> varying_leaf tree -> point ->
+  point -> bool
 
 val claim_yield : pencil -> region -> known -> yield option
 
 val varying_yield :
-  pencil -> claim list -> (region * varying_leaf) -> yield option
+  pencil -> any_claim list -> (region * varying_leaf) -> yield option
 
 val varying_found :
-  pencil -> claim list -> varying_leaf tree -> point -> point -> yield list
+  pencil -> any_claim list -> varying_leaf tree -> point -> point -> yield
+  list
 
 val varying_open : varying_leaf tree -> point -> point -> region list
 
@@ -1422,13 +1429,13 @@ val varying_still_open :
   list
 
 val varying_solutions :
-  pencil -> claim list -> varying_leaf tree -> point -> point -> support_leaf
-  option list -> yield list option
+  pencil -> any_claim list -> varying_leaf tree -> point -> point ->
+  support_leaf option list -> yield list option
 
 val check_varying_families :
-  pencil -> claim list -> anchoring -> varying_leaf tree -> point -> point ->
-  support_leaf option list -> bool
+  pencil -> any_claim list -> anchoring -> varying_leaf tree -> point ->
+  point -> support_leaf option list -> bool
 
 val check_system_varying :
-  system -> unknown -> claim list -> anchoring -> varying_leaf tree -> point
-  -> point -> support_leaf option list -> bool
+  system -> unknown -> any_claim list -> anchoring -> varying_leaf tree ->
+  point -> point -> support_leaf option list -> bool

@@ -175,7 +175,7 @@ let verify_exact (problem : Problem.t) pencil (e : Certificate.exact) =
   refuse_unless (match problem.question with
       | Raw pencil -> Kernel.check_claim pencil claim
       | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim);
-  lazy claim
+  lazy (Kernel.IsExact claim)
 
 let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
   match problem.question with
@@ -189,7 +189,7 @@ let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
     let claim = Elaborate.lifted_of system unknown factor l in
     refuse_unless (states claim.motion_claim l.motion);
     refuse_unless (Kernel.check_lifted system unknown claim);
-    lazy (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l))
+    lazy (Kernel.IsExact (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l)))
 
 (* The interval that is proved lies in that of the claim. *)
 let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
@@ -214,10 +214,10 @@ let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
       | Raw pencil -> Kernel.check_enclosed_claim pencil claim
       | Mechanical (system, unknown) -> Kernel.check_system_enclosed system unknown claim in
     if not accepted then raise (Elaborate.No_witness "an enclosed solution");
-    low, high
+    lazy (Kernel.IsEnclosed claim), (low, high)
 
 (* Each claim: its support has a solution with a value in its interval, which is in the window.
-   With it comes the same claim about the pencil as a root leaf may refer to it, if it is exact. *)
+   With it comes the same claim about the pencil, as a root leaf may refer to it. *)
 let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) claim =
   let check_root (e : Certificate.exact) =
     in_window certificate e.value;
@@ -226,19 +226,13 @@ let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) clai
   match claim with
   | Certificate.Exact e ->
     check_root e;
-    Some (verify_exact problem pencil e), show_claim e.value e.support
+    verify_exact problem pencil e, show_claim e.value e.support
   | Lifted l ->
     check_root l.motion;
-    Some (verify_lifted problem pencil l), show_claim l.motion.value l.motion.support
+    verify_lifted problem pencil l, show_claim l.motion.value l.motion.support
   | Enclosed e ->
-    let value = verify_enclosed problem pencil certificate e in
-    None, show_claim value e.box_support
-
-(* The claims in their places, for root leaves that refer to them. *)
-let exact_claims =
-  List.map (function
-      | Some claim, _ -> Lazy.force claim
-      | None, _ -> Problem.not_verified "a cover that refers to enclosed solutions")
+    let claim, value = verify_enclosed problem pencil certificate e in
+    claim, show_claim value e.box_support
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in
@@ -274,7 +268,7 @@ type question = {
   slip_list : int list;
   lo : Kernel.point;
   hi : Kernel.point;
-  known_claims : Kernel.claim list }
+  known_claims : Kernel.any_claim list }
 
 (* What the kernel says after it has accepted a tree. *)
 type cover = {
@@ -389,7 +383,7 @@ let verify_eigenproblem document problem_path certificate_path =
     let needed = List.exists (fun (p : Certificate.piece) -> List.exists (function
         | Certificate.Root { outcome = Claim _; _ } -> true
         | _ -> false) p.tree) certificate.pieces in
-    let known_claims = if needed then exact_claims claims else [] in
+    let known_claims = if needed then List.map (fun (claim, _) -> Lazy.force claim) claims else [] in
     let question = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims } in
     let varying = not (Kernel.free_rows_constant pencil)
                   || pencil.free <> []
