@@ -1176,3 +1176,117 @@ let enclosed_claim_of pencil (e : enclosed) =
     :: List.map about (if n <= 16 then [44; 38; 32; 26; 20; 14; 8] else [44; 32; 20]) in
   let first_pivots = List.filteri (fun i _ -> i < (if n <= 16 then 3 else 1)) pivots in
   List.find_map (fun way -> way ()) (List.concat_map ways first_pivots)
+
+(* ---------- large enclosed solution claims: a root leaf of the condensed pencil *)
+
+(* Rows of the lower triangle L with L L' = S - shift I, if that is definite; row i of L starts where
+   row i of S does. *)
+let skyline_cholesky s shift =
+  let n = Array.length s in
+  let first = Array.mapi (fun i row ->
+      let j = ref 0 in
+      while !j < i && row.(!j) = 0.0 do incr j done;
+      !j) s in
+  let l = Array.init n (fun i -> Array.make (i + 1) 0.0) in
+  let ok = ref true in
+  for i = 0 to n - 1 do
+    if !ok then
+      for j = first.(i) to i do
+        let sum = ref (if i = j then s.(i).(i) -. shift else s.(i).(j)) in
+        for k = max first.(i) first.(j) to j - 1 do
+          sum := !sum -. l.(i).(k) *. l.(j).(k)
+        done;
+        if j < i then l.(i).(j) <- !sum /. l.(j).(j)
+        else if !sum > 0.0 then l.(i).(i) <- sqrt !sum
+        else ok := false
+      done
+  done;
+  if !ok then Some l else None
+
+let solve_cholesky l b =
+  let n = Array.length l and x = Array.copy b in
+  for i = 0 to n - 1 do
+    for j = 0 to i - 1 do x.(i) <- x.(i) -. l.(i).(j) *. x.(j) done;
+    x.(i) <- x.(i) /. l.(i).(i)
+  done;
+  for i = n - 1 downto 0 do
+    x.(i) <- x.(i) /. l.(i).(i);
+    for j = 0 to i - 1 do x.(j) <- x.(j) -. l.(i).(j) *. x.(i) done
+  done;
+  x
+
+(* The elimination of the free variables of a family with constant free rows, from the pencil
+   itself: no condensation of a certificate is needed. *)
+let own_elimination (pencil : Kernel.pencil) slip slip_common =
+  let free = Array.of_list pencil.free in
+  let nf = Array.length free in
+  if nf > 2_000 then Problem.not_verified "more than 2,000 free variables of an enclosed solution";
+  let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
+  let place = Hashtbl.create (2 * nf) in
+  Array.iteri (fun k i -> Hashtbl.replace place i k) free;
+  let over_free row =
+    let v = Array.make nf 0.0 in
+    List.iter (fun (j, z) -> match Hashtbl.find_opt place j with
+        | Some k -> v.(k) <- v.(k) +. Z.to_float z
+        | None -> ()) row;
+    v in
+  let f = Array.map (fun i -> over_free rows_a.(i)) free in
+  let envelope = ref 0 in
+  Array.iteri (fun i row ->
+      let j = ref 0 in
+      while !j < i && row.(!j) = 0.0 do incr j done;
+      envelope := !envelope + i - !j + 1) f;
+  if !envelope * nf > 1 lsl 26 then
+    Problem.not_verified "an enclosed solution beyond the limits of this program";
+  let top = Array.fold_left (fun m row -> Array.fold_left Float.max m row) 0.0 f in
+
+  (* The largest shift of powers of two that leaves F positive definite. *)
+  let rec factor k =
+    if k > 40 then no_witness "an enclosed solution: a stiffness that is not definite"
+    else
+      let shift = Float.ldexp top (-k) in
+      match skyline_cholesky f shift with Some l -> shift, l | None -> factor (k + 3) in
+  let shift, l = factor 1 in
+  let exact_l = match skyline_cholesky f 0.0 with
+    | Some l -> l
+    | None -> no_witness "an enclosed solution: a stiffness that is not definite" in
+  let fine = 64 - snd (Float.frexp (sqrt top)) in
+  if fine < 0 then no_witness "an enclosed solution: large entries";
+  let rows = Array.to_list (Array.map (fun row ->
+      late_row (Array.map (fun v -> round_scaled v fine) row)) l) in
+
+  let unit = 56 in
+  let solved b =
+    Array.to_list (Array.map (fun v -> round_scaled v unit) (solve_cholesky exact_l b)) in
+  let column j = Array.map (fun i ->
+      List.fold_left (fun sum (c, z) -> if c = j then sum +. Z.to_float z else sum) 0.0 rows_a.(i))
+      free in
+  { Kernel.row_scale = row_scales pencil slip slip_common; unit_of = two_to unit;
+    right_w = List.map (fun j -> solved (column j)) slip;
+    left_va = List.map (fun i -> solved (over_free rows_a.(i))) slip;
+    left_vb = List.map (fun i -> solved (over_free rows_b.(i))) slip;
+    bound_c = two_to (2 * fine);
+    bound_d = round_scaled (shift /. 2.0) (2 * fine);
+    factor_scale = Z.one; stiffness_factor = rows }
+
+(* A tree over the interval of the claim: a root leaf where the support moves, and nothing is said
+   elsewhere. *)
+let enclosed_tree (pencil : Kernel.pencil) slip slip_common (e : enclosed) (low, high) =
+  let w = own_elimination pencil slip slip_common in
+  let p = Kernel.condensed (Kernel.blocks_of pencil) w in
+  let f = doubles_of p in
+  let moves = List.map (fun i -> List.mem i e.box_support) slip in
+  let region = { Kernel.lower = point_of low; upper = point_of high;
+                 states = List.map (fun m -> if m then Kernel.Moving else Kernel.Resting) moves } in
+  let j_list = Kernel.moving p region in
+  let root = { pivot = List.hd j_list; interval = (low, high); left = []; right = []; exponent = 0;
+               outcome = Solution } in
+  match isolated_leaf p f region root Kernel.Solution with
+  | None -> None
+  | Some leaf ->
+    let beside = Kernel.Leaf Kernel.Undecided in
+    let rec branches i = function
+      | [] -> Kernel.Leaf leaf
+      | true :: rest -> Kernel.Branch (i, beside, branches (i + 1) rest)
+      | false :: rest -> Kernel.Branch (i, branches (i + 1) rest, beside) in
+    Some (w, branches 0 moves)

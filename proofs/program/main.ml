@@ -131,9 +131,8 @@ let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
     let size = size_of l.motion polynomials in
     List.length polynomials * size * size
   | Enclosed _ ->
-    if pencil.order > largest_enclosed then
-      Problem.not_verified "an enclosed solution of more than %d variables" largest_enclosed;
-    pencil.order * pencil.order * pencil.order * pencil.order * (1 lsl 12)
+    if pencil.order > largest_enclosed then 1 lsl 33
+    else pencil.order * pencil.order * pencil.order * pencil.order * (1 lsl 12)
 
 let limit_work (problem : Problem.t) pencil claims =
   let entries = List.fold_left (fun n row -> n + List.length row) 0 in
@@ -191,6 +190,30 @@ let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
     refuse_unless (Kernel.check_lifted system unknown claim);
     lazy (Kernel.IsExact (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l)))
 
+(* An enclosed solution of many variables, as the only region that a cover of its interval yields:
+   [complete_sound], [system_complete]. *)
+let verify_condensed (problem : Problem.t) pencil (e : Certificate.enclosed) (low, high) =
+  if not (Kernel.free_rows_constant pencil) then
+    Problem.not_verified "an enclosed solution of more than %d variables, with free rows that \
+                          depend on the unknown" largest_enclosed;
+  let slip = Obj.magic (Kernel.slip pencil) in
+  match Elaborate.enclosed_tree pencil slip problem.slip_common e (low, high) with
+  | None -> raise (Elaborate.No_witness "an enclosed solution")
+  | Some (w, tree) ->
+    let lo = Elaborate.point_of low and hi = Elaborate.point_of high in
+    let accepted = match problem.question with
+      | Raw pencil -> Kernel.check_complete pencil [] w tree lo hi
+      | Mechanical (system, unknown) -> Kernel.check_system system unknown [] w tree lo hi in
+    if not accepted then raise (Elaborate.No_witness "an enclosed solution");
+    match Kernel.found pencil [] tree lo hi with
+    | [y] when List.map (List.nth slip) (moving y.yield_region) = e.box_support
+            && List.length (resting y.yield_region) + List.length e.box_support
+               = List.length slip ->
+      let low' = Elaborate.value_of y.yield_from and high' = Elaborate.value_of y.yield_to in
+      refuse_unless (Q.geq low' low && Q.leq high' high);
+      low', high'
+    | _ -> raise (Elaborate.No_witness "an enclosed solution")
+
 (* The interval that is proved lies in that of the claim. *)
 let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
     (e : Certificate.enclosed) =
@@ -203,7 +226,8 @@ let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
   let center = List.nth e.center active and radius = List.nth e.radius active in
   let value = Q.sub center radius, Q.add center radius in
   in_window certificate value;
-  match Elaborate.enclosed_claim_of pencil e with
+  if pencil.order > largest_enclosed then None, verify_condensed problem pencil e value
+  else match Elaborate.enclosed_claim_of pencil e with
   | None -> raise (Elaborate.No_witness "an enclosed solution")
   | Some claim ->
     let low = Elaborate.value_of claim.null_box.from_point in
@@ -214,7 +238,7 @@ let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
       | Raw pencil -> Kernel.check_enclosed_claim pencil claim
       | Mechanical (system, unknown) -> Kernel.check_system_enclosed system unknown claim in
     if not accepted then raise (Elaborate.No_witness "an enclosed solution");
-    lazy (Kernel.IsEnclosed claim), (low, high)
+    Some (lazy (Kernel.IsEnclosed claim)), (low, high)
 
 (* Each claim: its support has a solution with a value in its interval, which is in the window.
    With it comes the same claim about the pencil, as a root leaf may refer to it. *)
@@ -226,13 +250,19 @@ let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) clai
   match claim with
   | Certificate.Exact e ->
     check_root e;
-    verify_exact problem pencil e, show_claim e.value e.support
+    Some (verify_exact problem pencil e), show_claim e.value e.support
   | Lifted l ->
     check_root l.motion;
-    verify_lifted problem pencil l, show_claim l.motion.value l.motion.support
+    Some (verify_lifted problem pencil l), show_claim l.motion.value l.motion.support
   | Enclosed e ->
     let claim, value = verify_enclosed problem pencil certificate e in
     claim, show_claim value e.box_support
+
+(* The claims in their places, for root leaves that refer to them. *)
+let kernel_claims =
+  List.map (function
+      | Some claim, _ -> Lazy.force claim
+      | None, _ -> Problem.not_verified "a cover that refers to large enclosed solutions")
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in
@@ -383,7 +413,7 @@ let verify_eigenproblem document problem_path certificate_path =
     let needed = List.exists (fun (p : Certificate.piece) -> List.exists (function
         | Certificate.Root { outcome = Claim _; _ } -> true
         | _ -> false) p.tree) certificate.pieces in
-    let known_claims = if needed then List.map (fun (claim, _) -> Lazy.force claim) claims else [] in
+    let known_claims = if needed then kernel_claims claims else [] in
     let question = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims } in
     let varying = not (Kernel.free_rows_constant pencil)
                   || pencil.free <> []
