@@ -1,8 +1,9 @@
 (* Complete sets of solutions of a pencil: the main theorem about certificates of pencils.
 
    The checker gets a pencil, a window [lo, hi] of values (hi may be infinity), claims (exact or
-   enclosed) that root leaves may refer to, a witness for the elimination of the free variables, and a tree.  The tree yields
-   regions, each with an interval of a value; it may leave regions undecided.
+   enclosed) that root leaves may refer to, a witness for the elimination of the free variables, and
+   a tree.  The tree yields regions, each with an interval of a value; it may leave regions
+   undecided.
 
    Theorem [complete_sound]: if the check succeeds, then
      1. each solution with a value in the window lies in a region yielded or in an undecided one;
@@ -116,7 +117,8 @@ case=> f f0 scaled; exists f^-1; first by rewrite invr_gt0.
 by move=> i Hi; rewrite scaled // mulKf // gt_eqF.
 Qed.
 
-Lemma proportional_trans (x y z : nat -> R) : proportional Q x y -> proportional Q y z -> proportional Q x z.
+Lemma proportional_trans (x y z : nat -> R) :
+  proportional Q x y -> proportional Q y z -> proportional Q x z.
 Proof.
 case=> f f0 xy [g g0 yz]; exists (g * f); first exact: mulr_gt0.
 by move=> i Hi; rewrite yz // xy // mulrA.

@@ -20,7 +20,7 @@ Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
 Set Extraction AccessOpaque.
 
 Extraction "kernel.ml"
-  check_complete check_excluded check_system check_system_excluded check_claim check_system_claim
+  check_complete check_system check_claim check_system_claim
   check_lifted check_enclosed_claim check_system_enclosed check_mcp
   reaction_poly found left_open solutions_found pencil_of blocks_of
   condensed slip zero infinity window check_leaf check_tree check_whole check_end

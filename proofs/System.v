@@ -28,8 +28,8 @@
    [system_exactly]: how many there are, as in Complete.v.
 
    [system_claim]: an exact solution claim about the pencil gives a motion with (9) and with the
-   support and the biactive variables of the claim ([has_support]).  [system_enclosed]: the same for an
-   enclosed claim, without biactive variables.
+   support and the biactive variables of the claim ([has_support]).  [system_enclosed]: the same for
+   an enclosed claim, without biactive variables.
 
    The pencil is in the order of spec/certificates.md: free degrees of freedom, then slip
    particles.  Particles at zero reaction are not covered.

@@ -1179,8 +1179,8 @@ let enclosed_claim_of pencil (e : enclosed) =
 
 (* ---------- large enclosed solution claims: a root leaf of the condensed pencil *)
 
-(* Rows of the lower triangle L with L L' = S - shift I, if that is definite; row i of L starts where
-   row i of S does. *)
+(* Rows of the lower triangle L with L L' = S - shift I, if that is definite; row i of L starts
+   where row i of S does. *)
 let skyline_cholesky s shift =
   let n = Array.length s in
   let first = Array.mapi (fun i row ->
