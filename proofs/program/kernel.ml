@@ -2498,12 +2498,6 @@ let left_open tr lo hi =
 let solutions_found q claims tr lo hi =
   distinct_yields (size (slip q)) lo hi (found q claims tr lo hi)
 
-(** val check_excluded : pencil -> whole tree -> point -> point -> bool **)
-
-let check_excluded q tr lo hi =
-  (&&) (wellformed q)
-    (check_tree (size (slip q)) (check_whole q) tr (window lo hi))
-
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
 type slip_particle = { first_dof : int; second_dof : int; tangent : planar;
@@ -2685,12 +2679,6 @@ let system_wellformed s u =
 let check_system s u claims w tr lo hi =
   (&&) (system_wellformed s u)
     (check_complete (pencil_of s u) claims w tr lo hi)
-
-(** val check_system_excluded :
-    system -> unknown -> whole tree -> point -> point -> bool **)
-
-let check_system_excluded s u tr lo hi =
-  (&&) (system_wellformed s u) (check_excluded (pencil_of s u) tr lo hi)
 
 (** val check_system_claim : system -> unknown -> claim -> bool **)
 

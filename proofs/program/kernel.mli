@@ -815,8 +815,6 @@ val solutions_found :
   pencil -> any_claim list -> whole leaf tree -> point -> point -> yield list
   option
 
-val check_excluded : pencil -> whole tree -> point -> point -> bool
-
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
 type slip_particle = { first_dof : int; second_dof : int; tangent : planar;
@@ -879,9 +877,6 @@ val system_wellformed : system -> unknown -> bool
 val check_system :
   system -> unknown -> any_claim list -> elimination -> whole leaf tree ->
   point -> point -> bool
-
-val check_system_excluded :
-  system -> unknown -> whole tree -> point -> point -> bool
 
 val check_system_claim : system -> unknown -> claim -> bool
 
