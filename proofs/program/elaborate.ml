@@ -1215,78 +1215,143 @@ let solve_cholesky l b =
   done;
   x
 
-(* The elimination of the free variables of a family with constant free rows, from the pencil
-   itself: no condensation of a certificate is needed. *)
-let own_elimination (pencil : Kernel.pencil) slip slip_common =
+(* The blocks of the free variables in doubles: what stands in rows of the free columns, and the
+   column of a complementarity variable in the free rows. *)
+let over_free (pencil : Kernel.pencil) =
   let free = Array.of_list pencil.free in
   let nf = Array.length free in
   if nf > 2_000 then Problem.not_verified "more than 2,000 free variables of an enclosed solution";
-  let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
   let place = Hashtbl.create (2 * nf) in
   Array.iteri (fun k i -> Hashtbl.replace place i k) free;
-  let over_free row =
+  fun row ->
     let v = Array.make nf 0.0 in
     List.iter (fun (j, z) -> match Hashtbl.find_opt place j with
         | Some k -> v.(k) <- v.(k) +. Z.to_float z
         | None -> ()) row;
-    v in
-  let f = Array.map (fun i -> over_free rows_a.(i)) free in
+    v
+
+let column_of rows j =
+  Array.map (List.fold_left (fun sum (c, z) -> if c = j then sum +. Z.to_float z else sum) 0.0) rows
+
+let at_free (pencil : Kernel.pencil) rows =
+  let rows = Array.of_list rows in
+  Array.of_list (List.map (fun i -> rows.(i)) pencil.free)
+
+let definite_factor s =
+  match skyline_cholesky s 0.0 with
+  | Some l -> l
+  | None -> no_witness "an enclosed solution: a matrix that is not definite"
+
+(* c, d and L such that L L' covers c S - d I. *)
+let own_bound s =
+  let n = Array.length s in
   let envelope = ref 0 in
   Array.iteri (fun i row ->
       let j = ref 0 in
       while !j < i && row.(!j) = 0.0 do incr j done;
-      envelope := !envelope + i - !j + 1) f;
-  if !envelope * nf > 1 lsl 26 then
+      envelope := !envelope + i - !j + 1) s;
+  if !envelope * n > 1 lsl 26 then
     Problem.not_verified "an enclosed solution beyond the limits of this program";
-  let top = Array.fold_left (fun m row -> Array.fold_left Float.max m row) 0.0 f in
-
-  (* The largest shift of powers of two that leaves F positive definite. *)
+  let top = Array.fold_left (fun m row -> Array.fold_left Float.max m row) 0.0 s in
   let rec factor k =
-    if k > 40 then no_witness "an enclosed solution: a stiffness that is not definite"
+    if k > 40 then no_witness "an enclosed solution: a matrix that is not definite"
     else
       let shift = Float.ldexp top (-k) in
-      match skyline_cholesky f shift with Some l -> shift, l | None -> factor (k + 3) in
+      match skyline_cholesky s shift with Some l -> shift, l | None -> factor (k + 3) in
   let shift, l = factor 1 in
-  let exact_l = match skyline_cholesky f 0.0 with
-    | Some l -> l
-    | None -> no_witness "an enclosed solution: a stiffness that is not definite" in
   let fine = 64 - snd (Float.frexp (sqrt top)) in
   if fine < 0 then no_witness "an enclosed solution: large entries";
-  let rows = Array.to_list (Array.map (fun row ->
-      late_row (Array.map (fun v -> round_scaled v fine) row)) l) in
+  { Kernel.bound_times = two_to (2 * fine); bound_at = round_scaled (shift /. 2.0) (2 * fine);
+    gram_times = Z.one;
+    gram_rows = Array.to_list (Array.map (fun row ->
+        late_row (Array.map (fun v -> round_scaled v fine) row)) l) }
 
-  let unit = 56 in
-  let solved b =
-    Array.to_list (Array.map (fun v -> round_scaled v unit) (solve_cholesky exact_l b)) in
-  let column j = Array.map (fun i ->
-      List.fold_left (fun sum (c, z) -> if c = j then sum +. Z.to_float z else sum) 0.0 rows_a.(i))
-      free in
-  { Kernel.row_scale = row_scales pencil slip slip_common; unit_of = two_to unit;
-    right_w = List.map (fun j -> solved (column j)) slip;
-    left_va = List.map (fun i -> solved (over_free rows_a.(i))) slip;
-    left_vb = List.map (fun i -> solved (over_free rows_b.(i))) slip;
-    bound_c = two_to (2 * fine);
-    bound_d = round_scaled (shift /. 2.0) (2 * fine);
-    factor_scale = Z.one; stiffness_factor = rows }
+let own_unit = 56
 
-(* A tree over the interval of the claim: a root leaf where the support moves, and nothing is said
+let solved l b =
+  Array.to_list (Array.map (fun v -> round_scaled v own_unit) (solve_cholesky l b))
+
+(* The elimination of the free variables of a family with constant free rows, from the pencil
+   itself: no condensation of a certificate is needed. *)
+let own_elimination (pencil : Kernel.pencil) slip slip_common =
+  let part = over_free pencil in
+  let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
+  let free_rows = at_free pencil pencil.rows_a in
+  let f = Array.map part free_rows in
+  let bound = own_bound f and l = definite_factor f in
+  { Kernel.row_scale = row_scales pencil slip slip_common; unit_of = two_to own_unit;
+    right_w = List.map (fun j -> solved l (column_of free_rows j)) slip;
+    left_va = List.map (fun i -> solved l (part rows_a.(i))) slip;
+    left_vb = List.map (fun i -> solved l (part rows_b.(i))) slip;
+    bound_c = bound.bound_times; bound_d = bound.bound_at;
+    factor_scale = bound.gram_times; stiffness_factor = bound.gram_rows }
+
+(* An anchor at a value, where the free rows depend on it. *)
+let own_anchor (pencil : Kernel.pencil) slip free_factor slip_factor center =
+  let part = over_free pencil in
+  let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
+  let free_a = at_free pencil pencil.rows_a and free_b = at_free pencil pencil.rows_b in
+  let f_a = Array.map part free_a and f_b = Array.map part free_b in
+  let nf = Array.length f_a and t = Q.to_float center in
+  let sum = Array.map2 (fun a b -> a +. t *. b) in
+  let l = definite_factor (Array.map2 sum f_a f_b) in
+  let right = List.map (fun j -> solved l (sum (column_of free_a j) (column_of free_b j))) slip in
+  let left = List.map (fun i -> solved l (sum (part rows_a.(i)) (part rows_b.(i)))) slip in
+  let diagonal = ref true in
+  Array.iteri (fun i row -> Array.iteri (fun j v ->
+      if v < 0.0 || i <> j && v <> 0.0 then diagonal := false) row) f_b;
+  let mass_bound =
+    if !diagonal then
+      { trivial_bound with gram_rows = List.init nf (fun _ -> (0, [])) }
+    else own_bound f_b in
+  let anchor =
+    { Kernel.anchor_center = point_of center; anchor_unit = two_to own_unit;
+      anchor_right = [transpose nf right]; anchor_left = [transpose nf left];
+      anchor_scale = row_scales pencil slip slip_factor } in
+  let v = without_anchors pencil slip free_factor slip_factor None in
+  let anchoring =
+    { Kernel.stiffness_bound = own_bound f_a; mass_bound; anchors = [(false, anchor)] } in
+  { v with anchoring; expansions = Kernel.expansions pencil anchoring }
+
+(* A tree over the interval of the claim: the leaf where the support moves, and nothing is said
    elsewhere. *)
-let enclosed_tree (pencil : Kernel.pencil) slip slip_common (e : enclosed) (low, high) =
-  let w = own_elimination pencil slip slip_common in
-  let p = Kernel.condensed (Kernel.blocks_of pencil) w in
-  let f = doubles_of p in
+let only_region moves beside leaf =
+  let rec branches i = function
+    | [] -> Kernel.Leaf leaf
+    | true :: rest -> Kernel.Branch (i, Kernel.Leaf beside, branches (i + 1) rest)
+    | false :: rest -> Kernel.Branch (i, branches (i + 1) rest, Kernel.Leaf beside) in
+  branches 0 moves
+
+let enclosed_region slip (e : enclosed) (low, high) =
   let moves = List.map (fun i -> List.mem i e.box_support) slip in
   let region = { Kernel.lower = point_of low; upper = point_of high;
                  states = List.map (fun m -> if m then Kernel.Moving else Kernel.Resting) moves } in
-  let j_list = Kernel.moving p region in
-  let root = { pivot = List.hd j_list; interval = (low, high); left = []; right = []; exponent = 0;
-               outcome = Solution } in
-  match isolated_leaf p f region root Kernel.Solution with
-  | None -> None
-  | Some leaf ->
-    let beside = Kernel.Leaf Kernel.Undecided in
-    let rec branches i = function
-      | [] -> Kernel.Leaf leaf
-      | true :: rest -> Kernel.Branch (i, beside, branches (i + 1) rest)
-      | false :: rest -> Kernel.Branch (i, branches (i + 1) rest, beside) in
-    Some (w, branches 0 moves)
+  moves, region
+
+let enclosed_root pivot interval =
+  { pivot; interval; left = []; right = []; exponent = 0; outcome = Solution }
+
+let enclosed_tree (pencil : Kernel.pencil) slip slip_common (e : enclosed) interval =
+  let w = own_elimination pencil slip slip_common in
+  let p = Kernel.condensed (Kernel.blocks_of pencil) w in
+  let moves, region = enclosed_region slip e interval in
+  let root = enclosed_root (List.hd (Kernel.moving p region)) interval in
+  Option.map (fun leaf -> w, only_region moves Kernel.Undecided leaf)
+    (isolated_leaf p (doubles_of p) region root Kernel.Solution)
+
+(* The same where the free rows depend on the value. The leaf reaches beyond the interval of the
+   claim, which is too narrow for doubles. *)
+let enclosed_varying_tree (pencil : Kernel.pencil) slip free_factor slip_factor (e : enclosed)
+    (low, high) =
+  let center = Q.of_float (Q.to_float (half low high)) in
+  let v = own_anchor pencil slip free_factor slip_factor center in
+  let moves, _ = enclosed_region slip e (low, high) in
+  let pivot = position (Array.of_list slip) (List.hd e.box_support) in
+  let size = if Q.sign center = 0 then Q.one else Q.abs center in
+  let attempt bits =
+    let width = Q.div size (Q.of_bigint (two_to bits)) in
+    let wide = larger Q.zero (Q.sub low width), Q.add high width in
+    let _, region = enclosed_region slip e wide in
+    by_root v 0 (enclosed_root pivot (low, high)) Kernel.Solution region in
+  Option.map (fun leaf -> v.anchoring, only_region moves Kernel.LeftOpen leaf)
+    (List.find_map attempt [36; 40; 32; 44; 28; 24; 16])

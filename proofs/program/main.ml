@@ -191,28 +191,40 @@ let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
     lazy (Kernel.IsExact (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l)))
 
 (* An enclosed solution of many variables, as the only region that a cover of its interval yields:
-   [complete_sound], [system_complete]. *)
+   [complete_sound], [system_complete], [varying_sound], [system_varying_number]. *)
 let verify_condensed (problem : Problem.t) pencil (e : Certificate.enclosed) (low, high) =
-  if not (Kernel.free_rows_constant pencil) then
-    Problem.not_verified "an enclosed solution of more than %d variables, with free rows that \
-                          depend on the unknown" largest_enclosed;
+  let none () = raise (Elaborate.No_witness "an enclosed solution") in
   let slip = Obj.magic (Kernel.slip pencil) in
-  match Elaborate.enclosed_tree pencil slip problem.slip_common e (low, high) with
-  | None -> raise (Elaborate.No_witness "an enclosed solution")
-  | Some (w, tree) ->
-    let lo = Elaborate.point_of low and hi = Elaborate.point_of high in
-    let accepted = match problem.question with
-      | Raw pencil -> Kernel.check_complete pencil [] w tree lo hi
-      | Mechanical (system, unknown) -> Kernel.check_system system unknown [] w tree lo hi in
-    if not accepted then raise (Elaborate.No_witness "an enclosed solution");
-    match Kernel.found pencil [] tree lo hi with
-    | [y] when List.map (List.nth slip) (moving y.yield_region) = e.box_support
-            && List.length (resting y.yield_region) + List.length e.box_support
-               = List.length slip ->
-      let low' = Elaborate.value_of y.yield_from and high' = Elaborate.value_of y.yield_to in
-      refuse_unless (Q.geq low' low && Q.leq high' high);
-      low', high'
-    | _ -> raise (Elaborate.No_witness "an enclosed solution")
+  let lo = Elaborate.point_of low and hi = Elaborate.point_of high in
+  let accepted, found =
+    if Kernel.free_rows_constant pencil then
+      match Elaborate.enclosed_tree pencil slip problem.slip_common e (low, high) with
+      | None -> none ()
+      | Some (w, tree) ->
+        (match problem.question with
+         | Raw pencil -> Kernel.check_complete pencil [] w tree lo hi
+         | Mechanical (system, unknown) -> Kernel.check_system system unknown [] w tree lo hi),
+        Kernel.found pencil [] tree lo hi
+    else
+      match Elaborate.enclosed_varying_tree pencil slip problem.common problem.slip_common e
+              (low, high) with
+      | None -> none ()
+      | Some (anchoring, tree) ->
+        let still_open = List.map (fun _ -> None) slip in
+        (match problem.question with
+         | Raw pencil -> Kernel.check_varying_families pencil [] anchoring tree lo hi still_open
+         | Mechanical (system, unknown) ->
+           Kernel.check_system_varying system unknown [] anchoring tree lo hi still_open),
+        Kernel.varying_found pencil [] tree lo hi in
+  if not accepted then none ();
+  match found with
+  | [y] when List.map (List.nth slip) (moving y.yield_region) = e.box_support
+          && List.length (resting y.yield_region) + List.length e.box_support
+             = List.length slip ->
+    let low' = Elaborate.value_of y.yield_from and high' = Elaborate.value_of y.yield_to in
+    refuse_unless (Q.geq low' low && Q.leq high' high);
+    low', high'
+  | _ -> none ()
 
 (* The interval that is proved lies in that of the claim. *)
 let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
