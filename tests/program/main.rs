@@ -21,6 +21,7 @@ mod convert;
 mod examples;
 mod explain;
 mod launcher;
+mod manual;
 mod pictures;
 mod schemas;
 mod slurm;
