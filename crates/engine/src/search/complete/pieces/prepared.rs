@@ -41,23 +41,23 @@ const SLACK_OF_REACH: f64 = 0.2;
 
 /// An interval of the window: it begins where the one before ends.
 #[derive(Clone)]
-struct Interval {
+pub(crate) struct Interval {
     /// Upper end; `None` for infinity.
-    max: Option<Rational>,
+    pub(crate) max: Option<Rational>,
     /// The anchor of the condensation that encloses the pencil there.
-    anchor: Option<usize>,
+    pub(crate) anchor: Option<usize>,
 }
 
 /// What a search needs before it begins.
 #[derive(Clone)]
 pub(crate) struct Prepared {
     pub(crate) view: View,
-    condensation: Option<Condensation>,
+    pub(crate) condensation: Option<Condensation>,
     /// Smallest eigenvalue of (A_ff, B_ff), where the elimination depends on the unknown.
-    lowest_frequency: f64,
+    pub(crate) lowest_frequency: f64,
     /// Values up to this share the anchor of the window's lower end; 0 where there is none.
     shared_up_to: f64,
-    intervals: Vec<Interval>,
+    pub(crate) intervals: Vec<Interval>,
 }
 
 impl Prepared {
@@ -69,6 +69,20 @@ impl Prepared {
     pub(crate) fn new(
         problem: &Problem,
         pencil: &Pencil,
+        count: usize,
+    ) -> Result<Prepared, CompleteError> {
+        Prepared::of_family(problem, pencil, pencil, count)
+    }
+
+    /// The same where the tail, if there is one, is to hold for another pencil of a family with the
+    /// same free rows.
+    ///
+    /// # Errors
+    /// As [`Prepared::new`].
+    pub(crate) fn of_family(
+        problem: &Problem,
+        pencil: &Pencil,
+        definite_above: &Pencil,
         count: usize,
     ) -> Result<Prepared, CompleteError> {
         let slip = pencil.slip().len();
@@ -86,7 +100,7 @@ impl Prepared {
         let window = problem.window();
         if !pencil.free().is_empty() {
             return Ok(Prepared::condensed(
-                condense(pencil, window)?,
+                condense(pencil, window, definite_above)?,
                 window,
                 count,
             ));
