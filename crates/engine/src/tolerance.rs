@@ -187,3 +187,51 @@ pub const PATH_VALUE: f64 = 1e-8;
 /// power of it and the remainder the sixth, which is below the rounding of doubles. Reason: two
 /// anchors so near one another would cut the pieces beside a threshold without need.
 pub(crate) const SHARED_ANCHOR: f64 = 1e-3;
+
+/// First step along a branch in (lambda^2, mu). Unit: of lambda^2 + the lowest frequency. Reason:
+/// small beside the distance over which a condensed matrix changes; the steps double.
+pub(crate) const BRANCH_STEP: f64 = 1e-3;
+
+/// Width to which the place of a fold is narrowed. Unit: of lambda^2. Basis: mu changes with the
+/// square of it there, which is the rounding of doubles.
+pub(crate) const FOLD_WIDTH: f64 = 1e-7;
+
+/// Distance beyond a kink at which the neighbouring support is looked at. Unit: of lambda^2 + the
+/// lowest frequency. Basis: a thousand times what doubles misplace a kink by.
+pub(crate) const KINK_SIDE: f64 = 1e-6;
+
+/// Largest Newton step of a converged point of a branch. Unit: of the point. Basis: a hundred times
+/// the rounding of doubles; the method is quadratic.
+pub(crate) const NEWTON_CONVERGED: f64 = 1e-13;
+
+/// Values of x_i and y_i above minus this count as not negative along a branch. Unit: none, with
+/// e'x = 1 and rows of largest entry one. Basis: rounding of a solve with a well-conditioned block;
+/// exact arithmetic decides about the point that is certified.
+pub(crate) const SIGN_NOISE: f64 = 1e-11;
+
+/// How far from a minimum of mu the lambda^2 at which it is certified may lie. Unit: of lambda^2.
+/// Basis: at a fold mu changes with the square of it, beside a kink in proportion; both stay below
+/// a tenth of the gap that is aimed at.
+pub(crate) const SHORT_VALUE: f64 = 1e-8;
+
+/// Half width of the window in which a solution known in doubles is certified, narrow ones first.
+/// Unit: of mu. Basis: a simple eigenvalue is good to 1e-15 times its condition.
+pub(crate) const NARROW_WINDOWS: [f64; 2] = [1e-9, 1e-6];
+
+/// Gaps between proved absence and solution that are aimed at, one after the other. Unit: of mu.
+/// Reason: the first is cheap and meets solutions that are still unknown; the last two are what is
+/// asked of large and of small bodies, with a tenth for the rounding of the bound.
+pub(crate) const CRITICAL_GAPS: [f64; 3] = [1e-2, 8e-6, 8e-7];
+
+/// How much smaller than the known one a mu in doubles must be to be worth a certificate. Unit: of
+/// mu. Basis: a tenth of what the last of [`CRITICAL_GAPS`] would notice.
+pub(crate) const SMALLER_FRICTION: f64 = 1e-8;
+
+/// Distance from an anchor within which another one would be of no use. Unit: of lambda^2 + the
+/// lowest frequency. Basis: an anchor is used within six times of it.
+pub(crate) const ANCHOR_DISTANCE: f64 = 5e-3;
+
+/// Margin of a decided box below which a radius that takes it away is not worth further cuts. Unit:
+/// that of equilibrated columns. Basis: shorter boxes have smaller radii about an anchor, but what
+/// the expansion leaves out at its own distance stays.
+pub(crate) const RADIUS_LOSS: f64 = 3e-4;

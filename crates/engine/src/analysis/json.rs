@@ -189,7 +189,7 @@ impl Analysis {
             "absent_below": critical.absent_below.as_ref().map(ToString::to_string),
             "absent_evidence": self.evidence_json(&critical.evidence, paths),
             "solution": solution,
-            "boxes": critical.cover.as_ref().map(|cover| cover.boxes),
+            "boxes": critical.boxes,
         })
     }
 
