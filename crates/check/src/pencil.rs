@@ -21,6 +21,9 @@
 //! y = P' (K + lambda^2 M) T x. The block formulas (16) are not used: `reduction` in the model
 //! crate does that, and a test holds the two equal, so that one mistake cannot be in both.
 //!
+//! For certificates over a range of mu, [`FrictionParts`] keeps y = P' w without friction and the
+//! coefficient of mu apart.
+//!
 //! Input: a [`Problem`], whose constructor has checked its shape. Every checker of a claim reads
 //! the [`Rows`] made here.
 
@@ -35,6 +38,7 @@ pub(super) type Row = Vec<(usize, Integer, Integer)>;
 type RationalRow = Vec<(usize, Rational)>;
 
 /// The rows of the pencil, each multiplied by a positive integer, and the free variables.
+#[derive(Clone)]
 pub(super) struct Rows {
     pub(super) rows: Vec<Row>,
     /// The integer each row was multiplied by.
@@ -69,7 +73,18 @@ impl Rows {
     /// Joins a row of A and a row of B and clears their denominators.
     fn push(&mut self, a: &[(usize, Rational)], b: &[(usize, Rational)], is_free: bool) {
         let factor = common_denominator(a.iter().chain(b).map(|(_, value)| value));
+        self.push_multiple(a, b, factor, is_free);
+    }
 
+    /// Joins a row of A and a row of B and multiplies them by a factor that clears their
+    /// denominators.
+    fn push_multiple(
+        &mut self,
+        a: &[(usize, Rational)],
+        b: &[(usize, Rational)],
+        factor: Integer,
+        is_free: bool,
+    ) {
         let mut entries: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
         for (column, value) in a {
             entries.entry(*column).or_default().0 += integral(value, &factor);
@@ -102,6 +117,81 @@ impl Rows {
 
     pub(super) fn order(&self) -> usize {
         self.rows.len()
+    }
+}
+
+/// The pencils T0 and T1 of a mechanical system with T(t, mu) = T0(t) + mu T1(t) in the slip rows.
+///
+/// The free rows do not depend on mu: they stand in both. Row i of both has the same factor.
+pub(super) struct FrictionParts {
+    /// Without friction: slip rows -S t'(K + tM) T.
+    pub(super) plain: Rows,
+    /// The coefficient of mu: slip rows -n'(K + tM) T.
+    pub(super) friction: Rows,
+}
+
+impl FrictionParts {
+    pub(super) fn of(system: &System, mass: &Sparse) -> FrictionParts {
+        let variables = Variables::of(system);
+        let stiffness = system.stiffness();
+        let order = variables.columns.len();
+        let mut parts = FrictionParts {
+            plain: Rows::with_capacity(order),
+            friction: Rows::with_capacity(order),
+        };
+
+        for (i, plain) in variables.rows.iter().enumerate() {
+            let is_free = i < variables.free;
+            let friction = if is_free {
+                plain
+            } else {
+                &variables.friction[i]
+            };
+
+            let plain_a = variables.reduced(plain, stiffness);
+            let plain_b = variables.reduced(plain, mass);
+            let friction_a = variables.reduced(friction, stiffness);
+            let friction_b = variables.reduced(friction, mass);
+
+            let all = [&plain_a, &plain_b, &friction_a, &friction_b];
+            let factor = common_denominator(all.into_iter().flatten().map(|(_, value)| value));
+            parts
+                .plain
+                .push_multiple(&plain_a, &plain_b, factor.clone(), is_free);
+            parts
+                .friction
+                .push_multiple(&friction_a, &friction_b, factor, is_free);
+        }
+
+        parts
+    }
+
+    /// The pencil at a friction mu = p/q: q T0 + p T1 in the slip rows.
+    pub(super) fn at(&self, mu: &Rational) -> Rows {
+        let p = mu.numer();
+        let q = mu.denom();
+        let mut rows = self.plain.clone();
+
+        for i in 0..rows.order() {
+            if rows.is_free[i] {
+                continue;
+            }
+
+            let mut entries: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
+            for (part, factor) in [(&self.plain, q), (&self.friction, p)] {
+                for (column, a, b) in &part.rows[i] {
+                    let entry = entries.entry(*column).or_default();
+                    entry.0 += a * factor;
+                    entry.1 += b * factor;
+                }
+            }
+
+            let row = entries.into_iter().map(|(column, (a, b))| (column, a, b));
+            rows.rows[i] = row.collect();
+            rows.factor[i] *= q;
+        }
+
+        rows
     }
 }
 

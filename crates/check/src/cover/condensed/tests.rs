@@ -376,7 +376,13 @@ fn a_tail_begins_where_the_symmetric_part_is_definite() {
             factor: lower([&[2], &[1, 2]], 0),
             mass_factor: Some(lower([&[2], &[2, 2]], 1)),
         };
-        tail(&tail_rows(&c, &d), &claim)
+        let rows = tail_rows(&c, &d);
+        tail(
+            &rows,
+            &claim.from.0,
+            &claim.factor,
+            claim.mass_factor.as_ref(),
+        )
     };
     let (hair, none) = (rational(1, 1000), whole(0));
     assert_eq!(
