@@ -152,7 +152,7 @@ pub(super) fn critical(
                 problem: known.problem,
                 limits: model.options.limits,
                 threads: model.options.threads,
-                watch: model.watch,
+                watch: model.progress,
             },
         };
 
@@ -273,7 +273,7 @@ impl Search<'_> {
             }
 
             let stage = "critical mu: following solutions to smaller mu";
-            let watch = &self.model.watch;
+            let watch = &self.model.progress;
             watch.report(&Progress::of(stage, k, starts.len()));
             minima.extend(self.branches.minimum_below(start.lambda2, start.mu, &start.x));
         }
@@ -417,7 +417,7 @@ impl Search<'_> {
         }
 
         let stage = format!("critical mu: absence below {:.7}", to_f64(below));
-        self.model.watch.report(&Progress::stage(&stage));
+        self.model.progress.report(&Progress::stage(&stage));
         match self.quadrant.cover(below, &bounds.values)? {
             Outcome::Absent(certificate) => {
                 bounds.absence = Some(*certificate);

@@ -70,6 +70,7 @@ pub fn analyse(
         system,
         options,
         watch: watch.quiet(),
+        progress: *watch,
     };
 
     let at_friction = model.problem(Some(friction))?;

@@ -36,7 +36,10 @@ impl Default for Options {
 pub(super) struct Model<'a> {
     pub(super) system: &'a System,
     pub(super) options: &'a Options,
+    /// Without the listener: for the parts of a stage.
     pub(super) watch: Watch<'a>,
+    /// With the listener, for stages that tell of their progress.
+    pub(super) progress: Watch<'a>,
 }
 
 impl Model<'_> {

@@ -71,8 +71,6 @@ pub(in crate::analysis) enum Cause {
 #[derive(Debug, Clone)]
 pub(in crate::analysis) struct Blocked {
     pub(in crate::analysis) cause: Cause,
-    /// The interval of mu.
-    pub(in crate::analysis) mu: [Rational; 2],
     /// lambda^2 and mu in its middle.
     pub(in crate::analysis) middle: [f64; 2],
     /// The relaxed solution there, by position.
@@ -144,7 +142,7 @@ impl Search<'_> {
         let place = [middle_value, middle_friction];
 
         if self.budget == 0 || self.shares.is_cancelled() {
-            return Err(blocked(region, Cause::Budget, place, &middle));
+            return Err(blocked(Cause::Budget, place, &middle));
         }
 
         self.budget -= 1;
@@ -162,7 +160,7 @@ impl Search<'_> {
 
         let is_decided = undecided(&region.states).is_empty();
         if is_decided && let Some(cause) = self.hopeless(region, &middle) {
-            return Err(blocked(region, cause, place, &middle));
+            return Err(blocked(cause, place, &middle));
         }
 
         let is_worth_halving = middle.is_prunable && region.cuts < MAX_CUTS;
@@ -304,10 +302,9 @@ fn most_violated(region: &Region, middle: &MiddleTest) -> usize {
     most.map_or(0, |(_, position)| position)
 }
 
-fn blocked(region: &Region, cause: Cause, middle: [f64; 2], test: &MiddleTest) -> Box<Blocked> {
+fn blocked(cause: Cause, middle: [f64; 2], test: &MiddleTest) -> Box<Blocked> {
     Box::new(Blocked {
         cause,
-        mu: region.mu.clone(),
         middle,
         x: test.relaxed_solution(),
     })

@@ -149,6 +149,37 @@ impl Family {
         condensation.is_some_and(|c| c.tail.is_some())
     }
 
+    /// T0 and T1 at a value, by solving with T_ff there, rows scaled as those of the expansions.
+    #[cfg(test)]
+    pub(super) fn direct(&self, value: f64) -> [Matrix; 2] {
+        let exact = mceip_exact::from_f64(value).unwrap_or_default();
+        self.pencils.each_ref().map(|pencil| {
+            let at_value = pencil.a().add_scaled(&exact, pencil.b());
+            let free = pencil.free();
+            let slip = pencil.slip();
+            let block = |rows: &[usize], columns: &[usize]| {
+                crate::dense::rounded(&at_value.submatrix(rows, columns))
+            };
+
+            let columns = crate::dense::rounded(&at_value.submatrix(free, &slip).transpose());
+            let solved = mceip_mcp::linear::solve(&block(free, free), &columns).unwrap_or_default();
+            let rows = block(&slip, free);
+            let mut condensed = block(&slip, &slip);
+            for (i, row) in condensed.iter_mut().enumerate() {
+                let constant = &self.pencils[0];
+                let slope = &self.pencils[1];
+                let factor = to_f64(&common_row_factor(&[constant, slope], slip[i]));
+                for (j, entry) in row.iter_mut().enumerate() {
+                    let products = rows[i].iter().zip(&solved[j]);
+                    let eliminated: f64 = products.map(|(a, b)| a * b).sum();
+                    *entry = factor * (*entry - eliminated);
+                }
+            }
+
+            condensed
+        })
+    }
+
     /// Multiplies all remainders by a factor, because rounding errors of their computation in
     /// doubles are not part of them.
     pub(super) fn enlarge_remainders(&mut self, factor: f64) {

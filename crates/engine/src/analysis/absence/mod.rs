@@ -164,3 +164,132 @@ pub(super) fn leaves(certificate: &CriticalCertificate) -> usize {
     };
     nodes.filter(is_leaf).count()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reduction::mu_family;
+    use mceip_check::check_critical;
+    use mceip_exact::{Sparse, from_f64, rational, whole};
+    use mceip_model::{Body, ContactState, Particle, System, Unknown, Window};
+    use mceip_oracle::TwoParticles;
+    use mceip_paper::{Block, BlockModel, two_particles};
+
+    /// Covers [0, infinity) x [0, below] for a system with mass and friction.
+    fn cover(system: &System, below: f64, values: &[f64]) -> Outcome {
+        let family = mu_family(system).unwrap();
+        let body = Body::System(system.clone());
+        let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
+        let quadrant = Quadrant {
+            family: &family,
+            mass: family.mass.as_ref().unwrap(),
+            problem: &problem,
+            limits: Limits::default(),
+            threads: Some(1),
+            watch: Watch::nobody(),
+        };
+
+        let outcome = quadrant.cover(&from_f64(below).unwrap(), values).unwrap();
+        if let Outcome::Absent(certificate) = &outcome {
+            check_critical(&problem, certificate).unwrap();
+        }
+        outcome
+    }
+
+    #[track_caller]
+    fn is_absent_just_below_and_not_above(system: &System, critical: f64, lambda2: f64) {
+        let below = cover(system, critical * (1.0 - 1e-6), &[lambda2]);
+        assert!(matches!(below, Outcome::Absent(_)), "{critical}");
+
+        let above = cover(system, critical * (1.0 + 1e-6), &[lambda2]);
+        let Outcome::Blocked(blocked) = above else {
+            panic!("a solution at {critical} was not met")
+        };
+        assert_eq!(blocked.cause, Cause::Solution);
+    }
+
+    /// Table 1 has no folds: nothing exists below the static threshold, and (-1, 1) has nothing at
+    /// all.
+    #[test]
+    fn two_particles_have_nothing_below_their_thresholds() {
+        for (signs, threshold) in [
+            ((1, 1), Some(2.0f64.sqrt() * 1.18f64.sqrt() / 0.8)),
+            ((1, -1), Some(1.36 / 0.48)),
+            ((-1, 1), None),
+        ] {
+            let data = TwoParticles {
+                c: rational(3, 5),
+                s: rational(4, 5),
+                k: whole(1000),
+                m: whole(2),
+                mu: whole(1),
+                signs,
+            };
+
+            let system = two_particles(&data).unwrap();
+
+            match threshold {
+                Some(threshold) => is_absent_just_below_and_not_above(&system, threshold, 0.0),
+                None => assert!(matches!(cover(&system, 1e6, &[]), Outcome::Absent(_))),
+            }
+        }
+    }
+
+    /// The fold of errata.md as a mechanical system: no static threshold at all, yet solutions from
+    /// the fold on.
+    #[test]
+    fn a_fold_is_met_before_any_static_threshold() {
+        let k = Sparse::from_ints(&[
+            &[1, 0, 0, 1],
+            &[0, 2, -3, -4],
+            &[0, -3, 99, 0],
+            &[1, -4, 0, 99],
+        ]);
+        let slip = ContactState::Slip { sign: 1 };
+        let particles = vec![Particle::plain(0, 2, slip), Particle::plain(1, 3, slip)];
+        let mass = Some(Sparse::identity(4));
+        let system = System::new(k, mass, Some(whole(2)), particles).unwrap();
+
+        // tests/program/analyze.rs has the derivation.
+        let mu_of_fold = 1.0 + 0.75f64.sqrt();
+        is_absent_just_below_and_not_above(&system, mu_of_fold, 0.5 + 3.0f64.sqrt());
+    }
+
+    /// With free variables the enclosures of T0 and T1 hold what direct condensation gives.
+    #[test]
+    fn parts_condensed_about_anchors_agree_with_direct_condensation() {
+        let block = Block::new(&BlockModel::of_the_paper().with_cells(2, 1)).unwrap();
+        let slip = ContactState::Slip { sign: 1 };
+        let states = [slip, slip, ContactState::Free];
+        let system = block.system(&states, Some(whole(1))).unwrap();
+        let mu_family = mu_family(&system).unwrap();
+        let mass = mu_family.mass.as_ref().unwrap();
+
+        let family = Family::new(&mu_family, mass, &whole(2), &[0.0]).unwrap();
+
+        assert!(family.pieces.len() > 1);
+        let mut lo = Rational::default();
+        for piece in &family.pieces {
+            assert_eq!(piece.lo, lo);
+            lo = piece.hi.clone().unwrap_or(lo);
+
+            let Some(hi) = &piece.hi else { continue };
+            let middle = mceip_exact::to_f64(&(hi / whole(2) + &piece.lo / whole(2)));
+            let [first, second] = family.expansions(piece.anchor);
+            if piece.anchor.is_none() || first.reversed {
+                continue;
+            }
+
+            let direct = family.direct(middle);
+            let ends = [first.ends(middle, middle), second.ends(middle, middle)];
+            for (part, matrix) in ends.iter().zip(&direct) {
+                for (i, row) in matrix.iter().enumerate() {
+                    for (j, entry) in row.iter().enumerate() {
+                        let distance = (entry - part.m[0][i][j]).abs();
+                        assert!(distance <= part.radius(i, j), "{middle} {i} {j}: {distance}");
+                    }
+                }
+            }
+        }
+    }
+}
