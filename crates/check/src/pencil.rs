@@ -361,6 +361,44 @@ mod tests {
         assert_eq!(b, scale(&pencil.b().row(i).to_vec(), &factor));
     }
 
+    /// A row of A and of B divided by its factor.
+    fn as_given(rows: &Rows, i: usize) -> (RationalRow, RationalRow) {
+        let mut a = RationalRow::new();
+        let mut b = RationalRow::new();
+        for (j, a_j, b_j) in &rows.rows[i] {
+            a.push((*j, Rational::new(a_j.clone(), rows.factor[i].clone())));
+            b.push((*j, Rational::new(b_j.clone(), rows.factor[i].clone())));
+        }
+        a.retain(|(_, v)| *v != whole(0));
+        b.retain(|(_, v)| *v != whole(0));
+        (a, b)
+    }
+
+    /// T0 + mu T1 is the pencil of the system with the friction mu, whatever that of the file.
+    #[test]
+    fn the_parts_give_the_pencil_of_every_friction() {
+        let of_file = system();
+        let mass = of_file.mass().unwrap();
+        let parts = FrictionParts::of(&of_file, mass);
+        assert_eq!(parts.plain.factor, parts.friction.factor);
+
+        for mu in [rational(2, 7), whole(1), rational(31, 3)] {
+            let particles = of_file.particles().to_vec();
+            let stiffness = of_file.stiffness().clone();
+            let friction = Some(mu.clone());
+            let other = System::new(stiffness, Some(mass.clone()), friction, particles).unwrap();
+            let problem =
+                Problem::new(Body::System(other), Unknown::Lambda2, Window::all()).unwrap();
+
+            let expected = Rows::of(&problem);
+            let rows = parts.at(&mu);
+            assert_eq!(rows.is_free, expected.is_free);
+            for i in 0..expected.order() {
+                assert_eq!(as_given(&rows, i), as_given(&expected, i), "{mu}, row {i}");
+            }
+        }
+    }
+
     /// The block formulas (16) of `reduction` give the same pencil.
     #[test]
     fn the_pencil_is_that_of_the_blocks() {

@@ -435,3 +435,6 @@ fn of_piece(piece: usize, fault: CoverFault) -> Reason {
         fault,
     }
 }
+
+#[cfg(test)]
+mod tests;
