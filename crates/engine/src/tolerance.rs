@@ -218,20 +218,21 @@ pub(crate) const SHORT_VALUE: f64 = 1e-8;
 /// Unit: of mu. Basis: a simple eigenvalue is good to 1e-15 times its condition.
 pub(crate) const NARROW_WINDOWS: [f64; 2] = [1e-9, 1e-6];
 
-/// Gaps between proved absence and solution that are aimed at, one after the other. Unit: of mu.
-/// Reason: the first is cheap and meets solutions that are still unknown; the last two are what is
-/// asked of large and of small bodies, with a tenth for the rounding of the bound.
-pub(crate) const CRITICAL_GAPS: [f64; 3] = [1e-2, 8e-6, 8e-7];
+/// Gap between absence and solution that is looked at first. Unit: of mu. Reason: cheap, and meets
+/// solutions that are still unknown.
+pub(crate) const FIRST_GAP: f64 = 1e-2;
+
+/// Gaps that are aimed at, until one is proved. Unit: of mu. Reason: what is asked of small and of
+/// large bodies, with a tenth for the rounding of the bound; the last ones are better than nothing.
+pub(crate) const CRITICAL_GAPS: [f64; 4] = [8e-7, 8e-6, 1e-3, 1e-2];
 
 /// How much smaller than the known one a mu in doubles must be to be worth a certificate. Unit: of
 /// mu. Basis: a tenth of what the last of [`CRITICAL_GAPS`] would notice.
 pub(crate) const SMALLER_FRICTION: f64 = 1e-8;
 
-/// Distance from an anchor within which another one would be of no use. Unit: of lambda^2 + the
-/// lowest frequency. Basis: an anchor is used within six times of it.
-pub(crate) const ANCHOR_DISTANCE: f64 = 5e-3;
-
-/// Margin of a decided box below which a radius that takes it away is not worth further cuts. Unit:
-/// that of equilibrated columns. Basis: shorter boxes have smaller radii about an anchor, but what
-/// the expansion leaves out at its own distance stays.
-pub(crate) const RADIUS_LOSS: f64 = 3e-4;
+/// How near an anchor is used where the remainders of coarse ones stand in the way, and by what
+/// share nearer where its own do; and the least. Unit: of lambda^2 + the lowest frequency. Basis:
+/// the remainder falls with the sixth power of it.
+pub(crate) const FIRST_NEAR: f64 = 0.1;
+pub(crate) const NEARER: f64 = 0.3;
+pub(crate) const LEAST_NEAR: f64 = 2e-3;

@@ -10,7 +10,7 @@
 //! Input: what [`analyse`](super::analyse) has found so far ([`Known`]). Output: [`Critical`], and
 //! the proofs named `critical` (the solution) and `absence` (the bound).
 
-use super::absence::{Blocked, Cause, Outcome, Quadrant, leaves, unit_of_lambda2};
+use super::absence::{Blocked, Cause, Outcome, Place, Quadrant, leaves, unit_of_lambda2};
 use super::conditions::Necessary;
 use super::divergence::Divergence;
 use super::error::AnalysisError;
@@ -20,7 +20,10 @@ use super::model::Model;
 use super::threshold::StaticThreshold;
 use crate::reduction::MuFamily;
 use crate::run::Progress;
-use crate::tolerance::{ANCHOR_DISTANCE, CRITICAL_GAPS, NARROW_WINDOWS, SMALLER_FRICTION};
+use crate::search::complete::pieces::anchor::NEAR;
+use crate::tolerance::{
+    CRITICAL_GAPS, FIRST_GAP, FIRST_NEAR, LEAST_NEAR, NARROW_WINDOWS, NEARER, SMALLER_FRICTION,
+};
 use mceip_check::certificate::CriticalCertificate;
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
 use mceip_model::{Problem, Window};
@@ -106,10 +109,7 @@ impl Known<'_> {
 const MAX_STARTS: usize = 16;
 
 /// Covers tried for one gap.
-const ROUNDS_PER_GAP: usize = 6;
-
-/// What the gap grows by where a cover fails without a smaller solution.
-const GAP_GROWTH: f64 = 3.0;
+const ROUNDS_PER_GAP: usize = 12;
 
 /// Where no solution is known: bounds tried one after the other, as multiples of the mu below which
 /// condition (19) excludes all.
@@ -135,7 +135,7 @@ pub(super) fn critical(
         solution,
         of_solution: None,
         absence: None,
-        values: Vec::new(),
+        places: Vec::new(),
     };
 
     if let Some(mass) = &known.family.mass
@@ -169,31 +169,38 @@ struct Bounds {
     /// The proof of that solution, if it is none of those known before.
     of_solution: Option<Proof>,
     absence: Option<CriticalCertificate>,
-    /// Values of lambda^2 about which condensation is to be precise.
-    values: Vec<f64>,
+    /// Where condensation is to be precise.
+    places: Vec<Place>,
 }
 
 impl Bounds {
-    fn proved_below(&self) -> Option<&Rational> {
-        self.absence.as_ref().map(|certificate| &certificate.below)
+    /// A short number below the known solution, by a relative gap.
+    fn short_bound(&self, gap: f64) -> Option<Rational> {
+        let solution = self.solution.as_ref()?;
+        short_bound(to_f64(solution.mu.lo()), gap)
     }
 
     /// Is this mu smaller than that of the known solution, by more than rounding?
     fn is_smaller(&self, mu: f64) -> bool {
-        let known = self.solution.as_ref().map(|solution| to_f64(solution.mu.hi()));
+        let known = self
+            .solution
+            .as_ref()
+            .map(|solution| to_f64(solution.mu.hi()));
         known.is_none_or(|known| mu < known * (1.0 - SMALLER_FRICTION))
     }
 
-    /// Adds a value of lambda^2; was there none near it?
-    fn add_value(&mut self, value: f64, scale: f64) -> bool {
-        let reach = ANCHOR_DISTANCE * (value + scale);
-        if self.values.iter().any(|v| (v - value).abs() <= reach) {
-            return false;
+    /// Makes condensation more precise at a value of lambda^2; false where that is no longer worth
+    /// trying.
+    fn sharpen(&mut self, lambda2: f64, scale: f64) -> bool {
+        let mut near = FIRST_NEAR;
+        for place in &self.places {
+            if (place.lambda2 - lambda2).abs() <= place.near * (lambda2 + scale) {
+                near = near.min(NEARER * place.near);
+            }
         }
 
-        self.values.push(value);
-        self.values.sort_by(f64::total_cmp);
-        true
+        self.places.push(Place { lambda2, near });
+        near >= LEAST_NEAR
     }
 
     fn into_critical(
@@ -246,8 +253,6 @@ enum Next {
     Again,
     /// Nothing new: a wider gap.
     Wider,
-    /// The work allowed is used up.
-    Stop,
 }
 
 /// The search for both bounds.
@@ -275,7 +280,10 @@ impl Search<'_> {
             let stage = "critical mu: following solutions to smaller mu";
             let watch = &self.model.progress;
             watch.report(&Progress::of(stage, k, starts.len()));
-            minima.extend(self.branches.minimum_below(start.lambda2, start.mu, &start.x));
+            minima.extend(
+                self.branches
+                    .minimum_below(start.lambda2, start.mu, &start.x),
+            );
         }
 
         minima.sort_by(|p, q| p.mu.total_cmp(&q.mu));
@@ -286,8 +294,11 @@ impl Search<'_> {
         }
 
         if let Some(solution) = &bounds.solution {
-            let value = to_f64(&solution.lambda2.mid());
-            bounds.add_value(value, self.scale);
+            let lambda2 = to_f64(&solution.lambda2.mid());
+            bounds.places.push(Place {
+                lambda2,
+                near: NEAR,
+            });
         }
 
         Ok(())
@@ -327,14 +338,13 @@ impl Search<'_> {
                 problem,
                 certificate: ProofCertificate::Solutions(found.certificate),
             });
-            bounds.add_value(point.t, self.scale);
             return Ok(true);
         }
 
         Ok(false)
     }
 
-    /// Proves absence below bounds ever closer to the known solution.
+    /// Proves absence below bounds close to the known solution.
     fn close_from_below(
         &self,
         excluded: &Rational,
@@ -344,8 +354,10 @@ impl Search<'_> {
             self.far_bounds(excluded, bounds)?;
         }
 
+        self.find_smaller(excluded, bounds)?;
         for gap in CRITICAL_GAPS {
-            if bounds.solution.is_none() || !self.close_gap(gap, excluded, bounds)? {
+            let is_done = self.model.stopped() || bounds.absence.is_some();
+            if is_done && bounds.solution.is_some() || self.close_gap(gap, excluded, bounds)? {
                 break;
             }
         }
@@ -372,34 +384,46 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Proves absence up to the known solution but for a relative gap. Returns false where a smaller
-    /// gap is not worth trying.
+    /// Looks for solutions well below the known one, without a proof.
+    fn find_smaller(&self, excluded: &Rational, bounds: &mut Bounds) -> Result<(), AnalysisError> {
+        for _ in 0..ROUNDS_PER_GAP {
+            let Some(below) = bounds
+                .short_bound(FIRST_GAP)
+                .filter(|below| below > excluded)
+            else {
+                return Ok(());
+            };
+
+            let obstacles = self.quadrant.obstacles(&below, &bounds.places)?;
+            let is_over = obstacles.is_empty() || self.model.stopped();
+            if is_over || !matches!(self.learn_from(&obstacles, bounds)?, Next::Again) {
+                return Ok(());
+            }
+        }
+
+        Ok(())
+    }
+
+    /// Proves absence up to the known solution but for a relative gap; false where that fails.
     fn close_gap(
         &self,
         gap: f64,
         excluded: &Rational,
         bounds: &mut Bounds,
     ) -> Result<bool, AnalysisError> {
-        let mut gap = gap;
         for _ in 0..ROUNDS_PER_GAP {
-            let Some(solution) = &bounds.solution else {
-                return Ok(false);
+            let Some(below) = bounds.short_bound(gap) else {
+                return Ok(true);
             };
 
-            let Some(below) = short_bound(to_f64(solution.mu.lo()), gap) else {
-                return Ok(false);
-            };
-
-            let is_known = bounds.proved_below().is_some_and(|proved| *proved >= below);
-            if is_known || below <= *excluded {
+            if below <= *excluded {
                 return Ok(true);
             }
 
             match self.attempt(&below, bounds)? {
                 None => return Ok(true),
                 Some(Next::Again) => {}
-                Some(Next::Wider) => gap *= GAP_GROWTH,
-                Some(Next::Stop) => return Ok(false),
+                Some(Next::Wider) => return Ok(false),
             }
         }
 
@@ -413,36 +437,54 @@ impl Search<'_> {
         bounds: &mut Bounds,
     ) -> Result<Option<Next>, AnalysisError> {
         if self.model.stopped() {
-            return Ok(Some(Next::Stop));
+            return Ok(Some(Next::Wider));
         }
 
         let stage = format!("critical mu: absence below {:.7}", to_f64(below));
         self.model.progress.report(&Progress::stage(&stage));
-        match self.quadrant.cover(below, &bounds.values)? {
+        match self.quadrant.cover(below, &bounds.places)? {
             Outcome::Absent(certificate) => {
                 bounds.absence = Some(*certificate);
                 Ok(None)
             }
             Outcome::Refused => Ok(Some(Next::Wider)),
-            Outcome::Blocked(blocked) => self.learn_from(&blocked, bounds).map(Some),
+            Outcome::Blocked(obstacles) => self.learn_from(&obstacles, bounds).map(Some),
         }
     }
 
-    /// What a box that could not be emptied tells.
-    fn learn_from(&self, blocked: &Blocked, bounds: &mut Bounds) -> Result<Next, AnalysisError> {
-        let [lambda2, mu] = blocked.middle;
-        match blocked.cause {
-            Cause::Budget => Ok(Next::Stop),
-            Cause::Remainder if bounds.add_value(lambda2, self.scale) => Ok(Next::Again),
-            Cause::Remainder | Cause::Solution => {
-                let point = self.branches.minimum_below(lambda2, mu, &blocked.x);
-                let is_found = match point {
-                    Some(point) => self.certify(&point, bounds)?,
-                    None => false,
-                };
-                Ok(if is_found { Next::Again } else { Next::Wider })
+    /// What boxes that could not be emptied tell: a smaller solution, or where condensation has to be
+    /// more precise.
+    fn learn_from(
+        &self,
+        obstacles: &[Blocked],
+        bounds: &mut Bounds,
+    ) -> Result<Next, AnalysisError> {
+        for blocked in obstacles {
+            let [lambda2, mu] = blocked.middle;
+            let point = self.branches.minimum_below(lambda2, mu, &blocked.x);
+            if let Some(point) = point
+                && self.certify(&point, bounds)?
+            {
+                bounds.places.push(Place {
+                    lambda2: point.t,
+                    near: NEAR,
+                });
+                return Ok(Next::Again);
             }
         }
+
+        let mut next = Next::Again;
+        for blocked in obstacles {
+            let is_worth_more = match blocked.cause {
+                Cause::Budget => false,
+                Cause::Solution | Cause::Remainder => bounds.sharpen(blocked.middle[0], self.scale),
+            };
+            if !is_worth_more {
+                next = Next::Wider;
+            }
+        }
+
+        Ok(next)
     }
 }
 

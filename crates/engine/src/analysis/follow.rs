@@ -16,9 +16,9 @@
 
 use super::error::AnalysisError;
 use crate::reduction::{SparseCondensation, SparseCondensed};
+use crate::search::complete::dyadic::short_near;
 use crate::search::complete::pieces::matrix::{bilinear, principal_block, times};
 use crate::search::complete::pieces::skyline::dot;
-use crate::search::complete::dyadic::short_near;
 use crate::tolerance::{
     BRANCH_STEP, FOLD_WIDTH, KINK_SIDE, NEWTON_CONVERGED, SHORT_VALUE, SIGN_NOISE,
 };

@@ -27,7 +27,7 @@ use crate::search::complete::pieces::skyline::dot;
 use crate::search::complete::pieces::view::View;
 use crate::search::complete::region::{State, undecided};
 use crate::search::complete::shares::Shares;
-use crate::tolerance::{RADIUS_LOSS, THIN_MARGIN};
+use crate::tolerance::THIN_MARGIN;
 use mceip_check::certificate::CriticalNode;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::Number;
@@ -132,7 +132,12 @@ impl Search<'_> {
     }
 
     /// Covers a region: by a leaf, by halving, or by a branch.
-    fn node(&mut self, region: &Region, ends: &Rc<[Ends; 2]>, share: f64) -> Result<(), Box<Blocked>> {
+    fn node(
+        &mut self,
+        region: &Region,
+        ends: &Rc<[Ends; 2]>,
+        share: f64,
+    ) -> Result<(), Box<Blocked>> {
         let frictions = region.mu.each_ref().map(to_f64);
         let middle_friction = 0.5 * (frictions[0] + frictions[1]);
         let middle_value = self.middle(ends[0].lo, ends[0].hi);
@@ -178,8 +183,8 @@ impl Search<'_> {
             return Some(Cause::Solution);
         }
 
-        let with_radius = middle.columns.margin_of(&middle.game.w);
-        let is_held_up_by_radius = with_radius <= 0.0 && middle.game.value < RADIUS_LOSS;
+        // A smaller box has the same radius at this point.
+        let is_held_up_by_radius = middle.columns.margin_of(&middle.game.w) <= 0.0;
         let has_been_cut_enough = region.cuts >= MAX_CUTS_DECIDED;
         (is_held_up_by_radius || has_been_cut_enough).then_some(Cause::Remainder)
     }

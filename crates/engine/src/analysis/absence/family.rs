@@ -44,6 +44,14 @@ pub(super) struct Family {
     pub(super) pieces: Vec<PieceOfHalfLine>,
 }
 
+/// A value of lambda^2 about which condensation is to be precise.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::analysis) struct Place {
+    pub(in crate::analysis) lambda2: f64,
+    /// Its anchor is used within this share of lambda^2 + the lowest frequency.
+    pub(in crate::analysis) near: f64,
+}
+
 /// An interval of lambda^2 and the anchor that serves it.
 pub(super) struct PieceOfHalfLine {
     pub(super) lo: Rational,
@@ -53,8 +61,8 @@ pub(super) struct PieceOfHalfLine {
 }
 
 impl Family {
-    /// Condenses both parts. `values` (ascending) are values of lambda^2 about which the enclosure
-    /// is to be tight; `friction` is at least the friction below which absence is to be proved.
+    /// Condenses both parts. `places` are values of lambda^2 about which the enclosure is to be tight;
+    /// `friction` is at least the friction below which absence is to be proved.
     ///
     /// # Errors
     /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
@@ -62,7 +70,7 @@ impl Family {
         family: &MuFamily,
         mass: &Pencil,
         friction: &Rational,
-        values: &[f64],
+        places: &[Place],
     ) -> Result<Family, CompleteError> {
         let pencils = parts(&family.stiffness, mass)?;
         let [without_friction, of_friction] = &pencils;
@@ -71,19 +79,25 @@ impl Family {
         let body = Body::Pencil(without_friction.clone());
         let window = Window::all();
         let problem = Problem::new(body, Unknown::Lambda2, window.clone())?;
-        let mut prepared =
-            Prepared::of_family(&problem, without_friction, &at_friction, PIECES)?;
+        let mut prepared = Prepared::of_family(&problem, without_friction, &at_friction, PIECES)?;
 
         if prepared.is_expanded() {
             let near_zero = NEAR_ZERO * prepared.lowest_frequency;
-            if values.iter().any(|value| *value <= near_zero)
-                && let Some(graded) = prepared.clone().with_lower_anchor(&window, without_friction)
+            if places.iter().any(|place| place.lambda2 <= near_zero)
+                && let Some(graded) = prepared
+                    .clone()
+                    .with_lower_anchor(&window, without_friction)
             {
                 prepared = graded;
             }
 
-            let others: Vec<f64> = values.iter().copied().filter(|v| *v > near_zero).collect();
-            prepared = prepared.refined(&problem, without_friction, &others);
+            // Those that reach far first: the others are cut out of their pieces.
+            let mut others: Vec<&Place> = places.iter().filter(|p| p.lambda2 > near_zero).collect();
+            others.sort_by(|p, q| q.near.total_cmp(&p.near));
+            for place in others {
+                let values = [place.lambda2];
+                prepared = prepared.refined_within(place.near, &problem, without_friction, &values);
+            }
         }
 
         let mut expansions = Vec::new();
@@ -97,10 +111,11 @@ impl Family {
                 ]);
             }
             Some(condensation) => {
-                let beside = beside(of_friction, condensation).ok_or(CompleteError::NotDefinite {
-                    what: "A_ff + t B_ff",
-                    index: without_friction.free()[0],
-                })?;
+                let beside =
+                    beside(of_friction, condensation).ok_or(CompleteError::NotDefinite {
+                        what: "A_ff + t B_ff",
+                        index: without_friction.free()[0],
+                    })?;
 
                 let anchors = condensation.anchors.iter().zip(beside);
                 for ((anchor, second), first) in anchors.zip(&prepared.view.expansions) {
@@ -249,7 +264,9 @@ fn parts(stiffness: &Pencil, mass: &Pencil) -> Result<[Pencil; 2], CompleteError
     let constant = Pencil::new(stiffness.a().clone(), mass.a().clone(), free.clone())?;
 
     let one = Rational::one();
-    let of_stiffness = stiffness.b().add_scaled(&one, &only_rows(stiffness.a(), &free));
+    let of_stiffness = stiffness
+        .b()
+        .add_scaled(&one, &only_rows(stiffness.a(), &free));
     let of_mass = mass.b().add_scaled(&one, &only_rows(mass.a(), &free));
     let slope = Pencil::new(of_stiffness, of_mass, free)?;
     Ok([constant, slope])

@@ -20,7 +20,7 @@ use crate::search::complete::shares::Shares;
 use boxes::Search;
 pub(super) use boxes::{Blocked, Cause};
 use family::{Family, PieceOfHalfLine};
-pub(super) use family::unit_of_lambda2;
+pub(super) use family::{Place, unit_of_lambda2};
 use mceip_check::audit_critical;
 use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
 use mceip_exact::Rational;
@@ -37,7 +37,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { boxes: 200_000 }
+        Limits { boxes: 400_000 }
     }
 }
 
@@ -50,8 +50,8 @@ const CAUTIOUS_ROUNDS: usize = 2;
 pub(super) enum Outcome {
     /// The checker has accepted it.
     Absent(Box<CriticalCertificate>),
-    /// The first box that could not be emptied.
-    Blocked(Box<Blocked>),
+    /// Of each piece that was not emptied the first box that could not be.
+    Blocked(Vec<Blocked>),
     /// The checker refuses what doubles propose.
     Refused,
 }
@@ -69,17 +69,30 @@ pub(super) struct Quadrant<'a> {
 }
 
 impl Quadrant<'_> {
-    /// Covers [0, infinity) x [0, below]. `values` (ascending) are values of lambda^2 about which the
-    /// condensation is to be precise.
+    /// The first box of each piece that cannot be emptied for a bound: no proof, but cheaper.
+    ///
+    /// # Errors
+    /// As [`Quadrant::cover`].
+    pub(super) fn obstacles(
+        &self,
+        below: &Rational,
+        places: &[Place],
+    ) -> Result<Vec<Blocked>, CompleteError> {
+        let family = Family::new(self.family, self.mass, below, places)?;
+        let proposed = self.proposed(&family, below);
+        Ok(proposed.err().unwrap_or_default())
+    }
+
+    /// Covers [0, infinity) x [0, below]. `places` are where condensation is to be precise.
     ///
     /// # Errors
     /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
     pub(super) fn cover(
         &self,
         below: &Rational,
-        values: &[f64],
+        places: &[Place],
     ) -> Result<Outcome, CompleteError> {
-        let mut family = Family::new(self.family, self.mass, below, values)?;
+        let mut family = Family::new(self.family, self.mass, below, places)?;
         for _ in 0..=CAUTIOUS_ROUNDS {
             let certificate = match self.proposed(&family, below) {
                 Ok(certificate) => certificate,
@@ -103,20 +116,29 @@ impl Quadrant<'_> {
         &self,
         family: &Family,
         below: &Rational,
-    ) -> Result<CriticalCertificate, Box<Blocked>> {
+    ) -> Result<CriticalCertificate, Vec<Blocked>> {
         let shares = Shares::new(self.watch);
         let share = 1.0 / family.pieces.len() as f64;
         let tree_of = |piece| self.tree(family, piece, below, &shares, share);
-        let trees: Vec<Result<Vec<CriticalNode>, Box<Blocked>>> =
-            in_threads(self.threads, || family.pieces.par_iter().map(tree_of).collect());
+        let trees: Vec<Result<Vec<CriticalNode>, Box<Blocked>>> = in_threads(self.threads, || {
+            family.pieces.par_iter().map(tree_of).collect()
+        });
 
         let mut pieces = Vec::with_capacity(trees.len());
+        let mut blocked = Vec::new();
         for (piece, tree) in family.pieces.iter().zip(trees) {
-            pieces.push(CriticalPiece {
-                max: piece.hi.clone().map(Number),
-                anchor: piece.anchor,
-                tree: tree?,
-            });
+            match tree {
+                Ok(tree) => pieces.push(CriticalPiece {
+                    max: piece.hi.clone().map(Number),
+                    anchor: piece.anchor,
+                    tree,
+                }),
+                Err(found) => blocked.push(*found),
+            }
+        }
+
+        if !blocked.is_empty() {
+            return Err(blocked);
         }
 
         Ok(CriticalCertificate {
@@ -176,7 +198,7 @@ mod tests {
     use mceip_paper::{Block, BlockModel, two_particles};
 
     /// Covers [0, infinity) x [0, below] for a system with mass and friction.
-    fn cover(system: &System, below: f64, values: &[f64]) -> Outcome {
+    fn cover(system: &System, below: f64, places: &[Place]) -> Outcome {
         let family = mu_family(system).unwrap();
         let body = Body::System(system.clone());
         let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
@@ -189,7 +211,7 @@ mod tests {
             watch: Watch::nobody(),
         };
 
-        let outcome = quadrant.cover(&from_f64(below).unwrap(), values).unwrap();
+        let outcome = quadrant.cover(&from_f64(below).unwrap(), places).unwrap();
         if let Outcome::Absent(certificate) = &outcome {
             check_critical(&problem, certificate).unwrap();
         }
@@ -198,14 +220,18 @@ mod tests {
 
     #[track_caller]
     fn is_absent_just_below_and_not_above(system: &System, critical: f64, lambda2: f64) {
-        let below = cover(system, critical * (1.0 - 1e-6), &[lambda2]);
+        let place = Place {
+            lambda2,
+            near: 0.03,
+        };
+        let below = cover(system, critical * (1.0 - 1e-6), &[place]);
         assert!(matches!(below, Outcome::Absent(_)), "{critical}");
 
-        let above = cover(system, critical * (1.0 + 1e-6), &[lambda2]);
+        let above = cover(system, critical * (1.0 + 1e-6), &[place]);
         let Outcome::Blocked(blocked) = above else {
             panic!("a solution at {critical} was not met")
         };
-        assert_eq!(blocked.cause, Cause::Solution);
+        assert!(blocked.iter().any(|b| b.cause == Cause::Solution));
     }
 
     /// Table 1 has no folds: nothing exists below the static threshold, and (-1, 1) has nothing at
@@ -265,7 +291,7 @@ mod tests {
         let mu_family = mu_family(&system).unwrap();
         let mass = mu_family.mass.as_ref().unwrap();
 
-        let family = Family::new(&mu_family, mass, &whole(2), &[0.0]).unwrap();
+        let family = Family::new(&mu_family, mass, &whole(2), &[]).unwrap();
 
         assert!(family.pieces.len() > 1);
         let mut lo = Rational::default();
@@ -286,7 +312,10 @@ mod tests {
                 for (i, row) in matrix.iter().enumerate() {
                     for (j, entry) in row.iter().enumerate() {
                         let distance = (entry - part.m[0][i][j]).abs();
-                        assert!(distance <= part.radius(i, j), "{middle} {i} {j}: {distance}");
+                        assert!(
+                            distance <= part.radius(i, j),
+                            "{middle} {i} {j}: {distance}"
+                        );
                     }
                 }
             }

@@ -51,7 +51,10 @@ pub(crate) fn definite_at(pencil: &Pencil, value: &Rational) -> Option<Factor> {
 
 /// The factor that proves sym(B) positive semidefinite, none for a non-negative diagonal; `None`
 /// where it is not.
-#[allow(clippy::option_option, reason = "not needed is not the same as not there")]
+#[allow(
+    clippy::option_option,
+    reason = "not needed is not the same as not there"
+)]
 pub(crate) fn semidefinite(b: &Sparse) -> Option<Option<Factor>> {
     if Skyline::symmetric(b).is_diagonal() {
         return Some(None);

@@ -213,15 +213,21 @@ impl Prepared {
     /// Gives each of these values (ascending) an anchor and a piece around it, cut out of the
     /// pieces there are. Values near one another share one, and those next to the lower end of the
     /// window that of [`Prepared::with_lower_anchor`].
-    pub(crate) fn refined(
+    pub(crate) fn refined(self, problem: &Problem, pencil: &Pencil, values: &[f64]) -> Prepared {
+        self.refined_within(NEAR, problem, pencil, values)
+    }
+
+    /// The same with anchors that are used within `near`, relative to value + lowest frequency.
+    pub(crate) fn refined_within(
         mut self,
+        near: f64,
         problem: &Problem,
         pencil: &Pencil,
         values: &[f64],
     ) -> Prepared {
         let mut apart: Vec<f64> = Vec::new();
         for &value in values.iter().filter(|v| **v > self.shared_up_to) {
-            let least_distance = 3.0 * self.reach(value);
+            let least_distance = 3.0 * self.reach(value, near);
             if apart.last().is_none_or(|l| value - l > least_distance) {
                 apart.push(value);
             }
@@ -238,7 +244,7 @@ impl Prepared {
         }
 
         for (k, value) in apart.iter().enumerate() {
-            let reach = self.reach(*value);
+            let reach = self.reach(*value, near);
             let slack = SLACK_OF_REACH * reach;
             let begin = short_near(value - reach, slack);
             let end = short_near(value + reach, slack);
@@ -292,9 +298,9 @@ impl Prepared {
     }
 
     /// Up to where the anchor about a value is used: the expansions reach as far as value + lowest
-    /// frequency.
-    fn reach(&self, value: f64) -> f64 {
-        let by_frequency = NEAR * (value + self.lowest_frequency);
+    /// frequency, of which `near` is a share.
+    fn reach(&self, value: f64, near: f64) -> f64 {
+        let by_frequency = near * (value + self.lowest_frequency);
         by_frequency.min(0.5 * value)
     }
 
