@@ -18,7 +18,7 @@ use mceip_exact::{Rational, Sparse, enclosing_decimals, from_f64, rational, to_f
 use mceip_model::file::read_problem_file;
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, TwoParticles, enumerate, table1, thresholds};
-use mceip_paper::{Block, BlockModel, two_particles};
+use mceip_paper::{Block, BlockModel, MassKind, PublishedState, two_particles};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -423,24 +423,53 @@ fn a_small_block_with_free_variables() {
 }
 
 /// The L-shaped body of 172 degrees of freedom: its fold lies below the static threshold 2.8699.
+/// Sampled values of mu show nothing at 2.2238 and solutions at 2.2253.
 #[test]
-#[ignore = "takes some seconds: cargo test --release --test program -- --ignored critical_mu_of"]
+#[ignore = "takes ten seconds: cargo test --release --test program -- --ignored critical_mu_of"]
 fn critical_mu_of_the_l_body() {
-    let problem = read_problem_file(Path::new("tests/program/l-body-172.json")).unwrap();
+    let file = Path::new("tests/program/l-body-172.json");
+    let problem = read_problem_file(file).unwrap();
     let Body::System(system) = problem.body() else {
         panic!("a system")
     };
 
     let analysis = answer(system, &rational(8, 10), 0);
 
-    let below = analysis.critical.absent_below.clone().unwrap();
-    let solution = analysis.critical.solution.clone().unwrap();
-    let above = solution.mu.hi();
-    assert!(to_f64(&below) > 2.2238 && to_f64(above) < 2.2253);
-
-    let gap = (above - &below) / above;
-    assert!(gap <= rational(1, 100_000), "{}", to_f64(&gap));
+    let [below, above] = critical_bounds(&analysis);
+    assert!(to_f64(&below) > 2.2238 && to_f64(&above) < 2.2253);
+    assert!((&above - below) / above <= rational(1, 100_000));
     absence_is_accepted_and_more_is_refused(&analysis);
+}
+
+/// Both published states of the paper's block: nothing lies below their static thresholds.
+#[test]
+#[ignore = "takes a minute: cargo test --release --test program -- --ignored critical_mu_of"]
+fn critical_mu_of_the_block() {
+    let block = Block::of_the_paper(MassKind::Consistent);
+    for (state, threshold) in [
+        (PublishedState::SeventeenSlip, 1.7048),
+        (PublishedState::FifteenSlip, 60.806),
+    ] {
+        let problem = state.problem(&block).unwrap();
+        let Body::System(system) = problem.body() else {
+            panic!("a system")
+        };
+
+        let analysis = answer(system, &rational(11, 10), 0);
+
+        let [below, above] = critical_bounds(&analysis);
+        assert!((to_f64(&above) / threshold - 1.0).abs() < 1e-5);
+        assert!((&above - below) / above <= rational(1, 100_000));
+        absence_is_accepted_and_more_is_refused(&analysis);
+    }
+}
+
+/// Both bounds of the critical mu.
+#[track_caller]
+fn critical_bounds(analysis: &Analysis) -> [Rational; 2] {
+    let below = analysis.critical.absent_below.clone().unwrap();
+    let solution = analysis.critical.solution.as_ref().unwrap();
+    [below, solution.mu.hi().clone()]
 }
 
 #[test]

@@ -222,9 +222,10 @@ pub(crate) const NARROW_WINDOWS: [f64; 2] = [1e-9, 1e-6];
 /// solutions that are still unknown.
 pub(crate) const FIRST_GAP: f64 = 1e-2;
 
-/// Gaps that are aimed at, until one is proved. Unit: of mu. Reason: what is asked of small and of
-/// large bodies, with a tenth for the rounding of the bound; the last ones are better than nothing.
-pub(crate) const CRITICAL_GAPS: [f64; 4] = [8e-7, 8e-6, 1e-3, 1e-2];
+/// Gaps that are aimed at, until one is proved. Unit: of mu. Reason: the first two are what is asked
+/// of small and of large bodies, with a tenth for the rounding of the bound; the others are better
+/// than nothing.
+pub(crate) const CRITICAL_GAPS: [f64; 5] = [8e-7, 8e-6, 1e-3, 3e-2, 0.3];
 
 /// How much smaller than the known one a mu in doubles must be to be worth a certificate. Unit: of
 /// mu. Basis: a tenth of what the last of [`CRITICAL_GAPS`] would notice.

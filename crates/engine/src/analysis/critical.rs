@@ -108,6 +108,10 @@ impl Known<'_> {
 /// Branches followed at most, those of smallest mu first.
 const MAX_STARTS: usize = 16;
 
+/// Free variables up to which the finest gap is aimed at: beyond that it costs more than a mesh is
+/// worth.
+const FINE_GAP_FREE: usize = 100;
+
 /// Covers tried for one gap.
 const ROUNDS_PER_GAP: usize = 12;
 
@@ -355,14 +359,22 @@ impl Search<'_> {
         }
 
         self.find_smaller(excluded, bounds)?;
-        for gap in CRITICAL_GAPS {
-            let is_done = self.model.stopped() || bounds.absence.is_some();
-            if is_done && bounds.solution.is_some() || self.close_gap(gap, excluded, bounds)? {
+        for &gap in self.gaps() {
+            if self.model.stopped() || self.close_gap(gap, excluded, bounds)? {
                 break;
             }
         }
 
         Ok(())
+    }
+
+    /// The gaps to aim at.
+    fn gaps(&self) -> &'static [f64] {
+        if self.quadrant.mass.free().len() <= FINE_GAP_FREE {
+            &CRITICAL_GAPS
+        } else {
+            &CRITICAL_GAPS[1..]
+        }
     }
 
     /// Proves absence far beyond the condition, where no solution is known; or finds one.

@@ -31,13 +31,26 @@ use rayon::prelude::*;
 /// How much work the cover may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Boxes examined in one piece of [0, infinity) before the search ends with what it has.
+    /// Boxes examined in one piece of [0, infinity) before the search ends with what it has: for up
+    /// to [`SMALL_ORDER`] slip variables, and fewer for more of them, because each one takes longer.
     pub boxes: usize,
 }
+
+/// Slip variables up to which all boxes allowed are examined.
+const SMALL_ORDER: usize = 8;
 
 impl Default for Limits {
     fn default() -> Self {
         Limits { boxes: 400_000 }
+    }
+}
+
+impl Limits {
+    /// The boxes allowed with so many slip variables: their number times its cube is constant.
+    fn boxes_for(&self, order: usize) -> usize {
+        let cubes = [SMALL_ORDER, order.max(SMALL_ORDER)].map(|n| (n * n * n) as f64);
+        let share = cubes[0] / cubes[1];
+        (self.boxes as f64 * share) as usize
     }
 }
 
@@ -166,7 +179,7 @@ impl Quadrant<'_> {
             view: family.view(),
             expansions: family.expansions(piece.anchor),
             shares,
-            budget: self.limits.boxes,
+            budget: self.limits.boxes_for(family.view().order()),
             nodes: Vec::new(),
         };
 
