@@ -420,10 +420,11 @@ fn trees(cases: &mut Cases) {
     }
 }
 
-/// Two bodies of K and M with one matrix that no leaf can do without.
+/// K and M with one leaf that the tree cannot do without.
 ///
 /// At rest for variable 1 and moving for variable 0, w = (-1, 1) has w'T = -T_00 + T_10 in the
-/// column that moves, a bilinear function with the given values at the corners of [0, 1] x [0, 1].
+/// column that moves, a bilinear function with the given values (of at most 1/4) at the corners of
+/// [0, 1] x [0, 1]. Row 0 is divided by 2 and row 1 by 128.
 fn corner_problem(values: &[[Rational; 2]; 2]) -> Problem {
     let [[at_zero, of_mu], [of_t, of_both]] = values;
     let constant = at_zero + whole(1);
@@ -451,7 +452,7 @@ fn corner_certificate(problem: &Problem) -> CriticalCertificate {
         Branch(1),
         Branch(0),
         farkas(&[0, 0]),
-        farkas(&[-1, 1]),
+        farkas(&[-1, 64]),
         PositiveDefinite,
     ];
     let pieces = vec![piece(Some("1"), tree), piece(None, vec![PositiveDefinite])];
@@ -460,15 +461,16 @@ fn corner_certificate(problem: &Problem) -> CriticalCertificate {
 
 /// A Farkas vector that holds at all corners, and ones that fail at one of them.
 fn corners(cases: &mut Cases) {
-    let minus_one = || [[whole(-1), whole(-1)], [whole(-1), whole(-1)]];
-    let all = corner_problem(&minus_one());
+    let quarter = || rational(1, 4);
+    let negative = || [[-quarter(), -quarter()], [-quarter(), -quarter()]];
+    let all = corner_problem(&negative());
     let note = "a Farkas vector of a box in both directions";
     accept(cases, "corners", note, &all, &corner_certificate(&all));
 
     for (t, end) in ["lower", "upper"].into_iter().enumerate() {
         for (mu, friction) in ["zero", "below"].into_iter().enumerate() {
-            let mut values = minus_one();
-            values[t][mu] = whole(1);
+            let mut values = negative();
+            values[t][mu] = quarter();
             let problem = corner_problem(&values);
             let forged = corner_certificate(&problem);
             let name = format!("corner-{end}-{friction}");
@@ -482,11 +484,10 @@ fn corners(cases: &mut Cases) {
             let note = "w'T = 0 at one corner of the box alone";
             reject(cases, [&name, "Cover.NotStrict", note], &problem, &forged);
 
-            let hair = Rational::new(1.into(), Integer::from(10).pow(30));
-            values[t][mu] = -hair;
+            values[t][mu] = rational(-1, 1 << 60);
             let problem = corner_problem(&values);
             let name = format!("corner-{end}-{friction}-hair");
-            let note = "w'T = -1e-30 at one corner of the box";
+            let note = "w'T = -2^-60 at one corner of the box";
             accept(cases, &name, note, &problem, &corner_certificate(&problem));
         }
     }
@@ -495,15 +496,15 @@ fn corners(cases: &mut Cases) {
 /// The fold of X9 at 1 + sqrt(3)/2, between 1.8660 and 1.8661.
 fn near_the_fold(cases: &mut Cases) {
     let problem = fold_system();
-    // The symmetric part [[1 + t, -mu], [-mu, 2 + t - 4 mu]] is definite for all t >= 0 exactly if
-    // 2 - 4 mu > mu^2.
+    // Row 0 is divided by 4 and row 1 by 8: the symmetric part is [[2 + 2t, -5 mu / 2], [., 2 + t -
+    // 4 mu]] / 8.
     let of = |below: &str| certificate(&problem, below, vec![piece(None, vec![PositiveDefinite])]);
     accept(
         cases,
         "fold-definite",
         "below the fold",
         &problem,
-        &of("0.4"),
+        &of("0.3"),
     );
     let note = "no solution below 1.86, but the symmetric part is not definite";
     reject(
