@@ -164,7 +164,7 @@ impl Search<'_> {
         }
 
         let is_decided = undecided(&region.states).is_empty();
-        if is_decided && let Some(cause) = self.hopeless(region, &middle) {
+        if is_decided && let Some(cause) = hopeless(region, &middle) {
             return Err(blocked(cause, place, &middle));
         }
 
@@ -175,18 +175,6 @@ impl Search<'_> {
 
         let along_friction = self.is_lost_along_friction(ends, place, &middle, region);
         self.halve(region, ends, place, along_friction, share)
-    }
-
-    /// Is a decided box beyond hope, and why?
-    fn hopeless(&self, region: &Region, middle: &MiddleTest) -> Option<Cause> {
-        if middle.game.value <= THIN_MARGIN {
-            return Some(Cause::Solution);
-        }
-
-        // A smaller box has the same radius at this point.
-        let is_held_up_by_radius = middle.columns.margin_of(&middle.game.w) <= 0.0;
-        let has_been_cut_enough = region.cuts >= MAX_CUTS_DECIDED;
-        (is_held_up_by_radius || has_been_cut_enough).then_some(Cause::Remainder)
     }
 
     /// A value in the middle of an interval, in theta.
@@ -268,6 +256,17 @@ impl Search<'_> {
 
         Ok(())
     }
+}
+
+/// Is a decided box beyond hope, and why?
+fn hopeless(region: &Region, middle: &MiddleTest) -> Option<Cause> {
+    if middle.game.value <= THIN_MARGIN || region.cuts >= MAX_CUTS_DECIDED {
+        return Some(Cause::Solution);
+    }
+
+    // A smaller box has the same radius at this point.
+    let is_held_up_by_radius = middle.columns.margin_of(&middle.game.w) <= 0.0;
+    is_held_up_by_radius.then_some(Cause::Remainder)
 }
 
 /// The ends over an interval of lambda^2 at both ends of a region's mu.
