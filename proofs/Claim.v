@@ -89,6 +89,9 @@ Definition modulus_changes_sign :=
   (upper_value a a p <=? 0) && (0 <=? lower_value b b p) ||
   (0 <=? lower_value a a p) && (upper_value b b p <=? 0).
 
+(* 0 <= a/d <= b/d, with a root of the modulus between them. *)
+Definition root_interval := [&& 0 <=? a, a <=? b, 0 <? d & modulus_changes_sign].
+
 Definition no_reduction := Reduction 1 [::] [::].
 
 Definition reduces (g : polynomial) (w : reduction) :=
@@ -123,8 +126,7 @@ Definition columns_in_order :=
   all (fun row => all (fun e => e.1 < order Q)%N row) (rows_b Q).
 
 Definition check_claim :=
-  [&& wellformed Q, columns_in_order,
-      [&& 0 <=? a, a <=? b, 0 <? d & modulus_changes_sign],
+  [&& wellformed Q, columns_in_order, root_interval,
       all (fun i => y_zero i) (free Q),
       all (fun i => i \in slip Q) (support k ++ biactive k),
       all (fun i => if i \in support k then [&& x_positive i, y_zero i & i \notin biactive k]
@@ -216,28 +218,19 @@ have := product_upper a0 at_ tb le_hi; rewrite -(@toR_ge0 R).
 by case: (0 <= toR hi); rewrite toRM.
 Qed.
 
-Section Claim.
+(* Values at the root, for a claim with a root interval. *)
+Section Interval.
 
-Variables (Q : pencil) (k : claim).
-Hypothesis checked : check_claim Q k.
+Variable k : claim.
+Hypothesis interval : root_interval k.
 
 Notation a := (claim_from k).
 Notation b := (claim_to k).
 Notation d := (claim_denominator k).
 
-Lemma claim_parts :
-  [/\ wellformed Q, columns_in_order Q,
-      [/\ 0 <= toR a :> R, toR a <= toR b :> R, 0 < toR d :> R & modulus_changes_sign k] &
-      [/\ forall i, i \in free Q -> y_zero Q k i,
-          forall i, i \in slip Q ->
-            if i \in support k then [&& x_positive k i, y_zero Q k i & i \notin biactive k]
-            else x_zero k i && (if i \in biactive k then y_zero Q k i else y_positive Q k i) &
-          has (fun i => i \in support k) (slip Q) ||
-          has (fun i => x_positive k i || x_negative k i) (free Q)]].
-Proof.
-case/and5P: checked => wf cols /and4P[a0 ab d0 sign] /allP yf /and3P[_ /allP xs nz].
-by split=> //; split=> //; rewrite ?toR_ge0 ?toR_le ?toR_gt0.
-Qed.
+Lemma interval_parts :
+  [/\ 0 <= toR a :> R, toR a <= toR b :> R, 0 < toR d :> R & modulus_changes_sign k].
+Proof. by case/and4P: interval => a0 ab d0 sign; rewrite toR_ge0 toR_le toR_gt0. Qed.
 
 (* Signs over the interval, or at a point of it. *)
 Lemma value_signs x y p t : 0 <= toR x :> R -> toR x <= toR d * t -> toR d * t <= toR y ->
@@ -246,7 +239,7 @@ Lemma value_signs x y p t : 0 <= toR x :> R -> toR x <= toR d * t -> toR d * t <
       (0 <? lower_value k x y p)%Z -> 0 < eval p t &
       (upper_value k x y p <? 0)%Z -> eval p t < 0].
 Proof.
-move=> x0 xt ty; have [_ _ [_ _ d0 _] _] := claim_parts.
+move=> x0 xt ty; have [_ _ d0 _] := interval_parts.
 have := horner_interval_sound p x0 xt ty d0; rewrite /lower_value /upper_value.
 case: (horner_interval x y d p) => [[lo hi] power] [power0 le_lo le_hi] /=.
 split; rewrite -?(@toR_ge0 R) -?(@toR_le0 R) -?(@toR_gt0 R) -?(@toR_lt0 R) => sign.
@@ -259,7 +252,7 @@ Qed.
 Lemma modulus_root : exists t : R,
   [/\ toR a <= toR d * t, toR d * t <= toR b & eval (modulus k) t = 0].
 Proof.
-have [_ _ [a0 ab d0 sign] _] := claim_parts.
+have [a0 ab d0 sign] := interval_parts.
 have nz : toR d != 0 :> R by rewrite gt_eqF.
 pose ta : R := toR a / toR d; pose tb : R := toR b / toR d.
 have eq_a : toR d * ta = toR a by rewrite /ta mulrC divfK.
@@ -301,17 +294,46 @@ Qed.
 
 Lemma positive_sound g w : shows_positive k g w -> 0 < eval g t.
 Proof.
-have [_ _ [a0 _ _ _] _] := claim_parts.
+have [a0 _ _ _] := interval_parts.
 case/andP=> /reduces_eval[c0 eq] sign; rewrite -(pmulr_rgt0 _ c0) eq.
 by have [_ _ pos _] := value_signs (rest w) a0 at_ tb; apply: pos.
 Qed.
 
 Lemma negative_sound g w : shows_negative k g w -> eval g t < 0.
 Proof.
-have [_ _ [a0 _ _ _] _] := claim_parts.
+have [a0 _ _ _] := interval_parts.
 case/andP=> /reduces_eval[c0 eq] sign; rewrite -(pmulr_rlt0 _ c0) eq.
 by have [_ _ _ neg] := value_signs (rest w) a0 at_ tb; apply: neg.
 Qed.
+
+End AtRoot.
+
+End Interval.
+
+Section Claim.
+
+Variables (Q : pencil) (k : claim).
+Hypothesis checked : check_claim Q k.
+
+Notation a := (claim_from k).
+Notation b := (claim_to k).
+Notation d := (claim_denominator k).
+
+Lemma claim_parts :
+  [/\ wellformed Q, columns_in_order Q, root_interval k &
+      [/\ forall i, i \in free Q -> y_zero Q k i,
+          forall i, i \in slip Q ->
+            if i \in support k then [&& x_positive k i, y_zero Q k i & i \notin biactive k]
+            else x_zero k i && (if i \in biactive k then y_zero Q k i else y_positive Q k i) &
+          has (fun i => i \in support k) (slip Q) ||
+          has (fun i => x_positive k i || x_negative k i) (free Q)]].
+Proof. by case/and5P: checked => wf cols interval /allP yf /and3P[_ /allP xs nz]. Qed.
+
+Section AtRoot.
+
+Variable t : R.
+Hypotheses (at_ : toR a <= toR d * t) (tb : toR d * t <= toR b).
+Hypothesis root_t : eval (modulus k) t = 0.
 
 Definition x_at i := eval (component k i) t.
 
@@ -348,20 +370,21 @@ Theorem claim_sound : exists (t : R) x,
             i \notin support k -> i \in biactive k -> reaction Q t x i = 0 &
             i \notin support k -> i \notin biactive k -> 0 < reaction Q t x i]].
 Proof.
-have [wf cols [a0 ab d0 sign] [yf xs nz]] := claim_parts.
-have [t [at_ tb root_t]] := modulus_root.
+have [wf cols interval [yf xs nz]] := claim_parts.
+have [a0 ab d0 sign] := interval_parts interval.
+have [t [at_ tb root_t]] := modulus_root interval.
 exists t, (x_at t).
 have support_signs i : i \in slip Q ->
     (i \in support k -> 0 < x_at t i) /\ (i \notin support k -> x_at t i = 0).
   move=> /xs; case: (i \in support k) => /andP[x_sign _]; split=> // _.
-    exact: (positive_sound at_ tb root_t x_sign).
+    exact: (positive_sound interval at_ tb root_t x_sign).
   exact: (zero_sound root_t x_sign).
 have reaction_signs i : i \in slip Q -> i \notin support k ->
     (i \in biactive k -> reaction Q t (x_at t) i = 0) /\
     (i \notin biactive k -> 0 < reaction Q t (x_at t) i).
   move=> /xs + /negbTE ns; rewrite ns -reaction_polyE // => /andP[_].
   case: (i \in biactive k) => y_sign; split=> // _; first exact: (zero_sound root_t y_sign).
-  exact: (positive_sound at_ tb root_t y_sign).
+  exact: (positive_sound interval at_ tb root_t y_sign).
 have on_support i : i \in slip Q -> i \in support k -> reaction Q t (x_at t) i = 0.
   by move=> /xs + i_s; rewrite i_s => /and3P[_ /(zero_sound root_t) <- _]; rewrite reaction_polyE.
 
@@ -373,9 +396,9 @@ split.
 - by rewrite -(pmulr_rge0 _ d0); apply: le_trans at_.
 - case/orP: nz => /hasP[i Hi]; last first.
     move=> sign_i; exists i; first exact: (free_indices wf).
-    case/orP: sign_i => [/(positive_sound at_ tb root_t) p|/(negative_sound at_ tb root_t) n].
-      by rewrite gt_eqF.
-    by rewrite lt_eqF.
+    case/orP: sign_i => sign_i.
+      by rewrite gt_eqF // (positive_sound interval at_ tb root_t sign_i).
+    by rewrite lt_eqF // (negative_sound interval at_ tb root_t sign_i).
   move=> in_support; exists i; first exact: slip_indices.
   by have [/(_ in_support) pos _] := support_signs _ Hi; rewrite gt_eqF.
 - by move=> i /yf y0; rewrite -reaction_polyE //; apply: (zero_sound root_t y0).

@@ -1,15 +1,24 @@
 (* Complete sets of solutions of a pencil: the main theorem about certificates of pencils.
 
-   The checker gets a pencil, a window [lo, hi] of values (hi may be infinity), a witness for the
-   elimination of the free variables, and a tree.  What the tree yields is a list of pairs: a
-   region, and the data of its root leaf with the points from and to.
+   The checker gets a pencil, a window [lo, hi] of values (hi may be infinity), exact solution
+   claims, a witness for the elimination of the free variables, and a tree.  The tree yields
+   regions, each with an interval of a value; it may leave regions undecided.
 
    Theorem [complete_sound]: if the check succeeds, then
-     1. each solution with a value in the window lies in the region of something yielded;
-     2. each region yielded has exactly one solution up to a positive factor, and its value lies
-        between from and to.
-   [complete_none]: nothing yielded, no solution in the window.  [complete_one]: one thing yielded,
-   exactly one solution in the window.
+     1. each solution with a value in the window lies in a region yielded or in an undecided one;
+     2. each region yielded has exactly one solution up to a positive factor, and its value lies in
+        the interval yielded with it.
+   [complete_none]: nothing yielded or undecided, no solution in the window.
+
+   Theorem [complete_number]: if moreover [solutions_found] gives a list of N yields, then there are
+   N solutions with a value in the window, one for each of them and no two of them equal, and every
+   other solution in the window lies in an undecided region.  [complete_exactly]: with nothing
+   undecided there are exactly these N solutions.
+
+   Claims and cover are about the same pencil, so they agree.  Theorem [claim_place]: a claim that
+   is checked, with its interval in the window, has a solution that lies in a region yielded, with
+   its value in the interval yielded, or in an undecided region.  The checker need not look for the
+   places of claims.
 
    Theorem [excluded_sound]: for pencils whose free rows depend on t a tree may use definite leaves
    of the whole pencil only; if the check succeeds, the window has no solution.
@@ -19,8 +28,8 @@
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Condensation Pencil Whole.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
+From Mceip Require Import Number Condensation Pencil Whole Claim.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -33,14 +42,41 @@ Local Open Scope ring_scope.
 
 Section Checker.
 
-Variables (Q : pencil) (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
+Variables (Q : pencil) (claims : seq claim).
+
+(* Positions among the complementarity variables. *)
+Definition positions (l : seq nat) := [seq index i (slip Q) | i <- l].
+
+(* What a claim says about its solution. *)
+Definition known_of (k : claim) := Known
+  (claim_from k, claim_denominator k) (claim_to k, claim_denominator k)
+  (positions (support k)) (positions (biactive k)).
+
+Definition known_solutions := [seq known_of k | k <- claims].
+
+(* x is a null vector at infinity, on the moving set of r: A x = 0 in the free rows, B x = 0 in the
+   moving rows, x_k != 0, and x vanishes where r rests. *)
+Definition check_limit (r : region) (k : nat) (x : seq Z) :=
+  let at_slip j := nth 0%Z x (nth 0%N (slip Q) j) in
+  [&& columns_in_order Q, negb (at_slip k =? 0)%Z, (k < size (slip Q))%N,
+      all (fun i => sparse_dot (row_a Q i) x =? 0)%Z (free Q) &
+      all (fun j => if is_moving (state_of r j)
+                    then (sparse_dot (row_b Q (nth 0%N (slip Q) j)) x =? 0)%Z
+                    else (at_slip j =? 0)%Z) (iota 0 (size (slip Q)))].
+
+Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
 
 Definition check_complete :=
-  [&& wellformed Q, free_rows_constant Q, check_elimination (blocks_of Q) w &
-      check_cover (condensed (blocks_of Q) w) (check_whole Q) tr lo hi].
+  [&& wellformed Q, free_rows_constant Q, check_elimination (blocks_of Q) w,
+      all (check_claim Q) claims &
+      check_cover (condensed (blocks_of Q) w) known_solutions (check_whole Q) check_limit tr lo hi].
 
-(* What the tree yields. *)
-Definition found := yields tr (window lo hi).
+(* What the tree yields, and what it leaves open. *)
+Definition found := yields (enclosed_order (size (slip Q))) known_solutions tr (window lo hi).
+Definition left_open := undecided tr (window lo hi).
+
+(* The yields with different solutions. *)
+Definition solutions_found := distinct_yields (size (slip Q)) lo hi found.
 
 End Checker.
 
@@ -57,34 +93,64 @@ Definition lies_in (r : region) (t : R) x := in_region (size (slip Q)) t (slip_o
 Definition proportional (x x' : nat -> R) :=
   exists2 f, 0 < f & forall i, i \in iota 0 (order Q) -> x' i = f * x i.
 
-Definition one_solution_in (r : region) (c : isolation) :=
-  exists t x, [/\ between t (from_point c) (to_point c), solution Q t x, lies_in r t x &
-    forall t' x', solution Q t' x' -> lies_in r t' x' -> t' = t /\ proportional x x'].
+Definition one_solution_in (y : yield) :=
+  exists t x, [/\ between t (yield_from y) (yield_to y), solution Q t x,
+    lies_in (yield_region y) t x &
+    forall t' x', solution Q t' x' -> lies_in (yield_region y) t' x' ->
+      t' = t /\ proportional x x'].
+
+Lemma proportional_sym x x' : proportional x x' -> proportional x' x.
+Proof.
+case=> f f0 scaled; exists f^-1; first by rewrite invr_gt0.
+by move=> i Hi; rewrite scaled // mulKf // gt_eqF.
+Qed.
+
+Lemma proportional_trans x y z : proportional x y -> proportional y z -> proportional x z.
+Proof.
+case=> f f0 xy [g g0 yz]; exists (g * f); first exact: mulr_gt0.
+by move=> i Hi; rewrite yz // xy // mulrA.
+Qed.
+
+Lemma proportional_slip x x' : proportional x x' ->
+  exists2 f, 0 < f & forall j, (j < size (slip Q))%N -> slip_of Q x' j = f * slip_of Q x j.
+Proof.
+case=> f f0 scaled; exists f => // j lt_j.
+by apply/scaled/slip_indices/mem_nth.
+Qed.
 
 Section Complete.
 
+Variables (claims : seq claim).
 Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
-Hypothesis checked : check_complete Q w tr lo hi.
+Hypothesis checked : check_complete Q claims w tr lo hi.
 
 Notation D := (blocks_of Q).
 Notation P := (condensed D w).
 Notation A := (A_condensed R D w).
 Notation B := (B_condensed R D w).
+Notation ns := (size (slip Q)).
+Notation solves := (solves P A B).
+Notation found := (found Q claims tr lo hi).
+Notation left_open := (left_open tr lo hi).
 
-Lemma parts : [/\ wellformed Q, free_rows_constant Q, stiffness_positive D w, shapes D w &
-  check_cover P (check_whole Q) tr lo hi].
-Proof. by case/and4P: checked => ? ? /andP[]. Qed.
+Lemma parts :
+  [/\ wellformed Q, free_rows_constant Q, stiffness_positive D w, shapes D w &
+      check_cover P (known_solutions Q claims) (check_whole Q) (check_limit Q) tr lo hi].
+Proof. by case/and5P: checked => ? ? /andP[]. Qed.
+
+Lemma claims_checked n k : (n < size claims)%N -> check_claim Q (nth k claims n).
+Proof. by case/and5P: checked => _ _ _ /(all_nthP k) all_k _; apply: all_k. Qed.
 
 Lemma condensed_solution t x : solution Q t x ->
-  solves P A B t (slip_of Q x) /\
+  solves t (slip_of Q x) /\
   forall k, k \in iota 0 (size (free Q)) -> free_of Q x k = free_part D (slip_of Q x) k.
 Proof.
 have [wf con pos shp _] := parts.
 by move/(pencil_blocks wf con)/(condensation_exact pos shp).
 Qed.
 
-Lemma whole_solution t xs : solves P A B t xs -> exists x,
-  solution Q t x /\ forall j, (j < size (slip Q))%N -> slip_of Q x j = xs j.
+Lemma whole_solution t xs : solves t xs -> exists x,
+  solution Q t x /\ forall j, (j < ns)%N -> slip_of Q x j = xs j.
 Proof.
 have [wf con pos shp _] := parts => sol.
 exists (join Q (free_part D xs) xs); split; last by move=> j; apply: slip_of_join.
@@ -92,16 +158,15 @@ by apply: (join_solution wf con); apply/(condensation_exact pos shp).
 Qed.
 
 Lemma lies_in_ext r t (x : nat -> R) xs :
-  (forall j, (j < size (slip Q))%N -> slip_of Q x j = xs j) ->
-  in_region (size (slip Q)) t xs r <-> lies_in r t x.
+  (forall j, (j < ns)%N -> slip_of Q x j = xs j) -> in_region ns t xs r <-> lies_in r t x.
 Proof.
 move=> same; rewrite /lies_in; split=> -[bt ag]; split=> // j lt_j; have := ag j lt_j;
   by rewrite same.
 Qed.
 
 Lemma whole_leaf_sound r wl (t : R) xs :
-  ordered (lower r) (upper r) -> check_whole Q r wl -> in_region (size (slip Q)) t xs r ->
-  solves P A B t xs -> False.
+  ordered (lower r) (upper r) -> check_whole Q r wl -> in_region ns t xs r ->
+  solves t xs -> False.
 Proof.
 move=> O ok reg /whole_solution[x [sol same]]; have [wf _ _ _ _] := parts.
 have [bt ag] := (lies_in_ext r t same).1 reg.
@@ -111,19 +176,100 @@ Qed.
 Lemma encloses_condensed : encloses P A B.
 Proof. by have [_ _ pos shp _] := parts; apply: condensation_encloses. Qed.
 
+(* A row of the condensed pencil is a positive multiple of a row of the pencil. *)
+Lemma condensed_row t x j : (j < ns)%N ->
+  (forall k, k \in iota 0 (size (free Q)) -> free_of Q x k = free_part D (slip_of Q x) k) ->
+  image P A B t (slip_of Q x) j =
+  scale_of R w j * toR (unit_of w) ^+ 2 * reaction Q t x (nth 0%N (slip Q) j).
+Proof.
+move=> lt_j xf; have [wf con pos shp _] := parts.
+rewrite (condensed_image (D := D) (xs := slip_of Q x) w t xf) ?mem_iota //.
+by rewrite -(reaction_slip wf).
+Qed.
+
+Lemma mem_positions (l : seq nat) j : (j < ns)%N -> all (fun i => i \in slip Q) l ->
+  (j \in positions Q l) = (nth 0%N (slip Q) j \in l).
+Proof.
+move=> lt_j /allP in_slip; apply/mapP/idP => [[i il ->]|jl].
+  by rewrite nth_index // in_slip.
+by exists (nth 0%N (slip Q) j) => //; rewrite index_uniq // uniq_slip.
+Qed.
+
+Lemma known_sound n : (n < size (known_solutions Q claims))%N ->
+  exists t x, is_known P A B (known_at (known_solutions Q claims) n) t x.
+Proof.
+rewrite size_map => lt_n; pose k0 := Claim [::] 0 0 0 [::] [::] [::] [::] [::].
+rewrite /known_at (nth_map k0) //; set k := nth k0 claims n.
+have ok : check_claim Q k by apply: claims_checked.
+have in_slip : all (fun i => i \in slip Q) (support k ++ biactive k).
+  by case/and5P: ok => _ _ _ _ /and3P[].
+move: in_slip; rewrite all_cat => /andP[in_s in_b].
+have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
+have [sol_s free_x] := condensed_solution sol.
+exists t, (slip_of Q x); split=> //.
+  by rewrite /between /= ![t * _]mulrC.
+move=> j; rewrite mem_iota add0n /= => lt_j.
+have [pos zero biact _] := signs _ (mem_nth 0%N lt_j).
+rewrite !mem_positions //; split=> // ns' nb.
+by rewrite condensed_row // biact // mulr0.
+Qed.
+
+Lemma limit_sound r k x : check_limit Q r k x -> exists2 xs : nat -> R,
+  xs k != 0 & forall l, l \in moving P r -> \sum_(j <- moving P r) B l j * xs j = 0.
+Proof.
+case/and5P=> cols xk lt_k /allP free0 /allP slip0; have [wf con pos shp _] := parts.
+pose X i : R := toR (nth 0%Z x i).
+have [ca cb] : (forall i, all (fun e => e.1 < order Q)%N (row_a Q i)) /\
+               (forall i, all (fun e => e.1 < order Q)%N (row_b Q i)).
+  case/andP: cols => /allP ca /allP cb; split=> i; rewrite /row_a /row_b.
+    by have [l|l] := ltnP i (size (rows_a Q)); [apply/ca/mem_nth | rewrite nth_default].
+  by have [l|l] := ltnP i (size (rows_b Q)); [apply/cb/mem_nth | rewrite nth_default].
+
+(* The free part of X is what the free rows demand. *)
+have free_X : forall k', k' \in iota 0 (size (free Q)) ->
+    free_of Q X k' = free_part D (slip_of Q X) k'.
+  apply/(free_rows_vanish pos) => i; rewrite mem_iota add0n /= => lt_i.
+  rewrite -(reaction_free wf con 0) // /reaction -[RHS](toR0 R).
+  have /Z.eqb_spec <- := free0 _ (mem_nth 0%N lt_i).
+  rewrite (toR_sparse_dot R x (ca _)); apply: eq_bigr => j _.
+  by rewrite mul0r addr0.
+
+(* B X vanishes in the moving rows: the difference of the images at 1 and at 0. *)
+have image_B l : l \in moving P r -> \sum_(j <- indices P) B l j * slip_of Q X j = 0.
+  move=> lJ; have lt_l : (l < ns)%N by have := moving_indices lJ; rewrite mem_iota add0n.
+  have -> : \sum_(j <- indices P) B l j * slip_of Q X j =
+            image P A B 1 (slip_of Q X) l - image P A B 0 (slip_of Q X) l.
+    rewrite /image -sumrB; apply: eq_bigr => j _; rewrite /Enclosed.T.
+    by move: (A l j) (B l j) (slip_of Q X j) => *; ring.
+  rewrite !condensed_row // -mulrBr.
+  have -> : reaction Q 1 X (nth 0%N (slip Q) l) - reaction Q 0 X (nth 0%N (slip Q) l) =
+            toR (sparse_dot (row_b Q (nth 0%N (slip Q) l)) x).
+    rewrite (toR_sparse_dot R x (cb _)) /reaction -sumrB; apply: eq_bigr => j _.
+    rewrite /b_entry /X; move: (a_entry R Q _ j) (toR (lookup _ j)) (toR (nth 0%Z x j)) => *.
+    by ring.
+  have := slip0 l (moving_indices lJ).
+  by move: lJ; rewrite mem_filter => /andP[-> _] /Z.eqb_spec->; rewrite toR0 mulr0.
+
+exists (slip_of Q X) => [|l lJ]; first by rewrite /slip_of /X toR_eq0.
+rewrite -[RHS](image_B l lJ) [RHS](bigID (fun j => is_moving (state_of r j))) /=.
+rewrite [X in _ = _ + X]big_seq_cond [X in _ = _ + X]big1 ?addr0 /moving ?big_filter //.
+move=> j /andP[Hj /negbTE rest]; have := slip0 j Hj; rewrite rest => /Z.eqb_spec zero.
+by rewrite /slip_of /X zero toR0 mulr0.
+Qed.
+
 Theorem complete_sound :
   (forall t x, solution Q t x -> between t lo hi ->
-     exists2 rc, List.In rc (found tr lo hi) & lies_in rc.1 t x) /\
-  (forall rc, List.In rc (found tr lo hi) -> one_solution_in rc.1 rc.2).
+     (exists2 y, List.In y found & lies_in (yield_region y) t x) \/
+     (exists2 r, List.In r left_open & lies_in r t x)) /\
+  (forall y, List.In y found -> one_solution_in y).
 Proof.
 have [wf con pos shp cover] := parts.
-have [every each] := cover_sound encloses_condensed whole_leaf_sound cover.
-split=> [t x /condensed_solution[sol _] bt|rc in_found].
-  by have [rc in_found reg] := every t _ sol bt; exists rc.
+have [every each] := cover_sound encloses_condensed known_sound whole_leaf_sound limit_sound cover.
+split=> [t x /condensed_solution[sol _] bt|y in_found]; first exact: every t _ sol bt.
 
 have [t [xs [bt sol reg uniq]]] := each _ in_found.
 exists t, (join Q (free_part D xs) xs).
-have same j : (j < size (slip Q))%N -> slip_of Q (join Q (free_part D xs) xs) j = xs j.
+have same j : (j < ns)%N -> slip_of Q (join Q (free_part D xs) xs) j = xs j.
   by move=> lt_j; apply: slip_of_join.
 split=> //.
 - by apply: (join_solution wf con); apply/(condensation_exact pos shp).
@@ -139,19 +285,75 @@ rewrite -[LHS]/(slip_of Q x' k) -[X in _ = f * X]/(slip_of Q _ k) same //.
 by apply: scaled; rewrite mem_iota.
 Qed.
 
-Corollary complete_none : found tr lo hi = [::] ->
+Corollary complete_none : found = [::] -> left_open = [::] ->
   forall (t : R) x, solution Q t x -> between t lo hi -> False.
 Proof.
-by move=> none t x sol bt; have [rc] := complete_sound.1 t x sol bt; rewrite none.
+move=> none closed t x sol bt; have [[y]|[r]] := complete_sound.1 t x sol bt.
+  by rewrite none.
+by rewrite closed.
 Qed.
 
-Corollary complete_one rc : found tr lo hi = [:: rc] ->
-  exists (t : R) x, [/\ between t (from_point rc.2) (to_point rc.2), solution Q t x &
-    forall t' x', solution Q t' x' -> between t' lo hi -> t' = t /\ proportional x x'].
+Theorem claim_place k : check_claim Q k ->
+  within (known_from (known_of Q k), known_to (known_of Q k)) (lo, hi) ->
+  exists (t : R) x,
+    [/\ between t (known_from (known_of Q k)) (known_to (known_of Q k)), solution Q t x,
+        forall i, i \in slip Q -> (0 < x i) = (i \in support k) &
+        (exists2 y, List.In y found & between t (yield_from y) (yield_to y) /\
+                                      lies_in (yield_region y) t x) \/
+        (exists2 r, List.In r left_open & lies_in r t x)].
 Proof.
-move=> one; have [|t [x [bt sol reg uniq]]] := complete_sound.2 rc; first by rewrite one; left.
-exists t, x; split=> // t' x' sol' bt'; apply: uniq => //.
-by have [rc' + reg'] := complete_sound.1 t' x' sol' bt'; rewrite one => -[->|].
+move=> ok inside; have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
+have bt : between t (known_from (known_of Q k)) (known_to (known_of Q k)).
+  by rewrite /between /= ![t * _]mulrC.
+exists t, x; split=> // [i Hi|].
+  have [pos zero _ _] := signs _ Hi; have [i_s|i_s] := boolP (i \in support k).
+    exact: pos.
+  by rewrite zero // ltxx.
+have [every each] := complete_sound.
+have [[y y_found reg]|in_open] := every t x sol (within_between inside bt); last by right.
+left; exists y => //; have [t' [x' [bt' _ _ uniq]]] := each y y_found.
+by have [eq_t _] := uniq t x sol reg; split=> //; rewrite eq_t.
+Qed.
+
+Theorem complete_number ys : solutions_found Q claims tr lo hi = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
+        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
+                                 lies_in (yield_region y) s.1 s.2) ys l,
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional s.2 s'.2)) l &
+        forall t x, solution Q t x -> between t lo hi ->
+          (exists2 s, List.In s l & t = s.1 /\ proportional s.2 x) \/
+          (exists2 r, List.In r left_open & lies_in r t x)].
+Proof.
+move=> dist; have [every each] := complete_sound.
+have has_one y : List.In y found -> exists s, the_solution ns (slip_of Q) (solution Q)
+    proportional y s.
+  by move/each=> [t [x [bt sol reg uniq]]]; exists (t, x); split.
+have [l [[sols pairs] win all_found]] :=
+  distinct_sound proportional_slip proportional_sym proportional_trans has_one dist.
+exists l; split=> //.
+- exact/esym/(Forall2_size sols).
+- by move=> s sl; have [y _ [_ sol _ _]] := Forall2_in sols sl; split=> //; apply: win.
+- by apply: Forall2_impl sols => y s [bt _ reg _].
+move=> t x sol bt; case: (every t x sol bt) => [[y y_found reg]|]; last by right.
+by left; have [s sl one] := all_found y y_found t x sol reg; exists s.
+Qed.
+
+Corollary complete_exactly ys :
+  solutions_found Q claims tr lo hi = Some ys -> left_open = [::] ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
+        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
+                                 lies_in (yield_region y) s.1 s.2) ys l,
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional s.2 s'.2)) l &
+        forall t x, solution Q t x -> between t lo hi ->
+          exists2 s, List.In s l & t = s.1 /\ proportional s.2 x].
+Proof.
+move=> dist closed; have [l [sz sols vals pairs every]] := complete_number dist.
+exists l; split=> // t x sol bt; have [//|[r]] := every t x sol bt.
+by rewrite closed.
 Qed.
 
 End Complete.

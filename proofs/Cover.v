@@ -5,23 +5,33 @@
      Farkas w                w excludes every solution of the region (Farkas.v);
      Definite sign low high  a definite form excludes every solution (Definite.v);
      Absent c                no null vector in a decided region (RootLeaf.v);
-     Root c o                one null vector, with the outcome o (RootLeaf.v);
-     Whole w                 a statement about the pencil before condensation (Whole.v).
+     Root h c o              one null vector, with the outcome o (RootLeaf.v);
+     Claimed h c n           at most one null vector, that of the known solution n (Pinned.v);
+     Infinite h c x          at most one null vector, and that one at infinity (Pinned.v);
+     Whole w                 a statement about the pencil before condensation (Whole.v);
+     Undecided               nothing is said about the region.
 
-   A root leaf with the outcome "solution" yields the pair of its region and its data.
+   The interval h of a leaf contains that of its region and may reach beyond it, where a value lies
+   near an end of the region or at it.  What the leaf proves, it proves for the *extended region*:
+   the interval h and the states of the region.
+
+   A root leaf with the outcome "solution", and a claimed leaf whose moving set is the support of
+   the known solution, yield: the extended region, and an interval of the value.  The leaves
+   Undecided list their regions.
 
    Theorem [cover_sound]: if a tree is checked on a window, then
-     1. every solution in the window lies in the region of something yielded, and
-     2. each region of something yielded has exactly one solution, up to a positive factor; its
-        value lies between the points from and to of the leaf.
-   [no_solution]: nothing yielded, no solution.  [exactly_one]: one thing yielded, one solution.
+     1. every solution in the window lies in a region yielded or in an undecided region, and
+     2. each region yielded has exactly one solution, up to a positive factor; its value lies
+        between the two points that are yielded.
+   [no_solution]: nothing yielded or undecided, no solution.  How many solutions these are is the
+   matter of Number.v.
 
    Page: spec/certificates.md, 5.6 and 5.15.
    Rust: crates/check/src/cover/mod.rs, found.rs. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf.
+From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -32,6 +42,8 @@ Import Order.Theory GRing.Theory Num.Theory.
 Delimit Scope Z_scope with Z.
 Local Open Scope ring_scope.
 
+Definition interval := (point * point)%type.
+
 Section Cover.
 
 (* Evidence about the whole pencil, of whatever kind. *)
@@ -41,27 +53,62 @@ Inductive leaf :=
   | Farkas of seq Z
   | Definite of bool & factor & factor
   | Absent of absence
-  | Root of isolation & outcome
-  | Whole of whole.
+  | Root of interval & isolation & outcome
+  | Claimed of interval & pinning & nat
+  | Infinite of interval & pinning & seq Z
+  | Whole of whole
+  | Undecided.
 
-Definition yielded (rl : region * leaf) : option (region * isolation) :=
-  if rl.2 is Root c Solution then Some (rl.1, c) else None.
+(* A region with one solution, and an interval of its value. *)
+Record yield := Yield { yield_region : region; yield_from : point; yield_to : point }.
 
-Definition yields (tr : tree leaf) (r : region) := pmap yielded (leaves tr r).
+Definition extended (r : region) (h : interval) := Region h.1 h.2 (states r).
+
+Definition reaches (r : region) (h : interval) :=
+  [&& ordered h.1 h.2, point_le h.1 (lower r) & point_le (upper r) h.2].
 
 Definition window lo hi := Region lo hi [::].
 
+(* A pencil of which only the order counts. *)
+Definition enclosed_order n := Enclosed n [::] [::] [::] [::].
+
+Definition nothing_known := Known zero zero [::] [::].
+
 Section Checker.
 
-Variables (P : enclosed) (check_whole : region -> whole -> bool).
+(* [check_limit r k x]: x gives a null vector of B on the moving set of r, with x_k != 0. *)
+Variables (P : enclosed) (solutions : seq known).
+Variables (check_whole : region -> whole -> bool) (check_limit : region -> nat -> seq Z -> bool).
+
+Definition known_at n := nth nothing_known solutions n.
+
+Definition yielded (rl : region * leaf) : option yield :=
+  match rl.2 with
+  | Root h c Solution => Some (Yield (extended rl.1 h) (from_point c) (to_point c))
+  | Claimed h c n =>
+      let q := known_at n in
+      if supports_region P rl.1 q then Some (Yield (extended rl.1 h) (known_from q) (known_to q))
+      else None
+  | _ => None
+  end.
+
+Definition yields (tr : tree leaf) (r : region) := pmap yielded (leaves tr r).
+
+Definition undecided (tr : tree leaf) (r : region) :=
+  pmap (fun rl => if rl.2 is Undecided then Some rl.1 else None) (leaves tr r).
 
 Definition check_leaf (r : region) (l : leaf) : bool :=
   match l with
   | Farkas w => farkas P r w
   | Definite negative low high => definite P negative r low high
   | Absent c => check_absent P r c
-  | Root c o => check_root P r c o
+  | Root h c o => reaches r h && check_root P (extended r h) c o
+  | Claimed h c n =>
+      [&& reaches r h, (n < size solutions)%N & check_claimed P (extended r h) c (known_at n)]
+  | Infinite h c x =>
+      [&& reaches r h, check_infinite P (extended r h) c & check_limit r (pin_pivot c) x]
   | Whole w => check_whole r w
+  | Undecided => true
   end.
 
 Definition check_cover (tr : tree leaf) (lo hi : point) :=
@@ -92,33 +139,65 @@ Variables (P : enclosed) (A B : nat -> nat -> R).
 Hypothesis E : encloses P A B.
 Notation solves := (solves P A B).
 
+Variable solutions : seq known.
+Hypothesis known_sound : forall n, (n < size solutions)%N ->
+  exists t x, is_known P A B (known_at solutions n) t x.
+
 Variable check_whole : region -> whole -> bool.
 Hypothesis whole_sound : forall r w (t : R) x,
   ordered (lower r) (upper r) -> check_whole r w -> in_region_of P t x r -> solves t x -> False.
+
+Variable check_limit : region -> nat -> seq Z -> bool.
+Hypothesis limit_sound : forall r k x, check_limit r k x -> exists2 xs : nat -> R,
+  xs k != 0 & forall l, l \in moving P r -> \sum_(j <- moving P r) B l j * xs j = 0.
 
 (* x' is a positive multiple of x. *)
 Definition same_direction (x x' : nat -> R) :=
   exists2 f, 0 < f & forall i, i \in indices P -> x' i = f * x i.
 
-Definition has_exactly_one (r : region) (c : isolation) :=
-  exists t x, [/\ between t (from_point c) (to_point c), solves t x, in_region_of P t x r &
-    forall t' x', solves t' x' -> in_region_of P t' x' r -> t' = t /\ same_direction x x'].
+Definition has_exactly_one (y : yield) :=
+  exists t x, [/\ between t (yield_from y) (yield_to y), solves t x,
+    in_region_of P t x (yield_region y) &
+    forall t' x', solves t' x' -> in_region_of P t' x' (yield_region y) ->
+      t' = t /\ same_direction x x'].
 
-(* A leaf excludes every solution, or it yields. *)
-Lemma leaf_sound r l t x :
-  ordered (lower r) (upper r) -> check_leaf P check_whole r l ->
-  in_region_of P t x r -> solves t x -> exists c, yielded (r, l) = Some (r, c).
+Lemma in_extended r h t (x : nat -> R) : ordered (lower r) (upper r) -> reaches r h ->
+  in_region_of P t x r -> in_region_of P t x (extended r h).
 Proof.
-move=> O; case: l => [w|negative low high|c|c o|w] /= ok reg sol.
+move=> O /and3P[o le_lo le_hi] [bt ag]; split=> //.
+exact: (between_wider O o le_lo le_hi bt).
+Qed.
+
+(* A leaf excludes every solution, or it yields, or it is undecided. *)
+Lemma leaf_sound r l t x :
+  ordered (lower r) (upper r) -> check_leaf P solutions check_whole check_limit r l ->
+  in_region_of P t x r -> solves t x ->
+  (exists2 y, yielded P solutions (r, l) = Some y & in_region_of P t x (yield_region y)) \/
+  l = Undecided.
+Proof.
+move=> O; case: l => [w|negative low high|c|h c o|h c n|h c z|w|] /= ok reg sol; last by right.
 - by case: (farkas_sound E O ok reg sol).
 - by case: (definite_sound E O ok reg sol).
 - have D : decided P r by case/and5P: ok.
   by case: (absent_sound E O D ok reg sol).
-- case/andP: ok => iso signs; have D : decided P r by case/and5P: iso.
-  case: o signs => [_|i /andP[iK neg]|i /and3P[Hi nm neg]]; first by exists c.
-    by case: (negative_x_sound E O D iso iK neg reg sol).
-  by case: (negative_y_sound E O D iso Hi nm neg reg sol).
-- by case: (whole_sound O ok reg sol).
+- case/andP: ok => rh /andP[iso signs]; have Oh : ordered h.1 h.2 by case/and3P: rh.
+  have D : decided P (extended r h) by case/and5P: iso.
+  have {}reg := in_extended O rh reg.
+  case: o signs => [_|i /andP[iK neg]|i /and3P[Hi nm neg]].
+  + by left; exists (Yield (extended r h) (from_point c) (to_point c)).
+  + by case: (negative_x_sound (r := extended r h) E Oh D iso iK neg reg sol).
+  by case: (negative_y_sound (r := extended r h) E Oh D iso Hi nm neg reg sol).
+- case/and3P: ok => rh lt_n claimed; have Oh : ordered h.1 h.2 by case/and3P: rh.
+  have {}reg := in_extended O rh reg.
+  have [t0 [x0 sol0]] := known_sound lt_n.
+  left; rewrite /yielded /=; case: ifP => [_|/negbT beside].
+    by exists (Yield (extended r h) (known_from (known_at solutions n))
+                     (known_to (known_at solutions n))).
+  by case: (claimed_beside (r := extended r h) E Oh claimed sol0 beside sol reg).
+- case/and3P: ok => rh infinite /limit_sound[xs xk Bx].
+  have Oh : ordered h.1 h.2 by case/and3P: rh.
+  by case: (infinite_sound (r := extended r h) E Oh infinite xk Bx sol (in_extended O rh reg)).
+by case: (whole_sound O ok reg sol).
 Qed.
 
 Lemma in_window t (x : nat -> R) lo hi :
@@ -128,46 +207,49 @@ Proof. by move=> bt; split=> // i _; rewrite /state_of nth_nil. Qed.
 Section Checked.
 
 Variables (tr : tree leaf) (lo hi : point).
-Hypothesis checked : check_cover P check_whole tr lo hi.
-Notation found := (yields tr (window lo hi)).
+Hypothesis checked : check_cover P solutions check_whole check_limit tr lo hi.
+Notation found := (yields P solutions tr (window lo hi)).
+Notation left_open := (undecided tr (window lo hi)).
 
 Lemma every_solution_is_yielded t x : solves t x -> between t lo hi ->
-  exists2 rc, List.In rc found & in_region_of P t x rc.1.
+  (exists2 y, List.In y found & in_region_of P t x (yield_region y)) \/
+  (exists2 r, List.In r left_open & in_region_of P t x r).
 Proof.
 move=> sol bt.
 have [[r l] in_leaves [reg O ok]] :=
   every_point_reaches_a_leaf checked (solution_ge0 sol) (in_window x bt).
-have [c yields_c] := leaf_sound O ok reg sol.
-by exists (r, c) => //; apply/in_pmap; exists (r, l).
+have [[y yields_y reg_y]|l_open] := leaf_sound O ok reg sol.
+  by left; exists y => //; apply/in_pmap; exists (r, l).
+by right; exists r => //; apply/in_pmap; exists (r, l); rewrite // l_open.
 Qed.
 
-Lemma each_yield_has_one rc : List.In rc found -> has_exactly_one rc.1 rc.2.
+Lemma each_yield_has_one y : List.In y found -> has_exactly_one y.
 Proof.
 case/in_pmap=> -[r l] in_leaves; rewrite /yielded /=.
-case: l in_leaves => // c [] //= in_leaves [<-] /=.
-have [O /andP[iso signs]] := leaves_are_checked checked in_leaves.
-have D : decided P r by case/and5P: iso.
-have [t [x [bt sol reg uniq]]] := solution_sound E O D iso signs.
-by exists t, x; split=> // t' x' sol' reg'; have := uniq t' x' sol' reg'.
+have [/= O] := leaves_are_checked checked in_leaves.
+case: l in_leaves => // [h c []|h c n] //= in_leaves.
+  case/andP=> /and3P[Oh _ _] /andP[iso signs] [<-] /=.
+  have D : decided P (extended r h) by case/and5P: iso.
+  have [t [x [bt sol reg uniq]]] := solution_sound (r := extended r h) E Oh D iso signs.
+  by exists t, x; split=> // t' x' sol' reg'; have := uniq t' x' sol' reg'.
+case/and3P=> /and3P[Oh _ _] lt_n claimed; case: ifP => // supports [<-] /=.
+have [t [x sol0]] := known_sound lt_n.
+have [reg uniq] := claimed_sound (r := extended r h) E Oh claimed sol0 supports.
+by exists t, x; case: sol0 => bt sol _; split=> // t' x' sol' reg'; have := uniq t' x' sol' reg'.
 Qed.
 
 Theorem cover_sound :
   (forall t x, solves t x -> between t lo hi ->
-     exists2 rc, List.In rc found & in_region_of P t x rc.1) /\
-  (forall rc, List.In rc found -> has_exactly_one rc.1 rc.2).
+     (exists2 y, List.In y found & in_region_of P t x (yield_region y)) \/
+     (exists2 r, List.In r left_open & in_region_of P t x r)) /\
+  (forall y, List.In y found -> has_exactly_one y).
 Proof. by split; [exact: every_solution_is_yielded | exact: each_yield_has_one]. Qed.
 
-Theorem no_solution : found = [::] -> forall t x, solves t x -> between t lo hi -> False.
-Proof. by move=> none t x sol /(every_solution_is_yielded sol)[rc]; rewrite none. Qed.
-
-Theorem exactly_one rc : found = [:: rc] ->
-  exists t x, [/\ between t (from_point rc.2) (to_point rc.2), solves t x &
-    forall t' x', solves t' x' -> between t' lo hi -> t' = t /\ same_direction x x'].
+Theorem no_solution : found = [::] -> left_open = [::] ->
+  forall t x, solves t x -> between t lo hi -> False.
 Proof.
-move=> one; have [|t [x [bt sol reg uniq]]] := @each_yield_has_one rc.
-  by rewrite one; left.
-exists t, x; split=> // t' x' sol' bt'; apply: uniq => //.
-by have [rc' + reg'] := every_solution_is_yielded sol' bt'; rewrite one => -[->|].
+move=> none closed t x sol /(every_solution_is_yielded sol)[[y]|[r]]; first by rewrite none.
+by rewrite closed.
 Qed.
 
 End Checked.

@@ -3,13 +3,15 @@
    Integers (Z) become zarith's arbitrary-precision integers, natural numbers become OCaml's int
    (they count rows and columns), and the equality test of natural numbers becomes that of int.
    These three mappings are part of the trusted base (README.md).  Everything else is Coq's
-   extraction of the functions whose soundness System.v, Complete.v and Claim.v prove. *)
+   extraction of the functions whose soundness System.v, Complete.v, Claim.v, Lifted.v,
+   EnclosedClaim.v and PlainMcp.v prove. *)
 
 From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
-From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Condensation Pencil Whole Complete Claim System.
+From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned Cover.
+From Mceip Require Import Number Condensation Pencil Whole Complete Claim System.
+From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
@@ -18,8 +20,11 @@ Set Extraction AccessOpaque.
 
 Extraction "kernel.ml"
   check_complete check_excluded check_system check_system_excluded check_claim check_system_claim
-  reaction_poly found pencil_of blocks_of
+  check_lifted check_enclosed_claim check_system_enclosed check_mcp
+  reaction_poly found left_open solutions_found pencil_of blocks_of
   condensed slip zero infinity window check_leaf check_tree check_whole check_end
   stiffness_positive shapes wellformed free_rows_constant system_wellformed
-  symmetric_part definite_end farkas check_absent check_root active moving members member_form
-  defect residual check_unique decide.
+  symmetric_part definite_end farkas check_absent check_root pinned check_claimed check_infinite
+  active moving members member_form defect residual check_unique decide
+  check_families check_system_families all_solutions families still_open check_supports
+  check_support column_poly row_poly positive_on check_value low_on high_on zero_poly scale_poly.

@@ -1,36 +1,44 @@
 (* From stiffness, mass, contact states and signs to a pencil.
 
    A mechanical system has [dofs] degrees of freedom, sparse rows of K and M (multiplied by one
-   positive integer each), a list of free degrees of freedom, and slip particles: the tangential
-   and the normal degree of freedom, the sign S_p of the tangential reaction, and the direction of
-   the normal (1 into the obstacle, -1 away from it).  All other degrees of freedom do not move.
+   positive integer each), a list of free degrees of freedom, and slip particles.  A slip particle
+   has two degrees of freedom, the unit tangent t_p and the unit normal n_p as vectors over these
+   two (frame and normal direction applied), and the sign S_p of the tangential reaction.  All
+   tangents and normals are multiplied by one positive integer, [unit_length], so that they are
+   integer vectors.  All other degrees of freedom do not move: those of particles that stick.
 
    [conditions_9] are the conditions (9) for such a system, for values of lambda^2 and mu:
 
-       w = (K + lambda^2 M) v,   v != 0,   w_f = 0,   v = 0 at what does not move,
-       S v_T <= 0,   S w_T + mu w_N <= 0,   (S w_T + mu w_N)(S v_T) = 0   for each slip particle.
+       w = (K + lambda^2 M) v,    v != 0,    w_f = 0,    v = 0 at what does not move,
+
+   and for each slip particle
+
+       n'v = 0,    S t'v <= 0,    S t'w + mu n'w <= 0,    (S t'w + mu n'w) (S t'v) = 0.
 
    The unknown is mu with lambda = 0, or lambda^2 with mu given as a fraction.
 
    Theorem [system_pencil]: x solves the pencil that is computed here if and only if the motion
-   v(x), that is v_f = x_f and v_T = -S x_T, satisfies (9).  [system_onto]: every motion that
-   satisfies (9) is v(x) for some x.
+   v(x) = sum_f x_d e_d - sum_p S_p x_p t_p of (10), times unit_length,
+   satisfies (9).
+   [system_onto]: every motion that satisfies (9) is v(x) for some x.
 
    Theorem [system_complete]: the main theorem for mechanical systems.  If the check succeeds, each
-   motion with (9) and its value in the window lies in a region yielded, and each region yielded
-   has exactly one, up to a positive factor.  [system_none], [system_one]: none, exactly one.
+   motion with (9) and its value in the window lies in a region yielded or left undecided, and each
+   region yielded has exactly one, up to a positive factor.  [system_none]: none.  [system_number],
+   [system_exactly]: how many there are, as in Complete.v.
 
-   [system_claim]: an exact solution claim about the pencil gives a motion with (9).
+   [system_claim]: an exact solution claim about the pencil gives a motion with (9) and with the
+   support and the biactive variables of the claim ([has_support]).
 
    The pencil is in the order of spec/certificates.md: free degrees of freedom, then slip
-   particles.  Frames and particles at zero reaction are not covered.
+   particles.  Particles at zero reaction are not covered.
 
    Page: spec/certificates.md, 5.1; spec/reduction.md.  Rust: crates/check/src/pencil.rs. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Condensation Pencil Whole Complete Claim.
+From Mceip Require Import Number Condensation Pencil Whole Claim Complete.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -41,18 +49,23 @@ Import Order.Theory GRing.Theory Num.Theory.
 Delimit Scope Z_scope with Z.
 Local Open Scope ring_scope.
 
+(* A vector over the two degrees of freedom of a particle. *)
+Definition planar := (Z * Z)%type.
+
 Record slip_particle := SlipParticle {
-  tangential : nat;
-  normal : nat;
-  sign_of : Z;
-  direction : Z }.
+  first_dof : nat;
+  second_dof : nat;
+  tangent : planar;
+  normal : planar;
+  sign_of : Z }.
 
 Record system := System {
   dofs : nat;
   stiffness : seq sparse_row;
   mass : seq sparse_row;
   free_dofs : seq nat;
-  particles : seq slip_particle }.
+  particles : seq slip_particle;
+  unit_length : Z }.
 
 (* Mu: the unknown is mu.  Lambda2 p q: the unknown is lambda^2, and mu = p/q. *)
 Inductive unknown := Mu | Lambda2 of Z & Z.
@@ -62,11 +75,12 @@ Section Checker.
 Variables (s : system) (u : unknown).
 Local Open Scope Z_scope.
 
-Notation nobody := (SlipParticle 0 0 0 0).
+Notation nobody := (SlipParticle 0 0 (0, 0) (0, 0) 0).
 
 Definition free_number := size (free_dofs s).
-Definition tangentials := [seq tangential p | p <- particles s].
-Definition moving_dofs := free_dofs s ++ tangentials.
+Definition first_dofs := [seq first_dof p | p <- particles s].
+Definition second_dofs := [seq second_dof p | p <- particles s].
+Definition moving_dofs := free_dofs s ++ first_dofs ++ second_dofs.
 Definition particle j := nth nobody (particles s) j.
 
 Definition k_row d := nth [::] (stiffness s) d.
@@ -74,30 +88,42 @@ Definition m_row d := nth [::] (mass s) d.
 
 (* The column of the pencil to which a degree of freedom belongs, and the factor it gets. *)
 Definition column d : option (nat * Z) :=
-  if d \in free_dofs s then Some (index d (free_dofs s), 1)
-  else if d \in tangentials then
-    let j := index d tangentials in Some ((free_number + j)%N, - sign_of (particle j))
+  if d \in free_dofs s then Some (index d (free_dofs s), unit_length s)
+  else if d \in first_dofs then
+    let j := index d first_dofs in
+    Some ((free_number + j)%N, - (sign_of (particle j) * (tangent (particle j)).1))
+  else if d \in second_dofs then
+    let j := index d second_dofs in
+    Some ((free_number + j)%N, - (sign_of (particle j) * (tangent (particle j)).2))
   else None.
 
 Definition columns (row : sparse_row) : sparse_row :=
   pmap (fun e => omap (fun c => (c.1, c.2 * e.2)) (column e.1)) row.
 
-Definition multiple c (row : sparse_row) : sparse_row := [seq (e.1, c * e.2) | e <- row].
+Definition multiple c (row : sparse_row) : sparse_row :=
+  if c =? 0 then [::] else [seq (e.1, c * e.2) | e <- row].
+
+(* The rows of a matrix at both degrees of freedom of a particle, with these factors. *)
+Definition rows_along (rows : nat -> sparse_row) p (factors : planar) :=
+  multiple factors.1 (columns (rows (first_dof p))) ++
+  multiple factors.2 (columns (rows (second_dof p))).
+
+(* a t_p + b n_p *)
+Definition direction a b p : planar :=
+  (a * (tangent p).1 + b * (normal p).1, a * (tangent p).2 + b * (normal p).2).
 
 Definition free_row_b d := if u is Lambda2 _ _ then columns (m_row d) else [::].
 
 Definition slip_row_a p :=
   match u with
-  | Mu => multiple (- sign_of p) (columns (k_row (tangential p)))
-  | Lambda2 m q => multiple (- (q * sign_of p)) (columns (k_row (tangential p))) ++
-                   multiple (- (m * direction p)) (columns (k_row (normal p)))
+  | Mu => rows_along k_row p (direction (- sign_of p) 0 p)
+  | Lambda2 m q => rows_along k_row p (direction (- (q * sign_of p)) (- m) p)
   end.
 
 Definition slip_row_b p :=
   match u with
-  | Mu => multiple (- direction p) (columns (k_row (normal p)))
-  | Lambda2 m q => multiple (- (q * sign_of p)) (columns (m_row (tangential p))) ++
-                   multiple (- (m * direction p)) (columns (m_row (normal p)))
+  | Mu => rows_along k_row p (direction 0 (- (1)) p)
+  | Lambda2 m q => rows_along m_row p (direction (- (q * sign_of p)) (- m) p)
   end.
 
 Definition pencil_of : pencil := Pencil (free_number + size (particles s))
@@ -108,14 +134,22 @@ Definition pencil_of : pencil := Pencil (free_number + size (particles s))
 Definition columns_in_range (rows : seq sparse_row) :=
   all (fun row => all (fun e => e.1 < dofs s)%N row) rows.
 
+(* a'b *)
+Definition inner (a b : planar) := a.1 * b.1 + a.2 * b.2.
+
+Definition particle_wellformed p :=
+  let unit_square := unit_length s * unit_length s in
+  [&& sign_of p * sign_of p =? 1, inner (tangent p) (tangent p) =? unit_square,
+      inner (normal p) (normal p) =? unit_square & inner (tangent p) (normal p) =? 0].
+
 Definition system_wellformed :=
   [&& uniq moving_dofs, all (fun d => d < dofs s)%N moving_dofs,
-      all (fun p => sign_of p * sign_of p =? 1) (particles s),
-      all (fun p => normal p \notin moving_dofs) (particles s),
-      columns_in_range (stiffness s) && columns_in_range (mass s) &
+      all particle_wellformed (particles s),
+      columns_in_range (stiffness s) && columns_in_range (mass s), 0 <? unit_length s &
       if u is Lambda2 _ q then 0 <? q else true].
 
-Definition check_system w tr lo hi := system_wellformed && check_complete pencil_of w tr lo hi.
+Definition check_system claims w tr lo hi :=
+  system_wellformed && check_complete pencil_of claims w tr lo hi.
 
 Definition check_system_excluded tr lo hi :=
   system_wellformed && check_excluded pencil_of tr lo hi.
@@ -141,18 +175,24 @@ Definition m_entry d j : R := toR (lookup (m_row s d) j).
 Definition force lambda2 (v : nat -> R) d :=
   \sum_(j <- all_dofs) (k_entry d j + lambda2 * m_entry d j) * v j.
 
-(* S w_T + mu w_N *)
+(* Inner product of a direction of particle p with v or w. *)
+Definition along (e : planar) (p : slip_particle) (f : nat -> R) :=
+  toR e.1 * f (first_dof p) + toR e.2 * f (second_dof p).
+
+(* S t'v and S t'w + mu n'w *)
+Definition slip_rate v p := toR (sign_of p) * along (tangent p) p v.
+
 Definition cone lambda2 mu v p :=
-  toR (sign_of p) * force lambda2 v (tangential p) +
-  mu * (toR (direction p) * force lambda2 v (normal p)).
+  toR (sign_of p) * along (tangent p) p (force lambda2 v) +
+  mu * along (normal p) p (force lambda2 v).
 
 Definition conditions_9 lambda2 mu (v : nat -> R) :=
   [/\ exists2 d, d \in all_dofs & v d != 0,
       forall d, d \in all_dofs -> d \notin moving_dofs s -> v d = 0,
       forall d, d \in free_dofs s -> force lambda2 v d = 0 &
       forall j, (j < ns)%N -> let p := particle s j in
-        [/\ toR (sign_of p) * v (tangential p) <= 0, cone lambda2 mu v p <= 0 &
-            cone lambda2 mu v p * (toR (sign_of p) * v (tangential p)) = 0]].
+        [/\ along (normal p) p v = 0, slip_rate v p <= 0, cone lambda2 mu v p <= 0 &
+            cone lambda2 mu v p * slip_rate v p = 0]].
 
 (* (9) with the unknown t >= 0. *)
 Definition satisfies_9 t v :=
@@ -161,57 +201,95 @@ Definition satisfies_9 t v :=
             | Lambda2 m q => conditions_9 t (toR m / toR q) v
             end.
 
+Definition lambda2_of (t : R) := if u is Lambda2 _ _ then t else 0.
+Definition mu_of (t : R) := if u is Lambda2 m q then toR m / toR q else t.
+
+(* The slip particles that slip after the event (support), those at the border of the friction
+   cone without slip (biactive), and the others; numbers of the pencil's variables. *)
+Definition has_support (support biactive : seq nat) t v := forall j, (j < ns)%N ->
+  let p := particle s j in
+  [/\ (nf + j)%N \in support -> slip_rate v p < 0,
+      (nf + j)%N \notin support -> slip_rate v p = 0,
+      (nf + j)%N \notin support -> (nf + j)%N \in biactive ->
+        cone (lambda2_of t) (mu_of t) v p = 0 &
+      (nf + j)%N \notin support -> (nf + j)%N \notin biactive ->
+        cone (lambda2_of t) (mu_of t) v p < 0].
+
 (* (10) *)
 Definition motion (x : nat -> R) d :=
   if column s d is Some (j, c) then toR c * x j else 0.
 
 Hypothesis wf : system_wellformed s u.
 
-Lemma uniq_moving_dofs : uniq (moving_dofs s).
-Proof. by case/andP: wf. Qed.
+Lemma wf_parts :
+  [/\ uniq (moving_dofs s), all (fun d => d < dofs s)%N (moving_dofs s),
+      forall j, (j < ns)%N -> particle_wellformed s (particle s j),
+      columns_in_range s (stiffness s) && columns_in_range s (mass s) &
+      (0 <? unit_length s)%Z].
+Proof.
+case/and5P: wf => ? ? /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) ? ? /andP[? ?].
+by split.
+Qed.
 
 Lemma moving_dof_in d : d \in moving_dofs s -> d \in all_dofs.
-Proof. by case/and3P: wf => _ /allP lt _ /lt; rewrite mem_iota. Qed.
+Proof. by have [_ /allP lt _ _ _] := wf_parts; move/lt; rewrite mem_iota. Qed.
 
-Lemma sign_squared j : (j < ns)%N -> toR (sign_of (particle s j)) ^+ 2 = 1 :> R.
+Lemma uniq_parts :
+  [/\ uniq (free_dofs s), uniq (first_dofs s), uniq (second_dofs s),
+      forall d, d \in first_dofs s -> (d \in free_dofs s) = false &
+      forall d, d \in second_dofs s -> (d \in free_dofs s) || (d \in first_dofs s) = false].
 Proof.
-move=> lt_j; case/and4P: wf => _ _ /(all_nthP (SlipParticle 0 0 0 0)) /(_ _ lt_j) sq _.
-by move: sq => /Z.eqb_spec; rewrite expr2 -toRM => ->.
+have [+ _ _ _ _] := wf_parts; rewrite /moving_dofs !cat_uniq has_cat negb_or.
+case/and3P=> uf /andP[/hasPn f1 /hasPn f2] /and3P[u1 /hasPn d12 u2].
+split=> // d d_in; first by apply/negbTE/f1.
+by apply/negbTE; rewrite negb_or f2 ?d12.
 Qed.
 
 Lemma rows_in_range d :
   all (fun e => e.1 < dofs s)%N (k_row s d) /\ all (fun e => e.1 < dofs s)%N (m_row s d).
 Proof.
-case/and5P: wf => _ _ _ _ /andP[/andP[/allP k /allP m] _]; rewrite /k_row /m_row.
-split.
+have [_ _ _ /andP[/allP k /allP m] _] := wf_parts; rewrite /k_row /m_row; split.
   by have [l|l] := ltnP d (size (stiffness s)); [apply/k/mem_nth | rewrite nth_default].
 by have [l|l] := ltnP d (size (mass s)); [apply/m/mem_nth | rewrite nth_default].
 Qed.
 
-Lemma tangential_particle j : (j < ns)%N ->
-  tangential (particle s j) = nth 0%N (tangentials s) j.
-Proof. by move=> lt_j; rewrite /tangentials (nth_map (SlipParticle 0 0 0 0)). Qed.
+Lemma first_particle j : (j < ns)%N -> first_dof (particle s j) = nth 0%N (first_dofs s) j.
+Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z). Qed.
 
-Lemma column_free k : (k < nf)%N -> column s (nth 0%N (free_dofs s) k) = Some (k, 1%Z).
+Lemma second_particle j : (j < ns)%N -> second_dof (particle s j) = nth 0%N (second_dofs s) j.
+Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z). Qed.
+
+Lemma first_in j : (j < ns)%N -> first_dof (particle s j) \in first_dofs s.
+Proof. by move=> lt_j; rewrite first_particle // mem_nth // size_map. Qed.
+
+Lemma second_in j : (j < ns)%N -> second_dof (particle s j) \in second_dofs s.
+Proof. by move=> lt_j; rewrite second_particle // mem_nth // size_map. Qed.
+
+Lemma column_free k : (k < nf)%N ->
+  column s (nth 0%N (free_dofs s) k) = Some (k, unit_length s).
+Proof. by move=> lt_k; have [uf _ _ _ _] := uniq_parts; rewrite /column mem_nth ?index_uniq. Qed.
+
+Lemma column_first j : (j < ns)%N -> let p := particle s j in
+  column s (first_dof p) = Some ((nf + j)%N, (- (sign_of p * (tangent p).1))%Z).
 Proof.
-move=> lt_k; rewrite /column mem_nth // index_uniq //.
-by have := uniq_moving_dofs; rewrite cat_uniq => /and3P[].
+move=> lt_j /=; have [_ u1 _ out _] := uniq_parts.
+rewrite /column out ?first_in // first_particle // index_uniq ?size_map //.
 Qed.
 
-Lemma column_slip j : (j < ns)%N ->
-  column s (tangential (particle s j)) = Some ((nf + j)%N, (- sign_of (particle s j))%Z).
+Lemma column_second j : (j < ns)%N -> let p := particle s j in
+  column s (second_dof p) = Some ((nf + j)%N, (- (sign_of p * (tangent p).2))%Z).
 Proof.
-move=> lt_j; have := uniq_moving_dofs; rewrite cat_uniq => /and3P[_ /hasPn disjoint uniq_t].
-have lt_t : (j < size (tangentials s))%N by rewrite size_map.
-rewrite tangential_particle // /column mem_nth // index_uniq //.
-by rewrite ifF //; apply/negbTE/disjoint/mem_nth.
+move=> lt_j /=; have [_ _ u2 _ out] := uniq_parts.
+have := out _ (second_in lt_j); rewrite /column => /norP[/negbTE-> /negbTE->].
+by rewrite second_in // second_particle // index_uniq ?size_map.
 Qed.
 
 Lemma column_in_range d j c : column s d = Some (j, c) -> (j < nf + ns)%N.
 Proof.
 rewrite /column; case: ifP => [d_free [<- _]|_].
   by rewrite (leq_trans _ (leq_addr _ _)) // index_mem.
-by case: ifP => // d_slip [<- _]; rewrite ltn_add2l -(size_map tangential) index_mem.
+case: ifP => [d_in [<- _]|_]; first by rewrite ltn_add2l -(size_map first_dof) index_mem.
+by case: ifP => // d_in [<- _]; rewrite ltn_add2l -(size_map second_dof) index_mem.
 Qed.
 
 Lemma columns_in_pencil row : all (fun e => e.1 < nf + ns)%N (columns s row).
@@ -235,6 +313,7 @@ Qed.
 Lemma lookup_multiple c row j :
   toR (lookup (multiple c row) j) = toR c * toR (lookup row j) :> R.
 Proof.
+rewrite /multiple; case: Z.eqb_spec => [->|_]; first by rewrite toR0 mul0r.
 elim: row => [|e row IH] /=; first by rewrite toR0 mulr0.
 by case: eqP => _ //; rewrite !toRD toRM IH mulrDr.
 Qed.
@@ -273,16 +352,13 @@ rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
 by rewrite mulrDl mulrA.
 Qed.
 
-Definition lambda2_of (t : R) := if u is Lambda2 _ _ then t else 0.
-Definition mu_of (t : R) := if u is Lambda2 m q then toR m / toR q else t.
-
 (* The positive number by which a slip row was multiplied. *)
 Definition row_factor : R := if u is Lambda2 _ q then toR q else 1.
 
 Lemma row_factor_gt0 : 0 < row_factor.
 Proof.
-rewrite /row_factor; case: u wf => [_|m q /and5P[_ _ _ _ /andP[_]]]; first exact: ltr01.
-by rewrite toR_gt0.
+case/and5P: wf => _ _ _ _ /andP[_]; rewrite /row_factor.
+by case: (u) => [_|m q]; [exact: ltr01 | rewrite toR_gt0].
 Qed.
 
 Lemma free_reaction t x k : (k < nf)%N ->
@@ -305,20 +381,35 @@ Lemma sum_cat row1 row2 (x : nat -> R) :
   \sum_(j <- variables) toR (lookup row1 j) * x j + \sum_(j <- variables) toR (lookup row2 j) * x j.
 Proof. by rewrite -big_split; apply: eq_bigr => j _; rewrite lookup_cat mulrDl. Qed.
 
+Lemma sum_rows_along rows p factors (x : nat -> R) :
+  \sum_(j <- variables) toR (lookup (rows_along s rows p factors) j) * x j =
+  toR factors.1 * (\sum_(j <- variables) toR (lookup (columns s (rows (first_dof p))) j) * x j) +
+  toR factors.2 * (\sum_(j <- variables) toR (lookup (columns s (rows (second_dof p))) j) * x j).
+Proof. by rewrite sum_cat !sum_multiple. Qed.
+
+Lemma directionE a b p :
+  toR (direction a b p).1 = toR a * toR (tangent p).1 + toR b * toR (normal p).1 :> R /\
+  toR (direction a b p).2 = toR a * toR (tangent p).2 + toR b * toR (normal p).2 :> R.
+Proof. by rewrite /direction !toRD !toRM. Qed.
+
 Lemma slip_reaction t x j : (j < ns)%N ->
   reaction Q t x (nf + j)%N =
   - (row_factor * cone (lambda2_of t) (mu_of t) (motion x) (particle s j)).
 Proof.
-move=> lt_j; rewrite reactionE /cone !forceE /row_a /row_b /= !nth_cat !size_map.
-rewrite ltnNge leq_addr /= addKn !(nth_map (SlipParticle 0 0 0 0)) // -/(particle s j).
-set p := particle s j; rewrite /slip_row_a /slip_row_b /lambda2_of /mu_of.
-have := row_factor_gt0; rewrite /row_factor; case: (u) => [_|m q q0].
-  rewrite !sum_multiple !k_product_columns !toRN.
+move=> lt_j; rewrite reactionE /cone /along !forceE /row_a /row_b /= !nth_cat !size_map.
+rewrite ltnNge leq_addr /= addKn !(nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) //.
+rewrite -/(particle s j); set p := particle s j.
+rewrite /slip_row_a /slip_row_b /lambda2_of /mu_of.
+have := row_factor_gt0; rewrite /row_factor; case: (u) => [_|m q q0]; rewrite !sum_rows_along.
+  have [-> ->] := directionE (- sign_of p) 0 p; have [-> ->] := directionE 0 (- (1)) p.
+  rewrite !k_product_columns !toRN toR0 toR1.
   move: (k_product _ _) (k_product _ _) (m_product _ _) (m_product _ _) => k1 k2 m1 m2.
-  by move: (toR _) (toR _) => *; ring.
-rewrite !sum_cat !sum_multiple !k_product_columns !m_product_columns !toRN !toRM.
+  by move: (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
+have [-> ->] := directionE (- (q * sign_of p)) (- m) p.
+rewrite !k_product_columns !m_product_columns !toRN !toRM.
 move: (k_product _ _) (k_product _ _) (m_product _ _) (m_product _ _) => k1 k2 m1 m2.
-move: (toR (sign_of p)) (toR (direction p)) => sg dir.
+move: (toR (sign_of p)) (toR (tangent p).1) (toR (tangent p).2) => sg t1 t2.
+move: (toR (normal p).1) (toR (normal p).2) => n1 n2.
 by field; exact: lt0r_neq0.
 Qed.
 
@@ -334,34 +425,79 @@ Qed.
 Lemma slip_variable_in j : (j < ns)%N -> (nf + j)%N \in slip Q.
 Proof. by move=> lt_j; rewrite mem_filter !mem_iota !add0n /= -leqNgt leq_addr ltn_add2l. Qed.
 
-Lemma motion_free x k : (k < nf)%N -> motion x (nth 0%N (free_dofs s) k) = x k.
-Proof. by move=> lt_k; rewrite /motion column_free // toR1 mul1r. Qed.
+Lemma unit_length_gt0 : 0 < toR (unit_length s) :> R.
+Proof. by have [_ _ _ _ l0] := wf_parts; rewrite toR_gt0. Qed.
 
-Lemma motion_slip x j : (j < ns)%N ->
-  toR (sign_of (particle s j)) * motion x (tangential (particle s j)) = - x (nf + j)%N.
+(* What a well-formed particle gives in R. *)
+Lemma particle_parts j : (j < ns)%N -> let p := particle s j in
+  [/\ toR (sign_of p) ^+ 2 = 1 :> R,
+      toR (tangent p).1 ^+ 2 + toR (tangent p).2 ^+ 2 = toR (unit_length s) ^+ 2 :> R,
+      toR (normal p).1 ^+ 2 + toR (normal p).2 ^+ 2 = toR (unit_length s) ^+ 2 :> R &
+      toR (tangent p).1 * toR (normal p).1 + toR (tangent p).2 * toR (normal p).2 = 0 :> R].
 Proof.
-by move=> lt_j; rewrite /motion column_slip // toRN mulNr mulrN mulrA -expr2 sign_squared ?mul1r.
+move=> lt_j p; have [_ _ /(_ _ lt_j) + _ _] := wf_parts; rewrite -/p.
+case/and4P=> /Z.eqb_spec sq /Z.eqb_spec tt /Z.eqb_spec nn /Z.eqb_spec tn.
+move: tt nn tn; rewrite /inner => tt nn tn.
+by rewrite !expr2 -!toRM -!toRD sq tt nn tn.
+Qed.
+
+Lemma motion_free x k : (k < nf)%N ->
+  motion x (nth 0%N (free_dofs s) k) = toR (unit_length s) * x k.
+Proof. by move=> lt_k; rewrite /motion column_free. Qed.
+
+Lemma along_motion e x j : (j < ns)%N -> let p := particle s j in
+  along e p (motion x) =
+  - (toR (sign_of p) * (toR e.1 * toR (tangent p).1 + toR e.2 * toR (tangent p).2) *
+     x (nf + j)%N).
+Proof.
+move=> lt_j p; rewrite /along /motion column_first // column_second // -/p !toRN !toRM.
+by move: (toR _) (toR _) (toR _) (toR _) (toR _) (x _) => *; ring.
+Qed.
+
+Lemma normal_motion x j : (j < ns)%N ->
+  along (normal (particle s j)) (particle s j) (motion x) = 0.
+Proof.
+move=> lt_j; rewrite along_motion //; have [_ _ _ tn] := particle_parts lt_j.
+by rewrite [_ * toR (tangent _).1]mulrC [_ * toR (tangent _).2]mulrC tn mulr0 mul0r oppr0.
+Qed.
+
+Lemma slip_motion x j : (j < ns)%N ->
+  slip_rate (motion x) (particle s j) = - (toR (unit_length s) ^+ 2 * x (nf + j)%N).
+Proof.
+move=> lt_j; rewrite /slip_rate along_motion //; have [sq tt _ _] := particle_parts lt_j.
+by rewrite -!expr2 tt mulrN !mulrA -expr2 sq mul1r.
 Qed.
 
 Lemma motion_zero x d : d \notin moving_dofs s -> motion x d = 0.
 Proof.
-rewrite mem_cat negb_or => /andP[/negbTE not_free /negbTE not_slip].
-by rewrite /motion /column not_free not_slip.
+rewrite !mem_cat !negb_or => /and3P[/negbTE out_f /negbTE out_1 /negbTE out_2].
+by rewrite /motion /column out_f out_1 out_2.
 Qed.
+
+Lemma free_dof_in k : (k < nf)%N -> nth 0%N (free_dofs s) k \in all_dofs.
+Proof. by move=> lt_k; apply: moving_dof_in; rewrite mem_cat mem_nth. Qed.
+
+Lemma first_dof_in j : (j < ns)%N -> first_dof (particle s j) \in all_dofs.
+Proof. by move=> lt_j; apply: moving_dof_in; rewrite !mem_cat first_in ?orbT. Qed.
+
+Lemma second_dof_in j : (j < ns)%N -> second_dof (particle s j) \in all_dofs.
+Proof. by move=> lt_j; apply: moving_dof_in; rewrite !mem_cat second_in ?orbT. Qed.
 
 Lemma motion_nonzero x :
   (exists2 i, i \in variables & x i != 0) <-> (exists2 d, d \in all_dofs & motion x d != 0).
 Proof.
+have l0 := lt0r_neq0 unit_length_gt0.
 split=> [[i]|[d _]].
   rewrite mem_iota add0n /= => lt_i xi; have [lt_nf|ge_nf] := ltnP i nf.
-    exists (nth 0%N (free_dofs s) i); last by rewrite motion_free.
-    by apply: moving_dof_in; rewrite mem_cat mem_nth.
+    exists (nth 0%N (free_dofs s) i); first exact: free_dof_in.
+    by rewrite motion_free // mulf_neq0.
   have lt_j : (i - nf < ns)%N by rewrite -(ltn_add2l nf) subnKC.
-  exists (tangential (particle s (i - nf))).
-    apply: moving_dof_in; rewrite mem_cat tangential_particle //.
-    by rewrite [X in _ || X]mem_nth ?orbT // size_map.
-  apply: contraNneq xi => vd; have := motion_slip x lt_j.
-  by rewrite vd mulr0 subnKC // => /esym/eqP; rewrite oppr_eq0.
+  have rate : slip_rate (motion x) (particle s (i - nf)) != 0.
+    by rewrite slip_motion // subnKC // oppr_eq0 mulf_neq0 // expf_neq0.
+  have [v1|] := eqVneq (motion x (first_dof (particle s (i - nf)))) 0; last first.
+    by exists (first_dof (particle s (i - nf))); rewrite ?first_dof_in.
+  exists (second_dof (particle s (i - nf))); first exact: second_dof_in.
+  by apply: contraNneq rate => v2; rewrite /slip_rate /along v1 v2 !mulr0 addr0 mulr0.
 rewrite /motion; case col: (column s d) => [[j c]|]; last by rewrite eqxx.
 rewrite mulf_eq0 negb_or => /andP[_ xj]; exists j => //.
 by rewrite mem_iota add0n; apply: column_in_range col.
@@ -374,43 +510,96 @@ Proof. by rewrite /satisfies_9 /lambda2_of /mu_of; case: (u). Qed.
 Theorem system_pencil t x : solution Q t x <-> satisfies_9 t (motion x).
 Proof.
 rewrite satisfies_9E; have c0 := row_factor_gt0.
+have l2 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // unit_length_gt0.
 split=> [[t0 nonzero rows_f rows_s]|[t0 [nonzero _ rows_f rows_s]]].
   split=> //; split; first exact/motion_nonzero.
   - by move=> d _; apply: motion_zero.
   - move=> d /(nthP 0%N)[k lt_k <-]; rewrite -free_reaction // rows_f //.
     by rewrite free_variable.
   move=> j lt_j p; have [x0 + +] := rows_s _ (slip_variable_in lt_j).
-  rewrite slip_reaction // motion_slip // oppr_ge0 oppr_le0 mulrN => y0 xy.
-  split=> //; first by rewrite -(pmulr_rle0 _ c0).
-  apply: (mulfI (lt0r_neq0 c0)); rewrite mulr0 -[RHS]xy.
-  by move: (cone _ _ _ _) (x _) => *; ring.
+  rewrite slip_reaction // -/p slip_motion // oppr_ge0 oppr_le0 => y0 xy.
+  split=> //; first exact: normal_motion.
+  - by rewrite pmulr_rge0.
+  - by rewrite -(pmulr_rle0 _ c0).
+  apply: (mulfI (lt0r_neq0 c0)); rewrite mulr0 -(mulr0 (toR (unit_length s) ^+ 2)) -xy.
+  by move: (cone _ _ _ _) (x _) (toR _) => *; ring.
 
 split=> //; first exact/motion_nonzero.
   by move=> i; rewrite free_variable => lt_i; rewrite free_reaction // rows_f // mem_nth.
 move=> i /slip_variable[j lt_j ->]; have := rows_s _ lt_j.
-rewrite slip_reaction //= motion_slip // oppr_le0 => -[x0 y0 xy]; split=> //.
+rewrite slip_reaction //= slip_motion // oppr_le0 pmulr_rge0 // => -[_ x0 y0 xy]; split=> //.
   by rewrite oppr_ge0 pmulr_rle0.
-by rewrite mulrN -mulNr mulrCA [- x _ * _]mulrC xy mulr0.
+apply: (mulfI (lt0r_neq0 l2)); rewrite mulr0 -(mulr0 row_factor) -xy.
+by move: (cone _ _ _ _) (x _) (toR _) => *; ring.
 Qed.
 
 (* x from v *)
 Definition variables_of (v : nat -> R) i :=
-  if (i < nf)%N then v (nth 0%N (free_dofs s) i)
-  else let p := particle s (i - nf) in - (toR (sign_of p) * v (tangential p)).
+  if (i < nf)%N then v (nth 0%N (free_dofs s) i) / toR (unit_length s)
+  else - (slip_rate v (particle s (i - nf)) / toR (unit_length s) ^+ 2).
+
+(* A vector of the plane that is perpendicular to n is a multiple of t. *)
+Lemma along_tangent (t1 t2 n1 n2 v1 v2 l : R) : l != 0 ->
+  t1 ^+ 2 + t2 ^+ 2 = l -> n1 ^+ 2 + n2 ^+ 2 = l -> t1 * n1 + t2 * n2 = 0 ->
+  n1 * v1 + n2 * v2 = 0 ->
+  t1 * (t1 * v1 + t2 * v2) = l * v1 /\ t2 * (t1 * v1 + t2 * v2) = l * v2.
+Proof.
+move=> l0 tt nn tn nv; have cross : v1 * t2 - v2 * t1 = 0.
+  apply: (mulfI l0); rewrite mulr0 -nn.
+  transitivity (n1 * ((n1 * v1 + n2 * v2) * t2 - (t1 * n1 + t2 * n2) * v2) +
+                n2 * (v1 * (t1 * n1 + t2 * n2) - t1 * (n1 * v1 + n2 * v2))); first by ring.
+  by rewrite nv tn !mul0r !mulr0 !subr0 !mulr0 addr0.
+rewrite -tt; split.
+  transitivity ((t1 ^+ 2 + t2 ^+ 2) * v1 - t2 * (v1 * t2 - v2 * t1)); first by ring.
+  by rewrite cross mulr0 subr0.
+transitivity ((t1 ^+ 2 + t2 ^+ 2) * v2 + t1 * (v1 * t2 - v2 * t1)); first by ring.
+by rewrite cross mulr0 addr0.
+Qed.
 
 Theorem system_onto t v : satisfies_9 t v ->
   forall d, d \in all_dofs -> motion (variables_of v) d = v d.
 Proof.
-rewrite satisfies_9E => -[_ [_ at_rest _ _]] d Hd.
+have l0 := lt0r_neq0 unit_length_gt0.
+have l2 : toR (unit_length s) ^+ 2 != 0 :> R by rewrite expf_neq0.
+rewrite satisfies_9E => -[_ [_ at_rest _ slips]] d Hd.
 have [d_in|d_out] := boolP (d \in moving_dofs s); last by rewrite motion_zero // at_rest.
-move: d_in; rewrite mem_cat => /orP[/(nthP 0%N)[k lt_k <-]|].
-  by rewrite motion_free // /variables_of lt_k.
-case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -tangential_particle // => <-.
-have sq := sign_squared lt_j.
-have nz : toR (sign_of (particle s j)) != 0 :> R.
-  by apply: contra_eqN sq => /eqP->; rewrite expr0n eq_sym oner_eq0.
-apply: (mulfI nz); rewrite motion_slip // /variables_of ltnNge leq_addr /= addKn.
-exact: opprK.
+
+have at_particle j : (j < ns)%N -> let p := particle s j in
+    motion (variables_of v) (first_dof p) = v (first_dof p) /\
+    motion (variables_of v) (second_dof p) = v (second_dof p).
+  move=> lt_j p; have [nv _ _ _] := slips _ lt_j; have [sq tt nn tn] := particle_parts lt_j.
+  have [v1 v2] := along_tangent l2 tt nn tn nv.
+  rewrite /motion column_first // column_second // /variables_of ltnNge leq_addr /= addKn -/p.
+  have back c w : toR c * along (tangent p) p v = toR (unit_length s) ^+ 2 * w ->
+      toR (- (sign_of p * c)) * - (slip_rate v p / toR (unit_length s) ^+ 2) = w.
+    move=> eq; apply: (mulfI l2); rewrite -eq -[RHS]mul1r -sq /slip_rate toRN toRM.
+    by move: (along _ _ _) (toR c) (toR (sign_of p)) => *; field.
+  by split; apply: back; rewrite ?v1 ?v2.
+
+move: d_in; rewrite !mem_cat => /or3P[/(nthP 0%N)[k lt_k <-]||].
+- by rewrite motion_free // /variables_of lt_k mulrC divfK.
+- case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -first_particle // => <-.
+  by case: (at_particle _ lt_j).
+case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -second_particle // => <-.
+by case: (at_particle _ lt_j).
+Qed.
+
+(* The signs of x and y give the support of the motion. *)
+Lemma motion_support support biactive t x :
+  (forall i, i \in slip Q ->
+     [/\ i \in support -> 0 < x i, i \notin support -> x i = 0,
+         i \notin support -> i \in biactive -> reaction Q t x i = 0 &
+         i \notin support -> i \notin biactive -> 0 < reaction Q t x i]) ->
+  has_support support biactive t (motion x).
+Proof.
+move=> signs j lt_j p; have [pos zero y_zero y_pos] := signs _ (slip_variable_in lt_j).
+have l2 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // unit_length_gt0.
+have c0 := row_factor_gt0; have yE := slip_reaction t x lt_j; rewrite -/p in yE.
+rewrite slip_motion //; split=> [/pos x0|/zero->|out /(y_zero out)|out /(y_pos out)].
+- by rewrite oppr_lt0 pmulr_rgt0.
+- by rewrite mulr0 oppr0.
+- by rewrite yE => /eqP; rewrite oppr_eq0 mulf_eq0 gt_eqF //= => /eqP.
+by rewrite yE oppr_gt0 pmulr_rlt0.
 Qed.
 
 (* (9) speaks of degrees of freedom only. *)
@@ -423,15 +612,34 @@ have forceE' l d' : force l v d' = force l v' d'.
 split=> //; split; first by exists d; rewrite -?same.
 - by move=> d' Hd' out; rewrite -same // at_rest.
 - by move=> d' /rows_f; rewrite forceE'.
-move=> j lt_j; have := rows_s _ lt_j; rewrite /= /cone !forceE' same //.
-apply: moving_dof_in; rewrite mem_cat tangential_particle //.
-by rewrite [X in _ || X]mem_nth ?orbT // size_map.
+move=> j lt_j; have := rows_s _ lt_j.
+by rewrite /= /cone /slip_rate /along !forceE' !same ?first_dof_in ?second_dof_in.
 Qed.
 
 Lemma solution_of_motion t v : satisfies_9 t v -> solution Q t (variables_of v).
 Proof.
 move=> sat; apply/system_pencil; apply: (satisfies_9_ext _ sat) => d Hd.
 by rewrite (system_onto sat).
+Qed.
+
+Lemma variables_of_motion x i : i \in variables -> variables_of (motion x) i = x i.
+Proof.
+have l0 := lt0r_neq0 unit_length_gt0.
+rewrite mem_iota add0n /= => lt_i; rewrite /variables_of.
+have [lt_nf|ge_nf] := ltnP i nf; first by rewrite motion_free // mulrAC divff // mul1r.
+have lt_j : (i - nf < ns)%N by rewrite -(ltn_add2l nf) subnKC.
+by rewrite slip_motion // mulNr opprK subnKC // mulrAC divff ?mul1r // expf_neq0.
+Qed.
+
+(* The variables of a multiple of a motion. *)
+Lemma variables_scaled v v' f i : (forall d, d \in all_dofs -> v' d = f * v d) ->
+  i \in variables -> variables_of v' i = f * variables_of v i.
+Proof.
+move=> scaled; rewrite mem_iota add0n /= => lt_i; rewrite /variables_of.
+have [lt_nf|ge_nf] := ltnP i nf; first by rewrite scaled ?mulrA // free_dof_in.
+have lt_j : (i - nf < ns)%N by rewrite -(ltn_add2l nf) subnKC.
+rewrite mulrN mulrA /slip_rate /along !scaled ?first_dof_in ?second_dof_in //.
+by congr (- (_ / _)); move: (v _) (v _) (toR _) (toR _) (toR _) => *; ring.
 Qed.
 
 Lemma motion_proportional x x' :
@@ -459,38 +667,104 @@ Definition same_motion (v v' : nat -> R) :=
 Definition motion_in r t (v : nat -> R) :=
   lies_in (pencil_of s u) r t (variables_of s v).
 
+Variables (claims : seq claim).
 Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
-Hypothesis checked : check_system s u w tr lo hi.
+Hypothesis checked : check_system s u claims w tr lo hi.
+
+Notation Q := (pencil_of s u).
+Notation found := (found Q claims tr lo hi).
+Notation left_open := (left_open tr lo hi).
+
+Lemma lies_in_motion r t x : lies_in Q r t x -> motion_in r t (motion s x).
+Proof.
+have [wf _] := andP checked; case=> bt ag; split=> // j lt_j; have := ag j lt_j.
+rewrite /slip_of (variables_of_motion wf) //.
+exact: (slip_indices (Q := Q) (mem_nth 0%N lt_j)).
+Qed.
+
+Lemma proportional_motion x x' : proportional Q x x' -> same_motion (motion s x) (motion s x').
+Proof.
+by move/motion_proportional=> [f f0 scaled]; exists f.
+Qed.
+
+(* x and x' give one motion only if they are proportional. *)
+Lemma motion_injective x x' : same_motion (motion s x) (motion s x') -> proportional Q x x'.
+Proof.
+have [wf _] := andP checked; case=> f f0 scaled; exists f => // i Hi.
+rewrite -(variables_of_motion wf x' Hi) -(variables_of_motion wf x Hi).
+exact: (variables_scaled wf scaled Hi).
+Qed.
 
 Theorem system_complete :
   (forall t v, satisfies_9 s u t v -> between t lo hi ->
-     exists2 rc, List.In rc (found tr lo hi) & motion_in rc.1 t v) /\
-  (forall rc, List.In rc (found tr lo hi) -> exists (t : R) v,
-     [/\ between t (from_point rc.2) (to_point rc.2), satisfies_9 s u t v &
-      forall t' v', satisfies_9 s u t' v' -> motion_in rc.1 t' v' -> t' = t /\ same_motion v v']).
+     (exists2 y, List.In y found & motion_in (yield_region y) t v) \/
+     (exists2 r, List.In r left_open & motion_in r t v)) /\
+  (forall y, List.In y found -> exists (t : R) v,
+     [/\ between t (yield_from y) (yield_to y), satisfies_9 s u t v,
+         motion_in (yield_region y) t v &
+      forall t' v', satisfies_9 s u t' v' -> motion_in (yield_region y) t' v' ->
+        t' = t /\ same_motion v v']).
 Proof.
-case/andP: checked => wf complete; have [every each] := complete_sound R complete.
-split=> [t v sat bt|rc in_found].
-  exact: every (solution_of_motion wf sat) bt.
+case/andP: (checked) => wf complete; have [every each] := complete_sound R complete.
+split=> [t v sat bt|y in_found]; first exact: every (solution_of_motion wf sat) bt.
 
-have [t [x [bt sol _ uniq]]] := each _ in_found.
-exists t, (motion s x); split=> //; first exact/(system_pencil wf).
+have [t [x [bt sol reg uniq]]] := each _ in_found.
+exists t, (motion s x); split=> //; [exact/(system_pencil wf) | exact: lies_in_motion |].
 move=> t' v' sat' reg'; have [-> prop] := uniq _ _ (solution_of_motion wf sat') reg'.
 have [f f0 scaled] := motion_proportional prop.
 by split=> //; exists f => // d Hd; rewrite -scaled (system_onto wf sat').
 Qed.
 
-Corollary system_none : found tr lo hi = [::] ->
+Corollary system_none : found = [::] -> left_open = [::] ->
   forall (t : R) v, satisfies_9 s u t v -> between t lo hi -> False.
-Proof. by move=> none t v sat bt; have [rc] := system_complete.1 t v sat bt; rewrite none. Qed.
-
-Corollary system_one rc : found tr lo hi = [:: rc] -> exists (t : R) v,
-  [/\ between t (from_point rc.2) (to_point rc.2), satisfies_9 s u t v &
-   forall t' v', satisfies_9 s u t' v' -> between t' lo hi -> t' = t /\ same_motion v v'].
 Proof.
-move=> one; have [|t [v [bt sat uniq]]] := system_complete.2 rc; first by rewrite one; left.
-exists t, v; split=> // t' v' sat' bt'; apply: uniq => //.
-by have [rc' + reg'] := system_complete.1 t' v' sat' bt'; rewrite one => -[->|].
+move=> none closed t v sat bt; have [[y]|[r]] := system_complete.1 t v sat bt.
+  by rewrite none.
+by rewrite closed.
+Qed.
+
+Theorem system_number ys : solutions_found Q claims tr lo hi = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 motion_in (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion m.2 m'.2)) l &
+        forall t v, satisfies_9 s u t v -> between t lo hi ->
+          (exists2 m, List.In m l & t = m.1 /\ same_motion m.2 v) \/
+          (exists2 r, List.In r left_open & motion_in r t v)].
+Proof.
+case/andP: (checked) => wf complete; case/(complete_number R complete).
+move=> l [sz sols vals pairs every].
+exists [seq (p.1, motion s p.2) | p <- l]; split=> //.
+- by rewrite size_map.
+- move=> m /List.in_map_iff[p [<- /sols[sol bt]]]; split=> //=; exact/(system_pencil wf).
+- elim: vals => [|y p ys' l' [bt reg] _ IH] /=; constructor=> //.
+  by split=> //; apply: lies_in_motion.
+- elim: pairs => [|p l' different _ IH] /=; constructor=> //.
+  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t /motion_injective prop].
+  by have /List.Forall_forall/(_ _ p'_in) := different; apply.
+move=> t v sat bt; have [[p p_in [-> prop]]|] := every t _ (solution_of_motion wf sat) bt.
+  left; exists (p.1, motion s p.2); first by apply/List.in_map_iff; exists p.
+  split=> //=; have [f f0 scaled] := motion_proportional prop.
+  by exists f => // d Hd; rewrite -scaled (system_onto wf sat).
+by right.
+Qed.
+
+Corollary system_exactly ys :
+  solutions_found Q claims tr lo hi = Some ys -> left_open = [::] ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 motion_in (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion m.2 m'.2)) l &
+        forall t v, satisfies_9 s u t v -> between t lo hi ->
+          exists2 m, List.In m l & t = m.1 /\ same_motion m.2 v].
+Proof.
+move=> number closed; have [l [sz sols vals pairs every]] := system_number number.
+exists l; split=> // t v sat bt; have [//|[r]] := every t v sat bt.
+by rewrite closed.
 Qed.
 
 End Main.
@@ -504,8 +778,10 @@ Qed.
 
 Theorem system_claim (R : rcfType) s u k : check_system_claim s u k -> exists (t : R) v,
   [/\ toR (claim_from k) <= toR (claim_denominator k) * t,
-      toR (claim_denominator k) * t <= toR (claim_to k) & satisfies_9 s u t v].
+      toR (claim_denominator k) * t <= toR (claim_to k), satisfies_9 s u t v &
+      has_support s u (support k) (biactive k) t v].
 Proof.
-case/andP=> wf /(@claim_sound R)[t [x [at_from at_to sol _]]].
-by exists t, (motion s x); split=> //; apply/(system_pencil wf).
+case/andP=> wf /(@claim_sound R)[t [x [at_from at_to sol signs]]].
+exists t, (motion s x); split=> //; first exact/(system_pencil wf).
+exact: motion_support.
 Qed.

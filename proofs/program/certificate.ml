@@ -5,7 +5,13 @@
 
 open Json
 
-type outcome = Absent | Solution | Negative_x of int | Negative_y of int
+type outcome =
+  | Absent
+  | Solution
+  | Negative_x of int
+  | Negative_y of int
+  | Claim of int
+  | Infinity of Z.t list
 
 type root = {
   pivot : int;
@@ -17,6 +23,20 @@ type root = {
 
 type factor_rows = { first : int list; rows : Z.t list list; exponent : int }
 
+(* A support leaf: polynomials are lists of integers, constant term first. *)
+type vector = Z.t list list
+
+type reason =
+  | Nothing of vector
+  | Something of vector * (int * (int * vector) list) option
+
+type place_point = { point_polynomial : Z.t list; point_interval : Q.t * Q.t; point_reason : int }
+
+type support_leaf = {
+  points : place_point list;
+  cells : int list;
+  reasons : reason list }
+
 type node =
   | Split of Q.t
   | Branch of int
@@ -24,7 +44,9 @@ type node =
   | Definite of bool  (* negative *)
   | Ldl
   | Tail
+  | Open
   | Root of root
+  | Support of support_leaf
 
 type anchor = { right : (int * Z.t list list) list; left : (int * Z.t list list) list }
 
@@ -39,8 +61,16 @@ type exact = {
   value : Q.t * Q.t;
   x : Q.t list list }
 
+(* The motion stands in place of x. *)
+type lifted = { motion : exact; forces : Q.t list list }
+
+(* The preconditioner is read and not used. *)
+type enclosed = { box_support : int list; center : Q.t list; radius : Q.t list }
+
+type claim = Exact of exact | Lifted of lifted | Enclosed of enclosed
+
 type t = {
-  claims : exact list;
+  claims : claim list;
   digest : string;
   unknown : string;
   window : Q.t * Q.t option;
@@ -65,8 +95,8 @@ let read_root item =
     | String "absent" -> Absent
     | Object ["negative_x", i] -> Negative_x (counter i)
     | Object ["negative_y", i] -> Negative_y (counter i)
-    | Object ["claim", _] -> Problem.not_verified "root claim"
-    | Object ["infinity", _] -> Problem.not_verified "root infinity"
+    | Object ["claim", c] -> Claim (counter c)
+    | Object ["infinity", x] -> Infinity (integers x)
     | _ -> malformed "an outcome" in
   let interval = match list (field "interval") with
     | [a; b] -> rational a, rational b
@@ -74,17 +104,53 @@ let read_root item =
   { pivot = counter (field "pivot"); interval; left = integers (field "left");
     right = integers (field "right"); exponent = exponent_of (field "exponent"); outcome }
 
+(* An index that may name nothing, but not a negative one. *)
+let ordinal item =
+  let i = counter item in
+  if i < 0 then malformed "a negative index";
+  i
+
+let read_vector item = List.map integers (list item)
+
+let read_reason = function
+  | Object ["none", w] -> Nothing (read_vector w)
+  | Object ["some", body] ->
+    let field = fields ["x"] ["alone"] body in
+    let alone = match field "alone" with
+      | Null -> None
+      | item ->
+        let field = fields ["pivot"; "rows"] [] item in
+        let row item = match list item with
+          | [j; l] -> ordinal j, read_vector l
+          | _ -> malformed "a row of alone is [j, l]" in
+        Some (ordinal (field "pivot"), List.map row (list (field "rows"))) in
+    Something (read_vector (field "x"), alone)
+  | _ -> malformed "a reason of a support leaf"
+
+let read_support item =
+  let field = fields ["points"; "cells"; "reasons"] [] item in
+  let point item =
+    let field = fields ["polynomial"; "interval"; "reason"] [] item in
+    let point_interval = match list (field "interval") with
+      | [a; b] -> rational a, rational b
+      | _ -> malformed "an interval has two ends" in
+    { point_polynomial = integers (field "polynomial"); point_interval;
+      point_reason = ordinal (field "reason") } in
+  { points = List.map point (list (field "points"));
+    cells = List.map ordinal (list (field "cells"));
+    reasons = List.map read_reason (list (field "reasons")) }
+
 let read_node = function
   | String "positive_definite" -> Definite false
   | String "negative_definite" -> Definite true
   | String "tail" -> Tail
-  | String "open" -> Problem.not_verified "open"
+  | String "open" -> Open
   | Object ["split", t] -> Split (rational t)
   | Object ["branch", i] -> Branch (counter i)
   | Object ["farkas", w] -> Farkas (integers w)
   | Object ["ldl", _] -> Ldl
   | Object ["root", r] -> Root (read_root r)
-  | Object ["support", _] -> Problem.not_verified "support"
+  | Object ["support", s] -> Support (read_support s)
   | _ -> malformed "a node of a tree"
 
 let read_factor item =
@@ -116,18 +182,43 @@ let read_piece item =
     anchor = (match field "anchor" with Null -> 0 | v -> counter v);
     tree = List.map read_node (list (field "tree")) }
 
+(* An index that may name nothing; a negative one is malformed. *)
+let place item =
+  let i = counter item in
+  if i < 0 then malformed "a negative index";
+  i
+
+let polynomials item = List.map (fun p -> List.map rational (list p)) (list item)
+
+(* The fields that an exact and a lifted solution have in common. *)
+let read_exact field x =
+  let value = match list (field "interval") with
+    | [a; b] -> rational a, rational b
+    | _ -> malformed "an interval has two ends" in
+  { support = List.map place (list (field "support"));
+    biactive = List.map place (list (field "biactive"));
+    polynomial = integers (field "polynomial"); value; x = polynomials (field x) }
+
 let read_claim = function
   | Object ["exact_solution", body] ->
-    let field = fields ["support"; "biactive"; "polynomial"; "interval"; "x"] [] body in
-    let value = match list (field "interval") with
-      | [a; b] -> rational a, rational b
-      | _ -> malformed "an interval has two ends" in
-    { support = List.map counter (list (field "support"));
-      biactive = List.map counter (list (field "biactive"));
-      polynomial = integers (field "polynomial"); value;
-      x = List.map (fun p -> List.map rational (list p)) (list (field "x")) }
-  | Object [kind, _] -> Problem.not_verified "%s" kind
+    Exact (read_exact (fields ["support"; "biactive"; "polynomial"; "interval"; "x"] [] body) "x")
+  | Object ["lifted_solution", body] ->
+    let field = fields ["support"; "biactive"; "polynomial"; "interval"; "v"; "w"] [] body in
+    Lifted { motion = read_exact field "v"; forces = polynomials (field "w") }
+  | Object ["enclosed_solution", body] ->
+    let field = fields ["support"; "center"; "radius"; "preconditioner"; "exponent"] [] body in
+    ignore (List.map integers (list (field "preconditioner")));
+    if counter (field "exponent") < 0 then malformed "a negative exponent";
+    let rationals key = List.map rational (list (field key)) in
+    Enclosed { box_support = List.map place (list (field "support"));
+               center = rationals "center"; radius = rationals "radius" }
   | _ -> malformed "a claim is an object with one key"
+
+(* The window of a certificate says where it begins. *)
+let read_window = function
+  | Object members as item when List.mem_assoc "min" members
+                             && List.assoc "min" members <> Null -> Problem.read_window item
+  | _ -> malformed "a window with min was expected"
 
 let read path =
   let document = Json.read path in
@@ -137,7 +228,7 @@ let read path =
   let field = fields ["format"; "problem_sha256"; "unknown"; "window"; "claims"]
       ["complete_set"] document in
   let digest = text (field "problem_sha256") and unknown = text (field "unknown") in
-  let window = Problem.read_window (field "window") in
+  let window = read_window (field "window") in
   let claims = List.map read_claim (list (field "claims")) in
   let condensation, pieces = match field "complete_set" with
     | Null -> None, []

@@ -222,8 +222,16 @@ let rounded_inverse s =
   | None -> None
   | Some y -> Some (Array.map (Array.map (fun v -> round_scaled v precision)) y, top + precision)
 
+(* The work of the search for witnesses: a file ends in bounded time. *)
+let work = ref 0
+
+let spend order =
+  work := !work + 1_000 + order * order * order;
+  if !work > 1 lsl 32 then no_witness "limits of this program"
+
 let box_of (p : Kernel.enclosed) f j_list k_list v (e1, e2) t =
   let k = Array.of_list k_list in
+  spend (Array.length k);
   let s = Array.map (fun i -> Array.map (fun j -> at f t i j) k) k in
   let y = if k = [||] then Some ([||], 60) else rounded_inverse s in
   match y with
@@ -276,6 +284,7 @@ let unique_of (p : Kernel.enclosed) f j_list k v eps (e1, e2) t =
     else if size_t = 0.0 then 0
     else max 0 (snd (Float.frexp size_h) - snd (Float.frexp size_t)) in
   let attempt w =
+    spend (Array.length j);
     if w < 0 then None
     else
       let s = Array.mapi (fun a l -> Array.map (fun c ->
@@ -296,42 +305,122 @@ let unique_of (p : Kernel.enclosed) f j_list k v eps (e1, e2) t =
 
 let finite (_, q) = Z.sign q > 0
 
+let smaller a b = if Q.lt b a then b else a
+let larger a b = if Q.lt a b then b else a
+
+(* The smallest interval with that of the region and [a, b]. *)
+let hull (region : Kernel.region) (a, b) =
+  point_of (smaller (value_of region.lower) a),
+  if finite region.upper then point_of (larger (value_of region.upper) b) else region.upper
+
+(* The vectors of a root leaf, over all complementarity variables. *)
+let spread n j_list k exponent l =
+  let others = List.filter (fun j -> j <> k) j_list in
+  if List.length l <> List.length others then None
+  else begin
+    let v = Array.make n Z.zero in
+    v.(k) <- two_to exponent;
+    List.iter2 (fun i x -> v.(i) <- x) others l;
+    Some (Array.to_list v)
+  end
+
 let isolated_leaf p f (region : Kernel.region) (r : root) outcome =
   let j_list = Kernel.moving p region in
   if not (finite region.upper) then None
   else begin
     let a, b = r.interval in
-    let lo = value_of region.lower and hi = value_of region.upper in
+    let wide = hull region r.interval and narrow = (point_of a, point_of b) in
+    let extended = Kernel.extended region wide in
+    let center = middle (value_of (fst wide)) (value_of (snd wide)) in
     let pivots = r.pivot :: List.filter (fun j -> j <> r.pivot) j_list in
     let attempt k =
       let k_list = List.filter (fun j -> j <> k) j_list in
-      let vectors =
-        let own = Option.to_list (null_vectors p.Kernel.size_of f j_list k (middle a b)) in
-        if k <> r.pivot || List.length r.right <> List.length k_list then own
-        else begin
-          let spread l =
-            let v = Array.make p.Kernel.size_of Z.zero in
-            v.(k) <- two_to r.exponent;
-            List.iter2 (fun i x -> v.(i) <- x) k_list l;
-            Array.to_list v in
-          (spread r.right, spread r.left) :: own
-        end in
+      let n = p.Kernel.size_of in
+      let own = Option.to_list (null_vectors n f j_list k (middle a b)) in
+      let given =
+        if k <> r.pivot then None
+        else match spread n j_list k r.exponent r.right, spread n j_list k r.exponent r.left with
+          | Some right, Some left -> Some (right, left)
+          | _ -> None in
       List.find_map (fun (v, left) ->
-          let wide = (region.lower, region.upper) and narrow = (point_of a, point_of b) in
-          match box_of p f j_list k_list v wide (middle lo hi),
+          match box_of p f j_list k_list v wide center,
                 box_of p f j_list k_list v narrow (middle a b) with
           | Some wide_box, Some narrow_box ->
-            (match unique_of p f j_list k v wide_box.width wide (middle lo hi) with
+            (match unique_of p f j_list k v wide_box.width wide center with
              | None -> None
              | Some unique ->
                let c = { Kernel.pivot = k; vector = v; from_point = point_of a;
                          to_point = point_of b; wide_box; narrow_box; unique;
                          left_vector = left } in
-               if Kernel.check_root p region c outcome then Some (Kernel.Root (c, outcome))
+               if Kernel.check_root p extended c outcome then Some (Kernel.Root (wide, c, outcome))
                else None)
-          | _ -> None) vectors in
+          | _ -> None) (Option.to_list given @ own) in
     List.find_map attempt pivots
   end
+
+(* A region with at most one null vector, near v: boxes and uniqueness over the interval [wide]. *)
+let pinning_of p f j_list k v wide center =
+  let k_list = List.filter (fun j -> j <> k) j_list in
+  match box_of p f j_list k_list v wide center with
+  | None -> None
+  | Some box ->
+    Option.map (fun unique ->
+        { Kernel.pin_pivot = k; pin_vector = v; pin_box = box; pin_unique = unique;
+          pin_reversed = false })
+      (unique_of p f j_list k v box.width wide center)
+
+(* The same for an interval [lo, infinity), with s = 1/t in [0, 1/lo] and A and B exchanged. *)
+let reversed_pinning_of p f j_list k v (lower, upper) =
+  if Z.sign (fst lower) <= 0 then None
+  else begin
+    let ends = (Kernel.swap upper, Kernel.swap lower) in
+    let center = Q.to_float (Q.div (Q.inv (value_of lower)) (Q.of_int 2)) in
+    Option.map (fun (c : Kernel.pinning) ->
+        let box = c.pin_box in
+        { c with
+          Kernel.pin_box = { box with Kernel.unit_low = box.unit_high; unit_high = box.unit_low };
+          pin_reversed = true })
+      (pinning_of (Kernel.reversed p) { a = f.b; b = f.a } j_list k v ends center)
+  end
+
+(* The region of a claim: at most one null vector, that of the known solution. *)
+let claimed_leaf p f (region : Kernel.region) (r : root) number (q : Kernel.known) =
+  let j_list = Kernel.moving p region and n = p.Kernel.size_of in
+  let value = (value_of q.known_from, value_of q.known_to) in
+  let wide = hull region value in
+  let extended = Kernel.extended region wide in
+  let pivots = List.filter (fun j -> List.mem j q.known_support) j_list in
+  let first, others = List.partition (fun k -> k = r.pivot) pivots in
+  let attempt k =
+    let own = Option.map fst (null_vectors n f j_list k (middle (fst value) (snd value))) in
+    let given = if k = r.pivot then spread n j_list k r.exponent r.right else None in
+    List.find_map (fun v ->
+        let pinning =
+          if finite (snd wide) then
+            pinning_of p f j_list k v wide (middle (value_of (fst wide)) (value_of (snd wide)))
+          else reversed_pinning_of p f j_list k v wide in
+        match pinning with
+        | Some c when Kernel.check_claimed p extended c q ->
+          Some (Kernel.Claimed (wide, c, number))
+        | _ -> None) (Option.to_list given @ Option.to_list own) in
+  List.find_map attempt (first @ others)
+
+(* The region of a limit: at most one null vector, that at infinity. [x] is over the pencil, [at]
+   are its components at the complementarity variables. *)
+let infinite_leaf p f (region : Kernel.region) x at =
+  let j_list = Kernel.moving p region in
+  let wide = (region.lower, region.upper) in
+  let size k = Z.abs at.(k) in
+  let pivots = List.sort (fun k l -> Z.compare (size l) (size k))
+      (List.filter (fun k -> Z.sign at.(k) <> 0) j_list) in
+  let attempt k =
+    let sign = Z.of_int (Z.sign at.(k)) in
+    let shift = max 0 (52 - bits at.(k)) in
+    let v = Array.to_list (Array.map (fun z -> Z.shift_left (Z.mul sign z) shift) at) in
+    match reversed_pinning_of p f j_list k v wide with
+    | Some c when Kernel.check_infinite p region c -> Some (Kernel.Infinite (wide, c, x))
+    | _ -> None in
+  List.find_map attempt pivots
 
 let absent_leaf p f (region : Kernel.region) =
   let j_list = Kernel.moving p region in
@@ -366,26 +455,55 @@ let rec absent_tree p f depth (region : Kernel.region) =
     let first = absent_tree p f (depth - 1) { region with upper = cut } in
     Kernel.Split (cut, first, absent_tree p f (depth - 1) { region with lower = cut })
 
-(* An isolated null vector: in one leaf, or between two absent intervals. *)
-let rec root_tree p f depth (region : Kernel.region) r outcome =
-  match isolated_leaf p f region r outcome with
+let half x y = Q.div (Q.add x y) (Q.of_int 2)
+
+(* A null vector in [a, b]: in one leaf, or between two absent intervals.  [a, b] may reach beyond
+   the region, or lie beside it. *)
+let rec narrow_tree p f what depth attempt (a, b) (region : Kernel.region) =
+  match attempt region with
   | Some leaf -> Kernel.Leaf leaf
   | None ->
-    if depth = 0 then no_witness "root";
-    let a, b = r.interval in
+    if depth = 0 then no_witness "%s" what;
     let lo = value_of region.lower in
-    if Q.lt a lo || (finite region.upper && Q.gt b (value_of region.upper)) then
-      no_witness "a root whose interval leaves its region";
-    let half x y = Q.div (Q.add x y) (Q.of_int 2) in
-    let low = half lo a in
-    let high =
-      if finite region.upper then half b (value_of region.upper)
-      else Q.add (Q.mul b (Q.of_int 2)) Q.one in
-    let low = point_of low and high = point_of high in
-    let inner = root_tree p f (depth - 1) { region with lower = low; upper = high } r outcome in
-    let above = absent_tree p f 12 { region with lower = high } in
-    let below = absent_tree p f 12 { region with upper = low } in
-    Kernel.Split (low, below, Kernel.Split (high, inner, above))
+    let beside = Q.lt b lo || finite region.upper && Q.gt a (value_of region.upper) in
+    if beside then absent_tree p f 12 region
+    else begin
+      let low = if Q.gt a lo then Some (point_of (half lo a)) else None in
+      let high =
+        if not (finite region.upper) then Some (point_of (Q.add (Q.mul b (Q.of_int 2)) Q.one))
+        else
+          let hi = value_of region.upper in
+          if Q.lt b hi then Some (point_of (half b hi)) else None in
+      if low = None && high = None then no_witness "%s" what;
+      let lower = Option.value low ~default:region.lower in
+      let upper = Option.value high ~default:region.upper in
+      let inner =
+        narrow_tree p f what (depth - 1) attempt (a, b) { region with lower; upper } in
+      let inner = match high with
+        | None -> inner
+        | Some cut -> Kernel.Split (cut, inner, absent_tree p f 12 { region with lower = cut }) in
+      match low with
+      | None -> inner
+      | Some cut -> Kernel.Split (cut, absent_tree p f 12 { region with upper = cut }, inner)
+    end
+
+let root_tree p f region r outcome =
+  let attempt region = isolated_leaf p f region r outcome in
+  narrow_tree p f "root" 8 attempt r.interval region
+
+let claim_tree p f region r number (q : Kernel.known) =
+  let attempt region = claimed_leaf p f region r number q in
+  narrow_tree p f "a claimed root" 12 attempt (value_of q.known_from, value_of q.known_to) region
+
+(* A null vector at infinity: in one leaf, or behind an absent interval. *)
+let rec infinite_tree p f depth (region : Kernel.region) x at =
+  match infinite_leaf p f region x at with
+  | Some leaf -> Kernel.Leaf leaf
+  | None ->
+    if depth = 0 then no_witness "a root at infinity";
+    let cut = point_of (Q.add (Q.mul (value_of region.lower) (Q.of_int 4)) Q.one) in
+    let beyond = infinite_tree p f (depth - 1) { region with lower = cut } x at in
+    Kernel.Split (cut, absent_tree p f 12 { region with upper = cut }, beyond)
 
 (* ---------- trees *)
 
@@ -393,7 +511,8 @@ type context = {
   pencil : Kernel.pencil;
   slip : int array;
   enclosed : Kernel.enclosed;
-  doubles : doubles }
+  doubles : doubles;
+  known : Kernel.known array }  (* the claims *)
 
 let position slip i =
   let rec search k =
@@ -416,27 +535,38 @@ let build_leaf c (region : Kernel.region) node =
     let r = { r with pivot = position c.slip r.pivot } in
     (match r.outcome with
      | Absent -> absent_tree p f 12 region
-     | Solution -> root_tree p f 8 region r Kernel.Solution
-     | Negative_x i -> root_tree p f 8 region r (Kernel.NegativeX (position c.slip i))
-     | Negative_y i -> root_tree p f 8 region r (Kernel.NegativeY (position c.slip i)))
-  | Split _ | Branch _ -> assert false
+     | Solution -> root_tree p f region r Kernel.Solution
+     | Negative_x i -> root_tree p f region r (Kernel.NegativeX (position c.slip i))
+     | Negative_y i -> root_tree p f region r (Kernel.NegativeY (position c.slip i))
+     | Claim number ->
+       if number < 0 || number >= Array.length c.known then no_witness "a claim that is not there";
+       claim_tree p f region r number c.known.(number)
+     | Infinity x ->
+       if List.length x <> c.pencil.Kernel.order || finite region.upper then
+         no_witness "a root at infinity";
+       let components = Array.of_list x in
+       infinite_tree p f 12 region x (Array.map (fun i -> components.(i)) c.slip))
+  | Open -> Kernel.Leaf Kernel.Undecided
+  | Split _ | Branch _ | Support _ -> assert false
 
 (* The nodes of a piece in preorder; [leaf] makes a tree of a leaf. *)
 let build_piece slip leaf nodes (region : Kernel.region) =
-  let rec build (region : Kernel.region) = function
+  let rec build depth (region : Kernel.region) nodes =
+    if depth > 2_000 then no_witness "a tree of more than 2,000 levels";
+    match nodes with
     | [] -> no_witness "a tree ends too early"
     | Split t :: rest ->
       let t = point_of t in
-      let first, rest = build { region with upper = t } rest in
-      let second, rest = build { region with lower = t } rest in
+      let first, rest = build (depth + 1) { region with upper = t } rest in
+      let second, rest = build (depth + 1) { region with lower = t } rest in
       Kernel.Split (t, first, second), rest
     | Branch i :: rest ->
       let i = position slip i in
-      let first, rest = build (Kernel.decide i Kernel.Resting region) rest in
-      let second, rest = build (Kernel.decide i Kernel.Moving region) rest in
+      let first, rest = build (depth + 1) (Kernel.decide i Kernel.Resting region) rest in
+      let second, rest = build (depth + 1) (Kernel.decide i Kernel.Moving region) rest in
       Kernel.Branch (i, first, second), rest
     | node :: rest -> leaf region node, rest in
-  match build region nodes with
+  match build 0 region nodes with
   | tree, [] -> tree
   | _ -> no_witness "a tree has a node too many"
 
@@ -444,6 +574,7 @@ let upper_point = function Some q -> point_of q | None -> Kernel.infinity
 
 (* The pieces of a window as one tree. *)
 let build_pieces slip leaf (lo, _) pieces =
+  if List.length pieces > 10_000 then no_witness "more than 10,000 pieces";
   let rec build lower = function
     | [] -> no_witness "a complete set without pieces"
     | piece :: rest ->
@@ -460,20 +591,35 @@ let transpose columns rows =
 
 (* f_i / 2^b_i for each slip row, as positive integers in a common unit. *)
 let row_scales (pencil : Kernel.pencil) slip common =
-  let a = Array.of_list pencil.rows_a and b = Array.of_list pencil.rows_b in
+  let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
+  (* A row of a system has two parts, so a column may stand in it twice. *)
+  let summed row =
+    let sums = Hashtbl.create 64 in
+    List.iter (fun (j, v) ->
+        let sum = Option.value (Hashtbl.find_opt sums j) ~default:Z.zero in
+        Hashtbl.replace sums j (Z.add sum v)) row;
+    Hashtbl.fold (fun j v rest -> (j, v) :: rest) sums [] in
   let scales = List.map (fun i ->
-      let entries = List.map snd a.(i) @ List.map snd b.(i) in
+      let a = summed rows_a.(i) and b = summed rows_b.(i) in
+      let entries = List.map snd a @ List.map snd b in
       let g = List.fold_left Z.gcd common entries in
       let f = Z.divexact common g in
       let longest = List.fold_left (fun m (_, v) ->
-          max m (bits (Z.divexact (Z.mul f v) common))) 1 a.(i) in
+          max m (bits (Z.divexact (Z.mul f v) common))) 1 a in
       (f, longest)) slip in
   let top = List.fold_left (fun m (_, b) -> max m b) 1 scales in
   List.map (fun (f, b) -> Z.shift_left f (top - b)) scales
 
-let elimination (pencil : Kernel.pencil) slip common (condensation : condensation option) anchor =
+(* A matrix in units of 2^-k, with the least k: units of 2^-900 for zeros leave no double finite. *)
+let shortened (k, rows) =
+  let zeros = List.fold_left (List.fold_left (fun m z ->
+      if Z.sign z = 0 then m else min m (Z.trailing_zeros z))) k rows in
+  (k - zeros, List.map (List.map (fun z -> Z.shift_right z zeros)) rows)
+
+let elimination (pencil : Kernel.pencil) slip common slip_common
+    (condensation : condensation option) anchor =
   let ns = List.length slip and nf = List.length pencil.free in
-  let row_scale = row_scales pencil slip common in
+  let row_scale = row_scales pencil slip slip_common in
   if nf = 0 then
     let none = List.init ns (fun _ -> []) in
     { Kernel.row_scale; unit_of = two_to 56; right_w = none; left_va = none; left_vb = none;
@@ -484,14 +630,17 @@ let elimination (pencil : Kernel.pencil) slip common (condensation : condensatio
       let a = match List.nth_opt c.anchors anchor with
         | Some (Some a) -> a
         | _ -> Problem.not_verified "condensation with powers of t" in
-      let e = List.fold_left (fun m (k, _) -> max m k) 0 (a.right @ a.left) in
+      let right = List.map shortened a.right and left = List.map shortened a.left in
+      let e = List.fold_left (fun m (k, _) -> max m k) 56 (right @ left) in
       let columns (k, rows) =
         transpose ns (List.map (List.map (fun z -> Z.shift_left z (e - k))) rows) in
       let zero = List.init ns (fun _ -> List.init nf (fun _ -> Z.zero)) in
       let nth l k = match List.nth_opt l k with Some m -> columns m | None -> zero in
+      let ratio = Z.divexact slip_common common in
+      let scaled_left k = List.map (List.map (Z.mul ratio)) (nth left k) in
       let power = two_to (2 * c.factor.exponent) in
-      { Kernel.row_scale; unit_of = two_to e; right_w = nth a.right 0;
-        left_va = nth a.left 0; left_vb = nth a.left 1;
+      { Kernel.row_scale; unit_of = two_to e; right_w = nth right 0;
+        left_va = scaled_left 0; left_vb = scaled_left 1;
         bound_c = Z.mul power (Q.den c.sigma);
         bound_d = Z.mul common (Z.mul power (Q.num c.sigma));
         factor_scale = Z.mul common (Q.den c.sigma);
@@ -500,42 +649,200 @@ let elimination (pencil : Kernel.pencil) slip common (condensation : condensatio
 (* ---------- exact solution claims *)
 
 let strip p =
-  let rec drop = function c :: rest when Q.sign c = 0 -> drop rest | p -> p in
+  let rec drop = function c :: rest when Z.sign c = 0 -> drop rest | p -> p in
   List.rev (drop (List.rev p))
 
-(* Quotient and rest of g by p over the rationals, constant terms first. *)
+(* (c, q, r) with c g = p q + r and r shorter than p, constant terms first; c a power of the
+   leading coefficient of p in size. *)
 let divide g p =
-  let p = Array.of_list (strip p) and r = Array.of_list g in
+  let p = Array.of_list (strip p) and r = Array.of_list (strip g) in
   let m = Array.length p and n = Array.length r in
   if m = 0 then no_witness "a polynomial that is zero";
-  let q = Array.make (max 0 (n - m + 1)) Q.zero in
+  let lead = p.(m - 1) in
+  let size = Z.abs lead in
+  let q = Array.make (max 0 (n - m + 1)) Z.zero in
+  let c = ref Z.one in
   for k = n - m downto 0 do
-    let c = Q.div r.(k + m - 1) p.(m - 1) in
-    q.(k) <- c;
-    if Q.sign c <> 0 then
-      for i = 0 to m - 1 do r.(k + i) <- Q.sub r.(k + i) (Q.mul c p.(i)) done
+    let top = r.(k + m - 1) in
+    if Z.sign top <> 0 then begin
+      let factor = if Z.sign lead > 0 then top else Z.neg top in
+      if not (Z.equal size Z.one) then begin
+        for i = 0 to k + m - 1 do r.(i) <- Z.mul size r.(i) done;
+        Array.iteri (fun i v -> q.(i) <- Z.mul size v) q;
+        c := Z.mul size !c
+      end;
+      q.(k) <- Z.add q.(k) factor;
+      for i = 0 to m - 1 do r.(k + i) <- Z.sub r.(k + i) (Z.mul factor p.(i)) done
+    end
   done;
-  Array.to_list q, strip (Array.to_list r)
+  !c, Array.to_list q, strip (Array.to_list r)
 
+(* The witness of g modulo p, without a common factor. *)
 let reduction modulus g =
-  let quotient, rest = divide (List.map Q.of_bigint g) modulus in
-  let c = List.fold_left (fun c v -> Z.lcm c (Q.den v)) Z.one (quotient @ rest) in
-  let times = List.map (fun v -> Q.num (Q.mul v (Q.of_bigint c))) in
-  { Kernel.multiplier = c; quotient = times quotient; rest = times rest }
+  let c, quotient, rest = divide g modulus in
+  let common = List.fold_left (fun d v -> if Z.equal d Z.one then d else Z.gcd d v) c
+      (rest @ quotient) in
+  let over = List.map (fun v -> Z.divexact v common) in
+  { Kernel.multiplier = Z.divexact c common; quotient = over quotient; rest = over rest }
 
-let claim_of (pencil : Kernel.pencil) (e : exact) =
+(* Polynomials with integer coefficients, multiplied by one positive integer. *)
+let common_of = List.fold_left (List.fold_left (fun c v -> Z.lcm c (Q.den v)))
+let integer_polynomials common =
+  List.map (List.map (fun v -> Q.num (Q.mul v (Q.of_bigint common))))
+
+let bare_claim (e : exact) components =
   let a, b = e.value in
   let d = Z.lcm (Q.den a) (Q.den b) in
   let over q = Q.num (Q.mul q (Q.of_bigint d)) in
-  let common = List.fold_left (fun c p ->
-      List.fold_left (fun c v -> Z.lcm c (Q.den v)) c p) Z.one e.x in
-  let components = List.map (List.map (fun v -> Q.num (Q.mul v (Q.of_bigint common)))) e.x in
-  let bare = { Kernel.modulus = e.polynomial; claim_from = over a; claim_to = over b;
-               claim_denominator = d; support = e.support;
-               biactive = e.biactive; components;
-               component_reductions = []; reaction_reductions = [] } in
-  let modulus = List.map Q.of_bigint e.polynomial in
+  { Kernel.modulus = e.polynomial; claim_from = over a; claim_to = over b;
+    claim_denominator = d; support = e.support; biactive = e.biactive; components;
+    component_reductions = []; reaction_reductions = [] }
+
+let claim_of (pencil : Kernel.pencil) (e : exact) =
+  let components = integer_polynomials (common_of Z.one e.x) e.x in
+  let bare = bare_claim e components in
   { bare with
-    component_reductions = List.map (reduction modulus) components;
+    component_reductions = List.map (reduction e.polynomial) components;
     reaction_reductions = List.init pencil.order (fun i ->
-        reduction modulus (Kernel.reaction_poly pencil bare i)) }
+        reduction e.polynomial (Kernel.reaction_poly pencil bare i)) }
+
+(* [factor] is that of K and M in the system. *)
+let lifted_of (system : Kernel.system) unknown factor (l : lifted) =
+  let common = common_of (common_of Z.one l.motion.x) l.forces in
+  let v = integer_polynomials common l.motion.x in
+  let w = integer_polynomials (Z.mul factor common) l.forces in
+  let reduce = reduction l.motion.polynomial in
+  let bare = { Kernel.motion_claim = bare_claim l.motion v; forces = w; force_reductions = [];
+               balance_reductions = []; normal_reductions = []; rate_reductions = [];
+               cone_reductions = [] } in
+  let particles make = List.map (fun p -> reduce (make p)) system.particles in
+  { bare with
+    motion_claim = { bare.motion_claim with component_reductions = List.map reduce v };
+    force_reductions = List.map reduce w;
+    balance_reductions = List.init system.dofs (fun d ->
+        reduce (Kernel.balance_poly system unknown bare d));
+    normal_reductions = particles (Kernel.normal_poly bare);
+    rate_reductions = particles (Kernel.rate_poly bare);
+    cone_reductions = particles (Kernel.cone_poly unknown bare) }
+
+(* The solution of the pencil whose motion is that of the claim: x_d = v_d, x_p = -S t'v. *)
+let exact_of_lifted (system : Kernel.system) (l : lifted) =
+  let v = Array.of_list l.motion.x in
+  let times c = List.map (Q.mul c) in
+  let rec add p q = match p, q with
+    | a :: p, b :: q -> Q.add a b :: add p q
+    | rest, [] | [], rest -> rest in
+  let slip (p : Kernel.slip_particle) =
+    let factor c = Q.make (Z.neg (Z.mul p.sign_of c)) system.unit_length in
+    let first, second = p.tangent in
+    add (times (factor first) v.(p.first_dof)) (times (factor second) v.(p.second_dof)) in
+  { l.motion with
+    x = List.map (fun d -> v.(d)) system.free_dofs @ List.map slip system.particles }
+
+(* ---------- enclosed solution claims: root leaves of the whole pencil *)
+
+(* From t, some steps of Newton's method for row k of T(t) x, with x_k = 1 and the other rows 0. *)
+let newton_value n f j_list k t =
+  let rec step count t =
+    if count = 0 then t
+    else match null_vectors n f j_list k t with
+      | None -> t
+      | Some (right, left) ->
+        let x = Array.of_list (List.map Z.to_float right) in
+        let u = Array.of_list (List.map Z.to_float left) in
+        let row i entry = List.fold_left (fun s j -> s +. entry i j *. x.(j)) 0.0 j_list in
+        let phi = u.(k) *. row k (at f t) in
+        let slope = List.fold_left (fun s i ->
+            s +. u.(i) *. row i (fun i j -> f.b.(i).(j))) 0.0 j_list in
+        let next = t -. phi /. slope in
+        if Float.is_nan next || Float.is_integer (next -. t) && next = t then t
+        else step (count - 1) next in
+  step 12 t
+
+let max_rational = List.fold_left (fun m v -> if Q.gt v m then v else m)
+
+let enclosed_claim_of pencil (e : enclosed) =
+  let p = Kernel.whole_pencil pencil in
+  let n = pencil.Kernel.order in
+  let f = doubles_of p in
+  let active = List.filter (fun i -> List.mem i pencil.free || List.mem i e.box_support)
+      (List.init n Fun.id) in
+  let rec split = function
+    | [t] -> [], t
+    | x :: rest -> let xs, t = split rest in x :: xs, t
+    | [] -> no_witness "a box without a value" in
+  let x, center = split e.center in
+  let _, radius = split e.radius in
+  let lowest = Q.sub center radius and highest = Q.add center radius in
+  let sizes = List.combine active (List.map Q.abs x) in
+  let pivots = List.sort (fun i j -> Q.compare (List.assoc j sizes) (List.assoc i sizes))
+      e.box_support in
+
+  (* The centre as integers: fine beside the least radius. *)
+  let top = max_rational Q.zero (List.map snd sizes) in
+  let least = List.fold_left Q.min (List.hd e.radius) e.radius in
+  let fine = Z.numbits (Q.to_bigint (Q.div top least)) + 24 in
+  let centers unit =
+    let v = Array.make n Z.zero in
+    List.iter2 (fun i c ->
+        v.(i) <- Q.to_bigint (Q.div (Q.mul c (Q.of_bigint (two_to unit))) top)) active x;
+    Array.to_list v in
+
+  (* The boxes and the uniqueness hold as they were computed; only the signs are tried here. *)
+  let signs_hold (claim : Kernel.enclosed_claim) =
+    Kernel.sign_change p (Kernel.active_region pencil claim) claim.null_box
+    && List.for_all (fun j -> Kernel.positive_on_support claim (Obj.magic j)) e.box_support
+    && List.for_all (fun i ->
+        List.mem i e.box_support || Kernel.positive_off_support pencil claim i)
+      (Obj.magic (Kernel.slip pencil)) in
+  let attempt k (v, left) (low, high) (from, upto) =
+    let k_list = List.filter (fun j -> j <> k) active in
+    let wide = (point_of low, point_of high) and narrow = (point_of from, point_of upto) in
+    match box_of p f active k_list v narrow (middle from upto) with
+    | None -> None
+    | Some narrow_box ->
+      let wide_box =
+        if narrow = wide then Some narrow_box
+        else box_of p f active k_list v wide (middle low high) in
+      match wide_box with
+      | None -> None
+      | Some wide_box ->
+        match unique_of p f active k v wide_box.width wide (middle low high) with
+        | None -> None
+        | Some unique ->
+          let null_box = { Kernel.pivot = k; vector = v; from_point = fst narrow;
+                           to_point = snd narrow; wide_box; narrow_box; unique;
+                           left_vector = left } in
+          let claim = { Kernel.box_support = e.box_support; interval_low = fst wide;
+                        interval_high = snd wide; null_box } in
+          if signs_hold claim then Some claim else None in
+
+  (* The interval of the claim, or intervals about a zero in it that is known in doubles. *)
+  let ways k =
+    let whole = lowest, highest in
+    let as_claimed () =
+      match null_vectors n f active k (Q.to_float center) with
+      | Some (_, left) when Q.sign top > 0 && fine < 4_000 ->
+        attempt k (centers fine, left) whole whole
+      | _ -> None in
+    let t = newton_value n f active k (Q.to_float center) in
+    let about bits () =
+      if Float.is_nan t || Float.abs t = infinity then None
+      else begin
+        let value = Q.of_float t in
+        let size = if t = 0.0 then Q.one else Q.abs value in
+        let width = Q.div size (Q.of_bigint (two_to bits)) in
+        let from = Q.max lowest (Q.sub value width) in
+        let upto = Q.min highest (Q.add value width) in
+        if Q.geq from upto then None
+        else match null_vectors n f active k t with
+          | None -> None
+          | Some vectors ->
+            match attempt k vectors whole (from, upto) with
+            | Some claim -> Some claim
+            | None -> attempt k vectors (from, upto) (from, upto)
+      end in
+    as_claimed
+    :: List.map about (if n <= 16 then [44; 38; 32; 26; 20; 14; 8] else [44; 32; 20]) in
+  let first_pivots = List.filteri (fun i _ -> i < (if n <= 16 then 3 else 1)) pivots in
+  List.find_map (fun way -> way ()) (List.concat_map ways first_pivots)

@@ -367,6 +367,12 @@ type ('aT, 'rT) simpl_fun =
 let fun_of_simpl f =
   f
 
+(** val isSome : 'a1 option -> bool **)
+
+let isSome = function
+| Some _ -> true
+| None -> false
+
 (** val iffP : bool -> reflect -> reflect **)
 
 let iffP _ pb =
@@ -515,6 +521,17 @@ let rec size = function
 | [] -> 0
 | _ :: s' -> Stdlib.Int.succ (size s')
 
+(** val nilp : 'a1 list -> bool **)
+
+let nilp s =
+  eq_op nat_eqType (Obj.magic size s) (Obj.magic 0)
+
+(** val head : 'a1 -> 'a1 list -> 'a1 **)
+
+let head x0 = function
+| [] -> x0
+| x :: _ -> x
+
 (** val ncons : int -> 'a1 -> 'a1 list -> 'a1 list **)
 
 let ncons n x =
@@ -650,6 +667,11 @@ let rec zip s t =
   | x :: s' -> (match t with
                 | [] -> []
                 | y :: t' -> (x, y) :: (zip s' t'))
+
+(** val flatten : 'a1 list list -> 'a1 list **)
+
+let flatten s =
+  foldr cat [] s
 
 type matrix = Big_int_Z.big_int list list
 
@@ -1310,48 +1332,285 @@ let check_absent p r c =
             ((&&) (left_negative p r k v c.absent_left eps r.lower)
               (left_negative p r k v c.absent_left eps r.upper))))))
 
+type pinning = { pin_pivot : int; pin_vector : Big_int_Z.big_int list;
+                 pin_box : box; pin_unique : uniqueness; pin_reversed : 
+                 bool }
+
+type known = { known_from : point; known_to : point;
+               known_support : int list; known_biactive : int list }
+
+(** val swap : point -> point **)
+
+let swap e =
+  ((snd e), (fst e))
+
+(** val reversed : enclosed -> enclosed **)
+
+let reversed p =
+  { size_of = p.size_of; center_a = p.center_b; center_b = p.center_a;
+    radius_a = p.radius_b; radius_b = p.radius_a }
+
+(** val pinned : enclosed -> region -> pinning -> bool **)
+
+let pinned p r c =
+  let k = c.pin_pivot in
+  let v = c.pin_vector in
+  let eps = c.pin_box.width in
+  (&&) (decided p r)
+    ((&&)
+      (in_mem (Obj.magic k)
+        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v k))
+        ((&&)
+          (check_box p (moving p r) (Obj.magic others p r k) v c.pin_box
+            r.lower r.upper)
+          (if c.pin_reversed
+           then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
+                  (check_unique (reversed p) (moving p r) k v c.pin_unique
+                    eps (swap r.upper) (swap r.lower))
+           else check_unique p (moving p r) k v c.pin_unique eps r.lower
+                  r.upper))))
+
+(** val known_inside : region -> known -> bool **)
+
+let known_inside r q =
+  (&&) (ordered q.known_from q.known_to)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int (snd q.known_to))
+      ((&&) (point_le r.lower q.known_from) (point_le q.known_to r.upper)))
+
+(** val check_claimed : enclosed -> region -> pinning -> known -> bool **)
+
+let check_claimed p r c q =
+  (&&) (pinned p r c)
+    ((&&)
+      (in_mem (Obj.magic c.pin_pivot)
+        (mem (seq_predType nat_eqType) (Obj.magic q.known_support)))
+      ((&&) (known_inside r q)
+        ((&&)
+          (all (fun i ->
+            in_mem (Obj.magic i)
+              (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+            q.known_support)
+          (all (fun i ->
+            in_mem (Obj.magic i)
+              (mem (seq_predType nat_eqType)
+                (Obj.magic cat q.known_support q.known_biactive)))
+            (moving p r)))))
+
+(** val supports_region : enclosed -> region -> known -> bool **)
+
+let supports_region p r q =
+  all (fun i ->
+    in_mem (Obj.magic i)
+      (mem (seq_predType nat_eqType) (Obj.magic q.known_support)))
+    (moving p r)
+
+(** val check_infinite : enclosed -> region -> pinning -> bool **)
+
+let check_infinite p r c =
+  (&&) (pinned p r c)
+    ((&&) c.pin_reversed (Z.eqb (snd r.upper) Big_int_Z.zero_big_int))
+
+type interval = point * point
+
 type 'whole leaf =
 | Farkas of Big_int_Z.big_int list
 | Definite of bool * factor * factor
 | Absent of absence
-| Root of isolation * outcome
+| Root of interval * isolation * outcome
+| Claimed of interval * pinning * int
+| Infinite of interval * pinning * Big_int_Z.big_int list
 | Whole of 'whole
+| Undecided
 
-(** val yielded : (region * 'a1 leaf) -> (region * isolation) option **)
+type yield = { yield_region : region; yield_from : point; yield_to : point }
 
-let yielded rl =
-  match snd rl with
-  | Root (c, o) -> (match o with
-                    | Solution -> Some ((fst rl), c)
-                    | _ -> None)
-  | _ -> None
+(** val extended : region -> interval -> region **)
 
-(** val yields : 'a1 leaf tree -> region -> (region * isolation) list **)
+let extended r h =
+  { lower = (fst h); upper = (snd h); states = r.states }
 
-let yields tr r =
-  pmap yielded (leaves tr r)
+(** val reaches : region -> interval -> bool **)
+
+let reaches r h =
+  (&&) (ordered (fst h) (snd h))
+    ((&&) (point_le (fst h) r.lower) (point_le r.upper (snd h)))
 
 (** val window : point -> point -> region **)
 
 let window lo hi =
   { lower = lo; upper = hi; states = [] }
 
-(** val check_leaf :
-    enclosed -> (region -> 'a1 -> bool) -> region -> 'a1 leaf -> bool **)
+(** val enclosed_order : int -> enclosed **)
 
-let check_leaf p check_whole0 r = function
+let enclosed_order n =
+  { size_of = n; center_a = []; center_b = []; radius_a = []; radius_b = [] }
+
+(** val nothing_known : known **)
+
+let nothing_known =
+  { known_from = zero; known_to = zero; known_support = []; known_biactive =
+    [] }
+
+(** val known_at : known list -> int -> known **)
+
+let known_at solutions n =
+  nth nothing_known solutions n
+
+(** val yielded :
+    enclosed -> known list -> (region * 'a1 leaf) -> yield option **)
+
+let yielded p solutions rl =
+  match snd rl with
+  | Root (h, c, o) ->
+    (match o with
+     | Solution ->
+       Some { yield_region = (extended (fst rl) h); yield_from =
+         c.from_point; yield_to = c.to_point }
+     | _ -> None)
+  | Claimed (h, _, n) ->
+    let q = known_at solutions n in
+    if supports_region p (fst rl) q
+    then Some { yield_region = (extended (fst rl) h); yield_from =
+           q.known_from; yield_to = q.known_to }
+    else None
+  | _ -> None
+
+(** val yields :
+    enclosed -> known list -> 'a1 leaf tree -> region -> yield list **)
+
+let yields p solutions tr r =
+  pmap (yielded p solutions) (leaves tr r)
+
+(** val undecided : 'a1 leaf tree -> region -> region list **)
+
+let undecided tr r =
+  pmap (fun rl -> match snd rl with
+                  | Undecided -> Some (fst rl)
+                  | _ -> None) (leaves tr r)
+
+(** val check_leaf :
+    enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
+    Big_int_Z.big_int list -> bool) -> region -> 'a1 leaf -> bool **)
+
+let check_leaf p solutions check_whole0 check_limit0 r = function
 | Farkas w -> farkas p r w
 | Definite (negative, low, high) -> definite p negative r low high
 | Absent c -> check_absent p r c
-| Root (c, o) -> check_root p r c o
+| Root (h, c, o) -> (&&) (reaches r h) (check_root p (extended r h) c o)
+| Claimed (h, c, n) ->
+  (&&) (reaches r h)
+    ((&&) (leq (Stdlib.Int.succ n) (size solutions))
+      (check_claimed p (extended r h) c (known_at solutions n)))
+| Infinite (h, c, x) ->
+  (&&) (reaches r h)
+    ((&&) (check_infinite p (extended r h) c) (check_limit0 r c.pin_pivot x))
 | Whole w -> check_whole0 r w
+| Undecided -> true
 
 (** val check_cover :
-    enclosed -> (region -> 'a1 -> bool) -> 'a1 leaf tree -> point -> point ->
-    bool **)
+    enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
+    Big_int_Z.big_int list -> bool) -> 'a1 leaf tree -> point -> point -> bool **)
 
-let check_cover p check_whole0 tr lo hi =
-  check_tree p.size_of (check_leaf p check_whole0) tr (window lo hi)
+let check_cover p solutions check_whole0 check_limit0 tr lo hi =
+  check_tree p.size_of (check_leaf p solutions check_whole0 check_limit0) tr
+    (window lo hi)
+
+(** val same_state : state -> state -> bool **)
+
+let same_state a b =
+  match a with
+  | Open -> (match b with
+             | Open -> true
+             | _ -> false)
+  | Resting -> (match b with
+                | Resting -> true
+                | _ -> false)
+  | Moving -> (match b with
+               | Moving -> true
+               | _ -> false)
+
+(** val opposite_state : state -> state -> bool **)
+
+let opposite_state a b =
+  match a with
+  | Open -> false
+  | Resting -> (match b with
+                | Moving -> true
+                | _ -> false)
+  | Moving -> (match b with
+               | Resting -> true
+               | _ -> false)
+
+(** val some_opposite : int -> region -> region -> bool **)
+
+let some_opposite n r r' =
+  has (fun i -> opposite_state (state_of r i) (state_of r' i)) (iota 0 n)
+
+(** val all_same : int -> region -> region -> bool **)
+
+let all_same n r r' =
+  all (fun i -> same_state (state_of r i) (state_of r' i)) (iota 0 n)
+
+(** val within : interval -> interval -> bool **)
+
+let within inner0 outer =
+  (&&) (ordered (fst inner0) (snd inner0))
+    ((&&) (ordered (fst outer) (snd outer))
+      ((&&) (point_le (fst outer) (fst inner0))
+        (point_le (snd inner0) (snd outer))))
+
+(** val ends : region -> interval **)
+
+let ends r =
+  (r.lower, r.upper)
+
+(** val value_of : yield -> interval **)
+
+let value_of y =
+  (y.yield_from, y.yield_to)
+
+(** val point_lt : point -> point -> bool **)
+
+let point_lt a b =
+  (&&) (Z.leb Big_int_Z.zero_big_int (snd a))
+    ((&&) (Z.leb Big_int_Z.zero_big_int (snd b))
+      (Z.ltb (Z.mul (fst a) (snd b)) (Z.mul (fst b) (snd a))))
+
+(** val same_solution : int -> yield -> yield -> bool **)
+
+let same_solution n f g =
+  (&&)
+    ((||) (within (value_of f) (ends g.yield_region))
+      (within (value_of g) (ends f.yield_region)))
+    (all_same n f.yield_region g.yield_region)
+
+(** val different_solutions : int -> yield -> yield -> bool **)
+
+let different_solutions n f g =
+  (||) (point_lt f.yield_to g.yield_from)
+    ((||) (point_lt g.yield_to f.yield_from)
+      (some_opposite n f.yield_region g.yield_region))
+
+(** val distinct :
+    int -> point -> point -> yield list -> yield list -> yield list -> yield
+    list option **)
+
+let rec distinct n lo hi seen kept = function
+| [] -> Some kept
+| y :: rest' ->
+  if has (same_solution n y) seen
+  then distinct n lo hi (y :: seen) kept rest'
+  else if (&&) (within (value_of y) (lo, hi))
+            (all (different_solutions n y) kept)
+       then distinct n lo hi (y :: seen) (y :: kept) rest'
+       else None
+
+(** val distinct_yields :
+    int -> point -> point -> yield list -> yield list option **)
+
+let distinct_yields n lo hi =
+  distinct n lo hi [] []
 
 type sparse_row = (int * Big_int_Z.big_int) list
 
@@ -1649,27 +1908,6 @@ let check_whole q r w =
     (check_end q (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
       w.whole_negative r.upper r w.high_end)
 
-(** val check_complete :
-    pencil -> elimination -> whole leaf tree -> point -> point -> bool **)
-
-let check_complete q w tr lo hi =
-  (&&) (wellformed q)
-    ((&&) (free_rows_constant q)
-      ((&&) (check_elimination (blocks_of q) w)
-        (check_cover (condensed (blocks_of q) w) (check_whole q) tr lo hi)))
-
-(** val found :
-    whole leaf tree -> point -> point -> (region * isolation) list **)
-
-let found tr lo hi =
-  yields tr (window lo hi)
-
-(** val check_excluded : pencil -> whole tree -> point -> point -> bool **)
-
-let check_excluded q tr lo hi =
-  (&&) (wellformed q)
-    (check_tree (size (slip q)) (check_whole q) tr (window lo hi))
-
 type polynomial = Big_int_Z.big_int list
 
 type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial;
@@ -1752,6 +1990,14 @@ let modulus_changes_sign k =
       (Z.leb Big_int_Z.zero_big_int
         (lower_value k k.claim_from k.claim_from p))
       (Z.leb (upper_value k k.claim_to k.claim_to p) Big_int_Z.zero_big_int))
+
+(** val root_interval : claim -> bool **)
+
+let root_interval k =
+  (&&) (Z.leb Big_int_Z.zero_big_int k.claim_from)
+    ((&&) (Z.leb k.claim_from k.claim_to)
+      ((&&) (Z.ltb Big_int_Z.zero_big_int k.claim_denominator)
+        (modulus_changes_sign k)))
 
 (** val no_reduction : reduction **)
 
@@ -1852,11 +2098,7 @@ let columns_in_order q =
 let check_claim q k =
   (&&) (wellformed q)
     ((&&) (columns_in_order q)
-      ((&&)
-        ((&&) (Z.leb Big_int_Z.zero_big_int k.claim_from)
-          ((&&) (Z.leb k.claim_from k.claim_to)
-            ((&&) (Z.ltb Big_int_Z.zero_big_int k.claim_denominator)
-              (modulus_changes_sign k))))
+      ((&&) (root_interval k)
         ((&&) (all (fun i -> y_zero q k i) q.free)
           ((&&)
             (all (fun i ->
@@ -1886,13 +2128,89 @@ let check_claim q k =
                   (slip q))
                 (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
 
-type slip_particle = { tangential : int; normal : int;
-                       sign_of : Big_int_Z.big_int;
-                       direction : Big_int_Z.big_int }
+(** val positions : pencil -> int list -> int list **)
+
+let positions q l =
+  map0 (fun i -> index nat_eqType (Obj.magic i) (slip q)) l
+
+(** val known_of : pencil -> claim -> known **)
+
+let known_of q k =
+  { known_from = (k.claim_from, k.claim_denominator); known_to = (k.claim_to,
+    k.claim_denominator); known_support = (positions q k.support);
+    known_biactive = (positions q k.biactive) }
+
+(** val known_solutions : pencil -> claim list -> known list **)
+
+let known_solutions q claims =
+  map0 (fun k -> known_of q k) claims
+
+(** val check_limit :
+    pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
+
+let check_limit q r k x =
+  let at_slip = fun j ->
+    nth Big_int_Z.zero_big_int x (nth 0 (Obj.magic slip q) j)
+  in
+  (&&) (columns_in_order q)
+    ((&&) (negb (Z.eqb (at_slip k) Big_int_Z.zero_big_int))
+      ((&&) (leq (Stdlib.Int.succ k) (size (slip q)))
+        ((&&)
+          (all (fun i ->
+            Z.eqb (sparse_dot (row_a q i) x) Big_int_Z.zero_big_int) q.free)
+          (all (fun j ->
+            if is_moving (state_of r j)
+            then Z.eqb (sparse_dot (row_b q (nth 0 (Obj.magic slip q) j)) x)
+                   Big_int_Z.zero_big_int
+            else Z.eqb (at_slip j) Big_int_Z.zero_big_int)
+            (iota 0 (size (slip q)))))))
+
+(** val check_complete :
+    pencil -> claim list -> elimination -> whole leaf tree -> point -> point
+    -> bool **)
+
+let check_complete q claims w tr lo hi =
+  (&&) (wellformed q)
+    ((&&) (free_rows_constant q)
+      ((&&) (check_elimination (blocks_of q) w)
+        ((&&) (all (check_claim q) claims)
+          (check_cover (condensed (blocks_of q) w) (known_solutions q claims)
+            (check_whole q) (check_limit q) tr lo hi))))
+
+(** val found :
+    pencil -> claim list -> whole leaf tree -> point -> point -> yield list **)
+
+let found q claims tr lo hi =
+  yields (enclosed_order (size (slip q))) (known_solutions q claims) tr
+    (window lo hi)
+
+(** val left_open : whole leaf tree -> point -> point -> region list **)
+
+let left_open tr lo hi =
+  undecided tr (window lo hi)
+
+(** val solutions_found :
+    pencil -> claim list -> whole leaf tree -> point -> point -> yield list
+    option **)
+
+let solutions_found q claims tr lo hi =
+  distinct_yields (size (slip q)) lo hi (found q claims tr lo hi)
+
+(** val check_excluded : pencil -> whole tree -> point -> point -> bool **)
+
+let check_excluded q tr lo hi =
+  (&&) (wellformed q)
+    (check_tree (size (slip q)) (check_whole q) tr (window lo hi))
+
+type planar = Big_int_Z.big_int * Big_int_Z.big_int
+
+type slip_particle = { first_dof : int; second_dof : int; tangent : planar;
+                       normal : planar; sign_of : Big_int_Z.big_int }
 
 type system = { dofs : int; stiffness : sparse_row list;
                 mass : sparse_row list; free_dofs : int list;
-                particles : slip_particle list }
+                particles : slip_particle list;
+                unit_length : Big_int_Z.big_int }
 
 type unknown =
 | Mu
@@ -1903,21 +2221,27 @@ type unknown =
 let free_number s =
   size s.free_dofs
 
-(** val tangentials : system -> int list **)
+(** val first_dofs : system -> int list **)
 
-let tangentials s =
-  map0 (fun p -> p.tangential) s.particles
+let first_dofs s =
+  map0 (fun p -> p.first_dof) s.particles
+
+(** val second_dofs : system -> int list **)
+
+let second_dofs s =
+  map0 (fun p -> p.second_dof) s.particles
 
 (** val moving_dofs : system -> int list **)
 
 let moving_dofs s =
-  cat s.free_dofs (tangentials s)
+  cat s.free_dofs (cat (first_dofs s) (second_dofs s))
 
 (** val particle : system -> int -> slip_particle **)
 
 let particle s j =
-  nth { tangential = 0; normal = 0; sign_of = Big_int_Z.zero_big_int;
-    direction = Big_int_Z.zero_big_int } s.particles j
+  nth { first_dof = 0; second_dof = 0; tangent = (Big_int_Z.zero_big_int,
+    Big_int_Z.zero_big_int); normal = (Big_int_Z.zero_big_int,
+    Big_int_Z.zero_big_int); sign_of = Big_int_Z.zero_big_int } s.particles j
 
 (** val k_row : system -> int -> (int * Big_int_Z.big_int) list **)
 
@@ -1934,12 +2258,19 @@ let m_row s d =
 
 let column s d =
   if in_mem d (mem (seq_predType nat_eqType) (Obj.magic s.free_dofs))
-  then Some ((index nat_eqType d (Obj.magic s.free_dofs)),
-         Big_int_Z.unit_big_int)
-  else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic tangentials s))
-       then let j = index nat_eqType d (Obj.magic tangentials s) in
-            Some ((addn (free_number s) j), (Z.opp (particle s j).sign_of))
-       else None
+  then Some ((index nat_eqType d (Obj.magic s.free_dofs)), s.unit_length)
+  else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic first_dofs s))
+       then let j = index nat_eqType d (Obj.magic first_dofs s) in
+            Some ((addn (free_number s) j),
+            (Z.opp
+              (Z.mul (particle s j).sign_of (fst (particle s j).tangent))))
+       else if in_mem d
+                 (mem (seq_predType nat_eqType) (Obj.magic second_dofs s))
+            then let j = index nat_eqType d (Obj.magic second_dofs s) in
+                 Some ((addn (free_number s) j),
+                 (Z.opp
+                   (Z.mul (particle s j).sign_of (snd (particle s j).tangent))))
+            else None
 
 (** val columns : system -> sparse_row -> sparse_row **)
 
@@ -1951,7 +2282,24 @@ let columns s row =
 (** val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row **)
 
 let multiple c row =
-  map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
+  if Z.eqb c Big_int_Z.zero_big_int
+  then []
+  else map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
+
+(** val rows_along :
+    system -> (int -> sparse_row) -> slip_particle -> planar ->
+    (int * Big_int_Z.big_int) list **)
+
+let rows_along s rows p factors0 =
+  cat (multiple (fst factors0) (columns s (rows p.first_dof)))
+    (multiple (snd factors0) (columns s (rows p.second_dof)))
+
+(** val direction :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar **)
+
+let direction a b p =
+  ((Z.add (Z.mul a (fst p.tangent)) (Z.mul b (fst p.normal))),
+    (Z.add (Z.mul a (snd p.tangent)) (Z.mul b (snd p.normal))))
 
 (** val free_row_b :
     system -> unknown -> int -> (int * Big_int_Z.big_int) list **)
@@ -1961,27 +2309,29 @@ let free_row_b s u d =
   | Mu -> []
   | Lambda2 (_, _) -> columns s (m_row s d)
 
-(** val slip_row_a : system -> unknown -> slip_particle -> sparse_row **)
+(** val slip_row_a :
+    system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list **)
 
 let slip_row_a s u p =
   match u with
-  | Mu -> multiple (Z.opp p.sign_of) (columns s (k_row s p.tangential))
+  | Mu ->
+    rows_along s (k_row s) p
+      (direction (Z.opp p.sign_of) Big_int_Z.zero_big_int p)
   | Lambda2 (m, q) ->
-    cat
-      (multiple (Z.opp (Z.mul q p.sign_of))
-        (columns s (k_row s p.tangential)))
-      (multiple (Z.opp (Z.mul m p.direction)) (columns s (k_row s p.normal)))
+    rows_along s (k_row s) p
+      (direction (Z.opp (Z.mul q p.sign_of)) (Z.opp m) p)
 
-(** val slip_row_b : system -> unknown -> slip_particle -> sparse_row **)
+(** val slip_row_b :
+    system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list **)
 
 let slip_row_b s u p =
   match u with
-  | Mu -> multiple (Z.opp p.direction) (columns s (k_row s p.normal))
+  | Mu ->
+    rows_along s (k_row s) p
+      (direction Big_int_Z.zero_big_int (Z.opp Big_int_Z.unit_big_int) p)
   | Lambda2 (m, q) ->
-    cat
-      (multiple (Z.opp (Z.mul q p.sign_of))
-        (columns s (m_row s p.tangential)))
-      (multiple (Z.opp (Z.mul m p.direction)) (columns s (m_row s p.normal)))
+    rows_along s (m_row s) p
+      (direction (Z.opp (Z.mul q p.sign_of)) (Z.opp m) p)
 
 (** val pencil_of : system -> unknown -> pencil **)
 
@@ -1999,34 +2349,40 @@ let columns_in_range s rows =
   all (fun row -> all (fun e -> leq (Stdlib.Int.succ (fst e)) s.dofs) row)
     rows
 
+(** val inner : planar -> planar -> Big_int_Z.big_int **)
+
+let inner a b =
+  Z.add (Z.mul (fst a) (fst b)) (Z.mul (snd a) (snd b))
+
+(** val particle_wellformed : system -> slip_particle -> bool **)
+
+let particle_wellformed s p =
+  let unit_square = Z.mul s.unit_length s.unit_length in
+  (&&) (Z.eqb (Z.mul p.sign_of p.sign_of) Big_int_Z.unit_big_int)
+    ((&&) (Z.eqb (inner p.tangent p.tangent) unit_square)
+      ((&&) (Z.eqb (inner p.normal p.normal) unit_square)
+        (Z.eqb (inner p.tangent p.normal) Big_int_Z.zero_big_int)))
+
 (** val system_wellformed : system -> unknown -> bool **)
 
 let system_wellformed s u =
   (&&) (uniq nat_eqType (Obj.magic moving_dofs s))
     ((&&) (all (fun d -> leq (Stdlib.Int.succ d) s.dofs) (moving_dofs s))
-      ((&&)
-        (all (fun p ->
-          Z.eqb (Z.mul p.sign_of p.sign_of) Big_int_Z.unit_big_int)
-          s.particles)
+      ((&&) (all (particle_wellformed s) s.particles)
         ((&&)
-          (all (fun p ->
-            negb
-              (in_mem (Obj.magic p.normal)
-                (mem (seq_predType nat_eqType) (Obj.magic moving_dofs s))))
-            s.particles)
-          ((&&)
-            ((&&) (columns_in_range s s.stiffness)
-              (columns_in_range s s.mass))
+          ((&&) (columns_in_range s s.stiffness) (columns_in_range s s.mass))
+          ((&&) (Z.ltb Big_int_Z.zero_big_int s.unit_length)
             (match u with
              | Mu -> true
              | Lambda2 (_, q) -> Z.ltb Big_int_Z.zero_big_int q)))))
 
 (** val check_system :
-    system -> unknown -> elimination -> whole leaf tree -> point -> point ->
-    bool **)
+    system -> unknown -> claim list -> elimination -> whole leaf tree ->
+    point -> point -> bool **)
 
-let check_system s u w tr lo hi =
-  (&&) (system_wellformed s u) (check_complete (pencil_of s u) w tr lo hi)
+let check_system s u claims w tr lo hi =
+  (&&) (system_wellformed s u)
+    (check_complete (pencil_of s u) claims w tr lo hi)
 
 (** val check_system_excluded :
     system -> unknown -> whole tree -> point -> point -> bool **)
@@ -2038,3 +2394,989 @@ let check_system_excluded s u tr lo hi =
 
 let check_system_claim s u k =
   (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)
+
+type lifted = { motion_claim : claim; forces : polynomial list;
+                force_reductions : reduction list;
+                balance_reductions : reduction list;
+                normal_reductions : reduction list;
+                rate_reductions : reduction list;
+                cone_reductions : reduction list }
+
+(** val witness : reduction list -> int -> reduction **)
+
+let witness list0 i =
+  nth no_reduction list0 i
+
+(** val subtract : polynomial -> polynomial -> polynomial **)
+
+let subtract p q =
+  add_poly p (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) q)
+
+(** val v_poly : lifted -> int -> Big_int_Z.big_int list **)
+
+let v_poly l d =
+  component l.motion_claim d
+
+(** val w_poly : lifted -> int -> Big_int_Z.big_int list **)
+
+let w_poly l d =
+  nth [] l.forces d
+
+(** val balance_poly : system -> unknown -> lifted -> int -> polynomial **)
+
+let balance_poly s u l d =
+  let stiff = combine_row l.motion_claim (k_row s d) in
+  let inertia =
+    match u with
+    | Mu -> []
+    | Lambda2 (_, _) ->
+      Big_int_Z.zero_big_int :: (combine_row l.motion_claim (m_row s d))
+  in
+  subtract (add_poly stiff inertia) (w_poly l d)
+
+(** val along_poly :
+    planar -> slip_particle -> (int -> polynomial) -> polynomial **)
+
+let along_poly e p f =
+  add_poly (scale_poly (fst e) (f p.first_dof))
+    (scale_poly (snd e) (f p.second_dof))
+
+(** val normal_poly : lifted -> slip_particle -> polynomial **)
+
+let normal_poly l p =
+  along_poly p.normal p (v_poly l)
+
+(** val rate_poly : lifted -> slip_particle -> polynomial **)
+
+let rate_poly l p =
+  scale_poly p.sign_of (along_poly p.tangent p (v_poly l))
+
+(** val cone_poly : unknown -> lifted -> slip_particle -> polynomial **)
+
+let cone_poly u l p =
+  match u with
+  | Mu ->
+    add_poly (scale_poly p.sign_of (along_poly p.tangent p (w_poly l)))
+      (Big_int_Z.zero_big_int :: (along_poly p.normal p (w_poly l)))
+  | Lambda2 (m, q) ->
+    add_poly
+      (scale_poly (Z.mul q p.sign_of) (along_poly p.tangent p (w_poly l)))
+      (scale_poly m (along_poly p.normal p (w_poly l)))
+
+(** val balanced : system -> unknown -> lifted -> int -> bool **)
+
+let balanced s u l d =
+  shows_zero l.motion_claim (balance_poly s u l d)
+    (witness l.balance_reductions d)
+
+(** val without_force : lifted -> int -> bool **)
+
+let without_force l d =
+  shows_zero l.motion_claim (w_poly l d) (witness l.force_reductions d)
+
+(** val at_rest : lifted -> int -> bool **)
+
+let at_rest l d =
+  shows_zero l.motion_claim (v_poly l d) (component_witness l.motion_claim d)
+
+(** val dof_moves : lifted -> int -> bool **)
+
+let dof_moves l d =
+  (||)
+    (shows_positive l.motion_claim (v_poly l d)
+      (component_witness l.motion_claim d))
+    (shows_negative l.motion_claim (v_poly l d)
+      (component_witness l.motion_claim d))
+
+(** val in_support : system -> lifted -> int -> bool **)
+
+let in_support s l j =
+  in_mem (Obj.magic addn (free_number s) j)
+    (mem (seq_predType nat_eqType) (Obj.magic l.motion_claim.support))
+
+(** val is_biactive : system -> lifted -> int -> bool **)
+
+let is_biactive s l j =
+  in_mem (Obj.magic addn (free_number s) j)
+    (mem (seq_predType nat_eqType) (Obj.magic l.motion_claim.biactive))
+
+(** val particle_states : system -> unknown -> lifted -> int -> bool **)
+
+let particle_states s u l j =
+  let p = particle s j in
+  let rate0 = witness l.rate_reductions j in
+  let reaction = witness l.cone_reductions j in
+  (&&)
+    (shows_zero l.motion_claim (normal_poly l p)
+      (witness l.normal_reductions j))
+    ((&&)
+      (if in_support s l j
+       then shows_negative l.motion_claim (rate_poly l p) rate0
+       else shows_zero l.motion_claim (rate_poly l p) rate0)
+      (if (||) (in_support s l j) (is_biactive s l j)
+       then shows_zero l.motion_claim (cone_poly u l p) reaction
+       else shows_negative l.motion_claim (cone_poly u l p) reaction))
+
+(** val slip_variables : system -> int list -> bool **)
+
+let slip_variables s =
+  all (fun i ->
+    (&&) (leq (free_number s) i)
+      (leq (Stdlib.Int.succ i) (addn (free_number s) (size s.particles))))
+
+(** val check_lifted : system -> unknown -> lifted -> bool **)
+
+let check_lifted s u l =
+  (&&) (system_wellformed s u)
+    ((&&) (root_interval l.motion_claim)
+      ((&&)
+        (slip_variables s
+          (cat l.motion_claim.support l.motion_claim.biactive))
+        ((&&) (all (balanced s u l) (iota 0 s.dofs))
+          ((&&) (all (without_force l) s.free_dofs)
+            ((&&)
+              (all (fun d ->
+                (||)
+                  (in_mem (Obj.magic d)
+                    (mem (seq_predType nat_eqType) (Obj.magic moving_dofs s)))
+                  (at_rest l d)) (iota 0 s.dofs))
+              ((&&) (all (particle_states s u l) (iota 0 (size s.particles)))
+                ((||) (has (in_support s l) (iota 0 (size s.particles)))
+                  (has (dof_moves l) s.free_dofs))))))))
+
+type enclosed_claim = { box_support : int list; interval_low : point;
+                        interval_high : point; null_box : isolation }
+
+(** val dense : pencil -> (int -> sparse_row) -> matrix **)
+
+let dense q rows =
+  map0 (fun i -> map0 (fun j -> lookup (rows i) j) (iota 0 q.order))
+    (iota 0 q.order)
+
+(** val whole_pencil : pencil -> enclosed **)
+
+let whole_pencil q =
+  { size_of = q.order; center_a = (dense q (row_a q)); center_b =
+    (dense q (row_b q)); radius_a = []; radius_b = [] }
+
+(** val in_active_block :
+    pencil -> enclosed_claim -> Equality.sort -> bool **)
+
+let in_active_block q k i =
+  (||) (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free)))
+    (in_mem i (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
+
+(** val active_region : pencil -> enclosed_claim -> region **)
+
+let active_region q k =
+  { lower = k.interval_low; upper = k.interval_high; states =
+    (map0 (fun i ->
+      if in_active_block q k (Obj.magic i) then Moving else Resting)
+      (iota 0 q.order)) }
+
+(** val positive_on_support : enclosed_claim -> Equality.sort -> bool **)
+
+let positive_on_support k j =
+  (||) (eq_op nat_eqType j (Obj.magic k.null_box.pivot))
+    (Z.ltb k.null_box.narrow_box.width
+      (nth Big_int_Z.zero_big_int k.null_box.vector (Obj.magic j)))
+
+(** val positive_off_support : pencil -> enclosed_claim -> int -> bool **)
+
+let positive_off_support q k i =
+  both_ends k.null_box (fun x ->
+    row_positive (whole_pencil q) (active_region q k) k.null_box.pivot
+      k.null_box.vector k.null_box.narrow_box.width x i)
+
+(** val check_enclosed_claim : pencil -> enclosed_claim -> bool **)
+
+let check_enclosed_claim q k =
+  (&&) (wellformed q)
+    ((&&) (ordered k.interval_low k.interval_high)
+      ((&&)
+        (in_mem (Obj.magic k.null_box.pivot)
+          (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
+        ((&&)
+          (all (fun i ->
+            in_mem (Obj.magic i)
+              (mem (seq_predType nat_eqType) (Obj.magic slip q)))
+            k.box_support)
+          ((&&) (isolated (whole_pencil q) (active_region q k) k.null_box)
+            ((&&) (all (Obj.magic positive_on_support k) k.box_support)
+              (all (fun i ->
+                (||)
+                  (in_mem i
+                    (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
+                  (positive_off_support q k (Obj.magic i))) (slip q)))))))
+
+(** val check_system_enclosed :
+    system -> unknown -> enclosed_claim -> bool **)
+
+let check_system_enclosed s u k =
+  (&&) (system_wellformed s u) (check_enclosed_claim (pencil_of s u) k)
+
+type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
+
+type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int;
+                 lower_bound : bound; upper_bound : bound }
+
+type mcp = mcp_row list
+
+type mcp_point = { numerators : Big_int_Z.big_int list;
+                   denominator : Big_int_Z.big_int }
+
+(** val no_row : mcp_row **)
+
+let no_row =
+  { row_m = []; row_q = Big_int_Z.zero_big_int; lower_bound = None;
+    upper_bound = None }
+
+(** val mcp_row_at : mcp -> int -> mcp_row **)
+
+let mcp_row_at p i =
+  nth no_row p i
+
+(** val bound_wellformed : bound -> bool **)
+
+let bound_wellformed = function
+| Some p0 -> let (_, den) = p0 in Z.ltb Big_int_Z.zero_big_int den
+| None -> true
+
+(** val row_wellformed : mcp -> mcp_row -> bool **)
+
+let row_wellformed p r =
+  (&&) (all (fun e -> leq (Stdlib.Int.succ (fst e)) (size p)) r.row_m)
+    ((&&) (bound_wellformed r.lower_bound) (bound_wellformed r.upper_bound))
+
+(** val coordinate : mcp_point -> int -> Big_int_Z.big_int **)
+
+let coordinate z0 i =
+  nth Big_int_Z.zero_big_int z0.numerators i
+
+(** val function_value : mcp -> mcp_point -> int -> Big_int_Z.big_int **)
+
+let function_value p z0 i =
+  Z.add (sparse_dot (mcp_row_at p i).row_m z0.numerators)
+    (Z.mul z0.denominator (mcp_row_at p i).row_q)
+
+(** val bounds_kept : mcp -> mcp_point -> int -> bool **)
+
+let bounds_kept p z0 i =
+  (&&)
+    (match (mcp_row_at p i).lower_bound with
+     | Some p0 ->
+       let (num, den) = p0 in
+       Z.leb (Z.mul num z0.denominator) (Z.mul (coordinate z0 i) den)
+     | None -> true)
+    (match (mcp_row_at p i).upper_bound with
+     | Some p0 ->
+       let (num, den) = p0 in
+       Z.leb (Z.mul (coordinate z0 i) den) (Z.mul num z0.denominator)
+     | None -> true)
+
+(** val at_bound : mcp_point -> bound -> int -> bool **)
+
+let at_bound z0 b i =
+  match b with
+  | Some p0 ->
+    let (num, den) = p0 in
+    Z.eqb (Z.mul (coordinate z0 i) den) (Z.mul num z0.denominator)
+  | None -> false
+
+(** val row_holds : mcp -> mcp_point -> int -> bool **)
+
+let row_holds p z0 i =
+  (&&) (bounds_kept p z0 i)
+    ((&&)
+      ((||) (at_bound z0 (mcp_row_at p i).upper_bound i)
+        (Z.leb Big_int_Z.zero_big_int (function_value p z0 i)))
+      ((||) (at_bound z0 (mcp_row_at p i).lower_bound i)
+        (Z.leb (function_value p z0 i) Big_int_Z.zero_big_int)))
+
+(** val check_point : mcp -> mcp_point -> bool **)
+
+let check_point p z0 =
+  (&&) (Z.ltb Big_int_Z.zero_big_int z0.denominator)
+    ((&&)
+      (eq_op nat_eqType (Obj.magic size z0.numerators) (Obj.magic size p))
+      (all (row_holds p z0) (iota 0 (size p))))
+
+(** val mcp_wellformed : mcp -> bool **)
+
+let mcp_wellformed p =
+  all (row_wellformed p) p
+
+(** val check_mcp : mcp -> mcp_point list -> bool **)
+
+let check_mcp p points =
+  (&&) (mcp_wellformed p)
+    ((&&) (negb (nilp points)) (all (check_point p) points))
+
+type value = { value_poly : polynomial; value_from : Big_int_Z.big_int;
+               value_to : Big_int_Z.big_int; value_den : Big_int_Z.big_int }
+
+type place =
+| PointAt of value
+| Between of value * value
+| Above of value
+
+type near = { near_multiplier : Big_int_Z.big_int; near_power : int;
+              near_cofactor : polynomial }
+
+type sign_evidence =
+| Identity
+| Remainder of reduction
+| Parts of near * point list * near
+
+(** val low_on :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    -> Big_int_Z.big_int **)
+
+let low_on a b d p =
+  fst (fst (horner_interval a b d p))
+
+(** val high_on :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    -> Big_int_Z.big_int **)
+
+let high_on a b d p =
+  snd (fst (horner_interval a b d p))
+
+(** val slope_interval :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    ->
+    ((Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int) * Big_int_Z.big_int **)
+
+let rec slope_interval a b d = function
+| [] ->
+  (((Big_int_Z.zero_big_int, Big_int_Z.zero_big_int),
+    Big_int_Z.unit_big_int), Big_int_Z.zero_big_int)
+| c :: p' ->
+  let (p0, slope) = slope_interval a b d p' in
+  let (p1, power) = p0 in
+  let (lo, hi) = p1 in
+  let constant = Z.mul c (Z.mul power d) in
+  ((((Z.add
+       (if Z.leb Big_int_Z.zero_big_int lo then Z.mul a lo else Z.mul b lo)
+       constant),
+  (Z.add (if Z.leb Big_int_Z.zero_big_int hi then Z.mul b hi else Z.mul a hi)
+    constant)), (Z.mul power d)),
+  (Z.add (Z.mul d lo)
+    (if Z.leb Big_int_Z.zero_big_int slope
+     then Z.mul a slope
+     else Z.mul b slope)))
+
+(** val slope_low :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    -> Big_int_Z.big_int **)
+
+let slope_low a b d p =
+  snd (slope_interval a b d p)
+
+(** val check_value : value -> bool **)
+
+let check_value v =
+  let { value_poly = p; value_from = a; value_to = b; value_den = d } = v in
+  (&&) (Z.leb Big_int_Z.zero_big_int a)
+    ((&&) (Z.leb a b)
+      ((&&) (Z.ltb Big_int_Z.zero_big_int d)
+        ((&&) (Z.leb (high_on a a d p) Big_int_Z.zero_big_int)
+          ((&&) (Z.leb Big_int_Z.zero_big_int (low_on b b d p))
+            ((||) (Z.eqb a b)
+              (Z.ltb Big_int_Z.zero_big_int (slope_low a b d p)))))))
+
+(** val low_of : value -> polynomial -> Big_int_Z.big_int **)
+
+let low_of v g =
+  low_on v.value_from v.value_to v.value_den g
+
+(** val same_poly : polynomial -> polynomial -> bool **)
+
+let same_poly p q =
+  zero_poly
+    (add_poly p
+      (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) q))
+
+(** val reduces_by : polynomial -> polynomial -> reduction -> bool **)
+
+let reduces_by p g w =
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.multiplier)
+    (same_poly (scale_poly w.multiplier g)
+      (add_poly (mul_poly p w.quotient) w.rest))
+
+(** val power_poly : polynomial -> int -> polynomial **)
+
+let power_poly p i =
+  iter i (mul_poly p) (Big_int_Z.unit_big_int :: [])
+
+(** val factors : polynomial -> polynomial -> near -> bool **)
+
+let factors p g w =
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.near_multiplier)
+    (same_poly (scale_poly w.near_multiplier g)
+      (mul_poly (power_poly p w.near_power) w.near_cofactor))
+
+(** val rational : value -> bool **)
+
+let rational v =
+  Z.eqb v.value_from v.value_to
+
+(** val positive_after : value -> polynomial -> near -> bool **)
+
+let positive_after v g w =
+  (||) (rational v)
+    ((&&) (factors v.value_poly g w)
+      (Z.ltb Big_int_Z.zero_big_int (low_of v w.near_cofactor)))
+
+(** val positive_before : value -> polynomial -> near -> bool **)
+
+let positive_before v g w =
+  (||) (rational v)
+    ((&&)
+      (factors
+        (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
+          v.value_poly) g w)
+      (Z.ltb Big_int_Z.zero_big_int (low_of v w.near_cofactor)))
+
+(** val moebius : point -> point -> polynomial -> polynomial * polynomial **)
+
+let rec moebius l u = function
+| [] -> ([], (Big_int_Z.unit_big_int :: []))
+| c :: g' ->
+  let (numerator, power) = moebius l u g' in
+  let power' = mul_poly ((snd l) :: ((snd u) :: [])) power in
+  ((add_poly (scale_poly c power')
+     (mul_poly ((fst l) :: ((fst u) :: [])) numerator)), power')
+
+(** val positive_on : bool -> point -> point -> polynomial -> bool **)
+
+let positive_on open0 l u g =
+  let (numerator, _) = moebius l u g in
+  (&&) (all (fun c -> Z.leb Big_int_Z.zero_big_int c) numerator)
+    (if open0
+     then has (fun c -> Z.ltb Big_int_Z.zero_big_int c) numerator
+     else Z.ltb Big_int_Z.zero_big_int (head Big_int_Z.zero_big_int numerator))
+
+(** val positive_between :
+    bool -> point -> point list -> point -> polynomial -> bool **)
+
+let rec positive_between open0 l cuts u g =
+  match cuts with
+  | [] -> positive_on open0 l u g
+  | c :: cuts' ->
+    (&&) (Z.ltb Big_int_Z.zero_big_int (snd c))
+      ((&&) (positive_on open0 l c g) (positive_between false c cuts' u g))
+
+(** val end_of : value -> point **)
+
+let end_of v =
+  (v.value_to, v.value_den)
+
+(** val start_of : value -> point **)
+
+let start_of v =
+  (v.value_from, v.value_den)
+
+(** val positive_in : place -> polynomial -> sign_evidence -> bool **)
+
+let positive_in pl g e =
+  match pl with
+  | PointAt v ->
+    (match e with
+     | Remainder w ->
+       (&&) (reduces_by v.value_poly g w)
+         (Z.ltb Big_int_Z.zero_big_int (low_of v w.rest))
+     | _ -> false)
+  | Between (v, v') ->
+    (match e with
+     | Parts (n, cuts, n') ->
+       (&&) (positive_after v g n)
+         ((&&) (positive_before v' g n')
+           (positive_between true (end_of v) cuts (start_of v') g))
+     | _ -> false)
+  | Above v ->
+    (match e with
+     | Parts (n, cuts, _) ->
+       (&&) (positive_after v g n)
+         (positive_between true (end_of v) cuts infinity g)
+     | _ -> false)
+
+(** val zero_in : place -> polynomial -> sign_evidence -> bool **)
+
+let zero_in pl g e =
+  match pl with
+  | PointAt v ->
+    (match e with
+     | Identity -> zero_poly g
+     | Remainder w -> (&&) (reduces_by v.value_poly g w) (zero_poly w.rest)
+     | Parts (_, _, _) -> false)
+  | _ -> (match e with
+          | Identity -> zero_poly g
+          | _ -> false)
+
+(** val place_checked : place -> bool **)
+
+let place_checked = function
+| PointAt v -> check_value v
+| Between (v, v') -> (&&) (check_value v) (check_value v')
+| Above v -> check_value v
+
+type claimed_sign =
+| IsZero
+| IsPositive
+| IsNegative
+
+type signed = claimed_sign * sign_evidence
+
+type poly_vector = polynomial list
+
+type refutation = { row_weights : poly_vector; weight_signs : signed list;
+                    column_signs : signed list }
+
+type bound0 = { bounded : int; bound_signs : refutation }
+
+type branch = { branch_x : poly_vector; x_signs : signed list;
+                y_signs : signed list; alone_by : (int * bound0 list) option }
+
+type reason =
+| Refuted of refutation
+| Solved of branch
+
+type chain =
+| Stop
+| Last of reason
+| Next of reason * value * reason * chain
+
+type support_leaf = { first_value : value; first_reason : reason;
+                      further : chain }
+
+type holding = { held_place : place; held_alone : bool }
+
+(** val shows : place -> polynomial -> signed -> bool **)
+
+let shows pl g c =
+  match fst c with
+  | IsZero -> zero_in pl g (snd c)
+  | IsPositive -> positive_in pl g (snd c)
+  | IsNegative ->
+    positive_in pl
+      (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) g) 
+      (snd c)
+
+(** val is_zero : signed -> bool **)
+
+let is_zero c =
+  match fst c with
+  | IsZero -> true
+  | _ -> false
+
+(** val is_positive : signed -> bool **)
+
+let is_positive c =
+  match fst c with
+  | IsPositive -> true
+  | _ -> false
+
+(** val is_negative : signed -> bool **)
+
+let is_negative c =
+  match fst c with
+  | IsNegative -> true
+  | _ -> false
+
+(** val sign_at : signed list -> int -> claimed_sign * sign_evidence **)
+
+let sign_at signs i =
+  nth (IsZero, Identity) signs i
+
+(** val is_free : pencil -> int -> bool **)
+
+let is_free q i =
+  in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic q.free))
+
+(** val moves : pencil -> region -> int -> bool **)
+
+let moves q r i =
+  (&&) (negb (is_free q i))
+    (is_moving (state_of r (index nat_eqType (Obj.magic i) (slip q))))
+
+(** val rests : pencil -> region -> int -> bool **)
+
+let rests q r i =
+  (&&) (negb (is_free q i))
+    (is_resting (state_of r (index nat_eqType (Obj.magic i) (slip q))))
+
+(** val is_active : pencil -> region -> int -> bool **)
+
+let is_active q r i =
+  (||) (is_free q i) (moves q r i)
+
+(** val decided_region : pencil -> region -> bool **)
+
+let decided_region q r =
+  all (fun i -> (||) (is_active q r i) (rests q r i)) (iota 0 q.order)
+
+(** val component_of : poly_vector -> int -> Big_int_Z.big_int list **)
+
+let component_of x i =
+  nth [] x i
+
+(** val times_entry : pencil -> int -> int -> polynomial -> polynomial **)
+
+let times_entry q i j p =
+  mul_poly ((lookup (row_a q i) j) :: ((lookup (row_b q i) j) :: [])) p
+
+(** val column_poly : pencil -> poly_vector -> int -> polynomial **)
+
+let column_poly q w j =
+  foldr (fun i sum ->
+    match component_of w i with
+    | [] -> sum
+    | _ :: _ -> add_poly (times_entry q i j (component_of w i)) sum) []
+    (iota 0 q.order)
+
+(** val product_with : poly_vector -> sparse_row -> polynomial **)
+
+let product_with x row =
+  foldr (fun e sum ->
+    add_poly (scale_poly (snd e) (component_of x (fst e))) sum) [] row
+
+(** val row_poly : pencil -> poly_vector -> int -> polynomial **)
+
+let row_poly q x i =
+  add_poly (product_with x (row_a q i))
+    (Big_int_Z.zero_big_int :: (product_with x (row_b q i)))
+
+(** val check_refutation : pencil -> region -> place -> refutation -> bool **)
+
+let check_refutation q r pl f =
+  (&&)
+    (all (fun i ->
+      (||) (negb (rests q r i))
+        ((&&) (negb (is_negative (sign_at f.weight_signs i)))
+          (shows pl (component_of f.row_weights i) (sign_at f.weight_signs i))))
+      (iota 0 q.order))
+    ((&&)
+      (all (fun j ->
+        (||) (negb (is_active q r j))
+          ((&&) (negb (is_positive (sign_at f.column_signs j)))
+            ((&&)
+              ((||) (negb (is_free q j)) (is_zero (sign_at f.column_signs j)))
+              (shows pl (column_poly q f.row_weights j)
+                (sign_at f.column_signs j))))) (iota 0 q.order))
+      (has (fun j ->
+        (&&) (moves q r j) (is_negative (sign_at f.column_signs j)))
+        (iota 0 q.order)))
+
+(** val check_branch : pencil -> region -> place -> branch -> bool **)
+
+let check_branch q r pl b =
+  (&&) (columns_in_order q)
+    ((&&) (has (moves q r) (iota 0 q.order))
+      ((&&)
+        (all (fun i ->
+          (||) (negb (moves q r i))
+            ((&&) (is_positive (sign_at b.x_signs i))
+              (shows pl (component_of b.branch_x i) (sign_at b.x_signs i))))
+          (iota 0 q.order))
+        ((&&)
+          (all (fun i ->
+            (||) (negb (rests q r i))
+              ((&&) (is_zero (sign_at b.x_signs i))
+                (shows pl (component_of b.branch_x i) (sign_at b.x_signs i))))
+            (iota 0 q.order))
+          (all (fun i ->
+            (&&) (negb (is_negative (sign_at b.y_signs i)))
+              ((&&)
+                ((||) (negb (is_active q r i))
+                  (is_zero (sign_at b.y_signs i)))
+                (shows pl (row_poly q b.branch_x i) (sign_at b.y_signs i))))
+            (iota 0 q.order)))))
+
+(** val check_bound :
+    pencil -> region -> place -> branch -> int -> bound0 -> bool **)
+
+let check_bound q r pl b k o =
+  let f = o.bound_signs in
+  (&&) (is_active q r o.bounded)
+    ((&&) (leq (Stdlib.Int.succ o.bounded) q.order)
+      ((&&)
+        (all (fun i ->
+          (||) (negb (rests q r i))
+            ((&&) (negb (is_negative (sign_at f.weight_signs i)))
+              ((&&)
+                ((||) (is_zero (sign_at f.weight_signs i))
+                  (is_zero (sign_at b.y_signs i)))
+                (shows pl (component_of f.row_weights i)
+                  (sign_at f.weight_signs i))))) (iota 0 q.order))
+        (all (fun j ->
+          (||) (negb (is_active q r j))
+            ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic k))
+              ((&&)
+                ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic o.bounded))
+                  (is_zero (sign_at f.column_signs j)))
+                (shows pl (column_poly q f.row_weights j)
+                  (sign_at f.column_signs j))))) (iota 0 q.order))))
+
+(** val own_sign : bound0 -> claimed_sign * sign_evidence **)
+
+let own_sign o =
+  sign_at o.bound_signs.column_signs o.bounded
+
+(** val check_alone : pencil -> region -> place -> branch -> bool **)
+
+let check_alone q r pl b =
+  match b.alone_by with
+  | Some p ->
+    let (k, bounds) = p in
+    (&&) (moves q r k)
+      ((&&) (leq (Stdlib.Int.succ k) q.order)
+        ((&&) (all (check_bound q r pl b k) bounds)
+          (all (fun j ->
+            (||) (negb (is_active q r j))
+              ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic k))
+                ((&&)
+                  (has (fun o ->
+                    (&&)
+                      (eq_op nat_eqType (Obj.magic o.bounded) (Obj.magic j))
+                      (is_positive (own_sign o))) bounds)
+                  (has (fun o ->
+                    (&&)
+                      (eq_op nat_eqType (Obj.magic o.bounded) (Obj.magic j))
+                      (is_negative (own_sign o))) bounds)))) (iota 0 q.order))))
+  | None -> true
+
+(** val inside : region -> place -> bool **)
+
+let inside r pl =
+  let above0 = fun v ->
+    Z.leb (Z.mul (fst r.lower) v.value_den) (Z.mul v.value_from (snd r.lower))
+  in
+  let below0 = fun v ->
+    Z.leb (Z.mul v.value_to (snd r.upper)) (Z.mul (fst r.upper) v.value_den)
+  in
+  (match pl with
+   | PointAt v -> (&&) (above0 v) (below0 v)
+   | Between (v, v') ->
+     (&&) (above0 v)
+       ((&&) (below0 v')
+         (Z.ltb (Z.mul v.value_to v'.value_den)
+           (Z.mul v'.value_from v.value_den)))
+   | Above v -> (&&) (above0 v) (Z.eqb (snd r.upper) Big_int_Z.zero_big_int))
+
+(** val check_reason : pencil -> region -> place -> reason -> bool **)
+
+let check_reason q r pl e =
+  (&&) (place_checked pl)
+    (match e with
+     | Refuted f -> check_refutation q r pl f
+     | Solved b ->
+       (&&) (inside r pl)
+         ((&&) (check_branch q r pl b) (check_alone q r pl b)))
+
+(** val chain_places : value -> chain -> (place * reason) list **)
+
+let rec chain_places v = function
+| Stop -> []
+| Last e -> ((Above v), e) :: []
+| Next (e, v', e', c') ->
+  ((Between (v, v')), e) :: (((PointAt v'), e') :: (chain_places v' c'))
+
+(** val leaf_places : support_leaf -> (place * reason) list **)
+
+let leaf_places l =
+  ((PointAt l.first_value),
+    l.first_reason) :: (chain_places l.first_value l.further)
+
+(** val reaches_end : region -> value -> chain -> bool **)
+
+let rec reaches_end r v = function
+| Stop ->
+  (&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+    (Z.leb (Z.mul (fst r.upper) v.value_den)
+      (Z.mul v.value_from (snd r.upper)))
+| Last _ -> true
+| Next (_, v', _, c') -> reaches_end r v' c'
+
+(** val check_support : pencil -> region -> support_leaf -> bool **)
+
+let check_support q r l =
+  (&&) (wellformed q)
+    ((&&) (decided_region q r)
+      ((&&)
+        (Z.leb (Z.mul l.first_value.value_to (snd r.lower))
+          (Z.mul (fst r.lower) l.first_value.value_den))
+        ((&&) (reaches_end r l.first_value l.further)
+          (all (fun pe -> check_reason q r (fst pe) (snd pe)) (leaf_places l)))))
+
+(** val holding_of : (place * reason) -> holding option **)
+
+let holding_of pe =
+  match snd pe with
+  | Refuted _ -> None
+  | Solved b ->
+    Some { held_place = (fst pe); held_alone = (isSome b.alone_by) }
+
+(** val holdings : support_leaf -> holding list **)
+
+let holdings l =
+  pmap holding_of (leaf_places l)
+
+type family = region * holding
+
+(** val same_value : value -> value -> bool **)
+
+let same_value v v' =
+  (&&) (Z.eqb v.value_from v'.value_from)
+    ((&&) (Z.eqb v.value_to v'.value_to)
+      ((&&) (Z.eqb v.value_den v'.value_den)
+        (same_poly v.value_poly v'.value_poly)))
+
+(** val ends_before : value -> value -> bool **)
+
+let ends_before v v' =
+  Z.ltb (Z.mul v.value_to v'.value_den) (Z.mul v'.value_from v.value_den)
+
+(** val away : value -> place -> bool **)
+
+let away v = function
+| PointAt v' ->
+  (||) (same_value v v') ((||) (ends_before v v') (ends_before v' v))
+| Between (v', v'') -> (||) (ends_before v v') (ends_before v'' v)
+| Above v' -> ends_before v v'
+
+(** val isolated_value : support_leaf -> holding -> value option **)
+
+let isolated_value l h =
+  let { held_place = held_place0; held_alone = held_alone0 } = h in
+  (match held_place0 with
+   | PointAt v ->
+     if held_alone0
+     then if all (fun h' -> away v h'.held_place) (holdings l)
+          then Some v
+          else None
+     else None
+   | _ -> None)
+
+(** val yield_of : region -> value -> yield **)
+
+let yield_of r v =
+  { yield_region = { lower = (start_of v); upper = (end_of v); states =
+    r.states }; yield_from = (start_of v); yield_to = (end_of v) }
+
+(** val isolated_in : region -> support_leaf -> yield list **)
+
+let isolated_in r l =
+  pmap (fun h -> Option.map (yield_of r) (isolated_value l h)) (holdings l)
+
+(** val families_in : region -> support_leaf -> family list **)
+
+let families_in r l =
+  map0 (fun h -> (r, h))
+    (filter (fun h -> negb (isSome (isolated_value l h))) (holdings l))
+
+(** val pairs :
+    region list -> support_leaf option list -> (region * support_leaf option)
+    list **)
+
+let pairs =
+  zip
+
+(** val check_supports :
+    pencil -> region list -> support_leaf option list -> bool **)
+
+let check_supports q rs ls =
+  (&&) (eq_op nat_eqType (Obj.magic size rs) (Obj.magic size ls))
+    (all (fun rl ->
+      match snd rl with
+      | Some l ->
+        (&&) (ordered (fst rl).lower (fst rl).upper)
+          (check_support q (fst rl) l)
+      | None -> true) (pairs rs ls))
+
+(** val isolated_of :
+    region list -> support_leaf option list -> yield list **)
+
+let isolated_of rs ls =
+  flatten
+    (map0 (fun rl ->
+      match snd rl with
+      | Some l -> isolated_in (fst rl) l
+      | None -> []) (pairs rs ls))
+
+(** val families_of :
+    region list -> support_leaf option list -> family list **)
+
+let families_of rs ls =
+  flatten
+    (map0 (fun rl ->
+      match snd rl with
+      | Some l -> families_in (fst rl) l
+      | None -> []) (pairs rs ls))
+
+(** val open_of : region list -> support_leaf option list -> region list **)
+
+let open_of rs ls =
+  pmap (fun rl -> match snd rl with
+                  | Some _ -> None
+                  | None -> Some (fst rl)) (pairs rs ls)
+
+(** val belongs : int -> yield -> family -> bool **)
+
+let belongs n y f =
+  (&&)
+    (match (snd f).held_place with
+     | PointAt v ->
+       (&&) (rational v) (within (value_of y) ((start_of v), (end_of v)))
+     | Between (v, v') ->
+       (&&) (point_lt (end_of v) y.yield_from)
+         (point_lt y.yield_to (start_of v'))
+     | Above v -> point_lt (end_of v) y.yield_from)
+    (all_same n y.yield_region (fst f))
+
+(** val families :
+    whole leaf tree -> point -> point -> support_leaf option list -> family
+    list **)
+
+let families tr lo hi ls =
+  families_of (left_open tr lo hi) ls
+
+(** val all_yields :
+    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+    option list -> yield list **)
+
+let all_yields q claims tr lo hi ls =
+  cat (found q claims tr lo hi) (isolated_of (left_open tr lo hi) ls)
+
+(** val all_solutions :
+    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+    option list -> yield list option **)
+
+let all_solutions q claims tr lo hi ls =
+  distinct_yields (size (slip q)) lo hi
+    (filter (fun y ->
+      negb (has (belongs (size (slip q)) y) (families tr lo hi ls)))
+      (all_yields q claims tr lo hi ls))
+
+(** val still_open :
+    whole leaf tree -> point -> point -> support_leaf option list -> region
+    list **)
+
+let still_open tr lo hi ls =
+  open_of (left_open tr lo hi) ls
+
+(** val check_families :
+    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+    option list -> elimination -> bool **)
+
+let check_families q claims tr lo hi ls w =
+  (&&) (check_complete q claims w tr lo hi)
+    (check_supports q (left_open tr lo hi) ls)
+
+(** val check_system_families :
+    system -> unknown -> claim list -> elimination -> whole leaf tree ->
+    point -> point -> support_leaf option list -> bool **)
+
+let check_system_families s u claims w tr lo hi ls =
+  (&&) (check_system s u claims w tr lo hi)
+    (check_supports (pencil_of s u) (left_open tr lo hi) ls)

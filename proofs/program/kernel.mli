@@ -94,6 +94,8 @@ type ('aT, 'rT) simpl_fun =
 
 val fun_of_simpl : ('a1, 'a2) simpl_fun -> 'a1 -> 'a2
 
+val isSome : 'a1 option -> bool
+
 val iffP : bool -> reflect -> reflect
 
 val idP : bool -> reflect
@@ -167,6 +169,10 @@ val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1
 
 val size : 'a1 list -> int
 
+val nilp : 'a1 list -> bool
+
+val head : 'a1 -> 'a1 list -> 'a1
+
 val ncons : int -> 'a1 -> 'a1 list -> 'a1 list
 
 val cat : 'a1 list -> 'a1 list -> 'a1 list
@@ -206,6 +212,8 @@ val iota : int -> int -> int list
 val foldr : ('a1 -> 'a2 -> 'a2) -> 'a2 -> 'a1 list -> 'a2
 
 val zip : 'a1 list -> 'a2 list -> ('a1 * 'a2) list
+
+val flatten : 'a1 list list -> 'a1 list
 
 type matrix = Big_int_Z.big_int list list
 
@@ -463,25 +471,92 @@ val check_root : enclosed -> region -> isolation -> outcome -> bool
 
 val check_absent : enclosed -> region -> absence -> bool
 
+type pinning = { pin_pivot : int; pin_vector : Big_int_Z.big_int list;
+                 pin_box : box; pin_unique : uniqueness; pin_reversed : 
+                 bool }
+
+type known = { known_from : point; known_to : point;
+               known_support : int list; known_biactive : int list }
+
+val swap : point -> point
+
+val reversed : enclosed -> enclosed
+
+val pinned : enclosed -> region -> pinning -> bool
+
+val known_inside : region -> known -> bool
+
+val check_claimed : enclosed -> region -> pinning -> known -> bool
+
+val supports_region : enclosed -> region -> known -> bool
+
+val check_infinite : enclosed -> region -> pinning -> bool
+
+type interval = point * point
+
 type 'whole leaf =
 | Farkas of Big_int_Z.big_int list
 | Definite of bool * factor * factor
 | Absent of absence
-| Root of isolation * outcome
+| Root of interval * isolation * outcome
+| Claimed of interval * pinning * int
+| Infinite of interval * pinning * Big_int_Z.big_int list
 | Whole of 'whole
+| Undecided
 
-val yielded : (region * 'a1 leaf) -> (region * isolation) option
+type yield = { yield_region : region; yield_from : point; yield_to : point }
 
-val yields : 'a1 leaf tree -> region -> (region * isolation) list
+val extended : region -> interval -> region
+
+val reaches : region -> interval -> bool
 
 val window : point -> point -> region
 
+val enclosed_order : int -> enclosed
+
+val nothing_known : known
+
+val known_at : known list -> int -> known
+
+val yielded : enclosed -> known list -> (region * 'a1 leaf) -> yield option
+
+val yields : enclosed -> known list -> 'a1 leaf tree -> region -> yield list
+
+val undecided : 'a1 leaf tree -> region -> region list
+
 val check_leaf :
-  enclosed -> (region -> 'a1 -> bool) -> region -> 'a1 leaf -> bool
+  enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
+  Big_int_Z.big_int list -> bool) -> region -> 'a1 leaf -> bool
 
 val check_cover :
-  enclosed -> (region -> 'a1 -> bool) -> 'a1 leaf tree -> point -> point ->
-  bool
+  enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
+  Big_int_Z.big_int list -> bool) -> 'a1 leaf tree -> point -> point -> bool
+
+val same_state : state -> state -> bool
+
+val opposite_state : state -> state -> bool
+
+val some_opposite : int -> region -> region -> bool
+
+val all_same : int -> region -> region -> bool
+
+val within : interval -> interval -> bool
+
+val ends : region -> interval
+
+val value_of : yield -> interval
+
+val point_lt : point -> point -> bool
+
+val same_solution : int -> yield -> yield -> bool
+
+val different_solutions : int -> yield -> yield -> bool
+
+val distinct :
+  int -> point -> point -> yield list -> yield list -> yield list -> yield
+  list option
+
+val distinct_yields : int -> point -> point -> yield list -> yield list option
 
 type sparse_row = (int * Big_int_Z.big_int) list
 
@@ -579,13 +654,6 @@ val check_end : pencil -> bool -> bool -> point -> region -> whole_end -> bool
 
 val check_whole : pencil -> region -> whole -> bool
 
-val check_complete :
-  pencil -> elimination -> whole leaf tree -> point -> point -> bool
-
-val found : whole leaf tree -> point -> point -> (region * isolation) list
-
-val check_excluded : pencil -> whole tree -> point -> point -> bool
-
 type polynomial = Big_int_Z.big_int list
 
 type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial;
@@ -619,6 +687,8 @@ val upper_value :
   Big_int_Z.big_int
 
 val modulus_changes_sign : claim -> bool
+
+val root_interval : claim -> bool
 
 val no_reduction : reduction
 
@@ -654,13 +724,38 @@ val columns_in_order : pencil -> bool
 
 val check_claim : pencil -> claim -> bool
 
-type slip_particle = { tangential : int; normal : int;
-                       sign_of : Big_int_Z.big_int;
-                       direction : Big_int_Z.big_int }
+val positions : pencil -> int list -> int list
+
+val known_of : pencil -> claim -> known
+
+val known_solutions : pencil -> claim list -> known list
+
+val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool
+
+val check_complete :
+  pencil -> claim list -> elimination -> whole leaf tree -> point -> point ->
+  bool
+
+val found :
+  pencil -> claim list -> whole leaf tree -> point -> point -> yield list
+
+val left_open : whole leaf tree -> point -> point -> region list
+
+val solutions_found :
+  pencil -> claim list -> whole leaf tree -> point -> point -> yield list
+  option
+
+val check_excluded : pencil -> whole tree -> point -> point -> bool
+
+type planar = Big_int_Z.big_int * Big_int_Z.big_int
+
+type slip_particle = { first_dof : int; second_dof : int; tangent : planar;
+                       normal : planar; sign_of : Big_int_Z.big_int }
 
 type system = { dofs : int; stiffness : sparse_row list;
                 mass : sparse_row list; free_dofs : int list;
-                particles : slip_particle list }
+                particles : slip_particle list;
+                unit_length : Big_int_Z.big_int }
 
 type unknown =
 | Mu
@@ -668,7 +763,9 @@ type unknown =
 
 val free_number : system -> int
 
-val tangentials : system -> int list
+val first_dofs : system -> int list
+
+val second_dofs : system -> int list
 
 val moving_dofs : system -> int list
 
@@ -684,23 +781,339 @@ val columns : system -> sparse_row -> sparse_row
 
 val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row
 
+val rows_along :
+  system -> (int -> sparse_row) -> slip_particle -> planar ->
+  (int * Big_int_Z.big_int) list
+
+val direction :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar
+
 val free_row_b : system -> unknown -> int -> (int * Big_int_Z.big_int) list
 
-val slip_row_a : system -> unknown -> slip_particle -> sparse_row
+val slip_row_a :
+  system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list
 
-val slip_row_b : system -> unknown -> slip_particle -> sparse_row
+val slip_row_b :
+  system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list
 
 val pencil_of : system -> unknown -> pencil
 
 val columns_in_range : system -> sparse_row list -> bool
 
+val inner : planar -> planar -> Big_int_Z.big_int
+
+val particle_wellformed : system -> slip_particle -> bool
+
 val system_wellformed : system -> unknown -> bool
 
 val check_system :
-  system -> unknown -> elimination -> whole leaf tree -> point -> point ->
-  bool
+  system -> unknown -> claim list -> elimination -> whole leaf tree -> point
+  -> point -> bool
 
 val check_system_excluded :
   system -> unknown -> whole tree -> point -> point -> bool
 
 val check_system_claim : system -> unknown -> claim -> bool
+
+type lifted = { motion_claim : claim; forces : polynomial list;
+                force_reductions : reduction list;
+                balance_reductions : reduction list;
+                normal_reductions : reduction list;
+                rate_reductions : reduction list;
+                cone_reductions : reduction list }
+
+val witness : reduction list -> int -> reduction
+
+val subtract : polynomial -> polynomial -> polynomial
+
+val v_poly : lifted -> int -> Big_int_Z.big_int list
+
+val w_poly : lifted -> int -> Big_int_Z.big_int list
+
+val balance_poly : system -> unknown -> lifted -> int -> polynomial
+
+val along_poly : planar -> slip_particle -> (int -> polynomial) -> polynomial
+
+val normal_poly : lifted -> slip_particle -> polynomial
+
+val rate_poly : lifted -> slip_particle -> polynomial
+
+val cone_poly : unknown -> lifted -> slip_particle -> polynomial
+
+val balanced : system -> unknown -> lifted -> int -> bool
+
+val without_force : lifted -> int -> bool
+
+val at_rest : lifted -> int -> bool
+
+val dof_moves : lifted -> int -> bool
+
+val in_support : system -> lifted -> int -> bool
+
+val is_biactive : system -> lifted -> int -> bool
+
+val particle_states : system -> unknown -> lifted -> int -> bool
+
+val slip_variables : system -> int list -> bool
+
+val check_lifted : system -> unknown -> lifted -> bool
+
+type enclosed_claim = { box_support : int list; interval_low : point;
+                        interval_high : point; null_box : isolation }
+
+val dense : pencil -> (int -> sparse_row) -> matrix
+
+val whole_pencil : pencil -> enclosed
+
+val in_active_block : pencil -> enclosed_claim -> Equality.sort -> bool
+
+val active_region : pencil -> enclosed_claim -> region
+
+val positive_on_support : enclosed_claim -> Equality.sort -> bool
+
+val positive_off_support : pencil -> enclosed_claim -> int -> bool
+
+val check_enclosed_claim : pencil -> enclosed_claim -> bool
+
+val check_system_enclosed : system -> unknown -> enclosed_claim -> bool
+
+type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
+
+type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int;
+                 lower_bound : bound; upper_bound : bound }
+
+type mcp = mcp_row list
+
+type mcp_point = { numerators : Big_int_Z.big_int list;
+                   denominator : Big_int_Z.big_int }
+
+val no_row : mcp_row
+
+val mcp_row_at : mcp -> int -> mcp_row
+
+val bound_wellformed : bound -> bool
+
+val row_wellformed : mcp -> mcp_row -> bool
+
+val coordinate : mcp_point -> int -> Big_int_Z.big_int
+
+val function_value : mcp -> mcp_point -> int -> Big_int_Z.big_int
+
+val bounds_kept : mcp -> mcp_point -> int -> bool
+
+val at_bound : mcp_point -> bound -> int -> bool
+
+val row_holds : mcp -> mcp_point -> int -> bool
+
+val check_point : mcp -> mcp_point -> bool
+
+val mcp_wellformed : mcp -> bool
+
+val check_mcp : mcp -> mcp_point list -> bool
+
+type value = { value_poly : polynomial; value_from : Big_int_Z.big_int;
+               value_to : Big_int_Z.big_int; value_den : Big_int_Z.big_int }
+
+type place =
+| PointAt of value
+| Between of value * value
+| Above of value
+
+type near = { near_multiplier : Big_int_Z.big_int; near_power : int;
+              near_cofactor : polynomial }
+
+type sign_evidence =
+| Identity
+| Remainder of reduction
+| Parts of near * point list * near
+
+val low_on :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+  -> Big_int_Z.big_int
+
+val high_on :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+  -> Big_int_Z.big_int
+
+val slope_interval :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+  ->
+  ((Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int) * Big_int_Z.big_int
+
+val slope_low :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+  -> Big_int_Z.big_int
+
+val check_value : value -> bool
+
+val low_of : value -> polynomial -> Big_int_Z.big_int
+
+val same_poly : polynomial -> polynomial -> bool
+
+val reduces_by : polynomial -> polynomial -> reduction -> bool
+
+val power_poly : polynomial -> int -> polynomial
+
+val factors : polynomial -> polynomial -> near -> bool
+
+val rational : value -> bool
+
+val positive_after : value -> polynomial -> near -> bool
+
+val positive_before : value -> polynomial -> near -> bool
+
+val moebius : point -> point -> polynomial -> polynomial * polynomial
+
+val positive_on : bool -> point -> point -> polynomial -> bool
+
+val positive_between :
+  bool -> point -> point list -> point -> polynomial -> bool
+
+val end_of : value -> point
+
+val start_of : value -> point
+
+val positive_in : place -> polynomial -> sign_evidence -> bool
+
+val zero_in : place -> polynomial -> sign_evidence -> bool
+
+val place_checked : place -> bool
+
+type claimed_sign =
+| IsZero
+| IsPositive
+| IsNegative
+
+type signed = claimed_sign * sign_evidence
+
+type poly_vector = polynomial list
+
+type refutation = { row_weights : poly_vector; weight_signs : signed list;
+                    column_signs : signed list }
+
+type bound0 = { bounded : int; bound_signs : refutation }
+
+type branch = { branch_x : poly_vector; x_signs : signed list;
+                y_signs : signed list; alone_by : (int * bound0 list) option }
+
+type reason =
+| Refuted of refutation
+| Solved of branch
+
+type chain =
+| Stop
+| Last of reason
+| Next of reason * value * reason * chain
+
+type support_leaf = { first_value : value; first_reason : reason;
+                      further : chain }
+
+type holding = { held_place : place; held_alone : bool }
+
+val shows : place -> polynomial -> signed -> bool
+
+val is_zero : signed -> bool
+
+val is_positive : signed -> bool
+
+val is_negative : signed -> bool
+
+val sign_at : signed list -> int -> claimed_sign * sign_evidence
+
+val is_free : pencil -> int -> bool
+
+val moves : pencil -> region -> int -> bool
+
+val rests : pencil -> region -> int -> bool
+
+val is_active : pencil -> region -> int -> bool
+
+val decided_region : pencil -> region -> bool
+
+val component_of : poly_vector -> int -> Big_int_Z.big_int list
+
+val times_entry : pencil -> int -> int -> polynomial -> polynomial
+
+val column_poly : pencil -> poly_vector -> int -> polynomial
+
+val product_with : poly_vector -> sparse_row -> polynomial
+
+val row_poly : pencil -> poly_vector -> int -> polynomial
+
+val check_refutation : pencil -> region -> place -> refutation -> bool
+
+val check_branch : pencil -> region -> place -> branch -> bool
+
+val check_bound : pencil -> region -> place -> branch -> int -> bound0 -> bool
+
+val own_sign : bound0 -> claimed_sign * sign_evidence
+
+val check_alone : pencil -> region -> place -> branch -> bool
+
+val inside : region -> place -> bool
+
+val check_reason : pencil -> region -> place -> reason -> bool
+
+val chain_places : value -> chain -> (place * reason) list
+
+val leaf_places : support_leaf -> (place * reason) list
+
+val reaches_end : region -> value -> chain -> bool
+
+val check_support : pencil -> region -> support_leaf -> bool
+
+val holding_of : (place * reason) -> holding option
+
+val holdings : support_leaf -> holding list
+
+type family = region * holding
+
+val same_value : value -> value -> bool
+
+val ends_before : value -> value -> bool
+
+val away : value -> place -> bool
+
+val isolated_value : support_leaf -> holding -> value option
+
+val yield_of : region -> value -> yield
+
+val isolated_in : region -> support_leaf -> yield list
+
+val families_in : region -> support_leaf -> family list
+
+val pairs :
+  region list -> support_leaf option list -> (region * support_leaf option)
+  list
+
+val check_supports : pencil -> region list -> support_leaf option list -> bool
+
+val isolated_of : region list -> support_leaf option list -> yield list
+
+val families_of : region list -> support_leaf option list -> family list
+
+val open_of : region list -> support_leaf option list -> region list
+
+val belongs : int -> yield -> family -> bool
+
+val families :
+  whole leaf tree -> point -> point -> support_leaf option list -> family list
+
+val all_yields :
+  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+  option list -> yield list
+
+val all_solutions :
+  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+  option list -> yield list option
+
+val still_open :
+  whole leaf tree -> point -> point -> support_leaf option list -> region list
+
+val check_families :
+  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
+  option list -> elimination -> bool
+
+val check_system_families :
+  system -> unknown -> claim list -> elimination -> whole leaf tree -> point
+  -> point -> support_leaf option list -> bool

@@ -11,38 +11,90 @@ exception Rejected of string
 
 let show_point (p, q) = if Z.sign q = 0 then "infinity" else Q.to_string (Q.make p q)
 
-let show_decimal (p, q) =
-  if Z.sign q = 0 then "infinity" else Printf.sprintf "%.12g" (Q.to_float (Q.make p q))
+let show_decimal rounded (p, q) =
+  if Z.sign q = 0 then "infinity" else rounded (Q.make p q)
 
 (* The moving variables of a region, as positions among the complementarity variables. *)
 let moving (region : Kernel.region) =
   List.filter_map Fun.id
     (List.mapi (fun i s -> if s = Kernel.Moving then Some i else None) region.states)
 
-(* No two of the regions can hold the same solution. *)
-let apart (r1, (c1 : Kernel.isolation)) (r2, (c2 : Kernel.isolation)) =
-  let less (p, q) (p', q') = Z.lt (Z.mul p q') (Z.mul p' q) in
-  moving r1 <> moving r2 || less c1.to_point c2.from_point || less c2.to_point c1.from_point
+let resting (region : Kernel.region) =
+  List.filter_map Fun.id
+    (List.mapi (fun i s -> if s = Kernel.Resting then Some i else None) region.states)
 
-let rec all_apart = function
-  | [] -> true
-  | x :: rest -> List.for_all (apart x) rest && all_apart rest
+let show_interval lo hi =
+  Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
+    (if Z.sign (snd hi) = 0 then ")" else "]")
 
-let report slip lo hi found =
-  let window = Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
-      (if Z.sign (snd hi) = 0 then ")" else "]") in
-  let count = List.length found in
-  let sentence =
-    if count = 0 then "no solution"
-    else if not (all_apart found) then
-      Printf.sprintf "%d regions, each with exactly one solution, and no other solution" count
-    else if count = 1 then "exactly one solution"
-    else Printf.sprintf "exactly %d solutions" count in
-  Printf.printf "ACCEPTED, VERIFIED: %s in %s\n" sentence window;
-  List.iter (fun (region, (c : Kernel.isolation)) ->
-      Printf.printf "solution: value in [%s, %s], moving %s\n" (show_decimal c.from_point)
-        (show_decimal c.to_point)
-        (String.concat " " (List.map (fun i -> string_of_int slip.(i)) (moving region)))) found
+let show_value (v : Kernel.value) =
+  let lo = Kernel.start_of v and hi = Kernel.end_of v in
+  if Z.equal v.value_from v.value_to then show_point lo
+  else Printf.sprintf "a root in [%s, %s]" (show_decimal lo) (show_decimal hi)
+
+let show_place = function
+  | Kernel.PointAt v -> "value " ^ show_value v
+  | Between (v, v') -> Printf.sprintf "values between %s and %s" (show_value v) (show_value v')
+  | Above v -> "values above " ^ show_value v
+
+(* Two leaves share the value at their common end: it is listed once, as alone if one says so. *)
+let listed_once families =
+  let kept = Hashtbl.create 64 in
+  let key number (region, (h : Kernel.holding)) = match h.held_place with
+    | PointAt v when Kernel.rational v ->
+      moving region, Some (Q.to_string (Q.make v.value_from v.value_den)), 0
+    | _ -> [], None, number in
+  List.iteri (fun number f ->
+      let k = key number f in
+      match Hashtbl.find_opt kept k with
+      | Some (first, (_, (h : Kernel.holding))) ->
+        if not h.held_alone then Hashtbl.replace kept k (first, f)
+      | None -> Hashtbl.add kept k (number, f)) families;
+  List.map snd (List.sort (fun (i, _) (j, _) -> compare i j)
+                  (List.of_seq (Hashtbl.to_seq_values kept)))
+
+let shown_regions = 20
+
+(* Prints what the theorems [system_families_number] and [system_families_hold] say of the
+   solutions found, the families and the regions left open; the exit code. *)
+let report slip lo hi found families left_open =
+  let names positions = String.concat " " (List.map (fun i -> string_of_int slip.(i)) positions) in
+  let window = show_interval lo hi and count = List.length found in
+  let families_found = match List.length families with
+    | 0 -> ""
+    | 1 -> " and one family"
+    | n -> Printf.sprintf " and %d families" n in
+  if left_open = [] && families <> [] then
+    Printf.printf "ACCEPTED, VERIFIED: %d solution(s)%s, and no others, in %s\n" count
+      families_found window
+  else if left_open = [] then
+    Printf.printf "ACCEPTED, VERIFIED: %s in %s\n"
+      (match count with
+       | 0 -> "no solution"
+       | 1 -> "exactly one solution"
+       | _ -> Printf.sprintf "exactly %d solutions" count) window
+  else
+    Printf.printf "UNDECIDED, VERIFIED: %s in %s lies in one of %d open region(s)\n"
+      (match count, families with
+       | 0, [] -> "every solution"
+       | 1, [] -> "one solution; every other one"
+       | _ -> Printf.sprintf "%d solutions%s; every other one" count families_found)
+      window (List.length left_open);
+  List.iter (fun (y : Kernel.yield) ->
+      Printf.printf "solution: value in [%s, %s], moving %s\n"
+        (show_decimal Decimal.lower y.yield_from) (show_decimal Decimal.upper y.yield_to)
+        (names (moving y.yield_region))) found;
+  List.iter (fun (region, (h : Kernel.holding)) ->
+      Printf.printf "family: %s, moving %s, %s\n" (show_place h.held_place)
+        (names (moving region))
+        (if h.held_alone then "one solution at each value" else "solutions at each value"))
+    families;
+  List.iteri (fun k (r : Kernel.region) ->
+      if k < shown_regions then
+        Printf.printf "open: values in %s, moving {%s}, at rest {%s}\n"
+          (show_interval r.lower r.upper) (names (moving r)) (names (resting r))
+      else if k = shown_regions then Printf.printf "open: more regions\n") left_open;
+  if left_open = [] then 0 else 3
 
 let time = Sys.getenv_opt "MCEIP_VERIFIED_TIMES" <> None
 
@@ -58,46 +110,166 @@ let rec only_whole = function
   | _ -> false
 
 (* Larger claims are answered with "not verified", so that every file ends in short time. *)
-let work_of (pencil : Kernel.pencil) (e : Certificate.exact) =
+let size_of (e : Certificate.exact) polynomials =
   let bits q = Z.numbits (Q.num q) + Z.numbits (Q.den q) in
-  let longest = List.fold_left (fun m p -> max m (List.length p)) 0 e.x in
+  let longest = List.fold_left (fun m p -> max m (List.length p)) 0 polynomials in
   let degree = List.length e.polynomial in
   let top = List.fold_left (List.fold_left (fun m v -> max m (bits v)))
-      (bits (fst e.value) + bits (snd e.value)) (List.map Q.of_bigint e.polynomial :: e.x) in
+      (bits (fst e.value) + bits (snd e.value))
+      (List.map Q.of_bigint e.polynomial :: polynomials) in
   let size = (degree + longest) * top in
   if degree > 512 || longest > 512 || size > 1 lsl 17 || (longest - degree) * top > 1 lsl 13 then
     Problem.not_verified "a claim beyond the limits of this program";
-  pencil.order * size * size
+  size
 
-let limit_work pencil claims =
+(* The kernel needs about order^4 steps for an enclosed solution. *)
+let largest_enclosed = 64
+
+let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
+  | Certificate.Exact e ->
+    let size = size_of e e.x in
+    pencil.order * size * size
+  | Lifted l ->
+    let polynomials = l.motion.x @ l.forces in
+    let size = size_of l.motion polynomials in
+    List.length polynomials * size * size
+  | Enclosed _ ->
+    if pencil.order > largest_enclosed then
+      Problem.not_verified "an enclosed solution of more than %d variables" largest_enclosed;
+    pencil.order * pencil.order * pencil.order * pencil.order * (1 lsl 12)
+
+let limit_work (problem : Problem.t) pencil claims =
   let entries = List.fold_left (fun n row -> n + List.length row) 0 in
   let n = pencil.Kernel.order in
-  if claims <> [] && n * n + entries pencil.rows_a + entries pencil.rows_b > 1 lsl 22 then
+  let size = match problem.question with
+    | Mechanical (system, _) when
+        List.exists (function Certificate.Lifted _ -> true | _ -> false) claims ->
+      system.dofs * system.dofs + entries system.stiffness + entries system.mass
+    | _ -> n * n + entries pencil.rows_a + entries pencil.rows_b in
+  if claims <> [] && size > 1 lsl 22 then
     Problem.not_verified "claims about more than 2,048 variables";
-  let total = List.fold_left (fun sum e -> sum + work_of pencil e) 0 claims in
+  let total = List.fold_left (fun sum claim -> sum + work_of problem pencil claim) 0 claims in
   if total > 1 lsl 36 then Problem.not_verified "claims beyond the limits of this program"
 
-(* Each claim: its support has a solution with a value in its interval, which is in the window. *)
-let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t)
-    (e : Certificate.exact) =
-  let a, b = e.value and lo, hi = certificate.window in
-  if Q.lt a lo || (match hi with Some h -> Q.gt b h | None -> false) then
-    raise (Rejected "a claim outside the window");
-  if List.length e.x <> pencil.Kernel.order then raise (Rejected "a claim with too few components");
-  let rec ascending = function a :: (b :: _ as rest) -> a < b && ascending rest | _ -> true in
-  if not (ascending e.support && ascending e.biactive) then
-    raise (Rejected "a claim whose lists are not ascending");
-  let claim = Elaborate.claim_of pencil e in
-  let accepted = match problem.question with
-    | Raw pencil -> Kernel.check_claim pencil claim
-    | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim in
-  if not accepted then raise (Rejected "the kernel refuses a claim");
-  fun () ->
-    Printf.printf "claim: a solution with a value in [%s, %s], support %s\n" (Q.to_string a)
-      (Q.to_string b) (String.concat " " (List.map string_of_int e.support))
+let rec ascending = function a :: (b :: _ as rest) -> a < b && ascending rest | _ -> true
 
-let verify problem_path certificate_path =
-  let problem = timed "problem" (fun () -> Problem.read problem_path) in
+let in_window (certificate : Certificate.t) (a, b) =
+  let lo, hi = certificate.window in
+  if Q.lt a lo || (match hi with Some h -> Q.gt b h | None -> false) then
+    raise (Rejected "a claim outside the window")
+
+let refuse_unless accepted = if not accepted then raise (Rejected "the kernel refuses a claim")
+
+let show_claim (a, b) support () =
+  Printf.printf "claim: a solution with a value in [%s, %s], support %s\n" (Q.to_string a)
+    (Q.to_string b) (String.concat " " (List.map string_of_int support))
+
+(* The kernel's claim has the support and the interval of the certificate. *)
+let states (claim : Kernel.claim) (e : Certificate.exact) =
+  let over p = Q.make p claim.claim_denominator in
+  Z.sign claim.claim_denominator > 0
+  && Q.equal (over claim.claim_from) (fst e.value) && Q.equal (over claim.claim_to) (snd e.value)
+  && claim.support = e.support && claim.biactive = e.biactive
+
+let verify_exact (problem : Problem.t) pencil (e : Certificate.exact) =
+  if List.length e.x <> pencil.Kernel.order then raise (Rejected "a claim with too few components");
+  let claim = Elaborate.claim_of pencil e in
+  refuse_unless (states claim e);
+  refuse_unless (match problem.question with
+      | Raw pencil -> Kernel.check_claim pencil claim
+      | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim);
+  lazy claim
+
+let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
+  match problem.question with
+  | Raw _ -> raise (Rejected "a lifted solution of a pencil")
+  | Mechanical (system, unknown) ->
+    if List.length l.motion.x <> system.dofs || List.length l.forces <> system.dofs then
+      raise (Rejected "a motion with too few or too many components");
+    if List.exists (fun i -> List.mem i l.motion.support) l.motion.biactive then
+      raise (Rejected "a biactive variable of the support");
+    let factor = Z.divexact problem.common system.unit_length in
+    let claim = Elaborate.lifted_of system unknown factor l in
+    refuse_unless (states claim.motion_claim l.motion);
+    refuse_unless (Kernel.check_lifted system unknown claim);
+    lazy (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l))
+
+(* The interval that is proved lies in that of the claim. *)
+let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
+    (e : Certificate.enclosed) =
+  let active = List.length pencil.Kernel.free + List.length e.box_support in
+  if e.box_support = [] || not (ascending e.box_support)
+  || List.exists (fun i -> i >= pencil.order || List.mem i pencil.free) e.box_support
+  || List.length e.center <> active + 1 || List.length e.radius <> active + 1
+  || List.exists (fun r -> Q.sign r <= 0) e.radius then
+    raise (Rejected "a box that does not fit the pencil");
+  let center = List.nth e.center active and radius = List.nth e.radius active in
+  let value = Q.sub center radius, Q.add center radius in
+  in_window certificate value;
+  match Elaborate.enclosed_claim_of pencil e with
+  | None -> raise (Elaborate.No_witness "an enclosed solution")
+  | Some claim ->
+    let low = Elaborate.value_of claim.null_box.from_point in
+    let high = Elaborate.value_of claim.null_box.to_point in
+    refuse_unless (claim.box_support = e.box_support && Q.geq low (fst value)
+                   && Q.leq high (snd value));
+    let accepted = match problem.question with
+      | Raw pencil -> Kernel.check_enclosed_claim pencil claim
+      | Mechanical (system, unknown) -> Kernel.check_system_enclosed system unknown claim in
+    if not accepted then raise (Elaborate.No_witness "an enclosed solution");
+    low, high
+
+(* Each claim: its support has a solution with a value in its interval, which is in the window.
+   With it comes the same claim about the pencil as a root leaf may refer to it, if it is exact. *)
+let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) claim =
+  let check_root (e : Certificate.exact) =
+    in_window certificate e.value;
+    if not (ascending e.support && ascending e.biactive) then
+      raise (Rejected "a claim whose lists are not ascending") in
+  match claim with
+  | Certificate.Exact e ->
+    check_root e;
+    Some (verify_exact problem pencil e), show_claim e.value e.support
+  | Lifted l ->
+    check_root l.motion;
+    Some (verify_lifted problem pencil l), show_claim l.motion.value l.motion.support
+  | Enclosed e ->
+    let value = verify_enclosed problem pencil certificate e in
+    None, show_claim value e.box_support
+
+(* The claims in their places, for root leaves that refer to them. *)
+let exact_claims =
+  List.map (function
+      | Some claim, _ -> Lazy.force claim
+      | None, _ -> Problem.not_verified "a cover that refers to enclosed solutions")
+
+let verify_plain document certificate_path =
+  let problem = Plain.read document in
+  let digest, points = Plain.read_points certificate_path in
+  if digest <> problem.digest then
+    raise (Rejected ("the digest of the problem is " ^ problem.digest));
+  if points = [] then raise (Rejected "no point");
+  let n = List.length problem.rows in
+  if List.exists (fun z -> List.length z <> n) points then
+    raise (Rejected "a point of the wrong length");
+  Plain.limit_work problem points;
+  let accepted = Kernel.check_mcp problem.rows (List.map (Plain.point_of n) points) in
+  if not accepted then raise (Rejected "the kernel refuses a point");
+  Printf.printf "ACCEPTED, VERIFIED: %d point(s) solve the problem, nothing said about others\n"
+    (List.length points);
+  0
+
+(* Print the accepted question and its witness as a Coq file instead of the verdict. *)
+let as_coq = ref false
+
+let print_coq (problem : Problem.t) elimination tree lo hi found =
+  match problem.question with
+  | Raw _ -> Problem.not_verified "Coq files are made for mechanical systems"
+  | Mechanical (system, unknown) ->
+    Coq.print system unknown elimination tree lo hi (List.length found)
+
+let verify_eigenproblem document problem_path certificate_path =
+  let problem = timed "problem" (fun () -> Problem.read problem_path document) in
   let certificate = timed "certificate" (fun () -> Certificate.read certificate_path) in
   if certificate.digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
@@ -113,14 +285,10 @@ let verify problem_path certificate_path =
   if Array.length slip > 300 then Problem.not_verified "more than 300 complementarity variables";
   let lo = Elaborate.point_of (fst certificate.window) in
   let hi = Elaborate.upper_point (snd certificate.window) in
-  let common = match problem.question with
-    | Mechanical (_, Lambda2 (_, q)) -> Z.mul q problem.common
-    | _ -> problem.common in
-
   let claims = timed "claims" (fun () ->
-      limit_work pencil certificate.claims;
+      limit_work problem pencil certificate.claims;
       List.map (verify_claim problem pencil certificate) certificate.claims) in
-  let report_claims () = List.iter (fun print -> print ()) claims in
+  let report_claims () = List.iter (fun (_, print) -> print ()) claims in
 
   let whole_only =
     pencil.free <> []
@@ -128,7 +296,8 @@ let verify problem_path certificate_path =
   if certificate.pieces = [] then begin
     Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
       (List.length claims);
-    report_claims ()
+    report_claims ();
+    0
   end
   else if whole_only then begin
     (* Definite leaves of the whole pencil; free rows may depend on t. *)
@@ -141,8 +310,9 @@ let verify problem_path certificate_path =
         | Raw pencil -> Kernel.check_excluded pencil tree lo hi
         | Mechanical (system, unknown) -> Kernel.check_system_excluded system unknown tree lo hi) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
-    report slip lo hi [];
-    report_claims ()
+    let code = report slip lo hi [] [] [] in
+    report_claims ();
+    code
   end
   else begin
     if not (Kernel.free_rows_constant pencil) then
@@ -153,30 +323,85 @@ let verify problem_path certificate_path =
       | _ when pencil.free = [] -> 0
       | _ -> Problem.not_verified "several anchors" in
     let elimination, enclosed = timed "condensation" (fun () ->
-        let e = Elaborate.elimination pencil slip_list common certificate.condensation anchor in
+        let e = Elaborate.elimination pencil slip_list problem.common problem.slip_common
+            certificate.condensation anchor in
         e, Kernel.condensed (Kernel.blocks_of pencil) e) in
-    let context = { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed } in
+    (* The kernel is given the claims that the tree refers to, in their places. *)
+    let needed = List.exists (fun (p : Certificate.piece) -> List.exists (function
+        | Certificate.Root { outcome = Claim _; _ } -> true
+        | _ -> false) p.tree) certificate.pieces in
+    let claims = if needed then exact_claims claims else [] in
+    let known = Array.of_list (Kernel.known_solutions pencil claims) in
+    let context =
+      { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed; known } in
+    (* Support leaves stand beside the tree, one for each region that the tree leaves undecided, or
+       none where it stays open. *)
+    let supports = ref [] in
+    let undecided s = supports := s :: !supports; Kernel.Leaf Kernel.Undecided in
+    let factor i = if List.mem i pencil.free then problem.common else problem.slip_common in
+    let leaf _ region = function
+      | Certificate.Open -> undecided None
+      | Support s ->
+        (match Supports.support_leaf pencil factor region s with
+         | Some l -> undecided (Some l)
+         | None -> Elaborate.build_leaf context region (Farkas []))
+      | node -> Elaborate.build_leaf context region node in
     let tree = timed "elaboration" (fun () ->
-        Elaborate.build_pieces slip (fun _ -> Elaborate.build_leaf context)
-          certificate.window certificate.pieces) in
+        Elaborate.build_pieces slip leaf certificate.window certificate.pieces) in
+    let supports = List.rev !supports in
     let accepted = timed "kernel" (fun () -> match problem.question with
-        | Raw pencil -> Kernel.check_complete pencil elimination tree lo hi
+        | Raw pencil -> Kernel.check_families pencil claims tree lo hi supports elimination
         | Mechanical (system, unknown) ->
-          Kernel.check_system system unknown elimination tree lo hi) in
+          Kernel.check_system_families system unknown claims elimination tree lo hi supports) in
     if not accepted then raise (Rejected "the kernel refuses the tree");
-    report slip lo hi (Kernel.found tree lo hi);
-    report_claims ()
+    if List.length (Kernel.found pencil claims tree lo hi) > 10_000 then
+      Problem.not_verified "more than 10,000 regions with a solution";
+    let families = Kernel.families tree lo hi supports in
+    if List.length families > 10_000 then
+      Problem.not_verified "more than 10,000 families";
+    match Kernel.all_solutions pencil claims tree lo hi supports with
+    | None ->
+      Problem.not_verified "regions that may hold the same solution, or a value beside the window"
+    | Some found when !as_coq -> print_coq problem elimination tree lo hi found; 0
+    | Some found ->
+      let families = listed_once families in
+      let code =
+        report slip lo hi (List.rev found) families (Kernel.still_open tree lo hi supports) in
+      report_claims ();
+      code
   end
 
+let verify problem_path certificate_path =
+  let document = Json.read problem_path in
+  if Plain.is_plain document then verify_plain document certificate_path
+  else verify_eigenproblem document problem_path certificate_path
+
+(* The exit code for a problem and a certificate, after the verdict has been printed. *)
+let answer problem certificate =
+  let say code text = print_endline text; code in
+  try verify problem certificate with
+  | Rejected reason -> say 1 ("REJECTED: " ^ reason)
+  | Json.Malformed reason -> say 2 ("MALFORMED: " ^ reason)
+  | Sys_error reason -> say 2 reason
+  | Stack_overflow | Out_of_memory -> say 3 "NOT VERIFIED: the memory of this program"
+  | Problem.Not_verified kind -> say 3 ("NOT VERIFIED: " ^ kind)
+  | Elaborate.No_witness what -> say 3 ("NOT VERIFIED: no witness for " ^ what)
+
+(* For tests with many files: each line of stdin has the paths of a problem and a certificate,
+   without blanks; after what is printed for them comes a line "exit CODE". *)
+let answer_lines () =
+  try
+    while true do
+      match String.split_on_char ' ' (input_line stdin) with
+      | [problem; certificate] -> Printf.printf "exit %d\n%!" (answer problem certificate)
+      | _ -> prerr_endline "a line has two paths"; exit 2
+    done
+  with End_of_file -> ()
+
 let () =
-  let finish code text = print_endline text; exit code in
   match Sys.argv with
-  | [| _; problem; certificate |] ->
-    (try verify problem certificate with
-     | Rejected reason -> finish 1 ("REJECTED: " ^ reason)
-     | Json.Malformed reason -> finish 2 ("MALFORMED: " ^ reason)
-     | Sys_error reason -> finish 2 reason
-     | Problem.Not_verified kind -> finish 3 ("NOT VERIFIED: " ^ kind)
-     | Elaborate.No_witness what -> finish 3 ("NOT VERIFIED: no witness for " ^ what))
+  | [| _; "--lines" |] -> answer_lines ()
+  | [| _; "--coq"; problem; certificate |] -> as_coq := true; exit (answer problem certificate)
+  | [| _; problem; certificate |] -> exit (answer problem certificate)
   | _ ->
     prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE"; exit 2

@@ -20,7 +20,8 @@ type t = {
   unknown : string;
   digest : string;
   question : question;
-  common : Z.t }  (* the factor of the entries *)
+  common : Z.t;  (* the factor of the entries; for a system, of those of the free rows *)
+  slip_common : Z.t }  (* the factor of the entries of the complementarity rows *)
 
 let matrix_of_table rows cols table =
   { rows; cols;
@@ -57,26 +58,44 @@ let read_sparse field symmetric =
       | _ -> malformed "an entry is [i, j, v]") (list (field "entries"));
   matrix_of_table rows cols table
 
-let read_matrix = function
+let read_market folder name =
+  let file = Market.read folder name in
+  let table = Array.init file.rows (fun _ -> Hashtbl.create 16) in
+  let put i j v =
+    if Hashtbl.mem table.(i) j then malformed "a matrix entry is given twice";
+    Hashtbl.replace table.(i) j v in
+  List.iter (fun (i, j, v) ->
+      put i j v;
+      if file.symmetric && i <> j then put j i v) file.entries;
+  matrix_of_table file.rows file.cols table
+
+(* Each entry rounded to the nearest double. *)
+let as_doubles m =
+  let round row =
+    List.filter (fun (_, v) -> Q.sign v <> 0)
+      (List.map (fun (j, v) -> (j, Market.nearest_double v)) row) in
+  { m with entries = Array.map round m.entries }
+
+let read_matrix folder = function
   | List _ as item -> read_dense item
   | Object members as item ->
     let field = fields []
         ["dense"; "rows"; "cols"; "entries"; "matrix_market"; "symmetric"; "read_as"] item in
-    (match field "read_as" with
-     | Null | String "exact" -> ()
-     | String "f64" -> not_verified "read_as f64"
-     | _ -> malformed "read_as");
+    let reading = match field "read_as" with
+      | Null | String "exact" -> Fun.id
+      | String "f64" -> as_doubles
+      | _ -> malformed "read_as" in
     let symmetric = match List.assoc_opt "symmetric" members with
       | None -> false
       | Some (Bool b) -> b
       | Some _ -> malformed "symmetric" in
     let given = List.filter (fun key -> field key <> Null)
         ["dense"; "rows"; "cols"; "entries"; "matrix_market"] in
-    (match given with
-     | ["dense"] when not symmetric -> read_dense (field "dense")
-     | ["rows"; "cols"; "entries"] -> read_sparse field symmetric
-     | ["matrix_market"] when not symmetric -> not_verified "matrix_market"
-     | _ -> malformed "one way to give a matrix was expected")
+    reading (match given with
+        | ["dense"] when not symmetric -> read_dense (field "dense")
+        | ["rows"; "cols"; "entries"] -> read_sparse field symmetric
+        | ["matrix_market"] when not symmetric -> read_market folder (text (field "matrix_market"))
+        | _ -> malformed "one way to give a matrix was expected")
   | _ -> malformed "a matrix was expected"
 
 let read_window item =
@@ -105,9 +124,9 @@ let integer_rows common m =
   List.map (List.map (fun (j, v) -> (j, Q.num (Q.mul v (Q.of_bigint common)))))
     (Array.to_list m.entries)
 
-let read_pencil item =
+let read_pencil folder item =
   let field = fields ["a"; "b"] ["free"] item in
-  let a = read_matrix (field "a") and b = read_matrix (field "b") in
+  let a = read_matrix folder (field "a") and b = read_matrix folder (field "b") in
   let n = a.rows in
   if n = 0 || a.cols <> n || b.rows <> n || b.cols <> n then
     malformed "a and b must be square, of one order";
@@ -121,7 +140,7 @@ let read_pencil item =
              @ canonical_matrix "a" a @ canonical_matrix "b" b in
   let pencil = { Kernel.order = n; rows_a = integer_rows common a;
                  rows_b = integer_rows common b; free = sorted } in
-  text, Raw pencil, common
+  text, Raw pencil, common, common
 
 let symmetric m =
   m.rows = m.cols &&
@@ -134,7 +153,26 @@ let symmetric m =
            | _ -> same := false) row) m.entries;
    !same)
 
-type particle = { t : int; n : int; state : string; sign : int; into : int }
+(* The tangent and the normal into the obstacle over the degrees of freedom t and n. *)
+type particle = {
+  t : int;
+  n : int;
+  state : string;
+  sign : int;
+  tangent : Q.t * Q.t;
+  normal : Q.t * Q.t;
+  framed : bool }
+
+let plain_frame = (Q.one, Q.zero), (Q.zero, Q.one)
+
+let read_frame item =
+  match List.map (fun row -> List.map rational (list row)) (list item) with
+  | [[a; b]; [c; d]] ->
+    let unit = Q.add (Q.mul a a) (Q.mul b b) in
+    if not (Q.equal a d && Q.equal b (Q.neg c) && Q.equal unit Q.one) then
+      malformed "a frame that is no rotation";
+    (a, b), (c, d)
+  | _ -> malformed "a frame has two rows of two numbers"
 
 (* Reactions, where given, must agree with (7), the state and the sign. *)
 let check_reaction mu state sign item =
@@ -165,14 +203,25 @@ let read_particle order mu item =
   if (sign <> None) <> (state = "slip") then malformed "sign: exactly for slip";
   let sign = Option.value sign ~default:0 in
   let into = Option.value (unit_of "normal_direction" (field "normal_direction")) ~default:1 in
-  if field "frame" <> Null then not_verified "frame";
+  let framed = field "frame" <> Null in
+  let tangent, (first, second) = if framed then read_frame (field "frame") else plain_frame in
   (match field "reaction" with Null -> () | v -> check_reaction mu state sign v);
-  { t; n; state; sign; into }
+  let normal = Q.mul (Q.of_int into) first, Q.mul (Q.of_int into) second in
+  { t; n; state; sign; tangent; normal; framed }
 
-let read_system unknown item =
+let describe_particle p =
+  let components (a, b) =
+    List.map (fun (d, c) -> Printf.sprintf " %d %s" d (Q.to_string c))
+      (List.filter (fun (_, c) -> p.framed || Q.sign c <> 0) [p.t, a; p.n, b]) in
+  [ Printf.sprintf "particle %d %d %s%s" p.t p.n p.state
+      (if p.state = "slip" then " " ^ string_of_int p.sign else "");
+    String.concat "" ("tangent" :: components p.tangent);
+    String.concat "" ("normal" :: components p.normal) ]
+
+let read_system folder unknown item =
   let field = fields ["stiffness"; "particles"] ["mass"; "friction"] item in
-  let k = read_matrix (field "stiffness") in
-  let m = match field "mass" with Null -> None | v -> Some (read_matrix v) in
+  let k = read_matrix folder (field "stiffness") in
+  let m = match field "mass" with Null -> None | v -> Some (read_matrix folder v) in
   let mu = match field "friction" with Null -> None | v -> Some (rational v) in
   (match mu with Some q when Q.sign q <= 0 -> malformed "friction must be positive" | _ -> ());
   let matrices = k :: Option.to_list m in
@@ -196,36 +245,37 @@ let read_system unknown item =
       end) particles;
   let free = List.filter (fun d -> not (Hashtbl.mem held d)) (List.init k.rows Fun.id) in
 
-  let describe p =
-    [ Printf.sprintf "particle %d %d %s%s" p.t p.n p.state
-        (if p.state = "slip" then " " ^ string_of_int p.sign else "");
-      Printf.sprintf "tangent %d 1" p.t; Printf.sprintf "normal %d %d" p.n p.into ] in
   let text =
     ["system"] @ (match mu with Some q -> ["friction " ^ Q.to_string q] | None -> [])
-    @ List.concat_map describe particles @ canonical_matrix "stiffness" k
+    @ List.concat_map describe_particle particles @ canonical_matrix "stiffness" k
     @ (match m with Some m -> canonical_matrix "mass" m | None -> []) in
 
   let common = common_denominator matrices in
+  let unit_length = List.fold_left (fun l p ->
+      List.fold_left (fun l c -> Z.lcm l (Q.den c)) l [fst p.tangent; snd p.tangent]) Z.one slips in
+  let planar (a, b) =
+    let integer c = Q.num (Q.mul c (Q.of_bigint unit_length)) in
+    integer a, integer b in
   let system = {
     Kernel.dofs = k.rows;
     stiffness = integer_rows common k;
     mass = (match m with Some m -> integer_rows common m | None -> []);
     free_dofs = free;
     particles = List.map (fun p ->
-        { Kernel.tangential = p.t; normal = p.n; sign_of = Z.of_int p.sign;
-          direction = Z.of_int p.into }) slips } in
-  let kind = match unknown, mu with
-    | "lambda2", Some q -> Kernel.Lambda2 (Q.num q, Q.den q)
-    | _ -> Kernel.Mu in
-  text, Mechanical (system, kind), common
+        { Kernel.first_dof = p.t; second_dof = p.n; tangent = planar p.tangent;
+          normal = planar p.normal; sign_of = Z.of_int p.sign }) slips;
+    unit_length } in
+  let kind, friction = match unknown, mu with
+    | "lambda2", Some q -> Kernel.Lambda2 (Q.num q, Q.den q), Q.den q
+    | _ -> Kernel.Mu, Z.one in
+  let free_common = Z.mul common unit_length in
+  text, Mechanical (system, kind), free_common, Z.mul free_common (Z.mul unit_length friction)
 
-let read path =
-  let document = Json.read path in
+let read path document =
   (match document with
    | Object members ->
      (match List.assoc_opt "format" members with
       | Some (String "mceip-problem/1") -> ()
-      | Some (String "mceip-mcp/1") -> not_verified "mceip-mcp/1"
       | _ -> malformed "format: mceip-problem/1 was expected")
    | _ -> malformed "an object was expected");
   let field = fields ["format"; "unknown"]
@@ -235,10 +285,11 @@ let read path =
   let unknown = text (field "unknown") in
   if unknown <> "lambda2" && unknown <> "mu" then malformed "unknown is lambda2 or mu";
   ignore (read_window (field "window"));
-  let lines, question, common = match field "pencil", field "system" with
-    | pencil, Null when pencil <> Null -> read_pencil pencil
-    | Null, system when system <> Null -> read_system unknown system
+  let folder = Filename.dirname path in
+  let lines, question, common, slip_common = match field "pencil", field "system" with
+    | pencil, Null when pencil <> Null -> read_pencil folder pencil
+    | Null, system when system <> Null -> read_system folder unknown system
     | _ -> malformed "exactly one of pencil and system" in
   let lines = ["mceip-canonical/1"; "unknown " ^ unknown] @ lines in
   let digest = Sha256.hex (String.concat "" (List.map (fun line -> line ^ "\n") lines)) in
-  { unknown; digest; question; common }
+  { unknown; digest; question; common; slip_common }

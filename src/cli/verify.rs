@@ -1,14 +1,17 @@
 //! `mceip verify`: the main job, a table and a verdict.
 //!
 //! The work is `mceip_testkit::verify`: problems of many families and the two states of the block
-//! are solved, certified, checked and compared with the oracle. Here the outcome is printed.
+//! are solved, certified, checked and compared with the oracle. With `--verified` each certificate
+//! is also given to the verified checker of `proofs/`. Here the outcome is printed.
 
 use super::common::{CliError, exit, print};
 use super::job::Job;
 use mceip_engine::report::Table;
 use mceip_testkit::floors::{Covered, Shortfall, floor};
+use mceip_testkit::verified::{VerifiedChecker, VerifiedCounts};
 use mceip_testkit::{BlockReport, FamilyReport, Verification, verify};
 use serde_json::{Value, json};
+use std::path::PathBuf;
 
 /// Arguments of `verify`.
 #[derive(clap::Args)]
@@ -19,6 +22,11 @@ pub(super) struct Args {
     /// Seed of the random families and starts.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Give each accepted certificate to the verified checker, too (`make -C proofs program` builds
+    /// it). Without PATH: the program that the environment variable MCEIP_VERIFIED names, or
+    /// proofs/mceip-verified in this folder or above it.
+    #[arg(long, value_name = "PATH")]
+    verified: Option<Option<PathBuf>>,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -26,14 +34,20 @@ pub(super) struct Args {
 
 /// Verifies and prints the outcome.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let checker = match &args.verified {
+        Some(path) => Some(VerifiedChecker::find(path.as_deref())?),
+        None => None,
+    };
+
     let job = Job::begin("verify");
-    let outcome = job.watched(|watch| verify(args.random, args.seed, watch))?;
+    let outcome = job.watched(|watch| verify(args.random, args.seed, checker.as_ref(), watch))?;
     job.end();
 
+    let counts = checker.is_some().then(|| outcome.verified());
     let text = if args.json {
-        format!("{}\n", json_of(&outcome))
+        format!("{}\n", json_of(&outcome, counts.as_ref()))
     } else {
-        text_of(&outcome)
+        text_of(&outcome, counts.as_ref())
     };
     print(&text)?;
 
@@ -49,7 +63,8 @@ fn exit_code(v: &Verification) -> u8 {
     }
 }
 
-fn text_of(v: &Verification) -> String {
+/// `counts`: verdicts of the verified checker, if it was asked.
+fn text_of(v: &Verification, counts: Option<&VerifiedCounts>) -> String {
     let header = [
         "family",
         "instances",
@@ -80,7 +95,44 @@ fn text_of(v: &Verification) -> String {
         out += &block_text(state);
     }
 
+    if let Some(counts) = counts {
+        out += &format!("\n{}", verified_text(counts));
+    }
     out + &format!("\n{}\n", verdict(v))
+}
+
+/// Verdicts of the verified checker: by kind of evidence, then what it has no theorem for.
+fn verified_text(counts: &VerifiedCounts) -> String {
+    let mut table = Table::new(&[
+        "verified checker",
+        "certificates",
+        "accepted",
+        "not verified",
+        "refused",
+    ]);
+    for (kind, of_kind) in &counts.kinds {
+        table.row(vec![
+            kind.to_string(),
+            of_kind.total().to_string(),
+            of_kind.accepted.to_string(),
+            of_kind.not_verified.to_string(),
+            of_kind.refused.to_string(),
+        ]);
+    }
+
+    let mut out = table.to_string();
+    for (what, count) in &counts.not_verified {
+        out += &format!("not verified: {what}: {count}\n");
+    }
+
+    let accepted = counts.accepted;
+    let not_verified = counts.total_not_verified();
+    let refused = counts.refused;
+    let total = accepted + not_verified + refused;
+    out + &format!(
+        "verified checker: {accepted} of {total} certificates accepted, {not_verified} not \
+         verified, {refused} refused\n"
+    )
 }
 
 fn row(family: &FamilyReport) -> Vec<String> {
@@ -121,6 +173,10 @@ fn block_text(state: &BlockReport) -> String {
     let rejected = state.rejected_forgeries;
     let forgeries = state.forgeries;
     let mut out = format!("{name}: {rejected} of {forgeries} forgeries rejected\n");
+
+    for reason in &state.refused {
+        out += &format!("  DISAGREEMENT: the verified checker refuses a certificate: {reason}\n");
+    }
 
     let unfound = state.unfound;
     if unfound > 0 {
@@ -177,7 +233,7 @@ fn verdict(v: &Verification) -> String {
     }
 }
 
-fn json_of(v: &Verification) -> Value {
+fn json_of(v: &Verification, counts: Option<&VerifiedCounts>) -> Value {
     let families: Vec<Value> = v.families.iter().map(family_json).collect();
     let block: Vec<Value> = v.block.iter().map(block_json).collect();
     let coverage: Vec<Value> = v.covered().iter().map(covered_json).collect();
@@ -189,9 +245,29 @@ fn json_of(v: &Verification) -> Value {
         "seed": v.seed,
         "families": families,
         "block": block,
+        "verified": counts.map(verified_json),
         "disagreements": v.disagreements(),
         "interrupted": v.interrupted,
         "verdict": verdict(v),
+    })
+}
+
+fn verified_json(counts: &VerifiedCounts) -> Value {
+    let mut kinds = serde_json::Map::new();
+    for (kind, of_kind) in &counts.kinds {
+        let value = json!({
+            "accepted": of_kind.accepted,
+            "not_verified": of_kind.not_verified,
+            "refused": of_kind.refused,
+        });
+        kinds.insert((*kind).to_string(), value);
+    }
+
+    json!({
+        "accepted": counts.accepted,
+        "refused": counts.refused,
+        "not_verified": counts.not_verified,
+        "kinds": kinds,
     })
 }
 
@@ -228,6 +304,7 @@ fn block_json(state: &BlockReport) -> Value {
         "forgeries": state.forgeries,
         "rejected_forgeries": state.rejected_forgeries,
         "unfound": state.unfound,
+        "refused_by_verified_checker": state.refused,
     })
 }
 
@@ -249,6 +326,7 @@ pub(super) fn covered_json(covered: &Covered) -> Value {
 mod tests {
     use super::*;
     use mceip_testkit::floors::{Coverage, Starts};
+    use mceip_testkit::verified::KindCounts;
 
     /// A run over 100 instances with solutions, found from the first start and all of them in so
     /// many.
@@ -276,17 +354,17 @@ mod tests {
     fn a_rate_below_its_floor_is_exit_1_and_named() {
         let good = run_with_coverage(100, 100);
         assert_eq!(exit_code(&good), exit::DONE);
-        assert!(text_of(&good).contains("VERIFIED"));
+        assert!(text_of(&good, None).contains("VERIFIED"));
 
         let misses_half = run_with_coverage(100, 50);
         assert_eq!(exit_code(&misses_half), exit::REJECTED);
-        let text = text_of(&misses_half);
+        let text = text_of(&misses_half, None);
         let shortfall =
             "DISAGREEMENT: coverage: random pencils, search: all solutions found in 50 of 100";
         assert!(text.contains(shortfall), "{text}");
         assert!(text.contains("DISAGREEMENT: 1 (seed 1)"), "{text}");
         assert!(!text.contains("VERIFIED"), "{text}");
-        let json = json_of(&misses_half);
+        let json = json_of(&misses_half, None);
         assert_eq!(json["shortfalls"].as_array().map(Vec::len), Some(1));
 
         let never_at_once = run_with_coverage(0, 100);
@@ -297,5 +375,47 @@ mod tests {
             ..run_with_coverage(100, 100)
         };
         assert_eq!(exit_code(&interrupted), exit::INTERRUPTED);
+    }
+
+    /// A certificate that is accepted, one that is not verified, one that is refused.
+    fn three_verdicts() -> VerifiedCounts {
+        let counts = KindCounts {
+            accepted: 1,
+            refused: 1,
+            not_verified: 1,
+        };
+        VerifiedCounts {
+            accepted: 1,
+            refused: 1,
+            not_verified: [("support".to_string(), 1)].into(),
+            kinds: [("support", counts)].into(),
+        }
+    }
+
+    #[test]
+    fn verdicts_of_the_verified_checker_are_printed_by_kind() {
+        let run = run_with_coverage(100, 100);
+        let without = text_of(&run, None);
+        assert!(!without.contains("verified checker"), "{without}");
+        assert!(json_of(&run, None)["verified"].is_null());
+
+        let counts = three_verdicts();
+        let text = text_of(&run, Some(&counts));
+        let last = "1 of 3 certificates accepted, 1 not verified, 1 refused";
+        assert!(text.contains(last), "{text}");
+        assert!(text.contains("not verified: support: 1"), "{text}");
+
+        let json = json_of(&run, Some(&counts));
+        assert_eq!(json["verified"]["refused"], 1);
+        assert_eq!(json["verified"]["kinds"]["support"]["not_verified"], 1);
+    }
+
+    #[test]
+    fn a_refusal_is_a_disagreement_and_exit_1() {
+        let mut run = run_with_coverage(100, 100);
+        run.families[0]
+            .disagreements
+            .push("random pencils 3: the verified checker".into());
+        assert_eq!(exit_code(&run), exit::REJECTED);
     }
 }

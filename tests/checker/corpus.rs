@@ -48,14 +48,14 @@ fn root() -> PathBuf {
 }
 
 /// Exit codes of both checkers.
-const ACCEPTED: i32 = 0;
+pub(crate) const ACCEPTED: i32 = 0;
 const REJECTED: i32 = 1;
 const MALFORMED: i32 = 2;
-const UNDECIDED: i32 = 3;
+pub(crate) const UNDECIDED: i32 = 3;
 
 /// A file of the corpus, with its texts spelt out in a folder.
-struct Entry {
-    name: String,
+pub(crate) struct Entry {
+    pub(crate) name: String,
     file: Value,
     problem: String,
     certificate: String,
@@ -71,7 +71,8 @@ impl Entry {
         self.file["reason"].as_str().unwrap_or_default()
     }
 
-    fn code(&self) -> i32 {
+    /// The exit code of a checker.
+    pub(crate) fn code(&self) -> i32 {
         match self.verdict() {
             "accepted" => ACCEPTED,
             "rejected" => REJECTED,
@@ -82,7 +83,7 @@ impl Entry {
     }
 
     /// About an LCP or MCP, not an eigenproblem.
-    fn is_plain(&self) -> bool {
+    pub(crate) fn is_plain(&self) -> bool {
         self.file["problem"]["format"] == lcp::MCP_FORMAT
     }
 
@@ -96,11 +97,11 @@ impl Entry {
         self.file.get("repeat").is_some() || self.name.contains("hostile")
     }
 
-    fn problem_text(&self) -> String {
+    pub(crate) fn problem_text(&self) -> String {
         std::fs::read_to_string(&self.problem).unwrap()
     }
 
-    fn certificate_text(&self) -> String {
+    pub(crate) fn certificate_text(&self) -> String {
         std::fs::read_to_string(&self.certificate).unwrap()
     }
 }
@@ -121,7 +122,7 @@ fn spelt_out(file: &Value) -> String {
 }
 
 /// All files by name, their texts written to a folder.
-fn entries(folder: &Path) -> Vec<Entry> {
+pub(crate) fn entries(folder: &Path) -> Vec<Entry> {
     let mut list = Vec::new();
     for kind in ["accept", "reject", "malformed"] {
         for file in std::fs::read_dir(root().join(kind)).unwrap() {

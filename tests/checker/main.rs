@@ -2,7 +2,8 @@
 //!
 //! `checker`, `covers` and the `*_forged` files break one obligation at a time; `complete_mutants`,
 //! `mutated_claims` and `two_checkers` change certificates at random and ask the exact enumerator;
-//! `corpus` and `verdicts` read the files of `spec/corpus`.
+//! `corpus` and `verdicts` read the files of `spec/corpus`; `verified` runs the checker
+//! of `proofs/` beside ours.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[cfg(feature = "testkit")]
@@ -11,6 +12,9 @@ mod cover;
 #[cfg(feature = "testkit")]
 #[path = "../support/structural.rs"]
 mod structural;
+#[cfg(feature = "testkit")]
+#[path = "../support/verified_checker.rs"]
+mod verified_checker;
 #[cfg(feature = "testkit")]
 #[path = "../support/witnessed.rs"]
 mod witnessed;
@@ -30,3 +34,4 @@ mod second_checker;
 mod two_checkers;
 mod two_readers;
 mod verdicts;
+mod verified;

@@ -1,5 +1,9 @@
-//! The checker, `spec/checker.py` and the enumerator on the same mutants: the two checkers give one
+//! The checkers and the enumerator on the same mutants: `check` and `spec/checker.py` give one
 //! verdict, and what they accept is what the enumerator finds.
+//!
+//! The verified checker of `proofs/`, where it is built, verifies the statement of a file and not its
+//! evidence. So the relation to it is another one: what it accepts is true, by the enumerator; what
+//! `check` accepts, it accepts or has no theorem for.
 //!
 //! Two sources. Witnessed leaves: covers written from a pencil, one leaf with an honest witness and
 //! a random claim. Structural mutants: certificates of `complete` and of `certify` with one to
@@ -8,21 +12,21 @@
 #![cfg(feature = "testkit")]
 
 use mceip_check::certificate::{Certificate, Claim};
-use mceip_check::{Accepted, AcceptedClaim, check};
+use mceip_check::{Accepted, check};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, certify, lifted};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
-use mceip_exact::{Algebraic, Sparse, rational};
+use mceip_exact::{Sparse, rational};
 use mceip_model::file::{read_problem, write_problem};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
-use mceip_oracle::{Enumeration, enumerate};
+use mceip_oracle::enumerate;
+use mceip_testkit::verified::VerifiedVerdict;
 use mceip_testkit::{known, mechanical_pencil, random_pencils};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -80,7 +84,7 @@ fn falsehoods(problem: &Problem, certificate: &Certificate, accepted: &Accepted)
 
     let mut wrong = Vec::new();
     for claim in &accepted.claims {
-        if !is_solution(&truth, claim) {
+        if !crate::verified_checker::is_solution(&truth, claim) {
             wrong.push(format!("{claim:?}"));
         }
     }
@@ -89,34 +93,6 @@ fn falsehoods(problem: &Problem, certificate: &Certificate, accepted: &Accepted)
         wrong.extend(crate::cover::disagreements(cover, &truth));
     }
     wrong
-}
-
-/// Is the claim a solution of the list, of a cone or of a range?
-fn is_solution(truth: &Enumeration, claim: &AcceptedClaim) -> bool {
-    for solution in &truth.solutions {
-        if solution.slip == claim.support && is_within(&solution.value, claim) {
-            return true;
-        }
-    }
-
-    for cone in &truth.cones {
-        if is_subset(&claim.support, &cone.slip) && is_within(&cone.value, claim) {
-            return true;
-        }
-    }
-
-    let mut ranges = truth.ranges.iter();
-    ranges.any(|range| range.support == claim.support)
-}
-
-fn is_subset(part: &[usize], whole: &[usize]) -> bool {
-    part.iter().all(|i| whole.contains(i))
-}
-
-fn is_within(value: &Algebraic, claim: &AcceptedClaim) -> bool {
-    let mut value = value.clone();
-    value.cmp_rational(claim.value.lo()) != Ordering::Less
-        && value.cmp_rational(claim.value.hi()) != Ordering::Greater
 }
 
 /// One process of Python for all files of a folder.
@@ -198,11 +174,81 @@ fn compare(forgeries: &[Forgery]) -> Reached {
         );
     }
 
+    if let Some(verified) = verified_verdicts(forgeries) {
+        let wrong = wrongly_verified(forgeries, &ours, &verified);
+        assert!(
+            wrong.is_empty(),
+            "{} wrong:\n{}",
+            wrong.len(),
+            wrong.join("\n\n")
+        );
+        println!("verified checker: {:?}", summary(&verified));
+    }
+
     println!(
         "accepted, rejected, malformed, undecided: {:?}; {:?}",
         reached.verdicts, reached.reasons
     );
     reached
+}
+
+/// Verdicts of the verified checker; none where it is not built.
+fn verified_verdicts(forgeries: &[Forgery]) -> Option<Vec<VerifiedVerdict>> {
+    let checker = crate::verified_checker::checker()?;
+    let folder = tempfile::tempdir().unwrap();
+    let list = write_all(forgeries, folder.path());
+
+    let verdicts = crate::verified_checker::verdicts_on_list(&checker, &list);
+    assert_eq!(verdicts.len(), forgeries.len(), "{:?}", verdicts.last());
+    Some(verdicts)
+}
+
+/// Certificates that `check` accepts and the verified checker refuses, and certificates that the
+/// verified checker accepts and the enumerator contradicts.
+fn wrongly_verified(
+    forgeries: &[Forgery],
+    ours: &[i32],
+    verified: &[VerifiedVerdict],
+) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for (number, Forgery { problem, text }) in forgeries.iter().enumerate() {
+        let verdict = &verified[number];
+        let is_accepted_by_us = !is_refused(ours[number]);
+
+        let mut faults: Vec<String> = Vec::new();
+        if is_accepted_by_us {
+            faults.extend(verdict.refusal());
+        }
+        if let Some(lines) = verdict.statement() {
+            faults.extend(crate::verified_checker::falsehoods(problem, text, lines));
+        }
+
+        if !faults.is_empty() {
+            wrong.push(format!(
+                "check says {}, the verified checker {verdict:?}: {faults:?}\n{}\n{text}",
+                ours[number],
+                write_problem(problem)
+            ));
+        }
+    }
+    wrong
+}
+
+/// How often each verdict was given; of what is not verified, how often each kind.
+fn summary(verdicts: &[VerifiedVerdict]) -> BTreeMap<String, usize> {
+    let mut counts = BTreeMap::new();
+    for verdict in verdicts {
+        let word = match verdict {
+            VerifiedVerdict::Accepted(_) => "accepted".to_string(),
+            VerifiedVerdict::Undecided(_) => "undecided".to_string(),
+            VerifiedVerdict::Rejected(_) => "rejected".to_string(),
+            VerifiedVerdict::Malformed(_) => "malformed".to_string(),
+            VerifiedVerdict::NotVerified(what) => format!("not verified: {what}"),
+            VerifiedVerdict::None(how) => format!("no verdict: {how}"),
+        };
+        *counts.entry(word).or_default() += 1;
+    }
+    counts
 }
 
 fn differences(forgeries: &[Forgery], ours: &[i32], theirs: &[i32]) -> Vec<String> {
@@ -426,6 +472,17 @@ fn one_verdict_on_four_thousand_structural_mutants() {
 fn one_verdict_on_twenty_thousand_mutants() {
     assert_one_verdict_on_witnessed_leaves(10_000, 11, 12);
     assert_one_verdict_on_structural_mutants(10_000, 12, 35);
+}
+
+/// Ten rounds of two kinds. Where the verified checker is built, all three checkers are compared.
+#[test]
+#[ignore = "minutes; on request, after `make -C proofs program`"]
+fn three_checkers_on_a_hundred_thousand_mutants() {
+    for round in 0..10 {
+        println!("round {round}");
+        assert_one_verdict_on_witnessed_leaves(5000, 3000 + round, 12);
+        assert_one_verdict_on_structural_mutants(5000, 4000 + round, 30);
+    }
 }
 
 /// Ten minutes or more. Twenty-five rounds, so that a failure shows early.

@@ -12,6 +12,7 @@ mod known_answers;
 mod oracle_degenerate;
 mod oracle_edges;
 mod oracle_report;
+mod physical;
 mod problem_files;
 mod properties;
 mod stability;

@@ -115,6 +115,10 @@ fn options_and_files_are_refused_in_one_line() {
     refused(&["table1", "--mu", "-1"], &["--mu", "> 0"]);
 
     refused(&["block", "--state", "16"], &["--state", "15 or 17"]);
+    refused(
+        &["verify", "--verified", "/nowhere/mceip-verified"],
+        &["/nowhere/mceip-verified", "make -C proofs program"],
+    );
     refused(&["check", &fold, &fold], &["mceip-certificate/1"]);
     refused(&["certify", &fold, &fold], &["mceip-solutions/1"]);
     refused(&["frobnicate"], &["frobnicate"]);

@@ -312,7 +312,8 @@ fn is_same(solution: &Solution, listed: &AcceptedClaim) -> bool {
     solution.slip == listed.support && within(&solution.value, &listed.value)
 }
 
-fn within(value: &Algebraic, interval: &Interval) -> bool {
+/// Does the interval hold the value? Its ends belong to it.
+pub fn within(value: &Algebraic, interval: &Interval) -> bool {
     let mut value = value.clone();
     value.cmp_rational(interval.lo()) != Ordering::Less
         && value.cmp_rational(interval.hi()) != Ordering::Greater

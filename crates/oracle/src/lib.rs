@@ -34,6 +34,7 @@ mod describe;
 mod enumeration;
 mod integer_pencil;
 mod member;
+mod physical;
 mod plain;
 mod range;
 mod solution;
@@ -42,6 +43,10 @@ mod table1;
 pub use degenerate::{Cone, End, Piece, SupportRange, Undescribed};
 pub use enumeration::{Enumeration, WideKernel};
 pub use member::{is_rational_solution, is_solution};
+pub use physical::{
+    DegenerateModes, Mode, Motion, Motions, PhysicalParticle, PhysicalState, PhysicalSystem,
+    enumerate_motions,
+};
 pub use plain::{
     MAX_BITS, MAX_FREE, MAX_SLIP, OracleError, coefficient_bits, enumerate, enumerate_with,
     examine_support,

@@ -8,6 +8,7 @@
 use super::floors::{Coverage, Shortfall, Starts, shortfalls};
 use super::forge::forgeries;
 use super::interior::path_coverage;
+use super::verified::{VerifiedChecker, VerifiedCounts};
 use crate::error::TestkitError;
 use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedClaim, AcceptedCover, Rejected, check};
@@ -58,6 +59,12 @@ pub struct BlockReport {
     pub certificate: Option<Certificate>,
     /// What the complete search proved on the given K over [0, infinity).
     pub cover: AcceptedCover,
+    /// The certificate of the complete set.
+    pub complete_certificate: Certificate,
+    /// Verdicts of the verified checker on both certificates; all zero without one.
+    pub verified: VerifiedCounts,
+    /// Why the verified checker refuses a certificate: a bug.
+    pub refused: Vec<String>,
     /// Accepted solutions that the complete set does not contain: a bug.
     pub missing: usize,
     /// Solutions of the complete set that the search did not find: the states have one each, and it
@@ -74,6 +81,26 @@ impl BlockReport {
     /// Rates of PATH's own sequence below their floors.
     pub fn shortfalls(&self) -> Vec<Shortfall> {
         shortfalls(self.state.name(), Starts::Path, &self.path)
+    }
+
+    /// Gives both certificates to the verified checker.
+    ///
+    /// # Errors
+    /// [`TestkitError`] if the block has no such state; none for the block of the report.
+    pub fn submit_verified(
+        &mut self,
+        checker: &VerifiedChecker,
+        block: &Block,
+    ) -> Result<(), TestkitError> {
+        let problem = self.state.problem(block)?;
+
+        let mut certificates = vec![&self.complete_certificate];
+        certificates.extend(&self.certificate);
+        for certificate in certificates {
+            let refusal = self.verified.submit(checker, &problem, certificate);
+            self.refused.extend(refusal);
+        }
+        Ok(())
     }
 
     /// Is the set of solutions proved to be complete?
@@ -114,7 +141,7 @@ pub fn block_state(
     watch.report(&Progress::stage(
         "proving that there are no other solutions",
     ));
-    let cover = complete(&problem, &Options::default(), &watch.quiet())?.cover;
+    let completed = complete(&problem, &Options::default(), &watch.quiet())?;
     watch.report(&Progress::stage("checking"));
 
     let mut uncertified = Vec::new();
@@ -134,9 +161,12 @@ pub fn block_state(
         runs: found.runs,
         pivots: found.pivots,
         certificate: None,
-        unfound: cover.solutions.len(),
+        unfound: completed.cover.solutions.len(),
         path: Coverage::default(),
-        cover,
+        cover: completed.cover,
+        complete_certificate: completed.certificate,
+        verified: VerifiedCounts::default(),
+        refused: Vec::new(),
         missing: 0,
     };
 

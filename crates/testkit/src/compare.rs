@@ -7,6 +7,7 @@
 //! * Its solutions are certified and accepted; each forgery of them is rejected.
 //! * The complete search proves the same set, or leaves regions open.
 //! * What the solver finds and certifies is in it.
+//! * The verified checker, if there is one, refuses no certificate that was accepted.
 //!
 //! Input: an instance and how to treat it. Output: counts and disagreements; each disagreement is a
 //! bug. Called by `verify`, by the campaign and by the fuzz targets.
@@ -17,7 +18,8 @@ use super::families::{Corner, Instance};
 use super::floors::{Coverage, Starts};
 use super::forge::forgeries;
 use super::interior::{INTERIOR_STARTS, from_interior, path_options};
-use mceip_check::certificate::Claim;
+use super::verified::{VerifiedChecker, VerifiedCounts};
+use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::check;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate};
@@ -59,6 +61,8 @@ pub struct InstanceReport {
     pub pivots: usize,
     /// Did the complete search close the instance? (Otherwise it left regions open.)
     pub completed: bool,
+    /// Verdicts of the verified checker; all zero without one.
+    pub verified: VerifiedCounts,
     /// What went wrong.
     pub disagreements: Vec<Disagreement>,
 }
@@ -108,6 +112,8 @@ pub struct Treatment {
     pub interior: Solver,
     /// Nodes per piece of the complete search.
     pub nodes: usize,
+    /// The verified checker, to which each accepted certificate is given.
+    pub verified: Option<VerifiedChecker>,
 }
 
 impl Treatment {
@@ -118,6 +124,7 @@ impl Treatment {
             solver: multistart,
             interior: from_interior,
             nodes: super::completed::NODES,
+            verified: None,
         }
     }
 
@@ -192,10 +199,15 @@ pub(super) fn compare_with(
 
     check_lifts(problem, reduced, oracle, report);
     let claims = certify_oracle(problem, reduced, oracle, report);
-    submit(problem, claims, report);
+    let verified = treatment.verified.as_ref();
+    submit(problem, claims, verified, report);
 
     match compare_within(problem, oracle, treatment.nodes) {
-        Ok(completed) => report.completed = completed,
+        Ok(Some(completed)) => {
+            report.completed = completed.is_complete();
+            submit_verified(problem, &completed.certificate, verified, report);
+        }
+        Ok(None) => {}
         Err(disagreement) => report.disagreements.push(disagreement),
     }
 
@@ -238,6 +250,7 @@ fn run_solver(
         problem,
         pencil,
         oracle,
+        verified: treatment.verified.as_ref(),
     };
     for (starts, solver, search) in runs {
         match solver(problem, &admissible, &search) {
@@ -410,8 +423,13 @@ fn certify_oracle(
     claims
 }
 
-/// Sends claims to the checker, and forgeries of them.
-fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
+/// Sends claims to the checkers, and forgeries of them.
+fn submit(
+    problem: &Problem,
+    claims: Vec<Claim>,
+    verified: Option<&VerifiedChecker>,
+    report: &mut InstanceReport,
+) {
     if claims.is_empty() {
         return;
     }
@@ -420,7 +438,10 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
     let certificate = certificate(problem, claims);
 
     match check(problem, &certificate) {
-        Ok(_) => report.accepted += count,
+        Ok(_) => {
+            report.accepted += count;
+            submit_verified(problem, &certificate, verified, report);
+        }
         Err(e) => report.disagreements.push(Disagreement::Rejected {
             reason: e.to_string(),
         }),
@@ -441,11 +462,30 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
     }
 }
 
-/// A problem, its pencil, and the enumerator's answer.
+/// Sends a certificate that the checker has accepted to the verified checker, if there is one.
+fn submit_verified(
+    problem: &Problem,
+    certificate: &Certificate,
+    verified: Option<&VerifiedChecker>,
+    report: &mut InstanceReport,
+) {
+    let Some(verified) = verified else {
+        return;
+    };
+
+    let refusal = report.verified.submit(verified, problem, certificate);
+    if let Some(reason) = refusal {
+        let disagreement = Disagreement::VerifiedChecker { reason };
+        report.disagreements.push(disagreement);
+    }
+}
+
+/// A problem, its pencil, the enumerator's answer, and the verified checker.
 struct Answered<'a> {
     problem: &'a Problem,
     pencil: &'a Pencil,
     oracle: &'a Enumeration,
+    verified: Option<&'a VerifiedChecker>,
 }
 
 /// What the solver certified is in the enumerator's answer.
@@ -498,7 +538,7 @@ fn compare_found(
     }
 
     if starts == Starts::Search {
-        submit(answered.problem, claims, report);
+        submit(answered.problem, claims, answered.verified, report);
     }
 }
 

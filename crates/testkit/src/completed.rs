@@ -7,24 +7,26 @@
 use super::disagreement::Disagreement;
 use mceip_check::{AcceptedClaim, AcceptedCover};
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{CompleteError, Options, complete};
+use mceip_engine::search::complete::{CompleteError, Completed, Options, complete};
 use mceip_model::Problem;
 use mceip_oracle::{Enumeration, Solution};
 
 /// Nodes per piece in comparisons: instances are small, what needs more is degenerate.
 pub(super) const NODES: usize = 20_000;
 
-/// `compare_within` with as many nodes as small instances need.
+/// Runs the complete search with as many nodes as small instances need. `Ok(true)`: complete, and
+/// equal to the oracle's answer; `Ok(false)`: what it proved is in the oracle's answer, the rest is
+/// left open (or the free block is outside its hypotheses).
 ///
 /// # Errors
 /// [`Disagreement`] between the two.
 pub fn compare_complete(problem: &Problem, oracle: &Enumeration) -> Result<bool, Disagreement> {
-    compare_within(problem, oracle, NODES)
+    let completed = compare_within(problem, oracle, NODES)?;
+    Ok(completed.is_some_and(|completed| completed.is_complete()))
 }
 
-/// Runs the complete search with so many nodes per piece. `Ok(true)`: complete, and equal to the
-/// oracle's answer; `Ok(false)`: what it proved is in the oracle's answer, the rest is left open
-/// (or the free block is outside its hypotheses).
+/// The complete search with so many nodes per piece: what it proved is in the oracle's answer, and
+/// is all of it unless regions are left open. `None` if the free block is outside its hypotheses.
 ///
 /// # Errors
 /// [`Disagreement`] between the two.
@@ -32,7 +34,7 @@ pub(super) fn compare_within(
     problem: &Problem,
     oracle: &Enumeration,
     nodes: usize,
-) -> Result<bool, Disagreement> {
+) -> Result<Option<Completed>, Disagreement> {
     let options = Options {
         nodes_per_piece: nodes,
         threads: None,
@@ -45,7 +47,7 @@ pub(super) fn compare_within(
             CompleteError::NotDefinite { .. }
             | CompleteError::Hypothesis { .. }
             | CompleteError::NothingSlips,
-        ) => return Ok(false),
+        ) => return Ok(None),
         Err(e) => {
             return Err(Disagreement::Refused {
                 engine: "complete search",
@@ -69,16 +71,15 @@ pub(super) fn compare_within(
         }
     }
 
-    let is_complete = completed.is_complete();
     let all_found = !is_found.contains(&false) && holds_all_families(cover, oracle);
-    if is_complete && !all_found {
+    if completed.is_complete() && !all_found {
         return Err(Disagreement::Incomplete {
             claimed: cover.solutions.len(),
             enumerated: oracle.solutions.len(),
         });
     }
 
-    Ok(is_complete)
+    Ok(Some(completed))
 }
 
 /// Does the cover have a family for each cone and each range of the oracle's answer? Of a range

@@ -49,6 +49,12 @@ pub enum Disagreement {
         /// Why.
         reason: String,
     },
+    /// The verified checker refuses what the checker accepts.
+    #[error("the verified checker refuses a certificate that `check` accepts: {reason}")]
+    VerifiedChecker {
+        /// Its verdict.
+        reason: String,
+    },
     /// The checker accepts a forgery, or rejects it for another reason than the one broken.
     #[error("forgery {name:?}: {got}")]
     Forgery {
@@ -109,6 +115,7 @@ impl Disagreement {
             Disagreement::Incomplete { .. } => "incomplete",
             Disagreement::OracleNotCertified { .. } => "not-certified",
             Disagreement::Rejected { .. } => "rejected",
+            Disagreement::VerifiedChecker { .. } => "verified-checker",
             Disagreement::Forgery { .. } => "forgery",
             Disagreement::Lift { .. } => "lift",
             Disagreement::Enumerators { .. } => "enumerators",

@@ -99,6 +99,22 @@ pub enum TestkitError {
         /// The system's reason.
         reason: std::io::ErrorKind,
     },
+    /// No verified checker at this path.
+    #[error(
+        "no verified checker at {path}: `make -C proofs program` builds proofs/mceip-verified \
+         (OCaml and zarith are needed, Coq is not); another place is named by --verified PATH or \
+         MCEIP_VERIFIED"
+    )]
+    NoVerifiedChecker {
+        /// Where it was expected.
+        path: String,
+    },
+    /// No scratch file could be written.
+    #[error("cannot write a scratch file: {reason}")]
+    Scratch {
+        /// The system's reason.
+        reason: std::io::ErrorKind,
+    },
     /// No thread pool.
     #[error("cannot start {threads} threads")]
     Threads {
@@ -108,6 +124,11 @@ pub enum TestkitError {
 }
 
 impl TestkitError {
+    /// A scratch file that was not written.
+    pub(crate) fn scratch(e: &std::io::Error) -> TestkitError {
+        TestkitError::Scratch { reason: e.kind() }
+    }
+
     /// A problem that is refused, and the file or case that it is in.
     pub(crate) fn problem(place: &str, source: ModelError) -> TestkitError {
         TestkitError::Problem {

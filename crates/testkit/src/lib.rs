@@ -13,6 +13,7 @@
 //!
 //! conform                                        the pack for other programs: `mceip conform`
 //! floors                                         how often the solver has to find what exists
+//! verified                                       the checker of `proofs/`, as a process
 //! mutate                                         random changes of certificates, for tests
 //! ```
 //!
@@ -36,6 +37,7 @@ mod large;
 mod mutate;
 pub mod pareto;
 pub mod targets;
+pub mod verified;
 mod verify;
 
 pub use block::{AcceptedState, BLOCK_STARTS, BlockReport, block_state};

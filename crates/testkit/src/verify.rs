@@ -1,6 +1,7 @@
 //! The run of `mceip verify`: every family through every engine, one row each.
 //!
-//! Input: how many random instances, and a seed. Output: a row of counts for each family and a
+//! Input: how many random instances, a seed, and the verified checker if its verdicts are wanted.
+//! Output: a row of counts for each family and a
 //! report for each published state of the block; a run without disagreements passes. Called by
 //! `mceip verify`.
 
@@ -10,6 +11,7 @@ use super::disagreement::Disagreement;
 use super::error::TestkitError;
 use super::families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
 use super::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
+use super::verified::{VerifiedChecker, VerifiedCounts};
 use mceip_engine::multistart::Search;
 use mceip_engine::run::{Progress, Watch};
 use mceip_paper::{Block, MassKind, PublishedState};
@@ -48,6 +50,8 @@ pub struct FamilyReport {
     pub corners: BTreeMap<Corner, usize>,
     /// Coverage by kind of start, to be held against the floors.
     pub coverage: BTreeMap<Starts, Coverage>,
+    /// Verdicts of the verified checker; all zero without one.
+    pub verified: VerifiedCounts,
     /// Disagreements, with instance.
     pub disagreements: Vec<String>,
 }
@@ -64,6 +68,7 @@ impl FamilyReport {
         self.degenerate += usize::from(report.degenerate);
         self.completed += usize::from(report.completed);
         self.pivots += report.pivots;
+        self.verified.add(&report.verified);
 
         let is_of_a_forgery = |d: &&Disagreement| matches!(d, Disagreement::Forgery { .. });
         let wrong_forgeries = report.disagreements.iter().filter(is_of_a_forgery).count();
@@ -118,11 +123,23 @@ impl Verification {
             count += family.disagreements.len();
         }
         for block in &self.block {
-            count += block.rejected.len();
+            count += block.rejected.len() + block.refused.len();
             count += block.forgeries - block.rejected_forgeries;
             count += block.missing + block.unfound;
         }
         count
+    }
+
+    /// Verdicts of the verified checker on all certificates of the run.
+    pub fn verified(&self) -> VerifiedCounts {
+        let mut counts = VerifiedCounts::default();
+        for family in &self.families {
+            counts.add(&family.verified);
+        }
+        for block in &self.block {
+            counts.add(&block.verified);
+        }
+        counts
     }
 
     /// Coverage of the families, and of PATH's own sequence on the block's states.
@@ -158,18 +175,27 @@ impl Verification {
 }
 
 /// Runs everything embedded: Table 1, `random` random pencils, systems, degenerate cases, the
-/// block.
+/// block. Each certificate that is accepted is also given to the verified checker, if there is one.
 ///
 /// A run that is cancelled ends after the instances at work. Progress counts the instances of each
 /// family. The result does not depend on the number of threads.
 ///
 /// # Errors
 /// [`TestkitError`] if an embedded problem is refused: a bug.
-pub fn verify(random: usize, seed: u64, watch: &Watch<'_>) -> Result<Verification, TestkitError> {
-    let treatment = Treatment::of(&Search {
+pub fn verify(
+    random: usize,
+    seed: u64,
+    verified: Option<&VerifiedChecker>,
+    watch: &Watch<'_>,
+) -> Result<Verification, TestkitError> {
+    let search = Search {
         seed,
         ..Search::default()
-    });
+    };
+    let treatment = Treatment {
+        verified: verified.cloned(),
+        ..Treatment::of(&search)
+    };
 
     let families = [
         ("Table 1 (two particles)", table1_grid()?),
@@ -192,7 +218,11 @@ pub fn verify(random: usize, seed: u64, watch: &Watch<'_>) -> Result<Verificatio
         }
 
         watch.report(&Progress::of("block of section 5", k, 2));
-        block.extend(block_state(&model, state, &watch.quiet())?);
+        let mut report = block_state(&model, state, &watch.quiet())?;
+        if let (Some(report), Some(checker)) = (&mut report, verified) {
+            report.submit_verified(checker, &model)?;
+        }
+        block.extend(report);
     }
 
     Ok(Verification {

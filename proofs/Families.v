@@ -1,0 +1,528 @@
+(* Covers with support leaves: isolated solutions and families.
+
+   The tree of a cover leaves the regions of its support leaves undecided (Cover.v); for each
+   undecided region there is a support leaf (Support.v), or none if the region stays open.  What a
+   support leaf holds is of two sorts:
+
+     isolated   a value, root of p in [a, b], at which there is one solution up to a factor, and no
+                other solution with these moving variables has its value in [a, b];
+     family     every other place that holds something: an interval of values or one value, with a
+                solution at each, and only one where the place is called alone.
+
+   Regions yielded whose value belongs to a family with the same moving variables are dropped: the
+   value is one more of that family.
+
+   Theorem [families_number]: if the check succeeds and [all_solutions] gives a list of N regions,
+   then there are N solutions with a value in the window, one in each of them and no two of them
+   equal; every other solution in the window belongs to a family or lies in an open region.
+   [cover_number] is the same for any cover with undecided regions.
+   [families_hold]: at each value of a family there is a solution in its region, and any two are
+   positive multiples of each other if the family is called alone.
+
+   [system_families_number], [system_families_hold] say the same of motions with (9).
+
+   Page: spec/certificates.md, 5.12 (yields) and 5.15.
+   Rust: crates/check/src/cover/support.rs, found.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
+From Mceip Require Import Number Condensation Pencil Whole Claim Complete Signs Support System.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+(* A place of a support leaf, with the region of the leaf. *)
+Definition family := (region * holding)%type.
+
+Section Checker.
+
+Local Open Scope Z_scope.
+
+Definition same_value (v v' : value) :=
+  [&& value_from v =? value_from v', value_to v =? value_to v', value_den v =? value_den v' &
+      same_poly (value_poly v) (value_poly v')].
+
+(* a/b < c/d for the end of v and the start of v' *)
+Definition ends_before (v v' : value) := value_to v * value_den v' <? value_from v' * value_den v.
+
+(* No t of [from, to] of v, but v itself, lies in the place. *)
+Definition away (v : value) (pl : place) :=
+  match pl with
+  | PointAt v' => [|| same_value v v', ends_before v v' | ends_before v' v]
+  | Between v' v'' => ends_before v v' || ends_before v'' v
+  | Above v' => ends_before v v'
+  end.
+
+Definition isolated_value (l : support_leaf) (h : holding) : option value :=
+  match h with
+  | Holding (PointAt v) true =>
+      if all (fun h' => away v (held_place h')) (holdings l) then Some v else None
+  | _ => None
+  end.
+
+Definition yield_of (r : region) (v : value) :=
+  Yield (Region (start_of v) (end_of v) (states r)) (start_of v) (end_of v).
+
+Definition isolated_in (r : region) (l : support_leaf) : seq yield :=
+  pmap (fun h => omap (yield_of r) (isolated_value l h)) (holdings l).
+
+Definition families_in (r : region) (l : support_leaf) : seq family :=
+  [seq (r, h) | h <- holdings l & ~~ isSome (isolated_value l h)].
+
+Definition pairs (rs : seq region) (ls : seq (option support_leaf)) := zip rs ls.
+
+Definition check_supports (Q : pencil) rs ls :=
+  (size rs == size ls) &&
+  all (fun rl => if rl.2 is Some l then ordered (lower rl.1) (upper rl.1) && check_support Q rl.1 l
+                 else true) (pairs rs ls).
+
+Definition isolated_of rs ls : seq yield :=
+  flatten [seq if rl.2 is Some l then isolated_in rl.1 l else [::] | rl <- pairs rs ls].
+
+Definition families_of rs ls : seq family :=
+  flatten [seq if rl.2 is Some l then families_in rl.1 l else [::] | rl <- pairs rs ls].
+
+Definition open_of rs ls : seq region :=
+  pmap (fun rl => if rl.2 is Some _ then None else Some rl.1) (pairs rs ls).
+
+(* The value of y, and so its solution, belongs to the family; n complementarity variables. *)
+Definition belongs n (y : yield) (f : family) :=
+  match held_place f.2 with
+  | PointAt v => rational v && within (value_of y) (start_of v, end_of v)
+  | Between v v' =>
+      point_lt (end_of v) (yield_from y) && point_lt (yield_to y) (start_of v')
+  | Above v => point_lt (end_of v) (yield_from y)
+  end && all_same n (yield_region y) f.1.
+
+Section Complete.
+
+Variables (Q : pencil) (claims : seq claim) (tr : tree (leaf whole)) (lo hi : point).
+Variable ls : seq (option support_leaf).
+
+Definition families := families_of (left_open tr lo hi) ls.
+
+Definition all_yields := found Q claims tr lo hi ++ isolated_of (left_open tr lo hi) ls.
+
+(* The solutions that do not belong to a family. *)
+Definition all_solutions :=
+  distinct_yields (size (slip Q)) lo hi
+    [seq y <- all_yields | ~~ has (belongs (size (slip Q)) y) families].
+
+Definition still_open := open_of (left_open tr lo hi) ls.
+
+Definition check_families w :=
+  check_complete Q claims w tr lo hi && check_supports Q (left_open tr lo hi) ls.
+
+End Complete.
+
+Definition check_system_families s u claims w tr lo hi ls :=
+  check_system s u claims w tr lo hi && check_supports (pencil_of s u) (left_open tr lo hi) ls.
+
+End Checker.
+
+Lemma in_flatten_map T U (f : T -> seq U) l y :
+  List.In y (flatten (map f l)) <-> exists2 x, List.In x l & List.In y (f x).
+Proof.
+elim: l => [|a l IH] /=; first by split=> [|[]].
+rewrite in_cat_or IH; split=> [[yf|[x xl yf]]|[x [<-|xl] yf]].
+- by exists a => //; left.
+- by exists x => //; right.
+- by left.
+by right; exists x.
+Qed.
+
+Lemma in_filter T (p : T -> bool) l x : List.In x (filter p l) <-> List.In x l /\ p x.
+Proof.
+elim: l => [|a l IH] /=; first by split=> [|[]].
+case pa: (p a) => /=; split.
+- by case=> [<-|/IH[xl px]]; split=> //; [left | right].
+- by case=> -[<-|xl] px; [left | right; apply/IH].
+- by case/IH=> xl px; split=> //; right.
+by case=> -[<-|xl] px; [rewrite pa in px | apply/IH].
+Qed.
+
+Lemma has_In_family (p : family -> bool) l : has p l -> exists2 f, List.In f l & p f.
+Proof.
+elim: l => //= f l IH /orP[pf|/IH[g gl pg]]; first by exists f => //; left.
+by exists g => //; right.
+Qed.
+
+Lemma in_zip T U (rs : seq T) (ls : seq U) r : size rs = size ls -> List.In r rs ->
+  exists l, List.In (r, l) (zip rs ls).
+Proof.
+elim: rs ls => //= a rs IH [|b ls] //= [sz] [<-|/(IH _ sz)[l rl]].
+  by exists b; left.
+by exists l; right.
+Qed.
+
+Section Sound.
+
+Variables (R : rcfType) (Q : pencil).
+Implicit Types (t : R) (x : nat -> R).
+Notation ns := (size (slip Q)).
+
+Definition in_family (f : family) t x := lies_in Q f.1 t x /\ in_place (held_place f.2) t.
+
+(* What is said about a family. *)
+Definition family_holds (f : family) := holds R Q f.1 f.2.
+
+Lemma same_value_is v v' (s : R) : same_value v v' -> is_value v' s -> is_value v s.
+Proof.
+case/and4P=> /Z.eqb_spec f /Z.eqb_spec t /Z.eqb_spec d /(same_polyE s) p [as_ sb root_s].
+by split; rewrite ?f ?t ?d ?p.
+Qed.
+
+(* t in the interval of v, and s at or above the start of v'. *)
+Lemma before_sound v v' t (s : R) : 0 < toR (value_den v) :> R -> 0 < toR (value_den v') :> R ->
+  ends_before v v' -> toR (value_den v) * t <= toR (value_to v) ->
+  toR (value_from v') <= toR (value_den v') * s -> t < s.
+Proof.
+move=> d0 d0' lt tb as_; rewrite -(ltr_pmul2l (mulr_gt0 d0 d0')).
+apply: (@le_lt_trans _ _ (toR (value_to v * value_den v')%Z)).
+  by rewrite toRM mulrAC ler_pmul2r.
+apply: (@lt_le_trans _ _ (toR (value_from v' * value_den v)%Z)); first by rewrite toR_lt.
+by rewrite toRM [toR (value_den v) * _]mulrC mulrAC ler_pmul2r.
+Qed.
+
+Lemma away_sound v pl t : check_value v -> place_checked pl -> away v pl ->
+  toR (value_from v) <= toR (value_den v) * t -> toR (value_den v) * t <= toR (value_to v) ->
+  in_place pl t -> is_value v t.
+Proof.
+move=> ok; have [_ _ d0 _] := value_parts R ok; case: pl => [v'|v' v''|v'] /=.
+- move=> ok'; have [_ _ d0' _] := value_parts R ok'.
+  case/or3P=> [same|lt|lt] at_ tb is_t; first exact: same_value_is same is_t.
+    by case: is_t => as_ _ _; have := before_sound d0 d0' lt tb as_; rewrite ltxx.
+  by case: is_t => _ sb _; have := before_sound d0' d0 lt sb at_; rewrite ltxx.
+- case/andP=> ok' ok''; have [_ _ d0' _] := value_parts R ok'.
+  have [_ _ d0'' _] := value_parts R ok''.
+  have [s' is_s'] := value_exists R ok'; have [s'' is_s''] := value_exists R ok''.
+  case/orP=> lt at_ tb [/(_ _ is_s') st /(_ _ is_s'') ts].
+    case: is_s' => as_ _ _; have := before_sound d0 d0' lt tb as_.
+    by rewrite ltNge (ltW st).
+  case: is_s'' => _ sb _; have := before_sound d0'' d0 lt sb at_.
+  by rewrite ltNge (ltW ts).
+move=> ok'; have [_ _ d0' _] := value_parts R ok'.
+have [s' is_s'] := value_exists R ok' => lt at_ tb /(_ _ is_s') st.
+case: is_s' => as_ _ _; have := before_sound d0 d0' lt tb as_.
+by rewrite ltNge (ltW st).
+Qed.
+
+Section Leaf.
+
+Variables (r : region) (l : support_leaf).
+Hypothesis O : ordered (lower r) (upper r).
+Hypothesis checked : check_support Q r l.
+
+Lemma holding_checked h : List.In h (holdings l) ->
+  place_checked (held_place h) /\ inside r (held_place h).
+Proof.
+case/in_holdings=> -[pl [f|b]] // pe_in [<-] /=; case/and5P: checked => _ _ _ _ reasons.
+by have /andP[? /and3P[]] : check_reason Q r pl (Solved b) := all_In reasons pe_in.
+Qed.
+
+Lemma isolated_sound h v : List.In h (holdings l) -> isolated_value l h = Some v ->
+  one_solution_in R Q (yield_of r v) /\
+  forall t x, lies_in Q r t x -> in_place (held_place h) t ->
+    lies_in Q (yield_region (yield_of r v)) t x.
+Proof.
+move=> h_in; have [ok ins] := holding_checked h_in.
+have [is_pl each] := support_holds R O checked h_in.
+case: h h_in ok ins is_pl each => -[v'|v' v''|v'] [] //= h_in ok ins _ each.
+case: ifP => // isolated [eq_v]; move: h_in ok ins each isolated; rewrite {v'}eq_v.
+move=> h_in ok ins each isolated.
+have [_ ab d0 _] := value_parts R ok; have [s is_s] := value_exists R ok.
+have [[x [sol [bt ag]]] alone] := each s is_s.
+have in_interval t : is_value v t -> between t (start_of v) (end_of v).
+  by case=> at_ tb _; split; rewrite /= mulrC.
+split; last first.
+  by move=> t y [_ ag'] at_t; split=> //; apply: in_interval.
+exists s, x; split=> //; first exact: in_interval.
+  by split=> //; apply: in_interval.
+move=> t' x' sol' [[/= at' t'b] ag']; rewrite mulrC in at'; rewrite mulrC in t'b.
+have bt' : between t' (lower r) (upper r).
+  have [p0 q0 p0' q0'] := ordered_ge0 R O.
+  case/andP: ins => /Z.leb_spec0 lo /Z.leb_spec0 hi; split.
+    rewrite -(ler_pmul2r d0) -toRM.
+    apply: (@le_trans _ _ (toR (value_from v * (lower r).2)%Z)).
+      by rewrite toR_le; apply/Z.leb_spec0.
+    by rewrite toRM mulrAC ler_wpmul2r // mulrC.
+  rewrite -(ler_pmul2r d0) -toRM.
+  apply: (@le_trans _ _ (toR (value_to v * (upper r).2)%Z)); last first.
+    by rewrite toR_le; apply/Z.leb_spec0.
+  by rewrite toRM mulrAC ler_wpmul2r // mulrC.
+have sol_in' : solution_in Q r t' x' by [].
+have is_t' : is_value v t'.
+  have [h' h'_in at_h'] := support_covers O checked sol_in'.
+  have [ok' _] := holding_checked h'_in.
+  exact: away_sound ok ok' (all_In isolated h'_in) at' t'b at_h'.
+have eq_t := value_unique ok is_s is_t'; split=> //.
+by apply: (alone isT x x') => //; rewrite /solution_in eq_t.
+Qed.
+
+Lemma leaf_covers t x : solution Q t x -> lies_in Q r t x ->
+  (exists2 y, List.In y (isolated_in r l) & lies_in Q (yield_region y) t x) \/
+  (exists2 f, List.In f (families_in r l) & in_family f t x).
+Proof.
+move=> sol reg; have [h h_in at_h] := support_covers O checked (conj sol reg).
+case iso: (isolated_value l h) => [v|].
+  left; exists (yield_of r v); last by have [_ into] := isolated_sound h_in iso; apply: into.
+  by apply/in_pmap; exists h; rewrite // iso.
+right; exists (r, h) => //; apply/List.in_map_iff; exists h; split=> //.
+by apply/in_filter; rewrite iso.
+Qed.
+
+End Leaf.
+
+Variables (rs : seq region) (ls : seq (option support_leaf)).
+Hypothesis checked : check_supports Q rs ls.
+
+Lemma leaf_checked r l : List.In (r, Some l) (zip rs ls) ->
+  ordered (lower r) (upper r) /\ check_support Q r l.
+Proof.
+by move=> rl; case/andP: checked => _ every; have /andP[] := all_In every rl.
+Qed.
+
+Theorem supports_cover r t x : List.In r rs -> solution Q t x -> lies_in Q r t x ->
+  [\/ exists2 y, List.In y (isolated_of rs ls) & lies_in Q (yield_region y) t x,
+      exists2 f, List.In f (families_of rs ls) & in_family f t x |
+      exists2 r', List.In r' (open_of rs ls) & lies_in Q r' t x].
+Proof.
+move=> r_in sol reg; have /andP[/eqP sz _] := checked.
+have [[l|] rl] := in_zip sz r_in; last first.
+  by apply: Or33; exists r => //; apply/in_pmap; exists (r, None).
+have [O ok] := leaf_checked rl.
+case: (leaf_covers O ok sol reg) => -[y y_in reg_y].
+  by apply: Or31; exists y => //; apply/in_flatten_map; exists (r, Some l).
+by apply: Or32; exists y => //; apply/in_flatten_map; exists (r, Some l).
+Qed.
+
+Theorem supports_isolated y : List.In y (isolated_of rs ls) -> one_solution_in R Q y.
+Proof.
+case/in_flatten_map=> -[r [l|]] //= rl; have [O ok] := leaf_checked rl.
+case/in_pmap=> h h_in; case iso: (isolated_value l h) => [v|] //= [<-].
+by have [] := isolated_sound O ok h_in iso.
+Qed.
+
+Lemma family_inside f : List.In f (families_of rs ls) ->
+  place_checked (held_place f.2) /\
+  forall t, in_place (held_place f.2) t -> between t (lower f.1) (upper f.1).
+Proof.
+case/in_flatten_map=> -[r [l|]] //= rl; have [O ok] := leaf_checked rl.
+case/List.in_map_iff=> h [<- /in_filter[h_in _]].
+have [ok_h ins] := holding_checked ok h_in.
+by split=> //; have [_ bt] := inside_sound R O ok_h ins.
+Qed.
+
+Lemma belongs_sound y f t x : List.In f (families_of rs ls) -> belongs ns y f ->
+  between t (yield_from y) (yield_to y) -> lies_in Q (yield_region y) t x -> in_family f t x.
+Proof.
+move=> f_in /andP[inside states] bt [_ ag]; have [ok into] := family_inside f_in.
+suff at_t : in_place (held_place f.2) t.
+  by split=> //; split; [apply: into | apply: same_states_agree states ag].
+have after v : check_value v -> point_lt (end_of v) (yield_from y) ->
+    forall s, is_value v s -> s < t.
+  move=> ok_v lt s [_ sb _]; rewrite ltNge; apply/negP => ts.
+  have [_ _ d0 _] := value_parts R ok_v; case: bt => from_t _.
+  apply: (point_lt_sound lt (t := t) _ from_t erefl).
+  by rewrite /= mulrC (le_trans _ sb) // ler_pmul2l.
+have before v : check_value v -> point_lt (yield_to y) (start_of v) ->
+    forall s, is_value v s -> t < s.
+  move=> ok_v lt s [as_ _ _]; rewrite ltNge; apply/negP => st.
+  have [_ _ d0 _] := value_parts R ok_v; case: bt => _ t_to.
+  apply: (point_lt_sound lt t_to (t' := t) _ erefl).
+  by rewrite /= mulrC (le_trans as_) // ler_pmul2l.
+move: ok inside; case: (held_place f.2) => [v|v v'|v] /=.
+- move=> ok /andP[rat win]; have [s is_s] := value_exists R ok.
+  have [/= at_ tb] := within_between win bt.
+  by rewrite (rational_value ok rat is_s (t := t)) // mulrC.
+- by case/andP=> ok ok' /andP[lt lt']; split; [apply: after | apply: before].
+by move=> ok lt; apply: after.
+Qed.
+
+Theorem supports_families f : List.In f (families_of rs ls) -> family_holds f.
+Proof.
+case/in_flatten_map=> -[r [l|]] //= rl; have [O ok] := leaf_checked rl.
+case/List.in_map_iff=> h [<- /in_filter[h_in _]].
+exact: (support_holds R O ok h_in).
+Qed.
+
+End Sound.
+
+(* Any cover that yields regions with one solution each, and leaves the regions rs undecided. *)
+Section Cover.
+
+Variables (R : rcfType) (Q : pencil) (lo hi : point).
+Variables (yields : seq yield) (rs : seq region) (ls : seq (option support_leaf)).
+
+Notation ns := (size (slip Q)).
+Notation families := (families_of rs ls).
+Notation candidates := (yields ++ isolated_of rs ls).
+
+Hypothesis supports : check_supports Q rs ls.
+Hypothesis every : forall (t : R) x, solution Q t x -> between t lo hi ->
+  (exists2 y, List.In y yields & lies_in Q (yield_region y) t x) \/
+  (exists2 r, List.In r rs & lies_in Q r t x).
+Hypothesis each : forall y, List.In y yields -> one_solution_in R Q y.
+
+Theorem cover_number ys :
+  distinct_yields ns lo hi [seq y <- candidates | ~~ has (belongs ns y) families] = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
+        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
+                                 lies_in Q (yield_region y) s.1 s.2) ys l,
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
+        forall t x, solution Q t x -> between t lo hi ->
+          [\/ exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x,
+              exists2 f, List.In f families & in_family Q f t x |
+              exists2 r, List.In r (open_of rs ls) & lies_in Q r t x]].
+Proof.
+move=> dist.
+have one_each y : List.In y candidates -> one_solution_in R Q y.
+  by case/in_cat_or=> [/each|/(supports_isolated R supports)].
+have has_one y :
+    List.In y [seq y <- candidates | ~~ has (belongs ns y) families] ->
+    exists s, the_solution (R := R) ns (slip_of Q) (solution Q) (proportional Q) y s.
+  case/in_filter=> /one_each[t [x [bt sol reg uniq]]] _.
+  by exists (t, x); split.
+have [l [[sols pairs] win all_found]] :=
+  distinct_sound (@proportional_slip R Q) (@proportional_sym R Q) (@proportional_trans R Q)
+    has_one dist.
+have covered y t x : List.In y candidates -> solution Q t x ->
+    lies_in Q (yield_region y) t x ->
+    (exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x) \/
+    (exists2 f, List.In f families & in_family Q f t x).
+  move=> y_in sol reg; case of_family: (has (belongs ns y) families).
+    have [f f_in bel] := has_In_family of_family.
+    have [t0 [x0 [bt _ _ uniq]]] := one_each y y_in; have [eq_t _] := uniq t x sol reg.
+    right; exists f => //; apply: (belongs_sound supports f_in bel) => //.
+    by rewrite eq_t.
+  left; have [|s sl one] := all_found y _ t x sol reg; last by exists s.
+  by apply/in_filter; rewrite of_family.
+exists l; split=> //.
+- exact/esym/(Forall2_size sols).
+- by move=> s sl; have [y _ [_ sol _ _]] := Forall2_in sols sl; split=> //; apply: win.
+- by apply: Forall2_impl sols => y s [bt _ reg _].
+move=> t x sol bt; case: (every sol bt) => -[y y_in reg].
+  have [|one|fam] := covered y t x _ sol reg; first by apply/in_cat_or; left.
+    exact: Or31.
+  exact: Or32.
+have [[y' y'_in reg']|fam|op] := supports_cover supports y_in sol reg.
+- have [|one|fam] := covered y' t x _ sol reg'; first by apply/in_cat_or; right.
+    exact: Or31.
+  exact: Or32.
+- exact: Or32.
+exact: Or33.
+Qed.
+
+End Cover.
+
+Section Pencils.
+
+Variables (R : rcfType) (Q : pencil) (claims : seq claim) (w : elimination).
+Variables (tr : tree (leaf whole)) (lo hi : point) (ls : seq (option support_leaf)).
+Hypothesis checked : check_families Q claims tr lo hi ls w.
+
+Notation ns := (size (slip Q)).
+Notation families := (families tr lo hi ls).
+Notation still_open := (still_open tr lo hi ls).
+
+Theorem families_number ys : all_solutions Q claims tr lo hi ls = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
+        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
+                                 lies_in Q (yield_region y) s.1 s.2) ys l,
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
+        forall t x, solution Q t x -> between t lo hi ->
+          [\/ exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x,
+              exists2 f, List.In f families & in_family Q f t x |
+              exists2 r, List.In r still_open & lies_in Q r t x]].
+Proof.
+case/andP: checked => complete supports; have [every each] := complete_sound R complete.
+exact: (cover_number supports every each).
+Qed.
+
+Theorem families_hold f : List.In f families -> family_holds R Q f.
+Proof. by case/andP: checked => _ supports; apply: supports_families. Qed.
+
+End Pencils.
+
+Section Systems.
+
+Variables (R : rcfType) (s : system) (u : unknown) (claims : seq claim) (w : elimination).
+Variables (tr : tree (leaf whole)) (lo hi : point) (ls : seq (option support_leaf)).
+Hypothesis checked : check_system_families s u claims w tr lo hi ls.
+
+Notation Q := (pencil_of s u).
+Notation families := (families tr lo hi ls).
+Notation still_open := (still_open tr lo hi ls).
+
+Lemma system_parts : [/\ system_wellformed s u, check_system s u claims w tr lo hi &
+  check_families Q claims tr lo hi ls w].
+Proof.
+case/andP: checked => sys supports; have [wf complete] := andP sys.
+by split=> //; apply/andP.
+Qed.
+
+(* The motion (t, v) belongs to a family. *)
+Definition motion_in_family (f : family) (t : R) v :=
+  motion_in s u f.1 t v /\ in_place (held_place f.2) t.
+
+Theorem system_families_number ys : all_solutions Q claims tr lo hi ls = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 motion_in s u (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
+        forall t v, satisfies_9 s u t v -> between t lo hi ->
+          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
+              exists2 f, List.In f families & motion_in_family f t v |
+              exists2 r, List.In r still_open & motion_in s u r t v]].
+Proof.
+have [wf sys fam] := system_parts => /(families_number R fam)[l [sz sols vals pairs every]].
+exists [seq (p.1, motion s p.2) | p <- l]; split=> //.
+- by rewrite size_map.
+- move=> m /List.in_map_iff[p [<- /sols[sol bt]]]; split=> //=; exact/(system_pencil wf).
+- elim: vals => [|y p ys' l' [bt reg] _ IH] /=; constructor=> //.
+  by split=> //; apply: (lies_in_motion sys).
+- elim: pairs => [|p l' different _ IH] /=; constructor=> //.
+  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t].
+  move/(motion_injective sys) => prop.
+  by have /List.Forall_forall/(_ _ p'_in) := different; apply.
+move=> t v sat bt; have sol := solution_of_motion wf sat.
+have [[p p_in [-> prop]]|[f f_in [reg at_t]]|[r r_in reg]] := every t _ sol bt.
+- apply: Or31; exists (p.1, motion s p.2); first by apply/List.in_map_iff; exists p.
+  split=> //=; have [c c0 scaled] := motion_proportional prop.
+  by exists c => // d Hd; rewrite -scaled (system_onto wf sat).
+- by apply: Or32; exists f.
+by apply: Or33; exists r.
+Qed.
+
+Theorem system_families_hold f : List.In f families ->
+  is_place R (held_place f.2) /\
+  forall t : R, in_place (held_place f.2) t ->
+    (exists v, satisfies_9 s u t v /\ motion_in s u f.1 t v) /\
+    (held_alone f.2 -> forall v v', satisfies_9 s u t v -> motion_in s u f.1 t v ->
+       satisfies_9 s u t v' -> motion_in s u f.1 t v' -> same_motion s v v').
+Proof.
+have [wf sys fam] := system_parts => /(families_hold R fam)[is_pl each]; split=> // t at_t.
+have [[x [sol reg]] alone] := each t at_t; split.
+  exists (motion s x); split; first exact/(system_pencil wf).
+  exact: (lies_in_motion sys).
+move=> al v v' sat reg_v sat' reg_v'.
+have prop : proportional Q (variables_of s v) (variables_of s v').
+  by apply: (alone al); split=> //; apply: solution_of_motion.
+have [c c0 scaled] := motion_proportional prop.
+by exists c => // d Hd; rewrite -(system_onto wf sat') // scaled (system_onto wf sat).
+Qed.
+
+End Systems.
