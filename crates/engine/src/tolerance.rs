@@ -214,9 +214,16 @@ pub(crate) const SIGN_NOISE: f64 = 1e-11;
 /// a tenth of the gap that is aimed at.
 pub(crate) const SHORT_VALUE: f64 = 1e-8;
 
-/// Half width of the window in which a solution known in doubles is certified, narrow ones first.
-/// Unit: of mu. Basis: a simple eigenvalue is good to 1e-15 times its condition.
-pub(crate) const NARROW_WINDOWS: [f64; 2] = [1e-9, 1e-6];
+/// Half widths of the windows in which a solution known in doubles is certified, in this order.
+/// Unit: of mu. Basis: a simple eigenvalue is good to 1e-15 times its condition. Reason: the
+/// condensation may leave the neighbourhood of the solution open in the first window; the second
+/// leaves that out, the third is for values that doubles know badly.
+pub(crate) const NARROW_WINDOWS: [f64; 3] = [1e-9, 1e-11, 1e-6];
+
+/// How far above the smallest solution the first sample of mu lies. Unit: of mu. Reason: nearer to
+/// the threshold a complete search takes longer and decides less; the critical mu itself is certified
+/// apart.
+pub(crate) const ABOVE_CRITICAL: f64 = 1e-3;
 
 /// Gap between absence and solution that is looked at first. Unit: of mu. Reason: cheap, and meets
 /// solutions that are still unknown.

@@ -20,6 +20,7 @@ use super::model::Model;
 use super::threshold::StaticThreshold;
 use crate::reduction::MuFamily;
 use crate::run::Progress;
+use crate::search::complete::Completed;
 use crate::search::complete::pieces::anchor::NEAR;
 use crate::tolerance::{
     CRITICAL_GAPS, FIRST_GAP, FIRST_NEAR, LEAST_NEAR, NARROW_WINDOWS, NEARER, SMALLER_FRICTION,
@@ -156,7 +157,7 @@ pub(super) fn critical(
                 problem: known.problem,
                 limits: model.options.limits,
                 threads: model.options.threads,
-                watch: model.progress,
+                watch: model.watch,
             },
         };
 
@@ -282,7 +283,7 @@ impl Search<'_> {
             }
 
             let stage = "critical mu: following solutions to smaller mu";
-            let watch = &self.model.progress;
+            let watch = &self.model.watch;
             watch.report(&Progress::of(stage, k, starts.len()));
             minima.extend(
                 self.branches
@@ -320,32 +321,50 @@ impl Search<'_> {
             return Ok(false);
         };
 
-        let problem = self.model.at_lambda2(&lambda2)?;
+        let Some((problem, found)) = self.set_about(&lambda2, moved.mu)? else {
+            return Ok(false);
+        };
+
+        bounds.solution = Some(CertifiedSolution {
+            mu: found.cover.solutions[0].value.clone(),
+            lambda2: Interval::point(lambda2),
+            evidence: Evidence::Exact(""),
+        });
+        bounds.of_solution = Some(Proof {
+            name: "critical".into(),
+            problem,
+            certificate: ProofCertificate::Solutions(found.certificate),
+        });
+        Ok(true)
+    }
+
+    /// A set with a solution in a narrow window about mu: complete in one of the windows tried, or
+    /// else the first one.
+    fn set_about(
+        &self,
+        lambda2: &Rational,
+        mu: f64,
+    ) -> Result<Option<(Problem, Completed)>, AnalysisError> {
+        let stage = format!("critical mu: certifying a solution at mu = {mu:.9}");
+        let problem = self.model.at_lambda2(lambda2)?;
+        let mut incomplete = None;
         for half_width in NARROW_WINDOWS {
-            let Some(window) = window_about(moved.mu, half_width) else {
-                return Ok(false);
+            let Some(window) = window_about(mu, half_width) else {
+                return Ok(None);
             };
 
             let problem = problem.clone().with_window(window);
-            let found = self.model.complete(&problem)?;
-            let Some(smallest) = found.cover.solutions.first() else {
+            let found = self.model.complete(&stage, &problem)?;
+            if found.cover.solutions.is_empty() {
                 continue;
-            };
-
-            bounds.solution = Some(CertifiedSolution {
-                mu: smallest.value.clone(),
-                lambda2: Interval::point(lambda2),
-                evidence: Evidence::Exact(""),
-            });
-            bounds.of_solution = Some(Proof {
-                name: "critical".into(),
-                problem,
-                certificate: ProofCertificate::Solutions(found.certificate),
-            });
-            return Ok(true);
+            }
+            if found.is_complete() {
+                return Ok(Some((problem, found)));
+            }
+            incomplete = incomplete.or(Some((problem, found)));
         }
 
-        Ok(false)
+        Ok(incomplete)
     }
 
     /// Proves absence below bounds close to the known solution.
@@ -406,7 +425,10 @@ impl Search<'_> {
                 return Ok(());
             };
 
-            let obstacles = self.quadrant.obstacles(&below, &bounds.places)?;
+            let stage = "critical mu: looking for smaller solutions";
+            let relay = |progress: &Progress<'_>| self.model.relay(stage, progress);
+            let quadrant = self.quadrant.heard_by(&relay);
+            let obstacles = quadrant.obstacles(&below, &bounds.places)?;
             let is_over = obstacles.is_empty() || self.model.stopped();
             if is_over || !matches!(self.learn_from(&obstacles, bounds)?, Next::Again) {
                 return Ok(());
@@ -452,9 +474,10 @@ impl Search<'_> {
             return Ok(Some(Next::Wider));
         }
 
-        let stage = format!("critical mu: absence below {:.7}", to_f64(below));
-        self.model.progress.report(&Progress::stage(&stage));
-        match self.quadrant.cover(below, &bounds.places)? {
+        let stage = format!("critical mu: proving absence below {:.7}", to_f64(below));
+        let relay = |progress: &Progress<'_>| self.model.relay(&stage, progress);
+        let quadrant = self.quadrant.heard_by(&relay);
+        match quadrant.cover(below, &bounds.places)? {
             Outcome::Absent(certificate) => {
                 bounds.absence = Some(*certificate);
                 Ok(None)

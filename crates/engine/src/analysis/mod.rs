@@ -24,6 +24,7 @@ mod model;
 mod modes;
 mod ranges;
 mod sentences;
+mod summary;
 mod threshold;
 
 pub use answer::Analysis;
@@ -69,8 +70,7 @@ pub fn analyse(
     let model = Model {
         system,
         options,
-        watch: watch.quiet(),
-        progress: *watch,
+        watch: *watch,
     };
 
     let at_friction = model.problem(Some(friction))?;
@@ -79,8 +79,7 @@ pub fn analyse(
     watch.report(&Progress::stage("conditions (19), (20)"));
     let necessary = Necessary::of(&family)?;
 
-    watch.report(&Progress::stage("divergence at mu: all lambda^2 >= 0"));
-    let found = model.complete(&at_friction)?;
+    let found = model.complete("divergence at mu, all lambda^2 >= 0", &at_friction)?;
     let divergence = divergence(system, &family, &found);
     let sufficient = sufficient(&family, &found, divergence.verdict);
     let problem_sha256 = at_friction.sha256();
@@ -89,9 +88,8 @@ pub fn analyse(
     let mut starts = starts(&found, &slip, |value| [value, mu]);
     let of_lambda2 = proof("lambda2", at_friction.clone(), found);
 
-    watch.report(&Progress::stage("static threshold: all mu >= 0"));
     let at_zero = model.problem(None)?;
-    let found = model.complete(&at_zero)?;
+    let found = model.complete("static threshold, all mu >= 0", &at_zero)?;
     let threshold = StaticThreshold::of(&found);
     starts.extend(self::starts(&found, &slip, |value| [0.0, value]));
     let of_mu = proof("mu", at_zero, found);
@@ -110,10 +108,18 @@ pub fn analyse(
         starts,
     };
 
-    let critical = critical::critical(&model, &known, &mut proofs)?;
-
-    watch.report(&Progress::stage("ranges of mu"));
-    let (ranges, samples) = ranges::ranges(&model, friction, &threshold, &critical)?;
+    let mut critical = critical::critical(&model, &known, &mut proofs)?;
+    let (ranges, samples) = {
+        let sampled = ranges::sampled(&model, friction, &threshold, &critical)?;
+        if let Some((solution, proof)) = sampled.solution {
+            critical.solution = Some(CertifiedSolution {
+                evidence: Evidence::Certificate(proofs.len()),
+                ..solution
+            });
+            proofs.push(proof);
+        }
+        (sampled.ranges, sampled.samples)
+    };
 
     Ok(Analysis {
         name,

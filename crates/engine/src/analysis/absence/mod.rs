@@ -13,7 +13,7 @@ mod boxes;
 mod family;
 
 use crate::reduction::MuFamily;
-use crate::run::Watch;
+use crate::run::{OnProgress, Progress, Watch};
 use crate::search::complete::CompleteError;
 use crate::search::complete::rounds::in_threads;
 use crate::search::complete::shares::Shares;
@@ -70,6 +70,7 @@ pub(super) enum Outcome {
 }
 
 /// A system whose covers are sought.
+#[derive(Clone, Copy)]
 pub(super) struct Quadrant<'a> {
     pub(super) family: &'a MuFamily,
     /// M* as a function of mu.
@@ -81,7 +82,18 @@ pub(super) struct Quadrant<'a> {
     pub(super) watch: Watch<'a>,
 }
 
-impl Quadrant<'_> {
+impl<'a> Quadrant<'a> {
+    /// The same with another listener.
+    pub(super) fn heard_by<'b>(self, listener: &'b OnProgress<'b>) -> Quadrant<'b>
+    where
+        'a: 'b,
+    {
+        Quadrant {
+            watch: self.watch.heard_by(listener),
+            ..self
+        }
+    }
+
     /// The first box of each piece that cannot be emptied for a bound: no proof, but cheaper.
     ///
     /// # Errors
@@ -91,6 +103,7 @@ impl Quadrant<'_> {
         below: &Rational,
         places: &[Place],
     ) -> Result<Vec<Blocked>, CompleteError> {
+        self.watch.report(&Progress::stage("condensing"));
         let family = Family::new(self.family, self.mass, below, places)?;
         let proposed = self.proposed(&family, below);
         Ok(proposed.err().unwrap_or_default())
@@ -105,6 +118,7 @@ impl Quadrant<'_> {
         below: &Rational,
         places: &[Place],
     ) -> Result<Outcome, CompleteError> {
+        self.watch.report(&Progress::stage("condensing"));
         let mut family = Family::new(self.family, self.mass, below, places)?;
         for _ in 0..=CAUTIOUS_ROUNDS {
             let certificate = match self.proposed(&family, below) {
@@ -112,6 +126,10 @@ impl Quadrant<'_> {
                 Err(blocked) => return Ok(Outcome::Blocked(blocked)),
             };
 
+            self.watch.report(&Progress {
+                done: leaves(&certificate) as u64,
+                ..Progress::stage("checking its leaves")
+            });
             if let Ok(refused) = audit_critical(self.problem, &certificate)
                 && refused.is_empty()
             {
