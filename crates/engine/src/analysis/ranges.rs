@@ -45,9 +45,8 @@ pub struct Range {
 }
 
 /// Behind a range of samples.
-const AT_SAMPLES: Evidence = Evidence::Measured(
-    "decided by a complete search at each of the sampled mu, not between them",
-);
+const AT_SAMPLES: Evidence =
+    Evidence::Measured("decided by a complete search at each of the sampled mu, not between them");
 
 /// Halvings of the interval between neighbouring samples of different verdicts.
 const HALVINGS: usize = 8;
@@ -185,7 +184,8 @@ impl Sampler<'_> {
                 }
 
                 let mu = (&left.mu + &right.mu) / whole(2);
-                let Some(middle) = self.sample("ranges of mu: where the verdict changes", mu)? else {
+                let Some(middle) = self.sample("ranges of mu: where the verdict changes", mu)?
+                else {
                     break;
                 };
                 let is_like_left = middle.verdict == left.verdict;

@@ -110,7 +110,9 @@ fn flutter_text(flutter: &Flutter) -> String {
     let mut named = Vec::new();
     for eigenvalue in flutter.eigenvalues.iter().take(NAMED_PAIRS) {
         let (growth_rate, frequency) = root(*eigenvalue);
-        named.push(format!("{frequency:.6} rad/s growing at {growth_rate:.6} 1/s"));
+        named.push(format!(
+            "{frequency:.6} rad/s growing at {growth_rate:.6} 1/s"
+        ));
     }
 
     let more = if count > NAMED_PAIRS {

@@ -52,7 +52,10 @@ impl Analysis {
             (None, _) => "No mu has any.".into(),
             (Some(below), Some(solution)) => self.two_bounds(below, solution),
             (Some(below), None) => {
-                format!("There is none below mu = {}, and none is known.", down(below))
+                format!(
+                    "There is none below mu = {}, and none is known.",
+                    down(below)
+                )
             }
         }
     }
@@ -62,7 +65,10 @@ impl Analysis {
         let place = if is_static {
             "at lambda = 0, the static threshold".to_string()
         } else {
-            format!("at lambda^2 = {:.6e} 1/s^2", to_f64(&solution.lambda2.mid()))
+            format!(
+                "at lambda^2 = {:.6e} 1/s^2",
+                to_f64(&solution.lambda2.mid())
+            )
         };
 
         let gap = self.critical_gap().unwrap_or_default();
