@@ -123,7 +123,8 @@ fn the_page_prints_what_the_program_says() {
     let report = exits_with_json(0, &[&args[..], &["--certificates", &proofs]].concat());
 
     let summary = report["summary"].as_str().unwrap();
-    let page_in_one_line = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    let quoted: Vec<&str> = page.lines().filter_map(|l| l.strip_prefix("> ")).collect();
+    let page_in_one_line = quoted.join(" ");
     assert!(page_in_one_line.contains(summary), "{summary}");
     assert!(summary.contains(&ABSENT_BELOW.to_string()), "{summary}");
     assert!(summary.contains(&SOLUTION.to_string()), "{summary}");
