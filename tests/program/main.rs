@@ -20,6 +20,7 @@ mod conform_adapter;
 mod convert;
 mod examples;
 mod explain;
+mod fold;
 mod launcher;
 mod manual;
 mod pictures;
