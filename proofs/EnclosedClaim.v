@@ -87,12 +87,12 @@ Notation V := (box_center c).
 Notation W := (box_width c).
 Notation u := (left_null c).
 
-Definition is_active i := (i \in free Q) || (i \in box_support c).
-Definition active_list := [seq i <- iota 0 (order Q) | is_active i].
+Definition box_active i := (i \in free Q) || (i \in box_support c).
+Definition active_list := [seq i <- iota 0 (order Q) | box_active i].
 Definition pivot_removed := [seq i <- active_list | i != box_pivot c].
 
 Definition vanishes_elsewhere :=
-  all (fun j => is_active j || (nth 0 V j =? 0)) (iota 0 (order Q)) &&
+  all (fun j => box_active j || (nth 0 V j =? 0)) (iota 0 (order Q)) &&
   all (fun j => (j \in pivot_removed) || (norm1 (nth [::] Y j) =? 0)) (iota 0 (order Q)).
 
 (* A sparse row times Y. *)
@@ -283,7 +283,7 @@ case/and5P: checked => wf cols o to2 /and5P[ks /allP sup van w /and3P[reg det si
 by split=> //; split=> //; split=> //; rewrite toR_ge0.
 Qed.
 
-Lemma active_mem i : (i \in J) = (i \in variables) && is_active Q c i.
+Lemma active_mem i : (i \in J) = (i \in variables) && box_active Q c i.
 Proof. by rewrite mem_filter andbC. Qed.
 
 Lemma active_variables i : i \in J -> i \in variables.
@@ -304,18 +304,18 @@ Proof. by rewrite !filter_uniq // iota_uniq. Qed.
 Lemma support_active j : j \in box_support c -> j \in J.
 Proof.
 have [_ [[_ sup _ _] _]] := enclosed_parts => j_s.
-by rewrite active_mem /is_active j_s orbT andbT; apply/slip_indices/sup.
+by rewrite active_mem /box_active j_s orbT andbT; apply/slip_indices/sup.
 Qed.
 
 Lemma free_active i : i \in free Q -> i \in J.
 Proof.
 have [[wf _ _ _] _] := enclosed_parts => i_f.
-by rewrite active_mem /is_active i_f andbT; apply: free_indices.
+by rewrite active_mem /box_active i_f andbT; apply: free_indices.
 Qed.
 
 Lemma slip_active i : i \in slip Q -> (i \in J) = (i \in box_support c).
 Proof.
-move=> Hi; rewrite active_mem slip_indices //= /is_active.
+move=> Hi; rewrite active_mem slip_indices //= /box_active.
 by move: Hi; rewrite mem_filter => /andP[/negbTE->].
 Qed.
 

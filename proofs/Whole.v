@@ -41,7 +41,7 @@ Record whole_end := WholeEnd { end_scale : Z; end_factor : whole_factor }.
 
 (* D (a weight that is missing is 1), the sign, and a factor at each end. *)
 Record whole := WholeLeaf {
-  row_weights : seq Z;
+  whole_weights : seq Z;
   whole_negative : bool;
   low_end : whole_end;
   high_end : whole_end }.
@@ -87,8 +87,8 @@ Definition check_end (strict negative : bool) e r (w : whole_end) :=
 End Checker.
 
 Definition check_whole Q (r : region) (w : whole) :=
-  check_end Q (row_weights w) true (whole_negative w) (lower r) r (low_end w) &&
-  check_end Q (row_weights w) (0 <? (upper r).2)%Z (whole_negative w) (upper r) r (high_end w).
+  check_end Q (whole_weights w) true (whole_negative w) (lower r) r (low_end w) &&
+  check_end Q (whole_weights w) (0 <? (upper r).2)%Z (whole_negative w) (upper r) r (high_end w).
 
 Lemma lookup_weighted weight i row j :
   lookup (weighted weight i row) j = (nth 1 weight i * lookup row j)%Z.
@@ -243,7 +243,7 @@ Theorem whole_sound (R : rcfType) Q r w (t : R) x :
 Proof.
 move=> wf O /andP[L H] bt ag [_ x_nonzero rows_f rows_s].
 have [a [b [a0 b0 [one val] [ab a_gt0]]]] := weights_of_ends O bt.
-set d := row_weights w in L H.
+set d := whole_weights w in L H.
 have [low0 low1] := check_end_sound wf ag L.
 have [high0 high1] := check_end_sound wf ag H.
 set s := sign R (whole_negative w) in low0 low1 high0 high1.

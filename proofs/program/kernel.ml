@@ -1846,7 +1846,7 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { row_weights : Big_int_Z.big_int list; whole_negative : 
+type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : 
                bool; low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
@@ -1914,8 +1914,9 @@ let check_end q weight strict negative e r w =
 (** val check_whole : pencil -> region -> whole -> bool **)
 
 let check_whole q r w =
-  (&&) (check_end q w.row_weights true w.whole_negative r.lower r w.low_end)
-    (check_end q w.row_weights (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+  (&&)
+    (check_end q w.whole_weights true w.whole_negative r.lower r w.low_end)
+    (check_end q w.whole_weights (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
       w.whole_negative r.upper r w.high_end)
 
 type polynomial = Big_int_Z.big_int list
@@ -2187,16 +2188,16 @@ let at_end e a b =
 let row_at_end e a b =
   add_multiple (snd e) a (add_multiple (fst e) b [])
 
-(** val is_active : pencil -> enclosed_claim -> Equality.sort -> bool **)
+(** val box_active : pencil -> enclosed_claim -> Equality.sort -> bool **)
 
-let is_active q c i =
+let box_active q c i =
   (||) (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free)))
     (in_mem i (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
 
 (** val active_list : pencil -> enclosed_claim -> Equality.sort list **)
 
 let active_list q c =
-  filter (fun i -> is_active q c i) (Obj.magic iota 0 q.order)
+  filter (fun i -> box_active q c i) (Obj.magic iota 0 q.order)
 
 (** val pivot_removed : pencil -> enclosed_claim -> Equality.sort list **)
 
@@ -2209,7 +2210,7 @@ let pivot_removed q c =
 let vanishes_elsewhere q c =
   (&&)
     (all (fun j ->
-      (||) (is_active q c (Obj.magic j))
+      (||) (box_active q c (Obj.magic j))
         (Z.eqb (nth Big_int_Z.zero_big_int c.box_center j)
           Big_int_Z.zero_big_int)) (iota 0 q.order))
     (all (fun j ->
@@ -3148,7 +3149,7 @@ type signed = claimed_sign * sign_evidence
 
 type poly_vector = polynomial list
 
-type refutation = { row_weights0 : poly_vector; weight_signs : signed list;
+type refutation = { row_weights : poly_vector; weight_signs : signed list;
                     column_signs : signed list }
 
 type bound0 = { bounded : int; bound_signs : refutation }
@@ -3224,15 +3225,15 @@ let rests q r i =
   (&&) (negb (is_free q i))
     (is_resting (state_of r (index nat_eqType (Obj.magic i) (slip q))))
 
-(** val is_active0 : pencil -> region -> int -> bool **)
+(** val is_active : pencil -> region -> int -> bool **)
 
-let is_active0 q r i =
+let is_active q r i =
   (||) (is_free q i) (moves q r i)
 
 (** val decided_region : pencil -> region -> bool **)
 
 let decided_region q r =
-  all (fun i -> (||) (is_active0 q r i) (rests q r i)) (iota 0 q.order)
+  all (fun i -> (||) (is_active q r i) (rests q r i)) (iota 0 q.order)
 
 (** val component_of : poly_vector -> int -> Big_int_Z.big_int list **)
 
@@ -3272,15 +3273,15 @@ let check_refutation q r pl f =
     (all (fun i ->
       (||) (negb (rests q r i))
         ((&&) (negb (is_negative (sign_at f.weight_signs i)))
-          (shows pl (component_of f.row_weights0 i)
-            (sign_at f.weight_signs i)))) (iota 0 q.order))
+          (shows pl (component_of f.row_weights i) (sign_at f.weight_signs i))))
+      (iota 0 q.order))
     ((&&)
       (all (fun j ->
-        (||) (negb (is_active0 q r j))
+        (||) (negb (is_active q r j))
           ((&&) (negb (is_positive (sign_at f.column_signs j)))
             ((&&)
               ((||) (negb (is_free q j)) (is_zero (sign_at f.column_signs j)))
-              (shows pl (column_poly q f.row_weights0 j)
+              (shows pl (column_poly q f.row_weights j)
                 (sign_at f.column_signs j))))) (iota 0 q.order))
       (has (fun j ->
         (&&) (moves q r j) (is_negative (sign_at f.column_signs j)))
@@ -3306,7 +3307,7 @@ let check_branch q r pl b =
           (all (fun i ->
             (&&) (negb (is_negative (sign_at b.y_signs i)))
               ((&&)
-                ((||) (negb (is_active0 q r i))
+                ((||) (negb (is_active q r i))
                   (is_zero (sign_at b.y_signs i)))
                 (shows pl (row_poly q b.branch_x i) (sign_at b.y_signs i))))
             (iota 0 q.order)))))
@@ -3316,7 +3317,7 @@ let check_branch q r pl b =
 
 let check_bound q r pl b k o =
   let f = o.bound_signs in
-  (&&) (is_active0 q r o.bounded)
+  (&&) (is_active q r o.bounded)
     ((&&) (leq (Stdlib.Int.succ o.bounded) q.order)
       ((&&)
         (all (fun i ->
@@ -3325,15 +3326,15 @@ let check_bound q r pl b k o =
               ((&&)
                 ((||) (is_zero (sign_at f.weight_signs i))
                   (is_zero (sign_at b.y_signs i)))
-                (shows pl (component_of f.row_weights0 i)
+                (shows pl (component_of f.row_weights i)
                   (sign_at f.weight_signs i))))) (iota 0 q.order))
         (all (fun j ->
-          (||) (negb (is_active0 q r j))
+          (||) (negb (is_active q r j))
             ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic k))
               ((&&)
                 ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic o.bounded))
                   (is_zero (sign_at f.column_signs j)))
-                (shows pl (column_poly q f.row_weights0 j)
+                (shows pl (column_poly q f.row_weights j)
                   (sign_at f.column_signs j))))) (iota 0 q.order))))
 
 (** val own_sign : bound0 -> claimed_sign * sign_evidence **)
@@ -3351,7 +3352,7 @@ let check_alone q r pl b =
       ((&&) (leq (Stdlib.Int.succ k) q.order)
         ((&&) (all (check_bound q r pl b k) bounds)
           (all (fun j ->
-            (||) (negb (is_active0 q r j))
+            (||) (negb (is_active q r j))
               ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic k))
                 ((&&)
                   (has (fun o ->

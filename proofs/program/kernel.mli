@@ -636,7 +636,7 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { row_weights : Big_int_Z.big_int list; whole_negative : 
+type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : 
                bool; low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
@@ -752,7 +752,7 @@ val row_at_end :
   point -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
   Big_int_Z.big_int list
 
-val is_active : pencil -> enclosed_claim -> Equality.sort -> bool
+val box_active : pencil -> enclosed_claim -> Equality.sort -> bool
 
 val active_list : pencil -> enclosed_claim -> Equality.sort list
 
@@ -1072,7 +1072,7 @@ type signed = claimed_sign * sign_evidence
 
 type poly_vector = polynomial list
 
-type refutation = { row_weights0 : poly_vector; weight_signs : signed list;
+type refutation = { row_weights : poly_vector; weight_signs : signed list;
                     column_signs : signed list }
 
 type bound0 = { bounded : int; bound_signs : refutation }
@@ -1110,7 +1110,7 @@ val moves : pencil -> region -> int -> bool
 
 val rests : pencil -> region -> int -> bool
 
-val is_active0 : pencil -> region -> int -> bool
+val is_active : pencil -> region -> int -> bool
 
 val decided_region : pencil -> region -> bool
 
