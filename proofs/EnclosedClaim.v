@@ -91,9 +91,13 @@ Definition box_active i := (i \in free Q) || (i \in box_support c).
 Definition active_list := [seq i <- iota 0 (order Q) | box_active i].
 Definition pivot_removed := [seq i <- active_list | i != box_pivot c].
 
+(* [l] is K, which is computed once. *)
+Definition inverse_vanishes_off (l : seq nat) :=
+  all (fun j => (j \in l) || (norm1 (nth [::] Y j) =? 0)) (iota 0 (order Q)).
+
 Definition vanishes_elsewhere :=
   all (fun j => box_active j || (nth 0 V j =? 0)) (iota 0 (order Q)) &&
-  all (fun j => (j \in pivot_removed) || (norm1 (nth [::] Y j) =? 0)) (iota 0 (order Q)).
+  inverse_vanishes_off pivot_removed.
 
 (* A sparse row times Y. *)
 Definition times_inverse (row : sparse_row) : seq Z :=

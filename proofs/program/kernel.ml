@@ -2205,6 +2205,15 @@ let pivot_removed q c =
   filter (fun i -> negb (eq_op nat_eqType i (Obj.magic c.box_pivot)))
     (active_list q c)
 
+(** val inverse_vanishes_off :
+    pencil -> enclosed_claim -> int list -> bool **)
+
+let inverse_vanishes_off q c l =
+  all (fun j ->
+    (||) (in_mem (Obj.magic j) (mem (seq_predType nat_eqType) (Obj.magic l)))
+      (Z.eqb (norm1 (nth [] c.right_inverse j)) Big_int_Z.zero_big_int))
+    (iota 0 q.order)
+
 (** val vanishes_elsewhere : pencil -> enclosed_claim -> bool **)
 
 let vanishes_elsewhere q c =
@@ -2213,12 +2222,7 @@ let vanishes_elsewhere q c =
       (||) (box_active q c (Obj.magic j))
         (Z.eqb (nth Big_int_Z.zero_big_int c.box_center j)
           Big_int_Z.zero_big_int)) (iota 0 q.order))
-    (all (fun j ->
-      (||)
-        (in_mem (Obj.magic j)
-          (mem (seq_predType nat_eqType) (Obj.magic pivot_removed q c)))
-        (Z.eqb (norm1 (nth [] c.right_inverse j)) Big_int_Z.zero_big_int))
-      (iota 0 q.order))
+    (inverse_vanishes_off q c (Obj.magic pivot_removed q c))
 
 (** val times_inverse :
     enclosed_claim -> sparse_row -> Big_int_Z.big_int list **)

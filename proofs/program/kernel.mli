@@ -758,6 +758,8 @@ val active_list : pencil -> enclosed_claim -> Equality.sort list
 
 val pivot_removed : pencil -> enclosed_claim -> Equality.sort list
 
+val inverse_vanishes_off : pencil -> enclosed_claim -> int list -> bool
+
 val vanishes_elsewhere : pencil -> enclosed_claim -> bool
 
 val times_inverse : enclosed_claim -> sparse_row -> Big_int_Z.big_int list
