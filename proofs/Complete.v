@@ -154,7 +154,7 @@ case: k => [e|b] /= ok.
   have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
   exists t, x; split=> // [|i Hi]; first by rewrite /between /= ![t * _]mulrC.
   by have [] := signs _ Hi.
-have [t [x [bt sol pos zero]]] := enclosed_claim_sound R ok.
+have [t [x [bt sol pos zero _]]] := enclosed_claim_sound R ok.
 exists t, x; split=> // i Hi; split=> // [|out]; first exact: pos.
 by have [] := zero _ Hi out.
 Qed.

@@ -12,7 +12,7 @@
       So G is dominated by its diagonal for each t of the interval: T(t) is regular on K, and the
       vector with x_k = V_k whose rows K vanish differs from V by at most
 
-          eps_i = W sum_j |Y_ij|.
+          eps_i = W N_i,        N_i = sum_j |Y_ij|.
 
    2. Sign change.  u' T_e V exceeds sum_j |u' T_e|_j eps_j in absolute value at both ends, with
       opposite signs, and u_k > 0.  So det T_JJ(t) has a root in the interval.
@@ -20,13 +20,22 @@
    3. Signs.  V_j > eps_j on the support, and (T_e V)_i > sum_j |T_e|_ij eps_j at both ends for
       every other complementarity variable i.
 
+   4. At most one.  For two null vectors (t, x), (t', x') with x_k = x'_k = V_k and t != t'
+
+          T(t) d = -B x',        d = (x - x') / (t - t'),        d_k = 0.
+
+      If |(B x')_i| <= (2 G_ii - sum_j |G_ij|) W' for i in K, then |d_j| <= W' N_j as in 1; so
+      |u' B x'| = |u' T(t) d| <= W' sum_j |u' T(t)|_j N_j.  The check is that this is false for
+      every x' within eps of V.
+
    Y stands on the right, so a product with the sparse rows of A and B costs order^2 times the
    entries of a row; there are two of them.  There is no condensation: B may have entries in the
    free rows.  No fixed point theorem is needed: the existence of a solution is a change of sign of
    a polynomial, which has a root over every real closed field.
 
    Theorem [enclosed_claim_sound]: if the claim is checked, then the pencil has a solution with this
-   support, its value between from and to, and y_i > 0 off the support.
+   support, its value between from and to, and y_i > 0 off the support; and it is the only solution
+   with this support and a value in the interval, up to a positive factor.
 
    Page: spec/certificates.md, 5.5.  Rust: crates/check/src/enclosed_solution.rs. *)
 
@@ -54,6 +63,7 @@ Record enclosed_claim := EnclosedClaim {
   box_center : seq Z;
   right_inverse : matrix;
   box_width : Z;
+  rate_width : Z;  (* W' *)
   left_null : seq Z }.
 
 Section Checker.
@@ -85,6 +95,7 @@ Variables (Q : pencil) (c : enclosed_claim).
 Notation Y := (right_inverse c).
 Notation V := (box_center c).
 Notation W := (box_width c).
+Notation W' := (rate_width c).
 Notation u := (left_null c).
 
 Definition box_active i := (i \in free Q) || (i \in box_support c).
@@ -105,19 +116,24 @@ Definition times_inverse (row : sparse_row) : seq Z :=
 
 Definition margin (g : seq Z) p := 2 * nth 0 g p - norm1 g.
 
-Definition dominated p (g : seq Z) (residual : Z) :=
-  (0 <? margin g p) && (Z.abs residual <=? margin g p * W).
+(* [rate] is a bound of |(B x)_i| for x within eps of V. *)
+Definition dominated p (g : seq Z) (residual rate : Z) :=
+  [&& 0 <? margin g p, Z.abs residual <=? margin g p * W & rate <=? margin g p * W'].
 
-Definition dominated_ends p (ga gb : seq Z) (ra rb : Z) :=
-  dominated p (row_at_end (box_from c) ga gb) (at_end (box_from c) ra rb) &&
-  dominated p (row_at_end (box_to c) ga gb) (at_end (box_to c) ra rb).
+Definition dominated_at e p (ga gb : seq Z) (ra rb rate : Z) :=
+  dominated p (row_at_end e ga gb) (at_end e ra rb) (e.2 * rate).
+
+Definition dominated_ends p ga gb ra rb rate :=
+  dominated_at (box_from c) p ga gb ra rb rate && dominated_at (box_to c) p ga gb ra rb rate.
 
 (* Row p of the list K is row i of the pencil. *)
-Definition regular_row p i :=
+Definition regular_row eps p i :=
   dominated_ends p (times_inverse (row_a Q i)) (times_inverse (row_b Q i))
-    (sparse_dot (row_a Q i) V) (sparse_dot (row_b Q i) V).
+    (sparse_dot (row_a Q i) V) (sparse_dot (row_b Q i) V)
+    (Z.abs (sparse_dot (row_b Q i) V) + absolute_dot (row_b Q i) eps).
 
-(* eps *)
+(* N and eps *)
+Definition norms : seq Z := [seq norm1 row | row <- Y].
 Definition widths : seq Z := [seq norm1 row * W | row <- Y].
 
 (* u' A and u' B on J, for the rows of A and B. *)
@@ -144,6 +160,16 @@ Definition determinant_changes_sign eps :=
   opposite_signs eps (left_times (row_a Q)) (left_times (row_b Q))
     (left_value (row_a Q)) (left_value (row_b Q)).
 
+Definition one_root_at eps la lb vb e :=
+  weighted_norm (row_at_end e la lb) norms * W' <?
+  e.2 * (Z.abs vb - weighted_norm lb eps).
+
+Definition one_root_between eps la lb vb :=
+  one_root_at eps la lb vb (box_from c) && one_root_at eps la lb vb (box_to c).
+
+Definition one_root eps :=
+  one_root_between eps (left_times (row_a Q)) (left_times (row_b Q)) (left_value (row_b Q)).
+
 Definition reaction_positive eps e i :=
   at_end e (absolute_dot (row_a Q i) eps) (absolute_dot (row_b Q i) eps) <?
   at_end e (sparse_dot (row_a Q i) V) (sparse_dot (row_b Q i) V).
@@ -158,8 +184,8 @@ Definition box_signs eps :=
 Definition check_enclosed_claim :=
   [&& wellformed Q, columns_in_order Q, ordered (box_from c) (box_to c), 0 <? (box_to c).2,
       box_pivot c \in box_support c, all (fun i => i \in slip Q) (box_support c),
-      vanishes_elsewhere, 0 <=? W, all_from regular_row 0 pivot_removed,
-      determinant_changes_sign widths & box_signs widths].
+      vanishes_elsewhere, 0 <=? W, 0 <=? W', all_from (regular_row widths) 0 pivot_removed,
+      determinant_changes_sign widths, one_root widths & box_signs widths].
 
 End Checker.
 
@@ -269,6 +295,8 @@ Notation k := (box_pivot c).
 Notation V j := (toR (nth 0%Z (box_center c) j) : R).
 Notation Y j p := (toR (nth 0%Z (nth [::] (right_inverse c) j) p) : R).
 Notation W := (toR (box_width c) : R).
+Notation W' := (toR (rate_width c) : R).
+Notation N j := (toR (norm1 (nth [::] (right_inverse c) j)) : R).
 Notation eps j := (toR (nth 0%Z (widths c) j) : R).
 Notation A := (a_entry R Q).
 Notation B := (b_entry R Q).
@@ -280,12 +308,15 @@ Lemma enclosed_parts :
   [/\ wellformed Q, columns_in_order Q, ordered (box_from c) (box_to c) & (0 <? (box_to c).2)%Z] /\
   [/\ k \in box_support c, forall i, i \in box_support c -> i \in slip Q,
       vanishes_elsewhere Q c & 0 <= W] /\
-  [/\ all_from (regular_row Q c) 0 K, determinant_changes_sign Q c (widths c) &
+  [/\ all_from (regular_row Q c (widths c)) 0 K, determinant_changes_sign Q c (widths c) &
       box_signs Q c (widths c)].
 Proof.
-case/and5P: checked => wf cols o to2 /and5P[ks /allP sup van w /and3P[reg det signs]].
+case/and5P: checked => wf cols o to2 /and5P[ks /allP sup van w /and5P[_ reg det _ signs]].
 by split=> //; split=> //; split=> //; rewrite toR_ge0.
 Qed.
+
+Lemma uniqueness_parts : 0 <= W' /\ one_root Q c (widths c).
+Proof. by case/and5P: checked => _ _ _ _ /and5P[_ _ _ _ /and5P[? _ _ ? _]]; rewrite toR_ge0. Qed.
 
 Lemma active_mem i : (i \in J) = (i \in variables) && box_active Q c i.
 Proof. by rewrite mem_filter andbC. Qed.
@@ -355,7 +386,7 @@ have := @norm1_ge R (nth [::] (right_inverse c) j) p.+1; rewrite norm_elsewhere 
 by apply: le_trans; rewrite (bigD1 ord_max) //= ler_addl sumr_ge0.
 Qed.
 
-Lemma width_norm j : eps j = toR (norm1 (nth [::] (right_inverse c) j)) * W.
+Lemma width_norm j : eps j = N j * W.
 Proof.
 have [l|l] := ltnP j (size (right_inverse c)); first by rewrite (nth_map [::]) // toRM.
 by rewrite !nth_default ?size_map //= toR0 mul0r.
@@ -426,14 +457,19 @@ rewrite !mulr_sumr -big_split; apply: eq_bigr => j _ /=.
 by rewrite /Enclosed.T_end mulrDl !mulrA.
 Qed.
 
+Definition rate_bound i : Z :=
+  (Z.abs (sparse_dot (row_b Q i) (box_center c)) + absolute_dot (row_b Q i) (widths c))%Z.
+
 (* The row in the place p of K is dominated at both ends. *)
 Lemma row_dominated (p : 'I_m) : let i := nth 0%N K p in
   dominated c p (product_row (box_from c) i)
     (at_end (box_from c) (sparse_dot (row_a Q i) (box_center c))
-                         (sparse_dot (row_b Q i) (box_center c))) &&
+                         (sparse_dot (row_b Q i) (box_center c)))
+    ((box_from c).2 * rate_bound i) &&
   dominated c p (product_row (box_to c) i)
     (at_end (box_to c) (sparse_dot (row_a Q i) (box_center c))
-                       (sparse_dot (row_b Q i) (box_center c))).
+                       (sparse_dot (row_b Q i) (box_center c)))
+    ((box_to c).2 * rate_bound i).
 Proof.
 have [_ [_ [reg _ _]]] := enclosed_parts.
 by have := all_from_nth 0%N reg (ltn_ord p).
@@ -462,7 +498,7 @@ Qed.
 
 Lemma margin_gt0 p : 0 < margin_between p.
 Proof.
-have [a0 b0 ab _] := comb; have /andP[/andP[g1 _] /andP[g2 _]] := row_dominated p.
+have [a0 b0 ab _] := comb; have /andP[/and3P[g1 _ _] /and3P[g2 _ _]] := row_dominated p.
 by apply: combination_gt0; rewrite ?toR_gt0.
 Qed.
 
@@ -486,7 +522,7 @@ Qed.
 
 Lemma residual_le (p : 'I_m) : `|\sum_(j <- J) T t (nth 0%N K p) j * V j| <= margin_between p * W.
 Proof.
-have [a0 b0 _ Tab] := comb; have /andP[/andP[_ r1] /andP[_ r2]] := row_dominated p.
+have [a0 b0 _ Tab] := comb; have /andP[/and3P[_ r1 _] /and3P[_ r2 _]] := row_dominated p.
 move: r1 r2; rewrite -!(@toR_le R) !toR_abs !center_row !toRM => r1 r2.
 have -> : \sum_(j <- J) T t (nth 0%N K p) j * V j =
     a * (\sum_(j <- J) T_end (box_from c) (nth 0%N K p) j * V j) +
@@ -504,12 +540,13 @@ apply/matrixP=> p q; rewrite !mxE sum_ordinals; apply: eq_bigr => l _.
 by rewrite !mxE.
 Qed.
 
-(* A vector whose rows K are f times those of V. *)
-Lemma difference_bound d f : 0 <= f ->
-  (forall i, i \in K -> \sum_(j <- K) T t i j * d j = f * \sum_(j <- J) T t i j * V j) ->
-  forall i, i \in K -> `|d i| <= f * eps i.
+(* The solution of a system with the matrix T on K. *)
+Lemma solution_bound (d r : nat -> R) w' : 0 <= w' ->
+  (forall p : 'I_m, `|r (nth 0%N K p)| <= margin_between p * w') ->
+  (forall i, i \in K -> \sum_(j <- K) T t i j * d j = r i) ->
+  forall i, i \in K -> `|d i| <= N i * w'.
 Proof.
-move=> f0 rows i iK; have [_ [[_ _ _ W0] _]] := enclosed_parts.
+move=> w0 r_le rows i iK.
 have unit_G : product_matrix \in unitmx.
   exact: dominant_unit margin_gt0 margin_dominant.
 have unit_Y : inverse_matrix \in unitmx.
@@ -517,21 +554,29 @@ have unit_Y : inverse_matrix \in unitmx.
 pose dv := \col_(p < m) d (nth 0%N K p); pose w := invmx inverse_matrix *m dv.
 have Yw : inverse_matrix *m w = dv by rewrite /w mulKVmx.
 
-have Gw : product_matrix *m w = \col_p (f * \sum_(j <- J) T t (nth 0%N K p) j * V j).
+have Gw : product_matrix *m w = \col_p r (nth 0%N K p).
   rewrite -product_block -mulmxA Yw; apply/colP=> p; rewrite !mxE.
   rewrite -rows ?mem_nth // sum_ordinals; apply: eq_bigr => l _.
   by rewrite !mxE.
-have w_le : forall p, `|w p 0| <= f * W.
-  apply: (dominant_bound margin_gt0 margin_dominant _ _ Gw); first exact: mulr_ge0.
-  move=> p; rewrite mxE normrM (ger0_norm f0) mulrCA ler_wpmul2l //.
-  exact: residual_le.
+have w_le : forall p, `|w p 0| <= w'.
+  by apply: (dominant_bound margin_gt0 margin_dominant w0 _ Gw) => p; rewrite mxE.
 
-move: iK => /(nthP 0%N)[p lt_p <-]; rewrite width_norm.
+move: iK => /(nthP 0%N)[p lt_p <-].
 have -> : d (nth 0%N K p) = (inverse_matrix *m w) (Ordinal lt_p) 0 by rewrite Yw mxE.
 rewrite mxE (le_trans (ler_norm_sum _ _ _)) //.
-apply: (@le_trans _ _ (\sum_(q < m) `|Y (nth 0%N K p) q| * (f * W))).
+apply: (@le_trans _ _ (\sum_(q < m) `|Y (nth 0%N K p) q| * w')).
   by apply: ler_sum => q _; rewrite normrM mxE ler_wpmul2l.
-by rewrite -mulr_suml [X in _ <= X]mulrCA ler_wpmul2r ?mulr_ge0 ?norm1_ge.
+by rewrite -mulr_suml ler_wpmul2r ?norm1_ge.
+Qed.
+
+(* A vector whose rows K are f times those of V. *)
+Lemma difference_bound d f : 0 <= f ->
+  (forall i, i \in K -> \sum_(j <- K) T t i j * d j = f * \sum_(j <- J) T t i j * V j) ->
+  forall i, i \in K -> `|d i| <= f * eps i.
+Proof.
+move=> f0 rows i iK; have [_ [[_ _ _ W0] _]] := enclosed_parts.
+rewrite width_norm mulrCA; move: i iK; apply: (solution_bound _ _ rows); first exact: mulr_ge0.
+by move=> p; rewrite normrM (ger0_norm f0) mulrCA ler_wpmul2l // residual_le.
 Qed.
 
 End Between.
@@ -719,10 +764,151 @@ rewrite (le_trans (ler_norm _)) // normrN (le_trans (ler_norm_add _ _)) // !norm
 by rewrite (ger0_norm p) (ger0_norm q) ler_add // ler_wpmul2l.
 Qed.
 
+(* The value of (B x)_i and of u' B x for x near V *)
+Lemma rate_row x i : near x -> (forall j, j \in variables -> j \notin J -> x j = 0) ->
+  `|\sum_(j <- J) B i j * x j| <= toR (rate_bound i).
+Proof.
+move=> [_ near_x] off; have [_ cb] := columns i.
+have db := @absolute_dot_ge R _ _ (widths c) (fun j => x j - V j) cb near_x.
+have -> : \sum_(j <- J) B i j * x j = toR (sparse_dot (row_b Q i) (box_center c)) +
+    \sum_(j <- variables) toR (lookup (row_b Q i) j) * (x j - V j).
+  rewrite (toR_sparse_sum R _ cb) -big_split sum_over_J /=; last first.
+    by move=> j Hj out; rewrite off // center_elsewhere // subrr mulr0 addr0.
+  by apply: eq_bigr => j _; rewrite -mulrDr addrC subrK.
+by rewrite (le_trans (ler_norm_add _ _)) // toRD toR_abs ler_add2l.
+Qed.
+
+Lemma rate_left x : near x ->
+  toR (Z.abs (left_value Q c (row_b Q)) -
+       weighted_norm Q c (left_times Q c (row_b Q)) (widths c))%Z <=
+  `|\sum_(i <- J) toR (nth 0%Z (left_null c) i) * \sum_(j <- J) B i j * x j|.
+Proof.
+move=> near_x; have := left_near (1%Z, 0%Z) near_x.
+set s := \sum_(i <- J) _; have -> : left_at (1%Z, 0%Z) x = s.
+  apply: eq_bigr => i _; congr (_ * _); apply: eq_bigr => j _.
+  by rewrite /Enclosed.T_end toR0 toR1 mul0r add0r mul1r.
+have -> : left_row_at (1%Z, 0%Z) = add_multiple 0 (left_times Q c (row_a Q))
+    (add_multiple 1 (left_times Q c (row_b Q)) [::]) by [].
+rewrite toR_at_end toR0 toR1 mul0r add0r mul1r.
+have -> : toR (weighted_norm Q c (add_multiple 0 (left_times Q c (row_a Q))
+    (add_multiple 1 (left_times Q c (row_b Q)) [::])) (widths c)) =
+    toR (weighted_norm Q c (left_times Q c (row_b Q)) (widths c)) :> R.
+  rewrite !toR_sum; apply: eq_bigr => j _; rewrite !nth_add_multiple nth_nil.
+  by rewrite Z.mul_0_l Z.add_0_l Z.mul_1_l Z.add_0_r.
+move=> le; rewrite toRB toR_abs ler_subl_addr; apply: le_trans (ler_add (lexx _) le).
+rewrite distrC addrC; apply: le_trans (ler_norm_add _ _).
+by rewrite subrK.
+Qed.
+
+(* At most one null vector with x_k = V_k. *)
+Lemma one_null_vector t t' x x' :
+  between t (box_from c) (box_to c) -> between t' (box_from c) (box_to c) ->
+  x k = V k -> x' k = V k ->
+  (forall l, l \in J -> row A B J t x l = 0) -> (forall l, l \in J -> row A B J t' x' l = 0) ->
+  t' = t /\ forall j, j \in J -> x j = x' j.
+Proof.
+move=> bt bt' xk xk' null null'; have [[_ _ o _] _] := enclosed_parts.
+have [p q p' q'] := ordered_ge0 R o; have [W0 one] := uniqueness_parts.
+have [a [b [comb unit]]] := combination_of_weights A B o bt; have [a0 b0 ab Tab] := comb.
+have in_J l : l \in K -> l \in J by rewrite removed_active => /andP[].
+
+(* T(t) (x - x') = - (t - t') B x' *)
+have difference l : l \in J -> \sum_(j <- K) T t l j * (x j - x' j) =
+    - ((t - t') * \sum_(j <- J) B l j * x' j).
+  move=> lJ; apply/eqP; rewrite -addr_eq0; apply/eqP.
+  transitivity (row A B J t x l - row A B J t' x' l); last by rewrite null // null' // subrr.
+  transitivity (\sum_(j <- J) T t l j * (x j - x' j) + (t - t') * \sum_(j <- J) B l j * x' j).
+    congr (_ + _); rewrite (sum_pivot removed_active pivot_active uniq_active uniq_removed).
+    by rewrite xk xk' subrr mulr0 add0r.
+  rewrite /row mulr_sumr -big_split -sumrB; apply: eq_bigr => j _ /=.
+  by rewrite /Enclosed.T; move: (A _ _) (B _ _) (x _) (x' _) => *; ring.
+
+have tt : t' = t.
+  apply/eqP; apply/negPn/negP => ne; have dt0 : t - t' != 0 by rewrite subr_eq0 eq_sym.
+  have near_x' := near_center bt' xk' (fun l lK => null' l (in_J l lK)).
+  have off j : j \in variables -> j \notin J -> on_active x' j = 0.
+    by move=> _ /negbTE out; rewrite /on_active out.
+  have sumE i : \sum_(j <- J) B i j * on_active x' j = \sum_(j <- J) B i j * x' j.
+    by apply: sum_eq => j jJ; rewrite /on_active jJ.
+  pose d j := (x j - x' j) / (t - t').
+  have d_rows l : l \in J -> \sum_(j <- K) T t l j * d j = - \sum_(j <- J) B l j * x' j.
+    move=> lJ; rewrite /d; under eq_bigr do rewrite mulrA; rewrite -mulr_suml difference //.
+    by rewrite mulNr mulrAC divff ?mul1r.
+
+  (* |d_j| <= W' N_j *)
+  have d_le : forall j, j \in K -> `|d j| <= N j * W'.
+    apply: (solution_bound comb (r := fun l => - \sum_(j <- J) B l j * x' j) W0) => [i|l lK].
+      rewrite normrN -sumE; apply: le_trans (rate_row _ near_x' off) _.
+      have /andP[/and3P[_ _ r1] /and3P[_ _ r2]] := row_dominated i.
+      move: r1 r2; rewrite -!(@toR_le R) !toRM => r1 r2.
+      rewrite -[X in X <= _]mul1r -unit /margin_between !mulrDl -!mulrA.
+      by rewrite ler_add // ler_wpmul2l.
+    exact: d_rows (in_J l lK).
+
+  (* u' T(t) d + u' B x' = 0 *)
+  pose l_at e j : R := toR (nth 0%Z (left_row_at e) j).
+  have sum_l : \sum_(i <- J) (toR (nth 0%Z (left_null c) i) * (\sum_(j <- J) B i j * x' j)) =
+      - (\sum_(j <- K) (a * l_at (box_from c) j + b * l_at (box_to c) j) * d j).
+    transitivity (- (\sum_(i <- J) toR (nth 0%Z (left_null c) i) *
+                                    (\sum_(j <- K) T t i j * d j))).
+      by rewrite -sumrN; apply: sum_eq => i iJ; rewrite d_rows // mulrN opprK.
+    congr (- _); under eq_bigr do rewrite mulr_sumr; rewrite exchange_big; apply: eq_bigr => j _.
+    rewrite /l_at !left_rowE !mulr_sumr -big_split mulr_suml; apply: eq_bigr => i _ /=.
+    by rewrite Tab; move: (toR _) (T_end _ _ _) (T_end _ _ _) (d _) => *; ring.
+  have := rate_left near_x'; under eq_bigr do rewrite sumE.
+  rewrite sum_l normrN leNgt => /negP; apply.
+  have norm_at e : toR (weighted_norm Q c (left_row_at e) (norms c)) * W' =
+      \sum_(j <- K) `|l_at e j| * (N j * W').
+    rewrite toR_sum mulr_suml; apply: eq_bigr => j _; rewrite toRM toR_abs -mulrA.
+    congr (_ * (_ * _)); have [l|l] := ltnP j (size (right_inverse c)).
+      by rewrite (nth_map [::]).
+    by rewrite !nth_default ?size_map.
+  move: one => /andP[]; rewrite /one_root_at -!(@toR_lt R) !toRM -!/(left_row_at _) !norm_at.
+  set low := toR (Z.abs _ - _)%Z => one_from one_to.
+  apply: (@le_lt_trans _ _ (a * (\sum_(j <- K) `|l_at (box_from c) j| * (N j * W')) +
+                            b * (\sum_(j <- K) `|l_at (box_to c) j| * (N j * W')))).
+    rewrite !mulr_sumr -big_split (le_trans (sum_norm _ _)) //; apply: sum_le => j jK /=.
+    have -> : a * (`|l_at (box_from c) j| * (N j * W')) + b * (`|l_at (box_to c) j| * (N j * W')) =
+              (a * `|l_at (box_from c) j| + b * `|l_at (box_to c) j|) * (N j * W').
+      by rewrite [RHS]mulrDl !mulrA.
+    rewrite normrM; apply: ler_pmul; rewrite ?d_le //.
+    by rewrite (le_trans (ler_norm_add _ _)) // !normrM (ger0_norm a0) (ger0_norm b0).
+  rewrite -[X in _ < X]mul1r -unit mulrDl -!mulrA -subr_gt0 opprD addrACA -!mulrBr.
+  by apply: combination_gt0; rewrite ?subr_gt0.
+
+split=> // j jJ; have [->|jk] := eqVneq j k; first by rewrite xk xk'.
+apply/eqP; rewrite -subr_eq0; apply/eqP.
+apply: (regular_on_K bt (z := fun j => x j - x' j)); last by rewrite removed_active jJ.
+by move=> l lK; rewrite difference ?in_J // tt subrr mul0r oppr0.
+Qed.
+
+(* A solution with this support is a null vector. *)
+Lemma solution_null t x :
+  solution Q t x -> (forall i, i \in slip Q -> i \in box_support c -> 0 < x i) ->
+  (forall i, i \in slip Q -> i \notin box_support c -> x i = 0) ->
+  [/\ forall l, l \in J -> row A B J t x l = 0, 0 < x k &
+      forall i, i \in variables -> i \notin J -> x i = 0].
+Proof.
+have [_ [[ks sup _ _] _]] := enclosed_parts; case=> _ _ rows_f rows_s pos zero.
+have off i : i \in variables -> i \notin J -> x i = 0.
+  move=> Hi out; case/orP: (free_or_slip Hi) => [/free_active|Hs]; first by rewrite (negbTE out).
+  by apply: zero => //; rewrite -slip_active.
+split=> // [i iJ|]; last by apply: pos => //; apply: sup.
+have -> : row A B J t x i = reaction Q t x i.
+  by rewrite /reaction sum_over_J // => j Hj out; rewrite off // mulr0.
+have := iJ; rewrite active_mem => /andP[_ /orP[/rows_f //|i_s]].
+have [_ _ /eqP] := rows_s _ (sup _ i_s); rewrite mulf_eq0 gt_eqF ?pos ?sup //=.
+by move/eqP.
+Qed.
+
 Theorem enclosed_claim_sound : exists (t : R) x,
   [/\ between t (box_from c) (box_to c), solution Q t x,
-      forall i, i \in slip Q -> i \in box_support c -> 0 < x i &
-      forall i, i \in slip Q -> i \notin box_support c -> x i = 0 /\ 0 < reaction Q t x i].
+      forall i, i \in slip Q -> i \in box_support c -> 0 < x i,
+      forall i, i \in slip Q -> i \notin box_support c -> x i = 0 /\ 0 < reaction Q t x i &
+      forall t' x', solution Q t' x' -> between t' (box_from c) (box_to c) ->
+        (forall i, i \in slip Q -> i \in box_support c -> 0 < x' i) ->
+        (forall i, i \in slip Q -> i \notin box_support c -> x' i = 0) ->
+        t' = t /\ exists2 f, 0 < f & forall i, i \in variables -> x' i = f * x i].
 Proof.
 have [[wf _ o to2] [[ks sup _ _] [_ _ signs]]] := enclosed_parts.
 have [t [x [bt near_x rows]]] := null_vector_near.
@@ -762,8 +948,23 @@ exists t, (on_active x); split=> //.
   rewrite zero ?slip_indices ?slip_active // mul0r lexx.
   by split=> //; apply/ltW/reaction_off.
 - by move=> i _; apply: positive.
-move=> i Hi out; rewrite zero ?slip_indices ?slip_active //.
-by split=> //; apply: reaction_off.
+- move=> i Hi out; rewrite zero ?slip_indices ?slip_active //.
+  by split=> //; apply: reaction_off.
+
+(* Any other one, scaled, is near V as well. *)
+move=> t' x' sol' bt' pos' zero'; have [null' xk' off'] := solution_null sol' pos' zero'.
+pose f := V k / x' k; have f0 : 0 < f by rewrite divr_gt0 // toR_gt0.
+have fk : f * x' k = V k by rewrite divfK // gt_eqF.
+have null_f l : l \in J -> row A B J t' (fun j => f * x' j) l = 0.
+  move=> lJ; rewrite -[RHS](mulr0 f) -(null' l lJ) /row mulr_sumr.
+  by apply: eq_bigr => j _; rewrite mulrCA.
+have xk : on_active x k = V k by case: near_x.
+have x_null l : l \in J -> row A B J t (on_active x) l = 0.
+  by move=> lJ; rewrite -(rows _ lJ); apply: sum_eq => j /xE->.
+have [-> xx] := one_null_vector bt bt' xk fk x_null null_f.
+split=> //; exists f^-1 => [|i Hi]; first by rewrite invr_gt0.
+have [iJ|iJ] := boolP (i \in J); last by rewrite zero // mulr0 off'.
+by rewrite xx // mulKf // gt_eqF.
 Qed.
 
 End Sound.

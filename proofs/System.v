@@ -792,7 +792,7 @@ Theorem system_enclosed (R : rcfType) s u k : check_system_enclosed s u k ->
     [/\ between t (box_from k) (box_to k), satisfies_9 s u t v &
         has_support s u (box_support k) [::] t v].
 Proof.
-case/andP=> wf /(@enclosed_claim_sound R)[t [x [bt sol pos zero]]].
+case/andP=> wf /(@enclosed_claim_sound R)[t [x [bt sol pos zero _]]].
 exists t, (motion s x); split=> //; first exact/(system_pencil wf).
 apply: (motion_support wf) => i Hi; split=> //; first exact: pos.
   by move/(zero _ Hi)=> [].

@@ -178,7 +178,8 @@ Lemma member_form_quadratic U (d : U) negative c e (rows : seq U) :
 Proof.
 move=> /eqP sz; set z := fun k => _.
 have szm : size (members Q weight r) = size (may_move Q r) by rewrite size_map.
-have szz : size (zip (members Q weight r) rows) = size (may_move Q r) by rewrite size_zip sz minnn szm.
+have szz : size (zip (members Q weight r) rows) = size (may_move Q r).
+  by rewrite size_zip sz minnn szm.
 pose G i j := toR c * (sign R negative * (end_entry e i j + end_entry e j i)).
 
 have formE : form (nobody, d) (member_form negative c e) (zip (members Q weight r) rows) z =
@@ -249,7 +250,8 @@ have [high0 high1] := check_end_sound wf ag H.
 set s := sign R (whole_negative w) in low0 low1 high0 high1.
 
 (* x'D(A + t B)x = x'Dy = 0 *)
-have zero : a * (s * whole_quadratic Q d x (lower r)) + b * (s * whole_quadratic Q d x (upper r)) = 0.
+have zero : a * (s * whole_quadratic Q d x (lower r)) +
+            b * (s * whole_quadratic Q d x (upper r)) = 0.
   transitivity (s * \sum_(i <- iota 0 (order Q)) weight_of R d i * (x i * reaction Q t x i));
       last first.
     rewrite sum_zero ?mulr0 // => i Hi; case/orP: (free_or_slip Hi) => [/rows_f->|/rows_s[_ _ ->]].

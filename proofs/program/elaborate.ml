@@ -532,14 +532,16 @@ let position slip i =
 let build_leaf c (region : Kernel.region) node =
   let p = c.enclosed and f = c.doubles in
   let leaf what = function Some l -> Kernel.Leaf l | None -> no_witness "%s" what in
+  let whole () =
+    Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil c.weights region) in
   match node with
   | Farkas w -> Kernel.Leaf (Kernel.Farkas w)
   | Definite negative ->
     (match definite_leaf p negative region with
      | Some l -> Kernel.Leaf l
-     | None -> leaf "definite" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil c.weights region)))
-  | Ldl -> leaf "ldl" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil c.weights region))
-  | Tail -> leaf "tail" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil c.weights region))
+     | None -> leaf "definite" (whole ()))
+  | Ldl -> leaf "ldl" (whole ())
+  | Tail -> leaf "tail" (whole ())
   | Root r ->
     let r = { r with pivot = position c.slip r.pivot } in
     (match r.outcome with
@@ -866,29 +868,40 @@ let enclosed_claim_of (pencil : Kernel.pencil) (e : enclosed) =
 
     let bare = { Kernel.box_support = e.box_support; box_from = Kernel.zero; box_to = Kernel.zero;
                  box_pivot = variables.(k); box_center = own;
-                 right_inverse = Array.to_list inverse; box_width = Z.zero; left_null } in
+                 right_inverse = Array.to_list inverse; box_width = Z.zero; rate_width = Z.zero;
+                 left_null } in
     let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
     let products rows = Array.map (fun i ->
         Kernel.times_inverse bare rows.(variables.(i))) pair.others in
     let ga = products rows_a and gb = products rows_b in
 
     let check center (from, upto) =
-      let box_from = point_of from and box_to = point_of upto in
-      let width = ref (Some Z.zero) in
-      Array.iteri (fun p i ->
-          let ra = Kernel.sparse_dot rows_a.(variables.(i)) center in
-          let rb = Kernel.sparse_dot rows_b.(variables.(i)) center in
-          List.iter (fun ends ->
-              let margin = Kernel.margin (Kernel.row_at_end ends ga.(p) gb.(p)) p in
-              let residual = Z.abs (Kernel.at_end ends ra rb) in
-              width := if Z.sign margin <= 0 then None
-                else Option.map (Z.max (Z.cdiv residual margin)) !width) [box_from; box_to])
-        pair.others;
-      Option.bind !width (fun box_width ->
-          let claim = { bare with Kernel.box_from; box_to; box_center = center; box_width } in
-          let eps = Kernel.widths claim in
-          if Kernel.determinant_changes_sign pencil claim eps && Kernel.box_signs pencil claim eps
-          then Some claim else None) in
+      let ends = [point_of from; point_of upto] in
+      let dots rows = Array.map (fun i -> Kernel.sparse_dot rows.(variables.(i)) center)
+          pair.others in
+      let ra = dots rows_a and rb = dots rows_b in
+      let margins = List.map (fun e ->
+          e, Array.mapi (fun p a -> Kernel.margin (Kernel.row_at_end e a gb.(p)) p) ga) ends in
+      (* The least integer that is at least all quotients of a bound by its margin. *)
+      let quotient bound =
+        List.fold_left (fun largest (e, margin) ->
+            let largest = ref largest in
+            Array.iteri (fun p m -> largest := Z.max !largest (Z.cdiv (bound e p) m)) margin;
+            !largest) Z.zero margins in
+      if List.exists (fun (_, margin) -> Array.exists (fun m -> Z.sign m <= 0) margin) margins
+      then None
+      else begin
+        let box_width = quotient (fun e p -> Z.abs (Kernel.at_end e ra.(p) rb.(p))) in
+        let claim = { bare with Kernel.box_from = List.hd ends; box_to = List.nth ends 1;
+                                box_center = center; box_width } in
+        let eps = Kernel.widths claim in
+        let rates = Array.mapi (fun p i ->
+            Z.add (Z.abs rb.(p)) (Kernel.absolute_dot rows_b.(variables.(i)) eps)) pair.others in
+        let claim = { claim with
+                      Kernel.rate_width = quotient (fun e p -> Z.mul (snd e) rates.(p)) } in
+        if Kernel.determinant_changes_sign pencil claim eps && Kernel.one_root pencil claim eps
+        && Kernel.box_signs pencil claim eps then Some claim else None
+      end in
     check, given center_bits, own in
 
   (* The interval of the claim, or intervals about a zero in it that is known in doubles. *)

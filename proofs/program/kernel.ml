@@ -2144,6 +2144,7 @@ type enclosed_claim = { box_support : int list; box_from : point;
                         box_center : Big_int_Z.big_int list;
                         right_inverse : matrix;
                         box_width : Big_int_Z.big_int;
+                        rate_width : Big_int_Z.big_int;
                         left_null : Big_int_Z.big_int list }
 
 (** val add_multiple :
@@ -2240,27 +2241,43 @@ let margin g p =
 
 (** val dominated :
     enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
-    bool **)
+    Big_int_Z.big_int -> bool **)
 
-let dominated c p g residual0 =
+let dominated c p g residual0 rate0 =
   (&&) (Z.ltb Big_int_Z.zero_big_int (margin g p))
-    (Z.leb (Z.abs residual0) (Z.mul (margin g p) c.box_width))
+    ((&&) (Z.leb (Z.abs residual0) (Z.mul (margin g p) c.box_width))
+      (Z.leb rate0 (Z.mul (margin g p) c.rate_width)))
+
+(** val dominated_at :
+    enclosed_claim -> point -> int -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+    Big_int_Z.big_int -> bool **)
+
+let dominated_at c e p ga gb ra rb rate0 =
+  dominated c p (row_at_end e ga gb) (at_end e ra rb) (Z.mul (snd e) rate0)
 
 (** val dominated_ends :
     enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list
-    -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
+    -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
 
-let dominated_ends c p ga gb ra rb =
-  (&&)
-    (dominated c p (row_at_end c.box_from ga gb) (at_end c.box_from ra rb))
-    (dominated c p (row_at_end c.box_to ga gb) (at_end c.box_to ra rb))
+let dominated_ends c p ga gb ra rb rate0 =
+  (&&) (dominated_at c c.box_from p ga gb ra rb rate0)
+    (dominated_at c c.box_to p ga gb ra rb rate0)
 
-(** val regular_row : pencil -> enclosed_claim -> int -> int -> bool **)
+(** val regular_row :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool **)
 
-let regular_row q c p i =
+let regular_row q c eps p i =
   dominated_ends c p (times_inverse c (row_a q i))
     (times_inverse c (row_b q i)) (sparse_dot (row_a q i) c.box_center)
     (sparse_dot (row_b q i) c.box_center)
+    (Z.add (Z.abs (sparse_dot (row_b q i) c.box_center))
+      (absolute_dot (row_b q i) eps))
+
+(** val norms : enclosed_claim -> Big_int_Z.big_int list **)
+
+let norms c =
+  map0 norm1 c.right_inverse
 
 (** val widths : enclosed_claim -> Big_int_Z.big_int list **)
 
@@ -2332,6 +2349,30 @@ let determinant_changes_sign q c eps =
       (left_times q c (row_b q)) (left_value q c (row_a q))
       (left_value q c (row_b q)))
 
+(** val one_root_at :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool **)
+
+let one_root_at q c eps la lb vb e =
+  Z.ltb
+    (Z.mul (weighted_norm q c (row_at_end e la lb) (norms c)) c.rate_width)
+    (Z.mul (snd e) (Z.sub (Z.abs vb) (weighted_norm q c lb eps)))
+
+(** val one_root_between :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> bool **)
+
+let one_root_between q c eps la lb vb =
+  (&&) (one_root_at q c eps la lb vb c.box_from)
+    (one_root_at q c eps la lb vb c.box_to)
+
+(** val one_root :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
+
+let one_root q c eps =
+  one_root_between q c eps (left_times q c (row_a q))
+    (left_times q c (row_b q)) (left_value q c (row_b q))
+
 (** val reaction_positive :
     pencil -> enclosed_claim -> Big_int_Z.big_int list -> point -> int -> bool **)
 
@@ -2375,11 +2416,13 @@ let check_enclosed_claim q c =
                 c.box_support)
               ((&&) (vanishes_elsewhere q c)
                 ((&&) (Z.leb Big_int_Z.zero_big_int c.box_width)
-                  ((&&)
-                    (all_from (Obj.magic regular_row q c) 0
-                      (pivot_removed q c))
-                    ((&&) (determinant_changes_sign q c (widths c))
-                      (box_signs q c (widths c)))))))))))
+                  ((&&) (Z.leb Big_int_Z.zero_big_int c.rate_width)
+                    ((&&)
+                      (all_from (Obj.magic regular_row q c (widths c)) 0
+                        (pivot_removed q c))
+                      ((&&) (determinant_changes_sign q c (widths c))
+                        ((&&) (one_root q c (widths c))
+                          (box_signs q c (widths c)))))))))))))
 
 type solution_claim =
 | ExactClaim of claim

@@ -733,6 +733,7 @@ type enclosed_claim = { box_support : int list; box_from : point;
                         box_center : Big_int_Z.big_int list;
                         right_inverse : matrix;
                         box_width : Big_int_Z.big_int;
+                        rate_width : Big_int_Z.big_int;
                         left_null : Big_int_Z.big_int list }
 
 val add_multiple :
@@ -767,13 +768,22 @@ val times_inverse : enclosed_claim -> sparse_row -> Big_int_Z.big_int list
 val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int
 
 val dominated :
-  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int -> bool
+  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> bool
+
+val dominated_at :
+  enclosed_claim -> point -> int -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> bool
 
 val dominated_ends :
   enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list
-  -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+  -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool
 
-val regular_row : pencil -> enclosed_claim -> int -> int -> bool
+val regular_row :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool
+
+val norms : enclosed_claim -> Big_int_Z.big_int list
 
 val widths : enclosed_claim -> Big_int_Z.big_int list
 
@@ -804,6 +814,16 @@ val opposite_signs :
 
 val determinant_changes_sign :
   pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
+
+val one_root_at :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool
+
+val one_root_between :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> bool
+
+val one_root : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
 
 val reaction_positive :
   pencil -> enclosed_claim -> Big_int_Z.big_int list -> point -> int -> bool
