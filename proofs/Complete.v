@@ -41,31 +41,34 @@ Import Order.Theory GRing.Theory Num.Theory.
 Delimit Scope Z_scope with Z.
 Local Open Scope ring_scope.
 
-(* The claims that a leaf may refer to. *)
-Inductive any_claim := IsExact of claim | IsEnclosed of enclosed_claim.
+(* A claim about the pencil: with polynomials, or in a box. *)
+Inductive solution_claim := ExactClaim of claim | BoxClaim of enclosed_claim.
 
 Section Checker.
 
-Variables (Q : pencil) (claims : seq any_claim).
+Variables (Q : pencil) (claims : seq solution_claim).
 
 (* Positions among the complementarity variables. *)
 Definition positions (l : seq nat) := [seq index i (slip Q) | i <- l].
 
-Definition check_any_claim (k : any_claim) :=
-  match k with
-  | IsExact k => check_claim Q k
-  | IsEnclosed k => check_enclosed_claim Q k
-  end.
+Definition claimed_support k :=
+  match k with ExactClaim e => support e | BoxClaim b => box_support b end.
+
+Definition claimed_biactive k :=
+  match k with ExactClaim e => biactive e | BoxClaim _ => [::] end.
+
+Definition claimed_from k : point :=
+  match k with ExactClaim e => (claim_from e, claim_denominator e) | BoxClaim b => box_from b end.
+
+Definition claimed_to k : point :=
+  match k with ExactClaim e => (claim_to e, claim_denominator e) | BoxClaim b => box_to b end.
 
 (* What a claim says about its solution. *)
-Definition known_of (k : any_claim) :=
-  match k with
-  | IsExact k => Known
-      (claim_from k, claim_denominator k) (claim_to k, claim_denominator k)
-      (positions (support k)) (positions (biactive k))
-  | IsEnclosed k => Known
-      (from_point (null_box k)) (to_point (null_box k)) (positions (box_support k)) [::]
-  end.
+Definition known_of k := Known (claimed_from k) (claimed_to k)
+  (positions (claimed_support k)) (positions (claimed_biactive k)).
+
+Definition check_solution_claim k :=
+  match k with ExactClaim e => check_claim Q e | BoxClaim b => check_enclosed_claim Q b end.
 
 Definition known_solutions := [seq known_of k | k <- claims].
 
@@ -83,7 +86,7 @@ Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
 
 Definition check_complete :=
   [&& wellformed Q, free_rows_constant Q, check_elimination (blocks_of Q) w,
-      all check_any_claim claims &
+      all check_solution_claim claims &
       check_cover (condensed (blocks_of Q) w) known_solutions (check_whole Q) check_limit tr lo hi].
 
 (* What the tree yields, and what it leaves open. *)
@@ -148,21 +151,36 @@ Definition known_solution (q : known) (t : R) x :=
             j \notin known_support q -> j \in known_biactive q ->
               reaction Q t x (nth 0%N (slip Q) j) = 0]].
 
-Lemma claim_known k : check_any_claim Q k -> exists t x, known_solution (known_of Q k) t x.
+(* The solution of a claim. *)
+Lemma claimed_slip k : check_solution_claim Q k ->
+  all (fun i => i \in slip Q) (claimed_support k) /\
+  all (fun i => i \in slip Q) (claimed_biactive k).
 Proof.
-case: k => k ok /=.
-  have in_slip : all (fun i => i \in slip Q) (support k ++ biactive k).
-    by case/and5P: ok => _ _ _ _ /and3P[].
-  move: in_slip; rewrite all_cat => /andP[in_s in_b].
+case: k => [e|b] /=; last by case/and5P=> _ _ _ _ /and3P[].
+by case/and5P=> _ _ _ _ /and3P[]; rewrite all_cat => /andP[].
+Qed.
+
+Theorem solution_claim_sound k : check_solution_claim Q k -> exists (t : R) x,
+  [/\ between t (claimed_from k) (claimed_to k), solution Q t x &
+      forall i, i \in slip Q ->
+        [/\ i \in claimed_support k -> 0 < x i, i \notin claimed_support k -> x i = 0 &
+            i \notin claimed_support k -> i \in claimed_biactive k -> reaction Q t x i = 0]].
+Proof.
+case: k => [e|b] /= ok.
   have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
-  exists t, x; split=> //; first by rewrite /between /= ![t * _]mulrC.
-  move=> j lt_j; have [pos zero biact _] := signs _ (mem_nth 0%N lt_j).
-  by rewrite !mem_positions.
-have in_s : all (fun i => i \in slip Q) (box_support k).
-  by case/and5P: ok.
+  exists t, x; split=> // [|i Hi]; first by rewrite /between /= ![t * _]mulrC.
+  by have [] := signs _ Hi.
 have [t [x [bt sol pos zero _]]] := enclosed_claim_sound R ok.
-exists t, x; split=> // j lt_j; have Hj := mem_nth 0%N lt_j; rewrite /= mem_positions //.
-by split=> // [|/(zero _ Hj)[]]; first exact: pos.
+exists t, x; split=> // i Hi; split=> // [|out]; first exact: pos.
+by have [] := zero _ Hi out.
+Qed.
+
+Lemma claim_known k : check_solution_claim Q k -> exists t x, known_solution (known_of Q k) t x.
+Proof.
+move=> ok; have [in_s in_b] := claimed_slip ok.
+have [t [x [bt sol signs]]] := solution_claim_sound ok.
+exists t, x; split=> // j lt_j; have [pos zero biact] := signs _ (mem_nth 0%N lt_j).
+by rewrite !mem_positions.
 Qed.
 
 (* Where the known solution lies in a cover. *)
@@ -185,7 +203,7 @@ Qed.
 
 Section Complete.
 
-Variables (claims : seq any_claim).
+Variables (claims : seq solution_claim).
 Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
 Hypothesis checked : check_complete Q claims w tr lo hi.
 
@@ -203,7 +221,7 @@ Lemma parts :
       check_cover P (known_solutions Q claims) (check_whole Q) (check_limit Q) tr lo hi].
 Proof. by case/and5P: checked => ? ? /andP[]. Qed.
 
-Lemma claims_checked n k : (n < size claims)%N -> check_any_claim Q (nth k claims n).
+Lemma claims_checked n k : (n < size claims)%N -> check_solution_claim Q (nth k claims n).
 Proof. by case/and5P: checked => _ _ _ /(all_nthP k) all_k _; apply: all_k. Qed.
 
 Lemma condensed_solution t x : solution Q t x ->
@@ -255,7 +273,7 @@ Qed.
 Lemma known_sound n : (n < size (known_solutions Q claims))%N ->
   exists t x, is_known P A B (known_at (known_solutions Q claims) n) t x.
 Proof.
-rewrite size_map => lt_n; pose k0 := IsExact (Claim [::] 0 0 0 [::] [::] [::] [::] [::]).
+rewrite size_map => lt_n; pose k0 := ExactClaim (Claim [::] 0 0 0 [::] [::] [::] [::] [::]).
 rewrite /known_at (nth_map k0) //; set k := nth k0 claims n.
 have [t [x [bt sol signs]]] := claim_known (claims_checked k0 lt_n).
 have [sol_s free_x] := condensed_solution sol.
@@ -343,7 +361,7 @@ move=> none closed t x sol bt; have [[y]|[r]] := complete_sound.1 t x sol bt.
 by rewrite closed.
 Qed.
 
-Theorem claim_place k : check_any_claim Q k ->
+Theorem claim_place k : check_solution_claim Q k ->
   within (known_from (known_of Q k), known_to (known_of Q k)) (lo, hi) ->
   exists (t : R) x, known_solution (known_of Q k) t x /\
     ((exists2 y, List.In y found & between t (yield_from y) (yield_to y) /\

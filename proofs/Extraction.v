@@ -31,4 +31,4 @@ Extraction "kernel.ml"
   check_support column_poly row_poly positive_on check_value low_on high_on zero_poly scale_poly
   check_varying_families check_system_varying varying_found varying_solutions varying_families
   varying_still_open check_local expansions expand_anchor local_pencil local_point local_known
-  local_region proper_interval bounded_rows ff_block swap_pencil scale_free.
+  local_region proper_interval bounded_rows ff_block swap_pencil.

@@ -697,7 +697,7 @@ Qed.
 
 End Motions.
 
-Variables (claims : seq any_claim).
+Variables (claims : seq solution_claim).
 Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
 Hypothesis checked : check_system s u claims w tr lo hi.
 
@@ -799,7 +799,7 @@ Qed.
 
 Theorem system_enclosed (R : rcfType) s u k : check_system_enclosed s u k ->
   exists (t : R) v,
-    [/\ between t (from_point (null_box k)) (to_point (null_box k)), satisfies_9 s u t v &
+    [/\ between t (box_from k) (box_to k), satisfies_9 s u t v &
         has_support s u (box_support k) [::] t v].
 Proof.
 case/andP=> wf /(@enclosed_claim_sound R)[t [x [bt sol pos zero _]]].

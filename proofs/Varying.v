@@ -8,7 +8,7 @@
                           reach beyond it (Cover.v);
      OfClaim n g h c k    at most one solution, that of claim k;
      OfLimit n g h c x    at most one null vector, and that one at infinity;
-     OfWhole f w          evidence about the whole pencil (Whole.v), its free rows multiplied by f;
+     OfWhole w            evidence about the whole pencil (Whole.v);
      LeftOpen             nothing is said about the region.
 
    An anchor may be *reversed*: it expands in s = 1/t the pencil with A and B exchanged, which for
@@ -59,14 +59,8 @@ Inductive varying_leaf :=
   | OfAnchor of nat & Z & interval & local_leaf
   | OfClaim of nat & Z & interval & pinning & nat
   | OfLimit of nat & Z & interval & pinning & seq Z
-  | OfWhole of Z & whole
+  | OfWhole of whole
   | LeftOpen.
-
-(* The pencil with its free rows multiplied by c. *)
-Definition scale_free c Q :=
-  let scaled (row : nat -> sparse_row) :=
-    [seq if i \in free Q then times c (row i) else row i | i <- iota 0 (order Q)] in
-  Pencil (order Q) (scaled (row_a Q)) (scaled (row_b Q)) (free Q).
 
 Definition swap_pencil Q := Pencil (order Q) (rows_b Q) (rows_a Q) (free Q).
 
@@ -83,7 +77,7 @@ Definition swap_known q :=
 
 Section Checker.
 
-Variables (Q : pencil) (claims : seq any_claim) (w : anchoring).
+Variables (Q : pencil) (claims : seq solution_claim) (w : anchoring).
 
 Notation ns := (size (slip Q)).
 
@@ -140,7 +134,7 @@ Definition check_varying_leaf (families : seq (option anchor_family)) (solutions
           at_anchor families n (extended r h) (claim_at grain c (known_at solutions k))]
   | OfLimit n grain h c x =>
       reaches r h && at_anchor families n (extended r h) (limit_at grain c x)
-  | OfWhole f e => (0 <? f)%Z && check_whole (scale_free f Q) r e
+  | OfWhole e => check_whole Q r e
   | LeftOpen => true
   end.
 
@@ -151,7 +145,7 @@ Definition bounds_hold :=
 Definition check_varying (tr : tree varying_leaf) (lo hi : point) :=
   let families := expansions in
   let solutions := known_solutions Q claims in
-  [&& wellformed Q, nilp (anchors w) || bounds_hold, all (check_any_claim Q) claims &
+  [&& wellformed Q, nilp (anchors w) || bounds_hold, all (check_solution_claim Q) claims &
       check_tree ns (check_varying_leaf families solutions) tr (window lo hi)].
 
 Definition claim_yield (r : region) (q : known) : option yield :=
@@ -195,35 +189,6 @@ End Checker.
 Definition check_system_varying s u claims w tr lo hi ls :=
   system_wellformed s u && check_varying_families (pencil_of s u) claims w tr lo hi ls.
 
-Section ScaleFree.
-
-Variables (R : rcfType) (Q : pencil) (c : Z).
-Hypothesis wf : wellformed Q.
-
-Lemma scaled_reaction (t : R) x i : i \in iota 0 (order Q) ->
-  reaction (scale_free c Q) t x i =
-  (if i \in free Q then toR c else 1) * reaction Q t x i.
-Proof.
-move=> Hi; have lt_i : (i < order Q)%N by move: Hi; rewrite mem_iota.
-rewrite /reaction mulr_sumr; apply: eq_bigr => j _.
-rewrite /a_entry /b_entry ![row_a (scale_free c Q) i]/row_a ![row_b (scale_free c Q) i]/row_b /=.
-rewrite !(nth_map 0%N) ?size_iota // nth_iota // add0n.
-case: ifP => _; last by rewrite mul1r.
-by rewrite !lookup_times; move: (toR _) (toR _) (toR _) (x j) => *; ring.
-Qed.
-
-Lemma scaled_solution (t : R) x : solution Q t x -> solution (scale_free c Q) t x.
-Proof.
-case=> t0 nz rows_f rows_s; split=> //.
-  move=> i Hi; rewrite scaled_reaction; last exact: (free_indices wf).
-  by rewrite rows_f // mulr0.
-move=> i Hi; rewrite scaled_reaction; last exact: (slip_indices (Q := Q)).
-have /negbTE-> : i \notin free Q by move: Hi; rewrite mem_filter => /andP[].
-by rewrite mul1r; apply: rows_s.
-Qed.
-
-End ScaleFree.
-
 Section Swap.
 
 Variables (R : rcfType) (Q : pencil).
@@ -263,7 +228,7 @@ End Swap.
 
 Section Sound.
 
-Variables (R : rcfType) (Q : pencil) (claims : seq any_claim) (w : anchoring).
+Variables (R : rcfType) (Q : pencil) (claims : seq solution_claim) (w : anchoring).
 Variables (tr : tree varying_leaf) (lo hi : point).
 Hypothesis checked : check_varying Q claims w tr lo hi.
 
@@ -274,7 +239,7 @@ Notation left_open := (varying_open tr lo hi).
 Notation check_leaf := (check_varying_leaf Q w (expansions Q w) solutions).
 
 Lemma varying_parts :
-  [/\ wellformed Q, nilp (anchors w) || bounds_hold Q w, all (check_any_claim Q) claims &
+  [/\ wellformed Q, nilp (anchors w) || bounds_hold Q w, all (check_solution_claim Q) claims &
       check_tree ns check_leaf tr (window lo hi)].
 Proof. by case/and4P: checked. Qed.
 
@@ -282,7 +247,7 @@ Lemma known_exists k : (k < size solutions)%N ->
   exists (t : R) x, known_solution Q (known_at solutions k) t x.
 Proof.
 have [_ _ ok _] := varying_parts; rewrite size_map => lt_k.
-pose k0 := IsExact (Claim.Claim [::] 0 0 0 [::] [::] [::] [::] [::]).
+pose k0 := ExactClaim (Claim.Claim [::] 0 0 0 [::] [::] [::] [::] [::]).
 rewrite /known_at (nth_map k0) //; apply: claim_known.
 by move/all_nthP: ok; apply.
 Qed.
@@ -483,8 +448,8 @@ have [wf _ _ _] := varying_parts; move=> O ok sol reg; case: l ok; last by right
   by case: (claim_beside (r := extended r h) Oh at_a (known_exists lt_k) beside sol reg).
 - move=> n grain h c z /andP[rh at_a]; have Oh : ordered h.1 h.2 by case/and3P: rh.
   by case: (limit_excludes (r := extended r h) Oh at_a sol (in_extended_region O rh reg)).
-move=> f e /andP[_ ok]; have [bt ag] := reg.
-by case: (whole_sound (Q := scale_free f Q) wf O ok bt ag (scaled_solution f wf sol)).
+move=> e ok; have [bt ag] := reg.
+by case: (whole_sound wf O ok bt ag sol).
 Qed.
 
 Lemma claim_yieldP r q y : claim_yield Q r q = Some y ->
@@ -531,7 +496,7 @@ move=> none closed t x sol bt; have [[y]|[r]] := varying_sound.1 t x sol bt.
 by rewrite closed.
 Qed.
 
-Theorem varying_place k : check_any_claim Q k ->
+Theorem varying_place k : check_solution_claim Q k ->
   within (known_from (known_of Q k), known_to (known_of Q k)) (lo, hi) ->
   exists (t : R) x, known_solution Q (known_of Q k) t x /\
     ((exists2 y, List.In y found & between t (yield_from y) (yield_to y) /\
@@ -545,7 +510,7 @@ End Sound.
 
 Section Number.
 
-Variables (R : rcfType) (Q : pencil) (claims : seq any_claim) (w : anchoring).
+Variables (R : rcfType) (Q : pencil) (claims : seq solution_claim) (w : anchoring).
 Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
 Hypothesis checked : check_varying_families Q claims w tr lo hi ls.
 
@@ -593,7 +558,7 @@ End Number.
 
 Section Systems.
 
-Variables (R : rcfType) (s : system) (u : unknown) (claims : seq any_claim) (w : anchoring).
+Variables (R : rcfType) (s : system) (u : unknown) (claims : seq solution_claim) (w : anchoring).
 Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
 Hypothesis checked : check_system_varying s u claims w tr lo hi ls.
 

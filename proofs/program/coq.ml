@@ -48,7 +48,8 @@ let whole_factor = function
 let whole_end e = term ["WholeEnd"; integer e.end_scale; whole_factor e.end_factor]
 
 let whole w =
-  term ["WholeLeaf"; string_of_bool w.whole_negative; whole_end w.low_end; whole_end w.high_end]
+  term ["WholeLeaf"; integers w.whole_weights; string_of_bool w.whole_negative;
+        whole_end w.low_end; whole_end w.high_end]
 
 (* The first argument of a leaf is the type of the evidence about the whole pencil. *)
 let leaf = function

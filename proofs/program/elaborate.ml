@@ -126,12 +126,12 @@ let exact_ldl s =
   done;
   if !ok then Some (l, d) else None
 
-let whole_end pencil negative strict e region =
-  let members = Array.of_list (Kernel.members pencil region) in
+let whole_end pencil weights negative strict e region =
+  let members = Array.of_list (Kernel.members pencil weights region) in
   let n = Array.length members in
   let form c = Array.init n (fun i -> Array.init n (fun j ->
       Kernel.member_form negative c e members.(i) members.(j))) in
-  let accepted w = Kernel.check_end pencil strict negative e region w in
+  let accepted w = Kernel.check_end pencil weights strict negative e region w in
   let rounded () =
     let c = two_to 112 in
     match factor_rows strict (form c) with
@@ -165,16 +165,24 @@ let whole_end pencil negative strict e region =
       List.map (fun k () -> exact k) (if strict then [0; 8; 24; 60; 120; 300; 1000] else [0]) in
   first (rounded :: exact_ways)
 
+(* Weights that undo the factors by which the rows were made integers. *)
+let row_weights (pencil : Kernel.pencil) common slip_common =
+  if Z.equal common slip_common then []
+  else
+    List.init pencil.order (fun i ->
+        if List.mem i pencil.free then Z.divexact slip_common common else Z.one)
+
 (* A definite leaf of the whole pencil, of either sign. *)
-let whole_leaf pencil (region : Kernel.region) =
+let whole_leaf pencil weights (region : Kernel.region) =
   let finite = Z.sign (snd region.upper) > 0 in
   let attempt negative =
-    match whole_end pencil negative true region.lower region with
+    match whole_end pencil weights negative true region.lower region with
     | None -> None
     | Some low_end ->
-      match whole_end pencil negative finite region.upper region with
+      match whole_end pencil weights negative finite region.upper region with
       | None -> None
-      | Some high_end -> Some { Kernel.whole_negative = negative; low_end; high_end } in
+      | Some high_end -> 
+        Some { Kernel.whole_weights = weights; whole_negative = negative; low_end; high_end } in
   match attempt false with
   | Some w -> Some w
   | None -> attempt true
@@ -523,6 +531,7 @@ let rec infinite_tree ~absent depth attempt (region : Kernel.region) =
 
 type context = {
   pencil : Kernel.pencil;
+  weights : Z.t list;  (* of the rows, for whole leaves *)
   slip : int array;
   enclosed : Kernel.enclosed;
   doubles : doubles;
@@ -542,14 +551,16 @@ let at_slip slip x =
 let build_leaf c (region : Kernel.region) node =
   let p = c.enclosed and f = c.doubles in
   let leaf what = function Some l -> Kernel.Leaf l | None -> no_witness "%s" what in
+  let whole () =
+    Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil c.weights region) in
   match node with
   | Farkas w -> Kernel.Leaf (Kernel.Farkas w)
   | Definite negative ->
     (match definite_leaf p negative region with
      | Some l -> Kernel.Leaf l
-     | None -> leaf "definite" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region)))
-  | Ldl -> leaf "ldl" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region))
-  | Tail -> leaf "tail" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region))
+     | None -> leaf "definite" (whole ()))
+  | Ldl -> leaf "ldl" (whole ())
+  | Tail -> leaf "tail" (whole ())
   | Root r ->
     let r = { r with pivot = position c.slip r.pivot } in
     (match r.outcome with
@@ -680,7 +691,7 @@ type varying = {
   anchoring : Kernel.anchoring;
   expansions : Kernel.anchor_family option list;
   claims : Kernel.known array;
-  row_ratio : Z.t;  (* factor of the rows of complementarity variables over that of the free rows *)
+  weights : Z.t list;  (* of the rows, for leaves of the whole pencil *)
   uniform_factor : Z.t;
   tail : (Q.t * factor_rows) option;
   numbers : (int * int) list  (* anchors of the certificate, as numbers of the anchoring *) }
@@ -723,7 +734,7 @@ let without_anchors pencil slip_list free_factor slip_factor tail =
   { whole_pencil = pencil; slip_list = Array.of_list slip_list; expansions = []; claims = [||];
     anchoring = { Kernel.stiffness_bound = trivial_bound; mass_bound = trivial_bound;
                   anchors = [] };
-    row_ratio = Z.divexact slip_factor free_factor; uniform_factor = slip_factor; tail;
+    weights = row_weights pencil free_factor slip_factor; uniform_factor = slip_factor; tail;
     numbers = [] }
 
 let with_anchors (pencil : Kernel.pencil) slip_list free_factor slip_factor claims
@@ -753,7 +764,7 @@ let with_anchors (pencil : Kernel.pencil) slip_list free_factor slip_factor clai
         kernel_anchor pencil slip_list free_factor slip_factor (given k)) used } in
   { whole_pencil = pencil; slip_list = Array.of_list slip_list; anchoring;
     expansions = Kernel.expansions pencil anchoring; claims;
-    row_ratio = Z.divexact slip_factor free_factor; uniform_factor = slip_factor; tail = c.tail;
+    weights = row_weights pencil free_factor slip_factor; uniform_factor = slip_factor; tail = c.tail;
     numbers = List.mapi (fun i k -> (k, i)) used }
 
 let varying_of pencil slip_list free_factor slip_factor claims condensation pieces =
@@ -776,7 +787,7 @@ let interval_for v n (region : Kernel.region) =
 (* What local pencils may cost together: entries, coefficients and words. *)
 let spent = ref 0
 
-let spend v n (region : Kernel.region) fam =
+let spend_region v n (region : Kernel.region) fam =
   let point_bits (p, q) = bits p + bits q in
   let _, a = List.nth v.anchoring.anchors n in
   let words = 1 + (point_bits region.lower + point_bits region.upper
@@ -790,7 +801,7 @@ let new_local_pencil v n region slopes =
   match List.nth v.expansions n with
   | None -> None
   | Some fam ->
-    spend v n region fam;
+    spend_region v n region fam;
     let a, low_a, low_b, lo, hi = interval_for v n region in
     if not (Kernel.proper_interval a low_a low_b lo hi) then None
     else begin
@@ -927,28 +938,27 @@ let varying_narrow v n what attempt interval region =
 
 (* The factor of the certificate for sym(A + from B); nothing for sym(B), which is diagonal. *)
 let tail_leaf v (region : Kernel.region) =
-  let pencil = Kernel.scale_free v.row_ratio v.whole_pencil in
   match v.tail with
   | Some (from, f) when Q.equal from (value_of region.lower) && not (finite region.upper)
                         && List.length f.first = List.length f.rows ->
     let power = two_to (2 * f.exponent) and two = Z.of_int 2 in
     let low = Z.mul two (Z.mul v.uniform_factor (snd region.lower)) in
     let rows = List.combine f.first f.rows in
-    let w = { Kernel.whole_negative = false;
+    let w = { Kernel.whole_weights = v.weights; whole_negative = false;
               low_end = { Kernel.end_scale = power; end_factor = Kernel.Late (low, rows) };
               high_end = { Kernel.end_scale = Z.one;
                            end_factor = Kernel.Late (Z.zero, List.map (fun _ -> (0, [])) rows) } }
     in
-    if Kernel.check_whole pencil region w then Some w else None
+    if Kernel.check_whole v.whole_pencil region w then Some w else None
   | _ -> None
 
 let whole_of v what region =
   let given = if what = "tail" then tail_leaf v region else None in
   let found = match given with
     | Some w -> Some w
-    | None -> whole_leaf (Kernel.scale_free v.row_ratio v.whole_pencil) region in
+    | None -> whole_leaf v.whole_pencil v.weights region in
   match found with
-  | Some w -> Kernel.Leaf (Kernel.OfWhole (v.row_ratio, w))
+  | Some w -> Kernel.Leaf (Kernel.OfWhole w)
   | None -> no_witness "%s" what
 
 let varying_leaf v (piece : piece) (region : Kernel.region) node =
@@ -1069,289 +1079,185 @@ let exact_of_lifted (system : Kernel.system) (l : lifted) =
   { l.motion with
     x = List.map (fun d -> v.(d)) system.free_dofs @ List.map slip system.particles }
 
-(* ---------- enclosed solution claims: root leaves of the whole pencil *)
+(* ---------- enclosed solution claims *)
 
-(* From t, some steps of Newton's method for row k of T(t) x, with x_k = 1 and the other rows 0. *)
-let newton_value n f j_list k t =
-  let rec step count t =
-    if count = 0 then t
-    else match null_vectors n f j_list k t with
-      | None -> t
-      | Some (right, left) ->
-        let x = Array.of_list (List.map Z.to_float right) in
-        let u = Array.of_list (List.map Z.to_float left) in
-        let row i entry = List.fold_left (fun s j -> s +. entry i j *. x.(j)) 0.0 j_list in
-        let phi = u.(k) *. row k (at f t) in
-        let slope = List.fold_left (fun s i ->
-            s +. u.(i) *. row i (fun i j -> f.b.(i).(j))) 0.0 j_list in
-        let next = t -. phi /. slope in
-        if Float.is_nan next || Float.is_integer (next -. t) && next = t then t
-        else step (count - 1) next in
-  step 12 t
+(* The active rows and columns of a pencil in doubles, row p divided by 2^exponents.(p). *)
+type active_block = { variables : int array; block : doubles; exponents : int array }
+
+let active_block (pencil : Kernel.pencil) variables t =
+  let m = Array.length variables in
+  let position = Array.make pencil.order (-1) in
+  Array.iteri (fun p i -> position.(i) <- p) variables;
+  let dense rows =
+    let rows = Array.of_list rows in
+    Array.map (fun i ->
+        let row = Array.make m 0.0 in
+        List.iter (fun (j, v) ->
+            let p = position.(j) in
+            if p >= 0 then row.(p) <- row.(p) +. Z.to_float v) rows.(i);
+        row) variables in
+  let a = dense pencil.rows_a and b = dense pencil.rows_b in
+  let exponents = Array.init m (fun p ->
+      let norm = ref 0.0 in
+      Array.iteri (fun q v -> norm := !norm +. Float.abs (v +. t *. b.(p).(q))) a.(p);
+      if Float.is_nan !norm || !norm = infinity then no_witness "an overflow";
+      snd (Float.frexp (max !norm 1e-300))) in
+  let divided = Array.mapi (fun p row ->
+      Array.map (fun v -> Float.ldexp v (- exponents.(p))) row) in
+  { variables; block = { a = divided a; b = divided b }; exponents }
+
+(* The inverse of T(t) without row and column k, and the null vectors with the component 1 there. *)
+type null_pair = { others : int array; reciprocal : float array array;
+                   right : float array; left : float array }
+
+let null_pair f k t =
+  let m = Array.length f.a in
+  spend m;
+  let others = Array.of_list (List.filter (fun j -> j <> k) (List.init m Fun.id)) in
+  Option.map (fun y ->
+      let right = Array.make m 1.0 and left = Array.make m 1.0 in
+      Array.iteri (fun p i ->
+          let r = ref 0.0 and l = ref 0.0 in
+          Array.iteri (fun q j ->
+              r := !r -. y.(p).(q) *. at f t j k;
+              l := !l -. at f t k j *. y.(q).(p)) others;
+          right.(i) <- !r;
+          left.(i) <- !l) others;
+      { others; reciprocal = y; right; left })
+    (inverse (Array.map (fun i -> Array.map (fun j -> at f t i j) others) others))
+
+(* Steps of Newton's method for u' T(t) x with both null vectors at t. *)
+let rec newton f k count t =
+  if count = 0 then t
+  else match null_pair f k t with
+    | None -> t
+    | Some n ->
+      let sum entry =
+        let total = ref 0.0 in
+        Array.iteri (fun i u -> Array.iteri (fun j x ->
+            total := !total +. u *. entry i j *. x) n.right) n.left;
+        !total in
+      let next = t -. sum (at f t) /. sum (fun i j -> f.b.(i).(j)) in
+      if Float.is_nan next || next = t then t else newton f k (count - 1) next
 
 let max_rational = List.fold_left (fun m v -> if Q.gt v m then v else m)
 
-let enclosed_claim_of pencil (e : enclosed) =
-  let p = Kernel.whole_pencil pencil in
-  let n = pencil.Kernel.order in
-  let f = doubles_of p in
+(* The least and the largest exponent of the numbers that are not zero. *)
+let exponent_range =
+  Array.fold_left (fun (least, most) v ->
+      let e = snd (Float.frexp v) in
+      if v = 0.0 then (least, most) else (min least e, max most e)) (0, 0)
+
+let enclosed_claim_of (pencil : Kernel.pencil) (e : enclosed) =
+  let n = pencil.order in
   let active = List.filter (fun i -> List.mem i pencil.free || List.mem i e.box_support)
       (List.init n Fun.id) in
-  let rec split = function
-    | [t] -> [], t
-    | x :: rest -> let xs, t = split rest in x :: xs, t
-    | [] -> no_witness "a box without a value" in
-  let x, center = split e.center in
-  let _, radius = split e.radius in
+  let variables = Array.of_list active in
+  let m = Array.length variables in
+  let z = Array.of_list e.center in
+  let center = z.(m) and radius = List.nth e.radius m in
   let lowest = Q.sub center radius and highest = Q.add center radius in
-  let sizes = List.combine active (List.map Q.abs x) in
-  let pivots = List.sort (fun i j -> Q.compare (List.assoc j sizes) (List.assoc i sizes))
-      e.box_support in
+  let in_doubles = active_block pencil variables (Q.to_float center) in
+  let f = in_doubles.block in
 
-  (* The centre as integers: fine beside the least radius. *)
-  let top = max_rational Q.zero (List.map snd sizes) in
-  let least = List.fold_left Q.min (List.hd e.radius) e.radius in
-  let fine = Z.numbits (Q.to_bigint (Q.div top least)) + 24 in
-  let centers unit =
+  let over_variables values =
     let v = Array.make n Z.zero in
-    List.iter2 (fun i c ->
-        v.(i) <- Q.to_bigint (Q.div (Q.mul c (Q.of_bigint (two_to unit))) top)) active x;
+    Array.iteri (fun p i -> v.(i) <- values p) variables;
     Array.to_list v in
+  (* The centre as integers, fine beside the least radius. *)
+  let top = max_rational Q.zero (List.map Q.abs (Array.to_list (Array.sub z 0 m))) in
+  let least = List.fold_left Q.min (List.hd e.radius) e.radius in
+  let given bits =
+    let bits = max bits (Z.numbits (Q.to_bigint (Q.div top least)) + 24) in
+    if Q.sign top = 0 || bits > 4_000 then None
+    else
+      let factor = Q.div (Q.of_bigint (two_to bits)) top in
+      Some (over_variables (fun p -> Q.to_bigint (Q.mul z.(p) factor))) in
 
-  (* The boxes and the uniqueness hold as they were computed; only the signs are tried here. *)
-  let signs_hold (claim : Kernel.enclosed_claim) =
-    Kernel.sign_change p (Kernel.active_region pencil claim) claim.null_box
-    && List.for_all (fun j -> Kernel.positive_on_support claim (Obj.magic j)) e.box_support
-    && List.for_all (fun i ->
-        List.mem i e.box_support || Kernel.positive_off_support pencil claim i)
-      (Obj.magic (Kernel.slip pencil)) in
-  let attempt k (v, left) (low, high) (from, upto) =
-    let k_list = List.filter (fun j -> j <> k) active in
-    let wide = (point_of low, point_of high) and narrow = (point_of from, point_of upto) in
-    match box_of p f active k_list v narrow (middle from upto) with
-    | None -> None
-    | Some narrow_box ->
-      let wide_box =
-        if narrow = wide then Some narrow_box
-        else box_of p f active k_list v wide (middle low high) in
-      match wide_box with
-      | None -> None
-      | Some wide_box ->
-        match unique_of p f active k v wide_box.width wide (middle low high) with
-        | None -> None
-        | Some unique ->
-          let null_box = { Kernel.pivot = k; vector = v; from_point = fst narrow;
-                           to_point = snd narrow; wide_box; narrow_box; unique;
-                           left_vector = left } in
-          let claim = { Kernel.box_support = e.box_support; interval_low = fst wide;
-                        interval_high = snd wide; null_box } in
-          if signs_hold claim then Some claim else None in
+  (* Everything for the pivot in place k and the inverse at t. *)
+  let witnesses k t (pair : null_pair) =
+    let rows = Array.map exponent_range pair.reciprocal in
+    let smallest = Array.fold_left (fun s (_, most) -> min s most) 0 rows in
+    let largest = Array.fold_left (fun s (_, most) -> max s most) 0 rows in
+    let unit = min 200 (max (bits (Z.of_int m) + 7) (8 - smallest)) in
+    let inverse = Array.make n [] in
+    Array.iteri (fun p i ->
+        inverse.(variables.(i)) <-
+          Array.to_list (Array.map (fun v -> round_scaled v unit) pair.reciprocal.(p)))
+      pair.others;
+
+    (* u is given for the scaled rows. *)
+    let left = Array.mapi (fun p v ->
+        Float.ldexp v (in_doubles.exponents.(k) - in_doubles.exponents.(p))) pair.left in
+    let left_unit = min 1_000 (60 - fst (exponent_range left)) in
+    let left_null = over_variables (fun p -> round_scaled left.(p) left_unit) in
+    let center_bits = unit + largest + bits (Z.of_int m) + 60 in
+    let own = over_variables (fun p ->
+        round_scaled pair.right.(p) (max 60 center_bits - fst (exponent_range pair.right))) in
+
+    let bare = { Kernel.box_support = e.box_support; box_from = Kernel.zero; box_to = Kernel.zero;
+                 box_pivot = variables.(k); box_center = own;
+                 right_inverse = Array.to_list inverse; box_width = Z.zero; rate_width = Z.zero;
+                 left_null } in
+    let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
+    let products rows = Array.map (fun i ->
+        Kernel.times_inverse bare rows.(variables.(i))) pair.others in
+    let ga = products rows_a and gb = products rows_b in
+
+    let check center (from, upto) =
+      let ends = [point_of from; point_of upto] in
+      let dots rows = Array.map (fun i -> Kernel.sparse_dot rows.(variables.(i)) center)
+          pair.others in
+      let ra = dots rows_a and rb = dots rows_b in
+      let margins = List.map (fun e ->
+          e, Array.mapi (fun p a -> Kernel.margin (Kernel.row_at_end e a gb.(p)) p) ga) ends in
+      (* The least integer that is at least all quotients of a bound by its margin. *)
+      let quotient bound =
+        List.fold_left (fun largest (e, margin) ->
+            let largest = ref largest in
+            Array.iteri (fun p m -> largest := Z.max !largest (Z.cdiv (bound e p) m)) margin;
+            !largest) Z.zero margins in
+      if List.exists (fun (_, margin) -> Array.exists (fun m -> Z.sign m <= 0) margin) margins
+      then None
+      else begin
+        let box_width = quotient (fun e p -> Z.abs (Kernel.at_end e ra.(p) rb.(p))) in
+        let claim = { bare with Kernel.box_from = List.hd ends; box_to = List.nth ends 1;
+                                box_center = center; box_width } in
+        let eps = Kernel.widths claim in
+        let rates = Array.mapi (fun p i ->
+            Z.add (Z.abs rb.(p)) (Kernel.absolute_dot rows_b.(variables.(i)) eps)) pair.others in
+        let claim = { claim with
+                      Kernel.rate_width = quotient (fun e p -> Z.mul (snd e) rates.(p)) } in
+        if Kernel.determinant_changes_sign pencil claim eps && Kernel.one_root pencil claim eps
+        && Kernel.box_signs pencil claim eps then Some claim else None
+      end in
+    check, given center_bits, own in
 
   (* The interval of the claim, or intervals about a zero in it that is known in doubles. *)
-  let ways k =
-    let whole = lowest, highest in
-    let as_claimed () =
-      match null_vectors n f active k (Q.to_float center) with
-      | Some (_, left) when Q.sign top > 0 && fine < 4_000 ->
-        attempt k (centers fine, left) whole whole
-      | _ -> None in
-    let t = newton_value n f active k (Q.to_float center) in
-    let about bits () =
-      if Float.is_nan t || Float.abs t = infinity then None
-      else begin
-        let value = Q.of_float t in
-        let size = if t = 0.0 then Q.one else Q.abs value in
-        let width = Q.div size (Q.of_bigint (two_to bits)) in
-        let from = Q.max lowest (Q.sub value width) in
-        let upto = Q.min highest (Q.add value width) in
-        if Q.geq from upto then None
-        else match null_vectors n f active k t with
-          | None -> None
-          | Some vectors ->
-            match attempt k vectors whole (from, upto) with
-            | Some claim -> Some claim
-            | None -> attempt k vectors (from, upto) (from, upto)
-      end in
-    as_claimed
-    :: List.map about (if n <= 16 then [44; 38; 32; 26; 20; 14; 8] else [44; 32; 20]) in
-  let first_pivots = List.filteri (fun i _ -> i < (if n <= 16 then 3 else 1)) pivots in
-  List.find_map (fun way -> way ()) (List.concat_map ways first_pivots)
-
-(* ---------- large enclosed solution claims: a root leaf of the condensed pencil *)
-
-(* Rows of the lower triangle L with L L' = S - shift I, if that is definite; row i of L starts
-   where row i of S does. *)
-let skyline_cholesky s shift =
-  let n = Array.length s in
-  let first = Array.mapi (fun i row ->
-      let j = ref 0 in
-      while !j < i && row.(!j) = 0.0 do incr j done;
-      !j) s in
-  let l = Array.init n (fun i -> Array.make (i + 1) 0.0) in
-  let ok = ref true in
-  for i = 0 to n - 1 do
-    if !ok then
-      for j = first.(i) to i do
-        let sum = ref (if i = j then s.(i).(i) -. shift else s.(i).(j)) in
-        for k = max first.(i) first.(j) to j - 1 do
-          sum := !sum -. l.(i).(k) *. l.(j).(k)
-        done;
-        if j < i then l.(i).(j) <- !sum /. l.(j).(j)
-        else if !sum > 0.0 then l.(i).(i) <- sqrt !sum
-        else ok := false
-      done
-  done;
-  if !ok then Some l else None
-
-let solve_cholesky l b =
-  let n = Array.length l and x = Array.copy b in
-  for i = 0 to n - 1 do
-    for j = 0 to i - 1 do x.(i) <- x.(i) -. l.(i).(j) *. x.(j) done;
-    x.(i) <- x.(i) /. l.(i).(i)
-  done;
-  for i = n - 1 downto 0 do
-    x.(i) <- x.(i) /. l.(i).(i);
-    for j = 0 to i - 1 do x.(j) <- x.(j) -. l.(i).(j) *. x.(i) done
-  done;
-  x
-
-(* The blocks of the free variables in doubles: what stands in rows of the free columns, and the
-   column of a complementarity variable in the free rows. *)
-let over_free (pencil : Kernel.pencil) =
-  let free = Array.of_list pencil.free in
-  let nf = Array.length free in
-  if nf > 2_000 then Problem.not_verified "more than 2,000 free variables of an enclosed solution";
-  let place = Hashtbl.create (2 * nf) in
-  Array.iteri (fun k i -> Hashtbl.replace place i k) free;
-  fun row ->
-    let v = Array.make nf 0.0 in
-    List.iter (fun (j, z) -> match Hashtbl.find_opt place j with
-        | Some k -> v.(k) <- v.(k) +. Z.to_float z
-        | None -> ()) row;
-    v
-
-let column_of rows j =
-  Array.map (List.fold_left (fun sum (c, z) -> if c = j then sum +. Z.to_float z else sum) 0.0) rows
-
-let at_free (pencil : Kernel.pencil) rows =
-  let rows = Array.of_list rows in
-  Array.of_list (List.map (fun i -> rows.(i)) pencil.free)
-
-let definite_factor s =
-  match skyline_cholesky s 0.0 with
-  | Some l -> l
-  | None -> no_witness "an enclosed solution: a matrix that is not definite"
-
-(* c, d and L such that L L' covers c S - d I. *)
-let own_bound s =
-  let n = Array.length s in
-  let envelope = ref 0 in
-  Array.iteri (fun i row ->
-      let j = ref 0 in
-      while !j < i && row.(!j) = 0.0 do incr j done;
-      envelope := !envelope + i - !j + 1) s;
-  if !envelope * n > 1 lsl 26 then
-    Problem.not_verified "an enclosed solution beyond the limits of this program";
-  let top = Array.fold_left (fun m row -> Array.fold_left Float.max m row) 0.0 s in
-  let rec factor k =
-    if k > 40 then no_witness "an enclosed solution: a matrix that is not definite"
-    else
-      let shift = Float.ldexp top (-k) in
-      match skyline_cholesky s shift with Some l -> shift, l | None -> factor (k + 3) in
-  let shift, l = factor 1 in
-  let fine = 64 - snd (Float.frexp (sqrt top)) in
-  if fine < 0 then no_witness "an enclosed solution: large entries";
-  { Kernel.bound_times = two_to (2 * fine); bound_at = round_scaled (shift /. 2.0) (2 * fine);
-    gram_times = Z.one;
-    gram_rows = Array.to_list (Array.map (fun row ->
-        late_row (Array.map (fun v -> round_scaled v fine) row)) l) }
-
-let own_unit = 56
-
-let solved l b =
-  Array.to_list (Array.map (fun v -> round_scaled v own_unit) (solve_cholesky l b))
-
-(* The elimination of the free variables of a family with constant free rows, from the pencil
-   itself: no condensation of a certificate is needed. *)
-let own_elimination (pencil : Kernel.pencil) slip slip_common =
-  let part = over_free pencil in
-  let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
-  let free_rows = at_free pencil pencil.rows_a in
-  let f = Array.map part free_rows in
-  let bound = own_bound f and l = definite_factor f in
-  { Kernel.row_scale = row_scales pencil slip slip_common; unit_of = two_to own_unit;
-    right_w = List.map (fun j -> solved l (column_of free_rows j)) slip;
-    left_va = List.map (fun i -> solved l (part rows_a.(i))) slip;
-    left_vb = List.map (fun i -> solved l (part rows_b.(i))) slip;
-    bound_c = bound.bound_times; bound_d = bound.bound_at;
-    factor_scale = bound.gram_times; stiffness_factor = bound.gram_rows }
-
-(* An anchor at a value, where the free rows depend on it. *)
-let own_anchor (pencil : Kernel.pencil) slip free_factor slip_factor center =
-  let part = over_free pencil in
-  let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
-  let free_a = at_free pencil pencil.rows_a and free_b = at_free pencil pencil.rows_b in
-  let f_a = Array.map part free_a and f_b = Array.map part free_b in
-  let nf = Array.length f_a and t = Q.to_float center in
-  let sum = Array.map2 (fun a b -> a +. t *. b) in
-  let l = definite_factor (Array.map2 sum f_a f_b) in
-  let right = List.map (fun j -> solved l (sum (column_of free_a j) (column_of free_b j))) slip in
-  let left = List.map (fun i -> solved l (sum (part rows_a.(i)) (part rows_b.(i)))) slip in
-  let diagonal = ref true in
-  Array.iteri (fun i row -> Array.iteri (fun j v ->
-      if v < 0.0 || i <> j && v <> 0.0 then diagonal := false) row) f_b;
-  let mass_bound =
-    if !diagonal then
-      { trivial_bound with gram_rows = List.init nf (fun _ -> (0, [])) }
-    else own_bound f_b in
-  let anchor =
-    { Kernel.anchor_center = point_of center; anchor_unit = two_to own_unit;
-      anchor_right = [transpose nf right]; anchor_left = [transpose nf left];
-      anchor_scale = row_scales pencil slip slip_factor } in
-  let v = without_anchors pencil slip free_factor slip_factor None in
-  let anchoring =
-    { Kernel.stiffness_bound = own_bound f_a; mass_bound; anchors = [(false, anchor)] } in
-  { v with anchoring; expansions = Kernel.expansions pencil anchoring }
-
-(* A tree over the interval of the claim: the leaf where the support moves, and nothing is said
-   elsewhere. *)
-let only_region moves beside leaf =
-  let rec branches i = function
-    | [] -> Kernel.Leaf leaf
-    | true :: rest -> Kernel.Branch (i, Kernel.Leaf beside, branches (i + 1) rest)
-    | false :: rest -> Kernel.Branch (i, branches (i + 1) rest, Kernel.Leaf beside) in
-  branches 0 moves
-
-let enclosed_region slip (e : enclosed) (low, high) =
-  let moves = List.map (fun i -> List.mem i e.box_support) slip in
-  let region = { Kernel.lower = point_of low; upper = point_of high;
-                 states = List.map (fun m -> if m then Kernel.Moving else Kernel.Resting) moves } in
-  moves, region
-
-let enclosed_root pivot interval =
-  { pivot; interval; left = []; right = []; exponent = 0; outcome = Solution }
-
-let enclosed_tree (pencil : Kernel.pencil) slip slip_common (e : enclosed) interval =
-  let w = own_elimination pencil slip slip_common in
-  let p = Kernel.condensed (Kernel.blocks_of pencil) w in
-  let moves, region = enclosed_region slip e interval in
-  let root = enclosed_root (List.hd (Kernel.moving p region)) interval in
-  Option.map (fun leaf -> w, only_region moves Kernel.Undecided leaf)
-    (isolated_leaf p (doubles_of p) region root Kernel.Solution)
-
-(* The same where the free rows depend on the value. The leaf reaches beyond the interval of the
-   claim, which is too narrow for doubles. *)
-let enclosed_varying_tree (pencil : Kernel.pencil) slip free_factor slip_factor (e : enclosed)
-    (low, high) =
-  let center = Q.of_float (Q.to_float (half low high)) in
-  let v = own_anchor pencil slip free_factor slip_factor center in
-  let moves, _ = enclosed_region slip e (low, high) in
-  let pivot = position (Array.of_list slip) (List.hd e.box_support) in
-  let size = if Q.sign center = 0 then Q.one else Q.abs center in
-  let attempt bits =
+  let about t bits =
+    let value = Q.of_float t in
+    let size = if t = 0.0 then Q.one else Q.abs value in
     let width = Q.div size (Q.of_bigint (two_to bits)) in
-    let wide = larger Q.zero (Q.sub low width), Q.add high width in
-    let _, region = enclosed_region slip e wide in
-    by_root v 0 (enclosed_root pivot (low, high)) Kernel.Solution region in
-  Option.map (fun leaf -> v.anchoring, only_region moves Kernel.LeftOpen leaf)
-    (List.find_map attempt [36; 40; 32; 44; 28; 24; 16])
+    let from = Q.max lowest (Q.sub value width) and upto = Q.min highest (Q.add value width) in
+    if Q.lt from upto then Some (from, upto) else None in
+  let attempt k =
+    let try_at t intervals =
+      if Float.is_nan t || Float.abs t = infinity then None
+      else match null_pair f k t with
+        | None -> None
+        | Some pair ->
+          let check, given, own = witnesses k t pair in
+          let centers = own :: Option.to_list given in
+          List.find_map (fun interval ->
+              List.find_map (fun center -> check center interval) centers) intervals in
+    let t = Q.to_float center in
+    let near t = List.filter_map (about t) [44; 38; 32; 26; 20; 14; 8] in
+    match try_at t ((lowest, highest) :: near t) with
+    | Some claim -> Some claim
+    | None when m > 64 -> None
+    | None -> let zero = newton f k 12 t in try_at zero (near zero) in
+
+  let sizes = Array.map Q.abs z in
+  let support = List.filter (fun p -> List.mem variables.(p) e.box_support) (List.init m Fun.id) in
+  let pivots = List.sort (fun p q -> Q.compare sizes.(q) sizes.(p)) support in
+  List.find_map attempt (List.filteri (fun i _ -> i < (if m <= 16 then 3 else 1)) pivots)

@@ -683,21 +683,25 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { whole_negative : bool; low_end : whole_end;
-               high_end : whole_end }
+type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : 
+               bool; low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
 
+val weighted : Big_int_Z.big_int list -> int -> sparse_row -> sparse_row
+
 val may_move : pencil -> region -> int list
 
-val members : pencil -> region -> member list
+val members : pencil -> Big_int_Z.big_int list -> region -> member list
 
 val member_entry : point -> member -> member -> Big_int_Z.big_int
 
 val member_form :
   bool -> Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int
 
-val check_end : pencil -> bool -> bool -> point -> region -> whole_end -> bool
+val check_end :
+  pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region ->
+  whole_end -> bool
 
 val check_whole : pencil -> region -> whole -> bool
 
@@ -771,49 +775,145 @@ val columns_in_order : pencil -> bool
 
 val check_claim : pencil -> claim -> bool
 
-type enclosed_claim = { box_support : int list; interval_low : point;
-                        interval_high : point; null_box : isolation }
+type enclosed_claim = { box_support : int list; box_from : point;
+                        box_to : point; box_pivot : int;
+                        box_center : Big_int_Z.big_int list;
+                        right_inverse : matrix;
+                        box_width : Big_int_Z.big_int;
+                        rate_width : Big_int_Z.big_int;
+                        left_null : Big_int_Z.big_int list }
 
-val dense : pencil -> (int -> sparse_row) -> matrix
+val add_multiple :
+  Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list
 
-val whole_pencil : pencil -> enclosed
+val scatter :
+  Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list
 
-val in_active_block : pencil -> enclosed_claim -> Equality.sort -> bool
+val absolute_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int
 
-val active_region : pencil -> enclosed_claim -> region
+val at_end :
+  point -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
-val positive_on_support : enclosed_claim -> Equality.sort -> bool
+val row_at_end :
+  point -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list
 
-val positive_off_support : pencil -> enclosed_claim -> int -> bool
+val box_active : pencil -> enclosed_claim -> Equality.sort -> bool
+
+val active_list : pencil -> enclosed_claim -> Equality.sort list
+
+val pivot_removed : pencil -> enclosed_claim -> Equality.sort list
+
+val inverse_vanishes_off : pencil -> enclosed_claim -> int list -> bool
+
+val vanishes_elsewhere : pencil -> enclosed_claim -> bool
+
+val times_inverse : enclosed_claim -> sparse_row -> Big_int_Z.big_int list
+
+val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int
+
+val dominated :
+  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> bool
+
+val dominated_at :
+  enclosed_claim -> point -> int -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> bool
+
+val dominated_ends :
+  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list
+  -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+
+val regular_row :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool
+
+val norms : enclosed_claim -> Big_int_Z.big_int list
+
+val widths : enclosed_claim -> Big_int_Z.big_int list
+
+val left_times :
+  pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int list
+
+val left_value :
+  pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int
+
+val weighted_norm :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int
+
+val above_radius :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  point -> bool
+
+val below_radius :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  point -> bool
+
+val opposite_signs :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  bool
+
+val determinant_changes_sign :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
+
+val one_root_at :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool
+
+val one_root_between :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> bool
+
+val one_root : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
+
+val reaction_positive :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> point -> int -> bool
+
+val box_signs : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
 
 val check_enclosed_claim : pencil -> enclosed_claim -> bool
 
-type any_claim =
-| IsExact of claim
-| IsEnclosed of enclosed_claim
+type solution_claim =
+| ExactClaim of claim
+| BoxClaim of enclosed_claim
 
 val positions : pencil -> int list -> int list
 
-val check_any_claim : pencil -> any_claim -> bool
+val claimed_support : solution_claim -> int list
 
-val known_of : pencil -> any_claim -> known
+val claimed_biactive : solution_claim -> int list
 
-val known_solutions : pencil -> any_claim list -> known list
+val claimed_from : solution_claim -> point
+
+val claimed_to : solution_claim -> point
+
+val known_of : pencil -> solution_claim -> known
+
+val check_solution_claim : pencil -> solution_claim -> bool
+
+val known_solutions : pencil -> solution_claim list -> known list
 
 val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool
 
 val check_complete :
-  pencil -> any_claim list -> elimination -> whole leaf tree -> point ->
+  pencil -> solution_claim list -> elimination -> whole leaf tree -> point ->
   point -> bool
 
 val found :
-  pencil -> any_claim list -> whole leaf tree -> point -> point -> yield list
+  pencil -> solution_claim list -> whole leaf tree -> point -> point -> yield
+  list
 
 val left_open : whole leaf tree -> point -> point -> region list
 
 val solutions_found :
-  pencil -> any_claim list -> whole leaf tree -> point -> point -> yield list
-  option
+  pencil -> solution_claim list -> whole leaf tree -> point -> point -> yield
+  list option
 
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
@@ -875,8 +975,8 @@ val particle_wellformed : system -> slip_particle -> bool
 val system_wellformed : system -> unknown -> bool
 
 val check_system :
-  system -> unknown -> any_claim list -> elimination -> whole leaf tree ->
-  point -> point -> bool
+  system -> unknown -> solution_claim list -> elimination -> whole leaf tree
+  -> point -> point -> bool
 
 val check_system_claim : system -> unknown -> claim -> bool
 
@@ -1148,23 +1248,23 @@ val families :
   whole leaf tree -> point -> point -> support_leaf option list -> family list
 
 val all_yields :
-  pencil -> any_claim list -> whole leaf tree -> point -> point ->
+  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
   support_leaf option list -> yield list
 
 val all_solutions :
-  pencil -> any_claim list -> whole leaf tree -> point -> point ->
+  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
   support_leaf option list -> yield list option
 
 val still_open :
   whole leaf tree -> point -> point -> support_leaf option list -> region list
 
 val check_families :
-  pencil -> any_claim list -> whole leaf tree -> point -> point ->
+  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
   support_leaf option list -> elimination -> bool
 
 val check_system_families :
-  system -> unknown -> any_claim list -> elimination -> whole leaf tree ->
-  point -> point -> support_leaf option list -> bool
+  system -> unknown -> solution_claim list -> elimination -> whole leaf tree
+  -> point -> point -> support_leaf option list -> bool
 
 val add_lists : ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list
 
@@ -1192,7 +1292,7 @@ val squares : Big_int_Z.big_int list -> Big_int_Z.big_int
 
 val norm2 : Big_int_Z.big_int list -> Big_int_Z.big_int
 
-val norms : matrix list -> int -> polynomial
+val norms0 : matrix list -> int -> polynomial
 
 val derivative : polynomial -> polynomial
 
@@ -1352,10 +1452,8 @@ type varying_leaf =
 | OfClaim of int * Big_int_Z.big_int * interval * pinning * int
 | OfLimit of int * Big_int_Z.big_int * interval * pinning
    * Big_int_Z.big_int list
-| OfWhole of Big_int_Z.big_int * whole
+| OfWhole of whole
 | LeftOpen
-
-val scale_free : Big_int_Z.big_int -> pencil -> pencil
 
 val swap_pencil : pencil -> pencil
 
@@ -1401,17 +1499,17 @@ val check_varying_leaf :
 val bounds_hold : pencil -> anchoring -> bool
 
 val check_varying :
-  pencil -> any_claim list -> anchoring -> varying_leaf tree -> point ->
+  pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point ->
   point -> bool
 
 val claim_yield : pencil -> region -> known -> yield option
 
 val varying_yield :
-  pencil -> any_claim list -> (region * varying_leaf) -> yield option
+  pencil -> solution_claim list -> (region * varying_leaf) -> yield option
 
 val varying_found :
-  pencil -> any_claim list -> varying_leaf tree -> point -> point -> yield
-  list
+  pencil -> solution_claim list -> varying_leaf tree -> point -> point ->
+  yield list
 
 val varying_open : varying_leaf tree -> point -> point -> region list
 
@@ -1424,13 +1522,13 @@ val varying_still_open :
   list
 
 val varying_solutions :
-  pencil -> any_claim list -> varying_leaf tree -> point -> point ->
+  pencil -> solution_claim list -> varying_leaf tree -> point -> point ->
   support_leaf option list -> yield list option
 
 val check_varying_families :
-  pencil -> any_claim list -> anchoring -> varying_leaf tree -> point ->
+  pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point ->
   point -> support_leaf option list -> bool
 
 val check_system_varying :
-  system -> unknown -> any_claim list -> anchoring -> varying_leaf tree ->
-  point -> point -> support_leaf option list -> bool
+  system -> unknown -> solution_claim list -> anchoring -> varying_leaf tree
+  -> point -> point -> support_leaf option list -> bool

@@ -119,8 +119,9 @@ let size_of (e : Certificate.exact) polynomials =
     Problem.not_verified "a claim beyond the limits of this program";
   size
 
-(* The kernel needs about order^4 steps for an enclosed solution. *)
-let largest_enclosed = 64
+let largest_enclosed = 1_024
+
+let entries = List.fold_left (fun n row -> n + List.length row) 0
 
 let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
   | Certificate.Exact e ->
@@ -130,12 +131,14 @@ let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
     let polynomials = l.motion.x @ l.forces in
     let size = size_of l.motion polynomials in
     List.length polynomials * size * size
-  | Enclosed _ ->
-    if pencil.order > largest_enclosed then 1 lsl 33
-    else pencil.order * pencil.order * pencil.order * pencil.order * (1 lsl 12)
+  | Enclosed e ->
+    let m = List.length pencil.free + List.length e.box_support in
+    if m > largest_enclosed then
+      Problem.not_verified "an enclosed solution of more than %d active variables"
+        largest_enclosed;
+    (1 + pencil.order + entries pencil.rows_a + entries pencil.rows_b + m * m / 8) * m * 128
 
 let limit_work (problem : Problem.t) pencil claims =
-  let entries = List.fold_left (fun n row -> n + List.length row) 0 in
   let n = pencil.Kernel.order in
   let size = match problem.question with
     | Mechanical (system, _) when
@@ -174,7 +177,7 @@ let verify_exact (problem : Problem.t) pencil (e : Certificate.exact) =
   refuse_unless (match problem.question with
       | Raw pencil -> Kernel.check_claim pencil claim
       | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim);
-  lazy (Kernel.IsExact claim)
+  lazy (Kernel.ExactClaim claim)
 
 let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
   match problem.question with
@@ -188,43 +191,7 @@ let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
     let claim = Elaborate.lifted_of system unknown factor l in
     refuse_unless (states claim.motion_claim l.motion);
     refuse_unless (Kernel.check_lifted system unknown claim);
-    lazy (Kernel.IsExact (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l)))
-
-(* An enclosed solution of many variables, as the only region that a cover of its interval yields:
-   [complete_sound], [system_complete], [varying_sound], [system_varying_number]. *)
-let verify_condensed (problem : Problem.t) pencil (e : Certificate.enclosed) (low, high) =
-  let none () = raise (Elaborate.No_witness "an enclosed solution") in
-  let slip = Obj.magic (Kernel.slip pencil) in
-  let lo = Elaborate.point_of low and hi = Elaborate.point_of high in
-  let accepted, found =
-    if Kernel.free_rows_constant pencil then
-      match Elaborate.enclosed_tree pencil slip problem.slip_common e (low, high) with
-      | None -> none ()
-      | Some (w, tree) ->
-        (match problem.question with
-         | Raw pencil -> Kernel.check_complete pencil [] w tree lo hi
-         | Mechanical (system, unknown) -> Kernel.check_system system unknown [] w tree lo hi),
-        Kernel.found pencil [] tree lo hi
-    else
-      match Elaborate.enclosed_varying_tree pencil slip problem.common problem.slip_common e
-              (low, high) with
-      | None -> none ()
-      | Some (anchoring, tree) ->
-        let still_open = List.map (fun _ -> None) slip in
-        (match problem.question with
-         | Raw pencil -> Kernel.check_varying_families pencil [] anchoring tree lo hi still_open
-         | Mechanical (system, unknown) ->
-           Kernel.check_system_varying system unknown [] anchoring tree lo hi still_open),
-        Kernel.varying_found pencil [] tree lo hi in
-  if not accepted then none ();
-  match found with
-  | [y] when List.map (List.nth slip) (moving y.yield_region) = e.box_support
-          && List.length (resting y.yield_region) + List.length e.box_support
-             = List.length slip ->
-    let low' = Elaborate.value_of y.yield_from and high' = Elaborate.value_of y.yield_to in
-    refuse_unless (Q.geq low' low && Q.leq high' high);
-    low', high'
-  | _ -> none ()
+    lazy (Kernel.ExactClaim (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l)))
 
 (* The interval that is proved lies in that of the claim. *)
 let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
@@ -238,22 +205,20 @@ let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
   let center = List.nth e.center active and radius = List.nth e.radius active in
   let value = Q.sub center radius, Q.add center radius in
   in_window certificate value;
-  if pencil.order > largest_enclosed then None, verify_condensed problem pencil e value
-  else match Elaborate.enclosed_claim_of pencil e with
+  match Elaborate.enclosed_claim_of pencil e with
   | None -> raise (Elaborate.No_witness "an enclosed solution")
   | Some claim ->
-    let low = Elaborate.value_of claim.null_box.from_point in
-    let high = Elaborate.value_of claim.null_box.to_point in
+    let low = Elaborate.value_of claim.box_from and high = Elaborate.value_of claim.box_to in
     refuse_unless (claim.box_support = e.box_support && Q.geq low (fst value)
                    && Q.leq high (snd value));
     let accepted = match problem.question with
       | Raw pencil -> Kernel.check_enclosed_claim pencil claim
       | Mechanical (system, unknown) -> Kernel.check_system_enclosed system unknown claim in
     if not accepted then raise (Elaborate.No_witness "an enclosed solution");
-    Some (lazy (Kernel.IsEnclosed claim)), (low, high)
+    claim, (low, high)
 
 (* Each claim: its support has a solution with a value in its interval, which is in the window.
-   With it comes the same claim about the pencil, as a root leaf may refer to it. *)
+   With it comes the same claim about the pencil, for root leaves that refer to it. *)
 let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) claim =
   let check_root (e : Certificate.exact) =
     in_window certificate e.value;
@@ -262,19 +227,13 @@ let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) clai
   match claim with
   | Certificate.Exact e ->
     check_root e;
-    Some (verify_exact problem pencil e), show_claim e.value e.support
+    verify_exact problem pencil e, show_claim e.value e.support
   | Lifted l ->
     check_root l.motion;
-    Some (verify_lifted problem pencil l), show_claim l.motion.value l.motion.support
+    verify_lifted problem pencil l, show_claim l.motion.value l.motion.support
   | Enclosed e ->
     let claim, value = verify_enclosed problem pencil certificate e in
-    claim, show_claim value e.box_support
-
-(* The claims in their places, for root leaves that refer to them. *)
-let kernel_claims =
-  List.map (function
-      | Some claim, _ -> Lazy.force claim
-      | None, _ -> Problem.not_verified "a cover that refers to large enclosed solutions")
+    lazy (Kernel.BoxClaim claim), show_claim value e.box_support
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in
@@ -310,7 +269,7 @@ type question = {
   slip_list : int list;
   lo : Kernel.point;
   hi : Kernel.point;
-  known_claims : Kernel.any_claim list }
+  known_claims : Kernel.solution_claim list }
 
 (* What the kernel says after it has accepted a tree. *)
 type cover = {
@@ -354,7 +313,8 @@ let verify_constant q =
       e, Kernel.condensed (Kernel.blocks_of q.pencil) e) in
   let context =
     { Elaborate.pencil = q.pencil; slip = q.slip; enclosed;
-      doubles = Elaborate.doubles_of enclosed; known = known q } in
+      doubles = Elaborate.doubles_of enclosed; known = known q;
+      weights = Elaborate.row_weights q.pencil problem.common problem.slip_common } in
   let tree, supports =
     elaborate q ~leaf:(fun _ -> Elaborate.build_leaf context) ~left_open:Kernel.Undecided
       ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
@@ -406,7 +366,8 @@ let verify_eigenproblem document problem_path certificate_path =
       | Mechanical (system, unknown) -> Kernel.pencil_of system unknown) in
   let slip_list = Obj.magic (Kernel.slip pencil) in
   let slip = Array.of_list slip_list in
-  if Array.length slip > 300 then Problem.not_verified "more than 300 complementarity variables";
+  if certificate.pieces <> [] && Array.length slip > 300 then
+    Problem.not_verified "more than 300 complementarity variables";
   let lo = Elaborate.point_of (fst certificate.window) in
   let hi = Elaborate.upper_point (snd certificate.window) in
   let claims = timed "claims" (fun () ->
@@ -425,7 +386,7 @@ let verify_eigenproblem document problem_path certificate_path =
     let needed = List.exists (fun (p : Certificate.piece) -> List.exists (function
         | Certificate.Root { outcome = Claim _; _ } -> true
         | _ -> false) p.tree) certificate.pieces in
-    let known_claims = if needed then kernel_claims claims else [] in
+    let known_claims = if needed then List.map (fun (claim, _) -> Lazy.force claim) claims else [] in
     let question = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims } in
     let varying = not (Kernel.free_rows_constant pencil)
                   || pencil.free <> []

@@ -16,6 +16,9 @@
 //! * *There are no others* with a value in the window (`cover`). The evidence is a partition of
 //!   (supports) x (window) into regions, each with a proof of what it holds.
 //!
+//! A file of its own kind states absence for a range of friction (`critical`): there is no solution
+//! with mu in [0, `below`] and lambda^2 >= 0. Its evidence is a partition as well.
+//!
 //! The checker multiplies and compares integers and fractions. It has no floating point number, it
 //! solves no linear system and finds no root, and it shares no algorithm with the code that finds
 //! solutions. Of a mechanical system it forms A and B itself (`pencil`).
@@ -27,6 +30,7 @@
 
 pub mod certificate;
 mod cover;
+mod critical;
 mod enclosed;
 mod exact_solution;
 mod lifted_solution;
@@ -34,6 +38,7 @@ mod pencil;
 mod reason;
 
 pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, Place, SolutionFamily};
+pub use critical::{AcceptedAbsence, audit_critical, check_critical};
 pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};

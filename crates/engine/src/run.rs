@@ -145,6 +145,17 @@ impl<'a> Watch<'a> {
         }
     }
 
+    /// The same switch with another listener: one that passes on what it hears under another name.
+    pub fn heard_by<'b>(self, on_progress: &'b OnProgress<'b>) -> Watch<'b>
+    where
+        'a: 'b,
+    {
+        Watch {
+            cancel: self.cancel,
+            on_progress,
+        }
+    }
+
     /// Has somebody asked the run to end?
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(Cancel::is_requested)
