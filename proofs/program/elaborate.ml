@@ -764,7 +764,8 @@ let with_anchors (pencil : Kernel.pencil) slip_list free_factor slip_factor clai
         kernel_anchor pencil slip_list free_factor slip_factor (given k)) used } in
   { whole_pencil = pencil; slip_list = Array.of_list slip_list; anchoring;
     expansions = Kernel.expansions pencil anchoring; claims;
-    weights = row_weights pencil free_factor slip_factor; uniform_factor = slip_factor; tail = c.tail;
+    weights = row_weights pencil free_factor slip_factor; uniform_factor = slip_factor;
+    tail = c.tail;
     numbers = List.mapi (fun i k -> (k, i)) used }
 
 let varying_of pencil slip_list free_factor slip_factor claims condensation pieces =

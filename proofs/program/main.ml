@@ -386,7 +386,8 @@ let verify_eigenproblem document problem_path certificate_path =
     let needed = List.exists (fun (p : Certificate.piece) -> List.exists (function
         | Certificate.Root { outcome = Claim _; _ } -> true
         | _ -> false) p.tree) certificate.pieces in
-    let known_claims = if needed then List.map (fun (claim, _) -> Lazy.force claim) claims else [] in
+    let known_claims =
+      if needed then List.map (fun (claim, _) -> Lazy.force claim) claims else [] in
     let question = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims } in
     let varying = not (Kernel.free_rows_constant pencil)
                   || pencil.free <> []
