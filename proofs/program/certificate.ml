@@ -252,8 +252,12 @@ let read_window = function
 
 let read path =
   let document = Json.read path in
-  (match document with
-   | Object members when List.assoc_opt "format" members = Some (String "mceip-certificate/1") -> ()
+  let format = match document with
+    | Object members -> List.assoc_opt "format" members
+    | _ -> None in
+  (match format with
+   | Some (String "mceip-certificate/1") -> ()
+   | Some (String "mceip-critical/1") -> Problem.not_verified "certificates of mceip-critical/1"
    | _ -> malformed "format: mceip-certificate/1 was expected");
   let field = fields ["format"; "problem_sha256"; "unknown"; "window"; "claims"]
       ["complete_set"] document in

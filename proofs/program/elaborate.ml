@@ -620,6 +620,12 @@ let transpose columns rows =
   let rows = Array.of_list (List.map Array.of_list rows) in
   List.init columns (fun j -> Array.to_list (Array.map (fun row -> row.(j)) rows))
 
+(* The rows of a factor, each with the column where it begins. *)
+let rows_from (factor : factor_rows) =
+  if List.length factor.first <> List.length factor.rows then
+    no_witness "a factor with rows missing";
+  List.combine factor.first factor.rows
+
 (* f_i / 2^b_i for each slip row, as positive integers in a common unit. *)
 let row_scales (pencil : Kernel.pencil) slip common =
   let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
@@ -681,7 +687,7 @@ let elimination (pencil : Kernel.pencil) slip common slip_common
         bound_c = Z.mul power (Q.den c.sigma);
         bound_d = Z.mul common (Z.mul power (Q.num c.sigma));
         factor_scale = Z.mul common (Q.den c.sigma);
-        stiffness_factor = List.combine c.factor.first c.factor.rows }
+        stiffness_factor = rows_from c.factor }
 
 (* ---------- condensation about anchors *)
 
@@ -704,8 +710,7 @@ let form_bound nf free_factor (sigma : Q.t) (factor : factor_rows option) =
     { Kernel.bound_times = Z.mul power (Q.den sigma);
       bound_at = Z.mul free_factor (Z.mul power (Q.num sigma));
       gram_times = Z.mul free_factor (Q.den sigma);
-      gram_rows = (try List.combine f.first f.rows with Invalid_argument _ ->
-          no_witness "a factor with rows missing") }
+      gram_rows = rows_from f }
   | None ->
     { Kernel.bound_times = Q.den sigma; bound_at = Z.mul free_factor (Q.num sigma);
       gram_times = Z.zero; gram_rows = List.init nf (fun _ -> (0, [])) }
@@ -940,11 +945,10 @@ let varying_narrow v n what attempt interval region =
 (* The factor of the certificate for sym(A + from B); nothing for sym(B), which is diagonal. *)
 let tail_leaf v (region : Kernel.region) =
   match v.tail with
-  | Some (from, f) when Q.equal from (value_of region.lower) && not (finite region.upper)
-                        && List.length f.first = List.length f.rows ->
+  | Some (from, f) when Q.equal from (value_of region.lower) && not (finite region.upper) ->
     let power = two_to (2 * f.exponent) and two = Z.of_int 2 in
     let low = Z.mul two (Z.mul v.uniform_factor (snd region.lower)) in
-    let rows = List.combine f.first f.rows in
+    let rows = rows_from f in
     let w = { Kernel.whole_weights = v.weights; whole_negative = false;
               low_end = { Kernel.end_scale = power; end_factor = Kernel.Late (low, rows) };
               high_end = { Kernel.end_scale = Z.one;

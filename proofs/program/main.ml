@@ -423,6 +423,8 @@ let answer problem certificate =
   | Stack_overflow | Out_of_memory -> say 3 "NOT VERIFIED: the memory of this program"
   | Problem.Not_verified kind -> say 3 ("NOT VERIFIED: " ^ kind)
   | Elaborate.No_witness what -> say 3 ("NOT VERIFIED: no witness for " ^ what)
+  | Invalid_argument what | Failure what -> say 3 ("NOT VERIFIED: a fault of this program: " ^ what)
+  | Not_found | Division_by_zero -> say 3 "NOT VERIFIED: a fault of this program"
 
 (* For tests with many files: each line of stdin has the paths of a problem and a certificate,
    without blanks; after what is printed for them comes a line "exit CODE". *)
