@@ -617,6 +617,8 @@ let build_pieces slip leaf (lo, _) pieces =
 (* ---------- condensation *)
 
 let transpose columns rows =
+  if List.exists (fun row -> List.length row <> columns) rows then
+    no_witness "a matrix with rows of another length";
   let rows = Array.of_list (List.map Array.of_list rows) in
   List.init columns (fun j -> Array.to_list (Array.map (fun row -> row.(j)) rows))
 
