@@ -38,8 +38,8 @@ Module PlusMinus.
 Definition body : system :=
   (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
 41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat 1
-1); (SlipParticle 2%nat 3%nat (-1) 1)]).
+25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
+0) (0, 1) 1); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) (-1))] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -133,8 +133,8 @@ Module PlusPlus.
 Definition body : system :=
   (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
 41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat 1
-1); (SlipParticle 2%nat 3%nat 1 1)]).
+25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
+0) (0, 1) 1); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -198,8 +198,8 @@ Module MinusMinus.
 Definition body : system :=
   (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
 41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat
-(-1) 1); (SlipParticle 2%nat 3%nat (-1) 1)]).
+25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
+0) (0, 1) (-1)); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) (-1))] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -264,8 +264,8 @@ Module MinusPlus.
 Definition body : system :=
   (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
 41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat
-(-1) 1); (SlipParticle 2%nat 3%nat 1 1)]).
+25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
+0) (0, 1) (-1)); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -281,10 +281,10 @@ Definition eliminated : elimination :=
 1 0 [:: ]).
 
 Definition cover : tree (leaf whole) :=
-  (Leaf (Whole (WholeLeaf false (WholeEnd 5192296858534827628530496329220096 (Late 1 [:: (0%nat,
-[:: 1161835695570046208; 0]); (0%nat, [:: 223452286684446592; 1140145279811404160])])) (WholeEnd
-5192296858534827628530496329220096 (Late 1 [:: (0%nat, [:: 509498656958434688; 0]); (1%nat, [::
-509498656958434688])]))))).
+  (Leaf (Whole (WholeLeaf [:: ] false (WholeEnd 5192296858534827628530496329220096 (Late 1 [::
+(0%nat, [:: 1161835695570046208; 0]); (0%nat, [:: 223452286684446592; 1140145279811404160])]))
+(WholeEnd 5192296858534827628530496329220096 (Late 1 [:: (0%nat, [:: 509498656958434688; 0]);
+(1%nat, [:: 509498656958434688])]))))).
 
 Theorem exactly_0 (R : rcfType) : has_exactly R body asked lo hi 0.
 Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
@@ -297,7 +297,7 @@ Module InMu.
 Definition body : system :=
   (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
 41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: ] [:: ] [::
-(SlipParticle 0%nat 1%nat 1 1); (SlipParticle 2%nat 3%nat 1 1)]).
+(SlipParticle 0%nat 1%nat (1, 0) (0, 1) 1); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
 
 Definition asked : unknown :=
   Mu.

@@ -103,7 +103,7 @@ Definition belongs n (y : yield) (f : family) :=
 
 Section Complete.
 
-Variables (Q : pencil) (claims : seq claim) (tr : tree (leaf whole)) (lo hi : point).
+Variables (Q : pencil) (claims : seq solution_claim) (tr : tree (leaf whole)) (lo hi : point).
 Variable ls : seq (option support_leaf).
 
 Definition families := families_of (left_open tr lo hi) ls.
@@ -426,7 +426,7 @@ End Cover.
 
 Section Pencils.
 
-Variables (R : rcfType) (Q : pencil) (claims : seq claim) (w : elimination).
+Variables (R : rcfType) (Q : pencil) (claims : seq solution_claim) (w : elimination).
 Variables (tr : tree (leaf whole)) (lo hi : point) (ls : seq (option support_leaf)).
 Hypothesis checked : check_families Q claims tr lo hi ls w.
 
@@ -457,7 +457,7 @@ End Pencils.
 
 Section Systems.
 
-Variables (R : rcfType) (s : system) (u : unknown) (claims : seq claim) (w : elimination).
+Variables (R : rcfType) (s : system) (u : unknown) (claims : seq solution_claim) (w : elimination).
 Variables (tr : tree (leaf whole)) (lo hi : point) (ls : seq (option support_leaf)).
 Hypothesis checked : check_system_families s u claims w tr lo hi ls.
 

@@ -38,7 +38,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Number Condensation Pencil Whole Claim Complete.
+From Mceip Require Import Number Condensation Pencil Whole Claim EnclosedClaim Complete.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -155,6 +155,7 @@ Definition check_system_excluded tr lo hi :=
   system_wellformed && check_excluded pencil_of tr lo hi.
 
 Definition check_system_claim k := system_wellformed && check_claim pencil_of k.
+Definition check_system_enclosed k := system_wellformed && check_enclosed_claim pencil_of k.
 
 End Checker.
 
@@ -667,7 +668,7 @@ Definition same_motion (v v' : nat -> R) :=
 Definition motion_in r t (v : nat -> R) :=
   lies_in (pencil_of s u) r t (variables_of s v).
 
-Variables (claims : seq claim).
+Variables (claims : seq solution_claim).
 Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
 Hypothesis checked : check_system s u claims w tr lo hi.
 
@@ -784,4 +785,16 @@ Proof.
 case/andP=> wf /(@claim_sound R)[t [x [at_from at_to sol signs]]].
 exists t, (motion s x); split=> //; first exact/(system_pencil wf).
 exact: motion_support.
+Qed.
+
+Theorem system_enclosed (R : rcfType) s u k : check_system_enclosed s u k ->
+  exists (t : R) v,
+    [/\ between t (box_from k) (box_to k), satisfies_9 s u t v &
+        has_support s u (box_support k) [::] t v].
+Proof.
+case/andP=> wf /(@enclosed_claim_sound R)[t [x [bt sol pos zero _]]].
+exists t, (motion s x); split=> //; first exact/(system_pencil wf).
+apply: (motion_support wf) => i Hi; split=> //; first exact: pos.
+  by move/(zero _ Hi)=> [].
+by move/(zero _ Hi)=> [].
 Qed.

@@ -48,7 +48,8 @@ let whole_factor = function
 let whole_end e = term ["WholeEnd"; integer e.end_scale; whole_factor e.end_factor]
 
 let whole w =
-  term ["WholeLeaf"; string_of_bool w.whole_negative; whole_end w.low_end; whole_end w.high_end]
+  term ["WholeLeaf"; integers w.whole_weights; string_of_bool w.whole_negative;
+        whole_end w.low_end; whole_end w.high_end]
 
 (* The first argument of a leaf is the type of the evidence about the whole pencil. *)
 let leaf = function
@@ -71,13 +72,15 @@ let elimination w =
         matrix w.left_va; matrix w.left_vb; integer w.bound_c; integer w.bound_d;
         integer w.factor_scale; list late_row w.stiffness_factor]
 
+let planar = pair integer integer
+
 let particle p =
-  term ["SlipParticle"; number p.tangential; number p.normal; integer p.sign_of;
-        integer p.direction]
+  term ["SlipParticle"; number p.first_dof; number p.second_dof; planar p.tangent;
+        planar p.normal; integer p.sign_of]
 
 let system s =
   term ["System"; number s.dofs; list sparse_row s.stiffness; list sparse_row s.mass;
-        list number s.free_dofs; list particle s.particles]
+        list number s.free_dofs; list particle s.particles; integer s.unit_length]
 
 let unknown = function
   | Mu -> "Mu"

@@ -126,12 +126,12 @@ let exact_ldl s =
   done;
   if !ok then Some (l, d) else None
 
-let whole_end pencil negative strict e region =
-  let members = Array.of_list (Kernel.members pencil region) in
+let whole_end pencil weights negative strict e region =
+  let members = Array.of_list (Kernel.members pencil weights region) in
   let n = Array.length members in
   let form c = Array.init n (fun i -> Array.init n (fun j ->
       Kernel.member_form negative c e members.(i) members.(j))) in
-  let accepted w = Kernel.check_end pencil strict negative e region w in
+  let accepted w = Kernel.check_end pencil weights strict negative e region w in
   let rounded () =
     let c = two_to 112 in
     match factor_rows strict (form c) with
@@ -165,16 +165,24 @@ let whole_end pencil negative strict e region =
       List.map (fun k () -> exact k) (if strict then [0; 8; 24; 60; 120; 300; 1000] else [0]) in
   first (rounded :: exact_ways)
 
+(* Weights that undo the factors by which the rows were made integers. *)
+let row_weights (pencil : Kernel.pencil) common slip_common =
+  if Z.equal common slip_common then []
+  else
+    List.init pencil.order (fun i ->
+        if List.mem i pencil.free then Z.divexact slip_common common else Z.one)
+
 (* A definite leaf of the whole pencil, of either sign. *)
-let whole_leaf pencil (region : Kernel.region) =
+let whole_leaf pencil weights (region : Kernel.region) =
   let finite = Z.sign (snd region.upper) > 0 in
   let attempt negative =
-    match whole_end pencil negative true region.lower region with
+    match whole_end pencil weights negative true region.lower region with
     | None -> None
     | Some low_end ->
-      match whole_end pencil negative finite region.upper region with
+      match whole_end pencil weights negative finite region.upper region with
       | None -> None
-      | Some high_end -> Some { Kernel.whole_negative = negative; low_end; high_end } in
+      | Some high_end -> 
+        Some { Kernel.whole_weights = weights; whole_negative = negative; low_end; high_end } in
   match attempt false with
   | Some w -> Some w
   | None -> attempt true
@@ -509,6 +517,7 @@ let rec infinite_tree p f depth (region : Kernel.region) x at =
 
 type context = {
   pencil : Kernel.pencil;
+  weights : Z.t list;  (* of the rows, for whole leaves *)
   slip : int array;
   enclosed : Kernel.enclosed;
   doubles : doubles;
@@ -523,14 +532,16 @@ let position slip i =
 let build_leaf c (region : Kernel.region) node =
   let p = c.enclosed and f = c.doubles in
   let leaf what = function Some l -> Kernel.Leaf l | None -> no_witness "%s" what in
+  let whole () =
+    Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil c.weights region) in
   match node with
   | Farkas w -> Kernel.Leaf (Kernel.Farkas w)
   | Definite negative ->
     (match definite_leaf p negative region with
      | Some l -> Kernel.Leaf l
-     | None -> leaf "definite" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region)))
-  | Ldl -> leaf "ldl" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region))
-  | Tail -> leaf "tail" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region))
+     | None -> leaf "definite" (whole ()))
+  | Ldl -> leaf "ldl" (whole ())
+  | Tail -> leaf "tail" (whole ())
   | Root r ->
     let r = { r with pivot = position c.slip r.pivot } in
     (match r.outcome with
@@ -739,110 +750,185 @@ let exact_of_lifted (system : Kernel.system) (l : lifted) =
   { l.motion with
     x = List.map (fun d -> v.(d)) system.free_dofs @ List.map slip system.particles }
 
-(* ---------- enclosed solution claims: root leaves of the whole pencil *)
+(* ---------- enclosed solution claims *)
 
-(* From t, some steps of Newton's method for row k of T(t) x, with x_k = 1 and the other rows 0. *)
-let newton_value n f j_list k t =
-  let rec step count t =
-    if count = 0 then t
-    else match null_vectors n f j_list k t with
-      | None -> t
-      | Some (right, left) ->
-        let x = Array.of_list (List.map Z.to_float right) in
-        let u = Array.of_list (List.map Z.to_float left) in
-        let row i entry = List.fold_left (fun s j -> s +. entry i j *. x.(j)) 0.0 j_list in
-        let phi = u.(k) *. row k (at f t) in
-        let slope = List.fold_left (fun s i ->
-            s +. u.(i) *. row i (fun i j -> f.b.(i).(j))) 0.0 j_list in
-        let next = t -. phi /. slope in
-        if Float.is_nan next || Float.is_integer (next -. t) && next = t then t
-        else step (count - 1) next in
-  step 12 t
+(* The active rows and columns of a pencil in doubles, row p divided by 2^exponents.(p). *)
+type active_block = { variables : int array; block : doubles; exponents : int array }
+
+let active_block (pencil : Kernel.pencil) variables t =
+  let m = Array.length variables in
+  let position = Array.make pencil.order (-1) in
+  Array.iteri (fun p i -> position.(i) <- p) variables;
+  let dense rows =
+    let rows = Array.of_list rows in
+    Array.map (fun i ->
+        let row = Array.make m 0.0 in
+        List.iter (fun (j, v) ->
+            let p = position.(j) in
+            if p >= 0 then row.(p) <- row.(p) +. Z.to_float v) rows.(i);
+        row) variables in
+  let a = dense pencil.rows_a and b = dense pencil.rows_b in
+  let exponents = Array.init m (fun p ->
+      let norm = ref 0.0 in
+      Array.iteri (fun q v -> norm := !norm +. Float.abs (v +. t *. b.(p).(q))) a.(p);
+      if Float.is_nan !norm || !norm = infinity then no_witness "an overflow";
+      snd (Float.frexp (max !norm 1e-300))) in
+  let divided = Array.mapi (fun p row ->
+      Array.map (fun v -> Float.ldexp v (- exponents.(p))) row) in
+  { variables; block = { a = divided a; b = divided b }; exponents }
+
+(* The inverse of T(t) without row and column k, and the null vectors with the component 1 there. *)
+type null_pair = { others : int array; reciprocal : float array array;
+                   right : float array; left : float array }
+
+let null_pair f k t =
+  let m = Array.length f.a in
+  spend m;
+  let others = Array.of_list (List.filter (fun j -> j <> k) (List.init m Fun.id)) in
+  Option.map (fun y ->
+      let right = Array.make m 1.0 and left = Array.make m 1.0 in
+      Array.iteri (fun p i ->
+          let r = ref 0.0 and l = ref 0.0 in
+          Array.iteri (fun q j ->
+              r := !r -. y.(p).(q) *. at f t j k;
+              l := !l -. at f t k j *. y.(q).(p)) others;
+          right.(i) <- !r;
+          left.(i) <- !l) others;
+      { others; reciprocal = y; right; left })
+    (inverse (Array.map (fun i -> Array.map (fun j -> at f t i j) others) others))
+
+(* Steps of Newton's method for u' T(t) x with both null vectors at t. *)
+let rec newton f k count t =
+  if count = 0 then t
+  else match null_pair f k t with
+    | None -> t
+    | Some n ->
+      let sum entry =
+        let total = ref 0.0 in
+        Array.iteri (fun i u -> Array.iteri (fun j x ->
+            total := !total +. u *. entry i j *. x) n.right) n.left;
+        !total in
+      let next = t -. sum (at f t) /. sum (fun i j -> f.b.(i).(j)) in
+      if Float.is_nan next || next = t then t else newton f k (count - 1) next
 
 let max_rational = List.fold_left (fun m v -> if Q.gt v m then v else m)
 
-let enclosed_claim_of pencil (e : enclosed) =
-  let p = Kernel.whole_pencil pencil in
-  let n = pencil.Kernel.order in
-  let f = doubles_of p in
+(* The least and the largest exponent of the numbers that are not zero. *)
+let exponent_range =
+  Array.fold_left (fun (least, most) v ->
+      let e = snd (Float.frexp v) in
+      if v = 0.0 then (least, most) else (min least e, max most e)) (0, 0)
+
+let enclosed_claim_of (pencil : Kernel.pencil) (e : enclosed) =
+  let n = pencil.order in
   let active = List.filter (fun i -> List.mem i pencil.free || List.mem i e.box_support)
       (List.init n Fun.id) in
-  let rec split = function
-    | [t] -> [], t
-    | x :: rest -> let xs, t = split rest in x :: xs, t
-    | [] -> no_witness "a box without a value" in
-  let x, center = split e.center in
-  let _, radius = split e.radius in
+  let variables = Array.of_list active in
+  let m = Array.length variables in
+  let z = Array.of_list e.center in
+  let center = z.(m) and radius = List.nth e.radius m in
   let lowest = Q.sub center radius and highest = Q.add center radius in
-  let sizes = List.combine active (List.map Q.abs x) in
-  let pivots = List.sort (fun i j -> Q.compare (List.assoc j sizes) (List.assoc i sizes))
-      e.box_support in
+  let in_doubles = active_block pencil variables (Q.to_float center) in
+  let f = in_doubles.block in
 
-  (* The centre as integers: fine beside the least radius. *)
-  let top = max_rational Q.zero (List.map snd sizes) in
-  let least = List.fold_left Q.min (List.hd e.radius) e.radius in
-  let fine = Z.numbits (Q.to_bigint (Q.div top least)) + 24 in
-  let centers unit =
+  let over_variables values =
     let v = Array.make n Z.zero in
-    List.iter2 (fun i c ->
-        v.(i) <- Q.to_bigint (Q.div (Q.mul c (Q.of_bigint (two_to unit))) top)) active x;
+    Array.iteri (fun p i -> v.(i) <- values p) variables;
     Array.to_list v in
+  (* The centre as integers, fine beside the least radius. *)
+  let top = max_rational Q.zero (List.map Q.abs (Array.to_list (Array.sub z 0 m))) in
+  let least = List.fold_left Q.min (List.hd e.radius) e.radius in
+  let given bits =
+    let bits = max bits (Z.numbits (Q.to_bigint (Q.div top least)) + 24) in
+    if Q.sign top = 0 || bits > 4_000 then None
+    else
+      let factor = Q.div (Q.of_bigint (two_to bits)) top in
+      Some (over_variables (fun p -> Q.to_bigint (Q.mul z.(p) factor))) in
 
-  (* The boxes and the uniqueness hold as they were computed; only the signs are tried here. *)
-  let signs_hold (claim : Kernel.enclosed_claim) =
-    Kernel.sign_change p (Kernel.active_region pencil claim) claim.null_box
-    && List.for_all (fun j -> Kernel.positive_on_support claim (Obj.magic j)) e.box_support
-    && List.for_all (fun i ->
-        List.mem i e.box_support || Kernel.positive_off_support pencil claim i)
-      (Obj.magic (Kernel.slip pencil)) in
-  let attempt k (v, left) (low, high) (from, upto) =
-    let k_list = List.filter (fun j -> j <> k) active in
-    let wide = (point_of low, point_of high) and narrow = (point_of from, point_of upto) in
-    match box_of p f active k_list v narrow (middle from upto) with
-    | None -> None
-    | Some narrow_box ->
-      let wide_box =
-        if narrow = wide then Some narrow_box
-        else box_of p f active k_list v wide (middle low high) in
-      match wide_box with
-      | None -> None
-      | Some wide_box ->
-        match unique_of p f active k v wide_box.width wide (middle low high) with
-        | None -> None
-        | Some unique ->
-          let null_box = { Kernel.pivot = k; vector = v; from_point = fst narrow;
-                           to_point = snd narrow; wide_box; narrow_box; unique;
-                           left_vector = left } in
-          let claim = { Kernel.box_support = e.box_support; interval_low = fst wide;
-                        interval_high = snd wide; null_box } in
-          if signs_hold claim then Some claim else None in
+  (* Everything for the pivot in place k and the inverse at t. *)
+  let witnesses k t (pair : null_pair) =
+    let rows = Array.map exponent_range pair.reciprocal in
+    let smallest = Array.fold_left (fun s (_, most) -> min s most) 0 rows in
+    let largest = Array.fold_left (fun s (_, most) -> max s most) 0 rows in
+    let unit = min 200 (max (bits (Z.of_int m) + 7) (8 - smallest)) in
+    let inverse = Array.make n [] in
+    Array.iteri (fun p i ->
+        inverse.(variables.(i)) <-
+          Array.to_list (Array.map (fun v -> round_scaled v unit) pair.reciprocal.(p)))
+      pair.others;
+
+    (* u is given for the scaled rows. *)
+    let left = Array.mapi (fun p v ->
+        Float.ldexp v (in_doubles.exponents.(k) - in_doubles.exponents.(p))) pair.left in
+    let left_unit = min 1_000 (60 - fst (exponent_range left)) in
+    let left_null = over_variables (fun p -> round_scaled left.(p) left_unit) in
+    let center_bits = unit + largest + bits (Z.of_int m) + 60 in
+    let own = over_variables (fun p ->
+        round_scaled pair.right.(p) (max 60 center_bits - fst (exponent_range pair.right))) in
+
+    let bare = { Kernel.box_support = e.box_support; box_from = Kernel.zero; box_to = Kernel.zero;
+                 box_pivot = variables.(k); box_center = own;
+                 right_inverse = Array.to_list inverse; box_width = Z.zero; rate_width = Z.zero;
+                 left_null } in
+    let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
+    let products rows = Array.map (fun i ->
+        Kernel.times_inverse bare rows.(variables.(i))) pair.others in
+    let ga = products rows_a and gb = products rows_b in
+
+    let check center (from, upto) =
+      let ends = [point_of from; point_of upto] in
+      let dots rows = Array.map (fun i -> Kernel.sparse_dot rows.(variables.(i)) center)
+          pair.others in
+      let ra = dots rows_a and rb = dots rows_b in
+      let margins = List.map (fun e ->
+          e, Array.mapi (fun p a -> Kernel.margin (Kernel.row_at_end e a gb.(p)) p) ga) ends in
+      (* The least integer that is at least all quotients of a bound by its margin. *)
+      let quotient bound =
+        List.fold_left (fun largest (e, margin) ->
+            let largest = ref largest in
+            Array.iteri (fun p m -> largest := Z.max !largest (Z.cdiv (bound e p) m)) margin;
+            !largest) Z.zero margins in
+      if List.exists (fun (_, margin) -> Array.exists (fun m -> Z.sign m <= 0) margin) margins
+      then None
+      else begin
+        let box_width = quotient (fun e p -> Z.abs (Kernel.at_end e ra.(p) rb.(p))) in
+        let claim = { bare with Kernel.box_from = List.hd ends; box_to = List.nth ends 1;
+                                box_center = center; box_width } in
+        let eps = Kernel.widths claim in
+        let rates = Array.mapi (fun p i ->
+            Z.add (Z.abs rb.(p)) (Kernel.absolute_dot rows_b.(variables.(i)) eps)) pair.others in
+        let claim = { claim with
+                      Kernel.rate_width = quotient (fun e p -> Z.mul (snd e) rates.(p)) } in
+        if Kernel.determinant_changes_sign pencil claim eps && Kernel.one_root pencil claim eps
+        && Kernel.box_signs pencil claim eps then Some claim else None
+      end in
+    check, given center_bits, own in
 
   (* The interval of the claim, or intervals about a zero in it that is known in doubles. *)
-  let ways k =
-    let whole = lowest, highest in
-    let as_claimed () =
-      match null_vectors n f active k (Q.to_float center) with
-      | Some (_, left) when Q.sign top > 0 && fine < 4_000 ->
-        attempt k (centers fine, left) whole whole
-      | _ -> None in
-    let t = newton_value n f active k (Q.to_float center) in
-    let about bits () =
+  let about t bits =
+    let value = Q.of_float t in
+    let size = if t = 0.0 then Q.one else Q.abs value in
+    let width = Q.div size (Q.of_bigint (two_to bits)) in
+    let from = Q.max lowest (Q.sub value width) and upto = Q.min highest (Q.add value width) in
+    if Q.lt from upto then Some (from, upto) else None in
+  let attempt k =
+    let try_at t intervals =
       if Float.is_nan t || Float.abs t = infinity then None
-      else begin
-        let value = Q.of_float t in
-        let size = if t = 0.0 then Q.one else Q.abs value in
-        let width = Q.div size (Q.of_bigint (two_to bits)) in
-        let from = Q.max lowest (Q.sub value width) in
-        let upto = Q.min highest (Q.add value width) in
-        if Q.geq from upto then None
-        else match null_vectors n f active k t with
-          | None -> None
-          | Some vectors ->
-            match attempt k vectors whole (from, upto) with
-            | Some claim -> Some claim
-            | None -> attempt k vectors (from, upto) (from, upto)
-      end in
-    as_claimed
-    :: List.map about (if n <= 16 then [44; 38; 32; 26; 20; 14; 8] else [44; 32; 20]) in
-  let first_pivots = List.filteri (fun i _ -> i < (if n <= 16 then 3 else 1)) pivots in
-  List.find_map (fun way -> way ()) (List.concat_map ways first_pivots)
+      else match null_pair f k t with
+        | None -> None
+        | Some pair ->
+          let check, given, own = witnesses k t pair in
+          let centers = own :: Option.to_list given in
+          List.find_map (fun interval ->
+              List.find_map (fun center -> check center interval) centers) intervals in
+    let t = Q.to_float center in
+    let near t = List.filter_map (about t) [44; 38; 32; 26; 20; 14; 8] in
+    match try_at t ((lowest, highest) :: near t) with
+    | Some claim -> Some claim
+    | None when m > 64 -> None
+    | None -> let zero = newton f k 12 t in try_at zero (near zero) in
+
+  let sizes = Array.map Q.abs z in
+  let support = List.filter (fun p -> List.mem variables.(p) e.box_support) (List.init m Fun.id) in
+  let pivots = List.sort (fun p q -> Q.compare sizes.(q) sizes.(p)) support in
+  List.find_map attempt (List.filteri (fun i _ -> i < (if m <= 16 then 3 else 1)) pivots)

@@ -1846,10 +1846,17 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { whole_negative : bool; low_end : whole_end;
-               high_end : whole_end }
+type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : 
+               bool; low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
+
+(** val weighted :
+    Big_int_Z.big_int list -> int -> sparse_row -> sparse_row **)
+
+let weighted weight i row =
+  map0 (fun e -> ((fst e),
+    (Z.mul (nth Big_int_Z.unit_big_int weight i) (snd e)))) row
 
 (** val may_move : pencil -> region -> int list **)
 
@@ -1859,10 +1866,12 @@ let may_move q r =
       (filter (fun j -> negb (is_resting (state_of r j)))
         (iota 0 (size (slip q)))))
 
-(** val members : pencil -> region -> member list **)
+(** val members :
+    pencil -> Big_int_Z.big_int list -> region -> member list **)
 
-let members q r =
-  map0 (fun i -> (i, ((row_a q i), (row_b q i)))) (may_move q r)
+let members q weight r =
+  map0 (fun i -> (i, ((weighted weight i (row_a q i)),
+    (weighted weight i (row_b q i))))) (may_move q r)
 
 (** val member_entry : point -> member -> member -> Big_int_Z.big_int **)
 
@@ -1881,31 +1890,33 @@ let member_form negative c e i j =
      else Z.add (member_entry e i j) (member_entry e j i))
 
 (** val check_end :
-    pencil -> bool -> bool -> point -> region -> whole_end -> bool **)
+    pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region ->
+    whole_end -> bool **)
 
-let check_end q strict negative e r w =
+let check_end q weight strict negative e r w =
   (&&) (Z.ltb Big_int_Z.zero_big_int w.end_scale)
     (match w.end_factor with
      | Dense (weights0, rows) ->
        (&&) (all (fun u -> Z.leb Big_int_Z.zero_big_int u) weights0)
          ((&&)
            (eq_op nat_eqType (Obj.magic size rows)
-             (Obj.magic size (members q r)))
+             (Obj.magic size (members q weight r)))
            (covered (member_form negative w.end_scale e)
-             (weighted_dot weights0) strict (zip (members q r) rows)))
+             (weighted_dot weights0) strict (zip (members q weight r) rows)))
      | Late (m, rows) ->
        (&&) (Z.leb Big_int_Z.zero_big_int m)
          ((&&)
            (eq_op nat_eqType (Obj.magic size rows)
-             (Obj.magic size (members q r)))
+             (Obj.magic size (members q weight r)))
            (covered (member_form negative w.end_scale e) (fun a b ->
-             Z.mul m (late_dot a b)) strict (zip (members q r) rows))))
+             Z.mul m (late_dot a b)) strict (zip (members q weight r) rows))))
 
 (** val check_whole : pencil -> region -> whole -> bool **)
 
 let check_whole q r w =
-  (&&) (check_end q true w.whole_negative r.lower r w.low_end)
-    (check_end q (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+  (&&)
+    (check_end q w.whole_weights true w.whole_negative r.lower r w.low_end)
+    (check_end q w.whole_weights (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
       w.whole_negative r.upper r w.high_end)
 
 type polynomial = Big_int_Z.big_int list
@@ -2128,19 +2139,338 @@ let check_claim q k =
                   (slip q))
                 (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
 
+type enclosed_claim = { box_support : int list; box_from : point;
+                        box_to : point; box_pivot : int;
+                        box_center : Big_int_Z.big_int list;
+                        right_inverse : matrix;
+                        box_width : Big_int_Z.big_int;
+                        rate_width : Big_int_Z.big_int;
+                        left_null : Big_int_Z.big_int list }
+
+(** val add_multiple :
+    Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list **)
+
+let rec add_multiple c x y =
+  match x with
+  | [] -> y
+  | a :: x' ->
+    (match y with
+     | [] -> (Z.mul c a) :: (add_multiple c x' [])
+     | b :: y' -> (Z.add (Z.mul c a) b) :: (add_multiple c x' y'))
+
+(** val scatter :
+    Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list **)
+
+let scatter c row y =
+  foldr (fun e y0 ->
+    set_nth Big_int_Z.zero_big_int y0 (fst e)
+      (Z.add (Z.mul c (snd e)) (nth Big_int_Z.zero_big_int y0 (fst e)))) y row
+
+(** val absolute_dot :
+    sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let absolute_dot row w =
+  foldr (fun e sum ->
+    Z.add (Z.mul (Z.abs (snd e)) (nth Big_int_Z.zero_big_int w (fst e))) sum)
+    Big_int_Z.zero_big_int row
+
+(** val at_end :
+    point -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+let at_end e a b =
+  Z.add (Z.mul (snd e) a) (Z.mul (fst e) b)
+
+(** val row_at_end :
+    point -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list **)
+
+let row_at_end e a b =
+  add_multiple (snd e) a (add_multiple (fst e) b [])
+
+(** val box_active : pencil -> enclosed_claim -> Equality.sort -> bool **)
+
+let box_active q c i =
+  (||) (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free)))
+    (in_mem i (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
+
+(** val active_list : pencil -> enclosed_claim -> Equality.sort list **)
+
+let active_list q c =
+  filter (fun i -> box_active q c i) (Obj.magic iota 0 q.order)
+
+(** val pivot_removed : pencil -> enclosed_claim -> Equality.sort list **)
+
+let pivot_removed q c =
+  filter (fun i -> negb (eq_op nat_eqType i (Obj.magic c.box_pivot)))
+    (active_list q c)
+
+(** val inverse_vanishes_off :
+    pencil -> enclosed_claim -> int list -> bool **)
+
+let inverse_vanishes_off q c l =
+  all (fun j ->
+    (||) (in_mem (Obj.magic j) (mem (seq_predType nat_eqType) (Obj.magic l)))
+      (Z.eqb (norm1 (nth [] c.right_inverse j)) Big_int_Z.zero_big_int))
+    (iota 0 q.order)
+
+(** val vanishes_elsewhere : pencil -> enclosed_claim -> bool **)
+
+let vanishes_elsewhere q c =
+  (&&)
+    (all (fun j ->
+      (||) (box_active q c (Obj.magic j))
+        (Z.eqb (nth Big_int_Z.zero_big_int c.box_center j)
+          Big_int_Z.zero_big_int)) (iota 0 q.order))
+    (inverse_vanishes_off q c (Obj.magic pivot_removed q c))
+
+(** val times_inverse :
+    enclosed_claim -> sparse_row -> Big_int_Z.big_int list **)
+
+let times_inverse c row =
+  foldr (fun e sum ->
+    add_multiple (snd e) (nth [] c.right_inverse (fst e)) sum) [] row
+
+(** val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int **)
+
+let margin g p =
+  Z.sub
+    (Z.mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+      (nth Big_int_Z.zero_big_int g p)) (norm1 g)
+
+(** val dominated :
+    enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+    Big_int_Z.big_int -> bool **)
+
+let dominated c p g residual0 rate0 =
+  (&&) (Z.ltb Big_int_Z.zero_big_int (margin g p))
+    ((&&) (Z.leb (Z.abs residual0) (Z.mul (margin g p) c.box_width))
+      (Z.leb rate0 (Z.mul (margin g p) c.rate_width)))
+
+(** val dominated_at :
+    enclosed_claim -> point -> int -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+    Big_int_Z.big_int -> bool **)
+
+let dominated_at c e p ga gb ra rb rate0 =
+  dominated c p (row_at_end e ga gb) (at_end e ra rb) (Z.mul (snd e) rate0)
+
+(** val dominated_ends :
+    enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list
+    -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
+
+let dominated_ends c p ga gb ra rb rate0 =
+  (&&) (dominated_at c c.box_from p ga gb ra rb rate0)
+    (dominated_at c c.box_to p ga gb ra rb rate0)
+
+(** val regular_row :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool **)
+
+let regular_row q c eps p i =
+  dominated_ends c p (times_inverse c (row_a q i))
+    (times_inverse c (row_b q i)) (sparse_dot (row_a q i) c.box_center)
+    (sparse_dot (row_b q i) c.box_center)
+    (Z.add (Z.abs (sparse_dot (row_b q i) c.box_center))
+      (absolute_dot (row_b q i) eps))
+
+(** val norms : enclosed_claim -> Big_int_Z.big_int list **)
+
+let norms c =
+  map0 norm1 c.right_inverse
+
+(** val widths : enclosed_claim -> Big_int_Z.big_int list **)
+
+let widths c =
+  map0 (fun row -> Z.mul (norm1 row) c.box_width) c.right_inverse
+
+(** val left_times :
+    pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int list **)
+
+let left_times q c rows =
+  foldr (fun i sum ->
+    scatter (nth Big_int_Z.zero_big_int c.left_null (Obj.magic i))
+      (Obj.magic rows i) sum) [] (active_list q c)
+
+(** val left_value :
+    pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int **)
+
+let left_value q c rows =
+  sumZ (Obj.magic active_list q c) (fun i ->
+    Z.mul (nth Big_int_Z.zero_big_int c.left_null i)
+      (sparse_dot (rows i) c.box_center))
+
+(** val weighted_norm :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int **)
+
+let weighted_norm q c l eps =
+  sumZ (Obj.magic pivot_removed q c) (fun j ->
+    Z.mul (Z.abs (nth Big_int_Z.zero_big_int l j))
+      (nth Big_int_Z.zero_big_int eps j))
+
+(** val above_radius :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
+    -> point -> bool **)
+
+let above_radius q c eps la lb va vb e =
+  Z.ltb (weighted_norm q c (row_at_end e la lb) eps) (at_end e va vb)
+
+(** val below_radius :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
+    -> point -> bool **)
+
+let below_radius q c eps la lb va vb e =
+  Z.ltb (Z.add (at_end e va vb) (weighted_norm q c (row_at_end e la lb) eps))
+    Big_int_Z.zero_big_int
+
+(** val opposite_signs :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
+    -> bool **)
+
+let opposite_signs q c eps la lb va vb =
+  (||)
+    ((&&) (below_radius q c eps la lb va vb c.box_from)
+      (above_radius q c eps la lb va vb c.box_to))
+    ((&&) (above_radius q c eps la lb va vb c.box_from)
+      (below_radius q c eps la lb va vb c.box_to))
+
+(** val determinant_changes_sign :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
+
+let determinant_changes_sign q c eps =
+  (&&)
+    (Z.ltb Big_int_Z.zero_big_int
+      (nth Big_int_Z.zero_big_int c.left_null c.box_pivot))
+    (opposite_signs q c eps (left_times q c (row_a q))
+      (left_times q c (row_b q)) (left_value q c (row_a q))
+      (left_value q c (row_b q)))
+
+(** val one_root_at :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool **)
+
+let one_root_at q c eps la lb vb e =
+  Z.ltb
+    (Z.mul (weighted_norm q c (row_at_end e la lb) (norms c)) c.rate_width)
+    (Z.mul (snd e) (Z.sub (Z.abs vb) (weighted_norm q c lb eps)))
+
+(** val one_root_between :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> bool **)
+
+let one_root_between q c eps la lb vb =
+  (&&) (one_root_at q c eps la lb vb c.box_from)
+    (one_root_at q c eps la lb vb c.box_to)
+
+(** val one_root :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
+
+let one_root q c eps =
+  one_root_between q c eps (left_times q c (row_a q))
+    (left_times q c (row_b q)) (left_value q c (row_b q))
+
+(** val reaction_positive :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> point -> int -> bool **)
+
+let reaction_positive q c eps e i =
+  Z.ltb
+    (at_end e (absolute_dot (row_a q i) eps) (absolute_dot (row_b q i) eps))
+    (at_end e (sparse_dot (row_a q i) c.box_center)
+      (sparse_dot (row_b q i) c.box_center))
+
+(** val box_signs :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
+
+let box_signs q c eps =
+  (&&)
+    (Z.ltb Big_int_Z.zero_big_int
+      (nth Big_int_Z.zero_big_int c.box_center c.box_pivot))
+    ((&&)
+      (all (fun j ->
+        Z.ltb (nth Big_int_Z.zero_big_int eps j)
+          (nth Big_int_Z.zero_big_int c.box_center j)) c.box_support)
+      (all (fun i ->
+        (||)
+          (in_mem i (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
+          ((&&) (reaction_positive q c eps c.box_from (Obj.magic i))
+            (reaction_positive q c eps c.box_to (Obj.magic i)))) (slip q)))
+
+(** val check_enclosed_claim : pencil -> enclosed_claim -> bool **)
+
+let check_enclosed_claim q c =
+  (&&) (wellformed q)
+    ((&&) (columns_in_order q)
+      ((&&) (ordered c.box_from c.box_to)
+        ((&&) (Z.ltb Big_int_Z.zero_big_int (snd c.box_to))
+          ((&&)
+            (in_mem (Obj.magic c.box_pivot)
+              (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
+            ((&&)
+              (all (fun i ->
+                in_mem (Obj.magic i)
+                  (mem (seq_predType nat_eqType) (Obj.magic slip q)))
+                c.box_support)
+              ((&&) (vanishes_elsewhere q c)
+                ((&&) (Z.leb Big_int_Z.zero_big_int c.box_width)
+                  ((&&) (Z.leb Big_int_Z.zero_big_int c.rate_width)
+                    ((&&)
+                      (all_from (Obj.magic regular_row q c (widths c)) 0
+                        (pivot_removed q c))
+                      ((&&) (determinant_changes_sign q c (widths c))
+                        ((&&) (one_root q c (widths c))
+                          (box_signs q c (widths c)))))))))))))
+
+type solution_claim =
+| ExactClaim of claim
+| BoxClaim of enclosed_claim
+
 (** val positions : pencil -> int list -> int list **)
 
 let positions q l =
   map0 (fun i -> index nat_eqType (Obj.magic i) (slip q)) l
 
-(** val known_of : pencil -> claim -> known **)
+(** val claimed_support : solution_claim -> int list **)
+
+let claimed_support = function
+| ExactClaim e -> e.support
+| BoxClaim b -> b.box_support
+
+(** val claimed_biactive : solution_claim -> int list **)
+
+let claimed_biactive = function
+| ExactClaim e -> e.biactive
+| BoxClaim _ -> []
+
+(** val claimed_from : solution_claim -> point **)
+
+let claimed_from = function
+| ExactClaim e -> (e.claim_from, e.claim_denominator)
+| BoxClaim b -> b.box_from
+
+(** val claimed_to : solution_claim -> point **)
+
+let claimed_to = function
+| ExactClaim e -> (e.claim_to, e.claim_denominator)
+| BoxClaim b -> b.box_to
+
+(** val known_of : pencil -> solution_claim -> known **)
 
 let known_of q k =
-  { known_from = (k.claim_from, k.claim_denominator); known_to = (k.claim_to,
-    k.claim_denominator); known_support = (positions q k.support);
-    known_biactive = (positions q k.biactive) }
+  { known_from = (claimed_from k); known_to = (claimed_to k); known_support =
+    (positions q (claimed_support k)); known_biactive =
+    (positions q (claimed_biactive k)) }
 
-(** val known_solutions : pencil -> claim list -> known list **)
+(** val check_solution_claim : pencil -> solution_claim -> bool **)
+
+let check_solution_claim q = function
+| ExactClaim e -> check_claim q e
+| BoxClaim b -> check_enclosed_claim q b
+
+(** val known_solutions : pencil -> solution_claim list -> known list **)
 
 let known_solutions q claims =
   map0 (fun k -> known_of q k) claims
@@ -2166,19 +2496,20 @@ let check_limit q r k x =
             (iota 0 (size (slip q)))))))
 
 (** val check_complete :
-    pencil -> claim list -> elimination -> whole leaf tree -> point -> point
-    -> bool **)
+    pencil -> solution_claim list -> elimination -> whole leaf tree -> point
+    -> point -> bool **)
 
 let check_complete q claims w tr lo hi =
   (&&) (wellformed q)
     ((&&) (free_rows_constant q)
       ((&&) (check_elimination (blocks_of q) w)
-        ((&&) (all (check_claim q) claims)
+        ((&&) (all (check_solution_claim q) claims)
           (check_cover (condensed (blocks_of q) w) (known_solutions q claims)
             (check_whole q) (check_limit q) tr lo hi))))
 
 (** val found :
-    pencil -> claim list -> whole leaf tree -> point -> point -> yield list **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+    yield list **)
 
 let found q claims tr lo hi =
   yields (enclosed_order (size (slip q))) (known_solutions q claims) tr
@@ -2190,8 +2521,8 @@ let left_open tr lo hi =
   undecided tr (window lo hi)
 
 (** val solutions_found :
-    pencil -> claim list -> whole leaf tree -> point -> point -> yield list
-    option **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+    yield list option **)
 
 let solutions_found q claims tr lo hi =
   distinct_yields (size (slip q)) lo hi (found q claims tr lo hi)
@@ -2377,8 +2708,8 @@ let system_wellformed s u =
              | Lambda2 (_, q) -> Z.ltb Big_int_Z.zero_big_int q)))))
 
 (** val check_system :
-    system -> unknown -> claim list -> elimination -> whole leaf tree ->
-    point -> point -> bool **)
+    system -> unknown -> solution_claim list -> elimination -> whole leaf
+    tree -> point -> point -> bool **)
 
 let check_system s u claims w tr lo hi =
   (&&) (system_wellformed s u)
@@ -2394,6 +2725,12 @@ let check_system_excluded s u tr lo hi =
 
 let check_system_claim s u k =
   (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)
+
+(** val check_system_enclosed :
+    system -> unknown -> enclosed_claim -> bool **)
+
+let check_system_enclosed s u k =
+  (&&) (system_wellformed s u) (check_enclosed_claim (pencil_of s u) k)
 
 type lifted = { motion_claim : claim; forces : polynomial list;
                 force_reductions : reduction list;
@@ -2543,77 +2880,6 @@ let check_lifted s u l =
               ((&&) (all (particle_states s u l) (iota 0 (size s.particles)))
                 ((||) (has (in_support s l) (iota 0 (size s.particles)))
                   (has (dof_moves l) s.free_dofs))))))))
-
-type enclosed_claim = { box_support : int list; interval_low : point;
-                        interval_high : point; null_box : isolation }
-
-(** val dense : pencil -> (int -> sparse_row) -> matrix **)
-
-let dense q rows =
-  map0 (fun i -> map0 (fun j -> lookup (rows i) j) (iota 0 q.order))
-    (iota 0 q.order)
-
-(** val whole_pencil : pencil -> enclosed **)
-
-let whole_pencil q =
-  { size_of = q.order; center_a = (dense q (row_a q)); center_b =
-    (dense q (row_b q)); radius_a = []; radius_b = [] }
-
-(** val in_active_block :
-    pencil -> enclosed_claim -> Equality.sort -> bool **)
-
-let in_active_block q k i =
-  (||) (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free)))
-    (in_mem i (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
-
-(** val active_region : pencil -> enclosed_claim -> region **)
-
-let active_region q k =
-  { lower = k.interval_low; upper = k.interval_high; states =
-    (map0 (fun i ->
-      if in_active_block q k (Obj.magic i) then Moving else Resting)
-      (iota 0 q.order)) }
-
-(** val positive_on_support : enclosed_claim -> Equality.sort -> bool **)
-
-let positive_on_support k j =
-  (||) (eq_op nat_eqType j (Obj.magic k.null_box.pivot))
-    (Z.ltb k.null_box.narrow_box.width
-      (nth Big_int_Z.zero_big_int k.null_box.vector (Obj.magic j)))
-
-(** val positive_off_support : pencil -> enclosed_claim -> int -> bool **)
-
-let positive_off_support q k i =
-  both_ends k.null_box (fun x ->
-    row_positive (whole_pencil q) (active_region q k) k.null_box.pivot
-      k.null_box.vector k.null_box.narrow_box.width x i)
-
-(** val check_enclosed_claim : pencil -> enclosed_claim -> bool **)
-
-let check_enclosed_claim q k =
-  (&&) (wellformed q)
-    ((&&) (ordered k.interval_low k.interval_high)
-      ((&&)
-        (in_mem (Obj.magic k.null_box.pivot)
-          (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
-        ((&&)
-          (all (fun i ->
-            in_mem (Obj.magic i)
-              (mem (seq_predType nat_eqType) (Obj.magic slip q)))
-            k.box_support)
-          ((&&) (isolated (whole_pencil q) (active_region q k) k.null_box)
-            ((&&) (all (Obj.magic positive_on_support k) k.box_support)
-              (all (fun i ->
-                (||)
-                  (in_mem i
-                    (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
-                  (positive_off_support q k (Obj.magic i))) (slip q)))))))
-
-(** val check_system_enclosed :
-    system -> unknown -> enclosed_claim -> bool **)
-
-let check_system_enclosed s u k =
-  (&&) (system_wellformed s u) (check_enclosed_claim (pencil_of s u) k)
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
@@ -3342,15 +3608,15 @@ let families tr lo hi ls =
   families_of (left_open tr lo hi) ls
 
 (** val all_yields :
-    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-    option list -> yield list **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+    support_leaf option list -> yield list **)
 
 let all_yields q claims tr lo hi ls =
   cat (found q claims tr lo hi) (isolated_of (left_open tr lo hi) ls)
 
 (** val all_solutions :
-    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-    option list -> yield list option **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+    support_leaf option list -> yield list option **)
 
 let all_solutions q claims tr lo hi ls =
   distinct_yields (size (slip q)) lo hi
@@ -3366,16 +3632,16 @@ let still_open tr lo hi ls =
   open_of (left_open tr lo hi) ls
 
 (** val check_families :
-    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-    option list -> elimination -> bool **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+    support_leaf option list -> elimination -> bool **)
 
 let check_families q claims tr lo hi ls w =
   (&&) (check_complete q claims w tr lo hi)
     (check_supports q (left_open tr lo hi) ls)
 
 (** val check_system_families :
-    system -> unknown -> claim list -> elimination -> whole leaf tree ->
-    point -> point -> support_leaf option list -> bool **)
+    system -> unknown -> solution_claim list -> elimination -> whole leaf
+    tree -> point -> point -> support_leaf option list -> bool **)
 
 let check_system_families s u claims w tr lo hi ls =
   (&&) (check_system s u claims w tr lo hi)

@@ -636,21 +636,25 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { whole_negative : bool; low_end : whole_end;
-               high_end : whole_end }
+type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : 
+               bool; low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
 
+val weighted : Big_int_Z.big_int list -> int -> sparse_row -> sparse_row
+
 val may_move : pencil -> region -> int list
 
-val members : pencil -> region -> member list
+val members : pencil -> Big_int_Z.big_int list -> region -> member list
 
 val member_entry : point -> member -> member -> Big_int_Z.big_int
 
 val member_form :
   bool -> Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int
 
-val check_end : pencil -> bool -> bool -> point -> region -> whole_end -> bool
+val check_end :
+  pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region ->
+  whole_end -> bool
 
 val check_whole : pencil -> region -> whole -> bool
 
@@ -724,26 +728,145 @@ val columns_in_order : pencil -> bool
 
 val check_claim : pencil -> claim -> bool
 
+type enclosed_claim = { box_support : int list; box_from : point;
+                        box_to : point; box_pivot : int;
+                        box_center : Big_int_Z.big_int list;
+                        right_inverse : matrix;
+                        box_width : Big_int_Z.big_int;
+                        rate_width : Big_int_Z.big_int;
+                        left_null : Big_int_Z.big_int list }
+
+val add_multiple :
+  Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list
+
+val scatter :
+  Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list
+
+val absolute_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val at_end :
+  point -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+val row_at_end :
+  point -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list
+
+val box_active : pencil -> enclosed_claim -> Equality.sort -> bool
+
+val active_list : pencil -> enclosed_claim -> Equality.sort list
+
+val pivot_removed : pencil -> enclosed_claim -> Equality.sort list
+
+val inverse_vanishes_off : pencil -> enclosed_claim -> int list -> bool
+
+val vanishes_elsewhere : pencil -> enclosed_claim -> bool
+
+val times_inverse : enclosed_claim -> sparse_row -> Big_int_Z.big_int list
+
+val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int
+
+val dominated :
+  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> bool
+
+val dominated_at :
+  enclosed_claim -> point -> int -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> bool
+
+val dominated_ends :
+  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list
+  -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+
+val regular_row :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool
+
+val norms : enclosed_claim -> Big_int_Z.big_int list
+
+val widths : enclosed_claim -> Big_int_Z.big_int list
+
+val left_times :
+  pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int list
+
+val left_value :
+  pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int
+
+val weighted_norm :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int
+
+val above_radius :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  point -> bool
+
+val below_radius :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  point -> bool
+
+val opposite_signs :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  bool
+
+val determinant_changes_sign :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
+
+val one_root_at :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool
+
+val one_root_between :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> bool
+
+val one_root : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
+
+val reaction_positive :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> point -> int -> bool
+
+val box_signs : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
+
+val check_enclosed_claim : pencil -> enclosed_claim -> bool
+
+type solution_claim =
+| ExactClaim of claim
+| BoxClaim of enclosed_claim
+
 val positions : pencil -> int list -> int list
 
-val known_of : pencil -> claim -> known
+val claimed_support : solution_claim -> int list
 
-val known_solutions : pencil -> claim list -> known list
+val claimed_biactive : solution_claim -> int list
+
+val claimed_from : solution_claim -> point
+
+val claimed_to : solution_claim -> point
+
+val known_of : pencil -> solution_claim -> known
+
+val check_solution_claim : pencil -> solution_claim -> bool
+
+val known_solutions : pencil -> solution_claim list -> known list
 
 val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool
 
 val check_complete :
-  pencil -> claim list -> elimination -> whole leaf tree -> point -> point ->
-  bool
+  pencil -> solution_claim list -> elimination -> whole leaf tree -> point ->
+  point -> bool
 
 val found :
-  pencil -> claim list -> whole leaf tree -> point -> point -> yield list
+  pencil -> solution_claim list -> whole leaf tree -> point -> point -> yield
+  list
 
 val left_open : whole leaf tree -> point -> point -> region list
 
 val solutions_found :
-  pencil -> claim list -> whole leaf tree -> point -> point -> yield list
-  option
+  pencil -> solution_claim list -> whole leaf tree -> point -> point -> yield
+  list option
 
 val check_excluded : pencil -> whole tree -> point -> point -> bool
 
@@ -807,13 +930,15 @@ val particle_wellformed : system -> slip_particle -> bool
 val system_wellformed : system -> unknown -> bool
 
 val check_system :
-  system -> unknown -> claim list -> elimination -> whole leaf tree -> point
-  -> point -> bool
+  system -> unknown -> solution_claim list -> elimination -> whole leaf tree
+  -> point -> point -> bool
 
 val check_system_excluded :
   system -> unknown -> whole tree -> point -> point -> bool
 
 val check_system_claim : system -> unknown -> claim -> bool
+
+val check_system_enclosed : system -> unknown -> enclosed_claim -> bool
 
 type lifted = { motion_claim : claim; forces : polynomial list;
                 force_reductions : reduction list;
@@ -857,25 +982,6 @@ val particle_states : system -> unknown -> lifted -> int -> bool
 val slip_variables : system -> int list -> bool
 
 val check_lifted : system -> unknown -> lifted -> bool
-
-type enclosed_claim = { box_support : int list; interval_low : point;
-                        interval_high : point; null_box : isolation }
-
-val dense : pencil -> (int -> sparse_row) -> matrix
-
-val whole_pencil : pencil -> enclosed
-
-val in_active_block : pencil -> enclosed_claim -> Equality.sort -> bool
-
-val active_region : pencil -> enclosed_claim -> region
-
-val positive_on_support : enclosed_claim -> Equality.sort -> bool
-
-val positive_off_support : pencil -> enclosed_claim -> int -> bool
-
-val check_enclosed_claim : pencil -> enclosed_claim -> bool
-
-val check_system_enclosed : system -> unknown -> enclosed_claim -> bool
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
@@ -1100,20 +1206,20 @@ val families :
   whole leaf tree -> point -> point -> support_leaf option list -> family list
 
 val all_yields :
-  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-  option list -> yield list
+  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+  support_leaf option list -> yield list
 
 val all_solutions :
-  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-  option list -> yield list option
+  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+  support_leaf option list -> yield list option
 
 val still_open :
   whole leaf tree -> point -> point -> support_leaf option list -> region list
 
 val check_families :
-  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-  option list -> elimination -> bool
+  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+  support_leaf option list -> elimination -> bool
 
 val check_system_families :
-  system -> unknown -> claim list -> elimination -> whole leaf tree -> point
-  -> point -> support_leaf option list -> bool
+  system -> unknown -> solution_claim list -> elimination -> whole leaf tree
+  -> point -> point -> support_leaf option list -> bool

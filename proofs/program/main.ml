@@ -30,7 +30,9 @@ let show_interval lo hi =
 let show_value (v : Kernel.value) =
   let lo = Kernel.start_of v and hi = Kernel.end_of v in
   if Z.equal v.value_from v.value_to then show_point lo
-  else Printf.sprintf "a root in [%s, %s]" (show_decimal lo) (show_decimal hi)
+  else
+    Printf.sprintf "a root in [%s, %s]" (show_decimal Decimal.lower lo)
+      (show_decimal Decimal.upper hi)
 
 let show_place = function
   | Kernel.PointAt v -> "value " ^ show_value v
@@ -122,8 +124,9 @@ let size_of (e : Certificate.exact) polynomials =
     Problem.not_verified "a claim beyond the limits of this program";
   size
 
-(* The kernel needs about order^4 steps for an enclosed solution. *)
-let largest_enclosed = 64
+let largest_enclosed = 1_024
+
+let entries = List.fold_left (fun n row -> n + List.length row) 0
 
 let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
   | Certificate.Exact e ->
@@ -133,13 +136,14 @@ let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
     let polynomials = l.motion.x @ l.forces in
     let size = size_of l.motion polynomials in
     List.length polynomials * size * size
-  | Enclosed _ ->
-    if pencil.order > largest_enclosed then
-      Problem.not_verified "an enclosed solution of more than %d variables" largest_enclosed;
-    pencil.order * pencil.order * pencil.order * pencil.order * (1 lsl 12)
+  | Enclosed e ->
+    let m = List.length pencil.free + List.length e.box_support in
+    if m > largest_enclosed then
+      Problem.not_verified "an enclosed solution of more than %d active variables"
+        largest_enclosed;
+    (1 + pencil.order + entries pencil.rows_a + entries pencil.rows_b + m * m / 8) * m * 128
 
 let limit_work (problem : Problem.t) pencil claims =
-  let entries = List.fold_left (fun n row -> n + List.length row) 0 in
   let n = pencil.Kernel.order in
   let size = match problem.question with
     | Mechanical (system, _) when
@@ -209,18 +213,17 @@ let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
   match Elaborate.enclosed_claim_of pencil e with
   | None -> raise (Elaborate.No_witness "an enclosed solution")
   | Some claim ->
-    let low = Elaborate.value_of claim.null_box.from_point in
-    let high = Elaborate.value_of claim.null_box.to_point in
+    let low = Elaborate.value_of claim.box_from and high = Elaborate.value_of claim.box_to in
     refuse_unless (claim.box_support = e.box_support && Q.geq low (fst value)
                    && Q.leq high (snd value));
     let accepted = match problem.question with
       | Raw pencil -> Kernel.check_enclosed_claim pencil claim
       | Mechanical (system, unknown) -> Kernel.check_system_enclosed system unknown claim in
     if not accepted then raise (Elaborate.No_witness "an enclosed solution");
-    low, high
+    claim, (low, high)
 
 (* Each claim: its support has a solution with a value in its interval, which is in the window.
-   With it comes the same claim about the pencil as a root leaf may refer to it, if it is exact. *)
+   With it comes the same claim about the pencil, for root leaves that refer to it. *)
 let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) claim =
   let check_root (e : Certificate.exact) =
     in_window certificate e.value;
@@ -229,19 +232,15 @@ let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) clai
   match claim with
   | Certificate.Exact e ->
     check_root e;
-    Some (verify_exact problem pencil e), show_claim e.value e.support
+    let claim = verify_exact problem pencil e in
+    lazy (Kernel.ExactClaim (Lazy.force claim)), show_claim e.value e.support
   | Lifted l ->
     check_root l.motion;
-    Some (verify_lifted problem pencil l), show_claim l.motion.value l.motion.support
+    let claim = verify_lifted problem pencil l in
+    lazy (Kernel.ExactClaim (Lazy.force claim)), show_claim l.motion.value l.motion.support
   | Enclosed e ->
-    let value = verify_enclosed problem pencil certificate e in
-    None, show_claim value e.box_support
-
-(* The claims in their places, for root leaves that refer to them. *)
-let exact_claims =
-  List.map (function
-      | Some claim, _ -> Lazy.force claim
-      | None, _ -> Problem.not_verified "a cover that refers to enclosed solutions")
+    let claim, value = verify_enclosed problem pencil certificate e in
+    lazy (Kernel.BoxClaim claim), show_claim value e.box_support
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in
@@ -282,7 +281,8 @@ let verify_eigenproblem document problem_path certificate_path =
       | Mechanical (system, unknown) -> Kernel.pencil_of system unknown) in
   let slip_list = Obj.magic (Kernel.slip pencil) in
   let slip = Array.of_list slip_list in
-  if Array.length slip > 300 then Problem.not_verified "more than 300 complementarity variables";
+  if certificate.pieces <> [] && Array.length slip > 300 then
+    Problem.not_verified "more than 300 complementarity variables";
   let lo = Elaborate.point_of (fst certificate.window) in
   let hi = Elaborate.upper_point (snd certificate.window) in
   let claims = timed "claims" (fun () ->
@@ -301,7 +301,8 @@ let verify_eigenproblem document problem_path certificate_path =
   end
   else if whole_only then begin
     (* Definite leaves of the whole pencil; free rows may depend on t. *)
-    let leaf _ region _ = match Elaborate.whole_leaf pencil region with
+    let weights = Elaborate.row_weights pencil problem.common problem.slip_common in
+    let leaf _ region _ = match Elaborate.whole_leaf pencil weights region with
       | Some w -> Kernel.Leaf w
       | None -> Elaborate.no_witness "ldl or tail" in
     let tree = timed "elaboration" (fun () ->
@@ -330,10 +331,11 @@ let verify_eigenproblem document problem_path certificate_path =
     let needed = List.exists (fun (p : Certificate.piece) -> List.exists (function
         | Certificate.Root { outcome = Claim _; _ } -> true
         | _ -> false) p.tree) certificate.pieces in
-    let claims = if needed then exact_claims claims else [] in
+    let claims = if needed then List.map (fun (claim, _) -> Lazy.force claim) claims else [] in
     let known = Array.of_list (Kernel.known_solutions pencil claims) in
     let context =
-      { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed; known } in
+      { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed; known;
+        weights = Elaborate.row_weights pencil problem.common problem.slip_common } in
     (* Support leaves stand beside the tree, one for each region that the tree leaves undecided, or
        none where it stays open. *)
     let supports = ref [] in

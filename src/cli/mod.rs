@@ -13,6 +13,7 @@ mod enumerate;
 mod explain;
 mod infinity;
 mod job;
+mod manual;
 mod merge;
 mod output;
 mod reduce;
@@ -70,6 +71,10 @@ enum Command {
     Reduce(reduce::Args),
     /// What a term, an equation or a reason of rejection means.
     Explain(explain::Args),
+    /// Completions for a shell, on standard output.
+    Completions(manual::CompletionsArgs),
+    /// Manual pages, one for each command.
+    Man(manual::ManArgs),
 }
 
 /// Runs the program on the process's arguments.
@@ -94,6 +99,8 @@ pub fn main() -> ExitCode {
         Command::Campaign(a) => campaign::run(&a),
         Command::Reduce(a) => reduce::run(&a),
         Command::Explain(a) => explain::run(&a),
+        Command::Completions(a) => manual::completions(&a),
+        Command::Man(a) => manual::man(&a),
     };
 
     match result {

@@ -22,6 +22,7 @@ mod examples;
 mod explain;
 mod fold;
 mod launcher;
+mod manual;
 mod pictures;
 mod schemas;
 mod slurm;
