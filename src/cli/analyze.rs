@@ -11,6 +11,7 @@ use super::common::{CliError, exit, load, positive, print, require_threads};
 use super::job::Job;
 use super::output::{Output, make_writable};
 use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, Options, analyse};
+use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
 use mceip_model::file::write_problem;
 use mceip_model::{Body, System};
@@ -167,9 +168,6 @@ fn write_proofs(folder: &Path, analysis: &Analysis, input: &Path) -> Result<Vec<
     Ok(paths)
 }
 
-/// A gap between the bounds of the critical mu beyond which more work is suggested.
-const WIDE_GAP: f64 = 1.1e-5;
-
 /// What to run next.
 fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
     let file = args.file.display();
@@ -177,7 +175,10 @@ fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
         return "Next: run it again, it was interrupted.".into();
     }
 
-    if analysis.critical_gap().is_some_and(|gap| gap > WIDE_GAP) {
+    if analysis
+        .critical_gap()
+        .is_some_and(|gap| gap > WIDE_CRITICAL_GAP)
+    {
         let boxes = args.boxes.saturating_mul(10);
         return format!("Next: `mceip analyze {file} --boxes {boxes}` may narrow that.");
     }

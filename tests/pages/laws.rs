@@ -210,6 +210,7 @@ const MAY_DEPEND: [(&str, &[&str]); 8] = [
             "serde",
             "serde_json",
             "sha2",
+            "tempfile",
             "thiserror",
             "wait-timeout",
             "rustix",

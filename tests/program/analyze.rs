@@ -530,8 +530,12 @@ fn the_report_says_what_the_text_says() {
 
     contains_all(&html, &["<td>proved</td>", "Mode 1:"]);
 
-    // Each sentence of the text follows a line with its heading.
-    let sentences: Vec<&str> = text.lines().skip(1).step_by(2).collect();
+    // Heading, paragraph and two empty lines; then each sentence is followed by its evidence.
+    let lines: Vec<&str> = text.lines().collect();
+    let (paragraph, _) = lines[2].split_once(" Next: ").unwrap();
+    assert!(html.contains(paragraph), "{paragraph}");
+
+    let sentences: Vec<&str> = lines.into_iter().skip(4).step_by(2).collect();
     assert!(sentences.len() > 5);
 
     for sentence in sentences {

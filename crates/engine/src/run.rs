@@ -207,13 +207,26 @@ mod tests {
         let cancel = Cancel::new();
         let watch = Watch::new(&cancel, listener);
 
+        let renamed = |progress: &Progress<'_>| {
+            watch.report(&Progress {
+                stage: "part",
+                ..*progress
+            });
+        };
+
         watch.report(&Progress::of("search", 3, 7));
+        watch
+            .heard_by(&renamed)
+            .report(&Progress::of("search", 4, 7));
         watch.quiet().report(&Progress::stage("unheard"));
         let before = watch.is_cancelled();
         let first = cancel.clone().request();
         let second = cancel.request();
 
-        assert_eq!(*heard.lock().unwrap(), [("search".to_string(), 3)]);
+        assert_eq!(
+            *heard.lock().unwrap(),
+            [("search".to_string(), 3), ("part".to_string(), 4)]
+        );
         assert!(!before && watch.is_cancelled() && watch.quiet().is_cancelled());
         assert!(!first && second);
         assert!(!Watch::nobody().is_cancelled());

@@ -220,6 +220,10 @@ pub(crate) const SHORT_VALUE: f64 = 1e-8;
 /// leaves that out, the third is for values that doubles know badly.
 pub(crate) const NARROW_WINDOWS: [f64; 3] = [1e-9, 1e-11, 1e-6];
 
+/// Gap between the bounds of the critical mu beyond which the user is told that more boxes may help.
+/// Unit: of mu. Basis: what is aimed at for large bodies, 1e-5.
+pub const WIDE_CRITICAL_GAP: f64 = 1.1e-5;
+
 /// How far above the smallest solution the first sample of mu lies. Unit: of mu. Reason: nearer to
 /// the threshold a complete search takes longer and decides less; the critical mu itself is certified
 /// apart.

@@ -109,29 +109,31 @@ pub fn analyse(
     };
 
     let mut critical = critical::critical(&model, &known, &mut proofs)?;
-    let (ranges, samples) = {
-        let sampled = ranges::sampled(&model, friction, &threshold, &critical)?;
-        if let Some((solution, proof)) = sampled.solution {
-            critical.solution = Some(CertifiedSolution {
-                evidence: Evidence::Certificate(proofs.len()),
-                ..solution
-            });
-            proofs.push(proof);
-        }
-        (sampled.ranges, sampled.samples)
-    };
+    let sampled = ranges::sampled(&model, friction, &threshold, &critical)?;
+    if let Some((solution, proof)) = sampled.solution {
+        critical.solution = Some(CertifiedSolution {
+            evidence: Evidence::Certificate(proofs.len()),
+            ..solution
+        });
+        proofs.push(proof);
+    }
+
+    watch.report(&Progress::stage(
+        "flutter: eigenvalues with all particles slipping",
+    ));
+    let flutter = flutter::flutter(&family, friction);
 
     Ok(Analysis {
         name,
         problem_sha256,
         friction: friction.clone(),
         sizes: sizes(system),
-        flutter: flutter::flutter(&family, friction),
+        flutter,
         divergence,
         threshold,
         critical,
-        ranges,
-        samples,
+        ranges: sampled.ranges,
+        samples: sampled.samples,
         necessary,
         sufficient,
         proofs,
