@@ -16,8 +16,7 @@ use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_exact::to_f64;
 use mceip_model::{Body, ModelError, Particle, Problem, System, Unknown, Window};
 use mceip_motion::{
-    Equations, Growth, Mode, MotionClass, Plan, StepSolutions, Stepper, Trajectory, along_mode,
-    impulse, run as integrate,
+    AfterImpulse, Agreement, Equations, Mode, MotionClass, Plan, StepSolutions, Stepper, along_mode,
 };
 use report::{SimulatedImpulse, SimulatedMode, Simulation};
 use std::path::PathBuf;
@@ -37,7 +36,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<String>,
     /// Random impulses on the equilibrium; each motion lasts 20 of the longest periods.
-    #[arg(long, value_name = "N", default_value_t = 4)]
+    #[arg(long, value_name = "N", default_value_t = 2)]
     impulses: usize,
     /// Draw alpha(t) along the first mode beside its prediction; without a mode the norms after
     /// the impulses.
@@ -174,7 +173,7 @@ fn along_modes(
             steps: args.steps,
         };
 
-        let growth: Growth = along_mode(equations, &mode, plan)?;
+        let growth = along_mode(equations, &mode, plan)?;
         modes.push(SimulatedMode {
             lambda2: proved.value.clone(),
             rate: mode.rate(),
@@ -216,25 +215,29 @@ fn after_impulses(
         }
 
         job.say(format!("impulse {}", seed + 1));
-        let trajectory: Trajectory = integrate(equations, impulse(equations, seed), plan)?;
-        impulses.push(SimulatedImpulse { seed, trajectory });
+        let motion = AfterImpulse::new(equations, seed, plan)?;
+        impulses.push(SimulatedImpulse { seed, motion });
     }
 
     Ok(impulses)
 }
 
-/// Disagreement: a mode that does not grow as predicted, or, where all solutions are known to be
-/// none, growth along a constant direction.
+/// Disagreement: a mode that does not grow as predicted, or, where it is proved that there is none,
+/// growth along a constant direction.
 fn exit_code(simulation: &Simulation) -> u8 {
     let is_absent = simulation.is_proved_absent();
     let is_contradicted = is_absent && simulation.impulses.iter().any(grows_along_a_direction);
-    let agrees = simulation.modes.iter().all(|mode| mode.growth.agrees());
+    let agreements = simulation.modes.iter().map(|mode| mode.growth.agreement());
+    let agreements: Vec<Agreement> = agreements.collect();
+    let is_open = simulation.solutions_of_a_step != StepSolutions::One
+        || !simulation.is_complete
+        || agreements.contains(&Agreement::TooShort);
 
     if simulation.is_interrupted {
         exit::INTERRUPTED
-    } else if !agrees || is_contradicted {
+    } else if is_contradicted || agreements.contains(&Agreement::Disagrees) {
         exit::REJECTED
-    } else if simulation.solutions_of_a_step != StepSolutions::One || !simulation.is_complete {
+    } else if is_open {
         exit::UNDECIDED
     } else {
         exit::DONE
@@ -242,6 +245,6 @@ fn exit_code(simulation: &Simulation) -> u8 {
 }
 
 fn grows_along_a_direction(impulse: &SimulatedImpulse) -> bool {
-    let class = impulse.trajectory.class;
-    matches!(class, MotionClass::ConstantDirection { .. })
+    let motion = &impulse.motion;
+    motion.is_resolved() && motion.fine.class == MotionClass::ConstantDirection
 }

@@ -23,6 +23,7 @@ mod explain;
 mod launcher;
 mod pictures;
 mod schemas;
+mod simulate;
 mod slurm;
 mod solver_plain;
 mod tutorial;

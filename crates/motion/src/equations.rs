@@ -36,6 +36,12 @@ pub enum MotionError {
         /// Steps.
         steps: usize,
     },
+    /// Steps are short enough if the problem of each has one solution.
+    #[error("motion: expected steps shorter than {step}, for which a step has one solution")]
+    LongStep {
+        /// Its length.
+        step: f64,
+    },
     /// The numbers leave the range of doubles, or a matrix that is definite is not so in doubles.
     #[error("motion: expected numbers that doubles can hold, got {what}")]
     Doubles {

@@ -61,20 +61,34 @@ pub struct GrowthPoint {
 /// The stated error is the leading term; this is for the next ones.
 const NEXT_TERMS: f64 = 1.5;
 
-/// A motion overtaken before alpha has grown to this says nothing.
-const FOLLOWED: f64 = 1.1;
+/// alpha up to which a comparison says nothing: growth by a tenth.
+const COMPARED_FROM: f64 = 1.1;
+
+/// Does the motion grow as (8) predicts, within the error it states?
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Agreement {
+    /// It does, as long as it is along v.
+    Agrees,
+    /// It does not, or leaves v before alpha has grown by a tenth.
+    Disagrees,
+    /// The run ends before alpha has grown by a tenth.
+    TooShort,
+}
 
 impl Growth {
-    /// Does the motion grow as (8) predicts, within the error it states?
-    ///
-    /// It must stay along v until alpha has grown by a tenth, and is compared as long as it does.
-    pub fn agrees(&self) -> bool {
-        self.error <= NEXT_TERMS * self.stated_error && self.followed_to() >= FOLLOWED
-    }
+    /// The motion held against its prediction.
+    pub fn agreement(&self) -> Agreement {
+        let compared_to = self.points.last().map_or(0.0, |point| point.predicted);
+        let has_grown = compared_to >= COMPARED_FROM;
+        let is_accurate = self.error <= NEXT_TERMS * self.stated_error;
 
-    /// alpha at the end of the comparison; 0 if the motion is not along v at all.
-    pub fn followed_to(&self) -> f64 {
-        self.points.last().map_or(0.0, |point| point.predicted)
+        if is_accurate && has_grown {
+            Agreement::Agrees
+        } else if is_accurate && self.overtaken.is_none() {
+            Agreement::TooShort
+        } else {
+            Agreement::Disagrees
+        }
     }
 
     /// The order of the error in h: 2 up to higher terms, where rounding plays no part.

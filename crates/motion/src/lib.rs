@@ -35,9 +35,11 @@ mod trajectory;
 mod uniqueness;
 
 pub use equations::{Equations, MotionError};
-pub use growth::{Growth, GrowthPoint, Mode, along_mode};
+pub use growth::{Agreement, Growth, GrowthPoint, Mode, along_mode};
 pub use step::{Instant, Stepper};
-pub use trajectory::{Limit, MotionClass, Plan, Range, Sample, Trajectory, impulse, run};
+pub use trajectory::{
+    AfterImpulse, Limit, MotionClass, Plan, Range, Sample, Trajectory, impulse, run,
+};
 pub use uniqueness::StepSolutions;
 
 #[cfg(test)]

@@ -20,6 +20,11 @@ pub(crate) const ROUNDING: f64 = 1e-13;
 /// enlarge that rounding by exp of their rate times the time.
 pub(crate) const BESIDE: f64 = 1e-6;
 
+/// Difference of the growth rates of a run in steps of h and of h/2 up to which the steps resolve
+/// it. Unit: share of the rate. Basis: the rate of a smooth growth has the relative error
+/// (h lambda)^2 / 12; where frequencies that take part are not resolved it changes by half.
+pub(crate) const SAME_RATE: f64 = 5e-2;
+
 /// Turn of the displacement within the last quarter of a run up to which its direction counts as
 /// constant. Unit: distance of unit vectors in the elastic norm. Basis: a run that has grown along
 /// one direction for several times 1/lambda turns by exp of minus that; flutter and stick-slip turn

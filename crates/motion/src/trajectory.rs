@@ -16,7 +16,8 @@
 
 use super::equations::{Equations, MotionError, Watched};
 use super::step::{Instant, Stepper};
-use super::tolerance::TURN;
+use super::tolerance::{SAME_RATE, TURN};
+use super::uniqueness::StepSolutions;
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -75,16 +76,13 @@ pub struct Sample {
 }
 
 /// What kind of motion a run is, by the definitions of this file.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MotionClass {
     /// No growth in the time of the run. This is not stability.
     NoGrowth,
     /// Growth along a constant direction, as (8) has it.
-    ConstantDirection {
-        /// Mean growth rate of the last quarter.
-        rate: f64,
-    },
+    ConstantDirection,
     /// Growth that turns while the set of slipping particles stays.
     Flutter,
     /// Growth in which particles stick and slip by turns.
@@ -96,7 +94,7 @@ impl MotionClass {
     pub fn word(self) -> &'static str {
         match self {
             MotionClass::NoGrowth => "no growth seen",
-            MotionClass::ConstantDirection { .. } => "growth along a constant direction",
+            MotionClass::ConstantDirection => "growth along a constant direction",
             MotionClass::Flutter => "flutter",
             MotionClass::StickSlip => "stick-slip growth",
         }
@@ -147,6 +145,8 @@ pub struct Trajectory {
     pub changes: usize,
     /// What kind of motion it is.
     pub class: MotionClass,
+    /// Mean growth rate of the energy norm over the last quarter.
+    pub rate: f64,
     /// Where the law ends; `None` if no reaction at equilibrium is known or none bounds it.
     pub range: Option<Range>,
 }
@@ -157,7 +157,7 @@ const LARGE: f64 = 1e100;
 /// Integrates from a start.
 ///
 /// # Errors
-/// [`MotionError`]: a plan that is none, a step without solution, numbers beyond doubles.
+/// [`MotionError`]: a plan that is none, steps that are too long or have no solution, numbers beyond doubles.
 pub fn run(equations: &Equations, start: Instant, plan: Plan) -> Result<Trajectory, MotionError> {
     run_every(equations, start, plan, plan.stride())
 }
@@ -169,7 +169,12 @@ pub(crate) fn run_every(
     plan: Plan,
     stride: usize,
 ) -> Result<Trajectory, MotionError> {
-    let stepper = Stepper::new(equations, plan.step()?)?;
+    let step = plan.step()?;
+    let stepper = Stepper::new(equations, step)?;
+    if let StepSolutions::Several { .. } = stepper.solutions() {
+        return Err(MotionError::LongStep { step });
+    }
+
     let first = Sample::of(equations, start);
     let end_norm = LARGE * first.norm;
 
@@ -202,10 +207,42 @@ pub(crate) fn run_every(
 
     Ok(Trajectory {
         class: class(equations, &samples),
+        rate: rate(last_quarter(&samples)),
         samples,
         changes,
         range,
     })
+}
+
+/// The motion after an impulse, in steps of a plan and in half of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AfterImpulse {
+    /// In steps of h.
+    pub coarse: Trajectory,
+    /// In steps of h/2.
+    pub fine: Trajectory,
+}
+
+impl AfterImpulse {
+    /// Integrates from [`impulse`] with this seed.
+    ///
+    /// # Errors
+    /// [`MotionError`]: as [`run`].
+    pub fn new(equations: &Equations, seed: u64, plan: Plan) -> Result<AfterImpulse, MotionError> {
+        let start = impulse(equations, seed);
+        Ok(AfterImpulse {
+            coarse: run(equations, start.clone(), plan)?,
+            fine: run(equations, start, plan.halved())?,
+        })
+    }
+
+    /// Do both runs say the same: one class and, where they grow, one growth rate up to 5 %?
+    pub fn is_resolved(&self) -> bool {
+        let is_same_class = self.coarse.class == self.fine.class;
+        let grows = self.fine.class != MotionClass::NoGrowth;
+        let difference = (self.coarse.rate - self.fine.rate).abs();
+        is_same_class && (!grows || difference <= SAME_RATE * self.fine.rate)
+    }
 }
 
 /// The start of a run: the equilibrium, hit by a random impulse.
@@ -236,7 +273,7 @@ impl Sample {
 fn class(equations: &Equations, samples: &[Sample]) -> MotionClass {
     let n = samples.len();
     let second = &samples[n / 4..n / 2 + 1];
-    let last = &samples[n - n.div_ceil(4)..];
+    let last = last_quarter(samples);
 
     let grows = largest_norm(last) >= 2.0 * largest_norm(second);
     if !grows {
@@ -245,7 +282,7 @@ fn class(equations: &Equations, samples: &[Sample]) -> MotionClass {
 
     let is_rising = last.windows(2).all(|pair| pair[1].norm >= pair[0].norm);
     if is_rising && turn(equations, last) <= TURN {
-        return MotionClass::ConstantDirection { rate: rate(last) };
+        return MotionClass::ConstantDirection;
     }
 
     let slips = &last[0].at.slips;
@@ -254,6 +291,11 @@ fn class(equations: &Equations, samples: &[Sample]) -> MotionClass {
     } else {
         MotionClass::StickSlip
     }
+}
+
+fn last_quarter(samples: &[Sample]) -> &[Sample] {
+    let n = samples.len();
+    &samples[n - n.div_ceil(4)..]
 }
 
 fn largest_norm(samples: &[Sample]) -> f64 {

@@ -3,7 +3,9 @@
 use crate::picture::{MotionSeries, Picture, Spread, motion_picture};
 use mceip_engine::report::Table;
 use mceip_exact::{Interval, enclosing_decimals};
-use mceip_motion::{Growth, GrowthPoint, MotionClass, Range, StepSolutions, Trajectory};
+use mceip_motion::{
+    AfterImpulse, Agreement, Growth, GrowthPoint, MotionClass, Range, StepSolutions, Trajectory,
+};
 use serde_json::{Value, json};
 
 /// All that was proved and integrated.
@@ -37,7 +39,7 @@ pub(super) struct SimulatedMode {
 /// The motion after an impulse.
 pub(super) struct SimulatedImpulse {
     pub(super) seed: u64,
-    pub(super) trajectory: Trajectory,
+    pub(super) motion: AfterImpulse,
 }
 
 /// Rows of the table of alpha.
@@ -122,11 +124,7 @@ fn mode_text(number: usize, mode: &SimulatedMode) -> String {
     }
     out += &table.to_string();
 
-    let verdict = if growth.agrees() {
-        "AGREES"
-    } else {
-        "DISAGREES"
-    };
+    let verdict = agreement_word(growth);
     let order = match growth.order() {
         Some(order) => format!("order {order:.3} in h"),
         None => "at the level of rounding".into(),
@@ -140,6 +138,15 @@ fn mode_text(number: usize, mode: &SimulatedMode) -> String {
     }
 
     out + &range_text(growth.trajectory.range.as_ref())
+}
+
+/// The verdict of a comparison.
+fn agreement_word(growth: &Growth) -> &'static str {
+    match growth.agreement() {
+        Agreement::Agrees => "AGREES",
+        Agreement::Disagrees => "DISAGREES",
+        Agreement::TooShort => "TOO SHORT",
+    }
 }
 
 fn cells(point: &GrowthPoint) -> Vec<String> {
@@ -167,16 +174,24 @@ fn range_text(range: Option<&Range>) -> String {
 }
 
 fn impulse_text(impulse: &SimulatedImpulse) -> String {
-    let class = class_text(impulse.trajectory.class);
-    let changes = impulse.trajectory.changes;
-    let seed = impulse.seed;
-    format!("Impulse {seed}: {class}; the set of slipping particles changes {changes} times\n")
+    let SimulatedImpulse { seed, motion } = impulse;
+    let class = class_text(&motion.fine);
+    let changes = motion.fine.changes;
+    let mut out =
+        format!("Impulse {seed}: {class}; the set of slipping particles changes {changes} times\n");
+    if !motion.is_resolved() {
+        let coarse = class_text(&motion.coarse);
+        out += &format!("  NOT RESOLVED: in steps twice as long {coarse}; take more --steps\n");
+    }
+
+    out
 }
 
-fn class_text(class: MotionClass) -> String {
-    match class {
-        MotionClass::ConstantDirection { rate } => format!("{}, rate {rate:.6}", class.word()),
-        _ => class.word().into(),
+fn class_text(trajectory: &Trajectory) -> String {
+    let class = trajectory.class.word();
+    match trajectory.class {
+        MotionClass::NoGrowth => class.into(),
+        _ => format!("{class}, mean rate {:.6}", trajectory.rate),
     }
 }
 
@@ -227,7 +242,7 @@ fn mode_json(mode: &SimulatedMode) -> Value {
         "stated_error": growth.stated_error,
         "order": growth.order(),
         "overtaken": growth.overtaken,
-        "agrees": growth.agrees(),
+        "agreement": agreement_word(growth),
         "range": growth.trajectory.range.as_ref().map(range_json),
     })
 }
@@ -242,21 +257,18 @@ fn range_json(range: &Range) -> Value {
 }
 
 fn impulse_json(impulse: &SimulatedImpulse) -> Value {
-    let trajectory = &impulse.trajectory;
+    let fine = &impulse.motion.fine;
     let mut points = Vec::new();
-    for sample in &trajectory.samples {
+    for sample in &fine.samples {
         points.push(json!([sample.at.time, sample.norm]));
     }
 
-    let rate = match trajectory.class {
-        MotionClass::ConstantDirection { rate } => Some(rate),
-        _ => None,
-    };
     json!({
         "seed": impulse.seed,
-        "class": trajectory.class.word(),
-        "rate": rate,
-        "changes": trajectory.changes,
+        "class": fine.class.word(),
+        "growth_rate": fine.rate,
+        "changes": fine.changes,
+        "resolved": impulse.motion.is_resolved(),
         "points": points,
     })
 }
@@ -299,15 +311,12 @@ fn mode_series(mode: &SimulatedMode) -> [MotionSeries; 2] {
 fn impulse_series(simulation: &Simulation) -> Vec<MotionSeries> {
     let mut series = Vec::new();
     for impulse in &simulation.impulses {
-        let samples = &impulse.trajectory.samples;
+        let fine = &impulse.motion.fine;
+        let samples = &fine.samples;
         let at_start = samples[0].norm;
         let points = samples.iter().map(|s| (s.at.time, s.norm / at_start));
         series.push(MotionSeries {
-            name: format!(
-                "impulse {}: {}",
-                impulse.seed,
-                impulse.trajectory.class.word()
-            ),
+            name: format!("impulse {}: {}", impulse.seed, fine.class.word()),
             points: points.collect(),
             is_dotted: false,
         });
