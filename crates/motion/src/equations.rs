@@ -208,7 +208,7 @@ impl Equations {
         displacement
     }
 
-    /// sqrt(q' K q), the elastic norm of a displacement.
+    /// The elastic norm of a displacement: the root of twice its elastic energy.
     pub fn elastic_norm(&self, coordinates: &DVector<f64>) -> f64 {
         coordinates
             .dot(&(&self.energy_stiffness * coordinates))
@@ -216,7 +216,7 @@ impl Equations {
             .sqrt()
     }
 
-    /// sqrt(q'' M q' + q' K q) with the velocity q': the root of twice the energy.
+    /// The root of twice the energy, elastic and kinetic.
     pub fn energy_norm(&self, coordinates: &DVector<f64>, velocity: &DVector<f64>) -> f64 {
         let kinetic = velocity.dot(&(&self.energy_mass * velocity));
         self.elastic_norm(coordinates)

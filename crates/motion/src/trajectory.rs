@@ -1,8 +1,8 @@
 //! A run: its samples, what kind of motion it is, and the amplitudes for which it is (1)-(3).
 //!
 //! The class of a run is read off its samples by these definitions; each is about what was computed
-//! in the time of the run, and none is a proof. Norms are sqrt(q'' M q' + q' K q) of displacement
-//! and velocity (energy) and sqrt(q' K q) of displacements (elastic).
+//! in the time of the run, and none is a proof. The energy norm is the root of twice the energy, the
+//! elastic norm that of twice the elastic energy of a displacement.
 //!
 //! * *no growth*: the energy norm of the last quarter is less than twice that of the second one;
 //! * *constant direction*: it grows, without decreasing in the last quarter, and there the
