@@ -82,14 +82,21 @@ pub struct Equations {
 #[derive(Debug, Clone)]
 pub(crate) struct Watched {
     pub(crate) particle: usize,
-    /// S and the number among the slip coordinates, where it may slip.
-    pub(crate) slip: Option<(f64, usize)>,
+    /// Where it may slip.
+    pub(crate) slip: Option<WatchedSlip>,
     pub(crate) friction: f64,
     /// r^0_T and r^0_N.
     pub(crate) tangential: f64,
     pub(crate) normal: f64,
     pub(crate) tangential_rate: Reactions,
     pub(crate) normal_rate: Reactions,
+}
+
+/// S of an s particle, and its number among the slip coordinates.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct WatchedSlip {
+    pub(crate) sign: f64,
+    pub(crate) number: usize,
 }
 
 /// A component of rho as a function of the motion: mass q'' + stiffness q.
@@ -107,10 +114,8 @@ impl Equations {
     /// [`MotionError::Doubles`] where entries leave their range.
     pub fn new(system: &System) -> Result<Equations, MotionError> {
         system.require_for(Unknown::Lambda2)?;
-        let (Some(mass), Some(friction)) = (system.mass(), system.friction()) else {
-            return Err(MotionError::Doubles { what: "no mass" });
-        };
-        let friction = to_f64(friction);
+        let mass = required("mass", system.mass())?;
+        let friction = to_f64(required("friction", system.friction())?);
         let free = system.free_dofs();
 
         let mut moved: Vec<Pairs> = free.iter().map(|dof| vec![(*dof, 1.0)]).collect();
@@ -129,12 +134,10 @@ impl Equations {
             }
         }
 
-        let motions = Motions::new(system.dofs(), &moved);
+        let motions = Motions::new(mass, system, &moved);
         let mut watched = Vec::new();
-        for (index, particle) in system.particles().iter().enumerate() {
-            watched.extend(Watched::new(
-                system, mass, &motions, index, particle, friction,
-            ));
+        for index in 0..system.particles().len() {
+            watched.extend(Watched::new(system, &motions, index, friction));
         }
 
         let equations = Equations {
@@ -250,14 +253,8 @@ impl Equations {
 
 impl Watched {
     /// `None` for a particle out of contact, or whose reaction is not given.
-    fn new(
-        system: &System,
-        mass: &Sparse,
-        motions: &Motions,
-        index: usize,
-        particle: &Particle,
-        friction: f64,
-    ) -> Option<Watched> {
+    fn new(system: &System, motions: &Motions<'_>, index: usize, mu: f64) -> Option<Watched> {
+        let particle = &system.particles()[index];
         let reaction = particle.reaction.as_ref()?;
         let before = &system.particles()[..index];
         let slip_before = before
@@ -266,19 +263,31 @@ impl Watched {
         let slip = match particle.state {
             ContactState::Free => return None,
             ContactState::Stick => None,
-            ContactState::Slip { sign } => Some((f64::from(sign), slip_before.count())),
+            ContactState::Slip { sign } => Some(WatchedSlip {
+                sign: f64::from(sign),
+                number: slip_before.count(),
+            }),
         };
 
         Some(Watched {
             particle: index,
             slip,
-            friction,
+            friction: mu,
             tangential: to_f64(&reaction.tangential),
             normal: to_f64(&reaction.normal),
-            tangential_rate: motions.reactions(system, mass, &particle.tangent()),
-            normal_rate: motions.reactions(system, mass, &particle.into_obstacle()),
+            tangential_rate: motions.reactions(&particle.tangent()),
+            normal_rate: motions.reactions(&particle.into_obstacle()),
         })
     }
+}
+
+/// What the motion needs of a system.
+fn required<T>(what: &'static str, given: Option<T>) -> Result<T, ModelError> {
+    given.ok_or(ModelError::Missing {
+        equation: "E3",
+        what,
+        unknown: Unknown::Lambda2.word(),
+    })
 }
 
 /// The direction times a factor, in doubles.
@@ -292,14 +301,16 @@ fn times(factor: f64, direction: &Direction) -> Pairs {
 }
 
 /// The admitted motions by degree of freedom: which coordinates move it, and how far.
-struct Motions {
+struct Motions<'a> {
+    mass: &'a Sparse,
+    stiffness: &'a Sparse,
     order: usize,
     by_dof: Vec<Pairs>,
 }
 
-impl Motions {
-    fn new(dofs: usize, moved: &[Pairs]) -> Motions {
-        let mut by_dof = vec![Vec::new(); dofs];
+impl<'a> Motions<'a> {
+    fn new(mass: &'a Sparse, system: &'a System, moved: &[Pairs]) -> Motions<'a> {
+        let mut by_dof = vec![Vec::new(); system.dofs()];
         for (c, motion) in moved.iter().enumerate() {
             for (dof, coefficient) in motion {
                 by_dof[*dof].push((c, *coefficient));
@@ -307,6 +318,8 @@ impl Motions {
         }
 
         Motions {
+            mass,
+            stiffness: system.stiffness(),
             order: moved.len(),
             by_dof,
         }
@@ -328,11 +341,11 @@ impl Motions {
     }
 
     /// The component of rho in a direction.
-    fn reactions(&self, system: &System, mass: &Sparse, direction: &Direction) -> Reactions {
+    fn reactions(&self, direction: &Direction) -> Reactions {
         let functional = times(1.0, direction);
         Reactions {
-            mass: self.row(mass, &functional),
-            stiffness: self.row(system.stiffness(), &functional),
+            mass: self.row(self.mass, &functional),
+            stiffness: self.row(self.stiffness, &functional),
         }
     }
 

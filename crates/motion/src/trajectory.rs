@@ -14,7 +14,7 @@
 //! linear motion that oscillates and grows a slip velocity changes its sign, which (2) does not
 //! admit. What begins as flutter goes on as one of the other classes.
 
-use super::equations::{Equations, MotionError, Watched};
+use super::equations::{Equations, MotionError, Watched, WatchedSlip};
 use super::step::{Instant, Stepper};
 use super::tolerance::{SAME_RATE, TURN};
 use super::uniqueness::StepSolutions;
@@ -348,8 +348,8 @@ fn narrow(range: &mut Option<Range>, watched: &Watched, from: &Instant, to: &Ins
 
     // On the side S of the cone that a slipping particle keeps to, r_N <= 0 is the only condition.
     let conditions = match watched.slip {
-        Some((_, slip)) if to.slips[slip] => vec![(Limit::LiftsOff, r_n, rho_n)],
-        Some((sign, _)) => {
+        Some(slip) if to.slips[slip.number] => vec![(Limit::LiftsOff, r_n, rho_n)],
+        Some(WatchedSlip { sign, .. }) => {
             let at_rest = mu * r_n - sign * r_t;
             let change = mu * rho_n - sign * rho_t;
             vec![(Limit::OtherSide, at_rest, change)]
