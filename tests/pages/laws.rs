@@ -98,7 +98,11 @@ fn code_lines(code: &str) -> impl Iterator<Item = &str> {
 /// Is this file a module of its parent under `cfg(test)`?
 fn is_for_tests(path: &Path) -> bool {
     let folder = path.parent().unwrap();
-    let candidates = [folder.join("mod.rs"), folder.with_extension("rs")];
+    let candidates = [
+        folder.join("mod.rs"),
+        folder.with_extension("rs"),
+        folder.join("lib.rs"),
+    ];
     let parent = candidates.into_iter().find(|file| file.is_file()).unwrap();
 
     let text = std::fs::read_to_string(parent).unwrap();

@@ -10,7 +10,7 @@
 //! M*_rc = g_r' M e_c, and K* likewise. The energy has symmetric matrices: e_r' M e_c, e_r' K e_c.
 
 use mceip_exact::{Sparse, to_f64};
-use mceip_model::{ContactState, Direction, ModelError, Particle, System, Unknown};
+use mceip_model::{ContactState, Direction, ModelError, System, Unknown};
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// Why there is no motion to compute.
