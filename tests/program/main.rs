@@ -25,6 +25,7 @@ mod launcher;
 mod manual;
 mod pictures;
 mod schemas;
+mod simulate;
 mod slurm;
 mod solver_plain;
 mod tutorial;
