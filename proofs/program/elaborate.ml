@@ -843,6 +843,9 @@ let anchored v n (region : Kernel.region) slopes make =
     let unit_region = { local_unit with states = region.states } in
     Option.map (fun leaf -> leaf grain) (make p f unit_region)
 
+(* Nothing is left over from another file. *)
+let start_anew () = work := 0; spent := 0; kept := []
+
 let is_reversed v n = fst (List.nth v.anchoring.anchors n)
 
 let checked p unit_region e =

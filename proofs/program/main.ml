@@ -409,6 +409,8 @@ let verify_eigenproblem document problem_path certificate_path =
   end
 
 let verify problem_path certificate_path =
+  Elaborate.start_anew ();
+  Supports.work := 0;
   let document = Json.read problem_path in
   if Plain.is_plain document then verify_plain document certificate_path
   else verify_eigenproblem document problem_path certificate_path
