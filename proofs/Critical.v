@@ -84,13 +84,19 @@ Definition check_critical_leaf (parts : option (enclosed * enclosed)) (r : regio
 
 Definition check_critical (tr : box_tree critical_leaf) (bound : point) :=
   let parts := condensed_parts in
-  [&& system_wellformed s (Lambda2 0 1), wellformed part_plain, parts_eliminated &
+  [&& system_wellformed s (Lambda2 0 1), parts_eliminated &
       check_boxes (size (slip part_plain)) (check_critical_leaf parts) tr (window zero infinity)
         zero bound].
 
 End Checker.
 
 Section Sound.
+
+Lemma pencil_wellformed s e : wellformed (pencil_at s e).
+Proof.
+rewrite /wellformed /= iota_uniq; apply/allP => i; rewrite mem_iota add0n => lt_i.
+exact: leq_trans lt_i (leq_addr _ _).
+Qed.
 
 Variables (R : rcfType) (s : system).
 Hypothesis wf : system_wellformed s (Lambda2 0 1).
@@ -203,7 +209,7 @@ Variables (r : region) (low high : point).
 Hypotheses (O : ordered (lower r) (upper r)) (Om : ordered low high).
 Hypotheses (bt : between t (lower r) (upper r)) (bm : between mu low high).
 Hypothesis ag : agrees (size (slip Q0)) r (slip_of Q0 x).
-Hypothesis wfQ : wellformed Q0.
+Notation wfQ := (pencil_wellformed s (0, 1)%Z).
 
 Lemma whole_box_absent a b : same_weights s a b -> check_whole (pencil_at s low) r a ->
   check_whole (pencil_at s high) r b -> False.
@@ -369,7 +375,7 @@ End Sound.
 Theorem critical_absent (R : rcfType) s w tr bound : check_critical s w tr bound ->
   forall (t mu : R) v, 0 <= t -> between mu zero bound -> conditions_9 s t mu v -> False.
 Proof.
-case/and4P=> wf wfQ eliminated boxes t mu v t0 bm sat; pose x := variables_of s v.
+case/and3P=> wf eliminated boxes t mu v t0 bm sat; pose x := variables_of s v.
 have {}sat : conditions_9 s t mu (motion s x).
   by apply: (conditions_9_ext wf) (sat) => d Hd; rewrite (motion_of_variables wf sat).
 have x0 j : (j < size (slip (part_plain s)))%N -> 0 <= slip_of (part_plain s) x j.
@@ -379,5 +385,5 @@ have start : in_region (size (slip (part_plain s))) t (slip_of (part_plain s) x)
   split; last by move=> i _; rewrite /state_of nth_nil.
   by rewrite /between /= toR0 toR1 mulr1 mulr0 ler01.
 have [r [low [high [l [[bt ag] bm' O Om ok]]]]] := box_reaches_a_leaf boxes x0 start bm.
-exact: (critical_leaf_absent wf sat O Om bt bm' ag wfQ eliminated ok).
+exact: (critical_leaf_absent wf sat O Om bt bm' ag eliminated ok).
 Qed.

@@ -4846,7 +4846,6 @@ let check_critical s w tr bound1 =
   (&&)
     (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
       Big_int_Z.unit_big_int)))
-    ((&&) (wellformed (part_plain s))
-      ((&&) (parts_eliminated s w)
-        (check_boxes (size (slip (part_plain s)))
-          (check_critical_leaf s parts) tr (window zero infinity) zero bound1)))
+    ((&&) (parts_eliminated s w)
+      (check_boxes (size (slip (part_plain s))) (check_critical_leaf s parts)
+        tr (window zero infinity) zero bound1))
