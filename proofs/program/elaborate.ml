@@ -175,20 +175,22 @@ let row_weights (pencil : Kernel.pencil) common slip_common =
     List.init pencil.order (fun i ->
         if List.mem i pencil.free then Z.divexact slip_common common else Z.one)
 
-(* A definite leaf of the whole pencil, of either sign. *)
-let whole_leaf pencil weights (region : Kernel.region) =
+(* A definite leaf of the whole pencil, of one sign. *)
+let signed_whole_leaf pencil weights negative (region : Kernel.region) =
   let finite = Z.sign (snd region.upper) > 0 in
-  let attempt negative =
-    match whole_end pencil weights negative true region.lower region with
+  match whole_end pencil weights negative true region.lower region with
+  | None -> None
+  | Some low_end ->
+    match whole_end pencil weights negative finite region.upper region with
     | None -> None
-    | Some low_end ->
-      match whole_end pencil weights negative finite region.upper region with
-      | None -> None
-      | Some high_end -> 
-        Some { Kernel.whole_weights = weights; whole_negative = negative; low_end; high_end } in
-  match attempt false with
+    | Some high_end ->
+      Some { Kernel.whole_weights = weights; whole_negative = negative; low_end; high_end }
+
+(* Of either sign. *)
+let whole_leaf pencil weights region =
+  match signed_whole_leaf pencil weights false region with
   | Some w -> Some w
-  | None -> attempt true
+  | None -> signed_whole_leaf pencil weights true region
 
 (* ---------- leaves of the condensed pencil *)
 
