@@ -621,9 +621,15 @@ let build_pieces slip leaf (lo, _) pieces =
 
 (* ---------- condensation *)
 
+(* W_k and V_k have a row for each free variable and a column for each other one. *)
+let require_shape free others (a : anchor) =
+  let fits (_, rows) =
+    List.compare_length_with rows free = 0
+    && List.for_all (fun row -> List.compare_length_with row others = 0) rows in
+  if not (List.for_all fits (a.right @ a.left)) then
+    no_witness "an anchor with matrices of another shape"
+
 let transpose columns rows =
-  if List.exists (fun row -> List.length row <> columns) rows then
-    no_witness "a matrix with rows of another length";
   let rows = Array.of_list (List.map Array.of_list rows) in
   List.init columns (fun j -> Array.to_list (Array.map (fun row -> row.(j)) rows))
 
@@ -676,6 +682,7 @@ let elimination (pencil : Kernel.pencil) slip common slip_common
           Problem.not_verified "a center of more than 2,048 bits"
         | Some a when not a.reversed && a.right <> [] -> a
         | _ -> no_witness "an anchor of a linear family" in
+      require_shape nf ns a;
       let right = List.map shortened a.right and left = List.map shortened a.left in
       let e = List.fold_left (fun m (k, _) -> max m k) 56 (right @ left) in
       let columns (k, rows) =
@@ -765,6 +772,7 @@ let with_anchors (pencil : Kernel.pencil) slip_list free_factor slip_factor clai
       let a = given k in
       let matrices = List.length a.right + List.length a.left in
       let exponent = List.fold_left (fun m (e, _) -> max m e) 0 (a.right @ a.left) in
+      require_shape nf ns a;
       if bits (Q.num a.center) + bits (Q.den a.center) > 2_048 then
         Problem.not_verified "a center of more than 2,048 bits";
       sum + matrices * matrices * nf * ns * ns * (1 + exponent / 256)) 0 used in
