@@ -433,21 +433,24 @@ class Problem:
         text = ["system"] + ([] if mu is None else [f"friction {mu}"])
         taken, held, trial, test, slips, sticks = set(), set(), [], [], [], []
         for p in sequence(particles):
-            t, n, state, tangent, normal, sign = self.read_particle(p, order, mu)
+            t, n, state, tangent, normal, sign, factor = self.read_particle(p, order, mu)
             if taken & {t, n} or t == n:
                 raise Unreadable("a dof in two particles")
             taken |= {t, n}
             text += [f"particle {t} {n} {state}" + (f" {sign}" if state == "slip" else "")]
             for name, vector in (("tangent", tangent), ("normal", normal)):
                 text.append(" ".join([name] + [f"{d} {vector[d]}" for d in vector]))
+            if factor != 1:
+                text.append(f"friction_factor {factor}")
+            friction = {d: factor * c for d, c in normal.items()}
             if state != "free":
                 held |= {t, n}
             if state == "stick":
                 sticks += [t, n]
             elif state == "slip":  # E10: v = -S x tangent; E11: y = -(S w_T + mu w_N)
-                slips.append((tangent, normal, sign))
+                slips.append((tangent, normal, friction, sign))
                 trial.append({d: -sign * c for d, c in tangent.items()})
-                test.append(({d: -sign * c for d, c in tangent.items()}, {d: -c for d, c in normal.items()}))
+                test.append(({d: -sign * c for d, c in tangent.items()}, {d: -c for d, c in friction.items()}))
         free = [d for d in range(order) if d not in held]
         self.system = k.rows, None if m is None else m.rows, mu, slips, sticks, free
         trial = [{d: Q(1)} for d in free] + trial
@@ -468,7 +471,7 @@ class Problem:
 
     @staticmethod
     def read_particle(obj, order, mu):
-        t, n, state, sign, direction, frame, reaction = fields(obj, "tangential normal state", "sign normal_direction frame reaction")
+        t, n, state, sign, direction, frame, factor, reaction = fields(obj, "tangential normal state", "sign normal_direction frame friction_factor reaction")
         t, n = index(t, order), index(n, order)
         if state not in ("free", "stick", "slip") or (sign is not None) != (state == "slip"):
             raise Unreadable("state is free, stick or slip; sign exactly for slip")
@@ -481,16 +484,19 @@ class Problem:
             c = [[number(v) for v in sequence(r)] for r in sequence(frame)]
             if [len(r) for r in c] != [2, 2] or c[0] != [c[1][1], -c[1][0]] or c[0][0] ** 2 + c[0][1] ** 2 != 1:
                 raise Unreadable("frame: not a rotation")
+        factor = Q(1) if factor is None else number(factor)
+        if factor <= 0:
+            raise Unreadable("friction_factor must be positive")
         if reaction is not None:  # E7
             rn, rt = map(number, fields(reaction, "normal tangential"))
-            bound = None if mu is None else -mu * rn
+            bound = None if mu is None else -factor * mu * rn
             bad = (rn or rt) if state == "free" else rn >= 0
             bad = bad or (state == "slip" and (rt * sign <= 0 or (mu is not None and abs(rt) != bound)))
             if bad or (state == "stick" and mu is not None and abs(rt) >= bound):
                 raise Unreadable("reaction against (7), state or sign")
         if frame is None:
-            return t, n, state, {t: Q(1)}, {n: Q(direction)}, sign
-        return t, n, state, {t: c[0][0], n: c[0][1]}, {t: direction * c[1][0], n: direction * c[1][1]}, sign
+            return t, n, state, {t: Q(1)}, {n: Q(direction)}, sign, factor
+        return t, n, state, {t: c[0][0], n: c[0][1]}, {t: direction * c[1][0], n: direction * c[1][1]}, sign, factor
 
 
 def project(test, k, trial):
@@ -675,13 +681,13 @@ def lifted_solution(p, rows, window, obj):
         demand(not plus((Q(1), w[i], 0)), f"lifted 3: w_f = 0 at dof {i}")
     for i in sticks:
         demand(not plus((Q(1), v[i], 0)), f"lifted 4: v_d = 0 at dof {i}")
-    for place, (tangent, normal, sign) in enumerate(slips, len(free)):
+    for place, (tangent, normal, friction, sign) in enumerate(slips, len(free)):
         demand(not plus(*along(normal, Q(1), v)), f"lifted 5: v_N = 0 at variable {place}")
         rate = plus(*along(tangent, Q(sign), v))
         if p.unknown == "lambda2":
-            cone = plus(*along(tangent, Q(sign), w), *along(normal, mu, w))
+            cone = plus(*along(tangent, Q(sign), w), *along(friction, mu, w))
         else:
-            cone = plus(*along(tangent, Q(sign), w), *along(normal, Q(1), w, 1))
+            cone = plus(*along(tangent, Q(sign), w), *along(friction, Q(1), w, 1))
         if place in support:
             demand(horner(rate, a, b)[1] < 0 and not cone, f"lifted 6: variable {place} slips")
         elif place in biactive:

@@ -27,7 +27,7 @@ fn refused(args: &[&str], words: &[&str]) {
 
 #[test]
 fn malformed_problems_are_refused_in_one_line() {
-    let expected: [(&str, &[&str]); 26] = [
+    let expected: [(&str, &[&str]); 28] = [
         ("empty", &["line 1"]),
         ("truncated", &["EOF"]),
         ("not-json", &["line 1", "expected"]),
@@ -46,6 +46,11 @@ fn malformed_problems_are_refused_in_one_line() {
         ("absurd-size", &["1000000", "1000000000000000"]),
         ("absurd-exponent", &["exponent"]),
         ("friction-zero", &["friction > 0", "particle 0"]),
+        (
+            "friction-factor-zero",
+            &["particle 1", "friction_factor > 0"],
+        ),
+        ("friction-factor-word", &["rough"]),
         ("mass-not-definite", &["E3", "M positive definite", "-1"]),
         ("both-bodies", &["exactly one"]),
         ("window-reversed", &["min = 3", "max = 2"]),

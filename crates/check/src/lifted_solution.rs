@@ -184,12 +184,12 @@ impl Lines<'_> {
 
         match (self.unknown, self.system.friction()) {
             (Unknown::Lambda2, Some(mu)) => {
-                let friction = along(&particle.into_obstacle(), &self.w, mu);
+                let friction = along(&particle.friction_direction(), &self.w, mu);
                 add(&mut sum, &one, &friction, 0);
             }
             _ => {
-                let normal = along(&particle.into_obstacle(), &self.w, &one);
-                add(&mut sum, &one, &normal, 1);
+                let friction = along(&particle.friction_direction(), &self.w, &one);
+                add(&mut sum, &one, &friction, 1);
             }
         }
 

@@ -17,7 +17,7 @@
 //!     e_dof for a free dof,    -(S t + mu n) for a slip particle,           // (11)
 //! ```
 //!
-//! n its unit normal into the obstacle. Then w = (K + lambda^2 M) v gives
+//! n its unit normal into the obstacle, times the friction factor of the particle. Then w = (K + lambda^2 M) v gives
 //! y = P' (K + lambda^2 M) T x. The block formulas (16) are not used: `reduction` in the model
 //! crate does that, and a test holds the two equal, so that one mistake cannot be in both.
 //!
@@ -169,7 +169,7 @@ impl Variables {
             let minus_s = Rational::from_integer((-sign).into());
             columns.push(scale(&particle.tangent(), &minus_s)); // (10): v_T = -S x
             rows.push(scale(&particle.tangent(), &minus_s)); // (11): y = -(S w_T + mu w_N)
-            friction.push(scale(&particle.into_obstacle(), &minus_one));
+            friction.push(scale(&particle.friction_direction(), &minus_one));
         }
 
         let mut moved_by: Vec<RationalRow> = vec![Vec::new(); system.dofs()];
@@ -232,7 +232,8 @@ mod tests {
         Sparse::from_entries(6, 6, entries)
     }
 
-    /// An oblique particle (3/5, 4/5), one along the axes and two free degrees of freedom.
+    /// An oblique particle (3/5, 4/5), one along the axes with the friction factor 5/3, and two free
+    /// degrees of freedom.
     fn system() -> System {
         let oblique = Particle {
             frame: Some([
@@ -243,6 +244,7 @@ mod tests {
         };
         let along_the_axes = Particle {
             normal_direction: -1,
+            friction_factor: rational(5, 3),
             ..Particle::plain(4, 5, ContactState::Slip { sign: -1 })
         };
         System::new(

@@ -173,6 +173,14 @@ pub enum ModelError {
         /// The coefficient given.
         friction: Rational,
     },
+    /// The factor on mu of a particle is not positive.
+    #[error("E2: particle {particle}: expected friction_factor > 0, got {factor}")]
+    FrictionFactor {
+        /// The particle.
+        particle: usize,
+        /// The factor given.
+        factor: Rational,
+    },
     /// A particle in contact with zero reaction.
     #[error(
         "E9: particle {particle} has state \"zero\"; expected free, stick or slip \

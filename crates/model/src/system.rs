@@ -65,6 +65,8 @@ pub struct Particle {
     pub normal_direction: i8,
     /// Oblique contact: (u_T, u_N) = frame * (first dof, second dof); rows are the directions.
     pub frame: Option<[[Rational; 2]; 2]>,
+    /// The coefficient of friction of this particle over mu, > 0; 1 where all have the same.
+    pub friction_factor: Rational,
     /// The reaction at equilibrium, checked against (7) and the sign.
     pub reaction: Option<Reaction>,
 }
@@ -73,7 +75,7 @@ pub struct Particle {
 pub type Direction = Vec<(usize, Rational)>;
 
 impl Particle {
-    /// A particle in the paper's own directions, without frame or reaction.
+    /// A particle in the paper's own directions, with the factor 1 on mu, without frame or reaction.
     pub fn plain(tangential: usize, normal: usize, state: ContactState) -> Self {
         Particle {
             tangential,
@@ -81,6 +83,7 @@ impl Particle {
             state,
             normal_direction: 1,
             frame: None,
+            friction_factor: Rational::one(),
             reaction: None,
         }
     }
@@ -93,6 +96,16 @@ impl Particle {
     /// The unit normal *into* the obstacle: u_N <= 0 is (1).
     pub fn into_obstacle(&self) -> Direction {
         self.direction(1, Rational::from_integer(self.normal_direction.into()))
+    }
+
+    /// The normal times the friction factor c: with it, (3) of this particle reads
+    /// |r_T| + mu (c r_N) <= 0.
+    pub fn friction_direction(&self) -> Direction {
+        let normal = self.into_obstacle();
+        normal
+            .into_iter()
+            .map(|(dof, coefficient)| (dof, coefficient * &self.friction_factor))
+            .collect()
     }
 
     fn direction(&self, row: usize, factor: Rational) -> Direction {
@@ -304,6 +317,7 @@ fn check_particles(
             require_sign(index, "sign", sign)?;
         }
         check_frame(index, particle)?;
+        check_friction_factor(index, particle)?;
         check_reaction(index, particle, friction)?;
     }
 
@@ -348,6 +362,18 @@ fn check_frame(index: usize, particle: &Particle) -> Result<(), ModelError> {
     Ok(())
 }
 
+/// A particle without friction is not the paper's: its states d and s do not exist.
+fn check_friction_factor(index: usize, particle: &Particle) -> Result<(), ModelError> {
+    if particle.friction_factor.is_positive() {
+        return Ok(());
+    }
+
+    Err(ModelError::FrictionFactor {
+        particle: index,
+        factor: particle.friction_factor.clone(),
+    })
+}
+
 /// (7), and the definitions of f, d, s after (9).
 fn check_reaction(
     index: usize,
@@ -358,7 +384,8 @@ fn check_reaction(
         return Ok(());
     };
 
-    let Some(expected) = broken_condition(particle.state, reaction, friction) else {
+    let friction = friction.map(|mu| mu * &particle.friction_factor);
+    let Some(expected) = broken_condition(particle.state, reaction, friction.as_ref()) else {
         return Ok(());
     };
 
@@ -371,8 +398,8 @@ fn check_reaction(
     })
 }
 
-/// The first condition on a reaction that does not hold. Those with mu are left out where mu is the
-/// unknown.
+/// The first condition on a reaction that does not hold; `friction` is that of the particle. Those
+/// with mu are left out where mu is the unknown.
 fn broken_condition(
     state: ContactState,
     reaction: &Reaction,
@@ -546,6 +573,28 @@ mod tests {
                 })
             ));
         }
+    }
+
+    /// mu = 2 and the factor 3/4: the cone is |r_T| <= 3/2 |r_N|.
+    #[test]
+    fn reactions_are_held_against_the_cone_of_their_own_particle() {
+        let with = |tangential: Rational| {
+            let particle = Particle {
+                friction_factor: rational(3, 4),
+                reaction: Some(Reaction {
+                    tangential,
+                    normal: whole(-1),
+                }),
+                ..Particle::plain(0, 1, SLIP)
+            };
+            build(2, vec![particle])
+        };
+
+        assert!(with(rational(3, 2)).is_ok());
+        assert!(matches!(
+            with(whole(2)),
+            Err(ModelError::ReactionContradicts { particle: 0, .. })
+        ));
     }
 
     #[test]

@@ -63,6 +63,8 @@ pub struct PhysicalParticle {
     pub tangent: Direction,
     /// The unit normal into the obstacle.
     pub normal: Direction,
+    /// Its coefficient of friction over mu.
+    pub friction_factor: Rational,
     /// The state.
     pub state: PhysicalState,
 }
@@ -98,6 +100,7 @@ impl PhysicalSystem {
             particles.push(PhysicalParticle {
                 tangent: particle.tangent(),
                 normal: particle.into_obstacle(),
+                friction_factor: particle.friction_factor.clone(),
                 state,
             });
         }
@@ -297,10 +300,10 @@ impl Form {
         form
     }
 
-    /// cone(S) = S w_T + mu w_N. Where mu is the unknown, w is constant and mu w_N is the slope.
+    /// cone(S) = S w_T + c mu w_N, c the friction factor. Where mu is the unknown, w is constant and mu w_N is the slope.
     fn cone(system: &PhysicalSystem, particle: &PhysicalParticle, sign: i8) -> Form {
         let tangential = Form::reaction(system, &particle.tangent);
-        let normal = Form::reaction(system, &particle.normal);
+        let normal = Form::reaction(system, &particle.normal).times(&particle.friction_factor);
         let sign = Rational::from_integer(sign.into());
 
         let mut form = tangential.times(&sign);

@@ -260,13 +260,12 @@ impl Row<'_> {
             _ => None,
         };
 
+        let tangential = self.dof(Column::Tangential, dof)?;
+        let normal = self.dof(Column::Normal, dof)?;
         Ok(Particle {
-            tangential: self.dof(Column::Tangential, dof)?,
-            normal: self.dof(Column::Normal, dof)?,
-            state,
             normal_direction,
-            frame: None,
             reaction,
+            ..Particle::plain(tangential, normal, state)
         })
     }
 

@@ -14,7 +14,8 @@
 //! K* = K0 + mu K1 and M* = M0 + mu M1.
 //!
 //! Directions t_p and n_p may be oblique: the entries of K_TT are t_p' K t_q, those of K_NT are
-//! n_p' K t_q, and the columns of K_fT are (K t_q)_f.
+//! n_p' K t_q, and the columns of K_fT are (K t_q)_f. Where a particle has a friction factor of its
+//! own, its row of K1 is multiplied by that factor: n_p is its friction direction.
 //!
 //! Input: a [`Problem`] or [`System`] whose preconditions have been established (K symmetric).
 //! Called by everything that solves or enumerates, never by `check`, which has its own way.
@@ -149,6 +150,8 @@ struct SlipDirections {
     sign: i8,
     tangent: Direction,
     normal: Direction,
+    /// The normal times the friction factor.
+    friction: Direction,
 }
 
 impl SlipDirections {
@@ -165,6 +168,7 @@ impl KeptVariables {
                 sign,
                 tangent: particle.tangent(),
                 normal: particle.into_obstacle(),
+                friction: particle.friction_direction(),
             });
         }
 
@@ -221,7 +225,7 @@ impl KeptVariables {
                 let row = n_f + p;
                 let s_p = of_p.s();
                 let k_tt = inner_product(&of_p.tangent, &k_t);
-                let k_nt = inner_product(&of_p.normal, &k_t);
+                let k_nt = inner_product(&of_p.friction, &k_t);
                 constant.push((row, column, &s_p * k_tt * &s_q)); // S K_TT S
                 slope.push((row, column, k_nt * &s_q)); // K_NT S
             }
@@ -229,7 +233,7 @@ impl KeptVariables {
 
         for (p, of_p) in self.slip.iter().enumerate() {
             let row = n_f + p;
-            let k_n = times_direction(k, &of_p.normal); // K n_p, which is (n_p' K)'
+            let k_n = times_direction(k, &of_p.friction); // K n_p, which is (n_p' K)'
 
             for (i, &dof) in self.free.iter().enumerate() {
                 slope.push((row, i, -&k_n[dof])); // -K_Nf

@@ -182,7 +182,7 @@ fn cone_side(particle: &Particle, s: &Rational, friction: Friction, w: &[Poly]) 
     };
 
     let tangential = times(&particle.tangent(), s);
-    let normal = times(&particle.into_obstacle(), &mu);
+    let normal = times(&particle.friction_direction(), &mu);
 
     let coefficients = tangential.iter().chain(&normal).map(|(_, c)| c);
     let clear = common_denominator(coefficients);
