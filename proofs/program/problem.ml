@@ -192,6 +192,7 @@ let read_particle order mu item =
   (match field "friction_factor" with Null -> () | _ -> not_verified "friction factor");
   let t = index order (field "tangential") and n = index order (field "normal") in
   let state = text (field "state") in
+  if state = "zero" then not_verified "a particle in contact with zero reaction";
   if not (List.mem state ["free"; "stick"; "slip"]) then malformed "the state %S" state;
   let unit_of what = function
     | Null -> None

@@ -19,7 +19,7 @@ use mceip_paper::{pythagorean_angles, two_particles};
 use mceip_testkit::generators::{Seed, states};
 use rand::RngExt;
 
-const UNKNOWNS: [Unknown; 2] = [Unknown::Lambda2, Unknown::Mu];
+pub(crate) const UNKNOWNS: [Unknown; 2] = [Unknown::Lambda2, Unknown::Mu];
 
 /// Number of this family of random systems, for [`Seed`].
 const FAMILY: u64 = 90;
@@ -137,7 +137,7 @@ fn motions_are_the_solutions_of_the_reduced_pencil() {
 }
 
 /// The system with a friction factor of its own for each particle.
-fn with_factors(system: &System, rng: &mut impl rand::Rng) -> System {
+pub(crate) fn with_factors(system: &System, rng: &mut impl rand::Rng) -> System {
     let mut particles = system.particles().to_vec();
     for particle in &mut particles {
         particle.friction_factor = rational(rng.random_range(1..=12), 4);
@@ -265,7 +265,7 @@ const STATES_OF_ZERO: [ContactState; 4] = [
 /// The mode of a z particle that is treated as one of this state.
 fn mode_of(state: ContactState) -> Mode {
     match state {
-        ContactState::Free => Mode::Open,
+        ContactState::Free | ContactState::Zero => Mode::Open,
         ContactState::Stick => Mode::Sticking,
         ContactState::Slip { sign } => Mode::Slipping { sign },
     }

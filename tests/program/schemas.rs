@@ -216,7 +216,6 @@ fn of_shape(error: &ModelError) -> bool {
             | ModelError::Format { .. }
             | ModelError::Body { .. }
             | ModelError::Sign { .. }
-            | ModelError::ZeroReactionState { .. }
     )
 }
 

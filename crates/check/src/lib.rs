@@ -113,7 +113,21 @@ impl<'a> ClaimChecker<'a> {
         match claim {
             Claim::ExactSolution(c) => exact_solution::check(&self.rows, window, c),
             Claim::LiftedSolution(c) => lifted_solution::check(self.problem, &self.rows, window, c),
-            Claim::EnclosedSolution(c) => enclosed::check(&self.rows, window, c),
+            Claim::EnclosedSolution(c) => {
+                self.without_zero("an enclosed solution")?;
+                enclosed::check(&self.rows, window, c)
+            }
+        }
+    }
+
+    /// Refuses evidence that is not defined for particles with zero reaction.
+    fn without_zero(&self, what: &'static str) -> Result<(), Reason> {
+        match self.rows.halves.first() {
+            None => Ok(()),
+            Some(halves) => Err(Reason::ZeroReaction {
+                what,
+                particle: halves.particle,
+            }),
         }
     }
 
@@ -174,6 +188,10 @@ fn verdict(
 
     let cover = match &certificate.complete_set {
         Some(complete_set) => {
+            checker
+                .without_zero("a complete set")
+                .map_err(of_certificate)?;
+
             let window = &certificate.window;
             let accepted = cover::check(&checker.rows, window, &solutions, complete_set, refused);
             Some(accepted.map_err(of_certificate)?)

@@ -73,7 +73,7 @@ fn write_system(out: &mut String, system: &System) {
 fn write_particle(out: &mut String, particle: &Particle) {
     let sign = match particle.state {
         ContactState::Slip { sign } => format!(" {sign}"),
-        ContactState::Free | ContactState::Stick => String::new(),
+        ContactState::Free | ContactState::Stick | ContactState::Zero => String::new(),
     };
 
     let state = particle.state.word();

@@ -181,12 +181,12 @@ pub enum ModelError {
         /// The factor given.
         factor: Rational,
     },
-    /// A particle in contact with zero reaction.
+    /// A particle in contact with zero reaction, where it is not treated.
     #[error(
         "E9: particle {particle} has state \"zero\"; expected free, stick or slip \
-         (section 3 assumes no z particles)"
+         (not supported here: only the checker treats z particles, spec/zero-reaction.md)"
     )]
-    ZeroReactionState {
+    ZeroReaction {
         /// The particle.
         particle: usize,
     },

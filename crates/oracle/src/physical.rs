@@ -5,8 +5,8 @@
 //! ```
 //!
 //! No variable is eliminated and none is renamed: this file shares no code with the reduction of
-//! chapter 2, so that the two can be held against each other. It also knows the particles in
-//! contact with zero reaction (z), which section 3 of the paper leaves out.
+//! chapter 2, so that the two can be held against each other. Particles in contact with zero
+//! reaction (z), which section 3 of the paper leaves out, are treated as well.
 //!
 //! Each particle is in one of three *modes*. With its unit tangent, its unit normal into the
 //! obstacle, and cone(S) = S w_T + mu w_N:
@@ -83,7 +83,7 @@ pub struct PhysicalSystem {
 }
 
 impl PhysicalSystem {
-    /// The data of a system without z, for one of the two questions.
+    /// The data of a system, for one of the two questions.
     ///
     /// # Errors
     /// [`ModelError::Missing`] without mass or friction if lambda^2 is the unknown.
@@ -96,6 +96,7 @@ impl PhysicalSystem {
                 ContactState::Free => PhysicalState::Free,
                 ContactState::Stick => PhysicalState::Stick,
                 ContactState::Slip { sign } => PhysicalState::Slip { sign },
+                ContactState::Zero => PhysicalState::Zero,
             };
             particles.push(PhysicalParticle {
                 tangent: particle.tangent(),

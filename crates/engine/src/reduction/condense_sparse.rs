@@ -107,6 +107,7 @@ impl DofRoles {
 
         match particle.state {
             ContactState::Free => {}
+            ContactState::Zero => return Err(CondensationError::ZeroReaction { particle: index }),
             ContactState::Stick => self.held.extend(dofs),
             ContactState::Slip { sign } if sign.abs() != 1 => {
                 return Err(CondensationError::Sign {

@@ -190,7 +190,7 @@ fn contact_state(
     given: Option<i64>,
 ) -> Result<ContactState, ModelError> {
     match (state, given) {
-        (RawState::Zero, _) => Err(ModelError::ZeroReactionState { particle }),
+        (RawState::Zero, None) => Ok(ContactState::Zero),
         (RawState::Free, None) => Ok(ContactState::Free),
         (RawState::Stick, None) => Ok(ContactState::Stick),
         (RawState::Slip, Some(value)) => Ok(ContactState::Slip {
@@ -202,7 +202,7 @@ fn contact_state(
             expected: "1 or -1 on a slip particle",
             got: "none".into(),
         }),
-        (RawState::Free | RawState::Stick, Some(value)) => Err(ModelError::Sign {
+        (RawState::Free | RawState::Stick | RawState::Zero, Some(value)) => Err(ModelError::Sign {
             particle,
             field: "sign",
             expected: "none on a particle that does not slip",
@@ -288,11 +288,6 @@ mod tests {
 
     #[test]
     fn particles_are_refused_by_name() {
-        let zero = read(&system(r#"{"tangential":0,"normal":1,"state":"zero"}"#));
-        assert!(matches!(
-            zero,
-            Err(ModelError::ZeroReactionState { particle: 0 })
-        ));
         for (particle, field) in [
             (r#"{"tangential":0,"normal":1,"state":"slip"}"#, "sign"),
             (
@@ -301,6 +296,10 @@ mod tests {
             ),
             (
                 r#"{"tangential":0,"normal":1,"state":"stick","sign":1}"#,
+                "sign",
+            ),
+            (
+                r#"{"tangential":0,"normal":1,"state":"zero","sign":1}"#,
                 "sign",
             ),
             (

@@ -22,7 +22,7 @@
 
 use crate::{Body, Direction, ModelError, Pencil, Problem, System, Unknown};
 use mceip_exact::{Rational, Sparse};
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
 /// What a variable of the reduced pencil stands for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -43,6 +43,19 @@ pub enum Variable {
     },
 }
 
+impl Variable {
+    /// The motion v that belongs to x = 1. // (10)
+    pub fn column(&self) -> Direction {
+        match self {
+            Variable::Free { dof } => vec![(*dof, Rational::one())],
+            Variable::Slip { sign, tangent, .. } => {
+                let minus_s = Rational::from_integer((-sign).into());
+                tangent.iter().map(|(d, c)| (*d, c * &minus_s)).collect()
+            }
+        }
+    }
+}
+
 /// A pencil with the meaning of its variables: f ascending, then slip particles in file order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reduced {
@@ -55,7 +68,8 @@ pub struct Reduced {
 /// The pencil of a problem. A pencil stands for itself; a system goes through (10)-(16).
 ///
 /// # Errors
-/// [`ModelError::Missing`] if the system lacks what the unknown needs.
+/// [`ModelError::Missing`] if the system lacks what the unknown needs, [`ModelError::ZeroReaction`]
+/// with z particles: [`super::split_form`] treats those.
 pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
     match problem.body() {
         Body::Pencil(pencil) => Ok(Reduced {
@@ -80,9 +94,10 @@ pub struct MuFamily {
 /// (K0, K1) and (M0, M1) of (16).
 ///
 /// # Errors
-/// [`ModelError::Empty`] if no particle slips.
+/// [`ModelError::Empty`] if no particle slips, [`ModelError::ZeroReaction`] with z particles.
 pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
     system.require_for(Unknown::Mu)?;
+    system.require_no_zero()?;
     let kept = KeptVariables::of(system);
 
     let stiffness = kept.blocks(system.stiffness());
@@ -105,6 +120,7 @@ pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
 
 fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelError> {
     system.require_for(unknown)?;
+    system.require_no_zero()?;
     let kept = KeptVariables::of(system);
     let stiffness = kept.blocks(system.stiffness());
 
@@ -248,7 +264,7 @@ impl KeptVariables {
 }
 
 /// K d for a direction d. K is symmetric, so that rows serve as columns.
-fn times_direction(k: &Sparse, direction: &Direction) -> Vec<Rational> {
+pub(super) fn times_direction(k: &Sparse, direction: &Direction) -> Vec<Rational> {
     let mut product = vec![Rational::zero(); k.rows()];
     for (dof, coefficient) in direction {
         for (j, entry) in k.row(*dof) {
@@ -259,7 +275,7 @@ fn times_direction(k: &Sparse, direction: &Direction) -> Vec<Rational> {
     product
 }
 
-fn inner_product(direction: &Direction, vector: &[Rational]) -> Rational {
+pub(super) fn inner_product(direction: &Direction, vector: &[Rational]) -> Rational {
     direction
         .iter()
         .map(|(dof, coefficient)| coefficient * &vector[*dof])
