@@ -1,10 +1,10 @@
-//! Systems with particles in contact with zero reaction (z): the modes of the split form against the
-//! conditions (9) themselves.
+//! Systems with particles in contact with zero reaction (z): the modes of the split form against
+//! the conditions (9) themselves.
 //!
 //! `enumerate_motions` solves (9) in v and w and knows no reduction; `enumerate_modes` solves the
 //! split form of `spec/zero-reaction.md`. On random systems of every mixture of f, z, d and s
-//! particles they must list the same motions. Each solution must satisfy the lines of (9) when it is
-//! lifted, and the checker must accept it as an exact claim.
+//! particles they must list the same motions. Each solution must satisfy the lines of (9) when it
+//! is lifted, and the checker must accept it as an exact claim.
 #![cfg(feature = "testkit")]
 
 use crate::physical::{UNKNOWNS, with_factors};
@@ -248,7 +248,7 @@ fn coefficients(polynomial: &Poly) -> Vec<Number> {
         .collect()
 }
 
-/// Two thirds of the systems have a light mixture, one after the other; the heavy ones follow.
+/// Light mixtures with z particles.
 #[test]
 fn modes_of_the_split_form_are_the_motions() {
     let mut light = Mixture::all();

@@ -1,5 +1,5 @@
-//! Claims about a system with a particle in contact with zero reaction: one solution for each of its
-//! modes and corners, and a forgery of each condition on it (`spec/zero-reaction.md`).
+//! Claims about a system with a particle in contact with zero reaction: one solution for each of
+//! its modes and corners, and a forgery of each condition on it (`spec/zero-reaction.md`).
 //!
 //! Two particles: 0 on the degrees of freedom (T, N) = (0, 1) in impending slip with S = 1, 1 on
 //! (2, 3) with zero reaction. With mu = 3 and M = I (MCEIP-mu: mu = 2 and lambda = 0)
@@ -11,8 +11,8 @@
 //!         [   a  -a/mu    0    10   ]      c = 12 (MCEIP-mu: 10).
 //! ```
 //!
-//! What particle 1 does cancels in w_0 + mu w_1, so that lambda^2 = 2 (mu = 2) is the only value, and
-//! a, b choose the mode. The variables are x, the gap -v_3, right max(v_2, 0), left max(-v_2, 0).
+//! What particle 1 does cancels in w_0 + mu w_1, so that lambda^2 = 2 (mu = 2) is the only value,
+//! and a, b choose the mode. The variables are x, the gap -v_3, right max(v_2, 0), left max(-v_2, 0).
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;

@@ -225,8 +225,8 @@ impl Lines<'_> {
         }
     }
 
-    /// The sign of v_T at a particle with zero reaction, and both sides of its cone: w_T = mu w_N if
-    /// it slides to the right, -w_T = mu w_N if to the left.
+    /// The sign of v_T at a particle with zero reaction, and both sides of its cone: w_T = mu w_N
+    /// if it slides to the right, -w_T = mu w_N if to the left.
     fn sliding(
         &self,
         index: usize,

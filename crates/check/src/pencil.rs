@@ -285,8 +285,8 @@ mod tests {
         Sparse::from_entries(6, 6, entries)
     }
 
-    /// An oblique particle (3/5, 4/5), one along the axes with the friction factor 5/3, and two free
-    /// degrees of freedom.
+    /// An oblique particle (3/5, 4/5), one along the axes with the friction factor 5/3, and two
+    /// free degrees of freedom.
     fn system(second: ContactState) -> System {
         let oblique = Particle {
             frame: Some([

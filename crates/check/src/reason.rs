@@ -246,7 +246,8 @@ pub enum Reason {
     XZero,
     /// A particle with zero reaction slides both ways.
     #[error(
-        "Z.3: particle {particle}: expected at most one of {right} and {left} in the support, got both"
+        "Z.3: particle {particle}: expected at most one of {right} and {left} in the support, \
+         got both"
     )]
     BothHalves {
         /// The particle.

@@ -77,7 +77,7 @@ pub struct Particle {
 pub type Direction = Vec<(usize, Rational)>;
 
 impl Particle {
-    /// A particle in the paper's own directions, with the factor 1 on mu, without frame or reaction.
+    /// A particle in the paper's own directions: friction factor 1, no frame, no reaction.
     pub fn plain(tangential: usize, normal: usize, state: ContactState) -> Self {
         Particle {
             tangential,

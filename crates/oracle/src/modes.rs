@@ -1,7 +1,7 @@
 //! The enumerator of the split form: systems with particles in contact with zero reaction (z).
 //!
-//! The pencil of [`SplitForm`] has the variables x = (x_f, x_s, g, v+, v-). A *choice of modes* says
-//! of each s particle whether it slips, and of each z particle one of
+//! The pencil of [`SplitForm`] has the variables x = (x_f, x_s, g, v+, v-). A *choice of modes*
+//! says of each s particle whether it slips, and of each z particle one of
 //!
 //! | mode | variables of the block | inequalities |
 //! |---|---|---|
@@ -10,10 +10,10 @@
 //! | slipping right | v+ | v+ > 0, p >= 0 |
 //! | slipping left | v- | v- > 0, p >= 0 |
 //!
-//! As in `plain`, the roots of the determinant of the block are the values and its kernel is x: y = 0
-//! on the block, x > 0 on the slipping s particles, y >= 0 on the others. In the open mode y = 0 on
-//! the rows p and s+ means w_N = 0 and w_T = 0. In the slipping modes y = 0 on the row s+ or s-
-//! leaves 2 c mu p on the other.
+//! As in `plain`, the roots of the determinant of the block are the values and its kernel is x:
+//! y = 0 on the block, x > 0 on the slipping s particles, y >= 0 on the others. In the open mode
+//! y = 0 on the rows p and s+ means w_N = 0 and w_T = 0. In the slipping modes y = 0 on the row s+
+//! or s- leaves 2 c mu p on the other.
 //!
 //! Choices in which no s particle slips have no solution (`spec/zero-reaction.md`, Z.2), so
 //! (2^n_s - 1) 4^n_z choices are examined. The inequalities g > 0, v+ > 0 and v- > 0 make the

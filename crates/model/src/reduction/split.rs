@@ -12,9 +12,9 @@
 //! y = P' w, P of the columns e_dof, -(S t + c mu n), -n, t - c mu n, -t - c mu n, the matrix
 //! y = P' (K + lambda^2 M) T x is linear in lambda^2 and in mu.
 //!
-//! The form has solutions x != 0 with v = 0, namely v+ = v- for any z particle and any t. A solution
-//! of (9) is a solution of the form in which v+ or v- is 0 for each z particle. So the pencil must
-//! not be given to what treats all complementarity variables alike; [`super::reduce`] refuses z.
+//! The form has solutions x != 0 with v = 0, namely v+ = v- for any z particle and any t. A
+//! solution of (9) is a solution of the form in which v+ or v- is 0 for each z particle. So the
+//! pencil must not be given to what treats all complementarity variables alike; [`super::reduce`] refuses z.
 //!
 //! Input: a [`System`]. Called by the oracle and its tests. `check` has its own way.
 
