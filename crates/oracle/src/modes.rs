@@ -24,8 +24,7 @@ use super::physical::Mode;
 use super::plain::multiplicity;
 use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
-use mceip_model::Window;
-use mceip_model::reduction::{SplitForm, ZeroVariables};
+use mceip_model::{SplitForm, Window, ZeroVariables};
 
 /// A choice of modes that is listed and not described.
 #[derive(Debug, Clone)]

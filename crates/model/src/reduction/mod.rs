@@ -13,4 +13,4 @@ mod split;
 pub use eliminate::{MuFamily, Reduced, Variable, mu_family, reduce};
 pub use lift::{Lifted, lift, lift_along};
 pub use lines::{Line, LineViolated, check_lines};
-pub use split::{SplitForm, ZeroVariables, split_form};
+pub use split::split_form;
