@@ -1,8 +1,9 @@
 (* Complete sets of solutions of a pencil: the main theorem about certificates of pencils.
 
-   The checker gets a pencil, a window [lo, hi] of values (hi may be infinity), exact solution
-   claims, a witness for the elimination of the free variables, and a tree.  The tree yields
-   regions, each with an interval of a value; it may leave regions undecided.
+   The checker gets a pencil, a window [lo, hi] of values (hi may be infinity), claims (exact or
+   enclosed) that root leaves may refer to, a witness for the elimination of the free variables, and
+   a tree.  The tree yields regions, each with an interval of a value; it may leave regions
+   undecided.
 
    Theorem [complete_sound]: if the check succeeds, then
      1. each solution with a value in the window lies in a region yielded or in an undecided one;
@@ -29,7 +30,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
-From Mceip Require Import Number Condensation Pencil Whole Claim.
+From Mceip Require Import Number Condensation Pencil Whole Claim EnclosedClaim.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -40,17 +41,34 @@ Import Order.Theory GRing.Theory Num.Theory.
 Delimit Scope Z_scope with Z.
 Local Open Scope ring_scope.
 
+(* A claim about the pencil: with polynomials, or in a box. *)
+Inductive solution_claim := ExactClaim of claim | BoxClaim of enclosed_claim.
+
 Section Checker.
 
-Variables (Q : pencil) (claims : seq claim).
+Variables (Q : pencil) (claims : seq solution_claim).
 
 (* Positions among the complementarity variables. *)
 Definition positions (l : seq nat) := [seq index i (slip Q) | i <- l].
 
+Definition claimed_support k :=
+  match k with ExactClaim e => support e | BoxClaim b => box_support b end.
+
+Definition claimed_biactive k :=
+  match k with ExactClaim e => biactive e | BoxClaim _ => [::] end.
+
+Definition claimed_from k : point :=
+  match k with ExactClaim e => (claim_from e, claim_denominator e) | BoxClaim b => box_from b end.
+
+Definition claimed_to k : point :=
+  match k with ExactClaim e => (claim_to e, claim_denominator e) | BoxClaim b => box_to b end.
+
 (* What a claim says about its solution. *)
-Definition known_of (k : claim) := Known
-  (claim_from k, claim_denominator k) (claim_to k, claim_denominator k)
-  (positions (support k)) (positions (biactive k)).
+Definition known_of k := Known (claimed_from k) (claimed_to k)
+  (positions (claimed_support k)) (positions (claimed_biactive k)).
+
+Definition check_solution_claim k :=
+  match k with ExactClaim e => check_claim Q e | BoxClaim b => check_enclosed_claim Q b end.
 
 Definition known_solutions := [seq known_of k | k <- claims].
 
@@ -68,7 +86,7 @@ Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
 
 Definition check_complete :=
   [&& wellformed Q, free_rows_constant Q, check_elimination (blocks_of Q) w,
-      all (check_claim Q) claims &
+      all check_solution_claim claims &
       check_cover (condensed (blocks_of Q) w) known_solutions (check_whole Q) check_limit tr lo hi].
 
 (* What the tree yields, and what it leaves open. *)
@@ -90,37 +108,102 @@ Variables (R : rcfType) (Q : pencil).
 (* The solution (t, x) lies in a region. *)
 Definition lies_in (r : region) (t : R) x := in_region (size (slip Q)) t (slip_of Q x) r.
 
-Definition proportional (x x' : nat -> R) :=
-  exists2 f, 0 < f & forall i, i \in iota 0 (order Q) -> x' i = f * x i.
-
 Definition one_solution_in (y : yield) :=
   exists t x, [/\ between t (yield_from y) (yield_to y), solution Q t x,
     lies_in (yield_region y) t x &
     forall t' x', solution Q t' x' -> lies_in (yield_region y) t' x' ->
-      t' = t /\ proportional x x'].
+      t' = t /\ proportional Q x x'].
 
-Lemma proportional_sym x x' : proportional x x' -> proportional x' x.
+Lemma proportional_sym (x x' : nat -> R) : proportional Q x x' -> proportional Q x' x.
 Proof.
 case=> f f0 scaled; exists f^-1; first by rewrite invr_gt0.
 by move=> i Hi; rewrite scaled // mulKf // gt_eqF.
 Qed.
 
-Lemma proportional_trans x y z : proportional x y -> proportional y z -> proportional x z.
+Lemma proportional_trans (x y z : nat -> R) :
+  proportional Q x y -> proportional Q y z -> proportional Q x z.
 Proof.
 case=> f f0 xy [g g0 yz]; exists (g * f); first exact: mulr_gt0.
 by move=> i Hi; rewrite yz // xy // mulrA.
 Qed.
 
-Lemma proportional_slip x x' : proportional x x' ->
+Lemma proportional_slip (x x' : nat -> R) : proportional Q x x' ->
   exists2 f, 0 < f & forall j, (j < size (slip Q))%N -> slip_of Q x' j = f * slip_of Q x j.
 Proof.
 case=> f f0 scaled; exists f => // j lt_j.
 by apply/scaled/slip_indices/mem_nth.
 Qed.
 
+Lemma mem_positions (l : seq nat) j : (j < size (slip Q))%N -> all (fun i => i \in slip Q) l ->
+  (j \in positions Q l) = (nth 0%N (slip Q) j \in l).
+Proof.
+move=> lt_j /allP in_slip; apply/mapP/idP => [[i il ->]|jl].
+  by rewrite nth_index // in_slip.
+by exists (nth 0%N (slip Q) j) => //; rewrite index_uniq // uniq_slip.
+Qed.
+
+(* (t, x) is a solution as q says. *)
+Definition known_solution (q : known) (t : R) x :=
+  [/\ between t (known_from q) (known_to q), solution Q t x &
+      forall j, (j < size (slip Q))%N ->
+        [/\ j \in known_support q -> 0 < slip_of Q x j,
+            j \notin known_support q -> slip_of Q x j = 0 &
+            j \notin known_support q -> j \in known_biactive q ->
+              reaction Q t x (nth 0%N (slip Q) j) = 0]].
+
+(* The solution of a claim. *)
+Lemma claimed_slip k : check_solution_claim Q k ->
+  all (fun i => i \in slip Q) (claimed_support k) /\
+  all (fun i => i \in slip Q) (claimed_biactive k).
+Proof.
+case: k => [e|b] /=; last by case/and5P=> _ _ _ _ /and3P[].
+by case/and5P=> _ _ _ _ /and3P[]; rewrite all_cat => /andP[].
+Qed.
+
+Theorem solution_claim_sound k : check_solution_claim Q k -> exists (t : R) x,
+  [/\ between t (claimed_from k) (claimed_to k), solution Q t x &
+      forall i, i \in slip Q ->
+        [/\ i \in claimed_support k -> 0 < x i, i \notin claimed_support k -> x i = 0 &
+            i \notin claimed_support k -> i \in claimed_biactive k -> reaction Q t x i = 0]].
+Proof.
+case: k => [e|b] /= ok.
+  have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
+  exists t, x; split=> // [|i Hi]; first by rewrite /between /= ![t * _]mulrC.
+  by have [] := signs _ Hi.
+have [t [x [bt sol pos zero _]]] := enclosed_claim_sound R ok.
+exists t, x; split=> // i Hi; split=> // [|out]; first exact: pos.
+by have [] := zero _ Hi out.
+Qed.
+
+Lemma claim_known k : check_solution_claim Q k -> exists t x, known_solution (known_of Q k) t x.
+Proof.
+move=> ok; have [in_s in_b] := claimed_slip ok.
+have [t [x [bt sol signs]]] := solution_claim_sound ok.
+exists t, x; split=> // j lt_j; have [pos zero biact] := signs _ (mem_nth 0%N lt_j).
+by rewrite !mem_positions.
+Qed.
+
+(* Where the known solution lies in a cover. *)
+Lemma known_place q lo hi (ys : seq yield) (rs : seq region) :
+  (forall t x, solution Q t x -> between t lo hi ->
+     (exists2 y, List.In y ys & lies_in (yield_region y) t x) \/
+     (exists2 r, List.In r rs & lies_in r t x)) ->
+  (forall y, List.In y ys -> one_solution_in y) ->
+  (exists t x, known_solution q t x) -> within (known_from q, known_to q) (lo, hi) ->
+  exists t x, known_solution q t x /\
+    ((exists2 y, List.In y ys & between t (yield_from y) (yield_to y) /\
+                                lies_in (yield_region y) t x) \/
+     (exists2 r, List.In r rs & lies_in r t x)).
+Proof.
+move=> every each [t [x known]] inside; exists t, x; split=> //; have [bt sol _] := known.
+have [[y y_in reg]|in_open] := every t x sol (within_between inside bt); last by right.
+left; exists y => //; have [t' [x' [bt' _ _ uniq]]] := each y y_in.
+by have [eq_t _] := uniq t x sol reg; split=> //; rewrite eq_t.
+Qed.
+
 Section Complete.
 
-Variables (claims : seq claim).
+Variables (claims : seq solution_claim).
 Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
 Hypothesis checked : check_complete Q claims w tr lo hi.
 
@@ -138,7 +221,7 @@ Lemma parts :
       check_cover P (known_solutions Q claims) (check_whole Q) (check_limit Q) tr lo hi].
 Proof. by case/and5P: checked => ? ? /andP[]. Qed.
 
-Lemma claims_checked n k : (n < size claims)%N -> check_claim Q (nth k claims n).
+Lemma claims_checked n k : (n < size claims)%N -> check_solution_claim Q (nth k claims n).
 Proof. by case/and5P: checked => _ _ _ /(all_nthP k) all_k _; apply: all_k. Qed.
 
 Lemma condensed_solution t x : solution Q t x ->
@@ -187,30 +270,15 @@ rewrite (condensed_image (D := D) (xs := slip_of Q x) w t xf) ?mem_iota //.
 by rewrite -(reaction_slip wf).
 Qed.
 
-Lemma mem_positions (l : seq nat) j : (j < ns)%N -> all (fun i => i \in slip Q) l ->
-  (j \in positions Q l) = (nth 0%N (slip Q) j \in l).
-Proof.
-move=> lt_j /allP in_slip; apply/mapP/idP => [[i il ->]|jl].
-  by rewrite nth_index // in_slip.
-by exists (nth 0%N (slip Q) j) => //; rewrite index_uniq // uniq_slip.
-Qed.
-
 Lemma known_sound n : (n < size (known_solutions Q claims))%N ->
   exists t x, is_known P A B (known_at (known_solutions Q claims) n) t x.
 Proof.
-rewrite size_map => lt_n; pose k0 := Claim [::] 0 0 0 [::] [::] [::] [::] [::].
+rewrite size_map => lt_n; pose k0 := ExactClaim (Claim [::] 0 0 0 [::] [::] [::] [::] [::]).
 rewrite /known_at (nth_map k0) //; set k := nth k0 claims n.
-have ok : check_claim Q k by apply: claims_checked.
-have in_slip : all (fun i => i \in slip Q) (support k ++ biactive k).
-  by case/and5P: ok => _ _ _ _ /and3P[].
-move: in_slip; rewrite all_cat => /andP[in_s in_b].
-have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
+have [t [x [bt sol signs]]] := claim_known (claims_checked k0 lt_n).
 have [sol_s free_x] := condensed_solution sol.
-exists t, (slip_of Q x); split=> //.
-  by rewrite /between /= ![t * _]mulrC.
-move=> j; rewrite mem_iota add0n /= => lt_j.
-have [pos zero biact _] := signs _ (mem_nth 0%N lt_j).
-rewrite !mem_positions //; split=> // ns' nb.
+exists t, (slip_of Q x); split=> // j; rewrite mem_iota add0n /= => lt_j.
+have [pos zero biact] := signs _ lt_j; split=> // ns' nb.
 by rewrite condensed_row // biact // mulr0.
 Qed.
 
@@ -293,26 +361,14 @@ move=> none closed t x sol bt; have [[y]|[r]] := complete_sound.1 t x sol bt.
 by rewrite closed.
 Qed.
 
-Theorem claim_place k : check_claim Q k ->
+Theorem claim_place k : check_solution_claim Q k ->
   within (known_from (known_of Q k), known_to (known_of Q k)) (lo, hi) ->
-  exists (t : R) x,
-    [/\ between t (known_from (known_of Q k)) (known_to (known_of Q k)), solution Q t x,
-        forall i, i \in slip Q -> (0 < x i) = (i \in support k) &
-        (exists2 y, List.In y found & between t (yield_from y) (yield_to y) /\
-                                      lies_in (yield_region y) t x) \/
-        (exists2 r, List.In r left_open & lies_in r t x)].
+  exists (t : R) x, known_solution (known_of Q k) t x /\
+    ((exists2 y, List.In y found & between t (yield_from y) (yield_to y) /\
+                                   lies_in (yield_region y) t x) \/
+     (exists2 r, List.In r left_open & lies_in r t x)).
 Proof.
-move=> ok inside; have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
-have bt : between t (known_from (known_of Q k)) (known_to (known_of Q k)).
-  by rewrite /between /= ![t * _]mulrC.
-exists t, x; split=> // [i Hi|].
-  have [pos zero _ _] := signs _ Hi; have [i_s|i_s] := boolP (i \in support k).
-    exact: pos.
-  by rewrite zero // ltxx.
-have [every each] := complete_sound.
-have [[y y_found reg]|in_open] := every t x sol (within_between inside bt); last by right.
-left; exists y => //; have [t' [x' [bt' _ _ uniq]]] := each y y_found.
-by have [eq_t _] := uniq t x sol reg; split=> //; rewrite eq_t.
+by have [every each] := complete_sound; move/claim_known; apply: known_place every each.
 Qed.
 
 Theorem complete_number ys : solutions_found Q claims tr lo hi = Some ys ->
@@ -321,14 +377,14 @@ Theorem complete_number ys : solutions_found Q claims tr lo hi = Some ys ->
         forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
         List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
                                  lies_in (yield_region y) s.1 s.2) ys l,
-        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional s.2 s'.2)) l &
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
         forall t x, solution Q t x -> between t lo hi ->
-          (exists2 s, List.In s l & t = s.1 /\ proportional s.2 x) \/
+          (exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x) \/
           (exists2 r, List.In r left_open & lies_in r t x)].
 Proof.
 move=> dist; have [every each] := complete_sound.
 have has_one y : List.In y found -> exists s, the_solution ns (slip_of Q) (solution Q)
-    proportional y s.
+    (proportional Q (R := R)) y s.
   by move/each=> [t [x [bt sol reg uniq]]]; exists (t, x); split.
 have [l [[sols pairs] win all_found]] :=
   distinct_sound proportional_slip proportional_sym proportional_trans has_one dist.
@@ -347,9 +403,9 @@ Corollary complete_exactly ys :
         forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
         List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
                                  lies_in (yield_region y) s.1 s.2) ys l,
-        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional s.2 s'.2)) l &
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
         forall t x, solution Q t x -> between t lo hi ->
-          exists2 s, List.In s l & t = s.1 /\ proportional s.2 x].
+          exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x].
 Proof.
 move=> dist closed; have [l [sz sols vals pairs every]] := complete_number dist.
 exists l; split=> // t x sol bt; have [//|[r]] := every t x sol bt.

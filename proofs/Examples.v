@@ -281,10 +281,10 @@ Definition eliminated : elimination :=
 1 0 [:: ]).
 
 Definition cover : tree (leaf whole) :=
-  (Leaf (Whole (WholeLeaf false (WholeEnd 5192296858534827628530496329220096 (Late 1 [:: (0%nat,
-[:: 1161835695570046208; 0]); (0%nat, [:: 223452286684446592; 1140145279811404160])])) (WholeEnd
-5192296858534827628530496329220096 (Late 1 [:: (0%nat, [:: 509498656958434688; 0]); (1%nat, [::
-509498656958434688])]))))).
+  (Leaf (Whole (WholeLeaf [:: ] false (WholeEnd 5192296858534827628530496329220096 (Late 1 [::
+(0%nat, [:: 1161835695570046208; 0]); (0%nat, [:: 223452286684446592; 1140145279811404160])]))
+(WholeEnd 5192296858534827628530496329220096 (Late 1 [:: (0%nat, [:: 509498656958434688; 0]);
+(1%nat, [:: 509498656958434688])]))))).
 
 Theorem exactly_0 (R : rcfType) : has_exactly R body asked lo hi 0.
 Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.

@@ -1,12 +1,13 @@
 (* A null vector exists where a determinant changes its sign.
 
-   T(t) = A + t B; J, K and k as in Root.v.  Let T be regular on K for every t of [a, b].  Then for
-   each t there is exactly one vector with x_k = v_k whose rows K vanish, and row k of it is
+   The entries of T(t) are polynomials in t; J, K and k as in Root.v.  Let T be regular on K for
+   every t of [a, b].  Then for each t there is exactly one vector with x_k = v_k whose rows K
+   vanish, and row k of it is
 
        phi(t) = v_k det T_JJ(t) / det T_KK(t).
 
-   Theorem [null_vector_exists]: if phi(a) and phi(b) have opposite signs, then T(t) has a null
-   vector with x_k = v_k for some t in [a, b].
+   Theorem [polynomial_null_vector]: if phi(a) and phi(b) have opposite signs, then T(t) has a null
+   vector with x_k = v_k for some t in [a, b].  [null_vector_exists]: the same for T(t) = A + t B.
 
    R is a real closed field here: a polynomial that changes its sign has a root.  det T_KK has no
    root in [a, b], so det T_JJ changes its sign; it has a root t, and T_JJ(t) has a kernel.
@@ -93,12 +94,13 @@ End Lists.
 Section Exist.
 
 Variable R : rcfType.
-Variables (A B : nat -> nat -> R) (J K : seq nat) (k : nat) (vk : R).
+Variables (poly_entry : nat -> nat -> {poly R}) (J K : seq nat) (k : nat) (vk : R).
 Hypotheses (K_J : forall j, (j \in K) = (j \in J) && (j != k)).
 Hypotheses (k_J : k \in J) (uniq_J : uniq J) (uniq_K : uniq K).
 Hypothesis vk0 : 0 < vk.
 
-Notation T := (T A B).
+Definition poly_at t i j := (poly_entry i j).[t].
+Notation T := poly_at.
 Notation m := (size K).
 
 (* T on K, T on J with k in the first place, and both as matrices of polynomials in t. *)
@@ -107,8 +109,6 @@ Definition T_K t := block K (T t).
 Definition T_J t : 'M[R]_(1 + m) :=
   block_mx (T t k k)%:M (\row_j T t k (nth 0%N K j)) (\col_i T t (nth 0%N K i) k) (T_K t).
 
-Definition poly_entry i j : {poly R} := (A i j)%:P + (B i j)%:P * 'X.
-
 Definition poly_K := \matrix_(i < m, j < m) poly_entry (nth 0%N K i) (nth 0%N K j).
 
 Definition poly_J : 'M[{poly R}]_(1 + m) :=
@@ -116,7 +116,7 @@ Definition poly_J : 'M[{poly R}]_(1 + m) :=
            (\col_i poly_entry (nth 0%N K i) k) poly_K.
 
 Lemma poly_entryE t i j : horner_eval t (poly_entry i j) = T t i j.
-Proof. by rewrite /horner_eval /poly_entry /Enclosed.T !hornerE mulrC. Qed.
+Proof. by []. Qed.
 
 Lemma det_K t : (\det poly_K).[t] = \det (T_K t).
 Proof.
@@ -137,7 +137,8 @@ Definition null_column t : 'cV[R]_m :=
 
 Definition extend (v : 'cV[R]_m) j := if j == k then vk else at_index v j.
 
-Definition row t x l := \sum_(j <- J) T t l j * x j.
+Definition poly_row t x l := \sum_(j <- J) T t l j * x j.
+Notation row := poly_row.
 
 Lemma row_extend t v l : row t (extend v) l = T t l k * vk + \sum_(j <- K) T t l j * at_index v j.
 Proof.
@@ -171,7 +172,7 @@ rewrite det_ublock det_mx11; congr (_ * _); rewrite row_extend mxE; congr (_ + _
 by rewrite sum_ordinals mxE; apply: eq_bigr => j _; rewrite mxE at_indexE.
 Qed.
 
-Theorem null_vector_exists a b :
+Theorem polynomial_null_vector a b :
   a <= b -> (forall t, a <= t <= b -> injective_on K (T t)) ->
   (forall x y, x k = vk -> y k = vk ->
      (forall l, l \in K -> row a x l = 0) -> (forall l, l \in K -> row b y l = 0) ->
@@ -230,3 +231,41 @@ by congr (_ + _); rewrite [RHS]mxE big_ord1 [X in _ = X * _]mxE.
 Qed.
 
 End Exist.
+
+(* The same for a pencil. *)
+Section Linear.
+
+Variable R : rcfType.
+Variables (A B : nat -> nat -> R) (J K : seq nat) (k : nat) (vk : R).
+Hypotheses (K_J : forall j, (j \in K) = (j \in J) && (j != k)).
+Hypotheses (k_J : k \in J) (uniq_J : uniq J) (uniq_K : uniq K).
+Hypothesis vk0 : 0 < vk.
+
+Notation T := (T A B).
+
+Definition row t x l := \sum_(j <- J) T t l j * x j.
+
+Definition linear_entry i j : {poly R} := (A i j)%:P + (B i j)%:P * 'X.
+
+Lemma linear_entryE t i j : poly_at linear_entry t i j = T t i j.
+Proof. by rewrite /poly_at /linear_entry /Enclosed.T !hornerE mulrC. Qed.
+
+Theorem null_vector_exists a b :
+  a <= b -> (forall t, a <= t <= b -> injective_on K (T t)) ->
+  (forall x y, x k = vk -> y k = vk ->
+     (forall l, l \in K -> row a x l = 0) -> (forall l, l \in K -> row b y l = 0) ->
+     row a x k * row b y k < 0) ->
+  exists t x, [/\ a <= t <= b, x k = vk & forall l, l \in J -> row t x l = 0].
+Proof.
+have rowE t x l : poly_row linear_entry J t x l = row t x l.
+  by apply: eq_bigr => j _; rewrite linear_entryE.
+move=> ab inj opposite.
+have [|x y xk yk rows_x rows_y|t [x [tab xk null]]] :=
+    polynomial_null_vector (poly_entry := linear_entry) K_J k_J uniq_J uniq_K vk0 ab.
+- move=> t tab z rows_z; apply: (inj t tab) => l lK; apply: etrans (rows_z l lK).
+  by apply: eq_bigr => j _; rewrite linear_entryE.
+- by rewrite !rowE; apply: opposite => // l lK; rewrite -rowE; auto.
+by exists t, x; split=> // l lJ; rewrite -rowE null.
+Qed.
+
+End Linear.

@@ -12,6 +12,7 @@ From mathcomp Require Import all_ssreflect.
 From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned Cover.
 From Mceip Require Import Number Condensation Pencil Whole Complete Claim System.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
+From Mceip Require Import Series Anchor AnchorLeaf Varying.
 
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
@@ -19,7 +20,7 @@ Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
 Set Extraction AccessOpaque.
 
 Extraction "kernel.ml"
-  check_complete check_excluded check_system check_system_excluded check_claim check_system_claim
+  check_complete check_system check_claim check_system_claim
   check_lifted check_enclosed_claim check_system_enclosed check_mcp
   reaction_poly found left_open solutions_found pencil_of blocks_of
   condensed slip zero infinity window check_leaf check_tree check_whole check_end
@@ -27,4 +28,7 @@ Extraction "kernel.ml"
   symmetric_part definite_end farkas check_absent check_root pinned check_claimed check_infinite
   active moving members member_form defect residual check_unique decide
   check_families check_system_families all_solutions families still_open check_supports
-  check_support column_poly row_poly positive_on check_value low_on high_on zero_poly scale_poly.
+  check_support column_poly row_poly positive_on check_value low_on high_on zero_poly scale_poly
+  check_varying_families check_system_varying varying_found varying_solutions varying_families
+  varying_still_open check_local expansions expand_anchor local_pencil local_point local_known
+  local_region proper_interval bounded_rows ff_block swap_pencil.

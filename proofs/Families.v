@@ -103,7 +103,7 @@ Definition belongs n (y : yield) (f : family) :=
 
 Section Complete.
 
-Variables (Q : pencil) (claims : seq claim) (tr : tree (leaf whole)) (lo hi : point).
+Variables (Q : pencil) (claims : seq solution_claim) (tr : tree (leaf whole)) (lo hi : point).
 Variable ls : seq (option support_leaf).
 
 Definition families := families_of (left_open tr lo hi) ls.
@@ -426,7 +426,7 @@ End Cover.
 
 Section Pencils.
 
-Variables (R : rcfType) (Q : pencil) (claims : seq claim) (w : elimination).
+Variables (R : rcfType) (Q : pencil) (claims : seq solution_claim) (w : elimination).
 Variables (tr : tree (leaf whole)) (lo hi : point) (ls : seq (option support_leaf)).
 Hypothesis checked : check_families Q claims tr lo hi ls w.
 
@@ -455,9 +455,82 @@ Proof. by case/andP: checked => _ supports; apply: supports_families. Qed.
 
 End Pencils.
 
+(* The motions of the solutions that a cover lists. *)
+Section Motions.
+
+Variables (R : rcfType) (s : system) (u : unknown) (lo hi : point).
+Hypothesis wf : system_wellformed s u.
+
+Notation Q := (pencil_of s u).
+
+(* The motion (t, v) belongs to a family. *)
+Definition motion_in_family (f : family) (t : R) v :=
+  motion_in s u f.1 t v /\ in_place (held_place f.2) t.
+
+Lemma motions_number (ys : seq yield) (fs : seq family) (rs : seq region) :
+  (exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
+        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
+                                 lies_in Q (yield_region y) s.1 s.2) ys l,
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
+        forall t x, solution Q t x -> between t lo hi ->
+          [\/ exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x,
+              exists2 f, List.In f fs & in_family Q f t x |
+              exists2 r, List.In r rs & lies_in Q r t x]]) ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 motion_in s u (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
+        forall t v, satisfies_9 s u t v -> between t lo hi ->
+          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
+              exists2 f, List.In f fs & motion_in_family f t v |
+              exists2 r, List.In r rs & motion_in s u r t v]].
+Proof.
+case=> l [sz sols vals pairs every].
+exists [seq (p.1, motion s p.2) | p <- l]; split=> //.
+- by rewrite size_map.
+- move=> m /List.in_map_iff[p [<- /sols[sol bt]]]; split=> //=; exact/(system_pencil wf).
+- elim: vals => [|y p ys' l' [bt reg] _ IH] /=; constructor=> //.
+  by split=> //; apply: (lies_in_motion wf).
+- elim: pairs => [|p l' different _ IH] /=; constructor=> //.
+  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t].
+  move/(motion_injective wf) => prop.
+  by have /List.Forall_forall/(_ _ p'_in) := different; apply.
+move=> t v sat bt; have sol := solution_of_motion wf sat.
+have [[p p_in [-> prop]]|[f f_in [reg at_t]]|[r r_in reg]] := every t _ sol bt.
+- apply: Or31; exists (p.1, motion s p.2); first by apply/List.in_map_iff; exists p.
+  split=> //=; have [c c0 scaled] := motion_proportional prop.
+  by exists c => // d Hd; rewrite -scaled (system_onto wf sat).
+- by apply: Or32; exists f.
+by apply: Or33; exists r.
+Qed.
+
+Lemma motions_hold f : family_holds R Q f ->
+  is_place R (held_place f.2) /\
+  forall t : R, in_place (held_place f.2) t ->
+    (exists v, satisfies_9 s u t v /\ motion_in s u f.1 t v) /\
+    (held_alone f.2 -> forall v v', satisfies_9 s u t v -> motion_in s u f.1 t v ->
+       satisfies_9 s u t v' -> motion_in s u f.1 t v' -> same_motion s v v').
+Proof.
+case=> is_pl each; split=> // t at_t.
+have [[x [sol reg]] alone] := each t at_t; split.
+  exists (motion s x); split; first exact/(system_pencil wf).
+  exact: (lies_in_motion wf).
+move=> al v v' sat reg_v sat' reg_v'.
+have prop : proportional Q (variables_of s v) (variables_of s v').
+  by apply: (alone al); split=> //; apply: solution_of_motion.
+have [c c0 scaled] := motion_proportional prop.
+by exists c => // d Hd; rewrite -(system_onto wf sat') // scaled (system_onto wf sat).
+Qed.
+
+End Motions.
+
 Section Systems.
 
-Variables (R : rcfType) (s : system) (u : unknown) (claims : seq claim) (w : elimination).
+Variables (R : rcfType) (s : system) (u : unknown) (claims : seq solution_claim) (w : elimination).
 Variables (tr : tree (leaf whole)) (lo hi : point) (ls : seq (option support_leaf)).
 Hypothesis checked : check_system_families s u claims w tr lo hi ls.
 
@@ -472,10 +545,6 @@ case/andP: checked => sys supports; have [wf complete] := andP sys.
 by split=> //; apply/andP.
 Qed.
 
-(* The motion (t, v) belongs to a family. *)
-Definition motion_in_family (f : family) (t : R) v :=
-  motion_in s u f.1 t v /\ in_place (held_place f.2) t.
-
 Theorem system_families_number ys : all_solutions Q claims tr lo hi ls = Some ys ->
   exists l : seq (R * (nat -> R)),
     [/\ size l = size ys,
@@ -485,26 +554,10 @@ Theorem system_families_number ys : all_solutions Q claims tr lo hi ls = Some ys
         List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
         forall t v, satisfies_9 s u t v -> between t lo hi ->
           [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
-              exists2 f, List.In f families & motion_in_family f t v |
+              exists2 f, List.In f families & motion_in_family s u f t v |
               exists2 r, List.In r still_open & motion_in s u r t v]].
 Proof.
-have [wf sys fam] := system_parts => /(families_number R fam)[l [sz sols vals pairs every]].
-exists [seq (p.1, motion s p.2) | p <- l]; split=> //.
-- by rewrite size_map.
-- move=> m /List.in_map_iff[p [<- /sols[sol bt]]]; split=> //=; exact/(system_pencil wf).
-- elim: vals => [|y p ys' l' [bt reg] _ IH] /=; constructor=> //.
-  by split=> //; apply: (lies_in_motion sys).
-- elim: pairs => [|p l' different _ IH] /=; constructor=> //.
-  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t].
-  move/(motion_injective sys) => prop.
-  by have /List.Forall_forall/(_ _ p'_in) := different; apply.
-move=> t v sat bt; have sol := solution_of_motion wf sat.
-have [[p p_in [-> prop]]|[f f_in [reg at_t]]|[r r_in reg]] := every t _ sol bt.
-- apply: Or31; exists (p.1, motion s p.2); first by apply/List.in_map_iff; exists p.
-  split=> //=; have [c c0 scaled] := motion_proportional prop.
-  by exists c => // d Hd; rewrite -scaled (system_onto wf sat).
-- by apply: Or32; exists f.
-by apply: Or33; exists r.
+have [wf _ fam] := system_parts => /(families_number R fam); exact: motions_number.
 Qed.
 
 Theorem system_families_hold f : List.In f families ->
@@ -514,15 +567,7 @@ Theorem system_families_hold f : List.In f families ->
     (held_alone f.2 -> forall v v', satisfies_9 s u t v -> motion_in s u f.1 t v ->
        satisfies_9 s u t v' -> motion_in s u f.1 t v' -> same_motion s v v').
 Proof.
-have [wf sys fam] := system_parts => /(families_hold R fam)[is_pl each]; split=> // t at_t.
-have [[x [sol reg]] alone] := each t at_t; split.
-  exists (motion s x); split; first exact/(system_pencil wf).
-  exact: (lies_in_motion sys).
-move=> al v v' sat reg_v sat' reg_v'.
-have prop : proportional Q (variables_of s v) (variables_of s v').
-  by apply: (alone al); split=> //; apply: solution_of_motion.
-have [c c0 scaled] := motion_proportional prop.
-by exists c => // d Hd; rewrite -(system_onto wf sat') // scaled (system_onto wf sat).
+by have [wf _ fam] := system_parts => /(families_hold R fam); apply: motions_hold.
 Qed.
 
 End Systems.

@@ -81,6 +81,10 @@ Definition solution t (x : nat -> R) :=
       forall i, i \in free Q -> reaction t x i = 0 &
       forall i, i \in slip Q -> [/\ 0 <= x i, 0 <= reaction t x i & x i * reaction t x i = 0]].
 
+(* x' is a positive multiple of x. *)
+Definition proportional (x x' : nat -> R) :=
+  exists2 f, 0 < f & forall i, i \in iota 0 (order Q) -> x' i = f * x i.
+
 Hypothesis wf : wellformed Q.
 
 Lemma free_indices i : i \in free Q -> i \in indices.

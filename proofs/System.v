@@ -28,7 +28,8 @@
    [system_exactly]: how many there are, as in Complete.v.
 
    [system_claim]: an exact solution claim about the pencil gives a motion with (9) and with the
-   support and the biactive variables of the claim ([has_support]).
+   support and the biactive variables of the claim ([has_support]).  [system_enclosed]: the same for
+   an enclosed claim, without biactive variables.
 
    The pencil is in the order of spec/certificates.md: free degrees of freedom, then slip
    particles.  Particles at zero reaction are not covered.
@@ -38,7 +39,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Number Condensation Pencil Whole Claim Complete.
+From Mceip Require Import Number Condensation Pencil Whole Claim EnclosedClaim Complete.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -155,6 +156,8 @@ Definition check_system_excluded tr lo hi :=
   system_wellformed && check_excluded pencil_of tr lo hi.
 
 Definition check_system_claim k := system_wellformed && check_claim pencil_of k.
+
+Definition check_system_enclosed k := system_wellformed && check_enclosed_claim pencil_of k.
 
 End Checker.
 
@@ -667,17 +670,14 @@ Definition same_motion (v v' : nat -> R) :=
 Definition motion_in r t (v : nat -> R) :=
   lies_in (pencil_of s u) r t (variables_of s v).
 
-Variables (claims : seq claim).
-Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
-Hypothesis checked : check_system s u claims w tr lo hi.
+Section Motions.
 
+Hypothesis wf : system_wellformed s u.
 Notation Q := (pencil_of s u).
-Notation found := (found Q claims tr lo hi).
-Notation left_open := (left_open tr lo hi).
 
 Lemma lies_in_motion r t x : lies_in Q r t x -> motion_in r t (motion s x).
 Proof.
-have [wf _] := andP checked; case=> bt ag; split=> // j lt_j; have := ag j lt_j.
+case=> bt ag; split=> // j lt_j; have := ag j lt_j.
 rewrite /slip_of (variables_of_motion wf) //.
 exact: (slip_indices (Q := Q) (mem_nth 0%N lt_j)).
 Qed.
@@ -690,10 +690,20 @@ Qed.
 (* x and x' give one motion only if they are proportional. *)
 Lemma motion_injective x x' : same_motion (motion s x) (motion s x') -> proportional Q x x'.
 Proof.
-have [wf _] := andP checked; case=> f f0 scaled; exists f => // i Hi.
+case=> f f0 scaled; exists f => // i Hi.
 rewrite -(variables_of_motion wf x' Hi) -(variables_of_motion wf x Hi).
 exact: (variables_scaled wf scaled Hi).
 Qed.
+
+End Motions.
+
+Variables (claims : seq solution_claim).
+Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
+Hypothesis checked : check_system s u claims w tr lo hi.
+
+Notation Q := (pencil_of s u).
+Notation found := (found Q claims tr lo hi).
+Notation left_open := (left_open tr lo hi).
 
 Theorem system_complete :
   (forall t v, satisfies_9 s u t v -> between t lo hi ->
@@ -709,7 +719,7 @@ case/andP: (checked) => wf complete; have [every each] := complete_sound R compl
 split=> [t v sat bt|y in_found]; first exact: every (solution_of_motion wf sat) bt.
 
 have [t [x [bt sol reg uniq]]] := each _ in_found.
-exists t, (motion s x); split=> //; [exact/(system_pencil wf) | exact: lies_in_motion |].
+exists t, (motion s x); split=> //; [exact/(system_pencil wf) | exact: (lies_in_motion wf) |].
 move=> t' v' sat' reg'; have [-> prop] := uniq _ _ (solution_of_motion wf sat') reg'.
 have [f f0 scaled] := motion_proportional prop.
 by split=> //; exists f => // d Hd; rewrite -scaled (system_onto wf sat').
@@ -740,9 +750,10 @@ exists [seq (p.1, motion s p.2) | p <- l]; split=> //.
 - by rewrite size_map.
 - move=> m /List.in_map_iff[p [<- /sols[sol bt]]]; split=> //=; exact/(system_pencil wf).
 - elim: vals => [|y p ys' l' [bt reg] _ IH] /=; constructor=> //.
-  by split=> //; apply: lies_in_motion.
+  by split=> //; apply: (lies_in_motion wf).
 - elim: pairs => [|p l' different _ IH] /=; constructor=> //.
-  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t /motion_injective prop].
+  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t].
+  move/(motion_injective wf) => prop.
   by have /List.Forall_forall/(_ _ p'_in) := different; apply.
 move=> t v sat bt; have [[p p_in [-> prop]]|] := every t _ (solution_of_motion wf sat) bt.
   left; exists (p.1, motion s p.2); first by apply/List.in_map_iff; exists p.
@@ -784,4 +795,16 @@ Proof.
 case/andP=> wf /(@claim_sound R)[t [x [at_from at_to sol signs]]].
 exists t, (motion s x); split=> //; first exact/(system_pencil wf).
 exact: motion_support.
+Qed.
+
+Theorem system_enclosed (R : rcfType) s u k : check_system_enclosed s u k ->
+  exists (t : R) v,
+    [/\ between t (box_from k) (box_to k), satisfies_9 s u t v &
+        has_support s u (box_support k) [::] t v].
+Proof.
+case/andP=> wf /(@enclosed_claim_sound R)[t [x [bt sol pos zero _]]].
+exists t, (motion s x); split=> //; first exact/(system_pencil wf).
+apply: (motion_support wf) => i Hi; split=> //; first exact: pos.
+  by move/(zero _ Hi)=> [].
+by move/(zero _ Hi)=> [].
 Qed.

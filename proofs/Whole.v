@@ -1,9 +1,12 @@
 (* Definite leaves of the whole pencil, before any condensation.
 
-   For a solution x' (A + t B) x = x' y = 0, free variables included.  Let S_e, for an end
-   e = (p, q), be the matrix
+   For a solution x' D (A + t B) x = x' D y = 0 for every diagonal matrix D, free variables
+   included.  Let S_e, for an end e = (p, q), be the matrix
 
-       +- c (q (A + A') + p (B + B'))     over the free variables and those that may move.
+       +- c (q (DA + (DA)') + p (DB + (DB)'))     over the free variables and those that may move.
+
+   The rows of A and B are multiples of those given (Pencil.v), not always by one number; with the
+   right weights D the matrices are those of the certificate.
 
    Theorem [whole_sound]: if S_e is strictly covered by a factor at the lower end, and at the upper
    end (covered without "strictly" if that end is infinity), then the region has no solution.
@@ -36,21 +39,30 @@ Inductive whole_factor :=
 
 Record whole_end := WholeEnd { end_scale : Z; end_factor : whole_factor }.
 
-Record whole := WholeLeaf { whole_negative : bool; low_end : whole_end; high_end : whole_end }.
+(* D (a weight that is missing is 1), the sign, and a factor at each end. *)
+Record whole := WholeLeaf {
+  whole_weights : seq Z;
+  whole_negative : bool;
+  low_end : whole_end;
+  high_end : whole_end }.
 
 (* A variable with its rows of A and B. *)
 Definition member := (nat * (sparse_row * sparse_row))%type.
 
 Section Checker.
 
-Variable Q : pencil.
+Variables (Q : pencil) (weight : seq Z).
 Local Open Scope Z_scope.
+
+Definition weighted (i : nat) (row : sparse_row) : sparse_row :=
+  [seq (e.1, nth 1 weight i * e.2) | e <- row].
 
 Definition may_move (r : region) : seq nat :=
   free Q ++ [seq nth 0%N (slip Q) j | j <- iota 0 (size (slip Q)) &
              ~~ is_resting (state_of r j)].
 
-Definition members r : seq member := [seq (i, (row_a Q i, row_b Q i)) | i <- may_move r].
+Definition members r : seq member :=
+  [seq (i, (weighted i (row_a Q i), weighted i (row_b Q i))) | i <- may_move r].
 
 Definition member_entry (e : point) (i j : member) :=
   e.2 * lookup i.2.1 j.1 + e.1 * lookup i.2.2 j.1.
@@ -72,11 +84,18 @@ Definition check_end (strict negative : bool) e r (w : whole_end) :=
             (zip (members r) rows)]
   end.
 
-Definition check_whole (r : region) (w : whole) :=
-  check_end true (whole_negative w) (lower r) r (low_end w) &&
-  check_end (0 <? (upper r).2) (whole_negative w) (upper r) r (high_end w).
-
 End Checker.
+
+Definition check_whole Q (r : region) (w : whole) :=
+  check_end Q (whole_weights w) true (whole_negative w) (lower r) r (low_end w) &&
+  check_end Q (whole_weights w) (0 <? (upper r).2)%Z (whole_negative w) (upper r) r (high_end w).
+
+Lemma lookup_weighted weight i row j :
+  lookup (weighted weight i row) j = (nth 1 weight i * lookup row j)%Z.
+Proof.
+elim: row => [|e row IH] /=; first by rewrite Z.mul_0_r.
+by case: eqP => _; rewrite IH // Z.mul_add_distr_l.
+Qed.
 
 Lemma member_form_sym negative c e i j :
   member_form negative c e i j = member_form negative c e j i.
@@ -87,14 +106,17 @@ Qed.
 
 Section Sound.
 
-Variables (R : rcfType) (Q : pencil).
+Variables (R : rcfType) (Q : pencil) (weight : seq Z).
 Hypothesis wf : wellformed Q.
 Notation indices := (iota 0 (order Q)).
 
 Variables (r : region) (x : nat -> R).
 Hypothesis ag : agrees (size (slip Q)) r (slip_of Q x).
 
-Definition end_entry (e : point) i j : R := toR e.2 * a_entry R Q i j + toR e.1 * b_entry R Q i j.
+Definition weight_of i : R := toR (nth 1%Z weight i).
+
+Definition end_entry (e : point) i j : R :=
+  weight_of i * (toR e.2 * a_entry R Q i j + toR e.1 * b_entry R Q i j).
 
 Definition whole_quadratic e :=
   \sum_(i <- indices) \sum_(j <- indices) x i * end_entry e i j * x j.
@@ -140,23 +162,27 @@ Qed.
 Notation nobody := ((0%N, ([::], [::])) : member).
 
 Lemma member_entryE e i j :
-  toR (member_entry e (i, (row_a Q i, row_b Q i)) (j, (row_a Q j, row_b Q j))) =
-  end_entry e i j.
-Proof. by rewrite /member_entry toRD !toRM. Qed.
+  toR (member_entry e (i, (weighted weight i (row_a Q i), weighted weight i (row_b Q i)))
+         (j, (weighted weight j (row_a Q j), weighted weight j (row_b Q j)))) = end_entry e i j.
+Proof.
+rewrite /member_entry !lookup_weighted toRD !toRM /end_entry /weight_of /a_entry /b_entry.
+by move: (toR (nth _ _ _)) (toR (lookup _ _)) (toR (lookup _ _)) => *; ring.
+Qed.
 
 (* The integer form is 2 c times the form of the pencil, up to the sign. *)
 Lemma member_form_quadratic U (d : U) negative c e (rows : seq U) :
-  size rows == size (members Q r) ->
-  form (nobody, d) (member_form negative c e) (zip (members Q r) rows)
+  size rows == size (members Q weight r) ->
+  form (nobody, d) (member_form negative c e) (zip (members Q weight r) rows)
        (fun k => x (nth 0%N (may_move Q r) k)) =
   2%:R * (toR c * (sign R negative * whole_quadratic e)).
 Proof.
 move=> /eqP sz; set z := fun k => _.
-have szm : size (members Q r) = size (may_move Q r) by rewrite size_map.
-have szz : size (zip (members Q r) rows) = size (may_move Q r) by rewrite size_zip sz minnn szm.
+have szm : size (members Q weight r) = size (may_move Q r) by rewrite size_map.
+have szz : size (zip (members Q weight r) rows) = size (may_move Q r).
+  by rewrite size_zip sz minnn szm.
 pose G i j := toR c * (sign R negative * (end_entry e i j + end_entry e j i)).
 
-have formE : form (nobody, d) (member_form negative c e) (zip (members Q r) rows) z =
+have formE : form (nobody, d) (member_form negative c e) (zip (members Q weight r) rows) z =
              \sum_(i <- may_move Q r) \sum_(j <- may_move Q r) x i * G i j * x j.
   rewrite /form szz [RHS]sum_positions; apply: sum_eq => i; rewrite mem_iota add0n /= => Hi.
   rewrite [RHS]sum_positions; apply: sum_eq => j; rewrite mem_iota add0n /= => Hj.
@@ -181,14 +207,14 @@ by move: (x i) (x j) (end_entry _ _ _) (end_entry _ _ _) (toR c) (sign _ _) => *
 Qed.
 
 Lemma covered_end_sound U (d : U) product strict negative c e (rows : seq U) :
-  (0 <? c)%Z -> size rows == size (members Q r) ->
-  gram R (nobody, d) product (zip (members Q r) rows) ->
-  covered (member_form negative c e) product strict (zip (members Q r) rows) ->
+  (0 <? c)%Z -> size rows == size (members Q weight r) ->
+  gram R (nobody, d) product (zip (members Q weight r) rows) ->
+  covered (member_form negative c e) product strict (zip (members Q weight r) rows) ->
   0 <= sign R negative * whole_quadratic e /\
   (strict -> (exists2 i, i \in indices & x i != 0) -> 0 < sign R negative * whole_quadratic e).
 Proof.
 move=> c0 sz gr cov; pose z k := x (nth 0%N (may_move Q r) k).
-have sym : symmetric_rows (nobody, d) (member_form negative c e) (zip (members Q r) rows).
+have sym : symmetric_rows (nobody, d) (member_form negative c e) (zip (members Q weight r) rows).
   by move=> i j _ _; apply: member_form_sym.
 have [] := covered_form z gr sym cov; rewrite member_form_quadratic //.
 have c_pos : 0 < toR c :> R by rewrite toR_gt0.
@@ -200,7 +226,7 @@ exists (index i (may_move Q r)); last by rewrite /z nth_index.
 by rewrite mem_iota add0n /= size_zip (eqP sz) minnn size_map index_mem.
 Qed.
 
-Lemma check_end_sound strict negative e w : check_end Q strict negative e r w ->
+Lemma check_end_sound strict negative e w : check_end Q weight strict negative e r w ->
   0 <= sign R negative * whole_quadratic e /\
   (strict -> (exists2 i, i \in indices & x i != 0) -> 0 < sign R negative * whole_quadratic e).
 Proof.
@@ -218,20 +244,24 @@ Theorem whole_sound (R : rcfType) Q r w (t : R) x :
 Proof.
 move=> wf O /andP[L H] bt ag [_ x_nonzero rows_f rows_s].
 have [a [b [a0 b0 [one val] [ab a_gt0]]]] := weights_of_ends O bt.
+set d := whole_weights w in L H.
 have [low0 low1] := check_end_sound wf ag L.
 have [high0 high1] := check_end_sound wf ag H.
 set s := sign R (whole_negative w) in low0 low1 high0 high1.
 
-(* x'(A + t B)x = x'y = 0 *)
-have zero : a * (s * whole_quadratic Q x (lower r)) + b * (s * whole_quadratic Q x (upper r)) = 0.
-  transitivity (s * \sum_(i <- iota 0 (order Q)) x i * reaction Q t x i); last first.
-    rewrite sum_zero ?mulr0 // => i Hi; case/orP: (free_or_slip Hi) => [/rows_f->|/rows_s[]//].
+(* x'D(A + t B)x = x'Dy = 0 *)
+have zero : a * (s * whole_quadratic Q d x (lower r)) +
+            b * (s * whole_quadratic Q d x (upper r)) = 0.
+  transitivity (s * \sum_(i <- iota 0 (order Q)) weight_of R d i * (x i * reaction Q t x i));
+      last first.
+    rewrite sum_zero ?mulr0 // => i Hi; case/orP: (free_or_slip Hi) => [/rows_f->|/rows_s[_ _ ->]].
+      by rewrite !mulr0.
     exact: mulr0.
   rewrite !(mulrCA _ s) -mulrDr; congr (_ * _).
   rewrite /whole_quadratic !mulr_sumr -big_split; apply: eq_bigr => i _.
   rewrite /reaction !mulr_sumr -big_split; apply: eq_bigr => j _ /=.
   rewrite /end_entry -[X in X + t * _]mul1r -one -[in RHS]val.
-  by move: (x i) (x j) (a_entry _ _ _ _) (b_entry _ _ _ _) => *; ring.
+  by move: (weight_of _ _ _) (x i) (x j) (a_entry _ _ _ _) (b_entry _ _ _ _) => *; ring.
 
 move: zero; apply/eqP; rewrite gt_eqF //; case: ab => [a_pos|b_pos].
   by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0 => //; apply: low1].

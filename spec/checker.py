@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A second checker of mceip-certificate/1, written from the pages of spec/ alone (no line of the Rust program was read).
+"""A second checker of mceip-certificate/1 and mceip-critical/1, written from the pages of spec/ alone (no line of the Rust program was read).
 
     python3 spec/checker.py PROBLEM CERTIFICATE
 
@@ -463,6 +463,7 @@ class Problem:
                 test.append((trial[-1], {} if vector is normal else {d: -c for d, c in friction.items()}))
         trial = [{d: Q(1)} for d in free] + trial
         test = [({d: Q(1)}, {}) for d in free] + test
+        self.changes = test, trial
         if self.unknown == "lambda2":  # E15
             rows = [{d: u.get(d, 0) + mu * w.get(d, 0) for d in {*u, *w}} for u, w in test]
             self.a, self.b = project(rows, k.rows, trial), project(rows, m.rows, trial)
@@ -839,13 +840,17 @@ def spend_matrix(ns, coefficients, entry_words, center_bits, lo, hi):
     demand(Budget.matrices >= 0, "matrices of regions: more work than the file's budget")
 
 
+def row_bits(rows, part):
+    """The bits of the longest entry of A (1) or of B (2) in each integral row, at least 1."""
+    return [max(1, *(abs(v).bit_length() for v in row[part].values()), 1) for row in rows]
+
+
 class PlainPencil:
     """No free variables: T(lo) and T(hi) themselves, rows scaled (C, Matrices of a region)."""
 
-    def __init__(self, p, rows):
+    def __init__(self, p, rows, bits=None):
         self.parts = []
-        for _, ra, rb in rows:
-            bits = max(1, *(abs(v).bit_length() for v in ra.values()), 1)
+        for bits, (_, ra, rb) in zip(bits or row_bits(rows, 1), rows):
             # Rounded down to units of 2^-128 where 2^b exceeds 2^128; the radius is one unit each then.
             a, b = ([(row.get(j, 0) << BITS) >> bits for j in range(p.n)] for row in (ra, rb))
             self.parts.append((a, b, int(bits > BITS)))
@@ -930,7 +935,7 @@ FINE = 256  # at least; a center of b bits before the point is raised to powers,
 class CondensedPencil:
     """Free variables: the Schur complement, enclosed from an anchor (C, Condensation)."""
 
-    def __init__(self, p, rows, obj):
+    def __init__(self, p, rows, obj, bits=None):
         sigma, self.stiffness, mass_sigma, anchors, mass, self.tail = fields(obj, "sigma stiffness_factor mass_sigma anchors", "mass_factor tail")
         self.p, self.sigma, self.tau = p, number(sigma), number(mass_sigma)
         self.bound_bits = rational_bits(self.sigma) + rational_bits(self.tau)
@@ -959,7 +964,7 @@ class CondensedPencil:
             covered(symmetric[0], p.n, factor, True, "condensation 2: stiffness")
             covered(symmetric[1], p.n, mass_factor, False, "condensation 2: mass")
         self.aff_norm = max((sum(abs(v) for v in r.values()) for r in aff), default=Q(0))
-        self.bits = [[max(1, *(abs(v).bit_length() for v in rows[i][k].values()), 1) for i in p.s] for k in (1, 2)]
+        self.bits = [[of[i] for i in p.s] for of in bits or [row_bits(rows, k) for k in (1, 2)]]
         self.scales = [[Q(rows[i][0], 2**b) for i, b in zip(p.s, of)] for of in self.bits]
         self.common = lcm(1, *(rows[i][0] for i in p.free))
         self.longest = max((abs(v).bit_length() for _, ra, rb in rows for r in (ra, rb) for v in r.values()), default=0)
@@ -1130,7 +1135,7 @@ def ceil(q):
 REST, OPEN, MOVING = "rest", "open", "moving"
 
 
-def farkas(ends, state, weights):
+def farkas(list_of_ends, state, weights):
     n = len(state)
     demand(len(sequence(weights)) == n, "farkas: length")
     w = [counter(x, -(2**63), 2**63 - 1) for x in weights]
@@ -1138,16 +1143,19 @@ def farkas(ends, state, weights):
     may = [j for j in range(n) if state[j] != REST]
     strict = set()
     for j in may:
-        c = [sum(x * m[i][j] + abs(x) * r[i][j] for i, x in enumerate(w) if x) for m, r in ends.both]
-        demand(max(c) <= 0, f"farkas: column {j}")
-        if c[0] < 0 and (c[1] < 0 or ends.unbounded):
+        is_strict = True
+        for ends in list_of_ends:
+            c = [sum(x * m[i][j] + abs(x) * r[i][j] for i, x in enumerate(w) if x) for m, r in ends.both]
+            demand(max(c) <= 0, f"farkas: column {j}")
+            is_strict = is_strict and c[0] < 0 and (c[1] < 0 or ends.unbounded)
+        if is_strict:
             strict.add(j)
     demand(strict >= set(may) or any(state[j] == MOVING for j in strict), "farkas: not strict")
 
 
-def definite(ends, state, sign):
+def definite(list_of_ends, state, sign):
     may = [j for j in range(len(state)) if state[j] != REST]
-    for e, (m, r) in enumerate(ends.both):
+    for ends, e, (m, r) in [(ends, e, of) for ends in list_of_ends for e, of in enumerate(ends.both)]:
         s = [[sign * (m[i][j] + m[j][i]) for j in may] for i in may]
         radius = [sum(r[i][j] + r[j][i] for j in may) for i in may]
         if e == 1 and ends.unbounded and not any(map(any, s)) and not any(radius):
@@ -1659,11 +1667,11 @@ def complete_set(p, rows, window, claims, obj):
                 i = p.s.index(i)
                 regions += [(lo, hi, state[:i] + (st,) + state[i + 1:]) for st in (MOVING, REST)]
             elif kind == "farkas" and value is not None:
-                farkas(pencil.ends(lo, hi, anchor), state, value)
+                farkas([pencil.ends(lo, hi, anchor)], state, value)
             elif kind in ("positive_definite", "negative_definite") and value is None:
                 definite_left -= sum(st != REST for st in state) ** 3
                 demand(definite_left >= 0, "definite: more work than the file's budget")
-                definite(pencil.ends(lo, hi, anchor), state, 1 if kind[0] == "p" else -1)
+                definite([pencil.ends(lo, hi, anchor)], state, 1 if kind[0] == "p" else -1)
             elif kind == "ldl" and value is not None:
                 ldl(p, lo, hi, state, value)
             elif kind == "root" and value is not None:
@@ -1717,6 +1725,156 @@ def count(found):
             distinct, group = distinct + 1, []
         group.append(leaf)
     return distinct
+
+
+# ---------------------------------------------------------------- absence below a friction
+
+CRITICAL_ANCHOR = record(
+    center=number, reversed=Maybe(flag, null=False), right=list_of(MATRIX), left=list_of(MATRIX), left_friction=list_of(MATRIX))
+CRITICAL_TAIL = record(**{
+    "from": number, "factor": FACTOR, "factor_below": FACTOR, "mass_factor": Maybe(FACTOR), "mass_factor_below": Maybe(FACTOR)})
+CRITICAL_CONDENSATION = record(
+    sigma=number, stiffness_factor=FACTOR, mass_sigma=number, mass_factor=Maybe(FACTOR), anchors=list_of(CRITICAL_ANCHOR),
+    tail=Maybe(CRITICAL_TAIL))
+CRITICAL_NODE = one_of(
+    "positive_definite", "negative_definite", "tail", split=number, friction=number, branch=place, farkas=list_of(weight))
+CRITICAL = record(
+    format=text_of, problem_sha256=text_of, below=number, condensation=Maybe(CRITICAL_CONDENSATION),
+    pieces=list_of(record(max=end, anchor=Maybe(place), tree=list_of(CRITICAL_NODE))))
+
+
+class Part:
+    """One of the pencils T0 and T1 of T0 + mu T1 (C, mceip-critical/1): the free rows stand in both."""
+
+    def __init__(self, p, a, b):
+        self.n, self.free, self.s, self.a, self.b = p.n, p.free, p.s, a, b
+
+
+def friction_parts(p):
+    """T0 and T1, and their integral rows with one factor for row i of all four matrices."""
+    stiffness, mass = p.system[:2]
+    test, trial = p.changes
+    parts = []
+    for rows in ([u for u, _ in test], [w if i in p.s else u for i, (u, w) in enumerate(test)]):
+        parts.append(Part(p, project(rows, stiffness, trial), project(rows, mass, trial)))
+    common = [lcm(1, *(v.denominator for x in parts for r in (x.a[i], x.b[i]) for v in r.values())) for i in range(p.n)]
+    integral = [[(f, {j: int(v * f) for j, v in a.items()}, {j: int(v * f) for j, v in b.items()})
+                 for f, a, b in zip(common, x.a, x.b)] for x in parts]
+    return parts, integral
+
+
+def at_friction(ends, mu):
+    """The ends of T0 + mu T1 from those of both."""
+    p, q = mu.numerator, mu.denominator
+    unit = lcm(*(e.unit for e in ends))
+    f0, f1 = q * (unit // ends[0].unit), p * (unit // ends[1].unit)
+
+    def both(x, y):
+        return [[f0 * v + f1 * w for v, w in zip(rx, ry)] for rx, ry in zip(x, y)]
+    (m0, r0), (m1, r1) = [tuple(both(x, y) for x, y in zip(e0, e1)) for e0, e1 in zip(ends[0].both, ends[1].both)]
+    return Ends(m0, m1, r0, r1, None, unit * q, ends[0].unbounded)
+
+
+def critical_pencils(p, parts, integral, obj, below):
+    """The enclosures of T0 and T1, rows scaled alike, and where the tail begins."""
+    bits = [[max(x) for x in zip(*(row_bits(rows, k) for rows in integral))] for k in (1, 2)]
+    if obj is None:
+        return [PlainPencil(x, rows, bits[0]) for x, rows in zip(parts, integral)], None
+    pencils = []
+    for x, rows, left in zip(parts, integral, ("left", "left_friction")):
+        own = {key: v for key, v in obj.items() if key != "tail"}
+        own["anchors"] = [{**{key: v for key, v in a.items() if key != "left_friction"}, "left": a[left]} for a in obj["anchors"]]
+        pencils.append(CondensedPencil(x, rows, own, bits))
+    tail = obj.get("tail")
+    if tail is None:
+        return pencils, None
+    start = number(tail["from"])
+    for mu, which in ((Q(0), ""), (below, "_below")):
+        a, b = ([plus(r0, r1, mu if i in p.s else 0) for i, (r0, r1) in enumerate(zip(*m))]
+                for m in ([x.a for x in parts], [x.b for x in parts]))
+        for m, factor, strict in (
+                ([plus(x, y, start) for x, y in zip(a, b)], tail["factor" + which], True), (b, tail.get("mass_factor" + which), False)):
+            s = [{} for _ in range(p.n)]
+            for i, r in enumerate(m):
+                for j, v in r.items():
+                    s[i][j] = s[i].get(j, 0) + v / 2
+                    s[j][i] = s[j].get(i, 0) + v / 2
+            covered(s, p.n, factor, strict, f"tail{which}")
+    return pencils, start
+
+
+def check_critical(p, doc):
+    """No solution for mu in [0, below] and lambda^2 >= 0."""
+    CRITICAL(doc)
+    _, digest, below, pieces, obj = fields(doc, "format problem_sha256 below pieces", "condensation")
+    below = number(below)
+    demand(digest == p.digest, f"the problem's digest is {p.digest}")
+    demand(p.system is not None and p.unknown == "lambda2", "a mechanical system with the unknown lambda2 was expected")
+    demand(not p.halves, "absence below a friction is not defined for zero reaction")
+    demand(below > 0, "below is not positive")
+    ns = len(p.s)
+    demand(ns <= 512, "more than 512 slip variables")
+    demand(obj is None or 2 * len(obj["anchors"]) * ns**2 <= 3 << 20, "too many anchors for matrices of this order")
+    demand((obj is not None) == bool(p.free), "condensation is present exactly if there are free variables")
+    parts, integral = friction_parts(p)
+    pencils, tail = critical_pencils(p, parts, integral, obj, below)
+    nodes = sum(len(piece["tree"]) for piece in pieces)
+    Budget.matrices = (1 << 30) + (nodes << 24)
+    entries = sum(len({*ra, *rb}) for rows in integral for _, ra, rb in rows)
+    definite_left = (1 << 26) + (nodes << 20) + (entries << 16)
+    demand(pieces, "no piece")
+    start, leaves = Q(0), 0
+    for k, piece in enumerate(pieces):
+        end, tree, anchor = fields(piece, "max tree", "anchor")
+        end = None if end is None else number(end)
+        if anchor is not None:
+            anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
+        demand((end is None) == (k == len(pieces) - 1) and (end is None or end > start), "a piece's max")
+        boxes, known = [(start, end, Q(0), below, (OPEN,) * ns)], {}
+        for node in tree:
+            demand(boxes, "nodes after the end of a tree")
+            lo, hi, low, high, state = boxes.pop()
+            (kind, value), = node.items() if isinstance(node, dict) else [(node, None)]
+
+            def corners():
+                if (lo, hi, low, high) not in known:
+                    known.clear()
+                    ends = [pencil.ends(lo, hi, anchor) for pencil in pencils]
+                    t_bits = BITS + rational_bits(lo) + (0 if hi is None else rational_bits(hi))
+                    mu_bits = rational_bits(low) + rational_bits(high)
+                    demand(ns * ns * (t_bits + mu_bits) <= 2**29, "a box's matrices are too large")
+                    Budget.matrices -= ns * ns * words(t_bits) * words(mu_bits)
+                    demand(Budget.matrices >= 0, "matrices of boxes: more work than the file's budget")
+                    known[lo, hi, low, high] = [at_friction(ends, mu) for mu in (low, high)]
+                return known[lo, hi, low, high]
+            if kind == "split":
+                t = number(value)
+                demand(lo < t and (hi is None or t < hi), "split")
+                boxes += [(t, hi, low, high, state), (lo, t, low, high, state)]
+                continue
+            if kind == "friction":
+                mu = number(value)
+                demand(low < mu < high, "friction")
+                boxes += [(lo, hi, mu, high, state), (lo, hi, low, mu, state)]
+                continue
+            if kind == "branch":
+                i = place_in(value, p.n)
+                demand(i in p.s and state[p.s.index(i)] == OPEN, "branch")
+                i = p.s.index(i)
+                boxes += [(lo, hi, low, high, state[:i] + (st,) + state[i + 1:]) for st in (MOVING, REST)]
+                continue
+            leaves += 1
+            if kind == "farkas":
+                farkas(corners(), state, value)
+            elif kind == "tail":
+                demand(tail is not None and tail <= lo, "tail: not covered")
+            else:
+                definite_left -= 2 * sum(st != REST for st in state) ** 3
+                demand(definite_left >= 0, "definite: more work than the file's budget")
+                definite(corners(), state, 1 if kind[0] == "p" else -1)
+        demand(not boxes, "a tree that ends early")
+        start = end
+    return 0, f"ACCEPTED: no solution for friction in [0, {below}] and lambda2 in [0, infinity), {leaves} leaves"
 
 
 # ---------------------------------------------------------------- plain LCPs and MCPs
@@ -1775,6 +1933,8 @@ def check(problem_path, certificate_path):
         return check_mcp(plain, certificate_path)
     p = Problem(problem_path)
     doc = read_json(certificate_path)
+    if isinstance(doc, dict) and doc.get("format") == "mceip-critical/1":
+        return check_critical(p, doc)
     if not isinstance(doc, dict) or doc.get("format") != "mceip-certificate/1":
         raise Unreadable("format: mceip-certificate/1 was expected")
     CERTIFICATE(doc)

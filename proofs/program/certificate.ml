@@ -48,9 +48,19 @@ type node =
   | Root of root
   | Support of support_leaf
 
-type anchor = { right : (int * Z.t list list) list; left : (int * Z.t list list) list }
+type anchor = {
+  center : Q.t;
+  reversed : bool;
+  right : (int * Z.t list list) list;
+  left : (int * Z.t list list) list }
 
-type condensation = { sigma : Q.t; factor : factor_rows; anchors : anchor option list }
+type condensation = {
+  sigma : Q.t;
+  factor : factor_rows;
+  mass_sigma : Q.t;
+  mass_factor : factor_rows option;
+  tail : (Q.t * factor_rows) option;
+  anchors : anchor list }
 
 type piece = { max : Q.t option; anchor : int; tree : node list }
 
@@ -158,22 +168,33 @@ let read_factor item =
   { first = List.map counter (list (field "first"));
     rows = List.map integers (list (field "rows")); exponent = exponent_of (field "exponent") }
 
-(* An anchor of the linear family at center 0; None for others. *)
 let read_anchor item =
   let field = fields ["center"; "right"; "left"] ["reversed"] item in
   let coefficient m =
     let field = fields ["exponent"; "rows"] [] m in
     exponent_of (field "exponent"), List.map integers (list (field "rows")) in
-  let right = List.map coefficient (list (field "right")) in
-  let left = List.map coefficient (list (field "left")) in
-  let plain = Q.sign (rational (field "center")) = 0 && field "reversed" <> Bool true
-              && List.length right <= 1 && List.length left <= 2 in
-  if plain then Some { right; left } else None
+  let coefficients name =
+    let l = list (field name) in
+    if List.length l > 8 then Problem.not_verified "more than 8 coefficients of an anchor";
+    List.map coefficient l in
+  let reversed = match field "reversed" with
+    | Null | Bool false -> false
+    | Bool true -> true
+    | _ -> malformed "reversed" in
+  { center = rational (field "center"); reversed; right = coefficients "right";
+    left = coefficients "left" }
+
+let read_tail item =
+  let field = fields ["from"; "factor"] ["mass_factor"] item in
+  rational (field "from"), read_factor (field "factor")
 
 let read_condensation item =
   let field = fields ["sigma"; "stiffness_factor"; "mass_sigma"; "anchors"]
       ["mass_factor"; "tail"] item in
   { sigma = rational (field "sigma"); factor = read_factor (field "stiffness_factor");
+    mass_sigma = rational (field "mass_sigma");
+    mass_factor = (match field "mass_factor" with Null -> None | f -> Some (read_factor f));
+    tail = (match field "tail" with Null -> None | t -> Some (read_tail t));
     anchors = List.map read_anchor (list (field "anchors")) }
 
 let read_piece item =
@@ -188,7 +209,15 @@ let place item =
   if i < 0 then malformed "a negative index";
   i
 
-let polynomials item = List.map (fun p -> List.map rational (list p)) (list item)
+(* A polynomial, constant term first, without zeros at its end. *)
+let strip is_zero p =
+  let rec drop = function c :: rest when is_zero c -> drop rest | p -> p in
+  List.rev (drop (List.rev p))
+
+let strip_integers = strip (fun c -> Z.sign c = 0)
+
+let polynomials item =
+  List.map (fun p -> strip (fun c -> Q.sign c = 0) (List.map rational (list p))) (list item)
 
 (* The fields that an exact and a lifted solution have in common. *)
 let read_exact field x =
@@ -197,7 +226,8 @@ let read_exact field x =
     | _ -> malformed "an interval has two ends" in
   { support = List.map place (list (field "support"));
     biactive = List.map place (list (field "biactive"));
-    polynomial = integers (field "polynomial"); value; x = polynomials (field x) }
+    polynomial = strip_integers (integers (field "polynomial")); value;
+    x = polynomials (field x) }
 
 let read_claim = function
   | Object ["exact_solution", body] ->
@@ -222,8 +252,12 @@ let read_window = function
 
 let read path =
   let document = Json.read path in
-  (match document with
-   | Object members when List.assoc_opt "format" members = Some (String "mceip-certificate/1") -> ()
+  let format = match document with
+    | Object members -> List.assoc_opt "format" members
+    | _ -> None in
+  (match format with
+   | Some (String "mceip-certificate/1") -> ()
+   | Some (String "mceip-critical/1") -> Problem.not_verified "certificates of mceip-critical/1"
    | _ -> malformed "format: mceip-certificate/1 was expected");
   let field = fields ["format"; "problem_sha256"; "unknown"; "window"; "claims"]
       ["complete_set"] document in

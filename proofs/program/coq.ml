@@ -48,7 +48,8 @@ let whole_factor = function
 let whole_end e = term ["WholeEnd"; integer e.end_scale; whole_factor e.end_factor]
 
 let whole w =
-  term ["WholeLeaf"; string_of_bool w.whole_negative; whole_end w.low_end; whole_end w.high_end]
+  term ["WholeLeaf"; integers w.whole_weights; string_of_bool w.whole_negative;
+        whole_end w.low_end; whole_end w.high_end]
 
 (* The first argument of a leaf is the type of the evidence about the whole pencil. *)
 let leaf = function
@@ -94,5 +95,6 @@ let print s u w tr lo hi count =
   define "hi" "point" (point hi);
   define "eliminated" "elimination" (elimination w);
   define "cover" "tree (leaf whole)" (tree tr);
-  Printf.printf "Theorem exactly_%d (R : rcfType) : has_exactly R body asked lo hi %d.\n" count count;
+  Printf.printf "Theorem exactly_%d (R : rcfType) : has_exactly R body asked lo hi %d.\n" count
+    count;
   print_string "Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.\n"

@@ -126,12 +126,12 @@ let exact_ldl s =
   done;
   if !ok then Some (l, d) else None
 
-let whole_end pencil negative strict e region =
-  let members = Array.of_list (Kernel.members pencil region) in
+let whole_end pencil weights negative strict e region =
+  let members = Array.of_list (Kernel.members pencil weights region) in
   let n = Array.length members in
   let form c = Array.init n (fun i -> Array.init n (fun j ->
       Kernel.member_form negative c e members.(i) members.(j))) in
-  let accepted w = Kernel.check_end pencil strict negative e region w in
+  let accepted w = Kernel.check_end pencil weights strict negative e region w in
   let rounded () =
     let c = two_to 112 in
     match factor_rows strict (form c) with
@@ -165,16 +165,24 @@ let whole_end pencil negative strict e region =
       List.map (fun k () -> exact k) (if strict then [0; 8; 24; 60; 120; 300; 1000] else [0]) in
   first (rounded :: exact_ways)
 
+(* Weights that undo the factors by which the rows were made integers. *)
+let row_weights (pencil : Kernel.pencil) common slip_common =
+  if Z.equal common slip_common then []
+  else
+    List.init pencil.order (fun i ->
+        if List.mem i pencil.free then Z.divexact slip_common common else Z.one)
+
 (* A definite leaf of the whole pencil, of either sign. *)
-let whole_leaf pencil (region : Kernel.region) =
+let whole_leaf pencil weights (region : Kernel.region) =
   let finite = Z.sign (snd region.upper) > 0 in
   let attempt negative =
-    match whole_end pencil negative true region.lower region with
+    match whole_end pencil weights negative true region.lower region with
     | None -> None
     | Some low_end ->
-      match whole_end pencil negative finite region.upper region with
+      match whole_end pencil weights negative finite region.upper region with
       | None -> None
-      | Some high_end -> Some { Kernel.whole_negative = negative; low_end; high_end } in
+      | Some high_end -> 
+        Some { Kernel.whole_weights = weights; whole_negative = negative; low_end; high_end } in
   match attempt false with
   | Some w -> Some w
   | None -> attempt true
@@ -324,15 +332,17 @@ let spread n j_list k exponent l =
     Some (Array.to_list v)
   end
 
-let isolated_leaf p f (region : Kernel.region) (r : root) outcome =
+let isolated_leaf ?ends p f (region : Kernel.region) (r : root) outcome =
   let j_list = Kernel.moving p region in
   if not (finite region.upper) then None
   else begin
     let a, b = r.interval in
-    let wide = hull region r.interval and narrow = (point_of a, point_of b) in
+    let wide = hull region r.interval in
+    let narrow = Option.value ends ~default:(point_of a, point_of b) in
     let extended = Kernel.extended region wide in
     let center = middle (value_of (fst wide)) (value_of (snd wide)) in
     let pivots = r.pivot :: List.filter (fun j -> j <> r.pivot) j_list in
+    let pivots = if ends = None then pivots else List.filteri (fun i _ -> i < 3) pivots in
     let attempt k =
       let k_list = List.filter (fun j -> j <> k) j_list in
       let n = p.Kernel.size_of in
@@ -349,8 +359,8 @@ let isolated_leaf p f (region : Kernel.region) (r : root) outcome =
             (match unique_of p f j_list k v wide_box.width wide center with
              | None -> None
              | Some unique ->
-               let c = { Kernel.pivot = k; vector = v; from_point = point_of a;
-                         to_point = point_of b; wide_box; narrow_box; unique;
+               let c = { Kernel.pivot = k; vector = v; from_point = fst narrow;
+                         to_point = snd narrow; wide_box; narrow_box; unique;
                          left_vector = left } in
                if Kernel.check_root p extended c outcome then Some (Kernel.Root (wide, c, outcome))
                else None)
@@ -407,9 +417,8 @@ let claimed_leaf p f (region : Kernel.region) (r : root) number (q : Kernel.know
 
 (* The region of a limit: at most one null vector, that at infinity. [x] is over the pencil, [at]
    are its components at the complementarity variables. *)
-let infinite_leaf p f (region : Kernel.region) x at =
+let limit_pinning p (region : Kernel.region) at pin accepted =
   let j_list = Kernel.moving p region in
-  let wide = (region.lower, region.upper) in
   let size k = Z.abs at.(k) in
   let pivots = List.sort (fun k l -> Z.compare (size l) (size k))
       (List.filter (fun k -> Z.sign at.(k) <> 0) j_list) in
@@ -417,10 +426,16 @@ let infinite_leaf p f (region : Kernel.region) x at =
     let sign = Z.of_int (Z.sign at.(k)) in
     let shift = max 0 (52 - bits at.(k)) in
     let v = Array.to_list (Array.map (fun z -> Z.shift_left (Z.mul sign z) shift) at) in
-    match reversed_pinning_of p f j_list k v wide with
-    | Some c when Kernel.check_infinite p region c -> Some (Kernel.Infinite (wide, c, x))
+    match pin j_list k v with
+    | Some c when accepted c -> Some c
     | _ -> None in
   List.find_map attempt pivots
+
+let infinite_leaf p f (region : Kernel.region) x at =
+  let wide = (region.lower, region.upper) in
+  Option.map (fun c -> Kernel.Infinite (wide, c, x))
+    (limit_pinning p region at (fun j_list k v -> reversed_pinning_of p f j_list k v wide)
+       (Kernel.check_infinite p region))
 
 let absent_leaf p f (region : Kernel.region) =
   let j_list = Kernel.moving p region in
@@ -457,58 +472,66 @@ let rec absent_tree p f depth (region : Kernel.region) =
 
 let half x y = Q.div (Q.add x y) (Q.of_int 2)
 
-(* A null vector in [a, b]: in one leaf, or between two absent intervals.  [a, b] may reach beyond
-   the region, or lie beside it. *)
-let rec narrow_tree p f what depth attempt (a, b) (region : Kernel.region) =
+(* Between x and y, k times as near to y. *)
+let weighted k x y = Q.div (Q.add x (Q.mul (Q.of_int k) y)) (Q.of_int (k + 1))
+
+(* A null vector in [a, b]: in one leaf, or between two intervals that [absent] closes.  [a, b] may
+   reach beyond the region, or lie beside it.  Cuts are
+   [weight] times as near to [a, b] as to the region's end. *)
+let rec narrow_tree ~absent ~weight what depth attempt (a, b) (region : Kernel.region) =
   match attempt region with
   | Some leaf -> Kernel.Leaf leaf
   | None ->
     if depth = 0 then no_witness "%s" what;
     let lo = value_of region.lower in
     let beside = Q.lt b lo || finite region.upper && Q.gt a (value_of region.upper) in
-    if beside then absent_tree p f 12 region
+    if beside then absent region
     else begin
-      let low = if Q.gt a lo then Some (point_of (half lo a)) else None in
+      let low = if Q.gt a lo then Some (point_of (weighted weight lo a)) else None in
       let high =
         if not (finite region.upper) then Some (point_of (Q.add (Q.mul b (Q.of_int 2)) Q.one))
         else
           let hi = value_of region.upper in
-          if Q.lt b hi then Some (point_of (half b hi)) else None in
+          if Q.lt b hi then Some (point_of (weighted weight hi b)) else None in
       if low = None && high = None then no_witness "%s" what;
       let lower = Option.value low ~default:region.lower in
       let upper = Option.value high ~default:region.upper in
       let inner =
-        narrow_tree p f what (depth - 1) attempt (a, b) { region with lower; upper } in
+        narrow_tree ~absent ~weight what (depth - 1) attempt (a, b) { region with lower; upper } in
       let inner = match high with
         | None -> inner
-        | Some cut -> Kernel.Split (cut, inner, absent_tree p f 12 { region with lower = cut }) in
+        | Some cut -> Kernel.Split (cut, inner, absent { region with lower = cut }) in
       match low with
       | None -> inner
-      | Some cut -> Kernel.Split (cut, absent_tree p f 12 { region with upper = cut }, inner)
+      | Some cut -> Kernel.Split (cut, absent { region with upper = cut }, inner)
     end
 
 let root_tree p f region r outcome =
   let attempt region = isolated_leaf p f region r outcome in
-  narrow_tree p f "root" 8 attempt r.interval region
+  narrow_tree ~absent:(absent_tree p f 12) ~weight:1 "root" 8 attempt r.interval region
+
+let value_of_known (q : Kernel.known) = (value_of q.known_from, value_of q.known_to)
 
 let claim_tree p f region r number (q : Kernel.known) =
   let attempt region = claimed_leaf p f region r number q in
-  narrow_tree p f "a claimed root" 12 attempt (value_of q.known_from, value_of q.known_to) region
+  narrow_tree ~absent:(absent_tree p f 12) ~weight:1 "a claimed root" 12 attempt
+    (value_of_known q) region
 
-(* A null vector at infinity: in one leaf, or behind an absent interval. *)
-let rec infinite_tree p f depth (region : Kernel.region) x at =
-  match infinite_leaf p f region x at with
+(* A null vector at infinity: in one leaf, or behind an interval that [absent] closes. *)
+let rec infinite_tree ~absent depth attempt (region : Kernel.region) =
+  match attempt region with
   | Some leaf -> Kernel.Leaf leaf
   | None ->
     if depth = 0 then no_witness "a root at infinity";
     let cut = point_of (Q.add (Q.mul (value_of region.lower) (Q.of_int 4)) Q.one) in
-    let beyond = infinite_tree p f (depth - 1) { region with lower = cut } x at in
-    Kernel.Split (cut, absent_tree p f 12 { region with upper = cut }, beyond)
+    let beyond = infinite_tree ~absent (depth - 1) attempt { region with lower = cut } in
+    Kernel.Split (cut, absent { region with upper = cut }, beyond)
 
 (* ---------- trees *)
 
 type context = {
   pencil : Kernel.pencil;
+  weights : Z.t list;  (* of the rows, for whole leaves *)
   slip : int array;
   enclosed : Kernel.enclosed;
   doubles : doubles;
@@ -520,17 +543,24 @@ let position slip i =
     else if slip.(k) = i then k else search (k + 1) in
   search 0
 
+(* The components of x at the complementarity variables. *)
+let at_slip slip x =
+  let components = Array.of_list x in
+  Array.map (fun i -> components.(i)) slip
+
 let build_leaf c (region : Kernel.region) node =
   let p = c.enclosed and f = c.doubles in
   let leaf what = function Some l -> Kernel.Leaf l | None -> no_witness "%s" what in
+  let whole () =
+    Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil c.weights region) in
   match node with
   | Farkas w -> Kernel.Leaf (Kernel.Farkas w)
   | Definite negative ->
     (match definite_leaf p negative region with
      | Some l -> Kernel.Leaf l
-     | None -> leaf "definite" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region)))
-  | Ldl -> leaf "ldl" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region))
-  | Tail -> leaf "tail" (Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil region))
+     | None -> leaf "definite" (whole ()))
+  | Ldl -> leaf "ldl" (whole ())
+  | Tail -> leaf "tail" (whole ())
   | Root r ->
     let r = { r with pivot = position c.slip r.pivot } in
     (match r.outcome with
@@ -544,8 +574,9 @@ let build_leaf c (region : Kernel.region) node =
      | Infinity x ->
        if List.length x <> c.pencil.Kernel.order || finite region.upper then
          no_witness "a root at infinity";
-       let components = Array.of_list x in
-       infinite_tree p f 12 region x (Array.map (fun i -> components.(i)) c.slip))
+       let at = at_slip c.slip x in
+       infinite_tree ~absent:(absent_tree p f 12) 12
+         (fun region -> infinite_leaf p f region x at) region)
   | Open -> Kernel.Leaf Kernel.Undecided
   | Split _ | Branch _ | Support _ -> assert false
 
@@ -586,8 +617,16 @@ let build_pieces slip leaf (lo, _) pieces =
 (* ---------- condensation *)
 
 let transpose columns rows =
+  if List.exists (fun row -> List.length row <> columns) rows then
+    no_witness "a matrix with rows of another length";
   let rows = Array.of_list (List.map Array.of_list rows) in
   List.init columns (fun j -> Array.to_list (Array.map (fun row -> row.(j)) rows))
+
+(* The rows of a factor, each with the column where it begins. *)
+let rows_from (factor : factor_rows) =
+  if List.length factor.first <> List.length factor.rows then
+    no_witness "a factor with rows missing";
+  List.combine factor.first factor.rows
 
 (* f_i / 2^b_i for each slip row, as positive integers in a common unit. *)
 let row_scales (pencil : Kernel.pencil) slip common =
@@ -628,34 +667,345 @@ let elimination (pencil : Kernel.pencil) slip common slip_common
     | None -> no_witness "a condensation is missing"
     | Some c ->
       let a = match List.nth_opt c.anchors anchor with
-        | Some (Some a) -> a
-        | _ -> Problem.not_verified "condensation with powers of t" in
+        | Some a when bits (Q.num a.center) + bits (Q.den a.center) > 2_048 ->
+          Problem.not_verified "a center of more than 2,048 bits"
+        | Some a when not a.reversed && a.right <> [] -> a
+        | _ -> no_witness "an anchor of a linear family" in
       let right = List.map shortened a.right and left = List.map shortened a.left in
       let e = List.fold_left (fun m (k, _) -> max m k) 56 (right @ left) in
       let columns (k, rows) =
         transpose ns (List.map (List.map (fun z -> Z.shift_left z (e - k))) rows) in
       let zero = List.init ns (fun _ -> List.init nf (fun _ -> Z.zero)) in
       let nth l k = match List.nth_opt l k with Some m -> columns m | None -> zero in
+      (* V(t) = left_0 + (t - center) left_1 as V_a + t V_b; V need not be exact. *)
       let ratio = Z.divexact slip_common common in
-      let scaled_left k = List.map (List.map (Z.mul ratio)) (nth left k) in
+      let left_vb = List.map (List.map (Z.mul ratio)) (nth left 1) in
+      let shifted v0 v1 =
+        Z.sub (Z.mul ratio v0) (Z.fdiv (Z.mul (Q.num a.center) v1) (Q.den a.center)) in
+      let left_va = List.map2 (List.map2 shifted) (nth left 0) left_vb in
       let power = two_to (2 * c.factor.exponent) in
       { Kernel.row_scale; unit_of = two_to e; right_w = nth right 0;
-        left_va = scaled_left 0; left_vb = scaled_left 1;
+        left_va; left_vb;
         bound_c = Z.mul power (Q.den c.sigma);
         bound_d = Z.mul common (Z.mul power (Q.num c.sigma));
         factor_scale = Z.mul common (Q.den c.sigma);
-        stiffness_factor = List.combine c.factor.first c.factor.rows }
+        stiffness_factor = rows_from c.factor }
+
+(* ---------- condensation about anchors *)
+
+type varying = {
+  whole_pencil : Kernel.pencil;
+  slip_list : int array;
+  anchoring : Kernel.anchoring;
+  expansions : Kernel.anchor_family option list;
+  claims : Kernel.known array;
+  weights : Z.t list;  (* of the rows, for leaves of the whole pencil *)
+  uniform_factor : Z.t;
+  tail : (Q.t * factor_rows) option;
+  numbers : (int * int) list  (* anchors of the certificate, as numbers of the anchoring *) }
+
+(* Factors of the free rows and of the others: the given pencil times them is that of the kernel. *)
+let form_bound nf free_factor (sigma : Q.t) (factor : factor_rows option) =
+  match factor with
+  | Some f ->
+    let power = two_to (2 * f.exponent) in
+    { Kernel.bound_times = Z.mul power (Q.den sigma);
+      bound_at = Z.mul free_factor (Z.mul power (Q.num sigma));
+      gram_times = Z.mul free_factor (Q.den sigma);
+      gram_rows = rows_from f }
+  | None ->
+    { Kernel.bound_times = Q.den sigma; bound_at = Z.mul free_factor (Q.num sigma);
+      gram_times = Z.zero; gram_rows = List.init nf (fun _ -> (0, [])) }
+
+let kernel_anchor (pencil : Kernel.pencil) slip_list free_factor slip_factor (a : anchor) =
+  let e = List.fold_left (fun m (k, _) -> max m k) 0 (a.right @ a.left) in
+  let shifted factor (k, rows) =
+    List.map (List.map (fun z -> Z.mul factor (Z.shift_left z (e - k)))) rows in
+  let ratio = Z.divexact slip_factor free_factor in
+  let scaled = if a.reversed then Kernel.swap_pencil pencil else pencil in
+  a.reversed, { Kernel.anchor_center = point_of a.center; anchor_unit = two_to e;
+                anchor_right = List.map (shifted Z.one) a.right;
+                anchor_left = List.map (shifted ratio) a.left;
+                anchor_scale = row_scales scaled slip_list slip_factor }
+
+let needs_anchor (piece : piece) =
+  List.exists (function
+      | Farkas _ | Definite _ | Root _ -> true
+      | Ldl | Tail | Open | Support _ | Split _ | Branch _ -> false) piece.tree
+
+let trivial_bound = { Kernel.bound_times = Z.one; bound_at = Z.zero; gram_times = Z.zero;
+                      gram_rows = [] }
+
+(* For trees whose leaves speak of the whole pencil. *)
+let without_anchors pencil slip_list free_factor slip_factor tail =
+  { whole_pencil = pencil; slip_list = Array.of_list slip_list; expansions = []; claims = [||];
+    anchoring = { Kernel.stiffness_bound = trivial_bound; mass_bound = trivial_bound;
+                  anchors = [] };
+    weights = row_weights pencil free_factor slip_factor; uniform_factor = slip_factor; tail;
+    numbers = [] }
+
+let with_anchors (pencil : Kernel.pencil) slip_list free_factor slip_factor claims
+    (condensation : condensation option) pieces =
+  let c = match condensation with Some c -> c | None -> no_witness "a condensation is missing" in
+  let nf = List.length pencil.free and ns = List.length slip_list in
+  let used = List.sort_uniq compare
+      (List.filter_map (fun (p : piece) -> if needs_anchor p then Some p.anchor else None)
+         pieces) in
+  let given k = match List.nth_opt c.anchors k with
+    | Some a -> a
+    | None -> no_witness "a piece names no anchor" in
+  if nf > 2_000 then Problem.not_verified "more than 2,000 free variables that depend on the value";
+  (* The ten anchors of the block, with six matrices of 786 x 17 entries each, count 82 million. *)
+  let work = List.fold_left (fun sum k ->
+      let a = given k in
+      let matrices = List.length a.right + List.length a.left in
+      let exponent = List.fold_left (fun m (e, _) -> max m e) 0 (a.right @ a.left) in
+      if bits (Q.num a.center) + bits (Q.den a.center) > 2_048 then
+        Problem.not_verified "a center of more than 2,048 bits";
+      sum + matrices * matrices * nf * ns * ns * (1 + exponent / 256)) 0 used in
+  if work > 400_000_000 then Problem.not_verified "anchors beyond the limits of this program";
+  let anchoring = {
+    Kernel.stiffness_bound = form_bound nf free_factor c.sigma (Some c.factor);
+    mass_bound = form_bound nf free_factor c.mass_sigma c.mass_factor;
+    anchors = List.map (fun k ->
+        kernel_anchor pencil slip_list free_factor slip_factor (given k)) used } in
+  { whole_pencil = pencil; slip_list = Array.of_list slip_list; anchoring;
+    expansions = Kernel.expansions pencil anchoring; claims;
+    weights = row_weights pencil free_factor slip_factor; uniform_factor = slip_factor;
+    tail = c.tail;
+    numbers = List.mapi (fun i k -> (k, i)) used }
+
+let varying_of pencil slip_list free_factor slip_factor claims condensation pieces =
+  if List.exists needs_anchor pieces then
+    with_anchors pencil slip_list free_factor slip_factor claims condensation pieces
+  else
+    without_anchors pencil slip_list free_factor slip_factor
+      (Option.bind condensation (fun (c : condensation) -> c.tail))
+
+let local_unit = { Kernel.lower = (Z.zero, Z.one); upper = (Z.one, Z.one); states = [] }
+
+(* The interval of a region for an anchor, and the bounds of its two blocks. *)
+let interval_for v n (region : Kernel.region) =
+  let reverse, a = List.nth v.anchoring.anchors n in
+  let stiffness = v.anchoring.stiffness_bound and mass = v.anchoring.mass_bound in
+  if reverse then
+    (a, mass, stiffness, Kernel.swap region.upper, Kernel.swap region.lower)
+  else (a, stiffness, mass, region.lower, region.upper)
+
+(* What local pencils may cost together: entries, coefficients and words. *)
+let spent = ref 0
+
+let spend_region v n (region : Kernel.region) fam =
+  let point_bits (p, q) = bits p + bits q in
+  let _, a = List.nth v.anchoring.anchors n in
+  let words = 1 + (point_bits region.lower + point_bits region.upper
+                   + point_bits a.anchor_center) / 64 in
+  let ns = Array.length v.slip_list and length = List.length fam.Kernel.series_z in
+  spent := !spent + ns * ns * length * length * words;
+  if !spent > 1 lsl 30 then Problem.not_verified "regions beyond the limits of this program"
+
+(* The pencil over [0, 1], with entries of some 160 bits, and its grain. *)
+let new_local_pencil v n region slopes =
+  match List.nth v.expansions n with
+  | None -> None
+  | Some fam ->
+    spend_region v n region fam;
+    let a, low_a, low_b, lo, hi = interval_for v n region in
+    if not (Kernel.proper_interval a low_a low_b lo hi) then None
+    else begin
+      let ns = Array.length v.slip_list in
+      let make grain = Kernel.local_pencil ns a low_a low_b fam lo hi slopes grain in
+      let exact = make Z.one in
+      let top = List.fold_left (List.fold_left (fun m z -> max m (bits z))) 0
+          (exact.center_a @ exact.center_b) in
+      let grain = two_to (max 0 (top - 160)) in
+      let p = make grain in
+      Some (p, doubles_of p, grain)
+    end
+
+(* The leaves of a branched interval share it; the last few are kept. *)
+let kept = ref []
+
+let local_pencil v n (region : Kernel.region) slopes =
+  let key = (n, slopes, region.lower, region.upper) in
+  match List.assoc_opt key !kept with
+  | Some found -> found
+  | None ->
+    let found = new_local_pencil v n region slopes in
+    kept := (key, found) :: List.filteri (fun i _ -> i < 7) !kept;
+    found
+
+(* The evidence of [make] for a region, with its local pencil. *)
+let anchored v n (region : Kernel.region) slopes make =
+  match local_pencil v n region slopes with
+  | None -> None
+  | Some (p, f, grain) ->
+    let unit_region = { local_unit with states = region.states } in
+    Option.map (fun leaf -> leaf grain) (make p f unit_region)
+
+(* Nothing is left over from another file. *)
+let start_anew () = work := 0; spent := 0; kept := []
+
+let is_reversed v n = fst (List.nth v.anchoring.anchors n)
+
+let checked p unit_region e =
+  match e with
+  | Some e when Kernel.check_local p unit_region e -> Some e
+  | _ -> None
+
+let local_of = function
+  | Kernel.Farkas w -> Some (Kernel.LocalFarkas w)
+  | Kernel.Definite (negative, low, high) -> Some (Kernel.LocalDefinite (negative, low, high))
+  | Kernel.Absent c -> Some (Kernel.LocalAbsent c)
+  | Kernel.Root (_, c, o) -> Some (Kernel.LocalRoot (c, o))
+  | _ -> None
+
+let by_local v n (region : Kernel.region) make =
+  anchored v n region false (fun p f r ->
+      Option.map (fun e grain ->
+          Kernel.OfAnchor (n, grain, (region.lower, region.upper), e))
+        (checked p r (make p f r)))
+
+let by_farkas v n w region = by_local v n region (fun _ _ _ -> Some (Kernel.LocalFarkas w))
+
+let by_definite v n negative region =
+  by_local v n region (fun p _ r -> Option.bind (definite_leaf p negative r) local_of)
+
+let by_absent v n region =
+  by_local v n region (fun p f r -> Option.bind (absent_leaf p f r) local_of)
+
+(* [a, b] as values of u. *)
+let local_ends v n region (a, b) =
+  let _, _, _, lo, hi = interval_for v n region in
+  let ends =
+    if is_reversed v n then Kernel.swap b, Kernel.swap a else a, b in
+  Kernel.local_point lo hi (fst ends), Kernel.local_point lo hi (snd ends)
+
+let by_root v n (r : root) outcome (region : Kernel.region) =
+  let a, b = r.interval in
+  let wide = hull region r.interval in
+  let region = Kernel.extended region wide in
+  let _, _, _, lo, hi = interval_for v n region in
+  let ends = local_ends v n region (point_of a, point_of b) in
+  if Z.sign (snd (fst ends)) <= 0 || Z.sign (snd (snd ends)) <= 0 then None
+  else
+    let interval = (value_of (fst ends), value_of (snd ends)) in
+    let placed = function
+      | Kernel.LocalRoot (c, o) ->
+        Kernel.LocalRoot ({ c with from_point = point_of a; to_point = point_of b }, o)
+      | e -> e in
+    anchored v n region (outcome = Kernel.Solution) (fun p f unit_region ->
+        let found = isolated_leaf ~ends p f unit_region { r with interval } outcome in
+        Option.map (fun e grain -> Kernel.OfAnchor (n, grain, wide, placed e))
+          (checked p unit_region (Option.bind found local_of)))
+
+(* The region of a claim. *)
+let by_claim v n (r : root) number (q : Kernel.known) (region : Kernel.region) =
+  let wide = hull region (value_of_known q) in
+  let region = Kernel.extended region wide in
+  let ends = local_ends v n region (q.known_from, q.known_to) in
+  if Z.sign (snd (fst ends)) <= 0 || Z.sign (snd (snd ends)) <= 0 then None
+  else
+    let local = { q with known_from = fst ends; known_to = snd ends } in
+    anchored v n region true (fun p f unit_region ->
+        match claimed_leaf p f unit_region r number local with
+        | Some (Kernel.Claimed (_, c, _)) ->
+          Some (fun grain -> Kernel.OfClaim (n, grain, wide, c, number))
+        | _ -> None)
+
+(* The region of a null vector at infinity, for a reversed anchor. *)
+let by_limit v n x at (region : Kernel.region) =
+  if not (is_reversed v n) || finite region.upper then None
+  else
+    anchored v n region true (fun p f unit_region ->
+        let pin j_list k v =
+          pinning_of p f j_list k v (unit_region.lower, unit_region.upper) 0.5 in
+        Option.map (fun c grain ->
+            Kernel.OfLimit (n, grain, (region.lower, region.upper), c, x))
+          (limit_pinning p unit_region at pin (Kernel.pinned p unit_region)))
+
+let cut_of (region : Kernel.region) =
+  let lo = value_of region.lower in
+  if finite region.upper then half lo (value_of region.upper)
+  else if Q.sign lo = 0 then Q.one
+  else Q.mul lo (Q.of_int 2)
+
+(* One of the ways closes the region, or its halves are closed. *)
+let rec close what depth ways (region : Kernel.region) =
+  match List.find_map (fun way -> way region) ways with
+  | Some leaf -> Kernel.Leaf leaf
+  | None ->
+    if depth = 0 then no_witness "%s" what;
+    let cut = point_of (cut_of region) in
+    let first = close what (depth - 1) ways { region with upper = cut } in
+    Kernel.Split (cut, first, close what (depth - 1) ways { region with lower = cut })
+
+let absent_ways v n = [ by_absent v n; by_definite v n false; by_definite v n true ]
+
+(* The radii of a local pencil fall with the square of the width: cuts are much nearer. *)
+let varying_narrow v n what attempt interval region =
+  narrow_tree ~absent:(close "absent" 12 (absent_ways v n)) ~weight:15 what 12 attempt interval
+    region
+
+(* The factor of the certificate for sym(A + from B); nothing for sym(B), which is diagonal. *)
+let tail_leaf v (region : Kernel.region) =
+  match v.tail with
+  | Some (from, f) when Q.equal from (value_of region.lower) && not (finite region.upper) ->
+    let power = two_to (2 * f.exponent) and two = Z.of_int 2 in
+    let low = Z.mul two (Z.mul v.uniform_factor (snd region.lower)) in
+    let rows = rows_from f in
+    let w = { Kernel.whole_weights = v.weights; whole_negative = false;
+              low_end = { Kernel.end_scale = power; end_factor = Kernel.Late (low, rows) };
+              high_end = { Kernel.end_scale = Z.one;
+                           end_factor = Kernel.Late (Z.zero, List.map (fun _ -> (0, [])) rows) } }
+    in
+    if Kernel.check_whole v.whole_pencil region w then Some w else None
+  | _ -> None
+
+let whole_of v what region =
+  let given = if what = "tail" then tail_leaf v region else None in
+  let found = match given with
+    | Some w -> Some w
+    | None -> whole_leaf v.whole_pencil v.weights region in
+  match found with
+  | Some w -> Kernel.Leaf (Kernel.OfWhole w)
+  | None -> no_witness "%s" what
+
+let varying_leaf v (piece : piece) (region : Kernel.region) node =
+  let n = Option.value (List.assoc_opt piece.anchor v.numbers) ~default:0 in
+  match node with
+  | Farkas w -> close "farkas" 6 [by_farkas v n w] region
+  | Definite negative -> close "definite" 6 [by_definite v n negative] region
+  | Ldl -> whole_of v "ldl" region
+  | Tail -> whole_of v "tail" region
+  | Root r ->
+    let r = { r with pivot = position v.slip_list r.pivot } in
+    let narrow outcome =
+      varying_narrow v n "root" (by_root v n r outcome) r.interval region in
+    (match r.outcome with
+     | Absent -> close "absent" 12 (absent_ways v n) region
+     | Solution -> narrow Kernel.Solution
+     | Negative_x i -> narrow (Kernel.NegativeX (position v.slip_list i))
+     | Negative_y i -> narrow (Kernel.NegativeY (position v.slip_list i))
+     | Claim number ->
+       if number < 0 || number >= Array.length v.claims then
+         no_witness "a claim that is not there";
+       let q = v.claims.(number) in
+       varying_narrow v n "a claimed root" (by_claim v n r number q) (value_of_known q) region
+     | Infinity x ->
+       if List.length x <> v.whole_pencil.Kernel.order || finite region.upper then
+         no_witness "a root at infinity";
+       infinite_tree ~absent:(close "absent" 12 (absent_ways v n)) 12
+         (by_limit v n x (at_slip v.slip_list x)) region)
+  | Open -> Kernel.Leaf Kernel.LeftOpen
+  | Split _ | Branch _ | Support _ -> assert false
 
 (* ---------- exact solution claims *)
-
-let strip p =
-  let rec drop = function c :: rest when Z.sign c = 0 -> drop rest | p -> p in
-  List.rev (drop (List.rev p))
 
 (* (c, q, r) with c g = p q + r and r shorter than p, constant terms first; c a power of the
    leading coefficient of p in size. *)
 let divide g p =
-  let p = Array.of_list (strip p) and r = Array.of_list (strip g) in
+  let p = Array.of_list (strip_integers p) and r = Array.of_list (strip_integers g) in
   let m = Array.length p and n = Array.length r in
   if m = 0 then no_witness "a polynomial that is zero";
   let lead = p.(m - 1) in
@@ -675,7 +1025,7 @@ let divide g p =
       for i = 0 to m - 1 do r.(k + i) <- Z.sub r.(k + i) (Z.mul factor p.(i)) done
     end
   done;
-  !c, Array.to_list q, strip (Array.to_list r)
+  !c, Array.to_list q, strip_integers (Array.to_list r)
 
 (* The witness of g modulo p, without a common factor. *)
 let reduction modulus g =
@@ -739,110 +1089,185 @@ let exact_of_lifted (system : Kernel.system) (l : lifted) =
   { l.motion with
     x = List.map (fun d -> v.(d)) system.free_dofs @ List.map slip system.particles }
 
-(* ---------- enclosed solution claims: root leaves of the whole pencil *)
+(* ---------- enclosed solution claims *)
 
-(* From t, some steps of Newton's method for row k of T(t) x, with x_k = 1 and the other rows 0. *)
-let newton_value n f j_list k t =
-  let rec step count t =
-    if count = 0 then t
-    else match null_vectors n f j_list k t with
-      | None -> t
-      | Some (right, left) ->
-        let x = Array.of_list (List.map Z.to_float right) in
-        let u = Array.of_list (List.map Z.to_float left) in
-        let row i entry = List.fold_left (fun s j -> s +. entry i j *. x.(j)) 0.0 j_list in
-        let phi = u.(k) *. row k (at f t) in
-        let slope = List.fold_left (fun s i ->
-            s +. u.(i) *. row i (fun i j -> f.b.(i).(j))) 0.0 j_list in
-        let next = t -. phi /. slope in
-        if Float.is_nan next || Float.is_integer (next -. t) && next = t then t
-        else step (count - 1) next in
-  step 12 t
+(* The active rows and columns of a pencil in doubles, row p divided by 2^exponents.(p). *)
+type active_block = { variables : int array; block : doubles; exponents : int array }
+
+let active_block (pencil : Kernel.pencil) variables t =
+  let m = Array.length variables in
+  let position = Array.make pencil.order (-1) in
+  Array.iteri (fun p i -> position.(i) <- p) variables;
+  let dense rows =
+    let rows = Array.of_list rows in
+    Array.map (fun i ->
+        let row = Array.make m 0.0 in
+        List.iter (fun (j, v) ->
+            let p = position.(j) in
+            if p >= 0 then row.(p) <- row.(p) +. Z.to_float v) rows.(i);
+        row) variables in
+  let a = dense pencil.rows_a and b = dense pencil.rows_b in
+  let exponents = Array.init m (fun p ->
+      let norm = ref 0.0 in
+      Array.iteri (fun q v -> norm := !norm +. Float.abs (v +. t *. b.(p).(q))) a.(p);
+      if Float.is_nan !norm || !norm = infinity then no_witness "an overflow";
+      snd (Float.frexp (max !norm 1e-300))) in
+  let divided = Array.mapi (fun p row ->
+      Array.map (fun v -> Float.ldexp v (- exponents.(p))) row) in
+  { variables; block = { a = divided a; b = divided b }; exponents }
+
+(* The inverse of T(t) without row and column k, and the null vectors with the component 1 there. *)
+type null_pair = { others : int array; reciprocal : float array array;
+                   right : float array; left : float array }
+
+let null_pair f k t =
+  let m = Array.length f.a in
+  spend m;
+  let others = Array.of_list (List.filter (fun j -> j <> k) (List.init m Fun.id)) in
+  Option.map (fun y ->
+      let right = Array.make m 1.0 and left = Array.make m 1.0 in
+      Array.iteri (fun p i ->
+          let r = ref 0.0 and l = ref 0.0 in
+          Array.iteri (fun q j ->
+              r := !r -. y.(p).(q) *. at f t j k;
+              l := !l -. at f t k j *. y.(q).(p)) others;
+          right.(i) <- !r;
+          left.(i) <- !l) others;
+      { others; reciprocal = y; right; left })
+    (inverse (Array.map (fun i -> Array.map (fun j -> at f t i j) others) others))
+
+(* Steps of Newton's method for u' T(t) x with both null vectors at t. *)
+let rec newton f k count t =
+  if count = 0 then t
+  else match null_pair f k t with
+    | None -> t
+    | Some n ->
+      let sum entry =
+        let total = ref 0.0 in
+        Array.iteri (fun i u -> Array.iteri (fun j x ->
+            total := !total +. u *. entry i j *. x) n.right) n.left;
+        !total in
+      let next = t -. sum (at f t) /. sum (fun i j -> f.b.(i).(j)) in
+      if Float.is_nan next || next = t then t else newton f k (count - 1) next
 
 let max_rational = List.fold_left (fun m v -> if Q.gt v m then v else m)
 
-let enclosed_claim_of pencil (e : enclosed) =
-  let p = Kernel.whole_pencil pencil in
-  let n = pencil.Kernel.order in
-  let f = doubles_of p in
+(* The least and the largest exponent of the numbers that are not zero. *)
+let exponent_range =
+  Array.fold_left (fun (least, most) v ->
+      let e = snd (Float.frexp v) in
+      if v = 0.0 then (least, most) else (min least e, max most e)) (0, 0)
+
+let enclosed_claim_of (pencil : Kernel.pencil) (e : enclosed) =
+  let n = pencil.order in
   let active = List.filter (fun i -> List.mem i pencil.free || List.mem i e.box_support)
       (List.init n Fun.id) in
-  let rec split = function
-    | [t] -> [], t
-    | x :: rest -> let xs, t = split rest in x :: xs, t
-    | [] -> no_witness "a box without a value" in
-  let x, center = split e.center in
-  let _, radius = split e.radius in
+  let variables = Array.of_list active in
+  let m = Array.length variables in
+  let z = Array.of_list e.center in
+  let center = z.(m) and radius = List.nth e.radius m in
   let lowest = Q.sub center radius and highest = Q.add center radius in
-  let sizes = List.combine active (List.map Q.abs x) in
-  let pivots = List.sort (fun i j -> Q.compare (List.assoc j sizes) (List.assoc i sizes))
-      e.box_support in
+  let in_doubles = active_block pencil variables (Q.to_float center) in
+  let f = in_doubles.block in
 
-  (* The centre as integers: fine beside the least radius. *)
-  let top = max_rational Q.zero (List.map snd sizes) in
-  let least = List.fold_left Q.min (List.hd e.radius) e.radius in
-  let fine = Z.numbits (Q.to_bigint (Q.div top least)) + 24 in
-  let centers unit =
+  let over_variables values =
     let v = Array.make n Z.zero in
-    List.iter2 (fun i c ->
-        v.(i) <- Q.to_bigint (Q.div (Q.mul c (Q.of_bigint (two_to unit))) top)) active x;
+    Array.iteri (fun p i -> v.(i) <- values p) variables;
     Array.to_list v in
+  (* The centre as integers, fine beside the least radius. *)
+  let top = max_rational Q.zero (List.map Q.abs (Array.to_list (Array.sub z 0 m))) in
+  let least = List.fold_left Q.min (List.hd e.radius) e.radius in
+  let given bits =
+    let bits = max bits (Z.numbits (Q.to_bigint (Q.div top least)) + 24) in
+    if Q.sign top = 0 || bits > 4_000 then None
+    else
+      let factor = Q.div (Q.of_bigint (two_to bits)) top in
+      Some (over_variables (fun p -> Q.to_bigint (Q.mul z.(p) factor))) in
 
-  (* The boxes and the uniqueness hold as they were computed; only the signs are tried here. *)
-  let signs_hold (claim : Kernel.enclosed_claim) =
-    Kernel.sign_change p (Kernel.active_region pencil claim) claim.null_box
-    && List.for_all (fun j -> Kernel.positive_on_support claim (Obj.magic j)) e.box_support
-    && List.for_all (fun i ->
-        List.mem i e.box_support || Kernel.positive_off_support pencil claim i)
-      (Obj.magic (Kernel.slip pencil)) in
-  let attempt k (v, left) (low, high) (from, upto) =
-    let k_list = List.filter (fun j -> j <> k) active in
-    let wide = (point_of low, point_of high) and narrow = (point_of from, point_of upto) in
-    match box_of p f active k_list v narrow (middle from upto) with
-    | None -> None
-    | Some narrow_box ->
-      let wide_box =
-        if narrow = wide then Some narrow_box
-        else box_of p f active k_list v wide (middle low high) in
-      match wide_box with
-      | None -> None
-      | Some wide_box ->
-        match unique_of p f active k v wide_box.width wide (middle low high) with
-        | None -> None
-        | Some unique ->
-          let null_box = { Kernel.pivot = k; vector = v; from_point = fst narrow;
-                           to_point = snd narrow; wide_box; narrow_box; unique;
-                           left_vector = left } in
-          let claim = { Kernel.box_support = e.box_support; interval_low = fst wide;
-                        interval_high = snd wide; null_box } in
-          if signs_hold claim then Some claim else None in
+  (* Everything for the pivot in place k and the inverse at t. *)
+  let witnesses k t (pair : null_pair) =
+    let rows = Array.map exponent_range pair.reciprocal in
+    let smallest = Array.fold_left (fun s (_, most) -> min s most) 0 rows in
+    let largest = Array.fold_left (fun s (_, most) -> max s most) 0 rows in
+    let unit = min 200 (max (bits (Z.of_int m) + 7) (8 - smallest)) in
+    let inverse = Array.make n [] in
+    Array.iteri (fun p i ->
+        inverse.(variables.(i)) <-
+          Array.to_list (Array.map (fun v -> round_scaled v unit) pair.reciprocal.(p)))
+      pair.others;
+
+    (* u is given for the scaled rows. *)
+    let left = Array.mapi (fun p v ->
+        Float.ldexp v (in_doubles.exponents.(k) - in_doubles.exponents.(p))) pair.left in
+    let left_unit = min 1_000 (60 - fst (exponent_range left)) in
+    let left_null = over_variables (fun p -> round_scaled left.(p) left_unit) in
+    let center_bits = unit + largest + bits (Z.of_int m) + 60 in
+    let own = over_variables (fun p ->
+        round_scaled pair.right.(p) (max 60 center_bits - fst (exponent_range pair.right))) in
+
+    let bare = { Kernel.box_support = e.box_support; box_from = Kernel.zero; box_to = Kernel.zero;
+                 box_pivot = variables.(k); box_center = own;
+                 right_inverse = Array.to_list inverse; box_width = Z.zero; rate_width = Z.zero;
+                 left_null } in
+    let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
+    let products rows = Array.map (fun i ->
+        Kernel.times_inverse bare rows.(variables.(i))) pair.others in
+    let ga = products rows_a and gb = products rows_b in
+
+    let check center (from, upto) =
+      let ends = [point_of from; point_of upto] in
+      let dots rows = Array.map (fun i -> Kernel.sparse_dot rows.(variables.(i)) center)
+          pair.others in
+      let ra = dots rows_a and rb = dots rows_b in
+      let margins = List.map (fun e ->
+          e, Array.mapi (fun p a -> Kernel.margin (Kernel.row_at_end e a gb.(p)) p) ga) ends in
+      (* The least integer that is at least all quotients of a bound by its margin. *)
+      let quotient bound =
+        List.fold_left (fun largest (e, margin) ->
+            let largest = ref largest in
+            Array.iteri (fun p m -> largest := Z.max !largest (Z.cdiv (bound e p) m)) margin;
+            !largest) Z.zero margins in
+      if List.exists (fun (_, margin) -> Array.exists (fun m -> Z.sign m <= 0) margin) margins
+      then None
+      else begin
+        let box_width = quotient (fun e p -> Z.abs (Kernel.at_end e ra.(p) rb.(p))) in
+        let claim = { bare with Kernel.box_from = List.hd ends; box_to = List.nth ends 1;
+                                box_center = center; box_width } in
+        let eps = Kernel.widths claim in
+        let rates = Array.mapi (fun p i ->
+            Z.add (Z.abs rb.(p)) (Kernel.absolute_dot rows_b.(variables.(i)) eps)) pair.others in
+        let claim = { claim with
+                      Kernel.rate_width = quotient (fun e p -> Z.mul (snd e) rates.(p)) } in
+        if Kernel.determinant_changes_sign pencil claim eps && Kernel.one_root pencil claim eps
+        && Kernel.box_signs pencil claim eps then Some claim else None
+      end in
+    check, given center_bits, own in
 
   (* The interval of the claim, or intervals about a zero in it that is known in doubles. *)
-  let ways k =
-    let whole = lowest, highest in
-    let as_claimed () =
-      match null_vectors n f active k (Q.to_float center) with
-      | Some (_, left) when Q.sign top > 0 && fine < 4_000 ->
-        attempt k (centers fine, left) whole whole
-      | _ -> None in
-    let t = newton_value n f active k (Q.to_float center) in
-    let about bits () =
+  let about t bits =
+    let value = Q.of_float t in
+    let size = if t = 0.0 then Q.one else Q.abs value in
+    let width = Q.div size (Q.of_bigint (two_to bits)) in
+    let from = Q.max lowest (Q.sub value width) and upto = Q.min highest (Q.add value width) in
+    if Q.lt from upto then Some (from, upto) else None in
+  let attempt k =
+    let try_at t intervals =
       if Float.is_nan t || Float.abs t = infinity then None
-      else begin
-        let value = Q.of_float t in
-        let size = if t = 0.0 then Q.one else Q.abs value in
-        let width = Q.div size (Q.of_bigint (two_to bits)) in
-        let from = Q.max lowest (Q.sub value width) in
-        let upto = Q.min highest (Q.add value width) in
-        if Q.geq from upto then None
-        else match null_vectors n f active k t with
-          | None -> None
-          | Some vectors ->
-            match attempt k vectors whole (from, upto) with
-            | Some claim -> Some claim
-            | None -> attempt k vectors (from, upto) (from, upto)
-      end in
-    as_claimed
-    :: List.map about (if n <= 16 then [44; 38; 32; 26; 20; 14; 8] else [44; 32; 20]) in
-  let first_pivots = List.filteri (fun i _ -> i < (if n <= 16 then 3 else 1)) pivots in
-  List.find_map (fun way -> way ()) (List.concat_map ways first_pivots)
+      else match null_pair f k t with
+        | None -> None
+        | Some pair ->
+          let check, given, own = witnesses k t pair in
+          let centers = own :: Option.to_list given in
+          List.find_map (fun interval ->
+              List.find_map (fun center -> check center interval) centers) intervals in
+    let t = Q.to_float center in
+    let near t = List.filter_map (about t) [44; 38; 32; 26; 20; 14; 8] in
+    match try_at t ((lowest, highest) :: near t) with
+    | Some claim -> Some claim
+    | None when m > 64 -> None
+    | None -> let zero = newton f k 12 t in try_at zero (near zero) in
+
+  let sizes = Array.map Q.abs z in
+  let support = List.filter (fun p -> List.mem variables.(p) e.box_support) (List.init m Fun.id) in
+  let pivots = List.sort (fun p q -> Q.compare sizes.(q) sizes.(p)) support in
+  List.find_map attempt (List.filteri (fun i _ -> i < (if m <= 16 then 3 else 1)) pivots)

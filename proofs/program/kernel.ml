@@ -37,6 +37,14 @@ type reflect =
 
 module Pos =
  struct
+  type mask =
+  | IsNul
+  | IsPos of Big_int_Z.big_int
+  | IsNeg
+ end
+
+module Coq_Pos =
+ struct
   (** val succ : Big_int_Z.big_int -> Big_int_Z.big_int **)
 
   let rec succ = Big_int_Z.succ_big_int
@@ -109,6 +117,104 @@ module Pos =
       (fun _ -> Big_int_Z.unit_big_int)
       x
 
+  type mask = Pos.mask =
+  | IsNul
+  | IsPos of Big_int_Z.big_int
+  | IsNeg
+
+  (** val succ_double_mask : mask -> mask **)
+
+  let succ_double_mask = function
+  | IsNul -> IsPos Big_int_Z.unit_big_int
+  | IsPos p ->
+    IsPos ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+      p)
+  | IsNeg -> IsNeg
+
+  (** val double_mask : mask -> mask **)
+
+  let double_mask = function
+  | IsPos p -> IsPos (Big_int_Z.mult_int_big_int 2 p)
+  | x0 -> x0
+
+  (** val double_pred_mask : Big_int_Z.big_int -> mask **)
+
+  let double_pred_mask x =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p -> IsPos (Big_int_Z.mult_int_big_int 2
+      (Big_int_Z.mult_int_big_int 2 p)))
+      (fun p -> IsPos (Big_int_Z.mult_int_big_int 2
+      (pred_double p)))
+      (fun _ -> IsNul)
+      x
+
+  (** val sub_mask : Big_int_Z.big_int -> Big_int_Z.big_int -> mask **)
+
+  let rec sub_mask x y =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> double_mask (sub_mask p q))
+        (fun q -> succ_double_mask (sub_mask p q))
+        (fun _ -> IsPos (Big_int_Z.mult_int_big_int 2 p))
+        y)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> succ_double_mask (sub_mask_carry p q))
+        (fun q -> double_mask (sub_mask p q))
+        (fun _ -> IsPos (pred_double p))
+        y)
+      (fun _ ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun _ -> IsNeg)
+        (fun _ -> IsNeg)
+        (fun _ -> IsNul)
+        y)
+      x
+
+  (** val sub_mask_carry : Big_int_Z.big_int -> Big_int_Z.big_int -> mask **)
+
+  and sub_mask_carry x y =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> succ_double_mask (sub_mask_carry p q))
+        (fun q -> double_mask (sub_mask p q))
+        (fun _ -> IsPos (pred_double p))
+        y)
+      (fun p ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun q -> double_mask (sub_mask_carry p q))
+        (fun q -> succ_double_mask (sub_mask_carry p q))
+        (fun _ -> double_pred_mask p)
+        y)
+      (fun _ -> IsNeg)
+      x
+
   (** val mul :
       Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
@@ -160,6 +266,84 @@ module Pos =
         (fun _ -> true)
         q)
       p
+
+  (** val leb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
+
+  let leb x y =
+    match compare x y with
+    | Gt -> false
+    | _ -> true
+
+  (** val sqrtrem_step :
+      (Big_int_Z.big_int -> Big_int_Z.big_int) -> (Big_int_Z.big_int ->
+      Big_int_Z.big_int) -> (Big_int_Z.big_int * mask) ->
+      Big_int_Z.big_int * mask **)
+
+  let sqrtrem_step f g = function
+  | (s, y) ->
+    (match y with
+     | IsPos r ->
+       let s' =
+         (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+         (Big_int_Z.mult_int_big_int 2 s)
+       in
+       let r' = g (f r) in
+       if leb s' r'
+       then (((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+              s), (sub_mask r' s'))
+       else ((Big_int_Z.mult_int_big_int 2 s), (IsPos r'))
+     | _ ->
+       ((Big_int_Z.mult_int_big_int 2 s),
+         (sub_mask (g (f Big_int_Z.unit_big_int))
+           (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+           Big_int_Z.unit_big_int)))))
+
+  (** val sqrtrem : Big_int_Z.big_int -> Big_int_Z.big_int * mask **)
+
+  let rec sqrtrem p =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p0 ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun p1 ->
+        sqrtrem_step (fun x ->
+          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+          x) (fun x ->
+          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+          x) (sqrtrem p1))
+        (fun p1 ->
+        sqrtrem_step (fun x -> Big_int_Z.mult_int_big_int 2 x) (fun x ->
+          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+          x) (sqrtrem p1))
+        (fun _ -> (Big_int_Z.unit_big_int, (IsPos
+        (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))))
+        p0)
+      (fun p0 ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun p1 ->
+        sqrtrem_step (fun x ->
+          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
+          x) (fun x -> Big_int_Z.mult_int_big_int 2 x) (sqrtrem p1))
+        (fun p1 ->
+        sqrtrem_step (fun x -> Big_int_Z.mult_int_big_int 2 x) (fun x ->
+          Big_int_Z.mult_int_big_int 2 x) (sqrtrem p1))
+        (fun _ -> (Big_int_Z.unit_big_int, (IsPos Big_int_Z.unit_big_int)))
+        p0)
+      (fun _ -> (Big_int_Z.unit_big_int, IsNul))
+      p
+
+  (** val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let sqrt p =
+    fst (sqrtrem p)
  end
 
 module Z =
@@ -185,7 +369,7 @@ module Z =
       (fun p ->
       ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
       p))
-      (fun p -> Big_int_Z.minus_big_int (Pos.pred_double p))
+      (fun p -> Big_int_Z.minus_big_int (Coq_Pos.pred_double p))
       x
 
   (** val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int **)
@@ -195,7 +379,7 @@ module Z =
   if s = 0 then fO () else if s > 0 then fp z
   else fn (Big_int_Z.minus_big_int z))
       (fun _ -> Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
-      (fun p -> (Pos.pred_double p))
+      (fun p -> (Coq_Pos.pred_double p))
       (fun p -> Big_int_Z.minus_big_int
       ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x)) p))
       x
@@ -224,7 +408,7 @@ module Z =
   if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
         (fun q -> pred_double (pos_sub p q))
         (fun q -> double (pos_sub p q))
-        (fun _ -> (Pos.pred_double p))
+        (fun _ -> (Coq_Pos.pred_double p))
         y)
       (fun _ ->
       (fun f2p1 f2p f1 p ->
@@ -233,7 +417,7 @@ module Z =
   if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
         (fun q -> Big_int_Z.minus_big_int (Big_int_Z.mult_int_big_int 2
         q))
-        (fun q -> Big_int_Z.minus_big_int (Pos.pred_double q))
+        (fun q -> Big_int_Z.minus_big_int (Coq_Pos.pred_double q))
         (fun _ -> Big_int_Z.zero_big_int)
         y)
       x
@@ -246,6 +430,14 @@ module Z =
   (** val opp : Big_int_Z.big_int -> Big_int_Z.big_int **)
 
   let opp = Big_int_Z.minus_big_int
+
+  (** val succ : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let succ = Big_int_Z.succ_big_int
+
+  (** val pred : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let pred = Big_int_Z.pred_big_int
 
   (** val sub :
       Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
@@ -279,6 +471,11 @@ module Z =
   (** val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
 
   let eqb = Big_int_Z.eq_big_int
+
+  (** val max :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let max = Big_int_Z.max_big_int
 
   (** val abs : Big_int_Z.big_int -> Big_int_Z.big_int **)
 
@@ -337,6 +534,24 @@ module Z =
   | 0 -> zero_big_int
   | 1 -> div_big_int x y
   | _ -> add_int_big_int (-1) (div_big_int (add_int_big_int (-1) x) y))
+
+  (** val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let sqrt n =
+    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
+  if s = 0 then fO () else if s > 0 then fp z
+  else fn (Big_int_Z.minus_big_int z))
+      (fun _ -> Big_int_Z.zero_big_int)
+      (fun p -> (Coq_Pos.sqrt p))
+      (fun _ -> Big_int_Z.zero_big_int)
+      n
+
+  (** val sqrt_up : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let sqrt_up a =
+    match compare Big_int_Z.zero_big_int a with
+    | Lt -> succ (sqrt (pred a))
+    | _ -> Big_int_Z.zero_big_int
  end
 
 module Option =
@@ -388,32 +603,33 @@ let idP = function
 | true -> ReflectT
 | false -> ReflectF
 
-type 't pred = 't -> bool
+type 't pred0 = 't -> bool
 
 type 't predType =
-  __ -> 't pred
+  __ -> 't pred0
   (* singleton inductive, whose constructor was PredType *)
 
 type 't pred_sort = __
 
 type 't simpl_pred = ('t, bool) simpl_fun
 
-(** val simplPred : 'a1 pred -> 'a1 simpl_pred **)
+(** val simplPred : 'a1 pred0 -> 'a1 simpl_pred **)
 
 let simplPred p =
   p
 
 module PredOfSimpl =
  struct
-  (** val coerce : 'a1 simpl_pred -> 'a1 pred **)
+  (** val coerce : 'a1 simpl_pred -> 'a1 pred0 **)
 
   let coerce =
     fun_of_simpl
  end
 
-type 't rel = 't -> 't pred
+type 't rel = 't -> 't pred0
 
-type 't mem_pred = 't pred
+type 't mem_pred =
+  't pred0
   (* singleton inductive, whose constructor was Mem *)
 
 (** val pred_of_mem : 'a1 mem_pred -> 'a1 pred_sort **)
@@ -532,6 +748,12 @@ let head x0 = function
 | [] -> x0
 | x :: _ -> x
 
+(** val behead : 'a1 list -> 'a1 list **)
+
+let behead = function
+| [] -> []
+| _ :: s' -> s'
+
 (** val ncons : int -> 'a1 -> 'a1 list -> 'a1 list **)
 
 let ncons n x =
@@ -566,25 +788,25 @@ let rec set_nth x0 s n y =
        (fun n' -> x :: (set_nth x0 s' n' y))
        n)
 
-(** val find : 'a1 pred -> 'a1 list -> int **)
+(** val find : 'a1 pred0 -> 'a1 list -> int **)
 
 let rec find a = function
 | [] -> 0
 | x :: s' -> if a x then 0 else Stdlib.Int.succ (find a s')
 
-(** val filter : 'a1 pred -> 'a1 list -> 'a1 list **)
+(** val filter : 'a1 pred0 -> 'a1 list -> 'a1 list **)
 
 let rec filter a = function
 | [] -> []
 | x :: s' -> if a x then x :: (filter a s') else filter a s'
 
-(** val has : 'a1 pred -> 'a1 list -> bool **)
+(** val has : 'a1 pred0 -> 'a1 list -> bool **)
 
 let rec has a = function
 | [] -> false
 | x :: s' -> (||) (a x) (has a s')
 
-(** val all : 'a1 pred -> 'a1 list -> bool **)
+(** val all : 'a1 pred0 -> 'a1 list -> bool **)
 
 let rec all a = function
 | [] -> true
@@ -870,30 +1092,30 @@ let rec all_from f k = function
     ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
     ('a1 * 'a2) -> ('a1 * 'a2) -> Big_int_Z.big_int **)
 
-let remainder s product a b =
-  Z.sub (s (fst a) (fst b)) (product (snd a) (snd b))
+let remainder s product0 a b =
+  Z.sub (s (fst a) (fst b)) (product0 (snd a) (snd b))
 
 (** val off_diagonal :
     ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
     ('a1 * 'a2) list -> Equality.sort -> ('a1 * 'a2) -> Big_int_Z.big_int **)
 
-let off_diagonal s product rows i a =
+let off_diagonal s product0 rows i a =
   sum_from (fun j b ->
     if eq_op nat_eqType (Obj.magic j) i
     then Big_int_Z.zero_big_int
-    else Z.abs (remainder s product a b)) 0 rows
+    else Z.abs (remainder s product0 a b)) 0 rows
 
 (** val covered :
     ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
     bool -> ('a1 * 'a2) list -> bool **)
 
-let covered s product strict rows =
+let covered s product0 strict rows =
   all_from (fun i a ->
     if strict
-    then Z.ltb (off_diagonal s product rows (Obj.magic i) a)
-           (remainder s product a a)
-    else Z.leb (off_diagonal s product rows (Obj.magic i) a)
-           (remainder s product a a)) 0 rows
+    then Z.ltb (off_diagonal s product0 rows (Obj.magic i) a)
+           (remainder s product0 a a)
+    else Z.leb (off_diagonal s product0 rows (Obj.magic i) a)
+           (remainder s product0 a a)) 0 rows
 
 (** val weighted_dot :
     Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
@@ -1846,10 +2068,17 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { whole_negative : bool; low_end : whole_end;
-               high_end : whole_end }
+type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : 
+               bool; low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
+
+(** val weighted :
+    Big_int_Z.big_int list -> int -> sparse_row -> sparse_row **)
+
+let weighted weight i row =
+  map0 (fun e -> ((fst e),
+    (Z.mul (nth Big_int_Z.unit_big_int weight i) (snd e)))) row
 
 (** val may_move : pencil -> region -> int list **)
 
@@ -1859,10 +2088,12 @@ let may_move q r =
       (filter (fun j -> negb (is_resting (state_of r j)))
         (iota 0 (size (slip q)))))
 
-(** val members : pencil -> region -> member list **)
+(** val members :
+    pencil -> Big_int_Z.big_int list -> region -> member list **)
 
-let members q r =
-  map0 (fun i -> (i, ((row_a q i), (row_b q i)))) (may_move q r)
+let members q weight r =
+  map0 (fun i -> (i, ((weighted weight i (row_a q i)),
+    (weighted weight i (row_b q i))))) (may_move q r)
 
 (** val member_entry : point -> member -> member -> Big_int_Z.big_int **)
 
@@ -1881,31 +2112,33 @@ let member_form negative c e i j =
      else Z.add (member_entry e i j) (member_entry e j i))
 
 (** val check_end :
-    pencil -> bool -> bool -> point -> region -> whole_end -> bool **)
+    pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region ->
+    whole_end -> bool **)
 
-let check_end q strict negative e r w =
+let check_end q weight strict negative e r w =
   (&&) (Z.ltb Big_int_Z.zero_big_int w.end_scale)
     (match w.end_factor with
      | Dense (weights0, rows) ->
        (&&) (all (fun u -> Z.leb Big_int_Z.zero_big_int u) weights0)
          ((&&)
            (eq_op nat_eqType (Obj.magic size rows)
-             (Obj.magic size (members q r)))
+             (Obj.magic size (members q weight r)))
            (covered (member_form negative w.end_scale e)
-             (weighted_dot weights0) strict (zip (members q r) rows)))
+             (weighted_dot weights0) strict (zip (members q weight r) rows)))
      | Late (m, rows) ->
        (&&) (Z.leb Big_int_Z.zero_big_int m)
          ((&&)
            (eq_op nat_eqType (Obj.magic size rows)
-             (Obj.magic size (members q r)))
+             (Obj.magic size (members q weight r)))
            (covered (member_form negative w.end_scale e) (fun a b ->
-             Z.mul m (late_dot a b)) strict (zip (members q r) rows))))
+             Z.mul m (late_dot a b)) strict (zip (members q weight r) rows))))
 
 (** val check_whole : pencil -> region -> whole -> bool **)
 
 let check_whole q r w =
-  (&&) (check_end q true w.whole_negative r.lower r w.low_end)
-    (check_end q (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+  (&&)
+    (check_end q w.whole_weights true w.whole_negative r.lower r w.low_end)
+    (check_end q w.whole_weights (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
       w.whole_negative r.upper r w.high_end)
 
 type polynomial = Big_int_Z.big_int list
@@ -1938,8 +2171,8 @@ let rec add_poly p q =
 (** val mul_poly : polynomial -> polynomial -> polynomial **)
 
 let mul_poly p q =
-  foldr (fun a product ->
-    add_poly (scale_poly a q) (Big_int_Z.zero_big_int :: product)) [] p
+  foldr (fun a product0 ->
+    add_poly (scale_poly a q) (Big_int_Z.zero_big_int :: product0)) [] p
 
 (** val zero_poly : polynomial -> bool **)
 
@@ -2128,19 +2361,338 @@ let check_claim q k =
                   (slip q))
                 (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
 
+type enclosed_claim = { box_support : int list; box_from : point;
+                        box_to : point; box_pivot : int;
+                        box_center : Big_int_Z.big_int list;
+                        right_inverse : matrix;
+                        box_width : Big_int_Z.big_int;
+                        rate_width : Big_int_Z.big_int;
+                        left_null : Big_int_Z.big_int list }
+
+(** val add_multiple :
+    Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list **)
+
+let rec add_multiple c x y =
+  match x with
+  | [] -> y
+  | a :: x' ->
+    (match y with
+     | [] -> (Z.mul c a) :: (add_multiple c x' [])
+     | b :: y' -> (Z.add (Z.mul c a) b) :: (add_multiple c x' y'))
+
+(** val scatter :
+    Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list **)
+
+let scatter c row y =
+  foldr (fun e y0 ->
+    set_nth Big_int_Z.zero_big_int y0 (fst e)
+      (Z.add (Z.mul c (snd e)) (nth Big_int_Z.zero_big_int y0 (fst e)))) y row
+
+(** val absolute_dot :
+    sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let absolute_dot row w =
+  foldr (fun e sum ->
+    Z.add (Z.mul (Z.abs (snd e)) (nth Big_int_Z.zero_big_int w (fst e))) sum)
+    Big_int_Z.zero_big_int row
+
+(** val at_end :
+    point -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+let at_end e a b =
+  Z.add (Z.mul (snd e) a) (Z.mul (fst e) b)
+
+(** val row_at_end :
+    point -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list **)
+
+let row_at_end e a b =
+  add_multiple (snd e) a (add_multiple (fst e) b [])
+
+(** val box_active : pencil -> enclosed_claim -> Equality.sort -> bool **)
+
+let box_active q c i =
+  (||) (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free)))
+    (in_mem i (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
+
+(** val active_list : pencil -> enclosed_claim -> Equality.sort list **)
+
+let active_list q c =
+  filter (fun i -> box_active q c i) (Obj.magic iota 0 q.order)
+
+(** val pivot_removed : pencil -> enclosed_claim -> Equality.sort list **)
+
+let pivot_removed q c =
+  filter (fun i -> negb (eq_op nat_eqType i (Obj.magic c.box_pivot)))
+    (active_list q c)
+
+(** val inverse_vanishes_off :
+    pencil -> enclosed_claim -> int list -> bool **)
+
+let inverse_vanishes_off q c l =
+  all (fun j ->
+    (||) (in_mem (Obj.magic j) (mem (seq_predType nat_eqType) (Obj.magic l)))
+      (Z.eqb (norm1 (nth [] c.right_inverse j)) Big_int_Z.zero_big_int))
+    (iota 0 q.order)
+
+(** val vanishes_elsewhere : pencil -> enclosed_claim -> bool **)
+
+let vanishes_elsewhere q c =
+  (&&)
+    (all (fun j ->
+      (||) (box_active q c (Obj.magic j))
+        (Z.eqb (nth Big_int_Z.zero_big_int c.box_center j)
+          Big_int_Z.zero_big_int)) (iota 0 q.order))
+    (inverse_vanishes_off q c (Obj.magic pivot_removed q c))
+
+(** val times_inverse :
+    enclosed_claim -> sparse_row -> Big_int_Z.big_int list **)
+
+let times_inverse c row =
+  foldr (fun e sum ->
+    add_multiple (snd e) (nth [] c.right_inverse (fst e)) sum) [] row
+
+(** val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int **)
+
+let margin g p =
+  Z.sub
+    (Z.mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+      (nth Big_int_Z.zero_big_int g p)) (norm1 g)
+
+(** val dominated :
+    enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+    Big_int_Z.big_int -> bool **)
+
+let dominated c p g residual0 rate0 =
+  (&&) (Z.ltb Big_int_Z.zero_big_int (margin g p))
+    ((&&) (Z.leb (Z.abs residual0) (Z.mul (margin g p) c.box_width))
+      (Z.leb rate0 (Z.mul (margin g p) c.rate_width)))
+
+(** val dominated_at :
+    enclosed_claim -> point -> int -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+    Big_int_Z.big_int -> bool **)
+
+let dominated_at c e p ga gb ra rb rate0 =
+  dominated c p (row_at_end e ga gb) (at_end e ra rb) (Z.mul (snd e) rate0)
+
+(** val dominated_ends :
+    enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list
+    -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
+
+let dominated_ends c p ga gb ra rb rate0 =
+  (&&) (dominated_at c c.box_from p ga gb ra rb rate0)
+    (dominated_at c c.box_to p ga gb ra rb rate0)
+
+(** val regular_row :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool **)
+
+let regular_row q c eps p i =
+  dominated_ends c p (times_inverse c (row_a q i))
+    (times_inverse c (row_b q i)) (sparse_dot (row_a q i) c.box_center)
+    (sparse_dot (row_b q i) c.box_center)
+    (Z.add (Z.abs (sparse_dot (row_b q i) c.box_center))
+      (absolute_dot (row_b q i) eps))
+
+(** val norms : enclosed_claim -> Big_int_Z.big_int list **)
+
+let norms c =
+  map0 norm1 c.right_inverse
+
+(** val widths : enclosed_claim -> Big_int_Z.big_int list **)
+
+let widths c =
+  map0 (fun row -> Z.mul (norm1 row) c.box_width) c.right_inverse
+
+(** val left_times :
+    pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int list **)
+
+let left_times q c rows =
+  foldr (fun i sum ->
+    scatter (nth Big_int_Z.zero_big_int c.left_null (Obj.magic i))
+      (Obj.magic rows i) sum) [] (active_list q c)
+
+(** val left_value :
+    pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int **)
+
+let left_value q c rows =
+  sumZ (Obj.magic active_list q c) (fun i ->
+    Z.mul (nth Big_int_Z.zero_big_int c.left_null i)
+      (sparse_dot (rows i) c.box_center))
+
+(** val weighted_norm :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int **)
+
+let weighted_norm q c l eps =
+  sumZ (Obj.magic pivot_removed q c) (fun j ->
+    Z.mul (Z.abs (nth Big_int_Z.zero_big_int l j))
+      (nth Big_int_Z.zero_big_int eps j))
+
+(** val above_radius :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
+    -> point -> bool **)
+
+let above_radius q c eps la lb va vb e =
+  Z.ltb (weighted_norm q c (row_at_end e la lb) eps) (at_end e va vb)
+
+(** val below_radius :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
+    -> point -> bool **)
+
+let below_radius q c eps la lb va vb e =
+  Z.ltb (Z.add (at_end e va vb) (weighted_norm q c (row_at_end e la lb) eps))
+    Big_int_Z.zero_big_int
+
+(** val opposite_signs :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
+    -> bool **)
+
+let opposite_signs q c eps la lb va vb =
+  (||)
+    ((&&) (below_radius q c eps la lb va vb c.box_from)
+      (above_radius q c eps la lb va vb c.box_to))
+    ((&&) (above_radius q c eps la lb va vb c.box_from)
+      (below_radius q c eps la lb va vb c.box_to))
+
+(** val determinant_changes_sign :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
+
+let determinant_changes_sign q c eps =
+  (&&)
+    (Z.ltb Big_int_Z.zero_big_int
+      (nth Big_int_Z.zero_big_int c.left_null c.box_pivot))
+    (opposite_signs q c eps (left_times q c (row_a q))
+      (left_times q c (row_b q)) (left_value q c (row_a q))
+      (left_value q c (row_b q)))
+
+(** val one_root_at :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool **)
+
+let one_root_at q c eps la lb vb e =
+  Z.ltb
+    (Z.mul (weighted_norm q c (row_at_end e la lb) (norms c)) c.rate_width)
+    (Z.mul (snd e) (Z.sub (Z.abs vb) (weighted_norm q c lb eps)))
+
+(** val one_root_between :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> bool **)
+
+let one_root_between q c eps la lb vb =
+  (&&) (one_root_at q c eps la lb vb c.box_from)
+    (one_root_at q c eps la lb vb c.box_to)
+
+(** val one_root :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
+
+let one_root q c eps =
+  one_root_between q c eps (left_times q c (row_a q))
+    (left_times q c (row_b q)) (left_value q c (row_b q))
+
+(** val reaction_positive :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> point -> int -> bool **)
+
+let reaction_positive q c eps e i =
+  Z.ltb
+    (at_end e (absolute_dot (row_a q i) eps) (absolute_dot (row_b q i) eps))
+    (at_end e (sparse_dot (row_a q i) c.box_center)
+      (sparse_dot (row_b q i) c.box_center))
+
+(** val box_signs :
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
+
+let box_signs q c eps =
+  (&&)
+    (Z.ltb Big_int_Z.zero_big_int
+      (nth Big_int_Z.zero_big_int c.box_center c.box_pivot))
+    ((&&)
+      (all (fun j ->
+        Z.ltb (nth Big_int_Z.zero_big_int eps j)
+          (nth Big_int_Z.zero_big_int c.box_center j)) c.box_support)
+      (all (fun i ->
+        (||)
+          (in_mem i (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
+          ((&&) (reaction_positive q c eps c.box_from (Obj.magic i))
+            (reaction_positive q c eps c.box_to (Obj.magic i)))) (slip q)))
+
+(** val check_enclosed_claim : pencil -> enclosed_claim -> bool **)
+
+let check_enclosed_claim q c =
+  (&&) (wellformed q)
+    ((&&) (columns_in_order q)
+      ((&&) (ordered c.box_from c.box_to)
+        ((&&) (Z.ltb Big_int_Z.zero_big_int (snd c.box_to))
+          ((&&)
+            (in_mem (Obj.magic c.box_pivot)
+              (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
+            ((&&)
+              (all (fun i ->
+                in_mem (Obj.magic i)
+                  (mem (seq_predType nat_eqType) (Obj.magic slip q)))
+                c.box_support)
+              ((&&) (vanishes_elsewhere q c)
+                ((&&) (Z.leb Big_int_Z.zero_big_int c.box_width)
+                  ((&&) (Z.leb Big_int_Z.zero_big_int c.rate_width)
+                    ((&&)
+                      (all_from (Obj.magic regular_row q c (widths c)) 0
+                        (pivot_removed q c))
+                      ((&&) (determinant_changes_sign q c (widths c))
+                        ((&&) (one_root q c (widths c))
+                          (box_signs q c (widths c)))))))))))))
+
+type solution_claim =
+| ExactClaim of claim
+| BoxClaim of enclosed_claim
+
 (** val positions : pencil -> int list -> int list **)
 
 let positions q l =
   map0 (fun i -> index nat_eqType (Obj.magic i) (slip q)) l
 
-(** val known_of : pencil -> claim -> known **)
+(** val claimed_support : solution_claim -> int list **)
+
+let claimed_support = function
+| ExactClaim e -> e.support
+| BoxClaim b -> b.box_support
+
+(** val claimed_biactive : solution_claim -> int list **)
+
+let claimed_biactive = function
+| ExactClaim e -> e.biactive
+| BoxClaim _ -> []
+
+(** val claimed_from : solution_claim -> point **)
+
+let claimed_from = function
+| ExactClaim e -> (e.claim_from, e.claim_denominator)
+| BoxClaim b -> b.box_from
+
+(** val claimed_to : solution_claim -> point **)
+
+let claimed_to = function
+| ExactClaim e -> (e.claim_to, e.claim_denominator)
+| BoxClaim b -> b.box_to
+
+(** val known_of : pencil -> solution_claim -> known **)
 
 let known_of q k =
-  { known_from = (k.claim_from, k.claim_denominator); known_to = (k.claim_to,
-    k.claim_denominator); known_support = (positions q k.support);
-    known_biactive = (positions q k.biactive) }
+  { known_from = (claimed_from k); known_to = (claimed_to k); known_support =
+    (positions q (claimed_support k)); known_biactive =
+    (positions q (claimed_biactive k)) }
 
-(** val known_solutions : pencil -> claim list -> known list **)
+(** val check_solution_claim : pencil -> solution_claim -> bool **)
+
+let check_solution_claim q = function
+| ExactClaim e -> check_claim q e
+| BoxClaim b -> check_enclosed_claim q b
+
+(** val known_solutions : pencil -> solution_claim list -> known list **)
 
 let known_solutions q claims =
   map0 (fun k -> known_of q k) claims
@@ -2166,19 +2718,20 @@ let check_limit q r k x =
             (iota 0 (size (slip q)))))))
 
 (** val check_complete :
-    pencil -> claim list -> elimination -> whole leaf tree -> point -> point
-    -> bool **)
+    pencil -> solution_claim list -> elimination -> whole leaf tree -> point
+    -> point -> bool **)
 
 let check_complete q claims w tr lo hi =
   (&&) (wellformed q)
     ((&&) (free_rows_constant q)
       ((&&) (check_elimination (blocks_of q) w)
-        ((&&) (all (check_claim q) claims)
+        ((&&) (all (check_solution_claim q) claims)
           (check_cover (condensed (blocks_of q) w) (known_solutions q claims)
             (check_whole q) (check_limit q) tr lo hi))))
 
 (** val found :
-    pencil -> claim list -> whole leaf tree -> point -> point -> yield list **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+    yield list **)
 
 let found q claims tr lo hi =
   yields (enclosed_order (size (slip q))) (known_solutions q claims) tr
@@ -2190,17 +2743,11 @@ let left_open tr lo hi =
   undecided tr (window lo hi)
 
 (** val solutions_found :
-    pencil -> claim list -> whole leaf tree -> point -> point -> yield list
-    option **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+    yield list option **)
 
 let solutions_found q claims tr lo hi =
   distinct_yields (size (slip q)) lo hi (found q claims tr lo hi)
-
-(** val check_excluded : pencil -> whole tree -> point -> point -> bool **)
-
-let check_excluded q tr lo hi =
-  (&&) (wellformed q)
-    (check_tree (size (slip q)) (check_whole q) tr (window lo hi))
 
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
@@ -2377,23 +2924,23 @@ let system_wellformed s u =
              | Lambda2 (_, q) -> Z.ltb Big_int_Z.zero_big_int q)))))
 
 (** val check_system :
-    system -> unknown -> claim list -> elimination -> whole leaf tree ->
-    point -> point -> bool **)
+    system -> unknown -> solution_claim list -> elimination -> whole leaf
+    tree -> point -> point -> bool **)
 
 let check_system s u claims w tr lo hi =
   (&&) (system_wellformed s u)
     (check_complete (pencil_of s u) claims w tr lo hi)
 
-(** val check_system_excluded :
-    system -> unknown -> whole tree -> point -> point -> bool **)
-
-let check_system_excluded s u tr lo hi =
-  (&&) (system_wellformed s u) (check_excluded (pencil_of s u) tr lo hi)
-
 (** val check_system_claim : system -> unknown -> claim -> bool **)
 
 let check_system_claim s u k =
   (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)
+
+(** val check_system_enclosed :
+    system -> unknown -> enclosed_claim -> bool **)
+
+let check_system_enclosed s u k =
+  (&&) (system_wellformed s u) (check_enclosed_claim (pencil_of s u) k)
 
 type lifted = { motion_claim : claim; forces : polynomial list;
                 force_reductions : reduction list;
@@ -2543,77 +3090,6 @@ let check_lifted s u l =
               ((&&) (all (particle_states s u l) (iota 0 (size s.particles)))
                 ((||) (has (in_support s l) (iota 0 (size s.particles)))
                   (has (dof_moves l) s.free_dofs))))))))
-
-type enclosed_claim = { box_support : int list; interval_low : point;
-                        interval_high : point; null_box : isolation }
-
-(** val dense : pencil -> (int -> sparse_row) -> matrix **)
-
-let dense q rows =
-  map0 (fun i -> map0 (fun j -> lookup (rows i) j) (iota 0 q.order))
-    (iota 0 q.order)
-
-(** val whole_pencil : pencil -> enclosed **)
-
-let whole_pencil q =
-  { size_of = q.order; center_a = (dense q (row_a q)); center_b =
-    (dense q (row_b q)); radius_a = []; radius_b = [] }
-
-(** val in_active_block :
-    pencil -> enclosed_claim -> Equality.sort -> bool **)
-
-let in_active_block q k i =
-  (||) (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free)))
-    (in_mem i (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
-
-(** val active_region : pencil -> enclosed_claim -> region **)
-
-let active_region q k =
-  { lower = k.interval_low; upper = k.interval_high; states =
-    (map0 (fun i ->
-      if in_active_block q k (Obj.magic i) then Moving else Resting)
-      (iota 0 q.order)) }
-
-(** val positive_on_support : enclosed_claim -> Equality.sort -> bool **)
-
-let positive_on_support k j =
-  (||) (eq_op nat_eqType j (Obj.magic k.null_box.pivot))
-    (Z.ltb k.null_box.narrow_box.width
-      (nth Big_int_Z.zero_big_int k.null_box.vector (Obj.magic j)))
-
-(** val positive_off_support : pencil -> enclosed_claim -> int -> bool **)
-
-let positive_off_support q k i =
-  both_ends k.null_box (fun x ->
-    row_positive (whole_pencil q) (active_region q k) k.null_box.pivot
-      k.null_box.vector k.null_box.narrow_box.width x i)
-
-(** val check_enclosed_claim : pencil -> enclosed_claim -> bool **)
-
-let check_enclosed_claim q k =
-  (&&) (wellformed q)
-    ((&&) (ordered k.interval_low k.interval_high)
-      ((&&)
-        (in_mem (Obj.magic k.null_box.pivot)
-          (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
-        ((&&)
-          (all (fun i ->
-            in_mem (Obj.magic i)
-              (mem (seq_predType nat_eqType) (Obj.magic slip q)))
-            k.box_support)
-          ((&&) (isolated (whole_pencil q) (active_region q k) k.null_box)
-            ((&&) (all (Obj.magic positive_on_support k) k.box_support)
-              (all (fun i ->
-                (||)
-                  (in_mem i
-                    (mem (seq_predType nat_eqType) (Obj.magic k.box_support)))
-                  (positive_off_support q k (Obj.magic i))) (slip q)))))))
-
-(** val check_system_enclosed :
-    system -> unknown -> enclosed_claim -> bool **)
-
-let check_system_enclosed s u k =
-  (&&) (system_wellformed s u) (check_enclosed_claim (pencil_of s u) k)
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
@@ -3342,15 +3818,15 @@ let families tr lo hi ls =
   families_of (left_open tr lo hi) ls
 
 (** val all_yields :
-    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-    option list -> yield list **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+    support_leaf option list -> yield list **)
 
 let all_yields q claims tr lo hi ls =
   cat (found q claims tr lo hi) (isolated_of (left_open tr lo hi) ls)
 
 (** val all_solutions :
-    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-    option list -> yield list option **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+    support_leaf option list -> yield list option **)
 
 let all_solutions q claims tr lo hi ls =
   distinct_yields (size (slip q)) lo hi
@@ -3366,17 +3842,807 @@ let still_open tr lo hi ls =
   open_of (left_open tr lo hi) ls
 
 (** val check_families :
-    pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-    option list -> elimination -> bool **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+    support_leaf option list -> elimination -> bool **)
 
 let check_families q claims tr lo hi ls w =
   (&&) (check_complete q claims w tr lo hi)
     (check_supports q (left_open tr lo hi) ls)
 
 (** val check_system_families :
-    system -> unknown -> claim list -> elimination -> whole leaf tree ->
-    point -> point -> support_leaf option list -> bool **)
+    system -> unknown -> solution_claim list -> elimination -> whole leaf
+    tree -> point -> point -> support_leaf option list -> bool **)
 
 let check_system_families s u claims w tr lo hi ls =
   (&&) (check_system s u claims w tr lo hi)
     (check_supports (pencil_of s u) (left_open tr lo hi) ls)
+
+(** val add_lists :
+    ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list **)
+
+let rec add_lists add0 p q =
+  match p with
+  | [] -> q
+  | a :: p' ->
+    (match q with
+     | [] -> p
+     | b :: q' -> (add0 a b) :: (add_lists add0 p' q'))
+
+(** val add_matrix : matrix -> matrix -> matrix **)
+
+let add_matrix =
+  add_lists add_poly
+
+(** val add_series : matrix list -> matrix list -> matrix list **)
+
+let add_series =
+  add_lists add_matrix
+
+(** val scale_series : Big_int_Z.big_int -> matrix list -> matrix list **)
+
+let scale_series c l =
+  map0 (fun m -> map0 (fun row -> scale_poly c row) m) l
+
+(** val combine : matrix -> sparse_row -> Big_int_Z.big_int list **)
+
+let combine x row =
+  foldr (fun e s -> add_poly (scale_poly (snd e) (nth [] x (fst e))) s) [] row
+
+(** val product : sparse_row list -> matrix -> matrix **)
+
+let product rows x =
+  map0 (fun row -> combine x row) rows
+
+(** val product_series : sparse_row list -> matrix list -> matrix list **)
+
+let product_series rows l =
+  map0 (fun x -> product rows x) l
+
+(** val column_of : matrix -> int -> Big_int_Z.big_int list **)
+
+let column_of x j =
+  map0 (fun row -> nth Big_int_Z.zero_big_int row j) x
+
+(** val columns_of : int -> matrix -> Big_int_Z.big_int list list **)
+
+let columns_of n x =
+  map0 (fun j -> column_of x j) (iota 0 n)
+
+(** val cross : matrix -> matrix -> matrix **)
+
+let cross cx cy =
+  map0 (fun a -> map0 (fun b -> dot a b) cy) cx
+
+(** val cross_series : int -> matrix list -> matrix list -> matrix list **)
+
+let cross_series n x y =
+  let cys = map0 (fun m -> columns_of n m) y in
+  foldr (fun m s ->
+    let cx = columns_of n m in
+    add_series (map0 (fun cy -> cross cx cy) cys) ([] :: s)) [] x
+
+(** val squares : Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let squares x =
+  foldr (fun a s -> Z.add (Z.mul a a) s) Big_int_Z.zero_big_int x
+
+(** val norm2 : Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let norm2 x =
+  Z.sqrt_up (squares x)
+
+(** val norms0 : matrix list -> int -> polynomial **)
+
+let norms0 l j =
+  map0 (fun m -> norm2 (column_of m j)) l
+
+(** val derivative : polynomial -> polynomial **)
+
+let rec derivative = function
+| [] -> []
+| _ :: p' -> add_poly p' (Big_int_Z.zero_big_int :: (derivative p'))
+
+(** val homogeneous :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int * Big_int_Z.big_int **)
+
+let homogeneous x y p =
+  foldr (fun c s ->
+    let power = Z.mul (snd s) y in
+    ((Z.add (Z.mul c power) (Z.mul x (fst s))), power))
+    (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int) p
+
+(** val substituted :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+    -> polynomial * Big_int_Z.big_int **)
+
+let substituted x v y p =
+  foldr (fun c s ->
+    let power = Z.mul (snd s) y in
+    ((add_poly ((Z.mul c power) :: [])
+       (add_poly (scale_poly x (fst s))
+         (Big_int_Z.zero_big_int :: (scale_poly v (fst s))))), power)) ([],
+    Big_int_Z.unit_big_int) p
+
+(** val spread_of : polynomial -> Big_int_Z.big_int **)
+
+let rec spread_of = function
+| [] -> Big_int_Z.zero_big_int
+| _ :: p' -> Z.add (norm1 p') (spread_of p')
+
+(** val total : polynomial -> Big_int_Z.big_int **)
+
+let total p =
+  foldr Z.add Big_int_Z.zero_big_int p
+
+(** val constant_of : polynomial -> Big_int_Z.big_int **)
+
+let constant_of p =
+  nth Big_int_Z.zero_big_int p 0
+
+(** val chord_of : polynomial -> Big_int_Z.big_int **)
+
+let chord_of p =
+  total (behead p)
+
+(** val spread : polynomial -> Big_int_Z.big_int **)
+
+let spread p =
+  spread_of (behead p)
+
+(** val poly_of : matrix list -> int -> int -> polynomial **)
+
+let poly_of l i j =
+  map0 (fun m -> entry m i j) l
+
+type form_bound = { bound_times : Big_int_Z.big_int;
+                    bound_at : Big_int_Z.big_int;
+                    gram_times : Big_int_Z.big_int; gram_rows : late_row list }
+
+type anchor = { anchor_center : point; anchor_unit : Big_int_Z.big_int;
+                anchor_right : matrix list; anchor_left : matrix list;
+                anchor_scale : Big_int_Z.big_int list }
+
+type anchor_family = { series_z : matrix list; left_norms : polynomial list;
+                       right_norms : polynomial list;
+                       drift : Big_int_Z.big_int }
+
+type local_entry = { local_a : Big_int_Z.big_int;
+                     local_b : Big_int_Z.big_int;
+                     local_ra : Big_int_Z.big_int;
+                     local_rb : Big_int_Z.big_int }
+
+type local_leaf =
+| LocalFarkas of Big_int_Z.big_int list
+| LocalDefinite of bool * factor * factor
+| LocalAbsent of absence
+| LocalRoot of isolation * outcome
+
+(** val bounded_rows :
+    Equality.sort -> sparse_row list -> form_bound -> bool **)
+
+let bounded_rows n rows b =
+  let entry_of0 = fun r s ->
+    Z.sub (Z.mul b.bound_times (lookup (snd r) (fst (Obj.magic s))))
+      (if eq_op nat_eqType (fst r) (fst s)
+       then b.bound_at
+       else Big_int_Z.zero_big_int)
+  in
+  (&&) (Z.ltb Big_int_Z.zero_big_int b.bound_times)
+    ((&&) (Z.leb Big_int_Z.zero_big_int b.bound_at)
+      ((&&) (Z.leb Big_int_Z.zero_big_int b.gram_times)
+        ((&&) (eq_op nat_eqType (Obj.magic size rows) n)
+          ((&&) (eq_op nat_eqType (Obj.magic size b.gram_rows) n)
+            ((&&)
+              (all_from (fun i row ->
+                all_from (fun j col -> Z.eqb (lookup row j) (lookup col i)) 0
+                  rows) 0 rows)
+              (covered (Obj.magic entry_of0) (fun r s ->
+                Z.mul b.gram_times (late_dot r s)) false
+                (zip (zip (iota 0 (Obj.magic n)) rows) b.gram_rows)))))))
+
+(** val times : Big_int_Z.big_int -> sparse_row -> sparse_row **)
+
+let times c row =
+  map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
+
+(** val row_0 : pencil -> anchor -> int -> (int * Big_int_Z.big_int) list **)
+
+let row_0 q a i =
+  cat (times (snd a.anchor_center) (row_a q i))
+    (times (fst a.anchor_center) (row_b q i))
+
+(** val row_1 : pencil -> anchor -> int -> sparse_row **)
+
+let row_1 q a i =
+  times (snd a.anchor_center) (row_b q i)
+
+(** val ff_block : pencil -> (int -> sparse_row) -> sparse_row list **)
+
+let ff_block q row =
+  map0 (fun i -> restrict (row i) q.free) q.free
+
+(** val fs_block : pencil -> (int -> sparse_row) -> matrix **)
+
+let fs_block q row =
+  let columns0 = slip q in
+  map0 (fun i ->
+    let entries = row i in
+    map0 (fun j -> lookup entries (Obj.magic j)) columns0) q.free
+
+(** val sf_block : pencil -> (int -> sparse_row) -> matrix **)
+
+let sf_block q row =
+  let rows = map0 (fun i -> Obj.magic row i) (slip q) in
+  map0 (fun j -> map0 (fun entries -> lookup entries j) rows) q.free
+
+(** val ss_block : pencil -> (int -> sparse_row) -> matrix **)
+
+let ss_block q row =
+  let columns0 = slip q in
+  map0 (fun i ->
+    let entries = Obj.magic row i in
+    map0 (fun j -> lookup entries (Obj.magic j)) columns0) columns0
+
+(** val residual_series :
+    anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix
+    list -> matrix list **)
+
+let residual_series a f0 f1 y x =
+  add_series (scale_series a.anchor_unit y)
+    (scale_series (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
+      (add_series (product_series f0 x) ([] :: (product_series f1 x))))
+
+(** val center_series : pencil -> anchor -> matrix list -> matrix list **)
+
+let center_series q a r =
+  let u = a.anchor_unit in
+  add_series
+    (scale_series (Z.mul u u)
+      ((ss_block q (row_0 q a)) :: ((ss_block q (row_1 q a)) :: [])))
+    (scale_series (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
+      (add_series
+        (scale_series u
+          (cross_series (size (slip q))
+            ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
+            a.anchor_right)) (cross_series (size (slip q)) a.anchor_left r)))
+
+(** val row_sum : sparse_row -> Big_int_Z.big_int **)
+
+let row_sum row =
+  foldr (fun e s -> Z.add (Z.abs (snd e)) s) Big_int_Z.zero_big_int row
+
+(** val expand_from :
+    pencil -> anchor -> sparse_row list -> matrix list -> matrix list ->
+    anchor_family **)
+
+let expand_from q a f1 l r =
+  { series_z = (center_series q a r); left_norms =
+    (map0 (fun i -> norms0 l i) (iota 0 (size (slip q)))); right_norms =
+    (map0 (fun j -> norms0 r j) (iota 0 (size (slip q)))); drift =
+    (foldr Z.max Big_int_Z.zero_big_int (map0 row_sum f1)) }
+
+(** val small : pencil -> matrix list -> bool **)
+
+let small q l =
+  all (fun m -> leq (size m) (size q.free)) l
+
+(** val expand : pencil -> anchor -> anchor_family option **)
+
+let expand q a =
+  let f0 = ff_block q (row_0 q a) in
+  let f1 = ff_block q (row_1 q a) in
+  let l =
+    residual_series a f0 f1
+      ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
+      a.anchor_left
+  in
+  let r =
+    residual_series a f0 f1
+      ((fs_block q (row_0 q a)) :: ((fs_block q (row_1 q a)) :: []))
+      a.anchor_right
+  in
+  if (&&) (Z.ltb Big_int_Z.zero_big_int (snd a.anchor_center))
+       ((&&) (Z.ltb Big_int_Z.zero_big_int a.anchor_unit)
+         ((&&)
+           (all (fun i ->
+             Z.ltb Big_int_Z.zero_big_int
+               (nth Big_int_Z.zero_big_int a.anchor_scale i))
+             (iota 0 (size (slip q))))
+           ((&&) (small q a.anchor_left) ((&&) (small q l) (small q r)))))
+  then Some (expand_from q a f1 l r)
+  else None
+
+(** val interval_width : point -> point -> Big_int_Z.big_int **)
+
+let interval_width lo hi =
+  Z.sub (Z.mul (fst hi) (snd lo)) (Z.mul (fst lo) (snd hi))
+
+(** val offset : anchor -> point -> point -> Big_int_Z.big_int **)
+
+let offset a lo hi =
+  Z.mul
+    (Z.sub (Z.mul (fst lo) (snd a.anchor_center))
+      (Z.mul (fst a.anchor_center) (snd lo))) (snd hi)
+
+(** val extent : anchor -> point -> point -> Big_int_Z.big_int **)
+
+let extent a lo hi =
+  Z.mul (interval_width lo hi) (snd a.anchor_center)
+
+(** val unit_y : anchor -> point -> point -> Big_int_Z.big_int **)
+
+let unit_y a lo hi =
+  Z.mul (Z.mul (snd lo) (snd hi)) (snd a.anchor_center)
+
+(** val reach : anchor -> point -> point -> Big_int_Z.big_int **)
+
+let reach a lo hi =
+  Z.max (Z.abs (offset a lo hi))
+    (Z.abs (Z.add (offset a lo hi) (extent a lo hi)))
+
+(** val bound_n :
+    anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int **)
+
+let bound_n a low_a low_b lo =
+  Z.mul (snd a.anchor_center)
+    (Z.add (Z.mul (Z.mul low_a.bound_at low_b.bound_times) (snd lo))
+      (Z.mul (Z.mul (fst lo) low_b.bound_at) low_a.bound_times))
+
+(** val bound_d0 : form_bound -> form_bound -> point -> Big_int_Z.big_int **)
+
+let bound_d0 low_a low_b lo =
+  Z.mul (Z.mul low_a.bound_times low_b.bound_times) (snd lo)
+
+(** val proper_interval :
+    anchor -> form_bound -> form_bound -> point -> point -> bool **)
+
+let proper_interval a low_a low_b lo hi =
+  (&&) (Z.leb Big_int_Z.zero_big_int (fst lo))
+    ((&&) (Z.ltb Big_int_Z.zero_big_int (snd lo))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd hi))
+        ((&&) (Z.ltb Big_int_Z.zero_big_int (interval_width lo hi))
+          (Z.ltb Big_int_Z.zero_big_int (bound_n a low_a low_b lo)))))
+
+(** val remainder_radius :
+    anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int **)
+
+let remainder_radius a low_a low_b lo power nl nr =
+  divide_up
+    (Z.mul (Z.mul (Z.mul power (fst nl)) (fst nr)) (bound_d0 low_a low_b lo))
+    (Z.mul (Z.mul (snd nl) (snd nr)) (bound_n a low_a low_b lo))
+
+(** val remainder_slope :
+    anchor -> form_bound -> form_bound -> anchor_family -> point -> point ->
+    Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int **)
+
+let remainder_slope a low_a low_b fam lo hi power nl nr dl dr =
+  Z.add
+    (Z.add
+      (divide_up
+        (Z.mul
+          (Z.mul (Z.mul (Z.mul power (extent a lo hi)) (fst dl)) (fst nr))
+          (bound_d0 low_a low_b lo))
+        (Z.mul (Z.mul (Z.mul (unit_y a lo hi) (snd dl)) (snd nr))
+          (bound_n a low_a low_b lo)))
+      (divide_up
+        (Z.mul
+          (Z.mul (Z.mul (Z.mul power (extent a lo hi)) (fst nl)) (fst dr))
+          (bound_d0 low_a low_b lo))
+        (Z.mul (Z.mul (Z.mul (unit_y a lo hi) (snd nl)) (snd dr))
+          (bound_n a low_a low_b lo))))
+    (divide_up
+      (Z.mul
+        (Z.mul
+          (Z.mul
+            (Z.mul (Z.mul (Z.mul power (extent a lo hi)) (fst nl)) (fst nr))
+            fam.drift) (bound_d0 low_a low_b lo)) (bound_d0 low_a low_b lo))
+      (Z.mul
+        (Z.mul (Z.mul (Z.mul (unit_y a lo hi) (snd nl)) (snd nr))
+          (bound_n a low_a low_b lo)) (bound_n a low_a low_b lo)))
+
+(** val entry_of :
+    anchor -> form_bound -> form_bound -> anchor_family -> point -> point ->
+    bool -> polynomial -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> local_entry **)
+
+let entry_of a low_a low_b fam lo hi slopes z0 nl nr dl dr =
+  let c = substituted (offset a lo hi) (extent a lo hi) (unit_y a lo hi) z0 in
+  let rb =
+    if slopes
+    then Z.add
+           (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+             (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)))
+             (spread (fst c)))
+           (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+             Big_int_Z.unit_big_int))
+             (remainder_slope a low_a low_b fam lo hi (snd c) nl nr dl dr))
+    else Big_int_Z.zero_big_int
+  in
+  { local_a =
+  (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+    Big_int_Z.unit_big_int)) (constant_of (fst c))); local_b =
+  (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+    Big_int_Z.unit_big_int)) (chord_of (fst c))); local_ra =
+  (Z.add
+    (Z.add (spread (fst c))
+      (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+        Big_int_Z.unit_big_int))
+        (remainder_radius a low_a low_b lo (snd c) nl nr))) rb); local_rb =
+  rb }
+
+(** val rounded :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry **)
+
+let rounded grain scale e =
+  { local_a = (Z.div (Z.mul scale e.local_a) grain); local_b =
+    (Z.div (Z.mul scale e.local_b) grain); local_ra =
+    (Z.add (divide_up (Z.mul scale e.local_ra) grain) Big_int_Z.unit_big_int);
+    local_rb =
+    (Z.add (divide_up (Z.mul scale e.local_rb) grain) Big_int_Z.unit_big_int) }
+
+(** val local_entries :
+    int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
+    point -> bool -> Big_int_Z.big_int -> local_entry list list **)
+
+let local_entries ns a low_a low_b fam lo hi slopes grain =
+  let at_reach = homogeneous (reach a lo hi) (unit_y a lo hi) in
+  let nl = map0 at_reach fam.left_norms in
+  let nr = map0 at_reach fam.right_norms in
+  let dl = map0 (fun n -> at_reach (derivative n)) fam.left_norms in
+  let dr = map0 (fun n -> at_reach (derivative n)) fam.right_norms in
+  let get = fun l i ->
+    nth (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int) l i
+  in
+  map0 (fun i ->
+    map0 (fun j ->
+      rounded grain (nth Big_int_Z.zero_big_int a.anchor_scale i)
+        (entry_of a low_a low_b fam lo hi slopes (poly_of fam.series_z i j)
+          (get nl i) (get nr j) (get dl i) (get dr j))) (iota 0 ns))
+    (iota 0 ns)
+
+(** val local_pencil :
+    int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
+    point -> bool -> Big_int_Z.big_int -> enclosed **)
+
+let local_pencil ns a low_a low_b fam lo hi slopes grain =
+  let t = local_entries ns a low_a low_b fam lo hi slopes grain in
+  let table0 = fun f -> map0 (fun row -> map0 f row) t in
+  { size_of = ns; center_a = (table0 (fun l -> l.local_a)); center_b =
+  (table0 (fun l -> l.local_b)); radius_a = (table0 (fun l -> l.local_ra));
+  radius_b = (table0 (fun l -> l.local_rb)) }
+
+(** val local_point : point -> point -> point -> point **)
+
+let local_point lo hi e =
+  ((Z.mul (Z.sub (Z.mul (fst e) (snd lo)) (Z.mul (fst lo) (snd e))) (snd hi)),
+    (Z.mul (snd e) (interval_width lo hi)))
+
+(** val local_isolation : point -> point -> isolation -> isolation **)
+
+let local_isolation lo hi c =
+  { pivot = c.pivot; vector = c.vector; from_point =
+    (local_point lo hi c.from_point); to_point =
+    (local_point lo hi c.to_point); wide_box = c.wide_box; narrow_box =
+    c.narrow_box; unique = c.unique; left_vector = c.left_vector }
+
+(** val local_known : point -> point -> known -> known **)
+
+let local_known lo hi q =
+  { known_from = (local_point lo hi q.known_from); known_to =
+    (local_point lo hi q.known_to); known_support = q.known_support;
+    known_biactive = q.known_biactive }
+
+(** val moved_leaf : point -> point -> local_leaf -> local_leaf **)
+
+let moved_leaf lo hi l = match l with
+| LocalRoot (c, o) -> LocalRoot ((local_isolation lo hi c), o)
+| _ -> l
+
+(** val wants_slopes : local_leaf -> bool **)
+
+let wants_slopes = function
+| LocalRoot (_, o) -> (match o with
+                       | Solution -> true
+                       | _ -> false)
+| _ -> false
+
+(** val local_region : region -> region **)
+
+let local_region r =
+  { lower = (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int); upper =
+    (Big_int_Z.unit_big_int, Big_int_Z.unit_big_int); states = r.states }
+
+(** val check_local : enclosed -> region -> local_leaf -> bool **)
+
+let check_local p r = function
+| LocalFarkas w -> farkas p r w
+| LocalDefinite (negative, low, high) -> definite p negative r low high
+| LocalAbsent c -> check_absent p r c
+| LocalRoot (c, o) -> check_root p r c o
+
+(** val check_anchored :
+    int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
+    point -> region -> Big_int_Z.big_int -> local_leaf -> bool **)
+
+let check_anchored ns a low_a low_b fam lo hi r grain l =
+  (&&) (proper_interval a low_a low_b lo hi)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
+      (check_local
+        (local_pencil ns a low_a low_b fam lo hi (wants_slopes l) grain)
+        (local_region r) (moved_leaf lo hi l)))
+
+(** val check_anchored_claim :
+    int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
+    point -> region -> Big_int_Z.big_int -> pinning -> known -> bool **)
+
+let check_anchored_claim ns a low_a low_b fam lo hi r grain c q =
+  (&&) (proper_interval a low_a low_b lo hi)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
+      (check_claimed (local_pencil ns a low_a low_b fam lo hi true grain)
+        (local_region r) c (local_known lo hi q)))
+
+(** val check_anchored_limit :
+    int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
+    point -> region -> Big_int_Z.big_int -> pinning -> bool **)
+
+let check_anchored_limit ns a low_a low_b fam lo hi r grain c =
+  (&&) (proper_interval a low_a low_b lo hi)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
+      (pinned (local_pencil ns a low_a low_b fam lo hi true grain)
+        (local_region r) c))
+
+type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
+                   anchors : (bool * anchor) list }
+
+type varying_leaf =
+| OfAnchor of int * Big_int_Z.big_int * interval * local_leaf
+| OfClaim of int * Big_int_Z.big_int * interval * pinning * int
+| OfLimit of int * Big_int_Z.big_int * interval * pinning
+   * Big_int_Z.big_int list
+| OfWhole of whole
+| LeftOpen
+
+(** val swap_pencil : pencil -> pencil **)
+
+let swap_pencil q =
+  { order = q.order; rows_a = q.rows_b; rows_b = q.rows_a; free = q.free }
+
+(** val swap_region : region -> region **)
+
+let swap_region r =
+  { lower = (swap r.upper); upper = (swap r.lower); states = r.states }
+
+(** val swap_isolation : isolation -> isolation **)
+
+let swap_isolation c =
+  { pivot = c.pivot; vector = c.vector; from_point = (swap c.to_point);
+    to_point = (swap c.from_point); wide_box = c.wide_box; narrow_box =
+    c.narrow_box; unique = c.unique; left_vector = c.left_vector }
+
+(** val swap_leaf : local_leaf -> local_leaf **)
+
+let swap_leaf l = match l with
+| LocalRoot (c, o) -> LocalRoot ((swap_isolation c), o)
+| _ -> l
+
+(** val swap_known : known -> known **)
+
+let swap_known q =
+  { known_from = (swap q.known_to); known_to = (swap q.known_from);
+    known_support = q.known_support; known_biactive = q.known_biactive }
+
+(** val expand_anchor : pencil -> (bool * anchor) -> anchor_family option **)
+
+let expand_anchor q ra =
+  if fst ra then expand (swap_pencil q) (snd ra) else expand q (snd ra)
+
+(** val no_anchor : bool * anchor **)
+
+let no_anchor =
+  (false, { anchor_center = zero; anchor_unit = Big_int_Z.zero_big_int;
+    anchor_right = []; anchor_left = []; anchor_scale = [] })
+
+(** val expansions : pencil -> anchoring -> anchor_family option list **)
+
+let expansions q w =
+  map0 (fun ra -> expand_anchor q ra) w.anchors
+
+(** val finite_root : local_leaf -> bool **)
+
+let finite_root = function
+| LocalRoot (c, _) -> Z.ltb Big_int_Z.zero_big_int (snd c.to_point)
+| _ -> true
+
+(** val check_direction :
+    pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
+
+let check_direction q r k x =
+  let at_slip = fun j ->
+    nth Big_int_Z.zero_big_int x (nth 0 (Obj.magic slip q) j)
+  in
+  (&&) (columns_in_order q)
+    ((&&) (negb (Z.eqb (at_slip k) Big_int_Z.zero_big_int))
+      ((&&)
+        (all (fun i ->
+          Z.eqb (sparse_dot (row_b q i) x) Big_int_Z.zero_big_int) q.free)
+        (all (fun j ->
+          if is_moving (state_of r j)
+          then Z.eqb (sparse_dot (row_b q (nth 0 (Obj.magic slip q) j)) x)
+                 Big_int_Z.zero_big_int
+          else Z.eqb (at_slip j) Big_int_Z.zero_big_int)
+          (iota 0 (size (slip q))))))
+
+(** val at_anchor :
+    anchoring -> anchor_family option list -> int -> region -> (bool ->
+    anchor -> form_bound -> form_bound -> anchor_family -> region -> bool) ->
+    bool **)
+
+let at_anchor w families0 n r check =
+  let (reverse, a) = nth no_anchor w.anchors n in
+  (match nth None families0 n with
+   | Some fam ->
+     if reverse
+     then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
+            (check true a w.mass_bound w.stiffness_bound fam (swap_region r))
+     else check false a w.stiffness_bound w.mass_bound fam r
+   | None -> false)
+
+(** val leaf_at :
+    pencil -> Big_int_Z.big_int -> local_leaf -> bool -> anchor -> form_bound
+    -> form_bound -> anchor_family -> region -> bool **)
+
+let leaf_at q grain e reverse a low_a low_b fam r =
+  (&&) ((||) (negb reverse) (finite_root e))
+    (check_anchored (size (slip q)) a low_a low_b fam r.lower r.upper r grain
+      (if reverse then swap_leaf e else e))
+
+(** val claim_at :
+    pencil -> Big_int_Z.big_int -> pinning -> known -> bool -> anchor ->
+    form_bound -> form_bound -> anchor_family -> region -> bool **)
+
+let claim_at q grain c q0 reverse a low_a low_b fam r =
+  (&&)
+    ((||) (negb reverse) (Z.ltb Big_int_Z.zero_big_int (fst q0.known_from)))
+    (check_anchored_claim (size (slip q)) a low_a low_b fam r.lower r.upper r
+      grain c (if reverse then swap_known q0 else q0))
+
+(** val limit_at :
+    pencil -> Big_int_Z.big_int -> pinning -> Big_int_Z.big_int list -> bool
+    -> anchor -> form_bound -> form_bound -> anchor_family -> region -> bool **)
+
+let limit_at q grain c x reverse a low_a low_b fam r =
+  (&&) reverse
+    ((&&) (Z.eqb (fst r.lower) Big_int_Z.zero_big_int)
+      ((&&) (check_direction q r c.pin_pivot x)
+        (check_anchored_limit (size (slip q)) a low_a low_b fam r.lower
+          r.upper r grain c)))
+
+(** val check_varying_leaf :
+    pencil -> anchoring -> anchor_family option list -> known list -> region
+    -> varying_leaf -> bool **)
+
+let check_varying_leaf q w families0 solutions r = function
+| OfAnchor (n, grain, h, e) ->
+  (&&) (reaches r h)
+    (at_anchor w families0 n (extended r h) (leaf_at q grain e))
+| OfClaim (n, grain, h, c, k) ->
+  (&&) (reaches r h)
+    ((&&) (leq (Stdlib.Int.succ k) (size solutions))
+      (at_anchor w families0 n (extended r h)
+        (claim_at q grain c (known_at solutions k))))
+| OfLimit (n, grain, h, c, x) ->
+  (&&) (reaches r h)
+    (at_anchor w families0 n (extended r h) (limit_at q grain c x))
+| OfWhole e -> check_whole q r e
+| LeftOpen -> true
+
+(** val bounds_hold : pencil -> anchoring -> bool **)
+
+let bounds_hold q w =
+  (&&)
+    (bounded_rows (Obj.magic size q.free) (ff_block q (row_a q))
+      w.stiffness_bound)
+    (bounded_rows (Obj.magic size q.free) (ff_block q (row_b q)) w.mass_bound)
+
+(** val check_varying :
+    pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point
+    -> point -> bool **)
+
+let check_varying q claims w tr lo hi =
+  let families0 = expansions q w in
+  let solutions = known_solutions q claims in
+  (&&) (wellformed q)
+    ((&&) ((||) (nilp w.anchors) (bounds_hold q w))
+      ((&&) (all (check_solution_claim q) claims)
+        (check_tree (size (slip q))
+          (check_varying_leaf q w families0 solutions) tr (window lo hi))))
+
+(** val claim_yield : pencil -> region -> known -> yield option **)
+
+let claim_yield q r q0 =
+  if supports_region (enclosed_order (size (slip q))) r q0
+  then Some { yield_region = r; yield_from = q0.known_from; yield_to =
+         q0.known_to }
+  else None
+
+(** val varying_yield :
+    pencil -> solution_claim list -> (region * varying_leaf) -> yield option **)
+
+let varying_yield q claims rl =
+  match snd rl with
+  | OfAnchor (_, _, h, l) ->
+    (match l with
+     | LocalRoot (c, o) ->
+       (match o with
+        | Solution ->
+          Some { yield_region = (extended (fst rl) h); yield_from =
+            c.from_point; yield_to = c.to_point }
+        | _ -> None)
+     | _ -> None)
+  | OfClaim (_, _, h, _, k) ->
+    claim_yield q (extended (fst rl) h)
+      (known_at (known_solutions q claims) k)
+  | _ -> None
+
+(** val varying_found :
+    pencil -> solution_claim list -> varying_leaf tree -> point -> point ->
+    yield list **)
+
+let varying_found q claims tr lo hi =
+  pmap (varying_yield q claims) (leaves tr (window lo hi))
+
+(** val varying_open : varying_leaf tree -> point -> point -> region list **)
+
+let varying_open tr lo hi =
+  pmap (fun rl -> match snd rl with
+                  | LeftOpen -> Some (fst rl)
+                  | _ -> None) (leaves tr (window lo hi))
+
+(** val varying_families :
+    varying_leaf tree -> point -> point -> support_leaf option list -> family
+    list **)
+
+let varying_families tr lo hi ls =
+  families_of (varying_open tr lo hi) ls
+
+(** val varying_still_open :
+    varying_leaf tree -> point -> point -> support_leaf option list -> region
+    list **)
+
+let varying_still_open tr lo hi ls =
+  open_of (varying_open tr lo hi) ls
+
+(** val varying_solutions :
+    pencil -> solution_claim list -> varying_leaf tree -> point -> point ->
+    support_leaf option list -> yield list option **)
+
+let varying_solutions q claims tr lo hi ls =
+  distinct_yields (size (slip q)) lo hi
+    (filter (fun y ->
+      negb (has (belongs (size (slip q)) y) (varying_families tr lo hi ls)))
+      (cat (varying_found q claims tr lo hi)
+        (isolated_of (varying_open tr lo hi) ls)))
+
+(** val check_varying_families :
+    pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point
+    -> point -> support_leaf option list -> bool **)
+
+let check_varying_families q claims w tr lo hi ls =
+  (&&) (check_varying q claims w tr lo hi)
+    (check_supports q (varying_open tr lo hi) ls)
+
+(** val check_system_varying :
+    system -> unknown -> solution_claim list -> anchoring -> varying_leaf
+    tree -> point -> point -> support_leaf option list -> bool **)
+
+let check_system_varying s u claims w tr lo hi ls =
+  (&&) (system_wellformed s u)
+    (check_varying_families (pencil_of s u) claims w tr lo hi ls)

@@ -22,6 +22,14 @@ type reflect =
 
 module Pos :
  sig
+  type mask =
+  | IsNul
+  | IsPos of Big_int_Z.big_int
+  | IsNeg
+ end
+
+module Coq_Pos :
+ sig
   val succ : Big_int_Z.big_int -> Big_int_Z.big_int
 
   val add : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
@@ -29,6 +37,21 @@ module Pos :
   val add_carry : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
   val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  type mask = Pos.mask =
+  | IsNul
+  | IsPos of Big_int_Z.big_int
+  | IsNeg
+
+  val succ_double_mask : mask -> mask
+
+  val double_mask : mask -> mask
+
+  val double_pred_mask : Big_int_Z.big_int -> mask
+
+  val sub_mask : Big_int_Z.big_int -> Big_int_Z.big_int -> mask
+
+  val sub_mask_carry : Big_int_Z.big_int -> Big_int_Z.big_int -> mask
 
   val mul : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
@@ -38,6 +61,17 @@ module Pos :
   val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
 
   val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+
+  val leb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+
+  val sqrtrem_step :
+    (Big_int_Z.big_int -> Big_int_Z.big_int) -> (Big_int_Z.big_int ->
+    Big_int_Z.big_int) -> (Big_int_Z.big_int * mask) ->
+    Big_int_Z.big_int * mask
+
+  val sqrtrem : Big_int_Z.big_int -> Big_int_Z.big_int * mask
+
+  val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int
  end
 
 module Z :
@@ -54,6 +88,10 @@ module Z :
 
   val opp : Big_int_Z.big_int -> Big_int_Z.big_int
 
+  val succ : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val pred : Big_int_Z.big_int -> Big_int_Z.big_int
+
   val sub : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
   val mul : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
@@ -66,6 +104,8 @@ module Z :
 
   val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
 
+  val max : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
   val abs : Big_int_Z.big_int -> Big_int_Z.big_int
 
   val pos_div_eucl :
@@ -77,6 +117,10 @@ module Z :
     Big_int_Z.big_int * Big_int_Z.big_int
 
   val div : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val sqrt_up : Big_int_Z.big_int -> Big_int_Z.big_int
  end
 
 module Option :
@@ -100,26 +144,27 @@ val iffP : bool -> reflect -> reflect
 
 val idP : bool -> reflect
 
-type 't pred = 't -> bool
+type 't pred0 = 't -> bool
 
 type 't predType =
-  __ -> 't pred
+  __ -> 't pred0
   (* singleton inductive, whose constructor was PredType *)
 
 type 't pred_sort = __
 
 type 't simpl_pred = ('t, bool) simpl_fun
 
-val simplPred : 'a1 pred -> 'a1 simpl_pred
+val simplPred : 'a1 pred0 -> 'a1 simpl_pred
 
 module PredOfSimpl :
  sig
-  val coerce : 'a1 simpl_pred -> 'a1 pred
+  val coerce : 'a1 simpl_pred -> 'a1 pred0
  end
 
-type 't rel = 't -> 't pred
+type 't rel = 't -> 't pred0
 
-type 't mem_pred = 't pred
+type 't mem_pred =
+  't pred0
   (* singleton inductive, whose constructor was Mem *)
 
 val pred_of_mem : 'a1 mem_pred -> 'a1 pred_sort
@@ -173,6 +218,8 @@ val nilp : 'a1 list -> bool
 
 val head : 'a1 -> 'a1 list -> 'a1
 
+val behead : 'a1 list -> 'a1 list
+
 val ncons : int -> 'a1 -> 'a1 list -> 'a1 list
 
 val cat : 'a1 list -> 'a1 list -> 'a1 list
@@ -181,13 +228,13 @@ val nth : 'a1 -> 'a1 list -> int -> 'a1
 
 val set_nth : 'a1 -> 'a1 list -> int -> 'a1 -> 'a1 list
 
-val find : 'a1 pred -> 'a1 list -> int
+val find : 'a1 pred0 -> 'a1 list -> int
 
-val filter : 'a1 pred -> 'a1 list -> 'a1 list
+val filter : 'a1 pred0 -> 'a1 list -> 'a1 list
 
-val has : 'a1 pred -> 'a1 list -> bool
+val has : 'a1 pred0 -> 'a1 list -> bool
 
-val all : 'a1 pred -> 'a1 list -> bool
+val all : 'a1 pred0 -> 'a1 list -> bool
 
 val drop : int -> 'a1 list -> 'a1 list
 
@@ -636,21 +683,25 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { whole_negative : bool; low_end : whole_end;
-               high_end : whole_end }
+type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : 
+               bool; low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
 
+val weighted : Big_int_Z.big_int list -> int -> sparse_row -> sparse_row
+
 val may_move : pencil -> region -> int list
 
-val members : pencil -> region -> member list
+val members : pencil -> Big_int_Z.big_int list -> region -> member list
 
 val member_entry : point -> member -> member -> Big_int_Z.big_int
 
 val member_form :
   bool -> Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int
 
-val check_end : pencil -> bool -> bool -> point -> region -> whole_end -> bool
+val check_end :
+  pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region ->
+  whole_end -> bool
 
 val check_whole : pencil -> region -> whole -> bool
 
@@ -724,28 +775,145 @@ val columns_in_order : pencil -> bool
 
 val check_claim : pencil -> claim -> bool
 
+type enclosed_claim = { box_support : int list; box_from : point;
+                        box_to : point; box_pivot : int;
+                        box_center : Big_int_Z.big_int list;
+                        right_inverse : matrix;
+                        box_width : Big_int_Z.big_int;
+                        rate_width : Big_int_Z.big_int;
+                        left_null : Big_int_Z.big_int list }
+
+val add_multiple :
+  Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list
+
+val scatter :
+  Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list
+
+val absolute_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val at_end :
+  point -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+val row_at_end :
+  point -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list
+
+val box_active : pencil -> enclosed_claim -> Equality.sort -> bool
+
+val active_list : pencil -> enclosed_claim -> Equality.sort list
+
+val pivot_removed : pencil -> enclosed_claim -> Equality.sort list
+
+val inverse_vanishes_off : pencil -> enclosed_claim -> int list -> bool
+
+val vanishes_elsewhere : pencil -> enclosed_claim -> bool
+
+val times_inverse : enclosed_claim -> sparse_row -> Big_int_Z.big_int list
+
+val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int
+
+val dominated :
+  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> bool
+
+val dominated_at :
+  enclosed_claim -> point -> int -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> bool
+
+val dominated_ends :
+  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list
+  -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+
+val regular_row :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool
+
+val norms : enclosed_claim -> Big_int_Z.big_int list
+
+val widths : enclosed_claim -> Big_int_Z.big_int list
+
+val left_times :
+  pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int list
+
+val left_value :
+  pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int
+
+val weighted_norm :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int
+
+val above_radius :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  point -> bool
+
+val below_radius :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  point -> bool
+
+val opposite_signs :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  bool
+
+val determinant_changes_sign :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
+
+val one_root_at :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool
+
+val one_root_between :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> bool
+
+val one_root : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
+
+val reaction_positive :
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> point -> int -> bool
+
+val box_signs : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
+
+val check_enclosed_claim : pencil -> enclosed_claim -> bool
+
+type solution_claim =
+| ExactClaim of claim
+| BoxClaim of enclosed_claim
+
 val positions : pencil -> int list -> int list
 
-val known_of : pencil -> claim -> known
+val claimed_support : solution_claim -> int list
 
-val known_solutions : pencil -> claim list -> known list
+val claimed_biactive : solution_claim -> int list
+
+val claimed_from : solution_claim -> point
+
+val claimed_to : solution_claim -> point
+
+val known_of : pencil -> solution_claim -> known
+
+val check_solution_claim : pencil -> solution_claim -> bool
+
+val known_solutions : pencil -> solution_claim list -> known list
 
 val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool
 
 val check_complete :
-  pencil -> claim list -> elimination -> whole leaf tree -> point -> point ->
-  bool
+  pencil -> solution_claim list -> elimination -> whole leaf tree -> point ->
+  point -> bool
 
 val found :
-  pencil -> claim list -> whole leaf tree -> point -> point -> yield list
+  pencil -> solution_claim list -> whole leaf tree -> point -> point -> yield
+  list
 
 val left_open : whole leaf tree -> point -> point -> region list
 
 val solutions_found :
-  pencil -> claim list -> whole leaf tree -> point -> point -> yield list
-  option
-
-val check_excluded : pencil -> whole tree -> point -> point -> bool
+  pencil -> solution_claim list -> whole leaf tree -> point -> point -> yield
+  list option
 
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
@@ -807,13 +975,12 @@ val particle_wellformed : system -> slip_particle -> bool
 val system_wellformed : system -> unknown -> bool
 
 val check_system :
-  system -> unknown -> claim list -> elimination -> whole leaf tree -> point
-  -> point -> bool
-
-val check_system_excluded :
-  system -> unknown -> whole tree -> point -> point -> bool
+  system -> unknown -> solution_claim list -> elimination -> whole leaf tree
+  -> point -> point -> bool
 
 val check_system_claim : system -> unknown -> claim -> bool
+
+val check_system_enclosed : system -> unknown -> enclosed_claim -> bool
 
 type lifted = { motion_claim : claim; forces : polynomial list;
                 force_reductions : reduction list;
@@ -857,25 +1024,6 @@ val particle_states : system -> unknown -> lifted -> int -> bool
 val slip_variables : system -> int list -> bool
 
 val check_lifted : system -> unknown -> lifted -> bool
-
-type enclosed_claim = { box_support : int list; interval_low : point;
-                        interval_high : point; null_box : isolation }
-
-val dense : pencil -> (int -> sparse_row) -> matrix
-
-val whole_pencil : pencil -> enclosed
-
-val in_active_block : pencil -> enclosed_claim -> Equality.sort -> bool
-
-val active_region : pencil -> enclosed_claim -> region
-
-val positive_on_support : enclosed_claim -> Equality.sort -> bool
-
-val positive_off_support : pencil -> enclosed_claim -> int -> bool
-
-val check_enclosed_claim : pencil -> enclosed_claim -> bool
-
-val check_system_enclosed : system -> unknown -> enclosed_claim -> bool
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
@@ -1100,20 +1248,287 @@ val families :
   whole leaf tree -> point -> point -> support_leaf option list -> family list
 
 val all_yields :
-  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-  option list -> yield list
+  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+  support_leaf option list -> yield list
 
 val all_solutions :
-  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-  option list -> yield list option
+  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+  support_leaf option list -> yield list option
 
 val still_open :
   whole leaf tree -> point -> point -> support_leaf option list -> region list
 
 val check_families :
-  pencil -> claim list -> whole leaf tree -> point -> point -> support_leaf
-  option list -> elimination -> bool
+  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
+  support_leaf option list -> elimination -> bool
 
 val check_system_families :
-  system -> unknown -> claim list -> elimination -> whole leaf tree -> point
-  -> point -> support_leaf option list -> bool
+  system -> unknown -> solution_claim list -> elimination -> whole leaf tree
+  -> point -> point -> support_leaf option list -> bool
+
+val add_lists : ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list
+
+val add_matrix : matrix -> matrix -> matrix
+
+val add_series : matrix list -> matrix list -> matrix list
+
+val scale_series : Big_int_Z.big_int -> matrix list -> matrix list
+
+val combine : matrix -> sparse_row -> Big_int_Z.big_int list
+
+val product : sparse_row list -> matrix -> matrix
+
+val product_series : sparse_row list -> matrix list -> matrix list
+
+val column_of : matrix -> int -> Big_int_Z.big_int list
+
+val columns_of : int -> matrix -> Big_int_Z.big_int list list
+
+val cross : matrix -> matrix -> matrix
+
+val cross_series : int -> matrix list -> matrix list -> matrix list
+
+val squares : Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val norm2 : Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val norms0 : matrix list -> int -> polynomial
+
+val derivative : polynomial -> polynomial
+
+val homogeneous :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+  Big_int_Z.big_int * Big_int_Z.big_int
+
+val substituted :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
+  -> polynomial * Big_int_Z.big_int
+
+val spread_of : polynomial -> Big_int_Z.big_int
+
+val total : polynomial -> Big_int_Z.big_int
+
+val constant_of : polynomial -> Big_int_Z.big_int
+
+val chord_of : polynomial -> Big_int_Z.big_int
+
+val spread : polynomial -> Big_int_Z.big_int
+
+val poly_of : matrix list -> int -> int -> polynomial
+
+type form_bound = { bound_times : Big_int_Z.big_int;
+                    bound_at : Big_int_Z.big_int;
+                    gram_times : Big_int_Z.big_int; gram_rows : late_row list }
+
+type anchor = { anchor_center : point; anchor_unit : Big_int_Z.big_int;
+                anchor_right : matrix list; anchor_left : matrix list;
+                anchor_scale : Big_int_Z.big_int list }
+
+type anchor_family = { series_z : matrix list; left_norms : polynomial list;
+                       right_norms : polynomial list;
+                       drift : Big_int_Z.big_int }
+
+type local_entry = { local_a : Big_int_Z.big_int;
+                     local_b : Big_int_Z.big_int;
+                     local_ra : Big_int_Z.big_int;
+                     local_rb : Big_int_Z.big_int }
+
+type local_leaf =
+| LocalFarkas of Big_int_Z.big_int list
+| LocalDefinite of bool * factor * factor
+| LocalAbsent of absence
+| LocalRoot of isolation * outcome
+
+val bounded_rows : Equality.sort -> sparse_row list -> form_bound -> bool
+
+val times : Big_int_Z.big_int -> sparse_row -> sparse_row
+
+val row_0 : pencil -> anchor -> int -> (int * Big_int_Z.big_int) list
+
+val row_1 : pencil -> anchor -> int -> sparse_row
+
+val ff_block : pencil -> (int -> sparse_row) -> sparse_row list
+
+val fs_block : pencil -> (int -> sparse_row) -> matrix
+
+val sf_block : pencil -> (int -> sparse_row) -> matrix
+
+val ss_block : pencil -> (int -> sparse_row) -> matrix
+
+val residual_series :
+  anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix list
+  -> matrix list
+
+val center_series : pencil -> anchor -> matrix list -> matrix list
+
+val row_sum : sparse_row -> Big_int_Z.big_int
+
+val expand_from :
+  pencil -> anchor -> sparse_row list -> matrix list -> matrix list ->
+  anchor_family
+
+val small : pencil -> matrix list -> bool
+
+val expand : pencil -> anchor -> anchor_family option
+
+val interval_width : point -> point -> Big_int_Z.big_int
+
+val offset : anchor -> point -> point -> Big_int_Z.big_int
+
+val extent : anchor -> point -> point -> Big_int_Z.big_int
+
+val unit_y : anchor -> point -> point -> Big_int_Z.big_int
+
+val reach : anchor -> point -> point -> Big_int_Z.big_int
+
+val bound_n : anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int
+
+val bound_d0 : form_bound -> form_bound -> point -> Big_int_Z.big_int
+
+val proper_interval :
+  anchor -> form_bound -> form_bound -> point -> point -> bool
+
+val remainder_radius :
+  anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int
+
+val remainder_slope :
+  anchor -> form_bound -> form_bound -> anchor_family -> point -> point ->
+  Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int
+
+val entry_of :
+  anchor -> form_bound -> form_bound -> anchor_family -> point -> point ->
+  bool -> polynomial -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> local_entry
+
+val rounded :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry
+
+val local_entries :
+  int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
+  point -> bool -> Big_int_Z.big_int -> local_entry list list
+
+val local_pencil :
+  int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
+  point -> bool -> Big_int_Z.big_int -> enclosed
+
+val local_point : point -> point -> point -> point
+
+val local_isolation : point -> point -> isolation -> isolation
+
+val local_known : point -> point -> known -> known
+
+val moved_leaf : point -> point -> local_leaf -> local_leaf
+
+val wants_slopes : local_leaf -> bool
+
+val local_region : region -> region
+
+val check_local : enclosed -> region -> local_leaf -> bool
+
+val check_anchored :
+  int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
+  point -> region -> Big_int_Z.big_int -> local_leaf -> bool
+
+val check_anchored_claim :
+  int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
+  point -> region -> Big_int_Z.big_int -> pinning -> known -> bool
+
+val check_anchored_limit :
+  int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
+  point -> region -> Big_int_Z.big_int -> pinning -> bool
+
+type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
+                   anchors : (bool * anchor) list }
+
+type varying_leaf =
+| OfAnchor of int * Big_int_Z.big_int * interval * local_leaf
+| OfClaim of int * Big_int_Z.big_int * interval * pinning * int
+| OfLimit of int * Big_int_Z.big_int * interval * pinning
+   * Big_int_Z.big_int list
+| OfWhole of whole
+| LeftOpen
+
+val swap_pencil : pencil -> pencil
+
+val swap_region : region -> region
+
+val swap_isolation : isolation -> isolation
+
+val swap_leaf : local_leaf -> local_leaf
+
+val swap_known : known -> known
+
+val expand_anchor : pencil -> (bool * anchor) -> anchor_family option
+
+val no_anchor : bool * anchor
+
+val expansions : pencil -> anchoring -> anchor_family option list
+
+val finite_root : local_leaf -> bool
+
+val check_direction :
+  pencil -> region -> int -> Big_int_Z.big_int list -> bool
+
+val at_anchor :
+  anchoring -> anchor_family option list -> int -> region -> (bool -> anchor
+  -> form_bound -> form_bound -> anchor_family -> region -> bool) -> bool
+
+val leaf_at :
+  pencil -> Big_int_Z.big_int -> local_leaf -> bool -> anchor -> form_bound
+  -> form_bound -> anchor_family -> region -> bool
+
+val claim_at :
+  pencil -> Big_int_Z.big_int -> pinning -> known -> bool -> anchor ->
+  form_bound -> form_bound -> anchor_family -> region -> bool
+
+val limit_at :
+  pencil -> Big_int_Z.big_int -> pinning -> Big_int_Z.big_int list -> bool ->
+  anchor -> form_bound -> form_bound -> anchor_family -> region -> bool
+
+val check_varying_leaf :
+  pencil -> anchoring -> anchor_family option list -> known list -> region ->
+  varying_leaf -> bool
+
+val bounds_hold : pencil -> anchoring -> bool
+
+val check_varying :
+  pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point ->
+  point -> bool
+
+val claim_yield : pencil -> region -> known -> yield option
+
+val varying_yield :
+  pencil -> solution_claim list -> (region * varying_leaf) -> yield option
+
+val varying_found :
+  pencil -> solution_claim list -> varying_leaf tree -> point -> point ->
+  yield list
+
+val varying_open : varying_leaf tree -> point -> point -> region list
+
+val varying_families :
+  varying_leaf tree -> point -> point -> support_leaf option list -> family
+  list
+
+val varying_still_open :
+  varying_leaf tree -> point -> point -> support_leaf option list -> region
+  list
+
+val varying_solutions :
+  pencil -> solution_claim list -> varying_leaf tree -> point -> point ->
+  support_leaf option list -> yield list option
+
+val check_varying_families :
+  pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point ->
+  point -> support_leaf option list -> bool
+
+val check_system_varying :
+  system -> unknown -> solution_claim list -> anchoring -> varying_leaf tree
+  -> point -> point -> support_leaf option list -> bool

@@ -106,11 +106,6 @@ let timed name f =
   if time then Printf.eprintf "%s: %.3f s\n%!" name (Sys.time () -. start);
   result
 
-let rec only_whole = function
-  | [] -> true
-  | (Certificate.Ldl | Tail | Split _ | Branch _) :: rest -> only_whole rest
-  | _ -> false
-
 (* Larger claims are answered with "not verified", so that every file ends in short time. *)
 let size_of (e : Certificate.exact) polynomials =
   let bits q = Z.numbits (Q.num q) + Z.numbits (Q.den q) in
@@ -124,8 +119,9 @@ let size_of (e : Certificate.exact) polynomials =
     Problem.not_verified "a claim beyond the limits of this program";
   size
 
-(* The kernel needs about order^4 steps for an enclosed solution. *)
-let largest_enclosed = 64
+let largest_enclosed = 1_024
+
+let entries = List.fold_left (fun n row -> n + List.length row) 0
 
 let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
   | Certificate.Exact e ->
@@ -135,13 +131,14 @@ let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
     let polynomials = l.motion.x @ l.forces in
     let size = size_of l.motion polynomials in
     List.length polynomials * size * size
-  | Enclosed _ ->
-    if pencil.order > largest_enclosed then
-      Problem.not_verified "an enclosed solution of more than %d variables" largest_enclosed;
-    pencil.order * pencil.order * pencil.order * pencil.order * (1 lsl 12)
+  | Enclosed e ->
+    let m = List.length pencil.free + List.length e.box_support in
+    if m > largest_enclosed then
+      Problem.not_verified "an enclosed solution of more than %d active variables"
+        largest_enclosed;
+    (1 + pencil.order + entries pencil.rows_a + entries pencil.rows_b + m * m / 8) * m * 128
 
 let limit_work (problem : Problem.t) pencil claims =
-  let entries = List.fold_left (fun n row -> n + List.length row) 0 in
   let n = pencil.Kernel.order in
   let size = match problem.question with
     | Mechanical (system, _) when
@@ -180,7 +177,7 @@ let verify_exact (problem : Problem.t) pencil (e : Certificate.exact) =
   refuse_unless (match problem.question with
       | Raw pencil -> Kernel.check_claim pencil claim
       | Mechanical (system, unknown) -> Kernel.check_system_claim system unknown claim);
-  lazy claim
+  lazy (Kernel.ExactClaim claim)
 
 let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
   match problem.question with
@@ -194,7 +191,7 @@ let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
     let claim = Elaborate.lifted_of system unknown factor l in
     refuse_unless (states claim.motion_claim l.motion);
     refuse_unless (Kernel.check_lifted system unknown claim);
-    lazy (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l))
+    lazy (Kernel.ExactClaim (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l)))
 
 (* The interval that is proved lies in that of the claim. *)
 let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
@@ -211,18 +208,17 @@ let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
   match Elaborate.enclosed_claim_of pencil e with
   | None -> raise (Elaborate.No_witness "an enclosed solution")
   | Some claim ->
-    let low = Elaborate.value_of claim.null_box.from_point in
-    let high = Elaborate.value_of claim.null_box.to_point in
+    let low = Elaborate.value_of claim.box_from and high = Elaborate.value_of claim.box_to in
     refuse_unless (claim.box_support = e.box_support && Q.geq low (fst value)
                    && Q.leq high (snd value));
     let accepted = match problem.question with
       | Raw pencil -> Kernel.check_enclosed_claim pencil claim
       | Mechanical (system, unknown) -> Kernel.check_system_enclosed system unknown claim in
     if not accepted then raise (Elaborate.No_witness "an enclosed solution");
-    low, high
+    claim, (low, high)
 
 (* Each claim: its support has a solution with a value in its interval, which is in the window.
-   With it comes the same claim about the pencil as a root leaf may refer to it, if it is exact. *)
+   With it comes the same claim about the pencil, for root leaves that refer to it. *)
 let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) claim =
   let check_root (e : Certificate.exact) =
     in_window certificate e.value;
@@ -231,19 +227,13 @@ let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) clai
   match claim with
   | Certificate.Exact e ->
     check_root e;
-    Some (verify_exact problem pencil e), show_claim e.value e.support
+    verify_exact problem pencil e, show_claim e.value e.support
   | Lifted l ->
     check_root l.motion;
-    Some (verify_lifted problem pencil l), show_claim l.motion.value l.motion.support
+    verify_lifted problem pencil l, show_claim l.motion.value l.motion.support
   | Enclosed e ->
-    let value = verify_enclosed problem pencil certificate e in
-    None, show_claim value e.box_support
-
-(* The claims in their places, for root leaves that refer to them. *)
-let exact_claims =
-  List.map (function
-      | Some claim, _ -> Lazy.force claim
-      | None, _ -> Problem.not_verified "a cover that refers to enclosed solutions")
+    let claim, value = verify_enclosed problem pencil certificate e in
+    lazy (Kernel.BoxClaim claim), show_claim value e.box_support
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in
@@ -270,6 +260,98 @@ let print_coq (problem : Problem.t) elimination tree lo hi found =
   | Mechanical (system, unknown) ->
     Coq.print system unknown elimination tree lo hi (List.length found)
 
+(* What is to be verified of a complete set. *)
+type question = {
+  problem : Problem.t;
+  pencil : Kernel.pencil;
+  certificate : Certificate.t;
+  slip : int array;
+  slip_list : int list;
+  lo : Kernel.point;
+  hi : Kernel.point;
+  known_claims : Kernel.solution_claim list }
+
+(* What the kernel says after it has accepted a tree. *)
+type cover = {
+  yielded : Kernel.yield list;
+  families : Kernel.family list;
+  still_open : Kernel.region list;
+  solutions : Kernel.yield list option Lazy.t;
+  print_coq : Kernel.yield list -> unit }
+
+let known q = Array.of_list (Kernel.known_solutions q.pencil q.known_claims)
+
+(* The tree of the certificate.  Support leaves stand beside it, one for each region that the tree
+   leaves open, or none where it stays open; a support leaf whose region holds nothing is closed by
+   [nothing]. *)
+let elaborate q ~leaf ~left_open ~nothing =
+  let supports = ref [] in
+  let undecided s = supports := s :: !supports; Kernel.Leaf left_open in
+  let factor i =
+    if List.mem i q.pencil.Kernel.free then q.problem.common else q.problem.slip_common in
+  let leaf piece region = function
+    | Certificate.Open -> undecided None
+    | Support s ->
+      (match Supports.support_leaf q.pencil factor region s with
+       | Some l -> undecided (Some l)
+       | None -> nothing region)
+    | node -> leaf piece region node in
+  let tree = timed "elaboration" (fun () ->
+      Elaborate.build_pieces q.slip leaf q.certificate.window q.certificate.pieces) in
+  tree, List.rev !supports
+
+let refuse_tree_unless accepted =
+  if not accepted then raise (Rejected "the kernel refuses the tree")
+
+(* Free rows that do not depend on the unknown: any anchor serves for all pieces. *)
+let verify_constant q =
+  let certificate = q.certificate and problem = q.problem in
+  let anchor = match certificate.pieces with p :: _ -> p.anchor | [] -> 0 in
+  let elimination, enclosed = timed "condensation" (fun () ->
+      let e = Elaborate.elimination q.pencil q.slip_list problem.common problem.slip_common
+          certificate.condensation anchor in
+      e, Kernel.condensed (Kernel.blocks_of q.pencil) e) in
+  let context =
+    { Elaborate.pencil = q.pencil; slip = q.slip; enclosed;
+      doubles = Elaborate.doubles_of enclosed; known = known q;
+      weights = Elaborate.row_weights q.pencil problem.common problem.slip_common } in
+  let tree, supports =
+    elaborate q ~leaf:(fun _ -> Elaborate.build_leaf context) ~left_open:Kernel.Undecided
+      ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
+  refuse_tree_unless (timed "kernel" (fun () -> match problem.question with
+      | Raw pencil ->
+        Kernel.check_families pencil q.known_claims tree q.lo q.hi supports elimination
+      | Mechanical (system, unknown) ->
+        Kernel.check_system_families system unknown q.known_claims elimination tree q.lo q.hi
+          supports));
+  { yielded = Kernel.found q.pencil q.known_claims tree q.lo q.hi;
+    families = Kernel.families tree q.lo q.hi supports;
+    still_open = Kernel.still_open tree q.lo q.hi supports;
+    solutions = lazy (Kernel.all_solutions q.pencil q.known_claims tree q.lo q.hi supports);
+    print_coq = print_coq problem elimination tree q.lo q.hi }
+
+(* Condensation about anchors, or leaves that speak of the whole pencil only. *)
+let verify_varying q =
+  let certificate = q.certificate and problem = q.problem in
+  let varying = timed "condensation" (fun () ->
+      Elaborate.varying_of q.pencil q.slip_list problem.common problem.slip_common (known q)
+        certificate.condensation certificate.pieces) in
+  let tree, supports =
+    elaborate q ~leaf:(Elaborate.varying_leaf varying) ~left_open:Kernel.LeftOpen
+      ~nothing:(Elaborate.whole_of varying "support") in
+  let anchoring = varying.anchoring in
+  refuse_tree_unless (timed "kernel" (fun () -> match problem.question with
+      | Raw pencil ->
+        Kernel.check_varying_families pencil q.known_claims anchoring tree q.lo q.hi supports
+      | Mechanical (system, unknown) ->
+        Kernel.check_system_varying system unknown q.known_claims anchoring tree q.lo q.hi
+          supports));
+  { yielded = Kernel.varying_found q.pencil q.known_claims tree q.lo q.hi;
+    families = Kernel.varying_families tree q.lo q.hi supports;
+    still_open = Kernel.varying_still_open tree q.lo q.hi supports;
+    solutions = lazy (Kernel.varying_solutions q.pencil q.known_claims tree q.lo q.hi supports);
+    print_coq = (fun _ -> Problem.not_verified "as a Coq file: condensation about anchors") }
+
 let verify_eigenproblem document problem_path certificate_path =
   let problem = timed "problem" (fun () -> Problem.read problem_path document) in
   let certificate = timed "certificate" (fun () -> Certificate.read certificate_path) in
@@ -284,7 +366,8 @@ let verify_eigenproblem document problem_path certificate_path =
       | Mechanical (system, unknown) -> Kernel.pencil_of system unknown) in
   let slip_list = Obj.magic (Kernel.slip pencil) in
   let slip = Array.of_list slip_list in
-  if Array.length slip > 300 then Problem.not_verified "more than 300 complementarity variables";
+  if certificate.pieces <> [] && Array.length slip > 300 then
+    Problem.not_verified "more than 300 complementarity variables";
   let lo = Elaborate.point_of (fst certificate.window) in
   let hi = Elaborate.upper_point (snd certificate.window) in
   let claims = timed "claims" (fun () ->
@@ -292,88 +375,42 @@ let verify_eigenproblem document problem_path certificate_path =
       List.map (verify_claim problem pencil certificate) certificate.claims) in
   let report_claims () = List.iter (fun (_, print) -> print ()) claims in
 
-  let whole_only =
-    pencil.free <> []
-    && List.for_all (fun (p : Certificate.piece) -> only_whole p.tree) certificate.pieces in
   if certificate.pieces = [] then begin
     Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
       (List.length claims);
     report_claims ();
     0
   end
-  else if whole_only then begin
-    (* Definite leaves of the whole pencil; free rows may depend on t. *)
-    let leaf _ region _ = match Elaborate.whole_leaf pencil region with
-      | Some w -> Kernel.Leaf w
-      | None -> Elaborate.no_witness "ldl or tail" in
-    let tree = timed "elaboration" (fun () ->
-        Elaborate.build_pieces slip leaf certificate.window certificate.pieces) in
-    let accepted = timed "kernel" (fun () -> match problem.question with
-        | Raw pencil -> Kernel.check_excluded pencil tree lo hi
-        | Mechanical (system, unknown) -> Kernel.check_system_excluded system unknown tree lo hi) in
-    if not accepted then raise (Rejected "the kernel refuses the tree");
-    let code = report slip lo hi [] [] [] in
-    report_claims ();
-    code
-  end
   else begin
-    if not (Kernel.free_rows_constant pencil) then
-      Problem.not_verified "free rows that depend on the unknown";
-    let anchor = match List.sort_uniq compare (List.map (fun (p : Certificate.piece) -> p.anchor)
-                                                 certificate.pieces) with
-      | [a] -> a
-      | _ when pencil.free = [] -> 0
-      | _ -> Problem.not_verified "several anchors" in
-    let elimination, enclosed = timed "condensation" (fun () ->
-        let e = Elaborate.elimination pencil slip_list problem.common problem.slip_common
-            certificate.condensation anchor in
-        e, Kernel.condensed (Kernel.blocks_of pencil) e) in
     (* The kernel is given the claims that the tree refers to, in their places. *)
     let needed = List.exists (fun (p : Certificate.piece) -> List.exists (function
         | Certificate.Root { outcome = Claim _; _ } -> true
         | _ -> false) p.tree) certificate.pieces in
-    let claims = if needed then exact_claims claims else [] in
-    let known = Array.of_list (Kernel.known_solutions pencil claims) in
-    let context =
-      { Elaborate.pencil; slip; enclosed; doubles = Elaborate.doubles_of enclosed; known } in
-    (* Support leaves stand beside the tree, one for each region that the tree leaves undecided, or
-       none where it stays open. *)
-    let supports = ref [] in
-    let undecided s = supports := s :: !supports; Kernel.Leaf Kernel.Undecided in
-    let factor i = if List.mem i pencil.free then problem.common else problem.slip_common in
-    let leaf _ region = function
-      | Certificate.Open -> undecided None
-      | Support s ->
-        (match Supports.support_leaf pencil factor region s with
-         | Some l -> undecided (Some l)
-         | None -> Elaborate.build_leaf context region (Farkas []))
-      | node -> Elaborate.build_leaf context region node in
-    let tree = timed "elaboration" (fun () ->
-        Elaborate.build_pieces slip leaf certificate.window certificate.pieces) in
-    let supports = List.rev !supports in
-    let accepted = timed "kernel" (fun () -> match problem.question with
-        | Raw pencil -> Kernel.check_families pencil claims tree lo hi supports elimination
-        | Mechanical (system, unknown) ->
-          Kernel.check_system_families system unknown claims elimination tree lo hi supports) in
-    if not accepted then raise (Rejected "the kernel refuses the tree");
-    if List.length (Kernel.found pencil claims tree lo hi) > 10_000 then
+    let known_claims =
+      if needed then List.map (fun (claim, _) -> Lazy.force claim) claims else [] in
+    let question = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims } in
+    let varying = not (Kernel.free_rows_constant pencil)
+                  || pencil.free <> []
+                     && not (List.exists Elaborate.needs_anchor certificate.pieces) in
+    let cover = if varying then verify_varying question else verify_constant question in
+    if List.length cover.yielded > 10_000 then
       Problem.not_verified "more than 10,000 regions with a solution";
-    let families = Kernel.families tree lo hi supports in
-    if List.length families > 10_000 then
+    if List.length cover.families > 10_000 then
       Problem.not_verified "more than 10,000 families";
-    match Kernel.all_solutions pencil claims tree lo hi supports with
+    match Lazy.force cover.solutions with
     | None ->
       Problem.not_verified "regions that may hold the same solution, or a value beside the window"
-    | Some found when !as_coq -> print_coq problem elimination tree lo hi found; 0
+    | Some found when !as_coq -> cover.print_coq found; 0
     | Some found ->
-      let families = listed_once families in
       let code =
-        report slip lo hi (List.rev found) families (Kernel.still_open tree lo hi supports) in
+        report slip lo hi (List.rev found) (listed_once cover.families) cover.still_open in
       report_claims ();
       code
   end
 
 let verify problem_path certificate_path =
+  Elaborate.start_anew ();
+  Supports.work := 0;
   let document = Json.read problem_path in
   if Plain.is_plain document then verify_plain document certificate_path
   else verify_eigenproblem document problem_path certificate_path
@@ -388,6 +425,8 @@ let answer problem certificate =
   | Stack_overflow | Out_of_memory -> say 3 "NOT VERIFIED: the memory of this program"
   | Problem.Not_verified kind -> say 3 ("NOT VERIFIED: " ^ kind)
   | Elaborate.No_witness what -> say 3 ("NOT VERIFIED: no witness for " ^ what)
+  | Invalid_argument what | Failure what -> say 3 ("NOT VERIFIED: a fault of this program: " ^ what)
+  | Not_found | Division_by_zero -> say 3 "NOT VERIFIED: a fault of this program"
 
 (* For tests with many files: each line of stdin has the paths of a problem and a certificate,
    without blanks; after what is printed for them comes a line "exit CODE". *)

@@ -109,11 +109,12 @@ let read_window item =
       malformed "0 <= min <= max";
     lo, hi
 
+(* The lines of a matrix as one text. *)
 let canonical_matrix name m =
-  Printf.sprintf "%s %d %d" name m.rows m.cols ::
-  List.concat (List.mapi (fun i row ->
+  let entries = List.concat (List.mapi (fun i row ->
       List.map (fun (j, v) -> Printf.sprintf "%d %d %s" i j (Q.to_string v)) row)
-      (Array.to_list m.entries))
+      (Array.to_list m.entries)) in
+  [String.concat "\n" (Printf.sprintf "%s %d %d" name m.rows m.cols :: entries)]
 
 let common_denominator matrices =
   List.fold_left (fun d m ->

@@ -1,7 +1,8 @@
 //! `mceip analyze`: the engineer's answer for a mechanical system at one mu.
 //!
 //! The answers are sentences with their evidence: can the equilibrium diverge in the form (8) at
-//! this mu, in which ranges of mu can it, from which mu on. They are printed, and on request
+//! this mu, in which ranges of mu can it, from which mu on. They are printed, one paragraph that
+//! sums them up first, and on request
 //! written as a page with the modes; their certificates go into a folder for `mceip check`.
 
 mod page;
@@ -9,7 +10,8 @@ mod page;
 use super::common::{CliError, exit, load, positive, print, require_threads};
 use super::job::Job;
 use super::output::{Output, make_writable};
-use mceip_engine::analysis::{Analysis, AnalysisError, Options, analyse};
+use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, Options, analyse};
+use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
 use mceip_model::file::write_problem;
 use mceip_model::{Body, System};
@@ -27,7 +29,7 @@ pub(super) struct Args {
     /// beyond 200 free degrees of freedom).
     #[arg(long, value_name = "N")]
     samples: Option<usize>,
-    /// Boxes that may be used to bound the critical mu from below.
+    /// Boxes that may be examined, in each piece of [0, infinity), to bound the critical mu from below.
     #[arg(long, default_value_t = Options::default().limits.boxes)]
     boxes: usize,
     /// Write every certificate and its problem into this folder, for `mceip check`.
@@ -87,7 +89,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let text = if args.json {
         format!("{}\n", analysis.to_json(&paths))
     } else {
-        text_of(&analysis, &paths)
+        text_of(&analysis, &paths, args)
     };
     print(&text)?;
 
@@ -166,9 +168,41 @@ fn write_proofs(folder: &Path, analysis: &Analysis, input: &Path) -> Result<Vec<
     Ok(paths)
 }
 
-/// The answers for people, each with its evidence; `paths` of the certificates as they were
-/// written.
-fn text_of(analysis: &Analysis, paths: &[String]) -> String {
+/// What to run next.
+fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
+    let file = args.file.display();
+    if analysis.interrupted {
+        return "Next: run it again, it was interrupted.".into();
+    }
+
+    if analysis
+        .critical_gap()
+        .is_some_and(|gap| gap > WIDE_CRITICAL_GAP)
+    {
+        let boxes = args.boxes.saturating_mul(10);
+        return format!("Next: `mceip analyze {file} --boxes {boxes}` may narrow that.");
+    }
+
+    let bound = match analysis.critical.evidence {
+        Evidence::Certificate(proof) => proof,
+        _ => 0, // divergence at mu
+    };
+    match paths.get(bound) {
+        Some(certificate) => {
+            let problem = certificate.replace(".certificate.json", ".problem.json");
+            format!("Next: `mceip check {problem} {certificate}`.")
+        }
+        None => format!(
+            "Next: `mceip analyze {file} --friction {} --certificates proofs` writes the \
+             certificates, for `mceip check`.",
+            analysis.friction
+        ),
+    }
+}
+
+/// The answers for people, in one paragraph and then each with its evidence; `paths` of the
+/// certificates as they were written.
+fn text_of(analysis: &Analysis, paths: &[String], args: &Args) -> String {
     let [dofs, free, slip, stick] = analysis.sizes;
     let mut out = String::new();
     if let Some(name) = &analysis.name {
@@ -178,6 +212,9 @@ fn text_of(analysis: &Analysis, paths: &[String]) -> String {
     out += &format!(
         "{dofs} degrees of freedom ({free} free), {slip} in impending slip, {stick} stick\n"
     );
+
+    let next = next_step(analysis, paths, args);
+    out += &format!("\n{} {next}\n\n", analysis.summary());
 
     for sentence in analysis.sentences() {
         let evidence = analysis.evidence_text(&sentence.evidence, paths);

@@ -1,15 +1,19 @@
 //! `mceip check`: a certificate or somebody's solutions against a problem, one verdict.
 //!
-//! The formats of the files decide what is done. A certificate goes to the checker, which accepts
-//! or rejects it. Somebody's solutions are certified and checked one by one, or refuted
+//! The formats of the files decide what is done. A certificate, of solutions and complete sets or
+//! of absence below a friction, goes to the checker, which accepts or rejects it. Somebody's solutions are certified and checked one by one, or refuted
 //! ([`foreign`]). A solution file of a plain LCP or MCP is evaluated exactly ([`plain`]).
 
 pub(super) mod plain;
 
 use super::common::{CliError, exit, load, parse_window, print, text};
 use super::complete::solutions_text;
-use mceip_check::certificate::{CERTIFICATE_FORMAT, Certificate};
-use mceip_check::{Accepted, AcceptedClaim, AcceptedCover, Place, check};
+use mceip_check::certificate::{
+    CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate,
+};
+use mceip_check::{
+    Accepted, AcceptedAbsence, AcceptedClaim, AcceptedCover, Place, check, check_critical,
+};
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, Verdict, judge};
 use mceip_engine::lcp::MCP_FORMAT;
@@ -25,7 +29,7 @@ use std::path::{Path, PathBuf};
 pub(super) struct Args {
     /// Problem file (mceip-problem/1), or a plain LCP or MCP (mceip-mcp/1).
     file: PathBuf,
-    /// Certificate (mceip-certificate/1), or somebody's solutions (mceip-solutions/1): each of
+    /// Certificate (mceip-certificate/1, mceip-critical/1), or somebody's solutions (mceip-solutions/1): each of
     /// those is certified and checked, or refuted. Of a plain problem: its solution file
     /// (mceip-mcp-solution/1).
     certificate: PathBuf,
@@ -64,6 +68,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         return foreign(args, &problem, &source, tolerance.unwrap_or(AGREEMENT));
     }
 
+    if require_format(&source, CRITICAL_FORMAT).is_ok() {
+        refuse_window(args, CRITICAL_FORMAT)?;
+        refuse_tolerance(args, CRITICAL_FORMAT)?;
+        return critical(args, &problem, &source);
+    }
+
     refuse_tolerance(args, CERTIFICATE_FORMAT)?;
     let read = Certificate::from_json(&source);
     let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
@@ -75,6 +85,26 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             Ok(exit::REJECTED)
         }
     }
+}
+
+/// The verdict on a certificate of absence below a friction.
+fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError> {
+    let read = CriticalCertificate::from_json(source);
+    let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
+
+    let (text, code) = match check_critical(problem, &certificate) {
+        Ok(AcceptedAbsence { below, leaves }) => {
+            let digest = problem.sha256();
+            let evidence = format!("lambda2, problem {digest}, {leaves} leaves accepted");
+            let window = format!("friction in [0, {below}], lambda2 in [0, infinity)");
+            let text = format!("ABSENT for {window}: no solution ({evidence})\n");
+            (text, exit::DONE)
+        }
+        Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
+    };
+
+    print(&text)?;
+    Ok(code)
 }
 
 /// Refuses --window, which says nothing about a file of this kind.

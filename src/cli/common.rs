@@ -59,6 +59,12 @@ pub(super) enum CliError {
     /// A system is not analysed.
     #[error(transparent)]
     Analysis(#[from] mceip_engine::analysis::AnalysisError),
+    /// A motion is not integrated.
+    #[error(transparent)]
+    Motion(#[from] mceip_motion::MotionError),
+    /// A pencil has no motion.
+    #[error("simulate: expected a mechanical system (stiffness, mass, friction), got a pencil")]
+    SimulatedPencil,
     /// A table of contact states.
     #[error("{path}: {source}")]
     Contacts {

@@ -13,9 +13,11 @@ mod enumerate;
 mod explain;
 mod infinity;
 mod job;
+mod manual;
 mod merge;
 mod output;
 mod reduce;
+mod simulate;
 mod solve;
 mod table1;
 mod verify;
@@ -66,10 +68,16 @@ enum Command {
     Block(block::Args),
     /// Random problems of many families through all engines, for seconds or for days.
     Campaign(campaign::Args),
+    /// The motion in time, beside what certified modes predict.
+    Simulate(simulate::Args),
     /// Reduce a mechanical system to its pencil by (10)-(16).
     Reduce(reduce::Args),
     /// What a term, an equation or a reason of rejection means.
     Explain(explain::Args),
+    /// Completions for a shell, on standard output.
+    Completions(manual::CompletionsArgs),
+    /// Manual pages, one for each command.
+    Man(manual::ManArgs),
 }
 
 /// Runs the program on the process's arguments.
@@ -92,8 +100,11 @@ pub fn main() -> ExitCode {
         Command::Table1(a) => table1::run(&a),
         Command::Block(a) => block::run(&a),
         Command::Campaign(a) => campaign::run(&a),
+        Command::Simulate(a) => simulate::run(&a),
         Command::Reduce(a) => reduce::run(&a),
         Command::Explain(a) => explain::run(&a),
+        Command::Completions(a) => manual::completions(&a),
+        Command::Man(a) => manual::man(&a),
     };
 
     match result {

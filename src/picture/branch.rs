@@ -29,6 +29,8 @@ pub struct Branches {
     pub levels: Vec<Vec<BranchPoint>>,
     /// Certified solutions at chosen mu.
     pub certified: Vec<BranchPoint>,
+    /// A mu below which it is proved that there is no solution for any lambda^2 >= 0.
+    pub absent_below: Option<f64>,
 }
 
 const WIDTH: f64 = 760.0;
@@ -41,6 +43,9 @@ const AREA: Rectangle = Rectangle {
 
 /// Dashes of the lines between points with different supports.
 const CHANGE_DASH: &str = "2 3";
+
+/// Dashes of the line to whose left nothing exists.
+const ABSENT_DASH: &str = "8 4";
 
 impl BranchPoint {
     fn place(&self) -> (f64, f64) {
@@ -55,7 +60,8 @@ impl Branches {
 
     /// The mu axis: logarithmic where the largest value is more than eight times the smallest.
     fn mu_axis(&self) -> Axis<'static> {
-        let Extent { low, high } = Extent::of(self.points().map(|p| p.mu));
+        let all = self.points().map(|p| p.mu).chain(self.absent_below);
+        let Extent { low, high } = Extent::of(all);
         let is_wide = high > 8.0 * low;
 
         let margin = 0.06 * (high - low);
@@ -119,8 +125,26 @@ pub fn branch_picture(title: &str, branches: &Branches) -> Picture {
         picture.push(certified_square(&chart, point));
     }
 
+    if let Some(mu) = branches.absent_below {
+        push_bound(&mut picture, &chart, mu);
+    }
+
     push_keys(&mut picture, branches);
     picture
+}
+
+/// The line to whose left it is proved that nothing exists.
+fn push_bound(picture: &mut Picture, chart: &Chart, mu: f64) {
+    let (x, _) = chart.point((mu, 0.0));
+    let bound = line((x, AREA.top), (x, AREA.bottom), "#000", 1.2);
+    picture.push(
+        dashed(bound, ABSENT_DASH)
+            .with("class", "absent")
+            .with("data-x", mu),
+    );
+
+    let words = "proved: nothing to the left, for any \u{3bb}\u{b2}";
+    picture.push(text(x + 8.0, AREA.bottom - 10.0, "start", words));
 }
 
 /// A solution of a level: a large black dot for a threshold, a small white one above lambda^2 = 0.

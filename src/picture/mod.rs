@@ -8,7 +8,7 @@
 //! `markup` a tree of elements, `drawing` the picture made of them, `scale` and `chart` axes,
 //! `marker` and `legend` the contact states; then a file for each picture: [`mode_picture`],
 //! [`path_picture`], [`threshold_picture`], [`branch_picture`], [`table1_picture`],
-//! [`cost_picture`]; [`Report`] puts them into a page.
+//! [`cost_picture`], [`motion_picture`]; [`Report`] puts them into a page.
 
 mod branch;
 mod chart;
@@ -18,6 +18,7 @@ mod legend;
 mod marker;
 mod markup;
 mod mode;
+mod motion;
 mod path;
 #[cfg(feature = "png")]
 mod png;
@@ -32,6 +33,7 @@ pub use drawing::Picture;
 pub use marker::Mark;
 pub use markup::Element;
 pub use mode::{Mode, mode_picture};
+pub use motion::{MotionSeries, motion_picture};
 pub use path::path_picture;
 #[cfg(feature = "png")]
 pub use png::PngError;

@@ -20,6 +20,8 @@ mod corpus_cases;
 mod corpus_claims;
 #[path = "../support/corpus_covers.rs"]
 mod corpus_covers;
+#[path = "../support/corpus_critical.rs"]
+mod corpus_critical;
 #[path = "../support/corpus_infinity.rs"]
 mod corpus_infinity;
 #[path = "../support/corpus_malformed.rs"]
@@ -32,10 +34,11 @@ mod corpus_support;
 mod corpus_zero;
 
 use corpus_cases::Cases;
-use mceip_check::certificate::Certificate;
-use mceip_check::check;
+use mceip_check::certificate::{CRITICAL_FORMAT, Certificate, CriticalCertificate};
+use mceip_check::{check, check_critical};
 use mceip_engine::lcp;
-use mceip_model::file::read_problem;
+use mceip_model::Problem;
+use mceip_model::file::{read_problem, require_format};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -84,6 +87,11 @@ impl Entry {
     /// About an LCP or MCP, not an eigenproblem.
     pub(crate) fn is_plain(&self) -> bool {
         self.file["problem"]["format"] == lcp::MCP_FORMAT
+    }
+
+    /// About absence below a friction.
+    fn is_critical(&self) -> bool {
+        require_format(&self.certificate_text(), CRITICAL_FORMAT).is_ok()
     }
 
     /// Made to take long, or much memory.
@@ -194,6 +202,10 @@ fn judge(entry: &Entry) -> Judgement {
     }
 
     let problem = read_problem(&entry.problem_text(), Path::new("/")).unwrap();
+    if entry.is_critical() {
+        return judge_critical(entry, &problem);
+    }
+
     let Ok(certificate) = Certificate::from_json(&entry.certificate_text()) else {
         return Judgement::without_reason(MALFORMED);
     };
@@ -203,6 +215,18 @@ fn judge(entry: &Entry) -> Judgement {
             let is_open = accepted.cover.is_some_and(|cover| !cover.open.is_empty());
             Judgement::without_reason(if is_open { UNDECIDED } else { ACCEPTED })
         }
+        Err(rejected) => Judgement::rejected(rejected.reason.name()),
+    }
+}
+
+/// The same for absence below a friction.
+fn judge_critical(entry: &Entry, problem: &Problem) -> Judgement {
+    let Ok(certificate) = CriticalCertificate::from_json(&entry.certificate_text()) else {
+        return Judgement::without_reason(MALFORMED);
+    };
+
+    match check_critical(problem, &certificate) {
+        Ok(_) => Judgement::without_reason(ACCEPTED),
         Err(rejected) => Judgement::rejected(rejected.reason.name()),
     }
 }
@@ -269,7 +293,8 @@ fn every_obligation_has_a_forgery() {
 
     let mut missing = Vec::new();
     for name in variants("crates/check/src/reason.rs", "Reason") {
-        let is_exempt = name == "Cover" || UNREACHABLE.contains(&name.as_str());
+        let is_exempt =
+            ["Cover", "Boxes"].contains(&name.as_str()) || UNREACHABLE.contains(&name.as_str());
         if !is_exempt && !all.contains(&name) {
             missing.push(name);
         }
@@ -429,6 +454,7 @@ fn write_the_corpus() {
     corpus_infinity::infinity(&mut cases);
     corpus_mcp::plain(&mut cases);
     corpus_zero::zero_reaction(&mut cases);
+    corpus_critical::critical(&mut cases);
     corpus_malformed::malformed(&mut cases);
     corpus_malformed::spelling(&mut cases);
     corpus_malformed::hostile(&mut cases);

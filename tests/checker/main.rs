@@ -27,6 +27,7 @@ mod complete_mutants;
 mod complete_support_forged;
 mod corpus;
 mod covers;
+mod critical;
 mod local_modes;
 mod mutated_claims;
 mod second_checker;

@@ -222,6 +222,11 @@ fn wrongly_verified(
         if let Some(lines) = verdict.statement() {
             faults.extend(crate::verified_checker::falsehoods(problem, text, lines));
         }
+        if let VerifiedVerdict::NotVerified(what) = verdict
+            && what.starts_with("a fault of this program")
+        {
+            faults.push(what.clone());
+        }
 
         if !faults.is_empty() {
             wrong.push(format!(

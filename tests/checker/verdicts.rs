@@ -5,11 +5,14 @@
 //!
 //!     cargo test --test checker -- --ignored verdicts::write_the_verdicts
 
-use mceip_check::certificate::Certificate;
-use mceip_check::{Accepted, AcceptedCover, Rejected, SolutionFamily, audit, check};
+use mceip_check::certificate::{CRITICAL_FORMAT, Certificate, CriticalCertificate};
+use mceip_check::{
+    Accepted, AcceptedAbsence, AcceptedCover, Rejected, SolutionFamily, audit, audit_critical,
+    check, check_critical,
+};
 use mceip_exact::Interval;
 use mceip_model::Problem;
-use mceip_model::file::read_problem;
+use mceip_model::file::{read_problem, require_format};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -22,7 +25,13 @@ fn root() -> PathBuf {
 struct Case {
     name: String,
     problem: Problem,
-    certificate: Certificate,
+    certificate: Read,
+}
+
+/// A certificate of either format.
+enum Read {
+    Certificate(Certificate),
+    Critical(CriticalCertificate),
 }
 
 /// The files whose certificates can be read, by name; hostile ones, which repeat a unit, are for
@@ -53,10 +62,15 @@ fn read_case(kind: &str, path: &Path) -> Option<Case> {
         Some(text) => text.to_string(),
         None => file["certificate"].to_string(),
     };
+    let certificate = if require_format(&certificate, CRITICAL_FORMAT).is_ok() {
+        Read::Critical(CriticalCertificate::from_json(&certificate).unwrap())
+    } else {
+        Read::Certificate(Certificate::from_json(&certificate).unwrap())
+    };
     Some(Case {
         name: format!("{kind}/{}", path.file_stem().unwrap().to_str().unwrap()),
         problem: read_problem(&problem, Path::new("/")).unwrap(),
-        certificate: Certificate::from_json(&certificate).unwrap(),
+        certificate,
     })
 }
 
@@ -64,15 +78,46 @@ fn read_case(kind: &str, path: &Path) -> Option<Case> {
 fn verdicts() -> String {
     let mut text = String::new();
     for case in cases() {
-        let lines = match check(&case.problem, &case.certificate) {
-            Ok(accepted) => accepted_lines(&accepted),
-            Err(rejected) => rejected_lines(&case, &rejected),
+        let lines = match &case.certificate {
+            Read::Certificate(certificate) => lines_of(&case, certificate),
+            Read::Critical(certificate) => critical_lines(&case, certificate),
         };
         for line in lines {
             writeln!(text, "{}: {line}", case.name).unwrap();
         }
     }
     text
+}
+
+fn lines_of(case: &Case, certificate: &Certificate) -> Vec<String> {
+    match check(&case.problem, certificate) {
+        Ok(accepted) => accepted_lines(&accepted),
+        Err(rejected) => rejected_lines(case, certificate, &rejected),
+    }
+}
+
+fn critical_lines(case: &Case, certificate: &CriticalCertificate) -> Vec<String> {
+    let audited = audit_critical(&case.problem, certificate);
+    let refused = |list| format!("audit: leaves refused (piece, node): {list:?}");
+
+    match (check_critical(&case.problem, certificate), audited) {
+        (Ok(accepted), Ok(list)) => {
+            assert!(list.is_empty(), "{}", case.name);
+            let AcceptedAbsence { below, leaves } = accepted;
+            vec![format!("absence below {below}, leaves: {leaves}")]
+        }
+        (Err(rejected), Ok(list)) => {
+            vec![
+                format!("{}: {rejected}", rejected.reason.name()),
+                refused(list),
+            ]
+        }
+        (Err(rejected), Err(again)) => {
+            assert_eq!(again, rejected, "{}", case.name);
+            vec![format!("{}: {rejected}", rejected.reason.name())]
+        }
+        (Ok(_), Err(rejected)) => panic!("{}: {rejected}", case.name),
+    }
 }
 
 fn accepted_lines(accepted: &Accepted) -> Vec<String> {
@@ -133,9 +178,9 @@ fn spelt(interval: &Interval) -> String {
 }
 
 /// The reason, and for a cover the leaves that an audit refuses.
-fn rejected_lines(case: &Case, rejected: &Rejected) -> Vec<String> {
+fn rejected_lines(case: &Case, certificate: &Certificate, rejected: &Rejected) -> Vec<String> {
     let mut lines = vec![format!("{}: {rejected}", rejected.reason.name())];
-    match audit(&case.problem, &case.certificate) {
+    match audit(&case.problem, certificate) {
         Ok((_, refused)) => lines.push(format!("audit: leaves refused (piece, node): {refused:?}")),
         Err(again) => assert_eq!(again, *rejected, "{}", case.name),
     }

@@ -4,8 +4,9 @@
 //! The truth is the checker, and the files of `spec/examples/certificates` for the page. A block
 //! that was changed on the page alone, or a kind of evidence without an example, fails here.
 
-use mceip_check::certificate::Certificate;
-use mceip_check::check;
+use mceip_check::certificate::{Certificate, CriticalCertificate};
+use mceip_check::{check, check_critical};
+use mceip_exact::rational;
 use mceip_model::file::read_problem;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -33,7 +34,7 @@ fn names() -> BTreeSet<String> {
 }
 
 /// Kinds of evidence that the certificate of an example contains.
-const EVIDENCE: [&str; 14] = [
+const EVIDENCE: [&str; 16] = [
     "\"exact_solution\"",
     "\"lifted_solution\"",
     "\"enclosed_solution\"",
@@ -48,12 +49,15 @@ const EVIDENCE: [&str; 14] = [
     "\"reversed\"",
     "\"infinity\"",
     "\"z\"",
+    "\"friction\": \"1/2\"",
+    "\"left_friction\"",
 ];
 
 #[test]
 fn the_checker_gives_each_example_its_verdict() {
     let names = names();
-    for name in names.iter().filter(|name| *name != "mcp") {
+    let is_other = |name: &str| name == "mcp" || name.starts_with("critical");
+    for name in names.iter().filter(|name| !is_other(name)) {
         let problem = read(&folder().join(format!("{name}.problem.json")));
         let certificate = read(&folder().join(format!("{name}.json")));
 
@@ -66,6 +70,22 @@ fn the_checker_gives_each_example_its_verdict() {
     }
 
     assert!(names.len() > 15);
+}
+
+#[test]
+fn the_checker_accepts_each_absence_below_a_friction() {
+    for (name, below) in [
+        ("critical", rational(3, 4)),
+        ("critical-free", rational(1, 1)),
+    ] {
+        let problem = read(&folder().join(format!("{name}.problem.json")));
+        let certificate = read(&folder().join(format!("{name}.json")));
+
+        let problem = read_problem(&problem, &folder()).unwrap();
+        let certificate = CriticalCertificate::from_json(&certificate).unwrap();
+        let accepted = check_critical(&problem, &certificate);
+        assert_eq!(accepted.unwrap().below, below, "{name}");
+    }
 }
 
 #[cfg(feature = "solver")]

@@ -153,3 +153,43 @@ fn numbers_of_every_magnitude_stay_undecided_at_once() {
     assert!(said.contains("regions stay open"), "{said}");
     assert!(elapsed.as_secs() < 20, "{elapsed:?}");
 }
+
+/// `mceip-critical/1`: the example of `spec/certificates.md`, 5.18, with the critical friction 1.
+#[test]
+fn absence_below_a_friction_is_checked() {
+    let folder = Folder::new();
+    let problem = example("certificates/critical.problem");
+    let proof = example("certificates/critical");
+
+    let checked = exits(0, &["check", &problem, &proof]);
+    let said = "ABSENT for friction in [0, 3/4], lambda2 in [0, infinity): no solution";
+    assert!(checked.starts_with(said), "{checked}");
+    assert_eq!(checked.lines().count(), 1, "{checked}");
+
+    let text = std::fs::read_to_string(&proof).unwrap();
+    let higher = folder.write("higher.json", &text.replace("\"3/4\"", "\"1\""));
+    let rejected = exits(1, &["check", &problem, &higher]);
+    assert!(
+        rejected.starts_with("REJECTED: boxes, piece 0, node 4"),
+        "{rejected}"
+    );
+
+    // A window and a tolerance say nothing about such a file.
+    refused(&["check", &problem, &proof, "--window", "0,1"], &["window"]);
+    refused(
+        &["check", &problem, &proof, "--tolerance", "1e-6"],
+        &["tolerance"],
+    );
+
+    // Another problem, and a file cut short.
+    exits(
+        1,
+        &[
+            "check",
+            &example("certificates/critical-free.problem"),
+            &proof,
+        ],
+    );
+    let cut = folder.write("cut.json", &text[..text.len() / 2]);
+    refused(&["check", &problem, &cut], &["line"]);
+}

@@ -284,6 +284,7 @@ fn thresholds_and_branches_are_the_numbers_given() {
             vec![branch_point(2.0, 1e6, &[0, 1])],
         ],
         certified: vec![branch_point(1.9, 5e5, &[0, 1])],
+        absent_below: Some(1.69),
     };
     let text = sound(&branch_picture("b", &branches));
     let tree = Document::parse(&text).unwrap();
@@ -293,6 +294,7 @@ fn thresholds_and_branches_are_the_numbers_given() {
     assert_eq!(count(&tree, "branch"), 2);
     assert_eq!(count(&tree, "change"), 1);
     assert_eq!(count(&tree, "certified"), 1);
+    assert_eq!(data(&of_class(&tree, "absent"), "data-x"), [1.69]);
 
     // Pictures without data.
     sound(&branch_picture("e", &Branches::default()));

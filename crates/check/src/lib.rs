@@ -16,6 +16,9 @@
 //! * *There are no others* with a value in the window (`cover`). The evidence is a partition of
 //!   (supports) x (window) into regions, each with a proof of what it holds.
 //!
+//! A file of its own kind states absence for a range of friction (`critical`): there is no solution
+//! with mu in [0, `below`] and lambda^2 >= 0. Its evidence is a partition as well.
+//!
 //! The checker multiplies and compares integers and fractions. It has no floating point number, it
 //! solves no linear system and finds no root, and it shares no algorithm with the code that finds
 //! solutions. Of a mechanical system it forms A and B itself (`pencil`).
@@ -27,6 +30,7 @@
 
 pub mod certificate;
 mod cover;
+mod critical;
 mod enclosed;
 mod exact_solution;
 mod lifted_solution;
@@ -34,6 +38,7 @@ mod pencil;
 mod reason;
 
 pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, Place, SolutionFamily};
+pub use critical::{AcceptedAbsence, audit_critical, check_critical};
 pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};
@@ -114,20 +119,9 @@ impl<'a> ClaimChecker<'a> {
             Claim::ExactSolution(c) => exact_solution::check(&self.rows, window, c),
             Claim::LiftedSolution(c) => lifted_solution::check(self.problem, &self.rows, window, c),
             Claim::EnclosedSolution(c) => {
-                self.without_zero("an enclosed solution")?;
+                self.rows.without_zero("an enclosed solution")?;
                 enclosed::check(&self.rows, window, c)
             }
-        }
-    }
-
-    /// Refuses evidence that is not defined for particles with zero reaction.
-    fn without_zero(&self, what: &'static str) -> Result<(), Reason> {
-        match self.rows.halves.first() {
-            None => Ok(()),
-            Some(halves) => Err(Reason::ZeroReaction {
-                what,
-                particle: halves.particle,
-            }),
         }
     }
 
@@ -188,12 +182,12 @@ fn verdict(
 
     let cover = match &certificate.complete_set {
         Some(complete_set) => {
-            checker
-                .without_zero("a complete set")
+            let rows = &checker.rows;
+            rows.without_zero("a complete set")
                 .map_err(of_certificate)?;
 
             let window = &certificate.window;
-            let accepted = cover::check(&checker.rows, window, &solutions, complete_set, refused);
+            let accepted = cover::check(rows, window, &solutions, complete_set, refused);
             Some(accepted.map_err(of_certificate)?)
         }
         None => None,

@@ -28,9 +28,13 @@
 //! y = P' (K + lambda^2 M) T x. The block formulas (16) are not used: `reduction` in the model
 //! crate does that, and a test holds the two equal, so that one mistake cannot be in both.
 //!
+//! For certificates over a range of mu, [`FrictionParts`] keeps y = P' w without friction and the
+//! coefficient of mu apart.
+//!
 //! Input: a [`Problem`], whose constructor has checked its shape. Every checker of a claim reads
 //! the [`Rows`] made here.
 
+use crate::reason::Reason;
 use mceip_exact::{Integer, Rational, Sparse, common_denominator};
 use mceip_model::{Body, ContactState, Direction, Problem, System, Unknown};
 use std::collections::BTreeMap;
@@ -53,6 +57,7 @@ pub(super) struct Halves {
 }
 
 /// The rows of the pencil, each multiplied by a positive integer, and the free variables.
+#[derive(Clone)]
 pub(super) struct Rows {
     pub(super) rows: Vec<Row>,
     /// The integer each row was multiplied by.
@@ -90,7 +95,18 @@ impl Rows {
     /// Joins a row of A and a row of B and clears their denominators.
     fn push(&mut self, a: &[(usize, Rational)], b: &[(usize, Rational)], is_free: bool) {
         let factor = common_denominator(a.iter().chain(b).map(|(_, value)| value));
+        self.push_multiple(a, b, factor, is_free);
+    }
 
+    /// Joins a row of A and a row of B and multiplies them by a factor that clears their
+    /// denominators.
+    fn push_multiple(
+        &mut self,
+        a: &[(usize, Rational)],
+        b: &[(usize, Rational)],
+        factor: Integer,
+        is_free: bool,
+    ) {
         let mut entries: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
         for (column, value) in a {
             entries.entry(*column).or_default().0 += integral(value, &factor);
@@ -124,6 +140,94 @@ impl Rows {
 
     pub(super) fn order(&self) -> usize {
         self.rows.len()
+    }
+
+    /// Refuses evidence that is not defined for particles with zero reaction.
+    pub(super) fn without_zero(&self, what: &'static str) -> Result<(), Reason> {
+        match self.halves.first() {
+            None => Ok(()),
+            Some(halves) => Err(Reason::ZeroReaction {
+                what,
+                particle: halves.particle,
+            }),
+        }
+    }
+}
+
+/// The pencils T0 and T1 of a mechanical system with T(t, mu) = T0(t) + mu T1(t) in the slip rows.
+///
+/// The free rows do not depend on mu: they stand in both. Row i of both has the same factor.
+pub(super) struct FrictionParts {
+    /// Without friction: slip rows -S t'(K + tM) T.
+    pub(super) plain: Rows,
+    /// The coefficient of mu: slip rows -n'(K + tM) T.
+    pub(super) friction: Rows,
+}
+
+impl FrictionParts {
+    pub(super) fn of(system: &System, mass: &Sparse) -> FrictionParts {
+        let variables = Variables::of(system);
+        let stiffness = system.stiffness();
+        let order = variables.columns.len();
+        let mut parts = FrictionParts {
+            plain: Rows::with_capacity(order),
+            friction: Rows::with_capacity(order),
+        };
+
+        for (i, plain) in variables.rows.iter().enumerate() {
+            let is_free = i < variables.free;
+            let friction = if is_free {
+                plain
+            } else {
+                &variables.friction[i]
+            };
+
+            let plain_a = variables.reduced(plain, stiffness);
+            let plain_b = variables.reduced(plain, mass);
+            let friction_a = variables.reduced(friction, stiffness);
+            let friction_b = variables.reduced(friction, mass);
+
+            let all = [&plain_a, &plain_b, &friction_a, &friction_b];
+            let factor = common_denominator(all.into_iter().flatten().map(|(_, value)| value));
+            parts
+                .plain
+                .push_multiple(&plain_a, &plain_b, factor.clone(), is_free);
+            parts
+                .friction
+                .push_multiple(&friction_a, &friction_b, factor, is_free);
+        }
+
+        parts.plain.halves = variables.halves.clone();
+        parts.friction.halves = variables.halves;
+        parts
+    }
+
+    /// The pencil at a friction mu = p/q: q T0 + p T1 in the slip rows.
+    pub(super) fn at(&self, mu: &Rational) -> Rows {
+        let p = mu.numer();
+        let q = mu.denom();
+        let mut rows = self.plain.clone();
+
+        for i in 0..rows.order() {
+            if rows.is_free[i] {
+                continue;
+            }
+
+            let mut entries: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
+            for (part, factor) in [(&self.plain, q), (&self.friction, p)] {
+                for (column, a, b) in &part.rows[i] {
+                    let entry = entries.entry(*column).or_default();
+                    entry.0 += a * factor;
+                    entry.1 += b * factor;
+                }
+            }
+
+            let row = entries.into_iter().map(|(column, (a, b))| (column, a, b));
+            rows.rows[i] = row.collect();
+            rows.factor[i] *= q;
+        }
+
+        rows
     }
 }
 
@@ -347,6 +451,44 @@ mod tests {
             assert_eq!(halves.particle, 1);
             assert_eq!(halves.right, split.zero[0].right);
             assert_eq!(halves.left, split.zero[0].left);
+        }
+    }
+
+    /// A row of A and of B divided by its factor.
+    fn as_given(rows: &Rows, i: usize) -> (RationalRow, RationalRow) {
+        let mut a = RationalRow::new();
+        let mut b = RationalRow::new();
+        for (j, a_j, b_j) in &rows.rows[i] {
+            a.push((*j, Rational::new(a_j.clone(), rows.factor[i].clone())));
+            b.push((*j, Rational::new(b_j.clone(), rows.factor[i].clone())));
+        }
+        a.retain(|(_, v)| *v != whole(0));
+        b.retain(|(_, v)| *v != whole(0));
+        (a, b)
+    }
+
+    /// T0 + mu T1 is the pencil of the system with the friction mu, whatever that of the file.
+    #[test]
+    fn the_parts_give_the_pencil_of_every_friction() {
+        let of_file = system(ContactState::Slip { sign: -1 });
+        let mass = of_file.mass().unwrap();
+        let parts = FrictionParts::of(&of_file, mass);
+        assert_eq!(parts.plain.factor, parts.friction.factor);
+
+        for mu in [rational(2, 7), whole(1), rational(31, 3)] {
+            let particles = of_file.particles().to_vec();
+            let stiffness = of_file.stiffness().clone();
+            let friction = Some(mu.clone());
+            let other = System::new(stiffness, Some(mass.clone()), friction, particles).unwrap();
+            let problem =
+                Problem::new(Body::System(other), Unknown::Lambda2, Window::all()).unwrap();
+
+            let expected = Rows::of(&problem);
+            let rows = parts.at(&mu);
+            assert_eq!(rows.is_free, expected.is_free);
+            for i in 0..expected.order() {
+                assert_eq!(as_given(&rows, i), as_given(&expected, i), "{mu}, row {i}");
+            }
         }
     }
 

@@ -2,7 +2,8 @@
 //!
 //! A rejection names the first obligation that fails, in the order of `spec/certificates.md`. Its
 //! message says "expected ..., got ..."; its name ([`Reason::name`]) is what the corpus of
-//! forgeries (`spec/corpus`) expects. What is wrong with a complete set is a [`CoverFault`]. The
+//! forgeries (`spec/corpus`) expects. What is wrong with a complete set, or with the boxes of
+//! `mceip-critical/1`, is a [`CoverFault`]. The
 //! values hold the numbers in full; the message of a [`Rejected`] cuts numbers of more than 60
 //! digits short.
 
@@ -27,7 +28,9 @@ impl Reason {
     /// The obligation's name, as `spec/corpus` states it: `NotIsolated`, `Cover.Truncated`, ...
     pub fn name(&self) -> String {
         match self {
-            Reason::Cover { fault, .. } => format!("Cover.{}", variant_name(&format!("{fault:?}"))),
+            Reason::Cover { fault, .. } | Reason::Boxes { fault, .. } => {
+                format!("Cover.{}", variant_name(&format!("{fault:?}")))
+            }
             other => variant_name(&format!("{other:?}")),
         }
     }
@@ -351,6 +354,22 @@ pub enum Reason {
         a: Rational,
         /// Upper end.
         b: Rational,
+    },
+    /// A friction below which absence is claimed is not positive.
+    #[error("below: expected > 0, got {got}")]
+    Below {
+        /// What the certificate states.
+        got: Rational,
+    },
+    /// The boxes of a certificate of absence below a friction do not hold.
+    #[error("boxes{}: {fault}", place(*piece, *node))]
+    Boxes {
+        /// The piece, if one is to blame.
+        piece: Option<usize>,
+        /// The node in its tree.
+        node: Option<usize>,
+        /// What is wrong.
+        fault: CoverFault,
     },
     /// A complete set does not hold.
     #[error("complete set{}: {fault}", place(*piece, *node))]

@@ -145,6 +145,17 @@ impl<'a> Watch<'a> {
         }
     }
 
+    /// The same switch with another listener: one that passes on what it hears under another name.
+    pub fn heard_by<'b>(self, on_progress: &'b OnProgress<'b>) -> Watch<'b>
+    where
+        'a: 'b,
+    {
+        Watch {
+            cancel: self.cancel,
+            on_progress,
+        }
+    }
+
     /// Has somebody asked the run to end?
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(Cancel::is_requested)
@@ -196,13 +207,26 @@ mod tests {
         let cancel = Cancel::new();
         let watch = Watch::new(&cancel, listener);
 
+        let renamed = |progress: &Progress<'_>| {
+            watch.report(&Progress {
+                stage: "part",
+                ..*progress
+            });
+        };
+
         watch.report(&Progress::of("search", 3, 7));
+        watch
+            .heard_by(&renamed)
+            .report(&Progress::of("search", 4, 7));
         watch.quiet().report(&Progress::stage("unheard"));
         let before = watch.is_cancelled();
         let first = cancel.clone().request();
         let second = cancel.request();
 
-        assert_eq!(*heard.lock().unwrap(), [("search".to_string(), 3)]);
+        assert_eq!(
+            *heard.lock().unwrap(),
+            [("search".to_string(), 3), ("part".to_string(), 4)]
+        );
         assert!(!before && watch.is_cancelled() && watch.quiet().is_cancelled());
         assert!(!first && second);
         assert!(!Watch::nobody().is_cancelled());

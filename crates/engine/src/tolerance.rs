@@ -187,3 +187,64 @@ pub const PATH_VALUE: f64 = 1e-8;
 /// power of it and the remainder the sixth, which is below the rounding of doubles. Reason: two
 /// anchors so near one another would cut the pieces beside a threshold without need.
 pub(crate) const SHARED_ANCHOR: f64 = 1e-3;
+
+/// First step along a branch in (lambda^2, mu). Unit: of lambda^2 + the lowest frequency. Reason:
+/// small beside the distance over which a condensed matrix changes; the steps double.
+pub(crate) const BRANCH_STEP: f64 = 1e-3;
+
+/// Width to which the place of a fold is narrowed. Unit: of lambda^2. Basis: mu changes with the
+/// square of it there, which is the rounding of doubles.
+pub(crate) const FOLD_WIDTH: f64 = 1e-7;
+
+/// Distance beyond a kink at which the neighbouring support is looked at. Unit: of lambda^2 + the
+/// lowest frequency. Basis: a thousand times what doubles misplace a kink by.
+pub(crate) const KINK_SIDE: f64 = 1e-6;
+
+/// Largest Newton step of a converged point of a branch. Unit: of the point. Basis: a hundred times
+/// the rounding of doubles; the method is quadratic.
+pub(crate) const NEWTON_CONVERGED: f64 = 1e-13;
+
+/// Values of x_i and y_i above minus this count as not negative along a branch. Unit: none, with
+/// e'x = 1 and rows of largest entry one. Basis: rounding of a solve with a well-conditioned block;
+/// exact arithmetic decides about the point that is certified.
+pub(crate) const SIGN_NOISE: f64 = 1e-11;
+
+/// How far from a minimum of mu the lambda^2 at which it is certified may lie. Unit: of lambda^2.
+/// Basis: at a fold mu changes with the square of it, beside a kink in proportion; both stay below
+/// a tenth of the gap that is aimed at.
+pub(crate) const SHORT_VALUE: f64 = 1e-8;
+
+/// Half widths of the windows in which a solution known in doubles is certified, in this order.
+/// Unit: of mu. Basis: a simple eigenvalue is good to 1e-15 times its condition. Reason: the
+/// condensation may leave the neighbourhood of the solution open in the first window; the second
+/// leaves that out, the third is for values that doubles know badly.
+pub(crate) const NARROW_WINDOWS: [f64; 3] = [1e-9, 1e-11, 1e-6];
+
+/// Gap between the bounds of the critical mu beyond which the user is told that more boxes may help.
+/// Unit: of mu. Basis: what is aimed at for large bodies, 1e-5.
+pub const WIDE_CRITICAL_GAP: f64 = 1.1e-5;
+
+/// How far above the smallest solution the first sample of mu lies. Unit: of mu. Reason: nearer to
+/// the threshold a complete search takes longer and decides less; the critical mu itself is certified
+/// apart.
+pub(crate) const ABOVE_CRITICAL: f64 = 1e-3;
+
+/// Gap between absence and solution that is looked at first. Unit: of mu. Reason: cheap, and meets
+/// solutions that are still unknown.
+pub(crate) const FIRST_GAP: f64 = 1e-2;
+
+/// Gaps that are aimed at, until one is proved. Unit: of mu. Reason: the first two are what is asked
+/// of small and of large bodies, with a tenth for the rounding of the bound; the others are better
+/// than nothing.
+pub(crate) const CRITICAL_GAPS: [f64; 5] = [8e-7, 8e-6, 1e-3, 3e-2, 0.3];
+
+/// How much smaller than the known one a mu in doubles must be to be worth a certificate. Unit: of
+/// mu. Basis: a tenth of what the last of [`CRITICAL_GAPS`] would notice.
+pub(crate) const SMALLER_FRICTION: f64 = 1e-8;
+
+/// How near an anchor is used where the remainders of coarse ones stand in the way, and by what
+/// share nearer where its own do; and the least. Unit: of lambda^2 + the lowest frequency. Basis:
+/// the remainder falls with the sixth power of it.
+pub(crate) const FIRST_NEAR: f64 = 0.1;
+pub(crate) const NEARER: f64 = 0.3;
+pub(crate) const LEAST_NEAR: f64 = 2e-3;

@@ -39,7 +39,7 @@ fn system(analysis: &Analysis) -> Section {
 
 /// Every sentence with what stands behind it; what is only measured is said to be so.
 fn answers(analysis: &Analysis, paths: &[String]) -> Section {
-    let mut content = Vec::new();
+    let mut content = vec![Content::Paragraph(analysis.summary())];
     if analysis.interrupted {
         let warning = "Interrupted: what was not done is undecided.";
         content.push(Content::Warning(warning.into()));

@@ -46,7 +46,7 @@ pub struct Piece {
 }
 
 /// A number or null: a missing field is refused.
-fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::Error> {
+pub(super) fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::Error> {
     Option::deserialize(d)
 }
 
@@ -306,7 +306,7 @@ pub struct Anchor {
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde wants a reference")]
-fn is_false(v: &bool) -> bool {
+pub(super) fn is_false(v: &bool) -> bool {
     !v
 }
 

@@ -1,4 +1,5 @@
-//! `mceip-certificate/1`: what a certificate says, and its file form.
+//! `mceip-certificate/1`: what a certificate says, and its file form. (`critical` does the same for
+//! `mceip-critical/1`.)
 //!
 //! This module holds data and reads and writes it; it decides nothing. A certificate names its
 //! problem by digest, states a window of values and makes claims: solutions ([`Claim`]), and
@@ -15,9 +16,14 @@ use mceip_model::{ModelError, Unknown, Window};
 use serde::{Deserialize, Serialize};
 
 mod cover;
+mod critical;
 pub use cover::{
     Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Ldl, LdlFactor, Member,
     Node, Piece, Point, Polynomials, Root, RootOutcome, Support, Tail,
+};
+pub use critical::{
+    CRITICAL_FORMAT, CriticalAnchor, CriticalCertificate, CriticalCondensation, CriticalNode,
+    CriticalPiece, CriticalTail,
 };
 
 /// The format this program reads and writes.

@@ -29,15 +29,19 @@ pub(super) struct WorkBudget {
 
 impl WorkBudget {
     /// What the definite leaves of a file may cost in all: the sum of the cubes of their orders.
-    pub(super) fn of_definite_leaves(rows: &Rows, cover: &CompleteSet) -> WorkBudget {
+    pub(super) fn of_definite_leaves<'a>(
+        pencils: impl IntoIterator<Item = &'a Rows>,
+        nodes: u64,
+    ) -> WorkBudget {
         let mut entries: u64 = 0;
-        for (_, a, b) in rows.rows.iter().flatten() {
+        let rows = pencils.into_iter().flat_map(|pencil| &pencil.rows);
+        for (_, a, b) in rows.flatten() {
             if !a.is_zero() || !b.is_zero() {
                 entries += 1;
             }
         }
 
-        let by_nodes = DEFINITE_PER_NODE.saturating_mul(nodes(cover));
+        let by_nodes = DEFINITE_PER_NODE.saturating_mul(nodes);
         let by_entries = DEFINITE_PER_ENTRY.saturating_mul(entries);
         WorkBudget::definite_leaves(
             DEFINITE_BASE
@@ -47,8 +51,8 @@ impl WorkBudget {
     }
 
     /// What the matrices of all regions of a file may cost: products of machine words.
-    pub(super) fn of_matrices(cover: &CompleteSet) -> WorkBudget {
-        let by_nodes = MATRIX_PER_NODE.saturating_mul(nodes(cover));
+    pub(super) fn of_matrices(nodes: u64) -> WorkBudget {
+        let by_nodes = MATRIX_PER_NODE.saturating_mul(nodes);
         WorkBudget::matrices(MATRIX_BASE.saturating_add(by_nodes))
     }
 
@@ -81,7 +85,7 @@ impl WorkBudget {
 }
 
 /// The number of nodes of all trees.
-fn nodes(cover: &CompleteSet) -> u64 {
+pub(super) fn nodes(cover: &CompleteSet) -> u64 {
     cover
         .pieces
         .iter()

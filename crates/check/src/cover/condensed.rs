@@ -29,8 +29,10 @@ use super::expanded::{Expanded, Norms};
 use super::fault::CoverFault;
 use super::product::{Linear, Part, times};
 use super::psd::{Symmetric, semidefinite};
-use crate::certificate::{Anchor, Condensation, IntegerMatrix, Tail};
-use crate::pencil::{Row, Rows};
+use crate::certificate::{
+    Anchor, Condensation, CriticalAnchor, CriticalCondensation, Factor, IntegerMatrix,
+};
+use crate::pencil::{FrictionParts, Row, Rows};
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -45,36 +47,147 @@ const NORM_BITS: u32 = 32;
 
 /// Checks the hypotheses and expands the condensed pencil about each anchor.
 pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expanded>, CoverFault> {
-    let sigma = &condensation.sigma.0;
-    let tau = &condensation.mass_sigma.0;
-    let blocks = Blocks::of(rows);
-    check_hypotheses(&blocks, condensation)?;
+    let bounds = FreeBounds {
+        sigma: &condensation.sigma.0,
+        stiffness_factor: &condensation.stiffness_factor,
+        tau: &condensation.mass_sigma.0,
+        mass_factor: condensation.mass_factor.as_ref(),
+    };
+    let has_reversed = condensation.anchors.iter().any(|anchor| anchor.reversed);
+    let expander = Expander::of(rows, bounds, has_reversed);
+    check_hypotheses(&expander.blocks, bounds)?;
 
-    let mut reversed_blocks: Option<Blocks> = None;
     let mut expansions = Vec::with_capacity(condensation.anchors.len());
     for anchor in &condensation.anchors {
-        if !anchor.reversed {
-            expansions.push(blocks.expand(anchor, sigma, tau)?);
-            continue;
-        }
-
-        if tau.is_zero() {
-            return Err(hypothesis("mass_sigma > 0 for a reversed anchor", 0));
-        }
-
-        let blocks = reversed_blocks.get_or_insert_with(|| Blocks::of(&rows.reversed()));
-        let mut expanded = blocks.expand(anchor, tau, sigma)?;
-        expanded.reversed = true;
-        expansions.push(expanded);
+        expansions.push(expander.expand(anchor.into())?);
     }
 
     Ok(expansions)
 }
 
+/// The same for both parts of T0 + mu T1, with one scaling of the rows.
+///
+/// The free rows of both are the same, and so are the hypotheses and W.
+pub(super) fn of_parts(
+    parts: &FrictionParts,
+    condensation: &CriticalCondensation,
+) -> Result<[Vec<Expanded>; 2], CoverFault> {
+    let bounds = FreeBounds {
+        sigma: &condensation.sigma.0,
+        stiffness_factor: &condensation.stiffness_factor,
+        tau: &condensation.mass_sigma.0,
+        mass_factor: condensation.mass_factor.as_ref(),
+    };
+    let has_reversed = condensation.anchors.iter().any(|anchor| anchor.reversed);
+    let mut plain = Expander::of(&parts.plain, bounds, has_reversed);
+    check_hypotheses(&plain.blocks, bounds)?;
+    let mut friction = Expander::of(&parts.friction, bounds, has_reversed);
+    plain.share_scaling(&mut friction);
+
+    let mut expansions = [Vec::new(), Vec::new()];
+    for anchor in &condensation.anchors {
+        let [of_plain, of_friction] = anchor_parts(anchor);
+        expansions[0].push(plain.expand(of_plain)?);
+        expansions[1].push(friction.expand(of_friction)?);
+    }
+
+    Ok(expansions)
+}
+
+/// F(t) >= (sigma + t tau) I, by Cholesky factors.
+#[derive(Clone, Copy)]
+struct FreeBounds<'a> {
+    sigma: &'a Rational,
+    stiffness_factor: &'a Factor,
+    tau: &'a Rational,
+    mass_factor: Option<&'a Factor>,
+}
+
+/// The polynomials W and V of an anchor.
+struct Expansion<'a> {
+    center: &'a Rational,
+    reversed: bool,
+    right: &'a [IntegerMatrix],
+    left: &'a [IntegerMatrix],
+}
+
+impl<'a> From<&'a Anchor> for Expansion<'a> {
+    fn from(anchor: &'a Anchor) -> Expansion<'a> {
+        Expansion {
+            center: &anchor.center.0,
+            reversed: anchor.reversed,
+            right: &anchor.right,
+            left: &anchor.left,
+        }
+    }
+}
+
+/// W with the V of T0, and with that of T1.
+fn anchor_parts(anchor: &CriticalAnchor) -> [Expansion<'_>; 2] {
+    [&anchor.left, &anchor.left_friction].map(|left| Expansion {
+        center: &anchor.center.0,
+        reversed: anchor.reversed,
+        right: &anchor.right,
+        left,
+    })
+}
+
+/// Expands the condensed pencil about anchors, given its hypotheses.
+struct Expander<'a> {
+    bounds: FreeBounds<'a>,
+    blocks: Blocks,
+    /// The blocks of B + sA, where reversed anchors are and may be.
+    reversed: Option<Blocks>,
+}
+
+impl<'a> Expander<'a> {
+    fn of(rows: &Rows, bounds: FreeBounds<'a>, has_reversed: bool) -> Expander<'a> {
+        let may_be_reversed = has_reversed && bounds.tau.is_positive();
+
+        Expander {
+            bounds,
+            blocks: Blocks::of(rows),
+            reversed: may_be_reversed.then(|| Blocks::of(&rows.reversed())),
+        }
+    }
+
+    /// Divides row i of both by the same power of two, the larger one.
+    fn share_scaling(&mut self, other: &mut Expander<'_>) {
+        share_bits(&mut self.blocks, &mut other.blocks);
+        if let (Some(own), Some(other)) = (&mut self.reversed, &mut other.reversed) {
+            share_bits(own, other);
+        }
+    }
+
+    fn expand(&self, anchor: Expansion<'_>) -> Result<Expanded, CoverFault> {
+        let sigma = self.bounds.sigma;
+        let tau = self.bounds.tau;
+        if !anchor.reversed {
+            return self.blocks.expand(&anchor, sigma, tau);
+        }
+
+        let Some(blocks) = &self.reversed else {
+            return Err(hypothesis("mass_sigma > 0 for a reversed anchor", 0));
+        };
+        let mut expanded = blocks.expand(&anchor, tau, sigma)?;
+        expanded.reversed = true;
+        Ok(expanded)
+    }
+}
+
+/// The larger of both bit lengths for each slip row.
+fn share_bits(own: &mut Blocks, other: &mut Blocks) {
+    for (own, other) in own.bits.iter_mut().zip(&mut other.bits) {
+        let largest = (*own).max(*other);
+        *own = largest;
+        *other = largest;
+    }
+}
+
 /// F is symmetric, A_ff - sigma I and B_ff - tau I are positive semidefinite, sigma > 0, tau >= 0.
-fn check_hypotheses(blocks: &Blocks, condensation: &Condensation) -> Result<(), CoverFault> {
-    let sigma = &condensation.sigma.0;
-    let tau = &condensation.mass_sigma.0;
+fn check_hypotheses(blocks: &Blocks, bounds: FreeBounds<'_>) -> Result<(), CoverFault> {
+    let sigma = bounds.sigma;
+    let tau = bounds.tau;
     if !sigma.is_positive() {
         return Err(hypothesis("sigma > 0", 0));
     }
@@ -88,7 +201,7 @@ fn check_hypotheses(blocks: &Blocks, condensation: &Condensation) -> Result<(), 
     semidefinite(
         &stiffness,
         &(&blocks.common * sigma.denom()),
-        Some(&condensation.stiffness_factor),
+        Some(bounds.stiffness_factor),
         false,
         "A_ff - sigma I positive semidefinite",
     )?;
@@ -96,15 +209,19 @@ fn check_hypotheses(blocks: &Blocks, condensation: &Condensation) -> Result<(), 
     semidefinite(
         &mass,
         &(&blocks.common * tau.denom()),
-        condensation.mass_factor.as_ref(),
+        bounds.mass_factor,
         false,
         "B_ff - mass_sigma I positive semidefinite",
     )
 }
 
 /// Demands that sym(A + from B) is positive definite and sym(B) semidefinite on all variables.
-pub(super) fn tail(rows: &Rows, tail: &Tail) -> Result<(), CoverFault> {
-    let from = &tail.from.0;
+pub(super) fn tail(
+    rows: &Rows,
+    from: &Rational,
+    factor: &Factor,
+    mass_factor: Option<&Factor>,
+) -> Result<(), CoverFault> {
     let mut common = Integer::one();
     for factor in &rows.factor {
         common = common.lcm(factor);
@@ -116,7 +233,7 @@ pub(super) fn tail(rows: &Rows, tail: &Tail) -> Result<(), CoverFault> {
     semidefinite(
         &pencil,
         &(&twice * from.denom()),
-        Some(&tail.factor),
+        Some(factor),
         true,
         "sym(A + from B) positive definite",
     )?;
@@ -124,7 +241,7 @@ pub(super) fn tail(rows: &Rows, tail: &Tail) -> Result<(), CoverFault> {
     semidefinite(
         &mass,
         &twice,
-        tail.mass_factor.as_ref(),
+        mass_factor,
         false,
         "sym(B) positive semidefinite",
     )
@@ -296,16 +413,17 @@ impl Blocks {
     /// The condensed pencil about an anchor, given A_ff >= sigma I and B_ff >= tau I.
     fn expand(
         &self,
-        anchor: &Anchor,
+        anchor: &Expansion<'_>,
         sigma: &Rational,
         tau: &Rational,
     ) -> Result<Expanded, CoverFault> {
-        let w = self.polynomial(&anchor.right)?;
-        let mut v = self.polynomial(&anchor.left)?;
+        let w = self.polynomial(anchor.right)?;
+        let mut v = self.polynomial(anchor.left)?;
         let exponent = w.exponent + v.exponent;
         let coefficients = w.coefficients.len() + v.coefficients.len() + 1;
         let expansions = [&w.coefficients[..], &v.coefficients[..]];
-        self.affordable(anchor, coefficients, exponent, &expansions)?;
+        let center = anchor.center;
+        self.affordable(center, coefficients, exponent, &expansions)?;
 
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
         for row in v.coefficients.iter_mut().flatten() {
@@ -315,7 +433,6 @@ impl Blocks {
         }
 
         // Residuals in units of 1 / (q 2^e), D times the true ones.
-        let center = &anchor.center.0;
         let about = self.about(center);
         let r = residual(&about.ff, &about.fs, &w, self.slip);
         let l = residual(&about.ff, &transpose(&about.sf, self.free), &v, self.slip);
@@ -367,13 +484,13 @@ impl Blocks {
     /// center.
     fn affordable(
         &self,
-        anchor: &Anchor,
+        center: &Rational,
         coefficients: usize,
         exponent: u32,
         expansions: &[&[Matrix]],
     ) -> Result<(), CoverFault> {
         let mut bits = self.longest + self.common.bits();
-        bits += rational_bits(&anchor.center.0) + u64::from(exponent);
+        bits += rational_bits(center) + u64::from(exponent);
         for matrices in expansions {
             bits += largest_bits(matrices.iter().flatten().flatten());
         }

@@ -14,7 +14,7 @@
 //! `enclosed_definite` decides at an end. Called by the walk through the trees.
 
 use super::enclosed_definite::{long_definite, positive_definite};
-use super::ends::{ENDS, Ends, Matrix};
+use super::ends::{Corner, ENDS, Ends, Matrix};
 use super::fault::CoverFault;
 use super::region::Region;
 use super::short::Short;
@@ -37,18 +37,26 @@ pub(super) fn definite(
         return Ok(());
     }
 
-    let ends = ends()?;
-    for end in 0..2 {
-        let m = &ends.m[end];
-        let r = &ends.r[end];
-        let is_infinite = end == 1 && ends.infinite;
-        if is_infinite && is_skew(m, r, &possible) {
+    check_corners(region, &ends()?.corners(ENDS), index, sign)
+}
+
+/// Demands the same at all corners of the region.
+pub(super) fn check_corners(
+    region: &Region,
+    corners: &[Corner<'_>],
+    index: &[usize],
+    sign: i8,
+) -> Result<(), CoverFault> {
+    let possible = region.possible_support();
+    for corner in corners {
+        if corner.is_limit && is_skew(corner.m, corner.r, &possible) {
             continue; // semidefinite, which suffices there
         }
 
-        long_definite(m, r, &possible, sign).map_err(|pivot| CoverFault::NotDefinite {
+        let verdict = long_definite(corner.m, corner.r, &possible, sign);
+        verdict.map_err(|pivot| CoverFault::NotDefinite {
             index: index[possible[pivot]],
-            end: ENDS[end],
+            end: corner.name,
         })?;
     }
 

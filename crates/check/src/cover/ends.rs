@@ -36,6 +36,61 @@ pub(super) struct Ends {
     pub(super) infinite: bool,
 }
 
+/// One end of a region: T is a convex combination of matrices within `r` of `m` at its ends.
+pub(super) struct Corner<'a> {
+    pub(super) m: &'a Matrix,
+    pub(super) r: &'a Matrix,
+    pub(super) scale: &'a Integer,
+    /// As messages name it.
+    pub(super) name: &'static str,
+    /// Is it no value of the window, so that weak inequalities suffice there?
+    pub(super) is_limit: bool,
+}
+
+impl Ends {
+    /// Both ends, with their names in messages.
+    pub(super) fn corners(&self, names: [&'static str; 2]) -> [Corner<'_>; 2] {
+        [0, 1].map(|end| Corner {
+            m: &self.m[end],
+            r: &self.r[end],
+            scale: &self.scale,
+            name: names[end],
+            is_limit: end == 1 && self.infinite,
+        })
+    }
+
+    /// The ends of T0 + mu T1 from those of T0 and of T1, which are in the same unit; mu >= 0.
+    ///
+    /// Both convex combinations have the same weights, so that of the sum has them as well.
+    pub(super) fn plus_multiple(&self, other: &Ends, mu: &Rational) -> Ends {
+        let sum = |own: &Matrix, other: &Matrix| combination(own, mu.denom(), other, mu.numer());
+
+        Ends {
+            m: [0, 1].map(|end| sum(&self.m[end], &other.m[end])),
+            r: [0, 1].map(|end| sum(&self.r[end], &other.r[end])),
+            slope: sum(&self.slope, &other.slope),
+            scale: &self.scale * mu.denom(),
+            infinite: self.infinite,
+        }
+    }
+}
+
+/// q A + p B.
+fn combination(a: &Matrix, q: &Integer, b: &Matrix, p: &Integer) -> Matrix {
+    let mut sum = Matrix::with_capacity(a.len());
+    for (a_row, b_row) in a.iter().zip(b) {
+        sum.push(
+            a_row
+                .iter()
+                .zip(b_row)
+                .map(|(a, b)| q * a + p * b)
+                .collect(),
+        );
+    }
+
+    sum
+}
+
 /// Demands that order^2 entries of so many coefficients of so many bits are at most
 /// [`MAX_MATRIX_BITS`].
 pub(super) fn within_matrix_bits(

@@ -16,7 +16,7 @@ use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits, rational_bits, with
 use super::expanded::Expanded;
 use super::fault::CoverFault;
 use super::short::Short;
-use crate::pencil::Rows;
+use crate::pencil::{Row, Rows};
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -178,6 +178,11 @@ impl HornerWork {
 impl Linear {
     /// The pencil of a problem without free variables.
     pub(super) fn of(rows: &Rows) -> Linear {
+        Linear::scaled(rows, &row_bits(rows))
+    }
+
+    /// The same with row i divided by 2^bits_i.
+    pub(super) fn scaled(rows: &Rows, bits: &[u64]) -> Linear {
         let n = rows.order();
         let mut linear = Linear {
             a: Vec::with_capacity(n),
@@ -186,8 +191,7 @@ impl Linear {
             short: None,
         };
 
-        for row in &rows.rows {
-            let bits = largest_bits(row.iter().map(|(_, a, _)| a)).max(1);
+        for (row, &bits) in rows.rows.iter().zip(bits) {
             let lift = FRACTION_BITS as i64 - bits as i64;
 
             let mut a = vec![Integer::zero(); n];
@@ -273,13 +277,19 @@ impl Linear {
     }
 }
 
+/// Bit length of the largest entry of A in each row, at least 1: the row is divided by 2^that.
+pub(super) fn row_bits(rows: &Rows) -> Vec<u64> {
+    let row_bits = |row: &Row| largest_bits(row.iter().map(|(_, a, _)| a)).max(1);
+    rows.rows.iter().map(row_bits).collect()
+}
+
 /// Bits of both ends of an interval.
-fn end_bits(lo: &Rational, hi: Option<&Rational>) -> u64 {
+pub(super) fn end_bits(lo: &Rational, hi: Option<&Rational>) -> u64 {
     rational_bits(lo) + hi.map_or(0, rational_bits)
 }
 
 /// Words of 64 bits, one too many for a multiple of 64.
-fn words(bits: u64) -> u64 {
+pub(super) fn words(bits: u64) -> u64 {
     bits / 64 + 1
 }
 

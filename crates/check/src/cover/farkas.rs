@@ -17,7 +17,7 @@
 //! Short numbers (`short`) are tried first. Where they cannot tell, `ends` gives the long ones.
 //! Called by the walk through the trees.
 
-use super::ends::{ENDS, Ends};
+use super::ends::{Corner, ENDS, Ends};
 use super::fault::CoverFault;
 use super::region::{Region, State};
 use super::short::Short;
@@ -33,6 +33,20 @@ pub(super) fn farkas(
     index: &[usize],
     w: &[i64],
 ) -> Result<(), CoverFault> {
+    check_weights(region, index, w)?;
+
+    if let Some([lower, upper]) = short
+        && is_negative(region, lower, w)
+        && is_negative(region, upper, w)
+    {
+        return Ok(());
+    }
+
+    check_columns(region, &ends()?.corners(ENDS), index, w)
+}
+
+/// Demands one weight for each complementarity variable, >= 0 off the support.
+pub(super) fn check_weights(region: &Region, index: &[usize], w: &[i64]) -> Result<(), CoverFault> {
     CoverFault::length("farkas", index.len(), w.len())?;
     for (i, &weight) in w.iter().enumerate() {
         if weight < 0 && region.states[i] != State::InSupport {
@@ -43,30 +57,33 @@ pub(super) fn farkas(
         }
     }
 
-    if let Some([lower, upper]) = short
-        && is_negative(region, lower, w)
-        && is_negative(region, upper, w)
-    {
-        return Ok(());
-    }
+    Ok(())
+}
 
-    let ends = ends()?;
+/// Demands that w'T <= 0 at all corners of the region, < 0 at those that are values of the window
+/// for all variables that may be in the support, or for one that is.
+pub(super) fn check_columns(
+    region: &Region,
+    corners: &[Corner<'_>],
+    index: &[usize],
+    w: &[i64],
+) -> Result<(), CoverFault> {
     let mut strict_on_all = true;
     let mut strict_on_support = false;
+
     for j in region.possible_support() {
         let mut strict = true;
-        for end in 0..2 {
-            let bound = upper_bound(&ends, end, w, j);
+        for corner in corners {
+            let bound = upper_bound(corner, w, j);
             if bound.is_positive() {
                 return Err(CoverFault::NotNegative {
                     index: index[j],
-                    end: ENDS[end],
-                    got: Rational::new(bound, ends.scale.clone()),
+                    end: corner.name,
+                    got: Rational::new(bound, corner.scale.clone()),
                 });
             }
 
-            let is_infinite = end == 1 && ends.infinite;
-            strict &= bound.is_negative() || is_infinite;
+            strict &= bound.is_negative() || corner.is_limit;
         }
 
         strict_on_all &= strict;
@@ -94,17 +111,17 @@ fn is_negative(region: &Region, end: &Short, w: &[i64]) -> bool {
         .all(|(bound, state)| *bound < 0 || *state == State::AtZero)
 }
 
-/// Upper bound of (w'T)_j at an end: sum_i w_i M_ij + |w_i| R_ij.
-fn upper_bound(ends: &Ends, end: usize, w: &[i64], j: usize) -> Integer {
+/// Upper bound of (w'T)_j at a corner: sum_i w_i M_ij + |w_i| R_ij.
+fn upper_bound(corner: &Corner<'_>, w: &[i64], j: usize) -> Integer {
     let mut bound = Integer::zero();
     for (i, &weight) in w.iter().enumerate() {
         if weight == 0 {
             continue;
         }
 
-        bound += &ends.m[end][i][j] * weight;
+        bound += &corner.m[i][j] * weight;
 
-        let radius = &ends.r[end][i][j];
+        let radius = &corner.r[i][j];
         if !radius.is_zero() {
             bound += radius * weight.unsigned_abs();
         }

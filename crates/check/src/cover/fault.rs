@@ -36,6 +36,16 @@ pub enum CoverFault {
         /// The cut.
         got: Rational,
     },
+    /// A cut outside the interval of friction.
+    #[error("friction: expected a value inside ({lower}, {higher}), got {got}")]
+    FrictionCut {
+        /// Lower end of the interval.
+        lower: Rational,
+        /// Upper end of the interval.
+        higher: Rational,
+        /// The cut.
+        got: Rational,
+    },
     /// A branch on no open complementarity variable.
     #[error("branch: expected an open complementarity variable, got {index}")]
     Branch {

@@ -22,6 +22,8 @@
 //! half line. `product`, `short`, `definite` and `psd` are the arithmetic behind it. `walk` goes
 //! through the trees, and `budget` bounds the work.
 //!
+//! `critical` uses the same leaves for boxes of (value, friction): absence below a friction.
+//!
 //! For each kind of leaf there is a file in `crates/engine/src/search/complete/leaf/` that makes
 //! it; the table in its `mod.rs` names both sides.
 //!
@@ -31,6 +33,7 @@
 mod beside;
 mod budget;
 mod condensed;
+pub(crate) mod critical;
 mod definite;
 mod enclosed_definite;
 pub(crate) mod ends;
@@ -66,8 +69,9 @@ use budget::WorkBudget;
 use family::{AnchorExpansion, Family, Linear};
 use mceip_exact::Rational;
 use mceip_model::Window;
+use region::end;
 use sign_budget::SignBudget;
-use walk::{NodeFault, Walk, end};
+use walk::{NodeFault, Walk};
 
 /// Largest number of complementarity variables of a cover: a region has dense matrices of this
 /// order.
@@ -89,7 +93,8 @@ pub(super) fn check(
     refused: Option<&mut Vec<(usize, usize)>>,
 ) -> Result<AcceptedCover, Reason> {
     let index: Vec<usize> = (0..rows.order()).filter(|&i| !rows.is_free[i]).collect();
-    check_size(index.len(), cover).map_err(of_cover)?;
+    let anchors = cover.condensation.as_ref().map_or(0, |c| c.anchors.len());
+    check_size(index.len(), anchors).map_err(of_cover)?;
 
     let has_free = index.len() < rows.order();
     let family = family(rows, has_free, cover).map_err(of_cover)?;
@@ -107,8 +112,8 @@ pub(super) fn check(
         open: Vec::new(),
         leaves: 0,
         sign_budget: SignBudget::new(),
-        definite_budget: WorkBudget::of_definite_leaves(rows, cover),
-        matrix_budget: WorkBudget::of_matrices(cover),
+        definite_budget: WorkBudget::of_definite_leaves([rows], budget::nodes(cover)),
+        matrix_budget: WorkBudget::of_matrices(budget::nodes(cover)),
         refused,
     };
     check_pieces(&mut walk, &cover.pieces)?;
@@ -124,11 +129,10 @@ pub(super) fn check(
 }
 
 /// Demands that matrices of the problem's order may be formed.
-fn check_size(order: usize, cover: &CompleteSet) -> Result<(), CoverFault> {
+fn check_size(order: usize, anchors: usize) -> Result<(), CoverFault> {
     let what = "complementarity variables of a cover";
     CoverFault::at_most(what, MAX_COVERED as u64, order as u64)?;
 
-    let anchors = cover.condensation.as_ref().map_or(0, |c| c.anchors.len());
     let expanded = anchors.saturating_mul(order * order);
     let what = "anchors times complementarity variables squared";
     CoverFault::at_most(what, MAX_EXPANDED as u64, expanded as u64)
@@ -156,8 +160,9 @@ fn tail<'a>(rows: &Rows, cover: &'a CompleteSet) -> Result<Option<&'a Rational>,
     let tail = cover.condensation.as_ref().and_then(|c| c.tail.as_ref());
     let Some(tail) = tail else { return Ok(None) };
 
-    condensed::tail(rows, tail)?;
-    Ok(Some(&tail.from.0))
+    let from = &tail.from.0;
+    condensed::tail(rows, from, &tail.factor, tail.mass_factor.as_ref())?;
+    Ok(Some(from))
 }
 
 /// Checks the pieces: they follow one another from one end of the window to the other, and each
@@ -167,8 +172,9 @@ fn check_pieces(walk: &mut Walk<'_>, pieces: &[Piece]) -> Result<(), Reason> {
 
     for (k, piece) in pieces.iter().enumerate() {
         let is_last = k + 1 == pieces.len();
-        check_anchor(&walk.family, piece).map_err(|fault| of_piece(k, fault))?;
-        check_end(walk.window, &lo, piece, is_last).map_err(|fault| of_piece(k, fault))?;
+        let max = piece.max.as_ref().map(|n| &n.0);
+        check_anchor(&walk.family, piece.anchor).map_err(|fault| of_piece(k, fault))?;
+        check_end(walk.window, &lo, max, is_last).map_err(|fault| of_piece(k, fault))?;
         walk.piece(k, &lo, piece).map_err(|at| of_node(k, at))?;
 
         if let Some(max) = &piece.max {
@@ -187,11 +193,11 @@ fn check_pieces(walk: &mut Walk<'_>, pieces: &[Piece]) -> Result<(), Reason> {
 }
 
 /// Demands that an anchor that a piece names exists. Without a condensation it is ignored.
-fn check_anchor(family: &Family, piece: &Piece) -> Result<(), CoverFault> {
+fn check_anchor(family: &Family, anchor: Option<usize>) -> Result<(), CoverFault> {
     let Family::Condensed(anchors) = family else {
         return Ok(());
     };
-    match piece.anchor {
+    match anchor {
         Some(k) if k >= anchors.len() => Err(CoverFault::Anchor {
             anchors: anchors.len(),
             got: Some(k),
@@ -205,10 +211,9 @@ fn check_anchor(family: &Family, piece: &Piece) -> Result<(), CoverFault> {
 fn check_end(
     window: &Window,
     lo: &Rational,
-    piece: &Piece,
+    max: Option<&Rational>,
     is_last: bool,
 ) -> Result<(), CoverFault> {
-    let max = piece.max.as_ref().map(|n| &n.0);
     if is_last && max != window.max() {
         return Err(CoverFault::PieceEnd {
             expected: end(window.max()),
@@ -355,8 +360,8 @@ mod tests {
             pieces: vec![piece(3), piece(4)],
         };
 
-        let definite = WorkBudget::of_definite_leaves(&rows, &cover);
-        let matrices = WorkBudget::of_matrices(&cover);
+        let definite = WorkBudget::of_definite_leaves([&rows], budget::nodes(&cover));
+        let matrices = WorkBudget::of_matrices(budget::nodes(&cover));
 
         assert_eq!(definite.left(), (1 << 26) + 7 * (1 << 20) + 2 * (1 << 16));
         assert_eq!(matrices.left(), (1 << 30) + 7 * (1 << 24));

@@ -1,6 +1,7 @@
 //! Regions: an interval of the unknown and what is known of the support.
 
 use super::ends::Ends;
+use super::fault::CoverFault;
 use super::short::Short;
 use mceip_exact::Rational;
 use std::cell::RefCell;
@@ -27,6 +28,77 @@ pub(super) struct Region {
 }
 
 impl Region {
+    /// The values up to a cut and those from it on.
+    pub(super) fn split(self, at: &Rational) -> Result<[Region; 2], CoverFault> {
+        let is_above_lo = *at > self.lo;
+        let is_below_hi = self.hi.as_ref().is_none_or(|hi| at < hi);
+        if !is_above_lo || !is_below_hi {
+            return Err(CoverFault::Cut {
+                lo: self.lo,
+                hi: end(self.hi.as_ref()),
+                got: at.clone(),
+            });
+        }
+
+        self.matrices.forget();
+        let upper = Region {
+            lo: at.clone(),
+            hi: self.hi,
+            states: self.states.clone(),
+            matrices: Rc::default(),
+        };
+        let lower = Region {
+            lo: self.lo,
+            hi: Some(at.clone()),
+            states: self.states,
+            matrices: Rc::default(),
+        };
+        Ok([lower, upper])
+    }
+
+    /// x_i = 0 and x_i > 0 for the undecided variable i of the problem; `indices` are those of the
+    /// complementarity variables.
+    pub(super) fn branch(self, index: usize, indices: &[usize]) -> Result<[Region; 2], CoverFault> {
+        let position = indices.iter().position(|&i| i == index);
+        let position = position
+            .filter(|&p| self.states[p] == State::Undecided)
+            .ok_or(CoverFault::Branch { index })?;
+
+        let mut at_zero = self.states.clone();
+        at_zero[position] = State::AtZero;
+        let mut in_support = self.states;
+        in_support[position] = State::InSupport;
+
+        Ok([at_zero, in_support].map(|states| Region {
+            lo: self.lo.clone(),
+            hi: self.hi.clone(),
+            states,
+            matrices: Rc::clone(&self.matrices),
+        }))
+    }
+
+    /// The same region.
+    pub(super) fn same(&self) -> Region {
+        Region {
+            lo: self.lo.clone(),
+            hi: self.hi.clone(),
+            states: self.states.clone(),
+            matrices: Rc::clone(&self.matrices),
+        }
+    }
+
+    /// Demands that the region lies above the value from which on the condensation's tail excludes
+    /// solutions.
+    pub(super) fn is_in_tail(&self, tail: Option<&Rational>) -> Result<(), CoverFault> {
+        match tail {
+            Some(from) if *from <= self.lo => Ok(()),
+            _ => Err(CoverFault::Hypothesis {
+                expected: "a tail that begins at or below the region",
+                row: 0,
+            }),
+        }
+    }
+
     /// Positions of the variables that are in the support.
     pub(super) fn support(&self) -> Vec<usize> {
         self.positions(|state| state == State::InSupport)
@@ -58,10 +130,32 @@ pub(super) struct Matrices {
 }
 
 impl Matrices {
+    /// The long numbers, computed where they are not yet known.
+    pub(super) fn ends(
+        &self,
+        compute: impl FnOnce() -> Result<Ends, CoverFault>,
+    ) -> Result<Rc<Ends>, CoverFault> {
+        if let Some(ends) = &*self.exact.borrow() {
+            return Ok(Rc::clone(ends));
+        }
+
+        let ends = Rc::new(compute()?);
+        self.exact.replace(Some(Rc::clone(&ends)));
+        Ok(ends)
+    }
+
     /// Frees the memory. A region that is split needs its matrices no more, and its siblings
     /// compute them again, so that a deep tree of splits holds the matrices of one interval.
     pub(super) fn forget(&self) {
         self.exact.take();
         self.short.take();
+    }
+}
+
+/// An upper end as messages say it.
+pub(super) fn end(max: Option<&Rational>) -> String {
+    match max {
+        Some(max) => max.to_string(),
+        None => "infinity".into(),
     }
 }

@@ -75,8 +75,16 @@ impl Walk<'_> {
             let region = stack.pop().ok_or(at_node(CoverFault::Trailing))?;
 
             match node {
-                Node::Split(at) => split(region, &at.0, &mut stack).map_err(at_node)?,
-                Node::Branch(index) => self.branch(region, *index, &mut stack).map_err(at_node)?,
+                // The region on top of the stack is the next one.
+                Node::Split(at) => {
+                    let [lower, upper] = region.split(&at.0).map_err(at_node)?;
+                    stack.extend([upper, lower]);
+                }
+                Node::Branch(index) => {
+                    let halves = region.branch(*index, &self.index).map_err(at_node)?;
+                    let [at_zero, in_support] = halves;
+                    stack.extend([in_support, at_zero]);
+                }
                 _ => {
                     let verdict = self.leaf(&region, piece.anchor, node);
                     self.settle(&region, verdict, (number, k))
@@ -115,33 +123,6 @@ impl Walk<'_> {
         }
     }
 
-    /// Divides a region by x_i = 0 and x_i > 0 for an undecided variable i.
-    fn branch(
-        &self,
-        mut region: Region,
-        index: usize,
-        stack: &mut Vec<Region>,
-    ) -> Result<(), CoverFault> {
-        let position = self.index.iter().position(|&i| i == index);
-        let position = position
-            .filter(|&p| region.states[p] == State::Undecided)
-            .ok_or(CoverFault::Branch { index })?;
-
-        let mut in_support = region.states.clone();
-        in_support[position] = State::InSupport;
-        region.states[position] = State::AtZero;
-
-        // The region on top of the stack is the next one: x_i = 0 comes first.
-        stack.push(Region {
-            lo: region.lo.clone(),
-            hi: region.hi.clone(),
-            states: in_support,
-            matrices: Rc::clone(&region.matrices),
-        });
-        stack.push(region);
-        Ok(())
-    }
-
     /// Checks the proof of a leaf and keeps what it yields.
     fn leaf(
         &mut self,
@@ -157,7 +138,7 @@ impl Walk<'_> {
                 self.open.push(self.open_region(region));
                 Ok(())
             }
-            Node::Tail => self.tail(region),
+            Node::Tail => region.is_in_tail(self.tail),
             Node::Farkas(w) => self.farkas(region, anchor, w),
             Node::PositiveDefinite => self.definite(region, anchor, 1),
             Node::NegativeDefinite => self.definite(region, anchor, -1),
@@ -168,17 +149,6 @@ impl Walk<'_> {
                 self.found.extend(found);
                 Ok(())
             }
-        }
-    }
-
-    /// The region lies above the value from which on the condensation's tail excludes solutions.
-    fn tail(&self, region: &Region) -> Result<(), CoverFault> {
-        match self.tail {
-            Some(from) if *from <= region.lo => Ok(()),
-            _ => Err(CoverFault::Hypothesis {
-                expected: "a tail that begins at or below the region",
-                row: 0,
-            }),
         }
     }
 
@@ -378,15 +348,10 @@ impl Walk<'_> {
         region: &Region,
         anchor: Option<usize>,
     ) -> Result<Rc<Ends>, CoverFault> {
-        if let Some(ends) = &*region.matrices.exact.borrow() {
-            return Ok(Rc::clone(ends));
-        }
-
-        self.spend_matrix(anchor, &region.lo, region.hi.as_ref())?;
-        let ends = self.family.ends(anchor, &region.lo, region.hi.as_ref())?;
-        let ends = Rc::new(ends);
-        region.matrices.exact.replace(Some(Rc::clone(&ends)));
-        Ok(ends)
+        region.matrices.ends(|| {
+            self.spend_matrix(anchor, &region.lo, region.hi.as_ref())?;
+            self.family.ends(anchor, &region.lo, region.hi.as_ref())
+        })
     }
 
     /// The same in short numbers, where there are such.
@@ -435,44 +400,6 @@ impl Walk<'_> {
     /// Positions among the complementarity variables to indices of the problem.
     fn problem_indices(&self, positions: Vec<usize>) -> Vec<usize> {
         positions.into_iter().map(|p| self.index[p]).collect()
-    }
-}
-
-/// Divides a region into the values up to a cut and those from it on.
-fn split(region: Region, at: &Rational, stack: &mut Vec<Region>) -> Result<(), CoverFault> {
-    let is_above_lo = *at > region.lo;
-    let is_below_hi = region.hi.as_ref().is_none_or(|hi| at < hi);
-    if !is_above_lo || !is_below_hi {
-        return Err(CoverFault::Cut {
-            lo: region.lo,
-            hi: end(region.hi.as_ref()),
-            got: at.clone(),
-        });
-    }
-
-    region.matrices.forget();
-
-    // The region on top of the stack is the next one: the lower part comes first.
-    stack.push(Region {
-        lo: at.clone(),
-        hi: region.hi,
-        states: region.states.clone(),
-        matrices: Rc::default(),
-    });
-    stack.push(Region {
-        lo: region.lo,
-        hi: Some(at.clone()),
-        states: region.states,
-        matrices: Rc::default(),
-    });
-    Ok(())
-}
-
-/// An upper end as messages say it.
-pub(super) fn end(max: Option<&Rational>) -> String {
-    match max {
-        Some(max) => max.to_string(),
-        None => "infinity".into(),
     }
 }
 

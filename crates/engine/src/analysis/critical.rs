@@ -1,24 +1,33 @@
 //! The critical mu: the infimum of mu over all lambda^2 >= 0 at which a solution exists, folds
 //! included, between a proved bound and a solution.
 //!
-//! Below: condition (19) excludes solutions up to its end, and a cover of (lambda^2, mu) by boxes
-//! without solutions ([`absence`]) carries the bound further. Above: the static threshold and the
-//! solutions at the mu of the analysis are known; where the cover met a box that it could not
-//! empty, MCEIP-mu is solved completely at some lambda^2 of that box.
+//! Above: the static threshold and the solutions at the mu of the analysis are followed to local
+//! minima of mu (`follow`), and the smallest is certified by MCEIP-mu at a short lambda^2 next to
+//! the minimum. Below: a cover of [0, infinity) x [0, bound] ([`absence`](super::absence)), with
+//! bounds ever closer to the solution. A box that cannot be emptied points to a smaller solution, or
+//! the bound is lowered.
 //!
 //! Input: what [`analyse`](super::analyse) has found so far ([`Known`]). Output: [`Critical`], and
-//! a proof named `critical` if a smaller solution was found.
+//! the proofs named `critical` (the solution) and `absence` (the bound).
 
-use super::absence::{Absence, absence};
+use super::absence::{Blocked, Cause, Outcome, Place, Quadrant, leaves, unit_of_lambda2};
 use super::conditions::Necessary;
 use super::divergence::Divergence;
 use super::error::AnalysisError;
-use super::evidence::{Evidence, Proof};
+use super::evidence::{Evidence, Proof, ProofCertificate};
+use super::follow::{Branches, Point};
 use super::model::Model;
 use super::threshold::StaticThreshold;
 use crate::reduction::MuFamily;
+use crate::run::Progress;
+use crate::search::complete::Completed;
+use crate::search::complete::pieces::anchor::NEAR;
+use crate::tolerance::{
+    CRITICAL_GAPS, FIRST_GAP, FIRST_NEAR, LEAST_NEAR, NARROW_WINDOWS, NEARER, SMALLER_FRICTION,
+};
+use mceip_check::certificate::CriticalCertificate;
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
-use mceip_model::Window;
+use mceip_model::{Problem, Window};
 use num_traits::Zero;
 
 /// A solution that is proved to exist: with these values of lambda^2 and mu.
@@ -42,27 +51,35 @@ pub struct Critical {
     pub evidence: Evidence,
     /// The solution of smallest mu that was found.
     pub solution: Option<CertifiedSolution>,
-    /// The cover behind the bound, where one was tried.
-    pub cover: Option<Absence>,
+    /// Leaves of the cover behind the bound, where there is one.
+    pub boxes: Option<usize>,
 }
 
 const BY_CONDITION: Evidence = Evidence::Exact(
     "condition (19): K* positive definite and M* positive semidefinite below it, by exact LDL' and \
      linearity in mu",
 );
-const BY_COVER: Evidence = Evidence::Exact(
-    "cover of lambda^2 >= 0 and smaller mu by boxes with Farkas vectors, verified in integers",
-);
+
+/// A solution in doubles from which branches are followed: x over the slip particles.
+#[derive(Debug, Clone)]
+pub(super) struct Start {
+    pub(super) lambda2: f64,
+    pub(super) mu: f64,
+    pub(super) x: Vec<f64>,
+}
 
 /// What is known about a system before its critical mu is sought.
 pub(super) struct Known<'a> {
     pub(super) family: &'a MuFamily,
     pub(super) necessary: &'a Necessary,
-    /// The mu of the analysis.
+    /// The mu of the analysis, and MCEIP-lambda2 there.
     pub(super) friction: &'a Rational,
+    pub(super) problem: &'a Problem,
     /// Divergence at that mu.
     pub(super) divergence: &'a Divergence,
     pub(super) threshold: &'a StaticThreshold,
+    /// The solutions of both in doubles.
+    pub(super) starts: Vec<Start>,
 }
 
 impl Known<'_> {
@@ -89,109 +106,435 @@ impl Known<'_> {
     }
 }
 
+/// Branches followed at most, those of smallest mu first.
+const MAX_STARTS: usize = 16;
+
+/// Free variables up to which the finest gap is aimed at: beyond that it costs more than a mesh is
+/// worth.
+const FINE_GAP_FREE: usize = 100;
+
+/// Covers tried for one gap.
+const ROUNDS_PER_GAP: usize = 12;
+
+/// Where no solution is known: bounds tried one after the other, as multiples of the mu below which
+/// condition (19) excludes all.
+const BOUNDS_WITHOUT_SOLUTION: [i64; 3] = [16, 1 << 10, 1 << 24];
+
 /// Bounds the infimum from both sides.
 pub(super) fn critical(
     model: &Model<'_>,
     known: &Known<'_>,
     proofs: &mut Vec<Proof>,
 ) -> Result<Critical, AnalysisError> {
+    let solution = known.smallest_solution();
     let Some(excluded) = known.necessary.excluded_below() else {
         return Ok(Critical {
             absent_below: None,
             evidence: BY_CONDITION,
             solution: None,
-            cover: None,
+            boxes: None,
         });
     };
 
-    let cover = if model.stopped() {
-        None
-    } else {
-        absence(known.family, &excluded, model.options.limits, &model.watch)
-    };
-
-    let (absent_below, evidence) = match &cover {
-        Some(cover) if cover.below.as_ref().is_none_or(|b| *b > excluded) => {
-            (cover.below.clone(), BY_COVER)
-        }
-        _ => (Some(excluded), BY_CONDITION),
-    };
-
-    let mut solution = known.smallest_solution();
-    let blocked = cover.as_ref().and_then(|c| c.blocked.as_ref());
-    if let Some((lo, hi)) = blocked
-        && let Some(below) = &absent_below
-    {
-        for lambda2 in sampled_values(lo, hi.as_ref()) {
-            let smaller = smaller_solution(model, &lambda2, below, solution.as_ref(), proofs)?;
-            solution = smaller.or(solution);
-        }
-    }
-
-    Ok(Critical {
-        absent_below,
-        evidence,
+    let mut bounds = Bounds {
         solution,
-        cover,
-    })
-}
-
-/// Values of lambda^2 in the box that could not be emptied: its ends and its middle.
-fn sampled_values(lo: &Rational, hi: Option<&Rational>) -> Vec<Rational> {
-    let Some(hi) = hi else {
-        return vec![lo.clone()];
+        of_solution: None,
+        absence: None,
+        places: Vec::new(),
     };
 
-    let middle = (lo + hi) / whole(2);
-    let short_middle = from_f64(to_f64(&middle)).unwrap_or(middle);
-    vec![lo.clone(), short_middle, hi.clone()]
-}
+    if let Some(mass) = &known.family.mass
+        && !model.stopped()
+    {
+        let scale = unit_of_lambda2(&known.family.stiffness, mass)?;
+        let search = Search {
+            model,
+            branches: Branches::new(model.system, scale)?,
+            scale,
+            quadrant: Quadrant {
+                family: known.family,
+                mass,
+                problem: known.problem,
+                limits: model.options.limits,
+                threads: model.options.threads,
+                watch: model.watch,
+            },
+        };
 
-/// How far above the bound a solution at a fixed lambda^2 is looked for when none is known.
-const REACH: i64 = 2;
-
-/// The solution of smallest mu at a fixed lambda^2, if that is below the mu of the known one.
-///
-/// Its proof takes the place of the one named `critical` so far. lambda = 0 is left out: there the
-/// static threshold is the smallest.
-fn smaller_solution(
-    model: &Model<'_>,
-    lambda2: &Rational,
-    below: &Rational,
-    known: Option<&CertifiedSolution>,
-    proofs: &mut Vec<Proof>,
-) -> Result<Option<CertifiedSolution>, AnalysisError> {
-    let top = match known {
-        Some(solution) => solution.mu.hi().clone(),
-        None => below * whole(REACH),
-    };
-
-    if model.stopped() || lambda2.is_zero() || top <= *below {
-        return Ok(None);
+        search.follow(&known.starts, &mut bounds)?;
+        search.close_from_below(&excluded, &mut bounds)?;
     }
 
-    let window = Window::new(below.clone(), Some(top))?;
-    let problem = model.at_lambda2(lambda2)?.with_window(window);
-    let found = model.complete(&problem)?;
-    let Some(smallest) = found.cover.solutions.first() else {
-        return Ok(None);
-    };
+    Ok(bounds.into_critical(excluded, known, proofs))
+}
 
-    let mu = smallest.value.clone();
-    if known.is_some_and(|solution| mu.hi() >= solution.mu.hi()) {
-        return Ok(None);
+/// What is proved so far.
+struct Bounds {
+    solution: Option<CertifiedSolution>,
+    /// The proof of that solution, if it is none of those known before.
+    of_solution: Option<Proof>,
+    absence: Option<CriticalCertificate>,
+    /// Where condensation is to be precise.
+    places: Vec<Place>,
+}
+
+impl Bounds {
+    /// A short number below the known solution, by a relative gap.
+    fn short_bound(&self, gap: f64) -> Option<Rational> {
+        let solution = self.solution.as_ref()?;
+        short_bound(to_f64(solution.mu.lo()), gap)
     }
 
-    proofs.retain(|p| p.name != "critical");
-    proofs.push(Proof {
-        name: "critical".into(),
-        problem,
-        certificate: found.certificate,
-    });
+    /// Is this mu smaller than that of the known solution, by more than rounding?
+    fn is_smaller(&self, mu: f64) -> bool {
+        let known = self
+            .solution
+            .as_ref()
+            .map(|solution| to_f64(solution.mu.hi()));
+        known.is_none_or(|known| mu < known * (1.0 - SMALLER_FRICTION))
+    }
 
-    Ok(Some(CertifiedSolution {
-        mu,
-        lambda2: Interval::point(lambda2.clone()),
-        evidence: Evidence::Certificate(proofs.len() - 1),
-    }))
+    /// Makes condensation more precise at a value of lambda^2; false where that is no longer worth
+    /// trying.
+    fn sharpen(&mut self, lambda2: f64, scale: f64) -> bool {
+        let mut near = FIRST_NEAR;
+        for place in &self.places {
+            if (place.lambda2 - lambda2).abs() <= place.near * (lambda2 + scale) {
+                near = near.min(NEARER * place.near);
+            }
+        }
+
+        self.places.push(Place { lambda2, near });
+        near >= LEAST_NEAR
+    }
+
+    fn into_critical(
+        self,
+        excluded: Rational,
+        known: &Known<'_>,
+        proofs: &mut Vec<Proof>,
+    ) -> Critical {
+        let solution = match (self.solution, self.of_solution) {
+            (Some(solution), Some(proof)) => {
+                proofs.push(proof);
+                Some(CertifiedSolution {
+                    evidence: Evidence::Certificate(proofs.len() - 1),
+                    ..solution
+                })
+            }
+            (solution, _) => solution,
+        };
+
+        let beyond_condition = self.absence.filter(|found| found.below > excluded);
+        let Some(certificate) = beyond_condition else {
+            return Critical {
+                absent_below: Some(excluded),
+                evidence: BY_CONDITION,
+                solution,
+                boxes: None,
+            };
+        };
+
+        let absent_below = certificate.below.clone();
+        let boxes = leaves(&certificate);
+        proofs.push(Proof {
+            name: "absence".into(),
+            problem: known.problem.clone(),
+            certificate: ProofCertificate::Absence(certificate),
+        });
+
+        Critical {
+            absent_below: Some(absent_below),
+            evidence: Evidence::Certificate(proofs.len() - 1),
+            solution,
+            boxes: Some(boxes),
+        }
+    }
+}
+
+/// What a failed cover leads to.
+enum Next {
+    /// Something new is known: the same gap again.
+    Again,
+    /// Nothing new: a wider gap.
+    Wider,
+}
+
+/// The search for both bounds.
+struct Search<'a> {
+    model: &'a Model<'a>,
+    branches: Branches,
+    /// The unit of lambda^2.
+    scale: f64,
+    quadrant: Quadrant<'a>,
+}
+
+impl Search<'_> {
+    /// Follows the known solutions to their minima and certifies the smallest.
+    fn follow(&self, starts: &[Start], bounds: &mut Bounds) -> Result<(), AnalysisError> {
+        let mut starts: Vec<&Start> = starts.iter().collect();
+        starts.sort_by(|p, q| p.mu.total_cmp(&q.mu));
+        starts.truncate(MAX_STARTS);
+
+        let mut minima: Vec<Point> = Vec::new();
+        for (k, start) in starts.iter().enumerate() {
+            if self.model.stopped() {
+                break;
+            }
+
+            let stage = "critical mu: following solutions to smaller mu";
+            let watch = &self.model.watch;
+            watch.report(&Progress::of(stage, k, starts.len()));
+            minima.extend(
+                self.branches
+                    .minimum_below(start.lambda2, start.mu, &start.x),
+            );
+        }
+
+        minima.sort_by(|p, q| p.mu.total_cmp(&q.mu));
+        for point in &minima {
+            if self.certify(point, bounds)? {
+                break;
+            }
+        }
+
+        if let Some(solution) = &bounds.solution {
+            let lambda2 = to_f64(&solution.lambda2.mid());
+            bounds.places.push(Place {
+                lambda2,
+                near: NEAR,
+            });
+        }
+
+        Ok(())
+    }
+
+    /// Certifies a solution in doubles, if its mu is smaller than that of the known one; is it known
+    /// afterwards?
+    fn certify(&self, point: &Point, bounds: &mut Bounds) -> Result<bool, AnalysisError> {
+        if self.model.stopped() || !bounds.is_smaller(point.mu) {
+            return Ok(false);
+        }
+
+        // lambda = 0 is left out: there the static threshold is the smallest.
+        let Some((lambda2, moved)) = self.branches.at_short_value(point) else {
+            return Ok(false);
+        };
+
+        let Some((problem, found)) = self.set_about(&lambda2, moved.mu)? else {
+            return Ok(false);
+        };
+
+        bounds.solution = Some(CertifiedSolution {
+            mu: found.cover.solutions[0].value.clone(),
+            lambda2: Interval::point(lambda2),
+            evidence: Evidence::Exact(""),
+        });
+        bounds.of_solution = Some(Proof {
+            name: "critical".into(),
+            problem,
+            certificate: ProofCertificate::Solutions(found.certificate),
+        });
+        Ok(true)
+    }
+
+    /// A set with a solution in a narrow window about mu: complete in one of the windows tried, or
+    /// else the first one.
+    fn set_about(
+        &self,
+        lambda2: &Rational,
+        mu: f64,
+    ) -> Result<Option<(Problem, Completed)>, AnalysisError> {
+        let stage = format!("critical mu: certifying a solution at mu = {mu:.9}");
+        let problem = self.model.at_lambda2(lambda2)?;
+        let mut incomplete = None;
+        for half_width in NARROW_WINDOWS {
+            let Some(window) = window_about(mu, half_width) else {
+                return Ok(None);
+            };
+
+            let problem = problem.clone().with_window(window);
+            let found = self.model.complete(&stage, &problem)?;
+            if found.cover.solutions.is_empty() {
+                continue;
+            }
+            if found.is_complete() {
+                return Ok(Some((problem, found)));
+            }
+            incomplete = incomplete.or(Some((problem, found)));
+        }
+
+        Ok(incomplete)
+    }
+
+    /// Proves absence below bounds close to the known solution.
+    fn close_from_below(
+        &self,
+        excluded: &Rational,
+        bounds: &mut Bounds,
+    ) -> Result<(), AnalysisError> {
+        if bounds.solution.is_none() {
+            self.far_bounds(excluded, bounds)?;
+        }
+
+        self.find_smaller(excluded, bounds)?;
+        for &gap in self.gaps() {
+            if self.model.stopped() || self.close_gap(gap, excluded, bounds)? {
+                break;
+            }
+        }
+
+        Ok(())
+    }
+
+    /// The gaps to aim at.
+    fn gaps(&self) -> &'static [f64] {
+        if self.quadrant.mass.free().len() <= FINE_GAP_FREE {
+            &CRITICAL_GAPS
+        } else {
+            &CRITICAL_GAPS[1..]
+        }
+    }
+
+    /// Proves absence far beyond the condition, where no solution is known; or finds one.
+    fn far_bounds(&self, excluded: &Rational, bounds: &mut Bounds) -> Result<(), AnalysisError> {
+        for factor in BOUNDS_WITHOUT_SOLUTION {
+            let Ok(below) = from_f64(to_f64(excluded) * factor as f64) else {
+                return Ok(());
+            };
+
+            for _ in 0..ROUNDS_PER_GAP {
+                match self.attempt(&below, bounds)? {
+                    None => break,
+                    Some(Next::Again) if bounds.solution.is_none() => {}
+                    Some(_) => return Ok(()),
+                }
+            }
+        }
+
+        Ok(())
+    }
+
+    /// Looks for solutions well below the known one, without a proof.
+    fn find_smaller(&self, excluded: &Rational, bounds: &mut Bounds) -> Result<(), AnalysisError> {
+        for _ in 0..ROUNDS_PER_GAP {
+            let Some(below) = bounds
+                .short_bound(FIRST_GAP)
+                .filter(|below| below > excluded)
+            else {
+                return Ok(());
+            };
+
+            let stage = "critical mu: looking for smaller solutions";
+            let relay = |progress: &Progress<'_>| self.model.relay(stage, progress);
+            let quadrant = self.quadrant.heard_by(&relay);
+            let obstacles = quadrant.obstacles(&below, &bounds.places)?;
+            let is_over = obstacles.is_empty() || self.model.stopped();
+            if is_over || !matches!(self.learn_from(&obstacles, bounds)?, Next::Again) {
+                return Ok(());
+            }
+        }
+
+        Ok(())
+    }
+
+    /// Proves absence up to the known solution but for a relative gap; false where that fails.
+    fn close_gap(
+        &self,
+        gap: f64,
+        excluded: &Rational,
+        bounds: &mut Bounds,
+    ) -> Result<bool, AnalysisError> {
+        for _ in 0..ROUNDS_PER_GAP {
+            let Some(below) = bounds.short_bound(gap) else {
+                return Ok(true);
+            };
+
+            if below <= *excluded {
+                return Ok(true);
+            }
+
+            match self.attempt(&below, bounds)? {
+                None => return Ok(true),
+                Some(Next::Again) => {}
+                Some(Next::Wider) => return Ok(false),
+            }
+        }
+
+        Ok(false)
+    }
+
+    /// Tries to prove absence up to a bound; `None` if that has succeeded.
+    fn attempt(
+        &self,
+        below: &Rational,
+        bounds: &mut Bounds,
+    ) -> Result<Option<Next>, AnalysisError> {
+        if self.model.stopped() {
+            return Ok(Some(Next::Wider));
+        }
+
+        let stage = format!("critical mu: proving absence below {:.7}", to_f64(below));
+        let relay = |progress: &Progress<'_>| self.model.relay(&stage, progress);
+        let quadrant = self.quadrant.heard_by(&relay);
+        match quadrant.cover(below, &bounds.places)? {
+            Outcome::Absent(certificate) => {
+                bounds.absence = Some(*certificate);
+                Ok(None)
+            }
+            Outcome::Refused => Ok(Some(Next::Wider)),
+            Outcome::Blocked(obstacles) => self.learn_from(&obstacles, bounds).map(Some),
+        }
+    }
+
+    /// What boxes that could not be emptied tell: a smaller solution, or where condensation has to be
+    /// more precise.
+    fn learn_from(
+        &self,
+        obstacles: &[Blocked],
+        bounds: &mut Bounds,
+    ) -> Result<Next, AnalysisError> {
+        for blocked in obstacles {
+            let [lambda2, mu] = blocked.middle;
+            let point = self.branches.minimum_below(lambda2, mu, &blocked.x);
+            if let Some(point) = point
+                && self.certify(&point, bounds)?
+            {
+                bounds.places.push(Place {
+                    lambda2: point.t,
+                    near: NEAR,
+                });
+                return Ok(Next::Again);
+            }
+        }
+
+        let mut next = Next::Again;
+        for blocked in obstacles {
+            let is_worth_more = match blocked.cause {
+                Cause::Budget => false,
+                Cause::Solution | Cause::Remainder => bounds.sharpen(blocked.middle[0], self.scale),
+            };
+            if !is_worth_more {
+                next = Next::Wider;
+            }
+        }
+
+        Ok(next)
+    }
+}
+
+/// [mu (1 - half_width), mu (1 + half_width)].
+fn window_about(mu: f64, half_width: f64) -> Option<Window> {
+    let lo = from_f64(mu * (1.0 - half_width)).ok()?;
+    let hi = from_f64(mu * (1.0 + half_width)).ok()?;
+    Window::new(lo, Some(hi)).ok()
+}
+
+/// A short number at most mu (1 - gap), and within a tenth of the gap of it.
+fn short_bound(mu: f64, gap: f64) -> Option<Rational> {
+    let target = mu * (1.0 - gap);
+    let unit = (0.1 * gap * mu).log2().floor().exp2();
+    let bound = (target / unit).floor() * unit;
+    let bound = from_f64(bound).ok()?;
+    (bound > whole(0)).then_some(bound)
 }

@@ -25,6 +25,9 @@ pub enum AnalysisError {
     /// Divergence is asked for at a mu.
     #[error("E2: expected friction in the file or by --friction, got none")]
     NoFriction,
+    /// The system cannot be condensed in doubles.
+    #[error("condensation in doubles: {0}")]
+    NotCondensed(String),
     /// Units that doubles cannot carry.
     #[error(
         "{what}[{row}][{col}]: expected a magnitude between 10^-150 and 10^150 (choose other \

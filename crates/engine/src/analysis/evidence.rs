@@ -1,7 +1,7 @@
 //! What stands behind a sentence: certificates accepted by the checker, exact conditions,
 //! measurements.
 
-use mceip_check::certificate::Certificate;
+use mceip_check::certificate::{Certificate, CriticalCertificate};
 use mceip_model::Problem;
 
 /// What stands behind a sentence.
@@ -24,5 +24,24 @@ pub struct Proof {
     /// The problem.
     pub problem: Problem,
     /// The certificate.
-    pub certificate: Certificate,
+    pub certificate: ProofCertificate,
+}
+
+/// The certificate of a proof.
+#[derive(Debug, Clone)]
+pub enum ProofCertificate {
+    /// Solutions, or all solutions in a window (`mceip-certificate/1`).
+    Solutions(Certificate),
+    /// No solution below a friction (`mceip-critical/1`).
+    Absence(CriticalCertificate),
+}
+
+impl ProofCertificate {
+    /// The certificate as JSON.
+    pub fn to_json(&self) -> String {
+        match self {
+            ProofCertificate::Solutions(certificate) => certificate.to_json(),
+            ProofCertificate::Absence(certificate) => certificate.to_json(),
+        }
+    }
 }

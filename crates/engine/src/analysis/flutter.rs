@@ -16,7 +16,7 @@ use std::cmp::Ordering;
 /// Complex lambda^2 of (lambda^2 M* + K*) x = 0 with every slip particle slipping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flutter {
-    /// lambda^2 = re + i im with im > 0, by descending growth rate.
+    /// lambda^2 = re + i im with im > 0, by ascending frequency.
     pub eigenvalues: Vec<(f64, f64)>,
     /// Largest growth rate Re lambda of them, in 1/s, 0 without any.
     pub growth_rate: f64,
@@ -47,12 +47,17 @@ pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
 
     let mut complex = eigenvalues(&transposed(&solved))?;
     complex.retain(|(re, im)| *im > FLUTTER_ANGLE * re.hypot(*im));
-    complex.sort_by(|p, q| by_descending_growth(*p, *q));
+    complex.sort_by(|p, q| by_ascending_frequency(*p, *q));
 
-    let (growth_rate, frequency) = match complex.first() {
-        Some(fastest) => root(*fastest),
-        None => (0.0, 0.0),
-    };
+    let mut growth_rate = 0.0;
+    let mut frequency = 0.0;
+    for eigenvalue in &complex {
+        let (growth, at) = root(*eigenvalue);
+        if growth > growth_rate {
+            growth_rate = growth;
+            frequency = at;
+        }
+    }
 
     Some(Flutter {
         eigenvalues: complex,
@@ -66,17 +71,17 @@ fn dense_at(pencil: &Pencil, mu: &Rational) -> Vec<Vec<f64>> {
     rounded(&pencil.a().add_scaled(mu, pencil.b()))
 }
 
-/// Larger Re lambda first; of equal ones the smaller Im lambda^2.
-fn by_descending_growth(p: (f64, f64), q: (f64, f64)) -> Ordering {
-    let (growth_of_p, _) = root(p);
-    let (growth_of_q, _) = root(q);
-    growth_of_q
-        .total_cmp(&growth_of_p)
-        .then(p.1.total_cmp(&q.1))
+/// Smaller Im lambda first; of equal ones the larger Re lambda.
+fn by_ascending_frequency(p: (f64, f64), q: (f64, f64)) -> Ordering {
+    let (growth_of_p, frequency_of_p) = root(p);
+    let (growth_of_q, frequency_of_q) = root(q);
+    frequency_of_p
+        .total_cmp(&frequency_of_q)
+        .then(growth_of_q.total_cmp(&growth_of_p))
 }
 
 /// lambda of lambda^2 = re + i im: the square root with positive real part, (Re, Im).
-fn root((re, im): (f64, f64)) -> (f64, f64) {
+pub(super) fn root((re, im): (f64, f64)) -> (f64, f64) {
     let size = re.hypot(im);
     // |z| + re without cancellation where re < 0.
     let growth = if re >= 0.0 {

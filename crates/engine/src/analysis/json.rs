@@ -84,7 +84,8 @@ fn range(range: &Range) -> Value {
     json!({
         "verdict": range.verdict.word(),
         "from": range.from.to_string(),
-        "to": range.to.to_string(),
+        "to": range.to.as_ref().map(ToString::to_string),
+        "proved": !matches!(range.evidence, Evidence::Measured(_)),
     })
 }
 
@@ -189,7 +190,7 @@ impl Analysis {
             "absent_below": critical.absent_below.as_ref().map(ToString::to_string),
             "absent_evidence": self.evidence_json(&critical.evidence, paths),
             "solution": solution,
-            "boxes": critical.cover.as_ref().map(|cover| cover.boxes),
+            "boxes": critical.boxes,
         })
     }
 
@@ -222,6 +223,7 @@ impl Analysis {
             "sizes": self.sizes_json(),
             "units": "lambda^2 in 1/s^2 and growth rates in 1/s for K and M in consistent units",
             "interrupted": self.interrupted,
+            "summary": self.summary(),
             "divergence": self.divergence_json(),
             "static_threshold": self.threshold_json(),
             "critical": self.critical_json(paths),

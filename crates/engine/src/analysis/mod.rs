@@ -18,18 +18,20 @@ mod divergence;
 mod error;
 mod evidence;
 mod flutter;
+mod follow;
 mod json;
 mod model;
 mod modes;
 mod ranges;
 mod sentences;
+mod summary;
 mod threshold;
 
 pub use answer::Analysis;
 pub use critical::{CertifiedSolution, Critical};
 pub use divergence::{Divergence, Verdict};
 pub use error::AnalysisError;
-pub use evidence::{Evidence, Proof};
+pub use evidence::{Evidence, Proof, ProofCertificate};
 pub use flutter::Flutter;
 pub use json::ANALYSIS_FORMAT;
 pub use model::Options;
@@ -42,10 +44,10 @@ use crate::reduction::{MuFamily, mu_family};
 use crate::run::{Progress, Watch};
 use crate::search::complete::Completed;
 use conditions::{Necessary, is_all_slip};
-use critical::Known;
+use critical::{Known, Start};
 use divergence::divergence;
 use mceip_check::certificate::Claim;
-use mceip_exact::Rational;
+use mceip_exact::{Rational, to_f64};
 use mceip_model::{ContactState, Problem, System};
 use model::Model;
 
@@ -68,7 +70,7 @@ pub fn analyse(
     let model = Model {
         system,
         options,
-        watch: watch.quiet(),
+        watch: *watch,
     };
 
     let at_friction = model.problem(Some(friction))?;
@@ -77,17 +79,19 @@ pub fn analyse(
     watch.report(&Progress::stage("conditions (19), (20)"));
     let necessary = Necessary::of(&family)?;
 
-    watch.report(&Progress::stage("divergence at mu: all lambda^2 >= 0"));
-    let found = model.complete(&at_friction)?;
+    let found = model.complete("divergence at mu, all lambda^2 >= 0", &at_friction)?;
     let divergence = divergence(system, &family, &found);
     let sufficient = sufficient(&family, &found, divergence.verdict);
     let problem_sha256 = at_friction.sha256();
-    let of_lambda2 = proof("lambda2", at_friction, found);
+    let slip = family.stiffness.slip();
+    let mu = to_f64(friction);
+    let mut starts = starts(&found, &slip, |value| [value, mu]);
+    let of_lambda2 = proof("lambda2", at_friction.clone(), found);
 
-    watch.report(&Progress::stage("static threshold: all mu >= 0"));
     let at_zero = model.problem(None)?;
-    let found = model.complete(&at_zero)?;
+    let found = model.complete("static threshold, all mu >= 0", &at_zero)?;
     let threshold = StaticThreshold::of(&found);
+    starts.extend(self::starts(&found, &slip, |value| [0.0, value]));
     let of_mu = proof("mu", at_zero, found);
 
     watch.report(&Progress::stage(
@@ -98,26 +102,38 @@ pub fn analyse(
         family: &family,
         necessary: &necessary,
         friction,
+        problem: &at_friction,
         divergence: &divergence,
         threshold: &threshold,
+        starts,
     };
 
-    let critical = critical::critical(&model, &known, &mut proofs)?;
+    let mut critical = critical::critical(&model, &known, &mut proofs)?;
+    let sampled = ranges::sampled(&model, friction, &threshold, &critical)?;
+    if let Some((solution, proof)) = sampled.solution {
+        critical.solution = Some(CertifiedSolution {
+            evidence: Evidence::Certificate(proofs.len()),
+            ..solution
+        });
+        proofs.push(proof);
+    }
 
-    watch.report(&Progress::stage("ranges of mu"));
-    let (ranges, samples) = ranges::ranges(&model, friction, &threshold, &critical)?;
+    watch.report(&Progress::stage(
+        "flutter: eigenvalues with all particles slipping",
+    ));
+    let flutter = flutter::flutter(&family, friction);
 
     Ok(Analysis {
         name,
         problem_sha256,
         friction: friction.clone(),
         sizes: sizes(system),
-        flutter: flutter::flutter(&family, friction),
+        flutter,
         divergence,
         threshold,
         critical,
-        ranges,
-        samples,
+        ranges: sampled.ranges,
+        samples: sampled.samples,
         necessary,
         sufficient,
         proofs,
@@ -130,8 +146,22 @@ fn proof(name: &str, problem: Problem, found: Completed) -> Proof {
     Proof {
         name: name.into(),
         problem,
-        certificate: found.certificate,
+        certificate: ProofCertificate::Solutions(found.certificate),
     }
+}
+
+/// The solutions of a complete search in doubles; `place` gives lambda^2 and mu of a value.
+fn starts(found: &Completed, slip: &[usize], place: impl Fn(f64) -> [f64; 2]) -> Vec<Start> {
+    let mut starts = Vec::new();
+    for (solution, x) in found.solutions() {
+        let [lambda2, mu] = place(to_f64(&solution.value.mid()));
+        let x: Vec<f64> = slip.iter().map(|&i| x[i]).collect();
+        if x.iter().all(|v| v.is_finite()) {
+            starts.push(Start { lambda2, mu, x });
+        }
+    }
+
+    starts
 }
 
 /// Numbers of degrees of freedom, free degrees of freedom, slip particles, stick particles.

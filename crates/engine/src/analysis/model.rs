@@ -6,7 +6,7 @@
 
 use super::absence::Limits;
 use super::error::AnalysisError;
-use crate::run::Watch;
+use crate::run::{Progress, Watch};
 use crate::search::complete::{self, Completed, complete};
 use mceip_exact::{Rational, Sparse};
 use mceip_model::{Body, Problem, System, Unknown, Window};
@@ -77,14 +77,31 @@ impl Model<'_> {
         Ok(Problem::new(Body::System(system), unknown, Window::all())?)
     }
 
-    /// The complete set of a problem, as far as it is found before the work is cancelled.
-    pub(super) fn complete(&self, problem: &Problem) -> Result<Completed, AnalysisError> {
+    /// The complete set of a problem, as far as it is found before the work is cancelled. The
+    /// listener hears the counts of the search under the name of the stage.
+    pub(super) fn complete(
+        &self,
+        stage: &str,
+        problem: &Problem,
+    ) -> Result<Completed, AnalysisError> {
+        let relay = |progress: &Progress<'_>| self.relay(stage, progress);
+        self.watch.report(&Progress::stage(stage));
+
         let options = complete::Options {
             threads: self.options.threads,
             ..complete::Options::default()
         };
 
-        Ok(complete(problem, &options, &self.watch)?)
+        Ok(complete(problem, &options, &self.watch.heard_by(&relay))?)
+    }
+
+    /// Passes the progress of a part of a stage on, with the name of the stage before its own.
+    pub(super) fn relay(&self, stage: &str, progress: &Progress<'_>) {
+        let stage = format!("{stage}: {}", progress.stage);
+        self.watch.report(&Progress {
+            stage: &stage,
+            ..*progress
+        });
     }
 
     pub(super) fn stopped(&self) -> bool {

@@ -8,6 +8,7 @@ use super::answer::Analysis;
 use super::conditions::{DefiniteUntil, approximately};
 use super::divergence::Verdict;
 use super::evidence::Evidence;
+use super::flutter::{Flutter, root};
 use super::modes::Mode;
 use super::ranges::Range;
 use mceip_check::OpenRegion;
@@ -39,12 +40,17 @@ fn between(v: &Interval) -> String {
 }
 
 /// A rational as a decimal that is not above it: for bounds below which nothing exists.
-fn down(v: &Rational) -> String {
+pub(super) fn down(v: &Rational) -> String {
     enclosing_decimals(&Interval::point(v.clone()), 9).0
 }
 
+/// A rational as a decimal that is not below it.
+pub(super) fn up(v: &Rational) -> String {
+    enclosing_decimals(&Interval::point(v.clone()), 9).1
+}
+
 /// Six decimals without trailing zeros.
-fn short(v: &Rational) -> String {
+pub(super) fn short(v: &Rational) -> String {
     let text = format!("{:.6}", to_f64(v));
     text.trim_end_matches('0').trim_end_matches('.').to_string()
 }
@@ -90,8 +96,38 @@ fn not_definite_text(until: &DefiniteUntil, relation: &str) -> String {
 fn range_text(range: &Range) -> String {
     let word = range.verdict.word();
     let from = short(&range.from);
-    let to = short(&range.to);
-    format!("{word} from {from} to {to}")
+    match &range.to {
+        Some(to) => format!("{word} from {from} to {}", short(to)),
+        None => format!("{word} from {from} on"),
+    }
+}
+
+/// Pairs of complex lambda^2 named in a sentence; the others are counted.
+const NAMED_PAIRS: usize = 3;
+
+fn flutter_text(flutter: &Flutter) -> String {
+    let count = flutter.eigenvalues.len();
+    let mut named = Vec::new();
+    for eigenvalue in flutter.eigenvalues.iter().take(NAMED_PAIRS) {
+        let (growth_rate, frequency) = root(*eigenvalue);
+        named.push(format!(
+            "{frequency:.6} rad/s growing at {growth_rate:.6} 1/s"
+        ));
+    }
+
+    let more = if count > NAMED_PAIRS {
+        format!(" and {} at higher frequencies", count - NAMED_PAIRS)
+    } else {
+        String::new()
+    };
+
+    format!(
+        "WARNING of flutter: the all-slip pencil at this mu has {count} complex pair{} lambda^2, \
+         lowest frequencies first: {}{more}. Damping, which is left out here, may silence slow \
+         growth, and pairs at the highest frequencies may be noise of the mesh: compare two meshes.",
+        plural(count),
+        named.join(", ")
+    )
 }
 
 impl Analysis {
@@ -238,21 +274,22 @@ impl Analysis {
         })
     }
 
+    /// The ranges that are known at samples only; the proved one is the critical bound.
     fn say_ranges(&self) -> Option<Sentence> {
-        if self.ranges.is_empty() {
-            return None;
-        }
+        let is_sampled = |range: &&Range| matches!(range.evidence, Evidence::Measured(_));
+        let sampled: Vec<&Range> = self.ranges.iter().filter(is_sampled).collect();
+        let evidence = sampled.first()?.evidence.clone();
 
-        let parts: Vec<String> = self.ranges.iter().map(range_text).collect();
+        let parts: Vec<String> = sampled.into_iter().map(range_text).collect();
+        let text = format!(
+            "Divergence above that, with this contact state, at {} sampled mu: {}.",
+            self.samples.len(),
+            parts.join(", ")
+        );
         Some(Sentence {
             topic: "ranges",
-            text: format!(
-                "Divergence against mu, with this contact state: {}.",
-                parts.join(", ")
-            ),
-            evidence: Evidence::Measured(
-                "decided by a complete search at each of the sampled mu, not between them",
-            ),
+            text,
+            evidence,
         })
     }
 
@@ -310,16 +347,7 @@ impl Analysis {
             Some(flutter) if flutter.eigenvalues.is_empty() => {
                 "Flutter: the all-slip pencil at this mu has no complex lambda^2.".into()
             }
-            Some(flutter) => {
-                let count = flutter.eigenvalues.len();
-                format!(
-                    "WARNING of flutter: the all-slip pencil at this mu has {count} complex \
-                     pair{} lambda^2; the fastest grows at {:.6} 1/s, {:.6} rad/s.",
-                    plural(count),
-                    flutter.growth_rate,
-                    flutter.frequency
-                )
-            }
+            Some(flutter) => flutter_text(flutter),
         };
 
         Sentence {

@@ -107,7 +107,11 @@ pub(super) fn branches(
 
     Ok(Some(StateBranches {
         stretch: state.stretch,
-        branches: Branches { levels, certified },
+        branches: Branches {
+            levels,
+            certified,
+            absent_below: None,
+        },
     }))
 }
 

@@ -4,7 +4,7 @@
 
 use super::super::expanded::Expanded;
 use super::*;
-use crate::certificate::Factor;
+use crate::certificate::Tail;
 use mceip_exact::{Sparse, rational, whole};
 use mceip_model::file::Number;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
@@ -377,7 +377,13 @@ fn a_tail_begins_where_the_symmetric_part_is_definite() {
             factor: lower([&[2], &[1, 2]], 0),
             mass_factor: Some(lower([&[2], &[2, 2]], 1)),
         };
-        tail(&tail_rows(&c, &d), &claim)
+        let rows = tail_rows(&c, &d);
+        tail(
+            &rows,
+            &claim.from.0,
+            &claim.factor,
+            claim.mass_factor.as_ref(),
+        )
     };
     let (hair, none) = (rational(1, 1000), whole(0));
     assert_eq!(
@@ -426,7 +432,12 @@ fn an_expansion_has_a_largest_size() {
     }; // 3 + 2 bits
     let right: Matrix = vec![vec![Integer::from(7), Integer::from(-8)]]; // 4 bits
     let size = |longest: u64, exponent: u32| {
-        blocks(longest).affordable(&anchor, 1, exponent, &[std::slice::from_ref(&right), &[]])
+        blocks(longest).affordable(
+            &anchor.center.0,
+            1,
+            exponent,
+            &[std::slice::from_ref(&right), &[]],
+        )
     };
 
     assert_eq!([size(500, 2), size(300, 202)], [Ok(()), Ok(())]);

@@ -1,185 +1,390 @@
-//! K* and M* as an integer family in s and m, split into free and slip variables.
+//! The two parts of T(t, mu) = T0(t) + mu T1(t), condensed about common anchors.
 //!
-//! With t = tau s/(1-s) and mu = nu m/(1-m),
+//! With t = lambda^2 the pencil of a mechanical system is affine in mu: the pencil P0(t) has the
+//! rows of mu = 0, and P1(t) the same free rows and the coefficients of mu in the slip rows. So both
+//! have the same F(t) = T_ff and T_fs, and their Schur complements are T0(t) and T1(t). Each is
+//! expanded as a pencil of its own (`search::complete::pieces`), about the same anchors and with the
+//! same W; only V differs.
 //!
-//!   (1-m) (1-s) (K0 + t M0 + mu (K1 + t M1)) = (1-m) G0(s) + m G1(s),
-//!   G0(s) = (1-s) K0 + s tau M0,   G1(s) = (1-s) nu K1 + s nu tau M1.
-//!
-//! All four matrices are multiplied by one common factor that makes them integers, and tau and nu
-//! are powers of two of the size of the matrices' quotients. Input: the pencils (K0, K1) and (M0,
-//! M1). Output: the blocks of G0 and G1 at an s, and a lower bound of the smallest eigenvalue of
-//! the free block. Called by the other files of this folder.
+//! Input: K* and M* as functions of mu, and a friction up to which a tail is to hold. Output: the
+//! pieces of [0, infinity), and for each the expansions of both parts. Called by `mod.rs`.
 
-use crate::dense::rounded;
-use mceip_exact::{
-    Integer, Rational, Sparse, common_denominator, from_f64, positive_definite, to_f64,
-};
-use mceip_mcp::linear::definite_eigenvalues;
-use mceip_model::Pencil;
-use num_traits::{One, Signed};
+use crate::reduction::MuFamily;
+use crate::search::complete::CompleteError;
+use crate::search::complete::leaf::tail::{definite_at, semidefinite};
+use crate::search::complete::pieces::blocks::Blocks;
+use crate::search::complete::pieces::condense::beside;
+use crate::search::complete::pieces::expansion::{Ends, Expansion};
+use crate::search::complete::pieces::matrix::Matrix;
+use crate::search::complete::pieces::prepared::Prepared;
+use crate::search::complete::pieces::view::{View, common_row_factor, row_factor};
+use mceip_check::certificate::{CriticalAnchor, CriticalCondensation, CriticalTail};
+use mceip_exact::{Rational, Sparse, to_f64};
+use mceip_model::file::Number;
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use num_traits::{One, Zero};
 
-/// Bits beyond the common denominator, so that bounds of eigenvalues can be integers.
-const GUARD_BITS: u32 = 40;
+/// Values of lambda^2 at or below this share of (lambda^2 + lowest frequency) are served by an
+/// anchor at 0.
+const NEAR_ZERO: f64 = 0.02;
 
-/// A sparse integer matrix: (column, entry) by rows.
-#[derive(Debug, Clone)]
-pub(super) struct IntegerMatrix {
-    pub(super) rows: Vec<Vec<(usize, Integer)>>,
-    pub(super) cols: usize,
+/// Pieces of [0, infinity), at least.
+const PIECES: usize = 16;
+
+/// T0 and T1 over [0, infinity).
+pub(super) struct Family {
+    /// P0 and P1.
+    pencils: [Pencil; 2],
+    /// The condensation of P0 and the pieces.
+    prepared: Prepared,
+    /// Of each anchor the expansions of T0 and T1; one pair where there are no free variables.
+    expansions: Vec<[Expansion; 2]>,
+    /// Of each anchor V for P1.
+    left_friction: Vec<CriticalAnchor>,
+    pub(super) pieces: Vec<PieceOfHalfLine>,
 }
 
-/// The blocks of G0 and G1 at one s. The free rows are those of G0 alone: K1 and M1 have none.
-pub(super) struct Blocks {
-    pub(super) free_free: IntegerMatrix,
-    pub(super) free_slip: IntegerMatrix,
-    /// Of G0 and of G1.
-    pub(super) slip_slip: [IntegerMatrix; 2],
-    /// Of G0 and of G1.
-    pub(super) slip_free: [IntegerMatrix; 2],
+/// A value of lambda^2 about which condensation is to be precise.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::analysis) struct Place {
+    pub(in crate::analysis) lambda2: f64,
+    /// Its anchor is used within this share of lambda^2 + the lowest frequency.
+    pub(in crate::analysis) near: f64,
 }
 
-/// The family, its units and sizes. All matrices share one factor, which is dropped.
-pub(super) struct Scaled {
-    /// K0, tau M0, nu K1, nu tau M1 as integers.
-    parts: [Sparse; 4],
-    free: Vec<usize>,
-    slip: Vec<usize>,
-    /// Lower bounds of lambda_min of K_ff and tau M_ff.
-    sigma: [Integer; 2],
-    /// t = tau s / (1 - s).
-    pub(super) tau: Rational,
-    /// mu = nu m / (1 - m).
-    pub(super) nu: Rational,
+/// An interval of lambda^2 and the anchor that serves it.
+pub(super) struct PieceOfHalfLine {
+    pub(super) lo: Rational,
+    /// `None` for infinity.
+    pub(super) hi: Option<Rational>,
+    pub(super) anchor: Option<usize>,
 }
 
-impl Scaled {
-    /// `None` if lambda_min of K_ff or M_ff cannot be bounded.
-    pub(super) fn new(stiffness: &Pencil, mass: &Pencil) -> Option<Scaled> {
-        let size_k0 = largest(stiffness.a());
-        let size_k1 = largest(stiffness.b());
-        let tau = nearest_power(size_k0 / largest(mass.a()));
-        let size_tau_m1 = largest(mass.b()) * to_f64(&tau);
-        let nu = nearest_power(size_k0 / size_k1.max(size_tau_m1));
+impl Family {
+    /// Condenses both parts. `places` are values of lambda^2 about which the enclosure is to be tight;
+    /// `friction` is at least the friction below which absence is to be proved.
+    ///
+    /// # Errors
+    /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
+    pub(super) fn new(
+        family: &MuFamily,
+        mass: &Pencil,
+        friction: &Rational,
+        places: &[Place],
+    ) -> Result<Family, CompleteError> {
+        let pencils = parts(&family.stiffness, mass)?;
+        let [without_friction, of_friction] = &pencils;
+        let at_friction = at(&pencils, friction)?;
 
-        let parts = integral([
-            times(stiffness.a(), &Rational::one()),
-            times(mass.a(), &tau),
-            times(stiffness.b(), &nu),
-            times(mass.b(), &(&nu * &tau)),
-        ]);
+        let body = Body::Pencil(without_friction.clone());
+        let window = Window::all();
+        let problem = Problem::new(body, Unknown::Lambda2, window.clone())?;
+        let mut prepared = Prepared::of_family(&problem, without_friction, &at_friction, PIECES)?;
 
-        let free = stiffness.free().to_vec();
-        let sigma = if free.is_empty() {
-            [Integer::one(), Integer::one()]
-        } else {
-            [
-                smallest_eigenvalue(&parts[0].submatrix(&free, &free))?,
-                smallest_eigenvalue(&parts[1].submatrix(&free, &free))?,
-            ]
-        };
+        if prepared.is_expanded() {
+            let near_zero = NEAR_ZERO * prepared.lowest_frequency;
+            if places.iter().any(|place| place.lambda2 <= near_zero)
+                && let Some(graded) = prepared
+                    .clone()
+                    .with_lower_anchor(&window, without_friction)
+            {
+                prepared = graded;
+            }
 
-        Some(Scaled {
-            parts,
-            free,
-            slip: stiffness.slip(),
-            sigma,
-            tau,
-            nu,
+            // Those that reach far first: the others are cut out of their pieces.
+            let mut others: Vec<&Place> = places.iter().filter(|p| p.lambda2 > near_zero).collect();
+            others.sort_by(|p, q| q.near.total_cmp(&p.near));
+            for place in others {
+                let values = [place.lambda2];
+                prepared = prepared.refined_within(place.near, &problem, without_friction, &values);
+            }
+        }
+
+        let mut expansions = Vec::new();
+        let mut left_friction = Vec::new();
+        match &prepared.condensation {
+            None => {
+                let view = View::of(of_friction);
+                expansions.push([
+                    prepared.view.expansion(None).clone(),
+                    view.expansion(None).clone(),
+                ]);
+            }
+            Some(condensation) => {
+                let beside =
+                    beside(of_friction, condensation).ok_or(CompleteError::NotDefinite {
+                        what: "A_ff + t B_ff",
+                        index: without_friction.free()[0],
+                    })?;
+
+                let anchors = condensation.anchors.iter().zip(beside);
+                for ((anchor, second), first) in anchors.zip(&prepared.view.expansions) {
+                    expansions.push([first.clone(), second.expansion]);
+                    left_friction.push(CriticalAnchor {
+                        center: anchor.center.clone(),
+                        reversed: anchor.reversed,
+                        right: anchor.right.clone(),
+                        left: anchor.left.clone(),
+                        left_friction: second.anchor.left,
+                    });
+                }
+            }
+        }
+
+        let scales = RowScales::of(&pencils)?;
+        let expansions = expansions
+            .into_iter()
+            .map(|pair| scales.applied_to(pair))
+            .collect();
+
+        let pieces = pieces_of(&prepared);
+        Ok(Family {
+            pencils,
+            prepared,
+            expansions,
+            left_friction,
+            pieces,
         })
     }
 
-    pub(super) fn free_count(&self) -> usize {
-        self.free.len()
+    /// The measure of lambda^2: theta = t / (scale + t).
+    pub(super) fn view(&self) -> &View {
+        &self.prepared.view
     }
 
-    pub(super) fn slip_count(&self) -> usize {
-        self.slip.len()
+    /// The expansions of T0 and T1 for a piece with this anchor.
+    pub(super) fn expansions(&self, anchor: Option<usize>) -> &[Expansion; 2] {
+        let named = anchor.and_then(|k| self.expansions.get(k));
+        named.unwrap_or(&self.expansions[0])
     }
 
-    /// The blocks at s = index / 2^level, times 2^level.
-    pub(super) fn at(&self, index: u64, level: u32) -> Blocks {
-        let one_minus_s = Rational::from_integer(((1u64 << level) - index).into());
-        let s = Rational::from_integer(index.into());
+    /// Is the last piece closed by a tail?
+    pub(super) fn has_tail(&self) -> bool {
+        let condensation = self.prepared.condensation.as_ref();
+        condensation.is_some_and(|c| c.tail.is_some())
+    }
 
-        let [k0, m0, k1, m1] = &self.parts;
-        let g0 = times(k0, &one_minus_s).add_scaled(&s, m0);
-        let g1 = times(k1, &one_minus_s).add_scaled(&s, m1);
+    /// T0 and T1 at a value, by solving with T_ff there, rows scaled as those of the expansions.
+    #[cfg(test)]
+    pub(super) fn direct(&self, value: f64) -> [Matrix; 2] {
+        let exact = mceip_exact::from_f64(value).unwrap_or_default();
+        self.pencils.each_ref().map(|pencil| {
+            let at_value = pencil.a().add_scaled(&exact, pencil.b());
+            let free = pencil.free();
+            let slip = pencil.slip();
+            let block = |rows: &[usize], columns: &[usize]| {
+                crate::dense::rounded(&at_value.submatrix(rows, columns))
+            };
 
-        Blocks {
-            free_free: block(&g0, &self.free, &self.free),
-            free_slip: block(&g0, &self.free, &self.slip),
-            slip_slip: [&g0, &g1].map(|g| block(g, &self.slip, &self.slip)),
-            slip_free: [&g0, &g1].map(|g| block(g, &self.slip, &self.free)),
+            let columns = crate::dense::rounded(&at_value.submatrix(free, &slip).transpose());
+            let solved = mceip_mcp::linear::solve(&block(free, free), &columns).unwrap_or_default();
+            let rows = block(&slip, free);
+            let mut condensed = block(&slip, &slip);
+            for (i, row) in condensed.iter_mut().enumerate() {
+                let constant = &self.pencils[0];
+                let slope = &self.pencils[1];
+                let factor = to_f64(&common_row_factor(&[constant, slope], slip[i]));
+                for (j, entry) in row.iter_mut().enumerate() {
+                    let products = rows[i].iter().zip(&solved[j]);
+                    let eliminated: f64 = products.map(|(a, b)| a * b).sum();
+                    *entry = factor * (*entry - eliminated);
+                }
+            }
+
+            condensed
+        })
+    }
+
+    /// Multiplies all remainders by a factor, because rounding errors of their computation in
+    /// doubles are not part of them.
+    pub(super) fn enlarge_remainders(&mut self, factor: f64) {
+        for expansion in self.expansions.iter_mut().flatten() {
+            expansion.caution *= factor;
         }
     }
 
-    /// A lower bound of lambda_min of the free block over [index, index + 1] / 2^level, in the
-    /// units of [`Scaled::at`]: lambda_min is a concave function of s.
-    pub(super) fn sigma(&self, index: u64, level: u32) -> Integer {
-        let at_lower = self.sigma_at(index, level);
-        let at_upper = self.sigma_at(index + 1, level);
-        at_lower.min(at_upper).max(Integer::one())
+    /// The condensation of a certificate with this bound; `None` where there are no free variables,
+    /// or the tail does not hold up to the bound.
+    pub(super) fn condensation(&self, below: &Rational) -> Option<CriticalCondensation> {
+        let condensation = self.prepared.condensation.as_ref()?;
+        let tail = match &condensation.tail {
+            Some(tail) => Some(self.tail(&tail.from.0, below)?),
+            None => None,
+        };
+
+        Some(CriticalCondensation {
+            sigma: condensation.sigma.clone(),
+            stiffness_factor: condensation.stiffness_factor.clone(),
+            mass_sigma: condensation.mass_sigma.clone(),
+            mass_factor: condensation.mass_factor.clone(),
+            anchors: self.left_friction.clone(),
+            tail,
+        })
     }
 
-    fn sigma_at(&self, index: u64, level: u32) -> Integer {
-        let [of_stiffness, of_mass] = &self.sigma;
-        let one_minus_s = (1u64 << level) - index;
-        of_stiffness * one_minus_s + of_mass * index
-    }
-}
-
-/// The largest modulus of an entry.
-fn largest(matrix: &Sparse) -> f64 {
-    let sizes = matrix.entries().map(|(_, _, v)| to_f64(v).abs());
-    sizes.fold(0.0, f64::max)
-}
-
-/// The power of two nearest to a positive double, 1 for anything else.
-fn nearest_power(v: f64) -> Rational {
-    let power = v.log2().round().exp2();
-    match from_f64(power) {
-        Ok(power) if power.is_positive() => power,
-        _ => Rational::one(),
-    }
-}
-
-/// `factor * matrix`.
-fn times(matrix: &Sparse, factor: &Rational) -> Sparse {
-    Sparse::zeros(matrix.rows(), matrix.cols()).add_scaled(factor, matrix)
-}
-
-/// The matrices times their common denominator and 2^GUARD_BITS.
-fn integral(parts: [Sparse; 4]) -> [Sparse; 4] {
-    let entries = parts.iter().flat_map(|m| m.entries().map(|(_, _, v)| v));
-    let scale = common_denominator(entries) << GUARD_BITS;
-    let scale = Rational::from_integer(scale);
-    parts.map(|m| times(&m, &scale))
-}
-
-fn block(matrix: &Sparse, rows: &[usize], columns: &[usize]) -> IntegerMatrix {
-    let block = matrix.submatrix(rows, columns);
-    let mut integers = vec![Vec::new(); block.rows()];
-    for (i, j, v) in block.entries() {
-        integers[i].push((j, v.to_integer()));
-    }
-
-    IntegerMatrix {
-        rows: integers,
-        cols: block.cols(),
+    /// The evidence that the symmetric part is definite from a value on, at mu = 0 and at `below`.
+    fn tail(&self, from: &Rational, below: &Rational) -> Option<CriticalTail> {
+        let at_zero = at(&self.pencils, &Rational::zero()).ok()?;
+        let at_below = at(&self.pencils, below).ok()?;
+        Some(CriticalTail {
+            from: Number(from.clone()),
+            factor: definite_at(&at_zero, from)?,
+            factor_below: definite_at(&at_below, from)?,
+            mass_factor: semidefinite(at_zero.b())?,
+            mass_factor_below: semidefinite(at_below.b())?,
+        })
     }
 }
 
-/// An integer sigma >= 1 with m - sigma I proved positive definite, some 0.9 of the smallest
-/// eigenvalue. m is scaled so that one exists unless it is nearly singular.
-fn smallest_eigenvalue(m: &Sparse) -> Option<Integer> {
-    let identity = Sparse::identity(m.rows());
-    let eigenvalues = definite_eigenvalues(&rounded(m), &rounded(&identity))?;
-    let estimate = *eigenvalues.first()?;
-
-    let sigma = from_f64((0.9 * estimate).floor()).ok()?;
-    let shifted = m.add_scaled(&-&sigma, &identity);
-    if sigma < Rational::one() || positive_definite(&shifted).is_err() {
-        return None;
+/// A value of lambda^2 on whose scale T changes: the lowest frequency of the free variables, or
+/// without any the ratio of K* and M*.
+pub(in crate::analysis) fn unit_of_lambda2(
+    stiffness: &Pencil,
+    mass: &Pencil,
+) -> Result<f64, CompleteError> {
+    let [constant, _] = parts(stiffness, mass)?;
+    if constant.free().is_empty() {
+        return Ok(View::of(&constant).scale);
     }
-    Some(sigma.to_integer())
+
+    let blocks = Blocks::of(&constant);
+    let factor = blocks.stiffness.cholesky();
+    let factor = factor.ok_or(CompleteError::NotDefinite {
+        what: "A_ff",
+        index: constant.free()[0],
+    })?;
+
+    Ok(blocks.lowest_frequency(&factor))
+}
+
+/// The pencils in t of mu = 0 and of the coefficients of mu; the second one has the free rows of the
+/// first.
+fn parts(stiffness: &Pencil, mass: &Pencil) -> Result<[Pencil; 2], CompleteError> {
+    let free = stiffness.free().to_vec();
+    let constant = Pencil::new(stiffness.a().clone(), mass.a().clone(), free.clone())?;
+
+    let one = Rational::one();
+    let of_stiffness = stiffness
+        .b()
+        .add_scaled(&one, &only_rows(stiffness.a(), &free));
+    let of_mass = mass.b().add_scaled(&one, &only_rows(mass.a(), &free));
+    let slope = Pencil::new(of_stiffness, of_mass, free)?;
+    Ok([constant, slope])
+}
+
+/// A matrix with all rows zero but these.
+fn only_rows(matrix: &Sparse, rows: &[usize]) -> Sparse {
+    let mut entries = Vec::new();
+    for &i in rows {
+        for (j, v) in matrix.row(i) {
+            entries.push((i, *j, v.clone()));
+        }
+    }
+
+    Sparse::from_entries(matrix.rows(), matrix.cols(), entries)
+}
+
+/// The pencil in t at a friction.
+fn at([constant, slope]: &[Pencil; 2], friction: &Rational) -> Result<Pencil, CompleteError> {
+    let free = constant.free().to_vec();
+    let slip = slope.slip();
+    let stiffness = only_rows(slope.a(), &slip);
+    let mass = only_rows(slope.b(), &slip);
+    let a = constant.a().add_scaled(friction, &stiffness);
+    let b = constant.b().add_scaled(friction, &mass);
+    Ok(Pencil::new(a, b, free)?)
+}
+
+/// What turns the rows of the expansions, each scaled by its own pencil, into rows with one common
+/// scale.
+struct RowScales {
+    /// For T0 and T1, by position.
+    direct: [Vec<f64>; 2],
+    reversed: [Vec<f64>; 2],
+}
+
+impl RowScales {
+    fn of(pencils: &[Pencil; 2]) -> Result<RowScales, CompleteError> {
+        let mut exchanged = Vec::new();
+        for pencil in pencils {
+            let free = pencil.free().to_vec();
+            exchanged.push(Pencil::new(pencil.b().clone(), pencil.a().clone(), free)?);
+        }
+
+        let [constant, slope] = pencils;
+        Ok(RowScales {
+            direct: scales(&[constant, slope]),
+            reversed: scales(&[&exchanged[0], &exchanged[1]]),
+        })
+    }
+
+    fn applied_to(&self, [first, second]: [Expansion; 2]) -> [Expansion; 2] {
+        let scales = if first.reversed {
+            &self.reversed
+        } else {
+            &self.direct
+        };
+
+        [
+            first.with_rows_times(&scales[0]),
+            second.with_rows_times(&scales[1]),
+        ]
+    }
+}
+
+/// The common factor of each slip row over that of either pencil.
+fn scales(pencils: &[&Pencil; 2]) -> [Vec<f64>; 2] {
+    pencils.map(|pencil| {
+        let mut scales = Vec::new();
+        for i in pencil.slip() {
+            let common = common_row_factor(pencils, i);
+            scales.push(to_f64(&(common / row_factor(pencil, i))));
+        }
+
+        scales
+    })
+}
+
+fn pieces_of(prepared: &Prepared) -> Vec<PieceOfHalfLine> {
+    let mut pieces = Vec::new();
+    let mut lo = Rational::zero();
+    for interval in &prepared.intervals {
+        pieces.push(PieceOfHalfLine {
+            lo: lo.clone(),
+            hi: interval.max.clone(),
+            anchor: interval.anchor,
+        });
+        lo = interval.max.clone().unwrap_or(lo);
+    }
+
+    pieces
+}
+
+/// The ends of T0 + mu T1 over the interval of t for which those of both parts are given.
+pub(super) fn at_friction([constant, slope]: &[Ends; 2], friction: f64) -> Ends {
+    let m = [0, 1].map(|end| combined(&constant.m[end], friction, &slope.m[end]));
+    let r = match (&constant.r, &slope.r) {
+        (Some(r), Some(r_slope)) => Some(combined(r, friction, r_slope)),
+        (r, r_slope) => r.clone().or(r_slope.clone()),
+    };
+
+    Ends {
+        lo: constant.lo,
+        hi: constant.hi,
+        m,
+        r,
+        slope: None,
+    }
+}
+
+/// a + factor b.
+fn combined(a: &Matrix, factor: f64, b: &Matrix) -> Matrix {
+    let mut sum = a.clone();
+    for (row, b_row) in sum.iter_mut().zip(b) {
+        for (entry, b) in row.iter_mut().zip(b_row) {
+            *entry += factor * b;
+        }
+    }
+
+    sum
 }

@@ -1,334 +1,268 @@
-//! No solution for any lambda^2 >= 0 and any mu below a bound: a cover of the (lambda^2, mu)
-//! quadrant.
+//! No solution for any lambda^2 >= 0 and any mu up to a bound: a cover of
+//! [0, infinity) x [0, bound] x (supports) that the checker reads as `mceip-critical/1`.
 //!
-//! The quadrant is mapped to the unit square by lambda^2 = t = tau s/(1-s) and mu = nu m/(1-m); s =
-//! 1 (t = infinity) is included. The cover consists of boxes in (s, m), times states of the slip
-//! variables. On a box the condensed family is a convex combination of its four corners up to a
-//! radius (`strip`), so a Farkas vector that works at the four corners, or a symmetric part
-//! definite there, proves that the box holds no solution (`judge`). Boxes are taken in the order of
-//! mu; the first that cannot be emptied ends the search, and everything below it is proved. Doubles
-//! propose, integers decide.
+//! | file | what |
+//! |---|---|
+//! | `family` | T(t, mu) = T0(t) + mu T1(t), condensed about common anchors |
+//! | `boxes` | branch and prune over boxes of (t, mu) and states |
 //!
-//! Input: K* and M* as functions of mu, and the mu below which the conditions (19), (20) have
-//! excluded all. Output: [`Absence`]. Called by `critical`.
+//! Doubles propose the cover, and nothing is returned as proved before the checker has accepted it.
+//! Input: a system and the bound. Output: [`Outcome`]. Called by `critical`, which chooses bounds.
 
+mod boxes;
 mod family;
-mod judge;
-mod strip;
 
 use crate::reduction::MuFamily;
-use crate::run::Watch;
-use family::Scaled;
-use judge::{Corners, State, Verdict};
+use crate::run::{OnProgress, Progress, Watch};
+use crate::search::complete::CompleteError;
+use crate::search::complete::rounds::in_threads;
+use crate::search::complete::shares::Shares;
+use boxes::Search;
+pub(super) use boxes::{Blocked, Cause};
+use family::{Family, PieceOfHalfLine};
+pub(super) use family::{Place, unit_of_lambda2};
+use mceip_check::audit_critical;
+use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
 use mceip_exact::Rational;
-use num_traits::One;
-use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashMap};
-use std::rc::Rc;
-use strip::Strip;
+use mceip_model::file::Number;
+use mceip_model::{Pencil, Problem};
+use rayon::prelude::*;
 
 /// How much work the cover may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Boxes examined before the search ends with what it has.
+    /// Boxes examined in one piece of [0, infinity) before the search ends with what it has: for up
+    /// to [`SMALL_ORDER`] slip variables, and fewer for more of them, because each one takes longer.
     pub boxes: usize,
-    /// Intervals of lambda^2 on which free variables are eliminated before it does.
-    pub strips: usize,
-    /// Slip variables beyond which no cover is tried.
-    pub slip: usize,
-    /// Free variables beyond which no cover is tried.
-    pub free: usize,
 }
+
+/// Slip variables up to which all boxes allowed are examined.
+const SMALL_ORDER: usize = 8;
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits {
-            boxes: 20_000,
-            strips: 2_000,
-            slip: 20,
-            free: 120,
-        }
+        Limits { boxes: 400_000 }
     }
 }
 
-/// What the cover has proved.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Absence {
-    /// No solution with lambda^2 >= 0 and mu below this value (not included); `None`: for no mu at
-    /// all.
-    pub below: Option<Rational>,
-    /// lambda^2 of the box that could not be emptied (`None` for infinity at its upper end).
-    pub blocked: Option<(Rational, Option<Rational>)>,
-    /// Boxes examined.
-    pub boxes: usize,
-    /// Did the budget or an interrupt end the search, rather than a box that seems to hold a
-    /// solution?
-    pub cut_short: bool,
+impl Limits {
+    /// The boxes allowed with so many slip variables: their number times its cube is constant.
+    fn boxes_for(&self, order: usize) -> usize {
+        let cubes = [SMALL_ORDER, order.max(SMALL_ORDER)].map(|n| (n * n * n) as f64);
+        let share = cubes[0] / cubes[1];
+        (self.boxes as f64 * share) as usize
+    }
 }
 
-/// Finest subdivision of s and m: 2^-LEVEL.
-const LEVEL: u32 = 22;
-/// A box of this relative size (2^-this, in s and m) that cannot be emptied ends the search.
-const TINY: u32 = 14;
+/// Factor on the remainders where the checker has refused what doubles held for proved, and how
+/// often it is applied.
+const CAUTION: f64 = 8.0;
+const CAUTIOUS_ROUNDS: usize = 2;
 
-/// A box [s, s + 1] / 2^s_level by [m, m + 1] / 2^m_level, and the state of each slip variable.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Region {
-    s: u64,
-    s_level: u32,
-    m: u64,
-    m_level: u32,
-    states: Vec<State>,
+/// What a search ends with.
+pub(super) enum Outcome {
+    /// The checker has accepted it.
+    Absent(Box<CriticalCertificate>),
+    /// Of each piece that was not emptied the first box that could not be.
+    Blocked(Vec<Blocked>),
+    /// The checker refuses what doubles propose.
+    Refused,
 }
 
-impl Region {
-    /// The unit square with every slip variable open.
-    fn whole(slip_count: usize) -> Region {
-        Region {
-            s: 0,
-            s_level: 0,
-            m: 0,
-            m_level: 0,
-            states: vec![State::Open; slip_count],
-        }
-    }
+/// A system whose covers are sought.
+#[derive(Clone, Copy)]
+pub(super) struct Quadrant<'a> {
+    pub(super) family: &'a MuFamily,
+    /// M* as a function of mu.
+    pub(super) mass: &'a Pencil,
+    /// MCEIP-lambda2 of the system: what a certificate belongs to.
+    pub(super) problem: &'a Problem,
+    pub(super) limits: Limits,
+    pub(super) threads: Option<usize>,
+    pub(super) watch: Watch<'a>,
+}
 
-    /// Lower end of m in units of 2^-LEVEL: the order of the search.
-    fn m_key(&self) -> u64 {
-        self.m << (LEVEL - self.m_level)
-    }
-
-    fn lower_mu(&self, scaled: &Scaled) -> Option<Rational> {
-        position(&scaled.nu, self.m, self.m_level)
-    }
-
-    fn upper_mu(&self, scaled: &Scaled) -> Option<Rational> {
-        position(&scaled.nu, self.m + 1, self.m_level)
-    }
-
-    fn lower_lambda2(&self, scaled: &Scaled) -> Option<Rational> {
-        position(&scaled.tau, self.s, self.s_level)
-    }
-
-    fn upper_lambda2(&self, scaled: &Scaled) -> Option<Rational> {
-        position(&scaled.tau, self.s + 1, self.s_level)
-    }
-
-    fn with_state(&self, variable: usize, state: State) -> Region {
-        let mut region = self.clone();
-        region.states[variable] = state;
-        region
-    }
-
-    /// The half of lower (k = 0) or upper (k = 1) m.
-    fn half_along_m(&self, k: u64) -> Region {
-        Region {
-            m: 2 * self.m + k,
-            m_level: self.m_level + 1,
-            ..self.clone()
+impl<'a> Quadrant<'a> {
+    /// The same with another listener.
+    pub(super) fn heard_by<'b>(self, listener: &'b OnProgress<'b>) -> Quadrant<'b>
+    where
+        'a: 'b,
+    {
+        Quadrant {
+            watch: self.watch.heard_by(listener),
+            ..self
         }
     }
 
-    /// The half of lower (k = 0) or upper (k = 1) s.
-    fn half_along_s(&self, k: u64) -> Region {
-        Region {
-            s: 2 * self.s + k,
-            s_level: self.s_level + 1,
-            ..self.clone()
+    /// The first box of each piece that cannot be emptied for a bound: no proof, but cheaper.
+    ///
+    /// # Errors
+    /// As [`Quadrant::cover`].
+    pub(super) fn obstacles(
+        &self,
+        below: &Rational,
+        places: &[Place],
+    ) -> Result<Vec<Blocked>, CompleteError> {
+        self.watch.report(&Progress::stage("condensing"));
+        let family = Family::new(self.family, self.mass, below, places)?;
+        let proposed = self.proposed(&family, below);
+        Ok(proposed.err().unwrap_or_default())
+    }
+
+    /// Covers [0, infinity) x [0, below]. `places` are where condensation is to be precise.
+    ///
+    /// # Errors
+    /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
+    pub(super) fn cover(
+        &self,
+        below: &Rational,
+        places: &[Place],
+    ) -> Result<Outcome, CompleteError> {
+        self.watch.report(&Progress::stage("condensing"));
+        let mut family = Family::new(self.family, self.mass, below, places)?;
+        for _ in 0..=CAUTIOUS_ROUNDS {
+            let certificate = match self.proposed(&family, below) {
+                Ok(certificate) => certificate,
+                Err(blocked) => return Ok(Outcome::Blocked(blocked)),
+            };
+
+            self.watch.report(&Progress {
+                done: leaves(&certificate) as u64,
+                ..Progress::stage("checking its leaves")
+            });
+            if let Ok(refused) = audit_critical(self.problem, &certificate)
+                && refused.is_empty()
+            {
+                return Ok(Outcome::Absent(Box::new(certificate)));
+            }
+
+            family.enlarge_remainders(CAUTION);
         }
+
+        Ok(Outcome::Refused)
+    }
+
+    /// The cover that doubles propose.
+    fn proposed(
+        &self,
+        family: &Family,
+        below: &Rational,
+    ) -> Result<CriticalCertificate, Vec<Blocked>> {
+        let shares = Shares::new(self.watch);
+        let share = 1.0 / family.pieces.len() as f64;
+        let tree_of = |piece| self.tree(family, piece, below, &shares, share);
+        let trees: Vec<Result<Vec<CriticalNode>, Box<Blocked>>> = in_threads(self.threads, || {
+            family.pieces.par_iter().map(tree_of).collect()
+        });
+
+        let mut pieces = Vec::with_capacity(trees.len());
+        let mut blocked = Vec::new();
+        for (piece, tree) in family.pieces.iter().zip(trees) {
+            match tree {
+                Ok(tree) => pieces.push(CriticalPiece {
+                    max: piece.hi.clone().map(Number),
+                    anchor: piece.anchor,
+                    tree,
+                }),
+                Err(found) => blocked.push(*found),
+            }
+        }
+
+        if !blocked.is_empty() {
+            return Err(blocked);
+        }
+
+        Ok(CriticalCertificate {
+            problem_sha256: self.problem.sha256(),
+            below: below.clone(),
+            condensation: family.condensation(below),
+            pieces,
+        })
+    }
+
+    /// The tree of one piece.
+    fn tree(
+        &self,
+        family: &Family,
+        piece: &PieceOfHalfLine,
+        below: &Rational,
+        shares: &Shares<'_>,
+        share: f64,
+    ) -> Result<Vec<CriticalNode>, Box<Blocked>> {
+        if piece.hi.is_none() && family.has_tail() {
+            return Ok(vec![CriticalNode::Tail]);
+        }
+
+        let mut search = Search {
+            view: family.view(),
+            expansions: family.expansions(piece.anchor),
+            shares,
+            budget: self.limits.boxes_for(family.view().order()),
+            nodes: Vec::new(),
+        };
+
+        search.piece(&piece.lo, piece.hi.as_ref(), below, share)?;
+        Ok(search.nodes)
     }
 }
 
-/// unit p / (1 - p) at p = index / 2^level; `None` for infinity.
-fn position(unit: &Rational, index: u64, level: u32) -> Option<Rational> {
-    let distance_to_one = (1u64 << level) - index;
-    if distance_to_one == 0 {
-        return None;
-    }
-
-    Some(unit * Rational::new(index.into(), distance_to_one.into()))
-}
-
-/// Covers the quadrant from mu = 0 up. `excluded_below`: mu below which (20) and (19) have already
-/// excluded all.
-///
-/// `None` where the system is beyond the limits or doubles fail: then nothing is proved here.
-pub fn absence(
-    family: &MuFamily,
-    excluded_below: &Rational,
-    limits: Limits,
-    watch: &Watch<'_>,
-) -> Option<Absence> {
-    let stiffness = &family.stiffness;
-    let mass = family.mass.as_ref()?;
-    if stiffness.slip().len() > limits.slip || stiffness.free().len() > limits.free {
-        return None;
-    }
-
-    let scaled = Scaled::new(stiffness, mass)?;
-    let mut strips = Strips {
-        scaled: &scaled,
-        known: HashMap::new(),
+/// How many leaves a certificate has.
+pub(super) fn leaves(certificate: &CriticalCertificate) -> usize {
+    let nodes = certificate.pieces.iter().flat_map(|piece| &piece.tree);
+    let is_leaf = |node: &&CriticalNode| {
+        !matches!(
+            node,
+            CriticalNode::Split(_) | CriticalNode::Friction(_) | CriticalNode::Branch(_)
+        )
     };
-
-    let mut queue = Queue::default();
-    queue.push(Region::whole(scaled.slip_count()));
-
-    let mut boxes = 0;
-    while let Some(region) = queue.pop() {
-        let is_used_up = boxes >= limits.boxes || strips.are_used_up(limits);
-        let must_stop = is_used_up || watch.is_cancelled();
-        boxes += 1;
-
-        if let Some(mu) = region.upper_mu(&scaled)
-            && mu <= *excluded_below
-        {
-            continue;
-        }
-
-        let verdict = strips.judge(&region)?;
-        let children = children(&region, verdict);
-        let is_blocked = children.is_none();
-
-        if is_blocked || (must_stop && verdict != Verdict::Empty) {
-            let lower = region.lower_lambda2(&scaled);
-            let upper = region.upper_lambda2(&scaled);
-            return Some(Absence {
-                below: region.lower_mu(&scaled).max(Some(excluded_below.clone())),
-                blocked: Some((lower.unwrap_or_else(Rational::one), upper)),
-                boxes,
-                cut_short: !is_blocked,
-            });
-        }
-
-        for child in children.into_iter().flatten() {
-            queue.push(child);
-        }
-    }
-
-    Some(Absence {
-        below: None,
-        blocked: None,
-        boxes,
-        cut_short: false,
-    })
-}
-
-/// Regions in the order of mu, then in that of arrival.
-#[derive(Default)]
-struct Queue {
-    /// Keys of mu and numbers of arrival.
-    order: BinaryHeap<Reverse<(u64, usize)>>,
-    /// The regions by their numbers of arrival.
-    regions: HashMap<usize, Region>,
-    arrived: usize,
-}
-
-impl Queue {
-    fn push(&mut self, region: Region) {
-        self.order.push(Reverse((region.m_key(), self.arrived)));
-        self.regions.insert(self.arrived, region);
-        self.arrived += 1;
-    }
-
-    fn pop(&mut self) -> Option<Region> {
-        let Reverse((_, id)) = self.order.pop()?;
-        self.regions.remove(&id)
-    }
-}
-
-/// The strips met so far, by (s, s_level). They are kept because eliminating the free variables
-/// takes most of the time.
-struct Strips<'a> {
-    scaled: &'a Scaled,
-    known: HashMap<(u64, u32), Rc<Strip>>,
-}
-
-impl Strips<'_> {
-    /// Have free variables been eliminated as often as the limits allow?
-    fn are_used_up(&self, limits: Limits) -> bool {
-        let has_free_variables = self.scaled.free_count() > 0;
-        has_free_variables && self.known.len() >= limits.strips
-    }
-
-    /// What to do with a region; `None` if doubles fail there.
-    fn judge(&mut self, region: &Region) -> Option<Verdict> {
-        let strip = self.over(region)?;
-        if strip.too_wide {
-            return Some(Verdict::Split {
-                along_m: false,
-                hopeful: true,
-            });
-        }
-
-        let corners = Corners::new(&strip, region.m, region.m_level);
-        Some(corners.judge(&region.states))
-    }
-
-    /// The strip a region lies in; `None` if doubles fail there.
-    fn over(&mut self, region: &Region) -> Option<Rc<Strip>> {
-        let key = (region.s, region.s_level);
-        if let Some(strip) = self.known.get(&key) {
-            return Some(Rc::clone(strip));
-        }
-
-        let strip = Rc::new(Strip::new(self.scaled, region.s, region.s_level)?);
-        self.known.insert(key, Rc::clone(&strip));
-        Some(strip)
-    }
-}
-
-/// What is left of a region after a verdict; `None` if it should be halved and is too small for
-/// that.
-fn children(region: &Region, verdict: Verdict) -> Option<Vec<Region>> {
-    match verdict {
-        Verdict::Empty => Some(Vec::new()),
-        Verdict::Branch(variable) => Some(vec![
-            region.with_state(variable, State::Moving),
-            region.with_state(variable, State::AtRest),
-        ]),
-        Verdict::Split { along_m, hopeful } => halves(region, along_m, hopeful),
-    }
-}
-
-/// The halves of a box; `None` if it is too small for that.
-///
-/// It is halved in the direction asked for, except where it is finest in that direction, or tiny
-/// and not hopeful. A box that is tiny in both directions and not hopeful seems to hold a solution.
-fn halves(region: &Region, along_m: bool, hopeful: bool) -> Option<Vec<Region>> {
-    let m_is_finest = region.m_level >= LEVEL;
-    let s_is_finest = region.s_level >= LEVEL;
-    // Relative to its place in m; absolute in s.
-    let m_is_tiny = region.m >> TINY > 0 || m_is_finest;
-    let s_is_tiny = region.s_level >= TINY;
-    if !hopeful && m_is_tiny && s_is_tiny {
-        return None;
-    }
-
-    let avoids_m = m_is_finest || (!hopeful && m_is_tiny);
-    let avoids_s = s_is_finest || (!hopeful && s_is_tiny);
-    let along_m = if along_m { !avoids_m } else { avoids_s };
-
-    if along_m && !m_is_finest {
-        Some(vec![region.half_along_m(0), region.half_along_m(1)])
-    } else if !along_m && !s_is_finest {
-        Some(vec![region.half_along_s(0), region.half_along_s(1)])
-    } else {
-        None
-    }
+    nodes.filter(is_leaf).count()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::reduction::mu_family;
-    use mceip_exact::{Sparse, rational, to_f64, whole};
-    use mceip_model::{ContactState, Particle, System};
+    use mceip_check::check_critical;
+    use mceip_exact::{Sparse, from_f64, rational, whole};
+    use mceip_model::{Body, ContactState, Particle, System, Unknown, Window};
     use mceip_oracle::TwoParticles;
-    use mceip_paper::two_particles;
+    use mceip_paper::{Block, BlockModel, two_particles};
 
-    fn cover(family: &MuFamily) -> Absence {
-        absence(family, &whole(0), Limits::default(), &Watch::nobody()).unwrap()
+    /// Covers [0, infinity) x [0, below] for a system with mass and friction.
+    fn cover(system: &System, below: f64, places: &[Place]) -> Outcome {
+        let family = mu_family(system).unwrap();
+        let body = Body::System(system.clone());
+        let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
+        let quadrant = Quadrant {
+            family: &family,
+            mass: family.mass.as_ref().unwrap(),
+            problem: &problem,
+            limits: Limits::default(),
+            threads: Some(1),
+            watch: Watch::nobody(),
+        };
+
+        let outcome = quadrant.cover(&from_f64(below).unwrap(), places).unwrap();
+        if let Outcome::Absent(certificate) = &outcome {
+            check_critical(&problem, certificate).unwrap();
+        }
+        outcome
+    }
+
+    #[track_caller]
+    fn is_absent_just_below_and_not_above(system: &System, critical: f64, lambda2: f64) {
+        let place = Place {
+            lambda2,
+            near: 0.03,
+        };
+        let below = cover(system, critical * (1.0 - 1e-6), &[place]);
+        assert!(matches!(below, Outcome::Absent(_)), "{critical}");
+
+        let above = cover(system, critical * (1.0 + 1e-6), &[place]);
+        let Outcome::Blocked(blocked) = above else {
+            panic!("a solution at {critical} was not met")
+        };
+        assert!(blocked.iter().any(|b| b.cause == Cause::Solution));
     }
 
     /// Table 1 has no folds: nothing exists below the static threshold, and (-1, 1) has nothing at
@@ -349,25 +283,19 @@ mod tests {
                 signs,
             };
 
-            let found = cover(&mu_family(&two_particles(&data).unwrap()).unwrap());
+            let system = two_particles(&data).unwrap();
 
-            let below = found.below.as_ref().map(to_f64);
-            match (threshold, below) {
-                (Some(t), Some(b)) => {
-                    assert!(b <= t && b > t * 0.999, "{signs:?}: {found:?}, {t}");
-                    assert!(!found.cut_short, "{signs:?}: {found:?}");
-                }
-                // At m = 1, s = 1 the family vanishes (M1 = 0): a bound beyond any friction, not
-                // all of them.
-                (None, b) => assert!(b.is_none_or(|b| b > 1e6), "{found:?}"),
-                other => panic!("{signs:?}: {other:?} {found:?}"),
+            match threshold {
+                Some(threshold) => is_absent_just_below_and_not_above(&system, threshold, 0.0),
+                None => assert!(matches!(cover(&system, 1e6, &[]), Outcome::Absent(_))),
             }
         }
     }
 
     /// The fold of errata.md as a mechanical system: no static threshold at all, yet solutions from
     /// the fold on.
-    fn fold() -> System {
+    #[test]
+    fn a_fold_is_met_before_any_static_threshold() {
         let k = Sparse::from_ints(&[
             &[1, 0, 0, 1],
             &[0, 2, -3, -4],
@@ -376,18 +304,52 @@ mod tests {
         ]);
         let slip = ContactState::Slip { sign: 1 };
         let particles = vec![Particle::plain(0, 2, slip), Particle::plain(1, 3, slip)];
-        System::new(k, Some(Sparse::identity(4)), Some(whole(2)), particles).unwrap()
-    }
+        let mass = Some(Sparse::identity(4));
+        let system = System::new(k, mass, Some(whole(2)), particles).unwrap();
 
-    #[test]
-    fn a_fold_is_met_before_any_static_threshold() {
         // tests/program/analyze.rs has the derivation.
         let mu_of_fold = 1.0 + 0.75f64.sqrt();
+        is_absent_just_below_and_not_above(&system, mu_of_fold, 0.5 + 3.0f64.sqrt());
+    }
 
-        let found = cover(&mu_family(&fold()).unwrap());
+    /// With free variables the enclosures of T0 and T1 hold what direct condensation gives.
+    #[test]
+    fn parts_condensed_about_anchors_agree_with_direct_condensation() {
+        let block = Block::new(&BlockModel::of_the_paper().with_cells(2, 1)).unwrap();
+        let slip = ContactState::Slip { sign: 1 };
+        let states = [slip, slip, ContactState::Free];
+        let system = block.system(&states, Some(whole(1))).unwrap();
+        let mu_family = mu_family(&system).unwrap();
+        let mass = mu_family.mass.as_ref().unwrap();
 
-        let below = to_f64(found.below.as_ref().unwrap());
-        assert!(below <= mu_of_fold, "{below} {mu_of_fold} {found:?}");
-        assert!(below > 0.999 * mu_of_fold, "{below} {mu_of_fold} {found:?}");
+        let family = Family::new(&mu_family, mass, &whole(2), &[]).unwrap();
+
+        assert!(family.pieces.len() > 1);
+        let mut lo = Rational::default();
+        for piece in &family.pieces {
+            assert_eq!(piece.lo, lo);
+            lo = piece.hi.clone().unwrap_or(lo);
+
+            let Some(hi) = &piece.hi else { continue };
+            let middle = mceip_exact::to_f64(&(hi / whole(2) + &piece.lo / whole(2)));
+            let [first, second] = family.expansions(piece.anchor);
+            if piece.anchor.is_none() || first.reversed {
+                continue;
+            }
+
+            let direct = family.direct(middle);
+            let ends = [first.ends(middle, middle), second.ends(middle, middle)];
+            for (part, matrix) in ends.iter().zip(&direct) {
+                for (i, row) in matrix.iter().enumerate() {
+                    for (j, entry) in row.iter().enumerate() {
+                        let distance = (entry - part.m[0][i][j]).abs();
+                        assert!(
+                            distance <= part.radius(i, j),
+                            "{middle} {i} {j}: {distance}"
+                        );
+                    }
+                }
+            }
+        }
     }
 }

@@ -25,19 +25,19 @@
 
 mod accepted_x;
 mod audited;
-mod dyadic;
+pub(crate) mod dyadic;
 mod error;
 pub(crate) mod game;
 mod given;
-mod leaf;
+pub(crate) mod leaf;
 mod merge;
 mod null_vector;
 mod options;
-mod pieces;
+pub(crate) mod pieces;
 mod precise;
-mod region;
-mod rounds;
-mod shares;
+pub(crate) mod region;
+pub(crate) mod rounds;
+pub(crate) mod shares;
 mod splice;
 mod tree;
 

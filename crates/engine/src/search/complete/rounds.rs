@@ -156,7 +156,7 @@ pub(super) fn values_met(
 }
 
 /// Runs in a pool of the wanted size, or in the default one.
-fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
+pub(crate) fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
     match threads.map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build()) {
         Some(Ok(pool)) => pool.install(work),
         // Without a pool of one's own the default one does the same work.

@@ -7,7 +7,7 @@ use crate::run::{Progress, Watch};
 use std::sync::{Mutex, PoisonError};
 
 /// The leaves of a search, counted over all threads.
-pub(super) struct Shares<'a> {
+pub(crate) struct Shares<'a> {
     watch: Watch<'a>,
     count: Mutex<Count>,
 }
@@ -24,7 +24,7 @@ struct Count {
 
 impl<'a> Shares<'a> {
     /// Counts from zero, for the listener of this watch.
-    pub(super) fn new(watch: Watch<'a>) -> Shares<'a> {
+    pub(crate) fn new(watch: Watch<'a>) -> Shares<'a> {
         Shares {
             watch,
             count: Mutex::default(),
@@ -32,12 +32,12 @@ impl<'a> Shares<'a> {
     }
 
     /// Should the rest be left open?
-    pub(super) fn is_cancelled(&self) -> bool {
+    pub(crate) fn is_cancelled(&self) -> bool {
         self.watch.is_cancelled()
     }
 
     /// A leaf has closed this share of the whole, or left it open; a solution was met in it.
-    pub(super) fn closed(&self, share: f64, has_solution: bool) {
+    pub(crate) fn closed(&self, share: f64, has_solution: bool) {
         // A poisoned lock means that a thread panicked; its count is still good.
         let mut count = self.count.lock().unwrap_or_else(PoisonError::into_inner);
         count.leaves += 1;

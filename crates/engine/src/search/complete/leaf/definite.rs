@@ -25,7 +25,8 @@ pub(crate) fn leaf(ends: &Ends, states: &[State]) -> Option<Node> {
     }
 }
 
-fn holds_at_both_ends(ends: &Ends, states: &[State], sign: f64) -> bool {
+/// Is `sign` sym(T) positive definite on what may be in the support, at both ends?
+pub(crate) fn holds_at_both_ends(ends: &Ends, states: &[State], sign: f64) -> bool {
     let radius = ends.r.as_ref();
     if !is_definite(&ends.m[0], radius, states, sign) {
         return false;

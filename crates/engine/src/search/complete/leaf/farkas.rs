@@ -171,6 +171,16 @@ impl Columns {
         columns
     }
 
+    /// Of both ends of several intervals.
+    pub(crate) fn of_all(all_ends: &[Ends], states: &[State]) -> Columns {
+        let mut columns = Columns { list: Vec::new() };
+        for ends in all_ends {
+            columns.list.extend(Columns::of(ends, states).list);
+        }
+
+        columns
+    }
+
     fn add(&mut self, m: &Matrix, radius: Option<&Matrix>, states: &[State], is_direction: bool) {
         for variable in possible_support(states) {
             let column = Column::new(m, radius, variable, is_direction);
@@ -203,9 +213,14 @@ impl Columns {
             return game.value;
         }
 
+        self.margin_of(&game.w)
+    }
+
+    /// The least amount by which w'T is negative in a column, its radius taken off.
+    pub(crate) fn margin_of(&self, w: &[f64]) -> f64 {
         self.list
             .iter()
-            .map(|column| -dot(&column.entries, &game.w) - column.around(&game.w))
+            .map(|column| -dot(&column.entries, w) - column.around(w))
             .fold(f64::INFINITY, f64::min)
     }
 

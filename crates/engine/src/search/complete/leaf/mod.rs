@@ -18,10 +18,10 @@
 //! `check/cover/`, one file here, and chapter 5 of the book. It is then named in `tree`, which
 //! tries the kinds in turn, and in the checker's `walk`.
 
-pub(super) mod definite;
-pub(super) mod farkas;
+pub(crate) mod definite;
+pub(crate) mod farkas;
 pub(super) mod infinity;
 pub(super) mod ldl;
 pub(super) mod root;
 pub(super) mod support;
-pub(super) mod tail;
+pub(crate) mod tail;

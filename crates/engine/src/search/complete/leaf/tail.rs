@@ -11,8 +11,8 @@ use crate::search::complete::dyadic::short_below;
 use crate::search::complete::pieces::massless;
 use crate::search::complete::pieces::skyline::Skyline;
 use crate::tolerance::TAIL_START;
-use mceip_check::certificate::Tail;
-use mceip_exact::to_f64;
+use mceip_check::certificate::{Factor, Tail};
+use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::Pencil;
 use mceip_model::file::Number;
 
@@ -23,25 +23,42 @@ const TAIL_DOUBLINGS: i32 = 60;
 pub(crate) fn tail(pencil: &Pencil) -> Option<Tail> {
     let a = Skyline::symmetric(pencil.a());
     let b = Skyline::symmetric(pencil.b());
-    let mass_factor = if b.is_diagonal() {
-        None
-    } else {
-        Some(massless::factor(pencil.b())?)
-    };
+    let mass_factor = semidefinite(pencil.b())?;
 
     // Where sym(B) is positive definite, doubling comes to an end.
     let start = a.largest_diagonal() / b.largest_diagonal() * TAIL_START;
-    let definite_at = (0..TAIL_DOUBLINGS)
+    let definite_from = (0..TAIL_DOUBLINGS)
         .map(|k| start * f64::from(k).exp2())
         .find(|t| a.combine(*t, &b).cholesky().is_some())?;
 
-    let from = short_below(1.25 * definite_at)?;
-    let sum = a.combine(to_f64(&from), &b);
-    let slack = sum.below_spectrum()?;
-    let factor = sum.shifted(-slack).cholesky()?.rounded(slack);
+    let from = short_below(1.25 * definite_from)?;
     Some(Tail {
+        factor: definite_at(pencil, &from)?,
         from: Number(from),
-        factor,
         mass_factor,
     })
+}
+
+/// The factor that proves sym(A + tB) positive definite at a value t; `None` where it is not.
+pub(crate) fn definite_at(pencil: &Pencil, value: &Rational) -> Option<Factor> {
+    let a = Skyline::symmetric(pencil.a());
+    let b = Skyline::symmetric(pencil.b());
+    let sum = a.combine(to_f64(value), &b);
+    let slack = sum.below_spectrum()?;
+    let factor = sum.shifted(-slack).cholesky()?;
+    Some(factor.rounded(slack))
+}
+
+/// The factor that proves sym(B) positive semidefinite, none for a non-negative diagonal; `None`
+/// where it is not.
+#[allow(
+    clippy::option_option,
+    reason = "not needed is not the same as not there"
+)]
+pub(crate) fn semidefinite(b: &Sparse) -> Option<Option<Factor>> {
+    if Skyline::symmetric(b).is_diagonal() {
+        return Some(None);
+    }
+
+    massless::factor(b).map(Some)
 }

@@ -162,6 +162,28 @@ impl Elimination<'_> {
         Some(Expanded { anchor, expansion })
     }
 
+    /// V alone about the centre of an anchor of a pencil with the same free rows, whose W is `right`;
+    /// `None` where F is not definite in doubles.
+    pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[Columns]) -> Option<Expanded> {
+        let at = to_f64(&anchor.center.0);
+        let factor = self.blocks.factor_at(at)?;
+        let solution = Solution {
+            blocks: self.blocks,
+            factor: &factor,
+            center: at,
+        };
+
+        let degree = self.degree(&self.blocks.sf, FINE);
+        let left = solution.taylor(&self.blocks.sf, degree, FINE.left_bits);
+        let expansion = self.expansion(at, right, &left.rounded);
+        let anchor = Anchor {
+            left: left.integers,
+            ..anchor.clone()
+        };
+
+        Some(Expanded { anchor, expansion })
+    }
+
     /// Degree of the solution for a right-hand side.
     fn degree(&self, given: &LinearColumns, precision: Precision) -> usize {
         if !self.blocks.mass_is_zero {

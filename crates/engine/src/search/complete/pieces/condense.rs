@@ -44,7 +44,14 @@ pub(crate) struct Condensed {
 /// # Errors
 /// [`CompleteError::NotDefinite`] where A_ff is not symmetric positive definite (in doubles) or
 /// B_ff is indefinite.
-pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, CompleteError> {
+///
+/// `definite_above` is the pencil whose definiteness makes a tail: this one, or one of a family with
+/// the same free rows.
+pub(crate) fn condense(
+    pencil: &Pencil,
+    window: &Window,
+    definite_above: &Pencil,
+) -> Result<Condensed, CompleteError> {
     let blocks = Blocks::of(pencil);
     demand_symmetry(&blocks)?;
 
@@ -70,7 +77,7 @@ pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
 
     // What stands above the anchors, and where it begins.
     let above = if window.max().is_none() && !blocks.mass_is_zero {
-        Above::of(pencil, elimination.bounds)
+        Above::of(pencil, definite_above, elimination.bounds)
     } else {
         Above::Nothing
     };
@@ -162,8 +169,8 @@ enum Above {
 
 impl Above {
     /// The tail, or the reversed anchor where that begins lower.
-    fn of(pencil: &Pencil, bounds: FreeBounds) -> Above {
-        let tail = tail(pencil);
+    fn of(pencil: &Pencil, definite_above: &Pencil, bounds: FreeBounds) -> Above {
+        let tail = tail(definite_above);
         let beyond = beyond(pencil, bounds);
         match (tail, beyond) {
             (Some(tail), Some(beyond)) if to_f64(&tail.from.0) > to_f64(&beyond.from) => {
@@ -321,6 +328,44 @@ pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     }
 }
 
+/// The anchors of a condensation with V of another pencil that has the same free rows, and what they
+/// expand to; `None` where F is not definite in doubles.
+pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec<Expanded>> {
+    let bounds = bounds_of(condensation);
+    let exchanged = exchanged(pencil)?;
+    let mut anchors = Vec::with_capacity(condensation.anchors.len());
+    for anchor in &condensation.anchors {
+        let (pencil, bounds) = if anchor.reversed {
+            (&exchanged, bounds.exchanged())
+        } else {
+            (pencil, bounds)
+        };
+
+        let elimination = Elimination {
+            pencil,
+            blocks: &Blocks::of(pencil),
+            bounds,
+        };
+
+        let mut expanded = elimination.expand_beside(anchor, &right_columns(anchor, pencil))?;
+        expanded.expansion.reversed = anchor.reversed;
+        anchors.push(expanded);
+    }
+
+    Some(anchors)
+}
+
+/// The coefficients of W of an anchor, in doubles.
+fn right_columns(anchor: &Anchor, pencil: &Pencil) -> Vec<Columns> {
+    let width = pencil.slip().len();
+    let mut right = Vec::with_capacity(anchor.right.len());
+    for coefficient in &anchor.right {
+        right.push(columns_of(coefficient, width));
+    }
+
+    right
+}
+
 /// The expansion that a reversed anchor gives. `bounds` are those of the pencil as given.
 fn reversed_expansion(exchanged: &Pencil, anchor: &Anchor, bounds: FreeBounds) -> Expansion {
     let elimination = Elimination {
@@ -339,11 +384,7 @@ fn reversed_expansion(exchanged: &Pencil, anchor: &Anchor, bounds: FreeBounds) -
 fn expansion_of(elimination: &Elimination<'_>, anchor: &Anchor) -> Expansion {
     let width = elimination.blocks.slip.len();
     let center = to_f64(&anchor.center.0);
-    let mut right = Vec::with_capacity(anchor.right.len());
-    for coefficient in &anchor.right {
-        right.push(columns_of(coefficient, width));
-    }
-
+    let right = right_columns(anchor, elimination.pencil);
     let mut left = Vec::with_capacity(anchor.left.len());
     for coefficient in &anchor.left {
         left.push(columns_of(coefficient, width));

@@ -150,6 +150,23 @@ impl Expansion {
         }
     }
 
+    /// The same with row i of the pencil multiplied by `factors[i]`.
+    pub(crate) fn with_rows_times(mut self, factors: &[f64]) -> Expansion {
+        for coefficient in &mut self.coefficients {
+            for (row, factor) in coefficient.iter_mut().zip(factors) {
+                row.iter_mut().for_each(|entry| *entry *= factor);
+            }
+        }
+
+        for norms in self.left_residual.iter_mut().chain(&mut self.left_solution) {
+            for (norm, factor) in norms.iter_mut().zip(factors) {
+                *norm *= factor;
+            }
+        }
+
+        self
+    }
+
     /// Is this the pencil itself, valid for every value?
     pub(crate) fn is_everywhere(&self) -> bool {
         self.free.is_empty()

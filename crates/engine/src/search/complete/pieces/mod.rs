@@ -8,14 +8,14 @@
 //! | [`anchor`], [`precise_anchor`], [`reverse`] | the elimination about one value |
 //! | [`blocks`], [`skyline`], [`massless`], [`matrix`] | linear algebra in doubles |
 
-pub(super) mod anchor;
-pub(super) mod blocks;
-pub(super) mod condense;
-pub(super) mod expansion;
-pub(super) mod massless;
-pub(super) mod matrix;
-pub(super) mod precise_anchor;
-pub(super) mod prepared;
-pub(super) mod reverse;
-pub(super) mod skyline;
-pub(super) mod view;
+pub(crate) mod anchor;
+pub(crate) mod blocks;
+pub(crate) mod condense;
+pub(crate) mod expansion;
+pub(crate) mod massless;
+pub(crate) mod matrix;
+pub(crate) mod precise_anchor;
+pub(crate) mod prepared;
+pub(crate) mod reverse;
+pub(crate) mod skyline;
+pub(crate) mod view;

@@ -273,7 +273,7 @@ mod tests {
         assert_eq!(rows[1].slip[0].at_center, 1.into());
 
         let window = Window::new(whole(0), Some(whole(2))).unwrap();
-        let condensation = condense(&pencil, &window).unwrap().condensation;
+        let condensation = condense(&pencil, &window, &pencil).unwrap().condensation;
         let anchor = precise_anchor(&pencil, &condensation, &whole(1)).unwrap();
 
         // F W_0 = (1, 1)' with F = [[4, -1], [-1, 3]].

@@ -41,23 +41,23 @@ const SLACK_OF_REACH: f64 = 0.2;
 
 /// An interval of the window: it begins where the one before ends.
 #[derive(Clone)]
-struct Interval {
+pub(crate) struct Interval {
     /// Upper end; `None` for infinity.
-    max: Option<Rational>,
+    pub(crate) max: Option<Rational>,
     /// The anchor of the condensation that encloses the pencil there.
-    anchor: Option<usize>,
+    pub(crate) anchor: Option<usize>,
 }
 
 /// What a search needs before it begins.
 #[derive(Clone)]
 pub(crate) struct Prepared {
     pub(crate) view: View,
-    condensation: Option<Condensation>,
+    pub(crate) condensation: Option<Condensation>,
     /// Smallest eigenvalue of (A_ff, B_ff), where the elimination depends on the unknown.
-    lowest_frequency: f64,
+    pub(crate) lowest_frequency: f64,
     /// Values up to this share the anchor of the window's lower end; 0 where there is none.
     shared_up_to: f64,
-    intervals: Vec<Interval>,
+    pub(crate) intervals: Vec<Interval>,
 }
 
 impl Prepared {
@@ -69,6 +69,20 @@ impl Prepared {
     pub(crate) fn new(
         problem: &Problem,
         pencil: &Pencil,
+        count: usize,
+    ) -> Result<Prepared, CompleteError> {
+        Prepared::of_family(problem, pencil, pencil, count)
+    }
+
+    /// The same where the tail, if there is one, is to hold for another pencil of a family with the
+    /// same free rows.
+    ///
+    /// # Errors
+    /// As [`Prepared::new`].
+    pub(crate) fn of_family(
+        problem: &Problem,
+        pencil: &Pencil,
+        definite_above: &Pencil,
         count: usize,
     ) -> Result<Prepared, CompleteError> {
         let slip = pencil.slip().len();
@@ -86,7 +100,7 @@ impl Prepared {
         let window = problem.window();
         if !pencil.free().is_empty() {
             return Ok(Prepared::condensed(
-                condense(pencil, window)?,
+                condense(pencil, window, definite_above)?,
                 window,
                 count,
             ));
@@ -199,15 +213,21 @@ impl Prepared {
     /// Gives each of these values (ascending) an anchor and a piece around it, cut out of the
     /// pieces there are. Values near one another share one, and those next to the lower end of the
     /// window that of [`Prepared::with_lower_anchor`].
-    pub(crate) fn refined(
+    pub(crate) fn refined(self, problem: &Problem, pencil: &Pencil, values: &[f64]) -> Prepared {
+        self.refined_within(NEAR, problem, pencil, values)
+    }
+
+    /// The same with anchors that are used within `near`, relative to value + lowest frequency.
+    pub(crate) fn refined_within(
         mut self,
+        near: f64,
         problem: &Problem,
         pencil: &Pencil,
         values: &[f64],
     ) -> Prepared {
         let mut apart: Vec<f64> = Vec::new();
         for &value in values.iter().filter(|v| **v > self.shared_up_to) {
-            let least_distance = 3.0 * self.reach(value);
+            let least_distance = 3.0 * self.reach(value, near);
             if apart.last().is_none_or(|l| value - l > least_distance) {
                 apart.push(value);
             }
@@ -224,7 +244,7 @@ impl Prepared {
         }
 
         for (k, value) in apart.iter().enumerate() {
-            let reach = self.reach(*value);
+            let reach = self.reach(*value, near);
             let slack = SLACK_OF_REACH * reach;
             let begin = short_near(value - reach, slack);
             let end = short_near(value + reach, slack);
@@ -278,9 +298,9 @@ impl Prepared {
     }
 
     /// Up to where the anchor about a value is used: the expansions reach as far as value + lowest
-    /// frequency.
-    fn reach(&self, value: f64) -> f64 {
-        let by_frequency = NEAR * (value + self.lowest_frequency);
+    /// frequency, of which `near` is a share.
+    fn reach(&self, value: f64, near: f64) -> f64 {
+        let by_frequency = near * (value + self.lowest_frequency);
         by_frequency.min(0.5 * value)
     }
 

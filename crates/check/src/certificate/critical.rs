@@ -1,0 +1,255 @@
+//! `mceip-critical/1`: the certificate that there is no solution below a friction, and its file
+//! form.
+//!
+//! The file states: for the mechanical system of the problem, with its contact states and signs,
+//! every mu in [0, `below`] and every lambda^2 >= 0, problem (9) has no solution. The friction of
+//! the problem file plays no part. So the critical friction, the infimum of mu over the solutions
+//! with lambda^2 >= 0, is at least `below`.
+//!
+//! With t = lambda^2 the pencil and its Schur complement are affine in mu,
+//!
+//! ```text
+//!     T(t, mu) = T0(t) + mu T1(t),
+//! ```
+//!
+//! where T0 has the slip rows -S_p t_p'(K + tM) v and T1 the slip rows -n_p'(K + tM) v. The free
+//! rows do not depend on mu. The file cuts [0, infinity) x [0, below] into boxes, and (supports)
+//! with them, and each leaf proves that its box holds no solution.
+//!
+//! This module holds data and reads and writes it; it decides nothing. The checker is
+//! `crate::critical`, the normative text is `spec/certificates.md`, 5.18.
+
+use super::{Factor, IntegerMatrix, Number, object};
+use mceip_exact::Rational;
+use mceip_model::ModelError;
+use mceip_model::file::{from_json, require_format, word_or_kind};
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// The format of certified absence below a friction.
+pub const CRITICAL_FORMAT: &str = "mceip-critical/1";
+
+/// The claim that there is no solution with mu in [0, `below`] and lambda^2 >= 0, and its proof.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CriticalCertificate {
+    /// SHA-256 of the problem's canonical form.
+    pub problem_sha256: String,
+    /// Largest friction of which absence is claimed; > 0.
+    pub below: Rational,
+    /// How the free variables were eliminated; absent where there are none.
+    pub condensation: Option<CriticalCondensation>,
+    /// Consecutive intervals of lambda^2 from 0 to infinity.
+    pub pieces: Vec<CriticalPiece>,
+}
+
+/// One interval of lambda^2 and the tree that covers it, with mu in [0, `below`].
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CriticalPiece {
+    /// Upper end, where the next piece begins; null for infinity, but not absent.
+    #[serde(deserialize_with = "super::cover::present")]
+    pub max: Option<Number>,
+    /// The anchor of the condensation that encloses the pencil here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub anchor: Option<usize>,
+    /// The tree in preorder.
+    pub tree: Vec<CriticalNode>,
+}
+
+/// A node of the tree, in preorder. Each leaf proves that its box holds no solution.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CriticalNode {
+    /// Cuts the interval of lambda^2: the lower part follows, then the upper part.
+    Split(Number),
+    /// Cuts the interval of mu: the lower part follows, then the upper part.
+    Friction(Number),
+    /// Decides a slip variable, by its index in the pencil: x_i = 0 follows, then x_i > 0.
+    Branch(usize),
+    /// Weights w, one per slip variable, as in [`super::Node::Farkas`], at all four corners.
+    Farkas(Vec<i64>),
+    /// sym(T) is positive definite on the variables that may be positive, at all four corners.
+    PositiveDefinite,
+    /// sym(T) is negative definite there.
+    NegativeDefinite,
+    /// The condensation's tail begins at or below this box.
+    Tail,
+}
+
+/// Elimination of the free variables by F(t) = T_ff(t), enclosed without inverting F. F and T_fs do
+/// not depend on mu.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CriticalCondensation {
+    /// sigma > 0 with K_ff - sigma I positive semidefinite.
+    pub sigma: Number,
+    /// Approximate Cholesky factor of K_ff - sigma I.
+    #[serde(deserialize_with = "object::one")]
+    pub stiffness_factor: Factor,
+    /// tau >= 0 with M_ff - tau I positive semidefinite.
+    pub mass_sigma: Number,
+    /// Approximate Cholesky factor of M_ff - tau I, where that is neither zero nor a non-negative
+    /// diagonal.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
+    pub mass_factor: Option<Factor>,
+    /// Centres at which both parts of the condensed pencil are expanded.
+    #[serde(deserialize_with = "object::list")]
+    pub anchors: Vec<CriticalAnchor>,
+    /// Proof that nothing lies above some lambda^2, for [`CriticalNode::Tail`].
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
+    pub tail: Option<CriticalTail>,
+}
+
+/// Approximations in powers of (t - center), as in [`super::Anchor`].
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CriticalAnchor {
+    /// The value expanded about; of a reversed anchor its reciprocal.
+    pub center: Number,
+    /// Does it expand in powers of s - center, s = 1 / t?
+    #[serde(default, skip_serializing_if = "super::cover::is_false")]
+    pub reversed: bool,
+    /// Coefficients of F^-1 T_fs.
+    #[serde(deserialize_with = "object::list")]
+    pub right: Vec<IntegerMatrix>,
+    /// Coefficients of F^-1 T_sf', T_sf that of mu = 0.
+    #[serde(deserialize_with = "object::list")]
+    pub left: Vec<IntegerMatrix>,
+    /// Coefficients of F^-1 T_sf', T_sf the coefficient of mu.
+    #[serde(deserialize_with = "object::list")]
+    pub left_friction: Vec<IntegerMatrix>,
+}
+
+/// From `from` on, the symmetric part of the whole pencil is definite for every mu in [0, `below`].
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CriticalTail {
+    /// Where it begins.
+    pub from: Number,
+    /// Approximate Cholesky factor of sym(A + from B) at mu = 0.
+    #[serde(deserialize_with = "object::one")]
+    pub factor: Factor,
+    /// The same at mu = `below`.
+    #[serde(deserialize_with = "object::one")]
+    pub factor_below: Factor,
+    /// Approximate Cholesky factor of sym(B) at mu = 0, where that is no non-negative diagonal.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
+    pub mass_factor: Option<Factor>,
+    /// The same at mu = `below`.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
+    pub mass_factor_below: Option<Factor>,
+}
+
+/// The nodes that stand in a file as words.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum NodeWord {
+    PositiveDefinite,
+    NegativeDefinite,
+    Tail,
+}
+
+/// The nodes that stand in a file as objects with one key.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum NodeKind {
+    Split(Number),
+    Friction(Number),
+    Branch(usize),
+    Farkas(Vec<i64>),
+}
+
+impl From<NodeWord> for CriticalNode {
+    fn from(word: NodeWord) -> CriticalNode {
+        match word {
+            NodeWord::PositiveDefinite => CriticalNode::PositiveDefinite,
+            NodeWord::NegativeDefinite => CriticalNode::NegativeDefinite,
+            NodeWord::Tail => CriticalNode::Tail,
+        }
+    }
+}
+
+impl From<NodeKind> for CriticalNode {
+    fn from(kind: NodeKind) -> CriticalNode {
+        match kind {
+            NodeKind::Split(at) => CriticalNode::Split(at),
+            NodeKind::Friction(at) => CriticalNode::Friction(at),
+            NodeKind::Branch(index) => CriticalNode::Branch(index),
+            NodeKind::Farkas(weights) => CriticalNode::Farkas(weights),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for CriticalNode {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        word_or_kind::<D, NodeWord, NodeKind, CriticalNode>(
+            deserializer,
+            "a node: a word, or an object with one key",
+        )
+    }
+}
+
+/// The file form of a [`CriticalCertificate`].
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    format: String,
+    problem_sha256: String,
+    below: Number,
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
+    condensation: Option<CriticalCondensation>,
+    #[serde(deserialize_with = "object::list")]
+    pieces: Vec<CriticalPiece>,
+}
+
+impl CriticalCertificate {
+    /// The certificate as JSON.
+    pub fn to_json(&self) -> String {
+        let file = File {
+            format: CRITICAL_FORMAT.into(),
+            problem_sha256: self.problem_sha256.clone(),
+            below: Number(self.below.clone()),
+            condensation: self.condensation.clone(),
+            pieces: self.pieces.clone(),
+        };
+
+        // The file consists of strings, numbers and lists, so writing it cannot fail.
+        serde_json::to_string(&file).unwrap_or_default()
+    }
+
+    /// Reads a certificate.
+    ///
+    /// # Errors
+    /// [`ModelError`]: not JSON of this shape, another version, unknown or duplicate fields, a
+    /// number that cannot be read.
+    pub fn from_json(text: &str) -> Result<CriticalCertificate, ModelError> {
+        require_format(text, CRITICAL_FORMAT)?;
+        let file: File = from_json(text)?;
+
+        Ok(CriticalCertificate {
+            problem_sha256: file.problem_sha256,
+            below: file.below.0,
+            condensation: file.condensation,
+            pieces: file.pieces,
+        })
+    }
+}

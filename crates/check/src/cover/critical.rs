@@ -1,0 +1,440 @@
+//! Absence below a friction: a cover of (supports) x [0, infinity) x [0, below].
+//!
+//! For a mechanical system the condensed pencil is affine in mu, T(t, mu) = T0(t) + mu T1(t), with
+//! t = lambda^2: only the slip rows depend on mu, and the elimination of the free variables uses
+//! the free rows and columns alone. Each part is enclosed over an interval of t as in `family`, and
+//! both by convex combinations with the same weights.
+//!
+//! A *box* is an interval of t, an interval [lower, higher] of mu and a state of each slip
+//! variable. Its *corners* are, for both ends e of the interval of t and both ends k of that of mu,
+//!
+//! ```text
+//!     M_e0 + mu_k M_e1    with the radius    R_e0 + mu_k R_e1.
+//! ```
+//!
+//! T is linear in mu for every t, so every T(t, mu) of the box is a convex combination of matrices
+//! within these radii; at an infinite end, of those at the lower end plus a non-negative multiple
+//! of such a combination at the upper one. Leaves prove what is linear in T at the four corners,
+//! with the code for covers of one window (`farkas`, `definite`).
+//!
+//! *Tail.* sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite at
+//! mu = 0 and at mu = `below`, so at every mu between.
+//!
+//! Every leaf proves that its box holds no solution. Trees are read as in `walk`, with one more
+//! node that cuts the interval of mu.
+
+use super::budget::WorkBudget;
+use super::ends::{Corner, Ends, FRACTION_BITS, rational_bits, within_matrix_bits};
+use super::family::{AnchorExpansion, Family, Linear, end_bits, row_bits, words};
+use super::fault::CoverFault;
+use super::region::{Matrices, Region, State};
+use super::walk::NodeFault;
+use super::{check_anchor, check_end, check_size, condensed, definite, farkas};
+use crate::certificate::{CriticalCertificate, CriticalNode, CriticalPiece, CriticalTail};
+use crate::pencil::FrictionParts;
+use crate::reason::Reason;
+use mceip_exact::Rational;
+use mceip_model::Window;
+use num_traits::Zero;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// The corners of a box, as messages name them: first those at the lower friction.
+const CORNERS: [[&str; 2]; 2] = [
+    ["lower, low-friction", "upper, low-friction"],
+    ["lower, high-friction", "upper, high-friction"],
+];
+
+/// Checks that the boxes cover everything and that each holds no solution. Returns the number of
+/// leaves.
+///
+/// With a list `refused`, a leaf that fails is passed over and noted there (piece, node).
+pub(crate) fn check(
+    parts: &FrictionParts,
+    certificate: &CriticalCertificate,
+    refused: Option<&mut Vec<(usize, usize)>>,
+) -> Result<usize, Reason> {
+    let is_free = &parts.plain.is_free;
+    let index: Vec<usize> = (0..is_free.len()).filter(|&i| !is_free[i]).collect();
+    let condensation = certificate.condensation.as_ref();
+    // Each anchor is expanded for both parts.
+    let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(2));
+    check_size(index.len(), expansions).map_err(of_file)?;
+
+    let families = families(parts, certificate).map_err(of_file)?;
+    let tail = condensation.and_then(|c| c.tail.as_ref());
+    if let Some(tail) = tail {
+        check_tail(parts, &certificate.below, tail).map_err(of_file)?;
+    }
+
+    let nodes = certificate.pieces.iter().map(|p| p.tree.len() as u64).sum();
+    let mut walk = BoxWalk {
+        families,
+        index,
+        below: &certificate.below,
+        tail: tail.map(|tail| &tail.from.0),
+        leaves: 0,
+        definite_budget: WorkBudget::of_definite_leaves([&parts.plain, &parts.friction], nodes),
+        matrix_budget: WorkBudget::of_matrices(nodes),
+        refused,
+    };
+    check_pieces(&mut walk, &certificate.pieces)?;
+
+    Ok(walk.leaves)
+}
+
+/// The enclosures of T0 and T1. A condensation is there exactly if there are free variables.
+fn families(
+    parts: &FrictionParts,
+    certificate: &CriticalCertificate,
+) -> Result<[Family; 2], CoverFault> {
+    let has_free = parts.plain.is_free.contains(&true);
+
+    match &certificate.condensation {
+        None if !has_free => {
+            let own = row_bits(&parts.plain).into_iter();
+            let bits: Vec<u64> = own
+                .zip(row_bits(&parts.friction))
+                .map(|(plain, friction)| plain.max(friction))
+                .collect();
+            let linear = |rows| Family::Linear(Linear::scaled(rows, &bits));
+            Ok([linear(&parts.plain), linear(&parts.friction)])
+        }
+        Some(condensation) if has_free => {
+            let expansions = condensed::of_parts(parts, condensation)?;
+            Ok(expansions.map(family_of_anchors))
+        }
+        _ => Err(CoverFault::Condensation { expected: has_free }),
+    }
+}
+
+/// Boxes are computed in long numbers, so no short ones are kept.
+fn family_of_anchors(expansions: Vec<super::expanded::Expanded>) -> Family {
+    let anchors = expansions.into_iter().map(|expanded| AnchorExpansion {
+        expanded,
+        short: None,
+    });
+    Family::Condensed(anchors.collect())
+}
+
+/// The whole pencil is definite from `tail.from` on, at mu = 0 and at mu = `below`.
+fn check_tail(
+    parts: &FrictionParts,
+    below: &Rational,
+    tail: &CriticalTail,
+) -> Result<(), CoverFault> {
+    let from = &tail.from.0;
+    let mass_factor = tail.mass_factor.as_ref();
+    condensed::tail(&parts.plain, from, &tail.factor, mass_factor)?;
+
+    let mass_factor = tail.mass_factor_below.as_ref();
+    condensed::tail(&parts.at(below), from, &tail.factor_below, mass_factor)
+}
+
+/// Checks the pieces: they follow one another from 0 to infinity, and each tree covers its piece.
+fn check_pieces(walk: &mut BoxWalk<'_>, pieces: &[CriticalPiece]) -> Result<(), Reason> {
+    let window = Window::all();
+    let mut lo = window.min().clone();
+
+    for (k, piece) in pieces.iter().enumerate() {
+        let is_last = k + 1 == pieces.len();
+        let max = piece.max.as_ref().map(|n| &n.0);
+        check_anchor(&walk.families[0], piece.anchor).map_err(|fault| of_piece(k, fault))?;
+        check_end(&window, &lo, max, is_last).map_err(|fault| of_piece(k, fault))?;
+        walk.piece(k, &lo, piece).map_err(|at| Reason::Boxes {
+            piece: Some(k),
+            node: Some(at.node),
+            fault: at.fault,
+        })?;
+
+        if let Some(max) = max {
+            lo = max.clone();
+        }
+    }
+
+    if pieces.is_empty() {
+        return Err(of_file(CoverFault::PieceEnd {
+            expected: super::end(window.max()),
+            got: lo.to_string(),
+        }));
+    }
+
+    Ok(())
+}
+
+/// A box: a region of (supports) x (values of t), and an interval of mu.
+struct FrictionBox {
+    /// Holds the matrices of T0 as well.
+    region: Region,
+    /// The ends of the interval of mu.
+    friction: [Rational; 2],
+    /// The matrices of T1, shared like those of the region.
+    friction_matrices: Rc<Matrices>,
+    corners: Rc<BoxCorners>,
+}
+
+/// The matrices at the lower and at the higher friction, computed when they are asked for. Boxes
+/// that differ in their states alone share them.
+#[derive(Default)]
+struct BoxCorners(RefCell<Option<Rc<[Ends; 2]>>>);
+
+impl FrictionBox {
+    /// The values of t up to a cut and those from it on.
+    fn split(self, at: &Rational) -> Result<[FrictionBox; 2], CoverFault> {
+        let halves = self.region.split(at)?;
+        self.friction_matrices.forget();
+        self.corners.0.take();
+
+        Ok(halves.map(|region| FrictionBox {
+            region,
+            friction: self.friction.clone(),
+            friction_matrices: Rc::default(),
+            corners: Rc::default(),
+        }))
+    }
+
+    /// x_i = 0 and x_i > 0 for an undecided variable i.
+    fn branch(self, index: usize, indices: &[usize]) -> Result<[FrictionBox; 2], CoverFault> {
+        let halves = self.region.branch(index, indices)?;
+
+        Ok(halves.map(|region| FrictionBox {
+            region,
+            friction: self.friction.clone(),
+            friction_matrices: Rc::clone(&self.friction_matrices),
+            corners: Rc::clone(&self.corners),
+        }))
+    }
+
+    /// The values of mu up to a cut and those from it on.
+    fn split_friction(self, at: &Rational) -> Result<[FrictionBox; 2], CoverFault> {
+        let [lower, higher] = self.friction;
+        if *at <= lower || *at >= higher {
+            return Err(CoverFault::FrictionCut {
+                lower,
+                higher,
+                got: at.clone(),
+            });
+        }
+
+        self.corners.0.take();
+        let halves = [[lower, at.clone()], [at.clone(), higher]];
+        Ok(halves.map(|friction| FrictionBox {
+            region: self.region.same(),
+            friction,
+            friction_matrices: Rc::clone(&self.friction_matrices),
+            corners: Rc::default(),
+        }))
+    }
+}
+
+/// What a walk through the trees reads, and what is left of the budgets of the file.
+struct BoxWalk<'a> {
+    /// T0 and T1.
+    families: [Family; 2],
+    /// The slip variables: positions in states and matrices to indices of the pencil.
+    index: Vec<usize>,
+    below: &'a Rational,
+    /// No solution has a value of t at or above this.
+    tail: Option<&'a Rational>,
+    leaves: usize,
+    definite_budget: WorkBudget,
+    matrix_budget: WorkBudget,
+    /// Where leaves that fail are noted (piece, node), if they are to be passed over.
+    refused: Option<&'a mut Vec<(usize, usize)>>,
+}
+
+impl BoxWalk<'_> {
+    /// Walks the tree of the piece with this number, which begins at `lo`.
+    fn piece(
+        &mut self,
+        number: usize,
+        lo: &Rational,
+        piece: &CriticalPiece,
+    ) -> Result<(), NodeFault> {
+        let region = Region {
+            lo: lo.clone(),
+            hi: piece.max.as_ref().map(|n| n.0.clone()),
+            states: vec![State::Undecided; self.index.len()],
+            matrices: Rc::default(),
+        };
+        let mut stack = vec![FrictionBox {
+            region,
+            friction: [Rational::zero(), self.below.clone()],
+            friction_matrices: Rc::default(),
+            corners: Rc::default(),
+        }];
+
+        for (k, node) in piece.tree.iter().enumerate() {
+            let at_node = |fault| NodeFault { node: k, fault };
+            let at = stack.pop().ok_or(at_node(CoverFault::Trailing))?;
+
+            let halves = match node {
+                CriticalNode::Split(t) => Some(at.split(&t.0)),
+                CriticalNode::Friction(mu) => Some(at.split_friction(&mu.0)),
+                CriticalNode::Branch(index) => Some(at.branch(*index, &self.index)),
+                leaf => {
+                    self.leaves += 1;
+                    let verdict = self.leaf(&at, piece.anchor, leaf);
+                    self.settle(verdict, (number, k)).map_err(at_node)?;
+                    None
+                }
+            };
+
+            if let Some(halves) = halves {
+                // The box on top of the stack is the next one.
+                let [first, second] = halves.map_err(at_node)?;
+                stack.extend([second, first]);
+            }
+        }
+
+        if stack.is_empty() {
+            return Ok(());
+        }
+
+        Err(NodeFault {
+            node: piece.tree.len(),
+            fault: CoverFault::Truncated {
+                regions: stack.len(),
+            },
+        })
+    }
+
+    /// Passes on the verdict on a leaf, or notes where one fails.
+    fn settle(
+        &mut self,
+        verdict: Result<(), CoverFault>,
+        place: (usize, usize),
+    ) -> Result<(), CoverFault> {
+        match (&verdict, self.refused.as_mut()) {
+            (Err(_), Some(refused)) => {
+                refused.push(place);
+                Ok(())
+            }
+            _ => verdict,
+        }
+    }
+
+    /// Checks the proof of a leaf.
+    fn leaf(
+        &self,
+        at: &FrictionBox,
+        anchor: Option<usize>,
+        node: &CriticalNode,
+    ) -> Result<(), CoverFault> {
+        let region = &at.region;
+
+        match node {
+            // These are no leaves.
+            CriticalNode::Split(_) | CriticalNode::Friction(_) | CriticalNode::Branch(_) => Ok(()),
+            CriticalNode::Tail => region.is_in_tail(self.tail),
+            CriticalNode::Farkas(w) => {
+                farkas::check_weights(region, &self.index, w)?;
+                let ends = self.corners(at, anchor)?;
+                farkas::check_columns(region, &four_corners(&ends), &self.index, w)
+            }
+            CriticalNode::PositiveDefinite => self.definite(at, anchor, 1),
+            CriticalNode::NegativeDefinite => self.definite(at, anchor, -1),
+        }
+    }
+
+    fn definite(
+        &self,
+        at: &FrictionBox,
+        anchor: Option<usize>,
+        sign: i8,
+    ) -> Result<(), CoverFault> {
+        // Twice the corners of a leaf of one window.
+        let order = at.region.possible_support().len() as u64;
+        self.definite_budget.spend(order.saturating_pow(3) * 2)?;
+
+        let ends = self.corners(at, anchor)?;
+        definite::check_corners(&at.region, &four_corners(&ends), &self.index, sign)
+    }
+
+    /// The matrices of the box at its lower and at its higher friction, computed once for all boxes
+    /// that differ in their states alone.
+    fn corners(
+        &self,
+        at: &FrictionBox,
+        anchor: Option<usize>,
+    ) -> Result<Rc<[Ends; 2]>, CoverFault> {
+        if let Some(corners) = &*at.corners.0.borrow() {
+            return Ok(Rc::clone(corners));
+        }
+
+        let region = &at.region;
+        let plain = self.ends(0, region, &region.matrices, anchor)?;
+        let friction = self.ends(1, region, &at.friction_matrices, anchor)?;
+
+        self.spend_corners(at)?;
+        let corners = at
+            .friction
+            .each_ref()
+            .map(|mu| plain.plus_multiple(&friction, mu));
+        let corners = Rc::new(corners);
+        at.corners.0.replace(Some(Rc::clone(&corners)));
+        Ok(corners)
+    }
+
+    /// The matrices of a part at the ends of the interval of t.
+    fn ends(
+        &self,
+        part: usize,
+        region: &Region,
+        matrices: &Matrices,
+        anchor: Option<usize>,
+    ) -> Result<Rc<Ends>, CoverFault> {
+        let family = &self.families[part];
+        let lo = &region.lo;
+        let hi = region.hi.as_ref();
+
+        matrices.ends(|| {
+            self.matrix_budget
+                .spend(family.matrix_work(anchor, lo, hi))?;
+            family.ends(anchor, lo, hi)
+        })
+    }
+
+    /// Demands that the corners of the box are small enough, and takes their work from the budget:
+    /// each entry of the ends is multiplied by a value of mu.
+    fn spend_corners(&self, at: &FrictionBox) -> Result<(), CoverFault> {
+        let order = self.index.len();
+        let end_bits = FRACTION_BITS + end_bits(&at.region.lo, at.region.hi.as_ref());
+        let [lower, higher] = &at.friction;
+        let friction_bits = rational_bits(lower) + rational_bits(higher);
+
+        let what = "bits of a box's matrix";
+        within_matrix_bits(what, order, 1, end_bits + friction_bits)?;
+
+        let entries = (order * order) as u64;
+        let products = words(end_bits).saturating_mul(words(friction_bits));
+        self.matrix_budget.spend(entries.saturating_mul(products))
+    }
+}
+
+/// The corners at the lower friction, then those at the higher one.
+fn four_corners(ends: &[Ends; 2]) -> [Corner<'_>; 4] {
+    let [lower, higher] = ends;
+    let [a, b] = lower.corners(CORNERS[0]);
+    let [c, d] = higher.corners(CORNERS[1]);
+    [a, b, c, d]
+}
+
+fn of_file(fault: CoverFault) -> Reason {
+    Reason::Boxes {
+        piece: None,
+        node: None,
+        fault,
+    }
+}
+
+fn of_piece(piece: usize, fault: CoverFault) -> Reason {
+    Reason::Boxes {
+        piece: Some(piece),
+        node: None,
+        fault,
+    }
+}
+
+#[cfg(test)]
+mod tests;

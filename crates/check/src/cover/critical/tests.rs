@@ -1,0 +1,309 @@
+//! The corners of boxes against the Schur complement in rational numbers, for a system with two
+//! free degrees of freedom, an oblique particle and a consistent mass.
+
+use super::*;
+use crate::certificate::{CriticalAnchor, CriticalCondensation, Factor, IntegerMatrix};
+use crate::pencil::Rows;
+use mceip_exact::{Integer, Sparse, rational, whole};
+use mceip_model::file::Number;
+use mceip_model::{ContactState, Particle, System};
+use num_traits::{One, Signed};
+
+type Dense = Vec<Vec<Rational>>;
+
+/// A symmetric matrix of order 6 with entries from -3 to 3 over `denominator`, and `diagonal` added
+/// to its diagonal.
+fn symmetric(diagonal: i64, denominator: i64) -> Sparse {
+    let mut entries = Vec::new();
+    for i in 0..6 {
+        for j in 0..6 {
+            let digit = (3 * i.min(j) + 5 * i.max(j)) % 7;
+            let value = rational(digit as i64 - 3, denominator);
+            let shift = whole(if i == j { diagonal } else { 0 });
+            entries.push((i, j, value + shift));
+        }
+    }
+    Sparse::from_entries(6, 6, entries)
+}
+
+fn parts() -> FrictionParts {
+    let oblique = Particle {
+        frame: Some([
+            [rational(3, 5), rational(4, 5)],
+            [rational(-4, 5), rational(3, 5)],
+        ]),
+        ..Particle::plain(0, 1, ContactState::Slip { sign: 1 })
+    };
+    let along_the_axes = Particle {
+        normal_direction: -1,
+        ..Particle::plain(4, 5, ContactState::Slip { sign: -1 })
+    };
+    let mass = symmetric(5, 3);
+    let particles = vec![oblique, along_the_axes];
+    let system = System::new(
+        symmetric(20, 1),
+        Some(mass.clone()),
+        Some(whole(1)),
+        particles,
+    );
+    FrictionParts::of(&system.unwrap(), &mass)
+}
+
+/// The columns `free` or `slip` of the row as a matrix at t, exact, times the factor of the row.
+fn block(rows: &Rows, of_free_rows: bool, of_free_columns: bool, t: &Rational) -> Dense {
+    let mut block = Dense::new();
+    for (i, row) in rows.rows.iter().enumerate() {
+        if rows.is_free[i] != of_free_rows {
+            continue;
+        }
+
+        let mut dense = vec![whole(0); rows.order()];
+        for (j, a, b) in row {
+            let value = Rational::from_integer(a.clone()) + t * Rational::from_integer(b.clone());
+            dense[*j] = value;
+        }
+        let columns = (0..rows.order()).filter(|&j| rows.is_free[j] == of_free_columns);
+        block.push(columns.map(|j| dense[j].clone()).collect());
+    }
+    block
+}
+
+/// F^-1 C for F of order 2.
+fn solve(f: &Dense, c: &Dense) -> Dense {
+    let determinant = &f[0][0] * &f[1][1] - &f[0][1] * &f[1][0];
+    let mut solution = Dense::new();
+    for (i, other) in [(0, 1), (1, 0)] {
+        let row = (0..c[0].len())
+            .map(|j| (&f[other][other] * &c[i][j] - &f[i][other] * &c[other][j]) / &determinant);
+        solution.push(row.collect());
+    }
+    solution
+}
+
+/// T_ss - T_sf F^-1 T_fs of a part, rows times their factors.
+fn schur(rows: &Rows, t: &Rational) -> Dense {
+    let mut schur = block(rows, false, false, t);
+    let sf = block(rows, false, true, t);
+    let w = solve(&block(rows, true, true, t), &block(rows, true, false, t));
+
+    for (row, sf_row) in schur.iter_mut().zip(&sf) {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry -= &sf_row[0] * &w[0][j] + &sf_row[1] * &w[1][j];
+        }
+    }
+    schur
+}
+
+/// Entries in units of 2^-`exponent`, rounded down.
+fn rounded(matrix: &Dense, exponent: u32) -> IntegerMatrix {
+    let unit = Rational::from_integer(Integer::one() << exponent);
+    let row = |row: &Vec<Rational>| {
+        row.iter()
+            .map(|v| (v * &unit).floor().to_integer())
+            .collect()
+    };
+    IntegerMatrix {
+        exponent,
+        rows: matrix.iter().map(row).collect(),
+    }
+}
+
+/// F^-1 T_sf' of a part at t, with the rows as given.
+fn left(rows: &Rows, t: &Rational) -> Dense {
+    let sf = block(rows, false, true, t);
+    let slip_factors = rows
+        .factor
+        .iter()
+        .zip(&rows.is_free)
+        .filter(|(_, free)| !**free);
+    let factors: Vec<Rational> = slip_factors
+        .map(|(factor, _)| Rational::from_integer(factor.clone()))
+        .collect();
+    let transposed: Dense = (0..2)
+        .map(|k| (0..2).map(|i| &sf[i][k] / &factors[i]).collect())
+        .collect();
+
+    // The free rows have one factor in common.
+    let mut f = block(rows, true, true, t);
+    for (row, factor) in f.iter_mut().zip(&rows.factor) {
+        for entry in row {
+            *entry /= Rational::from_integer(factor.clone());
+        }
+    }
+    solve(&f, &transposed)
+}
+
+/// Constants at the centre, and one anchor for 1/t with nothing at all.
+fn condensation(parts: &FrictionParts, center: &Rational, exponent: u32) -> CriticalCondensation {
+    let plain = &parts.plain;
+    let right = solve(
+        &block(plain, true, true, center),
+        &block(plain, true, false, center),
+    );
+    let factor = |diagonal: i64| Factor {
+        first: vec![0, 0],
+        rows: vec![
+            vec![Integer::from(diagonal)],
+            vec![0.into(), diagonal.into()],
+        ],
+        exponent: 0,
+    };
+
+    CriticalCondensation {
+        sigma: Number(whole(6)),
+        stiffness_factor: factor(3),
+        mass_sigma: Number(whole(1)),
+        mass_factor: Some(factor(1)),
+        anchors: vec![
+            CriticalAnchor {
+                center: Number(center.clone()),
+                reversed: false,
+                right: vec![rounded(&right, exponent)],
+                left: vec![rounded(&left(plain, center), exponent)],
+                left_friction: vec![rounded(&left(&parts.friction, center), exponent)],
+            },
+            CriticalAnchor {
+                center: Number(whole(0)),
+                reversed: true,
+                right: vec![],
+                left: vec![],
+                left_friction: vec![],
+            },
+        ],
+        tail: None,
+    }
+}
+
+fn walk(families: [Family; 2], below: &Rational) -> BoxWalk<'_> {
+    BoxWalk {
+        families,
+        index: vec![2, 3],
+        below,
+        tail: None,
+        leaves: 0,
+        definite_budget: WorkBudget::definite_leaves(1 << 30),
+        matrix_budget: WorkBudget::matrices(1 << 30),
+        refused: None,
+    }
+}
+
+fn boxed(t: [Rational; 2], friction: [Rational; 2]) -> FrictionBox {
+    let [lo, hi] = t;
+    FrictionBox {
+        region: Region {
+            lo,
+            hi: Some(hi),
+            states: vec![State::Undecided; 2],
+            matrices: Rc::default(),
+        },
+        friction,
+        friction_matrices: Rc::default(),
+        corners: Rc::default(),
+    }
+}
+
+/// Demands that T(t, mu), scaled, lies within the combination of the corners with these shares of
+/// the upper end and of the higher friction. Returns the largest radius.
+fn assert_enclosed(
+    ends: &[Ends; 2],
+    [upper, higher]: [&Rational; 2],
+    truth: &Dense,
+    row_units: &[Rational],
+) -> Rational {
+    let mut widest = whole(0);
+    for i in 0..2 {
+        for j in 0..2 {
+            let mut center = whole(0);
+            let mut radius = whole(0);
+            for (corner, at) in four_corners(ends).iter().zip(0..4) {
+                let of_t = if at % 2 == 1 {
+                    upper.clone()
+                } else {
+                    whole(1) - upper
+                };
+                let of_mu = if at / 2 == 1 {
+                    higher.clone()
+                } else {
+                    whole(1) - higher
+                };
+                let share = of_t * of_mu / Rational::from_integer(corner.scale.clone());
+                center += &share * Rational::from_integer(corner.m[i][j].clone());
+                radius += &share * Rational::from_integer(corner.r[i][j].clone());
+            }
+
+            let error = (&truth[i][j] / &row_units[i] - center).abs();
+            assert!(error <= radius, "({i}, {j}): {error} > {radius}");
+            widest = widest.max(radius);
+        }
+    }
+    widest
+}
+
+/// 2^b_i of the slip rows, by the entries of both parts that `pick` takes.
+fn row_units(
+    parts: &FrictionParts,
+    pick: impl Fn(&(usize, Integer, Integer)) -> u64,
+) -> Vec<Rational> {
+    let mut units = Vec::new();
+    for i in 0..4 {
+        if parts.plain.is_free[i] {
+            continue;
+        }
+        let both = parts.plain.rows[i].iter().chain(&parts.friction.rows[i]);
+        let bits = both.map(&pick).max().unwrap();
+        units.push(Rational::from_integer(Integer::one() << bits));
+    }
+    units
+}
+
+#[test]
+fn the_corners_enclose_the_schur_complement() {
+    let parts = parts();
+    let (lo, hi) = (rational(1, 3), rational(9, 7));
+    let (low, high) = (rational(2, 11), rational(5, 3));
+    let shares = [0, 1, 3, 5, 8].map(|k| rational(k, 8));
+
+    // Rounded well and hardly, and far from the centre.
+    for (center, exponent) in [(rational(4, 5), 40), (rational(4, 5), 2), (whole(7), 30)] {
+        let condensation = condensation(&parts, &center, exponent);
+        let expansions = condensed::of_parts(&parts, &condensation).unwrap();
+        let below = whole(2);
+        let walk = walk(expansions.map(family_of_anchors), &below);
+
+        for anchor in [0, 1] {
+            let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);
+            let ends = walk.corners(&at, Some(anchor)).unwrap();
+            let is_reversed = anchor == 1;
+            let units = row_units(
+                &parts,
+                |(_, a, b)| if is_reversed { b.bits() } else { a.bits() },
+            );
+
+            for share in &shares {
+                for higher in &shares {
+                    let t = if is_reversed {
+                        ((whole(1) - share) / &lo + share / &hi).recip()
+                    } else {
+                        &lo + share * (&hi - &lo)
+                    };
+                    let mu = &low + higher * (&high - &low);
+                    let mut truth = schur(&parts.plain, &t);
+                    let friction = schur(&parts.friction, &t);
+                    for i in 0..2 {
+                        for j in 0..2 {
+                            truth[i][j] += &mu * &friction[i][j];
+                            if is_reversed {
+                                truth[i][j] /= &t;
+                            }
+                        }
+                    }
+
+                    let widest = assert_enclosed(&ends, [share, higher], &truth, &units);
+                    if exponent == 40 && anchor == 0 {
+                        assert!(widest < rational(1, 20), "{widest}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! The verdict on `mceip-critical/1`: there is no solution below a friction.
+//!
+//! The certificate ([`crate::certificate::CriticalCertificate`]) speaks of the mechanical system of
+//! a problem with unknown lambda^2, with mu in [0, `below`] in place of the friction of the file.
+//! This module demands that it belongs to the problem and says something; `cover::critical` checks
+//! its boxes. The obligations are those of `spec/certificates.md`, 5.18.
+
+use crate::certificate::CriticalCertificate;
+use crate::cover;
+use crate::pencil::FrictionParts;
+use crate::reason::{Reason, Rejected};
+use mceip_exact::Rational;
+use mceip_model::{Body, Problem, Unknown};
+use num_traits::Signed;
+
+/// What an accepted certificate has proved: no solution for mu in [0, `below`] and lambda^2 >= 0.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AcceptedAbsence {
+    /// Largest friction of which absence is proved.
+    pub below: Rational,
+    /// Number of leaves that prove it.
+    pub leaves: usize,
+}
+
+/// Checks a certificate of absence below a friction, exactly.
+///
+/// # Errors
+/// [`Rejected`] with the first obligation that fails.
+pub fn check_critical(
+    problem: &Problem,
+    certificate: &CriticalCertificate,
+) -> Result<AcceptedAbsence, Rejected> {
+    verdict(problem, certificate, None).map_err(rejected)
+}
+
+/// The leaves of a certificate that fail, as pairs of the number of the piece and the number of the
+/// node in its tree. Without any, [`check_critical`] accepts the certificate.
+///
+/// A search that wants to replace all leaves that fail calls this once, where it would have to call
+/// [`check_critical`] once for each of them.
+///
+/// # Errors
+/// [`Rejected`] with an obligation that fails although these leaves are passed over.
+pub fn audit_critical(
+    problem: &Problem,
+    certificate: &CriticalCertificate,
+) -> Result<Vec<(usize, usize)>, Rejected> {
+    let mut refused = Vec::new();
+    verdict(problem, certificate, Some(&mut refused)).map_err(rejected)?;
+    Ok(refused)
+}
+
+fn verdict(
+    problem: &Problem,
+    certificate: &CriticalCertificate,
+    refused: Option<&mut Vec<(usize, usize)>>,
+) -> Result<AcceptedAbsence, Reason> {
+    let digest = problem.sha256();
+    if certificate.problem_sha256 != digest {
+        return Err(Reason::Digest {
+            expected: digest,
+            got: certificate.problem_sha256.clone(),
+        });
+    }
+
+    let parts = friction_parts(problem)?;
+    parts.plain.without_zero("absence below a friction")?;
+    if !certificate.below.is_positive() {
+        return Err(Reason::Below {
+            got: certificate.below.clone(),
+        });
+    }
+
+    let leaves = cover::critical::check(&parts, certificate, refused)?;
+    Ok(AcceptedAbsence {
+        below: certificate.below.clone(),
+        leaves,
+    })
+}
+
+/// The pencil of the problem as a function of mu: it must be a mechanical system with unknown
+/// lambda^2.
+fn friction_parts(problem: &Problem) -> Result<FrictionParts, Reason> {
+    let Body::System(system) = problem.body() else {
+        return Err(Reason::NotASystem);
+    };
+
+    match (problem.unknown(), system.mass()) {
+        (Unknown::Lambda2, Some(mass)) => Ok(FrictionParts::of(system, mass)),
+        _ => Err(Reason::Unknown {
+            expected: problem.unknown().word(),
+            got: Unknown::Lambda2.word(),
+        }),
+    }
+}
+
+fn rejected(reason: Reason) -> Rejected {
+    Rejected {
+        claim: None,
+        reason,
+    }
+}

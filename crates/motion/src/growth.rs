@@ -1,0 +1,214 @@
+//! A run along a mode, held against u^0 + alpha(t) v with alpha'' = lambda^2 alpha.
+//!
+//! The start is z = v at rest, so that alpha = cosh(lambda t); for lambda = 0 it is z = v with the
+//! velocity v / T, so that alpha = 1 + t / T over the time T. The scheme keeps the direction v, and
+//! its alpha is that of the trapezoidal rule: wrong by lambda^3 h^2 t / 12, relatively, to leading
+//! order.
+//!
+//! What a run says of its own error comes from halving the step: for errors C h^2 two runs differ
+//! by 3 C h^2 / 4, so the finer one is wrong by a third of their difference. To this is added the
+//! rounding of the forces that cancel. The agreement is judged by that stated error.
+
+use super::equations::{Equations, MotionError};
+use super::step::Instant;
+use super::tolerance::{BESIDE, ROUNDING};
+use super::trajectory::{Plan, Trajectory, run_every};
+use nalgebra::DVector;
+
+/// A solution of (9): v and lambda^2.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mode {
+    /// lambda^2 >= 0.
+    pub lambda2: f64,
+    /// v in the coordinates of [`Equations`].
+    pub displacement: DVector<f64>,
+}
+
+/// A run along a mode in steps of h and of h/2, beside what (8) predicts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Growth {
+    /// The length h of the longer steps.
+    pub step: f64,
+    /// Samples, as long as the motion is along v.
+    pub points: Vec<GrowthPoint>,
+    /// When another motion, set off by rounding, has taken over.
+    pub overtaken: Option<f64>,
+    /// Largest relative error of alpha in steps of h.
+    pub coarse_error: f64,
+    /// Largest relative error of alpha in steps of h/2.
+    pub error: f64,
+    /// What that error should be by the two runs and the rounding.
+    pub stated_error: f64,
+    /// What rounding may add to it.
+    pub rounding: f64,
+    /// The run in steps of h/2.
+    pub trajectory: Trajectory,
+}
+
+/// alpha at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GrowthPoint {
+    /// Time since the start.
+    pub time: f64,
+    /// By (8).
+    pub predicted: f64,
+    /// In steps of h.
+    pub coarse: f64,
+    /// In steps of h/2.
+    pub fine: f64,
+}
+
+/// The stated error is the leading term; this is for the next ones.
+const NEXT_TERMS: f64 = 1.5;
+
+/// alpha up to which a comparison says nothing: growth by a tenth.
+const COMPARED_FROM: f64 = 1.1;
+
+/// Does the motion grow as (8) predicts, within the error it states?
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Agreement {
+    /// It does, as long as it is along v.
+    Agrees,
+    /// It does not, or leaves v before alpha has grown by a tenth.
+    Disagrees,
+    /// The run ends before alpha has grown by a tenth.
+    TooShort,
+}
+
+impl Growth {
+    /// The motion held against its prediction.
+    pub fn agreement(&self) -> Agreement {
+        let compared_to = self.points.last().map_or(0.0, |point| point.predicted);
+        let has_grown = compared_to >= COMPARED_FROM;
+        let is_accurate = self.error <= NEXT_TERMS * self.stated_error;
+
+        if is_accurate && has_grown {
+            Agreement::Agrees
+        } else if is_accurate && self.overtaken.is_none() {
+            Agreement::TooShort
+        } else {
+            Agreement::Disagrees
+        }
+    }
+
+    /// The order of the error in h: 2 up to higher terms, where rounding plays no part.
+    ///
+    /// `None` where it plays the larger part, as for lambda = 0, where the scheme is exact.
+    pub fn order(&self) -> Option<f64> {
+        let is_rounding = self.error <= 2.0 * self.rounding;
+        (!is_rounding).then(|| (self.coarse_error / self.error).log2())
+    }
+}
+
+impl Mode {
+    /// lambda.
+    pub fn rate(&self) -> f64 {
+        self.lambda2.max(0.0).sqrt()
+    }
+
+    /// The time in which alpha grows to cosh(4) = 27; for lambda = 0 the given unit of time.
+    pub fn usual_duration(&self, unit: f64) -> f64 {
+        let rate = self.rate();
+        if rate > 0.0 { 4.0 / rate } else { unit }
+    }
+
+    /// alpha(t) in a run of length `duration`.
+    fn predicted(&self, time: f64, duration: f64) -> f64 {
+        let rate = self.rate();
+        if rate > 0.0 {
+            (rate * time).cosh()
+        } else {
+            1.0 + time / duration
+        }
+    }
+
+    fn start(&self, equations: &Equations, duration: f64) -> Instant {
+        let velocity = if self.rate() > 0.0 {
+            DVector::zeros(self.displacement.len())
+        } else {
+            &self.displacement / duration
+        };
+        Instant::start(equations, self.displacement.clone(), velocity)
+    }
+
+    /// Rounding of alpha, relative: forces K v that cancel down to lambda^2 M v.
+    fn rounding(&self, equations: &Equations, duration: f64) -> f64 {
+        let sizes = self.displacement.abs();
+        let forces = (equations.stiffness.abs() * sizes).amax();
+        let square = self.lambda2.max(1.0 / (duration * duration));
+        let inertia = square * (&equations.mass * &self.displacement).amax();
+        ROUNDING * (1.0 + forces / inertia)
+    }
+}
+
+/// Runs along a mode in steps of the plan and in half of them.
+///
+/// # Errors
+/// [`MotionError`]: as [`super::run`].
+pub fn along_mode(equations: &Equations, mode: &Mode, plan: Plan) -> Result<Growth, MotionError> {
+    let stride = plan.stride();
+    let start = mode.start(equations, plan.duration);
+    let coarse = run_every(equations, start.clone(), plan, stride)?;
+    let fine = run_every(equations, start, plan.halved(), 2 * stride)?;
+
+    let mut points = Vec::new();
+    let mut coarse_error: f64 = 0.0;
+    let mut error: f64 = 0.0;
+    let mut difference: f64 = 0.0;
+    let mut overtaken = None;
+    for (coarse, fine) in coarse.samples.iter().zip(&fine.samples) {
+        let along_coarse = Along::of(equations, mode, &coarse.at);
+        let along_fine = Along::of(equations, mode, &fine.at);
+        if along_fine.beside > BESIDE {
+            overtaken = Some(fine.at.time);
+            break;
+        }
+
+        let point = GrowthPoint {
+            time: fine.at.time,
+            predicted: mode.predicted(fine.at.time, plan.duration),
+            coarse: along_coarse.alpha,
+            fine: along_fine.alpha,
+        };
+
+        let scale = point.predicted;
+        coarse_error = coarse_error.max((point.coarse - point.predicted).abs() / scale);
+        error = error.max((point.fine - point.predicted).abs() / scale);
+        difference = difference.max((point.coarse - point.fine).abs() / scale);
+        points.push(point);
+    }
+
+    let rounding = mode.rounding(equations, plan.duration);
+    Ok(Growth {
+        step: plan.step()?,
+        points,
+        overtaken,
+        coarse_error,
+        error,
+        stated_error: difference / 3.0 + rounding,
+        rounding,
+        trajectory: fine,
+    })
+}
+
+/// A displacement split along v and beside it, orthogonally in the elastic product.
+struct Along {
+    alpha: f64,
+    /// Norm of the part beside v, relative to the whole.
+    beside: f64,
+}
+
+impl Along {
+    fn of(equations: &Equations, mode: &Mode, at: &Instant) -> Along {
+        let v = &mode.displacement;
+        let forces = &equations.energy_stiffness * v;
+        let alpha = at.displacement.dot(&forces) / v.dot(&forces);
+
+        let rest = &at.displacement - v * alpha;
+        let whole = equations.elastic_norm(&at.displacement);
+        Along {
+            alpha,
+            beside: equations.elastic_norm(&rest) / whole,
+        }
+    }
+}

@@ -1,0 +1,620 @@
+(* Complete sets for pencils whose free rows depend on the value: condensation about anchors.
+
+   The checker gets a pencil, a window [lo, hi] (hi may be infinity), claims (Complete.v),
+   factors that bound A_ff and B_ff from below, a list of anchors (Anchor.v), and a tree.  A leaf is
+
+     OfAnchor n g h e     evidence e about the pencil that is condensed about anchor n, with the
+                          grain g, over the interval h, which contains that of the region and may
+                          reach beyond it (Cover.v);
+     OfClaim n g h c k    at most one solution, that of claim k;
+     OfLimit n g h c x    at most one null vector, and that one at infinity;
+     OfWhole w            evidence about the whole pencil (Whole.v);
+     LeftOpen             nothing is said about the region.
+
+   An anchor may be *reversed*: it expands in s = 1/t the pencil with A and B exchanged, which for
+   t > 0 has the same solutions, y divided by t ([swap_solution]).  A region [lo, hi] with lo > 0 is
+   [1/hi, 1/lo] there; an infinite end becomes 0, which is 1/t for no t.
+
+   Theorem [varying_sound]: if the check succeeds, then
+     1. each solution with a value in the window lies in a region yielded or in one left open;
+     2. each region yielded has exactly one solution up to a positive factor, and its value lies in
+        the interval yielded with it.
+   [varying_none]: nothing yielded or left open, no solution in the window.  [varying_place]: where
+   the solution of a claim lies.
+
+   As in Families.v, a support leaf (Support.v) may stand for each region left open.
+   [varying_number]: if [varying_solutions] gives a list of N regions, then there are N solutions in
+   the window, one in each of them and no two of them equal; every other one belongs to a family or
+   lies in a region still open.  [varying_exactly]: exactly N, if there is no family and nothing is
+   still open.  [varying_hold]: what is said of families.
+
+   [system_varying_number], [system_varying_exactly], [system_varying_hold], [system_varying_none]:
+   the same for the motions of a mechanical system with (9).
+
+   Page: spec/certificates.md, 5.6, 5.11, 5.14, 5.15.
+   Rust: crates/check/src/cover/condensed.rs, expanded.rs, family.rs, root.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
+From Mceip Require Import Number Condensation Pencil Whole Claim Complete System Signs Support.
+From Mceip Require Import Families Series Anchor AnchorLeaf.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+(* Bounds of A_ff and of B_ff; anchors, each with "is it reversed". *)
+Record anchoring := Anchoring {
+  stiffness_bound : form_bound;
+  mass_bound : form_bound;
+  anchors : seq (bool * anchor) }.
+
+Inductive varying_leaf :=
+  | OfAnchor of nat & Z & interval & local_leaf
+  | OfClaim of nat & Z & interval & pinning & nat
+  | OfLimit of nat & Z & interval & pinning & seq Z
+  | OfWhole of whole
+  | LeftOpen.
+
+Definition swap_pencil Q := Pencil (order Q) (rows_b Q) (rows_a Q) (free Q).
+
+Definition swap_region r := Region (swap (upper r)) (swap (lower r)) (states r).
+
+Definition swap_isolation (c : isolation) : isolation :=
+  Isolation (pivot c) (vector c) (swap (to_point c)) (swap (from_point c))
+    (wide_box c) (narrow_box c) (unique c) (left_vector c).
+
+Definition swap_leaf l := if l is LocalRoot c o then LocalRoot (swap_isolation c) o else l.
+
+Definition swap_known q :=
+  Known (swap (known_to q)) (swap (known_from q)) (known_support q) (known_biactive q).
+
+Section Checker.
+
+Variables (Q : pencil) (claims : seq solution_claim) (w : anchoring).
+
+Notation ns := (size (slip Q)).
+
+Definition expand_anchor (ra : bool * anchor) : option anchor_family :=
+  if ra.1 then expand (swap_pencil Q) ra.2 else expand Q ra.2.
+
+Definition no_anchor := (false, Anchor zero 0 [::] [::] [::]).
+
+Definition expansions := [seq expand_anchor ra | ra <- anchors w].
+
+(* The value of a root is finite. *)
+Definition finite_root l := if l is LocalRoot c _ then (0 <? (to_point c).2)%Z else true.
+
+(* B x = 0 in the free rows and the moving rows, x_k != 0, and x vanishes where r rests. *)
+Definition check_direction (r : region) (k : nat) (x : seq Z) :=
+  let at_slip j := nth 0%Z x (nth 0%N (slip Q) j) in
+  [&& columns_in_order Q, negb (at_slip k =? 0)%Z,
+      all (fun i => sparse_dot (row_b Q i) x =? 0)%Z (free Q) &
+      all (fun j => if is_moving (state_of r j)
+                    then (sparse_dot (row_b Q (nth 0%N (slip Q) j)) x =? 0)%Z
+                    else (at_slip j =? 0)%Z) (iota 0 ns)].
+
+(* A check for the region, or for the region of s, with the bounds of both blocks. *)
+Definition at_anchor (families : seq (option anchor_family)) n (r : region)
+    (check : bool -> anchor -> form_bound -> form_bound -> anchor_family -> region -> bool) :=
+  let: (reverse, a) := nth no_anchor (anchors w) n in
+  if nth None families n is Some fam then
+    if reverse then
+      (0 <? (lower r).1)%Z && check true a (mass_bound w) (stiffness_bound w) fam (swap_region r)
+    else check false a (stiffness_bound w) (mass_bound w) fam r
+  else false.
+
+Definition leaf_at grain e (reverse : bool) a low_a low_b fam (r : region) :=
+  (~~ reverse || finite_root e) &&
+  check_anchored ns a low_a low_b fam (lower r) (upper r) r grain
+    (if reverse then swap_leaf e else e).
+
+Definition claim_at grain c q (reverse : bool) a low_a low_b fam (r : region) :=
+  (~~ reverse || (0 <? (known_from q).1)%Z) &&
+  check_anchored_claim ns a low_a low_b fam (lower r) (upper r) r grain c
+    (if reverse then swap_known q else q).
+
+Definition limit_at grain c x (reverse : bool) a low_a low_b fam (r : region) :=
+  [&& reverse, ((lower r).1 =? 0)%Z, check_direction r (pin_pivot c) x &
+      check_anchored_limit ns a low_a low_b fam (lower r) (upper r) r grain c].
+
+Definition check_varying_leaf (families : seq (option anchor_family)) (solutions : seq known)
+    (r : region) (l : varying_leaf) :=
+  match l with
+  | OfAnchor n grain h e =>
+      reaches r h && at_anchor families n (extended r h) (leaf_at grain e)
+  | OfClaim n grain h c k =>
+      [&& reaches r h, (k < size solutions)%N &
+          at_anchor families n (extended r h) (claim_at grain c (known_at solutions k))]
+  | OfLimit n grain h c x =>
+      reaches r h && at_anchor families n (extended r h) (limit_at grain c x)
+  | OfWhole e => check_whole Q r e
+  | LeftOpen => true
+  end.
+
+Definition bounds_hold :=
+  bounded_rows (size (free Q)) (ff_block Q (row_a Q)) (stiffness_bound w) &&
+  bounded_rows (size (free Q)) (ff_block Q (row_b Q)) (mass_bound w).
+
+Definition check_varying (tr : tree varying_leaf) (lo hi : point) :=
+  let families := expansions in
+  let solutions := known_solutions Q claims in
+  [&& wellformed Q, nilp (anchors w) || bounds_hold, all (check_solution_claim Q) claims &
+      check_tree ns (check_varying_leaf families solutions) tr (window lo hi)].
+
+Definition claim_yield (r : region) (q : known) : option yield :=
+  if supports_region (enclosed_order ns) r q then Some (Yield r (known_from q) (known_to q))
+  else None.
+
+Definition varying_yield (rl : region * varying_leaf) : option yield :=
+  match rl.2 with
+  | OfAnchor _ _ h (LocalRoot c Solution) =>
+      Some (Yield (extended rl.1 h) (from_point c) (to_point c))
+  | OfClaim _ _ h _ k => claim_yield (extended rl.1 h) (known_at (known_solutions Q claims) k)
+  | _ => None
+  end.
+
+Definition varying_found (tr : tree varying_leaf) (lo hi : point) :=
+  pmap varying_yield (leaves tr (window lo hi)).
+
+Definition varying_open (tr : tree varying_leaf) (lo hi : point) :=
+  pmap (fun rl => if rl.2 is LeftOpen then Some rl.1 else None) (leaves tr (window lo hi)).
+
+Section Supports.
+
+Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
+
+Definition varying_families := families_of (varying_open tr lo hi) ls.
+
+Definition varying_still_open := open_of (varying_open tr lo hi) ls.
+
+Definition varying_solutions :=
+  distinct_yields ns lo hi
+    [seq y <- varying_found tr lo hi ++ isolated_of (varying_open tr lo hi) ls
+         | ~~ has (belongs ns y) varying_families].
+
+Definition check_varying_families :=
+  check_varying tr lo hi && check_supports Q (varying_open tr lo hi) ls.
+
+End Supports.
+
+End Checker.
+
+Definition check_system_varying s u claims w tr lo hi ls :=
+  system_wellformed s u && check_varying_families (pencil_of s u) claims w tr lo hi ls.
+
+Section Swap.
+
+Variables (R : rcfType) (Q : pencil).
+Implicit Types (t s : R) (x : nat -> R).
+
+Lemma swap_reaction t x i : t != 0 ->
+  reaction (swap_pencil Q) t^-1 x i = t^-1 * reaction Q t x i.
+Proof.
+move=> t0; rewrite /reaction mulr_sumr; apply: eq_bigr => j _.
+rewrite -[a_entry R (swap_pencil Q) i j]/(b_entry R Q i j).
+rewrite -[b_entry R (swap_pencil Q) i j]/(a_entry R Q i j).
+by rewrite mulrA mulrDr mulrA mulVf // mul1r [X in X * _]addrC.
+Qed.
+
+Lemma swap_solution t x : 0 < t -> solution Q t x <-> solution (swap_pencil Q) t^-1 x.
+Proof.
+move=> t_gt0; have t0 := lt0r_neq0 t_gt0; have i0 : 0 < t^-1 by rewrite invr_gt0.
+split=> -[_ nz rows_f rows_s]; split=> //; rewrite ?invr_ge0 ?(ltW t_gt0) //.
+- by move=> i Hi; rewrite swap_reaction // rows_f // mulr0.
+- move=> i Hi; have [x0 y0 xy] := rows_s i Hi; rewrite swap_reaction // pmulr_rge0 //.
+  by split=> //; rewrite mulrCA xy mulr0.
+- move=> i Hi; have := rows_f i Hi; rewrite swap_reaction // => /eqP.
+  by rewrite mulf_eq0 gt_eqF //= => /eqP.
+move=> i Hi; have := rows_s i Hi; rewrite swap_reaction // pmulr_rge0 // mulrCA.
+by case=> x0 y0 /eqP; rewrite mulf_eq0 [t^-1 == 0]gt_eqF //= => /eqP.
+Qed.
+
+Lemma swap_between t (lo hi : point) : 0 < t -> between t lo hi ->
+  between t^-1 (swap hi) (swap lo).
+Proof.
+move=> t0 [lo_t t_hi]; split; rewrite /swap /=.
+  by rewrite mulrC ler_pdivl_mulr // mulrC.
+by rewrite mulrC ler_pdivr_mulr // mulrC.
+Qed.
+
+End Swap.
+
+Section Sound.
+
+Variables (R : rcfType) (Q : pencil) (claims : seq solution_claim) (w : anchoring).
+Variables (tr : tree varying_leaf) (lo hi : point).
+Hypothesis checked : check_varying Q claims w tr lo hi.
+
+Notation ns := (size (slip Q)).
+Notation solutions := (known_solutions Q claims).
+Notation found := (varying_found Q claims tr lo hi).
+Notation left_open := (varying_open tr lo hi).
+Notation check_leaf := (check_varying_leaf Q w (expansions Q w) solutions).
+
+Lemma varying_parts :
+  [/\ wellformed Q, nilp (anchors w) || bounds_hold Q w, all (check_solution_claim Q) claims &
+      check_tree ns check_leaf tr (window lo hi)].
+Proof. by case/and4P: checked. Qed.
+
+Lemma known_exists k : (k < size solutions)%N ->
+  exists (t : R) x, known_solution Q (known_at solutions k) t x.
+Proof.
+have [_ _ ok _] := varying_parts; rewrite size_map => lt_k.
+pose k0 := ExactClaim (Claim.Claim [::] 0 0 0 [::] [::] [::] [::] [::]).
+rewrite /known_at (nth_map k0) //; apply: claim_known.
+by move/all_nthP: ok; apply.
+Qed.
+
+Lemma at_anchorP n r check : at_anchor w (expansions Q w) n r check ->
+  bounds_hold Q w /\ exists reverse a fam, [/\ expand_anchor Q (reverse, a) = Some fam,
+    reverse -> (0 <? (lower r).1)%Z &
+    if reverse then check true a (mass_bound w) (stiffness_bound w) fam (swap_region r)
+    else check false a (stiffness_bound w) (mass_bound w) fam r].
+Proof.
+have [_ bounds _ _] := varying_parts; rewrite /at_anchor.
+case anchor_n: (nth no_anchor (anchors w) n) => [reverse a].
+case fam_n: (nth None (expansions Q w) n) => [fam|//] ok.
+have lt_n : (n < size (anchors w))%N.
+  by rewrite ltnNge; apply/negP => l; rewrite nth_default ?size_map in fam_n.
+split; first by case/orP: bounds => // /nilP none; rewrite none in lt_n.
+exists reverse, a, fam; move: fam_n; rewrite (nth_map no_anchor) // anchor_n.
+by case: reverse {anchor_n} ok => [/andP[]|].
+Qed.
+
+(* Regions of positive values. *)
+Lemma value_gt0 r (t : R) : ordered (lower r) (upper r) -> (0 <? (lower r).1)%Z ->
+  between t (lower r) (upper r) -> 0 < t.
+Proof.
+move=> O lo0 [lo_t _].
+have l1 : 0 < toR (lower r).1 :> R by rewrite toR_gt0.
+have l2 : 0 < toR (lower r).2 :> R by case/and5P: O => _ ? _ _ _; rewrite toR_gt0.
+by rewrite -(pmulr_lgt0 _ l2); apply: lt_le_trans lo_t.
+Qed.
+
+Lemma in_extended_region r h (t : R) x : ordered (lower r) (upper r) -> reaches r h ->
+  lies_in Q r t x -> lies_in Q (extended r h) t x.
+Proof.
+move=> O /and3P[o le_lo le_hi] [bt ag]; split=> //.
+exact: (between_wider O o le_lo le_hi bt).
+Qed.
+
+Lemma swap_known_solution q (t : R) x : 0 < t ->
+  known_solution Q q t x -> known_solution (swap_pencil Q) (swap_known q) t^-1 x.
+Proof.
+move=> t0 [bt sol signs]; split; first exact: swap_between.
+  exact/(swap_solution Q x t0).
+move=> j lt_j; have [pos zero biact] := signs j lt_j; split=> // nj bj.
+by rewrite swap_reaction ?gt_eqF // biact // mulr0.
+Qed.
+
+Definition excluded r := forall (t : R) x, solution Q t x -> lies_in Q r t x -> False.
+
+Lemma root_excludes grain e n r : ordered (lower r) (upper r) -> ~~ wants_slopes e ->
+  at_anchor w (expansions Q w) n r (leaf_at Q grain e) -> excluded r.
+Proof.
+move=> O tight /at_anchorP[/andP[ba bb] [reverse [a [fam [expanded lo0 ok]]]]] t x sol [bt ag].
+have [wf _ _ _] := varying_parts; rewrite /expand_anchor /= in expanded.
+case: reverse expanded lo0 ok => expanded lo0 /andP[_ ok].
+  have t0 := value_gt0 O (lo0 isT) bt; case/and3P: (ok) => proper grain0 _.
+  apply: (anchored_excludes (Q := swap_pencil Q) wf expanded bb ba proper grain0 ok
+            (t := t^-1) (x := x)) => //.
+  - by case: (e) tight => //= c [].
+  - exact: (swap_solution Q x t0).1.
+  exact: swap_between.
+case/and3P: (ok) => proper grain0 _.
+case: r O ok bt ag proper {lo0} => lo' hi' st O ok bt ag proper.
+exact: (anchored_excludes wf expanded ba bb proper grain0 ok tight sol bt ag).
+Qed.
+
+Lemma root_yields grain c n r : ordered (lower r) (upper r) ->
+  at_anchor w (expansions Q w) n r (leaf_at Q grain (LocalRoot c Solution)) ->
+  one_solution_in R Q (Yield r (from_point c) (to_point c)).
+Proof.
+move=> O /at_anchorP[/andP[ba bb] [reverse [a [fam [expanded lo0 ok]]]]].
+have [wf _ _ _] := varying_parts; rewrite /expand_anchor /= in expanded.
+case: r O ok lo0 => lo' hi' st /= O ok lo0; case: reverse expanded lo0 ok => expanded lo0 /andP[].
+  move=> /= to0 ok; case/and3P: (ok) => proper grain0 _.
+  have {}lo0 := lo0 isT; have t2 : 0 < toR (to_point c).2 :> R by rewrite toR_gt0.
+  have [s [x [bt sol [reg ag] uniq]]] :=
+    anchored_yields (Q := swap_pencil Q) R wf expanded bb ba proper grain0 ok.
+  have s0 : 0 < s.
+    have s_ge0 : 0 <= s by case: sol.
+    rewrite lt_neqAle s_ge0 andbT eq_sym; apply: contraTneq t2 => s_zero.
+    by case: bt; rewrite /= s_zero mul0r -leNgt.
+  have si : s^-1^-1 = s := invrK s.
+  have i0 : 0 < s^-1 by rewrite invr_gt0.
+  exists s^-1, x; split.
+  - by have := swap_between s0 bt; rewrite /swap /= -!surjective_pairing.
+  - by apply/(swap_solution Q x i0); rewrite si.
+  - by split=> //; have := swap_between s0 reg; rewrite /swap /= -!surjective_pairing.
+  move=> t' x' sol' [bt' ag'].
+  have t0 : 0 < t' := value_gt0 (r := Region lo' hi' st) O lo0 bt'.
+  have [ts prop] := uniq _ x' ((swap_solution Q x' t0).1 sol') (swap_between t0 bt') ag'.
+  by split=> //; rewrite -ts invrK.
+move=> _ ok; case/and3P: (ok) => proper grain0 _.
+have [t [x [bt sol [reg ag] uniq]]] := anchored_yields R wf expanded ba bb proper grain0 ok.
+by exists t, x; split=> // t' x' sol' [bt' ag']; apply: uniq.
+Qed.
+
+Section Claimed.
+
+Variables (grain : Z) (c : pinning) (q : known) (n : nat) (r : region).
+Hypothesis O : ordered (lower r) (upper r).
+Hypothesis ok : at_anchor w (expansions Q w) n r (claim_at Q grain c q).
+Hypothesis known_q : exists (t : R) x, known_solution Q q t x.
+
+Lemma known_gt0 (t : R) x : (0 <? (known_from q).1)%Z -> known_solution Q q t x -> 0 < t.
+Proof.
+move=> f0 [[from_t _] [t0 _ _ _] _]; rewrite lt_neqAle t0 andbT; apply/eqP => t_zero.
+move: from_t; rewrite -t_zero mul0r leNgt; case/negP.
+by rewrite toR_gt0.
+Qed.
+
+Lemma claim_beside : ~~ supports_region (enclosed_order ns) r q -> excluded r.
+Proof.
+move=> beside t x sol [bt ag]; have [t0 [x0 known0]] := known_q.
+have [/andP[ba bb] [reverse [a [fam [expanded lo0 at_a]]]]] := at_anchorP ok.
+have [wf _ _ _] := varying_parts; rewrite /expand_anchor /= in expanded.
+case: r O bt ag at_a lo0 beside => lo' hi' st /= O' bt ag at_a lo0 beside.
+case: reverse expanded lo0 at_a => expanded lo0 /andP[] /=.
+  move=> from0 at_a; have t_gt0 : 0 < t := value_gt0 (r := Region lo' hi' st) O' (lo0 isT) bt.
+  case/and3P: (at_a) => proper grain0 _.
+  have known' := swap_known_solution (known_gt0 from0 known0) known0.
+  exact: (anchored_beside (Q := swap_pencil Q) wf expanded bb ba proper grain0 at_a known' beside
+    ((swap_solution Q x t_gt0).1 sol) (swap_between t_gt0 bt) ag).
+move=> _ at_a; case/and3P: (at_a) => proper grain0 _.
+exact: (anchored_beside wf expanded ba bb proper grain0 at_a known0 beside sol bt ag).
+Qed.
+
+Lemma claim_yields : supports_region (enclosed_order ns) r q ->
+  one_solution_in R Q (Yield r (known_from q) (known_to q)).
+Proof.
+move=> supports; have [t [x known0]] := known_q; have [btk sol _] := known0.
+have [/andP[ba bb] [reverse [a [fam [expanded lo0 at_a]]]]] := at_anchorP ok.
+have [wf _ _ _] := varying_parts; rewrite /expand_anchor /= in expanded.
+case: r O at_a lo0 supports => lo' hi' st /= O' at_a lo0 supports.
+case: reverse expanded lo0 at_a => expanded lo0 /andP[] /=.
+  move=> from0 at_a; case/and3P: (at_a) => proper grain0 _.
+  have t0 := known_gt0 from0 known0; have i0 : 0 < t^-1 by rewrite invr_gt0.
+  have [bt ag uniq] := anchored_claimed (Q := swap_pencil Q) wf expanded bb ba proper grain0 at_a
+    (swap_known_solution t0 known0) supports.
+  exists t, x; split=> //.
+    split=> //; have := swap_between i0 bt.
+    by rewrite invrK /swap /= -!surjective_pairing.
+  move=> t' x' sol' [bt' ag'].
+  have t0' : 0 < t' := value_gt0 (r := Region lo' hi' st) O' (lo0 isT) bt'.
+  have [ts prop] := uniq _ x' ((swap_solution Q x' t0').1 sol') (swap_between t0' bt') ag'.
+  by split=> //; rewrite -[t']invrK ts invrK.
+move=> _ at_a; case/and3P: (at_a) => proper grain0 _.
+have [bt ag uniq] := anchored_claimed wf expanded ba bb proper grain0 at_a known0 supports.
+by exists t, x; split=> // t' x' sol' [bt' ag']; apply: uniq.
+Qed.
+
+End Claimed.
+
+Lemma limit_excludes grain c x n r : ordered (lower r) (upper r) ->
+  at_anchor w (expansions Q w) n r (limit_at Q grain c x) -> excluded r.
+Proof.
+move=> O /at_anchorP[/andP[ba bb] [reverse [a [fam [expanded lo0 ok]]]]] t y sol [bt ag].
+have [wf _ _ _] := varying_parts; rewrite /expand_anchor /= in expanded.
+case: reverse expanded lo0 ok => expanded lo0 /and4P[] // _ /Z.eqb_spec lo_zero dir ok.
+case/and3P: (ok) => proper grain0 _; have t0 := value_gt0 O (lo0 isT) bt.
+case/and4P: dir => cols xk /allP free0 /allP slip0.
+pose X i : R := toR (nth 0%Z x i).
+have cb i : all (fun e => e.1 < order Q)%N (row_b Q i).
+  case/andP: cols => _ /allP cb; rewrite /row_b.
+  by have [l|l] := ltnP i (size (rows_b Q)); [apply/cb/mem_nth | rewrite nth_default].
+have rowE i : reaction (swap_pencil Q) (toR (upper r).2 / toR (upper r).1) X i =
+    toR (sparse_dot (row_b Q i) x) :> R.
+  have -> : toR (upper r).2 = 0 :> R.
+    by rewrite -[(upper r).2]/(lower (swap_region r)).1 lo_zero toR0.
+  rewrite mul0r (toR_sparse_dot R x (cb _)) /reaction; apply: eq_bigr => j _.
+  by rewrite mul0r addr0.
+have [] : t^-1 = 0 -> False by apply/eqP; rewrite invr_eq0 gt_eqF.
+have -> : t^-1 = toR (upper r).2 / toR (upper r).1.
+  apply: (anchored_limit (Q := swap_pencil Q) (x := X) wf expanded bb ba proper grain0 ok _ _ _
+    ((swap_solution Q y t0).1 sol) (swap_between t0 bt) ag).
+  - by move=> i /free0 /Z.eqb_spec zero; rewrite rowE zero toR0.
+  - move=> j lt_j; have := slip0 j; rewrite mem_iota add0n => /(_ lt_j) /=.
+    by case: ifP => _ /Z.eqb_spec zero; [rewrite rowE zero toR0 | rewrite /slip_of /X zero toR0].
+  by rewrite /slip_of /X toR_eq0.
+by rewrite -[(upper r).2]/(lower (swap_region r)).1 lo_zero toR0 mul0r.
+Qed.
+
+(* A leaf excludes every solution, or it yields, or it is left open. *)
+Lemma leaf_sound r l (t : R) x : ordered (lower r) (upper r) -> check_leaf r l ->
+  solution Q t x -> lies_in Q r t x ->
+  (exists2 y, varying_yield Q claims (r, l) = Some y & lies_in Q (yield_region y) t x) \/
+  l = LeftOpen.
+Proof.
+have [wf _ _ _] := varying_parts; move=> O ok sol reg; case: l ok; last by right.
+- move=> n grain h e /andP[rh at_a]; have Oh : ordered h.1 h.2 by case/and3P: rh.
+  have {}reg := in_extended_region O rh reg; case slopes: (wants_slopes e); last first.
+    by case: (root_excludes (r := extended r h) Oh (negbT slopes) at_a sol reg).
+  left; case: e slopes {at_a} => // c [] // _.
+  by exists (Yield (extended r h) (from_point c) (to_point c)).
+- move=> n grain h c k /and3P[rh lt_k at_a]; have Oh : ordered h.1 h.2 by case/and3P: rh.
+  have {}reg := in_extended_region O rh reg; left; rewrite /varying_yield /claim_yield.
+  case: ifP => [_|/negbT beside].
+    by exists (Yield (extended r h) (known_from (known_at solutions k))
+                     (known_to (known_at solutions k))).
+  by case: (claim_beside (r := extended r h) Oh at_a (known_exists lt_k) beside sol reg).
+- move=> n grain h c z /andP[rh at_a]; have Oh : ordered h.1 h.2 by case/and3P: rh.
+  by case: (limit_excludes (r := extended r h) Oh at_a sol (in_extended_region O rh reg)).
+move=> e ok; have [bt ag] := reg.
+by case: (whole_sound wf O ok bt ag sol).
+Qed.
+
+Lemma claim_yieldP r q y : claim_yield Q r q = Some y ->
+  supports_region (enclosed_order ns) r q /\ y = Yield r (known_from q) (known_to q).
+Proof. by rewrite /claim_yield; case: ifP => // ok [<-]. Qed.
+
+Lemma yield_sound r l y : ordered (lower r) (upper r) -> check_leaf r l ->
+  varying_yield Q claims (r, l) = Some y -> one_solution_in R Q y.
+Proof.
+move=> O; case: l => // [n grain h [w'|b f f'|a|c []]|n grain h c k] //.
+  case/andP=> rh at_a [<-]; have Oh : ordered h.1 h.2 by case/and3P: rh.
+  exact: (root_yields (r := extended r h) Oh at_a).
+case/and3P=> rh lt_k at_a; have Oh : ordered h.1 h.2 by case/and3P: rh.
+case/claim_yieldP=> supports ->.
+exact: (claim_yields (r := extended r h) Oh at_a (known_exists lt_k) supports).
+Qed.
+
+Theorem varying_sound :
+  (forall (t : R) x, solution Q t x -> between t lo hi ->
+     (exists2 y, List.In y found & lies_in Q (yield_region y) t x) \/
+     (exists2 r, List.In r left_open & lies_in Q r t x)) /\
+  (forall y, List.In y found -> one_solution_in R Q y).
+Proof.
+have [_ _ _ ok_tree] := varying_parts; split=> [t x sol bt|y].
+  have [_ _ _ rows_s] := sol.
+  have x0 j : (j < ns)%N -> 0 <= slip_of Q x j.
+    by move=> lt_j; have [] := rows_s _ (mem_nth 0%N lt_j).
+  have start : in_region ns t (slip_of Q x) (window lo hi).
+    by split=> // i _; rewrite /state_of nth_nil.
+  have [[r l] in_leaves [reg O ok]] := every_point_reaches_a_leaf ok_tree x0 start.
+  have [[y yields_y reg_y]|l_open] := leaf_sound O ok sol reg.
+    by left; exists y => //; apply/in_pmap; exists (r, l).
+  by right; exists r => //; apply/in_pmap; exists (r, l); rewrite // l_open.
+case/in_pmap=> -[r l] in_leaves yields_y.
+have [O ok] := leaves_are_checked ok_tree in_leaves.
+exact: yield_sound O ok yields_y.
+Qed.
+
+Corollary varying_none : found = [::] -> left_open = [::] ->
+  forall (t : R) x, solution Q t x -> between t lo hi -> False.
+Proof.
+move=> none closed t x sol bt; have [[y]|[r]] := varying_sound.1 t x sol bt.
+  by rewrite none.
+by rewrite closed.
+Qed.
+
+Theorem varying_place k : check_solution_claim Q k ->
+  within (known_from (known_of Q k), known_to (known_of Q k)) (lo, hi) ->
+  exists (t : R) x, known_solution Q (known_of Q k) t x /\
+    ((exists2 y, List.In y found & between t (yield_from y) (yield_to y) /\
+                                   lies_in Q (yield_region y) t x) \/
+     (exists2 r, List.In r left_open & lies_in Q r t x)).
+Proof.
+by have [every each] := varying_sound; move/(claim_known R); apply: known_place every each.
+Qed.
+
+End Sound.
+
+Section Number.
+
+Variables (R : rcfType) (Q : pencil) (claims : seq solution_claim) (w : anchoring).
+Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
+Hypothesis checked : check_varying_families Q claims w tr lo hi ls.
+
+Notation ns := (size (slip Q)).
+Notation families := (varying_families tr lo hi ls).
+Notation still_open := (varying_still_open tr lo hi ls).
+
+Theorem varying_number ys : varying_solutions Q claims tr lo hi ls = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
+        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
+                                 lies_in Q (yield_region y) s.1 s.2) ys l,
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
+        forall t x, solution Q t x -> between t lo hi ->
+          [\/ exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x,
+              exists2 f, List.In f families & in_family Q f t x |
+              exists2 r, List.In r still_open & lies_in Q r t x]].
+Proof.
+case/andP: checked => varying supports; have [every each] := varying_sound R varying.
+exact: (cover_number supports every each).
+Qed.
+
+Corollary varying_exactly ys : varying_solutions Q claims tr lo hi ls = Some ys ->
+  families = [::] -> still_open = [::] ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
+        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
+                                 lies_in Q (yield_region y) s.1 s.2) ys l,
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
+        forall t x, solution Q t x -> between t lo hi ->
+          exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x].
+Proof.
+move=> dist no_family closed; have [l [sz sols vals pairs every]] := varying_number dist.
+exists l; split=> // t x sol bt; have [//|[f]|[r]] := every t x sol bt.
+  by rewrite no_family.
+by rewrite closed.
+Qed.
+
+Theorem varying_hold f : List.In f families -> family_holds R Q f.
+Proof. by case/andP: checked => _ supports; apply: supports_families. Qed.
+
+End Number.
+
+Section Systems.
+
+Variables (R : rcfType) (s : system) (u : unknown) (claims : seq solution_claim) (w : anchoring).
+Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
+Hypothesis checked : check_system_varying s u claims w tr lo hi ls.
+
+Notation Q := (pencil_of s u).
+Notation families := (varying_families tr lo hi ls).
+Notation still_open := (varying_still_open tr lo hi ls).
+
+Theorem system_varying_number ys : varying_solutions Q claims tr lo hi ls = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 motion_in s u (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
+        forall t v, satisfies_9 s u t v -> between t lo hi ->
+          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
+              exists2 f, List.In f families & motion_in_family s u f t v |
+              exists2 r, List.In r still_open & motion_in s u r t v]].
+Proof.
+by case/andP: checked => wf varying /(varying_number R varying); apply: motions_number.
+Qed.
+
+Corollary system_varying_exactly ys : varying_solutions Q claims tr lo hi ls = Some ys ->
+  families = [::] -> still_open = [::] ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 motion_in s u (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
+        forall t v, satisfies_9 s u t v -> between t lo hi ->
+          exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v].
+Proof.
+move=> dist no_family closed; have [l [sz sols vals pairs every]] := system_varying_number dist.
+exists l; split=> // t v sat bt; have [//|[f]|[r]] := every t v sat bt.
+  by rewrite no_family.
+by rewrite closed.
+Qed.
+
+Corollary system_varying_none :
+  varying_solutions Q claims tr lo hi ls = Some [::] -> families = [::] -> still_open = [::] ->
+  forall (t : R) v, satisfies_9 s u t v -> between t lo hi -> False.
+Proof.
+move=> none no_family closed t v sat bt.
+have [[|m l] [//_ _ _ _ every]] := system_varying_exactly none no_family closed.
+by have [] := every t v sat bt.
+Qed.
+
+Theorem system_varying_hold f : List.In f families ->
+  is_place R (held_place f.2) /\
+  forall t : R, in_place (held_place f.2) t ->
+    (exists v, satisfies_9 s u t v /\ motion_in s u f.1 t v) /\
+    (held_alone f.2 -> forall v v', satisfies_9 s u t v -> motion_in s u f.1 t v ->
+       satisfies_9 s u t v' -> motion_in s u f.1 t v' -> same_motion s v v').
+Proof.
+by case/andP: checked => wf varying /(varying_hold R varying); apply: motions_hold.
+Qed.
+
+End Systems.

@@ -1,0 +1,250 @@
+//! `mceip simulate`: the motion about the equilibrium in time, beside what certificates say of it.
+//!
+//! All modes of the system are looked for and proved first. Along each of them the equations
+//! (1)-(4) are integrated and compared with u^0 + alpha(t) v; then the equilibrium is hit by random
+//! impulses, and the motions are classified. What is integrated is never called proved.
+
+mod report;
+
+use super::common::{CliError, exit, load, positive, print, require_threads};
+use super::job::Job;
+use super::output::Output;
+use mceip_engine::certify::Certifier;
+use mceip_engine::reduction::reduce;
+use mceip_engine::report::Listed;
+use mceip_engine::search::complete::{Completed, Options, complete};
+use mceip_exact::to_f64;
+use mceip_model::{Body, ModelError, Particle, Problem, System, Unknown, Window};
+use mceip_motion::{
+    AfterImpulse, Agreement, Equations, Mode, MotionClass, Plan, StepSolutions, Stepper, along_mode,
+};
+use report::{SimulatedImpulse, SimulatedMode, Simulation};
+use std::path::PathBuf;
+
+/// Arguments of `simulate`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Problem file (mceip-problem/1) of a mechanical system with mass.
+    file: PathBuf,
+    /// Coefficient of friction instead of the file's (reactions in the file are then not used).
+    #[arg(long, value_name = "MU", allow_hyphen_values = true)]
+    friction: Option<String>,
+    /// Steps of a run; each is repeated with twice as many to state its error.
+    #[arg(long, default_value_t = 400)]
+    steps: usize,
+    /// Time of a run along a mode (default: until alpha has grown to 27).
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    duration: Option<String>,
+    /// Random impulses on the equilibrium; each motion lasts 20 of the longest periods.
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    impulses: usize,
+    /// Draw alpha(t) along the first mode beside its prediction; without a mode the norms after
+    /// the impulses.
+    #[arg(long, value_name = "OUT")]
+    picture: Option<PathBuf>,
+    /// Threads of the search for modes (default: all cores).
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Print mceip-motion/1.
+    #[arg(long)]
+    json: bool,
+}
+
+/// More steps or impulses than any picture has use for.
+const MAX_STEPS: usize = 1_000_000;
+const MAX_IMPULSES: usize = 1000;
+
+/// Steps of an impulse's run for each step along a mode: 20 periods are longer.
+const STEPS_OF_IMPULSE: usize = 5;
+
+/// Longest periods that a run from an impulse lasts.
+const PERIODS: f64 = 20.0;
+
+/// Proves the modes, integrates, prints.
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let problem = load(&args.file, None)?;
+    let system = system_of(args, &problem)?;
+    let duration = match &args.duration {
+        Some(given) => Some(to_f64(&positive("duration", given)?)),
+        None => None,
+    };
+    require_counts(args)?;
+    require_threads(args.threads)?;
+    let equations = Equations::new(&system)?;
+    let output = Output::prepare_if("picture", args.picture.as_deref(), &[&args.file])?;
+
+    let job = Job::begin("searching");
+    let options = Options {
+        threads: args.threads,
+        ..Options::default()
+    };
+    let lambda2 = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
+    let completed = job.watched(|watch| complete(&lambda2, &options, watch))?;
+    let mut simulation = Simulation {
+        name: problem.name.clone(),
+        problem_sha256: lambda2.sha256(),
+        solutions_of_a_step: Stepper::new(&equations, 0.0)?.solutions(),
+        slip_particles: equations.slip_particles().to_vec(),
+        is_complete: completed.is_complete(),
+        families: completed.cover.families.len(),
+        modes: Vec::new(),
+        impulses: Vec::new(),
+        is_interrupted: false,
+    };
+
+    if simulation.solutions_of_a_step == StepSolutions::One {
+        simulation.modes = along_modes(args, duration, &lambda2, &completed, &equations, &job)?;
+        simulation.impulses = after_impulses(args, &equations, &job)?;
+    }
+    simulation.is_interrupted = job.is_cancelled();
+    job.end();
+
+    if let Some(output) = output {
+        output.write(&report::picture(&simulation).to_svg())?;
+    }
+    let text = if args.json {
+        format!("{}\n", report::json(&simulation))
+    } else {
+        report::text(&simulation)
+    };
+    print(&text)?;
+    Ok(exit_code(&simulation))
+}
+
+/// The system of the problem, at the friction of the option if there is one.
+fn system_of(args: &Args, problem: &Problem) -> Result<System, CliError> {
+    let Body::System(system) = problem.body() else {
+        return Err(CliError::SimulatedPencil);
+    };
+    let Some(given) = &args.friction else {
+        return Ok(system.clone());
+    };
+
+    let friction = positive("friction", given)?;
+    let without_reaction = |particle: &Particle| Particle {
+        reaction: None,
+        ..particle.clone()
+    };
+    let particles = system.particles().iter().map(without_reaction).collect();
+    let stiffness = system.stiffness().clone();
+    let system: Result<System, ModelError> =
+        System::new(stiffness, system.mass().cloned(), Some(friction), particles);
+    Ok(system?)
+}
+
+fn require_counts(args: &Args) -> Result<(), CliError> {
+    if args.steps == 0 || args.steps > MAX_STEPS {
+        let got = args.steps.to_string();
+        return Err(CliError::option("steps", "1 to 1000000", &got));
+    }
+
+    if args.impulses > MAX_IMPULSES {
+        let got = args.impulses.to_string();
+        return Err(CliError::option("impulses", "0 to 1000", &got));
+    }
+
+    Ok(())
+}
+
+/// A run along each certified mode.
+fn along_modes(
+    args: &Args,
+    duration: Option<f64>,
+    problem: &Problem,
+    completed: &Completed,
+    equations: &Equations,
+    job: &Job,
+) -> Result<Vec<SimulatedMode>, CliError> {
+    let reduced = reduce(problem)?;
+    let certifier = Certifier::new(problem, &reduced.pencil);
+    let unit = equations.longest_period()?;
+
+    let mut modes = Vec::new();
+    for (proved, x) in completed.solutions() {
+        if job.is_cancelled() {
+            break;
+        }
+
+        job.say(format!("mode {}", modes.len() + 1));
+        let listed = Listed::of_cover(problem, &reduced, &certifier, proved, x);
+        let mode = mode_of(&listed, equations)?;
+        let plan = Plan {
+            duration: duration.unwrap_or_else(|| mode.usual_duration(unit)),
+            steps: args.steps,
+        };
+
+        let growth = along_mode(equations, &mode, plan)?;
+        modes.push(SimulatedMode {
+            lambda2: proved.value.clone(),
+            rate: mode.rate(),
+            support: proved.support.clone(),
+            growth,
+        });
+    }
+
+    Ok(modes)
+}
+
+/// The mode in doubles.
+fn mode_of(listed: &Listed, equations: &Equations) -> Result<Mode, CliError> {
+    let double = |decimal: &String| decimal.parse().unwrap_or(f64::NAN);
+    let lifted = listed.lifted.as_ref();
+    let v: Vec<f64> = lifted.map_or_else(Vec::new, |(v, _)| v.iter().map(double).collect());
+
+    Ok(Mode {
+        lambda2: double(&listed.value),
+        displacement: equations.coordinates(&v)?,
+    })
+}
+
+/// The motions that random impulses set off.
+fn after_impulses(
+    args: &Args,
+    equations: &Equations,
+    job: &Job,
+) -> Result<Vec<SimulatedImpulse>, CliError> {
+    let plan = Plan {
+        duration: PERIODS * equations.longest_period()?,
+        steps: STEPS_OF_IMPULSE * args.steps,
+    };
+
+    let mut impulses = Vec::new();
+    for seed in 0..args.impulses as u64 {
+        if job.is_cancelled() {
+            break;
+        }
+
+        job.say(format!("impulse {}", seed + 1));
+        let motion = AfterImpulse::new(equations, seed, plan)?;
+        impulses.push(SimulatedImpulse { seed, motion });
+    }
+
+    Ok(impulses)
+}
+
+/// Disagreement: a mode that does not grow as predicted, or, where it is proved that there is none,
+/// growth along a constant direction.
+fn exit_code(simulation: &Simulation) -> u8 {
+    let is_absent = simulation.is_proved_absent();
+    let is_contradicted = is_absent && simulation.impulses.iter().any(grows_along_a_direction);
+    let agreements = simulation.modes.iter().map(|mode| mode.growth.agreement());
+    let agreements: Vec<Agreement> = agreements.collect();
+    let is_open = simulation.solutions_of_a_step != StepSolutions::One
+        || !simulation.is_complete
+        || agreements.contains(&Agreement::TooShort);
+
+    if simulation.is_interrupted {
+        exit::INTERRUPTED
+    } else if is_contradicted || agreements.contains(&Agreement::Disagrees) {
+        exit::REJECTED
+    } else if is_open {
+        exit::UNDECIDED
+    } else {
+        exit::DONE
+    }
+}
+
+fn grows_along_a_direction(impulse: &SimulatedImpulse) -> bool {
+    let motion = &impulse.motion;
+    motion.is_resolved() && motion.fine.class == MotionClass::ConstantDirection
+}

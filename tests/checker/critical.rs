@@ -1,0 +1,318 @@
+//! Absence below a friction, on the system of X9 (`spec/errata.md`).
+//!
+//! T(t, mu) = diag(1, 2) + tI + mu [[0, -3], [1, -4]] has its critical friction 1 + sqrt(3)/2 =
+//! 1.8660254... at a fold with lambda^2 = 1/2 + sqrt(3). The checker divides row 0 by 4 and row 1 by
+//! 8 (`spec/certificates.md`, 5.7), so a weight of row 1 counts half in its units. A naive search in doubles finds a tree for
+//! frictions below that, and the checker decides exactly. No tree may be accepted above it: random
+//! ones are tried, and those of the search, which is right everywhere but at the fold.
+
+use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
+use mceip_check::{Reason, audit_critical, check_critical};
+use mceip_exact::{Rational, Sparse, parse, rational, to_f64, whole};
+use mceip_model::file::Number;
+use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
+
+/// Where the boxes of the fold end and a definite matrix takes over.
+const LAST: i64 = 16;
+
+/// The dofs are (T1, T2, N1, N2); both particles slip with S = 1.
+fn fold() -> Problem {
+    let stiffness = [[1, 0, 0, 1], [0, 2, -3, -4], [0, -3, 14, 0], [1, -4, 0, 14]];
+    let mut entries = Vec::new();
+    for (i, row) in stiffness.iter().enumerate() {
+        for (j, &entry) in row.iter().enumerate() {
+            entries.push((i, j, whole(entry)));
+        }
+    }
+
+    let slip = ContactState::Slip { sign: 1 };
+    let particles = vec![Particle::plain(0, 2, slip), Particle::plain(1, 3, slip)];
+    let stiffness = Sparse::from_entries(4, 4, entries);
+    let mass = Some(Sparse::identity(4));
+    let system = System::new(stiffness, mass, Some(whole(2)), particles).unwrap();
+    Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
+}
+
+fn matrix(t: f64, mu: f64) -> [[f64; 2]; 2] {
+    [[1.0 + t, -3.0 * mu], [mu, 2.0 + t - 4.0 * mu]]
+}
+
+/// An interval of t and one of mu.
+#[derive(Clone)]
+struct Rectangle {
+    t: [Rational; 2],
+    mu: [Rational; 2],
+}
+
+impl Rectangle {
+    fn corners(&self) -> Vec<[[f64; 2]; 2]> {
+        let mut corners = Vec::new();
+        for t in &self.t {
+            for mu in &self.mu {
+                corners.push(matrix(to_f64(t), to_f64(mu)));
+            }
+        }
+        corners
+    }
+
+    /// w with w'T = -(1, 1) at the centre, in integers of at most 2^20, before the rows are scaled.
+    fn weights(&self) -> Vec<i64> {
+        let t = to_f64(&middle(&self.t));
+        let mu = to_f64(&middle(&self.mu));
+        let [[a, b], [c, d]] = matrix(t, mu);
+        let sign = (a * d - b * c).signum();
+        let w = [sign * (c - d), sign * (b - a)];
+
+        let largest = w[0].abs().max(w[1].abs()).max(f64::MIN_POSITIVE);
+        w.iter()
+            .map(|w| (w / largest * f64::from(1 << 20)).round() as i64)
+            .collect()
+    }
+
+    /// Is w'T < 0 at all corners?
+    fn is_closed_by(&self, w: &[i64]) -> bool {
+        self.corners().iter().all(|t| {
+            let column = |j: usize| w[0] as f64 * t[0][j] + w[1] as f64 * t[1][j];
+            column(0) < -1e-6 && column(1) < -1e-6
+        })
+    }
+
+    /// Cuts the side that is longer in comparison with [0, LAST] x [0, 2].
+    fn halves(&self) -> (CriticalNode, [Rectangle; 2]) {
+        let width = |[lo, hi]: &[Rational; 2]| to_f64(&(hi - lo));
+        let mut lower = self.clone();
+        let mut upper = self.clone();
+
+        if width(&self.t) / LAST as f64 > width(&self.mu) / 2.0 {
+            let at = middle(&self.t);
+            lower.t[1] = at.clone();
+            upper.t[0] = at.clone();
+            (CriticalNode::Split(Number(at)), [lower, upper])
+        } else {
+            let at = middle(&self.mu);
+            lower.mu[1] = at.clone();
+            upper.mu[0] = at.clone();
+            (CriticalNode::Friction(Number(at)), [lower, upper])
+        }
+    }
+}
+
+fn middle([lo, hi]: &[Rational; 2]) -> Rational {
+    (lo + hi) / whole(2)
+}
+
+/// The leaf for weights of rows that are not scaled.
+fn scaled(w: &[i64]) -> CriticalNode {
+    CriticalNode::Farkas(vec![w[0], 2 * w[1]])
+}
+
+/// Closes a rectangle where both variables move; beyond `depth` cuts with a vector that may fail.
+fn close(rectangle: &Rectangle, depth: usize, tree: &mut Vec<CriticalNode>) {
+    let w = rectangle.weights();
+    if depth == 0 || rectangle.is_closed_by(&w) {
+        tree.push(scaled(&w));
+        return;
+    }
+
+    let (cut, halves) = rectangle.halves();
+    tree.push(cut);
+    for half in &halves {
+        close(half, depth - 1, tree);
+    }
+}
+
+/// The certificate of the search for this friction.
+fn searched(problem: &Problem, below: &Rational, depth: usize) -> CriticalCertificate {
+    // Where both rest, 0; where 0 moves alone, -T_00 < 0; where 1 does, 2 T_01 - T_11 < 0.
+    let mut tree = vec![
+        CriticalNode::Branch(0),
+        CriticalNode::Branch(1),
+        scaled(&[0, 0]),
+        scaled(&[2, -1]),
+        CriticalNode::Branch(1),
+        scaled(&[-1, 0]),
+    ];
+    let rectangle = Rectangle {
+        t: [whole(0), whole(LAST)],
+        mu: [whole(0), below.clone()],
+    };
+    close(&rectangle, depth, &mut tree);
+
+    certificate(problem, below, tree)
+}
+
+/// A tree for [0, LAST], and a definite matrix beyond.
+fn certificate(
+    problem: &Problem,
+    below: &Rational,
+    tree: Vec<CriticalNode>,
+) -> CriticalCertificate {
+    let piece = |max: Option<i64>, tree: Vec<CriticalNode>| CriticalPiece {
+        max: max.map(|max| Number(whole(max))),
+        anchor: None,
+        tree,
+    };
+
+    CriticalCertificate {
+        problem_sha256: problem.sha256(),
+        below: below.clone(),
+        condensation: None,
+        pieces: vec![
+            piece(Some(LAST), tree),
+            piece(None, vec![CriticalNode::PositiveDefinite]),
+        ],
+    }
+}
+
+/// Up to 1.8655, a relative distance of 3e-4 from the fold.
+#[test]
+fn absence_is_proved_below_the_fold() {
+    let problem = fold();
+    for below in ["1", "1.8", "1.86", "1.8655"] {
+        let below = parse(below).unwrap();
+        let certificate = searched(&problem, &below, 40);
+
+        let accepted = check_critical(&problem, &certificate).unwrap();
+        assert_eq!(accepted.below, below);
+        assert!(audit_critical(&problem, &certificate).unwrap().is_empty());
+
+        let read = CriticalCertificate::from_json(&certificate.to_json());
+        assert_eq!(read, Ok(certificate));
+    }
+}
+
+/// The same trees for frictions above the fold: exactly leaves with the curve of solutions fail.
+#[test]
+fn the_search_is_refused_above_the_fold() {
+    let problem = fold();
+    for below in ["1.86603", "1.8661", "1.87", "2", "3"] {
+        let below = parse(below).unwrap();
+        let certificate = searched(&problem, &below, 18);
+
+        let rejected = check_critical(&problem, &certificate).unwrap_err();
+        assert!(
+            matches!(rejected.reason, Reason::Boxes { .. }),
+            "{rejected}"
+        );
+
+        let refused = audit_critical(&problem, &certificate).unwrap();
+        assert!(!refused.is_empty());
+    }
+}
+
+/// A file that is accepted for 1.86 with a larger `below` is not accepted for it.
+#[test]
+fn a_certificate_is_not_accepted_for_a_larger_friction() {
+    let problem = fold();
+    let good = searched(&problem, &parse("1.86").unwrap(), 40);
+
+    for below in ["1.86603", "1.867", "2"] {
+        let mut forged = good.clone();
+        forged.below = parse(below).unwrap();
+        assert!(check_critical(&problem, &forged).is_err(), "{below}");
+    }
+}
+
+/// Numbers of a linear congruential generator (Knuth's constants).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, limit: u64) -> u64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) % limit
+    }
+
+    fn between(&mut self, [lo, hi]: &[Rational; 2]) -> Rational {
+        let share = rational(i64::try_from(self.below(62)).unwrap() + 1, 64);
+        lo + (hi - lo) * share
+    }
+}
+
+/// A random tree of a box: cuts, branches, and leaves that are good guesses or none.
+fn random_tree(
+    random: &mut Random,
+    rectangle: &Rectangle,
+    open: &[usize],
+    depth: usize,
+    tree: &mut Vec<CriticalNode>,
+) {
+    let choice = if depth == 0 { 3 } else { random.below(4) };
+    let depth = depth.saturating_sub(1);
+
+    match choice {
+        0 => {
+            let at = random.between(&rectangle.t);
+            let mut halves = [rectangle.clone(), rectangle.clone()];
+            halves[0].t[1] = at.clone();
+            halves[1].t[0] = at.clone();
+            tree.push(CriticalNode::Split(Number(at)));
+            for half in &halves {
+                random_tree(random, half, open, depth, tree);
+            }
+        }
+        1 => {
+            let at = random.between(&rectangle.mu);
+            let mut halves = [rectangle.clone(), rectangle.clone()];
+            halves[0].mu[1] = at.clone();
+            halves[1].mu[0] = at.clone();
+            tree.push(CriticalNode::Friction(Number(at)));
+            for half in &halves {
+                random_tree(random, half, open, depth, tree);
+            }
+        }
+        2 if !open.is_empty() => {
+            tree.push(CriticalNode::Branch(open[0]));
+            for _ in 0..2 {
+                random_tree(random, rectangle, &open[1..], depth, tree);
+            }
+        }
+        _ => tree.push(random_leaf(random, rectangle)),
+    }
+}
+
+fn random_leaf(random: &mut Random, rectangle: &Rectangle) -> CriticalNode {
+    let mut weight = || i64::try_from(random.below(9)).unwrap() - 4;
+    let weights = vec![weight(), weight()];
+
+    match random.below(4) {
+        0 => CriticalNode::PositiveDefinite,
+        1 => CriticalNode::NegativeDefinite,
+        2 => CriticalNode::Farkas(weights),
+        _ => scaled(&rectangle.weights()),
+    }
+}
+
+/// At mu = 2 there are solutions with lambda^2 = 2 and 3. Whatever the tree, some leaf of theirs is
+/// refused.
+#[test]
+fn no_random_tree_is_accepted_above_the_fold() {
+    let problem = fold();
+    let mut random = Random(19);
+    let mut refused_by_a_leaf = 0;
+
+    for round in 0..3000u64 {
+        let below = parse(["1.8661", "1.9", "2", "4"][(round % 4) as usize]).unwrap();
+        let rectangle = Rectangle {
+            t: [whole(0), whole(LAST)],
+            mu: [whole(0), below.clone()],
+        };
+        let mut tree = Vec::new();
+        let depth = usize::try_from(random.below(9)).unwrap();
+        random_tree(&mut random, &rectangle, &[0, 1], depth, &mut tree);
+
+        let forged = certificate(&problem, &below, tree);
+        assert!(
+            check_critical(&problem, &forged).is_err(),
+            "{}",
+            forged.to_json()
+        );
+        let refused = audit_critical(&problem, &forged).unwrap();
+        assert!(!refused.is_empty(), "{}", forged.to_json());
+        refused_by_a_leaf += usize::from(refused.iter().any(|(piece, _)| *piece == 0));
+    }
+
+    assert_eq!(refused_by_a_leaf, 3000);
+}

@@ -1,0 +1,167 @@
+//! `spec/fold.md` and its figure: the fold of `spec/errata.md`, X9, as a body.
+//!
+//! With u = 1 + t and t = lambda^2 its solutions are the roots of
+//! 3 mu^2 - 4 u mu + u (u + 1) = 0, which are real from u = 3 on; the smaller one is least at
+//! u = (3 + 2 sqrt 3) / 2, where mu = 1 + sqrt(3) / 2. The figure is drawn from these roots, which the
+//! enumerator must confirm, and from the bound that the page prints, which must lie below the fold.
+//! With `MCEIP_DRAW=1` the figure is drawn anew.
+#![cfg(feature = "cli")]
+
+use crate::common::{example, exits_with_json, read};
+use crate::program::Folder;
+use mceip::picture::{BranchPoint, Branches, Picture, branch_picture};
+use mceip_engine::reduction::reduce;
+use mceip_exact::{from_f64, rational, to_f64, whole};
+use mceip_model::file::read_problem_file;
+use mceip_model::{Body, Problem, System, Unknown, Window};
+use mceip_oracle::enumerate;
+use std::path::Path;
+
+const PAGE: &str = "spec/fold.md";
+const FIGURE: &str = "spec/figures/fold.svg";
+
+/// The bound that the page prints, and the solution above it.
+const ABSENT_BELOW: f64 = 1.86602389;
+const SOLUTION: f64 = 1.86602541;
+
+/// Steps of lambda^2 from 2 on that are drawn, and their width.
+const LEVELS: u32 = 64;
+const STEP: f64 = 1.0 / 32.0;
+
+/// Both solutions at a level of lambda^2 of at least 2: mu by the closed form.
+fn roots(lambda2: f64) -> [f64; 2] {
+    let u = 1.0 + lambda2;
+    let half_distance = (u * (u - 3.0)).sqrt();
+    [
+        (2.0 * u - half_distance) / 3.0,
+        (2.0 * u + half_distance) / 3.0,
+    ]
+}
+
+fn point(mu: f64, lambda2: f64) -> BranchPoint {
+    BranchPoint {
+        mu,
+        lambda2,
+        support: vec![0, 1],
+    }
+}
+
+fn picture() -> Picture {
+    let mut levels = Vec::new();
+    for k in 0..=LEVELS {
+        let lambda2 = 2.0 + STEP * f64::from(k);
+        levels.push(roots(lambda2).map(|mu| point(mu, lambda2)).to_vec());
+    }
+
+    let branches = Branches {
+        levels,
+        certified: vec![point(2.0, 2.0), point(2.0, 3.0)],
+        absent_below: Some(ABSENT_BELOW),
+    };
+    branch_picture(
+        "A fold: two solutions are born at \u{3bb}\u{b2} > 0",
+        &branches,
+    )
+}
+
+fn fold_body() -> System {
+    let problem = read_problem_file(Path::new(&example("fold-body"))).unwrap();
+    let Body::System(system) = problem.body() else {
+        panic!("a system")
+    };
+    system.clone()
+}
+
+#[test]
+fn the_figure_is_the_closed_form() {
+    let drawn = picture().to_svg();
+    if std::env::var_os("MCEIP_DRAW").is_some() {
+        std::fs::write(FIGURE, &drawn).unwrap();
+    }
+
+    assert_eq!(read(FIGURE), drawn);
+}
+
+/// MCEIP-mu of K + lambda^2 M: two solutions from lambda^2 = 2 on, none below.
+#[test]
+fn the_enumerator_confirms_the_closed_form() {
+    let system = fold_body();
+    for k in 0..10 {
+        let lambda2 = rational(2 * k + 1, 4);
+        let mass = system.mass().unwrap();
+        let stiffness = system.stiffness().add_scaled(&lambda2, mass);
+        let particles = system.particles().to_vec();
+        let at_lambda2 = System::new(stiffness, None, None, particles).unwrap();
+        let problem = Problem::new(Body::System(at_lambda2), Unknown::Mu, Window::all()).unwrap();
+        let pencil = reduce(&problem).unwrap().pencil;
+
+        let found = enumerate(&pencil, &Window::all()).unwrap();
+
+        if lambda2 < whole(2) {
+            assert!(found.solutions.is_empty(), "{lambda2}");
+            continue;
+        }
+
+        let expected = roots(to_f64(&lambda2));
+        assert_eq!(found.solutions.len(), 2, "{lambda2}");
+        for (solution, mu) in found.solutions.iter().zip(expected) {
+            let value: f64 = solution.decimal(17).parse().unwrap();
+            assert!((value - mu).abs() < 1e-14, "{lambda2}: {value} {mu}");
+        }
+    }
+}
+
+/// The page prints what the program prints: the bounds, on both sides of the fold, within 1e-6.
+#[test]
+fn the_page_prints_what_the_program_says() {
+    let page = read(PAGE);
+    let problem = example("fold-body");
+    let folder = Folder::new();
+    let proofs = folder.path("proofs");
+
+    let args = ["analyze", &problem, "--json", "--samples", "4"];
+    let report = exits_with_json(0, &[&args[..], &["--certificates", &proofs]].concat());
+
+    let summary = report["summary"].as_str().unwrap();
+    let quoted: Vec<&str> = page.lines().filter_map(|l| l.strip_prefix("> ")).collect();
+    let page_in_one_line = quoted.join(" ");
+    assert!(page_in_one_line.contains(summary), "{summary}");
+    assert!(summary.contains(&ABSENT_BELOW.to_string()), "{summary}");
+    assert!(summary.contains(&SOLUTION.to_string()), "{summary}");
+
+    // The fold is the root of 4 mu^2 - 8 mu + 1 above 1.
+    let polynomial = |mu: f64| {
+        let mu = from_f64(mu).unwrap();
+        whole(4) * &mu * &mu - whole(8) * &mu + whole(1)
+    };
+    assert!(polynomial(ABSENT_BELOW) < whole(0));
+    assert!(polynomial(SOLUTION) > whole(0));
+    const { assert!((SOLUTION - ABSENT_BELOW) / SOLUTION <= 1e-6) };
+}
+
+/// The range below the bound is proved; those above are sampled, and say so.
+#[test]
+fn ranges_say_what_is_proved_and_what_is_sampled() {
+    let report = exits_with_json(
+        0,
+        &[
+            "analyze",
+            &example("two-particles"),
+            "--json",
+            "--samples",
+            "5",
+        ],
+    );
+
+    let ranges = report["ranges"].as_array().unwrap();
+    assert_eq!(ranges[0]["verdict"], "absent");
+    assert_eq!(ranges[0]["proved"], true);
+    assert_eq!(ranges[0]["from"], "0");
+    assert_eq!(ranges[0]["to"], report["critical"]["absent_below"]);
+    assert_eq!(ranges[1]["verdict"], "present");
+    assert_eq!(ranges[1]["proved"], false);
+
+    let sentences = report["sentences"].as_array().unwrap();
+    let sampled = sentences.iter().find(|s| s["topic"] == "ranges").unwrap();
+    assert_eq!(sampled["evidence"]["kind"], "measured");
+}

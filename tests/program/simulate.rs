@@ -1,0 +1,191 @@
+//! `mceip simulate` from outside: exit codes, text, `mceip-motion/1`, pictures, refusals.
+//!
+//! The truth is lambda^2 of Table 1 and of the point on its floor, K* = 2 - 3/2 mu and M* = 1 there,
+//! and cosh. Another growth, a verdict without its proof, or a motion where a step has several
+//! solutions fails.
+#![cfg(feature = "cli")]
+
+use crate::common::{contains_all, example, exits, exits_with_json, read, repository};
+use crate::program::{Folder, refused};
+use roxmltree::Document;
+use serde_json::Value;
+
+fn simulate(code: i32, args: &[&str]) -> String {
+    exits(code, &[&["simulate"][..], args].concat())
+}
+
+fn simulate_json(code: i32, args: &[&str]) -> Value {
+    exits_with_json(code, &[&["simulate", "--json"][..], args].concat())
+}
+
+#[test]
+fn certified_modes_grow_as_predicted() {
+    let motion = simulate_json(0, &[&example("two-particles")]);
+
+    assert_eq!(motion["format"], "mceip-motion/1");
+    let modes = motion["modes"].as_array().unwrap();
+    let rates = [37.0_f64, 62.0, 62.0].map(|n| (n / 25.0).sqrt());
+    assert_eq!(modes.len(), rates.len());
+    for (mode, rate) in modes.iter().zip(rates) {
+        assert_eq!(mode["agreement"], "AGREES");
+        assert!((mode["order"].as_f64().unwrap() - 2.0).abs() < 0.01);
+
+        let points = mode["points"].as_array().unwrap();
+        assert!(points.len() > 100);
+        for point in points {
+            let [time, predicted, _, fine] = [0, 1, 2, 3].map(|k| point[k].as_f64().unwrap());
+            let alpha = (rate * time).cosh();
+            assert!((predicted / alpha - 1.0).abs() < 1e-9);
+            assert!((fine / alpha - 1.0).abs() < 1e-5);
+        }
+    }
+
+    for impulse in motion["impulses"].as_array().unwrap() {
+        assert_eq!(impulse["class"], "growth along a constant direction");
+        assert_eq!(impulse["resolved"], true);
+    }
+}
+
+/// At mu = 1 < 4/3 no solution exists.
+#[test]
+fn proved_absence_is_no_stability() {
+    let point = example("point");
+
+    let text = simulate(0, &[&point, "--friction", "1"]);
+
+    contains_all(
+        &text,
+        &[
+            "No divergence instability of the form (8): proved",
+            "Impulse 1: no growth seen",
+            "absence of (8) is not stability",
+        ],
+    );
+}
+
+/// K* = 0 at mu = 4/3: alpha is linear.
+#[test]
+fn at_the_threshold_the_departure_is_linear() {
+    let motion = simulate_json(0, &[&example("point"), "--friction", "4/3"]);
+
+    let mode = &motion["modes"][0];
+    assert_eq!(mode["agreement"], "AGREES");
+    assert!(mode["order"].is_null());
+    let points = mode["points"].as_array().unwrap();
+    let end = points.last().unwrap();
+    assert!((end[3].as_f64().unwrap() - 2.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_run_without_growth_is_no_agreement() {
+    let text = simulate(3, &[&example("point"), "--duration", "0.1"]);
+
+    assert!(text.contains("TOO SHORT"), "{text}");
+}
+
+/// M* = 1 - 0.9 mu is negative at mu = 2.
+#[test]
+fn where_a_step_may_have_several_solutions_nothing_is_integrated() {
+    let folder = Folder::new();
+    let coupled = read(&example("point")).replace(
+        r#"[["1", "0"], ["0", "1"]]"#,
+        r#"[["1", "0.9"], ["0.9", "1"]]"#,
+    );
+    let file = folder.write("coupled.json", &coupled);
+
+    let text = simulate(3, &[&file, "--friction", "2"]);
+    assert!(
+        text.contains("NOT INTEGRATED: M* has a principal minor"),
+        "{text}"
+    );
+    assert!(text.contains("slip particles [0]"), "{text}");
+
+    let motion = simulate_json(3, &[&file, "--friction", "2"]);
+    assert_eq!(motion["solutions_of_a_step"], "several");
+    assert_eq!(motion["minor"][0], 0);
+    assert_eq!(motion["impulses"].as_array().unwrap().len(), 0);
+
+    // The same file at mu = 1 has one solution a step.
+    simulate(0, &[&file, "--friction", "1"]);
+}
+
+#[test]
+fn what_has_no_motion_is_refused_in_one_line() {
+    let folder = Folder::new();
+    let point = example("point");
+    let broken = folder.write("broken.json", "{");
+
+    refused(
+        &["simulate", &example("fold")],
+        &["expected a mechanical system"],
+    );
+    refused(&["simulate", &broken], &["broken.json"]);
+    refused(
+        &["simulate", "/nowhere/at-all.json"],
+        &["/nowhere/at-all.json"],
+    );
+    refused(&["simulate", &point, "--steps", "0"], &["--steps"]);
+    refused(&["simulate", &point, "--impulses", "1001"], &["--impulses"]);
+    refused(&["simulate", &point, "--friction", "-1"], &["--friction"]);
+    refused(&["simulate", &point, "--duration", "0"], &["--duration"]);
+    refused(&["simulate", &point, "--picture", &point], &["--picture"]);
+    refused(
+        &["simulate", &point, "--picture", "/nowhere/p.svg"],
+        &["/nowhere/p.svg"],
+    );
+    refused(
+        &["simulate", &point, "--duration", "100", "--steps", "1"],
+        &["expected steps shorter than 100"],
+    );
+}
+
+/// The dots of a picture: time and value.
+fn dots(svg: &str) -> Vec<(f64, f64)> {
+    let tree = Document::parse(svg).unwrap();
+    let is_dot = |node: &roxmltree::Node<'_, '_>| node.attribute("class") == Some("point");
+    let mut dots = Vec::new();
+    for node in tree.descendants().filter(is_dot) {
+        let [x, y] = ["data-x", "data-y"].map(|name| node.attribute(name).unwrap());
+        dots.push((x.parse().unwrap(), y.parse().unwrap()));
+    }
+
+    dots
+}
+
+/// Every dot lies on cosh(rate t), and the last ones have grown.
+#[track_caller]
+fn dots_lie_on_cosh(svg: &str, rate: f64) {
+    let dots = dots(svg);
+    assert!(dots.len() >= 20);
+    for (time, value) in &dots {
+        let alpha = (rate * time).cosh();
+        assert!((value / alpha - 1.0).abs() < 1e-4, "{value} at {time}");
+    }
+
+    assert!(dots[dots.len() - 1].1 > 10.0);
+}
+
+#[test]
+fn pictures_show_what_was_integrated() {
+    let folder = Folder::new();
+    let point = example("point");
+    let of_mode = folder.path("mode.svg");
+    let of_impulses = folder.path("impulses.svg");
+
+    simulate(0, &[&point, "--picture", &of_mode]);
+    simulate(0, &[&point, "--friction", "1", "--picture", &of_impulses]);
+
+    // mu = 3/2: lambda^2 = 1/4.
+    dots_lie_on_cosh(&read(&of_mode), 0.5);
+    let svg = read(&of_impulses);
+    assert!(dots(&svg).is_empty());
+    assert_eq!(svg.matches("class=\"series\"").count(), 2);
+}
+
+/// The block's 17-slip state at mu = 2; lambda^2 is certified (spec/motion.md).
+#[test]
+fn the_figure_of_the_book_shows_the_blocks_mode() {
+    let figure = read(&repository("spec/figures/motion-17-slip.svg"));
+
+    dots_lie_on_cosh(&figure, 1387.354619);
+}
