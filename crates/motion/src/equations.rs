@@ -110,8 +110,9 @@ impl Equations {
     /// The equations of a system.
     ///
     /// # Errors
-    /// [`MotionError::Model`] without mass, friction coefficient or slip particle, or with a particle
-    /// in contact with zero reaction; [`MotionError::Doubles`] where entries leave their range.
+    /// [`MotionError::Model`] without mass, friction coefficient or slip particle, or with a
+    /// particle in contact with zero reaction; [`MotionError::Doubles`] where entries leave their
+    /// range.
     pub fn new(system: &System) -> Result<Equations, MotionError> {
         system.require_for(Unknown::Lambda2)?;
         system.require_no_zero()?;

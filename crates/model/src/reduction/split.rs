@@ -14,7 +14,8 @@
 //!
 //! The form has solutions x != 0 with v = 0, namely v+ = v- for any z particle and any t. A
 //! solution of (9) is a solution of the form in which v+ or v- is 0 for each z particle. So the
-//! pencil must not be given to what treats all complementarity variables alike; [`super::reduce`] refuses z.
+//! pencil must not be given to what treats all complementarity variables alike; [`super::reduce`]
+//! refuses z.
 //!
 //! Input: a [`System`]. Called by the oracle and its tests. `check` has its own way.
 
