@@ -398,6 +398,7 @@ class Problem:
         read_window(window)
         folder = os.path.dirname(os.path.abspath(path))
         self.system = None
+        self.halves = []  # (right, left) for each particle in contact with zero reaction
         text = ["mceip-canonical/1", f"unknown {self.unknown}"]
         text += self.read_pencil(pencil, folder) if system is None else self.read_system(system, folder)
         self.digest = hashlib.sha256("".join(line + "\n" for line in text).encode()).hexdigest()
@@ -431,25 +432,35 @@ class Problem:
         if self.unknown == "lambda2" and (m is None or mu is None):
             raise Unreadable("lambda2 needs mass and friction")
         text = ["system"] + ([] if mu is None else [f"friction {mu}"])
-        taken, held, trial, test, slips, sticks = set(), set(), [], [], [], []
+        taken, held, trial, test, slips, sticks, zeros = set(), set(), [], [], [], [], []
         for p in sequence(particles):
-            t, n, state, tangent, normal, sign = self.read_particle(p, order, mu)
+            t, n, state, tangent, normal, sign, factor = self.read_particle(p, order, mu)
             if taken & {t, n} or t == n:
                 raise Unreadable("a dof in two particles")
             taken |= {t, n}
             text += [f"particle {t} {n} {state}" + (f" {sign}" if state == "slip" else "")]
             for name, vector in (("tangent", tangent), ("normal", normal)):
                 text.append(" ".join([name] + [f"{d} {vector[d]}" for d in vector]))
+            if factor != 1:
+                text.append(f"friction_factor {factor}")
+            friction = {d: factor * c for d, c in normal.items()}
             if state != "free":
                 held |= {t, n}
             if state == "stick":
                 sticks += [t, n]
             elif state == "slip":  # E10: v = -S x tangent; E11: y = -(S w_T + mu w_N)
-                slips.append((tangent, normal, sign))
+                slips.append((tangent, normal, friction, sign))
                 trial.append({d: -sign * c for d, c in tangent.items()})
-                test.append(({d: -sign * c for d, c in tangent.items()}, {d: -c for d, c in normal.items()}))
+                test.append(({d: -sign * c for d, c in tangent.items()}, {d: -c for d, c in friction.items()}))
+            elif state == "zero":
+                zeros.append((tangent, normal, friction))
         free = [d for d in range(order) if d not in held]
-        self.system = k.rows, None if m is None else m.rows, mu, slips, sticks, free
+        self.system = k.rows, None if m is None else m.rows, mu, slips, sticks, zeros, free
+        for tangent, normal, friction in zeros:  # Z.3: gap, right, left
+            self.halves.append((len(free) + len(trial) + 1, len(free) + len(trial) + 2))
+            for vector, s in ((normal, -1), (tangent, 1), (tangent, -1)):
+                trial.append({d: s * c for d, c in vector.items()})
+                test.append((trial[-1], {} if vector is normal else {d: -c for d, c in friction.items()}))
         trial = [{d: Q(1)} for d in free] + trial
         test = [({d: Q(1)}, {}) for d in free] + test
         self.changes = test, trial
@@ -469,10 +480,10 @@ class Problem:
 
     @staticmethod
     def read_particle(obj, order, mu):
-        t, n, state, sign, direction, frame, reaction = fields(obj, "tangential normal state", "sign normal_direction frame reaction")
+        t, n, state, sign, direction, frame, factor, reaction = fields(obj, "tangential normal state", "sign normal_direction frame friction_factor reaction")
         t, n = index(t, order), index(n, order)
-        if state not in ("free", "stick", "slip") or (sign is not None) != (state == "slip"):
-            raise Unreadable("state is free, stick or slip; sign exactly for slip")
+        if state not in ("free", "stick", "slip", "zero") or (sign is not None) != (state == "slip"):
+            raise Unreadable("state is free, stick, slip or zero; sign exactly for slip")
         sign = None if sign is None else counter(sign, -1, 1)
         direction = 1 if direction is None else counter(direction, -1, 1)
         if sign not in (None, 1, -1) or direction not in (1, -1):
@@ -482,16 +493,19 @@ class Problem:
             c = [[number(v) for v in sequence(r)] for r in sequence(frame)]
             if [len(r) for r in c] != [2, 2] or c[0] != [c[1][1], -c[1][0]] or c[0][0] ** 2 + c[0][1] ** 2 != 1:
                 raise Unreadable("frame: not a rotation")
+        factor = Q(1) if factor is None else number(factor)
+        if factor <= 0:
+            raise Unreadable("friction_factor must be positive")
         if reaction is not None:  # E7
             rn, rt = map(number, fields(reaction, "normal tangential"))
-            bound = None if mu is None else -mu * rn
-            bad = (rn or rt) if state == "free" else rn >= 0
+            bound = None if mu is None else -factor * mu * rn
+            bad = (rn or rt) if state in ("free", "zero") else rn >= 0
             bad = bad or (state == "slip" and (rt * sign <= 0 or (mu is not None and abs(rt) != bound)))
             if bad or (state == "stick" and mu is not None and abs(rt) >= bound):
                 raise Unreadable("reaction against (7), state or sign")
         if frame is None:
-            return t, n, state, {t: Q(1)}, {n: Q(direction)}, sign
-        return t, n, state, {t: c[0][0], n: c[0][1]}, {t: direction * c[1][0], n: direction * c[1][1]}, sign
+            return t, n, state, {t: Q(1)}, {n: Q(direction)}, sign, factor
+        return t, n, state, {t: c[0][0], n: c[0][1]}, {t: direction * c[1][0], n: direction * c[1][1]}, sign, factor
 
 
 def project(test, k, trial):
@@ -578,6 +592,10 @@ def ascending(items, allowed):
     demand(all(i < j for i, j in zip(items, items[1:])) and set(items) <= set(allowed), "1: not an ascending list of complementarity variables")
 
 
+def one_half(p, support):
+    demand(not any(set(pair) <= set(support) for pair in p.halves), "1: a particle with zero reaction slides both ways")
+
+
 def isolated(poly, x, a, b):
     """Sizes, and [a, b] isolates one root of p: obligations 1 and 2. Returns p with a positive leading coefficient."""
     longest = max(map(len, x))
@@ -612,6 +630,7 @@ def exact_solution(p, rows, window, obj):
     ascending(support, p.s)  # 1
     ascending(biactive, p.s)
     demand(not set(support) & set(biactive), "1: a variable both in the support and biactive")
+    one_half(p, support)
     demand(len(x) == p.n, "1: one polynomial per variable")
     poly = isolated(poly, x, a, b)
     inside(window, a, b, "3")
@@ -646,10 +665,11 @@ def lifted_solution(p, rows, window, obj):
     v, w = ([[number(c) for c in sequence(r)] for r in sequence(l)] for l in (v, w))
     a, b = pair(interval)
     demand(p.system is not None, "lifted: the problem is no system")
-    k, m, mu, slips, sticks, free = p.system
+    k, m, mu, slips, sticks, zeros, free = p.system
     ascending(support, p.s)
     ascending(biactive, p.s)
     demand(not set(support) & set(biactive), "lifted 1: a variable both in the support and biactive")
+    one_half(p, support)
     demand(len(v) == len(w) == len(k), "lifted 1: one polynomial per dof")
     poly = isolated(poly, v + w, a, b)
     inside(window, a, b, "3")
@@ -676,19 +696,30 @@ def lifted_solution(p, rows, window, obj):
         demand(not plus((Q(1), w[i], 0)), f"lifted 3: w_f = 0 at dof {i}")
     for i in sticks:
         demand(not plus((Q(1), v[i], 0)), f"lifted 4: v_d = 0 at dof {i}")
-    for place, (tangent, normal, sign) in enumerate(slips, len(free)):
-        demand(not plus(*along(normal, Q(1), v)), f"lifted 5: v_N = 0 at variable {place}")
-        rate = plus(*along(tangent, Q(sign), v))
+
+    def cone(tangent, friction, sign):
+        """S w_T + mu w_N."""
         if p.unknown == "lambda2":
-            cone = plus(*along(tangent, Q(sign), w), *along(normal, mu, w))
-        else:
-            cone = plus(*along(tangent, Q(sign), w), *along(normal, Q(1), w, 1))
+            return plus(*along(tangent, Q(sign), w), *along(friction, mu, w))
+        return plus(*along(tangent, Q(sign), w), *along(friction, Q(1), w, 1))
+
+    def complementary(place, rate, force, other=False):
+        """rate < 0 on the support, else rate = 0 (unless the other half slides); force = 0 or < 0."""
         if place in support:
-            demand(horner(rate, a, b)[1] < 0 and not cone, f"lifted 6: variable {place} slips")
-        elif place in biactive:
-            demand(not rate and not cone, f"lifted 6: variable {place} is biactive")
+            demand(horner(rate, a, b)[1] < 0 and not force, f"lifted 6: variable {place} slips")
+            return
+        demand(other or not rate, f"lifted 6: variable {place} has no rate")
+        if place in biactive:
+            demand(not force, f"lifted 6: variable {place} is biactive")
         else:
-            demand(not rate and horner(cone, a, b)[1] < 0, f"lifted 6: variable {place} rests")
+            demand(horner(force, a, b)[1] < 0, f"lifted 6: variable {place} rests")
+    for place, (tangent, normal, friction, sign) in enumerate(slips, len(free)):
+        demand(not plus(*along(normal, Q(1), v)), f"lifted 5: v_N = 0 at variable {place}")
+        complementary(place, plus(*along(tangent, Q(sign), v)), cone(tangent, friction, sign))
+    for (right, left), (tangent, normal, friction) in zip(p.halves, zeros):
+        complementary(right - 1, plus(*along(normal, Q(1), v)), plus(*along(normal, Q(1), w)))
+        complementary(right, plus(*along(tangent, Q(-1), v)), cone(tangent, friction, -1), left in support)
+        complementary(left, plus(*along(tangent, Q(1), v)), cone(tangent, friction, 1), right in support)
     if not support:
         demand(any((e := horner(plus((Q(1), v[i], 0)), a, b))[0] > 0 or e[1] < 0 for i in free), "lifted 7: v may be zero")
     return support, biactive, a, b
@@ -1779,6 +1810,7 @@ def check_critical(p, doc):
     below = number(below)
     demand(digest == p.digest, f"the problem's digest is {p.digest}")
     demand(p.system is not None and p.unknown == "lambda2", "a mechanical system with the unknown lambda2 was expected")
+    demand(not p.halves, "absence below a friction is not defined for zero reaction")
     demand(below > 0, "below is not positive")
     ns = len(p.s)
     demand(ns <= 512, "more than 512 slip variables")
@@ -1920,10 +1952,12 @@ def check(problem_path, certificate_path):
         kinds = {"exact_solution": exact_solution, "enclosed_solution": enclosed_solution, "lifted_solution": lifted_solution}
         if kind not in kinds:
             raise Unreadable(f"unknown claim {kind[:40]!r}")
+        demand(not p.halves or kind != "enclosed_solution", "an enclosed solution is not defined for zero reaction")
         claims.append(kinds[kind](p, rows, window, body))
     text = f"{len(claims)} claim(s)"
     if complete is None:
         return 0, f"ACCEPTED: {text}"
+    demand(not p.halves, "a complete set is not defined for zero reaction")
     solutions, families, left_open = complete_set(p, rows, window, claims, complete)
     if left_open:
         return 3, f"UNDECIDED: {text}; {left_open} open leaves, {solutions} solution(s) outside them"

@@ -189,9 +189,11 @@ let check_reaction mu state sign item =
 
 let read_particle order mu item =
   let field = fields ["tangential"; "normal"; "state"]
-      ["sign"; "normal_direction"; "frame"; "reaction"] item in
+      ["sign"; "normal_direction"; "frame"; "friction_factor"; "reaction"] item in
+  (match field "friction_factor" with Null -> () | _ -> not_verified "friction factor");
   let t = index order (field "tangential") and n = index order (field "normal") in
   let state = text (field "state") in
+  if state = "zero" then not_verified "a particle in contact with zero reaction";
   if not (List.mem state ["free"; "stick"; "slip"]) then malformed "the state %S" state;
   let unit_of what = function
     | Null -> None

@@ -34,7 +34,7 @@ impl Mark {
             ContactState::Stick => Mark::Stick,
             ContactState::Slip { sign } if sign > 0 => Mark::SlipLeft,
             ContactState::Slip { .. } => Mark::SlipRight,
-            ContactState::Free => Mark::Free,
+            ContactState::Free | ContactState::Zero => Mark::Free,
         }
     }
 

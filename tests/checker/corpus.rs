@@ -30,6 +30,8 @@ mod corpus_malformed;
 mod corpus_mcp;
 #[path = "../support/corpus_support.rs"]
 mod corpus_support;
+#[path = "../support/corpus_zero.rs"]
+mod corpus_zero;
 
 use corpus_cases::Cases;
 use mceip_check::certificate::{CRITICAL_FORMAT, Certificate, CriticalCertificate};
@@ -451,6 +453,7 @@ fn write_the_corpus() {
     corpus_support::supports(&mut cases);
     corpus_infinity::infinity(&mut cases);
     corpus_mcp::plain(&mut cases);
+    corpus_zero::zero_reaction(&mut cases);
     corpus_critical::critical(&mut cases);
     corpus_malformed::malformed(&mut cases);
     corpus_malformed::spelling(&mut cases);

@@ -141,6 +141,33 @@ fn system(particles: Value) -> Value {
     })
 }
 
+/// The friction factor of a particle is a positive number.
+#[test]
+fn friction_factors_of_a_particle() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = [
+        (json!(null), READ),
+        (json!("1"), READ),
+        (json!("3/2"), READ),
+        (json!(0.25), READ),
+        (json!(0), REFUSED),
+        (json!("-1/2"), REFUSED),
+        (json!("rough"), REFUSED),
+        (json!("NaN"), REFUSED),
+        (json!([1]), REFUSED),
+        (json!(true), REFUSED),
+    ];
+
+    for (factor, expected) in cases {
+        let slip = json!({
+            "tangential": 0, "normal": 1, "state": "slip", "sign": 1,
+            "friction_factor": factor,
+        });
+        let what = format!("friction_factor {factor}");
+        assert_verdict(folder.path(), &system(json!([slip])), expected, &what);
+    }
+}
+
 /// No degree of freedom belongs to two particles, free ones included, and one particle has to be in
 /// impending slip.
 #[test]

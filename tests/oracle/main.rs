@@ -19,3 +19,4 @@ mod stability;
 mod table1;
 mod third_opinion;
 mod way_back;
+mod zero_reaction;

@@ -9,7 +9,7 @@
 #![cfg(feature = "testkit")]
 
 use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator, rational, whole};
-use mceip_model::reduction::{Lifted, Variable, lift, reduce};
+use mceip_model::reduction::{Lifted, Variable, check_lines, lift, reduce};
 use mceip_model::{Body, ContactState, Direction, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::{
     Enumeration, Mode, Motion, Motions, PhysicalState, PhysicalSystem, TwoParticles, enumerate,
@@ -19,7 +19,7 @@ use mceip_paper::{pythagorean_angles, two_particles};
 use mceip_testkit::generators::{Seed, states};
 use rand::RngExt;
 
-const UNKNOWNS: [Unknown; 2] = [Unknown::Lambda2, Unknown::Mu];
+pub(crate) const UNKNOWNS: [Unknown; 2] = [Unknown::Lambda2, Unknown::Mu];
 
 /// Number of this family of random systems, for [`Seed`].
 const FAMILY: u64 = 90;
@@ -136,6 +136,62 @@ fn motions_are_the_solutions_of_the_reduced_pencil() {
     assert!(solutions >= 100, "{solutions} solutions");
 }
 
+/// The system with a friction factor of its own for each particle.
+pub(crate) fn with_factors(system: &System, rng: &mut impl rand::Rng) -> System {
+    let mut particles = system.particles().to_vec();
+    for particle in &mut particles {
+        particle.friction_factor = rational(rng.random_range(1..=12), 4);
+    }
+
+    System::new(
+        system.stiffness().clone(),
+        system.mass().cloned(),
+        system.friction().cloned(),
+        particles,
+    )
+    .unwrap()
+}
+
+/// 70 mixtures with friction factors: the motions are the solutions of the reduced pencil, and each
+/// solution satisfies the lines of (9) when it is lifted. Without the factors few of them do.
+#[test]
+fn friction_factors_count_in_both_routes() {
+    let mut solutions = 0;
+    let mut changed = 0;
+
+    for number in 0..states::MIXTURES {
+        let mut rng = seed(2000 + number).rng();
+        let mixture = states::mixture(number);
+        let plain = states::system(&mut rng, &mixture, &mut Vec::new()).unwrap();
+        let system = with_factors(&plain, &mut rng);
+
+        for unknown in UNKNOWNS {
+            let physical = PhysicalSystem::of(&system, unknown).unwrap();
+            let direct = enumerate_motions(&physical, &Window::all()).unwrap();
+            let route = reduced_route(&system, unknown);
+            if !direct.degenerate.is_empty() || !route.found.is_plain_list() {
+                continue;
+            }
+
+            assert_same(
+                &direct.motions,
+                &route,
+                &format!("system {number}, {unknown:?}"),
+            );
+            for solution in &route.found.solutions {
+                let lifted = lift(&system, unknown, &route.variables, &solution.x);
+                let value = &mut solution.value.clone();
+                assert_eq!(check_lines(&system, unknown, &lifted, value), Ok(()));
+                changed += usize::from(check_lines(&plain, unknown, &lifted, value).is_err());
+                solutions += 1;
+            }
+        }
+    }
+
+    assert!(solutions >= 50, "{solutions} solutions");
+    assert!(changed >= 40, "{changed} solutions of factors alone");
+}
+
 /// The system with some of its particles in contact with zero reaction.
 struct WithZero {
     /// In it the z particles have some other state, which is not used.
@@ -209,7 +265,7 @@ const STATES_OF_ZERO: [ContactState; 4] = [
 /// The mode of a z particle that is treated as one of this state.
 fn mode_of(state: ContactState) -> Mode {
     match state {
-        ContactState::Free => Mode::Open,
+        ContactState::Free | ContactState::Zero => Mode::Open,
         ContactState::Stick => Mode::Sticking,
         ContactState::Slip { sign } => Mode::Slipping { sign },
     }

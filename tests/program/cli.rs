@@ -27,7 +27,7 @@ fn refused(args: &[&str], words: &[&str]) {
 
 #[test]
 fn malformed_problems_are_refused_in_one_line() {
-    let expected: [(&str, &[&str]); 26] = [
+    let expected: [(&str, &[&str]); 27] = [
         ("empty", &["line 1"]),
         ("truncated", &["EOF"]),
         ("not-json", &["line 1", "expected"]),
@@ -42,10 +42,14 @@ fn malformed_problems_are_refused_in_one_line() {
         ("index-out-of-range", &["normal", "9", "4"]),
         ("particle-twice", &["particles 0 and 2", "0"]),
         ("sign-zero", &["particle 0", "sign", "0"]),
-        ("state-zero", &["particle 0", "zero"]),
         ("absurd-size", &["1000000", "1000000000000000"]),
         ("absurd-exponent", &["exponent"]),
         ("friction-zero", &["friction > 0", "particle 0"]),
+        (
+            "friction-factor-zero",
+            &["particle 1", "friction_factor > 0"],
+        ),
+        ("friction-factor-word", &["rough"]),
         ("mass-not-definite", &["E3", "M positive definite", "-1"]),
         ("both-bodies", &["exactly one"]),
         ("window-reversed", &["min = 3", "max = 2"]),
@@ -79,6 +83,38 @@ fn malformed_files() -> Vec<String> {
 
     names.sort();
     names
+}
+
+/// A problem with a particle in contact with zero reaction is well formed. What does not treat it
+/// says so.
+#[test]
+fn zero_reaction_is_refused_where_it_is_not_supported() {
+    let folder = tempfile::tempdir().unwrap();
+    let problem = zero_reaction_problem(folder.path());
+
+    for command in ["enumerate", "solve", "reduce", "complete", "analyze"] {
+        refused(
+            &[command, &problem],
+            &["particle 1", "zero", "not supported"],
+        );
+    }
+
+    let solutions = folder.path().join("solutions.json");
+    let text = r#"{"format": "mceip-solutions/1", "solutions": [{"value": "2", "x": ["1"]}]}"#;
+    std::fs::write(&solutions, text).unwrap();
+    let solutions = solutions.to_str().unwrap();
+    for command in ["certify", "check"] {
+        refused(&[command, &problem, solutions], &["particle 1", "zero"]);
+    }
+}
+
+/// The problem of `spec/corpus/accept/zero-right.json`, as a file.
+fn zero_reaction_problem(folder: &std::path::Path) -> String {
+    let text = std::fs::read_to_string(repository("spec/corpus/accept/zero-right.json")).unwrap();
+    let case: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let problem = folder.join("problem.json");
+    std::fs::write(&problem, case["problem"].to_string()).unwrap();
+    problem.to_str().unwrap().into()
 }
 
 #[test]

@@ -216,7 +216,6 @@ fn of_shape(error: &ModelError) -> bool {
             | ModelError::Format { .. }
             | ModelError::Body { .. }
             | ModelError::Sign { .. }
-            | ModelError::ZeroReactionState { .. }
     )
 }
 
@@ -225,6 +224,7 @@ fn of_shape(error: &ModelError) -> bool {
 #[test]
 fn malformed_problems_are_invalid_or_wrong_in_meaning() {
     let meaning = [
+        "friction-factor-zero",
         "friction-zero",
         "index-out-of-range",
         "mass-not-definite",

@@ -22,6 +22,7 @@ pub fn critical(cases: &mut Cases) {
     with_a_free_variable(cases);
     tails(cases);
     other_problems(cases);
+    other_particles(cases);
     malformed(cases);
 }
 
@@ -863,6 +864,72 @@ fn other_problems(cases: &mut Cases) {
         ["condensation", "Cover.Condensation", note],
         &problem,
         &needless,
+    );
+}
+
+/// The system of `one` where the friction of the particle is twice mu: the critical mu is 1/2.
+fn twice_the_friction() -> Problem {
+    let problem = one();
+    let Body::System(of_one) = problem.body() else {
+        unreachable!("a system was built")
+    };
+    let particle = Particle {
+        friction_factor: whole(2),
+        ..of_one.particles()[0].clone()
+    };
+
+    let stiffness = of_one.stiffness().clone();
+    let mass = of_one.mass().cloned();
+    let friction = of_one.friction().cloned();
+    let system = System::new(stiffness, mass, friction, vec![particle]).unwrap();
+    Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
+}
+
+/// The system of `one` beside a particle with zero reaction that it does not touch.
+fn with_zero_reaction() -> Problem {
+    let stiffness = [
+        (0, 0, whole(1)),
+        (0, 1, whole(-1)),
+        (1, 1, whole(3)),
+        (2, 2, whole(1)),
+        (3, 3, whole(1)),
+    ];
+    let problem = system(4, &[(0, 1)], &stiffness, &identity(4));
+    let Body::System(of_one) = problem.body() else {
+        unreachable!("a system was built")
+    };
+    let mut particles = of_one.particles().to_vec();
+    particles.push(Particle::plain(2, 3, ContactState::Zero));
+
+    let stiffness = of_one.stiffness().clone();
+    let mass = of_one.mass().cloned();
+    let friction = of_one.friction().cloned();
+    let system = System::new(stiffness, mass, friction, particles).unwrap();
+    Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
+}
+
+/// A particle with a friction of its own, and one in contact with zero reaction.
+fn other_particles(cases: &mut Cases) {
+    let problem = twice_the_friction();
+    let of = |below: &str| certificate(&problem, below, vec![piece(None, vec![PositiveDefinite])]);
+    let note = "the friction of the particle is twice mu";
+    accept(cases, "factor", note, &problem, &of("0.499999"));
+    let note = "true if the factor of the particle is forgotten";
+    reject(
+        cases,
+        ["factor-forgotten", "Cover.NotDefinite", note],
+        &problem,
+        &of("3/4"),
+    );
+
+    let problem = with_zero_reaction();
+    let all = certificate(&problem, "3/4", vec![piece(None, vec![PositiveDefinite])]);
+    let note = "a particle with zero reaction has four modes, which the format does not know";
+    reject(
+        cases,
+        ["zero-reaction", "ZeroReaction", note],
+        &problem,
+        &all,
     );
 }
 

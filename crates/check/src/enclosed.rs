@@ -311,6 +311,7 @@ mod tests {
                 .collect()
         };
         Rows {
+            halves: vec![],
             rows: vec![
                 of([[1, 0], [0, 0]]),
                 of([[0, 0], [1, 0]]),

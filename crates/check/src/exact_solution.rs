@@ -9,8 +9,9 @@
 //!
 //! The obligations, in the order of `spec/certificates.md`:
 //!
-//! 1. `support` and `biactive` are ascending lists of complementarity variables, and the numbers
-//!    are small enough to be multiplied out.
+//! 1. `support` and `biactive` are ascending lists of complementarity variables, the support has at
+//!    most one half of v_T of each particle with zero reaction, and the numbers are small enough to
+//!    be multiplied out.
 //! 2. [a, b] contains exactly one root of p: a = b and p(a) = 0; or p(a) p(b) < 0, so that there is
 //!    one, and p' has one sign on [a, b], so that there are no two.
 //! 3. [a, b] lies in the window.
@@ -60,6 +61,7 @@ pub(super) fn check(
 ) -> Result<AcceptedClaim, Reason> {
     index_set(rows, "support", &claim.support)?;
     index_set(rows, "biactive", &claim.biactive)?;
+    one_half(rows, &claim.support)?;
     ClaimSize::of(&claim.polynomial, &claim.interval, &claim.x).bounded()?;
 
     let p = Poly::new(claim.polynomial.clone()).primitive();
@@ -76,6 +78,22 @@ pub(super) fn check(
         support: claim.support.clone(),
         value: alpha.value,
     })
+}
+
+/// No particle with zero reaction has both halves of its v_T in the support: with v+ = v- alone
+/// x is not zero, but v is.
+pub(super) fn one_half(rows: &Rows, support: &[usize]) -> Result<(), Reason> {
+    for halves in &rows.halves {
+        if support.contains(&halves.right) && support.contains(&halves.left) {
+            return Err(Reason::BothHalves {
+                particle: halves.particle,
+                right: halves.right,
+                left: halves.left,
+            });
+        }
+    }
+
+    Ok(())
 }
 
 /// How large an exact or lifted claim is.
@@ -455,6 +473,7 @@ mod tests {
     #[test]
     fn index_sets_ascend_strictly() {
         let rows = Rows {
+            halves: vec![],
             rows: vec![vec![]; 3],
             factor: vec![1.into(); 3],
             is_free: vec![false, true, false],

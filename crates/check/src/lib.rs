@@ -118,7 +118,10 @@ impl<'a> ClaimChecker<'a> {
         match claim {
             Claim::ExactSolution(c) => exact_solution::check(&self.rows, window, c),
             Claim::LiftedSolution(c) => lifted_solution::check(self.problem, &self.rows, window, c),
-            Claim::EnclosedSolution(c) => enclosed::check(&self.rows, window, c),
+            Claim::EnclosedSolution(c) => {
+                self.rows.without_zero("an enclosed solution")?;
+                enclosed::check(&self.rows, window, c)
+            }
         }
     }
 
@@ -179,8 +182,12 @@ fn verdict(
 
     let cover = match &certificate.complete_set {
         Some(complete_set) => {
+            let rows = &checker.rows;
+            rows.without_zero("a complete set")
+                .map_err(of_certificate)?;
+
             let window = &certificate.window;
-            let accepted = cover::check(&checker.rows, window, &solutions, complete_set, refused);
+            let accepted = cover::check(rows, window, &solutions, complete_set, refused);
             Some(accepted.map_err(of_certificate)?)
         }
         None => None,

@@ -10,17 +10,21 @@
 //! 3. w_f = 0 at the free degrees of freedom.
 //! 4. Stick: v = 0 at both degrees of freedom of the particle. Slip: v_N = 0; S v_T < 0 on the
 //!    support, else S v_T = 0; S w_T + mu w_N = 0 on the support and where biactive, else < 0.
+//!    Zero reaction, with the variables gap, right and left: v_N < 0 if gap is in the support, else
+//!    v_N = 0; w_N = 0 if gap is in the support or biactive, else w_N < 0; v_T > 0 if right is in
+//!    the support, v_T < 0 if left is, else v_T = 0; the cone line of S = -1 for right, that of
+//!    S = 1 for left, as for slip.
 //! 5. v is not zero.
 //!
 //! Line 4 states (9) with the two inequalities and the product resolved: on the support the first
 //! factor of (S w_T + mu w_N) (S v_T) is zero, elsewhere the second.
 //!
 //! Indices of `support` and `biactive` are those of the pencil: free degrees of freedom first, then
-//! slip particles in file order.
+//! slip particles in file order, then gap, right and left of each particle with zero reaction.
 
 use super::AcceptedClaim;
 use super::exact_solution::{
-    Alpha, ClaimSize, Polynomial, coefficients, index_set, isolate, within,
+    Alpha, ClaimSize, Polynomial, coefficients, index_set, isolate, one_half, within,
 };
 use super::pencil::Rows;
 use super::reason::Reason;
@@ -41,6 +45,7 @@ pub(super) fn check(
     let polynomials = claim.v.iter().chain(&claim.w);
     index_set(rows, "support", &claim.support)?;
     index_set(rows, "biactive", &claim.biactive)?;
+    one_half(rows, &claim.support)?;
     ClaimSize::of(&claim.polynomial, &claim.interval, polynomials.clone()).bounded()?;
 
     let p = Poly::new(claim.polynomial.clone()).primitive();
@@ -69,15 +74,16 @@ pub(super) fn check(
     })
 }
 
-/// What a claim says of a slip particle.
+/// What a claim says of a complementarity pair, such as -S v_T and -(S w_T + mu w_N) of a slip
+/// particle.
 #[derive(Clone, Copy, PartialEq)]
-enum Slip {
-    /// S v_T < 0, S w_T + mu w_N = 0.
+enum Claimed {
+    /// x > 0, y = 0.
     InSupport,
-    /// S v_T = 0, S w_T + mu w_N = 0.
+    /// x = 0, y = 0.
     Biactive,
-    /// S v_T = 0, S w_T + mu w_N < 0.
-    Sticks,
+    /// x = 0, y > 0.
+    AtZero,
 }
 
 /// The lines of (9) for one v, w and t.
@@ -126,17 +132,25 @@ impl Lines<'_> {
 
     /// The lines of each particle in contact.
     fn particles(&self, claim: &LiftedSolution) -> Result<(), Reason> {
-        // In the pencil the slip variables follow the free ones.
+        // In the pencil the slip variables follow the free ones, and those of z the slip ones.
         let mut variable = self.system.free_dofs().len();
+        let mut gap = variable + self.system.slip_particles().len();
 
         for (index, particle) in self.system.particles().iter().enumerate() {
             match particle.state {
                 ContactState::Free => {}
                 ContactState::Stick => self.stick(index, particle)?,
                 ContactState::Slip { sign } => {
-                    let slip = claimed_slip(claim, variable)?;
+                    let slip = claimed(claim, variable)?;
                     self.slip(index, particle, sign, slip)?;
                     variable += 1;
+                }
+                ContactState::Zero => {
+                    self.gap(index, particle, claimed(claim, gap)?)?;
+                    let right = claimed(claim, gap + 1)?;
+                    let left = claimed(claim, gap + 2)?;
+                    self.sliding(index, particle, right, left)?;
+                    gap += 3;
                 }
             }
         }
@@ -154,27 +168,89 @@ impl Lines<'_> {
     }
 
     /// v_N = 0, and the signs of S v_T and S w_T + mu w_N.
-    fn slip(&self, index: usize, particle: &Particle, sign: i8, slip: Slip) -> Result<(), Reason> {
+    fn slip(
+        &self,
+        index: usize,
+        particle: &Particle,
+        sign: i8,
+        slip: Claimed,
+    ) -> Result<(), Reason> {
         let normal_rate = along(&particle.into_obstacle(), &self.v, &Rational::one());
         self.zero("v_N = 0", "particle", index, &normal_rate)?;
 
         let s = Rational::from_integer(sign.into());
         let slip_rate = along(&particle.tangent(), &self.v, &s);
-        if slip == Slip::InSupport {
+        if slip == Claimed::InSupport {
             self.negative("S v_T < 0 on the support", index, &slip_rate)?;
         } else {
             self.zero("S v_T = 0 off the support", "particle", index, &slip_rate)?;
         }
 
-        let cone = self.cone(particle, &s);
+        self.on_cone(index, particle, &s, slip)
+    }
+
+    /// The sign of S w_T + mu w_N.
+    fn on_cone(
+        &self,
+        index: usize,
+        particle: &Particle,
+        s: &Rational,
+        slip: Claimed,
+    ) -> Result<(), Reason> {
+        let cone = self.cone(particle, s);
         let line = match slip {
-            Slip::InSupport => "(S w_T + mu w_N) (S v_T) = 0",
-            Slip::Biactive => "S w_T + mu w_N = 0 where biactive",
-            Slip::Sticks => {
+            Claimed::InSupport => "(S w_T + mu w_N) (S v_T) = 0",
+            Claimed::Biactive => "S w_T + mu w_N = 0 where biactive",
+            Claimed::AtZero => {
                 return self.negative("S w_T + mu w_N < 0 where not biactive", index, &cone);
             }
         };
         self.zero(line, "particle", index, &cone)
+    }
+
+    /// The signs of v_N and w_N at a particle with zero reaction.
+    fn gap(&self, index: usize, particle: &Particle, gap: Claimed) -> Result<(), Reason> {
+        let normal_rate = along(&particle.into_obstacle(), &self.v, &Rational::one());
+        if gap == Claimed::InSupport {
+            self.negative("v_N < 0 on the support", index, &normal_rate)?;
+        } else {
+            self.zero("v_N = 0 off the support", "particle", index, &normal_rate)?;
+        }
+
+        let reaction = along(&particle.into_obstacle(), &self.w, &Rational::one());
+        match gap {
+            Claimed::InSupport => self.zero("v_N w_N = 0", "particle", index, &reaction),
+            Claimed::Biactive => self.zero("w_N = 0 where biactive", "particle", index, &reaction),
+            Claimed::AtZero => self.negative("w_N < 0 where not biactive", index, &reaction),
+        }
+    }
+
+    /// The sign of v_T at a particle with zero reaction, and both sides of its cone: w_T = mu w_N
+    /// if it slides to the right, -w_T = mu w_N if to the left.
+    fn sliding(
+        &self,
+        index: usize,
+        particle: &Particle,
+        right: Claimed,
+        left: Claimed,
+    ) -> Result<(), Reason> {
+        let one = Rational::one();
+        let minus_one = -&one;
+
+        if right == Claimed::InSupport {
+            let to_the_left = along(&particle.tangent(), &self.v, &minus_one);
+            self.negative("v_T > 0 on the support", index, &to_the_left)?;
+        } else {
+            let to_the_right = along(&particle.tangent(), &self.v, &one);
+            if left == Claimed::InSupport {
+                self.negative("v_T < 0 on the support", index, &to_the_right)?;
+            } else {
+                self.zero("v_T = 0 off the support", "particle", index, &to_the_right)?;
+            }
+        }
+
+        self.on_cone(index, particle, &minus_one, right)?;
+        self.on_cone(index, particle, &one, left)
     }
 
     /// S w_T + mu w_N, where mu is a number of the system or the unknown itself.
@@ -184,12 +260,12 @@ impl Lines<'_> {
 
         match (self.unknown, self.system.friction()) {
             (Unknown::Lambda2, Some(mu)) => {
-                let friction = along(&particle.into_obstacle(), &self.w, mu);
+                let friction = along(&particle.friction_direction(), &self.w, mu);
                 add(&mut sum, &one, &friction, 0);
             }
             _ => {
-                let normal = along(&particle.into_obstacle(), &self.w, &one);
-                add(&mut sum, &one, &normal, 1);
+                let friction = along(&particle.friction_direction(), &self.w, &one);
+                add(&mut sum, &one, &friction, 1);
             }
         }
 
@@ -253,8 +329,8 @@ impl Lines<'_> {
     }
 }
 
-/// What the claim says of the slip particle with this variable. It cannot be in both sets.
-fn claimed_slip(claim: &LiftedSolution, variable: usize) -> Result<Slip, Reason> {
+/// What the claim says of the pair with this variable. It cannot be in both sets.
+fn claimed(claim: &LiftedSolution, variable: usize) -> Result<Claimed, Reason> {
     let is_in_support = claim.support.binary_search(&variable).is_ok();
     let is_biactive = claim.biactive.binary_search(&variable).is_ok();
 
@@ -263,9 +339,9 @@ fn claimed_slip(claim: &LiftedSolution, variable: usize) -> Result<Slip, Reason>
             index: variable,
             expected: false,
         }),
-        (true, false) => Ok(Slip::InSupport),
-        (false, true) => Ok(Slip::Biactive),
-        (false, false) => Ok(Slip::Sticks),
+        (true, false) => Ok(Claimed::InSupport),
+        (false, true) => Ok(Claimed::Biactive),
+        (false, false) => Ok(Claimed::AtZero),
     }
 }
 

@@ -17,7 +17,14 @@
 //!     e_dof for a free dof,    -(S t + mu n) for a slip particle,           // (11)
 //! ```
 //!
-//! n its unit normal into the obstacle. Then w = (K + lambda^2 M) v gives
+//! n its unit normal into the obstacle, times the friction factor of the particle. A particle in
+//! contact with zero reaction has three variables (`spec/zero-reaction.md`, Z.3), with the columns
+//!
+//! ```text
+//!     T:   -n,   t,           -t               P:   -n,   t - mu n,   -t - mu n
+//! ```
+//!
+//! Then w = (K + lambda^2 M) v gives
 //! y = P' (K + lambda^2 M) T x. The block formulas (16) are not used: `reduction` in the model
 //! crate does that, and a test holds the two equal, so that one mistake cannot be in both.
 //!
@@ -27,8 +34,9 @@
 //! Input: a [`Problem`], whose constructor has checked its shape. Every checker of a claim reads
 //! the [`Rows`] made here.
 
+use crate::reason::Reason;
 use mceip_exact::{Integer, Rational, Sparse, common_denominator};
-use mceip_model::{Body, Direction, Problem, System, Unknown};
+use mceip_model::{Body, ContactState, Direction, Problem, System, Unknown};
 use std::collections::BTreeMap;
 
 /// One row of A + tB with denominators cleared: (column, coefficient in A, coefficient in B).
@@ -37,6 +45,17 @@ pub(super) type Row = Vec<(usize, Integer, Integer)>;
 /// One row of A or of B before that: (column, value).
 type RationalRow = Vec<(usize, Rational)>;
 
+/// The two variables that v_T of a particle with zero reaction is split into.
+#[derive(Clone, Copy)]
+pub(super) struct Halves {
+    /// The particle.
+    pub(super) particle: usize,
+    /// The variable max(v_T, 0).
+    pub(super) right: usize,
+    /// The variable max(-v_T, 0).
+    pub(super) left: usize,
+}
+
 /// The rows of the pencil, each multiplied by a positive integer, and the free variables.
 #[derive(Clone)]
 pub(super) struct Rows {
@@ -44,6 +63,8 @@ pub(super) struct Rows {
     /// The integer each row was multiplied by.
     pub(super) factor: Vec<Integer>,
     pub(super) is_free: Vec<bool>,
+    /// One entry for each particle with zero reaction.
+    pub(super) halves: Vec<Halves>,
 }
 
 impl Rows {
@@ -67,6 +88,7 @@ impl Rows {
             rows: Vec::with_capacity(order),
             factor: Vec::with_capacity(order),
             is_free: Vec::with_capacity(order),
+            halves: Vec::new(),
         }
     }
 
@@ -112,11 +134,23 @@ impl Rows {
             rows,
             factor: self.factor.clone(),
             is_free: self.is_free.clone(),
+            halves: self.halves.clone(),
         }
     }
 
     pub(super) fn order(&self) -> usize {
         self.rows.len()
+    }
+
+    /// Refuses evidence that is not defined for particles with zero reaction.
+    pub(super) fn without_zero(&self, what: &'static str) -> Result<(), Reason> {
+        match self.halves.first() {
+            None => Ok(()),
+            Some(halves) => Err(Reason::ZeroReaction {
+                what,
+                particle: halves.particle,
+            }),
+        }
     }
 }
 
@@ -163,6 +197,8 @@ impl FrictionParts {
                 .push_multiple(&friction_a, &friction_b, factor, is_free);
         }
 
+        parts.plain.halves = variables.halves.clone();
+        parts.friction.halves = variables.halves;
         parts
     }
 
@@ -227,6 +263,7 @@ fn of_system(system: &System, unknown: Unknown) -> Rows {
         rows.push(&a, &b, i < variables.free);
     }
 
+    rows.halves = variables.halves;
     rows
 }
 
@@ -240,6 +277,8 @@ struct Variables {
     rows: Vec<Direction>,
     /// What friction adds to each column of P, divided by mu.
     friction: Vec<Direction>,
+    /// One entry for each particle with zero reaction.
+    halves: Vec<Halves>,
     /// T by rows: for each degree of freedom, the variables that move it and by how much.
     moved_by: Vec<RationalRow>,
 }
@@ -259,7 +298,34 @@ impl Variables {
             let minus_s = Rational::from_integer((-sign).into());
             columns.push(scale(&particle.tangent(), &minus_s)); // (10): v_T = -S x
             rows.push(scale(&particle.tangent(), &minus_s)); // (11): y = -(S w_T + mu w_N)
-            friction.push(scale(&particle.into_obstacle(), &minus_one));
+            friction.push(scale(&particle.friction_direction(), &minus_one));
+        }
+
+        let mut halves = Vec::new();
+        for (index, particle) in system.particles().iter().enumerate() {
+            if particle.state != ContactState::Zero {
+                continue;
+            }
+
+            let right = columns.len() + 1;
+            halves.push(Halves {
+                particle: index,
+                right,
+                left: right + 1,
+            });
+
+            let tangent = particle.tangent();
+            let opening = scale(&particle.into_obstacle(), &minus_one);
+            let against = scale(&particle.friction_direction(), &minus_one);
+            for (column, of_friction) in [
+                (opening, Vec::new()),
+                (tangent.clone(), against.clone()),
+                (scale(&tangent, &minus_one), against),
+            ] {
+                columns.push(column.clone());
+                rows.push(column);
+                friction.push(of_friction);
+            }
         }
 
         let mut moved_by: Vec<RationalRow> = vec![Vec::new(); system.dofs()];
@@ -274,6 +340,7 @@ impl Variables {
             columns,
             rows,
             friction,
+            halves,
             moved_by,
         }
     }
@@ -304,8 +371,8 @@ fn scale(direction: &Direction, factor: &Rational) -> Direction {
 mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
-    use mceip_model::reduction::reduce;
-    use mceip_model::{ContactState, Particle, Pencil, Window};
+    use mceip_model::reduction::{reduce, split_form};
+    use mceip_model::{Particle, Pencil, Window};
 
     /// A symmetric matrix of order 6 with entries from -3 to 3 over `denominator`, and `diagonal`
     /// added to its diagonal.
@@ -322,8 +389,9 @@ mod tests {
         Sparse::from_entries(6, 6, entries)
     }
 
-    /// An oblique particle (3/5, 4/5), one along the axes and two free degrees of freedom.
-    fn system() -> System {
+    /// An oblique particle (3/5, 4/5), one along the axes with the friction factor 5/3, and two
+    /// free degrees of freedom.
+    fn system(second: ContactState) -> System {
         let oblique = Particle {
             frame: Some([
                 [rational(3, 5), rational(4, 5)],
@@ -333,7 +401,8 @@ mod tests {
         };
         let along_the_axes = Particle {
             normal_direction: -1,
-            ..Particle::plain(4, 5, ContactState::Slip { sign: -1 })
+            friction_factor: rational(5, 3),
+            ..Particle::plain(4, 5, second)
         };
         System::new(
             symmetric(40, 1),
@@ -361,6 +430,30 @@ mod tests {
         assert_eq!(b, scale(&pencil.b().row(i).to_vec(), &factor));
     }
 
+    /// With zero reaction: the split form of `reduction`.
+    #[test]
+    fn the_pencil_is_the_split_form() {
+        for unknown in [Unknown::Lambda2, Unknown::Mu] {
+            let system = system(ContactState::Zero);
+            let split = split_form(&system, unknown).unwrap();
+            let body = Body::System(system);
+            let problem = Problem::new(body, unknown, Window::all()).unwrap();
+
+            let rows = Rows::of(&problem);
+
+            assert_eq!(rows.order(), split.pencil.order());
+            for i in 0..rows.order() {
+                assert_row(&rows, &split.pencil, i);
+            }
+            let [halves] = rows.halves[..] else {
+                panic!("one particle with zero reaction")
+            };
+            assert_eq!(halves.particle, 1);
+            assert_eq!(halves.right, split.zero[0].right);
+            assert_eq!(halves.left, split.zero[0].left);
+        }
+    }
+
     /// A row of A and of B divided by its factor.
     fn as_given(rows: &Rows, i: usize) -> (RationalRow, RationalRow) {
         let mut a = RationalRow::new();
@@ -377,7 +470,7 @@ mod tests {
     /// T0 + mu T1 is the pencil of the system with the friction mu, whatever that of the file.
     #[test]
     fn the_parts_give_the_pencil_of_every_friction() {
-        let of_file = system();
+        let of_file = system(ContactState::Slip { sign: -1 });
         let mass = of_file.mass().unwrap();
         let parts = FrictionParts::of(&of_file, mass);
         assert_eq!(parts.plain.factor, parts.friction.factor);
@@ -403,7 +496,7 @@ mod tests {
     #[test]
     fn the_pencil_is_that_of_the_blocks() {
         for unknown in [Unknown::Lambda2, Unknown::Mu] {
-            let body = Body::System(system());
+            let body = Body::System(system(ContactState::Slip { sign: -1 }));
             let problem = Problem::new(body, unknown, Window::all()).unwrap();
 
             let rows = Rows::of(&problem);

@@ -247,6 +247,30 @@ pub enum Reason {
     /// Nothing shows that x is not zero.
     #[error("E12: expected some x_i certainly non-zero, got none")]
     XZero,
+    /// A particle with zero reaction slides both ways.
+    #[error(
+        "Z.3: particle {particle}: expected at most one of {right} and {left} in the support, \
+         got both"
+    )]
+    BothHalves {
+        /// The particle.
+        particle: usize,
+        /// The variable max(v_T, 0).
+        right: usize,
+        /// The variable max(-v_T, 0).
+        left: usize,
+    },
+    /// Evidence that is not defined for particles with zero reaction.
+    #[error(
+        "E9: expected a system without particles in state \"zero\" for {what} \
+         (not supported), got particle {particle}"
+    )]
+    ZeroReaction {
+        /// The kind of evidence.
+        what: &'static str,
+        /// The first particle with zero reaction.
+        particle: usize,
+    },
     /// An active row of (A + tB) x does not vanish.
     #[error(
         "{equation}: y[{index}]: expected 0 mod p on an active row, got a polynomial that is not"

@@ -9,6 +9,7 @@
 
 use super::{Body, ContactState, Direction, Particle, Pencil, Problem, System};
 use mceip_exact::Sparse;
+use num_traits::One as _;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
@@ -72,7 +73,7 @@ fn write_system(out: &mut String, system: &System) {
 fn write_particle(out: &mut String, particle: &Particle) {
     let sign = match particle.state {
         ContactState::Slip { sign } => format!(" {sign}"),
-        ContactState::Free | ContactState::Stick => String::new(),
+        ContactState::Free | ContactState::Stick | ContactState::Zero => String::new(),
     };
 
     let state = particle.state.word();
@@ -86,6 +87,14 @@ fn write_particle(out: &mut String, particle: &Particle) {
 
     write_direction(out, "tangent", &particle.tangent());
     write_direction(out, "normal", &particle.into_obstacle());
+
+    // The factor 1 is not written: a problem without factors has the text it always had.
+    if !particle.friction_factor.is_one() {
+        line(
+            out,
+            &format!("friction_factor {}", particle.friction_factor),
+        );
+    }
 }
 
 fn write_direction(out: &mut String, name: &str, direction: &Direction) {

@@ -173,12 +173,20 @@ pub enum ModelError {
         /// The coefficient given.
         friction: Rational,
     },
-    /// A particle in contact with zero reaction.
+    /// The factor on mu of a particle is not positive.
+    #[error("E2: particle {particle}: expected friction_factor > 0, got {factor}")]
+    FrictionFactor {
+        /// The particle.
+        particle: usize,
+        /// The factor given.
+        factor: Rational,
+    },
+    /// A particle in contact with zero reaction, where it is not treated.
     #[error(
         "E9: particle {particle} has state \"zero\"; expected free, stick or slip \
-         (section 3 assumes no z particles)"
+         (not supported here: only the checker treats z particles, spec/zero-reaction.md)"
     )]
-    ZeroReactionState {
+    ZeroReaction {
         /// The particle.
         particle: usize,
     },

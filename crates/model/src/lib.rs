@@ -14,11 +14,13 @@ pub mod file;
 mod pencil;
 mod problem;
 pub mod reduction;
+mod split_form;
 mod system;
 mod window;
 
 pub use error::{ErrorLocation, ModelError};
 pub use pencil::{Admissible, Pencil, Unknown};
 pub use problem::{Body, Problem};
+pub use split_form::{SplitForm, ZeroVariables};
 pub use system::{ContactState, Direction, Particle, Reaction, System};
 pub use window::Window;

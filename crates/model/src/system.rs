@@ -5,7 +5,8 @@
 //! ```
 //!
 //! at an equilibrium state, which says of every contact candidate particle whether it is out of
-//! contact (f), sticks (d) or is about to slip (s, with the sign S of its tangential reaction).
+//! contact (f), sticks (d), is about to slip (s, with the sign S of its tangential reaction) or
+//! touches the obstacle without a reaction (z).
 //!
 //! Input: matrices over Q of order N, one row per degree of freedom, and the particles. What
 //! section 2 supposes is established when a [`System`] is made: every system that exists is one.
@@ -17,8 +18,6 @@ use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 
 /// What a contact candidate particle does at the equilibrium state (the list after (9)).
-///
-/// Particles in contact with zero reaction (z) are outside section 3 and refused when read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContactState {
     /// Not in contact: both degrees of freedom belong to f.
@@ -30,6 +29,8 @@ pub enum ContactState {
         /// S = sign(r_T), 1 or -1: opposite to the impending slip.
         sign: i8,
     },
+    /// z: in contact, reaction zero. Outside section 3 of the paper (`spec/zero-reaction.md`).
+    Zero,
 }
 
 impl ContactState {
@@ -39,6 +40,7 @@ impl ContactState {
             ContactState::Free => "free",
             ContactState::Stick => "stick",
             ContactState::Slip { .. } => "slip",
+            ContactState::Zero => "zero",
         }
     }
 }
@@ -65,6 +67,8 @@ pub struct Particle {
     pub normal_direction: i8,
     /// Oblique contact: (u_T, u_N) = frame * (first dof, second dof); rows are the directions.
     pub frame: Option<[[Rational; 2]; 2]>,
+    /// The coefficient of friction of this particle over mu, > 0; 1 where all have the same.
+    pub friction_factor: Rational,
     /// The reaction at equilibrium, checked against (7) and the sign.
     pub reaction: Option<Reaction>,
 }
@@ -73,7 +77,7 @@ pub struct Particle {
 pub type Direction = Vec<(usize, Rational)>;
 
 impl Particle {
-    /// A particle in the paper's own directions, without frame or reaction.
+    /// A particle in the paper's own directions: friction factor 1, no frame, no reaction.
     pub fn plain(tangential: usize, normal: usize, state: ContactState) -> Self {
         Particle {
             tangential,
@@ -81,6 +85,7 @@ impl Particle {
             state,
             normal_direction: 1,
             frame: None,
+            friction_factor: Rational::one(),
             reaction: None,
         }
     }
@@ -93,6 +98,16 @@ impl Particle {
     /// The unit normal *into* the obstacle: u_N <= 0 is (1).
     pub fn into_obstacle(&self) -> Direction {
         self.direction(1, Rational::from_integer(self.normal_direction.into()))
+    }
+
+    /// The normal times the friction factor c: with it, (3) of this particle reads
+    /// |r_T| + mu (c r_N) <= 0.
+    pub fn friction_direction(&self) -> Direction {
+        let normal = self.into_obstacle();
+        normal
+            .into_iter()
+            .map(|(dof, coefficient)| (dof, coefficient * &self.friction_factor))
+            .collect()
     }
 
     fn direction(&self, row: usize, factor: Rational) -> Direction {
@@ -122,8 +137,8 @@ impl System {
     ///
     /// # Errors
     /// [`ModelError`] naming the equation, the index, what was expected and what was found: shapes,
-    /// symmetry (3), definiteness of K_ff and M by exact LDL', dofs out of range or claimed twice,
-    /// signs, frames, friction, reactions against (7).
+    /// symmetry (3), definiteness of K_ff (the dofs of z particles count as f here) and M by exact
+    /// LDL', dofs out of range or claimed twice, signs, frames, friction, reactions against (7).
     pub fn new(
         stiffness: Sparse,
         mass: Option<Sparse>,
@@ -152,7 +167,9 @@ impl System {
             particles,
         };
 
-        let f = system.free_dofs();
+        // A z particle may open, so its dofs count as free.
+        let f =
+            system.dofs_outside(|state| matches!(state, ContactState::Free | ContactState::Zero));
         let k_ff = system.stiffness.submatrix(&f, &f);
         require_definite("P1", "K_ff", &k_ff)?;
         if let Some(mass) = &system.mass {
@@ -229,17 +246,42 @@ impl System {
         slip
     }
 
+    /// The particles in contact with zero reaction, in file order.
+    pub fn zero_particles(&self) -> Vec<&Particle> {
+        let particles = self.particles.iter();
+        particles
+            .filter(|p| p.state == ContactState::Zero)
+            .collect()
+    }
+
+    /// Refuses a system with particles in contact with zero reaction, for what does not treat them.
+    ///
+    /// # Errors
+    /// [`ModelError::ZeroReaction`] naming the first of them.
+    pub fn require_no_zero(&self) -> Result<(), ModelError> {
+        let is_zero = |particle: &Particle| particle.state == ContactState::Zero;
+        match self.particles.iter().position(is_zero) {
+            Some(particle) => Err(ModelError::ZeroReaction { particle }),
+            None => Ok(()),
+        }
+    }
+
     /// f: the dofs of no particle in contact, ascending.
     pub fn free_dofs(&self) -> Vec<usize> {
-        let mut in_contact = vec![false; self.dofs()];
+        self.dofs_outside(|state| state == ContactState::Free)
+    }
+
+    /// The dofs of no particle but those with such a state, ascending.
+    fn dofs_outside(&self, is_outside: fn(ContactState) -> bool) -> Vec<usize> {
+        let mut is_held = vec![false; self.dofs()];
         for particle in &self.particles {
-            if particle.state != ContactState::Free {
-                in_contact[particle.tangential] = true;
-                in_contact[particle.normal] = true;
+            if !is_outside(particle.state) {
+                is_held[particle.tangential] = true;
+                is_held[particle.normal] = true;
             }
         }
 
-        (0..self.dofs()).filter(|&dof| !in_contact[dof]).collect()
+        (0..self.dofs()).filter(|&dof| !is_held[dof]).collect()
     }
 }
 
@@ -304,6 +346,7 @@ fn check_particles(
             require_sign(index, "sign", sign)?;
         }
         check_frame(index, particle)?;
+        check_friction_factor(index, particle)?;
         check_reaction(index, particle, friction)?;
     }
 
@@ -348,6 +391,18 @@ fn check_frame(index: usize, particle: &Particle) -> Result<(), ModelError> {
     Ok(())
 }
 
+/// A particle without friction is not the paper's: its states d and s do not exist.
+fn check_friction_factor(index: usize, particle: &Particle) -> Result<(), ModelError> {
+    if particle.friction_factor.is_positive() {
+        return Ok(());
+    }
+
+    Err(ModelError::FrictionFactor {
+        particle: index,
+        factor: particle.friction_factor.clone(),
+    })
+}
+
 /// (7), and the definitions of f, d, s after (9).
 fn check_reaction(
     index: usize,
@@ -358,7 +413,8 @@ fn check_reaction(
         return Ok(());
     };
 
-    let Some(expected) = broken_condition(particle.state, reaction, friction) else {
+    let friction = friction.map(|mu| mu * &particle.friction_factor);
+    let Some(expected) = broken_condition(particle.state, reaction, friction.as_ref()) else {
         return Ok(());
     };
 
@@ -371,8 +427,8 @@ fn check_reaction(
     })
 }
 
-/// The first condition on a reaction that does not hold. Those with mu are left out where mu is the
-/// unknown.
+/// The first condition on a reaction that does not hold; `friction` is that of the particle. Those
+/// with mu are left out where mu is the unknown.
 fn broken_condition(
     state: ContactState,
     reaction: &Reaction,
@@ -380,7 +436,7 @@ fn broken_condition(
 ) -> Option<&'static str> {
     let Reaction { tangential, normal } = reaction;
 
-    if state == ContactState::Free {
+    if matches!(state, ContactState::Free | ContactState::Zero) {
         let is_zero = normal.is_zero() && tangential.is_zero();
         return (!is_zero).then_some("no reaction");
     }
@@ -393,7 +449,7 @@ fn broken_condition(
     let size = tangential.abs();
 
     match state {
-        ContactState::Free => None,
+        ContactState::Free | ContactState::Zero => None,
         ContactState::Stick => {
             let is_inside = cone.is_none_or(|cone| size < cone);
             (!is_inside).then_some("|r_T| < -mu r_N")
@@ -442,6 +498,31 @@ mod tests {
             stuck.require_for(Unknown::Mu),
             Err(ModelError::Empty { .. })
         ));
+    }
+
+    /// A z particle belongs neither to f nor to s, and K has to be definite on its dofs.
+    #[test]
+    fn a_particle_with_zero_reaction_is_free_to_open() {
+        let particles = || {
+            vec![
+                Particle::plain(0, 1, SLIP),
+                Particle::plain(3, 2, ContactState::Zero),
+            ]
+        };
+
+        let system = build(1, particles()).unwrap();
+        assert!(system.free_dofs().is_empty());
+        assert_eq!(system.zero_particles(), [&system.particles()[1]]);
+        assert_eq!(
+            system.require_no_zero(),
+            Err(ModelError::ZeroReaction { particle: 1 })
+        );
+
+        // The third pivot of K is 0: definite on the slip particle only.
+        let ones = [0, 1, 3].map(|i| (i, i, whole(1)));
+        let stiffness = Sparse::from_entries(4, 4, ones);
+        let singular = System::new(stiffness, None, None, particles());
+        assert!(matches!(singular, Err(ModelError::NotDefinite { .. })));
     }
 
     #[test]
@@ -508,6 +589,7 @@ mod tests {
         let accepted = [
             (SLIP, whole(2), whole(-1)),
             (ContactState::Free, whole(0), whole(0)),
+            (ContactState::Zero, whole(0), whole(0)),
             (ContactState::Stick, rational(19, 10), whole(-1)),
         ];
 
@@ -521,6 +603,7 @@ mod tests {
             (SLIP, whole(2), whole(1)),
             (ContactState::Stick, whole(2), whole(-1)),
             (ContactState::Free, whole(0), whole(-1)),
+            (ContactState::Zero, whole(0), whole(-1)),
         ];
 
         for (state, tangential, normal) in refused {
@@ -546,6 +629,28 @@ mod tests {
                 })
             ));
         }
+    }
+
+    /// mu = 2 and the factor 3/4: the cone is |r_T| <= 3/2 |r_N|.
+    #[test]
+    fn reactions_are_held_against_the_cone_of_their_own_particle() {
+        let with = |tangential: Rational| {
+            let particle = Particle {
+                friction_factor: rational(3, 4),
+                reaction: Some(Reaction {
+                    tangential,
+                    normal: whole(-1),
+                }),
+                ..Particle::plain(0, 1, SLIP)
+            };
+            build(2, vec![particle])
+        };
+
+        assert!(with(rational(3, 2)).is_ok());
+        assert!(matches!(
+            with(whole(2)),
+            Err(ModelError::ReactionContradicts { particle: 0, .. })
+        ));
     }
 
     #[test]

@@ -110,10 +110,12 @@ impl Equations {
     /// The equations of a system.
     ///
     /// # Errors
-    /// [`MotionError::Model`] without mass, friction coefficient or slip particle;
-    /// [`MotionError::Doubles`] where entries leave their range.
+    /// [`MotionError::Model`] without mass, friction coefficient or slip particle, or with a
+    /// particle in contact with zero reaction; [`MotionError::Doubles`] where entries leave their
+    /// range.
     pub fn new(system: &System) -> Result<Equations, MotionError> {
         system.require_for(Unknown::Lambda2)?;
+        system.require_no_zero()?;
         let mass = required("mass", system.mass())?;
         let friction = to_f64(required("friction", system.friction())?);
         let free = system.free_dofs();
@@ -126,7 +128,7 @@ impl Equations {
                 let opposite = -f64::from(sign);
                 let slips = times(opposite, &particle.tangent());
                 let mut cone = slips.clone();
-                cone.extend(times(-friction, &particle.into_obstacle()));
+                cone.extend(times(-friction, &particle.friction_direction()));
 
                 moved.push(slips);
                 functionals.push(cone);
@@ -261,7 +263,7 @@ impl Watched {
             .iter()
             .filter(|p| matches!(p.state, ContactState::Slip { .. }));
         let slip = match particle.state {
-            ContactState::Free => return None,
+            ContactState::Free | ContactState::Zero => return None,
             ContactState::Stick => None,
             ContactState::Slip { sign } => Some(WatchedSlip {
                 sign: f64::from(sign),
@@ -272,7 +274,7 @@ impl Watched {
         Some(Watched {
             particle: index,
             slip,
-            friction: mu,
+            friction: mu * to_f64(&particle.friction_factor),
             tangential: to_f64(&reaction.tangential),
             normal: to_f64(&reaction.normal),
             tangential_rate: motions.reactions(&particle.tangent()),

@@ -140,6 +140,47 @@ fn the_range_ends_where_the_first_particle_lifts_off() {
     assert_eq!((range.particle, range.limit), (0, Limit::LiftsOff));
 }
 
+/// Half of mu with twice the friction on each particle is the same motion.
+#[test]
+fn a_particle_has_its_own_friction() {
+    let plain = figure_1_system();
+    let mut particles = plain.particles().to_vec();
+    for particle in &mut particles {
+        particle.friction_factor = whole(2);
+    }
+    let halved = System::new(
+        plain.stiffness().clone(),
+        plain.mass().cloned(),
+        Some(whole(4)),
+        particles,
+    )
+    .unwrap();
+
+    let expected = Equations::new(&plain).unwrap();
+    let equations = Equations::new(&halved).unwrap();
+
+    assert_eq!(equations.mass, expected.mass);
+    assert_eq!(equations.stiffness, expected.stiffness);
+}
+
+#[test]
+fn a_particle_with_zero_reaction_is_refused() {
+    let plain = figure_1_system();
+    let mut particles = plain.particles().to_vec();
+    particles[1].state = ContactState::Zero;
+    let system = System::new(
+        plain.stiffness().clone(),
+        plain.mass().cloned(),
+        plain.friction().cloned(),
+        particles,
+    )
+    .unwrap();
+
+    let refused = Equations::new(&system);
+
+    assert!(matches!(refused, Err(MotionError::Model(_))));
+}
+
 /// The largest violation of (1), (2) and (4) by the reactions in the middle of a step, all computed
 /// from K and M, with this coefficient of friction.
 fn violation(system: &System, mu: f64, equations: &Equations, from: &Instant, to: &Instant) -> f64 {

@@ -25,7 +25,8 @@
 //!
 //! To read: `plain` (the algorithm), `integer_pencil` (its linear algebra), `solution` and
 //! `enumeration` (its answer); then, for what is not a list, `degenerate`, `describe`, `cone` and
-//! `range`. `member` and `table1` stand alone.
+//! `range`. `member` and `table1` stand alone. `modes` enumerates the split form of systems with
+//! particles in contact with zero reaction, `physical` the conditions (9) themselves.
 #![deny(clippy::float_arithmetic)]
 
 mod cone;
@@ -34,6 +35,7 @@ mod describe;
 mod enumeration;
 mod integer_pencil;
 mod member;
+mod modes;
 mod physical;
 mod plain;
 mod range;
@@ -43,6 +45,7 @@ mod table1;
 pub use degenerate::{Cone, End, Piece, SupportRange, Undescribed};
 pub use enumeration::{Enumeration, WideKernel};
 pub use member::{is_rational_solution, is_solution};
+pub use modes::{DegenerateChoice, ModeList, enumerate_modes};
 pub use physical::{
     DegenerateModes, Mode, Motion, Motions, PhysicalParticle, PhysicalState, PhysicalSystem,
     enumerate_motions,

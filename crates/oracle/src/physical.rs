@@ -5,8 +5,8 @@
 //! ```
 //!
 //! No variable is eliminated and none is renamed: this file shares no code with the reduction of
-//! chapter 2, so that the two can be held against each other. It also knows the particles in
-//! contact with zero reaction (z), which section 3 of the paper leaves out.
+//! chapter 2, so that the two can be held against each other. Particles in contact with zero
+//! reaction (z), which section 3 of the paper leaves out, are treated as well.
 //!
 //! Each particle is in one of three *modes*. With its unit tangent, its unit normal into the
 //! obstacle, and cone(S) = S w_T + mu w_N:
@@ -63,6 +63,8 @@ pub struct PhysicalParticle {
     pub tangent: Direction,
     /// The unit normal into the obstacle.
     pub normal: Direction,
+    /// Its coefficient of friction over mu.
+    pub friction_factor: Rational,
     /// The state.
     pub state: PhysicalState,
 }
@@ -81,7 +83,7 @@ pub struct PhysicalSystem {
 }
 
 impl PhysicalSystem {
-    /// The data of a system without z, for one of the two questions.
+    /// The data of a system, for one of the two questions.
     ///
     /// # Errors
     /// [`ModelError::Missing`] without mass or friction if lambda^2 is the unknown.
@@ -94,10 +96,12 @@ impl PhysicalSystem {
                 ContactState::Free => PhysicalState::Free,
                 ContactState::Stick => PhysicalState::Stick,
                 ContactState::Slip { sign } => PhysicalState::Slip { sign },
+                ContactState::Zero => PhysicalState::Zero,
             };
             particles.push(PhysicalParticle {
                 tangent: particle.tangent(),
                 normal: particle.into_obstacle(),
+                friction_factor: particle.friction_factor.clone(),
                 state,
             });
         }
@@ -297,10 +301,11 @@ impl Form {
         form
     }
 
-    /// cone(S) = S w_T + mu w_N. Where mu is the unknown, w is constant and mu w_N is the slope.
+    /// cone(S) = S w_T + c mu w_N, c the friction factor. Where mu is the unknown, w is constant and
+    /// c w_N is the slope.
     fn cone(system: &PhysicalSystem, particle: &PhysicalParticle, sign: i8) -> Form {
         let tangential = Form::reaction(system, &particle.tangent);
-        let normal = Form::reaction(system, &particle.normal);
+        let normal = Form::reaction(system, &particle.normal).times(&particle.friction_factor);
         let sign = Rational::from_integer(sign.into());
 
         let mut form = tangential.times(&sign);

@@ -260,13 +260,12 @@ impl Row<'_> {
             _ => None,
         };
 
+        let tangential = self.dof(Column::Tangential, dof)?;
+        let normal = self.dof(Column::Normal, dof)?;
         Ok(Particle {
-            tangential: self.dof(Column::Tangential, dof)?,
-            normal: self.dof(Column::Normal, dof)?,
-            state,
             normal_direction,
-            frame: None,
             reaction,
+            ..Particle::plain(tangential, normal, state)
         })
     }
 
@@ -376,7 +375,7 @@ impl GivenReaction {
         // The normal dof points along (1) or against (-1) the paper's normal: -r_N >= 0 in contact.
         let r_n = &self.normal * Rational::from_integer(normal_direction.into());
         let fit = match state {
-            ContactState::Free => self.fit_of_free(),
+            ContactState::Free | ContactState::Zero => self.fit_of_free(),
             ContactState::Stick => self.fit_of_stick(&-r_n, friction),
             ContactState::Slip { sign } => self.fit_of_slip(sign, &-r_n, friction),
         };

@@ -315,7 +315,7 @@ fn random_particle(rng: &mut ChaCha8Rng, index: usize, corners: &mut Vec<Corner>
     match state {
         ContactState::Stick => corners.push(Corner::Stick),
         ContactState::Free => corners.push(Corner::FreeVariables),
-        ContactState::Slip { .. } => {}
+        ContactState::Slip { .. } | ContactState::Zero => {}
     }
 
     particle

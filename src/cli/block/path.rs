@@ -481,6 +481,7 @@ fn states_json(states: &[ContactState]) -> Vec<&'static str> {
 fn state_word(state: ContactState) -> &'static str {
     match state {
         ContactState::Free => "free",
+        ContactState::Zero => "zero",
         ContactState::Stick => "stick",
         ContactState::Slip { sign } if sign > 0 => "slip left",
         ContactState::Slip { .. } => "slip right",

@@ -318,6 +318,7 @@ mod tests {
             ]
         };
         Rows {
+            halves: vec![],
             rows: vec![row(20), row(127), row(130)],
             factor: vec![Integer::one(); 3],
             is_free: vec![false; 3],
@@ -435,6 +436,7 @@ mod tests {
     #[test]
     fn matrices_have_a_largest_size() {
         let rows = |n: usize| Rows {
+            halves: vec![],
             rows: vec![Vec::new(); n],
             factor: vec![Integer::one(); n],
             is_free: vec![false; n],

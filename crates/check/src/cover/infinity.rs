@@ -162,6 +162,7 @@ mod tests {
         };
         let is_free = (0..rows.len()).map(|i| free.contains(&i)).collect();
         Rows {
+            halves: vec![],
             rows: rows.iter().map(row).collect(),
             factor: vec![Integer::one(); rows.len()],
             is_free,

@@ -279,6 +279,7 @@ mod tests {
     fn diagonal(order: usize, a: i64) -> Rows {
         let one = Integer::from(1);
         Rows {
+            halves: vec![],
             rows: (0..order)
                 .map(|i| vec![(i, a.into(), one.clone())])
                 .collect(),

@@ -40,7 +40,7 @@ pub struct SparseCondensation {
 struct SlipNode {
     /// S_p t_p.
     tangent: [f64; 2],
-    /// n_p.
+    /// n_p times the friction factor.
     normal: [f64; 2],
 }
 
@@ -49,7 +49,7 @@ impl SlipNode {
         let tangent = on_dofs(particle, &particle.tangent());
         SlipNode {
             tangent: tangent.map(|c| f64::from(sign) * c),
-            normal: on_dofs(particle, &particle.into_obstacle()),
+            normal: on_dofs(particle, &particle.friction_direction()),
         }
     }
 }
@@ -107,6 +107,7 @@ impl DofRoles {
 
         match particle.state {
             ContactState::Free => {}
+            ContactState::Zero => return Err(CondensationError::ZeroReaction { particle: index }),
             ContactState::Stick => self.held.extend(dofs),
             ContactState::Slip { sign } if sign.abs() != 1 => {
                 return Err(CondensationError::Sign {

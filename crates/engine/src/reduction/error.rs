@@ -63,6 +63,12 @@ pub enum CondensationError {
         /// Its sign.
         got: i8,
     },
+    /// A particle in contact with zero reaction, which the condensation does not treat.
+    #[error("E9: particle {particle} has state \"zero\", which is not supported here")]
+    ZeroReaction {
+        /// Index of the particle.
+        particle: usize,
+    },
     /// Nothing slips.
     #[error("E10: expected at least one particle in impending slip, got none")]
     NoSlip,

@@ -61,6 +61,7 @@ pub(super) struct RawParticle {
     sign: Option<i64>,
     normal_direction: Option<i64>,
     frame: Option<[[Number; 2]; 2]>,
+    friction_factor: Option<Number>,
     reaction: Option<Object<RawReaction>>,
 }
 
@@ -156,6 +157,10 @@ impl RawParticle {
         let frame: Option<[[Rational; 2]; 2]> = self
             .frame
             .map(|rows| rows.map(|row| row.map(|number| number.0)));
+        let friction_factor = match self.friction_factor {
+            Some(number) => number.0,
+            None => whole(1),
+        };
         let reaction = self.reaction.map(|Object(reaction)| Reaction {
             tangential: reaction.tangential.0,
             normal: reaction.normal.0,
@@ -172,6 +177,7 @@ impl RawParticle {
             state,
             normal_direction,
             frame,
+            friction_factor,
             reaction,
         })
     }
@@ -184,7 +190,7 @@ fn contact_state(
     given: Option<i64>,
 ) -> Result<ContactState, ModelError> {
     match (state, given) {
-        (RawState::Zero, _) => Err(ModelError::ZeroReactionState { particle }),
+        (RawState::Zero, None) => Ok(ContactState::Zero),
         (RawState::Free, None) => Ok(ContactState::Free),
         (RawState::Stick, None) => Ok(ContactState::Stick),
         (RawState::Slip, Some(value)) => Ok(ContactState::Slip {
@@ -196,7 +202,7 @@ fn contact_state(
             expected: "1 or -1 on a slip particle",
             got: "none".into(),
         }),
-        (RawState::Free | RawState::Stick, Some(value)) => Err(ModelError::Sign {
+        (RawState::Free | RawState::Stick | RawState::Zero, Some(value)) => Err(ModelError::Sign {
             particle,
             field: "sign",
             expected: "none on a particle that does not slip",
@@ -250,13 +256,38 @@ mod tests {
         assert_eq!(problem.sha256(), again.sha256());
     }
 
+    /// The factor is part of the digest, and the factor 1 is none.
+    #[test]
+    fn a_friction_factor_is_read_and_written() {
+        let with = |factor: &str| {
+            let particle = r#"{"tangential": 0, "normal": 1, "state": "slip", "sign": 1 FACTOR}"#;
+            read(&system(&particle.replace("FACTOR", factor)))
+        };
+        let plain = with("").unwrap();
+        let rough = with(r#", "friction_factor": "3/2""#).unwrap();
+
+        assert_eq!(read(&write_problem(&rough)).unwrap(), rough);
+        assert!(!write_problem(&plain).contains("friction_factor"));
+        assert_eq!(with(r#", "friction_factor": 1"#).unwrap(), plain);
+        assert_ne!(rough.sha256(), plain.sha256());
+        let expected = "normal 1 1\nfriction_factor 3/2\nstiffness";
+        assert!(rough.canonical_text().contains(expected));
+
+        for factor in ["0", "-0.5"] {
+            let refused = with(&format!(r#", "friction_factor": {factor}"#));
+            assert!(matches!(
+                refused,
+                Err(ModelError::FrictionFactor { particle: 0, .. })
+            ));
+        }
+        for factor in [r#""rough""#, "[1]"] {
+            let refused = with(&format!(r#", "friction_factor": {factor}"#));
+            assert!(matches!(refused, Err(ModelError::Json { .. })));
+        }
+    }
+
     #[test]
     fn particles_are_refused_by_name() {
-        let zero = read(&system(r#"{"tangential":0,"normal":1,"state":"zero"}"#));
-        assert!(matches!(
-            zero,
-            Err(ModelError::ZeroReactionState { particle: 0 })
-        ));
         for (particle, field) in [
             (r#"{"tangential":0,"normal":1,"state":"slip"}"#, "sign"),
             (
@@ -265,6 +296,10 @@ mod tests {
             ),
             (
                 r#"{"tangential":0,"normal":1,"state":"stick","sign":1}"#,
+                "sign",
+            ),
+            (
+                r#"{"tangential":0,"normal":1,"state":"zero","sign":1}"#,
                 "sign",
             ),
             (

@@ -6,6 +6,7 @@
 use super::{Number, PROBLEM_FORMAT};
 use crate::{Body, ContactState, Particle, Pencil, Problem, System, Window};
 use mceip_exact::{Rational, Sparse};
+use num_traits::One as _;
 use serde_json::{Map, Value, json};
 
 /// The problem as `mceip-problem/1`, matrices inlined as sparse entries.
@@ -86,6 +87,11 @@ fn write_particle(particle: &Particle) -> Value {
             .each_ref()
             .map(|row| row.each_ref().map(Rational::to_string));
         out.insert("frame".into(), json!(rows));
+    }
+
+    if !particle.friction_factor.is_one() {
+        let factor = particle.friction_factor.to_string();
+        out.insert("friction_factor".into(), json!(factor));
     }
 
     if let Some(reaction) = &particle.reaction {

@@ -14,14 +14,15 @@
 //! K* = K0 + mu K1 and M* = M0 + mu M1.
 //!
 //! Directions t_p and n_p may be oblique: the entries of K_TT are t_p' K t_q, those of K_NT are
-//! n_p' K t_q, and the columns of K_fT are (K t_q)_f.
+//! n_p' K t_q, and the columns of K_fT are (K t_q)_f. Where a particle has a friction factor of its
+//! own, its row of K1 is multiplied by that factor: n_p is its friction direction.
 //!
 //! Input: a [`Problem`] or [`System`] whose preconditions have been established (K symmetric).
 //! Called by everything that solves or enumerates, never by `check`, which has its own way.
 
 use crate::{Body, Direction, ModelError, Pencil, Problem, System, Unknown};
 use mceip_exact::{Rational, Sparse};
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
 /// What a variable of the reduced pencil stands for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,6 +43,19 @@ pub enum Variable {
     },
 }
 
+impl Variable {
+    /// The motion v that belongs to x = 1. // (10)
+    pub fn column(&self) -> Direction {
+        match self {
+            Variable::Free { dof } => vec![(*dof, Rational::one())],
+            Variable::Slip { sign, tangent, .. } => {
+                let minus_s = Rational::from_integer((-sign).into());
+                tangent.iter().map(|(d, c)| (*d, c * &minus_s)).collect()
+            }
+        }
+    }
+}
+
 /// A pencil with the meaning of its variables: f ascending, then slip particles in file order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reduced {
@@ -54,7 +68,8 @@ pub struct Reduced {
 /// The pencil of a problem. A pencil stands for itself; a system goes through (10)-(16).
 ///
 /// # Errors
-/// [`ModelError::Missing`] if the system lacks what the unknown needs.
+/// [`ModelError::Missing`] if the system lacks what the unknown needs, [`ModelError::ZeroReaction`]
+/// with z particles: [`super::split_form`] treats those.
 pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
     match problem.body() {
         Body::Pencil(pencil) => Ok(Reduced {
@@ -79,9 +94,10 @@ pub struct MuFamily {
 /// (K0, K1) and (M0, M1) of (16).
 ///
 /// # Errors
-/// [`ModelError::Empty`] if no particle slips.
+/// [`ModelError::Empty`] if no particle slips, [`ModelError::ZeroReaction`] with z particles.
 pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
     system.require_for(Unknown::Mu)?;
+    system.require_no_zero()?;
     let kept = KeptVariables::of(system);
 
     let stiffness = kept.blocks(system.stiffness());
@@ -104,6 +120,7 @@ pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
 
 fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelError> {
     system.require_for(unknown)?;
+    system.require_no_zero()?;
     let kept = KeptVariables::of(system);
     let stiffness = kept.blocks(system.stiffness());
 
@@ -149,6 +166,8 @@ struct SlipDirections {
     sign: i8,
     tangent: Direction,
     normal: Direction,
+    /// The normal times the friction factor.
+    friction: Direction,
 }
 
 impl SlipDirections {
@@ -165,6 +184,7 @@ impl KeptVariables {
                 sign,
                 tangent: particle.tangent(),
                 normal: particle.into_obstacle(),
+                friction: particle.friction_direction(),
             });
         }
 
@@ -221,7 +241,7 @@ impl KeptVariables {
                 let row = n_f + p;
                 let s_p = of_p.s();
                 let k_tt = inner_product(&of_p.tangent, &k_t);
-                let k_nt = inner_product(&of_p.normal, &k_t);
+                let k_nt = inner_product(&of_p.friction, &k_t);
                 constant.push((row, column, &s_p * k_tt * &s_q)); // S K_TT S
                 slope.push((row, column, k_nt * &s_q)); // K_NT S
             }
@@ -229,7 +249,7 @@ impl KeptVariables {
 
         for (p, of_p) in self.slip.iter().enumerate() {
             let row = n_f + p;
-            let k_n = times_direction(k, &of_p.normal); // K n_p, which is (n_p' K)'
+            let k_n = times_direction(k, &of_p.friction); // K n_p, which is (n_p' K)'
 
             for (i, &dof) in self.free.iter().enumerate() {
                 slope.push((row, i, -&k_n[dof])); // -K_Nf
@@ -244,7 +264,7 @@ impl KeptVariables {
 }
 
 /// K d for a direction d. K is symmetric, so that rows serve as columns.
-fn times_direction(k: &Sparse, direction: &Direction) -> Vec<Rational> {
+pub(super) fn times_direction(k: &Sparse, direction: &Direction) -> Vec<Rational> {
     let mut product = vec![Rational::zero(); k.rows()];
     for (dof, coefficient) in direction {
         for (j, entry) in k.row(*dof) {
@@ -255,7 +275,7 @@ fn times_direction(k: &Sparse, direction: &Direction) -> Vec<Rational> {
     product
 }
 
-fn inner_product(direction: &Direction, vector: &[Rational]) -> Rational {
+pub(super) fn inner_product(direction: &Direction, vector: &[Rational]) -> Rational {
     direction
         .iter()
         .map(|(dof, coefficient)| coefficient * &vector[*dof])

@@ -30,11 +30,17 @@ pub struct Lifted {
 ///
 /// `variables` says what each entry of `x` stands for, as [`super::reduce`] gave it.
 pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly]) -> Lifted {
+    let columns: Vec<Direction> = variables.iter().map(Variable::column).collect();
+    lift_along(system, unknown, &columns, x)
+}
+
+/// Lifts x to v = sum_j x_j d_j and w, where the columns d_j say which motion each variable stands
+/// for.
+pub fn lift_along(system: &System, unknown: Unknown, columns: &[Direction], x: &[Poly]) -> Lifted {
     let mut v = RationalVector::zero(system.dofs());
-    for (variable, x_i) in variables.iter().zip(x) {
-        match variable {
-            Variable::Free { dof } => v.add(*dof, x_i),
-            Variable::Slip { sign, tangent, .. } => v.subtract_slip(*sign, tangent, x_i),
+    for (column, x_j) in columns.iter().zip(x) {
+        for (dof, coefficient) in column {
+            add_scaled(&mut v.0[*dof], coefficient, x_j, 0);
         }
     }
 
@@ -71,19 +77,6 @@ struct ClearedVector {
 impl RationalVector {
     fn zero(dofs: usize) -> RationalVector {
         RationalVector(vec![Vec::new(); dofs])
-    }
-
-    fn add(&mut self, dof: usize, p: &Poly) {
-        add_scaled(&mut self.0[dof], &Rational::from_integer(1.into()), p, 0);
-    }
-
-    /// v_T = -S x along the tangent. // (10)
-    fn subtract_slip(&mut self, sign: i8, tangent: &Direction, x_i: &Poly) {
-        let minus_s = Rational::from_integer((-sign).into());
-        for (dof, coefficient) in tangent {
-            let factor = coefficient * &minus_s;
-            add_scaled(&mut self.0[*dof], &factor, x_i, 0);
-        }
     }
 
     /// self += t^power matrix v.

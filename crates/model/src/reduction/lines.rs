@@ -6,6 +6,8 @@
 //! | f | w_f = 0 |
 //! | d (stick) | v_d = 0 |
 //! | s (slip) | v_N = 0, S v_T <= 0, S w_T + mu w_N <= 0, and the product of the last two is 0 |
+//! | z (zero reaction) | v_N <= 0, w_N <= 0, v_N w_N = 0, abs(w_T) + mu w_N <= 0 |
+//! | z that slides | w_T = mu sign(v_T) w_N |
 //!
 //! Each side is a polynomial in t up to a positive factor; its sign at t decides the line. The
 //! first line of (9), (t M + K) v = w, holds by construction of [`super::lift`].
@@ -17,7 +19,7 @@ use crate::{ContactState, Direction, Particle, System, Unknown};
 use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator};
 use num_traits::One;
 
-/// The lines of (9) that apply without z particles.
+/// The lines of (9).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Line {
     /// v != 0.
@@ -30,7 +32,15 @@ pub enum Line {
     NormalRate,
     /// S v_Ts <= 0.
     SlipDirection,
-    /// S w_Ts + mu w_Ns <= 0.
+    /// v_Nz <= 0.
+    GapRate,
+    /// w_Nz <= 0.
+    PressureRate,
+    /// v_Nz w_Nz = 0.
+    OpenOrPressed,
+    /// |v_Tz| w_Tz = mu v_Tz w_Nz.
+    AgainstMotion,
+    /// S w_Ts + mu w_Ns <= 0; |w_Tz| + mu w_Nz <= 0.
     FrictionCone,
     /// (S w_Ts + mu w_Ns) (S v_Ts) = 0.
     Complementarity,
@@ -85,12 +95,16 @@ pub fn check_lines(
                     require(v_d == Sign::Zero, Line::StickRate, place, v_d)?;
                 }
             }
+            ContactState::Zero => {
+                let sides = ZeroSides::of(particle, &friction(system, unknown), lifted);
+                sides.check(place, value)?;
+            }
             ContactState::Slip { sign } => {
                 let s = Rational::from_integer(sign.into());
                 let sides = SlipSides {
                     v_n: positive_multiple(&particle.into_obstacle(), &Rational::one(), &lifted.v),
                     s_v_t: positive_multiple(&particle.tangent(), &s, &lifted.v),
-                    cone: cone_side(particle, &s, friction(system, unknown), &lifted.w),
+                    cone: cone_side(particle, &s, &friction(system, unknown), &lifted.w),
                 };
                 sides.check(place, value)?;
             }
@@ -149,6 +163,54 @@ impl SlipSides {
     }
 }
 
+/// The left-hand sides of (9) at a particle with zero reaction, each times a positive number.
+struct ZeroSides {
+    v_t: Poly,
+    v_n: Poly,
+    w_n: Poly,
+    /// w_T + mu w_N.
+    cone_plus: Poly,
+    /// -w_T + mu w_N.
+    cone_minus: Poly,
+}
+
+impl ZeroSides {
+    fn of(particle: &Particle, friction: &Friction, lifted: &Lifted) -> ZeroSides {
+        let one = Rational::one();
+        ZeroSides {
+            v_t: positive_multiple(&particle.tangent(), &one, &lifted.v),
+            v_n: positive_multiple(&particle.into_obstacle(), &one, &lifted.v),
+            w_n: positive_multiple(&particle.into_obstacle(), &one, &lifted.w),
+            cone_plus: cone_side(particle, &one, friction, &lifted.w),
+            cone_minus: cone_side(particle, &-one, friction, &lifted.w),
+        }
+    }
+
+    fn check(&self, place: Place, value: &mut Algebraic) -> Result<(), LineViolated> {
+        let v_n = value.sign_of(&self.v_n);
+        require(v_n != Sign::Positive, Line::GapRate, place, v_n)?;
+
+        let w_n = value.sign_of(&self.w_n);
+        require(w_n != Sign::Positive, Line::PressureRate, place, w_n)?;
+
+        let is_one_zero = v_n == Sign::Zero || w_n == Sign::Zero;
+        require(is_one_zero, Line::OpenOrPressed, place, Sign::Positive)?;
+
+        let plus = value.sign_of(&self.cone_plus);
+        require(plus != Sign::Positive, Line::FrictionCone, place, plus)?;
+        let minus = value.sign_of(&self.cone_minus);
+        require(minus != Sign::Positive, Line::FrictionCone, place, minus)?;
+
+        // To the right w_T = mu w_N, to the left -w_T = mu w_N.
+        let against = match value.sign_of(&self.v_t) {
+            Sign::Positive => minus,
+            Sign::Negative => plus,
+            Sign::Zero => Sign::Zero,
+        };
+        require(against == Sign::Zero, Line::AgainstMotion, place, against)
+    }
+}
+
 /// What a line of (9) is about.
 #[derive(Clone, Copy)]
 enum Place {
@@ -175,14 +237,14 @@ fn require(holds: bool, line: Line, place: Place, got: Sign) -> Result<(), LineV
 }
 
 /// A positive multiple of S t'w + mu n'w.
-fn cone_side(particle: &Particle, s: &Rational, friction: Friction, w: &[Poly]) -> Poly {
+fn cone_side(particle: &Particle, s: &Rational, friction: &Friction, w: &[Poly]) -> Poly {
     let (mu, power) = match friction {
-        Friction::Given(mu) => (mu, 0),
+        Friction::Given(mu) => (mu.clone(), 0),
         Friction::IsUnknown => (Rational::one(), 1),
     };
 
     let tangential = times(&particle.tangent(), s);
-    let normal = times(&particle.into_obstacle(), &mu);
+    let normal = times(&particle.friction_direction(), &mu);
 
     let coefficients = tangential.iter().chain(&normal).map(|(_, c)| c);
     let clear = common_denominator(coefficients);

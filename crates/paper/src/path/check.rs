@@ -130,7 +130,7 @@ impl NodeValues<'_> {
     /// The state is that of the rates: where it says slip, the law holds along the way. // (9)
     fn is_in(&self, state: ContactState) -> bool {
         match state {
-            ContactState::Free => self.r_t.is_zero() && self.r_n.is_zero(),
+            ContactState::Free | ContactState::Zero => self.r_t.is_zero() && self.r_n.is_zero(),
             ContactState::Stick => self.u_n.is_zero() && self.v_t.is_zero(),
             ContactState::Slip { sign } => {
                 let sign = Integer::from(sign);

@@ -218,7 +218,7 @@ impl Bound {
     /// The bounds that can end the stay of a node in this state.
     fn of(node: usize, state: ContactState) -> Vec<Bound> {
         match state {
-            ContactState::Free => vec![Bound::Gap { node }],
+            ContactState::Free | ContactState::Zero => vec![Bound::Gap { node }],
             ContactState::Slip { .. } => vec![Bound::Pressure { node }],
             // The two cones together imply the pressure.
             ContactState::Stick => vec![

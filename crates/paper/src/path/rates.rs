@@ -276,7 +276,7 @@ fn better_on_cone(
     friction: &Friction,
 ) -> Option<ContactState> {
     match state {
-        ContactState::Free => None,
+        ContactState::Free | ContactState::Zero => None,
         ContactState::Slip { sign } => {
             slides_with_friction(sign, node, rates).then_some(ContactState::Stick)
         }
@@ -360,7 +360,7 @@ fn code(states: &[ContactState]) -> Vec<i8> {
 
 fn digit(state: &ContactState) -> i8 {
     match state {
-        ContactState::Free => 0,
+        ContactState::Free | ContactState::Zero => 0,
         ContactState::Stick => 2,
         ContactState::Slip { sign } => *sign,
     }

@@ -154,7 +154,7 @@ fn equations(instance: &Instance, states: &[ContactState]) -> Vec<Vec<Rational>>
         let w_n = order + v_n;
         // Two more rows, in the places below those of the node's components.
         match state {
-            ContactState::Free => {
+            ContactState::Free | ContactState::Zero => {
                 rows[w_t][w_t] = whole(1);
                 rows[w_n][w_n] = whole(1);
             }

@@ -31,7 +31,7 @@ pub(super) fn respond(
                 active.push(tangential);
                 equations.push(on_cone(node, friction, *sign));
             }
-            ContactState::Free => {
+            ContactState::Free | ContactState::Zero => {
                 active.extend([tangential, normal]);
                 equations.extend([no_reaction(tangential), no_reaction(normal)]);
             }

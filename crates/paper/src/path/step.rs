@@ -300,7 +300,7 @@ impl CondensedBlock {
                     conditions.active.push(tangential);
                     conditions.rows.push(self.slip_row(node, *sign));
                 }
-                ContactState::Free => {
+                ContactState::Free | ContactState::Zero => {
                     for component in [tangential, normal] {
                         conditions.active.push(component);
                         conditions.rows.push(self.stiffness[component].clone());

@@ -81,7 +81,7 @@ impl Interval {
 /// `.` stick, `<` slip to the left (S = 1), `>` slip to the right, `o` free.
 fn letter(state: ContactState) -> char {
     match state {
-        ContactState::Free => 'o',
+        ContactState::Free | ContactState::Zero => 'o',
         ContactState::Stick => '.',
         ContactState::Slip { sign } if sign > 0 => '<',
         ContactState::Slip { .. } => '>',

@@ -96,7 +96,7 @@ fn turned(rng: &mut ChaCha8Rng, mut particle: Particle, corners: &mut Vec<Corner
     match particle.state {
         ContactState::Stick => corners.push(Corner::Stick),
         ContactState::Free => corners.push(Corner::FreeVariables),
-        ContactState::Slip { .. } => {}
+        ContactState::Slip { .. } | ContactState::Zero => {}
     }
     particle
 }

@@ -321,7 +321,7 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
         let axes = Axes::of(particle, n);
         let minus_sign = whole(i64::from(-sign));
         motion.push(axes.tangent.times(&minus_sign));
-        normal.push(axes.into.times(&whole(-1)));
+        normal.push(axes.into.times(&-&particle.friction_factor));
     }
 
     let k_plain = products(system.stiffness(), &motion, &motion);

@@ -321,6 +321,7 @@ fn a_free_block_that_is_not_symmetric_is_refused() {
         let mut first: Row = vec![(0, one(), one())];
         first.extend(entry.map(|(a, b)| (1, a.into(), b.into())));
         let rows = Rows {
+            halves: vec![],
             rows: vec![first, vec![(1, one(), one())]],
             factor: vec![one(), one()],
             is_free: vec![true, true],

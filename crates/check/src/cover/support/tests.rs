@@ -19,6 +19,7 @@ fn rows(list: &[&[Pair]]) -> Rows {
     };
     let rows: Vec<_> = list.iter().map(row).collect();
     Rows {
+        halves: vec![],
         factor: vec![1.into(); rows.len()],
         is_free: vec![false; rows.len()],
         rows,
