@@ -34,7 +34,7 @@
    an enclosed claim, without biactive variables.
 
    The pencil is in the order of spec/certificates.md: free degrees of freedom, then slip
-   particles.  Particles at zero reaction are not covered.
+   particles.  Particles in contact with zero reaction: ZeroReaction.v.
 
    Page: spec/certificates.md, 5.1; spec/reduction.md.  Rust: crates/check/src/pencil.rs. *)
 
