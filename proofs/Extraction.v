@@ -10,10 +10,9 @@ From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
 From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned Cover.
-From Mceip Require Import Number Condensation Pencil Whole Complete Claim System.
+From Mceip Require Import Number Condensation Pencil Whole Complete Claim System ZeroReaction.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying.
-From Mceip Require Import ZeroReaction.
 
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
