@@ -376,7 +376,8 @@ Lemma zero_lines support biactive (t : R) v : has_zero_support z u support biact
 Proof.
 move=> signs j lt_j p w; have [opening pressing sliding row_right row_left] := signs _ lt_j.
 move: opening pressing sliding row_right row_left; rewrite -/p -/w.
-move: (along _ _ _) (along _ _ _) (along _ _ _) (along _ _ _) (mu_of _ _) => v_N w_N v_T w_T mu.
+move: (along (normal p) p v) (along (normal p) p w) (along (tangent p) p v).
+move: (along (tangent p) p w) (mu_of u t) => w_T mu v_N w_N v_T.
 rewrite /zero_reaction cone_sides => opening pressing sliding row_right row_left.
 split.
 - by case: ifP opening => _ => [->|/ltW].
