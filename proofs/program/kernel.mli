@@ -1031,6 +1031,50 @@ val slip_variables : system -> int list -> bool
 
 val check_lifted : system -> unknown -> lifted -> bool
 
+type zero_system = { without_zero : system;
+                     zero_particles : slip_particle list }
+
+type zero_claim = { lifted_part : lifted;
+                    opening_reductions : reduction list;
+                    pressure_reductions : reduction list;
+                    sliding_reductions : reduction list;
+                    right_reductions : reduction list;
+                    left_reductions : reduction list }
+
+val zero_particle : zero_system -> int -> slip_particle
+
+val zero_dofs : zero_system -> int list
+
+val moving_with_zero : zero_system -> int list
+
+val gap : zero_system -> int -> int
+
+val right : zero_system -> int -> int
+
+val left : zero_system -> int -> int
+
+val frame_wellformed : zero_system -> slip_particle -> bool
+
+val zero_wellformed : zero_system -> unknown -> bool
+
+val with_sign : Big_int_Z.big_int -> slip_particle -> slip_particle
+
+val sliding_poly : zero_claim -> slip_particle -> polynomial
+
+val pressure_poly : zero_claim -> slip_particle -> polynomial
+
+val right_poly : unknown -> zero_claim -> slip_particle -> polynomial
+
+val left_poly : unknown -> zero_claim -> slip_particle -> polynomial
+
+val row_state : zero_claim -> Equality.sort -> polynomial -> reduction -> bool
+
+val zero_states : zero_system -> unknown -> zero_claim -> int -> bool
+
+val zero_variables : zero_system -> int list -> bool
+
+val check_zero : zero_system -> unknown -> zero_claim -> bool
+
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
 type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int;
@@ -1538,47 +1582,3 @@ val check_varying_families :
 val check_system_varying :
   system -> unknown -> solution_claim list -> anchoring -> varying_leaf tree
   -> point -> point -> support_leaf option list -> bool
-
-type zero_system = { without_zero : system;
-                     zero_particles : slip_particle list }
-
-type zero_claim = { lifted_part : lifted;
-                    opening_reductions : reduction list;
-                    pressure_reductions : reduction list;
-                    sliding_reductions : reduction list;
-                    right_reductions : reduction list;
-                    left_reductions : reduction list }
-
-val zero_particle : zero_system -> int -> slip_particle
-
-val zero_dofs : zero_system -> int list
-
-val moving_with_zero : zero_system -> int list
-
-val gap : zero_system -> int -> int
-
-val right : zero_system -> int -> int
-
-val left : zero_system -> int -> int
-
-val frame_wellformed : zero_system -> slip_particle -> bool
-
-val zero_wellformed : zero_system -> unknown -> bool
-
-val with_sign : Big_int_Z.big_int -> slip_particle -> slip_particle
-
-val sliding_poly : zero_claim -> slip_particle -> polynomial
-
-val pressure_poly : zero_claim -> slip_particle -> polynomial
-
-val right_poly : unknown -> zero_claim -> slip_particle -> polynomial
-
-val left_poly : unknown -> zero_claim -> slip_particle -> polynomial
-
-val row_state : zero_claim -> Equality.sort -> polynomial -> reduction -> bool
-
-val zero_states : zero_system -> unknown -> zero_claim -> int -> bool
-
-val zero_variables : zero_system -> int list -> bool
-
-val check_zero : zero_system -> unknown -> zero_claim -> bool

@@ -236,6 +236,25 @@ let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) clai
     let claim, value = verify_enclosed problem pencil certificate e in
     lazy (Kernel.BoxClaim claim), show_claim value e.box_support
 
+(* The work for a motion of so many degrees of freedom with these polynomials, which are written
+   with one denominator. *)
+let motion_work dofs (e : Certificate.exact) polynomials =
+  let beyond () = Problem.not_verified "a claim beyond the limits of this program" in
+  let size = size_of e polynomials in
+  let longest = List.fold_left (fun m p -> max m (List.length p)) 0 polynomials in
+  let extended common q =
+    let common = Z.lcm common (Q.den q) in
+    if Z.numbits common > 1 lsl 17 then beyond ();
+    common in
+  let common = List.fold_left (List.fold_left extended) Z.one polynomials in
+  let size = size + (List.length e.polynomial + longest) * Z.numbits common in
+  if size > 1 lsl 18 then beyond ();
+  2 * dofs * size * size
+
+let limit_motions works =
+  if List.fold_left (+) 0 works > 1 lsl 36 then
+    Problem.not_verified "claims beyond the limits of this program"
+
 (* Exact and lifted claims of a system with particles in contact with zero reaction: the kernel
    checks the motion of the claim and its forces. *)
 let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kernel.zero_system)
@@ -247,22 +266,24 @@ let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kern
   let factor = Z.divexact problem.common system.unit_length in
   let size = system.dofs * system.dofs + entries system.stiffness + entries system.mass in
   if size > 1 lsl 22 then Problem.not_verified "claims about more than 2,048 variables";
-  let motion = function
+  let work_as_given = function
     | Certificate.Enclosed _ -> raise (Rejected "an enclosed claim with zero reaction")
     | Exact e ->
-      ignore (size_of e e.x);
       if List.length e.x <> variables then raise (Rejected "a claim with too few components");
-      Elaborate.lifted_of_exact zero unknown factor e
+      motion_work system.dofs e e.x
     | Lifted l ->
       if List.length l.motion.x <> system.dofs || List.length l.forces <> system.dofs then
         raise (Rejected "a motion with too few or too many components");
-      l in
+      motion_work system.dofs l.motion (l.motion.x @ l.forces) in
+  limit_motions (List.map work_as_given certificate.claims);
+
+  let motion = function
+    | Certificate.Exact e -> Elaborate.lifted_of_exact zero unknown factor e
+    | Lifted l -> l
+    | Enclosed _ -> invalid_arg "an enclosed claim" in
   let motions = List.map motion certificate.claims in
-  let work = List.fold_left (fun sum (l : Certificate.lifted) ->
-      let polynomials = l.motion.x @ l.forces in
-      let size = size_of l.motion polynomials in
-      sum + List.length polynomials * size * size) 0 motions in
-  if work > 1 lsl 36 then Problem.not_verified "claims beyond the limits of this program";
+  limit_motions (List.map (fun (l : Certificate.lifted) ->
+      motion_work system.dofs l.motion (l.motion.x @ l.forces)) motions);
 
   let verify_motion (l : Certificate.lifted) =
     check_root certificate l.motion;
@@ -473,7 +494,8 @@ let answer problem certificate =
   | Problem.Not_verified kind -> say 3 ("NOT VERIFIED: " ^ kind)
   | Elaborate.No_witness what -> say 3 ("NOT VERIFIED: no witness for " ^ what)
   | Invalid_argument what | Failure what -> say 3 ("NOT VERIFIED: a fault of this program: " ^ what)
-  | Not_found | Division_by_zero | Match_failure _ -> say 3 "NOT VERIFIED: a fault of this program"
+  | Not_found | Division_by_zero | Match_failure _ ->
+    say 3 "NOT VERIFIED: a fault of this program"
 
 (* For tests with many files: each line of stdin has the paths of a problem and a certificate,
    without blanks; after what is printed for them comes a line "exit CODE". *)
