@@ -1131,15 +1131,20 @@ let lifted_of_exact (zero : Kernel.zero_system) unknown factor (e : exact) =
       put_along p p.tangent Z.one x.(gap + 1);
       put_along p p.tangent Z.minus_one x.(gap + 2)) zero.zero_particles;
 
+  (* Forces in integers: v times one denominator, K and M times [factor]. *)
+  let motion = Array.to_list v in
+  let common = common_of Z.one motion in
+  let integral = Array.of_list (integer_polynomials common motion) in
   let product row =
     List.fold_left (fun sum (j, c) ->
-        add_polynomials sum (List.map (Q.mul (Q.make c factor)) v.(j))) [] row in
-  let force d =
-    let stiff = product (List.nth system.stiffness d) in
-    match unknown with
-    | Kernel.Mu -> stiff
-    | Lambda2 _ -> add_polynomials stiff (Q.zero :: product (List.nth system.mass d)) in
-  { motion = { e with x = Array.to_list v }; forces = List.init system.dofs force }
+        Kernel.add_poly sum (Kernel.scale_poly c integral.(j))) [] row in
+  let over = List.map (fun c -> Q.make c (Z.mul factor common)) in
+  let forces = match unknown with
+    | Kernel.Mu -> List.map product system.stiffness
+    | Lambda2 _ ->
+      List.map2 (fun k m -> Kernel.add_poly (product k) (Z.zero :: product m))
+        system.stiffness system.mass in
+  { motion = { e with x = motion }; forces = List.map over forces }
 
 (* ---------- enclosed solution claims *)
 
