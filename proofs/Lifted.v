@@ -13,6 +13,8 @@
                   S t'v = 0 and S t'w + mu n'w = 0     if biactive,
                   S t'v = 0 and S t'w + mu n'w < 0     otherwise.
 
+   The normal n has the friction factor of the particle as its length (System.v).
+
    Theorem [lifted_sound]: if the claim is checked, then for some t in the interval the motion v(t)
    satisfies (9), its forces are w(t), and it has the support and the biactive variables claimed.
 
@@ -117,7 +119,6 @@ End Checker.
 Section Sound.
 
 Variables (R : rcfType) (s : system) (u : unknown) (l : lifted).
-Hypothesis checked : check_lifted s u l.
 
 Notation k := (motion_claim l).
 Notation a := (claim_from k).
@@ -130,19 +131,10 @@ Notation all_dofs := (iota 0 (dofs s)).
 Definition v_at (t : R) i := eval (v_poly l i) t.
 Definition w_at (t : R) i := eval (w_poly l i) t.
 
-Lemma lifted_parts :
-  [/\ system_wellformed s u, root_interval k & forall i, i \in all_dofs -> balanced s u l i] /\
-  [/\ forall i, i \in free_dofs s -> without_force l i,
-      forall i, i \in all_dofs -> i \notin moving_dofs s -> at_rest l i,
-      forall j, (j < ns)%N -> particle_states s u l j &
-      has (in_support s l) (iota 0 ns) || has (dof_moves l) (free_dofs s)].
-Proof.
-case/and5P: checked => wf interval _ /allP bal /and4P[/allP free /allP rest /allP ps nz].
-split; split=> //; last by move=> j lt_j; apply: ps; rewrite mem_iota.
-by move=> i Hi /negbTE out; have := rest _ Hi; rewrite /= out.
-Qed.
-
 Section AtRoot.
+
+Hypotheses (wf : system_wellformed s u) (interval : root_interval k).
+Hypothesis bal : forall i, i \in all_dofs -> balanced s u l i.
 
 Variable t : R.
 Hypotheses (at_ : toR a <= toR d * t) (tb : toR d * t <= toR b).
@@ -152,10 +144,10 @@ Lemma zero_at g w : shows_zero k g w -> eval g t = 0.
 Proof. exact: (zero_sound root_t). Qed.
 
 Lemma negative_at g w : shows_negative k g w -> eval g t < 0.
-Proof. by have [[_ i _] _] := lifted_parts; exact: (negative_sound i at_ tb root_t). Qed.
+Proof. exact: (negative_sound interval at_ tb root_t). Qed.
 
 Lemma positive_at g w : shows_positive k g w -> 0 < eval g t.
-Proof. by have [[_ i _] _] := lifted_parts; exact: (positive_sound i at_ tb root_t). Qed.
+Proof. exact: (positive_sound interval at_ tb root_t). Qed.
 
 Lemma eval_subtract p q : eval (subtract p q) t = eval p t - eval q t.
 Proof.
@@ -169,10 +161,13 @@ Lemma eval_along e p f :
   eval (along_poly e p f) t = along e p (fun i => eval (f i) t).
 Proof. by rewrite /along_poly eval_add !eval_scale. Qed.
 
+Lemma rateE p : eval (rate_poly l p) t = slip_rate (v_at t) p.
+Proof. by rewrite /rate_poly eval_scale eval_along. Qed.
+
 (* The forces of v(t) are w(t). *)
 Lemma balance i : i \in all_dofs -> force s (lambda2_of u t) (v_at t) i = w_at t i.
 Proof.
-have [[wf _ bal] _] := lifted_parts => /bal/zero_at; have [rk rm] := rows_in_range wf i.
+move/bal/zero_at; have [rk rm] := rows_in_range wf i.
 rewrite /balance_poly eval_subtract eval_add => /eqP; rewrite subr_eq0 => /eqP sum.
 rewrite forceE -[RHS]sum; congr (_ + _).
   exact/esym/(@combine_rowE R (Pencil (dofs s) [::] [::] [::])).
@@ -180,22 +175,33 @@ rewrite /lambda2_of; case: (u) => [|m q]; first by rewrite mul0r.
 by rewrite eval_shift; congr (_ * _); exact/esym/(@combine_rowE R (Pencil (dofs s) [::] [::] [::])).
 Qed.
 
-Lemma cone_at j : (j < ns)%N -> let p := particle s j in
+Lemma along_force e p : first_dof p \in all_dofs -> second_dof p \in all_dofs ->
+  along e p (force s (lambda2_of u t) (v_at t)) = along e p (w_at t).
+Proof. by move=> first second; rewrite /along !balance. Qed.
+
+Lemma cone_at p : first_dof p \in all_dofs -> second_dof p \in all_dofs ->
   eval (cone_poly u l p) t =
   row_factor R u * cone s (lambda2_of u t) (mu_of u t) (v_at t) p.
 Proof.
-move=> lt_j p; have [[wf _ _] _] := lifted_parts.
-have c0 := row_factor_gt0 R wf; rewrite /cone.
-have same e : along e p (force s (lambda2_of u t) (v_at t)) = along e p (w_at t).
-  by rewrite /along !balance ?(first_dof_in wf) ?(second_dof_in wf).
-rewrite !same {same}; rewrite /cone_poly /row_factor /mu_of in c0 *; case: (u) c0 => [|m q] c0.
+move=> first second; have c0 := row_factor_gt0 R wf; rewrite /cone !along_force //.
+rewrite /cone_poly /row_factor /mu_of in c0 *; case: (u) c0 => [|m q] c0.
   by rewrite eval_add eval_scale eval_shift !eval_along mul1r.
 rewrite eval_add !eval_scale !eval_along toRM -!/(w_at t _).
 rewrite -/(along (tangent p) p (w_at t)) -/(along (normal p) p (w_at t)).
 by move: (along _ _ _) (along _ _ _) => *; field; exact: lt0r_neq0.
 Qed.
 
-Lemma states_at j : (j < ns)%N -> let p := particle s j in
+(* Signs of the cone line. *)
+Lemma cone_signs p w : first_dof p \in all_dofs -> second_dof p \in all_dofs ->
+  (shows_zero k (cone_poly u l p) w -> cone s (lambda2_of u t) (mu_of u t) (v_at t) p = 0) /\
+  (shows_negative k (cone_poly u l p) w -> cone s (lambda2_of u t) (mu_of u t) (v_at t) p < 0).
+Proof.
+move=> first second; have c0 := row_factor_gt0 R wf.
+split=> [/zero_at/eqP|/negative_at]; rewrite cone_at //; last by rewrite pmulr_rlt0.
+by rewrite mulf_eq0 gt_eqF //= => /eqP.
+Qed.
+
+Lemma states_at j : (j < ns)%N -> particle_states s u l j -> let p := particle s j in
   along (normal p) p (v_at t) = 0 /\
   [/\ in_support s l j -> slip_rate (v_at t) p < 0,
       ~~ in_support s l j -> slip_rate (v_at t) p = 0,
@@ -204,20 +210,69 @@ Lemma states_at j : (j < ns)%N -> let p := particle s j in
       ~~ (in_support s l j || is_biactive s l j) ->
         cone s (lambda2_of u t) (mu_of u t) (v_at t) p < 0].
 Proof.
-move=> lt_j p; have [[wf _ _] [_ _ /(_ _ lt_j) + _]] := lifted_parts; rewrite /particle_states -/p.
-have c0 := row_factor_gt0 R wf; have cE := cone_at lt_j; rewrite -/p in cE.
-have rateE : eval (rate_poly l p) t = slip_rate (v_at t) p.
-  by rewrite /rate_poly eval_scale eval_along.
+move=> lt_j + p; rewrite /particle_states -/p.
+have [cone_zero cone_negative] :=
+  cone_signs (witness (cone_reductions l) j) (first_dof_in wf lt_j) (second_dof_in wf lt_j).
 case/and3P=> /zero_at; rewrite /normal_poly eval_along => nv rate reaction.
 split=> //; split=> state; move: rate reaction; rewrite ?state ?(negbTE state).
 - by move/negative_at; rewrite rateE.
 - by move/zero_at; rewrite rateE.
-- move=> _ /zero_at/eqP; rewrite cE mulf_eq0 gt_eqF //= => /eqP.
-  by [].
-by move=> _ /negative_at; rewrite cE pmulr_rlt0.
+- by move=> _ /cone_zero.
+by move=> _ /cone_negative.
+Qed.
+
+(* What the states of all slip particles say. *)
+Lemma slip_lines : (forall j, (j < ns)%N -> particle_states s u l j) ->
+  (forall j, (j < ns)%N -> let p := particle s j in
+     [/\ along (normal p) p (v_at t) = 0, slip_rate (v_at t) p <= 0,
+         cone s (lambda2_of u t) (mu_of u t) (v_at t) p <= 0 &
+         cone s (lambda2_of u t) (mu_of u t) (v_at t) p * slip_rate (v_at t) p = 0]) /\
+  has_support s u (support k) (biactive k) t (v_at t).
+Proof.
+move=> states; split=> j lt_j p; have [nv [r1 r2 c1 c2]] := states_at lt_j (states _ lt_j).
+  split=> //.
+  - by case: (boolP (in_support s l j)) => [/r1/ltW|/r2->].
+  - by case: (boolP (in_support s l j || is_biactive s l j)) => [/c1->|/c2/ltW].
+  case: (boolP (in_support s l j)) => [in_j|/r2->]; last by rewrite mulr0.
+  by rewrite c1 ?in_j // mul0r.
+split=> //.
+  by move=> _ biactive_j; apply: c1; rewrite /is_biactive biactive_j orbT.
+by move=> out1 out2; apply: c2; rewrite negb_or; apply/andP.
+Qed.
+
+(* v != 0 *)
+Lemma something_moves moving : (forall j, (j < ns)%N -> particle_states s u l j) ->
+  (forall i, i \in moving -> i \in all_dofs) ->
+  has (in_support s l) (iota 0 ns) || has (dof_moves l) moving ->
+  exists2 i, i \in all_dofs & v_at t i != 0.
+Proof.
+move=> states in_range; case/orP=> /hasP[i Hi]; last first.
+  move=> sign_i; exists i; first exact: in_range.
+  case/orP: sign_i => [/positive_at|/negative_at] sign_i; first by rewrite gt_eqF.
+  by rewrite lt_eqF.
+rewrite mem_iota add0n in Hi => /= in_i; have [_ [r1 _ _ _]] := states_at Hi (states _ Hi).
+have := r1 in_i; rewrite /slip_rate /along; set p := particle s i => rate.
+have [v1|] := eqVneq (v_at t (first_dof p)) 0; last first.
+  by exists (first_dof p); rewrite ?(first_dof_in wf).
+exists (second_dof p); first exact: (second_dof_in wf).
+by apply: contraTneq rate => v2; rewrite v1 v2 !mulr0 addr0 mulr0 ltxx.
 Qed.
 
 End AtRoot.
+
+Hypothesis checked : check_lifted s u l.
+
+Lemma lifted_parts :
+  [/\ system_wellformed s u, root_interval k & forall i, i \in all_dofs -> balanced s u l i] /\
+  [/\ forall i, i \in free_dofs s -> without_force l i,
+      forall i, i \in all_dofs -> i \notin moving_dofs s -> at_rest l i,
+      forall j, (j < ns)%N -> particle_states s u l j &
+      has (in_support s l) (iota 0 ns) || has (dof_moves l) (free_dofs s)].
+Proof.
+case/and5P: checked => wf interval _ /allP bal /and4P[/allP free /allP rest /allP ps nz].
+split; split=> //; last by move=> j lt_j; apply: ps; rewrite mem_iota.
+by move=> i Hi /negbTE out; have := rest _ Hi; rewrite /= out.
+Qed.
 
 Theorem lifted_sound : exists t : R,
   [/\ toR a <= toR d * t /\ toR d * t <= toR b, satisfies_9 s u t (v_at t),
@@ -227,35 +282,16 @@ Proof.
 have [[wf interval bal] [free rest states nz]] := lifted_parts.
 have [a0 _ d0 _] := interval_parts R interval.
 have [t [at_ tb root_t]] := modulus_root R interval.
-have at_particle j (lt_j : (j < ns)%N) := states_at at_ tb root_t lt_j.
+have [lines signs] := slip_lines wf interval bal at_ tb root_t states.
+have free_in i : i \in free_dofs s -> i \in all_dofs.
+  by move=> Hi; apply: (moving_dof_in wf); rewrite mem_cat Hi.
 
-exists t; split=> //; first 1 last.
-- by move=> i Hi; apply: balance.
-- move=> j lt_j p; have [_ [r1 r2 c1 c2]] := at_particle _ lt_j; split=> //.
-    by move=> _ biactive_j; apply: c1; rewrite /is_biactive biactive_j orbT.
-  by move=> out1 out2; apply: c2; rewrite negb_or; apply/andP.
+exists t; split=> //; last by move=> i Hi; apply: balance.
 apply/satisfies_9E; split; first by rewrite -(pmulr_rge0 _ d0); apply: le_trans at_.
-split.
-- case/orP: nz => /hasP[i Hi]; last first.
-    move=> sign_i; exists i; first by apply: (moving_dof_in wf); rewrite mem_cat Hi.
-    case/orP: sign_i => [/(positive_at at_ tb root_t)|/(negative_at at_ tb root_t)] sign_i.
-      by rewrite gt_eqF.
-    by rewrite lt_eqF.
-  rewrite mem_iota add0n in Hi => /= in_i; have [_ [r1 _ _ _]] := at_particle _ Hi.
-  have := r1 in_i; rewrite /slip_rate /along; set p := particle s i => rate.
-  have [v1|] := eqVneq (v_at t (first_dof p)) 0; last first.
-    by exists (first_dof p); rewrite ?(first_dof_in wf).
-  exists (second_dof p); first exact: (second_dof_in wf).
-  by apply: contraTneq rate => v2; rewrite v1 v2 !mulr0 addr0 mulr0 ltxx.
-- by move=> i Hi out; apply: (zero_at root_t (rest _ Hi out)).
-- move=> i Hi; rewrite balance //; first exact: (zero_at root_t (free _ Hi)).
-  by apply: (moving_dof_in wf); rewrite mem_cat Hi.
-move=> j lt_j p; have [nv [r1 r2 c1 c2]] := at_particle _ lt_j.
 split=> //.
-- by case: (boolP (in_support s l j)) => [/r1/ltW|/r2->].
-- case: (boolP (in_support s l j || is_biactive s l j)) => [/c1->|/c2/ltW] //.
-case: (boolP (in_support s l j)) => [in_j|/r2->]; last by rewrite mulr0.
-by rewrite c1 ?in_j // mul0r.
+- exact: (something_moves wf interval bal at_ tb root_t states free_in).
+- by move=> i Hi out; apply: (zero_at root_t (rest _ Hi out)).
+by move=> i Hi; rewrite balance ?free_in //; exact: (zero_at root_t (free _ Hi)).
 Qed.
 
 End Sound.

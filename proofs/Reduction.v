@@ -8,7 +8,8 @@
 
    - [reduction], [reduction_onto]: the conditions (9) without particles at zero reaction are
      equivalent to the complementarity eigenproblem (12)-(14), with the maps (10), (11) and the
-     blocks (16);
+     blocks (16); each slip particle may have a friction factor c_p of its own, then c_p mu stands
+     for mu in its line (spec/problem.md), and the rows of K1 get this factor;
    - [proposition1]: MCEIP-mu has a solution iff MCP-mu has one.  Hypotheses: K_ff is regular, and
      the f rows of K1 vanish.  (The paper asks less by its words and uses this much.)
    - [proposition2]: MCEIP-lambda2 has a solution iff MCP-lambda2 has one.  Hypothesis:
@@ -227,8 +228,8 @@ Section Mechanics.
 Variables nf ns nd : nat.
 Notation all_dofs := (nf + (ns + (ns + nd)))%N.
 
-(* G = lambda^2 M + K, the signs S_p = sign(r_Tp) and the friction mu. *)
-Variables (G : 'M[R]_all_dofs) (sign : 'I_ns -> R) (mu : R).
+(* G = lambda^2 M + K, the signs S_p = sign(r_Tp), the friction mu and the friction factors. *)
+Variables (G : 'M[R]_all_dofs) (sign factor : 'I_ns -> R) (mu : R).
 Hypothesis sign_squared : forall i, sign i * sign i = 1.
 
 Notation v_f v := (usubmx v).
@@ -237,12 +238,13 @@ Notation v_N v := (usubmx (dsubmx (dsubmx v))).
 Notation v_d v := (dsubmx (dsubmx (dsubmx v))).
 
 Definition S : 'M[R]_ns := diag_mx (\row_i sign i).
+Definition C : 'M[R]_ns := diag_mx (\row_i factor i).
 
 Definition conditions_9 (v w : 'cV[R]_all_dofs) :=
   [/\ v != 0, G *m v = w, v_f w = 0, v_N v = 0 /\ v_d v = 0 &
       forall i, [/\ sign i * v_T v i 0 <= 0,
-                    sign i * v_T w i 0 + mu * v_N w i 0 <= 0 &
-                    (sign i * v_T w i 0 + mu * v_N w i 0) * (sign i * v_T v i 0) = 0]].
+                    sign i * v_T w i 0 + mu * (factor i * v_N w i 0) <= 0 &
+                    (sign i * v_T w i 0 + mu * (factor i * v_N w i 0)) * (sign i * v_T v i 0) = 0]].
 
 Notation G_ff := (ulsubmx G).
 Notation G_fT := (lsubmx (ursubmx G)).
@@ -251,9 +253,9 @@ Notation G_TT := (ulsubmx (drsubmx G)).
 Notation G_Nf := (usubmx (dsubmx (dlsubmx G))).
 Notation G_NT := (usubmx (lsubmx (dsubmx (drsubmx G)))).
 
-(* (15), (16) *)
+(* (15), (16); C is the identity without friction factors. *)
 Definition G0 := block_mx G_ff (- (G_fT *m S)) (- (S *m G_Tf)) (S *m G_TT *m S).
-Definition G1 := block_mx 0 0 (- G_Nf) (G_NT *m S) : 'M[R]_(nf + ns).
+Definition G1 := block_mx 0 0 (- (C *m G_Nf)) (C *m G_NT *m S) : 'M[R]_(nf + ns).
 Definition G_star := G0 + mu *: G1.
 
 (* (10), read from right to left: v_f = x_f, v_T = -S x_T, v_N = 0, v_d = 0. *)
@@ -270,9 +272,12 @@ Qed.
 Lemma S_mul n (v : 'M[R]_(ns, n)) i j : (S *m v) i j = sign i * v i j.
 Proof. by rewrite mul_diag_mx !mxE. Qed.
 
-(* (11): the rows of G* x are w_f and -(S w_T + mu w_N). *)
+Lemma C_mul n (v : 'M[R]_(ns, n)) i j : (C *m v) i j = factor i * v i j.
+Proof. by rewrite mul_diag_mx !mxE. Qed.
+
+(* (11): the rows of G* x are w_f and -(S w_T + mu C w_N). *)
 Lemma reaction_rows x (w := G *m motion x) :
-  G_star *m x = col_mx (v_f w) (- (S *m v_T w + mu *: v_N w)).
+  G_star *m x = col_mx (v_f w) (- (S *m v_T w + mu *: (C *m v_N w))).
 Proof.
 rewrite -{1}[x]vsubmxK /w /G_star /G0 /G1 /motion.
 set a := usubmx x; set b := dsubmx x.
@@ -311,9 +316,9 @@ have vN : v_N (motion x) = 0 by rewrite /motion !col_mxKd col_mxKu.
 have vd : v_d (motion x) = 0 by rewrite /motion !col_mxKd.
 have yf : usubmx (G_star *m x) = v_f (G *m motion x) by rewrite reaction_rows col_mxKu.
 have yT i : dsubmx (G_star *m x) i 0 =
-            - (sign i * v_T (G *m motion x) i 0 + mu * v_N (G *m motion x) i 0).
+            - (sign i * v_T (G *m motion x) i 0 + mu * (factor i * v_N (G *m motion x) i 0)).
   rewrite reaction_rows col_mxKd; set a := v_T _; set b := v_N _.
-  by rewrite mxE [X in - X = _]mxE S_mul; congr (- (_ + _)); rewrite mxE.
+  by rewrite mxE [X in - X = _]mxE S_mul; congr (- (_ + _)); rewrite mxE C_mul.
 
 split.
   case=> x0 <- fy /complementaryP[a b c]; split=> //; split; rewrite ?motion_zero -?yf //.

@@ -2,10 +2,12 @@
 
    A mechanical system has [dofs] degrees of freedom, sparse rows of K and M (multiplied by one
    positive integer each), a list of free degrees of freedom, and slip particles.  A slip particle
-   has two degrees of freedom, the unit tangent t_p and the unit normal n_p as vectors over these
-   two (frame and normal direction applied), and the sign S_p of the tangential reaction.  All
-   tangents and normals are multiplied by one positive integer, [unit_length], so that they are
-   integer vectors.  All other degrees of freedom do not move: those of particles that stick.
+   has two degrees of freedom, the unit tangent t_p and the normal n_p as vectors over these two
+   (frame and normal direction applied), and the sign S_p of the tangential reaction.  The length of
+   n_p is the friction factor of the particle: n_p is c_p times the unit normal, so that mu n_p'w is
+   c_p mu times the rate of the normal reaction.  All tangents and normals are multiplied by one
+   positive integer, [unit_length], so that they are integer vectors.  All other degrees of freedom
+   do not move: those of particles that stick.
 
    [conditions_9] are the conditions (9) for such a system, for values of lambda^2 and mu:
 
@@ -32,7 +34,7 @@
    an enclosed claim, without biactive variables.
 
    The pencil is in the order of spec/certificates.md: free degrees of freedom, then slip
-   particles.  Particles at zero reaction are not covered.
+   particles.  Particles in contact with zero reaction: ZeroReaction.v.
 
    Page: spec/certificates.md, 5.1; spec/reduction.md.  Rust: crates/check/src/pencil.rs. *)
 
@@ -53,6 +55,7 @@ Local Open Scope ring_scope.
 (* A vector over the two degrees of freedom of a particle. *)
 Definition planar := (Z * Z)%type.
 
+(* The tangent has the length [unit_length], the normal this times the friction factor. *)
 Record slip_particle := SlipParticle {
   first_dof : nat;
   second_dof : nat;
@@ -141,7 +144,7 @@ Definition inner (a b : planar) := a.1 * b.1 + a.2 * b.2.
 Definition particle_wellformed p :=
   let unit_square := unit_length s * unit_length s in
   [&& sign_of p * sign_of p =? 1, inner (tangent p) (tangent p) =? unit_square,
-      inner (normal p) (normal p) =? unit_square & inner (tangent p) (normal p) =? 0].
+      0 <? inner (normal p) (normal p) & inner (tangent p) (normal p) =? 0].
 
 Definition system_wellformed :=
   [&& uniq moving_dofs, all (fun d => d < dofs s)%N moving_dofs,
@@ -435,13 +438,13 @@ Proof. by have [_ _ _ _ l0] := wf_parts; rewrite toR_gt0. Qed.
 Lemma particle_parts j : (j < ns)%N -> let p := particle s j in
   [/\ toR (sign_of p) ^+ 2 = 1 :> R,
       toR (tangent p).1 ^+ 2 + toR (tangent p).2 ^+ 2 = toR (unit_length s) ^+ 2 :> R,
-      toR (normal p).1 ^+ 2 + toR (normal p).2 ^+ 2 = toR (unit_length s) ^+ 2 :> R &
+      0 < toR (normal p).1 ^+ 2 + toR (normal p).2 ^+ 2 :> R &
       toR (tangent p).1 * toR (normal p).1 + toR (tangent p).2 * toR (normal p).2 = 0 :> R].
 Proof.
 move=> lt_j p; have [_ _ /(_ _ lt_j) + _ _] := wf_parts; rewrite -/p.
-case/and4P=> /Z.eqb_spec sq /Z.eqb_spec tt /Z.eqb_spec nn /Z.eqb_spec tn.
-move: tt nn tn; rewrite /inner => tt nn tn.
-by rewrite !expr2 -!toRM -!toRD sq tt nn tn.
+case/and4P=> /Z.eqb_spec sq /Z.eqb_spec tt nn /Z.eqb_spec tn.
+move: tt nn tn; rewrite -(@toR_gt0 R) /inner => tt nn tn.
+by rewrite !expr2 -!toRM -!toRD sq tt tn.
 Qed.
 
 Lemma motion_free x k : (k < nf)%N ->
@@ -542,13 +545,13 @@ Definition variables_of (v : nat -> R) i :=
   else - (slip_rate v (particle s (i - nf)) / toR (unit_length s) ^+ 2).
 
 (* A vector of the plane that is perpendicular to n is a multiple of t. *)
-Lemma along_tangent (t1 t2 n1 n2 v1 v2 l : R) : l != 0 ->
-  t1 ^+ 2 + t2 ^+ 2 = l -> n1 ^+ 2 + n2 ^+ 2 = l -> t1 * n1 + t2 * n2 = 0 ->
+Lemma along_tangent (t1 t2 n1 n2 v1 v2 l : R) :
+  t1 ^+ 2 + t2 ^+ 2 = l -> 0 < n1 ^+ 2 + n2 ^+ 2 -> t1 * n1 + t2 * n2 = 0 ->
   n1 * v1 + n2 * v2 = 0 ->
   t1 * (t1 * v1 + t2 * v2) = l * v1 /\ t2 * (t1 * v1 + t2 * v2) = l * v2.
 Proof.
-move=> l0 tt nn tn nv; have cross : v1 * t2 - v2 * t1 = 0.
-  apply: (mulfI l0); rewrite mulr0 -nn.
+move=> tt nn tn nv; have cross : v1 * t2 - v2 * t1 = 0.
+  apply: (mulfI (lt0r_neq0 nn)); rewrite mulr0.
   transitivity (n1 * ((n1 * v1 + n2 * v2) * t2 - (t1 * n1 + t2 * n2) * v2) +
                 n2 * (v1 * (t1 * n1 + t2 * n2) - t1 * (n1 * v1 + n2 * v2))); first by ring.
   by rewrite nv tn !mul0r !mulr0 !subr0 !mulr0 addr0.
@@ -571,7 +574,7 @@ have at_particle j : (j < ns)%N -> let p := particle s j in
     motion (variables_of v) (first_dof p) = v (first_dof p) /\
     motion (variables_of v) (second_dof p) = v (second_dof p).
   move=> lt_j p; have [nv _ _ _] := slips _ lt_j; have [sq tt nn tn] := particle_parts lt_j.
-  have [v1 v2] := along_tangent l2 tt nn tn nv.
+  have [v1 v2] := along_tangent tt nn tn nv.
   rewrite /motion column_first // column_second // /variables_of ltnNge leq_addr /= addKn -/p.
   have back c w : toR c * along (tangent p) p v = toR (unit_length s) ^+ 2 * w ->
       toR (- (sign_of p * c)) * - (slip_rate v p / toR (unit_length s) ^+ 2) = w.

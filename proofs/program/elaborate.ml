@@ -1088,19 +1088,76 @@ let lifted_of (system : Kernel.system) unknown factor (l : lifted) =
     rate_reductions = particles (Kernel.rate_poly bare);
     cone_reductions = particles (Kernel.cone_poly unknown bare) }
 
+let rec add_polynomials p q = match p, q with
+  | a :: p, b :: q -> Q.add a b :: add_polynomials p q
+  | rest, [] | [], rest -> rest
+
 (* The solution of the pencil whose motion is that of the claim: x_d = v_d, x_p = -S t'v. *)
 let exact_of_lifted (system : Kernel.system) (l : lifted) =
   let v = Array.of_list l.motion.x in
   let times c = List.map (Q.mul c) in
-  let rec add p q = match p, q with
-    | a :: p, b :: q -> Q.add a b :: add p q
-    | rest, [] | [], rest -> rest in
   let slip (p : Kernel.slip_particle) =
     let factor c = Q.make (Z.neg (Z.mul p.sign_of c)) system.unit_length in
     let first, second = p.tangent in
-    add (times (factor first) v.(p.first_dof)) (times (factor second) v.(p.second_dof)) in
+    add_polynomials (times (factor first) v.(p.first_dof))
+      (times (factor second) v.(p.second_dof)) in
   { l.motion with
     x = List.map (fun d -> v.(d)) system.free_dofs @ List.map slip system.particles }
+
+(* ---------- claims with particles in contact with zero reaction *)
+
+let zero_of (system : Kernel.zero_system) unknown factor (l : lifted) =
+  let lifted_part = lifted_of system.without_zero unknown factor l in
+  let bare = { Kernel.lifted_part; opening_reductions = []; pressure_reductions = [];
+               sliding_reductions = []; right_reductions = []; left_reductions = [] } in
+  let particles make =
+    List.map (fun p -> reduction l.motion.polynomial (make p)) system.zero_particles in
+  { bare with
+    opening_reductions = particles (Kernel.normal_poly lifted_part);
+    pressure_reductions = particles (Kernel.pressure_poly bare);
+    sliding_reductions = particles (Kernel.sliding_poly bare);
+    right_reductions = particles (Kernel.right_poly unknown bare);
+    left_reductions = particles (Kernel.left_poly unknown bare) }
+
+(* The motion of x and its forces: v = -S t x of a slip particle, v = -n x_gap + t (x_right -
+   x_left) of one with zero reaction, n the unit normal. *)
+let lifted_of_exact (zero : Kernel.zero_system) unknown factor (e : exact) =
+  let system = zero.without_zero in
+  let x = Array.of_list e.x in
+  let v = Array.make system.dofs [] in
+  let put d c p = v.(d) <- add_polynomials v.(d) (List.map (Q.mul c) p) in
+  let put_along (p : Kernel.slip_particle) (first, second) sign polynomial =
+    put p.first_dof (Q.make (Z.mul sign first) system.unit_length) polynomial;
+    put p.second_dof (Q.make (Z.mul sign second) system.unit_length) polynomial in
+
+  List.iteri (fun i d -> put d Q.one x.(i)) system.free_dofs;
+  let slips = List.length system.free_dofs in
+  List.iteri (fun j (p : Kernel.slip_particle) ->
+      put_along p p.tangent (Z.neg p.sign_of) x.(slips + j)) system.particles;
+  let gaps = slips + List.length system.particles in
+  List.iteri (fun j (p : Kernel.slip_particle) ->
+      let gap = gaps + 3 * j in
+      let t1, t2 = p.tangent and n1, n2 = p.normal in
+      let turned = Z.neg t2, t1 in
+      let side = Z.sign (Z.add (Z.mul n1 (fst turned)) (Z.mul n2 (snd turned))) in
+      put_along p turned (Z.of_int (-side)) x.(gap);
+      put_along p p.tangent Z.one x.(gap + 1);
+      put_along p p.tangent Z.minus_one x.(gap + 2)) zero.zero_particles;
+
+  (* Forces in integers: v times one denominator, K and M times [factor]. *)
+  let motion = Array.to_list v in
+  let common = common_of Z.one motion in
+  let integral = Array.of_list (integer_polynomials common motion) in
+  let product row =
+    List.fold_left (fun sum (j, c) ->
+        Kernel.add_poly sum (Kernel.scale_poly c integral.(j))) [] row in
+  let over = List.map (fun c -> Q.make c (Z.mul factor common)) in
+  let forces = match unknown with
+    | Kernel.Mu -> List.map product system.stiffness
+    | Lambda2 _ ->
+      List.map2 (fun k m -> Kernel.add_poly (product k) (Z.zero :: product m))
+        system.stiffness system.mass in
+  { motion = { e with x = motion }; forces = List.map over forces }
 
 (* ---------- enclosed solution claims *)
 

@@ -27,6 +27,10 @@ type comparison =
 
 let rec add = (+)
 
+(** val mul : int -> int -> int **)
+
+let rec mul = ( * )
+
 (** val sub : int -> int -> int **)
 
 let rec sub = fun n m -> Stdlib.max 0 (n-m)
@@ -766,6 +770,16 @@ let rec iter n f x =
     (fun _ -> x)
     (fun i -> f (iter i f x))
     n
+
+(** val muln_rec : int -> int -> int **)
+
+let muln_rec =
+  mul
+
+(** val muln : int -> int -> int **)
+
+let muln =
+  muln_rec
 
 (** val size : 'a1 list -> int **)
 
@@ -2943,7 +2957,7 @@ let particle_wellformed s p =
   let unit_square = Z.mul s.unit_length s.unit_length in
   (&&) (Z.eqb (Z.mul p.sign_of p.sign_of) Big_int_Z.unit_big_int)
     ((&&) (Z.eqb (inner p.tangent p.tangent) unit_square)
-      ((&&) (Z.eqb (inner p.normal p.normal) unit_square)
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (inner p.normal p.normal))
         (Z.eqb (inner p.tangent p.normal) Big_int_Z.zero_big_int)))
 
 (** val system_wellformed : system -> unknown -> bool **)
@@ -3126,6 +3140,200 @@ let check_lifted s u l =
               ((&&) (all (particle_states s u l) (iota 0 (size s.particles)))
                 ((||) (has (in_support s l) (iota 0 (size s.particles)))
                   (has (dof_moves l) s.free_dofs))))))))
+
+type zero_system = { without_zero : system;
+                     zero_particles : slip_particle list }
+
+type zero_claim = { lifted_part : lifted;
+                    opening_reductions : reduction list;
+                    pressure_reductions : reduction list;
+                    sliding_reductions : reduction list;
+                    right_reductions : reduction list;
+                    left_reductions : reduction list }
+
+(** val zero_particle : zero_system -> int -> slip_particle **)
+
+let zero_particle z0 j =
+  nth { first_dof = 0; second_dof = 0; tangent = (Big_int_Z.zero_big_int,
+    Big_int_Z.zero_big_int); normal = (Big_int_Z.zero_big_int,
+    Big_int_Z.zero_big_int); sign_of = Big_int_Z.zero_big_int }
+    z0.zero_particles j
+
+(** val zero_dofs : zero_system -> int list **)
+
+let zero_dofs z0 =
+  cat (map0 (fun p -> p.first_dof) z0.zero_particles)
+    (map0 (fun p -> p.second_dof) z0.zero_particles)
+
+(** val moving_with_zero : zero_system -> int list **)
+
+let moving_with_zero z0 =
+  cat (moving_dofs z0.without_zero) (zero_dofs z0)
+
+(** val gap : zero_system -> int -> int **)
+
+let gap z0 j =
+  addn (addn (free_number z0.without_zero) (size z0.without_zero.particles))
+    (muln (Stdlib.Int.succ (Stdlib.Int.succ (Stdlib.Int.succ 0))) j)
+
+(** val right : zero_system -> int -> int **)
+
+let right z0 j =
+  Stdlib.Int.succ (gap z0 j)
+
+(** val left : zero_system -> int -> int **)
+
+let left z0 j =
+  Stdlib.Int.succ (Stdlib.Int.succ (gap z0 j))
+
+(** val frame_wellformed : zero_system -> slip_particle -> bool **)
+
+let frame_wellformed z0 p =
+  (&&)
+    (Z.eqb (inner p.tangent p.tangent)
+      (Z.mul z0.without_zero.unit_length z0.without_zero.unit_length))
+    ((&&) (Z.ltb Big_int_Z.zero_big_int (inner p.normal p.normal))
+      (Z.eqb (inner p.tangent p.normal) Big_int_Z.zero_big_int))
+
+(** val zero_wellformed : zero_system -> unknown -> bool **)
+
+let zero_wellformed z0 u =
+  (&&) (system_wellformed z0.without_zero u)
+    ((&&) (uniq nat_eqType (Obj.magic moving_with_zero z0))
+      ((&&)
+        (all (fun p ->
+          (&&) (leq (Stdlib.Int.succ p.first_dof) z0.without_zero.dofs)
+            (leq (Stdlib.Int.succ p.second_dof) z0.without_zero.dofs))
+          z0.zero_particles) (all (frame_wellformed z0) z0.zero_particles)))
+
+(** val with_sign : Big_int_Z.big_int -> slip_particle -> slip_particle **)
+
+let with_sign sign p =
+  { first_dof = p.first_dof; second_dof = p.second_dof; tangent = p.tangent;
+    normal = p.normal; sign_of = sign }
+
+(** val sliding_poly : zero_claim -> slip_particle -> polynomial **)
+
+let sliding_poly c p =
+  along_poly p.tangent p (v_poly c.lifted_part)
+
+(** val pressure_poly : zero_claim -> slip_particle -> polynomial **)
+
+let pressure_poly c p =
+  along_poly p.normal p (w_poly c.lifted_part)
+
+(** val right_poly : unknown -> zero_claim -> slip_particle -> polynomial **)
+
+let right_poly u c p =
+  cone_poly u c.lifted_part
+    (with_sign (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p)
+
+(** val left_poly : unknown -> zero_claim -> slip_particle -> polynomial **)
+
+let left_poly u c p =
+  cone_poly u c.lifted_part (with_sign Big_int_Z.unit_big_int p)
+
+(** val row_state :
+    zero_claim -> Equality.sort -> polynomial -> reduction -> bool **)
+
+let row_state c i g w =
+  if (||)
+       (in_mem i
+         (mem (seq_predType nat_eqType)
+           (Obj.magic c.lifted_part.motion_claim.support)))
+       (in_mem i
+         (mem (seq_predType nat_eqType)
+           (Obj.magic c.lifted_part.motion_claim.biactive)))
+  then shows_zero c.lifted_part.motion_claim g w
+  else shows_negative c.lifted_part.motion_claim g w
+
+(** val zero_states : zero_system -> unknown -> zero_claim -> int -> bool **)
+
+let zero_states z0 u c j =
+  let p = zero_particle z0 j in
+  let opening = witness c.opening_reductions j in
+  let sliding = witness c.sliding_reductions j in
+  (&&)
+    (negb
+      ((&&)
+        (in_mem (Obj.magic right z0 j)
+          (mem (seq_predType nat_eqType)
+            (Obj.magic c.lifted_part.motion_claim.support)))
+        (in_mem (Obj.magic left z0 j)
+          (mem (seq_predType nat_eqType)
+            (Obj.magic c.lifted_part.motion_claim.support)))))
+    ((&&)
+      (if in_mem (Obj.magic gap z0 j)
+            (mem (seq_predType nat_eqType)
+              (Obj.magic c.lifted_part.motion_claim.support))
+       then shows_negative c.lifted_part.motion_claim
+              (normal_poly c.lifted_part p) opening
+       else shows_zero c.lifted_part.motion_claim
+              (normal_poly c.lifted_part p) opening)
+      ((&&)
+        (row_state c (Obj.magic gap z0 j) (pressure_poly c p)
+          (witness c.pressure_reductions j))
+        ((&&)
+          (if in_mem (Obj.magic right z0 j)
+                (mem (seq_predType nat_eqType)
+                  (Obj.magic c.lifted_part.motion_claim.support))
+           then shows_positive c.lifted_part.motion_claim (sliding_poly c p)
+                  sliding
+           else if in_mem (Obj.magic left z0 j)
+                     (mem (seq_predType nat_eqType)
+                       (Obj.magic c.lifted_part.motion_claim.support))
+                then shows_negative c.lifted_part.motion_claim
+                       (sliding_poly c p) sliding
+                else shows_zero c.lifted_part.motion_claim (sliding_poly c p)
+                       sliding)
+          ((&&)
+            (row_state c (Obj.magic right z0 j) (right_poly u c p)
+              (witness c.right_reductions j))
+            (row_state c (Obj.magic left z0 j) (left_poly u c p)
+              (witness c.left_reductions j))))))
+
+(** val zero_variables : zero_system -> int list -> bool **)
+
+let zero_variables z0 =
+  all (fun i ->
+    (&&) (leq (free_number z0.without_zero) i)
+      (leq (Stdlib.Int.succ i)
+        (addn
+          (addn (free_number z0.without_zero)
+            (size z0.without_zero.particles))
+          (muln (Stdlib.Int.succ (Stdlib.Int.succ (Stdlib.Int.succ 0)))
+            (size z0.zero_particles)))))
+
+(** val check_zero : zero_system -> unknown -> zero_claim -> bool **)
+
+let check_zero z0 u c =
+  (&&) (zero_wellformed z0 u)
+    ((&&) (root_interval c.lifted_part.motion_claim)
+      ((&&)
+        (zero_variables z0
+          (cat c.lifted_part.motion_claim.support
+            c.lifted_part.motion_claim.biactive))
+        ((&&)
+          (all (balanced z0.without_zero u c.lifted_part)
+            (iota 0 z0.without_zero.dofs))
+          ((&&) (all (without_force c.lifted_part) z0.without_zero.free_dofs)
+            ((&&)
+              (all (fun d ->
+                (||)
+                  (in_mem (Obj.magic d)
+                    (mem (seq_predType nat_eqType)
+                      (Obj.magic moving_with_zero z0)))
+                  (at_rest c.lifted_part d)) (iota 0 z0.without_zero.dofs))
+              ((&&)
+                (all (particle_states z0.without_zero u c.lifted_part)
+                  (iota 0 (size z0.without_zero.particles)))
+                ((&&)
+                  (all (zero_states z0 u c) (iota 0 (size z0.zero_particles)))
+                  ((||)
+                    (has (in_support z0.without_zero c.lifted_part)
+                      (iota 0 (size z0.without_zero.particles)))
+                    (has (dof_moves c.lifted_part)
+                      (iota 0 z0.without_zero.dofs))))))))))
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 

@@ -14,6 +14,8 @@ type comparison =
 
 val add : int -> int -> int
 
+val mul : int -> int -> int
+
 val sub : int -> int -> int
 
 type reflect =
@@ -221,6 +223,10 @@ val subn : int -> int -> int
 val leq : int -> int -> bool
 
 val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1
+
+val muln_rec : int -> int -> int
+
+val muln : int -> int -> int
 
 val size : 'a1 list -> int
 
@@ -1034,6 +1040,50 @@ val particle_states : system -> unknown -> lifted -> int -> bool
 val slip_variables : system -> int list -> bool
 
 val check_lifted : system -> unknown -> lifted -> bool
+
+type zero_system = { without_zero : system;
+                     zero_particles : slip_particle list }
+
+type zero_claim = { lifted_part : lifted;
+                    opening_reductions : reduction list;
+                    pressure_reductions : reduction list;
+                    sliding_reductions : reduction list;
+                    right_reductions : reduction list;
+                    left_reductions : reduction list }
+
+val zero_particle : zero_system -> int -> slip_particle
+
+val zero_dofs : zero_system -> int list
+
+val moving_with_zero : zero_system -> int list
+
+val gap : zero_system -> int -> int
+
+val right : zero_system -> int -> int
+
+val left : zero_system -> int -> int
+
+val frame_wellformed : zero_system -> slip_particle -> bool
+
+val zero_wellformed : zero_system -> unknown -> bool
+
+val with_sign : Big_int_Z.big_int -> slip_particle -> slip_particle
+
+val sliding_poly : zero_claim -> slip_particle -> polynomial
+
+val pressure_poly : zero_claim -> slip_particle -> polynomial
+
+val right_poly : unknown -> zero_claim -> slip_particle -> polynomial
+
+val left_poly : unknown -> zero_claim -> slip_particle -> polynomial
+
+val row_state : zero_claim -> Equality.sort -> polynomial -> reduction -> bool
+
+val zero_states : zero_system -> unknown -> zero_claim -> int -> bool
+
+val zero_variables : zero_system -> int list -> bool
+
+val check_zero : zero_system -> unknown -> zero_claim -> bool
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 

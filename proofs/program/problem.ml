@@ -15,6 +15,7 @@ type matrix = { rows : int; cols : int; entries : (int * Q.t) list array }
 type question =
   | Raw of Kernel.pencil
   | Mechanical of Kernel.system * Kernel.unknown
+  | Zero_reaction of Kernel.zero_system * Kernel.unknown
 
 type t = {
   unknown : string;
@@ -162,7 +163,8 @@ type particle = {
   sign : int;
   tangent : Q.t * Q.t;
   normal : Q.t * Q.t;
-  framed : bool }
+  framed : bool;
+  friction_factor : Q.t }
 
 let plain_frame = (Q.one, Q.zero), (Q.zero, Q.one)
 
@@ -181,7 +183,7 @@ let check_reaction mu state sign item =
   let rn = rational (field "normal") and rt = rational (field "tangential") in
   let bound = Option.map (fun mu -> Q.neg (Q.mul mu rn)) mu in
   let bad = match state with
-    | "free" -> Q.sign rn <> 0 || Q.sign rt <> 0
+    | "free" | "zero" -> Q.sign rn <> 0 || Q.sign rt <> 0
     | "slip" -> Q.sign rn >= 0 || Q.sign rt * sign <= 0 ||
                 (match bound with Some b -> not (Q.equal (Q.abs rt) b) | None -> false)
     | _ -> Q.sign rn >= 0 || (match bound with Some b -> Q.geq (Q.abs rt) b | None -> false) in
@@ -190,11 +192,12 @@ let check_reaction mu state sign item =
 let read_particle order mu item =
   let field = fields ["tangential"; "normal"; "state"]
       ["sign"; "normal_direction"; "frame"; "friction_factor"; "reaction"] item in
-  (match field "friction_factor" with Null -> () | _ -> not_verified "friction factor");
+  let friction_factor = match field "friction_factor" with Null -> Q.one | v -> rational v in
+  if Q.sign friction_factor <= 0 then malformed "friction_factor must be positive";
+  let mu = Option.map (Q.mul friction_factor) mu in
   let t = index order (field "tangential") and n = index order (field "normal") in
   let state = text (field "state") in
-  if state = "zero" then not_verified "a particle in contact with zero reaction";
-  if not (List.mem state ["free"; "stick"; "slip"]) then malformed "the state %S" state;
+  if not (List.mem state ["free"; "stick"; "slip"; "zero"]) then malformed "the state %S" state;
   let unit_of what = function
     | Null -> None
     | v ->
@@ -210,7 +213,7 @@ let read_particle order mu item =
   let tangent, (first, second) = if framed then read_frame (field "frame") else plain_frame in
   (match field "reaction" with Null -> () | v -> check_reaction mu state sign v);
   let normal = Q.mul (Q.of_int into) first, Q.mul (Q.of_int into) second in
-  { t; n; state; sign; tangent; normal; framed }
+  { t; n; state; sign; tangent; normal; framed; friction_factor }
 
 let describe_particle p =
   let components (a, b) =
@@ -220,6 +223,8 @@ let describe_particle p =
       (if p.state = "slip" then " " ^ string_of_int p.sign else "");
     String.concat "" ("tangent" :: components p.tangent);
     String.concat "" ("normal" :: components p.normal) ]
+  @ (if Q.equal p.friction_factor Q.one then []
+     else ["friction_factor " ^ Q.to_string p.friction_factor])
 
 let read_system folder unknown item =
   let field = fields ["stiffness"; "particles"] ["mass"; "friction"] item in
@@ -239,6 +244,7 @@ let read_system folder unknown item =
   if List.length (List.sort_uniq compare dofs) < List.length dofs then
     malformed "a degree of freedom in two particles";
   let slips = List.filter (fun p -> p.state = "slip") particles in
+  let zeros = List.filter (fun p -> p.state = "zero") particles in
   if slips = [] then malformed "no slip particle";
   let held = Hashtbl.create 64 in
   List.iter (fun p ->
@@ -254,25 +260,34 @@ let read_system folder unknown item =
     @ (match m with Some m -> canonical_matrix "mass" m | None -> []) in
 
   let common = common_denominator matrices in
+  let friction_normal p = Q.mul p.friction_factor (fst p.normal),
+                          Q.mul p.friction_factor (snd p.normal) in
   let unit_length = List.fold_left (fun l p ->
-      List.fold_left (fun l c -> Z.lcm l (Q.den c)) l [fst p.tangent; snd p.tangent]) Z.one slips in
+      let normal = friction_normal p in
+      List.fold_left (fun l c -> Z.lcm l (Q.den c)) l
+        [fst p.tangent; snd p.tangent; fst normal; snd normal]) Z.one (slips @ zeros) in
   let planar (a, b) =
     let integer c = Q.num (Q.mul c (Q.of_bigint unit_length)) in
     integer a, integer b in
+  let kernel_particle p =
+    { Kernel.first_dof = p.t; second_dof = p.n; tangent = planar p.tangent;
+      normal = planar (friction_normal p); sign_of = Z.of_int p.sign } in
   let system = {
     Kernel.dofs = k.rows;
     stiffness = integer_rows common k;
     mass = (match m with Some m -> integer_rows common m | None -> []);
     free_dofs = free;
-    particles = List.map (fun p ->
-        { Kernel.first_dof = p.t; second_dof = p.n; tangent = planar p.tangent;
-          normal = planar p.normal; sign_of = Z.of_int p.sign }) slips;
+    particles = List.map kernel_particle slips;
     unit_length } in
   let kind, friction = match unknown, mu with
     | "lambda2", Some q -> Kernel.Lambda2 (Q.num q, Q.den q), Q.den q
     | _ -> Kernel.Mu, Z.one in
   let free_common = Z.mul common unit_length in
-  text, Mechanical (system, kind), free_common, Z.mul free_common (Z.mul unit_length friction)
+  let question =
+    if zeros = [] then Mechanical (system, kind)
+    else Zero_reaction ({ Kernel.without_zero = system;
+                          zero_particles = List.map kernel_particle zeros }, kind) in
+  text, question, free_common, Z.mul free_common (Z.mul unit_length friction)
 
 let read path document =
   (match document with
