@@ -249,8 +249,14 @@ mod tests {
         outcome
     }
 
+    /// Absence is proved a millionth below the critical mu. Returns where the search stops a
+    /// millionth above it.
     #[track_caller]
-    fn is_absent_just_below_and_not_above(system: &System, critical: f64, lambda2: f64) {
+    fn absent_just_below_and_not_above(
+        system: &System,
+        critical: f64,
+        lambda2: f64,
+    ) -> Vec<Blocked> {
         let place = Place {
             lambda2,
             near: 0.03,
@@ -262,7 +268,7 @@ mod tests {
         let Outcome::Blocked(blocked) = above else {
             panic!("a solution at {critical} was not met")
         };
-        assert!(blocked.iter().any(|b| b.cause == Cause::Solution));
+        blocked
     }
 
     /// Table 1 has no folds: nothing exists below the static threshold, and (-1, 1) has nothing at
@@ -286,7 +292,10 @@ mod tests {
             let system = two_particles(&data).unwrap();
 
             match threshold {
-                Some(threshold) => is_absent_just_below_and_not_above(&system, threshold, 0.0),
+                Some(threshold) => {
+                    let blocked = absent_just_below_and_not_above(&system, threshold, 0.0);
+                    assert!(blocked.iter().any(|b| b.cause == Cause::Solution));
+                }
                 None => assert!(matches!(cover(&system, 1e6, &[]), Outcome::Absent(_))),
             }
         }
@@ -309,7 +318,13 @@ mod tests {
 
         // tests/program/analyze.rs has the derivation.
         let mu_of_fold = 1.0 + 0.75f64.sqrt();
-        is_absent_just_below_and_not_above(&system, mu_of_fold, 0.5 + 3.0f64.sqrt());
+        let value_of_fold = 0.5 + 3.0f64.sqrt();
+        let blocked = absent_just_below_and_not_above(&system, mu_of_fold, value_of_fold);
+
+        // Solutions a millionth above the fold have lambda^2 within 0.0019 of that of the fold.
+        let [value, mu] = blocked[0].middle;
+        assert!((value - value_of_fold).abs() < 0.0019, "{value}");
+        assert!((mu / mu_of_fold - 1.0).abs() < 2e-6, "{mu}");
     }
 
     /// With free variables the enclosures of T0 and T1 hold what direct condensation gives.
