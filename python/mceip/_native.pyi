@@ -1,15 +1,18 @@
 """The part of the module that is written in Rust; use `mceip` itself."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
-from . import Contact
+from .inputs import Contact, Triplets
+from .progress import Listener
 
-Triplets = tuple[Sequence[int], Sequence[int], Sequence[float]]
-Listener = Callable[[str, int, int | None], object]
+class MceipError(ValueError):
+    """What was given is no problem, or a question about it cannot be answered."""
 
-class MceipError(ValueError): ...
-class RejectedError(MceipError): ...
-class NotCertifiedError(MceipError): ...
+class RejectedError(MceipError):
+    """The checker refuses a certificate; the message names the obligation that fails."""
+
+class NotCertifiedError(MceipError):
+    """No proof was found for a point; that is no proof that there is no solution."""
 
 class NativeProblem:
     @staticmethod
@@ -22,11 +25,11 @@ class NativeProblem:
         stiffness: Triplets,
         mass: Triplets,
         friction: str,
-        contacts: Sequence[Contact],
+        contacts: Sequence[Contact] | str,
     ) -> NativeProblem: ...
     @staticmethod
     def friction_threshold(
-        dofs: int, stiffness: Triplets, contacts: Sequence[Contact]
+        dofs: int, stiffness: Triplets, contacts: Sequence[Contact] | str
     ) -> NativeProblem: ...
     @staticmethod
     def pencil(
@@ -49,3 +52,4 @@ class NativeProblem:
     ) -> str: ...
     def certify(self, value: float, x: Sequence[float]) -> str: ...
     def check(self, text: str) -> str: ...
+    def check_absence(self, text: str) -> tuple[str, int]: ...

@@ -6,11 +6,13 @@
 //! of its own, so that Ctrl-C and progress are attended to.
 
 mod answers;
+mod contact;
 mod watched;
 
-use mceip::{
-    Certificate, ContactState, Error, Matrix, Particle, Problem, Rational, Rejected, Unknown, check,
-};
+use contact::Contacts;
+use mceip::{Certificate, Error, Matrix, Problem, Rational, Rejected, Unknown, check};
+use mceip_check::certificate::CriticalCertificate;
+use mceip_check::check_critical;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -35,19 +37,8 @@ pyo3::create_exception!(
     "No proof was found for a point; that is no proof that there is no solution."
 );
 
-/// Rows, columns and values of a matrix, counted from 0.
+/// Rows, columns and values of the entries of a matrix, counted from 0.
 type Triplets = (Vec<usize>, Vec<usize>, Vec<f64>);
-
-/// What is read of a contact of Python.
-#[derive(FromPyObject)]
-struct Contact {
-    tangential: usize,
-    normal: usize,
-    state: String,
-    sign: Option<i8>,
-    normal_direction: i8,
-    frame: Option<[[String; 2]; 2]>,
-}
 
 /// A mixed complementarity eigenproblem.
 #[pyclass(frozen, module = "mceip._native")]
@@ -57,48 +48,46 @@ struct NativeProblem(Problem);
 impl NativeProblem {
     /// Reads a problem file.
     #[staticmethod]
-    fn read(path: PathBuf) -> PyResult<NativeProblem> {
-        Problem::read(path).map(NativeProblem).map_err(refused)
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<NativeProblem> {
+        made(py.detach(|| Problem::read(path)))
     }
 
     /// A problem from the text of a file.
     #[staticmethod]
-    fn from_json(text: &str) -> PyResult<NativeProblem> {
-        Problem::from_json(text).map(NativeProblem).map_err(refused)
+    fn from_json(py: Python<'_>, text: &str) -> PyResult<NativeProblem> {
+        made(py.detach(|| Problem::from_json(text)))
     }
 
     /// MCEIP-lambda2 of a mechanical system with `dofs` degrees of freedom.
     #[staticmethod]
     fn lambda2(
+        py: Python<'_>,
         dofs: usize,
         stiffness: Triplets,
         mass: Triplets,
         friction: &str,
-        contacts: Vec<Contact>,
+        contacts: Contacts,
     ) -> PyResult<NativeProblem> {
         let stiffness = matrix(dofs, stiffness)?;
         let mass = matrix(dofs, mass)?;
         let friction = number("friction", friction)?;
-        let contacts = particles(contacts)?;
+        let contacts = contacts.particles(dofs, Some(&friction))?;
 
-        Problem::from_matrices(stiffness, mass, friction, contacts)
-            .map(NativeProblem)
-            .map_err(refused)
+        made(py.detach(|| Problem::from_matrices(stiffness, mass, friction, contacts)))
     }
 
     /// MCEIP-mu of a mechanical system with `dofs` degrees of freedom.
     #[staticmethod]
     fn friction_threshold(
+        py: Python<'_>,
         dofs: usize,
         stiffness: Triplets,
-        contacts: Vec<Contact>,
+        contacts: Contacts,
     ) -> PyResult<NativeProblem> {
         let stiffness = matrix(dofs, stiffness)?;
-        let contacts = particles(contacts)?;
+        let contacts = contacts.particles(dofs, None)?;
 
-        Problem::friction_threshold(stiffness, contacts)
-            .map(NativeProblem)
-            .map_err(refused)
+        made(py.detach(|| Problem::friction_threshold(stiffness, contacts)))
     }
 
     /// The problem of a pencil A + tB of this order.
@@ -119,9 +108,7 @@ impl NativeProblem {
             }
         };
 
-        Problem::from_pencil(matrix(order, a)?, matrix(order, b)?, free, unknown)
-            .map(NativeProblem)
-            .map_err(refused)
+        made(Problem::from_pencil(matrix(order, a)?, matrix(order, b)?, free, unknown))
     }
 
     /// The same problem with the values sought in [min, max], or from min on.
@@ -129,8 +116,7 @@ impl NativeProblem {
         let min = number("min", min)?;
         let max = max.map(|max| number("max", max)).transpose()?;
 
-        let problem = self.0.clone().in_window(min, max);
-        problem.map(NativeProblem).map_err(refused)
+        made(self.0.clone().in_window(min, max))
     }
 
     fn to_json(&self) -> String {
@@ -218,17 +204,34 @@ impl NativeProblem {
     }
 
     /// A proof for a point in doubles.
-    fn certify(&self, value: f64, x: Vec<f64>) -> PyResult<String> {
-        let certified = self.0.certify(value, &x).map_err(refused)?;
-        Ok(answers::certified(&certified).to_string())
+    fn certify(&self, py: Python<'_>, value: f64, x: Vec<f64>) -> PyResult<String> {
+        let certified = py.detach(|| self.0.certify(value, &x));
+        Ok(answers::certified(&certified.map_err(refused)?).to_string())
     }
 
-    /// The verdict of the checker.
-    fn check(&self, text: &str) -> PyResult<String> {
+    /// The verdict of the checker on `mceip-certificate/1`.
+    fn check(&self, py: Python<'_>, text: &str) -> PyResult<String> {
         let certificate = certificate(text)?;
-        let accepted = check(&self.0, &certificate).map_err(|rejected| rejection(&rejected))?;
+        let verdict = py.detach(|| check(&self.0, &certificate));
+        let accepted = verdict.map_err(|rejected| rejection(&rejected))?;
         Ok(answers::accepted(&accepted).to_string())
     }
+
+    /// The verdict of the checker on `mceip-critical/1`: the largest friction coefficient of which
+    /// absence is proved, and the number of leaves that prove it.
+    fn check_absence(&self, py: Python<'_>, text: &str) -> PyResult<(String, usize)> {
+        let read = CriticalCertificate::from_json(text);
+        let certificate = read.map_err(|e| MceipError::new_err(e.to_string()))?;
+
+        let verdict = py.detach(|| check_critical(self.0.as_model(), &certificate));
+        let accepted = verdict.map_err(|rejected| rejection(&rejected))?;
+        Ok((accepted.below.to_string(), accepted.leaves))
+    }
+}
+
+/// A problem of the front door as Python holds it.
+fn made(problem: Result<Problem, Error>) -> PyResult<NativeProblem> {
+    problem.map(NativeProblem).map_err(refused)
 }
 
 fn matrix(order: usize, (rows, columns, values): Triplets) -> PyResult<Matrix> {
@@ -245,32 +248,6 @@ fn number(name: &str, text: &str) -> PyResult<Rational> {
         ))
     };
     text.parse().map_err(expected)
-}
-
-fn particles(contacts: Vec<Contact>) -> PyResult<Vec<Particle>> {
-    contacts.into_iter().enumerate().map(particle).collect()
-}
-
-fn particle((index, contact): (usize, Contact)) -> PyResult<Particle> {
-    let state = match (contact.state.as_str(), contact.sign) {
-        ("slip", Some(sign)) => ContactState::Slip { sign },
-        ("stick", None) => ContactState::Stick,
-        ("free", None) => ContactState::Free,
-        (state, sign) => {
-            return Err(MceipError::new_err(format!(
-                "contact {index}: expected \"slip\" with a sign, \"stick\" or \"free\" without \
-                 one, got {state:?} with the sign {sign:?}"
-            )));
-        }
-    };
-
-    let mut particle = Particle::plain(contact.tangential, contact.normal, state);
-    particle.normal_direction = contact.normal_direction;
-    if let Some([[a, b], [c, d]]) = contact.frame {
-        let entry = |text: &str| number("frame", text);
-        particle.frame = Some([[entry(&a)?, entry(&b)?], [entry(&c)?, entry(&d)?]]);
-    }
-    Ok(particle)
 }
 
 fn certificate(text: &str) -> PyResult<Certificate> {
