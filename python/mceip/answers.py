@@ -113,13 +113,13 @@ class Found:
         solutions: by value; the checker has accepted each.
         uncertified: points without proof: do not use them.
         runs: runs of the solver.
-        certificate: of all solutions.
+        certificate: of all solutions; None where there are none.
     """
 
     solutions: list[Solution]
     uncertified: list[Uncertified]
     runs: int
-    certificate: Certificate = field(repr=False)
+    certificate: Certificate | None = field(repr=False)
 
     def _repr_html_(self) -> str:
         return f"<p>{len(self.solutions)} found</p>" + table_of_solutions(self.solutions)

@@ -6,8 +6,9 @@ cannot hold are refused.
 
 from __future__ import annotations
 
+import operator
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Union
@@ -139,13 +140,16 @@ def contacts_or_table(contacts: Contacts) -> list[Contact] | str:
     if isinstance(contacts, Mapping):
         return table_of_columns(contacts)
 
+    if not isinstance(contacts, Iterable):
+        raise MceipError(f"contacts: expected a list of mceip.Contact or a table, got {contacts!r}")
+
     entries = list(contacts)
     if entries and all(isinstance(entry, Mapping) for entry in entries):
         names = list(dict.fromkeys(name for entry in entries for name in entry))
         return table(names, [[entry.get(name) for name in names] for entry in entries])
     if not all(isinstance(entry, Contact) for entry in entries):
-        raise MceipError("contacts: expected a list of mceip.Contact, or a table")
-    return [with_spelt_frame(contact) for contact in entries]
+        raise MceipError("contacts: expected a list of mceip.Contact or a table, got a mixture")
+    return [plain_contact(f"contact {place}", entry) for place, entry in enumerate(entries)]
 
 
 def text_of_file(path: str | os.PathLike[str]) -> str:
@@ -193,17 +197,38 @@ def cell(value: Any) -> str:
     return value
 
 
-def with_spelt_frame(contact: Contact) -> Contact:
-    """The same contact with the numbers of its frame as text."""
-    if contact.frame is None:
-        return contact
+def plain_contact(name: str, contact: Contact) -> Contact:
+    """The same contact in plain integers and text."""
+    if not isinstance(contact.state, str):
+        raise MceipError(f"{name}: expected a state, got {contact.state!r}")
+    for sign in (contact.sign, contact.normal_direction):
+        if sign not in (1, -1, None):
+            raise MceipError(f"{name}: expected sign and normal_direction 1 or -1, got {sign!r}")
 
-    frame = [[spelt(entry) for entry in row] for row in contact.frame]
     return Contact(
-        tangential=contact.tangential,
-        normal=contact.normal,
+        tangential=count(f"{name}: tangential", contact.tangential),
+        normal=count(f"{name}: normal", contact.normal),
         state=contact.state,
-        sign=contact.sign,
-        normal_direction=contact.normal_direction,
-        frame=frame,
+        sign=None if contact.sign is None else int(contact.sign),
+        normal_direction=int(contact.normal_direction),
+        frame=None if contact.frame is None else spelt_frame(name, contact.frame),
     )
+
+
+def spelt_frame(name: str, frame: Sequence[Sequence[Number]]) -> list[list[str]]:
+    """A frame with its numbers as text."""
+    rows = [[spelt(entry) for entry in row] for row in frame]
+    if [len(row) for row in rows] != [2, 2]:
+        raise MceipError(f"{name}: expected a frame of 2 x 2 numbers, got {frame!r}")
+    return rows
+
+
+def count(name: str, value: Any, least: int = 0, most: int = 2**63 - 1) -> int:
+    """An integer from `least` to `most`."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise MceipError(f"{name}: expected an integer, got {value!r}") from None
+    if not least <= number <= most:
+        raise MceipError(f"{name}: expected an integer from {least} to {most}, got {number}")
+    return number

@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from typing import Any
 
-from ._native import NativeProblem
+from ._native import MceipError, NativeProblem
 from .answers import (
     Accepted,
     Analysis,
@@ -21,8 +21,11 @@ from .answers import (
     found_of,
     solution_set_of,
 )
-from .inputs import Contacts, Number, contacts_or_table, spelt, triplets
+from .inputs import Contacts, Number, contacts_or_table, count, spelt, triplets
 from .progress import Progress, listening
+
+#: Threads at most: each is one of the operating system.
+MOST_THREADS = 1024
 
 
 class Problem:
@@ -96,7 +99,7 @@ class Problem:
         """
         order, a_entries = triplets("a", a)
         _, b_entries = triplets("b", b, order)
-        indices = [int(index) for index in free]
+        indices = [count("free", index) for index in free]
         return cls(NativeProblem.pencil(order, a_entries, b_entries, indices, unknown))
 
     def in_window(self, min: Number, max: Number | None = None) -> Problem:
@@ -134,8 +137,10 @@ class Problem:
             all: looks above and below each value found, and along curves; slower.
             progress: see the class.
         """
+        starts = count("starts", starts)
+        seed = count("seed", seed)
         with listening(progress) as listener:
-            answer = self._native.solve(starts, seed, all, listener)
+            answer = self._native.solve(starts, seed, bool(all), listener)
         return found_of(json.loads(answer))
 
     def complete(
@@ -152,9 +157,9 @@ class Problem:
             resume: a certificate that leaves regions open; only these are searched.
             progress: see the class.
         """
-        earlier = None if resume is None else json.dumps(resume)
+        earlier = None if resume is None else text_of(resume)
         with listening(progress) as listener:
-            answer = self._native.complete(threads, earlier, listener)
+            answer = self._native.complete(thread_count(threads), earlier, listener)
         return solution_set_of(json.loads(answer))
 
     def analyze(
@@ -174,8 +179,9 @@ class Problem:
             progress: see the class.
         """
         mu = None if friction is None else spelt(friction)
+        samples = count("samples", samples)
         with listening(progress) as listener:
-            answer = self._native.analyze(mu, samples, threads, listener)
+            answer = self._native.analyze(mu, samples, thread_count(threads), listener)
         return analysis_of(json.loads(answer))
 
     def certify(self, value: float, x: Sequence[float]) -> Certified:
@@ -208,4 +214,14 @@ def check(problem: Problem, certificate: Certificate | str) -> Accepted:
 
 def text_of(certificate: Certificate | str) -> str:
     """The text of a certificate."""
-    return certificate if isinstance(certificate, str) else json.dumps(certificate)
+    if isinstance(certificate, str):
+        return certificate
+    try:
+        return json.dumps(certificate)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise MceipError(f"certificate: expected a JSON object: {error}") from None
+
+
+def thread_count(threads: int | None) -> int | None:
+    """A number of threads that can be started."""
+    return None if threads is None else count("threads", threads, least=1, most=MOST_THREADS)

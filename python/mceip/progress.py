@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, Union
 
+from ._native import MceipError
+
 #: Called with a line of text, the steps done, and the steps in all where they are known. An
 #: exception that it raises ends the work.
 Listener = Callable[[str, int, Union[int, None]], object]
@@ -32,8 +34,10 @@ def listening(progress: Progress) -> Iterator[Listener | None]:
                 yield lambda text, done, total: bar.set_description_str(text)
     elif progress is False or progress is None:
         yield None
-    else:
+    elif callable(progress):
         yield progress
+    else:
+        raise MceipError(f"progress: expected a function, True or None, got {progress!r}")
 
 
 def tqdm_or_none() -> Any:

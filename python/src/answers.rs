@@ -21,11 +21,13 @@ pub(crate) fn found(found: &Found) -> Value {
         })
         .collect();
 
+    let certificate = (!found.solutions.is_empty()).then(|| document(found.certificate()));
+
     json!({
         "solutions": solutions(&found.solutions),
         "uncertified": uncertified,
         "runs": found.runs,
-        "certificate": document(found.certificate()),
+        "certificate": certificate,
     })
 }
 

@@ -18,7 +18,7 @@ def with_contacts(contacts, friction="1.5"):
 
 
 def test_matrices_of_numpy_scipy_and_lists_are_one_problem(point, example):
-    matrices = [STIFFNESS, STIFFNESS.tolist(), STIFFNESS.astype(np.float32), np.matrix(STIFFNESS)]
+    matrices = [STIFFNESS, STIFFNESS.tolist(), STIFFNESS.astype(np.float32)]
     for kind in (scipy.sparse.csr_matrix, scipy.sparse.coo_array, scipy.sparse.lil_matrix):
         matrices.append(kind(STIFFNESS))
 
@@ -34,9 +34,8 @@ def test_entries_at_one_place_are_added_without_rounding(point):
 
     problem = point(sparse)
 
-    entries = json.loads(problem.to_json())["system"]["stiffness"]
-    first = entries[0][0] if isinstance(entries, list) else entries["entries"][0][2]
-    assert Fraction(first) == 2 + Fraction(1, 2**80)
+    first = json.loads(problem.to_json())["system"]["stiffness"]
+    assert str(2 + Fraction(1, 2**80)) in json.dumps(first)
 
 
 def test_a_float_is_the_fraction_it_is_and_a_text_the_number_it_spells(point):
@@ -84,10 +83,14 @@ def test_reactions_that_contradict_the_state_are_refused():
         ({"state": "slides"}, "contact 0.*slides"),
         ({"state": "slip"}, "contact 0.*sign"),
         ({"state": "slip+", "sign": 1}, "contact 0"),
-        ({"state": "slip", "sign": 2}, "sign|S"),
+        ({"state": "slip", "sign": 2}, "2"),
         ({"normal": 7}, "7"),
-        ({"tangential": 1}, ""),
-        ({"normal_direction": 0}, ""),
+        ({"tangential": 1}, "1"),
+        ({"normal_direction": 0}, "direction"),
+        ({"normal": -1}, "contact 0: normal"),
+        ({"tangential": 0.5}, "contact 0: tangential"),
+        ({"state": 3}, "contact 0.*state"),
+        ({"frame": [[1, 0, 0], [0, 1]]}, "contact 0.*2 x 2"),
         ({"frame": [["1", "0"], ["0", "one"]]}, "frame.*one"),
     ],
 )
@@ -104,8 +107,9 @@ def test_what_is_no_contact_is_refused(point, changes, message):
         ([{**ROW, "normal": 2}], "normal"),
         ([{**ROW, "particle": "a,b"}], "commas"),
         ({"tangential": [0, 1], "normal": [1, 2, 3], "state": "stick"}, "cells"),
-        ([], "contact|particle|slip"),
+        ([], "particle"),
         ([ROW, mceip.Contact(0, 1, "stick")], "list of mceip.Contact"),
+        (3, "list of mceip.Contact"),
         ("no-such-table.csv", "no-such-table"),
     ],
 )
@@ -117,7 +121,7 @@ def test_what_is_no_table_is_refused(table, message):
 @pytest.mark.parametrize(
     "stiffness, message",
     [
-        ([[2.0, 1.0], [1.5, 2.0]], "symmetric|E"),
+        ([[2.0, 1.0], [1.5, 2.0]], "ymmetr"),
         ([[1.0, 2.0], [3.0]], "stiffness.*one length"),
         ([1.0, 2.0], "stiffness.*shape"),
         (np.ones((2, 3)), "stiffness.*shape"),
@@ -156,6 +160,8 @@ def test_windows_files_and_unknowns_that_are_none_are_refused(point, tmp_path):
         mceip.Problem.from_pencil(np.eye(2), np.eye(2), unknown="t")
     with pytest.raises(mceip.MceipError):
         mceip.Problem.from_pencil(np.eye(2), np.eye(2), free=[2])
+    with pytest.raises(mceip.MceipError, match="free"):
+        mceip.Problem.from_pencil(np.eye(2), np.eye(2), free=[-1])
 
 
 def test_a_problem_survives_its_file(point, tmp_path):
@@ -165,3 +171,20 @@ def test_a_problem_survives_its_file(point, tmp_path):
 
     assert mceip.Problem.read(path).sha256 == problem.sha256
     assert problem.sha256[:12] in repr(problem)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"starts": -1}, {"starts": 2.5}, {"seed": 2**70}, {"progress": 3}],
+)
+def test_what_is_no_option_of_solve_is_refused(point, options):
+    with pytest.raises(mceip.MceipError, match=next(iter(options))):
+        point().solve(**options)
+
+
+@pytest.mark.parametrize("threads", [0, 10**9, "2"])
+def test_threads_that_cannot_be_are_refused(point, threads):
+    with pytest.raises(mceip.MceipError, match="threads"):
+        point().complete(threads=threads)
+    with pytest.raises(mceip.MceipError, match="threads"):
+        point().analyze(threads=threads)

@@ -1,8 +1,7 @@
-"""A body made of springs, and what a user of scipy would compute of it.
+"""Bodies on a table, and what a user of scipy would compute of them.
 
-The body is a lattice of nodes, glued at its upper side. Its lower side lies on a table and is about
-to slip to the left. v is a displacement rate, w = (K + lambda^2 M) v the reaction rate; x to the
-right, y up. On each contact, with x_i = -v_T and y_i = -(w_T - mu w_N),
+All contacts are about to slip to the left. v is a displacement rate, w = (K + lambda^2 M) v the
+reaction rate; x to the right, y up. On each contact, with x_i = -v_T and y_i = -(w_T - mu w_N),
 
     v_N = 0,   0 <= x_i  _|_  y_i >= 0
 """
@@ -18,7 +17,7 @@ import mceip
 
 
 @dataclass(frozen=True)
-class Lattice:
+class Body:
     """K and M over the degrees of freedom, and those of the contacts, left to right."""
 
     stiffness: scipy.sparse.csr_array
@@ -107,4 +106,13 @@ def lattice(length, height):
     stiffness = (stiffness + stiffness.T) / 2  # floats add up differently on both sides
     tangential = [2 * nodes[column, 0] for column in range(length)]
     normal = [dof + 1 for dof in tangential]
-    return Lattice(stiffness, scipy.sparse.eye_array(order, format="csr"), tangential, normal)
+    return Body(stiffness, scipy.sparse.eye_array(order, format="csr"), tangential, normal)
+
+
+def random_body(seed):
+    """Three contacts and two more degrees of freedom; entries are short binary fractions."""
+    rng = np.random.default_rng(seed)
+    factor = rng.integers(-8, 9, (8, 8)) / 8
+    stiffness = scipy.sparse.csr_array(factor @ factor.T + np.eye(8) / 4)
+    mass = scipy.sparse.csr_array(np.diag(rng.integers(1, 5, 8).astype(float)))
+    return Body(stiffness, mass, tangential=[0, 2, 4], normal=[1, 3, 5])
