@@ -18,11 +18,11 @@ Array = npt.NDArray[np.float64]
 #: Longer side of the mesh on paper, px.
 SIZE = 640.0
 
-#: Free space around the mesh, px.
-MARGIN = 70.0
-
 #: Radius of the mark of a contact, px.
 RADIUS = 6.0
+
+#: Space for the title above the mesh, px.
+HEADING = 40.0
 
 
 @dataclass(frozen=True)
@@ -83,11 +83,15 @@ def draw_mode(
     largest = float(np.hypot(moved[:, 0], moved[:, 1]).max())
     factor = amplitude * longer_side / largest if largest > 0 else 0.0
 
+    # From lengths of the mesh to px: x to the right, y down.
     unit = SIZE / longer_side if longer_side > 0 else 1.0
-    width = float(extent[0]) * unit + 2 * MARGIN
-    height = float(extent[1]) * unit + 2 * MARGIN
-    on_paper = placed(rest, lower, unit, height)
-    displaced = placed(rest + factor * moved, lower, unit, height)
+    margin = HEADING + amplitude * SIZE + RADIUS
+    width = float(extent[0]) * unit + 2 * margin
+    height = float(extent[1]) * unit + 2 * margin
+    origin = np.array([margin, height - margin])
+    scale = np.array([unit, -unit])
+    on_paper = origin + scale * (rest - lower)
+    displaced = origin + scale * (rest + factor * moved - lower)
 
     edges = edges_of(corners)
     marks = marks_of(displaced, contacts, set(slipping))
@@ -96,7 +100,7 @@ def draw_mode(
         f'viewBox="0 0 {width:.1f} {height:.1f}" role="img" font-family="sans-serif">'
         f"<title>{escape(title)}</title>"
         f'<rect width="{width:.1f}" height="{height:.1f}" fill="#fff"/>'
-        f'<text x="{MARGIN:.0f}" y="28" font-size="14">{escape(title)}</text>'
+        f'<text x="{margin:.0f}" y="28" font-size="14">{escape(title)}</text>'
         f'<path d="{lines(on_paper, edges)}" fill="none" stroke="#999" stroke-width="0.6" '
         'stroke-dasharray="4 4"/>'
         f'<path d="{lines(displaced, edges)}" fill="none" stroke="#222" stroke-width="0.9"/>'
@@ -120,13 +124,6 @@ def require_points(name: str, indices: npt.NDArray[Any], count: int) -> None:
     is_index = indices.dtype.kind in "iu" and np.all((indices >= 0) & (indices < count))
     if not is_index:
         raise MceipError(f"{name}: expected indices of points, 0 to {count - 1}")
-
-
-def placed(points: Array, lower: Array, unit: float, height: float) -> Array:
-    """Points on paper, px, y down."""
-    paper = MARGIN + (points - lower) * unit
-    paper[:, 1] = height - paper[:, 1]
-    return paper
 
 
 def edges_of(cells: npt.NDArray[Any]) -> list[tuple[int, int]]:

@@ -35,7 +35,7 @@ def test_a_mode_is_drawn(tmp_path):
     circles = root.findall(name + "circle")
     assert [circle.get("fill") for circle in circles] == ["#fff", "#000"]
     # The first contact moves to the left by a tenth of the longer side: 64 of 640 px.
-    assert [float(circle.get("cx")) for circle in circles] == [70.0 - 64.0, 710.0 - 32.0]
+    assert [float(circle.get("cx")) for circle in circles] == [110.0 - 64.0, 750.0 - 32.0]
     edges = root.findall(name + "path")[1].get("d")
     assert edges.count("M") == 4
     assert drawing._repr_svg_() == drawing.svg

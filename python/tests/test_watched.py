@@ -20,7 +20,7 @@ def stop(text, done, total):
 def test_progress_is_heard(slow):
     heard = []
 
-    slow.solve(starts=400, all=True, progress=lambda *what: heard.append(what))
+    slow.solve(starts=8, all=True, progress=lambda *what: heard.append(what))
 
     assert heard
     for text, done, total in heard:
@@ -60,7 +60,7 @@ def test_other_threads_go_on_beside_long_work(slow):
     counting = threading.Thread(target=count)
     counting.start()
     begin = time.monotonic()
-    slow.solve(starts=1000, all=True)
+    slow.solve(starts=30, all=True)
     duration = time.monotonic() - begin
     is_over.set()
     counting.join()
@@ -81,10 +81,10 @@ def test_a_short_question_is_answered_at_once(example):
 
 def test_progress_is_a_bar_of_tqdm_or_lines(slow, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "tqdm.auto", None)
-    slow.solve(starts=400, all=True, progress=True)
+    slow.solve(starts=8, all=True, progress=True)
     assert capsys.readouterr().err
 
     monkeypatch.undo()
     pytest.importorskip("tqdm")
-    slow.solve(starts=400, all=True, progress=True)
+    slow.solve(starts=8, all=True, progress=True)
     assert slow.solve(progress=False).runs == slow.solve().runs
