@@ -45,7 +45,8 @@ class Body:
         parts = []
         for matrix in (self.stiffness, self.mass):
             rows = matrix[columns].toarray()
-            rows[len(free) :] -= friction * matrix[normal].toarray()
+            first_contact = len(free)
+            rows[first_contact:] -= friction * matrix[normal].toarray()
             parts.append(rows[:, columns])
         return columns, *parts
 

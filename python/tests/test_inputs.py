@@ -53,12 +53,12 @@ def test_tables_are_lists_of_contacts(tmp_path):
     path = tmp_path / "contacts.csv"
     path.write_text("# a comment\nparticle,tangential,normal,state\nA,0,1,slip+\n")
 
-    tables = [path, str(path), [ROW], {"tangential": [0], "normal": np.array([1]), "state": "slip+"}]
-    tables.append([{**ROW, "reaction_tangential": -1.5, "reaction_normal": -1.0, "particle": None}])
-
-    for table in tables[:4]:
+    columns = {"tangential": [0], "normal": np.array([1]), "state": "slip+"}
+    for table in (path, str(path), [ROW], columns):
         assert with_contacts(table).sha256 == expected
-    assert with_contacts(tables[4]).unknown == "lambda2"
+
+    reactions = {"reaction_tangential": -1.5, "reaction_normal": -1.0, "particle": None}
+    assert with_contacts([{**ROW, **reactions}]).unknown == "lambda2"
 
 
 def test_a_table_may_be_a_data_frame():

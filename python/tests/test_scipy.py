@@ -1,4 +1,4 @@
-"""Against scipy: eigenvalues with all contacts slipping, and a trial of every choice of contacts."""
+"""Against scipy: eigenvalues with all contacts slipping, and a trial of every choice of them."""
 
 from collections import Counter
 
