@@ -108,7 +108,12 @@ impl NativeProblem {
             }
         };
 
-        made(Problem::from_pencil(matrix(order, a)?, matrix(order, b)?, free, unknown))
+        made(Problem::from_pencil(
+            matrix(order, a)?,
+            matrix(order, b)?,
+            free,
+            unknown,
+        ))
     }
 
     /// The same problem with the values sought in [min, max], or from min on.

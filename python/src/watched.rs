@@ -68,7 +68,9 @@ pub(crate) fn watched<T: Send>(
         match (exception, result) {
             (Some(exception), _) => Err(exception),
             (None, Ok(result)) => Ok(result),
-            (None, Err(_)) => Err(PyRuntimeError::new_err("a fault of mceip: a thread panicked")),
+            (None, Err(_)) => Err(PyRuntimeError::new_err(
+                "a fault of mceip: a thread panicked",
+            )),
         }
     })
 }
