@@ -19,6 +19,9 @@ from ._native import NativeProblem
 #: Lower and upper end; both belong to it.
 Interval = tuple[Fraction, Fraction]
 
+#: Digits that are read at once.
+DIGITS = 4000
+
 #: A certificate as the JSON object that its file holds.
 Certificate = dict[str, Any]
 
@@ -230,7 +233,7 @@ class Proof:
         text = json.dumps(self.certificate)
         if self.certificate["format"] == "mceip-critical/1":
             below, leaves = native.check_absence(text)
-            return Absence(Fraction(below), leaves)
+            return Absence(fraction_of(below), leaves)
         return accepted_of(json.loads(native.check(text)))
 
 
@@ -342,13 +345,32 @@ class Analysis:
         return f"<p>{escape(self.summary)}</p>" + html_table(["", "", "rests on"], rows)
 
 
+def fraction_of(text: str) -> Fraction:
+    """A fraction or a decimal of any length."""
+    numerator, is_fraction, denominator = text.partition("/")
+    if is_fraction:
+        return Fraction(integer_of(numerator), integer_of(denominator))
+    return Fraction(text) if len(text) <= DIGITS else Fraction(integer_of(text))
+
+
+def integer_of(text: str) -> int:
+    """An integer of any length: Python itself reads 4300 digits at most."""
+    if len(text) <= DIGITS:
+        return int(text)
+    if text.startswith("-"):
+        return -integer_of(text[1:])
+    tail = len(text) // 2
+    shift: int = 10**tail
+    return integer_of(text[:-tail]) * shift + integer_of(text[-tail:])
+
+
 def interval_of(ends: Sequence[str]) -> Interval:
     low, high = ends
-    return Fraction(low), Fraction(high)
+    return fraction_of(low), fraction_of(high)
 
 
 def upper_of(end: str | None) -> Fraction | None:
-    return None if end is None else Fraction(end)
+    return None if end is None else fraction_of(end)
 
 
 def solution_of(answer: dict[str, Any]) -> Solution:
@@ -378,7 +400,7 @@ def family_of(answer: dict[str, Any]) -> Family:
 
 def region_of(answer: dict[str, Any]) -> OpenRegion:
     return OpenRegion(
-        min=Fraction(answer["min"]),
+        min=fraction_of(answer["min"]),
         max=upper_of(answer["max"]),
         moving=answer["moving"],
         undecided=answer["undecided"],

@@ -10,6 +10,7 @@ import pytest
 from bodies import lattice
 
 import mceip
+from mceip.answers import fraction_of
 
 
 def test_the_fold_has_two_solutions_and_no_others(example):
@@ -180,3 +181,13 @@ def test_what_cannot_be_analysed_is_refused(example):
         example("fold").analyze()
     with pytest.raises(mceip.MceipError):
         example("point").analyze(friction="-1")
+
+
+def test_fractions_of_any_length_are_read():
+    digits = "7" * 9001
+    expected = Fraction(-7 * (10**9001 - 1) // 9, 10**8000)
+
+    assert fraction_of("-" + digits + "/1" + "0" * 8000) == expected
+    assert fraction_of(digits) == 7 * (10**9001 - 1) // 9
+    assert fraction_of("-1/3") == Fraction(-1, 3)
+    assert fraction_of("0.25") == Fraction(1, 4)
