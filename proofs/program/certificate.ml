@@ -87,6 +87,35 @@ type t = {
   condensation : condensation option;
   pieces : piece list }
 
+(* A file mceip-critical/1.  Its anchors have two left matrices, its tail two factors. *)
+type critical_node =
+  | CutValue of Q.t
+  | CutFriction of Q.t
+  | Decide of int
+  | BoxFarkas of Z.t list
+  | BoxDefinite of bool  (* negative *)
+  | BoxTail
+
+type critical_piece = { box_max : Q.t option; box_anchor : int; box_tree : critical_node list }
+
+type critical_tail = {
+  from : Q.t;
+  at_zero : factor_rows * factor_rows option;
+  at_below : factor_rows * factor_rows option }
+
+type critical_condensation = {
+  plain : condensation;
+  left_friction : (int * Z.t list list) list list;
+  friction_tail : critical_tail option }
+
+type critical = {
+  critical_digest : string;
+  below : Q.t;
+  critical_condensation : critical_condensation option;
+  critical_pieces : critical_piece list }
+
+type file = Complete of t | Critical of critical
+
 (* A non-negative exponent within the limits (5.16). *)
 let exponent_of item =
   let e = counter item in
@@ -168,21 +197,24 @@ let read_factor item =
   { first = List.map counter (list (field "first"));
     rows = List.map integers (list (field "rows")); exponent = exponent_of (field "exponent") }
 
-let read_anchor item =
-  let field = fields ["center"; "right"; "left"] ["reversed"] item in
+let read_coefficients item =
   let coefficient m =
     let field = fields ["exponent"; "rows"] [] m in
     exponent_of (field "exponent"), List.map integers (list (field "rows")) in
-  let coefficients name =
-    let l = list (field name) in
-    if List.length l > 8 then Problem.not_verified "more than 8 coefficients of an anchor";
-    List.map coefficient l in
+  let l = list item in
+  if List.length l > 8 then Problem.not_verified "more than 8 coefficients of an anchor";
+  List.map coefficient l
+
+let read_anchor_fields field =
   let reversed = match field "reversed" with
     | Null | Bool false -> false
     | Bool true -> true
     | _ -> malformed "reversed" in
-  { center = rational (field "center"); reversed; right = coefficients "right";
-    left = coefficients "left" }
+  { center = rational (field "center"); reversed; right = read_coefficients (field "right");
+    left = read_coefficients (field "left") }
+
+let read_anchor item =
+  read_anchor_fields (fields ["center"; "right"; "left"] ["reversed"] item)
 
 let read_tail item =
   let field = fields ["from"; "factor"] ["mass_factor"] item in
@@ -250,15 +282,7 @@ let read_window = function
                              && List.assoc "min" members <> Null -> Problem.read_window item
   | _ -> malformed "a window with min was expected"
 
-let read path =
-  let document = Json.read path in
-  let format = match document with
-    | Object members -> List.assoc_opt "format" members
-    | _ -> None in
-  (match format with
-   | Some (String "mceip-certificate/1") -> ()
-   | Some (String "mceip-critical/1") -> Problem.not_verified "certificates of mceip-critical/1"
-   | _ -> malformed "format: mceip-certificate/1 was expected");
+let read_complete document =
   let field = fields ["format"; "problem_sha256"; "unknown"; "window"; "claims"]
       ["complete_set"] document in
   let digest = text (field "problem_sha256") and unknown = text (field "unknown") in
@@ -271,3 +295,59 @@ let read path =
       (match field "condensation" with Null -> None | c -> Some (read_condensation c)),
       List.map read_piece (list (field "pieces")) in
   { claims; digest; unknown; window; condensation; pieces }
+
+let read_critical_condensation item =
+  let field = fields ["sigma"; "stiffness_factor"; "mass_sigma"; "anchors"]
+      ["mass_factor"; "tail"] item in
+  let optional = function Null -> None | f -> Some (read_factor f) in
+  let anchor item =
+    let field = fields ["center"; "right"; "left"; "left_friction"] ["reversed"] item in
+    read_anchor_fields field, read_coefficients (field "left_friction") in
+  let tail item =
+    let field = fields ["from"; "factor"; "factor_below"] ["mass_factor"; "mass_factor_below"]
+        item in
+    { from = rational (field "from");
+      at_zero = read_factor (field "factor"), optional (field "mass_factor");
+      at_below = read_factor (field "factor_below"), optional (field "mass_factor_below") } in
+  let anchors = List.map anchor (list (field "anchors")) in
+  let plain =
+    { sigma = rational (field "sigma"); factor = read_factor (field "stiffness_factor");
+      mass_sigma = rational (field "mass_sigma"); mass_factor = optional (field "mass_factor");
+      tail = None; anchors = List.map fst anchors } in
+  { plain; left_friction = List.map snd anchors;
+    friction_tail = (match field "tail" with Null -> None | t -> Some (tail t)) }
+
+let read_critical_node = function
+  | String "positive_definite" -> BoxDefinite false
+  | String "negative_definite" -> BoxDefinite true
+  | String "tail" -> BoxTail
+  | Object ["split", t] -> CutValue (rational t)
+  | Object ["friction", m] -> CutFriction (rational m)
+  | Object ["branch", i] -> Decide (place i)
+  | Object ["farkas", w] -> BoxFarkas (integers w)
+  | _ -> malformed "a node of a tree"
+
+let read_critical_piece item =
+  let field = fields ["max"; "tree"] ["anchor"] item in
+  { box_max = (match field "max" with Null -> None | v -> Some (rational v));
+    box_anchor = (match field "anchor" with Null -> 0 | v -> place v);
+    box_tree = List.map read_critical_node (list (field "tree")) }
+
+let read_critical document =
+  let field = fields ["format"; "problem_sha256"; "below"; "pieces"] ["condensation"] document in
+  let critical_condensation = match field "condensation" with
+    | Null -> None
+    | c -> Some (read_critical_condensation c) in
+  { critical_digest = text (field "problem_sha256"); below = rational (field "below");
+    critical_condensation;
+    critical_pieces = List.map read_critical_piece (list (field "pieces")) }
+
+let read path =
+  let document = Json.read path in
+  let format = match document with
+    | Object members -> List.assoc_opt "format" members
+    | _ -> None in
+  match format with
+  | Some (String "mceip-certificate/1") -> Complete (read_complete document)
+  | Some (String "mceip-critical/1") -> Critical (read_critical document)
+  | _ -> malformed "format: mceip-certificate/1 or mceip-critical/1 was expected"

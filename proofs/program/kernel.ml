@@ -582,6 +582,12 @@ type ('aT, 'rT) simpl_fun =
 let fun_of_simpl f =
   f
 
+(** val addb : bool -> bool -> bool **)
+
+let addb = function
+| true -> negb
+| false -> (fun x -> x)
+
 (** val isSome : 'a1 option -> bool **)
 
 let isSome = function
@@ -674,6 +680,36 @@ module Equality =
 
 let eq_op t =
   (Equality.coq_class t).Equality.op
+
+(** val eqb0 : bool -> bool -> bool **)
+
+let eqb0 b =
+  addb (negb b)
+
+(** val eqbP : bool Equality.axiom **)
+
+let eqbP __top_assumption_ =
+  let _evar_0_ = fun __top_assumption_0 ->
+    let _evar_0_ = ReflectT in
+    let _evar_0_0 = ReflectF in
+    if __top_assumption_0 then _evar_0_ else _evar_0_0
+  in
+  let _evar_0_0 = fun __top_assumption_0 ->
+    let _evar_0_0 = ReflectF in
+    let _evar_0_1 = ReflectT in
+    if __top_assumption_0 then _evar_0_0 else _evar_0_1
+  in
+  if __top_assumption_ then _evar_0_ else _evar_0_0
+
+(** val bool_eqMixin : bool Equality.mixin_of **)
+
+let bool_eqMixin =
+  { Equality.op = eqb0; Equality.mixin_of__1 = eqbP }
+
+(** val bool_eqType : Equality.coq_type **)
+
+let bool_eqType =
+  Obj.magic bool_eqMixin
 
 (** val pred1 :
     Equality.coq_type -> Equality.sort -> Equality.sort simpl_pred **)
@@ -4646,3 +4682,170 @@ let check_varying_families q claims w tr lo hi ls =
 let check_system_varying s u claims w tr lo hi ls =
   (&&) (system_wellformed s u)
     (check_varying_families (pencil_of s u) claims w tr lo hi ls)
+
+type 'leaf box_tree =
+| CutValue of point * 'leaf box_tree * 'leaf box_tree
+| CutFriction of point * 'leaf box_tree * 'leaf box_tree
+| Decide of int * 'leaf box_tree * 'leaf box_tree
+| BoxLeaf of 'leaf
+
+(** val check_boxes :
+    int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 box_tree ->
+    region -> point -> point -> bool **)
+
+let rec check_boxes n evidence tr r low high =
+  match tr with
+  | CutValue (t, tr1, tr2) ->
+    (&&) (ordered r.lower t)
+      ((&&) (ordered t r.upper)
+        ((&&) (check_boxes n evidence tr1 (below t r) low high)
+          (check_boxes n evidence tr2 (above t r) low high)))
+  | CutFriction (m, tr1, tr2) ->
+    (&&) (ordered low m)
+      ((&&) (ordered m high)
+        ((&&) (check_boxes n evidence tr1 r low m)
+          (check_boxes n evidence tr2 r m high)))
+  | Decide (i, tr1, tr2) ->
+    (&&) (leq (Stdlib.Int.succ i) n)
+      ((&&) (check_boxes n evidence tr1 (decide i Resting r) low high)
+        (check_boxes n evidence tr2 (decide i Moving r) low high))
+  | BoxLeaf l ->
+    (&&) (ordered r.lower r.upper)
+      ((&&) (ordered low high) (evidence r low high l))
+
+(** val strict_in_both :
+    enclosed -> enclosed -> region -> Big_int_Z.big_int list -> int -> bool **)
+
+let strict_in_both p p' r w j =
+  (&&) (strict_column p r w j) (strict_column p' r w j)
+
+(** val box_farkas :
+    enclosed -> enclosed -> region -> Big_int_Z.big_int list -> bool **)
+
+let box_farkas p p' r w =
+  (&&) (signs_of_weights p r w)
+    ((&&) (columns_at_most_zero p r w)
+      ((&&) (columns_at_most_zero p' r w)
+        ((||)
+          (all (fun j ->
+            (||) (is_resting (state_of r j)) (strict_in_both p p' r w j))
+            (indices p))
+          (has (fun j ->
+            (&&) (is_moving (state_of r j)) (strict_in_both p p' r w j))
+            (indices p)))))
+
+(** val box_definite :
+    enclosed -> enclosed -> region -> bool -> (factor * factor) ->
+    (factor * factor) -> bool **)
+
+let box_definite p p' r negative f f' =
+  (&&) (definite p negative r (fst f) (snd f))
+    (definite p' negative r (fst f') (snd f'))
+
+(** val mixed_matrix : point -> matrix -> matrix -> matrix **)
+
+let mixed_matrix e m m' =
+  add_matrix (map0 (fun row -> scale_poly (snd e) row) m)
+    (map0 (fun row -> scale_poly (fst e) row) m')
+
+(** val mixed : point -> enclosed -> enclosed -> enclosed **)
+
+let mixed e p p' =
+  { size_of = p.size_of; center_a = (mixed_matrix e p.center_a p'.center_a);
+    center_b = (mixed_matrix e p.center_b p'.center_b); radius_a =
+    (mixed_matrix e p.radius_a p'.radius_a); radius_b =
+    (mixed_matrix e p.radius_b p'.radius_b) }
+
+type critical_leaf =
+| BoxFarkas of Big_int_Z.big_int list
+| BoxDefinite of bool * (factor * factor) * (factor * factor)
+| BoxWhole of whole * whole
+
+(** val pencil_at : system -> point -> pencil **)
+
+let pencil_at s e =
+  pencil_of s (Lambda2 ((fst e), (snd e)))
+
+(** val part_plain : system -> pencil **)
+
+let part_plain s =
+  pencil_at s (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)
+
+(** val part_friction : system -> pencil **)
+
+let part_friction s =
+  pencil_at s (Big_int_Z.unit_big_int, Big_int_Z.zero_big_int)
+
+(** val with_left : elimination -> (matrix * matrix) -> elimination **)
+
+let with_left w other =
+  { row_scale = w.row_scale; unit_of = w.unit_of; right_w = w.right_w;
+    left_va = (fst other); left_vb = (snd other); bound_c = w.bound_c;
+    bound_d = w.bound_d; factor_scale = w.factor_scale; stiffness_factor =
+    w.stiffness_factor }
+
+(** val condensed_parts :
+    system -> (elimination * (matrix * matrix)) option ->
+    (enclosed * enclosed) option **)
+
+let condensed_parts s w =
+  Option.map (fun wl -> ((condensed (blocks_of (part_plain s)) (fst wl)),
+    (condensed (blocks_of (part_friction s)) (with_left (fst wl) (snd wl)))))
+    w
+
+(** val parts_eliminated :
+    system -> (elimination * (matrix * matrix)) option -> bool **)
+
+let parts_eliminated s = function
+| Some p ->
+  let (w0, other) = p in
+  (&&) (free_rows_constant (part_plain s))
+    ((&&) (free_rows_constant (part_friction s))
+      ((&&) (check_elimination (blocks_of (part_plain s)) w0)
+        (check_elimination (blocks_of (part_friction s)) (with_left w0 other))))
+| None -> true
+
+(** val same_weights : system -> whole -> whole -> bool **)
+
+let same_weights s a b =
+  (&&)
+    (eq_op bool_eqType (Obj.magic a.whole_negative)
+      (Obj.magic b.whole_negative))
+    (all (fun i ->
+      Z.eqb (nth Big_int_Z.unit_big_int a.whole_weights (Obj.magic i))
+        (nth Big_int_Z.unit_big_int b.whole_weights (Obj.magic i)))
+      (slip (part_plain s)))
+
+(** val check_critical_leaf :
+    system -> (enclosed * enclosed) option -> region -> point -> point ->
+    critical_leaf -> bool **)
+
+let check_critical_leaf s parts r low high = function
+| BoxFarkas v ->
+  (match parts with
+   | Some p ->
+     let (p0, p1) = p in box_farkas (mixed low p0 p1) (mixed high p0 p1) r v
+   | None -> false)
+| BoxDefinite (negative, f, f') ->
+  (match parts with
+   | Some p ->
+     let (p0, p1) = p in
+     box_definite (mixed low p0 p1) (mixed high p0 p1) r negative f f'
+   | None -> false)
+| BoxWhole (a, b) ->
+  (&&) (same_weights s a b)
+    ((&&) (check_whole (pencil_at s low) r a)
+      (check_whole (pencil_at s high) r b))
+
+(** val check_critical :
+    system -> (elimination * (matrix * matrix)) option -> critical_leaf
+    box_tree -> point -> bool **)
+
+let check_critical s w tr bound1 =
+  let parts = condensed_parts s w in
+  (&&)
+    (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
+      Big_int_Z.unit_big_int)))
+    ((&&) (parts_eliminated s w)
+      (check_boxes (size (slip (part_plain s))) (check_critical_leaf s parts)
+        tr (window zero infinity) zero bound1))

@@ -138,6 +138,8 @@ type ('aT, 'rT) simpl_fun =
 
 val fun_of_simpl : ('a1, 'a2) simpl_fun -> 'a1 -> 'a2
 
+val addb : bool -> bool -> bool
+
 val isSome : 'a1 option -> bool
 
 val iffP : bool -> reflect -> reflect
@@ -191,6 +193,14 @@ module Equality :
  end
 
 val eq_op : Equality.coq_type -> Equality.sort rel
+
+val eqb0 : bool -> bool -> bool
+
+val eqbP : bool Equality.axiom
+
+val bool_eqMixin : bool Equality.mixin_of
+
+val bool_eqType : Equality.coq_type
 
 val pred1 : Equality.coq_type -> Equality.sort -> Equality.sort simpl_pred
 
@@ -1532,3 +1542,57 @@ val check_varying_families :
 val check_system_varying :
   system -> unknown -> solution_claim list -> anchoring -> varying_leaf tree
   -> point -> point -> support_leaf option list -> bool
+
+type 'leaf box_tree =
+| CutValue of point * 'leaf box_tree * 'leaf box_tree
+| CutFriction of point * 'leaf box_tree * 'leaf box_tree
+| Decide of int * 'leaf box_tree * 'leaf box_tree
+| BoxLeaf of 'leaf
+
+val check_boxes :
+  int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 box_tree -> region
+  -> point -> point -> bool
+
+val strict_in_both :
+  enclosed -> enclosed -> region -> Big_int_Z.big_int list -> int -> bool
+
+val box_farkas :
+  enclosed -> enclosed -> region -> Big_int_Z.big_int list -> bool
+
+val box_definite :
+  enclosed -> enclosed -> region -> bool -> (factor * factor) ->
+  (factor * factor) -> bool
+
+val mixed_matrix : point -> matrix -> matrix -> matrix
+
+val mixed : point -> enclosed -> enclosed -> enclosed
+
+type critical_leaf =
+| BoxFarkas of Big_int_Z.big_int list
+| BoxDefinite of bool * (factor * factor) * (factor * factor)
+| BoxWhole of whole * whole
+
+val pencil_at : system -> point -> pencil
+
+val part_plain : system -> pencil
+
+val part_friction : system -> pencil
+
+val with_left : elimination -> (matrix * matrix) -> elimination
+
+val condensed_parts :
+  system -> (elimination * (matrix * matrix)) option -> (enclosed * enclosed)
+  option
+
+val parts_eliminated :
+  system -> (elimination * (matrix * matrix)) option -> bool
+
+val same_weights : system -> whole -> whole -> bool
+
+val check_critical_leaf :
+  system -> (enclosed * enclosed) option -> region -> point -> point ->
+  critical_leaf -> bool
+
+val check_critical :
+  system -> (elimination * (matrix * matrix)) option -> critical_leaf
+  box_tree -> point -> bool

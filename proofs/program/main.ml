@@ -352,9 +352,42 @@ let verify_varying q =
     solutions = lazy (Kernel.varying_solutions q.pencil q.known_claims tree q.lo q.hi supports);
     print_coq = (fun _ -> Problem.not_verified "as a Coq file: condensation about anchors") }
 
-let verify_eigenproblem document problem_path certificate_path =
-  let problem = timed "problem" (fun () -> Problem.read problem_path document) in
-  let certificate = timed "certificate" (fun () -> Certificate.read certificate_path) in
+(* No solution of a system for mu in [0, below] and lambda^2 >= 0. *)
+let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
+  if certificate.critical_digest <> problem.digest then
+    raise (Rejected ("the digest of the problem is " ^ problem.digest));
+  let system = match problem.question with
+    | Raw _ -> raise (Rejected "a mechanical system was expected")
+    | Mechanical _ when problem.unknown <> "lambda2" ->
+      raise (Rejected "the unknown is not the problem's")
+    | Mechanical (system, _) -> system in
+  if Q.sign certificate.below <= 0 then raise (Rejected "below is not positive");
+  if (certificate.critical_condensation <> None) <> (system.free_dofs <> []) then
+    raise (Rejected "a condensation is given exactly if there are free variables");
+
+  let plain = Kernel.part_plain system and friction = Kernel.part_friction system in
+  let slip_list = Obj.magic (Kernel.slip plain) in
+  if List.length slip_list > 300 then
+    Problem.not_verified "more than 300 complementarity variables";
+  let slip_factor = Z.mul problem.common system.unit_length in
+  let elimination =
+    if system.free_dofs <> [] then None
+    else Some (Critical.trivial_elimination plain friction slip_list slip_factor) in
+  let context =
+    { Critical.system; slip = Array.of_list slip_list; free_factor = problem.common; slip_factor;
+      parts = timed "condensation" (fun () -> Kernel.condensed_parts system elimination);
+      tail = Option.bind certificate.critical_condensation (fun c -> c.friction_tail);
+      below = certificate.below } in
+  let tree =
+    timed "elaboration" (fun () -> Critical.build context certificate.critical_pieces) in
+  let bound = Elaborate.point_of certificate.below in
+  refuse_tree_unless
+    (timed "kernel" (fun () -> Kernel.check_critical system elimination tree bound));
+  Printf.printf "ACCEPTED, VERIFIED: no solution for mu in %s and lambda^2 in %s\n"
+    (show_interval Kernel.zero bound) (show_interval Kernel.zero Kernel.infinity);
+  0
+
+let verify_complete (problem : Problem.t) (certificate : Certificate.t) =
   if certificate.digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
   if certificate.unknown <> problem.unknown then
@@ -407,6 +440,12 @@ let verify_eigenproblem document problem_path certificate_path =
       report_claims ();
       code
   end
+
+let verify_eigenproblem document problem_path certificate_path =
+  let problem = timed "problem" (fun () -> Problem.read problem_path document) in
+  match timed "certificate" (fun () -> Certificate.read certificate_path) with
+  | Complete certificate -> verify_complete problem certificate
+  | Critical certificate -> verify_critical problem certificate
 
 let verify problem_path certificate_path =
   Elaborate.start_anew ();
