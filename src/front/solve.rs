@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::run::Watched;
 use super::solution::Solution;
 use mceip_check::certificate::{Certificate, Claim};
-use mceip_check::{Accepted, check};
+use mceip_check::check;
 use mceip_engine::certify::certificate;
 use mceip_engine::multistart::{Search, Uncertified, multistart_large};
 use mceip_engine::report::Listed;
@@ -37,7 +37,8 @@ pub struct Found {
 }
 
 impl Found {
-    /// The certificate of all solutions.
+    /// The certificate of all solutions. Without solutions it claims nothing, and is refused by
+    /// [`check`](crate::check).
     pub fn certificate(&self) -> &Certificate {
         &self.certificate
     }
@@ -117,7 +118,11 @@ impl<'a> Solve<'a> {
         // The certificate of all solutions is checked as a whole.
         let claims: Vec<Claim> = found.certified.iter().map(|c| c.claim.clone()).collect();
         let certificate = certificate(problem, claims);
-        let Accepted { claims: proved, .. } = check(problem, &certificate)?;
+        let proved = if certificate.claims.is_empty() {
+            Vec::new()
+        } else {
+            check(problem, &certificate)?.claims
+        };
 
         let mut solutions = Vec::new();
         for (proved, claim) in proved.iter().zip(&certificate.claims) {
@@ -132,5 +137,23 @@ impl<'a> Solve<'a> {
             is_cancelled: found.interrupted,
             certificate,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Error, Matrix, Problem, Unknown};
+
+    #[test]
+    fn a_problem_without_solutions_is_no_error() -> Result<(), Error> {
+        // (1 + t) x = y > 0 for every x > 0.
+        let one = Matrix::identity(1);
+        let problem = Problem::from_pencil(one.clone(), one, Vec::new(), Unknown::Lambda2)?;
+
+        let found = problem.solve().run()?;
+
+        assert!(found.solutions.is_empty());
+        assert!(found.certificate().claims.is_empty());
+        Ok(())
     }
 }

@@ -1,0 +1,55 @@
+"""The part of the module that is written in Rust; use `mceip` itself."""
+
+from collections.abc import Sequence
+
+from .inputs import Contact, Triplets
+from .progress import Listener
+
+class MceipError(ValueError):
+    """What was given is no problem, or a question about it cannot be answered."""
+
+class RejectedError(MceipError):
+    """The checker refuses a certificate; the message names the obligation that fails."""
+
+class NotCertifiedError(MceipError):
+    """No proof was found for a point; that is no proof that there is no solution."""
+
+class NativeProblem:
+    @staticmethod
+    def read(path: str) -> NativeProblem: ...
+    @staticmethod
+    def from_json(text: str) -> NativeProblem: ...
+    @staticmethod
+    def lambda2(
+        dofs: int,
+        stiffness: Triplets,
+        mass: Triplets,
+        friction: str,
+        contacts: Sequence[Contact] | str,
+    ) -> NativeProblem: ...
+    @staticmethod
+    def friction_threshold(
+        dofs: int, stiffness: Triplets, contacts: Sequence[Contact] | str
+    ) -> NativeProblem: ...
+    @staticmethod
+    def pencil(
+        order: int, a: Triplets, b: Triplets, free: Sequence[int], unknown: str
+    ) -> NativeProblem: ...
+    def in_window(self, min: str, max: str | None) -> NativeProblem: ...
+    def to_json(self) -> str: ...
+    def sha256(self) -> str: ...
+    def unknown(self) -> str: ...
+    def solve(self, starts: int, seed: int, all: bool, progress: Listener | None) -> str: ...
+    def complete(
+        self, threads: int | None, earlier: str | None, progress: Listener | None
+    ) -> str: ...
+    def analyze(
+        self,
+        friction: str | None,
+        samples: int,
+        threads: int | None,
+        progress: Listener | None,
+    ) -> str: ...
+    def certify(self, value: float, x: Sequence[float]) -> str: ...
+    def check(self, text: str) -> str: ...
+    def check_absence(self, text: str) -> tuple[str, int]: ...

@@ -1,0 +1,511 @@
+"""Answers as dataclasses.
+
+Exact numbers are `fractions.Fraction`; floats are near what is proved. Indices count from 0. In a
+notebook the answers are tables.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from html import escape
+from typing import Any
+
+from ._native import NativeProblem
+
+#: Lower and upper end; both belong to it.
+Interval = tuple[Fraction, Fraction]
+
+#: Digits that are read at once.
+DIGITS = 4000
+
+#: A certificate as the JSON object that its file holds.
+Certificate = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A solution that the checker has accepted.
+
+    What is proved is that the problem has a solution with this support and a value in the
+    enclosure. The floats are its components to the precision of doubles.
+
+    Attributes:
+        unknown: "lambda2" (units of stiffness / mass) or "mu" (no unit).
+        value: the value, rounded.
+        enclosure: encloses the value.
+        support: variables of the pencil with x > 0: impending slip that becomes slip.
+        biactive: variables with x = y = 0, where that is proved; empty where the solution is only
+            enclosed.
+        x: over the variables of the pencil, scaled so that the slip variables sum to one.
+        y: (A + t B) x, over the same.
+        v: displacements over the degrees of freedom, the mode of (8); None for a pencil.
+        w: reaction rates over the degrees of freedom; None for a pencil.
+    """
+
+    unknown: str
+    value: float
+    enclosure: Interval
+    support: list[int]
+    biactive: list[int]
+    x: list[float]
+    y: list[float]
+    v: list[float] | None
+    w: list[float] | None
+
+    @property
+    def exact_value(self) -> Fraction | None:
+        """The value itself, where it is rational and known."""
+        low, high = self.enclosure
+        return low if low == high else None
+
+
+@dataclass(frozen=True)
+class Family:
+    """Solutions of one support: at one value, or at every value between two.
+
+    Attributes:
+        support: variables with x > 0.
+        start: encloses the smallest value.
+        end: encloses the largest value; None where there is none.
+        is_point: is it one value?
+        is_alone: is it proved that there are no other solutions at these values?
+    """
+
+    support: list[int]
+    start: Interval
+    end: Interval | None
+    is_point: bool
+    is_alone: bool
+
+
+@dataclass(frozen=True)
+class OpenRegion:
+    """Values and supports of which nothing is proved.
+
+    Attributes:
+        min: smallest value.
+        max: largest value; None for infinity.
+        moving: variables that belong to each of the supports.
+        undecided: variables that may belong to them or not.
+    """
+
+    min: Fraction
+    max: Fraction | None
+    moving: list[int]
+    undecided: list[int]
+
+
+@dataclass(frozen=True)
+class Uncertified:
+    """A point where the solver stopped, and why no proof was found. Nothing is known of it."""
+
+    value: float
+    x: list[float]
+    reason: str
+
+
+@dataclass(frozen=True)
+class Found:
+    """What the solver has found. It does not say that there is nothing else.
+
+    Attributes:
+        solutions: by value; the checker has accepted each.
+        uncertified: points without proof: do not use them.
+        runs: runs of the solver.
+        certificate: of all solutions; None where there are none.
+    """
+
+    solutions: list[Solution]
+    uncertified: list[Uncertified]
+    runs: int
+    certificate: Certificate | None = field(repr=False)
+
+    def _repr_html_(self) -> str:
+        return f"<p>{len(self.solutions)} found</p>" + table_of_solutions(self.solutions)
+
+
+@dataclass(frozen=True)
+class SolutionSet:
+    """All solutions in the window, as far as they are proved.
+
+    Attributes:
+        solutions: the isolated solutions, by value.
+        families: continua of solutions.
+        open: what is left open.
+        certificate: of the whole set.
+    """
+
+    solutions: list[Solution]
+    families: list[Family]
+    open: list[OpenRegion]
+    certificate: Certificate = field(repr=False)
+
+    @property
+    def is_complete(self) -> bool:
+        """Is it proved that there are no solutions but these?"""
+        return not self.open
+
+    @property
+    def is_empty(self) -> bool:
+        """Is it proved that the window holds no solution?"""
+        return self.is_complete and not self.solutions and not self.families
+
+    def _repr_html_(self) -> str:
+        verdict = "complete" if self.is_complete else f"undecided: {len(self.open)} regions open"
+        if self.families:
+            verdict += f", {len(self.families)} families"
+        return f"<p>{verdict}</p>" + table_of_solutions(self.solutions)
+
+
+@dataclass(frozen=True)
+class Certified:
+    """A solution near a point that was given, with its own certificate."""
+
+    solution: Solution
+    certificate: Certificate = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What is proved of a solution: its support, and an enclosure of its value."""
+
+    support: list[int]
+    enclosure: Interval
+
+
+@dataclass(frozen=True)
+class Accepted:
+    """What an accepted certificate has proved.
+
+    Attributes:
+        claims: the claims that are proved one by one.
+        solutions: all isolated solutions in the window; None where the certificate says nothing
+            of completeness.
+        families: the continua of solutions.
+        open: what the certificate leaves open.
+    """
+
+    claims: list[Claim]
+    solutions: list[Claim] | None
+    families: list[Family]
+    open: list[OpenRegion]
+
+    @property
+    def is_complete(self) -> bool:
+        """Does the certificate prove that there are no other solutions?"""
+        return self.solutions is not None and not self.open
+
+
+@dataclass(frozen=True)
+class Absence:
+    """What an accepted certificate of absence has proved.
+
+    Attributes:
+        below: there is no solution for friction coefficients in [0, below] and lambda^2 >= 0.
+        leaves: number of leaves that prove it.
+    """
+
+    below: Fraction
+    leaves: int
+
+
+@dataclass(frozen=True)
+class Proof:
+    """A certificate that the checker has accepted, with the problem that it belongs to.
+
+    Attributes:
+        name: what the evidence of a sentence refers to.
+        problem: the JSON object of a problem file.
+        certificate: the JSON object of a certificate.
+    """
+
+    name: str
+    problem: dict[str, Any] = field(repr=False)
+    certificate: Certificate = field(repr=False)
+
+    def check(self) -> Accepted | Absence:
+        """Runs the checker once more; raises `RejectedError` where it refuses."""
+        native = NativeProblem.from_json(json.dumps(self.problem))
+        text = json.dumps(self.certificate)
+        if self.certificate["format"] == "mceip-critical/1":
+            below, leaves = native.check_absence(text)
+            return Absence(fraction_of(below), leaves)
+        return accepted_of(json.loads(native.check(text)))
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a statement rests on.
+
+    Attributes:
+        kind: "certificate": the checker has accepted one; "exact": a condition in exact
+            arithmetic; "measured": doubles, not proved.
+        source: the name of the `Proof`, or the condition in words.
+    """
+
+    kind: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A motion u0 + alpha(t) v that diverges, (8), with alpha growing like exp(lambda t).
+
+    Attributes:
+        lambda2: encloses lambda^2, units of stiffness / mass (1/s^2 where these are consistent).
+        growth_rate: lambda, its square root.
+        slipping: particles that slip, by their place in the list of contacts.
+        sticking: particles in impending slip that do not move.
+        v: displacements over the degrees of freedom; the slip rates sum to one.
+    """
+
+    lambda2: Interval
+    growth_rate: float
+    slipping: list[int]
+    sticking: list[int]
+    v: list[float]
+
+
+@dataclass(frozen=True)
+class CriticalFriction:
+    """What is proved of the smallest friction coefficient with divergence of the form (8).
+
+    Attributes:
+        absent_below: there is no divergence below it; None: there is none at any coefficient.
+        absent_evidence: what that rests on.
+        mu: encloses a coefficient with divergence, the smallest that was found; None if none was.
+        lambda2: encloses lambda^2 there; 0 at the static threshold.
+        evidence: what that rests on.
+    """
+
+    absent_below: Fraction | None
+    absent_evidence: Evidence
+    mu: Interval | None
+    lambda2: Interval | None
+    evidence: Evidence | None
+
+    @property
+    def bounds(self) -> Interval | None:
+        """Encloses the critical friction coefficient; None where no upper bound was found."""
+        if self.absent_below is None or self.mu is None:
+            return None
+        return self.absent_below, self.mu[1]
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """The engineer's answer.
+
+    Attributes:
+        answer: all of it, a JSON object (`mceip-analysis/1`).
+        proofs: the certificates, each with its problem.
+    """
+
+    answer: dict[str, Any] = field(repr=False)
+    proofs: list[Proof] = field(repr=False)
+
+    @property
+    def summary(self) -> str:
+        """The answer in one paragraph."""
+        return str(self.answer["summary"])
+
+    @property
+    def verdict(self) -> str:
+        """Divergence at the friction coefficient asked for: "present", "absent", "undecided"."""
+        return str(self.answer["divergence"]["verdict"])
+
+    @property
+    def modes(self) -> list[Mode]:
+        """The diverging motions at the friction coefficient asked for."""
+        return [mode_of(mode) for mode in self.answer["divergence"]["modes"]]
+
+    @property
+    def critical(self) -> CriticalFriction:
+        """The critical friction coefficient, with what stands behind it."""
+        return critical_of(self.answer["critical"])
+
+    @property
+    def critical_friction(self) -> Interval | None:
+        """Bounds of the critical friction coefficient; None where no upper bound was found."""
+        return self.critical.bounds
+
+    def __str__(self) -> str:
+        return self.summary
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for sentence in self.answer["sentences"]:
+            evidence = evidence_of(sentence["evidence"])
+            basis = f"{evidence.kind}: {evidence.source}"
+            rows.append([sentence["topic"], sentence["text"], basis])
+        return f"<p>{escape(self.summary)}</p>" + html_table(["", "", "rests on"], rows)
+
+
+def fraction_of(text: str) -> Fraction:
+    """A fraction or a decimal of any length."""
+    numerator, is_fraction, denominator = text.partition("/")
+    if is_fraction:
+        return Fraction(integer_of(numerator), integer_of(denominator))
+    return Fraction(text) if len(text) <= DIGITS else Fraction(integer_of(text))
+
+
+def integer_of(text: str) -> int:
+    """An integer of any length: Python itself reads 4300 digits at most."""
+    if len(text) <= DIGITS:
+        return int(text)
+    if text.startswith("-"):
+        return -integer_of(text[1:])
+    tail = len(text) // 2
+    shift: int = 10**tail
+    return integer_of(text[:-tail]) * shift + integer_of(text[-tail:])
+
+
+def interval_of(ends: Sequence[str]) -> Interval:
+    low, high = ends
+    return fraction_of(low), fraction_of(high)
+
+
+def upper_of(end: str | None) -> Fraction | None:
+    return None if end is None else fraction_of(end)
+
+
+def solution_of(answer: dict[str, Any]) -> Solution:
+    return Solution(
+        unknown=answer["unknown"],
+        value=answer["value"],
+        enclosure=interval_of(answer["enclosure"]),
+        support=answer["support"],
+        biactive=answer["biactive"],
+        x=answer["x"],
+        y=answer["y"],
+        v=answer["v"],
+        w=answer["w"],
+    )
+
+
+def family_of(answer: dict[str, Any]) -> Family:
+    end = answer["to"]
+    return Family(
+        support=answer["support"],
+        start=interval_of(answer["from"]),
+        end=None if end is None else interval_of(end),
+        is_point=answer["is_point"],
+        is_alone=answer["is_alone"],
+    )
+
+
+def region_of(answer: dict[str, Any]) -> OpenRegion:
+    return OpenRegion(
+        min=fraction_of(answer["min"]),
+        max=upper_of(answer["max"]),
+        moving=answer["moving"],
+        undecided=answer["undecided"],
+    )
+
+
+def claim_of(answer: dict[str, Any]) -> Claim:
+    return Claim(answer["support"], interval_of(answer["enclosure"]))
+
+
+def found_of(answer: dict[str, Any]) -> Found:
+    uncertified = [
+        Uncertified(point["value"], point["x"], point["reason"]) for point in answer["uncertified"]
+    ]
+    return Found(
+        solutions=[solution_of(solution) for solution in answer["solutions"]],
+        uncertified=uncertified,
+        runs=answer["runs"],
+        certificate=answer["certificate"],
+    )
+
+
+def solution_set_of(answer: dict[str, Any]) -> SolutionSet:
+    return SolutionSet(
+        solutions=[solution_of(solution) for solution in answer["solutions"]],
+        families=[family_of(family) for family in answer["families"]],
+        open=[region_of(region) for region in answer["open"]],
+        certificate=answer["certificate"],
+    )
+
+
+def certified_of(answer: dict[str, Any]) -> Certified:
+    return Certified(solution_of(answer["solution"]), answer["certificate"])
+
+
+def accepted_of(answer: dict[str, Any]) -> Accepted:
+    claims = [claim_of(claim) for claim in answer["claims"]]
+    cover = answer["complete_set"]
+    if cover is None:
+        return Accepted(claims, solutions=None, families=[], open=[])
+    return Accepted(
+        claims=claims,
+        solutions=[claim_of(claim) for claim in cover["solutions"]],
+        families=[family_of(family) for family in cover["families"]],
+        open=[region_of(region) for region in cover["open"]],
+    )
+
+
+def analysis_of(answer: dict[str, Any]) -> Analysis:
+    proofs = [
+        Proof(proof["name"], proof["problem"], proof["certificate"]) for proof in answer["proofs"]
+    ]
+    return Analysis(answer["answer"], proofs)
+
+
+def mode_of(answer: dict[str, Any]) -> Mode:
+    return Mode(
+        lambda2=interval_of(answer["lambda2"]),
+        growth_rate=answer["growth_rate"],
+        slipping=answer["slipping"],
+        sticking=answer["sticking"],
+        v=answer["v"],
+    )
+
+
+def critical_of(answer: dict[str, Any]) -> CriticalFriction:
+    solution = answer["solution"]
+    return CriticalFriction(
+        absent_below=upper_of(answer["absent_below"]),
+        absent_evidence=evidence_of(answer["absent_evidence"]),
+        mu=None if solution is None else interval_of(solution["mu"]),
+        lambda2=None if solution is None else interval_of(solution["lambda2"]),
+        evidence=None if solution is None else evidence_of(solution["evidence"]),
+    )
+
+
+def evidence_of(answer: dict[str, Any]) -> Evidence:
+    source = answer["path"] if answer["kind"] == "certificate" else answer["how"]
+    return Evidence(answer["kind"], source)
+
+
+def table_of_solutions(solutions: Sequence[Solution]) -> str:
+    """Values, with their enclosures, and who slips."""
+    unknown = solutions[0].unknown if solutions else "value"
+    rows = []
+    for solution in solutions:
+        support = ", ".join(str(index) for index in solution.support)
+        rows.append([f"{solution.value:.10g}", enclosure_text(solution.enclosure), support])
+    return html_table([unknown, "enclosure", "slip"], rows)
+
+
+def enclosure_text(enclosure: Interval) -> str:
+    """An interval in decimals that enclose it, or the number that it is."""
+    low, high = enclosure
+    if low == high:
+        return str(low)
+    below = math.nextafter(float(low), -math.inf)
+    above = math.nextafter(float(high), math.inf)
+    return f"[{below!r}, {above!r}]"
+
+
+def html_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
+    body = ""
+    for row in rows:
+        cells = "".join(f"<td>{escape(cell)}</td>" for cell in row)
+        body += f"<tr>{cells}</tr>"
+    return f"<table><tr>{head}</tr>{body}</table>"

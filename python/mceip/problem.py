@@ -1,0 +1,227 @@
+"""Problems, and the questions that can be put to them."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from typing import Any
+
+from ._native import MceipError, NativeProblem
+from .answers import (
+    Accepted,
+    Analysis,
+    Certificate,
+    Certified,
+    Found,
+    SolutionSet,
+    accepted_of,
+    analysis_of,
+    certified_of,
+    found_of,
+    solution_set_of,
+)
+from .inputs import Contacts, Number, contacts_or_table, count, spelt, triplets
+from .progress import Progress, listening
+
+#: Threads at most: each is one of the operating system.
+MOST_THREADS = 1024
+
+
+class Problem:
+    """A mixed complementarity eigenproblem: find t >= 0 and x != 0 with
+
+        (A + t B) x = y,   y_f = 0,   0 <= x_s  _|_  y_s >= 0
+
+    t is lambda^2, the square of a growth rate, or mu, the friction coefficient at which a
+    quasi-static motion begins. A and B come from a mechanical system or are given.
+
+    `solve`, `complete` and `analyze` leave the interpreter to other threads, and end with
+    `KeyboardInterrupt` on Ctrl-C. They take `progress`: a function of a line of text, the steps
+    done, and the steps in all (or None); or True for a bar of tqdm.
+    """
+
+    def __init__(self, native: NativeProblem) -> None:
+        self._native = native
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Problem:
+        """A problem file (`mceip-problem/1`)."""
+        return cls(NativeProblem.read(os.fspath(path)))
+
+    @classmethod
+    def from_json(cls, text: str) -> Problem:
+        """The text of a problem file. Its numbers may have any number of digits."""
+        return cls(NativeProblem.from_json(text))
+
+    @classmethod
+    def from_matrices(
+        cls, stiffness: Any, mass: Any, friction: Number, contacts: Contacts
+    ) -> Problem:
+        """Growth rates of a mechanical system with N degrees of freedom, (12)-(14).
+
+        Args:
+            stiffness: K, N x N, symmetric to the last bit (use `(K + K.T) / 2`), of numpy or
+                scipy.sparse. Prescribed degrees of freedom are left out.
+            mass: M, of the same kind. lambda^2 comes in the units of stiffness / mass.
+            friction: the coefficient mu.
+            contacts: a list of `Contact`; or a table with the columns `tangential`, `normal`,
+                `state`, and optionally `particle`, `normal_direction`, `reaction_tangential`,
+                `reaction_normal`: a path to a CSV file, a pandas DataFrame, a mapping of columns,
+                or a list of rows as mappings. Reactions are held against (7).
+        """
+        dofs, k = triplets("stiffness", stiffness)
+        _, m = triplets("mass", mass, dofs)
+        given = contacts_or_table(contacts)
+        return cls(NativeProblem.lambda2(dofs, k, m, spelt(friction), given))
+
+    @classmethod
+    def friction_threshold(cls, stiffness: Any, contacts: Contacts) -> Problem:
+        """Friction coefficients at which a quasi-static motion begins, (21)-(23).
+
+        The arguments are as in `from_matrices`; a table has no reactions here.
+        """
+        dofs, k = triplets("stiffness", stiffness)
+        return cls(NativeProblem.friction_threshold(dofs, k, contacts_or_table(contacts)))
+
+    @classmethod
+    def from_pencil(
+        cls, a: Any, b: Any, free: Sequence[int] = (), unknown: str = "lambda2"
+    ) -> Problem:
+        """The problem of a pencil A + t B.
+
+        Args:
+            a: A, n x n.
+            b: B, n x n.
+            free: indices with y = 0 and x of any sign.
+            unknown: "lambda2" or "mu": whether the solver relies on the conditions of
+                Proposition 1 or of Proposition 2.
+        """
+        order, a_entries = triplets("a", a)
+        _, b_entries = triplets("b", b, order)
+        indices = [count("free", index) for index in free]
+        return cls(NativeProblem.pencil(order, a_entries, b_entries, indices, unknown))
+
+    def in_window(self, min: Number, max: Number | None = None) -> Problem:
+        """The same problem with the values sought in [min, max], or from min on."""
+        upper = None if max is None else spelt(max)
+        return Problem(self._native.in_window(spelt(min), upper))
+
+    @property
+    def unknown(self) -> str:
+        """Which number is sought: "lambda2" or "mu"."""
+        return self._native.unknown()
+
+    @property
+    def sha256(self) -> str:
+        """The digest that certificates name, so that none is shown for another problem."""
+        return self._native.sha256()
+
+    def to_json(self) -> str:
+        """The problem as the text of a file."""
+        return self._native.to_json()
+
+    def solve(
+        self,
+        *,
+        starts: int = 22,
+        seed: int = 1,
+        all: bool = False,
+        progress: Progress = None,
+    ) -> Found:
+        """Solutions by the PATH-style solver, each certified.
+
+        Args:
+            starts: starts of the solver.
+            seed: of the random starts; one seed gives one result.
+            all: looks above and below each value found, and along curves; slower.
+            progress: see the class.
+        """
+        starts = count("starts", starts)
+        seed = count("seed", seed)
+        with listening(progress) as listener:
+            answer = self._native.solve(starts, seed, bool(all), listener)
+        return found_of(json.loads(answer))
+
+    def complete(
+        self,
+        *,
+        threads: int | None = None,
+        resume: Certificate | None = None,
+        progress: Progress = None,
+    ) -> SolutionSet:
+        """All solutions in the window, with a proof that there are no others.
+
+        Args:
+            threads: all cores if not said; the certificate does not depend on it.
+            resume: a certificate that leaves regions open; only these are searched.
+            progress: see the class.
+        """
+        earlier = None if resume is None else text_of(resume)
+        with listening(progress) as listener:
+            answer = self._native.complete(thread_count(threads), earlier, listener)
+        return solution_set_of(json.loads(answer))
+
+    def analyze(
+        self,
+        friction: Number | None = None,
+        *,
+        samples: int = 16,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> Analysis:
+        """Can this equilibrium diverge in the form (8), from which friction on, and why?
+
+        Args:
+            friction: the coefficient asked for; the problem's own if not said.
+            samples: coefficients at which divergence is decided, to find the ranges with it.
+            threads: all cores if not said; the answer does not depend on it.
+            progress: see the class.
+        """
+        mu = None if friction is None else spelt(friction)
+        samples = count("samples", samples)
+        with listening(progress) as listener:
+            answer = self._native.analyze(mu, samples, thread_count(threads), listener)
+        return analysis_of(json.loads(answer))
+
+    def certify(self, value: float, x: Sequence[float]) -> Certified:
+        """A proof that there is a solution near a point in floats.
+
+        Raises `NotCertifiedError` where none is found, which is no proof that there is none.
+
+        Args:
+            value: lambda^2 or mu.
+            x: over the variables of the pencil, in any positive scale.
+        """
+        answer = self._native.certify(float(value), [float(entry) for entry in x])
+        return certified_of(json.loads(answer))
+
+    def check(self, certificate: Certificate | str) -> Accepted:
+        """What a certificate proves; raises `RejectedError` where it proves nothing."""
+        return accepted_of(json.loads(self._native.check(text_of(certificate))))
+
+    def __repr__(self) -> str:
+        return f"<mceip.Problem {self.unknown} {self.sha256[:12]}>"
+
+
+def check(problem: Problem, certificate: Certificate | str) -> Accepted:
+    """What a certificate proves of a problem; raises `RejectedError` where it proves nothing.
+
+    Exact arithmetic decides. Whoever made the certificate, and however: an accepted one is a proof.
+    """
+    return problem.check(certificate)
+
+
+def text_of(certificate: Certificate | str) -> str:
+    """The text of a certificate."""
+    if isinstance(certificate, str):
+        return certificate
+    try:
+        return json.dumps(certificate)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise MceipError(f"certificate: expected a JSON object: {error}") from None
+
+
+def thread_count(threads: int | None) -> int | None:
+    """A number of threads that can be started."""
+    return None if threads is None else count("threads", threads, least=1, most=MOST_THREADS)

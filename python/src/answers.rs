@@ -1,0 +1,140 @@
+//! Answers as JSON, for `mceip/__init__.py`.
+//!
+//! Exact numbers are text ("p/q"), doubles are numbers.
+
+use mceip::{
+    Accepted, AcceptedClaim, Analysis, Certificate, Certified, Found, Interval, OpenRegion,
+    Solution, SolutionFamily, SolutionSet,
+};
+use serde_json::{Value, json};
+
+pub(crate) fn found(found: &Found) -> Value {
+    let uncertified: Vec<Value> = found
+        .uncertified
+        .iter()
+        .map(|point| {
+            json!({
+                "value": point.candidate.value,
+                "x": point.candidate.x,
+                "reason": point.reason.to_string(),
+            })
+        })
+        .collect();
+
+    let certificate = (!found.solutions.is_empty()).then(|| document(found.certificate()));
+
+    json!({
+        "solutions": solutions(&found.solutions),
+        "uncertified": uncertified,
+        "runs": found.runs,
+        "certificate": certificate,
+    })
+}
+
+pub(crate) fn solution_set(all: &SolutionSet) -> Value {
+    json!({
+        "solutions": solutions(&all.solutions),
+        "families": families(&all.families),
+        "open": regions(&all.open),
+        "certificate": document(all.certificate()),
+    })
+}
+
+pub(crate) fn certified(certified: &Certified) -> Value {
+    json!({
+        "solution": solution(&certified.solution),
+        "certificate": document(certified.certificate()),
+    })
+}
+
+/// `mceip-analysis/1` with the proofs: problem and certificate of each.
+pub(crate) fn analysis(analysis: &Analysis) -> Value {
+    let mut proofs = Vec::new();
+    for proof in &analysis.proofs {
+        let problem = mceip::Problem::from(proof.problem.clone());
+        proofs.push(json!({
+            "name": proof.name,
+            "problem": text_as_json(&problem.to_json()),
+            "certificate": text_as_json(&proof.certificate.to_json()),
+        }));
+    }
+
+    let paths: Vec<String> = analysis.proofs.iter().map(|p| p.name.clone()).collect();
+    json!({ "answer": analysis.to_json(&paths), "proofs": proofs })
+}
+
+pub(crate) fn accepted(accepted: &Accepted) -> Value {
+    let claims: Vec<Value> = accepted.claims.iter().map(claim).collect();
+    let cover = accepted.cover.as_ref().map(|cover| {
+        let solutions: Vec<Value> = cover.solutions.iter().map(claim).collect();
+        json!({
+            "solutions": solutions,
+            "families": families(&cover.families),
+            "open": regions(&cover.open),
+        })
+    });
+
+    json!({ "claims": claims, "complete_set": cover })
+}
+
+fn solutions(list: &[Solution]) -> Vec<Value> {
+    list.iter().map(solution).collect()
+}
+
+fn solution(solution: &Solution) -> Value {
+    json!({
+        "unknown": solution.unknown.word(),
+        "value": solution.value,
+        "enclosure": interval(&solution.enclosure),
+        "support": solution.support,
+        "biactive": solution.biactive,
+        "x": solution.x,
+        "y": solution.y,
+        "v": solution.v,
+        "w": solution.w,
+    })
+}
+
+fn claim(claim: &AcceptedClaim) -> Value {
+    json!({ "support": claim.support, "enclosure": interval(&claim.value) })
+}
+
+fn families(list: &[SolutionFamily]) -> Vec<Value> {
+    list.iter().map(family).collect()
+}
+
+fn family(family: &SolutionFamily) -> Value {
+    json!({
+        "support": family.support,
+        "from": interval(&family.from),
+        "to": family.to.as_ref().map(interval),
+        "is_point": family.is_point,
+        "is_alone": family.is_alone,
+    })
+}
+
+fn regions(list: &[OpenRegion]) -> Vec<Value> {
+    list.iter().map(region).collect()
+}
+
+fn region(region: &OpenRegion) -> Value {
+    json!({
+        "min": region.min.to_string(),
+        "max": region.max.as_ref().map(ToString::to_string),
+        "moving": region.moving,
+        "undecided": region.undecided,
+    })
+}
+
+fn interval(interval: &Interval) -> [String; 2] {
+    [interval.lo().to_string(), interval.hi().to_string()]
+}
+
+fn document(certificate: &Certificate) -> Value {
+    text_as_json(&certificate.to_json())
+}
+
+/// A file that our own writer has made.
+fn text_as_json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or(Value::Null)
+}

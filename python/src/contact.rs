@@ -1,0 +1,84 @@
+//! Contacts as Python gives them: a list of `mceip.Contact`, or a table as text.
+
+use crate::MceipError;
+use crate::number;
+use mceip::{ContactState, Particle, Rational};
+use mceip_paper::read_contacts;
+use pyo3::prelude::*;
+
+/// The contacts of a mechanical system.
+#[derive(FromPyObject)]
+pub(crate) enum Contacts {
+    /// The text of a table, as `mceip convert` reads it.
+    Table(String),
+    /// One entry for each particle.
+    List(Vec<Contact>),
+}
+
+/// What is read of a `mceip.Contact`.
+#[derive(FromPyObject)]
+pub(crate) struct Contact {
+    tangential: usize,
+    normal: usize,
+    state: String,
+    sign: Option<i8>,
+    normal_direction: i8,
+    frame: Option<[[String; 2]; 2]>,
+}
+
+impl Contacts {
+    /// The particles; `friction` is what reactions in a table are held against, (7).
+    pub(crate) fn particles(
+        self,
+        dofs: usize,
+        friction: Option<&Rational>,
+    ) -> PyResult<Vec<Particle>> {
+        match self {
+            Contacts::Table(text) => of_table(&text, dofs, friction),
+            Contacts::List(contacts) => contacts.into_iter().enumerate().map(of_entry).collect(),
+        }
+    }
+}
+
+fn of_table(text: &str, dofs: usize, friction: Option<&Rational>) -> PyResult<Vec<Particle>> {
+    let frictionless = Rational::from_integer(0.into());
+    let friction = match friction {
+        Some(friction) => friction,
+        None if text.contains("reaction_") => {
+            return Err(MceipError::new_err(
+                "contacts: expected a table without reactions where no friction is given, for \
+                 they are held against it, got one with reactions",
+            ));
+        }
+        None => &frictionless,
+    };
+
+    let dof = |name: &str| name.parse().ok().filter(|dof| *dof < dofs);
+    read_contacts(text, friction, &dof).map_err(|e| MceipError::new_err(e.to_string()))
+}
+
+fn of_entry((index, contact): (usize, Contact)) -> PyResult<Particle> {
+    let state = match (contact.state.as_str(), contact.sign) {
+        ("slip", Some(sign)) => ContactState::Slip { sign },
+        // About to slip in the positive direction: the reaction points the other way.
+        ("slip+", None) => ContactState::Slip { sign: -1 },
+        ("slip-", None) => ContactState::Slip { sign: 1 },
+        ("stick", None) => ContactState::Stick,
+        ("free", None) => ContactState::Free,
+        (state, sign) => {
+            let sign = sign.map_or("none".to_owned(), |sign| sign.to_string());
+            return Err(MceipError::new_err(format!(
+                "contact {index}: expected the state \"slip+\", \"slip-\", \"stick\" or \"free\", \
+                 or \"slip\" with the sign of its reaction, got {state:?}, sign {sign}"
+            )));
+        }
+    };
+
+    let mut particle = Particle::plain(contact.tangential, contact.normal, state);
+    particle.normal_direction = contact.normal_direction;
+    if let Some([[a, b], [c, d]]) = contact.frame {
+        let entry = |text: &str| number("frame", text);
+        particle.frame = Some([[entry(&a)?, entry(&b)?], [entry(&c)?, entry(&d)?]]);
+    }
+    Ok(particle)
+}

@@ -1,0 +1,193 @@
+"""The answers of the book's examples, and certificates that are refused."""
+
+import copy
+import dataclasses
+import json
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from bodies import lattice
+
+import mceip
+from mceip.answers import fraction_of
+
+
+def test_the_fold_has_two_solutions_and_no_others(example):
+    problem = example("fold")
+
+    found = problem.solve()
+    everything = problem.complete()
+
+    assert [solution.value for solution in found.solutions] == [2.0, 3.0]
+    assert [solution.exact_value for solution in found.solutions] == [2, 3]
+    assert found.runs > 0 and found.uncertified == []
+    assert everything.is_complete and not everything.is_empty
+    assert everything.families == [] and everything.open == []
+    for solution, value in zip(everything.solutions, (2, 3), strict=True):
+        low, high = solution.enclosure
+        assert isinstance(low, Fraction) and low <= value <= high
+        assert high - low < Fraction(1, 10**6)
+
+    accepted = mceip.check(problem, everything.certificate)
+    assert accepted.is_complete
+    assert [claim.support for claim in accepted.solutions] == [[0, 1], [0, 1]]
+    assert not mceip.check(problem, found.certificate).is_complete
+
+
+def test_solutions_have_the_components_of_the_equations(example):
+    problem = example("point")
+
+    (solution,) = problem.complete().solutions
+
+    # K v + lambda^2 v = w with v_N = 0, v_T = x: w_T - 1.5 w_N = (2 + t) - 1.5 * 1.5 = 0.
+    assert abs(solution.value - 0.25) < 1e-12
+    assert solution.unknown == "lambda2"
+    assert np.allclose(solution.v, [1.0, 0.0])
+    assert np.allclose(solution.w, [2.25, 1.5])
+    assert np.allclose(solution.x, [1.0])
+
+
+def test_absence_is_proved_and_open_regions_are_said(example):
+    problem = example("fold").in_window(4)
+
+    everything = problem.complete()
+
+    assert everything.is_empty
+    assert mceip.check(problem, everything.certificate).solutions == []
+
+
+def test_families_are_reported():
+    # A + t B = 0 at t = 1: every x solves it.
+    problem = mceip.Problem.from_pencil(-np.eye(2), np.eye(2))
+
+    everything = problem.complete()
+
+    assert everything.families
+    assert any(family.start[0] <= 1 <= family.start[1] for family in everything.families)
+    assert not everything.is_empty
+
+
+def test_a_search_goes_on_with_an_earlier_certificate(example):
+    problem = example("fold")
+    earlier = problem.complete().certificate
+
+    assert problem.complete(resume=earlier, threads=1).is_complete
+    with pytest.raises(mceip.MceipError):
+        example("point").complete(resume=earlier)
+
+
+def test_forged_foreign_and_malformed_certificates_are_refused(example):
+    problem = example("fold")
+    certificate = problem.solve().certificate
+    assert len(mceip.check(problem, certificate).claims) == 2
+
+    forged = copy.deepcopy(certificate)
+    forged["claims"][0]["exact_solution"]["support"] = [0]
+    with pytest.raises(mceip.RejectedError):
+        problem.check(forged)
+
+    with pytest.raises(mceip.RejectedError, match="digest|SHA|sha256"):
+        example("point").check(certificate)
+
+    for malformed in ("no certificate", "{}", {**certificate, "extra": 1}):
+        with pytest.raises(mceip.MceipError) as refused:
+            problem.check(malformed)
+        assert not isinstance(refused.value, mceip.RejectedError)
+
+
+def test_a_cover_without_a_piece_is_refused_and_claims_alone_are_no_cover(example):
+    problem = example("fold")
+    everything = problem.complete().certificate
+    found = problem.solve().certificate
+
+    with_gap = copy.deepcopy(everything)
+    del with_gap["complete_set"]["pieces"][-1]
+    with pytest.raises(mceip.RejectedError):
+        problem.check(with_gap)
+
+    accepted = problem.check(found)
+    assert accepted.solutions is None and not accepted.is_complete
+
+
+def test_a_search_without_result_claims_nothing(example):
+    found = example("fold").in_window(4).solve()
+
+    assert found.solutions == []
+    assert found.certificate is None
+
+
+def test_a_point_is_certified_and_a_wrong_one_is_not(example):
+    problem = example("fold")
+
+    certified = problem.certify(2.0000001, [0.666667, 0.333333])
+
+    assert certified.solution.exact_value == 2
+    assert mceip.check(problem, certified.certificate).claims[0].support == [0, 1]
+    with pytest.raises(mceip.NotCertifiedError):
+        problem.certify(2.5, [0.5, 0.5])
+    with pytest.raises(mceip.MceipError):
+        problem.certify(2.0, [0.5])
+
+
+def test_the_analysis_encloses_the_critical_friction_and_hands_over_its_proofs(example):
+    analysis = example("point").analyze(samples=0)
+
+    assert analysis.verdict == "present"
+    assert str(analysis) == analysis.summary
+    lower, upper = analysis.critical_friction
+    assert lower <= Fraction(4, 3) <= upper
+    assert upper - lower < Fraction(1, 10**5)
+
+    critical = analysis.critical
+    names = {proof.name for proof in analysis.proofs}
+    for evidence in (critical.absent_evidence, critical.evidence):
+        assert evidence.kind == "exact" or evidence.source in names
+
+    (mode,) = analysis.modes
+    assert mode.slipping == [0] and mode.sticking == []
+    assert abs(mode.growth_rate - 0.5) < 1e-9
+    assert np.allclose(mode.v, [1.0, 0.0])
+
+
+def test_every_proof_of_an_analysis_is_accepted_again_and_not_for_another_problem(example):
+    analysis = lattice(4, 3).problem(3).analyze(samples=0)
+
+    verdicts = [proof.check() for proof in analysis.proofs]
+
+    assert {type(verdict) for verdict in verdicts} == {mceip.Accepted, mceip.Absence}
+    absence = next(verdict for verdict in verdicts if isinstance(verdict, mceip.Absence))
+    assert absence.below == analysis.critical.absent_below
+    assert absence.leaves > 0
+
+    other = json.loads(example("point").to_json())
+    for proof in analysis.proofs:
+        moved = dataclasses.replace(proof, problem=other)
+        with pytest.raises(mceip.RejectedError):
+            moved.check()
+
+
+def test_without_divergence_at_any_friction_there_is_no_critical_one(point):
+    analysis = point(((2.0, 0.0), (0.0, 2.0))).analyze(samples=0)
+
+    assert analysis.verdict == "absent"
+    assert analysis.critical.absent_below is None
+    assert analysis.critical_friction is None
+    assert analysis.modes == []
+
+
+def test_what_cannot_be_analysed_is_refused(example):
+    with pytest.raises(mceip.MceipError, match="pencil"):
+        example("fold").analyze()
+    with pytest.raises(mceip.MceipError):
+        example("point").analyze(friction="-1")
+
+
+def test_fractions_of_any_length_are_read():
+    digits = "7" * 9001
+    expected = Fraction(-7 * (10**9001 - 1) // 9, 10**8000)
+
+    assert fraction_of("-" + digits + "/1" + "0" * 8000) == expected
+    assert fraction_of(digits) == 7 * (10**9001 - 1) // 9
+    assert fraction_of("-1/3") == Fraction(-1, 3)
+    assert fraction_of("0.25") == Fraction(1, 4)

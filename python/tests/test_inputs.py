@@ -1,0 +1,190 @@
+"""Matrices, numbers and contacts: what is taken, exactly, and what is refused."""
+
+import json
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import scipy.sparse
+
+import mceip
+
+STIFFNESS = np.array([[2.0, 1.5], [1.5, 2.0]])
+ROW = {"tangential": 0, "normal": 1, "state": "slip+"}
+
+
+def with_contacts(contacts, friction="1.5"):
+    return mceip.Problem.from_matrices(STIFFNESS, np.eye(2), friction, contacts)
+
+
+def test_matrices_of_numpy_scipy_and_lists_are_one_problem(point, example):
+    matrices = [STIFFNESS, STIFFNESS.tolist(), STIFFNESS.astype(np.float32)]
+    for kind in (scipy.sparse.csr_matrix, scipy.sparse.coo_array, scipy.sparse.lil_matrix):
+        matrices.append(kind(STIFFNESS))
+
+    digests = {point(matrix).sha256 for matrix in matrices}
+
+    assert digests == {example("point").sha256}
+
+
+def test_entries_at_one_place_are_added_without_rounding(point):
+    places = ([0, 0, 0, 1, 1], [0, 0, 1, 0, 1])
+    tiny = 2.0**-80
+    sparse = scipy.sparse.coo_array(([2.0, tiny, 1.5, 1.5, 2.0], places), shape=(2, 2))
+
+    problem = point(sparse)
+
+    first = json.loads(problem.to_json())["system"]["stiffness"]
+    assert str(2 + Fraction(1, 2**80)) in json.dumps(first)
+
+
+def test_a_float_is_the_fraction_it_is_and_a_text_the_number_it_spells(point):
+    def digest(friction):
+        return point(friction=friction).sha256
+
+    assert digest("0.1") == digest(Fraction(1, 10)) == digest("1/10")
+    assert digest(0.1) != digest("0.1")
+    assert digest(0.1) == digest(Fraction(0.1)) == digest(np.float64(0.1))
+    assert digest(0.5) == digest("0.5") == digest(np.float32(0.5))
+
+
+def test_tables_are_lists_of_contacts(tmp_path):
+    expected = with_contacts([mceip.Contact(0, 1, "slip", sign=-1)]).sha256
+    path = tmp_path / "contacts.csv"
+    path.write_text("# a comment\nparticle,tangential,normal,state\nA,0,1,slip+\n")
+
+    columns = {"tangential": [0], "normal": np.array([1]), "state": "slip+"}
+    for table in (path, str(path), [ROW], columns):
+        assert with_contacts(table).sha256 == expected
+
+    reactions = {"reaction_tangential": -1.5, "reaction_normal": -1.0, "particle": None}
+    assert with_contacts([{**ROW, **reactions}]).unknown == "lambda2"
+
+
+def test_a_table_may_be_a_data_frame():
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame([ROW])
+    expected = with_contacts([ROW]).sha256
+    assert with_contacts(frame).sha256 == expected
+
+
+def test_reactions_that_contradict_the_state_are_refused():
+    reactions = {"reaction_tangential": 1.5, "reaction_normal": -1.0}
+
+    with pytest.raises(mceip.MceipError, match="E7.*line 2"):
+        with_contacts([{**ROW, **reactions}])
+    with pytest.raises(mceip.MceipError, match="without reactions"):
+        mceip.Problem.friction_threshold(STIFFNESS, [{**ROW, **reactions}])
+
+
+@pytest.mark.parametrize(
+    "changes, message",
+    [
+        ({"state": "slides"}, "contact 0.*slides"),
+        ({"state": "slip"}, "contact 0.*sign"),
+        ({"state": "slip+", "sign": 1}, "contact 0"),
+        ({"state": "slip", "sign": 2}, "2"),
+        ({"normal": 7}, "7"),
+        ({"tangential": 1}, "1"),
+        ({"normal_direction": 0}, "direction"),
+        ({"normal": -1}, "contact 0: normal"),
+        ({"tangential": 0.5}, "contact 0: tangential"),
+        ({"state": 3}, "contact 0.*state"),
+        ({"frame": [[1, 0, 0], [0, 1]]}, "contact 0.*2 x 2"),
+        ({"frame": [["1", "0"], ["0", "one"]]}, "frame.*one"),
+    ],
+)
+def test_what_is_no_contact_is_refused(point, changes, message):
+    with pytest.raises(mceip.MceipError, match=message):
+        point(**changes)
+
+
+@pytest.mark.parametrize(
+    "table, message",
+    [
+        ([{"tangential": 0, "normal": 1}], "state"),
+        ([{**ROW, "colour": "red"}], "colour"),
+        ([{**ROW, "normal": 2}], "normal"),
+        ([{**ROW, "particle": "a,b"}], "commas"),
+        ({"tangential": [0, 1], "normal": [1, 2, 3], "state": "stick"}, "cells"),
+        ([], "particle"),
+        ([ROW, mceip.Contact(0, 1, "stick")], "list of mceip.Contact"),
+        (3, "list of mceip.Contact"),
+        ("no-such-table.csv", "no-such-table"),
+    ],
+)
+def test_what_is_no_table_is_refused(table, message):
+    with pytest.raises(mceip.MceipError, match=message):
+        with_contacts(table)
+
+
+@pytest.mark.parametrize(
+    "stiffness, message",
+    [
+        ([[2.0, 1.0], [1.5, 2.0]], "ymmetr"),
+        ([[1.0, 2.0], [3.0]], "stiffness.*one length"),
+        ([1.0, 2.0], "stiffness.*shape"),
+        (np.ones((2, 3)), "stiffness.*shape"),
+        (np.eye(3), "mass.*3 x 3"),
+        ([[np.nan, 0.0], [0.0, 1.0]], r"\(0, 0\)"),
+        ([[np.inf, 0.0], [0.0, 1.0]], r"\(0, 0\)"),
+        ([[2**53 + 1, 0], [0, 1]], "digits"),
+        (np.array([[1 + np.finfo(np.longdouble).eps, 0], [0, 1]]), "digits"),
+        (np.eye(2) * 1j, "real"),
+        ([["2", "1.5"], ["1.5", "2"]], "real"),
+    ],
+)
+def test_what_is_no_matrix_is_refused(point, stiffness, message):
+    with pytest.raises(mceip.MceipError, match=message):
+        point(stiffness)
+
+
+@pytest.mark.parametrize("friction", ["a", "", float("nan"), float("inf"), None, [1.0]])
+def test_what_is_no_number_is_refused(point, friction):
+    with pytest.raises(mceip.MceipError, match="number"):
+        point(friction=friction)
+
+
+def test_windows_files_and_unknowns_that_are_none_are_refused(point, tmp_path):
+    with pytest.raises(mceip.MceipError, match="finite"):
+        point().in_window(float("nan"))
+    with pytest.raises(mceip.MceipError):
+        point().in_window(2, 1)
+    with pytest.raises(mceip.MceipError):
+        point().in_window(-1)
+    with pytest.raises(mceip.MceipError, match="no-such-file"):
+        mceip.Problem.read(tmp_path / "no-such-file.json")
+    with pytest.raises(mceip.MceipError):
+        mceip.Problem.from_json("{}")
+    with pytest.raises(mceip.MceipError, match="unknown"):
+        mceip.Problem.from_pencil(np.eye(2), np.eye(2), unknown="t")
+    with pytest.raises(mceip.MceipError):
+        mceip.Problem.from_pencil(np.eye(2), np.eye(2), free=[2])
+    with pytest.raises(mceip.MceipError, match="free"):
+        mceip.Problem.from_pencil(np.eye(2), np.eye(2), free=[-1])
+
+
+def test_a_problem_survives_its_file(point, tmp_path):
+    problem = point(friction=0.1).in_window("1/3", 5)
+    path = tmp_path / "problem.json"
+    path.write_text(problem.to_json())
+
+    assert mceip.Problem.read(path).sha256 == problem.sha256
+    assert problem.sha256[:12] in repr(problem)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"starts": -1}, {"starts": 2.5}, {"seed": 2**70}, {"progress": 3}],
+)
+def test_what_is_no_option_of_solve_is_refused(point, options):
+    with pytest.raises(mceip.MceipError, match=next(iter(options))):
+        point().solve(**options)
+
+
+@pytest.mark.parametrize("threads", [0, 10**9, "2"])
+def test_threads_that_cannot_be_are_refused(point, threads):
+    with pytest.raises(mceip.MceipError, match="threads"):
+        point().complete(threads=threads)
+    with pytest.raises(mceip.MceipError, match="threads"):
+        point().analyze(threads=threads)

@@ -1,0 +1,86 @@
+"""Progress, exceptions of the listener, Ctrl-C, and other threads beside long work."""
+
+import os
+import signal
+import sys
+import threading
+import time
+
+import pytest
+
+
+class Enough(Exception):
+    """What a listener raises in these tests."""
+
+
+def stop(text, done, total):
+    raise Enough
+
+
+def test_progress_is_heard(slow):
+    heard = []
+
+    slow.solve(starts=8, all=True, progress=lambda *what: heard.append(what))
+
+    assert heard
+    for text, done, total in heard:
+        assert isinstance(text, str) and text
+        assert isinstance(done, int)
+        assert total is None or isinstance(total, int)
+
+
+def test_an_exception_of_the_listener_ends_the_work(slow, example):
+    with pytest.raises(Enough):
+        slow.solve(starts=100_000, all=True, progress=stop)
+    with pytest.raises(Enough):
+        slow.complete(progress=stop)
+    with pytest.raises(Enough):
+        example("two-particles").analyze(progress=stop)
+
+
+def test_an_interrupt_ends_the_work(slow):
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        slow.solve(starts=100_000, all=True)
+
+
+def test_other_threads_go_on_beside_long_work(slow):
+    steps = []
+    is_over = threading.Event()
+
+    def count():
+        while not is_over.wait(0.01):
+            steps.append(time.monotonic())
+
+    counting = threading.Thread(target=count)
+    counting.start()
+    begin = time.monotonic()
+    slow.solve(starts=30, all=True)
+    duration = time.monotonic() - begin
+    is_over.set()
+    counting.join()
+
+    assert duration > 0.1
+    assert len(steps) > duration / 0.2
+
+
+def test_a_short_question_is_answered_at_once(example):
+    problem = example("fold")
+    problem.solve()
+    begin = time.monotonic()
+    for _ in range(20):
+        problem.solve()
+    # Twenty times the wait between two looks at signals would be 1 s.
+    assert time.monotonic() - begin < 0.9
+
+
+def test_progress_is_a_bar_of_tqdm_or_lines(slow, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    slow.solve(starts=8, all=True, progress=True)
+    assert capsys.readouterr().err
+
+    monkeypatch.undo()
+    pytest.importorskip("tqdm")
+    slow.solve(starts=8, all=True, progress=True)
+    assert slow.solve(progress=False).runs == slow.solve().runs
