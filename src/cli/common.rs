@@ -44,6 +44,15 @@ pub(super) enum CliError {
         /// What is wrong with it.
         source: mceip_engine::lcp::FileError,
     },
+    /// A matrix that is symmetric up to rounding only.
+    #[error(
+        "E3: expected {what} symmetric, got differences by rounding (at most 1e-12 of the largest \
+         entry); --symmetrize takes the mean of {what} and its transpose"
+    )]
+    RoundedSymmetry {
+        /// K or M.
+        what: &'static str,
+    },
     /// A problem built from options.
     #[error(transparent)]
     Model(#[from] ModelError),

@@ -6,8 +6,9 @@
 use super::common::{CliError, exit, print};
 use super::job::Job;
 use super::output::{Output, make};
+use mceip_model::file::write_problem;
 use mceip_testkit::conform::{
-    Flag, Group, Limits, Plan, groups, pack_files, read_pack, run, summarise,
+    Case, Flag, Group, Limits, Plan, groups, pack_files, read_pack, run, summarise,
 };
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -17,11 +18,21 @@ use std::time::Duration;
 pub(super) struct Args {
     /// The program and its arguments, after `--`. For each case it gets a problem (mceip-problem/1)
     /// on stdin and prints a report (mceip-solutions/1) on stdout.
-    #[arg(last = true, required_unless_present = "write")]
+    #[arg(last = true, required_unless_present_any = ["write", "list", "print", "flags"])]
     command: Vec<String>,
     /// Write the pack to this folder instead of running anything.
     #[arg(long, value_name = "DIR", conflicts_with = "command")]
     write: Option<PathBuf>,
+    /// Print a line for each case: its id, flags and comment.
+    #[arg(long, conflicts_with_all = ["command", "write"])]
+    list: bool,
+    /// Print every flag with the class of bugs that its cases catch.
+    #[arg(long, conflicts_with_all = ["command", "write", "list"])]
+    flags: bool,
+    /// Print the problem of a case, as the program gets it; with --json the whole case with its
+    /// answer.
+    #[arg(long, value_name = "ID", conflicts_with_all = ["command", "write", "list", "flags"])]
+    print: Option<String>,
     /// Use the pack in this folder instead of the one in the program.
     #[arg(long, value_name = "DIR", conflicts_with = "write")]
     pack: Option<PathBuf>,
@@ -31,7 +42,10 @@ pub(super) struct Args {
     /// Seed of the random cases.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Only cases with this flag (may be given more than once; see spec/conform.md).
+    /// Only this case (may be given more than once).
+    #[arg(long, value_name = "ID")]
+    case: Vec<String>,
+    /// Only cases with this flag (may be given more than once; see --flags).
     #[arg(long, value_name = "FLAG")]
     only: Vec<String>,
     /// Send mechanical systems as their reduced pencils, for programs that know only those.
@@ -59,12 +73,25 @@ pub(super) struct Args {
 /// More than any machine has use for.
 const MAX_THREADS: usize = 1024;
 
-/// Runs the program on every case and prints the summary, or writes the pack.
+/// Runs the program on every case and prints the summary; or writes the pack, or prints from it.
 pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
-    let groups = match &args.pack {
+    if args.flags {
+        return print_flags();
+    }
+
+    let mut groups = match &args.pack {
         None => groups()?,
         Some(folder) => read_pack(folder)?,
     };
+    select(&mut groups, "case", &args.case)?;
+    if args.list {
+        return print_list(args, &groups);
+    }
+    if let Some(id) = &args.print {
+        select(&mut groups, "print", std::slice::from_ref(id))?;
+        return print_cases(args, &groups);
+    }
+
     if let Some(folder) = &args.write {
         return write(folder, &pack_files(&groups)?);
     }
@@ -100,14 +127,13 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
 fn plan(args: &Args, groups: Vec<Group>) -> Result<Plan, CliError> {
     let time = time_limit(args.time_limit)?;
     refuse_threads(args.threads)?;
-    let only = args.only.iter().map(|word| flag(word));
 
     Ok(Plan {
         groups,
         random: args.count,
         seed: args.seed,
         as_pencil: args.as_pencil,
-        only: only.collect::<Result<_, _>>()?,
+        only: flags(&args.only)?,
         limits: Limits {
             time,
             ..Limits::default()
@@ -138,9 +164,74 @@ fn refuse_threads(threads: Option<usize>) -> Result<(), CliError> {
     }
 }
 
+fn flags(words: &[String]) -> Result<Vec<Flag>, CliError> {
+    words.iter().map(|word| flag(word)).collect()
+}
+
 fn flag(word: &str) -> Result<Flag, CliError> {
-    let expected = "a flag of spec/conform.md";
+    let expected = "a flag that --flags lists";
     Flag::of_word(word).ok_or_else(|| CliError::option("only", expected, word))
+}
+
+/// Leaves the cases with these ids, in the order of the pack; without ids all.
+///
+/// # Errors
+/// An id that no case has; `option` is where it was given.
+fn select(groups: &mut [Group], option: &'static str, ids: &[String]) -> Result<(), CliError> {
+    if ids.is_empty() {
+        return Ok(());
+    }
+
+    for id in ids {
+        let mut drafts = groups.iter().flat_map(|group| &group.drafts);
+        if !drafts.any(|draft| draft.id == *id) {
+            let expected = "the id of a case, as --list prints it";
+            return Err(CliError::option(option, expected, id));
+        }
+    }
+
+    for group in groups {
+        group.drafts.retain(|draft| ids.contains(&draft.id));
+    }
+    Ok(())
+}
+
+fn print_flags() -> Result<u8, CliError> {
+    for flag in Flag::ALL {
+        print(&format!("{:<16} {}\n", flag.word(), flag.note()))?;
+    }
+
+    Ok(exit::DONE)
+}
+
+/// A line for each case with one of the flags of `--only`.
+fn print_list(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
+    let only = flags(&args.only)?;
+    for group in groups {
+        for draft in &group.drafts {
+            let case = Case::answer(draft, args.as_pencil)?;
+            if case.has_any(&only) {
+                let words = case.flag_words().join(" ");
+                print(&format!("{}  [{words}]  {}\n", case.id, case.comment))?;
+            }
+        }
+    }
+
+    Ok(exit::DONE)
+}
+
+fn print_cases(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
+    for draft in groups.iter().flat_map(|group| &group.drafts) {
+        let case = Case::answer(draft, args.as_pencil)?;
+        let text = if args.json {
+            format!("{:#}\n", case.json())
+        } else {
+            format!("{}\n", write_problem(&case.problem))
+        };
+        print(&text)?;
+    }
+
+    Ok(exit::DONE)
 }
 
 /// Each file appears whole; the index last, so that a pack that was cut short is not taken for one.

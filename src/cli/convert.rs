@@ -1,7 +1,9 @@
 //! `mceip convert`: a problem file from a model of one's own.
 //!
 //! Input: K and M (Matrix Market, or CalculiX), a table of contact states and mu. Output: the
-//! MCEIP-lambda2 problem as `mceip-problem/1`.
+//! MCEIP-lambda2 problem as `mceip-problem/1`. What is changed on the way (directions in doubles
+//! become rational rotations, rounded matrices symmetric) is printed and stands in the comment of
+//! the file.
 
 use super::common::{CliError, exit, positive, print, text};
 use super::output::Output;
@@ -9,7 +11,9 @@ use mceip_exact::{Rational, Sparse};
 use mceip_model::file::{read_matrix_market, read_particles, write_problem};
 use mceip_model::{Body, Particle, Problem, System, Unknown, Window};
 use mceip_paper::calculix::{CalculixError, read_dofs, read_triangle};
-use mceip_paper::read_contacts;
+use mceip_paper::{
+    Asymmetry, Frame, angle_in_degrees, asymmetry, make_frames_exact, read_contacts, symmetric_part,
+};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -32,6 +36,10 @@ pub(super) struct Args {
     /// Coefficient of friction.
     #[arg(long, value_name = "MU", allow_hyphen_values = true)]
     friction: String,
+    /// Take the mean of K and its transpose, and of M and its, where they differ by rounding (1e-12
+    /// of the largest entry). The comment in the problem file says so.
+    #[arg(long)]
+    symmetrize: bool,
     /// Name for the problem.
     #[arg(long)]
     name: Option<String>,
@@ -50,25 +58,81 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let dofs = args.dof.as_deref().map(read_dof_names).transpose()?;
     let stiffness = read_matrix("K", &args.stiffness, dofs.as_ref())?;
     let mass = read_matrix("M", &args.mass, dofs.as_ref())?;
+    let mut changes = Vec::new();
+    let stiffness = symmetric("K", stiffness, args.symmetrize, &mut changes)?;
+    let mass = symmetric("M", mass, args.symmetrize, &mut changes)?;
     let indices = DofIndices {
         names: dofs,
         order: stiffness.rows(),
     };
     let particles = read_states(&args.contacts, &friction, &indices)?;
+    changes.extend(directions(&particles));
 
     let system = System::new(stiffness, Some(mass), Some(friction), particles)?;
     let slip = system.slip_particles().len();
     let dofs = system.dofs();
     let mut problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
     problem.name = args.name.clone();
+    if !changes.is_empty() {
+        problem.comment = Some(changes.join(" "));
+    }
 
     output.write(&format!("{}\n", write_problem(&problem)))?;
     let place = args.out.display();
     print(&format!(
         "{place}: {dofs} degrees of freedom, {slip} particles in impending slip\n"
     ))?;
+    for change in &changes {
+        print(&format!("{change}\n"))?;
+    }
 
     Ok(exit::DONE)
+}
+
+/// The matrix, or where it is symmetric up to rounding and `symmetrize` is given, its symmetric
+/// part.
+///
+/// # Errors
+/// A matrix that is symmetric up to rounding, without `symmetrize`. Others are judged by `System`.
+fn symmetric(
+    what: &'static str,
+    matrix: Sparse,
+    symmetrize: bool,
+    changes: &mut Vec<String>,
+) -> Result<Sparse, CliError> {
+    if asymmetry(&matrix) != Asymmetry::Rounding {
+        return Ok(matrix);
+    }
+    if !symmetrize {
+        return Err(CliError::RoundedSymmetry { what });
+    }
+
+    changes.push(format!(
+        "{what} is the mean of the given matrix and its transpose."
+    ));
+    Ok(symmetric_part(&matrix))
+}
+
+/// A sentence for each direction of an obstacle, with the numbers of its particles.
+fn directions(particles: &[Particle]) -> Vec<String> {
+    let mut of_frame: Vec<(&Frame, Vec<String>)> = Vec::new();
+    for (number, particle) in particles.iter().enumerate() {
+        let Some(frame) = &particle.frame else {
+            continue;
+        };
+        match of_frame.iter_mut().find(|(known, _)| *known == frame) {
+            Some((_, numbers)) => numbers.push(number.to_string()),
+            None => of_frame.push((frame, vec![number.to_string()])),
+        }
+    }
+
+    let sentence = |(frame, numbers): (&Frame, Vec<String>)| {
+        let angle = angle_in_degrees(frame);
+        let [c, s] = &frame[0];
+        let numbers = numbers.join(" ");
+        format!("Tangent of particles {numbers}: turned by {angle:.10} degrees, ({c}, {s}).")
+    };
+    of_frame.into_iter().map(sentence).collect()
 }
 
 /// The names of degrees of freedom in a table of contacts.
@@ -100,7 +164,10 @@ fn read_states(
     let contacts = text("the contacts", path)?;
     let is_json = contacts.trim_start().starts_with('[');
     if is_json {
-        return read_particles(&contacts).map_err(|source| CliError::file(path, source));
+        let read = read_particles(&contacts);
+        let mut particles = read.map_err(|source| CliError::file(path, source))?;
+        make_frames_exact(&mut particles);
+        return Ok(particles);
     }
 
     let read = read_contacts(&contacts, friction, &|name| indices.index(name));

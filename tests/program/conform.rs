@@ -7,14 +7,16 @@
 //! enumerator refute it by their own means.
 #![cfg(feature = "cli")]
 
-use crate::common::{read, repository, run};
+use crate::common::{exits, exits_with_json, read, repository, run};
 use crate::program::{Folder, refused};
 use mceip_engine::foreign::{Effort, ForeignReport, Verdict, judge};
+use mceip_model::file::read_problem;
 use mceip_testkit::conform::{Bug, Case, Flag, Label, groups, pack_files};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 /// `mceip conform --write spec/conformance-pack` after a change of the groups, and look at the
 /// difference.
@@ -416,4 +418,49 @@ impl Pack {
         let path = self.0.path("");
         refused(&["conform", "--pack", &path, "--", "true"], words);
     }
+}
+
+/// The page has a row for each flag, with the words of the terminal.
+#[test]
+fn the_page_lists_every_flag_as_the_terminal_does() {
+    let page = read(&repository("spec/conform.md"));
+    let printed = exits(0, &["conform", "--flags"]);
+
+    assert_eq!(printed.lines().count(), Flag::ALL.len());
+    for flag in Flag::ALL {
+        let row = format!("| `{}` | {} |", flag.word(), flag.note());
+        assert!(page.contains(&row), "{row}");
+        assert!(printed.contains(flag.note()), "{printed}");
+    }
+}
+
+#[test]
+fn cases_are_listed_printed_and_run_one_by_one() {
+    let list = exits(0, &["conform", "--list", "--only", "fold"]);
+    assert!(!list.is_empty());
+    assert!(list.lines().all(|line| line.contains(" fold")), "{list}");
+
+    let id = list.split_whitespace().next().unwrap();
+    let case = cases().into_iter().find(|case| case.id == id).unwrap();
+    let problem = exits(0, &["conform", "--print", id]);
+    let problem = read_problem(&problem, Path::new("."));
+    assert_eq!(problem.unwrap().sha256(), case.problem.sha256());
+
+    let whole = exits_with_json(0, &["conform", "--print", id, "--json"]);
+    assert_eq!(whole["answer"], case.answer_json());
+
+    let one = exits_with_json(1, &["conform", "--case", id, "--json", "--", "true"]);
+    assert_eq!(one["cases"], 1, "{one}");
+}
+
+#[test]
+fn an_unknown_case_is_refused() {
+    refused(
+        &["conform", "--print", "no-such-case"],
+        &["--print", "no-such-case", "--list"],
+    );
+    refused(
+        &["conform", "--case", "no-such-case", "--", "true"],
+        &["--case", "no-such-case"],
+    );
 }

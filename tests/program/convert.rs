@@ -226,3 +226,71 @@ fn bad_files_are_one_line_and_no_output() {
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
     refused(&args, &["--out", "input"]);
 }
+
+/// An obstacle at an angle: as degrees, as its normal, and as a frame in doubles. The printed line
+/// and the comment in the file say what the rotation is.
+#[test]
+fn oblique_obstacles_become_rational_rotations() {
+    let bench = Bench::new();
+    let header = "tangential,normal,state";
+    let by_angle = format!("{header},angle\n2,3,slip-,36.86989764584402\n");
+    let by_normal = format!("{header},normal_x,normal_y\n2,3,slip-,-0.6,0.8\n");
+    let (s, c) = 36.86989764584402_f64.to_radians().sin_cos();
+    let frame = format!(
+        r#"[{{"tangential":2,"normal":3,"state":"slip","sign":1,"frame":[[{c},{s}],[-{s},{c}]]}}]"#
+    );
+    bench.0.write("angle.csv", &by_angle);
+    bench.0.write("normal.csv", &by_normal);
+    bench.0.write("frame.json", &frame);
+
+    let digests = ["angle.csv", "normal.csv", "frame.json"]
+        .map(|contacts| matrix_market("K.mtx", "M.mtx", contacts).digest(&bench));
+    assert_eq!(digests[0], digests[1]);
+    assert_eq!(digests[0], digests[2]);
+
+    let file = read(&bench.path("out.json"));
+    let sentence = "Tangent of particles 0: turned by 36.8698976458 degrees, (4/5, 3/5).";
+    assert!(file.contains(sentence), "{file}");
+    exits(0, &["analyze", &bench.path("out.json"), "--samples", "0"]);
+}
+
+/// Frames that are no rotations within rounding are refused as they are.
+#[test]
+fn a_frame_that_is_no_rotation_is_refused() {
+    let bench = Bench::new();
+    let frame =
+        r#"[{"tangential":2,"normal":3,"state":"slip","sign":1,"frame":[[0.8,0.6],[-0.6,0.81]]}]"#;
+    bench.0.write("frame.json", frame);
+
+    let conversion = matrix_market("K.mtx", "M.mtx", "frame.json");
+    conversion.is_refused(&bench, &["frame", "rotation"]);
+}
+
+#[test]
+fn rounded_matrices_are_made_symmetric_on_request_only() {
+    let bench = Bench::new();
+    bench.changed("G.mtx", "rounded.mtx", "1 2 -1", "1 2 -1.000000000001");
+    let rounded = matrix_market("rounded.mtx", "M.mtx", "c.csv");
+
+    rounded.is_refused(&bench, &["E3", "K symmetric", "--symmetrize"]);
+
+    let mut args = rounded.args(&bench, "out.json");
+    args.push("--symmetrize".to_string());
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    exits(0, &args);
+    let file = read(&bench.path("out.json"));
+    assert!(file.contains("K is the mean of the given matrix and its transpose."));
+    assert!(file.contains("-1.0000000000005") || file.contains("-2000000000001/2000000000000"));
+}
+
+#[test]
+fn a_table_with_semicolons_is_refused_with_the_remedy() {
+    let bench = Bench::new();
+    bench.0.write(
+        "semicolons.csv",
+        "tangential;normal;state;reaction_normal\n2;3;slip-;-0,5\n",
+    );
+
+    let conversion = matrix_market("K.mtx", "M.mtx", "semicolons.csv");
+    conversion.is_refused(&bench, &["semicolons.csv", "commas", "decimal point"]);
+}

@@ -300,9 +300,9 @@ impl Algebraic {
     }
 }
 
-/// The fraction of least denominator in [lo, hi], found in the Stern-Brocot tree (Graham, Knuth and
+/// The fraction of least denominator in [lo, hi], with lo <= hi, found in the Stern-Brocot tree (Graham, Knuth and
 /// Patashnik, Concrete Mathematics, section 4.5).
-fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
+pub fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
     let floor = lo.floor();
     if floor == *lo {
         return floor;

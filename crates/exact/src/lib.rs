@@ -33,7 +33,7 @@ mod rational;
 mod roots;
 mod sparse;
 
-pub use algebraic::{Algebraic, Sign};
+pub use algebraic::{Algebraic, Sign, simplest_between};
 pub use cofactor::first_row_cofactors;
 pub use cone::{Generators, cone_generators, dot};
 pub use decimal::{enclosing_decimals, ratio_to_decimal, to_decimal};

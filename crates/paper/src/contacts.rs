@@ -1,20 +1,30 @@
 //! Contact states of a model of one's own, as a CSV table: what `mceip convert` reads.
 //!
-//! A header line names the columns, in any order: `tangential`, `normal` (degrees of freedom),
-//! `state` (`slip+`: about to slip in the positive direction of its tangential dof, so r_T < 0 and
-//! S = -1; `slip-`: the other way, S = 1; `stick`; `free`), and optionally `particle` (a label),
-//! `normal_direction` (1: the normal dof is positive into the obstacle, the default; -1: away from
-//! it), `reaction_tangential`, `reaction_normal` (the equilibrium's reaction on the body along
-//! these dofs, as the finite-element program gives it). Lines that begin with # are comments; a
-//! cell may be empty where it is optional.
+//! A header line names the columns, in any order. Needed are `tangential`, `normal` (degrees of
+//! freedom) and `state`: `slip+` (about to slip in the positive direction of its tangent, so r_T <
+//! 0 and S = -1), `slip-` (the other way, S = 1), `stick`, `free`, or `zero` (in contact, no
+//! reaction). Optional are
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `particle` | a label |
+//! | `normal_direction` | 1: the normal dof is positive into the obstacle (default); -1: away from it |
+//! | `angle` | degrees by which the obstacle's tangent is turned from the tangential dof towards the normal dof |
+//! | `normal_x`, `normal_y` | in place of both: the normal into the obstacle, along the tangential and the normal dof |
+//! | `friction_factor` | the friction of this particle over mu, > 0; 1 by default |
+//! | `reaction_tangential`, `reaction_normal` | the reaction on the body along these dofs, as the finite-element program gives it |
+//!
+//! Lines that begin with # are comments; a cell may be empty where it is optional.
 //!
 //! The particles go into a `System`. A reaction guards against a wrong sign or another mu: it has
-//! to satisfy (7), |r_T| <= mu |r_N|, with equality for slip.
+//! to satisfy (7), |r_T| <= mu |r_N|, with equality for slip. Directions become exact rotations
+//! (`rotation.rs`).
 
+use crate::rotation::{Frame, rotation_along, rotation_by_degrees};
 use crate::tolerance::CONE_SLACK;
-use mceip_exact::{Rational, parse, rational};
+use mceip_exact::{Rational, parse, rational, to_f64};
 use mceip_model::{ContactState, Particle, Reaction};
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
 /// Why a table of contacts is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -30,11 +40,32 @@ pub enum ContactsError {
     },
     /// A column that means nothing, or one named twice.
     #[error(
-        "contacts: expected each of particle, tangential, normal, state, normal_direction, \
-         reaction_tangential, reaction_normal at most once in the header, got {got:?}"
+        "contacts: expected each of {} at most once in the header, got {got:?}",
+        Column::ALL.map(Column::name).join(", ")
     )]
     Column {
         /// The name.
+        got: String,
+    },
+    /// The cells are not separated by commas.
+    #[error(
+        "contacts: expected cells separated by commas and numbers with a decimal point, got \
+         {got:?} between the cells; write the table as CSV in English, or exchange decimal commas \
+         for points first and then {got:?} for commas"
+    )]
+    Separator {
+        /// What stands between the cells.
+        got: char,
+    },
+    /// A direction is given in two ways, or half.
+    #[error(
+        "contacts line {line}: expected either angle, or normal_x and normal_y without \
+         normal_direction, got {got}"
+    )]
+    Direction {
+        /// Line of the file, from 1.
+        line: usize,
+        /// The columns that have a number.
         got: String,
     },
     /// A cell cannot be read.
@@ -61,8 +92,8 @@ pub enum ContactsError {
     },
     /// A reaction contradicts (7), or the state.
     #[error(
-        "E7: contacts line {line}, state {state}: expected {expected}, got r_T = {tangential}, r_N \
-         = {normal} along its dofs"
+        "E7: contacts line {line}, state {state}: expected {expected}, got r_T = {tangential} \
+         along the tangent, r_N = {normal} along the normal into the obstacle"
     )]
     Contradiction {
         /// Line of the file, from 1.
@@ -71,9 +102,9 @@ pub enum ContactsError {
         state: &'static str,
         /// What (7) wants.
         expected: &'static str,
-        /// Reaction along the tangential dof.
+        /// Reaction along the tangent.
         tangential: String,
-        /// Reaction along the normal dof.
+        /// Reaction along the normal into the obstacle.
         normal: String,
     },
     /// No particle.
@@ -89,18 +120,26 @@ enum Column {
     Normal,
     State,
     NormalDirection,
+    Angle,
+    NormalX,
+    NormalY,
+    FrictionFactor,
     ReactionTangential,
     ReactionNormal,
 }
 
 impl Column {
     /// Every column, in the order of the variants.
-    const ALL: [Column; 7] = [
+    const ALL: [Column; 11] = [
         Column::Particle,
         Column::Tangential,
         Column::Normal,
         Column::State,
         Column::NormalDirection,
+        Column::Angle,
+        Column::NormalX,
+        Column::NormalY,
+        Column::FrictionFactor,
         Column::ReactionTangential,
         Column::ReactionNormal,
     ];
@@ -115,6 +154,10 @@ impl Column {
             Column::Normal => "normal",
             Column::State => "state",
             Column::NormalDirection => "normal_direction",
+            Column::Angle => "angle",
+            Column::NormalX => "normal_x",
+            Column::NormalY => "normal_y",
+            Column::FrictionFactor => "friction_factor",
             Column::ReactionTangential => "reaction_tangential",
             Column::ReactionNormal => "reaction_normal",
         }
@@ -181,16 +224,22 @@ fn lines_with_content(text: &str) -> Vec<TextLine<'_>> {
 /// What the header says.
 struct Table {
     /// Place of each column, in the order of [`Column::ALL`].
-    place: [Option<usize>; 7],
+    place: [Option<usize>; 11],
     /// Number of cells.
     width: usize,
 }
 
 impl Table {
     fn new(header: &str) -> Result<Table, ContactsError> {
+        if !header.contains(',')
+            && let Some(got) = header.chars().find(|c| matches!(c, ';' | '\t'))
+        {
+            return Err(ContactsError::Separator { got });
+        }
+
         let names: Vec<&str> = header.split(',').map(str::trim).collect();
 
-        let mut place = [None; 7];
+        let mut place = [None; 11];
         for (k, name) in names.iter().enumerate() {
             match Column::named(name) {
                 Some(column) if place[column as usize].is_none() => {
@@ -248,23 +297,29 @@ impl Row<'_> {
         dof: &dyn Fn(&str) -> Option<usize>,
     ) -> Result<Particle, ContactsError> {
         let state = self.state()?;
-        let normal_direction = self.normal_direction()?;
+        let directions = self.directions()?;
+        let friction_factor = self.friction_factor()?;
 
         let reaction = match self.reaction()? {
-            Some(given) if given.fits(self.line, state, normal_direction, friction)? => {
-                Some(Reaction {
-                    tangential: given.tangential,
-                    normal: given.normal * Rational::from_integer(normal_direction.into()),
-                })
+            Some(along_dofs) => {
+                let given = directions.turned(&along_dofs);
+                let own_friction = friction * &friction_factor;
+                let is_exact = given.fits(self.line, state, &own_friction)?;
+                is_exact.then_some(given)
             }
-            _ => None,
+            None => None,
         };
 
         let tangential = self.dof(Column::Tangential, dof)?;
         let normal = self.dof(Column::Normal, dof)?;
         Ok(Particle {
-            normal_direction,
-            reaction,
+            normal_direction: directions.normal_direction,
+            frame: directions.frame,
+            friction_factor,
+            reaction: reaction.map(|r| Reaction {
+                tangential: r.tangential,
+                normal: r.normal,
+            }),
             ..Particle::plain(tangential, normal, state)
         })
     }
@@ -291,9 +346,9 @@ impl Row<'_> {
         column: Column,
         dof: &dyn Fn(&str) -> Option<usize>,
     ) -> Result<usize, ContactsError> {
-        self.cell(column)
-            .and_then(dof)
-            .ok_or_else(|| self.unexpected(column, "a degree of freedom of the model"))
+        self.cell(column).and_then(dof).ok_or_else(|| {
+            self.unexpected(column, "a degree of freedom of the model, numbered from 0")
+        })
     }
 
     fn number(&self, column: Column) -> Result<Option<Rational>, ContactsError> {
@@ -312,7 +367,8 @@ impl Row<'_> {
             Some("slip-") => Ok(ContactState::Slip { sign: 1 }),
             Some("stick") => Ok(ContactState::Stick),
             Some("free") => Ok(ContactState::Free),
-            _ => Err(self.unexpected(Column::State, "slip+, slip-, stick or free")),
+            Some("zero") => Ok(ContactState::Zero),
+            _ => Err(self.unexpected(Column::State, "slip+, slip-, stick, free or zero")),
         }
     }
 
@@ -321,6 +377,59 @@ impl Row<'_> {
             None | Some("1" | "+1") => Ok(1),
             Some("-1") => Ok(-1),
             Some(_) => Err(self.unexpected(Column::NormalDirection, "1 or -1")),
+        }
+    }
+
+    fn friction_factor(&self) -> Result<Rational, ContactsError> {
+        match self.number(Column::FrictionFactor)? {
+            None => Ok(Rational::one()),
+            Some(factor) if factor.is_positive() => Ok(factor),
+            Some(_) => Err(self.unexpected(Column::FrictionFactor, "a number > 0")),
+        }
+    }
+
+    /// The tangent and the normal of the obstacle, in the directions of the dofs.
+    fn directions(&self) -> Result<Directions, ContactsError> {
+        let normal_direction = self.normal_direction()?;
+        let angle = self.number(Column::Angle)?;
+        let x = self.number(Column::NormalX)?;
+        let y = self.number(Column::NormalY)?;
+
+        let frame = match (angle, x, y) {
+            (None, None, None) => None,
+            (Some(angle), None, None) => {
+                let frame = rotation_by_degrees(to_f64(&angle));
+                Some(frame.ok_or_else(|| self.unexpected(Column::Angle, "degrees"))?)
+            }
+            (None, Some(x), Some(y)) if self.cell(Column::NormalDirection).is_none() => {
+                // The normal (x, y) is the tangent (y, -x) turned by 90 degrees.
+                let frame = rotation_along(to_f64(&y), -to_f64(&x));
+                Some(frame.ok_or_else(|| self.unexpected(Column::NormalX, "a direction"))?)
+            }
+            _ => return Err(self.two_directions()),
+        };
+
+        Ok(Directions {
+            normal_direction,
+            frame,
+        })
+    }
+
+    /// The error of a direction that is given in two ways, or half.
+    fn two_directions(&self) -> ContactsError {
+        let columns = [
+            Column::NormalDirection,
+            Column::Angle,
+            Column::NormalX,
+            Column::NormalY,
+        ];
+        let given = columns
+            .into_iter()
+            .filter(|column| self.cell(*column).is_some());
+
+        ContactsError::Direction {
+            line: self.line,
+            got: given.map(Column::name).collect::<Vec<_>>().join(", "),
         }
     }
 
@@ -343,7 +452,34 @@ impl Row<'_> {
     }
 }
 
-/// A reaction on the body along the dofs of a particle.
+/// The directions of the obstacle at a particle.
+struct Directions {
+    /// 1: the normal of the frame, or without one the normal dof, points into the obstacle; -1: out
+    /// of it.
+    normal_direction: i8,
+    frame: Option<Frame>,
+}
+
+impl Directions {
+    /// A reaction along the dofs, along the tangent and the normal into the obstacle.
+    fn turned(&self, along_dofs: &GivenReaction) -> GivenReaction {
+        let GivenReaction { tangential, normal } = along_dofs;
+        let (tangential, normal) = match &self.frame {
+            None => (tangential.clone(), normal.clone()),
+            Some([t, n]) => (
+                &t[0] * tangential + &t[1] * normal,
+                &n[0] * tangential + &n[1] * normal,
+            ),
+        };
+
+        GivenReaction {
+            tangential,
+            normal: normal * Rational::from_integer(self.normal_direction.into()),
+        }
+    }
+}
+
+/// A reaction on the body along two directions.
 struct GivenReaction {
     tangential: Rational,
     normal: Rational,
@@ -360,8 +496,8 @@ enum Fit {
 }
 
 impl GivenReaction {
-    /// Holds the reaction against (7) and the state with a relative slack; true if they hold
-    /// exactly as well.
+    /// Holds the reaction along tangent and normal against (7) and the state with a relative slack;
+    /// true if they hold exactly as well. `friction` is that of the particle.
     ///
     /// # Errors
     /// [`ContactsError::Contradiction`]; `line` is named in it.
@@ -369,15 +505,13 @@ impl GivenReaction {
         &self,
         line: usize,
         state: ContactState,
-        normal_direction: i8,
         friction: &Rational,
     ) -> Result<bool, ContactsError> {
-        // The normal dof points along (1) or against (-1) the paper's normal: -r_N >= 0 in contact.
-        let r_n = &self.normal * Rational::from_integer(normal_direction.into());
+        let pressure = -&self.normal;
         let fit = match state {
             ContactState::Free | ContactState::Zero => self.fit_of_free(),
-            ContactState::Stick => self.fit_of_stick(&-r_n, friction),
-            ContactState::Slip { sign } => self.fit_of_slip(sign, &-r_n, friction),
+            ContactState::Stick => self.fit_of_stick(&pressure, friction),
+            ContactState::Slip { sign } => self.fit_of_slip(sign, &pressure, friction),
         };
 
         match fit {
@@ -517,6 +651,83 @@ mod tests {
                 "{line}"
             );
         }
+    }
+
+    #[test]
+    fn oblique_obstacles_by_angle_or_by_normal() {
+        let by_angle = read("tangential,normal,state,angle\n0,1,slip+,30\n").unwrap();
+        let frame = by_angle[0].frame.clone().unwrap();
+        assert!((to_f64(&frame[0][0]) - 0.75_f64.sqrt()).abs() < 1e-11);
+        assert!((to_f64(&frame[0][1]) - 0.5).abs() < 1e-11);
+
+        // The normal (-0.6, 0.8) into the obstacle belongs to the tangent (0.8, 0.6). A reaction of
+        // 2 against it, and of 1 along the tangent, is (0.8 + 1.2, 0.6 - 1.6) along the dofs.
+        let header =
+            "tangential,normal,state,normal_x,normal_y,reaction_tangential,reaction_normal";
+        let by_normal = read(&format!("{header}\n0,1,slip-,-0.6,0.8,2,-1\n")).unwrap();
+        let particle = &by_normal[0];
+        let [c, s] = [rational(4, 5), rational(3, 5)];
+        assert_eq!(particle.frame, Some([[c.clone(), s.clone()], [-s, c]]));
+        assert_eq!(
+            particle.reaction,
+            Some(Reaction {
+                tangential: whole(1),
+                normal: whole(-2)
+            })
+        );
+
+        let out_of_it = read(&format!("{header}\n0,1,slip-,0.6,-0.8,2,-1\n"));
+        assert!(matches!(
+            out_of_it,
+            Err(ContactsError::Contradiction { .. })
+        ));
+    }
+
+    #[test]
+    fn a_direction_is_given_once() {
+        let header = "tangential,normal,state,normal_direction,angle,normal_x,normal_y";
+        for cells in [",10,0,1", ",,0,", "1,,0,1", ",10,,1"] {
+            let refused = read(&format!("{header}\n0,1,stick,{cells}\n"));
+            assert!(
+                matches!(refused, Err(ContactsError::Direction { line: 2, .. })),
+                "{cells}"
+            );
+        }
+
+        let nowhere = read(&format!("{header}\n0,1,stick,,,0,0\n"));
+        assert!(matches!(nowhere, Err(ContactsError::Cell { .. })));
+        assert!(read(&format!("{header}\n0,1,stick,-1,10,,\n")).is_ok());
+    }
+
+    /// mu = 1/2 and the factor 3 make the cone |r_T| <= 3/2 |r_N|.
+    #[test]
+    fn a_particle_may_have_its_own_friction() {
+        let header =
+            "tangential,normal,state,friction_factor,reaction_tangential,reaction_normal\n";
+        let own = read(&format!("{header}0,1,slip-,3,3,-2\n")).unwrap();
+        assert_eq!(own[0].friction_factor, whole(3));
+        assert_eq!(
+            read(&format!("{header}0,1,zero,,0,0\n")).unwrap()[0].state,
+            ContactState::Zero
+        );
+
+        let common = read(&format!("{header}0,1,slip-,,3,-2\n"));
+        assert!(matches!(common, Err(ContactsError::Contradiction { .. })));
+        let none = read(&format!("{header}0,1,slip-,0,0,-2\n"));
+        assert!(matches!(
+            none,
+            Err(ContactsError::Cell {
+                column: "friction_factor",
+                ..
+            })
+        ));
+    }
+
+    #[test]
+    fn semicolons_are_named_with_the_remedy() {
+        let refused = read("tangential;normal;state\n0;1;slip+\n").unwrap_err();
+        assert_eq!(refused, ContactsError::Separator { got: ';' });
+        assert!(refused.to_string().contains("decimal commas"), "{refused}");
     }
 
     #[test]

@@ -11,3 +11,18 @@ pub(crate) const STEP_SIGN: f64 = 1e-10;
 /// 1e-3 to 1e-6 of the reaction; states are given, the reaction only guards against a wrong sign or
 /// another mu.
 pub(crate) const CONE_SLACK: (i64, i64) = (1, 1000);
+
+/// How far the tangent of half the angle of a rational rotation may be from the one given
+/// (numerator, denominator). Unit: none. Basis: an angle in degrees with ten digits and a direction
+/// in doubles are known to 1e-12 at best, and its denominators stay below 1e6, so that matrices in
+/// these directions stay short.
+pub(crate) const HALF_TANGENT: (i64, i64) = (1, 1_000_000_000_000);
+
+/// How far the lengths and the determinant of a frame in doubles may be from 1. Unit: none. Basis:
+/// a program that prints nine digits or more is meant; a matrix that is no rotation misses by more.
+pub(crate) const ROUNDED_FRAME: f64 = 1e-8;
+
+/// How far an entry of K or M may be from its mirror image, relative to the largest entry, to be
+/// called rounding (numerator, denominator). Unit: none. Basis: sums of a hundred doubles in another
+/// order differ by 1e-14 of the largest; matrices printed with twelve digits by less than 1e-12.
+pub(crate) const ROUNDED_SYMMETRY: (i64, i64) = (1, 1_000_000_000_000);

@@ -8,9 +8,10 @@ use super::flag::{Flag, derive};
 use crate::error::TestkitError;
 use mceip_engine::reduction::{Reduced, reduce};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
+use mceip_model::file::write_problem;
 use mceip_model::{Body, ModelError, Problem};
 use mceip_oracle::{Enumeration, enumerate};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// A problem that has not been answered yet.
@@ -119,6 +120,31 @@ impl Case {
             enumeration: Some(&self.answer),
             cover: None,
         })
+    }
+
+    /// The case as the pack has it, without wrong answers.
+    pub fn json(&self) -> Value {
+        // Our own writer's JSON is read without error.
+        let problem = write_problem(&self.problem);
+        let problem: Value = serde_json::from_str(&problem).unwrap_or_default();
+
+        json!({
+            "id": self.id,
+            "comment": self.comment,
+            "flags": self.flag_words(),
+            "problem": problem,
+            "answer": self.answer_json(),
+        })
+    }
+
+    /// Its flags as they stand in files.
+    pub fn flag_words(&self) -> Vec<&'static str> {
+        self.flags.iter().map(|flag| flag.word()).collect()
+    }
+
+    /// Has it one of these flags? With none given, every case has.
+    pub fn has_any(&self, flags: &[Flag]) -> bool {
+        flags.is_empty() || flags.iter().any(|flag| self.flags.contains(flag))
     }
 
     /// Is there anything to be found?

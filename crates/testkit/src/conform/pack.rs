@@ -10,7 +10,7 @@ use super::flag::Flag;
 use super::wrong::Bug;
 use crate::error::TestkitError;
 use mceip_model::ModelError;
-use mceip_model::file::{from_json, read_problem, read_text, require_format, write_problem};
+use mceip_model::file::{from_json, read_problem, read_text, require_format};
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
@@ -152,18 +152,8 @@ impl CaseLine {
             }));
         }
 
-        // Our own writer's JSON is read without error.
-        let problem = write_problem(&case.problem);
-        let problem: Value = serde_json::from_str(&problem).unwrap_or_default();
-        let flags: Vec<&str> = case.flags.iter().map(|f| f.word()).collect();
-        let line = json!({
-            "id": case.id,
-            "comment": case.comment,
-            "flags": flags,
-            "problem": problem,
-            "answer": case.answer_json(),
-            "wrong": wrong,
-        });
+        let mut line = case.json();
+        line["wrong"] = wrong.into();
 
         CaseLine {
             text: line.to_string(),

@@ -106,9 +106,7 @@ impl Run<'_> {
         }
 
         let case = self.case(k)?;
-        let only = &self.plan.only;
-        let is_wanted = only.is_empty() || only.iter().any(|f| case.flags.contains(f));
-        let judgement = if is_wanted {
+        let judgement = if case.has_any(&self.plan.only) {
             self.judgement(&case)?
         } else {
             None
