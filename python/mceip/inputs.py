@@ -36,13 +36,14 @@ class Contact:
         tangential: degree of freedom along the obstacle, a row of K, counted from 0.
         normal: degree of freedom normal to the obstacle.
         state: "slip+" is impending slip in the positive direction of the tangential degree of
-            freedom, "slip-" in the negative one; "stick"; "free". "slip" is what problem files
-            say: then `sign` is needed.
+            freedom, "slip-" in the negative one; "stick"; "free"; "zero" is contact without a
+            reaction. "slip" is what problem files say: then `sign` is needed.
         sign: of the tangential reaction, 1 or -1: the opposite of the direction of slip.
         normal_direction: 1 where the normal degree of freedom is positive into the obstacle, -1
             where it is positive away from it.
         frame: of an oblique contact: the tangent and the normal, each over the two degrees of
-            freedom.
+            freedom. A rotation in doubles becomes the nearest simple rational one.
+        friction_factor: the coefficient of friction of this particle over the common one, > 0.
     """
 
     tangential: int
@@ -51,6 +52,7 @@ class Contact:
     sign: int | None = None
     normal_direction: int = 1
     frame: Sequence[Sequence[Number]] | None = None
+    friction_factor: Number = 1
 
 
 #: A list of `Contact`, or a table: a path to a CSV file, a pandas DataFrame, a mapping of columns,
@@ -212,6 +214,7 @@ def plain_contact(name: str, contact: Contact) -> Contact:
         sign=None if contact.sign is None else int(contact.sign),
         normal_direction=int(contact.normal_direction),
         frame=None if contact.frame is None else spelt_frame(name, contact.frame),
+        friction_factor=spelt(contact.friction_factor),
     )
 
 

@@ -66,8 +66,9 @@ class Problem:
             mass: M, of the same kind. lambda^2 comes in the units of stiffness / mass.
             friction: the coefficient mu.
             contacts: a list of `Contact`; or a table with the columns `tangential`, `normal`,
-                `state`, and optionally `particle`, `normal_direction`, `reaction_tangential`,
-                `reaction_normal`: a path to a CSV file, a pandas DataFrame, a mapping of columns,
+                `state`, and optionally `particle`, `normal_direction`, `angle`, `normal_x`,
+                `normal_y`, `friction_factor`, `reaction_tangential`, `reaction_normal`
+                (spec/tutorial.md): a path to a CSV file, a pandas DataFrame, a mapping of columns,
                 or a list of rows as mappings. Reactions are held against (7).
         """
         dofs, k = triplets("stiffness", stiffness)

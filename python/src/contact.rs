@@ -3,7 +3,7 @@
 use crate::MceipError;
 use crate::number;
 use mceip::{ContactState, Particle, Rational};
-use mceip_paper::read_contacts;
+use mceip_paper::{make_frames_exact, read_contacts};
 use pyo3::prelude::*;
 
 /// The contacts of a mechanical system.
@@ -24,6 +24,7 @@ pub(crate) struct Contact {
     sign: Option<i8>,
     normal_direction: i8,
     frame: Option<[[String; 2]; 2]>,
+    friction_factor: String,
 }
 
 impl Contacts {
@@ -35,7 +36,7 @@ impl Contacts {
     ) -> PyResult<Vec<Particle>> {
         match self {
             Contacts::Table(text) => of_table(&text, dofs, friction),
-            Contacts::List(contacts) => contacts.into_iter().enumerate().map(of_entry).collect(),
+            Contacts::List(contacts) => of_list(contacts),
         }
     }
 }
@@ -57,6 +58,13 @@ fn of_table(text: &str, dofs: usize, friction: Option<&Rational>) -> PyResult<Ve
     read_contacts(text, friction, &dof).map_err(|e| MceipError::new_err(e.to_string()))
 }
 
+fn of_list(contacts: Vec<Contact>) -> PyResult<Vec<Particle>> {
+    let particles = contacts.into_iter().enumerate().map(of_entry);
+    let mut particles: Vec<Particle> = particles.collect::<PyResult<_>>()?;
+    make_frames_exact(&mut particles);
+    Ok(particles)
+}
+
 fn of_entry((index, contact): (usize, Contact)) -> PyResult<Particle> {
     let state = match (contact.state.as_str(), contact.sign) {
         ("slip", Some(sign)) => ContactState::Slip { sign },
@@ -65,17 +73,19 @@ fn of_entry((index, contact): (usize, Contact)) -> PyResult<Particle> {
         ("slip-", None) => ContactState::Slip { sign: 1 },
         ("stick", None) => ContactState::Stick,
         ("free", None) => ContactState::Free,
+        ("zero", None) => ContactState::Zero,
         (state, sign) => {
             let sign = sign.map_or("none".to_owned(), |sign| sign.to_string());
             return Err(MceipError::new_err(format!(
-                "contact {index}: expected the state \"slip+\", \"slip-\", \"stick\" or \"free\", \
-                 or \"slip\" with the sign of its reaction, got {state:?}, sign {sign}"
+                "contact {index}: expected the state \"slip+\", \"slip-\", \"stick\", \"free\" \
+                 or \"zero\", or \"slip\" with the sign of its reaction, got {state:?}, sign {sign}"
             )));
         }
     };
 
     let mut particle = Particle::plain(contact.tangential, contact.normal, state);
     particle.normal_direction = contact.normal_direction;
+    particle.friction_factor = number("friction_factor", &contact.friction_factor)?;
     if let Some([[a, b], [c, d]]) = contact.frame {
         let entry = |text: &str| number("frame", text);
         particle.frame = Some([[entry(&a)?, entry(&b)?], [entry(&c)?, entry(&d)?]]);

@@ -61,6 +61,24 @@ def test_tables_are_lists_of_contacts(tmp_path):
     assert with_contacts([{**ROW, **reactions}]).unknown == "lambda2"
 
 
+def test_an_oblique_obstacle_is_an_angle_or_a_frame_in_doubles():
+    cosine, sine = np.cos(np.radians(30.0)), np.sin(np.radians(30.0))
+    frame = [[cosine, sine], [-sine, cosine]]
+
+    by_frame = with_contacts([mceip.Contact(0, 1, "slip+", frame=frame)])
+    by_angle = with_contacts([{**ROW, "angle": 30}])
+
+    assert by_frame.sha256 == by_angle.sha256
+    assert by_frame.sha256 != with_contacts([ROW]).sha256
+
+
+def test_a_particle_may_have_its_own_friction():
+    halved = with_contacts([mceip.Contact(0, 1, "slip+", friction_factor=0.5)], friction="3")
+
+    assert halved.sha256 == with_contacts([{**ROW, "friction_factor": "1/2"}], friction=3).sha256
+    assert halved.solve().solutions[0].value == with_contacts([ROW]).solve().solutions[0].value
+
+
 def test_a_table_may_be_a_data_frame():
     pandas = pytest.importorskip("pandas")
     frame = pandas.DataFrame([ROW])
@@ -90,7 +108,9 @@ def test_reactions_that_contradict_the_state_are_refused():
         ({"normal": -1}, "contact 0: normal"),
         ({"tangential": 0.5}, "contact 0: tangential"),
         ({"state": 3}, "contact 0.*state"),
+        ({"friction_factor": 0}, "factor"),
         ({"frame": [[1, 0, 0], [0, 1]]}, "contact 0.*2 x 2"),
+        ({"frame": [[1, 0.5], [-0.5, 1]]}, "frame"),
         ({"frame": [["1", "0"], ["0", "one"]]}, "frame.*one"),
     ],
 )
