@@ -201,6 +201,10 @@ class Problem:
         """What a certificate proves; raises `RejectedError` where it proves nothing."""
         return accepted_of(json.loads(self._native.check(text_of(certificate))))
 
+    def __reduce__(self) -> tuple[Any, tuple[str]]:
+        # Pickled as its file, so that processes can be handed problems.
+        return Problem.from_json, (self.to_json(),)
+
     def __repr__(self) -> str:
         return f"<mceip.Problem {self.unknown} {self.sha256[:12]}>"
 

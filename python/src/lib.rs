@@ -19,19 +19,19 @@ use std::path::PathBuf;
 use watched::watched;
 
 pyo3::create_exception!(
-    _native,
+    mceip,
     MceipError,
     PyValueError,
     "What was given is no problem of the paper, or a question about it cannot be answered."
 );
 pyo3::create_exception!(
-    _native,
+    mceip,
     RejectedError,
     MceipError,
     "The checker refuses a certificate; the message names the obligation that fails."
 );
 pyo3::create_exception!(
-    _native,
+    mceip,
     NotCertifiedError,
     MceipError,
     "No proof was found for a point; that is no proof that there is no solution."

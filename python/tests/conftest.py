@@ -30,6 +30,6 @@ def point():
 
 @pytest.fixture
 def slow():
-    """A problem on which 100,000 starts of the solver take minutes."""
+    """A problem on which 5,000 starts of the solver take minutes."""
     entries = np.random.default_rng(3).integers(-9, 10, (14, 14)).astype(float)
     return mceip.Problem.from_pencil(entries, np.eye(14))

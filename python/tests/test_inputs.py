@@ -1,6 +1,7 @@
 """Matrices, numbers and contacts: what is taken, exactly, and what is refused."""
 
 import json
+import pickle
 from fractions import Fraction
 
 import numpy as np
@@ -190,6 +191,7 @@ def test_a_problem_survives_its_file(point, tmp_path):
     path.write_text(problem.to_json())
 
     assert mceip.Problem.read(path).sha256 == problem.sha256
+    assert pickle.loads(pickle.dumps(problem)).sha256 == problem.sha256
     assert problem.sha256[:12] in repr(problem)
 
 

@@ -31,18 +31,26 @@ def test_progress_is_heard(slow):
 
 def test_an_exception_of_the_listener_ends_the_work(slow, example):
     with pytest.raises(Enough):
-        slow.solve(starts=100_000, all=True, progress=stop)
+        slow.solve(starts=5_000, all=True, progress=stop)
     with pytest.raises(Enough):
         slow.complete(progress=stop)
     with pytest.raises(Enough):
         example("two-particles").analyze(progress=stop)
 
 
-def test_an_interrupt_ends_the_work(slow):
+@pytest.fixture
+def interruptible():
+    """Python's own handler of Ctrl-C, which it does not set when started in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_an_interrupt_ends_the_work(slow, interruptible):
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        slow.solve(starts=100_000, all=True)
+        slow.solve(starts=5_000, all=True)
 
 
 def test_other_threads_go_on_beside_long_work(slow):
@@ -67,12 +75,14 @@ def test_other_threads_go_on_beside_long_work(slow):
 
 def test_a_short_question_is_answered_at_once(example):
     problem = example("fold")
-    problem.solve()
-    begin = time.monotonic()
+    durations = []
     for _ in range(20):
+        begin = time.monotonic()
         problem.solve()
-    # Twenty times the wait between two looks at signals would be 1 s.
-    assert time.monotonic() - begin < 0.9
+        durations.append(time.monotonic() - begin)
+
+    # Signals are looked at every 0.05 s; the answer does not wait for it.
+    assert min(durations) < 0.04
 
 
 def test_progress_is_a_bar_of_tqdm_or_lines(slow, capsys, monkeypatch):
