@@ -292,7 +292,8 @@ Qed.
 Lemma friction_image i : i \in indices P0 -> image P1 A1 B1 t xs i =
   scale_of R w i * toR (unit_of w) ^+ 2 * reaction Q1 t x (nth 0%N (slip Q0) i).
 Proof.
-move=> Hi; rewrite (condensed_image (D := D1) w' t friction_free) // -(reaction_slip (Q := Q1) wfQ) //.
+move=> Hi; rewrite (condensed_image (D := D1) w' t friction_free) //.
+rewrite -(reaction_slip (Q := Q1) wfQ) //.
 by rewrite mem_iota in Hi.
 Qed.
 

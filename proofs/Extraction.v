@@ -12,7 +12,7 @@ From mathcomp Require Import all_ssreflect.
 From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned Cover.
 From Mceip Require Import Number Condensation Pencil Whole Complete Claim System ZeroReaction.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
-From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Critical.
+From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Critical CriticalAnchors.
 
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
@@ -33,4 +33,5 @@ Extraction "kernel.ml"
   check_varying_families check_system_varying varying_found varying_solutions varying_families
   varying_still_open check_local expansions expand_anchor local_pencil local_point local_known
   local_region proper_interval bounded_rows ff_block swap_pencil
-  check_critical condensed_parts part_plain part_friction pencil_at mixed.
+  check_critical condensed_parts part_plain part_friction pencil_at mixed
+  check_anchored_critical box_expansions friction_anchor check_parts.

@@ -229,11 +229,14 @@ let read_condensation item =
     tail = (match field "tail" with Null -> None | t -> Some (read_tail t));
     anchors = List.map read_anchor (list (field "anchors")) }
 
+(* Trees are long: no recursion over their nodes. *)
+let read_tree read item = List.rev (List.rev_map read (list item))
+
 let read_piece item =
   let field = fields ["tree"] ["max"; "anchor"] item in
   { max = (match field "max" with Null -> None | v -> Some (rational v));
     anchor = (match field "anchor" with Null -> 0 | v -> counter v);
-    tree = List.map read_node (list (field "tree")) }
+    tree = read_tree read_node (field "tree") }
 
 (* An index that may name nothing; a negative one is malformed. *)
 let place item =
@@ -331,7 +334,7 @@ let read_critical_piece item =
   let field = fields ["max"; "tree"] ["anchor"] item in
   { box_max = (match field "max" with Null -> None | v -> Some (rational v));
     box_anchor = (match field "anchor" with Null -> 0 | v -> place v);
-    box_tree = List.map read_critical_node (list (field "tree")) }
+    box_tree = read_tree read_critical_node (field "tree") }
 
 let read_critical document =
   let field = fields ["format"; "problem_sha256"; "below"; "pieces"] ["condensation"] document in

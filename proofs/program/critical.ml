@@ -13,7 +13,6 @@ type context = {
   slip : int array;
   free_factor : Z.t;  (* of the free rows *)
   slip_factor : Z.t;  (* of the slip rows of both parts *)
-  parts : (Kernel.enclosed * Kernel.enclosed) option;  (* without free variables *)
   tail : critical_tail option;
   below : Q.t }
 
@@ -39,22 +38,28 @@ let whole_pencil c e =
 let by_whole c negative box =
   let at e =
     let pencil, weights = whole_pencil c e in
+    spend pencil.order;
     signed_whole_leaf pencil weights negative box.region in
   match at box.low with
   | None -> None
   | Some a -> Option.map (fun b -> Kernel.BoxWhole (a, b)) (at box.high)
 
-let by_parts c negative box =
-  match c.parts with
+(* What the matrices at the corners of a box cost: entries and words. *)
+let spend_box ns box =
+  let words points = 1 + List.fold_left (fun n (p, q) -> n + bits p + bits q) 0 points / 64 in
+  spent := !spent + ns * ns * words [box.region.lower; box.region.upper] * words [box.low; box.high];
+  if !spent > 1 lsl 30 then Problem.not_verified "boxes beyond the limits of this program"
+
+(* Factors at the ends of the interval of mu, for the local or the condensed parts. *)
+let definite_box (plain, friction) negative region box =
+  let at e =
+    spend plain.Kernel.size_of;
+    match definite_leaf (Kernel.mixed e plain friction) negative region with
+    | Some (Kernel.Definite (_, low, high)) -> Some (low, high)
+    | _ -> None in
+  match at box.low with
   | None -> None
-  | Some (plain, friction) ->
-    let at e =
-      match definite_leaf (Kernel.mixed e plain friction) negative box.region with
-      | Some (Kernel.Definite (_, low, high)) -> Some (low, high)
-      | _ -> None in
-    match at box.low with
-    | None -> None
-    | Some f -> Option.map (fun f' -> Kernel.BoxDefinite (negative, f, f')) (at box.high)
+  | Some f -> Option.map (fun f' -> Kernel.BoxDefinite (negative, f, f')) (at box.high)
 
 (* The factors of the certificate, where the box is that of the tail. *)
 let by_tail c box =
@@ -79,23 +84,188 @@ let by_tail c box =
      | Some a -> Option.map (fun b -> Kernel.BoxWhole (a, b)) (at box.high tail.at_below))
   | _ -> None
 
-let leaf c box node =
+(* ---------- condensation about anchors *)
+
+(* [numbers]: anchors of the certificate that are used, as numbers of the kernel's. *)
+type anchored = {
+  plain_pencil : Kernel.pencil;
+  anchoring : Kernel.box_anchoring;
+  families : (Kernel.anchor_family * Kernel.anchor_family) option array;
+  numbers : (int * int) list }
+
+let needs_anchor piece =
+  List.exists (function BoxFarkas _ | BoxDefinite _ -> true | _ -> false) piece.box_tree
+
+(* An anchor with both left sides in one unit, and of one length. *)
+let box_anchor c plain friction slip (a : anchor) left_friction =
+  let finest = List.fold_left (fun m (k, _) -> max m k) 0 in
+  let e = finest (a.right @ a.left @ left_friction) in
+  let ratio = Z.divexact c.slip_factor c.free_factor in
+  let shifted factor (k, rows) =
+    List.map (List.map (fun z -> Z.mul factor (Z.shift_left z (e - k)))) rows in
+  let count = max (List.length a.left) (List.length left_friction) in
+  let left l =
+    List.map (shifted ratio) l @ List.init (count - List.length l) (fun _ -> []) in
+  let turned = if a.reversed then Kernel.swap_pencil else Fun.id in
+  { Kernel.reversed_anchor = a.reversed;
+    plain_anchor =
+      { Kernel.anchor_center = point_of a.center; anchor_unit = two_to e;
+        anchor_right = List.map (shifted Z.one) a.right; anchor_left = left a.left;
+        anchor_scale = common_scales (turned plain) (turned friction) slip c.slip_factor };
+    friction_left = left left_friction }
+
+let anchored_of c plain friction slip (condensation : critical_condensation) pieces =
+  let given = condensation.plain in
+  let nf = List.length plain.Kernel.free and ns = List.length slip in
+  let used = List.sort_uniq compare (List.filter_map (fun piece ->
+      if needs_anchor piece then Some piece.box_anchor else None) pieces) in
+  let both k = match element given.anchors k, element condensation.left_friction k with
+    | Some a, Some l -> a, l
+    | _ -> no_witness "a piece names no anchor" in
+  let chosen = List.map both used in
+  limit_anchors nf ns (List.concat_map (fun ((a : anchor), l) -> [a; { a with left = l }]) chosen);
+  let anchoring =
+    { Kernel.stiffness_below = form_bound nf c.free_factor given.sigma (Some given.factor);
+      mass_below = form_bound nf c.free_factor given.mass_sigma given.mass_factor;
+      box_anchors = List.map (fun (a, l) -> box_anchor c plain friction slip a l) chosen } in
+  { plain_pencil = plain; anchoring;
+    families = Array.of_list (Kernel.box_expansions c.system anchoring);
+    numbers = List.mapi (fun i k -> (k, i)) used }
+
+(* The local pencils of both parts over the interval of a region, and their grain. *)
+let new_local_parts c v n (region : Kernel.region) =
+  match v.families.(n) with
+  | None -> None
+  | Some (family, family') ->
+    let b = List.nth v.anchoring.box_anchors n in
+    let a = b.plain_anchor in
+    let a' = Kernel.friction_anchor a b.friction_left in
+    let stiffness = v.anchoring.stiffness_below and mass = v.anchoring.mass_below in
+    let low_a, low_b, lo, hi =
+      if b.reversed_anchor then
+        mass, stiffness, Kernel.swap region.upper, Kernel.swap region.lower
+      else stiffness, mass, region.lower, region.upper in
+    let ns = Array.length c.slip in
+    spend_local ns a region family;
+    spend_local ns a' region family';
+    if not (Kernel.proper_interval a low_a low_b lo hi) then None
+    else begin
+      let make grain =
+        Kernel.local_pencil ns a low_a low_b family lo hi false grain,
+        Kernel.local_pencil ns a' low_a low_b family' lo hi false grain in
+      let plain, friction = make Z.one in
+      let largest (p : Kernel.enclosed) =
+        List.fold_left (List.fold_left (fun m z -> max m (bits z))) 0
+          (p.center_a @ p.center_b) in
+      let grain = two_to (max 0 (max (largest plain) (largest friction) - 160)) in
+      Some (make grain, grain)
+    end
+
+(* The boxes of an interval share its pencils; the last few are kept. *)
+let kept = ref []
+
+let local_parts c v n (region : Kernel.region) =
+  let key = (n, region.lower, region.upper) in
+  match List.assoc_opt key !kept with
+  | Some found -> found
+  | None ->
+    let found = new_local_parts c v n region in
+    kept := (key, found) :: List.filteri (fun i _ -> i < 7) !kept;
+    found
+
+(* The evidence of [make] about both parts, condensed about anchor n. *)
+let about c v n box make =
+  match local_parts c v n box.region with
+  | None -> None
+  | Some ((plain, friction), grain) ->
+    spend_box (Array.length c.slip) box;
+    let region = { local_unit with states = box.region.states } in
+    match make (plain, friction) region with
+    | Some e when Kernel.check_parts plain friction region box.low box.high e ->
+      Some (Kernel.AboutAnchor (n, grain, Kernel.BoxLeaf e))
+    | _ -> None
+
+let as_whole = function
+  | Some (Kernel.BoxWhole (a, b)) -> Some (Kernel.AboutWhole (a, b))
+  | _ -> None
+
+(* One of the ways closes the box, or its halves are closed. *)
+let rec close what depth ways box =
+  match List.find_map (fun way -> way box) ways with
+  | Some l -> Kernel.BoxLeaf l
+  | None ->
+    if depth = 0 then no_witness "%s" what;
+    let region = box.region in
+    let cut = point_of (cut_of region) in
+    let half region = close what (depth - 1) ways { box with region } in
+    let first = half { region with Kernel.upper = cut } in
+    Kernel.CutValue (cut, first, half { region with lower = cut })
+
+let no_leaf node =
+  match node with
+  | CutValue _ | CutFriction _ | Decide _ -> assert false
+  | BoxFarkas _ | BoxDefinite _ | BoxTail -> ()
+
+let anchored_leaf c v piece box node =
+  no_leaf node;
+  let number () = match List.assoc_opt piece.box_anchor v.numbers with
+    | Some n -> n
+    | None -> no_witness "a piece names no anchor" in
+  let whole negative box = as_whole (by_whole c negative box) in
+  match node with
+  | BoxFarkas w ->
+    close "farkas" 6 [fun box -> about c v (number ()) box (fun _ _ ->
+        Some (Kernel.BoxFarkas w))] box
+  | BoxDefinite negative ->
+    let by_anchor box =
+      about c v (number ()) box (fun parts region -> definite_box parts negative region box) in
+    (match by_anchor box with
+     | Some l -> Kernel.BoxLeaf l
+     | None ->
+       match whole negative box with
+       | Some l -> Kernel.BoxLeaf l
+       | None -> close "definite" 6 [by_anchor] box)
+  | _ -> close "tail" 0 [(fun box -> as_whole (by_tail c box)); whole false] box
+
+(* ---------- without free variables *)
+
+let leaf_of_parts c parts _ box node =
+  no_leaf node;
+  spend_box (Array.length c.slip) box;
   let found what ways =
-    match List.find_map (fun way -> way ()) ways with
+    match List.find_map (fun way -> way box) ways with
     | Some l -> Kernel.BoxLeaf l
     | None -> no_witness "%s" what in
   match node with
-  | BoxFarkas w when c.parts <> None -> Kernel.BoxLeaf (Kernel.BoxFarkas w)
-  | BoxFarkas _ ->
-    Problem.not_verified "Farkas leaves of mceip-critical/1 with free variables"
+  | BoxFarkas w when parts <> None -> Kernel.BoxLeaf (Kernel.BoxFarkas w)
   | BoxDefinite negative ->
-    found "definite"
-      [(fun () -> by_parts c negative box); (fun () -> by_whole c negative box)]
-  | BoxTail -> found "tail" [(fun () -> by_tail c box); (fun () -> by_whole c false box)]
-  | CutValue _ | CutFriction _ | Decide _ -> assert false
+    let by_parts box =
+      Option.bind parts (fun parts -> definite_box parts negative box.region box) in
+    found "definite" [by_parts; by_whole c negative]
+  | BoxTail -> found "tail" [by_tail c; by_whole c false]
+  | _ -> no_witness "a condensation is missing"
+
+(* ---------- trees *)
+
+(* Leaves of one interval about one anchor become one leaf: its local pencils are made once. *)
+let rec join tree =
+  let both inside around first second = match join first, join second with
+    | Kernel.BoxLeaf (Kernel.AboutAnchor (n, grain, t)),
+      Kernel.BoxLeaf (Kernel.AboutAnchor (n', grain', t')) when n = n' && Z.equal grain grain' ->
+      Kernel.BoxLeaf (Kernel.AboutAnchor (n, grain, inside t t'))
+    | first, second -> around first second in
+  match tree with
+  | Kernel.CutFriction (m, first, second) ->
+    let cut t t' = Kernel.CutFriction (m, t, t') in
+    both cut (fun t t' -> Kernel.CutFriction (m, t, t')) first second
+  | Decide (i, first, second) ->
+    let decide t t' = Kernel.Decide (i, t, t') in
+    both decide (fun t t' -> Kernel.Decide (i, t, t')) first second
+  | CutValue (t, first, second) -> Kernel.CutValue (t, join first, join second)
+  | BoxLeaf _ -> tree
 
 (* The nodes of a piece in preorder. *)
-let build_piece c nodes box =
+let build_piece c leaf nodes box =
   let rec build depth box nodes =
     if depth > 2_000 then no_witness "a tree of more than 2,000 levels";
     let region = box.region in
@@ -120,13 +290,13 @@ let build_piece c nodes box =
       let decided state = { box with region = Kernel.decide i state region } in
       let first, second, rest = both (decided Kernel.Resting) (decided Kernel.Moving) rest in
       Kernel.Decide (i, first, second), rest
-    | node :: rest -> leaf c box node, rest in
+    | node :: rest -> leaf box node, rest in
   match build 0 box nodes with
   | tree, [] -> tree
   | _ -> no_witness "a tree has a node too many"
 
 (* The pieces of [0, infinity) as one tree. *)
-let build c pieces =
+let build c leaf pieces =
   if List.length pieces > 10_000 then no_witness "more than 10,000 pieces";
   let rec join lower = function
     | [] -> no_witness "pieces that end before infinity"
@@ -135,6 +305,6 @@ let build c pieces =
       let upper = upper_point piece.box_max in
       let box = { region = { Kernel.lower; upper; states = [] }; low = Kernel.zero;
                   high = point_of c.below } in
-      let tree = build_piece c piece.box_tree box in
+      let tree = build_piece c (leaf piece) piece.box_tree box in
       if rest = [] then tree else Kernel.CutValue (upper, tree, join upper rest) in
   join Kernel.zero pieces

@@ -756,6 +756,23 @@ let without_anchors pencil slip_list free_factor slip_factor tail =
     weights = row_weights pencil free_factor slip_factor; uniform_factor = slip_factor; tail;
     numbers = [] }
 
+(* What expansions about anchors may cost.  The ten anchors of the block, with six matrices of 786 x
+   17 entries each, count 111 million.  The kernel's square roots take the cube of the length: the anchors
+   of the block, for both parts of mceip-critical/1, count 2^35. *)
+let limit_anchors nf ns anchors =
+  if nf > 2_000 then Problem.not_verified "more than 2,000 free variables that depend on the value";
+  let work, roots = List.fold_left (fun (work, roots) (a : anchor) ->
+      let matrices = 1 + List.length a.right + List.length a.left in
+      let exponent = List.fold_left (fun m (e, _) -> max m e) 0 (a.right @ a.left) in
+      let center = bits (Q.num a.center) + bits (Q.den a.center) in
+      require_shape nf ns a;
+      if center > 2_048 then Problem.not_verified "a center of more than 2,048 bits";
+      let length = 64 + exponent + center in
+      work + matrices * matrices * nf * ns * ns * (1 + exponent / 256),
+      roots + matrices * ns * length * length * length) (0, 0) anchors in
+  if work > 400_000_000 || roots > 1 lsl 37 then
+    Problem.not_verified "anchors beyond the limits of this program"
+
 let with_anchors (pencil : Kernel.pencil) slip_list free_factor slip_factor claims
     (condensation : condensation option) pieces =
   let c = match condensation with Some c -> c | None -> no_witness "a condensation is missing" in
@@ -766,17 +783,7 @@ let with_anchors (pencil : Kernel.pencil) slip_list free_factor slip_factor clai
   let given k = match element c.anchors k with
     | Some a -> a
     | None -> no_witness "a piece names no anchor" in
-  if nf > 2_000 then Problem.not_verified "more than 2,000 free variables that depend on the value";
-  (* The ten anchors of the block, with six matrices of 786 x 17 entries each, count 82 million. *)
-  let work = List.fold_left (fun sum k ->
-      let a = given k in
-      let matrices = List.length a.right + List.length a.left in
-      let exponent = List.fold_left (fun m (e, _) -> max m e) 0 (a.right @ a.left) in
-      require_shape nf ns a;
-      if bits (Q.num a.center) + bits (Q.den a.center) > 2_048 then
-        Problem.not_verified "a center of more than 2,048 bits";
-      sum + matrices * matrices * nf * ns * ns * (1 + exponent / 256)) 0 used in
-  if work > 400_000_000 then Problem.not_verified "anchors beyond the limits of this program";
+  limit_anchors nf ns (List.map given used);
   let anchoring = {
     Kernel.stiffness_bound = form_bound nf free_factor c.sigma (Some c.factor);
     mass_bound = form_bound nf free_factor c.mass_sigma c.mass_factor;
@@ -808,12 +815,11 @@ let interval_for v n (region : Kernel.region) =
 (* What local pencils may cost together: entries, coefficients and words. *)
 let spent = ref 0
 
-let spend_region v n (region : Kernel.region) fam =
+let spend_local ns (a : Kernel.anchor) (region : Kernel.region) fam =
   let point_bits (p, q) = bits p + bits q in
-  let _, a = List.nth v.anchoring.anchors n in
   let words = 1 + (point_bits region.lower + point_bits region.upper
                    + point_bits a.anchor_center) / 64 in
-  let ns = Array.length v.slip_list and length = List.length fam.Kernel.series_z in
+  let length = List.length fam.Kernel.series_z in
   spent := !spent + ns * ns * length * length * words;
   if !spent > 1 lsl 30 then Problem.not_verified "regions beyond the limits of this program"
 
@@ -822,7 +828,8 @@ let new_local_pencil v n region slopes =
   match List.nth v.expansions n with
   | None -> None
   | Some fam ->
-    spend_region v n region fam;
+    let _, anchor = List.nth v.anchoring.anchors n in
+    spend_local (Array.length v.slip_list) anchor region fam;
     let a, low_a, low_b, lo, hi = interval_for v n region in
     if not (Kernel.proper_interval a low_a low_b lo hi) then None
     else begin

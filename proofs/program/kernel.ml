@@ -5057,3 +5057,134 @@ let check_critical s w tr bound1 =
     ((&&) (parts_eliminated s w)
       (check_boxes (size (slip (part_plain s))) (check_critical_leaf s parts)
         tr (window zero infinity) zero bound1))
+
+type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
+                    friction_left : matrix list }
+
+type box_anchoring = { stiffness_below : form_bound; mass_below : form_bound;
+                       box_anchors : box_anchor list }
+
+type anchored_box_leaf =
+| AboutAnchor of int * Big_int_Z.big_int * critical_leaf box_tree
+| AboutWhole of whole * whole
+
+(** val friction_anchor : anchor -> matrix list -> anchor **)
+
+let friction_anchor a other =
+  { anchor_center = a.anchor_center; anchor_unit = a.anchor_unit;
+    anchor_right = a.anchor_right; anchor_left = other; anchor_scale =
+    a.anchor_scale }
+
+(** val expand_part : pencil -> bool -> anchor -> anchor_family option **)
+
+let expand_part q reverse a =
+  if reverse then expand (swap_pencil q) a else expand q a
+
+(** val expand_box :
+    system -> box_anchor -> (anchor_family * anchor_family) option **)
+
+let expand_box s b =
+  match expand_part (part_plain s) b.reversed_anchor b.plain_anchor with
+  | Some fam ->
+    (match expand_part (part_friction s) b.reversed_anchor
+             (friction_anchor b.plain_anchor b.friction_left) with
+     | Some fam' -> Some (fam, fam')
+     | None -> None)
+  | None -> None
+
+(** val check_parts :
+    enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool **)
+
+let check_parts p p' r low high = function
+| BoxFarkas v -> box_farkas (mixed low p p') (mixed high p p') r v
+| BoxDefinite (negative, f, f') ->
+  box_definite (mixed low p p') (mixed high p p') r negative f f'
+| BoxWhole (_, _) -> false
+
+(** val local_part :
+    system -> form_bound -> form_bound -> anchor -> anchor_family -> point ->
+    point -> Big_int_Z.big_int -> enclosed **)
+
+let local_part s low_a low_b a fam lo hi grain =
+  local_pencil (size s.particles) a low_a low_b fam lo hi false grain
+
+(** val check_about :
+    system -> form_bound -> form_bound -> box_anchor ->
+    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
+    -> point -> critical_leaf box_tree -> bool **)
+
+let check_about s low_a low_b b fams grain r low high tr =
+  let a = b.plain_anchor in
+  let a' = friction_anchor a b.friction_left in
+  (&&) (proper_interval a low_a low_b r.lower r.upper)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
+      ((&&)
+        (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
+          (Obj.magic size (snd fams).series_z))
+        (check_boxes (size s.particles)
+          (check_parts
+            (local_part s low_a low_b a (fst fams) r.lower r.upper grain)
+            (local_part s low_a low_b a' (snd fams) r.lower r.upper grain))
+          tr (local_region r) low high)))
+
+(** val no_box_anchor : box_anchor **)
+
+let no_box_anchor =
+  { reversed_anchor = false; plain_anchor = { anchor_center = zero;
+    anchor_unit = Big_int_Z.zero_big_int; anchor_right = []; anchor_left =
+    []; anchor_scale = [] }; friction_left = [] }
+
+(** val box_expansions :
+    system -> box_anchoring -> (anchor_family * anchor_family) option list **)
+
+let box_expansions s w =
+  map0 (fun b -> expand_box s b) w.box_anchors
+
+(** val check_anchored_box :
+    system -> box_anchoring -> (anchor_family * anchor_family) option list ->
+    region -> point -> point -> anchored_box_leaf -> bool **)
+
+let check_anchored_box s w families0 r low high = function
+| AboutAnchor (n, grain, tr') ->
+  let b = nth no_box_anchor w.box_anchors n in
+  (match nth None families0 n with
+   | Some fams ->
+     if b.reversed_anchor
+     then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
+            (check_about s w.mass_below w.stiffness_below b fams grain
+              (swap_region r) low high tr')
+     else check_about s w.stiffness_below w.mass_below b fams grain r low
+            high tr'
+   | None -> false)
+| AboutWhole (a, b) ->
+  (&&) (same_weights s a b)
+    ((&&) (check_whole (pencil_at s low) r a)
+      (check_whole (pencil_at s high) r b))
+
+(** val both_bounded : system -> box_anchoring -> bool **)
+
+let both_bounded s w =
+  (&&)
+    (bounded_rows (Obj.magic size (part_plain s).free)
+      (ff_block (part_plain s) (row_a (part_plain s))) w.stiffness_below)
+    ((&&)
+      (bounded_rows (Obj.magic size (part_plain s).free)
+        (ff_block (part_plain s) (row_b (part_plain s))) w.mass_below)
+      ((&&)
+        (bounded_rows (Obj.magic size (part_friction s).free)
+          (ff_block (part_friction s) (row_a (part_friction s)))
+          w.stiffness_below)
+        (bounded_rows (Obj.magic size (part_friction s).free)
+          (ff_block (part_friction s) (row_b (part_friction s))) w.mass_below)))
+
+(** val check_anchored_critical :
+    system -> box_anchoring -> anchored_box_leaf box_tree -> point -> bool **)
+
+let check_anchored_critical s w tr bound1 =
+  let families0 = box_expansions s w in
+  (&&)
+    (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
+      Big_int_Z.unit_big_int)))
+    ((&&) ((||) (nilp w.box_anchors) (both_bounded s w))
+      (check_boxes (size s.particles) (check_anchored_box s w families0) tr
+        (window zero infinity) zero bound1))

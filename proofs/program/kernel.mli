@@ -1646,3 +1646,46 @@ val check_critical_leaf :
 val check_critical :
   system -> (elimination * (matrix * matrix)) option -> critical_leaf
   box_tree -> point -> bool
+
+type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
+                    friction_left : matrix list }
+
+type box_anchoring = { stiffness_below : form_bound; mass_below : form_bound;
+                       box_anchors : box_anchor list }
+
+type anchored_box_leaf =
+| AboutAnchor of int * Big_int_Z.big_int * critical_leaf box_tree
+| AboutWhole of whole * whole
+
+val friction_anchor : anchor -> matrix list -> anchor
+
+val expand_part : pencil -> bool -> anchor -> anchor_family option
+
+val expand_box :
+  system -> box_anchor -> (anchor_family * anchor_family) option
+
+val check_parts :
+  enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool
+
+val local_part :
+  system -> form_bound -> form_bound -> anchor -> anchor_family -> point ->
+  point -> Big_int_Z.big_int -> enclosed
+
+val check_about :
+  system -> form_bound -> form_bound -> box_anchor ->
+  (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point ->
+  point -> critical_leaf box_tree -> bool
+
+val no_box_anchor : box_anchor
+
+val box_expansions :
+  system -> box_anchoring -> (anchor_family * anchor_family) option list
+
+val check_anchored_box :
+  system -> box_anchoring -> (anchor_family * anchor_family) option list ->
+  region -> point -> point -> anchored_box_leaf -> bool
+
+val both_bounded : system -> box_anchoring -> bool
+
+val check_anchored_critical :
+  system -> box_anchoring -> anchored_box_leaf box_tree -> point -> bool

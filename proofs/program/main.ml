@@ -435,19 +435,30 @@ let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
   if List.length slip_list > 300 then
     Problem.not_verified "more than 300 complementarity variables";
   let slip_factor = Z.mul problem.common system.unit_length in
-  let elimination =
-    if system.free_dofs <> [] then None
-    else Some (Critical.trivial_elimination plain friction slip_list slip_factor) in
   let context =
     { Critical.system; slip = Array.of_list slip_list; free_factor = problem.common; slip_factor;
-      parts = timed "condensation" (fun () -> Kernel.condensed_parts system elimination);
       tail = Option.bind certificate.critical_condensation (fun c -> c.friction_tail);
       below = certificate.below } in
-  let tree =
-    timed "elaboration" (fun () -> Critical.build context certificate.critical_pieces) in
+  let pieces = certificate.critical_pieces in
   let bound = Elaborate.point_of certificate.below in
-  refuse_tree_unless
-    (timed "kernel" (fun () -> Kernel.check_critical system elimination tree bound));
+  let without_free_variables () =
+    let elimination =
+      Some (Critical.trivial_elimination plain friction slip_list slip_factor) in
+    let parts = timed "condensation" (fun () -> Kernel.condensed_parts system elimination) in
+    let tree = timed "elaboration" (fun () ->
+        Critical.build context (Critical.leaf_of_parts context parts) pieces) in
+    timed "kernel" (fun () -> Kernel.check_critical system elimination tree bound) in
+  let about_anchors condensation =
+    let anchored = timed "condensation" (fun () ->
+        Critical.anchored_of context plain friction slip_list condensation pieces) in
+    let tree = timed "elaboration" (fun () ->
+        Critical.join
+          (Critical.build context (Critical.anchored_leaf context anchored) pieces)) in
+    timed "kernel" (fun () ->
+        Kernel.check_anchored_critical system anchored.anchoring tree bound) in
+  refuse_tree_unless (match certificate.critical_condensation with
+      | None -> without_free_variables ()
+      | Some condensation -> about_anchors condensation);
   Printf.printf "ACCEPTED, VERIFIED: no solution for mu in %s and lambda^2 in %s\n"
     (show_interval Kernel.zero bound) (show_interval Kernel.zero Kernel.infinity);
   0
@@ -519,6 +530,7 @@ let verify_eigenproblem document problem_path certificate_path =
 let verify problem_path certificate_path =
   Elaborate.start_anew ();
   Supports.work := 0;
+  Critical.kept := [];
   let document = Json.read problem_path in
   if Plain.is_plain document then verify_plain document certificate_path
   else verify_eigenproblem document problem_path certificate_path

@@ -1,0 +1,406 @@
+(* No solution below a friction, for free rows that depend on t: condensation about anchors.
+
+   Continues Critical.v.  An anchor (Anchor.v) has one center, unit, W and factors of rows, and a V
+   for each part; it may be reversed (Varying.v).  A leaf is
+
+     AboutAnchor n g tr  evidence of Critical.v for both parts, condensed about anchor n with the
+                         grain g over the interval of the box; in the tree tr the position u in
+                         this interval stands in place of t;
+     AboutWhole a b      evidence about the whole pencils at both ends of the interval of mu.
+
+   Over the box both local pencils are near lines, and their rows have one positive factor, so the
+   local pencil at mu is a combination of those at both ends of the interval of mu.
+
+   Theorem [anchored_critical_absent]: if the check succeeds, then for every mu in [0, bound] and
+   every t >= 0 no motion satisfies the conditions (9) with lambda^2 = t and mu.
+
+   Page: spec/certificates.md, 5.18, with 5.14.
+   Rust: crates/check/src/cover/critical.rs, condensed.rs, expanded.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Pinned Cover.
+From Mceip Require Import Condensation Pencil Whole Complete System Norms Elimination Curved.
+From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Critical.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+Record box_anchor := BoxAnchor {
+  reversed_anchor : bool;
+  plain_anchor : anchor;
+  friction_left : seq matrix }.
+
+Record box_anchoring := BoxAnchoring {
+  stiffness_below : form_bound;
+  mass_below : form_bound;
+  box_anchors : seq box_anchor }.
+
+Inductive anchored_box_leaf :=
+  | AboutAnchor of nat & Z & box_tree critical_leaf
+  | AboutWhole of whole & whole.
+
+Section Checker.
+
+Variable s : system.
+
+Notation Q0 := (part_plain s).
+Notation Q1 := (part_friction s).
+Notation ns := (size (particles s)).
+
+Definition friction_anchor a (other : seq matrix) : anchor :=
+  Anchor (anchor_center a) (anchor_unit a) (anchor_right a) other (anchor_scale a).
+
+Definition expand_part Q (reverse : bool) a : option anchor_family :=
+  if reverse then expand (swap_pencil Q) a else expand Q a.
+
+Definition expand_box (b : box_anchor) : option (anchor_family * anchor_family) :=
+  if expand_part Q0 (reversed_anchor b) (plain_anchor b) is Some fam then
+    if expand_part Q1 (reversed_anchor b) (friction_anchor (plain_anchor b) (friction_left b))
+      is Some fam' then Some (fam, fam')
+    else None
+  else None.
+
+(* Evidence about enclosures of both parts. *)
+Definition check_parts (P P' : enclosed) (r : region) (low high : point) (l : critical_leaf) :=
+  match l with
+  | BoxFarkas v => box_farkas (mixed low P P') (mixed high P P') r v
+  | BoxDefinite negative f f' =>
+      box_definite (mixed low P P') (mixed high P P') r negative f f'
+  | BoxWhole _ _ => false
+  end.
+
+(* The local pencil of a part over [lo, hi]. *)
+Definition local_part low_a low_b a fam lo hi grain :=
+  local_pencil ns a low_a low_b fam lo hi false grain.
+
+Definition check_about low_a low_b (b : box_anchor) (fams : anchor_family * anchor_family) grain
+    (r : region) (low high : point) (tr : box_tree critical_leaf) :=
+  let a := plain_anchor b in
+  let a' := friction_anchor a (friction_left b) in
+  [&& proper_interval a low_a low_b (lower r) (upper r), (0 <? grain)%Z,
+      size (series_z fams.1) == size (series_z fams.2) &
+      check_boxes ns (check_parts (local_part low_a low_b a fams.1 (lower r) (upper r) grain)
+          (local_part low_a low_b a' fams.2 (lower r) (upper r) grain))
+        tr (local_region r) low high].
+
+Variable w : box_anchoring.
+
+Definition no_box_anchor := BoxAnchor false (Anchor zero 0 [::] [::] [::]) [::].
+
+Definition box_expansions := [seq expand_box b | b <- box_anchors w].
+
+Definition check_anchored_box (families : seq (option (anchor_family * anchor_family)))
+    (r : region) (low high : point) (l : anchored_box_leaf) :=
+  match l with
+  | AboutAnchor n grain tr' =>
+      let b := nth no_box_anchor (box_anchors w) n in
+      if nth None families n is Some fams then
+        if reversed_anchor b then
+          (0 <? (lower r).1)%Z &&
+          check_about (mass_below w) (stiffness_below w) b fams grain (swap_region r) low high tr'
+        else check_about (stiffness_below w) (mass_below w) b fams grain r low high tr'
+      else false
+  | AboutWhole a b =>
+      [&& same_weights s a b, check_whole (pencil_at s low) r a &
+          check_whole (pencil_at s high) r b]
+  end.
+
+Definition both_bounded :=
+  [&& bounded_rows (size (free Q0)) (ff_block Q0 (row_a Q0)) (stiffness_below w),
+      bounded_rows (size (free Q0)) (ff_block Q0 (row_b Q0)) (mass_below w),
+      bounded_rows (size (free Q1)) (ff_block Q1 (row_a Q1)) (stiffness_below w) &
+      bounded_rows (size (free Q1)) (ff_block Q1 (row_b Q1)) (mass_below w)].
+
+Definition check_anchored_critical (tr : box_tree anchored_box_leaf) (bound : point) :=
+  let families := box_expansions in
+  [&& system_wellformed s (Lambda2 0 1), nilp (box_anchors w) || both_bounded &
+      check_boxes ns (check_anchored_box families) tr (window zero infinity) zero bound].
+
+End Checker.
+
+(* One part over the interval of an anchor. *)
+Section Part.
+
+Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : anchor_family) (low_a low_b : form_bound).
+Variables (lo hi : point) (grain : Z) (t : R) (x : nat -> R).
+Hypotheses (wf : wellformed Q) (expanded : expand Q a = Some fam).
+Hypothesis bounded_a : bounded_rows (size (free Q)) (ff_block Q (row_a Q)) low_a.
+Hypothesis bounded_b : bounded_rows (size (free Q)) (ff_block Q (row_b Q)) low_b.
+Hypotheses (proper : proper_interval a low_a low_b lo hi) (grain0 : (0 <? grain)%Z).
+Hypothesis bt : between t lo hi.
+Hypothesis rows_f : forall i, i \in free Q -> reaction Q t x i = 0.
+
+Notation u := (u_of lo hi t).
+Notation P := (local_pencil (size (slip Q)) a low_a low_b fam lo hi false grain).
+
+Lemma free_at_u k : k \in iota 0 (size (free Q)) ->
+  free_of Q x k = free_values Q a lo hi u (slip_of Q x) k.
+Proof.
+have [u0 u1] := u_of_between proper bt.
+have below := below_at_u wf expanded bounded_a bounded_b proper u0.
+apply/(free_rows_vanish (s_low_gt0 R bounded_a bounded_b proper) below) : k => k Hk.
+have lt_k := in_free Hk; rewrite -(reaction_free_at wf x (t_ofE expanded proper u)) //.
+by rewrite (t_of_u proper) rows_f ?mulr0 // mem_nth.
+Qed.
+
+Lemma part_line : exists A B, encloses P A B /\
+  forall i, (i < size (slip Q))%N -> image P A B u (slip_of Q x) i =
+    row_factor_at R a fam lo hi grain i * reaction Q t x (nth 0%N (slip Q) i).
+Proof.
+have [u0 u1] := u_of_between proper bt.
+have [A [B [E on]]] :=
+  local_line wf expanded bounded_a bounded_b proper grain0 false u0 u1.
+exists A, B; split=> // i lt_i.
+rewrite -[X in reaction Q X _ _](t_of_u proper t).
+rewrite -(local_image grain wf expanded proper false u0 lt_i free_at_u).
+by apply: sum_eq => j Hj; rewrite on // mem_iota.
+Qed.
+
+(* A vector without slip part vanishes. *)
+Lemma slip_part_nonzero : (exists2 i, i \in iota 0 (order Q) & x i != 0) ->
+  exists2 i, i \in indices P & slip_of Q x i != 0.
+Proof.
+have [/hasP[j Hj xj]|/hasPn none] :=
+  boolP (has (fun j => slip_of Q x j != 0) (iota 0 (size (slip Q)))); first by exists j.
+have zero j : j \in iota 0 (size (slip Q)) -> slip_of Q x j = 0.
+  by move/none; rewrite negbK => /eqP.
+case=> i Hi /eqP[].
+case/orP: (free_or_slip Hi) => /(nthP 0%N)[k lt_k <-]; last by apply: zero; rewrite mem_iota.
+rewrite -[LHS]/(free_of Q x k) free_at_u ?mem_iota // /free_values /Elimination.free_part.
+by rewrite sum_zero ?oppr0 // => j Hj; rewrite zero // mulr0.
+Qed.
+
+End Part.
+
+(* Both parts. *)
+Section Parts.
+
+Variables (R : rcfType) (P P' : enclosed) (A B A' B' : nat -> nat -> R).
+Hypotheses (E : encloses P A B) (E' : encloses P' A' B') (same : size_of P' = size_of P).
+Variables (r : region) (low high : point) (t mu : R) (xs factor row row' : nat -> R).
+Hypotheses (O : ordered (lower r) (upper r)) (Om : ordered low high).
+Hypotheses (bt : between t (lower r) (upper r)) (bm : between mu low high).
+Hypothesis ag : agrees (size_of P) r xs.
+Hypothesis factor0 : forall i, i \in indices P -> 0 < factor i.
+Hypothesis imageE : forall i, i \in indices P -> image P A B t xs i = factor i * row i.
+Hypothesis imageE' : forall i, i \in indices P -> image P' A' B' t xs i = factor i * row' i.
+Hypothesis nonzero : exists2 i, i \in indices P & xs i != 0.
+Hypothesis signs : forall i, i \in indices P ->
+  let y := row i + mu * row' i in [/\ 0 <= xs i, 0 <= y & xs i * y = 0].
+
+Notation Ae e := (fun i j => toR e.2 * A i j + toR e.1 * A' i j).
+Notation Be e := (fun i j => toR e.2 * B i j + toR e.1 * B' i j).
+
+Lemma image_mixed e i : image (mixed e P P') (Ae e) (Be e) t xs i =
+  toR e.2 * image P A B t xs i + toR e.1 * image P' A' B' t xs i.
+Proof.
+have same_ix : indices P' = indices P by rewrite /indices same.
+rewrite /image same_ix !mulr_sumr -[in RHS]big_split; apply: eq_bigr => j _ /=.
+by rewrite /T; move: (A i j) (A' i j) (B i j) (B' i j) (xs j) (toR e.1) (toR e.2) => *; ring.
+Qed.
+
+Theorem parts_absent l : check_parts P P' r low high l -> False.
+Proof.
+have [f [g [f0 g0 [one val] [fg _]]]] := weights_of_ends Om bm.
+have [l1 l2 h1 h2] := ordered_ge0 R Om.
+have El := mixed_encloses E E' same l1 l2; have Eh := mixed_encloses E E' same h1 h2.
+have sol : box_solution (mixed low P P') (mixed high P P') (Ae low) (Be low) (Ae high) (Be high)
+    t f g xs.
+  split=> // i Hi; have [x0 y0 xy] := signs Hi; have c0 := factor0 Hi.
+  have -> : box_image (mixed low P P') (mixed high P P') (Ae low) (Be low) (Ae high) (Be high)
+      t f g xs i = factor i * (row i + mu * row' i).
+    rewrite /box_image !image_mixed imageE // imageE' //.
+    rewrite -[X in X + mu * _]mul1r -one -val.
+    by move: (row i) (row' i) (factor i) => *; ring.
+  by split; [exact: x0 | rewrite mulr_ge0 // ltW | rewrite mulrCA xy mulr0].
+case: l => [v|negative k k'|//] /= ok.
+  exact: (box_farkas_sound El Eh _ O bt ag f0 g0 fg sol ok).
+exact: (box_definite_sound El Eh _ O bt ag f0 g0 fg sol ok).
+Qed.
+
+End Parts.
+
+(* A box with an anchor, for two pencils that differ in their slip rows. *)
+Section About.
+
+Variables (R : rcfType) (n : nat) (fr : seq nat) (ra rb ra' rb' : seq sparse_row).
+Notation Q := (Pencil n ra rb fr).
+Notation Q' := (Pencil n ra' rb' fr).
+Variables (a : anchor) (other : seq matrix) (fam fam' : anchor_family) (low_a low_b : form_bound).
+Notation a' := (friction_anchor a other).
+Variables (grain : Z) (r : region) (low high : point) (t mu : R) (x : nat -> R).
+Hypotheses (wf : wellformed Q).
+Hypotheses (expanded : expand Q a = Some fam) (expanded' : expand Q' a' = Some fam').
+Hypothesis bounded_a : bounded_rows (size fr) (ff_block Q (row_a Q)) low_a.
+Hypothesis bounded_b : bounded_rows (size fr) (ff_block Q (row_b Q)) low_b.
+Hypothesis bounded_a' : bounded_rows (size fr) (ff_block Q' (row_a Q')) low_a.
+Hypothesis bounded_b' : bounded_rows (size fr) (ff_block Q' (row_b Q')) low_b.
+Hypothesis proper : proper_interval a low_a low_b (lower r) (upper r).
+Hypotheses (grain0 : (0 <? grain)%Z) (same_size : size (series_z fam) = size (series_z fam')).
+Hypothesis bm : between mu low high.
+Hypothesis bt : between t (lower r) (upper r).
+Hypothesis ag : agrees (size (slip Q)) r (slip_of Q x).
+Hypothesis nonzero : exists2 i, i \in iota 0 n & x i != 0.
+Hypothesis rows_f : forall i, i \in fr -> reaction Q t x i = 0.
+Hypothesis rows_f' : forall i, i \in fr -> reaction Q' t x i = 0.
+Hypothesis signs : forall i, i \in slip Q ->
+  let y := reaction Q t x i + mu * reaction Q' t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0].
+
+Notation lo := (lower r).
+Notation hi := (upper r).
+Notation P := (local_pencil (size (slip Q)) a low_a low_b fam lo hi false grain).
+Notation P' := (local_pencil (size (slip Q)) a' low_a low_b fam' lo hi false grain).
+
+Lemma same_factor i :
+  row_factor_at R a' fam' lo hi grain i = row_factor_at R a fam lo hi grain i.
+Proof.
+rewrite /row_factor_at; congr (_ * (_ * toR _ * _) * _); rewrite /power_z.
+by apply: substituted_power_size; rewrite !size_map same_size.
+Qed.
+
+Theorem about_absent tr :
+  check_boxes (size (slip Q)) (check_parts P P') tr (local_region r) low high -> False.
+Proof.
+have [u0 u1] := u_of_between proper bt.
+have lt_ns i : i \in indices P -> (i < size (slip Q))%N by rewrite mem_iota.
+have x0 i : (i < size (slip Q))%N -> 0 <= slip_of Q x i.
+  by move=> lt_i; have [] := signs (mem_nth 0%N lt_i).
+have start : in_region (size (slip Q)) (u_of lo hi t) (slip_of Q x) (local_region r).
+  by split=> //; rewrite /between /= toR0 toR1 !mulr1.
+move=> /box_reaches_a_leaf/(_ x0 start bm)[r1 [low1 [high1 [l [[bu ag1] bm1 O1 Om1 ok]]]]].
+have [A [B [E imageE]]] :=
+  part_line wf expanded bounded_a bounded_b proper grain0 bt rows_f.
+have [A' [B' [E' imageE']]] :=
+  part_line (Q := Q') (a := a') wf expanded' bounded_a' bounded_b' proper grain0 bt rows_f'.
+apply: (parts_absent (r := r1) (t := u_of lo hi t) E E' (erefl _) O1 Om1 bu bm1
+  (xs := slip_of Q x) (factor := row_factor_at R a fam lo hi grain)
+  (row := fun i => reaction Q t x (nth 0%N (slip Q) i))
+  (row' := fun i => reaction Q' t x (nth 0%N (slip Q) i)) _ _ _ _ _ _ ok) => //.
+- by move=> i /lt_ns lt_i; apply: (row_factor_gt0_ R expanded proper grain0).
+- by move=> i /lt_ns; apply: imageE.
+- by move=> i /lt_ns lt_i; rewrite -same_factor; apply: imageE'.
+- by case: (@slip_part_nonzero R Q a fam low_a low_b lo hi grain t x) => // i; exists i.
+by move=> i /lt_ns lt_i; apply: signs; apply: mem_nth.
+Qed.
+
+End About.
+
+(* The same in 1/t. *)
+Theorem about_reversed_absent (R : rcfType) n fr ra rb ra' rb' a other fam fam' low_a low_b grain
+    r low high (t mu : R) x tr (Q := Pencil n ra rb fr) (Q' := Pencil n ra' rb' fr) :
+  wellformed Q -> expand (swap_pencil Q) a = Some fam ->
+  expand (swap_pencil Q') (friction_anchor a other) = Some fam' ->
+  bounded_rows (size fr) (ff_block Q (row_a Q)) low_a ->
+  bounded_rows (size fr) (ff_block Q (row_b Q)) low_b ->
+  bounded_rows (size fr) (ff_block Q' (row_a Q')) low_a ->
+  bounded_rows (size fr) (ff_block Q' (row_b Q')) low_b ->
+  proper_interval a low_b low_a (swap (upper r)) (swap (lower r)) -> (0 <? grain)%Z ->
+  size (series_z fam) = size (series_z fam') -> between mu low high ->
+  0 < t -> between t (lower r) (upper r) -> agrees (size (slip Q)) r (slip_of Q x) ->
+  (exists2 i, i \in iota 0 n & x i != 0) ->
+  (forall i, i \in fr -> reaction Q t x i = 0) ->
+  (forall i, i \in fr -> reaction Q' t x i = 0) ->
+  (forall i, i \in slip Q -> let y := reaction Q t x i + mu * reaction Q' t x i in
+     [/\ 0 <= x i, 0 <= y & x i * y = 0]) ->
+  check_boxes (size (slip Q)) (check_parts
+      (local_pencil (size (slip Q)) a low_b low_a fam (swap (upper r)) (swap (lower r)) false grain)
+      (local_pencil (size (slip Q)) (friction_anchor a other) low_b low_a fam' (swap (upper r))
+         (swap (lower r)) false grain)) tr (local_region r) low high -> False.
+Proof.
+move=> wf ex0 ex1 ba bb ba' bb' proper grain0 same_size bm t_gt0 bt ag nonzero rows rows' signs.
+have tn0 := lt0r_neq0 t_gt0; have ti : 0 < t^-1 by rewrite invr_gt0.
+apply: (@about_absent R n fr rb ra rb' ra' a other fam fam' low_b low_a grain (swap_region r)
+  low high t^-1 mu x wf ex0 ex1 bb ba bb' ba' proper grain0 same_size bm (swap_between t_gt0 bt)
+  ag nonzero).
+- by move=> i Hi; rewrite (swap_reaction Q) // rows // mulr0.
+- by move=> i Hi; rewrite (swap_reaction Q') // rows' // mulr0.
+move=> i Hi y; have [x0 y0 xy] := signs i Hi.
+have yE : y = t^-1 * (reaction Q t x i + mu * reaction Q' t x i).
+  rewrite /y (swap_reaction Q) // (swap_reaction Q') //.
+  by move: (reaction Q t x i) (reaction Q' t x i) => *; ring.
+by rewrite yE; split=> //; [rewrite pmulr_rge0 | rewrite mulrCA xy mulr0].
+Qed.
+
+Lemma slip_particles s : slip (part_plain s) = iota (free_number s) (size (particles s)).
+Proof.
+rewrite /slip /= iotaD filter_cat add0n.
+rewrite (eq_in_filter (a2 := pred0)) ?filter_pred0; last by move=> i /= ->.
+rewrite (eq_in_filter (a2 := predT)) ?filter_predT // => i; rewrite !mem_iota => /andP[ge _].
+by rewrite add0n /= -leqNgt.
+Qed.
+
+Lemma size_slip s : size (slip (part_plain s)) = size (particles s).
+Proof. by rewrite slip_particles size_iota. Qed.
+
+Section Sound.
+
+Variables (R : rcfType) (s : system) (w : box_anchoring).
+Notation Q0 := (part_plain s).
+Notation Q1 := (part_friction s).
+Notation ns := (size (slip Q0)).
+
+Hypothesis wf : system_wellformed s (Lambda2 0 1).
+Notation wfQ := (pencil_wellformed s (0, 1)%Z).
+Hypothesis bounds : nilp (box_anchors w) || both_bounded s w.
+
+Variables (t mu : R) (x : nat -> R).
+Hypothesis sat : conditions_9 s t mu (motion s x).
+Variables (r : region) (low high : point).
+Hypotheses (O : ordered (lower r) (upper r)) (Om : ordered low high).
+Hypotheses (bt : between t (lower r) (upper r)) (bm : between mu low high).
+Hypothesis ag : agrees ns r (slip_of Q0 x).
+
+Lemma free_rows_at e i : i \in free Q0 -> reaction (pencil_at s e) t x i = 0.
+Proof. by move=> Hi; apply: (free_row_at wf sat); apply: free_index Hi. Qed.
+
+Lemma anchored_box_absent l :
+  check_anchored_box s w (box_expansions s w) r low high l -> False.
+Proof.
+case: l => [n grain e|a b] /=; last first.
+  by case/and3P; apply: (whole_box_absent wf sat O Om bt bm ag).
+case fams_n: (nth None (box_expansions s w) n) => [fams|//].
+have lt_n : (n < size (box_anchors w))%N.
+  by rewrite ltnNge; apply/negP => l; rewrite nth_default ?size_map in fams_n.
+have /and4P[ba0 bb0 ba1 bb1] : both_bounded s w.
+  by case/orP: bounds => // /nilP none; rewrite none in lt_n.
+move: fams_n; rewrite (nth_map no_box_anchor) //.
+case: (nth no_box_anchor (box_anchors w) n) => reverse a other; rewrite /expand_box /=.
+case ex0: (expand_part Q0 reverse a) => [fam|//].
+case ex1: (expand_part Q1 reverse (friction_anchor a other)) => [fam'|//] [<-].
+have nonzero := motion_variables wf sat.
+case: reverse ex0 ex1 => ex0 ex1; last first.
+  rewrite /check_about /local_part -size_slip => /and4P[/= proper grain0 /eqP same_size ok].
+  exact: (about_absent wfQ ex0 ex1 ba0 bb0 ba1 bb1 proper grain0 same_size bm bt ag nonzero
+    (@free_rows_at _) (@free_rows_at _) (slip_conditions wf sat) ok).
+rewrite /check_about /local_part -size_slip => /andP[lo0].
+case/and4P=> /= proper grain0 /eqP same_size ok.
+exact: (about_reversed_absent wfQ ex0 ex1 ba0 bb0 ba1 bb1 proper grain0 same_size bm
+  (value_gt0 O lo0 bt) bt ag nonzero (@free_rows_at _) (@free_rows_at _) (slip_conditions wf sat)
+  ok).
+Qed.
+
+End Sound.
+
+Theorem anchored_critical_absent (R : rcfType) s w tr bound :
+  check_anchored_critical s w tr bound ->
+  forall (t mu : R) v, 0 <= t -> between mu zero bound -> conditions_9 s t mu v -> False.
+Proof.
+case/and3P=> wf bounds; rewrite -size_slip => boxes t mu v t0 bm sat; pose x := variables_of s v.
+have {}sat : conditions_9 s t mu (motion s x).
+  by apply: (conditions_9_ext wf) (sat) => d Hd; rewrite (motion_of_variables wf sat).
+have x0 j : (j < size (slip (part_plain s)))%N -> 0 <= slip_of (part_plain s) x j.
+  by move=> lt_j; have [] := slip_conditions wf sat (mem_nth 0%N lt_j).
+have start : in_region (size (slip (part_plain s))) t (slip_of (part_plain s) x)
+    (window zero infinity).
+  split; last by move=> i _; rewrite /state_of nth_nil.
+  by rewrite /between /= toR0 toR1 mulr1 mulr0 ler01.
+have [r [low [high [l [[bt ag] bm' O Om ok]]]]] := box_reaches_a_leaf boxes x0 start bm.
+exact: (anchored_box_absent wf bounds sat O Om bt bm' ag ok).
+Qed.
