@@ -403,7 +403,7 @@ impl Row<'_> {
             }
             (None, Some(x), Some(y)) if self.cell(Column::NormalDirection).is_none() => {
                 // The normal (x, y) is the tangent (y, -x) turned by 90 degrees.
-                let frame = rotation_along(to_f64(&y), -to_f64(&x));
+                let frame = rotation_along(to_f64(&y), to_f64(&-x));
                 Some(frame.ok_or_else(|| self.unexpected(Column::NormalX, "a direction"))?)
             }
             _ => return Err(self.two_directions()),
