@@ -11,6 +11,9 @@ exception No_witness of string
 
 let no_witness fmt = Printf.ksprintf (fun text -> raise (No_witness text)) fmt
 
+(* The element of a list, if the number that a file gives names one: it may be negative. *)
+let element list number = if number < 0 then None else List.nth_opt list number
+
 let two_to k = Z.shift_left Z.one k
 let point_of q = (Q.num q, Q.den q)
 let bits z = Z.numbits (Z.abs z)
@@ -618,9 +621,15 @@ let build_pieces slip leaf (lo, _) pieces =
 
 (* ---------- condensation *)
 
+(* W_k and V_k have a row for each free variable and a column for each other one. *)
+let require_shape free others (a : anchor) =
+  let fits (_, rows) =
+    List.compare_length_with rows free = 0
+    && List.for_all (fun row -> List.compare_length_with row others = 0) rows in
+  if not (List.for_all fits (a.right @ a.left)) then
+    no_witness "an anchor with matrices of another shape"
+
 let transpose columns rows =
-  if List.exists (fun row -> List.length row <> columns) rows then
-    no_witness "a matrix with rows of another length";
   let rows = Array.of_list (List.map Array.of_list rows) in
   List.init columns (fun j -> Array.to_list (Array.map (fun row -> row.(j)) rows))
 
@@ -668,17 +677,18 @@ let elimination (pencil : Kernel.pencil) slip common slip_common
   else match condensation with
     | None -> no_witness "a condensation is missing"
     | Some c ->
-      let a = match List.nth_opt c.anchors anchor with
+      let a = match element c.anchors anchor with
         | Some a when bits (Q.num a.center) + bits (Q.den a.center) > 2_048 ->
           Problem.not_verified "a center of more than 2,048 bits"
         | Some a when not a.reversed && a.right <> [] -> a
         | _ -> no_witness "an anchor of a linear family" in
+      require_shape nf ns a;
       let right = List.map shortened a.right and left = List.map shortened a.left in
       let e = List.fold_left (fun m (k, _) -> max m k) 56 (right @ left) in
       let columns (k, rows) =
         transpose ns (List.map (List.map (fun z -> Z.shift_left z (e - k))) rows) in
       let zero = List.init ns (fun _ -> List.init nf (fun _ -> Z.zero)) in
-      let nth l k = match List.nth_opt l k with Some m -> columns m | None -> zero in
+      let nth l k = match element l k with Some m -> columns m | None -> zero in
       (* V(t) = left_0 + (t - center) left_1 as V_a + t V_b; V need not be exact. *)
       let ratio = Z.divexact slip_common common in
       let left_vb = List.map (List.map (Z.mul ratio)) (nth left 1) in
@@ -754,6 +764,7 @@ let limit_anchors nf ns anchors =
   let work, roots = List.fold_left (fun (work, roots) (a : anchor) ->
       let matrices = 1 + List.length a.right + List.length a.left in
       let exponent = List.fold_left (fun m (e, _) -> max m e) 0 (a.right @ a.left) in
+      require_shape nf ns a;
       let center = bits (Q.num a.center) + bits (Q.den a.center) in
       if center > 2_048 then Problem.not_verified "a center of more than 2,048 bits";
       let length = 64 + exponent + center in
@@ -769,7 +780,7 @@ let with_anchors (pencil : Kernel.pencil) slip_list free_factor slip_factor clai
   let used = List.sort_uniq compare
       (List.filter_map (fun (p : piece) -> if needs_anchor p then Some p.anchor else None)
          pieces) in
-  let given k = match List.nth_opt c.anchors k with
+  let given k = match element c.anchors k with
     | Some a -> a
     | None -> no_witness "a piece names no anchor" in
   limit_anchors nf ns (List.map given used);

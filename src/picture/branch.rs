@@ -47,6 +47,18 @@ const CHANGE_DASH: &str = "2 3";
 /// Dashes of the line to whose left nothing exists.
 const ABSENT_DASH: &str = "8 4";
 
+/// Radius of the mark of a static threshold, px.
+const THRESHOLD_RADIUS: f64 = 6.0;
+
+/// Radius of the mark of a solution above lambda^2 = 0, px.
+const LEVEL_RADIUS: f64 = 2.5;
+
+/// Baseline of the first row of keys, px.
+const FIRST_KEY: f64 = 44.0;
+
+/// Distance between the rows of keys, px.
+const KEY_DISTANCE: f64 = TEXT + 3.0;
+
 impl BranchPoint {
     fn place(&self) -> (f64, f64) {
         (self.mu, self.lambda2)
@@ -56,6 +68,12 @@ impl BranchPoint {
 impl Branches {
     fn points(&self) -> impl Iterator<Item = &BranchPoint> {
         self.levels.iter().flatten().chain(&self.certified)
+    }
+
+    /// Whether a solution of MCEIP-mu with lambda = 0 is drawn.
+    fn has_threshold(&self) -> bool {
+        let lowest = self.levels.first();
+        lowest.is_some_and(|points| points.iter().any(|p| p.lambda2 == 0.0))
     }
 
     /// The mu axis: logarithmic where the largest value is more than eight times the smallest.
@@ -111,8 +129,9 @@ pub fn branch_picture(title: &str, branches: &Branches) -> Picture {
     picture.push_heading(AREA.left, 24.0);
     picture.push(chart.frame(&x, &y));
 
+    let mut supports_change = false;
     for pair in branches.levels.windows(2) {
-        join(&mut picture, &chart, &pair[0], &pair[1]);
+        supports_change |= join(&mut picture, &chart, &pair[0], &pair[1]);
     }
 
     for (level, points) in branches.levels.iter().enumerate() {
@@ -129,7 +148,7 @@ pub fn branch_picture(title: &str, branches: &Branches) -> Picture {
         push_bound(&mut picture, &chart, mu);
     }
 
-    push_keys(&mut picture, branches);
+    push_keys(&mut picture, branches, supports_change);
     picture
 }
 
@@ -150,7 +169,11 @@ fn push_bound(picture: &mut Picture, chart: &Chart, mu: f64) {
 /// A solution of a level: a large black dot for a threshold, a small white one above lambda^2 = 0.
 fn solution_dot(chart: &Chart, level: usize, point: &BranchPoint) -> Element {
     let is_threshold = level == 0 && point.lambda2 == 0.0;
-    let radius = if is_threshold { 6.0 } else { 2.5 };
+    let radius = if is_threshold {
+        THRESHOLD_RADIUS
+    } else {
+        LEVEL_RADIUS
+    };
     let fill = if is_threshold { "#000" } else { "#fff" };
 
     let tip = format!(
@@ -163,8 +186,13 @@ fn solution_dot(chart: &Chart, level: usize, point: &BranchPoint) -> Element {
     dot(chart.point(point.place()), radius, fill, point.place(), tip)
 }
 
-/// The lines between two neighbouring levels.
-fn join(picture: &mut Picture, chart: &Chart, below: &[BranchPoint], above: &[BranchPoint]) {
+/// The lines between two neighbouring levels; whether one joins different supports.
+fn join(
+    picture: &mut Picture,
+    chart: &Chart,
+    below: &[BranchPoint],
+    above: &[BranchPoint],
+) -> bool {
     let mut left_above: Vec<&BranchPoint> = above.iter().collect();
     let mut left_below = Vec::new();
     for point in below {
@@ -178,10 +206,13 @@ fn join(picture: &mut Picture, chart: &Chart, below: &[BranchPoint], above: &[Br
         }
     }
 
-    if let ([a], [b]) = (left_below.as_slice(), left_above.as_slice()) {
-        let line = chart.curve(&[a.place(), b.place()], 1.2, CHANGE_DASH);
-        picture.push(line.with("class", "change"));
-    }
+    let ([a], [b]) = (left_below.as_slice(), left_above.as_slice()) else {
+        return false;
+    };
+
+    let line = chart.curve(&[a.place(), b.place()], 1.2, CHANGE_DASH);
+    picture.push(line.with("class", "change"));
+    true
 }
 
 fn certified_square(chart: &Chart, point: &BranchPoint) -> Element {
@@ -193,8 +224,16 @@ fn certified_square(chart: &Chart, point: &BranchPoint) -> Element {
         point.lambda2.sqrt()
     );
 
-    Element::new("rect")
+    square((x, y))
         .with("class", "certified")
+        .with("data-x", point.mu)
+        .with("data-y", point.lambda2)
+        .child(Element::new("title").text(tip))
+}
+
+/// An open square about a point.
+fn square((x, y): (f64, f64)) -> Element {
+    Element::new("rect")
         .at("x", x - 5.0)
         .at("y", y - 5.0)
         .at("width", 10.0)
@@ -202,48 +241,85 @@ fn certified_square(chart: &Chart, point: &BranchPoint) -> Element {
         .with("fill", "none")
         .with("stroke", "#000")
         .with("stroke-width", "2")
-        .with("data-x", point.mu)
-        .with("data-y", point.lambda2)
-        .child(Element::new("title").text(tip))
 }
 
-/// What each sign means, in two lines above the chart.
-fn push_keys(picture: &mut Picture, branches: &Branches) {
-    let x = AREA.left + 8.0;
-    let first = 48.0;
-    let second = first + TEXT + 8.0;
+/// A sign with its meaning.
+struct Key {
+    /// The sign, drawn about a point.
+    sign: fn((f64, f64)) -> Element,
+    meaning: String,
+}
 
-    let threshold = Element::new("circle")
-        .at("cx", x)
-        .at("cy", first - 4.5)
-        .at("r", 6.0);
-    picture.push(threshold);
-    picture.push(text(x + 14.0, first, "start", "MCEIP-\u{3bc}, \u{3bb} = 0"));
-
-    picture.push(key_line(x, first, 1.6));
-    let same = "solutions with the same slip nodes";
-    picture.push(text(x + 170.0, first, "start", same));
-
+/// What each sign means, in two columns above the chart; only the signs that are drawn.
+fn push_keys(picture: &mut Picture, branches: &Branches, supports_change: bool) {
+    let levels = markup::short(branches.levels.len() as f64);
+    let mut points = vec![Key {
+        sign: level_sign,
+        meaning: format!("at {levels} levels of \u{3bb}\u{b2}"),
+    }];
+    if branches.has_threshold() {
+        points.push(Key {
+            sign: threshold_sign,
+            meaning: "MCEIP-\u{3bc}, \u{3bb} = 0".into(),
+        });
+    }
     if !branches.certified.is_empty() {
-        let square = Element::new("rect")
-            .at("x", x - 5.0)
-            .at("y", second - 10.0)
-            .at("width", 10.0)
-            .at("height", 10.0)
-            .with("fill", "none")
-            .with("stroke", "#000")
-            .with("stroke-width", "2");
-        picture.push(square);
-        picture.push(text(x + 14.0, second, "start", "certified at this \u{3bc}"));
+        points.push(Key {
+            sign: square,
+            meaning: "certified at this \u{3bc}".into(),
+        });
     }
 
-    picture.push(dashed(key_line(x, second, 1.2), CHANGE_DASH));
-    let levels = markup::short(branches.levels.len() as f64);
-    let change = format!("the slip nodes change ({levels} levels of \u{3bb}\u{b2} computed)");
-    picture.push(text(x + 170.0, second, "start", change));
+    let mut lines = vec![Key {
+        sign: branch_sign,
+        meaning: "solutions with the same slip nodes".into(),
+    }];
+    if supports_change {
+        lines.push(Key {
+            sign: change_sign,
+            meaning: "the slip nodes change".into(),
+        });
+    }
+
+    let left = AREA.left + 8.0;
+    push_column(picture, &points, left, 14.0);
+    push_column(picture, &lines, left + 190.0, 20.0);
 }
 
-/// The short line of a key in the row of texts at `y`.
-fn key_line(x: f64, y: f64, width: f64) -> Element {
-    line((x + 140.0, y - 4.5), (x + 164.0, y - 4.5), "#000", width)
+/// Keys below each other from `x` on, each with its words at the distance `indent` (px).
+fn push_column(picture: &mut Picture, keys: &[Key], x: f64, indent: f64) {
+    for (row, key) in keys.iter().enumerate() {
+        let baseline = FIRST_KEY + row as f64 * KEY_DISTANCE;
+        let middle = baseline - 4.5;
+        picture.push((key.sign)((x, middle)));
+        picture.push(text(x + indent, baseline, "start", key.meaning.clone()));
+    }
+}
+
+fn level_sign((x, y): (f64, f64)) -> Element {
+    disc((x, y), LEVEL_RADIUS, "#fff").with("stroke", "#000")
+}
+
+fn threshold_sign((x, y): (f64, f64)) -> Element {
+    disc((x, y), THRESHOLD_RADIUS, "#000")
+}
+
+fn disc((x, y): (f64, f64), radius: f64, fill: &str) -> Element {
+    Element::new("circle")
+        .at("cx", x)
+        .at("cy", y)
+        .at("r", radius)
+        .with("fill", fill)
+}
+
+fn branch_sign(middle: (f64, f64)) -> Element {
+    short_line(middle, 1.6)
+}
+
+fn change_sign(middle: (f64, f64)) -> Element {
+    dashed(short_line(middle, 1.2), CHANGE_DASH)
+}
+
+fn short_line((x, y): (f64, f64), width: f64) -> Element {
+    line((x - 12.0, y), (x + 12.0, y), "#000", width)
 }

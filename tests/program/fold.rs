@@ -24,9 +24,12 @@ const FIGURE: &str = "spec/figures/fold.svg";
 const ABSENT_BELOW: f64 = 1.86602389;
 const SOLUTION: f64 = 1.86602541;
 
-/// Steps of lambda^2 from 2 on that are drawn, and their width.
-const LEVELS: u32 = 64;
-const STEP: f64 = 1.0 / 32.0;
+/// Levels of lambda^2 that are drawn: 2 + 2 s^2 with s from 0 to 1 in as many steps, so that they
+/// are dense where both branches begin.
+const LEVELS: u32 = 48;
+
+/// The largest mu that is drawn.
+const LARGEST_MU: f64 = 2.35;
 
 /// Both solutions at a level of lambda^2 of at least 2: mu by the closed form.
 fn roots(lambda2: f64) -> [f64; 2] {
@@ -49,8 +52,10 @@ fn point(mu: f64, lambda2: f64) -> BranchPoint {
 fn picture() -> Picture {
     let mut levels = Vec::new();
     for k in 0..=LEVELS {
-        let lambda2 = 2.0 + STEP * f64::from(k);
-        levels.push(roots(lambda2).map(|mu| point(mu, lambda2)).to_vec());
+        let step = f64::from(k) / f64::from(LEVELS);
+        let lambda2 = 2.0 + 2.0 * step * step;
+        let drawn = roots(lambda2).into_iter().filter(|mu| *mu <= LARGEST_MU);
+        levels.push(drawn.map(|mu| point(mu, lambda2)).collect());
     }
 
     let branches = Branches {
