@@ -764,6 +764,7 @@ let limit_anchors nf ns anchors =
   let work, roots = List.fold_left (fun (work, roots) (a : anchor) ->
       let matrices = 1 + List.length a.right + List.length a.left in
       let exponent = List.fold_left (fun m (e, _) -> max m e) 0 (a.right @ a.left) in
+      require_shape nf ns a;
       let center = bits (Q.num a.center) + bits (Q.den a.center) in
       require_shape nf ns a;
       if center > 2_048 then Problem.not_verified "a center of more than 2,048 bits";
