@@ -46,7 +46,7 @@ pub(super) enum CliError {
     },
     /// A matrix that is symmetric up to rounding only.
     #[error(
-        "E3: expected {what} symmetric, got differences by rounding (at most 1e-12 of the largest \
+        "E3: expected {what} symmetric, got differences by rounding (at most 10^-12 of the largest \
          entry); --symmetrize takes the mean of {what} and its transpose"
     )]
     RoundedSymmetry {
