@@ -2,6 +2,10 @@
 //! and finer meshes.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[cfg(all(feature = "cli", unix))]
+#[path = "../support/interrupt.rs"]
+mod interrupt;
+
 mod block;
 mod block_observations;
 mod path;

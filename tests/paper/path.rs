@@ -585,6 +585,8 @@ fn path_and_every_pencil_take_under_five_seconds() {
 
 #[cfg(feature = "cli")]
 mod cli {
+    #[cfg(unix)]
+    use crate::interrupt::interrupt;
     use serde_json::Value;
     use std::process::{Command, Output, Stdio};
     use std::time::Duration;
@@ -642,13 +644,7 @@ mod cli {
             .unwrap();
 
         // The condensation takes about a minute.
-        std::thread::sleep(Duration::from_secs(1));
-        let kill = Command::new("kill")
-            .args(["-INT", &child.id().to_string()])
-            .status()
-            .unwrap();
-
-        assert!(kill.success());
+        interrupt(&child, Duration::from_millis(500));
 
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130));

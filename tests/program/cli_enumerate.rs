@@ -5,6 +5,8 @@
 #![cfg(feature = "cli")]
 
 use crate::common::{example, exits_with_json, pencil_problem};
+#[cfg(unix)]
+use crate::interrupt::interrupt;
 use crate::program::{Folder, refused};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -101,13 +103,7 @@ fn an_interrupted_enumeration_prints_what_it_found() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    std::thread::sleep(Duration::from_millis(500));
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-
-    assert!(kill.success());
+    interrupt(&child, Duration::from_millis(300));
 
     let interrupted = child.wait_with_output().unwrap();
 

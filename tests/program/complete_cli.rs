@@ -7,6 +7,8 @@
 #![cfg(feature = "cli")]
 
 use crate::common::{example, exits, exits_with_json, problem_text, read, repository, run};
+#[cfg(unix)]
+use crate::interrupt::interrupt;
 use crate::program::{Folder, refused};
 use mceip_model::{Problem, Unknown};
 use mceip_testkit::{known, mechanical_pencil};
@@ -370,11 +372,7 @@ fn an_interrupt_leaves_a_certificate_to_go_on_with() {
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    std::thread::sleep(Duration::from_millis(150));
-    Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
+    interrupt(&child, Duration::from_millis(100));
     let code = child.wait().unwrap().code();
 
     // A machine may be quick enough to finish within that time: then it says so.

@@ -1,6 +1,9 @@
 //! The program from outside: its commands, exit codes, text, files and pictures.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[cfg(all(feature = "cli", unix))]
+#[path = "../support/interrupt.rs"]
+mod interrupt;
 #[cfg(feature = "cli")]
 #[path = "../support/program.rs"]
 mod program;
