@@ -10,6 +10,7 @@ use super::common::{CliError, exit, part, print, require_threads, text};
 use super::job::interrupt;
 use super::output::{Output, make};
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use mceip_engine::run::in_threads;
 use mceip_testkit::campaign::{
     Campaign, Event, FAMILIES, Limit, Replay, State, family_error, judge, standard,
 };
@@ -190,19 +191,6 @@ fn bad_replay(path: &Path, source: mceip_testkit::TestkitError) -> CliError {
     CliError::TestkitFile {
         path: path.display().to_string(),
         source,
-    }
-}
-
-/// Runs in a pool of the wanted size; in the default one if none is wanted or it cannot be started.
-fn in_threads(threads: Option<usize>, work: impl FnOnce() -> State + Send) -> State {
-    let Some(threads) = threads else {
-        return work();
-    };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-
-    match pool {
-        Ok(pool) => pool.install(work),
-        Err(_) => work(),
     }
 }
 

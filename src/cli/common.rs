@@ -2,6 +2,7 @@
 //! windows, printing.
 
 use mceip_engine::multistart::SearchError;
+use mceip_engine::run::MAX_THREADS;
 use mceip_exact::{Rational, parse};
 use mceip_model::file::{read_from, read_problem, read_problem_file, read_text};
 use mceip_model::{ModelError, Problem, Window};
@@ -268,18 +269,15 @@ fn window_of(text: &str) -> Option<Window> {
     Window::new(min, max).ok()
 }
 
-/// Refuses no threads at all, and says on stderr where the threads wanted are more than the machine
-/// gives, or cannot be started: then the work is done by the default ones.
+/// Refuses no threads at all and more than [`MAX_THREADS`]. Says on stderr where the threads wanted
+/// are more than the machine gives, or cannot be started: then the work is done by the default ones.
 pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
     let Some(wanted) = wanted else {
         return Ok(());
     };
-    if wanted == 0 {
-        return Err(CliError::Option {
-            option: "threads",
-            expected: "at least 1",
-            got: "0".into(),
-        });
+    if wanted == 0 || wanted > MAX_THREADS {
+        let expected = "1 to 1024";
+        return Err(CliError::option("threads", expected, &wanted.to_string()));
     }
 
     let given = std::thread::available_parallelism().map_or(1, usize::from);

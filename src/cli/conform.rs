@@ -3,7 +3,7 @@
 //! Each case of the pack, and each random case, is sent to the program on stdin; its report is
 //! judged by `mceip_testkit`. The rules are in `spec/conform.md`.
 
-use super::common::{CliError, exit, print};
+use super::common::{CliError, exit, print, require_threads};
 use super::job::Job;
 use super::output::{Output, make};
 use mceip_model::file::write_problem;
@@ -70,9 +70,6 @@ pub(super) struct Args {
     json: bool,
 }
 
-/// More than any machine has use for.
-const MAX_THREADS: usize = 1024;
-
 /// Runs the program on every case and prints the summary; or writes the pack, or prints from it.
 pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     if args.flags {
@@ -126,7 +123,7 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
 /// What is to be run, as the options say.
 fn plan(args: &Args, groups: Vec<Group>) -> Result<Plan, CliError> {
     let time = time_limit(args.time_limit)?;
-    refuse_threads(args.threads)?;
+    require_threads(args.threads)?;
 
     Ok(Plan {
         groups,
@@ -151,17 +148,6 @@ fn time_limit(seconds: f64) -> Result<Duration, CliError> {
         expected: "seconds > 0",
         got: seconds.to_string(),
     })
-}
-
-fn refuse_threads(threads: Option<usize>) -> Result<(), CliError> {
-    match threads {
-        Some(count) if count == 0 || count > MAX_THREADS => Err(CliError::Option {
-            option: "threads",
-            expected: "1 to 1024",
-            got: count.to_string(),
-        }),
-        _ => Ok(()),
-    }
 }
 
 fn flags(words: &[String]) -> Result<Vec<Flag>, CliError> {

@@ -53,7 +53,7 @@ impl<'a> Analyze<'a> {
         self
     }
 
-    /// Threads; all cores if not said. The answer does not depend on it.
+    /// Threads, at most 1024; all cores if not said. The answer does not depend on it.
     pub fn threads(mut self, threads: usize) -> Self {
         self.options.threads = Some(threads);
         self

@@ -76,7 +76,7 @@ impl Problem {
 }
 
 impl<'a> Complete<'a> {
-    /// Threads; all cores if not said. The certificate does not depend on it.
+    /// Threads, at most 1024; all cores if not said. The certificate does not depend on it.
     pub fn threads(mut self, threads: usize) -> Self {
         self.options.threads = Some(threads);
         self

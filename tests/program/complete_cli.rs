@@ -286,7 +286,12 @@ fn bad_input_is_one_line_and_exit_2() {
         );
     }
 
-    refused(&["complete", &problem, "--threads", "0"], &["--threads"]);
+    for threads in ["0", "1025", "1000000000"] {
+        refused(
+            &["complete", &problem, "--threads", threads],
+            &["--threads", threads, "1024"],
+        );
+    }
 
     refused(
         &["complete", &bench.path("nothing.json")],

@@ -1,4 +1,4 @@
-//! Cancelling a long run, and its progress.
+//! Cancelling a long run, its progress and its threads.
 //!
 //! A long search takes a [`Watch`] and asks [`Watch::is_cancelled`] between its steps. What it has
 //! found by then is kept and returned; what it has not examined is left open. It calls
@@ -34,6 +34,25 @@ impl Cancel {
     /// Has somebody asked?
     pub fn is_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// The most threads that a run may have. More than any machine has use for.
+pub const MAX_THREADS: usize = 1024;
+
+/// Runs in a pool of the wanted size, at most [`MAX_THREADS`]; in the default pool if none is wanted
+/// or it cannot be started. The same work is done in any of them.
+pub fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
+    let Some(wanted) = threads else {
+        return work();
+    };
+
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(wanted.min(MAX_THREADS))
+        .build();
+    match pool {
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
     }
 }
 

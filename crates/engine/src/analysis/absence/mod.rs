@@ -13,9 +13,8 @@ mod boxes;
 mod family;
 
 use crate::reduction::MuFamily;
-use crate::run::{OnProgress, Progress, Watch};
+use crate::run::{OnProgress, Progress, Watch, in_threads};
 use crate::search::complete::CompleteError;
-use crate::search::complete::rounds::in_threads;
 use crate::search::complete::shares::Shares;
 use boxes::Search;
 pub(super) use boxes::{Blocked, Cause};

@@ -16,7 +16,7 @@ use super::pieces::prepared::Prepared;
 use super::precise;
 use super::shares::Shares;
 use super::splice::{Chosen, Pass, SearchedPiece, numbered};
-use crate::run::Watch;
+use crate::run::{Watch, in_threads};
 use mceip_check::certificate::{Certificate, CompleteSet};
 
 /// Rounds of a search whose leaves were refused, each more cautious than the one before.
@@ -153,13 +153,4 @@ pub(super) fn values_met(
     let mut values: Vec<f64> = found.into_iter().flat_map(|piece| piece.met).collect();
     values.sort_by(f64::total_cmp);
     values
-}
-
-/// Runs in a pool of the wanted size, or in the default one.
-pub(crate) fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
-    match threads.map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build()) {
-        Some(Ok(pool)) => pool.install(work),
-        // Without a pool of one's own the default one does the same work.
-        _ => work(),
-    }
 }
