@@ -6,9 +6,9 @@
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
-use mceip_exact::{Interval, Rational, parse};
+use mceip_exact::{Interval, Rational, parse, rational};
 use mceip_model::reduction::reduce;
-use mceip_model::{Pencil, Problem, Window};
+use mceip_model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate};
 use mceip_testkit::verified::{VerifiedChecker, VerifiedVerdict};
 use std::fs::File;
@@ -59,6 +59,12 @@ pub fn verdicts_on_list(checker: &VerifiedChecker, list: &Path) -> Vec<VerifiedV
 /// The certificate may be malformed for our reader: the verified checker does not read evidence
 /// that it replaces by its own.
 pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec<String> {
+    if let [line] = lines
+        && let Some(below) = absence_below(line)
+    {
+        return absence_falsehoods(problem, certificate, &below);
+    }
+
     let Some(asked) = window_of(certificate) else {
         return vec!["accepted without a window".into()];
     };
@@ -67,6 +73,71 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
         Some(statement) => statement.falsehoods(&pencil, &asked),
         None => vec![format!("an unknown sentence in {lines:?}")],
     }
+}
+
+/// b of "no solution for mu in [0, b] and lambda^2 in [0, infinity)".
+fn absence_below(line: &str) -> Option<Rational> {
+    let below = line.strip_prefix("no solution for mu in [0, ")?;
+    number(below.strip_suffix("] and lambda^2 in [0, infinity)")?)
+}
+
+/// Values of lambda^2 at which the enumerator looks for every mu, and parts of the bound at which
+/// it looks for every lambda^2.
+const LEVELS: [(i64, i64); 6] = [(0, 1), (1, 7), (1, 1), (5, 2), (9, 1), (100, 1)];
+const PARTS: [(i64, i64); 3] = [(1, 9), (2, 3), (1, 1)];
+
+/// What the enumerator finds below a friction under which there is said to be nothing.
+fn absence_falsehoods(problem: &Problem, certificate: &str, below: &Rational) -> Vec<String> {
+    let file: serde_json::Value = serde_json::from_str(certificate).unwrap();
+    if spelt(&file["below"]).as_ref() != Some(below) {
+        return vec![format!("about {below} in place of {}", file["below"])];
+    }
+    let Body::System(system) = problem.body() else {
+        return vec!["about a pencil".into()];
+    };
+    let Some(mass) = system.mass() else {
+        return vec!["about a system without mass".into()];
+    };
+
+    let mut wrong = Vec::new();
+    for (numerator, denominator) in LEVELS {
+        let level = rational(numerator, denominator);
+        let stiffness = system.stiffness().add_scaled(&level, mass);
+        let at_level = System::new(stiffness, None, None, without_reactions(system)).unwrap();
+        let window = Window::new(rational(0, 1), Some(below.clone())).unwrap();
+        if has_solution(at_level, Unknown::Mu, window) {
+            wrong.push(format!("there is a solution at lambda^2 = {level}"));
+        }
+    }
+
+    for (numerator, denominator) in PARTS {
+        let mu = below * rational(numerator, denominator);
+        let stiffness = system.stiffness().clone();
+        let mass = Some(mass.clone());
+        let particles = without_reactions(system);
+        let at_mu = System::new(stiffness, mass, Some(mu.clone()), particles).unwrap();
+        if has_solution(at_mu, Unknown::Lambda2, Window::all()) {
+            wrong.push(format!("there is a solution at mu = {mu}"));
+        }
+    }
+
+    wrong
+}
+
+/// The particles without their reactions, which belong to one value of mu.
+fn without_reactions(system: &System) -> Vec<Particle> {
+    let mut particles = system.particles().to_vec();
+    for particle in &mut particles {
+        particle.reaction = None;
+    }
+    particles
+}
+
+fn has_solution(system: System, unknown: Unknown, window: Window) -> bool {
+    let problem = Problem::new(Body::System(system), unknown, window.clone()).unwrap();
+    let pencil = reduce(&problem).unwrap().pencil;
+    let found = enumerate(&pencil, &window).unwrap();
+    !(found.solutions.is_empty() && found.cones.is_empty() && found.ranges.is_empty())
 }
 
 /// The window in the text of a certificate.
