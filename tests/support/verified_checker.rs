@@ -7,6 +7,7 @@
 
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, Rational, parse, rational};
+use mceip_model::file::read_problem_file;
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate};
@@ -483,4 +484,22 @@ fn sentences_are_read() {
     assert!(read("exactly some solutions in [0, 4]").is_none());
     assert!(read("no solution in [4, 0]").is_none());
     assert!(read("no solution in [0, 4]\nbelieve: me").is_none());
+}
+
+/// The mass point of chapter 5 has its critical friction at 1.
+#[test]
+fn a_false_bound_of_the_friction_is_found() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec/examples/certificates");
+    let problem = read_problem_file(&folder.join("critical.problem.json")).unwrap();
+    let said = |below: &str| {
+        let line = format!("no solution for mu in [0, {below}] and lambda^2 in [0, infinity)");
+        let certificate = format!(r#"{{"below": "{below}"}}"#);
+        falsehoods(&problem, &certificate, &[line])
+    };
+
+    assert_eq!(said("1/2"), Vec::<String>::new());
+    assert!(!said("9/8").is_empty());
+
+    let line = "no solution for mu in [0, 1/2] and lambda^2 in [0, infinity)".to_string();
+    assert!(!falsehoods(&problem, r#"{"below": "1/3"}"#, &[line]).is_empty());
 }
