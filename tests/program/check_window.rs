@@ -200,6 +200,6 @@ fn threads_that_the_machine_does_not_give_are_said() {
 
     refused(
         &["complete", &fold, "--threads", "0"],
-        &["--threads", "at least 1"],
+        &["--threads", "1 to 1024"],
     );
 }
