@@ -3,8 +3,8 @@
    Integers (Z) become zarith's arbitrary-precision integers, natural numbers become OCaml's int
    (they count rows and columns), and the equality test of natural numbers becomes that of int.
    These three mappings are part of the trusted base (README.md).  Everything else is Coq's
-   extraction of the functions whose soundness System.v, Complete.v, Claim.v, Lifted.v,
-   EnclosedClaim.v, PlainMcp.v and ZeroReaction.v prove. *)
+   extraction of the functions whose soundness System.v, Complete.v, Families.v, Varying.v, Claim.v,
+   Lifted.v, EnclosedClaim.v, PlainMcp.v, ZeroReaction.v, Critical.v and CriticalAnchors.v prove. *)
 
 From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.

@@ -65,6 +65,8 @@ pub use mceip_check::{Accepted, AcceptedClaim, OpenRegion, Reason, Rejected, Sol
 #[cfg(feature = "solver")]
 pub use mceip_engine::analysis::{self, Analysis};
 #[cfg(feature = "solver")]
+pub use mceip_engine::multistart::Uncertified;
+#[cfg(feature = "solver")]
 pub use mceip_engine::run::{Cancel, Progress};
 pub use mceip_exact::{Interval, Rational};
 pub use mceip_model::{ContactState, ModelError, Particle, Unknown, Window};

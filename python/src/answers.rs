@@ -1,26 +1,15 @@
-//! Answers as JSON, for `mceip/__init__.py`.
+//! Answers as JSON, which `mceip/answers.py` turns into dataclasses.
 //!
 //! Exact numbers are text ("p/q"), doubles are numbers.
 
 use mceip::{
     Accepted, AcceptedClaim, Analysis, Certificate, Certified, Found, Interval, OpenRegion,
-    Solution, SolutionFamily, SolutionSet,
+    Solution, SolutionFamily, SolutionSet, Uncertified,
 };
 use serde_json::{Value, json};
 
 pub(crate) fn found(found: &Found) -> Value {
-    let uncertified: Vec<Value> = found
-        .uncertified
-        .iter()
-        .map(|point| {
-            json!({
-                "value": point.candidate.value,
-                "x": point.candidate.x,
-                "reason": point.reason.to_string(),
-            })
-        })
-        .collect();
-
+    let uncertified: Vec<Value> = found.uncertified.iter().map(uncertified).collect();
     let certificate = (!found.solutions.is_empty()).then(|| document(found.certificate()));
 
     json!({
@@ -28,6 +17,14 @@ pub(crate) fn found(found: &Found) -> Value {
         "uncertified": uncertified,
         "runs": found.runs,
         "certificate": certificate,
+    })
+}
+
+fn uncertified(point: &Uncertified) -> Value {
+    json!({
+        "value": point.candidate.value,
+        "x": point.candidate.x,
+        "reason": point.reason.to_string(),
     })
 }
 

@@ -1,9 +1,9 @@
-//! The front door of `mceip` for Python: the module `mceip._native`, on which `mceip/__init__.py`
-//! stands.
+//! The front door of `mceip` for Python: the module `mceip._native`, on which the Python files of
+//! `mceip/` stand.
 //!
 //! A problem comes from a file or from triplets of doubles; answers go back as JSON text, which
-//! Python turns into dataclasses. `answers` writes that text, `watched` runs long work on a thread
-//! of its own, so that Ctrl-C and progress are attended to.
+//! Python turns into dataclasses. `contact` reads contacts, `answers` writes that text, `watched`
+//! runs long work on a thread of its own, so that Ctrl-C and progress are attended to.
 
 mod answers;
 mod contact;

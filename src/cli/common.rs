@@ -270,7 +270,7 @@ fn window_of(text: &str) -> Option<Window> {
 }
 
 /// Refuses no threads at all and more than [`MAX_THREADS`]. Says on stderr where the threads wanted
-/// are more than the machine gives, or cannot be started: then the work is done by the default ones.
+/// are more than the machine gives, or cannot be started: then the default ones do the work.
 pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
     let Some(wanted) = wanted else {
         return Ok(());

@@ -43,7 +43,7 @@ pub(super) struct Args {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Only this case (may be given more than once).
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "ID", conflicts_with = "write")]
     case: Vec<String>,
     /// Only cases with this flag (may be given more than once; see --flags).
     #[arg(long, value_name = "FLAG")]

@@ -126,13 +126,17 @@ fn directions(particles: &[Particle]) -> Vec<String> {
         }
     }
 
-    let sentence = |(frame, numbers): (&Frame, Vec<String>)| {
+    let mut sentences = Vec::new();
+    for (frame, numbers) in of_frame {
         let angle = angle_in_degrees(frame);
         let [c, s] = &frame[0];
         let numbers = numbers.join(" ");
-        format!("Tangent of particles {numbers}: turned by {angle:.10} degrees, ({c}, {s}).")
-    };
-    of_frame.into_iter().map(sentence).collect()
+        sentences.push(format!(
+            "Tangent of particles {numbers}: turned by {angle:.10} degrees, ({c}, {s})."
+        ));
+    }
+
+    sentences
 }
 
 /// The names of degrees of freedom in a table of contacts.

@@ -463,4 +463,12 @@ fn an_unknown_case_is_refused() {
         &["conform", "--case", "no-such-case", "--", "true"],
         &["--case", "no-such-case"],
     );
+
+    // A pack with some of its cases would look like the pack.
+    let folder = Folder::new();
+    let pack = folder.path("pack");
+    refused(
+        &["conform", "--case", "table1-000", "--write", &pack],
+        &["--case", "--write"],
+    );
 }

@@ -82,9 +82,10 @@ fn absence_below(line: &str) -> Option<Rational> {
     number(below.strip_suffix("] and lambda^2 in [0, infinity)")?)
 }
 
-/// Values of lambda^2 at which the enumerator looks for every mu, and parts of the bound at which
-/// it looks for every lambda^2.
+/// Values of lambda^2 at which the enumerator looks for solutions of every mu up to the bound.
 const LEVELS: [(i64, i64); 6] = [(0, 1), (1, 7), (1, 1), (5, 2), (9, 1), (100, 1)];
+
+/// Parts of the bound at which it looks for solutions of every lambda^2.
 const PARTS: [(i64, i64); 3] = [(1, 9), (2, 3), (1, 1)];
 
 /// What the enumerator finds below a friction under which there is said to be nothing.

@@ -24,9 +24,9 @@
 //!     T:   -n,   t,           -t               P:   -n,   t - mu n,   -t - mu n
 //! ```
 //!
-//! Then w = (K + lambda^2 M) v gives
-//! y = P' (K + lambda^2 M) T x. The block formulas (16) are not used: `reduction` in the model
-//! crate does that, and a test holds the two equal, so that one mistake cannot be in both.
+//! Then w = (K + lambda^2 M) v gives y = P' (K + lambda^2 M) T x. The block formulas (16) are not
+//! used: `reduction` in the model crate does that, and a test holds the two equal, so that one
+//! mistake cannot be in both.
 //!
 //! For certificates over a range of mu, [`FrictionParts`] keeps y = P' w without friction and the
 //! coefficient of mu apart.

@@ -40,8 +40,8 @@ impl Cancel {
 /// The most threads that a run may have. More than any machine has use for.
 pub const MAX_THREADS: usize = 1024;
 
-/// Runs in a pool of the wanted size, at most [`MAX_THREADS`]; in the default pool if none is wanted
-/// or it cannot be started. The same work is done in any of them.
+/// Runs in a pool of the wanted size, at most [`MAX_THREADS`]; in the default pool if none is
+/// wanted or it cannot be started. The same work is done in any of them.
 pub fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
     let Some(wanted) = threads else {
         return work();

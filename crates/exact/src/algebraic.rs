@@ -300,8 +300,10 @@ impl Algebraic {
     }
 }
 
-/// The fraction of least denominator in [lo, hi], with lo <= hi, found in the Stern-Brocot tree (Graham, Knuth and
-/// Patashnik, Concrete Mathematics, section 4.5).
+/// The fraction of least denominator in [lo, hi], where lo <= hi.
+///
+/// It is found in the Stern-Brocot tree (Graham, Knuth and Patashnik, Concrete Mathematics, section
+/// 4.5).
 pub fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
     let floor = lo.floor();
     if floor == *lo {

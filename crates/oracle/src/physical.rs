@@ -301,8 +301,8 @@ impl Form {
         form
     }
 
-    /// cone(S) = S w_T + c mu w_N, c the friction factor. Where mu is the unknown, w is constant and
-    /// c w_N is the slope.
+    /// cone(S) = S w_T + c mu w_N, c the friction factor. Where mu is the unknown, w is constant
+    /// and c w_N is the slope.
     fn cone(system: &PhysicalSystem, particle: &PhysicalParticle, sign: i8) -> Form {
         let tangential = Form::reaction(system, &particle.tangent);
         let normal = Form::reaction(system, &particle.normal).times(&particle.friction_factor);

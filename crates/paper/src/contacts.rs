@@ -5,14 +5,16 @@
 //! 0 and S = -1), `slip-` (the other way, S = 1), `stick`, `free`, or `zero` (in contact, no
 //! reaction). Optional are
 //!
-//! | column | meaning |
-//! |---|---|
-//! | `particle` | a label |
-//! | `normal_direction` | 1: the normal dof is positive into the obstacle (default); -1: away from it |
-//! | `angle` | degrees by which the obstacle's tangent is turned from the tangential dof towards the normal dof |
-//! | `normal_x`, `normal_y` | in place of both: the normal into the obstacle, along the tangential and the normal dof |
-//! | `friction_factor` | the friction of this particle over mu, > 0; 1 by default |
-//! | `reaction_tangential`, `reaction_normal` | the reaction on the body along these dofs, as the finite-element program gives it |
+//! * `particle`: a label;
+//! * `normal_direction`: 1 if the normal dof is positive into the obstacle (default), -1 if it is
+//!   positive away from it;
+//! * `angle`: degrees by which the obstacle's tangent is turned from the tangential dof towards the
+//!   normal dof;
+//! * `normal_x`, `normal_y`, in place of these two: the normal into the obstacle, along the
+//!   tangential and the normal dof;
+//! * `friction_factor`: the friction of this particle over mu, > 0; 1 by default;
+//! * `reaction_tangential`, `reaction_normal`: the reaction on the body along these dofs, as the
+//!   finite-element program gives it.
 //!
 //! Lines that begin with # are comments; a cell may be empty where it is optional.
 //!

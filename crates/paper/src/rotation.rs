@@ -13,7 +13,7 @@
 #![allow(clippy::float_arithmetic)]
 
 use crate::tolerance::{HALF_TANGENT, ROUNDED_FRAME};
-use mceip_exact::{Rational, from_f64, rational, simplest_between, to_f64};
+use mceip_exact::{Rational, from_f64, rational, simplest_between, to_f64, whole};
 use mceip_model::Particle;
 use num_traits::One;
 
@@ -30,9 +30,10 @@ pub(crate) fn rotation_along(x: f64, y: f64) -> Option<Frame> {
     }
 
     // Half a turn takes the left half plane to the right one, where |q| <= 1.
-    let turned = if x < 0.0 { -1.0 } else { 1.0 };
-    let cosine = turned * x / length;
-    let sine = turned * y / length;
+    let is_left = x < 0.0;
+    let side = if is_left { -1.0 } else { 1.0 };
+    let cosine = side * x / length;
+    let sine = side * y / length;
     let half_tangent = from_f64(sine / (1.0 + cosine)).ok()?;
 
     let (numerator, denominator) = HALF_TANGENT;
@@ -41,10 +42,10 @@ pub(crate) fn rotation_along(x: f64, y: f64) -> Option<Frame> {
 
     let one = Rational::one();
     let square = &q * &q;
-    let turned = if x < 0.0 { -&one } else { one.clone() };
-    let scale = turned / (&one + &square);
+    let back = whole(if is_left { -1 } else { 1 });
+    let scale = back / (&one + &square);
     let c = (&one - &square) * &scale;
-    let s = rational(2, 1) * &q * &scale;
+    let s = whole(2) * &q * &scale;
 
     let minus_s = -&s;
     Some([[c.clone(), s], [minus_s, c]])
@@ -62,11 +63,12 @@ pub fn angle_in_degrees(frame: &Frame) -> f64 {
     to_f64(s).atan2(to_f64(c)).to_degrees()
 }
 
-/// Puts the nearest rational rotation in the place of each frame that is a rotation within the
-/// rounding of doubles, and not exactly. Others stay as they are.
+/// Puts a rational rotation in the place of each frame that is a rotation within the rounding of
+/// doubles, and not exactly. Others stay as they are.
 pub fn make_frames_exact(particles: &mut [Particle]) {
     for particle in particles {
         if let Some(frame) = &particle.frame
+            && !is_rotation(frame)
             && let Some(exact) = nearby_rotation(frame)
         {
             particle.frame = Some(exact);
@@ -74,6 +76,12 @@ pub fn make_frames_exact(particles: &mut [Particle]) {
     }
 }
 
+fn is_rotation([[a, b], [c, d]]: &Frame) -> bool {
+    let numbers = [a * a + b * b, c * c + d * d, a * d - b * c];
+    numbers.iter().all(One::is_one)
+}
+
+/// The rotation along the first row of a frame that is one within the rounding of doubles.
 fn nearby_rotation(frame: &Frame) -> Option<Frame> {
     let [[a, b], [c, d]] = frame;
     let [a, b, c, d] = [a, b, c, d].map(to_f64);
@@ -90,13 +98,7 @@ fn nearby_rotation(frame: &Frame) -> Option<Frame> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::whole;
     use mceip_model::ContactState;
-
-    fn is_rotation([[a, b], [c, d]]: &Frame) -> bool {
-        let rows = [a * a + b * b, c * c + d * d, a * d - b * c];
-        rows.iter().all(One::is_one)
-    }
 
     #[test]
     fn quarter_turns_and_pythagorean_directions_are_exact() {
@@ -158,5 +160,24 @@ mod tests {
         assert!(is_rotation(frame));
         assert!((to_f64(&frame[0][1]) - s).abs() < 3e-12);
         assert_eq!(particles[1..], before[1..]);
+    }
+
+    /// An exact rotation is not exchanged for a simpler one near by: here q = 1/3 + 1e-15.
+    #[test]
+    fn exact_frames_stay() {
+        let q = rational(1, 3) + rational(1, 1_000_000_000_000_000);
+        let one = whole(1);
+        let scale = (&one + &q * &q).recip();
+        let c = (&one - &q * &q) * &scale;
+        let s = whole(2) * &q * &scale;
+        let exact = Particle {
+            frame: Some([[c.clone(), s.clone()], [-s, c]]),
+            ..Particle::plain(0, 1, ContactState::Stick)
+        };
+        let mut particles = [exact.clone()];
+
+        make_frames_exact(&mut particles);
+
+        assert_eq!(particles, [exact]);
     }
 }

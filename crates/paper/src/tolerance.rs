@@ -23,6 +23,7 @@ pub(crate) const HALF_TANGENT: (i64, i64) = (1, 1_000_000_000_000);
 pub(crate) const ROUNDED_FRAME: f64 = 1e-8;
 
 /// How far an entry of K or M may be from its mirror image, relative to the largest entry, to be
-/// called rounding (numerator, denominator). Unit: none. Basis: sums of a hundred doubles in another
-/// order differ by 1e-14 of the largest; matrices printed with twelve digits by less than 1e-12.
+/// called rounding (numerator, denominator). Unit: none. Basis: sums of a hundred doubles in
+/// another order differ by 1e-14 of the largest; matrices printed with twelve digits by less than
+/// 1e-12.
 pub(crate) const ROUNDED_SYMMETRY: (i64, i64) = (1, 1_000_000_000_000);

@@ -115,12 +115,6 @@ pub enum TestkitError {
         /// The system's reason.
         reason: std::io::ErrorKind,
     },
-    /// No thread pool.
-    #[error("cannot start {threads} threads")]
-    Threads {
-        /// How many.
-        threads: usize,
-    },
 }
 
 impl TestkitError {

@@ -10,7 +10,7 @@ use super::groups::random_draft;
 use super::judge::{Judgement, Label, judge_report};
 use super::process::{Ending, Limits, run_once};
 use crate::error::TestkitError;
-use mceip_engine::run::{Progress, Watch};
+use mceip_engine::run::{Progress, Watch, in_threads};
 use mceip_model::file::write_problem;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -59,12 +59,6 @@ pub fn run(
 ) -> Result<Vec<Outcome>, TestkitError> {
     let fixed: Vec<&Draft> = plan.groups.iter().flat_map(|g| &g.drafts).collect();
     let total = fixed.len() + plan.random;
-    let threads = plan.threads.unwrap_or(0);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|_| TestkitError::Threads { threads })?;
-
     let run = Run {
         plan,
         fixed,
@@ -75,7 +69,7 @@ pub fn run(
     };
 
     // One case per task: they take very different times.
-    let outcomes = pool.install(|| {
+    let outcomes = in_threads(plan.threads, || {
         (0..total)
             .into_par_iter()
             .with_max_len(1)
