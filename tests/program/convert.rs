@@ -7,7 +7,9 @@
 
 use crate::common::{exits, read};
 use crate::program::{Folder, refused};
+use mceip_exact::rational;
 use mceip_model::file::read_problem_file;
+use mceip_model::{Body, ContactState};
 use std::path::Path;
 
 // The stiffness and the mass as CalculiX writes them, with its list of degrees of freedom.
@@ -293,4 +295,21 @@ fn a_table_with_semicolons_is_refused_with_the_remedy() {
 
     let conversion = matrix_market("K.mtx", "M.mtx", "semicolons.csv");
     conversion.is_refused(&bench, &["semicolons.csv", "commas", "decimal point"]);
+}
+
+/// States that only the checker treats are written all the same, as are friction factors.
+#[test]
+fn zero_reaction_and_friction_factors_are_written() {
+    let bench = Bench::new();
+    let table = "tangential,normal,state,friction_factor\n2,3,slip-,3/2\n0,1,zero,\n";
+    bench.0.write("zero.csv", table);
+
+    matrix_market("K.mtx", "M.mtx", "zero.csv").digest(&bench);
+
+    let problem = read_problem_file(Path::new(&bench.path("out.json"))).unwrap();
+    let Body::System(system) = problem.body() else {
+        panic!("a system")
+    };
+    assert_eq!(system.particles()[0].friction_factor, rational(3, 2));
+    assert_eq!(system.particles()[1].state, ContactState::Zero);
 }
