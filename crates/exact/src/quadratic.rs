@@ -50,7 +50,8 @@ impl Quadratic {
 
     /// The rational value of a number without a radical part.
     pub fn as_rational(&self) -> Option<Rational> {
-        self.b.is_zero().then(|| self.a.clone())
+        let has_no_radical = self.b.is_zero() || self.d.is_zero();
+        has_no_radical.then(|| self.a.clone())
     }
 
     /// Sum. The radicands must be equal.
@@ -90,9 +91,9 @@ impl Quadratic {
         match square_of_a.cmp(&square_of_root_term) {
             Ordering::Greater => sign_of(&self.a),
             Ordering::Less => sign_of(&self.b),
-            // The terms cancel, or they have one sign.
+            // The terms cancel, or they have one sign, or both are zero (b may not be: 0 + 1 sqrt 0).
             Ordering::Equal if (&self.a * &self.b).is_negative() => Sign::Zero,
-            Ordering::Equal => sign_of(&(&self.a + &self.b)),
+            Ordering::Equal => sign_of(&self.a),
         }
     }
 
@@ -141,6 +142,9 @@ mod tests {
         assert_eq!(number(-28, 20, 2).sign(), Sign::Positive);
         assert_eq!(number(-6, 2, 9).sign(), Sign::Zero); // sqrt 9 = 3, d a square
         assert_eq!(number(0, 0, 5).sign(), Sign::Zero);
+        assert_eq!(number(0, 1, 0).sign(), Sign::Zero); // sqrt 0, whatever its factor
+        assert_eq!(number(0, -1, 0).sign(), Sign::Zero);
+        assert_eq!(number(2, -3, 0).sign(), Sign::Positive);
         assert_eq!(number(-1, -1, 5).sign(), Sign::Negative);
         // Parts of equal size, 2 and sqrt 4, on one side and on both.
         for (a, b, sign) in [
@@ -179,8 +183,12 @@ mod tests {
         let third = number(3, -6, 7).scale(&rational(1, 3));
         assert_eq!(third.add(&number(-1, 2, 7)).sign(), Sign::Zero);
         assert_eq!(
-            [number(5, 0, 7).as_rational(), number(5, 1, 7).as_rational()],
-            [Some(whole(5)), None]
+            [
+                number(5, 0, 7).as_rational(),
+                number(5, 1, 7).as_rational(),
+                number(5, 1, 0).as_rational()
+            ],
+            [Some(whole(5)), None, Some(whole(5))]
         );
     }
 }
