@@ -55,7 +55,9 @@ fn of_table(text: &str, dofs: usize, friction: Option<&Rational>) -> PyResult<Ve
     };
 
     let dof = |name: &str| name.parse().ok().filter(|dof| *dof < dofs);
-    read_contacts(text, friction, &dof).map_err(|e| MceipError::new_err(e.to_string()))
+    let table = read_contacts(text, friction, &dof);
+    let table = table.map_err(|e| MceipError::new_err(e.to_string()))?;
+    Ok(table.particles)
 }
 
 fn of_list(contacts: Vec<Contact>) -> PyResult<Vec<Particle>> {

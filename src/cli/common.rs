@@ -83,6 +83,16 @@ pub(super) enum CliError {
         /// What is wrong with it.
         source: mceip_paper::ContactsError,
     },
+    /// Displacements that are none, or of another body.
+    #[error("{path}: expected {expected} numbers, one for each degree of freedom, got {got}")]
+    Displacements {
+        /// The file.
+        path: String,
+        /// Degrees of freedom.
+        expected: usize,
+        /// How many numbers, or what is none.
+        got: String,
+    },
     /// A file of CalculiX.
     #[error("{path}: {source}")]
     Calculix {
@@ -194,6 +204,15 @@ impl CliError {
         CliError::File {
             path: path.display().to_string(),
             source,
+        }
+    }
+
+    /// Displacements that do not fit the body.
+    pub(super) fn displacements(path: &Path, expected: usize, got: String) -> CliError {
+        CliError::Displacements {
+            path: path.display().to_string(),
+            expected,
+            got,
         }
     }
 

@@ -3,16 +3,17 @@
 //! Input: K and M (Matrix Market, or CalculiX), a table of contact states and mu. Output: the
 //! MCEIP-lambda2 problem as `mceip-problem/1`. What is changed on the way (directions in doubles
 //! become rational rotations, rounded matrices symmetric) is printed and stands in the comment of
-//! the file.
+//! the file. Figures of the model follow, with warnings of what looks wrong (`Plausibility`).
 
 use super::common::{CliError, exit, positive, print, text};
 use super::output::Output;
-use mceip_exact::{Rational, Sparse};
+use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::{read_matrix_market, read_particles, write_problem};
 use mceip_model::{Body, Particle, Problem, System, Unknown, Window};
 use mceip_paper::calculix::{CalculixError, read_dofs, read_triangle};
 use mceip_paper::{
-    Asymmetry, Frame, angle_in_degrees, asymmetry, make_frames_exact, read_contacts, symmetric_part,
+    Asymmetry, ContactTable, Frame, Plausibility, PlausibilityInput, angle_in_degrees, asymmetry,
+    make_frames_exact, read_contacts, symmetric_part,
 };
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -36,6 +37,10 @@ pub(super) struct Args {
     /// Coefficient of friction.
     #[arg(long, value_name = "MU", allow_hyphen_values = true)]
     friction: String,
+    /// Displacements of the equilibrium, to hold K u against the reactions of the table: a number for
+    /// each degree of freedom, one a line, or a Matrix Market file with one column.
+    #[arg(long, value_name = "FILE")]
+    displacements: Option<PathBuf>,
     /// Take the mean of K and its transpose, and of M and its, where they differ by rounding (1e-12
     /// of the largest entry). The comment in the problem file says so.
     #[arg(long)]
@@ -53,6 +58,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let friction = positive("friction", &args.friction)?;
     let mut inputs: Vec<&Path> = vec![&args.stiffness, &args.mass, &args.contacts];
     inputs.extend(args.dof.as_deref());
+    inputs.extend(args.displacements.as_deref());
     let output = Output::prepare("out", &args.out, &inputs)?;
 
     let dofs = args.dof.as_deref().map(read_dof_names).transpose()?;
@@ -65,12 +71,22 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         names: dofs,
         order: stiffness.rows(),
     };
-    let particles = read_states(&args.contacts, &friction, &indices)?;
-    changes.extend(directions(&particles));
+    let contacts = read_states(&args.contacts, &friction, &indices)?;
+    changes.extend(directions(&contacts.particles));
+    let displacements = match &args.displacements {
+        Some(path) => Some(read_displacements(path, indices.order)?),
+        None => None,
+    };
 
-    let system = System::new(stiffness, Some(mass), Some(friction), particles)?;
+    let system = System::new(stiffness, Some(mass), Some(friction), contacts.particles)?;
     let slip = system.slip_particles().len();
     let dofs = system.dofs();
+    let plausibility = Plausibility::new(&PlausibilityInput {
+        system: &system,
+        reactions: &contacts.reactions,
+        displacements: displacements.as_deref(),
+    });
+
     let mut problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
     problem.name = args.name.clone();
     if !changes.is_empty() {
@@ -86,7 +102,19 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         print(&format!("{change}\n"))?;
     }
 
+    print_plausibility(&plausibility)?;
     Ok(exit::DONE)
+}
+
+fn print_plausibility(plausibility: &Plausibility) -> Result<(), CliError> {
+    for (name, found) in &plausibility.table {
+        print(&format!("    {name}: {found}\n"))?;
+    }
+    for warning in &plausibility.warnings {
+        print(&format!("WARNING: {warning}.\n"))?;
+    }
+
+    Ok(())
 }
 
 /// The matrix, or where it is symmetric up to rounding and `symmetrize` is given, its symmetric
@@ -164,14 +192,18 @@ fn read_states(
     path: &Path,
     friction: &Rational,
     indices: &DofIndices,
-) -> Result<Vec<Particle>, CliError> {
+) -> Result<ContactTable, CliError> {
     let contacts = text("the contacts", path)?;
     let is_json = contacts.trim_start().starts_with('[');
     if is_json {
         let read = read_particles(&contacts);
         let mut particles = read.map_err(|source| CliError::file(path, source))?;
         make_frames_exact(&mut particles);
-        return Ok(particles);
+        let reactions = vec![None; particles.len()];
+        return Ok(ContactTable {
+            particles,
+            reactions,
+        });
     }
 
     let read = read_contacts(&contacts, friction, &|name| indices.index(name));
@@ -179,6 +211,49 @@ fn read_states(
         path: path.display().to_string(),
         source,
     })
+}
+
+/// A displacement for each of `order` degrees of freedom: plain numbers, or Matrix Market.
+fn read_displacements(path: &Path, order: usize) -> Result<Vec<f64>, CliError> {
+    let source = text("the displacements", path)?;
+    let values = if source.starts_with("%%") {
+        let matrix = read_matrix_market("u", &source).map_err(|e| CliError::file(path, e))?;
+        first_column(&matrix)
+    } else {
+        plain_numbers(&source).map_err(|got| CliError::displacements(path, order, got))?
+    };
+
+    if values.len() != order {
+        let got = format!("{} numbers", values.len());
+        return Err(CliError::displacements(path, order, got));
+    }
+    Ok(values)
+}
+
+/// The first column of a matrix; nothing where it has more.
+fn first_column(matrix: &Sparse) -> Vec<f64> {
+    if matrix.cols() != 1 {
+        return Vec::new();
+    }
+
+    let column = (0..matrix.rows()).map(|row| to_f64(&matrix.get(row, 0)));
+    column.collect()
+}
+
+/// The numbers of a text.
+///
+/// # Errors
+/// The first word that is not a finite number.
+fn plain_numbers(text: &str) -> Result<Vec<f64>, String> {
+    let mut numbers = Vec::new();
+    for word in text.split_whitespace() {
+        match word.parse::<f64>() {
+            Ok(number) if number.is_finite() => numbers.push(number),
+            _ => return Err(word.chars().take(60).collect()),
+        }
+    }
+
+    Ok(numbers)
 }
 
 fn read_dof_names(path: &Path) -> Result<DofNames, CliError> {

@@ -27,6 +27,7 @@ mod fold;
 mod launcher;
 mod manual;
 mod pictures;
+mod plausibility;
 mod schemas;
 mod simulate;
 mod slurm;

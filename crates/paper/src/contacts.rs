@@ -170,6 +170,24 @@ impl Column {
     }
 }
 
+/// A table of contacts, read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactTable {
+    /// One for each line.
+    pub particles: Vec<Particle>,
+    /// For each particle, the reaction that the table gives.
+    pub reactions: Vec<Option<TableReaction>>,
+}
+
+/// A reaction of a finite-element program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableReaction {
+    /// On the body, along the tangential and the normal dof.
+    pub along_dofs: [Rational; 2],
+    /// |r_T| over mu |r_N|, mu that of the particle; none where one of the two factors is zero.
+    pub cone_ratio: Option<f64>,
+}
+
 /// Reads the table. `dof` finds the 0-based degree of freedom that a cell names (an index, or a
 /// node and direction of a `.dof` file).
 ///
@@ -182,22 +200,28 @@ pub fn read_contacts(
     text: &str,
     friction: &Rational,
     dof: &dyn Fn(&str) -> Option<usize>,
-) -> Result<Vec<Particle>, ContactsError> {
+) -> Result<ContactTable, ContactsError> {
     let mut lines = lines_with_content(text).into_iter();
     let header = lines.next().map_or("", |line| line.text);
     let table = Table::new(header)?;
 
     let mut particles = Vec::new();
+    let mut reactions = Vec::new();
     for line in lines {
         let row = table.row(line)?;
-        particles.push(row.particle(friction, dof)?);
+        let (particle, reaction) = row.particle(friction, dof)?;
+        particles.push(particle);
+        reactions.push(reaction);
     }
 
     if particles.is_empty() {
         return Err(ContactsError::Empty);
     }
 
-    Ok(particles)
+    Ok(ContactTable {
+        particles,
+        reactions,
+    })
 }
 
 /// A line of the file.
@@ -293,37 +317,44 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
+    /// The particle, and the reaction as the table gives it.
     fn particle(
         &self,
         friction: &Rational,
         dof: &dyn Fn(&str) -> Option<usize>,
-    ) -> Result<Particle, ContactsError> {
+    ) -> Result<(Particle, Option<TableReaction>), ContactsError> {
         let state = self.state()?;
         let directions = self.directions()?;
         let friction_factor = self.friction_factor()?;
+        let own_friction = friction * &friction_factor;
 
-        let reaction = match self.reaction()? {
-            Some(along_dofs) => {
-                let given = directions.turned(&along_dofs);
-                let own_friction = friction * &friction_factor;
-                let is_exact = given.fits(self.line, state, &own_friction)?;
-                is_exact.then_some(given)
-            }
-            None => None,
-        };
+        let mut in_particle = None;
+        let mut in_table = None;
+        if let Some(along_dofs) = self.reaction()? {
+            let given = directions.turned(&along_dofs);
+            let is_exact = given.fits(self.line, state, &own_friction)?;
+
+            in_table = Some(TableReaction {
+                cone_ratio: given.cone_ratio(&own_friction),
+                along_dofs: [along_dofs.tangential, along_dofs.normal],
+            });
+            in_particle = is_exact.then_some(Reaction {
+                tangential: given.tangential,
+                normal: given.normal,
+            });
+        }
 
         let tangential = self.dof(Column::Tangential, dof)?;
         let normal = self.dof(Column::Normal, dof)?;
-        Ok(Particle {
+        let particle = Particle {
             normal_direction: directions.normal_direction,
             frame: directions.frame,
             friction_factor,
-            reaction: reaction.map(|r| Reaction {
-                tangential: r.tangential,
-                normal: r.normal,
-            }),
+            reaction: in_particle,
             ..Particle::plain(tangential, normal, state)
-        })
+        };
+
+        Ok((particle, in_table))
     }
 
     /// What stands in a column, if it is there and not empty.
@@ -572,6 +603,12 @@ impl GivenReaction {
         }
     }
 
+    /// |r_T| over mu |r_N|.
+    fn cone_ratio(&self, friction: &Rational) -> Option<f64> {
+        let radius = friction * self.normal.abs();
+        (!radius.is_zero()).then(|| to_f64(&(self.tangential.abs() / radius)))
+    }
+
     /// |r_T| - mu |r_N|.
     fn excess(&self, pressure: &Rational, friction: &Rational) -> Rational {
         self.tangential.abs() - friction * pressure
@@ -599,7 +636,9 @@ mod tests {
 
     /// Reads a table for mu = 1/2 and ten degrees of freedom.
     fn read(text: &str) -> Result<Vec<Particle>, ContactsError> {
-        read_contacts(text, &rational(1, 2), &dof_below_ten)
+        let table = read_contacts(text, &rational(1, 2), &dof_below_ten)?;
+        assert_eq!(table.reactions.len(), table.particles.len());
+        Ok(table.particles)
     }
 
     fn dof_below_ten(text: &str) -> Option<usize> {

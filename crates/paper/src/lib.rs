@@ -14,6 +14,7 @@
 //! | [`path`] | the loading that leads to the contact states of section 5 |
 //! | [`PublishedState`] | the two states whose value of mu the paper prints |
 //! | [`calculix`], [`read_contacts`] | matrices and contact states of a model of one's own |
+//! | [`Plausibility`] | figures of such a model that show a wrong unit, file or numbering |
 #![deny(clippy::float_arithmetic)]
 
 mod block;
@@ -23,9 +24,11 @@ mod contacts;
 mod doubles;
 mod element;
 mod error;
+mod frequencies;
 mod mesh;
 pub mod path;
 mod plane;
+mod plausibility;
 mod published;
 mod rotation;
 mod symmetry;
@@ -35,12 +38,13 @@ mod two_particles;
 
 pub use block::Block;
 pub use block_model::BlockModel;
-pub use contacts::{ContactsError, read_contacts};
+pub use contacts::{ContactTable, ContactsError, TableReaction, read_contacts};
 pub use doubles::{DoubleBlock, DoubleMatrix};
 pub use element::{MassKind, Material, Point};
 pub use error::SourceError;
 pub use mesh::{MAX_CELLS, MeshKind};
 pub use plane::Plane;
+pub use plausibility::{Plausibility, PlausibilityInput};
 pub use published::PublishedState;
 pub use rotation::{Frame, angle_in_degrees, make_frames_exact};
 pub use symmetry::{Asymmetry, asymmetry, symmetric_part};

@@ -27,3 +27,29 @@ pub(crate) const ROUNDED_FRAME: f64 = 1e-8;
 /// another order differ by 1e-14 of the largest; matrices printed with twelve digits by less than
 /// 1e-12.
 pub(crate) const ROUNDED_SYMMETRY: (i64, i64) = (1, 1_000_000_000_000);
+
+/// How little the lowest Ritz values may change in a step, relative to themselves, to be taken for
+/// eigenvalues. Unit: none. Basis: five digits are printed; the error is of the order of the change
+/// where the iteration converges at all.
+pub(crate) const RITZ_CHANGE: f64 = 1e-9;
+
+/// Steps of subspace iteration before it is given up. Basis: eight columns for three frequencies
+/// settle in 10 to 40 steps on the meshes of this repository.
+pub(crate) const RITZ_STEPS: usize = 500;
+
+/// Up to which a row of K, relative to the sizes of its entries, sums to zero by rounding. Unit:
+/// none. Basis: matrices with 17 digits give 1e-15, with nine digits 1e-9, with four 1e-4.
+pub(crate) const BALANCED_ROWS: f64 = 1e-7;
+
+/// From which the sum of a row of K is one of a row near a support, as in systems of few degrees
+/// of freedom, and says nothing about digits. Unit: none. Basis: such a row lacks the stiffness
+/// against the support, which is of the size of its other entries.
+pub(crate) const NEAR_SUPPORTS: f64 = 1e-2;
+
+/// How far the masses of the two degrees of freedom of a node may be from each other, relative.
+/// Unit: none. Basis: they are equal but for rounding; nodes of different volume differ by more.
+pub(crate) const EQUAL_MASSES: f64 = 1e-9;
+
+/// How far reactions may be from K u, relative to the largest. Unit: none. Basis: finite-element
+/// programs iterate on contact to 1e-3 or better; a wrong number or sign misses by about 1.
+pub(crate) const REACTION_MISMATCH: f64 = 1e-2;
