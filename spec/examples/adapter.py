@@ -2,8 +2,10 @@
 """A program for `mceip conform`: every support by numpy.linalg.eig, as a user might write it.
 
     mceip conform --as-pencil -- python3 spec/examples/adapter.py
+    mceip conform --as-pencil --lines -- python3 spec/examples/adapter.py --lines
 
-Reads a pencil (mceip-problem/1) on stdin, prints mceip-solutions/1. It works in floats, with one
+Reads a pencil (mceip-problem/1) on stdin, prints mceip-solutions/1; with --lines one after the
+other, each in one line. It works in floats, with one
 tolerance: repeated roots, biactive indices, cones and continua are beyond it, as the run shows.
 """
 import json
@@ -52,13 +54,20 @@ def solutions(a, b, free, low, high):
                 yield {"value": max(low, float(t)), "x": [float(v) for v in x]}
 
 
-def main():
-    problem = json.load(sys.stdin)
+def answer(problem):
+    """The report on a problem."""
     pencil, window = problem["pencil"], problem["window"]
     low = float(Fraction(window["min"]))
     high = float("inf") if window["max"] is None else float(Fraction(window["max"]))
     found = list(solutions(matrix(pencil["a"]), matrix(pencil["b"]), pencil["free"], low, high))
-    print(json.dumps({"format": "mceip-solutions/1", "solutions": found}))
+    return {"format": "mceip-solutions/1", "solutions": found}
+
+
+def main():
+    problems = sys.stdin if "--lines" in sys.argv else [sys.stdin.read()]
+    for text in problems:
+        report = answer(json.loads(text))
+        print(json.dumps(report), flush=True)
 
 
 if __name__ == "__main__":

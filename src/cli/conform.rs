@@ -51,6 +51,10 @@ pub(super) struct Args {
     /// Send mechanical systems as their reduced pencils, for programs that know only those.
     #[arg(long)]
     as_pencil: bool,
+    /// Start the program once (for each thread) and send it a problem a line; it answers each with
+    /// its report in one line. For programs that take long to start.
+    #[arg(long, conflicts_with_all = ["write", "list", "print", "flags"])]
+    lines: bool,
     /// Seconds for each case.
     #[arg(
         long,
@@ -130,6 +134,7 @@ fn plan(args: &Args, groups: Vec<Group>) -> Result<Plan, CliError> {
         random: args.count,
         seed: args.seed,
         as_pencil: args.as_pencil,
+        by_lines: args.lines,
         only: flags(&args.only)?,
         limits: Limits {
             time,

@@ -144,6 +144,43 @@ fn six_digits_are_enough_away_from_close_values() {
     });
 }
 
+/// A value moved by so much, relative to 1 + |value|.
+fn moved(solution: &Value, by: f64) -> Value {
+    let value = number(&solution["value"]);
+    json!({ "value": value + by * (1.0 + value.abs()), "x": solution["x"] })
+}
+
+/// Too few digits are inaccurate, with the distance; farther away, or beside a false solution, a
+/// report is wrong.
+#[test]
+fn too_few_digits_are_inaccurate() {
+    let cases = cases();
+    let has_fold = |case: &&Case| case.flags.contains(&Flag::Fold) && case.has_solutions();
+    let case = cases.iter().find(has_fold).unwrap();
+    let answer = case.answer_json();
+    let solution = &answer["solutions"][0];
+
+    let near = case.judge(&report(&answer, &[moved(solution, 5e-4)]));
+    assert_eq!(near.label, Label::Inaccurate, "{near:?}");
+    assert!(
+        near.detail.contains("off by 5.0e-4 in the value"),
+        "{near:?}"
+    );
+
+    let far = case.judge(&report(&answer, &[moved(solution, 5e-3)]));
+    assert_eq!(far.label, Label::Wrong, "{far:?}");
+
+    let both = [moved(solution, 5e-4), moved(solution, 5e-3)];
+    let both = case.judge(&report(&answer, &both));
+    assert_eq!(both.label, Label::Wrong, "{both:?}");
+
+    // Another support is another solution, however near.
+    let tiny = cases.iter().find(|case| case.id == "tiny-3").unwrap();
+    let without = json!({ "value": 1.001, "x": [1, 0] });
+    let cut = tiny.judge(&report(&tiny.answer_json(), &[without]));
+    assert_eq!(cut.label, Label::Wrong, "{cut:?}");
+}
+
 /// Every wrong answer gets its label, and what is false in it is refuted by certify, check and
 /// enumeration.
 #[test]
@@ -306,6 +343,47 @@ fn random_cases<'a>(threads: &'a str, seed: &'a str, page: &'a str) -> [&'a str;
         "--markdown",
         page,
     ]
+}
+
+/// A program that answers many problems is judged as one that is started for each; one that hangs
+/// or ends is started anew for the next case.
+#[cfg(unix)]
+#[test]
+fn programs_may_answer_line_by_line() {
+    let by_lines = |script: &str| {
+        let options = [
+            "--only",
+            "window_end",
+            "--time-limit",
+            "0.5",
+            "--json",
+            "--lines",
+        ];
+        conform(&options, &["sh", "-c", script]).report()
+    };
+
+    for (script, label) in [
+        (
+            format!("while read -r p; do {NOTHING_FOUND}; done"),
+            "incomplete",
+        ),
+        (
+            format!("while read -r p; do {OTHER_PROBLEM}; done"),
+            "wrong",
+        ),
+        ("while read -r p; do echo; done".into(), "malformed"),
+        ("read -r p; exit 0".into(), "malformed"),
+        ("read -r p; exit 3".into(), "malformed"),
+        ("read -r p; exit 1".into(), "crashed"),
+        ("kill -11 $$".into(), "crashed"),
+        ("exec sleep 60".into(), "timed out"),
+        ("exec yes x | tr -d '\\n'".into(), "malformed"),
+    ] {
+        let report = by_lines(&script);
+        let cases = report["cases"].as_u64().unwrap();
+        assert!(cases > 4, "{script}: {report:#}");
+        assert_eq!(report["labels"][label], cases, "{script}: {report:#}");
+    }
 }
 
 #[cfg(unix)]

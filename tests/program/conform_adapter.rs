@@ -84,6 +84,29 @@ fn the_adapter_is_right_where_floats_suffice_and_not_on_degenerate_cases() {
     }
 }
 
+/// Started once, it gets the same labels as started for each case.
+#[test]
+fn the_adapter_answers_line_by_line() {
+    if numpy_is_missing() {
+        return;
+    }
+
+    let folder = Folder::new();
+    let file = folder.write("adapter.py", &adapter());
+    let options = ["conform", "--as-pencil", "--json", "--time-limit", "60"];
+    let cases = ["--only", "fold", "--only", "cone"];
+
+    let each = mceip(&[&options[..], &cases, &["--", "python3", &file]].concat());
+    let lines = ["--lines", "--", "python3", &file, "--lines"];
+    let once = mceip(&[&options[..], &cases, &lines].concat());
+
+    let each: Value = serde_json::from_slice(&each.stdout).unwrap();
+    let once: Value = serde_json::from_slice(&once.stdout).unwrap();
+    assert_eq!(once["failures"], each["failures"]);
+    assert_eq!(once["labels"], each["labels"]);
+    assert!(count(&once["labels"], "correct") > 5, "{once:#}");
+}
+
 #[test]
 fn broken_adapters_get_the_right_labels() {
     if numpy_is_missing() {
@@ -96,8 +119,8 @@ fn broken_adapters_get_the_right_labels() {
 
     // The same value found on two supports is reported once.
     let merging = adapter_with(
-        "print(json",
-        "found = list({round(s['value'], 6): s for s in found}.values())\n    print(json",
+        "return {\"format\"",
+        "found = list({round(s['value'], 6): s for s in found}.values())\n    return {\"format\"",
     );
     let report = report_on(&merging, &["threshold"]);
 

@@ -11,6 +11,11 @@
 /// campaign).
 pub const SUPPORT_GUESSES: [f64; 6] = [1e-9, 1e-6, 1e-4, 1e-12, 1e-3, 0.0];
 
+/// A reported solution that is certified by nothing is inaccurate, and not wrong, where one of the
+/// complete answer is within this many times [`VALUE_RADIUS`] and [`X_RADIUS`]. Unit: none. Basis:
+/// a digit is missing; at two digits the pack's own wrong answers (one per cent off) begin.
+pub const NEAR_RADII: f64 = 10.0;
+
 /// How far from a candidate's value a root is looked for, relative to 1 + |value|. Unit: none.
 /// Basis: reports carry six digits or more, but at a double root a residual of 1e-10 leaves an
 /// error of 1e-5 times the square root of the condition (seen: 3e-5). The nearest root is taken,

@@ -1,16 +1,18 @@
-//! A report on a case: correct, incomplete or wrong, decided by exact membership in the complete
-//! answer.
+//! A report on a case: correct, incomplete, inaccurate or wrong, decided by exact membership in the
+//! complete answer.
 //!
 //! The rule for floats: a reported solution counts if `certify` turns it into a claim (value within
 //! 1e-4 of 1 + |value|, x within 1e-3 with e'x_s = 1, support by several guesses), and the exact
 //! solution of that claim is in the answer. Scale, order and repetitions do not matter. The answer
 //! is complete if every listed solution, every cone (a solution inside it, with its whole slip set)
-//! and every continuum (its intervals, or a solution on its slip set) is met.
+//! and every continuum (its intervals, or a solution on its slip set) is met. A reported solution
+//! that does not count is inaccurate where one of the answer is near, and wrong elsewhere.
 //!
 //! Input: a case and the text that a program printed. Output: a label and the first reason for it.
 //! Called by `run` for each case of the plan.
 
 use super::case::Case;
+use super::nearest::Distance;
 use mceip_check::certificate::{Claim, ExactSolution};
 use mceip_engine::certify::Certifier;
 use mceip_engine::foreign::{
@@ -29,6 +31,8 @@ pub enum Label {
     Correct,
     /// Nothing false, something missing.
     Incomplete,
+    /// Nothing false, but a solution has too few digits: one of the answer is near.
+    Inaccurate,
     /// Something false is reported.
     Wrong,
     /// The program ended by a signal or with an exit code other than 0 and 3 (undecided).
@@ -41,9 +45,10 @@ pub enum Label {
 
 impl Label {
     /// All labels, in the order of tables.
-    pub const ALL: [Label; 6] = [
+    pub const ALL: [Label; 7] = [
         Label::Correct,
         Label::Incomplete,
+        Label::Inaccurate,
         Label::Wrong,
         Label::Crashed,
         Label::TimedOut,
@@ -60,6 +65,7 @@ impl Label {
         match self {
             Label::Correct => "correct",
             Label::Incomplete => "incomplete",
+            Label::Inaccurate => "inaccurate",
             Label::Wrong => "wrong",
             Label::Crashed => "crashed",
             Label::TimedOut => "timed out",
@@ -119,12 +125,15 @@ pub fn judge_report(case: &Case, text: &str) -> Judgement {
     }
 
     let mut met = Met::nothing(case);
-    if let Err(why) = met.place_report(&report) {
-        return Judgement::new(Label::Wrong, why);
-    }
-    match met.missing() {
-        None => Judgement::new(Label::Correct, ""),
-        Some(what) => Judgement::new(Label::Incomplete, what),
+    let first_inaccurate = match met.place_report(&report) {
+        Ok(first) => first,
+        Err(why) => return Judgement::new(Label::Wrong, why),
+    };
+
+    match (first_inaccurate, met.missing()) {
+        (Some(why), _) => Judgement::new(Label::Inaccurate, why),
+        (None, None) => Judgement::new(Label::Correct, ""),
+        (None, Some(what)) => Judgement::new(Label::Incomplete, what),
     }
 }
 
@@ -147,18 +156,32 @@ impl Met<'_> {
         }
     }
 
-    /// Places everything reported in the answer; the first thing that has no place is the error.
-    fn place_report(&mut self, report: &ForeignReport) -> Result<(), String> {
+    /// Places everything reported in the answer; the first thing that has no place, nor one near
+    /// by, is the error. The first solution that is only near its place is described.
+    fn place_report(&mut self, report: &ForeignReport) -> Result<Option<String>, String> {
         let certifier = Certifier::new(&self.case.problem, &self.case.reduced.pencil);
+        let mut first_inaccurate = None;
+
         for (k, solution) in report.solutions.iter().enumerate() {
-            self.place_solution(solution, &certifier)
-                .map_err(|why| format!("solution {k}: {why}"))?;
+            let Err(why) = self.place_solution(solution, &certifier) else {
+                continue;
+            };
+            let Some(distance) = self.distance(solution) else {
+                return Err(format!("solution {k}: {why}"));
+            };
+            first_inaccurate.get_or_insert_with(|| format!("solution {k}: {distance}"));
         }
 
         for continuum in &report.continua {
             self.place_continuum(continuum)?;
         }
-        Ok(())
+        Ok(first_inaccurate)
+    }
+
+    /// How far a reported solution is from the nearest one of the answer, where one is near.
+    fn distance(&self, solution: &Result<Reported, BadPoint>) -> Option<Distance> {
+        let reported = solution.as_ref().ok()?;
+        Distance::to_nearest(self.case, &reported.candidate)
     }
 
     /// Certifies a reported solution and marks what it meets; the error says why there is nothing.

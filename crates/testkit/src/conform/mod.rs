@@ -16,6 +16,8 @@ mod case;
 mod flag;
 mod groups;
 mod judge;
+mod lines;
+mod nearest;
 mod pack;
 mod process;
 mod run;

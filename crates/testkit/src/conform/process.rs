@@ -74,16 +74,14 @@ pub fn run_once(
     let too_long = Arc::new(AtomicBool::new(false));
     feed(&mut child, input);
 
-    let stdout = child
-        .stdout
-        .take()
-        .map(|pipe| drain(pipe, limits.output, Some(too_long.clone())));
-    let stderr = child.stderr.take().map(|pipe| drain(pipe, COMPLAINT, None));
+    let pipe = child.stdout.take();
+    let stdout = Reader(pipe.map(|pipe| drain(pipe, limits.output, Some(too_long.clone()))));
+    let stderr = Reader::of_stderr(&mut child);
     let ended = wait(&mut child, start, limits, watch, &too_long);
     kill(&mut child); // and whatever it has left behind
 
-    let stdout = received(stdout);
-    let complaint = received(stderr);
+    let stdout = stdout.received();
+    let complaint = stderr.received();
     if too_long.load(Ordering::Relaxed) {
         return Ok(Ending::TooLong);
     }
@@ -99,7 +97,7 @@ pub fn run_once(
 }
 
 /// Starts the program in a process group of its own, with pipes for all three streams.
-fn spawn(command: &[String]) -> Result<Child, TestkitError> {
+pub(super) fn spawn(command: &[String]) -> Result<Child, TestkitError> {
     let (program, arguments) = match command.split_first() {
         Some((program, arguments)) => (program.as_str(), arguments),
         None => ("", &[][..]),
@@ -124,10 +122,28 @@ fn spawn(command: &[String]) -> Result<Child, TestkitError> {
     })
 }
 
-/// What was read from a pipe; nothing if it is still open after the time of grace.
-fn received(pipe: Option<Receiver<Vec<u8>>>) -> Vec<u8> {
-    pipe.and_then(|bytes| bytes.recv_timeout(GRACE).ok())
-        .unwrap_or_default()
+/// A pipe that a thread reads to its end.
+pub(super) struct Reader(Option<Receiver<Vec<u8>>>);
+
+impl Reader {
+    /// Of what a program complains.
+    pub(super) fn of_stderr(child: &mut Child) -> Reader {
+        let pipe = child.stderr.take();
+        Reader(pipe.map(|pipe| drain(pipe, COMPLAINT, None)))
+    }
+
+    /// What was read; nothing if the pipe is still open after the time of grace.
+    pub(super) fn received(self) -> Vec<u8> {
+        let bytes = self.0.and_then(|bytes| bytes.recv_timeout(GRACE).ok());
+        bytes.unwrap_or_default()
+    }
+}
+
+/// The exit code of a program that has closed its stdout; `None` for a signal, or where it has not
+/// ended after the time of grace.
+pub(super) fn code_after(child: &mut Child) -> Option<i32> {
+    let status = child.wait_timeout(GRACE).ok().flatten();
+    status.and_then(|status| status.code())
 }
 
 /// Writes the problem from a thread of its own: a program that reads nothing must not stop us. One
@@ -199,7 +215,7 @@ fn wait(
 }
 
 /// Kills the program and its group, and waits for it, so that nothing is left.
-fn kill(child: &mut Child) {
+pub(super) fn kill(child: &mut Child) {
     #[cfg(unix)]
     {
         let group = rustix::process::Pid::from_child(child);
@@ -211,7 +227,7 @@ fn kill(child: &mut Child) {
 }
 
 /// The first line that is not blank, at most 200 characters of it, without control characters.
-fn first_line(bytes: &[u8]) -> String {
+pub(super) fn first_line(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
     let line = text
         .lines()

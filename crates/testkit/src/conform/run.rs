@@ -8,6 +8,7 @@ use super::case::{Case, Draft, Group};
 use super::flag::Flag;
 use super::groups::random_draft;
 use super::judge::{Judgement, Label, judge_report};
+use super::lines::LineProgram;
 use super::process::{Ending, Limits, run_once};
 use crate::error::TestkitError;
 use mceip_engine::run::{Progress, Watch, in_threads};
@@ -15,6 +16,7 @@ use mceip_model::file::write_problem;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// What to run.
 #[derive(Debug, Clone)]
@@ -29,7 +31,9 @@ pub struct Plan {
     pub as_pencil: bool,
     /// Only cases with one of these flags; empty: all.
     pub only: Vec<Flag>,
-    /// Limits of one run.
+    /// Does the program answer many problems, a line each, or is it started for each?
+    pub by_lines: bool,
+    /// Limits of one answer.
     pub limits: Limits,
     /// Threads; `None`: all cores.
     pub threads: Option<usize>,
@@ -66,6 +70,7 @@ pub fn run(
         watch,
         total,
         finished: AtomicUsize::new(0),
+        idle: Mutex::new(Vec::new()),
     };
 
     // One case per task: they take very different times.
@@ -89,6 +94,8 @@ struct Run<'a> {
     watch: &'a Watch<'a>,
     total: usize,
     finished: AtomicUsize,
+    /// Programs that answer line by line and wait for a problem; at most one for each thread.
+    idle: Mutex<Vec<LineProgram<'a>>>,
 }
 
 impl Run<'_> {
@@ -128,11 +135,26 @@ impl Run<'_> {
         Case::answer(&draft, self.plan.as_pencil)
     }
 
+    /// Sends a problem to the program: to one that waits for it, or to one started for it.
+    fn ending(&self, input: &str) -> Result<Ending, TestkitError> {
+        let limits = self.plan.limits;
+        if !self.plan.by_lines {
+            return run_once(self.command, input, &limits, self.watch);
+        }
+
+        let waiting = lock(&self.idle).pop();
+        let mut program = waiting.unwrap_or_else(|| LineProgram::new(self.command, limits));
+        let ending = program.ask(input, self.watch)?;
+        lock(&self.idle).push(program);
+
+        Ok(ending)
+    }
+
     /// Sends the case to the program and judges how it ends. `None` if it was interrupted.
     fn judgement(&self, case: &Case) -> Result<Option<Judgement>, TestkitError> {
         let limits = &self.plan.limits;
         let input = write_problem(&case.problem);
-        let judgement = match run_once(self.command, &input, limits, self.watch)? {
+        let judgement = match self.ending(&input)? {
             Ending::Interrupted => return Ok(None),
             Ending::TimedOut => {
                 let seconds = limits.time.as_secs_f64();
@@ -160,6 +182,11 @@ impl Run<'_> {
 
         Ok(Some(judgement))
     }
+}
+
+/// The programs; a thread that panicked with the lock leaves the list whole.
+fn lock<'m, 'a>(idle: &'m Mutex<Vec<LineProgram<'a>>>) -> MutexGuard<'m, Vec<LineProgram<'a>>> {
+    idle.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A program that ended by a signal, or with an exit code that says that it failed.

@@ -1,0 +1,260 @@
+//! One foreign program for many cases: a problem per line in, a report per line out.
+//!
+//! For programs that take long to start. The time limit holds for each answer, the first one from
+//! the start of the program. A program that ends, hangs or prints too much is killed, and started
+//! anew for the next case. Called by `run` with `--lines`.
+
+use super::process::{Ending, Limits, Reader, first_line, kill, spawn};
+use crate::error::TestkitError;
+use mceip_engine::run::Watch;
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::process::{Child, ChildStdin, ChildStdout};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::time::{Duration, Instant};
+
+/// How often an interrupt is looked at.
+const SLICE: Duration = Duration::from_millis(50);
+
+/// A program that answers line by line; not running before the first question.
+pub(super) struct LineProgram<'a> {
+    command: &'a [String],
+    limits: Limits,
+    running: Option<Running>,
+}
+
+/// A program that has been started, with a thread for each of its streams.
+struct Running {
+    child: Child,
+    questions: Sender<String>,
+    answers: Receiver<Answer>,
+    complaint: Reader,
+}
+
+/// What comes from stdout.
+enum Answer {
+    /// A line, without its end.
+    Line(Vec<u8>),
+    /// More than allowed without an end of line.
+    TooLong,
+}
+
+impl<'a> LineProgram<'a> {
+    pub(super) fn new(command: &'a [String], limits: Limits) -> LineProgram<'a> {
+        LineProgram {
+            command,
+            limits,
+            running: None,
+        }
+    }
+
+    /// Sends a problem and waits for the line that answers it.
+    ///
+    /// # Errors
+    /// [`TestkitError::Start`] if the program does not start.
+    pub(super) fn ask(&mut self, problem: &str, watch: &Watch<'_>) -> Result<Ending, TestkitError> {
+        let start = Instant::now();
+        let running = match self.running.take() {
+            Some(running) => running,
+            None => Running::start(self.command, self.limits.output)?,
+        };
+
+        // One line; a JSON text has line ends between tokens only. Where the program has ended,
+        // the answer tells.
+        let _ = running.questions.send(problem.replace('\n', " "));
+
+        let ending = running.answer(start, &self.limits, watch);
+        match ending {
+            Some(answered @ Ending::Ended { .. }) => {
+                self.running = Some(running);
+                Ok(answered)
+            }
+            Some(cut_off) => {
+                running.stop();
+                Ok(cut_off)
+            }
+            None => Ok(running.ended()),
+        }
+    }
+}
+
+impl Drop for LineProgram<'_> {
+    fn drop(&mut self) {
+        if let Some(running) = self.running.take() {
+            running.stop();
+        }
+    }
+}
+
+impl Running {
+    fn start(command: &[String], longest: u64) -> Result<Running, TestkitError> {
+        let mut child = spawn(command)?;
+        let (questions, to_send) = channel();
+        let (send, answers) = channel();
+
+        if let Some(stdin) = child.stdin.take() {
+            std::thread::spawn(move || write_lines(stdin, &to_send));
+        }
+        if let Some(stdout) = child.stdout.take() {
+            std::thread::spawn(move || read_lines(stdout, longest, &send));
+        }
+        let complaint = Reader::of_stderr(&mut child);
+
+        Ok(Running {
+            child,
+            questions,
+            answers,
+            complaint,
+        })
+    }
+
+    /// Waits for a line. `None` where the program has closed its stdout.
+    fn answer(&self, start: Instant, limits: &Limits, watch: &Watch<'_>) -> Option<Ending> {
+        loop {
+            let left = limits.time.saturating_sub(start.elapsed());
+            match self.answers.recv_timeout(left.min(SLICE)) {
+                Ok(Answer::Line(stdout)) => {
+                    return Some(Ending::Ended {
+                        code: Some(0),
+                        stdout,
+                        complaint: String::new(),
+                    });
+                }
+                Ok(Answer::TooLong) => return Some(Ending::TooLong),
+                Err(RecvTimeoutError::Disconnected) => return None,
+                Err(RecvTimeoutError::Timeout) if watch.is_cancelled() => {
+                    return Some(Ending::Interrupted);
+                }
+                Err(RecvTimeoutError::Timeout) if left.is_zero() => return Some(Ending::TimedOut),
+                Err(RecvTimeoutError::Timeout) => (),
+            }
+        }
+    }
+
+    /// The program has closed its stdout without an answer: its exit code and its complaint.
+    fn ended(mut self) -> Ending {
+        let code = super::process::code_after(&mut self.child);
+        kill(&mut self.child);
+
+        Ending::Ended {
+            code,
+            stdout: Vec::new(),
+            complaint: first_line(&self.complaint.received()),
+        }
+    }
+
+    fn stop(mut self) {
+        kill(&mut self.child);
+    }
+}
+
+/// Writes each question as a line, until the program or the run ends.
+fn write_lines(mut stdin: ChildStdin, questions: &Receiver<String>) {
+    for question in questions {
+        let sent = writeln!(stdin, "{question}").and_then(|()| stdin.flush());
+        if sent.is_err() {
+            return;
+        }
+    }
+}
+
+/// Passes on each line, until the program ends, nobody listens, or a line is too long.
+fn read_lines(stdout: ChildStdout, longest: u64, answers: &Sender<Answer>) {
+    let mut stdout = BufReader::new(stdout);
+    loop {
+        let mut line = Vec::new();
+        let read = stdout.by_ref().take(longest).read_until(b'\n', &mut line);
+        let is_whole = line.ends_with(b"\n");
+
+        let answer = match read {
+            Err(_) | Ok(0) => return,
+            Ok(count) if count as u64 == longest && !is_whole => Answer::TooLong,
+            Ok(_) => {
+                line.truncate(line.len() - usize::from(is_whole));
+                Answer::Line(line)
+            }
+        };
+        if answers.send(answer).is_err() {
+            return;
+        }
+    }
+}
+
+#[cfg(unix)]
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_engine::run::Cancel;
+
+    fn shell(script: &str) -> Vec<String> {
+        vec!["sh".to_owned(), "-c".into(), script.into()]
+    }
+
+    fn limits() -> Limits {
+        Limits {
+            time: Duration::from_millis(2000),
+            output: 1000,
+        }
+    }
+
+    fn answered(text: &str) -> Ending {
+        Ending::Ended {
+            code: Some(0),
+            stdout: text.as_bytes().to_vec(),
+            complaint: String::new(),
+        }
+    }
+
+    /// The endings of these questions, one after the other.
+    fn endings(script: &str, questions: &[&str]) -> Vec<Ending> {
+        let command = shell(script);
+        let mut program = LineProgram::new(&command, limits());
+        let ask = |question: &&str| program.ask(question, &Watch::nobody()).unwrap();
+        questions.iter().map(ask).collect()
+    }
+
+    #[test]
+    fn one_program_answers_line_by_line() {
+        let script = "n=0; while read -r line; do n=$((n + 1)); echo \"$n $line\"; done";
+        let found = endings(script, &["a", "b\nb", "c"]);
+        assert_eq!(found, ["1 a", "2 b b", "3 c"].map(answered));
+    }
+
+    #[test]
+    fn a_program_that_fails_is_started_anew() {
+        // It answers once, then ends with a complaint.
+        let script = "read -r line; echo \"$line\"; read -r line; echo oops >&2; exit 7";
+        let found = endings(script, &["a", "b", "c"]);
+        let ended = Ending::Ended {
+            code: Some(7),
+            stdout: Vec::new(),
+            complaint: "oops".into(),
+        };
+        assert_eq!(found, [answered("a"), ended, answered("c")]);
+
+        // It hangs on one question, and prints without end on another.
+        let script = "while read -r line; do case $line in
+            hang) sleep 100;; long) yes | tr -d '\\n';; *) echo \"$line\";; esac; done";
+        let found = endings(script, &["a", "hang", "b", "long", "c"]);
+        let expected = [
+            answered("a"),
+            Ending::TimedOut,
+            answered("b"),
+            Ending::TooLong,
+            answered("c"),
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn an_interrupt_ends_a_wait_and_a_missing_program_is_named() {
+        let sleep = shell("sleep 100");
+        let stopped = Cancel::requested();
+        let mut program = LineProgram::new(&sleep, limits());
+        let ending = program.ask("a", &Watch::silent(&stopped)).unwrap();
+        assert_eq!(ending, Ending::Interrupted);
+
+        let nothing = ["/nowhere/solver".to_owned()];
+        let refused = LineProgram::new(&nothing, limits()).ask("a", &Watch::nobody());
+        assert!(matches!(refused, Err(TestkitError::Start { .. })));
+    }
+}

@@ -1,0 +1,102 @@
+//! How far a reported solution is from the nearest one of the complete answer.
+//!
+//! ```text
+//! value:  |t - t*| / (1 + |t*|)        x:  max |x_i - x*_i|,  both with e'x_s = 1
+//! ```
+//!
+//! (l1 norm 1 where x*_s = 0). A solution that `certify` does not reach and that is near one with
+//! the same positive components is inaccurate; any other one is wrong. Called by `judge`.
+
+use super::case::Case;
+use mceip_engine::candidate::Candidate;
+use mceip_engine::tolerance::{NEAR_RADII, SUPPORT_GUESSES, VALUE_RADIUS, X_RADIUS};
+use mceip_oracle::Solution;
+
+/// The distances of a reported solution from one of the answer.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Distance {
+    /// The value of the answer.
+    value: String,
+    /// Of the values, relative to 1 + |value|.
+    of_value: f64,
+    /// Of x, the largest of a component.
+    of_x: f64,
+}
+
+impl Distance {
+    /// From the solution of the answer that is nearest in x, among those with its positive
+    /// components that are near; none where there is no such solution.
+    pub(super) fn to_nearest(case: &Case, reported: &Candidate) -> Option<Distance> {
+        let slip = case.reduced.pencil.slip();
+        let mut nearest: Option<Distance> = None;
+
+        for solution in &case.answer.solutions {
+            let Some(distance) = Distance::between(solution, reported, &slip) else {
+                continue;
+            };
+            let has_support = has_support(reported, &slip, &solution.slip);
+            let is_nearer = nearest.as_ref().is_none_or(|n| distance.of_x < n.of_x);
+            if has_support && distance.is_near() && is_nearer {
+                nearest = Some(distance);
+            }
+        }
+
+        nearest
+    }
+
+    fn is_near(&self) -> bool {
+        self.of_value <= NEAR_RADII * VALUE_RADIUS && self.of_x <= NEAR_RADII * X_RADIUS
+    }
+
+    /// `None` for an x that has no scale, or numbers beyond the doubles.
+    fn between(solution: &Solution, reported: &Candidate, slip: &[usize]) -> Option<Distance> {
+        let value = solution.decimal(17);
+        let exact_value: f64 = value.parse().ok()?;
+
+        let size = if solution.is_free_only() {
+            reported.x.iter().map(|x| x.abs()).sum()
+        } else {
+            slip.iter().map(|i| reported.x[*i]).sum::<f64>()
+        };
+        if !size.is_normal() || size < 0.0 {
+            return None;
+        }
+
+        let mut of_x = 0.0_f64;
+        for (exact, given) in solution.x_decimals(slip, 17).iter().zip(&reported.x) {
+            let exact: f64 = exact.parse().ok()?;
+            of_x = of_x.max((given / size - exact).abs());
+        }
+
+        let of_value = (reported.value - exact_value).abs() / (1.0 + exact_value.abs());
+        let distance = Distance {
+            value: solution.decimal(9),
+            of_value,
+            of_x,
+        };
+        (of_value.is_finite() && of_x.is_finite()).then_some(distance)
+    }
+}
+
+/// Are these the positive components among the slip variables, by one of the guesses of what
+/// counts as positive?
+fn has_support(reported: &Candidate, slip: &[usize], support: &[usize]) -> bool {
+    let components = || slip.iter().map(|i| reported.x[*i]);
+    let largest = components().fold(0.0, f64::max);
+
+    SUPPORT_GUESSES.iter().any(|part| {
+        let positive = slip.iter().filter(|i| reported.x[**i] > part * largest);
+        positive.eq(support)
+    })
+}
+
+impl std::fmt::Display for Distance {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "the answer has the value {}: off by {:.1e} in the value (allowed {VALUE_RADIUS:e}) \
+             and by {:.1e} in x (allowed {X_RADIUS:e})",
+            self.value, self.of_value, self.of_x
+        )
+    }
+}
