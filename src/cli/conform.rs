@@ -8,7 +8,8 @@ use super::job::Job;
 use super::output::{Output, make};
 use mceip_model::file::write_problem;
 use mceip_testkit::conform::{
-    Case, Flag, Group, Limits, Plan, groups, pack_files, read_pack, run, summarise,
+    Case, Flag, Group, INDEX_FORMAT, Limits, PACK_FORMAT, Plan, groups, pack_files, read_pack, run,
+    summarise,
 };
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -94,7 +95,9 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     }
 
     if let Some(folder) = &args.write {
-        return write(folder, &pack_files(&groups)?);
+        let mut files = companions();
+        files.extend(pack_files(&groups)?);
+        return write(folder, &files);
     }
 
     let plan = plan(args, groups)?;
@@ -225,9 +228,48 @@ fn print_cases(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
     Ok(exit::DONE)
 }
 
+/// What makes the folder stand alone: a page for its reader, licences, schemas, version.
+fn companions() -> Vec<(String, String)> {
+    let version = env!("CARGO_PKG_VERSION");
+    let version = format!("{PACK_FORMAT}, {INDEX_FORMAT}; written by mceip {version}\n");
+
+    let mut files = vec![("VERSION".to_owned(), version)];
+    for (name, text) in COMPANIONS {
+        files.push((name.to_owned(), text.to_owned()));
+    }
+    files
+}
+
+/// Files of the repository that go into the folder of a pack: name there, content.
+const COMPANIONS: [(&str, &str); 7] = [
+    (
+        "README.md",
+        include_str!("../../spec/conformance-pack/README.md"),
+    ),
+    ("LICENSE-MIT", include_str!("../../LICENSE-MIT")),
+    ("LICENSE-APACHE", include_str!("../../LICENSE-APACHE")),
+    (
+        "schemas/mceip-problem-1.json",
+        include_str!("../../spec/schemas/mceip-problem-1.json"),
+    ),
+    (
+        "schemas/mceip-solutions-1.json",
+        include_str!("../../spec/schemas/mceip-solutions-1.json"),
+    ),
+    (
+        "schemas/mceip-pack-1.json",
+        include_str!("../../spec/schemas/mceip-pack-1.json"),
+    ),
+    (
+        "schemas/mceip-pack-index-1.json",
+        include_str!("../../spec/schemas/mceip-pack-index-1.json"),
+    ),
+];
+
 /// Each file appears whole; the index last, so that a pack that was cut short is not taken for one.
 fn write(folder: &Path, files: &[(String, String)]) -> Result<u8, CliError> {
     make(folder)?;
+    make(&folder.join("schemas"))?;
     let mut bytes = 0;
     for (name, text) in files {
         let output = Output::prepare("write", &folder.join(name), &[])?;

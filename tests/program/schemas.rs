@@ -29,7 +29,26 @@ fn schema(name: &str) -> Validator {
         "https://json-schema.org/draft/2020-12/schema"
     );
 
-    jsonschema::draft202012::options().build(&schema).unwrap()
+    // References lead to schemas in the same folder.
+    let folder = format!("file://{}/", root("spec/schemas").display());
+    jsonschema::draft202012::options()
+        .with_base_uri(format!("{folder}{name}.json"))
+        .with_retriever(OfTheFolder)
+        .build(&schema)
+        .unwrap()
+}
+
+/// Reads what a schema refers to, files only.
+struct OfTheFolder;
+
+impl jsonschema::Retrieve for OfTheFolder {
+    fn retrieve(
+        &self,
+        uri: &jsonschema::Uri<String>,
+    ) -> Result<Value, Box<dyn std::error::Error + Send + Sync>> {
+        let text = std::fs::read_to_string(uri.path().as_str())?;
+        Ok(serde_json::from_str(&text)?)
+    }
 }
 
 /// Fails with the errors that the schema finds in the value.

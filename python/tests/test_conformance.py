@@ -1,0 +1,76 @@
+"""The conformance pack of the repository, as objects; damaged packs are refused."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+import mceip
+from mceip.conformance import read_pack
+
+FOLDER = Path(__file__).parent.parent.parent / "spec" / "conformance-pack"
+
+
+@pytest.fixture(scope="module")
+def pack():
+    return read_pack(FOLDER)
+
+
+def test_the_pack_has_cases_with_problems_answers_and_wrong_answers(pack):
+    index = json.loads((FOLDER / "index.json").read_text())
+
+    assert len(pack.cases) == index["cases"] > 250
+    assert len({case.id for case in pack.cases}) == len(pack.cases)
+    assert "fold" in pack.flags
+    assert sum(len(case.wrong) for case in pack.cases) > 500
+    assert {answer.label for case in pack.cases for answer in case.wrong} == {"incomplete", "wrong"}
+
+
+def test_complete_sets_have_the_values_of_the_answers(pack):
+    folds = [case for case in pack.with_flag("fold") if not case.answer["continua"]]
+    assert len(folds) > 3
+
+    for case in folds:
+        found = case.problem.complete()
+        assert found.is_complete, case.id
+
+        exact = sorted(float(solution["value"]) for solution in case.answer["solutions"])
+        values = sorted(solution.value for solution in found.solutions)
+        assert values == pytest.approx(exact, rel=1e-6), case.id
+
+
+def test_unknown_cases_and_flags_are_key_errors(pack):
+    with pytest.raises(KeyError, match="nowhere"):
+        pack.case("nowhere")
+    with pytest.raises(KeyError, match="no_flag"):
+        pack.with_flag("no_flag")
+
+
+def damaged(tmp_path, name, change):
+    """A copy of the pack with one file changed."""
+    copy = tmp_path / "pack"
+    shutil.copytree(FOLDER, copy)
+    file = copy / name
+    file.write_text(change(file.read_text()))
+    return copy
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "words"),
+    [
+        ("folds.json", lambda text: text.replace("folds", "golds", 1), "digest"),
+        ("index.json", lambda text: text.replace("index/1", "index/2"), "format"),
+        ("index.json", lambda text: text[:-20], "expected JSON"),
+        ("index.json", lambda text: "[]", "format"),
+        ("index.json", lambda text: text.replace("folds.json", "../folds.json"), "beside it"),
+    ],
+)
+def test_damaged_packs_are_refused(tmp_path, name, change, words):
+    with pytest.raises(mceip.MceipError, match=words):
+        read_pack(damaged(tmp_path, name, change))
+
+
+def test_a_missing_folder_is_an_os_error(tmp_path):
+    with pytest.raises(OSError, match="index.json"):
+        read_pack(tmp_path)
