@@ -4,6 +4,7 @@ use super::common::exit;
 use indicatif::ProgressBar;
 use mceip_engine::run::{Cancel, Progress, Watch};
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// A switch that Ctrl-C sets; a second Ctrl-C ends the process.
@@ -22,6 +23,14 @@ pub(super) fn interrupt() -> Cancel {
     cancel
 }
 
+/// Is progress to stay unseen? Set once, before the command runs.
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Shows no progress in this process.
+pub(super) fn be_quiet() {
+    IS_QUIET.store(true, Ordering::Relaxed);
+}
+
 /// A run that Ctrl-C ends, with what has been found kept.
 pub(super) struct Job {
     cancel: Cancel,
@@ -29,11 +38,15 @@ pub(super) struct Job {
 }
 
 impl Job {
-    /// Begins, with a line on stderr if that is a terminal.
+    /// Begins, with a line on stderr if that is a terminal and `--quiet` is not given.
     pub(super) fn begin(what: &str) -> Job {
         let cancel = interrupt();
 
-        let line = ProgressBar::new_spinner();
+        let line = if IS_QUIET.load(Ordering::Relaxed) {
+            ProgressBar::hidden()
+        } else {
+            ProgressBar::new_spinner()
+        };
         line.enable_steady_tick(Duration::from_millis(200));
         line.set_message(what.to_string());
 

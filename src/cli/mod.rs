@@ -5,6 +5,7 @@ mod block;
 mod campaign;
 mod certify;
 mod check;
+mod colour;
 mod common;
 mod complete;
 mod conform;
@@ -36,6 +37,9 @@ use std::process::ExitCode;
 #[derive(Parser)]
 #[command(name = "mceip", version, arg_required_else_help = true)]
 struct Cli {
+    /// Show no progress on the terminal.
+    #[arg(long, global = true)]
+    quiet: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -86,6 +90,10 @@ pub fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(e) => return refuse(&e),
     };
+    if cli.quiet {
+        job::be_quiet();
+    }
+
     let result = match cli.command {
         Command::Verify(a) => verify::run(&a),
         Command::Enumerate(a) => enumerate::run(&a),

@@ -1,10 +1,10 @@
-//! `mceip completions` and `mceip man`: both name every command and its options.
+//! `mceip completions` and `mceip man` name every command and its options; colours and `--quiet`.
 //!
 //! The truth is the list of commands that `mceip --help` prints. A command that one of them leaves
 //! out fails here.
 #![cfg(feature = "cli")]
 
-use crate::common::{exits, read, run};
+use crate::common::{example, exits, read, run};
 
 /// The names of the commands, from the help.
 fn commands() -> Vec<String> {
@@ -72,4 +72,49 @@ fn an_unknown_shell_and_a_file_in_the_place_of_the_folder_are_refused() {
     let refused = run(&["man", file.path().to_str().unwrap()]);
     assert_eq!(refused.code, Some(2));
     assert!(refused.stderr.starts_with("mceip: cannot write"));
+}
+
+/// What `complete` prints on the fold with this variable of the environment.
+fn printed_with(variable: &str, value: &str, options: &[&str]) -> String {
+    let fold = example("fold");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_mceip"))
+        .args(["complete", &fold])
+        .args(options)
+        .env_remove("NO_COLOR")
+        .env_remove("CLICOLOR_FORCE")
+        .env(variable, value)
+        .output()
+        .unwrap();
+
+    assert_eq!(output.status.code(), Some(0));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Not in pipes, unless it is asked for; never in JSON.
+#[test]
+fn verdicts_are_in_colour_where_it_is_wanted() {
+    let plain = printed_with("NO_COLOR", "1", &[]);
+    assert!(plain.contains("\nCOMPLETE: 2 solutions"), "{plain}");
+    assert_eq!(printed_with("CLICOLOR", "1", &[]), plain);
+
+    let coloured = printed_with("CLICOLOR_FORCE", "1", &[]);
+    let verdict = "\u{1b}[1m\u{1b}[32mCOMPLETE\u{1b}[0m: 2 solutions";
+    assert!(coloured.contains(verdict), "{coloured:?}");
+    assert_eq!(
+        coloured
+            .replace("\u{1b}[1m\u{1b}[32m", "")
+            .replace("\u{1b}[0m", ""),
+        plain
+    );
+
+    let json = printed_with("CLICOLOR_FORCE", "1", &["--json"]);
+    assert!(!json.contains('\u{1b}'), "{json:?}");
+}
+
+#[test]
+fn quiet_is_an_option_of_every_command() {
+    let fold = example("fold");
+    let plain = exits(0, &["complete", &fold]);
+    assert_eq!(exits(0, &["--quiet", "complete", &fold]), plain);
+    assert_eq!(exits(0, &["complete", &fold, "--quiet"]), plain);
 }
