@@ -11,7 +11,8 @@
        u^2 (D - H F^-1 G) = Z - l' F^-1 r,      Z = u^2 D - u H W - V' r.
 
    F(d) >= q (sigma + t tau) I is shown by factors that cover c A_ff - d I and c B_ff - d I
-   ([bounded_rows]), so the last term is at most |l_i| |r_j| / (q (sigma + lo tau)) for t >= lo.
+   ([bounded_rows] of Bounded.v), so the last term is at most |l_i| |r_j| / (q (sigma + lo tau))
+   for t >= lo.
 
    The interval [lo, hi] of a region is described by u in [0, 1] with t = lo + u (hi - lo).
    [local_pencil] computes, from the series and these bounds, an enclosed pencil over [0, 1];

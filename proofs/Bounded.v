@@ -4,8 +4,9 @@
    begin at their first entry are witness of S >= (d/c) I: the matrix c S - d I is covered by
    m L L' (Covered.v).
 
-   The checker looks at the entries that there are, to see that S is symmetric, and writes each row
-   of c S - d I out: entry j is then reached in j steps without a comparison (Places.v).
+   The checker looks at the entries that there are, to see that S is symmetric.  It writes out each
+   row of c S - d I and walks along it and the rows of L together; no numbers of columns are
+   compared (Places.v says why).
 
    Theorem [bounded_rows_sound]: c z'S z >= d z'z for every z.  [bounded_lookup_sym]: S is
    symmetric.
@@ -54,15 +55,23 @@ Definition shifted_row c d i (row : sparse_row) : sparse_row :=
 Definition symmetric_rows_sparse (rows : seq sparse_row) :=
   all_from (fun i row => all (fun e => lookup row e.1 =? lookup (nth [::] rows e.1) i) row) 0 rows.
 
-(* A row with its number. *)
-Definition numbered := (nat * seq Z)%type.
+(* The sum of |S_ij - m a b_j| over all j, for a row of S that is written out. *)
+Fixpoint distance (m : Z) (row : seq Z) (a : late_row) (factor : seq late_row) : Z :=
+  if factor is b :: factor' then
+    Z.abs (head 0 row - m * late_dot a b) + distance m (behead row) a factor'
+  else 0.
+
+(* The sum over all j is at most twice the term of the diagonal, so that the others together are at
+   most this term. *)
+Definition row_bounded c d m (factor : seq late_row) i (r : sparse_row * late_row) :=
+  let row := spread (shifted_row c d i r.1) in
+  distance m row r.2 factor <=? 2 * (nth 0 row i - m * late_dot r.2 r.2).
 
 Definition bounded_rows n (rows : seq sparse_row) (b : form_bound) :=
-  let dense i row := (i, spread (shifted_row (bound_times b) (bound_at b) i row)) in
   [&& 0 <? bound_times b, 0 <=? bound_at b, 0 <=? gram_times b, size rows == n,
       size (gram_rows b) == n, symmetric_rows_sparse rows &
-      covered (fun r s : numbered => nth 0 r.2 s.1) (fun r s => gram_times b * late_dot r s) false
-        (zip (map_from dense 0 rows) (gram_rows b))].
+      all_from (row_bounded (bound_times b) (bound_at b) (gram_times b) (gram_rows b)) 0
+        (zip rows (gram_rows b))].
 
 End Checker.
 
@@ -79,6 +88,13 @@ have -> : (c * lookup row j)%Z = lookup [seq (e.1, c * e.2)%Z | e <- row] j.
   elim: row => [|e row IH] /=; first by rewrite Z.mul_0_r.
   by rewrite -IH; case: eqP => // _; rewrite Z.mul_add_distr_l.
 by rewrite /=; case: eqP => _; [rewrite Z.add_comm | rewrite Z.sub_0_r].
+Qed.
+
+Lemma all_from_intro T (d : T) (f : nat -> T -> bool) l a :
+  (forall j, (j < size l)%N -> f (a + j)%N (nth d l j)) -> all_from f a l.
+Proof.
+elim: l a => //= x l IH a ok; have := ok 0%N; rewrite addn0 => -> //=.
+by apply: IH => j lt_j; rewrite addSnnS; apply: (ok j.+1).
 Qed.
 
 (* A column without an entry. *)
@@ -124,30 +140,82 @@ Proof.
 by case/and5P: checked => _ _ _ /eqP<- /and3P[_ sym _]; apply: symmetric_lookup.
 Qed.
 
+Definition shifted_entry (r s : nat * sparse_row) : Z :=
+  (bound_times b * lookup r.2 s.1 - (if r.1 == s.1 then bound_at b else 0))%Z.
+
+Notation product := (fun r s => gram_times b * late_dot r s)%Z.
+Notation both := (zip (zip fi rows) (gram_rows b)).
+Notation none := ((0%N, [::] : sparse_row), (0%N, [::] : seq Z)).
+
+Lemma size_both : size both = n.
+Proof.
+case/and5P: checked => _ _ _ /eqP size_n /and3P[/eqP size_g _ _].
+by rewrite !size_zip size_iota size_n size_g !minnn.
+Qed.
+
+Lemma nth_both i : (i < n)%N ->
+  nth none both i = ((i, nth [::] rows i), nth (0%N, [::]) (gram_rows b) i).
+Proof.
+case/and5P: checked => _ _ _ /eqP size_n /and3P[/eqP size_g _ _] lt_i.
+by rewrite !nth_zip ?size_zip ?size_iota ?size_n ?size_g ?minnn // nth_iota.
+Qed.
+
+Lemma toR_distance m row a factor :
+  toR (distance m row a factor) = \sum_(j <- iota 0 (size factor))
+    toR (Z.abs (nth 0 row j - m * late_dot a (nth (0%N, [::]) factor j))%Z) :> R.
+Proof.
+elim: factor row => [|r factor IH] row; first by rewrite big_nil.
+rewrite /= big_cons toRD IH (sum_shift 1) nth0; congr (_ + _).
+by apply: eq_bigr => j _; rewrite nth_behead.
+Qed.
+
+Lemma rows_covered : covered shifted_entry product false both.
+Proof.
+have sb := size_both; rewrite /covered; apply: (all_from_intro (d := none)) => i.
+rewrite sb add0n => lt_i.
+case/and5P: checked => _ _ _ /eqP size_n /and3P[/eqP size_g _ bounds].
+rewrite nth_both //; set r := nth [::] rows i; set g := nth _ (gram_rows b) i.
+have := all_from_nth ([::], (0%N, [::])) bounds (j := i).
+rewrite size_zip size_n size_g minnn add0n nth_zip ?size_n ?size_g // -/r -/g => /(_ lt_i).
+rewrite /row_bounded -[(r, g).1]/r -[(r, g).2]/g nth_spread lookup_shifted -!(toR_le R) toRM.
+set rest := off_diagonal _ _ _ _ _; pose e := remainder shifted_entry product (i, r, g) (i, r, g).
+rewrite -[(_ - _ - _)%Z]/e.
+
+(* The sum over all j is that over the others and the term of the diagonal. *)
+have rowE j : nth 0%Z (spread (shifted_row (bound_times b) (bound_at b) i r)) j =
+    (bound_times b * lookup r j - (if i == j then bound_at b else 0))%Z.
+  by rewrite nth_spread lookup_shifted.
+have -> : toR (distance (gram_times b) (spread (shifted_row (bound_times b) (bound_at b) i r)) g
+                 (gram_rows b)) = toR rest + `|toR e| :> R.
+  rewrite toR_distance size_g /rest /off_diagonal (toR_sum_from R none) sb.
+  move: (spread _) rowE => row rowE.
+  have in_i : i \in fi by rewrite mem_iota.
+  rewrite (bigD1_seq i) ?iota_uniq //= [in RHS](bigD1_seq i) ?iota_uniq //= eqxx toR0 add0r.
+  rewrite addrC -toR_abs rowE; congr (_ + _).
+  rewrite big_seq_cond [RHS]big_seq_cond; apply: eq_bigr => j /andP[].
+  rewrite mem_iota add0n /= => lt_j /negbTE->.
+  by rewrite subn0 nth_both // rowE.
+move=> le; rewrite -(ler_add2r `|toR e|) (le_trans le) //.
+by rewrite [toR 2]/(1 + 1) mulrDl mul1r ler_add2l ler_norm.
+Qed.
+
 Theorem bounded_rows_sound (z : nat -> R) :
   toR (bound_at b) * (\sum_(k <- fi) z k ^+ 2) <=
   toR (bound_times b) * (\sum_(i <- fi) \sum_(k <- fi) z i * row_entry i k * z k).
 Proof.
-have lookup_sym_ := bounded_lookup_sym.
-case/and5P: checked => _ _ m0 /eqP size_n /and3P[/eqP size_g _ cov].
-set both := zip _ (gram_rows b) in cov; set s := fun r s' : numbered => _ in cov.
-pose d := ((0%N, [::] : seq Z), (0%N, [::] : seq Z)).
-have size_z f : size (map_from f 0 rows : seq numbered) = n by rewrite size_map_from.
-have size_b : size both = n by rewrite size_zip size_z size_g minnn.
-have rowE i : (i < n)%N -> (nth d both i).1 =
-    (i, spread (shifted_row (bound_times b) (bound_at b) i (nth [::] rows i))).
-  move=> lt_i; rewrite nth_zip ?size_z ?size_g //=.
-  by rewrite (nth_map_from [::]) ?size_n // add0n.
-
-have sE i j : (i < n)%N -> (j < n)%N -> s (nth d both i).1 (nth d both j).1 =
+have m0 : (0 <=? gram_times b)%Z by case/and5P: checked.
+have sE i j : (i < n)%N -> (j < n)%N ->
+    shifted_entry (nth none both i).1 (nth none both j).1 =
     (bound_times b * lookup (nth [::] rows i) j - (if i == j then bound_at b else 0))%Z.
-  by move=> Hi Hj; rewrite !rowE // -lookup_shifted -nth_spread.
-have sym : symmetric_rows d s both.
-  by move=> i j; rewrite size_b => Hi Hj; rewrite !sE // eq_sym (lookup_sym_ _ _ Hi Hj).
-have [form0 _] := covered_form (strict := false) z (late_gram R d both m0) sym cov.
+  by move=> Hi Hj; rewrite !nth_both.
+have sym : symmetric_rows none shifted_entry both.
+  move=> i j; rewrite size_both => Hi Hj; rewrite !sE // eq_sym.
+  by rewrite (bounded_lookup_sym Hi Hj).
+have [form0 _] := covered_form (strict := false) z (late_gram R none both m0) sym rows_covered.
 
-move: form0; rewrite /form size_b.
-have -> : \sum_(i <- fi) \sum_(j <- fi) z i * toR (s (nth d both i).1 (nth d both j).1) * z j =
+move: form0; rewrite /form size_both.
+have -> : \sum_(i <- fi) \sum_(j <- fi)
+            z i * toR (shifted_entry (nth none both i).1 (nth none both j).1) * z j =
           toR (bound_times b) * (\sum_(i <- fi) \sum_(k <- fi) z i * row_entry i k * z k) -
           toR (bound_at b) * (\sum_(k <- fi) z k ^+ 2).
   have -> : \sum_(k <- fi) z k ^+ 2 =
