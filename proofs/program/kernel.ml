@@ -2001,12 +2001,6 @@ let row_of m i =
 let divide_up x d =
   Z.opp (Z.div (Z.opp x) d)
 
-(** val stiffness_bound : elimination -> form_bound **)
-
-let stiffness_bound w =
-  { bound_times = w.bound_c; bound_at = w.bound_d; gram_times =
-    w.factor_scale; gram_rows = w.stiffness_factor }
-
 (** val stiffness_positive : blocks -> elimination -> bool **)
 
 let stiffness_positive d w =
@@ -2015,7 +2009,9 @@ let stiffness_positive d w =
       (all (fun row ->
         all (fun entry0 -> leq (Stdlib.Int.succ (fst entry0)) d.free_count)
           row) d.ff)
-      (bounded_rows (Obj.magic d.free_count) d.ff (stiffness_bound w)))
+      (bounded_rows (Obj.magic d.free_count) d.ff { bound_times = w.bound_c;
+        bound_at = w.bound_d; gram_times = w.factor_scale; gram_rows =
+        w.stiffness_factor }))
 
 (** val residual_column :
     blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list **)
@@ -4673,7 +4669,7 @@ let check_anchored_limit ns a low_a low_b fam lo hi r grain c =
       (pinned (local_pencil ns a low_a low_b fam lo hi true grain)
         (local_region r) c))
 
-type anchoring = { stiffness_bound0 : form_bound; mass_bound : form_bound;
+type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
                    anchors : (bool * anchor) list }
 
 type varying_leaf =
@@ -4765,8 +4761,8 @@ let at_anchor w families0 n r check =
    | Some fam ->
      if reverse
      then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
-            (check true a w.mass_bound w.stiffness_bound0 fam (swap_region r))
-     else check false a w.stiffness_bound0 w.mass_bound fam r
+            (check true a w.mass_bound w.stiffness_bound fam (swap_region r))
+     else check false a w.stiffness_bound w.mass_bound fam r
    | None -> false)
 
 (** val leaf_at :
@@ -4823,7 +4819,7 @@ let check_varying_leaf q w families0 solutions r = function
 let bounds_hold q w =
   (&&)
     (bounded_rows (Obj.magic size q.free) (ff_block q (row_a q))
-      w.stiffness_bound0)
+      w.stiffness_bound)
     (bounded_rows (Obj.magic size q.free) (ff_block q (row_b q)) w.mass_bound)
 
 (** val check_varying :

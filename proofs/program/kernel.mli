@@ -672,8 +672,6 @@ val row_of : matrix -> int -> Big_int_Z.big_int list
 
 val divide_up : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
-val stiffness_bound : elimination -> form_bound
-
 val stiffness_positive : blocks -> elimination -> bool
 
 val residual_column :
@@ -1535,7 +1533,7 @@ val check_anchored_limit :
   int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
   point -> region -> Big_int_Z.big_int -> pinning -> bool
 
-type anchoring = { stiffness_bound0 : form_bound; mass_bound : form_bound;
+type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
                    anchors : (bool * anchor) list }
 
 type varying_leaf =
