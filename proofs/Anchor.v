@@ -11,7 +11,8 @@
        u^2 (D - H F^-1 G) = Z - l' F^-1 r,      Z = u^2 D - u H W - V' r.
 
    F(d) >= q (sigma + t tau) I is shown by factors that cover c A_ff - d I and c B_ff - d I
-   ([bounded_rows]), so the last term is at most |l_i| |r_j| / (q (sigma + lo tau)) for t >= lo.
+   ([bounded_rows] of Bounded.v), so the last term is at most |l_i| |r_j| / (q (sigma + lo tau))
+   for t >= lo.
 
    The interval [lo, hi] of a region is described by u in [0, 1] with t = lo + u (hi - lo).
    [local_pencil] computes, from the series and these bounds, an enclosed pencil over [0, 1];
@@ -31,7 +32,7 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf.
 From Mceip Require Import Existence Pinned.
-From Mceip Require Import Condensation Pencil Claim Norms Elimination Curved Series.
+From Mceip Require Import Places Condensation Pencil Claim Norms Elimination Curved Series.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -41,13 +42,6 @@ Import Order.Theory GRing.Theory Num.Theory.
 
 Delimit Scope Z_scope with Z.
 Local Open Scope ring_scope.
-
-(* c, d, m and L: c S - d I is covered by m L L'. *)
-Record form_bound := FormBound {
-  bound_times : Z;
-  bound_at : Z;
-  gram_times : Z;
-  gram_rows : seq late_row }.
 
 (* The center p/q, u, W, V, and a positive factor for each row of a complementarity variable. *)
 Record anchor := Anchor {
@@ -78,21 +72,6 @@ Inductive local_leaf :=
   | LocalAbsent of absence
   | LocalRoot of isolation & outcome.
 
-Section Bounds.
-
-Local Open Scope Z_scope.
-
-Definition bounded_rows n (rows : seq sparse_row) (b : form_bound) :=
-  let entry_of (r s : nat * sparse_row) :=
-    bound_times b * lookup r.2 s.1 - (if r.1 == s.1 then bound_at b else 0) in
-  [&& 0 <? bound_times b, 0 <=? bound_at b, 0 <=? gram_times b, size rows == n,
-      size (gram_rows b) == n,
-      all_from (fun i row => all_from (fun j col => lookup row j =? lookup col i) 0 rows) 0 rows &
-      covered entry_of (fun r s => gram_times b * late_dot r s) false
-        (zip (zip (iota 0 n) rows) (gram_rows b))].
-
-End Bounds.
-
 Section Checker.
 
 Local Open Scope Z_scope.
@@ -111,7 +90,8 @@ Notation nf := (size (free Q)).
 Definition row_0 i := times q (row_a Q i) ++ times p (row_b Q i).
 Definition row_1 i := times q (row_b Q i).
 
-Definition ff_block (row : nat -> sparse_row) := [seq restrict (row i) (free Q) | i <- free Q].
+Definition ff_block (row : nat -> sparse_row) :=
+  let place := places (free Q) in [seq restrict place (row i) | i <- free Q].
 Definition fs_block (row : nat -> sparse_row) : matrix :=
   let columns := slip Q in
   [seq (let entries := row i in [seq lookup entries j | j <- columns]) | i <- free Q].
@@ -268,63 +248,6 @@ End Region.
 
 End Checker.
 
-Section FormBound.
-
-Variables (R : rcfType) (n : nat) (rows : seq sparse_row) (b : form_bound).
-Hypothesis checked : bounded_rows n rows b.
-Notation fi := (iota 0 n).
-Notation row_entry i k := (toR (lookup (nth [::] rows i) k) : R).
-
-Lemma bound_times_gt0 : 0 < toR (bound_times b) :> R.
-Proof. by case/and5P: checked => ? *; rewrite toR_gt0. Qed.
-
-Lemma bound_at_ge0 : 0 <= toR (bound_at b) :> R.
-Proof. by case/and5P: checked => _ ? *; rewrite toR_ge0. Qed.
-
-Lemma bounded_lookup_sym i k : (i < n)%N -> (k < n)%N ->
-  lookup (nth [::] rows i) k = lookup (nth [::] rows k) i.
-Proof.
-case/and5P: checked => _ _ _ /eqP<- /and3P[_ sym _] Hi Hk.
-have := all_from_nth [::] sym Hi => /(all_from_nth [::])/(_ _ Hk).
-by rewrite !add0n => /Z.eqb_spec.
-Qed.
-
-Theorem bounded_rows_sound (z : nat -> R) :
-  toR (bound_at b) * (\sum_(k <- fi) z k ^+ 2) <=
-  toR (bound_times b) * (\sum_(i <- fi) \sum_(k <- fi) z i * row_entry i k * z k).
-Proof.
-have lookup_sym_ := bounded_lookup_sym.
-case/and5P: checked => _ _ m0 /eqP size_n /and3P[/eqP size_g _ cov].
-set both := zip _ (gram_rows b) in cov; set s := fun r s' : nat * sparse_row => _ in cov.
-pose d := ((0%N, [::] : sparse_row), (0%N, [::] : seq Z)).
-have size_z : size (zip fi rows) = n by rewrite size_zip size_iota size_n minnn.
-have size_b : size both = n by rewrite size_zip size_z size_g minnn.
-have rowE i : (i < n)%N -> (nth d both i).1 = (i, nth [::] rows i).
-  move=> lt_i; rewrite nth_zip ?size_z ?size_g //=.
-  by rewrite nth_zip ?size_iota ?size_n // nth_iota.
-
-have sym : symmetric_rows d s both.
-  move=> i j; rewrite size_b => Hi Hj; rewrite !rowE // /s /= eq_sym.
-  by rewrite (lookup_sym_ _ _ Hi Hj).
-have [form0 _] := covered_form (strict := false) z (late_gram R d both m0) sym cov.
-
-move: form0; rewrite /form size_b.
-have -> : \sum_(i <- fi) \sum_(j <- fi) z i * toR (s (nth d both i).1 (nth d both j).1) * z j =
-          toR (bound_times b) * (\sum_(i <- fi) \sum_(k <- fi) z i * row_entry i k * z k) -
-          toR (bound_at b) * (\sum_(k <- fi) z k ^+ 2).
-  have -> : \sum_(k <- fi) z k ^+ 2 =
-            \sum_(i <- fi) \sum_(j <- fi) (if i == j then z i * z j else 0).
-    apply: sum_eq => i Hi; rewrite (bigD1_seq i) ?iota_uniq //= eqxx big1 ?addr0 //.
-    by move=> j /negbTE; rewrite eq_sym => ->.
-  rewrite !mulr_sumr -sumrB; apply: sum_eq => i; rewrite mem_iota add0n /= => Hi.
-  rewrite !mulr_sumr -sumrB; apply: sum_eq => j; rewrite mem_iota add0n /= => Hj.
-  rewrite !rowE // /s /= toRB toRM; move: (toR (lookup _ _)) => f.
-  by case: eqP => _; rewrite ?toR0; move: (toR _) (toR _) => *; ring.
-by rewrite subr_ge0.
-Qed.
-
-End FormBound.
-
 Section Expand.
 
 Variables (R : rcfType) (Q : pencil) (a : anchor).
@@ -423,8 +346,7 @@ Lemma ff_range (row : nat -> sparse_row) i :
   all (fun e => e.1 < nf)%N (nth [::] (ff_block Q row) i).
 Proof.
 have [l|l] := ltnP i nf; last by rewrite nth_default // size_map.
-rewrite (nth_map 0%N) // /restrict all_map; apply/allP => e.
-by rewrite mem_filter /= index_mem => /andP[].
+by rewrite (nth_map 0%N) // restrict_range.
 Qed.
 
 Lemma lookup_ff (row : nat -> sparse_row) i k : (i < nf)%N -> (k < nf)%N ->

@@ -84,10 +84,12 @@ Definition check_limit (r : region) (k : nat) (x : seq Z) :=
 
 Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
 
-Definition check_complete :=
-  [&& wellformed Q, free_rows_constant Q, check_elimination (blocks_of Q) w,
-      all check_solution_claim claims &
-      check_cover (condensed (blocks_of Q) w) known_solutions (check_whole Q) check_limit tr lo hi].
+(* The blocks are an argument, so that they are computed once. *)
+Definition check_blocks (D : blocks) :=
+  [&& wellformed Q, free_rows_constant Q, check_elimination D w, all check_solution_claim claims &
+      check_cover (condensed D w) known_solutions (check_whole Q) check_limit tr lo hi].
+
+Definition check_complete := check_blocks (blocks_of Q).
 
 (* What the tree yields, and what it leaves open. *)
 Definition found := yields (enclosed_order (size (slip Q))) known_solutions tr (window lo hi).

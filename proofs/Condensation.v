@@ -27,6 +27,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence.
+From Mceip Require Export Bounded.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -36,12 +37,6 @@ Import Order.Theory GRing.Theory Num.Theory.
 
 Delimit Scope Z_scope with Z.
 Local Open Scope ring_scope.
-
-(* A sparse row: column and entry. *)
-Definition sparse_row := seq (nat * Z).
-
-Definition lookup (row : sparse_row) (j : nat) : Z :=
-  foldr (fun entry sum => if entry.1 == j then (entry.2 + sum)%Z else sum) 0%Z row.
 
 (* Sparse rows of F; one list over the free variables for each column of G and for each row of H_a
    and H_b; dense D_a and D_b. *)
@@ -72,9 +67,6 @@ Section Checker.
 
 Local Open Scope Z_scope.
 
-Fixpoint map_from T U (f : nat -> T -> U) (k : nat) (l : seq T) : seq U :=
-  if l is x :: l' then f k x :: map_from f k.+1 l' else [::].
-
 Definition sparse_dot (row : sparse_row) (x : seq Z) : Z :=
   foldr (fun entry sum => entry.2 * nth 0 x entry.1 + sum) 0 row.
 
@@ -87,24 +79,13 @@ Definition divide_up x d := - ((- x) / d).
 
 Variables (D : blocks) (w : elimination).
 
-(* c F - d I *)
-Definition shifted (a b : nat * sparse_row) :=
-  bound_c w * lookup a.2 b.1 - (if a.1 == b.1 then bound_d w else 0).
-
-Definition numbered_rows := zip (iota 0 (free_count D)) (ff D).
-
-Definition stiffness_symmetric :=
-  all_from (fun i row => all_from (fun j col => lookup row j =? lookup col i) 0 (ff D)) 0 (ff D).
-
-Definition stiffness_bounded :=
-  covered shifted (fun a b => factor_scale w * late_dot a b) false
-    (zip numbered_rows (stiffness_factor w)).
+(* c F - d I is covered by m L L'. *)
+Definition stiffness_bound :=
+  FormBound (bound_c w) (bound_d w) (factor_scale w) (stiffness_factor w).
 
 Definition stiffness_positive :=
-  [&& 0 <? bound_c w, 0 <? bound_d w, 0 <=? factor_scale w, size (ff D) == free_count D,
-      size (stiffness_factor w) == free_count D,
-      all (fun row => all (fun entry => entry.1 < free_count D)%N row) (ff D),
-      stiffness_symmetric & stiffness_bounded].
+  [&& 0 <? bound_d w, all (fun row => all (fun entry => entry.1 < free_count D)%N row) (ff D) &
+      bounded_rows (free_count D) (ff D) stiffness_bound].
 
 (* u G_j - F X_j for a column j *)
 Definition residual_column (G X : matrix) j :=
@@ -148,16 +129,6 @@ End Checker.
 Section Lists.
 
 Variable R : realFieldType.
-
-Lemma nth_map_from T U (d : T) (e : U) f l a j :
-  (j < size l)%N -> nth e (map_from f a l) j = f (a + j)%N (nth d l j).
-Proof.
-elim: l a j => [|x l IH] a [|j] //= jl; first by rewrite addn0.
-by rewrite IH // addSnnS.
-Qed.
-
-Lemma size_map_from T U (f : nat -> T -> U) l a : size (map_from f a l) = size l.
-Proof. by elim: l a => //= x l IH a; rewrite IH. Qed.
 
 Lemma toR_lookup row j :
   toR (lookup row j) = \sum_(e <- row) (if e.1 == j then toR e.2 else 0) :> R.
@@ -233,35 +204,31 @@ Hypotheses (positive : stiffness_positive D w) (shaped : shapes D w).
 Lemma unit_gt0 : 0 < u.
 Proof. by case/and3P: shaped => ? _ _; rewrite toR_gt0. Qed.
 
+Lemma bounded : bounded_rows (free_count D) (ff D) (stiffness_bound w).
+Proof. by case/and3P: positive. Qed.
+
 Lemma c_gt0 : 0 < toR (bound_c w) :> R.
-Proof. by case/and5P: positive => ? *; rewrite toR_gt0. Qed.
+Proof. exact: (bound_times_gt0 R bounded). Qed.
 
 Lemma d_gt0 : 0 < toR (bound_d w) :> R.
-Proof. by case/and5P: positive => _ ? *; rewrite toR_gt0. Qed.
+Proof. by case/and3P: positive => ? *; rewrite toR_gt0. Qed.
 
 Lemma scale_gt0 i : i \in slip_ix -> 0 < scale_of i.
 Proof. by case/and3P: shaped => _ /allP H _ /H; rewrite /scale_of toR_gt0. Qed.
 
 Lemma size_ff : size (ff D) = free_count D.
-Proof. by case/and5P: positive => _ _ _ /eqP. Qed.
-
-Lemma size_factor : size (stiffness_factor w) = free_count D.
-Proof. by case/and5P: positive => _ _ _ _ /and4P[/eqP]. Qed.
+Proof. exact: size_bounded bounded. Qed.
 
 Lemma columns_ff i : all (fun e => e.1 < free_count D)%N (nth [::] (ff D) i).
 Proof.
-case/and5P: positive => _ _ _ _ /and4P[_ /allP columns _ _].
+case/and3P: positive => _ /allP columns _.
 have [l|l] := ltnP i (size (ff D)); last by rewrite nth_default.
 by apply/columns/mem_nth.
 Qed.
 
 Lemma lookup_sym i k : (i < free_count D)%N -> (k < free_count D)%N ->
   lookup (nth [::] (ff D) i) k = lookup (nth [::] (ff D) k) i.
-Proof.
-rewrite -size_ff => Hi Hk; case/and5P: positive => _ _ _ _ /and4P[_ _ sym _].
-have := all_from_nth [::] sym Hi => /(all_from_nth [::])/(_ _ Hk).
-by rewrite !add0n => /Z.eqb_spec.
-Qed.
+Proof. exact: bounded_lookup_sym bounded i k. Qed.
 
 Lemma F_sym i k : i \in free_ix -> k \in free_ix -> F i k = F k i.
 Proof. by rewrite !mem_iota !add0n /= => Hi Hk; rewrite /F lookup_sym. Qed.
@@ -270,37 +237,7 @@ Proof. by rewrite !mem_iota !add0n /= => Hi Hk; rewrite /F lookup_sym. Qed.
 Lemma F_bounded (z : nat -> R) :
   toR (bound_d w) * (\sum_(k <- free_ix) z k ^+ 2) <=
   toR (bound_c w) * (\sum_(i <- free_ix) \sum_(k <- free_ix) z i * F i k * z k).
-Proof.
-case/and5P: positive => _ _ m0 _ /and4P[_ _ _ cov].
-set rows := zip (numbered_rows D) (stiffness_factor w) in cov.
-pose d := ((0%N, [::] : sparse_row), (0%N, [::] : seq Z)).
-have size_n : size (numbered_rows D) = free_count D.
-  by rewrite size_zip size_iota size_ff minnn.
-have size_r : size rows = free_count D by rewrite size_zip size_n size_factor minnn.
-have rowE i : (i < free_count D)%N -> (nth d rows i).1 = (i, nth [::] (ff D) i).
-  move=> lt_i; rewrite nth_zip ?size_n ?size_factor //=.
-  by rewrite nth_zip ?size_iota ?size_ff // nth_iota.
-
-have sym : symmetric_rows d (shifted w) rows.
-  move=> i j; rewrite size_r => Hi Hj; rewrite !rowE // /shifted /= eq_sym.
-  by rewrite (lookup_sym Hi Hj).
-have [form0 _] := covered_form (strict := false) z (late_gram R d rows m0) sym cov.
-
-move: form0; rewrite /form size_r.
-have -> : \sum_(i <- free_ix) \sum_(j <- free_ix)
-            z i * toR (shifted w (nth d rows i).1 (nth d rows j).1) * z j =
-          toR (bound_c w) * (\sum_(i <- free_ix) \sum_(k <- free_ix) z i * F i k * z k) -
-          toR (bound_d w) * (\sum_(k <- free_ix) z k ^+ 2).
-  have -> : \sum_(k <- free_ix) z k ^+ 2 =
-            \sum_(i <- free_ix) \sum_(j <- free_ix) (if i == j then z i * z j else 0).
-    apply: sum_eq => i Hi; rewrite (bigD1_seq i) ?iota_uniq //= eqxx big1 ?addr0 //.
-    by move=> j /negbTE; rewrite eq_sym => ->.
-  rewrite !mulr_sumr -sumrB; apply: sum_eq => i; rewrite mem_iota add0n /= => Hi.
-  rewrite !mulr_sumr -sumrB; apply: sum_eq => j; rewrite mem_iota add0n /= => Hj.
-  rewrite !rowE // /shifted /= toRB toRM /F; move: (toR (lookup _ _)) => f.
-  by case: eqP => _; rewrite ?toR0; move: (toR _) (toR _) => *; ring.
-by rewrite subr_ge0.
-Qed.
+Proof. exact: bounded_rows_sound bounded z. Qed.
 
 Lemma F_injective (z : nat -> R) :
   (forall i, i \in free_ix -> \sum_(k <- free_ix) F i k * z k = 0) ->
@@ -441,7 +378,7 @@ have norm_r : toR (norm1 rr) = \sum_(k <- free_ix) `|Rr k|.
 
 rewrite -(ler_pmul2r d_gt0); apply: (@le_trans _ _
     (toR (nth 0%Z (row_scale w) i * (norm1 ll * norm1 rr * bound_c w))%Z)); last first.
-  rewrite -toRM toR_le; apply: divide_up_ge; by case/and5P: positive.
+  rewrite -toRM toR_le; apply: divide_up_ge; by case/and3P: positive.
 rewrite !toRM -/(scale_of i) -[X in X <= _]mulrA ler_pmul2l ?scale_gt0 //.
 rewrite norm_l norm_r -mulrA [X in _ <= X]mulr_suml.
 apply: (@le_trans _ _ ((\sum_(k <- free_ix) `|L k * z k|) * toR (bound_d w))).

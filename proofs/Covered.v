@@ -31,12 +31,15 @@ Import Order.Theory GRing.Theory Num.Theory.
 Delimit Scope Z_scope with Z.
 Local Open Scope ring_scope.
 
-(* Sums and conjunctions over a list whose elements are counted from k. *)
+(* Sums, conjunctions and maps over a list whose elements are counted from k. *)
 Fixpoint sum_from T (f : nat -> T -> Z) (k : nat) (l : seq T) : Z :=
   if l is x :: l' then (f k x + sum_from f k.+1 l')%Z else 0%Z.
 
 Fixpoint all_from T (f : nat -> T -> bool) (k : nat) (l : seq T) : bool :=
   if l is x :: l' then f k x && all_from f k.+1 l' else true.
+
+Fixpoint map_from T U (f : nat -> T -> U) (k : nat) (l : seq T) : seq U :=
+  if l is x :: l' then f k x :: map_from f k.+1 l' else [::].
 
 Section Checker.
 
@@ -91,6 +94,16 @@ Proof.
 elim: l a => [|x l IH] a //= /andP[h1 h2] [|j] jl; first by rewrite addn0.
 by rewrite /= -addSnnS; apply: IH.
 Qed.
+
+Lemma nth_map_from T U (d : T) (e : U) f l a j :
+  (j < size l)%N -> nth e (map_from f a l) j = f (a + j)%N (nth d l j).
+Proof.
+elim: l a j => [|x l IH] a [|j] //= jl; first by rewrite addn0.
+by rewrite IH // addSnnS.
+Qed.
+
+Lemma size_map_from T U (f : nat -> T -> U) l a : size (map_from f a l) = size l.
+Proof. by elim: l a => //= x l IH a; rewrite IH. Qed.
 
 Lemma toR_dot n a b : (size a <= n)%N ->
   toR (dot a b) = \sum_(k <- iota 0 n) toR (nth 0%Z a k) * toR (nth 0%Z b k) :> R.

@@ -32,14 +32,22 @@ Qed.
 
 Local Open Scope Z_scope.
 
+(* Lists with natural numbers, written with integers. *)
+Definition numbers (l : seq Z) : seq nat := [seq Z.to_nat i | i <- l].
+
+Definition rows (l : seq (seq (Z * Z))) : seq sparse_row :=
+  [seq [seq (Z.to_nat e.1, e.2) | e <- row] | row <- l].
+
+Definition late (l : seq (Z * seq Z)) : seq late_row := [seq (Z.to_nat row.1, row.2) | row <- l].
+
 (* T1.2 to T1.4: exactly three solutions *)
 Module PlusMinus.
 
 Definition body : system :=
-  (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
-41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
-0) (0, 1) 1); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) (-1))] 1).
+  (System 4%nat (rows [:: [:: (0, 34); (1, (-12)); (2, (-25))]; [:: (0, (-12)); (1, 41)]; [:: (0,
+(-25)); (2, 34); (3, 12)]; [:: (2, 12); (3, 41)]]) (rows [:: [:: (0, 25)]; [:: (1, 25)]; [:: (2,
+25)]; [:: (3, 25)]]) (numbers [:: ]) [:: (SlipParticle 0%nat 1%nat (1, 0) (0, 1) 1); (SlipParticle
+2%nat 3%nat (1, 0) (0, 1) (-1))] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -52,7 +60,7 @@ Definition hi : point :=
 
 Definition eliminated : elimination :=
   (Elimination [:: 25; 25] 72057594037927936 [:: [:: ]; [:: ]] [:: [:: ]; [:: ]] [:: [:: ]; [:: ]]
-1 1 0 [:: ]).
+1 1 0 (late [:: ])).
 
 Definition cover : tree (leaf whole) :=
   (Split (11, 64) (Leaf (Definite whole true (Factor [:: 1; 1] [:: [:: 4011796436689157120; 0]; [::
@@ -123,7 +131,9 @@ false (Factor [:: 1; 1] [:: [:: 21319946796503216128; 0]; [:: 608854340502674304
 2547493284792173568]])))))))))))))))))).
 
 Theorem exactly_3 (R : rcfType) : has_exactly R body asked lo hi 3.
-Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
+Proof.
+apply: (@by_computation _ _ _ eliminated cover); vm_cast_no_check (erefl true).
+Qed.
 
 End PlusMinus.
 
@@ -131,10 +141,10 @@ End PlusMinus.
 Module PlusPlus.
 
 Definition body : system :=
-  (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
-41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
-0) (0, 1) 1); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
+  (System 4%nat (rows [:: [:: (0, 34); (1, (-12)); (2, (-25))]; [:: (0, (-12)); (1, 41)]; [:: (0,
+(-25)); (2, 34); (3, 12)]; [:: (2, 12); (3, 41)]]) (rows [:: [:: (0, 25)]; [:: (1, 25)]; [:: (2,
+25)]; [:: (3, 25)]]) (numbers [:: ]) [:: (SlipParticle 0%nat 1%nat (1, 0) (0, 1) 1); (SlipParticle
+2%nat 3%nat (1, 0) (0, 1) 1)] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -147,7 +157,7 @@ Definition hi : point :=
 
 Definition eliminated : elimination :=
   (Elimination [:: 25; 10] 72057594037927936 [:: [:: ]; [:: ]] [:: [:: ]; [:: ]] [:: [:: ]; [:: ]]
-1 1 0 [:: ]).
+1 1 0 (late [:: ])).
 
 Definition cover : tree (leaf whole) :=
   (Split (11, 64) (Leaf (Farkas whole [:: 256; 0])) (Split (11, 32) (Leaf (Farkas whole [:: 256;
@@ -188,7 +198,9 @@ whole false (Factor [:: 1] [:: [:: 12542362702223370240]]) (Factor [:: 1] [:: [:
 [:: 2547493284792173568; 0]; [:: 0; 1611055365951182080]])))))))))))))))))).
 
 Theorem exactly_1 (R : rcfType) : has_exactly R body asked lo hi 1.
-Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
+Proof.
+apply: (@by_computation _ _ _ eliminated cover); vm_cast_no_check (erefl true).
+Qed.
 
 End PlusPlus.
 
@@ -196,10 +208,10 @@ End PlusPlus.
 Module MinusMinus.
 
 Definition body : system :=
-  (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
-41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
-0) (0, 1) (-1)); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) (-1))] 1).
+  (System 4%nat (rows [:: [:: (0, 34); (1, (-12)); (2, (-25))]; [:: (0, (-12)); (1, 41)]; [:: (0,
+(-25)); (2, 34); (3, 12)]; [:: (2, 12); (3, 41)]]) (rows [:: [:: (0, 25)]; [:: (1, 25)]; [:: (2,
+25)]; [:: (3, 25)]]) (numbers [:: ]) [:: (SlipParticle 0%nat 1%nat (1, 0) (0, 1) (-1));
+(SlipParticle 2%nat 3%nat (1, 0) (0, 1) (-1))] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -212,7 +224,7 @@ Definition hi : point :=
 
 Definition eliminated : elimination :=
   (Elimination [:: 10; 25] 72057594037927936 [:: [:: ]; [:: ]] [:: [:: ]; [:: ]] [:: [:: ]; [:: ]]
-1 1 0 [:: ]).
+1 1 0 (late [:: ])).
 
 Definition cover : tree (leaf whole) :=
   (Split (11, 64) (Leaf (Farkas whole [:: 0; 256])) (Split (11, 32) (Leaf (Farkas whole [:: 0;
@@ -254,7 +266,9 @@ whole false (Factor [:: 1] [:: [:: 12542362702223370240]]) (Factor [:: 1] [:: [:
 [:: 1611055365951182080; 0]; [:: 0; 2547493284792173568]])))))))))))))))))).
 
 Theorem exactly_1 (R : rcfType) : has_exactly R body asked lo hi 1.
-Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
+Proof.
+apply: (@by_computation _ _ _ eliminated cover); vm_cast_no_check (erefl true).
+Qed.
 
 End MinusMinus.
 
@@ -262,10 +276,10 @@ End MinusMinus.
 Module MinusPlus.
 
 Definition body : system :=
-  (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
-41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: [:: (0%nat,
-25)]; [:: (1%nat, 25)]; [:: (2%nat, 25)]; [:: (3%nat, 25)]] [:: ] [:: (SlipParticle 0%nat 1%nat (1,
-0) (0, 1) (-1)); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
+  (System 4%nat (rows [:: [:: (0, 34); (1, (-12)); (2, (-25))]; [:: (0, (-12)); (1, 41)]; [:: (0,
+(-25)); (2, 34); (3, 12)]; [:: (2, 12); (3, 41)]]) (rows [:: [:: (0, 25)]; [:: (1, 25)]; [:: (2,
+25)]; [:: (3, 25)]]) (numbers [:: ]) [:: (SlipParticle 0%nat 1%nat (1, 0) (0, 1) (-1));
+(SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
 
 Definition asked : unknown :=
   (Lambda2 8 1).
@@ -278,16 +292,18 @@ Definition hi : point :=
 
 Definition eliminated : elimination :=
   (Elimination [:: 5; 5] 72057594037927936 [:: [:: ]; [:: ]] [:: [:: ]; [:: ]] [:: [:: ]; [:: ]] 1
-1 0 [:: ]).
+1 0 (late [:: ])).
 
 Definition cover : tree (leaf whole) :=
-  (Leaf (Whole (WholeLeaf [:: ] false (WholeEnd 5192296858534827628530496329220096 (Late 1 [::
-(0%nat, [:: 1161835695570046208; 0]); (0%nat, [:: 223452286684446592; 1140145279811404160])]))
-(WholeEnd 5192296858534827628530496329220096 (Late 1 [:: (0%nat, [:: 509498656958434688; 0]);
-(1%nat, [:: 509498656958434688])]))))).
+  (Leaf (Whole (WholeLeaf [:: ] false (WholeEnd 5192296858534827628530496329220096 (Late 1 (late
+[:: (0, [:: 1161835695570046208; 0]); (0, [:: 223452286684446592; 1140145279811404160])])))
+(WholeEnd 5192296858534827628530496329220096 (Late 1 (late [:: (0, [:: 509498656958434688; 0]); (1,
+[:: 509498656958434688])])))))).
 
 Theorem exactly_0 (R : rcfType) : has_exactly R body asked lo hi 0.
-Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
+Proof.
+apply: (@by_computation _ _ _ eliminated cover); vm_cast_no_check (erefl true).
+Qed.
 
 End MinusPlus.
 
@@ -295,9 +311,9 @@ End MinusPlus.
 Module InMu.
 
 Definition body : system :=
-  (System 4%nat [:: [:: (0%nat, 34); (1%nat, (-12)); (2%nat, (-25))]; [:: (0%nat, (-12)); (1%nat,
-41)]; [:: (0%nat, (-25)); (2%nat, 34); (3%nat, 12)]; [:: (2%nat, 12); (3%nat, 41)]] [:: ] [:: ] [::
-(SlipParticle 0%nat 1%nat (1, 0) (0, 1) 1); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
+  (System 4%nat (rows [:: [:: (0, 34); (1, (-12)); (2, (-25))]; [:: (0, (-12)); (1, 41)]; [:: (0,
+(-25)); (2, 34); (3, 12)]; [:: (2, 12); (3, 41)]]) (rows [:: ]) (numbers [:: ]) [:: (SlipParticle
+0%nat 1%nat (1, 0) (0, 1) 1); (SlipParticle 2%nat 3%nat (1, 0) (0, 1) 1)] 1).
 
 Definition asked : unknown :=
   Mu.
@@ -310,7 +326,7 @@ Definition hi : point :=
 
 Definition eliminated : elimination :=
   (Elimination [:: 25; 25] 72057594037927936 [:: [:: ]; [:: ]] [:: [:: ]; [:: ]] [:: [:: ]; [:: ]]
-1 1 0 [:: ]).
+1 1 0 (late [:: ])).
 
 Definition cover : tree (leaf whole) :=
   (Split (13, 64) (Leaf (Definite whole false (Factor [:: 1; 1] [:: [:: 2970862159212920320; 0];
@@ -351,6 +367,8 @@ false (Factor [:: 1] [:: [:: 5487468473469715456]]) (Factor [:: 1] [:: [:: 26960
 0]))))))))))))))))).
 
 Theorem exactly_1 (R : rcfType) : has_exactly R body asked lo hi 1.
-Proof. by apply: (@by_computation _ _ _ eliminated cover); vm_compute. Qed.
+Proof.
+apply: (@by_computation _ _ _ eliminated cover); vm_cast_no_check (erefl true).
+Qed.
 
 End InMu.

@@ -17,6 +17,9 @@ From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Critical Critic
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
 
+(* Varying.v has a field with this name. *)
+Extraction Inline Condensation.stiffness_bound.
+
 Set Extraction AccessOpaque.
 
 Extraction "kernel.ml"

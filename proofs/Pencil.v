@@ -16,7 +16,7 @@
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Condensation.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Places Condensation.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -50,17 +50,21 @@ Definition wellformed := uniq (free Q) && all (fun i => i < order Q)%N (free Q).
 Definition free_rows_constant :=
   all (fun i => all (fun e => e.2 =? 0) (row_b i)) (free Q).
 
-(* The entries of a row at the given columns, numbered by their positions. *)
-Definition restrict (row : sparse_row) (columns : seq nat) : sparse_row :=
-  [seq (index e.1 columns, e.2) | e <- row & e.1 \in columns].
+(* The entries of a row at the columns that have a place, numbered by their places. *)
+Definition restrict (place : seq (option nat)) (row : sparse_row) : sparse_row :=
+  pmap (fun e => omap (fun k => (k, e.2)) (nth None place e.1)) row.
 
-Definition blocks_of : blocks := Blocks (size (free Q)) (size slip)
-  [seq restrict (row_a i) (free Q) | i <- free Q]
-  [seq [seq lookup (row_a i) j | i <- free Q] | j <- slip]
-  [seq [seq lookup (row_a i) j | j <- free Q] | i <- slip]
-  [seq [seq lookup (row_b i) j | j <- free Q] | i <- slip]
-  [seq [seq lookup (row_a i) j | j <- slip] | i <- slip]
-  [seq [seq lookup (row_b i) j | j <- slip] | i <- slip].
+Definition blocks_by place (columns : seq nat) : blocks :=
+  let lookups row l := [seq lookup row j | j <- l] in
+  Blocks (size (free Q)) (size columns)
+    [seq restrict place (row_a i) | i <- free Q]
+    [seq [seq lookup (row_a i) j | i <- free Q] | j <- columns]
+    [seq lookups (row_a i) (free Q) | i <- columns]
+    [seq lookups (row_b i) (free Q) | i <- columns]
+    [seq lookups (row_a i) columns | i <- columns]
+    [seq lookups (row_b i) columns | i <- columns].
+
+Definition blocks_of : blocks := blocks_by (places (free Q)) slip.
 
 End Checker.
 
@@ -118,13 +122,19 @@ Lemma sum_positions (l : seq nat) (f : nat -> R) :
 Proof. by rewrite (big_nth 0%N) /index_iota subn0. Qed.
 
 Lemma lookup_restrict row k : (k < size (free Q))%N ->
-  lookup (restrict row (free Q)) k = lookup row (nth 0%N (free Q) k).
+  lookup (restrict (places (free Q)) row) k = lookup row (nth 0%N (free Q) k).
 Proof.
-move=> Hk; elim: row => //= e row IH; rewrite /restrict /=.
-case: ifP => [e_in|e_out] /=; rewrite -/(restrict row _) IH.
+move=> Hk; elim: row => //= e row IH; rewrite /restrict /= nth_places.
+case: ifP => [e_in|e_out] /=; rewrite -/(restrict _ row) IH.
   case: eqP => [<-|n1]; first by rewrite nth_index // eqxx.
   by case: eqP => // eq; case: n1; rewrite eq index_uniq // uniq_free.
 by case: eqP => // eq; rewrite eq mem_nth in e_out.
+Qed.
+
+Lemma restrict_range l row : all (fun e => e.1 < size l)%N (restrict (places l) row).
+Proof.
+elim: row => //= e row; rewrite /restrict /= nth_places.
+by case: ifP => //= e_in ->; rewrite index_mem e_in.
 Qed.
 
 (* The two parts of a vector. *)

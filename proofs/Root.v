@@ -71,8 +71,10 @@ Definition residual Y e i :=
   Z.abs (sumZ J (fun j => product_center K Y e i j * V j)) +
   sumZ J (fun j => product_radius K Y e i j * Z.abs (V j)).
 
-Definition box_row Y u eps e i :=
-  (defect Y u e i <? u) && (defect Y u e i * eps + residual Y e i <=? u * eps).
+(* rho < u and rho eps + r <= u eps; rho is an argument, so that it is computed once. *)
+Definition contracts u eps rho r := (rho <? u) && (rho * eps + r <=? u * eps).
+
+Definition box_row Y u eps e i := contracts u eps (defect Y u e i) (residual Y e i).
 
 Definition box_end b u e := (0 <? u) && all (box_row (inverse b) u (width b) e) K.
 

@@ -41,7 +41,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Number Condensation Pencil Whole Claim EnclosedClaim Complete.
+From Mceip Require Import Places Number Condensation Pencil Whole Claim EnclosedClaim Complete.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -101,8 +101,19 @@ Definition column d : option (nat * Z) :=
     Some ((free_number + j)%N, - (sign_of (particle j) * (tangent (particle j)).2))
   else None.
 
+(* [column] as a table over the degrees of freedom ([nth_column_table]). *)
+Definition column_table : seq (option (nat * Z)) :=
+  let along part j :=
+    ((free_number + j)%N, - (sign_of (particle j) * part (tangent (particle j)))) in
+  mark (fun k => (k, unit_length s)) 0 (free_dofs s)
+    (mark (along fst) 0 first_dofs (mark (along snd) 0 second_dofs [::])).
+
+Section Rows.
+
+Variable table : seq (option (nat * Z)).
+
 Definition columns (row : sparse_row) : sparse_row :=
-  pmap (fun e => omap (fun c => (c.1, c.2 * e.2)) (column e.1)) row.
+  pmap (fun e => omap (fun c => (c.1, c.2 * e.2)) (nth None table e.1)) row.
 
 Definition multiple c (row : sparse_row) : sparse_row :=
   if c =? 0 then [::] else [seq (e.1, c * e.2) | e <- row].
@@ -130,10 +141,14 @@ Definition slip_row_b p :=
   | Lambda2 m q => rows_along m_row p (direction (- (q * sign_of p)) (- m) p)
   end.
 
-Definition pencil_of : pencil := Pencil (free_number + size (particles s))
+Definition pencil_by : pencil := Pencil (free_number + size (particles s))
   ([seq columns (k_row d) | d <- free_dofs s] ++ [seq slip_row_a p | p <- particles s])
   ([seq free_row_b d | d <- free_dofs s] ++ [seq slip_row_b p | p <- particles s])
   (iota 0 free_number).
+
+End Rows.
+
+Definition pencil_of : pencil := pencil_by column_table.
 
 Definition columns_in_range (rows : seq sparse_row) :=
   all (fun row => all (fun e => e.1 < dofs s)%N row) rows.
@@ -173,6 +188,7 @@ Notation nf := (free_number s).
 Notation ns := (size (particles s)).
 Notation variables := (iota 0 (nf + ns)).
 Notation Q := (pencil_of s u).
+Notation table := (column_table s).
 
 Definition k_entry d j : R := toR (lookup (k_row s d) j).
 Definition m_entry d j : R := toR (lookup (m_row s d) j).
@@ -298,20 +314,24 @@ case: ifP => [d_in [<- _]|_]; first by rewrite ltn_add2l -(size_map first_dof) i
 by case: ifP => // d_in [<- _]; rewrite ltn_add2l -(size_map second_dof) index_mem.
 Qed.
 
-Lemma columns_in_pencil row : all (fun e => e.1 < nf + ns)%N (columns s row).
+Lemma nth_column_table d : nth None table d = column s d.
+Proof. by rewrite !nth_mark nth_nil !add0n. Qed.
+
+Lemma columns_in_pencil row : all (fun e => e.1 < nf + ns)%N (columns table row).
 Proof.
-elim: row => //= e row; rewrite /columns /=; case col: (column s e.1) => [[j c]|] //= ->.
+elim: row => //= e row; rewrite /columns /= nth_column_table.
+case col: (column s e.1) => [[j c]|] //= ->.
 by rewrite (column_in_range col).
 Qed.
 
 (* A row of K or M on the motion of x is its row of columns on x. *)
 Lemma row_motion row x : all (fun e => e.1 < dofs s)%N row ->
-  \sum_(j <- variables) toR (lookup (columns s row) j) * x j =
+  \sum_(j <- variables) toR (lookup (columns table row) j) * x j =
   \sum_(d <- all_dofs) toR (lookup row d) * motion x d.
 Proof.
 move=> range; rewrite (sum_lookup _ range) (sum_lookup _ (columns_in_pencil row)).
 elim: row {range} => [|e row IH]; first by rewrite !big_nil.
-rewrite big_cons -IH /columns /= /motion; case: (column s e.1) => [[j c]|] /=.
+rewrite big_cons -IH /columns /= nth_column_table /motion; case: (column s e.1) => [[j c]|] /=.
   by rewrite big_cons /= toRM mulrA [toR c * _]mulrC.
 by rewrite mulr0 add0r.
 Qed.
@@ -342,11 +362,11 @@ by rewrite mulrDl mulrA.
 Qed.
 
 Lemma k_product_columns x d :
-  \sum_(j <- variables) toR (lookup (columns s (k_row s d)) j) * x j = k_product (motion x) d.
+  \sum_(j <- variables) toR (lookup (columns table (k_row s d)) j) * x j = k_product (motion x) d.
 Proof. by rewrite row_motion //; case: (rows_in_range d). Qed.
 
 Lemma m_product_columns x d :
-  \sum_(j <- variables) toR (lookup (columns s (m_row s d)) j) * x j = m_product (motion x) d.
+  \sum_(j <- variables) toR (lookup (columns table (m_row s d)) j) * x j = m_product (motion x) d.
 Proof. by rewrite row_motion //; case: (rows_in_range d). Qed.
 
 (* y_i in terms of both rows. *)
@@ -387,10 +407,12 @@ Lemma sum_cat row1 row2 (x : nat -> R) :
   \sum_(j <- variables) toR (lookup row1 j) * x j + \sum_(j <- variables) toR (lookup row2 j) * x j.
 Proof. by rewrite -big_split; apply: eq_bigr => j _; rewrite lookup_cat mulrDl. Qed.
 
+Notation row_times row x := (\sum_(j <- variables) toR (lookup row j) * x j).
+
 Lemma sum_rows_along rows p factors (x : nat -> R) :
-  \sum_(j <- variables) toR (lookup (rows_along s rows p factors) j) * x j =
-  toR factors.1 * (\sum_(j <- variables) toR (lookup (columns s (rows (first_dof p))) j) * x j) +
-  toR factors.2 * (\sum_(j <- variables) toR (lookup (columns s (rows (second_dof p))) j) * x j).
+  row_times (rows_along table rows p factors) x =
+  toR factors.1 * row_times (columns table (rows (first_dof p))) x +
+  toR factors.2 * row_times (columns table (rows (second_dof p))) x.
 Proof. by rewrite sum_cat !sum_multiple. Qed.
 
 Lemma directionE a b p :

@@ -58,8 +58,8 @@ Definition weighted (i : nat) (row : sparse_row) : sparse_row :=
   [seq (e.1, nth 1 weight i * e.2) | e <- row].
 
 Definition may_move (r : region) : seq nat :=
-  free Q ++ [seq nth 0%N (slip Q) j | j <- iota 0 (size (slip Q)) &
-             ~~ is_resting (state_of r j)].
+  let columns := slip Q in
+  free Q ++ [seq nth 0%N columns j | j <- iota 0 (size columns) & ~~ is_resting (state_of r j)].
 
 Definition members r : seq member :=
   [seq (i, (weighted i (row_a Q i), weighted i (row_b Q i))) | i <- may_move r].

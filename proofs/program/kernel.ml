@@ -1138,6 +1138,12 @@ let rec all_from f k = function
 | [] -> true
 | x :: l' -> (&&) (f k x) (all_from f (Stdlib.Int.succ k) l')
 
+(** val map_from : (int -> 'a1 -> 'a2) -> int -> 'a1 list -> 'a2 list **)
+
+let rec map_from f k = function
+| [] -> []
+| x :: l' -> (f k x) :: (map_from f (Stdlib.Int.succ k) l')
+
 (** val remainder :
     ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
     ('a1 * 'a2) -> ('a1 * 'a2) -> Big_int_Z.big_int **)
@@ -1287,14 +1293,19 @@ let residual p j k v y e i =
       Z.mul (product_radius p k y e i j0)
         (Z.abs (nth Big_int_Z.zero_big_int v j0))))
 
+(** val contracts :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+    Big_int_Z.big_int -> bool **)
+
+let contracts u eps rho r =
+  (&&) (Z.ltb rho u) (Z.leb (Z.add (Z.mul rho eps) r) (Z.mul u eps))
+
 (** val box_row :
     enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
     Big_int_Z.big_int -> Big_int_Z.big_int -> point -> int -> bool **)
 
 let box_row p j k v y u eps e i =
-  (&&) (Z.ltb (defect p k y u e i) u)
-    (Z.leb (Z.add (Z.mul (defect p k y u e i) eps) (residual p j k v y e i))
-      (Z.mul u eps))
+  contracts u eps (defect p k y u e i) (residual p j k v y e i)
 
 (** val box_end :
     enclosed -> int list -> int list -> Big_int_Z.big_int list -> box ->
@@ -1894,6 +1905,66 @@ let lookup row j =
     then Z.add (snd entry0) sum
     else sum) Big_int_Z.zero_big_int row
 
+type form_bound = { bound_times : Big_int_Z.big_int;
+                    bound_at : Big_int_Z.big_int;
+                    gram_times : Big_int_Z.big_int; gram_rows : late_row list }
+
+(** val spread : sparse_row -> Big_int_Z.big_int list **)
+
+let spread row =
+  foldr (fun e dense ->
+    set_nth Big_int_Z.zero_big_int dense (fst e)
+      (Z.add (snd e) (nth Big_int_Z.zero_big_int dense (fst e)))) [] row
+
+(** val shifted_row :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> int -> sparse_row -> sparse_row **)
+
+let shifted_row c d i row =
+  (i, (Z.opp d)) :: (map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row)
+
+(** val symmetric_rows_sparse : sparse_row list -> bool **)
+
+let symmetric_rows_sparse rows =
+  all_from (fun i row ->
+    all (fun e ->
+      Z.eqb (lookup row (fst e)) (lookup (nth [] rows (fst e)) i)) row) 0 rows
+
+(** val distance :
+    Big_int_Z.big_int -> Big_int_Z.big_int list -> late_row -> late_row list
+    -> Big_int_Z.big_int **)
+
+let rec distance m row a = function
+| [] -> Big_int_Z.zero_big_int
+| b :: factor' ->
+  Z.add
+    (Z.abs (Z.sub (head Big_int_Z.zero_big_int row) (Z.mul m (late_dot a b))))
+    (distance m (behead row) a factor')
+
+(** val row_bounded :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> late_row
+    list -> int -> (sparse_row * late_row) -> bool **)
+
+let row_bounded c d m factor0 i r =
+  let row = spread (shifted_row c d i (fst r)) in
+  Z.leb (distance m row (snd r) factor0)
+    (Z.mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+      (Z.sub (nth Big_int_Z.zero_big_int row i)
+        (Z.mul m (late_dot (snd r) (snd r)))))
+
+(** val bounded_rows :
+    Equality.sort -> sparse_row list -> form_bound -> bool **)
+
+let bounded_rows n rows b =
+  (&&) (Z.ltb Big_int_Z.zero_big_int b.bound_times)
+    ((&&) (Z.leb Big_int_Z.zero_big_int b.bound_at)
+      ((&&) (Z.leb Big_int_Z.zero_big_int b.gram_times)
+        ((&&) (eq_op nat_eqType (Obj.magic size rows) n)
+          ((&&) (eq_op nat_eqType (Obj.magic size b.gram_rows) n)
+            ((&&) (symmetric_rows_sparse rows)
+              (all_from
+                (row_bounded b.bound_times b.bound_at b.gram_times
+                  b.gram_rows) 0 (zip rows b.gram_rows)))))))
+
 type blocks = { free_count : int; slip_count : int; ff : sparse_row list;
                 fs : matrix; sf_a : matrix; sf_b : matrix; ss_a : matrix;
                 ss_b : matrix }
@@ -1905,12 +1976,6 @@ type elimination = { row_scale : Big_int_Z.big_int list;
                      bound_d : Big_int_Z.big_int;
                      factor_scale : Big_int_Z.big_int;
                      stiffness_factor : late_row list }
-
-(** val map_from : (int -> 'a1 -> 'a2) -> int -> 'a1 list -> 'a2 list **)
-
-let rec map_from f k = function
-| [] -> []
-| x :: l' -> (f k x) :: (map_from f (Stdlib.Int.succ k) l')
 
 (** val sparse_dot :
     sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
@@ -1936,49 +2001,17 @@ let row_of m i =
 let divide_up x d =
   Z.opp (Z.div (Z.opp x) d)
 
-(** val shifted :
-    elimination -> (int * sparse_row) -> (int * sparse_row) ->
-    Big_int_Z.big_int **)
-
-let shifted w a b =
-  Z.sub (Z.mul w.bound_c (lookup (snd a) (fst b)))
-    (if eq_op nat_eqType (fst (Obj.magic a)) (fst (Obj.magic b))
-     then w.bound_d
-     else Big_int_Z.zero_big_int)
-
-(** val numbered_rows : blocks -> (int * sparse_row) list **)
-
-let numbered_rows d =
-  zip (iota 0 d.free_count) d.ff
-
-(** val stiffness_symmetric : blocks -> bool **)
-
-let stiffness_symmetric d =
-  all_from (fun i row ->
-    all_from (fun j col -> Z.eqb (lookup row j) (lookup col i)) 0 d.ff) 0 d.ff
-
-(** val stiffness_bounded : blocks -> elimination -> bool **)
-
-let stiffness_bounded d w =
-  covered (shifted w) (fun a b -> Z.mul w.factor_scale (late_dot a b)) false
-    (zip (numbered_rows d) w.stiffness_factor)
-
 (** val stiffness_positive : blocks -> elimination -> bool **)
 
 let stiffness_positive d w =
-  (&&) (Z.ltb Big_int_Z.zero_big_int w.bound_c)
-    ((&&) (Z.ltb Big_int_Z.zero_big_int w.bound_d)
-      ((&&) (Z.leb Big_int_Z.zero_big_int w.factor_scale)
-        ((&&)
-          (eq_op nat_eqType (Obj.magic size d.ff) (Obj.magic d.free_count))
-          ((&&)
-            (eq_op nat_eqType (Obj.magic size w.stiffness_factor)
-              (Obj.magic d.free_count))
-            ((&&)
-              (all (fun row ->
-                all (fun entry0 ->
-                  leq (Stdlib.Int.succ (fst entry0)) d.free_count) row) d.ff)
-              ((&&) (stiffness_symmetric d) (stiffness_bounded d w)))))))
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.bound_d)
+    ((&&)
+      (all (fun row ->
+        all (fun entry0 -> leq (Stdlib.Int.succ (fst entry0)) d.free_count)
+          row) d.ff)
+      (bounded_rows (Obj.magic d.free_count) d.ff { bound_times = w.bound_c;
+        bound_at = w.bound_d; gram_times = w.factor_scale; gram_rows =
+        w.stiffness_factor }))
 
 (** val residual_column :
     blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list **)
@@ -2053,6 +2086,21 @@ let shapes d w =
 let check_elimination d w =
   (&&) (stiffness_positive d w) (shapes d w)
 
+(** val mark :
+    (int -> 'a1) -> int -> int list -> 'a1 option list -> 'a1 option list **)
+
+let rec mark value0 k l table0 =
+  match l with
+  | [] -> table0
+  | i :: l' ->
+    set_nth None (mark value0 (Stdlib.Int.succ k) l' table0) i (Some
+      (value0 k))
+
+(** val places : int list -> int option list **)
+
+let places l =
+  mark (fun x -> x) 0 l []
+
 type pencil = { order : int; rows_a : sparse_row list;
                 rows_b : sparse_row list; free : int list }
 
@@ -2085,32 +2133,28 @@ let free_rows_constant q =
   all (fun i ->
     all (fun e -> Z.eqb (snd e) Big_int_Z.zero_big_int) (row_b q i)) q.free
 
-(** val restrict : sparse_row -> int list -> sparse_row **)
+(** val restrict : int option list -> sparse_row -> sparse_row **)
 
-let restrict row columns0 =
-  map0 (fun e ->
-    ((index nat_eqType (fst (Obj.magic e)) (Obj.magic columns0)), (snd e)))
-    (filter (fun e ->
-      in_mem (fst (Obj.magic e))
-        (mem (seq_predType nat_eqType) (Obj.magic columns0))) row)
+let restrict place0 row =
+  pmap (fun e ->
+    Option.map (fun k -> (k, (snd e))) (nth None place0 (fst e))) row
+
+(** val blocks_by : pencil -> int option list -> int list -> blocks **)
+
+let blocks_by q place0 columns0 =
+  let lookups = fun row l -> map0 (fun j -> lookup row j) l in
+  { free_count = (size q.free); slip_count = (size columns0); ff =
+  (map0 (fun i -> restrict place0 (row_a q i)) q.free); fs =
+  (map0 (fun j -> map0 (fun i -> lookup (row_a q i) j) q.free) columns0);
+  sf_a = (map0 (fun i -> lookups (row_a q i) q.free) columns0); sf_b =
+  (map0 (fun i -> lookups (row_b q i) q.free) columns0); ss_a =
+  (map0 (fun i -> lookups (row_a q i) columns0) columns0); ss_b =
+  (map0 (fun i -> lookups (row_b q i) columns0) columns0) }
 
 (** val blocks_of : pencil -> blocks **)
 
 let blocks_of q =
-  { free_count = (size q.free); slip_count = (size (slip q)); ff =
-    (map0 (fun i -> restrict (row_a q i) q.free) q.free); fs =
-    (map0 (fun j -> map0 (fun i -> lookup (row_a q i) (Obj.magic j)) q.free)
-      (slip q)); sf_a =
-    (map0 (fun i -> map0 (fun j -> lookup (row_a q (Obj.magic i)) j) q.free)
-      (slip q)); sf_b =
-    (map0 (fun i -> map0 (fun j -> lookup (row_b q (Obj.magic i)) j) q.free)
-      (slip q)); ss_a =
-    (map0 (fun i ->
-      map0 (fun j -> lookup (row_a q (Obj.magic i)) (Obj.magic j)) (slip q))
-      (slip q)); ss_b =
-    (map0 (fun i ->
-      map0 (fun j -> lookup (row_b q (Obj.magic i)) (Obj.magic j)) (slip q))
-      (slip q)) }
+  blocks_by q (places q.free) (Obj.magic slip q)
 
 type whole_factor =
 | Dense of Big_int_Z.big_int list * matrix
@@ -2133,10 +2177,11 @@ let weighted weight i row =
 (** val may_move : pencil -> region -> int list **)
 
 let may_move q r =
+  let columns0 = slip q in
   cat q.free
-    (map0 (fun j -> nth 0 (Obj.magic slip q) j)
+    (map0 (fun j -> nth 0 (Obj.magic columns0) j)
       (filter (fun j -> negb (is_resting (state_of r j)))
-        (iota 0 (size (slip q)))))
+        (iota 0 (size columns0))))
 
 (** val members :
     pencil -> Big_int_Z.big_int list -> region -> member list **)
@@ -2767,17 +2812,24 @@ let check_limit q r k x =
             else Z.eqb (at_slip j) Big_int_Z.zero_big_int)
             (iota 0 (size (slip q)))))))
 
+(** val check_blocks :
+    pencil -> solution_claim list -> elimination -> whole leaf tree -> point
+    -> point -> blocks -> bool **)
+
+let check_blocks q claims w tr lo hi d =
+  (&&) (wellformed q)
+    ((&&) (free_rows_constant q)
+      ((&&) (check_elimination d w)
+        ((&&) (all (check_solution_claim q) claims)
+          (check_cover (condensed d w) (known_solutions q claims)
+            (check_whole q) (check_limit q) tr lo hi))))
+
 (** val check_complete :
     pencil -> solution_claim list -> elimination -> whole leaf tree -> point
     -> point -> bool **)
 
 let check_complete q claims w tr lo hi =
-  (&&) (wellformed q)
-    ((&&) (free_rows_constant q)
-      ((&&) (check_elimination (blocks_of q) w)
-        ((&&) (all (check_solution_claim q) claims)
-          (check_cover (condensed (blocks_of q) w) (known_solutions q claims)
-            (check_whole q) (check_limit q) tr lo hi))))
+  check_blocks q claims w tr lo hi (blocks_of q)
 
 (** val found :
     pencil -> solution_claim list -> whole leaf tree -> point -> point ->
@@ -2850,31 +2902,23 @@ let k_row s d =
 let m_row s d =
   nth [] s.mass d
 
-(** val column :
-    system -> Equality.sort -> (int * Big_int_Z.big_int) option **)
+(** val column_table : system -> (int * Big_int_Z.big_int) option list **)
 
-let column s d =
-  if in_mem d (mem (seq_predType nat_eqType) (Obj.magic s.free_dofs))
-  then Some ((index nat_eqType d (Obj.magic s.free_dofs)), s.unit_length)
-  else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic first_dofs s))
-       then let j = index nat_eqType d (Obj.magic first_dofs s) in
-            Some ((addn (free_number s) j),
-            (Z.opp
-              (Z.mul (particle s j).sign_of (fst (particle s j).tangent))))
-       else if in_mem d
-                 (mem (seq_predType nat_eqType) (Obj.magic second_dofs s))
-            then let j = index nat_eqType d (Obj.magic second_dofs s) in
-                 Some ((addn (free_number s) j),
-                 (Z.opp
-                   (Z.mul (particle s j).sign_of (snd (particle s j).tangent))))
-            else None
+let column_table s =
+  let along = fun part j -> ((addn (free_number s) j),
+    (Z.opp (Z.mul (particle s j).sign_of (part (particle s j).tangent))))
+  in
+  mark (fun k -> (k, s.unit_length)) 0 s.free_dofs
+    (mark (along fst) 0 (first_dofs s)
+      (mark (along snd) 0 (second_dofs s) []))
 
-(** val columns : system -> sparse_row -> sparse_row **)
+(** val columns :
+    (int * Big_int_Z.big_int) option list -> sparse_row -> sparse_row **)
 
-let columns s row =
+let columns table0 row =
   pmap (fun e ->
     Option.map (fun c -> ((fst c), (Z.mul (snd c) (snd e))))
-      (column s (fst (Obj.magic e)))) row
+      (nth None table0 (fst e))) row
 
 (** val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row **)
 
@@ -2884,12 +2928,12 @@ let multiple c row =
   else map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
 
 (** val rows_along :
-    system -> (int -> sparse_row) -> slip_particle -> planar ->
-    (int * Big_int_Z.big_int) list **)
+    (int * Big_int_Z.big_int) option list -> (int -> sparse_row) ->
+    slip_particle -> planar -> (int * Big_int_Z.big_int) list **)
 
-let rows_along s rows p factors0 =
-  cat (multiple (fst factors0) (columns s (rows p.first_dof)))
-    (multiple (snd factors0) (columns s (rows p.second_dof)))
+let rows_along table0 rows p factors0 =
+  cat (multiple (fst factors0) (columns table0 (rows p.first_dof)))
+    (multiple (snd factors0) (columns table0 (rows p.second_dof)))
 
 (** val direction :
     Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar **)
@@ -2899,46 +2943,55 @@ let direction a b p =
     (Z.add (Z.mul a (snd p.tangent)) (Z.mul b (snd p.normal))))
 
 (** val free_row_b :
-    system -> unknown -> int -> (int * Big_int_Z.big_int) list **)
+    system -> unknown -> (int * Big_int_Z.big_int) option list -> int ->
+    (int * Big_int_Z.big_int) list **)
 
-let free_row_b s u d =
+let free_row_b s u table0 d =
   match u with
   | Mu -> []
-  | Lambda2 (_, _) -> columns s (m_row s d)
+  | Lambda2 (_, _) -> columns table0 (m_row s d)
 
 (** val slip_row_a :
-    system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list **)
+    system -> unknown -> (int * Big_int_Z.big_int) option list ->
+    slip_particle -> (int * Big_int_Z.big_int) list **)
 
-let slip_row_a s u p =
+let slip_row_a s u table0 p =
   match u with
   | Mu ->
-    rows_along s (k_row s) p
+    rows_along table0 (k_row s) p
       (direction (Z.opp p.sign_of) Big_int_Z.zero_big_int p)
   | Lambda2 (m, q) ->
-    rows_along s (k_row s) p
+    rows_along table0 (k_row s) p
       (direction (Z.opp (Z.mul q p.sign_of)) (Z.opp m) p)
 
 (** val slip_row_b :
-    system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list **)
+    system -> unknown -> (int * Big_int_Z.big_int) option list ->
+    slip_particle -> (int * Big_int_Z.big_int) list **)
 
-let slip_row_b s u p =
+let slip_row_b s u table0 p =
   match u with
   | Mu ->
-    rows_along s (k_row s) p
+    rows_along table0 (k_row s) p
       (direction Big_int_Z.zero_big_int (Z.opp Big_int_Z.unit_big_int) p)
   | Lambda2 (m, q) ->
-    rows_along s (m_row s) p
+    rows_along table0 (m_row s) p
       (direction (Z.opp (Z.mul q p.sign_of)) (Z.opp m) p)
+
+(** val pencil_by :
+    system -> unknown -> (int * Big_int_Z.big_int) option list -> pencil **)
+
+let pencil_by s u table0 =
+  { order = (addn (free_number s) (size s.particles)); rows_a =
+    (cat (map0 (fun d -> columns table0 (k_row s d)) s.free_dofs)
+      (map0 (fun p -> slip_row_a s u table0 p) s.particles)); rows_b =
+    (cat (map0 (fun d -> free_row_b s u table0 d) s.free_dofs)
+      (map0 (fun p -> slip_row_b s u table0 p) s.particles)); free =
+    (iota 0 (free_number s)) }
 
 (** val pencil_of : system -> unknown -> pencil **)
 
 let pencil_of s u =
-  { order = (addn (free_number s) (size s.particles)); rows_a =
-    (cat (map0 (fun d -> columns s (k_row s d)) s.free_dofs)
-      (map0 (fun p -> slip_row_a s u p) s.particles)); rows_b =
-    (cat (map0 (fun d -> free_row_b s u d) s.free_dofs)
-      (map0 (fun p -> slip_row_b s u p) s.particles)); free =
-    (iota 0 (free_number s)) }
+  pencil_by s u (column_table s)
 
 (** val columns_in_range : system -> sparse_row list -> bool **)
 
@@ -4229,19 +4282,15 @@ let constant_of p =
 let chord_of p =
   total (behead p)
 
-(** val spread : polynomial -> Big_int_Z.big_int **)
+(** val spread0 : polynomial -> Big_int_Z.big_int **)
 
-let spread p =
+let spread0 p =
   spread_of (behead p)
 
 (** val poly_of : matrix list -> int -> int -> polynomial **)
 
 let poly_of l i j =
   map0 (fun m -> entry m i j) l
-
-type form_bound = { bound_times : Big_int_Z.big_int;
-                    bound_at : Big_int_Z.big_int;
-                    gram_times : Big_int_Z.big_int; gram_rows : late_row list }
 
 type anchor = { anchor_center : point; anchor_unit : Big_int_Z.big_int;
                 anchor_right : matrix list; anchor_left : matrix list;
@@ -4262,29 +4311,6 @@ type local_leaf =
 | LocalAbsent of absence
 | LocalRoot of isolation * outcome
 
-(** val bounded_rows :
-    Equality.sort -> sparse_row list -> form_bound -> bool **)
-
-let bounded_rows n rows b =
-  let entry_of0 = fun r s ->
-    Z.sub (Z.mul b.bound_times (lookup (snd r) (fst (Obj.magic s))))
-      (if eq_op nat_eqType (fst r) (fst s)
-       then b.bound_at
-       else Big_int_Z.zero_big_int)
-  in
-  (&&) (Z.ltb Big_int_Z.zero_big_int b.bound_times)
-    ((&&) (Z.leb Big_int_Z.zero_big_int b.bound_at)
-      ((&&) (Z.leb Big_int_Z.zero_big_int b.gram_times)
-        ((&&) (eq_op nat_eqType (Obj.magic size rows) n)
-          ((&&) (eq_op nat_eqType (Obj.magic size b.gram_rows) n)
-            ((&&)
-              (all_from (fun i row ->
-                all_from (fun j col -> Z.eqb (lookup row j) (lookup col i)) 0
-                  rows) 0 rows)
-              (covered (Obj.magic entry_of0) (fun r s ->
-                Z.mul b.gram_times (late_dot r s)) false
-                (zip (zip (iota 0 (Obj.magic n)) rows) b.gram_rows)))))))
-
 (** val times : Big_int_Z.big_int -> sparse_row -> sparse_row **)
 
 let times c row =
@@ -4304,7 +4330,7 @@ let row_1 q a i =
 (** val ff_block : pencil -> (int -> sparse_row) -> sparse_row list **)
 
 let ff_block q row =
-  map0 (fun i -> restrict (row i) q.free) q.free
+  let place0 = places q.free in map0 (fun i -> restrict place0 (row i)) q.free
 
 (** val fs_block : pencil -> (int -> sparse_row) -> matrix **)
 
@@ -4504,7 +4530,7 @@ let entry_of a low_a low_b fam lo hi slopes z0 nl nr dl dr =
     then Z.add
            (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
              (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)))
-             (spread (fst c)))
+             (spread0 (fst c)))
            (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
              Big_int_Z.unit_big_int))
              (remainder_slope a low_a low_b fam lo hi (snd c) nl nr dl dr))
@@ -4516,7 +4542,7 @@ let entry_of a low_a low_b fam lo hi slopes z0 nl nr dl dr =
   (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
     Big_int_Z.unit_big_int)) (chord_of (fst c))); local_ra =
   (Z.add
-    (Z.add (spread (fst c))
+    (Z.add (spread0 (fst c))
       (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
         Big_int_Z.unit_big_int))
         (remainder_radius a low_a low_b lo (snd c) nl nr))) rb); local_rb =

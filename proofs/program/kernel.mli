@@ -352,6 +352,8 @@ val sum_from :
 
 val all_from : (int -> 'a1 -> bool) -> int -> 'a1 list -> bool
 
+val map_from : (int -> 'a1 -> 'a2) -> int -> 'a1 list -> 'a2 list
+
 val remainder :
   ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
   ('a1 * 'a2) -> ('a1 * 'a2) -> Big_int_Z.big_int
@@ -410,6 +412,10 @@ val defect :
 val residual :
   enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
   point -> int -> Big_int_Z.big_int
+
+val contracts :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> bool
 
 val box_row :
   enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
@@ -625,6 +631,27 @@ type sparse_row = (int * Big_int_Z.big_int) list
 
 val lookup : sparse_row -> int -> Big_int_Z.big_int
 
+type form_bound = { bound_times : Big_int_Z.big_int;
+                    bound_at : Big_int_Z.big_int;
+                    gram_times : Big_int_Z.big_int; gram_rows : late_row list }
+
+val spread : sparse_row -> Big_int_Z.big_int list
+
+val shifted_row :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> int -> sparse_row -> sparse_row
+
+val symmetric_rows_sparse : sparse_row list -> bool
+
+val distance :
+  Big_int_Z.big_int -> Big_int_Z.big_int list -> late_row -> late_row list ->
+  Big_int_Z.big_int
+
+val row_bounded :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> late_row
+  list -> int -> (sparse_row * late_row) -> bool
+
+val bounded_rows : Equality.sort -> sparse_row list -> form_bound -> bool
+
 type blocks = { free_count : int; slip_count : int; ff : sparse_row list;
                 fs : matrix; sf_a : matrix; sf_b : matrix; ss_a : matrix;
                 ss_b : matrix }
@@ -637,8 +664,6 @@ type elimination = { row_scale : Big_int_Z.big_int list;
                      factor_scale : Big_int_Z.big_int;
                      stiffness_factor : late_row list }
 
-val map_from : (int -> 'a1 -> 'a2) -> int -> 'a1 list -> 'a2 list
-
 val sparse_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int
 
 val norm1 : Big_int_Z.big_int list -> Big_int_Z.big_int
@@ -646,15 +671,6 @@ val norm1 : Big_int_Z.big_int list -> Big_int_Z.big_int
 val row_of : matrix -> int -> Big_int_Z.big_int list
 
 val divide_up : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-val shifted :
-  elimination -> (int * sparse_row) -> (int * sparse_row) -> Big_int_Z.big_int
-
-val numbered_rows : blocks -> (int * sparse_row) list
-
-val stiffness_symmetric : blocks -> bool
-
-val stiffness_bounded : blocks -> elimination -> bool
 
 val stiffness_positive : blocks -> elimination -> bool
 
@@ -676,6 +692,11 @@ val shapes : blocks -> elimination -> bool
 
 val check_elimination : blocks -> elimination -> bool
 
+val mark :
+  (int -> 'a1) -> int -> int list -> 'a1 option list -> 'a1 option list
+
+val places : int list -> int option list
+
 type pencil = { order : int; rows_a : sparse_row list;
                 rows_b : sparse_row list; free : int list }
 
@@ -689,7 +710,9 @@ val wellformed : pencil -> bool
 
 val free_rows_constant : pencil -> bool
 
-val restrict : sparse_row -> int list -> sparse_row
+val restrict : int option list -> sparse_row -> sparse_row
+
+val blocks_by : pencil -> int option list -> int list -> blocks
 
 val blocks_of : pencil -> blocks
 
@@ -917,6 +940,10 @@ val known_solutions : pencil -> solution_claim list -> known list
 
 val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool
 
+val check_blocks :
+  pencil -> solution_claim list -> elimination -> whole leaf tree -> point ->
+  point -> blocks -> bool
+
 val check_complete :
   pencil -> solution_claim list -> elimination -> whole leaf tree -> point ->
   point -> bool
@@ -959,26 +986,34 @@ val k_row : system -> int -> (int * Big_int_Z.big_int) list
 
 val m_row : system -> int -> (int * Big_int_Z.big_int) list
 
-val column : system -> Equality.sort -> (int * Big_int_Z.big_int) option
+val column_table : system -> (int * Big_int_Z.big_int) option list
 
-val columns : system -> sparse_row -> sparse_row
+val columns :
+  (int * Big_int_Z.big_int) option list -> sparse_row -> sparse_row
 
 val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row
 
 val rows_along :
-  system -> (int -> sparse_row) -> slip_particle -> planar ->
-  (int * Big_int_Z.big_int) list
+  (int * Big_int_Z.big_int) option list -> (int -> sparse_row) ->
+  slip_particle -> planar -> (int * Big_int_Z.big_int) list
 
 val direction :
   Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar
 
-val free_row_b : system -> unknown -> int -> (int * Big_int_Z.big_int) list
+val free_row_b :
+  system -> unknown -> (int * Big_int_Z.big_int) option list -> int ->
+  (int * Big_int_Z.big_int) list
 
 val slip_row_a :
-  system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list
+  system -> unknown -> (int * Big_int_Z.big_int) option list -> slip_particle
+  -> (int * Big_int_Z.big_int) list
 
 val slip_row_b :
-  system -> unknown -> slip_particle -> (int * Big_int_Z.big_int) list
+  system -> unknown -> (int * Big_int_Z.big_int) option list -> slip_particle
+  -> (int * Big_int_Z.big_int) list
+
+val pencil_by :
+  system -> unknown -> (int * Big_int_Z.big_int) option list -> pencil
 
 val pencil_of : system -> unknown -> pencil
 
@@ -1372,13 +1407,9 @@ val constant_of : polynomial -> Big_int_Z.big_int
 
 val chord_of : polynomial -> Big_int_Z.big_int
 
-val spread : polynomial -> Big_int_Z.big_int
+val spread0 : polynomial -> Big_int_Z.big_int
 
 val poly_of : matrix list -> int -> int -> polynomial
-
-type form_bound = { bound_times : Big_int_Z.big_int;
-                    bound_at : Big_int_Z.big_int;
-                    gram_times : Big_int_Z.big_int; gram_rows : late_row list }
 
 type anchor = { anchor_center : point; anchor_unit : Big_int_Z.big_int;
                 anchor_right : matrix list; anchor_left : matrix list;
@@ -1398,8 +1429,6 @@ type local_leaf =
 | LocalDefinite of bool * factor * factor
 | LocalAbsent of absence
 | LocalRoot of isolation * outcome
-
-val bounded_rows : Equality.sort -> sparse_row list -> form_bound -> bool
 
 val times : Big_int_Z.big_int -> sparse_row -> sparse_row
 
