@@ -125,7 +125,7 @@ fn random_system(index: u64, mixture: Mixture) -> System {
     let mut rng = seed.rng();
     let signs = rng.random_range(0..64);
     let system = states::system(&mut rng, &mixture.states(signs), &mut Vec::new()).unwrap();
-    if index % 3 == 0 {
+    if index.is_multiple_of(3) {
         with_factors(&system, &mut rng)
     } else {
         system
@@ -167,7 +167,7 @@ fn compare(index: u64, mixture: Mixture, corners: &mut Corners) {
 
     corners.compared += 1;
     corners.six_particles += usize::from(system.particles().len() == 6);
-    corners.with_factors += usize::from(index % 3 == 0);
+    corners.with_factors += usize::from(index.is_multiple_of(3));
 }
 
 /// Is v of the motion a positive multiple of the lifted one, at the same value?
