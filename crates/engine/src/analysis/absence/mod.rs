@@ -7,7 +7,7 @@
 //! | `boxes` | branch and prune over boxes of (t, mu) and states |
 //!
 //! Doubles propose the cover, and nothing is returned as proved before the checker has accepted it.
-//! Input: a system and the bound. Output: [`Outcome`]. Called by `critical`, which chooses bounds.
+//! Input: a system and the bound. Output: `Outcome`. Called by `critical`, which chooses bounds.
 
 mod boxes;
 mod family;
@@ -32,7 +32,7 @@ use rayon::prelude::*;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     /// Boxes examined in one piece of [0, infinity) before the search ends with what it has: for up
-    /// to [`SMALL_ORDER`] slip variables, and fewer for more of them, because each one takes longer.
+    /// to `SMALL_ORDER` slip variables, and fewer for more of them, because each one takes longer.
     pub boxes: usize,
 }
 
