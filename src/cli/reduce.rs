@@ -73,5 +73,8 @@ fn variable_text(variable: &Variable) -> String {
 
             terms.join(" + ")
         }
+        Variable::Zero {
+            variables, part, ..
+        } => format!("{} of particle {}", part.word(), variables.particle),
     }
 }

@@ -16,8 +16,8 @@ use super::output::Output;
 use mceip_check::certificate::Claim;
 use mceip_engine::certify::certificate;
 use mceip_engine::lcp::MCP_FORMAT;
-use mceip_engine::multistart::{Found, multistart_large, support, trace_outcome};
-use mceip_engine::reduction::reduce;
+use mceip_engine::multistart::{Found, multistart_with_zero, support, trace_outcome};
+use mceip_engine::reduction::reduce_with_zero;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_model::file::require_format;
 use mceip_model::{Admissible, Pencil, Problem};
@@ -82,13 +82,13 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     let problem = load(file, args.window.as_deref())?;
     let output = Output::prepare_if("certificate", args.certificate.as_deref(), &[file])?;
     let trace_output = Output::prepare_if("trace", args.trace.as_deref(), &[file])?;
-    let reduced = reduce(&problem)?;
+    let reduced = reduce_with_zero(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let search = search_of(args.starts, args.seed, args.all, args.trace.is_some());
 
     let job = Job::begin("searching");
-    let (found, _) =
-        job.watched(|watch| multistart_large(&problem, &admissible, &search, watch))?;
+    let found =
+        job.watched(|watch| multistart_with_zero(&problem, &reduced, &admissible, &search, watch))?;
     job.end();
 
     print_asides(args, &problem, &reduced.pencil, &found);

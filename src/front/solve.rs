@@ -7,11 +7,11 @@ use super::solution::Solution;
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::check;
 use mceip_engine::certify::certificate;
-use mceip_engine::multistart::{Search, Uncertified, multistart_large};
+use mceip_engine::multistart::{Search, Uncertified, multistart_with_zero};
 use mceip_engine::report::Listed;
 use mceip_engine::run::{Cancel, Progress};
 use mceip_model::Admissible;
-use mceip_model::reduction::reduce;
+use mceip_model::reduction::reduce_with_zero;
 
 /// A search for solutions; see [`Problem::solve`].
 pub struct Solve<'a> {
@@ -110,10 +110,10 @@ impl<'a> Solve<'a> {
     /// problem is beyond the solver.
     pub fn run(self) -> Result<Found, Error> {
         let problem = self.problem.as_model();
-        let reduced = reduce(problem)?;
+        let reduced = reduce_with_zero(problem)?;
         let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
         let watch = self.watched.watch();
-        let (found, _) = multistart_large(problem, &admissible, &self.search, &watch)?;
+        let found = multistart_with_zero(problem, &reduced, &admissible, &self.search, &watch)?;
 
         // The certificate of all solutions is checked as a whole.
         let claims: Vec<Claim> = found.certified.iter().map(|c| c.claim.clone()).collect();

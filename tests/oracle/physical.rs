@@ -84,6 +84,7 @@ fn x_of(variables: &[Variable], v: &[Poly]) -> Vec<Poly> {
                 let sliding = combination(tangent, v, &clear);
                 sliding.scale(&(-i64::from(*sign)).into())
             }
+            Variable::Zero { .. } => panic!("the reduced route has no z particles"),
         });
     }
 

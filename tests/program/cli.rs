@@ -4,7 +4,9 @@
 //! agreement of the commands: what one writes the next must take, and what was changed it must not.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exit_code, exits, exits_with_json, repository, run, solutions_text};
+use crate::common::{
+    contains_all, example, exit_code, exits, exits_with_json, repository, run, solutions_text,
+};
 use crate::program::Folder;
 use serde_json::Value;
 use std::process::{Command, Stdio};
@@ -90,9 +92,9 @@ fn malformed_files() -> Vec<String> {
 #[test]
 fn zero_reaction_is_refused_where_it_is_not_supported() {
     let folder = tempfile::tempdir().unwrap();
-    let problem = zero_reaction_problem(folder.path());
+    let problem = zero_reaction_problem(folder.path(), "zero-right");
 
-    for command in ["enumerate", "solve", "reduce", "complete", "analyze"] {
+    for command in ["enumerate", "reduce", "complete", "analyze"] {
         refused(
             &[command, &problem],
             &["particle 1", "zero", "not supported"],
@@ -108,9 +110,40 @@ fn zero_reaction_is_refused_where_it_is_not_supported() {
     }
 }
 
-/// The problem of `spec/corpus/accept/zero-right.json`, as a file.
-fn zero_reaction_problem(folder: &std::path::Path) -> String {
-    let text = std::fs::read_to_string(repository("spec/corpus/accept/zero-right.json")).unwrap();
+/// Each mode of a particle in contact with zero reaction: `solve` finds the solution, `check`
+/// accepts its certificate, and not for the problem of another mode.
+#[test]
+fn zero_reaction_is_solved_and_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    let foreign_folder = tempfile::tempdir().unwrap();
+    let foreign = zero_reaction_problem(foreign_folder.path(), "zero-factor");
+    let certificate = folder.path().join("certificate.json");
+    let certificate = certificate.to_str().unwrap();
+
+    for name in [
+        "zero-open",
+        "zero-stick",
+        "zero-right",
+        "zero-left",
+        "zero-open-mu",
+    ] {
+        let problem = zero_reaction_problem(folder.path(), name);
+        let args = ["solve", &problem, "--json", "--certificate", certificate];
+
+        let report = exits_with_json(0, &args);
+
+        assert_eq!(report["solutions"].as_array().unwrap().len(), 1, "{name}");
+        assert_eq!(report["solutions"][0]["value"], "2", "{name}");
+        exits(0, &["check", &problem, certificate]);
+        exits(1, &["check", &foreign, certificate]);
+        contains_all(&exits(0, &["solve", &problem]), &["right of particle 1"]);
+    }
+}
+
+/// The problem of a file of `spec/corpus/accept`, as a file of its own.
+fn zero_reaction_problem(folder: &std::path::Path, name: &str) -> String {
+    let path = repository(&format!("spec/corpus/accept/{name}.json"));
+    let text = std::fs::read_to_string(path).unwrap();
     let case: serde_json::Value = serde_json::from_str(&text).unwrap();
     let problem = folder.join("problem.json");
     std::fs::write(&problem, case["problem"].to_string()).unwrap();

@@ -26,3 +26,4 @@ mod solver_measure;
 mod solver_paths;
 mod solver_properties;
 mod solver_textbook;
+mod zero_reaction;

@@ -4,8 +4,8 @@
 use super::super::common::{CliError, exit, print, text};
 use super::search::{plain_search_of, search_of};
 use mceip_engine::lcp;
-use mceip_engine::multistart::{Found, Search, SearchError, multistart_large};
-use mceip_engine::reduction::reduce;
+use mceip_engine::multistart::{Found, Search, SearchError, multistart_with_zero};
+use mceip_engine::reduction::reduce_with_zero;
 use mceip_engine::run::Watch;
 use mceip_model::file::{from_json, read_problem, require_format, write_problem};
 use mceip_model::{Admissible, Problem};
@@ -162,9 +162,10 @@ fn repeat(header: &Header, path: &Path) -> Result<Repeated, CliError> {
     let problem = read_problem(&header.problem, Path::new("."));
     let problem = problem.map_err(|e| CliError::file(path, e))?;
     let search = search_of(header.starts, header.seed, header.all, true);
-    let reduced = reduce(&problem)?;
+    let reduced = reduce_with_zero(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
-    let (found, _) = multistart_large(&problem, &admissible, &search, &Watch::nobody())?;
+    let watch = Watch::nobody();
+    let found = multistart_with_zero(&problem, &reduced, &admissible, &search, &watch)?;
 
     let again = Header::new(&problem, &search, header.all);
     Ok(Repeated {

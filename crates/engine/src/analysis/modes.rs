@@ -84,6 +84,11 @@ fn lift(dofs: usize, variables: &[Variable], x: &[f64]) -> Vec<f64> {
                     v[*dof] -= f64::from(*sign) * x_i * to_f64(c);
                 }
             }
+            Variable::Zero { column, .. } => {
+                for (dof, c) in column {
+                    v[*dof] += x_i * to_f64(c);
+                }
+            }
         }
     }
 

@@ -3,13 +3,13 @@
 //! The MCP of Proposition 1 or 2 covers one side of an origin ([`Embedding`]): runs start there,
 //! and curves are followed there. Where A_ff is regular and the free rows of B are zero, curves run
 //! on the circle instead ([`CirclePencil`]), which covers all values at once; their points are
-//! polished in the embedding of all t >= 0. Made by [`Hunt`](super::hunt::Hunt) for each side of an
-//! origin.
+//! polished in the embedding of all t >= 0. With particles in contact with zero reaction there is no
+//! circle. Made by [`Hunt`](super::hunt::Hunt) for each side of an origin.
 
 use crate::candidate::Candidate;
 use crate::reduction::{CirclePencil, Embedding, Side};
 use mceip_mcp::mcp::Mcp;
-use mceip_model::Admissible;
+use mceip_model::{Admissible, ZeroVariables};
 
 /// Solutions taken from one curve, at most: a cone of solutions is met at every step.
 const PER_CURVE: usize = 16;
@@ -38,10 +38,19 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    pub(super) fn new(admissible: &Admissible<'_>, side: Side, seed: u64) -> Ground {
-        let embedding = Embedding::new(admissible, side);
-        let circle = CirclePencil::new(&embedding);
-        let whole = Embedding::new(admissible, Side::Above(0.0));
+    pub(super) fn new(
+        admissible: &Admissible<'_>,
+        zero: &[ZeroVariables],
+        side: Side,
+        seed: u64,
+    ) -> Ground {
+        let embedding = Embedding::with_zero(admissible, zero, side);
+        let circle = if zero.is_empty() {
+            CirclePencil::new(&embedding)
+        } else {
+            None
+        };
+        let whole = Embedding::with_zero(admissible, zero, Side::Above(0.0));
         Ground {
             embedding,
             whole,

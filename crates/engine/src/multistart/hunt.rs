@@ -19,7 +19,7 @@ use crate::run::{Progress, Watch};
 use crate::tolerance::WINDOW_GAP;
 use mceip_exact::to_f64;
 use mceip_mcp::solver::{Counters, SolverError, Termination, solve};
-use mceip_model::{Admissible, Unknown, Window};
+use mceip_model::{Admissible, Unknown, Window, ZeroVariables};
 
 /// zeta of the first curve of MCEIP-lambda2, in units of the embedding (|A| / |B|).
 const FAR_START: f64 = 32.0;
@@ -31,6 +31,8 @@ pub(super) const WINDOW_SALT: u64 = 1000;
 /// A search under way.
 pub(super) struct Hunt<'a> {
     pub(super) admissible: &'a Admissible<'a>,
+    /// The variables of particles in contact with zero reaction.
+    pub(super) zero: &'a [ZeroVariables],
     pub(super) window: &'a Window,
     pub(super) search: &'a Search,
     pub(super) certifier: &'a Certifier<'a>,
@@ -44,7 +46,7 @@ impl Hunt<'_> {
     /// [`Search::departures`] times.
     pub(super) fn side(&mut self, side: Side, starts: usize, salt: u64) -> Result<(), SolverError> {
         let seed = self.search.seed.wrapping_add(salt);
-        let mut ground = Ground::new(self.admissible, side, seed);
+        let mut ground = Ground::new(self.admissible, self.zero, side, seed);
         let mut of_runs = Vec::new();
         let mut of_curves = Vec::new();
         for (k, start) in self.starts(&mut ground, starts).into_iter().enumerate() {

@@ -32,7 +32,7 @@ pub use search::{Certifier, Search};
 pub use trace::trace_outcome;
 
 use crate::certify;
-use crate::reduction::{Expansion, Side, condense};
+use crate::reduction::{Expansion, Reduced, Side, condense};
 use crate::run::Watch;
 use crate::tolerance::WINDOW_GAP;
 use hunt::{Hunt, WINDOW_SALT};
@@ -147,8 +147,9 @@ pub fn multistart_with(
     watch: &Watch<'_>,
 ) -> Result<Found, SolverError> {
     let mut found = Found::default();
-    let mut hunt = Hunt {
+    let hunt = Hunt {
         admissible,
+        zero: &[],
         window,
         search,
         certifier,
@@ -156,7 +157,49 @@ pub fn multistart_with(
         found: &mut found,
     };
 
-    let mut origins = vec![to_f64(window.min())];
+    search_with(hunt)?;
+    Ok(found)
+}
+
+/// [`multistart_large`], also for systems with particles in contact with zero reaction: `reduced` is
+/// that of [`reduce_with_zero`](crate::reduction::reduce_with_zero), `admissible` its pencil.
+///
+/// # Errors
+/// [`SearchError`].
+pub fn multistart_with_zero(
+    problem: &Problem,
+    reduced: &Reduced,
+    admissible: &Admissible<'_>,
+    search: &Search,
+    watch: &Watch<'_>,
+) -> Result<Found, SearchError> {
+    let zero = reduced.zero_variables();
+    if zero.is_empty() {
+        let (found, _) = multistart_large(problem, admissible, search, watch)?;
+        return Ok(found);
+    }
+
+    require_dense_order(&reduced.pencil)?;
+    let certifier = certify::Certifier::new(problem, &reduced.pencil);
+    let mut found = Found::default();
+    let hunt = Hunt {
+        admissible,
+        zero: &zero,
+        window: problem.window(),
+        search,
+        certifier: &|candidate| certifier.certify(candidate),
+        watch: *watch,
+        found: &mut found,
+    };
+
+    search_with(hunt)?;
+    Ok(found)
+}
+
+/// Searches the window, then above and below each value found, and sorts what was found.
+fn search_with(mut hunt: Hunt<'_>) -> Result<(), SolverError> {
+    let search = hunt.search;
+    let mut origins = vec![to_f64(hunt.window.min())];
     origins.extend(&search.origins);
     for (k, origin) in origins.into_iter().enumerate() {
         hunt.side(Side::Above(origin), search.starts, k as u64)?;
@@ -166,12 +209,12 @@ pub fn multistart_with(
         hunt_around_values(&mut hunt)?;
     }
 
-    let certified = &mut found.certified;
+    let certified = &mut hunt.found.certified;
     certified.sort_by(|a, b| {
         let by_value = a.candidate.value.total_cmp(&b.candidate.value);
         by_value.then_with(|| support(&a.claim).cmp(support(&b.claim)))
     });
-    Ok(found)
+    Ok(())
 }
 
 /// Searches above and below the value of each solution found, also of those found on the way.

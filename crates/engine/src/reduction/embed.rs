@@ -10,16 +10,21 @@
 //! with another positive normalisation; c = 1 unless asked otherwise. D and the unit of t are
 //! powers of two and a ratio of the largest entries, so that the MCP is well scaled.
 //!
+//! With particles in contact with zero reaction the pencil is that of the split form, and the
+//! unknowns and rows of these particles are those of [`ratios`].
+//!
 //! Input: an admissible pencil (the hypotheses of the propositions hold) and the side of a window.
 //! Output: an [`Mcp`] for the solver, its starting points, and the way between its points and
 //! candidates. Called by `multistart`; the curves of [`CirclePencil`](super::CirclePencil) begin
 //! with an embedding.
 #![allow(clippy::float_arithmetic)]
 
+mod ratios;
+
 use crate::candidate::Candidate;
 use mceip_exact::{Sparse, to_f64};
 use mceip_mcp::mcp::Mcp;
-use mceip_model::Admissible;
+use mceip_model::{Admissible, ZeroVariables};
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -44,6 +49,10 @@ pub struct Embedding {
     /// The diagonal of D, powers of two.
     pub(super) diagonal: Vec<f64>,
     pub(super) is_free: Vec<bool>,
+    /// Is the variable one of the sum e'u_s: neither free nor of a z particle?
+    is_summed: Vec<bool>,
+    /// The variables of the particles in contact with zero reaction.
+    zero: Vec<ZeroVariables>,
     /// The change of t for zeta = 1, of the size of |A| / |B|.
     pub(super) unit: f64,
     /// t at zeta = 0.
@@ -59,6 +68,12 @@ pub struct Embedding {
 impl Embedding {
     /// Embeds the pencil; the type of the argument says that its hypotheses hold.
     pub fn new(admissible: &Admissible<'_>, side: Side) -> Embedding {
+        Embedding::with_zero(admissible, &[], side)
+    }
+
+    /// The same for the pencil of the split form of a system with the given variables of z
+    /// particles.
+    pub fn with_zero(admissible: &Admissible<'_>, zero: &[ZeroVariables], side: Side) -> Embedding {
         let pencil = admissible.pencil();
         let n = pencil.order();
 
@@ -68,6 +83,7 @@ impl Embedding {
         for (i, d) in diagonal.iter_mut().enumerate() {
             *d = scale_of(plain_a[(i, i)], plain_b[(i, i)]);
         }
+        ratios::join_scales(&mut diagonal, zero);
 
         let a = scaled(&plain_a, &diagonal);
         let b = scaled(&plain_b, &diagonal);
@@ -86,10 +102,19 @@ impl Embedding {
         };
 
         let mut is_free = vec![false; n];
+        let mut is_summed = vec![true; n];
         let mut lower = vec![0.0; n + 1];
+        let mut upper = vec![f64::INFINITY; n + 1];
         for &i in pencil.free() {
             is_free[i] = true;
+            is_summed[i] = false;
             lower[i] = f64::NEG_INFINITY;
+        }
+        for variables in zero {
+            for i in [variables.gap, variables.right, variables.left] {
+                is_summed[i] = false;
+            }
+            ratios::set_bounds(variables, &mut lower, &mut upper);
         }
 
         Embedding {
@@ -97,12 +122,14 @@ impl Embedding {
             b,
             diagonal,
             is_free,
+            is_summed,
+            zero: zero.to_vec(),
             unit,
             origin,
             direction,
             c: 1.0,
             lower,
-            upper: vec![f64::INFINITY; n + 1],
+            upper,
         }
     }
 
@@ -120,15 +147,19 @@ impl Embedding {
 
     /// e'u_s.
     fn slip_sum(&self, u: &[f64]) -> f64 {
-        let variables = self.is_free.iter().zip(u);
-        let slip = variables.filter(|(is_free, _)| !**is_free);
+        let variables = self.is_summed.iter().zip(u);
+        let slip = variables.filter(|(is_summed, _)| **is_summed);
         slip.map(|(_, u_i)| u_i).sum()
     }
 
     /// The candidate that a point of the MCP stands for: t and x = D u.
     pub fn candidate(&self, z: &[f64]) -> Candidate {
         let n = self.diagonal.len();
-        let u = &z[..n];
+        let mut u = z[..n].to_vec();
+        for variables in &self.zero {
+            ratios::split(variables, &mut u);
+        }
+
         Candidate {
             value: self.t(z[n]),
             x: u.iter().zip(&self.diagonal).map(|(u, d)| u * d).collect(),
@@ -148,7 +179,23 @@ impl Embedding {
 
         let zeta = (value - self.origin) * self.direction / self.unit;
         z.push(zeta);
+        self.join_ratios(&mut z);
         z
+    }
+
+    /// Replaces v+ and v- of each z particle by v_T and the friction ratio.
+    fn join_ratios(&self, z: &mut [f64]) {
+        if self.zero.is_empty() {
+            return;
+        }
+
+        for variables in &self.zero {
+            ratios::join(variables, z);
+        }
+        let rows = self.rows(z);
+        for variables in &self.zero {
+            z[variables.left] = ratios::ratio(variables, z[variables.right], &rows);
+        }
     }
 
     /// `count` starting points: e'u_s = c always (at x = 0 the column of t vanishes), u_f = 0.
@@ -158,7 +205,7 @@ impl Embedding {
     /// log-uniform over six decades around the unit.
     pub fn starts(&self, count: usize, seed: u64) -> Vec<Vec<f64>> {
         let n = self.diagonal.len();
-        let slip: Vec<usize> = (0..n).filter(|&i| !self.is_free[i]).collect();
+        let slip: Vec<usize> = (0..n).filter(|&i| self.is_summed[i]).collect();
         let even = even_weights(slip.len());
 
         let mut starts = vec![
@@ -179,6 +226,13 @@ impl Embedding {
         for z in &mut starts {
             for u in &mut z[..n] {
                 *u *= self.c;
+            }
+        }
+
+        // The first start has no z particle that moves or is pressed.
+        for z in starts.iter_mut().skip(1) {
+            for variables in &self.zero {
+                ratios::random_mode(variables, self.c, z, &mut rng);
             }
         }
 
@@ -239,6 +293,33 @@ impl Embedding {
     /// t of zeta.
     fn t(&self, zeta: f64) -> f64 {
         self.origin + self.direction * self.unit * zeta
+    }
+
+    /// y = D (A + t B) D u, where the column of v- of a z particle is left out: its unknown is the
+    /// friction ratio.
+    fn rows(&self, z: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; self.diagonal.len()];
+        self.add_rows(z, &mut y);
+        y
+    }
+
+    /// Column by column; columns of u_j = 0 are left out.
+    fn add_rows(&self, z: &[f64], y: &mut [f64]) {
+        let n = self.diagonal.len();
+        let t = self.t(z[n]);
+        for (j, &u_j) in z[..n].iter().enumerate() {
+            if u_j == 0.0 || self.is_ratio(j) {
+                continue;
+            }
+            for (y_i, (a, b)) in y.iter_mut().zip(self.columns(j)) {
+                *y_i += (a + t * b) * u_j;
+            }
+        }
+    }
+
+    /// Is unknown j the friction ratio of a z particle?
+    fn is_ratio(&self, j: usize) -> bool {
+        self.zero.iter().any(|variables| variables.left == j)
     }
 }
 
@@ -343,20 +424,13 @@ impl Mcp for Embedding {
         &self.upper
     }
 
-    /// Column by column; columns of u_j = 0 are left out.
     fn function(&self, z: &[f64], f: &mut [f64]) {
         let n = self.diagonal.len();
-        let t = self.t(z[n]);
-
         let y = &mut f[..n]; // (27), (31)
         y.fill(0.0);
-        for (j, &u_j) in z[..n].iter().enumerate() {
-            if u_j == 0.0 {
-                continue;
-            }
-            for (y_i, (a, b)) in y.iter_mut().zip(self.columns(j)) {
-                *y_i += (a + t * b) * u_j;
-            }
+        self.add_rows(z, y);
+        for variables in &self.zero {
+            ratios::combine_rows(variables, z, y);
         }
 
         f[n] = self.gamma(z); // (28), (33)
@@ -371,11 +445,22 @@ impl Mcp for Embedding {
         let (left, last_column) = j.as_mut_slice().split_at_mut(n * (n + 1));
         last_column.fill(0.0);
         for (k, column) in left.chunks_exact_mut(n + 1).enumerate() {
+            if self.is_ratio(k) {
+                column.fill(0.0);
+                continue;
+            }
             for (i, (a, b)) in self.columns(k).enumerate() {
                 column[i] = a + t * b;
                 last_column[i] += b * (t_by_zeta * z[k]);
             }
-            column[n] = if self.is_free[k] { 0.0 } else { 1.0 };
+            column[n] = if self.is_summed[k] { 1.0 } else { 0.0 };
+        }
+
+        if !self.zero.is_empty() {
+            let y = self.rows(z);
+            for variables in &self.zero {
+                ratios::combine_rows_of_jacobian(variables, z, &y, j);
+            }
         }
     }
 }

@@ -33,7 +33,8 @@ pub use embed::{Embedding, Side};
 pub use error::CondensationError;
 pub use expand::Expansion;
 pub use mceip_model::reduction::{
-    Lifted, Line, LineViolated, MuFamily, Reduced, Variable, check_lines, lift, mu_family, reduce,
+    Lifted, Line, LineViolated, MuFamily, Reduced, Variable, ZeroPart, check_lines, lift,
+    mu_family, reduce, reduce_with_zero,
 };
 pub use project::{Projected, project};
 pub use reversed::reversed;

@@ -8,7 +8,7 @@
 //! which reads modes that other programs report.
 
 use mceip_exact::Rational;
-use mceip_model::reduction::Variable;
+use mceip_model::reduction::{Variable, ZeroPart};
 use num_traits::{Signed, Zero};
 use std::cmp::Reverse;
 
@@ -61,6 +61,22 @@ pub fn project(variables: &[Variable], v: &[Rational]) -> Projected {
                     }
                 }
                 x.push(v_t * Rational::from_integer((-*sign).into()));
+            }
+            Variable::Zero { part, column, .. } => {
+                let terms = column.iter().map(|(dof, c)| c * component(v, *dof));
+                let along: Rational = terms.sum();
+                let is_of_other_half = *part != ZeroPart::Gap && along < Rational::zero();
+                if is_of_other_half {
+                    x.push(Rational::zero());
+                    continue;
+                }
+
+                for (dof, c) in column {
+                    if let Some(rest) = unexplained.get_mut(*dof) {
+                        *rest -= c * &along;
+                    }
+                }
+                x.push(along);
             }
         }
     }

@@ -65,7 +65,7 @@ impl Listed {
     pub fn of_solution(problem: &Problem, reduced: &Reduced, s: &Solution) -> Listed {
         let mut digits = Digits {
             value: s.value.clone(),
-            norm: s.normaliser(&reduced.pencil.slip()),
+            norm: s.normaliser(&reduced.normalised()),
         };
 
         let y = digits.of_rows(&reduced.pencil, &s.x);

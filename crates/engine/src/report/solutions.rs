@@ -246,6 +246,9 @@ fn variable(v: &Variable) -> Value {
             }
             json!({ "slip": { "sign": sign, "tangent": terms } })
         }
+        Variable::Zero {
+            variables, part, ..
+        } => json!({ "zero": { "particle": variables.particle, "part": part.word() } }),
     }
 }
 
@@ -389,6 +392,12 @@ fn meaning(report: &Report<'_>) -> String {
                 meanings.push(format!(
                     "x[{i}] = -S v_T of the particle at dof {dof}, S = {sign:+}"
                 ));
+            }
+            Some(Variable::Zero {
+                variables, part, ..
+            }) => {
+                let particle = variables.particle;
+                meanings.push(format!("x[{i}] = {} of particle {particle}", part.word()));
             }
         }
     }

@@ -179,6 +179,11 @@ pub fn mode(variables: &[Variable], x: &[f64], dofs: usize) -> Vec<f64> {
                     v[*dof] -= f64::from(*sign) * to_f64(c) * x;
                 }
             }
+            Variable::Zero { column, .. } => {
+                for (dof, c) in column {
+                    v[*dof] += to_f64(c) * x;
+                }
+            }
         }
     }
 

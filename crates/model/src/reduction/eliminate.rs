@@ -20,7 +20,7 @@
 //! Input: a [`Problem`] or [`System`] whose preconditions have been established (K symmetric).
 //! Called by everything that solves or enumerates, never by `check`, which has its own way.
 
-use crate::{Body, Direction, ModelError, Pencil, Problem, System, Unknown};
+use crate::{Body, Direction, ModelError, Pencil, Problem, System, Unknown, ZeroVariables};
 use mceip_exact::{Rational, Sparse};
 use num_traits::{One, Zero};
 
@@ -41,6 +41,37 @@ pub enum Variable {
         /// Its unit normal into the obstacle.
         normal: Direction,
     },
+    /// One of the three variables of a particle in contact with zero reaction.
+    Zero {
+        /// Their places.
+        variables: ZeroVariables,
+        /// Which of the three.
+        part: ZeroPart,
+        /// The motion that belongs to x = 1.
+        column: Direction,
+    },
+}
+
+/// The variables of a particle in contact with zero reaction (`spec/zero-reaction.md`, Z.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ZeroPart {
+    /// g = -v_N.
+    Gap,
+    /// v+ = max(v_T, 0).
+    Right,
+    /// v- = max(-v_T, 0).
+    Left,
+}
+
+impl ZeroPart {
+    /// The word of reports.
+    pub fn word(self) -> &'static str {
+        match self {
+            ZeroPart::Gap => "gap",
+            ZeroPart::Right => "right",
+            ZeroPart::Left => "left",
+        }
+    }
 }
 
 impl Variable {
@@ -48,6 +79,7 @@ impl Variable {
     pub fn column(&self) -> Direction {
         match self {
             Variable::Free { dof } => vec![(*dof, Rational::one())],
+            Variable::Zero { column, .. } => column.clone(),
             Variable::Slip { sign, tangent, .. } => {
                 let minus_s = Rational::from_integer((-sign).into());
                 tangent.iter().map(|(d, c)| (*d, c * &minus_s)).collect()
@@ -56,7 +88,8 @@ impl Variable {
     }
 }
 
-/// A pencil with the meaning of its variables: f ascending, then slip particles in file order.
+/// A pencil with the meaning of its variables: f ascending, then slip particles in file order, then
+/// gap, right and left of each particle in contact with zero reaction.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reduced {
     /// The pencil of (12) or (21).
@@ -65,11 +98,38 @@ pub struct Reduced {
     pub variables: Vec<Variable>,
 }
 
+impl Reduced {
+    /// The variables of e'x_s, by which solutions are normalised: the complementarity variables but
+    /// those of particles in contact with zero reaction.
+    pub fn normalised(&self) -> Vec<usize> {
+        let mut slip = self.pencil.slip();
+        slip.retain(|&i| !matches!(self.variables.get(i), Some(Variable::Zero { .. })));
+        slip
+    }
+
+    /// The variables of the particles in contact with zero reaction, in file order.
+    pub fn zero_variables(&self) -> Vec<ZeroVariables> {
+        let mut zero = Vec::new();
+        for variable in &self.variables {
+            if let Variable::Zero {
+                variables,
+                part: ZeroPart::Gap,
+                ..
+            } = variable
+            {
+                zero.push(*variables);
+            }
+        }
+
+        zero
+    }
+}
+
 /// The pencil of a problem. A pencil stands for itself; a system goes through (10)-(16).
 ///
 /// # Errors
 /// [`ModelError::Missing`] if the system lacks what the unknown needs, [`ModelError::ZeroReaction`]
-/// with z particles: [`super::split_form`] treats those.
+/// with z particles: [`super::reduce_with_zero`] treats those.
 pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
     match problem.body() {
         Body::Pencil(pencil) => Ok(Reduced {

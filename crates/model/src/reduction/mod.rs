@@ -10,7 +10,7 @@ mod lift;
 mod lines;
 mod split;
 
-pub use eliminate::{MuFamily, Reduced, Variable, mu_family, reduce};
+pub use eliminate::{MuFamily, Reduced, Variable, ZeroPart, mu_family, reduce};
 pub use lift::{Lifted, lift, lift_along};
 pub use lines::{Line, LineViolated, check_lines};
-pub use split::split_form;
+pub use split::{reduce_with_zero, split_form};

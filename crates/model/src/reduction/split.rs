@@ -19,10 +19,10 @@
 //!
 //! Input: a [`System`]. Called by the oracle and its tests. `check` has its own way.
 
-use super::eliminate::{inner_product, times_direction};
+use super::eliminate::{Reduced, Variable, ZeroPart, inner_product, reduce, times_direction};
 use crate::{
-    ContactState, Direction, ModelError, Particle, Pencil, SplitForm, System, Unknown,
-    ZeroVariables,
+    Body, ContactState, Direction, ModelError, Particle, Pencil, Problem, SplitForm, System,
+    Unknown, ZeroVariables,
 };
 use mceip_exact::{Rational, Sparse};
 use num_traits::One;
@@ -57,6 +57,58 @@ pub fn split_form(system: &System, unknown: Unknown) -> Result<SplitForm, ModelE
         slip: changes.slip,
         zero: changes.zero,
     })
+}
+
+/// The pencil of a problem, for systems with z particles that of the split form.
+///
+/// # Errors
+/// As [`split_form`] and [`reduce`](super::reduce).
+pub fn reduce_with_zero(problem: &Problem) -> Result<Reduced, ModelError> {
+    let Body::System(system) = problem.body() else {
+        return reduce(problem);
+    };
+    if system.require_no_zero().is_ok() {
+        return reduce(problem);
+    }
+
+    let split = split_form(system, problem.unknown())?;
+    Ok(Reduced {
+        variables: variables(system, &split),
+        pencil: split.pencil,
+    })
+}
+
+/// What the variables of a split form stand for.
+fn variables(system: &System, split: &SplitForm) -> Vec<Variable> {
+    let mut list = Vec::new();
+    for dof in system.free_dofs() {
+        list.push(Variable::Free { dof });
+    }
+
+    for (particle, sign) in system.slip_particles() {
+        list.push(Variable::Slip {
+            sign,
+            tangent: particle.tangent(),
+            normal: particle.into_obstacle(),
+        });
+    }
+
+    for &variables in &split.zero {
+        let parts = [
+            (ZeroPart::Gap, variables.gap),
+            (ZeroPart::Right, variables.right),
+            (ZeroPart::Left, variables.left),
+        ];
+        for (part, place) in parts {
+            list.push(Variable::Zero {
+                variables,
+                part,
+                column: split.columns[place].clone(),
+            });
+        }
+    }
+
+    list
 }
 
 /// The changes of variables v = T x and y = P' w.
@@ -147,7 +199,7 @@ fn products(rows: &[Direction], k: &Sparse, columns: &[Direction]) -> Sparse {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Body, Problem, Window, reduction::reduce};
+    use crate::Window;
     use mceip_exact::{rational, whole};
 
     fn system(second: ContactState) -> System {
@@ -208,5 +260,22 @@ mod tests {
 
         let refused = reduce(&problem).unwrap_err();
         assert_eq!(refused, ModelError::ZeroReaction { particle: 1 });
+    }
+
+    /// The variables name the columns, and e'x_s is the sum over s alone.
+    #[test]
+    fn the_variables_of_the_split_form_are_its_columns() {
+        let system = system(ContactState::Zero);
+        let split = split_form(&system, Unknown::Mu).unwrap();
+        let body = Body::System(system);
+        let problem = Problem::new(body, Unknown::Mu, Window::all()).unwrap();
+
+        let reduced = reduce_with_zero(&problem).unwrap();
+
+        let columns: Vec<Direction> = reduced.variables.iter().map(Variable::column).collect();
+        assert_eq!(columns, split.columns);
+        assert_eq!(reduced.pencil, split.pencil);
+        assert_eq!(reduced.zero_variables(), split.zero);
+        assert_eq!(reduced.normalised(), split.slip);
     }
 }

@@ -1,0 +1,280 @@
+//! The solver on systems with particles in contact with zero reaction (z): what it finds against
+//! `enumerate_modes`, which lists all solutions by exact arithmetic.
+//!
+//! Random systems with one to three s particles, one or two z particles and others beside them.
+//! Each certified solution must be in the list, and coverage is held against the floor of the
+//! family `states`, the same systems without z.
+#![cfg(feature = "testkit")]
+
+use mceip_check::certificate::Claim;
+use mceip_check::check;
+use mceip_engine::certify::certificate;
+use mceip_engine::multistart::{
+    Certified, Found, Search, exact_value, multistart_with_zero, support,
+};
+use mceip_engine::reduction::{Embedding, Side, reduce_with_zero};
+use mceip_engine::run::Watch;
+use mceip_mcp::mcp::Mcp;
+use mceip_model::reduction::split_form;
+use mceip_model::{Admissible, Body, ContactState, Problem, SplitForm, System, Unknown, Window};
+use mceip_oracle::{Solution, enumerate_modes};
+use mceip_testkit::floors::{Coverage, Starts, shortfalls};
+use mceip_testkit::generators::{Seed, states};
+use nalgebra::DMatrix;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+/// Number of this family of random systems, for [`Seed`].
+const FAMILY: u64 = 92;
+
+/// Systems of the plain run and of the opt-in run.
+const FEW: u64 = 60;
+const MANY: u64 = 2_000;
+
+/// What a run has met.
+#[derive(Debug, Default)]
+struct Met {
+    coverage: Coverage,
+    without_solution: usize,
+    degenerate: usize,
+    uncertified: usize,
+    open: usize,
+    sticking: usize,
+    right: usize,
+    left: usize,
+}
+
+impl Met {
+    /// The mode of each z particle in a solution that was found.
+    fn count_modes(&mut self, split: &SplitForm, positive: &[usize]) {
+        for variables in &split.zero {
+            if positive.contains(&variables.gap) {
+                self.open += 1;
+            } else if positive.contains(&variables.right) {
+                self.right += 1;
+            } else if positive.contains(&variables.left) {
+                self.left += 1;
+            } else {
+                self.sticking += 1;
+            }
+        }
+    }
+}
+
+fn random_states(rng: &mut ChaCha8Rng) -> Vec<ContactState> {
+    let mut states = Vec::new();
+    for _ in 0..rng.random_range(1..=3) {
+        let sign = if rng.random_range(0..2) == 0 { 1 } else { -1 };
+        states.push(ContactState::Slip { sign });
+    }
+    states.extend(vec![ContactState::Zero; rng.random_range(1..=2)]);
+    if rng.random_range(0..2) == 0 {
+        states.push(ContactState::Stick);
+    }
+    if rng.random_range(0..2) == 0 {
+        states.push(ContactState::Free);
+    }
+    states
+}
+
+fn random_problem(index: u64) -> Problem {
+    let seed = Seed {
+        family: FAMILY,
+        seed: 1,
+        index,
+    };
+    let mut rng = seed.rng();
+    let states = random_states(&mut rng);
+    let system = states::system(&mut rng, &states, &mut Vec::new()).unwrap();
+    let unknown = [Unknown::Lambda2, Unknown::Mu][(index % 2) as usize];
+    Problem::new(Body::System(system), unknown, Window::all()).unwrap()
+}
+
+fn system(problem: &Problem) -> &System {
+    let Body::System(system) = problem.body() else {
+        panic!("a system")
+    };
+    system
+}
+
+fn search(problem: &Problem) -> Found {
+    let reduced = reduce_with_zero(problem).unwrap();
+    let admissible = Admissible::new(&reduced.pencil, problem.unknown()).unwrap();
+    let search = Search::default();
+    multistart_with_zero(problem, &reduced, &admissible, &search, &Watch::nobody()).unwrap()
+}
+
+/// Is a certified solution that of the list?
+fn is_listed_as(certified: &Certified, solution: &Solution) -> bool {
+    let mut value = exact_value(&certified.claim).unwrap();
+    let has_same_value = value.equals(&mut solution.value.clone());
+    has_same_value && support(&certified.claim) == solution.slip
+}
+
+/// Solves a problem and compares with the list of all solutions.
+fn compare(index: u64, met: &mut Met) {
+    let problem = random_problem(index);
+    let split = split_form(system(&problem), problem.unknown()).unwrap();
+    let all = enumerate_modes(&split, &Window::all());
+    if !all.degenerate.is_empty() {
+        met.degenerate += 1;
+        return;
+    }
+
+    let found = search(&problem);
+    met.uncertified += found.uncertified.len();
+    for certified in &found.certified {
+        let is_known = |solution: &&Solution| is_listed_as(certified, solution);
+        let same = all.solutions.iter().filter(is_known).count();
+        assert_eq!(same, 1, "system {index}: {certified:?}");
+        met.count_modes(&split, support(&certified.claim));
+        assert_the_opposite_is_refused(&problem, &certified.claim);
+    }
+
+    if all.solutions.is_empty() {
+        assert!(found.certified.is_empty(), "system {index}");
+        met.without_solution += 1;
+        return;
+    }
+
+    let by_the_first = found.certified.iter().any(|certified| certified.run == 0);
+    let is_complete = found.certified.len() == all.solutions.len();
+    if !is_complete {
+        let missed = all.solutions.len() - found.certified.len();
+        println!("system {index}: {missed} missed of {}", all.solutions.len());
+    }
+    met.coverage.count(by_the_first, is_complete);
+}
+
+/// The checker accepts the claim, and refuses -x.
+fn assert_the_opposite_is_refused(problem: &Problem, claim: &Claim) {
+    let accepted = check(problem, &certificate(problem, vec![claim.clone()]));
+    assert!(accepted.is_ok(), "{accepted:?}");
+
+    let Claim::ExactSolution(mut opposite) = claim.clone() else {
+        panic!("claims about z particles are exact")
+    };
+    for coefficient in opposite.x.iter_mut().flatten() {
+        coefficient.0 = -coefficient.0.clone();
+    }
+    let forged = certificate(problem, vec![Claim::ExactSolution(opposite)]);
+    assert!(check(problem, &forged).is_err());
+}
+
+fn run(systems: std::ops::Range<u64>) -> Met {
+    let mut met = Met::default();
+    for index in systems {
+        compare(index, &mut met);
+    }
+
+    println!("{met:?}");
+    let short = shortfalls("states", Starts::Search, &met.coverage);
+    assert!(short.is_empty(), "{short:?}, {met:?}");
+    met
+}
+
+#[test]
+fn solutions_with_zero_reaction_are_found_and_certified() {
+    let met = run(0..FEW);
+
+    assert!(met.coverage.solvable >= 15, "{met:?}");
+    assert!(met.without_solution >= 10, "{met:?}");
+    let modes = [met.open, met.sticking, met.right, met.left];
+    assert!(modes.iter().all(|&count| count >= 3), "{met:?}");
+}
+
+#[test]
+#[ignore = "minutes in release"]
+fn solutions_with_zero_reaction_of_two_thousand_systems_are_found() {
+    let met = run(FEW..FEW + MANY);
+
+    assert!(met.coverage.solvable >= 500, "{met:?}");
+    let modes = [met.open, met.sticking, met.right, met.left];
+    assert!(modes.iter().all(|&count| count >= 100), "{met:?}");
+}
+
+/// Each solution of the list is a zero of the MCP's normal map: rows of free unknowns vanish, the
+/// others have the signs that their bounds ask for.
+#[test]
+fn every_solution_solves_the_mcp() {
+    let mut solutions = 0;
+    for index in 0..FEW {
+        let problem = random_problem(index);
+        let split = split_form(system(&problem), problem.unknown()).unwrap();
+        let admissible = Admissible::new(&split.pencil, problem.unknown()).unwrap();
+        let embedding = Embedding::with_zero(&admissible, &split.zero, Side::Above(0.0));
+
+        for solution in &enumerate_modes(&split, &Window::all()).solutions {
+            let value: f64 = solution.decimal(17).parse().unwrap();
+            let decimals = solution.x_decimals(&split.slip, 17);
+            let x: Vec<f64> = decimals.iter().map(|d| d.parse().unwrap()).collect();
+
+            let z = embedding.point(value, &x);
+
+            assert!(residual(&embedding, &z) < 1e-6, "system {index}: {z:?}");
+            let back = embedding.candidate(&z);
+            let scale: f64 = split.slip.iter().map(|&i| back.x[i]).sum();
+            for (there, given) in back.x.iter().zip(&x) {
+                let there = there / scale;
+                approx::assert_relative_eq!(there, *given, epsilon = 1e-9, max_relative = 1e-9);
+            }
+            solutions += 1;
+        }
+    }
+
+    assert!(solutions >= 20, "{solutions}");
+}
+
+/// The largest violation of a line of the MCP.
+fn residual(embedding: &Embedding, z: &[f64]) -> f64 {
+    let mut f = vec![0.0; z.len()];
+    embedding.function(z, &mut f);
+
+    let mut largest: f64 = 0.0;
+    for (i, &f_i) in f.iter().enumerate() {
+        let nearest = (z[i] - f_i).clamp(embedding.lower()[i], embedding.upper()[i]);
+        largest = largest.max((z[i] - nearest).abs());
+    }
+    largest
+}
+
+/// The Jacobian against difference quotients: F is a polynomial of degree three.
+#[test]
+fn the_jacobian_is_the_derivative() {
+    for index in 0..20 {
+        let problem = random_problem(index);
+        let split = split_form(system(&problem), problem.unknown()).unwrap();
+        let admissible = Admissible::new(&split.pencil, problem.unknown()).unwrap();
+        let embedding = Embedding::with_zero(&admissible, &split.zero, Side::Above(0.0));
+        let n = embedding.dimension();
+
+        for z in embedding.starts(8, index) {
+            let mut jacobian = DMatrix::from_element(n, n, f64::NAN);
+            embedding.jacobian(&z, &mut jacobian);
+            for k in 0..n {
+                let quotient = difference_quotient(&embedding, &z, k);
+                for i in 0..n {
+                    let size = 1e-4 * (1.0 + quotient[i].abs());
+                    approx::assert_abs_diff_eq!(jacobian[(i, k)], quotient[i], epsilon = size);
+                }
+            }
+        }
+    }
+}
+
+/// The central difference quotient in unknown k.
+fn difference_quotient(embedding: &Embedding, z: &[f64], k: usize) -> Vec<f64> {
+    let step = 1e-5 * (1.0 + z[k].abs());
+    let at = |shift: f64| {
+        let mut moved = z.to_vec();
+        moved[k] += shift;
+        let mut f = vec![0.0; z.len()];
+        embedding.function(&moved, &mut f);
+        f
+    };
+
+    let pairs = at(step).into_iter().zip(at(-step));
+    pairs
+        .map(|(above, below)| (above - below) / (2.0 * step))
+        .collect()
+}
