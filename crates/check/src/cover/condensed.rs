@@ -27,7 +27,7 @@
 use super::ends::{Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::{Expanded, Norms};
 use super::fault::CoverFault;
-use super::product::{Linear, Part, times};
+use super::product::{Linear, NonzeroRows, Part, part_of, times, transposed};
 use super::psd::{Symmetric, semidefinite};
 use crate::certificate::{
     Anchor, Condensation, CriticalAnchor, CriticalCondensation, Factor, IntegerMatrix,
@@ -297,10 +297,18 @@ struct ShiftedBlocks {
     ss: Linear,
 }
 
-/// A polynomial in d with matrices for coefficients, in units of 2^-`exponent`.
-struct Polynomial {
-    coefficients: Vec<Matrix>,
+/// W or V: a polynomial in d with matrices for coefficients, in units of 2^-`exponent`.
+struct Polynomial<'a> {
+    coefficients: Vec<Coefficient<'a>>,
     exponent: u32,
+    /// Bits of the longest entry in these units.
+    entry_bits: u64,
+}
+
+/// A matrix as the certificate spells it; its column j counts `column_factors[j]` times.
+struct Coefficient<'a> {
+    matrix: &'a Matrix,
+    column_factors: Vec<Integer>,
 }
 
 impl Blocks {
@@ -417,27 +425,23 @@ impl Blocks {
         sigma: &Rational,
         tau: &Rational,
     ) -> Result<Expanded, CoverFault> {
-        let w = self.polynomial(anchor.right)?;
-        let mut v = self.polynomial(anchor.left)?;
+        let w = self.polynomial(anchor.right, &ones(self.slip))?;
+        // V belongs to the pencil as given, the slip rows here are multiples of its rows.
+        let v = self.polynomial(anchor.left, &self.factor)?;
         let exponent = w.exponent + v.exponent;
         let coefficients = w.coefficients.len() + v.coefficients.len() + 1;
-        let expansions = [&w.coefficients[..], &v.coefficients[..]];
         let center = anchor.center;
-        self.affordable(center, coefficients, exponent, &expansions)?;
-
-        // V belongs to the pencil as given, the slip rows here are multiples of its rows.
-        for row in v.coefficients.iter_mut().flatten() {
-            for (entry, factor) in row.iter_mut().zip(&self.factor) {
-                *entry *= factor;
-            }
-        }
+        let entry_bits = w.entry_bits + v.entry_bits;
+        self.affordable(center, coefficients, exponent, entry_bits)?;
 
         // Residuals in units of 1 / (q 2^e), D times the true ones.
         let about = self.about(center);
         let r = residual(&about.ff, &about.fs, &w, self.slip);
         let l = residual(&about.ff, &transpose(&about.sf, self.free), &v, self.slip);
         let z = self.bracket(&about, &w, &v, &r);
-        let rounding = &r[..w.coefficients.len().min(r.len())];
+
+        let right = norms_of_all(&r, self.slip);
+        let rounding = right[..w.coefficients.len().min(r.len())].to_vec();
 
         // Z is in units of 1 / (D q 2^(e_w + e_v)), the remainder in |l||r| / (D q sigma) of them.
         // Rows are divided by different powers of two: their common unit is that of the largest.
@@ -462,10 +466,10 @@ impl Blocks {
         Ok(Expanded {
             center: center.clone(),
             z: raise_rows(z, &raised),
-            left: norms(&l, self.slip),
-            right: norms(&r, self.slip),
-            v: norms(&v.coefficients, self.slip),
-            rounding: norms(rounding, self.slip),
+            left: norms_of_all(&l, self.slip),
+            right,
+            v: v.coefficients.iter().map(Coefficient::norms).collect(),
+            rounding,
             rounding_weight,
             weight,
             unit,
@@ -480,32 +484,34 @@ impl Blocks {
     /// Demands that Z is small enough to be formed.
     ///
     /// It has n_s^2 entries, each of so many coefficients; a coefficient is a sum of products of an
-    /// entry of the pencil, one of W and one of V, in units of 2^-`exponent` / D, shifted by the
-    /// center.
+    /// entry of the pencil, one of W and one of V (`entry_bits` together), in units of
+    /// 2^-`exponent` / D, shifted by the center.
     fn affordable(
         &self,
         center: &Rational,
         coefficients: usize,
         exponent: u32,
-        expansions: &[&[Matrix]],
+        entry_bits: u64,
     ) -> Result<(), CoverFault> {
         let mut bits = self.longest + self.common.bits();
-        bits += rational_bits(center) + u64::from(exponent);
-        for matrices in expansions {
-            bits += largest_bits(matrices.iter().flatten().flatten());
-        }
+        bits += rational_bits(center) + u64::from(exponent) + entry_bits;
 
         let what = "bits of an anchor's expansion";
         within_matrix_bits(what, self.slip, coefficients, bits)
     }
 
-    /// Coefficient matrices brought to one exponent.
-    fn polynomial(&self, list: &[IntegerMatrix]) -> Result<Polynomial, CoverFault> {
+    /// Coefficient matrices brought to one exponent, column j multiplied by `column_factors[j]`.
+    fn polynomial<'a>(
+        &self,
+        list: &'a [IntegerMatrix],
+        column_factors: &[Integer],
+    ) -> Result<Polynomial<'a>, CoverFault> {
         let exponent = list.iter().map(|m| m.exponent).max().unwrap_or(0);
         CoverFault::at_most("degree", MAX_DEGREE as u64, list.len() as u64)?;
         CoverFault::at_most("exponent", MAX_EXPONENT.into(), exponent.into())?;
 
         let mut coefficients = Vec::with_capacity(list.len());
+        let mut entry_bits = 0;
         for m in list {
             CoverFault::length("anchor", self.free, m.rows.len())?;
             for row in &m.rows {
@@ -513,16 +519,21 @@ impl Blocks {
             }
 
             let lift = exponent - m.exponent;
-            let lifted = m
-                .rows
-                .iter()
-                .map(|row| row.iter().map(|v| v << lift).collect());
-            coefficients.push(lifted.collect());
+            let own_bits = largest_bits(m.rows.iter().flatten());
+            if own_bits > 0 {
+                entry_bits = entry_bits.max(own_bits + u64::from(lift));
+            }
+
+            coefficients.push(Coefficient {
+                matrix: &m.rows,
+                column_factors: column_factors.iter().map(|f| f << lift).collect(),
+            });
         }
 
         Ok(Polynomial {
             coefficients,
             exponent,
+            entry_bits,
         })
     }
 
@@ -543,8 +554,8 @@ impl Blocks {
     fn bracket(
         &self,
         about: &ShiftedBlocks,
-        w: &Polynomial,
-        v: &Polynomial,
+        w: &Polynomial<'_>,
+        v: &Polynomial<'_>,
         r: &[Matrix],
     ) -> Vec<Matrix> {
         let w_len = w.coefficients.len();
@@ -560,11 +571,10 @@ impl Blocks {
             }
         }
 
+        // T_sf W.
         for (k, w_k) in w.coefficients.iter().enumerate() {
             for (power, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
-                let Some(product) = times(&about.sf, part, w_k, self.slip) else {
-                    continue;
-                };
+                let product = w_k.times_from_left(&part_of(&about.sf, part));
                 let entries = z[power].iter_mut().flatten();
                 for (z_ij, entry) in entries.zip(product.into_iter().flatten()) {
                     *z_ij -= entry << v.exponent;
@@ -572,13 +582,16 @@ impl Blocks {
             }
         }
 
+        // V'r, the transpose of r'V.
         for (m, r_m) in r.iter().enumerate().skip(w_len) {
-            if r_m.iter().flatten().all(Zero::is_zero) {
-                continue;
-            }
-
+            let r_transposed = transposed(r_m, self.slip);
             for (k, v_k) in v.coefficients.iter().enumerate() {
-                subtract_transposed_product(&mut z[k + m], v_k, r_m);
+                let product = v_k.times_from_left(&r_transposed);
+                for (j, row) in product.iter().enumerate() {
+                    for (z_i, entry) in z[k + m].iter_mut().zip(row) {
+                        z_i[j] -= entry;
+                    }
+                }
             }
         }
 
@@ -627,7 +640,7 @@ fn transpose(m: &Linear, cols: usize) -> Linear {
 }
 
 /// Coefficients of C(d) - F(d) W(d), in the units of W.
-fn residual(f: &Linear, c: &Linear, w: &Polynomial, cols: usize) -> Vec<Matrix> {
+fn residual(f: &Linear, c: &Linear, w: &Polynomial<'_>, cols: usize) -> Vec<Matrix> {
     // C is linear, and the product has one coefficient more than W.
     let terms = (w.coefficients.len() + 1).max(2);
     let mut residual = vec![zero(f.len(), cols); terms];
@@ -639,11 +652,15 @@ fn residual(f: &Linear, c: &Linear, w: &Polynomial, cols: usize) -> Vec<Matrix> 
         }
     }
 
-    for (k, w_k) in w.coefficients.iter().enumerate() {
-        for (power, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
-            let Some(product) = times(f, part, w_k, cols) else {
-                continue;
-            };
+    for part in [Part::Constant, Part::Linear] {
+        let f = part_of(f, part);
+        let first_power = match part {
+            Part::Constant => 0,
+            Part::Linear => 1,
+        };
+
+        for (power, w_k) in (first_power..).zip(&w.coefficients) {
+            let product = w_k.times_from_left(&f);
             let entries = residual[power].iter_mut().flatten();
             for (entry, p) in entries.zip(product.into_iter().flatten()) {
                 *entry -= p;
@@ -654,20 +671,22 @@ fn residual(f: &Linear, c: &Linear, w: &Polynomial, cols: usize) -> Vec<Matrix> 
     residual
 }
 
-/// z -= v' r.
-fn subtract_transposed_product(z: &mut Matrix, v: &Matrix, r: &Matrix) {
-    for (v_f, r_f) in v.iter().zip(r) {
-        for (i, v_fi) in v_f.iter().enumerate() {
-            if v_fi.is_zero() {
-                continue;
-            }
-
-            for (z_ij, r_fj) in z[i].iter_mut().zip(r_f) {
-                if !r_fj.is_zero() {
-                    *z_ij -= v_fi * r_fj;
-                }
+impl Coefficient<'_> {
+    /// The product of `left` and this matrix.
+    fn times_from_left(&self, left: &NonzeroRows<'_>) -> Matrix {
+        let mut product = times(left, self.matrix, self.column_factors.len());
+        for row in &mut product {
+            for (entry, factor) in row.iter_mut().zip(&self.column_factors) {
+                *entry *= factor;
             }
         }
+
+        product
+    }
+
+    /// Upper bounds of the Euclidean norms of the columns, in units of 2^-[`NORM_BITS`].
+    fn norms(&self) -> Vec<Integer> {
+        norms(self.matrix, &self.column_factors)
     }
 }
 
@@ -688,24 +707,33 @@ fn zero(rows: usize, cols: usize) -> Matrix {
     vec![vec![Integer::zero(); cols]; rows]
 }
 
+fn ones(count: usize) -> Vec<Integer> {
+    vec![Integer::one(); count]
+}
+
 /// Upper bounds of the Euclidean norm of each column, coefficient by coefficient, in units of
 /// 2^-[`NORM_BITS`].
-fn norms(list: &[Matrix], cols: usize) -> Norms {
-    let mut norms = Norms::with_capacity(list.len());
-    for matrix in list {
-        norms.push((0..cols).map(|j| column_norm(matrix, j)).collect());
+fn norms_of_all(list: &[Matrix], cols: usize) -> Norms {
+    list.iter().map(|m| norms(m, &ones(cols))).collect()
+}
+
+/// The same of one matrix, whose column j counts `column_factors[j]` times.
+fn norms(matrix: &Matrix, column_factors: &[Integer]) -> Vec<Integer> {
+    let mut squares = vec![Integer::zero(); column_factors.len()];
+    for row in matrix {
+        for (square, entry) in squares.iter_mut().zip(row) {
+            *square += entry * entry;
+        }
+    }
+
+    let mut norms = Vec::with_capacity(squares.len());
+    for (square, factor) in squares.into_iter().zip(column_factors) {
+        let rounded_up = u8::from(!square.is_zero());
+        let root = ((square * factor * factor) << (2 * NORM_BITS)).sqrt();
+        norms.push(root + rounded_up);
     }
 
     norms
-}
-
-fn column_norm(matrix: &Matrix, j: usize) -> Integer {
-    let square: Integer = matrix.iter().map(|row| &row[j] * &row[j]).sum();
-    if square.is_zero() {
-        return square;
-    }
-
-    (square << (2 * NORM_BITS)).sqrt() + 1
 }
 
 fn hypothesis(expected: &'static str, row: usize) -> CoverFault {
