@@ -59,7 +59,9 @@ pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expande
 
     let mut expansions = Vec::with_capacity(condensation.anchors.len());
     for anchor in &condensation.anchors {
-        expansions.push(expander.expand(anchor.into())?);
+        let elimination = expander.elimination(anchor.into())?;
+        let right = elimination.right_residual();
+        expansions.push(expander.expand(&elimination, &right));
     }
 
     Ok(expansions)
@@ -67,7 +69,7 @@ pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expande
 
 /// The same for both parts of T0 + mu T1, with one scaling of the rows.
 ///
-/// The free rows of both are the same, and so are the hypotheses and W.
+/// The free rows of both are the same, and so are the hypotheses, W and r.
 pub(super) fn of_parts(
     parts: &FrictionParts,
     condensation: &CriticalCondensation,
@@ -87,8 +89,12 @@ pub(super) fn of_parts(
     let mut expansions = [Vec::new(), Vec::new()];
     for anchor in &condensation.anchors {
         let [of_plain, of_friction] = anchor_parts(anchor);
-        expansions[0].push(plain.expand(of_plain)?);
-        expansions[1].push(friction.expand(of_friction)?);
+        let of_plain = plain.elimination(of_plain)?;
+        let of_friction = friction.elimination(of_friction)?;
+
+        let right = of_plain.right_residual();
+        expansions[0].push(plain.expand(&of_plain, &right));
+        expansions[1].push(friction.expand(&of_friction, &right));
     }
 
     Ok(expansions)
@@ -159,19 +165,27 @@ impl<'a> Expander<'a> {
         }
     }
 
-    fn expand(&self, anchor: Expansion<'_>) -> Result<Expanded, CoverFault> {
-        let sigma = self.bounds.sigma;
-        let tau = self.bounds.tau;
+    /// The elimination about an anchor.
+    fn elimination<'b>(&'b self, anchor: Expansion<'b>) -> Result<Elimination<'b>, CoverFault> {
         if !anchor.reversed {
-            return self.blocks.expand(&anchor, sigma, tau);
+            return self.blocks.elimination(anchor);
         }
 
         let Some(blocks) = &self.reversed else {
             return Err(hypothesis("mass_sigma > 0 for a reversed anchor", 0));
         };
-        let mut expanded = blocks.expand(&anchor, tau, sigma)?;
-        expanded.reversed = true;
-        Ok(expanded)
+        blocks.elimination(anchor)
+    }
+
+    /// The condensed pencil about an anchor.
+    fn expand(&self, elimination: &Elimination<'_>, right: &RightResidual) -> Expanded {
+        let sigma = self.bounds.sigma;
+        let tau = self.bounds.tau;
+        if elimination.anchor.reversed {
+            elimination.expand(right, tau, sigma)
+        } else {
+            elimination.expand(right, sigma, tau)
+        }
     }
 }
 
@@ -311,6 +325,21 @@ struct Coefficient<'a> {
     column_factors: Vec<Integer>,
 }
 
+/// The elimination about one anchor: W and V, and the blocks about its centre.
+struct Elimination<'a> {
+    blocks: &'a Blocks,
+    anchor: Expansion<'a>,
+    about: ShiftedBlocks,
+    w: Polynomial<'a>,
+    v: Polynomial<'a>,
+}
+
+/// The coefficients of r = T_fs - F W, in units of 1 / (D q 2^e_w), and the norms of their columns.
+struct RightResidual {
+    coefficients: Vec<Matrix>,
+    norms: Norms,
+}
+
 impl Blocks {
     fn of(rows: &Rows) -> Blocks {
         let mut blocks = Blocks {
@@ -418,66 +447,24 @@ impl Blocks {
         block
     }
 
-    /// The condensed pencil about an anchor, given A_ff >= sigma I and B_ff >= tau I.
-    fn expand(
-        &self,
-        anchor: &Expansion<'_>,
-        sigma: &Rational,
-        tau: &Rational,
-    ) -> Result<Expanded, CoverFault> {
+    /// Reads W and V, and demands that Z is small enough to be formed.
+    fn elimination<'a>(&'a self, anchor: Expansion<'a>) -> Result<Elimination<'a>, CoverFault> {
         let w = self.polynomial(anchor.right, &ones(self.slip))?;
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
         let v = self.polynomial(anchor.left, &self.factor)?;
-        let exponent = w.exponent + v.exponent;
-        let coefficients = w.coefficients.len() + v.coefficients.len() + 1;
-        let center = anchor.center;
-        let entry_bits = w.entry_bits + v.entry_bits;
-        self.affordable(center, coefficients, exponent, entry_bits)?;
+        self.affordable(
+            anchor.center,
+            coefficients(&w, &v),
+            w.exponent + v.exponent,
+            w.entry_bits + v.entry_bits,
+        )?;
 
-        // Residuals in units of 1 / (q 2^e), D times the true ones.
-        let about = self.about(center);
-        let r = residual(&about.ff, &about.fs, &w, self.slip);
-        let l = residual(&about.ff, &transpose(&about.sf, self.free), &v, self.slip);
-        let z = self.bracket(&about, &w, &v, &r);
-
-        let right = norms_of_all(&r, self.slip);
-        let rounding = right[..w.coefficients.len().min(r.len())].to_vec();
-
-        // Z is in units of 1 / (D q 2^(e_w + e_v)), the remainder in |l||r| / (D q sigma) of them.
-        // Rows are divided by different powers of two: their common unit is that of the largest.
-        let q = center.denom();
-        let largest = self.bits.iter().copied().max().unwrap_or(1);
-        let unit = (&self.common * q) << (u64::from(exponent) + largest);
-        let raised: Vec<Integer> = self
-            .bits
-            .iter()
-            .map(|bits| Integer::one() << (largest - bits))
-            .collect();
-
-        // Each remainder is a product of two norms.
-        let norm_unit = &unit << (2 * NORM_BITS);
-        let rounding_weight: Vec<Rational> = raised
-            .iter()
-            .map(|raised| Rational::new(raised.clone(), norm_unit.clone()))
-            .collect();
-        let by_sigma = (sigma * Rational::from_integer(&self.common * q)).recip();
-        let weight = rounding_weight.iter().map(|w| &by_sigma * w).collect();
-
-        Ok(Expanded {
-            center: center.clone(),
-            z: raise_rows(z, &raised),
-            left: norms_of_all(&l, self.slip),
-            right,
-            v: v.coefficients.iter().map(Coefficient::norms).collect(),
-            rounding,
-            rounding_weight,
-            weight,
-            unit,
-            drift: self.drift(sigma),
-            gain: tau / sigma,
-            bound_bits: rational_bits(sigma) + rational_bits(tau),
-            coefficients,
-            reversed: false,
+        Ok(Elimination {
+            blocks: self,
+            about: self.about(anchor.center),
+            anchor,
+            w,
+            v,
         })
     }
 
@@ -549,20 +536,88 @@ impl Blocks {
         }
     }
 
+    /// |dF/dt| / sigma in the maximum row sum.
+    fn drift(&self, sigma: &Rational) -> Rational {
+        let mut largest = Integer::zero();
+        for row in &self.ff {
+            let sum: Integer = row.iter().map(|(_, _, b)| b.abs()).sum();
+            largest = largest.max(sum);
+        }
+
+        Rational::new(largest, self.common.clone()) / sigma
+    }
+}
+
+impl Elimination<'_> {
+    fn right_residual(&self) -> RightResidual {
+        let slip = self.blocks.slip;
+        let coefficients = residual(&self.about.ff, &self.about.fs, &self.w, slip);
+        RightResidual {
+            norms: norms_of_all(&coefficients, slip),
+            coefficients,
+        }
+    }
+
+    /// The coefficients of l = T_sf' - F V, in units of 1 / (D q 2^e_v).
+    fn left_residual(&self) -> Vec<Matrix> {
+        let right_hand_side = transpose(&self.about.sf, self.blocks.free);
+        residual(&self.about.ff, &right_hand_side, &self.v, self.blocks.slip)
+    }
+
+    /// The condensed pencil about the anchor, given A_ff >= sigma I and B_ff >= tau I.
+    fn expand(&self, right: &RightResidual, sigma: &Rational, tau: &Rational) -> Expanded {
+        let Blocks { common, bits, .. } = self.blocks;
+        let exponent = self.w.exponent + self.v.exponent;
+
+        // Z is in units of 1 / (D q 2^(e_w + e_v)), the remainder in |l||r| / (D q sigma) of them.
+        // Rows are divided by different powers of two: their common unit is that of the largest.
+        let q = self.anchor.center.denom();
+        let largest = bits.iter().copied().max().unwrap_or(1);
+        let unit = (common * q) << (u64::from(exponent) + largest);
+        let raised: Vec<Integer> = bits
+            .iter()
+            .map(|bits| Integer::one() << (largest - bits))
+            .collect();
+
+        // Each remainder is a product of two norms.
+        let norm_unit = &unit << (2 * NORM_BITS);
+        let rounding_weight: Vec<Rational> = raised
+            .iter()
+            .map(|raised| Rational::new(raised.clone(), norm_unit.clone()))
+            .collect();
+        let by_sigma = (sigma * Rational::from_integer(common * q)).recip();
+        let weight = rounding_weight.iter().map(|w| &by_sigma * w).collect();
+
+        let z = self.bracket(&right.coefficients);
+        let rounding = self.w.coefficients.len().min(right.norms.len());
+        Expanded {
+            center: self.anchor.center.clone(),
+            z: raise_rows(z, &raised),
+            left: norms_of_all(&self.left_residual(), self.blocks.slip),
+            right: right.norms.clone(),
+            v: self.v.coefficients.iter().map(Coefficient::norms).collect(),
+            rounding: right.norms[..rounding].to_vec(),
+            rounding_weight,
+            weight,
+            unit,
+            drift: self.blocks.drift(sigma),
+            gain: tau / sigma,
+            bound_bits: rational_bits(sigma) + rational_bits(tau),
+            coefficients: coefficients(&self.w, &self.v),
+            reversed: self.anchor.reversed,
+        }
+    }
+
     /// Z times D q: T_ss - T_sf W - V'r, coefficient by coefficient, where of r the coefficients
     /// beyond the degree of W are meant.
-    fn bracket(
-        &self,
-        about: &ShiftedBlocks,
-        w: &Polynomial<'_>,
-        v: &Polynomial<'_>,
-        r: &[Matrix],
-    ) -> Vec<Matrix> {
+    fn bracket(&self, r: &[Matrix]) -> Vec<Matrix> {
+        let Elimination { about, w, v, .. } = self;
+        let slip = self.blocks.slip;
         let w_len = w.coefficients.len();
         let v_len = v.coefficients.len();
         // The highest powers of d: 1 in T_ss, that of W and one more, those of V and r together.
         let degree = w_len.max((v_len + r.len()).saturating_sub(2)).max(1);
-        let mut z = vec![zero(self.slip, self.slip); degree + 1];
+        let mut z = vec![zero(slip, slip); degree + 1];
 
         for (i, row) in about.ss.iter().enumerate() {
             for (j, constant, linear) in row {
@@ -584,7 +639,7 @@ impl Blocks {
 
         // V'r, the transpose of r'V.
         for (m, r_m) in r.iter().enumerate().skip(w_len) {
-            let r_transposed = transposed(r_m, self.slip);
+            let r_transposed = transposed(r_m, slip);
             for (k, v_k) in v.coefficients.iter().enumerate() {
                 let product = v_k.times_from_left(&r_transposed);
                 for (j, row) in product.iter().enumerate() {
@@ -597,17 +652,11 @@ impl Blocks {
 
         z
     }
+}
 
-    /// |dF/dt| / sigma in the maximum row sum.
-    fn drift(&self, sigma: &Rational) -> Rational {
-        let mut largest = Integer::zero();
-        for row in &self.ff {
-            let sum: Integer = row.iter().map(|(_, _, b)| b.abs()).sum();
-            largest = largest.max(sum);
-        }
-
-        Rational::new(largest, self.common.clone()) / sigma
-    }
+/// How many coefficients W and V have, and one more.
+fn coefficients(w: &Polynomial<'_>, v: &Polynomial<'_>) -> usize {
+    w.coefficients.len() + v.coefficients.len() + 1
 }
 
 /// `factor` q T as a matrix linear in d = t - p/q: q A + p B and q B.

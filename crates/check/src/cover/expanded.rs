@@ -159,11 +159,7 @@ impl Expanded {
     }
 
     /// Bound of how far (hi - lo) T' may be from the difference of the ends over [lo, hi].
-    pub(super) fn slope(
-        &self,
-        lo: &Rational,
-        hi: Option<&Rational>,
-    ) -> Result<Matrix, CoverFault> {
+    pub(super) fn slope(&self, lo: &Rational, hi: Option<&Rational>) -> Result<Matrix, CoverFault> {
         let (own_lo, own_hi) = self.own_interval(lo, hi)?;
         match own_hi {
             Some(own_hi) => Ok(self.slope_between(&own_lo, &own_hi)),
@@ -391,7 +387,11 @@ impl Functional {
 
     /// The value times the denominator.
     fn numerator<'a>(&self, coefficients: impl Iterator<Item = &'a Integer>) -> Integer {
-        self.weights.iter().zip(coefficients).map(|(w, c)| w * c).sum()
+        self.weights
+            .iter()
+            .zip(coefficients)
+            .map(|(w, c)| w * c)
+            .sum()
     }
 
     /// The same for the absolute values of the coefficients.
@@ -412,7 +412,12 @@ fn weighted_products(left: &[Integer], right: &[Integer], weight: &[Rational]) -
     for (left_i, weight_i) in left.iter().zip(weight) {
         let factor = left_i * weight_i.numer();
         let unit = weight_i.denom() << FRACTION_BITS;
-        products.push(right.iter().map(|r| (&factor * r).div_ceil(&unit)).collect());
+        products.push(
+            right
+                .iter()
+                .map(|r| (&factor * r).div_ceil(&unit))
+                .collect(),
+        );
     }
 
     products

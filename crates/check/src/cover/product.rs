@@ -180,7 +180,10 @@ mod tests {
             let p = &a * &b;
             let zero = vec![Integer::zero(); 2];
             let by_constant = vec![vec![&p * 3, -&p], zero.clone(), vec![-&p, p]];
-            assert_eq!(times(&part_of(&rows, Part::Constant), &right, 2), by_constant);
+            assert_eq!(
+                times(&part_of(&rows, Part::Constant), &right, 2),
+                by_constant
+            );
             let by_linear = vec![zero.clone(), zero.clone(), zero];
             assert_eq!(times(&part_of(&rows, Part::Linear), &right, 2), by_linear);
         }
@@ -202,7 +205,10 @@ mod tests {
     #[test]
     fn a_transpose_leaves_out_zeros() {
         let [one, two, zero] = [1, 2, 0].map(Integer::from);
-        let matrix: Matrix = vec![vec![one.clone(), zero.clone()], vec![two.clone(), one.clone()]];
+        let matrix: Matrix = vec![
+            vec![one.clone(), zero.clone()],
+            vec![two.clone(), one.clone()],
+        ];
 
         let expected = vec![vec![(0, &one), (1, &two)], vec![(1, &one)]];
         assert_eq!(transposed(&matrix, 2), expected);
