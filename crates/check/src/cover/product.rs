@@ -147,7 +147,7 @@ mod tests {
 
     /// Lengths at both sides of one, two and three digits, and of the short entries.
     #[test]
-    fn products_are_those_of_long_integers() {
+    fn short_and_long_products_agree_at_the_limit() {
         for (left_bits, right_bits) in [
             (3, 4),
             (31, 61),
