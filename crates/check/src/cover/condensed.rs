@@ -27,7 +27,7 @@
 use super::ends::{Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::{Expanded, Norms};
 use super::fault::CoverFault;
-use super::product::{Linear, Part, times};
+use super::product::{Linear, NonzeroRows, Part, part_of, times, transposed};
 use super::psd::{Symmetric, semidefinite};
 use crate::certificate::{
     Anchor, Condensation, CriticalAnchor, CriticalCondensation, Factor, IntegerMatrix,
@@ -59,7 +59,9 @@ pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expande
 
     let mut expansions = Vec::with_capacity(condensation.anchors.len());
     for anchor in &condensation.anchors {
-        expansions.push(expander.expand(anchor.into())?);
+        let elimination = expander.elimination(anchor.into())?;
+        let right = elimination.right_residual();
+        expansions.push(expander.expand(&elimination, &right));
     }
 
     Ok(expansions)
@@ -67,7 +69,7 @@ pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expande
 
 /// The same for both parts of T0 + mu T1, with one scaling of the rows.
 ///
-/// The free rows of both are the same, and so are the hypotheses and W.
+/// The free rows of both are the same, and so are the hypotheses, W and r.
 pub(super) fn of_parts(
     parts: &FrictionParts,
     condensation: &CriticalCondensation,
@@ -87,8 +89,12 @@ pub(super) fn of_parts(
     let mut expansions = [Vec::new(), Vec::new()];
     for anchor in &condensation.anchors {
         let [of_plain, of_friction] = anchor_parts(anchor);
-        expansions[0].push(plain.expand(of_plain)?);
-        expansions[1].push(friction.expand(of_friction)?);
+        let of_plain = plain.elimination(of_plain)?;
+        let of_friction = friction.elimination(of_friction)?;
+
+        let right = of_plain.right_residual();
+        expansions[0].push(plain.expand(&of_plain, &right));
+        expansions[1].push(friction.expand(&of_friction, &right));
     }
 
     Ok(expansions)
@@ -159,19 +165,27 @@ impl<'a> Expander<'a> {
         }
     }
 
-    fn expand(&self, anchor: Expansion<'_>) -> Result<Expanded, CoverFault> {
-        let sigma = self.bounds.sigma;
-        let tau = self.bounds.tau;
+    /// The elimination about an anchor.
+    fn elimination<'b>(&'b self, anchor: Expansion<'b>) -> Result<Elimination<'b>, CoverFault> {
         if !anchor.reversed {
-            return self.blocks.expand(&anchor, sigma, tau);
+            return self.blocks.elimination(anchor);
         }
 
         let Some(blocks) = &self.reversed else {
             return Err(hypothesis("mass_sigma > 0 for a reversed anchor", 0));
         };
-        let mut expanded = blocks.expand(&anchor, tau, sigma)?;
-        expanded.reversed = true;
-        Ok(expanded)
+        blocks.elimination(anchor)
+    }
+
+    /// The condensed pencil about an anchor.
+    fn expand(&self, elimination: &Elimination<'_>, right: &RightResidual) -> Expanded {
+        let sigma = self.bounds.sigma;
+        let tau = self.bounds.tau;
+        if elimination.anchor.reversed {
+            elimination.expand(right, tau, sigma)
+        } else {
+            elimination.expand(right, sigma, tau)
+        }
     }
 }
 
@@ -297,10 +311,33 @@ struct ShiftedBlocks {
     ss: Linear,
 }
 
-/// A polynomial in d with matrices for coefficients, in units of 2^-`exponent`.
-struct Polynomial {
-    coefficients: Vec<Matrix>,
+/// W or V: a polynomial in d with matrices for coefficients, in units of 2^-`exponent`.
+struct Polynomial<'a> {
+    coefficients: Vec<Coefficient<'a>>,
     exponent: u32,
+    /// Bits of the longest entry in these units.
+    entry_bits: u64,
+}
+
+/// A matrix as the certificate spells it; its column j counts `column_factors[j]` times.
+struct Coefficient<'a> {
+    matrix: &'a Matrix,
+    column_factors: Vec<Integer>,
+}
+
+/// The elimination about one anchor: W and V, and the blocks about its centre.
+struct Elimination<'a> {
+    blocks: &'a Blocks,
+    anchor: Expansion<'a>,
+    about: ShiftedBlocks,
+    w: Polynomial<'a>,
+    v: Polynomial<'a>,
+}
+
+/// The coefficients of r = T_fs - F W, in units of 1 / (D q 2^e_w), and the norms of their columns.
+struct RightResidual {
+    coefficients: Vec<Matrix>,
+    norms: Norms,
 }
 
 impl Blocks {
@@ -410,102 +447,58 @@ impl Blocks {
         block
     }
 
-    /// The condensed pencil about an anchor, given A_ff >= sigma I and B_ff >= tau I.
-    fn expand(
-        &self,
-        anchor: &Expansion<'_>,
-        sigma: &Rational,
-        tau: &Rational,
-    ) -> Result<Expanded, CoverFault> {
-        let w = self.polynomial(anchor.right)?;
-        let mut v = self.polynomial(anchor.left)?;
-        let exponent = w.exponent + v.exponent;
-        let coefficients = w.coefficients.len() + v.coefficients.len() + 1;
-        let expansions = [&w.coefficients[..], &v.coefficients[..]];
-        let center = anchor.center;
-        self.affordable(center, coefficients, exponent, &expansions)?;
-
+    /// Reads W and V, and demands that Z is small enough to be formed.
+    fn elimination<'a>(&'a self, anchor: Expansion<'a>) -> Result<Elimination<'a>, CoverFault> {
+        let w = self.polynomial(anchor.right, &ones(self.slip))?;
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
-        for row in v.coefficients.iter_mut().flatten() {
-            for (entry, factor) in row.iter_mut().zip(&self.factor) {
-                *entry *= factor;
-            }
-        }
+        let v = self.polynomial(anchor.left, &self.factor)?;
+        self.affordable(
+            anchor.center,
+            coefficients(&w, &v),
+            w.exponent + v.exponent,
+            w.entry_bits + v.entry_bits,
+        )?;
 
-        // Residuals in units of 1 / (q 2^e), D times the true ones.
-        let about = self.about(center);
-        let r = residual(&about.ff, &about.fs, &w, self.slip);
-        let l = residual(&about.ff, &transpose(&about.sf, self.free), &v, self.slip);
-        let z = self.bracket(&about, &w, &v, &r);
-        let rounding = &r[..w.coefficients.len().min(r.len())];
-
-        // Z is in units of 1 / (D q 2^(e_w + e_v)), the remainder in |l||r| / (D q sigma) of them.
-        // Rows are divided by different powers of two: their common unit is that of the largest.
-        let q = center.denom();
-        let largest = self.bits.iter().copied().max().unwrap_or(1);
-        let unit = (&self.common * q) << (u64::from(exponent) + largest);
-        let raised: Vec<Integer> = self
-            .bits
-            .iter()
-            .map(|bits| Integer::one() << (largest - bits))
-            .collect();
-
-        // Each remainder is a product of two norms.
-        let norm_unit = &unit << (2 * NORM_BITS);
-        let rounding_weight: Vec<Rational> = raised
-            .iter()
-            .map(|raised| Rational::new(raised.clone(), norm_unit.clone()))
-            .collect();
-        let by_sigma = (sigma * Rational::from_integer(&self.common * q)).recip();
-        let weight = rounding_weight.iter().map(|w| &by_sigma * w).collect();
-
-        Ok(Expanded {
-            center: center.clone(),
-            z: raise_rows(z, &raised),
-            left: norms(&l, self.slip),
-            right: norms(&r, self.slip),
-            v: norms(&v.coefficients, self.slip),
-            rounding: norms(rounding, self.slip),
-            rounding_weight,
-            weight,
-            unit,
-            drift: self.drift(sigma),
-            gain: tau / sigma,
-            bound_bits: rational_bits(sigma) + rational_bits(tau),
-            coefficients,
-            reversed: false,
+        Ok(Elimination {
+            blocks: self,
+            about: self.about(anchor.center),
+            anchor,
+            w,
+            v,
         })
     }
 
     /// Demands that Z is small enough to be formed.
     ///
     /// It has n_s^2 entries, each of so many coefficients; a coefficient is a sum of products of an
-    /// entry of the pencil, one of W and one of V, in units of 2^-`exponent` / D, shifted by the
-    /// center.
+    /// entry of the pencil, one of W and one of V (`entry_bits` together), in units of
+    /// 2^-`exponent` / D, shifted by the center.
     fn affordable(
         &self,
         center: &Rational,
         coefficients: usize,
         exponent: u32,
-        expansions: &[&[Matrix]],
+        entry_bits: u64,
     ) -> Result<(), CoverFault> {
         let mut bits = self.longest + self.common.bits();
-        bits += rational_bits(center) + u64::from(exponent);
-        for matrices in expansions {
-            bits += largest_bits(matrices.iter().flatten().flatten());
-        }
+        bits += rational_bits(center) + u64::from(exponent) + entry_bits;
 
         let what = "bits of an anchor's expansion";
         within_matrix_bits(what, self.slip, coefficients, bits)
     }
 
-    /// Coefficient matrices brought to one exponent.
-    fn polynomial(&self, list: &[IntegerMatrix]) -> Result<Polynomial, CoverFault> {
+    /// Coefficient matrices brought to one exponent, column j multiplied by `column_factors[j]`.
+    fn polynomial<'a>(
+        &self,
+        list: &'a [IntegerMatrix],
+        column_factors: &[Integer],
+    ) -> Result<Polynomial<'a>, CoverFault> {
         let exponent = list.iter().map(|m| m.exponent).max().unwrap_or(0);
         CoverFault::at_most("degree", MAX_DEGREE as u64, list.len() as u64)?;
         CoverFault::at_most("exponent", MAX_EXPONENT.into(), exponent.into())?;
 
         let mut coefficients = Vec::with_capacity(list.len());
+        let mut entry_bits = 0;
         for m in list {
             CoverFault::length("anchor", self.free, m.rows.len())?;
             for row in &m.rows {
@@ -513,16 +506,21 @@ impl Blocks {
             }
 
             let lift = exponent - m.exponent;
-            let lifted = m
-                .rows
-                .iter()
-                .map(|row| row.iter().map(|v| v << lift).collect());
-            coefficients.push(lifted.collect());
+            let own_bits = largest_bits(m.rows.iter().flatten());
+            if own_bits > 0 {
+                entry_bits = entry_bits.max(own_bits + u64::from(lift));
+            }
+
+            coefficients.push(Coefficient {
+                matrix: &m.rows,
+                column_factors: column_factors.iter().map(|f| f << lift).collect(),
+            });
         }
 
         Ok(Polynomial {
             coefficients,
             exponent,
+            entry_bits,
         })
     }
 
@@ -538,53 +536,6 @@ impl Blocks {
         }
     }
 
-    /// Z times D q: T_ss - T_sf W - V'r, coefficient by coefficient, where of r the coefficients
-    /// beyond the degree of W are meant.
-    fn bracket(
-        &self,
-        about: &ShiftedBlocks,
-        w: &Polynomial,
-        v: &Polynomial,
-        r: &[Matrix],
-    ) -> Vec<Matrix> {
-        let w_len = w.coefficients.len();
-        let v_len = v.coefficients.len();
-        // The highest powers of d: 1 in T_ss, that of W and one more, those of V and r together.
-        let degree = w_len.max((v_len + r.len()).saturating_sub(2)).max(1);
-        let mut z = vec![zero(self.slip, self.slip); degree + 1];
-
-        for (i, row) in about.ss.iter().enumerate() {
-            for (j, constant, linear) in row {
-                z[0][i][*j] += constant << (w.exponent + v.exponent);
-                z[1][i][*j] += linear << (w.exponent + v.exponent);
-            }
-        }
-
-        for (k, w_k) in w.coefficients.iter().enumerate() {
-            for (power, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
-                let Some(product) = times(&about.sf, part, w_k, self.slip) else {
-                    continue;
-                };
-                let entries = z[power].iter_mut().flatten();
-                for (z_ij, entry) in entries.zip(product.into_iter().flatten()) {
-                    *z_ij -= entry << v.exponent;
-                }
-            }
-        }
-
-        for (m, r_m) in r.iter().enumerate().skip(w_len) {
-            if r_m.iter().flatten().all(Zero::is_zero) {
-                continue;
-            }
-
-            for (k, v_k) in v.coefficients.iter().enumerate() {
-                subtract_transposed_product(&mut z[k + m], v_k, r_m);
-            }
-        }
-
-        z
-    }
-
     /// |dF/dt| / sigma in the maximum row sum.
     fn drift(&self, sigma: &Rational) -> Rational {
         let mut largest = Integer::zero();
@@ -595,6 +546,117 @@ impl Blocks {
 
         Rational::new(largest, self.common.clone()) / sigma
     }
+}
+
+impl Elimination<'_> {
+    fn right_residual(&self) -> RightResidual {
+        let slip = self.blocks.slip;
+        let coefficients = residual(&self.about.ff, &self.about.fs, &self.w, slip);
+        RightResidual {
+            norms: norms_of_all(&coefficients, slip),
+            coefficients,
+        }
+    }
+
+    /// The coefficients of l = T_sf' - F V, in units of 1 / (D q 2^e_v).
+    fn left_residual(&self) -> Vec<Matrix> {
+        let right_hand_side = transpose(&self.about.sf, self.blocks.free);
+        residual(&self.about.ff, &right_hand_side, &self.v, self.blocks.slip)
+    }
+
+    /// The condensed pencil about the anchor, given A_ff >= sigma I and B_ff >= tau I.
+    fn expand(&self, right: &RightResidual, sigma: &Rational, tau: &Rational) -> Expanded {
+        let Blocks { common, bits, .. } = self.blocks;
+        let exponent = self.w.exponent + self.v.exponent;
+
+        // Z is in units of 1 / (D q 2^(e_w + e_v)), the remainder in |l||r| / (D q sigma) of them.
+        // Rows are divided by different powers of two: their common unit is that of the largest.
+        let q = self.anchor.center.denom();
+        let largest = bits.iter().copied().max().unwrap_or(1);
+        let unit = (common * q) << (u64::from(exponent) + largest);
+        let raised: Vec<Integer> = bits
+            .iter()
+            .map(|bits| Integer::one() << (largest - bits))
+            .collect();
+
+        // Each remainder is a product of two norms.
+        let norm_unit = &unit << (2 * NORM_BITS);
+        let rounding_weight: Vec<Rational> = raised
+            .iter()
+            .map(|raised| Rational::new(raised.clone(), norm_unit.clone()))
+            .collect();
+        let by_sigma = (sigma * Rational::from_integer(common * q)).recip();
+        let weight = rounding_weight.iter().map(|w| &by_sigma * w).collect();
+
+        let z = self.bracket(&right.coefficients);
+        let rounding = self.w.coefficients.len().min(right.norms.len());
+        Expanded {
+            center: self.anchor.center.clone(),
+            z: raise_rows(z, &raised),
+            left: norms_of_all(&self.left_residual(), self.blocks.slip),
+            right: right.norms.clone(),
+            v: self.v.coefficients.iter().map(Coefficient::norms).collect(),
+            rounding: right.norms[..rounding].to_vec(),
+            rounding_weight,
+            weight,
+            unit,
+            drift: self.blocks.drift(sigma),
+            gain: tau / sigma,
+            bound_bits: rational_bits(sigma) + rational_bits(tau),
+            coefficients: coefficients(&self.w, &self.v),
+            reversed: self.anchor.reversed,
+        }
+    }
+
+    /// Z times D q: T_ss - T_sf W - V'r, coefficient by coefficient, where of r the coefficients
+    /// beyond the degree of W are meant.
+    fn bracket(&self, r: &[Matrix]) -> Vec<Matrix> {
+        let Elimination { about, w, v, .. } = self;
+        let slip = self.blocks.slip;
+        let w_len = w.coefficients.len();
+        let v_len = v.coefficients.len();
+        // The highest powers of d: 1 in T_ss, that of W and one more, those of V and r together.
+        let degree = w_len.max((v_len + r.len()).saturating_sub(2)).max(1);
+        let mut z = vec![zero(slip, slip); degree + 1];
+
+        for (i, row) in about.ss.iter().enumerate() {
+            for (j, constant, linear) in row {
+                z[0][i][*j] += constant << (w.exponent + v.exponent);
+                z[1][i][*j] += linear << (w.exponent + v.exponent);
+            }
+        }
+
+        // T_sf W.
+        for (k, w_k) in w.coefficients.iter().enumerate() {
+            for (power, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
+                let product = w_k.times_from_left(&part_of(&about.sf, part));
+                let entries = z[power].iter_mut().flatten();
+                for (z_ij, entry) in entries.zip(product.into_iter().flatten()) {
+                    *z_ij -= entry << v.exponent;
+                }
+            }
+        }
+
+        // V'r, the transpose of r'V.
+        for (m, r_m) in r.iter().enumerate().skip(w_len) {
+            let r_transposed = transposed(r_m, slip);
+            for (k, v_k) in v.coefficients.iter().enumerate() {
+                let product = v_k.times_from_left(&r_transposed);
+                for (j, row) in product.iter().enumerate() {
+                    for (z_i, entry) in z[k + m].iter_mut().zip(row) {
+                        z_i[j] -= entry;
+                    }
+                }
+            }
+        }
+
+        z
+    }
+}
+
+/// How many coefficients W and V have, and one more.
+fn coefficients(w: &Polynomial<'_>, v: &Polynomial<'_>) -> usize {
+    w.coefficients.len() + v.coefficients.len() + 1
 }
 
 /// `factor` q T as a matrix linear in d = t - p/q: q A + p B and q B.
@@ -627,7 +689,7 @@ fn transpose(m: &Linear, cols: usize) -> Linear {
 }
 
 /// Coefficients of C(d) - F(d) W(d), in the units of W.
-fn residual(f: &Linear, c: &Linear, w: &Polynomial, cols: usize) -> Vec<Matrix> {
+fn residual(f: &Linear, c: &Linear, w: &Polynomial<'_>, cols: usize) -> Vec<Matrix> {
     // C is linear, and the product has one coefficient more than W.
     let terms = (w.coefficients.len() + 1).max(2);
     let mut residual = vec![zero(f.len(), cols); terms];
@@ -639,11 +701,15 @@ fn residual(f: &Linear, c: &Linear, w: &Polynomial, cols: usize) -> Vec<Matrix> 
         }
     }
 
-    for (k, w_k) in w.coefficients.iter().enumerate() {
-        for (power, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
-            let Some(product) = times(f, part, w_k, cols) else {
-                continue;
-            };
+    for part in [Part::Constant, Part::Linear] {
+        let f = part_of(f, part);
+        let first_power = match part {
+            Part::Constant => 0,
+            Part::Linear => 1,
+        };
+
+        for (power, w_k) in (first_power..).zip(&w.coefficients) {
+            let product = w_k.times_from_left(&f);
             let entries = residual[power].iter_mut().flatten();
             for (entry, p) in entries.zip(product.into_iter().flatten()) {
                 *entry -= p;
@@ -654,20 +720,22 @@ fn residual(f: &Linear, c: &Linear, w: &Polynomial, cols: usize) -> Vec<Matrix> 
     residual
 }
 
-/// z -= v' r.
-fn subtract_transposed_product(z: &mut Matrix, v: &Matrix, r: &Matrix) {
-    for (v_f, r_f) in v.iter().zip(r) {
-        for (i, v_fi) in v_f.iter().enumerate() {
-            if v_fi.is_zero() {
-                continue;
-            }
-
-            for (z_ij, r_fj) in z[i].iter_mut().zip(r_f) {
-                if !r_fj.is_zero() {
-                    *z_ij -= v_fi * r_fj;
-                }
+impl Coefficient<'_> {
+    /// The product of `left` and this matrix.
+    fn times_from_left(&self, left: &NonzeroRows<'_>) -> Matrix {
+        let mut product = times(left, self.matrix, self.column_factors.len());
+        for row in &mut product {
+            for (entry, factor) in row.iter_mut().zip(&self.column_factors) {
+                *entry *= factor;
             }
         }
+
+        product
+    }
+
+    /// Upper bounds of the Euclidean norms of the columns, in units of 2^-[`NORM_BITS`].
+    fn norms(&self) -> Vec<Integer> {
+        norms(self.matrix, &self.column_factors)
     }
 }
 
@@ -688,24 +756,33 @@ fn zero(rows: usize, cols: usize) -> Matrix {
     vec![vec![Integer::zero(); cols]; rows]
 }
 
+fn ones(count: usize) -> Vec<Integer> {
+    vec![Integer::one(); count]
+}
+
 /// Upper bounds of the Euclidean norm of each column, coefficient by coefficient, in units of
 /// 2^-[`NORM_BITS`].
-fn norms(list: &[Matrix], cols: usize) -> Norms {
-    let mut norms = Norms::with_capacity(list.len());
-    for matrix in list {
-        norms.push((0..cols).map(|j| column_norm(matrix, j)).collect());
+fn norms_of_all(list: &[Matrix], cols: usize) -> Norms {
+    list.iter().map(|m| norms(m, &ones(cols))).collect()
+}
+
+/// The same of one matrix, whose column j counts `column_factors[j]` times.
+fn norms(matrix: &Matrix, column_factors: &[Integer]) -> Vec<Integer> {
+    let mut squares = vec![Integer::zero(); column_factors.len()];
+    for row in matrix {
+        for (square, entry) in squares.iter_mut().zip(row) {
+            *square += entry * entry;
+        }
+    }
+
+    let mut norms = Vec::with_capacity(squares.len());
+    for (square, factor) in squares.into_iter().zip(column_factors) {
+        let rounded_up = u8::from(!square.is_zero());
+        let root = ((square * factor * factor) << (2 * NORM_BITS)).sqrt();
+        norms.push(root + rounded_up);
     }
 
     norms
-}
-
-fn column_norm(matrix: &Matrix, j: usize) -> Integer {
-    let square: Integer = matrix.iter().map(|row| &row[j] * &row[j]).sum();
-    if square.is_zero() {
-        return square;
-    }
-
-    (square << (2 * NORM_BITS)).sqrt() + 1
 }
 
 fn hypothesis(expected: &'static str, row: usize) -> CoverFault {

@@ -29,8 +29,8 @@ pub(super) const ENDS: [&str; 2] = ["lower", "upper"];
 pub(super) struct Ends {
     pub(super) m: [Matrix; 2],
     pub(super) r: [Matrix; 2],
-    /// (t1 - t0) T'(t) lies within this of m[1] - m[0].
-    pub(super) slope: Matrix,
+    /// (t1 - t0) T'(t) lies within this of m[1] - m[0]. It is there for root leaves only.
+    pub(super) slope: Option<Matrix>,
     pub(super) scale: Integer,
     /// Is m[1] no value of the window, so that weak inequalities suffice there?
     pub(super) infinite: bool,
@@ -68,7 +68,7 @@ impl Ends {
         Ends {
             m: [0, 1].map(|end| sum(&self.m[end], &other.m[end])),
             r: [0, 1].map(|end| sum(&self.r[end], &other.r[end])),
-            slope: sum(&self.slope, &other.slope),
+            slope: None,
             scale: &self.scale * mu.denom(),
             infinite: self.infinite,
         }

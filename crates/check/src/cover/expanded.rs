@@ -73,11 +73,29 @@ impl Expanded {
     /// The ends over [lo, hi]; of a reversed expansion those over the interval of s, the first
     /// still that of the lower t.
     pub(super) fn ends(&self, lo: &Rational, hi: Option<&Rational>) -> Result<Ends, CoverFault> {
+        let (own_lo, own_hi) = self.own_interval(lo, hi)?;
+        let mut ends = match &own_hi {
+            Some(own_hi) => self.between(&own_lo, own_hi),
+            None => self.from(&own_lo)?,
+        };
+
+        if self.reversed {
+            ends.m.swap(0, 1);
+            ends.r.swap(0, 1);
+            ends.infinite = hi.is_none(); // s = 0 itself is not part of the window
+        }
+
+        Ok(ends)
+    }
+
+    /// The interval of t; of a reversed expansion that of s = 1 / t.
+    fn own_interval(
+        &self,
+        lo: &Rational,
+        hi: Option<&Rational>,
+    ) -> Result<(Rational, Option<Rational>), CoverFault> {
         if !self.reversed {
-            return match hi {
-                Some(hi) => Ok(self.between(lo, hi)),
-                None => self.from(lo),
-            };
+            return Ok((lo.clone(), hi.cloned()));
         }
 
         if lo.is_zero() {
@@ -88,11 +106,7 @@ impl Expanded {
         }
 
         let lower_s = hi.map_or_else(Rational::zero, Rational::recip);
-        let mut ends = self.between(&lower_s, &lo.recip());
-        ends.m.swap(0, 1);
-        ends.r.swap(0, 1);
-        ends.infinite = hi.is_none(); // s = 0 itself is not part of the window
-        Ok(ends)
+        Ok((lower_s, Some(lo.recip())))
     }
 
     /// The ends over [lo, infinity): T(t) = T(lo) + (t - lo) Z_1, and the remainder is linear in t
@@ -113,7 +127,7 @@ impl Expanded {
                 self.remainder(&d.abs(), &weight),
                 self.remainder_direction(),
             ],
-            slope: self.grid(|_, _| Integer::zero()),
+            slope: None,
             scale: Integer::one() << FRACTION_BITS,
             infinite: true,
         })
@@ -123,11 +137,10 @@ impl Expanded {
     fn between(&self, lo: &Rational, hi: &Rational) -> Ends {
         let d0 = lo - &self.center;
         let d1 = hi - &self.center;
-        let width = hi - lo;
         let reach = d0.abs().max(d1.abs());
         let weight = self.weight_above(lo);
 
-        let bend = self.bend(&reach, &width);
+        let bend = self.bend(&reach, &(hi - lo));
         let [r0, r1] = if self.is_linear() {
             [&d0, &d1].map(|d| self.radius(&bend, &self.remainder(&d.abs(), &weight)))
         } else {
@@ -136,17 +149,34 @@ impl Expanded {
             [radius.clone(), radius]
         };
 
-        // m[0] and m[1] are rounded as well: two units.
-        let remainder_slope = self.remainder_slope(&reach, &width, &weight);
-        let slope = self.grid(|i, j| &bend[i][j] + &remainder_slope[i][j] + 2);
-
         Ends {
             m: [self.at(&d0), self.at(&d1)],
             r: [r0, r1],
-            slope,
+            slope: None,
             scale: Integer::one() << FRACTION_BITS,
             infinite: false,
         }
+    }
+
+    /// Bound of how far (hi - lo) T' may be from the difference of the ends over [lo, hi].
+    pub(super) fn slope(&self, lo: &Rational, hi: Option<&Rational>) -> Result<Matrix, CoverFault> {
+        let (own_lo, own_hi) = self.own_interval(lo, hi)?;
+        match own_hi {
+            Some(own_hi) => Ok(self.slope_between(&own_lo, &own_hi)),
+            // Only a family that is linear in t reaches to infinity.
+            None => Ok(self.grid(|_, _| Integer::zero())),
+        }
+    }
+
+    fn slope_between(&self, lo: &Rational, hi: &Rational) -> Matrix {
+        let width = hi - lo;
+        let reach = (lo - &self.center).abs().max((hi - &self.center).abs());
+        let weight = self.weight_above(lo);
+
+        // m[0] and m[1] are rounded as well: two units.
+        let bend = self.bend(&reach, &width);
+        let remainder_slope = self.remainder_slope(&reach, &width, &weight);
+        self.grid(|i, j| &bend[i][j] + &remainder_slope[i][j] + 2)
     }
 
     /// An eighth of the bend, rounded up, and the remainder.
@@ -192,53 +222,50 @@ impl Expanded {
     /// lower end, which is not negative.
     fn weight_above(&self, lo: &Rational) -> Vec<Rational> {
         let growth = Rational::one() + &self.gain * lo;
-        let factor = growth.recip();
-        self.weight.iter().map(|w| w * &factor).collect()
+
+        let mut weights = Vec::with_capacity(self.order());
+        for w in &self.weight {
+            let numerator = w.numer() * growth.denom();
+            weights.push(Rational::new_raw(numerator, w.denom() * growth.numer()));
+        }
+
+        weights
     }
 
     /// Z(d), rounded down to the fixed unit.
     fn at(&self, d: &Rational) -> Matrix {
-        self.grid(|i, j| {
-            let value = horner(self.z.iter().map(|z| z[i][j].clone()), d);
-            self.fixed(&value.numerator, &value.denominator)
-        })
+        let value = Functional::derivative(0, self.z.len(), d).in_fixed_unit();
+        let unit = &self.unit * &value.denominator;
+        self.grid(|i, j| value.numerator(self.entry(i, j)).div_floor(&unit))
     }
 
     /// Z_1, the coefficient of d, rounded down to the fixed unit.
     fn direction(&self) -> Matrix {
-        let one = Integer::one();
         let z_1 = &self.z[1];
-        self.grid(|i, j| self.fixed(&z_1[i][j], &one))
+        self.grid(|i, j| (&z_1[i][j] << FRACTION_BITS).div_floor(&self.unit))
     }
 
-    /// v / (unit power) in the fixed unit, rounded down.
-    fn fixed(&self, v: &Integer, power: &Integer) -> Integer {
-        (v << FRACTION_BITS).div_floor(&(&self.unit * power))
+    /// The coefficients of Z_ij.
+    fn entry(&self, i: usize, j: usize) -> impl Iterator<Item = &Integer> {
+        self.z.iter().map(move |z| &z[i][j])
     }
 
     /// Bound of |Z''| width^2 for |d| <= reach: the sum of k (k - 1) |Z_k| reach^(k - 2).
     fn bend(&self, reach: &Rational, width: &Rational) -> Matrix {
-        if self.z.iter().skip(2).flatten().flatten().all(Zero::is_zero) {
-            return self.grid(|_, _| Integer::zero());
-        }
-
+        let second = Functional::derivative(2, self.z.len(), reach).in_fixed_unit();
         let square_numerator = width.numer() * width.numer();
         let square_denominator = width.denom() * width.denom();
+        let unit = &self.unit * &second.denominator * square_denominator;
 
         self.grid(|i, j| {
-            let coefficients = self.z.iter().enumerate().skip(2);
-            let second = coefficients.map(|(k, z)| z[i][j].abs() * (k * (k - 1)));
-            let bound = horner(second, reach);
-            up(
-                &(bound.numerator * &square_numerator),
-                &(&self.unit * bound.denominator * &square_denominator),
-            )
+            let bound = second.bound(self.entry(i, j)) * &square_numerator;
+            bound.div_ceil(&unit)
         })
     }
 
     /// Bound of both remainders for |d| <= reach, and what rounding m down has cost.
     fn remainder(&self, reach: &Rational, weight: &[Rational]) -> Matrix {
-        let factors = self.factors(|norms, i| norm(norms, i, reach));
+        let factors = self.factors(0, reach);
         self.weighted(&factors, weight)
     }
 
@@ -256,46 +283,48 @@ impl Expanded {
 
     /// weight_i |l_i| |r_j| + rounding_weight_i |v_i| |q_j|, and one unit for a rounded entry.
     fn weighted(&self, factors: &Factors, weight: &[Rational]) -> Matrix {
-        self.grid(|i, j| {
-            let remainder = weigh(&factors.left[i], &factors.right[j], &weight[i]);
-            let rounding = weigh(
-                &factors.v[i],
-                &factors.rounding[j],
-                &self.rounding_weight[i],
-            );
-            remainder + rounding + 1
-        })
+        let remainder = weighted_products(&factors.left, &factors.right, weight);
+        let rounding = weighted_products(&factors.v, &factors.rounding, &self.rounding_weight);
+        self.grid(|i, j| &remainder[i][j] + &rounding[i][j] + 1)
     }
 
     /// Bound of the remainders' derivatives times the width: l' F^-1 r and V'q differentiated
     /// factor by factor, where d/dt F^-1 contributes the drift.
     fn remainder_slope(&self, reach: &Rational, width: &Rational, weight: &[Rational]) -> Matrix {
-        let bound = self.factors(|norms, i| norm(norms, i, reach));
-        let slope = self.factors(|norms, i| norm_slope(norms, i, reach));
+        let bound = self.factors(0, reach);
+        let slope = self.factors(1, reach);
+
+        let by_left = weighted_products(&slope.left, &bound.right, weight);
+        let by_right = weighted_products(&bound.left, &slope.right, weight);
+        let by_f = weighted_products(&bound.left, &bound.right, weight);
+        let by_v = weighted_products(&slope.v, &bound.rounding, &self.rounding_weight);
+        let by_rounding = weighted_products(&bound.v, &slope.rounding, &self.rounding_weight);
 
         self.grid(|i, j| {
-            let w = &weight[i];
-            let by_left = weigh(&slope.left[i], &bound.right[j], w);
-            let by_right = weigh(&bound.left[i], &slope.right[j], w);
-            let by_f = weigh(&bound.left[i], &bound.right[j], w);
-            let remainder = by_left + by_right + times_up(&by_f, &self.drift);
-
-            let w = &self.rounding_weight[i];
-            let by_v = weigh(&slope.v[i], &bound.rounding[j], w);
-            let by_rounding = weigh(&bound.v[i], &slope.rounding[j], w);
-
-            times_up(&(remainder + by_v + by_rounding), width)
+            let of_f = times_up(&by_f[i][j], &self.drift);
+            let remainder = &by_left[i][j] + &by_right[i][j] + of_f;
+            let rounding = &by_v[i][j] + &by_rounding[i][j];
+            times_up(&(remainder + rounding), width)
         })
     }
 
-    /// The factors of the remainders, each entry as `of` bounds it.
-    fn factors(&self, of: impl Fn(&Norms, usize) -> Integer) -> Factors {
-        let entries = |norms: &Norms| (0..self.order()).map(|i| of(norms, i)).collect();
+    /// Bounds of the factors of the remainders for |d| <= reach (`order` 0), or of their
+    /// derivatives (1).
+    fn factors(&self, order: usize, reach: &Rational) -> Factors {
+        let bounds = |norms: &Norms| {
+            let bound = Functional::derivative(order, norms.len(), reach).in_fixed_unit();
+            let of_column = |i| {
+                let numerator = bound.numerator(norms.iter().map(|list| &list[i]));
+                numerator.div_ceil(&bound.denominator)
+            };
+            (0..self.order()).map(of_column).collect()
+        };
+
         Factors {
-            left: entries(&self.left),
-            right: entries(&self.right),
-            v: entries(&self.v),
-            rounding: entries(&self.rounding),
+            left: bounds(&self.left),
+            right: bounds(&self.right),
+            v: bounds(&self.v),
+            rounding: bounds(&self.rounding),
         }
     }
 
@@ -321,35 +350,55 @@ fn vanishes_from(k: usize, norms: &Norms) -> bool {
     norms.iter().skip(k).flatten().all(Zero::is_zero)
 }
 
-/// A fraction that is not reduced.
-struct Fraction {
-    numerator: Integer,
+/// A linear function of the coefficients c_k of a polynomial: sum c_k weights_k / denominator. The
+/// fraction is not reduced.
+struct Functional {
+    weights: Vec<Integer>,
     denominator: Integer,
 }
 
-/// sum c_k x^k.
-fn horner(coefficients: impl DoubleEndedIterator<Item = Integer>, x: &Rational) -> Fraction {
-    let mut numerator = Integer::zero();
-    let mut power = Integer::one();
-    let mut terms = 0;
+impl Functional {
+    /// The derivative of this order at x = p / q, of a polynomial with so many coefficients: the
+    /// sum of k (k - 1) ... (k - order + 1) c_k x^(k - order).
+    fn derivative(order: usize, coefficients: usize, x: &Rational) -> Functional {
+        let degree = coefficients.saturating_sub(order + 1);
+        let mut weights = vec![Integer::zero(); coefficients];
+        for (k, weight) in weights.iter_mut().enumerate().skip(order) {
+            let falling: usize = (k + 1 - order..=k).product();
+            let power = x.numer().pow((k - order) as u32);
+            let missing = x.denom().pow((degree + order - k) as u32);
+            *weight = power * missing * falling;
+        }
 
-    for c in coefficients.rev() {
-        numerator = numerator * x.numer() + c * &power;
-        power *= x.denom();
-        terms += 1;
+        Functional {
+            weights,
+            denominator: x.denom().pow(degree as u32),
+        }
     }
 
-    // The power has one factor too many, unless there was no term at all.
-    let denominator = if terms == 0 { power } else { power / x.denom() };
-    Fraction {
-        numerator,
-        denominator,
-    }
-}
+    /// The same, its values in the fixed unit.
+    fn in_fixed_unit(mut self) -> Functional {
+        for weight in &mut self.weights {
+            *weight <<= FRACTION_BITS;
+        }
 
-/// n / d in the fixed unit, rounded up; d > 0.
-fn up(n: &Integer, d: &Integer) -> Integer {
-    (n << FRACTION_BITS).div_ceil(d)
+        self
+    }
+
+    /// The value times the denominator.
+    fn numerator<'a>(&self, coefficients: impl Iterator<Item = &'a Integer>) -> Integer {
+        self.weights
+            .iter()
+            .zip(coefficients)
+            .map(|(w, c)| w * c)
+            .sum()
+    }
+
+    /// The same for the absolute values of the coefficients.
+    fn bound<'a>(&self, coefficients: impl Iterator<Item = &'a Integer>) -> Integer {
+        let terms = self.weights.iter().zip(coefficients);
+        terms.map(|(w, c)| (w * c).abs()).sum()
+    }
 }
 
 /// The product of a number in the fixed unit and a factor, rounded up.
@@ -357,26 +406,21 @@ fn times_up(value: &Integer, factor: &Rational) -> Integer {
     (value * factor.numer()).div_ceil(factor.denom())
 }
 
-/// The product of two numbers in the fixed unit and a weight, rounded up to the fixed unit.
-fn weigh(a: &Integer, b: &Integer, weight: &Rational) -> Integer {
-    if a.is_zero() || b.is_zero() {
-        return Integer::zero();
+/// left_i right_j weight_i, factors and products in the fixed unit, rounded up.
+fn weighted_products(left: &[Integer], right: &[Integer], weight: &[Rational]) -> Matrix {
+    let mut products = Matrix::with_capacity(left.len());
+    for (left_i, weight_i) in left.iter().zip(weight) {
+        let factor = left_i * weight_i.numer();
+        let unit = weight_i.denom() << FRACTION_BITS;
+        products.push(
+            right
+                .iter()
+                .map(|r| (&factor * r).div_ceil(&unit))
+                .collect(),
+        );
     }
 
-    (a * b * weight.numer()).div_ceil(&(weight.denom() << FRACTION_BITS))
-}
-
-/// Bound of the norm of column i for |d| <= reach, in the fixed unit.
-fn norm(norms: &Norms, i: usize, reach: &Rational) -> Integer {
-    let bound = horner(norms.iter().map(|l| l[i].clone()), reach);
-    up(&bound.numerator, &bound.denominator)
-}
-
-/// Bound of the norm of the derivative of column i for |d| <= reach, in the fixed unit.
-fn norm_slope(norms: &Norms, i: usize, reach: &Rational) -> Integer {
-    let coefficients = norms.iter().enumerate().skip(1);
-    let bound = horner(coefficients.map(|(k, l)| &l[i] * k), reach);
-    up(&bound.numerator, &bound.denominator)
+    products
 }
 
 #[cfg(test)]

@@ -55,14 +55,34 @@ impl Family {
         self.affordable(anchor, lo, hi)?;
         match self {
             Family::Linear(linear) => Ok(linear.ends(lo, hi)),
-            Family::Condensed(list) => {
-                let expanded = self.anchor(anchor).ok_or(CoverFault::Anchor {
-                    anchors: list.len(),
-                    got: anchor,
-                })?;
-                expanded.ends(lo, hi)
-            }
+            Family::Condensed(_) => self.expanded(anchor)?.ends(lo, hi),
         }
+    }
+
+    /// What (hi - lo) T' may be off the difference of the ends over [lo, hi], in their unit.
+    pub(super) fn slope(
+        &self,
+        anchor: Option<usize>,
+        lo: &Rational,
+        hi: Option<&Rational>,
+    ) -> Result<Matrix, CoverFault> {
+        match self {
+            Family::Linear(linear) => Ok(linear.slope(lo, hi)),
+            Family::Condensed(_) => self.expanded(anchor)?.slope(lo, hi),
+        }
+    }
+
+    /// The expansion about the anchor that a piece names, which has to exist.
+    fn expanded(&self, anchor: Option<usize>) -> Result<&Expanded, CoverFault> {
+        let anchors = match self {
+            Family::Linear(_) => 0,
+            Family::Condensed(list) => list.len(),
+        };
+
+        self.anchor(anchor).ok_or(CoverFault::Anchor {
+            anchors,
+            got: anchor,
+        })
     }
 
     /// The expansion about the anchor that a piece names, if there is one.
@@ -255,25 +275,30 @@ impl Linear {
         let r0 = self.by_row(&(&common + lower.abs()));
 
         let Some(hi) = hi else {
-            let none = self.by_row(&Integer::zero());
             return Ends {
                 m: [m0, self.direction(&common)],
                 r: [r0, self.by_row(&common)],
-                slope: none,
+                slope: None,
                 scale,
                 infinite: true,
             };
         };
 
         let upper = hi.numer() * (&common / hi.denom());
-        let width = &upper - &lower;
         Ends {
             m: [m0, self.combination(&upper, &common)],
             r: [r0, self.by_row(&(&common + upper.abs()))],
-            slope: self.by_row(&width),
+            slope: None,
             scale,
             infinite: false,
         }
+    }
+
+    /// The radii of (hi - lo) B, in the unit of the ends; none over a half line.
+    fn slope(&self, lo: &Rational, hi: Option<&Rational>) -> Matrix {
+        let width = hi.unwrap_or(lo) - lo;
+        let common = lo.denom().lcm(hi.unwrap_or(lo).denom());
+        self.by_row(&(width * common).to_integer())
     }
 }
 
@@ -353,6 +378,7 @@ mod tests {
         assert_eq!(linear.radius, [0, 0, 1].map(Integer::from));
         let (lo, hi) = (rational(2, 3), rational(7, 5));
         let ends = linear.ends(&lo, Some(&hi));
+        let slope = linear.slope(&lo, Some(&hi));
         assert_eq!(
             (ends.scale, ends.infinite),
             (Integer::from(15) << 128u32, false)
@@ -369,7 +395,7 @@ mod tests {
                     [&ends.r[0][i][j], &ends.r[1][i][j]],
                     [25 * radius, 36 * radius].map(Integer::from).each_ref()
                 );
-                assert_eq!(ends.slope[i][j], Integer::from(11 * radius));
+                assert_eq!(slope[i][j], Integer::from(11 * radius));
             }
         }
     }
@@ -402,6 +428,7 @@ mod tests {
             rational(1001, 7),
         ] {
             let ends = Linear::of(&rows).ends(&lo, None);
+            let slope = Linear::of(&rows).slope(&lo, None);
             assert!(ends.infinite);
 
             for i in 0..3 {
@@ -421,7 +448,7 @@ mod tests {
                             "end {end}, entry ({i}, {j}), lo {lo}"
                         );
                     }
-                    assert_eq!(ends.slope[i][j], Integer::zero());
+                    assert_eq!(slope[i][j], Integer::zero());
                 }
             }
         }

@@ -29,8 +29,8 @@ impl Family {
         self.anchor(anchor).is_some_and(|e| e.reversed)
     }
 
-    /// The ends that a root leaf over the hull [lo, hi] is judged by: those of T itself, over a
-    /// half line those of the chord.
+    /// The ends that a root leaf over the hull [lo, hi] is judged by, with their slope: those of T
+    /// itself, over a half line those of the chord.
     pub(super) fn hull_ends(
         &self,
         anchor: Option<usize>,
@@ -38,7 +38,9 @@ impl Family {
         hi: Option<&Rational>,
     ) -> Result<Ends, CoverFault> {
         if hi.is_some() || self.is_reversed(anchor) {
-            return self.ends(anchor, lo, hi);
+            let ends = self.ends(anchor, lo, hi)?;
+            let slope = Some(self.slope(anchor, lo, hi)?);
+            return Ok(Ends { slope, ..ends });
         }
 
         if lo.is_zero() {
@@ -67,7 +69,7 @@ fn chord(cone: &Ends, lo: &Rational) -> Ends {
     Ends {
         m: [multiple(q, at_lo), multiple(p, direction)],
         r: radius,
-        slope,
+        slope: Some(slope),
         scale: &cone.scale * q,
         infinite: true,
     }
@@ -209,7 +211,7 @@ mod tests {
         let cone = Ends {
             m: [of(10), of(1)],
             r: [of(2), of(3)],
-            slope: of(0),
+            slope: None,
             scale,
             infinite: true,
         };
@@ -226,7 +228,7 @@ mod tests {
             [number(&chord.r[0]), number(&chord.r[1])],
             [rational(2, 5), rational(9, 10)]
         );
-        assert_eq!(number(&chord.slope), rational(13, 10));
+        assert_eq!(number(&chord.slope.unwrap()), rational(13, 10));
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub(super) fn ends(m: [Square; 2], r: [Square; 2], infinite: bool) -> Rc<Ends> {
     Rc::new(Ends {
         m: m.map(matrix),
         r: r.map(matrix),
-        slope: matrix(ZERO),
+        slope: None,
         scale: 1.into(),
         infinite,
     })

@@ -1,22 +1,31 @@
-//! The product of a sparse matrix linear in d and a dense one, exactly.
+//! The product of a matrix of long integers and one of short integers, exactly.
 //!
-//! The sums are formed in machine integers where all of them fit into 128 bits, for speed, and in
-//! long integers else; the result is the same. Called by `condensed`.
+//! The entries of the pencil are long and those of W and V short, as a rule below 2^62. So an entry
+//! of the left factor is cut into digits of 32 bits that have its sign,
+//!
+//! ```text
+//!     v = sum_k v_k 2^(32 k),    |v_k| < 2^32,
+//! ```
+//!
+//! and for each k the sum of v_k w over a row and a column is formed in 128 bits, which hold 2^33
+//! such products. Where an entry of the right factor is longer, all is computed in long integers;
+//! the result is the same. Called by `condensed`.
 
 use super::ends::{Matrix, largest_bits};
 use crate::pencil::Row;
 use mceip_exact::Integer;
-use num_traits::{ToPrimitive, Zero};
-use std::ops::{AddAssign, Mul};
+use num_traits::{Signed, ToPrimitive, Zero};
 
-/// Sums of products below this many bits are formed in machine integers.
-const SHORT_BITS: u64 = 127;
+/// Bits of a digit.
+const DIGIT_BITS: u32 = 32;
+/// Entries of the right factor below this many bits are short.
+const SHORT_BITS: u64 = 62;
 
 /// Rows of a matrix linear in t or d: column, constant, coefficient.
 pub(super) type Linear = Vec<Row>;
 
-/// Rows of a sparse matrix: column, entry.
-type Sparse<T> = Vec<Vec<(usize, T)>>;
+/// Rows of a matrix: column and entry, of those that are not zero.
+pub(super) type NonzeroRows<'a> = Vec<Vec<(usize, &'a Integer)>>;
 
 /// One of the two coefficients of a matrix linear in d.
 #[derive(Clone, Copy)]
@@ -27,78 +36,104 @@ pub(super) enum Part {
     Linear,
 }
 
-/// The product of one part of F and W, which has `cols` columns. `None` where the part is zero.
-pub(super) fn times(f: &Linear, part: Part, w: &Matrix, cols: usize) -> Option<Matrix> {
-    let f = nonzero(f, part);
-    let terms = f.iter().map(Vec::len).max().filter(|most| *most > 0)?;
-
-    let bits_of_f = largest_bits(f.iter().flatten().map(|(_, v)| v));
-    let bits_of_w = largest_bits(w.iter().flatten());
-    let bits_of_terms = u64::from(usize::BITS - terms.leading_zeros());
-    if bits_of_f + bits_of_w + bits_of_terms >= SHORT_BITS {
-        return Some(product(&f, w, cols));
-    }
-
-    // No entry is longer than a sum, so that all of them fit.
-    let f: Sparse<i128> = f
-        .iter()
-        .map(|row| row.iter().map(|(g, c)| (*g, short(c))).collect())
-        .collect();
-    let w: Vec<Vec<i128>> = w
-        .iter()
-        .map(|row| row.iter().map(short).collect())
-        .collect();
-    let sums = product(&f, &w, cols);
-    Some(
-        sums.into_iter()
-            .map(|row| row.into_iter().map(Integer::from).collect())
-            .collect(),
-    )
-}
-
-/// The entries of one part that are not zero.
-fn nonzero(f: &Linear, part: Part) -> Sparse<Integer> {
-    let mut rows = Vec::with_capacity(f.len());
-    for row in f {
-        let mut entries = Vec::with_capacity(row.len());
-        for (column, constant, linear) in row {
-            let entry = match part {
-                Part::Constant => constant,
-                Part::Linear => linear,
-            };
-            if !entry.is_zero() {
-                entries.push((*column, entry.clone()));
-            }
-        }
-
-        rows.push(entries);
+/// One part of a matrix linear in d.
+pub(super) fn part_of(matrix: &Linear, part: Part) -> NonzeroRows<'_> {
+    let mut rows = Vec::with_capacity(matrix.len());
+    for row in matrix {
+        let entries = row.iter().map(|(column, constant, linear)| match part {
+            Part::Constant => (*column, constant),
+            Part::Linear => (*column, linear),
+        });
+        rows.push(entries.filter(|(_, entry)| !entry.is_zero()).collect());
     }
 
     rows
 }
 
-fn short(v: &Integer) -> i128 {
-    v.to_i128().unwrap_or_default()
-}
-
-/// F W: each row is a sum of rows of W times entries of F.
-fn product<T: Clone + Zero + AddAssign>(f: &Sparse<T>, w: &[Vec<T>], cols: usize) -> Vec<Vec<T>>
-where
-    for<'b> &'b T: Mul<&'b T, Output = T>,
-{
-    let mut product = Vec::with_capacity(f.len());
-    for entries in f {
-        let mut sum = vec![T::zero(); cols];
-        for (g, factor) in entries {
-            for (s, v) in sum.iter_mut().zip(&w[*g]) {
-                *s += factor * v;
+/// The transpose of a dense matrix with `columns` columns.
+pub(super) fn transposed(matrix: &Matrix, columns: usize) -> NonzeroRows<'_> {
+    let mut rows = vec![Vec::new(); columns];
+    for (i, row) in matrix.iter().enumerate() {
+        for (transposed_row, entry) in rows.iter_mut().zip(row) {
+            if !entry.is_zero() {
+                transposed_row.push((i, entry));
             }
         }
+    }
 
-        product.push(sum);
+    rows
+}
+
+/// The product with a matrix that has `columns` columns.
+pub(super) fn times(left: &NonzeroRows<'_>, right: &Matrix, columns: usize) -> Matrix {
+    let mut product = Matrix::with_capacity(left.len());
+    match short(right) {
+        Some(right) => {
+            for row in left {
+                product.push(row_by_digits(row, &right, columns));
+            }
+        }
+        None => {
+            for row in left {
+                product.push(long_row(row, right, columns));
+            }
+        }
     }
 
     product
+}
+
+/// The matrix in machine integers, if all entries are short.
+fn short(matrix: &Matrix) -> Option<Vec<Vec<i64>>> {
+    if largest_bits(matrix.iter().flatten()) > SHORT_BITS {
+        return None;
+    }
+
+    let mut rows = Vec::with_capacity(matrix.len());
+    for row in matrix {
+        rows.push(row.iter().map(ToPrimitive::to_i64).collect::<Option<_>>()?);
+    }
+
+    Some(rows)
+}
+
+/// A row of the product: the sums for each digit, joined.
+fn row_by_digits(row: &[(usize, &Integer)], right: &[Vec<i64>], columns: usize) -> Vec<Integer> {
+    let bits = largest_bits(row.iter().map(|(_, entry)| *entry));
+    let digits = bits.div_ceil(DIGIT_BITS.into()) as usize;
+    let mut sums = vec![vec![0i128; columns]; digits];
+
+    for (g, entry) in row {
+        let sign = if entry.is_negative() { -1 } else { 1 };
+        for (sums_of_digit, digit) in sums.iter_mut().zip(entry.iter_u32_digits()) {
+            let digit = sign * i64::from(digit);
+            for (sum, w) in sums_of_digit.iter_mut().zip(&right[*g]) {
+                *sum += i128::from(digit) * i128::from(*w);
+            }
+        }
+    }
+
+    let mut joined = vec![Integer::zero(); columns];
+    for sums_of_digit in sums.iter().rev() {
+        for (value, sum) in joined.iter_mut().zip(sums_of_digit) {
+            *value <<= DIGIT_BITS;
+            *value += *sum;
+        }
+    }
+
+    joined
+}
+
+/// A row of the product in long integers.
+fn long_row(row: &[(usize, &Integer)], right: &Matrix, columns: usize) -> Vec<Integer> {
+    let mut sums = vec![Integer::zero(); columns];
+    for (g, entry) in row {
+        for (sum, w) in sums.iter_mut().zip(&right[*g]) {
+            *sum += *entry * w;
+        }
+    }
+
+    sums
 }
 
 #[cfg(test)]
@@ -106,24 +141,28 @@ mod tests {
     use super::*;
     use num_traits::One;
 
-    /// (2^a - 1) (2^b - 1) summed over three terms has a + b + 2 bits: both sides of the limit.
+    fn ones(bits: u32) -> Integer {
+        (Integer::one() << bits) - 1
+    }
+
+    /// Lengths at both sides of one, two and three digits, and of the short entries.
     #[test]
     fn short_and_long_products_agree_at_the_limit() {
-        let ones = |bits: u32| -> Integer { (Integer::one() << bits) - 1 };
-        for (f_bits, w_bits) in [
+        for (left_bits, right_bits) in [
             (3, 4),
-            (60, 63),
-            (60, 64),
-            (62, 62),
-            (63, 62),
-            (64, 64),
-            (124, 1),
-            (125, 1),
-            (1, 124),
-            (200, 3),
+            (31, 61),
+            (32, 62),
+            (33, 63),
+            (64, 62),
+            (65, 63),
+            (96, 64),
+            (97, 1),
+            (1, 200),
+            (300, 62),
         ] {
-            let (a, b) = (ones(f_bits), ones(w_bits));
-            let f: Linear = vec![
+            let a = ones(left_bits);
+            let b = ones(right_bits);
+            let rows: Linear = vec![
                 vec![
                     (0, a.clone(), -&a),
                     (1, a.clone(), a.clone()),
@@ -132,37 +171,46 @@ mod tests {
                 vec![],
                 vec![(1, -&a, Integer::zero())],
             ];
-            let w: Matrix = vec![
+            let right: Matrix = vec![
                 vec![b.clone(), -&b],
                 vec![b.clone(), -&b],
                 vec![b.clone(), b.clone()],
             ];
+
             let p = &a * &b;
+            let zero = vec![Integer::zero(); 2];
+            let by_constant = vec![vec![&p * 3, -&p], zero.clone(), vec![-&p, p]];
             assert_eq!(
-                times(&f, Part::Constant, &w, 2),
-                Some(vec![
-                    vec![&p * 3, -&p],
-                    vec![Integer::zero(); 2],
-                    vec![-&p, p.clone()]
-                ])
+                times(&part_of(&rows, Part::Constant), &right, 2),
+                by_constant
             );
-            assert_eq!(
-                times(&f, Part::Linear, &w, 2),
-                Some(vec![vec![Integer::zero(); 2]; 3])
-            );
-            assert_eq!(times(&f[1..].to_vec(), Part::Linear, &w, 2), None);
+            let by_linear = vec![zero.clone(), zero.clone(), zero];
+            assert_eq!(times(&part_of(&rows, Part::Linear), &right, 2), by_linear);
         }
     }
 
-    /// Forty products of 125 bits have a sum of 131.
+    /// Each entry is one product of its own, at both ends of what 64 bits hold.
     #[test]
-    fn the_number_of_terms_counts() {
-        let (a, b): (Integer, Integer) =
-            ((Integer::one() << 62u32) - 1, (Integer::one() << 63u32) - 1);
-        let f: Linear = vec![(0..40).map(|g| (g, a.clone(), Integer::zero())).collect()];
-        assert_eq!(
-            times(&f, Part::Constant, &vec![vec![b.clone()]; 40], 1),
-            Some(vec![vec![a * b * 40]])
-        );
+    fn the_largest_entries_keep_their_signs() {
+        for sign in [1, -1] {
+            let long: Integer = ones(160) * sign;
+            for short in [ones(62), -ones(62), ones(63), -ones(63), -ones(63) - 1] {
+                let right = vec![vec![short.clone()]; 3];
+                let left = vec![vec![(0, &long), (2, &long)]];
+                assert_eq!(times(&left, &right, 1), vec![vec![&long * &short * 2]]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_transpose_leaves_out_zeros() {
+        let [one, two, zero] = [1, 2, 0].map(Integer::from);
+        let matrix: Matrix = vec![
+            vec![one.clone(), zero.clone()],
+            vec![two.clone(), one.clone()],
+        ];
+
+        let expected = vec![vec![(0, &one), (1, &two)], vec![(1, &one)]];
+        assert_eq!(transposed(&matrix, 2), expected);
     }
 }

@@ -260,6 +260,9 @@ impl<'a> Witness<'a> {
         let right = self.rounded_up(right);
         let exact = Integer::zero();
         let order = self.order();
+        let Some(slope_radius) = &ends.slope else {
+            return false;
+        };
 
         let mut slope = Integer::zero();
         let mut radius = Integer::zero();
@@ -272,7 +275,7 @@ impl<'a> Witness<'a> {
                 let e_v = if j < order { &right } else { &exact };
 
                 let difference = &ends.m[1][row][column] - &ends.m[0][row][column];
-                let around = &ends.slope[row][column];
+                let around = &slope_radius[row][column];
                 slope += u * &difference * v;
                 radius += around * u.abs() * v.abs();
                 radius += (difference.abs() + around) * (e_u * v.abs() + u.abs() * e_v + e_u * e_v);

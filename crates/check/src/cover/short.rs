@@ -38,7 +38,7 @@ struct WideBall {
 impl Ends {
     /// Both ends in short numbers.
     pub(super) fn short(&self) -> Option<[Short; 2]> {
-        let all: Vec<usize> = (0..self.slope.len()).collect();
+        let all: Vec<usize> = (0..self.m[0].len()).collect();
         let lower = Short::of(&self.m[0], &self.r[0], &all)?;
         let upper = Short::of(&self.m[1], &self.r[1], &all)?;
         Some([lower, upper])

@@ -430,14 +430,9 @@ fn an_expansion_has_a_largest_size() {
         right: vec![],
         left: vec![],
     }; // 3 + 2 bits
-    let right: Matrix = vec![vec![Integer::from(7), Integer::from(-8)]]; // 4 bits
+    let entry_bits = 4;
     let size = |longest: u64, exponent: u32| {
-        blocks(longest).affordable(
-            &anchor.center.0,
-            1,
-            exponent,
-            &[std::slice::from_ref(&right), &[]],
-        )
+        blocks(longest).affordable(&anchor.center.0, 1, exponent, entry_bits)
     };
 
     assert_eq!([size(500, 2), size(300, 202)], [Ok(()), Ok(())]);

@@ -41,7 +41,12 @@ fn ends() -> Ends {
             matrix([[3, 7, 2, 4], [5, 11, 6, 1], [2, 9, 8, 3], [13, 4, 5, 2]]),
             matrix([[4, 5, 3, 1], [7, 6, 9, 2], [3, 8, 5, 6], [11, 2, 7, 3]]),
         ],
-        slope: matrix([[6, 9, 4, 1], [8, 7, 3, 2], [5, 2, 10, 3], [1, 1, 1, 1]]),
+        slope: Some(matrix([
+            [6, 9, 4, 1],
+            [8, 7, 3, 2],
+            [5, 2, 10, 3],
+            [1, 1, 1, 1],
+        ])),
         scale: SCALE.into(),
         infinite: false,
     }
@@ -293,7 +298,7 @@ fn derivative(s: &Witness<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
     for i in 0..3 {
         for j in 0..3 {
             let d = short(&e.m[1][SUPPORT[i]][SUPPORT[j]]) - short(&e.m[0][SUPPORT[i]][SUPPORT[j]]);
-            let around = short(&e.slope[SUPPORT[i]][SUPPORT[j]]);
+            let around = short(&e.slope.as_ref().unwrap()[SUPPORT[i]][SUPPORT[j]]);
             let u = short(&s.u[i]);
             let v = short(&s.v[j]);
             let a = if i == 2 { 0 } else { left };
@@ -330,7 +335,7 @@ fn the_derivative_has_a_sign_beyond_its_radius_only() {
         let mut e = ends();
         let mut at = |pivot: i64, around: i64| {
             e.m[1][1][1] = &e.m[0][1][1] + pivot;
-            e.slope[1][1] = around.into();
+            e.slope.as_mut().unwrap()[1][1] = around.into();
             (derivative(&s, &e, left, right), s.monotone(&e, &e_u, &e_v))
         };
         let ((slope, radius), _) = at(0, 7);
@@ -416,7 +421,7 @@ fn simple(t: [i64; 2], a: i64, b: i64, c: [i64; 2]) -> Ends {
     Ends {
         m: [at_end(0), at_end(1)],
         r: [zero(), zero()],
-        slope: zero(),
+        slope: Some(zero()),
         scale: 1.into(),
         infinite: false,
     }

@@ -51,6 +51,16 @@ fn odd_multiple(target: f64, slack: f64, exponent: i32) -> Option<Rational> {
     }
 }
 
+/// A multiple of a power of two within `slack` of `target`; `None` unless both are positive.
+pub(crate) fn multiple_near(target: f64, slack: f64) -> Option<Rational> {
+    if !(target > 0.0 && slack > 0.0) {
+        return None;
+    }
+
+    let unit = slack.log2().floor().exp2();
+    from_f64((target / unit).round() * unit).ok()
+}
+
 /// A short number at most `value`, within a sixteenth of it; `None` unless `value` is positive.
 pub(crate) fn short_below(value: f64) -> Option<Rational> {
     if !(value > 0.0 && value.is_finite()) {

@@ -18,8 +18,9 @@ use super::expansion::{ColumnNorms, Expansion};
 use super::matrix::{Matrix, zeros};
 use super::skyline::{Skyline, dot};
 use super::view::row_factor;
+use crate::search::complete::dyadic::multiple_near;
 use mceip_check::certificate::{Anchor, IntegerMatrix};
-use mceip_exact::{Rational, from_f64, to_f64, truncated};
+use mceip_exact::{Rational, to_f64, truncated};
 use mceip_model::Pencil;
 use mceip_model::file::Number;
 
@@ -64,6 +65,10 @@ const BITS_PER_DEGREE: i32 = 2;
 /// (K_ff, M_ff).
 const REACH: f64 = 0.3;
 
+/// How far a centre may be moved to make it a short number, relative to its reach. The checker
+/// computes with powers of the distance from it.
+const SLACK_OF_CENTER: f64 = 0.01;
+
 /// Anchors at most: beyond that the window is left open above.
 const MAX_ANCHORS: usize = 64;
 
@@ -90,9 +95,11 @@ pub(crate) fn centers(lowest_frequency: f64, mut low: f64, top: f64) -> Vec<Cent
     while centers.is_empty() || (low < top && centers.len() < MAX_ANCHORS) {
         // center - low = REACH (center + lowest frequency), end - center likewise.
         let center = (low + REACH * lowest_frequency) / (1.0 - REACH);
-        let end = center + REACH * (center + lowest_frequency);
+        let reach = REACH * (center + lowest_frequency);
+        let end = center + reach;
+        let short = multiple_near(center, SLACK_OF_CENTER * reach);
         centers.push(Center {
-            at: from_f64(center).unwrap_or_default(),
+            at: short.unwrap_or_default(),
             end,
         });
         low = end;

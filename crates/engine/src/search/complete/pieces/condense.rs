@@ -15,17 +15,20 @@ use super::massless;
 use super::reverse::{Beyond, beyond, exchanged};
 use super::skyline::Skyline;
 use super::view::{View, scale_of};
-use crate::search::complete::dyadic::short_below;
+use crate::search::complete::dyadic::{multiple_near, short_below};
 use crate::search::complete::error::CompleteError;
 use crate::search::complete::leaf::tail::tail;
 use mceip_check::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
-use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64};
+use mceip_exact::{Integer, Rational, Sparse, to_f64};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
 
 /// Share of an estimated lower bound of a spectrum that is claimed; the rest is slack for rounding.
 const CLAIMED: f64 = 0.8;
 const SLACK: f64 = 0.2;
+
+/// Bits of the centre of an anchor about a solution, whose own anchor is to be precise there.
+const BITS_OF_FINE_CENTER: i32 = 20;
 
 /// The condensation, its view and the interval of each anchor.
 pub(crate) struct Condensed {
@@ -286,7 +289,7 @@ pub(crate) fn refine(
     };
 
     for value in values {
-        let Ok(center) = from_f64(*value) else {
+        let Some(center) = fine_center(*value) else {
             continue;
         };
 
@@ -295,6 +298,15 @@ pub(crate) fn refine(
             view.expansions.push(expanded.expansion);
         }
     }
+}
+
+/// The centre of the anchor about a value: a number of [`BITS_OF_FINE_CENTER`] bits next to it.
+fn fine_center(value: f64) -> Option<Rational> {
+    if value == 0.0 {
+        return Some(Rational::default());
+    }
+
+    multiple_near(value, value * f64::from(-BITS_OF_FINE_CENTER).exp2())
 }
 
 /// The view that a certificate's condensation gives.

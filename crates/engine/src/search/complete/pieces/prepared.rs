@@ -518,6 +518,15 @@ mod tests {
         anchors.iter().map(|a| to_f64(&a.center.0)).collect()
     }
 
+    /// Centres are next to these values: they are short numbers.
+    #[track_caller]
+    fn assert_centers(centers: &[f64], values: &[f64]) {
+        assert_eq!(centers.len(), values.len());
+        for (center, value) in centers.iter().zip(values) {
+            approx::assert_relative_eq!(center, value, max_relative = 1e-5);
+        }
+    }
+
     #[test]
     fn the_lower_end_gets_an_anchor_and_a_piece_of_the_first_one() {
         let window = Window::all();
@@ -547,10 +556,10 @@ mod tests {
         let coarse = Prepared::new(&problem, &pencil, 16).unwrap();
         let coarse_count = anchor_centers(&coarse).len();
         let apart = coarse.clone().refined(&problem, &pencil, &values);
-        assert_eq!(anchor_centers(&apart)[coarse_count..], values);
+        assert_centers(&anchor_centers(&apart)[coarse_count..], &values);
 
         let lower = coarse.with_lower_anchor(&Window::all(), &pencil).unwrap();
         let shared = lower.refined(&problem, &pencil, &values);
-        assert_eq!(anchor_centers(&shared)[coarse_count..], [0.0, 0.2]);
+        assert_centers(&anchor_centers(&shared)[coarse_count..], &[0.0, 0.2]);
     }
 }
