@@ -315,7 +315,8 @@ struct ShiftedBlocks {
 struct Polynomial<'a> {
     coefficients: Vec<Coefficient<'a>>,
     exponent: u32,
-    /// Bits of the longest entry in these units.
+    /// Bits of the longest entry in these units, as the certificate spells it: without the factors of
+    /// rows.
     entry_bits: u64,
 }
 
@@ -325,7 +326,7 @@ struct Coefficient<'a> {
     column_factors: Vec<Integer>,
 }
 
-/// The elimination about one anchor: W and V, and the blocks about its centre.
+/// The elimination about one anchor: W and V, and the blocks about its center.
 struct Elimination<'a> {
     blocks: &'a Blocks,
     anchor: Expansion<'a>,
@@ -558,13 +559,16 @@ impl Elimination<'_> {
         }
     }
 
-    /// The coefficients of l = T_sf' - F V, in units of 1 / (D q 2^e_v).
+    /// The coefficients of l = T_sf' - F V, in units of 1 / (D q 2^e_v), column i multiplied by the
+    /// factor of slip row i.
     fn left_residual(&self) -> Vec<Matrix> {
         let right_hand_side = transpose(&self.about.sf, self.blocks.free);
         residual(&self.about.ff, &right_hand_side, &self.v, self.blocks.slip)
     }
 
-    /// The condensed pencil about the anchor, given A_ff >= sigma I and B_ff >= tau I.
+    /// The condensed pencil about the anchor; `right` is that of this anchor or of the other part's,
+    /// whose free rows and W are the same. Given A_ff >= sigma I and B_ff >= tau I (for a reversed
+    /// anchor the other way round).
     fn expand(&self, right: &RightResidual, sigma: &Rational, tau: &Rational) -> Expanded {
         let Blocks { common, bits, .. } = self.blocks;
         let exponent = self.w.exponent + self.v.exponent;

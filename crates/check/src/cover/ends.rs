@@ -29,7 +29,7 @@ pub(super) const ENDS: [&str; 2] = ["lower", "upper"];
 pub(super) struct Ends {
     pub(super) m: [Matrix; 2],
     pub(super) r: [Matrix; 2],
-    /// (t1 - t0) T'(t) lies within this of m[1] - m[0]. It is there for root leaves only.
+    /// (t1 - t0) T'(t) lies within this of m[1] - m[0]. Only the hull of a root leaf has it.
     pub(super) slope: Option<Matrix>,
     pub(super) scale: Integer,
     /// Is m[1] no value of the window, so that weak inequalities suffice there?

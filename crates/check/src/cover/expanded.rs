@@ -112,12 +112,7 @@ impl Expanded {
     /// The ends over [lo, infinity): T(t) = T(lo) + (t - lo) Z_1, and the remainder is linear in t
     /// as well.
     fn from(&self, lo: &Rational) -> Result<Ends, CoverFault> {
-        if !self.is_linear() {
-            return Err(CoverFault::Hypothesis {
-                expected: "a tail above the last finite interval",
-                row: 0,
-            });
-        }
+        self.require_linear()?;
 
         let d = lo - &self.center;
         let weight = self.weight_above(lo);
@@ -163,8 +158,10 @@ impl Expanded {
         let (own_lo, own_hi) = self.own_interval(lo, hi)?;
         match own_hi {
             Some(own_hi) => Ok(self.slope_between(&own_lo, &own_hi)),
-            // Only a family that is linear in t reaches to infinity.
-            None => Ok(self.grid(|_, _| Integer::zero())),
+            None => {
+                self.require_linear()?;
+                Ok(self.grid(|_, _| Integer::zero()))
+            }
         }
     }
 
@@ -208,6 +205,18 @@ impl Expanded {
         self.weight.len()
     }
 
+    /// Demands what a half line needs.
+    fn require_linear(&self) -> Result<(), CoverFault> {
+        if self.is_linear() {
+            return Ok(());
+        }
+
+        Err(CoverFault::Hypothesis {
+            expected: "a tail above the last finite interval",
+            row: 0,
+        })
+    }
+
     /// Is the condensed pencil linear in t, its remainder included?
     fn is_linear(&self) -> bool {
         self.drift.is_zero()
@@ -234,9 +243,9 @@ impl Expanded {
 
     /// Z(d), rounded down to the fixed unit.
     fn at(&self, d: &Rational) -> Matrix {
-        let value = Functional::derivative(0, self.z.len(), d).in_fixed_unit();
-        let unit = &self.unit * &value.denominator;
-        self.grid(|i, j| value.numerator(self.entry(i, j)).div_floor(&unit))
+        let at_d = Functional::derivative(0, self.z.len(), d).in_fixed_unit();
+        let unit = &self.unit * &at_d.denominator;
+        self.grid(|i, j| at_d.numerator(self.entry(i, j)).div_floor(&unit))
     }
 
     /// Z_1, the coefficient of d, rounded down to the fixed unit.
@@ -314,7 +323,7 @@ impl Expanded {
         let bounds = |norms: &Norms| {
             let bound = Functional::derivative(order, norms.len(), reach).in_fixed_unit();
             let of_column = |i| {
-                let numerator = bound.numerator(norms.iter().map(|list| &list[i]));
+                let numerator = bound.bound(norms.iter().map(|list| &list[i]));
                 numerator.div_ceil(&bound.denominator)
             };
             (0..self.order()).map(of_column).collect()

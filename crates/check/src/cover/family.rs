@@ -122,7 +122,7 @@ impl Family {
     /// Products of machine words that the matrices of the interval take.
     ///
     /// They are n_s^2 values of a polynomial of K coefficients, each of C words, at an end of E
-    /// words. Horner's rule multiplies a sum of C + k E words by E words, k < K.
+    /// words: sums of K products of a coefficient and of powers of the end, together of E K words.
     pub(super) fn matrix_work(
         &self,
         anchor: Option<usize>,
@@ -132,14 +132,14 @@ impl Family {
         let bits = FRACTION_BITS + end_bits(lo, hi);
 
         match (self, self.anchor(anchor)) {
-            (Family::Linear(linear), _) => HornerWork {
+            (Family::Linear(linear), _) => MatrixWork {
                 order: linear.a.len(),
                 coefficients: 1,
                 coefficient_words: words(FRACTION_BITS),
                 end_words: words(bits),
             }
             .products(),
-            (_, Some(e)) => HornerWork {
+            (_, Some(e)) => MatrixWork {
                 order: e.weight.len(),
                 coefficients: e.coefficients,
                 coefficient_words: words(e.unit.bits()),
@@ -174,14 +174,14 @@ impl Family {
 }
 
 /// The sizes that the work of one matrix depends on.
-struct HornerWork {
+struct MatrixWork {
     order: usize,
     coefficients: usize,
     coefficient_words: u64,
     end_words: u64,
 }
 
-impl HornerWork {
+impl MatrixWork {
     /// n_s^2 E K (C + E K).
     fn products(&self) -> u64 {
         let order = self.order as u64;

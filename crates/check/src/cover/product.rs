@@ -8,8 +8,8 @@
 //! ```
 //!
 //! and for each k the sum of v_k w over a row and a column is formed in 128 bits, which hold 2^33
-//! such products. Where an entry of the right factor is longer, all is computed in long integers;
-//! the result is the same. Called by `condensed`.
+//! such products. Where an entry of the right factor is longer, or one of the left factor has many
+//! digits, the sums are formed in long integers; the result is the same. Called by `condensed`.
 
 use super::ends::{Matrix, largest_bits};
 use crate::pencil::Row;
@@ -18,8 +18,11 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 /// Bits of a digit.
 const DIGIT_BITS: u32 = 32;
-/// Entries of the right factor below this many bits are short.
+/// Entries of the right factor with at most this many bits are short.
 const SHORT_BITS: u64 = 62;
+/// Rows of the left factor with at most this many digits are cut: to join the digits takes time with
+/// the square of their number.
+const MOST_DIGITS: u64 = 64;
 
 /// Rows of a matrix linear in t or d: column, constant, coefficient.
 pub(super) type Linear = Vec<Row>;
@@ -66,21 +69,23 @@ pub(super) fn transposed(matrix: &Matrix, columns: usize) -> NonzeroRows<'_> {
 
 /// The product with a matrix that has `columns` columns.
 pub(super) fn times(left: &NonzeroRows<'_>, right: &Matrix, columns: usize) -> Matrix {
+    let short_right = short(right);
     let mut product = Matrix::with_capacity(left.len());
-    match short(right) {
-        Some(right) => {
-            for row in left {
-                product.push(row_by_digits(row, &right, columns));
-            }
-        }
-        None => {
-            for row in left {
-                product.push(long_row(row, right, columns));
-            }
-        }
+    for row in left {
+        let digits = digits_of(row);
+        product.push(match &short_right {
+            Some(right) if digits <= MOST_DIGITS => row_by_digits(row, digits, right, columns),
+            _ => long_row(row, right, columns),
+        });
     }
 
     product
+}
+
+/// Digits of the longest entry.
+fn digits_of(row: &[(usize, &Integer)]) -> u64 {
+    let bits = largest_bits(row.iter().map(|(_, entry)| *entry));
+    bits.div_ceil(DIGIT_BITS.into())
 }
 
 /// The matrix in machine integers, if all entries are short.
@@ -98,10 +103,13 @@ fn short(matrix: &Matrix) -> Option<Vec<Vec<i64>>> {
 }
 
 /// A row of the product: the sums for each digit, joined.
-fn row_by_digits(row: &[(usize, &Integer)], right: &[Vec<i64>], columns: usize) -> Vec<Integer> {
-    let bits = largest_bits(row.iter().map(|(_, entry)| *entry));
-    let digits = bits.div_ceil(DIGIT_BITS.into()) as usize;
-    let mut sums = vec![vec![0i128; columns]; digits];
+fn row_by_digits(
+    row: &[(usize, &Integer)],
+    digits: u64,
+    right: &[Vec<i64>],
+    columns: usize,
+) -> Vec<Integer> {
+    let mut sums = vec![vec![0i128; columns]; digits as usize];
 
     for (g, entry) in row {
         let sign = if entry.is_negative() { -1 } else { 1 };
@@ -145,7 +153,7 @@ mod tests {
         (Integer::one() << bits) - 1
     }
 
-    /// Lengths at both sides of one, two and three digits, and of the short entries.
+    /// Lengths at both sides of one, two, three and the most digits, and of the short entries.
     #[test]
     fn short_and_long_products_agree_at_the_limit() {
         for (left_bits, right_bits) in [
@@ -159,6 +167,8 @@ mod tests {
             (97, 1),
             (1, 200),
             (300, 62),
+            (2048, 62),
+            (2049, 62),
         ] {
             let a = ones(left_bits);
             let b = ones(right_bits);
@@ -189,7 +199,7 @@ mod tests {
         }
     }
 
-    /// Each entry is one product of its own, at both ends of what 64 bits hold.
+    /// Short and long entries at both ends of what 62 and 64 bits hold.
     #[test]
     fn the_largest_entries_keep_their_signs() {
         for sign in [1, -1] {
@@ -200,6 +210,21 @@ mod tests {
                 assert_eq!(times(&left, &right, 1), vec![vec![&long * &short * 2]]);
             }
         }
+    }
+
+    /// Forty products of 94 bits and of both signs, more of one sign than of the other.
+    #[test]
+    fn many_terms_of_both_signs_add_up() {
+        let long = [ones(64), -ones(64)];
+        let short = ones(62);
+
+        let row: Vec<_> = (0..40)
+            .map(|g| (g, &long[usize::from(g % 4 == 0)]))
+            .collect();
+        let right = vec![vec![short.clone(), -&short]; 40];
+
+        let sum: Integer = &long[0] * &short * 20;
+        assert_eq!(times(&vec![row], &right, 2), vec![vec![sum.clone(), -sum]]);
     }
 
     #[test]

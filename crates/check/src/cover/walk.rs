@@ -376,7 +376,7 @@ impl Walk<'_> {
         self.family.affordable(anchor, &region.lo, hi)
     }
 
-    /// The matrices of an interval are computed by Horner's rule, entry by entry.
+    /// Counts what the matrices of an interval cost.
     fn spend_matrix(
         &self,
         anchor: Option<usize>,
