@@ -84,16 +84,23 @@ class Pack:
 def read_pack(folder: str | os.PathLike[str]) -> Pack:
     """Reads a pack by its `index.json`.
 
-    `MceipError` for another format, or a group that differs from its digest in the index; `OSError`
-    for a file that cannot be read.
+    `MceipError` for another format, missing fields, or a group that differs from its digest in the
+    index; `OSError` for a file that cannot be read.
     """
-    place = Path(folder)
+    try:
+        return _read(Path(folder))
+    except (AttributeError, KeyError, TypeError) as error:
+        text = f"{type(error).__name__}: {error}"
+        raise MceipError(f"expected the fields of a pack, got {text}") from None
+
+
+def _read(place: Path) -> Pack:
     index = _json_of("index.json", (place / "index.json").read_bytes(), INDEX_FORMAT)
 
     cases: list[Case] = []
     for entry in index["groups"]:
         name = str(entry["file"])
-        if Path(name).name != name:
+        if name in ("", "..") or Path(name).name != name:
             raise MceipError(f"index.json: expected the name of a file beside it, got {name!r}")
 
         content = (place / name).read_bytes()

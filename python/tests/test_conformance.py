@@ -64,6 +64,9 @@ def damaged(tmp_path, name, change):
         ("index.json", lambda text: text[:-20], "expected JSON"),
         ("index.json", lambda text: "[]", "format"),
         ("index.json", lambda text: text.replace("folds.json", "../folds.json"), "beside it"),
+        ("index.json", lambda text: text.replace("folds.json", ".."), "beside it"),
+        ("index.json", lambda text: text.replace('"groups"', '"troops"'), "fields of a pack"),
+        ("index.json", lambda text: text.replace('"sha256"', '"sha512"'), "fields of a pack"),
     ],
 )
 def test_damaged_packs_are_refused(tmp_path, name, change, words):

@@ -7,9 +7,9 @@
 mod summary;
 
 use super::common::{CliError, exit, part, print, require_threads, text};
-use super::job::interrupt;
+use super::job::{interrupt, is_quiet};
 use super::output::{Output, make};
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mceip_engine::run::in_threads;
 use mceip_testkit::campaign::{
     Campaign, Event, FAMILIES, Limit, Replay, State, family_error, judge, standard,
@@ -258,6 +258,9 @@ impl Bars {
         let style = ProgressStyle::with_template(template);
 
         let all = MultiProgress::new();
+        if is_quiet() {
+            all.set_draw_target(ProgressDrawTarget::hidden());
+        }
         let mut each = Vec::new();
         for name in &state.families {
             let bar = all.add(match limit {

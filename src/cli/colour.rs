@@ -1,6 +1,6 @@
-//! Verdicts in colour, where standard output is a terminal and nobody asks for none.
+//! Verdicts in colour on a terminal, unless colours are turned off.
 //!
-//! The words are those in capitals that the commands print. `NO_COLOR` and `CLICOLOR=0` turn
+//! The words are those of [`VERDICTS`], in capitals. `NO_COLOR` and `CLICOLOR=0` turn
 //! colours off, `CLICOLOR_FORCE=1` on; pipes and files get plain text. JSON is left alone.
 
 use anstream::{AutoStream, ColorChoice};
@@ -9,20 +9,26 @@ use std::io::stdout;
 
 /// Words in capitals, and what their colour says.
 const VERDICTS: [(AnsiColor, &[&str]); 3] = [
-    // Proved, accepted, as it should be.
+    // A claim holds. ABSENT is none of these: absence of one form is not stability.
     (
         AnsiColor::Green,
-        &["ACCEPTED", "ABSENT", "COMPLETE", "VERIFIED"],
+        &["ACCEPTED", "AGREES", "CLEAN", "COMPLETE", "VERIFIED"],
     ),
     // Something to look at, or left open.
     (
         AnsiColor::Yellow,
-        &["PRESENT", "UNDECIDED", "OPEN", "WARNING", "INTERRUPTED"],
+        &["PRESENT", "UNDECIDED", "WARNING", "INTERRUPTED"],
     ),
     // Refuted.
     (
         AnsiColor::Red,
-        &["REJECTED", "INACCURATE", "DISAGREEMENT", "REFUSED"],
+        &[
+            "REJECTED",
+            "INACCURATE",
+            "DISAGREEMENT",
+            "DISAGREES",
+            "REFUSED",
+        ],
     ),
 ];
 

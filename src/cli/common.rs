@@ -347,7 +347,8 @@ pub(super) fn positive_number(text: &str) -> Option<Rational> {
     parse(text).ok().filter(Rational::is_positive)
 }
 
-/// Prints to stdout, verdicts in colour on a terminal. A reader that has gone away (a closed pipe) is no error; a full disk is.
+/// Prints to stdout, verdicts in colour on a terminal. A reader that has gone away (a closed pipe)
+/// is no error; a full disk is.
 pub(super) fn print(text: &str) -> Result<(), CliError> {
     let text = if colour::is_wanted() {
         &colour::coloured(text)

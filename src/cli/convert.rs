@@ -37,8 +37,8 @@ pub(super) struct Args {
     /// Coefficient of friction.
     #[arg(long, value_name = "MU", allow_hyphen_values = true)]
     friction: String,
-    /// Displacements of the equilibrium, to hold K u against the reactions of the table: a number for
-    /// each degree of freedom, one a line, or a Matrix Market file with one column.
+    /// Displacements of the equilibrium, to hold K u against the reactions of the table: a number
+    /// for each row of K, one a line, or a Matrix Market file with one column.
     #[arg(long, value_name = "FILE")]
     displacements: Option<PathBuf>,
     /// Take the mean of K and its transpose, and of M and its, where they differ by rounding (1e-12
@@ -85,6 +85,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         system: &system,
         reactions: &contacts.reactions,
         displacements: displacements.as_deref(),
+        counts_dofs: args.dof.is_none(),
     });
 
     let mut problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
@@ -218,6 +219,10 @@ fn read_displacements(path: &Path, order: usize) -> Result<Vec<f64>, CliError> {
     let source = text("the displacements", path)?;
     let values = if source.starts_with("%%") {
         let matrix = read_matrix_market("u", &source).map_err(|e| CliError::file(path, e))?;
+        if matrix.cols() != 1 {
+            let got = format!("a matrix with {} columns", matrix.cols());
+            return Err(CliError::displacements(path, order, got));
+        }
         first_column(&matrix)
     } else {
         plain_numbers(&source).map_err(|got| CliError::displacements(path, order, got))?
@@ -230,12 +235,7 @@ fn read_displacements(path: &Path, order: usize) -> Result<Vec<f64>, CliError> {
     Ok(values)
 }
 
-/// The first column of a matrix; nothing where it has more.
 fn first_column(matrix: &Sparse) -> Vec<f64> {
-    if matrix.cols() != 1 {
-        return Vec::new();
-    }
-
     let column = (0..matrix.rows()).map(|row| to_f64(&matrix.get(row, 0)));
     column.collect()
 }
@@ -249,7 +249,10 @@ fn plain_numbers(text: &str) -> Result<Vec<f64>, String> {
     for word in text.split_whitespace() {
         match word.parse::<f64>() {
             Ok(number) if number.is_finite() => numbers.push(number),
-            _ => return Err(word.chars().take(60).collect()),
+            _ => {
+                let shown: String = word.chars().filter(|c| !c.is_control()).take(60).collect();
+                return Err(format!("{shown:?}"));
+            }
         }
     }
 

@@ -23,12 +23,17 @@ pub(super) fn interrupt() -> Cancel {
     cancel
 }
 
-/// Is progress to stay unseen? Set once, before the command runs.
+/// Set once, before the command runs.
 static IS_QUIET: AtomicBool = AtomicBool::new(false);
 
 /// Shows no progress in this process.
 pub(super) fn be_quiet() {
     IS_QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Is progress to stay unseen?
+pub(super) fn is_quiet() -> bool {
+    IS_QUIET.load(Ordering::Relaxed)
 }
 
 /// A run that Ctrl-C ends, with what has been found kept.
@@ -42,7 +47,7 @@ impl Job {
     pub(super) fn begin(what: &str) -> Job {
         let cancel = interrupt();
 
-        let line = if IS_QUIET.load(Ordering::Relaxed) {
+        let line = if is_quiet() {
             ProgressBar::hidden()
         } else {
             ProgressBar::new_spinner()

@@ -96,6 +96,7 @@ fn verdicts_are_in_colour_where_it_is_wanted() {
     let plain = printed_with("NO_COLOR", "1", &[]);
     assert!(plain.contains("\nCOMPLETE: 2 solutions"), "{plain}");
     assert_eq!(printed_with("CLICOLOR", "1", &[]), plain);
+    assert_eq!(printed_with("CLICOLOR", "0", &[]), plain);
 
     let coloured = printed_with("CLICOLOR_FORCE", "1", &[]);
     let verdict = "\u{1b}[1m\u{1b}[32mCOMPLETE\u{1b}[0m: 2 solutions";

@@ -23,6 +23,18 @@ pub struct DoubleMatrix {
     pub entries: Vec<(usize, usize, f64)>,
 }
 
+impl DoubleMatrix {
+    /// The product with a vector of length `order`.
+    pub(crate) fn times(&self, x: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; self.order];
+        for &(row, column, value) in &self.entries {
+            product[row] += value * x[column];
+        }
+
+        product
+    }
+}
+
 /// A block assembled in doubles; numbering as in [`super::Block`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct DoubleBlock {

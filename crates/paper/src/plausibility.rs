@@ -5,7 +5,7 @@
 //! |---|---|---|
 //! | diagonals, sum of M | largest and smallest entries, e'Me | |
 //! | lowest frequencies | K_ff v = omega^2 M_ff v, the contacts held | |
-//! | signs | K cancels along e = (1, ..., 1), M adds up | K and M exchanged |
+//! | signs | K cancels along e = (1, ..., 1), row by row, M adds up | K and M exchanged |
 //! | balance of rows | \|K e\| is zero but near supports | entries of few digits |
 //! | masses of a node | one diagonal entry of M for both its dofs | numbers from 1 |
 //! | reactions | K u at the contacts, where u is given | numbers from 1, another step or sign |
@@ -15,7 +15,8 @@
 #![allow(clippy::float_arithmetic)]
 
 use crate::contacts::TableReaction;
-use crate::frequencies::{Doubles, lowest_frequencies};
+use crate::doubles::DoubleMatrix;
+use crate::frequencies::lowest_frequencies;
 use crate::tolerance::{BALANCED_ROWS, EQUAL_MASSES, NEAR_SUPPORTS, REACTION_MISMATCH};
 use mceip_exact::{Sparse, to_f64};
 use mceip_model::{ContactState, Particle, System};
@@ -28,6 +29,8 @@ pub struct PlausibilityInput<'a> {
     pub reactions: &'a [Option<TableReaction>],
     /// The displacements of the equilibrium, one for each degree of freedom.
     pub displacements: Option<&'a [f64]>,
+    /// Does the table name degrees of freedom by numbers, so that it may count from 1?
+    pub counts_dofs: bool,
 }
 
 /// Figures of a model, and what looks wrong.
@@ -48,17 +51,19 @@ impl Plausibility {
         };
 
         let stiffness = in_doubles(input.system.stiffness());
-        found.line("K", range_of_diagonal(&stiffness));
+        found.figure("K", range_of_diagonal(&stiffness));
         found.look_at_rows(&stiffness);
 
         if let Some(mass) = input.system.mass() {
             let mass = in_doubles(mass);
             let sum = sum_of_entries(&mass);
             let range = range_of_diagonal(&mass);
-            found.line("M", format!("{range}, sum of all entries {}", number(sum)));
+            found.figure("M", format!("{range}, sum of all entries {}", number(sum)));
             found.look_at_signs(&stiffness, &mass);
             found.look_at_frequencies(input.system, &stiffness, &mass);
-            found.look_at_masses(input.system.particles(), &diagonal(&mass));
+            if input.counts_dofs {
+                found.look_at_masses(input.system.particles(), &diagonal(&mass));
+            }
         }
 
         found.look_at_cones(input);
@@ -66,13 +71,13 @@ impl Plausibility {
         found
     }
 
-    fn line(&mut self, name: &'static str, text: String) {
+    fn figure(&mut self, name: &'static str, text: String) {
         self.table.push((name, text));
     }
 
     /// A body without supports does not resist a translation: the rows of K away from supports sum
     /// to zero, to rounding. Half of the rows are taken to be away from supports.
-    fn look_at_rows(&mut self, stiffness: &Doubles) {
+    fn look_at_rows(&mut self, stiffness: &DoubleMatrix) {
         let Some(balance) = median_balance(stiffness) else {
             return;
         };
@@ -80,21 +85,22 @@ impl Plausibility {
             return;
         }
 
-        self.line(
+        self.figure(
             "rows of K",
             format!("sum to zero to {balance:.0e} (median)"),
         );
         if balance > BALANCED_ROWS {
             self.warnings.push(format!(
-                "the rows of K sum to zero to {balance:.0e} only: K looks as if it was written \
-                 with few digits; write it with 17"
+                "the rows of K sum to zero to {balance:.0e} only: either K is written with few \
+                 digits (write it with 17), or the nodes rest on soft springs"
             ));
         }
     }
 
-    /// Along a translation the entries of K cancel and those of M add up.
-    fn look_at_signs(&mut self, stiffness: &Doubles, mass: &Doubles) {
-        if coherence(stiffness) > coherence(mass) {
+    /// Along a translation the entries of K cancel, row by row, and those of M add up.
+    fn look_at_signs(&mut self, stiffness: &DoubleMatrix, mass: &DoubleMatrix) {
+        let mass_cancels = median_balance(mass).is_some_and(|balance| balance <= NEAR_SUPPORTS);
+        if mass_cancels && coherence(stiffness) > coherence(mass) {
             self.warnings.push(
                 "the entries of K add up and those of M cancel, as if the files of K and M were \
                  exchanged"
@@ -103,20 +109,25 @@ impl Plausibility {
         }
     }
 
-    fn look_at_frequencies(&mut self, system: &System, stiffness: &Doubles, mass: &Doubles) {
+    fn look_at_frequencies(
+        &mut self,
+        system: &System,
+        stiffness: &DoubleMatrix,
+        mass: &DoubleMatrix,
+    ) {
         let held = held_dofs(system);
         let frequencies = lowest_frequencies(&without(stiffness, &held), &without(mass, &held));
         let text = match frequencies {
             None => "not found in doubles".to_owned(),
             Some(values) if values.is_empty() => "none, every degree of freedom is held".to_owned(),
             Some(values) => {
-                let values: Vec<String> = values.into_iter().map(number).collect();
-                let values = values.join(", ");
+                let printed: Vec<String> = values.into_iter().map(number).collect();
+                let values = printed.join(", ");
                 format!("{values} cycles per unit of time (contacts held; Hz for seconds)")
             }
         };
 
-        self.line("lowest frequencies", text);
+        self.figure("lowest frequencies", text);
     }
 
     /// Both degrees of freedom of a node carry its mass. Where they do not, and those numbered one
@@ -138,7 +149,7 @@ impl Plausibility {
         let mut stick: Option<(f64, usize)> = None;
 
         let particles = input.system.particles().iter().zip(input.reactions);
-        for (number, (particle, reaction)) in particles.enumerate() {
+        for (index, (particle, reaction)) in particles.enumerate() {
             let Some(ratio) = reaction.as_ref().and_then(|r| r.cone_ratio) else {
                 continue;
             };
@@ -148,7 +159,7 @@ impl Plausibility {
                     slip_error = Some(slip_error.map_or(error, |worst| worst.max(error)));
                 }
                 ContactState::Stick if stick.is_none_or(|(worst, _)| ratio > worst) => {
-                    stick = Some((ratio, number));
+                    stick = Some((ratio, index));
                 }
                 _ => (),
             }
@@ -156,34 +167,34 @@ impl Plausibility {
 
         if let Some(error) = slip_error {
             let text = format!("|r_T| is mu |r_N|, but for at most {error:.0e} of it");
-            self.line("reactions, slip", text);
+            self.figure("reactions, slip", text);
         }
-        if let Some((ratio, number)) = stick {
-            let text = format!("|r_T| at most {ratio:.4} mu |r_N| (particle {number})");
-            self.line("reactions, stick", text);
+        if let Some((ratio, index)) = stick {
+            let text = format!("|r_T| at most {ratio:.4} mu |r_N| (particle {index})");
+            self.figure("reactions, stick", text);
         }
     }
 
     /// (1) at rest: K u is the reaction at a contact without other loads.
-    fn look_at_reactions(&mut self, input: &PlausibilityInput<'_>, stiffness: &Doubles) {
+    fn look_at_reactions(&mut self, input: &PlausibilityInput<'_>, stiffness: &DoubleMatrix) {
         let Some(displacements) = input.displacements else {
             return;
         };
         let forces = stiffness.times(displacements);
 
         let Some(as_given) = mismatch(input, &forces, 0) else {
-            let text = "not compared, the table of contacts gives no reaction".to_owned();
-            self.line("reactions against K u", text);
+            let text = "not compared, no CSV table gives a reaction other than zero".to_owned();
+            self.figure("reactions against K u", text);
             return;
         };
         let text = format!("differ by {as_given:.0e} of the largest");
-        self.line("reactions against K u", text);
+        self.figure("reactions against K u", text);
         if as_given <= REACTION_MISMATCH {
             return;
         }
 
-        let is_shifted = mismatch(input, &forces, 1).is_some_and(|m| m <= REACTION_MISMATCH);
-        if is_shifted {
+        let one_less = mismatch(input, &forces, 1);
+        if input.counts_dofs && one_less.is_some_and(|m| m <= REACTION_MISMATCH) {
             self.warnings.push(format!(
                 "the reactions are those of K u where every number is one less: {COUNT_FROM_ZERO}"
             ));
@@ -199,9 +210,9 @@ impl Plausibility {
 /// What a reader does about numbers from 1.
 const COUNT_FROM_ZERO: &str = "the table of contacts seems to count from 1; count from 0";
 
-fn in_doubles(matrix: &Sparse) -> Doubles {
+fn in_doubles(matrix: &Sparse) -> DoubleMatrix {
     let entries = matrix.entries();
-    Doubles {
+    DoubleMatrix {
         order: matrix.rows(),
         entries: entries.map(|(i, j, value)| (i, j, to_f64(value))).collect(),
     }
@@ -209,6 +220,10 @@ fn in_doubles(matrix: &Sparse) -> Doubles {
 
 /// A number with five digits, without a power of ten where it can do without.
 fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+
     let exponent = value.abs().log10().floor();
     if !(-3.0..7.0).contains(&exponent) {
         return format!("{value:.4e}");
@@ -218,7 +233,7 @@ fn number(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-fn diagonal(matrix: &Doubles) -> Vec<f64> {
+fn diagonal(matrix: &DoubleMatrix) -> Vec<f64> {
     let mut values = vec![0.0; matrix.order];
     for &(row, column, value) in &matrix.entries {
         if row == column {
@@ -229,7 +244,7 @@ fn diagonal(matrix: &Doubles) -> Vec<f64> {
     values
 }
 
-fn range_of_diagonal(matrix: &Doubles) -> String {
+fn range_of_diagonal(matrix: &DoubleMatrix) -> String {
     let values = diagonal(matrix);
     let smallest = values.iter().copied().fold(f64::INFINITY, f64::min);
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -237,18 +252,19 @@ fn range_of_diagonal(matrix: &Doubles) -> String {
     format!("diagonal {} to {}", number(smallest), number(largest))
 }
 
-fn sum_of_entries(matrix: &Doubles) -> f64 {
+fn sum_of_entries(matrix: &DoubleMatrix) -> f64 {
     matrix.entries.iter().map(|(_, _, value)| value).sum()
 }
 
 /// |e'Ae| over the sum of the sizes of the entries: 1 where all have one sign.
-fn coherence(matrix: &Doubles) -> f64 {
+fn coherence(matrix: &DoubleMatrix) -> f64 {
     let sizes: f64 = matrix.entries.iter().map(|(_, _, value)| value.abs()).sum();
     sum_of_entries(matrix).abs() / sizes
 }
 
-/// The median over the rows of |sum of the row| over the sum of the sizes of its entries.
-fn median_balance(matrix: &Doubles) -> Option<f64> {
+/// The median over the rows that are not empty of |sum of the row| over the sum of the sizes of its
+/// entries.
+fn median_balance(matrix: &DoubleMatrix) -> Option<f64> {
     let mut sums = vec![0.0; matrix.order];
     let mut sizes = vec![0.0; matrix.order];
     for &(row, _, value) in &matrix.entries {
@@ -258,7 +274,9 @@ fn median_balance(matrix: &Doubles) -> Option<f64> {
 
     let mut balances: Vec<f64> = Vec::new();
     for (sum, size) in sums.iter().zip(&sizes) {
-        balances.push(f64::abs(*sum) / size);
+        if *size > 0.0 {
+            balances.push(f64::abs(*sum) / size);
+        }
     }
     balances.sort_by(f64::total_cmp);
     balances.get(balances.len() / 2).copied()
@@ -278,7 +296,7 @@ fn held_dofs(system: &System) -> Vec<bool> {
 }
 
 /// The matrix without the rows and columns that are held.
-fn without(matrix: &Doubles, held: &[bool]) -> Doubles {
+fn without(matrix: &DoubleMatrix, held: &[bool]) -> DoubleMatrix {
     let mut place = Vec::with_capacity(held.len());
     let mut order = 0;
     for is_held in held {
@@ -293,7 +311,7 @@ fn without(matrix: &Doubles, held: &[bool]) -> Doubles {
         }
     }
 
-    Doubles { order, entries }
+    DoubleMatrix { order, entries }
 }
 
 /// Do both degrees of freedom, numbered `less` lower, have one mass?
@@ -321,7 +339,9 @@ fn mismatch(input: &PlausibilityInput<'_>, forces: &[f64], less: usize) -> Optio
             let given = to_f64(along_dof);
             let force = forces[dof.checked_sub(less)?];
             largest = largest.max(given.abs());
-            difference = difference.max((given - force).abs());
+            // Displacements near the end of the doubles may give no number.
+            let apart = (given - force).abs();
+            difference = difference.max(if apart.is_nan() { f64::INFINITY } else { apart });
         }
     }
 

@@ -6,7 +6,8 @@
 //! solution of that claim is in the answer. Scale, order and repetitions do not matter. The answer
 //! is complete if every listed solution, every cone (a solution inside it, with its whole slip set)
 //! and every continuum (its intervals, or a solution on its slip set) is met. A reported solution
-//! that does not count is inaccurate where one of the answer is near, and wrong elsewhere.
+//! that is not certified is inaccurate where one of the listed solutions is near, and wrong
+//! elsewhere.
 //!
 //! Input: a case and the text that a program printed. Output: a label and the first reason for it.
 //! Called by `run` for each case of the plan.
@@ -137,6 +138,14 @@ pub fn judge_report(case: &Case, text: &str) -> Judgement {
     }
 }
 
+/// Why a reported solution has no place in the answer.
+enum NoPlace {
+    /// It is not certified, and one of the answer is near.
+    Near { distance: Distance, why: String },
+    /// It is false.
+    False(String),
+}
+
 /// Which parts of a case's answer a report has met.
 struct Met<'a> {
     case: &'a Case,
@@ -163,13 +172,14 @@ impl Met<'_> {
         let mut first_inaccurate = None;
 
         for (k, solution) in report.solutions.iter().enumerate() {
-            let Err(why) = self.place_solution(solution, &certifier) else {
-                continue;
-            };
-            let Some(distance) = self.distance(solution) else {
-                return Err(format!("solution {k}: {why}"));
-            };
-            first_inaccurate.get_or_insert_with(|| format!("solution {k}: {distance}"));
+            match self.place_solution(solution, &certifier) {
+                Ok(()) => (),
+                Err(NoPlace::Near { distance, why }) => {
+                    let text = || format!("solution {k}: {distance}; {why}");
+                    first_inaccurate.get_or_insert_with(text);
+                }
+                Err(NoPlace::False(why)) => return Err(format!("solution {k}: {why}")),
+            }
         }
 
         for continuum in &report.continua {
@@ -178,27 +188,28 @@ impl Met<'_> {
         Ok(first_inaccurate)
     }
 
-    /// How far a reported solution is from the nearest one of the answer, where one is near.
-    fn distance(&self, solution: &Result<Reported, BadPoint>) -> Option<Distance> {
-        let reported = solution.as_ref().ok()?;
-        Distance::to_nearest(self.case, &reported.candidate)
-    }
-
     /// Certifies a reported solution and marks what it meets; the error says why there is nothing.
     fn place_solution(
         &mut self,
         solution: &Result<Reported, BadPoint>,
         certifier: &Certifier<'_>,
-    ) -> Result<(), String> {
+    ) -> Result<(), NoPlace> {
         let candidate = match solution {
             Ok(reported) => &reported.candidate,
-            Err(off) => return Err(off.to_string()),
+            Err(off) => return Err(NoPlace::False(off.to_string())),
         };
 
         let value = candidate.value;
-        let claim = certifier
-            .certify(candidate)
-            .map_err(|why| format!("value {value} is not certified: {why}"))?;
+        let claim = match certifier.certify(candidate) {
+            Ok(claim) => claim,
+            Err(why) => {
+                let why = format!("value {value} is not certified: {why}");
+                return Err(match Distance::to_nearest(self.case, candidate) {
+                    Some(distance) => NoPlace::Near { distance, why },
+                    None => NoPlace::False(why),
+                });
+            }
+        };
 
         let is_placed = match &claim {
             Claim::ExactSolution(c) => self.place_exact(&claim, c),
@@ -206,9 +217,9 @@ impl Met<'_> {
             Claim::EnclosedSolution(_) | Claim::LiftedSolution(_) => self.place_box(&claim),
         };
         if !is_placed {
-            return Err(format!(
+            return Err(NoPlace::False(format!(
                 "value {value} is certified and not in the complete answer"
-            ));
+            )));
         }
         Ok(())
     }

@@ -1,19 +1,20 @@
 //! One foreign program for many cases: a problem per line in, a report per line out.
 //!
 //! For programs that take long to start. The time limit holds for each answer, the first one from
-//! the start of the program. A program that ends, hangs or prints too much is killed, and started
-//! anew for the next case. Called by `run` with `--lines`.
+//! the start of the program. A program that hangs or prints too much is killed. One that has ended,
+//! or has printed more than the line it was asked for, is started anew for the next case. Called by
+//! `run` with `--lines`.
 
-use super::process::{Ending, Limits, Reader, first_line, kill, spawn};
+use super::process::{Ending, GRACE, Limits, Reader, SLICE, first_line, kill, spawn};
 use crate::error::TestkitError;
 use mceip_engine::run::Watch;
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::process::{Child, ChildStdin, ChildStdout};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::time::{Duration, Instant};
-
-/// How often an interrupt is looked at.
-const SLICE: Duration = Duration::from_millis(50);
+use std::sync::mpsc::{
+    Receiver, RecvTimeoutError, Sender, SyncSender, TryRecvError, channel, sync_channel,
+};
+use std::time::Instant;
+use wait_timeout::ChildExt as _;
 
 /// A program that answers line by line; not running before the first question.
 pub(super) struct LineProgram<'a> {
@@ -53,10 +54,7 @@ impl<'a> LineProgram<'a> {
     /// [`TestkitError::Start`] if the program does not start.
     pub(super) fn ask(&mut self, problem: &str, watch: &Watch<'_>) -> Result<Ending, TestkitError> {
         let start = Instant::now();
-        let running = match self.running.take() {
-            Some(running) => running,
-            None => Running::start(self.command, self.limits.output)?,
-        };
+        let mut running = self.waiting()?;
 
         // One line; a JSON text has line ends between tokens only. Where the program has ended,
         // the answer tells.
@@ -75,6 +73,18 @@ impl<'a> LineProgram<'a> {
             None => Ok(running.ended()),
         }
     }
+
+    /// The program that answered last, if it waits for a question, or a new one.
+    fn waiting(&mut self) -> Result<Running, TestkitError> {
+        if let Some(running) = self.running.take() {
+            if let Err(TryRecvError::Empty) = running.answers.try_recv() {
+                return Ok(running);
+            }
+            running.stop();
+        }
+
+        Running::start(self.command, self.limits.output)
+    }
 }
 
 impl Drop for LineProgram<'_> {
@@ -89,7 +99,8 @@ impl Running {
     fn start(command: &[String], longest: u64) -> Result<Running, TestkitError> {
         let mut child = spawn(command)?;
         let (questions, to_send) = channel();
-        let (send, answers) = channel();
+        // One line waits at most: a program that prints without end is held up.
+        let (send, answers) = sync_channel(1);
 
         if let Some(stdin) = child.stdin.take() {
             std::thread::spawn(move || write_lines(stdin, &to_send));
@@ -107,32 +118,46 @@ impl Running {
         })
     }
 
-    /// Waits for a line. `None` where the program has closed its stdout.
-    fn answer(&self, start: Instant, limits: &Limits, watch: &Watch<'_>) -> Option<Ending> {
+    /// Waits for a line. `None` where the program has closed its stdout, or has ended.
+    fn answer(&mut self, start: Instant, limits: &Limits, watch: &Watch<'_>) -> Option<Ending> {
         loop {
             let left = limits.time.saturating_sub(start.elapsed());
             match self.answers.recv_timeout(left.min(SLICE)) {
-                Ok(Answer::Line(stdout)) => {
-                    return Some(Ending::Ended {
-                        code: Some(0),
-                        stdout,
-                        complaint: String::new(),
-                    });
-                }
+                Ok(Answer::Line(stdout)) => return Some(answered(stdout)),
                 Ok(Answer::TooLong) => return Some(Ending::TooLong),
                 Err(RecvTimeoutError::Disconnected) => return None,
                 Err(RecvTimeoutError::Timeout) if watch.is_cancelled() => {
                     return Some(Ending::Interrupted);
                 }
                 Err(RecvTimeoutError::Timeout) if left.is_zero() => return Some(Ending::TimedOut),
+                Err(RecvTimeoutError::Timeout) if self.has_ended() => return self.last_line(),
                 Err(RecvTimeoutError::Timeout) => (),
             }
         }
     }
 
-    /// The program has closed its stdout without an answer: its exit code and its complaint.
+    /// Has the program ended? What it left behind may hold its stdout.
+    fn has_ended(&mut self) -> bool {
+        matches!(self.child.try_wait(), Ok(Some(_)))
+    }
+
+    /// The line that a program has printed just before its end.
+    fn last_line(&self) -> Option<Ending> {
+        match self.answers.recv_timeout(GRACE) {
+            Ok(Answer::Line(stdout)) => Some(answered(stdout)),
+            Ok(Answer::TooLong) => Some(Ending::TooLong),
+            Err(_) => None,
+        }
+    }
+
+    /// The program has given no answer and closed its stdout, or ended: its exit code and its
+    /// complaint. One that goes on without its stdout has printed no report, as with code 0.
     fn ended(mut self) -> Ending {
-        let code = super::process::code_after(&mut self.child);
+        let code = match self.child.wait_timeout(GRACE) {
+            Ok(Some(status)) => status.code(),
+            Ok(None) => Some(0),
+            Err(_) => None,
+        };
         kill(&mut self.child);
 
         Ending::Ended {
@@ -147,6 +172,15 @@ impl Running {
     }
 }
 
+/// A line as the output of a program that ended well.
+fn answered(stdout: Vec<u8>) -> Ending {
+    Ending::Ended {
+        code: Some(0),
+        stdout,
+        complaint: String::new(),
+    }
+}
+
 /// Writes each question as a line, until the program or the run ends.
 fn write_lines(mut stdin: ChildStdin, questions: &Receiver<String>) {
     for question in questions {
@@ -158,7 +192,7 @@ fn write_lines(mut stdin: ChildStdin, questions: &Receiver<String>) {
 }
 
 /// Passes on each line, until the program ends, nobody listens, or a line is too long.
-fn read_lines(stdout: ChildStdout, longest: u64, answers: &Sender<Answer>) {
+fn read_lines(stdout: ChildStdout, longest: u64, answers: &SyncSender<Answer>) {
     let mut stdout = BufReader::new(stdout);
     loop {
         let mut line = Vec::new();
@@ -191,17 +225,13 @@ mod tests {
 
     fn limits() -> Limits {
         Limits {
-            time: Duration::from_millis(2000),
+            time: std::time::Duration::from_millis(2000),
             output: 1000,
         }
     }
 
-    fn answered(text: &str) -> Ending {
-        Ending::Ended {
-            code: Some(0),
-            stdout: text.as_bytes().to_vec(),
-            complaint: String::new(),
-        }
+    fn line(text: &str) -> Ending {
+        answered(text.as_bytes().to_vec())
     }
 
     /// The endings of these questions, one after the other.
@@ -216,7 +246,7 @@ mod tests {
     fn one_program_answers_line_by_line() {
         let script = "n=0; while read -r line; do n=$((n + 1)); echo \"$n $line\"; done";
         let found = endings(script, &["a", "b\nb", "c"]);
-        assert_eq!(found, ["1 a", "2 b b", "3 c"].map(answered));
+        assert_eq!(found, ["1 a", "2 b b", "3 c"].map(line));
     }
 
     #[test]
@@ -229,20 +259,61 @@ mod tests {
             stdout: Vec::new(),
             complaint: "oops".into(),
         };
-        assert_eq!(found, [answered("a"), ended, answered("c")]);
+        assert_eq!(found, [line("a"), ended, line("c")]);
 
         // It hangs on one question, and prints without end on another.
         let script = "while read -r line; do case $line in
             hang) sleep 100;; long) yes | tr -d '\\n';; *) echo \"$line\";; esac; done";
         let found = endings(script, &["a", "hang", "b", "long", "c"]);
         let expected = [
-            answered("a"),
+            line("a"),
             Ending::TimedOut,
-            answered("b"),
+            line("b"),
             Ending::TooLong,
-            answered("c"),
+            line("c"),
         ];
         assert_eq!(found, expected);
+    }
+
+    /// More lines than asked for, or an end after an answer: the next question goes to a new program.
+    #[test]
+    fn surplus_lines_do_not_answer_the_next_question() {
+        let pause = std::time::Duration::from_millis(700);
+        for script in [
+            "while read -r line; do echo \"$line\"; echo more; done",
+            "read -r line; echo \"$line\"; exec yes",
+            "read -r line; echo \"$line\"",
+        ] {
+            let command = shell(script);
+            let mut program = LineProgram::new(&command, limits());
+            for question in ["a", "b", "c"] {
+                let ending = program.ask(question, &Watch::nobody()).unwrap();
+                assert_eq!(ending, line(question), "{script}");
+                std::thread::sleep(pause);
+            }
+        }
+    }
+
+    /// It ends while something it has started holds its stdout; it closes its stdout and goes on.
+    #[test]
+    fn a_program_without_an_answer_is_not_waited_for() {
+        let start = Instant::now();
+        let no_answer = |code| Ending::Ended {
+            code: Some(code),
+            stdout: Vec::new(),
+            complaint: String::new(),
+        };
+        let patient = Limits {
+            time: std::time::Duration::from_secs(60),
+            output: 1000,
+        };
+
+        for (script, code) in [("sleep 100 & exit 5", 5), ("exec 1<&-; sleep 100", 0)] {
+            let command = shell(script);
+            let ending = LineProgram::new(&command, patient).ask("a", &Watch::nobody());
+            assert_eq!(ending.unwrap(), no_answer(code), "{script}");
+        }
+        assert!(start.elapsed().as_secs() < 30);
     }
 
     #[test]

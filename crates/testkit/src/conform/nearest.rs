@@ -4,8 +4,9 @@
 //! value:  |t - t*| / (1 + |t*|)        x:  max |x_i - x*_i|,  both with e'x_s = 1
 //! ```
 //!
-//! (l1 norm 1 where x*_s = 0). A solution that `certify` does not reach and that is near one with
-//! the same positive components is inaccurate; any other one is wrong. Called by `judge`.
+//! (l1 norm 1 where x*_s = 0). A solution that `certify` does not reach is inaccurate where one of
+//! the answer with the same positive components is within [`NEAR_RADII`] times what `certify`
+//! allows; any other one is wrong. Called by `judge`.
 
 use super::case::Case;
 use mceip_engine::candidate::Candidate;
@@ -31,12 +32,15 @@ impl Distance {
         let mut nearest: Option<Distance> = None;
 
         for solution in &case.answer.solutions {
+            if !has_support(reported, &slip, &solution.slip) {
+                continue;
+            }
             let Some(distance) = Distance::between(solution, reported, &slip) else {
                 continue;
             };
-            let has_support = has_support(reported, &slip, &solution.slip);
+
             let is_nearer = nearest.as_ref().is_none_or(|n| distance.of_x < n.of_x);
-            if has_support && distance.is_near() && is_nearer {
+            if distance.is_near() && is_nearer {
                 nearest = Some(distance);
             }
         }

@@ -53,9 +53,9 @@ pub enum Ending {
 }
 
 /// How often the time and the interrupt are looked at.
-const SLICE: Duration = Duration::from_millis(50);
+pub(super) const SLICE: Duration = Duration::from_millis(50);
 /// Time for the rest of the output once the program has ended: a grandchild may hold the pipe.
-const GRACE: Duration = Duration::from_millis(500);
+pub(super) const GRACE: Duration = Duration::from_millis(500);
 /// Bytes of stderr kept.
 const COMPLAINT: u64 = 4096;
 
@@ -137,13 +137,6 @@ impl Reader {
         let bytes = self.0.and_then(|bytes| bytes.recv_timeout(GRACE).ok());
         bytes.unwrap_or_default()
     }
-}
-
-/// The exit code of a program that has closed its stdout; `None` for a signal, or where it has not
-/// ended after the time of grace.
-pub(super) fn code_after(child: &mut Child) -> Option<i32> {
-    let status = child.wait_timeout(GRACE).ok().flatten();
-    status.and_then(|status| status.code())
 }
 
 /// Writes the problem from a thread of its own: a program that reads nothing must not stop us. One
