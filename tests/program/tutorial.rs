@@ -71,6 +71,7 @@ fn the_commands_give_what_the_page_says() {
         &text,
         &[
             "20 degrees of freedom, 4 of 5 nodes slide",
+            "lowest frequencies: 508.52, 708.42, 766.43",
             "form (8) is ABSENT",
             "[2.21062778, 2.21062779]",
             "WARNING of flutter",
