@@ -76,8 +76,9 @@ impl<'a> LineProgram<'a> {
 
     /// The program that answered last, if it waits for a question, or a new one.
     fn waiting(&mut self) -> Result<Running, TestkitError> {
-        if let Some(running) = self.running.take() {
-            if let Err(TryRecvError::Empty) = running.answers.try_recv() {
+        if let Some(mut running) = self.running.take() {
+            let is_silent = matches!(running.answers.try_recv(), Err(TryRecvError::Empty));
+            if is_silent && !running.has_ended() {
                 return Ok(running);
             }
             running.stop();
@@ -275,7 +276,8 @@ mod tests {
         assert_eq!(found, expected);
     }
 
-    /// More lines than asked for, or an end after an answer: the next question goes to a new program.
+    /// More lines than asked for, or an end after an answer: the next question goes to a new
+    /// program.
     #[test]
     fn surplus_lines_do_not_answer_the_next_question() {
         let pause = std::time::Duration::from_millis(700);
@@ -283,6 +285,7 @@ mod tests {
             "while read -r line; do echo \"$line\"; echo more; done",
             "read -r line; echo \"$line\"; exec yes",
             "read -r line; echo \"$line\"",
+            "read -r line; echo \"$line\"; sleep 100 & exit 0",
         ] {
             let command = shell(script);
             let mut program = LineProgram::new(&command, limits());
