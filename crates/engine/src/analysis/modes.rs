@@ -5,7 +5,7 @@
 //! where v = x on the free dofs and v_T = -S x on the slip particles (10). Input: an accepted
 //! solution with its x in doubles. Output: [`Mode`]. Called by `divergence`.
 
-use crate::reduction::{MuFamily, Variable};
+use crate::reduction::{MuFamily, mode};
 use mceip_check::AcceptedClaim;
 use mceip_exact::{Interval, to_f64};
 use mceip_model::{ContactState, System};
@@ -68,34 +68,7 @@ impl Mode {
             growth_rate,
             slipping,
             sticking,
-            v: lift(system.dofs(), &family.variables, x),
+            v: mode(&family.variables, x, system.dofs()),
         }
     }
-}
-
-/// v = x on free dofs, -S x along the tangents, 0 elsewhere. // (10)
-fn lift(dofs: usize, variables: &[Variable], x: &[f64]) -> Vec<f64> {
-    let mut v = vec![0.0; dofs];
-    for (variable, x_i) in variables.iter().zip(x) {
-        match variable {
-            Variable::Free { dof } => v[*dof] += x_i,
-            Variable::Slip { sign, tangent, .. } => {
-                for (dof, c) in tangent {
-                    v[*dof] -= f64::from(*sign) * x_i * to_f64(c);
-                }
-            }
-            Variable::Zero { column, .. } => {
-                for (dof, c) in column {
-                    v[*dof] += x_i * to_f64(c);
-                }
-            }
-        }
-    }
-
-    // Adding zero turns -0 into 0.
-    for component in &mut v {
-        *component += 0.0;
-    }
-
-    v
 }

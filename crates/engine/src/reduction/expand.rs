@@ -1,4 +1,4 @@
-//! The way back from the condensed pencil in doubles: x_f of x_s.
+//! The way back in doubles: x_f of x_s from the condensed pencil, and v of x from the pencil.
 //!
 //! The f rows of the pencil say A_ff x_f + A_fs x_s = 0 where the f rows of B vanish (16), so
 //!
@@ -7,12 +7,17 @@
 //! Input: the full pencil, and candidates of the pencil that `condense` made of it. Output:
 //! candidates over all variables; exact arithmetic decides about them later. Called by
 //! `multistart`.
+//!
+//! A variable stands for a motion d_j of the body ([`Variable::column`]), so v = sum_j x_j d_j. It
+//! is for pictures and text; [`lift`](super::lift) does the same exactly.
 #![allow(clippy::float_arithmetic)]
 
 use crate::candidate::Candidate;
 use crate::dense::rounded;
+use mceip_exact::to_f64;
 use mceip_mcp::linear::solve;
 use mceip_model::Pencil;
+use mceip_model::reduction::Variable;
 
 /// From a candidate of the condensed pencil to one of the full pencil: x_f = -A_ff^-1 A_fs x_s.
 pub struct Expansion {
@@ -59,10 +64,28 @@ impl Expansion {
     }
 }
 
+/// v over `dofs` degrees of freedom of x over the variables of a reduced system: v = x on the free
+/// ones, v_T = -S x on slip particles, 0 on all others. // (10)
+///
+/// A particle in contact with zero reaction moves by its gap and its slips to the right and to the
+/// left.
+pub fn mode(variables: &[Variable], x: &[f64], dofs: usize) -> Vec<f64> {
+    let mut v = vec![0.0; dofs];
+    for (variable, x_j) in variables.iter().zip(x) {
+        for (dof, coefficient) in variable.column() {
+            v[dof] += to_f64(&coefficient) * x_j;
+        }
+    }
+
+    v
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::Sparse;
+    use mceip_exact::{Sparse, rational};
+    use mceip_model::ZeroVariables;
+    use mceip_model::reduction::ZeroPart;
 
     #[test]
     fn free_rows_balance_after_expansion() {
@@ -82,5 +105,36 @@ mod tests {
         };
 
         assert_eq!(full, expected);
+    }
+    #[test]
+    fn each_variable_moves_the_body_along_its_column() {
+        // A free dof 0, a particle on (1, 2) with S = -1, one with zero reaction on (3, 4).
+        let direction = |dof, numerator| vec![(dof, rational(numerator, 1))];
+        let particle = ZeroVariables {
+            particle: 1,
+            gap: 2,
+            right: 3,
+            left: 4,
+        };
+        let zero = |part, column| Variable::Zero {
+            part,
+            variables: particle,
+            column,
+        };
+        let variables = [
+            Variable::Free { dof: 0 },
+            Variable::Slip {
+                sign: -1,
+                tangent: direction(1, 1),
+                normal: direction(2, 1),
+            },
+            zero(ZeroPart::Gap, direction(4, -1)),
+            zero(ZeroPart::Right, direction(3, 1)),
+            zero(ZeroPart::Left, direction(3, -1)),
+        ];
+
+        let v = mode(&variables, &[3.0, 2.0, 5.0, 7.0, 8.0], 6);
+
+        assert_eq!(v, [3.0, 2.0, 0.0, -1.0, -5.0, 0.0]);
     }
 }

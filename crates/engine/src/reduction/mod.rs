@@ -6,7 +6,7 @@
 //! | file | what |
 //! |---|---|
 //! | `condense` | elimination of the free variables of MCEIP-mu, exactly |
-//! | `expand` | the eliminated variables of a candidate, in doubles |
+//! | `expand` | the eliminated variables of a candidate, and v of x, in doubles |
 //! | `condense_sparse` | the same for both problems in doubles, on meshes of any size |
 //! | `embed` | Propositions 1 and 2: the pencil as an MCP |
 //! | `condensed_mcp` | Proposition 2 on the condensed matrix |
@@ -31,7 +31,7 @@ pub use condense_sparse::{CondensationResidual, SparseCondensation, SparseConden
 pub use condensed_mcp::CondensedEmbedding;
 pub use embed::{Embedding, Side};
 pub use error::CondensationError;
-pub use expand::Expansion;
+pub use expand::{Expansion, mode};
 pub use mceip_model::reduction::{
     Lifted, Line, LineViolated, MuFamily, Reduced, Variable, ZeroPart, check_lines, lift,
     mu_family, reduce, reduce_with_zero,

@@ -13,7 +13,7 @@
 
 use super::complete::{CompleteError, Options, complete};
 use crate::dense::rounded;
-use crate::reduction::{Variable, mu_family};
+use crate::reduction::{Variable, mode, mu_family};
 use crate::run::Watch;
 use mceip_exact::{Sparse, from_f64, to_f64};
 use mceip_mcp::linear;
@@ -165,29 +165,6 @@ fn condensed(star: &[Vec<f64>], follow: &[Vec<f64>], free: usize) -> Vec<Vec<f64
     }
 
     rows
-}
-
-/// v over `dofs` degrees of freedom of x over the variables of a reduced system: stuck ones and the
-/// normal ones of slip particles are zero, v_T = -S x. // E10
-pub fn mode(variables: &[Variable], x: &[f64], dofs: usize) -> Vec<f64> {
-    let mut v = vec![0.0; dofs];
-    for (variable, x) in variables.iter().zip(x) {
-        match variable {
-            Variable::Free { dof } => v[*dof] += x,
-            Variable::Slip { sign, tangent, .. } => {
-                for (dof, c) in tangent {
-                    v[*dof] -= f64::from(*sign) * to_f64(c) * x;
-                }
-            }
-            Variable::Zero { column, .. } => {
-                for (dof, c) in column {
-                    v[*dof] += to_f64(c) * x;
-                }
-            }
-        }
-    }
-
-    v
 }
 
 impl Level {
