@@ -72,3 +72,21 @@ pub(crate) fn short_below(value: f64) -> Option<Rational> {
     let multiple = (value / unit).floor();
     from_f64(multiple * unit).ok()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::rational;
+
+    #[test]
+    fn a_multiple_near_a_number_is_short_and_within_the_slack() {
+        // The slack 0.01 gives the unit 2^-7: 1.2345 / 2^-7 = 158.016, and 158 / 128 = 79 / 64.
+        assert_eq!(multiple_near(1.2345, 0.01), Some(rational(79, 64)));
+        // The slack 30 gives the unit 2^4: 990 / 16 = 61.875, and 62 * 16 = 992.
+        assert_eq!(multiple_near(990.0, 30.0), Some(rational(992, 1)));
+
+        assert_eq!(multiple_near(0.0, 0.01), None);
+        assert_eq!(multiple_near(1.2345, 0.0), None);
+        assert_eq!(multiple_near(f64::NAN, 0.01), None);
+    }
+}

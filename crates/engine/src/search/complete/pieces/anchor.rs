@@ -169,8 +169,8 @@ impl Elimination<'_> {
         Some(Expanded { anchor, expansion })
     }
 
-    /// V alone about the centre of an anchor of a pencil with the same free rows, whose W is `right`;
-    /// `None` where F is not definite in doubles.
+    /// V alone about the centre of an anchor of a pencil with the same free rows, whose W is
+    /// `right`; `None` where F is not definite in doubles.
     pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[Columns]) -> Option<Expanded> {
         let at = to_f64(&anchor.center.0);
         let factor = self.blocks.factor_at(at)?;

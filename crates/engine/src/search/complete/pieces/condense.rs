@@ -48,8 +48,8 @@ pub(crate) struct Condensed {
 /// [`CompleteError::NotDefinite`] where A_ff is not symmetric positive definite (in doubles) or
 /// B_ff is indefinite.
 ///
-/// `definite_above` is the pencil whose definiteness makes a tail: this one, or one of a family with
-/// the same free rows.
+/// `definite_above` is the pencil whose definiteness makes a tail: this one, or one of a family
+/// with the same free rows.
 pub(crate) fn condense(
     pencil: &Pencil,
     window: &Window,
@@ -300,7 +300,7 @@ pub(crate) fn refine(
     }
 }
 
-/// The centre of the anchor about a value: a number of [`BITS_OF_FINE_CENTER`] bits next to it.
+/// The center of the anchor about a value: a number of [`BITS_OF_FINE_CENTER`] bits next to it.
 fn fine_center(value: f64) -> Option<Rational> {
     if value == 0.0 {
         return Some(Rational::default());
@@ -340,8 +340,8 @@ pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     }
 }
 
-/// The anchors of a condensation with V of another pencil that has the same free rows, and what they
-/// expand to; `None` where F is not definite in doubles.
+/// The anchors of a condensation with V of another pencil that has the same free rows, and what
+/// they expand to; `None` where F is not definite in doubles.
 pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec<Expanded>> {
     let bounds = bounds_of(condensation);
     let exchanged = exchanged(pencil)?;

@@ -304,8 +304,8 @@ impl Prepared {
         by_frequency.min(0.5 * value)
     }
 
-    /// Gives the interval [begin, end] to this anchor; the rest of the intervals that it meets stays
-    /// as it is. `min` is the lower end of the window.
+    /// Gives the interval [begin, end] to this anchor; the rest of the intervals that it meets
+    /// stays as it is. `min` is the lower end of the window.
     fn cut_out(&mut self, min: &Rational, [begin, end]: &[Rational; 2], anchor: usize) {
         let mut intervals = Vec::new();
         let mut lo = min.clone();
@@ -518,12 +518,15 @@ mod tests {
         anchors.iter().map(|a| to_f64(&a.center.0)).collect()
     }
 
-    /// Centres are next to these values: they are short numbers.
+    /// Centers are these values, rounded to 20 bits below the leading one.
     #[track_caller]
     fn assert_centers(centers: &[f64], values: &[f64]) {
         assert_eq!(centers.len(), values.len());
         for (center, value) in centers.iter().zip(values) {
-            approx::assert_relative_eq!(center, value, max_relative = 1e-5);
+            approx::assert_relative_eq!(center, value, max_relative = 1e-6);
+
+            let is_short = center.to_bits().trailing_zeros() >= 52 - 21;
+            assert!(is_short, "{center}");
         }
     }
 
