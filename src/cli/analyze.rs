@@ -29,7 +29,8 @@ pub(super) struct Args {
     /// beyond 200 free degrees of freedom).
     #[arg(long, value_name = "N")]
     samples: Option<usize>,
-    /// Boxes that may be examined, in each piece of [0, infinity), to bound the critical mu from below.
+    /// Boxes that may be examined, in each piece of [0, infinity), to bound the critical mu from
+    /// below.
     #[arg(long, default_value_t = Options::default().limits.boxes)]
     boxes: usize,
     /// Write every certificate and its problem into this folder, for `mceip check`.

@@ -1,8 +1,9 @@
 //! `mceip check`: a certificate or somebody's solutions against a problem, one verdict.
 //!
 //! The formats of the files decide what is done. A certificate, of solutions and complete sets or
-//! of absence below a friction, goes to the checker, which accepts or rejects it. Somebody's solutions are certified and checked one by one, or refuted
-//! ([`foreign`]). A solution file of a plain LCP or MCP is evaluated exactly ([`plain`]).
+//! of absence below a friction, goes to the checker, which accepts or rejects it. Somebody's
+//! solutions are certified and checked one by one, or refuted ([`foreign`]). A solution file of a
+//! plain LCP or MCP is evaluated exactly ([`plain`]).
 
 pub(super) mod plain;
 
@@ -29,9 +30,9 @@ use std::path::{Path, PathBuf};
 pub(super) struct Args {
     /// Problem file (mceip-problem/1), or a plain LCP or MCP (mceip-mcp/1).
     file: PathBuf,
-    /// Certificate (mceip-certificate/1, mceip-critical/1), or somebody's solutions (mceip-solutions/1): each of
-    /// those is certified and checked, or refuted. Of a plain problem: its solution file
-    /// (mceip-mcp-solution/1).
+    /// Certificate (mceip-certificate/1, mceip-critical/1), or somebody's solutions
+    /// (mceip-solutions/1): each of those is certified and checked, or refuted. Of a plain problem:
+    /// its solution file (mceip-mcp-solution/1).
     certificate: PathBuf,
     /// Demand a certificate whose window covers the closed window a,b (b empty or inf: no upper
     /// end); one that does not is rejected.

@@ -1,8 +1,8 @@
 //! Thousands of random mutations of real certificates: the checker accepts only those whose
 //! statement is still true. The truth is the exact enumerator's.
 //!
-//! A mutation moves, drops, doubles or exchanges pieces and nodes, or changes numbers. The floors at
-//! the end say that both verdicts and a dozen obligations were reached: a campaign whose mutants
+//! A mutation moves, drops, doubles or exchanges pieces and nodes, or changes numbers. The floors
+//! at the end say that both verdicts and a dozen obligations were reached: a campaign whose mutants
 //! are all rejected at the first node would prove nothing.
 #![cfg(feature = "testkit")]
 

@@ -1,10 +1,11 @@
 //! Absence below a friction, on the system of X9 (`spec/errata.md`).
 //!
 //! T(t, mu) = diag(1, 2) + tI + mu [[0, -3], [1, -4]] has its critical friction 1 + sqrt(3)/2 =
-//! 1.8660254... at a fold with lambda^2 = 1/2 + sqrt(3). The checker divides row 0 by 4 and row 1 by
-//! 8 (`spec/certificates.md`, 5.7), so a weight of row 1 counts half in its units. A naive search in doubles finds a tree for
-//! frictions below that, and the checker decides exactly. No tree may be accepted above it: random
-//! ones are tried, and those of the search, which is right everywhere but at the fold.
+//! 1.8660254... at a fold with lambda^2 = 1/2 + sqrt(3). The checker divides row 0 by 4 and row 1
+//! by 8 (`spec/certificates.md`, 5.7), so a weight of row 1 counts half in its units. A naive
+//! search in doubles finds a tree for frictions below that, and the checker decides exactly. No
+//! tree may be accepted above it: random ones are tried, and those of the search, which is right
+//! everywhere but at the fold.
 
 use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
 use mceip_check::{Reason, audit_critical, check_critical};

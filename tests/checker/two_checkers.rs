@@ -1,9 +1,9 @@
 //! The checkers and the enumerator on the same mutants: `check` and `spec/checker.py` give one
 //! verdict, and what they accept is what the enumerator finds.
 //!
-//! The verified checker of `proofs/`, where it is built, verifies the statement of a file and not its
-//! evidence. So the relation to it is another one: what it accepts is true, by the enumerator; what
-//! `check` accepts, it accepts or has no theorem for.
+//! The verified checker of `proofs/`, where it is built, verifies the statement of a file and not
+//! its evidence. So the relation to it is another one: what it accepts is true, by the enumerator;
+//! what `check` accepts, it accepts or has no theorem for.
 //!
 //! Two sources. Witnessed leaves: covers written from a pencil, one leaf with an honest witness and
 //! a random claim. Structural mutants: certificates of `complete` and of `certify` with one to
@@ -371,7 +371,8 @@ fn between(rng: &mut ChaCha8Rng) -> Window {
     Window::new(min, Some(max)).unwrap()
 }
 
-/// A free variable and an indefinite mass: `complete` closes the last interval by a reversed anchor.
+/// A free variable and an indefinite mass: `complete` closes the last interval by a reversed
+/// anchor.
 fn reversed_anchor() -> Problem {
     let a: [&[i64]; 3] = [&[4, 1, -1], &[1, 3, 0], &[-1, 1, 2]];
     let b: [&[i64]; 3] = [&[1, 0, 1], &[0, 1, 3], &[1, 3, 1]];

@@ -1,8 +1,9 @@
 //! The block of the paper, closed: complete sets of its states.
 //!
 //! From the given K and M to the accepted claim that a state has these solutions and no others. The
-//! truth are the values in spec/measurements.md for published states, the exact enumerator on a block small
-//! enough for it, and the conclusions of the paper on the loading path. The longer tests are run by
+//! truth are the values in spec/measurements.md for published states, the exact enumerator on a
+//! block small enough for it, and the conclusions of the paper on the loading path. The longer
+//! tests are run by
 //! `cargo test --release --test complete -- --ignored --nocapture complete_block::`.
 #![cfg(feature = "testkit")]
 
@@ -74,8 +75,8 @@ fn published_states_have_one_solution_each_and_no_other() {
     assert_eq!(mode.slipping, 17);
 }
 
-/// The cover lists what the enumerator lists; only the region up to infinity may stay open, and only
-/// where there is no tail.
+/// The cover lists what the enumerator lists; only the region up to infinity may stay open, and
+/// only where there is no tail.
 fn assert_agrees_with_enumerator(problem: &Problem, has_tail: bool, label: &str) {
     let pencil = reduce(problem).unwrap().pencil;
     let truth = enumerate(&pencil, problem.window()).unwrap().solutions;

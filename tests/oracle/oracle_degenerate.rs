@@ -2,8 +2,8 @@
 //! alone.
 //!
 //! The truth is worked by hand for each pencil A + t B, and the working stands beside it. A cone
-//! listed twice, an end of a range open instead of closed, or a ray lost beside a line gives another
-//! list than the one written down.
+//! listed twice, an end of a range open instead of closed, or a ray lost beside a line gives
+//! another list than the one written down.
 
 use mceip_exact::{
     Algebraic, Poly, Rational, Sparse, nonnegative_roots, rational, to_decimal, whole,

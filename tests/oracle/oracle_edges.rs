@@ -408,8 +408,8 @@ fn rays_are_canonical_beside_a_lineality_space() {
     }
 }
 
-/// Three free variables with y_3 = x_0 - x_1 and y_4 = x_1 - x_2: a wedge of two rays beside the line
-/// (1, 1, 1), by which each ray is reduced.
+/// Three free variables with y_3 = x_0 - x_1 and y_4 = x_1 - x_2: a wedge of two rays beside the
+/// line (1, 1, 1), by which each ray is reduced.
 #[test]
 fn rays_of_a_wedge_are_reduced_by_its_line() {
     let pencil = pencil(
@@ -739,8 +739,8 @@ fn nonempty_subsets(set: &[usize]) -> Vec<Vec<usize>> {
     subsets
 }
 
-/// (24): what sticks is left out. The solutions of a pencil are those of its supports, each found in
-/// the pencil without the other complementarity variables, with y >= 0 there.
+/// (24): what sticks is left out. The solutions of a pencil are those of its supports, each found
+/// in the pencil without the other complementarity variables, with y >= 0 there.
 #[test]
 fn stick_variables_are_left_out() {
     let all_slip = pencil(

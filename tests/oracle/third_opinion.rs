@@ -238,7 +238,8 @@ impl Comparison<'_> {
         };
 
         if cones.iter().any(|cone| !cone.lineality.is_empty()) {
-            // Extreme rays modulo a subspace: compared by hand in tests/oracle/oracle_degenerate.rs.
+            // Extreme rays modulo a subspace: compared by hand in
+            // tests/oracle/oracle_degenerate.rs.
             seen.lines += 1;
             return matched;
         }

@@ -1,5 +1,5 @@
 //! Laws of the workspace that can be read off manifests and sources: which crate depends on which,
-//! which part computes in floats, which test files run.
+//! which part computes in floats, which test files run, how wide comments are.
 //!
 //! The truth is the tables of this file. A new dependency, a float in a part that decides, a second
 //! elimination or a test file that no binary names differs from its table and fails here.
@@ -277,6 +277,67 @@ fn dependencies<'a>(name: &str, manifest: &'a str) -> Vec<&'a str> {
     }
 
     named
+}
+
+/// All Rust files below these folders.
+fn rust_files(folders: &[&str]) -> Vec<PathBuf> {
+    let mut stack: Vec<PathBuf> = folders.iter().map(|folder| root().join(folder)).collect();
+    let mut files = Vec::new();
+
+    while let Some(path) = stack.pop() {
+        if path.is_dir() && !path.ends_with("target") {
+            stack.extend(entries(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+
+    files
+}
+
+/// rustfmt leaves comments as they are. Tables and figures aside, they keep to its width.
+#[test]
+fn comments_have_at_most_a_hundred_columns() {
+    let folders = [
+        "benches",
+        "crates",
+        "examples",
+        "fuzz",
+        "python/src",
+        "src",
+        "tests",
+    ];
+    let files = rust_files(&folders);
+    assert!(files.len() > 300, "{} files", files.len());
+
+    let mut too_long = Vec::new();
+    for file in files {
+        let text = std::fs::read_to_string(&file).unwrap();
+        for (number, line) in text.lines().enumerate() {
+            if is_wide_comment(line) {
+                too_long.push(format!("{}:{}", file.display(), number + 1));
+            }
+        }
+    }
+
+    assert!(too_long.is_empty(), "{too_long:#?}");
+}
+
+/// A line of a comment above 100 columns that is no row of a table and no arrow of a figure.
+fn is_wide_comment(line: &str) -> bool {
+    let comment = line.trim_start();
+    let is_drawn = comment.contains('|') || comment.contains("-->");
+
+    comment.starts_with("//") && line.chars().count() > 100 && !is_drawn
+}
+
+#[test]
+fn a_wide_comment_would_be_noticed() {
+    let wide = "x".repeat(98);
+    assert!(is_wide_comment(&format!("// {wide}")));
+    assert!(!is_wide_comment(&format!("//{wide}")));
+    assert!(!is_wide_comment(&format!("let {wide}")));
+    assert!(!is_wide_comment(&format!("//! | {wide} |")));
 }
 
 /// The elimination (10)-(16) stands in `model`; what judges it (`check`), the enumerator and the

@@ -1,10 +1,17 @@
 //! `spec/fold.md` and its figure: the fold of `spec/errata.md`, X9, as a body.
 //!
 //! With u = 1 + t and t = lambda^2 its solutions are the roots of
-//! 3 mu^2 - 4 u mu + u (u + 1) = 0, which are real from u = 3 on; the smaller one is least at
-//! u = (3 + 2 sqrt 3) / 2, where mu = 1 + sqrt(3) / 2. The figure is drawn from these roots, which the
-//! enumerator must confirm, and from the bound that the page prints, which must lie below the fold.
-//! With `MCEIP_DRAW=1` the figure is drawn anew.
+//!
+//! ```text
+//!     3 mu^2 - 4 u mu + u (u + 1) = 0,
+//! ```
+//!
+//! which are real from u = 3 on. The smaller root is least at u = (3 + 2 sqrt 3) / 2, where
+//! mu = 1 + sqrt(3) / 2.
+//!
+//! The figure is drawn from these roots, which the enumerator must confirm, and from
+//! the bound that the page prints, which must lie below the fold. With `MCEIP_DRAW=1` the figure is
+//! drawn anew.
 #![cfg(feature = "cli")]
 
 use crate::common::{example, exits_with_json, read};

@@ -1,8 +1,8 @@
 //! `mceip simulate` from outside: exit codes, text, `mceip-motion/1`, pictures, refusals.
 //!
-//! The truth is lambda^2 of Table 1 and of the point on its floor, K* = 2 - 3/2 mu and M* = 1 there,
-//! and cosh. Another growth, a verdict without its proof, or a motion where a step has several
-//! solutions fails.
+//! The truth is lambda^2 of Table 1 and of the point on its floor, K* = 2 - 3/2 mu and M* = 1
+//! there, and cosh. Another growth, a verdict without its proof, or a motion where a step has
+//! several solutions fails.
 #![cfg(feature = "cli")]
 
 use crate::common::{contains_all, example, exits, exits_with_json, read, repository};

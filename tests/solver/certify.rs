@@ -1,8 +1,8 @@
 //! From candidates in doubles to claims.
 //!
-//! The truth is the checker and pencils worked by hand: what is certified must be accepted, and what
-//! is close to a solution without being one must be refused for the right reason. The pencils have
-//! entries in decimals, some too small for a double to see.
+//! The truth is the checker and pencils worked by hand: what is certified must be accepted, and
+//! what is close to a solution without being one must be refused for the right reason. The pencils
+//! have entries in decimals, some too small for a double to see.
 #![cfg(feature = "solver")]
 
 use mceip_check::certificate::Claim;

@@ -1,7 +1,7 @@
 //! The way back to (9): from a solution of the pencil to motion v and force w of the system.
 //!
-//! The truth is the exact enumerator. Its solutions, lifted, must satisfy every line of (9), and the
-//! same lines as a variational inequality in doubles. On the other side each line must notice a
+//! The truth is the exact enumerator. Its solutions, lifted, must satisfy every line of (9), and
+//! the same lines as a variational inequality in doubles. On the other side each line must notice a
 //! vector that breaks it, and the inequality a reaction outside the friction cone.
 #![cfg(feature = "testkit")]
 
@@ -63,8 +63,8 @@ struct Example {
     value: Algebraic,
 }
 
-/// Free dof 0, slip particle (1, 2) with S = 1, stick particle (3, 4), and a second slip particle on
-/// (5, 6).
+/// Free dof 0, slip particle (1, 2) with S = 1, stick particle (3, 4), and a second slip particle
+/// on (5, 6).
 fn example() -> Example {
     let mut stiffness = Vec::new();
     for dof in 0..7 {
@@ -219,8 +219,8 @@ fn along(direction: &[(usize, Rational)], vector: &[Poly], value: f64) -> f64 {
     sum
 }
 
-/// (9) as a variational inequality: S v_T <= 0 and (S w_T + mu w_N)'(z - S v_T) >= 0 for all z <= 0.
-/// (v_d = 0, v_Ns = 0 and w_f = 0 are lines of their own: `check_lines`.)
+/// (9) as a variational inequality: S v_T <= 0 and (S w_T + mu w_N)'(z - S v_T) >= 0 for all
+/// z <= 0. (v_d = 0, v_Ns = 0 and w_f = 0 are lines of their own: `check_lines`.)
 #[test]
 fn lifted_solutions_solve_the_variational_inequality() {
     let mut count = 0;

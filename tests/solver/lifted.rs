@@ -108,8 +108,8 @@ struct Example {
     claim: LiftedSolution,
 }
 
-/// Free dof 0, slip particle (1, 2) with S = 1, stick particle (3, 4), and a second slip particle on
-/// (5, 6), which rests inside its friction cone.
+/// Free dof 0, slip particle (1, 2) with S = 1, stick particle (3, 4), and a second slip particle
+/// on (5, 6), which rests inside its friction cone.
 fn example() -> Example {
     let mut stiffness = Vec::new();
     for dof in 0..7 {

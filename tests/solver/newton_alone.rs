@@ -1,8 +1,8 @@
 //! Newton's method on the Fischer-Burmeister system alone, without paths and without curves.
 //!
-//! The paper says of it that it needs monotonicity, or a similar property, to be useful. Neither MCP
-//! is monotone. How often it converges here all the same is counted; `solve` goes on with paths and
-//! curves where it does not. The exact enumerator says which problems have a solution at all.
+//! The paper says of it that it needs monotonicity, or a similar property, to be useful. Neither
+//! MCP is monotone. How often it converges here all the same is counted; `solve` goes on with paths
+//! and curves where it does not. The exact enumerator says which problems have a solution at all.
 #![cfg(feature = "testkit")]
 
 use crate::families::random_case;

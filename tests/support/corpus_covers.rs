@@ -141,8 +141,9 @@ fn frames(cases: &mut Cases) {
     }
 }
 
-/// The branches, the splits and the leaves that are no root leaves. The tree is that of `fold_tree`:
-/// node 3 closes the support {1}, node 5 the support {0}, node 6 is the root leaf of {0, 1}.
+/// The branches, the splits and the leaves that are no root leaves. The tree is that of
+/// `fold_tree`: node 3 closes the support {1}, node 5 the support {0}, node 6 is the root leaf of
+/// {0, 1}.
 const TREES: [Forgery<Vec<Node>>; 12] = [
     Forgery {
         name: "truncated",

@@ -12,7 +12,8 @@
 //! ```
 //!
 //! What particle 1 does cancels in w_0 + mu w_1, so that lambda^2 = 2 (mu = 2) is the only value,
-//! and a, b choose the mode. The variables are x, the gap -v_3, right max(v_2, 0), left max(-v_2, 0).
+//! and a, b choose the mode. The variables are x, the gap -v_3, right max(v_2, 0) and
+//! left max(-v_2, 0).
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;

@@ -1,8 +1,8 @@
-//! The verified checker in tests: the program, many files at once, and whether what it says is true.
+//! The verified checker in tests: the program, many files at once, whether what it says is true.
 //!
-//! The sentences are read as a reader reads them, so that a program that proves one thing and prints
-//! another is found. The exact enumerator (`mceip_oracle`), which goes through all supports one by
-//! one, knows what is true.
+//! The sentences are read as a reader reads them, so that a program that proves one thing and
+//! prints another is found. The exact enumerator (`mceip_oracle`), which goes through all supports
+//! one by one, knows what is true.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};

@@ -225,22 +225,22 @@ pub(crate) const SHORT_VALUE: f64 = 1e-8;
 /// leaves that out, the third is for values that doubles know badly.
 pub(crate) const NARROW_WINDOWS: [f64; 3] = [1e-9, 1e-11, 1e-6];
 
-/// Gap between the bounds of the critical mu beyond which the user is told that more boxes may help.
-/// Unit: of mu. Basis: what is aimed at for large bodies, 1e-5.
+/// Gap between the bounds of the critical mu beyond which the user is told that more boxes may
+/// help. Unit: of mu. Basis: what is aimed at for large bodies, 1e-5.
 pub const WIDE_CRITICAL_GAP: f64 = 1.1e-5;
 
 /// How far above the smallest solution the first sample of mu lies. Unit: of mu. Reason: nearer to
-/// the threshold a complete search takes longer and decides less; the critical mu itself is certified
-/// apart.
+/// the threshold a complete search takes longer and decides less; the critical mu itself is
+/// certified apart.
 pub(crate) const ABOVE_CRITICAL: f64 = 1e-3;
 
 /// Gap between absence and solution that is looked at first. Unit: of mu. Reason: cheap, and meets
 /// solutions that are still unknown.
 pub(crate) const FIRST_GAP: f64 = 1e-2;
 
-/// Gaps that are aimed at, until one is proved. Unit: of mu. Reason: the first two are what is asked
-/// of small and of large bodies, with a tenth for the rounding of the bound; the others are better
-/// than nothing.
+/// Gaps that are aimed at, until one is proved. Unit: of mu. Reason: the first two are what is
+/// asked of small and of large bodies, with a tenth for the rounding of the bound; the others are
+/// better than nothing.
 pub(crate) const CRITICAL_GAPS: [f64; 5] = [8e-7, 8e-6, 1e-3, 3e-2, 0.3];
 
 /// How much smaller than the known one a mu in doubles must be to be worth a certificate. Unit: of

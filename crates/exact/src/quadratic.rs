@@ -91,7 +91,8 @@ impl Quadratic {
         match square_of_a.cmp(&square_of_root_term) {
             Ordering::Greater => sign_of(&self.a),
             Ordering::Less => sign_of(&self.b),
-            // The terms cancel, or they have one sign, or both are zero (b may not be: 0 + 1 sqrt 0).
+            // The terms cancel, or they have one sign, or both are zero (b may not be:
+            // 0 + 1 sqrt 0).
             Ordering::Equal if (&self.a * &self.b).is_negative() => Sign::Zero,
             Ordering::Equal => sign_of(&self.a),
         }

@@ -1,7 +1,7 @@
 //! The motion about an equilibrium: (1)-(4) integrated in time, in doubles.
 //!
 //! ```text
-//! M z'' + K z = rho,   z = u - u^0,   rho = r - r^0                                        (3), (5)
+//! M z'' + K z = rho,   z = u - u^0,   rho = r - r^0                                 // (3), (5)
 //! ```
 //!
 //! with the contact conditions (1), (2), (4) as they read as long as no contact leaves its state's

@@ -1,8 +1,8 @@
 //! A run: its samples, what kind of motion it is, and the amplitudes for which it is (1)-(3).
 //!
 //! The class of a run is read off its samples by these definitions; each is about what was computed
-//! in the time of the run, and none is a proof. The energy norm is the root of twice the energy, the
-//! elastic norm that of twice the elastic energy of a displacement.
+//! in the time of the run, and none is a proof. The energy norm is the root of twice the energy,
+//! the elastic norm that of twice the elastic energy of a displacement.
 //!
 //! * *no growth*: the energy norm of the last quarter is less than twice that of the second one;
 //! * *constant direction*: it grows, without decreasing in the last quarter, and there the
@@ -157,7 +157,8 @@ const LARGE: f64 = 1e100;
 /// Integrates from a start.
 ///
 /// # Errors
-/// [`MotionError`]: a plan that is none, steps that are too long or have no solution, numbers beyond doubles.
+/// [`MotionError`]: a plan that is none, steps that are too long or have no solution, numbers
+/// beyond doubles.
 pub fn run(equations: &Equations, start: Instant, plan: Plan) -> Result<Trajectory, MotionError> {
     run_every(equations, start, plan, plan.stride())
 }

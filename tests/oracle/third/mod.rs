@@ -193,8 +193,8 @@ impl Third {
 
     /// Appends the rays of a support, if the active constraints of y leave one line.
     ///
-    /// With `active` given, these must be all the zeros of y off the support; without, none is asked
-    /// for and any may occur.
+    /// With `active` given, these must be all the zeros of y off the support; without, none is
+    /// asked for and any may occur.
     fn rays_of_line(
         &self,
         alpha: &mut Alpha,

@@ -315,8 +315,8 @@ struct ShiftedBlocks {
 struct Polynomial<'a> {
     coefficients: Vec<Coefficient<'a>>,
     exponent: u32,
-    /// Bits of the longest entry in these units, as the certificate spells it: without the factors of
-    /// rows.
+    /// Bits of the longest entry in these units, as the certificate spells it: without the factors
+    /// of rows.
     entry_bits: u64,
 }
 
@@ -566,9 +566,9 @@ impl Elimination<'_> {
         residual(&self.about.ff, &right_hand_side, &self.v, self.blocks.slip)
     }
 
-    /// The condensed pencil about the anchor; `right` is that of this anchor or of the other part's,
-    /// whose free rows and W are the same. Given A_ff >= sigma I and B_ff >= tau I (for a reversed
-    /// anchor the other way round).
+    /// The condensed pencil about the anchor; `right` is that of this anchor or of the other
+    /// part's, whose free rows and W are the same. Given A_ff >= sigma I and B_ff >= tau I (for a
+    /// reversed anchor the other way round).
     fn expand(&self, right: &RightResidual, sigma: &Rational, tau: &Rational) -> Expanded {
         let Blocks { common, bits, .. } = self.blocks;
         let exponent = self.w.exponent + self.v.exponent;

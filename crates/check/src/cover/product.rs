@@ -20,8 +20,8 @@ use num_traits::{Signed, ToPrimitive, Zero};
 const DIGIT_BITS: u32 = 32;
 /// Entries of the right factor with at most this many bits are short.
 const SHORT_BITS: u64 = 62;
-/// Rows of the left factor with at most this many digits are cut: to join the digits takes time with
-/// the square of their number.
+/// Rows of the left factor with at most this many digits are cut: to join the digits takes time
+/// with the square of their number.
 const MOST_DIGITS: u64 = 64;
 
 /// Rows of a matrix linear in t or d: column, constant, coefficient.

@@ -4,8 +4,8 @@
 //! Above: the static threshold and the solutions at the mu of the analysis are followed to local
 //! minima of mu (`follow`), and the smallest is certified by MCEIP-mu at a short lambda^2 next to
 //! the minimum. Below: a cover of [0, infinity) x [0, bound] ([`absence`](super::absence)), with
-//! bounds ever closer to the solution. A box that cannot be emptied points to a smaller solution, or
-//! the bound is lowered.
+//! bounds ever closer to the solution. A box that cannot be emptied points to a smaller solution,
+//! or the bound is lowered.
 //!
 //! Input: what [`analyse`](super::analyse) has found so far ([`Known`]). Output: [`Critical`], and
 //! the proofs named `critical` (the solution) and `absence` (the bound).
@@ -309,8 +309,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Certifies a solution in doubles, if its mu is smaller than that of the known one; is it known
-    /// afterwards?
+    /// Certifies a solution in doubles, if its mu is smaller than that of the known one; is it
+    /// known afterwards?
     fn certify(&self, point: &Point, bounds: &mut Bounds) -> Result<bool, AnalysisError> {
         if self.model.stopped() || !bounds.is_smaller(point.mu) {
             return Ok(false);
@@ -487,8 +487,8 @@ impl Search<'_> {
         }
     }
 
-    /// What boxes that could not be emptied tell: a smaller solution, or where condensation has to be
-    /// more precise.
+    /// What boxes that could not be emptied tell: a smaller solution, or where condensation has to
+    /// be more precise.
     fn learn_from(
         &self,
         obstacles: &[Blocked],

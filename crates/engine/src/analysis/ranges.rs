@@ -2,8 +2,8 @@
 //!
 //! Below the proved bound of the critical mu there is none: one range, with the certificate of the
 //! bound. Above it divergence is decided with certificates at values of mu (samples): evenly spread
-//! ones first, and then by halving between neighbours of different verdicts. Neighbouring samples of
-//! one verdict make a range; between samples nothing is proved.
+//! ones first, and then by halving between neighbours of different verdicts. Neighbouring samples
+//! of one verdict make a range; between samples nothing is proved.
 //!
 //! Input: the system, the mu of the analysis, and the thresholds known so far. Output: [`Sampled`].
 //! Called by [`analyse`](super::analyse).
@@ -36,8 +36,8 @@ pub struct Range {
     pub verdict: Verdict,
     /// Its lower end: 0, or the first sample.
     pub from: Rational,
-    /// Its upper end: the bound below which all is absent (not included), or the last sample; `None`
-    /// for infinity.
+    /// Its upper end: the bound below which all is absent (not included), or the last sample;
+    /// `None` for infinity.
     pub to: Option<Rational>,
     /// What stands behind it: for the range below the bound what proves it everywhere between its
     /// ends; for samples a measurement, because nothing is proved between them.

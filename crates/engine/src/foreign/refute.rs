@@ -60,9 +60,9 @@ impl Effort {
 }
 
 /// Sum over all supports of m^5 (words^2 + 3), m the order of the block: Bareiss's elimination
-/// takes m^3 products of polynomials with up to m coefficients, each of so many words, and a product
-/// of short numbers costs as much as three products of words besides. A determinant of order m has
-/// its share of the `bits` of the largest.
+/// takes m^3 products of polynomials with up to m coefficients, each of so many words, and a
+/// product of short numbers costs as much as three products of words besides. A determinant of
+/// order m has its share of the `bits` of the largest.
 fn enumeration_cost(slip: u64, free: u64, bits: u64) -> u64 {
     let order = (slip + free).max(1);
     let mut supports: u64 = 1; // of k variables

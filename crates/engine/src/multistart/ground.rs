@@ -3,8 +3,8 @@
 //! The MCP of Proposition 1 or 2 covers one side of an origin ([`Embedding`]): runs start there,
 //! and curves are followed there. Where A_ff is regular and the free rows of B are zero, curves run
 //! on the circle instead ([`CirclePencil`]), which covers all values at once; their points are
-//! polished in the embedding of all t >= 0. With particles in contact with zero reaction there is no
-//! circle. Made by [`Hunt`](super::hunt::Hunt) for each side of an origin.
+//! polished in the embedding of all t >= 0. With particles in contact with zero reaction there is
+//! no circle. Made by [`Hunt`](super::hunt::Hunt) for each side of an origin.
 
 use crate::candidate::Candidate;
 use crate::reduction::{CirclePencil, Embedding, Side};

@@ -161,8 +161,8 @@ pub fn multistart_with(
     Ok(found)
 }
 
-/// [`multistart_large`], also for systems with particles in contact with zero reaction: `reduced` is
-/// that of [`reduce_with_zero`](crate::reduction::reduce_with_zero), `admissible` its pencil.
+/// [`multistart_large`], also for systems with particles in contact with zero reaction: `reduced`
+/// is that of [`reduce_with_zero`](crate::reduction::reduce_with_zero), `admissible` its pencil.
 ///
 /// # Errors
 /// [`SearchError`].

@@ -146,8 +146,8 @@ pub const FAMILIES: [(&str, &str, Make); 20] = [
 /// The instance with this name.
 ///
 /// # Errors
-/// [`TestkitError::Family`]; [`ModelError`] as text cannot occur for the families as they are, and is a
-/// disagreement of the campaign if it does.
+/// [`TestkitError::Family`]; [`ModelError`] as text cannot occur for the families as they are, and
+/// is a disagreement of the campaign if it does.
 pub fn case(id: &Id) -> Result<Result<Case, ModelError>, TestkitError> {
     let number = FAMILIES
         .iter()

@@ -1,7 +1,7 @@
 //! The verified checker of `proofs/`, as a process beside our own checker.
 //!
-//! `mceip-verified PROBLEM CERTIFICATE` is extracted from Coq (`proofs/README.md`). It is no part of
-//! this program: it is built with OCaml, found as a file and run once for each certificate. Its
+//! `mceip-verified PROBLEM CERTIFICATE` is extracted from Coq (`proofs/README.md`). It is no part
+//! of this program: it is built with OCaml, found as a file and run once for each certificate. Its
 //! verdicts, by exit code and first word of its output:
 //!
 //! | exit | output | verdict |

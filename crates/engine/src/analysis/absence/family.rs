@@ -1,10 +1,10 @@
 //! The two parts of T(t, mu) = T0(t) + mu T1(t), condensed about common anchors.
 //!
 //! With t = lambda^2 the pencil of a mechanical system is affine in mu: the pencil P0(t) has the
-//! rows of mu = 0, and P1(t) the same free rows and the coefficients of mu in the slip rows. So both
-//! have the same F(t) = T_ff and T_fs, and their Schur complements are T0(t) and T1(t). Each is
-//! expanded as a pencil of its own (`search::complete::pieces`), about the same anchors and with the
-//! same W; only V differs.
+//! rows of mu = 0, and P1(t) the same free rows and the coefficients of mu in the slip rows. So
+//! both have the same F(t) = T_ff and T_fs, and their Schur complements are T0(t) and T1(t). Each
+//! is expanded as a pencil of its own (`search::complete::pieces`), about the same anchors and with
+//! the same W; only V differs.
 //!
 //! Input: K* and M* as functions of mu, and a friction up to which a tail is to hold. Output: the
 //! pieces of [0, infinity), and for each the expansions of both parts. Called by `mod.rs`.
@@ -61,8 +61,8 @@ pub(super) struct PieceOfHalfLine {
 }
 
 impl Family {
-    /// Condenses both parts. `places` are values of lambda^2 about which the enclosure is to be tight;
-    /// `friction` is at least the friction below which absence is to be proved.
+    /// Condenses both parts. `places` are values of lambda^2 about which the enclosure is to be
+    /// tight; `friction` is at least the friction below which absence is to be proved.
     ///
     /// # Errors
     /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
@@ -257,8 +257,8 @@ pub(in crate::analysis) fn unit_of_lambda2(
     Ok(blocks.lowest_frequency(&factor))
 }
 
-/// The pencils in t of mu = 0 and of the coefficients of mu; the second one has the free rows of the
-/// first.
+/// The pencils in t of mu = 0 and of the coefficients of mu; the second one has the free rows of
+/// the first.
 fn parts(stiffness: &Pencil, mass: &Pencil) -> Result<[Pencil; 2], CompleteError> {
     let free = stiffness.free().to_vec();
     let constant = Pencil::new(stiffness.a().clone(), mass.a().clone(), free.clone())?;

@@ -31,8 +31,8 @@ const VECTOR_BITS: u32 = 128;
 /// decided, and a sign change over the interval stands out from entries that are cut off at 2^-128.
 const INTERVAL_BITS: u32 = 96;
 /// A value below 2^-this of the view's scale has the interval of that one. Basis: near a threshold
-/// lambda^2 is 2^-20 of the scale, and an interval relative to it moves T by less than 2^-116, which
-/// the rounding of W hides.
+/// lambda^2 is 2^-20 of the scale, and an interval relative to it moves T by less than 2^-116,
+/// which the rounding of W hides.
 const LEAST_VALUE_BITS: u32 = 10;
 
 /// An open region with every variable decided, by its place in the cover.

@@ -4,8 +4,8 @@
 //! search of its region finds (`tree`). Pieces are independent of one another, so they are searched
 //! in parallel, and the result does not depend on the number of threads.
 //!
-//! Input: a cover that the checker has accepted, and which of its leaves to search. Output: the nodes of
-//! every piece, and the values of the null vectors met. Called by `rounds`.
+//! Input: a cover that the checker has accepted, and which of its leaves to search. Output: the
+//! nodes of every piece, and the values of the null vectors met. Called by `rounds`.
 
 use super::given::Given;
 use super::options::Options;

@@ -12,8 +12,8 @@
 //! interval and phi' has one sign there, there is at most one such value. If phi changes its sign
 //! over a narrower interval inside, there is one.
 //!
-//! The witness is made from a null vector in doubles: a pivot p, the inverse Y of T_rr rounded to as
-//! few bits as will do, and the left and right null vectors u and v scaled to 1 at p. `bounds`
+//! The witness is made from a null vector in doubles: a pivot p, the inverse Y of T_rr rounded to
+//! as few bits as will do, and the left and right null vectors u and v scaled to 1 at p. `bounds`
 //! evaluates what they have to satisfy.
 //!
 //! The search proposes; the checker decides on the numbers as they are written. A value 0 has no
