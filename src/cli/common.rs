@@ -1,7 +1,7 @@
 //! What subcommands share: exit codes, errors, reading problems, options that are numbers or
 //! windows, printing.
 
-use super::colour;
+use super::{colour, wrapped};
 use mceip_engine::multistart::SearchError;
 use mceip_engine::run::MAX_THREADS;
 use mceip_exact::{Rational, parse};
@@ -347,14 +347,13 @@ pub(super) fn positive_number(text: &str) -> Option<Rational> {
     parse(text).ok().filter(Rational::is_positive)
 }
 
-/// Prints to stdout, verdicts in colour on a terminal. A reader that has gone away (a closed pipe)
-/// is no error; a full disk is.
+/// Prints to stdout; on a terminal with sentences wrapped and verdicts in colour. A reader that has
+/// gone away (a closed pipe) is no error; a full disk is.
 pub(super) fn print(text: &str) -> Result<(), CliError> {
-    let text = if colour::is_wanted() {
-        &colour::coloured(text)
-    } else {
-        text
-    };
+    let mut text = wrapped::for_terminal(text);
+    if colour::is_wanted() {
+        text = colour::coloured(&text);
+    }
 
     let mut out = std::io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());

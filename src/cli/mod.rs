@@ -22,6 +22,7 @@ mod simulate;
 mod solve;
 mod table1;
 mod verify;
+mod wrapped;
 
 use clap::{Parser, Subcommand};
 use common::CliError;
