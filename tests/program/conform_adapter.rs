@@ -11,16 +11,14 @@ use crate::program::{Folder, mceip};
 use serde_json::Value;
 use std::process::Command;
 
-fn numpy_is_missing() -> bool {
+pub(crate) fn numpy_is_missing() -> bool {
     let import = Command::new("python3")
         .args(["-c", "import numpy"])
         .output();
     let is_there = import.is_ok_and(|output| output.status.success());
 
     if !is_there {
-        eprintln!(
-            "SKIPPED: python3 with numpy is not installed: spec/examples/adapter.py was not run"
-        );
+        eprintln!("SKIPPED: python3 with numpy is not installed: no rival was run");
     }
     !is_there
 }
