@@ -21,10 +21,8 @@ impl Candidate {
         let mut candidate = self.clone();
         for variables in zero {
             let ZeroVariables { right, left, .. } = *variables;
-            let (Some(&to_right), Some(&to_left)) = (self.x.get(right), self.x.get(left)) else {
-                continue;
-            };
-
+            let to_right = self.x.get(right).copied().unwrap_or_default();
+            let to_left = self.x.get(left).copied().unwrap_or_default();
             let common = to_right.min(to_left);
             if common > 0.0 {
                 candidate.x[right] -= common;
