@@ -772,10 +772,14 @@ const INVERSE_BITS: u32 = 24;
 /// A box around the motion at the value 2, its preconditioner the inverse of F' rounded down. All
 /// degrees of freedom belong to particles, so the active variables are those of the support.
 fn enclosed(problem: &Problem, motion: &Motion) -> EnclosedSolution {
-    let x = motion.components();
-    let sum: Rational = motion.support.iter().map(|&i| &x[i]).sum();
-    let mut center: Vec<Rational> = motion.support.iter().map(|&i| &x[i] / &sum).collect();
-    let jacobian = jacobian(problem, motion.support, &center);
+    enclosed_x(problem, motion.support, &motion.components())
+}
+
+/// The same around x.
+pub fn enclosed_x(problem: &Problem, support: &[usize], x: &[Rational]) -> EnclosedSolution {
+    let sum: Rational = support.iter().map(|&i| &x[i]).sum();
+    let mut center: Vec<Rational> = support.iter().map(|&i| &x[i] / &sum).collect();
+    let jacobian = jacobian(problem, support, &center);
     center.push(whole(2));
 
     let unit = Rational::from_integer(Integer::from(1) << INVERSE_BITS);
@@ -787,7 +791,7 @@ fn enclosed(problem: &Problem, motion: &Motion) -> EnclosedSolution {
 
     let radius = Rational::new(1.into(), Integer::from(1) << RADIUS_BITS);
     EnclosedSolution {
-        support: motion.support.to_vec(),
+        support: support.to_vec(),
         radius: vec![Number(radius); center.len()],
         center: center.into_iter().map(Number).collect(),
         preconditioner,
