@@ -164,9 +164,10 @@ fn large_problem(index: u64) -> Problem {
         index,
     };
     let mut rng = seed.rng();
-    let mut states = vec![ContactState::Slip { sign: 1 }];
+    let sign = if index % 4 < 2 { 1 } else { -1 };
+    let mut states = vec![ContactState::Slip { sign }];
     if rng.random_range(0..2) == 0 {
-        states.push(ContactState::Slip { sign: -1 });
+        states.push(ContactState::Slip { sign: -sign });
     }
     states.extend(vec![ContactState::Zero; rng.random_range(1..=2)]);
     states.extend(vec![ContactState::Free; MANY_FREE]);
