@@ -7,7 +7,7 @@ use mceip_check::certificate::Certificate;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate};
 use mceip_engine::report::Listed;
-use mceip_model::reduction::reduce;
+use mceip_model::reduction::reduce_with_zero;
 
 /// A solution with its own certificate.
 #[derive(Debug, Clone)]
@@ -43,7 +43,7 @@ impl Problem {
     /// ```
     pub fn certify(&self, value: f64, x: &[f64]) -> Result<Certified, Error> {
         let problem = self.as_model();
-        let reduced = reduce(problem)?;
+        let reduced = reduce_with_zero(problem)?;
         let certifier = Certifier::new(problem, &reduced.pencil);
         let candidate = Candidate {
             value,

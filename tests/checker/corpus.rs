@@ -32,6 +32,8 @@ mod corpus_mcp;
 mod corpus_support;
 #[path = "../support/corpus_zero.rs"]
 mod corpus_zero;
+#[path = "../support/corpus_zero_order.rs"]
+mod corpus_zero_order;
 
 use corpus_cases::Cases;
 use mceip_check::certificate::{CRITICAL_FORMAT, Certificate, CriticalCertificate};
@@ -469,6 +471,7 @@ fn write_the_corpus() {
     corpus_infinity::infinity(&mut cases);
     corpus_mcp::plain(&mut cases);
     corpus_zero::zero_reaction(&mut cases);
+    corpus_zero_order::boxes(&mut cases);
     corpus_critical::critical(&mut cases);
     corpus_malformed::malformed(&mut cases);
     corpus_malformed::spelling(&mut cases);

@@ -5,7 +5,7 @@
 #![cfg(feature = "cli")]
 
 use crate::common::{
-    contains_all, example, exit_code, exits, exits_with_json, repository, run, solutions_text,
+    contains_all, example, exit_code, exits, exits_with_json, read, repository, run, solutions_text,
 };
 use crate::program::Folder;
 use serde_json::Value;
@@ -100,13 +100,78 @@ fn zero_reaction_is_refused_where_it_is_not_supported() {
             &["particle 1", "zero", "not supported"],
         );
     }
+}
 
-    let solutions = folder.path().join("solutions.json");
-    let text = r#"{"format": "mceip-solutions/1", "solutions": [{"value": "2", "x": ["1"]}]}"#;
-    std::fs::write(&solutions, text).unwrap();
-    let solutions = solutions.to_str().unwrap();
-    for command in ["certify", "check"] {
-        refused(&[command, &problem, solutions], &["particle 1", "zero"]);
+/// Reports on a problem with a particle in contact with zero reaction, by x and by v: each mode is
+/// accepted and certified, what is no solution is refuted by `check` and stays without a
+/// certificate.
+#[test]
+fn reports_with_zero_reaction_are_checked_and_certified() {
+    let folder = Folder::new();
+    let certificate = folder.path("certificate.json");
+
+    for name in [
+        "zero-open",
+        "zero-stick",
+        "zero-right",
+        "zero-left",
+        "zero-open-mu",
+    ] {
+        let case = tempfile::tempdir().unwrap();
+        let problem = zero_reaction_problem(case.path(), name);
+        let mut report = exits_with_json(0, &["solve", &problem, "--json"]);
+        let by_x = folder.write("x.json", &report.to_string());
+        remove_x(&mut report);
+        let by_v = folder.write("v.json", &report.to_string());
+
+        for report in [&by_x, &by_v] {
+            let verdict = exits(0, &["check", &problem, report]);
+            contains_all(&verdict, &["ACCEPTED", "= 2 exists"]);
+
+            exits(0, &["certify", &problem, report, "--out", &certificate]);
+            exits(0, &["check", &problem, &certificate]);
+            let args = ["certify", &problem, report, "--lifted", "--out"];
+            exits(0, &[&args[..], &[certificate.as_str()]].concat());
+            contains_all(&read(&certificate), &["lifted_solution"]);
+            exits(0, &["check", &problem, &certificate]);
+        }
+    }
+}
+
+/// Leaves v of each solution of a report.
+fn remove_x(report: &mut Value) {
+    for solution in report["solutions"].as_array_mut().unwrap() {
+        solution.as_object_mut().unwrap().remove("x");
+    }
+}
+
+/// The only solution is at 2 with x = (1, 0, 1/4, 0): v_T of particle 1 is 1/4, to the right.
+#[test]
+fn false_reports_with_zero_reaction_are_refuted() {
+    let folder = Folder::new();
+    let case = tempfile::tempdir().unwrap();
+    let problem = zero_reaction_problem(case.path(), "zero-right");
+    let report = |value: &str, x: &str| {
+        let solutions = format!(r#"[{{"value": {value}, "x": {x}}}]"#);
+        folder.write("r.json", &solutions_text(&solutions))
+    };
+
+    // The same motion, v+ and v- both larger by 1.
+    let both_larger = report("2", "[1, 0, 1.25, 1]");
+    contains_all(&exits(0, &["check", &problem, &both_larger]), &["ACCEPTED"]);
+
+    for (value, x) in [
+        ("2", "[1, 0, 0, 0.25]"),
+        ("2", "[1, 0, 0, 0]"),
+        ("2", "[1, 0.25, 0.25, 0]"),
+        ("2.5", "[1, 0, 0.25, 0]"),
+        ("2", "[0, 0, 1, 1]"),
+    ] {
+        let wrong = report(value, x);
+        contains_all(&exits(1, &["check", &problem, &wrong]), &["REJECTED"]);
+        let uncertified = run(&["certify", &problem, &wrong]);
+        assert_eq!(uncertified.code, Some(3), "{value} {x}: {uncertified:?}");
+        assert!(uncertified.stdout.is_empty(), "{uncertified:?}");
     }
 }
 

@@ -2,11 +2,11 @@
 //! `enumerate_modes`, which lists all solutions by exact arithmetic.
 //!
 //! Random systems with one to three s particles, one or two z particles and others beside them.
-//! Each certified solution must be in the list, and coverage is held against the floor of the
-//! family `states`, the same systems without z.
+//! Each certified solution must be in the list, and coverage is held against a floor, which is not
+//! below that of the family `states`, the same systems without z.
 #![cfg(feature = "testkit")]
 
-use mceip_check::certificate::Claim;
+use mceip_check::certificate::{Claim, EnclosedSolution};
 use mceip_check::check;
 use mceip_engine::certify::certificate;
 use mceip_engine::multistart::{
@@ -18,14 +18,24 @@ use mceip_mcp::mcp::Mcp;
 use mceip_model::reduction::split_form;
 use mceip_model::{Admissible, Body, ContactState, Problem, SplitForm, System, Unknown, Window};
 use mceip_oracle::{Solution, enumerate_modes};
-use mceip_testkit::floors::{Coverage, Starts, shortfalls};
+use mceip_testkit::floors::{Coverage, Starts, floor, shortfalls};
 use mceip_testkit::generators::{Seed, states};
 use nalgebra::DMatrix;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// Number of this family of random systems, for [`Seed`].
+/// Number of this family of random systems, for [`Seed`], and of those with many free degrees of
+/// freedom.
 const FAMILY: u64 = 92;
+const LARGE_FAMILY: u64 = 93;
+
+/// Name of its row in the floors.
+const FLOOR: &str = "zero reaction";
+
+/// Particles in state `free` of a large system: 16 free degrees of freedom and one variable more
+/// make a claim a box.
+const MANY_FREE: usize = 8;
+const LARGE_SYSTEMS: u64 = 12;
 
 /// Systems of the plain run and of the opt-in run.
 const FEW: u64 = 60;
@@ -146,13 +156,117 @@ fn compare(index: u64, met: &mut Met) {
     met.coverage.count(by_the_first, is_complete);
 }
 
+/// A system of the large family: one or two s particles, one or two z particles, free ones.
+fn large_problem(index: u64) -> Problem {
+    let seed = Seed {
+        family: LARGE_FAMILY,
+        seed: 1,
+        index,
+    };
+    let mut rng = seed.rng();
+    let sign = if index % 4 < 2 { 1 } else { -1 };
+    let mut states = vec![ContactState::Slip { sign }];
+    if rng.random_range(0..2) == 0 {
+        states.push(ContactState::Slip { sign: -sign });
+    }
+    states.extend(vec![ContactState::Zero; rng.random_range(1..=2)]);
+    states.extend(vec![ContactState::Free; MANY_FREE]);
+
+    let system = states::system(&mut rng, &states, &mut Vec::new()).unwrap();
+    let unknown = [Unknown::Lambda2, Unknown::Mu][(index % 2) as usize];
+    Problem::new(Body::System(system), unknown, Window::all()).unwrap()
+}
+
+/// Is the solution of the list in the box?
+fn is_in(claim: &EnclosedSolution, solution: &Solution) -> bool {
+    let center = &claim.center.last().unwrap().0;
+    let radius = &claim.radius.last().unwrap().0;
+    let mut value = solution.value.clone();
+    let is_above = value.cmp_rational(&(center - radius)).is_ge();
+    let is_below = value.cmp_rational(&(center + radius)).is_le();
+    solution.slip == claim.support && is_above && is_below
+}
+
+/// With more than 16 active variables claims are boxes. Each is that of one solution of the list,
+/// the checker accepts it, and refuses it where a half of v_T is exchanged for the other one.
+#[test]
+fn large_systems_are_certified_by_boxes() {
+    let mut met = Met::default();
+    for index in 0..LARGE_SYSTEMS {
+        let problem = large_problem(index);
+        let split = split_form(system(&problem), problem.unknown()).unwrap();
+        let all = enumerate_modes(&split, &Window::all());
+        assert!(all.degenerate.is_empty(), "system {index}");
+
+        let found = search(&problem);
+        assert!(found.uncertified.is_empty(), "system {index}");
+        for certified in &found.certified {
+            let Claim::EnclosedSolution(claim) = &certified.claim else {
+                panic!("system {index}: not a box")
+            };
+            let same = all.solutions.iter().filter(|one| is_in(claim, one)).count();
+            assert_eq!(same, 1, "system {index}");
+            met.count_modes(&split, &claim.support);
+            assert_the_other_half_is_refused(&problem, &split, claim);
+        }
+
+        if !all.solutions.is_empty() {
+            let by_the_first = found.certified.iter().any(|certified| certified.run == 0);
+            let is_complete = found.certified.len() == all.solutions.len();
+            met.coverage.count(by_the_first, is_complete);
+        }
+    }
+
+    println!("{met:?}");
+    let short = shortfalls(FLOOR, Starts::Search, &met.coverage);
+    assert!(short.is_empty(), "{short:?}, {met:?}");
+    let modes = [met.open, met.sticking, met.right, met.left];
+    assert!(modes.iter().all(|&count| count >= 1), "{met:?}");
+}
+
+/// The checker accepts the box, and not the same box about the other half of v_T.
+fn assert_the_other_half_is_refused(
+    problem: &Problem,
+    split: &SplitForm,
+    claim: &EnclosedSolution,
+) {
+    let good = Claim::EnclosedSolution(claim.clone());
+    let accepted = check(problem, &certificate(problem, vec![good]));
+    assert!(accepted.is_ok(), "{accepted:?}");
+
+    for variables in &split.zero {
+        let mut forged = claim.clone();
+        for index in &mut forged.support {
+            if *index == variables.right {
+                *index = variables.left;
+            } else if *index == variables.left {
+                *index = variables.right;
+            }
+        }
+        if forged != *claim {
+            let forged = Claim::EnclosedSolution(forged);
+            assert!(check(problem, &certificate(problem, vec![forged])).is_err());
+        }
+    }
+}
+
+/// The floor is not below that of the same systems without z.
+#[test]
+fn the_floor_is_that_of_systems_without_zero_reaction_or_higher() {
+    let without = floor("states", Starts::Search).unwrap();
+    let with = floor(FLOOR, Starts::Search).unwrap();
+
+    assert!(with.first >= without.first, "{with:?}");
+    assert!(with.all >= without.all, "{with:?}");
+}
+
 /// The checker accepts the claim, and refuses -x.
 fn assert_the_opposite_is_refused(problem: &Problem, claim: &Claim) {
     let accepted = check(problem, &certificate(problem, vec![claim.clone()]));
     assert!(accepted.is_ok(), "{accepted:?}");
 
     let Claim::ExactSolution(mut opposite) = claim.clone() else {
-        panic!("claims about z particles are exact")
+        panic!("claims about so few variables are exact")
     };
     for coefficient in opposite.x.iter_mut().flatten() {
         coefficient.0 = -coefficient.0.clone();
@@ -168,7 +282,7 @@ fn run(systems: std::ops::Range<u64>) -> Met {
     }
 
     println!("{met:?}");
-    let short = shortfalls("states", Starts::Search, &met.coverage);
+    let short = shortfalls(FLOOR, Starts::Search, &met.coverage);
     assert!(short.is_empty(), "{short:?}, {met:?}");
     met
 }

@@ -25,12 +25,17 @@
 //! The zero is a solution of (12)-(14) if t lies in the window, x > 0 on the support and y > 0 on
 //! the other rows; these are demanded of the whole box.
 //!
+//! With particles in contact with zero reaction the pencil is the split form
+//! (`spec/zero-reaction.md`, Z.3). The support has at most one half of v_T of each, so that x != 0
+//! says v != 0. Where it has the gap and one half, the row of the other half vanishes with theirs
+//! ([`Rows::vanishing`]), and no sign of it is asked for.
+//!
 //! Input: the integral rows of the pencil, the window and the claim. The rows of F that belong to
 //! the pencil are the integral ones, multiples of the given rows; their zeros are the same. All
 //! numbers are integers over one common unit, so nothing is rounded.
 
 use super::AcceptedClaim;
-use super::exact_solution::{index_set, within};
+use super::exact_solution::{index_set, one_half, within};
 use super::pencil::{Row, Rows};
 use super::reason::Reason;
 use crate::certificate::EnclosedSolution;
@@ -52,6 +57,7 @@ pub(super) fn check(
         return Err(Reason::XZero); // e'x_s = 1 needs a slip variable
     }
 
+    one_half(rows, &claim.support)?;
     Reason::at_most("exponent", MAX_EXPONENT.into(), claim.exponent.into())?;
 
     let is_in_support = |i: &usize| claim.support.binary_search(i).is_ok();
@@ -71,8 +77,10 @@ pub(super) fn check(
         }
     }
 
+    let vanishing = rows.vanishing(&claim.support);
     for (index, row) in rows.rows.iter().enumerate() {
-        if active.binary_search(&index).is_err() {
+        let is_zero = active.binary_search(&index).is_ok() || vanishing.contains(&index);
+        if !is_zero {
             Reason::y_positive(index, &system.row_over_box(row))?;
         }
     }

@@ -45,11 +45,13 @@ pub(super) type Row = Vec<(usize, Integer, Integer)>;
 /// One row of A or of B before that: (column, value).
 type RationalRow = Vec<(usize, Rational)>;
 
-/// The two variables that v_T of a particle with zero reaction is split into.
+/// The two variables that v_T of a particle with zero reaction is split into, and its gap.
 #[derive(Clone, Copy)]
 pub(super) struct Halves {
     /// The particle.
     pub(super) particle: usize,
+    /// Its variable -v_N.
+    pub(super) gap: usize,
     /// The variable max(v_T, 0).
     pub(super) right: usize,
     /// The variable max(-v_T, 0).
@@ -140,6 +142,35 @@ impl Rows {
 
     pub(super) fn order(&self) -> usize {
         self.rows.len()
+    }
+
+    /// The variables off a support whose y vanishes with those of the support.
+    ///
+    /// The rows of a particle with zero reaction satisfy, for every v,
+    ///
+    /// ```text
+    ///     y_right + y_left = (t - c mu n)'w + (-t - c mu n)'w = 2 c mu (-n'w) = 2 c mu y_gap.
+    /// ```
+    ///
+    /// So where the gap and one half are in the support, y = 0 at the other half.
+    pub(super) fn vanishing(&self, support: &[usize]) -> Vec<usize> {
+        let mut list = Vec::new();
+        for halves in &self.halves {
+            if !support.contains(&halves.gap) {
+                continue;
+            }
+
+            match (
+                support.contains(&halves.right),
+                support.contains(&halves.left),
+            ) {
+                (true, false) => list.push(halves.left),
+                (false, true) => list.push(halves.right),
+                _ => {}
+            }
+        }
+
+        list
     }
 
     /// Refuses evidence that is not defined for particles with zero reaction.
@@ -307,11 +338,12 @@ impl Variables {
                 continue;
             }
 
-            let right = columns.len() + 1;
+            let gap = columns.len();
             halves.push(Halves {
                 particle: index,
-                right,
-                left: right + 1,
+                gap,
+                right: gap + 1,
+                left: gap + 2,
             });
 
             let tangent = particle.tangent();
@@ -430,6 +462,56 @@ mod tests {
         assert_eq!(b, scale(&pencil.b().row(i).to_vec(), &factor));
     }
 
+    /// Row i of A and of B without its factor, all columns.
+    fn given_row(rows: &Rows, i: usize) -> [Vec<Rational>; 2] {
+        let mut given = [vec![whole(0); rows.order()], vec![whole(0); rows.order()]];
+        for (j, a, b) in &rows.rows[i] {
+            given[0][*j] = Rational::new(a.clone(), rows.factor[i].clone());
+            given[1][*j] = Rational::new(b.clone(), rows.factor[i].clone());
+        }
+        given
+    }
+
+    fn sum(u: &[Rational], v: &[Rational]) -> Vec<Rational> {
+        u.iter().zip(v).map(|(a, b)| a + b).collect()
+    }
+
+    fn times(v: &[Rational], factor: &Rational) -> Vec<Rational> {
+        v.iter().map(|entry| entry * factor).collect()
+    }
+
+    /// y_right + y_left = 2 c mu y_gap: with mu of the file in A and in B, and with mu as the
+    /// unknown, where the gap's row of A is in B. What vanishes follows from it.
+    #[test]
+    fn the_rows_of_both_halves_add_up_to_that_of_the_gap() {
+        let twice_c = rational(10, 3);
+        for unknown in [Unknown::Lambda2, Unknown::Mu] {
+            let body = Body::System(system(ContactState::Zero));
+            let problem = Problem::new(body, unknown, Window::all()).unwrap();
+            let rows = Rows::of(&problem);
+            let Halves {
+                gap, right, left, ..
+            } = rows.halves[0];
+
+            let [gap_a, gap_b] = given_row(&rows, gap);
+            let [right_a, right_b] = given_row(&rows, right);
+            let [left_a, left_b] = given_row(&rows, left);
+            let expected = match unknown {
+                Unknown::Lambda2 => {
+                    let factor = &twice_c * rational(2, 7);
+                    [times(&gap_a, &factor), times(&gap_b, &factor)]
+                }
+                Unknown::Mu => [times(&gap_a, &whole(0)), times(&gap_a, &twice_c)],
+            };
+            assert_eq!([sum(&right_a, &left_a), sum(&right_b, &left_b)], expected);
+
+            assert_eq!(rows.vanishing(&[gap, right]), [left]);
+            assert_eq!(rows.vanishing(&[gap, left]), [right]);
+            assert!(rows.vanishing(&[gap]).is_empty());
+            assert!(rows.vanishing(&[right]).is_empty());
+        }
+    }
+
     /// With zero reaction: the split form of `reduction`.
     #[test]
     fn the_pencil_is_the_split_form() {
@@ -449,6 +531,7 @@ mod tests {
                 panic!("one particle with zero reaction")
             };
             assert_eq!(halves.particle, 1);
+            assert_eq!(halves.gap, split.zero[0].gap);
             assert_eq!(halves.right, split.zero[0].right);
             assert_eq!(halves.left, split.zero[0].left);
         }

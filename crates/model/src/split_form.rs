@@ -17,6 +17,26 @@ pub struct ZeroVariables {
     pub left: usize,
 }
 
+impl ZeroVariables {
+    /// The half of v_T off a support whose y vanishes with those of the support, if there is one.
+    ///
+    /// y_right + y_left = 2 c mu y_gap for every x, c the friction factor. So where the gap and one
+    /// half are in the support, y = 0 at the other half.
+    pub fn vanishing(&self, support: &[usize]) -> Option<usize> {
+        if !support.contains(&self.gap) {
+            return None;
+        }
+
+        let slides_right = support.contains(&self.right);
+        let slides_left = support.contains(&self.left);
+        match (slides_right, slides_left) {
+            (true, false) => Some(self.left),
+            (false, true) => Some(self.right),
+            _ => None,
+        }
+    }
+}
+
 /// The pencil of the split form with the meaning of its variables.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SplitForm {

@@ -9,23 +9,33 @@ use super::rows::IntegralRows;
 use crate::candidate::Candidate;
 use mceip_check::certificate::Claim;
 use mceip_check::{AcceptedClaim, ClaimChecker, Reason};
-use mceip_model::{Pencil, Problem};
+use mceip_model::reduction::zero_variables;
+use mceip_model::{Body, Pencil, Problem, ZeroVariables};
 
 /// Makes claims about one problem and has each of them checked.
 pub struct Certifier<'a> {
     problem: &'a Problem,
     pencil: &'a Pencil,
     rows: IntegralRows,
+    /// The variables of the particles in contact with zero reaction.
+    zero: Vec<ZeroVariables>,
     checker: ClaimChecker<'a>,
 }
 
 impl<'a> Certifier<'a> {
-    /// The certifier of a problem; `pencil` is the problem's reduced pencil.
+    /// The certifier of a problem; `pencil` is the problem's reduced pencil, of a system with
+    /// particles in contact with zero reaction that of the split form.
     pub fn new(problem: &'a Problem, pencil: &'a Pencil) -> Certifier<'a> {
+        let zero = match problem.body() {
+            Body::System(system) => zero_variables(system),
+            Body::Pencil(_) => Vec::new(),
+        };
+
         Certifier {
             problem,
             pencil,
-            rows: IntegralRows::of(pencil),
+            rows: IntegralRows::of(pencil).with_zero(zero.clone()),
+            zero,
             checker: ClaimChecker::new(problem),
         }
     }
@@ -49,7 +59,8 @@ impl<'a> Certifier<'a> {
         candidate: &Candidate,
     ) -> Result<(Claim, AcceptedClaim), NotCertified> {
         let window = self.problem.window();
-        let proposals = proposals(self.pencil, &self.rows, window, candidate)?;
+        let candidate = candidate.one_sided(&self.zero);
+        let proposals = proposals(self.pencil, &self.rows, window, &candidate)?;
         self.first_accepted(proposals)
     }
 

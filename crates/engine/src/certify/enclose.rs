@@ -238,9 +238,14 @@ impl Enclosure<'_> {
         Ok(None)
     }
 
-    /// Demands y_i > 0 off the support.
+    /// Demands y_i > 0 off the support, but for rows that vanish with those of the support.
     fn undecided_y(&self) -> Result<Option<Undecided>, AttemptFailure> {
+        let vanishing = self.newton.vanishing();
         for index in self.newton.inactive() {
+            if vanishing.contains(&index) {
+                continue;
+            }
+
             match self.y(index).sign() {
                 CommonSign::Positive => {}
                 CommonSign::Negative => return Err(AttemptFailure::YNegative { index }),

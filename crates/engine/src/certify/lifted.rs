@@ -6,15 +6,17 @@
 //! v_f = x_f,    v_Ts = -S x_s,    all other components of v are 0,    w = (t M + K) v,
 //! ```
 //!
-//! w = K v for MCEIP-mu. Components are polynomials in the value t, the constant coefficient first,
+//! w = K v for MCEIP-mu. With x = (.., g, v+, v-) a particle in contact with zero reaction has
+//! v_N = -g and v_T = v+ - v-, where v+ or v- is 0 (`spec/zero-reaction.md`, Z.3). Components are polynomials in the value t, the constant coefficient first,
 //! reduced modulo the claim's polynomial. Nothing is checked here. Called by the command `certify`
 //! and by reports.
 
 use mceip_check::certificate::{ExactSolution, LiftedSolution};
 use mceip_exact::{Rational, Sparse};
 use mceip_model::file::Number;
-use mceip_model::{System, Unknown};
-use num_traits::Zero;
+use mceip_model::reduction::zero_variables;
+use mceip_model::{Direction, Particle, System, Unknown, ZeroVariables};
+use num_traits::{One, Zero};
 
 /// A polynomial in the value, the constant coefficient first.
 type Coefficients = Vec<Rational>;
@@ -34,6 +36,19 @@ pub fn lifted(system: &System, unknown: Unknown, claim: &ExactSolution) -> Lifte
         let minus_s = Rational::from_integer((-sign).into());
         for (dof, c) in particle.tangent() {
             add(&mut v[dof], &(c * &minus_s), &x, 0);
+        }
+    }
+
+    for (particle, places) in zero_particles(system) {
+        let opening = component(&claim.x, places.gap);
+        let right = component(&claim.x, places.right);
+        let left = component(&claim.x, places.left);
+        for (dof, c) in particle.into_obstacle() {
+            add(&mut v[dof], &-c, &opening, 0);
+        }
+        for (dof, c) in particle.tangent() {
+            add(&mut v[dof], &c, &right, 0);
+            add(&mut v[dof], &-c, &left, 0);
         }
     }
 
@@ -65,11 +80,21 @@ pub fn flattened(system: &System, claim: &LiftedSolution) -> ExactSolution {
 
     for (particle, sign) in system.slip_particles() {
         let minus_s = Rational::from_integer((-sign).into());
-        let mut sum = Vec::new();
-        for (dof, c) in particle.tangent() {
-            add(&mut sum, &(c * &minus_s), &component(&claim.v, dof), 0);
+        x.push(along(&particle.tangent(), &minus_s, &claim.v));
+    }
+
+    let one = Rational::one();
+    for (particle, places) in zero_particles(system) {
+        x.push(along(&particle.into_obstacle(), &-&one, &claim.v));
+
+        // v_T > 0 is said by the support.
+        for (half, sign) in [(places.right, one.clone()), (places.left, -&one)] {
+            if claim.support.contains(&half) {
+                x.push(along(&particle.tangent(), &sign, &claim.v));
+            } else {
+                x.push(Vec::new());
+            }
         }
-        x.push(sum);
     }
 
     ExactSolution {
@@ -79,6 +104,22 @@ pub fn flattened(system: &System, claim: &LiftedSolution) -> ExactSolution {
         interval: claim.interval.clone(),
         x: x.into_iter().map(numbers).collect(),
     }
+}
+
+/// The particles in contact with zero reaction with the places of their variables.
+fn zero_particles(system: &System) -> impl Iterator<Item = (&Particle, ZeroVariables)> {
+    let particles = system.zero_particles().into_iter();
+    particles.zip(zero_variables(system))
+}
+
+/// `factor` times the component of v along a direction.
+fn along(direction: &Direction, factor: &Rational, v: &[Vec<Number>]) -> Coefficients {
+    let mut sum = Vec::new();
+    for (dof, c) in direction {
+        add(&mut sum, &(c * factor), &component(v, *dof), 0);
+    }
+
+    sum
 }
 
 /// Component `dof` of v; zero beyond its end.

@@ -5,7 +5,7 @@
 //! and of enclosed claims.
 
 use mceip_exact::{Integer, Rational, common_denominator};
-use mceip_model::Pencil;
+use mceip_model::{Pencil, ZeroVariables};
 use num_traits::Zero;
 use std::collections::BTreeMap;
 
@@ -35,6 +35,8 @@ impl PencilEntry {
 /// All rows of a pencil, denominators cleared row by row, entries by column.
 pub(super) struct IntegralRows {
     rows: Vec<Vec<PencilEntry>>,
+    /// The variables of the particles in contact with zero reaction.
+    zero: Vec<ZeroVariables>,
 }
 
 impl IntegralRows {
@@ -44,7 +46,22 @@ impl IntegralRows {
             rows.push(integral_row(pencil.a().row(i), pencil.b().row(i)));
         }
 
-        IntegralRows { rows }
+        IntegralRows {
+            rows,
+            zero: Vec::new(),
+        }
+    }
+
+    /// The rows of the split form of a system with these variables of z particles.
+    pub(super) fn with_zero(self, zero: Vec<ZeroVariables>) -> Self {
+        IntegralRows { zero, ..self }
+    }
+
+    /// The variables off a support whose rows vanish with those of the support.
+    pub(super) fn vanishing(&self, support: &[usize]) -> Vec<usize> {
+        let zero = self.zero.iter();
+        zero.filter_map(|variables| variables.vanishing(support))
+            .collect()
     }
 
     pub(super) fn row(&self, index: usize) -> &[PencilEntry] {

@@ -12,8 +12,9 @@ use crate::candidate::Candidate;
 use crate::reduction::Reduced;
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 use mceip_exact::{Rational, from_f64, to_f64};
-use mceip_model::{Pencil, Problem, Window};
-use mceip_oracle::{Enumeration, MAX_FREE, Solution, coefficient_bits, enumerate};
+use mceip_model::reduction::split_form;
+use mceip_model::{Body, Pencil, Problem, Window};
+use mceip_oracle::{Enumeration, MAX_FREE, Solution, coefficient_bits, enumerate, enumerate_modes};
 
 /// Most complementarity variables for which absence near a candidate is proved by enumeration.
 pub const REFUTE_SLIP: usize = 10;
@@ -47,6 +48,18 @@ impl Effort {
             cost = cost.saturating_mul(1 << (slip + SINGULAR_SHIFT));
         }
 
+        self.take(cost)
+    }
+
+    /// The same for the enumeration of modes of a split form: each choice of modes is a support, and
+    /// those that are singular are not described.
+    fn spend_on_modes(&mut self, pencil: &Pencil) -> Result<(), String> {
+        let slip = pencil.slip().len() as u64;
+        let free = pencil.free().len() as u64;
+        self.take(enumeration_cost(slip, free, coefficient_bits(pencil)))
+    }
+
+    fn take(&mut self, cost: u64) -> Result<(), String> {
         let Some(left) = self.left.checked_sub(cost) else {
             return Err(format!(
                 "absence is proved with at most {} products of words more in this report, {cost} \
@@ -102,19 +115,17 @@ pub(super) fn refute(
         ));
     }
 
-    effort.spend(&reduced.pencil)?;
-    let found = enumerate(&reduced.pencil, &near).map_err(|e| e.to_string())?;
-    if !found.is_complete_list() {
-        return Err("the answer near the value has parts that are not described".into());
-    }
+    let normalised = reduced.normalised();
+    let scaled = ScaledX::of(candidate, &normalised);
+    let others = if normalised == slip {
+        effort.spend(&reduced.pencil)?;
+        others_by_supports(&reduced.pencil, &near, &scaled)?
+    } else {
+        effort.spend_on_modes(&reduced.pencil)?;
+        others_by_modes(problem, &near, &scaled)?
+    };
 
-    let scaled = ScaledX::of(candidate, &slip);
-    if scaled.is_near_any(&found) {
-        return Err("a solution is near, but not near enough to be told from others".into());
-    }
-
-    let count = found.solutions.len() + found.cones.len() + found.ranges.len();
-    let others = match count {
+    let others_text = match others.count {
         0 => "there is none at all".to_string(),
         n => format!("{n} found with another x"),
     };
@@ -122,8 +133,66 @@ pub(super) fn refute(
         lo: to_f64(&lo),
         hi: to_f64(&hi),
         x_radius: X_RADIUS,
+        supports: others.supports,
+        others: others_text,
+    })
+}
+
+/// What there is in a window, none of it near a candidate.
+struct Others {
+    count: usize,
+    /// Supports, or choices of modes, examined.
+    supports: u64,
+}
+
+/// Not all that there is in the window is described.
+const NOT_DESCRIBED: &str = "the answer near the value has parts that are not described";
+/// There is a solution that the candidate could stand for.
+const NOT_TOLD_APART: &str = "a solution is near, but not near enough to be told from others";
+
+/// All solutions in a window by the enumeration of supports (24)-(26).
+fn others_by_supports(
+    pencil: &Pencil,
+    near: &Window,
+    scaled: &ScaledX<'_>,
+) -> Result<Others, String> {
+    let found = enumerate(pencil, near).map_err(|e| e.to_string())?;
+    if !found.is_complete_list() {
+        return Err(NOT_DESCRIBED.into());
+    }
+    if scaled.is_near_any(&found) {
+        return Err(NOT_TOLD_APART.into());
+    }
+
+    Ok(Others {
+        count: found.solutions.len() + found.cones.len() + found.ranges.len(),
         supports: found.supports_total,
-        others,
+    })
+}
+
+/// The same for a system with particles in contact with zero reaction, by the enumeration of modes
+/// (`spec/zero-reaction.md`, Z.3).
+fn others_by_modes(
+    problem: &Problem,
+    near: &Window,
+    scaled: &ScaledX<'_>,
+) -> Result<Others, String> {
+    let Body::System(system) = problem.body() else {
+        return Err("only a system has particles".into());
+    };
+
+    let split = split_form(system, problem.unknown()).map_err(|e| e.to_string())?;
+    let found = enumerate_modes(&split, near);
+    if !found.degenerate.is_empty() {
+        return Err(NOT_DESCRIBED.into());
+    }
+    if found.solutions.iter().any(|one| scaled.is_near(one)) {
+        return Err(NOT_TOLD_APART.into());
+    }
+
+    Ok(Others {
+        count: found.solutions.len(),
+        supports: found.choices,
     })
 }
 

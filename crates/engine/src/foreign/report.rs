@@ -237,11 +237,12 @@ fn reported(
         solution: index,
         field: "value",
     })?;
+    let candidate = Candidate {
+        value,
+        x: scaled_doubles(&given.x),
+    };
     Ok(Reported {
-        candidate: Candidate {
-            value,
-            x: scaled_doubles(&given.x),
-        },
+        candidate: candidate.one_sided(&reduced.zero_variables()),
         off: given.off,
     })
 }

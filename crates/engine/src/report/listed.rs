@@ -284,7 +284,13 @@ fn of_enclosed(problem: &Problem, reduced: &Reduced, enclosed: &EnclosedSolution
         None => Rational::default(),
     };
 
-    of_point(problem, reduced, &enclosed.support, value, &x)
+    let zero = reduced.zero_variables();
+    let support = &enclosed.support;
+    let vanishing = zero.iter().filter_map(|places| places.vanishing(support));
+    Listed {
+        biactive: vanishing.collect(),
+        ..of_point(problem, reduced, support, value, &x)
+    }
 }
 
 /// A solution known in rounded numbers only, x in any positive scale.

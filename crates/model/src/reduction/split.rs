@@ -78,6 +78,28 @@ pub fn reduce_with_zero(problem: &Problem) -> Result<Reduced, ModelError> {
     })
 }
 
+/// The places of the variables of a system's z particles in its split form, in file order: they
+/// come after those of f and of s.
+pub fn zero_variables(system: &System) -> Vec<ZeroVariables> {
+    let mut gap = system.free_dofs().len() + system.slip_particles().len();
+    let mut list = Vec::new();
+    for (particle, its) in system.particles().iter().enumerate() {
+        if its.state != ContactState::Zero {
+            continue;
+        }
+
+        list.push(ZeroVariables {
+            particle,
+            gap,
+            right: gap + 1,
+            left: gap + 2,
+        });
+        gap += 3;
+    }
+
+    list
+}
+
 /// What the variables of a split form stand for.
 fn variables(system: &System, split: &SplitForm) -> Vec<Variable> {
     let mut list = Vec::new();
@@ -141,24 +163,15 @@ impl Changes {
             changes.add(against, against_friction(particle));
         }
 
-        for (index, particle) in system.particles().iter().enumerate() {
-            if particle.state == ContactState::Zero {
-                changes.add_zero(index, particle);
-            }
+        changes.zero = zero_variables(system);
+        for particle in system.zero_particles() {
+            changes.add_zero(particle);
         }
 
         changes
     }
 
-    fn add_zero(&mut self, index: usize, particle: &Particle) {
-        let gap = self.columns.len();
-        self.zero.push(ZeroVariables {
-            particle: index,
-            gap,
-            right: gap + 1,
-            left: gap + 2,
-        });
-
+    fn add_zero(&mut self, particle: &Particle) {
         let tangent = particle.tangent();
         self.add(scaled(&particle.into_obstacle(), -1), Vec::new());
         self.add(tangent.clone(), against_friction(particle));

@@ -157,6 +157,11 @@ impl<'a> Newton<'a> {
         self.in_support[index]
     }
 
+    /// Variables that are not active and whose rows vanish with the active ones.
+    pub(in crate::certify) fn vanishing(&self) -> Vec<usize> {
+        self.rows.vanishing(&self.active)
+    }
+
     /// Variables that are not active, ascending.
     pub(in crate::certify) fn inactive(&self) -> impl Iterator<Item = usize> {
         (0..self.place.len()).filter(|&i| self.place[i].is_none())
