@@ -1,6 +1,6 @@
 //! Claims about a system with a particle in contact with zero reaction: one solution for each of
-//! its modes and corners, and a forgery of each condition on it (`spec/zero-reaction.md`), for exact
-//! and lifted claims and for boxes.
+//! its modes and corners, and a forgery of each condition on it (`spec/zero-reaction.md`), for
+//! exact and lifted claims and for boxes.
 //!
 //! Two particles: 0 on the degrees of freedom (T, N) = (0, 1) in impending slip with S = 1, 1 on
 //! (2, 3) with zero reaction. With mu = 3 and M = I (MCEIP-mu: mu = 2 and lambda = 0)

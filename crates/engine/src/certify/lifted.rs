@@ -7,9 +7,10 @@
 //! ```
 //!
 //! w = K v for MCEIP-mu. With x = (.., g, v+, v-) a particle in contact with zero reaction has
-//! v_N = -g and v_T = v+ - v-, where v+ or v- is 0 (`spec/zero-reaction.md`, Z.3). Components are polynomials in the value t, the constant coefficient first,
-//! reduced modulo the claim's polynomial. Nothing is checked here. Called by the command `certify`
-//! and by reports.
+//! v_N = -g and v_T = v+ - v-, where v+ or v- is 0 (`spec/zero-reaction.md`, Z.3).
+//!
+//! Components are polynomials in the value t, the constant coefficient first, reduced modulo the
+//! claim's polynomial. Nothing is checked here. Called by the command `certify` and by reports.
 
 use mceip_check::certificate::{ExactSolution, LiftedSolution};
 use mceip_exact::{Rational, Sparse};

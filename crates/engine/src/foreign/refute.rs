@@ -51,8 +51,8 @@ impl Effort {
         self.take(cost)
     }
 
-    /// The same for the enumeration of modes of a split form: each choice of modes is a support, and
-    /// those that are singular are not described.
+    /// The same for the enumeration of modes of a split form: each choice of modes is a support,
+    /// and those that are singular are not described.
     fn spend_on_modes(&mut self, pencil: &Pencil) -> Result<(), String> {
         let slip = pencil.slip().len() as u64;
         let free = pencil.free().len() as u64;
