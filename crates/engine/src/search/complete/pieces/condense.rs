@@ -8,7 +8,7 @@
 //! Input: a pencil with free variables, A_ff symmetric positive definite, B_ff symmetric positive
 //! semidefinite. Called by `prepared`. The checker's side is `check::cover::condensed`.
 
-use super::anchor::{COARSE, CONSTANT, Columns, Elimination, Expanded, FINE, FreeBounds, centers};
+use super::anchor::{CONSTANT, Columns, Elimination, Expanded, FreeBounds, Precision, centers};
 use super::blocks::Blocks;
 use super::expansion::Expansion;
 use super::massless;
@@ -49,11 +49,12 @@ pub(crate) struct Condensed {
 /// B_ff is indefinite.
 ///
 /// `definite_above` is the pencil whose definiteness makes a tail: this one, or one of a family with
-/// the same free rows.
+/// the same free rows. `coarse` is how the anchors are expanded.
 pub(crate) fn condense(
     pencil: &Pencil,
     window: &Window,
     definite_above: &Pencil,
+    coarse: Precision,
 ) -> Result<Condensed, CompleteError> {
     let blocks = Blocks::of(pencil);
     demand_symmetry(&blocks)?;
@@ -100,7 +101,7 @@ pub(crate) fn condense(
     let precision = if blocks.mass_is_zero {
         CONSTANT
     } else {
-        COARSE
+        coarse
     };
 
     let mut anchors = Anchors::default();
@@ -273,13 +274,14 @@ pub(crate) fn bounds_of(condensation: &Condensation) -> FreeBounds {
     }
 }
 
-/// Appends fine anchors about further values to a condensation and its view. Values at which the
-/// expansion fails get none.
+/// Appends anchors of a `fine` precision about further values to a condensation and its view. Values
+/// at which the expansion fails get none.
 pub(crate) fn refine(
     pencil: &Pencil,
     condensation: &mut Condensation,
     view: &mut View,
     values: &[f64],
+    fine: Precision,
 ) {
     let blocks = Blocks::of(pencil);
     let elimination = Elimination {
@@ -293,7 +295,7 @@ pub(crate) fn refine(
             continue;
         };
 
-        if let Some(expanded) = elimination.expand(&center, FINE) {
+        if let Some(expanded) = elimination.expand(&center, fine) {
             condensation.anchors.push(expanded.anchor);
             view.expansions.push(expanded.expansion);
         }
