@@ -161,6 +161,12 @@ pub(crate) struct Expanded {
     pub(crate) expansion: Expansion,
 }
 
+/// V of another pencil beside the W of an anchor, and the condensed pencil that both give.
+pub(crate) struct Beside {
+    pub(crate) left: Vec<IntegerMatrix>,
+    pub(crate) expansion: Expansion,
+}
+
 /// A matrix by columns: one per complementarity variable, over the free variables.
 pub(crate) type Columns = Vec<Vec<f64>>;
 
@@ -202,7 +208,7 @@ impl Elimination<'_> {
     /// V alone about the centre of an anchor of a pencil with the same free rows, whose W is `right`:
     /// of the degree of W, with as many bits as the V of that anchor. `None` where F is not definite
     /// in doubles.
-    pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[Columns]) -> Option<Expanded> {
+    pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[Columns]) -> Option<Beside> {
         let at = to_f64(&anchor.center.0);
         let factor = self.blocks.factor_at(at)?;
         let solution = Solution {
@@ -219,12 +225,10 @@ impl Elimination<'_> {
         let degree = self.degree(&self.blocks.sf, precision);
         let left = solution.taylor(&self.blocks.sf, degree, precision.left_bits);
         let expansion = self.expansion(at, right, &left.rounded);
-        let anchor = Anchor {
+        Some(Beside {
             left: left.integers,
-            ..anchor.clone()
-        };
-
-        Some(Expanded { anchor, expansion })
+            expansion,
+        })
     }
 
     /// Degree of the solution for a right-hand side.

@@ -8,7 +8,9 @@
 //! Input: a pencil with free variables, A_ff symmetric positive definite, B_ff symmetric positive
 //! semidefinite. Called by `prepared`. The checker's side is `check::cover::condensed`.
 
-use super::anchor::{CONSTANT, Columns, Elimination, Expanded, FreeBounds, Precision, centers};
+use super::anchor::{
+    Beside, CONSTANT, Columns, Elimination, Expanded, FreeBounds, Precision, centers,
+};
 use super::blocks::Blocks;
 use super::expansion::Expansion;
 use super::massless;
@@ -342,12 +344,12 @@ pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     }
 }
 
-/// The anchors of a condensation with V of another pencil that has the same free rows, and what they
-/// expand to; `None` where F is not definite in doubles.
-pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec<Expanded>> {
+/// V of another pencil that has the same free rows beside each anchor, and what they expand to;
+/// `None` where F is not definite in doubles.
+pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec<Beside>> {
     let bounds = bounds_of(condensation);
     let exchanged = exchanged(pencil)?;
-    let mut anchors = Vec::with_capacity(condensation.anchors.len());
+    let mut all = Vec::with_capacity(condensation.anchors.len());
     for anchor in &condensation.anchors {
         let (pencil, bounds) = if anchor.reversed {
             (&exchanged, bounds.exchanged())
@@ -361,12 +363,12 @@ pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec
             bounds,
         };
 
-        let mut expanded = elimination.expand_beside(anchor, &right_columns(anchor, pencil))?;
-        expanded.expansion.reversed = anchor.reversed;
-        anchors.push(expanded);
+        let mut beside = elimination.expand_beside(anchor, &right_columns(anchor, pencil))?;
+        beside.expansion.reversed = anchor.reversed;
+        all.push(beside);
     }
 
-    Some(anchors)
+    Some(all)
 }
 
 /// The coefficients of W of an anchor, in doubles.
