@@ -18,7 +18,7 @@ use crate::search::complete::pieces::skyline::Skyline;
 use crate::tolerance::{BRACKET_BITS, BRACKET_START_BITS};
 use mceip_exact::{
     Algebraic, DefiniteError, Dense, Integer, Interval, Rational, Sparse, common_denominator,
-    determinant, from_f64, positive_definite, rational, roots_in, to_f64, whole,
+    determinant, from_f64, positive_definite, rational, roots_in, to_f64,
 };
 use mceip_model::{ModelError, Pencil, Window};
 use mceip_oracle::{Enumeration, Solution, examine_support};
@@ -443,17 +443,11 @@ pub fn is_all_slip(pencil: &Pencil, support: &[usize], biactive: &[usize]) -> bo
         .all(|i| support.contains(i) || biactive.contains(i))
 }
 
-/// The value of mu in the middle of an enclosure, for people.
-pub fn approximately(interval: &Interval) -> f64 {
-    let middle = (interval.lo() + interval.hi()) / whole(2);
-    to_f64(&middle)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::reduction::mu_family;
-    use mceip_exact::rational;
+    use mceip_exact::{rational, whole};
     use mceip_model::{ContactState, Particle, System};
     use mceip_oracle::{TwoParticles, table1, thresholds};
     use mceip_paper::two_particles;

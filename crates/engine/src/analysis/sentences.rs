@@ -5,7 +5,7 @@
 //! accepted certificates only.
 
 use super::answer::Analysis;
-use super::conditions::{DefiniteUntil, approximately};
+use super::conditions::DefiniteUntil;
 use super::critical::Obstacle;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
@@ -89,7 +89,8 @@ fn not_definite_text(until: &DefiniteUntil, relation: &str) -> String {
         DefiniteUntil::Never => "for every mu".into(),
         DefiniteUntil::Always => "for no mu".into(),
         DefiniteUntil::End { end, .. } => {
-            format!("for mu {relation} {:.9}", approximately(end))
+            // Doubles know the upper end best (`conditions`).
+            format!("for mu {relation} {:.9}", to_f64(end.hi()))
         }
     }
 }
