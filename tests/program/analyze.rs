@@ -10,7 +10,7 @@ use crate::common::{contains_all, example, exit_code, exits, exits_with_json, re
 use crate::program::{Folder, refused};
 use mceip_check::{check, check_critical};
 use mceip_engine::analysis::{
-    Analysis, Evidence, Mode, Options, ProofCertificate, Verdict, analyse,
+    Analysis, Evidence, Mode, Obstacle, Options, ProofCertificate, Verdict, analyse,
 };
 use mceip_engine::reduction::reduce;
 use mceip_engine::run::{Cancel, Watch};
@@ -309,6 +309,7 @@ fn a_fold_lies_below_every_static_threshold() {
     let gap = (above - &below) / above;
     assert!(gap <= rational(1, 1_000_000), "{}", to_f64(&gap));
     assert!(solution.lambda2.lo() > &whole(0));
+    assert!(analysis.critical.unproved.is_none());
     absence_is_accepted_and_more_is_refused(&analysis);
 
     // Independent of the search: the enumerator finds nothing below at many lambda^2.
@@ -321,6 +322,36 @@ fn a_fold_lies_below_every_static_threshold() {
     let ranges = &analysis.ranges;
     assert_eq!(ranges.first().unwrap().verdict, Verdict::Absent);
     assert!(ranges.iter().any(|range| range.verdict == Verdict::Present));
+}
+
+/// With one box for each piece no cover is found: the bound is that of condition (19), and the
+/// answer says which bound was tried and why it is not proved.
+#[test]
+fn the_answer_says_why_a_bound_is_not_proved() {
+    let mut options = Options {
+        samples: 0,
+        threads: Some(1),
+        ..Options::default()
+    };
+    options.limits.boxes = 1;
+
+    let analysis = analyse(None, &fold(), &whole(2), &options, &Watch::nobody()).unwrap();
+
+    let critical = &analysis.critical;
+    let tried = critical.unproved.as_ref().unwrap();
+    assert_eq!(tried.reason, Obstacle::Boxes);
+    assert!(tried.below > *critical.absent_below.as_ref().unwrap());
+    assert!(critical.boxes.is_none());
+
+    let [lambda2, mu] = tried.place.unwrap();
+    assert!(lambda2 >= 0.0 && mu > 0.0 && mu < to_f64(&tried.below));
+
+    let sentences = analysis.sentences();
+    let said = sentences.iter().find(|s| s.topic == "critical_unproved");
+    let text = &said.unwrap().text;
+    assert!(text.contains("used up (--boxes)"), "{text}");
+    let json = analysis.to_json(&[]);
+    assert_eq!(json["critical"]["unproved"]["reason"], "boxes");
 }
 
 /// The bound of the critical mu rests on a certificate that the checker accepts; with the known

@@ -7,20 +7,20 @@
 //! shorter of the two intervals. Where M1 = 0 only K* counts (20).
 //!
 //! The end of an interval is the smallest positive root of det(A + mu B) with A, B the symmetric
-//! parts. For small orders it is found as that root; otherwise doubles propose it, and an exact
-//! LDL' proves definiteness just before it and refutes it just after it.
+//! parts. For small orders it is found as that root; otherwise doubles propose it and the null
+//! vector there, an exact LDL' proves definiteness just before it, and the vector refutes it just
+//! after it.
 //!
 //! Input: K* and M* as linear functions of mu ([`MuFamily`]). Output: [`Necessary`]. Called by
 //! [`analyse`](super::analyse) and by the loading path of `mceip block`.
 
-use crate::dense::rounded;
 use crate::reduction::MuFamily;
+use crate::search::complete::pieces::skyline::Skyline;
 use crate::tolerance::{BRACKET_BITS, BRACKET_START_BITS};
 use mceip_exact::{
     Algebraic, DefiniteError, Dense, Integer, Interval, Rational, Sparse, common_denominator,
-    determinant, from_f64, positive_definite, rational, roots_in, to_f64, whole,
+    determinant, from_f64, positive_definite, rational, roots_in, to_f64,
 };
-use mceip_mcp::linear::definite_eigenvalues;
 use mceip_model::{ModelError, Pencil, Window};
 use mceip_oracle::{Enumeration, Solution, examine_support};
 use num_traits::{One, Signed, Zero};
@@ -43,6 +43,17 @@ pub enum DefiniteUntil {
 
 /// Largest order for which the end is given as the root of a determinant.
 const EXACT_ORDER: usize = 10;
+
+/// The end is looked for between 2^-this and 2^this.
+const END_EXPONENT: i32 = 64;
+
+/// Halvings of the interval of the end: to the rounding of doubles.
+const HALVINGS_OF_END: usize = 52;
+
+/// Inverse iterations next to the end, where the null vector outweighs all others, and the bits to
+/// which it is rounded.
+const STEPS_TO_NULL_VECTOR: usize = 4;
+const BITS_OF_NULL_VECTOR: i32 = 40;
 
 impl DefiniteUntil {
     /// Encloses the end of the interval; `None` where there is no end.
@@ -197,11 +208,10 @@ fn integral(a: &Sparse, scale: &Rational) -> Vec<Vec<Integer>> {
     rows
 }
 
-/// The end between a value at which LDL' proves definiteness and one at which it refutes it.
+/// The end between a value at which LDL' proves definiteness and one at which a vector refutes it.
 fn bracket(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, ModelError> {
-    let end = propose_end(a, b).and_then(|guess| {
-        let lo = proved_near(a, b, &guess, Wanted::DefiniteBelow)?;
-        let hi = proved_near(a, b, &guess, Wanted::NotDefiniteAbove)?;
+    let end = refuted_from(a, b).and_then(|hi| {
+        let lo = proved_before(a, b, &hi)?;
         Interval::new(lo, hi)
     });
 
@@ -215,45 +225,81 @@ fn bracket(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, 
     }
 }
 
-/// The mu at which A + mu B ceases to be definite, in doubles: 1 + mu t >= 0 for the eigenvalues t
-/// of B v = t A v, so the smallest one decides.
-fn propose_end(a: &Sparse, b: &Sparse) -> Option<Rational> {
-    let eigenvalues = definite_eigenvalues(&rounded(b), &rounded(a))?;
-    let smallest = eigenvalues.first()?;
-    let end = from_f64(-smallest.recip()).ok()?;
-    end.is_positive().then_some(end)
+/// A mu at which A + mu B is not definite, next to the end. Doubles propose x near the null vector
+/// there; exactly, x'(A + mu B)x <= 0 from mu = -x'Ax / x'Bx on, which exceeds the end by the
+/// square of the error of x.
+fn refuted_from(a: &Sparse, b: &Sparse) -> Option<Rational> {
+    let x = near_null_vector(a, b)?;
+    let of_a = quadratic_form(a, &x);
+    let of_b = quadratic_form(b, &x);
+    if !of_b.is_negative() {
+        return None;
+    }
+
+    let end = -(&of_a / &of_b);
+    let mu = from_f64(to_f64(&end) * (1.0 + f64::EPSILON * 4.0)).ok()?;
+    let is_refuted = !(of_a + &mu * of_b).is_positive();
+    (is_refuted && mu.is_positive()).then_some(mu)
 }
 
-/// What is to be proved on a side of the proposed end.
-#[derive(Clone, Copy)]
-enum Wanted {
-    DefiniteBelow,
-    NotDefiniteAbove,
+/// A vector in doubles, rounded to integers, near the null vector of A + mu B where definiteness
+/// ends: by inverse iteration at the last mu with a Cholesky factor.
+///
+/// That mu is found by doubling and halving. `None` where no end is found.
+fn near_null_vector(a: &Sparse, b: &Sparse) -> Option<Vec<Rational>> {
+    let a = Skyline::symmetric(a);
+    let b = Skyline::symmetric(b);
+    let is_definite = |mu: f64| a.combine(mu, &b).cholesky().is_some();
+
+    let powers = (-END_EXPONENT..=END_EXPONENT).rev();
+    let mut below = powers
+        .map(|k| f64::from(k).exp2())
+        .find(|mu| is_definite(*mu))?;
+    let mut above = 2.0 * below;
+
+    for _ in 0..HALVINGS_OF_END {
+        let middle = 0.5 * (below + above);
+        if is_definite(middle) {
+            below = middle;
+        } else {
+            above = middle;
+        }
+    }
+
+    let factor = a.combine(below, &b).cholesky()?;
+    let mut vector = factor.without_symmetry();
+    for _ in 0..STEPS_TO_NULL_VECTOR {
+        factor.solve(&mut vector);
+        let largest = vector.iter().fold(0.0f64, |s, v| s.max(v.abs()));
+        vector.iter_mut().for_each(|v| *v /= largest);
+    }
+
+    let unit = f64::from(BITS_OF_NULL_VECTOR).exp2();
+    let rounded = vector
+        .into_iter()
+        .map(|v| from_f64((v * unit).round()).ok());
+    rounded.collect()
 }
 
-/// The value nearest to the guess on one side of it, among steps that grow by 4, at which A + mu B
-/// is proved to be what is wanted.
-fn proved_near(a: &Sparse, b: &Sparse, guess: &Rational, wanted: Wanted) -> Option<Rational> {
+/// x'Mx.
+fn quadratic_form(m: &Sparse, x: &[Rational]) -> Rational {
+    let mut sum = Rational::zero();
+    for (i, j, entry) in m.entries() {
+        sum += entry * (&x[i] * &x[j]);
+    }
+
+    sum
+}
+
+/// The value nearest below a mu, among steps that grow by 4, at which A + mu B is proved definite.
+fn proved_before(a: &Sparse, b: &Sparse, end: &Rational) -> Option<Rational> {
     for k in 0..=BRACKET_START_BITS / 2 {
         let step = Rational::new(
             Integer::one(),
             Integer::one() << (BRACKET_START_BITS - 2 * k),
         );
-        let factor = match wanted {
-            Wanted::DefiniteBelow => Rational::one() - step,
-            Wanted::NotDefiniteAbove => Rational::one() + step,
-        };
-        let mu = shorten(&(guess * factor));
-        if mu.is_negative() {
-            continue;
-        }
-
-        let decided = positive_definite(&a.add_scaled(&mu, b));
-        let is_proved = match wanted {
-            Wanted::DefiniteBelow => decided.is_ok(),
-            Wanted::NotDefiniteAbove => matches!(decided, Err(DefiniteError::Not(_))),
-        };
-        if is_proved {
+        let mu = shorten(&(end * (Rational::one() - step)));
+        if !mu.is_negative() && positive_definite(&a.add_scaled(&mu, b)).is_ok() {
             return Some(mu);
         }
     }
@@ -398,17 +444,11 @@ pub fn is_all_slip(pencil: &Pencil, support: &[usize], biactive: &[usize]) -> bo
         .all(|i| support.contains(i) || biactive.contains(i))
 }
 
-/// The value of mu in the middle of an enclosure, for people.
-pub fn approximately(interval: &Interval) -> f64 {
-    let middle = (interval.lo() + interval.hi()) / whole(2);
-    to_f64(&middle)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::reduction::mu_family;
-    use mceip_exact::rational;
+    use mceip_exact::{rational, whole};
     use mceip_model::{ContactState, Particle, System};
     use mceip_oracle::{TwoParticles, table1, thresholds};
     use mceip_paper::two_particles;

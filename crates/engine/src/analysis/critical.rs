@@ -21,7 +21,6 @@ use super::threshold::StaticThreshold;
 use crate::reduction::MuFamily;
 use crate::run::Progress;
 use crate::search::complete::Completed;
-use crate::search::complete::pieces::anchor::NEAR;
 use crate::tolerance::{
     CRITICAL_GAPS, FIRST_GAP, FIRST_NEAR, LEAST_NEAR, NARROW_WINDOWS, NEARER, SMALLER_FRICTION,
 };
@@ -53,6 +52,47 @@ pub struct Critical {
     pub solution: Option<CertifiedSolution>,
     /// Leaves of the cover behind the bound, where there is one.
     pub boxes: Option<usize>,
+    /// The bound tried last in vain, above `absent_below`.
+    pub unproved: Option<Unproved>,
+}
+
+/// A bound below which absence was tried and not proved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unproved {
+    /// The bound.
+    pub below: Rational,
+    /// Why not.
+    pub reason: Obstacle,
+    /// lambda^2 and mu of the first box that stood in the way, where it was one.
+    pub place: Option<[f64; 2]>,
+}
+
+/// What stands in the way of a bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Obstacle {
+    /// A box seems to hold a solution, which could not be certified.
+    Solution,
+    /// The remainder of the condensation, about the finest anchors as well.
+    Remainder,
+    /// The boxes allowed are used up.
+    Boxes,
+    /// The checker has refused what doubles propose.
+    Refused,
+    /// The run was interrupted.
+    Interrupted,
+}
+
+impl Obstacle {
+    /// A word for programs.
+    pub fn word(self) -> &'static str {
+        match self {
+            Obstacle::Solution => "solution",
+            Obstacle::Remainder => "remainder",
+            Obstacle::Boxes => "boxes",
+            Obstacle::Refused => "refused",
+            Obstacle::Interrupted => "interrupted",
+        }
+    }
 }
 
 const BY_CONDITION: Evidence = Evidence::Exact(
@@ -133,6 +173,7 @@ pub(super) fn critical(
             evidence: BY_CONDITION,
             solution: None,
             boxes: None,
+            unproved: None,
         });
     };
 
@@ -140,6 +181,7 @@ pub(super) fn critical(
         solution,
         of_solution: None,
         absence: None,
+        unproved: None,
         places: Vec::new(),
     };
 
@@ -174,6 +216,8 @@ struct Bounds {
     /// The proof of that solution, if it is none of those known before.
     of_solution: Option<Proof>,
     absence: Option<CriticalCertificate>,
+    /// The bound tried last in vain.
+    unproved: Option<Unproved>,
     /// Where condensation is to be precise.
     places: Vec<Place>,
 }
@@ -208,6 +252,15 @@ impl Bounds {
         near >= LEAST_NEAR
     }
 
+    /// Notes that absence below a bound is not proved.
+    fn not_proved(&mut self, below: &Rational, reason: Obstacle, place: Option<[f64; 2]>) {
+        self.unproved = Some(Unproved {
+            below: below.clone(),
+            reason,
+            place,
+        });
+    }
+
     fn into_critical(
         self,
         excluded: Rational,
@@ -225,6 +278,8 @@ impl Bounds {
             (solution, _) => solution,
         };
 
+        let unproved = self.unproved;
+
         let beyond_condition = self.absence.filter(|found| found.below > excluded);
         let Some(certificate) = beyond_condition else {
             return Critical {
@@ -232,6 +287,7 @@ impl Bounds {
                 evidence: BY_CONDITION,
                 solution,
                 boxes: None,
+                unproved,
             };
         };
 
@@ -248,6 +304,7 @@ impl Bounds {
             evidence: Evidence::Certificate(proofs.len() - 1),
             solution,
             boxes: Some(boxes),
+            unproved,
         }
     }
 }
@@ -302,7 +359,7 @@ impl Search<'_> {
             let lambda2 = to_f64(&solution.lambda2.mid());
             bounds.places.push(Place {
                 lambda2,
-                near: NEAR,
+                near: FIRST_NEAR,
             });
         }
 
@@ -471,6 +528,7 @@ impl Search<'_> {
         bounds: &mut Bounds,
     ) -> Result<Option<Next>, AnalysisError> {
         if self.model.stopped() {
+            bounds.not_proved(below, Obstacle::Interrupted, None);
             return Ok(Some(Next::Wider));
         }
 
@@ -479,11 +537,30 @@ impl Search<'_> {
         let quadrant = self.quadrant.heard_by(&relay);
         match quadrant.cover(below, &bounds.places)? {
             Outcome::Absent(certificate) => {
+                bounds.unproved = bounds.unproved.take().filter(|tried| tried.below > *below);
                 bounds.absence = Some(*certificate);
                 Ok(None)
             }
-            Outcome::Refused => Ok(Some(Next::Wider)),
-            Outcome::Blocked(obstacles) => self.learn_from(&obstacles, bounds).map(Some),
+            Outcome::Refused => {
+                bounds.not_proved(below, Obstacle::Refused, None);
+                Ok(Some(Next::Wider))
+            }
+            Outcome::Blocked(obstacles) => {
+                let first = obstacles.first();
+                let reason = first.map_or(Obstacle::Refused, |box_| self.obstacle(box_.cause));
+                bounds.not_proved(below, reason, first.map(|box_| box_.middle));
+                self.learn_from(&obstacles, bounds).map(Some)
+            }
+        }
+    }
+
+    /// What a box that could not be emptied is called in the answer.
+    fn obstacle(&self, cause: Cause) -> Obstacle {
+        match cause {
+            Cause::Solution => Obstacle::Solution,
+            Cause::Remainder => Obstacle::Remainder,
+            Cause::Budget if self.model.stopped() => Obstacle::Interrupted,
+            Cause::Budget => Obstacle::Boxes,
         }
     }
 
@@ -502,7 +579,7 @@ impl Search<'_> {
             {
                 bounds.places.push(Place {
                     lambda2: point.t,
-                    near: NEAR,
+                    near: FIRST_NEAR,
                 });
                 return Ok(Next::Again);
             }

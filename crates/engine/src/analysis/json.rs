@@ -6,6 +6,7 @@
 
 use super::answer::Analysis;
 use super::conditions::DefiniteUntil;
+use super::critical::Unproved;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
 use super::flutter::Flutter;
@@ -86,6 +87,15 @@ fn range(range: &Range) -> Value {
         "from": range.from.to_string(),
         "to": range.to.as_ref().map(ToString::to_string),
         "proved": !matches!(range.evidence, Evidence::Measured(_)),
+    })
+}
+
+fn unproved(tried: &Unproved) -> Value {
+    json!({
+        "below": tried.below.to_string(),
+        "reason": tried.reason.word(),
+        "lambda2": tried.place.map(|[lambda2, _]| lambda2),
+        "mu": tried.place.map(|[_, mu]| mu),
     })
 }
 
@@ -191,6 +201,7 @@ impl Analysis {
             "absent_evidence": self.evidence_json(&critical.evidence, paths),
             "solution": solution,
             "boxes": critical.boxes,
+            "unproved": critical.unproved.as_ref().map(unproved),
         })
     }
 

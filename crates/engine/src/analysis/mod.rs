@@ -28,7 +28,7 @@ mod summary;
 mod threshold;
 
 pub use answer::Analysis;
-pub use critical::{CertifiedSolution, Critical};
+pub use critical::{CertifiedSolution, Critical, Obstacle, Unproved};
 pub use divergence::{Divergence, Verdict};
 pub use error::AnalysisError;
 pub use evidence::{Evidence, Proof, ProofCertificate};

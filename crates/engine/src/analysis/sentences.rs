@@ -5,7 +5,8 @@
 //! accepted certificates only.
 
 use super::answer::Analysis;
-use super::conditions::{DefiniteUntil, approximately};
+use super::conditions::DefiniteUntil;
+use super::critical::Obstacle;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
 use super::flutter::{Flutter, root};
@@ -88,8 +89,20 @@ fn not_definite_text(until: &DefiniteUntil, relation: &str) -> String {
         DefiniteUntil::Never => "for every mu".into(),
         DefiniteUntil::Always => "for no mu".into(),
         DefiniteUntil::End { end, .. } => {
-            format!("for mu {relation} {:.9}", approximately(end))
+            // Doubles know the upper end best (`conditions`).
+            format!("for mu {relation} {:.9}", to_f64(end.hi()))
         }
+    }
+}
+
+/// What stood in the way of a bound, in words.
+fn obstacle_text(reason: Obstacle) -> &'static str {
+    match reason {
+        Obstacle::Solution => "a box seems to hold a solution that could not be certified",
+        Obstacle::Remainder => "the remainder of the condensation leaves a box open",
+        Obstacle::Boxes => "the boxes allowed in a piece were used up (--boxes)",
+        Obstacle::Refused => "the checker refused what doubles proposed",
+        Obstacle::Interrupted => "the run was interrupted",
     }
 }
 
@@ -138,6 +151,7 @@ impl Analysis {
         all.extend(self.say_modes());
         all.push(self.say_threshold());
         all.push(self.say_critical());
+        all.extend(self.say_unproved());
         all.extend(self.say_solution());
         all.extend(self.say_ranges());
         all.push(self.say_necessary());
@@ -257,6 +271,25 @@ impl Analysis {
             text,
             evidence: self.critical.evidence.clone(),
         }
+    }
+
+    /// Why no finer bound was proved, where one was tried.
+    fn say_unproved(&self) -> Option<Sentence> {
+        let tried = self.critical.unproved.as_ref()?;
+        let place = match tried.place {
+            Some([lambda2, mu]) => format!(", first at lambda^2 = {lambda2:.6e}, mu = {mu:.9}"),
+            None => String::new(),
+        };
+
+        Some(Sentence {
+            topic: "critical_unproved",
+            text: format!(
+                "Critical mu: absence below {} was tried and is not proved: {}{place}.",
+                down(&tried.below),
+                obstacle_text(tried.reason)
+            ),
+            evidence: Evidence::Measured("the search in doubles stopped there"),
+        })
     }
 
     fn say_solution(&self) -> Option<Sentence> {

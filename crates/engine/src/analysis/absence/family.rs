@@ -35,11 +35,11 @@ const PIECES: usize = 16;
 pub(super) struct Family {
     /// P0 and P1.
     pencils: [Pencil; 2],
-    /// The condensation of P0 and the pieces.
+    /// The condensation of P0, its anchors moved to `left_friction`, and the pieces.
     prepared: Prepared,
     /// Of each anchor the expansions of T0 and T1; one pair where there are no free variables.
     expansions: Vec<[Expansion; 2]>,
-    /// Of each anchor V for P1.
+    /// The anchors, each with V for P1.
     left_friction: Vec<CriticalAnchor>,
     pub(super) pieces: Vec<PieceOfHalfLine>,
 }
@@ -102,7 +102,7 @@ impl Family {
 
         let mut expansions = Vec::new();
         let mut left_friction = Vec::new();
-        match &prepared.condensation {
+        match &mut prepared.condensation {
             None => {
                 let view = View::of(of_friction);
                 expansions.push([
@@ -117,15 +117,17 @@ impl Family {
                         index: without_friction.free()[0],
                     })?;
 
-                let anchors = condensation.anchors.iter().zip(beside);
-                for ((anchor, second), first) in anchors.zip(&prepared.view.expansions) {
+                // The matrices of a large body take most of the memory: they are moved.
+                let anchors = std::mem::take(&mut condensation.anchors);
+                let with_expansions = anchors.into_iter().zip(&prepared.view.expansions);
+                for ((anchor, first), second) in with_expansions.zip(beside) {
                     expansions.push([first.clone(), second.expansion]);
                     left_friction.push(CriticalAnchor {
-                        center: anchor.center.clone(),
+                        center: anchor.center,
                         reversed: anchor.reversed,
-                        right: anchor.right.clone(),
-                        left: anchor.left.clone(),
-                        left_friction: second.anchor.left,
+                        right: anchor.right,
+                        left: anchor.left,
+                        left_friction: second.left,
                     });
                 }
             }

@@ -45,10 +45,10 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// The boxes allowed with so many slip variables: their number times its cube is constant.
+    /// The boxes allowed with so many slip variables: their number times its square is constant.
     fn boxes_for(&self, order: usize) -> usize {
-        let cubes = [SMALL_ORDER, order.max(SMALL_ORDER)].map(|n| (n * n * n) as f64);
-        let share = cubes[0] / cubes[1];
+        let squares = [SMALL_ORDER, order.max(SMALL_ORDER)].map(|n| (n * n) as f64);
+        let share = squares[0] / squares[1];
         (self.boxes as f64 * share) as usize
     }
 }

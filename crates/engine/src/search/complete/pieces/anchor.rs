@@ -20,7 +20,7 @@ use super::skyline::{Skyline, dot};
 use super::view::row_factor;
 use crate::search::complete::dyadic::multiple_near;
 use mceip_check::certificate::{Anchor, IntegerMatrix};
-use mceip_exact::{Rational, to_f64, truncated};
+use mceip_exact::{Integer, Rational, to_f64, truncated};
 use mceip_model::Pencil;
 use mceip_model::file::Number;
 
@@ -52,6 +52,36 @@ pub(crate) const FINE: Precision = Precision {
     degree: 2,
     right_bits: 56,
     left_bits: 30,
+};
+
+/// The precisions of the anchors of one search.
+#[derive(Clone, Copy)]
+pub(crate) struct Precisions {
+    pub(crate) coarse: Precision,
+    pub(crate) fine: Precision,
+}
+
+/// Of a window of the unknown.
+pub(crate) const OF_WINDOW: Precisions = Precisions {
+    coarse: COARSE,
+    fine: FINE,
+};
+
+/// Of a family that is searched in the unknown and in the friction at once. The margins of its
+/// witnesses are narrow, the narrower the more variables slip: the remainder of degree 2 (some 1e-4
+/// of an entry at the end of an interval) multiplies the boxes of 25 slip particles by twenty.
+/// Degree 3 leaves 1e-6 there, and so many bits 1e-8 beside the centre.
+pub(crate) const OF_FAMILY: Precisions = Precisions {
+    coarse: Precision {
+        degree: 3,
+        right_bits: 34,
+        left_bits: 20,
+    },
+    fine: Precision {
+        degree: 3,
+        right_bits: 56,
+        left_bits: 30,
+    },
 };
 
 /// Distance from a solution up to which its own anchor is used, relative to value + lowest
@@ -131,6 +161,12 @@ pub(crate) struct Expanded {
     pub(crate) expansion: Expansion,
 }
 
+/// V of another pencil beside the W of an anchor, and the condensed pencil that both give.
+pub(crate) struct Beside {
+    pub(crate) left: Vec<IntegerMatrix>,
+    pub(crate) expansion: Expansion,
+}
+
 /// A matrix by columns: one per complementarity variable, over the free variables.
 pub(crate) type Columns = Vec<Vec<f64>>;
 
@@ -170,8 +206,9 @@ impl Elimination<'_> {
     }
 
     /// V alone about the centre of an anchor of a pencil with the same free rows, whose W is
-    /// `right`; `None` where F is not definite in doubles.
-    pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[Columns]) -> Option<Expanded> {
+    /// `right`: of the degree of W, with as many bits as the V of that anchor. `None` where F is
+    /// not definite in doubles.
+    pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[Columns]) -> Option<Beside> {
         let at = to_f64(&anchor.center.0);
         let factor = self.blocks.factor_at(at)?;
         let solution = Solution {
@@ -180,15 +217,18 @@ impl Elimination<'_> {
             center: at,
         };
 
-        let degree = self.degree(&self.blocks.sf, FINE);
-        let left = solution.taylor(&self.blocks.sf, degree, FINE.left_bits);
-        let expansion = self.expansion(at, right, &left.rounded);
-        let anchor = Anchor {
-            left: left.integers,
-            ..anchor.clone()
+        let precision = Precision {
+            degree: right.len().saturating_sub(1),
+            right_bits: 0,
+            left_bits: bits_of(&anchor.left).max(OF_FAMILY.coarse.left_bits),
         };
-
-        Some(Expanded { anchor, expansion })
+        let degree = self.degree(&self.blocks.sf, precision);
+        let left = solution.taylor(&self.blocks.sf, degree, precision.left_bits);
+        let expansion = self.expansion(at, right, &left.rounded);
+        Some(Beside {
+            left: left.integers,
+            expansion,
+        })
     }
 
     /// Degree of the solution for a right-hand side.
@@ -246,6 +286,15 @@ impl Elimination<'_> {
             reversed: false,
         }
     }
+}
+
+/// The bits of the largest entry of the first coefficient; 0 where there is none.
+fn bits_of(coefficients: &[IntegerMatrix]) -> i32 {
+    let entries = coefficients.first().into_iter().flat_map(|m| &m.rows);
+    let largest = entries.flatten().map(Integer::bits).max();
+    largest
+        .and_then(|bits| i32::try_from(bits).ok())
+        .unwrap_or(0)
 }
 
 /// Solutions with F(center), which is given by its Cholesky factor.

@@ -8,7 +8,9 @@
 //! Input: a pencil with free variables, A_ff symmetric positive definite, B_ff symmetric positive
 //! semidefinite. Called by `prepared`. The checker's side is `check::cover::condensed`.
 
-use super::anchor::{COARSE, CONSTANT, Columns, Elimination, Expanded, FINE, FreeBounds, centers};
+use super::anchor::{
+    Beside, CONSTANT, Columns, Elimination, Expanded, FreeBounds, Precision, centers,
+};
 use super::blocks::Blocks;
 use super::expansion::Expansion;
 use super::massless;
@@ -49,11 +51,12 @@ pub(crate) struct Condensed {
 /// B_ff is indefinite.
 ///
 /// `definite_above` is the pencil whose definiteness makes a tail: this one, or one of a family
-/// with the same free rows.
+/// with the same free rows. `coarse` is how the anchors are expanded.
 pub(crate) fn condense(
     pencil: &Pencil,
     window: &Window,
     definite_above: &Pencil,
+    coarse: Precision,
 ) -> Result<Condensed, CompleteError> {
     let blocks = Blocks::of(pencil);
     demand_symmetry(&blocks)?;
@@ -100,7 +103,7 @@ pub(crate) fn condense(
     let precision = if blocks.mass_is_zero {
         CONSTANT
     } else {
-        COARSE
+        coarse
     };
 
     let mut anchors = Anchors::default();
@@ -273,13 +276,14 @@ pub(crate) fn bounds_of(condensation: &Condensation) -> FreeBounds {
     }
 }
 
-/// Appends fine anchors about further values to a condensation and its view. Values at which the
-/// expansion fails get none.
+/// Appends anchors of a `fine` precision about further values to a condensation and its view.
+/// Values at which the expansion fails get none.
 pub(crate) fn refine(
     pencil: &Pencil,
     condensation: &mut Condensation,
     view: &mut View,
     values: &[f64],
+    fine: Precision,
 ) {
     let blocks = Blocks::of(pencil);
     let elimination = Elimination {
@@ -293,7 +297,7 @@ pub(crate) fn refine(
             continue;
         };
 
-        if let Some(expanded) = elimination.expand(&center, FINE) {
+        if let Some(expanded) = elimination.expand(&center, fine) {
             condensation.anchors.push(expanded.anchor);
             view.expansions.push(expanded.expansion);
         }
@@ -340,12 +344,12 @@ pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     }
 }
 
-/// The anchors of a condensation with V of another pencil that has the same free rows, and what
-/// they expand to; `None` where F is not definite in doubles.
-pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec<Expanded>> {
+/// V of another pencil that has the same free rows beside each anchor, and what they expand to;
+/// `None` where F is not definite in doubles.
+pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec<Beside>> {
     let bounds = bounds_of(condensation);
     let exchanged = exchanged(pencil)?;
-    let mut anchors = Vec::with_capacity(condensation.anchors.len());
+    let mut all = Vec::with_capacity(condensation.anchors.len());
     for anchor in &condensation.anchors {
         let (pencil, bounds) = if anchor.reversed {
             (&exchanged, bounds.exchanged())
@@ -359,12 +363,12 @@ pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec
             bounds,
         };
 
-        let mut expanded = elimination.expand_beside(anchor, &right_columns(anchor, pencil))?;
-        expanded.expansion.reversed = anchor.reversed;
-        anchors.push(expanded);
+        let mut beside = elimination.expand_beside(anchor, &right_columns(anchor, pencil))?;
+        beside.expansion.reversed = anchor.reversed;
+        all.push(beside);
     }
 
-    Some(anchors)
+    Some(all)
 }
 
 /// The coefficients of W of an anchor, in doubles.

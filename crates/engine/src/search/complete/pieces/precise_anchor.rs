@@ -248,6 +248,7 @@ fn add(matrix: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::anchor::COARSE;
     use super::*;
     use crate::search::complete::pieces::condense::condense;
     use mceip_exact::{Sparse, rational, whole};
@@ -273,7 +274,9 @@ mod tests {
         assert_eq!(rows[1].slip[0].at_center, 1.into());
 
         let window = Window::new(whole(0), Some(whole(2))).unwrap();
-        let condensation = condense(&pencil, &window, &pencil).unwrap().condensation;
+        let condensation = condense(&pencil, &window, &pencil, COARSE)
+            .unwrap()
+            .condensation;
         let anchor = precise_anchor(&pencil, &condensation, &whole(1)).unwrap();
 
         // F W_0 = (1, 1)' with F = [[4, -1], [-1, 3]].

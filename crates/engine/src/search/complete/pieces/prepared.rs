@@ -9,7 +9,7 @@
 //!
 //! Called by `complete` (a new search) and `resume` (from the pieces of a certificate).
 
-use super::anchor::NEAR;
+use super::anchor::{NEAR, OF_FAMILY, OF_WINDOW, Precisions};
 use super::condense::{Condensed, condense, refine, view_of};
 use super::expansion::Expansion;
 use super::view::View;
@@ -57,6 +57,8 @@ pub(crate) struct Prepared {
     pub(crate) lowest_frequency: f64,
     /// Values up to this share the anchor of the window's lower end; 0 where there is none.
     shared_up_to: f64,
+    /// How anchors are expanded.
+    precisions: Precisions,
     pub(crate) intervals: Vec<Interval>,
 }
 
@@ -71,11 +73,11 @@ impl Prepared {
         pencil: &Pencil,
         count: usize,
     ) -> Result<Prepared, CompleteError> {
-        Prepared::of_family(problem, pencil, pencil, count)
+        Prepared::with_precisions(problem, pencil, pencil, count, OF_WINDOW)
     }
 
-    /// The same where the tail, if there is one, is to hold for another pencil of a family with the
-    /// same free rows.
+    /// The same for the first part of a family in the friction; the tail, if there is one, is to
+    /// hold for another pencil with the same free rows.
     ///
     /// # Errors
     /// As [`Prepared::new`].
@@ -84,6 +86,16 @@ impl Prepared {
         pencil: &Pencil,
         definite_above: &Pencil,
         count: usize,
+    ) -> Result<Prepared, CompleteError> {
+        Prepared::with_precisions(problem, pencil, definite_above, count, OF_FAMILY)
+    }
+
+    fn with_precisions(
+        problem: &Problem,
+        pencil: &Pencil,
+        definite_above: &Pencil,
+        count: usize,
+        precisions: Precisions,
     ) -> Result<Prepared, CompleteError> {
         let slip = pencil.slip().len();
         if slip == 0 {
@@ -99,11 +111,8 @@ impl Prepared {
 
         let window = problem.window();
         if !pencil.free().is_empty() {
-            return Ok(Prepared::condensed(
-                condense(pencil, window, definite_above)?,
-                window,
-                count,
-            ));
+            let condensed = condense(pencil, window, definite_above, precisions.coarse)?;
+            return Ok(Prepared::condensed(condensed, window, count, precisions));
         }
 
         let view = View::of(pencil);
@@ -116,11 +125,17 @@ impl Prepared {
             condensation: None,
             lowest_frequency: 0.0,
             shared_up_to: 0.0,
+            precisions,
             intervals,
         })
     }
 
-    fn condensed(condensed: Condensed, window: &Window, count: usize) -> Prepared {
+    fn condensed(
+        condensed: Condensed,
+        window: &Window,
+        count: usize,
+        precisions: Precisions,
+    ) -> Prepared {
         let division = Division {
             condensed: &condensed,
             window,
@@ -133,6 +148,7 @@ impl Prepared {
             condensation: Some(condensed.condensation),
             lowest_frequency: condensed.lowest_frequency,
             shared_up_to: 0.0,
+            precisions,
             intervals,
         }
     }
@@ -163,6 +179,7 @@ impl Prepared {
             condensation: set.condensation.clone(),
             lowest_frequency: 0.0,
             shared_up_to: 0.0,
+            precisions: OF_WINDOW,
             intervals,
         })
     }
@@ -238,7 +255,8 @@ impl Prepared {
         };
 
         let before = condensation.anchors.len();
-        refine(pencil, condensation, &mut self.view, &apart);
+        let fine = self.precisions.fine;
+        refine(pencil, condensation, &mut self.view, &apart, fine);
         if condensation.anchors.len() != before + apart.len() {
             return self; // an expansion failed: the coarse anchors stay
         }
@@ -270,7 +288,8 @@ impl Prepared {
         let condensation = self.condensation.as_mut()?;
         let before = condensation.anchors.len();
         let min = to_f64(window.min());
-        refine(pencil, condensation, &mut self.view, &[min]);
+        let fine = self.precisions.fine;
+        refine(pencil, condensation, &mut self.view, &[min], fine);
         if condensation.anchors.len() == before {
             return None;
         }

@@ -250,15 +250,20 @@ impl Skyline {
         None
     }
 
-    /// An estimate of the smallest eigenvalue of L L', by inverse iteration.
-    fn smallest_eigenvalue(&self) -> f64 {
+    /// A vector to begin inverse iterations with: any without symmetry will do.
+    pub(crate) fn without_symmetry(&self) -> Vec<f64> {
         let mut v = Vec::with_capacity(self.rows.len());
         for i in 0..self.rows.len() {
-            // Any start without symmetry will do.
             let digit = (i * 7919) % 13;
             v.push(1.0 + 0.1 * digit as f64);
         }
 
+        v
+    }
+
+    /// An estimate of the smallest eigenvalue of L L', by inverse iteration.
+    fn smallest_eigenvalue(&self) -> f64 {
+        let mut v = self.without_symmetry();
         let mut estimate = f64::INFINITY;
 
         for _ in 0..INVERSE_STEPS {
