@@ -430,7 +430,7 @@ fn simple(t: [i64; 2], a: i64, b: i64, c: [i64; 2]) -> Ends {
 fn verdict(outcome: RootOutcome, wide: &Ends, narrow: &Ends, x: i64) -> Result<(), CoverFault> {
     let mut root = root(outcome);
     root.right = vec![(2 * x).into()];
-    check(&region(), wide, || Ok(narrow.clone()), &INDEX, &root)
+    check(&region(), wide, || Ok(narrow.clone()), &INDEX, &[], &root)
 }
 
 #[test]

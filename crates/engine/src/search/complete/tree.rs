@@ -110,6 +110,10 @@ impl Search<'_> {
         }
 
         self.budget -= 1;
+        if let Some(position) = self.view.undecided_half(&region.states) {
+            return self.divide(position, region, ends, share);
+        }
+
         if let Some(leaf) = self.definite_leaf(region, ends) {
             return self.leaf(leaf, share);
         }
@@ -244,9 +248,14 @@ impl Search<'_> {
             return self.leaf(Node::Open, share);
         };
 
+        self.divide(position, region, ends, share);
+    }
+
+    /// Decides the variable at this position.
+    fn divide(&mut self, position: usize, region: &Region, ends: &Rc<Ends>, share: f64) {
         self.branch_on(position);
         for state in [State::AtZero, State::InSupport] {
-            let mut child = region.with(position, state);
+            let mut child = self.view.part(region, position, state);
             child.cuts = 0;
             self.node(&child, ends, 0.5 * share);
         }
@@ -376,7 +385,7 @@ impl Search<'_> {
 
         self.branch_on(position);
         for state in [State::AtZero, State::InSupport] {
-            let child = region.with(position, state);
+            let child = self.view.part(region, position, state);
             self.by_support(&child, 0.5 * share);
         }
     }

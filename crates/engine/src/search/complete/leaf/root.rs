@@ -149,8 +149,9 @@ impl RootSearch<'_> {
         ends: [f64; 4],
     ) -> Option<Item> {
         let index = &self.view.index;
+        let vanishing = self.view.vanishing(states);
         if let Some(Located { interval, outcome }) =
-            unique.outcome(self.expansion, null.value, ends, states, index)
+            unique.outcome(self.expansion, null.value, ends, states, [index, &vanishing])
             && self.given.has_in_window(&interval)
         {
             let root = unique.witness(index, interval, outcome);

@@ -13,6 +13,7 @@ use super::anchor::NEAR;
 use super::condense::{Condensed, condense, refine, view_of};
 use super::expansion::Expansion;
 use super::view::View;
+use crate::reduction::zero_of;
 use crate::search::complete::dyadic::short_near;
 use crate::search::complete::error::CompleteError;
 use crate::tolerance::SHARED_ANCHOR;
@@ -71,7 +72,9 @@ impl Prepared {
         pencil: &Pencil,
         count: usize,
     ) -> Result<Prepared, CompleteError> {
-        Prepared::of_family(problem, pencil, pencil, count)
+        let mut prepared = Prepared::of_family(problem, pencil, pencil, count)?;
+        prepared.view.zero = zero_of(problem);
+        Ok(prepared)
     }
 
     /// The same where the tail, if there is one, is to hold for another pencil of a family with the
@@ -141,8 +144,12 @@ impl Prepared {
     ///
     /// # Errors
     /// [`CompleteError::NoAnchor`] where the condensation has no anchor.
-    pub(crate) fn again(pencil: &Pencil, set: &CompleteSet) -> Result<Prepared, CompleteError> {
-        let view = match &set.condensation {
+    pub(crate) fn again(
+        problem: &Problem,
+        pencil: &Pencil,
+        set: &CompleteSet,
+    ) -> Result<Prepared, CompleteError> {
+        let mut view = match &set.condensation {
             None => View::of(pencil),
             Some(condensation) if condensation.anchors.is_empty() => {
                 return Err(CompleteError::NoAnchor);
@@ -150,6 +157,7 @@ impl Prepared {
             Some(condensation) => view_of(pencil, condensation),
         };
 
+        view.zero = zero_of(problem);
         let mut intervals = Vec::new();
         for piece in &set.pieces {
             intervals.push(Interval {
@@ -191,15 +199,12 @@ impl Prepared {
 
     /// The same without remainders, for a first look at where the solutions are.
     pub(crate) fn without_remainders(&self) -> Prepared {
+        let expansions = self.view.expansions.iter();
         let view = View {
             index: self.view.index.clone(),
             scale: self.view.scale,
-            expansions: self
-                .view
-                .expansions
-                .iter()
-                .map(Expansion::without_remainder)
-                .collect(),
+            expansions: expansions.map(Expansion::without_remainder).collect(),
+            zero: self.view.zero.clone(),
         };
 
         Prepared {
