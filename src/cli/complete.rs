@@ -127,7 +127,9 @@ fn refuse_useless(args: &Args, problem: &Problem) -> Result<(), CliError> {
         });
     }
 
-    if args.infinity && let Body::System(system) = problem.body() {
+    if args.infinity
+        && let Body::System(system) = problem.body()
+    {
         system.require_no_zero()?; // the reversed problem is a pencil, of which (9) says nothing
     }
 

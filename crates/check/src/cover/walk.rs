@@ -6,6 +6,9 @@
 //! the region that was taken; a leaf proves what its region holds. A tree that ends exactly when
 //! the stack is empty has therefore accounted for every (support, value) of its piece.
 //!
+//! Where one half of v_T of a particle with zero reaction moves, a branch puts the other one at
+//! rest: what is covered are the motions, each with at most one of them.
+//!
 //! Matrices of a region are computed once for all regions of one interval, and their work is taken
 //! from the budget of the file.
 

@@ -7,6 +7,9 @@
 //! working; if none does, the variable whose complementarity the relaxed solution breaks most is
 //! decided. What neither closes is left to exact arithmetic, and else open.
 //!
+//! With particles in contact with zero reaction the halves of v_T are decided first, one of them
+//! being at rest (`spec/zero-reaction.md`, Z.3).
+//!
 //! Input: a region of one piece, the expansion of the piece. Output: the nodes that cover the
 //! region, in preorder. Called by `splice`.
 

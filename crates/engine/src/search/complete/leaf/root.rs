@@ -150,8 +150,9 @@ impl RootSearch<'_> {
     ) -> Option<Item> {
         let index = &self.view.index;
         let vanishing = self.view.vanishing(states);
-        if let Some(Located { interval, outcome }) =
-            unique.outcome(self.expansion, null.value, ends, states, [index, &vanishing])
+        let indices = [index.as_slice(), &vanishing];
+        let located = unique.outcome(self.expansion, null.value, ends, states, indices);
+        if let Some(Located { interval, outcome }) = located
             && self.given.has_in_window(&interval)
         {
             let root = unique.witness(index, interval, outcome);

@@ -6,8 +6,8 @@
 
 use super::expansion::Expansion;
 use super::matrix::{Matrix, largest_entry, zeros};
-use mceip_exact::{Integer, Rational, common_denominator, to_f64};
 use crate::search::complete::region::{Region, State, support};
+use mceip_exact::{Integer, Rational, common_denominator, to_f64};
 use mceip_model::{Pencil, ZeroVariables};
 use num_traits::One;
 
