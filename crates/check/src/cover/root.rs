@@ -73,11 +73,8 @@ pub(super) fn check(
 
     // rho bounds |I - Y T'(t)| for every t of the hull, so for those of [a, b].
     let error = witness.error(&narrow, Side::Right, &rho);
-    if root.outcome == RootOutcome::Solution {
-        return witness.check_solution(region, &narrow, &error, index, vanishing);
-    }
-
-    witness.check_outcome(region, &narrow, &error, index, &root.outcome)
+    let indices = [index, vanishing];
+    witness.check_outcome(region, &narrow, &error, indices, &root.outcome)
 }
 
 /// Which null vector is meant: T v = 0 or u'T = 0.
@@ -325,25 +322,24 @@ impl<'a> Witness<'a> {
         certain(&phi, &radius)
     }
 
-    /// Demands x > 0 and y > 0 over the narrow interval, but no sign of y where it vanishes.
+    /// Demands x > 0 and y > 0 over the narrow interval, but no sign of y where it vanishes; `error`
+    /// in units of v.
     fn check_solution(
         &self,
         region: &Region,
         ends: &Ends,
         error: &Rational,
-        index: &[usize],
-        vanishing: &[usize],
+        [index, vanishing]: [&[usize]; 2],
     ) -> Result<(), CoverFault> {
-        let error = self.in_units_of_v(error);
         for (p, &i) in self.support.iter().enumerate() {
-            if self.x_sign(p, &error) != 1 {
+            if self.x_sign(p, error) != 1 {
                 return Err(sign_fault("x", index[i], "> 0"));
             }
         }
 
         for i in region.positions(|state| state == State::AtZero) {
             let needs_sign = !vanishing.contains(&index[i]);
-            if needs_sign && self.y_sign(ends, i, &error) != 1 {
+            if needs_sign && self.y_sign(ends, i, error) != 1 {
                 return Err(sign_fault("y", index[i], "> 0"));
             }
         }
@@ -351,22 +347,20 @@ impl<'a> Witness<'a> {
         Ok(())
     }
 
-    /// A bound in units of v, as a fraction that is not rounded.
-    fn in_units_of_v(&self, error: &Rational) -> Rational {
-        error * Rational::from_integer(self.one.clone())
-    }
-
-    /// Demands the negative sign of x or y that the outcome states, over the narrow interval.
+    /// Demands the signs of x and y that the outcome states, over the narrow interval.
     fn check_outcome(
         &self,
         region: &Region,
         ends: &Ends,
         error: &Rational,
-        index: &[usize],
+        [index, vanishing]: [&[usize]; 2],
         outcome: &RootOutcome,
     ) -> Result<(), CoverFault> {
-        let error = self.in_units_of_v(error);
+        // eps in units of v, as a fraction that is not rounded.
+        let error = error * Rational::from_integer(self.one.clone());
+
         match *outcome {
+            RootOutcome::Solution => self.check_solution(region, ends, &error, [index, vanishing]),
             RootOutcome::NegativeX(stated) => {
                 match self.support.iter().position(|&i| index[i] == stated) {
                     Some(p) if self.x_sign(p, &error) == -1 => Ok(()),
@@ -381,10 +375,7 @@ impl<'a> Witness<'a> {
                 }
             }
             // `check` has returned before for these.
-            RootOutcome::Solution
-            | RootOutcome::Claim(_)
-            | RootOutcome::Absent
-            | RootOutcome::Infinity(_) => Ok(()),
+            RootOutcome::Claim(_) | RootOutcome::Absent | RootOutcome::Infinity(_) => Ok(()),
         }
     }
 
