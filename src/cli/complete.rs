@@ -10,12 +10,12 @@ use super::output::Output;
 use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_engine::certify::Certifier;
-use mceip_engine::reduction::reduce;
+use mceip_engine::reduction::reduce_with_zero;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Completed, Options, Shard, complete, resume};
 use mceip_exact::enclosing_decimals;
-use mceip_model::Problem;
+use mceip_model::{Body, Problem};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -125,6 +125,12 @@ fn refuse_useless(args: &Args, problem: &Problem) -> Result<(), CliError> {
             expected: "1 to 100000",
             got: args.pieces.to_string(),
         });
+    }
+
+    if args.infinity
+        && let Body::System(system) = problem.body()
+    {
+        system.require_no_zero()?; // the reversed problem is a pencil, of which (9) says nothing
     }
 
     if args.infinity && problem.window().max().is_some() {
@@ -263,7 +269,7 @@ fn family_text(word: &str, family: &SolutionFamily) -> String {
 
 /// The complete set as `mceip-solutions/1`.
 pub(super) fn report_json(problem: &Problem, completed: &Completed) -> Result<Value, CliError> {
-    let reduced = reduce(problem)?;
+    let reduced = reduce_with_zero(problem)?;
     let certifier = Certifier::new(problem, &reduced.pencil);
     let mut solutions = Vec::new();
     for (proved, x) in completed.solutions() {

@@ -32,6 +32,8 @@ mod corpus_mcp;
 mod corpus_support;
 #[path = "../support/corpus_zero.rs"]
 mod corpus_zero;
+#[path = "../support/corpus_zero_covers.rs"]
+mod corpus_zero_covers;
 #[path = "../support/corpus_zero_order.rs"]
 mod corpus_zero_order;
 
@@ -472,6 +474,7 @@ fn write_the_corpus() {
     corpus_mcp::plain(&mut cases);
     corpus_zero::zero_reaction(&mut cases);
     corpus_zero_order::boxes(&mut cases);
+    corpus_zero_covers::covers(&mut cases);
     corpus_critical::critical(&mut cases);
     corpus_malformed::malformed(&mut cases);
     corpus_malformed::spelling(&mut cases);

@@ -18,3 +18,4 @@ mod complete_cost;
 mod complete_ends;
 mod complete_random;
 mod complete_tail;
+mod complete_zero;

@@ -94,12 +94,11 @@ fn zero_reaction_is_refused_where_it_is_not_supported() {
     let folder = tempfile::tempdir().unwrap();
     let problem = zero_reaction_problem(folder.path(), "zero-right");
 
-    for command in ["enumerate", "reduce", "complete", "analyze"] {
-        refused(
-            &[command, &problem],
-            &["particle 1", "zero", "not supported"],
-        );
+    let expected = ["particle 1", "zero", "not supported"];
+    for command in ["enumerate", "reduce", "analyze"] {
+        refused(&[command, &problem], &expected);
     }
+    refused(&["complete", &problem, "--infinity"], &expected);
 }
 
 /// Reports on a problem with a particle in contact with zero reaction, by x and by v: each mode is
@@ -175,8 +174,8 @@ fn false_reports_with_zero_reaction_are_refuted() {
     }
 }
 
-/// Each mode of a particle in contact with zero reaction: `solve` finds the solution, `check`
-/// accepts its certificate, and not for the problem of another mode.
+/// Each mode of a particle in contact with zero reaction: `solve` and `complete` find the solution,
+/// `check` accepts their certificates, and not for the problem of another mode.
 #[test]
 fn zero_reaction_is_solved_and_checked() {
     let folder = tempfile::tempdir().unwrap();
@@ -201,6 +200,14 @@ fn zero_reaction_is_solved_and_checked() {
         assert_eq!(report["solutions"][0]["value"], "2", "{name}");
         exits(0, &["check", &problem, certificate]);
         exits(1, &["check", &foreign, certificate]);
+
+        let args = ["complete", &problem, "--json", "--certificate", certificate];
+        let all = exits_with_json(0, &args);
+        assert_eq!(all["solutions"].as_array().unwrap().len(), 1, "{name}");
+        assert_eq!(all["solutions"][0]["slip"], report["solutions"][0]["slip"]);
+        exits(0, &["check", &problem, certificate]);
+        exits(1, &["check", &foreign, certificate]);
+
         contains_all(&exits(0, &["solve", &problem]), &["right of particle 1"]);
     }
 }

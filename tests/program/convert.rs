@@ -297,7 +297,7 @@ fn a_table_with_semicolons_is_refused_with_the_remedy() {
     conversion.is_refused(&bench, &["semicolons.csv", "commas", "decimal point"]);
 }
 
-/// States that only the checker treats are written all the same, as are friction factors.
+/// States that not every command treats are written all the same, as are friction factors.
 #[test]
 fn zero_reaction_and_friction_factors_are_written() {
     let bench = Bench::new();

@@ -19,7 +19,7 @@
 
 use super::corpus_cases::*;
 use mceip_check::certificate::{
-    Certificate, Claim, CompleteSet, EnclosedSolution, ExactSolution, LiftedSolution, Node, Piece,
+    Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution,
 };
 use mceip_exact::{Integer, Rational, Sparse, common_denominator, parse, rational, whole};
 use mceip_model::file::Number;
@@ -27,7 +27,7 @@ use mceip_model::reduction::split_form;
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 
 /// The problem with these couplings, and the friction factor of particle 1.
-fn problem(unknown: Unknown, a: &str, b: &str, friction_factor: Rational) -> Problem {
+pub fn problem(unknown: Unknown, a: &str, b: &str, friction_factor: Rational) -> Problem {
     let a = parse(a).unwrap();
     let b = parse(b).unwrap();
     let mu = mu(unknown);
@@ -450,7 +450,6 @@ pub fn zero_reaction(cases: &mut Cases) {
     }
     halves(cases);
     boxes(cases);
-    unsupported(cases);
 }
 
 fn accept(cases: &mut Cases, good: &Good, suffix: &str, unknown: Unknown, factor: Rational) {
@@ -864,29 +863,4 @@ fn inverse(mut matrix: Vec<Vec<Rational>>) -> Vec<Vec<Rational>> {
     }
 
     matrix.into_iter().map(|row| row[n..].to_vec()).collect()
-}
-
-/// Evidence that is not defined for particles with zero reaction.
-fn unsupported(cases: &mut Cases) {
-    let stick = &GOOD[1];
-    let problem = problem(Unknown::Lambda2, stick.a, stick.b, whole(1));
-
-    let open = Certificate {
-        complete_set: Some(CompleteSet {
-            condensation: None,
-            pieces: vec![Piece {
-                max: None,
-                anchor: None,
-                tree: vec![Node::Open],
-            }],
-        }),
-        ..exact_certificate(&problem, &stick.motion.exact())
-    };
-    cases.reject(
-        "zero-cover",
-        "ZeroReaction",
-        "a cover that proves nothing: not defined with zero reaction",
-        &problem,
-        &open,
-    );
 }

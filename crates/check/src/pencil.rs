@@ -173,6 +173,20 @@ impl Rows {
         list
     }
 
+    /// The other half of v_T, if the variable is one of a particle with zero reaction.
+    pub(super) fn other_half(&self, variable: usize) -> Option<usize> {
+        for halves in &self.halves {
+            if variable == halves.right {
+                return Some(halves.left);
+            }
+            if variable == halves.left {
+                return Some(halves.right);
+            }
+        }
+
+        None
+    }
+
     /// Refuses evidence that is not defined for particles with zero reaction.
     pub(super) fn without_zero(&self, what: &'static str) -> Result<(), Reason> {
         match self.halves.first() {

@@ -184,7 +184,7 @@ pub enum ModelError {
     /// A particle in contact with zero reaction, where it is not treated.
     #[error(
         "E9: particle {particle} has state \"zero\"; expected free, stick or slip \
-         (not supported here: only the checker treats z particles, spec/zero-reaction.md)"
+         (not supported here; what treats z particles: spec/zero-reaction.md)"
     )]
     ZeroReaction {
         /// The particle.

@@ -296,8 +296,10 @@ pub const FLOORS: [Floor; 41] = [
     row("fuzz: two_particle_problems", Starts::Interior, 90.0, 90.0),
     // 100.00, 83.94 of 203 and 193.
     row("fuzz: two_particle_problems", Starts::Path, 90.0, 73.9),
-    // `tests/solver/zero_reaction.rs`, 2,000 systems.
-    row("zero reaction", Starts::Search, 97.5, 98.0), // MEASURE
+    // `tests/solver/zero_reaction.rs`, 2,000 systems (2026-11-23); the first rate less two points
+    // would be 97.2, the floor of `states` is not undercut.
+    // 99.21, 100.00 of 1273.
+    row("zero reaction", Starts::Search, 97.5, 98.0),
     // `tests/solver/solver_properties.rs`, 1,000 values of the seeds 91 and 92.
     // 100.00, 100.00 of 1052.
     row("property: systems", Starts::Search, 98.0, 98.0),

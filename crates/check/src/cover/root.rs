@@ -34,13 +34,15 @@ use num_traits::{One, Signed, Zero};
 /// Largest binary exponent of a witness.
 const MAX_EXPONENT: u32 = 1 << 14;
 
-/// Checks the witness. For [`RootOutcome::Claim`] and [`RootOutcome::Infinity`] it checks
-/// uniqueness only, steps 1 to 3.
+/// Checks the witness. `vanishing` are variables at rest of which y = 0 follows from y = 0 on the
+/// support: a solution needs no sign there. For [`RootOutcome::Claim`] and
+/// [`RootOutcome::Infinity`] it checks uniqueness only, steps 1 to 3.
 pub(super) fn check(
     region: &Region,
     wide: &Ends,
     narrow: impl FnOnce() -> Result<Ends, CoverFault>,
     index: &[usize],
+    vanishing: &[usize],
     root: &Root,
 ) -> Result<(), CoverFault> {
     let witness = Witness::new(region, index, root)?;
@@ -71,7 +73,8 @@ pub(super) fn check(
 
     // rho bounds |I - Y T'(t)| for every t of the hull, so for those of [a, b].
     let error = witness.error(&narrow, Side::Right, &rho);
-    witness.check_outcome(region, &narrow, &error, index, &root.outcome)
+    let indices = [index, vanishing];
+    witness.check_outcome(region, &narrow, &error, indices, &root.outcome)
 }
 
 /// Which null vector is meant: T v = 0 or u'T = 0.
@@ -319,34 +322,45 @@ impl<'a> Witness<'a> {
         certain(&phi, &radius)
     }
 
+    /// Demands x > 0 and y > 0 over the narrow interval, but no sign of y where it vanishes;
+    /// `error` in units of v.
+    fn check_solution(
+        &self,
+        region: &Region,
+        ends: &Ends,
+        error: &Rational,
+        [index, vanishing]: [&[usize]; 2],
+    ) -> Result<(), CoverFault> {
+        for (p, &i) in self.support.iter().enumerate() {
+            if self.x_sign(p, error) != 1 {
+                return Err(sign_fault("x", index[i], "> 0"));
+            }
+        }
+
+        for i in region.positions(|state| state == State::AtZero) {
+            let needs_sign = !vanishing.contains(&index[i]);
+            if needs_sign && self.y_sign(ends, i, error) != 1 {
+                return Err(sign_fault("y", index[i], "> 0"));
+            }
+        }
+
+        Ok(())
+    }
+
     /// Demands the signs of x and y that the outcome states, over the narrow interval.
     fn check_outcome(
         &self,
         region: &Region,
         ends: &Ends,
         error: &Rational,
-        index: &[usize],
+        [index, vanishing]: [&[usize]; 2],
         outcome: &RootOutcome,
     ) -> Result<(), CoverFault> {
         // eps in units of v, as a fraction that is not rounded.
         let error = error * Rational::from_integer(self.one.clone());
 
         match *outcome {
-            RootOutcome::Solution => {
-                for (p, &i) in self.support.iter().enumerate() {
-                    if self.x_sign(p, &error) != 1 {
-                        return Err(sign_fault("x", index[i], "> 0"));
-                    }
-                }
-
-                for i in region.positions(|state| state == State::AtZero) {
-                    if self.y_sign(ends, i, &error) != 1 {
-                        return Err(sign_fault("y", index[i], "> 0"));
-                    }
-                }
-
-                Ok(())
-            }
+            RootOutcome::Solution => self.check_solution(region, ends, &error, [index, vanishing]),
             RootOutcome::NegativeX(stated) => {
                 match self.support.iter().position(|&i| index[i] == stated) {
                     Some(p) if self.x_sign(p, &error) == -1 => Ok(()),

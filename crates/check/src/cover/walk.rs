@@ -6,6 +6,9 @@
 //! the region that was taken; a leaf proves what its region holds. A tree that ends exactly when
 //! the stack is empty has therefore accounted for every (support, value) of its piece.
 //!
+//! Where one half of v_T of a particle with zero reaction moves, a branch puts the other one at
+//! rest: what is covered are the motions, each with at most one of them.
+//!
 //! Matrices of a region are computed once for all regions of one interval, and their work is taken
 //! from the budget of the file.
 
@@ -81,8 +84,9 @@ impl Walk<'_> {
                     stack.extend([upper, lower]);
                 }
                 Node::Branch(index) => {
-                    let halves = region.branch(*index, &self.index).map_err(at_node)?;
-                    let [at_zero, in_support] = halves;
+                    let parts = region.branch(*index, &self.index).map_err(at_node)?;
+                    let [at_zero, mut in_support] = parts;
+                    self.rest_other_half(*index, &mut in_support);
                     stack.extend([in_support, at_zero]);
                 }
                 _ => {
@@ -103,6 +107,18 @@ impl Walk<'_> {
                 regions: stack.len(),
             },
         })
+    }
+
+    /// Where one half of v_T of a particle with zero reaction moves, the other one is at rest: a
+    /// motion has at most one of them (`spec/zero-reaction.md`, Z.3).
+    fn rest_other_half(&self, moving: usize, region: &mut Region) {
+        let Some(other) = self.rows.other_half(moving) else {
+            return;
+        };
+
+        if let Some(position) = self.index.iter().position(|&i| i == other) {
+            region.states[position] = State::AtZero;
+        }
     }
 
     /// Passes on the verdict on a leaf, or leaves the region of one that fails open and notes
@@ -242,9 +258,10 @@ impl Walk<'_> {
             self.spend_matrix(anchor, value.lo(), Some(value.hi()))?;
             self.family.ends(anchor, value.lo(), Some(value.hi()))
         };
-        root::check(region, &wide, narrow, &self.index, leaf)?;
-
         let support = self.problem_indices(region.support());
+        let vanishing = self.rows.vanishing(&support);
+        root::check(region, &wide, narrow, &self.index, &vanishing, leaf)?;
+
         match &leaf.outcome {
             RootOutcome::Absent | RootOutcome::NegativeX(_) | RootOutcome::NegativeY(_) => Ok(None),
             RootOutcome::Solution => Ok(Some(Found {

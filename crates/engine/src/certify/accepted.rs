@@ -7,10 +7,10 @@ use super::failure::{Attempt, AttemptFailure, NotCertified};
 use super::proposals::{Proposal, proposals};
 use super::rows::IntegralRows;
 use crate::candidate::Candidate;
+use crate::reduction::zero_of;
 use mceip_check::certificate::Claim;
 use mceip_check::{AcceptedClaim, ClaimChecker, Reason};
-use mceip_model::reduction::zero_variables;
-use mceip_model::{Body, Pencil, Problem, ZeroVariables};
+use mceip_model::{Pencil, Problem, ZeroVariables};
 
 /// Makes claims about one problem and has each of them checked.
 pub struct Certifier<'a> {
@@ -26,11 +26,7 @@ impl<'a> Certifier<'a> {
     /// The certifier of a problem; `pencil` is the problem's reduced pencil, of a system with
     /// particles in contact with zero reaction that of the split form.
     pub fn new(problem: &'a Problem, pencil: &'a Pencil) -> Certifier<'a> {
-        let zero = match problem.body() {
-            Body::System(system) => zero_variables(system),
-            Body::Pencil(_) => Vec::new(),
-        };
-
+        let zero = zero_of(problem);
         Certifier {
             problem,
             pencil,

@@ -38,3 +38,14 @@ pub use mceip_model::reduction::{
 };
 pub use project::{Projected, project};
 pub use reversed::reversed;
+
+use mceip_model::reduction::zero_variables;
+use mceip_model::{Body, Problem, ZeroVariables};
+
+/// The variables of the particles in contact with zero reaction, of which a pencil has none.
+pub(crate) fn zero_of(problem: &Problem) -> Vec<ZeroVariables> {
+    match problem.body() {
+        Body::System(system) => zero_variables(system),
+        Body::Pencil(_) => Vec::new(),
+    }
+}

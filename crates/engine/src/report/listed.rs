@@ -284,16 +284,11 @@ fn of_enclosed(problem: &Problem, reduced: &Reduced, enclosed: &EnclosedSolution
         None => Rational::default(),
     };
 
-    let zero = reduced.zero_variables();
-    let support = &enclosed.support;
-    let vanishing = zero.iter().filter_map(|places| places.vanishing(support));
-    Listed {
-        biactive: vanishing.collect(),
-        ..of_point(problem, reduced, support, value, &x)
-    }
+    of_point(problem, reduced, &enclosed.support, value, &x)
 }
 
-/// A solution known in rounded numbers only, x in any positive scale.
+/// A solution known in rounded numbers only, x in any positive scale. Biactive are the halves of
+/// v_T of which y vanishes with y on the support.
 fn of_point(
     problem: &Problem,
     reduced: &Reduced,
@@ -312,8 +307,11 @@ fn of_point(
         y: Vec::new(),
     };
 
+    let zero = reduced.zero_variables();
+    let vanishing = zero.iter().filter_map(|places| places.vanishing(support));
     Listed {
         exact: None,
+        biactive: vanishing.collect(),
         ..Listed::of_solution(problem, reduced, &solution)
     }
 }

@@ -430,7 +430,7 @@ fn simple(t: [i64; 2], a: i64, b: i64, c: [i64; 2]) -> Ends {
 fn verdict(outcome: RootOutcome, wide: &Ends, narrow: &Ends, x: i64) -> Result<(), CoverFault> {
     let mut root = root(outcome);
     root.right = vec![(2 * x).into()];
-    check(&region(), wide, || Ok(narrow.clone()), &INDEX, &root)
+    check(&region(), wide, || Ok(narrow.clone()), &INDEX, &[], &root)
 }
 
 #[test]
@@ -532,7 +532,13 @@ fn components_are_positive_beyond_the_error_only() {
             v,
             one: one.into(),
         };
-        s.check_outcome(&region(), &ends, &error, &INDEX, &RootOutcome::Solution)
+        s.check_outcome(
+            &region(),
+            &ends,
+            &error,
+            [&INDEX, &[]],
+            &RootOutcome::Solution,
+        )
     };
     let fault = Err(CoverFault::Sign {
         component: "x",
@@ -586,4 +592,34 @@ fn certain_signs_exclude_zero() {
         ],
         [1, 0, 0, -1, 0, 1, -1, 0]
     );
+}
+
+/// A solution needs no sign of a row that vanishes, and the sign of every other row at rest.
+#[test]
+fn a_row_that_vanishes_needs_no_sign() {
+    let y: Matrix = vec![vec![1.into()]];
+    let ends = simple([-1, 1], 0, 0, [0, 0]);
+    let witness = Witness {
+        support: vec![0, 1],
+        y: &y,
+        y_one: 1.into(),
+        u: vec![1.into(), 1.into()],
+        v: vec![1.into(), 1.into()],
+        one: 1.into(),
+    };
+    let solution = |vanishing: &[usize]| {
+        let indices = [INDEX.as_slice(), vanishing];
+        let error = rational(1, 2);
+        witness.check_outcome(&region(), &ends, &error, indices, &RootOutcome::Solution)
+    };
+
+    assert_eq!(solution(&[INDEX[2]]), Ok(()));
+    for others in [&[][..], &[INDEX[0], INDEX[1]]] {
+        let fault = CoverFault::Sign {
+            component: "y",
+            index: INDEX[2],
+            expected: "> 0",
+        };
+        assert_eq!(solution(others), Err(fault));
+    }
 }

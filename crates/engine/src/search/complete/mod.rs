@@ -46,7 +46,7 @@ pub use merge::merge;
 pub use options::{Options, Shard};
 
 use crate::certify::certificate;
-use crate::reduction::reduce;
+use crate::reduction::reduce_with_zero;
 use crate::run::Watch;
 use accepted_x::accepted_x;
 use audited::{Audited, audited};
@@ -130,7 +130,7 @@ pub fn complete(
     options: &Options,
     watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
-    let pencil = reduce(problem)?.pencil;
+    let pencil = reduce_with_zero(problem)?.pencil;
     let mut prepared = Prepared::new(problem, &pencil, options.pieces)?;
     if options.shard.is_none()
         && let Some(completed) = by_definiteness(problem, &pencil, &prepared)?
@@ -158,7 +158,7 @@ pub fn resume(
     options: &Options,
     watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
-    let pencil = reduce(problem)?.pencil;
+    let pencil = reduce_with_zero(problem)?.pencil;
     error::same_problem(problem, earlier)?;
     check(problem, earlier)?;
 
@@ -166,7 +166,7 @@ pub fn resume(
         .complete_set
         .as_ref()
         .ok_or(CompleteError::NoCompleteSet)?;
-    let prepared = Prepared::again(&pencil, set)?;
+    let prepared = Prepared::again(problem, &pencil, set)?;
     let given = Given::new(problem, &pencil);
     run(&given, prepared, earlier.clone(), options, watch)
 }

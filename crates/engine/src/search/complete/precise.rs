@@ -195,7 +195,10 @@ fn root(given: &Given<'_>, view: &View, expansion: &Expansion, region: &Region) 
     }
 
     let mut root = unique.witness(&view.index, [begin, end], RootOutcome::Solution);
-    write_signs(&mut root, &precise.x, &precise.y)?;
+    let vanishing = view.vanishing(&region.states);
+    let mut y = precise.y;
+    y.retain(|(i, _)| !vanishing.contains(i));
+    write_signs(&mut root, &precise.x, &y)?;
     Some(root)
 }
 

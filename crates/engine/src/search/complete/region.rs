@@ -94,13 +94,6 @@ impl Region {
         }
     }
 
-    /// The part in which the variable at this position has this state.
-    pub(crate) fn with(&self, position: usize, state: State) -> Region {
-        let mut part = self.clone();
-        part.states[position] = state;
-        part
-    }
-
     /// The two parts into which an inner node of a tree divides the region, the one that comes
     /// first in preorder last; `None` for a leaf.
     pub(crate) fn parts(&self, node: &Node, view: &View) -> Option<[Region; 2]> {
@@ -108,8 +101,8 @@ impl Region {
             Node::Split(cut) => Some([self.above(&cut.0), self.below(&cut.0)]),
             Node::Branch(variable) => {
                 let position = view.position(*variable).unwrap_or(0);
-                let in_support = self.with(position, State::InSupport);
-                let at_zero = self.with(position, State::AtZero);
+                let in_support = view.part(self, position, State::InSupport);
+                let at_zero = view.part(self, position, State::AtZero);
                 Some([in_support, at_zero])
             }
             _ => None,

@@ -7,6 +7,9 @@
 //! working; if none does, the variable whose complementarity the relaxed solution breaks most is
 //! decided. What neither closes is left to exact arithmetic, and else open.
 //!
+//! With particles in contact with zero reaction the halves of v_T are decided first, one of them
+//! being at rest (`spec/zero-reaction.md`, Z.3).
+//!
 //! Input: a region of one piece, the expansion of the piece. Output: the nodes that cover the
 //! region, in preorder. Called by `splice`.
 
@@ -110,6 +113,10 @@ impl Search<'_> {
         }
 
         self.budget -= 1;
+        if let Some(position) = self.view.undecided_half(&region.states) {
+            return self.divide(position, region, ends, share);
+        }
+
         if let Some(leaf) = self.definite_leaf(region, ends) {
             return self.leaf(leaf, share);
         }
@@ -244,9 +251,14 @@ impl Search<'_> {
             return self.leaf(Node::Open, share);
         };
 
+        self.divide(position, region, ends, share);
+    }
+
+    /// Decides the variable at this position.
+    fn divide(&mut self, position: usize, region: &Region, ends: &Rc<Ends>, share: f64) {
         self.branch_on(position);
         for state in [State::AtZero, State::InSupport] {
-            let mut child = region.with(position, state);
+            let mut child = self.view.part(region, position, state);
             child.cuts = 0;
             self.node(&child, ends, 0.5 * share);
         }
@@ -376,7 +388,7 @@ impl Search<'_> {
 
         self.branch_on(position);
         for state in [State::AtZero, State::InSupport] {
-            let child = region.with(position, state);
+            let child = self.view.part(region, position, state);
             self.by_support(&child, 0.5 * share);
         }
     }

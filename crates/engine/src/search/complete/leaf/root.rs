@@ -149,8 +149,10 @@ impl RootSearch<'_> {
         ends: [f64; 4],
     ) -> Option<Item> {
         let index = &self.view.index;
-        if let Some(Located { interval, outcome }) =
-            unique.outcome(self.expansion, null.value, ends, states, index)
+        let vanishing = self.view.vanishing(states);
+        let indices = [index.as_slice(), &vanishing];
+        let located = unique.outcome(self.expansion, null.value, ends, states, indices);
+        if let Some(Located { interval, outcome }) = located
             && self.given.has_in_window(&interval)
         {
             let root = unique.witness(index, interval, outcome);

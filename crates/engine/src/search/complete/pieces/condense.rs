@@ -141,6 +141,7 @@ pub(crate) fn condense(
         scale: scale_of(&anchors.expansions[0].coefficients),
         expansions: anchors.expansions,
         index: blocks.slip,
+        zero: Vec::new(),
     };
 
     Ok(Condensed {
@@ -341,6 +342,7 @@ pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
         index: blocks.slip,
         scale,
         expansions,
+        zero: Vec::new(),
     }
 }
 

@@ -13,6 +13,7 @@ use super::anchor::{NEAR, OF_FAMILY, OF_WINDOW, Precisions};
 use super::condense::{Condensed, condense, refine, view_of};
 use super::expansion::Expansion;
 use super::view::View;
+use crate::reduction::zero_of;
 use crate::search::complete::dyadic::short_near;
 use crate::search::complete::error::CompleteError;
 use crate::tolerance::SHARED_ANCHOR;
@@ -73,7 +74,9 @@ impl Prepared {
         pencil: &Pencil,
         count: usize,
     ) -> Result<Prepared, CompleteError> {
-        Prepared::with_precisions(problem, pencil, pencil, count, OF_WINDOW)
+        let mut prepared = Prepared::with_precisions(problem, pencil, pencil, count, OF_WINDOW)?;
+        prepared.view.zero = zero_of(problem);
+        Ok(prepared)
     }
 
     /// The same for the first part of a family in the friction; the tail, if there is one, is to
@@ -157,8 +160,12 @@ impl Prepared {
     ///
     /// # Errors
     /// [`CompleteError::NoAnchor`] where the condensation has no anchor.
-    pub(crate) fn again(pencil: &Pencil, set: &CompleteSet) -> Result<Prepared, CompleteError> {
-        let view = match &set.condensation {
+    pub(crate) fn again(
+        problem: &Problem,
+        pencil: &Pencil,
+        set: &CompleteSet,
+    ) -> Result<Prepared, CompleteError> {
+        let mut view = match &set.condensation {
             None => View::of(pencil),
             Some(condensation) if condensation.anchors.is_empty() => {
                 return Err(CompleteError::NoAnchor);
@@ -166,6 +173,7 @@ impl Prepared {
             Some(condensation) => view_of(pencil, condensation),
         };
 
+        view.zero = zero_of(problem);
         let mut intervals = Vec::new();
         for piece in &set.pieces {
             intervals.push(Interval {
@@ -208,15 +216,12 @@ impl Prepared {
 
     /// The same without remainders, for a first look at where the solutions are.
     pub(crate) fn without_remainders(&self) -> Prepared {
+        let expansions = self.view.expansions.iter();
         let view = View {
             index: self.view.index.clone(),
             scale: self.view.scale,
-            expansions: self
-                .view
-                .expansions
-                .iter()
-                .map(Expansion::without_remainder)
-                .collect(),
+            expansions: expansions.map(Expansion::without_remainder).collect(),
+            zero: self.view.zero.clone(),
         };
 
         Prepared {

@@ -6,8 +6,9 @@
 
 use super::expansion::Expansion;
 use super::matrix::{Matrix, largest_entry, zeros};
+use crate::search::complete::region::{Region, State, support};
 use mceip_exact::{Integer, Rational, common_denominator, to_f64};
-use mceip_model::Pencil;
+use mceip_model::{Pencil, ZeroVariables};
 use num_traits::One;
 
 /// The pencil on the complementarity variables: one polynomial matrix, or several about their
@@ -20,6 +21,8 @@ pub(crate) struct View {
     pub(crate) scale: f64,
     /// One per anchor; at least one.
     pub(crate) expansions: Vec<Expansion>,
+    /// The variables of the particles in contact with zero reaction, by their numbers.
+    pub(crate) zero: Vec<ZeroVariables>,
 }
 
 impl View {
@@ -45,7 +48,56 @@ impl View {
             index: (0..order).collect(),
             scale: scale_of(&expansion.coefficients),
             expansions: vec![expansion],
+            zero: Vec::new(),
         }
+    }
+
+    /// The part of a region in which the variable at this position has this state. Where it is a
+    /// half of v_T of a particle with zero reaction and moves, the other half is at rest.
+    pub(crate) fn part(&self, region: &Region, position: usize, state: State) -> Region {
+        let mut part = region.clone();
+        part.states[position] = state;
+        if state == State::InSupport
+            && let Some(other) = self.other_half(position)
+        {
+            part.states[other] = State::AtZero;
+        }
+
+        part
+    }
+
+    /// The position of the other half of v_T, if this one is of a particle with zero reaction.
+    fn other_half(&self, position: usize) -> Option<usize> {
+        let variable = self.index[position];
+        for zero in &self.zero {
+            if variable == zero.right {
+                return self.position(zero.left);
+            }
+            if variable == zero.left {
+                return self.position(zero.right);
+            }
+        }
+
+        None
+    }
+
+    /// A half of v_T that is undecided as the other one is. No leaf closes such a region: the
+    /// vector that is 1 at both halves and 0 elsewhere solves at every value
+    /// (`spec/zero-reaction.md`, Z.3).
+    pub(crate) fn undecided_half(&self, states: &[State]) -> Option<usize> {
+        self.zero.iter().find_map(|zero| {
+            let right = self.position(zero.right)?;
+            let left = self.position(zero.left)?;
+            let is_open = [right, left].map(|half| states[half] == State::Undecided);
+            (is_open == [true, true]).then_some(left)
+        })
+    }
+
+    /// The variables at rest of which y = 0 follows from y = 0 on the support.
+    pub(crate) fn vanishing(&self, states: &[State]) -> Vec<usize> {
+        let support = self.variables(&support(states));
+        let of_each = self.zero.iter().map(|zero| zero.vanishing(&support));
+        of_each.flatten().collect()
     }
 
     /// The expansion of a piece with this anchor. Without a condensation there is one, and anchors

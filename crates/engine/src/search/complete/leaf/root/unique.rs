@@ -150,13 +150,15 @@ impl Unique {
     /// A value near one of `ends`, the ends of its leaf or region, gets an interval centred at that
     /// end: the leaf on the other side finds it too, and of two intervals with one centre one holds
     /// the other, so that the checker sees one solution.
+    ///
+    /// `vanishing` are the variables at rest of which y is zero with y on the support.
     pub(crate) fn outcome(
         &self,
         expansion: &Expansion,
         value: f64,
         ends: [f64; 4],
         states: &[State],
-        index: &[usize],
+        [index, vanishing]: [&[usize]; 2],
     ) -> Option<Located> {
         ROOT_HALF_WIDTHS.iter().find_map(|width| {
             let half = width * value.abs();
@@ -168,7 +170,7 @@ impl Unique {
                 return None;
             }
 
-            let outcome = self.signs(&narrow, errors.right, states, index)?;
+            let outcome = self.signs(&narrow, errors.right, states, [index, vanishing])?;
             let interval = [from_f64(center - half).ok()?, from_f64(center + half).ok()?];
             Some(Located { interval, outcome })
         })
@@ -192,7 +194,7 @@ impl Unique {
         narrow: &Ends,
         error: f64,
         states: &[State],
-        index: &[usize],
+        [index, vanishing]: [&[usize]; 2],
     ) -> Option<RootOutcome> {
         let error = 2.0 * error + ROUNDING;
         let mut is_certain = true;
@@ -210,6 +212,10 @@ impl Unique {
         }
 
         for i in at_zero(states) {
+            if vanishing.contains(&index[i]) {
+                continue;
+            }
+
             let at_ends = [0, 1].map(|end| self.reaction(narrow, end, i, error));
             if at_ends.iter().all(|y| -y.value > y.around) {
                 return Some(RootOutcome::NegativeY(index[i]));
@@ -365,7 +371,7 @@ mod tests {
         ];
         for (value, ends, centre) in cases {
             let found = unique
-                .outcome(expansion, value, ends, &states, &[0])
+                .outcome(expansion, value, ends, &states, [&[0], &[]])
                 .unwrap();
 
             let interval = found.interval.map(|end| to_f64(&end));
