@@ -8,7 +8,7 @@
 use crate::cli::common::CliError;
 use crate::picture::Mark;
 use mceip_check::AcceptedClaim;
-use mceip_engine::analysis::conditions::{DefiniteUntil, Necessary, approximately};
+use mceip_engine::analysis::conditions::{DefiniteUntil, Necessary};
 use mceip_engine::reduction::{Variable, mode, mu_family, reduce};
 use mceip_engine::report::Table;
 use mceip_engine::run::{Progress, Watch};
@@ -239,15 +239,15 @@ impl ProvedSet {
 }
 
 impl ProvedState {
-    /// mu from which on the necessary condition holds: the middle of its enclosure. `None` if not
-    /// asked for, or if it never holds.
+    /// mu from which on the necessary condition holds: the upper end of its enclosure, which is the
+    /// accurate one. `None` if not asked for, or if it never holds.
     pub(super) fn necessary_from(&self) -> Option<f64> {
         let necessary = self.necessary.as_ref()?;
         let stiffness = necessary.stiffness.end();
         let mass = necessary.mass.as_ref().and_then(DefiniteUntil::end);
 
         let ends = [stiffness, mass].into_iter().flatten();
-        ends.map(approximately).min_by(f64::total_cmp)
+        ends.map(|end| to_f64(end.hi())).min_by(f64::total_cmp)
     }
 
     /// The equation that says so: (20) for a mass matrix M* that does not depend on mu.
