@@ -7,9 +7,10 @@
 //!
 //! `markup` a tree of elements, `drawing` the picture made of them, `scale` and `chart` axes,
 //! `marker` and `legend` the contact states; then a file for each picture: [`mode_picture`],
-//! [`path_picture`], [`threshold_picture`], [`branch_picture`], [`table1_picture`],
-//! [`cost_picture`], [`motion_picture`]; [`Report`] puts them into a page.
+//! [`body_picture`], [`path_picture`], [`threshold_picture`], [`branch_picture`],
+//! [`table1_picture`], [`cost_picture`], [`motion_picture`]; [`Report`] puts them into a page.
 
+mod body;
 mod branch;
 mod chart;
 mod cost;
@@ -27,6 +28,7 @@ mod scale;
 mod table1;
 mod threshold;
 
+pub use body::{BodyDrawing, BodyMode, body_picture};
 pub use branch::{BranchPoint, Branches, branch_picture};
 pub use cost::{CostSeries, cost_picture};
 pub use drawing::Picture;

@@ -19,6 +19,7 @@ use mceip_model::file::read_problem_file;
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, TwoParticles, enumerate, table1, thresholds};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState, two_particles};
+use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -590,6 +591,43 @@ fn the_report_says_what_the_text_says() {
         &["mechanical system"],
     );
     assert!(!Path::new(&of_a_pencil).exists());
+}
+
+/// With coordinates the page shows the body and each mode, and the names of the particles; it is the
+/// same page but for them.
+#[test]
+fn the_report_draws_a_body_with_coordinates() {
+    let folder = Folder::new();
+    let page = folder.path("out.html");
+    let mut problem: Value = serde_json::from_str(&read(&example("two-particles"))).unwrap();
+    problem["coordinates"] = json!({
+        "nodes": [[0, 1, 0, 0], [2, 3, 2, 0], [null, null, 1, 1]],
+        "edges": [[0, 2], [1, 2]],
+        "particles": ["left foot", "<right>"],
+    });
+    let drawn = folder.write("drawn.json", &problem.to_string());
+    let on_page = ["--report", &page, "--samples", "0"];
+
+    let text = exits(0, &[&["analyze", &drawn][..], &on_page].concat());
+
+    let html = read(&page);
+    let tree = html.strip_prefix("<!DOCTYPE html>\n").unwrap();
+    let tree = roxmltree::Document::parse(tree).unwrap();
+    let pictures = tree.descendants().filter(|n| n.has_tag_name("svg"));
+    let modes = text.matches("\nMode ").count();
+    assert!(modes > 0, "{text}");
+    assert_eq!(pictures.count(), 1 + modes);
+    contains_all(
+        &html,
+        &["left foot", "&lt;right&gt;", "Arrows: the mode times"],
+    );
+
+    let plain = example("two-particles");
+    let without = exits(0, &[&["analyze", &plain][..], &on_page].concat());
+    let html = read(&page);
+    assert_eq!(without.replace(&plain, &drawn), text);
+    assert!(!html.contains("<svg"));
+    contains_all(&html, &["SHA-256", "Made on 2"]);
 }
 
 /// An interrupt leaves everything undecided that was not done, and claims nothing.

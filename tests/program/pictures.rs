@@ -9,11 +9,13 @@
 use crate::common::{exit_code, exits_with_json, read};
 use crate::program::{Folder, refused};
 use mceip::picture::{
-    BranchPoint, Branches, CostSeries, Mark, Mode, Picture, Threshold, ThresholdColumn,
-    branch_picture, cost_picture, mode_picture, path_picture, table1_picture, threshold_picture,
+    BodyDrawing, BodyMode, BranchPoint, Branches, CostSeries, Mark, Mode, Picture, Threshold,
+    ThresholdColumn, body_picture, branch_picture, cost_picture, mode_picture, path_picture,
+    table1_picture, threshold_picture,
 };
 use mceip_exact::to_f64;
-use mceip_model::ContactState;
+use mceip_model::file::read_problem;
+use mceip_model::{Body, ContactState, Problem};
 use mceip_paper::path::{Contact, Loading, LoadingPath};
 use mceip_paper::{Block, BlockModel, Triangulation};
 use roxmltree::{Document, Node};
@@ -194,6 +196,99 @@ fn picture_of_one_moved_node(mesh: &Triangulation, marks: &[Mark], motion: f64) 
     };
 
     mode_picture("a < b & c", &mode)
+}
+
+/// Two particles on a wedge and a node above them: the markers point where the
+/// particles are about to slip, arrows are the mode, one factor for all.
+#[test]
+fn a_body_has_its_nodes_states_and_arrows() {
+    let problem = body_on_a_wedge();
+    let Body::System(system) = problem.body() else {
+        panic!("a system")
+    };
+    let mut drawing = BodyDrawing {
+        coordinates: problem.coordinates.as_ref().unwrap(),
+        particles: system.particles(),
+        mode: None,
+    };
+
+    let text = sound(&body_picture("body", &drawing));
+
+    let tree = Document::parse(&text).unwrap();
+    assert_eq!(count(&tree, "node"), 3);
+    assert_eq!(count(&tree, "arrow"), 0);
+    let edges = of_class(&tree, "edges")[0].attribute("d").unwrap();
+    assert_eq!(edges.matches('M').count(), 2);
+    let names = of_class(&tree, "name").into_iter().map(|n| n.text());
+    assert_eq!(names.collect::<Vec<_>>(), [Some("foot"), Some("1")]);
+
+    // S = 1: the first particle is about to slip against its tangent, which points to the upper
+    // right at 36.87 degrees; clockwise from the right that is 143.13. The second one slips to the right.
+    let turned = of_class(&tree, "slip-right");
+    let angle = |node: &Node<'_, '_>| {
+        let turn = node.attribute("transform").unwrap();
+        let degrees = turn.trim_start_matches("rotate(").split(' ').next();
+        degrees.unwrap().parse::<f64>().unwrap()
+    };
+    let angles: Vec<f64> = turned.iter().map(angle).collect();
+    assert_eq!(angles, [143.13, 0.0]);
+
+    let v = [0.5, -0.25, 0.0, 0.0, f64::NAN, 0.0];
+    drawing.mode = Some(BodyMode {
+        v: &v,
+        slipping: &[0],
+    });
+    let text = sound(&body_picture("mode", &drawing));
+    let tree = Document::parse(&text).unwrap();
+    assert_eq!(count(&tree, "arrow"), 1);
+    assert_eq!(count(&tree, "caught"), 1);
+
+    // v points to the right and down; on paper down is positive.
+    let arrow = of_class(&tree, "arrow")[0];
+    let shaft = arrow.children().find(|n| n.has_tag_name("line")).unwrap();
+    let along = |from, to| number(&shaft, to).unwrap() - number(&shaft, from).unwrap();
+    assert!(along("x1", "x2") > 0.0);
+    assert!((along("y1", "y2") / along("x1", "x2") - 0.5).abs() < 0.01);
+    let scale = of_class(&tree, "scale")[0].text().unwrap();
+    assert!(scale.contains("the longest is |v| = 0.559."), "{scale}");
+
+    // Nothing moves, all nodes at one place, places at the end of what is read.
+    drawing.mode = Some(BodyMode {
+        v: &[],
+        slipping: &[],
+    });
+    assert!(sound(&body_picture("rest", &drawing)).contains("No node moves"));
+    for place in ["0", "1e-300", "1e154"] {
+        let problem = with_second_node_at(place);
+        let elsewhere = BodyDrawing {
+            coordinates: problem.coordinates.as_ref().unwrap(),
+            particles: system.particles(),
+            mode: None,
+        };
+        let text = sound(&body_picture("body", &elsewhere));
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{place}");
+    }
+}
+
+fn body_on_a_wedge() -> Problem {
+    with_second_node_at("2")
+}
+
+/// Three nodes: (0, 0), (x, 0), and (0, 0) again, where nothing moves along y.
+fn with_second_node_at(x: &str) -> Problem {
+    let text = format!(
+        r#"{{"format": "mceip-problem/1", "unknown": "mu",
+            "coordinates": {{"nodes": [[0, 1, 0, 0], [2, 3, "{x}", 0], [4, null, 0, 0]],
+                             "edges": [[0, 2], [1, 2]], "particles": ["foot", ""]}},
+            "system": {{"stiffness": {{"rows": 5, "cols": 5, "symmetric": true,
+                                       "entries": [[0, 0, 1], [1, 1, 1], [2, 2, 1], [3, 3, 1],
+                                                   [4, 4, 1]]}},
+                        "particles": [{{"tangential": 0, "normal": 1, "state": "slip", "sign": 1,
+                                        "frame": [["4/5", "3/5"], ["-3/5", "4/5"]]}},
+                                      {{"tangential": 2, "normal": 3, "state": "slip",
+                                        "sign": -1}}]}}}}"#
+    );
+    read_problem(&text, std::path::Path::new(".")).unwrap()
 }
 
 #[test]
