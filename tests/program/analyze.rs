@@ -593,8 +593,8 @@ fn the_report_says_what_the_text_says() {
     assert!(!Path::new(&of_a_pencil).exists());
 }
 
-/// With coordinates the page shows the body and each mode, and the names of the particles; it is the
-/// same page but for them.
+/// With coordinates the page shows the body and each mode, and the names of the particles; it is
+/// the same page but for them.
 #[test]
 fn the_report_draws_a_body_with_coordinates() {
     let folder = Folder::new();

@@ -187,8 +187,8 @@ fn every_route_makes_the_same_problem() {
     exits(0, &["analyze", &bench.path("out.json"), "--samples", "0"]);
 }
 
-/// Coordinates and labels are kept where coordinates are given, and change no digest; tables that do
-/// not fit are refused.
+/// Coordinates and labels are kept where coordinates are given, and change no digest; tables that
+/// do not fit are refused.
 #[test]
 fn coordinates_are_kept() {
     let bench = Bench::new();

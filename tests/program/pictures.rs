@@ -223,7 +223,8 @@ fn a_body_has_its_nodes_states_and_arrows() {
     assert_eq!(names.collect::<Vec<_>>(), [Some("foot"), Some("1")]);
 
     // S = 1: the first particle is about to slip against its tangent, which points to the upper
-    // right at 36.87 degrees; clockwise from the right that is 143.13. The second one slips to the right.
+    // right at 36.87 degrees; clockwise from the right that is 143.13. The second one slips to the
+    // right.
     let turned = of_class(&tree, "slip-right");
     let angle = |node: &Node<'_, '_>| {
         let turn = node.attribute("transform").unwrap();

@@ -4,7 +4,8 @@
 //! is prescribed it is none of the system's, and the node does not move that way.
 
 use super::{ModelError, System};
-use mceip_exact::{Rational, to_f64};
+use mceip_exact::{Integer, Rational};
+use num_traits::{One, Signed};
 
 /// A node of a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -104,8 +105,8 @@ fn require_node(index: usize, node: &Node, is_taken: &mut [bool]) -> Result<(), 
         }
     }
 
-    let limit = 2f64.powi(512);
-    if node.place.iter().any(|c| to_f64(c).abs() > limit) {
+    let limit = Rational::from_integer(Integer::one() << 512);
+    if node.place.iter().any(|coordinate| coordinate.abs() > limit) {
         let got = format!("a larger one for node {index}");
         return Err(refused("coordinates of at most 2^512", got));
     }
