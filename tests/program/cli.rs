@@ -144,10 +144,12 @@ fn remove_x(report: &mut Value) {
     }
 }
 
-/// The only solution is at 2 with x = (1, 0, 1/4, 0): v_T of particle 1 is 1/4, to the right.
+/// The only solution is at 2 with x = (1, 0, 1/4, 0): v_T of particle 1 is 1/4, to the right. What
+/// `certify` refuses it refutes: by a complete set near the value, which `check` accepts.
 #[test]
 fn false_reports_with_zero_reaction_are_refuted() {
     let folder = Folder::new();
+    let certificate = folder.path("near.json");
     let case = tempfile::tempdir().unwrap();
     let problem = zero_reaction_problem(case.path(), "zero-right");
     let report = |value: &str, x: &str| {
@@ -168,9 +170,11 @@ fn false_reports_with_zero_reaction_are_refuted() {
     ] {
         let wrong = report(value, x);
         contains_all(&exits(1, &["check", &problem, &wrong]), &["REJECTED"]);
-        let uncertified = run(&["certify", &problem, &wrong]);
-        assert_eq!(uncertified.code, Some(3), "{value} {x}: {uncertified:?}");
-        assert!(uncertified.stdout.is_empty(), "{uncertified:?}");
+
+        let refused = run(&["certify", &problem, &wrong, "--out", &certificate]);
+        assert_eq!(refused.code, Some(1), "{value} {x}: {refused:?}");
+        assert!(refused.stderr.contains("REFUSED"), "{refused:?}");
+        exits(0, &["check", &problem, &certificate]);
     }
 }
 
