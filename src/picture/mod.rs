@@ -8,7 +8,8 @@
 //! `markup` a tree of elements, `drawing` the picture made of them, `scale` and `chart` axes,
 //! `marker` and `legend` the contact states; then a file for each picture: [`mode_picture`],
 //! [`body_picture`], [`path_picture`], [`threshold_picture`], [`branch_picture`],
-//! [`table1_picture`], [`cost_picture`], [`motion_picture`]; [`Report`] puts them into a page.
+//! [`presence_picture`], [`table1_picture`], [`cost_picture`], [`motion_picture`]; [`Report`] puts
+//! them into a page.
 
 mod body;
 mod branch;
@@ -23,6 +24,7 @@ mod motion;
 mod path;
 #[cfg(feature = "png")]
 mod png;
+mod presence;
 mod report;
 mod scale;
 mod table1;
@@ -39,6 +41,7 @@ pub use motion::{MotionSeries, motion_picture};
 pub use path::path_picture;
 #[cfg(feature = "png")]
 pub use png::PngError;
+pub use presence::{Presence, PresenceChart, PresenceRange, presence_picture};
 pub use report::{Content, Report, Section};
 pub use scale::{Scale, Spread};
 pub use table1::table1_picture;

@@ -9,9 +9,9 @@
 use crate::common::{exit_code, exits_with_json, read};
 use crate::program::{Folder, refused};
 use mceip::picture::{
-    BodyDrawing, BodyMode, BranchPoint, Branches, CostSeries, Mark, Mode, Picture, Threshold,
-    ThresholdColumn, body_picture, branch_picture, cost_picture, mode_picture, path_picture,
-    table1_picture, threshold_picture,
+    BodyDrawing, BodyMode, BranchPoint, Branches, CostSeries, Mark, Mode, Picture, Presence,
+    PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture, branch_picture,
+    cost_picture, mode_picture, path_picture, presence_picture, table1_picture, threshold_picture,
 };
 use mceip_exact::to_f64;
 use mceip_model::file::read_problem;
@@ -395,6 +395,89 @@ fn thresholds_and_branches_are_the_numbers_given() {
     // Pictures without data.
     sound(&branch_picture("e", &Branches::default()));
     sound(&threshold_picture("e", &[], 1.1));
+}
+
+/// Absent below 1, present at the samples 1.2 and 2, undecided from 2.5 on.
+fn presence_of_every_kind() -> PresenceChart {
+    PresenceChart {
+        ranges: vec![
+            PresenceRange {
+                presence: Presence::Absent,
+                from: 0.0,
+                to: Some(1.0),
+                is_proved: true,
+            },
+            PresenceRange {
+                presence: Presence::Present,
+                from: 1.2,
+                to: Some(2.0),
+                is_proved: false,
+            },
+            PresenceRange {
+                presence: Presence::Undecided,
+                from: 2.5,
+                to: None,
+                is_proved: false,
+            },
+        ],
+        samples: vec![
+            (1.2, Presence::Present),
+            (2.0, Presence::Present),
+            (2.5, Presence::Undecided),
+        ],
+        friction: 3.0,
+        critical: Some(1.0625),
+    }
+}
+
+#[test]
+fn presence_is_drawn_at_its_values_of_mu() {
+    let presence = presence_of_every_kind();
+    let text = sound(&presence_picture("presence", &presence));
+    let tree = Document::parse(&text).unwrap();
+
+    let ranges = of_class(&tree, "range");
+    assert_eq!(data(&ranges, "data-from"), [0.0, 1.2, 2.5]);
+    let classes: Vec<&str> = ranges.iter().filter_map(|r| r.attribute("class")).collect();
+    let expected = [
+        "range absent proved",
+        "range present sampled",
+        "range undecided sampled",
+    ];
+    assert_eq!(classes, expected);
+
+    // A proof has a full outline, samples a dashed one; the undecided range alone is hatched.
+    let mut dashes = Vec::new();
+    let mut lefts = Vec::new();
+    let mut strokes = Vec::new();
+    for range in &ranges {
+        let outline = range.first_element_child().unwrap();
+        dashes.push(outline.attribute("stroke-dasharray"));
+        lefts.push(number(&outline, "x").unwrap());
+        strokes.push(range.children().filter(|n| n.has_tag_name("line")).count());
+    }
+    assert_eq!(dashes, [None, Some("4 3"), Some("4 3")]);
+    assert_eq!(strokes[..2], [0, 0]);
+    assert!(strokes[2] > 3, "{strokes:?}");
+
+    // Places grow with mu in one proportion.
+    let proportion = (lefts[2] - lefts[0]) / (lefts[1] - lefts[0]);
+    assert!((proportion - 2.5 / 1.2).abs() < 0.01, "{proportion}");
+
+    assert_eq!(data(&of_class(&tree, "sample"), "data-mu"), [1.2, 2.0, 2.5]);
+    assert_eq!(data(&of_class(&tree, "friction"), "data-mu"), [3.0]);
+    assert_eq!(data(&of_class(&tree, "critical"), "data-mu"), [1.0625]);
+    assert!(text.contains("1.0625"));
+
+    // Without anything known there is an axis and the friction of the system.
+    let nothing = PresenceChart {
+        ranges: Vec::new(),
+        samples: Vec::new(),
+        friction: 0.0,
+        critical: None,
+    };
+    let text = sound(&presence_picture("nothing", &nothing));
+    assert!(!text.contains("NaN") && !text.contains("inf"));
 }
 
 #[test]

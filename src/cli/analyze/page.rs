@@ -1,7 +1,10 @@
 //! `mceip analyze --report`: the answers, their evidence and the modes on one page.
 
-use crate::picture::{BodyDrawing, BodyMode, Content, Report, Section, body_picture};
-use mceip_engine::analysis::{Analysis, Evidence, Mode};
+use crate::picture::{
+    BodyDrawing, BodyMode, Content, Presence, PresenceChart, PresenceRange, Report, Section,
+    body_picture, presence_picture,
+};
+use mceip_engine::analysis::{Analysis, Evidence, Mode, Verdict};
 use mceip_exact::to_f64;
 use mceip_model::{Coordinates, System};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -125,10 +128,53 @@ fn answers(analysis: &Analysis, paths: &[String]) -> Section {
         header: row(["standing", "answer", "evidence"]),
         rows,
     });
+    content.push(Content::Figure {
+        picture: presence_picture(
+            "Divergence against the coefficient of friction",
+            &presence(analysis),
+        ),
+        caption: "Where in \u{3bc} divergence of the form (8) exists. Between samples nothing is \
+                  proved."
+            .into(),
+    });
 
     Section {
         title: "Answers".into(),
         content,
+    }
+}
+
+/// The ranges of mu, their samples, and the smallest mu with a certified solution, in doubles.
+fn presence(analysis: &Analysis) -> PresenceChart {
+    let mut ranges = Vec::new();
+    for range in &analysis.ranges {
+        ranges.push(PresenceRange {
+            presence: drawn_verdict(range.verdict),
+            from: to_f64(&range.from),
+            to: range.to.as_ref().map(to_f64),
+            is_proved: !matches!(range.evidence, Evidence::Measured(_)),
+        });
+    }
+
+    let mut samples = Vec::new();
+    for sample in &analysis.samples {
+        samples.push((to_f64(&sample.mu), drawn_verdict(sample.verdict)));
+    }
+
+    let solution = analysis.critical.solution.as_ref();
+    PresenceChart {
+        ranges,
+        samples,
+        friction: to_f64(&analysis.friction),
+        critical: solution.map(|solution| to_f64(solution.mu.hi())),
+    }
+}
+
+fn drawn_verdict(verdict: Verdict) -> Presence {
+    match verdict {
+        Verdict::Absent => Presence::Absent,
+        Verdict::Present => Presence::Present,
+        Verdict::Undecided => Presence::Undecided,
     }
 }
 
