@@ -19,6 +19,7 @@ use mceip_model::file::read_problem_file;
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, TwoParticles, enumerate, table1, thresholds};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState, two_particles};
+use num_traits::Signed as _;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -402,9 +403,19 @@ fn flutter_is_a_warning_where_divergence_is_absent() {
     assert!((flutter.growth_rate - (PI / 6.0).cos()).abs() < 1e-9);
     assert!((flutter.frequency - 0.5).abs() < 1e-9);
 
+    // Complex where 4 mu^2 - 8 mu + 1 < 0, from 1 - sqrt(3)/2 on.
+    let onset = flutter.onset.as_ref().unwrap();
+    assert!(side_of_the_least_mu(&onset.none_at).is_positive());
+    assert!(side_of_the_least_mu(&onset.some_at).is_negative());
+    let width = &onset.some_at - &onset.none_at;
+    assert_eq!(width, rational(1, 8 * 4096));
+
     let sentences = analysis.sentences();
     let words: String = sentences.iter().map(|s| s.text.as_str()).collect();
-    contains_all(&words, &["WARNING of flutter", "not stability"]);
+    contains_all(
+        &words,
+        &["WARNING of flutter", "tried, 0.134", "not stability"],
+    );
 
     assert!(!words.contains("is stable"), "{words}");
     assert!(!words.contains("is STABLE"), "{words}");
@@ -616,7 +627,8 @@ fn the_report_draws_a_body_with_coordinates() {
     let pictures = tree.descendants().filter(|n| n.has_tag_name("svg"));
     let modes = text.matches("\nMode ").count();
     assert!(modes > 0, "{text}");
-    assert_eq!(pictures.count(), 1 + modes);
+    let body_and_presence = 2;
+    assert_eq!(pictures.count(), body_and_presence + modes);
     contains_all(
         &html,
         &["left foot", "&lt;right&gt;", "Arrows: the mode times"],
@@ -626,8 +638,8 @@ fn the_report_draws_a_body_with_coordinates() {
     let without = exits(0, &[&["analyze", &plain][..], &on_page].concat());
     let html = read(&page);
     assert_eq!(without.replace(&plain, &drawn), text);
-    assert!(!html.contains("<svg"));
-    contains_all(&html, &["SHA-256", "Made on 2"]);
+    assert_eq!(html.matches("<svg").count(), 1);
+    contains_all(&html, &["SHA-256", "Made on 2", "range absent proved"]);
 }
 
 /// An interrupt leaves everything undecided that was not done, and claims nothing.
