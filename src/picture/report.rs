@@ -34,7 +34,7 @@ pub enum Content {
     Table {
         /// What the table shows.
         caption: String,
-        /// The first row.
+        /// The first row; empty for none.
         header: Vec<String>,
         /// The others.
         rows: Vec<Vec<String>>,
@@ -155,14 +155,17 @@ fn table(caption: &str, header: &[String], rows: &[Vec<String>]) -> Element {
     let is_long = rows.len() > UNFOLDED;
     let summary = Element::new("summary").text(format!("{caption} ({} rows)", rows.len()));
     let caption = Element::new("caption").text(caption);
-    let head = Element::new("thead").child(table_row("th", header));
-
     // The empty text keeps the element open where there are no rows.
     let body = Element::new("tbody")
         .text("")
         .children(rows.iter().map(|row| table_row("td", row)));
 
-    let table = Element::new("table").child(caption).child(head).child(body);
+    let mut table = Element::new("table").child(caption);
+    if !header.is_empty() {
+        table.push(Element::new("thead").child(table_row("th", header)));
+    }
+    table.push(body);
+
     let frame = Element::new("div").with("class", "wide").child(table);
 
     if is_long {

@@ -90,7 +90,7 @@ fn system(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     ];
     let table = Content::Table {
         caption: "The system, in the units of its file".into(),
-        header: row(["", ""]),
+        header: Vec::new(),
         rows,
     };
 
@@ -273,7 +273,7 @@ fn proofs(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     let days = since_epoch.map_or(0, |time| time.as_secs() / SECONDS_OF_A_DAY);
     let table = Content::Table {
         caption: "SHA-256, as `mceip check` compares them".into(),
-        header: row(["", ""]),
+        header: Vec::new(),
         rows,
     };
     let date = format!("Made on {} (UTC) by {PROGRAM}.", date_of(days));
