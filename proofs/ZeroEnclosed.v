@@ -1,0 +1,432 @@
+(* Enclosed claims about systems with particles in contact with zero reaction (z).
+
+   A claim names a support among the slip particles and the variables gap, right and left of the z
+   particles (ZeroReaction.v), and an interval of values.  Of right and left of a particle at most
+   one is in the support, and one of them is if the gap is.  So the support says what each particle
+   does after the event, that is, which linear equations the motion v with its forces w satisfies:
+
+       free degree of freedom     w_d = 0
+       slip particle              n'v = 0, and in the support S t'w + mu n'w = 0, else t'v = 0
+       z that opens               n'w = 0, t'w = 0
+       z that slips               n'v = 0, -t'w + mu n'w = 0 (right) or t'w + mu n'w = 0 (left)
+       z that sticks              n'v = 0, t'v = 0
+       any other                  v_d = 0
+
+   These are as many equations as there are degrees of freedom.  The claim is one about the pencil
+   [support_pencil], to which EnclosedClaim.v is applied.  Its free variables are the components of
+   v, with these equations.  Behind them comes a variable for each slip particle: the rate x = -S t'v
+   in the support, 0 off it, where its row is -(S t'w + mu n'w) > 0.  The other variables are 0 and
+   have rows for the strict inequalities of the z particles:
+
+       opens           -n'v > 0,  t'v > 0 (right) or -t'v > 0 (left)
+       slips           t'v > 0 (right) or -t'v > 0 (left),  -n'w > 0,  no force at the other side
+       sticks          -n'w > 0,  t'w - mu n'w > 0,  -t'w - mu n'w > 0
+
+   "No force at the other side" is the third of these lines for right, the second for left.  The
+   half that is at rest while the gap opens has no such row: there y = 0, because w = 0 at this
+   particle ([resting_halves] are the variables for which this is so).  Three variables stand for
+   each z particle; where fewer rows are needed, one is repeated.
+
+   Theorem [zero_enclosed_sound]: if the claim is checked, then for some t in the interval there is a
+   motion with (9), with this support, and with y = 0 off the support at the resting halves only.
+   All motions that satisfy (9) at a value of the interval and have this support have this t and are
+   its positive multiples.
+
+   Pages: spec/certificates.md, 5.5; spec/zero-reaction.md, Z.3.
+   Rust: crates/check/src/enclosed_solution.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Root RootLeaf Condensation Pencil Claim.
+From Mceip Require Import EnclosedClaim System ZeroReaction.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+(* The rows a and b of the linear form (a + t b)'x. *)
+Definition form := (sparse_row * sparse_row)%type.
+
+Section Checker.
+
+Local Open Scope Z_scope.
+
+Variables (z : zero_system) (u : unknown) (support : seq nat).
+
+Notation s := (without_zero z).
+Notation ns := (size (particles s)).
+Notation nz := (size (zero_particles z)).
+
+(* e'v at a particle *)
+Definition rate_form (e : planar) p : form := ([:: (first_dof p, e.1); (second_dof p, e.2)], [::]).
+
+Definition at_both (rows : nat -> sparse_row) p (e : planar) : sparse_row :=
+  multiple e.1 (rows (first_dof p)) ++ multiple e.2 (rows (second_dof p)).
+
+(* w_d, and e'w at a particle *)
+Definition force_form d : form := (k_row s d, if u is Lambda2 _ _ then m_row s d else [::]).
+
+Definition pressing_form (e : planar) p : form :=
+  (at_both (k_row s) p e, if u is Lambda2 _ _ then at_both (m_row s) p e else [::]).
+
+(* S t'w + mu n'w, times the denominator of mu *)
+Definition cone_form p : form :=
+  match u with
+  | Mu => (at_both (k_row s) p (direction (sign_of p) 0 p),
+           at_both (k_row s) p (direction 0 1 p))
+  | Lambda2 m q => (at_both (k_row s) p (direction (q * sign_of p) m p),
+                    at_both (m_row s) p (direction (q * sign_of p) m p))
+  end.
+
+Definition negative (f : form) : form := (multiple (-1) f.1, multiple (-1) f.2).
+
+(* S t'v *)
+Definition sliding_form p := rate_form (direction (sign_of p) 0 p) p.
+
+Definition slips_j j := (free_number s + j)%N \in support.
+
+Definition slip_equations j :=
+  let p := particle s j in
+  [:: rate_form (normal p) p; if slips_j j then cone_form p else sliding_form p].
+
+Definition zero_equations j :=
+  let p := zero_particle z j in
+  if gap z j \in support then [:: pressing_form (normal p) p; pressing_form (tangent p) p]
+  else [:: rate_form (normal p) p;
+           if right z j \in support then cone_form (with_sign (-1) p)
+           else if left z j \in support then cone_form (with_sign 1 p)
+           else rate_form (tangent p) p].
+
+Definition all_equations :=
+  [seq force_form d | d <- free_dofs s] ++
+  flatten [seq slip_equations j | j <- iota 0 ns] ++
+  flatten [seq zero_equations j | j <- iota 0 nz] ++
+  [seq ([:: (d, 1)], [::]) | d <- iota 0 (dofs s) & d \notin moving_with_zero z].
+
+(* The row of the slip particle j, whose variable is behind the degrees of freedom. *)
+Definition slip_line j : form :=
+  let p := particle s j in
+  if slips_j j then (((dofs s + j)%N, 1) :: (sliding_form p).1, [::]) else negative (cone_form p).
+
+(* What is positive at a z particle. *)
+Definition zero_inequalities j :=
+  let p := zero_particle z j in
+  let opening := negative (rate_form (normal p) p) in
+  let opens := gap z j \in support in
+  [:: if opens then opening else negative (pressing_form (normal p) p);
+      if right z j \in support then rate_form (tangent p) p
+      else if opens then opening else negative (cone_form (with_sign (-1) p));
+      if left z j \in support then negative (rate_form (tangent p) p)
+      else if opens then opening else negative (cone_form (with_sign 1 p))].
+
+Definition all_inequalities := flatten [seq zero_inequalities j | j <- iota 0 nz].
+
+Definition all_forms :=
+  all_equations ++ [seq slip_line j | j <- iota 0 ns] ++ all_inequalities.
+
+Definition pencil_of_forms (forms : seq form) :=
+  Pencil (size forms) [seq f.1 | f <- forms] [seq f.2 | f <- forms] (iota 0 (dofs s)).
+
+Definition support_pencil := pencil_of_forms all_forms.
+
+(* The support among the variables of this pencil. *)
+Definition slipping_variables := [seq (dofs s + j)%N | j <- iota 0 ns & slips_j j].
+
+(* Right and left do not both move, and one of them does if the gap opens. *)
+Definition one_half j :=
+  ~~ ((right z j \in support) && (left z j \in support)) &&
+  ((gap z j \in support) ==> (right z j \in support) || (left z j \in support)).
+
+(* The half at rest of each z particle that opens. *)
+Definition resting_halves :=
+  [seq left z j | j <- iota 0 nz & (gap z j \in support) && (right z j \in support)] ++
+  [seq right z j | j <- iota 0 nz & (gap z j \in support) && (left z j \in support)].
+
+Definition check_zero_enclosed (c : enclosed_claim) :=
+  [&& zero_wellformed z u, zero_variables z support, all one_half (iota 0 nz),
+      size all_equations == dofs s, box_support c == slipping_variables &
+      check_enclosed_claim support_pencil c].
+
+End Checker.
+
+Section Statements.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown).
+
+Notation s := (without_zero z).
+Notation ns := (size (particles s)).
+Notation nz := (size (zero_particles z)).
+
+(* What moves is the support. *)
+Definition moves_on (support : seq nat) (v : nat -> R) :=
+  (forall j, (j < ns)%N -> let p := particle s j in
+     if (free_number s + j)%N \notin support then slip_rate v p = 0 else slip_rate v p < 0) /\
+  (forall j, (j < nz)%N ->
+     let p := zero_particle z j in
+     let v_N := along (normal p) p v in
+     let v_T := along (tangent p) p v in
+     (if gap z j \notin support then v_N = 0 else v_N < 0) /\
+     (if (right z j \notin support) && (left z j \notin support) then v_T = 0
+      else if right z j \in support then 0 < v_T else v_T < 0)).
+
+End Statements.
+
+(* The values of the forms. *)
+Section Values.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown).
+Implicit Types (t : R) (v x : nat -> R).
+
+Notation s := (without_zero z).
+
+Definition row_value (row : sparse_row) x : R := \sum_(e <- row) toR e.2 * x e.1.
+
+Definition form_value (f : form) t x := row_value f.1 x + t * row_value f.2 x.
+
+Lemma row_value_nil x : row_value [::] x = 0.
+Proof. exact: big_nil. Qed.
+
+Lemma row_value_cat a b x : row_value (a ++ b) x = row_value a x + row_value b x.
+Proof. exact: big_cat. Qed.
+
+Lemma row_value_multiple c row x : row_value (multiple c row) x = toR c * row_value row x.
+Proof.
+rewrite /multiple; case: Z.eqb_spec => [->|_]; first by rewrite toR0 mul0r row_value_nil.
+rewrite /row_value big_map mulr_sumr; apply: eq_bigr => e _ /=.
+by rewrite toRM mulrA.
+Qed.
+
+Lemma value_negative f t x : form_value (negative f) t x = - form_value f t x.
+Proof.
+rewrite /form_value /= !row_value_multiple -[(-1)%Z]/(Z.opp 1) toRN toR1 !mulN1r.
+by rewrite mulrN opprD.
+Qed.
+
+Lemma value_rate e p t x : form_value (rate_form e p) t x = along e p x.
+Proof.
+by rewrite /form_value /row_value /along !big_cons !big_nil /= mulr0 !addr0.
+Qed.
+
+Lemma value_sliding p t x : form_value (sliding_form p) t x = slip_rate x p.
+Proof.
+rewrite value_rate /slip_rate /along /direction !toRD !toRM toR0 /=.
+by move: (toR _) (toR _) (toR _) (x _) (x _) => *; ring.
+Qed.
+
+Lemma row_value_both rows p e x : row_value (at_both rows p e) x =
+  along e p (fun d => row_value (rows d) x).
+Proof. by rewrite row_value_cat !row_value_multiple. Qed.
+
+Hypothesis wf : system_wellformed s u.
+
+Lemma force_rows lambda2 x d : force s lambda2 x d =
+  row_value (k_row s d) x + lambda2 * row_value (m_row s d) x.
+Proof.
+have [k m] := rows_in_range wf d.
+by rewrite forceE /k_product /m_product /k_entry /m_entry !sum_lookup.
+Qed.
+
+Lemma value_force d t x : form_value (force_form z u d) t x = force s (lambda2_of u t) x d.
+Proof.
+rewrite force_rows /form_value /force_form /lambda2_of; case: (u) => [|m q] //=.
+by rewrite row_value_nil mulr0 mul0r.
+Qed.
+
+Lemma value_pressing e p t x :
+  form_value (pressing_form z u e p) t x = along e p (force s (lambda2_of u t) x).
+Proof.
+rewrite /along !force_rows /form_value /pressing_form /lambda2_of; case: (u) => [|m q] /=.
+  by rewrite row_value_nil row_value_both /along mulr0 !mul0r !addr0.
+rewrite !row_value_both /along.
+by move: (toR _) (toR _) (row_value _ _) (row_value _ _) => *; ring.
+Qed.
+
+Lemma value_cone p t x : form_value (cone_form z u p) t x =
+  row_factor R u * cone s (lambda2_of u t) (mu_of u t) x p.
+Proof.
+have f0 := row_factor_gt0 R wf; move: f0.
+rewrite /cone /along !force_rows /form_value /cone_form /row_factor /lambda2_of /mu_of.
+case: (u) => [|m q] f0 /=; rewrite !row_value_both /along /direction !toRD !toRM.
+  rewrite toR0 toR1 /=; move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
+  by move: (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
+have q0 : toR q != 0 :> R by rewrite gt_eqF.
+rewrite /=; move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
+by field.
+Qed.
+
+End Values.
+
+(* The lists of variables. *)
+Section Indices.
+
+Variables (z : zero_system) (u : unknown) (support : seq nat).
+
+Notation s := (without_zero z).
+Notation ns := (size (particles s)).
+Notation nz := (size (zero_particles z)).
+Notation rest := (resting_halves z support).
+
+Lemma gap_not_resting j : (gap z j \in rest) = false.
+Proof.
+apply/negbTE; rewrite mem_cat negb_or; apply/andP.
+by split; apply/negP => /mapP[i _]; rewrite /left /right /gap; lia.
+Qed.
+
+Lemma slip_not_resting j : (j < ns)%N -> ((free_number s + j)%N \in rest) = false.
+Proof.
+move=> lt_j; apply/negbTE; rewrite mem_cat negb_or; apply/andP.
+by split; apply/negP => /mapP[i _]; rewrite /left /right /gap; lia.
+Qed.
+
+Lemma left_resting j : (j < nz)%N ->
+  (left z j \in rest) = (gap z j \in support) && (right z j \in support).
+Proof.
+move=> lt_j; rewrite mem_cat; apply/orP/idP => [[]/mapP[i]|opens].
+- rewrite mem_filter => /andP[opens _] eq.
+  by have -> : j = i by move: eq; rewrite /left /right /gap; lia.
+- by move=> _; rewrite /left /right /gap; lia.
+by left; apply/mapP; exists j => //; rewrite mem_filter opens mem_iota.
+Qed.
+
+Lemma right_resting j : (j < nz)%N ->
+  (right z j \in rest) = (gap z j \in support) && (left z j \in support).
+Proof.
+move=> lt_j; rewrite mem_cat; apply/orP/idP => [[]/mapP[i]|opens].
+- by move=> _; rewrite /left /right /gap; lia.
+- rewrite mem_filter => /andP[opens _] eq.
+  by have -> : j = i by move: eq; rewrite /left /right /gap; lia.
+by right; apply/mapP; exists j => //; rewrite mem_filter opens mem_iota.
+Qed.
+
+Notation equations := (all_equations z u support).
+
+Lemma free_equation d : d \in free_dofs s -> force_form z u d \in equations.
+Proof. by move=> d_in; rewrite mem_cat map_f. Qed.
+
+Lemma slip_equation j f : (j < ns)%N -> f \in slip_equations z u support j -> f \in equations.
+Proof.
+move=> lt_j f_in; rewrite !mem_cat; apply/or4P/Or42; apply/flatten_mapP.
+by exists j; rewrite ?mem_iota.
+Qed.
+
+Lemma zero_equation j f : (j < nz)%N -> f \in zero_equations z u support j -> f \in equations.
+Proof.
+move=> lt_j f_in; rewrite !mem_cat; apply/or4P/Or43; apply/flatten_mapP.
+by exists j; rewrite ?mem_iota.
+Qed.
+
+Lemma rest_equation d : d \in iota 0 (dofs s) -> d \notin moving_with_zero z ->
+  ([:: (d, 1%Z)], [::]) \in equations.
+Proof.
+move=> d_in out; rewrite !mem_cat; apply/or4P/Or44/mapP.
+by exists d; rewrite // mem_filter out.
+Qed.
+
+(* Each equation is one of these. *)
+Lemma equation_cases f (P : form -> Prop) :
+  (forall d, d \in free_dofs s -> P (force_form z u d)) ->
+  (forall j g, (j < ns)%N -> g \in slip_equations z u support j -> P g) ->
+  (forall j g, (j < nz)%N -> g \in zero_equations z u support j -> P g) ->
+  (forall d, d \in iota 0 (dofs s) -> d \notin moving_with_zero z -> P ([:: (d, 1%Z)], [::])) ->
+  f \in equations -> P f.
+Proof.
+move=> free slip zero rest; rewrite !mem_cat => /or4P[]; last 1 first.
+- by case/mapP=> d; rewrite mem_filter => /andP[out d_in] ->; apply: rest.
+- by case/mapP=> d d_in ->; apply: free.
+- by case/flatten_mapP=> j; rewrite mem_iota => lt_j; apply: slip.
+by case/flatten_mapP=> j; rewrite mem_iota => lt_j; apply: zero.
+Qed.
+
+Lemma zero_inequality j f : (j < nz)%N -> f \in zero_inequalities z u support j ->
+  f \in all_inequalities z u support.
+Proof. by move=> lt_j f_in; apply/flatten_mapP; exists j; rewrite ?mem_iota. Qed.
+
+End Indices.
+
+Lemma of_two (a b : form) (P : form -> Prop) :
+  (forall f, f \in [:: a; b] -> P f) -> P a /\ P b.
+Proof. by move=> all; split; apply: all; rewrite !inE eqxx ?orbT. Qed.
+
+Lemma of_three (a b c : form) (P : form -> Prop) :
+  (forall f, f \in [:: a; b; c] -> P f) -> [/\ P a, P b & P c].
+Proof. by move=> all; split; apply: all; rewrite !inE eqxx ?orbT. Qed.
+
+(* From the values of the forms to (9) with this support, and back. *)
+Section Modes.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown) (support : seq nat).
+Hypothesis wf : zero_wellformed z u.
+Hypothesis halves : all (one_half z support) (iota 0 (size (zero_particles z))).
+
+Implicit Types (t : R) (v x : nat -> R).
+
+Notation s := (without_zero z).
+Notation ns := (size (particles s)).
+Notation nz := (size (zero_particles z)).
+Notation all_dofs := (iota 0 (dofs s)).
+Notation rest := (resting_halves z support).
+
+Lemma wf_system : system_wellformed s u.
+Proof. by case/and4P: wf. Qed.
+
+(* What the equations and inequalities say of a z particle. *)
+Section Signs.
+
+Variables (t : R) (x : nat -> R) (j : nat).
+Hypothesis lt_j : (j < nz)%N.
+
+Notation p := (zero_particle z j).
+Notation w := (force s (lambda2_of u t) x).
+Notation mu := (mu_of u t : R).
+Notation v_N := (along (normal p) p x).
+Notation v_T := (along (tangent p) p x).
+Notation w_N := (along (normal p) p w).
+Notation w_T := (along (tangent p) p w).
+
+Lemma value_right : form_value (cone_form z u (with_sign (-1) p)) t x =
+  row_factor R u * (- w_T + mu * w_N).
+Proof. by rewrite (value_cone wf_system) /cone -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r. Qed.
+
+Lemma value_left : form_value (cone_form z u (with_sign 1 p)) t x =
+  row_factor R u * (w_T + mu * w_N).
+Proof. by rewrite (value_cone wf_system) /cone toR1 mul1r. Qed.
+
+Definition zero_signs :=
+  [/\ if gap z j \notin support then v_N = 0 else v_N < 0,
+      row_sign (gap z j) support rest w_N,
+      if right z j \in support then left z j \notin support /\ 0 < v_T
+      else if left z j \notin support then v_T = 0 else v_T < 0,
+      row_sign (right z j) support rest (- w_T + mu * w_N) &
+      row_sign (left z j) support rest (w_T + mu * w_N)].
+
+Lemma signs_of_forms :
+  (forall f, f \in zero_equations z u support j -> form_value f t x = 0) ->
+  (forall f, f \in zero_inequalities z u support j -> 0 < form_value f t x) ->
+  zero_signs.
+Proof.
+have f0 := row_factor_gt0 R wf_system.
+have /andP[] : one_half z support j by apply: (allP halves); rewrite mem_iota.
+rewrite /zero_equations /zero_inequalities /zero_signs /row_sign.
+rewrite gap_not_resting right_resting // left_resting // orbF.
+case: (gap z j \in support); case: (right z j \in support); case: (left z j \in support) => //=;
+  move=> _ _ /(of_two (P := fun f => form_value f t x = 0))[] + +;
+  move=> + + /(of_three (P := fun f => 0 < form_value f t x))[];
+  rewrite ?value_negative ?value_right ?value_left ?value_rate ?(value_pressing wf_system);
+  rewrite ?oppr_gt0 ?(pmulr_rlt0 _ f0).
+- move=> -> -> vN vT _; rewrite mulr0 oppr0 addr0; split=> //.
+- move=> -> -> vN _ vT; rewrite mulr0 oppr0 addr0; split=> //.
+- move=> vN /eqP; rewrite mulf_eq0 gt_eqF //= => /eqP->.
+  by split.
+- move=> vN /eqP; rewrite mulf_eq0 gt_eqF //= => /eqP->.
+  by split.
+by move=> vN vT wN row_right row_left; split.
+Qed.
+
+End Signs.
+
+End Modes.
