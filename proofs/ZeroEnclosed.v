@@ -356,6 +356,14 @@ Lemma of_three (a b c : form) (P : form -> Prop) :
   (forall f, f \in [:: a; b; c] -> P f) -> [/\ P a, P b & P c].
 Proof. by move=> all; split; apply: all; rewrite !inE eqxx ?orbT. Qed.
 
+Lemma in_two (a b : form) (P : form -> Prop) :
+  P a -> P b -> forall f, f \in [:: a; b] -> P f.
+Proof. by move=> Pa Pb f; rewrite !inE => /orP[]/eqP->. Qed.
+
+Lemma in_three (a b c : form) (P : form -> Prop) :
+  P a -> P b -> P c -> forall f, f \in [:: a; b; c] -> P f.
+Proof. by move=> Pa Pb Pc f; rewrite !inE => /or3P[]/eqP->. Qed.
+
 (* From the values of the forms to (9) with this support, and back. *)
 Section Modes.
 
@@ -414,8 +422,7 @@ have /andP[] : one_half z support j by apply: (allP halves); rewrite mem_iota.
 rewrite /zero_equations /zero_inequalities /zero_signs /row_sign.
 rewrite gap_not_resting right_resting // left_resting // orbF.
 case: (gap z j \in support); case: (right z j \in support); case: (left z j \in support) => //=;
-  move=> _ _ /(of_two (P := fun f => form_value f t x = 0))[] + +;
-  move=> + + /(of_three (P := fun f => 0 < form_value f t x))[];
+  move=> _ _ /(of_two (P := fun f => form_value f t x = 0))[] + + /(of_three (P := fun f => 0 < form_value f t x))[];
   rewrite ?value_negative ?value_right ?value_left ?value_rate ?(value_pressing wf_system);
   rewrite ?oppr_gt0 ?(pmulr_rlt0 _ f0).
 - move=> -> -> vN vT _; rewrite mulr0 oppr0 addr0; split=> //.
@@ -427,6 +434,141 @@ case: (gap z j \in support); case: (right z j \in support); case: (left z j \in 
 by move=> vN vT wN row_right row_left; split.
 Qed.
 
+Lemma forms_of_modes :
+  zero_reaction mu v_N v_T w_N w_T ->
+  (if gap z j \notin support then v_N = 0 else v_N < 0) ->
+  (if (right z j \notin support) && (left z j \notin support) then v_T = 0
+   else if right z j \in support then 0 < v_T else v_T < 0) ->
+  (forall f, f \in zero_equations z u support j -> form_value f t x = 0) /\
+  (forall f, f \in zero_inequalities z u support j -> 0 <= form_value f t x).
+Proof.
+have f0 := row_factor_gt0 R wf_system.
+have /andP[] : one_half z support j by apply: (allP halves); rewrite mem_iota.
+rewrite /zero_equations /zero_inequalities /zero_reaction cone_sides.
+move=> both some [vN wN vw /andP[left_le right_le] slip].
+
+have no_force : v_N < 0 -> w_N = 0 /\ w_T = 0.
+  move=> vN_neg; have wN0 : w_N = 0.
+    by move/eqP: vw; rewrite mulf_eq0 lt_eqF //= => /eqP.
+  move: left_le right_le; rewrite wN0 mulr0 !addr0 oppr_le0 => a b.
+  by split=> //; apply/eqP; rewrite eq_le a b.
+have on_right : 0 < v_T -> - w_T + mu * w_N = 0.
+  move=> vT; apply/eqP; rewrite addrC subr_eq0; apply/eqP/(mulfI (lt0r_neq0 vT)).
+  by move: slip; rewrite gtr0_norm // => ->; rewrite mulrCA mulrA.
+have on_left : v_T < 0 -> w_T + mu * w_N = 0.
+  move=> vT; apply/eqP; rewrite addr_eq0; apply/eqP/(mulfI (ltr0_neq0 vT)).
+  by move: slip; rewrite ltr0_norm // mulrN [v_T * (_ * _)]mulrCA mulrA => <-; rewrite mulNr opprK.
+
+move: both some; case: (gap z j \in support); case: (right z j \in support);
+  case: (left z j \in support) => //= _ _ vN_sign vT_sign;
+  (split; [apply: in_two | apply: in_three]);
+  rewrite ?value_negative ?value_right ?value_left ?value_rate ?(value_pressing wf_system);
+  rewrite ?oppr_ge0 ?(pmulr_rle0 _ f0) //; try by [case: (no_force vN_sign) | apply: ltW].
+- by rewrite on_right ?mulr0.
+- by rewrite on_left ?mulr0.
+Qed.
+
 End Signs.
+
+(* The degrees of freedom of the particles. *)
+Lemma slip_dofs j : (j < ns)%N ->
+  first_dof (particle s j) \in all_dofs /\ second_dof (particle s j) \in all_dofs.
+Proof.
+by move=> lt_j; rewrite (first_dof_in wf_system lt_j) (second_dof_in wf_system lt_j).
+Qed.
+
+Lemma zero_particle_dofs j : (j < nz)%N ->
+  first_dof (zero_particle z j) \in all_dofs /\ second_dof (zero_particle z j) \in all_dofs.
+Proof.
+have /and4P[_ _ in_range _] := wf => lt_j.
+have /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z)/(_ _ lt_j) := in_range.
+by rewrite !mem_iota => /andP[].
+Qed.
+
+(* (9) and the support speak of degrees of freedom only. *)
+Section Extension.
+
+Variables (v v' : nat -> R).
+Hypothesis same : forall d, d \in all_dofs -> v d = v' d.
+
+Lemma force_same lambda2 d : force s lambda2 v d = force s lambda2 v' d.
+Proof. by apply: sum_eq => j Hj; rewrite same. Qed.
+
+Lemma along_same e p : first_dof p \in all_dofs -> second_dof p \in all_dofs ->
+  along e p v = along e p v'.
+Proof. by move=> first second; rewrite /along !same. Qed.
+
+Lemma along_force_same e p lambda2 :
+  along e p (force s lambda2 v) = along e p (force s lambda2 v').
+Proof. by rewrite /along !force_same. Qed.
+
+Lemma satisfies_9z_same t : satisfies_9z z u t v -> satisfies_9z z u t v'.
+Proof.
+case=> t0 [[d d_in vd] at_rest free slip zero]; split=> //; split.
+- by exists d; rewrite -?same.
+- by move=> d' d'_in out; rewrite -same // at_rest.
+- by move=> d' /free; rewrite force_same.
+- move=> j lt_j; have [first second] := slip_dofs lt_j; have := slip _ lt_j.
+  by rewrite /= /cone /slip_rate !along_force_same !(along_same _ first second).
+move=> j lt_j; have [first second] := zero_particle_dofs lt_j; have := zero _ lt_j.
+by rewrite /= !along_force_same !(along_same _ first second).
+Qed.
+
+Lemma moves_on_same : moves_on z support v -> moves_on z support v'.
+Proof.
+case=> slip zero; split=> j lt_j.
+  have [first second] := slip_dofs lt_j; have := slip _ lt_j.
+  by rewrite /= /slip_rate !(along_same _ first second).
+have [first second] := zero_particle_dofs lt_j; have := zero _ lt_j.
+by rewrite /= !(along_same _ first second).
+Qed.
+
+End Extension.
+
+(* A motion with (9) and this support satisfies the equations and, weakly, the inequalities. *)
+Section Back.
+
+Variables (t : R) (v : nat -> R).
+Hypothesis sat : satisfies_9z z u t v.
+Hypothesis on_support : moves_on z support v.
+
+Lemma rate_of_slip j : (j < ns)%N -> slips_j z support j ->
+  slip_rate v (particle s j) < 0.
+Proof. by move=> lt_j in_support; have := on_support.1 _ lt_j; rewrite /= -[_ \in _]/(slips_j _ _ _) in_support. Qed.
+
+Lemma rate_of_rest j : (j < ns)%N -> ~~ slips_j z support j ->
+  slip_rate v (particle s j) = 0.
+Proof. by move=> lt_j out; have := on_support.1 _ lt_j; rewrite /= out. Qed.
+
+Lemma cone_of_slip j : (j < ns)%N -> slips_j z support j ->
+  cone s (lambda2_of u t) (mu_of u t) v (particle s j) = 0.
+Proof.
+move=> lt_j in_support; have [_ [_ _ _ slip _]] := sat; have [_ _ _ /eqP] := slip _ lt_j.
+by rewrite mulf_eq0 [slip_rate _ _ == 0]lt_eqF ?rate_of_slip // orbF => /eqP.
+Qed.
+
+Lemma equations_hold f : f \in all_equations z u support -> form_value f t v = 0.
+Proof.
+have [_ [_ at_rest free slip zero]] := sat => f_in.
+apply: (equation_cases (P := fun f => form_value f t v = 0)) f_in => [d|j g|j g|d] in_list.
+- by rewrite (value_force wf_system) free.
+- have [normal_zero _ _ _] := slip _ in_list.
+  move: g; apply: in_two; first by rewrite value_rate.
+  case: ifPn => [/(cone_of_slip in_list)|/(rate_of_rest in_list)]; last by rewrite value_sliding.
+  by rewrite (value_cone wf_system) => ->; rewrite mulr0.
+- have [opening sliding] := on_support.2 _ in_list.
+  by have [equations _] := forms_of_modes in_list (zero _ in_list) opening sliding; apply: equations.
+move=> out; rewrite /form_value row_value_nil mulr0 addr0 /row_value big_cons big_nil /=.
+by rewrite at_rest // mulr0 addr0.
+Qed.
+
+Lemma inequalities_hold f : f \in all_inequalities z u support -> 0 <= form_value f t v.
+Proof.
+case/flatten_mapP=> j; rewrite mem_iota => lt_j; have [_ [_ _ _ _ zero]] := sat.
+have [opening sliding] := on_support.2 _ lt_j.
+by have [_ inequalities] := forms_of_modes lt_j (zero _ lt_j) opening sliding; apply: inequalities.
+Qed.
+
+End Back.
 
 End Modes.
