@@ -14,9 +14,9 @@
 
    These are as many equations as there are degrees of freedom.  The claim is one about the pencil
    [support_pencil], to which EnclosedClaim.v is applied.  Its free variables are the components of
-   v, with these equations.  Behind them comes a variable for each slip particle: the rate x = -S t'v
-   in the support, 0 off it, where its row is -(S t'w + mu n'w) > 0.  The other variables are 0 and
-   have rows for the strict inequalities of the z particles:
+   v, with these equations.  Behind them comes a variable for each slip particle: in the support the
+   rate x = -S t'v; off it the variable is 0 and its row is -(S t'w + mu n'w) > 0.  The other
+   variables are 0 and have rows for the strict inequalities of the z particles:
 
        opens           -n'v > 0,  t'v > 0 (right) or -t'v > 0 (left)
        slips           t'v > 0 (right) or -t'v > 0 (left),  -n'w > 0,  no force at the other side
@@ -27,8 +27,8 @@
    particle ([resting_halves] are the variables for which this is so).  Three variables stand for
    each z particle; where fewer rows are needed, one is repeated.
 
-   Theorem [zero_enclosed_sound]: if the claim is checked, then for some t in the interval there is a
-   motion with (9), with this support, and with y = 0 off the support at the resting halves only.
+   Theorem [zero_enclosed_sound]: if the claim is checked, then for some t in the interval there is
+   a motion with (9), with this support, and with y = 0 off the support at the resting halves only.
    All motions that satisfy (9) at a value of the interval and have this support have this t and are
    its positive multiples.
 
@@ -88,11 +88,12 @@ Definition negative (f : form) : form := (multiple (-1) f.1, multiple (-1) f.2).
 (* S t'v *)
 Definition sliding_form p := rate_form (direction (sign_of p) 0 p) p.
 
-Definition slips_j j := (free_number s + j)%N \in support.
+(* The slip particle is in the support. *)
+Definition slides j := (free_number s + j)%N \in support.
 
 Definition slip_equations j :=
   let p := particle s j in
-  [:: rate_form (normal p) p; if slips_j j then cone_form p else sliding_form p].
+  [:: rate_form (normal p) p; if slides j then cone_form p else sliding_form p].
 
 Definition zero_equations j :=
   let p := zero_particle z j in
@@ -111,7 +112,7 @@ Definition all_equations :=
 (* The row of the slip particle j, whose variable is behind the degrees of freedom. *)
 Definition slip_line j : form :=
   let p := particle s j in
-  if slips_j j then (((dofs s + j)%N, 1) :: (sliding_form p).1, [::]) else negative (cone_form p).
+  if slides j then (((dofs s + j)%N, 1) :: (sliding_form p).1, [::]) else negative (cone_form p).
 
 (* What is positive at a z particle. *)
 Definition zero_inequalities j :=
@@ -135,7 +136,7 @@ Definition pencil_of_forms (forms : seq form) :=
 Definition support_pencil := pencil_of_forms all_forms.
 
 (* The support among the variables of this pencil. *)
-Definition slipping_variables := [seq (dofs s + j)%N | j <- iota 0 ns & slips_j j].
+Definition slipping_variables := [seq (dofs s + j)%N | j <- iota 0 ns & slides j].
 
 (* Right and left do not both move, and one of them does if the gap opens. *)
 Definition one_half j :=
@@ -422,7 +423,8 @@ have /andP[] : one_half z support j by apply: (allP halves); rewrite mem_iota.
 rewrite /zero_equations /zero_inequalities /zero_signs /row_sign.
 rewrite gap_not_resting right_resting // left_resting // orbF.
 case: (gap z j \in support); case: (right z j \in support); case: (left z j \in support) => //=;
-  move=> _ _ /(of_two (P := fun f => form_value f t x = 0))[] + + /(of_three (P := fun f => 0 < form_value f t x))[];
+  move=> _ _ /(of_two (P := fun f => form_value f t x = 0))[] + +
+    /(of_three (P := fun f => 0 < form_value f t x))[];
   rewrite ?value_negative ?value_right ?value_left ?value_rate ?(value_pressing wf_system);
   rewrite ?oppr_gt0 ?(pmulr_rlt0 _ f0).
 - move=> -> -> vN vT _; rewrite mulr0 oppr0 addr0; split=> //.
@@ -532,15 +534,18 @@ Variables (t : R) (v : nat -> R).
 Hypothesis sat : satisfies_9z z u t v.
 Hypothesis on_support : moves_on z support v.
 
-Lemma rate_of_slip j : (j < ns)%N -> slips_j z support j ->
+Lemma rate_of_slip j : (j < ns)%N -> slides z support j ->
   slip_rate v (particle s j) < 0.
-Proof. by move=> lt_j in_support; have := on_support.1 _ lt_j; rewrite /= -[_ \in _]/(slips_j _ _ _) in_support. Qed.
+Proof.
+move=> lt_j in_support; have := on_support.1 _ lt_j.
+by rewrite /= -[_ \in _]/(slides _ _ _) in_support.
+Qed.
 
-Lemma rate_of_rest j : (j < ns)%N -> ~~ slips_j z support j ->
+Lemma rate_of_rest j : (j < ns)%N -> ~~ slides z support j ->
   slip_rate v (particle s j) = 0.
 Proof. by move=> lt_j out; have := on_support.1 _ lt_j; rewrite /= out. Qed.
 
-Lemma cone_of_slip j : (j < ns)%N -> slips_j z support j ->
+Lemma cone_of_slip j : (j < ns)%N -> slides z support j ->
   cone s (lambda2_of u t) (mu_of u t) v (particle s j) = 0.
 Proof.
 move=> lt_j in_support; have [_ [_ _ _ slip _]] := sat; have [_ _ _ /eqP] := slip _ lt_j.
@@ -557,7 +562,7 @@ apply: (equation_cases (P := fun f => form_value f t v = 0)) f_in => [d|j g|j g|
   case: ifPn => [/(cone_of_slip in_list)|/(rate_of_rest in_list)]; last by rewrite value_sliding.
   by rewrite (value_cone wf_system) => ->; rewrite mulr0.
 - have [opening sliding] := on_support.2 _ in_list.
-  by have [equations _] := forms_of_modes in_list (zero _ in_list) opening sliding; apply: equations.
+  by have [] := forms_of_modes in_list (zero _ in_list) opening sliding => holds _; apply: holds.
 move=> out; rewrite /form_value row_value_nil mulr0 addr0 /row_value big_cons big_nil /=.
 by rewrite at_rest // mulr0 addr0.
 Qed.
@@ -566,9 +571,337 @@ Lemma inequalities_hold f : f \in all_inequalities z u support -> 0 <= form_valu
 Proof.
 case/flatten_mapP=> j; rewrite mem_iota => lt_j; have [_ [_ _ _ _ zero]] := sat.
 have [opening sliding] := on_support.2 _ lt_j.
-by have [_ inequalities] := forms_of_modes lt_j (zero _ lt_j) opening sliding; apply: inequalities.
+by have [] := forms_of_modes lt_j (zero _ lt_j) opening sliding => _ holds; apply: holds.
 Qed.
 
 End Back.
 
 End Modes.
+
+(* A vector with these values of the forms is a motion with (9) and this support. *)
+Section Forth.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown) (support : seq nat).
+Hypothesis wf : zero_wellformed z u.
+Hypothesis halves : all (one_half z support) (iota 0 (size (zero_particles z))).
+
+Notation s := (without_zero z).
+Notation ns := (size (particles s)).
+Notation nz := (size (zero_particles z)).
+Notation all_dofs := (iota 0 (dofs s)).
+Notation rest := (resting_halves z support).
+
+Variables (t : R) (x : nat -> R).
+Hypothesis t0 : 0 <= t.
+Hypothesis equations : forall f, f \in all_equations z u support -> form_value f t x = 0.
+Hypothesis inequalities : forall f, f \in all_inequalities z u support -> 0 < form_value f t x.
+Hypothesis slipping : forall j, (j < ns)%N -> slides z support j ->
+  slip_rate x (particle s j) < 0.
+Hypothesis resting : forall j, (j < ns)%N -> ~~ slides z support j ->
+  cone s (lambda2_of u t) (mu_of u t) x (particle s j) < 0.
+Hypothesis some_slip : exists2 j, (j < ns)%N & slides z support j.
+
+Let wf_s : system_wellformed s u := wf_system wf.
+
+Lemma normal_at_rest j : (j < ns)%N ->
+  along (normal (particle s j)) (particle s j) x = 0.
+Proof.
+move=> lt_j; rewrite -(value_rate _ _ t); apply: equations; apply: slip_equation lt_j _.
+by rewrite inE eqxx.
+Qed.
+
+Lemma second_equation j : (j < ns)%N ->
+  if slides z support j then cone s (lambda2_of u t) (mu_of u t) x (particle s j) = 0
+  else slip_rate x (particle s j) = 0.
+Proof.
+move=> lt_j; have f0 := row_factor_gt0 R wf_s.
+have := equations (slip_equation (u := u) (support := support) lt_j (mem_last _ _)).
+rewrite /=; case: ifP => _; last by rewrite value_sliding.
+by rewrite (value_cone wf_s) => /eqP; rewrite mulf_eq0 gt_eqF //= => /eqP.
+Qed.
+
+Lemma found_support : has_support s u support rest t x.
+Proof.
+move=> j lt_j p; have := second_equation lt_j; rewrite /slides -/p slip_not_resting //.
+have slip := slipping lt_j; have rest_ := resting lt_j.
+move: slip rest_; rewrite /slides -/p; case: (_ \in support) => slip cone_neg eq; split=> //.
+Qed.
+
+Lemma found_zero_support : has_zero_support z u support rest t x.
+Proof.
+move=> j lt_j; apply: (signs_of_forms wf halves lt_j) => f f_in.
+  exact: equations (zero_equation lt_j f_in).
+exact: inequalities (zero_inequality lt_j f_in).
+Qed.
+
+Lemma found_motion : satisfies_9z z u t x.
+Proof.
+split=> //; split.
+- have [j lt_j in_support] := some_slip; have [first second] := slip_dofs wf lt_j.
+  have := slipping lt_j in_support; rewrite /slip_rate /along => rate.
+  have [first0|first_nz] := eqVneq (x (first_dof (particle s j))) 0; last first.
+    by exists (first_dof (particle s j)).
+  have [second0|second_nz] := eqVneq (x (second_dof (particle s j))) 0; last first.
+    by exists (second_dof (particle s j)).
+  by move: rate; rewrite first0 second0 !mulr0 addr0 mulr0 ltxx.
+- move=> d d_in out; have := equations (rest_equation u support d_in out).
+  by rewrite /form_value row_value_nil mulr0 addr0 /row_value big_cons big_nil /= mul1r addr0.
+- by move=> d d_in; rewrite -(value_force wf_s); apply/equations/free_equation.
+- move=> j lt_j p; have normal0 := normal_at_rest lt_j; have := second_equation lt_j.
+  have slip := slipping lt_j; have rest_ := resting lt_j.
+  move: slip rest_; rewrite -/p; case: (slides _ _ _) => [slip _ ->|_ cone_neg ->].
+    by split=> //; [apply/ltW/slip | rewrite mul0r].
+  by split=> //; [apply/ltW/cone_neg | rewrite mulr0].
+exact: (zero_lines found_zero_support).
+Qed.
+
+End Forth.
+
+(* From the pencil to the forms. *)
+Section Sound.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown) (support : seq nat) (c : enclosed_claim).
+Hypothesis checked : check_zero_enclosed z u support c.
+
+Notation s := (without_zero z).
+Notation ns := (size (particles s)).
+Notation nz := (size (zero_particles z)).
+Notation all_dofs := (iota 0 (dofs s)).
+Notation rest := (resting_halves z support).
+Notation Q := (support_pencil z u support).
+Notation forms := (all_forms z u support).
+Notation no_form := ([::], [::]).
+
+Lemma zero_enclosed_parts :
+  [/\ zero_wellformed z u, all (one_half z support) (iota 0 nz),
+      size (all_equations z u support) = dofs s, box_support c = slipping_variables z support &
+      check_enclosed_claim Q c].
+Proof. by case/and5P: checked => ? _ ? /eqP ? /andP[/eqP ? ?]. Qed.
+
+Let wf : zero_wellformed z u.
+Proof. by case: zero_enclosed_parts. Qed.
+
+Let wf_s : system_wellformed s u := wf_system wf.
+
+Lemma size_forms : order Q = (dofs s + ns + size (all_inequalities z u support))%N.
+Proof.
+have [_ _ eq _ _] := zero_enclosed_parts.
+by rewrite -[LHS]/(size forms) size_cat eq size_cat size_map size_iota addnA.
+Qed.
+
+Lemma slip_of_forms i : (i \in slip Q) = (dofs s <= i)%N && (i < order Q)%N.
+Proof. by rewrite mem_filter !mem_iota /= !add0n -leqNgt. Qed.
+
+Lemma reaction_form (t : R) x i : reaction Q t x i = form_value (nth no_form forms i) t x.
+Proof.
+have [_ _ _ _ claim] := zero_enclosed_parts.
+have [range_a range_b] := EnclosedClaim.columns R claim i.
+transitivity (\sum_(j <- iota 0 (order Q)) toR (lookup (row_a Q i) j) * x j +
+              t * \sum_(j <- iota 0 (order Q)) toR (lookup (row_b Q i) j) * x j).
+  rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
+  by rewrite /a_entry /b_entry mulrDl mulrA.
+rewrite !sum_lookup // /form_value /row_value /row_a /row_b /=.
+have [lt_i|ge_i] := ltnP i (size forms); first by rewrite !(nth_map no_form).
+by rewrite !nth_default ?size_map.
+Qed.
+
+Lemma equation_index f : f \in all_equations z u support ->
+  exists2 i, i \in free Q & nth no_form forms i = f.
+Proof.
+have [_ _ eq _ _] := zero_enclosed_parts => /(nthP no_form)[i lt_i <-].
+exists i; first by rewrite mem_iota -eq.
+by rewrite nth_cat lt_i.
+Qed.
+
+Lemma form_of_equation i : i \in free Q -> nth no_form forms i \in all_equations z u support.
+Proof.
+have [_ _ eq _ _] := zero_enclosed_parts; rewrite mem_iota add0n /= -eq => lt_i.
+by rewrite nth_cat lt_i mem_nth.
+Qed.
+
+Lemma form_of_slip j : (j < ns)%N -> nth no_form forms (dofs s + j) = slip_line z u support j.
+Proof.
+have [_ _ eq _ _] := zero_enclosed_parts => lt_j.
+rewrite nth_cat eq ltnNge leq_addr /= addKn nth_cat size_map size_iota lt_j.
+by rewrite (nth_map 0%N) ?size_iota // nth_iota.
+Qed.
+
+Lemma nth_inequality i : (dofs s + ns <= i)%N ->
+  nth no_form forms i = nth no_form (all_inequalities z u support) (i - (dofs s + ns)).
+Proof.
+have [_ _ eq _ _] := zero_enclosed_parts => ge_i.
+rewrite nth_cat eq ltnNge (leq_trans (leq_addr _ _) ge_i) /= nth_cat size_map size_iota.
+by rewrite ltnNge leq_subRL ?(leq_trans (leq_addr _ _) ge_i) // ge_i /= subnDA.
+Qed.
+
+Lemma inequality_index f : f \in all_inequalities z u support ->
+  exists i, [/\ i \in slip Q, (dofs s + ns <= i)%N & nth no_form forms i = f].
+Proof.
+case/(nthP no_form)=> i lt_i <-; exists (dofs s + ns + i)%N; split; last 1 first.
+- by rewrite nth_inequality ?leq_addr // addKn.
+- by rewrite slip_of_forms size_forms ltn_add2l lt_i -addnA leq_addr.
+exact: leq_addr.
+Qed.
+
+Lemma form_of_inequality i : i \in slip Q -> (dofs s + ns <= i)%N ->
+  nth no_form forms i \in all_inequalities z u support.
+Proof.
+rewrite slip_of_forms size_forms => /andP[_ lt_i] ge_i.
+by rewrite nth_inequality // mem_nth // ltn_subLR.
+Qed.
+
+Lemma slip_in_pencil j : (j < ns)%N -> (dofs s + j)%N \in slip Q.
+Proof.
+by move=> lt_j; rewrite slip_of_forms size_forms leq_addr -addnA ltn_add2l ltn_addr.
+Qed.
+
+Lemma slip_in_support j : (j < ns)%N ->
+  ((dofs s + j)%N \in slipping_variables z support) = slides z support j.
+Proof.
+move=> lt_j; rewrite mem_map; last exact: addnI.
+by rewrite mem_filter mem_iota add0n /= lt_j andbT.
+Qed.
+
+Lemma rest_out_of_support i : (dofs s + ns <= i)%N -> i \notin slipping_variables z support.
+Proof.
+move=> ge_i; apply/negP => /mapP[j]; rewrite mem_filter mem_iota add0n /= => /andP[_ lt_j] eq.
+by move: ge_i; rewrite eq leq_add2l leqNgt lt_j.
+Qed.
+
+(* The row of a slip particle in the support: x = - S t'v. *)
+Lemma value_slip_line j (t : R) x : slides z support j ->
+  form_value (slip_line z u support j) t x = x (dofs s + j)%N + slip_rate x (particle s j).
+Proof.
+move=> in_support; rewrite /slip_line in_support -(value_sliding _ t) /form_value.
+by rewrite /row_value big_cons /= !big_nil mul1r addrA.
+Qed.
+
+Lemma value_rest_line j (t : R) x : ~~ slides z support j ->
+  form_value (slip_line z u support j) t x =
+  - (row_factor R u * cone s (lambda2_of u t) (mu_of u t) x (particle s j)).
+Proof.
+by move=> /negbTE out; rewrite /slip_line out value_negative (value_cone wf_s).
+Qed.
+
+Lemma zero_pencil_solution : exists (t : R) x,
+  [/\ between t (box_from c) (box_to c), satisfies_9z z u t x,
+      has_support s u support rest t x, has_zero_support z u support rest t x &
+      forall t' x', solution Q t' x' -> between t' (box_from c) (box_to c) ->
+        (forall i, i \in slip Q -> i \in box_support c -> 0 < x' i) ->
+        (forall i, i \in slip Q -> i \notin box_support c -> x' i = 0) ->
+        t' = t /\ exists2 f, 0 < f & forall i, i \in iota 0 (order Q) -> x' i = f * x i].
+Proof.
+have [_ halves _ support_eq claim] := zero_enclosed_parts.
+have f0 := row_factor_gt0 R wf_s.
+have [t [x [bt [t0 _ rows_f rows_s] pos off uniq]]] := enclosed_claim_sound R claim.
+rewrite support_eq in pos off.
+
+have equations f : f \in all_equations z u support -> form_value f t x = 0.
+  by case/equation_index=> i i_free <-; rewrite -reaction_form; apply: rows_f.
+have inequalities f : f \in all_inequalities z u support -> 0 < form_value f t x.
+  case/inequality_index=> i [i_slip ge_i <-]; rewrite -reaction_form.
+  by case: (off _ i_slip (rest_out_of_support ge_i)).
+have slipping j : (j < ns)%N -> slides z support j -> slip_rate x (particle s j) < 0.
+  move=> lt_j in_support; have i_slip := slip_in_pencil lt_j.
+  have x0 : 0 < x (dofs s + j)%N by apply: pos => //; rewrite slip_in_support.
+  have [_ _ /eqP] := rows_s _ i_slip; rewrite mulf_eq0 gt_eqF //= reaction_form.
+  rewrite form_of_slip // value_slip_line // addrC addr_eq0 => /eqP->.
+  by rewrite oppr_lt0.
+have resting j : (j < ns)%N -> ~~ slides z support j ->
+    cone s (lambda2_of u t) (mu_of u t) x (particle s j) < 0.
+  move=> lt_j out; have [|_] := off _ (slip_in_pencil lt_j); first by rewrite slip_in_support.
+  by rewrite reaction_form form_of_slip // value_rest_line // oppr_gt0 pmulr_rlt0.
+have some_slip : exists2 j, (j < ns)%N & slides z support j.
+  have [_ [[pivot_in _ _ _] _]] := enclosed_parts R claim.
+  move: pivot_in; rewrite support_eq => /mapP[j]; rewrite mem_filter mem_iota.
+  by rewrite add0n /= => /andP[in_s lt_j] _; exists j.
+
+exists t, x; split=> //.
+- exact: (found_motion wf halves t0 equations inequalities slipping resting some_slip).
+- exact: (found_support wf equations slipping resting).
+exact: (found_zero_support wf halves equations inequalities).
+Qed.
+
+(* The vector of the pencil that belongs to a motion. *)
+Definition with_rates (v : nat -> R) i :=
+  let j := (i - dofs s)%N in
+  if (i < dofs s)%N then v i
+  else if (j < ns)%N && slides z support j then - slip_rate v (particle s j) else 0.
+
+Lemma with_rates_same v d : d \in all_dofs -> v d = with_rates v d.
+Proof. by rewrite mem_iota add0n /= /with_rates => ->. Qed.
+
+Lemma with_rates_slip v j : (j < ns)%N ->
+  with_rates v (dofs s + j)%N =
+  if slides z support j then - slip_rate v (particle s j) else 0.
+Proof. by move=> lt_j; rewrite /with_rates ltnNge leq_addr /= addKn lt_j. Qed.
+
+Lemma with_rates_beyond v i : (dofs s + ns <= i)%N -> with_rates v i = 0.
+Proof.
+move=> ge_i; have ge_d := leq_trans (leq_addr _ _) ge_i.
+by rewrite /with_rates ltnNge ge_d /= ltnNge leq_subRL // ge_i.
+Qed.
+
+Lemma slip_cases i : i \in slip Q ->
+  (exists2 j, (j < ns)%N & i = (dofs s + j)%N) \/ (dofs s + ns <= i)%N.
+Proof.
+rewrite slip_of_forms => /andP[ge_d _]; have [lt_i|] := ltnP i (dofs s + ns); last by right.
+by left; exists (i - dofs s)%N; rewrite ?subnKC // ltn_subLR.
+Qed.
+
+Lemma with_rates_solution (t : R) v : satisfies_9z z u t v -> moves_on z support v ->
+  [/\ solution Q t (with_rates v),
+      forall i, i \in slip Q -> i \in box_support c -> 0 < with_rates v i &
+      forall i, i \in slip Q -> i \notin box_support c -> with_rates v i = 0].
+Proof.
+have [_ halves _ support_eq claim] := zero_enclosed_parts; rewrite support_eq.
+have f0 := row_factor_gt0 R wf_s => sat0 moves0.
+have sat := satisfies_9z_same wf (with_rates_same v) sat0.
+have moves := moves_on_same wf (with_rates_same v) moves0.
+have rate_same j : (j < ns)%N ->
+    slip_rate (with_rates v) (particle s j) = slip_rate v (particle s j).
+  move=> lt_j; have [first second] := slip_dofs wf lt_j.
+  by rewrite /slip_rate -(along_same (with_rates_same v) _ first second).
+
+have pos i : i \in slip Q -> i \in slipping_variables z support -> 0 < with_rates v i.
+  move=> i_slip; case: (slip_cases i_slip) => [[j lt_j ->]|/rest_out_of_support/negbTE-> //].
+  rewrite slip_in_support // with_rates_slip // => in_s.
+  by rewrite in_s oppr_gt0 (rate_of_slip moves0).
+have off i : i \in slip Q -> i \notin slipping_variables z support -> with_rates v i = 0.
+  move=> i_slip; case: (slip_cases i_slip) => [[j lt_j ->]|/with_rates_beyond-> //].
+  by rewrite slip_in_support // with_rates_slip // => /negbTE->.
+
+split=> //; have [t0 [[d d_in vd] _ _ slip _]] := sat; split=> //.
+- exists d; last by [].
+  move: d_in; rewrite size_forms !mem_iota !add0n /= => lt_d.
+  by rewrite -addnA ltn_addr.
+- move=> i /form_of_equation in_list; rewrite reaction_form.
+  exact: (equations_hold wf halves sat moves).
+move=> i i_slip; have [[j lt_j eq_i]|ge_i] := slip_cases i_slip; last first.
+  have x0 := with_rates_beyond v ge_i; rewrite x0 mul0r lexx; split=> //.
+  rewrite reaction_form; apply: (inequalities_hold wf halves sat moves).
+  exact: form_of_inequality.
+rewrite eq_i with_rates_slip // reaction_form form_of_slip //.
+have [in_s|out] := boolP (slides z support j).
+  rewrite value_slip_line // rate_same // with_rates_slip // in_s addNr mulr0 lexx.
+  by rewrite oppr_ge0 ltW ?(rate_of_slip moves0).
+rewrite value_rest_line // mul0r lexx; split=> //.
+by rewrite oppr_ge0 pmulr_rle0 //; case: (slip _ lt_j).
+Qed.
+
+Theorem zero_enclosed_sound : exists (t : R) v,
+  [/\ between t (box_from c) (box_to c), satisfies_9z z u t v,
+      has_support s u support rest t v, has_zero_support z u support rest t v &
+      forall t' v', satisfies_9z z u t' v' -> between t' (box_from c) (box_to c) ->
+        moves_on z support v' -> t' = t /\ same_motion s v v'].
+Proof.
+have [t [x [bt sat slips zero uniq]]] := zero_pencil_solution.
+exists t, x; split=> // t' v' sat' bt' moves'.
+have [sol pos off] := with_rates_solution sat' moves'.
+have [-> [f f0 scaled]] := uniq _ _ sol bt' pos off.
+split=> //; exists f => // d d_in; rewrite (with_rates_same v' d_in) scaled //.
+move: d_in; rewrite size_forms !mem_iota !add0n /= => lt_d.
+by rewrite -addnA ltn_addr.
+Qed.
+
+End Sound.
