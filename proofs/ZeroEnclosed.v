@@ -6,7 +6,7 @@
    does after the event, that is, which linear equations the motion v with its forces w satisfies:
 
        free degree of freedom     w_d = 0
-       slip particle              n'v = 0, and in the support S t'w + mu n'w = 0, else t'v = 0
+       slip particle              n'v = 0, and in the support x + S t'v = 0, else t'v = 0
        z that opens               n'w = 0, t'w = 0
        z that slips               n'v = 0, -t'w + mu n'w = 0 (right) or t'w + mu n'w = 0 (left)
        z that sticks              n'v = 0, t'v = 0
@@ -14,9 +14,9 @@
 
    These are as many equations as there are degrees of freedom.  The claim is one about the pencil
    [support_pencil], to which EnclosedClaim.v is applied.  Its free variables are the components of
-   v, with these equations.  Behind them comes a variable for each slip particle: in the support the
-   rate x = -S t'v; off it the variable is 0 and its row is -(S t'w + mu n'w) > 0.  The other
-   variables are 0 and have rows for the strict inequalities of the z particles:
+   v, with these equations.  Behind them comes the variable x for each slip particle: in the support
+   the rate -S t'v, off it 0.  Its row is -(S t'w + mu n'w), which is 0 in the support and positive
+   off it.  The other variables are 0 and have rows for the strict inequalities of the z particles:
 
        opens           -n'v > 0,  t'v > 0 (right) or -t'v > 0 (left)
        slips           t'v > 0 (right) or -t'v > 0 (left),  -n'w > 0,  no force at the other side
@@ -91,9 +91,13 @@ Definition sliding_form p := rate_form (direction (sign_of p) 0 p) p.
 (* The slip particle is in the support. *)
 Definition slides j := (free_number s + j)%N \in support.
 
+(* x + S t'v; the variable of the slip particle j is behind the degrees of freedom. *)
+Definition sliding_line j : form :=
+  (((dofs s + j)%N, 1) :: (sliding_form (particle s j)).1, [::]).
+
 Definition slip_equations j :=
   let p := particle s j in
-  [:: rate_form (normal p) p; if slides j then cone_form p else sliding_form p].
+  [:: rate_form (normal p) p; if slides j then sliding_line j else sliding_form p].
 
 Definition zero_equations j :=
   let p := zero_particle z j in
@@ -109,10 +113,8 @@ Definition all_equations :=
   flatten [seq zero_equations j | j <- iota 0 nz] ++
   [seq ([:: (d, 1)], [::]) | d <- iota 0 (dofs s) & d \notin moving_with_zero z].
 
-(* The row of the slip particle j, whose variable is behind the degrees of freedom. *)
-Definition slip_line j : form :=
-  let p := particle s j in
-  if slides j then (((dofs s + j)%N, 1) :: (sliding_form p).1, [::]) else negative (cone_form p).
+(* The row of the slip particle j. *)
+Definition slip_line j : form := negative (cone_form (particle s j)).
 
 (* What is positive at a z particle. *)
 Definition zero_inequalities j :=
@@ -219,6 +221,13 @@ rewrite value_rate /slip_rate /along /direction !toRD !toRM toR0 /=.
 by move: (toR _) (toR _) (toR _) (x _) (x _) => *; ring.
 Qed.
 
+Lemma value_sliding_line j t x : form_value (sliding_line z j) t x =
+  x (dofs s + j)%N + slip_rate x (particle s j).
+Proof.
+rewrite -(value_sliding _ t) /form_value /row_value !big_cons !big_nil /= !mulr0 !addr0.
+by rewrite toR1 mul1r addrA.
+Qed.
+
 Lemma row_value_both rows p e x : row_value (at_both rows p e) x =
   along e p (fun d => row_value (rows d) x).
 Proof. by rewrite row_value_cat !row_value_multiple. Qed.
@@ -309,7 +318,7 @@ Notation equations := (all_equations z u support).
 Lemma free_equation d : d \in free_dofs s -> force_form z u d \in equations.
 Proof. by move=> d_in; rewrite mem_cat map_f. Qed.
 
-Lemma slip_equation j f : (j < ns)%N -> f \in slip_equations z u support j -> f \in equations.
+Lemma slip_equation j f : (j < ns)%N -> f \in slip_equations z support j -> f \in equations.
 Proof.
 move=> lt_j f_in; rewrite !mem_cat; apply/or4P/Or42; apply/flatten_mapP.
 by exists j; rewrite ?mem_iota.
@@ -331,7 +340,7 @@ Qed.
 (* Each equation is one of these. *)
 Lemma equation_cases f (P : form -> Prop) :
   (forall d, d \in free_dofs s -> P (force_form z u d)) ->
-  (forall j g, (j < ns)%N -> g \in slip_equations z u support j -> P g) ->
+  (forall j g, (j < ns)%N -> g \in slip_equations z support j -> P g) ->
   (forall j g, (j < nz)%N -> g \in zero_equations z u support j -> P g) ->
   (forall d, d \in iota 0 (dofs s) -> d \notin moving_with_zero z -> P ([:: (d, 1%Z)], [::])) ->
   f \in equations -> P f.
@@ -533,6 +542,8 @@ Section Back.
 Variables (t : R) (v : nat -> R).
 Hypothesis sat : satisfies_9z z u t v.
 Hypothesis on_support : moves_on z support v.
+Hypothesis rates : forall j, (j < ns)%N -> slides z support j ->
+  v (dofs s + j)%N = - slip_rate v (particle s j).
 
 Lemma rate_of_slip j : (j < ns)%N -> slides z support j ->
   slip_rate v (particle s j) < 0.
@@ -559,8 +570,8 @@ apply: (equation_cases (P := fun f => form_value f t v = 0)) f_in => [d|j g|j g|
 - by rewrite (value_force wf_system) free.
 - have [normal_zero _ _ _] := slip _ in_list.
   move: g; apply: in_two; first by rewrite value_rate.
-  case: ifPn => [/(cone_of_slip in_list)|/(rate_of_rest in_list)]; last by rewrite value_sliding.
-  by rewrite (value_cone wf_system) => ->; rewrite mulr0.
+  case: ifPn => [/(rates in_list)|/(rate_of_rest in_list)]; last by rewrite value_sliding.
+  by rewrite value_sliding_line => ->; rewrite addNr.
 - have [opening sliding] := on_support.2 _ in_list.
   by have [] := forms_of_modes in_list (zero _ in_list) opening sliding => holds _; apply: holds.
 move=> out; rewrite /form_value row_value_nil mulr0 addr0 /row_value big_cons big_nil /=.
@@ -599,6 +610,8 @@ Hypothesis slipping : forall j, (j < ns)%N -> slides z support j ->
   slip_rate x (particle s j) < 0.
 Hypothesis resting : forall j, (j < ns)%N -> ~~ slides z support j ->
   cone s (lambda2_of u t) (mu_of u t) x (particle s j) < 0.
+Hypothesis on_the_cone : forall j, (j < ns)%N -> slides z support j ->
+  cone s (lambda2_of u t) (mu_of u t) x (particle s j) = 0.
 Hypothesis some_slip : exists2 j, (j < ns)%N & slides z support j.
 
 Let wf_s : system_wellformed s u := wf_system wf.
@@ -614,10 +627,9 @@ Lemma second_equation j : (j < ns)%N ->
   if slides z support j then cone s (lambda2_of u t) (mu_of u t) x (particle s j) = 0
   else slip_rate x (particle s j) = 0.
 Proof.
-move=> lt_j; have f0 := row_factor_gt0 R wf_s.
-have := equations (slip_equation (u := u) (support := support) lt_j (mem_last _ _)).
-rewrite /=; case: ifP => _; last by rewrite value_sliding.
-by rewrite (value_cone wf_s) => /eqP; rewrite mulf_eq0 gt_eqF //= => /eqP.
+move=> lt_j; have := equations (slip_equation u (support := support) lt_j (mem_last _ _)).
+rewrite /=; case: ifP => [in_support _|_]; last by rewrite value_sliding.
+exact: on_the_cone.
 Qed.
 
 Lemma found_support : has_support s u support rest t x.
@@ -719,7 +731,7 @@ have [_ _ eq _ _] := zero_enclosed_parts; rewrite mem_iota add0n /= -eq => lt_i.
 by rewrite nth_cat lt_i mem_nth.
 Qed.
 
-Lemma form_of_slip j : (j < ns)%N -> nth no_form forms (dofs s + j) = slip_line z u support j.
+Lemma form_of_slip j : (j < ns)%N -> nth no_form forms (dofs s + j) = slip_line z u j.
 Proof.
 have [_ _ eq _ _] := zero_enclosed_parts => lt_j.
 rewrite nth_cat eq ltnNge leq_addr /= addKn nth_cat size_map size_iota lt_j.
@@ -768,20 +780,9 @@ move=> ge_i; apply/negP => /mapP[j]; rewrite mem_filter mem_iota add0n /= => /an
 by move: ge_i; rewrite eq leq_add2l leqNgt lt_j.
 Qed.
 
-(* The row of a slip particle in the support: x = - S t'v. *)
-Lemma value_slip_line j (t : R) x : slides z support j ->
-  form_value (slip_line z u support j) t x = x (dofs s + j)%N + slip_rate x (particle s j).
-Proof.
-move=> in_support; rewrite /slip_line in_support -(value_sliding _ t) /form_value.
-by rewrite /row_value big_cons /= !big_nil mul1r addrA.
-Qed.
-
-Lemma value_rest_line j (t : R) x : ~~ slides z support j ->
-  form_value (slip_line z u support j) t x =
+Lemma value_slip_line j (t : R) x : form_value (slip_line z u j) t x =
   - (row_factor R u * cone s (lambda2_of u t) (mu_of u t) x (particle s j)).
-Proof.
-by move=> /negbTE out; rewrite /slip_line out value_negative (value_cone wf_s).
-Qed.
+Proof. by rewrite /slip_line value_negative (value_cone wf_s). Qed.
 
 Lemma zero_pencil_solution : exists (t : R) x,
   [/\ between t (box_from c) (box_to c), satisfies_9z z u t x,
@@ -804,21 +805,27 @@ have inequalities f : f \in all_inequalities z u support -> 0 < form_value f t x
 have slipping j : (j < ns)%N -> slides z support j -> slip_rate x (particle s j) < 0.
   move=> lt_j in_support; have i_slip := slip_in_pencil lt_j.
   have x0 : 0 < x (dofs s + j)%N by apply: pos => //; rewrite slip_in_support.
-  have [_ _ /eqP] := rows_s _ i_slip; rewrite mulf_eq0 gt_eqF //= reaction_form.
-  rewrite form_of_slip // value_slip_line // addrC addr_eq0 => /eqP->.
+  have := equations _ (slip_equation u (support := support) lt_j (mem_last _ _)).
+  rewrite /= in_support value_sliding_line addrC => /eqP; rewrite addr_eq0 => /eqP->.
   by rewrite oppr_lt0.
+have on_the_cone j : (j < ns)%N -> slides z support j ->
+    cone s (lambda2_of u t) (mu_of u t) x (particle s j) = 0.
+  move=> lt_j in_support; have i_slip := slip_in_pencil lt_j.
+  have x0 : 0 < x (dofs s + j)%N by apply: pos => //; rewrite slip_in_support.
+  have [_ _ /eqP] := rows_s _ i_slip; rewrite mulf_eq0 gt_eqF //= reaction_form.
+  by rewrite form_of_slip // value_slip_line oppr_eq0 mulf_eq0 gt_eqF //= => /eqP.
 have resting j : (j < ns)%N -> ~~ slides z support j ->
     cone s (lambda2_of u t) (mu_of u t) x (particle s j) < 0.
   move=> lt_j out; have [|_] := off _ (slip_in_pencil lt_j); first by rewrite slip_in_support.
-  by rewrite reaction_form form_of_slip // value_rest_line // oppr_gt0 pmulr_rlt0.
+  by rewrite reaction_form form_of_slip // value_slip_line oppr_gt0 pmulr_rlt0.
 have some_slip : exists2 j, (j < ns)%N & slides z support j.
   have [_ [[pivot_in _ _ _] _]] := enclosed_parts R claim.
   move: pivot_in; rewrite support_eq => /mapP[j]; rewrite mem_filter mem_iota.
   by rewrite add0n /= => /andP[in_s lt_j] _; exists j.
 
 exists t, x; split=> //.
-- exact: (found_motion wf halves t0 equations inequalities slipping resting some_slip).
-- exact: (found_support wf equations slipping resting).
+- exact: (found_motion wf halves t0 equations inequalities slipping resting on_the_cone some_slip).
+- exact: (found_support equations slipping resting on_the_cone).
 exact: (found_zero_support wf halves equations inequalities).
 Qed.
 
@@ -863,6 +870,9 @@ have rate_same j : (j < ns)%N ->
   move=> lt_j; have [first second] := slip_dofs wf lt_j.
   by rewrite /slip_rate -(along_same (with_rates_same v) _ first second).
 
+have rates j : (j < ns)%N -> slides z support j ->
+    with_rates v (dofs s + j)%N = - slip_rate (with_rates v) (particle s j).
+  by move=> lt_j in_s; rewrite with_rates_slip // in_s rate_same.
 have pos i : i \in slip Q -> i \in slipping_variables z support -> 0 < with_rates v i.
   move=> i_slip; case: (slip_cases i_slip) => [[j lt_j ->]|/rest_out_of_support/negbTE-> //].
   rewrite slip_in_support // with_rates_slip // => in_s.
@@ -876,17 +886,17 @@ split=> //; have [t0 [[d d_in vd] _ _ slip _]] := sat; split=> //.
   move: d_in; rewrite size_forms !mem_iota !add0n /= => lt_d.
   by rewrite -addnA ltn_addr.
 - move=> i /form_of_equation in_list; rewrite reaction_form.
-  exact: (equations_hold wf halves sat moves).
+  exact: (equations_hold wf halves sat moves rates).
 move=> i i_slip; have [[j lt_j eq_i]|ge_i] := slip_cases i_slip; last first.
   have x0 := with_rates_beyond v ge_i; rewrite x0 mul0r lexx; split=> //.
   rewrite reaction_form; apply: (inequalities_hold wf halves sat moves).
   exact: form_of_inequality.
 rewrite eq_i with_rates_slip // reaction_form form_of_slip //.
+rewrite value_slip_line; have [_ rate_le cone_le _] := slip _ lt_j.
 have [in_s|out] := boolP (slides z support j).
-  rewrite value_slip_line // rate_same // with_rates_slip // in_s addNr mulr0 lexx.
-  by rewrite oppr_ge0 ltW ?(rate_of_slip moves0).
-rewrite value_rest_line // mul0r lexx; split=> //.
-by rewrite oppr_ge0 pmulr_rle0 //; case: (slip _ lt_j).
+  rewrite (cone_of_slip sat moves lt_j in_s) mulr0 oppr0 mulr0 lexx; split=> //.
+  by rewrite oppr_ge0 -rate_same.
+by rewrite mul0r lexx; split=> //; rewrite oppr_ge0 pmulr_rle0.
 Qed.
 
 Theorem zero_enclosed_sound : exists (t : R) v,

@@ -3513,13 +3513,20 @@ let slides z0 support0 j =
   in_mem (Obj.magic addn (free_number z0.without_zero) j)
     (mem (seq_predType nat_eqType) (Obj.magic support0))
 
-(** val slip_equations :
-    zero_system -> unknown -> int list -> int -> form list **)
+(** val sliding_line : zero_system -> int -> form **)
 
-let slip_equations z0 u support0 j =
+let sliding_line z0 j =
+  ((((addn z0.without_zero.dofs j),
+    Big_int_Z.unit_big_int) :: (fst
+                                 (sliding_form (particle z0.without_zero j)))),
+    [])
+
+(** val slip_equations : zero_system -> int list -> int -> form list **)
+
+let slip_equations z0 support0 j =
   let p = particle z0.without_zero j in
   (rate_form p.normal p) :: ((if slides z0 support0 j
-                              then cone_form z0 u p
+                              then sliding_line z0 j
                               else sliding_form p) :: [])
 
 (** val zero_equations :
@@ -3550,7 +3557,7 @@ let all_equations z0 u support0 =
   cat (map0 (fun d -> force_form z0 u d) z0.without_zero.free_dofs)
     (cat
       (flatten
-        (map0 (fun j -> slip_equations z0 u support0 j)
+        (map0 (fun j -> slip_equations z0 support0 j)
           (iota 0 (size z0.without_zero.particles))))
       (cat
         (flatten
@@ -3564,14 +3571,10 @@ let all_equations z0 u support0 =
                   (Obj.magic moving_with_zero z0))))
             (iota 0 z0.without_zero.dofs)))))
 
-(** val slip_line : zero_system -> unknown -> int list -> int -> form **)
+(** val slip_line : zero_system -> unknown -> int -> form **)
 
-let slip_line z0 u support0 j =
-  let p = particle z0.without_zero j in
-  if slides z0 support0 j
-  then ((((addn z0.without_zero.dofs j),
-         Big_int_Z.unit_big_int) :: (fst (sliding_form p))), [])
-  else negative (cone_form z0 u p)
+let slip_line z0 u j =
+  negative (cone_form z0 u (particle z0.without_zero j))
 
 (** val zero_inequalities :
     zero_system -> unknown -> int list -> int -> form list **)
@@ -3611,7 +3614,7 @@ let all_inequalities z0 u support0 =
 let all_forms z0 u support0 =
   cat (all_equations z0 u support0)
     (cat
-      (map0 (fun j -> slip_line z0 u support0 j)
+      (map0 (fun j -> slip_line z0 u j)
         (iota 0 (size z0.without_zero.particles)))
       (all_inequalities z0 u support0))
 

@@ -1151,13 +1151,15 @@ val sliding_form : slip_particle -> form
 
 val slides : zero_system -> int list -> int -> bool
 
-val slip_equations : zero_system -> unknown -> int list -> int -> form list
+val sliding_line : zero_system -> int -> form
+
+val slip_equations : zero_system -> int list -> int -> form list
 
 val zero_equations : zero_system -> unknown -> int list -> int -> form list
 
 val all_equations : zero_system -> unknown -> int list -> form list
 
-val slip_line : zero_system -> unknown -> int list -> int -> form
+val slip_line : zero_system -> unknown -> int -> form
 
 val zero_inequalities : zero_system -> unknown -> int list -> int -> form list
 
