@@ -25,9 +25,11 @@
 
 use super::budget::WorkBudget;
 use super::ends::{Corner, Ends, FRACTION_BITS, rational_bits, within_matrix_bits};
+use super::expanded::Expanded;
 use super::family::{AnchorExpansion, Family, Linear, end_bits, row_bits, words};
 use super::fault::CoverFault;
 use super::region::{Matrices, Region, State};
+use super::short::Short;
 use super::walk::NodeFault;
 use super::{check_anchor, check_end, check_size, condensed, definite, farkas};
 use crate::certificate::{CriticalCertificate, CriticalNode, CriticalPiece, CriticalTail};
@@ -108,12 +110,8 @@ fn families(
     }
 }
 
-/// Boxes are computed in long numbers, so no short ones are kept.
-fn family_of_anchors(expansions: Vec<super::expanded::Expanded>) -> Family {
-    let anchors = expansions.into_iter().map(|expanded| AnchorExpansion {
-        expanded,
-        short: None,
-    });
+fn family_of_anchors(expansions: Vec<Expanded>) -> Family {
+    let anchors = expansions.into_iter().map(AnchorExpansion::of);
     Family::Condensed(anchors.collect())
 }
 
@@ -176,14 +174,26 @@ struct FrictionBox {
 /// The matrices at the lower and at the higher friction, computed when they are asked for. Boxes
 /// that differ in their states alone share them.
 #[derive(Default)]
-struct BoxCorners(RefCell<Option<Rc<[Ends; 2]>>>);
+struct BoxCorners {
+    exact: RefCell<Option<Rc<[Ends; 2]>>>,
+    /// `Some(None)`: there are no short numbers for them.
+    short: RefCell<Option<Option<Rc<[Short; 4]>>>>,
+}
+
+impl BoxCorners {
+    /// Frees the memory, as [`Matrices::forget`] does.
+    fn forget(&self) {
+        self.exact.take();
+        self.short.take();
+    }
+}
 
 impl FrictionBox {
     /// The values of t up to a cut and those from it on.
     fn split(self, at: &Rational) -> Result<[FrictionBox; 2], CoverFault> {
         let halves = self.region.split(at)?;
         self.friction_matrices.forget();
-        self.corners.0.take();
+        self.corners.forget();
 
         Ok(halves.map(|region| FrictionBox {
             region,
@@ -216,7 +226,7 @@ impl FrictionBox {
             });
         }
 
-        self.corners.0.take();
+        self.corners.forget();
         let halves = [[lower, at.clone()], [at.clone(), higher]];
         Ok(halves.map(|friction| FrictionBox {
             region: self.region.same(),
@@ -329,6 +339,12 @@ impl BoxWalk<'_> {
             CriticalNode::Tail => region.is_in_tail(self.tail),
             CriticalNode::Farkas(w) => {
                 farkas::check_weights(region, &self.index, w)?;
+                self.affordable(at, anchor)?;
+                let short = self.short(at, anchor);
+                if short.is_some_and(|corners| farkas::is_negative_at(region, &*corners, w)) {
+                    return Ok(());
+                }
+
                 let ends = self.corners(at, anchor)?;
                 farkas::check_columns(region, &four_corners(&ends), &self.index, w)
             }
@@ -347,6 +363,12 @@ impl BoxWalk<'_> {
         let order = at.region.possible_support().len() as u64;
         self.definite_budget.spend(order.saturating_pow(3) * 2)?;
 
+        self.affordable(at, anchor)?;
+        let short = self.short(at, anchor);
+        if short.is_some_and(|corners| definite::is_definite_at(&at.region, &*corners, sign)) {
+            return Ok(());
+        }
+
         let ends = self.corners(at, anchor)?;
         definite::check_corners(&at.region, &four_corners(&ends), &self.index, sign)
     }
@@ -358,7 +380,7 @@ impl BoxWalk<'_> {
         at: &FrictionBox,
         anchor: Option<usize>,
     ) -> Result<Rc<[Ends; 2]>, CoverFault> {
-        if let Some(corners) = &*at.corners.0.borrow() {
+        if let Some(corners) = &*at.corners.exact.borrow() {
             return Ok(Rc::clone(corners));
         }
 
@@ -372,8 +394,38 @@ impl BoxWalk<'_> {
             .each_ref()
             .map(|mu| plain.plus_multiple(&friction, mu));
         let corners = Rc::new(corners);
-        at.corners.0.replace(Some(Rc::clone(&corners)));
+        at.corners.exact.replace(Some(Rc::clone(&corners)));
         Ok(corners)
+    }
+
+    /// The corners in short numbers, where there are such.
+    fn short(&self, at: &FrictionBox, anchor: Option<usize>) -> Option<Rc<[Short; 4]>> {
+        if let Some(known) = &*at.corners.short.borrow() {
+            return known.clone();
+        }
+
+        let short = self.short_corners(at, anchor).map(Rc::new);
+        at.corners.short.replace(Some(short.clone()));
+        short
+    }
+
+    /// M_e0 + mu_k M_e1 for both ends e and both frictions mu_k.
+    fn short_corners(&self, at: &FrictionBox, anchor: Option<usize>) -> Option<[Short; 4]> {
+        let part = |part: usize| {
+            let lo = &at.region.lo;
+            self.families[part].short(anchor, lo, at.region.hi.as_ref())
+        };
+        let plain = at.region.matrices.short(|| part(0))?;
+        let friction = at.friction_matrices.short(|| part(1))?;
+
+        let corner = |end: usize, mu: &Rational| plain[end].plus_multiple(&friction[end], mu);
+        let [low, high] = &at.friction;
+        Some([
+            corner(0, low)?,
+            corner(1, low)?,
+            corner(0, high)?,
+            corner(1, high)?,
+        ])
     }
 
     /// The matrices of a part at the ends of the interval of t.
@@ -395,21 +447,38 @@ impl BoxWalk<'_> {
         })
     }
 
-    /// Demands that the corners of the box are small enough, and takes their work from the budget:
-    /// each entry of the ends is multiplied by a value of mu.
+    /// Demands that the matrices of the parts and those of the box are small enough.
+    fn affordable(&self, at: &FrictionBox, anchor: Option<usize>) -> Result<(), CoverFault> {
+        let lo = &at.region.lo;
+        let hi = at.region.hi.as_ref();
+        for family in &self.families {
+            family.affordable(anchor, lo, hi)?;
+        }
+
+        let [end_bits, friction_bits] = box_bits(at);
+        let what = "bits of a box's matrix";
+        within_matrix_bits(what, self.index.len(), 1, end_bits + friction_bits)
+    }
+
+    /// Takes the work of the corners from the budget: each entry of the ends is multiplied by a
+    /// value of mu.
     fn spend_corners(&self, at: &FrictionBox) -> Result<(), CoverFault> {
         let order = self.index.len();
-        let end_bits = FRACTION_BITS + end_bits(&at.region.lo, at.region.hi.as_ref());
-        let [lower, higher] = &at.friction;
-        let friction_bits = rational_bits(lower) + rational_bits(higher);
-
-        let what = "bits of a box's matrix";
-        within_matrix_bits(what, order, 1, end_bits + friction_bits)?;
+        let [end_bits, friction_bits] = box_bits(at);
 
         let entries = (order * order) as u64;
         let products = words(end_bits).saturating_mul(words(friction_bits));
         self.matrix_budget.spend(entries.saturating_mul(products))
     }
+}
+
+/// The bits of an entry of an end, and those of both ends of the interval of mu.
+fn box_bits(at: &FrictionBox) -> [u64; 2] {
+    let [lower, higher] = &at.friction;
+    [
+        FRACTION_BITS + end_bits(&at.region.lo, at.region.hi.as_ref()),
+        rational_bits(lower) + rational_bits(higher),
+    ]
 }
 
 /// The corners at the lower friction, then those at the higher one.

@@ -30,6 +30,8 @@ use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 
+pub(super) use short_form::ShortForm;
+
 /// Bounds of norms of columns of a polynomial matrix: one vector per coefficient.
 pub(super) type Norms = Vec<Vec<Integer>>;
 
@@ -187,7 +189,7 @@ impl Expanded {
     /// The constant and the direction of a family that is linear in t = d, remainders included, in
     /// short numbers: at t >= 0 it is within (R_0 + t R_1) of Z_0 + t Z_1, and so between the ends
     /// of every interval.
-    pub(super) fn short(&self) -> Option<[Short; 2]> {
+    fn short(&self) -> Option<[Short; 2]> {
         if self.reversed || !self.center.is_zero() || !self.is_linear() {
             return None;
         }
@@ -432,5 +434,6 @@ fn weighted_products(left: &[Integer], right: &[Integer], weight: &[Rational]) -
     products
 }
 
+mod short_form;
 #[cfg(test)]
 mod tests;

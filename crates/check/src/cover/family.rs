@@ -13,7 +13,7 @@
 //! `short` gives the ends in short numbers where it can.
 
 use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits, rational_bits, within_matrix_bits};
-use super::expanded::Expanded;
+use super::expanded::{Expanded, ShortForm};
 use super::fault::CoverFault;
 use super::short::Short;
 use crate::pencil::{Row, Rows};
@@ -29,10 +29,10 @@ pub(super) enum Family {
     Condensed(Vec<AnchorExpansion>),
 }
 
-/// The condensed pencil about one anchor, and what [`Expanded::short`] gives for it.
+/// The condensed pencil about one anchor, and its short numbers.
 pub(super) struct AnchorExpansion {
     pub(super) expanded: Expanded,
-    pub(super) short: Option<[Short; 2]>,
+    pub(super) short: Option<ShortForm>,
 }
 
 /// A + tB with a radius per row for what was cut off.
@@ -150,26 +150,29 @@ impl Family {
         }
     }
 
-    /// The ends in short numbers, where the family is linear: T_0 + tT_1 is (q T_0 + p T_1) / q at
-    /// t = p / q >= 0, and T_1 at infinity.
+    /// The ends in short numbers of the fixed unit, where there are such.
     pub(super) fn short(
         &self,
         anchor: Option<usize>,
         lo: &Rational,
         hi: Option<&Rational>,
     ) -> Option<[Short; 2]> {
-        let parts = match self {
-            Family::Linear(linear) => linear.short.as_ref(),
-            Family::Condensed(list) => list.get(anchor?)?.short.as_ref(),
-        };
-        let [constant, direction] = parts?;
-        let at = |t: &Rational| constant.combine(t.denom(), direction, t.numer());
+        match self {
+            Family::Linear(linear) => Short::linear_ends(linear.short.as_ref()?, lo, hi),
+            Family::Condensed(list) => {
+                let AnchorExpansion { expanded, short } = list.get(anchor?)?;
+                short.as_ref()?.ends(expanded, lo, hi)
+            }
+        }
+    }
+}
 
-        let upper = match hi {
-            Some(hi) => at(hi),
-            None => constant.combine(&Integer::zero(), direction, &Integer::one()),
-        };
-        Some([at(lo)?, upper?])
+impl AnchorExpansion {
+    pub(super) fn of(expanded: Expanded) -> AnchorExpansion {
+        AnchorExpansion {
+            short: ShortForm::of(&expanded),
+            expanded,
+        }
     }
 }
 

@@ -202,10 +202,38 @@ fn boxed(t: [Rational; 2], friction: [Rational; 2]) -> FrictionBox {
     }
 }
 
+/// Centers and radii.
+type Enclosure = [Dense; 2];
+
+fn long_corners(ends: &[Ends; 2]) -> [Enclosure; 4] {
+    four_corners(ends).map(|corner| {
+        let in_units_of_one = |matrix: &Vec<Vec<Integer>>| -> Dense {
+            let entry = |v: &Integer| Rational::new(v.clone(), corner.scale.clone());
+            matrix
+                .iter()
+                .map(|row| row.iter().map(entry).collect())
+                .collect()
+        };
+        [in_units_of_one(corner.m), in_units_of_one(corner.r)]
+    })
+}
+
+fn short_corners(corners: &[Short; 4]) -> [Enclosure; 4] {
+    let fixed_unit = Rational::from_integer(Integer::one() << FRACTION_BITS);
+    corners.each_ref().map(|corner| {
+        [0, 1].map(|part| {
+            let entry = |i: usize, j: usize| &corner.entry(i, j)[part] / &fixed_unit;
+            (0..2)
+                .map(|i| (0..2).map(|j| entry(i, j)).collect())
+                .collect()
+        })
+    })
+}
+
 /// Demands that T(t, mu), scaled, lies within the combination of the corners with these shares of
 /// the upper end and of the higher friction. Returns the largest radius.
 fn assert_enclosed(
-    ends: &[Ends; 2],
+    corners: &[Enclosure; 4],
     [upper, higher]: [&Rational; 2],
     truth: &Dense,
     row_units: &[Rational],
@@ -215,7 +243,7 @@ fn assert_enclosed(
         for j in 0..2 {
             let mut center = whole(0);
             let mut radius = whole(0);
-            for (corner, at) in four_corners(ends).iter().zip(0..4) {
+            for (corner, at) in corners.iter().zip(0..4) {
                 let of_t = if at % 2 == 1 {
                     upper.clone()
                 } else {
@@ -226,9 +254,9 @@ fn assert_enclosed(
                 } else {
                     whole(1) - higher
                 };
-                let share = of_t * of_mu / Rational::from_integer(corner.scale.clone());
-                center += &share * Rational::from_integer(corner.m[i][j].clone());
-                radius += &share * Rational::from_integer(corner.r[i][j].clone());
+                let share = of_t * of_mu;
+                center += &share * &corner[0][i][j];
+                radius += &share * &corner[1][i][j];
             }
 
             let error = (&truth[i][j] / &row_units[i] - center).abs();
@@ -272,7 +300,8 @@ fn the_corners_enclose_the_schur_complement() {
 
         for anchor in [0, 1] {
             let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);
-            let ends = walk.corners(&at, Some(anchor)).unwrap();
+            let long = long_corners(&walk.corners(&at, Some(anchor)).unwrap());
+            let short = short_corners(&walk.short(&at, Some(anchor)).unwrap());
             let is_reversed = anchor == 1;
             let units = row_units(
                 &parts,
@@ -298,9 +327,11 @@ fn the_corners_enclose_the_schur_complement() {
                         }
                     }
 
-                    let widest = assert_enclosed(&ends, [share, higher], &truth, &units);
-                    if exponent == 40 && anchor == 0 {
-                        assert!(widest < rational(1, 20), "{widest}");
+                    for corners in [&long, &short] {
+                        let widest = assert_enclosed(corners, [share, higher], &truth, &units);
+                        if exponent == 40 && anchor == 0 {
+                            assert!(widest < rational(1, 20), "{widest}");
+                        }
                     }
                 }
             }
