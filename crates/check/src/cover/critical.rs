@@ -15,7 +15,8 @@
 //! T is linear in mu for every t, so every T(t, mu) of the box is a convex combination of matrices
 //! within these radii; at an infinite end, of those at the lower end plus a non-negative multiple
 //! of such a combination at the upper one. Leaves prove what is linear in T at the four corners,
-//! with the code for covers of one window (`farkas`, `definite`).
+//! with the code for covers of one window (`farkas`, `definite`). As there, short numbers are tried
+//! first, and the long ones decide where these cannot tell.
 //!
 //! *Tail.* sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite at
 //! mu = 0 and at mu = `below`, so at every mu between.

@@ -9,8 +9,8 @@
 //! counted as a radius. Rows multiplied by positive numbers d_i keep the null vectors of T and the
 //! signs of y = Tx, and x'Tx becomes sum d_i x_i y_i, which is zero for solutions as before.
 //!
-//! Called by the walk: `affordable` and `matrix_work` bound the work before `ends` does it, and
-//! `short` gives the ends in short numbers where it can.
+//! Called by the walks: `affordable` and `matrix_work` bound the work before `ends` does it, and
+//! `short` gives the ends in short numbers where it can. Those of two families are in one unit.
 
 use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::{Expanded, ShortForm};

@@ -1,11 +1,17 @@
 //! Matrices with radii in machine integers, for speed only.
 //!
-//! Each entry of the long matrix lies within `r` of `m` in a common unit. What is proved of every
-//! matrix within these radii holds for the long one; what these numbers cannot tell is computed
-//! with the long numbers of `ends`. So a leaf may be accepted by short numbers, but never rejected.
+//! Each entry of a matrix lies within `r` of `m`, in a unit that the entries share. What is proved
+//! of every matrix within these radii holds for the true one; what these numbers cannot tell is
+//! computed with the long numbers of `ends`. So a leaf may be accepted by short numbers, but never
+//! rejected.
 //!
-//! Overflow: entries and radii are at most 2^62 in absolute value, so that the products of two have
-//! at most 124 bits and a sum of four of them fits into an `i128`.
+//! All that is computed is p A + q B (`combine`): the true matrices are within the radii, so their
+//! combination lies within |p| R_A + |q| R_B of p M_A + q M_B. A factor is rounded down to p' with
+//! p' <= p < p' + 1, which may cost |M_A| + R_A, and the result is cut to 62 bits, which may cost
+//! one unit for its center and one for its radius.
+//!
+//! Overflow: entries, radii and factors are at most 2^62 in absolute value, so that the products of
+//! two have at most 124 bits and a sum of four of them fits into an `i128`.
 
 use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits};
 use mceip_exact::{Integer, Rational};
@@ -104,11 +110,16 @@ impl Short {
         let mut quotients = Matrix::with_capacity(m.len());
         let mut radii = Matrix::with_capacity(m.len());
         for row in m {
-            let divided = row.iter().map(|v| (v << missing).div_mod_floor(divisor));
-            let (quotient, rest): (Vec<Integer>, Vec<Integer>) = divided.unzip();
-            let is_cut = |rest: &Integer| Integer::from(u8::from(!rest.is_zero()));
-            radii.push(rest.iter().map(is_cut).collect());
-            quotients.push(quotient);
+            let mut quotient_row = Vec::with_capacity(row.len());
+            let mut radius_row = Vec::with_capacity(row.len());
+            for v in row {
+                let (quotient, rest) = (v << missing).div_mod_floor(divisor);
+                quotient_row.push(quotient);
+                radius_row.push(Integer::from(u8::from(!rest.is_zero())));
+            }
+
+            quotients.push(quotient_row);
+            radii.push(radius_row);
         }
 
         let all: Vec<usize> = (0..m.len()).collect();
@@ -122,7 +133,7 @@ impl Short {
         let (left, left_unit) = upper_bounds(left)?;
         let (right, right_unit) = upper_bounds(right)?;
 
-        // Both are at most 2^62, so the products have 61 bits in this unit.
+        // Both are at most 2^62, so their products are at most 2^61 in this unit.
         let cut = BITS + 1;
         let mut short = Short::with_unit(left_unit + right_unit + cut as i64, left.len());
         for l in left {
@@ -138,14 +149,14 @@ impl Short {
         // Half of |m| + r, rounded up, is at most 2^62.
         let mut halves = Short::with_unit(self.unit + 1, self.m.len());
         for (m, r) in self.m.iter().zip(&self.r) {
-            let magnitudes = m
-                .iter()
-                .zip(r)
-                .map(|(m, r)| m.unsigned_abs() + r.unsigned_abs());
-            halves.m.push(vec![0; m.len()]);
-            halves
-                .r
-                .push(magnitudes.map(|v| v.div_ceil(2) as i64).collect());
+            let mut radii = Vec::with_capacity(m.len());
+            for (m, r) in m.iter().zip(r) {
+                let magnitude = m.unsigned_abs() + r.unsigned_abs();
+                radii.push(magnitude.div_ceil(2) as i64);
+            }
+
+            halves.m.push(vec![0; radii.len()]);
+            halves.r.push(radii);
         }
 
         halves.combine(factor, &halves, &Rational::zero())
@@ -185,7 +196,7 @@ impl Short {
         let p = ShortFactor::of(p, factor_unit - self.unit)?;
         let q = ShortFactor::of(q, factor_unit - other.unit)?;
 
-        // Sums stay below 2^126.
+        // Sums of four products stay below 2^126.
         let n = self.m.len();
         let mut sums = Vec::with_capacity(n * n);
         let mut largest = 0u128;
