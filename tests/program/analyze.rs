@@ -609,6 +609,7 @@ fn interrupted_work_is_undecided() {
     assert!(analysis.samples.len() <= options.samples);
     assert!(analysis.critical.solution.is_none());
     assert!(analysis.sufficient.is_none());
+    assert!(analysis.flutter.is_none());
     assert!(analysis.sentences()[0].text.contains("UNDECIDED"));
 }
 
