@@ -13,7 +13,7 @@ use mceip_engine::analysis::{
     Analysis, Evidence, Mode, Obstacle, Options, ProofCertificate, Verdict, analyse,
 };
 use mceip_engine::reduction::reduce;
-use mceip_engine::run::{Cancel, Watch};
+use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{Rational, Sparse, enclosing_decimals, from_f64, rational, to_f64, whole};
 use mceip_model::file::read_problem_file;
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
@@ -23,6 +23,7 @@ use num_traits::Signed as _;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The analysis of a system, whose certificates the checker has accepted.
 #[track_caller]
@@ -658,7 +659,35 @@ fn interrupted_work_is_undecided() {
     assert!(analysis.samples.len() <= options.samples);
     assert!(analysis.critical.solution.is_none());
     assert!(analysis.sufficient.is_none());
+    assert!(analysis.flutter.is_none());
     assert!(analysis.sentences()[0].text.contains("UNDECIDED"));
+}
+
+/// Interrupted while the checker reads its first cover, the analysis ends without a second one: what
+/// was proved until then stands, and the bound that was tried is neither proved nor refused.
+#[test]
+fn a_check_of_absence_can_be_interrupted() {
+    let stop = Cancel::new();
+    let checks = AtomicUsize::new(0);
+    let stop_at_check = |progress: &Progress<'_>| {
+        let is_check = progress.stage.ends_with("checking its leaves");
+        if is_check && progress.stage.contains("absence") {
+            checks.fetch_add(1, Ordering::Relaxed);
+            stop.request();
+        }
+    };
+
+    let watch = Watch::new(&stop, &stop_at_check);
+    let analysis = analyse(None, &fold(), &whole(2), &Options::default(), &watch).unwrap();
+
+    assert_eq!(checks.load(Ordering::Relaxed), 1);
+    assert!(analysis.interrupted);
+    assert!(analysis.critical.boxes.is_none());
+    assert!(analysis.proofs.iter().all(|proof| proof.name != "absence"));
+
+    let unproved = analysis.critical.unproved.as_ref().unwrap();
+    assert_eq!(unproved.reason, Obstacle::Interrupted);
+    assert!(analysis.critical.solution.is_some());
 }
 
 /// One answer for any number of threads.

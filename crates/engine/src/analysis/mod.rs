@@ -118,10 +118,14 @@ pub fn analyse(
         proofs.push(proof);
     }
 
-    watch.report(&Progress::stage(
-        "flutter: eigenvalues with all particles slipping",
-    ));
-    let flutter = flutter::flutter(&family, friction);
+    let flutter = if watch.is_cancelled() {
+        None
+    } else {
+        watch.report(&Progress::stage(
+            "flutter: eigenvalues with all particles slipping",
+        ));
+        flutter::flutter(&family, friction)
+    };
 
     Ok(Analysis {
         name,
