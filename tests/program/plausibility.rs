@@ -323,6 +323,42 @@ fn reactions_of_another_step_are_named() {
     warns_only_of(&text, "differ from K u by 2e-1 of the largest");
 }
 
+/// A node on its friction cone is about to slip, whatever its state in the table.
+#[test]
+fn sticking_on_the_friction_cone_is_named() {
+    let model = Model::new();
+    let slipping = model.contacts(0, PRESSURE);
+    for (tangential, warns) in [(MU * PRESSURE, true), (0.99 * MU * PRESSURE, false)] {
+        let reaction = format!("slip-,{},{PRESSURE}", MU * PRESSURE);
+        let sticking = slipping.replacen(&reaction, &format!("stick,{tangential},{PRESSURE}"), 1);
+        assert_ne!(sticking, slipping);
+        // Strictly inside the cone, as (7) demands of a particle that sticks.
+        let sticking = sticking.replacen("stick,1,", "stick,0.99999999,", 1);
+        model.folder.write("stick.csv", &sticking);
+
+        let text = model.convert(["K.mtx", "M.mtx", "stick.csv"], "");
+        if warns {
+            warns_only_of(&text, "particle 0 sticks with |r_T| = mu |r_N| up to 1e-3");
+        } else {
+            assert!(!text.contains("WARNING"), "{text}");
+        }
+    }
+}
+
+/// Displacements show a wrong state only beside reactions.
+#[test]
+fn displacements_without_reactions_are_named() {
+    let model = Model::new();
+    let mut table = String::from("tangential,normal,normal_direction,state\n");
+    for node in &model.block.contact {
+        writeln!(table, "{},{},-1,slip-", 2 * node, 2 * node + 1).unwrap();
+    }
+    model.folder.write("bare.csv", &table);
+
+    let text = model.convert(["K.mtx", "M.mtx", "bare.csv"], "u.txt");
+    warns_only_of(&text, "not compared with K u");
+}
+
 #[test]
 fn displacements_of_another_body_are_refused() {
     let model = Model::new();

@@ -17,7 +17,7 @@
 use crate::contacts::TableReaction;
 use crate::doubles::DoubleMatrix;
 use crate::frequencies::lowest_frequencies;
-use crate::tolerance::{BALANCED_ROWS, EQUAL_MASSES, NEAR_SUPPORTS, REACTION_MISMATCH};
+use crate::tolerance::{BALANCED_ROWS, CONE_SLACK, EQUAL_MASSES, NEAR_SUPPORTS, REACTION_MISMATCH};
 use mceip_exact::{Sparse, to_f64};
 use mceip_model::{ContactState, Particle, System};
 
@@ -172,6 +172,15 @@ impl Plausibility {
         if let Some((ratio, index)) = stick {
             let text = format!("|r_T| at most {ratio:.4} mu |r_N| (particle {index})");
             self.figure("reactions, stick", text);
+
+            let (numerator, denominator) = CONE_SLACK;
+            let slack = numerator as f64 / denominator as f64;
+            if ratio > 1.0 - slack {
+                self.warnings.push(format!(
+                    "particle {index} sticks with |r_T| = mu |r_N| up to {slack:.0e} of it: on the \
+                     friction cone it is about to slip, and with state slip the answers differ"
+                ));
+            }
         }
     }
 
@@ -183,8 +192,11 @@ impl Plausibility {
         let forces = stiffness.times(displacements);
 
         let Some(as_given) = mismatch(input, &forces, 0) else {
-            let text = "not compared, no CSV table gives a reaction other than zero".to_owned();
-            self.figure("reactions against K u", text);
+            self.warnings.push(
+                "the reactions are not compared with K u, since no CSV table gives one other than \
+                 zero: without them nothing shows a wrong state, angle or direction of slip"
+                    .into(),
+            );
             return;
         };
         let text = format!("differ by {as_given:.0e} of the largest");

@@ -56,12 +56,22 @@ pub(super) fn make(
         }
     }
 
-    Err(first_failure.unwrap_or_else(|| no_root(candidate)))
+    Err(first_failure.unwrap_or_else(|| no_root(candidate, window)))
 }
 
-/// There is no value near the candidate's.
-fn no_root(candidate: &Candidate) -> AttemptFailure {
+/// There is no value near the candidate's in the window.
+fn no_root(candidate: &Candidate, window: &Window) -> AttemptFailure {
     let (lo, hi) = around(candidate);
+    let min = to_f64(window.min());
+    let max = window.max().map_or(f64::INFINITY, to_f64);
+    let is_outside = hi < min || lo > max;
+
+    // Beside the window there is nothing to look at: the window itself is named.
+    let [lo, hi] = if is_outside {
+        [min, max]
+    } else {
+        [lo.max(min), hi.min(max)]
+    };
     AttemptFailure::NoRootNear {
         lo: lo.to_string(),
         hi: hi.to_string(),
@@ -152,7 +162,7 @@ impl Support<'_> {
             hi = hi.min(max.clone());
         }
         if lo > hi {
-            return Err(no_root(self.candidate));
+            return Err(no_root(self.candidate, self.window));
         }
 
         let mut roots = Vec::new();
@@ -331,7 +341,7 @@ impl Support<'_> {
         let basis = kernel_at(self.block(faces), value);
         if basis.is_empty() {
             // Only faces leave nothing: without them every value that is tried is a root.
-            return Err(no_root(self.candidate));
+            return Err(no_root(self.candidate, self.window));
         }
 
         // Each basis vector is the same polynomial at its own free coordinate, zero at the others'.

@@ -5,7 +5,7 @@
 //! or has printed more than the line it was asked for, is started anew for the next case. Called by
 //! `run` with `--lines`.
 
-use super::process::{Ending, GRACE, Limits, Reader, SLICE, first_line, kill, spawn};
+use super::process::{Ending, GRACE, Limits, Reader, SLICE, kill, spawn, telling_line};
 use crate::error::TestkitError;
 use mceip_engine::run::Watch;
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
@@ -164,7 +164,7 @@ impl Running {
         Ending::Ended {
             code,
             stdout: Vec::new(),
-            complaint: first_line(&self.complaint.received()),
+            complaint: telling_line(&self.complaint.received()),
         }
     }
 

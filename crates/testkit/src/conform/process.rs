@@ -41,7 +41,7 @@ pub enum Ending {
         code: Option<i32>,
         /// What it printed.
         stdout: Vec<u8>,
-        /// The first line of what it complained.
+        /// The telling line of what it complained.
         complaint: String,
     },
     /// Still running at the end of its time; it has been killed.
@@ -90,7 +90,7 @@ pub fn run_once(
         Ok(status) => Ending::Ended {
             code: status.code(),
             stdout,
-            complaint: first_line(&complaint),
+            complaint: telling_line(&complaint),
         },
         Err(ending) => ending,
     })
@@ -219,13 +219,17 @@ pub(super) fn kill(child: &mut Child) {
     let _ = child.wait();
 }
 
-/// The first line that is not blank, at most 200 characters of it, without control characters.
-pub(super) fn first_line(bytes: &[u8]) -> String {
+/// The line of a complaint that says what is wrong: the first one that is not blank, of a Python
+/// traceback the last. At most 200 characters of it, without control characters.
+pub(super) fn telling_line(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
-    let line = text
-        .lines()
-        .find(|l| !l.trim().is_empty())
-        .unwrap_or_default();
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+    let first = lines.next().unwrap_or_default();
+    let line = if first.starts_with("Traceback") {
+        lines.next_back().unwrap_or(first)
+    } else {
+        first
+    };
 
     line.chars().filter(|c| !c.is_control()).take(200).collect()
 }
@@ -301,6 +305,15 @@ mod tests {
         assert_eq!(stdout, b"done\n");
         let passed = start.elapsed();
         assert!(passed < Duration::from_secs(8), "{passed:?}");
+    }
+
+    #[test]
+    fn the_telling_line_is_the_first_or_the_last_of_a_traceback() {
+        let traceback = b"Traceback (most recent call last):\n  File x\nKeyError: 'pencil'\n\n";
+        assert_eq!(telling_line(traceback), "KeyError: 'pencil'");
+        assert_eq!(telling_line(b"\nfatal: no\nmore\n"), "fatal: no");
+        assert_eq!(telling_line(b"Traceback\n"), "Traceback");
+        assert_eq!(telling_line(b""), "");
     }
 
     #[test]
