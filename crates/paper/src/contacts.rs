@@ -559,8 +559,8 @@ impl GivenReaction {
                 line,
                 state: state.word(),
                 expected,
-                tangential: shown(&self.tangential.to_string()),
-                normal: shown(&self.normal.to_string()),
+                tangential: with_seven_digits(&self.tangential),
+                normal: with_seven_digits(&self.normal),
             }),
         }
     }
@@ -627,6 +627,11 @@ const PUSHED_OFF: &str = "a reaction that pushes the body off the obstacle (see 
 fn slack(pressure: &Rational, friction: &Rational) -> Rational {
     let (numerator, denominator) = CONE_SLACK;
     (friction * pressure).abs() * rational(numerator, denominator)
+}
+
+/// A reaction for people: rotations make fractions of sixty digits of it.
+fn with_seven_digits(reaction: &Rational) -> String {
+    format!("{:.6e}", to_f64(reaction))
 }
 
 /// The beginning of a text, fit to be printed.
