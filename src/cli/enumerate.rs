@@ -1,15 +1,17 @@
 //! `mceip enumerate`: every support of a small problem by exact arithmetic (the oracle).
 //!
 //! (24)-(26): for each support the values at which its equations have a solution, and of those the
-//! ones that meet the inequalities.
+//! ones that meet the inequalities. With particles in contact with zero reaction the same for each
+//! choice of modes (`spec/zero-reaction.md`, Z.3).
 
 use super::common::{CliError, exit, load, print};
 use super::job::Job;
-use mceip_engine::reduction::{Reduced, reduce};
+use mceip_engine::reduction::{Reduced, reduce, reduce_with_zero};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_engine::run::Progress;
-use mceip_model::Problem;
-use mceip_oracle::{Enumeration, enumerate_with};
+use mceip_model::reduction::split_form;
+use mceip_model::{Body, Problem, SplitForm};
+use mceip_oracle::{Enumeration, ModeList, Solution, enumerate_modes_with, enumerate_with};
 use std::path::PathBuf;
 
 /// Arguments of `enumerate`.
@@ -28,8 +30,14 @@ pub(super) struct Args {
 /// Enumerates the supports and prints the solutions.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, args.window.as_deref())?;
-    let reduced = reduce(&problem)?;
+    if let Body::System(system) = problem.body()
+        && system.require_no_zero().is_err()
+    {
+        let split = split_form(system, problem.unknown())?;
+        return run_modes(args, &problem, &split);
+    }
 
+    let reduced = reduce(&problem)?;
     let job = Job::begin("supports");
     let show = |done: u64, total: u64| {
         job.say(Progress::of("supports", done as usize, total as usize));
@@ -39,29 +47,63 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     job.end();
 
     print(&report(&problem, &reduced, &found, args.json))?;
-    Ok(exit_code(&found))
+    Ok(exit_code(found.is_finished(), found.is_complete_list()))
 }
 
-fn report(problem: &Problem, reduced: &Reduced, found: &Enumeration, is_json: bool) -> String {
-    let mut solutions = Vec::new();
-    for solution in &found.solutions {
-        solutions.push(Listed::of_solution(problem, reduced, solution));
-    }
+/// Enumerates the modes of a system with particles in contact with zero reaction.
+fn run_modes(args: &Args, problem: &Problem, split: &SplitForm) -> Result<u8, CliError> {
+    let reduced = reduce_with_zero(problem)?;
+
+    let job = Job::begin("choices of modes");
+    let show = |done: u64, total: u64| {
+        job.say(Progress::of(
+            "choices of modes",
+            done as usize,
+            total as usize,
+        ));
+        job.flow()
+    };
+    let found = enumerate_modes_with(split, problem.window(), show)?;
+    job.end();
 
     let report = Report {
         problem,
+        reduced: &reduced,
+        solutions: listed(problem, &reduced, &found.solutions),
+        claim: Claimed::complete_if(found.is_complete_list()),
+        evidence: evidence_of_modes(&found),
+        enumeration: None,
+        cover: None,
+    };
+    print(&text_of(&report, args.json))?;
+
+    Ok(exit_code(found.is_finished(), found.is_complete_list()))
+}
+
+fn report(problem: &Problem, reduced: &Reduced, found: &Enumeration, is_json: bool) -> String {
+    let report = Report {
+        problem,
         reduced,
-        solutions,
+        solutions: listed(problem, reduced, &found.solutions),
         claim: Claimed::complete_if(found.is_complete_list()),
         evidence: evidence(found),
         enumeration: Some(found),
         cover: None,
     };
 
+    text_of(&report, is_json)
+}
+
+fn listed(problem: &Problem, reduced: &Reduced, solutions: &[Solution]) -> Vec<Listed> {
+    let of_solution = |solution| Listed::of_solution(problem, reduced, solution);
+    solutions.iter().map(of_solution).collect()
+}
+
+fn text_of(report: &Report<'_>, is_json: bool) -> String {
     if is_json {
-        format!("{}\n", solutions_json(&report))
+        format!("{}\n", solutions_json(report))
     } else {
-        solutions_text(&report)
+        solutions_text(report)
     }
 }
 
@@ -83,10 +125,31 @@ fn evidence(found: &Enumeration) -> String {
     }
 }
 
-fn exit_code(found: &Enumeration) -> u8 {
+/// What the enumeration of modes has examined.
+fn evidence_of_modes(found: &ModeList) -> String {
+    let done = found.choices;
+    let total = found.choices_total;
+    let how = "every one by exact arithmetic";
+
     if !found.is_finished() {
-        exit::INTERRUPTED
+        format!(
+            "the plain enumeration was interrupted after {done} of {total} choices of modes: {how}"
+        )
     } else if found.is_complete_list() {
+        format!("complete, by the plain enumeration of {total} choices of modes: {how}")
+    } else {
+        let open = found.degenerate.len();
+        format!(
+            "all {total} choices of modes examined by the plain enumeration: {how}; of {open} \
+             of them, which are singular, the solutions are not listed"
+        )
+    }
+}
+
+fn exit_code(is_finished: bool, is_complete: bool) -> u8 {
+    if !is_finished {
+        exit::INTERRUPTED
+    } else if is_complete {
         exit::DONE
     } else {
         exit::UNDECIDED

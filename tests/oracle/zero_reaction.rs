@@ -14,9 +14,13 @@ use mceip_exact::{Algebraic, Poly, Rational, Sign, rational};
 use mceip_model::file::Number;
 use mceip_model::reduction::{Lifted, check_lines, lift_along, split_form};
 use mceip_model::{Body, ContactState, Problem, SplitForm, System, Unknown, Window};
-use mceip_oracle::{Motion, PhysicalSystem, Solution, enumerate_modes, enumerate_motions};
+use mceip_oracle::{
+    Motion, OracleError, PhysicalSystem, Solution, enumerate_modes, enumerate_modes_with,
+    enumerate_motions,
+};
 use mceip_testkit::generators::{Seed, states};
 use rand::RngExt;
+use std::ops::ControlFlow;
 
 /// Number of this family of random systems, for [`Seed`].
 const FAMILY: u64 = 91;
@@ -303,4 +307,44 @@ fn modes_of_the_split_form_are_the_motions_of_ten_thousand_systems() {
     }
     let modes = [corners.open, corners.sticking, corners.right, corners.left];
     assert!(modes.iter().all(|&count| count >= 200), "{corners:?}");
+}
+
+/// A run that is stopped says how far it came; more than 2^16 choices are refused.
+#[test]
+fn an_enumeration_of_modes_can_be_stopped_and_is_limited() {
+    let mixture = |slip, zero| Mixture {
+        free: 0,
+        zero,
+        stick: 0,
+        slip,
+    };
+    let split = |mixture| split_form(&random_system(0, mixture), Unknown::Lambda2).unwrap();
+    let window = Window::all();
+
+    let two_and_one = split(mixture(2, 1));
+    let all = enumerate_modes_with(&two_and_one, &window, |_, _| ControlFlow::Continue(()));
+    let all = all.unwrap();
+    assert_eq!((all.choices, all.choices_total), (12, 12));
+    assert!(all.is_finished());
+
+    let up_to_five = |done, total| {
+        assert_eq!(total, 12);
+        if done < 5 {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    };
+    let stopped = enumerate_modes_with(&two_and_one, &window, up_to_five).unwrap();
+    assert_eq!(stopped.choices, 5);
+    assert!(!stopped.is_finished() && !stopped.is_complete_list());
+
+    let too_many = split(mixture(1, 8));
+    let refused = enumerate_modes_with(&too_many, &window, |_, _| ControlFlow::Break(()));
+    let limit = OracleError::TooLarge {
+        what: "slip variables + 2 z particles",
+        limit: 16,
+        got: 17,
+    };
+    assert_eq!(refused.unwrap_err(), limit);
 }

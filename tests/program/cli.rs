@@ -95,7 +95,7 @@ fn zero_reaction_is_refused_where_it_is_not_supported() {
     let problem = zero_reaction_problem(folder.path(), "zero-right");
 
     let expected = ["particle 1", "zero", "not supported"];
-    for command in ["enumerate", "reduce", "analyze"] {
+    for command in ["reduce", "analyze"] {
         refused(&[command, &problem], &expected);
     }
     refused(&["complete", &problem, "--infinity"], &expected);
@@ -144,10 +144,12 @@ fn remove_x(report: &mut Value) {
     }
 }
 
-/// The only solution is at 2 with x = (1, 0, 1/4, 0): v_T of particle 1 is 1/4, to the right.
+/// The only solution is at 2 with x = (1, 0, 1/4, 0): v_T of particle 1 is 1/4, to the right. What
+/// `certify` refuses it refutes: by a complete set near the value, which `check` accepts.
 #[test]
 fn false_reports_with_zero_reaction_are_refuted() {
     let folder = Folder::new();
+    let certificate = folder.path("near.json");
     let case = tempfile::tempdir().unwrap();
     let problem = zero_reaction_problem(case.path(), "zero-right");
     let report = |value: &str, x: &str| {
@@ -168,14 +170,16 @@ fn false_reports_with_zero_reaction_are_refuted() {
     ] {
         let wrong = report(value, x);
         contains_all(&exits(1, &["check", &problem, &wrong]), &["REJECTED"]);
-        let uncertified = run(&["certify", &problem, &wrong]);
-        assert_eq!(uncertified.code, Some(3), "{value} {x}: {uncertified:?}");
-        assert!(uncertified.stdout.is_empty(), "{uncertified:?}");
+
+        let refused = run(&["certify", &problem, &wrong, "--out", &certificate]);
+        assert_eq!(refused.code, Some(1), "{value} {x}: {refused:?}");
+        assert!(refused.stderr.contains("REFUSED"), "{refused:?}");
+        exits(0, &["check", &problem, &certificate]);
     }
 }
 
-/// Each mode of a particle in contact with zero reaction: `solve` and `complete` find the solution,
-/// `check` accepts their certificates, and not for the problem of another mode.
+/// Each mode of a particle in contact with zero reaction: `solve`, `complete` and `enumerate` find
+/// the solution, `check` accepts their certificates, and not for the problem of another mode.
 #[test]
 fn zero_reaction_is_solved_and_checked() {
     let folder = tempfile::tempdir().unwrap();
@@ -207,6 +211,18 @@ fn zero_reaction_is_solved_and_checked() {
         assert_eq!(all["solutions"][0]["slip"], report["solutions"][0]["slip"]);
         exits(0, &["check", &problem, certificate]);
         exits(1, &["check", &foreign, certificate]);
+
+        let listed = exits_with_json(0, &["enumerate", &problem, "--json"]);
+        assert_eq!(listed["claim"], "complete", "{name}");
+        assert_eq!(
+            listed["evidence"],
+            "complete, by the plain enumeration of 4 choices of modes: every one by exact arithmetic"
+        );
+        assert_eq!(listed["solutions"].as_array().unwrap().len(), 1, "{name}");
+        for key in ["value", "slip", "x", "v"] {
+            let [by_modes, by_solver] = [&listed, &report].map(|r| &r["solutions"][0][key]);
+            assert_eq!(by_modes, by_solver, "{name}: {key}");
+        }
 
         contains_all(&exits(0, &["solve", &problem]), &["right of particle 1"]);
     }

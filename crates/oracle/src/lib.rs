@@ -45,7 +45,7 @@ mod table1;
 pub use degenerate::{Cone, End, Piece, SupportRange, Undescribed};
 pub use enumeration::{Enumeration, WideKernel};
 pub use member::{is_rational_solution, is_solution};
-pub use modes::{DegenerateChoice, ModeList, enumerate_modes};
+pub use modes::{DegenerateChoice, ModeList, enumerate_modes, enumerate_modes_with};
 pub use physical::{
     DegenerateModes, Mode, Motion, Motions, PhysicalParticle, PhysicalState, PhysicalSystem,
     enumerate_motions,

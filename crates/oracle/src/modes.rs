@@ -19,12 +19,14 @@
 //! (2^n_s - 1) 4^n_z choices are examined. The inequalities g > 0, v+ > 0 and v- > 0 make the
 //! modes disjoint: nothing is listed twice.
 
+use super::describe::compare_places;
 use super::integer_pencil::{Eigenspace, IntegerPencil};
 use super::physical::Mode;
-use super::plain::multiplicity;
+use super::plain::{OracleError, multiplicity, require_size};
 use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
 use mceip_model::{SplitForm, Window, ZeroVariables};
+use std::ops::ControlFlow;
 
 /// A choice of modes that is listed and not described.
 #[derive(Debug, Clone)]
@@ -47,25 +49,80 @@ pub struct ModeList {
     pub degenerate: Vec<DegenerateChoice>,
     /// Choices of modes examined.
     pub choices: u64,
+    /// Choices of modes there are: (2^n_s - 1) 4^n_z.
+    pub choices_total: u64,
+}
+
+impl ModeList {
+    /// Were all choices examined?
+    pub fn is_finished(&self) -> bool {
+        self.choices == self.choices_total
+    }
+
+    /// Are these all solutions: all choices examined, and none left without a description?
+    pub fn is_complete_list(&self) -> bool {
+        self.is_finished() && self.degenerate.is_empty()
+    }
 }
 
 /// All solutions of (9) with a value in the window, in the variables of the split form.
 ///
 /// The work is (2^n_s - 1) 4^n_z determinants: meant for a few particles.
 pub fn enumerate_modes(split: &SplitForm, window: &Window) -> ModeList {
-    let integers = IntegerPencil::of(&split.pencil);
-    let mut found = ModeList::default();
+    examine_all(split, window, |_, _| ControlFlow::Continue(()))
+}
 
-    for number in 1..1u64 << split.slip.len() {
+/// [`enumerate_modes`] with a callback (choices done, choices in all) after each choice; breaking
+/// ends the run and keeps what was found. The solutions are sorted by value, then by slip set.
+///
+/// # Errors
+/// [`OracleError::TooLarge`] where n_s + 2 n_z or the free variables are beyond
+/// [`MAX_SLIP`](super::MAX_SLIP) and [`MAX_FREE`](super::MAX_FREE), or coefficients beyond
+/// [`MAX_BITS`](super::MAX_BITS).
+pub fn enumerate_modes_with(
+    split: &SplitForm,
+    window: &Window,
+    progress: impl FnMut(u64, u64) -> ControlFlow<()>,
+) -> Result<ModeList, OracleError> {
+    // Two bits say which of the four modes a z particle has.
+    let bits = split.slip.len() + 2 * split.zero.len();
+    require_size(&split.pencil, "slip variables + 2 z particles", bits)?;
+
+    let mut found = examine_all(split, window, progress);
+    found
+        .solutions
+        .sort_by(|a, b| compare_places((&a.value, &a.slip), (&b.value, &b.slip)));
+
+    Ok(found)
+}
+
+fn examine_all(
+    split: &SplitForm,
+    window: &Window,
+    mut progress: impl FnMut(u64, u64) -> ControlFlow<()>,
+) -> ModeList {
+    let integers = IntegerPencil::of(&split.pencil);
+    let modes = choices_of_modes(split.zero.len());
+    let slip_sets = (1u64 << split.slip.len()) - 1;
+    let mut found = ModeList {
+        choices_total: slip_sets * modes.len() as u64,
+        ..ModeList::default()
+    };
+
+    for number in 1..=slip_sets {
         let slip = members(&split.slip, number);
-        for zero in choices_of_modes(split.zero.len()) {
+        for zero in &modes {
             let choice = Choice {
                 split,
                 slip: &slip,
-                zero: &zero,
+                zero,
             };
             choice.examine(&integers, window, &mut found);
+
             found.choices += 1;
+            if progress(found.choices, found.choices_total).is_break() {
+                return found;
+            }
         }
     }
 

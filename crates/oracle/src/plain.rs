@@ -76,14 +76,9 @@ pub fn enumerate_with(
     mut progress: impl FnMut(u64, u64) -> ControlFlow<()>,
 ) -> Result<Enumeration, OracleError> {
     let slip = pencil.slip();
-    let free = pencil.free();
-    require_at_most(MAX_SLIP as u64, "slip variables", slip.len() as u64)?;
-    require_at_most(MAX_FREE as u64, "free variables", free.len() as u64)?;
+    require_size(pencil, "slip variables", slip.len())?;
 
     let integers = IntegerPencil::of(pencil);
-    let bits = integers.coefficient_bits();
-    require_at_most(MAX_BITS, "bits of a determinant's coefficients", bits)?;
-
     let total = 1u64 << slip.len();
     let mut found = Enumeration {
         supports_total: total,
@@ -104,6 +99,20 @@ pub fn enumerate_with(
     found.finish();
 
     Ok(found)
+}
+
+/// Demands that an enumeration of 2^count parts ends; `what` is counted.
+pub(super) fn require_size(
+    pencil: &Pencil,
+    what: &'static str,
+    count: usize,
+) -> Result<(), OracleError> {
+    let free = pencil.free().len();
+    require_at_most(MAX_SLIP as u64, what, count as u64)?;
+    require_at_most(MAX_FREE as u64, "free variables", free as u64)?;
+
+    let bits = coefficient_bits(pencil);
+    require_at_most(MAX_BITS, "bits of a determinant's coefficients", bits)
 }
 
 fn require_at_most(limit: u64, what: &'static str, got: u64) -> Result<(), OracleError> {
