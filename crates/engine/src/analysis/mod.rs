@@ -17,6 +17,7 @@ mod critical;
 mod divergence;
 mod error;
 mod evidence;
+mod families;
 mod flutter;
 mod follow;
 mod json;
@@ -35,17 +36,18 @@ pub use evidence::{Evidence, Proof, ProofCertificate};
 pub use flutter::Flutter;
 pub use json::ANALYSIS_FORMAT;
 pub use model::Options;
-pub use modes::Mode;
+pub use modes::{Mode, ZeroMode};
 pub use ranges::{Range, Sample};
 pub use sentences::Sentence;
 pub use threshold::StaticThreshold;
 
-use crate::reduction::{MuFamily, mu_family};
+use crate::reduction::MuFamily;
 use crate::run::{Progress, Watch};
 use crate::search::complete::Completed;
 use conditions::{Necessary, is_all_slip};
 use critical::{Known, Start};
 use divergence::divergence;
+use families::Families;
 use mceip_check::certificate::Claim;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::{ContactState, Problem, System};
@@ -74,14 +76,20 @@ pub fn analyse(
     };
 
     let at_friction = model.problem(Some(friction))?;
-    let family = mu_family(system)?;
+    let families = Families::of(system)?;
+    let family = &families.own;
+    let has_zero = !families.zero.is_empty();
 
     watch.report(&Progress::stage("conditions (19), (20)"));
-    let necessary = Necessary::of(&family)?;
+    let necessary = Necessary::of(families.of_condition())?;
 
     let found = model.complete("divergence at mu, all lambda^2 >= 0", &at_friction)?;
-    let divergence = divergence(system, &family, &found);
-    let sufficient = sufficient(&family, &found, divergence.verdict);
+    let divergence = divergence(system, family, &found);
+    let sufficient = if has_zero {
+        None // (17), (18) are about systems without zero reaction
+    } else {
+        sufficient(family, &found, divergence.verdict)
+    };
     let problem_sha256 = at_friction.sha256();
     let slip = family.stiffness.slip();
     let mu = to_f64(friction);
@@ -99,7 +107,7 @@ pub fn analyse(
     ));
     let mut proofs = vec![of_lambda2, of_mu];
     let known = Known {
-        family: &family,
+        families: &families,
         necessary: &necessary,
         friction,
         problem: &at_friction,
@@ -121,13 +129,18 @@ pub fn analyse(
     watch.report(&Progress::stage(
         "flutter: eigenvalues with all particles slipping",
     ));
-    let flutter = flutter::flutter(&family, friction);
+    let flutter = if has_zero {
+        None // no linear pencil: what such a particle does depends on the sign of v
+    } else {
+        flutter::flutter(family, friction)
+    };
 
     Ok(Analysis {
         name,
         problem_sha256,
         friction: friction.clone(),
         sizes: sizes(system),
+        zero: families.zero.len(),
         flutter,
         divergence,
         threshold,

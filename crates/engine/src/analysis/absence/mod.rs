@@ -6,16 +6,17 @@
 //! | `family` | T(t, mu) = T0(t) + mu T1(t), condensed about common anchors |
 //! | `boxes` | branch and prune over boxes of (t, mu) and states |
 //!
-//! Doubles propose the cover, and nothing is returned as proved before the checker has accepted it.
+//! With particles of zero reaction T is that of the split form, and supports are those of its
+//! variables. Doubles propose the cover, and nothing is returned as proved before the checker has accepted it.
 //! Input: a system and the bound. Output: `Outcome`. Called by `critical`, which chooses bounds.
 
 mod boxes;
 mod family;
 
-use crate::reduction::MuFamily;
 use crate::run::{OnProgress, Progress, Watch, in_threads};
 use crate::search::complete::CompleteError;
 use crate::search::complete::shares::Shares;
+use super::families::Families;
 use boxes::Search;
 pub(super) use boxes::{Blocked, Cause};
 use family::{Family, PieceOfHalfLine};
@@ -24,7 +25,7 @@ use mceip_check::audit_critical;
 use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
 use mceip_exact::Rational;
 use mceip_model::file::Number;
-use mceip_model::{Pencil, Problem};
+use mceip_model::Problem;
 use rayon::prelude::*;
 
 /// How much work the cover may take.
@@ -71,9 +72,7 @@ pub(super) enum Outcome {
 /// A system whose covers are sought.
 #[derive(Clone, Copy)]
 pub(super) struct Quadrant<'a> {
-    pub(super) family: &'a MuFamily,
-    /// M* as a function of mu.
-    pub(super) mass: &'a Pencil,
+    pub(super) families: &'a Families,
     /// MCEIP-lambda2 of the system: what a certificate belongs to.
     pub(super) problem: &'a Problem,
     pub(super) limits: Limits,
@@ -103,7 +102,7 @@ impl<'a> Quadrant<'a> {
         places: &[Place],
     ) -> Result<Vec<Blocked>, CompleteError> {
         self.watch.report(&Progress::stage("condensing"));
-        let family = Family::new(self.family, self.mass, below, places)?;
+        let family = Family::new(self.families, below, places)?;
         let proposed = self.proposed(&family, below);
         Ok(proposed.err().unwrap_or_default())
     }
@@ -118,7 +117,7 @@ impl<'a> Quadrant<'a> {
         places: &[Place],
     ) -> Result<Outcome, CompleteError> {
         self.watch.report(&Progress::stage("condensing"));
-        let mut family = Family::new(self.family, self.mass, below, places)?;
+        let mut family = Family::new(self.families, below, places)?;
         for _ in 0..=CAUTIOUS_ROUNDS {
             let certificate = match self.proposed(&family, below) {
                 Ok(certificate) => certificate,
@@ -220,7 +219,6 @@ pub(super) fn leaves(certificate: &CriticalCertificate) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reduction::mu_family;
     use mceip_check::check_critical;
     use mceip_exact::{Sparse, from_f64, rational, whole};
     use mceip_model::{Body, ContactState, Particle, System, Unknown, Window};
@@ -229,12 +227,11 @@ mod tests {
 
     /// Covers [0, infinity) x [0, below] for a system with mass and friction.
     fn cover(system: &System, below: f64, places: &[Place]) -> Outcome {
-        let family = mu_family(system).unwrap();
+        let families = Families::of(system).unwrap();
         let body = Body::System(system.clone());
         let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
         let quadrant = Quadrant {
-            family: &family,
-            mass: family.mass.as_ref().unwrap(),
+            families: &families,
             problem: &problem,
             limits: Limits::default(),
             threads: Some(1),
@@ -333,10 +330,9 @@ mod tests {
         let slip = ContactState::Slip { sign: 1 };
         let states = [slip, slip, ContactState::Free];
         let system = block.system(&states, Some(whole(1))).unwrap();
-        let mu_family = mu_family(&system).unwrap();
-        let mass = mu_family.mass.as_ref().unwrap();
+        let families = Families::of(&system).unwrap();
 
-        let family = Family::new(&mu_family, mass, &whole(2), &[]).unwrap();
+        let family = Family::new(&families, &whole(2), &[]).unwrap();
 
         assert!(family.pieces.len() > 1);
         let mut lo = Rational::default();
