@@ -18,9 +18,7 @@
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::{Cases, q};
-use super::corpus_critical::{
-    accept, certificate, farkas, identity, no_factor, piece, reject,
-};
+use super::corpus_critical::{accept, certificate, farkas, identity, no_factor, piece, reject};
 use mceip_check::certificate::CriticalNode::{self, Branch, PositiveDefinite, Tail};
 use mceip_check::certificate::{
     CriticalAnchor, CriticalCertificate, CriticalCondensation, CriticalPiece, CriticalTail,
@@ -289,8 +287,16 @@ fn tails(cases: &mut Cases) {
     accept(cases, "zero-tail", note, &problem, &good);
 
     for (name, order, note) in [
-        ("stick", 2, "a tail of the system in which the particle sticks"),
-        ("split", 5, "a tail of the pencil of the cover, which has both halves"),
+        (
+            "stick",
+            2,
+            "a tail of the system in which the particle sticks",
+        ),
+        (
+            "split",
+            5,
+            "a tail of the pencil of the cover, which has both halves",
+        ),
     ] {
         let mut forged = good.clone();
         let condensation = forged.condensation.as_mut().unwrap();

@@ -76,9 +76,10 @@ fn mode(mode: &Mode) -> Value {
         "v": mode.v,
     });
     if !mode.zero.is_empty() {
-        let zero = mode.zero.iter().map(|(particle, what)| {
-            json!({ "particle": particle, "mode": what.word() })
-        });
+        let zero = mode
+            .zero
+            .iter()
+            .map(|(particle, what)| json!({ "particle": particle, "mode": what.word() }));
         value["zero"] = zero.collect();
     }
 

@@ -13,10 +13,10 @@
 mod boxes;
 mod family;
 
+use super::families::Families;
 use crate::run::{OnProgress, Progress, Watch, in_threads};
 use crate::search::complete::CompleteError;
 use crate::search::complete::shares::Shares;
-use super::families::Families;
 use boxes::Search;
 pub(super) use boxes::{Blocked, Cause};
 use family::{Family, PieceOfHalfLine};
@@ -24,8 +24,8 @@ pub(super) use family::{Place, unit_of_lambda2};
 use mceip_check::audit_critical;
 use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
 use mceip_exact::Rational;
-use mceip_model::file::Number;
 use mceip_model::Problem;
+use mceip_model::file::Number;
 use rayon::prelude::*;
 
 /// How much work the cover may take.
