@@ -177,7 +177,7 @@ fn forged_trees(cases: &mut Cases) {
         cases,
         [
             "zero-left-forgotten",
-            "Cover.Weight",
+            "Cover.NegativeWeight",
             "the Farkas vector of right moving, where neither half is decided",
         ],
         &problem,
@@ -188,7 +188,7 @@ fn forged_trees(cases: &mut Cases) {
         cases,
         [
             "zero-at-the-threshold",
-            "Cover.ColumnNotNegative",
+            "Cover.NotStrict",
             "at mu = 6/7 there is a solution with lambda = 0",
         ],
         &problem,
@@ -198,7 +198,7 @@ fn forged_trees(cases: &mut Cases) {
         cases,
         [
             "zero-as-stick",
-            "Cover.ColumnNotNegative",
+            "Cover.NotNegative",
             "true if the particle stuck",
         ],
         &problem,
@@ -210,7 +210,7 @@ fn forged_trees(cases: &mut Cases) {
         cases,
         [
             "zero-factor-forgotten",
-            "Cover.ColumnNotNegative",
+            "Cover.NotStrict",
             "true if the friction of the particle were mu",
         ],
         &factor,
@@ -304,7 +304,7 @@ fn tails(cases: &mut Cases) {
         tail.factor = no_factor(order);
         tail.factor_below = no_factor(order);
         let name = format!("zero-tail-{name}");
-        reject(cases, [&name, "Cover.Shape", note], &problem, &forged);
+        reject(cases, [&name, "Cover.Length", note], &problem, &forged);
     }
 
     // 5 - 2 - 2 at the row of the slip particle, mu = 0: no dominance.

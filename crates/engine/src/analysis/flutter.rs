@@ -5,8 +5,8 @@
 //! K* and M* as functions of mu. Output: [`Flutter`]; nothing is proved. Called by
 //! [`analyse`](super::analyse).
 
+use super::families::Families;
 use crate::dense::{rounded, transposed};
-use crate::reduction::MuFamily;
 use crate::tolerance::FLUTTER_ANGLE;
 use mceip_exact::Rational;
 use mceip_mcp::linear::{eigenvalues, solve};
@@ -28,8 +28,14 @@ pub struct Flutter {
 const LARGEST_ORDER: usize = 2500;
 
 /// The complex lambda^2 at mu; `None` beyond the largest order, without a mass, or where doubles
-/// fail.
-pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
+/// fail. Particles with zero reaction have no such pencil either: their friction depends on the
+/// sign of v.
+pub(super) fn flutter(families: &Families, mu: &Rational) -> Option<Flutter> {
+    if !families.zero.is_empty() {
+        return None;
+    }
+
+    let family = &families.own;
     let mass = family.mass.as_ref()?;
     if family.stiffness.order() > LARGEST_ORDER {
         return None;

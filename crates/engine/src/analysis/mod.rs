@@ -41,7 +41,6 @@ pub use ranges::{Range, Sample};
 pub use sentences::Sentence;
 pub use threshold::StaticThreshold;
 
-use crate::reduction::MuFamily;
 use crate::run::{Progress, Watch};
 use crate::search::complete::Completed;
 use conditions::{Necessary, is_all_slip};
@@ -78,18 +77,13 @@ pub fn analyse(
     let at_friction = model.problem(Some(friction))?;
     let families = Families::of(system)?;
     let family = &families.own;
-    let has_zero = !families.zero.is_empty();
 
     watch.report(&Progress::stage("conditions (19), (20)"));
     let necessary = Necessary::of(families.of_condition())?;
 
     let found = model.complete("divergence at mu, all lambda^2 >= 0", &at_friction)?;
     let divergence = divergence(system, family, &found);
-    let sufficient = if has_zero {
-        None // (17), (18) are about systems without zero reaction
-    } else {
-        sufficient(family, &found, divergence.verdict)
-    };
+    let sufficient = sufficient(&families, &found, divergence.verdict);
     let problem_sha256 = at_friction.sha256();
     let slip = family.stiffness.slip();
     let mu = to_f64(friction);
@@ -129,11 +123,7 @@ pub fn analyse(
     watch.report(&Progress::stage(
         "flutter: eigenvalues with all particles slipping",
     ));
-    let flutter = if has_zero {
-        None // no linear pencil: what such a particle does depends on the sign of v
-    } else {
-        flutter::flutter(family, friction)
-    };
+    let flutter = flutter::flutter(&families, friction);
 
     Ok(Analysis {
         name,
@@ -190,11 +180,15 @@ fn sizes(system: &System) -> [usize; 4] {
 }
 
 /// (17)-(18): is one of the solutions an all-slip one? `None` where none of those found is, and
-/// others may exist.
-fn sufficient(family: &MuFamily, found: &Completed, verdict: Verdict) -> Option<bool> {
+/// others may exist, and for particles with zero reaction, for which these conditions say nothing.
+fn sufficient(families: &Families, found: &Completed, verdict: Verdict) -> Option<bool> {
+    if !families.zero.is_empty() {
+        return None;
+    }
+
     let has_all_slip = found.cover.solutions.iter().any(|solution| {
         let biactive = claimed_biactive(found, &solution.support);
-        is_all_slip(&family.stiffness, &solution.support, &biactive)
+        is_all_slip(&families.own.stiffness, &solution.support, &biactive)
     });
 
     if has_all_slip {

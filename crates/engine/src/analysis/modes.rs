@@ -68,6 +68,16 @@ impl ZeroMode {
     }
 }
 
+/// v in units of the sum of the slip rates.
+fn per_slip_rate(mut v: Vec<f64>, slip_rates: &[f64]) -> Vec<f64> {
+    let sum: f64 = slip_rates.iter().sum();
+    for component in &mut v {
+        *component /= sum;
+    }
+
+    v
+}
+
 /// The modes of the particles with zero reaction in a solution with this support.
 fn zero_modes(system: &System, support: &[usize]) -> Vec<(usize, ZeroMode)> {
     let mut modes = Vec::new();
@@ -95,6 +105,13 @@ impl Mode {
 
         // The variables of the slip particles follow the free ones, in the order of the particles.
         let free_count = family.stiffness.free().len();
+        let slip_variables = free_count..free_count + impending.len();
+        let mut v = mode(&family.variables, x, system.dofs());
+        let zero = zero_modes(system, &solution.support);
+        if !zero.is_empty() {
+            v = per_slip_rate(v, &x[slip_variables]); // e'x = 1 has the variables of `zero` in it
+        }
+
         let mut slipping = Vec::new();
         let mut sticking = Vec::new();
         for (k, particle) in impending.into_iter().enumerate() {
@@ -118,8 +135,8 @@ impl Mode {
             growth_rate,
             slipping,
             sticking,
-            zero: zero_modes(system, &solution.support),
-            v: mode(&family.variables, x, system.dofs()),
+            zero,
+            v,
         }
     }
 }

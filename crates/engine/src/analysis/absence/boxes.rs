@@ -1,4 +1,4 @@
-//! Branch and prune over a box [t] x [mu] and the states of the slip variables.
+//! Branch and prune over a box [t] x [mu] and the states of the complementarity variables.
 //!
 //! At the four corners of a box T(t, mu) = T0(t) + mu T1(t) is known up to a radius, and everywhere
 //! in the box it is a convex combination of such matrices. A box holds no solution if at all four
@@ -43,7 +43,7 @@ const MAX_CUTS_DECIDED: usize = 80;
 /// How far a cut may lie from the middle: share of the interval.
 const SLACK_OF_HALF: f64 = 0.1;
 
-/// A box and the state of each slip variable.
+/// A box and the state of each complementarity variable.
 #[derive(Clone)]
 struct Region {
     /// The interval of lambda^2; `None` for infinity.
