@@ -7,6 +7,7 @@
 #![cfg(feature = "testkit")]
 
 use mceip_check::{check, check_critical};
+use mceip_engine::analysis::absence::Limits;
 use mceip_engine::analysis::{Analysis, CertifiedSolution, Options, ProofCertificate, analyse};
 use mceip_engine::run::Watch;
 use mceip_exact::{Rational, rational};
@@ -29,6 +30,9 @@ const CLOSED: u64 = 80;
 
 /// Relative gap between the bounds that counts as closed.
 const CLOSE: f64 = 1e-3;
+
+/// Boxes of a piece, at most: what takes more is not closed.
+const BOXES: usize = 4_000;
 
 /// What a run has met.
 #[derive(Debug, Default)]
@@ -124,7 +128,7 @@ fn compare(index: u64, met: &mut Met) {
     let options = Options {
         samples: 0,
         threads: Some(1),
-        ..Options::default()
+        limits: Limits { boxes: BOXES },
     };
     let analysis = analyse(None, &system, &friction, &options, &Watch::nobody()).unwrap();
     assert_proofs(index, &analysis);

@@ -252,7 +252,8 @@ fn zero_reaction_is_analysed() {
         &[
             "1 with zero reaction",
             "PRESENT",
-            "mu = 0.857142857",
+            "none below mu = 0.857142",
+            "at mu = 0.857142858 there is",
             "particle 1 with zero reaction slides along its tangent",
             "(17)-(18): not defined",
             "Flutter: not examined",
