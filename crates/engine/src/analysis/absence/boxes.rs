@@ -10,10 +10,11 @@
 //!   0 = x'y = x'T x is not zero.
 //!
 //! While both halves of v_T of a particle with zero reaction are open, neither can hold: they are
-//! decided first. Where neither holds, the game at the middle of the box decides what to do. If a Farkas vector
-//! works there, the box is halved in the direction in which that vector is lost; if none does, the
-//! variable whose complementarity the relaxed solution breaks most is decided. A box in which all
-//! is decided is halved until it is empty, or so small that it seems to hold a solution.
+//! decided first. Where neither holds, the game at the middle of the box decides what to do. If a
+//! Farkas vector works there, the box is halved in the direction in which that vector is lost; if
+//! none does, the variable whose complementarity the relaxed solution breaks most is decided. A box
+//! in which all is decided is halved until it is empty, or so small that it seems to hold a
+//! solution.
 //!
 //! Input: a piece of [0, infinity) with the expansions of T0 and T1, and the upper end of mu.
 //! Output: the nodes of its tree in preorder, or the box that could not be emptied. Called by

@@ -7,8 +7,9 @@
 //! | `boxes` | branch and prune over boxes of (t, mu) and states |
 //!
 //! With particles of zero reaction T is that of the split form, and supports are those of its
-//! variables. Doubles propose the cover, and nothing is returned as proved before the checker has accepted it.
-//! Input: a system and the bound. Output: `Outcome`. Called by `critical`, which chooses bounds.
+//! variables. Doubles propose the cover, and nothing is returned as proved before the checker has
+//! accepted it. Input: a system and the bound. Output: `Outcome`. Called by `critical`, which
+//! chooses bounds.
 
 mod boxes;
 mod family;
