@@ -13,6 +13,7 @@ import re
 import sys
 from fractions import Fraction as Q
 from math import gcd, isqrt, lcm
+from types import SimpleNamespace
 
 MAX_SIDE = 1_000_000  # the largest order of a matrix (F)
 
@@ -1630,6 +1631,12 @@ class Support:
 
 # ---------------------------------------------------------------- the cover
 
+def branched(p, state, i, to):
+    """The states of a region where variable number i of p.s has been decided (C, Trees)."""
+    other = {p.s.index(half) for halves in p.halves if p.s[i] in halves for half in halves} - {i} if to == MOVING else ()
+    return tuple(to if k == i else REST if k in other else st for k, st in enumerate(state))
+
+
 def complete_set(p, rows, window, claims, obj):
     """The number of solutions, of families and of open leaves of the cover."""
     pieces, condensation = fields(obj, "pieces", "condensation")
@@ -1673,9 +1680,7 @@ def complete_set(p, rows, window, claims, obj):
                 i = place_in(value, p.n)
                 demand(i in p.s and state[p.s.index(i)] == OPEN, "cover: branch")
                 i = p.s.index(i)
-                other = {p.s.index(half) for halves in p.halves if p.s[i] in halves for half in halves} - {i}
-                moving = tuple(MOVING if k == i else REST if k in other else st for k, st in enumerate(state))
-                regions += [(lo, hi, moving), (lo, hi, state[:i] + (REST,) + state[i + 1:])]
+                regions += [(lo, hi, branched(p, state, i, st)) for st in (MOVING, REST)]
             elif kind == "farkas" and value is not None:
                 farkas([pencil.ends(lo, hi, anchor)], state, value)
             elif kind in ("positive_definite", "negative_definite") and value is None:
@@ -1760,6 +1765,17 @@ class Part:
         self.n, self.free, self.s, self.a, self.b = p.n, p.free, p.s, a, b
 
 
+def zero_free(p):
+    """The same system with its particles of zero reaction free (Z.4)."""
+    test, trial = p.changes
+    free = sorted({*p.system[6], *(d for tangent, normal, _ in p.system[5] for d in (*tangent, *normal))})
+    units, slips = [{d: Q(1)} for d in free], slice(len(p.free), p.n - 3 * len(p.halves))
+    trial, test = units + trial[slips], [(u, {}) for u in units] + test[slips]
+    freed = range(len(trial))
+    return SimpleNamespace(
+        system=p.system, changes=(test, trial), n=len(trial), free=list(freed[:len(free)]), s=list(freed[len(free):]))
+
+
 def friction_parts(p):
     """T0 and T1, and their integral rows with one factor for row i of all four matrices."""
     stiffness, mass = p.system[:2]
@@ -1799,6 +1815,9 @@ def critical_pencils(p, parts, integral, obj, below):
     if tail is None:
         return pencils, None
     start = number(tail["from"])
+    if p.halves:
+        p = zero_free(p)
+        parts = friction_parts(p)[0]
     for mu, which in ((Q(0), ""), (below, "_below")):
         a, b = ([plus(r0, r1, mu if i in p.s else 0) for i, (r0, r1) in enumerate(zip(*m))]
                 for m in ([x.a for x in parts], [x.b for x in parts]))
@@ -1820,7 +1839,6 @@ def check_critical(p, doc):
     below = number(below)
     demand(digest == p.digest, f"the problem's digest is {p.digest}")
     demand(p.system is not None and p.unknown == "lambda2", "a mechanical system with the unknown lambda2 was expected")
-    demand(not p.halves, "absence below a friction is not defined for zero reaction")
     demand(below > 0, "below is not positive")
     ns = len(p.s)
     demand(ns <= 512, "more than 512 slip variables")
@@ -1871,7 +1889,7 @@ def check_critical(p, doc):
                 i = place_in(value, p.n)
                 demand(i in p.s and state[p.s.index(i)] == OPEN, "branch")
                 i = p.s.index(i)
-                boxes += [(lo, hi, low, high, state[:i] + (st,) + state[i + 1:]) for st in (MOVING, REST)]
+                boxes += [(lo, hi, low, high, branched(p, state, i, st)) for st in (MOVING, REST)]
                 continue
             leaves += 1
             if kind == "farkas":

@@ -219,7 +219,11 @@ fn text_of(analysis: &Analysis, paths: &[String], args: &Args) -> String {
     }
 
     out += &format!(
-        "{dofs} degrees of freedom ({free} free), {slip} in impending slip, {stick} stick\n"
+        "{dofs} degrees of freedom ({free} free), {slip} in impending slip, {stick} stick{}\n",
+        match analysis.zero {
+            0 => String::new(),
+            zero => format!(", {zero} with zero reaction"),
+        }
     );
 
     let next = next_step(analysis, paths, args);

@@ -16,16 +16,19 @@ pub enum Mark {
     Caught,
     /// Open (f): a white circle.
     Free,
+    /// In contact with zero reaction (z): a white diamond.
+    Zero,
 }
 
 impl Mark {
     /// Every mark, in the order of legends.
-    pub const ALL: [Mark; 5] = [
+    pub const ALL: [Mark; 6] = [
         Mark::Stick,
         Mark::SlipLeft,
         Mark::SlipRight,
         Mark::Caught,
         Mark::Free,
+        Mark::Zero,
     ];
 
     /// The mark of a state at an equilibrium.
@@ -34,7 +37,8 @@ impl Mark {
             ContactState::Stick => Mark::Stick,
             ContactState::Slip { sign } if sign > 0 => Mark::SlipLeft,
             ContactState::Slip { .. } => Mark::SlipRight,
-            ContactState::Free | ContactState::Zero => Mark::Free,
+            ContactState::Free => Mark::Free,
+            ContactState::Zero => Mark::Zero,
         }
     }
 
@@ -68,6 +72,7 @@ impl Mark {
             Mark::SlipRight => "slip right",
             Mark::Caught => "impending slip, gets stuck",
             Mark::Free => "free",
+            Mark::Zero => "contact, zero reaction",
         }
     }
 
@@ -79,6 +84,7 @@ impl Mark {
             Mark::SlipRight => "slip-right",
             Mark::Caught => "caught",
             Mark::Free => "free",
+            Mark::Zero => "zero",
         }
     }
 
@@ -110,6 +116,7 @@ impl Mark {
                 .at("cy", y)
                 .at("r", 0.85 * r)
                 .with("fill", "#fff"),
+            Mark::Zero => polygon(x, y, r, &DIAMOND).with("fill", "#fff"),
         }
     }
 }
@@ -119,6 +126,9 @@ const POINTS_LEFT: [(f64, f64); 3] = [(-1.0, 0.0), (0.75, -0.9), (0.75, 0.9)];
 
 /// Corners of a triangle that points to the right, in units of the radius.
 const POINTS_RIGHT: [(f64, f64); 3] = [(1.0, 0.0), (-0.75, -0.9), (-0.75, 0.9)];
+
+/// Corners of a square that stands on one of them.
+const DIAMOND: [(f64, f64); 4] = [(-1.0, 0.0), (0.0, -1.0), (1.0, 0.0), (0.0, 1.0)];
 
 /// Corners of a square of half side `a`.
 fn square(a: f64) -> [(f64, f64); 4] {
@@ -160,6 +170,7 @@ mod tests {
             right,
             left,
             ContactState::Free,
+            ContactState::Zero,
         ];
 
         let marks = Mark::of_mode(&states, &[0, 2]);
@@ -171,6 +182,7 @@ mod tests {
             Mark::SlipRight,
             Mark::Caught,
             Mark::Free,
+            Mark::Zero,
         ];
         assert_eq!(marks, expected);
     }

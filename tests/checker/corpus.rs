@@ -34,6 +34,8 @@ mod corpus_support;
 mod corpus_zero;
 #[path = "../support/corpus_zero_covers.rs"]
 mod corpus_zero_covers;
+#[path = "../support/corpus_zero_critical.rs"]
+mod corpus_zero_critical;
 #[path = "../support/corpus_zero_order.rs"]
 mod corpus_zero_order;
 
@@ -476,6 +478,7 @@ fn write_the_corpus() {
     corpus_zero_order::boxes(&mut cases);
     corpus_zero_covers::covers(&mut cases);
     corpus_critical::critical(&mut cases);
+    corpus_zero_critical::absence(&mut cases);
     corpus_malformed::malformed(&mut cases);
     corpus_malformed::spelling(&mut cases);
     corpus_malformed::hostile(&mut cases);

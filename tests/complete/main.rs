@@ -12,6 +12,7 @@ mod cost;
 #[path = "../support/cover.rs"]
 mod cover;
 
+mod analyze_zero;
 mod complete;
 mod complete_block;
 mod complete_cost;

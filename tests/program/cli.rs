@@ -95,9 +95,7 @@ fn zero_reaction_is_refused_where_it_is_not_supported() {
     let problem = zero_reaction_problem(folder.path(), "zero-right");
 
     let expected = ["particle 1", "zero", "not supported"];
-    for command in ["reduce", "analyze"] {
-        refused(&[command, &problem], &expected);
-    }
+    refused(&["reduce", &problem], &expected);
     refused(&["complete", &problem, "--infinity"], &expected);
 }
 
@@ -226,6 +224,60 @@ fn zero_reaction_is_solved_and_checked() {
 
         contains_all(&exits(0, &["solve", &problem]), &["right of particle 1"]);
     }
+}
+
+/// The critical friction of a particle that slides with friction is 6/7
+/// (`tests/support/corpus_zero_critical.rs`): `analyze` bounds it from both sides, names what is
+/// not defined, and its certificates are accepted.
+#[test]
+fn zero_reaction_is_analysed() {
+    let folder = tempfile::tempdir().unwrap();
+    let problem = zero_reaction_problem(folder.path(), "critical-zero");
+    let proofs = folder.path().join("proofs");
+    let report = folder.path().join("report.html");
+
+    let arguments = [
+        "analyze",
+        &problem,
+        "--friction",
+        "1",
+        "--certificates",
+        proofs.to_str().unwrap(),
+        "--report",
+        report.to_str().unwrap(),
+    ];
+    let text = exits(0, &arguments);
+    contains_all(
+        &text,
+        &[
+            "1 with zero reaction",
+            "PRESENT",
+            "none below mu = 0.857142",
+            "at mu = 0.857142858 there is",
+            "particle 1 with zero reaction slides along its tangent",
+            "(17)-(18): not defined",
+            "Flutter: not examined",
+        ],
+    );
+
+    let [proved, certificate] =
+        ["problem", "certificate"].map(|what| proofs.join(format!("absence.{what}.json")));
+    let arguments = [
+        "check",
+        proved.to_str().unwrap(),
+        certificate.to_str().unwrap(),
+    ];
+    contains_all(&exits(0, &arguments), &["ACCEPTED"]);
+
+    let page = std::fs::read_to_string(&report).unwrap();
+    contains_all(&page, &["particles with zero reaction", "1 right"]);
+
+    let json = exits(0, &["analyze", &problem, "--friction", "1", "--json"]);
+    let answer: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(answer["sizes"]["zero_particles"], 1);
+    let zero = &answer["divergence"]["modes"][0]["zero"][0];
+    assert_eq!(*zero, serde_json::json!({"particle": 1, "mode": "right"}));
+    assert!(answer["sufficient"].is_null() && answer["flutter"].is_null());
 }
 
 /// The problem of a file of `spec/corpus/accept`, as a file of its own.

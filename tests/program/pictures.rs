@@ -153,7 +153,7 @@ fn a_mode_has_the_mark_of_every_node_and_every_edge() {
         ContactState::Slip { sign: -1 },
         slip,
         ContactState::Free,
-        ContactState::Free,
+        ContactState::Zero,
     ];
     let marks = Mark::of_mode(&states, &[0, 2, 3]);
 
@@ -161,7 +161,11 @@ fn a_mode_has_the_mark_of_every_node_and_every_edge() {
 
     let tree = Document::parse(&text).unwrap();
     let counts = Mark::ALL.map(|mark| count(&tree, mark.class()));
-    assert_eq!(counts, [1, 2, 1, 1, 2], "stick, left, right, caught, free");
+    assert_eq!(
+        counts,
+        [1, 2, 1, 1, 1, 1],
+        "stick, left, right, caught, free, zero"
+    );
     assert_eq!(count(&tree, "mark"), states.len());
 
     // Euler: points + triangles - 1 edges, each once.

@@ -26,7 +26,7 @@ pub fn critical(cases: &mut Cases) {
     malformed(cases);
 }
 
-fn accept(
+pub fn accept(
     cases: &mut Cases,
     name: &str,
     note: &str,
@@ -41,7 +41,7 @@ fn accept(
     cases.push("accept", &format!("critical-{name}"), file, note);
 }
 
-fn reject(
+pub fn reject(
     cases: &mut Cases,
     [name, reason, note]: [&str; 3],
     problem: &Problem,
@@ -88,7 +88,7 @@ fn system(
     Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
 }
 
-fn identity(dofs: usize) -> Vec<(usize, usize, Rational)> {
+pub fn identity(dofs: usize) -> Vec<(usize, usize, Rational)> {
     (0..dofs).map(|i| (i, i, whole(1))).collect()
 }
 
@@ -134,7 +134,7 @@ pub fn certificate(
     }
 }
 
-fn farkas(weights: &[i64]) -> CriticalNode {
+pub fn farkas(weights: &[i64]) -> CriticalNode {
     CriticalNode::Farkas(weights.to_vec())
 }
 
@@ -516,7 +516,7 @@ fn near_the_fold(cases: &mut Cases) {
     );
 }
 
-fn matrix(entry: i64) -> IntegerMatrix {
+pub fn matrix(entry: i64) -> IntegerMatrix {
     IntegerMatrix {
         exponent: 1,
         rows: vec![vec![Integer::from(entry)]],
@@ -534,7 +534,7 @@ fn lower(rows: &[&[i64]], exponent: u32) -> Factor {
     }
 }
 
-fn no_factor(order: usize) -> Factor {
+pub fn no_factor(order: usize) -> Factor {
     Factor {
         first: (0..order).collect(),
         rows: vec![vec![Integer::from(0)]; order],
@@ -885,30 +885,7 @@ fn twice_the_friction() -> Problem {
     Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
 }
 
-/// The system of `one` beside a particle with zero reaction that it does not touch.
-fn with_zero_reaction() -> Problem {
-    let stiffness = [
-        (0, 0, whole(1)),
-        (0, 1, whole(-1)),
-        (1, 1, whole(3)),
-        (2, 2, whole(1)),
-        (3, 3, whole(1)),
-    ];
-    let problem = system(4, &[(0, 1)], &stiffness, &identity(4));
-    let Body::System(of_one) = problem.body() else {
-        unreachable!("a system was built")
-    };
-    let mut particles = of_one.particles().to_vec();
-    particles.push(Particle::plain(2, 3, ContactState::Zero));
-
-    let stiffness = of_one.stiffness().clone();
-    let mass = of_one.mass().cloned();
-    let friction = of_one.friction().cloned();
-    let system = System::new(stiffness, mass, friction, particles).unwrap();
-    Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
-}
-
-/// A particle with a friction of its own, and one in contact with zero reaction.
+/// A particle with a friction of its own.
 fn other_particles(cases: &mut Cases) {
     let problem = twice_the_friction();
     let of = |below: &str| certificate(&problem, below, vec![piece(None, vec![PositiveDefinite])]);
@@ -920,16 +897,6 @@ fn other_particles(cases: &mut Cases) {
         ["factor-forgotten", "Cover.NotDefinite", note],
         &problem,
         &of("3/4"),
-    );
-
-    let problem = with_zero_reaction();
-    let all = certificate(&problem, "3/4", vec![piece(None, vec![PositiveDefinite])]);
-    let note = "a particle with zero reaction has four modes, which the format does not know";
-    reject(
-        cases,
-        ["zero-reaction", "ZeroReaction", note],
-        &problem,
-        &all,
     );
 }
 

@@ -67,7 +67,6 @@ fn verdict(
     }
 
     let parts = friction_parts(problem)?;
-    parts.plain.without_zero("absence below a friction")?;
     if !certificate.below.is_positive() {
         return Err(Reason::Below {
             got: certificate.below.clone(),

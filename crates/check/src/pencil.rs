@@ -34,7 +34,6 @@
 //! Input: a [`Problem`], whose constructor has checked its shape. Every checker of a claim reads
 //! the [`Rows`] made here.
 
-use crate::reason::Reason;
 use mceip_exact::{Integer, Rational, Sparse, common_denominator};
 use mceip_model::{Body, ContactState, Direction, Problem, System, Unknown};
 use std::collections::BTreeMap;
@@ -186,27 +185,20 @@ impl Rows {
 
         None
     }
-
-    /// Refuses evidence that is not defined for particles with zero reaction.
-    pub(super) fn without_zero(&self, what: &'static str) -> Result<(), Reason> {
-        match self.halves.first() {
-            None => Ok(()),
-            Some(halves) => Err(Reason::ZeroReaction {
-                what,
-                particle: halves.particle,
-            }),
-        }
-    }
 }
 
-/// The pencils T0 and T1 of a mechanical system with T(t, mu) = T0(t) + mu T1(t) in the slip rows.
+/// The pencils T0 and T1 of a mechanical system with T(t, mu) = T0(t) + mu T1(t) in the rows of
+/// complementarity variables.
 ///
 /// The free rows do not depend on mu: they stand in both. Row i of both has the same factor.
 pub(super) struct FrictionParts {
-    /// Without friction: slip rows -S t'(K + tM) T.
+    /// Without friction: the rows p'(K + tM) T with the columns p of P at mu = 0.
     pub(super) plain: Rows,
-    /// The coefficient of mu: slip rows -n'(K + tM) T.
+    /// The coefficient of mu: the rows -c n'(K + tM) T of slip particles and of halves of v_T, and
+    /// zero in the row of a gap.
     pub(super) friction: Rows,
+    /// The same of the system in which the particles with zero reaction are free, if it has any.
+    with_zero_free: Option<Box<FrictionParts>>,
 }
 
 impl FrictionParts {
@@ -217,6 +209,7 @@ impl FrictionParts {
         let mut parts = FrictionParts {
             plain: Rows::with_capacity(order),
             friction: Rows::with_capacity(order),
+            with_zero_free: None,
         };
 
         for (i, plain) in variables.rows.iter().enumerate() {
@@ -242,9 +235,19 @@ impl FrictionParts {
                 .push_multiple(&friction_a, &friction_b, factor, is_free);
         }
 
+        if !variables.halves.is_empty() {
+            let freed = FrictionParts::of(&system.with_zero_free(), mass);
+            parts.with_zero_free = Some(Box::new(freed));
+        }
+
         parts.plain.halves = variables.halves.clone();
         parts.friction.halves = variables.halves;
         parts
+    }
+
+    /// The parts that a tail is about: particles with zero reaction are free in them.
+    pub(super) fn of_tail(&self) -> &FrictionParts {
+        self.with_zero_free.as_deref().unwrap_or(self)
     }
 
     /// The pencil at a friction mu = p/q: q T0 + p T1 in the slip rows.

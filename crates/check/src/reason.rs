@@ -260,17 +260,6 @@ pub enum Reason {
         /// The variable max(-v_T, 0).
         left: usize,
     },
-    /// Evidence that is not defined for particles with zero reaction.
-    #[error(
-        "E9: expected a system without particles in state \"zero\" for {what} \
-         (not supported), got particle {particle}"
-    )]
-    ZeroReaction {
-        /// The kind of evidence.
-        what: &'static str,
-        /// The first particle with zero reaction.
-        particle: usize,
-    },
     /// An active row of (A + tB) x does not vanish.
     #[error(
         "{equation}: y[{index}]: expected 0 mod p on an active row, got a polynomial that is not"

@@ -254,6 +254,21 @@ impl System {
             .collect()
     }
 
+    /// The system in which the particles in contact with zero reaction are free, as in (19z) of
+    /// `spec/zero-reaction.md`, Z.4. Its preconditions hold, because their dofs count as f here.
+    #[must_use]
+    pub fn with_zero_free(&self) -> System {
+        let mut freed = self.clone();
+        for particle in &mut freed.particles {
+            if particle.state == ContactState::Zero {
+                particle.state = ContactState::Free;
+                particle.reaction = None;
+            }
+        }
+
+        freed
+    }
+
     /// Refuses a system with particles in contact with zero reaction, for what does not treat them.
     ///
     /// # Errors

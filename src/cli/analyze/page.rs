@@ -78,7 +78,7 @@ pub(super) fn page(analysis: &Analysis, drawn: &Drawn<'_>) -> String {
 /// The sizes of the system, and its picture.
 fn system(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     let [dofs, free, slip, stick] = analysis.sizes;
-    let rows = vec![
+    let mut rows = vec![
         row(["degrees of freedom", &dofs.to_string()]),
         row(["of them free", &free.to_string()]),
         row(["particles in impending slip", &slip.to_string()]),
@@ -88,6 +88,11 @@ fn system(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
             &to_f64(&analysis.friction).to_string(),
         ]),
     ];
+    if analysis.zero > 0 {
+        let count = analysis.zero.to_string();
+        rows.insert(4, row(["particles with zero reaction", &count]));
+    }
+
     let table = Content::Table {
         caption: "The system, in the units of its file".into(),
         header: Vec::new(),
@@ -207,24 +212,41 @@ fn summary(modes: &[Mode], drawn: &Drawn<'_>) -> Content {
         "lambda (1/s)",
         "slipping particles",
         "particles that do not move",
+        "particles with zero reaction",
     ];
+    let has_zero = modes.iter().any(|mode| !mode.zero.is_empty());
+    let columns = if has_zero { 6 } else { 5 };
     let mut rows = Vec::new();
     for (k, mode) in modes.iter().enumerate() {
         let lambda2 = to_f64(&mode.lambda2.mid());
-        rows.push(vec![
+        let mut cells = vec![
             (k + 1).to_string(),
             with_digits(lambda2, 11),
             with_digits(mode.growth_rate, 7),
             drawn.listed(&mode.slipping),
             drawn.listed(&mode.sticking),
-        ]);
+        ];
+        if has_zero {
+            cells.push(zero_modes(mode));
+        }
+        rows.push(cells);
     }
 
     Content::Table {
         caption: "Diverging modes".into(),
-        header: row(header),
+        header: header[..columns].iter().map(ToString::to_string).collect(),
         rows,
     }
+}
+
+/// The number and the mode of each particle with zero reaction, such as "3 open, 4 right".
+fn zero_modes(mode: &Mode) -> String {
+    let mut words = Vec::new();
+    for (particle, what) in &mode.zero {
+        words.push(format!("{particle} {}", what.word()));
+    }
+
+    words.join(", ")
 }
 
 /// The components of a mode that are not zero.

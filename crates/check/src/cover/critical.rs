@@ -19,7 +19,12 @@
 //! first, and the long ones decide where these cannot tell.
 //!
 //! *Tail.* sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite at
-//! mu = 0 and at mu = `below`, so at every mu between.
+//! mu = 0 and at mu = `below`, so at every mu between. The pencil is that of the system in which
+//! the particles with zero reaction are free (`spec/zero-reaction.md`, Z.4).
+//!
+//! *Zero reaction.* Particles in contact with zero reaction have three variables each, whose rows
+//! are affine in mu as well. A branch on one half of v_T puts the other half at rest where the
+//! first one moves.
 //!
 //! Every leaf proves that its box holds no solution. Trees are read as in `walk`, with one more
 //! node that cuts the interval of mu.
@@ -34,7 +39,7 @@ use super::short::Short;
 use super::walk::NodeFault;
 use super::{check_anchor, check_end, check_size, condensed, definite, farkas};
 use crate::certificate::{CriticalCertificate, CriticalNode, CriticalPiece, CriticalTail};
-use crate::pencil::FrictionParts;
+use crate::pencil::{FrictionParts, Rows};
 use crate::reason::Reason;
 use mceip_exact::Rational;
 use mceip_model::Window;
@@ -72,13 +77,14 @@ pub(crate) fn check(
 
     let tail = condensation.and_then(|c| c.tail.as_ref());
     if let Some(tail) = tail {
-        check_tail(parts, &certificate.below, tail).map_err(of_file)?;
+        check_tail(parts.of_tail(), &certificate.below, tail).map_err(of_file)?;
     }
 
     let nodes = certificate.pieces.iter().map(|p| p.tree.len() as u64).sum();
     let mut walk = BoxWalk {
         families,
         index,
+        rows: &parts.plain,
         below: &certificate.below,
         tail: tail.map(|tail| &tail.from.0),
         leaves: 0,
@@ -163,7 +169,7 @@ fn family_of_anchors(expansions: Vec<Expanded>) -> Family {
     Family::Condensed(anchors.collect())
 }
 
-/// The whole pencil is definite from `tail.from` on, at mu = 0 and at mu = `below`.
+/// The whole pencil of these parts is definite from `tail.from` on, at mu = 0 and at mu = `below`.
 fn check_tail(
     parts: &FrictionParts,
     below: &Rational,
@@ -251,9 +257,14 @@ impl FrictionBox {
         }))
     }
 
-    /// x_i = 0 and x_i > 0 for an undecided variable i.
-    fn branch(self, index: usize, indices: &[usize]) -> Result<[FrictionBox; 2], CoverFault> {
-        let halves = self.region.branch(index, indices)?;
+    /// x_i = 0 and x_i > 0 for an undecided variable i; see [`Region::branch`].
+    fn branch(
+        self,
+        index: usize,
+        indices: &[usize],
+        other_half: Option<usize>,
+    ) -> Result<[FrictionBox; 2], CoverFault> {
+        let halves = self.region.branch(index, indices, other_half)?;
 
         Ok(halves.map(|region| FrictionBox {
             region,
@@ -289,8 +300,10 @@ impl FrictionBox {
 struct BoxWalk<'a> {
     /// T0 and T1.
     families: [Family; 2],
-    /// The slip variables: positions in states and matrices to indices of the pencil.
+    /// The complementarity variables: positions in states and matrices to indices of the pencil.
     index: Vec<usize>,
+    /// The rows without friction, which name the halves of v_T.
+    rows: &'a Rows,
     below: &'a Rational,
     /// No solution has a value of t at or above this.
     tail: Option<&'a Rational>,
@@ -333,7 +346,10 @@ impl BoxWalk<'_> {
             let halves = match node {
                 CriticalNode::Split(t) => Some(at.split(&t.0)),
                 CriticalNode::Friction(mu) => Some(at.split_friction(&mu.0)),
-                CriticalNode::Branch(index) => Some(at.branch(*index, &self.index)),
+                CriticalNode::Branch(index) => {
+                    let other_half = self.rows.other_half(*index);
+                    Some(at.branch(*index, &self.index, other_half))
+                }
                 leaf => {
                     self.leaves += 1;
                     let verdict = self.leaf(&at, piece.anchor, leaf);

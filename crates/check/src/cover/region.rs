@@ -57,8 +57,15 @@ impl Region {
     }
 
     /// x_i = 0 and x_i > 0 for the undecided variable i of the problem; `indices` are those of the
-    /// complementarity variables.
-    pub(super) fn branch(self, index: usize, indices: &[usize]) -> Result<[Region; 2], CoverFault> {
+    /// complementarity variables. Where i is one half of v_T of a particle with zero reaction and
+    /// moves, the other half is at rest: a motion has at most one of them
+    /// (`spec/zero-reaction.md`, Z.3).
+    pub(super) fn branch(
+        self,
+        index: usize,
+        indices: &[usize],
+        other_half: Option<usize>,
+    ) -> Result<[Region; 2], CoverFault> {
         let position = indices.iter().position(|&i| i == index);
         let position = position
             .filter(|&p| self.states[p] == State::Undecided)
@@ -68,6 +75,11 @@ impl Region {
         at_zero[position] = State::AtZero;
         let mut in_support = self.states;
         in_support[position] = State::InSupport;
+
+        let other = indices.iter().position(|&i| Some(i) == other_half);
+        if let Some(other) = other {
+            in_support[other] = State::AtZero;
+        }
 
         Ok([at_zero, in_support].map(|states| Region {
             lo: self.lo.clone(),

@@ -84,9 +84,9 @@ impl Walk<'_> {
                     stack.extend([upper, lower]);
                 }
                 Node::Branch(index) => {
-                    let parts = region.branch(*index, &self.index).map_err(at_node)?;
-                    let [at_zero, mut in_support] = parts;
-                    self.rest_other_half(*index, &mut in_support);
+                    let other_half = self.rows.other_half(*index);
+                    let parts = region.branch(*index, &self.index, other_half);
+                    let [at_zero, in_support] = parts.map_err(at_node)?;
                     stack.extend([in_support, at_zero]);
                 }
                 _ => {
@@ -107,18 +107,6 @@ impl Walk<'_> {
                 regions: stack.len(),
             },
         })
-    }
-
-    /// Where one half of v_T of a particle with zero reaction moves, the other one is at rest: a
-    /// motion has at most one of them (`spec/zero-reaction.md`, Z.3).
-    fn rest_other_half(&self, moving: usize, region: &mut Region) {
-        let Some(other) = self.rows.other_half(moving) else {
-            return;
-        };
-
-        if let Some(position) = self.index.iter().position(|&i| i == other) {
-            region.states[position] = State::AtZero;
-        }
     }
 
     /// Passes on the verdict on a leaf, or leaves the region of one that fails open and notes

@@ -21,6 +21,8 @@ pub struct Analysis {
     pub friction: Rational,
     /// Numbers of degrees of freedom, free degrees of freedom, slip particles, stick particles.
     pub sizes: [usize; 4],
+    /// Number of particles with zero reaction.
+    pub zero: usize,
     /// Divergence at mu.
     pub divergence: Divergence,
     /// The smallest mu with lambda = 0.

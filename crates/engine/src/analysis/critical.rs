@@ -15,10 +15,10 @@ use super::conditions::Necessary;
 use super::divergence::Divergence;
 use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
+use super::families::Families;
 use super::follow::{Branches, Point};
 use super::model::Model;
 use super::threshold::StaticThreshold;
-use crate::reduction::MuFamily;
 use crate::run::Progress;
 use crate::search::complete::Completed;
 use crate::tolerance::{
@@ -100,7 +100,21 @@ const BY_CONDITION: Evidence = Evidence::Exact(
      linearity in mu",
 );
 
-/// A solution in doubles from which branches are followed: x over the slip particles.
+const BY_CONDITION_WITH_ZERO: Evidence = Evidence::Exact(
+    "condition (19z): with the particles of zero reaction free, K* is positive definite and M* \
+     positive semidefinite below it, by exact LDL' and linearity in mu",
+);
+
+/// What stands behind the bound of condition (19), or (19z).
+fn by_condition(families: &Families) -> Evidence {
+    if families.zero.is_empty() {
+        BY_CONDITION
+    } else {
+        BY_CONDITION_WITH_ZERO
+    }
+}
+
+/// A solution in doubles from which branches are followed: x over the complementarity variables.
 #[derive(Debug, Clone)]
 pub(super) struct Start {
     pub(super) lambda2: f64,
@@ -110,7 +124,7 @@ pub(super) struct Start {
 
 /// What is known about a system before its critical mu is sought.
 pub(super) struct Known<'a> {
-    pub(super) family: &'a MuFamily,
+    pub(super) families: &'a Families,
     pub(super) necessary: &'a Necessary,
     /// The mu of the analysis, and MCEIP-lambda2 there.
     pub(super) friction: &'a Rational,
@@ -170,7 +184,7 @@ pub(super) fn critical(
     let Some(excluded) = known.necessary.excluded_below() else {
         return Ok(Critical {
             absent_below: None,
-            evidence: BY_CONDITION,
+            evidence: by_condition(known.families),
             solution: None,
             boxes: None,
             unproved: None,
@@ -185,17 +199,14 @@ pub(super) fn critical(
         places: Vec::new(),
     };
 
-    if let Some(mass) = &known.family.mass
-        && !model.stopped()
-    {
-        let scale = unit_of_lambda2(&known.family.stiffness, mass)?;
+    if known.families.own.mass.is_some() && !model.stopped() {
+        let scale = unit_of_lambda2(&known.families.own)?;
         let search = Search {
             model,
             branches: Branches::new(model.system, scale)?,
             scale,
             quadrant: Quadrant {
-                family: known.family,
-                mass,
+                families: known.families,
                 problem: known.problem,
                 limits: model.options.limits,
                 threads: model.options.threads,
@@ -284,7 +295,7 @@ impl Bounds {
         let Some(certificate) = beyond_condition else {
             return Critical {
                 absent_below: Some(excluded),
-                evidence: BY_CONDITION,
+                evidence: by_condition(known.families),
                 solution,
                 boxes: None,
                 unproved,
@@ -446,7 +457,7 @@ impl Search<'_> {
 
     /// The gaps to aim at.
     fn gaps(&self) -> &'static [f64] {
-        if self.quadrant.mass.free().len() <= FINE_GAP_FREE {
+        if self.quadrant.families.own.stiffness.free().len() <= FINE_GAP_FREE {
             &CRITICAL_GAPS
         } else {
             &CRITICAL_GAPS[1..]

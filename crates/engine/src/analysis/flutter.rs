@@ -7,6 +7,7 @@
 //! Where such eigenvalues begin is looked for by trying values of mu: evenly spread ones first, and
 //! then by halving below the smallest that has some. Called by [`analyse`](super::analyse).
 
+use super::families::Families;
 use crate::dense::{rounded, transposed};
 use crate::reduction::MuFamily;
 use crate::tolerance::FLUTTER_ANGLE;
@@ -51,8 +52,14 @@ const VALUES: i64 = 8;
 const HALVINGS: u32 = 12;
 
 /// The complex lambda^2 at mu and their onset; `None` beyond the largest order, without a mass, or
-/// where doubles fail.
-pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
+/// where doubles fail. Particles with zero reaction have no such pencil either: their friction
+/// depends on the sign of v.
+pub(super) fn flutter(families: &Families, mu: &Rational) -> Option<Flutter> {
+    if !families.zero.is_empty() {
+        return None;
+    }
+
+    let family = &families.own;
     let eigenvalues = complex_eigenvalues(family, mu)?;
 
     let mut growth_rate = 0.0;

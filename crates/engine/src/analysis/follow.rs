@@ -1,7 +1,8 @@
 //! Follows a solution in (lambda^2, mu) to a local minimum of mu, in doubles.
 //!
 //! With t = lambda^2 the solutions of one support J form branches mu(t): T_JJ(t, mu) x = 0 with
-//! T(t, mu) = A(t) + mu B(t), condensed to the slip particles. For a left null vector u of T_JJ,
+//! T(t, mu) = A(t) + mu B(t), condensed to the slip particles and, in the split form, to those with
+//! zero reaction. For a left null vector u of T_JJ,
 //!
 //! ```text
 //!     d mu / dt = - u' T_t x / u' B x.
@@ -25,6 +26,7 @@ use crate::tolerance::{
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_mcp::linear::{Symmetric, solve};
 use mceip_model::System;
+use mceip_model::reduction::zero_variables;
 
 /// Newton steps at one value of t.
 const NEWTON_STEPS: usize = 30;
@@ -36,7 +38,7 @@ const MAX_SUPPORTS: usize = 20;
 /// Steps that narrow the bracket of a fold.
 const FOLD_STEPS: usize = 60;
 
-/// A solution in doubles: x over the slip particles, of sum one.
+/// A solution in doubles: x over the complementarity variables, of sum one.
 #[derive(Debug, Clone)]
 pub(super) struct Point {
     /// lambda^2.
@@ -57,6 +59,8 @@ pub(super) struct Point {
 /// The system condensed in doubles.
 pub(super) struct Branches {
     condensation: SparseCondensation,
+    /// Positions of right and left of each particle with zero reaction.
+    halves: Vec<[usize; 2]>,
     /// A lambda^2 of the size of the lowest frequencies: the unit of the first step.
     scale: f64,
 }
@@ -71,16 +75,20 @@ impl Branches {
             None => None,
         };
 
-        let condensation = SparseCondensation::new(stiffness, mass, system.particles(), None)
+        let condensation = SparseCondensation::with_zero(stiffness, mass, system.particles(), None)
             .map_err(|source| AnalysisError::NotCondensed(source.to_string()))?;
+
+        let free = system.free_dofs().len();
+        let zero = zero_variables(system).into_iter();
         Ok(Branches {
             condensation,
+            halves: zero.map(|z| [z.right - free, z.left - free]).collect(),
             scale,
         })
     }
 
-    /// The local minimum of mu below a guess at a solution: x over the slip particles, its support
-    /// where it is positive. `None` where there is no solution near the guess.
+    /// The local minimum of mu below a guess at a solution: x over the complementarity variables,
+    /// its support where it is positive. `None` where there is no solution near the guess.
     pub(super) fn minimum_below(&self, t: f64, mu: f64, x: &[f64]) -> Option<Point> {
         let mut point = self.near(t, mu, x)?;
         for _ in 0..MAX_SUPPORTS {
@@ -107,8 +115,9 @@ impl Branches {
     /// A solution near a guess. Components that turn out negative leave the support, and y_i < 0
     /// enters it.
     fn near(&self, t: f64, mu: f64, x: &[f64]) -> Option<Point> {
-        let mut support: Vec<usize> = (0..x.len()).filter(|&i| x[i] > 0.0).collect();
         let mut guess = x.to_vec();
+        self.take_off_common_halves(&mut guess);
+        let mut support: Vec<usize> = (0..x.len()).filter(|&i| guess[i] > 0.0).collect();
         let mut mu = mu;
         for _ in 0..=x.len() {
             let point = self.at(t, mu, &guess, &support)?;
@@ -122,6 +131,16 @@ impl Branches {
         }
 
         None
+    }
+
+    /// v_T of a particle with zero reaction is the difference of its halves, of which one is 0 in a
+    /// motion.
+    fn take_off_common_halves(&self, x: &mut [f64]) {
+        for &[right, left] in &self.halves {
+            let common = x[right].min(x[left]);
+            x[right] -= common;
+            x[left] -= common;
+        }
     }
 
     /// The solution of a support at a value of t, by Newton's method from a guess.

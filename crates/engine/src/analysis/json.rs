@@ -68,13 +68,22 @@ fn coefficients(number: &Algebraic) -> Vec<String> {
 }
 
 fn mode(mode: &Mode) -> Value {
-    json!({
+    let mut value = json!({
         "lambda2": enclosure(&mode.lambda2),
         "growth_rate": mode.growth_rate,
         "slipping": mode.slipping,
         "sticking": mode.sticking,
         "v": mode.v,
-    })
+    });
+    if !mode.zero.is_empty() {
+        let zero = mode
+            .zero
+            .iter()
+            .map(|(particle, what)| json!({ "particle": particle, "mode": what.word() }));
+        value["zero"] = zero.collect();
+    }
+
+    value
 }
 
 fn sample(sample: &Sample) -> Value {
@@ -160,12 +169,17 @@ impl Analysis {
 
     fn sizes_json(&self) -> Value {
         let [dofs, free, slip, stick] = self.sizes;
-        json!({
+        let mut sizes = json!({
             "dofs": dofs,
             "free_dofs": free,
             "slip_particles": slip,
             "stick_particles": stick,
-        })
+        });
+        if self.zero > 0 {
+            sizes["zero_particles"] = self.zero.into();
+        }
+
+        sizes
     }
 
     fn divergence_json(&self) -> Value {

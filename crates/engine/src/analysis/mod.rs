@@ -17,6 +17,7 @@ mod critical;
 mod divergence;
 mod error;
 mod evidence;
+mod families;
 mod flutter;
 mod follow;
 mod json;
@@ -35,17 +36,17 @@ pub use evidence::{Evidence, Proof, ProofCertificate};
 pub use flutter::{Flutter, Onset};
 pub use json::ANALYSIS_FORMAT;
 pub use model::Options;
-pub use modes::Mode;
+pub use modes::{Mode, ZeroMode};
 pub use ranges::{Range, Sample};
 pub use sentences::Sentence;
 pub use threshold::StaticThreshold;
 
-use crate::reduction::{MuFamily, mu_family};
 use crate::run::{Progress, Watch};
 use crate::search::complete::Completed;
 use conditions::{Necessary, is_all_slip};
 use critical::{Known, Start};
 use divergence::divergence;
+use families::Families;
 use mceip_check::certificate::Claim;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::{ContactState, Problem, System};
@@ -74,14 +75,15 @@ pub fn analyse(
     };
 
     let at_friction = model.problem(Some(friction))?;
-    let family = mu_family(system)?;
+    let families = Families::of(system)?;
+    let family = &families.own;
 
     watch.report(&Progress::stage("conditions (19), (20)"));
-    let necessary = Necessary::of(&family)?;
+    let necessary = Necessary::of(families.of_condition())?;
 
     let found = model.complete("divergence at mu, all lambda^2 >= 0", &at_friction)?;
-    let divergence = divergence(system, &family, &found);
-    let sufficient = sufficient(&family, &found, divergence.verdict);
+    let divergence = divergence(system, family, &found);
+    let sufficient = sufficient(&families, &found, divergence.verdict);
     let problem_sha256 = at_friction.sha256();
     let slip = family.stiffness.slip();
     let mu = to_f64(friction);
@@ -99,7 +101,7 @@ pub fn analyse(
     ));
     let mut proofs = vec![of_lambda2, of_mu];
     let known = Known {
-        family: &family,
+        families: &families,
         necessary: &necessary,
         friction,
         problem: &at_friction,
@@ -124,7 +126,7 @@ pub fn analyse(
         watch.report(&Progress::stage(
             "flutter: eigenvalues with all particles slipping",
         ));
-        flutter::flutter(&family, friction)
+        flutter::flutter(&families, friction)
     };
 
     Ok(Analysis {
@@ -132,6 +134,7 @@ pub fn analyse(
         problem_sha256,
         friction: friction.clone(),
         sizes: sizes(system),
+        zero: families.zero.len(),
         flutter,
         divergence,
         threshold,
@@ -181,11 +184,15 @@ fn sizes(system: &System) -> [usize; 4] {
 }
 
 /// (17)-(18): is one of the solutions an all-slip one? `None` where none of those found is, and
-/// others may exist.
-fn sufficient(family: &MuFamily, found: &Completed, verdict: Verdict) -> Option<bool> {
+/// others may exist, and for particles with zero reaction, for which these conditions say nothing.
+fn sufficient(families: &Families, found: &Completed, verdict: Verdict) -> Option<bool> {
+    if !families.zero.is_empty() {
+        return None;
+    }
+
     let has_all_slip = found.cover.solutions.iter().any(|solution| {
         let biactive = claimed_biactive(found, &solution.support);
-        is_all_slip(&family.stiffness, &solution.support, &biactive)
+        is_all_slip(&families.own.stiffness, &solution.support, &biactive)
     });
 
     if has_all_slip {

@@ -8,7 +8,8 @@
 use crate::reduction::{MuFamily, mode};
 use mceip_check::AcceptedClaim;
 use mceip_exact::{Interval, to_f64};
-use mceip_model::{ContactState, System};
+use mceip_model::reduction::zero_variables;
+use mceip_model::{ContactState, System, ZeroVariables};
 use num_traits::Signed;
 
 /// A diverging solution u(t) = u0 + alpha(t) v with alpha growing like exp(lambda t). // (8)
@@ -23,9 +24,68 @@ pub struct Mode {
     pub slipping: Vec<usize>,
     /// Particles in impending slip that do not move.
     pub sticking: Vec<usize>,
+    /// What each particle with zero reaction does.
+    pub zero: Vec<(usize, ZeroMode)>,
     /// v over all degrees of freedom, in doubles; the slip rates |v_T| of the slip particles sum to
     /// one.
     pub v: Vec<f64>,
+}
+
+/// What a particle with zero reaction does (`spec/zero-reaction.md`, Z.1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ZeroMode {
+    /// It leaves the obstacle: v_N < 0.
+    Open,
+    /// It rests: v = 0.
+    Stick,
+    /// It slides along its tangent: v_N = 0 and v_T > 0.
+    Right,
+    /// It slides against its tangent: v_N = 0 and v_T < 0.
+    Left,
+}
+
+impl ZeroMode {
+    /// The word of files.
+    pub fn word(self) -> &'static str {
+        match self {
+            ZeroMode::Open => "open",
+            ZeroMode::Stick => "stick",
+            ZeroMode::Right => "right",
+            ZeroMode::Left => "left",
+        }
+    }
+
+    fn of(variables: &ZeroVariables, support: &[usize]) -> ZeroMode {
+        if support.contains(&variables.gap) {
+            ZeroMode::Open
+        } else if support.contains(&variables.right) {
+            ZeroMode::Right
+        } else if support.contains(&variables.left) {
+            ZeroMode::Left
+        } else {
+            ZeroMode::Stick
+        }
+    }
+}
+
+/// v in units of the sum of the slip rates.
+fn per_slip_rate(mut v: Vec<f64>, slip_rates: &[f64]) -> Vec<f64> {
+    let sum: f64 = slip_rates.iter().sum();
+    for component in &mut v {
+        *component /= sum;
+    }
+
+    v
+}
+
+/// The modes of the particles with zero reaction in a solution with this support.
+fn zero_modes(system: &System, support: &[usize]) -> Vec<(usize, ZeroMode)> {
+    let mut modes = Vec::new();
+    for variables in zero_variables(system) {
+        modes.push((variables.particle, ZeroMode::of(&variables, support)));
+    }
+
+    modes
 }
 
 impl Mode {
@@ -43,8 +103,15 @@ impl Mode {
             }
         }
 
-        // The variables of the slip particles come last, in the order of the particles.
-        let free_count = family.variables.len() - impending.len();
+        // The variables of the slip particles follow the free ones, in the order of the particles.
+        let free_count = family.stiffness.free().len();
+        let slip_variables = free_count..free_count + impending.len();
+        let mut v = mode(&family.variables, x, system.dofs());
+        let zero = zero_modes(system, &solution.support);
+        if !zero.is_empty() {
+            v = per_slip_rate(v, &x[slip_variables]); // e'x = 1 has the variables of `zero` in it
+        }
+
         let mut slipping = Vec::new();
         let mut sticking = Vec::new();
         for (k, particle) in impending.into_iter().enumerate() {
@@ -68,7 +135,8 @@ impl Mode {
             growth_rate,
             slipping,
             sticking,
-            v: mode(&family.variables, x, system.dofs()),
+            zero,
+            v,
         }
     }
 }

@@ -10,7 +10,7 @@ use super::critical::Obstacle;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
 use super::flutter::{Flutter, root};
-use super::modes::Mode;
+use super::modes::{Mode, ZeroMode};
 use super::ranges::Range;
 use mceip_check::OpenRegion;
 use mceip_exact::{Interval, Rational, enclosing_decimals, to_f64};
@@ -152,6 +152,22 @@ fn flutter_text(flutter: &Flutter) -> String {
     )
 }
 
+/// ", particle 3 with zero reaction opens" for each such particle.
+fn zero_text(mode: &Mode) -> String {
+    let mut text = String::new();
+    for (particle, what) in &mode.zero {
+        let does = match what {
+            ZeroMode::Open => "opens",
+            ZeroMode::Stick => "does not move",
+            ZeroMode::Right => "slides along its tangent",
+            ZeroMode::Left => "slides against its tangent",
+        };
+        text += &format!(", particle {particle} with zero reaction {does}");
+    }
+
+    text
+}
+
 impl Analysis {
     /// The sentences, most important first. Growth rates in 1/s and lambda^2 in 1/s^2 if K and M
     /// are in consistent units (N/m and kg; N/mm and t).
@@ -230,9 +246,10 @@ impl Analysis {
             "growth rate 0 (a threshold: departure linear in time)".into()
         };
 
+        let zero = zero_text(mode);
         let text = format!(
-            "Mode {number}: {growth}, lambda^2 {} 1/s^2; particles {:?} slip, {:?} do not move; v \
-             over all degrees of freedom in the JSON, slip rates summing to 1.",
+            "Mode {number}: {growth}, lambda^2 {} 1/s^2; particles {:?} slip, {:?} do not \
+             move{zero}; v over all degrees of freedom in the JSON, slip rates summing to 1.",
             between(&mode.lambda2),
             mode.slipping,
             mode.sticking
@@ -344,14 +361,15 @@ impl Analysis {
         };
 
         let stiffness = not_definite_text(&necessary.stiffness, ">=");
+        let z = if self.zero > 0 { "z" } else { "" }; // Z.4: particles with zero reaction are free
         let text = match &necessary.mass {
             Some(mass) if !necessary.mass_is_constant => format!(
-                "Necessary condition (19): K* is not positive definite {stiffness}, M* is not \
+                "Necessary condition (19{z}): K* is not positive definite {stiffness}, M* is not \
                  positive semidefinite {}; {here}.",
                 not_definite_text(mass, ">")
             ),
             _ => format!(
-                "Necessary condition (20): K* is not positive definite {stiffness}; {here}."
+                "Necessary condition (20{z}): K* is not positive definite {stiffness}; {here}."
             ),
         };
 
@@ -366,6 +384,9 @@ impl Analysis {
 
     fn say_sufficient(&self) -> Sentence {
         let text = match self.sufficient {
+            None if self.zero > 0 => {
+                "Sufficient condition (17)-(18): not defined where particles have zero reaction."
+            }
             Some(true) => {
                 "Sufficient condition (17)-(18): holds at this mu; every slip particle moves or \
                  may move."
@@ -385,6 +406,11 @@ impl Analysis {
 
     fn say_flutter(&self) -> Sentence {
         let text = match &self.flutter {
+            None if self.zero > 0 => {
+                "Flutter: not examined; particles with zero reaction make the pencil with all \
+                 particles slipping depend on the sign of v."
+                    .into()
+            }
             None => "Flutter: not examined (no all-slip eigenvalues in doubles).".into(),
             Some(flutter) if flutter.eigenvalues.is_empty() => {
                 "Flutter: the all-slip pencil at this mu has no complex lambda^2.".into()

@@ -90,6 +90,10 @@ impl Analysis {
             (Evidence::Certificate(_), false) => {
                 "All of it is proved by certificates that the checker has accepted."
             }
+            (_, false) if self.zero > 0 => {
+                "The bound from below rests on condition (19z), decided exactly, the rest on \
+                 certificates that the checker has accepted."
+            }
             (_, false) => {
                 "The bound from below rests on condition (19), decided exactly, the rest on \
                  certificates that the checker has accepted."

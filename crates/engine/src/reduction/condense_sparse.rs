@@ -10,6 +10,11 @@
 //! which is (16) with x_f eliminated. So T(t) = A(t) + mu B(t) is MCEIP-lambda2 condensed to order
 //! n_s, and A(0), B(0) are the pencil of MCEIP-mu.
 //!
+//! In general a variable x_p moves its particle along d_p and is paired with the row of d_p' w +
+//! mu e_p' w, where d_p = -S_p t_p and e_p = -c_p n_p for a slip particle: A_pq = d_p' Z d_q, B_pq =
+//! e_p' Z d_q. A particle with zero reaction has three variables (`spec/zero-reaction.md`, Z.3):
+//! d = -n, t, -t and e = 0, -c n, -c n. [`SparseCondensation::with_zero`] admits them.
+//!
 //! Input: K and M as sparse symmetric matrices, the particles with their contact states. K + t M
 //! must be positive definite on f, or [`SparseCondensation::at`] says that it is not. Output: A and
 //! B in doubles, the lift of x to all dofs, and a measurement of the error. Called by
@@ -30,27 +35,50 @@ pub struct SparseCondensation {
     stiffness: Symmetric,
     mass: Option<Symmetric>,
     analysis: Analysis,
-    slip: Vec<SlipNode>,
+    /// One for each slip particle, then three for each particle with zero reaction.
+    variables: Vec<ContactVariable>,
     /// f, ascending.
     free: Vec<usize>,
 }
 
-/// The two directions of a slip particle over its two dofs, which are kept side by side.
+/// What a variable does at its particle, over the two dofs of that, which are kept side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct SlipNode {
-    /// S_p t_p.
-    tangent: [f64; 2],
-    /// n_p times the friction factor.
-    normal: [f64; 2],
+struct ContactVariable {
+    /// The number of its particle among those kept.
+    block: usize,
+    /// d_p: the motion that belongs to x = 1.
+    column: [f64; 2],
+    /// e_p: what mu is multiplied by in its row.
+    friction: [f64; 2],
 }
 
-impl SlipNode {
-    fn new(particle: &Particle, sign: i8) -> SlipNode {
+impl ContactVariable {
+    fn of_slip(block: usize, particle: &Particle, sign: i8) -> ContactVariable {
         let tangent = on_dofs(particle, &particle.tangent());
-        SlipNode {
-            tangent: tangent.map(|c| f64::from(sign) * c),
-            normal: on_dofs(particle, &particle.friction_direction()),
+        let normal = on_dofs(particle, &particle.friction_direction());
+        ContactVariable {
+            block,
+            column: tangent.map(|c| -f64::from(sign) * c),
+            friction: normal.map(|c| -c),
         }
+    }
+
+    /// Gap, right and left.
+    fn of_zero(block: usize, particle: &Particle) -> [ContactVariable; 3] {
+        let tangent = on_dofs(particle, &particle.tangent());
+        let opening = on_dofs(particle, &particle.into_obstacle()).map(|c| -c);
+        let friction = on_dofs(particle, &particle.friction_direction()).map(|c| -c);
+        let variable = |column, friction| ContactVariable {
+            block,
+            column,
+            friction,
+        };
+
+        [
+            variable(opening, [0.0; 2]),
+            variable(tangent, friction),
+            variable(tangent.map(|c| -c), friction),
+        ]
     }
 }
 
@@ -59,9 +87,10 @@ impl SlipNode {
 struct DofRoles {
     is_free: Vec<bool>,
     held: Vec<usize>,
-    /// Two dofs for each slip particle, in the order of `slip`.
+    /// Two dofs for each particle that is kept, in the order of the blocks.
     kept: Vec<usize>,
-    slip: Vec<SlipNode>,
+    slip: Vec<ContactVariable>,
+    zero: Vec<ContactVariable>,
 }
 
 impl DofRoles {
@@ -73,6 +102,7 @@ impl DofRoles {
             held: Vec::new(),
             kept: Vec::new(),
             slip: Vec::new(),
+            zero: Vec::new(),
         };
 
         let mut claimed = BTreeSet::new();
@@ -107,7 +137,11 @@ impl DofRoles {
 
         match particle.state {
             ContactState::Free => {}
-            ContactState::Zero => return Err(CondensationError::ZeroReaction { particle: index }),
+            ContactState::Zero => {
+                let block = self.kept.len() / 2;
+                self.kept.extend(dofs);
+                self.zero.extend(ContactVariable::of_zero(block, particle));
+            }
             ContactState::Stick => self.held.extend(dofs),
             ContactState::Slip { sign } if sign.abs() != 1 => {
                 return Err(CondensationError::Sign {
@@ -116,8 +150,10 @@ impl DofRoles {
                 });
             }
             ContactState::Slip { sign } => {
+                let block = self.kept.len() / 2;
                 self.kept.extend(dofs);
-                self.slip.push(SlipNode::new(particle, sign));
+                let variable = ContactVariable::of_slip(block, particle, sign);
+                self.slip.push(variable);
             }
         }
 
@@ -163,6 +199,26 @@ impl SparseCondensation {
         particles: &[Particle],
         points: Option<&[[f64; 2]]>,
     ) -> Result<SparseCondensation, CondensationError> {
+        let is_zero = |particle: &Particle| particle.state == ContactState::Zero;
+        if let Some(particle) = particles.iter().position(is_zero) {
+            return Err(CondensationError::ZeroReaction { particle });
+        }
+
+        SparseCondensation::with_zero(stiffness, mass, particles, points)
+    }
+
+    /// The same with particles of zero reaction, whose variables come after those of the slip
+    /// particles. T then has null vectors that are no solutions, so that the result is not for what
+    /// treats all variables alike.
+    ///
+    /// # Errors
+    /// As [`SparseCondensation::new`].
+    pub fn with_zero(
+        stiffness: Symmetric,
+        mass: Option<Symmetric>,
+        particles: &[Particle],
+        points: Option<&[[f64; 2]]>,
+    ) -> Result<SparseCondensation, CondensationError> {
         let dofs = stiffness.order();
         if let Some(m) = &mass
             && m.order() != dofs
@@ -191,14 +247,14 @@ impl SparseCondensation {
             stiffness,
             mass,
             analysis,
-            slip: roles.slip,
+            variables: [roles.slip, roles.zero].concat(),
             free: (0..dofs).filter(|&dof| roles.is_free[dof]).collect(),
         })
     }
 
-    /// n_s, the number of slip particles.
+    /// n_s, the number of slip particles, or of variables where there is zero reaction.
     pub fn slip_count(&self) -> usize {
-        self.slip.len()
+        self.variables.len()
     }
 
     /// Order of K.
@@ -241,15 +297,15 @@ impl SparseCondensation {
         })
     }
 
-    /// A_pq = S_p t_p' Z t_q S_q. // (16)
+    /// A_pq = d_p' Z d_q. // (16)
     ///
     /// The lower triangle and its mirror image: A is symmetric to the last bit.
     fn tangential_block(&self, z: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let n = self.slip.len();
+        let n = self.variables.len();
         let mut a = vec![vec![0.0; n]; n];
         for p in 0..n {
             for q in 0..=p {
-                let entry = self.entry(z, &self.slip[p].tangent, p, q);
+                let entry = self.entry(z, &self.variables[p].column, p, q);
                 a[p][q] = entry;
                 a[q][p] = entry;
             }
@@ -258,28 +314,29 @@ impl SparseCondensation {
         a
     }
 
-    /// B_pq = n_p' Z t_q S_q. // (16)
+    /// B_pq = e_p' Z d_q. // (16)
     fn normal_block(&self, z: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let n = self.slip.len();
+        let n = self.variables.len();
         let mut b = vec![vec![0.0; n]; n];
         for (p, row) in b.iter_mut().enumerate() {
             for (q, entry) in row.iter_mut().enumerate() {
-                *entry = self.entry(z, &self.slip[p].normal, p, q);
+                *entry = self.entry(z, &self.variables[p].friction, p, q);
             }
         }
 
         b
     }
 
-    /// left' Z_pq t_q S_q, with Z_pq the 2 x 2 block of Z in the dofs of the particles p and q.
+    /// left' Z_pq d_q, with Z_pq the 2 x 2 block of Z in the dofs of the particles of p and q.
     fn entry(&self, z: &[Vec<f64>], left: &[f64; 2], p: usize, q: usize) -> f64 {
-        let tangent = &self.slip[q].tangent;
-        let block_times_tangent = [2 * p, 2 * p + 1].map(|row| {
+        let column = &self.variables[q].column;
+        let [p, q] = [p, q].map(|variable| self.variables[variable].block);
+        let block_times_column = [2 * p, 2 * p + 1].map(|row| {
             let first = z[row][2 * q];
             let second = z[row][2 * q + 1];
-            first * tangent[0] + second * tangent[1]
+            first * column[0] + second * column[1]
         });
-        left[0] * block_times_tangent[0] + left[1] * block_times_tangent[1]
+        left[0] * block_times_column[0] + left[1] * block_times_column[1]
     }
 }
 
@@ -298,9 +355,11 @@ impl SparseCondensed<'_> {
 
     /// v over all dofs of K for x of the slip particles: v_T = -S x, v_N = 0, f in balance. // (10)
     pub fn lift(&self, x: &[f64]) -> Vec<f64> {
-        let mut kept = Vec::with_capacity(2 * x.len());
-        for (node, x_p) in self.system.slip.iter().zip(x) {
-            kept.extend(node.tangent.map(|c| -c * x_p));
+        let mut kept = vec![0.0; self.system.analysis.kept().len()];
+        for (variable, x_p) in self.system.variables.iter().zip(x) {
+            for (i, c) in variable.column.iter().enumerate() {
+                kept[2 * variable.block + i] += c * x_p;
+            }
         }
         self.factor.extend(&kept)
     }
@@ -320,13 +379,13 @@ impl SparseCondensed<'_> {
     /// dofs to all dofs that leaves f in balance.
     pub fn slope(&self, mu: f64, x: &[f64]) -> Option<Vec<f64>> {
         let mass = self.system.mass.as_ref()?;
-        // The lift belongs to the kept dofs -S t x, so the sign is turned again below.
         let derivative = self.factor.restrict(&mass.times(&self.lift(x)));
 
         let mut slope = Vec::with_capacity(x.len());
-        for (node, z) in self.system.slip.iter().zip(derivative.chunks_exact(2)) {
-            let row = [0, 1].map(|i| node.tangent[i] + mu * node.normal[i]);
-            slope.push(-dot(&row, z));
+        for variable in &self.system.variables {
+            let row = [0, 1].map(|i| variable.column[i] + mu * variable.friction[i]);
+            let of_block = &derivative[2 * variable.block..][..2];
+            slope.push(dot(&row, of_block));
         }
 
         Some(slope)

@@ -34,7 +34,7 @@ pub use error::CondensationError;
 pub use expand::{Expansion, mode};
 pub use mceip_model::reduction::{
     Lifted, Line, LineViolated, MuFamily, Reduced, Variable, ZeroPart, check_lines, lift,
-    mu_family, reduce, reduce_with_zero,
+    mu_family, mu_family_with_zero, reduce, reduce_with_zero,
 };
 pub use project::{Projected, project};
 pub use reversed::reversed;

@@ -13,4 +13,4 @@ mod split;
 pub use eliminate::{MuFamily, Reduced, Variable, ZeroPart, mu_family, reduce};
 pub use lift::{Lifted, lift, lift_along};
 pub use lines::{Line, LineViolated, check_lines};
-pub use split::{reduce_with_zero, split_form, zero_variables};
+pub use split::{mu_family_with_zero, reduce_with_zero, split_form, zero_variables};

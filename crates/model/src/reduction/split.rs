@@ -19,7 +19,9 @@
 //!
 //! Input: a [`System`]. Called by the oracle and its tests. `check` has its own way.
 
-use super::eliminate::{Reduced, Variable, ZeroPart, inner_product, reduce, times_direction};
+use super::eliminate::{
+    MuFamily, Reduced, Variable, ZeroPart, inner_product, mu_family, reduce, times_direction,
+};
 use crate::{
     Body, ContactState, Direction, ModelError, Particle, Pencil, Problem, SplitForm, System,
     Unknown, ZeroVariables,
@@ -56,6 +58,34 @@ pub fn split_form(system: &System, unknown: Unknown) -> Result<SplitForm, ModelE
         columns: changes.columns,
         slip: changes.slip,
         zero: changes.zero,
+    })
+}
+
+/// K* and M* as functions of mu, for systems with z particles those of the split form.
+///
+/// # Errors
+/// As [`mu_family`].
+pub fn mu_family_with_zero(system: &System) -> Result<MuFamily, ModelError> {
+    if system.require_no_zero().is_ok() {
+        return mu_family(system);
+    }
+
+    let split = split_form(system, Unknown::Mu)?;
+    let mass = match system.mass() {
+        None => None,
+        Some(mass) => {
+            let changes = Changes::of(system);
+            let constant = products(&changes.rows, mass, &changes.columns);
+            let slope = products(&changes.friction, mass, &changes.columns);
+            let free = split.pencil.free().to_vec();
+            Some(Pencil::new(constant, slope, free)?)
+        }
+    };
+
+    Ok(MuFamily {
+        variables: variables(system, &split),
+        stiffness: split.pencil,
+        mass,
     })
 }
 

@@ -174,10 +174,11 @@ fn condensation(parts: &FrictionParts, center: &Rational, exponent: u32) -> Crit
     }
 }
 
-fn walk(families: [Family; 2], below: &Rational) -> BoxWalk<'_> {
+fn walk<'a>(families: [Family; 2], rows: &'a Rows, below: &'a Rational) -> BoxWalk<'a> {
     BoxWalk {
         families,
         index: vec![2, 3],
+        rows,
         below,
         tail: None,
         leaves: 0,
@@ -306,7 +307,7 @@ fn the_corners_enclose_the_schur_complement() {
         let condensation = condensation(&parts, &center, exponent);
         let expansions = condensed::of_parts(&parts, &condensation, &|| true).unwrap();
         let below = whole(2);
-        let walk = walk(expansions.map(family_of_anchors), &below);
+        let walk = walk(expansions.map(family_of_anchors), &parts.plain, &below);
 
         for anchor in [0, 1] {
             let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);

@@ -1,4 +1,4 @@
-//! Branch and prune over a box [t] x [mu] and the states of the slip variables.
+//! Branch and prune over a box [t] x [mu] and the states of the complementarity variables.
 //!
 //! At the four corners of a box T(t, mu) = T0(t) + mu T1(t) is known up to a radius, and everywhere
 //! in the box it is a convex combination of such matrices. A box holds no solution if at all four
@@ -9,10 +9,12 @@
 //! - the symmetric part of T on the variables that may be in the support is definite: then
 //!   0 = x'y = x'T x is not zero.
 //!
-//! Where neither holds, the game at the middle of the box decides what to do. If a Farkas vector
-//! works there, the box is halved in the direction in which that vector is lost; if none does, the
-//! variable whose complementarity the relaxed solution breaks most is decided. A box in which all
-//! is decided is halved until it is empty, or so small that it seems to hold a solution.
+//! While both halves of v_T of a particle with zero reaction are open, neither can hold: they are
+//! decided first. Where neither holds, the game at the middle of the box decides what to do. If a
+//! Farkas vector works there, the box is halved in the direction in which that vector is lost; if
+//! none does, the variable whose complementarity the relaxed solution breaks most is decided. A box
+//! in which all is decided is halved until it is empty, or so small that it seems to hold a
+//! solution.
 //!
 //! Input: a piece of [0, infinity) with the expansions of T0 and T1, and the upper end of mu.
 //! Output: the nodes of its tree in preorder, or the box that could not be emptied. Called by
@@ -42,7 +44,7 @@ const MAX_CUTS_DECIDED: usize = 80;
 /// How far a cut may lie from the middle: share of the interval.
 const SLACK_OF_HALF: f64 = 0.1;
 
-/// A box and the state of each slip variable.
+/// A box and the state of each complementarity variable.
 #[derive(Clone)]
 struct Region {
     /// The interval of lambda^2; `None` for infinity.
@@ -151,6 +153,10 @@ impl Search<'_> {
         }
 
         self.budget -= 1;
+        if let Some(half) = self.view.undecided_half(&region.states) {
+            return self.branch_on(half, region, ends, share);
+        }
+
         let corners = frictions.map(|mu| at_friction(ends, mu));
         if let Some(leaf) = definite_leaf(&corners, &region.states) {
             self.leaf(leaf, share);
@@ -244,12 +250,27 @@ impl Search<'_> {
         middle: &MiddleTest,
         share: f64,
     ) -> Result<(), Box<Blocked>> {
-        let position = most_violated(region, middle);
+        self.branch_on(most_violated(region, middle), region, ends, share)
+    }
+
+    /// Decides the variable at this position. One half of v_T rests where the other one moves.
+    fn branch_on(
+        &mut self,
+        position: usize,
+        region: &Region,
+        ends: &Rc<[Ends; 2]>,
+        share: f64,
+    ) -> Result<(), Box<Blocked>> {
         self.nodes
             .push(CriticalNode::Branch(self.view.index[position]));
         for state in [State::AtZero, State::InSupport] {
             let mut child = region.clone();
             child.states[position] = state;
+            if state == State::InSupport
+                && let Some(other) = self.view.other_half(position)
+            {
+                child.states[other] = State::AtZero;
+            }
             child.cuts = 0;
             self.node(&child, ends, 0.5 * share)?;
         }

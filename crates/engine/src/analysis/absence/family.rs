@@ -9,6 +9,7 @@
 //! Input: K* and M* as functions of mu, and a friction up to which a tail is to hold. Output: the
 //! pieces of [0, infinity), and for each the expansions of both parts. Called by `mod.rs`.
 
+use super::super::families::Families;
 use crate::reduction::MuFamily;
 use crate::search::complete::CompleteError;
 use crate::search::complete::leaf::tail::{definite_at, semidefinite};
@@ -21,7 +22,7 @@ use crate::search::complete::pieces::view::{View, common_row_factor, row_factor}
 use mceip_check::certificate::{CriticalAnchor, CriticalCondensation, CriticalTail};
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::Number;
-use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
 use num_traits::{One, Zero};
 
 /// Values of lambda^2 at or below this share of (lambda^2 + lowest frequency) are served by an
@@ -35,6 +36,8 @@ const PIECES: usize = 16;
 pub(super) struct Family {
     /// P0 and P1.
     pencils: [Pencil; 2],
+    /// The same of the system in which particles with zero reaction are free, if there are such.
+    tail_pencils: Option<[Pencil; 2]>,
     /// The condensation of P0, its anchors moved to `left_friction`, and the pieces.
     prepared: Prepared,
     /// Of each anchor the expansions of T0 and T1; one pair where there are no free variables.
@@ -67,19 +70,24 @@ impl Family {
     /// # Errors
     /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
     pub(super) fn new(
-        family: &MuFamily,
-        mass: &Pencil,
+        families: &Families,
         friction: &Rational,
         places: &[Place],
     ) -> Result<Family, CompleteError> {
-        let pencils = parts(&family.stiffness, mass)?;
+        let pencils = parts_of(&families.own)?;
         let [without_friction, of_friction] = &pencils;
-        let at_friction = at(&pencils, friction)?;
+        let tail_pencils = if families.zero.is_empty() {
+            None
+        } else {
+            Some(parts_of(families.of_condition())?)
+        };
+        let at_friction = at(tail_pencils.as_ref().unwrap_or(&pencils), friction)?;
 
         let body = Body::Pencil(without_friction.clone());
         let window = Window::all();
         let problem = Problem::new(body, Unknown::Lambda2, window.clone())?;
         let mut prepared = Prepared::of_family(&problem, without_friction, &at_friction, PIECES)?;
+        prepared.view.zero.clone_from(&families.zero);
 
         if prepared.is_expanded() {
             let near_zero = NEAR_ZERO * prepared.lowest_frequency;
@@ -142,6 +150,7 @@ impl Family {
         let pieces = pieces_of(&prepared);
         Ok(Family {
             pencils,
+            tail_pencils,
             prepared,
             expansions,
             left_friction,
@@ -226,8 +235,9 @@ impl Family {
 
     /// The evidence that the symmetric part is definite from a value on, at mu = 0 and at `below`.
     fn tail(&self, from: &Rational, below: &Rational) -> Option<CriticalTail> {
-        let at_zero = at(&self.pencils, &Rational::zero()).ok()?;
-        let at_below = at(&self.pencils, below).ok()?;
+        let pencils = self.tail_pencils.as_ref().unwrap_or(&self.pencils);
+        let at_zero = at(pencils, &Rational::zero()).ok()?;
+        let at_below = at(pencils, below).ok()?;
         Some(CriticalTail {
             from: Number(from.clone()),
             factor: definite_at(&at_zero, from)?,
@@ -240,11 +250,8 @@ impl Family {
 
 /// A value of lambda^2 on whose scale T changes: the lowest frequency of the free variables, or
 /// without any the ratio of K* and M*.
-pub(in crate::analysis) fn unit_of_lambda2(
-    stiffness: &Pencil,
-    mass: &Pencil,
-) -> Result<f64, CompleteError> {
-    let [constant, _] = parts(stiffness, mass)?;
+pub(in crate::analysis) fn unit_of_lambda2(family: &MuFamily) -> Result<f64, CompleteError> {
+    let [constant, _] = parts_of(family)?;
     if constant.free().is_empty() {
         return Ok(View::of(&constant).scale);
     }
@@ -257,6 +264,18 @@ pub(in crate::analysis) fn unit_of_lambda2(
     })?;
 
     Ok(blocks.lowest_frequency(&factor))
+}
+
+/// [`parts`] of a family, which must have a mass.
+fn parts_of(family: &MuFamily) -> Result<[Pencil; 2], CompleteError> {
+    match &family.mass {
+        Some(mass) => parts(&family.stiffness, mass),
+        None => Err(CompleteError::Model(ModelError::Missing {
+            equation: "E12",
+            what: "mass",
+            unknown: Unknown::Lambda2.word(),
+        })),
+    }
 }
 
 /// The pencils in t of mu = 0 and of the coefficients of mu; the second one has the free rows of

@@ -6,13 +6,15 @@
 //! | `family` | T(t, mu) = T0(t) + mu T1(t), condensed about common anchors |
 //! | `boxes` | branch and prune over boxes of (t, mu) and states |
 //!
-//! Doubles propose the cover, and nothing is returned as proved before the checker has accepted it.
-//! Input: a system and the bound. Output: `Outcome`. Called by `critical`, which chooses bounds.
+//! With particles of zero reaction T is that of the split form, and supports are those of its
+//! variables. Doubles propose the cover, and nothing is returned as proved before the checker has
+//! accepted it. Input: a system and the bound. Output: `Outcome`. Called by `critical`, which
+//! chooses bounds.
 
 mod boxes;
 mod family;
 
-use crate::reduction::MuFamily;
+use super::families::Families;
 use crate::run::{OnProgress, Progress, Watch, in_threads};
 use crate::search::complete::CompleteError;
 use crate::search::complete::shares::Shares;
@@ -23,8 +25,8 @@ pub(super) use family::{Place, unit_of_lambda2};
 use mceip_check::audit_critical;
 use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
 use mceip_exact::Rational;
+use mceip_model::Problem;
 use mceip_model::file::Number;
-use mceip_model::{Pencil, Problem};
 use rayon::prelude::*;
 
 /// How much work the cover may take.
@@ -73,9 +75,7 @@ pub(super) enum Outcome {
 /// A system whose covers are sought.
 #[derive(Clone, Copy)]
 pub(super) struct Quadrant<'a> {
-    pub(super) family: &'a MuFamily,
-    /// M* as a function of mu.
-    pub(super) mass: &'a Pencil,
+    pub(super) families: &'a Families,
     /// MCEIP-lambda2 of the system: what a certificate belongs to.
     pub(super) problem: &'a Problem,
     pub(super) limits: Limits,
@@ -105,7 +105,7 @@ impl<'a> Quadrant<'a> {
         places: &[Place],
     ) -> Result<Vec<Blocked>, CompleteError> {
         self.watch.report(&Progress::stage("condensing"));
-        let family = Family::new(self.family, self.mass, below, places)?;
+        let family = Family::new(self.families, below, places)?;
         let proposed = self.proposed(&family, below);
         Ok(proposed.err().unwrap_or_default())
     }
@@ -120,7 +120,7 @@ impl<'a> Quadrant<'a> {
         places: &[Place],
     ) -> Result<Outcome, CompleteError> {
         self.watch.report(&Progress::stage("condensing"));
-        let mut family = Family::new(self.family, self.mass, below, places)?;
+        let mut family = Family::new(self.families, below, places)?;
         for _ in 0..=CAUTIOUS_ROUNDS {
             let certificate = match self.proposed(&family, below) {
                 Ok(certificate) => certificate,
@@ -225,7 +225,6 @@ pub(super) fn leaves(certificate: &CriticalCertificate) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reduction::mu_family;
     use crate::run::Cancel;
     use mceip_check::check_critical;
     use mceip_exact::{Sparse, from_f64, rational, whole};
@@ -239,12 +238,11 @@ mod tests {
     }
 
     fn watched_cover(system: &System, below: f64, places: &[Place], watch: Watch<'_>) -> Outcome {
-        let family = mu_family(system).unwrap();
+        let families = Families::of(system).unwrap();
         let body = Body::System(system.clone());
         let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
         let quadrant = Quadrant {
-            family: &family,
-            mass: family.mass.as_ref().unwrap(),
+            families: &families,
             problem: &problem,
             limits: Limits::default(),
             threads: Some(1),
@@ -369,10 +367,9 @@ mod tests {
         let slip = ContactState::Slip { sign: 1 };
         let states = [slip, slip, ContactState::Free];
         let system = block.system(&states, Some(whole(1))).unwrap();
-        let mu_family = mu_family(&system).unwrap();
-        let mass = mu_family.mass.as_ref().unwrap();
+        let families = Families::of(&system).unwrap();
 
-        let family = Family::new(&mu_family, mass, &whole(2), &[]).unwrap();
+        let family = Family::new(&families, &whole(2), &[]).unwrap();
 
         assert!(family.pieces.len() > 1);
         let mut lo = Rational::default();

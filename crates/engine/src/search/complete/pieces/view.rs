@@ -67,7 +67,7 @@ impl View {
     }
 
     /// The position of the other half of v_T, if this one is of a particle with zero reaction.
-    fn other_half(&self, position: usize) -> Option<usize> {
+    pub(crate) fn other_half(&self, position: usize) -> Option<usize> {
         let variable = self.index[position];
         for zero in &self.zero {
             if variable == zero.right {

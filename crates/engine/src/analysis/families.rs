@@ -1,0 +1,45 @@
+//! K* and M* as functions of mu: those whose solutions are sought, and those of condition (19).
+//!
+//! Without particles of zero reaction both are (15). With such particles solutions are sought in
+//! the split form (`spec/zero-reaction.md`, Z.3), whose symmetric part is never definite, while
+//! (19z) counts these particles as free (Z.4). A tail rests on the latter as well.
+//!
+//! Input: a system. Called by [`analyse`](super::analyse), `critical` and `absence`.
+
+use crate::reduction::{MuFamily, mu_family, mu_family_with_zero};
+use mceip_model::reduction::zero_variables;
+use mceip_model::{ModelError, System, ZeroVariables};
+
+/// The families of a system.
+pub(super) struct Families {
+    /// K* and M* of all that moves: those of the split form, if there is zero reaction.
+    pub(super) own: MuFamily,
+    /// Those of the system in which particles with zero reaction are free, if there are such.
+    with_zero_free: Option<MuFamily>,
+    /// The variables of the particles with zero reaction.
+    pub(super) zero: Vec<ZeroVariables>,
+}
+
+impl Families {
+    /// # Errors
+    /// As [`mu_family`].
+    pub(super) fn of(system: &System) -> Result<Families, ModelError> {
+        let zero = zero_variables(system);
+        let with_zero_free = if zero.is_empty() {
+            None
+        } else {
+            Some(mu_family(&system.with_zero_free())?)
+        };
+
+        Ok(Families {
+            own: mu_family_with_zero(system)?,
+            with_zero_free,
+            zero,
+        })
+    }
+
+    /// The family of conditions (19), (20) and of tails.
+    pub(super) fn of_condition(&self) -> &MuFamily {
+        self.with_zero_free.as_ref().unwrap_or(&self.own)
+    }
+}
