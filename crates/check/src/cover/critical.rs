@@ -33,7 +33,9 @@ use super::region::{Matrices, Region, State};
 use super::short::Short;
 use super::walk::NodeFault;
 use super::{check_anchor, check_end, check_size, condensed, definite, farkas};
-use crate::certificate::{CriticalCertificate, CriticalNode, CriticalPiece, CriticalTail};
+use crate::certificate::{
+    CriticalCertificate, CriticalCondensation, CriticalNode, CriticalPiece, CriticalTail,
+};
 use crate::pencil::FrictionParts;
 use crate::reason::Reason;
 use mceip_exact::Rational;
@@ -64,7 +66,7 @@ pub(crate) fn check(
     let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(2));
     check_size(index.len(), expansions).map_err(of_file)?;
 
-    let families = families(parts, certificate).map_err(of_file)?;
+    let families = families(parts, condensation).map_err(of_file)?;
     let tail = condensation.and_then(|c| c.tail.as_ref());
     if let Some(tail) = tail {
         check_tail(parts, &certificate.below, tail).map_err(of_file)?;
@@ -87,13 +89,13 @@ pub(crate) fn check(
 }
 
 /// The enclosures of T0 and T1. A condensation is there exactly if there are free variables.
-fn families(
+pub(super) fn families(
     parts: &FrictionParts,
-    certificate: &CriticalCertificate,
+    condensation: Option<&CriticalCondensation>,
 ) -> Result<[Family; 2], CoverFault> {
     let has_free = parts.plain.is_free.contains(&true);
 
-    match &certificate.condensation {
+    match condensation {
         None if !has_free => {
             let own = row_bits(&parts.plain).into_iter();
             let bits: Vec<u64> = own
@@ -473,11 +475,18 @@ impl BoxWalk<'_> {
     }
 }
 
-/// The bits of an entry of an end, and those of both ends of the interval of mu.
 fn box_bits(at: &FrictionBox) -> [u64; 2] {
-    let [lower, higher] = &at.friction;
+    bits_of_box(&at.region.lo, at.region.hi.as_ref(), &at.friction)
+}
+
+/// The bits of an entry of an end, and those of both ends of the interval of mu.
+pub(super) fn bits_of_box(
+    lo: &Rational,
+    hi: Option<&Rational>,
+    [lower, higher]: &[Rational; 2],
+) -> [u64; 2] {
     [
-        FRACTION_BITS + end_bits(&at.region.lo, at.region.hi.as_ref()),
+        FRACTION_BITS + end_bits(lo, hi),
         rational_bits(lower) + rational_bits(higher),
     ]
 }
@@ -490,7 +499,7 @@ fn four_corners(ends: &[Ends; 2]) -> [Corner<'_>; 4] {
     [a, b, c, d]
 }
 
-fn of_file(fault: CoverFault) -> Reason {
+pub(super) fn of_file(fault: CoverFault) -> Reason {
     Reason::Boxes {
         piece: None,
         node: None,
@@ -498,7 +507,7 @@ fn of_file(fault: CoverFault) -> Reason {
     }
 }
 
-fn of_piece(piece: usize, fault: CoverFault) -> Reason {
+pub(super) fn of_piece(piece: usize, fault: CoverFault) -> Reason {
     Reason::Boxes {
         piece: Some(piece),
         node: None,
