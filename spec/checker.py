@@ -1904,6 +1904,7 @@ class Box:
     def __init__(self, p, obj):
         support, pivot, inverse, ey, left, right, ex = fields(
             obj, "support pivot inverse inverse_exponent left right exponent", "anchor to interval")[:7]
+        support, pivot, ey, ex = [counter(i) for i in support], counter(pivot), counter(ey), counter(ex)
         demand(all(i < j for i, j in zip(support, support[1:])) and set(support) <= set(p.s), "presence: support")
         demand(pivot in support, "presence: pivot")
         self.k = p.s.index(pivot)
@@ -1987,8 +1988,8 @@ def check_presence(p, doc):
     for k, piece in enumerate(pieces):
         high, (t0, t1), anchor = number(piece["to"]), map(number, piece["interval"]), piece.get("anchor")
         demand(high > low and (high == stop if k == len(pieces) - 1 else high < stop), "a piece's to")
-        if anchor is not None and p.free:
-            place_in(anchor, len(obj["anchors"]))
+        if anchor is not None:
+            anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
         demand(0 <= t0 < t1, "presence: interval")
         box = Box(p, piece)
 
