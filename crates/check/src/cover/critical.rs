@@ -41,7 +41,7 @@ use crate::reason::Reason;
 use mceip_exact::Rational;
 use mceip_model::Window;
 use num_traits::Zero;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 /// The corners of a box, as messages name them: first those at the lower friction.
@@ -53,11 +53,12 @@ const CORNERS: [[&str; 2]; 2] = [
 /// Checks that the boxes cover everything and that each holds no solution. Returns the number of
 /// leaves.
 ///
-/// With a list `refused`, a leaf that fails is passed over and noted there (piece, node).
+/// With an audit, leaves that fail are passed over, and what is returned means nothing if the audit
+/// was stopped.
 pub(crate) fn check(
     parts: &FrictionParts,
     certificate: &CriticalCertificate,
-    refused: Option<&mut Vec<(usize, usize)>>,
+    audit: Option<&Audit<'_>>,
 ) -> Result<usize, Reason> {
     let is_free = &parts.plain.is_free;
     let index: Vec<usize> = (0..is_free.len()).filter(|&i| !is_free[i]).collect();
@@ -66,7 +67,11 @@ pub(crate) fn check(
     let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(2));
     check_size(index.len(), expansions).map_err(of_file)?;
 
-    let families = families(parts, condensation).map_err(of_file)?;
+    let families = families(parts, condensation, audit).map_err(of_file)?;
+    if has_stopped(audit) {
+        return Ok(0);
+    }
+
     let tail = condensation.and_then(|c| c.tail.as_ref());
     if let Some(tail) = tail {
         check_tail(parts, &certificate.below, tail).map_err(of_file)?;
@@ -81,17 +86,58 @@ pub(crate) fn check(
         leaves: 0,
         definite_budget: WorkBudget::of_definite_leaves([&parts.plain, &parts.friction], nodes),
         matrix_budget: WorkBudget::of_matrices(nodes),
-        refused,
+        audit,
     };
     check_pieces(&mut walk, &certificate.pieces)?;
 
     Ok(walk.leaves)
 }
 
-/// The enclosures of T0 and T1. A condensation is there exactly if there are free variables.
+/// An examination that passes over the leaves that fail and may be stopped.
+pub(crate) struct Audit<'a> {
+    /// Asked before each anchor and each node: false stops the examination.
+    go_on: &'a dyn Fn() -> bool,
+    has_stopped: Cell<bool>,
+    /// The leaves that fail: piece, node.
+    refused: RefCell<Vec<(usize, usize)>>,
+}
+
+impl<'a> Audit<'a> {
+    pub(crate) fn new(go_on: &'a dyn Fn() -> bool) -> Audit<'a> {
+        Audit {
+            go_on,
+            has_stopped: Cell::new(false),
+            refused: RefCell::default(),
+        }
+    }
+
+    /// The leaves that fail; `None` if the audit was stopped.
+    pub(crate) fn into_refused(self) -> Option<Vec<(usize, usize)>> {
+        let is_complete = !self.has_stopped.get();
+        is_complete.then(|| self.refused.into_inner())
+    }
+
+    /// Asks whether to go on, unless the answer was no.
+    fn stops(&self) -> bool {
+        if !self.has_stopped.get() {
+            self.has_stopped.set(!(self.go_on)());
+        }
+
+        self.has_stopped.get()
+    }
+}
+
+/// Asks an audit whether to go on. A check that is none is never stopped.
+fn has_stopped(audit: Option<&Audit<'_>>) -> bool {
+    audit.is_some_and(Audit::stops)
+}
+
+/// The enclosures of T0 and T1. A condensation is there exactly if there are free variables. Where
+/// the audit is stopped, anchors are missing.
 pub(super) fn families(
     parts: &FrictionParts,
     condensation: Option<&CriticalCondensation>,
+    audit: Option<&Audit<'_>>,
 ) -> Result<[Family; 2], CoverFault> {
     let has_free = parts.plain.is_free.contains(&true);
 
@@ -106,7 +152,8 @@ pub(super) fn families(
             Ok([linear(&parts.plain), linear(&parts.friction)])
         }
         Some(condensation) if has_free => {
-            let expansions = condensed::of_parts(parts, condensation)?;
+            let go_on = || !has_stopped(audit);
+            let expansions = condensed::of_parts(parts, condensation, &go_on)?;
             Ok(expansions.map(family_of_anchors))
         }
         _ => Err(CoverFault::Condensation { expected: has_free }),
@@ -252,8 +299,8 @@ struct BoxWalk<'a> {
     leaves: usize,
     definite_budget: WorkBudget,
     matrix_budget: WorkBudget,
-    /// Where leaves that fail are noted (piece, node), if they are to be passed over.
-    refused: Option<&'a mut Vec<(usize, usize)>>,
+    /// Notes the leaves that fail, if they are to be passed over.
+    audit: Option<&'a Audit<'a>>,
 }
 
 impl BoxWalk<'_> {
@@ -278,6 +325,10 @@ impl BoxWalk<'_> {
         }];
 
         for (k, node) in piece.tree.iter().enumerate() {
+            if has_stopped(self.audit) {
+                return Ok(());
+            }
+
             let at_node = |fault| NodeFault { node: k, fault };
             let at = stack.pop().ok_or(at_node(CoverFault::Trailing))?;
 
@@ -314,13 +365,13 @@ impl BoxWalk<'_> {
 
     /// Passes on the verdict on a leaf, or notes where one fails.
     fn settle(
-        &mut self,
+        &self,
         verdict: Result<(), CoverFault>,
         place: (usize, usize),
     ) -> Result<(), CoverFault> {
-        match (&verdict, self.refused.as_mut()) {
-            (Err(_), Some(refused)) => {
-                refused.push(place);
+        match (&verdict, self.audit) {
+            (Err(_), Some(audit)) => {
+                audit.refused.borrow_mut().push(place);
                 Ok(())
             }
             _ => verdict,

@@ -21,6 +21,10 @@ use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 
+/// Most products of machine words that the vectors of the remainders over an interval may take for
+/// short numbers to be tried. Longer numbers are left to the long matrices, whose work is counted.
+const MAX_VECTOR_WORK: u64 = 1 << 24;
+
 /// T(t) over the window.
 pub(super) enum Family {
     /// A + tB.
@@ -161,6 +165,12 @@ impl Family {
             Family::Linear(linear) => Short::linear_ends(linear.short.as_ref()?, lo, hi),
             Family::Condensed(list) => {
                 let AnchorExpansion { expanded, short } = list.get(anchor?)?;
+                let order = expanded.weight.len().max(1) as u64;
+                let vector_work = self.matrix_work(anchor, lo, hi) / order;
+                if vector_work > MAX_VECTOR_WORK {
+                    return None;
+                }
+
                 short.as_ref()?.ends(expanded, lo, hi)
             }
         }
@@ -551,6 +561,33 @@ mod tests {
 
         let with = expansion(2, 61).matrix_work(Some(0), &whole(1), None);
         assert_eq!(with, 4 * 4 * (1 + 4));
+    }
+
+    /// Long ends are left to long matrices, whose work is counted: with E words for the end 2^k the
+    /// vectors take 2 E (1 + E) products.
+    #[test]
+    fn long_ends_have_no_short_numbers() {
+        let mut expanded = expansion(2, 0);
+        if let Family::Condensed(anchors) = &mut expanded {
+            let anchor = &mut anchors[0];
+            let none = || vec![vec![Integer::zero(); 2]];
+            anchor.expanded.z = vec![vec![vec![Integer::one(); 2]; 2]; 2];
+            anchor.expanded.left = none();
+            anchor.expanded.right = none();
+            anchor.expanded.v = none();
+            anchor.expanded.rounding = none();
+            anchor.short = ShortForm::of(&anchor.expanded);
+        }
+
+        // 2895 words are the most: 128 + 2 + 1 bits and those of the ends, of which 1 has two.
+        let two_to = |k: u64| Rational::from_integer(Integer::one() << k);
+        let words_of = |k: u64| words(FRACTION_BITS + end_bits(&whole(1), Some(&two_to(k))) + 1);
+        let most = 64 * 2895 - 134;
+        assert_eq!([words_of(most), words_of(most + 1)], [2895, 2896]);
+
+        let short = |k: u64| expanded.short(Some(0), &whole(1), Some(&two_to(k)));
+        assert!(short(most).is_some());
+        assert!(short(most + 1).is_none());
     }
 
     /// The short numbers are there for ordinary matrices, or every leaf would be computed with long

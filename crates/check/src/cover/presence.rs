@@ -52,7 +52,7 @@ pub(crate) fn check(
     check_size(slip.len(), expansions).map_err(of_file)?;
 
     let boxes = Boxes {
-        families: families(parts, condensation).map_err(of_file)?,
+        families: families(parts, condensation, None).map_err(of_file)?,
         slip,
         matrix_budget: WorkBudget::of_matrices(certificate.pieces.len() as u64),
     };

@@ -100,6 +100,15 @@ impl Short {
         Some(())
     }
 
+    /// Zero within so many units of 1, for every entry.
+    pub(super) fn around_zero(order: usize, radius: i64) -> Short {
+        Short {
+            m: vec![vec![0; order]; order],
+            r: vec![vec![radius; order]; order],
+            unit: 0,
+        }
+    }
+
     /// M / divisor in the fixed unit, for a positive divisor.
     ///
     /// The quotients are formed in units so small that the largest one has at least 62 bits, and
@@ -431,6 +440,96 @@ mod tests {
             }
             assert_eq!(short.r[1][0], 0);
         }
+    }
+
+    /// 1 + 1 / divisor is 1 in the units of the quotients, and all that is left of the rest is its
+    /// radius.
+    #[test]
+    fn a_quotient_that_is_not_exact_has_a_radius() {
+        let divisor = (Integer::one() << 80u32) - 1;
+        for sign in [1, -1] {
+            let short = Short::quotient(&vec![vec![(&divisor + 1) * sign]], &divisor).unwrap();
+            let exact = Rational::new((&divisor + 1) << FRACTION_BITS, divisor.clone());
+
+            let [center, radius] = short.entry(0, 0);
+            let distance = (exact * whole(sign) - center).abs();
+            assert!(distance.is_positive() && distance <= radius);
+        }
+
+        let short = Short::quotient(&vec![vec![divisor.clone()]], &divisor).unwrap();
+        assert_eq!(short.r, [[0]]);
+    }
+
+    /// In units of 2^(1 - 62): the largest value is less than 2^1.
+    #[test]
+    fn upper_bounds_are_rounded_up() {
+        let (bounds, unit) =
+            upper_bounds(&[whole(1), rational(1, 3), whole(0), rational(1, 1 << 62)]).unwrap();
+        let third = (1i128 << 61) / 3 + 1;
+        assert_eq!((bounds, unit), (vec![1 << 61, third, 0, 1], -61));
+
+        // 2^62 - 1/2 is less than 2^62 and becomes that.
+        let (bounds, _) = upper_bounds(&[whole(1 << 62) - rational(1, 2)]).unwrap();
+        assert_eq!(bounds, [1 << 62]);
+    }
+
+    /// The largest entries, radii and factors, of both signs: enclosed, or refused, never wrong.
+    #[test]
+    fn the_largest_numbers_do_not_overflow() {
+        let limit = 1i64 << BITS;
+        let of = |m: i64, r: i64| Short {
+            m: vec![vec![m]],
+            r: vec![vec![r]],
+            unit: 0,
+        };
+        let long = |bits: u32| Rational::from_integer(Integer::one() << bits);
+        let factors = [
+            long(62) - rational(1, 3),
+            -long(62),
+            rational(1, 3) - long(62),
+        ];
+        let mut enclosed = 0;
+
+        for (p, q) in factors
+            .iter()
+            .flat_map(|p| factors.iter().map(move |q| (p, q)))
+        {
+            for (a, b) in [(limit, limit), (-limit, limit), (-limit, -limit)] {
+                for r in [0, 1, limit / 2, limit] {
+                    let Some(short) = of(a, r).combine(p, &of(b, r), q) else {
+                        assert!(r == limit, "{p} {q} {a} {b} {r}");
+                        continue;
+                    };
+
+                    let middle = p * whole(a) + q * whole(b);
+                    let reach = (p.abs() + q.abs()) * whole(r);
+                    let [center, radius] = short.entry(0, 0);
+                    assert!(
+                        (middle - center).abs() + reach <= radius,
+                        "{p} {q} {a} {b} {r}"
+                    );
+                    enclosed += 1;
+                }
+            }
+        }
+
+        assert!(enclosed >= 81);
+    }
+
+    /// Zero times anything, as the sum with a multiple by 0 has it, costs nothing.
+    #[test]
+    fn sums_of_exact_numbers_are_exact() {
+        let three = Short::around_zero(1, 3);
+        let [center, radius] = three.entry(0, 0);
+        assert_eq!([center, radius], [whole(0), whole(3)]);
+
+        let exact = Short {
+            m: vec![vec![-5]],
+            r: vec![vec![0]],
+            unit: -3,
+        };
+        let sum = exact.plus_multiple(&exact, &whole(-7)).unwrap();
+        assert_eq!(sum.entry(0, 0), [rational(30, 8), whole(0)]);
     }
 
     /// Never below the product, and above it by 2^-58 of the largest at most.

@@ -133,7 +133,7 @@ fn left(rows: &Rows, t: &Rational) -> Dense {
     solve(&f, &transposed)
 }
 
-/// Constants at the centre, and one anchor for 1/t with nothing at all.
+/// Constants at the center, and one anchor for 1/t with nothing at all.
 fn condensation(parts: &FrictionParts, center: &Rational, exponent: u32) -> CriticalCondensation {
     let plain = &parts.plain;
     let right = solve(
@@ -183,7 +183,7 @@ fn walk(families: [Family; 2], below: &Rational) -> BoxWalk<'_> {
         leaves: 0,
         definite_budget: WorkBudget::definite_leaves(1 << 30),
         matrix_budget: WorkBudget::matrices(1 << 30),
-        refused: None,
+        audit: None,
     }
 }
 
@@ -228,6 +228,16 @@ fn short_corners(corners: &[Short; 4]) -> [Enclosure; 4] {
                 .collect()
         })
     })
+}
+
+/// Demands that the first corners hold every matrix within the radius of the others.
+fn assert_hold(wide: &[Enclosure; 4], narrow: &[Enclosure; 4]) {
+    for (wide, narrow) in wide.iter().zip(narrow) {
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let distance = (&wide[0][i][j] - &narrow[0][i][j]).abs();
+            assert!(distance + &narrow[1][i][j] <= wide[1][i][j], "({i}, {j})");
+        }
+    }
 }
 
 /// Demands that T(t, mu), scaled, lies within the combination of the corners with these shares of
@@ -291,10 +301,10 @@ fn the_corners_enclose_the_schur_complement() {
     let (low, high) = (rational(2, 11), rational(5, 3));
     let shares = [0, 1, 3, 5, 8].map(|k| rational(k, 8));
 
-    // Rounded well and hardly, and far from the centre.
+    // Rounded well and hardly, and far from the center.
     for (center, exponent) in [(rational(4, 5), 40), (rational(4, 5), 2), (whole(7), 30)] {
         let condensation = condensation(&parts, &center, exponent);
-        let expansions = condensed::of_parts(&parts, &condensation).unwrap();
+        let expansions = condensed::of_parts(&parts, &condensation, &|| true).unwrap();
         let below = whole(2);
         let walk = walk(expansions.map(family_of_anchors), &below);
 
@@ -302,6 +312,7 @@ fn the_corners_enclose_the_schur_complement() {
             let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);
             let long = long_corners(&walk.corners(&at, Some(anchor)).unwrap());
             let short = short_corners(&walk.short(&at, Some(anchor)).unwrap());
+            assert_hold(&short, &long);
             let is_reversed = anchor == 1;
             let units = row_units(
                 &parts,

@@ -13,14 +13,20 @@
 //! ```
 //!
 //! in matrices with radii of their own for what rounding has cost (`short`). Vectors are computed
-//! in long integers. So the enclosure is that of `expanded` but for about 2^-58 of the largest
-//! entry, and leaves that it does not prove are decided by the long one. Called by `family`.
+//! in long integers. Every entry holds the one of `expanded` with its radius, and is wider by about
+//! 2^-58 of the largest entry: what is proved of these ends is proved of those of `expanded`, and
+//! leaves that they do not prove are decided by the long ones. Called by `family`.
 
 use super::Expanded;
 use crate::cover::ends::FRACTION_BITS;
 use crate::cover::short::Short;
 use mceip_exact::{Integer, Rational};
 use num_traits::Signed;
+
+/// A long end is rounded down to a unit of 2^-128, its radius rounded up and enlarged by a unit for
+/// that: one unit of Z(d), two of a chord, two of the remainders and one for their sum. So long ends
+/// are wider by less than this than the numbers before rounding, which short ones enclose.
+pub(super) const LONG_ROUNDING: i64 = 6;
 
 /// The short numbers of an expansion, in the fixed unit.
 pub(in crate::cover) enum ShortForm {
@@ -67,7 +73,12 @@ impl ShortPolynomial {
         let mut bend = Vec::with_capacity(expanded.z.len());
 
         for (k, z_k) in expanded.z.iter().enumerate() {
-            let value = Short::quotient(z_k, &expanded.unit)?;
+            let mut value = Short::quotient(z_k, &expanded.unit)?;
+            if k == 0 {
+                let rounding = Short::around_zero(z_k.len(), LONG_ROUNDING);
+                value = value.plus(&rounding)?;
+            }
+
             if k >= 2 {
                 let falling = Rational::from_integer(Integer::from(k * (k - 1)));
                 bend.push(value.within_multiple(&falling)?);

@@ -392,6 +392,71 @@ fn the_short_form_of_a_polynomial_encloses_it_closely() {
     }
 }
 
+/// Dyadic numbers, so that short numbers cut nothing off, and no remainder.
+fn exact() -> Expanded {
+    let none = || vec![int(&[0, 0])];
+    Expanded {
+        center: whole(0),
+        z: vec![square([[3, 0], [-1, 2]]), square([[5, -7], [0, 9]])],
+        unit: 4.into(),
+        left: none(),
+        right: none(),
+        v: none(),
+        rounding: none(),
+        ..linear()
+    }
+}
+
+/// Demands that each short end holds every matrix within the radius of the long one, so that
+/// whatever is proved of the short ends is proved of the long ones.
+fn assert_holds_long_ends(e: &Expanded, lo: &Rational, hi: Option<&Rational>) {
+    let long = e.ends(lo, hi).unwrap();
+    let short = ShortForm::of(e).unwrap().ends(e, lo, hi).unwrap();
+    let in_fixed_unit = |v: &Integer| Rational::new(v << FRACTION_BITS, long.scale.clone());
+
+    for end in [0, 1] {
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let [center, radius] = short[end].entry(i, j);
+            let distance = (in_fixed_unit(&long.m[end][i][j]) - center).abs();
+            let reach = distance + in_fixed_unit(&long.r[end][i][j]);
+            assert!(reach <= radius, "end {end}, entry ({i}, {j}), lo {lo}");
+        }
+    }
+}
+
+#[test]
+fn short_ends_hold_the_long_ones() {
+    let constant = || Expanded {
+        z: vec![square([[3, 0], [-1, 2]]), square([[0, 0], [0, 0]])],
+        ..exact()
+    };
+    let reversed = |e: Expanded| Expanded {
+        reversed: true,
+        ..e
+    };
+    let off_center = || Expanded {
+        center: rational(1, 2),
+        ..exact()
+    };
+
+    for (lo, hi) in [
+        (rational(1, 4), rational(1, 2)),
+        (whole(1), whole(8)),
+        (rational(1, 7), rational(5, 3)),
+    ] {
+        for e in [bent(), linear(), in_t(), exact(), constant(), off_center()] {
+            assert_holds_long_ends(&e, &lo, Some(&hi));
+            let e = reversed(e);
+            assert_holds_long_ends(&e, &lo, Some(&hi));
+            assert_holds_long_ends(&e, &lo, None);
+        }
+
+        for e in [in_t(), exact()] {
+            assert_holds_long_ends(&e, &lo, None);
+        }
+    }
+}
+
 /// A half line needs a direction; of a reversed expansion it is an interval.
 #[test]
 fn a_polynomial_has_no_short_form_at_infinity() {
@@ -407,7 +472,7 @@ fn a_polynomial_has_no_short_form_at_infinity() {
 }
 
 #[test]
-fn what_is_not_linear_or_has_another_centre_has_no_short_form() {
+fn what_is_not_linear_or_has_another_center_has_no_short_form() {
     let of = |change: fn(&mut Expanded)| {
         let mut e = in_t();
         change(&mut e);
