@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A second checker of mceip-certificate/1 and mceip-critical/1, written from the pages of spec/ alone (no line of the Rust program was read).
+"""A second checker of mceip-certificate/1, mceip-critical/1 and mceip-presence/1, written from the pages of spec/ alone (no line of the Rust program was read).
 
     python3 spec/checker.py PROBLEM CERTIFICATE
 
@@ -1905,6 +1905,131 @@ def check_critical(p, doc):
     return 0, f"ACCEPTED: no solution for friction in [0, {below}] and lambda2 in [0, infinity), {leaves} leaves"
 
 
+# ---------------------------------------------------------------- presence on an interval of friction
+
+PRESENCE_PIECE = record(
+    to=number, interval=list_of(number, 2), anchor=Maybe(place), support=list_of(place), pivot=place, inverse=list_of(list_of(integer)),
+    inverse_exponent=exponent, left=list_of(integer), right=list_of(integer), exponent=exponent)
+PRESENCE = record(**{
+    "format": text_of, "problem_sha256": text_of, "from": number, "to": number, "condensation": Maybe(record(
+        sigma=number, stiffness_factor=FACTOR, mass_sigma=number, mass_factor=Maybe(FACTOR), anchors=list_of(CRITICAL_ANCHOR))),
+    "pieces": list_of(PRESENCE_PIECE)})
+
+
+class Box:
+    """A piece [t0, t1] x [low, high] of mceip-presence/1, the obligations 3 to 7 of a piece (C)."""
+
+    def __init__(self, p, obj):
+        support, pivot, inverse, ey, left, right, ex = fields(
+            obj, "support pivot inverse inverse_exponent left right exponent", "anchor to interval")[:7]
+        support, pivot, ey, ex = [counter(i) for i in support], counter(pivot), counter(ey), counter(ex)
+        demand(all(i < j for i, j in zip(support, support[1:])) and set(support) <= set(p.s), "presence: support")
+        demand(pivot in support, "presence: pivot")
+        self.k = p.s.index(pivot)
+        self.others = [p.s.index(i) for i in support if i != pivot]
+        self.rest = [j for j, i in enumerate(p.s) if i not in support]
+        m = len(self.others)
+        demand(len(inverse) == len(left) == len(right) == m and all(len(r) == m for r in inverse), "presence: lengths")
+        demand(max(ex, ey) <= 16_384, "presence: exponents")
+        self.y = [[Q(integer(v), 2**ey) for v in r] for r in inverse]
+        u, v = ([Q(integer(x), 2**ex) for x in vector] for vector in (left, right))
+        self.u, self.v = dict(zip(self.others, u)) | {self.k: Q(1)}, dict(zip(self.others, v)) | {self.k: Q(1)}
+
+    def around(self, ends, e):
+        """M_c and R_c on the rows and columns that matter, as fractions."""
+        def part(m):
+            return {(i, j): Q(m[i][j], ends.unit) for i in [*self.v, *self.rest] for j in self.v}
+        return tuple(map(part, ends.both[e]))
+
+    def margins(self, corners):
+        """v_i less the largest e_i(c)."""
+        d = []
+        for i, row in zip(self.others, self.y):
+            e = Q(0)
+            for m, r in corners:
+                total = Q(0)
+                for j in self.others:
+                    product = sum((y * m[a, j] for y, a in zip(row, self.others)), Q(0))
+                    total += (abs((i == j) - product) + sum(abs(y) * r[a, j] for y, a in zip(row, self.others))) * self.v[j]
+                e = max(e, total)
+            d.append(self.v[i] - e)
+        demand(all(x > 0 for x in d), "presence 4: the inverse")
+        return d
+
+    def theta(self, corner, d):
+        m, r = corner
+        q = [sum(m[i, j] * x for j, x in self.v.items()) for i in self.others]
+        s = [sum(r[i, j] * abs(x) for j, x in self.v.items()) for i in self.others]
+        return max(((abs(dot(row, q)) + dot([abs(y) for y in row], s)) / x for row, x in zip(self.y, d)), default=Q(0))
+
+    def resting(self, corners, theta):
+        for i in self.rest:
+            for m, r in corners:
+                low = sum(m[i, j] * x - r[i, j] * x for j, x in self.v.items())
+                demand(low >= theta * sum((abs(m[i, j]) + r[i, j]) * self.v[j] for j in self.others), f"presence 6: row {i}")
+
+    def edge(self, both, d):
+        """The sign of phi on an edge, 0 if it has none."""
+        h, g, p, theta = [], [], [], []
+        for m, r in both:
+            pairs = [(i, j, x * w, abs(x) * w) for i, x in self.u.items() for j, w in self.v.items()]
+            h.append(sum(m[i, j] * f for i, j, f, _ in pairs))
+            g.append(sum(r[i, j] * f for i, j, _, f in pairs))
+            p.append(sum((abs(sum(x * m[i, j] for i, x in self.u.items())) + sum(abs(x) * r[i, j] for i, x in self.u.items())) * self.v[j]
+                         for j in self.others))
+            theta.append(self.theta((m, r), d))
+        for s in (1, -1):
+            lower = [s * a - b for a, b in zip(h, g)]
+            if lower[0] > p[0] * theta[0] and lower[1] > p[1] * theta[1] and sum(lower) > p[0] * theta[1] + p[1] * theta[0]:
+                return s
+        return 0
+
+
+def check_presence(p, doc):
+    """For every mu in [from, to] a solution with lambda^2 >= 0."""
+    PRESENCE(doc)
+    _, digest, start, stop, pieces, obj = fields(doc, "format problem_sha256 from to pieces", "condensation")
+    start, stop = number(start), number(stop)
+    demand(digest == p.digest, f"the problem's digest is {p.digest}")
+    demand(p.system is not None and p.unknown == "lambda2", "a mechanical system with the unknown lambda2 was expected")
+    demand(not p.halves, "presence on an interval of friction is not defined for zero reaction")
+    demand(0 <= start < stop, "from and to")
+    ns = len(p.s)
+    demand(ns <= 512, "more than 512 slip variables")
+    demand(obj is None or 2 * len(obj["anchors"]) * ns**2 <= 3 << 20, "too many anchors for matrices of this order")
+    demand((obj is not None) == bool(p.free), "condensation is present exactly if there are free variables")
+    parts, integral = friction_parts(p)
+    pencils, _ = critical_pencils(p, parts, integral, obj, stop)
+    Budget.matrices = (1 << 30) + (len(pieces) << 24)
+    demand(pieces, "no piece")
+    low = start
+    for k, piece in enumerate(pieces):
+        high, (t0, t1), anchor = number(piece["to"]), map(number, piece["interval"]), piece.get("anchor")
+        demand(high > low and (high == stop if k == len(pieces) - 1 else high < stop), "a piece's to")
+        if anchor is not None:
+            anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
+        demand(0 <= t0 < t1, "presence: interval")
+        box = Box(p, piece)
+
+        def ends(lo, hi):
+            """The matrices of [lo, hi] at both ends of [low, high]."""
+            both = [pencil.ends(lo, hi, anchor) for pencil in pencils]
+            t_bits, mu_bits = BITS + rational_bits(lo) + rational_bits(hi), rational_bits(low) + rational_bits(high)
+            demand(ns * ns * (t_bits + mu_bits) <= 2**29, "a box's matrices are too large")
+            Budget.matrices -= ns * ns * words(t_bits) * words(mu_bits)
+            demand(Budget.matrices >= 0, "matrices of boxes: more work than the file's budget")
+            return [at_friction(both, mu) for mu in (low, high)]
+        corners = [box.around(x, e) for x in ends(t0, t1) for e in (0, 1)]
+        d = box.margins(corners)
+        theta = max(box.theta(c, d) for c in corners)
+        demand(theta < 1, "presence 5: x > 0")
+        box.resting(corners, theta)
+        signs = [box.edge([box.around(x, 0) for x in ends(t, t)], d) for t in (t0, t1)]
+        demand(signs[0] * signs[1] == -1, "presence 7: no change of sign")
+        low = high
+    return 0, f"ACCEPTED: a solution for every friction in [{start}, {stop}] and some lambda2 >= 0, {len(pieces)} pieces"
+
+
 # ---------------------------------------------------------------- plain LCPs and MCPs
 
 def read_mcp(doc):
@@ -1963,6 +2088,8 @@ def check(problem_path, certificate_path):
     doc = read_json(certificate_path)
     if isinstance(doc, dict) and doc.get("format") == "mceip-critical/1":
         return check_critical(p, doc)
+    if isinstance(doc, dict) and doc.get("format") == "mceip-presence/1":
+        return check_presence(p, doc)
     if not isinstance(doc, dict) or doc.get("format") != "mceip-certificate/1":
         raise Unreadable("format: mceip-certificate/1 was expected")
     CERTIFICATE(doc)

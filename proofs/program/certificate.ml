@@ -353,4 +353,5 @@ let read path =
   match format with
   | Some (String "mceip-certificate/1") -> Complete (read_complete document)
   | Some (String "mceip-critical/1") -> Critical (read_critical document)
+  | Some (String "mceip-presence/1") -> Problem.not_verified "presence on an interval of friction"
   | _ -> malformed "format: mceip-certificate/1 or mceip-critical/1 was expected"

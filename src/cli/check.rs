@@ -1,7 +1,7 @@
 //! `mceip check`: a certificate or somebody's solutions against a problem, one verdict.
 //!
-//! The formats of the files decide what is done. A certificate, of solutions and complete sets or
-//! of absence below a friction, goes to the checker, which accepts or rejects it. Somebody's
+//! The formats of the files decide what is done. A certificate, of solutions and complete sets, of
+//! absence below a friction or of presence in an interval of friction, goes to the checker, which accepts or rejects it. Somebody's
 //! solutions are certified and checked one by one, or refuted ([`foreign`]). A solution file of a
 //! plain LCP or MCP is evaluated exactly ([`plain`]).
 
@@ -10,10 +10,12 @@ pub(super) mod plain;
 use super::common::{CliError, exit, load, parse_window, print, text};
 use super::complete::solutions_text;
 use mceip_check::certificate::{
-    CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate,
+    CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, PRESENCE_FORMAT,
+    PresenceCertificate,
 };
 use mceip_check::{
-    Accepted, AcceptedAbsence, AcceptedClaim, AcceptedCover, Place, check, check_critical,
+    Accepted, AcceptedAbsence, AcceptedClaim, AcceptedCover, AcceptedPresence, Place, check,
+    check_critical, check_presence,
 };
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, Verdict, judge};
@@ -30,9 +32,9 @@ use std::path::{Path, PathBuf};
 pub(super) struct Args {
     /// Problem file (mceip-problem/1), or a plain LCP or MCP (mceip-mcp/1).
     file: PathBuf,
-    /// Certificate (mceip-certificate/1, mceip-critical/1), or somebody's solutions
-    /// (mceip-solutions/1): each of those is certified and checked, or refuted. Of a plain problem:
-    /// its solution file (mceip-mcp-solution/1).
+    /// Certificate (mceip-certificate/1, mceip-critical/1, mceip-presence/1), or somebody's
+    /// solutions (mceip-solutions/1): each of those is certified and checked, or refuted. Of a
+    /// plain problem: its solution file (mceip-mcp-solution/1).
     certificate: PathBuf,
     /// Demand a certificate whose window covers the closed window a,b (b empty or inf: no upper
     /// end); one that does not is rejected.
@@ -75,6 +77,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         return critical(args, &problem, &source);
     }
 
+    if require_format(&source, PRESENCE_FORMAT).is_ok() {
+        refuse_window(args, PRESENCE_FORMAT)?;
+        refuse_tolerance(args, PRESENCE_FORMAT)?;
+        return presence(args, &problem, &source);
+    }
+
     refuse_tolerance(args, CERTIFICATE_FORMAT)?;
     let read = Certificate::from_json(&source);
     let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
@@ -99,6 +107,28 @@ fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
             let evidence = format!("lambda2, problem {digest}, {leaves} leaves accepted");
             let window = format!("friction in [0, {below}], lambda2 in [0, infinity)");
             let text = format!("ABSENT for {window}: no solution ({evidence})\n");
+            (text, exit::DONE)
+        }
+        Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
+    };
+
+    print(&text)?;
+    Ok(code)
+}
+
+/// The verdict on a certificate of presence in an interval of friction.
+fn presence(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError> {
+    let read = PresenceCertificate::from_json(source);
+    let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
+
+    let (text, code) = match check_presence(problem, &certificate) {
+        Ok(AcceptedPresence { from, to, pieces }) => {
+            let digest = problem.sha256();
+            let evidence = format!("lambda2, problem {digest}, {pieces} pieces accepted");
+            let text = format!(
+                "PRESENT for every friction in [{from}, {to}]: a solution with lambda2 >= 0 \
+                 ({evidence})\n"
+            );
             (text, exit::DONE)
         }
         Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),

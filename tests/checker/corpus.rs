@@ -28,6 +28,8 @@ mod corpus_infinity;
 mod corpus_malformed;
 #[path = "../support/corpus_mcp.rs"]
 mod corpus_mcp;
+#[path = "../support/corpus_presence.rs"]
+mod corpus_presence;
 #[path = "../support/corpus_support.rs"]
 mod corpus_support;
 #[path = "../support/corpus_zero.rs"]
@@ -40,8 +42,10 @@ mod corpus_zero_critical;
 mod corpus_zero_order;
 
 use corpus_cases::Cases;
-use mceip_check::certificate::{CRITICAL_FORMAT, Certificate, CriticalCertificate};
-use mceip_check::{check, check_critical};
+use mceip_check::certificate::{
+    CRITICAL_FORMAT, Certificate, CriticalCertificate, PRESENCE_FORMAT, PresenceCertificate,
+};
+use mceip_check::{check, check_critical, check_presence};
 use mceip_engine::lcp;
 use mceip_model::Problem;
 use mceip_model::file::{read_problem, require_format};
@@ -98,6 +102,11 @@ impl Entry {
     /// About absence below a friction.
     fn is_critical(&self) -> bool {
         require_format(&self.certificate_text(), CRITICAL_FORMAT).is_ok()
+    }
+
+    /// About presence on an interval of friction.
+    fn is_presence(&self) -> bool {
+        require_format(&self.certificate_text(), PRESENCE_FORMAT).is_ok()
     }
 
     /// Made to take long, or much memory.
@@ -211,6 +220,9 @@ fn judge(entry: &Entry) -> Judgement {
     if entry.is_critical() {
         return judge_critical(entry, &problem);
     }
+    if entry.is_presence() {
+        return judge_presence(entry, &problem);
+    }
 
     let Ok(certificate) = Certificate::from_json(&entry.certificate_text()) else {
         return Judgement::without_reason(MALFORMED);
@@ -232,6 +244,18 @@ fn judge_critical(entry: &Entry, problem: &Problem) -> Judgement {
     };
 
     match check_critical(problem, &certificate) {
+        Ok(_) => Judgement::without_reason(ACCEPTED),
+        Err(rejected) => Judgement::rejected(rejected.reason.name()),
+    }
+}
+
+/// The same for presence on an interval of friction.
+fn judge_presence(entry: &Entry, problem: &Problem) -> Judgement {
+    let Ok(certificate) = PresenceCertificate::from_json(&entry.certificate_text()) else {
+        return Judgement::without_reason(MALFORMED);
+    };
+
+    match check_presence(problem, &certificate) {
         Ok(_) => Judgement::without_reason(ACCEPTED),
         Err(rejected) => Judgement::rejected(rejected.reason.name()),
     }
@@ -479,6 +503,7 @@ fn write_the_corpus() {
     corpus_zero_covers::covers(&mut cases);
     corpus_critical::critical(&mut cases);
     corpus_zero_critical::absence(&mut cases);
+    corpus_presence::presence(&mut cases);
     corpus_malformed::malformed(&mut cases);
     corpus_malformed::spelling(&mut cases);
     corpus_malformed::hostile(&mut cases);

@@ -5,10 +5,12 @@
 //!
 //!     cargo test --test checker -- --ignored verdicts::write_the_verdicts
 
-use mceip_check::certificate::{CRITICAL_FORMAT, Certificate, CriticalCertificate};
+use mceip_check::certificate::{
+    CRITICAL_FORMAT, Certificate, CriticalCertificate, PRESENCE_FORMAT, PresenceCertificate,
+};
 use mceip_check::{
-    Accepted, AcceptedAbsence, AcceptedCover, Rejected, SolutionFamily, audit, audit_critical,
-    check, check_critical,
+    Accepted, AcceptedAbsence, AcceptedCover, AcceptedPresence, Rejected, SolutionFamily, audit,
+    audit_critical, check, check_critical, check_presence,
 };
 use mceip_exact::Interval;
 use mceip_model::Problem;
@@ -28,10 +30,11 @@ struct Case {
     certificate: Read,
 }
 
-/// A certificate of either format.
+/// A certificate of one of the formats.
 enum Read {
     Certificate(Certificate),
     Critical(CriticalCertificate),
+    Presence(PresenceCertificate),
 }
 
 /// The files whose certificates can be read, by name; hostile ones, which repeat a unit, are for
@@ -64,6 +67,8 @@ fn read_case(kind: &str, path: &Path) -> Option<Case> {
     };
     let certificate = if require_format(&certificate, CRITICAL_FORMAT).is_ok() {
         Read::Critical(CriticalCertificate::from_json(&certificate).unwrap())
+    } else if require_format(&certificate, PRESENCE_FORMAT).is_ok() {
+        Read::Presence(PresenceCertificate::from_json(&certificate).unwrap())
     } else {
         Read::Certificate(Certificate::from_json(&certificate).unwrap())
     };
@@ -81,6 +86,7 @@ fn verdicts() -> String {
         let lines = match &case.certificate {
             Read::Certificate(certificate) => lines_of(&case, certificate),
             Read::Critical(certificate) => critical_lines(&case, certificate),
+            Read::Presence(certificate) => presence_lines(&case, certificate),
         };
         for line in lines {
             writeln!(text, "{}: {line}", case.name).unwrap();
@@ -118,6 +124,16 @@ fn critical_lines(case: &Case, certificate: &CriticalCertificate) -> Vec<String>
         }
         (Ok(_), Err(rejected)) => panic!("{}: {rejected}", case.name),
     }
+}
+
+fn presence_lines(case: &Case, certificate: &PresenceCertificate) -> Vec<String> {
+    let line = match check_presence(&case.problem, certificate) {
+        Ok(AcceptedPresence { from, to, pieces }) => {
+            format!("presence from {from} to {to}, pieces: {pieces}")
+        }
+        Err(rejected) => format!("{}: {rejected}", rejected.reason.name()),
+    };
+    vec![line]
 }
 
 fn accepted_lines(accepted: &Accepted) -> Vec<String> {

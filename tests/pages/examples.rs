@@ -4,8 +4,8 @@
 //! The truth is the checker, and the files of `spec/examples/certificates` for the page. A block
 //! that was changed on the page alone, or a kind of evidence without an example, fails here.
 
-use mceip_check::certificate::{Certificate, CriticalCertificate};
-use mceip_check::{check, check_critical};
+use mceip_check::certificate::{Certificate, CriticalCertificate, PresenceCertificate};
+use mceip_check::{check, check_critical, check_presence};
 use mceip_exact::rational;
 use mceip_model::file::read_problem;
 use std::collections::BTreeSet;
@@ -34,7 +34,7 @@ fn names() -> BTreeSet<String> {
 }
 
 /// Kinds of evidence that the certificate of an example contains.
-const EVIDENCE: [&str; 16] = [
+const EVIDENCE: [&str; 17] = [
     "\"exact_solution\"",
     "\"lifted_solution\"",
     "\"enclosed_solution\"",
@@ -51,12 +51,14 @@ const EVIDENCE: [&str; 16] = [
     "\"z\"",
     "\"friction\": \"1/2\"",
     "\"left_friction\"",
+    "\"mceip-presence/1\"",
 ];
 
 #[test]
 fn the_checker_gives_each_example_its_verdict() {
     let names = names();
-    let is_other = |name: &str| name == "mcp" || name.starts_with("critical");
+    let is_other =
+        |name: &str| name == "mcp" || name.starts_with("critical") || name.starts_with("presence");
     for name in names.iter().filter(|name| !is_other(name)) {
         let problem = read(&folder().join(format!("{name}.problem.json")));
         let certificate = read(&folder().join(format!("{name}.json")));
@@ -85,6 +87,23 @@ fn the_checker_accepts_each_absence_below_a_friction() {
         let certificate = CriticalCertificate::from_json(&certificate).unwrap();
         let accepted = check_critical(&problem, &certificate);
         assert_eq!(accepted.unwrap().below, below, "{name}");
+    }
+}
+
+#[test]
+fn the_checker_accepts_each_presence_on_an_interval_of_friction() {
+    for (name, from, to) in [
+        ("presence", rational(5, 4), rational(2, 1)),
+        ("presence-fold", rational(2, 1), rational(5, 2)),
+        ("presence-free", rational(3, 1), rational(7, 2)),
+    ] {
+        let problem = read(&folder().join(format!("{name}.problem.json")));
+        let certificate = read(&folder().join(format!("{name}.json")));
+
+        let problem = read_problem(&problem, &folder()).unwrap();
+        let certificate = PresenceCertificate::from_json(&certificate).unwrap();
+        let accepted = check_presence(&problem, &certificate).unwrap();
+        assert_eq!((accepted.from, accepted.to), (from, to), "{name}");
     }
 }
 

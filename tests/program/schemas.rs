@@ -8,7 +8,7 @@
 use crate::common::{example, exits, pencil_problem, run};
 use crate::program::Folder;
 use jsonschema::Validator;
-use mceip_check::certificate::{Certificate, CriticalCertificate};
+use mceip_check::certificate::{Certificate, CriticalCertificate, PresenceCertificate};
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport};
 use mceip_engine::lcp::{FileError, read_mcp, read_solution};
 use mceip_engine::reduction::reduce;
@@ -430,6 +430,7 @@ fn the_reader_of_problems_and_the_schema_agree() {
 fn the_corpus_is_valid() {
     let certificates = schema("mceip-certificate-1");
     let critical = schema("mceip-critical-1");
+    let presence = schema("mceip-presence-1");
     let mcp = schema("mceip-mcp-1");
     let mcp_solution = schema("mceip-mcp-solution-1");
 
@@ -447,11 +448,13 @@ fn the_corpus_is_valid() {
             plain += 1;
         }
 
-        let is_critical = file["certificate"]["format"] == "mceip-critical/1";
+        let format = &file["certificate"]["format"];
         let its_schema = if is_plain {
             &mcp_solution
-        } else if is_critical {
+        } else if format == "mceip-critical/1" {
             &critical
+        } else if format == "mceip-presence/1" {
+            &presence
         } else {
             &certificates
         };
@@ -507,6 +510,7 @@ fn the_readers_of_reports_and_certificates_agree_with_the_schemas() {
     damaged_reports_agree(&mut tally);
     damaged_certificates_agree(&mut tally);
     damaged_absences_agree(&mut tally);
+    damaged_presences_agree(&mut tally);
 
     assert!(tally.invalid > 50, "{tally:?}");
     assert!(tally.valid > 5, "{tally:?}");
@@ -590,6 +594,27 @@ fn damaged_absences_agree(tally: &mut Tally) {
         for copy in damaged(&read(&root(&path))) {
             let is_valid = schema.is_valid(&copy);
             let read = CriticalCertificate::from_json(&copy.to_string());
+
+            // That -1/2 is no integer follows from its meaning: a schema cannot divide.
+            let of_meaning = match &read {
+                Ok(_) => false,
+                Err(e) => e.to_string().contains("expected an integer"),
+            };
+            assert_eq!(is_valid, read.is_ok() || of_meaning, "{copy}: {read:?}");
+            tally.count(is_valid);
+        }
+    }
+}
+
+/// Presence on an interval of friction.
+fn damaged_presences_agree(tally: &mut Tally) {
+    let schema = schema("mceip-presence-1");
+
+    for name in ["presence", "presence-fold", "presence-free"] {
+        let path = format!("spec/examples/certificates/{name}.json");
+        for copy in damaged(&read(&root(&path))) {
+            let is_valid = schema.is_valid(&copy);
+            let read = PresenceCertificate::from_json(&copy.to_string());
 
             // That -1/2 is no integer follows from its meaning: a schema cannot divide.
             let of_meaning = match &read {

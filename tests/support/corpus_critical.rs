@@ -62,7 +62,7 @@ fn json_of(certificate: &CriticalCertificate) -> Value {
 
 /// A system with slip particles (T, N) with S = 1 and the entries (row, column, value) of symmetric
 /// matrices, which are given once.
-fn system(
+pub fn system(
     dofs: usize,
     particles: &[(usize, usize)],
     stiffness: &[(usize, usize, Rational)],
@@ -93,7 +93,7 @@ pub fn identity(dofs: usize) -> Vec<(usize, usize, Rational)> {
 }
 
 /// T(t, mu) = 1 + t - mu: the critical friction is 1.
-fn one() -> Problem {
+pub fn one() -> Problem {
     let stiffness = [(0, 0, whole(1)), (0, 1, whole(-1)), (1, 1, whole(3))];
     system(2, &[(0, 1)], &stiffness, &identity(2))
 }
@@ -543,7 +543,7 @@ pub fn no_factor(order: usize) -> Factor {
 }
 
 /// Degree of freedom 0 is free; T(t, mu) = 3 + t - 4 (1 + mu) / (4 + t), so that 2 is critical.
-fn free_problem() -> Problem {
+pub fn free_problem() -> Problem {
     let stiffness = [
         (0, 0, whole(4)),
         (0, 1, whole(2)),
@@ -564,14 +564,21 @@ fn anchor(center: &str) -> CriticalAnchor {
     }
 }
 
-/// The example of 5.18.
-fn free_certificate(problem: &Problem) -> CriticalCertificate {
-    let condensation = CriticalCondensation {
+/// The condensation of 5.19.
+pub fn free_condensation() -> CriticalCondensation {
+    CriticalCondensation {
         sigma: q("4"),
         stiffness_factor: no_factor(1),
         mass_sigma: q("1"),
         mass_factor: None,
         anchors: vec![anchor("0")],
+        tail: None,
+    }
+}
+
+/// The example of 5.18.
+fn free_certificate(problem: &Problem) -> CriticalCertificate {
+    let condensation = CriticalCondensation {
         tail: Some(CriticalTail {
             from: q("1"),
             factor: no_factor(2),
@@ -579,6 +586,7 @@ fn free_certificate(problem: &Problem) -> CriticalCertificate {
             mass_factor: None,
             mass_factor_below: None,
         }),
+        ..free_condensation()
     };
     let first = CriticalPiece {
         anchor: Some(0),
@@ -882,6 +890,29 @@ fn twice_the_friction() -> Problem {
     let mass = of_one.mass().cloned();
     let friction = of_one.friction().cloned();
     let system = System::new(stiffness, mass, friction, vec![particle]).unwrap();
+    Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
+}
+
+/// The system of `one` beside a particle with zero reaction that it does not touch.
+pub fn with_zero_reaction() -> Problem {
+    let stiffness = [
+        (0, 0, whole(1)),
+        (0, 1, whole(-1)),
+        (1, 1, whole(3)),
+        (2, 2, whole(1)),
+        (3, 3, whole(1)),
+    ];
+    let problem = system(4, &[(0, 1)], &stiffness, &identity(4));
+    let Body::System(of_one) = problem.body() else {
+        unreachable!("a system was built")
+    };
+    let mut particles = of_one.particles().to_vec();
+    particles.push(Particle::plain(2, 3, ContactState::Zero));
+
+    let stiffness = of_one.stiffness().clone();
+    let mass = of_one.mass().cloned();
+    let friction = of_one.friction().cloned();
+    let system = System::new(stiffness, mass, friction, particles).unwrap();
     Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
 }
 

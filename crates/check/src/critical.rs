@@ -82,7 +82,7 @@ fn verdict(
 
 /// The pencil of the problem as a function of mu: it must be a mechanical system with unknown
 /// lambda^2.
-fn friction_parts(problem: &Problem) -> Result<FrictionParts, Reason> {
+pub(crate) fn friction_parts(problem: &Problem) -> Result<FrictionParts, Reason> {
     let Body::System(system) = problem.body() else {
         return Err(Reason::NotASystem);
     };

@@ -17,7 +17,8 @@
 //!   (supports) x (window) into regions, each with a proof of what it holds.
 //!
 //! A file of its own kind states absence for a range of friction (`critical`): there is no solution
-//! with mu in [0, `below`] and lambda^2 >= 0. Its evidence is a partition as well.
+//! with mu in [0, `below`] and lambda^2 >= 0. Its evidence is a partition as well. Another one
+//! states presence (`presence`): there is a solution for every mu in [`from`, `to`].
 //!
 //! The checker multiplies and compares integers and fractions. It has no floating point number, it
 //! solves no linear system and finds no root, and it shares no algorithm with the code that finds
@@ -35,10 +36,12 @@ mod enclosed;
 mod exact_solution;
 mod lifted_solution;
 mod pencil;
+mod presence;
 mod reason;
 
 pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, Place, SolutionFamily};
 pub use critical::{AcceptedAbsence, audit_critical, check_critical};
+pub use presence::{AcceptedPresence, check_presence};
 pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};

@@ -34,6 +34,7 @@
 //! Input: a [`Problem`], whose constructor has checked its shape. Every checker of a claim reads
 //! the [`Rows`] made here.
 
+use crate::reason::Reason;
 use mceip_exact::{Integer, Rational, Sparse, common_denominator};
 use mceip_model::{Body, ContactState, Direction, Problem, System, Unknown};
 use std::collections::BTreeMap;
@@ -184,6 +185,17 @@ impl Rows {
         }
 
         None
+    }
+
+    /// Refuses evidence that is not defined for particles with zero reaction.
+    pub(super) fn without_zero(&self, what: &'static str) -> Result<(), Reason> {
+        match self.halves.first() {
+            None => Ok(()),
+            Some(halves) => Err(Reason::ZeroReaction {
+                what,
+                particle: halves.particle,
+            }),
+        }
     }
 }
 

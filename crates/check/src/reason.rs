@@ -3,7 +3,7 @@
 //! A rejection names the first obligation that fails, in the order of `spec/certificates.md`. Its
 //! message says "expected ..., got ..."; its name ([`Reason::name`]) is what the corpus of
 //! forgeries (`spec/corpus`) expects. What is wrong with a complete set, or with the boxes of
-//! `mceip-critical/1`, is a [`CoverFault`]. The
+//! `mceip-critical/1` or `mceip-presence/1`, is a [`CoverFault`]. The
 //! values hold the numbers in full; the message of a [`Rejected`] cuts numbers of more than 60
 //! digits short.
 
@@ -260,6 +260,17 @@ pub enum Reason {
         /// The variable max(-v_T, 0).
         left: usize,
     },
+    /// Evidence that is not defined for particles with zero reaction.
+    #[error(
+        "E9: expected a system without particles in state \"zero\" for {what} \
+         (not supported), got particle {particle}"
+    )]
+    ZeroReaction {
+        /// The kind of evidence.
+        what: &'static str,
+        /// The first particle with zero reaction.
+        particle: usize,
+    },
     /// An active row of (A + tB) x does not vanish.
     #[error(
         "{equation}: y[{index}]: expected 0 mod p on an active row, got a polynomial that is not"
@@ -350,7 +361,15 @@ pub enum Reason {
         /// What the certificate states.
         got: Rational,
     },
-    /// The boxes of a certificate of absence below a friction do not hold.
+    /// An interval of friction in which presence is claimed is empty, or reaches below zero.
+    #[error("friction: expected 0 <= from < to, got from {from} to {to}")]
+    FrictionRange {
+        /// Lower end of the interval.
+        from: Rational,
+        /// Upper end.
+        to: Rational,
+    },
+    /// The boxes of a certificate of absence or of presence in a range of friction do not hold.
     #[error("boxes{}: {fault}", place(*piece, *node))]
     Boxes {
         /// The piece, if one is to blame.

@@ -1,5 +1,5 @@
 //! `mceip-certificate/1`: what a certificate says, and its file form. (`critical` does the same for
-//! `mceip-critical/1`.)
+//! `mceip-critical/1`, `presence` for `mceip-presence/1`.)
 //!
 //! This module holds data and reads and writes it; it decides nothing. A certificate names its
 //! problem by digest, states a window of values and makes claims: solutions ([`Claim`]), and
@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 mod cover;
 mod critical;
+mod presence;
 pub use cover::{
     Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Ldl, LdlFactor, Member,
     Node, Piece, Point, Polynomials, Root, RootOutcome, Support, Tail,
@@ -25,6 +26,7 @@ pub use critical::{
     CRITICAL_FORMAT, CriticalAnchor, CriticalCertificate, CriticalCondensation, CriticalNode,
     CriticalPiece, CriticalTail,
 };
+pub use presence::{PRESENCE_FORMAT, PresenceCertificate, PresencePiece};
 
 /// The format this program reads and writes.
 pub const CERTIFICATE_FORMAT: &str = "mceip-certificate/1";

@@ -38,7 +38,9 @@ use super::region::{Matrices, Region, State};
 use super::short::Short;
 use super::walk::NodeFault;
 use super::{check_anchor, check_end, check_size, condensed, definite, farkas};
-use crate::certificate::{CriticalCertificate, CriticalNode, CriticalPiece, CriticalTail};
+use crate::certificate::{
+    CriticalCertificate, CriticalCondensation, CriticalNode, CriticalPiece, CriticalTail,
+};
 use crate::pencil::{FrictionParts, Rows};
 use crate::reason::Reason;
 use mceip_exact::Rational;
@@ -70,7 +72,7 @@ pub(crate) fn check(
     let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(2));
     check_size(index.len(), expansions).map_err(of_file)?;
 
-    let families = families(parts, certificate, audit).map_err(of_file)?;
+    let families = families(parts, condensation, audit).map_err(of_file)?;
     if has_stopped(audit) {
         return Ok(0);
     }
@@ -138,14 +140,14 @@ fn has_stopped(audit: Option<&Audit<'_>>) -> bool {
 
 /// The enclosures of T0 and T1. A condensation is there exactly if there are free variables. Where
 /// the audit is stopped, anchors are missing.
-fn families(
+pub(super) fn families(
     parts: &FrictionParts,
-    certificate: &CriticalCertificate,
+    condensation: Option<&CriticalCondensation>,
     audit: Option<&Audit<'_>>,
 ) -> Result<[Family; 2], CoverFault> {
     let has_free = parts.plain.is_free.contains(&true);
 
-    match &certificate.condensation {
+    match condensation {
         None if !has_free => {
             let own = row_bits(&parts.plain).into_iter();
             let bits: Vec<u64> = own
@@ -540,11 +542,18 @@ impl BoxWalk<'_> {
     }
 }
 
-/// The bits of an entry of an end, and those of both ends of the interval of mu.
 fn box_bits(at: &FrictionBox) -> [u64; 2] {
-    let [lower, higher] = &at.friction;
+    bits_of_box(&at.region.lo, at.region.hi.as_ref(), &at.friction)
+}
+
+/// The bits of an entry of an end, and those of both ends of the interval of mu.
+pub(super) fn bits_of_box(
+    lo: &Rational,
+    hi: Option<&Rational>,
+    [lower, higher]: &[Rational; 2],
+) -> [u64; 2] {
     [
-        FRACTION_BITS + end_bits(&at.region.lo, at.region.hi.as_ref()),
+        FRACTION_BITS + end_bits(lo, hi),
         rational_bits(lower) + rational_bits(higher),
     ]
 }
@@ -557,7 +566,7 @@ fn four_corners(ends: &[Ends; 2]) -> [Corner<'_>; 4] {
     [a, b, c, d]
 }
 
-fn of_file(fault: CoverFault) -> Reason {
+pub(super) fn of_file(fault: CoverFault) -> Reason {
     Reason::Boxes {
         piece: None,
         node: None,
@@ -565,7 +574,7 @@ fn of_file(fault: CoverFault) -> Reason {
     }
 }
 
-fn of_piece(piece: usize, fault: CoverFault) -> Reason {
+pub(super) fn of_piece(piece: usize, fault: CoverFault) -> Reason {
     Reason::Boxes {
         piece: Some(piece),
         node: None,

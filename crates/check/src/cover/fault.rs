@@ -109,6 +109,22 @@ pub enum CoverFault {
         /// The norm.
         got: Rational,
     },
+    /// A support that is no ascending list of slip variables.
+    #[error("presence: expected ascending slip variables as the support, got {support:?}")]
+    SupportList {
+        /// The support.
+        support: Vec<usize>,
+    },
+    /// (|I - Y T'| v)_i is not below v_i.
+    #[error(
+        "presence: expected (|I - Y T'| v)[{index}] below v[{index}] in the box, got {got} of it"
+    )]
+    NotContracting {
+        /// The variable.
+        index: usize,
+        /// The quotient, or 1 where v_i is not positive.
+        got: Rational,
+    },
     /// The Schur complement is not monotone: there could be two roots.
     #[error(
         "root: expected the Schur complement to be monotone over the interval, \

@@ -23,6 +23,7 @@
 //! through the trees, and `budget` bounds the work.
 //!
 //! `critical` uses the same leaves for boxes of (value, friction): absence below a friction.
+//! `presence` uses the corners of such boxes: a solution for every friction of an interval.
 //!
 //! For each kind of leaf there is a file in `crates/engine/src/search/complete/leaf/` that makes
 //! it; the table in its `mod.rs` names both sides.
@@ -46,6 +47,7 @@ mod infinity;
 mod ldl;
 #[cfg(test)]
 mod order_two;
+pub(crate) mod presence;
 mod product;
 mod proved;
 mod psd;

@@ -86,14 +86,14 @@ enum Side {
 
 /// Every number within `radius` of `center`.
 #[derive(Default)]
-struct Ball {
-    center: Integer,
-    radius: Integer,
+pub(super) struct Ball {
+    pub(super) center: Integer,
+    pub(super) radius: Integer,
 }
 
 impl Ball {
     /// Adds factor * (center +- radius).
-    fn add(&mut self, factor: &Integer, center: &Integer, radius: &Integer) {
+    pub(super) fn add(&mut self, factor: &Integer, center: &Integer, radius: &Integer) {
         self.center += factor * center;
         if !radius.is_zero() {
             self.radius += factor.abs() * radius;
@@ -101,7 +101,7 @@ impl Ball {
     }
 
     /// The largest absolute value.
-    fn magnitude(&self) -> Integer {
+    pub(super) fn magnitude(&self) -> Integer {
         self.center.abs() + &self.radius
     }
 }

@@ -1,0 +1,516 @@
+//! Presence on an interval of friction: for every mu of a piece there is a solution with lambda^2
+//! between two values.
+//!
+//! For a mechanical system the condensed pencil is affine in mu, T(t, mu) = T0(t) + mu T1(t), with
+//! t = lambda^2. Over a box [t0, t1] x [low, high] it is enclosed by four corners as in `critical`.
+//! Let S be the support of the piece, k in S its pivot, T' the block of T on S without k. The
+//! witness is Y ~ T'^-1 and vectors v, u ~ the right and left null vectors of T_SS, with
+//! v_k = u_k = 1 and v > 0. Indices i, j belong to S without k.
+//!
+//! 1. d = v - max |I - Y T'| v > 0, the largest value of each row over the corners. So Y and T' are
+//!    regular in the whole box, and v_true = -T'^-1 T_'k, 1 at k, is the only candidate for x.
+//! 2. |v_true - v| <= theta v with theta = max_i |Y (T_'k + T'v)|_i / d_i, since
+//!    |v_true - v| <= |Y (T_'k + T'v)| + |I - Y T'| |v_true - v|. With theta < 1, v_true > 0.
+//! 3. T v_true >= 0 off the support, from the corners and theta.
+//! 4. phi = T_kk - T_k' T'^-1 T_'k is continuous in t. It lies within p theta of u'Tv, with
+//!    p = sum_j |T_k' + u'T'|_j v_j. On each of the edges t = t0 and t = t1 all three are bounded
+//!    by their values at the two ends of [low, high] (`Edge`). If phi has one sign on one edge and
+//!    the opposite one on the other, phi(., mu) has a zero in (t0, t1) for every mu.
+//!
+//! At such a zero x = v_true is a solution: T_SS x = 0, x > 0 on S, T x >= 0 off it.
+//!
+//! Left sides that are maxima over corners bound the whole box: they are convex in T, and the radii
+//! are part of them.
+
+use super::budget::WorkBudget;
+use super::critical::{bits_of_box, families, of_file, of_piece};
+use super::ends::{Ends, Matrix, within_matrix_bits};
+use super::family::{Family, words};
+use super::fault::CoverFault;
+use super::root::Ball;
+use super::{check_anchor, check_size};
+use crate::certificate::{PresenceCertificate, PresencePiece};
+use crate::pencil::FrictionParts;
+use crate::reason::Reason;
+use mceip_exact::{Integer, Rational};
+use num_traits::{One, Signed, Zero};
+
+/// Largest binary exponent of a witness.
+const MAX_EXPONENT: u32 = 1 << 14;
+
+/// Checks that the pieces follow one another from `from` to `to`, and that each holds a solution
+/// for every mu.
+pub(crate) fn check(
+    parts: &FrictionParts,
+    certificate: &PresenceCertificate,
+) -> Result<(), Reason> {
+    let is_free = &parts.plain.is_free;
+    let slip: Vec<usize> = (0..is_free.len()).filter(|&i| !is_free[i]).collect();
+    let condensation = certificate.condensation.as_ref();
+    // Each anchor is expanded for both parts.
+    let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(2));
+    check_size(slip.len(), expansions).map_err(of_file)?;
+
+    let boxes = Boxes {
+        families: families(parts, condensation, None).map_err(of_file)?,
+        slip,
+        matrix_budget: WorkBudget::of_matrices(certificate.pieces.len() as u64),
+    };
+
+    let mut low = &certificate.from;
+    for (k, piece) in certificate.pieces.iter().enumerate() {
+        let is_last = k + 1 == certificate.pieces.len();
+        let high = &piece.to.0;
+        check_order(low, high, &certificate.to, is_last).map_err(|fault| of_piece(k, fault))?;
+        boxes
+            .piece(piece, &[low.clone(), high.clone()])
+            .map_err(|fault| of_piece(k, fault))?;
+        low = high;
+    }
+
+    if certificate.pieces.is_empty() {
+        return Err(of_file(piece_end(&certificate.to, low)));
+    }
+
+    Ok(())
+}
+
+/// Demands that a piece ends above where it begins, and the last one at the end of the interval.
+fn check_order(
+    low: &Rational,
+    high: &Rational,
+    to: &Rational,
+    is_last: bool,
+) -> Result<(), CoverFault> {
+    let ends_well = if is_last { high == to } else { high < to };
+    if ends_well && high > low {
+        return Ok(());
+    }
+
+    Err(piece_end(to, high))
+}
+
+fn piece_end(to: &Rational, got: &Rational) -> CoverFault {
+    CoverFault::PieceEnd {
+        expected: to.to_string(),
+        got: got.to_string(),
+    }
+}
+
+/// What the check of each piece reads, and what is left of the budget of the file.
+struct Boxes {
+    /// T0 and T1.
+    families: [Family; 2],
+    /// The slip variables: positions in matrices to indices of the pencil.
+    slip: Vec<usize>,
+    matrix_budget: WorkBudget,
+}
+
+impl Boxes {
+    /// A solution for every mu in `friction`.
+    fn piece(&self, piece: &PresencePiece, friction: &[Rational; 2]) -> Result<(), CoverFault> {
+        check_anchor(&self.families[0], piece.anchor)?;
+        let [t0, t1] = piece.interval.each_ref().map(|end| &end.0);
+        if t0.is_negative() || t0 >= t1 {
+            return Err(CoverFault::Interval {
+                a: t0.clone(),
+                b: t1.clone(),
+            });
+        }
+
+        let witness = Witness::new(piece, &self.slip)?;
+        let ends = self.ends(piece.anchor, [t0, t1], friction)?;
+        let corners = corners_of(&ends);
+        let margin = witness.margin(&corners, &self.slip)?;
+        let theta = witness.theta(&corners, &margin, &self.slip)?;
+        witness.check_rest(&corners, &theta, &self.slip)?;
+
+        let at_lower = self.edge(&witness, &margin, piece.anchor, t0, friction)?;
+        let at_upper = self.edge(&witness, &margin, piece.anchor, t1, friction)?;
+        if at_lower.sign() * at_upper.sign() == -1 {
+            return Ok(());
+        }
+
+        Err(CoverFault::NoSignChange {
+            lo: t0.clone(),
+            hi: t1.clone(),
+        })
+    }
+
+    /// What is known of phi at one value of t, where the enclosure is that of this value alone.
+    fn edge(
+        &self,
+        witness: &Witness<'_>,
+        margin: &[Rational],
+        anchor: Option<usize>,
+        t: &Rational,
+        friction: &[Rational; 2],
+    ) -> Result<Edge, CoverFault> {
+        let ends = self.ends(anchor, [t, t], friction)?;
+        let at = ends.each_ref().map(|ends| {
+            let corner = Corner::of(ends, 0);
+            EdgeEnd {
+                value: witness.value(&corner),
+                radius: witness.value_radius(&corner),
+                residual: witness.left_residual(&corner),
+                error: witness.error_at(&corner, margin),
+            }
+        });
+
+        Ok(Edge { at })
+    }
+
+    /// The matrices over an interval of t, at both ends of that of mu.
+    fn ends(
+        &self,
+        anchor: Option<usize>,
+        [lo, hi]: [&Rational; 2],
+        friction: &[Rational; 2],
+    ) -> Result<[Ends; 2], CoverFault> {
+        let order = self.slip.len();
+        for family in &self.families {
+            family.affordable(anchor, lo, Some(hi))?;
+            let work = family.matrix_work(anchor, lo, Some(hi));
+            self.matrix_budget.spend(work)?;
+        }
+
+        let [end_bits, friction_bits] = bits_of_box(lo, Some(hi), friction);
+        let what = "bits of a box's matrix";
+        within_matrix_bits(what, order, 1, end_bits + friction_bits)?;
+        let products = words(end_bits).saturating_mul(words(friction_bits));
+        let entries = (order * order) as u64;
+        self.matrix_budget.spend(entries.saturating_mul(products))?;
+
+        let plain = self.families[0].ends(anchor, lo, Some(hi))?;
+        let of_friction = self.families[1].ends(anchor, lo, Some(hi))?;
+        Ok(friction
+            .each_ref()
+            .map(|mu| plain.plus_multiple(&of_friction, mu)))
+    }
+}
+
+/// Every matrix within `r` of `m`, in units of 1 / `scale`.
+struct Corner<'a> {
+    m: &'a Matrix,
+    r: &'a Matrix,
+    scale: &'a Integer,
+}
+
+impl<'a> Corner<'a> {
+    fn of(ends: &'a Ends, end: usize) -> Corner<'a> {
+        Corner {
+            m: &ends.m[end],
+            r: &ends.r[end],
+            scale: &ends.scale,
+        }
+    }
+}
+
+/// The corners at the lower friction, then those at the higher one.
+fn corners_of([low, high]: &[Ends; 2]) -> [Corner<'_>; 4] {
+    [
+        Corner::of(low, 0),
+        Corner::of(low, 1),
+        Corner::of(high, 0),
+        Corner::of(high, 1),
+    ]
+}
+
+/// At an end of [low, high] and one value of t, with a common unit: u'Tv and its radius, p, and the
+/// bound of |v_true - v| as a share of v.
+struct EdgeEnd {
+    value: Rational,
+    radius: Rational,
+    residual: Rational,
+    error: Rational,
+}
+
+impl EdgeEnd {
+    /// How far u'Tv certainly is on the given side of zero.
+    fn distance(&self, sign: i8) -> Rational {
+        let value = if sign < 0 {
+            -&self.value
+        } else {
+            self.value.clone()
+        };
+        value - &self.radius
+    }
+}
+
+/// One value of t and every mu between low and high.
+struct Edge {
+    /// At low and at high.
+    at: [EdgeEnd; 2],
+}
+
+impl Edge {
+    /// The sign of phi for every mu of the edge, 0 if it is not certain.
+    ///
+    /// With mu = (1 - r) low + r high the distance l of u'Tv from zero, p and theta are at least,
+    /// at most and at most the same mean of their values at low and high. So |phi| is at least
+    ///
+    /// ```text
+    ///     (1 - r)^2 (l_0 - p_0 theta_0)
+    ///         + r (1 - r) (l_0 + l_1 - p_0 theta_1 - p_1 theta_0) + r^2 (l_1 - p_1 theta_1).
+    /// ```
+    fn sign(&self) -> i8 {
+        let [low, high] = &self.at;
+        let sign = if low.value.is_negative() { -1 } else { 1 };
+        let at_low = low.distance(sign);
+        let at_high = high.distance(sign);
+        let mixed = &low.residual * &high.error + &high.residual * &low.error;
+
+        let is_certain = at_low > &low.residual * &low.error
+            && at_high > &high.residual * &high.error
+            && &at_low + &at_high > mixed;
+        if is_certain { sign } else { 0 }
+    }
+}
+
+/// The witness of a piece, with positions among the slip variables. u and v are over `support`,
+/// whose last entry is the pivot, with component 1.
+struct Witness<'a> {
+    support: Vec<usize>,
+    /// Y.
+    y: &'a Matrix,
+    /// 1 in units of Y.
+    y_one: Integer,
+    u: Vec<Integer>,
+    v: Vec<Integer>,
+}
+
+impl<'a> Witness<'a> {
+    fn new(piece: &'a PresencePiece, slip: &[usize]) -> Result<Self, CoverFault> {
+        let mut support = positions(&piece.support, slip)?;
+        let at_pivot = support.iter().position(|&i| slip[i] == piece.pivot);
+        let at_pivot = at_pivot.ok_or(CoverFault::Pivot { index: piece.pivot })?;
+        let pivot = support.remove(at_pivot);
+        check_shape(piece, support.len())?;
+        support.push(pivot);
+
+        let one = Integer::one() << piece.exponent;
+        let mut u = piece.left.clone();
+        let mut v = piece.right.clone();
+        u.push(one.clone());
+        v.push(one);
+
+        Ok(Witness {
+            support,
+            y: &piece.inverse,
+            y_one: Integer::one() << piece.inverse_exponent,
+            u,
+            v,
+        })
+    }
+
+    /// Order of T'.
+    fn order(&self) -> usize {
+        self.support.len() - 1
+    }
+
+    /// d = v - max |I - Y T'| v over the corners, in units of v. Demands that it is positive.
+    fn margin(&self, corners: &[Corner<'_>], slip: &[usize]) -> Result<Vec<Rational>, CoverFault> {
+        let mut margin = Vec::with_capacity(self.order());
+        for i in 0..self.order() {
+            let mut largest = Rational::zero();
+            for corner in corners {
+                largest = largest.max(self.deviation(corner, i));
+            }
+
+            let v = Rational::from_integer(self.v[i].clone());
+            if largest >= v {
+                let is_quotient = v.is_positive();
+                return Err(CoverFault::NotContracting {
+                    index: slip[self.support[i]],
+                    got: if is_quotient {
+                        largest / v
+                    } else {
+                        Rational::one()
+                    },
+                });
+            }
+
+            margin.push(v - largest);
+        }
+
+        Ok(margin)
+    }
+
+    /// (|I - Y T'| v)_i at a corner, in units of v.
+    fn deviation(&self, corner: &Corner<'_>, i: usize) -> Rational {
+        let one = &self.y_one * corner.scale;
+        let mut sum = Integer::zero();
+        for j in 0..self.order() {
+            let mut product = Ball::default();
+            for k in 0..self.order() {
+                let row = self.support[k];
+                let column = self.support[j];
+                product.add(
+                    &self.y[i][k],
+                    &corner.m[row][column],
+                    &corner.r[row][column],
+                );
+            }
+
+            if i == j {
+                product.center -= &one;
+            }
+            sum += product.magnitude() * &self.v[j];
+        }
+
+        Rational::new(sum, one)
+    }
+
+    /// theta over the corners. Demands that it is less than one: x is positive.
+    fn theta(
+        &self,
+        corners: &[Corner<'_>],
+        margin: &[Rational],
+        slip: &[usize],
+    ) -> Result<Rational, CoverFault> {
+        let mut theta = Rational::zero();
+        for corner in corners {
+            for (i, error) in self.errors(corner, margin).into_iter().enumerate() {
+                if error >= Rational::one() {
+                    return Err(sign_fault("x", slip[self.support[i]], "> 0"));
+                }
+                theta = theta.max(error);
+            }
+        }
+
+        Ok(theta)
+    }
+
+    /// The largest component of |Y (T_'k + T'v)| / d at a corner.
+    fn error_at(&self, corner: &Corner<'_>, margin: &[Rational]) -> Rational {
+        let errors = self.errors(corner, margin);
+        errors.into_iter().max().unwrap_or_default()
+    }
+
+    /// |Y (T_'k + T'v)|_i / d_i at a corner.
+    fn errors(&self, corner: &Corner<'_>, margin: &[Rational]) -> Vec<Rational> {
+        let residual: Vec<Ball> = self.support[..self.order()]
+            .iter()
+            .map(|&row| self.row_times_v(corner, row))
+            .collect();
+
+        let unit = &self.y_one * corner.scale;
+        let mut errors = Vec::with_capacity(self.order());
+        for (row, d) in self.y.iter().zip(margin) {
+            let mut sum = Ball::default();
+            for (y, entry) in row.iter().zip(&residual) {
+                sum.add(y, &entry.center, &entry.radius);
+            }
+            errors.push(Rational::new(sum.magnitude(), unit.clone()) / d);
+        }
+
+        errors
+    }
+
+    /// (T v)_row.
+    fn row_times_v(&self, corner: &Corner<'_>, row: usize) -> Ball {
+        let mut sum = Ball::default();
+        for (v, &column) in self.v.iter().zip(&self.support) {
+            sum.add(v, &corner.m[row][column], &corner.r[row][column]);
+        }
+
+        sum
+    }
+
+    /// Demands (T v_true)_i >= 0 for every i off the support.
+    fn check_rest(
+        &self,
+        corners: &[Corner<'_>],
+        theta: &Rational,
+        slip: &[usize],
+    ) -> Result<(), CoverFault> {
+        for row in (0..slip.len()).filter(|row| !self.support.contains(row)) {
+            for corner in corners {
+                let sum = self.row_times_v(corner, row);
+                let mut reach = Integer::zero(); // sum of (|m| + r) v without the pivot
+                for (v, &column) in self.v[..self.order()].iter().zip(&self.support) {
+                    reach += (corner.m[row][column].abs() + &corner.r[row][column]) * v;
+                }
+
+                let least = (sum.center - sum.radius) * theta.denom();
+                if least < reach * theta.numer() {
+                    return Err(sign_fault("y", slip[row], ">= 0"));
+                }
+            }
+        }
+
+        Ok(())
+    }
+
+    /// u'Tv.
+    fn value(&self, corner: &Corner<'_>) -> Rational {
+        let mut sum = Integer::zero();
+        for (u, &row) in self.u.iter().zip(&self.support) {
+            sum += u * self.row_times_v(corner, row).center;
+        }
+
+        Rational::new(sum, corner.scale.clone())
+    }
+
+    /// What the radii of T make of u'Tv.
+    fn value_radius(&self, corner: &Corner<'_>) -> Rational {
+        let mut sum = Integer::zero();
+        for (u, &row) in self.u.iter().zip(&self.support) {
+            sum += u.abs() * self.row_times_v(corner, row).radius;
+        }
+
+        Rational::new(sum, corner.scale.clone())
+    }
+
+    /// p: sum of |T_k' + u'T'|_j v_j, in the unit of [`Witness::value`].
+    fn left_residual(&self, corner: &Corner<'_>) -> Rational {
+        let mut sum = Integer::zero();
+        for (v, &column) in self.v[..self.order()].iter().zip(&self.support) {
+            let mut residual = Ball::default();
+            for (u, &row) in self.u.iter().zip(&self.support) {
+                residual.add(u, &corner.m[row][column], &corner.r[row][column]);
+            }
+            sum += residual.magnitude() * v;
+        }
+
+        Rational::new(sum, corner.scale.clone())
+    }
+}
+
+/// The positions of the slip variables of a support, which has to ascend.
+fn positions(support: &[usize], slip: &[usize]) -> Result<Vec<usize>, CoverFault> {
+    let fault = || CoverFault::SupportList {
+        support: support.to_vec(),
+    };
+    if !support.is_sorted_by(|a, b| a < b) {
+        return Err(fault());
+    }
+
+    let mut found = Vec::with_capacity(support.len());
+    for index in support {
+        found.push(slip.binary_search(index).map_err(|_| fault())?);
+    }
+
+    Ok(found)
+}
+
+/// Demands that u, v and Y have order n, and that their exponents are within the limit.
+fn check_shape(piece: &PresencePiece, n: usize) -> Result<(), CoverFault> {
+    CoverFault::length("left", n, piece.left.len())?;
+    CoverFault::length("right", n, piece.right.len())?;
+    CoverFault::length("inverse", n, piece.inverse.len())?;
+    for row in &piece.inverse {
+        CoverFault::length("inverse row", n, row.len())?;
+    }
+
+    let exponent = piece.exponent.max(piece.inverse_exponent);
+    CoverFault::at_most("exponent", MAX_EXPONENT.into(), exponent.into())
+}
+
+fn sign_fault(component: &'static str, index: usize, expected: &'static str) -> CoverFault {
+    CoverFault::Sign {
+        component,
+        index,
+        expected,
+    }
+}

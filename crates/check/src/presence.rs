@@ -1,0 +1,73 @@
+//! The verdict on `mceip-presence/1`: there is a solution for every friction of an interval.
+//!
+//! The certificate ([`crate::certificate::PresenceCertificate`]) speaks of the mechanical system of
+//! a problem with unknown lambda^2, with mu in [`from`, `to`] in place of the friction of the file.
+//! This module demands that it belongs to the problem and says something; `cover::presence` checks
+//! its pieces. The obligations are those of `spec/certificates.md`, 5.19.
+
+use crate::certificate::PresenceCertificate;
+use crate::cover;
+use crate::critical::friction_parts;
+use crate::reason::{Reason, Rejected};
+use mceip_exact::Rational;
+use mceip_model::Problem;
+use num_traits::Signed;
+
+/// What an accepted certificate has proved: a solution with lambda^2 >= 0 for every mu in
+/// [`from`, `to`].
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AcceptedPresence {
+    /// Smallest friction.
+    pub from: Rational,
+    /// Largest friction.
+    pub to: Rational,
+    /// Number of pieces that prove it.
+    pub pieces: usize,
+}
+
+/// Checks a certificate of presence on an interval of friction, exactly.
+///
+/// # Errors
+/// [`Rejected`] with the first obligation that fails.
+pub fn check_presence(
+    problem: &Problem,
+    certificate: &PresenceCertificate,
+) -> Result<AcceptedPresence, Rejected> {
+    verdict(problem, certificate).map_err(|reason| Rejected {
+        claim: None,
+        reason,
+    })
+}
+
+fn verdict(
+    problem: &Problem,
+    certificate: &PresenceCertificate,
+) -> Result<AcceptedPresence, Reason> {
+    let digest = problem.sha256();
+    if certificate.problem_sha256 != digest {
+        return Err(Reason::Digest {
+            expected: digest,
+            got: certificate.problem_sha256.clone(),
+        });
+    }
+
+    let parts = friction_parts(problem)?;
+    parts
+        .plain
+        .without_zero("presence on an interval of friction")?;
+
+    let PresenceCertificate { from, to, .. } = certificate;
+    if from.is_negative() || from >= to {
+        return Err(Reason::FrictionRange {
+            from: from.clone(),
+            to: to.clone(),
+        });
+    }
+
+    cover::presence::check(&parts, certificate)?;
+    Ok(AcceptedPresence {
+        from: from.clone(),
+        to: to.clone(),
+        pieces: certificate.pieces.len(),
+    })
+}
