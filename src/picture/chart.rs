@@ -67,6 +67,22 @@ impl Chart {
         group
     }
 
+    /// The x axis alone: ticks, grid, a line and the label.
+    pub(super) fn x_axis(&self, x: &Axis<'_>) -> Element {
+        let Rectangle {
+            left,
+            right,
+            bottom,
+            ..
+        } = self.area;
+
+        let mut group = Element::new("g").with("class", "frame");
+        self.push_x_ticks(&mut group, x.ticks);
+        group.push(line((left, bottom), (right, bottom), "#000", 1.0));
+        group.push(self.x_label(x));
+        group
+    }
+
     /// For each tick a line of the grid, a short line below the frame, and the number.
     fn push_x_ticks(&self, group: &mut Element, wanted: usize) {
         if wanted == 0 {

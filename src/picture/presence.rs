@@ -1,8 +1,9 @@
 //! Divergence against mu: where it is proved absent or present, and where it was only sampled.
 //!
 //! Input: ranges of mu with a verdict each, the sampled values of mu, and the values that a reader
-//! looks for. A band shows the ranges: verdicts differ in shade and hatching, a full outline is a
-//! proof, a dashed one joins samples. Called by `mceip analyze --report`.
+//! looks for. Boxes above the axis show the ranges: verdicts differ in shade and hatching, a full
+//! outline is a proof, a dashed one joins samples, and without a box nothing was examined. Called by
+//! `mceip analyze --report`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, line, text};
 use super::drawing::Picture;
@@ -40,7 +41,7 @@ pub struct PresenceChart {
     pub ranges: Vec<PresenceRange>,
     /// Sampled values of mu with their verdicts.
     pub samples: Vec<(f64, Presence)>,
-    /// mu of the system.
+    /// mu that was asked for.
     pub friction: f64,
     /// The smallest mu with a certified solution.
     pub critical: Option<f64>,
@@ -62,8 +63,8 @@ const SAMPLED_DASH: &str = "4 3";
 /// Distance of the strokes of a hatched range, px.
 const HATCH: f64 = 7.0;
 
-/// Height of the marks of samples below the upper end of the band, px.
-const SAMPLE: f64 = 8.0;
+/// Radius of the dots of samples, px.
+const SAMPLE_RADIUS: f64 = 3.5;
 
 /// Width of the signs of keys, px.
 const SIGN: f64 = 22.0;
@@ -136,7 +137,7 @@ pub fn presence_picture(title: &str, presence: &PresenceChart) -> Picture {
 
     let mut picture = Picture::new(title, WIDTH, AREA.bottom + 62.0);
     picture.push_heading(AREA.left, 24.0);
-    picture.push(chart.frame(&x, &y));
+    picture.push(chart.x_axis(&x));
 
     for range in &presence.ranges {
         picture.push(band(&chart, range));
@@ -210,12 +211,16 @@ fn outline_dash(is_proved: bool) -> &'static str {
     if is_proved { "" } else { SAMPLED_DASH }
 }
 
-/// A sample: a short stroke from the upper end of the band.
+/// A sample: a dot on the axis in the shade of its verdict.
 fn sample_mark(chart: &Chart, mu: f64, verdict: Presence) -> Element {
-    let x = chart.x.place(mu);
     let tip = format!("mu = {}: {}", label(mu), verdict.word());
-    line((x, AREA.top), (x, AREA.top + SAMPLE), "#000", 1.0)
+    Element::new("circle")
         .with("class", "sample")
+        .at("cx", chart.x.place(mu))
+        .at("cy", AREA.bottom)
+        .at("r", SAMPLE_RADIUS)
+        .with("fill", verdict.fill())
+        .with("stroke", "#000")
         .with("data-mu", mu)
         .child(Element::new("title").text(tip))
 }
@@ -267,7 +272,7 @@ fn push_keys(picture: &mut Picture, presence: &PresenceChart) {
     }
 
     let baseline = baseline + TEXT + 9.0;
-    let own = format!("\u{3bc} = {} of this system", label(presence.friction));
+    let own = format!("\u{3bc} asked for: {}", label(presence.friction));
     picture.push(triangle(AREA.left + POINTER, baseline, "#fff"));
     picture.push(text(AREA.left + 16.0, baseline, "start", own));
 

@@ -34,7 +34,7 @@ impl Drawn<'_> {
         };
 
         let caption = match mode {
-            None => "The body and the states of its particles at this equilibrium.",
+            None => "The body and the states of its particles, as the problem file gives them.",
             Some(_) => "The direction in which the body departs; the arrows have one scale.",
         };
         Some(Content::Figure {
@@ -84,7 +84,7 @@ fn system(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
         row(["particles in impending slip", &slip.to_string()]),
         row(["particles that stick", &stick.to_string()]),
         row([
-            "coefficient of friction",
+            "coefficient of friction asked for",
             &to_f64(&analysis.friction).to_string(),
         ]),
     ];
@@ -138,8 +138,8 @@ fn answers(analysis: &Analysis, paths: &[String]) -> Section {
             "Divergence against the coefficient of friction",
             &presence(analysis),
         ),
-        caption: "Where in \u{3bc} divergence of the form (8) exists. Between samples nothing is \
-                  proved."
+        caption: "Where in \u{3bc} divergence of the form (8) exists, with these contact states. \
+                  Between samples nothing is proved; where there is no box, nothing was examined."
             .into(),
     });
 
@@ -149,7 +149,8 @@ fn answers(analysis: &Analysis, paths: &[String]) -> Section {
     }
 }
 
-/// The ranges of mu, their samples, and the smallest mu with a certified solution, in doubles.
+/// The ranges of mu, the mu asked for and the samples, and the smallest mu with a certified
+/// solution, in doubles.
 fn presence(analysis: &Analysis) -> PresenceChart {
     let mut ranges = Vec::new();
     for range in &analysis.ranges {
@@ -161,7 +162,8 @@ fn presence(analysis: &Analysis) -> PresenceChart {
         });
     }
 
-    let mut samples = Vec::new();
+    let own = drawn_verdict(analysis.divergence.verdict);
+    let mut samples = vec![(to_f64(&analysis.friction), own)];
     for sample in &analysis.samples {
         samples.push((to_f64(&sample.mu), drawn_verdict(sample.verdict)));
     }

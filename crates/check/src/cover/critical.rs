@@ -234,6 +234,7 @@ struct BoxCorners {
     exact: RefCell<Option<Rc<[Ends; 2]>>>,
     /// `Some(None)`: there are no short numbers for them.
     short: RefCell<Option<Option<Rc<[Short; 4]>>>>,
+    is_counted: Cell<bool>,
 }
 
 impl BoxCorners {
@@ -241,6 +242,7 @@ impl BoxCorners {
     fn forget(&self) {
         self.exact.take();
         self.short.take();
+        self.is_counted.set(false);
     }
 }
 
@@ -458,7 +460,6 @@ impl BoxWalk<'_> {
         let plain = self.ends(0, region, &region.matrices, anchor)?;
         let friction = self.ends(1, region, &at.friction_matrices, anchor)?;
 
-        self.spend_corners(at)?;
         let corners = at
             .friction
             .each_ref()
@@ -510,14 +511,11 @@ impl BoxWalk<'_> {
         let lo = &region.lo;
         let hi = region.hi.as_ref();
 
-        matrices.ends(|| {
-            self.matrix_budget
-                .spend(family.matrix_work(anchor, lo, hi))?;
-            family.ends(anchor, lo, hi)
-        })
+        matrices.ends(|| family.ends(anchor, lo, hi))
     }
 
-    /// Demands that the matrices of the parts and those of the box are small enough.
+    /// Demands that the matrices of the parts and those of the box are small enough, and counts
+    /// them once for all boxes that share them.
     fn affordable(&self, at: &FrictionBox, anchor: Option<usize>) -> Result<(), CoverFault> {
         let lo = &at.region.lo;
         let hi = at.region.hi.as_ref();
@@ -527,7 +525,18 @@ impl BoxWalk<'_> {
 
         let [end_bits, friction_bits] = box_bits(at);
         let what = "bits of a box's matrix";
-        within_matrix_bits(what, self.index.len(), 1, end_bits + friction_bits)
+        within_matrix_bits(what, self.index.len(), 1, end_bits + friction_bits)?;
+
+        let matrices = [&at.region.matrices, &at.friction_matrices];
+        for (family, matrices) in self.families.iter().zip(matrices) {
+            let work = family.matrix_work(anchor, lo, hi);
+            matrices.count(&self.matrix_budget, work)?;
+        }
+
+        if at.corners.is_counted.replace(true) {
+            return Ok(());
+        }
+        self.spend_corners(at)
     }
 
     /// Takes the work of the corners from the budget: each entry of the ends is multiplied by a

@@ -376,8 +376,8 @@ mod tests {
         walk.matrix_budget = WorkBudget::matrices(2 * cost - 1);
 
         let shared = region(rational(1, 3), 2, vec![State::Undecided; 2]);
-        assert!(walk.ends(&shared, None).is_ok());
-        assert!(walk.ends(&shared, None).is_ok());
+        assert_eq!(walk.affordable(&shared, None), Ok(()));
+        assert_eq!(walk.affordable(&shared, None), Ok(()));
         assert_eq!(walk.matrix_budget.left(), cost - 1);
 
         let other = region(rational(1, 3), 2, vec![State::Undecided; 2]);
@@ -386,7 +386,7 @@ mod tests {
             limit: cost - 1,
             got: cost,
         };
-        assert_eq!(walk.ends(&other, None).err(), Some(too_large));
+        assert_eq!(walk.affordable(&other, None), Err(too_large));
     }
 
     /// A root leaf of -6 + t over [5, 7] needs the matrices of its hull and of its interval: 3 (3 +

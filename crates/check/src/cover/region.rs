@@ -1,10 +1,11 @@
 //! Regions: an interval of the unknown and what is known of the support.
 
+use super::budget::WorkBudget;
 use super::ends::Ends;
 use super::fault::CoverFault;
 use super::short::Short;
 use mceip_exact::Rational;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 /// What is known of a complementarity variable in a region.
@@ -139,9 +140,20 @@ pub(super) struct Matrices {
     pub(super) exact: RefCell<Option<Rc<Ends>>>,
     /// `Some(None)`: there are no short numbers for them.
     pub(super) short: RefCell<Option<Option<Rc<[Short; 2]>>>>,
+    is_counted: Cell<bool>,
 }
 
 impl Matrices {
+    /// Takes the work of the long numbers from a budget, once until they are forgotten, whether the
+    /// long numbers are needed or the short ones do: what a file may cost does not depend on that.
+    pub(super) fn count(&self, budget: &WorkBudget, work: u64) -> Result<(), CoverFault> {
+        if !self.is_counted.replace(true) {
+            budget.spend(work)?;
+        }
+
+        Ok(())
+    }
+
     /// The long numbers, computed where they are not yet known.
     pub(super) fn ends(
         &self,
@@ -175,6 +187,7 @@ impl Matrices {
     pub(super) fn forget(&self) {
         self.exact.take();
         self.short.take();
+        self.is_counted.set(false);
     }
 }
 

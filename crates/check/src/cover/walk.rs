@@ -353,10 +353,8 @@ impl Walk<'_> {
         region: &Region,
         anchor: Option<usize>,
     ) -> Result<Rc<Ends>, CoverFault> {
-        region.matrices.ends(|| {
-            self.spend_matrix(anchor, &region.lo, region.hi.as_ref())?;
-            self.family.ends(anchor, &region.lo, region.hi.as_ref())
-        })
+        let compute = || self.family.ends(anchor, &region.lo, region.hi.as_ref());
+        region.matrices.ends(compute)
     }
 
     /// The same in short numbers, where there are such.
@@ -371,10 +369,19 @@ impl Walk<'_> {
         })
     }
 
-    /// Demands that the matrices of the region are small enough to be computed.
-    fn affordable(&self, region: &Region, anchor: Option<usize>) -> Result<(), CoverFault> {
+    /// Demands that the matrices of the region are small enough to be computed, and counts them
+    /// once an interval.
+    pub(super) fn affordable(
+        &self,
+        region: &Region,
+        anchor: Option<usize>,
+    ) -> Result<(), CoverFault> {
+        let lo = &region.lo;
         let hi = region.hi.as_ref();
-        self.family.affordable(anchor, &region.lo, hi)
+        self.family.affordable(anchor, lo, hi)?;
+
+        let work = self.family.matrix_work(anchor, lo, hi);
+        region.matrices.count(&self.matrix_budget, work)
     }
 
     /// Counts what the matrices of an interval cost.

@@ -350,3 +350,36 @@ fn the_corners_enclose_the_schur_complement() {
         }
     }
 }
+
+/// Matrices count as much where short numbers decide, once for all boxes that share them.
+#[test]
+fn boxes_count_their_matrices_once() {
+    let parts = parts();
+    let condensation = condensation(&parts, &rational(4, 5), 40);
+    let expansions = condensed::of_parts(&parts, &condensation, &|| true).unwrap();
+    let below = whole(2);
+    let mut walk = walk(expansions.map(family_of_anchors), &parts.plain, &below);
+    let at = || {
+        let t = [rational(1, 3), rational(9, 7)];
+        boxed(t, [rational(2, 11), rational(5, 3)])
+    };
+    let before = walk.matrix_budget.left();
+
+    let first = at();
+    assert_eq!(walk.affordable(&first, Some(0)), Ok(()));
+    assert!(walk.short(&first, Some(0)).is_some());
+    let cost = before - walk.matrix_budget.left();
+    assert!(cost > 0);
+
+    // Long numbers of the same box, and a box that differs in its states alone, cost no more.
+    assert!(walk.corners(&first, Some(0)).is_ok());
+    let [resting, moving] = first.branch(2, &[2, 3], None).unwrap();
+    for sibling in [resting, moving] {
+        assert_eq!(walk.affordable(&sibling, Some(0)), Ok(()));
+    }
+    assert_eq!(walk.matrix_budget.left(), before - cost);
+
+    walk.matrix_budget = WorkBudget::matrices(cost - 1);
+    let refused = walk.affordable(&at(), Some(0));
+    assert!(matches!(refused, Err(CoverFault::TooLarge { .. })));
+}
