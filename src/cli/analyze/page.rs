@@ -139,7 +139,8 @@ fn answers(analysis: &Analysis, paths: &[String]) -> Section {
             &presence(analysis),
         ),
         caption: "Where in \u{3bc} divergence of the form (8) exists, with these contact states. \
-                  Between samples nothing is proved; where there is no box, nothing was examined."
+                  Dots are single values, each decided by a complete search; in a dashed box nothing \
+                  is proved between them. Where there is no box, nothing was examined."
             .into(),
     });
 
