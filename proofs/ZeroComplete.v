@@ -21,7 +21,7 @@
    [zero_complete_hold]: at each value of a family there is a motion in its region, and only one,
    up to a positive factor, where the family is called alone.
    [zero_varying_number], [zero_varying_none], [zero_varying_hold]: the same where the free rows
-   depend on the unknown, without enclosed claims beside the tree.
+   depend on the unknown.
 
    Page: spec/certificates.md, 5.6, 5.11, 5.15; spec/zero-reaction.md, Z.3 (covers).
    Rust: crates/check/src/cover/walk.rs, root.rs. *)
@@ -44,6 +44,8 @@ Local Open Scope ring_scope.
 (* A claim with the support [box_names] that stands beside a region. *)
 Record pinned_box := PinnedBox {
   box_interval : interval;
+  near_anchor : nat;  (* where the free rows depend on the unknown: its anchor, *)
+  near_grain : Z;     (* and the grain of its local pencil *)
   box_pinning : pinning;
   box_names : seq nat;
   box_claim : enclosed_claim }.
@@ -71,10 +73,18 @@ Definition known_box (b : pinned_box) :=
 Definition pinned_yield (r : region) (b : pinned_box) :=
   Yield (extended r (box_interval b)) (box_from (box_claim b)) (box_to (box_claim b)).
 
-Definition check_pinned P (r : region) (b : pinned_box) :=
+(* The region has at most one solution, that of the claim. *)
+Definition pinned_alone P (r : region) (b : pinned_box) :=
+  check_claimed P r (box_pinning b) (known_box b).
+
+Definition pinned_about w families (r : region) (b : pinned_box) :=
+  at_anchor w families (near_anchor b) r
+    (claim_at Q (near_grain b) (box_pinning b) (known_box b)).
+
+Definition check_pinned (alone : region -> pinned_box -> bool) (r : region) (b : pinned_box) :=
   let r' := extended r (box_interval b) in
-  [&& ordered (lower r) (upper r), reaches r (box_interval b),
-      check_claimed P r' (box_pinning b) (known_box b), supports_region P r' (known_box b) &
+  [&& ordered (lower r) (upper r), reaches r (box_interval b), alone r' b,
+      supports_region (enclosed_order ns) r' (known_box b) &
       check_zero_enclosed z u (box_names b) (box_claim b)].
 
 Section Beside.
@@ -88,9 +98,9 @@ Definition pinned_yields : seq yield :=
 Definition not_pinned : seq region :=
   pmap (fun rb => if rb.2 is Some _ then None else Some rb.1) (zip rs bs).
 
-Definition check_beside P :=
+Definition check_beside alone :=
   (size rs == size bs) &&
-  all (fun rb => if rb.2 is Some b then check_pinned P rb.1 b else true) (zip rs bs).
+  all (fun rb => if rb.2 is Some b then check_pinned alone rb.1 b else true) (zip rs bs).
 
 End Beside.
 
@@ -116,7 +126,7 @@ Definition zero_undecided := not_pinned (left_open tr lo hi) bs.
 
 Definition check_zero_complete :=
   [&& zero_wellformed z u, check_complete Q [::] w tr lo hi,
-      check_beside (left_open tr lo hi) bs (condensed (blocks_of Q) w) &
+      check_beside (left_open tr lo hi) bs (pinned_alone (condensed (blocks_of Q) w)) &
       check_supports Q zero_undecided ls].
 
 Definition zero_solutions :=
@@ -131,16 +141,21 @@ End Constant.
 Section Varying.
 
 Variables (w : anchoring) (tr : tree varying_leaf) (lo hi : point).
-Variable ls : seq (option support_leaf).
+Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
+
+Notation undecided := (not_pinned (varying_open tr lo hi) bs).
 
 Definition check_zero_varying :=
-  zero_wellformed z u && check_varying_families Q [::] w tr lo hi ls.
+  [&& zero_wellformed z u, check_varying Q [::] w tr lo hi,
+      check_beside (varying_open tr lo hi) bs (pinned_about w (expansions Q w)) &
+      check_supports Q undecided ls].
 
 Definition zero_varying_solutions :=
-  zero_distinct lo hi (varying_found Q [::] tr lo hi) (varying_open tr lo hi) ls.
+  zero_distinct lo hi
+    (varying_found Q [::] tr lo hi ++ pinned_yields (varying_open tr lo hi) bs) undecided ls.
 
-Definition zero_varying_families := families_of (varying_open tr lo hi) ls.
-Definition zero_varying_open := zero_open (varying_open tr lo hi) ls.
+Definition zero_varying_families := families_of undecided ls.
+Definition zero_varying_open := zero_open undecided ls.
 
 End Varying.
 
@@ -352,6 +367,54 @@ case: (left z j \in _) => /= [neg|->]; last by rewrite ltxx; split.
 by rewrite neg; split=> // _; rewrite oppr_gt0 pmulr_llt0 ?invr_gt0.
 Qed.
 
+(* Boxes beside the regions that a cover leaves undecided. *)
+Section Beside.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown) (lo hi : point).
+Hypothesis wf : zero_wellformed z u.
+
+Notation Q := (zero_pencil z u).
+Notation ns := (size (slip Q)).
+
+Variables (alone : region -> pinned_box -> bool).
+Variables (yields : seq yield) (rs : seq region) (bs : seq (option pinned_box)).
+
+Hypothesis beside : check_beside z u rs bs alone.
+Hypothesis every : forall (t : R) x, solution Q t x -> between t lo hi ->
+  (exists2 y, List.In y yields & lies_in Q (yield_region y) t x) \/
+  (exists2 r, List.In r rs & lies_in Q r t x).
+Hypothesis each : forall y, List.In y yields -> one_solution_in R Q y.
+Hypothesis alone_sound : forall r b, ordered (lower r) (upper r) -> alone r b ->
+  (exists (t : R) x, known_solution Q (known_box z u b) t x) ->
+  supports_region (enclosed_order ns) r (known_box z u b) ->
+  one_solution_in R Q (Yield r (box_from (box_claim b)) (box_to (box_claim b))).
+
+Lemma beside_every (t : R) x : solution Q t x -> between t lo hi ->
+  (exists2 y, List.In y (yields ++ pinned_yields rs bs) & lies_in Q (yield_region y) t x) \/
+  (exists2 r, List.In r (not_pinned rs bs) & lies_in Q r t x).
+Proof.
+have /andP[/eqP sz pinned_all] := beside => sol bt.
+have [[y y_in reg]|[r r_in reg]] := every sol bt.
+  by left; exists y => //; apply/in_cat_or; left.
+have [[b|] rb_in] := in_zip sz r_in; last first.
+  by right; exists r => //; apply/in_pmap; exists (r, None).
+left; exists (pinned_yield r b).
+  by apply/in_cat_or; right; apply/in_pmap; exists (r, Some b).
+have /and5P[O /and3P[o le_lo le_hi] _ _ _] := Support.all_In pinned_all rb_in.
+by case: reg => bt' ag; split=> //; apply: between_wider O o le_lo le_hi bt'.
+Qed.
+
+Lemma beside_each y : List.In y (yields ++ pinned_yields rs bs) -> one_solution_in R Q y.
+Proof.
+have /andP[_ pinned_all] := beside.
+case/in_cat_or=> [/each|/in_pmap[[r [b|]] //= rb_in [<-]]] //.
+have /and5P[_ reach ok sup box] := Support.all_In pinned_all rb_in.
+apply: alone_sound => //; first by case/and3P: reach.
+exact: zero_box_known.
+Qed.
+
+End Beside.
+
 (* Free rows that do not depend on the unknown. *)
 Section Constant.
 
@@ -367,24 +430,23 @@ Notation A := (A_condensed R (blocks_of Q) w).
 Notation B := (B_condensed R (blocks_of Q) w).
 Notation rs := (left_open tr lo hi).
 Notation undecided := (zero_undecided tr lo hi bs).
-Notation yields := (found Q [::] tr lo hi ++ pinned_yields rs bs).
 
 Lemma zero_complete_parts :
-  [/\ zero_wellformed z u, check_complete Q [::] w tr lo hi, check_beside z u rs bs P &
-      check_supports Q undecided ls].
+  [/\ zero_wellformed z u, check_complete Q [::] w tr lo hi,
+      check_beside z u rs bs (pinned_alone z u P) & check_supports Q undecided ls].
 Proof. by case/and4P: checked. Qed.
 
-Lemma pinned_one r b : check_pinned z u P r b -> one_solution_in R Q (pinned_yield r b).
+Lemma alone_constant r b : ordered (lower r) (upper r) -> pinned_alone z u P r b ->
+  (exists (t : R) x, known_solution Q (known_box z u b) t x) ->
+  supports_region (enclosed_order (size (slip Q))) r (known_box z u b) ->
+  one_solution_in R Q (Yield r (box_from (box_claim b)) (box_to (box_claim b))).
 Proof.
-have [wf complete _ _] := zero_complete_parts; case/and5P=> O reach ok sup box.
-have [t [x [bt sol signs]]] := zero_box_known R wf box.
+have [_ complete _ _] := zero_complete_parts => O ok [t [x [bt sol signs]]] sup.
 have [sol_s free_x] := condensed_solution complete sol.
 have known_s : is_known P A B (known_box z u b) t (slip_of Q x).
   split=> // j; rewrite mem_iota add0n /= => lt_j; have [pos zero _] := signs _ lt_j.
   by split.
-have O' : ordered (lower (extended r (box_interval b))) (upper (extended r (box_interval b))).
-  by case/and3P: reach.
-have [reg uniq] := claimed_sound (encloses_condensed R complete) O' ok known_s sup.
+have [reg uniq] := claimed_sound (encloses_condensed R complete) O ok known_s sup.
 exists t, x; split=> // t' x' sol' reg'.
 have [sol_s' free'] := condensed_solution complete sol'.
 have [-> [f f0 scaled]] := uniq _ _ sol_s' reg'.
@@ -394,29 +456,6 @@ split=> //; exists f => // i Hi; case/orP: (free_or_slip Hi) => /(nthP 0%N)[k lt
   by rewrite scaled // mulrCA.
 rewrite -[LHS]/(slip_of Q x' k) -[X in _ = f * X]/(slip_of Q x k).
 by apply: scaled; rewrite mem_iota.
-Qed.
-
-Lemma zero_every (t : R) x : solution Q t x -> between t lo hi ->
-  (exists2 y, List.In y yields & lies_in Q (yield_region y) t x) \/
-  (exists2 r, List.In r undecided & lies_in Q r t x).
-Proof.
-have [_ complete /andP[/eqP sz every_pinned] _] := zero_complete_parts => sol bt.
-have [every _] := complete_sound R complete; have [[y y_in reg]|[r r_in reg]] := every t x sol bt.
-  by left; exists y => //; apply/in_cat_or; left.
-have [[b|] rb_in] := in_zip sz r_in; last first.
-  by right; exists r => //; apply/in_pmap; exists (r, None).
-left; exists (pinned_yield r b).
-  by apply/in_cat_or; right; apply/in_pmap; exists (r, Some b).
-have /and5P[O /and3P[o le_lo le_hi] _ _ _] := Support.all_In every_pinned rb_in.
-by case: reg => bt' ag; split=> //; apply: between_wider O o le_lo le_hi bt'.
-Qed.
-
-Lemma zero_each y : List.In y yields -> one_solution_in R Q y.
-Proof.
-have [_ complete /andP[_ every_pinned] _] := zero_complete_parts.
-case/in_cat_or=> [y_in|/in_pmap[[r [b|]] //= rb_in [<-]]].
-  by have [_ each] := complete_sound R complete; apply: each.
-exact: pinned_one (Support.all_In every_pinned rb_in).
 Qed.
 
 Theorem zero_complete_number ys : zero_solutions z u tr lo hi bs ls = Some ys ->
@@ -433,8 +472,10 @@ Theorem zero_complete_number ys : zero_solutions z u tr lo hi bs ls = Some ys ->
               exists2 r, List.In r (zero_still_open z u tr lo hi bs ls) &
                 zero_motion_in z u r t v]].
 Proof.
-have [wf _ _ supports] := zero_complete_parts.
-exact: (zero_cover_number wf supports zero_every zero_each).
+have [wf complete beside supports] := zero_complete_parts.
+have [every each] := complete_sound R complete.
+exact: (zero_cover_number wf supports (beside_every beside every)
+  (beside_each wf beside each alone_constant)).
 Qed.
 
 Corollary zero_none : zero_solutions z u tr lo hi bs ls = Some [::] ->
@@ -463,18 +504,22 @@ End Constant.
 Section Varying.
 
 Variables (R : rcfType) (z : zero_system) (u : unknown) (w : anchoring).
-Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
-Hypothesis checked : check_zero_varying z u w tr lo hi ls.
+Variables (tr : tree varying_leaf) (lo hi : point).
+Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
+Hypothesis checked : check_zero_varying z u w tr lo hi bs ls.
 
 Notation s := (without_zero z).
 Notation Q := (zero_pencil z u).
 
-Lemma zero_varying_parts :
-  [/\ zero_wellformed z u, check_varying Q [::] w tr lo hi &
-      check_supports Q (varying_open tr lo hi) ls].
-Proof. by case/and3P: checked. Qed.
+Notation rs := (varying_open tr lo hi).
 
-Theorem zero_varying_number ys : zero_varying_solutions z u tr lo hi ls = Some ys ->
+Lemma zero_varying_parts :
+  [/\ zero_wellformed z u, check_varying Q [::] w tr lo hi,
+      check_beside z u rs bs (pinned_about z u w (expansions Q w)) &
+      check_supports Q (not_pinned rs bs) ls].
+Proof. by case/and4P: checked. Qed.
+
+Theorem zero_varying_number ys : zero_varying_solutions z u tr lo hi bs ls = Some ys ->
   exists l : seq (R * (nat -> R)),
     [/\ size l = size ys,
         forall m, List.In m l -> satisfies_9z z u m.1 m.2 /\ between m.1 lo hi,
@@ -483,33 +528,35 @@ Theorem zero_varying_number ys : zero_varying_solutions z u tr lo hi ls = Some y
         List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
         forall t v, satisfies_9z z u t v -> between t lo hi ->
           [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
-              exists2 f, List.In f (zero_varying_families tr lo hi ls) &
+              exists2 f, List.In f (zero_varying_families tr lo hi bs ls) &
                 zero_motion_in_family z u f t v |
-              exists2 r, List.In r (zero_varying_open z u tr lo hi ls) &
+              exists2 r, List.In r (zero_varying_open z u tr lo hi bs ls) &
                 zero_motion_in z u r t v]].
 Proof.
-have [wf varying supports] := zero_varying_parts.
+have [wf varying beside supports] := zero_varying_parts.
 have [every each] := varying_sound R varying.
-exact: (zero_cover_number wf supports every each).
+apply: (zero_cover_number wf supports (beside_every beside every)).
+apply: (beside_each wf beside each) => r b O ok known sup.
+exact: (claim_yields varying O ok known sup).
 Qed.
 
-Corollary zero_varying_none : zero_varying_solutions z u tr lo hi ls = Some [::] ->
-  zero_varying_families tr lo hi ls = [::] -> zero_varying_open z u tr lo hi ls = [::] ->
+Corollary zero_varying_none : zero_varying_solutions z u tr lo hi bs ls = Some [::] ->
+  zero_varying_families tr lo hi bs ls = [::] -> zero_varying_open z u tr lo hi bs ls = [::] ->
   forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
 Proof.
 move=> /zero_varying_number[l [/size0nil-> _ _ _ every]] no_family closed t v sat bt.
 by have [[m]|[f]|[r]] := every t v sat bt; rewrite ?no_family ?closed.
 Qed.
 
-Theorem zero_varying_hold ys : zero_varying_solutions z u tr lo hi ls = Some ys ->
-  forall f, List.In f (zero_varying_families tr lo hi ls) ->
+Theorem zero_varying_hold ys : zero_varying_solutions z u tr lo hi bs ls = Some ys ->
+  forall f, List.In f (zero_varying_families tr lo hi bs ls) ->
   is_place R (held_place f.2) /\
   forall t : R, in_place (held_place f.2) t ->
     (exists v, satisfies_9z z u t v /\ zero_motion_in z u f.1 t v) /\
     (held_alone f.2 -> forall v v', satisfies_9z z u t v -> zero_motion_in z u f.1 t v ->
        satisfies_9z z u t v' -> zero_motion_in z u f.1 t v' -> same_motion s v v').
 Proof.
-have [wf _ supports] := zero_varying_parts.
+have [wf _ _ supports] := zero_varying_parts.
 exact: (zero_cover_hold R wf supports).
 Qed.
 

@@ -635,7 +635,8 @@ have [t0 [[d d_in vd] _ free slips zeros]] := sat_x; split=> //.
     apply: contraNT vd => /hasPn none; rewrite /zero_motion nth_table //.
     rewrite /row_value big_seq big1 // => c c_in.
     have : (c.1 < nf + ns + 3 * nz)%N by apply: columns_small c_in.
-    by move=> small; have := none c.1; rewrite mem_iota small negbK => /(_ isT)/eqP->; rewrite mulr0.
+    move=> small; have := none c.1; rewrite mem_iota small negbK => /(_ isT)/eqP->.
+    by rewrite mulr0.
   by case/hasP=> i i_in xi; exists i.
 - move=> i; rewrite mem_iota add0n /= => lt_i; rewrite zero_free_reaction // free //.
   exact: mem_nth.

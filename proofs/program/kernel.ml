@@ -5624,7 +5624,8 @@ let pencil_by_table z0 u table0 =
 let zero_pencil z0 u =
   pencil_by_table z0 u (zero_table z0)
 
-type pinned_box = { box_interval : interval; box_pinning : pinning;
+type pinned_box = { box_interval : interval; near_anchor : int;
+                    near_grain : Big_int_Z.big_int; box_pinning : pinning;
                     box_names : int list; box_claim : enclosed_claim }
 
 (** val half_state :
@@ -5662,15 +5663,33 @@ let pinned_yield r b =
   { yield_region = (extended r b.box_interval); yield_from =
     b.box_claim.box_from; yield_to = b.box_claim.box_to }
 
-(** val check_pinned :
+(** val pinned_alone :
     zero_system -> unknown -> enclosed -> region -> pinned_box -> bool **)
 
-let check_pinned z0 u p r b =
+let pinned_alone z0 u p r b =
+  check_claimed p r b.box_pinning (known_box z0 u b)
+
+(** val pinned_about :
+    zero_system -> unknown -> anchoring -> anchor_family option list ->
+    region -> pinned_box -> bool **)
+
+let pinned_about z0 u w families0 r b =
+  at_anchor w families0 b.near_anchor r
+    (claim_at (zero_pencil z0 u) b.near_grain b.box_pinning
+      (known_box z0 u b))
+
+(** val check_pinned :
+    zero_system -> unknown -> (region -> pinned_box -> bool) -> region ->
+    pinned_box -> bool **)
+
+let check_pinned z0 u alone r b =
   let r' = extended r b.box_interval in
   (&&) (ordered r.lower r.upper)
     ((&&) (reaches r b.box_interval)
-      ((&&) (check_claimed p r' b.box_pinning (known_box z0 u b))
-        ((&&) (supports_region p r' (known_box z0 u b))
+      ((&&) (alone r' b)
+        ((&&)
+          (supports_region (enclosed_order (size (slip (zero_pencil z0 u))))
+            r' (known_box z0 u b))
           (check_zero_enclosed z0 u b.box_names b.box_claim))))
 
 (** val pinned_yields :
@@ -5688,13 +5707,13 @@ let not_pinned rs bs =
 
 (** val check_beside :
     zero_system -> unknown -> region list -> pinned_box option list ->
-    enclosed -> bool **)
+    (region -> pinned_box -> bool) -> bool **)
 
-let check_beside z0 u rs bs p =
+let check_beside z0 u rs bs alone =
   (&&) (eq_op nat_eqType (Obj.magic size rs) (Obj.magic size bs))
     (all (fun rb ->
       match snd rb with
-      | Some b -> check_pinned z0 u p (fst rb) b
+      | Some b -> check_pinned z0 u alone (fst rb) b
       | None -> true) (zip rs bs))
 
 (** val zero_distinct :
@@ -5738,7 +5757,7 @@ let check_zero_complete z0 u w tr lo hi bs ls =
     ((&&) (check_complete (zero_pencil z0 u) [] w tr lo hi)
       ((&&)
         (check_beside z0 u (left_open tr lo hi) bs
-          (condensed (blocks_of (zero_pencil z0 u)) w))
+          (pinned_alone z0 u (condensed (blocks_of (zero_pencil z0 u)) w)))
         (check_supports (zero_pencil z0 u) (zero_undecided tr lo hi bs) ls)))
 
 (** val zero_solutions :
@@ -5766,30 +5785,37 @@ let zero_still_open z0 u tr lo hi bs ls =
 
 (** val check_zero_varying :
     zero_system -> unknown -> anchoring -> varying_leaf tree -> point ->
-    point -> support_leaf option list -> bool **)
+    point -> pinned_box option list -> support_leaf option list -> bool **)
 
-let check_zero_varying z0 u w tr lo hi ls =
+let check_zero_varying z0 u w tr lo hi bs ls =
   (&&) (zero_wellformed z0 u)
-    (check_varying_families (zero_pencil z0 u) [] w tr lo hi ls)
+    ((&&) (check_varying (zero_pencil z0 u) [] w tr lo hi)
+      ((&&)
+        (check_beside z0 u (varying_open tr lo hi) bs
+          (pinned_about z0 u w (expansions (zero_pencil z0 u) w)))
+        (check_supports (zero_pencil z0 u)
+          (not_pinned (varying_open tr lo hi) bs) ls)))
 
 (** val zero_varying_solutions :
     zero_system -> unknown -> varying_leaf tree -> point -> point ->
-    support_leaf option list -> yield list option **)
+    pinned_box option list -> support_leaf option list -> yield list option **)
 
-let zero_varying_solutions z0 u tr lo hi ls =
-  zero_distinct z0 u lo hi (varying_found (zero_pencil z0 u) [] tr lo hi)
-    (varying_open tr lo hi) ls
+let zero_varying_solutions z0 u tr lo hi bs ls =
+  zero_distinct z0 u lo hi
+    (cat (varying_found (zero_pencil z0 u) [] tr lo hi)
+      (pinned_yields (varying_open tr lo hi) bs))
+    (not_pinned (varying_open tr lo hi) bs) ls
 
 (** val zero_varying_families :
-    varying_leaf tree -> point -> point -> support_leaf option list -> family
-    list **)
+    varying_leaf tree -> point -> point -> pinned_box option list ->
+    support_leaf option list -> family list **)
 
-let zero_varying_families tr lo hi ls =
-  families_of (varying_open tr lo hi) ls
+let zero_varying_families tr lo hi bs ls =
+  families_of (not_pinned (varying_open tr lo hi) bs) ls
 
 (** val zero_varying_open :
     zero_system -> unknown -> varying_leaf tree -> point -> point ->
-    support_leaf option list -> region list **)
+    pinned_box option list -> support_leaf option list -> region list **)
 
-let zero_varying_open z0 u tr lo hi ls =
-  zero_open z0 u (varying_open tr lo hi) ls
+let zero_varying_open z0 u tr lo hi bs ls =
+  zero_open z0 u (not_pinned (varying_open tr lo hi) bs) ls

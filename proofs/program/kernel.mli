@@ -1808,7 +1808,8 @@ val pencil_by_table : zero_system -> unknown -> sparse_row list -> pencil
 
 val zero_pencil : zero_system -> unknown -> pencil
 
-type pinned_box = { box_interval : interval; box_pinning : pinning;
+type pinned_box = { box_interval : interval; near_anchor : int;
+                    near_grain : Big_int_Z.big_int; box_pinning : pinning;
                     box_names : int list; box_claim : enclosed_claim }
 
 val half_state : zero_system -> unknown -> region -> Equality.sort -> state
@@ -1821,16 +1822,24 @@ val known_box : zero_system -> unknown -> pinned_box -> known
 
 val pinned_yield : region -> pinned_box -> yield
 
-val check_pinned :
+val pinned_alone :
   zero_system -> unknown -> enclosed -> region -> pinned_box -> bool
+
+val pinned_about :
+  zero_system -> unknown -> anchoring -> anchor_family option list -> region
+  -> pinned_box -> bool
+
+val check_pinned :
+  zero_system -> unknown -> (region -> pinned_box -> bool) -> region ->
+  pinned_box -> bool
 
 val pinned_yields : region list -> pinned_box option list -> yield list
 
 val not_pinned : region list -> pinned_box option list -> region list
 
 val check_beside :
-  zero_system -> unknown -> region list -> pinned_box option list -> enclosed
-  -> bool
+  zero_system -> unknown -> region list -> pinned_box option list -> (region
+  -> pinned_box -> bool) -> bool
 
 val zero_distinct :
   zero_system -> unknown -> point -> point -> yield list -> region list ->
@@ -1861,16 +1870,16 @@ val zero_still_open :
 
 val check_zero_varying :
   zero_system -> unknown -> anchoring -> varying_leaf tree -> point -> point
-  -> support_leaf option list -> bool
+  -> pinned_box option list -> support_leaf option list -> bool
 
 val zero_varying_solutions :
-  zero_system -> unknown -> varying_leaf tree -> point -> point ->
-  support_leaf option list -> yield list option
+  zero_system -> unknown -> varying_leaf tree -> point -> point -> pinned_box
+  option list -> support_leaf option list -> yield list option
 
 val zero_varying_families :
-  varying_leaf tree -> point -> point -> support_leaf option list -> family
-  list
+  varying_leaf tree -> point -> point -> pinned_box option list ->
+  support_leaf option list -> family list
 
 val zero_varying_open :
-  zero_system -> unknown -> varying_leaf tree -> point -> point ->
-  support_leaf option list -> region list
+  zero_system -> unknown -> varying_leaf tree -> point -> point -> pinned_box
+  option list -> support_leaf option list -> region list

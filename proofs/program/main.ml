@@ -474,12 +474,22 @@ let elaborate_zero q (zero : Kernel.zero_system) unknown ~leaf ~left_open ~nothi
       Elaborate.build_pieces ~other_half q.slip leaf q.certificate.window q.certificate.pieces) in
   tree, List.rev !beside
 
-(* A gap and one half of a particle move: the row of the other half vanishes. *)
+(* A gap and one half of a particle move: the row of the other half vanishes, and a box is asked
+   for. *)
 let opens q (zero : Kernel.zero_system) (region : Kernel.region) =
   let moves i = Kernel.state_of region (i - q.slip.(0)) = Kernel.Moving in
-  List.exists (fun j ->
+  let opens = List.exists (fun j ->
       moves (Kernel.gap zero j) && (moves (Kernel.right zero j) || moves (Kernel.left zero j)))
-    (List.init (List.length zero.zero_particles) Fun.id)
+      (List.init (List.length zero.zero_particles) Fun.id) in
+  if opens && zero.without_zero.dofs + Array.length q.slip > largest_enclosed then
+    Problem.not_verified "a root of more than %d active variables where a particle opens"
+      largest_enclosed;
+  opens
+
+(* The boxes, and the support leaves of the regions without a box. *)
+let boxes_and_supports beside =
+  List.map fst beside,
+  List.filter_map (function None, s -> Some s | Some _, _ -> None) beside
 
 type zero_cover = {
   zero_yielded : Kernel.yield list;
@@ -505,8 +515,7 @@ let verify_zero_constant q zero unknown =
   let tree, beside =
     elaborate_zero q zero unknown ~leaf ~left_open:Kernel.Undecided
       ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
-  let boxes = List.map fst beside in
-  let supports = List.filter_map (function None, s -> Some s | Some _, _ -> None) beside in
+  let boxes, supports = boxes_and_supports beside in
   refuse_tree_unless (timed "kernel" (fun () ->
       Kernel.check_zero_complete zero unknown elimination tree q.lo q.hi boxes supports));
   { zero_yielded = Kernel.found q.pencil [] tree q.lo q.hi;
@@ -519,20 +528,20 @@ let verify_zero_varying q zero unknown =
   let varying = timed "condensation" (fun () ->
       Elaborate.varying_of q.pencil q.slip_list problem.common problem.slip_common [||]
         certificate.condensation certificate.pieces) in
-  let leaf ~put_box:_ piece region = function
-    | Certificate.Root { outcome = Solution; _ } when opens q zero region ->
-      Problem.not_verified "a root where a particle with zero reaction opens, about an anchor"
+  let leaf ~put_box piece region = function
+    | Certificate.Root ({ outcome = Solution; _ } as r) when opens q zero region ->
+      Elaborate.pinned_about_tree varying piece zero unknown region r put_box
     | node -> Elaborate.varying_leaf varying piece region node in
   let tree, beside =
     elaborate_zero q zero unknown ~leaf ~left_open:Kernel.LeftOpen
       ~nothing:(Elaborate.whole_of varying "support") in
-  let supports = List.map snd beside in
+  let boxes, supports = boxes_and_supports beside in
   refuse_tree_unless (timed "kernel" (fun () ->
-      Kernel.check_zero_varying zero unknown varying.anchoring tree q.lo q.hi supports));
+      Kernel.check_zero_varying zero unknown varying.anchoring tree q.lo q.hi boxes supports));
   { zero_yielded = Kernel.varying_found q.pencil [] tree q.lo q.hi;
-    zero_found = lazy (Kernel.zero_varying_solutions zero unknown tree q.lo q.hi supports);
-    zero_families = Kernel.zero_varying_families tree q.lo q.hi supports;
-    zero_open = Kernel.zero_varying_open zero unknown tree q.lo q.hi supports }
+    zero_found = lazy (Kernel.zero_varying_solutions zero unknown tree q.lo q.hi boxes supports);
+    zero_families = Kernel.zero_varying_families tree q.lo q.hi boxes supports;
+    zero_open = Kernel.zero_varying_open zero unknown tree q.lo q.hi boxes supports }
 
 let depends_on_value pencil (certificate : Certificate.t) =
   not (Kernel.free_rows_constant pencil)
