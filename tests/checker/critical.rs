@@ -12,6 +12,7 @@ use mceip_check::{Reason, audit_critical, check_critical};
 use mceip_exact::{Rational, Sparse, parse, rational, to_f64, whole};
 use mceip_model::file::Number;
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
+use std::cell::Cell;
 
 /// Where the boxes of the fold end and a definite matrix takes over.
 const LAST: i64 = 16;
@@ -165,6 +166,35 @@ fn certificate(
     }
 }
 
+/// The leaves that fail.
+fn audited(problem: &Problem, certificate: &CriticalCertificate) -> Vec<(usize, usize)> {
+    let refused = audit_critical(problem, certificate, &|| true).unwrap();
+    refused.unwrap()
+}
+
+/// Whichever leaf it is stopped at, an audit says nothing; and it is not asked again.
+#[test]
+fn a_stopped_audit_is_no_verdict() {
+    let problem = fold();
+    let below = parse("1.87").unwrap();
+    let refusable = searched(&problem, &below, 18);
+    let nodes: usize = refusable.pieces.iter().map(|piece| piece.tree.len()).sum();
+    assert!(!audited(&problem, &refusable).is_empty());
+
+    let asked = Cell::new(0);
+    for stop_at in [1, 2, nodes / 2, nodes] {
+        asked.set(0);
+        let go_on = || {
+            asked.set(asked.get() + 1);
+            asked.get() < stop_at
+        };
+
+        let answer = audit_critical(&problem, &refusable, &go_on);
+        assert_eq!(answer, Ok(None), "{stop_at}");
+        assert_eq!(asked.get(), stop_at);
+    }
+}
+
 /// Up to 1.8655, a relative distance of 3e-4 from the fold.
 #[test]
 fn absence_is_proved_below_the_fold() {
@@ -175,7 +205,7 @@ fn absence_is_proved_below_the_fold() {
 
         let accepted = check_critical(&problem, &certificate).unwrap();
         assert_eq!(accepted.below, below);
-        assert!(audit_critical(&problem, &certificate).unwrap().is_empty());
+        assert_eq!(audited(&problem, &certificate), []);
 
         let read = CriticalCertificate::from_json(&certificate.to_json());
         assert_eq!(read, Ok(certificate));
@@ -196,7 +226,7 @@ fn the_search_is_refused_above_the_fold() {
             "{rejected}"
         );
 
-        let refused = audit_critical(&problem, &certificate).unwrap();
+        let refused = audited(&problem, &certificate);
         assert!(!refused.is_empty());
     }
 }
@@ -310,7 +340,7 @@ fn no_random_tree_is_accepted_above_the_fold() {
             "{}",
             forged.to_json()
         );
-        let refused = audit_critical(&problem, &forged).unwrap();
+        let refused = audited(&problem, &forged);
         assert!(!refused.is_empty(), "{}", forged.to_json());
         refused_by_a_leaf += usize::from(refused.iter().any(|(piece, _)| *piece == 0));
     }

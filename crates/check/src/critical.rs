@@ -7,6 +7,7 @@
 
 use crate::certificate::CriticalCertificate;
 use crate::cover;
+use crate::cover::critical::Audit;
 use crate::pencil::FrictionParts;
 use crate::reason::{Reason, Rejected};
 use mceip_exact::Rational;
@@ -37,23 +38,25 @@ pub fn check_critical(
 /// node in its tree. Without any, [`check_critical`] accepts the certificate.
 ///
 /// A search that wants to replace all leaves that fail calls this once, where it would have to call
-/// [`check_critical`] once for each of them.
+/// [`check_critical`] once for each of them. `go_on` is asked before each anchor and each node; after
+/// a no the answer is `None`, which says nothing about the certificate.
 ///
 /// # Errors
 /// [`Rejected`] with an obligation that fails although these leaves are passed over.
 pub fn audit_critical(
     problem: &Problem,
     certificate: &CriticalCertificate,
-) -> Result<Vec<(usize, usize)>, Rejected> {
-    let mut refused = Vec::new();
-    verdict(problem, certificate, Some(&mut refused)).map_err(rejected)?;
-    Ok(refused)
+    go_on: &dyn Fn() -> bool,
+) -> Result<Option<Vec<(usize, usize)>>, Rejected> {
+    let audit = Audit::new(go_on);
+    verdict(problem, certificate, Some(&audit)).map_err(rejected)?;
+    Ok(audit.into_refused())
 }
 
 fn verdict(
     problem: &Problem,
     certificate: &CriticalCertificate,
-    refused: Option<&mut Vec<(usize, usize)>>,
+    audit: Option<&Audit<'_>>,
 ) -> Result<AcceptedAbsence, Reason> {
     let digest = problem.sha256();
     if certificate.problem_sha256 != digest {
@@ -71,7 +74,7 @@ fn verdict(
         });
     }
 
-    let leaves = cover::critical::check(&parts, certificate, refused)?;
+    let leaves = cover::critical::check(&parts, certificate, audit)?;
     Ok(AcceptedAbsence {
         below: certificate.below.clone(),
         leaves,

@@ -69,10 +69,12 @@ pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expande
 
 /// The same for both parts of T0 + mu T1, with one scaling of the rows.
 ///
-/// The free rows of both are the same, and so are the hypotheses, W and r.
+/// The free rows of both are the same, and so are the hypotheses, W and r. `go_on` is asked before
+/// each anchor: what follows a no is left out.
 pub(super) fn of_parts(
     parts: &FrictionParts,
     condensation: &CriticalCondensation,
+    go_on: &dyn Fn() -> bool,
 ) -> Result<[Vec<Expanded>; 2], CoverFault> {
     let bounds = FreeBounds {
         sigma: &condensation.sigma.0,
@@ -88,6 +90,10 @@ pub(super) fn of_parts(
 
     let mut expansions = [Vec::new(), Vec::new()];
     for anchor in &condensation.anchors {
+        if !go_on() {
+            break;
+        }
+
         let [of_plain, of_friction] = anchor_parts(anchor);
         let of_plain = plain.elimination(of_plain)?;
         let of_friction = friction.elimination(of_friction)?;

@@ -15,7 +15,8 @@
 //! T is linear in mu for every t, so every T(t, mu) of the box is a convex combination of matrices
 //! within these radii; at an infinite end, of those at the lower end plus a non-negative multiple
 //! of such a combination at the upper one. Leaves prove what is linear in T at the four corners,
-//! with the code for covers of one window (`farkas`, `definite`).
+//! with the code for covers of one window (`farkas`, `definite`). As there, short numbers are tried
+//! first, and the long ones decide where these cannot tell.
 //!
 //! *Tail.* sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite at
 //! mu = 0 and at mu = `below`, so at every mu between.
@@ -25,9 +26,11 @@
 
 use super::budget::WorkBudget;
 use super::ends::{Corner, Ends, FRACTION_BITS, rational_bits, within_matrix_bits};
+use super::expanded::Expanded;
 use super::family::{AnchorExpansion, Family, Linear, end_bits, row_bits, words};
 use super::fault::CoverFault;
 use super::region::{Matrices, Region, State};
+use super::short::Short;
 use super::walk::NodeFault;
 use super::{check_anchor, check_end, check_size, condensed, definite, farkas};
 use crate::certificate::{CriticalCertificate, CriticalNode, CriticalPiece, CriticalTail};
@@ -36,7 +39,7 @@ use crate::reason::Reason;
 use mceip_exact::Rational;
 use mceip_model::Window;
 use num_traits::Zero;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 /// The corners of a box, as messages name them: first those at the lower friction.
@@ -48,11 +51,12 @@ const CORNERS: [[&str; 2]; 2] = [
 /// Checks that the boxes cover everything and that each holds no solution. Returns the number of
 /// leaves.
 ///
-/// With a list `refused`, a leaf that fails is passed over and noted there (piece, node).
+/// With an audit, leaves that fail are passed over, and what is returned means nothing if the audit
+/// was stopped.
 pub(crate) fn check(
     parts: &FrictionParts,
     certificate: &CriticalCertificate,
-    refused: Option<&mut Vec<(usize, usize)>>,
+    audit: Option<&Audit<'_>>,
 ) -> Result<usize, Reason> {
     let is_free = &parts.plain.is_free;
     let index: Vec<usize> = (0..is_free.len()).filter(|&i| !is_free[i]).collect();
@@ -61,7 +65,11 @@ pub(crate) fn check(
     let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(2));
     check_size(index.len(), expansions).map_err(of_file)?;
 
-    let families = families(parts, certificate).map_err(of_file)?;
+    let families = families(parts, certificate, audit).map_err(of_file)?;
+    if has_stopped(audit) {
+        return Ok(0);
+    }
+
     let tail = condensation.and_then(|c| c.tail.as_ref());
     if let Some(tail) = tail {
         check_tail(parts, &certificate.below, tail).map_err(of_file)?;
@@ -76,17 +84,58 @@ pub(crate) fn check(
         leaves: 0,
         definite_budget: WorkBudget::of_definite_leaves([&parts.plain, &parts.friction], nodes),
         matrix_budget: WorkBudget::of_matrices(nodes),
-        refused,
+        audit,
     };
     check_pieces(&mut walk, &certificate.pieces)?;
 
     Ok(walk.leaves)
 }
 
-/// The enclosures of T0 and T1. A condensation is there exactly if there are free variables.
+/// An examination that passes over the leaves that fail and may be stopped.
+pub(crate) struct Audit<'a> {
+    /// Asked before each anchor and each node: false stops the examination.
+    go_on: &'a dyn Fn() -> bool,
+    has_stopped: Cell<bool>,
+    /// The leaves that fail: piece, node.
+    refused: RefCell<Vec<(usize, usize)>>,
+}
+
+impl<'a> Audit<'a> {
+    pub(crate) fn new(go_on: &'a dyn Fn() -> bool) -> Audit<'a> {
+        Audit {
+            go_on,
+            has_stopped: Cell::new(false),
+            refused: RefCell::default(),
+        }
+    }
+
+    /// The leaves that fail; `None` if the audit was stopped.
+    pub(crate) fn into_refused(self) -> Option<Vec<(usize, usize)>> {
+        let is_complete = !self.has_stopped.get();
+        is_complete.then(|| self.refused.into_inner())
+    }
+
+    /// Asks whether to go on, unless the answer was no.
+    fn stops(&self) -> bool {
+        if !self.has_stopped.get() {
+            self.has_stopped.set(!(self.go_on)());
+        }
+
+        self.has_stopped.get()
+    }
+}
+
+/// Asks an audit whether to go on. A check that is none is never stopped.
+fn has_stopped(audit: Option<&Audit<'_>>) -> bool {
+    audit.is_some_and(Audit::stops)
+}
+
+/// The enclosures of T0 and T1. A condensation is there exactly if there are free variables. Where
+/// the audit is stopped, anchors are missing.
 fn families(
     parts: &FrictionParts,
     certificate: &CriticalCertificate,
+    audit: Option<&Audit<'_>>,
 ) -> Result<[Family; 2], CoverFault> {
     let has_free = parts.plain.is_free.contains(&true);
 
@@ -101,19 +150,16 @@ fn families(
             Ok([linear(&parts.plain), linear(&parts.friction)])
         }
         Some(condensation) if has_free => {
-            let expansions = condensed::of_parts(parts, condensation)?;
+            let go_on = || !has_stopped(audit);
+            let expansions = condensed::of_parts(parts, condensation, &go_on)?;
             Ok(expansions.map(family_of_anchors))
         }
         _ => Err(CoverFault::Condensation { expected: has_free }),
     }
 }
 
-/// Boxes are computed in long numbers, so no short ones are kept.
-fn family_of_anchors(expansions: Vec<super::expanded::Expanded>) -> Family {
-    let anchors = expansions.into_iter().map(|expanded| AnchorExpansion {
-        expanded,
-        short: None,
-    });
+fn family_of_anchors(expansions: Vec<Expanded>) -> Family {
+    let anchors = expansions.into_iter().map(AnchorExpansion::of);
     Family::Condensed(anchors.collect())
 }
 
@@ -176,14 +222,26 @@ struct FrictionBox {
 /// The matrices at the lower and at the higher friction, computed when they are asked for. Boxes
 /// that differ in their states alone share them.
 #[derive(Default)]
-struct BoxCorners(RefCell<Option<Rc<[Ends; 2]>>>);
+struct BoxCorners {
+    exact: RefCell<Option<Rc<[Ends; 2]>>>,
+    /// `Some(None)`: there are no short numbers for them.
+    short: RefCell<Option<Option<Rc<[Short; 4]>>>>,
+}
+
+impl BoxCorners {
+    /// Frees the memory, as [`Matrices::forget`] does.
+    fn forget(&self) {
+        self.exact.take();
+        self.short.take();
+    }
+}
 
 impl FrictionBox {
     /// The values of t up to a cut and those from it on.
     fn split(self, at: &Rational) -> Result<[FrictionBox; 2], CoverFault> {
         let halves = self.region.split(at)?;
         self.friction_matrices.forget();
-        self.corners.0.take();
+        self.corners.forget();
 
         Ok(halves.map(|region| FrictionBox {
             region,
@@ -216,7 +274,7 @@ impl FrictionBox {
             });
         }
 
-        self.corners.0.take();
+        self.corners.forget();
         let halves = [[lower, at.clone()], [at.clone(), higher]];
         Ok(halves.map(|friction| FrictionBox {
             region: self.region.same(),
@@ -239,8 +297,8 @@ struct BoxWalk<'a> {
     leaves: usize,
     definite_budget: WorkBudget,
     matrix_budget: WorkBudget,
-    /// Where leaves that fail are noted (piece, node), if they are to be passed over.
-    refused: Option<&'a mut Vec<(usize, usize)>>,
+    /// Notes the leaves that fail, if they are to be passed over.
+    audit: Option<&'a Audit<'a>>,
 }
 
 impl BoxWalk<'_> {
@@ -265,6 +323,10 @@ impl BoxWalk<'_> {
         }];
 
         for (k, node) in piece.tree.iter().enumerate() {
+            if has_stopped(self.audit) {
+                return Ok(());
+            }
+
             let at_node = |fault| NodeFault { node: k, fault };
             let at = stack.pop().ok_or(at_node(CoverFault::Trailing))?;
 
@@ -301,13 +363,13 @@ impl BoxWalk<'_> {
 
     /// Passes on the verdict on a leaf, or notes where one fails.
     fn settle(
-        &mut self,
+        &self,
         verdict: Result<(), CoverFault>,
         place: (usize, usize),
     ) -> Result<(), CoverFault> {
-        match (&verdict, self.refused.as_mut()) {
-            (Err(_), Some(refused)) => {
-                refused.push(place);
+        match (&verdict, self.audit) {
+            (Err(_), Some(audit)) => {
+                audit.refused.borrow_mut().push(place);
                 Ok(())
             }
             _ => verdict,
@@ -329,6 +391,12 @@ impl BoxWalk<'_> {
             CriticalNode::Tail => region.is_in_tail(self.tail),
             CriticalNode::Farkas(w) => {
                 farkas::check_weights(region, &self.index, w)?;
+                self.affordable(at, anchor)?;
+                let short = self.short(at, anchor);
+                if short.is_some_and(|corners| farkas::is_negative_at(region, &*corners, w)) {
+                    return Ok(());
+                }
+
                 let ends = self.corners(at, anchor)?;
                 farkas::check_columns(region, &four_corners(&ends), &self.index, w)
             }
@@ -347,6 +415,12 @@ impl BoxWalk<'_> {
         let order = at.region.possible_support().len() as u64;
         self.definite_budget.spend(order.saturating_pow(3) * 2)?;
 
+        self.affordable(at, anchor)?;
+        let short = self.short(at, anchor);
+        if short.is_some_and(|corners| definite::is_definite_at(&at.region, &*corners, sign)) {
+            return Ok(());
+        }
+
         let ends = self.corners(at, anchor)?;
         definite::check_corners(&at.region, &four_corners(&ends), &self.index, sign)
     }
@@ -358,7 +432,7 @@ impl BoxWalk<'_> {
         at: &FrictionBox,
         anchor: Option<usize>,
     ) -> Result<Rc<[Ends; 2]>, CoverFault> {
-        if let Some(corners) = &*at.corners.0.borrow() {
+        if let Some(corners) = &*at.corners.exact.borrow() {
             return Ok(Rc::clone(corners));
         }
 
@@ -372,8 +446,38 @@ impl BoxWalk<'_> {
             .each_ref()
             .map(|mu| plain.plus_multiple(&friction, mu));
         let corners = Rc::new(corners);
-        at.corners.0.replace(Some(Rc::clone(&corners)));
+        at.corners.exact.replace(Some(Rc::clone(&corners)));
         Ok(corners)
+    }
+
+    /// The corners in short numbers, where there are such.
+    fn short(&self, at: &FrictionBox, anchor: Option<usize>) -> Option<Rc<[Short; 4]>> {
+        if let Some(known) = &*at.corners.short.borrow() {
+            return known.clone();
+        }
+
+        let short = self.short_corners(at, anchor).map(Rc::new);
+        at.corners.short.replace(Some(short.clone()));
+        short
+    }
+
+    /// M_e0 + mu_k M_e1 for both ends e and both frictions mu_k.
+    fn short_corners(&self, at: &FrictionBox, anchor: Option<usize>) -> Option<[Short; 4]> {
+        let part = |part: usize| {
+            let lo = &at.region.lo;
+            self.families[part].short(anchor, lo, at.region.hi.as_ref())
+        };
+        let plain = at.region.matrices.short(|| part(0))?;
+        let friction = at.friction_matrices.short(|| part(1))?;
+
+        let corner = |end: usize, mu: &Rational| plain[end].plus_multiple(&friction[end], mu);
+        let [low, high] = &at.friction;
+        Some([
+            corner(0, low)?,
+            corner(1, low)?,
+            corner(0, high)?,
+            corner(1, high)?,
+        ])
     }
 
     /// The matrices of a part at the ends of the interval of t.
@@ -395,21 +499,38 @@ impl BoxWalk<'_> {
         })
     }
 
-    /// Demands that the corners of the box are small enough, and takes their work from the budget:
-    /// each entry of the ends is multiplied by a value of mu.
+    /// Demands that the matrices of the parts and those of the box are small enough.
+    fn affordable(&self, at: &FrictionBox, anchor: Option<usize>) -> Result<(), CoverFault> {
+        let lo = &at.region.lo;
+        let hi = at.region.hi.as_ref();
+        for family in &self.families {
+            family.affordable(anchor, lo, hi)?;
+        }
+
+        let [end_bits, friction_bits] = box_bits(at);
+        let what = "bits of a box's matrix";
+        within_matrix_bits(what, self.index.len(), 1, end_bits + friction_bits)
+    }
+
+    /// Takes the work of the corners from the budget: each entry of the ends is multiplied by a
+    /// value of mu.
     fn spend_corners(&self, at: &FrictionBox) -> Result<(), CoverFault> {
         let order = self.index.len();
-        let end_bits = FRACTION_BITS + end_bits(&at.region.lo, at.region.hi.as_ref());
-        let [lower, higher] = &at.friction;
-        let friction_bits = rational_bits(lower) + rational_bits(higher);
-
-        let what = "bits of a box's matrix";
-        within_matrix_bits(what, order, 1, end_bits + friction_bits)?;
+        let [end_bits, friction_bits] = box_bits(at);
 
         let entries = (order * order) as u64;
         let products = words(end_bits).saturating_mul(words(friction_bits));
         self.matrix_budget.spend(entries.saturating_mul(products))
     }
+}
+
+/// The bits of an entry of an end, and those of both ends of the interval of mu.
+fn box_bits(at: &FrictionBox) -> [u64; 2] {
+    let [lower, higher] = &at.friction;
+    [
+        FRACTION_BITS + end_bits(&at.region.lo, at.region.hi.as_ref()),
+        rational_bits(lower) + rational_bits(higher),
+    ]
 }
 
 /// The corners at the lower friction, then those at the higher one.

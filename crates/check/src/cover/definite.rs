@@ -29,15 +29,19 @@ pub(super) fn definite(
     index: &[usize],
     sign: i8,
 ) -> Result<(), CoverFault> {
-    let possible = region.possible_support();
-    if let Some([lower, upper]) = short
-        && positive_definite(lower, &possible, sign).is_ok()
-        && positive_definite(upper, &possible, sign).is_ok()
-    {
+    if short.is_some_and(|ends| is_definite_at(region, ends, sign)) {
         return Ok(());
     }
 
     check_corners(region, &ends()?.corners(ENDS), index, sign)
+}
+
+/// Is `sign` sym(T) positive definite on these variables at all these corners?
+pub(super) fn is_definite_at(region: &Region, corners: &[Short], sign: i8) -> bool {
+    let possible = region.possible_support();
+    corners
+        .iter()
+        .all(|corner| positive_definite(corner, &possible, sign).is_ok())
 }
 
 /// Demands the same at all corners of the region.

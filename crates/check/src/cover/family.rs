@@ -9,17 +9,21 @@
 //! counted as a radius. Rows multiplied by positive numbers d_i keep the null vectors of T and the
 //! signs of y = Tx, and x'Tx becomes sum d_i x_i y_i, which is zero for solutions as before.
 //!
-//! Called by the walk: `affordable` and `matrix_work` bound the work before `ends` does it, and
-//! `short` gives the ends in short numbers where it can.
+//! Called by the walks: `affordable` and `matrix_work` bound the work before `ends` does it, and
+//! `short` gives the ends in short numbers where it can. Those of two families are in one unit.
 
 use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits, rational_bits, within_matrix_bits};
-use super::expanded::Expanded;
+use super::expanded::{Expanded, ShortForm};
 use super::fault::CoverFault;
 use super::short::Short;
 use crate::pencil::{Row, Rows};
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
+
+/// Most products of machine words that the vectors of the remainders over an interval may take for
+/// short numbers to be tried. Longer numbers are left to the long matrices, whose work is counted.
+const MAX_VECTOR_WORK: u64 = 1 << 24;
 
 /// T(t) over the window.
 pub(super) enum Family {
@@ -29,10 +33,10 @@ pub(super) enum Family {
     Condensed(Vec<AnchorExpansion>),
 }
 
-/// The condensed pencil about one anchor, and what [`Expanded::short`] gives for it.
+/// The condensed pencil about one anchor, and its short numbers.
 pub(super) struct AnchorExpansion {
     pub(super) expanded: Expanded,
-    pub(super) short: Option<[Short; 2]>,
+    pub(super) short: Option<ShortForm>,
 }
 
 /// A + tB with a radius per row for what was cut off.
@@ -150,26 +154,35 @@ impl Family {
         }
     }
 
-    /// The ends in short numbers, where the family is linear: T_0 + tT_1 is (q T_0 + p T_1) / q at
-    /// t = p / q >= 0, and T_1 at infinity.
+    /// The ends in short numbers of the fixed unit, where there are such.
     pub(super) fn short(
         &self,
         anchor: Option<usize>,
         lo: &Rational,
         hi: Option<&Rational>,
     ) -> Option<[Short; 2]> {
-        let parts = match self {
-            Family::Linear(linear) => linear.short.as_ref(),
-            Family::Condensed(list) => list.get(anchor?)?.short.as_ref(),
-        };
-        let [constant, direction] = parts?;
-        let at = |t: &Rational| constant.combine(t.denom(), direction, t.numer());
+        match self {
+            Family::Linear(linear) => Short::linear_ends(linear.short.as_ref()?, lo, hi),
+            Family::Condensed(list) => {
+                let AnchorExpansion { expanded, short } = list.get(anchor?)?;
+                let order = expanded.weight.len().max(1) as u64;
+                let vector_work = self.matrix_work(anchor, lo, hi) / order;
+                if vector_work > MAX_VECTOR_WORK {
+                    return None;
+                }
 
-        let upper = match hi {
-            Some(hi) => at(hi),
-            None => constant.combine(&Integer::zero(), direction, &Integer::one()),
-        };
-        Some([at(lo)?, upper?])
+                short.as_ref()?.ends(expanded, lo, hi)
+            }
+        }
+    }
+}
+
+impl AnchorExpansion {
+    pub(super) fn of(expanded: Expanded) -> AnchorExpansion {
+        AnchorExpansion {
+            short: ShortForm::of(&expanded),
+            expanded,
+        }
     }
 }
 
@@ -548,6 +561,33 @@ mod tests {
 
         let with = expansion(2, 61).matrix_work(Some(0), &whole(1), None);
         assert_eq!(with, 4 * 4 * (1 + 4));
+    }
+
+    /// Long ends are left to long matrices, whose work is counted: with E words for the end 2^k the
+    /// vectors take 2 E (1 + E) products.
+    #[test]
+    fn long_ends_have_no_short_numbers() {
+        let mut expanded = expansion(2, 0);
+        if let Family::Condensed(anchors) = &mut expanded {
+            let anchor = &mut anchors[0];
+            let none = || vec![vec![Integer::zero(); 2]];
+            anchor.expanded.z = vec![vec![vec![Integer::one(); 2]; 2]; 2];
+            anchor.expanded.left = none();
+            anchor.expanded.right = none();
+            anchor.expanded.v = none();
+            anchor.expanded.rounding = none();
+            anchor.short = ShortForm::of(&anchor.expanded);
+        }
+
+        // 2895 words are the most: 128 + 2 + 1 bits and those of the ends, of which 1 has two.
+        let two_to = |k: u64| Rational::from_integer(Integer::one() << k);
+        let words_of = |k: u64| words(FRACTION_BITS + end_bits(&whole(1), Some(&two_to(k))) + 1);
+        let most = 64 * 2895 - 134;
+        assert_eq!([words_of(most), words_of(most + 1)], [2895, 2896]);
+
+        let short = |k: u64| expanded.short(Some(0), &whole(1), Some(&two_to(k)));
+        assert!(short(most).is_some());
+        assert!(short(most + 1).is_none());
     }
 
     /// The short numbers are there for ordinary matrices, or every leaf would be computed with long

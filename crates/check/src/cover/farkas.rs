@@ -35,10 +35,7 @@ pub(super) fn farkas(
 ) -> Result<(), CoverFault> {
     check_weights(region, index, w)?;
 
-    if let Some([lower, upper]) = short
-        && is_negative(region, lower, w)
-        && is_negative(region, upper, w)
-    {
+    if short.is_some_and(|ends| is_negative_at(region, ends, w)) {
         return Ok(());
     }
 
@@ -95,6 +92,11 @@ pub(super) fn check_columns(
     } else {
         Err(CoverFault::NotStrict)
     }
+}
+
+/// Is w'T < 0 at all these corners, on all variables that may be in the support?
+pub(super) fn is_negative_at(region: &Region, corners: &[Short], w: &[i64]) -> bool {
+    corners.iter().all(|corner| is_negative(region, corner, w))
 }
 
 /// Is w'T < 0 on all variables that may be in the support?

@@ -143,13 +143,9 @@ fn family(rows: &Rows, has_free: bool, cover: &CompleteSet) -> Result<Family, Co
     match &cover.condensation {
         None if !has_free => Ok(Family::Linear(Linear::of(rows))),
         Some(condensation) if has_free => {
-            let mut anchors = Vec::new();
-            for expanded in condensed::of(rows, condensation)? {
-                let short = expanded.short();
-                anchors.push(AnchorExpansion { expanded, short });
-            }
-
-            Ok(Family::Condensed(anchors))
+            let expansions = condensed::of(rows, condensation)?;
+            let anchors = expansions.into_iter().map(AnchorExpansion::of);
+            Ok(Family::Condensed(anchors.collect()))
         }
         _ => Err(CoverFault::Condensation { expected: has_free }),
     }

@@ -144,6 +144,20 @@ impl Matrices {
         Ok(ends)
     }
 
+    /// The short numbers, computed where they are not yet known.
+    pub(super) fn short(
+        &self,
+        compute: impl FnOnce() -> Option<[Short; 2]>,
+    ) -> Option<Rc<[Short; 2]>> {
+        if let Some(known) = &*self.short.borrow() {
+            return known.clone();
+        }
+
+        let short = compute().map(Rc::new);
+        self.short.replace(Some(short.clone()));
+        short
+    }
+
     /// Frees the memory. A region that is split needs its matrices no more, and its siblings
     /// compute them again, so that a deep tree of splits holds the matrices of one interval.
     pub(super) fn forget(&self) {

@@ -1,25 +1,33 @@
 //! Matrices with radii in machine integers, for speed only.
 //!
-//! Each entry of the long matrix lies within `r` of `m` in a common unit. What is proved of every
-//! matrix within these radii holds for the long one; what these numbers cannot tell is computed
-//! with the long numbers of `ends`. So a leaf may be accepted by short numbers, but never rejected.
+//! Each entry of a matrix lies within `r` of `m`, in a unit that the entries share. What is proved
+//! of every matrix within these radii holds for the true one; what these numbers cannot tell is
+//! computed with the long numbers of `ends`. So a leaf may be accepted by short numbers, but never
+//! rejected.
 //!
-//! Overflow: entries and radii are at most 2^62 in absolute value, so that the products of two have
-//! at most 124 bits and a sum of four of them fits into an `i128`.
+//! All that is computed is p A + q B (`combine`): the true matrices are within the radii, so their
+//! combination lies within |p| R_A + |q| R_B of p M_A + q M_B. A factor is rounded down to p' with
+//! p' <= p < p' + 1, which may cost |M_A| + R_A, and the result is cut to 62 bits, which may cost
+//! one unit for its center and one for its radius.
+//!
+//! Overflow: entries, radii and factors are at most 2^62 in absolute value, so that the products of
+//! two have at most 124 bits and a sum of four of them fits into an `i128`.
 
-use super::ends::{Ends, Matrix, largest_bits};
-use mceip_exact::Integer;
-use num_traits::{Signed, ToPrimitive};
+use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits};
+use mceip_exact::{Integer, Rational};
+use num_integer::Integer as _;
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// Bits of the largest entry, and of a factor of a combination.
 const BITS: u64 = 62;
 
-/// Each entry lies within r of m, in units of 2^`unit` (where the unit does not matter: of some
-/// positive number). All numbers are at most 2^62 in absolute value.
+/// Each entry lies within r of m, in units of 2^`unit`. All numbers are at most 2^62 in absolute
+/// value.
+#[derive(Clone)]
 pub(super) struct Short {
     pub(super) m: Vec<Vec<i64>>,
     pub(super) r: Vec<Vec<i64>>,
-    unit: u64,
+    unit: i64,
 }
 
 /// Every number within `radius` of `center`, as an entry.
@@ -28,8 +36,13 @@ struct ShortBall {
     radius: i64,
 }
 
-/// The same before it is cut to an entry.
-#[derive(Clone, Copy)]
+/// A factor, rounded down: less than one more than `value`, if not exactly that.
+struct ShortFactor {
+    value: i64,
+    is_exact: bool,
+}
+
+/// The same as a [`ShortBall`] before it is cut to an entry.
 struct WideBall {
     center: i128,
     radius: i128,
@@ -53,7 +66,7 @@ impl Short {
             .flat_map(|&i| keep.iter().map(move |&j| &m[i][j]));
         let unit = largest_bits(kept).saturating_sub(BITS);
 
-        let mut short = Short::with_unit(unit, keep.len());
+        let mut short = Short::with_unit(unit as i64, keep.len());
         for &i in keep {
             let row = keep
                 .iter()
@@ -64,7 +77,7 @@ impl Short {
         Some(short)
     }
 
-    fn with_unit(unit: u64, order: usize) -> Short {
+    fn with_unit(unit: i64, order: usize) -> Short {
         Short {
             m: Vec::with_capacity(order),
             r: Vec::with_capacity(order),
@@ -87,19 +100,112 @@ impl Short {
         Some(())
     }
 
-    /// p times this plus q times the other (p, q >= 0), in some unit.
-    pub(super) fn combine(&self, p: &Integer, other: &Short, q: &Integer) -> Option<Short> {
-        // Both factors in a common unit, cut to short numbers.
-        let low = self.unit.min(other.unit);
-        let p = p << (self.unit - low);
-        let q = q << (other.unit - low);
-        let cut = p.bits().max(q.bits()).saturating_sub(BITS);
-        let is_exact = &p >> cut << cut == p && &q >> cut << cut == q;
-        let p = i128::from((p >> cut).to_i64()?);
-        let q = i128::from((q >> cut).to_i64()?);
-        // A factor that was cut may be larger by one unit. Sums stay below 2^126.
-        let lost = i128::from(!is_exact);
+    /// Zero within so many units of 1, for every entry.
+    pub(super) fn around_zero(order: usize, radius: i64) -> Short {
+        Short {
+            m: vec![vec![0; order]; order],
+            r: vec![vec![radius; order]; order],
+            unit: 0,
+        }
+    }
 
+    /// M / divisor in the fixed unit, for a positive divisor.
+    ///
+    /// The quotients are formed in units so small that the largest one has at least 62 bits, and
+    /// rounded down: that costs less than one unit.
+    pub(super) fn quotient(m: &Matrix, divisor: &Integer) -> Option<Short> {
+        let missing = (divisor.bits() + BITS + 1).saturating_sub(largest_bits(m.iter().flatten()));
+
+        let mut quotients = Matrix::with_capacity(m.len());
+        let mut radii = Matrix::with_capacity(m.len());
+        for row in m {
+            let mut quotient_row = Vec::with_capacity(row.len());
+            let mut radius_row = Vec::with_capacity(row.len());
+            for v in row {
+                let (quotient, rest) = (v << missing).div_mod_floor(divisor);
+                quotient_row.push(quotient);
+                radius_row.push(Integer::from(u8::from(!rest.is_zero())));
+            }
+
+            quotients.push(quotient_row);
+            radii.push(radius_row);
+        }
+
+        let all: Vec<usize> = (0..m.len()).collect();
+        let mut short = Short::of(&quotients, &radii, &all)?;
+        short.unit += FRACTION_BITS as i64 - missing as i64;
+        Some(short)
+    }
+
+    /// Zero within left_i right_j, of numbers that are not negative.
+    pub(super) fn within_products(left: &[Rational], right: &[Rational]) -> Option<Short> {
+        let (left, left_unit) = upper_bounds(left)?;
+        let (right, right_unit) = upper_bounds(right)?;
+
+        // Both are at most 2^62, so their products are at most 2^61 in this unit.
+        let cut = BITS + 1;
+        let mut short = Short::with_unit(left_unit + right_unit + cut as i64, left.len());
+        for l in left {
+            let row = right.iter().map(|r| WideBall::around_zero(l * r).cut(cut));
+            short.push_row(row)?;
+        }
+
+        Some(short)
+    }
+
+    /// Zero within a non-negative multiple of the absolute values of all members.
+    pub(super) fn within_multiple(&self, factor: &Rational) -> Option<Short> {
+        // Half of |m| + r, rounded up, is at most 2^62.
+        let mut halves = Short::with_unit(self.unit + 1, self.m.len());
+        for (m, r) in self.m.iter().zip(&self.r) {
+            let mut radii = Vec::with_capacity(m.len());
+            for (m, r) in m.iter().zip(r) {
+                let magnitude = m.unsigned_abs() + r.unsigned_abs();
+                radii.push(magnitude.div_ceil(2) as i64);
+            }
+
+            halves.m.push(vec![0; radii.len()]);
+            halves.r.push(radii);
+        }
+
+        halves.combine(factor, &halves, &Rational::zero())
+    }
+
+    /// The ends over [lo, hi] (`None`: infinity) of constant + t direction: the values, and the
+    /// direction at infinity.
+    pub(super) fn linear_ends(
+        [constant, direction]: &[Short; 2],
+        lo: &Rational,
+        hi: Option<&Rational>,
+    ) -> Option<[Short; 2]> {
+        let lower = constant.plus_multiple(direction, lo)?;
+        let upper = match hi {
+            Some(hi) => constant.plus_multiple(direction, hi)?,
+            None => direction.clone(),
+        };
+        Some([lower, upper])
+    }
+
+    /// The sum.
+    pub(super) fn plus(&self, other: &Short) -> Option<Short> {
+        self.plus_multiple(other, &Rational::one())
+    }
+
+    /// The sum with a multiple of the other.
+    pub(super) fn plus_multiple(&self, other: &Short, factor: &Rational) -> Option<Short> {
+        self.combine(&Rational::one(), other, factor)
+    }
+
+    /// p times this plus q times the other.
+    fn combine(&self, p: &Rational, other: &Short, q: &Rational) -> Option<Short> {
+        // Both factors in a common unit in which they have at most 62 bits, rounded down.
+        let own_size = integral_bits(p) + self.unit;
+        let other_size = integral_bits(q) + other.unit;
+        let factor_unit = own_size.max(other_size) - BITS as i64;
+        let p = ShortFactor::of(p, factor_unit - self.unit)?;
+        let q = ShortFactor::of(q, factor_unit - other.unit)?;
+
+        // Sums of four products stay below 2^126.
         let n = self.m.len();
         let mut sums = Vec::with_capacity(n * n);
         let mut largest = 0u128;
@@ -107,20 +213,20 @@ impl Short {
             let own = self.m[i].iter().zip(&self.r[i]);
             let others = other.m[i].iter().zip(&other.r[i]);
             for ((&a, &s), (&b, &t)) in own.zip(others) {
-                let a = WideBall::new(a, s);
-                let b = WideBall::new(b, t);
-                let center = p * a.center + q * b.center;
-                let radius = p * a.radius + q * b.radius + lost * (a.magnitude() + b.magnitude());
+                let of_own = p.times(a, s);
+                let of_other = q.times(b, t);
+                let center = of_own.center + of_other.center;
+                let radius = of_own.radius + of_other.radius;
 
-                largest |= center.unsigned_abs();
+                largest |= center.unsigned_abs() | radius.unsigned_abs();
                 sums.push(WideBall { center, radius });
             }
         }
 
-        let unit = (128 - u64::from(largest.leading_zeros())).saturating_sub(BITS);
-        let mut short = Short::with_unit(unit, n);
+        let cut = (128 - u64::from(largest.leading_zeros())).saturating_sub(BITS);
+        let mut short = Short::with_unit(factor_unit + cut as i64, n);
         for row in sums.chunks_exact(n.max(1)) {
-            short.push_row(row.iter().map(|sum| sum.cut(unit)))?;
+            short.push_row(row.iter().map(|sum| sum.cut(cut)))?;
         }
 
         Some(short)
@@ -152,6 +258,16 @@ impl Short {
     }
 }
 
+#[cfg(test)]
+impl Short {
+    /// Center and radius of an entry, in units of 1.
+    pub(super) fn entry(&self, i: usize, j: usize) -> [Rational; 2] {
+        let two = Rational::from_integer(2.into());
+        let unit = two.pow(self.unit as i32);
+        [self.m[i][j], self.r[i][j]].map(|v| Rational::from_integer(v.into()) * &unit)
+    }
+}
+
 impl ShortBall {
     /// v +- r in units of 2^unit.
     fn cut(v: &Integer, r: &Integer, unit: u64) -> Option<ShortBall> {
@@ -175,16 +291,39 @@ impl ShortBall {
     }
 }
 
-impl WideBall {
-    fn new(center: i64, radius: i64) -> WideBall {
-        WideBall {
-            center: center.into(),
-            radius: radius.into(),
-        }
+impl ShortFactor {
+    /// x in units of 2^`unit`; `None` if it does not fit.
+    fn of(x: &Rational, unit: i64) -> Option<ShortFactor> {
+        let numerator = x.numer() << (-unit).max(0);
+        let denominator = x.denom() << unit.max(0);
+        let (value, rest) = numerator.div_mod_floor(&denominator);
+        Some(ShortFactor {
+            value: value.to_i64()?,
+            is_exact: rest.is_zero(),
+        })
     }
 
-    fn magnitude(&self) -> i128 {
-        self.center.abs() + self.radius
+    /// The product with every number within r of m.
+    fn times(&self, m: i64, r: i64) -> WideBall {
+        // The products of machine words into 128 bits are the whole cost of a combination.
+        let center = i128::from(self.value) * i128::from(m);
+        let radius = i128::from(self.value.abs()) * i128::from(r);
+        let lost = if self.is_exact {
+            0
+        } else {
+            i128::from(m.abs()) + i128::from(r)
+        };
+
+        WideBall {
+            center,
+            radius: radius + lost,
+        }
+    }
+}
+
+impl WideBall {
+    fn around_zero(radius: i128) -> WideBall {
+        WideBall { center: 0, radius }
     }
 
     /// The same in units of 2^unit.
@@ -197,10 +336,30 @@ impl WideBall {
     }
 }
 
+/// b with |x| < 2^b.
+fn integral_bits(x: &Rational) -> i64 {
+    x.numer().bits() as i64 - x.denom().bits() as i64 + 1
+}
+
+/// Upper bounds of numbers that are not negative, and their unit as a power of two, such that they
+/// are at most 2^62.
+fn upper_bounds(values: &[Rational]) -> Option<(Vec<i128>, i64)> {
+    let size = values.iter().map(integral_bits).max().unwrap_or(0);
+    let unit = size - BITS as i64;
+
+    let mut bounds = Vec::with_capacity(values.len());
+    for value in values {
+        let factor = ShortFactor::of(value, unit)?;
+        bounds.push(i128::from(factor.value) + i128::from(!factor.is_exact));
+    }
+
+    Some((bounds, unit))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_traits::One;
+    use mceip_exact::{rational, whole};
 
     fn big(rows: &[&[i64]], bits: u32) -> Matrix {
         rows.iter()
@@ -237,45 +396,178 @@ mod tests {
         assert!(Short::of(&long, &wide, &[0, 1]).is_none());
     }
 
-    /// Entries and factors of every length, B a million times smaller or larger than A.
+    /// Entries and factors of every length and of both signs, B far smaller or larger than A.
     #[test]
     fn combinations_enclose_the_exact_ones() {
         for (bits_a, bits_b, p, q) in [
-            (100, 80, 3u64, 1 << 60),
-            (20, 120, u64::MAX, 7),
-            (61, 61, 1, 0),
-            (10, 3, 5, 9),
-            (90, 0, 1, u64::MAX),
+            (100, 80, whole(3), whole(1 << 60)),
+            (20, 120, whole(i64::MAX), whole(-7)),
+            (61, 61, whole(1), whole(0)),
+            (10, 3, rational(5, 3), rational(-9, 7)),
+            (90, 0, rational(1, i64::MAX), rational(i64::MAX, 3)),
         ] {
-            let (a, b) = (
-                big(&[&[3, -5], &[0, 7]], bits_a),
-                big(&[&[-1, 2], &[0, 1000]], bits_b),
-            );
+            let a = big(&[&[3, -5], &[0, 7]], bits_a);
+            let b = big(&[&[-1, 2], &[0, 1000]], bits_b);
             let radius = |bits: u32| big(&[&[1, 2], &[0, 1]], bits.saturating_sub(50));
             let (ra, rb) = (radius(bits_a), radius(bits_b));
-            let factor = |v: u64| (Integer::from(v) << 20) + 1;
-            let (p, q) = (factor(p), factor(q));
-            let short = Short::of(&a, &ra, &[0, 1])
-                .unwrap()
-                .combine(&p, &Short::of(&b, &rb, &[0, 1]).unwrap(), &q)
-                .unwrap();
-            // The unit is not kept: read it off the largest entry, generously on both sides of it.
-            for sign in [-1, 1] {
-                let end: Matrix = (0..2)
-                    .map(|i| {
-                        (0..2)
-                            .map(|j| {
-                                &p * (&a[i][j] + &ra[i][j] * sign)
-                                    + &q * (&b[i][j] + &rb[i][j] * sign)
-                            })
-                            .collect()
-                    })
-                    .collect();
-                let fits =
-                    (0..400u32).any(|unit| contains(&short, &end, &(Integer::one() << unit)));
-                assert!(fits, "{bits_a} {bits_b} {sign}");
+            let first = Short::of(&a, &ra, &[0, 1]).unwrap();
+            let second = Short::of(&b, &rb, &[0, 1]).unwrap();
+            let short = first.combine(&p, &second, &q).unwrap();
+
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let exact = |m: &Matrix| Rational::from_integer(m[i][j].clone());
+                let middle = &p * exact(&a) + &q * exact(&b);
+                let reach = p.abs() * exact(&ra) + q.abs() * exact(&rb);
+                let [center, radius] = short.entry(i, j);
+                assert!((middle - center).abs() + reach <= radius, "{p} {q}");
             }
         }
+    }
+
+    /// M / divisor 2^128, close enough to keep 60 bits of the largest entry.
+    #[test]
+    fn quotients_enclose_the_exact_ones() {
+        let m = big(&[&[3, -5], &[0, 7]], 40);
+        for divisor in [Integer::from(1), 3.into(), Integer::from(12) << 300u32] {
+            let short = Short::quotient(&m, &divisor).unwrap();
+            let exact =
+                |i: usize, j: usize| Rational::new(&m[i][j] << FRACTION_BITS, divisor.clone());
+
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let [center, radius] = short.entry(i, j);
+                assert!((exact(i, j) - center).abs() <= radius);
+                assert!(&radius * whole(1 << 59) < exact(1, 1));
+            }
+            assert_eq!(short.r[1][0], 0);
+        }
+    }
+
+    /// 1 + 1 / divisor is 1 in the units of the quotients, and all that is left of the rest is its
+    /// radius.
+    #[test]
+    fn a_quotient_that_is_not_exact_has_a_radius() {
+        let divisor = (Integer::one() << 80u32) - 1;
+        for sign in [1, -1] {
+            let short = Short::quotient(&vec![vec![(&divisor + 1) * sign]], &divisor).unwrap();
+            let exact = Rational::new((&divisor + 1) << FRACTION_BITS, divisor.clone());
+
+            let [center, radius] = short.entry(0, 0);
+            let distance = (exact * whole(sign) - center).abs();
+            assert!(distance.is_positive() && distance <= radius);
+        }
+
+        let short = Short::quotient(&vec![vec![divisor.clone()]], &divisor).unwrap();
+        assert_eq!(short.r, [[0]]);
+    }
+
+    /// In units of 2^(1 - 62): the largest value is less than 2^1.
+    #[test]
+    fn upper_bounds_are_rounded_up() {
+        let (bounds, unit) =
+            upper_bounds(&[whole(1), rational(1, 3), whole(0), rational(1, 1 << 62)]).unwrap();
+        let third = (1i128 << 61) / 3 + 1;
+        assert_eq!((bounds, unit), (vec![1 << 61, third, 0, 1], -61));
+
+        // 2^62 - 1/2 is less than 2^62 and becomes that.
+        let (bounds, _) = upper_bounds(&[whole(1 << 62) - rational(1, 2)]).unwrap();
+        assert_eq!(bounds, [1 << 62]);
+    }
+
+    /// The largest entries, radii and factors, of both signs: enclosed, or refused, never wrong.
+    #[test]
+    fn the_largest_numbers_do_not_overflow() {
+        let limit = 1i64 << BITS;
+        let of = |m: i64, r: i64| Short {
+            m: vec![vec![m]],
+            r: vec![vec![r]],
+            unit: 0,
+        };
+        let long = |bits: u32| Rational::from_integer(Integer::one() << bits);
+        let factors = [
+            long(62) - rational(1, 3),
+            -long(62),
+            rational(1, 3) - long(62),
+        ];
+        let mut enclosed = 0;
+
+        for (p, q) in factors
+            .iter()
+            .flat_map(|p| factors.iter().map(move |q| (p, q)))
+        {
+            for (a, b) in [(limit, limit), (-limit, limit), (-limit, -limit)] {
+                for r in [0, 1, limit / 2, limit] {
+                    let Some(short) = of(a, r).combine(p, &of(b, r), q) else {
+                        assert!(r == limit, "{p} {q} {a} {b} {r}");
+                        continue;
+                    };
+
+                    let middle = p * whole(a) + q * whole(b);
+                    let reach = (p.abs() + q.abs()) * whole(r);
+                    let [center, radius] = short.entry(0, 0);
+                    assert!(
+                        (middle - center).abs() + reach <= radius,
+                        "{p} {q} {a} {b} {r}"
+                    );
+                    enclosed += 1;
+                }
+            }
+        }
+
+        assert!(enclosed >= 81);
+    }
+
+    /// Zero times anything, as the sum with a multiple by 0 has it, costs nothing.
+    #[test]
+    fn sums_of_exact_numbers_are_exact() {
+        let three = Short::around_zero(1, 3);
+        let [center, radius] = three.entry(0, 0);
+        assert_eq!([center, radius], [whole(0), whole(3)]);
+
+        let exact = Short {
+            m: vec![vec![-5]],
+            r: vec![vec![0]],
+            unit: -3,
+        };
+        let sum = exact.plus_multiple(&exact, &whole(-7)).unwrap();
+        assert_eq!(sum.entry(0, 0), [rational(30, 8), whole(0)]);
+    }
+
+    /// Never below the product, and above it by 2^-58 of the largest at most.
+    #[test]
+    fn products_of_vectors_are_upper_bounds() {
+        let left = [rational(1, 3), whole(0), rational(i64::MAX, 5)];
+        let right = [whole(7), rational(1, 1 << 40), rational(2, 3)];
+        let short = Short::within_products(&left, &right).unwrap();
+
+        for (i, l) in left.iter().enumerate() {
+            for (j, r) in right.iter().enumerate() {
+                let [center, radius] = short.entry(i, j);
+                let excess = radius - l * r;
+                assert!(center.is_zero() && !excess.is_negative());
+                assert!(excess * whole(1 << 58) < &left[2] * &right[0]);
+            }
+        }
+        assert_eq!(short.r[1], [0, 0, 0]);
+    }
+
+    #[test]
+    fn magnitudes_are_upper_bounds() {
+        let top = 1 << BITS;
+        let given = Short {
+            m: vec![vec![-3, top], vec![0, -top]],
+            r: vec![vec![2, top], vec![0, 0]],
+            unit: -5,
+        };
+        let short = given.within_multiple(&whole(6)).unwrap();
+
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let [center, radius] = given.entry(i, j);
+            let exact = (center.abs() + radius) * whole(6);
+            let [center, radius] = short.entry(i, j);
+            let excess = radius - exact;
+            assert!(center.is_zero() && !excess.is_negative() && excess < whole(4));
+        }
+        assert_eq!(short.r[1][0], 0);
     }
 
     #[test]
@@ -305,110 +597,116 @@ mod tests {
         assert_eq!((short.m[0][1], short.r[0][1]), (0, 2));
     }
 
-    /// The formula of `combine`, in integers of any length: values and radii to the last unit.
+    /// The formula of `combine` in rational numbers: values and radii to the last unit.
     #[test]
     fn combinations_are_those_of_the_formula() {
         let top = (1i64 << 61) - 1;
-        let list = [
-            (Integer::from(3), Integer::from(5)),                   // exact
-            (Integer::from(3) << 70u32, Integer::from(5) << 65u32), // exact, though long
-            ((Integer::from(3) << 70u32) + 1, Integer::from(5) << 65u32), // the first is cut
-            (Integer::from(3) << 70u32, (Integer::from(5) << 65u32) + 1), // the second is cut
-            ((Integer::one() << 80u32) - 1, (Integer::one() << 79u32) - 1), // both
-            (Integer::one(), (Integer::one() << 62u32) + 1),
+        let long = |v: i64, bits: u32| Rational::from_integer(Integer::from(v) << bits);
+        let factors = [
+            (whole(3), whole(5)),                      // exact
+            (long(3, 70), long(-5, 65)),               // exact, though long
+            (long(3, 70) + whole(1), long(5, 65)),     // the first is cut
+            (long(3, 70), long(-5, 65) - whole(1)),    // the second is cut
+            (long(1, 80) - whole(1), rational(-1, 3)), // both
+            (whole(1), whole(0)),
         ];
+        let short = |m: [[i64; 2]; 2], r: [[i64; 2]; 2], unit: i64| Short {
+            m: m.map(|row| row.to_vec()).to_vec(),
+            r: r.map(|row| row.to_vec()).to_vec(),
+            unit,
+        };
+        let small = [[3, -5], [7, 11]];
+        let large = [[top, -top], [1, 5]];
         let matrices = [
             (
-                [[3, -5], [7, 11]],
+                small,
                 [[1, 2], [3, 1]],
                 [[-9, 4], [6, 13]],
                 [[2, 1], [1, 3]],
             ),
             (
-                [[3, -5], [7, 11]],
+                small,
                 [[0, 0], [0, 0]],
                 [[-9, 4], [6, 13]],
                 [[0, 0], [0, 0]],
             ),
             (
-                [[top, -top], [1, 5]],
+                large,
                 [[top / 7, 9], [0, 2]],
                 [[top / 3, 1], [-top, 8]],
                 [[0, top / 5], [1, 1]],
             ),
-            (
-                [[top, 0], [1, 5]],
-                [[0, 1], [0, 0]],
-                [[2, 1], [1, 8]],
-                [[0, 0], [2, 0]],
-            ),
+            (large, [[0, 1], [0, 0]], [[2, 1], [1, 8]], [[0, 0], [2, 0]]),
         ];
-        let rows = |m: [[i64; 2]; 2]| m.map(|r| r.to_vec()).to_vec();
-        for (k, (p, q)) in list.iter().enumerate() {
+
+        for (p, q) in &factors {
             for (a, ra, b, rb) in matrices {
-                for (unit_a, unit_b) in [(0, 0), (4, 0), (0, 3)] {
-                    let first = Short {
-                        m: rows(a),
-                        r: rows(ra),
-                        unit: unit_a,
-                    };
-                    let got = first.combine(
-                        p,
-                        &Short {
-                            m: rows(b),
-                            r: rows(rb),
-                            unit: unit_b,
-                        },
-                        q,
-                    );
-                    let low = unit_a.min(unit_b);
-                    let (p, q) = (p << (unit_a - low), q << (unit_b - low));
-                    let cut = p.bits().max(q.bits()).saturating_sub(62);
-                    let one = Integer::one() << cut;
-                    let lost = i32::from(
-                        &p % &one != Integer::default() || &q % &one != Integer::default(),
-                    );
-                    let (p, q) = (p / &one, q / &one);
-                    let value = |i: usize, j: usize| &p * a[i][j] + &q * b[i][j];
-                    let size = |i: usize, j: usize| {
-                        Integer::from(a[i][j]).abs()
-                            + ra[i][j]
-                            + Integer::from(b[i][j]).abs()
-                            + rb[i][j]
-                    };
-                    let radius =
-                        |i: usize, j: usize| &p * ra[i][j] + &q * rb[i][j] + lost * size(i, j);
-                    let cells = [(0, 0), (0, 1), (1, 0), (1, 1)];
-                    let bits = cells
-                        .iter()
-                        .map(|&(i, j)| value(i, j).bits())
-                        .max()
-                        .unwrap()
-                        .saturating_sub(62);
-                    let unit = Integer::one() << bits;
-                    let long = |r: &Integer| r / &unit + 2 > Integer::one() << 62u32;
-                    let Some(got) = got else {
-                        assert!(cells.iter().any(|&(i, j)| long(&radius(i, j))), "{k}");
-                        continue;
-                    };
-                    for (i, j) in cells {
-                        let (v, r) = (value(i, j), radius(i, j));
-                        let is_exact =
-                            (&v % &unit) == Integer::default() && r == Integer::default();
-                        let expected = if is_exact {
-                            Integer::default()
-                        } else {
-                            r / &unit + 2
-                        };
-                        assert_eq!(
-                            (Integer::from(got.m[i][j]), Integer::from(got.r[i][j])),
-                            (v >> bits, expected),
-                            "{k} [{i}][{j}]"
-                        );
-                    }
+                for (unit_a, unit_b) in [(0, 0), (4, 0), (-90, 3)] {
+                    let first = short(a, ra, unit_a);
+                    let second = short(b, rb, unit_b);
+                    let got = first.combine(p, &second, q).unwrap();
+                    assert_eq!((got.m, got.r, got.unit), formula(p, &first, q, &second));
                 }
             }
         }
+    }
+
+    fn power_of_two(exponent: i64) -> Rational {
+        whole(2).pow(exponent as i32)
+    }
+
+    /// What `combine` says, entry by entry.
+    fn formula(
+        p: &Rational,
+        a: &Short,
+        q: &Rational,
+        b: &Short,
+    ) -> (Vec<Vec<i64>>, Vec<Vec<i64>>, i64) {
+        let bits = |x: &Rational| x.numer().bits() as i64 - x.denom().bits() as i64 + 1;
+        let factor_unit = (bits(p) + a.unit).max(bits(q) + b.unit) - 62;
+        let p = p * power_of_two(a.unit - factor_unit);
+        let q = q * power_of_two(b.unit - factor_unit);
+        let lost = |x: &Rational| whole(i64::from(!x.is_integer()));
+
+        let center =
+            |i: usize, j: usize| p.floor() * whole(a.m[i][j]) + q.floor() * whole(b.m[i][j]);
+        let of = |x: &Rational, s: &Short, i: usize, j: usize| {
+            let magnitude = whole(s.m[i][j]).abs() + whole(s.r[i][j]);
+            x.floor().abs() * whole(s.r[i][j]) + lost(x) * magnitude
+        };
+        let radius = |i: usize, j: usize| of(&p, a, i, j) + of(&q, b, i, j);
+
+        let cells = [(0, 0), (0, 1), (1, 0), (1, 1)];
+        let longest = |v: Rational| v.to_integer().bits() as i64;
+        let sizes = cells.map(|(i, j)| longest(center(i, j)).max(longest(radius(i, j))));
+        let cut = (sizes.into_iter().max().unwrap() - 62).max(0);
+
+        let small = |v: Rational| {
+            (v / power_of_two(cut))
+                .floor()
+                .to_integer()
+                .to_i64()
+                .unwrap()
+        };
+        let rounded = |i: usize, j: usize| {
+            let is_whole = (center(i, j) / power_of_two(cut)).is_integer();
+            if is_whole && radius(i, j).is_zero() {
+                0
+            } else {
+                small(radius(i, j)) + 2
+            }
+        };
+        (
+            vec![
+                vec![small(center(0, 0)), small(center(0, 1))],
+                vec![small(center(1, 0)), small(center(1, 1))],
+            ],
+            vec![
+                vec![rounded(0, 0), rounded(0, 1)],
+                vec![rounded(1, 0), rounded(1, 1)],
+            ],
+            factor_unit + cut,
+        )
     }
 
     #[test]

@@ -373,18 +373,14 @@ impl Walk<'_> {
 
     /// The same in short numbers, where there are such.
     pub(super) fn short(&self, region: &Region, anchor: Option<usize>) -> Option<Rc<[Short; 2]>> {
-        if let Some(known) = &*region.matrices.short.borrow() {
-            return known.clone();
-        }
+        region.matrices.short(|| {
+            let short = self.family.short(anchor, &region.lo, region.hi.as_ref());
+            if short.is_some() || matches!(self.family, Family::Linear(_)) {
+                return short;
+            }
 
-        let mut short = self.family.short(anchor, &region.lo, region.hi.as_ref());
-        if short.is_none() && matches!(self.family, Family::Condensed(_)) {
-            short = self.ends(region, anchor).ok().and_then(|ends| ends.short());
-        }
-
-        let short = short.map(Rc::new);
-        region.matrices.short.replace(Some(short.clone()));
-        short
+            self.ends(region, anchor).ok()?.short()
+        })
     }
 
     /// Demands that the matrices of the region are small enough to be computed.

@@ -35,7 +35,7 @@ pub struct Analysis {
     pub necessary: Necessary,
     /// (17)-(18) at mu; `None` if undecided.
     pub sufficient: Option<bool>,
-    /// Complex eigenvalues of the all-slip pencil at mu.
+    /// Complex eigenvalues of the all-slip pencil at mu, unless the work was interrupted.
     pub flutter: Option<Flutter>,
     /// The certificates.
     pub proofs: Vec<Proof>,

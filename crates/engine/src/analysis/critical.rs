@@ -545,6 +545,10 @@ impl Search<'_> {
                 bounds.not_proved(below, Obstacle::Refused, None);
                 Ok(Some(Next::Wider))
             }
+            Outcome::Stopped => {
+                bounds.not_proved(below, Obstacle::Interrupted, None);
+                Ok(Some(Next::Wider))
+            }
             Outcome::Blocked(obstacles) => {
                 let first = obstacles.first();
                 let reason = first.map_or(Obstacle::Refused, |box_| self.obstacle(box_.cause));

@@ -32,7 +32,7 @@ pub use critical::{CertifiedSolution, Critical, Obstacle, Unproved};
 pub use divergence::{Divergence, Verdict};
 pub use error::AnalysisError;
 pub use evidence::{Evidence, Proof, ProofCertificate};
-pub use flutter::Flutter;
+pub use flutter::{Flutter, Onset};
 pub use json::ANALYSIS_FORMAT;
 pub use model::Options;
 pub use modes::Mode;
@@ -118,10 +118,14 @@ pub fn analyse(
         proofs.push(proof);
     }
 
-    watch.report(&Progress::stage(
-        "flutter: eigenvalues with all particles slipping",
-    ));
-    let flutter = flutter::flutter(&family, friction);
+    let flutter = if watch.is_cancelled() {
+        None
+    } else {
+        watch.report(&Progress::stage(
+            "flutter: eigenvalues with all particles slipping",
+        ));
+        flutter::flutter(&family, friction)
+    };
 
     Ok(Analysis {
         name,

@@ -133,7 +133,7 @@ fn left(rows: &Rows, t: &Rational) -> Dense {
     solve(&f, &transposed)
 }
 
-/// Constants at the centre, and one anchor for 1/t with nothing at all.
+/// Constants at the center, and one anchor for 1/t with nothing at all.
 fn condensation(parts: &FrictionParts, center: &Rational, exponent: u32) -> CriticalCondensation {
     let plain = &parts.plain;
     let right = solve(
@@ -183,7 +183,7 @@ fn walk(families: [Family; 2], below: &Rational) -> BoxWalk<'_> {
         leaves: 0,
         definite_budget: WorkBudget::definite_leaves(1 << 30),
         matrix_budget: WorkBudget::matrices(1 << 30),
-        refused: None,
+        audit: None,
     }
 }
 
@@ -202,10 +202,48 @@ fn boxed(t: [Rational; 2], friction: [Rational; 2]) -> FrictionBox {
     }
 }
 
+/// Centers and radii.
+type Enclosure = [Dense; 2];
+
+fn long_corners(ends: &[Ends; 2]) -> [Enclosure; 4] {
+    four_corners(ends).map(|corner| {
+        let in_units_of_one = |matrix: &Vec<Vec<Integer>>| -> Dense {
+            let entry = |v: &Integer| Rational::new(v.clone(), corner.scale.clone());
+            matrix
+                .iter()
+                .map(|row| row.iter().map(entry).collect())
+                .collect()
+        };
+        [in_units_of_one(corner.m), in_units_of_one(corner.r)]
+    })
+}
+
+fn short_corners(corners: &[Short; 4]) -> [Enclosure; 4] {
+    let fixed_unit = Rational::from_integer(Integer::one() << FRACTION_BITS);
+    corners.each_ref().map(|corner| {
+        [0, 1].map(|part| {
+            let entry = |i: usize, j: usize| &corner.entry(i, j)[part] / &fixed_unit;
+            (0..2)
+                .map(|i| (0..2).map(|j| entry(i, j)).collect())
+                .collect()
+        })
+    })
+}
+
+/// Demands that the first corners hold every matrix within the radius of the others.
+fn assert_hold(wide: &[Enclosure; 4], narrow: &[Enclosure; 4]) {
+    for (wide, narrow) in wide.iter().zip(narrow) {
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let distance = (&wide[0][i][j] - &narrow[0][i][j]).abs();
+            assert!(distance + &narrow[1][i][j] <= wide[1][i][j], "({i}, {j})");
+        }
+    }
+}
+
 /// Demands that T(t, mu), scaled, lies within the combination of the corners with these shares of
 /// the upper end and of the higher friction. Returns the largest radius.
 fn assert_enclosed(
-    ends: &[Ends; 2],
+    corners: &[Enclosure; 4],
     [upper, higher]: [&Rational; 2],
     truth: &Dense,
     row_units: &[Rational],
@@ -215,7 +253,7 @@ fn assert_enclosed(
         for j in 0..2 {
             let mut center = whole(0);
             let mut radius = whole(0);
-            for (corner, at) in four_corners(ends).iter().zip(0..4) {
+            for (corner, at) in corners.iter().zip(0..4) {
                 let of_t = if at % 2 == 1 {
                     upper.clone()
                 } else {
@@ -226,9 +264,9 @@ fn assert_enclosed(
                 } else {
                     whole(1) - higher
                 };
-                let share = of_t * of_mu / Rational::from_integer(corner.scale.clone());
-                center += &share * Rational::from_integer(corner.m[i][j].clone());
-                radius += &share * Rational::from_integer(corner.r[i][j].clone());
+                let share = of_t * of_mu;
+                center += &share * &corner[0][i][j];
+                radius += &share * &corner[1][i][j];
             }
 
             let error = (&truth[i][j] / &row_units[i] - center).abs();
@@ -263,16 +301,18 @@ fn the_corners_enclose_the_schur_complement() {
     let (low, high) = (rational(2, 11), rational(5, 3));
     let shares = [0, 1, 3, 5, 8].map(|k| rational(k, 8));
 
-    // Rounded well and hardly, and far from the centre.
+    // Rounded well and hardly, and far from the center.
     for (center, exponent) in [(rational(4, 5), 40), (rational(4, 5), 2), (whole(7), 30)] {
         let condensation = condensation(&parts, &center, exponent);
-        let expansions = condensed::of_parts(&parts, &condensation).unwrap();
+        let expansions = condensed::of_parts(&parts, &condensation, &|| true).unwrap();
         let below = whole(2);
         let walk = walk(expansions.map(family_of_anchors), &below);
 
         for anchor in [0, 1] {
             let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);
-            let ends = walk.corners(&at, Some(anchor)).unwrap();
+            let long = long_corners(&walk.corners(&at, Some(anchor)).unwrap());
+            let short = short_corners(&walk.short(&at, Some(anchor)).unwrap());
+            assert_hold(&short, &long);
             let is_reversed = anchor == 1;
             let units = row_units(
                 &parts,
@@ -298,9 +338,11 @@ fn the_corners_enclose_the_schur_complement() {
                         }
                     }
 
-                    let widest = assert_enclosed(&ends, [share, higher], &truth, &units);
-                    if exponent == 40 && anchor == 0 {
-                        assert!(widest < rational(1, 20), "{widest}");
+                    for corners in [&long, &short] {
+                        let widest = assert_enclosed(corners, [share, higher], &truth, &units);
+                        if exponent == 40 && anchor == 0 {
+                            assert!(widest < rational(1, 20), "{widest}");
+                        }
                     }
                 }
             }

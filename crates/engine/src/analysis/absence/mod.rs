@@ -66,6 +66,8 @@ pub(super) enum Outcome {
     Blocked(Vec<Blocked>),
     /// The checker refuses what doubles propose.
     Refused,
+    /// The run was interrupted while the checker read it.
+    Stopped,
 }
 
 /// A system whose covers are sought.
@@ -129,10 +131,13 @@ impl<'a> Quadrant<'a> {
                 done: leaves(&certificate) as u64,
                 ..Progress::stage("checking its leaves")
             });
-            if let Ok(refused) = audit_critical(self.problem, &certificate)
-                && refused.is_empty()
-            {
-                return Ok(Outcome::Absent(Box::new(certificate)));
+            let go_on = || !self.watch.is_cancelled();
+            match audit_critical(self.problem, &certificate, &go_on) {
+                Ok(Some(refused)) if refused.is_empty() => {
+                    return Ok(Outcome::Absent(Box::new(certificate)));
+                }
+                Ok(None) => return Ok(Outcome::Stopped),
+                _ => {}
             }
 
             family.enlarge_remainders(CAUTION);
@@ -221,6 +226,7 @@ pub(super) fn leaves(certificate: &CriticalCertificate) -> usize {
 mod tests {
     use super::*;
     use crate::reduction::mu_family;
+    use crate::run::Cancel;
     use mceip_check::check_critical;
     use mceip_exact::{Sparse, from_f64, rational, whole};
     use mceip_model::{Body, ContactState, Particle, System, Unknown, Window};
@@ -229,6 +235,10 @@ mod tests {
 
     /// Covers [0, infinity) x [0, below] for a system with mass and friction.
     fn cover(system: &System, below: f64, places: &[Place]) -> Outcome {
+        watched_cover(system, below, places, Watch::nobody())
+    }
+
+    fn watched_cover(system: &System, below: f64, places: &[Place], watch: Watch<'_>) -> Outcome {
         let family = mu_family(system).unwrap();
         let body = Body::System(system.clone());
         let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
@@ -238,7 +248,7 @@ mod tests {
             problem: &problem,
             limits: Limits::default(),
             threads: Some(1),
-            watch: Watch::nobody(),
+            watch,
         };
 
         let outcome = quadrant.cover(&from_f64(below).unwrap(), places).unwrap();
@@ -246,6 +256,32 @@ mod tests {
             check_critical(&problem, certificate).unwrap();
         }
         outcome
+    }
+
+    /// Interrupted while the checker reads a cover that it would accept: neither proved nor refused.
+    #[test]
+    fn an_interrupted_check_says_nothing() {
+        let data = TwoParticles {
+            c: rational(3, 5),
+            s: rational(4, 5),
+            k: whole(1000),
+            m: whole(2),
+            mu: whole(1),
+            signs: (1, 1),
+        };
+        let system = two_particles(&data).unwrap();
+        assert!(matches!(cover(&system, 1.5, &[]), Outcome::Absent(_)));
+
+        let cancel = Cancel::new();
+        let cancel_at_check = |progress: &Progress<'_>| {
+            if progress.stage == "checking its leaves" {
+                cancel.request();
+            }
+        };
+        let watch = Watch::new(&cancel, &cancel_at_check);
+        let outcome = watched_cover(&system, 1.5, &[], watch);
+        assert!(matches!(outcome, Outcome::Stopped));
+        assert!(cancel.is_requested());
     }
 
     /// Absence is proved a millionth below the critical mu. Returns where the search stops a
