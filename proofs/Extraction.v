@@ -4,8 +4,8 @@
    (they count rows and columns), and the equality test of natural numbers becomes that of int.
    These three mappings are part of the trusted base (README.md).  Everything else is Coq's
    extraction of the functions whose soundness System.v, Complete.v, Families.v, Varying.v, Claim.v,
-   Lifted.v, EnclosedClaim.v, PlainMcp.v, ZeroReaction.v, ZeroEnclosed.v, Critical.v and
-   CriticalAnchors.v prove. *)
+   Lifted.v, EnclosedClaim.v, PlainMcp.v, ZeroReaction.v, ZeroEnclosed.v, ZeroComplete.v,
+   Critical.v and CriticalAnchors.v prove. *)
 
 From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.
@@ -15,6 +15,7 @@ From Mceip Require Import Number Condensation Pencil Whole Complete Claim System
 From Mceip Require Import ZeroEnclosed.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Critical CriticalAnchors.
+From Mceip Require Import ZeroPencil ZeroComplete.
 
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
@@ -40,4 +41,6 @@ Extraction "kernel.ml"
   varying_still_open check_local expansions expand_anchor local_pencil local_point local_known
   local_region proper_interval bounded_rows ff_block swap_pencil
   check_critical condensed_parts part_plain part_friction pencil_at mixed
-  check_anchored_critical box_expansions friction_anchor check_parts.
+  check_anchored_critical box_expansions friction_anchor check_parts
+  zero_pencil check_zero_complete zero_solutions zero_families zero_still_open
+  check_zero_varying zero_varying_solutions zero_varying_families zero_varying_open both_halves.

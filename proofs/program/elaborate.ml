@@ -585,8 +585,9 @@ let build_leaf c (region : Kernel.region) node =
   | Open -> Kernel.Leaf Kernel.Undecided
   | Split _ | Branch _ | Support _ -> assert false
 
-(* The nodes of a piece in preorder; [leaf] makes a tree of a leaf. *)
-let build_piece slip leaf nodes (region : Kernel.region) =
+(* The nodes of a piece in preorder; [leaf] makes a tree of a leaf.  [other_half] gives the variable
+   that rests where another one moves, and makes the tree of the region where both move. *)
+let build_piece ?(other_half = fun _ _ -> None) slip leaf nodes (region : Kernel.region) =
   let rec build depth (region : Kernel.region) nodes =
     if depth > 2_000 then no_witness "a tree of more than 2,000 levels";
     match nodes with
@@ -599,8 +600,15 @@ let build_piece slip leaf nodes (region : Kernel.region) =
     | Branch i :: rest ->
       let i = position slip i in
       let first, rest = build (depth + 1) (Kernel.decide i Kernel.Resting region) rest in
-      let second, rest = build (depth + 1) (Kernel.decide i Kernel.Moving region) rest in
-      Kernel.Branch (i, first, second), rest
+      let moving = Kernel.decide i Kernel.Moving region in
+      (match other_half i region with
+       | None ->
+         let second, rest = build (depth + 1) moving rest in
+         Kernel.Branch (i, first, second), rest
+       | Some (other, both) ->
+         let second, rest = build (depth + 1) (Kernel.decide other Kernel.Resting moving) rest in
+         let both = both () in
+         Kernel.Branch (i, first, Kernel.Branch (other, second, both)), rest)
     | node :: rest -> leaf region node, rest in
   match build 0 region nodes with
   | tree, [] -> tree
@@ -609,13 +617,14 @@ let build_piece slip leaf nodes (region : Kernel.region) =
 let upper_point = function Some q -> point_of q | None -> Kernel.infinity
 
 (* The pieces of a window as one tree. *)
-let build_pieces slip leaf (lo, _) pieces =
+let build_pieces ?other_half slip leaf (lo, _) pieces =
   if List.length pieces > 10_000 then no_witness "more than 10,000 pieces";
   let rec build lower = function
     | [] -> no_witness "a complete set without pieces"
     | piece :: rest ->
       let upper = upper_point piece.max in
-      let tree = build_piece slip (leaf piece) piece.tree { Kernel.lower; upper; states = [] } in
+      let tree =
+        build_piece ?other_half slip (leaf piece) piece.tree { Kernel.lower; upper; states = [] } in
       if rest = [] then tree else Kernel.Split (upper, tree, build upper rest) in
   build (point_of lo) pieces
 
@@ -1377,3 +1386,69 @@ let zero_enclosed_of (zero : Kernel.zero_system) unknown (e : enclosed) =
   enclosed_claim_of (Kernel.support_pencil zero unknown e.box_support)
     { e with box_support = slipping; center = components @ [value];
              radius = List.map (fun _ -> least) components @ [value_radius] }
+
+(* Root leaves where a gap and a half move: a box for the solution, and a leaf that pins its region.
+   [undecided] puts the box beside the region that is left undecided. *)
+
+let opening = "a root where a particle opens"
+
+(* The box at the moving variables [j_list], with these components of x. *)
+let opening_claim (pencil : Kernel.pencil) slip (zero : Kernel.zero_system) unknown j_list
+    components (a, b) =
+  let center = List.map (fun _ -> Q.zero) pencil.free @ components in
+  let radius = List.map (fun _ -> Q.one) center in
+  let names = List.map (fun k -> slip.(k)) j_list in
+  let box = { box_support = names; center = center @ [half a b];
+              radius = radius @ [Q.div (Q.sub b a) (Q.of_int 2)] } in
+  match zero_enclosed_of zero unknown box with
+  | None -> no_witness "%s" opening
+  | Some claim ->
+    names, claim, { Kernel.known_from = claim.box_from; known_to = claim.box_to;
+                    known_support = j_list; known_biactive = [] }
+
+let pinned_box_tree c zero unknown (region : Kernel.region) (r : root) undecided =
+  let p = c.enclosed and f = c.doubles in
+  let j_list = Kernel.moving p region in
+  let r = { r with pivot = position c.slip r.pivot } in
+  if not (List.mem r.pivot j_list) then no_witness "a root without its pivot";
+  let a, b = r.interval in
+  let components = match null_vectors p.Kernel.size_of f j_list r.pivot (middle a b) with
+    | Some (v, _) ->
+      let v = Array.of_list v in
+      List.map (fun k -> Q.make v.(k) (two_to 52)) j_list
+    | None -> no_witness "a root" in
+  let box_names, box_claim, known =
+    opening_claim c.pencil c.slip zero unknown j_list components r.interval in
+  let found = ref None in
+  let attempt region = match claimed_leaf p f region r 0 known with
+    | Some (Kernel.Claimed (box_interval, box_pinning, _)) ->
+      found := Some { Kernel.box_interval; near_anchor = 0; near_grain = Z.zero; box_pinning;
+                      box_names; box_claim };
+      Some Kernel.Undecided
+    | _ -> None in
+  let tree = narrow_tree ~absent:(absent_tree p f 12) ~weight:1 opening 12 attempt
+      (value_of_known known) region in
+  match !found with
+  | Some box -> undecided box; tree
+  | None -> no_witness "%s" opening
+
+(* The same about the anchor of a piece. *)
+let pinned_about_tree v (piece : piece) zero unknown (region : Kernel.region) (r : root) undecided =
+  let n = Option.value (List.assoc_opt piece.anchor v.numbers) ~default:0 in
+  let j_list = List.filter (fun k -> Kernel.state_of region k = Kernel.Moving)
+      (List.init (Array.length v.slip_list) Fun.id) in
+  let r = { r with pivot = position v.slip_list r.pivot } in
+  let components = List.map (fun _ -> Q.one) j_list in
+  let box_names, box_claim, known =
+    opening_claim v.whole_pencil v.slip_list zero unknown j_list components r.interval in
+  let found = ref None in
+  let attempt region = match by_claim v n r 0 known region with
+    | Some (Kernel.OfClaim (near_anchor, near_grain, box_interval, box_pinning, _)) ->
+      found := Some { Kernel.box_interval; near_anchor; near_grain; box_pinning; box_names;
+                      box_claim };
+      Some Kernel.LeftOpen
+    | _ -> None in
+  let tree = varying_narrow v n opening attempt (value_of_known known) region in
+  match !found with
+  | Some box -> undecided box; tree
+  | None -> no_witness "%s" opening

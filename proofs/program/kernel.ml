@@ -2966,6 +2966,25 @@ let k_row s d =
 let m_row s d =
   nth [] s.mass d
 
+(** val column :
+    system -> Equality.sort -> (int * Big_int_Z.big_int) option **)
+
+let column s d =
+  if in_mem d (mem (seq_predType nat_eqType) (Obj.magic s.free_dofs))
+  then Some ((index nat_eqType d (Obj.magic s.free_dofs)), s.unit_length)
+  else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic first_dofs s))
+       then let j = index nat_eqType d (Obj.magic first_dofs s) in
+            Some ((addn (free_number s) j),
+            (Z.opp
+              (Z.mul (particle s j).sign_of (fst (particle s j).tangent))))
+       else if in_mem d
+                 (mem (seq_predType nat_eqType) (Obj.magic second_dofs s))
+            then let j = index nat_eqType d (Obj.magic second_dofs s) in
+                 Some ((addn (free_number s) j),
+                 (Z.opp
+                   (Z.mul (particle s j).sign_of (snd (particle s j).tangent))))
+            else None
+
 (** val column_table : system -> (int * Big_int_Z.big_int) option list **)
 
 let column_table s =
@@ -5496,3 +5515,307 @@ let check_anchored_critical s w tr bound1 =
     ((&&) ((||) (nilp w.box_anchors) (both_bounded s w))
       (check_boxes (size s.particles) (check_anchored_box s w families0) tr
         (window zero infinity) zero bound1))
+
+(** val zero_firsts : zero_system -> int list **)
+
+let zero_firsts z0 =
+  map0 (fun p -> p.first_dof) z0.zero_particles
+
+(** val zero_seconds : zero_system -> int list **)
+
+let zero_seconds z0 =
+  map0 (fun p -> p.second_dof) z0.zero_particles
+
+(** val turned : slip_particle -> planar **)
+
+let turned p =
+  ((Z.opp (snd p.tangent)), (fst p.tangent))
+
+(** val unit_normal : slip_particle -> planar **)
+
+let unit_normal p =
+  if Z.ltb Big_int_Z.zero_big_int (inner p.normal (turned p))
+  then turned p
+  else ((Z.opp (fst (turned p))), (Z.opp (snd (turned p))))
+
+(** val three_columns :
+    zero_system -> int -> Big_int_Z.big_int -> Big_int_Z.big_int -> sparse_row **)
+
+let three_columns z0 j n t =
+  ((gap z0 j), (Z.opp n)) :: (((right z0 j), t) :: (((left z0 j),
+    (Z.opp t)) :: []))
+
+(** val zero_columns : zero_system -> Equality.sort -> sparse_row **)
+
+let zero_columns z0 d =
+  if in_mem d (mem (seq_predType nat_eqType) (Obj.magic zero_firsts z0))
+  then let j = index nat_eqType d (Obj.magic zero_firsts z0) in
+       let p = zero_particle z0 j in
+       three_columns z0 j (fst (unit_normal p)) (fst p.tangent)
+  else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic zero_seconds z0))
+       then let j = index nat_eqType d (Obj.magic zero_seconds z0) in
+            let p = zero_particle z0 j in
+            three_columns z0 j (snd (unit_normal p)) (snd p.tangent)
+       else (match column z0.without_zero d with
+             | Some c -> c :: []
+             | None -> [])
+
+(** val zero_table : zero_system -> sparse_row list **)
+
+let zero_table z0 =
+  map0 (fun d -> zero_columns z0 (Obj.magic d)) (iota 0 z0.without_zero.dofs)
+
+(** val zero_row : sparse_row list -> sparse_row -> sparse_row **)
+
+let zero_row table0 row =
+  flatten
+    (map0 (fun e ->
+      map0 (fun c -> ((fst c), (Z.mul (snd c) (snd e))))
+        (nth [] table0 (fst e))) row)
+
+(** val row_multiple : unknown -> Big_int_Z.big_int **)
+
+let row_multiple = function
+| Mu -> Big_int_Z.unit_big_int
+| Lambda2 (_, q) -> q
+
+(** val scaled_normal : unknown -> slip_particle -> planar **)
+
+let scaled_normal u p =
+  ((Z.mul (row_multiple u) (fst (unit_normal p))),
+    (Z.mul (row_multiple u) (snd (unit_normal p))))
+
+(** val zero_forms : zero_system -> unknown -> int -> form list **)
+
+let zero_forms z0 u j =
+  let p = zero_particle z0 j in
+  (negative (pressing_form z0 u (scaled_normal u p) p)) :: ((negative
+                                                              (cone_form z0 u
+                                                                (with_sign
+                                                                  (Big_int_Z.minus_big_int
+                                                                  Big_int_Z.unit_big_int)
+                                                                  p))) :: (
+  (negative (cone_form z0 u (with_sign Big_int_Z.unit_big_int p))) :: []))
+
+(** val variable_forms : zero_system -> unknown -> form list **)
+
+let variable_forms z0 u =
+  cat (map0 (fun d -> force_form z0 u d) z0.without_zero.free_dofs)
+    (cat
+      (map0 (fun p -> negative (cone_form z0 u p)) z0.without_zero.particles)
+      (flatten
+        (map0 (fun j -> zero_forms z0 u j) (iota 0 (size z0.zero_particles)))))
+
+(** val pencil_by_table :
+    zero_system -> unknown -> sparse_row list -> pencil **)
+
+let pencil_by_table z0 u table0 =
+  { order =
+    (addn
+      (addn (free_number z0.without_zero) (size z0.without_zero.particles))
+      (muln (Stdlib.Int.succ (Stdlib.Int.succ (Stdlib.Int.succ 0)))
+        (size z0.zero_particles))); rows_a =
+    (map0 (fun f -> zero_row table0 (fst f)) (variable_forms z0 u)); rows_b =
+    (map0 (fun f -> zero_row table0 (snd f)) (variable_forms z0 u)); free =
+    (iota 0 (free_number z0.without_zero)) }
+
+(** val zero_pencil : zero_system -> unknown -> pencil **)
+
+let zero_pencil z0 u =
+  pencil_by_table z0 u (zero_table z0)
+
+type pinned_box = { box_interval : interval; near_anchor : int;
+                    near_grain : Big_int_Z.big_int; box_pinning : pinning;
+                    box_names : int list; box_claim : enclosed_claim }
+
+(** val half_state :
+    zero_system -> unknown -> region -> Equality.sort -> state **)
+
+let half_state z0 u r i =
+  state_of r (index nat_eqType i (slip (zero_pencil z0 u)))
+
+(** val halves_apart : zero_system -> unknown -> region -> bool **)
+
+let halves_apart z0 u r =
+  all (fun j ->
+    (||) (is_resting (half_state z0 u r (Obj.magic right z0 j)))
+      (is_resting (half_state z0 u r (Obj.magic left z0 j))))
+    (iota 0 (size z0.zero_particles))
+
+(** val both_halves : zero_system -> unknown -> region -> bool **)
+
+let both_halves z0 u r =
+  has (fun j ->
+    (&&) (is_moving (half_state z0 u r (Obj.magic right z0 j)))
+      (is_moving (half_state z0 u r (Obj.magic left z0 j))))
+    (iota 0 (size z0.zero_particles))
+
+(** val known_box : zero_system -> unknown -> pinned_box -> known **)
+
+let known_box z0 u b =
+  { known_from = b.box_claim.box_from; known_to = b.box_claim.box_to;
+    known_support = (positions (zero_pencil z0 u) b.box_names);
+    known_biactive = [] }
+
+(** val pinned_yield : region -> pinned_box -> yield **)
+
+let pinned_yield r b =
+  { yield_region = (extended r b.box_interval); yield_from =
+    b.box_claim.box_from; yield_to = b.box_claim.box_to }
+
+(** val pinned_alone :
+    zero_system -> unknown -> enclosed -> region -> pinned_box -> bool **)
+
+let pinned_alone z0 u p r b =
+  check_claimed p r b.box_pinning (known_box z0 u b)
+
+(** val pinned_about :
+    zero_system -> unknown -> anchoring -> anchor_family option list ->
+    region -> pinned_box -> bool **)
+
+let pinned_about z0 u w families0 r b =
+  at_anchor w families0 b.near_anchor r
+    (claim_at (zero_pencil z0 u) b.near_grain b.box_pinning
+      (known_box z0 u b))
+
+(** val check_pinned :
+    zero_system -> unknown -> (region -> pinned_box -> bool) -> region ->
+    pinned_box -> bool **)
+
+let check_pinned z0 u alone r b =
+  let r' = extended r b.box_interval in
+  (&&) (ordered r.lower r.upper)
+    ((&&) (reaches r b.box_interval)
+      ((&&) (alone r' b)
+        ((&&)
+          (supports_region (enclosed_order (size (slip (zero_pencil z0 u))))
+            r' (known_box z0 u b))
+          (check_zero_enclosed z0 u b.box_names b.box_claim))))
+
+(** val pinned_yields :
+    region list -> pinned_box option list -> yield list **)
+
+let pinned_yields rs bs =
+  pmap (fun rb -> Option.map (pinned_yield (fst rb)) (snd rb)) (zip rs bs)
+
+(** val not_pinned : region list -> pinned_box option list -> region list **)
+
+let not_pinned rs bs =
+  pmap (fun rb -> match snd rb with
+                  | Some _ -> None
+                  | None -> Some (fst rb)) (zip rs bs)
+
+(** val check_beside :
+    zero_system -> unknown -> region list -> pinned_box option list ->
+    (region -> pinned_box -> bool) -> bool **)
+
+let check_beside z0 u rs bs alone =
+  (&&) (eq_op nat_eqType (Obj.magic size rs) (Obj.magic size bs))
+    (all (fun rb ->
+      match snd rb with
+      | Some b -> check_pinned z0 u alone (fst rb) b
+      | None -> true) (zip rs bs))
+
+(** val zero_distinct :
+    zero_system -> unknown -> point -> point -> yield list -> region list ->
+    support_leaf option list -> yield list option **)
+
+let zero_distinct z0 u lo hi yields0 rs ls =
+  let families0 = families_of rs ls in
+  if all (halves_apart z0 u) (map0 fst families0)
+  then (match distinct_yields (size (slip (zero_pencil z0 u))) lo hi
+                (filter (fun y ->
+                  negb
+                    (has (belongs (size (slip (zero_pencil z0 u))) y)
+                      families0)) (cat yields0 (isolated_of rs ls))) with
+        | Some ys ->
+          if all (halves_apart z0 u) (map0 (fun y -> y.yield_region) ys)
+          then Some ys
+          else None
+        | None -> None)
+  else None
+
+(** val zero_open :
+    zero_system -> unknown -> region list -> support_leaf option list ->
+    region list **)
+
+let zero_open z0 u rs ls =
+  filter (fun r -> negb (both_halves z0 u r)) (open_of rs ls)
+
+(** val zero_undecided :
+    whole leaf tree -> point -> point -> pinned_box option list -> region list **)
+
+let zero_undecided tr lo hi bs =
+  not_pinned (left_open tr lo hi) bs
+
+(** val check_zero_complete :
+    zero_system -> unknown -> elimination -> whole leaf tree -> point ->
+    point -> pinned_box option list -> support_leaf option list -> bool **)
+
+let check_zero_complete z0 u w tr lo hi bs ls =
+  (&&) (zero_wellformed z0 u)
+    ((&&) (check_complete (zero_pencil z0 u) [] w tr lo hi)
+      ((&&)
+        (check_beside z0 u (left_open tr lo hi) bs
+          (pinned_alone z0 u (condensed (blocks_of (zero_pencil z0 u)) w)))
+        (check_supports (zero_pencil z0 u) (zero_undecided tr lo hi bs) ls)))
+
+(** val zero_solutions :
+    zero_system -> unknown -> whole leaf tree -> point -> point -> pinned_box
+    option list -> support_leaf option list -> yield list option **)
+
+let zero_solutions z0 u tr lo hi bs ls =
+  zero_distinct z0 u lo hi
+    (cat (found (zero_pencil z0 u) [] tr lo hi)
+      (pinned_yields (left_open tr lo hi) bs)) (zero_undecided tr lo hi bs) ls
+
+(** val zero_families :
+    whole leaf tree -> point -> point -> pinned_box option list ->
+    support_leaf option list -> family list **)
+
+let zero_families tr lo hi bs ls =
+  families_of (zero_undecided tr lo hi bs) ls
+
+(** val zero_still_open :
+    zero_system -> unknown -> whole leaf tree -> point -> point -> pinned_box
+    option list -> support_leaf option list -> region list **)
+
+let zero_still_open z0 u tr lo hi bs ls =
+  zero_open z0 u (zero_undecided tr lo hi bs) ls
+
+(** val check_zero_varying :
+    zero_system -> unknown -> anchoring -> varying_leaf tree -> point ->
+    point -> pinned_box option list -> support_leaf option list -> bool **)
+
+let check_zero_varying z0 u w tr lo hi bs ls =
+  (&&) (zero_wellformed z0 u)
+    ((&&) (check_varying (zero_pencil z0 u) [] w tr lo hi)
+      ((&&)
+        (check_beside z0 u (varying_open tr lo hi) bs
+          (pinned_about z0 u w (expansions (zero_pencil z0 u) w)))
+        (check_supports (zero_pencil z0 u)
+          (not_pinned (varying_open tr lo hi) bs) ls)))
+
+(** val zero_varying_solutions :
+    zero_system -> unknown -> varying_leaf tree -> point -> point ->
+    pinned_box option list -> support_leaf option list -> yield list option **)
+
+let zero_varying_solutions z0 u tr lo hi bs ls =
+  zero_distinct z0 u lo hi
+    (cat (varying_found (zero_pencil z0 u) [] tr lo hi)
+      (pinned_yields (varying_open tr lo hi) bs))
+    (not_pinned (varying_open tr lo hi) bs) ls
+
+(** val zero_varying_families :
+    varying_leaf tree -> point -> point -> pinned_box option list ->
+    support_leaf option list -> family list **)
+
+let zero_varying_families tr lo hi bs ls =
+  families_of (not_pinned (varying_open tr lo hi) bs) ls
+
+(** val zero_varying_open :
+    zero_system -> unknown -> varying_leaf tree -> point -> point ->
+    pinned_box option list -> support_leaf option list -> region list **)
+
+let zero_varying_open z0 u tr lo hi bs ls =
+  zero_open z0 u (not_pinned (varying_open tr lo hi) bs) ls

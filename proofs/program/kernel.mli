@@ -999,6 +999,8 @@ val k_row : system -> int -> (int * Big_int_Z.big_int) list
 
 val m_row : system -> int -> (int * Big_int_Z.big_int) list
 
+val column : system -> Equality.sort -> (int * Big_int_Z.big_int) option
+
 val column_table : system -> (int * Big_int_Z.big_int) option list
 
 val columns :
@@ -1776,3 +1778,108 @@ val both_bounded : system -> box_anchoring -> bool
 
 val check_anchored_critical :
   system -> box_anchoring -> anchored_box_leaf box_tree -> point -> bool
+
+val zero_firsts : zero_system -> int list
+
+val zero_seconds : zero_system -> int list
+
+val turned : slip_particle -> planar
+
+val unit_normal : slip_particle -> planar
+
+val three_columns :
+  zero_system -> int -> Big_int_Z.big_int -> Big_int_Z.big_int -> sparse_row
+
+val zero_columns : zero_system -> Equality.sort -> sparse_row
+
+val zero_table : zero_system -> sparse_row list
+
+val zero_row : sparse_row list -> sparse_row -> sparse_row
+
+val row_multiple : unknown -> Big_int_Z.big_int
+
+val scaled_normal : unknown -> slip_particle -> planar
+
+val zero_forms : zero_system -> unknown -> int -> form list
+
+val variable_forms : zero_system -> unknown -> form list
+
+val pencil_by_table : zero_system -> unknown -> sparse_row list -> pencil
+
+val zero_pencil : zero_system -> unknown -> pencil
+
+type pinned_box = { box_interval : interval; near_anchor : int;
+                    near_grain : Big_int_Z.big_int; box_pinning : pinning;
+                    box_names : int list; box_claim : enclosed_claim }
+
+val half_state : zero_system -> unknown -> region -> Equality.sort -> state
+
+val halves_apart : zero_system -> unknown -> region -> bool
+
+val both_halves : zero_system -> unknown -> region -> bool
+
+val known_box : zero_system -> unknown -> pinned_box -> known
+
+val pinned_yield : region -> pinned_box -> yield
+
+val pinned_alone :
+  zero_system -> unknown -> enclosed -> region -> pinned_box -> bool
+
+val pinned_about :
+  zero_system -> unknown -> anchoring -> anchor_family option list -> region
+  -> pinned_box -> bool
+
+val check_pinned :
+  zero_system -> unknown -> (region -> pinned_box -> bool) -> region ->
+  pinned_box -> bool
+
+val pinned_yields : region list -> pinned_box option list -> yield list
+
+val not_pinned : region list -> pinned_box option list -> region list
+
+val check_beside :
+  zero_system -> unknown -> region list -> pinned_box option list -> (region
+  -> pinned_box -> bool) -> bool
+
+val zero_distinct :
+  zero_system -> unknown -> point -> point -> yield list -> region list ->
+  support_leaf option list -> yield list option
+
+val zero_open :
+  zero_system -> unknown -> region list -> support_leaf option list -> region
+  list
+
+val zero_undecided :
+  whole leaf tree -> point -> point -> pinned_box option list -> region list
+
+val check_zero_complete :
+  zero_system -> unknown -> elimination -> whole leaf tree -> point -> point
+  -> pinned_box option list -> support_leaf option list -> bool
+
+val zero_solutions :
+  zero_system -> unknown -> whole leaf tree -> point -> point -> pinned_box
+  option list -> support_leaf option list -> yield list option
+
+val zero_families :
+  whole leaf tree -> point -> point -> pinned_box option list -> support_leaf
+  option list -> family list
+
+val zero_still_open :
+  zero_system -> unknown -> whole leaf tree -> point -> point -> pinned_box
+  option list -> support_leaf option list -> region list
+
+val check_zero_varying :
+  zero_system -> unknown -> anchoring -> varying_leaf tree -> point -> point
+  -> pinned_box option list -> support_leaf option list -> bool
+
+val zero_varying_solutions :
+  zero_system -> unknown -> varying_leaf tree -> point -> point -> pinned_box
+  option list -> support_leaf option list -> yield list option
+
+val zero_varying_families :
+  varying_leaf tree -> point -> point -> pinned_box option list ->
+  support_leaf option list -> family list
+
+val zero_varying_open :
+  zero_system -> unknown -> varying_leaf tree -> point -> point -> pinned_box
+  option list -> support_leaf option list -> region list

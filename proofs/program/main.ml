@@ -288,52 +288,6 @@ let verify_zero_box (certificate : Certificate.t) (zero : Kernel.zero_system) un
     if not (Kernel.check_zero_enclosed zero unknown e.box_support claim) then refuse ();
     show_claim (low, high) e.box_support
 
-(* Claims about a system with particles in contact with zero reaction.  Of an exact or lifted claim
-   the kernel checks the motion and its forces. *)
-let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kernel.zero_system)
-    unknown =
-  if certificate.pieces <> [] then Problem.not_verified "a cover of a problem with zero reaction";
-  let system = zero.without_zero in
-  let variables = List.length system.free_dofs + List.length system.particles
-                  + 3 * List.length zero.zero_particles in
-  let factor = Z.divexact problem.common system.unit_length in
-  let size = system.dofs * system.dofs + entries system.stiffness + entries system.mass in
-  if size > 1 lsl 22 then Problem.not_verified "claims about more than 2,048 variables";
-  let work_as_given = function
-    | Certificate.Enclosed e -> zero_box_work zero e
-    | Exact e ->
-      if List.length e.x <> variables then raise (Rejected "a claim with too few components");
-      motion_work system.dofs e e.x
-    | Lifted l ->
-      if List.length l.motion.x <> system.dofs || List.length l.forces <> system.dofs then
-        raise (Rejected "a motion with too few or too many components");
-      motion_work system.dofs l.motion (l.motion.x @ l.forces) in
-  limit_motions (List.map work_as_given certificate.claims);
-
-  let motion = function
-    | Certificate.Exact e -> Either.Left (Elaborate.lifted_of_exact zero unknown factor e)
-    | Lifted l -> Left l
-    | Enclosed e -> Right e in
-  let claims = List.map motion certificate.claims in
-  limit_motions (List.map (fun (l : Certificate.lifted) ->
-      motion_work system.dofs l.motion (l.motion.x @ l.forces))
-      (fst (List.partition_map Fun.id claims)));
-
-  let verify_motion (l : Certificate.lifted) =
-    check_root certificate l.motion;
-    if List.exists (fun i -> List.mem i l.motion.support) l.motion.biactive then
-      raise (Rejected "a biactive variable of the support");
-    let claim = Elaborate.zero_of zero unknown factor l in
-    refuse_unless (states claim.lifted_part.motion_claim l.motion);
-    refuse_unless (Kernel.check_zero zero unknown claim);
-    show_claim l.motion.value l.motion.support in
-  let verify = Either.fold ~left:verify_motion ~right:(verify_zero_box certificate zero unknown) in
-  let shown = timed "claims" (fun () -> List.map verify claims) in
-  Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
-    (List.length shown);
-  List.iter (fun show -> show ()) shown;
-  0
-
 let verify_plain document certificate_path =
   let problem = Plain.read document in
   let digest, points = Plain.read_points certificate_path in
@@ -451,6 +405,186 @@ let verify_varying q =
     solutions = lazy (Kernel.varying_solutions q.pencil q.known_claims tree q.lo q.hi supports);
     print_coq = (fun _ -> Problem.not_verified "as a Coq file: condensation about anchors") }
 
+(* Claims about a system with particles in contact with zero reaction.  Of an exact or lifted claim
+   the kernel checks the motion and its forces. *)
+let verify_zero_claims (problem : Problem.t) (certificate : Certificate.t)
+    (zero : Kernel.zero_system) unknown =
+  let system = zero.without_zero in
+  let variables = List.length system.free_dofs + List.length system.particles
+                  + 3 * List.length zero.zero_particles in
+  let factor = Z.divexact problem.common system.unit_length in
+  let size = system.dofs * system.dofs + entries system.stiffness + entries system.mass in
+  if size > 1 lsl 22 then Problem.not_verified "claims about more than 2,048 variables";
+  let work_as_given = function
+    | Certificate.Enclosed e -> zero_box_work zero e
+    | Exact e ->
+      if List.length e.x <> variables then raise (Rejected "a claim with too few components");
+      motion_work system.dofs e e.x
+    | Lifted l ->
+      if List.length l.motion.x <> system.dofs || List.length l.forces <> system.dofs then
+        raise (Rejected "a motion with too few or too many components");
+      motion_work system.dofs l.motion (l.motion.x @ l.forces) in
+  limit_motions (List.map work_as_given certificate.claims);
+
+  let motion = function
+    | Certificate.Exact e -> Either.Left (Elaborate.lifted_of_exact zero unknown factor e)
+    | Lifted l -> Left l
+    | Enclosed e -> Right e in
+  let claims = List.map motion certificate.claims in
+  limit_motions (List.map (fun (l : Certificate.lifted) ->
+      motion_work system.dofs l.motion (l.motion.x @ l.forces))
+      (fst (List.partition_map Fun.id claims)));
+
+  let verify_motion (l : Certificate.lifted) =
+    check_root certificate l.motion;
+    if List.exists (fun i -> List.mem i l.motion.support) l.motion.biactive then
+      raise (Rejected "a biactive variable of the support");
+    let claim = Elaborate.zero_of zero unknown factor l in
+    refuse_unless (states claim.lifted_part.motion_claim l.motion);
+    refuse_unless (Kernel.check_zero zero unknown claim);
+    show_claim l.motion.value l.motion.support in
+  let verify = Either.fold ~left:verify_motion ~right:(verify_zero_box certificate zero unknown) in
+  timed "claims" (fun () -> List.map verify claims)
+
+(* A complete set of such a system.  A branch on one half of v_T that moves puts the other half at
+   rest; the tree of the kernel has a region more, in which both move.  Beside each region that it
+   leaves undecided stands a box, a support leaf, or nothing. *)
+let elaborate_zero q (zero : Kernel.zero_system) unknown ~leaf ~left_open ~nothing =
+  let beside = ref [] in
+  let put item = beside := item :: !beside in
+  let undecided item = put item; Kernel.Leaf left_open in
+  let gaps = Kernel.gap zero 0 in
+  let other_half k (region : Kernel.region) =
+    let i = q.slip.(k) - gaps in
+    let other = if i < 0 then 0 else match i mod 3 with 1 -> 1 | 2 -> -1 | _ -> 0 in
+    if other = 0 || Kernel.state_of region (k + other) = Kernel.Resting then None
+    else Some (k + other, fun () -> undecided (None, None)) in
+  let factor i =
+    if List.mem i q.pencil.Kernel.free then q.problem.common else q.problem.slip_common in
+  let leaf piece region = function
+    | Certificate.Open -> undecided (None, None)
+    | Support s ->
+      (match Supports.support_leaf q.pencil factor region s with
+       | Some l -> undecided (None, Some l)
+       | None -> nothing region)
+    | Root { outcome = Claim _; _ } ->
+      Problem.not_verified "a root leaf that refers to a claim, with zero reaction"
+    | node -> leaf ~put_box:(fun box -> put (Some box, None)) piece region node in
+  let tree = timed "elaboration" (fun () ->
+      Elaborate.build_pieces ~other_half q.slip leaf q.certificate.window q.certificate.pieces) in
+  tree, List.rev !beside
+
+(* A gap and one half of a particle move: the row of the other half vanishes, and a box is asked
+   for. *)
+let opens q (zero : Kernel.zero_system) (region : Kernel.region) =
+  let moves i = Kernel.state_of region (i - q.slip.(0)) = Kernel.Moving in
+  let opens = List.exists (fun j ->
+      moves (Kernel.gap zero j) && (moves (Kernel.right zero j) || moves (Kernel.left zero j)))
+      (List.init (List.length zero.zero_particles) Fun.id) in
+  if opens && zero.without_zero.dofs + Array.length q.slip > largest_enclosed then
+    Problem.not_verified "a root of more than %d active variables where a particle opens"
+      largest_enclosed;
+  opens
+
+(* The boxes, and the support leaves of the regions without a box. *)
+let boxes_and_supports beside =
+  List.map fst beside,
+  List.filter_map (function None, s -> Some s | Some _, _ -> None) beside
+
+type zero_cover = {
+  zero_yielded : Kernel.yield list;
+  zero_found : Kernel.yield list option Lazy.t;
+  zero_families : Kernel.family list;
+  zero_open : Kernel.region list }
+
+let verify_zero_constant q zero unknown =
+  let certificate = q.certificate and problem = q.problem in
+  let anchor = match certificate.pieces with p :: _ -> p.anchor | [] -> 0 in
+  let elimination, enclosed = timed "condensation" (fun () ->
+      let e = Elaborate.elimination q.pencil q.slip_list problem.common problem.slip_common
+          certificate.condensation anchor in
+      e, Kernel.condensed (Kernel.blocks_of q.pencil) e) in
+  let context =
+    { Elaborate.pencil = q.pencil; slip = q.slip; enclosed;
+      doubles = Elaborate.doubles_of enclosed; known = [||];
+      weights = Elaborate.row_weights q.pencil problem.common problem.slip_common } in
+  let leaf ~put_box _ region = function
+    | Certificate.Root ({ outcome = Solution; _ } as r) when opens q zero region ->
+      Elaborate.pinned_box_tree context zero unknown region r put_box
+    | node -> Elaborate.build_leaf context region node in
+  let tree, beside =
+    elaborate_zero q zero unknown ~leaf ~left_open:Kernel.Undecided
+      ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
+  let boxes, supports = boxes_and_supports beside in
+  refuse_tree_unless (timed "kernel" (fun () ->
+      Kernel.check_zero_complete zero unknown elimination tree q.lo q.hi boxes supports));
+  { zero_yielded = Kernel.found q.pencil [] tree q.lo q.hi;
+    zero_found = lazy (Kernel.zero_solutions zero unknown tree q.lo q.hi boxes supports);
+    zero_families = Kernel.zero_families tree q.lo q.hi boxes supports;
+    zero_open = Kernel.zero_still_open zero unknown tree q.lo q.hi boxes supports }
+
+let verify_zero_varying q zero unknown =
+  let certificate = q.certificate and problem = q.problem in
+  let varying = timed "condensation" (fun () ->
+      Elaborate.varying_of q.pencil q.slip_list problem.common problem.slip_common [||]
+        certificate.condensation certificate.pieces) in
+  let leaf ~put_box piece region = function
+    | Certificate.Root ({ outcome = Solution; _ } as r) when opens q zero region ->
+      Elaborate.pinned_about_tree varying piece zero unknown region r put_box
+    | node -> Elaborate.varying_leaf varying piece region node in
+  let tree, beside =
+    elaborate_zero q zero unknown ~leaf ~left_open:Kernel.LeftOpen
+      ~nothing:(Elaborate.whole_of varying "support") in
+  let boxes, supports = boxes_and_supports beside in
+  refuse_tree_unless (timed "kernel" (fun () ->
+      Kernel.check_zero_varying zero unknown varying.anchoring tree q.lo q.hi boxes supports));
+  { zero_yielded = Kernel.varying_found q.pencil [] tree q.lo q.hi;
+    zero_found = lazy (Kernel.zero_varying_solutions zero unknown tree q.lo q.hi boxes supports);
+    zero_families = Kernel.zero_varying_families tree q.lo q.hi boxes supports;
+    zero_open = Kernel.zero_varying_open zero unknown tree q.lo q.hi boxes supports }
+
+let depends_on_value pencil (certificate : Certificate.t) =
+  not (Kernel.free_rows_constant pencil)
+  || pencil.free <> [] && not (List.exists Elaborate.needs_anchor certificate.pieces)
+
+let limit_yields yielded families =
+  if List.length yielded > 10_000 then
+    Problem.not_verified "more than 10,000 regions with a solution";
+  if List.length families > 10_000 then Problem.not_verified "more than 10,000 families"
+
+let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kernel.zero_system)
+    unknown =
+  let shown = verify_zero_claims problem certificate zero unknown in
+  let report_claims () = List.iter (fun show -> show ()) shown in
+  if certificate.pieces = [] then begin
+    Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
+      (List.length shown);
+    report_claims ();
+    0
+  end
+  else begin
+    let pencil = timed "pencil" (fun () -> Kernel.zero_pencil zero unknown) in
+    let slip_list = Obj.magic (Kernel.slip pencil) in
+    let slip = Array.of_list slip_list in
+    if Array.length slip > 300 then
+      Problem.not_verified "more than 300 complementarity variables";
+    let lo = Elaborate.point_of (fst certificate.window) in
+    let hi = Elaborate.upper_point (snd certificate.window) in
+    let q = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims = [] } in
+    let cover =
+      if depends_on_value pencil certificate then verify_zero_varying q zero unknown
+      else verify_zero_constant q zero unknown in
+    limit_yields cover.zero_yielded cover.zero_families;
+    match Lazy.force cover.zero_found with
+    | None ->
+      Problem.not_verified "regions that may hold the same solution, or a value beside the window"
+    | Some found ->
+      let code =
+        report slip lo hi (List.rev found) (listed_once cover.zero_families) cover.zero_open in
+      report_claims ();
+      code
+  end
+
 (* No solution of a system for mu in [0, below] and lambda^2 >= 0. *)
 let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
   if certificate.critical_digest <> problem.digest then
@@ -537,14 +671,9 @@ let verify_complete (problem : Problem.t) (certificate : Certificate.t) =
     let known_claims =
       if needed then List.map (fun (claim, _) -> Lazy.force claim) claims else [] in
     let question = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims } in
-    let varying = not (Kernel.free_rows_constant pencil)
-                  || pencil.free <> []
-                     && not (List.exists Elaborate.needs_anchor certificate.pieces) in
+    let varying = depends_on_value pencil certificate in
     let cover = if varying then verify_varying question else verify_constant question in
-    if List.length cover.yielded > 10_000 then
-      Problem.not_verified "more than 10,000 regions with a solution";
-    if List.length cover.families > 10_000 then
-      Problem.not_verified "more than 10,000 families";
+    limit_yields cover.yielded cover.families;
     match Lazy.force cover.solutions with
     | None ->
       Problem.not_verified "regions that may hold the same solution, or a value beside the window"

@@ -8,9 +8,9 @@
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, Rational, parse, rational};
 use mceip_model::file::read_problem_file;
-use mceip_model::reduction::reduce;
-use mceip_model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
-use mceip_oracle::{Enumeration, enumerate};
+use mceip_model::reduction::{reduce, reduce_with_zero, split_form};
+use mceip_model::{Body, Particle, Pencil, Problem, SplitForm, System, Unknown, Window};
+use mceip_oracle::{Enumeration, enumerate, enumerate_modes};
 use mceip_testkit::verified::{VerifiedChecker, VerifiedVerdict};
 use std::fs::File;
 use std::path::Path;
@@ -69,10 +69,17 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
     let Some(asked) = window_of(certificate) else {
         return vec!["accepted without a window".into()];
     };
-    let pencil = reduce(problem).unwrap().pencil;
-    match Statement::read(lines, &pencil.slip()) {
-        Some(statement) => statement.falsehoods(&pencil, &asked),
-        None => vec![format!("an unknown sentence in {lines:?}")],
+    let pencil = reduce_with_zero(problem).unwrap().pencil;
+    let Some(statement) = Statement::read(lines, &pencil.slip()) else {
+        return vec![format!("an unknown sentence in {lines:?}")];
+    };
+
+    match problem.body() {
+        Body::System(system) if system.require_no_zero().is_err() => {
+            let split = split_form(system, problem.unknown()).unwrap();
+            statement.falsehoods_by_modes(&split, &asked)
+        }
+        _ => statement.falsehoods(&pencil, &asked),
     }
 }
 
@@ -239,17 +246,34 @@ impl Statement {
     /// What is said and is not so; empty where all is true. `asked` is the window of the
     /// certificate, which has to be the one that the statement is about.
     pub fn falsehoods(&self, pencil: &Pencil, asked: &Window) -> Vec<String> {
-        let truth = enumerate(pencil, asked).unwrap();
+        self.falsehoods_beside(&enumerate(pencil, asked).unwrap(), asked)
+    }
 
+    /// The same for a system with particles in contact with zero reaction. Where the enumerator of
+    /// modes leaves something undescribed, nothing is held against the statement.
+    fn falsehoods_by_modes(&self, split: &SplitForm, asked: &Window) -> Vec<String> {
+        let list = enumerate_modes(split, asked);
+        if !list.is_complete_list() {
+            return Vec::new();
+        }
+
+        let truth = Enumeration {
+            solutions: list.solutions,
+            ..Enumeration::default()
+        };
+        self.falsehoods_beside(&truth, asked)
+    }
+
+    fn falsehoods_beside(&self, truth: &Enumeration, asked: &Window) -> Vec<String> {
         let mut wrong = Vec::new();
         for claim in &self.claims {
-            if !is_solution(&truth, claim) {
+            if !is_solution(truth, claim) {
                 wrong.push(format!("there is no solution {claim:?}"));
             }
         }
 
         if let Some(cover) = &self.cover {
-            wrong.extend(cover.falsehoods(&truth, asked));
+            wrong.extend(cover.falsehoods(truth, asked));
         }
         wrong
     }

@@ -1,0 +1,563 @@
+(* Complete sets of systems with particles in contact with zero reaction (z).
+
+   A cover of such a system is one of the pencil of ZeroPencil.v, of which only the split solutions
+   belong to motions: those with right = 0 or left = 0 at each particle.  The tree may leave a
+   region undecided because right and left of one particle both move in it: no split solution is
+   there.  Such a region is not open ([both_halves]).
+
+   Where the gap and one half move, the row of the other half is 0 at each solution, and no root
+   leaf can show it.  The tree leaves the region undecided, and beside it stands an enclosed claim
+   about the system (ZeroEnclosed.v), with a leaf that shows that the region has no other solution
+   (Pinned.v): [pinned_box].  All other undecided regions have a support leaf or are open, as in
+   Families.v.
+
+   Of the regions with a solution and of the families it is demanded that of right and left of each
+   particle one is at rest ([halves_apart]).
+
+   Theorem [zero_complete_number]: if the check succeeds and [zero_solutions] gives a list of N
+   regions, then there are N motions with (9) with z particles and a value in the window, one in
+   each of them and no two of them equal; every other such motion belongs to a family or lies in an
+   open region.  [zero_none]: no regions, no families, nothing open, no motion.
+   [zero_complete_hold]: at each value of a family there is a motion in its region, and only one,
+   up to a positive factor, where the family is called alone.
+   [zero_varying_number], [zero_varying_none], [zero_varying_hold]: the same where the free rows
+   depend on the unknown.
+
+   Page: spec/certificates.md, 5.6, 5.11, 5.15; spec/zero-reaction.md, Z.3 (covers).
+   Rust: crates/check/src/cover/walk.rs, root.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
+From Mceip Require Import Number Condensation Pencil Whole Claim EnclosedClaim Complete Signs.
+From Mceip Require Import Support System Families Varying ZeroReaction ZeroEnclosed ZeroPencil.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+(* A claim with the support [box_names] that stands beside a region. *)
+Record pinned_box := PinnedBox {
+  box_interval : interval;
+  near_anchor : nat;  (* where the free rows depend on the unknown: its anchor, *)
+  near_grain : Z;     (* and the grain of its local pencil *)
+  box_pinning : pinning;
+  box_names : seq nat;
+  box_claim : enclosed_claim }.
+
+Section Checker.
+
+Variables (z : zero_system) (u : unknown).
+
+Notation Q := (zero_pencil z u).
+Notation ns := (size (slip Q)).
+Notation nz := (size (zero_particles z)).
+
+Definition half_state (r : region) i := state_of r (index i (slip Q)).
+
+Definition halves_apart r := all (fun j =>
+  is_resting (half_state r (right z j)) || is_resting (half_state r (left z j))) (iota 0 nz).
+
+Definition both_halves r := has (fun j =>
+  is_moving (half_state r (right z j)) && is_moving (half_state r (left z j))) (iota 0 nz).
+
+(* The solution of an enclosed claim. *)
+Definition known_box (b : pinned_box) :=
+  Known (box_from (box_claim b)) (box_to (box_claim b)) (positions Q (box_names b)) [::].
+
+Definition pinned_yield (r : region) (b : pinned_box) :=
+  Yield (extended r (box_interval b)) (box_from (box_claim b)) (box_to (box_claim b)).
+
+(* The region has at most one solution, that of the claim. *)
+Definition pinned_alone P (r : region) (b : pinned_box) :=
+  check_claimed P r (box_pinning b) (known_box b).
+
+Definition pinned_about w families (r : region) (b : pinned_box) :=
+  at_anchor w families (near_anchor b) r
+    (claim_at Q (near_grain b) (box_pinning b) (known_box b)).
+
+Definition check_pinned (alone : region -> pinned_box -> bool) (r : region) (b : pinned_box) :=
+  let r' := extended r (box_interval b) in
+  [&& ordered (lower r) (upper r), reaches r (box_interval b), alone r' b,
+      supports_region (enclosed_order ns) r' (known_box b) &
+      check_zero_enclosed z u (box_names b) (box_claim b)].
+
+Section Beside.
+
+(* Undecided regions, each with an enclosed claim or none. *)
+Variables (rs : seq region) (bs : seq (option pinned_box)).
+
+Definition pinned_yields : seq yield :=
+  pmap (fun rb => omap (pinned_yield rb.1) rb.2) (zip rs bs).
+
+Definition not_pinned : seq region :=
+  pmap (fun rb => if rb.2 is Some _ then None else Some rb.1) (zip rs bs).
+
+Definition check_beside alone :=
+  (size rs == size bs) &&
+  all (fun rb => if rb.2 is Some b then check_pinned alone rb.1 b else true) (zip rs bs).
+
+End Beside.
+
+(* The regions of different solutions, if right and left are apart in all of them. *)
+Definition zero_distinct lo hi (yields : seq yield) (rs : seq region)
+    (ls : seq (option support_leaf)) :=
+  let families := families_of rs ls in
+  if all halves_apart [seq f.1 | f <- families] then
+    if distinct_yields ns lo hi
+         [seq y <- yields ++ isolated_of rs ls | ~~ has (belongs ns y) families] is Some ys
+    then if all halves_apart [seq yield_region y | y <- ys] then Some ys else None
+    else None
+  else None.
+
+Definition zero_open rs ls := [seq r <- open_of rs ls | ~~ both_halves r].
+
+Section Constant.
+
+Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
+Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
+
+Definition zero_undecided := not_pinned (left_open tr lo hi) bs.
+
+Definition check_zero_complete :=
+  [&& zero_wellformed z u, check_complete Q [::] w tr lo hi,
+      check_beside (left_open tr lo hi) bs (pinned_alone (condensed (blocks_of Q) w)) &
+      check_supports Q zero_undecided ls].
+
+Definition zero_solutions :=
+  zero_distinct lo hi (found Q [::] tr lo hi ++ pinned_yields (left_open tr lo hi) bs)
+    zero_undecided ls.
+
+Definition zero_families := families_of zero_undecided ls.
+Definition zero_still_open := zero_open zero_undecided ls.
+
+End Constant.
+
+Section Varying.
+
+Variables (w : anchoring) (tr : tree varying_leaf) (lo hi : point).
+Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
+
+Notation undecided := (not_pinned (varying_open tr lo hi) bs).
+
+Definition check_zero_varying :=
+  [&& zero_wellformed z u, check_varying Q [::] w tr lo hi,
+      check_beside (varying_open tr lo hi) bs (pinned_about w (expansions Q w)) &
+      check_supports Q undecided ls].
+
+Definition zero_varying_solutions :=
+  zero_distinct lo hi
+    (varying_found Q [::] tr lo hi ++ pinned_yields (varying_open tr lo hi) bs) undecided ls.
+
+Definition zero_varying_families := families_of undecided ls.
+Definition zero_varying_open := zero_open undecided ls.
+
+End Varying.
+
+End Checker.
+
+Section Sound.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown).
+Hypothesis wf : zero_wellformed z u.
+Implicit Types (t : R) (v x : nat -> R).
+
+Notation s := (without_zero z).
+Notation Q := (zero_pencil z u).
+Notation ns := (size (slip Q)).
+Notation nz := (size (zero_particles z)).
+Notation total := (free_number s + size (particles s) + 3 * nz)%N.
+
+(* The motion (t, v) lies in a region, or belongs to a family. *)
+Definition zero_motion_in (r : region) t v := lies_in Q r t (zero_variables_of z v).
+
+Definition zero_motion_in_family (f : family) t v :=
+  zero_motion_in f.1 t v /\ in_place (held_place f.2) t.
+
+Lemma half_index j i : (j < nz)%N -> i = right z j \/ i = left z j ->
+  (index i (slip Q) < ns)%N /\ nth 0%N (slip Q) (index i (slip Q)) = i.
+Proof.
+move=> lt_j half; have i_in : i \in slip Q.
+  case: half => ->.
+    by have := three_in_zero_pencil u lt_j (isT : (1 < 3)%N); rewrite addn1.
+  by have := three_in_zero_pencil u lt_j (isT : (2 < 3)%N); rewrite addn2.
+by rewrite index_mem nth_index.
+Qed.
+
+Lemma half_agrees r t x j i : (j < nz)%N -> i = right z j \/ i = left z j -> lies_in Q r t x ->
+  match half_state z u r i with Open => True | Resting => x i = 0 | Moving => 0 < x i end.
+Proof.
+move=> lt_j half [_ ag]; have [lt_i nth_i] := half_index lt_j half.
+by have := ag _ lt_i; rewrite /slip_of nth_i.
+Qed.
+
+Lemma apart_split r t x : halves_apart z u r -> solution Q t x -> lies_in Q r t x -> split z x.
+Proof.
+move=> /allP apart [_ _ _ rows] reg j lt_j.
+have j_in : j \in iota 0 nz by rewrite mem_iota.
+have slip_half i : i = right z j \/ i = left z j -> 0 <= x i.
+  move=> half; have [lt_i nth_i] := half_index lt_j half.
+  by have [] := rows _ (mem_nth 0%N lt_i); rewrite nth_i.
+split; [by apply: slip_half; left | by apply: slip_half; right |].
+have right_state := half_agrees lt_j (or_introl erefl) reg.
+have left_state := half_agrees lt_j (or_intror erefl) reg.
+move: (apart _ j_in) right_state left_state.
+case: (half_state z u r (right z j)) => /= [||].
+- by case: (half_state z u r (left z j)) => //= _ _ ->; rewrite mulr0.
+- by move=> _ -> _; rewrite mul0r.
+by case: (half_state z u r (left z j)) => //= _ _ ->; rewrite mulr0.
+Qed.
+
+Lemma both_not_split r t x : both_halves z u r -> split z x -> lies_in Q r t x -> False.
+Proof.
+case/hasP=> j; rewrite mem_iota add0n /= => lt_j /andP[moving_right moving_left] splits reg.
+have right_state := half_agrees lt_j (or_introl erefl) reg.
+have left_state := half_agrees lt_j (or_intror erefl) reg.
+move: moving_right moving_left right_state left_state.
+case: (half_state z u r (right z j)) => // _; case: (half_state z u r (left z j)) => // _.
+have [_ _ /eqP] := splits j lt_j; rewrite mulf_eq0 => /orP[]/eqP-> right_pos left_pos.
+  by rewrite ltxx in right_pos.
+by rewrite ltxx in left_pos.
+Qed.
+
+Lemma order_indices i : (i \in iota 0 (order Q)) = (i < total)%N.
+Proof. by rewrite mem_iota. Qed.
+
+(* A split solution and its motion. *)
+Lemma motion_lies_in r t x : split z x -> lies_in Q r t x ->
+  zero_motion_in r t (zero_motion z x).
+Proof.
+move=> splits [bt ag]; split=> // k lt_k; have := ag k lt_k.
+rewrite /slip_of (zero_variables_of_motion wf splits) //.
+by rewrite -order_indices; apply: (slip_indices (Q := Q)); apply: mem_nth.
+Qed.
+
+Lemma same_motion_scaled x x' : proportional Q x x' ->
+  same_motion s (zero_motion z x) (zero_motion z x').
+Proof.
+case=> f f0 scaled; exists f => //; apply: zero_motion_scaled => i lt_i.
+by apply: scaled; rewrite order_indices.
+Qed.
+
+Lemma proportional_of_motions x x' : split z x -> split z x' ->
+  same_motion s (zero_motion z x) (zero_motion z x') -> proportional Q x x'.
+Proof.
+move=> splits splits' [f f0 scaled]; exists f => // i; rewrite order_indices => lt_i.
+rewrite -(zero_variables_of_motion wf splits' lt_i) -(zero_variables_of_motion wf splits lt_i).
+exact: (zero_variables_scaled wf f0 scaled lt_i).
+Qed.
+
+(* Any cover of the pencil. *)
+Section Cover.
+
+Variables (lo hi : point) (yields : seq yield) (rs : seq region) (ls : seq (option support_leaf)).
+Hypothesis supports : check_supports Q rs ls.
+Hypothesis every : forall t x, solution Q t x -> between t lo hi ->
+  (exists2 y, List.In y yields & lies_in Q (yield_region y) t x) \/
+  (exists2 r, List.In r rs & lies_in Q r t x).
+Hypothesis each : forall y, List.In y yields -> one_solution_in R Q y.
+
+Notation families := (families_of rs ls).
+
+Theorem zero_cover_number ys : zero_distinct z u lo hi yields rs ls = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9z z u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 zero_motion_in (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
+        forall t v, satisfies_9z z u t v -> between t lo hi ->
+          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
+              exists2 f, List.In f families & zero_motion_in_family f t v |
+              exists2 r, List.In r (zero_open z u rs ls) & zero_motion_in r t v]].
+Proof.
+rewrite /zero_distinct; case: ifP => // _; case dist: (distinct_yields _ _ _ _) => [ys'|] //.
+case: ifP => // apart [eq_ys]; move: dist apart; rewrite {ys'}eq_ys => dist apart.
+have [l [sz sols vals pairs all_found]] := cover_number supports every each dist.
+have splits m : List.In m l -> split z m.2.
+  move=> m_in; have [y y_in [_ reg]] := Forall2_in vals m_in; have [sol _] := sols _ m_in.
+  apply: apart_split reg => //; apply: (Support.all_In apart); exact: List.in_map.
+exists [seq (m.1, zero_motion z m.2) | m <- l]; split=> //.
+- by rewrite size_map.
+- move=> m /List.in_map_iff[m' [<- m'_in]] /=; have [sol bt] := sols _ m'_in.
+  by split=> //; apply: zero_pencil_motion (splits _ m'_in).
+- elim: vals splits {sz sols pairs all_found} => [|y m ys' l' [bt reg] _ IH] splits /=;
+    constructor.
+    by split=> //; apply: motion_lies_in reg; apply: splits; left.
+  by apply: IH => m' m'_in; apply: splits; right.
+- elim: pairs splits {sz sols vals all_found} => [|m l' different _ IH] splits /=; constructor.
+    apply/List.Forall_forall => m' /List.in_map_iff[m2 [<- m2_in]] /= [eq_t same].
+    have /List.Forall_forall/(_ _ m2_in) := different; apply; split=> //.
+    by apply: proportional_of_motions same; apply: splits; [left | right].
+  by apply: IH => m' m'_in; apply: splits; right.
+move=> t v sat bt; have sol := zero_pencil_solution wf sat.
+have split_v := split_variables (z := z) v; have same := zero_motion_of_variables wf sat.
+have [[m m_in [-> prop]]|[f f_in [reg at_t]]|[r r_in reg]] := all_found t _ sol bt.
+- apply: Or31; exists (m.1, zero_motion z m.2); first by apply/List.in_map_iff; exists m.
+  split=> //=; have [f f0 scaled] := same_motion_scaled prop.
+  by exists f => // d d_in; rewrite -scaled // same.
+- by apply: Or32; exists f.
+apply: Or33; exists r => //; apply/in_filter; split=> //.
+by apply/negP => both; apply: both_not_split split_v reg.
+Qed.
+
+Theorem zero_cover_hold ys : zero_distinct z u lo hi yields rs ls = Some ys ->
+  forall f, List.In f families ->
+  is_place R (held_place f.2) /\
+  forall t, in_place (held_place f.2) t ->
+    (exists v, satisfies_9z z u t v /\ zero_motion_in f.1 t v) /\
+    (held_alone f.2 -> forall v v', satisfies_9z z u t v -> zero_motion_in f.1 t v ->
+       satisfies_9z z u t v' -> zero_motion_in f.1 t v' -> same_motion s v v').
+Proof.
+rewrite /zero_distinct; case: ifP => // apart _ f f_in.
+have [is_pl each_value] := supports_families R supports f_in; split=> // t at_t.
+have f_apart : halves_apart z u f.1 by apply: (Support.all_In apart); apply: List.in_map.
+have [[x [sol reg]] alone] := each_value t at_t; split.
+  have splits := apart_split f_apart sol reg.
+  exists (zero_motion z x); split; first exact: zero_pencil_motion sol splits.
+  exact: motion_lies_in.
+move=> al v v' sat reg_v sat' reg_v'.
+have prop : proportional Q (zero_variables_of z v) (zero_variables_of z v').
+  by apply: (alone al); split=> //; apply: zero_pencil_solution.
+have [c c0 scaled] := same_motion_scaled prop.
+exists c => // d d_in; have := scaled d d_in.
+by rewrite (zero_motion_of_variables wf sat) // (zero_motion_of_variables wf sat').
+Qed.
+
+End Cover.
+
+End Sound.
+
+(* The solution of an enclosed claim that stands beside a region. *)
+Lemma zero_box_known (R : rcfType) z u b : zero_wellformed z u ->
+  check_zero_enclosed z u (box_names b) (box_claim b) ->
+  exists (t : R) x, known_solution (zero_pencil z u) (known_box z u b) t x.
+Proof.
+move=> wf ok; have [t [v [bt sat slips zeros _]]] := zero_enclosed_sound R ok.
+have names : all (fun i => i \in slip (zero_pencil z u)) (box_names b).
+  case/and5P: ok => _ /allP in_range _ _ _; apply/allP=> i /in_range /andP[ge_i lt_i].
+  by rewrite mem_filter !mem_iota !add0n -leqNgt ge_i.
+have l2 : 0 < toR (unit_length (without_zero z)) ^+ 2 :> R := L2_gt0 R wf.
+exists t, (zero_variables_of z v); split=> //; first exact: zero_pencil_solution.
+move=> k lt_k; rewrite (mem_positions lt_k names) /slip_of.
+case: (zero_slip_cases (mem_nth 0%N lt_k)) => [[j lt_j ->]|[j lt_j cases]].
+  have [pos zero _ _] := slips _ lt_j.
+  rewrite /zero_variables_of ltn_add2l lt_j /variables_of ltnNge leq_addr /= addKn.
+  split=> [/pos rate|/zero ->|//]; last by rewrite mul0r oppr0.
+  by rewrite oppr_gt0 pmulr_llt0 ?invr_gt0.
+have [gapE rightE leftE] := variables_at v lt_j.
+have [opening _ sliding _ _] := zeros _ lt_j.
+have [c c0 normalE] := along_normal wf v lt_j; rewrite normalE in opening.
+case: cases => ->.
+- rewrite gapE; move: opening; case: (gap z j \in box_names b) => /= [|/eqP].
+    by rewrite pmulr_rlt0 // => neg; split; rewrite // oppr_gt0 pmulr_llt0 ?invr_gt0.
+  by rewrite mulf_eq0 gt_eqF //= => /eqP->; split; rewrite // mul0r oppr0.
+- rewrite rightE pmulr_lgt0 ?invr_gt0 //; move: sliding; case: (right z j \in _) => /=.
+    by case=> _ pos; rewrite pos; split=> // _; rewrite divr_gt0.
+  case: (left z j \in _) => /= [neg|->]; last by rewrite ltxx; split.
+  by rewrite (lt_gtF neg); split.
+rewrite leftE pmulr_llt0 ?invr_gt0 //; move: sliding; case: (right z j \in _) => /=.
+  by case=> /negbTE-> pos; rewrite (lt_gtF pos); split.
+case: (left z j \in _) => /= [neg|->]; last by rewrite ltxx; split.
+by rewrite neg; split=> // _; rewrite oppr_gt0 pmulr_llt0 ?invr_gt0.
+Qed.
+
+(* Boxes beside the regions that a cover leaves undecided. *)
+Section Beside.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown) (lo hi : point).
+Hypothesis wf : zero_wellformed z u.
+
+Notation Q := (zero_pencil z u).
+Notation ns := (size (slip Q)).
+
+Variables (alone : region -> pinned_box -> bool).
+Variables (yields : seq yield) (rs : seq region) (bs : seq (option pinned_box)).
+
+Hypothesis beside : check_beside z u rs bs alone.
+Hypothesis every : forall (t : R) x, solution Q t x -> between t lo hi ->
+  (exists2 y, List.In y yields & lies_in Q (yield_region y) t x) \/
+  (exists2 r, List.In r rs & lies_in Q r t x).
+Hypothesis each : forall y, List.In y yields -> one_solution_in R Q y.
+Hypothesis alone_sound : forall r b, ordered (lower r) (upper r) -> alone r b ->
+  (exists (t : R) x, known_solution Q (known_box z u b) t x) ->
+  supports_region (enclosed_order ns) r (known_box z u b) ->
+  one_solution_in R Q (Yield r (box_from (box_claim b)) (box_to (box_claim b))).
+
+Lemma beside_every (t : R) x : solution Q t x -> between t lo hi ->
+  (exists2 y, List.In y (yields ++ pinned_yields rs bs) & lies_in Q (yield_region y) t x) \/
+  (exists2 r, List.In r (not_pinned rs bs) & lies_in Q r t x).
+Proof.
+have /andP[/eqP sz pinned_all] := beside => sol bt.
+have [[y y_in reg]|[r r_in reg]] := every sol bt.
+  by left; exists y => //; apply/in_cat_or; left.
+have [[b|] rb_in] := in_zip sz r_in; last first.
+  by right; exists r => //; apply/in_pmap; exists (r, None).
+left; exists (pinned_yield r b).
+  by apply/in_cat_or; right; apply/in_pmap; exists (r, Some b).
+have /and5P[O /and3P[o le_lo le_hi] _ _ _] := Support.all_In pinned_all rb_in.
+by case: reg => bt' ag; split=> //; apply: between_wider O o le_lo le_hi bt'.
+Qed.
+
+Lemma beside_each y : List.In y (yields ++ pinned_yields rs bs) -> one_solution_in R Q y.
+Proof.
+have /andP[_ pinned_all] := beside.
+case/in_cat_or=> [/each|/in_pmap[[r [b|]] //= rb_in [<-]]] //.
+have /and5P[_ reach ok sup box] := Support.all_In pinned_all rb_in.
+apply: alone_sound => //; first by case/and3P: reach.
+exact: zero_box_known.
+Qed.
+
+End Beside.
+
+(* Free rows that do not depend on the unknown. *)
+Section Constant.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown) (w : elimination).
+Variables (tr : tree (leaf whole)) (lo hi : point).
+Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
+Hypothesis checked : check_zero_complete z u w tr lo hi bs ls.
+
+Notation s := (without_zero z).
+Notation Q := (zero_pencil z u).
+Notation P := (condensed (blocks_of Q) w).
+Notation A := (A_condensed R (blocks_of Q) w).
+Notation B := (B_condensed R (blocks_of Q) w).
+Notation rs := (left_open tr lo hi).
+Notation undecided := (zero_undecided tr lo hi bs).
+
+Lemma zero_complete_parts :
+  [/\ zero_wellformed z u, check_complete Q [::] w tr lo hi,
+      check_beside z u rs bs (pinned_alone z u P) & check_supports Q undecided ls].
+Proof. by case/and4P: checked. Qed.
+
+Lemma alone_constant r b : ordered (lower r) (upper r) -> pinned_alone z u P r b ->
+  (exists (t : R) x, known_solution Q (known_box z u b) t x) ->
+  supports_region (enclosed_order (size (slip Q))) r (known_box z u b) ->
+  one_solution_in R Q (Yield r (box_from (box_claim b)) (box_to (box_claim b))).
+Proof.
+have [_ complete _ _] := zero_complete_parts => O ok [t [x [bt sol signs]]] sup.
+have [sol_s free_x] := condensed_solution complete sol.
+have known_s : is_known P A B (known_box z u b) t (slip_of Q x).
+  split=> // j; rewrite mem_iota add0n /= => lt_j; have [pos zero _] := signs _ lt_j.
+  by split.
+have [reg uniq] := claimed_sound (encloses_condensed R complete) O ok known_s sup.
+exists t, x; split=> // t' x' sol' reg'.
+have [sol_s' free'] := condensed_solution complete sol'.
+have [-> [f f0 scaled]] := uniq _ _ sol_s' reg'.
+split=> //; exists f => // i Hi; case/orP: (free_or_slip Hi) => /(nthP 0%N)[k lt_k <-].
+  rewrite -[LHS]/(free_of Q x' k) -[X in _ = f * X]/(free_of Q x k) free' ?mem_iota //.
+  rewrite free_x ?mem_iota // /free_part mulrN mulr_sumr; congr (- _); apply: sum_eq => j Hj.
+  by rewrite scaled // mulrCA.
+rewrite -[LHS]/(slip_of Q x' k) -[X in _ = f * X]/(slip_of Q x k).
+by apply: scaled; rewrite mem_iota.
+Qed.
+
+Theorem zero_complete_number ys : zero_solutions z u tr lo hi bs ls = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9z z u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 zero_motion_in z u (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
+        forall t v, satisfies_9z z u t v -> between t lo hi ->
+          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
+              exists2 f, List.In f (zero_families tr lo hi bs ls) &
+                zero_motion_in_family z u f t v |
+              exists2 r, List.In r (zero_still_open z u tr lo hi bs ls) &
+                zero_motion_in z u r t v]].
+Proof.
+have [wf complete beside supports] := zero_complete_parts.
+have [every each] := complete_sound R complete.
+exact: (zero_cover_number wf supports (beside_every beside every)
+  (beside_each wf beside each alone_constant)).
+Qed.
+
+Corollary zero_none : zero_solutions z u tr lo hi bs ls = Some [::] ->
+  zero_families tr lo hi bs ls = [::] -> zero_still_open z u tr lo hi bs ls = [::] ->
+  forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
+Proof.
+move=> /zero_complete_number[l [/size0nil-> _ _ _ every]] no_family closed t v sat bt.
+by have [[m]|[f]|[r]] := every t v sat bt; rewrite ?no_family ?closed.
+Qed.
+
+Theorem zero_complete_hold ys : zero_solutions z u tr lo hi bs ls = Some ys ->
+  forall f, List.In f (zero_families tr lo hi bs ls) ->
+  is_place R (held_place f.2) /\
+  forall t : R, in_place (held_place f.2) t ->
+    (exists v, satisfies_9z z u t v /\ zero_motion_in z u f.1 t v) /\
+    (held_alone f.2 -> forall v v', satisfies_9z z u t v -> zero_motion_in z u f.1 t v ->
+       satisfies_9z z u t v' -> zero_motion_in z u f.1 t v' -> same_motion s v v').
+Proof.
+have [wf _ _ supports] := zero_complete_parts.
+exact: (zero_cover_hold R wf supports).
+Qed.
+
+End Constant.
+
+(* Free rows that depend on the unknown. *)
+Section Varying.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown) (w : anchoring).
+Variables (tr : tree varying_leaf) (lo hi : point).
+Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
+Hypothesis checked : check_zero_varying z u w tr lo hi bs ls.
+
+Notation s := (without_zero z).
+Notation Q := (zero_pencil z u).
+
+Notation rs := (varying_open tr lo hi).
+
+Lemma zero_varying_parts :
+  [/\ zero_wellformed z u, check_varying Q [::] w tr lo hi,
+      check_beside z u rs bs (pinned_about z u w (expansions Q w)) &
+      check_supports Q (not_pinned rs bs) ls].
+Proof. by case/and4P: checked. Qed.
+
+Theorem zero_varying_number ys : zero_varying_solutions z u tr lo hi bs ls = Some ys ->
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall m, List.In m l -> satisfies_9z z u m.1 m.2 /\ between m.1 lo hi,
+        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
+                                 zero_motion_in z u (yield_region y) m.1 m.2) ys l,
+        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
+        forall t v, satisfies_9z z u t v -> between t lo hi ->
+          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
+              exists2 f, List.In f (zero_varying_families tr lo hi bs ls) &
+                zero_motion_in_family z u f t v |
+              exists2 r, List.In r (zero_varying_open z u tr lo hi bs ls) &
+                zero_motion_in z u r t v]].
+Proof.
+have [wf varying beside supports] := zero_varying_parts.
+have [every each] := varying_sound R varying.
+apply: (zero_cover_number wf supports (beside_every beside every)).
+apply: (beside_each wf beside each) => r b O ok known sup.
+exact: (claim_yields varying O ok known sup).
+Qed.
+
+Corollary zero_varying_none : zero_varying_solutions z u tr lo hi bs ls = Some [::] ->
+  zero_varying_families tr lo hi bs ls = [::] -> zero_varying_open z u tr lo hi bs ls = [::] ->
+  forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
+Proof.
+move=> /zero_varying_number[l [/size0nil-> _ _ _ every]] no_family closed t v sat bt.
+by have [[m]|[f]|[r]] := every t v sat bt; rewrite ?no_family ?closed.
+Qed.
+
+Theorem zero_varying_hold ys : zero_varying_solutions z u tr lo hi bs ls = Some ys ->
+  forall f, List.In f (zero_varying_families tr lo hi bs ls) ->
+  is_place R (held_place f.2) /\
+  forall t : R, in_place (held_place f.2) t ->
+    (exists v, satisfies_9z z u t v /\ zero_motion_in z u f.1 t v) /\
+    (held_alone f.2 -> forall v v', satisfies_9z z u t v -> zero_motion_in z u f.1 t v ->
+       satisfies_9z z u t v' -> zero_motion_in z u f.1 t v' -> same_motion s v v').
+Proof.
+have [wf _ _ supports] := zero_varying_parts.
+exact: (zero_cover_hold R wf supports).
+Qed.
+
+End Varying.

@@ -1,0 +1,761 @@
+(* The pencil of a system with particles in contact with zero reaction (z).
+
+   It is that of System.v with three more variables for each z particle: gap, right and left, with
+
+       -v_N = gap,    v_T = right - left
+
+   for the unit normal, and the rows of the split form
+
+       -w_N,    w_T - c mu w_N,    -w_T - c mu w_N
+
+   (c is the friction factor, which is the length of the normal of the particle; the normal of the
+   variable gap and of its row has the length of the tangent, [unit_normal]).
+
+   Right and left may be raised by a common constant, so x is not determined by the motion.  x is
+   *split* if of right and left of each particle at least one is 0.
+
+   Theorem [zero_pencil_solution]: the split variables of a motion with (9), [zero_variables_of],
+   solve the pencil, and the motion of these variables is that motion ([zero_motion_of_variables]).
+   Theorem [zero_pencil_motion]: the motion of a split solution satisfies (9), and its split
+   variables are the solution ([zero_variables_of_motion]).
+
+   Pages: spec/certificates.md, 5.1 and 5.3; spec/zero-reaction.md, Z.3.
+   Rust: crates/model/src/reduction/split.rs, crates/check/src/pencil.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Condensation Pencil Claim System.
+From Mceip Require Import ZeroReaction ZeroEnclosed.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+Notation no_form := ([::], [::]).
+
+Section Checker.
+
+Local Open Scope Z_scope.
+
+Variables (z : zero_system) (u : unknown).
+
+Notation s := (without_zero z).
+Notation ns := (size (particles s)).
+Notation nz := (size (zero_particles z)).
+
+Definition zero_firsts := [seq first_dof p | p <- zero_particles z].
+Definition zero_seconds := [seq second_dof p | p <- zero_particles z].
+
+(* The tangent turned, to the side of the normal. *)
+Definition turned p : planar := (- (tangent p).2, (tangent p).1).
+
+Definition unit_normal p : planar :=
+  if 0 <? inner (normal p) (turned p) then turned p else (- (turned p).1, - (turned p).2).
+
+(* The columns to which a degree of freedom belongs, and the factors it gets. *)
+Definition three_columns j (n t : Z) : sparse_row :=
+  [:: (gap z j, - n); (right z j, t); (left z j, - t)].
+
+Definition zero_columns d : sparse_row :=
+  if d \in zero_firsts then
+    let j := index d zero_firsts in let p := zero_particle z j in
+    three_columns j (unit_normal p).1 (tangent p).1
+  else if d \in zero_seconds then
+    let j := index d zero_seconds in let p := zero_particle z j in
+    three_columns j (unit_normal p).2 (tangent p).2
+  else if column s d is Some c then [:: c] else [::].
+
+Definition zero_table := [seq zero_columns d | d <- iota 0 (dofs s)].
+
+Definition zero_row (table : seq sparse_row) (row : sparse_row) : sparse_row :=
+  flatten [seq [seq (c.1, c.2 * e.2) | c <- nth [::] table e.1] | e <- row].
+
+(* The factor by which the rows with mu are multiplied. *)
+Definition row_multiple := if u is Lambda2 _ q then q else 1.
+
+Definition scaled_normal p : planar :=
+  (row_multiple * (unit_normal p).1, row_multiple * (unit_normal p).2).
+
+(* The rows of gap, right and left, as forms of the motion. *)
+Definition zero_forms j : seq form :=
+  let p := zero_particle z j in
+  [:: negative (pressing_form z u (scaled_normal p) p);
+      negative (cone_form z u (with_sign (-1) p)); negative (cone_form z u (with_sign 1 p))].
+
+Definition variable_forms : seq form :=
+  [seq force_form z u d | d <- free_dofs s] ++
+  [seq negative (cone_form z u p) | p <- particles s] ++
+  flatten [seq zero_forms j | j <- iota 0 nz].
+
+Definition pencil_by_table table := Pencil (free_number s + ns + 3 * nz)
+  [seq zero_row table f.1 | f <- variable_forms] [seq zero_row table f.2 | f <- variable_forms]
+  (iota 0 (free_number s)).
+
+Definition zero_pencil := pencil_by_table zero_table.
+
+End Checker.
+
+Lemma nth_triples T (x : T) (f : nat -> seq T) n m j k :
+  (forall i, size (f i) = 3%N) -> (k < 3)%N -> (j < n)%N ->
+  nth x (flatten [seq f i | i <- iota m n]) (3 * j + k)%N = nth x (f (m + j)%N) k.
+Proof.
+move=> sz lt_k; elim: n m j => //= n IH m [|j] lt_j; rewrite nth_cat sz.
+  by rewrite muln0 add0n lt_k addn0.
+have -> : (3 * j.+1 + k = 3 + (3 * j + k))%N by rewrite mulnS addnA.
+by rewrite ltnNge leq_addr /= addKn IH // addSnnS.
+Qed.
+
+Section Real.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown).
+Hypothesis wf : zero_wellformed z u.
+Implicit Types (t : R) (v x : nat -> R).
+
+Notation s := (without_zero z).
+Notation nf := (free_number s).
+Notation ns := (size (particles s)).
+Notation nz := (size (zero_particles z)).
+Notation all_dofs := (iota 0 (dofs s)).
+Notation Q := (zero_pencil z u).
+Notation forms := (variable_forms z u).
+Notation L := (toR (unit_length s) : R).
+
+Let wf_s : system_wellformed s u := wf_system wf.
+
+(* The motion of x. *)
+Definition zero_motion x d := row_value (nth [::] (zero_table z) d) x.
+
+Lemma row_value_zero_row row x :
+  row_value (zero_row (zero_table z) row) x = row_value row (zero_motion x).
+Proof.
+elim: row => [|e row IH]; first by rewrite !row_value_nil.
+rewrite /zero_row /= row_value_cat -/(zero_row _ _) IH [RHS]/row_value big_cons; congr (_ + _).
+rewrite /row_value big_map /zero_motion /row_value mulr_sumr; apply: eq_bigr => c _ /=.
+by rewrite toRM; move: (toR _) (toR _) (x _) => *; ring.
+Qed.
+
+Lemma size_forms : size forms = (nf + ns + 3 * nz)%N.
+Proof.
+rewrite !size_cat !size_map size_flatten /shape -map_comp addnA; congr (_ + _)%N.
+rewrite (eq_map (f2 := fun=> 3%N)) // -[in RHS](size_iota 0 nz).
+by elim: (iota 0 _) => //= i l ->; rewrite mulnS.
+Qed.
+
+(* Where the degrees of freedom are. *)
+Lemma dofs_apart :
+  [/\ uniq (zero_firsts z), uniq (zero_seconds z),
+      forall d, d \in zero_firsts z ++ zero_seconds z -> (d \in moving_dofs s) = false &
+      forall d, d \in zero_seconds z -> (d \in zero_firsts z) = false].
+Proof.
+have /and4P[_ + _ _] := wf; rewrite cat_uniq => /and3P[_ /hasPn out].
+rewrite cat_uniq => /and3P[u1 /hasPn d12 u2]; split=> // d d_in; apply/negbTE.
+  exact: out.
+exact: d12.
+Qed.
+
+Lemma zero_first j : (j < nz)%N -> first_dof (zero_particle z j) = nth 0%N (zero_firsts z) j.
+Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z). Qed.
+
+Lemma zero_second j : (j < nz)%N -> second_dof (zero_particle z j) = nth 0%N (zero_seconds z) j.
+Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z). Qed.
+
+Lemma columns_first j : (j < nz)%N -> let p := zero_particle z j in
+  zero_columns z (first_dof p) = three_columns z j (unit_normal p).1 (tangent p).1.
+Proof.
+move=> lt_j p; have [u1 _ _ _] := dofs_apart; rewrite /p zero_first //.
+by rewrite /zero_columns mem_nth ?size_map // index_uniq ?size_map.
+Qed.
+
+Lemma columns_second j : (j < nz)%N -> let p := zero_particle z j in
+  zero_columns z (second_dof p) = three_columns z j (unit_normal p).2 (tangent p).2.
+Proof.
+move=> lt_j p; have [_ u2 _ apart] := dofs_apart; rewrite /p zero_second // /zero_columns.
+have in2 : nth 0%N (zero_seconds z) j \in zero_seconds z by rewrite mem_nth ?size_map.
+by rewrite apart // in2 index_uniq ?size_map.
+Qed.
+
+Lemma columns_moving d : d \in moving_dofs s ->
+  zero_columns z d = if column s d is Some c then [:: c] else [::].
+Proof.
+move=> d_in; have [_ _ out _] := dofs_apart; rewrite /zero_columns.
+case: ifP => [in1|_]; first by have := out d; rewrite mem_cat in1 d_in => /(_ isT).
+case: ifP => [in2|_] //; by have := out d; rewrite mem_cat in2 orbT d_in => /(_ isT).
+Qed.
+
+Lemma nth_table d : d \in all_dofs -> nth [::] (zero_table z) d = zero_columns z d.
+Proof. by rewrite mem_iota add0n /= => lt_d; rewrite (nth_map 0%N) ?size_iota ?nth_iota. Qed.
+
+Lemma columns_small d c : c \in zero_columns z d -> (c.1 < nf + ns + 3 * nz)%N.
+Proof.
+have three j n n' : (j < nz)%N -> c \in three_columns z j n n' -> (c.1 < nf + ns + 3 * nz)%N.
+  move=> lt_j; rewrite !inE => /or3P[]/eqP-> /=; rewrite /right /left /gap; move: lt_j; clear;
+    lia.
+rewrite /zero_columns; case: ifP => [d_in|_].
+  by apply: three; rewrite -(size_map first_dof) index_mem.
+case: ifP => [d_in|_]; first by apply: three; rewrite -(size_map second_dof) index_mem.
+case col: (column s d) => [[j f]|] //; rewrite inE => /eqP-> /=.
+exact: leq_trans (column_in_range col) (leq_addr _ _).
+Qed.
+
+Lemma zero_row_range row : all (fun e => e.1 < nf + ns + 3 * nz)%N (zero_row (zero_table z) row).
+Proof.
+apply/allP=> e /flatten_mapP[e' _ /mapP[c c_in ->]] /=; move: c_in.
+have [d_in|d_out] := boolP (e'.1 \in all_dofs); first by rewrite nth_table //; apply: columns_small.
+by rewrite nth_default // size_map size_iota leqNgt; move: d_out; rewrite mem_iota.
+Qed.
+
+(* The rows of the pencil are the forms at the motion of x. *)
+Lemma zero_reaction_form t x i : (i < nf + ns + 3 * nz)%N ->
+  reaction Q t x i = form_value (nth no_form forms i) t (zero_motion x).
+Proof.
+move=> lt_i; have lt_f : (i < size forms)%N by rewrite size_forms.
+transitivity (\sum_(j <- iota 0 (order Q)) toR (lookup (row_a Q i) j) * x j +
+              t * \sum_(j <- iota 0 (order Q)) toR (lookup (row_b Q i) j) * x j).
+  rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
+  by rewrite /a_entry /b_entry mulrDl mulrA.
+have ra : row_a Q i = zero_row (zero_table z) (nth no_form forms i).1.
+  by rewrite /row_a /= (nth_map no_form).
+have rb : row_b Q i = zero_row (zero_table z) (nth no_form forms i).2.
+  by rewrite /row_b /= (nth_map no_form).
+by rewrite ra rb !sum_lookup ?zero_row_range // -!/(row_value _ _) !row_value_zero_row.
+Qed.
+
+(* The motion at each degree of freedom. *)
+Lemma zero_motion_moving x d : d \in moving_dofs s -> zero_motion x d = motion s x d.
+Proof.
+move=> d_in; rewrite /zero_motion nth_table ?(moving_dof_in wf_s) // columns_moving // /motion.
+case: (column s d) => [[j c]|]; last by rewrite row_value_nil.
+by rewrite /row_value big_seq1.
+Qed.
+
+Lemma along_three e p j x : first_dof p \in all_dofs -> second_dof p \in all_dofs ->
+  zero_columns z (first_dof p) = three_columns z j (unit_normal p).1 (tangent p).1 ->
+  zero_columns z (second_dof p) = three_columns z j (unit_normal p).2 (tangent p).2 ->
+  along e p (zero_motion x) =
+  - (toR e.1 * toR (unit_normal p).1 + toR e.2 * toR (unit_normal p).2) * x (gap z j) +
+  (toR e.1 * toR (tangent p).1 + toR e.2 * toR (tangent p).2) * (x (right z j) - x (left z j)).
+Proof.
+move=> first second c1 c2; rewrite /along /zero_motion !nth_table // c1 c2.
+rewrite /row_value !big_cons !big_nil /= !toRN.
+move: (x _) (x _) (x _) (toR _) (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
+Qed.
+
+Lemma along_zero e x j : (j < nz)%N -> let p := zero_particle z j in
+  along e p (zero_motion x) =
+  - (toR e.1 * toR (unit_normal p).1 + toR e.2 * toR (unit_normal p).2) * x (gap z j) +
+  (toR e.1 * toR (tangent p).1 + toR e.2 * toR (tangent p).2) * (x (right z j) - x (left z j)).
+Proof.
+move=> lt_j p; have [first second] := zero_particle_dofs wf lt_j.
+by apply: along_three; rewrite // ?columns_first ?columns_second.
+Qed.
+
+Lemma zero_motion_rest x d : d \in all_dofs -> d \notin moving_with_zero z -> zero_motion x d = 0.
+Proof.
+move=> d_in; rewrite /moving_with_zero mem_cat negb_or => /andP[out].
+rewrite /zero_dofs mem_cat negb_or => /andP[out1 out2].
+rewrite /zero_motion nth_table // /zero_columns (negbTE out1) (negbTE out2).
+move: out; rewrite !mem_cat !negb_or => /and3P[/negbTE out_f /negbTE out_1 /negbTE out_2].
+by rewrite /column out_f out_1 out_2 row_value_nil.
+Qed.
+
+(* The frame of a z particle: t and the unit normal have the length L, the normal is a positive
+   multiple of the unit normal. *)
+Lemma frame_parts j : (j < nz)%N -> let p := zero_particle z j in let n := unit_normal p in
+  [/\ toR (tangent p).1 ^+ 2 + toR (tangent p).2 ^+ 2 = L ^+ 2,
+      toR n.1 ^+ 2 + toR n.2 ^+ 2 = L ^+ 2,
+      toR n.1 * toR (tangent p).1 + toR n.2 * toR (tangent p).2 = 0 :> R &
+      exists2 c : R, 0 < c & toR (normal p).1 = c * toR n.1 /\ toR (normal p).2 = c * toR n.2].
+Proof.
+move=> lt_j p n; have /and4P[_ _ _ /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z)] := wf.
+move/(_ _ lt_j); rewrite -/(zero_particle z j) -/p => /and3P[/Z.eqb_spec tt nn /Z.eqb_spec tn].
+have L0 : 0 < L := unit_length_gt0 R wf_s.
+have l2 : 0 < L ^+ 2 by rewrite exprn_gt0.
+have ttR : toR (tangent p).1 ^+ 2 + toR (tangent p).2 ^+ 2 = L ^+ 2.
+  by rewrite !expr2 -!toRM -toRD -tt.
+have nnR : 0 < toR (normal p).1 ^+ 2 + toR (normal p).2 ^+ 2 :> R.
+  by rewrite !expr2 -!toRM -toRD toR_gt0.
+have tnR : toR (tangent p).1 * toR (normal p).1 + toR (tangent p).2 * toR (normal p).2 = 0 :> R.
+  by rewrite -!toRM -toRD -[X in toR X]/(inner _ _) tn toR0.
+pose side : R := if (0 <? inner (normal p) (turned p))%Z then 1 else -1.
+have n1 : toR n.1 = - side * toR (tangent p).2.
+  by rewrite /n /unit_normal /side; case: ifP => _; rewrite /= !toRN ?opprK ?mulN1r ?opprK ?mul1r.
+have n2 : toR n.2 = side * toR (tangent p).1.
+  by rewrite /n /unit_normal /side; case: ifP => _; rewrite /= ?toRN ?mulN1r ?mul1r.
+have side2 : side ^+ 2 = 1 by rewrite /side; case: ifP => _; rewrite ?sqrrN expr1n.
+have innerE : toR (inner (normal p) (turned p)) =
+    toR (normal p).2 * toR (tangent p).1 - toR (normal p).1 * toR (tangent p).2 :> R.
+  by rewrite /inner /turned /= toRD !toRM toRN mulrN addrC.
+have side_ge : 0 <= side * (toR (normal p).2 * toR (tangent p).1 -
+                            toR (normal p).1 * toR (tangent p).2).
+  rewrite -innerE /side; case: ifP => sign; first by rewrite mul1r ltW // toR_gt0.
+  by rewrite mulN1r oppr_ge0 leNgt toR_gt0 sign.
+move: ttR nnR tnR n1 n2 side_ge; move: (toR (tangent p).1) (toR (tangent p).2) => t1 t2.
+move: (toR (normal p).1) (toR (normal p).2) (toR n.1) (toR n.2) => N1 N2 m1 m2.
+move=> ttR nnR tnR -> -> side_ge; split=> //.
+- transitivity (side ^+ 2 * (t1 ^+ 2 + t2 ^+ 2)); first by ring.
+  by rewrite side2 mul1r.
+- by ring.
+have multiple1 : L ^+ 2 * N1 = side * (N2 * t1 - N1 * t2) * (- side * t2).
+  transitivity (side ^+ 2 * ((t1 ^+ 2 + t2 ^+ 2) * N1 - t1 * (t1 * N1 + t2 * N2))).
+    by rewrite side2 tnR mulr0 subr0 mul1r ttR.
+  by ring.
+have multiple2 : L ^+ 2 * N2 = side * (N2 * t1 - N1 * t2) * (side * t1).
+  transitivity (side ^+ 2 * ((t1 ^+ 2 + t2 ^+ 2) * N2 - t2 * (t1 * N1 + t2 * N2))).
+    by rewrite side2 tnR mulr0 subr0 mul1r ttR.
+  by ring.
+have l0 := lt0r_neq0 l2.
+exists (side * (N2 * t1 - N1 * t2) / L ^+ 2); last first.
+  by split; apply: (mulfI l0); rewrite ?multiple1 ?multiple2; field; apply: lt0r_neq0.
+rewrite divr_gt0 // lt_neqAle side_ge andbT eq_sym.
+apply: contraTneq nnR => zero; rewrite -leNgt.
+have -> : N1 = 0 by apply: (mulfI l0); rewrite multiple1 zero mul0r mulr0.
+have -> : N2 = 0 by apply: (mulfI l0); rewrite multiple2 zero mul0r mulr0.
+by rewrite expr0n addr0.
+Qed.
+
+(* The values of v and of its forces at a particle. *)
+Lemma along_normal f j : (j < nz)%N -> let p := zero_particle z j in
+  exists2 c : R, 0 < c & along (normal p) p f = c * along (unit_normal p) p f.
+Proof.
+move=> lt_j p; have [_ _ _ [c c0 [n1 n2]]] := frame_parts lt_j; exists c => //.
+by rewrite /along -/p n1 n2; move: (toR _) (toR _) (f _) (f _) => *; ring.
+Qed.
+
+Lemma gap_rate x j : (j < nz)%N -> let p := zero_particle z j in
+  along (unit_normal p) p (zero_motion x) = - (L ^+ 2 * x (gap z j)).
+Proof.
+move=> lt_j p; have [_ nn nt _] := frame_parts lt_j.
+by rewrite along_zero // -!expr2 -/p nn nt mul0r addr0 mulNr.
+Qed.
+
+Lemma half_rates x j : (j < nz)%N -> let p := zero_particle z j in
+  along (tangent p) p (zero_motion x) = L ^+ 2 * x (right z j) - L ^+ 2 * x (left z j).
+Proof.
+move=> lt_j p; have [tt _ nt _] := frame_parts lt_j; rewrite along_zero // -!expr2 -/p tt.
+by rewrite ![toR (tangent _).1 * _]mulrC ![toR (tangent _).2 * _]mulrC nt oppr0 mul0r add0r mulrBr.
+Qed.
+
+Lemma along_moving e x j : (j < ns)%N -> let p := particle s j in
+  along e p (zero_motion x) = along e p (motion s x).
+Proof.
+move=> lt_j p; rewrite /along !zero_motion_moving // !mem_cat ?first_in ?second_in ?orbT //.
+Qed.
+
+Lemma zero_slip_rate x j : (j < ns)%N ->
+  slip_rate (zero_motion x) (particle s j) = - (L ^+ 2 * x (nf + j)%N).
+Proof. by move=> lt_j; rewrite -(slip_motion wf_s) // /slip_rate along_moving. Qed.
+
+(* The rows of the pencil. *)
+Notation w t x := (force s (lambda2_of u t) (zero_motion x)).
+
+Lemma zero_free_reaction t x k : (k < nf)%N ->
+  reaction Q t x k = w t x (nth 0%N (free_dofs s) k).
+Proof.
+move=> lt_k; rewrite zero_reaction_form; last by rewrite -addnA ltn_addr.
+by rewrite nth_cat size_map lt_k (nth_map 0%N) // (value_force wf_s).
+Qed.
+
+Lemma zero_slip_reaction t x j : (j < ns)%N -> reaction Q t x (nf + j)%N =
+  - (row_factor R u * cone s (lambda2_of u t) (mu_of u t) (zero_motion x) (particle s j)).
+Proof.
+move=> lt_j; rewrite zero_reaction_form; last by rewrite ltn_addr // ltn_add2l.
+rewrite nth_cat size_map ltnNge leq_addr /= addKn nth_cat size_map lt_j.
+by rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) // value_negative (value_cone wf_s).
+Qed.
+
+Lemma nth_zero_form j k : (j < nz)%N -> (k < 3)%N ->
+  nth no_form forms (gap z j + k) = nth no_form (zero_forms z u j) k.
+Proof.
+move=> lt_j lt_k; rewrite nth_cat size_map -/(free_number s).
+have -> : (gap z j + k < nf)%N = false.
+  by apply/negbTE; rewrite -leqNgt /gap -!addnA leq_addr.
+rewrite nth_cat size_map; have -> : (gap z j + k - nf = ns + (3 * j + k))%N.
+  by rewrite /gap -!addnA addKn.
+by rewrite ltnNge leq_addr /= addKn nth_triples.
+Qed.
+
+Lemma gap_small j k : (j < nz)%N -> (k < 3)%N -> (gap z j + k < nf + ns + 3 * nz)%N.
+Proof. by rewrite /gap => lt_j lt_k; move: lt_j lt_k; clear; lia. Qed.
+
+Lemma zero_reactions t x j : (j < nz)%N -> let p := zero_particle z j in
+  let w_T := along (tangent p) p (w t x) in let w_N := along (normal p) p (w t x) in
+  [/\ reaction Q t x (gap z j) = - (row_factor R u * along (unit_normal p) p (w t x)),
+      reaction Q t x (right z j) = row_factor R u * (w_T - mu_of u t * w_N) &
+      reaction Q t x (left z j) = row_factor R u * (- w_T - mu_of u t * w_N)].
+Proof.
+move=> lt_j p w_T w_N.
+have row k : (k < 3)%N -> reaction Q t x (gap z j + k)%N =
+    form_value (nth no_form (zero_forms z u j) k) t (zero_motion x).
+  by move=> lt_k; rewrite zero_reaction_form ?gap_small // nth_zero_form.
+split.
+- rewrite -[gap z j]addn0 row //= value_negative (value_pressing wf_s) /along !toRM.
+  have -> : toR (row_multiple u) = row_factor R u.
+    by rewrite /row_multiple /row_factor; case: (u) => *; rewrite ?toR1.
+  by rewrite -/p; move: (toR _) (toR _) (row_factor _ _) (w t x _) (w t x _) => *; ring.
+- rewrite -[right z j]addn1 row //= value_negative (value_right wf) -/p -/w_T -/w_N.
+  by ring.
+have -> : left z j = (gap z j + 2)%N by rewrite addn2.
+by rewrite row //= value_negative (value_left wf) -/p -/w_T -/w_N; ring.
+Qed.
+
+(* The variables of a motion; of right and left at most one is not 0. *)
+Definition zero_variables_of v i :=
+  let k := (i - (nf + ns))%N in
+  let p := zero_particle z (k %/ 3) in
+  let v_T := along (tangent p) p v / L ^+ 2 in
+  if (i < nf + ns)%N then variables_of s v i
+  else nth 0 [:: - (along (unit_normal p) p v / L ^+ 2); if 0 < v_T then v_T else 0;
+                 if v_T < 0 then - v_T else 0] (k %% 3).
+
+Definition split x := forall j, (j < nz)%N ->
+  [/\ 0 <= x (right z j), 0 <= x (left z j) & x (right z j) * x (left z j) = 0].
+
+Lemma variables_at v j : (j < nz)%N -> let p := zero_particle z j in
+  let v_T := along (tangent p) p v / L ^+ 2 in
+  [/\ zero_variables_of v (gap z j) = - (along (unit_normal p) p v / L ^+ 2),
+      zero_variables_of v (right z j) = (if 0 < v_T then v_T else 0) &
+      zero_variables_of v (left z j) = (if v_T < 0 then - v_T else 0)].
+Proof.
+move=> lt_j p v_T; have at_k k : (k < 3)%N -> zero_variables_of v (gap z j + k) =
+    nth 0 [:: - (along (unit_normal p) p v / L ^+ 2); if 0 < v_T then v_T else 0;
+              if v_T < 0 then - v_T else 0] k.
+  move=> lt_k; have -> : (gap z j + k = nf + ns + (j * 3 + k))%N.
+    by rewrite [gap z j]/(_ + _)%N [(j * _)%N]mulnC addnA.
+  rewrite /zero_variables_of ltnNge leq_addr addKn.
+  by rewrite divnMDl // modnMDl divn_small // addn0 modn_small.
+split; first by rewrite -[gap z j]addn0 at_k.
+  by rewrite -[right z j]addn1 at_k.
+have -> : left z j = (gap z j + 2)%N by rewrite addn2.
+by rewrite at_k.
+Qed.
+
+Lemma L2_gt0 : 0 < L ^+ 2.
+Proof. by rewrite exprn_gt0 // (unit_length_gt0 R wf_s). Qed.
+
+Lemma split_variables v : split (zero_variables_of v).
+Proof.
+move=> j lt_j; have [_ -> ->] := variables_at v lt_j; set v_T := _ / _.
+case: (ltrgtP v_T 0) => sign; rewrite ?mul0r ?mulr0 ?lexx; split=> //; last exact: ltW.
+by rewrite oppr_ge0 ltW.
+Qed.
+
+(* v = (n'v / L^2) n + (t'v / L^2) t *)
+Lemma plane (t1 t2 n1 n2 v1 v2 l : R) : 0 < l ->
+  t1 ^+ 2 + t2 ^+ 2 = l -> n1 ^+ 2 + n2 ^+ 2 = l -> n1 * t1 + n2 * t2 = 0 ->
+  n1 * (n1 * v1 + n2 * v2) + t1 * (t1 * v1 + t2 * v2) = l * v1 /\
+  n2 * (n1 * v1 + n2 * v2) + t2 * (t1 * v1 + t2 * v2) = l * v2.
+Proof.
+move=> l0 tt nn nt.
+(* n is t turned. *)
+have cross : (n1 * t2 - n2 * t1) ^+ 2 = l ^+ 2.
+  transitivity ((n1 ^+ 2 + n2 ^+ 2) * (t1 ^+ 2 + t2 ^+ 2) - (n1 * t1 + n2 * t2) ^+ 2).
+    by ring.
+  by rewrite tt nn nt expr0n subr0 expr2.
+have n1E : (n1 * t2 - n2 * t1) * t2 = l * n1.
+  transitivity (n1 * (t1 ^+ 2 + t2 ^+ 2) - t1 * (n1 * t1 + n2 * t2)); first by ring.
+  by rewrite tt nt mulr0 subr0 mulrC.
+have n2E : - ((n1 * t2 - n2 * t1) * t1) = l * n2.
+  transitivity (n2 * (t1 ^+ 2 + t2 ^+ 2) - t2 * (n1 * t1 + n2 * t2)); first by ring.
+  by rewrite tt nt mulr0 subr0 mulrC.
+have l_nz := lt0r_neq0 l0.
+have n11 : n1 ^+ 2 = t2 ^+ 2.
+  apply: (mulfI (expf_neq0 2 l_nz)); rewrite -exprMn -n1E exprMn cross.
+  by [].
+have n22 : n2 ^+ 2 = t1 ^+ 2.
+  by apply: (mulfI (expf_neq0 2 l_nz)); rewrite -exprMn -n2E sqrrN exprMn cross.
+have n12 : n1 * n2 = - (t1 * t2).
+  apply: (mulfI (expf_neq0 2 l_nz)).
+  transitivity ((l * n1) * (l * n2)); first by ring.
+  rewrite -n1E -n2E -cross; ring.
+split.
+  transitivity ((n1 ^+ 2 + t1 ^+ 2) * v1 + (n1 * n2 + t1 * t2) * v2); first by ring.
+  by rewrite n11 n12 addNr mul0r addr0 addrC tt.
+transitivity ((n1 * n2 + t1 * t2) * v1 + (n2 ^+ 2 + t2 ^+ 2) * v2); first by ring.
+by rewrite n22 n12 addNr mul0r add0r tt.
+Qed.
+
+Lemma difference_of_parts (a : R) :
+  (if 0 < a then a else 0) - (if a < 0 then - a else 0) = a.
+Proof. by case: (ltrgtP a 0) => [| |->]; rewrite ?subr0 ?sub0r ?opprK. Qed.
+
+Lemma zero_motion_of_variables t v : satisfies_9z z u t v ->
+  forall d, d \in all_dofs -> zero_motion (zero_variables_of v) d = v d.
+Proof.
+case=> _ [_ at_rest _ slips _] d d_in.
+have L0 : 0 < L := unit_length_gt0 R wf_s; have l2 := lt0r_neq0 L2_gt0.
+have [d_zero|d_other] := boolP (d \in zero_dofs z).
+  have at_particle j : (j < nz)%N -> let p := zero_particle z j in
+      zero_motion (zero_variables_of v) (first_dof p) = v (first_dof p) /\
+      zero_motion (zero_variables_of v) (second_dof p) = v (second_dof p).
+    move=> lt_j p; have [first second] := zero_particle_dofs wf lt_j.
+    have [gapE rightE leftE] := variables_at v lt_j.
+    have [tt nn nt _] := frame_parts lt_j.
+    have [v1 v2] := plane (v (first_dof p)) (v (second_dof p)) L2_gt0 tt nn nt.
+    rewrite /zero_motion !nth_table // columns_first // columns_second // -/p.
+    rewrite /row_value !big_cons !big_nil /= gapE rightE leftE -/p !addr0 !toRN.
+    have parts (c : R) (a : R) : c * (if 0 < a then a else 0) +
+        - c * (if a < 0 then - a else 0) = c * a.
+      by rewrite -[in RHS](difference_of_parts a) mulrBr mulNr.
+    have component (n1 t1 aN aT vd : R) : n1 * aN + t1 * aT = L ^+ 2 * vd ->
+        - n1 * - (aN / L ^+ 2) + t1 * (aT / L ^+ 2) = vd.
+      by move=> eq; apply: (mulfI l2); rewrite -eq; field; exact: lt0r_neq0.
+    by rewrite !parts; split; apply: component.
+  move: d_zero; rewrite mem_cat => /orP[]/(nthP 0%N)[j]; rewrite size_map => lt_j <-.
+    by rewrite -zero_first //; case: (at_particle _ lt_j).
+  by rewrite -zero_second //; case: (at_particle _ lt_j).
+
+have [d_moving|d_rest] := boolP (d \in moving_dofs s); last first.
+  have out : d \notin moving_with_zero z by rewrite mem_cat negb_or d_rest.
+  by rewrite zero_motion_rest // at_rest.
+rewrite zero_motion_moving //.
+transitivity (motion s (variables_of s v) d).
+  rewrite /motion; case col: (column s d) => [[j c]|] //.
+  by rewrite /zero_variables_of (column_in_range col).
+have at_particle j : (j < ns)%N -> let p := particle s j in
+    motion s (variables_of s v) (first_dof p) = v (first_dof p) /\
+    motion s (variables_of s v) (second_dof p) = v (second_dof p).
+  move=> lt_j p; have [nv _ _ _] := slips _ lt_j.
+  have [sq tt nn tn] := particle_parts R wf_s lt_j.
+  have [v1 v2] := along_tangent tt nn tn nv.
+  rewrite /motion (column_first wf_s) // (column_second wf_s) // /variables_of.
+  rewrite ltnNge leq_addr /= addKn -/p.
+  have back c a : toR c * along (tangent p) p v = L ^+ 2 * a ->
+      toR (- (sign_of p * c)) * - (slip_rate v p / L ^+ 2) = a.
+    move=> eq; apply: (mulfI l2); rewrite -eq -[RHS]mul1r -sq /slip_rate toRN toRM.
+    by move: (along _ _ _) (toR c) (toR (sign_of p)) => *; field; exact: lt0r_neq0.
+  by split; apply: back; rewrite ?v1 ?v2.
+move: d_moving; rewrite !mem_cat => /or3P[/(nthP 0%N)[k lt_k <-]||].
+- by rewrite (motion_free wf_s) // /variables_of lt_k mulrC divfK // lt0r_neq0.
+- case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -first_particle // => <-.
+  by case: (at_particle _ lt_j).
+case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -second_particle // => <-.
+by case: (at_particle _ lt_j).
+Qed.
+
+(* A motion in three pairs, and back. *)
+Lemma split_pairs (mu v_N r l w_N w_T : R) : 0 <= r -> 0 <= l -> r * l = 0 ->
+  zero_reaction mu v_N (r - l) w_N w_T ->
+  pair r (w_T - mu * w_N) /\ pair l (- w_T - mu * w_N).
+Proof.
+rewrite /zero_reaction /pair cone_sides.
+move=> r0 l0 rl [_ _ _ /andP[left right] slip].
+have row_right : 0 <= w_T - mu * w_N by rewrite -[w_T]opprK -opprD oppr_ge0.
+have row_left : 0 <= - w_T - mu * w_N by rewrite -opprD oppr_ge0.
+move/eqP: rl slip; rewrite mulf_eq0 => /orP[]/eqP zero; rewrite zero ?sub0r ?subr0.
+  rewrite normrN ger0_norm // => slip; split; split=> //; first by rewrite mul0r.
+  transitivity (mu * - l * w_N - l * w_T); first by ring.
+  by rewrite -slip subrr.
+rewrite ger0_norm // => slip; split; split=> //; last by rewrite mul0r.
+transitivity (r * w_T - mu * r * w_N); first by ring.
+by rewrite -slip subrr.
+Qed.
+
+Lemma pair_left (a x y : R) : 0 < a -> pair (a * x) y <-> pair x y.
+Proof.
+move=> a0; rewrite /pair pmulr_rge0 // -mulrA; split=> -[x0 y0 xy]; split=> //.
+  by move/eqP: xy; rewrite mulf_eq0 gt_eqF //= => /eqP.
+by rewrite xy mulr0.
+Qed.
+
+Lemma pair_right (a x y : R) : 0 < a -> pair x (a * y) <-> pair x y.
+Proof.
+move=> a0; rewrite /pair pmulr_rge0 // mulrCA; split=> -[x0 y0 xy]; split=> //.
+  by move/eqP: xy; rewrite mulf_eq0 gt_eqF //= => /eqP.
+by rewrite xy mulr0.
+Qed.
+
+Lemma zero_slip_cases i : i \in slip Q ->
+  (exists2 j, (j < ns)%N & i = (nf + j)%N) \/
+  (exists2 j, (j < nz)%N & [\/ i = gap z j, i = right z j | i = left z j]).
+Proof.
+rewrite mem_filter !mem_iota !add0n /= -leqNgt => /andP[ge_i lt_i].
+have [lt_s|ge_s] := ltnP i (nf + ns).
+  by left; exists (i - nf)%N; [rewrite ltn_subLR | rewrite subnKC].
+right; have lt_j : ((i - (nf + ns)) %/ 3 < nz)%N by rewrite ltn_divLR // mulnC ltn_subLR.
+exists ((i - (nf + ns)) %/ 3)%N => //.
+have := divn_eq (i - (nf + ns)) 3; have : ((i - (nf + ns)) %% 3 < 3)%N by rewrite ltn_mod.
+move: (_ %/ 3)%N (_ %% 3)%N ge_s => q r ge_s lt_r eq.
+have i_eq : i = (gap z q + r)%N.
+  by rewrite /gap [(3 * q)%N]mulnC -addnA -eq subnKC.
+case: r lt_r {eq} i_eq => [|[|[|]]] // _ ->.
+- by apply: Or31; rewrite addn0.
+- by apply: Or32; rewrite addn1.
+by apply: Or33; rewrite addn2.
+Qed.
+
+Lemma slip_in_zero_pencil j : (j < ns)%N -> (nf + j)%N \in slip Q.
+Proof.
+move=> lt_j; rewrite mem_filter !mem_iota !add0n /= -leqNgt leq_addr /=.
+by rewrite -addnA ltn_add2l ltn_addr.
+Qed.
+
+Lemma three_in_zero_pencil j k : (j < nz)%N -> (k < 3)%N -> (gap z j + k)%N \in slip Q.
+Proof.
+move=> lt_j lt_k; rewrite mem_filter !mem_iota !add0n /= gap_small // andbT -leqNgt.
+by rewrite /gap -!addnA leq_addr.
+Qed.
+
+(* The pairs of a z particle in the pencil are those of (9). *)
+Lemma zero_pairs t x j : (j < nz)%N -> let p := zero_particle z j in
+  let w_T := along (tangent p) p (w t x) in let w_N := along (normal p) p (w t x) in
+  [/\ pair (x (gap z j)) (reaction Q t x (gap z j)) <->
+        pair (- along (normal p) p (zero_motion x)) (- w_N),
+      pair (x (right z j)) (reaction Q t x (right z j)) <->
+        pair (L ^+ 2 * x (right z j)) (w_T - mu_of u t * w_N) &
+      pair (x (left z j)) (reaction Q t x (left z j)) <->
+        pair (L ^+ 2 * x (left z j)) (- w_T - mu_of u t * w_N)].
+Proof.
+move=> lt_j p w_T w_N; have [-> -> ->] := zero_reactions t x lt_j.
+have f0 := row_factor_gt0 R wf_s; have l2 := L2_gt0.
+have half a b : pair a (row_factor R u * b) <-> pair (L ^+ 2 * a) b.
+  exact: iff_trans (pair_right _ _ f0) (iff_sym (pair_left _ _ l2)).
+split; [|exact: half|exact: half].
+have [c c0 ->] := along_normal (zero_motion x) lt_j; rewrite -/p gap_rate //.
+have [c' c0' wN] := along_normal (w t x) lt_j; rewrite /w_N -/p wN.
+rewrite mulrN opprK -!mulrN mulrA.
+apply: iff_trans (pair_right _ _ f0) (iff_sym _).
+exact: iff_trans (pair_left _ _ (mulr_gt0 c0 l2)) (pair_right _ _ c0').
+Qed.
+
+Theorem zero_pencil_solution t v : satisfies_9z z u t v ->
+  solution Q t (zero_variables_of v).
+Proof.
+move=> sat; have same := zero_motion_of_variables sat.
+set x := zero_variables_of v; have splits : split x := split_variables v.
+have sat_x : satisfies_9z z u t (zero_motion x).
+  by apply: (satisfies_9z_same wf _ sat) => d d_in; rewrite same.
+have l2 := L2_gt0; have f0 := row_factor_gt0 R wf_s.
+have [t0 [[d d_in vd] _ free slips zeros]] := sat_x; split=> //.
+- have : has (fun i => x i != 0) (iota 0 (order Q)).
+    apply: contraNT vd => /hasPn none; rewrite /zero_motion nth_table //.
+    rewrite /row_value big_seq big1 // => c c_in.
+    have : (c.1 < nf + ns + 3 * nz)%N by apply: columns_small c_in.
+    move=> small; have := none c.1; rewrite mem_iota small negbK => /(_ isT)/eqP->.
+    by rewrite mulr0.
+  by case/hasP=> i i_in xi; exists i.
+- move=> i; rewrite mem_iota add0n /= => lt_i; rewrite zero_free_reaction // free //.
+  exact: mem_nth.
+move=> i /zero_slip_cases[[j lt_j ->]|[j lt_j cases]].
+  have [_ + + xy] := slips _ lt_j; rewrite zero_slip_reaction // => rate cone_le.
+  move: rate xy; rewrite zero_slip_rate // oppr_le0 pmulr_rge0 // => x0 xy.
+  rewrite oppr_ge0 pmulr_rle0 //; split=> //.
+  apply: (mulfI (lt0r_neq0 l2)); rewrite mulr0 -(mulr0 (row_factor R u)) -xy.
+  by move: (cone _ _ _ _ _) (x _) (row_factor _ _) => *; ring.
+have [gap_pair right_pair left_pair] := zero_pairs t x lt_j.
+have [r0 l0 rl] := splits j lt_j; have line := zeros _ lt_j.
+have [vN wN vw _ _] := line; move: line; rewrite /= half_rates // => line.
+have [||| first second] := split_pairs _ _ _ line.
+- by rewrite pmulr_rge0.
+- by rewrite pmulr_rge0.
+- by rewrite mulrACA rl mulr0.
+case: cases => ->; [apply/gap_pair | exact/right_pair | exact/left_pair].
+by split; rewrite ?oppr_ge0 // mulrNN.
+Qed.
+
+Lemma no_variables v : (forall d, d \in all_dofs -> v d = 0) ->
+  forall i, (i < nf + ns + 3 * nz)%N -> zero_variables_of v i = 0.
+Proof.
+move=> zero i lt_i; rewrite /zero_variables_of.
+have [lt_s|ge_s] := ltnP i (nf + ns).
+  rewrite /variables_of; have [lt_f|ge_f] := ltnP i nf.
+    by rewrite zero ?mul0r // (moving_dof_in wf_s) // mem_cat mem_nth.
+  have lt_j : (i - nf < ns)%N by rewrite ltn_subLR.
+  have [first second] := slip_dofs wf lt_j.
+  by rewrite /slip_rate /along !zero // !mulr0 addr0 mulr0 mul0r oppr0.
+have lt_j : ((i - (nf + ns)) %/ 3 < nz)%N by rewrite ltn_divLR // mulnC ltn_subLR.
+have [first second] := zero_particle_dofs wf lt_j.
+rewrite /along !zero // !mulr0 addr0 mul0r oppr0 ltxx.
+by case: (_ %% 3)%N => [|[|[|k]]] //=; rewrite nth_nil.
+Qed.
+
+Theorem zero_variables_of_motion x i : split x -> (i < nf + ns + 3 * nz)%N ->
+  zero_variables_of (zero_motion x) i = x i.
+Proof.
+move=> splits lt_i; have l2 := L2_gt0; have l_nz := lt0r_neq0 l2.
+have [lt_s|ge_s] := ltnP i (nf + ns).
+  rewrite /zero_variables_of lt_s -[RHS](variables_of_motion wf_s x); last by rewrite mem_iota.
+  rewrite /variables_of; have [lt_f|ge_f] := ltnP i nf.
+    by rewrite zero_motion_moving // mem_cat mem_nth.
+  have lt_j : (i - nf < ns)%N by rewrite ltn_subLR.
+  by rewrite /slip_rate along_moving.
+have i_slip : i \in slip Q.
+  by rewrite mem_filter !mem_iota !add0n lt_i andbT -leqNgt (leq_trans (leq_addr _ _) ge_s).
+case: (zero_slip_cases i_slip) => [[j lt_j eq]|[j lt_j cases]].
+  by move: ge_s; rewrite eq leq_add2l leqNgt lt_j.
+have [gapE rightE leftE] := variables_at (zero_motion x) lt_j; have [r0 l0 rl] := splits j lt_j.
+have rateE : along (tangent (zero_particle z j)) (zero_particle z j) (zero_motion x) / L ^+ 2 =
+    x (right z j) - x (left z j).
+  by rewrite half_rates // -mulrBr mulrAC divff // mul1r.
+case: cases => ->.
+- by rewrite gapE gap_rate // mulNr opprK mulrAC divff // mul1r.
+- rewrite rightE rateE subr_gt0; case: ltP => [lt|le].
+    move/eqP: rl; rewrite mulf_eq0 (gt_eqF (le_lt_trans l0 lt)) /= => /eqP->.
+    by rewrite subr0.
+  move/eqP: rl; rewrite mulf_eq0 => /orP[]/eqP zero; first by rewrite zero.
+  by apply/eqP; rewrite eq_sym eq_le r0 andbT -[X in _ <= X]zero.
+rewrite leftE rateE subr_lt0; case: ltP => [lt|le].
+  move/eqP: rl; rewrite mulf_eq0 (gt_eqF (le_lt_trans r0 lt)) orbF => /eqP->.
+  by rewrite sub0r opprK.
+move/eqP: rl; rewrite mulf_eq0 => /orP[]/eqP zero; last by rewrite zero.
+by apply/eqP; rewrite eq_sym eq_le l0 andbT -[X in _ <= X]zero.
+Qed.
+
+Theorem zero_pencil_motion t x : solution Q t x -> split x -> satisfies_9z z u t (zero_motion x).
+Proof.
+case=> t0 [i0 i0_in xi0] rows_f rows_s splits.
+have l2 := L2_gt0; have f0 := row_factor_gt0 R wf_s.
+split=> //; split.
+- suff : has (fun d => zero_motion x d != 0) all_dofs by case/hasP=> d d_in vd; exists d.
+  apply: contraNT xi0 => /hasPn none; rewrite -(zero_variables_of_motion splits); last first.
+    by move: i0_in; rewrite mem_iota.
+  apply/eqP/no_variables; last by move: i0_in; rewrite mem_iota.
+  by move=> d /none; rewrite negbK => /eqP.
+- exact: zero_motion_rest.
+- move=> d /(nthP 0%N)[k lt_k <-]; rewrite -zero_free_reaction // rows_f //.
+  by rewrite mem_iota.
+- move=> j lt_j p; have [x0 + +] := rows_s _ (slip_in_zero_pencil lt_j).
+  rewrite zero_slip_reaction // -/p zero_slip_rate // !oppr_le0 oppr_ge0 => y0 xy.
+  rewrite along_moving // (normal_motion wf_s) // pmulr_rge0 //; split=> //.
+    by rewrite -(pmulr_rle0 _ f0).
+  apply: (mulfI (lt0r_neq0 f0)); rewrite mulr0 -(mulr0 (L ^+ 2)) -xy.
+  by move: (cone _ _ _ _ _) (x _) (row_factor _ _) => *; ring.
+move=> j lt_j p w'; have [gap_pair right_pair left_pair] := zero_pairs t x lt_j.
+apply/zero_split; exists (L ^+ 2 * x (right z j)), (L ^+ 2 * x (left z j)).
+split; first exact: half_rates.
+- apply/gap_pair; apply: rows_s; rewrite -[gap z j]addn0; exact: three_in_zero_pencil.
+- apply/right_pair; apply: rows_s; rewrite -[right z j]addn1; exact: three_in_zero_pencil.
+by apply/left_pair; apply: rows_s; rewrite -[left z j]addn2; exact: three_in_zero_pencil.
+Qed.
+
+(* Multiples. *)
+Lemma zero_variables_scaled v v' f i : 0 < f ->
+  (forall d, d \in all_dofs -> v' d = f * v d) -> (i < nf + ns + 3 * nz)%N ->
+  zero_variables_of v' i = f * zero_variables_of v i.
+Proof.
+move=> f0 scaled lt_i; rewrite /zero_variables_of; have [lt_s|ge_s] := ltnP i (nf + ns).
+  by apply: (variables_scaled wf_s scaled); rewrite mem_iota.
+have lt_j : ((i - (nf + ns)) %/ 3 < nz)%N by rewrite ltn_divLR // mulnC ltn_subLR.
+have [first second] := zero_particle_dofs wf lt_j.
+have along_scaled e : along e (zero_particle z ((i - (nf + ns)) %/ 3)) v' =
+    f * along e (zero_particle z ((i - (nf + ns)) %/ 3)) v.
+  by rewrite /along !scaled //; move: (toR _) (toR _) (v _) (v _) => *; ring.
+rewrite !along_scaled -!mulrA pmulr_rgt0 // pmulr_rlt0 //.
+case: (_ %% 3)%N => [|[|[|k]]] /=; rewrite ?nth_nil ?mulr0 ?mulrN //; case: ifP => //.
+- by rewrite mulr0.
+- by rewrite mulrN.
+by rewrite mulr0.
+Qed.
+
+Lemma zero_motion_scaled x x' f : (forall i, (i < nf + ns + 3 * nz)%N -> x' i = f * x i) ->
+  forall d, d \in all_dofs -> zero_motion x' d = f * zero_motion x d.
+Proof.
+move=> scaled d d_in; rewrite /zero_motion nth_table // /row_value mulr_sumr big_seq [RHS]big_seq.
+by apply: eq_bigr => c c_in; rewrite scaled ?(columns_small c_in) // mulrCA.
+Qed.
+
+End Real.
