@@ -1,9 +1,9 @@
 //! `mceip check`: a certificate or somebody's solutions against a problem, one verdict.
 //!
 //! The formats of the files decide what is done. A certificate, of solutions and complete sets, of
-//! absence below a friction or of presence in an interval of friction, goes to the checker, which accepts or rejects it. Somebody's
-//! solutions are certified and checked one by one, or refuted ([`foreign`]). A solution file of a
-//! plain LCP or MCP is evaluated exactly ([`plain`]).
+//! absence below a friction or of presence in an interval of friction, goes to the checker, which
+//! accepts or rejects it. Somebody's solutions are certified and checked one by one, or refuted
+//! ([`foreign`]). A solution file of a plain LCP or MCP is evaluated exactly ([`plain`]).
 
 pub(super) mod plain;
 
