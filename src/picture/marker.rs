@@ -72,7 +72,7 @@ impl Mark {
             Mark::SlipRight => "slip right",
             Mark::Caught => "impending slip, gets stuck",
             Mark::Free => "free",
-            Mark::Zero => "contact, zero reaction",
+            Mark::Zero => "zero reaction",
         }
     }
 

@@ -267,7 +267,7 @@ fn zero_reaction_is_analysed() {
         proved.to_str().unwrap(),
         certificate.to_str().unwrap(),
     ];
-    contains_all(&exits(0, &arguments), &["ACCEPTED"]);
+    contains_all(&exits(0, &arguments), &["ABSENT for friction"]);
 
     let page = std::fs::read_to_string(&report).unwrap();
     contains_all(&page, &["particles with zero reaction", "1 right"]);

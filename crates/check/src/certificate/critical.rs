@@ -63,7 +63,7 @@ pub enum CriticalNode {
     Split(Number),
     /// Cuts the interval of mu: the lower part follows, then the upper part.
     Friction(Number),
-    /// Decides a complementarity variable, by its index in the pencil: x_i = 0 follows, then x_i > 0.
+    /// Decides a complementarity variable, by its index: x_i = 0 follows, then x_i > 0.
     Branch(usize),
     /// Weights w, one per complementarity variable, as in [`super::Node::Farkas`], at all corners.
     Farkas(Vec<i64>),

@@ -11,9 +11,9 @@
 //! n_s, and A(0), B(0) are the pencil of MCEIP-mu.
 //!
 //! In general a variable x_p moves its particle along d_p and is paired with the row of d_p' w +
-//! mu e_p' w, where d_p = -S_p t_p and e_p = -c_p n_p for a slip particle: A_pq = d_p' Z d_q, B_pq =
-//! e_p' Z d_q. A particle with zero reaction has three variables (`spec/zero-reaction.md`, Z.3):
-//! d = -n, t, -t and e = 0, -c n, -c n. [`SparseCondensation::with_zero`] admits them.
+//! mu e_p' w, where d_p = -S_p t_p and e_p = -c_p n_p for a slip particle: A_pq = d_p' Z d_q,
+//! B_pq = e_p' Z d_q. A particle with zero reaction has three variables (`spec/zero-reaction.md`,
+//! Z.3): d = -n, t, -t and e = 0, -c n, -c n. [`SparseCondensation::with_zero`] admits them.
 //!
 //! Input: K and M as sparse symmetric matrices, the particles with their contact states. K + t M
 //! must be positive definite on f, or [`SparseCondensation::at`] says that it is not. Output: A and
