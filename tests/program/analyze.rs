@@ -613,8 +613,8 @@ fn interrupted_work_is_undecided() {
     assert!(analysis.sentences()[0].text.contains("UNDECIDED"));
 }
 
-/// Interrupted while the checker reads its first cover, the analysis ends without a second one: what
-/// was proved until then stands, and the bound that was tried is neither proved nor refused.
+/// Interrupted while the checker reads its first cover, the analysis ends without a second one:
+/// what was proved until then stands, and the bound that was tried is neither proved nor refused.
 #[test]
 fn a_check_of_absence_can_be_interrupted() {
     let stop = Cancel::new();

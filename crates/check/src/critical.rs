@@ -38,8 +38,8 @@ pub fn check_critical(
 /// node in its tree. Without any, [`check_critical`] accepts the certificate.
 ///
 /// A search that wants to replace all leaves that fail calls this once, where it would have to call
-/// [`check_critical`] once for each of them. `go_on` is asked before each anchor and each node; after
-/// a no the answer is `None`, which says nothing about the certificate.
+/// [`check_critical`] once for each of them. `go_on` is asked before each anchor and each node;
+/// after a no the answer is `None`, which says nothing about the certificate.
 ///
 /// # Errors
 /// [`Rejected`] with an obligation that fails although these leaves are passed over.

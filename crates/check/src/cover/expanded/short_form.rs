@@ -24,8 +24,8 @@ use mceip_exact::{Integer, Rational};
 use num_traits::Signed;
 
 /// A long end is rounded down to a unit of 2^-128, its radius rounded up and enlarged by a unit for
-/// that: one unit of Z(d), two of a chord, two of the remainders and one for their sum. So long ends
-/// are wider by less than this than the numbers before rounding, which short ones enclose.
+/// that: one unit of Z(d), two of a chord, two of the remainders and one for their sum. So long
+/// ends are wider by less than this than the numbers before rounding, which short ones enclose.
 pub(super) const LONG_ROUNDING: i64 = 6;
 
 /// The short numbers of an expansion, in the fixed unit.
