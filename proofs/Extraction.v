@@ -4,13 +4,15 @@
    (they count rows and columns), and the equality test of natural numbers becomes that of int.
    These three mappings are part of the trusted base (README.md).  Everything else is Coq's
    extraction of the functions whose soundness System.v, Complete.v, Families.v, Varying.v, Claim.v,
-   Lifted.v, EnclosedClaim.v, PlainMcp.v, ZeroReaction.v, Critical.v and CriticalAnchors.v prove. *)
+   Lifted.v, EnclosedClaim.v, PlainMcp.v, ZeroReaction.v, ZeroEnclosed.v, Critical.v and
+   CriticalAnchors.v prove. *)
 
 From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
 From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned Cover.
 From Mceip Require Import Number Condensation Pencil Whole Complete Claim System ZeroReaction.
+From Mceip Require Import ZeroEnclosed.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Critical CriticalAnchors.
 
@@ -23,7 +25,8 @@ Extraction Inline Condensation.stiffness_bound.
 Set Extraction AccessOpaque.
 
 Extraction "kernel.ml"
-  check_zero sliding_poly pressure_poly right_poly left_poly
+  check_zero check_zero_enclosed support_pencil slipping_variables
+  sliding_poly pressure_poly right_poly left_poly
   check_complete check_system check_claim check_system_claim
   check_lifted check_enclosed_claim check_system_enclosed check_mcp
   reaction_poly found left_open solutions_found pencil_of blocks_of

@@ -390,7 +390,7 @@ class Problem:
         doc = read_json(path)
         if not isinstance(doc, dict) or doc.get("format") != "mceip-problem/1":
             raise Unreadable("format: mceip-problem/1 was expected")
-        _, self.unknown, window, pencil, system, *words = fields(doc, "format unknown", "window pencil system name comment")
+        _, self.unknown, window, pencil, system, _, *words = fields(doc, "format unknown", "window pencil system coordinates name comment")
         for word in words:
             Maybe(text_of)(word)
         if self.unknown not in ("lambda2", "mu") or (pencil is None) == (system is None):

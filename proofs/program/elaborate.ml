@@ -1127,11 +1127,10 @@ let zero_of (system : Kernel.zero_system) unknown factor (l : lifted) =
     right_reductions = particles (Kernel.right_poly unknown bare);
     left_reductions = particles (Kernel.left_poly unknown bare) }
 
-(* The motion of x and its forces: v = -S t x of a slip particle, v = -n x_gap + t (x_right -
-   x_left) of one with zero reaction, n the unit normal. *)
-let lifted_of_exact (zero : Kernel.zero_system) unknown factor (e : exact) =
+(* The motion of x: v = -S t x of a slip particle, v = -n x_gap + t (x_right - x_left) of one with
+   zero reaction, n the unit normal. *)
+let motion_of_variables (zero : Kernel.zero_system) x =
   let system = zero.without_zero in
-  let x = Array.of_list e.x in
   let v = Array.make system.dofs [] in
   let put d c p = v.(d) <- add_polynomials v.(d) (List.map (Q.mul c) p) in
   let put_along (p : Kernel.slip_particle) (first, second) sign polynomial =
@@ -1151,6 +1150,12 @@ let lifted_of_exact (zero : Kernel.zero_system) unknown factor (e : exact) =
       put_along p turned (Z.of_int (-side)) x.(gap);
       put_along p p.tangent Z.one x.(gap + 1);
       put_along p p.tangent Z.minus_one x.(gap + 2)) zero.zero_particles;
+  v
+
+(* The motion of x and its forces. *)
+let lifted_of_exact (zero : Kernel.zero_system) unknown factor (e : exact) =
+  let system = zero.without_zero in
+  let v = motion_of_variables zero (Array.of_list e.x) in
 
   (* Forces in integers: v times one denominator, K and M times [factor]. *)
   let motion = Array.to_list v in
@@ -1349,3 +1354,26 @@ let enclosed_claim_of (pencil : Kernel.pencil) (e : enclosed) =
   let support = List.filter (fun p -> List.mem variables.(p) e.box_support) (List.init m Fun.id) in
   let pivots = List.sort (fun p q -> Q.compare sizes.(q) sizes.(p)) support in
   List.find_map attempt (List.filteri (fun i _ -> i < (if m <= 16 then 3 else 1)) pivots)
+
+(* The box of a claim with zero reaction, as one for the pencil of the kernel: the motion of its
+   center, then the rates of the slip particles in the support, in the same units. *)
+let zero_enclosed_of (zero : Kernel.zero_system) unknown (e : enclosed) =
+  let system = zero.without_zero in
+  let frees = List.length system.free_dofs in
+  let x = Array.make (frees + List.length system.particles
+                      + 3 * List.length zero.zero_particles) [] in
+  let active = List.init frees Fun.id @ e.box_support in
+  List.iteri (fun p i -> x.(i) <- [List.nth e.center p]) active;
+  let component = function [] -> Q.zero | c :: _ -> c in
+  let motion = Array.to_list (Array.map component (motion_of_variables zero x)) in
+
+  let slipping = Kernel.slipping_variables zero e.box_support in
+  let rate i =
+    Q.mul (Q.of_bigint system.unit_length) (component x.(frees + i - system.dofs)) in
+  let value = List.nth e.center (List.length active) in
+  let components = motion @ List.map rate slipping in
+  let least = List.fold_left Q.min (List.hd e.radius) e.radius in
+  let value_radius = List.nth e.radius (List.length active) in
+  enclosed_claim_of (Kernel.support_pencil zero unknown e.box_support)
+    { e with box_support = slipping; center = components @ [value];
+             radius = List.map (fun _ -> least) components @ [value_radius] }

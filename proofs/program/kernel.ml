@@ -2,6 +2,11 @@
 type __ = Obj.t
 let __ = let rec f _ = Obj.repr f in Obj.repr f
 
+(** val implb : bool -> bool -> bool **)
+
+let implb b1 b2 =
+  if b1 then b2 else true
+
 (** val negb : bool -> bool **)
 
 let negb = function
@@ -685,6 +690,12 @@ module Equality =
 let eq_op t =
   (Equality.coq_class t).Equality.op
 
+(** val eqP : Equality.coq_type -> Equality.sort Equality.axiom **)
+
+let eqP t =
+  let _evar_0_ = fun _ a -> a in
+  let { Equality.op = op0; Equality.mixin_of__1 = a } = t in _evar_0_ op0 a
+
 (** val eqb0 : bool -> bool -> bool **)
 
 let eqb0 b =
@@ -871,6 +882,59 @@ let rec drop n s = match s with
      (fun _ -> s)
      (fun n' -> drop n' s')
      n)
+
+(** val eqseq :
+    Equality.coq_type -> Equality.sort list -> Equality.sort list -> bool **)
+
+let rec eqseq t s1 s2 =
+  match s1 with
+  | [] -> (match s2 with
+           | [] -> true
+           | _ :: _ -> false)
+  | x1 :: s1' ->
+    (match s2 with
+     | [] -> false
+     | x2 :: s2' -> (&&) (eq_op t x1 x2) (eqseq t s1' s2'))
+
+(** val eqseqP : Equality.coq_type -> Equality.sort list Equality.axiom **)
+
+let eqseqP t _top_assumption_ =
+  let _evar_0_ = fun __top_assumption_ ->
+    let _evar_0_ = ReflectT in
+    let _evar_0_0 = fun _ _ -> ReflectF in
+    (match __top_assumption_ with
+     | [] -> _evar_0_
+     | a :: l -> _evar_0_0 a l)
+  in
+  let _evar_0_0 = fun x1 s1 iHs __top_assumption_ ->
+    let _evar_0_0 = ReflectF in
+    let _evar_0_1 = fun x2 s2 ->
+      let __top_assumption_0 = eqP t x1 x2 in
+      let _evar_0_1 = fun _ -> iffP (eqseq t s1 s2) (iHs s2) in
+      let _evar_0_2 = fun _ -> ReflectF in
+      (match __top_assumption_0 with
+       | ReflectT -> _evar_0_1 __
+       | ReflectF -> _evar_0_2 __)
+    in
+    (match __top_assumption_ with
+     | [] -> _evar_0_0
+     | a :: l -> _evar_0_1 a l)
+  in
+  let rec f = function
+  | [] -> _evar_0_
+  | y :: l0 -> _evar_0_0 y l0 (f l0)
+  in f _top_assumption_
+
+(** val seq_eqMixin :
+    Equality.coq_type -> Equality.sort list Equality.mixin_of **)
+
+let seq_eqMixin t =
+  { Equality.op = (eqseq t); Equality.mixin_of__1 = (eqseqP t) }
+
+(** val seq_eqType : Equality.coq_type -> Equality.coq_type **)
+
+let seq_eqType t =
+  Obj.magic seq_eqMixin t
 
 (** val mem_seq :
     Equality.coq_type -> Equality.sort list -> Equality.sort -> bool **)
@@ -1218,10 +1282,10 @@ let active p r =
 (** val symmetric_part :
     enclosed -> bool -> point -> int -> int -> Big_int_Z.big_int **)
 
-let symmetric_part p negative e i j =
+let symmetric_part p negative0 e i j =
   Z.sub
     (Z.sub
-      (if negative
+      (if negative0
        then Z.sub (Z.opp (center p e i j)) (center p e j i)
        else Z.add (center p e i j) (center p e j i)) (radius p e i j))
     (radius p e j i)
@@ -1229,19 +1293,19 @@ let symmetric_part p negative e i j =
 (** val definite_end :
     enclosed -> bool -> bool -> point -> region -> factor -> bool **)
 
-let definite_end p negative strict e r f =
+let definite_end p negative0 strict e r f =
   (&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
     ((&&)
       (eq_op nat_eqType (Obj.magic size f.factor_rows)
         (Obj.magic size (active p r)))
-      (covered (symmetric_part p negative e) (weighted_dot f.weights) strict
+      (covered (symmetric_part p negative0 e) (weighted_dot f.weights) strict
         (zip (active p r) f.factor_rows)))
 
 (** val definite : enclosed -> bool -> region -> factor -> factor -> bool **)
 
-let definite p negative r low high =
-  (&&) (definite_end p negative true r.lower r low)
-    (definite_end p negative (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+let definite p negative0 r low high =
+  (&&) (definite_end p negative0 true r.lower r low)
+    (definite_end p negative0 (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
       r.upper r high)
 
 type box = { inverse : matrix; unit_low : Big_int_Z.big_int;
@@ -1778,7 +1842,7 @@ let undecided tr r =
 
 let check_leaf p solutions check_whole0 check_limit0 r = function
 | Farkas w -> farkas p r w
-| Definite (negative, low, high) -> definite p negative r low high
+| Definite (negative0, low, high) -> definite p negative0 r low high
 | Absent c -> check_absent p r c
 | Root (h, c, o) -> (&&) (reaches r h) (check_root p (extended r h) c o)
 | Claimed (h, c, n) ->
@@ -2200,9 +2264,9 @@ let member_entry e i j =
     bool -> Big_int_Z.big_int -> point -> member -> member ->
     Big_int_Z.big_int **)
 
-let member_form negative c e i j =
+let member_form negative0 c e i j =
   Z.mul c
-    (if negative
+    (if negative0
      then Z.sub (Z.opp (member_entry e i j)) (member_entry e j i)
      else Z.add (member_entry e i j) (member_entry e j i))
 
@@ -2210,7 +2274,7 @@ let member_form negative c e i j =
     pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region ->
     whole_end -> bool **)
 
-let check_end q weight strict negative e r w =
+let check_end q weight strict negative0 e r w =
   (&&) (Z.ltb Big_int_Z.zero_big_int w.end_scale)
     (match w.end_factor with
      | Dense (weights0, rows) ->
@@ -2218,14 +2282,14 @@ let check_end q weight strict negative e r w =
          ((&&)
            (eq_op nat_eqType (Obj.magic size rows)
              (Obj.magic size (members q weight r)))
-           (covered (member_form negative w.end_scale e)
+           (covered (member_form negative0 w.end_scale e)
              (weighted_dot weights0) strict (zip (members q weight r) rows)))
      | Late (m, rows) ->
        (&&) (Z.leb Big_int_Z.zero_big_int m)
          ((&&)
            (eq_op nat_eqType (Obj.magic size rows)
              (Obj.magic size (members q weight r)))
-           (covered (member_form negative w.end_scale e) (fun a b ->
+           (covered (member_form negative0 w.end_scale e) (fun a b ->
              Z.mul m (late_dot a b)) strict (zip (members q weight r) rows))))
 
 (** val check_whole : pencil -> region -> whole -> bool **)
@@ -3387,6 +3451,224 @@ let check_zero z0 u c =
                       (iota 0 (size z0.without_zero.particles)))
                     (has (dof_moves c.lifted_part)
                       (iota 0 z0.without_zero.dofs))))))))))
+
+type form = sparse_row * sparse_row
+
+(** val rate_form : planar -> slip_particle -> form **)
+
+let rate_form e p =
+  (((p.first_dof, (fst e)) :: ((p.second_dof, (snd e)) :: [])), [])
+
+(** val at_both :
+    (int -> sparse_row) -> slip_particle -> planar -> sparse_row **)
+
+let at_both rows p e =
+  cat (multiple (fst e) (rows p.first_dof))
+    (multiple (snd e) (rows p.second_dof))
+
+(** val force_form : zero_system -> unknown -> int -> form **)
+
+let force_form z0 u d =
+  ((k_row z0.without_zero d),
+    (match u with
+     | Mu -> []
+     | Lambda2 (_, _) -> m_row z0.without_zero d))
+
+(** val pressing_form :
+    zero_system -> unknown -> planar -> slip_particle -> form **)
+
+let pressing_form z0 u e p =
+  ((at_both (k_row z0.without_zero) p e),
+    (match u with
+     | Mu -> []
+     | Lambda2 (_, _) -> at_both (m_row z0.without_zero) p e))
+
+(** val cone_form : zero_system -> unknown -> slip_particle -> form **)
+
+let cone_form z0 u p =
+  match u with
+  | Mu ->
+    ((at_both (k_row z0.without_zero) p
+       (direction p.sign_of Big_int_Z.zero_big_int p)),
+      (at_both (k_row z0.without_zero) p
+        (direction Big_int_Z.zero_big_int Big_int_Z.unit_big_int p)))
+  | Lambda2 (m, q) ->
+    ((at_both (k_row z0.without_zero) p (direction (Z.mul q p.sign_of) m p)),
+      (at_both (m_row z0.without_zero) p (direction (Z.mul q p.sign_of) m p)))
+
+(** val negative : form -> form **)
+
+let negative f =
+  ((multiple (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (fst f)),
+    (multiple (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (snd f)))
+
+(** val sliding_form : slip_particle -> form **)
+
+let sliding_form p =
+  rate_form (direction p.sign_of Big_int_Z.zero_big_int p) p
+
+(** val slides : zero_system -> int list -> int -> bool **)
+
+let slides z0 support0 j =
+  in_mem (Obj.magic addn (free_number z0.without_zero) j)
+    (mem (seq_predType nat_eqType) (Obj.magic support0))
+
+(** val sliding_line : zero_system -> int -> form **)
+
+let sliding_line z0 j =
+  ((((addn z0.without_zero.dofs j),
+    Big_int_Z.unit_big_int) :: (fst
+                                 (sliding_form (particle z0.without_zero j)))),
+    [])
+
+(** val slip_equations : zero_system -> int list -> int -> form list **)
+
+let slip_equations z0 support0 j =
+  let p = particle z0.without_zero j in
+  (rate_form p.normal p) :: ((if slides z0 support0 j
+                              then sliding_line z0 j
+                              else sliding_form p) :: [])
+
+(** val zero_equations :
+    zero_system -> unknown -> int list -> int -> form list **)
+
+let zero_equations z0 u support0 j =
+  let p = zero_particle z0 j in
+  if in_mem (Obj.magic gap z0 j)
+       (mem (seq_predType nat_eqType) (Obj.magic support0))
+  then (pressing_form z0 u p.normal p) :: ((pressing_form z0 u p.tangent p) :: [])
+  else (rate_form p.normal p) :: ((if in_mem (Obj.magic right z0 j)
+                                        (mem (seq_predType nat_eqType)
+                                          (Obj.magic support0))
+                                   then cone_form z0 u
+                                          (with_sign (Big_int_Z.minus_big_int
+                                            Big_int_Z.unit_big_int) p)
+                                   else if in_mem (Obj.magic left z0 j)
+                                             (mem (seq_predType nat_eqType)
+                                               (Obj.magic support0))
+                                        then cone_form z0 u
+                                               (with_sign
+                                                 Big_int_Z.unit_big_int p)
+                                        else rate_form p.tangent p) :: [])
+
+(** val all_equations : zero_system -> unknown -> int list -> form list **)
+
+let all_equations z0 u support0 =
+  cat (map0 (fun d -> force_form z0 u d) z0.without_zero.free_dofs)
+    (cat
+      (flatten
+        (map0 (fun j -> slip_equations z0 support0 j)
+          (iota 0 (size z0.without_zero.particles))))
+      (cat
+        (flatten
+          (map0 (fun j -> zero_equations z0 u support0 j)
+            (iota 0 (size z0.zero_particles))))
+        (map0 (fun d -> (((d, Big_int_Z.unit_big_int) :: []), []))
+          (filter (fun d ->
+            negb
+              (in_mem (Obj.magic d)
+                (mem (seq_predType nat_eqType)
+                  (Obj.magic moving_with_zero z0))))
+            (iota 0 z0.without_zero.dofs)))))
+
+(** val slip_line : zero_system -> unknown -> int -> form **)
+
+let slip_line z0 u j =
+  negative (cone_form z0 u (particle z0.without_zero j))
+
+(** val zero_inequalities :
+    zero_system -> unknown -> int list -> int -> form list **)
+
+let zero_inequalities z0 u support0 j =
+  let p = zero_particle z0 j in
+  let opening = negative (rate_form p.normal p) in
+  let opens =
+    in_mem (Obj.magic gap z0 j)
+      (mem (seq_predType nat_eqType) (Obj.magic support0))
+  in
+  (if opens then opening else negative (pressing_form z0 u p.normal p)) :: ((
+  if in_mem (Obj.magic right z0 j)
+       (mem (seq_predType nat_eqType) (Obj.magic support0))
+  then rate_form p.tangent p
+  else if opens
+       then opening
+       else negative
+              (cone_form z0 u
+                (with_sign (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p))) :: ((
+  if in_mem (Obj.magic left z0 j)
+       (mem (seq_predType nat_eqType) (Obj.magic support0))
+  then negative (rate_form p.tangent p)
+  else if opens
+       then opening
+       else negative (cone_form z0 u (with_sign Big_int_Z.unit_big_int p))) :: []))
+
+(** val all_inequalities : zero_system -> unknown -> int list -> form list **)
+
+let all_inequalities z0 u support0 =
+  flatten
+    (map0 (fun j -> zero_inequalities z0 u support0 j)
+      (iota 0 (size z0.zero_particles)))
+
+(** val all_forms : zero_system -> unknown -> int list -> form list **)
+
+let all_forms z0 u support0 =
+  cat (all_equations z0 u support0)
+    (cat
+      (map0 (fun j -> slip_line z0 u j)
+        (iota 0 (size z0.without_zero.particles)))
+      (all_inequalities z0 u support0))
+
+(** val pencil_of_forms : zero_system -> form list -> pencil **)
+
+let pencil_of_forms z0 forms =
+  { order = (size forms); rows_a = (map0 fst forms); rows_b =
+    (map0 snd forms); free = (iota 0 z0.without_zero.dofs) }
+
+(** val support_pencil : zero_system -> unknown -> int list -> pencil **)
+
+let support_pencil z0 u support0 =
+  pencil_of_forms z0 (all_forms z0 u support0)
+
+(** val slipping_variables : zero_system -> int list -> int list **)
+
+let slipping_variables z0 support0 =
+  map0 (fun j -> addn z0.without_zero.dofs j)
+    (filter (fun j -> slides z0 support0 j)
+      (iota 0 (size z0.without_zero.particles)))
+
+(** val one_half : zero_system -> int list -> int -> bool **)
+
+let one_half z0 support0 j =
+  (&&)
+    (negb
+      ((&&)
+        (in_mem (Obj.magic right z0 j)
+          (mem (seq_predType nat_eqType) (Obj.magic support0)))
+        (in_mem (Obj.magic left z0 j)
+          (mem (seq_predType nat_eqType) (Obj.magic support0)))))
+    (implb
+      (in_mem (Obj.magic gap z0 j)
+        (mem (seq_predType nat_eqType) (Obj.magic support0)))
+      ((||)
+        (in_mem (Obj.magic right z0 j)
+          (mem (seq_predType nat_eqType) (Obj.magic support0)))
+        (in_mem (Obj.magic left z0 j)
+          (mem (seq_predType nat_eqType) (Obj.magic support0)))))
+
+(** val check_zero_enclosed :
+    zero_system -> unknown -> int list -> enclosed_claim -> bool **)
+
+let check_zero_enclosed z0 u support0 c =
+  (&&) (zero_wellformed z0 u)
+    ((&&) (zero_variables z0 support0)
+      ((&&) (all (one_half z0 support0) (iota 0 (size z0.zero_particles)))
+        ((&&)
+          (eq_op nat_eqType (Obj.magic size (all_equations z0 u support0))
+            (Obj.magic z0.without_zero.dofs))
+          ((&&)
+            (eq_op (seq_eqType nat_eqType) (Obj.magic c.box_support)
+              (Obj.magic slipping_variables z0 support0))
+            (check_enclosed_claim (support_pencil z0 u support0) c)))))
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
@@ -4634,7 +4916,7 @@ let local_region r =
 
 let check_local p r = function
 | LocalFarkas w -> farkas p r w
-| LocalDefinite (negative, low, high) -> definite p negative r low high
+| LocalDefinite (negative0, low, high) -> definite p negative0 r low high
 | LocalAbsent c -> check_absent p r c
 | LocalRoot (c, o) -> check_root p r c o
 
@@ -4972,9 +5254,9 @@ let box_farkas p p' r w =
     enclosed -> enclosed -> region -> bool -> (factor * factor) ->
     (factor * factor) -> bool **)
 
-let box_definite p p' r negative f f' =
-  (&&) (definite p negative r (fst f) (snd f))
-    (definite p' negative r (fst f') (snd f'))
+let box_definite p p' r negative0 f f' =
+  (&&) (definite p negative0 r (fst f) (snd f))
+    (definite p' negative0 r (fst f') (snd f'))
 
 (** val mixed_matrix : point -> matrix -> matrix -> matrix **)
 
@@ -5060,11 +5342,11 @@ let check_critical_leaf s parts r low high = function
    | Some p ->
      let (p0, p1) = p in box_farkas (mixed low p0 p1) (mixed high p0 p1) r v
    | None -> false)
-| BoxDefinite (negative, f, f') ->
+| BoxDefinite (negative0, f, f') ->
   (match parts with
    | Some p ->
      let (p0, p1) = p in
-     box_definite (mixed low p0 p1) (mixed high p0 p1) r negative f f'
+     box_definite (mixed low p0 p1) (mixed high p0 p1) r negative0 f f'
    | None -> false)
 | BoxWhole (a, b) ->
   (&&) (same_weights s a b)
@@ -5123,8 +5405,8 @@ let expand_box s b =
 
 let check_parts p p' r low high = function
 | BoxFarkas v -> box_farkas (mixed low p p') (mixed high p p') r v
-| BoxDefinite (negative, f, f') ->
-  box_definite (mixed low p p') (mixed high p p') r negative f f'
+| BoxDefinite (negative0, f, f') ->
+  box_definite (mixed low p p') (mixed high p p') r negative0 f f'
 | BoxWhole (_, _) -> false
 
 (** val local_part :

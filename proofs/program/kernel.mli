@@ -1,6 +1,8 @@
 
 type __ = Obj.t
 
+val implb : bool -> bool -> bool
+
 val negb : bool -> bool
 
 val fst : ('a1 * 'a2) -> 'a1
@@ -196,6 +198,8 @@ module Equality :
 
 val eq_op : Equality.coq_type -> Equality.sort rel
 
+val eqP : Equality.coq_type -> Equality.sort Equality.axiom
+
 val eqb0 : bool -> bool -> bool
 
 val eqbP : bool Equality.axiom
@@ -253,6 +257,15 @@ val has : 'a1 pred0 -> 'a1 list -> bool
 val all : 'a1 pred0 -> 'a1 list -> bool
 
 val drop : int -> 'a1 list -> 'a1 list
+
+val eqseq :
+  Equality.coq_type -> Equality.sort list -> Equality.sort list -> bool
+
+val eqseqP : Equality.coq_type -> Equality.sort list Equality.axiom
+
+val seq_eqMixin : Equality.coq_type -> Equality.sort list Equality.mixin_of
+
+val seq_eqType : Equality.coq_type -> Equality.coq_type
 
 val mem_seq : Equality.coq_type -> Equality.sort list -> Equality.sort -> bool
 
@@ -1119,6 +1132,51 @@ val zero_states : zero_system -> unknown -> zero_claim -> int -> bool
 val zero_variables : zero_system -> int list -> bool
 
 val check_zero : zero_system -> unknown -> zero_claim -> bool
+
+type form = sparse_row * sparse_row
+
+val rate_form : planar -> slip_particle -> form
+
+val at_both : (int -> sparse_row) -> slip_particle -> planar -> sparse_row
+
+val force_form : zero_system -> unknown -> int -> form
+
+val pressing_form : zero_system -> unknown -> planar -> slip_particle -> form
+
+val cone_form : zero_system -> unknown -> slip_particle -> form
+
+val negative : form -> form
+
+val sliding_form : slip_particle -> form
+
+val slides : zero_system -> int list -> int -> bool
+
+val sliding_line : zero_system -> int -> form
+
+val slip_equations : zero_system -> int list -> int -> form list
+
+val zero_equations : zero_system -> unknown -> int list -> int -> form list
+
+val all_equations : zero_system -> unknown -> int list -> form list
+
+val slip_line : zero_system -> unknown -> int -> form
+
+val zero_inequalities : zero_system -> unknown -> int list -> int -> form list
+
+val all_inequalities : zero_system -> unknown -> int list -> form list
+
+val all_forms : zero_system -> unknown -> int list -> form list
+
+val pencil_of_forms : zero_system -> form list -> pencil
+
+val support_pencil : zero_system -> unknown -> int list -> pencil
+
+val slipping_variables : zero_system -> int list -> int list
+
+val one_half : zero_system -> int list -> int -> bool
+
+val check_zero_enclosed :
+  zero_system -> unknown -> int list -> enclosed_claim -> bool
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 

@@ -138,6 +138,19 @@ let work_of (problem : Problem.t) (pencil : Kernel.pencil) = function
         largest_enclosed;
     (1 + pencil.order + entries pencil.rows_a + entries pencil.rows_b + m * m / 8) * m * 128
 
+(* The same for a box with zero reaction, whose pencil is that of the kernel. *)
+let zero_box_work (zero : Kernel.zero_system) (e : Certificate.enclosed) =
+  let system = zero.without_zero in
+  let frees = List.length system.free_dofs in
+  let variables = frees + List.length system.particles + 3 * List.length zero.zero_particles in
+  if List.exists (fun i -> i < frees || i >= variables) e.box_support then
+    raise (Rejected "a box that does not fit the pencil");
+  let m = system.dofs + List.length e.box_support in
+  if m > largest_enclosed then
+    Problem.not_verified "an enclosed solution of more than %d active variables" largest_enclosed;
+  let entries = 4 * (entries system.stiffness + entries system.mass + system.dofs) in
+  (1 + system.dofs + entries + m * m / 8) * m * 128
+
 let limit_work (problem : Problem.t) pencil claims =
   let n = pencil.Kernel.order in
   let size = match problem.question with
@@ -193,17 +206,22 @@ let verify_lifted (problem : Problem.t) pencil (l : Certificate.lifted) =
     refuse_unless (Kernel.check_lifted system unknown claim);
     lazy (Kernel.ExactClaim (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l)))
 
-(* The interval that is proved lies in that of the claim. *)
-let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
-    (e : Certificate.enclosed) =
-  let active = List.length pencil.Kernel.free + List.length e.box_support in
+(* The interval of values of a box of a problem with so many free variables. *)
+let value_of_box (e : Certificate.enclosed) free_number =
+  let active = free_number + List.length e.box_support in
   if e.box_support = [] || not (ascending e.box_support)
-  || List.exists (fun i -> i >= pencil.order || List.mem i pencil.free) e.box_support
   || List.length e.center <> active + 1 || List.length e.radius <> active + 1
   || List.exists (fun r -> Q.sign r <= 0) e.radius then
     raise (Rejected "a box that does not fit the pencil");
   let center = List.nth e.center active and radius = List.nth e.radius active in
-  let value = Q.sub center radius, Q.add center radius in
+  Q.sub center radius, Q.add center radius
+
+(* The interval that is proved lies in that of the claim. *)
+let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
+    (e : Certificate.enclosed) =
+  if List.exists (fun i -> i >= pencil.Kernel.order || List.mem i pencil.free) e.box_support then
+    raise (Rejected "a box that does not fit the pencil");
+  let value = value_of_box e (List.length pencil.free) in
   in_window certificate value;
   match Elaborate.enclosed_claim_of pencil e with
   | None -> raise (Elaborate.No_witness "an enclosed solution")
@@ -255,8 +273,23 @@ let limit_motions works =
   if List.fold_left (+) 0 works > 1 lsl 36 then
     Problem.not_verified "claims beyond the limits of this program"
 
-(* Exact and lifted claims of a system with particles in contact with zero reaction: the kernel
-   checks the motion of the claim and its forces. *)
+(* An enclosed claim with particles in contact with zero reaction.  The interval that is proved lies
+   in that of the claim. *)
+let verify_zero_box (certificate : Certificate.t) (zero : Kernel.zero_system) unknown
+    (e : Certificate.enclosed) =
+  let value = value_of_box e (List.length zero.without_zero.free_dofs) in
+  in_window certificate value;
+  let refuse () = raise (Elaborate.No_witness "an enclosed solution") in
+  match Elaborate.zero_enclosed_of zero unknown e with
+  | None -> refuse ()
+  | Some claim ->
+    let low = Elaborate.value_of claim.box_from and high = Elaborate.value_of claim.box_to in
+    refuse_unless (Q.geq low (fst value) && Q.leq high (snd value));
+    if not (Kernel.check_zero_enclosed zero unknown e.box_support claim) then refuse ();
+    show_claim (low, high) e.box_support
+
+(* Claims about a system with particles in contact with zero reaction.  Of an exact or lifted claim
+   the kernel checks the motion and its forces. *)
 let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kernel.zero_system)
     unknown =
   if certificate.pieces <> [] then Problem.not_verified "a cover of a problem with zero reaction";
@@ -267,7 +300,7 @@ let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kern
   let size = system.dofs * system.dofs + entries system.stiffness + entries system.mass in
   if size > 1 lsl 22 then Problem.not_verified "claims about more than 2,048 variables";
   let work_as_given = function
-    | Certificate.Enclosed _ -> Problem.not_verified "an enclosed claim with zero reaction"
+    | Certificate.Enclosed e -> zero_box_work zero e
     | Exact e ->
       if List.length e.x <> variables then raise (Rejected "a claim with too few components");
       motion_work system.dofs e e.x
@@ -278,12 +311,13 @@ let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kern
   limit_motions (List.map work_as_given certificate.claims);
 
   let motion = function
-    | Certificate.Exact e -> Elaborate.lifted_of_exact zero unknown factor e
-    | Lifted l -> l
-    | Enclosed _ -> invalid_arg "an enclosed claim" in
-  let motions = List.map motion certificate.claims in
+    | Certificate.Exact e -> Either.Left (Elaborate.lifted_of_exact zero unknown factor e)
+    | Lifted l -> Left l
+    | Enclosed e -> Right e in
+  let claims = List.map motion certificate.claims in
   limit_motions (List.map (fun (l : Certificate.lifted) ->
-      motion_work system.dofs l.motion (l.motion.x @ l.forces)) motions);
+      motion_work system.dofs l.motion (l.motion.x @ l.forces))
+      (fst (List.partition_map Fun.id claims)));
 
   let verify_motion (l : Certificate.lifted) =
     check_root certificate l.motion;
@@ -293,7 +327,8 @@ let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kern
     refuse_unless (states claim.lifted_part.motion_claim l.motion);
     refuse_unless (Kernel.check_zero zero unknown claim);
     show_claim l.motion.value l.motion.support in
-  let shown = timed "claims" (fun () -> List.map verify_motion motions) in
+  let verify = Either.fold ~left:verify_motion ~right:(verify_zero_box certificate zero unknown) in
+  let shown = timed "claims" (fun () -> List.map verify claims) in
   Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
     (List.length shown);
   List.iter (fun show -> show ()) shown;

@@ -2,7 +2,7 @@
 
 Usage: python tutorial.py FOLDER [CELLS_X CELLS_Y MU]
 
-Writes K.mtx, M.mtx and contacts.csv into FOLDER. Units: N, mm, t, s.
+Writes K.mtx, M.mtx, contacts.csv and nodes.csv into FOLDER. Units: N, mm, t, s.
 The block (80 mm x 40 mm, 1 mm thick, plane stress) is glued to a plate at its upper side; the plate has been
 pressed down by 1 mm and moved to the left until every node in contact slips.
 """
@@ -71,4 +71,10 @@ with open(folder / "contacts.csv", "w") as out:
     for k, (t, n) in enumerate(zip(tangential, normal)):
         state, r_t, r_n = ("slip-", r[t], r[n]) if contact[k] else ("free", 0.0, 0.0)
         print(f"node {k},{place[t]},{place[n]},-1,{state},{r_t:.17g},{r_n:.17g}", file=out)
+with open(folder / "nodes.csv", "w") as out:
+    print("node,x,y,dof_x,dof_y,edges_to", file=out)
+    for k, dofs in enumerate(basis.nodal_dofs.T):
+        names = ",".join(str(place[dof]) if place[dof] >= 0 else "" for dof in dofs)
+        ends = " ".join(str(b) for a, b in mesh.facets.T if a == k)
+        print(f"{k},{x[k]},{y[k]},{names},{ends}", file=out)
 print(f"{len(kept)} degrees of freedom, {contact.sum()} of {len(nodes)} nodes slide, mu = {mu}")

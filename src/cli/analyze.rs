@@ -16,6 +16,7 @@ use mceip_exact::Rational;
 use mceip_model::file::write_problem;
 use mceip_model::{Body, System};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 /// Arguments of `analyze`.
 #[derive(clap::Args)]
@@ -36,7 +37,8 @@ pub(super) struct Args {
     /// Write every certificate and its problem into this folder, for `mceip check`.
     #[arg(long, value_name = "DIR")]
     certificates: Option<PathBuf>,
-    /// Write the answers with their evidence and the modes as one HTML page that needs no network.
+    /// Write the answers with their evidence and the modes as one HTML page that needs no network;
+    /// with pictures of the body where the problem file has coordinates.
     #[arg(long, value_name = "OUT")]
     report: Option<PathBuf>,
     /// Threads (default: all cores). The answer does not depend on it.
@@ -84,7 +86,13 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         None => Vec::new(),
     };
     if let Some(output) = report {
-        output.write(&page::page(&analysis, &paths))?;
+        let drawn = page::Drawn {
+            system,
+            coordinates: problem.coordinates.as_ref(),
+            paths: &paths,
+            date: SystemTime::now(),
+        };
+        output.write(&page::page(&analysis, &drawn))?;
     }
 
     let text = if args.json {

@@ -84,6 +84,14 @@ pub(super) enum CliError {
         /// What is wrong with it.
         source: mceip_paper::ContactsError,
     },
+    /// A table of nodes.
+    #[error("{path}: {source}")]
+    Nodes {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: mceip_paper::NodesError,
+    },
     /// Displacements that are none, or of another body.
     #[error("{path}: expected {expected} numbers, one for each degree of freedom, got {got}")]
     Displacements {

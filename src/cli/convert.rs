@@ -9,11 +9,11 @@ use super::common::{CliError, exit, positive, print, text};
 use super::output::Output;
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::{read_matrix_market, read_particles, write_problem};
-use mceip_model::{Body, Particle, Problem, System, Unknown, Window};
+use mceip_model::{Body, Coordinates, Particle, Problem, System, Unknown, Window};
 use mceip_paper::calculix::{CalculixError, read_dofs, read_triangle};
 use mceip_paper::{
     Asymmetry, ContactTable, Frame, Plausibility, PlausibilityInput, angle_in_degrees, asymmetry,
-    make_frames_exact, read_contacts, symmetric_part,
+    make_frames_exact, read_contacts, read_nodes, symmetric_part,
 };
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -41,6 +41,10 @@ pub(super) struct Args {
     /// for each row of K, one a line, or a Matrix Market file with one column.
     #[arg(long, value_name = "FILE")]
     displacements: Option<PathBuf>,
+    /// Where the nodes are, for the pictures of `analyze --report`: CSV (columns in
+    /// spec/tutorial.md). Names of particles are then kept too.
+    #[arg(long, value_name = "FILE")]
+    coordinates: Option<PathBuf>,
     /// Take the mean of K and its transpose, and of M and its, where they differ by rounding (1e-12
     /// of the largest entry). The comment in the problem file says so.
     #[arg(long)]
@@ -59,6 +63,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let mut inputs: Vec<&Path> = vec![&args.stiffness, &args.mass, &args.contacts];
     inputs.extend(args.dof.as_deref());
     inputs.extend(args.displacements.as_deref());
+    inputs.extend(args.coordinates.as_deref());
     let output = Output::prepare("out", &args.out, &inputs)?;
 
     let dofs = args.dof.as_deref().map(read_dof_names).transpose()?;
@@ -79,6 +84,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
 
     let system = System::new(stiffness, Some(mass), Some(friction), contacts.particles)?;
+    let coordinates = match &args.coordinates {
+        Some(path) => Some(read_coordinates(path, &indices, contacts.names, &system)?),
+        None => None,
+    };
     let slip = system.slip_particles().len();
     let dofs = system.dofs();
     let plausibility = Plausibility::new(&PlausibilityInput {
@@ -90,6 +99,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     let mut problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
     problem.name = args.name.clone();
+    problem.coordinates = coordinates;
     if !changes.is_empty() {
         problem.comment = Some(changes.join(" "));
     }
@@ -203,6 +213,7 @@ fn read_states(
         let reactions = vec![None; particles.len()];
         return Ok(ContactTable {
             particles,
+            names: Vec::new(),
             reactions,
         });
     }
@@ -212,6 +223,26 @@ fn read_states(
         path: path.display().to_string(),
         source,
     })
+}
+
+/// The nodes of a table, and the names of the particles if at least one has a name.
+fn read_coordinates(
+    path: &Path,
+    indices: &DofIndices,
+    names: Vec<String>,
+    system: &System,
+) -> Result<Coordinates, CliError> {
+    let source = text("the coordinates", path)?;
+    let table = read_nodes(&source, &|name| indices.index(name));
+    let table = table.map_err(|source| CliError::Nodes {
+        path: path.display().to_string(),
+        source,
+    })?;
+
+    let has_names = names.iter().any(|name| !name.is_empty());
+    let names = if has_names { names } else { Vec::new() };
+    let coordinates = Coordinates::new(table.nodes, table.edges, names, system);
+    coordinates.map_err(|source| CliError::file(path, source))
 }
 
 /// A displacement for each of `order` degrees of freedom: plain numbers, or Matrix Market.

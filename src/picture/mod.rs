@@ -7,9 +7,11 @@
 //!
 //! `markup` a tree of elements, `drawing` the picture made of them, `scale` and `chart` axes,
 //! `marker` and `legend` the contact states; then a file for each picture: [`mode_picture`],
-//! [`path_picture`], [`threshold_picture`], [`branch_picture`], [`table1_picture`],
-//! [`cost_picture`], [`motion_picture`]; [`Report`] puts them into a page.
+//! [`body_picture`], [`path_picture`], [`threshold_picture`], [`branch_picture`],
+//! [`presence_picture`], [`table1_picture`], [`cost_picture`], [`motion_picture`]; [`Report`] puts
+//! them into a page.
 
+mod body;
 mod branch;
 mod chart;
 mod cost;
@@ -22,11 +24,13 @@ mod motion;
 mod path;
 #[cfg(feature = "png")]
 mod png;
+mod presence;
 mod report;
 mod scale;
 mod table1;
 mod threshold;
 
+pub use body::{BodyDrawing, BodyMode, body_picture};
 pub use branch::{BranchPoint, Branches, branch_picture};
 pub use cost::{CostSeries, cost_picture};
 pub use drawing::Picture;
@@ -37,6 +41,7 @@ pub use motion::{MotionSeries, motion_picture};
 pub use path::path_picture;
 #[cfg(feature = "png")]
 pub use png::PngError;
+pub use presence::{Presence, PresenceChart, PresenceRange, presence_picture};
 pub use report::{Content, Report, Section};
 pub use scale::{Scale, Spread};
 pub use table1::table1_picture;

@@ -34,7 +34,7 @@ pub enum Content {
     Table {
         /// What the table shows.
         caption: String,
-        /// The first row.
+        /// The first row; empty for none.
         header: Vec<String>,
         /// The others.
         rows: Vec<Vec<String>>,
@@ -47,6 +47,9 @@ pub enum Content {
         caption: String,
     },
 }
+
+/// Rows up to which a table is shown at once.
+const UNFOLDED: usize = 20;
 
 /// The style sheet of the page.
 const STYLE: &str = concat!(
@@ -65,6 +68,7 @@ const STYLE: &str = concat!(
     "figure{margin:1.5em 0;break-inside:avoid}",
     "figcaption{font-size:.9em}",
     "svg{max-width:100%;height:auto}",
+    "summary{cursor:pointer;font-style:italic;font-size:.85em;margin:1em 0}",
 );
 
 /// What made the page.
@@ -146,18 +150,29 @@ impl Content {
     }
 }
 
-/// A table in a frame that scrolls where the page is too narrow.
+/// A table in a frame that scrolls where the page is too narrow; a long one is folded.
 fn table(caption: &str, header: &[String], rows: &[Vec<String>]) -> Element {
+    let is_long = rows.len() > UNFOLDED;
+    let summary = Element::new("summary").text(format!("{caption} ({} rows)", rows.len()));
     let caption = Element::new("caption").text(caption);
-    let head = Element::new("thead").child(table_row("th", header));
-
     // The empty text keeps the element open where there are no rows.
     let body = Element::new("tbody")
         .text("")
         .children(rows.iter().map(|row| table_row("td", row)));
 
-    let table = Element::new("table").child(caption).child(head).child(body);
-    Element::new("div").with("class", "wide").child(table)
+    let mut table = Element::new("table").child(caption);
+    if !header.is_empty() {
+        table.push(Element::new("thead").child(table_row("th", header)));
+    }
+    table.push(body);
+
+    let frame = Element::new("div").with("class", "wide").child(table);
+
+    if is_long {
+        Element::new("details").child(summary).child(frame)
+    } else {
+        frame
+    }
 }
 
 /// A row of cells of this kind, `th` or `td`.

@@ -467,6 +467,34 @@ fn faer_stands_behind_one_file_and_tolerances_in_theirs() {
 }
 
 /// Cargo links the groups of `tests/`; a file that its group does not name would never run.
+/// The two numbers after `prefix` in the first line of a text that holds it: "1.95" is [1, 95].
+fn version_after(text: &str, prefix: &str) -> [u32; 2] {
+    let (_, rest) = text.split_once(prefix).unwrap();
+    let mut numbers = rest.split(|c: char| !c.is_ascii_digit());
+    let mut next = || numbers.next().unwrap().parse().unwrap();
+    [next(), next()]
+}
+
+/// The manifests, the pages and the image speak of the same Rust.
+#[test]
+fn one_oldest_rust_is_stated_everywhere() {
+    let read = |path: &str| std::fs::read_to_string(root().join(path)).unwrap();
+    let oldest = version_after(&read("Cargo.toml"), "rust-version = \"");
+
+    assert_eq!(
+        version_after(&read("python/Cargo.toml"), "rust-version = \""),
+        oldest
+    );
+    assert_eq!(
+        version_after(&read("README.md"), "machine with Rust ("),
+        oldest
+    );
+    assert_eq!(version_after(&read("CONTRIBUTING.md"), "Rust "), oldest);
+
+    let in_the_image = version_after(&read("Dockerfile"), "FROM rust:");
+    assert!(in_the_image >= oldest, "{in_the_image:?} and {oldest:?}");
+}
+
 #[test]
 fn every_file_of_a_group_of_tests_is_named_by_it() {
     let mut files = 0;

@@ -19,6 +19,8 @@ use mceip_model::file::read_problem_file;
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, TwoParticles, enumerate, table1, thresholds};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState, two_particles};
+use num_traits::Signed as _;
+use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -402,9 +404,19 @@ fn flutter_is_a_warning_where_divergence_is_absent() {
     assert!((flutter.growth_rate - (PI / 6.0).cos()).abs() < 1e-9);
     assert!((flutter.frequency - 0.5).abs() < 1e-9);
 
+    // Complex where 4 mu^2 - 8 mu + 1 < 0, from 1 - sqrt(3)/2 on.
+    let onset = flutter.onset.as_ref().unwrap();
+    assert!(side_of_the_least_mu(&onset.none_at).is_positive());
+    assert!(side_of_the_least_mu(&onset.some_at).is_negative());
+    let width = &onset.some_at - &onset.none_at;
+    assert_eq!(width, rational(1, 8 * 4096));
+
     let sentences = analysis.sentences();
     let words: String = sentences.iter().map(|s| s.text.as_str()).collect();
-    contains_all(&words, &["WARNING of flutter", "not stability"]);
+    contains_all(
+        &words,
+        &["WARNING of flutter", "tried, 0.134", "not stability"],
+    );
 
     assert!(!words.contains("is stable"), "{words}");
     assert!(!words.contains("is STABLE"), "{words}");
@@ -591,6 +603,44 @@ fn the_report_says_what_the_text_says() {
         &["mechanical system"],
     );
     assert!(!Path::new(&of_a_pencil).exists());
+}
+
+/// With coordinates the page shows the body and each mode, and the names of the particles; it is
+/// the same page but for them.
+#[test]
+fn the_report_draws_a_body_with_coordinates() {
+    let folder = Folder::new();
+    let page = folder.path("out.html");
+    let mut problem: Value = serde_json::from_str(&read(&example("two-particles"))).unwrap();
+    problem["coordinates"] = json!({
+        "nodes": [[0, 1, 0, 0], [2, 3, 2, 0], [null, null, 1, 1]],
+        "edges": [[0, 2], [1, 2]],
+        "particles": ["left foot", "<right>"],
+    });
+    let drawn = folder.write("drawn.json", &problem.to_string());
+    let on_page = ["--report", &page, "--samples", "0"];
+
+    let text = exits(0, &[&["analyze", &drawn][..], &on_page].concat());
+
+    let html = read(&page);
+    let tree = html.strip_prefix("<!DOCTYPE html>\n").unwrap();
+    let tree = roxmltree::Document::parse(tree).unwrap();
+    let pictures = tree.descendants().filter(|n| n.has_tag_name("svg"));
+    let modes = text.matches("\nMode ").count();
+    assert!(modes > 0, "{text}");
+    let body_and_presence = 2;
+    assert_eq!(pictures.count(), body_and_presence + modes);
+    contains_all(
+        &html,
+        &["left foot", "&lt;right&gt;", "Arrows: the mode times"],
+    );
+
+    let plain = example("two-particles");
+    let without = exits(0, &[&["analyze", &plain][..], &on_page].concat());
+    let html = read(&page);
+    assert_eq!(without.replace(&plain, &drawn), text);
+    assert_eq!(html.matches("<svg").count(), 1);
+    contains_all(&html, &["SHA-256", "Made on 2", "range absent proved"]);
 }
 
 /// An interrupt leaves everything undecided that was not done, and claims nothing.

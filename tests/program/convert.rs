@@ -187,6 +187,52 @@ fn every_route_makes_the_same_problem() {
     exits(0, &["analyze", &bench.path("out.json"), "--samples", "0"]);
 }
 
+/// Coordinates and labels are kept where coordinates are given, and change no digest; tables that
+/// do not fit are refused.
+#[test]
+fn coordinates_are_kept() {
+    let bench = Bench::new();
+    let conversion = matrix_market("K.mtx", "M.mtx", "c.csv");
+    let digest = conversion.digest(&bench);
+    let nodes = bench.path("nodes.csv");
+    let mut args = conversion.args(&bench, "drawn.json");
+    args.extend(["--coordinates".to_string(), nodes.clone()]);
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+
+    let table = "node,x,y,dof_x,dof_y,edges_to\na,0,0.5,2,3,b\nb,1,0.5,0,1,\nglued,0,1,,,a b\n";
+    bench.0.write("nodes.csv", table);
+    exits(0, &args);
+
+    let path = bench.path("drawn.json");
+    let problem = read_problem_file(Path::new(&path)).unwrap();
+    let coordinates = problem.coordinates.as_ref().unwrap();
+    assert_eq!(problem.sha256(), digest);
+    assert_eq!(coordinates.nodes().len(), 3);
+    assert_eq!(coordinates.edges(), [[0, 1], [0, 2], [1, 2]]);
+    assert_eq!(coordinates.particles(), ["left"]);
+    assert!(!read(&bench.path("out.json")).contains("coordinates"));
+
+    std::fs::remove_file(&path).unwrap();
+    for (from, to, words) in [
+        ("2,3,b", "2,4,b", &["nodes.csv", "line 2", "dof_y"][..]),
+        (
+            "2,3,b",
+            "2,3,c",
+            &["line 2", "edges_to", "names of other nodes"],
+        ),
+        (
+            "0,1,\n",
+            "2,1,\n",
+            &["nodes.csv", "each degree of freedom once"],
+        ),
+        ("dof_x", "dof", &["expected the columns", "dof_x"]),
+    ] {
+        bench.0.write("nodes.csv", &table.replace(from, to));
+        refused(&args, words);
+    }
+    assert!(!Path::new(&path).exists());
+}
+
 #[test]
 fn bad_files_are_one_line_and_no_output() {
     let bench = Bench::new();

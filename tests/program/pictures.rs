@@ -9,11 +9,13 @@
 use crate::common::{exit_code, exits_with_json, read};
 use crate::program::{Folder, refused};
 use mceip::picture::{
-    BranchPoint, Branches, CostSeries, Mark, Mode, Picture, Threshold, ThresholdColumn,
-    branch_picture, cost_picture, mode_picture, path_picture, table1_picture, threshold_picture,
+    BodyDrawing, BodyMode, BranchPoint, Branches, CostSeries, Mark, Mode, Picture, Presence,
+    PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture, branch_picture,
+    cost_picture, mode_picture, path_picture, presence_picture, table1_picture, threshold_picture,
 };
 use mceip_exact::to_f64;
-use mceip_model::ContactState;
+use mceip_model::file::read_problem;
+use mceip_model::{Body, ContactState, Problem};
 use mceip_paper::path::{Contact, Loading, LoadingPath};
 use mceip_paper::{Block, BlockModel, Triangulation};
 use roxmltree::{Document, Node};
@@ -196,6 +198,100 @@ fn picture_of_one_moved_node(mesh: &Triangulation, marks: &[Mark], motion: f64) 
     mode_picture("a < b & c", &mode)
 }
 
+/// Two particles on a wedge and a node above them: the markers point where the
+/// particles are about to slip, arrows are the mode, one factor for all.
+#[test]
+fn a_body_has_its_nodes_states_and_arrows() {
+    let problem = body_on_a_wedge();
+    let Body::System(system) = problem.body() else {
+        panic!("a system")
+    };
+    let mut drawing = BodyDrawing {
+        coordinates: problem.coordinates.as_ref().unwrap(),
+        particles: system.particles(),
+        mode: None,
+    };
+
+    let text = sound(&body_picture("body", &drawing));
+
+    let tree = Document::parse(&text).unwrap();
+    assert_eq!(count(&tree, "node"), 3);
+    assert_eq!(count(&tree, "arrow"), 0);
+    let edges = of_class(&tree, "edges")[0].attribute("d").unwrap();
+    assert_eq!(edges.matches('M').count(), 2);
+    let names = of_class(&tree, "name").into_iter().map(|n| n.text());
+    assert_eq!(names.collect::<Vec<_>>(), [Some("foot"), Some("1")]);
+
+    // S = 1: the first particle is about to slip against its tangent, which points to the upper
+    // right at 36.87 degrees; clockwise from the right that is 143.13. The second one slips to the
+    // right.
+    let turned = of_class(&tree, "slip-right");
+    let angle = |node: &Node<'_, '_>| {
+        let turn = node.attribute("transform").unwrap();
+        let degrees = turn.trim_start_matches("rotate(").split(' ').next();
+        degrees.unwrap().parse::<f64>().unwrap()
+    };
+    let angles: Vec<f64> = turned.iter().map(angle).collect();
+    assert_eq!(angles, [143.13, 0.0]);
+
+    let v = [0.5, -0.25, 0.0, 0.0, f64::NAN, 0.0];
+    drawing.mode = Some(BodyMode {
+        v: &v,
+        slipping: &[0],
+    });
+    let text = sound(&body_picture("mode", &drawing));
+    let tree = Document::parse(&text).unwrap();
+    assert_eq!(count(&tree, "arrow"), 1);
+    assert_eq!(count(&tree, "caught"), 1);
+
+    // v points to the right and down; on paper down is positive.
+    let arrow = of_class(&tree, "arrow")[0];
+    let shaft = arrow.children().find(|n| n.has_tag_name("line")).unwrap();
+    let along = |from, to| number(&shaft, to).unwrap() - number(&shaft, from).unwrap();
+    assert!(along("x1", "x2") > 0.0);
+    assert!((along("y1", "y2") / along("x1", "x2") - 0.5).abs() < 0.01);
+    let scale = of_class(&tree, "scale")[0].text().unwrap();
+    assert!(scale.contains("the longest is |v| = 0.559."), "{scale}");
+
+    // Nothing moves, all nodes at one place, places at the end of what is read.
+    drawing.mode = Some(BodyMode {
+        v: &[],
+        slipping: &[],
+    });
+    assert!(sound(&body_picture("rest", &drawing)).contains("No node moves"));
+    for place in ["0", "1e-300", "1e154"] {
+        let problem = with_second_node_at(place);
+        let elsewhere = BodyDrawing {
+            coordinates: problem.coordinates.as_ref().unwrap(),
+            particles: system.particles(),
+            mode: None,
+        };
+        let text = sound(&body_picture("body", &elsewhere));
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{place}");
+    }
+}
+
+fn body_on_a_wedge() -> Problem {
+    with_second_node_at("2")
+}
+
+/// Three nodes: (0, 0), (x, 0), and (0, 0) again, where nothing moves along y.
+fn with_second_node_at(x: &str) -> Problem {
+    let text = format!(
+        r#"{{"format": "mceip-problem/1", "unknown": "mu",
+            "coordinates": {{"nodes": [[0, 1, 0, 0], [2, 3, "{x}", 0], [4, null, 0, 0]],
+                             "edges": [[0, 2], [1, 2]], "particles": ["foot", ""]}},
+            "system": {{"stiffness": {{"rows": 5, "cols": 5, "symmetric": true,
+                                       "entries": [[0, 0, 1], [1, 1, 1], [2, 2, 1], [3, 3, 1],
+                                                   [4, 4, 1]]}},
+                        "particles": [{{"tangential": 0, "normal": 1, "state": "slip", "sign": 1,
+                                        "frame": [["4/5", "3/5"], ["-3/5", "4/5"]]}},
+                                      {{"tangential": 2, "normal": 3, "state": "slip",
+                                        "sign": -1}}]}}}}"#
+    );
+    read_problem(&text, std::path::Path::new(".")).unwrap()
+}
+
 #[test]
 fn the_path_is_drawn_as_it_is() {
     let path = path();
@@ -299,6 +395,89 @@ fn thresholds_and_branches_are_the_numbers_given() {
     // Pictures without data.
     sound(&branch_picture("e", &Branches::default()));
     sound(&threshold_picture("e", &[], 1.1));
+}
+
+/// Absent below 1, present at the samples 1.2 and 2, undecided from 2.5 on.
+fn presence_of_every_kind() -> PresenceChart {
+    PresenceChart {
+        ranges: vec![
+            PresenceRange {
+                presence: Presence::Absent,
+                from: 0.0,
+                to: Some(1.0),
+                is_proved: true,
+            },
+            PresenceRange {
+                presence: Presence::Present,
+                from: 1.2,
+                to: Some(2.0),
+                is_proved: false,
+            },
+            PresenceRange {
+                presence: Presence::Undecided,
+                from: 2.5,
+                to: None,
+                is_proved: false,
+            },
+        ],
+        samples: vec![
+            (1.2, Presence::Present),
+            (2.0, Presence::Present),
+            (2.5, Presence::Undecided),
+        ],
+        friction: 3.0,
+        critical: Some(1.0625),
+    }
+}
+
+#[test]
+fn presence_is_drawn_at_its_values_of_mu() {
+    let presence = presence_of_every_kind();
+    let text = sound(&presence_picture("presence", &presence));
+    let tree = Document::parse(&text).unwrap();
+
+    let ranges = of_class(&tree, "range");
+    assert_eq!(data(&ranges, "data-from"), [0.0, 1.2, 2.5]);
+    let classes: Vec<&str> = ranges.iter().filter_map(|r| r.attribute("class")).collect();
+    let expected = [
+        "range absent proved",
+        "range present sampled",
+        "range undecided sampled",
+    ];
+    assert_eq!(classes, expected);
+
+    // A proof has a full outline, samples a dashed one; the undecided range alone is hatched.
+    let mut dashes = Vec::new();
+    let mut lefts = Vec::new();
+    let mut strokes = Vec::new();
+    for range in &ranges {
+        let outline = range.first_element_child().unwrap();
+        dashes.push(outline.attribute("stroke-dasharray"));
+        lefts.push(number(&outline, "x").unwrap());
+        strokes.push(range.children().filter(|n| n.has_tag_name("line")).count());
+    }
+    assert_eq!(dashes, [None, Some("4 3"), Some("4 3")]);
+    assert_eq!(strokes[..2], [0, 0]);
+    assert!(strokes[2] > 3, "{strokes:?}");
+
+    // Places grow with mu in one proportion.
+    let proportion = (lefts[2] - lefts[0]) / (lefts[1] - lefts[0]);
+    assert!((proportion - 2.5 / 1.2).abs() < 0.01, "{proportion}");
+
+    assert_eq!(data(&of_class(&tree, "sample"), "data-mu"), [1.2, 2.0, 2.5]);
+    assert_eq!(data(&of_class(&tree, "friction"), "data-mu"), [3.0]);
+    assert_eq!(data(&of_class(&tree, "critical"), "data-mu"), [1.0625]);
+    assert!(text.contains("1.0625"));
+
+    // Without anything known there is an axis and the friction of the system.
+    let nothing = PresenceChart {
+        ranges: Vec::new(),
+        samples: Vec::new(),
+        friction: 0.0,
+        critical: None,
+    };
+    let text = sound(&presence_picture("nothing", &nothing));
+    assert!(!text.contains("NaN") && !text.contains("inf"));
 }
 
 #[test]

@@ -372,6 +372,17 @@ fn problem_with_all_forms() -> Value {
     })
 }
 
+/// The two particles with coordinates.
+fn problem_with_coordinates() -> Value {
+    let mut problem = read(&root("spec/examples/two-particles.json"));
+    problem["coordinates"] = json!({
+        "nodes": [[0, 1, 0, "1/3"], [2, 3, "1e-3", 0], [null, null, 1, 1]],
+        "edges": [[0, 1]],
+        "particles": ["left", ""],
+    });
+    problem
+}
+
 /// The reader of problems and the schema agree on the shape of thousands of damaged files.
 #[test]
 fn the_reader_of_problems_and_the_schema_agree() {
@@ -380,6 +391,7 @@ fn the_reader_of_problems_and_the_schema_agree() {
     let market = serde_json::from_str(&pencil_problem("mu", market)).unwrap();
     let files = [
         read(&root("spec/examples/two-particles.json")),
+        problem_with_coordinates(),
         read(&root("spec/examples/oblique.json")),
         read(&root("spec/examples/fold.json")),
         problem_with_all_forms(),

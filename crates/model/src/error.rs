@@ -36,6 +36,14 @@ pub enum ModelError {
         /// Columns found.
         cols: usize,
     },
+    /// Coordinates that do not fit the system.
+    #[error("coordinates: expected {expected}, got {got}")]
+    Coordinates {
+        /// What was wanted.
+        expected: &'static str,
+        /// What was found.
+        got: String,
+    },
     /// A pencil or system without a single variable.
     #[error("expected at least one variable in {what}, got none")]
     Empty {

@@ -9,6 +9,7 @@
 //! are established at construction, and whatever fails is refused with a [`ModelError`].
 
 mod canonical;
+mod coordinates;
 mod error;
 pub mod file;
 mod pencil;
@@ -18,6 +19,7 @@ mod split_form;
 mod system;
 mod window;
 
+pub use coordinates::{Coordinates, Node};
 pub use error::{ErrorLocation, ModelError};
 pub use pencil::{Admissible, Pencil, Unknown};
 pub use problem::{Body, Problem};

@@ -6,7 +6,7 @@
 //!
 //! A problem is read from a file ([`crate::file::read_problem`]) or put together here.
 
-use super::{ModelError, Pencil, System, Unknown, Window, canonical};
+use super::{Coordinates, ModelError, Pencil, System, Unknown, Window, canonical};
 
 /// What the eigenproblem is posed on.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,6 +24,8 @@ pub struct Problem {
     pub name: Option<String>,
     /// A remark for people.
     pub comment: Option<String>,
+    /// Where the nodes of a system are, for pictures.
+    pub coordinates: Option<Coordinates>,
     unknown: Unknown,
     window: Window,
     body: Body,
@@ -42,6 +44,7 @@ impl Problem {
         Ok(Problem {
             name: None,
             comment: None,
+            coordinates: None,
             unknown,
             window,
             body,

@@ -175,6 +175,8 @@ impl Column {
 pub struct ContactTable {
     /// One for each line.
     pub particles: Vec<Particle>,
+    /// For each particle, its label; empty where it has none.
+    pub names: Vec<String>,
     /// For each particle, the reaction that the table gives.
     pub reactions: Vec<Option<TableReaction>>,
 }
@@ -206,9 +208,11 @@ pub fn read_contacts(
     let table = Table::new(header)?;
 
     let mut particles = Vec::new();
+    let mut names = Vec::new();
     let mut reactions = Vec::new();
     for line in lines {
         let row = table.row(line)?;
+        names.push(row.cell(Column::Particle).unwrap_or("").to_string());
         let (particle, reaction) = row.particle(friction, dof)?;
         particles.push(particle);
         reactions.push(reaction);
@@ -220,19 +224,20 @@ pub fn read_contacts(
 
     Ok(ContactTable {
         particles,
+        names,
         reactions,
     })
 }
 
 /// A line of the file.
-struct TextLine<'a> {
+pub(crate) struct TextLine<'a> {
     /// From 1.
-    number: usize,
-    text: &'a str,
+    pub(crate) number: usize,
+    pub(crate) text: &'a str,
 }
 
 /// The lines that are neither empty nor comments, without a byte order mark.
-fn lines_with_content(text: &str) -> Vec<TextLine<'_>> {
+pub(crate) fn lines_with_content(text: &str) -> Vec<TextLine<'_>> {
     let mut lines = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let text = line.trim_start_matches('\u{feff}').trim();
@@ -625,7 +630,7 @@ fn slack(pressure: &Rational, friction: &Rational) -> Rational {
 }
 
 /// The beginning of a text, fit to be printed.
-fn shown(text: &str) -> String {
+pub(crate) fn shown(text: &str) -> String {
     text.chars().filter(|c| !c.is_control()).take(60).collect()
 }
 

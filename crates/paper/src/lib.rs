@@ -14,6 +14,7 @@
 //! | [`path`] | the loading that leads to the contact states of section 5 |
 //! | [`PublishedState`] | the two states whose value of mu the paper prints |
 //! | [`calculix`], [`read_contacts`] | matrices and contact states of a model of one's own |
+//! | [`read_nodes`] | where its nodes are, for pictures |
 //! | [`Plausibility`] | figures of such a model that show a wrong unit, file or numbering |
 #![deny(clippy::float_arithmetic)]
 
@@ -26,6 +27,7 @@ mod element;
 mod error;
 mod frequencies;
 mod mesh;
+mod nodes;
 pub mod path;
 mod plane;
 mod plausibility;
@@ -43,6 +45,7 @@ pub use doubles::{DoubleBlock, DoubleMatrix};
 pub use element::{MassKind, Material, Point};
 pub use error::SourceError;
 pub use mesh::{MAX_CELLS, MeshKind};
+pub use nodes::{NodeTable, NodesError, read_nodes};
 pub use plane::Plane;
 pub use plausibility::{Plausibility, PlausibilityInput};
 pub use published::PublishedState;

@@ -1,39 +1,105 @@
 //! `mceip analyze --report`: the answers, their evidence and the modes on one page.
 
-use crate::picture::{Content, Report, Section};
-use mceip_engine::analysis::{Analysis, Evidence, Mode};
+use crate::picture::{
+    BodyDrawing, BodyMode, Content, Presence, PresenceChart, PresenceRange, Report, Section,
+    body_picture, presence_picture,
+};
+use mceip_engine::analysis::{Analysis, Evidence, Mode, Verdict};
 use mceip_exact::to_f64;
+use mceip_model::{Coordinates, System};
+use std::time::{SystemTime, UNIX_EPOCH};
 
-/// The page; `paths` of the certificates as they were written.
-pub(super) fn page(analysis: &Analysis, paths: &[String]) -> String {
+/// What the page shows beside the answers.
+pub(super) struct Drawn<'a> {
+    /// The system that was analysed.
+    pub(super) system: &'a System,
+    /// Where its nodes are, if the problem file says so.
+    pub(super) coordinates: Option<&'a Coordinates>,
+    /// Paths of the certificates as they were written.
+    pub(super) paths: &'a [String],
+    /// When the page is made.
+    pub(super) date: SystemTime,
+}
+
+impl Drawn<'_> {
+    /// The body, with a mode or as it is at equilibrium; nothing without coordinates.
+    fn body(&self, title: &str, mode: Option<&Mode>) -> Option<Content> {
+        let drawing = BodyDrawing {
+            coordinates: self.coordinates?,
+            particles: self.system.particles(),
+            mode: mode.map(|mode| BodyMode {
+                v: &mode.v,
+                slipping: &mode.slipping,
+            }),
+        };
+
+        let caption = match mode {
+            None => "The body and the states of its particles at this equilibrium.",
+            Some(_) => "The direction in which the body departs; the arrows have one scale.",
+        };
+        Some(Content::Figure {
+            picture: body_picture(title, &drawing),
+            caption: caption.into(),
+        })
+    }
+
+    /// Particles by their names in the problem file, or by their numbers.
+    fn listed(&self, particles: &[usize]) -> String {
+        let names = self.coordinates.map_or(&[][..], Coordinates::particles);
+        let mut words = Vec::new();
+        for particle in particles {
+            match names.get(*particle) {
+                Some(name) if !name.is_empty() => words.push(name.clone()),
+                _ => words.push(particle.to_string()),
+            }
+        }
+
+        let separator = if names.is_empty() { " " } else { ", " };
+        words.join(separator)
+    }
+}
+
+/// The page.
+pub(super) fn page(analysis: &Analysis, drawn: &Drawn<'_>) -> String {
     let name = analysis.name.as_deref().unwrap_or("mechanical system");
     let report = Report {
         title: format!("Divergence of {name}"),
-        sections: vec![system(analysis), answers(analysis, paths), modes(analysis)],
+        sections: vec![
+            system(analysis, drawn),
+            answers(analysis, drawn.paths),
+            modes(analysis, drawn),
+            proofs(analysis, drawn),
+        ],
     };
 
     report.to_html()
 }
 
-/// The sizes of the system.
-fn system(analysis: &Analysis) -> Section {
+/// The sizes of the system, and its picture.
+fn system(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     let [dofs, free, slip, stick] = analysis.sizes;
     let rows = vec![
         row(["degrees of freedom", &dofs.to_string()]),
         row(["of them free", &free.to_string()]),
         row(["particles in impending slip", &slip.to_string()]),
         row(["particles that stick", &stick.to_string()]),
-        row(["coefficient of friction", &analysis.friction.to_string()]),
+        row([
+            "coefficient of friction",
+            &to_f64(&analysis.friction).to_string(),
+        ]),
     ];
     let table = Content::Table {
         caption: "The system, in the units of its file".into(),
-        header: row(["", ""]),
+        header: Vec::new(),
         rows,
     };
 
+    let mut content = vec![table];
+    content.extend(drawn.body("The body", None));
+
     Section {
         title: "System".into(),
-        content: vec![table],
+        content,
     }
 }
 
@@ -62,6 +128,15 @@ fn answers(analysis: &Analysis, paths: &[String]) -> Section {
         header: row(["standing", "answer", "evidence"]),
         rows,
     });
+    content.push(Content::Figure {
+        picture: presence_picture(
+            "Divergence against the coefficient of friction",
+            &presence(analysis),
+        ),
+        caption: "Where in \u{3bc} divergence of the form (8) exists. Between samples nothing is \
+                  proved."
+            .into(),
+    });
 
     Section {
         title: "Answers".into(),
@@ -69,18 +144,53 @@ fn answers(analysis: &Analysis, paths: &[String]) -> Section {
     }
 }
 
+/// The ranges of mu, their samples, and the smallest mu with a certified solution, in doubles.
+fn presence(analysis: &Analysis) -> PresenceChart {
+    let mut ranges = Vec::new();
+    for range in &analysis.ranges {
+        ranges.push(PresenceRange {
+            presence: drawn_verdict(range.verdict),
+            from: to_f64(&range.from),
+            to: range.to.as_ref().map(to_f64),
+            is_proved: !matches!(range.evidence, Evidence::Measured(_)),
+        });
+    }
+
+    let mut samples = Vec::new();
+    for sample in &analysis.samples {
+        samples.push((to_f64(&sample.mu), drawn_verdict(sample.verdict)));
+    }
+
+    let solution = analysis.critical.solution.as_ref();
+    PresenceChart {
+        ranges,
+        samples,
+        friction: to_f64(&analysis.friction),
+        critical: solution.map(|solution| to_f64(solution.mu.hi())),
+    }
+}
+
+fn drawn_verdict(verdict: Verdict) -> Presence {
+    match verdict {
+        Verdict::Absent => Presence::Absent,
+        Verdict::Present => Presence::Present,
+        Verdict::Undecided => Presence::Undecided,
+    }
+}
+
 /// The diverging modes: a table of all of them, then the components of each.
-fn modes(analysis: &Analysis) -> Section {
+fn modes(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     let modes = &analysis.divergence.modes;
     let mut content = Vec::new();
     if modes.is_empty() {
         let none = "None was found at this friction.";
         content.push(Content::Paragraph(none.into()));
     } else {
-        content.push(summary(modes));
+        content.push(summary(modes, drawn));
     }
 
     for (k, mode) in modes.iter().enumerate() {
+        content.extend(drawn.body(&format!("Mode {}", k + 1), Some(mode)));
         content.push(shape(k + 1, mode));
     }
 
@@ -90,7 +200,7 @@ fn modes(analysis: &Analysis) -> Section {
     }
 }
 
-fn summary(modes: &[Mode]) -> Content {
+fn summary(modes: &[Mode], drawn: &Drawn<'_>) -> Content {
     let header = [
         "mode",
         "lambda^2 (1/s^2)",
@@ -103,10 +213,10 @@ fn summary(modes: &[Mode]) -> Content {
         let lambda2 = to_f64(&mode.lambda2.mid());
         rows.push(vec![
             (k + 1).to_string(),
-            format!("{lambda2:.10e}"),
-            format!("{:.6e}", mode.growth_rate),
-            listed(&mode.slipping),
-            listed(&mode.sticking),
+            with_digits(lambda2, 11),
+            with_digits(mode.growth_rate, 7),
+            drawn.listed(&mode.slipping),
+            drawn.listed(&mode.sticking),
         ]);
     }
 
@@ -135,11 +245,109 @@ fn shape(number: usize, mode: &Mode) -> Content {
     }
 }
 
-fn listed(particles: &[usize]) -> String {
-    let numbers: Vec<String> = particles.iter().map(usize::to_string).collect();
-    numbers.join(" ")
+/// A number with this many digits, without a power of ten where it can do without.
+fn with_digits(value: f64, digits: i32) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+
+    let exponent = value.abs().log10().floor() as i32;
+    if (-4..digits).contains(&exponent) {
+        let decimals = (digits - 1 - exponent) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        let decimals = (digits - 1) as usize;
+        format!("{value:.decimals$e}")
+    }
+}
+
+/// What was analysed and what proves it, by their digests, and when.
+fn proofs(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
+    let mut rows = vec![row(["problem", &analysis.problem_sha256])];
+    for (k, proof) in analysis.proofs.iter().enumerate() {
+        let digest = analysis.certificate_sha256(k).unwrap_or_default();
+        rows.push(vec![format!("certificate {}", proof.name), digest]);
+    }
+
+    let since_epoch = drawn.date.duration_since(UNIX_EPOCH);
+    let days = since_epoch.map_or(0, |time| time.as_secs() / SECONDS_OF_A_DAY);
+    let table = Content::Table {
+        caption: "SHA-256, as `mceip check` compares them".into(),
+        header: Vec::new(),
+        rows,
+    };
+    let date = format!("Made on {} (UTC) by {PROGRAM}.", date_of(days));
+
+    Section {
+        title: "Digests".into(),
+        content: vec![Content::Paragraph(date), table],
+    }
+}
+
+const SECONDS_OF_A_DAY: u64 = 86_400;
+
+/// What made the page.
+const PROGRAM: &str = concat!("mceip ", env!("CARGO_PKG_VERSION"));
+
+/// The date a number of days after 1970-01-01, as YYYY-MM-DD.
+fn date_of(days: u64) -> String {
+    let mut year = 1970;
+    let mut left = days;
+    while left >= days_of_year(year) {
+        left -= days_of_year(year);
+        year += 1;
+    }
+
+    let february = days_of_year(year) - 337;
+    let mut month = 1;
+    for length in [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30] {
+        if left < length {
+            break;
+        }
+        left -= length;
+        month += 1;
+    }
+
+    format!("{year:04}-{month:02}-{:02}", left + 1)
+}
+
+fn days_of_year(year: u64) -> u64 {
+    let is_leap = year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
+    if is_leap { 366 } else { 365 }
 }
 
 fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
     cells.map(String::from).to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_their_digits() {
+        let shown = [0.5, 0.0, 1234.5678, -2e-9, 1e8].map(|value| with_digits(value, 7));
+        assert_eq!(
+            shown,
+            ["0.5000000", "0", "1234.568", "-2.000000e-9", "1.000000e8"]
+        );
+    }
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        for (days, date) in [
+            (0, "1970-01-01"),
+            (58, "1970-02-28"),
+            (59, "1970-03-01"),
+            (789, "1972-02-29"),
+            (11_016, "2000-02-29"),
+            (20_780, "2026-11-23"),
+            (20_818, "2026-12-31"),
+            (20_819, "2027-01-01"),
+            (47_540, "2100-02-28"),
+            (47_541, "2100-03-01"),
+        ] {
+            assert_eq!(date_of(days), date);
+        }
+    }
 }

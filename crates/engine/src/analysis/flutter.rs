@@ -2,13 +2,15 @@
 //!
 //! With every slip particle slipping (lambda^2 M* + K*) x = 0, so the lambda^2 are the eigenvalues
 //! of -M*^-1 K*. A complex one means growing oscillation (flutter), whatever the signs of x. Input:
-//! K* and M* as functions of mu. Output: [`Flutter`]; nothing is proved. Called by
-//! [`analyse`](super::analyse).
+//! K* and M* as functions of mu. Output: [`Flutter`]; nothing is proved.
+//!
+//! Where such eigenvalues begin is looked for by trying values of mu: evenly spread ones first, and
+//! then by halving below the smallest that has some. Called by [`analyse`](super::analyse).
 
 use crate::dense::{rounded, transposed};
 use crate::reduction::MuFamily;
 use crate::tolerance::FLUTTER_ANGLE;
-use mceip_exact::Rational;
+use mceip_exact::{Rational, whole};
 use mceip_mcp::linear::{eigenvalues, solve};
 use mceip_model::Pencil;
 use std::cmp::Ordering;
@@ -22,14 +24,98 @@ pub struct Flutter {
     pub growth_rate: f64,
     /// Im lambda of that one, rad/s.
     pub frequency: f64,
+    /// Where in mu they begin; `None` without any, or where that was not looked for.
+    pub onset: Option<Onset>,
+}
+
+/// Two neighbouring values of mu, of those that were tried.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Onset {
+    /// The largest value below `some_at`; it has no complex lambda^2, nor has any smaller one that
+    /// was tried.
+    pub none_at: Rational,
+    /// The smallest value with complex lambda^2.
+    pub some_at: Rational,
 }
 
 /// Order beyond which the dense eigenproblem is not tried.
 const LARGEST_ORDER: usize = 2500;
 
-/// The complex lambda^2 at mu; `None` beyond the largest order, without a mass, or where doubles
-/// fail.
+/// Order beyond which it is not tried at more than one mu.
+const LARGEST_ORDER_OF_ONSET: usize = 200;
+
+/// Evenly spread values of mu that are tried for the onset.
+const VALUES: i64 = 8;
+
+/// Halvings between two of them.
+const HALVINGS: u32 = 12;
+
+/// The complex lambda^2 at mu and their onset; `None` beyond the largest order, without a mass, or
+/// where doubles fail.
 pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
+    let eigenvalues = complex_eigenvalues(family, mu)?;
+
+    let mut growth_rate = 0.0;
+    let mut frequency = 0.0;
+    for eigenvalue in &eigenvalues {
+        let (growth, at) = root(*eigenvalue);
+        if growth > growth_rate {
+            growth_rate = growth;
+            frequency = at;
+        }
+    }
+
+    let is_cheap = family.stiffness.order() <= LARGEST_ORDER_OF_ONSET;
+    let onset = if is_cheap && !eigenvalues.is_empty() {
+        let has_some = |mu: &Rational| Some(!complex_eigenvalues(family, mu)?.is_empty());
+        onset(mu, &has_some)
+    } else {
+        None
+    };
+
+    Some(Flutter {
+        eigenvalues,
+        growth_rate,
+        frequency,
+        onset,
+    })
+}
+
+/// Where in (0, mu] complex lambda^2 begin, given that there are some at mu. `None` if there are
+/// some at 0 already, or where doubles fail.
+fn onset(mu: &Rational, has_some: &dyn Fn(&Rational) -> Option<bool>) -> Option<Onset> {
+    let step = mu / whole(VALUES);
+    let mut onset = Onset {
+        none_at: whole(0),
+        some_at: mu.clone(),
+    };
+    if has_some(&onset.none_at)? {
+        return None;
+    }
+
+    for k in 1..VALUES {
+        let tried = &step * whole(k);
+        if has_some(&tried)? {
+            onset.some_at = tried;
+            break;
+        }
+        onset.none_at = tried;
+    }
+
+    for _ in 0..HALVINGS {
+        let middle = (&onset.none_at + &onset.some_at) / whole(2);
+        if has_some(&middle)? {
+            onset.some_at = middle;
+        } else {
+            onset.none_at = middle;
+        }
+    }
+
+    Some(onset)
+}
+
+/// The complex lambda^2 at mu, by ascending frequency.
+fn complex_eigenvalues(family: &MuFamily, mu: &Rational) -> Option<Vec<(f64, f64)>> {
     let mass = family.mass.as_ref()?;
     if family.stiffness.order() > LARGEST_ORDER {
         return None;
@@ -49,21 +135,7 @@ pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
     complex.retain(|(re, im)| *im > FLUTTER_ANGLE * re.hypot(*im));
     complex.sort_by(|p, q| by_ascending_frequency(*p, *q));
 
-    let mut growth_rate = 0.0;
-    let mut frequency = 0.0;
-    for eigenvalue in &complex {
-        let (growth, at) = root(*eigenvalue);
-        if growth > growth_rate {
-            growth_rate = growth;
-            frequency = at;
-        }
-    }
-
-    Some(Flutter {
-        eigenvalues: complex,
-        growth_rate,
-        frequency,
-    })
+    Some(complex)
 }
 
 /// A + mu B by rows, each entry rounded to the nearest double.
@@ -92,4 +164,39 @@ pub(super) fn root((re, im): (f64, f64)) -> (f64, f64) {
 
     let frequency = 0.5 * im / growth;
     (growth, frequency)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::rational;
+
+    /// Complex from 1/3 to 1/2 and from 2 on.
+    fn has_some(mu: &Rational) -> Option<bool> {
+        Some((rational(1, 3)..rational(1, 2)).contains(mu) || *mu >= whole(2))
+    }
+
+    #[test]
+    fn the_onset_is_between_neighbours_of_those_tried() {
+        // 3/8 is the first of the even values in [1/3, 1/2), and 2 of those up to 4.
+        for (mu, expected) in [
+            (rational(3, 1), rational(1, 3)),
+            (rational(4, 1), rational(2, 1)),
+        ] {
+            let found = onset(&mu, &has_some).unwrap();
+
+            assert_eq!(has_some(&found.none_at), Some(false));
+            assert_eq!(has_some(&found.some_at), Some(true));
+            let width = &found.some_at - &found.none_at;
+            assert_eq!(width, mu / whole(VALUES << HALVINGS));
+            let is_about_it = found.none_at < expected && expected <= found.some_at;
+            assert!(is_about_it, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn without_a_value_that_has_none_there_is_no_onset() {
+        assert_eq!(onset(&whole(1), &|_| Some(true)), None);
+        assert_eq!(onset(&whole(1), &|_| None), None);
+    }
 }

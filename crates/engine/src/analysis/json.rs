@@ -9,12 +9,12 @@ use super::conditions::DefiniteUntil;
 use super::critical::Unproved;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
-use super::flutter::Flutter;
+use super::flutter::{Flutter, Onset};
 use super::modes::Mode;
 use super::ranges::{Range, Sample};
 use super::sentences::Sentence;
 use mceip_check::OpenRegion;
-use mceip_exact::{Algebraic, Interval, enclosing_decimals};
+use mceip_exact::{Algebraic, Interval, enclosing_decimals, to_f64};
 use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
@@ -100,7 +100,9 @@ fn unproved(tried: &Unproved) -> Value {
 }
 
 fn flutter(flutter: &Flutter) -> Value {
+    let of_onset = |onset: &Onset| json!([to_f64(&onset.none_at), to_f64(&onset.some_at)]);
     json!({
+        "onset": flutter.onset.as_ref().map(of_onset),
         "lambda2": flutter.eigenvalues,
         "growth_rate": flutter.growth_rate,
         "frequency": flutter.frequency,

@@ -32,7 +32,7 @@ pub use critical::{CertifiedSolution, Critical, Obstacle, Unproved};
 pub use divergence::{Divergence, Verdict};
 pub use error::AnalysisError;
 pub use evidence::{Evidence, Proof, ProofCertificate};
-pub use flutter::Flutter;
+pub use flutter::{Flutter, Onset};
 pub use json::ANALYSIS_FORMAT;
 pub use model::Options;
 pub use modes::Mode;

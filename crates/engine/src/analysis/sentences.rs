@@ -134,9 +134,18 @@ fn flutter_text(flutter: &Flutter) -> String {
         String::new()
     };
 
+    let onset = flutter.onset.as_ref().map_or_else(String::new, |onset| {
+        format!(
+            " Of the values of mu that were tried, {} is the smallest with such a pair, and {} the \
+             next one below it, without.",
+            short(&onset.some_at),
+            short(&onset.none_at)
+        )
+    });
+
     format!(
         "WARNING of flutter: the all-slip pencil at this mu has {count} complex pair{} lambda^2, \
-         lowest frequencies first: {}{more}. Damping, which is left out here, may silence slow \
+         lowest frequencies first: {}{more}.{onset} Damping, which is left out here, may silence slow \
          growth, and pairs at the highest frequencies may be noise of the mesh: compare two meshes.",
         plural(count),
         named.join(", ")

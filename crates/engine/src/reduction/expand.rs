@@ -106,6 +106,7 @@ mod tests {
 
         assert_eq!(full, expected);
     }
+
     #[test]
     fn each_variable_moves_the_body_along_its_column() {
         // A free dof 0, a particle on (1, 2) with S = -1, one with zero reaction on (3, 4).

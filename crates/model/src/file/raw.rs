@@ -7,7 +7,8 @@
 use super::matrix::RawMatrix;
 use super::{Number, Object, Word};
 use crate::{
-    Body, ContactState, ModelError, Particle, Pencil, Problem, Reaction, System, Unknown, Window,
+    Body, ContactState, Coordinates, ModelError, Node, Particle, Pencil, Problem, Reaction, System,
+    Unknown, Window,
 };
 use mceip_exact::{Rational, whole};
 use serde::Deserialize;
@@ -21,6 +22,7 @@ pub(super) struct RawProblem {
     _format: String, // checked before
     name: Option<String>,
     comment: Option<String>,
+    coordinates: Option<Object<RawCoordinates>>,
     unknown: Word<Unknown>,
     window: Option<Object<RawWindow>>,
     pencil: Option<Object<RawPencil>>,
@@ -50,6 +52,17 @@ struct RawSystem {
     mass: Option<RawMatrix>,
     friction: Option<Number>,
     particles: Vec<Object<RawParticle>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawCoordinates {
+    /// Degrees of freedom along x and y, then x and y.
+    nodes: Vec<(Option<usize>, Option<usize>, Number, Number)>,
+    #[serde(default)]
+    edges: Vec<[usize; 2]>,
+    #[serde(default)]
+    particles: Vec<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -96,9 +109,15 @@ impl RawProblem {
             (Some(_), Some(_)) => return Err(ModelError::Body { got: "both" }),
         };
 
+        let coordinates = match self.coordinates {
+            Some(Object(coordinates)) => Some(coordinates.build(&body)?),
+            None => None,
+        };
+
         let mut problem = Problem::new(body, self.unknown.0, window)?;
         problem.name = self.name;
         problem.comment = self.comment;
+        problem.coordinates = coordinates;
 
         Ok(problem)
     }
@@ -138,6 +157,27 @@ impl RawSystem {
         let friction = self.friction.map(|number| number.0);
 
         System::new(stiffness, mass, friction, particles)
+    }
+}
+
+impl RawCoordinates {
+    fn build(self, body: &Body) -> Result<Coordinates, ModelError> {
+        let Body::System(system) = body else {
+            return Err(ModelError::Coordinates {
+                expected: "coordinates of a system only",
+                got: "those of a pencil".into(),
+            });
+        };
+
+        let mut nodes = Vec::with_capacity(self.nodes.len());
+        for (along_x, along_y, x, y) in self.nodes {
+            nodes.push(Node {
+                dofs: [along_x, along_y],
+                place: [x.0, y.0],
+            });
+        }
+
+        Coordinates::new(nodes, self.edges, self.particles, system)
     }
 }
 

@@ -4,7 +4,7 @@
 //! gives an equal problem with the same digest.
 
 use super::{Number, PROBLEM_FORMAT};
-use crate::{Body, ContactState, Particle, Pencil, Problem, System, Window};
+use crate::{Body, ContactState, Coordinates, Particle, Pencil, Problem, System, Window};
 use mceip_exact::{Rational, Sparse};
 use num_traits::One as _;
 use serde_json::{Map, Value, json};
@@ -19,6 +19,10 @@ pub fn write_problem(problem: &Problem) -> String {
 
     if let Some(comment) = &problem.comment {
         out.insert("comment".into(), json!(comment));
+    }
+
+    if let Some(coordinates) = &problem.coordinates {
+        out.insert("coordinates".into(), write_coordinates(coordinates));
     }
 
     out.insert("unknown".into(), json!(problem.unknown().word()));
@@ -44,6 +48,26 @@ pub fn write_sparse(m: &Sparse) -> Value {
 fn write_window(window: &Window) -> Value {
     let max = window.max().map(Rational::to_string);
     json!({ "min": window.min().to_string(), "max": max })
+}
+
+fn write_coordinates(coordinates: &Coordinates) -> Value {
+    let mut nodes = Vec::new();
+    for node in coordinates.nodes() {
+        let [along_x, along_y] = node.dofs;
+        let [x, y] = node.place.each_ref().map(Rational::to_string);
+        nodes.push(json!([along_x, along_y, x, y]));
+    }
+
+    let mut out = Map::new();
+    out.insert("nodes".into(), json!(nodes));
+    if !coordinates.edges().is_empty() {
+        out.insert("edges".into(), json!(coordinates.edges()));
+    }
+    if !coordinates.particles().is_empty() {
+        out.insert("particles".into(), json!(coordinates.particles()));
+    }
+
+    Value::Object(out)
 }
 
 fn write_pencil(pencil: &Pencil) -> Value {

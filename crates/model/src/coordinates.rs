@@ -1,0 +1,196 @@
+//! Where the nodes of a body are, for pictures: no answer and no digest depends on it.
+//!
+//! A node has a place (x, y) and the degrees of freedom that move it along x and along y. Where one
+//! is prescribed it is none of the system's, and the node does not move that way.
+
+use super::{ModelError, System};
+use mceip_exact::{Integer, Rational};
+use num_traits::{One, Signed};
+
+/// A node of a body.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Node {
+    /// The degrees of freedom along x and along y.
+    pub dofs: [Option<usize>; 2],
+    /// (x, y), in the unit of length of the model.
+    pub place: [Rational; 2],
+}
+
+/// The nodes of a body, the edges between them, and the names of its particles.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Coordinates {
+    nodes: Vec<Node>,
+    edges: Vec<[usize; 2]>,
+    particles: Vec<String>,
+}
+
+impl Coordinates {
+    /// The nodes of a system. `edges` (indices of nodes) and `particles` (a name for each particle
+    /// of the system) may be empty.
+    ///
+    /// # Errors
+    /// [`ModelError::Coordinates`]: no node, a degree of freedom out of range or at two places, a
+    /// coordinate beyond 2^512, an edge to no node, another number of names than of particles.
+    pub fn new(
+        nodes: Vec<Node>,
+        edges: Vec<[usize; 2]>,
+        particles: Vec<String>,
+        system: &System,
+    ) -> Result<Coordinates, ModelError> {
+        if nodes.is_empty() {
+            return Err(refused("at least one node", "none".into()));
+        }
+
+        let mut is_taken = vec![false; system.dofs()];
+        for (index, node) in nodes.iter().enumerate() {
+            require_node(index, node, &mut is_taken)?;
+        }
+        for &[from, to] in &edges {
+            if from.max(to) >= nodes.len() || from == to {
+                let got = format!("[{from}, {to}] with {} nodes", nodes.len());
+                return Err(refused("edges between two nodes", got));
+            }
+        }
+
+        let count = system.particles().len();
+        if !particles.is_empty() && particles.len() != count {
+            let got = format!("{} names for {count} particles", particles.len());
+            return Err(refused("a name for each particle, or none", got));
+        }
+
+        Ok(Coordinates {
+            nodes,
+            edges,
+            particles,
+        })
+    }
+
+    /// The nodes.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// Pairs of nodes between which a line is drawn.
+    pub fn edges(&self) -> &[[usize; 2]] {
+        &self.edges
+    }
+
+    /// A name for each particle of the system; empty if they have none.
+    pub fn particles(&self) -> &[String] {
+        &self.particles
+    }
+
+    /// The node that a degree of freedom moves.
+    pub fn node_of(&self, dof: usize) -> Option<usize> {
+        let moves = |node: &Node| node.dofs.contains(&Some(dof));
+        self.nodes.iter().position(moves)
+    }
+}
+
+/// The degrees of freedom of a node are those of the system and of no node before it, and its
+/// coordinates at most 2^512, so that their differences are doubles.
+fn require_node(index: usize, node: &Node, is_taken: &mut [bool]) -> Result<(), ModelError> {
+    for dof in node.dofs.into_iter().flatten() {
+        match is_taken.get_mut(dof) {
+            Some(taken) if !*taken => *taken = true,
+            Some(_) => {
+                let got = format!("{dof} a second time, for node {index}");
+                return Err(refused("each degree of freedom once", got));
+            }
+            None => {
+                let expected = "degrees of freedom of the system, numbered from 0";
+                let got = format!("{dof} of {} for node {index}", is_taken.len());
+                return Err(refused(expected, got));
+            }
+        }
+    }
+
+    let limit = Rational::from_integer(Integer::one() << 512);
+    if node.place.iter().any(|coordinate| coordinate.abs() > limit) {
+        let got = format!("a larger one for node {index}");
+        return Err(refused("coordinates of at most 2^512", got));
+    }
+
+    Ok(())
+}
+
+fn refused(expected: &'static str, got: String) -> ModelError {
+    ModelError::Coordinates { expected, got }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::file::{read_problem, write_problem};
+    use super::super::{ModelError, Problem};
+    use std::path::Path;
+
+    fn read(coordinates: &str) -> Result<Problem, ModelError> {
+        let text = format!(
+            r#"{{"format": "mceip-problem/1", "unknown": "lambda2", "coordinates": {coordinates},
+                "system": {{"stiffness": [[2, 0], [0, 2]], "mass": [[1, 0], [0, 1]],
+                            "friction": 1, "particles": [{{"tangential": 0, "normal": 1,
+                                                          "state": "slip", "sign": 1}}]}}}}"#
+        );
+        read_problem(&text, Path::new("."))
+    }
+
+    #[test]
+    fn coordinates_are_read_written_and_no_part_of_the_digest() {
+        let given = r#"{"nodes": [[0, 1, "0.1", 0], [null, null, "1/3", 2e1]], "edges": [[0, 1]],
+                        "particles": ["left foot"]}"#;
+        let with = read(given).unwrap();
+        let without = read("null").unwrap();
+
+        let coordinates = with.coordinates.as_ref().unwrap();
+        assert_eq!(coordinates.nodes().len(), 2);
+        assert_eq!(coordinates.edges(), [[0, 1]]);
+        assert_eq!(coordinates.node_of(1), Some(0));
+        assert_eq!(coordinates.node_of(2), None);
+
+        let again = read_problem(&write_problem(&with), Path::new(".")).unwrap();
+        assert_eq!(again, with);
+        assert_eq!(with.sha256(), without.sha256());
+        assert!(!write_problem(&without).contains("coordinates"));
+    }
+
+    #[test]
+    fn coordinates_that_do_not_fit_are_refused() {
+        for wrong in [
+            r#"{"nodes": []}"#,
+            r#"{"nodes": [[0, 2, 0, 0]]}"#,
+            r#"{"nodes": [[0, 0, 0, 0]]}"#,
+            r#"{"nodes": [[0, null, 0, 0], [null, 0, 1, 1]]}"#,
+            r#"{"nodes": [[0, 1, 0, 1e400]]}"#,
+            r#"{"nodes": [[0, 1, 0, 0]], "edges": [[0, 1]]}"#,
+            r#"{"nodes": [[0, 1, 0, 0]], "edges": [[0, 0]]}"#,
+            r#"{"nodes": [[0, 1, 0, 0]], "particles": ["a", "b"]}"#,
+        ] {
+            let refused = read(wrong);
+            let is_named = matches!(refused, Err(ModelError::Coordinates { .. }));
+            assert!(is_named, "{wrong}: {refused:?}");
+        }
+
+        for malformed in [
+            "[]",
+            "{}",
+            r#"{"nodes": [[0, 1, 0]]}"#,
+            r#"{"nodes": [[0, 1, 0, 0, 0]]}"#,
+            r#"{"nodes": [[-1, 1, 0, 0]]}"#,
+            r#"{"nodes": [[0, 1, "here", 0]]}"#,
+            r#"{"nodes": [[0, 1, 0, 0]], "faces": []}"#,
+        ] {
+            let refused = read(malformed);
+            let is_malformed = matches!(refused, Err(ModelError::Json { .. }));
+            assert!(is_malformed, "{malformed}: {refused:?}");
+        }
+    }
+
+    #[test]
+    fn a_pencil_has_no_coordinates() {
+        let text = r#"{"format": "mceip-problem/1", "unknown": "mu",
+                       "coordinates": {"nodes": [[0, null, 0, 0]]},
+                       "pencil": {"a": [[1]], "b": [[1]]}}"#;
+        let refused = read_problem(text, Path::new("."));
+        assert!(matches!(refused, Err(ModelError::Coordinates { .. })));
+    }
+}

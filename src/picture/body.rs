@@ -1,0 +1,330 @@
+//! A body of one's own at the places that its problem file gives: nodes and edges at rest, the
+//! states of its particles, and a mode as arrows.
+//!
+//! A node moves by (v_i, v_j), i and j its degrees of freedom along x and y; an arrow is that times
+//! one factor for all nodes, which the picture states. A mode has no size of its own.
+
+use super::chart::{TEXT, line, text};
+use super::drawing::Picture;
+use super::marker::Mark;
+use super::markup::{Element, point_list, segment, short};
+use super::scale::label;
+use mceip_exact::to_f64;
+use mceip_model::{ContactState, Coordinates, Particle};
+
+/// What is drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct BodyDrawing<'a> {
+    /// Where the nodes are.
+    pub coordinates: &'a Coordinates,
+    /// The particles of the system.
+    pub particles: &'a [Particle],
+    /// A mode; without one the states of the equilibrium are drawn.
+    pub mode: Option<BodyMode<'a>>,
+}
+
+/// A mode of a body.
+#[derive(Debug, Clone, Copy)]
+pub struct BodyMode<'a> {
+    /// v over all degrees of freedom.
+    pub v: &'a [f64],
+    /// Indices of the particles that slip.
+    pub slipping: &'a [usize],
+}
+
+/// Size of the body on paper, px, at most.
+const FITS: (f64, f64) = (680.0, 400.0);
+
+/// Room about the body, px: an arrow leaves no paper.
+const MARGIN: f64 = 80.0;
+
+/// Length of the longest arrow, px.
+const LONGEST: f64 = 60.0;
+
+/// Arrows that are shorter are left out, px.
+const SHORTEST: f64 = 1.0;
+
+/// Length of the head of an arrow, px, at most.
+const HEAD: f64 = 7.0;
+
+/// Radius of the markers of particles, px.
+const RADIUS: f64 = 7.0;
+
+/// Particles up to which each of them has its name beside it.
+const NAMED: usize = 25;
+
+/// Letters of a name that are shown.
+const LETTERS: usize = 10;
+
+/// The body on paper: y up becomes y down.
+struct Placement {
+    /// Smallest x and largest y of the nodes.
+    corner: (f64, f64),
+    /// px for a unit of length.
+    unit: f64,
+    /// Width and height on paper, px.
+    size: (f64, f64),
+    /// x of the corner on paper, px.
+    left: f64,
+}
+
+impl Placement {
+    fn of(places: &[(f64, f64)]) -> Placement {
+        let mut low = (f64::INFINITY, f64::INFINITY);
+        let mut high = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        for (x, y) in places {
+            low = (low.0.min(*x), low.1.min(*y));
+            high = (high.0.max(*x), high.1.max(*y));
+        }
+
+        let width = high.0 - low.0;
+        let height = high.1 - low.1;
+        let fitting = (FITS.0 / width).min(FITS.1 / height);
+        // A single place has no size; neither have sizes at the end of the doubles.
+        let unit = if fitting.is_normal() { fitting } else { 1.0 };
+        let size = (width * unit, height * unit);
+
+        Placement {
+            corner: (low.0, high.1),
+            unit,
+            size,
+            left: MARGIN + (FITS.0 - size.0) / 2.0,
+        }
+    }
+
+    /// From a place of the body to px on paper.
+    fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        let right = (x - self.corner.0) * self.unit;
+        let down = (self.corner.1 - y) * self.unit;
+        (self.left + right, MARGIN + down)
+    }
+
+    /// Lower end of the body on paper, px.
+    fn bottom(&self) -> f64 {
+        MARGIN + self.size.1
+    }
+}
+
+/// Draws a body.
+pub fn body_picture(title: &str, body: &BodyDrawing<'_>) -> Picture {
+    let mut places = Vec::new();
+    for node in body.coordinates.nodes() {
+        let [x, y] = &node.place;
+        places.push((to_f64(x), to_f64(y)));
+    }
+
+    let placement = Placement::of(&places);
+    let mut on_paper = Vec::new();
+    for place in places {
+        on_paper.push(placement.place(place));
+    }
+
+    let below = placement.bottom() + MARGIN;
+    let mut picture = Picture::new(title, FITS.0 + 2.0 * MARGIN, below + 46.0);
+    picture.push_heading(MARGIN / 2.0, 28.0);
+    picture.push(body.edges(&on_paper));
+    picture.push(nodes(&on_paper));
+    picture.push(body.marks(&on_paper));
+
+    if let Some(mode) = &body.mode {
+        let largest = body.largest(mode);
+        picture.push(body.arrows(mode, largest, &on_paper));
+
+        // An arrow of a unit of v is this long in the body's unit of length.
+        let factor = LONGEST / placement.unit / largest;
+        let note = if largest > 0.0 {
+            format!(
+                "Arrows: the mode times {}, in the units of the coordinates; the longest is \
+                 |v| = {}.",
+                label(factor),
+                label(largest)
+            )
+        } else {
+            "No node moves in this mode.".into()
+        };
+        picture.push(text(MARGIN / 2.0, below + 30.0, "start", note).with("class", "scale"));
+    }
+
+    picture.push(body.legend(MARGIN / 2.0, below + 8.0));
+    picture
+}
+
+impl BodyMode<'_> {
+    /// v of a degree of freedom; 0 where there is none, or where v is not finite.
+    fn component(&self, dof: Option<usize>) -> f64 {
+        let given = dof.and_then(|dof| self.v.get(dof)).copied();
+        given.filter(|v| v.is_finite()).unwrap_or(0.0)
+    }
+}
+
+impl BodyDrawing<'_> {
+    /// v of a node along x and y; 0 where the node has no such degree of freedom.
+    fn displacement(&self, node: usize, mode: &BodyMode<'_>) -> (f64, f64) {
+        let [along_x, along_y] = self.coordinates.nodes()[node].dofs;
+        (mode.component(along_x), mode.component(along_y))
+    }
+
+    /// The largest |v| of a node.
+    fn largest(&self, mode: &BodyMode<'_>) -> f64 {
+        let mut largest: f64 = 0.0;
+        for node in 0..self.coordinates.nodes().len() {
+            let (x, y) = self.displacement(node, mode);
+            largest = largest.max(x.hypot(y));
+        }
+
+        largest
+    }
+
+    fn edges(&self, on_paper: &[(f64, f64)]) -> Element {
+        let mut d = String::new();
+        for &[from, to] in self.coordinates.edges() {
+            d += &segment(on_paper[from], on_paper[to]);
+        }
+
+        Element::new("path")
+            .with("class", "edges")
+            .with("d", d)
+            .with("fill", "none")
+            .with("stroke", "#999")
+            .with("stroke-width", "0.8")
+    }
+
+    /// What a particle does.
+    fn mark(&self, particle: usize) -> Mark {
+        match (&self.particles[particle].state, &self.mode) {
+            (ContactState::Slip { .. }, Some(mode)) if !mode.slipping.contains(&particle) => {
+                Mark::Caught
+            }
+            // Turned into the direction in which it is about to slip.
+            (ContactState::Slip { .. }, _) => Mark::SlipRight,
+            (state, _) => Mark::of(*state),
+        }
+    }
+
+    /// The markers of the particles, those of the slip particles turned, with their names.
+    fn marks(&self, on_paper: &[(f64, f64)]) -> Element {
+        let mut marks = Element::new("g").with("class", "marks");
+        for (index, particle) in self.particles.iter().enumerate() {
+            let Some(node) = self.coordinates.node_of(particle.tangential) else {
+                continue;
+            };
+            let (x, y) = on_paper[node];
+            let mut mark = self.mark(index).draw(x, y, RADIUS);
+            if self.mark(index) == Mark::SlipRight {
+                let degrees = short(self.slip_angle(particle, node));
+                let turn = format!("rotate({degrees} {} {})", short(x), short(y));
+                mark = mark.with("transform", turn);
+            }
+            marks.push(mark);
+
+            if self.particles.len() <= NAMED {
+                let name = self.name(index);
+                let word = text(x, y + RADIUS + 14.0, "middle", name).with("font-size", "10");
+                marks.push(word.with("class", "name"));
+            }
+        }
+
+        marks
+    }
+
+    /// The angle on paper, in degrees clockwise from x, of -S times the tangent: the direction of
+    /// impending slip.
+    fn slip_angle(&self, particle: &Particle, node: usize) -> f64 {
+        let sign = match particle.state {
+            ContactState::Slip { sign } => f64::from(sign),
+            _ => 0.0,
+        };
+
+        let [along_x, along_y] = self.coordinates.nodes()[node].dofs;
+        let mut x = 0.0;
+        let mut y = 0.0;
+        for (dof, coefficient) in particle.tangent() {
+            let part = -sign * to_f64(&coefficient);
+            if Some(dof) == along_x {
+                x += part;
+            } else if Some(dof) == along_y {
+                y += part;
+            }
+        }
+
+        (-y).atan2(x).to_degrees()
+    }
+
+    /// The first letters of a particle's name, or its number.
+    fn name(&self, particle: usize) -> String {
+        match self.coordinates.particles().get(particle) {
+            Some(name) if !name.is_empty() => name.chars().take(LETTERS).collect(),
+            _ => particle.to_string(),
+        }
+    }
+
+    fn arrows(&self, mode: &BodyMode<'_>, largest: f64, on_paper: &[(f64, f64)]) -> Element {
+        let mut arrows = Element::new("g").with("class", "arrows");
+        for (node, &from) in on_paper.iter().enumerate() {
+            let (v_x, v_y) = self.displacement(node, mode);
+            let right = v_x / largest * LONGEST;
+            let up = v_y / largest * LONGEST;
+            if right.hypot(up) >= SHORTEST {
+                arrows.push(arrow(from, (right, -up)));
+            }
+        }
+
+        arrows
+    }
+
+    /// The markers that occur with their words, from (x, y) on.
+    fn legend(&self, x: f64, y: f64) -> Element {
+        let mut used = Vec::new();
+        for particle in 0..self.particles.len() {
+            used.push(self.mark(particle));
+        }
+
+        let mut group = Element::new("g").with("class", "legend");
+        let mut left = x;
+        for mark in Mark::ALL.into_iter().filter(|mark| used.contains(mark)) {
+            let word = match (mark, &self.mode) {
+                (Mark::SlipRight, None) => "impending slip, the way it points",
+                (Mark::SlipRight, Some(_)) => "slips, the way it points",
+                _ => mark.word(),
+            };
+            group.push(mark.draw(left + 6.0, y - 4.5, RADIUS).unclassed());
+            group.push(text(left + 18.0, y, "start", word));
+            left += 36.0 + 0.6 * TEXT * word.chars().count() as f64;
+        }
+
+        group
+    }
+}
+
+/// The nodes as dots.
+fn nodes(on_paper: &[(f64, f64)]) -> Element {
+    let mut group = Element::new("g").with("class", "nodes");
+    for &(x, y) in on_paper {
+        let dot = Element::new("circle").at("cx", x).at("cy", y).at("r", 1.5);
+        group.push(dot.with("class", "node").with("fill", "#666"));
+    }
+
+    group
+}
+
+/// An arrow from a place by (right, down), px.
+fn arrow(from: (f64, f64), (right, down): (f64, f64)) -> Element {
+    let length = right.hypot(down);
+    let unit = (right / length, down / length);
+    let head = HEAD.min(0.5 * length);
+    let tip = (from.0 + right, from.1 + down);
+    let base = (tip.0 - head * unit.0, tip.1 - head * unit.1);
+
+    // The corners of the head lie across the arrow.
+    let across = (-0.45 * head * unit.1, 0.45 * head * unit.0);
+    let corners = [
+        tip,
+        (base.0 + across.0, base.1 + across.1),
+        (base.0 - across.0, base.1 - across.1),
+    ];
+
+    Element::new("g")
+        .with("class", "arrow")
+        .child(line(from, base, "#000", 1.3))
+        .child(Element::new("polygon").with("points", point_list(&corners)))
+}

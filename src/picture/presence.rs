@@ -1,0 +1,286 @@
+//! Divergence against mu: where it is proved absent or present, and where it was only sampled.
+//!
+//! Input: ranges of mu with a verdict each, the sampled values of mu, and the values that a reader
+//! looks for. A band shows the ranges: verdicts differ in shade and hatching, a full outline is a
+//! proof, a dashed one joins samples. Called by `mceip analyze --report`.
+
+use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, line, text};
+use super::drawing::Picture;
+use super::markup::{Element, point_list};
+use super::scale::{Extent, Spread, label};
+
+/// What is known of divergence at some mu.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Presence {
+    /// There is none.
+    Absent,
+    /// There is a diverging solution.
+    Present,
+    /// Neither was proved.
+    Undecided,
+}
+
+/// An interval of mu with one verdict.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PresenceRange {
+    /// The verdict.
+    pub presence: Presence,
+    /// Lower end.
+    pub from: f64,
+    /// Upper end; `None` for infinity.
+    pub to: Option<f64>,
+    /// Does it hold everywhere between the ends? If not, only at the samples in it.
+    pub is_proved: bool,
+}
+
+/// What is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PresenceChart {
+    /// Ranges that do not overlap.
+    pub ranges: Vec<PresenceRange>,
+    /// Sampled values of mu with their verdicts.
+    pub samples: Vec<(f64, Presence)>,
+    /// mu of the system.
+    pub friction: f64,
+    /// The smallest mu with a certified solution.
+    pub critical: Option<f64>,
+}
+
+const WIDTH: f64 = 760.0;
+
+/// The band of ranges and its axis.
+const AREA: Rectangle = Rectangle {
+    left: 40.0,
+    top: 110.0,
+    right: WIDTH - 40.0,
+    bottom: 150.0,
+};
+
+/// Dashes of the outline of a sampled range.
+const SAMPLED_DASH: &str = "4 3";
+
+/// Distance of the strokes of a hatched range, px.
+const HATCH: f64 = 7.0;
+
+/// Height of the marks of samples below the upper end of the band, px.
+const SAMPLE: f64 = 8.0;
+
+/// Width of the signs of keys, px.
+const SIGN: f64 = 22.0;
+
+/// Mean width of a letter, as a part of the height of the text.
+const LETTER: f64 = 0.6;
+
+/// Half the width of the pointers above the band, px.
+const POINTER: f64 = 5.0;
+
+impl Presence {
+    const ALL: [Presence; 3] = [Presence::Absent, Presence::Present, Presence::Undecided];
+
+    /// The words of the keys.
+    fn word(self) -> &'static str {
+        match self {
+            Presence::Absent => "no divergence",
+            Presence::Present => "divergence",
+            Presence::Undecided => "undecided",
+        }
+    }
+
+    fn class(self) -> &'static str {
+        match self {
+            Presence::Absent => "absent",
+            Presence::Present => "present",
+            Presence::Undecided => "undecided",
+        }
+    }
+
+    fn fill(self) -> &'static str {
+        match self {
+            Presence::Absent | Presence::Undecided => "#fff",
+            Presence::Present => "#b0b0b0",
+        }
+    }
+}
+
+impl PresenceChart {
+    /// From 0 to the largest mu that is drawn, and a little beyond.
+    fn axis(&self) -> Axis<'static> {
+        let mut values = vec![self.friction];
+        values.extend(self.critical);
+        values.extend(self.samples.iter().map(|(mu, _)| *mu));
+        for range in &self.ranges {
+            values.push(range.from);
+            values.extend(range.to);
+        }
+
+        let Extent { high, .. } = Extent::of(values.into_iter());
+        Axis {
+            label: "coefficient of friction \u{3bc}",
+            spread: Spread::Linear,
+            values: (0.0, high * 1.04),
+            ticks: 8,
+        }
+    }
+}
+
+/// Draws the ranges.
+pub fn presence_picture(title: &str, presence: &PresenceChart) -> Picture {
+    let x = presence.axis();
+    let y = Axis {
+        label: "",
+        spread: Spread::Linear,
+        values: (0.0, 1.0),
+        ticks: 0,
+    };
+    let chart = Chart::new(AREA, &x, &y);
+
+    let mut picture = Picture::new(title, WIDTH, AREA.bottom + 62.0);
+    picture.push_heading(AREA.left, 24.0);
+    picture.push(chart.frame(&x, &y));
+
+    for range in &presence.ranges {
+        picture.push(band(&chart, range));
+    }
+    for (mu, verdict) in &presence.samples {
+        picture.push(sample_mark(&chart, *mu, *verdict));
+    }
+
+    let own = pointer(&chart, presence.friction, "#fff");
+    picture.push(own.with("class", "friction"));
+    if let Some(mu) = presence.critical {
+        picture.push(pointer(&chart, mu, "#000").with("class", "critical"));
+    }
+
+    push_keys(&mut picture, presence);
+    picture
+}
+
+/// A range: a rectangle over the height of the band.
+fn band(chart: &Chart, range: &PresenceRange) -> Element {
+    let left = chart.x.place(range.from);
+    let right = chart.x.place(range.to.unwrap_or(f64::INFINITY));
+    let area = Rectangle {
+        left,
+        right,
+        ..AREA
+    };
+
+    let standing = if range.is_proved { "proved" } else { "sampled" };
+    let to = range.to.map_or_else(|| "infinity".into(), label);
+    let tip = format!(
+        "mu from {} to {to}: {}, {standing}",
+        label(range.from),
+        range.presence.word()
+    );
+
+    shaded(area, range.presence, range.is_proved)
+        .with(
+            "class",
+            format!("range {} {standing}", range.presence.class()),
+        )
+        .with("data-from", range.from)
+        .child(Element::new("title").text(tip))
+}
+
+/// A rectangle in the shade of a verdict, with the outline of a proof or of samples.
+fn shaded(area: Rectangle, presence: Presence, is_proved: bool) -> Element {
+    let outline = Element::new("rect")
+        .at("x", area.left)
+        .at("y", area.top)
+        .at("width", area.right - area.left)
+        .at("height", area.bottom - area.top)
+        .with("fill", presence.fill())
+        .with("stroke", "#000")
+        .with("stroke-width", if is_proved { "1.6" } else { "1" });
+
+    let mut group = Element::new("g").child(dashed(outline, outline_dash(is_proved)));
+    if presence == Presence::Undecided {
+        let mut x = area.left + HATCH;
+        while x < area.right {
+            group.push(line((x, area.top), (x, area.bottom), "#777", 0.8));
+            x += HATCH;
+        }
+    }
+
+    group
+}
+
+/// Dashes of an outline, empty for a full line.
+fn outline_dash(is_proved: bool) -> &'static str {
+    if is_proved { "" } else { SAMPLED_DASH }
+}
+
+/// A sample: a short stroke from the upper end of the band.
+fn sample_mark(chart: &Chart, mu: f64, verdict: Presence) -> Element {
+    let x = chart.x.place(mu);
+    let tip = format!("mu = {}: {}", label(mu), verdict.word());
+    line((x, AREA.top), (x, AREA.top + SAMPLE), "#000", 1.0)
+        .with("class", "sample")
+        .with("data-mu", mu)
+        .child(Element::new("title").text(tip))
+}
+
+/// A pointer from above to a value of mu.
+fn pointer(chart: &Chart, mu: f64, fill: &'static str) -> Element {
+    let tip = format!("mu = {}", label(mu));
+    triangle(chart.x.place(mu), AREA.top - 2.0, fill)
+        .with("data-mu", mu)
+        .child(Element::new("title").text(tip))
+}
+
+/// A triangle that points down to (x, y).
+fn triangle(x: f64, y: f64, fill: &'static str) -> Element {
+    let upper = y - 2.0 * POINTER;
+    let corners = [(x, y), (x - POINTER, upper), (x + POINTER, upper)];
+    Element::new("polygon")
+        .with("points", point_list(&corners))
+        .with("fill", fill)
+        .with("stroke", "#000")
+}
+
+/// What each sign means: shades and outlines in one row, the values of mu in the next.
+fn push_keys(picture: &mut Picture, presence: &PresenceChart) {
+    let baseline = 48.0;
+    let mut left = AREA.left;
+    for verdict in Presence::ALL {
+        let occurs = presence.ranges.iter().any(|r| r.presence == verdict);
+        if occurs {
+            let area = Rectangle {
+                left,
+                top: baseline - 11.0,
+                right: left + SIGN,
+                bottom: baseline,
+            };
+            picture.push(shaded(area, verdict, true));
+            push_key_word(picture, verdict.word(), baseline, &mut left);
+        }
+    }
+
+    for (is_proved, words) in [(true, "proved"), (false, "decided at samples only")] {
+        let occurs = presence.ranges.iter().any(|r| r.is_proved == is_proved);
+        if occurs {
+            let middle = baseline - 4.5;
+            let sign = line((left, middle), (left + SIGN, middle), "#000", 1.6);
+            picture.push(dashed(sign, outline_dash(is_proved)));
+            push_key_word(picture, words, baseline, &mut left);
+        }
+    }
+
+    let baseline = baseline + TEXT + 9.0;
+    let own = format!("\u{3bc} = {} of this system", label(presence.friction));
+    picture.push(triangle(AREA.left + POINTER, baseline, "#fff"));
+    picture.push(text(AREA.left + 16.0, baseline, "start", own));
+
+    if let Some(mu) = presence.critical {
+        let words = format!("smallest \u{3bc} with a certified solution: {}", label(mu));
+        picture.push(triangle(AREA.left + 290.0, baseline, "#000"));
+        picture.push(text(AREA.left + 302.0, baseline, "start", words));
+    }
+}
+
+/// The words behind a sign; `left` moves on to the next one.
+fn push_key_word(picture: &mut Picture, words: &str, baseline: f64, left: &mut f64) {
+    picture.push(text(*left + SIGN + 6.0, baseline, "start", words));
+    let letters = words.chars().count() as f64;
+    *left += SIGN + 6.0 + LETTER * TEXT * letters + 14.0;
+}
