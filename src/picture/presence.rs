@@ -2,8 +2,8 @@
 //!
 //! Input: ranges of mu with a verdict each, the sampled values of mu, and the values that a reader
 //! looks for. Boxes above the axis show the ranges: verdicts differ in shade and hatching, a full
-//! outline is a proof, a dashed one joins samples, and without a box nothing was examined. Called by
-//! `mceip analyze --report`.
+//! outline is a proof, a dashed one joins samples, and without a box nothing was examined. Called
+//! by `mceip analyze --report`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, line, text};
 use super::drawing::Picture;

@@ -256,8 +256,7 @@ mod tests {
         outcome
     }
 
-    /// Interrupted while the checker reads a cover that it would accept: neither proved, nor
-    /// refused.
+    /// Interrupted while the checker reads a cover that it would accept: not proved, not refused.
     #[test]
     fn an_interrupted_check_says_nothing() {
         let data = TwoParticles {
