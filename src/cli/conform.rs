@@ -115,7 +115,7 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     };
     print(&text)?;
     if let Some(output) = markdown {
-        output.write(&summary.markdown(&args.command))?;
+        output.write(&summary.markdown(&args.command, &settings(args)))?;
     }
 
     Ok(if job.is_cancelled() {
@@ -125,6 +125,33 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     } else {
         exit::REJECTED
     })
+}
+
+/// What a reader of a report has to know of the run: version, cases, options.
+fn settings(args: &Args) -> String {
+    let mut words = vec![concat!("mceip ", env!("CARGO_PKG_VERSION")).to_owned()];
+    match &args.pack {
+        None => words.push("the pack of the program".into()),
+        Some(folder) => words.push(format!("the pack in {}", folder.display())),
+    }
+
+    for (option, given) in [("--case", &args.case), ("--only", &args.only)] {
+        for word in given {
+            words.push(format!("{option} {word}"));
+        }
+    }
+    if args.count > 0 {
+        words.push(format!("--count {} --seed {}", args.count, args.seed));
+    }
+    if args.as_pencil {
+        words.push("--as-pencil".into());
+    }
+    if args.lines {
+        words.push("--lines".into());
+    }
+
+    words.push(format!("--time-limit {}", args.time_limit));
+    words.join("; ")
 }
 
 /// What is to be run, as the options say.

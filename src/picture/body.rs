@@ -1,5 +1,8 @@
 //! A body of one's own at the places that its problem file gives: nodes and edges at rest, the
-//! states of its particles, and a mode as arrows.
+//! obstacle and the state of each particle, and a mode as arrows.
+//!
+//! The obstacle of a particle is a line across its normal, with hatching on the side into which the
+//! normal points: a wrong angle or normal direction is seen at once.
 //!
 //! A node moves by (v_i, v_j), i and j its degrees of freedom along x and y; an arrow is that times
 //! one factor for all nodes, which the picture states. A mode has no size of its own.
@@ -10,7 +13,7 @@ use super::marker::Mark;
 use super::markup::{Element, point_list, segment, short};
 use super::scale::label;
 use mceip_exact::to_f64;
-use mceip_model::{ContactState, Coordinates, Particle};
+use mceip_model::{ContactState, Coordinates, Direction, Particle};
 
 /// What is drawn.
 #[derive(Debug, Clone, Copy)]
@@ -49,6 +52,14 @@ const HEAD: f64 = 7.0;
 
 /// Radius of the markers of particles, px.
 const RADIUS: f64 = 7.0;
+
+/// Length of the line of an obstacle, px, and its distance from the middle of the marker.
+const OBSTACLE: f64 = 26.0;
+const GAP: f64 = RADIUS + 1.5;
+
+/// Strokes of the hatching of an obstacle, and how far they reach into it, px.
+const STROKES: usize = 4;
+const DEPTH: f64 = 6.0;
 
 /// Particles up to which each of them has its name beside it.
 const NAMED: usize = 25;
@@ -124,6 +135,7 @@ pub fn body_picture(title: &str, body: &BodyDrawing<'_>) -> Picture {
     picture.push_heading(MARGIN / 2.0, 28.0);
     picture.push(body.edges(&on_paper));
     picture.push(nodes(&on_paper));
+    picture.push(body.obstacles(&on_paper));
     picture.push(body.marks(&on_paper));
 
     if let Some(mode) = &body.mode {
@@ -189,6 +201,43 @@ impl BodyDrawing<'_> {
             .with("stroke-width", "0.8")
     }
 
+    /// The obstacle of each particle, where its normal can be drawn.
+    fn obstacles(&self, on_paper: &[(f64, f64)]) -> Element {
+        let mut group = Element::new("g").with("class", "obstacles");
+        for particle in self.particles {
+            let Some(node) = self.coordinates.node_of(particle.normal) else {
+                continue;
+            };
+
+            let (x, y) = self.along_axes(&particle.into_obstacle(), node);
+            let length = x.hypot(y);
+            if length > 0.0 {
+                // On paper y points down.
+                let normal = (x / length, -y / length);
+                group.push(obstacle(on_paper[node], normal));
+            }
+        }
+
+        group
+    }
+
+    /// The components along x and y of a direction at a node.
+    fn along_axes(&self, direction: &Direction, node: usize) -> (f64, f64) {
+        let [along_x, along_y] = self.coordinates.nodes()[node].dofs;
+        let mut x = 0.0;
+        let mut y = 0.0;
+        for (dof, coefficient) in direction {
+            let part = to_f64(coefficient);
+            if Some(*dof) == along_x {
+                x += part;
+            } else if Some(*dof) == along_y {
+                y += part;
+            }
+        }
+
+        (x, y)
+    }
+
     /// What a particle does.
     fn mark(&self, particle: usize) -> Mark {
         match (&self.particles[particle].state, &self.mode) {
@@ -219,7 +268,7 @@ impl BodyDrawing<'_> {
 
             if self.particles.len() <= NAMED {
                 let name = self.name(index);
-                let word = text(x, y + RADIUS + 14.0, "middle", name).with("font-size", "10");
+                let word = text(x, y + RADIUS + 20.0, "middle", name).with("font-size", "10");
                 marks.push(word.with("class", "name"));
             }
         }
@@ -235,19 +284,9 @@ impl BodyDrawing<'_> {
             _ => 0.0,
         };
 
-        let [along_x, along_y] = self.coordinates.nodes()[node].dofs;
-        let mut x = 0.0;
-        let mut y = 0.0;
-        for (dof, coefficient) in particle.tangent() {
-            let part = -sign * to_f64(&coefficient);
-            if Some(dof) == along_x {
-                x += part;
-            } else if Some(dof) == along_y {
-                y += part;
-            }
-        }
-
-        (-y).atan2(x).to_degrees()
+        let (x, y) = self.along_axes(&particle.tangent(), node);
+        let (slip_x, slip_y) = (-sign * x, -sign * y);
+        (-slip_y).atan2(slip_x).to_degrees()
     }
 
     /// The first letters of a particle's name, or its number.
@@ -294,6 +333,27 @@ impl BodyDrawing<'_> {
 
         group
     }
+}
+
+/// A line across the normal in front of a place, and strokes on the side to which it points.
+fn obstacle(place: (f64, f64), normal: (f64, f64)) -> Element {
+    let along = (-normal.1, normal.0);
+    let at = |t: f64, n: f64| {
+        let x = place.0 + t * along.0 + n * normal.0;
+        let y = place.1 + t * along.1 + n * normal.1;
+        (x, y)
+    };
+
+    let half = OBSTACLE / 2.0;
+    let surface = line(at(-half, GAP), at(half, GAP), "#000", 1.2);
+    let mut group = Element::new("g").with("class", "obstacle").child(surface);
+    for k in 0..STROKES {
+        let t = -half + OBSTACLE * (k as f64 + 0.8) / STROKES as f64;
+        let stroke = line(at(t, GAP), at(t - DEPTH, GAP + DEPTH), "#000", 0.7);
+        group.push(stroke);
+    }
+
+    group
 }
 
 /// The nodes as dots.

@@ -471,6 +471,8 @@ fn threads_do_not_change_the_output() {
     let page = read(&first_page);
     assert_eq!(page, read(&second_page));
     assert!(page.contains("| random | 126 |"), "{page}");
+    let settings = "; the pack of the program; --only random; --count 30 --seed 7; --time-limit ";
+    assert!(page.contains(settings), "{page}");
 
     let other = conform(&random_cases("1", "8", &third_page), &program);
     assert_ne!(by_one.text, other.text, "another seed, other cases");

@@ -238,6 +238,25 @@ fn a_body_has_its_nodes_states_and_arrows() {
     let angles: Vec<f64> = turned.iter().map(angle).collect();
     assert_eq!(angles, [143.13, 0.0]);
 
+    // The normals point into the obstacle: (-3/5, 4/5), and (0, 1). On paper y points down.
+    let nodes = of_class(&tree, "node");
+    let obstacles = of_class(&tree, "obstacle");
+    assert_eq!(obstacles.len(), 2);
+    for (k, normal) in [[-0.6, -0.8], [0.0, -1.0]].into_iter().enumerate() {
+        let surface = obstacles[k].first_element_child().unwrap();
+        let middle =
+            |from, to| (number(&surface, from).unwrap() + number(&surface, to).unwrap()) / 2.0;
+        let right = middle("x1", "x2") - number(&nodes[k], "cx").unwrap();
+        let down = middle("y1", "y2") - number(&nodes[k], "cy").unwrap();
+        let distance = right.hypot(down);
+        assert!(distance > 7.0, "{distance}");
+        assert!(
+            (right / distance - normal[0]).abs() < 0.01,
+            "{right} {down}"
+        );
+        assert!((down / distance - normal[1]).abs() < 0.01, "{right} {down}");
+    }
+
     let v = [0.5, -0.25, 0.0, 0.0, f64::NAN, 0.0];
     drawing.mode = Some(BodyMode {
         v: &v,

@@ -105,10 +105,15 @@ impl Summary {
     }
 
     /// The same as Markdown, with the notes of the flags and all failures.
-    pub fn markdown(&self, command: &[String]) -> String {
+    ///
+    /// `settings` says which cases were run and how.
+    pub fn markdown(&self, command: &[String], settings: &str) -> String {
         let command = escaped(&command.join(" "));
+        let settings = escaped(settings);
         let verdict = self.verdict();
-        let mut out = format!("# mceip conform\n\nCommand: `{command}`\n\n{verdict}\n\n");
+        let mut out = format!(
+            "# mceip conform\n\nCommand: `{command}`\n\nSettings: {settings}\n\n{verdict}\n\n"
+        );
 
         let labels = Label::ALL.map(Label::word).join(" | ");
         let rule = "---|".repeat(Label::ALL.len() + 3);
@@ -224,8 +229,9 @@ mod tests {
         assert!(summary.text().ends_with(
             "2 cases: 1 correct, 0 incomplete, 0 inaccurate, 1 wrong, 0 crashed, 0 timed out, 0 malformed\n"
         ));
-        let markdown = summary.markdown(&["prog".into()]);
+        let markdown = summary.markdown(&["prog".into()], "mceip 1; a | b");
         assert!(markdown.contains("| q | wrong | a \\| b |"));
+        assert!(markdown.contains("Settings: mceip 1; a \\| b\n"));
         assert_eq!(summary.json(&[])["failures"][0]["case"], "q");
     }
 }
