@@ -246,13 +246,24 @@ impl Analysis {
             "growth rate 0 (a threshold: departure linear in time)".into()
         };
 
+        let slipping = &mode.slipping;
+        let stuck = if mode.sticking.is_empty() {
+            "none gets stuck".to_owned()
+        } else {
+            format!("{:?} get stuck", mode.sticking)
+        };
+
         let zero = zero_text(mode);
+        let where_v_is = if number == 1 {
+            "; v is in the JSON, over all degrees of freedom, with slip rates that sum to 1"
+        } else {
+            ""
+        };
+
         let text = format!(
-            "Mode {number}: {growth}, lambda^2 {} 1/s^2; particles {:?} slip, {:?} do not \
-             move{zero}; v over all degrees of freedom in the JSON, slip rates summing to 1.",
-            between(&mode.lambda2),
-            mode.slipping,
-            mode.sticking
+            "Mode {number}: {growth}, lambda^2 {} 1/s^2; particles {slipping:?} slip, \
+             {stuck}{zero}{where_v_is}.",
+            between(&mode.lambda2)
         );
 
         Sentence {
