@@ -26,8 +26,9 @@ pub(super) struct Args {
     /// Coefficient of friction instead of the file's (reactions in the file are then not used).
     #[arg(long, value_name = "MU", allow_hyphen_values = true)]
     friction: Option<String>,
-    /// Values of mu at which divergence is decided to find its ranges; 0 for none (the default
-    /// beyond 200 free degrees of freedom).
+    /// Values of mu at which divergence is decided to find its ranges, evenly spread from the
+    /// critical mu to twice the largest of it, the static thresholds and the mu asked for; 0 for
+    /// none (the default beyond 200 free degrees of freedom).
     #[arg(long, value_name = "N")]
     samples: Option<usize>,
     /// Boxes that may be examined, in each piece of [0, infinity), to bound the critical mu from
