@@ -20,6 +20,7 @@ pub fn presence(cases: &mut Cases) {
     between_corners(cases);
     at_rest(cases);
     with_a_free_variable(cases);
+    a_negative_null_vector(cases);
     other_problems(cases);
     cases.misspelt(
         "presence-",
@@ -559,6 +560,37 @@ fn with_a_free_variable(cases: &mut Cases) {
     from_two.from = parse("2.000000000000000000000000000001").unwrap();
     let note = "an edge is enclosed at its own t, where the remainder is 0";
     accept(cases, "free-edge", note, &problem, &from_two);
+}
+
+/// T = [[1 + t, 3], [3, 1 + t]] whatever mu is. With x > 0 all of T x is positive, so there is no
+/// solution. With v = -1 and Y = 5 the inequality |I - Y T'| v < v holds, and so do all obligations
+/// after it: only v > 0 is missing.
+fn a_negative_null_vector(cases: &mut Cases) {
+    let stiffness = [
+        (0, 0, whole(1)),
+        (0, 1, whole(3)),
+        (1, 1, whole(1)),
+        (2, 2, whole(14)),
+        (3, 3, whole(14)),
+    ];
+    let problem = system(4, &[(0, 2), (1, 3)], &stiffness, &identity(4));
+
+    let piece = PresencePiece {
+        support: vec![0, 1],
+        pivot: 1,
+        inverse: vec![integers(&[5])],
+        left: integers(&[-1]),
+        right: integers(&[-1]),
+        ..single("5/2", ["3/2", "5/2"], 1)
+    };
+    let forged = certificate(&problem, "2", vec![piece]);
+    let note = "v < 0: the inequality of a contraction says nothing, and the statement is false";
+    reject(
+        cases,
+        ["negative-null-vector", "Cover.NotContracting", note],
+        &problem,
+        &forged,
+    );
 }
 
 /// Problems that the format does not speak of.
