@@ -652,7 +652,7 @@ fn false_hypotheses(problem: &Problem, certificate: &Certificate) {
     }
 
     let fault = fault_of(problem, certificate, |forged| {
-        condensation(forged).stiffness_factor.rows[0][0] = Integer::from(0);
+        condensation(forged).stiffness_factor.rows[0].edit(|row| row[0] = Integer::from(0));
     });
     assert!(matches!(fault, CoverFault::Hypothesis { .. }), "{fault:?}");
 
@@ -687,9 +687,11 @@ fn false_anchors(problem: &Problem, certificate: &Certificate) {
     // A wrong column widens the enclosure: no leaf that needs it holds any more.
     let fault = fault_of(problem, certificate, |forged| {
         let anchor = &mut condensation(forged).anchors[0];
-        for entry in &mut anchor.right[0].rows[0] {
-            *entry += Integer::from(1) << 80;
-        }
+        anchor.right[0].rows[0].edit(|row| {
+            for entry in row {
+                *entry += Integer::from(1) << 80;
+            }
+        });
     });
     let is_of_the_tree = matches!(
         fault,

@@ -133,9 +133,8 @@ fn forge_anchor(forge: &mut Forge<'_>, number: usize) {
 
 /// The first row v becomes 1 - v.
 fn forge_row(matrix: &mut IntegerMatrix) {
-    for entry in &mut matrix.rows[0] {
-        *entry = -entry.clone() + Integer::from(1);
-    }
+    let row = matrix.rows[0].iter();
+    matrix.rows[0] = row.map(|entry| Integer::from(1) - &*entry).collect();
 }
 
 /// Leaves of the last piece get another outcome, or another leaf in their place.

@@ -133,8 +133,9 @@ fn alter_condensation(condensation: &mut Condensation, factor: &Rational, rng: &
     } else {
         &mut anchor.left[0].rows
     };
-    if let Some(entry) = rows.iter_mut().flatten().next() {
-        *entry += Integer::from(1) << rng.random_range(0..50);
+    if let Some(row) = rows.iter_mut().find(|row| !row.is_empty()) {
+        let change = Integer::from(1) << rng.random_range(0..50);
+        row.edit(|list| list[0] += change);
     }
 
     if rng.random_range(0..4) == 0 {

@@ -169,7 +169,7 @@ fn pieces_rise_to_the_end_of_the_window() {
 fn factor(entry: i64, order: usize) -> Factor {
     Factor {
         first: (0..order).collect(),
-        rows: vec![vec![Integer::from(entry)]; order],
+        rows: vec![vec![Integer::from(entry)].into(); order],
         exponent: 0,
     }
 }

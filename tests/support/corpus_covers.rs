@@ -426,7 +426,7 @@ const CONDENSED: [Forgery<CompleteSet>; 6] = [
         name: "factor-large",
         reason: "Cover.Hypothesis",
         note: "a factor that is too large",
-        change: |set| condensation(set).stiffness_factor.rows[0][0] *= 1000,
+        change: |set| condensation(set).stiffness_factor.rows[0].edit(|row| row[0] *= 1000),
     },
     Forgery {
         name: "no-anchor",

@@ -519,7 +519,7 @@ fn near_the_fold(cases: &mut Cases) {
 pub fn matrix(entry: i64) -> IntegerMatrix {
     IntegerMatrix {
         exponent: 1,
-        rows: vec![vec![Integer::from(entry)]],
+        rows: vec![vec![Integer::from(entry)].into()],
     }
 }
 
@@ -537,7 +537,7 @@ fn lower(rows: &[&[i64]], exponent: u32) -> Factor {
 pub fn no_factor(order: usize) -> Factor {
     Factor {
         first: (0..order).collect(),
-        rows: vec![vec![Integer::from(0)]; order],
+        rows: vec![vec![Integer::from(0)].into(); order],
         exponent: 0,
     }
 }
@@ -676,7 +676,9 @@ const FREE_FORGERIES: [Change; 16] = [
         name: "free-left-friction-row",
         reason: "Cover.Length",
         note: "left_friction with a row of two entries",
-        change: |c| condensation(c).anchors[0].left_friction[0].rows[0].push(0.into()),
+        change: |c| {
+            condensation(c).anchors[0].left_friction[0].rows[0].edit(|row| row.push(0.into()))
+        },
     },
     Change {
         name: "free-left-friction-degree",

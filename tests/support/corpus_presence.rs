@@ -512,7 +512,9 @@ const FREE_FORGERIES: [Forgery<PresenceCertificate>; 10] = [
         name: "free-left",
         reason: "Cover.NoSignChange",
         note: "V of T0 that approximates nothing leaves a large remainder",
-        change: |c| c.condensation.as_mut().unwrap().anchors[0].left[0].rows[0] = integers(&[40]),
+        change: |c| {
+            c.condensation.as_mut().unwrap().anchors[0].left[0].rows[0] = integers(&[40]).into()
+        },
     },
     Forgery {
         name: "free-left-friction",
@@ -520,7 +522,7 @@ const FREE_FORGERIES: [Forgery<PresenceCertificate>; 10] = [
         note: "V of T1 that approximates nothing leaves a large remainder",
         change: |c| {
             let anchor = &mut c.condensation.as_mut().unwrap().anchors[0];
-            anchor.left_friction[0].rows[0] = integers(&[40]);
+            anchor.left_friction[0].rows[0] = integers(&[40]).into();
         },
     },
     Forgery {

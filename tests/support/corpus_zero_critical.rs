@@ -236,10 +236,10 @@ fn with_a_free_dof(coupling: Rational) -> Problem {
 
 /// -1/2 at the slip particle, 0 at the variables of the other one.
 fn expansion() -> Vec<IntegerMatrix> {
-    let row = [-1, 0, 0, 0].map(|entry| entry.into()).to_vec();
+    let row = [-1, 0, 0, 0].map(mceip_exact::Integer::from);
     vec![IntegerMatrix {
         exponent: 1,
-        rows: vec![row],
+        rows: vec![row.into_iter().collect()],
     }]
 }
 

@@ -117,8 +117,8 @@ fn elimination_in_doubles(problem: &Problem) -> Result<Option<Vec<Vec<f64>>>, Te
     let mut rows = Vec::new();
     for row in &elimination.rows {
         let mut doubles = Vec::new();
-        for v in row {
-            doubles.push(to_f64(&(Rational::from_integer(v.clone()) * &unit)));
+        for v in row.iter() {
+            doubles.push(to_f64(&(Rational::from_integer(v.into_owned()) * &unit)));
         }
         rows.push(doubles);
     }

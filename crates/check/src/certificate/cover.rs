@@ -11,7 +11,7 @@
 //! only. The normative text is `spec/certificates.md`; symbols are explained there and in the
 //! modules of the checker, one for each kind of leaf.
 
-use super::{Integer, Number, integer_rows, integers, object};
+use super::{Integer, IntegerRow, Number, integer_rows, integers, object};
 use mceip_model::file::word_or_kind;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -279,8 +279,7 @@ pub struct Factor {
     /// First stored column of each row.
     pub first: Vec<usize>,
     /// Stored entries of each row.
-    #[serde(with = "integer_rows")]
-    pub rows: Vec<Vec<Integer>>,
+    pub rows: Vec<IntegerRow>,
     /// Binary exponent.
     pub exponent: u32,
 }
@@ -317,8 +316,7 @@ pub struct IntegerMatrix {
     /// Binary exponent.
     pub exponent: u32,
     /// Rows.
-    #[serde(with = "integer_rows")]
-    pub rows: Vec<Vec<Integer>>,
+    pub rows: Vec<IntegerRow>,
 }
 
 /// The nodes that stand in a file as words.

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 mod cover;
 mod critical;
 mod presence;
+mod row;
 pub use cover::{
     Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Ldl, LdlFactor, Member,
     Node, Piece, Point, Polynomials, Root, RootOutcome, Support, Tail,
@@ -27,6 +28,7 @@ pub use critical::{
     CriticalPiece, CriticalTail,
 };
 pub use presence::{PRESENCE_FORMAT, PresenceCertificate, PresencePiece};
+pub use row::IntegerRow;
 
 /// The format this program reads and writes.
 pub const CERTIFICATE_FORMAT: &str = "mceip-certificate/1";

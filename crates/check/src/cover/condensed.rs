@@ -27,16 +27,17 @@
 use super::ends::{Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::{Expanded, Norms};
 use super::fault::CoverFault;
-use super::product::{Linear, NonzeroRows, Part, part_of, times, transposed};
+use super::product::{Linear, NonzeroRows, Part, part_of, row_of, row_times, times, transposed};
 use super::psd::{Symmetric, semidefinite};
 use crate::certificate::{
-    Anchor, Condensation, CriticalAnchor, CriticalCondensation, Factor, IntegerMatrix,
+    Anchor, Condensation, CriticalAnchor, CriticalCondensation, Factor, IntegerMatrix, IntegerRow,
 };
 use crate::pencil::{FrictionParts, Row, Rows};
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
+use std::ops::Deref;
 
 /// Largest number of coefficients of an expansion.
 const MAX_DEGREE: usize = 8;
@@ -184,7 +185,7 @@ impl<'a> Expander<'a> {
     }
 
     /// The condensed pencil about an anchor.
-    fn expand(&self, elimination: &Elimination<'_>, right: &RightResidual) -> Expanded {
+    fn expand(&self, elimination: &Elimination<'_>, right: &Residual) -> Expanded {
         let sigma = self.bounds.sigma;
         let tau = self.bounds.tau;
         if elimination.anchor.reversed {
@@ -328,7 +329,7 @@ struct Polynomial<'a> {
 
 /// A matrix as the certificate spells it; its column j counts `column_factors[j]` times.
 struct Coefficient<'a> {
-    matrix: &'a Matrix,
+    matrix: &'a [IntegerRow],
     column_factors: Vec<Integer>,
 }
 
@@ -341,10 +342,14 @@ struct Elimination<'a> {
     v: Polynomial<'a>,
 }
 
-/// The coefficients of r = T_fs - F W, in units of 1 / (D q 2^e_w), and the norms of their columns.
-struct RightResidual {
-    coefficients: Vec<Matrix>,
+/// What is kept of a residual r = T_fs - F W, whose coefficients are in units of 1 / (D q 2^e_w).
+///
+/// Its rows are formed one after the other: together they are as large as W, in long integers.
+struct Residual {
+    /// Upper bounds of the norms of the columns of each coefficient.
     norms: Norms,
+    /// The coefficients beyond the degree of W, if they are asked for.
+    beyond: Vec<Matrix>,
 }
 
 impl Blocks {
@@ -513,7 +518,7 @@ impl Blocks {
             }
 
             let lift = exponent - m.exponent;
-            let own_bits = largest_bits(m.rows.iter().flatten());
+            let own_bits = m.rows.iter().map(IntegerRow::bits).max().unwrap_or(0);
             if own_bits > 0 {
                 entry_bits = entry_bits.max(own_bits + u64::from(lift));
             }
@@ -556,26 +561,33 @@ impl Blocks {
 }
 
 impl Elimination<'_> {
-    fn right_residual(&self) -> RightResidual {
-        let slip = self.blocks.slip;
-        let coefficients = residual(&self.about.ff, &self.about.fs, &self.w, slip);
-        RightResidual {
-            norms: norms_of_all(&coefficients, slip),
-            coefficients,
+    /// r = T_fs - F W.
+    fn right_residual(&self) -> Residual {
+        Equations {
+            f: &self.about.ff,
+            c: &self.about.fs,
+            w: &self.w,
+            columns: self.blocks.slip,
         }
+        .residual(Beyond::Kept)
     }
 
-    /// The coefficients of l = T_sf' - F V, in units of 1 / (D q 2^e_v), column i multiplied by the
-    /// factor of slip row i.
-    fn left_residual(&self) -> Vec<Matrix> {
-        let right_hand_side = transpose(&self.about.sf, self.blocks.free);
-        residual(&self.about.ff, &right_hand_side, &self.v, self.blocks.slip)
+    /// l = T_sf' - F V, in units of 1 / (D q 2^e_v), column i multiplied by the factor of slip row
+    /// i.
+    fn left_residual(&self) -> Residual {
+        Equations {
+            f: &self.about.ff,
+            c: &transpose(&self.about.sf, self.blocks.free),
+            w: &self.v,
+            columns: self.blocks.slip,
+        }
+        .residual(Beyond::Dropped)
     }
 
     /// The condensed pencil about the anchor; `right` is that of this anchor or of the other
     /// part's, whose free rows and W are the same. Given A_ff >= sigma I and B_ff >= tau I (for a
     /// reversed anchor the other way round).
-    fn expand(&self, right: &RightResidual, sigma: &Rational, tau: &Rational) -> Expanded {
+    fn expand(&self, right: &Residual, sigma: &Rational, tau: &Rational) -> Expanded {
         let Blocks { common, bits, .. } = self.blocks;
         let exponent = self.w.exponent + self.v.exponent;
 
@@ -598,12 +610,12 @@ impl Elimination<'_> {
         let by_sigma = (sigma * Rational::from_integer(common * q)).recip();
         let weight = rounding_weight.iter().map(|w| &by_sigma * w).collect();
 
-        let z = self.bracket(&right.coefficients);
+        let z = self.bracket(right);
         let rounding = self.w.coefficients.len().min(right.norms.len());
         Expanded {
             center: self.anchor.center.clone(),
             z: raise_rows(z, &raised),
-            left: norms_of_all(&self.left_residual(), self.blocks.slip),
+            left: self.left_residual().norms,
             right: right.norms.clone(),
             v: self.v.coefficients.iter().map(Coefficient::norms).collect(),
             rounding: right.norms[..rounding].to_vec(),
@@ -620,13 +632,14 @@ impl Elimination<'_> {
 
     /// Z times D q: T_ss - T_sf W - V'r, coefficient by coefficient, where of r the coefficients
     /// beyond the degree of W are meant.
-    fn bracket(&self, r: &[Matrix]) -> Vec<Matrix> {
+    fn bracket(&self, r: &Residual) -> Vec<Matrix> {
         let Elimination { about, w, v, .. } = self;
         let slip = self.blocks.slip;
         let w_len = w.coefficients.len();
         let v_len = v.coefficients.len();
         // The highest powers of d: 1 in T_ss, that of W and one more, those of V and r together.
-        let degree = w_len.max((v_len + r.len()).saturating_sub(2)).max(1);
+        let r_len = r.norms.len();
+        let degree = w_len.max((v_len + r_len).saturating_sub(2)).max(1);
         let mut z = vec![zero(slip, slip); degree + 1];
 
         for (i, row) in about.ss.iter().enumerate() {
@@ -648,7 +661,7 @@ impl Elimination<'_> {
         }
 
         // V'r, the transpose of r'V.
-        for (m, r_m) in r.iter().enumerate().skip(w_len) {
+        for (m, r_m) in (w_len..).zip(&r.beyond) {
             let r_transposed = transposed(r_m, slip);
             for (k, v_k) in v.coefficients.iter().enumerate() {
                 let product = v_k.times_from_left(&r_transposed);
@@ -698,36 +711,71 @@ fn transpose(m: &Linear, cols: usize) -> Linear {
     transposed
 }
 
-/// Coefficients of C(d) - F(d) W(d), in the units of W.
-fn residual(f: &Linear, c: &Linear, w: &Polynomial<'_>, cols: usize) -> Vec<Matrix> {
-    // C is linear, and the product has one coefficient more than W.
-    let terms = (w.coefficients.len() + 1).max(2);
-    let mut residual = vec![zero(f.len(), cols); terms];
+/// F(d) W(d) = C(d), which a polynomial W solves up to a residual.
+struct Equations<'a> {
+    f: &'a Linear,
+    c: &'a Linear,
+    w: &'a Polynomial<'a>,
+    /// Columns of C and W.
+    columns: usize,
+}
 
-    for (i, row) in c.iter().enumerate() {
-        for (j, constant, linear) in row {
-            residual[0][i][*j] += constant << w.exponent;
-            residual[1][i][*j] += linear << w.exponent;
-        }
-    }
+/// Are the coefficients of a residual beyond the degree of W kept?
+#[derive(Clone, Copy, PartialEq)]
+enum Beyond {
+    Kept,
+    Dropped,
+}
 
-    for part in [Part::Constant, Part::Linear] {
-        let f = part_of(f, part);
-        let first_power = match part {
-            Part::Constant => 0,
-            Part::Linear => 1,
+impl Equations<'_> {
+    /// C(d) - F(d) W(d), in the units of W.
+    fn residual(&self, beyond: Beyond) -> Residual {
+        let mut squares = vec![vec![Integer::zero(); self.columns]; self.terms()];
+        let mut kept = match beyond {
+            Beyond::Kept => vec![Matrix::with_capacity(self.f.len()); self.terms()],
+            Beyond::Dropped => Vec::new(),
         };
 
-        for (power, w_k) in (first_power..).zip(&w.coefficients) {
-            let product = w_k.times_from_left(&f);
-            let entries = residual[power].iter_mut().flatten();
-            for (entry, p) in entries.zip(product.into_iter().flatten()) {
-                *entry -= p;
+        for i in 0..self.f.len() {
+            let row = self.residual_row(i);
+            for (squares, entries) in squares.iter_mut().zip(&row) {
+                add_squares(squares, entries.iter());
             }
+
+            for (matrix, entries) in kept.iter_mut().zip(row).skip(self.w.coefficients.len()) {
+                matrix.push(entries);
+            }
+        }
+
+        let ones = ones(self.columns);
+        Residual {
+            norms: squares.iter().map(|s| norms(s, &ones)).collect(),
+            beyond: kept.split_off(kept.len().min(self.w.coefficients.len())),
         }
     }
 
-    residual
+    /// Coefficients of the residual: C is linear, and the product has one more than W.
+    fn terms(&self) -> usize {
+        (self.w.coefficients.len() + 1).max(2)
+    }
+
+    /// Row i of each coefficient of the residual.
+    fn residual_row(&self, i: usize) -> Vec<Vec<Integer>> {
+        let mut residual = vec![vec![Integer::zero(); self.columns]; self.terms()];
+        for (j, constant, linear) in &self.c[i] {
+            residual[0][*j] += constant << self.w.exponent;
+            residual[1][*j] += linear << self.w.exponent;
+        }
+
+        for (part, first_power) in [(Part::Constant, 0), (Part::Linear, 1)] {
+            let f = row_of(&self.f[i], part);
+            for (power, w_k) in (first_power..).zip(&self.w.coefficients) {
+                w_k.subtract_row_product(&f, &mut residual[power]);
+            }
+        }
+
+        residual
+    }
 }
 
 impl Coefficient<'_> {
@@ -743,9 +791,23 @@ impl Coefficient<'_> {
         product
     }
 
+    /// Subtracts from `target` the product of a row and this matrix.
+    fn subtract_row_product(&self, row: &[(usize, &Integer)], target: &mut [Integer]) {
+        let product = row_times(row, self.matrix, self.column_factors.len());
+        let factors = &self.column_factors;
+        for ((target, entry), factor) in target.iter_mut().zip(product).zip(factors) {
+            *target -= entry * factor;
+        }
+    }
+
     /// Upper bounds of the Euclidean norms of the columns, in units of 2^-[`NORM_BITS`].
     fn norms(&self) -> Vec<Integer> {
-        norms(self.matrix, &self.column_factors)
+        let mut squares = vec![Integer::zero(); self.column_factors.len()];
+        for row in self.matrix {
+            add_squares(&mut squares, row.iter());
+        }
+
+        norms(&squares, &self.column_factors)
     }
 }
 
@@ -770,23 +832,18 @@ fn ones(count: usize) -> Vec<Integer> {
     vec![Integer::one(); count]
 }
 
-/// Upper bounds of the Euclidean norm of each column, coefficient by coefficient, in units of
-/// 2^-[`NORM_BITS`].
-fn norms_of_all(list: &[Matrix], cols: usize) -> Norms {
-    list.iter().map(|m| norms(m, &ones(cols))).collect()
+/// Adds the squares of a row's entries to the sums of their columns.
+fn add_squares<T: Deref<Target = Integer>>(sums: &mut [Integer], row: impl Iterator<Item = T>) {
+    for (sum, entry) in sums.iter_mut().zip(row) {
+        *sum += &*entry * &*entry;
+    }
 }
 
-/// The same of one matrix, whose column j counts `column_factors[j]` times.
-fn norms(matrix: &Matrix, column_factors: &[Integer]) -> Vec<Integer> {
-    let mut squares = vec![Integer::zero(); column_factors.len()];
-    for row in matrix {
-        for (square, entry) in squares.iter_mut().zip(row) {
-            *square += entry * entry;
-        }
-    }
-
+/// Upper bounds of the Euclidean norms of columns with these sums of squares, in units of
+/// 2^-[`NORM_BITS`]. Column j counts `column_factors[j]` times.
+fn norms(squares: &[Integer], column_factors: &[Integer]) -> Vec<Integer> {
     let mut norms = Vec::with_capacity(squares.len());
-    for (square, factor) in squares.into_iter().zip(column_factors) {
+    for (square, factor) in squares.iter().zip(column_factors) {
         let rounded_up = u8::from(!square.is_zero());
         let root = ((square * factor * factor) << (2 * NORM_BITS)).sqrt();
         norms.push(root + rounded_up);

@@ -1,7 +1,7 @@
 //! The product of a matrix of long integers and one of short integers, exactly.
 //!
-//! The entries of the pencil are long and those of W and V short, as a rule below 2^62. So an entry
-//! of the left factor is cut into digits of 32 bits that have its sign,
+//! The entries of the pencil are long and those of W and V short, as a rule below 2^62
+//! ([`IntegerRow`]). So an entry of the left factor is cut into digits of 32 bits that have its sign,
 //!
 //! ```text
 //!     v = sum_k v_k 2^(32 k),    |v_k| < 2^32,
@@ -12,14 +12,13 @@
 //! digits, the sums are formed in long integers; the result is the same. Called by `condensed`.
 
 use super::ends::{Matrix, largest_bits};
+use crate::certificate::IntegerRow;
 use crate::pencil::Row;
 use mceip_exact::Integer;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{Signed, Zero};
 
 /// Bits of a digit.
 const DIGIT_BITS: u32 = 32;
-/// Entries of the right factor with at most this many bits are short.
-const SHORT_BITS: u64 = 62;
 /// Rows of the left factor with at most this many digits are cut: to join the digits takes time
 /// with the square of their number.
 const MOST_DIGITS: u64 = 64;
@@ -41,16 +40,17 @@ pub(super) enum Part {
 
 /// One part of a matrix linear in d.
 pub(super) fn part_of(matrix: &Linear, part: Part) -> NonzeroRows<'_> {
-    let mut rows = Vec::with_capacity(matrix.len());
-    for row in matrix {
-        let entries = row.iter().map(|(column, constant, linear)| match part {
-            Part::Constant => (*column, constant),
-            Part::Linear => (*column, linear),
-        });
-        rows.push(entries.filter(|(_, entry)| !entry.is_zero()).collect());
-    }
+    matrix.iter().map(|row| row_of(row, part)).collect()
+}
 
-    rows
+/// One part of a row of such a matrix.
+pub(super) fn row_of(row: &Row, part: Part) -> Vec<(usize, &Integer)> {
+    let entries = row.iter().map(|(column, constant, linear)| match part {
+        Part::Constant => (*column, constant),
+        Part::Linear => (*column, linear),
+    });
+
+    entries.filter(|(_, entry)| !entry.is_zero()).collect()
 }
 
 /// The transpose of a dense matrix with `columns` columns.
@@ -68,18 +68,31 @@ pub(super) fn transposed(matrix: &Matrix, columns: usize) -> NonzeroRows<'_> {
 }
 
 /// The product with a matrix that has `columns` columns.
-pub(super) fn times(left: &NonzeroRows<'_>, right: &Matrix, columns: usize) -> Matrix {
-    let short_right = short(right);
+pub(super) fn times(left: &NonzeroRows<'_>, right: &[IntegerRow], columns: usize) -> Matrix {
     let mut product = Matrix::with_capacity(left.len());
     for row in left {
-        let digits = digits_of(row);
-        product.push(match &short_right {
-            Some(right) if digits <= MOST_DIGITS => row_by_digits(row, digits, right, columns),
-            _ => long_row(row, right, columns),
-        });
+        product.push(row_times(row, right, columns));
     }
 
     product
+}
+
+/// One row of such a product.
+pub(super) fn row_times(
+    row: &[(usize, &Integer)],
+    right: &[IntegerRow],
+    columns: usize,
+) -> Vec<Integer> {
+    let digits = digits_of(row);
+    let short_rows = row.iter().map(|(g, _)| right[*g].as_short());
+    let short_rows: Option<Vec<&[i64]>> = short_rows.collect();
+
+    match short_rows {
+        Some(short_rows) if digits <= MOST_DIGITS => {
+            row_by_digits(row, digits, &short_rows, columns)
+        }
+        _ => long_row(row, right, columns),
+    }
 }
 
 /// Digits of the longest entry.
@@ -88,34 +101,20 @@ fn digits_of(row: &[(usize, &Integer)]) -> u64 {
     bits.div_ceil(DIGIT_BITS.into())
 }
 
-/// The matrix in machine integers, if all entries are short.
-fn short(matrix: &Matrix) -> Option<Vec<Vec<i64>>> {
-    if largest_bits(matrix.iter().flatten()) > SHORT_BITS {
-        return None;
-    }
-
-    let mut rows = Vec::with_capacity(matrix.len());
-    for row in matrix {
-        rows.push(row.iter().map(ToPrimitive::to_i64).collect::<Option<_>>()?);
-    }
-
-    Some(rows)
-}
-
-/// A row of the product: the sums for each digit, joined.
+/// A row of the product: the sums for each digit, joined. `right` has the row of each entry.
 fn row_by_digits(
     row: &[(usize, &Integer)],
     digits: u64,
-    right: &[Vec<i64>],
+    right: &[&[i64]],
     columns: usize,
 ) -> Vec<Integer> {
     let mut sums = vec![vec![0i128; columns]; digits as usize];
 
-    for (g, entry) in row {
+    for ((_, entry), right) in row.iter().zip(right) {
         let sign = if entry.is_negative() { -1 } else { 1 };
         for (sums_of_digit, digit) in sums.iter_mut().zip(entry.iter_u32_digits()) {
             let digit = sign * i64::from(digit);
-            for (sum, w) in sums_of_digit.iter_mut().zip(&right[*g]) {
+            for (sum, w) in sums_of_digit.iter_mut().zip(*right) {
                 *sum += i128::from(digit) * i128::from(*w);
             }
         }
@@ -133,11 +132,11 @@ fn row_by_digits(
 }
 
 /// A row of the product in long integers.
-fn long_row(row: &[(usize, &Integer)], right: &Matrix, columns: usize) -> Vec<Integer> {
+fn long_row(row: &[(usize, &Integer)], right: &[IntegerRow], columns: usize) -> Vec<Integer> {
     let mut sums = vec![Integer::zero(); columns];
     for (g, entry) in row {
-        for (sum, w) in sums.iter_mut().zip(&right[*g]) {
-            *sum += *entry * w;
+        for (sum, w) in sums.iter_mut().zip(right[*g].iter()) {
+            *sum += *entry * &*w;
         }
     }
 
@@ -181,11 +180,12 @@ mod tests {
                 vec![],
                 vec![(1, -&a, Integer::zero())],
             ];
-            let right: Matrix = vec![
+            let right = [
                 vec![b.clone(), -&b],
                 vec![b.clone(), -&b],
                 vec![b.clone(), b.clone()],
-            ];
+            ]
+            .map(IntegerRow::from);
 
             let p = &a * &b;
             let zero = vec![Integer::zero(); 2];
@@ -205,7 +205,7 @@ mod tests {
         for sign in [1, -1] {
             let long: Integer = ones(160) * sign;
             for short in [ones(62), -ones(62), ones(63), -ones(63), -ones(63) - 1] {
-                let right = vec![vec![short.clone()]; 3];
+                let right = vec![IntegerRow::from(vec![short.clone()]); 3];
                 let left = vec![vec![(0, &long), (2, &long)]];
                 assert_eq!(times(&left, &right, 1), vec![vec![&long * &short * 2]]);
             }
@@ -221,7 +221,7 @@ mod tests {
         let row: Vec<_> = (0..40)
             .map(|g| (g, &long[usize::from(g % 4 == 0)]))
             .collect();
-        let right = vec![vec![short.clone(), -&short]; 40];
+        let right = vec![IntegerRow::from(vec![short.clone(), -&short]); 40];
 
         let sum: Integer = &long[0] * &short * 20;
         assert_eq!(times(&vec![row], &right, 2), vec![vec![sum.clone(), -sum]]);

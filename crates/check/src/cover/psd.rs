@@ -8,11 +8,10 @@
 //! Only the lower triangle is looked at, so S must be symmetric. Entries of L L' are computed in
 //! machine integers where they fit. Called by `condensed` for its hypotheses.
 
-use super::ends::largest_bits;
 use super::fault::CoverFault;
-use crate::certificate::Factor;
+use crate::certificate::{Factor, IntegerRow};
 use mceip_exact::Integer;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 
 /// Largest binary exponent of a factor.
@@ -143,12 +142,12 @@ impl RowSums {
 /// (L L')_ij for j <= i: the sum over the columns that both rows hold, up to j, where row j ends.
 fn product(factor: &Factor, i: usize, j: usize) -> Integer {
     let start = factor.first[i].max(factor.first[j]);
-    let left = &factor.rows[i][start - factor.first[i]..];
-    let right = factor.rows[j].get(start - factor.first[j]..);
+    let left = factor.rows[i].iter().skip(start - factor.first[i]);
+    let right = factor.rows[j].iter().skip(start - factor.first[j]);
 
     let mut sum = Integer::zero();
-    for (p, q) in left.iter().zip(right.unwrap_or_default()) {
-        sum += p * q;
+    for (p, q) in left.zip(right) {
+        sum += &*p * &*q;
     }
 
     sum
@@ -156,23 +155,18 @@ fn product(factor: &Factor, i: usize, j: usize) -> Integer {
 
 /// The factor's rows in machine integers, if a row sum of |L L'|, of at most n^2 products, fits
 /// into 128 bits.
-fn short(factor: &Factor) -> Option<Vec<Vec<i64>>> {
-    let bits = largest_bits(factor.rows.iter().flatten());
+fn short(factor: &Factor) -> Option<Vec<&[i64]>> {
+    let bits = factor.rows.iter().map(IntegerRow::bits).max().unwrap_or(0);
     let bits_of_order = u64::from(usize::BITS - factor.rows.len().leading_zeros());
     if 2 * bits + 2 * bits_of_order > SHORT_BITS {
         return None;
     }
 
-    let mut rows = Vec::with_capacity(factor.rows.len());
-    for row in &factor.rows {
-        rows.push(row.iter().map(ToPrimitive::to_i64).collect::<Option<_>>()?);
-    }
-
-    Some(rows)
+    factor.rows.iter().map(IntegerRow::as_short).collect()
 }
 
 /// [`product`] of such rows.
-fn short_product(factor: &Factor, rows: &[Vec<i64>], i: usize, j: usize) -> i128 {
+fn short_product(factor: &Factor, rows: &[&[i64]], i: usize, j: usize) -> i128 {
     let start = factor.first[i].max(factor.first[j]);
     let left = &rows[i][start - factor.first[i]..];
     let right = rows[j].get(start - factor.first[j]..);
@@ -226,8 +220,8 @@ mod tests {
     /// [[2, 0], [-2, 2]] squared is [[4, -4], [-4, 8]].
     fn factor() -> Factor {
         let rows = vec![
-            vec![Integer::from(2)],
-            vec![Integer::from(-2), Integer::from(2)],
+            vec![Integer::from(2)].into(),
+            vec![Integer::from(-2), Integer::from(2)].into(),
         ];
         Factor {
             first: vec![0, 0],
@@ -256,10 +250,8 @@ mod tests {
     /// Rows of different beginnings, at both sides of the length at which machine integers end.
     #[test]
     fn short_and_long_products_agree() {
-        let row = |list: &[i64], bits: u32| {
-            list.iter()
-                .map(|v| Integer::from(*v) << bits)
-                .collect::<Vec<_>>()
+        let row = |list: &[i64], bits: u32| -> IntegerRow {
+            list.iter().map(|v| Integer::from(*v) << bits).collect()
         };
         let of = |bits| Factor {
             first: vec![0, 0, 2],
@@ -267,7 +259,8 @@ mod tests {
             exponent: 0,
         };
         for bits in [0, 55, 56, 57] {
-            let (factor, rows) = (of(bits), short(&of(bits)));
+            let factor = of(bits);
+            let rows = short(&factor);
             // Three rows are 2 bits, entries 4 + bits: 2 (4 + bits) + 4 may be at most 126.
             assert_eq!(rows.is_some(), bits <= 57, "{bits}");
             for (i, j) in [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)] {
@@ -284,7 +277,7 @@ mod tests {
     #[test]
     fn the_number_of_rows_counts_twice() {
         let of = |bits: u32| {
-            let rows = vec![vec![Integer::one() << (bits - 1)]; 8];
+            let rows = vec![vec![Integer::one() << (bits - 1)].into(); 8];
             short(&Factor {
                 first: (0..8).collect(),
                 rows,
@@ -303,9 +296,9 @@ mod tests {
             let value = |v: i64| Integer::from(v) << bits;
             // L = [[3], [-1, 3], [-1, 1, 3]]: L L' = [[9, -3, -3], [-3, 10, 4], [-3, 4, 11]].
             let rows = vec![
-                vec![value(3)],
-                vec![value(-1), value(3)],
-                vec![value(-1), value(1), value(3)],
+                vec![value(3)].into(),
+                vec![value(-1), value(3)].into(),
+                vec![value(-1), value(1), value(3)].into(),
             ];
             let factor = Factor {
                 first: vec![0, 0, 0],
@@ -361,7 +354,7 @@ mod tests {
     #[test]
     fn misshapen_factors_are_refused() {
         let mut short = factor();
-        short.rows[1].pop();
+        short.rows[1] = vec![Integer::from(-2)].into();
         let mut beyond = factor();
         beyond.first[1] = 2;
         let mut few = factor();
@@ -480,13 +473,13 @@ mod tests {
             })
         );
         assert_eq!(
-            with(&|f| f.rows[1].truncate(1)),
+            with(&|f| f.rows[1] = vec![Integer::from(-2)].into()),
             length("row of the factor", 2, 1)
         );
         assert_eq!(with(&|f| f.first[1] = 1), length("row of the factor", 1, 2));
         assert_eq!(with(&|f| f.first[1] = 2), length("row of the factor", 0, 2));
         assert_eq!(
-            with(&|f| f.rows[0].clear()),
+            with(&|f| f.rows[0] = vec![].into()),
             length("row of the factor", 1, 0)
         );
         assert_eq!(

@@ -43,9 +43,9 @@ fn rows((a, b): &(Dense, Dense)) -> Rows {
     Rows::of(&Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap())
 }
 
-fn integers(list: &[[i64; 2]]) -> Vec<Vec<Integer>> {
+fn integers(list: &[[i64; 2]]) -> Vec<IntegerRow> {
     list.iter()
-        .map(|row| row.map(Integer::from).to_vec())
+        .map(|row| row.map(Integer::from).into_iter().collect())
         .collect()
 }
 
@@ -126,7 +126,7 @@ fn transposed(p: &Poly) -> Poly {
 
 fn true_values(list: &[IntegerMatrix]) -> Poly {
     let of = |m: &IntegerMatrix, i: usize, j: usize| {
-        Rational::new(m.rows[i][j].clone(), Integer::one() << m.exponent)
+        Rational::new(m.rows[i].at(j).into_owned(), Integer::one() << m.exponent)
     };
     list.iter()
         .map(|m| [[of(m, 0, 0), of(m, 0, 1)], [of(m, 1, 0), of(m, 1, 1)]])

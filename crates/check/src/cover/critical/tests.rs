@@ -143,8 +143,8 @@ fn condensation(parts: &FrictionParts, center: &Rational, exponent: u32) -> Crit
     let factor = |diagonal: i64| Factor {
         first: vec![0, 0],
         rows: vec![
-            vec![Integer::from(diagonal)],
-            vec![0.into(), diagonal.into()],
+            vec![Integer::from(diagonal)].into(),
+            vec![0.into(), diagonal.into()].into(),
         ],
         exponent: 0,
     };

@@ -19,8 +19,8 @@ use super::matrix::{Matrix, zeros};
 use super::skyline::{Skyline, dot};
 use super::view::row_factor;
 use crate::search::complete::dyadic::multiple_near;
-use mceip_check::certificate::{Anchor, IntegerMatrix};
-use mceip_exact::{Integer, Rational, to_f64, truncated};
+use mceip_check::certificate::{Anchor, IntegerMatrix, IntegerRow};
+use mceip_exact::{Rational, to_f64, truncated};
 use mceip_model::Pencil;
 use mceip_model::file::Number;
 
@@ -290,8 +290,8 @@ impl Elimination<'_> {
 
 /// The bits of the largest entry of the first coefficient; 0 where there is none.
 fn bits_of(coefficients: &[IntegerMatrix]) -> i32 {
-    let entries = coefficients.first().into_iter().flat_map(|m| &m.rows);
-    let largest = entries.flatten().map(Integer::bits).max();
+    let rows = coefficients.first().into_iter().flat_map(|m| &m.rows);
+    let largest = rows.map(IntegerRow::bits).max();
     largest
         .and_then(|bits| i32::try_from(bits).ok())
         .unwrap_or(0)

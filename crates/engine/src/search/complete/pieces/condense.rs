@@ -419,7 +419,7 @@ fn columns_of(matrix: &IntegerMatrix, width: usize) -> Columns {
         let column = matrix
             .rows
             .iter()
-            .map(|row| to_f64(&Rational::new(row[j].clone(), unit.clone())));
+            .map(|row| to_f64(&Rational::new(row.at(j).into_owned(), unit.clone())));
         columns.push(column.collect());
     }
 

@@ -6,7 +6,7 @@
 //! (`check::cover::psd`). Called for B_ff (`condense`) and for the whole of B (`leaf::tail`).
 
 use super::skyline::Skyline;
-use mceip_check::certificate::Factor;
+use mceip_check::certificate::{Factor, IntegerRow};
 use mceip_exact::{Integer, Sparse};
 
 /// A factor of sym(m), which is positive definite on the rows that are not zero; `None` otherwise.
@@ -38,13 +38,13 @@ fn among_zero_rows(part: &Factor, kept: &[usize], order: usize) -> Factor {
         first[i] = kept[part.first[p]];
         rows[i] = vec![Integer::default(); i + 1 - first[i]];
         for (v, &j) in part.rows[p].iter().zip(&kept[part.first[p]..]) {
-            rows[i][j - first[i]] = v.clone();
+            rows[i][j - first[i]] = v.into_owned();
         }
     }
 
     Factor {
         first,
-        rows,
+        rows: rows.into_iter().map(IntegerRow::from).collect(),
         exponent: part.exponent,
     }
 }
@@ -62,7 +62,7 @@ mod tests {
         }
 
         let unit = Integer::from(1) << factor.exponent;
-        Rational::new(factor.rows[i][k - factor.first[i]].clone(), unit)
+        Rational::new(factor.rows[i].at(k - factor.first[i]).into_owned(), unit)
     }
 
     /// Entry (i, j) of S - L L'.

@@ -9,7 +9,7 @@
 use super::anchor::{Elimination, FINE};
 use super::blocks::Blocks;
 use super::condense::bounds_of;
-use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix};
+use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix, IntegerRow};
 use mceip_exact::{Integer, Rational, common_denominator, from_f64, to_f64};
 use mceip_model::Pencil;
 use num_traits::{One, Signed, Zero};
@@ -141,20 +141,14 @@ fn free_row(pencil: &Pencil, center: &Rational, places: &[Place], i: usize) -> F
 
 /// Raises the exponent so that the largest entry has this many bits; more stay.
 fn widen(matrix: &mut IntegerMatrix, bits: u32) {
-    let largest = matrix
-        .rows
-        .iter()
-        .flatten()
-        .map(Integer::bits)
-        .max()
-        .unwrap_or(0);
+    let largest = matrix.rows.iter().map(IntegerRow::bits).max().unwrap_or(0);
     if largest == 0 {
         return;
     }
 
     let more = u64::from(bits).saturating_sub(largest);
-    for entry in matrix.rows.iter_mut().flatten() {
-        *entry <<= more;
+    for row in &mut matrix.rows {
+        *row = row.iter().map(|entry| &*entry << more).collect();
     }
 
     matrix.exponent += more as u32;
@@ -183,7 +177,7 @@ impl Equation<'_> {
 
     /// The residual in doubles, by columns.
     fn residual(&self, rows: &[FreeRow]) -> Vec<Vec<f64>> {
-        let width = self.w.rows.first().map_or(0, Vec::len);
+        let width = self.w.rows.first().map_or(0, IntegerRow::len);
         let mut columns = vec![vec![0.0; rows.len()]; width];
 
         for (i, row) in rows.iter().enumerate() {
@@ -225,9 +219,9 @@ impl Equation<'_> {
 }
 
 /// sums -= factor row.
-fn subtract(sums: &mut [Integer], factor: &Integer, row: &[Integer]) {
-    for (sum, v) in sums.iter_mut().zip(row) {
-        *sum -= factor * v;
+fn subtract(sums: &mut [Integer], factor: &Integer, row: &IntegerRow) {
+    for (sum, v) in sums.iter_mut().zip(row.iter()) {
+        *sum -= factor * &*v;
     }
 }
 
@@ -235,12 +229,14 @@ fn subtract(sums: &mut [Integer], factor: &Integer, row: &[Integer]) {
 fn add(matrix: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
     let unit = Rational::from_integer(Integer::one() << matrix.exponent);
     let mut is_still = true;
-    for (j, column) in columns.iter().enumerate() {
-        for (row, v) in matrix.rows.iter_mut().zip(column) {
-            let units = (from_f64(*v).ok()? * &unit).round().to_integer();
+    for (i, row) in matrix.rows.iter_mut().enumerate() {
+        let mut corrected = row.to_vec();
+        for (entry, column) in corrected.iter_mut().zip(columns) {
+            let units = (from_f64(column[i]).ok()? * &unit).round().to_integer();
             is_still &= units.abs() <= Integer::one();
-            row[j] += units;
+            *entry += units;
         }
+        *row = corrected.into();
     }
 
     Some(is_still)
@@ -257,7 +253,7 @@ mod tests {
     /// Is entry (i, 0) of a matrix within 2^-bits of a number?
     fn is_near(matrix: &IntegerMatrix, i: usize, expected: &Rational, bits: u32) -> bool {
         let unit = Integer::one() << matrix.exponent;
-        let entry = Rational::new(matrix.rows[i][0].clone(), unit);
+        let entry = Rational::new(matrix.rows[i].at(0).into_owned(), unit);
         let limit = Rational::new(Integer::one(), Integer::one() << bits);
         (entry - expected).abs() < limit
     }
