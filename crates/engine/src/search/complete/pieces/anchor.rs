@@ -127,15 +127,31 @@ pub(crate) fn centers(lowest_frequency: f64, mut low: f64, top: f64) -> Vec<Cent
         let center = (low + REACH * lowest_frequency) / (1.0 - REACH);
         let reach = REACH * (center + lowest_frequency);
         let end = center + reach;
-        let short = multiple_near(center, SLACK_OF_CENTER * reach);
         centers.push(Center {
-            at: short.unwrap_or_default(),
+            at: short_center(center, reach),
             end,
         });
         low = end;
     }
 
     centers
+}
+
+/// The centre of an interval that ends here, with this `reach` relative to center + lowest
+/// frequency.
+pub(crate) fn center_below(end: f64, lowest_frequency: f64, reach: f64) -> Center {
+    // end - center = reach (center + lowest frequency).
+    let center = ((end - reach * lowest_frequency) / (1.0 + reach)).max(0.0);
+
+    Center {
+        at: short_center(center, reach * (center + lowest_frequency)),
+        end,
+    }
+}
+
+/// A short number next to a centre with this reach.
+fn short_center(center: f64, reach: f64) -> Rational {
+    multiple_near(center, SLACK_OF_CENTER * reach).unwrap_or_default()
 }
 
 /// A_ff >= sigma I and B_ff >= tau I, as the certificate proves it.

@@ -17,6 +17,7 @@ use super::massless;
 use super::reverse::{Beyond, beyond, exchanged};
 use super::skyline::Skyline;
 use super::view::{View, scale_of};
+use super::wide::{Definite, WideAnchors};
 use crate::search::complete::dyadic::{multiple_near, short_below};
 use crate::search::complete::error::CompleteError;
 use crate::search::complete::leaf::tail::tail;
@@ -106,15 +107,39 @@ pub(crate) fn condense(
         coarse
     };
 
+    let low = to_f64(window.min());
+    let wide = if lowest_frequency > 0.0 && top.is_finite() {
+        let definite = Definite {
+            elimination: &elimination,
+            lowest_frequency,
+            precision,
+        };
+        definite.anchors(definite_above, low, top)
+    } else {
+        WideAnchors::none(top)
+    };
+
     let mut anchors = Anchors::default();
     let mut ends = Vec::new();
-    for center in centers(lowest_frequency, to_f64(window.min()), top) {
-        let expanded = elimination.expand(&center.at, precision);
-        anchors.push(expanded.ok_or(CompleteError::NotDefinite {
-            what: "A_ff + t B_ff",
-            index: first_free,
-        })?);
-        ends.push(center.end);
+    if wide.anchors.is_empty() || wide.from > low {
+        for center in centers(lowest_frequency, low, wide.from) {
+            let expanded = elimination.expand(&center.at, precision);
+            anchors.push(expanded.ok_or(CompleteError::NotDefinite {
+                what: "A_ff + t B_ff",
+                index: first_free,
+            })?);
+            ends.push(center.end);
+        }
+    }
+
+    let has_wide = !wide.anchors.is_empty();
+    if let Some(end) = ends.last_mut().filter(|_| has_wide) {
+        *end = wide.from;
+    }
+
+    for (expanded, end) in wide.anchors {
+        anchors.push(expanded);
+        ends.push(end);
     }
 
     let mut tail = None;

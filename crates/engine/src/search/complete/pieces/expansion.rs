@@ -177,7 +177,7 @@ impl Expansion {
         self.coefficients.len() <= 2
     }
 
-    fn order(&self) -> usize {
+    pub(crate) fn order(&self) -> usize {
         self.coefficients[0].len()
     }
 

@@ -6,6 +6,7 @@
 //! | [`view`], [`expansion`] | the pencil on the complementarity variables, enclosed |
 //! | [`condense`] | elimination of the free variables, with its evidence |
 //! | [`anchor`], [`precise_anchor`], [`reverse`] | the elimination about one value |
+//! | [`wide`] | anchors of wide reach, where sym(T) is definite |
 //! | [`blocks`], [`skyline`], [`massless`], [`matrix`] | linear algebra in doubles |
 
 pub(crate) mod anchor;
@@ -19,3 +20,4 @@ pub(crate) mod prepared;
 pub(crate) mod reverse;
 pub(crate) mod skyline;
 pub(crate) mod view;
+pub(crate) mod wide;
