@@ -59,8 +59,15 @@ pub(crate) struct Definite<'a> {
 
 impl Definite<'_> {
     /// Anchors of wide reach that cover an interval below `top`, down to `low` at most. There
-    /// sym(T) is definite for `pencil`, which has the free rows of the one that is expanded.
+    /// sym(T) is definite for `pencil`, one of the same family as the one that is expanded.
+    ///
+    /// There are none if `pencil` has other free variables: those of particles with zero reaction
+    /// are free in a tail, and both halves of their slip are variables of T, which is not definite.
     pub(crate) fn anchors(&self, pencil: &Pencil, low: f64, top: f64) -> WideAnchors {
+        if pencil.free() != self.elimination.pencil.free() {
+            return WideAnchors::none(top);
+        }
+
         let is_own = std::ptr::eq(pencil, self.elimination.pencil);
         let other_blocks = (!is_own).then(|| Blocks::of(pencil));
         let other = other_blocks.as_ref().map(|blocks| Elimination {
