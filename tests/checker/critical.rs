@@ -157,6 +157,7 @@ fn certificate(
 
     CriticalCertificate {
         problem_sha256: problem.sha256(),
+        from: whole(0),
         below: below.clone(),
         condensation: None,
         pieces: vec![

@@ -120,7 +120,8 @@ struct Expansion<'a> {
     center: &'a Rational,
     reversed: bool,
     right: &'a [IntegerMatrix],
-    left: &'a [IntegerMatrix],
+    /// `None`: V is W.
+    left: Option<&'a [IntegerMatrix]>,
 }
 
 impl<'a> From<&'a Anchor> for Expansion<'a> {
@@ -129,14 +130,15 @@ impl<'a> From<&'a Anchor> for Expansion<'a> {
             center: &anchor.center.0,
             reversed: anchor.reversed,
             right: &anchor.right,
-            left: &anchor.left,
+            left: Some(&anchor.left),
         }
     }
 }
 
 /// W with the V of T0, and with that of T1.
 fn anchor_parts(anchor: &CriticalAnchor) -> [Expansion<'_>; 2] {
-    [&anchor.left, &anchor.left_friction].map(|left| Expansion {
+    let left_friction = Some(anchor.left_friction.as_slice());
+    [anchor.left.as_deref(), left_friction].map(|left| Expansion {
         center: &anchor.center.0,
         reversed: anchor.reversed,
         right: &anchor.right,
@@ -339,6 +341,8 @@ struct Elimination<'a> {
     about: ShiftedBlocks,
     w: Polynomial<'a>,
     v: Polynomial<'a>,
+    /// Is V = W and T_sf' = T_fs as given, so that l = r?
+    is_mirrored: bool,
 }
 
 /// The coefficients of r = T_fs - F W, in units of 1 / (D q 2^e_w), and the norms of their columns.
@@ -425,6 +429,28 @@ impl Blocks {
         Ok(())
     }
 
+    /// Is T_sf' = T_fs in the pencil as given? The rows here are multiples of its rows.
+    fn has_mirrored_blocks(&self) -> bool {
+        let mut of_sf: BTreeMap<(usize, usize), [Integer; 2]> = BTreeMap::new();
+        for (i, row) in self.sf.iter().enumerate() {
+            for (j, a, b) in row {
+                of_sf.insert((*j, i), [a, b].map(|entry| entry * &self.common));
+            }
+        }
+
+        let mut of_fs: BTreeMap<(usize, usize), [Integer; 2]> = BTreeMap::new();
+        for (j, row) in self.fs.iter().enumerate() {
+            for (i, a, b) in row {
+                of_fs.insert((j, *i), [a, b].map(|entry| entry * &self.factor[*i]));
+            }
+        }
+
+        let is_entry = |_: &(usize, usize), [a, b]: &mut [Integer; 2]| !a.is_zero() || !b.is_zero();
+        of_sf.retain(is_entry);
+        of_fs.retain(is_entry);
+        of_sf == of_fs
+    }
+
     /// The stored entry (i, j) of D T_ff.
     fn free_entry(&self, i: usize, j: usize) -> Option<&(usize, Integer, Integer)> {
         let row = &self.ff[i];
@@ -458,7 +484,8 @@ impl Blocks {
     fn elimination<'a>(&'a self, anchor: Expansion<'a>) -> Result<Elimination<'a>, CoverFault> {
         let w = self.polynomial(anchor.right, &ones(self.slip))?;
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
-        let v = self.polynomial(anchor.left, &self.factor)?;
+        let left = anchor.left.unwrap_or(anchor.right);
+        let v = self.polynomial(left, &self.factor)?;
         self.affordable(
             anchor.center,
             coefficients(&w, &v),
@@ -469,6 +496,7 @@ impl Blocks {
         Ok(Elimination {
             blocks: self,
             about: self.about(anchor.center),
+            is_mirrored: anchor.left.is_none() && self.has_mirrored_blocks(),
             anchor,
             w,
             v,
@@ -565,11 +593,20 @@ impl Elimination<'_> {
         }
     }
 
-    /// The coefficients of l = T_sf' - F V, in units of 1 / (D q 2^e_v), column i multiplied by the
-    /// factor of slip row i.
-    fn left_residual(&self) -> Vec<Matrix> {
-        let right_hand_side = transpose(&self.about.sf, self.blocks.free);
-        residual(&self.about.ff, &right_hand_side, &self.v, self.blocks.slip)
+    /// Norms of the columns of l = T_sf' - F V, coefficient by coefficient, in units of
+    /// 1 / (D q 2^e_v), column i multiplied by the factor of slip row i.
+    fn left_residual_norms(&self, right: &RightResidual) -> Norms {
+        let Blocks {
+            factor, free, slip, ..
+        } = self.blocks;
+        if self.is_mirrored {
+            let coefficients = right.coefficients.iter();
+            return coefficients.map(|m| norms(m, factor)).collect();
+        }
+
+        let right_hand_side = transpose(&self.about.sf, *free);
+        let coefficients = residual(&self.about.ff, &right_hand_side, &self.v, *slip);
+        norms_of_all(&coefficients, *slip)
     }
 
     /// The condensed pencil about the anchor; `right` is that of this anchor or of the other
@@ -603,7 +640,7 @@ impl Elimination<'_> {
         Expanded {
             center: self.anchor.center.clone(),
             z: raise_rows(z, &raised),
-            left: norms_of_all(&self.left_residual(), self.blocks.slip),
+            left: self.left_residual_norms(right),
             right: right.norms.clone(),
             v: self.v.coefficients.iter().map(Coefficient::norms).collect(),
             rounding: right.norms[..rounding].to_vec(),
