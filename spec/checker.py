@@ -1952,12 +1952,12 @@ def check_critical(p, doc):
                 demand(tail is not None and tail <= lo, "tail: not covered")
             elif kind == "regular":
                 demand(hi is not None or pencils[0].reversed(anchor), "regular: to infinity without a reversed anchor")
-                leaf, list_of_ends = Regular(state, p.s, value), corners()
+                leaf = Regular(state, p.s, value)
                 t_bits = BITS + rational_bits(lo) + (0 if hi is None else rational_bits(hi))
                 mu_bits = rational_bits(low) + rational_bits(high)
                 definite_left -= 8 * len(leaf.v) ** 3 * words(leaf.bits) * words(t_bits + mu_bits)
                 demand(definite_left >= 0, "regular: more work than the file's budget")
-                leaf.check(list_of_ends)
+                leaf.check(corners())
             else:
                 definite_left -= 2 * sum(st != REST for st in state) ** 3
                 demand(definite_left >= 0, "definite: more work than the file's budget")

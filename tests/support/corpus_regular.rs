@@ -169,7 +169,10 @@ const FORGERIES: [Forgery<CriticalCertificate>; 19] = [
         name: "regular-nothing-moves",
         reason: "Cover.RootTooEarly",
         note: "both variables at rest",
-        change: |c| c.pieces[0].tree = vec![Branch(0), Branch(1), single(1)],
+        change: |c| {
+            let instead = [Branch(1), single(1), farkas(&[1, 0])];
+            c.pieces[0].tree.splice(1..2, instead);
+        },
     },
     Forgery {
         name: "regular-infinite",
@@ -415,6 +418,7 @@ fn reversed(cases: &mut Cases) {
     let mut near = good;
     near.pieces[0].max = Some(q("1/2"));
     near.pieces.remove(1);
+    near.pieces[1].tree[1] = farkas(&[0]);
     let note = "W = V = 0 at 1/2: remainders as large as the matrix";
     reject(
         cases,

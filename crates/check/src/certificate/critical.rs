@@ -175,7 +175,8 @@ pub struct CriticalTail {
     /// The same at mu = `below`.
     #[serde(deserialize_with = "object::one")]
     pub factor_below: Factor,
-    /// Approximate Cholesky factor of sym(B) at the smallest mu, where that is no non-negative diagonal.
+    /// Approximate Cholesky factor of sym(B) at the smallest mu, where that is no non-negative
+    /// diagonal.
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",

@@ -19,9 +19,9 @@
 //! convex in T. As there, short numbers are tried
 //! first, and the long ones decide where these cannot tell.
 //!
-//! *Tail.* Above some t sym(A + tB) of the whole pencil is positive definite and sym(B) semidefinite
-//! at mu = `from` and at mu = `below`, so at every mu between. The pencil is that of the system in which
-//! the particles with zero reaction are free (`spec/zero-reaction.md`, Z.4).
+//! *Tail.* Above some t sym(A + tB) of the whole pencil is positive definite, and sym(B) is
+//! semidefinite, at mu = `from` and at mu = `below`, so at every mu between. The pencil is that of
+//! the system in which the particles with zero reaction are free (`spec/zero-reaction.md`, Z.4).
 //!
 //! *Zero reaction.* Particles in contact with zero reaction have three variables each, whose rows
 //! are affine in mu as well. A branch on one half of v_T puts the other half at rest where the

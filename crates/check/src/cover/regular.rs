@@ -2,8 +2,8 @@
 //!
 //! Let L be the support, k in L the *pivot*, and T' the block of T on L without k. The witness is
 //! Y ~ T'^-1 and vectors v, u ~ right and left null vectors, with v_k = u_k = 1. Every T(t, mu) of
-//! the box is a mean of matrices, each within R_c of M_c at a corner c. With the largest values over
-//! the corners, radii included,
+//! the box is a mean of matrices, each within R_c of M_c at a corner c. With the largest values
+//! over the corners, radii included,
 //!
 //! ```text
 //!     rho      >=  |I - Y T'|                          largest row sum
@@ -20,8 +20,8 @@
 //!
 //! and so in the whole box, because u'Tv is linear in T.
 //!
-//! Let T x = 0 on L with x != 0. T' is regular, so x_k is not zero: it is scaled to 1, and z is x - v
-//! without k. From T'z = -(T_'k + T'v) follows z = (I - Y T') z - Y (T_'k + T'v), so
+//! Let T x = 0 on L with x != 0. T' is regular, so x_k is not zero: it is scaled to 1, and z is
+//! x - v without k. From T'z = -(T_'k + T'v) follows z = (I - Y T') z - Y (T_'k + T'v), so
 //! |z| <= epsilon. Then 0 = u'Tx = u'Tv + (T_k' + u'T') z, whose last term is at most P epsilon: a
 //! contradiction. As y = 0 on the support of a solution, the box holds none.
 //!
