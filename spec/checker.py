@@ -1745,17 +1745,19 @@ def count(found):
 # ---------------------------------------------------------------- absence below a friction
 
 CRITICAL_ANCHOR = record(
-    center=number, reversed=Maybe(flag, null=False), right=list_of(MATRIX), left=list_of(MATRIX), left_friction=list_of(MATRIX))
+    center=number, reversed=Maybe(flag, null=False), right=list_of(MATRIX), left=Maybe(list_of(MATRIX)), left_friction=list_of(MATRIX))
 CRITICAL_TAIL = record(**{
     "from": number, "factor": FACTOR, "factor_below": FACTOR, "mass_factor": Maybe(FACTOR), "mass_factor_below": Maybe(FACTOR)})
 CRITICAL_CONDENSATION = record(
     sigma=number, stiffness_factor=FACTOR, mass_sigma=number, mass_factor=Maybe(FACTOR), anchors=list_of(CRITICAL_ANCHOR),
     tail=Maybe(CRITICAL_TAIL))
+REGULAR = record(
+    pivot=place, inverse=list_of(INTEGERS), inverse_exponent=exponent, left=INTEGERS, right=INTEGERS, exponent=exponent)
 CRITICAL_NODE = one_of(
-    "positive_definite", "negative_definite", "tail", split=number, friction=number, branch=place, farkas=list_of(weight))
-CRITICAL = record(
-    format=text_of, problem_sha256=text_of, below=number, condensation=Maybe(CRITICAL_CONDENSATION),
-    pieces=list_of(record(max=end, anchor=Maybe(place), tree=list_of(CRITICAL_NODE))))
+    "positive_definite", "negative_definite", "tail", split=number, friction=number, branch=place, farkas=list_of(weight), regular=REGULAR)
+CRITICAL = record(**{
+    "format": text_of, "problem_sha256": text_of, "from": Maybe(number), "below": number, "condensation": Maybe(CRITICAL_CONDENSATION),
+    "pieces": list_of(record(max=end, anchor=Maybe(place), tree=list_of(CRITICAL_NODE)))})
 
 
 class Part:
@@ -1801,7 +1803,7 @@ def at_friction(ends, mu):
     return Ends(m0, m1, r0, r1, None, unit * q, ends[0].unbounded)
 
 
-def critical_pencils(p, parts, integral, obj, below):
+def critical_pencils(p, parts, integral, obj, lowest, below):
     """The enclosures of T0 and T1, rows scaled alike, and where the tail begins."""
     bits = [[max(x) for x in zip(*(row_bits(rows, k) for rows in integral))] for k in (1, 2)]
     if obj is None:
@@ -1809,7 +1811,10 @@ def critical_pencils(p, parts, integral, obj, below):
     pencils = []
     for x, rows, left in zip(parts, integral, ("left", "left_friction")):
         own = {key: v for key, v in obj.items() if key != "tail"}
-        own["anchors"] = [{**{key: v for key, v in a.items() if key != "left_friction"}, "left": a[left]} for a in obj["anchors"]]
+        own["anchors"] = []
+        for a in obj["anchors"]:
+            same = {key: v for key, v in a.items() if key != "left_friction"}
+            own["anchors"].append({**same, "left": a["right"] if a.get(left) is None else a[left]})
         pencils.append(CondensedPencil(x, rows, own, bits))
     tail = obj.get("tail")
     if tail is None:
@@ -1818,7 +1823,7 @@ def critical_pencils(p, parts, integral, obj, below):
     if p.halves:
         p = zero_free(p)
         parts = friction_parts(p)[0]
-    for mu, which in ((Q(0), ""), (below, "_below")):
+    for mu, which in ((lowest, ""), (below, "_below")):
         a, b = ([plus(r0, r1, mu if i in p.s else 0) for i, (r0, r1) in enumerate(zip(*m))]
                 for m in ([x.a for x in parts], [x.b for x in parts]))
         for m, factor, strict in (
@@ -1832,20 +1837,69 @@ def critical_pencils(p, parts, integral, obj, below):
     return pencils, start
 
 
+class Regular:
+    """The leaf `regular` of a decided box (C, mceip-critical/1)."""
+
+    def __init__(self, state, s, obj):
+        pivot, inverse, ey, left, right, ex = fields(obj, "pivot inverse inverse_exponent left right exponent")
+        pivot, ey, ex = counter(pivot), counter(ey), counter(ex)
+        moving = [j for j, st in enumerate(state) if st == MOVING]
+        demand(moving and OPEN not in state, "regular: undecided, or nothing moves")
+        demand(pivot in [s[j] for j in moving], "regular: pivot")
+        self.k = s.index(pivot)
+        self.others = [j for j in moving if j != self.k]
+        m = len(self.others)
+        demand(len(inverse) == len(left) == len(right) == m and all(len(r) == m for r in inverse), "regular: lengths")
+        demand(max(ex, ey) <= 16_384, "regular: exponents")
+        numbers = [integer(x) for row in [*inverse, left, right] for x in row]
+        self.bits = max([ex, ey, *(abs(x).bit_length() for x in numbers)])
+        self.y = [[Q(integer(x), 2**ey) for x in row] for row in inverse]
+        u, v = ([Q(integer(x), 2**ex) for x in vector] for vector in (left, right))
+        self.u, self.v = dict(zip(self.others, u)) | {self.k: Q(1)}, dict(zip(self.others, v)) | {self.k: Q(1)}
+
+    def check(self, list_of_ends):
+        """Obligations 1 to 4; the largest values over the corners."""
+        rho = size = p = Q(0)
+        both = []
+        for ends in list_of_ends:
+            for m, r in ends.both:
+                def sums(vector, get):
+                    """On the rows (columns) of the moving variables other than k: a residual and its radius."""
+                    return [(sum(x * get(m, i, j) for j, x in vector.items()) / ends.unit,
+                             sum(abs(x) * get(r, i, j) for j, x in vector.items()) / ends.unit) for i in self.others]
+                for i, row in zip(self.others, self.y):
+                    total = Q(0)
+                    for j in self.others:
+                        total += abs((i == j) - sum(y * m[a][j] for y, a in zip(row, self.others)) / ends.unit)
+                        total += sum(abs(y) * r[a][j] for y, a in zip(row, self.others)) / ends.unit
+                    rho = max(rho, total)
+                right = sums(self.v, lambda a, i, j: a[i][j])
+                for row in self.y:
+                    size = max(size, abs(dot(row, [q for q, _ in right])) + dot([abs(y) for y in row], [s for _, s in right]))
+                p = max(p, sum(abs(q) + s for q, s in sums(self.u, lambda a, i, j: a[j][i])))
+                h = sum(x * m[i][j] * w for i, x in self.u.items() for j, w in self.v.items()) / ends.unit
+                g = sum(abs(x * w) * r[i][j] for i, x in self.u.items() for j, w in self.v.items()) / ends.unit
+                both.append((h, g))
+        demand(rho < 1, "regular 1: the inverse")
+        bound = p * size / (1 - rho)
+        demand(any(all(s * h - g > bound for h, g in both) for s in (1, -1)), "regular 4: no certain sign")
+
+
 def check_critical(p, doc):
-    """No solution for mu in [0, below] and lambda^2 >= 0."""
+    """No solution for mu in [from, below] and lambda^2 >= 0."""
     CRITICAL(doc)
-    _, digest, below, pieces, obj = fields(doc, "format problem_sha256 below pieces", "condensation")
-    below = number(below)
+    _, digest, below, pieces, obj, lowest = fields(doc, "format problem_sha256 below pieces", "condensation from")
+    below, lowest = number(below), Q(0) if lowest is None else number(lowest)
     demand(digest == p.digest, f"the problem's digest is {p.digest}")
     demand(p.system is not None and p.unknown == "lambda2", "a mechanical system with the unknown lambda2 was expected")
     demand(below > 0, "below is not positive")
+    demand(0 <= lowest < below, "from and below")
     ns = len(p.s)
     demand(ns <= 512, "more than 512 slip variables")
     demand(obj is None or 2 * len(obj["anchors"]) * ns**2 <= 3 << 20, "too many anchors for matrices of this order")
     demand((obj is not None) == bool(p.free), "condensation is present exactly if there are free variables")
     parts, integral = friction_parts(p)
-    pencils, tail = critical_pencils(p, parts, integral, obj, below)
+    pencils, tail = critical_pencils(p, parts, integral, obj, lowest, below)
     nodes = sum(len(piece["tree"]) for piece in pieces)
     Budget.matrices = (1 << 30) + (nodes << 24)
     entries = sum(len({*ra, *rb}) for rows in integral for _, ra, rb in rows)
@@ -1858,7 +1912,7 @@ def check_critical(p, doc):
         if anchor is not None:
             anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
         demand((end is None) == (k == len(pieces) - 1) and (end is None or end > start), "a piece's max")
-        boxes, known = [(start, end, Q(0), below, (OPEN,) * ns)], {}
+        boxes, known = [(start, end, lowest, below, (OPEN,) * ns)], {}
         for node in tree:
             demand(boxes, "nodes after the end of a tree")
             lo, hi, low, high, state = boxes.pop()
@@ -1896,13 +1950,21 @@ def check_critical(p, doc):
                 farkas(corners(), state, value)
             elif kind == "tail":
                 demand(tail is not None and tail <= lo, "tail: not covered")
+            elif kind == "regular":
+                demand(hi is not None or pencils[0].reversed(anchor), "regular: to infinity without a reversed anchor")
+                leaf = Regular(state, p.s, value)
+                t_bits = BITS + rational_bits(lo) + (0 if hi is None else rational_bits(hi))
+                mu_bits = rational_bits(low) + rational_bits(high)
+                definite_left -= 8 * len(leaf.v) ** 3 * words(leaf.bits) * words(t_bits + mu_bits)
+                demand(definite_left >= 0, "regular: more work than the file's budget")
+                leaf.check(corners())
             else:
                 definite_left -= 2 * sum(st != REST for st in state) ** 3
                 demand(definite_left >= 0, "definite: more work than the file's budget")
                 definite(corners(), state, 1 if kind[0] == "p" else -1)
         demand(not boxes, "a tree that ends early")
         start = end
-    return 0, f"ACCEPTED: no solution for friction in [0, {below}] and lambda2 in [0, infinity), {leaves} leaves"
+    return 0, f"ACCEPTED: no solution for friction in [{lowest}, {below}] and lambda2 in [0, infinity), {leaves} leaves"
 
 
 # ---------------------------------------------------------------- presence on an interval of friction
@@ -1999,7 +2061,7 @@ def check_presence(p, doc):
     demand(obj is None or 2 * len(obj["anchors"]) * ns**2 <= 3 << 20, "too many anchors for matrices of this order")
     demand((obj is not None) == bool(p.free), "condensation is present exactly if there are free variables")
     parts, integral = friction_parts(p)
-    pencils, _ = critical_pencils(p, parts, integral, obj, stop)
+    pencils, _ = critical_pencils(p, parts, integral, obj, start, stop)
     Budget.matrices = (1 << 30) + (len(pieces) << 24)
     demand(pieces, "no piece")
     low = start

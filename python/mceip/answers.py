@@ -205,12 +205,15 @@ class Absence:
     """What an accepted certificate of absence has proved.
 
     Attributes:
-        below: there is no solution for friction coefficients in [0, below] and lambda^2 >= 0.
+        below: there is no solution for friction coefficients in [start, below] and lambda^2 >= 0.
         leaves: number of leaves that prove it.
+        start: the smallest friction coefficient of which this is proved, 0 for a proof of
+            `analyze`.
     """
 
     below: Fraction
     leaves: int
+    start: Fraction
 
 
 @dataclass(frozen=True)
@@ -232,8 +235,8 @@ class Proof:
         native = NativeProblem.from_json(json.dumps(self.problem))
         text = json.dumps(self.certificate)
         if self.certificate["format"] == "mceip-critical/1":
-            below, leaves = native.check_absence(text)
-            return Absence(fraction_of(below), leaves)
+            start, below, leaves = native.check_absence(text)
+            return Absence(fraction_of(below), leaves, fraction_of(start))
         return accepted_of(json.loads(native.check(text)))
 
 

@@ -222,15 +222,17 @@ impl NativeProblem {
         Ok(answers::accepted(&accepted).to_string())
     }
 
-    /// The verdict of the checker on `mceip-critical/1`: the largest friction coefficient of which
-    /// absence is proved, and the number of leaves that prove it.
-    fn check_absence(&self, py: Python<'_>, text: &str) -> PyResult<(String, usize)> {
+    /// The verdict of the checker on `mceip-critical/1`: the smallest and the largest friction
+    /// coefficient of which absence is proved, and the number of leaves that prove it.
+    fn check_absence(&self, py: Python<'_>, text: &str) -> PyResult<(String, String, usize)> {
         let read = CriticalCertificate::from_json(text);
         let certificate = read.map_err(|e| MceipError::new_err(e.to_string()))?;
 
         let verdict = py.detach(|| check_critical(self.0.as_model(), &certificate));
         let accepted = verdict.map_err(|rejected| rejection(&rejected))?;
-        Ok((accepted.below.to_string(), accepted.leaves))
+        let from = accepted.from.to_string();
+        let below = accepted.below.to_string();
+        Ok((from, below, accepted.leaves))
     }
 }
 

@@ -102,10 +102,14 @@ fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
     let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
 
     let (text, code) = match check_critical(problem, &certificate) {
-        Ok(AcceptedAbsence { below, leaves }) => {
+        Ok(AcceptedAbsence {
+            from,
+            below,
+            leaves,
+        }) => {
             let digest = problem.sha256();
             let evidence = format!("lambda2, problem {digest}, {leaves} leaves accepted");
-            let window = format!("friction in [0, {below}], lambda2 in [0, infinity)");
+            let window = format!("friction in [{from}, {below}], lambda2 in [0, infinity)");
             let text = format!("ABSENT for {window}: no solution ({evidence})\n");
             (text, exit::DONE)
         }

@@ -30,6 +30,8 @@ mod corpus_malformed;
 mod corpus_mcp;
 #[path = "../support/corpus_presence.rs"]
 mod corpus_presence;
+#[path = "../support/corpus_regular.rs"]
+mod corpus_regular;
 #[path = "../support/corpus_support.rs"]
 mod corpus_support;
 #[path = "../support/corpus_zero.rs"]
@@ -502,6 +504,7 @@ fn write_the_corpus() {
     corpus_zero_order::boxes(&mut cases);
     corpus_zero_covers::covers(&mut cases);
     corpus_critical::critical(&mut cases);
+    corpus_regular::regular(&mut cases);
     corpus_zero_critical::absence(&mut cases);
     corpus_presence::presence(&mut cases);
     corpus_malformed::malformed(&mut cases);

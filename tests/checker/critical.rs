@@ -10,9 +10,10 @@
 use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
 use mceip_check::{Reason, audit_critical, check_critical};
 use mceip_exact::{Rational, Sparse, parse, rational, to_f64, whole};
-use mceip_model::file::Number;
+use mceip_model::file::{Number, write_problem};
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use std::cell::Cell;
+use std::process::Command;
 
 /// Where the boxes of the fold end and a definite matrix takes over.
 const LAST: i64 = 16;
@@ -157,6 +158,7 @@ fn certificate(
 
     CriticalCertificate {
         problem_sha256: problem.sha256(),
+        from: whole(0),
         below: below.clone(),
         condensation: None,
         pieces: vec![
@@ -346,4 +348,35 @@ fn no_random_tree_is_accepted_above_the_fold() {
     }
 
     assert_eq!(refused_by_a_leaf, 3000);
+}
+
+/// Boxes share the ends of their intervals: twenty thousand that wait beside a cut of a hundred
+/// thousand digits would take more than 800 MB, were each to hold the cut.
+#[cfg(all(unix, feature = "cli"))]
+#[test]
+fn pending_boxes_share_a_long_cut() {
+    let problem = fold();
+    let cut = format!("0.{}1", "0".repeat(99_990));
+    let mut tree = vec![CriticalNode::Friction(Number(parse(&cut).unwrap()))];
+    for t in (1..=20_000).rev() {
+        tree.push(CriticalNode::Split(Number(rational(t, 2000))));
+    }
+    let certificate = certificate(&problem, &whole(1), tree);
+
+    let folder = tempfile::tempdir().unwrap();
+    let of_problem = folder.path().join("problem.json");
+    let of_certificate = folder.path().join("certificate.json");
+    std::fs::write(&of_problem, write_problem(&problem)).unwrap();
+    std::fs::write(&of_certificate, certificate.to_json()).unwrap();
+    let output = Command::new("sh")
+        .arg("-c")
+        .arg("ulimit -v 524288; ulimit -t 10; exec \"$0\" check \"$1\" \"$2\"")
+        .arg(env!("CARGO_BIN_EXE_mceip"))
+        .args([&of_problem, &of_certificate])
+        .output()
+        .unwrap();
+
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("20002 more region(s) to be closed"), "{text}");
 }

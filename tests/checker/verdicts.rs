@@ -15,6 +15,7 @@ use mceip_check::{
 use mceip_exact::Interval;
 use mceip_model::Problem;
 use mceip_model::file::{read_problem, require_format};
+use num_traits::Zero;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -109,8 +110,17 @@ fn critical_lines(case: &Case, certificate: &CriticalCertificate) -> Vec<String>
     match (check_critical(&case.problem, certificate), audited) {
         (Ok(accepted), Ok(list)) => {
             assert!(list.is_empty(), "{}", case.name);
-            let AcceptedAbsence { below, leaves } = accepted;
-            vec![format!("absence below {below}, leaves: {leaves}")]
+            let AcceptedAbsence {
+                from,
+                below,
+                leaves,
+            } = accepted;
+            let above = if from.is_zero() {
+                String::new()
+            } else {
+                format!("from {from} ")
+            };
+            vec![format!("absence {above}below {below}, leaves: {leaves}")]
         }
         (Err(rejected), Ok(list)) => {
             vec![

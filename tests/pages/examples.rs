@@ -34,7 +34,7 @@ fn names() -> BTreeSet<String> {
 }
 
 /// Kinds of evidence that the certificate of an example contains.
-const EVIDENCE: [&str; 17] = [
+const EVIDENCE: [&str; 18] = [
     "\"exact_solution\"",
     "\"lifted_solution\"",
     "\"enclosed_solution\"",
@@ -51,6 +51,7 @@ const EVIDENCE: [&str; 17] = [
     "\"z\"",
     "\"friction\": \"1/2\"",
     "\"left_friction\"",
+    "\"regular\"",
     "\"mceip-presence/1\"",
 ];
 
@@ -79,6 +80,7 @@ fn the_checker_accepts_each_absence_below_a_friction() {
     for (name, below) in [
         ("critical", rational(3, 4)),
         ("critical-free", rational(1, 1)),
+        ("critical-regular", rational(1, 1)),
     ] {
         let problem = read(&folder().join(format!("{name}.problem.json")));
         let certificate = read(&folder().join(format!("{name}.json")));

@@ -128,6 +128,7 @@ pub fn certificate(
 ) -> CriticalCertificate {
     CriticalCertificate {
         problem_sha256: problem.sha256(),
+        from: whole(0),
         below: parse(below).unwrap(),
         condensation: None,
         pieces,
@@ -142,7 +143,7 @@ fn friction(at: &str) -> CriticalNode {
     CriticalNode::Friction(q(at))
 }
 
-fn split(at: &str) -> CriticalNode {
+pub fn split(at: &str) -> CriticalNode {
     CriticalNode::Split(q(at))
 }
 
@@ -523,7 +524,7 @@ pub fn matrix(entry: i64) -> IntegerMatrix {
     }
 }
 
-fn lower(rows: &[&[i64]], exponent: u32) -> Factor {
+pub fn lower(rows: &[&[i64]], exponent: u32) -> Factor {
     Factor {
         first: vec![0; rows.len()],
         rows: rows
@@ -559,7 +560,7 @@ fn anchor(center: &str) -> CriticalAnchor {
         center: q(center),
         reversed: false,
         right: vec![matrix(-1)],
-        left: vec![matrix(-1)],
+        left: Some(vec![matrix(-1)]),
         left_friction: vec![matrix(-1)],
     }
 }
@@ -577,7 +578,7 @@ pub fn free_condensation() -> CriticalCondensation {
 }
 
 /// The example of 5.18.
-fn free_certificate(problem: &Problem) -> CriticalCertificate {
+pub fn free_certificate(problem: &Problem) -> CriticalCertificate {
     let condensation = CriticalCondensation {
         tail: Some(CriticalTail {
             from: q("1"),
@@ -658,7 +659,7 @@ const FREE_FORGERIES: [Change; 16] = [
         name: "free-left",
         reason: "Cover.NotDefinite",
         note: "V0 = 500: a remainder that is too large at mu = 0 already",
-        change: |c| condensation(c).anchors[0].left = vec![matrix(1000)],
+        change: |c| condensation(c).anchors[0].left = Some(vec![matrix(1000)]),
     },
     Change {
         name: "free-left-friction",
@@ -738,7 +739,7 @@ fn with_a_free_variable(cases: &mut Cases) {
         center: q("0"),
         reversed: true,
         right: vec![],
-        left: vec![],
+        left: Some(vec![]),
         left_friction: vec![],
     });
     reversed.pieces[1] = CriticalPiece {

@@ -513,7 +513,8 @@ const FREE_FORGERIES: [Forgery<PresenceCertificate>; 10] = [
         reason: "Cover.NoSignChange",
         note: "V of T0 that approximates nothing leaves a large remainder",
         change: |c| {
-            c.condensation.as_mut().unwrap().anchors[0].left[0].rows[0] = integers(&[40]).into()
+            let anchor = &mut c.condensation.as_mut().unwrap().anchors[0];
+            anchor.left.as_mut().unwrap()[0].rows[0] = integers(&[40]).into();
         },
     },
     Forgery {
@@ -555,6 +556,24 @@ fn with_a_free_variable(cases: &mut Cases) {
     let problem = free_problem();
     let good = of_free(&problem);
     accept(cases, "free", "the example of 5.19", &problem, &good);
+
+    let mut absent = good.clone();
+    absent.condensation.as_mut().unwrap().anchors[0].left = None;
+    let note = "left absent: it is right";
+    accept(cases, "free-left-absent", note, &problem, &absent);
+
+    let mut empty = good.clone();
+    let anchor = &mut empty.condensation.as_mut().unwrap().anchors[0];
+    anchor.right.clear();
+    empty.pieces[0].interval = ["0", "6"].map(q);
+    let note = "W = 0 beside V = F^-1 T_sf': no remainder at t = 0";
+    accept(cases, "free-right-empty", note, &problem, &empty);
+
+    let anchor = &mut empty.condensation.as_mut().unwrap().anchors[0];
+    anchor.left = None;
+    let note = "left absent beside W = 0, so that V = 0 as well: a remainder as large as T";
+    let words = ["free-left-absent-far", "Cover.NoSignChange", note];
+    reject(cases, words, &problem, &empty);
     reject_all(cases, &problem, &good, &FREE_FORGERIES);
 
     // At t = 0 the remainder is 0: phi = 2 - mu is negative just above 2.

@@ -254,7 +254,7 @@ fn with_tail(problem: &Problem) -> CriticalCertificate {
             center: q("0"),
             reversed: false,
             right: expansion(),
-            left: expansion(),
+            left: Some(expansion()),
             left_friction: expansion(),
         }],
         tail: Some(CriticalTail {

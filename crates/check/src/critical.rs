@@ -1,9 +1,9 @@
 //! The verdict on `mceip-critical/1`: there is no solution below a friction.
 //!
 //! The certificate ([`crate::certificate::CriticalCertificate`]) speaks of the mechanical system of
-//! a problem with unknown lambda^2, with mu in [0, `below`] in place of the friction of the file.
-//! This module demands that it belongs to the problem and says something; `cover::critical` checks
-//! its boxes. The obligations are those of `spec/certificates.md`, 5.18.
+//! a problem with unknown lambda^2, with mu in [`from`, `below`] in place of the friction of the
+//! file. This module demands that it belongs to the problem and says something; `cover::critical`
+//! checks its boxes. The obligations are those of `spec/certificates.md`, 5.18.
 
 use crate::certificate::CriticalCertificate;
 use crate::cover;
@@ -14,9 +14,12 @@ use mceip_exact::Rational;
 use mceip_model::{Body, Problem, Unknown};
 use num_traits::Signed;
 
-/// What an accepted certificate has proved: no solution for mu in [0, `below`] and lambda^2 >= 0.
+/// What an accepted certificate has proved: no solution for mu in [`from`, `below`] and
+/// lambda^2 >= 0.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AcceptedAbsence {
+    /// Smallest friction of which absence is proved.
+    pub from: Rational,
     /// Largest friction of which absence is proved.
     pub below: Rational,
     /// Number of leaves that prove it.
@@ -67,15 +70,21 @@ fn verdict(
     }
 
     let parts = friction_parts(problem)?;
-    if !certificate.below.is_positive() {
-        return Err(Reason::Below {
-            got: certificate.below.clone(),
+    let CriticalCertificate { from, below, .. } = certificate;
+    if !below.is_positive() {
+        return Err(Reason::Below { got: below.clone() });
+    }
+    if from.is_negative() || from >= below {
+        return Err(Reason::FrictionRange {
+            from: from.clone(),
+            to: below.clone(),
         });
     }
 
     let leaves = cover::critical::check(&parts, certificate, audit)?;
     Ok(AcceptedAbsence {
-        below: certificate.below.clone(),
+        from: from.clone(),
+        below: below.clone(),
         leaves,
     })
 }

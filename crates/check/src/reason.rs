@@ -361,7 +361,8 @@ pub enum Reason {
         /// What the certificate states.
         got: Rational,
     },
-    /// An interval of friction in which presence is claimed is empty, or reaches below zero.
+    /// An interval of friction in which absence or presence is claimed is empty, or reaches below
+    /// zero.
     #[error("friction: expected 0 <= from < to, got from {from} to {to}")]
     FrictionRange {
         /// Lower end of the interval.

@@ -19,21 +19,25 @@
 //! This module holds data and reads and writes it; it decides nothing. The checker is
 //! `crate::critical`, the normative text is `spec/certificates.md`, 5.18.
 
-use super::{Factor, IntegerMatrix, Number, object};
-use mceip_exact::Rational;
+use super::{Factor, IntegerMatrix, Number, integer_rows, integers, object};
+use mceip_exact::{Integer, Rational};
 use mceip_model::ModelError;
 use mceip_model::file::{from_json, require_format, word_or_kind};
+use num_traits::Zero;
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// The format of certified absence below a friction.
 pub const CRITICAL_FORMAT: &str = "mceip-critical/1";
 
-/// The claim that there is no solution with mu in [0, `below`] and lambda^2 >= 0, and its proof.
+/// The claim that there is no solution with mu in [`from`, `below`] and lambda^2 >= 0, and its
+/// proof.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CriticalCertificate {
     /// SHA-256 of the problem's canonical form.
     pub problem_sha256: String,
-    /// Largest friction of which absence is claimed; > 0.
+    /// Smallest friction of which absence is claimed; >= 0. A file without it means 0.
+    pub from: Rational,
+    /// Largest friction of which absence is claimed; > `from`.
     pub below: Rational,
     /// How the free variables were eliminated; absent where there are none.
     pub condensation: Option<CriticalCondensation>,
@@ -41,7 +45,7 @@ pub struct CriticalCertificate {
     pub pieces: Vec<CriticalPiece>,
 }
 
-/// One interval of lambda^2 and the tree that covers it, with mu in [0, `below`].
+/// One interval of lambda^2 and the tree that covers it, with mu in [`from`, `below`].
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CriticalPiece {
@@ -71,8 +75,34 @@ pub enum CriticalNode {
     PositiveDefinite,
     /// sym(T) is negative definite there.
     NegativeDefinite,
+    /// Every variable is decided, and T on the support is regular in the whole box.
+    Regular(Box<Regular>),
     /// The condensation's tail begins at or below this box.
     Tail,
+}
+
+/// Proof that T restricted to the support of a box is regular everywhere in the box.
+///
+/// The support without the pivot, ascending, gives the rows and columns of `inverse`, and the
+/// entries of `left` and `right`. Null vectors have the component 1 at the pivot.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Regular {
+    /// The variable of the support whose component is set to 1.
+    pub pivot: usize,
+    /// Approximate inverse of T on the others, in units of 2^-`inverse_exponent`.
+    #[serde(with = "integer_rows")]
+    pub inverse: Vec<Vec<Integer>>,
+    /// Binary exponent of `inverse`.
+    pub inverse_exponent: u32,
+    /// Approximate u with u'T = 0 on the others, in units of 2^-`exponent`.
+    #[serde(with = "integers")]
+    pub left: Vec<Integer>,
+    /// Approximate v with Tv = 0 on the others, likewise.
+    #[serde(with = "integers")]
+    pub right: Vec<Integer>,
+    /// Binary exponent of `left` and `right`.
+    pub exponent: u32,
 }
 
 /// Elimination of the free variables by F(t) = T_ff(t), enclosed without inverting F. F and T_fs do
@@ -119,27 +149,34 @@ pub struct CriticalAnchor {
     /// Coefficients of F^-1 T_fs.
     #[serde(deserialize_with = "object::list")]
     pub right: Vec<IntegerMatrix>,
-    /// Coefficients of F^-1 T_sf', T_sf that of mu = 0.
-    #[serde(deserialize_with = "object::list")]
-    pub left: Vec<IntegerMatrix>,
+    /// Coefficients of F^-1 T_sf', T_sf that of mu = 0; absent where they are those of `right`, as
+    /// T_sf' = T_fs at mu = 0.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option_list"
+    )]
+    pub left: Option<Vec<IntegerMatrix>>,
     /// Coefficients of F^-1 T_sf', T_sf the coefficient of mu.
     #[serde(deserialize_with = "object::list")]
     pub left_friction: Vec<IntegerMatrix>,
 }
 
-/// From `from` on, the symmetric part of the whole pencil is definite for every mu in [0, `below`].
+/// From `from` on, the symmetric part of the whole pencil is definite for every mu between the
+/// `from` and the `below` of the certificate.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CriticalTail {
     /// Where it begins.
     pub from: Number,
-    /// Approximate Cholesky factor of sym(A + from B) at mu = 0.
+    /// Approximate Cholesky factor of sym(A + from B) at the smallest mu.
     #[serde(deserialize_with = "object::one")]
     pub factor: Factor,
     /// The same at mu = `below`.
     #[serde(deserialize_with = "object::one")]
     pub factor_below: Factor,
-    /// Approximate Cholesky factor of sym(B) at mu = 0, where that is no non-negative diagonal.
+    /// Approximate Cholesky factor of sym(B) at the smallest mu, where that is no non-negative
+    /// diagonal.
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",
@@ -172,6 +209,8 @@ enum NodeKind {
     Friction(Number),
     Branch(usize),
     Farkas(Vec<i64>),
+    #[serde(deserialize_with = "object::one")]
+    Regular(Box<Regular>),
 }
 
 impl From<NodeWord> for CriticalNode {
@@ -191,6 +230,7 @@ impl From<NodeKind> for CriticalNode {
             NodeKind::Friction(at) => CriticalNode::Friction(at),
             NodeKind::Branch(index) => CriticalNode::Branch(index),
             NodeKind::Farkas(weights) => CriticalNode::Farkas(weights),
+            NodeKind::Regular(regular) => CriticalNode::Regular(regular),
         }
     }
 }
@@ -210,6 +250,8 @@ impl<'de> Deserialize<'de> for CriticalNode {
 struct File {
     format: String,
     problem_sha256: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    from: Option<Number>,
     below: Number,
     #[serde(
         default,
@@ -227,6 +269,7 @@ impl CriticalCertificate {
         let file = File {
             format: CRITICAL_FORMAT.into(),
             problem_sha256: self.problem_sha256.clone(),
+            from: (!self.from.is_zero()).then(|| Number(self.from.clone())),
             below: Number(self.below.clone()),
             condensation: self.condensation.clone(),
             pieces: self.pieces.clone(),
@@ -247,6 +290,7 @@ impl CriticalCertificate {
 
         Ok(CriticalCertificate {
             problem_sha256: file.problem_sha256,
+            from: file.from.map_or_else(Rational::zero, |from| from.0),
             below: file.below.0,
             condensation: file.condensation,
             pieces: file.pieces,

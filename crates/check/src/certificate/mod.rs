@@ -25,7 +25,7 @@ pub use cover::{
 };
 pub use critical::{
     CRITICAL_FORMAT, CriticalAnchor, CriticalCertificate, CriticalCondensation, CriticalNode,
-    CriticalPiece, CriticalTail,
+    CriticalPiece, CriticalTail, Regular,
 };
 pub use presence::{PRESENCE_FORMAT, PresenceCertificate, PresencePiece};
 pub use row::IntegerRow;
@@ -218,6 +218,13 @@ mod object {
     ) -> Result<Vec<T>, D::Error> {
         let objects = Vec::<Object<T>>::deserialize(d)?;
         Ok(objects.into_iter().map(|o| o.0).collect())
+    }
+
+    pub(super) fn option_list<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+        d: D,
+    ) -> Result<Option<Vec<T>>, D::Error> {
+        let objects = Option::<Vec<Object<T>>>::deserialize(d)?;
+        Ok(objects.map(|list| list.into_iter().map(|o| o.0).collect()))
     }
 }
 

@@ -121,7 +121,8 @@ struct Expansion<'a> {
     center: &'a Rational,
     reversed: bool,
     right: &'a [IntegerMatrix],
-    left: &'a [IntegerMatrix],
+    /// `None`: V is W.
+    left: Option<&'a [IntegerMatrix]>,
 }
 
 impl<'a> From<&'a Anchor> for Expansion<'a> {
@@ -130,14 +131,15 @@ impl<'a> From<&'a Anchor> for Expansion<'a> {
             center: &anchor.center.0,
             reversed: anchor.reversed,
             right: &anchor.right,
-            left: &anchor.left,
+            left: Some(&anchor.left),
         }
     }
 }
 
 /// W with the V of T0, and with that of T1.
 fn anchor_parts(anchor: &CriticalAnchor) -> [Expansion<'_>; 2] {
-    [&anchor.left, &anchor.left_friction].map(|left| Expansion {
+    let left_friction = Some(anchor.left_friction.as_slice());
+    [anchor.left.as_deref(), left_friction].map(|left| Expansion {
         center: &anchor.center.0,
         reversed: anchor.reversed,
         right: &anchor.right,
@@ -340,16 +342,27 @@ struct Elimination<'a> {
     about: ShiftedBlocks,
     w: Polynomial<'a>,
     v: Polynomial<'a>,
+    /// Is V = W and T_sf' = T_fs as given, so that l = r?
+    is_mirrored: bool,
 }
 
 /// What is kept of a residual r = T_fs - F W, whose coefficients are in units of 1 / (D q 2^e_w).
 ///
 /// Its rows are formed one after the other: together they are as large as W, in long integers.
 struct Residual {
-    /// Upper bounds of the norms of the columns of each coefficient.
-    norms: Norms,
+    /// The sums of the squares of each column of each coefficient.
+    squares: Vec<Vec<Integer>>,
     /// The coefficients beyond the degree of W, if they are asked for.
     beyond: Vec<Matrix>,
+}
+
+impl Residual {
+    /// Upper bounds of the norms of the columns of each coefficient; column j counts
+    /// `column_factors[j]` times.
+    fn norms(&self, column_factors: &[Integer]) -> Norms {
+        let of_coefficient = |squares: &Vec<Integer>| norms(squares, column_factors);
+        self.squares.iter().map(of_coefficient).collect()
+    }
 }
 
 impl Blocks {
@@ -430,6 +443,28 @@ impl Blocks {
         Ok(())
     }
 
+    /// Is T_sf' = T_fs in the pencil as given? The rows here are multiples of its rows.
+    fn has_mirrored_blocks(&self) -> bool {
+        let mut of_sf: BTreeMap<(usize, usize), [Integer; 2]> = BTreeMap::new();
+        for (i, row) in self.sf.iter().enumerate() {
+            for (j, a, b) in row {
+                of_sf.insert((*j, i), [a, b].map(|entry| entry * &self.common));
+            }
+        }
+
+        let mut of_fs: BTreeMap<(usize, usize), [Integer; 2]> = BTreeMap::new();
+        for (j, row) in self.fs.iter().enumerate() {
+            for (i, a, b) in row {
+                of_fs.insert((j, *i), [a, b].map(|entry| entry * &self.factor[*i]));
+            }
+        }
+
+        let is_entry = |_: &(usize, usize), [a, b]: &mut [Integer; 2]| !a.is_zero() || !b.is_zero();
+        of_sf.retain(is_entry);
+        of_fs.retain(is_entry);
+        of_sf == of_fs
+    }
+
     /// The stored entry (i, j) of D T_ff.
     fn free_entry(&self, i: usize, j: usize) -> Option<&(usize, Integer, Integer)> {
         let row = &self.ff[i];
@@ -463,7 +498,8 @@ impl Blocks {
     fn elimination<'a>(&'a self, anchor: Expansion<'a>) -> Result<Elimination<'a>, CoverFault> {
         let w = self.polynomial(anchor.right, &ones(self.slip))?;
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
-        let v = self.polynomial(anchor.left, &self.factor)?;
+        let left = anchor.left.unwrap_or(anchor.right);
+        let v = self.polynomial(left, &self.factor)?;
         self.affordable(
             anchor.center,
             coefficients(&w, &v),
@@ -474,6 +510,7 @@ impl Blocks {
         Ok(Elimination {
             blocks: self,
             about: self.about(anchor.center),
+            is_mirrored: anchor.left.is_none() && self.has_mirrored_blocks(),
             anchor,
             w,
             v,
@@ -572,16 +609,21 @@ impl Elimination<'_> {
         .residual(Beyond::Kept)
     }
 
-    /// l = T_sf' - F V, in units of 1 / (D q 2^e_v), column i multiplied by the factor of slip row
-    /// i.
-    fn left_residual(&self) -> Residual {
-        Equations {
+    /// Norms of the columns of l = T_sf' - F V, coefficient by coefficient, in units of
+    /// 1 / (D q 2^e_v), column i multiplied by the factor of slip row i.
+    fn left_residual_norms(&self, right: &Residual) -> Norms {
+        let slip = self.blocks.slip;
+        if self.is_mirrored {
+            return right.norms(&self.blocks.factor);
+        }
+
+        let equations = Equations {
             f: &self.about.ff,
             c: &transpose(&self.about.sf, self.blocks.free),
             w: &self.v,
-            columns: self.blocks.slip,
-        }
-        .residual(Beyond::Dropped)
+            columns: slip,
+        };
+        equations.residual(Beyond::Dropped).norms(&ones(slip))
     }
 
     /// The condensed pencil about the anchor; `right` is that of this anchor or of the other
@@ -611,14 +653,15 @@ impl Elimination<'_> {
         let weight = rounding_weight.iter().map(|w| &by_sigma * w).collect();
 
         let z = self.bracket(right);
-        let rounding = self.w.coefficients.len().min(right.norms.len());
+        let right_norms = right.norms(&ones(self.blocks.slip));
+        let rounding = self.w.coefficients.len().min(right_norms.len());
         Expanded {
             center: self.anchor.center.clone(),
             z: raise_rows(z, &raised),
-            left: self.left_residual().norms,
-            right: right.norms.clone(),
+            left: self.left_residual_norms(right),
+            rounding: right_norms[..rounding].to_vec(),
+            right: right_norms,
             v: self.v.coefficients.iter().map(Coefficient::norms).collect(),
-            rounding: right.norms[..rounding].to_vec(),
             rounding_weight,
             weight,
             unit,
@@ -638,7 +681,7 @@ impl Elimination<'_> {
         let w_len = w.coefficients.len();
         let v_len = v.coefficients.len();
         // The highest powers of d: 1 in T_ss, that of W and one more, those of V and r together.
-        let r_len = r.norms.len();
+        let r_len = r.squares.len();
         let degree = w_len.max((v_len + r_len).saturating_sub(2)).max(1);
         let mut z = vec![zero(slip, slip); degree + 1];
 
@@ -747,9 +790,8 @@ impl Equations<'_> {
             }
         }
 
-        let ones = ones(self.columns);
         Residual {
-            norms: squares.iter().map(|s| norms(s, &ones)).collect(),
+            squares,
             beyond: kept.split_off(kept.len().min(self.w.coefficients.len())),
         }
     }

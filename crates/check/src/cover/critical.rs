@@ -1,4 +1,4 @@
-//! Absence below a friction: a cover of (supports) x [0, infinity) x [0, below].
+//! Absence below a friction: a cover of (supports) x [0, infinity) x [from, below].
 //!
 //! For a mechanical system the condensed pencil is affine in mu, T(t, mu) = T0(t) + mu T1(t), with
 //! t = lambda^2: only the slip rows depend on mu, and the elimination of the free variables uses
@@ -15,12 +15,13 @@
 //! T is linear in mu for every t, so every T(t, mu) of the box is a convex combination of matrices
 //! within these radii; at an infinite end, of those at the lower end plus a non-negative multiple
 //! of such a combination at the upper one. Leaves prove what is linear in T at the four corners,
-//! with the code for covers of one window (`farkas`, `definite`). As there, short numbers are tried
+//! with the code for covers of one window (`farkas`, `definite`). Those of `regular` prove what is
+//! convex in T. As there, short numbers are tried
 //! first, and the long ones decide where these cannot tell.
 //!
-//! *Tail.* sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite at
-//! mu = 0 and at mu = `below`, so at every mu between. The pencil is that of the system in which
-//! the particles with zero reaction are free (`spec/zero-reaction.md`, Z.4).
+//! *Tail.* Above some t sym(A + tB) of the whole pencil is positive definite, and sym(B) is
+//! semidefinite, at mu = `from` and at mu = `below`, so at every mu between. The pencil is that of
+//! the system in which the particles with zero reaction are free (`spec/zero-reaction.md`, Z.4).
 //!
 //! *Zero reaction.* Particles in contact with zero reaction have three variables each, whose rows
 //! are affine in mu as well. A branch on one half of v_T puts the other half at rest where the
@@ -37,15 +38,14 @@ use super::fault::CoverFault;
 use super::region::{Matrices, Region, State};
 use super::short::Short;
 use super::walk::NodeFault;
-use super::{check_anchor, check_end, check_size, condensed, definite, farkas};
+use super::{check_anchor, check_end, check_size, condensed, definite, farkas, regular};
 use crate::certificate::{
-    CriticalCertificate, CriticalCondensation, CriticalNode, CriticalPiece, CriticalTail,
+    CriticalCertificate, CriticalCondensation, CriticalNode, CriticalPiece, CriticalTail, Regular,
 };
 use crate::pencil::{FrictionParts, Rows};
 use crate::reason::Reason;
 use mceip_exact::Rational;
 use mceip_model::Window;
-use num_traits::Zero;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
@@ -79,7 +79,7 @@ pub(crate) fn check(
 
     let tail = condensation.and_then(|c| c.tail.as_ref());
     if let Some(tail) = tail {
-        check_tail(parts.of_tail(), &certificate.below, tail).map_err(of_file)?;
+        check_tail(parts.of_tail(), certificate, tail).map_err(of_file)?;
     }
 
     let nodes = certificate.pieces.iter().map(|p| p.tree.len() as u64).sum();
@@ -87,7 +87,7 @@ pub(crate) fn check(
         families,
         index,
         rows: &parts.plain,
-        below: &certificate.below,
+        friction: [&certificate.from, &certificate.below].map(|end| Rc::new(end.clone())),
         tail: tail.map(|tail| &tail.from.0),
         leaves: 0,
         definite_budget: WorkBudget::of_definite_leaves([&parts.plain, &parts.friction], nodes),
@@ -171,18 +171,21 @@ fn family_of_anchors(expansions: Vec<Expanded>) -> Family {
     Family::Condensed(anchors.collect())
 }
 
-/// The whole pencil of these parts is definite from `tail.from` on, at mu = 0 and at mu = `below`.
+/// The whole pencil of these parts is definite from `tail.from` on, at the lowest mu and at the
+/// highest.
 fn check_tail(
     parts: &FrictionParts,
-    below: &Rational,
+    certificate: &CriticalCertificate,
     tail: &CriticalTail,
 ) -> Result<(), CoverFault> {
-    let from = &tail.from.0;
+    let start = &tail.from.0;
+    let lowest = parts.at(&certificate.from);
     let mass_factor = tail.mass_factor.as_ref();
-    condensed::tail(&parts.plain, from, &tail.factor, mass_factor)?;
+    condensed::tail(&lowest, start, &tail.factor, mass_factor)?;
 
+    let highest = parts.at(&certificate.below);
     let mass_factor = tail.mass_factor_below.as_ref();
-    condensed::tail(&parts.at(below), from, &tail.factor_below, mass_factor)
+    condensed::tail(&highest, start, &tail.factor_below, mass_factor)
 }
 
 /// Checks the pieces: they follow one another from 0 to infinity, and each tree covers its piece.
@@ -221,7 +224,7 @@ struct FrictionBox {
     /// Holds the matrices of T0 as well.
     region: Region,
     /// The ends of the interval of mu.
-    friction: [Rational; 2],
+    friction: [Rc<Rational>; 2],
     /// The matrices of T1, shared like those of the region.
     friction_matrices: Rc<Matrices>,
     corners: Rc<BoxCorners>,
@@ -281,16 +284,17 @@ impl FrictionBox {
     /// The values of mu up to a cut and those from it on.
     fn split_friction(self, at: &Rational) -> Result<[FrictionBox; 2], CoverFault> {
         let [lower, higher] = self.friction;
-        if *at <= lower || *at >= higher {
+        if at <= lower.as_ref() || at >= higher.as_ref() {
             return Err(CoverFault::FrictionCut {
-                lower,
-                higher,
+                lower: Rational::clone(&lower),
+                higher: Rational::clone(&higher),
                 got: at.clone(),
             });
         }
 
         self.corners.forget();
-        let halves = [[lower, at.clone()], [at.clone(), higher]];
+        let cut = Rc::new(at.clone());
+        let halves = [[lower, Rc::clone(&cut)], [cut, higher]];
         Ok(halves.map(|friction| FrictionBox {
             region: self.region.same(),
             friction,
@@ -308,7 +312,8 @@ struct BoxWalk<'a> {
     index: Vec<usize>,
     /// The rows without friction, which name the halves of v_T.
     rows: &'a Rows,
-    below: &'a Rational,
+    /// The interval of mu of each tree.
+    friction: [Rc<Rational>; 2],
     /// No solution has a value of t at or above this.
     tail: Option<&'a Rational>,
     leaves: usize,
@@ -327,14 +332,14 @@ impl BoxWalk<'_> {
         piece: &CriticalPiece,
     ) -> Result<(), NodeFault> {
         let region = Region {
-            lo: lo.clone(),
-            hi: piece.max.as_ref().map(|n| n.0.clone()),
+            lo: Rc::new(lo.clone()),
+            hi: piece.max.as_ref().map(|n| Rc::new(n.0.clone())),
             states: vec![State::Undecided; self.index.len()],
             matrices: Rc::default(),
         };
         let mut stack = vec![FrictionBox {
             region,
-            friction: [Rational::zero(), self.below.clone()],
+            friction: self.friction.clone(),
             friction_matrices: Rc::default(),
             corners: Rc::default(),
         }];
@@ -422,6 +427,7 @@ impl BoxWalk<'_> {
             }
             CriticalNode::PositiveDefinite => self.definite(at, anchor, 1),
             CriticalNode::NegativeDefinite => self.definite(at, anchor, -1),
+            CriticalNode::Regular(witness) => self.regular(at, anchor, witness),
         }
     }
 
@@ -443,6 +449,47 @@ impl BoxWalk<'_> {
 
         let ends = self.corners(at, anchor)?;
         definite::check_corners(&at.region, &four_corners(&ends), &self.index, sign)
+    }
+
+    fn regular(
+        &self,
+        at: &FrictionBox,
+        anchor: Option<usize>,
+        witness: &Regular,
+    ) -> Result<(), CoverFault> {
+        let is_half_line = at.region.hi.is_none();
+        if is_half_line && !self.families[0].is_reversed(anchor) {
+            return Err(CoverFault::OutcomeOnHalfLine { outcome: "regular" });
+        }
+
+        let support = regular::support(&at.region, &self.index, witness)?;
+        self.affordable(at, anchor)?;
+        self.spend_regular(at, support.len(), witness)?;
+
+        let short = self.short(at, anchor);
+        if short.is_some_and(|corners| regular::is_regular_at(&support, &*corners, witness)) {
+            return Ok(());
+        }
+
+        let ends = self.corners(at, anchor)?;
+        regular::check_corners(&support, &four_corners(&ends), witness)
+    }
+
+    /// Takes the work of a regular leaf from the budget of definite leaves, which counts order^3 as
+    /// well: the product of Y with the four corners is that of long numbers.
+    fn spend_regular(
+        &self,
+        at: &FrictionBox,
+        moving: usize,
+        witness: &Regular,
+    ) -> Result<(), CoverFault> {
+        let [end_bits, friction_bits] = box_bits(at);
+        let own_words = words(regular::witness_bits(witness));
+        let corner_words = words(end_bits + friction_bits);
+
+        let cubes = (moving as u64).saturating_pow(3) * 8;
+        let products = cubes.saturating_mul(own_words).saturating_mul(corner_words);
+        self.definite_budget.spend(products)
     }
 
     /// The matrices of the box at its lower and at its higher friction, computed once for all boxes
@@ -484,7 +531,7 @@ impl BoxWalk<'_> {
     fn short_corners(&self, at: &FrictionBox, anchor: Option<usize>) -> Option<[Short; 4]> {
         let part = |part: usize| {
             let lo = &at.region.lo;
-            self.families[part].short(anchor, lo, at.region.hi.as_ref())
+            self.families[part].short(anchor, lo, at.region.hi.as_deref())
         };
         let plain = at.region.matrices.short(|| part(0))?;
         let friction = at.friction_matrices.short(|| part(1))?;
@@ -509,7 +556,7 @@ impl BoxWalk<'_> {
     ) -> Result<Rc<Ends>, CoverFault> {
         let family = &self.families[part];
         let lo = &region.lo;
-        let hi = region.hi.as_ref();
+        let hi = region.hi.as_deref();
 
         matrices.ends(|| family.ends(anchor, lo, hi))
     }
@@ -518,7 +565,7 @@ impl BoxWalk<'_> {
     /// them once for all boxes that share them.
     fn affordable(&self, at: &FrictionBox, anchor: Option<usize>) -> Result<(), CoverFault> {
         let lo = &at.region.lo;
-        let hi = at.region.hi.as_ref();
+        let hi = at.region.hi.as_deref();
         for family in &self.families {
             family.affordable(anchor, lo, hi)?;
         }
@@ -552,14 +599,15 @@ impl BoxWalk<'_> {
 }
 
 fn box_bits(at: &FrictionBox) -> [u64; 2] {
-    bits_of_box(&at.region.lo, at.region.hi.as_ref(), &at.friction)
+    let friction = at.friction.each_ref().map(Rc::as_ref);
+    bits_of_box(&at.region.lo, at.region.hi.as_deref(), friction)
 }
 
 /// The bits of an entry of an end, and those of both ends of the interval of mu.
 pub(super) fn bits_of_box(
     lo: &Rational,
     hi: Option<&Rational>,
-    [lower, higher]: &[Rational; 2],
+    [lower, higher]: [&Rational; 2],
 ) -> [u64; 2] {
     [
         FRACTION_BITS + end_bits(lo, hi),

@@ -50,14 +50,14 @@ pub(super) fn check(
     let lower = End {
         name: "lower",
         a: Rational::one(),
-        b: region.lo.clone(),
+        b: Rational::clone(&region.lo),
         is_infinite: false,
     };
     let upper = match &region.hi {
         Some(hi) => End {
             name: "upper",
             a: Rational::one(),
-            b: hi.clone(),
+            b: Rational::clone(hi),
             is_infinite: false,
         },
         None => End {
@@ -214,8 +214,8 @@ mod tests {
             Rows::of(&Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap());
         let states = vec![State::Undecided, State::InSupport];
         let region = Region {
-            lo: whole(1),
-            hi: hi.map(whole),
+            lo: whole(1).into(),
+            hi: hi.map(|hi| whole(hi).into()),
             states,
             matrices: Default::default(),
         };

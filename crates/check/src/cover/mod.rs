@@ -52,6 +52,7 @@ mod product;
 mod proved;
 mod psd;
 mod region;
+mod regular;
 mod root;
 mod rootless;
 mod short;
@@ -288,8 +289,8 @@ mod tests {
 
     fn region(lo: Rational, hi: i64, states: Vec<State>) -> Region {
         Region {
-            lo,
-            hi: Some(whole(hi)),
+            lo: Rc::new(lo),
+            hi: Some(Rc::new(whole(hi))),
             states,
             matrices: Rc::default(),
         }

@@ -25,8 +25,8 @@ pub(super) fn short(m: Square) -> Short {
 
 pub(super) fn region(states: [State; 2]) -> Region {
     Region {
-        lo: Rational::zero(),
-        hi: Some(Rational::one()),
+        lo: Rational::zero().into(),
+        hi: Some(Rational::one().into()),
         states: states.to_vec(),
         matrices: Default::default(),
     }

@@ -174,7 +174,7 @@ impl Boxes {
             self.matrix_budget.spend(work)?;
         }
 
-        let [end_bits, friction_bits] = bits_of_box(lo, Some(hi), friction);
+        let [end_bits, friction_bits] = bits_of_box(lo, Some(hi), friction.each_ref());
         let what = "bits of a box's matrix";
         within_matrix_bits(what, order, 1, end_bits + friction_bits)?;
         let products = words(end_bits).saturating_mul(words(friction_bits));

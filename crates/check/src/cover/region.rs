@@ -21,8 +21,9 @@ pub(super) enum State {
 /// The part of (supports) x (window) that belongs to a node: values in [lo, hi] and the supports
 /// that its states allow. `None` stands for infinity.
 pub(super) struct Region {
-    pub(super) lo: Rational,
-    pub(super) hi: Option<Rational>,
+    /// Regions share their ends: a cut may be a long number, and many regions may be pending.
+    pub(super) lo: Rc<Rational>,
+    pub(super) hi: Option<Rc<Rational>>,
     /// One per complementarity variable, ascending.
     pub(super) states: Vec<State>,
     pub(super) matrices: Rc<Matrices>,
@@ -31,26 +32,27 @@ pub(super) struct Region {
 impl Region {
     /// The values up to a cut and those from it on.
     pub(super) fn split(self, at: &Rational) -> Result<[Region; 2], CoverFault> {
-        let is_above_lo = *at > self.lo;
-        let is_below_hi = self.hi.as_ref().is_none_or(|hi| at < hi);
+        let is_above_lo = at > self.lo.as_ref();
+        let is_below_hi = self.hi.as_deref().is_none_or(|hi| at < hi);
         if !is_above_lo || !is_below_hi {
             return Err(CoverFault::Cut {
-                lo: self.lo,
-                hi: end(self.hi.as_ref()),
+                lo: Rational::clone(&self.lo),
+                hi: end(self.hi.as_deref()),
                 got: at.clone(),
             });
         }
 
         self.matrices.forget();
+        let cut = Rc::new(at.clone());
         let upper = Region {
-            lo: at.clone(),
+            lo: Rc::clone(&cut),
             hi: self.hi,
             states: self.states.clone(),
             matrices: Rc::default(),
         };
         let lower = Region {
             lo: self.lo,
-            hi: Some(at.clone()),
+            hi: Some(cut),
             states: self.states,
             matrices: Rc::default(),
         };
@@ -83,7 +85,7 @@ impl Region {
         }
 
         Ok([at_zero, in_support].map(|states| Region {
-            lo: self.lo.clone(),
+            lo: Rc::clone(&self.lo),
             hi: self.hi.clone(),
             states,
             matrices: Rc::clone(&self.matrices),
@@ -93,7 +95,7 @@ impl Region {
     /// The same region.
     pub(super) fn same(&self) -> Region {
         Region {
-            lo: self.lo.clone(),
+            lo: Rc::clone(&self.lo),
             hi: self.hi.clone(),
             states: self.states.clone(),
             matrices: Rc::clone(&self.matrices),
@@ -104,7 +106,7 @@ impl Region {
     /// solutions.
     pub(super) fn is_in_tail(&self, tail: Option<&Rational>) -> Result<(), CoverFault> {
         match tail {
-            Some(from) if *from <= self.lo => Ok(()),
+            Some(from) if from <= self.lo.as_ref() => Ok(()),
             _ => Err(CoverFault::Hypothesis {
                 expected: "a tail that begins at or below the region",
                 row: 0,

@@ -77,6 +77,12 @@ impl Short {
         Some(short)
     }
 
+    /// 1 in units of the entries; `None` where it is less than one of them.
+    pub(super) fn scale(&self) -> Option<Integer> {
+        let bits = u64::try_from(FRACTION_BITS as i64 - self.unit).ok()?;
+        Some(Integer::one() << bits)
+    }
+
     fn with_unit(unit: i64, order: usize) -> Short {
         Short {
             m: Vec::with_capacity(order),

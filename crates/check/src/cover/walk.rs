@@ -67,8 +67,8 @@ impl Walk<'_> {
         piece: &Piece,
     ) -> Result<(), NodeFault> {
         let mut stack = vec![Region {
-            lo: lo.clone(),
-            hi: piece.max.as_ref().map(|n| n.0.clone()),
+            lo: Rc::new(lo.clone()),
+            hi: piece.max.as_ref().map(|n| Rc::new(n.0.clone())),
             states: vec![State::Undecided; self.index.len()],
             matrices: Rc::default(),
         }];
@@ -233,8 +233,8 @@ impl Walk<'_> {
         self.is_meant_for(region, anchor, &leaf.outcome)?;
 
         // Uniqueness is proved over the hull of the region's interval and the root's.
-        let hull_lo = (&region.lo).min(value.lo());
-        let hull_hi = region.hi.as_ref().map(|hi| hi.max(value.hi()));
+        let hull_lo = region.lo.as_ref().min(value.lo());
+        let hull_hi = region.hi.as_deref().map(|hi| hi.max(value.hi()));
         // What is the only one up to infinity is the only one up to b.
         let hull_end = hull_hi.unwrap_or(value.hi());
         let hull =
@@ -353,14 +353,14 @@ impl Walk<'_> {
         region: &Region,
         anchor: Option<usize>,
     ) -> Result<Rc<Ends>, CoverFault> {
-        let compute = || self.family.ends(anchor, &region.lo, region.hi.as_ref());
+        let compute = || self.family.ends(anchor, &region.lo, region.hi.as_deref());
         region.matrices.ends(compute)
     }
 
     /// The same in short numbers, where there are such.
     pub(super) fn short(&self, region: &Region, anchor: Option<usize>) -> Option<Rc<[Short; 2]>> {
         region.matrices.short(|| {
-            let short = self.family.short(anchor, &region.lo, region.hi.as_ref());
+            let short = self.family.short(anchor, &region.lo, region.hi.as_deref());
             if short.is_some() || matches!(self.family, Family::Linear(_)) {
                 return short;
             }
@@ -377,7 +377,7 @@ impl Walk<'_> {
         anchor: Option<usize>,
     ) -> Result<(), CoverFault> {
         let lo = &region.lo;
-        let hi = region.hi.as_ref();
+        let hi = region.hi.as_deref();
         self.family.affordable(anchor, lo, hi)?;
 
         let work = self.family.matrix_work(anchor, lo, hi);
@@ -398,8 +398,8 @@ impl Walk<'_> {
     fn open_region(&self, region: &Region) -> OpenRegion {
         let undecided = region.positions(|state| state == State::Undecided);
         OpenRegion {
-            min: region.lo.clone(),
-            max: region.hi.clone(),
+            min: Rational::clone(&region.lo),
+            max: region.hi.as_deref().cloned(),
             moving: self.problem_indices(region.support()),
             undecided: self.problem_indices(undecided),
         }

@@ -159,14 +159,14 @@ fn condensation(parts: &FrictionParts, center: &Rational, exponent: u32) -> Crit
                 center: Number(center.clone()),
                 reversed: false,
                 right: vec![rounded(&right, exponent)],
-                left: vec![rounded(&left(plain, center), exponent)],
+                left: Some(vec![rounded(&left(plain, center), exponent)]),
                 left_friction: vec![rounded(&left(&parts.friction, center), exponent)],
             },
             CriticalAnchor {
                 center: Number(whole(0)),
                 reversed: true,
                 right: vec![],
-                left: vec![],
+                left: Some(vec![]),
                 left_friction: vec![],
             },
         ],
@@ -174,12 +174,12 @@ fn condensation(parts: &FrictionParts, center: &Rational, exponent: u32) -> Crit
     }
 }
 
-fn walk<'a>(families: [Family; 2], rows: &'a Rows, below: &'a Rational) -> BoxWalk<'a> {
+fn walk(families: [Family; 2], rows: &Rows) -> BoxWalk<'_> {
     BoxWalk {
         families,
         index: vec![2, 3],
         rows,
-        below,
+        friction: [whole(0), whole(2)].map(Rc::new),
         tail: None,
         leaves: 0,
         definite_budget: WorkBudget::definite_leaves(1 << 30),
@@ -189,7 +189,7 @@ fn walk<'a>(families: [Family; 2], rows: &'a Rows, below: &'a Rational) -> BoxWa
 }
 
 fn boxed(t: [Rational; 2], friction: [Rational; 2]) -> FrictionBox {
-    let [lo, hi] = t;
+    let [lo, hi] = t.map(Rc::new);
     FrictionBox {
         region: Region {
             lo,
@@ -197,7 +197,7 @@ fn boxed(t: [Rational; 2], friction: [Rational; 2]) -> FrictionBox {
             states: vec![State::Undecided; 2],
             matrices: Rc::default(),
         },
-        friction,
+        friction: friction.map(Rc::new),
         friction_matrices: Rc::default(),
         corners: Rc::default(),
     }
@@ -306,8 +306,7 @@ fn the_corners_enclose_the_schur_complement() {
     for (center, exponent) in [(rational(4, 5), 40), (rational(4, 5), 2), (whole(7), 30)] {
         let condensation = condensation(&parts, &center, exponent);
         let expansions = condensed::of_parts(&parts, &condensation, &|| true).unwrap();
-        let below = whole(2);
-        let walk = walk(expansions.map(family_of_anchors), &parts.plain, &below);
+        let walk = walk(expansions.map(family_of_anchors), &parts.plain);
 
         for anchor in [0, 1] {
             let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);
@@ -357,8 +356,7 @@ fn boxes_count_their_matrices_once() {
     let parts = parts();
     let condensation = condensation(&parts, &rational(4, 5), 40);
     let expansions = condensed::of_parts(&parts, &condensation, &|| true).unwrap();
-    let below = whole(2);
-    let mut walk = walk(expansions.map(family_of_anchors), &parts.plain, &below);
+    let mut walk = walk(expansions.map(family_of_anchors), &parts.plain);
     let at = || {
         let t = [rational(1, 3), rational(9, 7)];
         boxed(t, [rational(2, 11), rational(5, 3)])

@@ -401,8 +401,8 @@ const INDEX: [usize; 3] = [10, 11, 12];
 fn region() -> Region {
     let states = vec![State::InSupport, State::InSupport, State::AtZero];
     Region {
-        lo: whole(0),
-        hi: Some(whole(1)),
+        lo: whole(0).into(),
+        hi: Some(whole(1).into()),
         states,
         matrices: Default::default(),
     }

@@ -21,6 +21,7 @@
 //! `mod.rs`.
 
 use super::family::at_friction;
+use super::regular::Witness;
 use crate::search::complete::dyadic::short_near;
 use crate::search::complete::leaf::definite::holds_at_both_ends;
 use crate::search::complete::leaf::farkas::{self, Columns, MiddleTest};
@@ -37,6 +38,11 @@ use std::rc::Rc;
 
 /// Halvings in a row before a variable is decided instead.
 const MAX_CUTS: usize = 24;
+
+/// Halvings in each direction that a Farkas vector may need before a variable is decided instead.
+/// It is a leaf of first order in the size of the box; decided boxes have leaves of second order.
+static MAX_CUTS_NEEDED: std::sync::LazyLock<f64> =
+    std::sync::LazyLock::new(|| std::env::var("MCN").map_or(2.0, |v| v.parse().unwrap()));
 
 /// Halvings of a decided box before it counts as one that cannot be emptied.
 const MAX_CUTS_DECIDED: usize = 80;
@@ -77,6 +83,14 @@ pub(in crate::analysis) struct Blocked {
     pub(in crate::analysis) middle: [f64; 2],
     /// The relaxed solution there, by position.
     pub(in crate::analysis) x: Vec<f64>,
+}
+
+/// The lines through the middle of a box: a value of lambda^2 with all of mu, and a value of mu with
+/// all of lambda^2.
+struct Slices {
+    of_friction: [Ends; 2],
+    of_value: [Ends; 1],
+    is_half_line: bool,
 }
 
 /// The search of one piece.
@@ -170,17 +184,59 @@ impl Search<'_> {
         }
 
         let is_decided = undecided(&region.states).is_empty();
+        let witness = if is_decided && self.may_be_regular(ends) {
+            Witness::of(&middle.matrix, &region.states)
+        } else {
+            None
+        };
+        if let Some(witness) = &witness
+            && let Some(leaf) = witness.leaf(&corners, &self.view.index)
+        {
+            self.leaf(leaf, share);
+            return Ok(());
+        }
+
         if is_decided && let Some(cause) = hopeless(region, &middle) {
             return Err(blocked(cause, place, &middle));
         }
 
-        let is_worth_halving = middle.is_prunable && region.cuts < MAX_CUTS;
+        let is_worth_halving = middle.is_prunable
+            && region.cuts < MAX_CUTS
+            && self.cuts_needed(&columns, &middle) <= *MAX_CUTS_NEEDED;
         if !is_decided && !is_worth_halving {
             return self.branch(region, ends, &middle, share);
         }
 
-        let along_friction = self.is_lost_along_friction(ends, place, &middle, region);
+        let slices = self.slices(ends, place, region);
+        let along_friction = match &witness {
+            Some(witness) => witness.excess(&slices.of_friction) > witness.excess(&slices.of_value),
+            None => self.is_lost_along_friction(&slices, &middle, region),
+        };
         self.halve(region, ends, place, along_friction, share)
+    }
+
+    /// How often a box has to be halved in each direction until the witness of its middle holds at
+    /// its corners, if its margin falls in proportion to the width.
+    fn cuts_needed(&self, columns: &Columns, middle: &MiddleTest) -> f64 {
+        let w = &middle.game.w;
+        let margin = middle.columns.margin_of(w);
+        let loss = margin - columns.margin_of(w);
+        (loss / margin).log2()
+    }
+
+    /// The middle lines of a box.
+    fn slices(&self, ends: &[Ends; 2], [value, friction]: [f64; 2], region: &Region) -> Slices {
+        let at_value = self.ends(value, value);
+        Slices {
+            of_friction: corners_at(&at_value, region),
+            of_value: [at_friction(ends, friction)],
+            is_half_line: ends[0].is_half_line(),
+        }
+    }
+
+    /// May a leaf `regular` stand over this interval?
+    fn may_be_regular(&self, ends: &[Ends; 2]) -> bool {
+        !ends[0].is_half_line() || self.expansions[0].reversed
     }
 
     /// A value in the middle of an interval, in theta.
@@ -193,21 +249,17 @@ impl Search<'_> {
     /// than along lambda^2?
     fn is_lost_along_friction(
         &self,
-        ends: &[Ends; 2],
-        [value, friction]: [f64; 2],
+        slices: &Slices,
         middle: &MiddleTest,
         region: &Region,
     ) -> bool {
         let w = &middle.game.w;
-        let at_value = self.ends(value, value);
-        let of_friction = corners_at(&at_value, region);
-        let along_friction = Columns::of_all(&of_friction, &region.states).margin_of(w);
-        if ends[0].is_half_line() {
+        let along_friction = Columns::of_all(&slices.of_friction, &region.states).margin_of(w);
+        if slices.is_half_line {
             return along_friction < 0.0; // a direction and a matrix have no common unit
         }
 
-        let of_value = [at_friction(ends, friction)];
-        let along_value = Columns::of_all(&of_value, &region.states).margin_of(w);
+        let along_value = Columns::of_all(&slices.of_value, &region.states).margin_of(w);
         along_friction < along_value
     }
 

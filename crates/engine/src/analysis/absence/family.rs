@@ -134,7 +134,8 @@ impl Family {
                         center: anchor.center,
                         reversed: anchor.reversed,
                         right: anchor.right,
-                        left: anchor.left,
+                        // In the pencil of mu = 0 T_sf' is T_fs.
+                        left: None,
                         left_friction: second.left,
                     });
                 }

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `family` | T(t, mu) = T0(t) + mu T1(t), condensed about common anchors |
 //! | `boxes` | branch and prune over boxes of (t, mu) and states |
+//! | `regular` | leaves for decided boxes near a branch of solutions |
 //!
 //! With particles of zero reaction T is that of the split form, and supports are those of its
 //! variables. Doubles propose the cover, and nothing is returned as proved before the checker has
@@ -13,6 +14,7 @@
 
 mod boxes;
 mod family;
+mod regular;
 
 use super::families::Families;
 use crate::run::{OnProgress, Progress, Watch, in_threads};
@@ -178,6 +180,7 @@ impl<'a> Quadrant<'a> {
 
         Ok(CriticalCertificate {
             problem_sha256: self.problem.sha256(),
+            from: Rational::default(),
             below: below.clone(),
             condensation: family.condensation(below),
             pieces,
