@@ -28,6 +28,10 @@ type comparison =
 | Lt
 | Gt
 
+(** val pred : int -> int **)
+
+let pred = fun n -> Stdlib.max 0 (n-1)
+
 (** val add : int -> int -> int **)
 
 let rec add = (+)
@@ -5291,9 +5295,126 @@ let mixed e p p' =
     (mixed_matrix e p.radius_a p'.radius_a); radius_b =
     (mixed_matrix e p.radius_b p'.radius_b) }
 
+type regular = { regular_pivot : int; regular_inverse : matrix;
+                 regular_units : Big_int_Z.big_int list;
+                 regular_left : Big_int_Z.big_int list;
+                 regular_right : Big_int_Z.big_int list;
+                 regular_width : Big_int_Z.big_int; regular_minus : bool }
+
+(** val combine_rows :
+    Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int list **)
+
+let combine_rows c rows =
+  foldr (fun e sum -> add_poly (scale_poly (fst e) (snd e)) sum) []
+    (zip c rows)
+
+(** val against_right :
+    int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let against_right m w p =
+  sumZ (iota 0 (Stdlib.Int.succ m)) (fun j ->
+    Z.mul (nth Big_int_Z.zero_big_int p j)
+      (nth Big_int_Z.zero_big_int w.regular_right j))
+
+(** val against_radius :
+    int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let against_radius m w r =
+  sumZ (iota 0 (Stdlib.Int.succ m)) (fun j ->
+    Z.mul (nth Big_int_Z.zero_big_int r j)
+      (Z.abs (nth Big_int_Z.zero_big_int w.regular_right j)))
+
+(** val off_pivot :
+    int -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let off_pivot m u i p r =
+  sumZ (iota 0 m) (fun j ->
+    Z.add
+      (Z.abs
+        (Z.sub (unit_entry u i j)
+          (nth Big_int_Z.zero_big_int p (Stdlib.Int.succ j))))
+      (nth Big_int_Z.zero_big_int r (Stdlib.Int.succ j)))
+
+(** val regular_row0 :
+    int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> int -> bool **)
+
+let regular_row0 m w m0 rd u i =
+  let y = nth [] w.regular_inverse i in
+  let p = combine_rows y (behead m0) in
+  let r = combine_rows (map0 Z.abs y) (behead rd) in
+  contracts u w.regular_width (off_pivot m u i p r)
+    (Z.add (Z.abs (against_right m w p)) (against_radius m w r))
+
+(** val regular_sign : int -> regular -> matrix -> matrix -> bool **)
+
+let regular_sign m w m0 rd =
+  let p = combine_rows w.regular_left m0 in
+  let r = combine_rows (map0 Z.abs w.regular_left) rd in
+  let h = against_right m w p in
+  Z.ltb
+    (Z.add (against_radius m w r)
+      (Z.mul (off_pivot m Big_int_Z.zero_big_int 0 p r) w.regular_width))
+    (if w.regular_minus then Z.opp h else h)
+
+(** val regular_corner :
+    int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool **)
+
+let regular_corner m w m0 rd u =
+  (&&) (Z.ltb Big_int_Z.zero_big_int u)
+    ((&&) (all (regular_row0 m w m0 rd u) (iota 0 m))
+      (regular_sign m w m0 rd))
+
+(** val regular_order : enclosed -> region -> regular -> int list **)
+
+let regular_order p r w =
+  w.regular_pivot :: (filter (fun j ->
+                       (&&) (is_moving (state_of r j))
+                         (negb
+                           (eq_op nat_eqType (Obj.magic j)
+                             (Obj.magic w.regular_pivot)))) (indices p))
+
+(** val decided0 : enclosed -> region -> bool **)
+
+let decided0 p r =
+  all (fun j -> (||) (is_resting (state_of r j)) (is_moving (state_of r j)))
+    (indices p)
+
+(** val restricted :
+    int list -> (int -> int -> Big_int_Z.big_int) -> matrix **)
+
+let restricted l f =
+  map0 (fun i -> map0 (fun j -> f i j) l) l
+
+(** val box_corner :
+    regular -> enclosed -> int list -> point -> int -> bool **)
+
+let box_corner w q l e n =
+  regular_corner (pred (size l)) w (restricted l (center q e))
+    (restricted l (radius q e)) (nth Big_int_Z.zero_big_int w.regular_units n)
+
+(** val box_regular : enclosed -> enclosed -> region -> regular -> bool **)
+
+let box_regular p p' r w =
+  let l = regular_order p r w in
+  (&&) (leq (Stdlib.Int.succ w.regular_pivot) p.size_of)
+    ((&&) (is_moving (state_of r w.regular_pivot))
+      ((&&) (decided0 p r)
+        ((&&)
+          (Z.ltb Big_int_Z.zero_big_int
+            (nth Big_int_Z.zero_big_int w.regular_right 0))
+          ((&&) (box_corner w p l r.lower 0)
+            ((&&) (box_corner w p l r.upper (Stdlib.Int.succ 0))
+              ((&&)
+                (box_corner w p' l r.lower (Stdlib.Int.succ (Stdlib.Int.succ
+                  0)))
+                (box_corner w p' l r.upper (Stdlib.Int.succ (Stdlib.Int.succ
+                  (Stdlib.Int.succ 0))))))))))
+
 type critical_leaf =
 | BoxFarkas of Big_int_Z.big_int list
 | BoxDefinite of bool * (factor * factor) * (factor * factor)
+| BoxRegular of regular
 | BoxWhole of whole * whole
 
 (** val pencil_at : system -> point -> pencil **)
@@ -5367,6 +5488,11 @@ let check_critical_leaf s parts r low high = function
      let (p0, p1) = p in
      box_definite (mixed low p0 p1) (mixed high p0 p1) r negative0 f f'
    | None -> false)
+| BoxRegular v ->
+  (match parts with
+   | Some p ->
+     let (p0, p1) = p in box_regular (mixed low p0 p1) (mixed high p0 p1) r v
+   | None -> false)
 | BoxWhole (a, b) ->
   (&&) (same_weights s a b)
     ((&&) (check_whole (pencil_at s low) r a)
@@ -5374,16 +5500,16 @@ let check_critical_leaf s parts r low high = function
 
 (** val check_critical :
     system -> (elimination * (matrix * matrix)) option -> critical_leaf
-    box_tree -> point -> bool **)
+    box_tree -> point -> point -> bool **)
 
-let check_critical s w tr bound1 =
+let check_critical s w tr from bound1 =
   let parts = condensed_parts s w in
   (&&)
     (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
       Big_int_Z.unit_big_int)))
     ((&&) (parts_eliminated s w)
       (check_boxes (size (slip (part_plain s))) (check_critical_leaf s parts)
-        tr (window zero infinity) zero bound1))
+        tr (window zero infinity) from bound1))
 
 type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
                     friction_left : matrix list }
@@ -5426,6 +5552,7 @@ let check_parts p p' r low high = function
 | BoxFarkas v -> box_farkas (mixed low p p') (mixed high p p') r v
 | BoxDefinite (negative0, f, f') ->
   box_definite (mixed low p p') (mixed high p p') r negative0 f f'
+| BoxRegular v -> box_regular (mixed low p p') (mixed high p p') r v
 | BoxWhole (_, _) -> false
 
 (** val local_part :
@@ -5505,16 +5632,17 @@ let both_bounded s w =
           (ff_block (part_friction s) (row_b (part_friction s))) w.mass_below)))
 
 (** val check_anchored_critical :
-    system -> box_anchoring -> anchored_box_leaf box_tree -> point -> bool **)
+    system -> box_anchoring -> anchored_box_leaf box_tree -> point -> point
+    -> bool **)
 
-let check_anchored_critical s w tr bound1 =
+let check_anchored_critical s w tr from bound1 =
   let families0 = box_expansions s w in
   (&&)
     (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
       Big_int_Z.unit_big_int)))
     ((&&) ((||) (nilp w.box_anchors) (both_bounded s w))
       (check_boxes (size s.particles) (check_anchored_box s w families0) tr
-        (window zero infinity) zero bound1))
+        (window zero infinity) from bound1))
 
 (** val zero_firsts : zero_system -> int list **)
 

@@ -14,6 +14,8 @@ type comparison =
 | Lt
 | Gt
 
+val pred : int -> int
+
 val add : int -> int -> int
 
 val mul : int -> int -> int
@@ -1706,9 +1708,46 @@ val mixed_matrix : point -> matrix -> matrix -> matrix
 
 val mixed : point -> enclosed -> enclosed -> enclosed
 
+type regular = { regular_pivot : int; regular_inverse : matrix;
+                 regular_units : Big_int_Z.big_int list;
+                 regular_left : Big_int_Z.big_int list;
+                 regular_right : Big_int_Z.big_int list;
+                 regular_width : Big_int_Z.big_int; regular_minus : bool }
+
+val combine_rows : Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int list
+
+val against_right :
+  int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val against_radius :
+  int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val off_pivot :
+  int -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val regular_row0 :
+  int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> int -> bool
+
+val regular_sign : int -> regular -> matrix -> matrix -> bool
+
+val regular_corner :
+  int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool
+
+val regular_order : enclosed -> region -> regular -> int list
+
+val decided0 : enclosed -> region -> bool
+
+val restricted : int list -> (int -> int -> Big_int_Z.big_int) -> matrix
+
+val box_corner : regular -> enclosed -> int list -> point -> int -> bool
+
+val box_regular : enclosed -> enclosed -> region -> regular -> bool
+
 type critical_leaf =
 | BoxFarkas of Big_int_Z.big_int list
 | BoxDefinite of bool * (factor * factor) * (factor * factor)
+| BoxRegular of regular
 | BoxWhole of whole * whole
 
 val pencil_at : system -> point -> pencil
@@ -1734,7 +1773,7 @@ val check_critical_leaf :
 
 val check_critical :
   system -> (elimination * (matrix * matrix)) option -> critical_leaf
-  box_tree -> point -> bool
+  box_tree -> point -> point -> bool
 
 type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
                     friction_left : matrix list }
@@ -1777,7 +1816,8 @@ val check_anchored_box :
 val both_bounded : system -> box_anchoring -> bool
 
 val check_anchored_critical :
-  system -> box_anchoring -> anchored_box_leaf box_tree -> point -> bool
+  system -> box_anchoring -> anchored_box_leaf box_tree -> point -> point ->
+  bool
 
 val zero_firsts : zero_system -> int list
 
