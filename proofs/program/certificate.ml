@@ -94,6 +94,7 @@ type critical_node =
   | Decide of int
   | BoxFarkas of Z.t list
   | BoxDefinite of bool  (* negative *)
+  | BoxRegular of int  (* the pivot; inverse and vectors are read and not used *)
   | BoxTail
 
 type critical_piece = { box_max : Q.t option; box_anchor : int; box_tree : critical_node list }
@@ -110,6 +111,7 @@ type critical_condensation = {
 
 type critical = {
   critical_digest : string;
+  at_least : Q.t;  (* `from`, 0 if it is absent *)
   below : Q.t;
   critical_condensation : critical_condensation option;
   critical_pieces : critical_piece list }
@@ -304,8 +306,10 @@ let read_critical_condensation item =
       ["mass_factor"; "tail"] item in
   let optional = function Null -> None | f -> Some (read_factor f) in
   let anchor item =
-    let field = fields ["center"; "right"; "left"; "left_friction"] ["reversed"] item in
-    read_anchor_fields field, read_coefficients (field "left_friction") in
+    let field = fields ["center"; "right"; "left_friction"] ["left"; "reversed"] item in
+    let left = if field "left" = Null then "right" else "left" in
+    let field_of key = field (if key = "left" then left else key) in
+    read_anchor_fields field_of, read_coefficients (field "left_friction") in
   let tail item =
     let field = fields ["from"; "factor"; "factor_below"] ["mass_factor"; "mass_factor_below"]
         item in
@@ -320,6 +324,14 @@ let read_critical_condensation item =
   { plain; left_friction = List.map snd anchors;
     friction_tail = (match field "tail" with Null -> None | t -> Some (tail t)) }
 
+let read_regular item =
+  let field = fields ["pivot"; "inverse"; "inverse_exponent"; "left"; "right"; "exponent"] []
+      item in
+  ignore (List.map integers (list (field "inverse")));
+  ignore (List.map integer (list (field "left") @ list (field "right")));
+  ignore (exponent_of (field "inverse_exponent") + exponent_of (field "exponent"));
+  BoxRegular (place (field "pivot"))
+
 let read_critical_node = function
   | String "positive_definite" -> BoxDefinite false
   | String "negative_definite" -> BoxDefinite true
@@ -328,6 +340,7 @@ let read_critical_node = function
   | Object ["friction", m] -> CutFriction (rational m)
   | Object ["branch", i] -> Decide (place i)
   | Object ["farkas", w] -> BoxFarkas (integers w)
+  | Object ["regular", r] -> read_regular r
   | _ -> malformed "a node of a tree"
 
 let read_critical_piece item =
@@ -337,11 +350,14 @@ let read_critical_piece item =
     box_tree = read_tree read_critical_node (field "tree") }
 
 let read_critical document =
-  let field = fields ["format"; "problem_sha256"; "below"; "pieces"] ["condensation"] document in
+  let field = fields ["format"; "problem_sha256"; "below"; "pieces"] ["from"; "condensation"]
+      document in
   let critical_condensation = match field "condensation" with
     | Null -> None
     | c -> Some (read_critical_condensation c) in
-  { critical_digest = text (field "problem_sha256"); below = rational (field "below");
+  { critical_digest = text (field "problem_sha256");
+    at_least = (match field "from" with Null -> Q.zero | q -> rational q);
+    below = rational (field "below");
     critical_condensation;
     critical_pieces = List.map read_critical_piece (list (field "pieces")) }
 

@@ -1,7 +1,9 @@
 (* The elaborator of mceip-critical/1: from its trees of boxes to that of the kernel. Untrusted.
 
    The factors of definite leaves are computed as those of other certificates (elaborate.ml), for
-   the pencils at both ends of the interval of mu. *)
+   the pencils at both ends of the interval of mu.  The inverse and the vectors of a regular leaf are
+   computed anew, from the mean of the corners: the rows of the kernel's matrices have factors of
+   their own. *)
 
 open Certificate
 open Elaborate
@@ -14,7 +16,8 @@ type context = {
   free_factor : Z.t;  (* of the free rows *)
   slip_factor : Z.t;  (* of the slip rows of both parts *)
   tail : critical_tail option;
-  below : Q.t }
+  mu_low : Kernel.point;  (* the interval of the file *)
+  mu_high : Kernel.point }
 
 (* f_i / 2^b_i, common to both parts, as positive integers in one unit. *)
 let common_scales (plain : Kernel.pencil) (friction : Kernel.pencil) slip factor =
@@ -61,11 +64,91 @@ let definite_box (plain, friction) negative region box =
   | None -> None
   | Some f -> Option.map (fun f' -> Kernel.BoxDefinite (negative, f, f')) (at box.high)
 
+(* A corner of a box: the enclosed pencil at an end of the interval of mu, an end of the interval of
+   t, and the factor that both ends bring into its matrix. *)
+type corner = { enclosed : Kernel.enclosed; end_of_t : Kernel.point; times : Z.t }
+
+let corners_of (plain, friction) (region : Kernel.region) box =
+  let at_friction e =
+    let enclosed = Kernel.mixed e plain friction in
+    let corner end_of_t = { enclosed; end_of_t; times = Z.mul (snd e) (snd end_of_t) } in
+    [corner region.lower; corner region.upper] in
+  at_friction box.low @ at_friction box.high
+
+(* The mean of matrices of doubles. *)
+let mean_of matrices =
+  let share = 1.0 /. float_of_int (List.length matrices) in
+  let add = Array.map2 (Array.map2 (+.)) in
+  let sum = List.fold_left add (List.hd matrices) (List.tl matrices) in
+  Array.map (Array.map (fun v -> share *. v)) sum
+
+(* The smallest width that a corner allows, with its restricted matrices. *)
+let width_at m (w : Kernel.regular) (center, radius) u =
+  let row i y =
+    let p = Kernel.combine_rows y (List.tl center) in
+    let r = Kernel.combine_rows (List.map Z.abs y) (List.tl radius) in
+    let gap = Z.sub u (Kernel.off_pivot m u i p r) in
+    let residual = Z.add (Z.abs (Kernel.against_right m w p)) (Kernel.against_radius m w r) in
+    if Z.sign gap <= 0 then None else Some (Z.cdiv residual gap) in
+  List.mapi row w.regular_inverse
+
+(* A regular leaf by the inverse and the null vectors of s, a matrix over the order of the kernel. *)
+let regular_by m k corners matrices s =
+  let tail row = Array.sub row 1 m in
+  let block = Array.map tail (Array.sub s 1 m) in
+  let rounded = if m = 0 then Some ([||], precision) else rounded_inverse block in
+  let exact = if m = 0 then Some [||] else inverse block in
+  match rounded, exact with
+  | Some (y, exponent), Some x ->
+    let shift = max 0 (- exponent) in
+    let integers = Array.map (fun row -> Array.to_list (Array.map (fun z -> Z.shift_left z shift) row)) y in
+    let dot f = Array.fold_left (+.) 0.0 (Array.init m f) in
+    let scaled f = two_to 52 :: List.init m (fun a -> round_scaled (-. dot (f a)) 52) in
+    let w =
+      { Kernel.regular_pivot = k; regular_inverse = Array.to_list integers;
+        regular_units = List.map (fun c -> Z.shift_left c.times (exponent + shift)) corners;
+        regular_left = scaled (fun a b -> s.(0).(b + 1) *. x.(b).(a));
+        regular_right = scaled (fun a b -> x.(a).(b) *. s.(b + 1).(0));
+        regular_width = Z.zero; regular_minus = false } in
+    let widths = List.concat (List.map2 (width_at m w) matrices w.regular_units) in
+    if List.mem None widths then None
+    else
+      let regular_width = List.fold_left Z.max Z.zero (List.filter_map Fun.id widths) in
+      let along = Kernel.combine_rows w.regular_left (fst (List.hd matrices)) in
+      let regular_minus = Z.sign (Kernel.against_right m w along) < 0 in
+      Some { w with regular_width; regular_minus }
+  | _ -> None
+
+(* A regular leaf of a decided box; k is a moving variable. *)
+let regular_box parts k (region : Kernel.region) box =
+  let corners = corners_of parts region box in
+  let plain = fst parts in
+  let moving = Obj.magic (Kernel.moving plain region) in
+  if not (List.mem k moving && finite region.upper) then None
+  else begin
+    let order = k :: List.filter (fun j -> j <> k) moving in
+    let m = List.length order - 1 in
+    spend (4 * m);
+    let matrices = List.map (fun c ->
+        Kernel.restricted order (Kernel.center c.enclosed c.end_of_t),
+        Kernel.restricted order (Kernel.radius c.enclosed c.end_of_t)) corners in
+    let doubles c (center, _) =
+      let value z = Q.to_float (Q.make z c.times) in
+      Array.of_list (List.map (fun row -> Array.of_list (List.map value row)) center) in
+    let each = List.map2 doubles corners matrices in
+    let holds w = Kernel.box_regular (Kernel.mixed box.low plain (snd parts))
+        (Kernel.mixed box.high plain (snd parts)) region w in
+    List.find_map (fun s ->
+        match regular_by m k corners matrices s with
+        | Some w when holds w -> Some (Kernel.BoxRegular w)
+        | _ -> None) (mean_of each :: each)
+  end
+
 (* The factors of the certificate, where the box is that of the tail. *)
 let by_tail c box =
   match c.tail with
   | Some tail when Q.equal tail.from (value_of box.region.lower) && not (finite box.region.upper)
-                   && Z.sign (fst box.low) = 0 && Q.equal c.below (value_of box.high) ->
+                   && box.low = c.mu_low && box.high = c.mu_high ->
     let at e (factor, mass_factor) =
       let pencil, whole_weights = whole_pencil c e in
       let twice = Z.mul (Z.of_int 2) (Z.mul c.slip_factor (snd e)) in
@@ -94,7 +177,7 @@ type anchored = {
   numbers : (int * int) list }
 
 let needs_anchor piece =
-  List.exists (function BoxFarkas _ | BoxDefinite _ -> true | _ -> false) piece.box_tree
+  List.exists (function BoxFarkas _ | BoxDefinite _ | BoxRegular _ -> true | _ -> false) piece.box_tree
 
 (* An anchor with both left sides in one unit, and of one length. *)
 let box_anchor c plain friction slip (a : anchor) left_friction =
@@ -204,7 +287,7 @@ let rec close what depth ways box =
 let no_leaf node =
   match node with
   | CutValue _ | CutFriction _ | Decide _ -> assert false
-  | BoxFarkas _ | BoxDefinite _ | BoxTail -> ()
+  | BoxFarkas _ | BoxDefinite _ | BoxRegular _ | BoxTail -> ()
 
 let anchored_leaf c v piece box node =
   no_leaf node;
@@ -225,6 +308,10 @@ let anchored_leaf c v piece box node =
        match whole negative box with
        | Some l -> Kernel.BoxLeaf l
        | None -> close "definite" 6 [by_anchor] box)
+  | BoxRegular pivot ->
+    let k = position c.slip pivot in
+    close "regular" 6 [fun box -> about c v (number ()) box (fun parts region ->
+        regular_box parts k region box)] box
   | _ -> close "tail" 0 [(fun box -> as_whole (by_tail c box)); whole false] box
 
 (* ---------- without free variables *)
@@ -242,6 +329,10 @@ let leaf_of_parts c parts _ box node =
     let by_parts box =
       Option.bind parts (fun parts -> definite_box parts negative box.region box) in
     found "definite" [by_parts; by_whole c negative]
+  | BoxRegular pivot ->
+    let k = position c.slip pivot in
+    found "regular" [fun box ->
+        Option.bind parts (fun parts -> regular_box parts k box.region box)]
   | BoxTail -> found "tail" [by_tail c; by_whole c false]
   | _ -> no_witness "a condensation is missing"
 
@@ -303,8 +394,7 @@ let build c leaf pieces =
     | piece :: rest ->
       if (piece.box_max = None) <> (rest = []) then no_witness "pieces that end before infinity";
       let upper = upper_point piece.box_max in
-      let box = { region = { Kernel.lower; upper; states = [] }; low = Kernel.zero;
-                  high = point_of c.below } in
+      let box = { region = { Kernel.lower; upper; states = [] }; low = c.mu_low; high = c.mu_high } in
       let tree = build_piece c (leaf piece) piece.box_tree box in
       if rest = [] then tree else Kernel.CutValue (upper, tree, join upper rest) in
   join Kernel.zero pieces

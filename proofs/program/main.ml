@@ -585,7 +585,7 @@ let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kern
       code
   end
 
-(* No solution of a system for mu in [0, below] and lambda^2 >= 0. *)
+(* No solution of a system for mu in [from, below] and lambda^2 >= 0. *)
 let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
   if certificate.critical_digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
@@ -596,6 +596,8 @@ let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
       raise (Rejected "the unknown is not the problem's")
     | Mechanical (system, _) -> system in
   if Q.sign certificate.below <= 0 then raise (Rejected "below is not positive");
+  if Q.sign certificate.at_least < 0 || Q.geq certificate.at_least certificate.below then
+    raise (Rejected "from is negative or not smaller than below");
   if (certificate.critical_condensation <> None) <> (system.free_dofs <> []) then
     raise (Rejected "a condensation is given exactly if there are free variables");
 
@@ -607,16 +609,17 @@ let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
   let context =
     { Critical.system; slip = Array.of_list slip_list; free_factor = problem.common; slip_factor;
       tail = Option.bind certificate.critical_condensation (fun c -> c.friction_tail);
-      below = certificate.below } in
+      mu_low = Elaborate.point_of certificate.at_least;
+      mu_high = Elaborate.point_of certificate.below }
+  in
   let pieces = certificate.critical_pieces in
-  let bound = Elaborate.point_of certificate.below in
   let without_free_variables () =
     let elimination =
       Some (Critical.trivial_elimination plain friction slip_list slip_factor) in
     let parts = timed "condensation" (fun () -> Kernel.condensed_parts system elimination) in
     let tree = timed "elaboration" (fun () ->
         Critical.build context (Critical.leaf_of_parts context parts) pieces) in
-    timed "kernel" (fun () -> Kernel.check_critical system elimination tree bound) in
+    timed "kernel" (fun () -> Kernel.check_critical system elimination tree context.mu_low context.mu_high) in
   let about_anchors condensation =
     let anchored = timed "condensation" (fun () ->
         Critical.anchored_of context plain friction slip_list condensation pieces) in
@@ -624,12 +627,12 @@ let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
         Critical.join
           (Critical.build context (Critical.anchored_leaf context anchored) pieces)) in
     timed "kernel" (fun () ->
-        Kernel.check_anchored_critical system anchored.anchoring tree bound) in
+        Kernel.check_anchored_critical system anchored.anchoring tree context.mu_low context.mu_high) in
   refuse_tree_unless (match certificate.critical_condensation with
       | None -> without_free_variables ()
       | Some condensation -> about_anchors condensation);
   Printf.printf "ACCEPTED, VERIFIED: no solution for mu in %s and lambda^2 in %s\n"
-    (show_interval Kernel.zero bound) (show_interval Kernel.zero Kernel.infinity);
+    (show_interval context.mu_low context.mu_high) (show_interval Kernel.zero Kernel.infinity);
   0
 
 let verify_complete (problem : Problem.t) (certificate : Certificate.t) =
