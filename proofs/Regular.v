@@ -27,7 +27,7 @@
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Root Claim Series Boxes.
+From Mceip Require Import Integers Sums Tree Enclosed Root RootLeaf Claim Series Boxes.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -318,10 +318,7 @@ Section BoxChecker.
 Variables (P P' : enclosed) (r : region) (w : regular).
 
 (* The moving variables, the pivot first. *)
-Definition regular_order : seq nat :=
-  regular_pivot w :: [seq j <- indices P | is_moving (state_of r j) & j != regular_pivot w].
-
-Definition decided := all (fun j => is_resting (state_of r j) || is_moving (state_of r j)) (indices P).
+Definition regular_order : seq nat := regular_pivot w :: others P r (regular_pivot w).
 
 Definition restricted (l : seq nat) (f : nat -> nat -> Z) : matrix :=
   [seq [seq f i j | j <- l] | i <- l].
@@ -333,8 +330,7 @@ Definition box_corner (Q : enclosed) (l : seq nat) (e : point) (n : nat) :=
 (* P and P' are the enclosed pencils at both ends of the interval of mu. *)
 Definition box_regular :=
   let l := regular_order in
-  [&& (regular_pivot w < size_of P)%N, is_moving (state_of r (regular_pivot w)), decided,
-      (0 <? nth 0%Z (regular_right w) 0)%Z &
+  [&& decided P r, regular_pivot w \in moving P r, (0 <? nth 0%Z (regular_right w) 0)%Z &
       [&& box_corner P l (lower r) 0, box_corner P l (upper r) 1,
           box_corner P' l (lower r) 2 & box_corner P' l (upper r) 3]].
 
@@ -368,26 +364,22 @@ Notation at_place i := (nth 0%N l i).
 
 Lemma order_moving j : j \in l -> j \in indices P /\ is_moving (state_of r j).
 Proof.
-case/and5P: checked => lt_k moving_k _ _ _.
-rewrite inE mem_filter => /orP[/eqP->|/andP[/andP[mv _] Hj]] //.
-by split=> //; rewrite mem_iota.
+case/and4P: checked => _ k_J _ _ Hj; suff: j \in moving P r by rewrite mem_filter => /andP[].
+by move: Hj; rewrite inE mem_filter => /orP[/eqP->|/andP[]].
 Qed.
 
 Lemma sum_order (f : nat -> R) :
   \sum_(j <- indices P) f j * x j = \sum_(j <- iota 0 (size l)) f (at_place j) * x (at_place j).
 Proof.
-case/and5P: checked => lt_k moving_k /allP dec _ _.
-pose J := [seq j <- indices P | is_moving (state_of r j)].
-pose K := [seq j <- indices P | is_moving (state_of r j) & j != k].
-have K_J j : (j \in K) = (j \in J) && (j != k) by rewrite !mem_filter andbAC.
-have k_J : k \in J by rewrite mem_filter moving_k mem_iota.
-have uJ : uniq J by rewrite filter_uniq ?iota_uniq.
-have uK : uniq K by rewrite filter_uniq ?iota_uniq.
-transitivity (\sum_(j <- J) f j * x j).
+case/and4P: checked => /allP dec k_J _ _.
+have K_J j : (j \in others P r k) = (j \in moving P r) && (j != k) by rewrite mem_filter andbC.
+have uJ : uniq (moving P r) by rewrite filter_uniq ?iota_uniq.
+have uK : uniq (others P r k) by rewrite filter_uniq.
+transitivity (\sum_(j <- moving P r) f j * x j).
   rewrite big_filter [RHS]big_mkcond big_seq [RHS]big_seq; apply: eq_bigr => j Hj.
   have := dec j Hj; have := agrees_at ag Hj; case: (state_of r j) => //= -> _.
   by rewrite mulr0.
-rewrite (sum_pivot K_J k_J uJ uK) -(big_cons _ _ k K xpredT (fun j => f j * x j)).
+rewrite (sum_pivot K_J k_J uJ uK) -(big_cons _ _ k _ xpredT (fun j => f j * x j)).
 by rewrite (big_nth 0%N) /index_iota subn0.
 Qed.
 
@@ -403,7 +395,7 @@ Qed.
 
 Theorem box_regular_sound : False.
 Proof.
-case/and5P: (checked) => lt_k moving_k _ v_gt0 /and4P[c0 c1 c2 c3].
+case/and4P: (checked) => _ k_J v_gt0 /and4P[c0 c1 c2 c3].
 have [f [g [f0 g0 Tab [fg _]]]] := T_between A B O W.
 have [f' [g' [f0' g0' Tab' [fg' _]]]] := T_between A' B' O W.
 have [p q p' q'] := ordered_ge0 R O; have [_ compl] := sol.
@@ -442,8 +434,8 @@ apply: (@no_null_vector R (size l).-1 w [:: 0; 1; 2; 3]%N
   rewrite /box_image (image_order _ (erefl _) Tab) (image_order _ same Tab') => zero.
   by rewrite -[RHS]zero four !mulrDr -!addrA !mulrA.
 - by rewrite toR_gt0.
-have Hk : k \in indices P by rewrite mem_iota.
-by have := agrees_at ag Hk; move: moving_k; case: (state_of r k).
+move: k_J; rewrite mem_filter => /andP[mv Hk].
+by have := agrees_at ag Hk; move: mv; case: (state_of r k).
 Qed.
 
 End BoxSound.

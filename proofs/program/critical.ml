@@ -272,17 +272,34 @@ let as_whole = function
   | Some (Kernel.BoxWhole (a, b)) -> Some (Kernel.AboutWhole (a, b))
   | _ -> None
 
-(* One of the ways closes the box, or its halves are closed. *)
-let rec close what depth ways box =
-  match List.find_map (fun way -> way box) ways with
-  | Some l -> Kernel.BoxLeaf l
-  | None ->
-    if depth = 0 then no_witness "%s" what;
+type direction = Along_value | Along_friction
+
+(* Both halves, and the tree that joins theirs. *)
+let cut_box box = function
+  | Along_value ->
+    let cut = point_of (cut_of box.region) in
     let region = box.region in
-    let cut = point_of (cut_of region) in
-    let half region = close what (depth - 1) ways { box with region } in
-    let first = half { region with Kernel.upper = cut } in
-    Kernel.CutValue (cut, first, half { region with lower = cut })
+    { box with region = { region with upper = cut } },
+    { box with region = { region with lower = cut } },
+    fun first second -> Kernel.CutValue (cut, first, second)
+  | Along_friction ->
+    let cut = point_of (half (value_of box.low) (value_of box.high)) in
+    { box with high = cut }, { box with low = cut },
+    fun first second -> Kernel.CutFriction (cut, first, second)
+
+(* One of the ways closes the box, or its halves are closed: cut in the first of the directions, and
+   those halves in the others. *)
+let rec close what directions ways box =
+  match List.find_map (fun way -> way box) ways, directions with
+  | Some l, _ -> Kernel.BoxLeaf l
+  | None, [] -> no_witness "%s" what
+  | None, direction :: rest ->
+    let first, second, both = cut_box box direction in
+    let first = close what rest ways first in
+    both first (close what rest ways second)
+
+let six_times = List.init 6 (fun _ -> Along_value)
+let in_turn = List.concat (List.init 3 (fun _ -> [Along_value; Along_friction]))
 
 let no_leaf node =
   match node with
@@ -297,7 +314,7 @@ let anchored_leaf c v piece box node =
   let whole negative box = as_whole (by_whole c negative box) in
   match node with
   | BoxFarkas w ->
-    close "farkas" 6 [fun box -> about c v (number ()) box (fun _ _ ->
+    close "farkas" six_times [fun box -> about c v (number ()) box (fun _ _ ->
         Some (Kernel.BoxFarkas w))] box
   | BoxDefinite negative ->
     let by_anchor box =
@@ -307,12 +324,12 @@ let anchored_leaf c v piece box node =
      | None ->
        match whole negative box with
        | Some l -> Kernel.BoxLeaf l
-       | None -> close "definite" 6 [by_anchor] box)
+       | None -> close "definite" six_times [by_anchor] box)
   | BoxRegular pivot ->
     let k = position c.slip pivot in
-    close "regular" 6 [fun box -> about c v (number ()) box (fun parts region ->
+    close "regular" in_turn [fun box -> about c v (number ()) box (fun parts region ->
         regular_box parts k region box)] box
-  | _ -> close "tail" 0 [(fun box -> as_whole (by_tail c box)); whole false] box
+  | _ -> close "tail" [] [(fun box -> as_whole (by_tail c box)); whole false] box
 
 (* ---------- without free variables *)
 
@@ -331,8 +348,8 @@ let leaf_of_parts c parts _ box node =
     found "definite" [by_parts; by_whole c negative]
   | BoxRegular pivot ->
     let k = position c.slip pivot in
-    found "regular" [fun box ->
-        Option.bind parts (fun parts -> regular_box parts k box.region box)]
+    close "regular" in_turn [fun box ->
+        Option.bind parts (fun parts -> regular_box parts k box.region box)] box
   | BoxTail -> found "tail" [by_tail c; by_whole c false]
   | _ -> no_witness "a condensation is missing"
 

@@ -5368,17 +5368,7 @@ let regular_corner m w m0 rd u =
 (** val regular_order : enclosed -> region -> regular -> int list **)
 
 let regular_order p r w =
-  w.regular_pivot :: (filter (fun j ->
-                       (&&) (is_moving (state_of r j))
-                         (negb
-                           (eq_op nat_eqType (Obj.magic j)
-                             (Obj.magic w.regular_pivot)))) (indices p))
-
-(** val decided0 : enclosed -> region -> bool **)
-
-let decided0 p r =
-  all (fun j -> (||) (is_resting (state_of r j)) (is_moving (state_of r j)))
-    (indices p)
+  w.regular_pivot :: (Obj.magic others p r w.regular_pivot)
 
 (** val restricted :
     int list -> (int -> int -> Big_int_Z.big_int) -> matrix **)
@@ -5397,19 +5387,20 @@ let box_corner w q l e n =
 
 let box_regular p p' r w =
   let l = regular_order p r w in
-  (&&) (leq (Stdlib.Int.succ w.regular_pivot) p.size_of)
-    ((&&) (is_moving (state_of r w.regular_pivot))
-      ((&&) (decided0 p r)
-        ((&&)
-          (Z.ltb Big_int_Z.zero_big_int
-            (nth Big_int_Z.zero_big_int w.regular_right 0))
-          ((&&) (box_corner w p l r.lower 0)
-            ((&&) (box_corner w p l r.upper (Stdlib.Int.succ 0))
-              ((&&)
-                (box_corner w p' l r.lower (Stdlib.Int.succ (Stdlib.Int.succ
-                  0)))
-                (box_corner w p' l r.upper (Stdlib.Int.succ (Stdlib.Int.succ
-                  (Stdlib.Int.succ 0))))))))))
+  (&&) (decided p r)
+    ((&&)
+      (in_mem (Obj.magic w.regular_pivot)
+        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+      ((&&)
+        (Z.ltb Big_int_Z.zero_big_int
+          (nth Big_int_Z.zero_big_int w.regular_right 0))
+        ((&&) (box_corner w p l r.lower 0)
+          ((&&) (box_corner w p l r.upper (Stdlib.Int.succ 0))
+            ((&&)
+              (box_corner w p' l r.lower (Stdlib.Int.succ (Stdlib.Int.succ
+                0)))
+              (box_corner w p' l r.upper (Stdlib.Int.succ (Stdlib.Int.succ
+                (Stdlib.Int.succ 0)))))))))
 
 type critical_leaf =
 | BoxFarkas of Big_int_Z.big_int list

@@ -1736,8 +1736,6 @@ val regular_corner :
 
 val regular_order : enclosed -> region -> regular -> int list
 
-val decided0 : enclosed -> region -> bool
-
 val restricted : int list -> (int -> int -> Big_int_Z.big_int) -> matrix
 
 val box_corner : regular -> enclosed -> int list -> point -> int -> bool
