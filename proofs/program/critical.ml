@@ -82,67 +82,100 @@ let mean_of matrices =
   let sum = List.fold_left add (List.hd matrices) (List.tl matrices) in
   Array.map (Array.map (fun v -> share *. v)) sum
 
-(* The smallest width that a corner allows, with its restricted matrices. *)
-let width_at m (w : Kernel.regular) (center, radius) u =
+(* For each row the room that a corner leaves for the widths, if these are the weights of [w], and
+   the residual that has to fit in. *)
+let room_at m (w : Kernel.regular) (center, radius) u =
   let row i y =
     let p = Kernel.combine_rows y (List.tl center) in
     let r = Kernel.combine_rows (List.map Z.abs y) (List.tl radius) in
-    let gap = Z.sub u (Kernel.off_pivot m u i p r) in
+    let weighted = Z.mul u (List.nth w.regular_widths i) in
+    let gap = Z.sub weighted (Kernel.off_pivot m w u i p r) in
     let residual = Z.add (Z.abs (Kernel.against_right m w p)) (Kernel.against_radius m w r) in
-    if Z.sign gap <= 0 then None else Some (Z.cdiv residual gap) in
+    gap, residual in
   List.mapi row w.regular_inverse
 
-(* A regular leaf by the inverse and the null vectors of s, a matrix over the order of the kernel. *)
-let regular_by m k corners matrices s =
-  let tail row = Array.sub row 1 m in
-  let block = Array.map tail (Array.sub s 1 m) in
+(* Widths in proportion to 1 or to the components of the null vector. *)
+type weights = Uniform | By_vector
+
+let weights_of weights right =
+  List.map (fun v -> match weights with
+      | Uniform -> Z.one
+      | By_vector -> Z.max Z.one (Z.abs v)) (List.tl right)
+
+(* The widths that the corners allow: a little more than the least multiple of the weights. *)
+let with_widths m corners (w : Kernel.regular) =
+  let rooms = List.concat_map (fun (n, matrices) ->
+      room_at m w matrices (List.nth w.regular_units n)) corners in
+  if List.exists (fun (gap, _) -> Z.sign gap <= 0) rooms then None
+  else
+    let ratios = List.map (fun (gap, residual) -> Q.make residual gap) rooms in
+    let least = List.fold_left larger Q.zero ratios in
+    let wider = Q.mul least (Q.make (Z.succ (two_to 30)) (two_to 30)) in
+    let width weight =
+      let exact = Q.mul wider (Q.of_bigint weight) in
+      Z.succ (Z.fdiv (Q.num exact) (Q.den exact)) in
+    Some { w with regular_widths = List.map width w.regular_widths }
+
+(* A corner is given by its number and its matrices over the order of the kernel, the pivot first. *)
+type places = { order : int list; units : Z.t list; corners : (int * (Kernel.matrix * Kernel.matrix)) list }
+
+let places_of parts k region box =
+  let moving = Obj.magic (Kernel.moving (fst parts) region) in
+  if not (List.mem k moving && finite region.Kernel.upper) then None
+  else begin
+    let order = k :: List.filter (fun j -> j <> k) moving in
+    spend (4 * List.length order);
+    let corners = corners_of parts region box in
+    let matrices n c =
+      n, (Kernel.restricted order (Kernel.center c.enclosed c.end_of_t),
+          Kernel.restricted order (Kernel.radius c.enclosed c.end_of_t)) in
+    Some { order; units = List.map (fun c -> c.times) corners; corners = List.mapi matrices corners }
+  end
+
+(* The matrix of a corner in doubles. *)
+let doubles_at places (n, (center, _)) =
+  let times = List.nth places.units n in
+  let value z = Q.to_float (Q.make z times) in
+  Array.of_list (List.map (fun row -> Array.of_list (List.map value row)) center)
+
+(* The witness for some corners by the inverse and the null vectors of s, a matrix over the order. *)
+let regular_by places weights corners s =
+  let m = List.length places.order - 1 in
+  let block = Array.map (fun row -> Array.sub row 1 m) (Array.sub s 1 m) in
   let rounded = if m = 0 then Some ([||], precision) else rounded_inverse block in
   let exact = if m = 0 then Some [||] else inverse block in
   match rounded, exact with
   | Some (y, exponent), Some x ->
     let shift = max 0 (- exponent) in
-    let integers = Array.map (fun row -> Array.to_list (Array.map (fun z -> Z.shift_left z shift) row)) y in
+    let row_of row = Array.to_list (Array.map (fun z -> Z.shift_left z shift) row) in
     let dot f = Array.fold_left (+.) 0.0 (Array.init m f) in
     let scaled f = two_to 52 :: List.init m (fun a -> round_scaled (-. dot (f a)) 52) in
+    let right = scaled (fun a b -> x.(a).(b) *. s.(b + 1).(0)) in
     let w =
-      { Kernel.regular_pivot = k; regular_inverse = Array.to_list integers;
-        regular_units = List.map (fun c -> Z.shift_left c.times (exponent + shift)) corners;
-        regular_left = scaled (fun a b -> s.(0).(b + 1) *. x.(b).(a));
-        regular_right = scaled (fun a b -> x.(a).(b) *. s.(b + 1).(0));
-        regular_width = Z.zero; regular_minus = false } in
-    let widths = List.concat (List.map2 (width_at m w) matrices w.regular_units) in
-    if List.mem None widths then None
-    else
-      let regular_width = List.fold_left Z.max Z.zero (List.filter_map Fun.id widths) in
-      let along = Kernel.combine_rows w.regular_left (fst (List.hd matrices)) in
-      let regular_minus = Z.sign (Kernel.against_right m w along) < 0 in
-      Some { w with regular_width; regular_minus }
+      { Kernel.regular_pivot = List.hd places.order;
+        regular_inverse = List.map row_of (Array.to_list y);
+        regular_units = List.map (fun z -> Z.shift_left z (exponent + shift)) places.units;
+        regular_left = scaled (fun a b -> s.(0).(b + 1) *. x.(b).(a)); regular_right = right;
+        regular_widths = weights_of weights right; regular_minus = false } in
+    let with_sign (w : Kernel.regular) =
+      let center = fst (snd (List.hd corners)) in
+      let along = Kernel.combine_rows w.regular_left center in
+      { w with regular_minus = Z.sign (Kernel.against_right m w along) < 0 } in
+    Option.map with_sign (with_widths m corners w)
   | _ -> None
 
 (* A regular leaf of a decided box; k is a moving variable. *)
 let regular_box parts k (region : Kernel.region) box =
-  let corners = corners_of parts region box in
-  let plain = fst parts in
-  let moving = Obj.magic (Kernel.moving plain region) in
-  if not (List.mem k moving && finite region.upper) then None
-  else begin
-    let order = k :: List.filter (fun j -> j <> k) moving in
-    let m = List.length order - 1 in
-    spend (4 * m);
-    let matrices = List.map (fun c ->
-        Kernel.restricted order (Kernel.center c.enclosed c.end_of_t),
-        Kernel.restricted order (Kernel.radius c.enclosed c.end_of_t)) corners in
-    let doubles c (center, _) =
-      let value z = Q.to_float (Q.make z c.times) in
-      Array.of_list (List.map (fun row -> Array.of_list (List.map value row)) center) in
-    let each = List.map2 doubles corners matrices in
-    let holds w = Kernel.box_regular (Kernel.mixed box.low plain (snd parts))
-        (Kernel.mixed box.high plain (snd parts)) region w in
+  match places_of parts k region box with
+  | None -> None
+  | Some places ->
+    let each = List.map (doubles_at places) places.corners in
+    let mixed e = Kernel.mixed e (fst parts) (snd parts) in
+    let low = mixed box.low and high = mixed box.high in
     List.find_map (fun s ->
-        match regular_by m k corners matrices s with
-        | Some w when holds w -> Some (Kernel.BoxRegular w)
+        match regular_by places Uniform places.corners s with
+        | Some w when Kernel.box_regular low high region w -> Some (Kernel.BoxRegular w)
         | _ -> None) (mean_of each :: each)
-  end
 
 (* The factors of the certificate, where the box is that of the tail. *)
 let by_tail c box =
@@ -197,11 +230,10 @@ let box_anchor c plain friction slip (a : anchor) left_friction =
         anchor_scale = common_scales (turned plain) (turned friction) slip c.slip_factor };
     friction_left = left left_friction }
 
-let anchored_of c plain friction slip (condensation : critical_condensation) pieces =
+(* [used]: numbers of the anchors that are needed, each once. *)
+let anchored_of c plain friction slip (condensation : critical_condensation) used =
   let given = condensation.plain in
   let nf = List.length plain.Kernel.free and ns = List.length slip in
-  let used = List.sort_uniq compare (List.filter_map (fun piece ->
-      if needs_anchor piece then Some piece.box_anchor else None) pieces) in
   let both k = match element given.anchors k, element condensation.left_friction k with
     | Some a, Some l -> a, l
     | _ -> no_witness "a piece names no anchor" in
@@ -214,6 +246,10 @@ let anchored_of c plain friction slip (condensation : critical_condensation) pie
   { plain_pencil = plain; anchoring;
     families = Array.of_list (Kernel.box_expansions c.system anchoring);
     numbers = List.mapi (fun i k -> (k, i)) used }
+
+let anchors_of_boxes pieces =
+  List.sort_uniq compare (List.filter_map (fun piece ->
+      if needs_anchor piece then Some piece.box_anchor else None) pieces)
 
 (* The local pencils of both parts over the interval of a region, and their grain. *)
 let new_local_parts c v n (region : Kernel.region) =

@@ -796,6 +796,14 @@ let muln_rec =
 let muln =
   muln_rec
 
+(** val odd : int -> bool **)
+
+let rec odd n =
+  (fun fO fS n -> if n=0 then fO () else fS (n-1))
+    (fun _ -> false)
+    (fun n' -> negb (odd n'))
+    n
+
 (** val size : 'a1 list -> int **)
 
 let rec size = function
@@ -5299,7 +5307,8 @@ type regular = { regular_pivot : int; regular_inverse : matrix;
                  regular_units : Big_int_Z.big_int list;
                  regular_left : Big_int_Z.big_int list;
                  regular_right : Big_int_Z.big_int list;
-                 regular_width : Big_int_Z.big_int; regular_minus : bool }
+                 regular_widths : Big_int_Z.big_int list; regular_minus : 
+                 bool }
 
 (** val combine_rows :
     Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int list **)
@@ -5325,16 +5334,18 @@ let against_radius m w r =
       (Z.abs (nth Big_int_Z.zero_big_int w.regular_right j)))
 
 (** val off_pivot :
-    int -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list ->
+    int -> regular -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list ->
     Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
-let off_pivot m u i p r =
+let off_pivot m w u i p r =
   sumZ (iota 0 m) (fun j ->
-    Z.add
-      (Z.abs
-        (Z.sub (unit_entry u i j)
-          (nth Big_int_Z.zero_big_int p (Stdlib.Int.succ j))))
-      (nth Big_int_Z.zero_big_int r (Stdlib.Int.succ j)))
+    Z.mul
+      (Z.add
+        (Z.abs
+          (Z.sub (unit_entry u i j)
+            (nth Big_int_Z.zero_big_int p (Stdlib.Int.succ j))))
+        (nth Big_int_Z.zero_big_int r (Stdlib.Int.succ j)))
+      (nth Big_int_Z.zero_big_int w.regular_widths j))
 
 (** val regular_row0 :
     int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> int -> bool **)
@@ -5343,8 +5354,28 @@ let regular_row0 m w m0 rd u i =
   let y = nth [] w.regular_inverse i in
   let p = combine_rows y (behead m0) in
   let r = combine_rows (map0 Z.abs y) (behead rd) in
-  contracts u w.regular_width (off_pivot m u i p r)
-    (Z.add (Z.abs (against_right m w p)) (against_radius m w r))
+  Z.ltb
+    (Z.add (off_pivot m w u i p r)
+      (Z.add (Z.abs (against_right m w p)) (against_radius m w r)))
+    (Z.mul u (nth Big_int_Z.zero_big_int w.regular_widths i))
+
+(** val regular_rows :
+    int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool **)
+
+let regular_rows m w m0 rd u =
+  (&&) (Z.ltb Big_int_Z.zero_big_int u)
+    ((&&)
+      (all (fun i ->
+        Z.ltb Big_int_Z.zero_big_int
+          (nth Big_int_Z.zero_big_int w.regular_widths i)) (iota 0 m))
+      (all (regular_row0 m w m0 rd u) (iota 0 m)))
+
+(** val row_slack :
+    int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int **)
+
+let row_slack m w p r =
+  Z.add (against_radius m w r) (off_pivot m w Big_int_Z.zero_big_int 0 p r)
 
 (** val regular_sign : int -> regular -> matrix -> matrix -> bool **)
 
@@ -5352,23 +5383,12 @@ let regular_sign m w m0 rd =
   let p = combine_rows w.regular_left m0 in
   let r = combine_rows (map0 Z.abs w.regular_left) rd in
   let h = against_right m w p in
-  Z.ltb
-    (Z.add (against_radius m w r)
-      (Z.mul (off_pivot m Big_int_Z.zero_big_int 0 p r) w.regular_width))
-    (if w.regular_minus then Z.opp h else h)
+  Z.ltb (row_slack m w p r) (if w.regular_minus then Z.opp h else h)
 
-(** val regular_corner :
-    int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool **)
+(** val regular_order : enclosed -> region -> Equality.sort -> int list **)
 
-let regular_corner m w m0 rd u =
-  (&&) (Z.ltb Big_int_Z.zero_big_int u)
-    ((&&) (all (regular_row0 m w m0 rd u) (iota 0 m))
-      (regular_sign m w m0 rd))
-
-(** val regular_order : enclosed -> region -> regular -> int list **)
-
-let regular_order p r w =
-  w.regular_pivot :: (Obj.magic others p r w.regular_pivot)
+let regular_order p r k =
+  (Obj.magic k) :: (Obj.magic others p r k)
 
 (** val restricted :
     int list -> (int -> int -> Big_int_Z.big_int) -> matrix **)
@@ -5376,17 +5396,54 @@ let regular_order p r w =
 let restricted l f =
   map0 (fun i -> map0 (fun j -> f i j) l) l
 
-(** val box_corner :
-    regular -> enclosed -> int list -> point -> int -> bool **)
+(** val corner_pencil : enclosed -> enclosed -> int -> enclosed **)
 
-let box_corner w q l e n =
-  regular_corner (pred (size l)) w (restricted l (center q e))
-    (restricted l (radius q e)) (nth Big_int_Z.zero_big_int w.regular_units n)
+let corner_pencil p p' c =
+  if leq (Stdlib.Int.succ c) (Stdlib.Int.succ (Stdlib.Int.succ 0))
+  then p
+  else p'
+
+(** val corner_end : region -> int -> point **)
+
+let corner_end r c =
+  if odd c then r.upper else r.lower
+
+(** val corner_center :
+    enclosed -> enclosed -> region -> int list -> int -> matrix **)
+
+let corner_center p p' r l c =
+  restricted l (center (corner_pencil p p' c) (corner_end r c))
+
+(** val corner_radius :
+    enclosed -> enclosed -> region -> int list -> int -> matrix **)
+
+let corner_radius p p' r l c =
+  restricted l (radius (corner_pencil p p' c) (corner_end r c))
+
+(** val rows_at :
+    enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
+
+let rows_at p p' r l w c =
+  regular_rows (pred (size l)) w (corner_center p p' r l c)
+    (corner_radius p p' r l c) (nth Big_int_Z.zero_big_int w.regular_units c)
+
+(** val sign_at0 :
+    enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
+
+let sign_at0 p p' r l w c =
+  regular_sign (pred (size l)) w (corner_center p p' r l c)
+    (corner_radius p p' r l c)
+
+(** val four_corners : int list **)
+
+let four_corners =
+  0 :: ((Stdlib.Int.succ 0) :: ((Stdlib.Int.succ (Stdlib.Int.succ
+    0)) :: ((Stdlib.Int.succ (Stdlib.Int.succ (Stdlib.Int.succ 0))) :: [])))
 
 (** val box_regular : enclosed -> enclosed -> region -> regular -> bool **)
 
 let box_regular p p' r w =
-  let l = regular_order p r w in
+  let l = regular_order p r (Obj.magic w.regular_pivot) in
   (&&) (decided p r)
     ((&&)
       (in_mem (Obj.magic w.regular_pivot)
@@ -5394,13 +5451,8 @@ let box_regular p p' r w =
       ((&&)
         (Z.ltb Big_int_Z.zero_big_int
           (nth Big_int_Z.zero_big_int w.regular_right 0))
-        ((&&) (box_corner w p l r.lower 0)
-          ((&&) (box_corner w p l r.upper (Stdlib.Int.succ 0))
-            ((&&)
-              (box_corner w p' l r.lower (Stdlib.Int.succ (Stdlib.Int.succ
-                0)))
-              (box_corner w p' l r.upper (Stdlib.Int.succ (Stdlib.Int.succ
-                (Stdlib.Int.succ 0)))))))))
+        (all (fun c -> (&&) (rows_at p p' r l w c) (sign_at0 p p' r l w c))
+          four_corners)))
 
 type critical_leaf =
 | BoxFarkas of Big_int_Z.big_int list
@@ -5634,6 +5686,165 @@ let check_anchored_critical s w tr from bound1 =
     ((&&) ((||) (nilp w.box_anchors) (both_bounded s w))
       (check_boxes (size s.particles) (check_anchored_box s w families0) tr
         (window zero infinity) from bound1))
+
+type presence = { presence_box : regular; presence_start : regular;
+                  presence_finish : regular }
+
+(** val rest_row :
+    enclosed -> enclosed -> region -> presence -> regular -> int -> int ->
+    bool **)
+
+let rest_row p p' r w v i c =
+  let p0 =
+    map0 (fun j -> center (corner_pencil p p' c) (corner_end r c) i j)
+      (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+  in
+  let q =
+    map0 (fun j -> radius (corner_pencil p p' c) (corner_end r c) i j)
+      (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+  in
+  Z.leb
+    (row_slack
+      (pred
+        (size (regular_order p r (Obj.magic w.presence_box.regular_pivot))))
+      v p0 q)
+    (against_right
+      (pred
+        (size (regular_order p r (Obj.magic w.presence_box.regular_pivot))))
+      v p0)
+
+(** val positive_vector : regular -> bool **)
+
+let positive_vector v =
+  Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v.regular_right 0)
+
+(** val presence_edge :
+    enclosed -> enclosed -> region -> presence -> regular -> int list -> bool **)
+
+let presence_edge p p' r w e cs =
+  (&&) (positive_vector e)
+    ((&&)
+      (Z.ltb Big_int_Z.zero_big_int
+        (nth Big_int_Z.zero_big_int e.regular_left 0))
+      (all (fun c ->
+        (&&)
+          (rows_at p p' r
+            (regular_order p r (Obj.magic w.presence_box.regular_pivot)) e c)
+          (sign_at0 p p' r
+            (regular_order p r (Obj.magic w.presence_box.regular_pivot)) e c))
+        cs))
+
+(** val check_presence_piece :
+    enclosed -> enclosed -> region -> presence -> bool **)
+
+let check_presence_piece p p' r w =
+  (&&) (decided p r)
+    ((&&)
+      (in_mem (Obj.magic w.presence_box.regular_pivot)
+        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+        ((&&) (positive_vector w.presence_box)
+          ((&&)
+            (all
+              (rows_at p p' r
+                (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+                w.presence_box) four_corners)
+            ((&&)
+              (all (fun j ->
+                Z.ltb
+                  (nth Big_int_Z.zero_big_int w.presence_box.regular_widths j)
+                  (nth Big_int_Z.zero_big_int w.presence_box.regular_right
+                    (Stdlib.Int.succ j)))
+                (iota 0
+                  (pred
+                    (size
+                      (regular_order p r
+                        (Obj.magic w.presence_box.regular_pivot))))))
+              ((&&)
+                (all (fun i ->
+                  (||) (is_moving (state_of r i))
+                    (all (rest_row p p' r w w.presence_box i) four_corners))
+                  (indices p))
+                ((&&)
+                  (presence_edge p p' r w w.presence_start
+                    (0 :: ((Stdlib.Int.succ (Stdlib.Int.succ 0)) :: [])))
+                  ((&&)
+                    (presence_edge p p' r w w.presence_finish
+                      ((Stdlib.Int.succ 0) :: ((Stdlib.Int.succ
+                      (Stdlib.Int.succ (Stdlib.Int.succ 0))) :: [])))
+                    (negb
+                      (eq_op bool_eqType
+                        (Obj.magic w.presence_start.regular_minus)
+                        (Obj.magic w.presence_finish.regular_minus)))))))))))
+
+type presence_piece = { piece_end : point; piece_region : region;
+                        piece_anchor : int; piece_grain : Big_int_Z.big_int;
+                        piece_witness : presence }
+
+(** val check_present :
+    system -> form_bound -> form_bound -> box_anchor ->
+    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
+    -> point -> presence -> bool **)
+
+let check_present s low_a low_b b fams grain r low high v =
+  let a = b.plain_anchor in
+  let a' = friction_anchor a b.friction_left in
+  let p = local_part s low_a low_b a (fst fams) r.lower r.upper grain in
+  let p' = local_part s low_a low_b a' (snd fams) r.lower r.upper grain in
+  (&&) (proper_interval a low_a low_b r.lower r.upper)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
+      ((&&)
+        (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
+          (Obj.magic size (snd fams).series_z))
+        (check_presence_piece (mixed low p p') (mixed high p p')
+          (local_region r) v)))
+
+(** val check_piece :
+    system -> box_anchoring -> (anchor_family * anchor_family) option list ->
+    point -> presence_piece -> bool **)
+
+let check_piece s w families0 low p =
+  let b = nth no_box_anchor w.box_anchors p.piece_anchor in
+  let r = p.piece_region in
+  (&&) (ordered low p.piece_end)
+    (match nth None families0 p.piece_anchor with
+     | Some fams ->
+       if b.reversed_anchor
+       then (&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+              (check_present s w.mass_below w.stiffness_below b fams
+                p.piece_grain (swap_region r) low p.piece_end p.piece_witness)
+       else check_present s w.stiffness_below w.mass_below b fams
+              p.piece_grain r low p.piece_end p.piece_witness
+     | None -> false)
+
+(** val check_pieces :
+    system -> box_anchoring -> (anchor_family * anchor_family) option list ->
+    point -> presence_piece list -> point -> bool **)
+
+let rec check_pieces s w families0 low pieces bound1 =
+  match pieces with
+  | [] -> false
+  | p :: rest0 ->
+    (match rest0 with
+     | [] ->
+       (&&) (check_piece s w families0 low p)
+         (Z.leb (Z.mul (fst bound1) (snd p.piece_end))
+           (Z.mul (fst p.piece_end) (snd bound1)))
+     | _ :: _ ->
+       (&&) (check_piece s w families0 low p)
+         (check_pieces s w families0 p.piece_end rest0 bound1))
+
+(** val check_presence :
+    system -> box_anchoring -> presence_piece list -> point -> point -> bool **)
+
+let check_presence s w pieces from bound1 =
+  let families0 = box_expansions s w in
+  (&&)
+    (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
+      Big_int_Z.unit_big_int)))
+    ((&&) (both_bounded s w)
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd bound1))
+        (check_pieces s w families0 from pieces bound1)))
 
 (** val zero_firsts : zero_system -> int list **)
 
