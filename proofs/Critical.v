@@ -4,17 +4,19 @@
    in mu: with w = (K + t M) v they are q (-S t'w) + m (-n'w), up to the positive factor q, for
    mu = m/q.  [pencil_at] is the pencil for (m, q); its values at (0, 1) and (1, 0) are the *parts*.
 
-   The checker gets a system, a bound, a witness for the elimination of the free variables, and a
+   The checker gets a system, two bounds, a witness for the elimination of the free variables, and a
    tree of boxes (Boxes.v).  Both parts are condensed with the same approximation W and with the
    same factors of the rows.  A leaf is
 
      BoxFarkas w           w excludes the solutions of the box, by the condensed parts;
      BoxDefinite sign f f' a form has one sign on the box, by the condensed parts;
-     BoxWhole w w'         the same for the whole pencils at both ends of the interval of mu.
+     BoxRegular w          the matrix of a decided box has no null vector, by the condensed parts
+                           (Regular.v);
+     BoxWhole w w'         a form has one sign, for the whole pencils at both ends of the interval of mu.
 
    Without the witness there may be leaves BoxWhole only.
 
-   Theorem [critical_absent]: if the check succeeds, then for every mu in [0, bound] and every
+   Theorem [critical_absent]: if the check succeeds, then for every mu in [from, bound] and every
    t >= 0 no motion satisfies the conditions (9) with lambda^2 = t and mu.
 
    Page: spec/certificates.md, 5.18.
@@ -23,7 +25,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Cover Condensation.
-From Mceip Require Import Pencil Whole Complete System Boxes.
+From Mceip Require Import Pencil Whole Complete System Boxes Regular.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -37,6 +39,7 @@ Local Open Scope ring_scope.
 Inductive critical_leaf :=
   | BoxFarkas of seq Z
   | BoxDefinite of bool & factor * factor & factor * factor
+  | BoxRegular of regular
   | BoxWhole of whole & whole.
 
 Section Checker.
@@ -77,16 +80,17 @@ Definition check_critical_leaf (parts : option (enclosed * enclosed)) (r : regio
   | BoxFarkas v, Some (P0, P1) => box_farkas (mixed low P0 P1) (mixed high P0 P1) r v
   | BoxDefinite negative f f', Some (P0, P1) =>
       box_definite (mixed low P0 P1) (mixed high P0 P1) r negative f f'
+  | BoxRegular v, Some (P0, P1) => box_regular (mixed low P0 P1) (mixed high P0 P1) r v
   | BoxWhole a b, _ =>
       [&& same_weights a b, check_whole (pencil_at low) r a & check_whole (pencil_at high) r b]
   | _, None => false
   end.
 
-Definition check_critical (tr : box_tree critical_leaf) (bound : point) :=
+Definition check_critical (tr : box_tree critical_leaf) (from bound : point) :=
   let parts := condensed_parts in
   [&& system_wellformed s (Lambda2 0 1), parts_eliminated &
       check_boxes (size (slip part_plain)) (check_critical_leaf parts) tr (window zero infinity)
-        zero bound].
+        from bound].
 
 End Checker.
 
@@ -357,14 +361,21 @@ have [a [b [a0 b0 ab sol]]] := box_parts; have [l1 l2 h1 h2] := ordered_ge0 R Om
 exact: (box_definite_sound (encloses_mixed l1 l2) (encloses_mixed h1 h2) _ O bt ag a0 b0 ab sol).
 Qed.
 
+Lemma regular_box_absent v : box_regular (mixed low P0 P1) (mixed high P0 P1) r v -> False.
+Proof.
+have [a [b [a0 b0 ab sol]]] := box_parts; have [l1 l2 h1 h2] := ordered_ge0 R Om.
+exact: (box_regular_sound (encloses_mixed l1 l2) (encloses_mixed h1 h2) _ O bt ag a0 b0 ab sol).
+Qed.
+
 End Condensed.
 
 Lemma critical_leaf_absent w l : parts_eliminated s w ->
   check_critical_leaf s (condensed_parts s w) r low high l -> False.
 Proof.
-case: l => [v|negative f f'|a b] /=; last by move=> _ /and3P[]; apply: whole_box_absent.
-  by case: w => [[w other]|] //= eliminated; apply: farkas_box_absent.
-by case: w => [[w other]|] //= eliminated; apply: definite_box_absent.
+case: l => [v|negative f f'|v|a b] /=; last by move=> _ /and3P[]; apply: whole_box_absent.
+- by case: w => [[w other]|] //= eliminated; apply: farkas_box_absent.
+- by case: w => [[w other]|] //= eliminated; apply: definite_box_absent.
+by case: w => [[w other]|] //= eliminated; apply: regular_box_absent.
 Qed.
 
 End Box.
@@ -373,8 +384,8 @@ End Motion.
 
 End Sound.
 
-Theorem critical_absent (R : rcfType) s w tr bound : check_critical s w tr bound ->
-  forall (t mu : R) v, 0 <= t -> between mu zero bound -> conditions_9 s t mu v -> False.
+Theorem critical_absent (R : rcfType) s w tr from bound : check_critical s w tr from bound ->
+  forall (t mu : R) v, 0 <= t -> between mu from bound -> conditions_9 s t mu v -> False.
 Proof.
 case/and3P=> wf eliminated boxes t mu v t0 bm sat; pose x := variables_of s v.
 have {}sat : conditions_9 s t mu (motion s x).

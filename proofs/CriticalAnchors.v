@@ -11,7 +11,7 @@
    Over the box both local pencils are near lines, and their rows have one positive factor, so the
    local pencil at mu is a combination of those at both ends of the interval of mu.
 
-   Theorem [anchored_critical_absent]: if the check succeeds, then for every mu in [0, bound] and
+   Theorem [anchored_critical_absent]: if the check succeeds, then for every mu in [from, bound] and
    every t >= 0 no motion satisfies the conditions (9) with lambda^2 = t and mu.
 
    Page: spec/certificates.md, 5.18, with 5.14.
@@ -21,7 +21,7 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Pinned Cover.
 From Mceip Require Import Condensation Pencil Whole Complete System Norms Elimination Curved.
-From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Critical.
+From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Regular Critical.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -73,6 +73,7 @@ Definition check_parts (P P' : enclosed) (r : region) (low high : point) (l : cr
   | BoxFarkas v => box_farkas (mixed low P P') (mixed high P P') r v
   | BoxDefinite negative f f' =>
       box_definite (mixed low P P') (mixed high P P') r negative f f'
+  | BoxRegular v => box_regular (mixed low P P') (mixed high P P') r v
   | BoxWhole _ _ => false
   end.
 
@@ -118,10 +119,10 @@ Definition both_bounded :=
       bounded_rows (size (free Q1)) (ff_block Q1 (row_a Q1)) (stiffness_below w) &
       bounded_rows (size (free Q1)) (ff_block Q1 (row_b Q1)) (mass_below w)].
 
-Definition check_anchored_critical (tr : box_tree anchored_box_leaf) (bound : point) :=
+Definition check_anchored_critical (tr : box_tree anchored_box_leaf) (from bound : point) :=
   let families := box_expansions in
   [&& system_wellformed s (Lambda2 0 1), nilp (box_anchors w) || both_bounded &
-      check_boxes ns (check_anchored_box families) tr (window zero infinity) zero bound].
+      check_boxes ns (check_anchored_box families) tr (window zero infinity) from bound].
 
 End Checker.
 
@@ -220,9 +221,10 @@ have sol : box_solution (mixed low P P') (mixed high P P') (Ae low) (Be low) (Ae
     rewrite -[X in X + mu * _]mul1r -one -val.
     by move: (row i) (row' i) (factor i) => *; ring.
   by split; [exact: x0 | rewrite mulr_ge0 // ltW | rewrite mulrCA xy mulr0].
-case: l => [v|negative k k'|//] /= ok.
-  exact: (box_farkas_sound El Eh _ O bt ag f0 g0 fg sol ok).
-exact: (box_definite_sound El Eh _ O bt ag f0 g0 fg sol ok).
+case: l => [v|negative k k'|v|//] /= ok.
+- exact: (box_farkas_sound El Eh _ O bt ag f0 g0 fg sol ok).
+- exact: (box_definite_sound El Eh _ O bt ag f0 g0 fg sol ok).
+exact: (box_regular_sound El Eh _ O bt ag f0 g0 fg sol ok).
 Qed.
 
 End Parts.
@@ -388,9 +390,9 @@ Qed.
 
 End Sound.
 
-Theorem anchored_critical_absent (R : rcfType) s w tr bound :
-  check_anchored_critical s w tr bound ->
-  forall (t mu : R) v, 0 <= t -> between mu zero bound -> conditions_9 s t mu v -> False.
+Theorem anchored_critical_absent (R : rcfType) s w tr from bound :
+  check_anchored_critical s w tr from bound ->
+  forall (t mu : R) v, 0 <= t -> between mu from bound -> conditions_9 s t mu v -> False.
 Proof.
 case/and3P=> wf bounds; rewrite -size_slip => boxes t mu v t0 bm sat; pose x := variables_of s v.
 have {}sat : conditions_9 s t mu (motion s x).

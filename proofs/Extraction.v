@@ -5,7 +5,7 @@
    These three mappings are part of the trusted base (README.md).  Everything else is Coq's
    extraction of the functions whose soundness System.v, Complete.v, Families.v, Varying.v, Claim.v,
    Lifted.v, EnclosedClaim.v, PlainMcp.v, ZeroReaction.v, ZeroEnclosed.v, ZeroComplete.v,
-   Critical.v and CriticalAnchors.v prove. *)
+   Critical.v, CriticalAnchors.v and PresenceAnchors.v prove. *)
 
 From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.
@@ -14,7 +14,8 @@ From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root Ro
 From Mceip Require Import Number Condensation Pencil Whole Complete Claim System ZeroReaction.
 From Mceip Require Import ZeroEnclosed.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
-From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Critical CriticalAnchors.
+From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Regular.
+From Mceip Require Import Critical CriticalAnchors Presence PresenceAnchors.
 From Mceip Require Import ZeroPencil ZeroComplete.
 
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
@@ -42,5 +43,8 @@ Extraction "kernel.ml"
   local_region proper_interval bounded_rows ff_block swap_pencil
   check_critical condensed_parts part_plain part_friction pencil_at mixed
   check_anchored_critical box_expansions friction_anchor check_parts
+  box_regular regular_order restricted combine_rows
+  check_presence check_piece check_presence_piece presence_edge rest_row rows_at sign_at
+  corner_center corner_radius
   zero_pencil check_zero_complete zero_solutions zero_families zero_still_open
   check_zero_varying zero_varying_solutions zero_varying_families zero_varying_open both_halves.

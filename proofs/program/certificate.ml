@@ -94,6 +94,7 @@ type critical_node =
   | Decide of int
   | BoxFarkas of Z.t list
   | BoxDefinite of bool  (* negative *)
+  | BoxRegular of int  (* the pivot; inverse and vectors are read and not used *)
   | BoxTail
 
 type critical_piece = { box_max : Q.t option; box_anchor : int; box_tree : critical_node list }
@@ -110,11 +111,27 @@ type critical_condensation = {
 
 type critical = {
   critical_digest : string;
+  at_least : Q.t;  (* `from`, 0 if it is absent *)
   below : Q.t;
   critical_condensation : critical_condensation option;
   critical_pieces : critical_piece list }
 
-type file = Complete of t | Critical of critical
+(* A file mceip-presence/1.  Of the evidence of a piece only the pivot is used. *)
+type presence_piece = {
+  piece_to : Q.t;
+  piece_interval : Q.t * Q.t;
+  piece_anchor : int;
+  piece_support : int list;
+  piece_pivot : int }
+
+type presence = {
+  presence_digest : string;
+  presence_from : Q.t;
+  presence_to : Q.t;
+  presence_condensation : critical_condensation option;
+  presence_pieces : presence_piece list }
+
+type file = Complete of t | Critical of critical | Presence of presence
 
 (* A non-negative exponent within the limits (5.16). *)
 let exponent_of item =
@@ -299,13 +316,15 @@ let read_complete document =
       List.map read_piece (list (field "pieces")) in
   { claims; digest; unknown; window; condensation; pieces }
 
-let read_critical_condensation item =
+let read_critical_condensation ~tail:allowed item =
   let field = fields ["sigma"; "stiffness_factor"; "mass_sigma"; "anchors"]
-      ["mass_factor"; "tail"] item in
+      ("mass_factor" :: if allowed then ["tail"] else []) item in
   let optional = function Null -> None | f -> Some (read_factor f) in
   let anchor item =
-    let field = fields ["center"; "right"; "left"; "left_friction"] ["reversed"] item in
-    read_anchor_fields field, read_coefficients (field "left_friction") in
+    let field = fields ["center"; "right"; "left_friction"] ["left"; "reversed"] item in
+    let left = if field "left" = Null then "right" else "left" in
+    let field_of key = field (if key = "left" then left else key) in
+    read_anchor_fields field_of, read_coefficients (field "left_friction") in
   let tail item =
     let field = fields ["from"; "factor"; "factor_below"] ["mass_factor"; "mass_factor_below"]
         item in
@@ -320,6 +339,17 @@ let read_critical_condensation item =
   { plain; left_friction = List.map snd anchors;
     friction_tail = (match field "tail" with Null -> None | t -> Some (tail t)) }
 
+(* The pivot of a regular leaf or of a piece of presence; the rest has to have its shape. *)
+let evidence = ["pivot"; "inverse"; "inverse_exponent"; "left"; "right"; "exponent"]
+
+let read_evidence field =
+  ignore (List.map integers (list (field "inverse")));
+  ignore (List.map integer (list (field "left") @ list (field "right")));
+  ignore (exponent_of (field "inverse_exponent") + exponent_of (field "exponent"));
+  place (field "pivot")
+
+let read_regular item = BoxRegular (read_evidence (fields evidence [] item))
+
 let read_critical_node = function
   | String "positive_definite" -> BoxDefinite false
   | String "negative_definite" -> BoxDefinite true
@@ -328,6 +358,7 @@ let read_critical_node = function
   | Object ["friction", m] -> CutFriction (rational m)
   | Object ["branch", i] -> Decide (place i)
   | Object ["farkas", w] -> BoxFarkas (integers w)
+  | Object ["regular", r] -> read_regular r
   | _ -> malformed "a node of a tree"
 
 let read_critical_piece item =
@@ -337,13 +368,35 @@ let read_critical_piece item =
     box_tree = read_tree read_critical_node (field "tree") }
 
 let read_critical document =
-  let field = fields ["format"; "problem_sha256"; "below"; "pieces"] ["condensation"] document in
+  let field = fields ["format"; "problem_sha256"; "below"; "pieces"] ["from"; "condensation"]
+      document in
   let critical_condensation = match field "condensation" with
     | Null -> None
-    | c -> Some (read_critical_condensation c) in
-  { critical_digest = text (field "problem_sha256"); below = rational (field "below");
+    | c -> Some (read_critical_condensation ~tail:true c) in
+  { critical_digest = text (field "problem_sha256");
+    at_least = (match field "from" with Null -> Q.zero | q -> rational q);
+    below = rational (field "below");
     critical_condensation;
     critical_pieces = List.map read_critical_piece (list (field "pieces")) }
+
+let read_presence_piece item =
+  let field = fields ("to" :: "interval" :: "support" :: evidence) ["anchor"] item in
+  let piece_interval = match list (field "interval") with
+    | [a; b] -> rational a, rational b
+    | _ -> malformed "an interval has two ends" in
+  { piece_to = rational (field "to"); piece_interval;
+    piece_anchor = (match field "anchor" with Null -> 0 | v -> place v);
+    piece_support = List.map place (list (field "support")); piece_pivot = read_evidence field }
+
+let read_presence document =
+  let field = fields ["format"; "problem_sha256"; "from"; "to"; "pieces"] ["condensation"]
+      document in
+  let presence_condensation = match field "condensation" with
+    | Null -> None
+    | c -> Some (read_critical_condensation ~tail:false c) in
+  { presence_digest = text (field "problem_sha256"); presence_from = rational (field "from");
+    presence_to = rational (field "to"); presence_condensation;
+    presence_pieces = List.map read_presence_piece (list (field "pieces")) }
 
 let read path =
   let document = Json.read path in
@@ -353,5 +406,5 @@ let read path =
   match format with
   | Some (String "mceip-certificate/1") -> Complete (read_complete document)
   | Some (String "mceip-critical/1") -> Critical (read_critical document)
-  | Some (String "mceip-presence/1") -> Problem.not_verified "presence on an interval of friction"
-  | _ -> malformed "format: mceip-certificate/1 or mceip-critical/1 was expected"
+  | Some (String "mceip-presence/1") -> Presence (read_presence document)
+  | _ -> malformed "format: mceip-certificate/1, mceip-critical/1 or mceip-presence/1 was expected"

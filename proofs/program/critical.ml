@@ -1,7 +1,9 @@
 (* The elaborator of mceip-critical/1: from its trees of boxes to that of the kernel. Untrusted.
 
    The factors of definite leaves are computed as those of other certificates (elaborate.ml), for
-   the pencils at both ends of the interval of mu. *)
+   the pencils at both ends of the interval of mu.  The inverse and the vectors of a regular leaf are
+   computed anew, from the mean of the corners: the rows of the kernel's matrices have factors of
+   their own. *)
 
 open Certificate
 open Elaborate
@@ -14,7 +16,8 @@ type context = {
   free_factor : Z.t;  (* of the free rows *)
   slip_factor : Z.t;  (* of the slip rows of both parts *)
   tail : critical_tail option;
-  below : Q.t }
+  mu_low : Kernel.point;  (* the interval of the file *)
+  mu_high : Kernel.point }
 
 (* f_i / 2^b_i, common to both parts, as positive integers in one unit. *)
 let common_scales (plain : Kernel.pencil) (friction : Kernel.pencil) slip factor =
@@ -61,11 +64,124 @@ let definite_box (plain, friction) negative region box =
   | None -> None
   | Some f -> Option.map (fun f' -> Kernel.BoxDefinite (negative, f, f')) (at box.high)
 
+(* A corner of a box: the enclosed pencil at an end of the interval of mu, an end of the interval of
+   t, and the factor that both ends bring into its matrix. *)
+type corner = { enclosed : Kernel.enclosed; end_of_t : Kernel.point; times : Z.t }
+
+let corners_of (plain, friction) (region : Kernel.region) box =
+  let at_friction e =
+    let enclosed = Kernel.mixed e plain friction in
+    let corner end_of_t = { enclosed; end_of_t; times = Z.mul (snd e) (snd end_of_t) } in
+    [corner region.lower; corner region.upper] in
+  at_friction box.low @ at_friction box.high
+
+(* The mean of matrices of doubles. *)
+let mean_of matrices =
+  let share = 1.0 /. float_of_int (List.length matrices) in
+  let add = Array.map2 (Array.map2 (+.)) in
+  let sum = List.fold_left add (List.hd matrices) (List.tl matrices) in
+  Array.map (Array.map (fun v -> share *. v)) sum
+
+(* For each row the room that a corner leaves for the widths, if these are the weights of [w], and
+   the residual that has to fit in. *)
+let room_at m (w : Kernel.regular) (center, radius) u =
+  let row i y =
+    let p = Kernel.combine_rows y (List.tl center) in
+    let r = Kernel.combine_rows (List.map Z.abs y) (List.tl radius) in
+    let weighted = Z.mul u (List.nth w.regular_widths i) in
+    let gap = Z.sub weighted (Kernel.off_pivot m w u i p r) in
+    let residual = Z.add (Z.abs (Kernel.against_right m w p)) (Kernel.against_radius m w r) in
+    gap, residual in
+  List.mapi row w.regular_inverse
+
+(* Widths in proportion to 1 or to the components of the null vector. *)
+type weights = Uniform | By_vector
+
+let weights_of weights right =
+  List.map (fun v -> match weights with
+      | Uniform -> Z.one
+      | By_vector -> Z.max Z.one (Z.abs v)) (List.tl right)
+
+(* The widths that the corners allow: a little more than the least multiple of the weights. *)
+let with_widths m corners (w : Kernel.regular) =
+  let rooms = List.concat_map (fun (n, matrices) ->
+      room_at m w matrices (List.nth w.regular_units n)) corners in
+  if List.exists (fun (gap, _) -> Z.sign gap <= 0) rooms then None
+  else
+    let ratios = List.map (fun (gap, residual) -> Q.make residual gap) rooms in
+    let least = List.fold_left larger Q.zero ratios in
+    let wider = Q.mul least (Q.make (Z.succ (two_to 30)) (two_to 30)) in
+    let width weight =
+      let exact = Q.mul wider (Q.of_bigint weight) in
+      Z.succ (Z.fdiv (Q.num exact) (Q.den exact)) in
+    Some { w with regular_widths = List.map width w.regular_widths }
+
+(* A corner is given by its number and its matrices over the order of the kernel, the pivot first. *)
+type places = { order : int list; units : Z.t list; corners : (int * (Kernel.matrix * Kernel.matrix)) list }
+
+let places_of parts k region box =
+  let moving = Obj.magic (Kernel.moving (fst parts) region) in
+  if not (List.mem k moving && finite region.Kernel.upper) then None
+  else begin
+    let order = k :: List.filter (fun j -> j <> k) moving in
+    spend (4 * List.length order);
+    let corners = corners_of parts region box in
+    let matrices n c =
+      n, (Kernel.restricted order (Kernel.center c.enclosed c.end_of_t),
+          Kernel.restricted order (Kernel.radius c.enclosed c.end_of_t)) in
+    Some { order; units = List.map (fun c -> c.times) corners; corners = List.mapi matrices corners }
+  end
+
+(* The matrix of a corner in doubles. *)
+let doubles_at places (n, (center, _)) =
+  let times = List.nth places.units n in
+  let value z = Q.to_float (Q.make z times) in
+  Array.of_list (List.map (fun row -> Array.of_list (List.map value row)) center)
+
+(* The witness for some corners by the inverse and the null vectors of s, a matrix over the order. *)
+let regular_by places weights corners s =
+  let m = List.length places.order - 1 in
+  let block = Array.map (fun row -> Array.sub row 1 m) (Array.sub s 1 m) in
+  let rounded = if m = 0 then Some ([||], precision) else rounded_inverse block in
+  let exact = if m = 0 then Some [||] else inverse block in
+  match rounded, exact with
+  | Some (y, exponent), Some x ->
+    let shift = max 0 (- exponent) in
+    let row_of row = Array.to_list (Array.map (fun z -> Z.shift_left z shift) row) in
+    let dot f = Array.fold_left (+.) 0.0 (Array.init m f) in
+    let scaled f = two_to 52 :: List.init m (fun a -> round_scaled (-. dot (f a)) 52) in
+    let right = scaled (fun a b -> x.(a).(b) *. s.(b + 1).(0)) in
+    let w =
+      { Kernel.regular_pivot = List.hd places.order;
+        regular_inverse = List.map row_of (Array.to_list y);
+        regular_units = List.map (fun z -> Z.shift_left z (exponent + shift)) places.units;
+        regular_left = scaled (fun a b -> s.(0).(b + 1) *. x.(b).(a)); regular_right = right;
+        regular_widths = weights_of weights right; regular_minus = false } in
+    let with_sign (w : Kernel.regular) =
+      let center = fst (snd (List.hd corners)) in
+      let along = Kernel.combine_rows w.regular_left center in
+      { w with regular_minus = Z.sign (Kernel.against_right m w along) < 0 } in
+    Option.map with_sign (with_widths m corners w)
+  | _ -> None
+
+(* A regular leaf of a decided box; k is a moving variable. *)
+let regular_box parts k (region : Kernel.region) box =
+  match places_of parts k region box with
+  | None -> None
+  | Some places ->
+    let each = List.map (doubles_at places) places.corners in
+    let mixed e = Kernel.mixed e (fst parts) (snd parts) in
+    let low = mixed box.low and high = mixed box.high in
+    List.find_map (fun s ->
+        match regular_by places Uniform places.corners s with
+        | Some w when Kernel.box_regular low high region w -> Some (Kernel.BoxRegular w)
+        | _ -> None) (mean_of each :: each)
+
 (* The factors of the certificate, where the box is that of the tail. *)
 let by_tail c box =
   match c.tail with
   | Some tail when Q.equal tail.from (value_of box.region.lower) && not (finite box.region.upper)
-                   && Z.sign (fst box.low) = 0 && Q.equal c.below (value_of box.high) ->
+                   && box.low = c.mu_low && box.high = c.mu_high ->
     let at e (factor, mass_factor) =
       let pencil, whole_weights = whole_pencil c e in
       let twice = Z.mul (Z.of_int 2) (Z.mul c.slip_factor (snd e)) in
@@ -94,7 +210,7 @@ type anchored = {
   numbers : (int * int) list }
 
 let needs_anchor piece =
-  List.exists (function BoxFarkas _ | BoxDefinite _ -> true | _ -> false) piece.box_tree
+  List.exists (function BoxFarkas _ | BoxDefinite _ | BoxRegular _ -> true | _ -> false) piece.box_tree
 
 (* An anchor with both left sides in one unit, and of one length. *)
 let box_anchor c plain friction slip (a : anchor) left_friction =
@@ -114,11 +230,10 @@ let box_anchor c plain friction slip (a : anchor) left_friction =
         anchor_scale = common_scales (turned plain) (turned friction) slip c.slip_factor };
     friction_left = left left_friction }
 
-let anchored_of c plain friction slip (condensation : critical_condensation) pieces =
+(* [used]: numbers of the anchors that are needed, each once. *)
+let anchored_of c plain friction slip (condensation : critical_condensation) used =
   let given = condensation.plain in
   let nf = List.length plain.Kernel.free and ns = List.length slip in
-  let used = List.sort_uniq compare (List.filter_map (fun piece ->
-      if needs_anchor piece then Some piece.box_anchor else None) pieces) in
   let both k = match element given.anchors k, element condensation.left_friction k with
     | Some a, Some l -> a, l
     | _ -> no_witness "a piece names no anchor" in
@@ -131,6 +246,10 @@ let anchored_of c plain friction slip (condensation : critical_condensation) pie
   { plain_pencil = plain; anchoring;
     families = Array.of_list (Kernel.box_expansions c.system anchoring);
     numbers = List.mapi (fun i k -> (k, i)) used }
+
+let anchors_of_boxes pieces =
+  List.sort_uniq compare (List.filter_map (fun piece ->
+      if needs_anchor piece then Some piece.box_anchor else None) pieces)
 
 (* The local pencils of both parts over the interval of a region, and their grain. *)
 let new_local_parts c v n (region : Kernel.region) =
@@ -189,22 +308,39 @@ let as_whole = function
   | Some (Kernel.BoxWhole (a, b)) -> Some (Kernel.AboutWhole (a, b))
   | _ -> None
 
-(* One of the ways closes the box, or its halves are closed. *)
-let rec close what depth ways box =
-  match List.find_map (fun way -> way box) ways with
-  | Some l -> Kernel.BoxLeaf l
-  | None ->
-    if depth = 0 then no_witness "%s" what;
+type direction = Along_value | Along_friction
+
+(* Both halves, and the tree that joins theirs. *)
+let cut_box box = function
+  | Along_value ->
+    let cut = point_of (cut_of box.region) in
     let region = box.region in
-    let cut = point_of (cut_of region) in
-    let half region = close what (depth - 1) ways { box with region } in
-    let first = half { region with Kernel.upper = cut } in
-    Kernel.CutValue (cut, first, half { region with lower = cut })
+    { box with region = { region with upper = cut } },
+    { box with region = { region with lower = cut } },
+    fun first second -> Kernel.CutValue (cut, first, second)
+  | Along_friction ->
+    let cut = point_of (half (value_of box.low) (value_of box.high)) in
+    { box with high = cut }, { box with low = cut },
+    fun first second -> Kernel.CutFriction (cut, first, second)
+
+(* One of the ways closes the box, or its halves are closed: cut in the first of the directions, and
+   those halves in the others. *)
+let rec close what directions ways box =
+  match List.find_map (fun way -> way box) ways, directions with
+  | Some l, _ -> Kernel.BoxLeaf l
+  | None, [] -> no_witness "%s" what
+  | None, direction :: rest ->
+    let first, second, both = cut_box box direction in
+    let first = close what rest ways first in
+    both first (close what rest ways second)
+
+let six_times = List.init 6 (fun _ -> Along_value)
+let in_turn = List.concat (List.init 3 (fun _ -> [Along_value; Along_friction]))
 
 let no_leaf node =
   match node with
   | CutValue _ | CutFriction _ | Decide _ -> assert false
-  | BoxFarkas _ | BoxDefinite _ | BoxTail -> ()
+  | BoxFarkas _ | BoxDefinite _ | BoxRegular _ | BoxTail -> ()
 
 let anchored_leaf c v piece box node =
   no_leaf node;
@@ -214,7 +350,7 @@ let anchored_leaf c v piece box node =
   let whole negative box = as_whole (by_whole c negative box) in
   match node with
   | BoxFarkas w ->
-    close "farkas" 6 [fun box -> about c v (number ()) box (fun _ _ ->
+    close "farkas" six_times [fun box -> about c v (number ()) box (fun _ _ ->
         Some (Kernel.BoxFarkas w))] box
   | BoxDefinite negative ->
     let by_anchor box =
@@ -224,8 +360,12 @@ let anchored_leaf c v piece box node =
      | None ->
        match whole negative box with
        | Some l -> Kernel.BoxLeaf l
-       | None -> close "definite" 6 [by_anchor] box)
-  | _ -> close "tail" 0 [(fun box -> as_whole (by_tail c box)); whole false] box
+       | None -> close "definite" six_times [by_anchor] box)
+  | BoxRegular pivot ->
+    let k = position c.slip pivot in
+    close "regular" in_turn [fun box -> about c v (number ()) box (fun parts region ->
+        regular_box parts k region box)] box
+  | _ -> close "tail" [] [(fun box -> as_whole (by_tail c box)); whole false] box
 
 (* ---------- without free variables *)
 
@@ -242,6 +382,10 @@ let leaf_of_parts c parts _ box node =
     let by_parts box =
       Option.bind parts (fun parts -> definite_box parts negative box.region box) in
     found "definite" [by_parts; by_whole c negative]
+  | BoxRegular pivot ->
+    let k = position c.slip pivot in
+    close "regular" in_turn [fun box ->
+        Option.bind parts (fun parts -> regular_box parts k box.region box)] box
   | BoxTail -> found "tail" [by_tail c; by_whole c false]
   | _ -> no_witness "a condensation is missing"
 
@@ -303,8 +447,7 @@ let build c leaf pieces =
     | piece :: rest ->
       if (piece.box_max = None) <> (rest = []) then no_witness "pieces that end before infinity";
       let upper = upper_point piece.box_max in
-      let box = { region = { Kernel.lower; upper; states = [] }; low = Kernel.zero;
-                  high = point_of c.below } in
+      let box = { region = { Kernel.lower; upper; states = [] }; low = c.mu_low; high = c.mu_high } in
       let tree = build_piece c (leaf piece) piece.box_tree box in
       if rest = [] then tree else Kernel.CutValue (upper, tree, join upper rest) in
   join Kernel.zero pieces

@@ -28,6 +28,10 @@ type comparison =
 | Lt
 | Gt
 
+(** val pred : int -> int **)
+
+let pred = fun n -> Stdlib.max 0 (n-1)
+
 (** val add : int -> int -> int **)
 
 let rec add = (+)
@@ -791,6 +795,14 @@ let muln_rec =
 
 let muln =
   muln_rec
+
+(** val odd : int -> bool **)
+
+let rec odd n =
+  (fun fO fS n -> if n=0 then fO () else fS (n-1))
+    (fun _ -> false)
+    (fun n' -> negb (odd n'))
+    n
 
 (** val size : 'a1 list -> int **)
 
@@ -5291,9 +5303,161 @@ let mixed e p p' =
     (mixed_matrix e p.radius_a p'.radius_a); radius_b =
     (mixed_matrix e p.radius_b p'.radius_b) }
 
+type regular = { regular_pivot : int; regular_inverse : matrix;
+                 regular_units : Big_int_Z.big_int list;
+                 regular_left : Big_int_Z.big_int list;
+                 regular_right : Big_int_Z.big_int list;
+                 regular_widths : Big_int_Z.big_int list; regular_minus : 
+                 bool }
+
+(** val combine_rows :
+    Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int list **)
+
+let combine_rows c rows =
+  foldr (fun e sum -> add_poly (scale_poly (fst e) (snd e)) sum) []
+    (zip c rows)
+
+(** val against_right :
+    int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let against_right m w p =
+  sumZ (iota 0 (Stdlib.Int.succ m)) (fun j ->
+    Z.mul (nth Big_int_Z.zero_big_int p j)
+      (nth Big_int_Z.zero_big_int w.regular_right j))
+
+(** val against_radius :
+    int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let against_radius m w r =
+  sumZ (iota 0 (Stdlib.Int.succ m)) (fun j ->
+    Z.mul (nth Big_int_Z.zero_big_int r j)
+      (Z.abs (nth Big_int_Z.zero_big_int w.regular_right j)))
+
+(** val off_pivot :
+    int -> regular -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> Big_int_Z.big_int **)
+
+let off_pivot m w u i p r =
+  sumZ (iota 0 m) (fun j ->
+    Z.mul
+      (Z.add
+        (Z.abs
+          (Z.sub (unit_entry u i j)
+            (nth Big_int_Z.zero_big_int p (Stdlib.Int.succ j))))
+        (nth Big_int_Z.zero_big_int r (Stdlib.Int.succ j)))
+      (nth Big_int_Z.zero_big_int w.regular_widths j))
+
+(** val regular_row0 :
+    int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> int -> bool **)
+
+let regular_row0 m w m0 rd u i =
+  let y = nth [] w.regular_inverse i in
+  let p = combine_rows y (behead m0) in
+  let r = combine_rows (map0 Z.abs y) (behead rd) in
+  Z.ltb
+    (Z.add (off_pivot m w u i p r)
+      (Z.add (Z.abs (against_right m w p)) (against_radius m w r)))
+    (Z.mul u (nth Big_int_Z.zero_big_int w.regular_widths i))
+
+(** val regular_rows :
+    int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool **)
+
+let regular_rows m w m0 rd u =
+  (&&) (Z.ltb Big_int_Z.zero_big_int u)
+    ((&&)
+      (all (fun i ->
+        Z.ltb Big_int_Z.zero_big_int
+          (nth Big_int_Z.zero_big_int w.regular_widths i)) (iota 0 m))
+      (all (regular_row0 m w m0 rd u) (iota 0 m)))
+
+(** val row_slack :
+    int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int **)
+
+let row_slack m w p r =
+  Z.add (against_radius m w r) (off_pivot m w Big_int_Z.zero_big_int 0 p r)
+
+(** val regular_sign : int -> regular -> matrix -> matrix -> bool **)
+
+let regular_sign m w m0 rd =
+  let p = combine_rows w.regular_left m0 in
+  let r = combine_rows (map0 Z.abs w.regular_left) rd in
+  let h = against_right m w p in
+  Z.ltb (row_slack m w p r) (if w.regular_minus then Z.opp h else h)
+
+(** val regular_order : enclosed -> region -> Equality.sort -> int list **)
+
+let regular_order p r k =
+  (Obj.magic k) :: (Obj.magic others p r k)
+
+(** val restricted :
+    int list -> (int -> int -> Big_int_Z.big_int) -> matrix **)
+
+let restricted l f =
+  map0 (fun i -> map0 (fun j -> f i j) l) l
+
+(** val corner_pencil : enclosed -> enclosed -> int -> enclosed **)
+
+let corner_pencil p p' c =
+  if leq (Stdlib.Int.succ c) (Stdlib.Int.succ (Stdlib.Int.succ 0))
+  then p
+  else p'
+
+(** val corner_end : region -> int -> point **)
+
+let corner_end r c =
+  if odd c then r.upper else r.lower
+
+(** val corner_center :
+    enclosed -> enclosed -> region -> int list -> int -> matrix **)
+
+let corner_center p p' r l c =
+  restricted l (center (corner_pencil p p' c) (corner_end r c))
+
+(** val corner_radius :
+    enclosed -> enclosed -> region -> int list -> int -> matrix **)
+
+let corner_radius p p' r l c =
+  restricted l (radius (corner_pencil p p' c) (corner_end r c))
+
+(** val rows_at :
+    enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
+
+let rows_at p p' r l w c =
+  regular_rows (pred (size l)) w (corner_center p p' r l c)
+    (corner_radius p p' r l c) (nth Big_int_Z.zero_big_int w.regular_units c)
+
+(** val sign_at0 :
+    enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
+
+let sign_at0 p p' r l w c =
+  regular_sign (pred (size l)) w (corner_center p p' r l c)
+    (corner_radius p p' r l c)
+
+(** val four_corners : int list **)
+
+let four_corners =
+  0 :: ((Stdlib.Int.succ 0) :: ((Stdlib.Int.succ (Stdlib.Int.succ
+    0)) :: ((Stdlib.Int.succ (Stdlib.Int.succ (Stdlib.Int.succ 0))) :: [])))
+
+(** val box_regular : enclosed -> enclosed -> region -> regular -> bool **)
+
+let box_regular p p' r w =
+  let l = regular_order p r (Obj.magic w.regular_pivot) in
+  (&&) (decided p r)
+    ((&&)
+      (in_mem (Obj.magic w.regular_pivot)
+        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+      ((&&)
+        (Z.ltb Big_int_Z.zero_big_int
+          (nth Big_int_Z.zero_big_int w.regular_right 0))
+        (all (fun c -> (&&) (rows_at p p' r l w c) (sign_at0 p p' r l w c))
+          four_corners)))
+
 type critical_leaf =
 | BoxFarkas of Big_int_Z.big_int list
 | BoxDefinite of bool * (factor * factor) * (factor * factor)
+| BoxRegular of regular
 | BoxWhole of whole * whole
 
 (** val pencil_at : system -> point -> pencil **)
@@ -5367,6 +5531,11 @@ let check_critical_leaf s parts r low high = function
      let (p0, p1) = p in
      box_definite (mixed low p0 p1) (mixed high p0 p1) r negative0 f f'
    | None -> false)
+| BoxRegular v ->
+  (match parts with
+   | Some p ->
+     let (p0, p1) = p in box_regular (mixed low p0 p1) (mixed high p0 p1) r v
+   | None -> false)
 | BoxWhole (a, b) ->
   (&&) (same_weights s a b)
     ((&&) (check_whole (pencil_at s low) r a)
@@ -5374,16 +5543,16 @@ let check_critical_leaf s parts r low high = function
 
 (** val check_critical :
     system -> (elimination * (matrix * matrix)) option -> critical_leaf
-    box_tree -> point -> bool **)
+    box_tree -> point -> point -> bool **)
 
-let check_critical s w tr bound1 =
+let check_critical s w tr from bound1 =
   let parts = condensed_parts s w in
   (&&)
     (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
       Big_int_Z.unit_big_int)))
     ((&&) (parts_eliminated s w)
       (check_boxes (size (slip (part_plain s))) (check_critical_leaf s parts)
-        tr (window zero infinity) zero bound1))
+        tr (window zero infinity) from bound1))
 
 type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
                     friction_left : matrix list }
@@ -5426,6 +5595,7 @@ let check_parts p p' r low high = function
 | BoxFarkas v -> box_farkas (mixed low p p') (mixed high p p') r v
 | BoxDefinite (negative0, f, f') ->
   box_definite (mixed low p p') (mixed high p p') r negative0 f f'
+| BoxRegular v -> box_regular (mixed low p p') (mixed high p p') r v
 | BoxWhole (_, _) -> false
 
 (** val local_part :
@@ -5505,16 +5675,176 @@ let both_bounded s w =
           (ff_block (part_friction s) (row_b (part_friction s))) w.mass_below)))
 
 (** val check_anchored_critical :
-    system -> box_anchoring -> anchored_box_leaf box_tree -> point -> bool **)
+    system -> box_anchoring -> anchored_box_leaf box_tree -> point -> point
+    -> bool **)
 
-let check_anchored_critical s w tr bound1 =
+let check_anchored_critical s w tr from bound1 =
   let families0 = box_expansions s w in
   (&&)
     (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
       Big_int_Z.unit_big_int)))
     ((&&) ((||) (nilp w.box_anchors) (both_bounded s w))
       (check_boxes (size s.particles) (check_anchored_box s w families0) tr
-        (window zero infinity) zero bound1))
+        (window zero infinity) from bound1))
+
+type presence = { presence_box : regular; presence_start : regular;
+                  presence_finish : regular }
+
+(** val rest_row :
+    enclosed -> enclosed -> region -> presence -> regular -> int -> int ->
+    bool **)
+
+let rest_row p p' r w v i c =
+  let p0 =
+    map0 (fun j -> center (corner_pencil p p' c) (corner_end r c) i j)
+      (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+  in
+  let q =
+    map0 (fun j -> radius (corner_pencil p p' c) (corner_end r c) i j)
+      (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+  in
+  Z.leb
+    (row_slack
+      (pred
+        (size (regular_order p r (Obj.magic w.presence_box.regular_pivot))))
+      v p0 q)
+    (against_right
+      (pred
+        (size (regular_order p r (Obj.magic w.presence_box.regular_pivot))))
+      v p0)
+
+(** val positive_vector : regular -> bool **)
+
+let positive_vector v =
+  Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v.regular_right 0)
+
+(** val presence_edge :
+    enclosed -> enclosed -> region -> presence -> regular -> int list -> bool **)
+
+let presence_edge p p' r w e cs =
+  (&&) (positive_vector e)
+    ((&&)
+      (Z.ltb Big_int_Z.zero_big_int
+        (nth Big_int_Z.zero_big_int e.regular_left 0))
+      (all (fun c ->
+        (&&)
+          (rows_at p p' r
+            (regular_order p r (Obj.magic w.presence_box.regular_pivot)) e c)
+          (sign_at0 p p' r
+            (regular_order p r (Obj.magic w.presence_box.regular_pivot)) e c))
+        cs))
+
+(** val check_presence_piece :
+    enclosed -> enclosed -> region -> presence -> bool **)
+
+let check_presence_piece p p' r w =
+  (&&) (decided p r)
+    ((&&)
+      (in_mem (Obj.magic w.presence_box.regular_pivot)
+        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+        ((&&) (positive_vector w.presence_box)
+          ((&&)
+            (all
+              (rows_at p p' r
+                (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+                w.presence_box) four_corners)
+            ((&&)
+              (all (fun j ->
+                Z.ltb
+                  (nth Big_int_Z.zero_big_int w.presence_box.regular_widths j)
+                  (nth Big_int_Z.zero_big_int w.presence_box.regular_right
+                    (Stdlib.Int.succ j)))
+                (iota 0
+                  (pred
+                    (size
+                      (regular_order p r
+                        (Obj.magic w.presence_box.regular_pivot))))))
+              ((&&)
+                (all (fun i ->
+                  (||) (is_moving (state_of r i))
+                    (all (rest_row p p' r w w.presence_box i) four_corners))
+                  (indices p))
+                ((&&)
+                  (presence_edge p p' r w w.presence_start
+                    (0 :: ((Stdlib.Int.succ (Stdlib.Int.succ 0)) :: [])))
+                  ((&&)
+                    (presence_edge p p' r w w.presence_finish
+                      ((Stdlib.Int.succ 0) :: ((Stdlib.Int.succ
+                      (Stdlib.Int.succ (Stdlib.Int.succ 0))) :: [])))
+                    (negb
+                      (eq_op bool_eqType
+                        (Obj.magic w.presence_start.regular_minus)
+                        (Obj.magic w.presence_finish.regular_minus)))))))))))
+
+type presence_piece = { piece_end : point; piece_region : region;
+                        piece_anchor : int; piece_grain : Big_int_Z.big_int;
+                        piece_witness : presence }
+
+(** val check_present :
+    system -> form_bound -> form_bound -> box_anchor ->
+    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
+    -> point -> presence -> bool **)
+
+let check_present s low_a low_b b fams grain r low high v =
+  let a = b.plain_anchor in
+  let a' = friction_anchor a b.friction_left in
+  let p = local_part s low_a low_b a (fst fams) r.lower r.upper grain in
+  let p' = local_part s low_a low_b a' (snd fams) r.lower r.upper grain in
+  (&&) (proper_interval a low_a low_b r.lower r.upper)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
+      ((&&)
+        (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
+          (Obj.magic size (snd fams).series_z))
+        (check_presence_piece (mixed low p p') (mixed high p p')
+          (local_region r) v)))
+
+(** val check_piece :
+    system -> box_anchoring -> (anchor_family * anchor_family) option list ->
+    point -> presence_piece -> bool **)
+
+let check_piece s w families0 low p =
+  let b = nth no_box_anchor w.box_anchors p.piece_anchor in
+  let r = p.piece_region in
+  (&&) (ordered low p.piece_end)
+    (match nth None families0 p.piece_anchor with
+     | Some fams ->
+       if b.reversed_anchor
+       then (&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+              (check_present s w.mass_below w.stiffness_below b fams
+                p.piece_grain (swap_region r) low p.piece_end p.piece_witness)
+       else check_present s w.stiffness_below w.mass_below b fams
+              p.piece_grain r low p.piece_end p.piece_witness
+     | None -> false)
+
+(** val check_pieces :
+    system -> box_anchoring -> (anchor_family * anchor_family) option list ->
+    point -> presence_piece list -> point -> bool **)
+
+let rec check_pieces s w families0 low pieces bound1 =
+  match pieces with
+  | [] -> false
+  | p :: rest0 ->
+    (match rest0 with
+     | [] ->
+       (&&) (check_piece s w families0 low p)
+         (Z.leb (Z.mul (fst bound1) (snd p.piece_end))
+           (Z.mul (fst p.piece_end) (snd bound1)))
+     | _ :: _ ->
+       (&&) (check_piece s w families0 low p)
+         (check_pieces s w families0 p.piece_end rest0 bound1))
+
+(** val check_presence :
+    system -> box_anchoring -> presence_piece list -> point -> point -> bool **)
+
+let check_presence s w pieces from bound1 =
+  let families0 = box_expansions s w in
+  (&&)
+    (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
+      Big_int_Z.unit_big_int)))
+    ((&&) (both_bounded s w)
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd bound1))
+        (check_pieces s w families0 from pieces bound1)))
 
 (** val zero_firsts : zero_system -> int list **)
 

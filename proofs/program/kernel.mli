@@ -14,6 +14,8 @@ type comparison =
 | Lt
 | Gt
 
+val pred : int -> int
+
 val add : int -> int -> int
 
 val mul : int -> int -> int
@@ -231,6 +233,8 @@ val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1
 val muln_rec : int -> int -> int
 
 val muln : int -> int -> int
+
+val odd : int -> bool
 
 val size : 'a1 list -> int
 
@@ -1706,9 +1710,65 @@ val mixed_matrix : point -> matrix -> matrix -> matrix
 
 val mixed : point -> enclosed -> enclosed -> enclosed
 
+type regular = { regular_pivot : int; regular_inverse : matrix;
+                 regular_units : Big_int_Z.big_int list;
+                 regular_left : Big_int_Z.big_int list;
+                 regular_right : Big_int_Z.big_int list;
+                 regular_widths : Big_int_Z.big_int list; regular_minus : 
+                 bool }
+
+val combine_rows : Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int list
+
+val against_right :
+  int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val against_radius :
+  int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val off_pivot :
+  int -> regular -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val regular_row0 :
+  int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> int -> bool
+
+val regular_rows :
+  int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool
+
+val row_slack :
+  int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int
+
+val regular_sign : int -> regular -> matrix -> matrix -> bool
+
+val regular_order : enclosed -> region -> Equality.sort -> int list
+
+val restricted : int list -> (int -> int -> Big_int_Z.big_int) -> matrix
+
+val corner_pencil : enclosed -> enclosed -> int -> enclosed
+
+val corner_end : region -> int -> point
+
+val corner_center :
+  enclosed -> enclosed -> region -> int list -> int -> matrix
+
+val corner_radius :
+  enclosed -> enclosed -> region -> int list -> int -> matrix
+
+val rows_at :
+  enclosed -> enclosed -> region -> int list -> regular -> int -> bool
+
+val sign_at0 :
+  enclosed -> enclosed -> region -> int list -> regular -> int -> bool
+
+val four_corners : int list
+
+val box_regular : enclosed -> enclosed -> region -> regular -> bool
+
 type critical_leaf =
 | BoxFarkas of Big_int_Z.big_int list
 | BoxDefinite of bool * (factor * factor) * (factor * factor)
+| BoxRegular of regular
 | BoxWhole of whole * whole
 
 val pencil_at : system -> point -> pencil
@@ -1734,7 +1794,7 @@ val check_critical_leaf :
 
 val check_critical :
   system -> (elimination * (matrix * matrix)) option -> critical_leaf
-  box_tree -> point -> bool
+  box_tree -> point -> point -> bool
 
 type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
                     friction_left : matrix list }
@@ -1777,7 +1837,41 @@ val check_anchored_box :
 val both_bounded : system -> box_anchoring -> bool
 
 val check_anchored_critical :
-  system -> box_anchoring -> anchored_box_leaf box_tree -> point -> bool
+  system -> box_anchoring -> anchored_box_leaf box_tree -> point -> point ->
+  bool
+
+type presence = { presence_box : regular; presence_start : regular;
+                  presence_finish : regular }
+
+val rest_row :
+  enclosed -> enclosed -> region -> presence -> regular -> int -> int -> bool
+
+val positive_vector : regular -> bool
+
+val presence_edge :
+  enclosed -> enclosed -> region -> presence -> regular -> int list -> bool
+
+val check_presence_piece : enclosed -> enclosed -> region -> presence -> bool
+
+type presence_piece = { piece_end : point; piece_region : region;
+                        piece_anchor : int; piece_grain : Big_int_Z.big_int;
+                        piece_witness : presence }
+
+val check_present :
+  system -> form_bound -> form_bound -> box_anchor ->
+  (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point ->
+  point -> presence -> bool
+
+val check_piece :
+  system -> box_anchoring -> (anchor_family * anchor_family) option list ->
+  point -> presence_piece -> bool
+
+val check_pieces :
+  system -> box_anchoring -> (anchor_family * anchor_family) option list ->
+  point -> presence_piece list -> point -> bool
+
+val check_presence :
+  system -> box_anchoring -> presence_piece list -> point -> point -> bool
 
 val zero_firsts : zero_system -> int list
 

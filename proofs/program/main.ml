@@ -585,51 +585,84 @@ let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kern
       code
   end
 
-(* No solution of a system for mu in [0, below] and lambda^2 >= 0. *)
-let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
-  if certificate.critical_digest <> problem.digest then
+(* The context of a statement about an interval of mu; rejects a problem that has none. *)
+let context_of_friction (problem : Problem.t) what digest condensation (low, high) tail =
+  if digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
   let system = match problem.question with
     | Raw _ -> raise (Rejected "a mechanical system was expected")
-    | Zero_reaction _ -> Problem.not_verified "absence below a friction with zero reaction"
+    | Zero_reaction _ -> Problem.not_verified "%s with zero reaction" what
     | Mechanical _ when problem.unknown <> "lambda2" ->
       raise (Rejected "the unknown is not the problem's")
     | Mechanical (system, _) -> system in
-  if Q.sign certificate.below <= 0 then raise (Rejected "below is not positive");
-  if (certificate.critical_condensation <> None) <> (system.free_dofs <> []) then
+  if Q.sign high <= 0 then raise (Rejected "the interval of friction ends at zero or below");
+  if Q.sign low < 0 || Q.geq low high then
+    raise (Rejected "the interval of friction is empty, a point, or begins below zero");
+  if (condensation <> None) <> (system.free_dofs <> []) then
     raise (Rejected "a condensation is given exactly if there are free variables");
 
-  let plain = Kernel.part_plain system and friction = Kernel.part_friction system in
-  let slip_list = Obj.magic (Kernel.slip plain) in
+  let slip_list = Obj.magic (Kernel.slip (Kernel.part_plain system)) in
   if List.length slip_list > 300 then
     Problem.not_verified "more than 300 complementarity variables";
   let slip_factor = Z.mul problem.common system.unit_length in
   let context =
     { Critical.system; slip = Array.of_list slip_list; free_factor = problem.common; slip_factor;
-      tail = Option.bind certificate.critical_condensation (fun c -> c.friction_tail);
-      below = certificate.below } in
+      tail; mu_low = Elaborate.point_of low; mu_high = Elaborate.point_of high } in
+  context, slip_list
+
+(* No solution of a system for mu in [from, below] and lambda^2 >= 0. *)
+let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
+  let condensation = certificate.critical_condensation in
+  let context, slip_list = context_of_friction problem "absence below a friction"
+      certificate.critical_digest condensation (certificate.at_least, certificate.below)
+      (Option.bind condensation (fun c -> c.friction_tail)) in
+  let system = context.system in
+  let plain = Kernel.part_plain system and friction = Kernel.part_friction system in
   let pieces = certificate.critical_pieces in
-  let bound = Elaborate.point_of certificate.below in
   let without_free_variables () =
     let elimination =
-      Some (Critical.trivial_elimination plain friction slip_list slip_factor) in
+      Some (Critical.trivial_elimination plain friction slip_list context.slip_factor) in
     let parts = timed "condensation" (fun () -> Kernel.condensed_parts system elimination) in
     let tree = timed "elaboration" (fun () ->
         Critical.build context (Critical.leaf_of_parts context parts) pieces) in
-    timed "kernel" (fun () -> Kernel.check_critical system elimination tree bound) in
+    timed "kernel" (fun () ->
+        Kernel.check_critical system elimination tree context.mu_low context.mu_high) in
   let about_anchors condensation =
     let anchored = timed "condensation" (fun () ->
-        Critical.anchored_of context plain friction slip_list condensation pieces) in
+        Critical.anchored_of context plain friction slip_list condensation
+          (Critical.anchors_of_boxes pieces)) in
     let tree = timed "elaboration" (fun () ->
         Critical.join
           (Critical.build context (Critical.anchored_leaf context anchored) pieces)) in
     timed "kernel" (fun () ->
-        Kernel.check_anchored_critical system anchored.anchoring tree bound) in
-  refuse_tree_unless (match certificate.critical_condensation with
+        Kernel.check_anchored_critical system anchored.anchoring tree context.mu_low
+          context.mu_high) in
+  refuse_tree_unless (match condensation with
       | None -> without_free_variables ()
       | Some condensation -> about_anchors condensation);
   Printf.printf "ACCEPTED, VERIFIED: no solution for mu in %s and lambda^2 in %s\n"
-    (show_interval Kernel.zero bound) (show_interval Kernel.zero Kernel.infinity);
+    (show_interval context.mu_low context.mu_high) (show_interval Kernel.zero Kernel.infinity);
+  0
+
+(* A solution of a system with some lambda^2 >= 0 for each mu in [from, to]. *)
+let verify_presence (problem : Problem.t) (certificate : Certificate.presence) =
+  let context, slip_list = context_of_friction problem "presence on an interval of friction"
+      certificate.presence_digest certificate.presence_condensation
+      (certificate.presence_from, certificate.presence_to) None in
+  let system = context.system in
+  let plain = Kernel.part_plain system and friction = Kernel.part_friction system in
+  let pieces = certificate.presence_pieces in
+  let anchored = timed "condensation" (fun () -> match certificate.presence_condensation with
+      | None -> Presence.anchored_without_free context plain friction slip_list
+      | Some condensation ->
+        Critical.anchored_of context plain friction slip_list condensation
+          (Presence.anchors_of_pieces pieces)) in
+  let kernel_pieces = timed "elaboration" (fun () -> Presence.build context anchored pieces) in
+  refuse_tree_unless (timed "kernel" (fun () ->
+      Kernel.check_presence system anchored.anchoring kernel_pieces context.mu_low
+        context.mu_high));
+  Printf.printf "ACCEPTED, VERIFIED: for every mu in %s a solution with lambda^2 >= 0\n"
+    (show_interval context.mu_low context.mu_high);
   0
 
 let verify_complete (problem : Problem.t) (certificate : Certificate.t) =
@@ -690,6 +723,7 @@ let verify_eigenproblem document problem_path certificate_path =
   match timed "certificate" (fun () -> Certificate.read certificate_path) with
   | Complete certificate -> verify_complete problem certificate
   | Critical certificate -> verify_critical problem certificate
+  | Presence certificate -> verify_presence problem certificate
 
 let verify problem_path certificate_path =
   Elaborate.start_anew ();

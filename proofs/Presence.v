@@ -1,0 +1,351 @@
+(* A solution at every friction of an interval.
+
+   A *piece* is a decided box: an interval [t0, t1] of t, an interval [low, high] of mu, the moving
+   variables J with the pivot k.  Let T(t, mu) be the matrix at a point of the box, as in Boxes.v.
+   The witness has three parts of the kind of Regular.v, with the same pivot:
+
+     box     at the four corners the rows of the check, which enclose the vectors x with x_k = V_k
+             whose rows in K vanish: |x_j - V_j| <= e_j.  V_j > e_j, so they are positive.  For each
+             variable at rest (T_c x)_i >= 0 for all x of the enclosure, at each corner;
+     start   at the corners with t = t0 the rows and the sign, with U_k > 0;
+     finish  the same at t = t1, with the other sign.
+
+   Theorem [piece_exists]: if the check succeeds, then for each mu in [low, high] there is a t in
+   [t0, t1] with a solution.
+
+   For each t the row k of the x with x_k = V_k whose other rows vanish is phi(t).  A multiple of T
+   has polynomials as entries, so phi has a root between two values where its signs are opposite
+   (Existence.v).  There x is a null vector, it is positive on J, and y_i >= 0 at rest.
+
+   Page: spec/certificates.md, 5.19.  Rust: crates/check/src/cover/presence.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Root Existence RootLeaf Boxes Regular.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+Record presence := Presence {
+  presence_box : regular;
+  presence_start : regular;
+  presence_finish : regular }.
+
+Section Checker.
+
+Variables (P P' : enclosed) (r : region) (w : presence).
+
+Notation k := (regular_pivot (presence_box w)).
+Notation l := (regular_order P r k).
+Notation m := ((size l).-1).
+
+(* (T_c x)_i >= 0 for all x of the enclosure. *)
+Definition rest_row (v : regular) (i c : nat) :=
+  let p := [seq center (corner_pencil P P' c) (corner_end r c) i j | j <- l] in
+  let q := [seq radius (corner_pencil P P' c) (corner_end r c) i j | j <- l] in
+  (row_slack m v p q <=? against_right m v p)%Z.
+
+Definition positive_vector (v : regular) :=
+  (0 <? nth 0%Z (regular_right v) 0)%Z.
+
+Definition presence_edge (e : regular) (cs : seq nat) :=
+  [&& positive_vector e, (0 <? nth 0%Z (regular_left e) 0)%Z &
+      all (fun c => rows_at P P' r l e c && sign_at P P' r l e c) cs].
+
+Definition check_presence_piece :=
+  [&& decided P r, k \in moving P r, (0 <? (upper r).2)%Z, positive_vector (presence_box w) &
+  [&& all (rows_at P P' r l (presence_box w)) four_corners,
+      all (fun j => nth 0%Z (regular_widths (presence_box w)) j <?
+                    nth 0%Z (regular_right (presence_box w)) j.+1)%Z (iota 0 m),
+      all (fun i => is_moving (state_of r i) || all (rest_row (presence_box w) i) four_corners) (indices P),
+      presence_edge (presence_start w) [:: 0; 2]%N &
+      presence_edge (presence_finish w) [:: 1; 3]%N
+      && (regular_minus (presence_start w) != regular_minus (presence_finish w))]].
+
+End Checker.
+
+Section Sound.
+
+Variable R : rcfType.
+Variables (P P' : enclosed) (F : R -> nat -> nat -> R).
+Hypothesis same : size_of P' = size_of P.
+Variables (r : region) (f g : R).
+Hypotheses (O : ordered (lower r) (upper r)).
+Hypotheses (f0 : 0 <= f) (g0 : 0 <= g) (fg : 0 < f \/ 0 < g).
+
+(* At each t the family is near lines of both pencils. *)
+Hypothesis near : forall t, between t (lower r) (upper r) -> exists A B A' B',
+  [/\ encloses P A B, encloses P' A' B' & forall i j, i \in indices P -> j \in indices P ->
+      F t i j = mixed_at A B A' B' t f g i j].
+
+Variables (d : {poly R}) (N : nat -> nat -> {poly R}).
+Hypothesis d_regular : forall t, between t (lower r) (upper r) -> d.[t] != 0.
+Hypothesis N_family : forall t i j, between t (lower r) (upper r) ->
+  i \in indices P -> j \in indices P -> (N i j).[t] = d.[t] * F t i j.
+
+Variable w : presence.
+Hypothesis checked : check_presence_piece P P' r w.
+
+Notation k := (regular_pivot (presence_box w)).
+Notation J := (moving P r).
+Notation K := (others P r k).
+Notation l := (regular_order P r k).
+Notation m := ((size l).-1).
+
+Definition family_row t (x : nat -> R) i := \sum_(j <- J) F t i j * x j.
+
+Lemma pivot_moving : k \in J.
+Proof. by case/and5P: checked. Qed.
+
+Lemma moving_index i : i \in J -> i \in indices P.
+Proof. by rewrite mem_filter => /andP[]. Qed.
+
+Lemma others_J i : i \in K -> i \in J.
+Proof. by rewrite mem_filter => /andP[]. Qed.
+
+Lemma place_of i : i \in K -> exists2 n, (n < m)%N & nth 0%N l n.+1 = i.
+Proof. by move=> /(nthP 0%N)[n lt_n <-]; exists n. Qed.
+
+Lemma place_others n : (n < m)%N -> nth 0%N l n.+1 \in K.
+Proof. exact: mem_nth. Qed.
+
+(* What the corners in cs say of a vector x whose rows in K vanish at t. *)
+Section AtCorners.
+
+Variables (v : regular) (cs : seq nat) (t : R) (x : nat -> R) (a : R).
+Variables (A B A' B' : nat -> nat -> R) (weight : nat -> R).
+Hypotheses (E : encloses P A B) (E' : encloses P' A' B').
+Hypothesis on : forall i j, i \in indices P -> j \in indices P ->
+  F t i j = mixed_at A B A' B' t f g i j.
+Hypothesis ws : weights_of_corners A B A' B' r t f g cs weight.
+Hypothesis rows_ok : forall c, c \in cs -> rows_at P P' r l v c.
+Hypothesis rows : forall i, i \in K -> family_row t x i = 0.
+Hypotheses (a0 : 0 <= a) (x_pivot : x k = a * toR (nth 0%Z (regular_right v) 0)).
+
+Notation T c := (fun i j => matrix_at A B A' B' r c (nth 0%N l i) (nth 0%N l j)).
+Notation xs := (fun j => x (nth 0%N l j)).
+
+Lemma corner_rows i : i \in indices P -> family_row t x i =
+  \sum_(c <- cs) weight c * (\sum_(j <- iota 0 m.+1) matrix_at A B A' B' r c i (nth 0%N l j) * xs j).
+Proof.
+move=> Hi; rewrite -(row_of_corners xs _ _ _ ws) -size_order.
+rewrite -(sum_order pivot_moving (fun j => mixed_at A B A' B' t f g i j * x j)).
+by apply: sum_eq => j jJ; rewrite on // moving_index.
+Qed.
+
+Lemma corner_sizes c : c \in cs ->
+  size (corner_center P P' r l c) = m.+1 /\ size (corner_radius P P' r l c) = m.+1.
+Proof. by move=> _; rewrite !size_restricted. Qed.
+
+Lemma corners_near c i j : c \in cs -> (i < m.+1)%N -> (j < m.+1)%N ->
+  `|T c i j - toR (entry (corner_center P P' r l c) i j)| <=
+  toR (entry (corner_radius P P' r l c) i j).
+Proof.
+by move=> _ lt_i lt_j; apply: corner_near => // j'; apply: order_indices pivot_moving _.
+Qed.
+
+Lemma null_corner i : (i < m)%N ->
+  \sum_(c <- cs) weight c * row_at_corner m (fun c => T c) xs c i.+1 = 0.
+Proof.
+move=> lt_i; have iK := place_others lt_i.
+by rewrite -[RHS](rows iK) corner_rows // moving_index // others_J.
+Qed.
+
+Lemma boxed_at n : (n < m)%N ->
+  `|x (nth 0%N l n.+1) - a * toR (nth 0%Z (regular_right v) n.+1)| <=
+  a * toR (nth 0%Z (regular_widths v) n).
+Proof.
+case: ws => w0 w_gt0 _ lt_n.
+apply: (@near_null R m v cs (corner_center P P' r l) (corner_radius P P' r l)
+  (fun c => nth 0%Z (regular_units v) c) (fun c => T c) weight xs corner_sizes corners_near
+  rows_ok w0 w_gt0 null_corner a a0 x_pivot).
+by rewrite mem_iota.
+Qed.
+
+Lemma pivot_sign : (forall c, c \in cs -> sign_at P P' r l v c) -> 0 < a ->
+  0 < regular_side R v * (toR (nth 0%Z (regular_left v) 0) * family_row t x k).
+Proof.
+case: ws => w0 w_gt0 _ signs a_gt0; rewrite corner_rows ?moving_index ?pivot_moving //.
+exact: (@sign_of_pivot_row R m v cs (corner_center P P' r l) (corner_radius P P' r l)
+  (fun c => nth 0%Z (regular_units v) c) (fun c => T c) weight xs corner_sizes corners_near
+  rows_ok w0 w_gt0 null_corner a a0 x_pivot signs a_gt0).
+Qed.
+
+(* A row at rest. *)
+Lemma rest_row_ge0 i : i \in indices P ->
+  (forall c, c \in cs -> rest_row P P' r w v i c) -> 0 <= family_row t x i.
+Proof.
+case: ws => w0 w_gt0 _ Hi rest; rewrite corner_rows //; apply: sum_ge0 => c Hc.
+rewrite mulr_ge0 ?w0 //; have := rest c Hc; rewrite /rest_row -(@toR_le R).
+set p := map _ l; set q := map _ l => le.
+have nearp j : j \in iota 0 m.+1 ->
+    `|matrix_at A B A' B' r c i (nth 0%N l j) - toR (nth 0%Z p j)| <= toR (nth 0%Z q j).
+  rewrite mem_iota add0n => /= lt_j; have Hj := order_indices pivot_moving (mem_nth 0%N (lt_j : (j < size l)%N)).
+  have [p0 q0 p0' q0'] := ordered_ge0 R O.
+  have e1 : 0 <= toR (corner_end r c).1 :> R by rewrite /corner_end; case: odd.
+  have e2 : 0 <= toR (corner_end r c).2 :> R by rewrite /corner_end; case: odd.
+  rewrite !(nth_map 0%N) // /matrix_at /corner_pencil; case: ifP => _.
+    exact: T_end_enclosed.
+  by apply: T_end_enclosed => //; rewrite /indices same.
+have := @row_slack_sound R m v cs (corner_center P P' r l) (corner_radius P P' r l)
+  (fun c => nth 0%Z (regular_units v) c) (fun c => T c) weight xs corner_sizes corners_near
+  rows_ok w0 w_gt0 null_corner a a0 x_pivot _ p q nearp.
+rewrite ler_distl => /andP[low _]; apply: le_trans low.
+by rewrite -mulrBr mulr_ge0 // subr_ge0.
+Qed.
+
+End AtCorners.
+
+Let V0 : R := toR (nth 0%Z (regular_right (presence_box w)) 0).
+Let ta : R := toR (lower r).1 / toR (lower r).2.
+Let tb : R := toR (upper r).1 / toR (upper r).2.
+
+Lemma checked_parts :
+  [/\ [/\ decided P r, (0 <? (upper r).2)%Z & 0 < V0],
+      forall c, c \in four_corners -> rows_at P P' r l (presence_box w) c,
+      forall n, (n < m)%N -> toR (nth 0%Z (regular_widths (presence_box w)) n) <
+         toR (nth 0%Z (regular_right (presence_box w)) n.+1) :> R,
+      forall i, i \in indices P -> ~~ is_moving (state_of r i) ->
+         forall c, c \in four_corners -> rest_row P P' r w (presence_box w) i c &
+      [/\ presence_edge P P' r w (presence_start w) [:: 0; 2]%N,
+          presence_edge P P' r w (presence_finish w) [:: 1; 3]%N &
+          regular_minus (presence_start w) != regular_minus (presence_finish w)]].
+Proof.
+case/and5P: checked => dec _ fin v0 /and5P[/allP rows_ok /allP pos /allP rest start /andP[fin' ne]].
+split=> //; first by split=> //; rewrite toR_gt0.
+  by move=> n lt_n; rewrite toR_lt; apply: pos; rewrite mem_iota.
+by move=> i Hi still c Hc0; have := rest i Hi; rewrite (negbTE still) orFb => /allP/(_ c Hc0).
+Qed.
+
+Lemma ends : [/\ 0 < toR (lower r).2 :> R, 0 < toR (upper r).2 :> R, ta <= tb &
+  forall t, ta <= t <= tb -> between t (lower r) (upper r)].
+Proof.
+have [[_ fin _] _ _ _ _] := checked_parts.
+have l2 : 0 < toR (lower r).2 :> R by case/and5P: O => _ ? _ _ _; rewrite toR_gt0.
+have u2 : 0 < toR (upper r).2 :> R by rewrite toR_gt0.
+split=> //.
+  rewrite /ta /tb ler_pdivr_mulr // mulrAC ler_pdivl_mulr // -!toRM toR_le.
+  by case/and5P: O => _ _ _ _ /andP[].
+by move=> t; rewrite /ta /tb ler_pdivr_mulr // ler_pdivl_mulr // => /andP[].
+Qed.
+
+Lemma poly_rowE t x i : between t (lower r) (upper r) -> i \in J ->
+  poly_row N J t x i = d.[t] * family_row t x i.
+Proof.
+move=> bt iJ; rewrite /poly_row mulr_sumr; apply: sum_eq => j jJ.
+by rewrite /poly_at N_family ?moving_index // mulrA.
+Qed.
+
+Lemma rows_vanish t x i : between t (lower r) (upper r) -> i \in J ->
+  poly_row N J t x i = 0 -> family_row t x i = 0.
+Proof.
+move=> bt iJ; rewrite poly_rowE // => /eqP.
+by rewrite mulf_eq0 (negbTE (d_regular bt)) => /eqP.
+Qed.
+
+(* T(t) is regular on K. *)
+Lemma family_injective t : between t (lower r) (upper r) -> injective_on K (poly_at N t).
+Proof.
+move=> bt z rows i iK; have [_ rows_ok _ _ _] := checked_parts.
+have [A [B [A' [B' [E E' on]]]]] := near bt.
+have [weight ws] := box_weights A B A' B' O bt f0 g0 fg.
+pose x j := if j == k then 0 else z j.
+have x_others j : j \in K -> x j = z j by rewrite mem_filter /x => /andP[/negbTE->].
+have K_J j : (j \in K) = (j \in J) && (j != k) by rewrite mem_filter andbC.
+have rows_x n : n \in K -> family_row t x n = 0.
+  move=> nK; apply: (rows_vanish bt (others_J nK)); rewrite -[RHS](rows n nK).
+  rewrite /poly_row (sum_pivot K_J pivot_moving); last 2 first.
+  - by rewrite filter_uniq ?iota_uniq.
+  - by rewrite !filter_uniq ?iota_uniq.
+  by rewrite {1}/x eqxx mulr0 add0r; apply: sum_eq => j jK; rewrite x_others.
+have x_pivot : x k = 0 * toR (nth 0%Z (regular_right (presence_box w)) 0) by rewrite /x eqxx mul0r.
+have [n lt_n nE] := place_of iK.
+have := boxed_at E E' on ws rows_ok rows_x (lexx 0) x_pivot lt_n.
+by rewrite nE !mul0r subr0 x_others // normr_le0 => /eqP.
+Qed.
+
+(* The sign of phi at both ends. *)
+Lemma edge_sign t x e cs : between t (lower r) (upper r) ->
+  (forall A B A' B', exists weight, weights_of_corners A B A' B' r t f g cs weight) ->
+  presence_edge P P' r w e cs -> 0 < x k -> (forall i, i \in K -> family_row t x i = 0) ->
+  0 < regular_side R e * family_row t x k.
+Proof.
+move=> bt weights /and3P[v0 u0 /allP corners] xk rows.
+have [A [B [A' [B' [E E' on]]]]] := near bt; have [weight ws] := weights A B A' B'.
+have V_gt0 : 0 < toR (nth 0%Z (regular_right e) 0) :> R by rewrite toR_gt0.
+have x_pivot : x k = x k / toR (nth 0%Z (regular_right e) 0) * toR (nth 0%Z (regular_right e) 0).
+  by rewrite divfK // gt_eqF.
+have a_gt0 : 0 < x k / toR (nth 0%Z (regular_right e) 0) by apply: divr_gt0.
+have rows_ok c : c \in cs -> rows_at P P' r l e c by move/corners/andP=> [].
+have signs c : c \in cs -> sign_at P P' r l e c by move/corners/andP=> [].
+have := pivot_sign E E' on ws rows_ok rows (ltW a_gt0) x_pivot signs a_gt0.
+by rewrite mulrCA pmulr_rgt0 // toR_gt0.
+Qed.
+
+Theorem piece_exists : exists t x, [/\ between t (lower r) (upper r),
+  exists2 i, i \in indices P & x i != 0 &
+  forall i, i \in indices P -> let y := \sum_(j <- indices P) F t i j * x j in
+    [/\ 0 <= x i, 0 <= y & x i * y = 0]].
+Proof.
+have [[dec fin V_gt0] rows_ok pos rest [start finish ne]] := checked_parts.
+have [l2 u2 tab inside] := ends.
+have at_a : ta <= ta <= tb by rewrite lexx.
+have at_b : ta <= tb <= tb by rewrite lexx andbT.
+have K_J j : (j \in K) = (j \in J) && (j != k) by rewrite mem_filter andbC.
+have uJ : uniq J by rewrite filter_uniq ?iota_uniq.
+have uK : uniq K by rewrite filter_uniq.
+have [|t [x [tt xk null]]] :=
+    polynomial_null_vector K_J pivot_moving uJ uK V_gt0 tab
+      (fun t tt => family_injective (inside t tt)).
+  move=> x y xk yk rows_x rows_y.
+  have {}rows_x i : i \in K -> family_row ta x i = 0.
+    by move=> iK; apply: rows_vanish (inside _ at_a) (others_J iK) (rows_x i iK).
+  have {}rows_y i : i \in K -> family_row tb y i = 0.
+    by move=> iK; apply: rows_vanish (inside _ at_b) (others_J iK) (rows_y i iK).
+  have sx : 0 < regular_side R (presence_start w) * family_row ta x k.
+    apply: (edge_sign (inside _ at_a) _ start) => //; last by rewrite xk.
+    by move=> A B A' B'; apply: lower_weights; rewrite ?/ta ?divfK ?gt_eqF.
+  have sy : 0 < regular_side R (presence_finish w) * family_row tb y k.
+    apply: (edge_sign (inside _ at_b) _ finish) => //; last by rewrite yk.
+    by move=> A B A' B'; apply: upper_weights; rewrite ?/tb ?divfK ?gt_eqF.
+  rewrite !poly_rowE ?pivot_moving //; try exact: inside.
+  have d_same : 0 < d.[ta] * d.[tb].
+    rewrite ltNge; apply/negP=> /(root_between tab)[t tt /rootP]; apply/eqP.
+    exact/d_regular/inside.
+  rewrite mulrACA pmulr_rlt0 //; move: ne sx sy; rewrite /regular_side.
+  case: (regular_minus _); case: (regular_minus _) => // _; rewrite mulN1r mul1r oppr_gt0 => sx sy.
+    by rewrite nmulr_rlt0.
+  by rewrite pmulr_rlt0.
+
+have bt := inside t tt; pose s j := if j \in J then x j else 0.
+have {}null i : i \in J -> family_row t x i = 0.
+  by move=> iJ; apply: rows_vanish bt iJ (null i iJ).
+have rows i : i \in K -> family_row t x i = 0 by move/others_J/null.
+have [A [B [A' [B' [E E' on]]]]] := near bt.
+have [weight ws] := box_weights A B A' B' O bt f0 g0 fg.
+have x_pivot : x k = 1 * toR (nth 0%Z (regular_right (presence_box w)) 0) by rewrite mul1r.
+have positive i : i \in J -> 0 < x i.
+  move=> iJ; have [->|ik] := eqVneq i k; first by rewrite xk.
+  have [|n lt_n <-] := place_of (i := i); first by rewrite K_J iJ.
+  have := boxed_at E E' on ws rows_ok rows ler01 x_pivot lt_n.
+  by rewrite !mul1r ler_distl => /andP[+ _]; apply: lt_le_trans; rewrite subr_gt0 pos.
+have s_row i : \sum_(j <- indices P) F t i j * s j = family_row t x i.
+  rewrite (sum_decided (P := P) (r := r)) // => [|j Hj still]; last first.
+    by rewrite /s mem_filter (negbTE still).
+  by apply: sum_eq => j jJ; rewrite /s jJ.
+exists t, s; split=> //.
+  by exists k; [exact: moving_index pivot_moving | rewrite /s pivot_moving xk gt_eqF].
+move=> i Hi y; rewrite /y s_row /s; have [iJ|iJ] := boolP (i \in J).
+  by rewrite null // mulr0 lexx ltW // positive.
+rewrite mul0r lexx; split=> //.
+have still : ~~ is_moving (state_of r i) by move: iJ; rewrite mem_filter Hi andbT.
+exact: (rest_row_ge0 E E' on ws rows_ok rows ler01 x_pivot Hi (rest i Hi still)).
+Qed.
+
+End Sound.

@@ -1,0 +1,406 @@
+(* A solution at every friction of an interval, for mechanical systems.
+
+   The checker gets a system, an interval [from, bound] of mu, the bounds and anchors of
+   CriticalAnchors.v, and a list of pieces.  The first piece begins at from, each later one where the
+   one before ends, and the last one ends at bound or beyond.  A piece has an interval of t, the
+   number of an anchor, the grain of the local pencils, a state for each slip particle and a witness
+   of Presence.v for both ends of its interval of mu.
+
+   Theorem [presence_sound]: if the check succeeds, then for every mu in [from, bound] there are a
+   t >= 0 and a motion that satisfies the conditions (9) with lambda^2 = t and mu.
+
+   The condensed matrix of both parts is T0(u) + mu T1(u), where u is the position in the interval of
+   t; det F times it has polynomials in u as entries (AnchorLeaf.v).  Without free variables F is
+   empty and the anchor has no matrices.
+
+   Page: spec/certificates.md, 5.19.  Rust: crates/check/src/presence.rs, cover/presence.rs. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Pinned Cover.
+From Mceip Require Import Condensation Pencil Whole Complete System Norms Elimination Curved.
+From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Regular Critical CriticalAnchors.
+From Mceip Require Import Presence.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+Record presence_piece := PresencePiece {
+  piece_end : point;
+  piece_region : region;
+  piece_anchor : nat;
+  piece_grain : Z;
+  piece_witness : presence }.
+
+Section Checker.
+
+Variables (s : system) (w : box_anchoring).
+
+Notation ns := (size (particles s)).
+
+Definition check_present low_a low_b (b : box_anchor) (fams : anchor_family * anchor_family) grain
+    (r : region) (low high : point) (v : presence) :=
+  let a := plain_anchor b in
+  let a' := friction_anchor a (friction_left b) in
+  let P := local_part s low_a low_b a fams.1 (lower r) (upper r) grain in
+  let P' := local_part s low_a low_b a' fams.2 (lower r) (upper r) grain in
+  [&& proper_interval a low_a low_b (lower r) (upper r), (0 <? grain)%Z,
+      size (series_z fams.1) == size (series_z fams.2) &
+      check_presence_piece (mixed low P P') (mixed high P P') (local_region r) v].
+
+Definition check_piece (families : seq (option (anchor_family * anchor_family))) (low : point)
+    (p : presence_piece) :=
+  let b := nth no_box_anchor (box_anchors w) (piece_anchor p) in
+  let r := piece_region p in
+  ordered low (piece_end p) &&
+  if nth None families (piece_anchor p) is Some fams then
+    if reversed_anchor b then
+      (0 <? (upper r).2)%Z &&
+      check_present (mass_below w) (stiffness_below w) b fams (piece_grain p) (swap_region r) low
+        (piece_end p) (piece_witness p)
+    else check_present (stiffness_below w) (mass_below w) b fams (piece_grain p) r low
+           (piece_end p) (piece_witness p)
+  else false.
+
+Fixpoint check_pieces families (low : point) (pieces : seq presence_piece) (bound : point) :=
+  match pieces with
+  | [::] => false
+  | [:: p] => check_piece families low p &&
+              (bound.1 * (piece_end p).2 <=? (piece_end p).1 * bound.2)%Z
+  | p :: rest => check_piece families low p && check_pieces families (piece_end p) rest bound
+  end.
+
+Definition check_presence (pieces : seq presence_piece) (from bound : point) :=
+  let families := box_expansions s w in
+  [&& system_wellformed s (Lambda2 0 1), both_bounded s w, (0 <? bound.2)%Z &
+      check_pieces families from pieces bound].
+
+End Checker.
+
+(* A vector x over the slip variables, with the free variables that it determines. *)
+Section Joined.
+
+Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : anchor_family) (low_a low_b : form_bound).
+Variables (lo hi : point) (u : R) (x : nat -> R).
+Hypotheses (wf : wellformed Q) (expanded : expand Q a = Some fam).
+Hypothesis bounded_a : bounded_rows (size (free Q)) (ff_block Q (row_a Q)) low_a.
+Hypothesis bounded_b : bounded_rows (size (free Q)) (ff_block Q (row_b Q)) low_b.
+Hypothesis proper : proper_interval a low_a low_b lo hi.
+Hypothesis u0 : 0 <= u.
+
+Lemma free_part_rows :
+  (forall k, k \in iota 0 (size (free Q)) ->
+     free_of Q x k = free_values Q a lo hi u (slip_of Q x) k) <->
+  (forall i, i \in free Q -> reaction Q (t_of lo hi u) x i = 0).
+Proof.
+have below := below_at_u wf expanded bounded_a bounded_b proper u0.
+have s0 := s_low_gt0 R bounded_a bounded_b proper.
+have q0 := q_gt0 R expanded.
+split=> [part i /(nthP 0%N)[k lt_k <-]|rows].
+  apply: (mulfI (lt0r_neq0 q0)); rewrite mulr0.
+  rewrite (reaction_free_at wf x (t_ofE expanded proper u)) //.
+  by move: k lt_k => k lt_k; apply: (proj2 (free_rows_vanish s0 below _ _ _ _) part);
+     rewrite mem_iota.
+apply/(free_rows_vanish s0 below) => k Hk; have lt_k := in_free Hk.
+by rewrite -(reaction_free_at wf x (t_ofE expanded proper u)) // rows ?mulr0 // mem_nth.
+Qed.
+
+End Joined.
+
+Section Present.
+
+Variables (R : rcfType) (n : nat) (fr : seq nat) (ra rb ra' rb' : seq sparse_row).
+Notation Q := (Pencil n ra rb fr).
+Notation Q' := (Pencil n ra' rb' fr).
+Variables (a : anchor) (other : seq matrix) (fam fam' : anchor_family) (low_a low_b : form_bound).
+Notation a' := (friction_anchor a other).
+Variables (grain : Z) (r : region) (low high : point) (mu : R).
+Hypotheses (wf : wellformed Q).
+Hypotheses (expanded : expand Q a = Some fam) (expanded' : expand Q' a' = Some fam').
+Hypothesis bounded_a : bounded_rows (size fr) (ff_block Q (row_a Q)) low_a.
+Hypothesis bounded_b : bounded_rows (size fr) (ff_block Q (row_b Q)) low_b.
+Hypothesis bounded_a' : bounded_rows (size fr) (ff_block Q' (row_a Q')) low_a.
+Hypothesis bounded_b' : bounded_rows (size fr) (ff_block Q' (row_b Q')) low_b.
+Hypothesis proper : proper_interval a low_a low_b (lower r) (upper r).
+Hypotheses (grain0 : (0 <? grain)%Z) (same_size : size (series_z fam) = size (series_z fam')).
+Hypotheses (Om : ordered low high) (bm : between mu low high).
+Hypothesis same_rows : forall t (x : nat -> R) i, i \in fr ->
+  reaction Q' t x i = reaction Q t x i.
+
+Notation lo := (lower r).
+Notation hi := (upper r).
+Notation ns := (size (slip Q)).
+Notation P := (local_pencil ns a low_a low_b fam lo hi false grain).
+Notation P' := (local_pencil ns a' low_a low_b fam' lo hi false grain).
+Notation T0 := (local_family Q a fam lo hi grain).
+Notation T1 := (local_family Q' a' fam' lo hi grain).
+Notation F u := (fun i j => T0 u i j + mu * T1 u i j).
+Notation d0 := (free_det (size (free Q)) (F_poly R Q a lo hi)).
+Notation d1 := (free_det (size (free Q')) (F_poly R Q' a' lo hi)).
+Notation N0 := (family_poly R Q a fam lo hi grain).
+Notation N1 := (family_poly R Q' a' fam' lo hi grain).
+
+Lemma proper' : proper_interval a' low_a low_b lo hi.
+Proof. exact: proper. Qed.
+
+Theorem piece_present v :
+  check_presence_piece (mixed low P P') (mixed high P P') (local_region r) v ->
+  exists t x, [/\ between t lo hi, exists2 i, i \in iota 0 n & x i != 0,
+    forall i, i \in fr -> reaction Q t x i = 0 &
+    forall i, i \in slip Q ->
+      let y := reaction Q t x i + mu * reaction Q' t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]].
+Proof.
+move=> ok; have [f [g [f0 g0 [one val] [fg _]]]] := weights_of_ends Om bm.
+have [l1 l2 h1 h2] := ordered_ge0 R Om.
+have unit_u (u : R) : between u (lower (local_region r)) (upper (local_region r)) ->
+    0 <= u /\ u <= 1 by rewrite /between /= toR0 toR1 !mulr1.
+have Or : ordered (lower (local_region r)) (upper (local_region r)) by [].
+have near (u : R) : between u (lower (local_region r)) (upper (local_region r)) ->
+    exists A B A' B', [/\ encloses (mixed low P P') A B, encloses (mixed high P P') A' B' &
+      forall i j, i \in indices (mixed low P P') -> j \in indices (mixed low P P') ->
+      F u i j = mixed_at A B A' B' u f g i j].
+  move=> /unit_u[u0 u1].
+  have [A [B [E on]]] := local_line wf expanded bounded_a bounded_b proper grain0 false u0 u1.
+  have [A' [B' [E' on']]] :=
+    local_line (Q := Q') wf expanded' bounded_a' bounded_b' proper' grain0 false u0 u1.
+  exists (fun i j => toR low.2 * A i j + toR low.1 * A' i j),
+    (fun i j => toR low.2 * B i j + toR low.1 * B' i j),
+    (fun i j => toR high.2 * A i j + toR high.1 * A' i j),
+    (fun i j => toR high.2 * B i j + toR high.1 * B' i j).
+  split; [exact: mixed_encloses | exact: mixed_encloses |].
+  move=> i j Hi Hj; rewrite on // on' // /mixed_at /T.
+  rewrite -[A i j + u * B i j]mul1r -one -val.
+  by move: (A i j) (B i j) (A' i j) (B' i j) => *; ring.
+have regular_d (u : R) : between u (lower (local_region r)) (upper (local_region r)) ->
+    (d0 * d1).[u] != 0.
+  move=> /unit_u[u0 u1]; rewrite hornerM mulf_neq0 //.
+    exact: (free_det_neq0 wf expanded bounded_a bounded_b proper).
+  exact: (free_det_neq0 (Q := Q') wf expanded' bounded_a' bounded_b' proper').
+have family_d (u : R) i j : between u (lower (local_region r)) (upper (local_region r)) ->
+    i \in indices (mixed low P P') -> j \in indices (mixed low P P') ->
+    (N0 i j * d1 + mu *: (N1 i j * d0)).[u] = (d0 * d1).[u] * F u i j.
+  move=> /unit_u[u0 u1] _ _; rewrite hornerD hornerZ.
+  rewrite [(N0 i j * d1).[u]]hornerM [(N1 i j * d0).[u]]hornerM [(d0 * d1).[u]]hornerM.
+  rewrite (family_polyE grain wf expanded bounded_a bounded_b proper) //.
+  rewrite (family_polyE (Q := Q') grain wf expanded' bounded_a' bounded_b' proper') //.
+  by move: (d0.[u]) (d1.[u]) (T0 u i j) (T1 u i j) => *; ring.
+have [u [xs [bu [i0 Hi0 xi0] signs]]] :=
+  piece_exists (P := mixed low P P') (P' := mixed high P P') (F := fun u => F u) (erefl _) Or
+  f0 g0 fg near
+  (N := fun i j => N0 i j * d1 + mu *: (N1 i j * d0)) regular_d family_d ok.
+have [u0 u1] := unit_u u bu.
+
+pose t := t_of lo hi u; pose x := join Q (free_values Q a lo hi u xs) xs.
+have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_join.
+have part k : k \in iota 0 (size (free Q)) ->
+    free_of Q x k = free_values Q a lo hi u (slip_of Q x) k.
+  move=> /in_free Hk; rewrite free_of_join // /free_values /Elimination.free_part; congr (- _).
+  by apply: sum_eq => j; rewrite mem_iota => Hj; rewrite slipE.
+have rows : forall i, i \in free Q -> reaction Q t x i = 0.
+  exact/(free_part_rows x wf expanded bounded_a bounded_b proper u0).
+have rows' : forall i, i \in free Q' -> reaction Q' t x i = 0.
+  by move=> i Hi; rewrite same_rows // rows.
+have part' := (free_part_rows (Q := Q') x wf expanded' bounded_a' bounded_b' proper' u0).2 rows'.
+exists t, x; split=> //.
+- exact: (between_t proper).
+- have lt0 : (i0 < ns)%N by rewrite mem_iota in Hi0.
+  exists (nth 0%N (slip Q) i0); first exact/(slip_indices (Q := Q))/mem_nth.
+  by rewrite -[x _]/(slip_of Q x i0) slipE.
+move=> i /(nthP 0%N)[k lt_k <-] y.
+have Hk : k \in indices (mixed low P P') by rewrite mem_iota.
+have [x0 y0 xy] := signs k Hk; have c0 := row_factor_gt0_ R expanded proper grain0 lt_k.
+have image0 := local_image grain wf expanded proper false u0 lt_k part.
+have image1 := local_image (Q := Q') grain wf expanded' proper' false u0 lt_k part'.
+have yE : \sum_(j <- indices (mixed low P P')) F u k j * xs j =
+    row_factor_at R a fam lo hi grain k * y.
+  rewrite /y mulrDr mulrCA -{2}(same_factor R a other grain r same_size) -image0 -image1.
+  rewrite /family_image mulr_sumr -big_split /=; apply: sum_eq => j.
+  rewrite mem_iota => /= lt_j; rewrite -[slip_of Q' x j]/(slip_of Q x j) slipE // mulrDl.
+  by rewrite -[mu * T1 u k j * xs j]mulrA.
+rewrite -[x (nth _ _ _)]/(slip_of Q x k) slipE //; split=> //.
+  by rewrite -(pmulr_rge0 _ c0) -yE.
+by apply: (mulfI (lt0r_neq0 c0)); rewrite mulr0 mulrCA -yE.
+Qed.
+
+End Present.
+
+(* The same in 1/t. *)
+Theorem piece_present_reversed (R : rcfType) n fr ra rb ra' rb' a other fam fam' low_a low_b grain
+    r low high (mu : R) v (Q := Pencil n ra rb fr) (Q' := Pencil n ra' rb' fr) :
+  wellformed Q -> expand (swap_pencil Q) a = Some fam ->
+  expand (swap_pencil Q') (friction_anchor a other) = Some fam' ->
+  bounded_rows (size fr) (ff_block Q (row_a Q)) low_a ->
+  bounded_rows (size fr) (ff_block Q (row_b Q)) low_b ->
+  bounded_rows (size fr) (ff_block Q' (row_a Q')) low_a ->
+  bounded_rows (size fr) (ff_block Q' (row_b Q')) low_b ->
+  proper_interval a low_b low_a (swap (upper r)) (swap (lower r)) -> (0 <? grain)%Z ->
+  size (series_z fam) = size (series_z fam') -> ordered low high -> between mu low high ->
+  (forall t (x : nat -> R) i, i \in fr ->
+     reaction (swap_pencil Q') t x i = reaction (swap_pencil Q) t x i) ->
+  (0 <? (upper r).2)%Z ->
+  check_presence_piece
+    (mixed low
+      (local_pencil (size (slip Q)) a low_b low_a fam (swap (upper r)) (swap (lower r)) false grain)
+      (local_pencil (size (slip Q)) (friction_anchor a other) low_b low_a fam' (swap (upper r))
+         (swap (lower r)) false grain))
+    (mixed high
+      (local_pencil (size (slip Q)) a low_b low_a fam (swap (upper r)) (swap (lower r)) false grain)
+      (local_pencil (size (slip Q)) (friction_anchor a other) low_b low_a fam' (swap (upper r))
+         (swap (lower r)) false grain)) (local_region r) v ->
+  exists t x, [/\ 0 < t, exists2 i, i \in iota 0 n & x i != 0,
+    forall i, i \in fr -> reaction Q t x i = 0 &
+    forall i, i \in slip Q ->
+      let y := reaction Q t x i + mu * reaction Q' t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]].
+Proof.
+move=> wf ex0 ex1 ba bb ba' bb' proper grain0 same_size Om bm same_swapped hi2 ok.
+have [t [x [[lo_t _] nonzero rows signs]]] :=
+  @piece_present R n fr rb ra rb' ra' a other fam fam' low_b low_a grain (swap_region r) low high
+    mu wf ex0 ex1 bb ba bb' ba' proper grain0 same_size Om bm same_swapped v ok.
+have [_ l2 _ _ _] := proper_parts R proper.
+have t_gt0 : 0 < t.
+  have h2 : 0 < toR (upper r).2 :> R by rewrite toR_gt0.
+  by rewrite -(pmulr_lgt0 _ l2); apply: lt_le_trans h2 _.
+have tn0 := lt0r_neq0 t_gt0; have ti : t^-1 != 0 by rewrite invr_eq0.
+have back (S : pencil) i : reaction (swap_pencil S) t x i = t * reaction S t^-1 x i.
+  by rewrite -[in LHS](invrK t) swap_reaction // invrK.
+exists t^-1, x; split=> //; first by rewrite invr_gt0.
+  by move=> i Hi; have := rows i Hi; rewrite (back Q) => /eqP; rewrite mulf_eq0 (negbTE tn0) => /eqP.
+move=> i Hi y; have [x0 y0 xy] := signs i Hi.
+have yE : reaction (swap_pencil Q) t x i + mu * reaction (swap_pencil Q') t x i = t * y.
+  rewrite (back Q) (back Q') /y.
+  by move: (reaction Q t^-1 x i) (reaction Q' t^-1 x i) => *; ring.
+move: y0 xy; rewrite yE pmulr_rge0 // => y0 xy; split=> //.
+by apply: (mulfI tn0); rewrite mulr0 mulrCA.
+Qed.
+
+Section Sound.
+
+Variables (R : rcfType) (s : system).
+Hypothesis wf : system_wellformed s (Lambda2 0 1).
+Notation nf := (free_number s).
+Notation Q0 := (part_plain s).
+Notation Q1 := (part_friction s).
+
+Lemma free_reaction_at e t (x : nat -> R) k : (k < nf)%N ->
+  reaction (pencil_at s e) t x k = force s t (motion s x) (nth 0%N (free_dofs s) k).
+Proof.
+move=> lt_k; rewrite reactionE forceE.
+rewrite /row_a /row_b /= !nth_cat !size_map lt_k !(nth_map 0%N) //.
+by rewrite (k_product_columns wf) (m_product_columns wf).
+Qed.
+
+Lemma free_variable_at i : (i \in free Q0) = (i < nf)%N.
+Proof. by rewrite mem_iota. Qed.
+
+Lemma motion_of_pencil t mu (x : nat -> R) :
+  (exists2 i, i \in iota 0 (order Q0) & x i != 0) ->
+  (forall i, i \in free Q0 -> reaction Q0 t x i = 0) ->
+  (forall i, i \in slip Q0 ->
+     let y := reaction Q0 t x i + mu * reaction Q1 t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]) ->
+  conditions_9 s t mu (motion s x).
+Proof.
+move=> nonzero rows signs.
+have l2 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 _ wf).
+split; first exact/(motion_nonzero wf).
+- by move=> d _; apply: motion_zero.
+- move=> d /(nthP 0%N)[k lt_k <-]; rewrite -(free_reaction_at (0, 1)%Z) //.
+  by apply: rows; rewrite free_variable_at.
+move=> j lt_j p; have [x0 + +] := signs _ (slip_variable_in (Lambda2 0 1) lt_j).
+have -> : reaction Q0 t x (nf + j)%N + mu * reaction Q1 t x (nf + j)%N =
+    - cone s t mu (motion s x) p.
+  rewrite !(slip_row_at wf) //= toR0 toR1 /cone -/p /plain_row /friction_row -/p.
+  by move: (along _ _ _) (along _ _ _) (toR (sign_of p)) => *; ring.
+rewrite oppr_ge0 => y0 xy; split=> //.
+- exact: (normal_motion wf).
+- by rewrite (slip_motion wf) // oppr_le0 pmulr_rge0.
+rewrite (slip_motion wf) //; apply/eqP; rewrite -oppr_eq0; apply/eqP.
+rewrite -(mulr0 (- toR (unit_length s) ^+ 2)) -xy.
+by move: (cone _ _ _ _ _) (x _) (toR _) => *; ring.
+Qed.
+
+Lemma same_free_rows i : (i < nf)%N ->
+  row_a Q1 i = row_a Q0 i /\ row_b Q1 i = row_b Q0 i.
+Proof.
+by move=> lt_i; rewrite /row_a /row_b /= !nth_cat !size_map lt_i.
+Qed.
+
+Lemma same_free_reactions t (x : nat -> R) i : i \in free Q0 ->
+  reaction Q1 t x i = reaction Q0 t x i.
+Proof.
+rewrite free_variable_at => lt_i; have [ea eb] := same_free_rows lt_i.
+by rewrite /reaction; apply: sum_eq => j _; rewrite /a_entry /b_entry ea eb.
+Qed.
+
+Lemma same_swapped_reactions t (x : nat -> R) i : i \in free Q0 ->
+  reaction (swap_pencil Q1) t x i = reaction (swap_pencil Q0) t x i.
+Proof.
+rewrite free_variable_at => lt_i; have [ea eb] := same_free_rows lt_i.
+rewrite /row_a /row_b in ea eb.
+by rewrite /reaction; apply: sum_eq => j _; rewrite /a_entry /b_entry /row_a /row_b /= ea eb.
+Qed.
+
+Variable w : box_anchoring.
+Hypothesis bounds : both_bounded s w.
+
+Notation wfQ := (pencil_wellformed s (0, 1)%Z).
+
+Lemma piece_motion low (mu : R) p : check_piece s w (box_expansions s w) low p ->
+  between mu low (piece_end p) -> exists t v, 0 <= t /\ conditions_9 s t mu v.
+Proof.
+case/andP=> Om + bm; have /and4P[ba0 bb0 ba1 bb1] := bounds.
+case fams_n: (nth None (box_expansions s w) (piece_anchor p)) => [fams|//].
+have lt_n : (piece_anchor p < size (box_anchors w))%N.
+  by rewrite ltnNge; apply/negP => l; rewrite nth_default ?size_map in fams_n.
+move: fams_n; rewrite (nth_map no_box_anchor) //.
+case: (nth no_box_anchor (box_anchors w) (piece_anchor p)) => reverse a other.
+rewrite /expand_box /=.
+case ex0: (expand_part Q0 reverse a) => [fam|//].
+case ex1: (expand_part Q1 reverse (friction_anchor a other)) => [fam'|//] [<-].
+case: reverse ex0 ex1 => ex0 ex1; last first.
+  rewrite /check_present /local_part -size_slip => /and4P[/= proper grain0 /eqP same_size ok].
+  have [t [x [[lo_t _] nonzero rows signs]]] := piece_present wfQ ex0 ex1 ba0 bb0 ba1 bb1 proper
+    grain0 same_size Om bm same_free_reactions ok.
+  exists t, (motion s x); split; last exact: motion_of_pencil.
+  have [l1 l2 _ _ _] := proper_parts R proper.
+  by rewrite -(pmulr_lge0 _ l2); apply: le_trans lo_t.
+rewrite /check_present /local_part -size_slip => /andP[hi2].
+case/and4P=> /= proper grain0 /eqP same_size ok.
+have [t [x [t_gt0 nonzero rows signs]]] := piece_present_reversed wfQ ex0 ex1 ba0 bb0 ba1 bb1
+  proper grain0 same_size Om bm same_swapped_reactions hi2 ok.
+by exists t, (motion s x); split; [exact: ltW | exact: motion_of_pencil].
+Qed.
+
+Lemma pieces_motion pieces low bound (mu : R) : (0 <? bound.2)%Z ->
+  check_pieces s w (box_expansions s w) low pieces bound -> between mu low bound ->
+  exists t v, 0 <= t /\ conditions_9 s t mu v.
+Proof.
+move=> b2; have {}b2 : 0 < toR bound.2 :> R by rewrite toR_gt0.
+elim: pieces low => [//|p rest IH] low ok [low_mu mu_bound].
+have [checked|rest_ok] : check_piece s w (box_expansions s w) low p /\
+    (mu * toR (piece_end p).2 <= toR (piece_end p).1) \/
+    check_pieces s w (box_expansions s w) (piece_end p) rest bound /\
+    toR (piece_end p).1 <= mu * toR (piece_end p).2.
+- move: ok; case: rest {IH} => [/andP[one le]|q rest /andP[one others]]; last first.
+    by case: (lerP (mu * toR (piece_end p).2) (toR (piece_end p).1)) => le; [left | right];
+       split=> //; apply: ltW.
+  left; split=> //; rewrite -(ler_pmul2r b2) mulrAC.
+  have e2 : 0 <= toR (piece_end p).2 :> R.
+    by case/andP: one => o _; have [] := ordered_ge0 R o.
+  apply: (@le_trans _ _ (toR bound.1 * toR (piece_end p).2)); first exact: ler_wpmul2r.
+  by rewrite -!toRM toR_le.
+- by have [one le] := checked; apply: (piece_motion one).
+by have [others le] := rest_ok; apply: (IH _ others).
+Qed.
+
+End Sound.
+
+Theorem presence_sound (R : rcfType) s w pieces from bound :
+  check_presence s w pieces from bound ->
+  forall mu : R, between mu from bound -> exists t v, 0 <= t /\ conditions_9 s t mu v.
+Proof. by case/and4P=> wf bounds b2 ok mu; apply: pieces_motion ok. Qed.
