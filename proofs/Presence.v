@@ -63,7 +63,8 @@ Definition check_presence_piece :=
   [&& all (rows_at P P' r l (presence_box w)) four_corners,
       all (fun j => nth 0%Z (regular_widths (presence_box w)) j <?
                     nth 0%Z (regular_right (presence_box w)) j.+1)%Z (iota 0 m),
-      all (fun i => is_moving (state_of r i) || all (rest_row (presence_box w) i) four_corners) (indices P),
+      all (fun i => is_moving (state_of r i) ||
+                    all (rest_row (presence_box w) i) four_corners) (indices P),
       presence_edge (presence_start w) [:: 0; 2]%N &
       presence_edge (presence_finish w) [:: 1; 3]%N
       && (regular_minus (presence_start w) != regular_minus (presence_finish w))]].
@@ -132,7 +133,8 @@ Notation T c := (fun i j => matrix_at A B A' B' r c (nth 0%N l i) (nth 0%N l j))
 Notation xs := (fun j => x (nth 0%N l j)).
 
 Lemma corner_rows i : i \in indices P -> family_row t x i =
-  \sum_(c <- cs) weight c * (\sum_(j <- iota 0 m.+1) matrix_at A B A' B' r c i (nth 0%N l j) * xs j).
+  \sum_(c <- cs) weight c *
+    (\sum_(j <- iota 0 m.+1) matrix_at A B A' B' r c i (nth 0%N l j) * xs j).
 Proof.
 move=> Hi; rewrite -(row_of_corners xs _ _ _ ws) -size_order.
 rewrite -(sum_order pivot_moving (fun j => mixed_at A B A' B' t f g i j * x j)).
@@ -186,7 +188,8 @@ rewrite mulr_ge0 ?w0 //; have := rest c Hc; rewrite /rest_row -(@toR_le R).
 set p := map _ l; set q := map _ l => le.
 have nearp j : j \in iota 0 m.+1 ->
     `|matrix_at A B A' B' r c i (nth 0%N l j) - toR (nth 0%Z p j)| <= toR (nth 0%Z q j).
-  rewrite mem_iota add0n => /= lt_j; have Hj := order_indices pivot_moving (mem_nth 0%N (lt_j : (j < size l)%N)).
+  rewrite mem_iota add0n => /= lt_j; have in_l : nth 0%N l j \in l by apply: mem_nth.
+  have Hj := order_indices pivot_moving in_l.
   have [p0 q0 p0' q0'] := ordered_ge0 R O.
   have e1 : 0 <= toR (corner_end r c).1 :> R by rewrite /corner_end; case: odd.
   have e2 : 0 <= toR (corner_end r c).2 :> R by rewrite /corner_end; case: odd.

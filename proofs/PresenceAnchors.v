@@ -1,16 +1,16 @@
 (* A solution at every friction of an interval, for mechanical systems.
 
    The checker gets a system, an interval [from, bound] of mu, the bounds and anchors of
-   CriticalAnchors.v, and a list of pieces.  The first piece begins at from, each later one where the
-   one before ends, and the last one ends at bound or beyond.  A piece has an interval of t, the
+   CriticalAnchors.v, and a list of pieces.  The first piece begins at from, each later one where
+   the one before ends, and the last one ends at bound or beyond.  A piece has an interval of t, the
    number of an anchor, the grain of the local pencils, a state for each slip particle and a witness
    of Presence.v for both ends of its interval of mu.
 
    Theorem [presence_sound]: if the check succeeds, then for every mu in [from, bound] there are a
    t >= 0 and a motion that satisfies the conditions (9) with lambda^2 = t and mu.
 
-   The condensed matrix of both parts is T0(u) + mu T1(u), where u is the position in the interval of
-   t; det F times it has polynomials in u as entries (AnchorLeaf.v).  Without free variables F is
+   The condensed matrix of both parts is T0(u) + mu T1(u), where u is the position in the interval
+   of t; det F times it has polynomials in u as entries (AnchorLeaf.v).  Without free variables F is
    empty and the anchor has no matrices.
 
    Page: spec/certificates.md, 5.19.  Rust: crates/check/src/presence.rs, cover/presence.rs. *)
@@ -270,7 +270,8 @@ have tn0 := lt0r_neq0 t_gt0; have ti : t^-1 != 0 by rewrite invr_eq0.
 have back (S : pencil) i : reaction (swap_pencil S) t x i = t * reaction S t^-1 x i.
   by rewrite -[in LHS](invrK t) swap_reaction // invrK.
 exists t^-1, x; split=> //; first by rewrite invr_gt0.
-  by move=> i Hi; have := rows i Hi; rewrite (back Q) => /eqP; rewrite mulf_eq0 (negbTE tn0) => /eqP.
+  move=> i Hi; have := rows i Hi; rewrite (back Q) => /eqP.
+  by rewrite mulf_eq0 (negbTE tn0) => /eqP.
 move=> i Hi y; have [x0 y0 xy] := signs i Hi.
 have yE : reaction (swap_pencil Q) t x i + mu * reaction (swap_pencil Q') t x i = t * y.
   rewrite (back Q) (back Q') /y.

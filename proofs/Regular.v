@@ -15,9 +15,9 @@
         |U' M_c|_j e_j, radii included.
 
    Let x_k = a V_k with a >= 0, and let the rows K of T x vanish.  Then |x_j - a V_j| <= a e_j
-   ([near_null]); for a = 0 this says that T is regular on K.  If a > 0, then s U' T_c x > 0 for each
-   corner ([sign_at_corner]).  For a null vector the combination of the T_c x is 0.  So there is none
-   ([no_null_vector]), and the box has no solution ([box_regular_sound]).
+   ([near_null]); for a = 0 this says that T is regular on K.  If a > 0, then s U' T_c x > 0 for
+   each corner ([sign_at_corner]).  For a null vector the combination of the T_c x is 0.  So there
+   is none ([no_null_vector]), and the box has no solution ([box_regular_sound]).
 
    Each corner has a unit of its own, so the ends of the interval need no common denominator and one
    of them may be at infinity.  The page has one number epsilon in place of the e_j, and asks that
@@ -268,7 +268,8 @@ rewrite -ler_pdivr_mulr ?e_gt0 // -[eps l](gtr0_norm (e_gt0 l lK)) -normf_div; m
 apply: (contraction (x := fun l => z l / eps l) total_gt0) => b lt_b z_le' i iK.
 have lt_i : (i < m)%N by move: iK; rewrite mem_iota.
 have z_le l : l \in K -> `|z l| <= b * eps l.
-  by move=> lK; have := z_le' l lK; rewrite normf_div (gtr0_norm (e_gt0 l lK)) ler_pdivr_mulr ?e_gt0.
+  move=> lK; have := z_le' l lK.
+  by rewrite normf_div (gtr0_norm (e_gt0 l lK)) ler_pdivr_mulr ?e_gt0.
 rewrite normf_div (gtr0_norm (e_gt0 i iK)) mulrA ltr_pdivr_mulr ?e_gt0 //.
 
 pose f c := toR (unit_at c) * z i - \sum_(l <- K) Y i l * row_at_corner c l.+1.
@@ -291,7 +292,8 @@ Lemma row_slack_sound (G : nat -> R) (p r : seq Z) :
   (forall j, j \in J -> `|G j - toR (nth 0%Z p j)| <= toR (nth 0%Z r j)) ->
   `|\sum_(j <- J) G j * x j - a * toR (against_right m w p)| <= a * toR (row_slack m w p r).
 Proof.
-move=> nearG; rewrite row_of_null addrAC -mulrBr /row_slack [toR (_ + _)%Z]toRD [a * (_ + toR (off_pivot _ _ _ _ _ _))]mulrDr.
+move=> nearG; rewrite row_of_null addrAC -mulrBr /row_slack [toR (_ + _)%Z]toRD.
+rewrite [a * (_ + toR (off_pivot _ _ _ _ _ _))]mulrDr.
 apply: le_trans (ler_norm_add _ _) _; apply: ler_add.
   rewrite normrM ger0_norm // ler_wpmul2l // /against_right /against_radius !toR_sum -sumrB.
   apply: le_trans (sum_norm _ _) _; apply: sum_le => j Hj.
@@ -557,7 +559,8 @@ have [weight [weight0 weight_gt0 mixedE]] := box_weights A B A' B' O W a0 b0 ab.
 have corner_row i : (i < size l)%N -> \sum_(c <- four_corners) weight c *
     (\sum_(j <- iota 0 (size l)) matrix_at A B A' B' r c (nth 0%N l i) (nth 0%N l j) *
        x (nth 0%N l j)) = 0.
-  move=> lt_i; rewrite -(row_of_corners (fun j => x (nth 0%N l j)) _ _ _ (And3 weight0 weight_gt0 mixedE)).
+  move=> lt_i; have ws := And3 weight0 weight_gt0 mixedE.
+  rewrite -(row_of_corners (fun j => x (nth 0%N l j)) _ _ _ ws).
   by apply/moving_row/(order_moving k_J)/mem_nth.
 have V0 : 0 < toR (nth 0%Z (regular_right w) 0) :> R by rewrite toR_gt0.
 have x0 : 0 < x k.
@@ -566,7 +569,8 @@ have x0 : 0 < x k.
 refine (@no_null_vector R (size l).-1 w four_corners (corner_center P P' r l)
   (corner_radius P P' r l) (fun c => nth 0%Z (regular_units w) c)
   (fun c i j => matrix_at A B A' B' r c (nth 0%N l i) (nth 0%N l j)) weight
-  (fun j => x (nth 0%N l j)) _ _ _ weight0 weight_gt0 _ (x k / toR (nth 0%Z (regular_right w) 0)) _ _ _ _ _).
+  (fun j => x (nth 0%N l j)) _ _ _ weight0 weight_gt0 _
+  (x k / toR (nth 0%Z (regular_right w) 0)) _ _ _ _ _).
 - by move=> c _; rewrite !size_restricted.
 - move=> c i j _ lt_i lt_j; apply: corner_near => // j'; exact: order_indices.
 - by move=> c /corners/andP[].

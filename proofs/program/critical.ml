@@ -1,8 +1,8 @@
 (* The elaborator of mceip-critical/1: from its trees of boxes to that of the kernel. Untrusted.
 
    The factors of definite leaves are computed as those of other certificates (elaborate.ml), for
-   the pencils at both ends of the interval of mu.  The inverse and the vectors of a regular leaf are
-   computed anew, from the mean of the corners: the rows of the kernel's matrices have factors of
+   the pencils at both ends of the interval of mu.  The inverse and the vectors of a regular leaf
+   are computed anew, from the mean of the corners: the rows of the kernel's matrices have factors of
    their own. *)
 
 open Certificate
@@ -116,8 +116,12 @@ let with_widths m corners (w : Kernel.regular) =
       Z.succ (Z.fdiv (Q.num exact) (Q.den exact)) in
     Some { w with regular_widths = List.map width w.regular_widths }
 
-(* A corner is given by its number and its matrices over the order of the kernel, the pivot first. *)
-type places = { order : int list; units : Z.t list; corners : (int * (Kernel.matrix * Kernel.matrix)) list }
+(* A corner is given by its number and its matrices over the order of the kernel, where the pivot is
+   the first. *)
+type places = {
+  order : int list;
+  units : Z.t list;
+  corners : (int * (Kernel.matrix * Kernel.matrix)) list }
 
 let places_of parts k region box =
   let moving = Obj.magic (Kernel.moving (fst parts) region) in
@@ -129,7 +133,8 @@ let places_of parts k region box =
     let matrices n c =
       n, (Kernel.restricted order (Kernel.center c.enclosed c.end_of_t),
           Kernel.restricted order (Kernel.radius c.enclosed c.end_of_t)) in
-    Some { order; units = List.map (fun c -> c.times) corners; corners = List.mapi matrices corners }
+    let units = List.map (fun c -> c.times) corners in
+    Some { order; units; corners = List.mapi matrices corners }
   end
 
 (* The matrix of a corner in doubles. *)
@@ -138,7 +143,7 @@ let doubles_at places (n, (center, _)) =
   let value z = Q.to_float (Q.make z times) in
   Array.of_list (List.map (fun row -> Array.of_list (List.map value row)) center)
 
-(* The witness for some corners by the inverse and the null vectors of s, a matrix over the order. *)
+(* The witness for some corners by the inverse and the null vectors of s, over the order. *)
 let regular_by places weights corners s =
   let m = List.length places.order - 1 in
   let block = Array.map (fun row -> Array.sub row 1 m) (Array.sub s 1 m) in
@@ -210,7 +215,9 @@ type anchored = {
   numbers : (int * int) list }
 
 let needs_anchor piece =
-  List.exists (function BoxFarkas _ | BoxDefinite _ | BoxRegular _ -> true | _ -> false) piece.box_tree
+  List.exists (function
+      | BoxFarkas _ | BoxDefinite _ | BoxRegular _ -> true
+      | CutValue _ | CutFriction _ | Decide _ | BoxTail -> false) piece.box_tree
 
 (* An anchor with both left sides in one unit, and of one length. *)
 let box_anchor c plain friction slip (a : anchor) left_friction =
@@ -447,7 +454,8 @@ let build c leaf pieces =
     | piece :: rest ->
       if (piece.box_max = None) <> (rest = []) then no_witness "pieces that end before infinity";
       let upper = upper_point piece.box_max in
-      let box = { region = { Kernel.lower; upper; states = [] }; low = c.mu_low; high = c.mu_high } in
+      let region = { Kernel.lower; upper; states = [] } in
+      let box = { region; low = c.mu_low; high = c.mu_high } in
       let tree = build_piece c (leaf piece) piece.box_tree box in
       if rest = [] then tree else Kernel.CutValue (upper, tree, join upper rest) in
   join Kernel.zero pieces
