@@ -25,10 +25,14 @@ use mceip_check::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail
 use mceip_exact::{Integer, Rational, Sparse, to_f64};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
+use num_traits::ToPrimitive;
 
 /// Share of an estimated lower bound of a spectrum that is claimed; the rest is slack for rounding.
 const CLAIMED: f64 = 0.8;
 const SLACK: f64 = 0.2;
+
+/// An integer in units of 2^-this, or of a larger power of two, is a normal double.
+const MAX_EXACT_EXPONENT: u32 = 1_000;
 
 /// Bits of the centre of an anchor about a solution, whose own anchor is to be precise there.
 const BITS_OF_FINE_CENTER: i32 = 20;
@@ -438,15 +442,26 @@ fn expansion_of(elimination: &Elimination<'_>, anchor: &Anchor) -> Expansion {
 
 /// The columns of a rounded matrix, in doubles.
 fn columns_of(matrix: &IntegerMatrix, width: usize) -> Columns {
-    let unit = Integer::from(1) << matrix.exponent;
-    let mut columns = Columns::new();
-    for j in 0..width {
-        let column = matrix
-            .rows
-            .iter()
-            .map(|row| to_f64(&Rational::new(row.at(j).into_owned(), unit.clone())));
-        columns.push(column.collect());
+    let mut columns = vec![Vec::with_capacity(matrix.rows.len()); width];
+    for row in &matrix.rows {
+        for (column, entry) in columns.iter_mut().zip(row.iter()) {
+            column.push(nearest_double(&entry, matrix.exponent));
+        }
     }
 
     columns
+}
+
+/// The double nearest to entry 2^-exponent.
+fn nearest_double(entry: &Integer, exponent: u32) -> f64 {
+    match entry.to_i64() {
+        // Rounded once: the power of two is exact.
+        Some(short) if exponent <= MAX_EXACT_EXPONENT => {
+            short as f64 * f64::from(exponent).exp2().recip()
+        }
+        _ => to_f64(&Rational::new_raw(
+            entry.clone(),
+            Integer::from(1) << exponent,
+        )),
+    }
 }
