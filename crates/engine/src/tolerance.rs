@@ -101,9 +101,9 @@ pub const GAME_SHIFT: f64 = 1e-3;
 /// below 1e3.
 pub const ROOT_HALF_WIDTHS: [f64; 5] = [1e-13, 1e-12, 1e-11, 1e-9, 1e-7];
 
-/// Part of |I - Y T'| < 1 and of P epsilon that a regular leaf of the search keeps in reserve. Unit:
-/// relative. Basis: a thousand times what doubles lose of sums of a few hundred terms, and far below
-/// what a box is cut by.
+/// Part of |I - Y T'| < 1 and of P epsilon that a regular leaf of the search keeps in reserve.
+/// Unit: relative. Basis: a thousand times what doubles lose of sums of a few hundred terms, and
+/// far below what a box is cut by.
 pub const REGULAR_MARGIN: f64 = 1e-9;
 
 /// Rounding of one sum of a few terms in doubles. Unit: relative. Basis: a few times 2^-53.

@@ -7,12 +7,16 @@
 //! - a Farkas vector w has w'T < 0 in every column that may be in the support, and w_i >= 0 off the
 //!   support: then 0 <= w'y = w'T x < 0, or
 //! - the symmetric part of T on the variables that may be in the support is definite: then
-//!   0 = x'y = x'T x is not zero.
+//!   0 = x'y = x'T x is not zero, or
+//! - every variable is decided, and T on the support is regular in the whole box (`regular`).
 //!
-//! While both halves of v_T of a particle with zero reaction are open, neither can hold: they are
-//! decided first. Where neither holds, the game at the middle of the box decides what to do. If a
-//! Farkas vector works there, the box is halved in the direction in which that vector is lost; if
-//! none does, the variable whose complementarity the relaxed solution breaks most is decided. A box
+//! The first two are of first order in the size of the box, the last one is of second order: near a
+//! branch of solutions variables are decided before the box is halved often.
+//!
+//! While both halves of v_T of a particle with zero reaction are open, no leaf can hold: they are
+//! decided first. Where no leaf holds, the game at the middle of the box decides what to do. If a
+//! Farkas vector works there by enough, the box is halved in the direction in which that vector is
+//! lost; else the variable whose complementarity the relaxed solution breaks most is decided. A box
 //! in which all is decided is halved until it is empty, or so small that it seems to hold a
 //! solution.
 //!
@@ -41,8 +45,7 @@ const MAX_CUTS: usize = 24;
 
 /// Halvings in each direction that a Farkas vector may need before a variable is decided instead.
 /// It is a leaf of first order in the size of the box; decided boxes have leaves of second order.
-static MAX_CUTS_NEEDED: std::sync::LazyLock<f64> =
-    std::sync::LazyLock::new(|| std::env::var("MCN").map_or(2.0, |v| v.parse().unwrap()));
+const MAX_CUTS_NEEDED: f64 = 3.0;
 
 /// Halvings of a decided box before it counts as one that cannot be emptied.
 const MAX_CUTS_DECIDED: usize = 80;
@@ -85,8 +88,8 @@ pub(in crate::analysis) struct Blocked {
     pub(in crate::analysis) x: Vec<f64>,
 }
 
-/// The lines through the middle of a box: a value of lambda^2 with all of mu, and a value of mu with
-/// all of lambda^2.
+/// The lines through the middle of a box: a value of lambda^2 with all of mu, and a value of mu
+/// with all of lambda^2.
 struct Slices {
     of_friction: [Ends; 2],
     of_value: [Ends; 1],
@@ -202,7 +205,7 @@ impl Search<'_> {
 
         let is_worth_halving = middle.is_prunable
             && region.cuts < MAX_CUTS
-            && self.cuts_needed(&columns, &middle) <= *MAX_CUTS_NEEDED;
+            && cuts_needed(&columns, &middle) <= MAX_CUTS_NEEDED;
         if !is_decided && !is_worth_halving {
             return self.branch(region, ends, &middle, share);
         }
@@ -213,15 +216,6 @@ impl Search<'_> {
             None => self.is_lost_along_friction(&slices, &middle, region),
         };
         self.halve(region, ends, place, along_friction, share)
-    }
-
-    /// How often a box has to be halved in each direction until the witness of its middle holds at
-    /// its corners, if its margin falls in proportion to the width.
-    fn cuts_needed(&self, columns: &Columns, middle: &MiddleTest) -> f64 {
-        let w = &middle.game.w;
-        let margin = middle.columns.margin_of(w);
-        let loss = margin - columns.margin_of(w);
-        (loss / margin).log2()
     }
 
     /// The middle lines of a box.
@@ -329,6 +323,15 @@ impl Search<'_> {
 
         Ok(())
     }
+}
+
+/// How often a box has to be halved in each direction until the witness of its middle holds at its
+/// corners, if its margin falls in proportion to the width.
+fn cuts_needed(columns: &Columns, middle: &MiddleTest) -> f64 {
+    let w = &middle.game.w;
+    let margin = middle.columns.margin_of(w);
+    let loss = margin - columns.margin_of(w);
+    (loss / margin).log2()
 }
 
 /// Is a decided box beyond hope, and why?
