@@ -61,9 +61,14 @@ pub fn verdicts_on_list(checker: &VerifiedChecker, list: &Path) -> Vec<VerifiedV
 /// that it replaces by its own.
 pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec<String> {
     if let [line] = lines
-        && let Some(below) = absence_below(line)
+        && let Some(range) = absence_range(line)
     {
-        return absence_falsehoods(problem, certificate, &below);
+        return absence_falsehoods(problem, certificate, &range);
+    }
+    if let [line] = lines
+        && let Some(range) = presence_range(line)
+    {
+        return presence_falsehoods(problem, certificate, &range);
     }
 
     let Some(asked) = window_of(certificate) else {
@@ -83,23 +88,58 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
     }
 }
 
-/// b of "no solution for mu in [0, b] and lambda^2 in [0, infinity)".
-fn absence_below(line: &str) -> Option<Rational> {
-    let below = line.strip_prefix("no solution for mu in [0, ")?;
-    number(below.strip_suffix("] and lambda^2 in [0, infinity)")?)
+/// [a, b] of "no solution for mu in [a, b] and lambda^2 in [0, infinity)".
+fn absence_range(line: &str) -> Option<Interval> {
+    let range = line.strip_prefix("no solution for mu in ")?;
+    read_interval(range.strip_suffix(" and lambda^2 in [0, infinity)")?)
 }
 
-/// Values of lambda^2 at which the enumerator looks for solutions of every mu up to the bound.
+/// [a, b] of "for every mu in [a, b] a solution with lambda^2 >= 0".
+fn presence_range(line: &str) -> Option<Interval> {
+    let range = line.strip_prefix("for every mu in ")?;
+    read_interval(range.strip_suffix(" a solution with lambda^2 >= 0")?)
+}
+
+/// Values of lambda^2 at which the enumerator looks for solutions of every mu of the range.
 const LEVELS: [(i64, i64); 6] = [(0, 1), (1, 7), (1, 1), (5, 2), (9, 1), (100, 1)];
 
-/// Parts of the bound at which it looks for solutions of every lambda^2.
-const PARTS: [(i64, i64); 3] = [(1, 9), (2, 3), (1, 1)];
+/// Parts of the range at which it looks for solutions of every lambda^2.
+const PARTS: [(i64, i64); 4] = [(0, 1), (1, 9), (2, 3), (1, 1)];
 
-/// What the enumerator finds below a friction under which there is said to be nothing.
-fn absence_falsehoods(problem: &Problem, certificate: &str, below: &Rational) -> Vec<String> {
+/// Whether the range of the sentence is that of the file, whose ends have these names; the lower
+/// one is 0 where it is absent.
+fn wrong_range(certificate: &str, names: [&str; 2], range: &Interval) -> Option<String> {
     let file: serde_json::Value = serde_json::from_str(certificate).unwrap();
-    if spelt(&file["below"]).as_ref() != Some(below) {
-        return vec![format!("about {below} in place of {}", file["below"])];
+    let from = match &file[names[0]] {
+        serde_json::Value::Null => Some(rational(0, 1)),
+        value => spelt(value),
+    };
+    let to = spelt(&file[names[1]]);
+    let is_same = from.as_ref() == Some(range.lo()) && to.as_ref() == Some(range.hi());
+    (!is_same).then(|| format!("about {range:?} in place of {from:?} to {to:?}"))
+}
+
+/// Is there a solution at a value of mu?
+fn has_solution_at(system: &System, mu: &Rational) -> bool {
+    let stiffness = system.stiffness().clone();
+    let mass = system.mass().cloned();
+    let particles = without_reactions(system);
+    let at_mu = System::new(stiffness, mass, Some(mu.clone()), particles).unwrap();
+    has_solution(at_mu, Unknown::Lambda2, Window::all())
+}
+
+/// Values of the range. Not 0, which is no friction of a system.
+fn samples(range: &Interval) -> Vec<Rational> {
+    let width = range.hi() - range.lo();
+    let at = |(n, d): &(i64, i64)| range.lo() + &(&width * rational(*n, *d));
+    let none = rational(0, 1);
+    PARTS.iter().map(at).filter(|mu| *mu != none).collect()
+}
+
+/// What the enumerator finds in a range of friction in which there is said to be nothing.
+fn absence_falsehoods(problem: &Problem, certificate: &str, range: &Interval) -> Vec<String> {
+    if let Some(wrong) = wrong_range(certificate, ["from", "below"], range) {
+        return vec![wrong];
     }
     let Body::System(system) = problem.body() else {
         return vec!["about a pencil".into()];
@@ -113,20 +153,34 @@ fn absence_falsehoods(problem: &Problem, certificate: &str, below: &Rational) ->
         let level = rational(numerator, denominator);
         let stiffness = system.stiffness().add_scaled(&level, mass);
         let at_level = System::new(stiffness, None, None, without_reactions(system)).unwrap();
-        let window = Window::new(rational(0, 1), Some(below.clone())).unwrap();
+        let window = Window::new(range.lo().clone(), Some(range.hi().clone())).unwrap();
         if has_solution(at_level, Unknown::Mu, window) {
             wrong.push(format!("there is a solution at lambda^2 = {level}"));
         }
     }
 
-    for (numerator, denominator) in PARTS {
-        let mu = below * rational(numerator, denominator);
-        let stiffness = system.stiffness().clone();
-        let mass = Some(mass.clone());
-        let particles = without_reactions(system);
-        let at_mu = System::new(stiffness, mass, Some(mu.clone()), particles).unwrap();
-        if has_solution(at_mu, Unknown::Lambda2, Window::all()) {
+    for mu in samples(range) {
+        if has_solution_at(system, &mu) {
             wrong.push(format!("there is a solution at mu = {mu}"));
+        }
+    }
+
+    wrong
+}
+
+/// Where the enumerator finds nothing in a range in which there is said to be a solution.
+fn presence_falsehoods(problem: &Problem, certificate: &str, range: &Interval) -> Vec<String> {
+    if let Some(wrong) = wrong_range(certificate, ["from", "to"], range) {
+        return vec![wrong];
+    }
+    let Body::System(system) = problem.body() else {
+        return vec!["about a pencil".into()];
+    };
+
+    let mut wrong = Vec::new();
+    for mu in samples(range) {
+        if !has_solution_at(system, &mu) {
+            wrong.push(format!("there is no solution at mu = {mu}"));
         }
     }
 
@@ -513,18 +567,37 @@ fn sentences_are_read() {
 
 /// The mass point of chapter 5 has its critical friction at 1.
 #[test]
-fn a_false_bound_of_the_friction_is_found() {
+fn a_false_range_of_friction_is_found() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec/examples/certificates");
     let problem = read_problem_file(&folder.join("critical.problem.json")).unwrap();
-    let said = |below: &str| {
-        let line = format!("no solution for mu in [0, {below}] and lambda^2 in [0, infinity)");
-        let certificate = format!(r#"{{"below": "{below}"}}"#);
+    let absent = |from: &str, below: &str| {
+        let line = format!("no solution for mu in [{from}, {below}] and lambda^2 in [0, infinity)");
+        let certificate = format!(r#"{{"from": "{from}", "below": "{below}"}}"#);
         falsehoods(&problem, &certificate, &[line])
     };
 
-    assert_eq!(said("1/2"), Vec::<String>::new());
-    assert!(!said("9/8").is_empty());
+    assert_eq!(absent("0", "1/2"), Vec::<String>::new());
+    assert_eq!(absent("1/3", "1/2"), Vec::<String>::new());
+    assert!(!absent("0", "9/8").is_empty());
+    assert!(!absent("9/8", "5/4").is_empty());
 
     let line = "no solution for mu in [0, 1/2] and lambda^2 in [0, infinity)".to_string();
-    assert!(!falsehoods(&problem, r#"{"below": "1/3"}"#, &[line]).is_empty());
+    assert_eq!(
+        falsehoods(&problem, r#"{"below": "1/2"}"#, std::slice::from_ref(&line)),
+        Vec::<String>::new()
+    );
+    for other in [r#"{"below": "1/3"}"#, r#"{"from": "1/4", "below": "1/2"}"#] {
+        assert!(!falsehoods(&problem, other, std::slice::from_ref(&line)).is_empty());
+    }
+
+    let present = |from: &str, to: &str| {
+        let line = format!("for every mu in [{from}, {to}] a solution with lambda^2 >= 0");
+        let certificate = r#"{"from": "5/4", "to": "2"}"#;
+        falsehoods(&problem, certificate, &[line])
+    };
+    assert_eq!(present("5/4", "2"), Vec::<String>::new());
+    assert!(!present("1", "2").is_empty());
+
+    let line = "for every mu in [1/2, 2] a solution with lambda^2 >= 0".to_string();
+    assert!(!falsehoods(&problem, r#"{"from": "1/2", "to": "2"}"#, &[line]).is_empty());
 }
