@@ -67,6 +67,10 @@ pub const GAME_PIVOT: f64 = 1e-9;
 /// trees of random pencils do not change between 1e-6 and 1e-8.
 pub const WITNESS_MARGIN: f64 = 1e-7;
 
+/// Margin at which a game is no longer played for a larger one. Unit: as [`WITNESS_MARGIN`]. Basis:
+/// weights of 8 bits, the shortest, keep a margin of 1/256.
+pub const ENOUGH_MARGIN: f64 = 4e-3;
+
 /// Smallest pivot, relative to the largest entry, at which a symmetric part is offered as definite.
 /// Unit: none. Basis: the checker takes off order^2 2^-32 of the largest entry.
 pub const DEFINITE_PIVOT: f64 = 1e-6;

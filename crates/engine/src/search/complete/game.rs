@@ -12,11 +12,8 @@
 //! Called by the leaf `farkas` and by `analysis::absence`.
 
 use super::pieces::skyline::dot;
-use crate::tolerance::{GAME_PIVOT, GAME_SHIFT};
-
-/// Pivots at most, for each row and column. Under Dantzig's rule a degenerate game may stall: w is
-/// then worse than it could be and its value, computed from it afterwards, says so.
-const PIVOTS: usize = 20;
+use super::tableau::{Strategy, Tableau};
+use crate::tolerance::GAME_SHIFT;
 
 /// A solved game.
 pub(crate) struct Game {
@@ -26,18 +23,6 @@ pub(crate) struct Game {
     pub(crate) w: Vec<f64>,
     /// The column player's mix.
     pub(crate) mix: Vec<f64>,
-}
-
-/// A pure strategy of the row player: a row of T, times 1 or -1.
-struct Strategy {
-    row: usize,
-    sign: f64,
-}
-
-impl Strategy {
-    fn payoff(&self, column: &[f64]) -> f64 {
-        -self.sign * column[self.row]
-    }
 }
 
 /// Solves the game for `columns` of T; `either_sign[i]` says that w_i may be negative.
@@ -52,188 +37,24 @@ pub(crate) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
     }
 
     let mut strategies = Vec::with_capacity(2 * rows);
-    for row in 0..rows {
-        strategies.push(Strategy { row, sign: 1.0 });
+    for is_negative in [false, true] {
+        for row in (0..rows).filter(|&row| !is_negative || either_sign[row]) {
+            strategies.push(Strategy { row, is_negative });
+        }
     }
 
-    for row in (0..rows).filter(|&row| either_sign[row]) {
-        strategies.push(Strategy { row, sign: -1.0 });
-    }
-
-    let mut tableau = Tableau::new(&strategies, columns);
+    let shift = positive_shift(&strategies, columns);
+    let numbers: Vec<usize> = (0..columns.len()).collect();
+    let mut tableau = Tableau::new(&strategies, columns, &numbers, shift);
     tableau.optimise();
-    let solution = tableau.solution();
 
-    let mut w = vec![0.0; rows];
-    for (strategy, weight) in strategies.iter().zip(&solution.weights) {
-        w[strategy.row] += strategy.sign * weight.max(0.0) / solution.total;
-    }
-
+    let w = tableau.weights(rows);
     let value = columns
         .iter()
         .map(|column| -dot(column, &w))
         .fold(f64::INFINITY, f64::min);
-    let mix = solution.mix.iter().map(|q| q / solution.total).collect();
+    let mix = tableau.mix(columns.len());
     Game { value, w, mix }
-}
-
-/// The simplex tableau of the column player's problem.
-struct Tableau {
-    rows: usize,
-    cols: usize,
-    /// (rows + 1) x (cols + 1): right-hand sides last, objective below.
-    entries: Vec<f64>,
-    /// Labels of the variables: those of the columns first, then the slacks of the rows.
-    nonbasic: Vec<usize>,
-    basic: Vec<usize>,
-}
-
-/// Both players' weights before they are divided by their common sum.
-struct Solution {
-    weights: Vec<f64>,
-    mix: Vec<f64>,
-    total: f64,
-}
-
-impl Tableau {
-    fn new(strategies: &[Strategy], columns: &[Vec<f64>]) -> Tableau {
-        let rows = strategies.len();
-        let cols = columns.len();
-        let width = cols + 1;
-        let shift = positive_shift(strategies, columns);
-
-        let mut entries = vec![0.0; (rows + 1) * width];
-        for (r, strategy) in strategies.iter().enumerate() {
-            for (j, column) in columns.iter().enumerate() {
-                entries[r * width + j] = strategy.payoff(column) + shift;
-            }
-
-            entries[r * width + cols] = 1.0;
-        }
-
-        entries[rows * width..rows * width + cols].fill(-1.0);
-        Tableau {
-            rows,
-            cols,
-            entries,
-            nonbasic: (0..cols).collect(),
-            basic: (cols..cols + rows).collect(),
-        }
-    }
-
-    fn at(&self, row: usize, column: usize) -> f64 {
-        let width = self.cols + 1;
-        self.entries[row * width + column]
-    }
-
-    fn optimise(&mut self) {
-        for _ in 0..PIVOTS * (self.rows + self.cols) {
-            let Some(entering) = self.entering() else {
-                return;
-            };
-
-            let Some(leaving) = self.leaving(entering) else {
-                return;
-            };
-
-            self.pivot(leaving, entering);
-        }
-    }
-
-    /// The column with the most negative entry of the objective (Dantzig's rule).
-    fn entering(&self) -> Option<usize> {
-        let objective = &self.entries[self.rows * (self.cols + 1)..][..self.cols];
-        let (column, least) = objective
-            .iter()
-            .enumerate()
-            .min_by(|a, b| a.1.total_cmp(b.1))?;
-        (*least < -GAME_PIVOT).then_some(column)
-    }
-
-    /// The row with the least ratio of right-hand side and pivot; of equals the largest pivot.
-    fn leaving(&self, entering: usize) -> Option<usize> {
-        let mut best: Option<Candidate> = None;
-        for row in 0..self.rows {
-            let pivot = self.at(row, entering);
-            if pivot > GAME_PIVOT {
-                let candidate = Candidate {
-                    row,
-                    pivot,
-                    ratio: self.at(row, self.cols) / pivot,
-                };
-
-                if best.as_ref().is_none_or(|b| candidate.is_better_than(b)) {
-                    best = Some(candidate);
-                }
-            }
-        }
-
-        best.map(|candidate| candidate.row)
-    }
-
-    fn pivot(&mut self, leaving: usize, entering: usize) {
-        let width = self.cols + 1;
-        let inverse = 1.0 / self.at(leaving, entering);
-        let (before, rest) = self.entries.split_at_mut(leaving * width);
-        let (pivot_row, after) = rest.split_at_mut(width);
-        pivot_row.iter_mut().for_each(|v| *v *= inverse);
-        pivot_row[entering] = inverse;
-
-        let other_rows = before
-            .chunks_exact_mut(width)
-            .chain(after.chunks_exact_mut(width));
-        for row in other_rows {
-            let factor = row[entering];
-            if factor != 0.0 {
-                row[entering] = 0.0;
-                for (v, p) in row.iter_mut().zip(&*pivot_row) {
-                    *v -= factor * p;
-                }
-            }
-        }
-
-        std::mem::swap(&mut self.nonbasic[entering], &mut self.basic[leaving]);
-    }
-
-    fn solution(&self) -> Solution {
-        let mut weights = vec![0.0; self.rows];
-        for (j, &label) in self.nonbasic.iter().enumerate() {
-            if label >= self.cols {
-                weights[label - self.cols] = self.at(self.rows, j);
-            }
-        }
-
-        let mut mix = vec![0.0; self.cols];
-        for (row, &label) in self.basic.iter().enumerate() {
-            if label < self.cols {
-                mix[label] = self.at(row, self.cols);
-            }
-        }
-
-        let total = self.at(self.rows, self.cols);
-        Solution {
-            weights,
-            mix,
-            total: if total > 0.0 { total } else { 1.0 },
-        }
-    }
-}
-
-/// A row that may leave the basis.
-struct Candidate {
-    row: usize,
-    pivot: f64,
-    ratio: f64,
-}
-
-impl Candidate {
-    fn is_better_than(&self, other: &Candidate) -> bool {
-        if self.ratio == other.ratio {
-            self.pivot > other.pivot
-        } else {
-            self.ratio < other.ratio
-        }
-    }
 }
 
 /// What makes every payoff positive by a tenth of their range at least.

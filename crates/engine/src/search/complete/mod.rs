@@ -26,7 +26,9 @@
 mod accepted_x;
 mod audited;
 pub(crate) mod dyadic;
+mod ends_game;
 mod error;
+mod gains;
 pub(crate) mod game;
 mod given;
 pub(crate) mod leaf;
@@ -40,6 +42,7 @@ pub(crate) mod rounding;
 pub(crate) mod rounds;
 pub(crate) mod shares;
 mod splice;
+mod tableau;
 mod tree;
 
 pub use error::CompleteError;

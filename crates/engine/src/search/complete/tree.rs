@@ -14,6 +14,7 @@
 //! region, in preorder. Called by `splice`.
 
 use super::dyadic::short_near;
+use super::gains::Kept;
 use super::given::Given;
 use super::leaf::farkas::{self, Columns, MiddleTest};
 use super::leaf::root::{PartLeaf, RootSearch, Searched, part_around};
@@ -30,7 +31,7 @@ use mceip_model::file::Number;
 use std::rc::Rc;
 
 /// Cuts in a row before a variable is decided instead: on a finite and on an infinite interval.
-const MAX_CUTS: usize = 24;
+pub(super) const MAX_CUTS: usize = 24;
 const MAX_CUTS_TO_INFINITY: usize = 3;
 
 /// Cuts of a decided region before it stays open.
@@ -50,7 +51,7 @@ const WORTH_TWO_CUTS: f64 = 0.2;
 /// How far a cut may lie from where it should be: share of the part that the witness closes, and
 /// share of the interval that is halved.
 const SLACK_OF_PART: f64 = 0.05;
-const SLACK_OF_HALF: f64 = 0.1;
+pub(super) const SLACK_OF_HALF: f64 = 0.1;
 
 /// Undecided variables of a region that no matrices enclose, up to which it is taken support by
 /// support.
@@ -74,17 +75,21 @@ impl Search<'_> {
     /// Covers a region; what it finds is appended to the items. `share` is its part of the whole
     /// search.
     pub(super) fn region(&mut self, region: &Region, share: f64) {
+        let ends = self.ends_of(region);
+        self.node(region, &ends, None, share);
+    }
+
+    pub(super) fn ends_of(&self, region: &Region) -> Rc<Ends> {
         let lo = to_f64(&region.lo);
         let hi = match &region.hi {
             Some(hi) => to_f64(hi),
             None => f64::INFINITY,
         };
-        let ends = Rc::new(self.expansion.ends(lo, hi));
-        self.node(region, &ends, share);
+        Rc::new(self.expansion.ends(lo, hi))
     }
 
     /// Appends a leaf that closes `share` of the search, or leaves it open.
-    fn leaf(&mut self, node: Node, share: f64) {
+    pub(super) fn leaf(&mut self, node: Node, share: f64) {
         let has_solution = match &node {
             Node::Root(root) => {
                 matches!(root.outcome, RootOutcome::Solution | RootOutcome::Claim(_))
@@ -96,18 +101,25 @@ impl Search<'_> {
         self.shares.closed(share, has_solution);
     }
 
-    fn branch_on(&mut self, position: usize) {
+    pub(super) fn branch_on(&mut self, position: usize) {
         let node = Node::Branch(self.view.index[position]);
         self.items.push(Item::Node(node));
     }
 
-    fn split_at(&mut self, cut: &Rational) {
+    pub(super) fn split_at(&mut self, cut: &Rational) {
         let node = Node::Split(Number(cut.clone()));
         self.items.push(Item::Node(node));
     }
 
-    /// Covers a region whose ends are known: by a leaf, by cuts of the interval, or by a branch.
-    fn node(&mut self, region: &Region, ends: &Rc<Ends>, share: f64) {
+    /// Covers a region whose ends are known, and their game if it was kept: by a leaf, by cuts of
+    /// the interval, or by a branch.
+    pub(super) fn node(
+        &mut self,
+        region: &Region,
+        ends: &Rc<Ends>,
+        kept: Option<Kept>,
+        share: f64,
+    ) {
         if self.budget == 0 || self.shares.is_cancelled() {
             return self.leaf(Node::Open, share);
         }
@@ -115,6 +127,10 @@ impl Search<'_> {
         self.budget -= 1;
         if let Some(position) = self.view.undecided_half(&region.states) {
             return self.divide(position, region, ends, share);
+        }
+
+        if self.by_gains(region, ends, kept, share) {
+            return;
         }
 
         if let Some(leaf) = self.definite_leaf(region, ends) {
@@ -165,7 +181,7 @@ impl Search<'_> {
         }
     }
 
-    fn definite_leaf(&self, region: &Region, ends: &Ends) -> Option<Node> {
+    pub(super) fn definite_leaf(&self, region: &Region, ends: &Ends) -> Option<Node> {
         let by_doubles = definite::leaf(ends, &region.states);
         if by_doubles.is_some() || self.expansion.reversed {
             return by_doubles;
@@ -192,7 +208,7 @@ impl Search<'_> {
     }
 
     /// A value in the middle of the interval, in theta.
-    fn middle(&self, ends: &Ends) -> f64 {
+    pub(super) fn middle(&self, ends: &Ends) -> f64 {
         let first = self.view.theta(ends.lo);
         let last = self.view.theta(ends.hi);
         let theta = 0.5 * (first + last);
@@ -260,7 +276,7 @@ impl Search<'_> {
         for state in [State::AtZero, State::InSupport] {
             let mut child = self.view.part(region, position, state);
             child.cuts = 0;
-            self.node(&child, ends, 0.5 * share);
+            self.node(&child, ends, None, 0.5 * share);
         }
     }
 

@@ -225,7 +225,7 @@ impl Columns {
     }
 
     /// Rounds the weights to short integers that still prove what they are to prove.
-    fn rounded(&self, w: &[f64]) -> Option<Vec<i64>> {
+    pub(crate) fn rounded(&self, w: &[f64]) -> Option<Vec<i64>> {
         let largest = w.iter().fold(0.0f64, |s, v| s.max(v.abs()));
         if largest == 0.0 {
             return self.list.is_empty().then(|| vec![0; w.len()]);
