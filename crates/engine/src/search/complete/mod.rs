@@ -36,6 +36,7 @@ mod options;
 pub(crate) mod pieces;
 mod precise;
 pub(crate) mod region;
+pub(crate) mod rounding;
 pub(crate) mod rounds;
 pub(crate) mod shares;
 mod splice;

@@ -24,11 +24,12 @@
 use super::bounds::Approximation;
 use crate::search::complete::null_vector::NullVector;
 use crate::search::complete::pieces::expansion::{Ends, Expansion};
-use crate::search::complete::pieces::matrix::{Matrix, largest_entry};
+use crate::search::complete::pieces::matrix::Matrix;
 use crate::search::complete::region::{State, at_zero};
+use crate::search::complete::rounding::{exponent, integer, integers, rounded};
 use crate::tolerance::{ROOT_HALF_WIDTHS, ROUNDING};
 use mceip_check::certificate::{Root, RootOutcome};
-use mceip_exact::{Integer, Rational, from_f64, to_f64, truncated};
+use mceip_exact::{Integer, Rational, from_f64, to_f64};
 use mceip_mcp::linear::inverse;
 use mceip_model::file::Number;
 use num_traits::One;
@@ -289,32 +290,6 @@ fn scaled_without(list: &[f64], place: usize) -> Vec<f64> {
     scaled
 }
 
-/// Binary exponent that gives the largest entry about this many bits.
-fn exponent(matrix: &Matrix, bits: i32) -> u32 {
-    // Where the pivot is the whole support nothing is left to invert, and an empty Y needs no
-    // units.
-    if matrix.is_empty() {
-        return 0;
-    }
-
-    let largest = largest_entry(matrix).max(f64::MIN_POSITIVE);
-    u32::try_from(bits - largest.log2().ceil() as i32).unwrap_or(0)
-}
-
-fn rounded(matrix: &Matrix, unit: f64) -> Matrix {
-    matrix
-        .iter()
-        .map(|row| row.iter().map(|v| (v * unit).round() / unit).collect())
-        .collect()
-}
-
-fn integers(matrix: &Matrix, unit: f64) -> Vec<Vec<Integer>> {
-    matrix
-        .iter()
-        .map(|row| row.iter().map(|v| integer(v * unit)).collect())
-        .collect()
-}
-
 fn doubles(matrix: &[Vec<Integer>], bits: u32) -> Matrix {
     let unit = Integer::one() << bits;
     let mut doubles = Matrix::new();
@@ -326,11 +301,6 @@ fn doubles(matrix: &[Vec<Integer>], bits: u32) -> Matrix {
     }
 
     doubles
-}
-
-/// An integer from a double that holds one.
-fn integer(v: f64) -> Integer {
-    truncated(v.round()).unwrap_or_default()
 }
 
 #[cfg(test)]
