@@ -239,6 +239,22 @@ pub(crate) const NARROW_WINDOWS: [f64; 3] = [1e-9, 1e-11, 1e-6];
 /// help. Unit: of mu. Basis: what is aimed at for large bodies, 1e-5.
 pub const WIDE_CRITICAL_GAP: f64 = 1.1e-5;
 
+/// Part of the inequalities of a piece of presence that doubles keep in reserve. Unit: relative.
+/// Basis: a thousand times what doubles lose of sums of a few hundred terms.
+pub(crate) const PRESENCE_MARGIN: f64 = 1e-9;
+
+/// The shortest stretch of mu on which presence is proved, and the shortest that is left out where
+/// a support changes. Unit: of mu. Reason: each halving of it costs two pieces at every such place.
+pub(crate) const LEAST_STRETCH: f64 = 1e-6;
+
+/// How far above the smallest solution presence is tried to be proved. Unit: of mu. Basis: the gap
+/// that is aimed at for the critical mu is of this size.
+pub(crate) const PRESENCE_START: f64 = 1e-6;
+
+/// The shortest interval of presence that is worth a certificate. Unit: of mu. Reason: a file for
+/// each of them.
+pub(crate) const LEAST_INTERVAL: f64 = 1e-4;
+
 /// How far above the smallest solution the first sample of mu lies. Unit: of mu. Reason: nearer to
 /// the threshold a complete search takes longer and decides less; the critical mu itself is
 /// certified apart.

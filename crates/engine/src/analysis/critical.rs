@@ -122,6 +122,15 @@ pub(super) struct Start {
     pub(super) x: Vec<f64>,
 }
 
+/// The critical mu, and what presence above it starts from.
+pub(super) struct Found {
+    pub(super) critical: Critical,
+    /// The solution of smallest mu in doubles.
+    pub(super) start: Option<Start>,
+    /// Where condensation is to be precise.
+    pub(super) places: Vec<Place>,
+}
+
 /// What is known about a system before its critical mu is sought.
 pub(super) struct Known<'a> {
     pub(super) families: &'a Families,
@@ -158,6 +167,18 @@ impl Known<'_> {
             }),
         }
     }
+
+    /// The known solution in doubles that is nearest to a certified one.
+    fn start_of(&self, solution: &CertifiedSolution) -> Option<Start> {
+        let mu = to_f64(&solution.mu.mid());
+        let lambda2 = to_f64(&solution.lambda2.mid());
+        let distance = |start: &&Start| [(start.mu - mu).abs(), (start.lambda2 - lambda2).abs()];
+        let nearest = self.starts.iter().min_by(|p, q| {
+            let [p, q] = [distance(p), distance(q)];
+            p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
+        });
+        nearest.cloned()
+    }
 }
 
 /// Branches followed at most, those of smallest mu first.
@@ -179,19 +200,25 @@ pub(super) fn critical(
     model: &Model<'_>,
     known: &Known<'_>,
     proofs: &mut Vec<Proof>,
-) -> Result<Critical, AnalysisError> {
+) -> Result<Found, AnalysisError> {
     let solution = known.smallest_solution();
     let Some(excluded) = known.necessary.excluded_below() else {
-        return Ok(Critical {
+        let critical = Critical {
             absent_below: None,
             evidence: by_condition(known.families),
             solution: None,
             boxes: None,
             unproved: None,
+        };
+        return Ok(Found {
+            critical,
+            start: None,
+            places: Vec::new(),
         });
     };
 
     let mut bounds = Bounds {
+        start: solution.as_ref().and_then(|found| known.start_of(found)),
         solution,
         of_solution: None,
         absence: None,
@@ -218,12 +245,20 @@ pub(super) fn critical(
         search.close_from_below(&excluded, &mut bounds)?;
     }
 
-    Ok(bounds.into_critical(excluded, known, proofs))
+    let start = bounds.start.take();
+    let places = std::mem::take(&mut bounds.places);
+    Ok(Found {
+        critical: bounds.into_critical(excluded, known, proofs),
+        start,
+        places,
+    })
 }
 
 /// What is proved so far.
 struct Bounds {
     solution: Option<CertifiedSolution>,
+    /// The same in doubles.
+    start: Option<Start>,
     /// The proof of that solution, if it is none of those known before.
     of_solution: Option<Proof>,
     absence: Option<CriticalCertificate>,
@@ -393,6 +428,13 @@ impl Search<'_> {
             return Ok(false);
         };
 
+        let moved_to = to_f64(&lambda2);
+
+        bounds.start = Some(Start {
+            lambda2: moved_to,
+            mu: moved.mu,
+            x: moved.x,
+        });
         bounds.solution = Some(CertifiedSolution {
             mu: found.cover.solutions[0].value.clone(),
             lambda2: Interval::point(lambda2),

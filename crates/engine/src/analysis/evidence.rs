@@ -1,7 +1,7 @@
 //! What stands behind a sentence: certificates accepted by the checker, exact conditions,
 //! measurements.
 
-use mceip_check::certificate::{Certificate, CriticalCertificate};
+use mceip_check::certificate::{Certificate, CriticalCertificate, PresenceCertificate};
 use mceip_model::Problem;
 
 /// What stands behind a sentence.
@@ -34,6 +34,8 @@ pub enum ProofCertificate {
     Solutions(Certificate),
     /// No solution below a friction (`mceip-critical/1`).
     Absence(CriticalCertificate),
+    /// A solution for every friction of an interval (`mceip-presence/1`).
+    Presence(PresenceCertificate),
 }
 
 impl ProofCertificate {
@@ -42,6 +44,7 @@ impl ProofCertificate {
         match self {
             ProofCertificate::Solutions(certificate) => certificate.to_json(),
             ProofCertificate::Absence(certificate) => certificate.to_json(),
+            ProofCertificate::Presence(certificate) => certificate.to_json(),
         }
     }
 }

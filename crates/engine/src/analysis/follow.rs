@@ -360,7 +360,7 @@ impl End {
 }
 
 /// The Newton step for T x = 0, e'x = 1 in the unknowns (x, mu), with the derivative B x.
-fn newton_step(matrix: &[Vec<f64>], b_x: &[f64], x: &[f64]) -> Option<Vec<f64>> {
+pub(super) fn newton_step(matrix: &[Vec<f64>], b_x: &[f64], x: &[f64]) -> Option<Vec<f64>> {
     let mut rows = Vec::with_capacity(x.len() + 1);
     let mut negative_residual = Vec::with_capacity(x.len() + 1);
     for (row, b_x) in matrix.iter().zip(b_x) {
@@ -381,7 +381,7 @@ fn newton_step(matrix: &[Vec<f64>], b_x: &[f64], x: &[f64]) -> Option<Vec<f64>> 
 }
 
 /// A left null vector of a matrix that is singular up to rounding, by inverse iteration.
-fn left_null_vector(matrix: &[Vec<f64>]) -> Option<Vec<f64>> {
+pub(super) fn left_null_vector(matrix: &[Vec<f64>]) -> Option<Vec<f64>> {
     let order = matrix.len();
     let largest = matrix
         .iter()
@@ -403,7 +403,7 @@ fn left_null_vector(matrix: &[Vec<f64>]) -> Option<Vec<f64>> {
 }
 
 /// The position where x_i >= 0 on the support or y_i >= 0 off it is missed most.
-fn violated(matrix: &[Vec<f64>], x: &[f64], support: &[usize]) -> Option<usize> {
+pub(super) fn violated(matrix: &[Vec<f64>], x: &[f64], support: &[usize]) -> Option<usize> {
     let mut worst = -SIGN_NOISE;
     let mut position = None;
     for (i, row) in matrix.iter().enumerate() {
@@ -424,7 +424,7 @@ fn violated(matrix: &[Vec<f64>], x: &[f64], support: &[usize]) -> Option<usize> 
 }
 
 /// A support with one position put in or taken out.
-fn toggled(support: &[usize], position: usize) -> Vec<usize> {
+pub(super) fn toggled(support: &[usize], position: usize) -> Vec<usize> {
     let mut other: Vec<usize> = support.iter().copied().filter(|&i| i != position).collect();
     if other.len() == support.len() {
         other.push(position);

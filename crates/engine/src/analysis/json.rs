@@ -90,15 +90,6 @@ fn sample(sample: &Sample) -> Value {
     json!({ "mu": sample.mu.to_string(), "verdict": sample.verdict.word() })
 }
 
-fn range(range: &Range) -> Value {
-    json!({
-        "verdict": range.verdict.word(),
-        "from": range.from.to_string(),
-        "to": range.to.as_ref().map(ToString::to_string),
-        "proved": !matches!(range.evidence, Evidence::Measured(_)),
-    })
-}
-
 fn unproved(tried: &Unproved) -> Value {
     json!({
         "below": tried.below.to_string(),
@@ -182,6 +173,16 @@ impl Analysis {
         sizes
     }
 
+    fn range_json(&self, range: &Range, paths: &[String]) -> Value {
+        json!({
+            "verdict": range.verdict.word(),
+            "from": range.from.to_string(),
+            "to": range.to.as_ref().map(ToString::to_string),
+            "proved": !matches!(range.evidence, Evidence::Measured(_)),
+            "evidence": self.evidence_json(&range.evidence, paths),
+        })
+    }
+
     fn divergence_json(&self) -> Value {
         let divergence = &self.divergence;
         let modes: Vec<Value> = divergence.modes.iter().map(mode).collect();
@@ -235,7 +236,8 @@ impl Analysis {
     /// written.
     pub fn to_json(&self, paths: &[String]) -> Value {
         let samples: Vec<Value> = self.samples.iter().map(sample).collect();
-        let ranges: Vec<Value> = self.ranges.iter().map(range).collect();
+        let ranges = self.ranges.iter();
+        let ranges: Vec<Value> = ranges.map(|range| self.range_json(range, paths)).collect();
         let sentences = self.sentences();
         let sentences: Vec<Value> = sentences
             .iter()

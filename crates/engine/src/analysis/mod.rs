@@ -23,6 +23,7 @@ mod follow;
 mod json;
 mod model;
 mod modes;
+mod presence;
 mod ranges;
 mod sentences;
 mod summary;
@@ -110,15 +111,8 @@ pub fn analyse(
         starts,
     };
 
-    let mut critical = critical::critical(&model, &known, &mut proofs)?;
-    let sampled = ranges::sampled(&model, friction, &threshold, &critical)?;
-    if let Some((solution, proof)) = sampled.solution {
-        critical.solution = Some(CertifiedSolution {
-            evidence: Evidence::Certificate(proofs.len()),
-            ..solution
-        });
-        proofs.push(proof);
-    }
+    let found = critical::critical(&model, &known, &mut proofs)?;
+    let of_ranges = ranges::ranges(&model, &known, found, &mut proofs)?;
 
     let flutter = if watch.is_cancelled() {
         None
@@ -138,9 +132,9 @@ pub fn analyse(
         flutter,
         divergence,
         threshold,
-        critical,
-        ranges: sampled.ranges,
-        samples: sampled.samples,
+        critical: of_ranges.critical,
+        ranges: of_ranges.ranges,
+        samples: of_ranges.samples,
         necessary,
         sufficient,
         proofs,

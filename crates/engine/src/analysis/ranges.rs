@@ -1,26 +1,33 @@
 //! Where in mu does divergence exist?
 //!
 //! Below the proved bound of the critical mu there is none: one range, with the certificate of the
-//! bound. Above it divergence is decided with certificates at values of mu (samples): evenly spread
-//! ones first, and then by halving between neighbours of different verdicts. Neighbouring samples
-//! of one verdict make a range; between samples nothing is proved.
+//! bound. From just above the solution of smallest mu to twice the largest mu of interest presence
+//! is proved on intervals (`presence`), each with a certificate. What they leave out is decided with
+//! certificates at values of mu (samples): those of evenly spread ones that lie outside, one in each
+//! gap, and then by halving between neighbours of different verdicts. Neighbouring samples of one
+//! verdict make a range; between samples nothing is proved.
 //!
-//! Input: the system, the mu of the analysis, and the thresholds known so far. Output: [`Sampled`].
-//! Called by [`analyse`](super::analyse).
+//! Input: what is known of the system, and its critical mu. Output: [`Ranges`]. Called by
+//! [`analyse`](super::analyse).
 
-use super::critical::{CertifiedSolution, Critical};
+use super::absence::Place;
+use super::critical::{CertifiedSolution, Critical, Found, Known, Start};
 use super::divergence::{Verdict, verdict};
 use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
 use super::model::Model;
-use super::threshold::StaticThreshold;
+use super::presence::{Ground, Prover};
+use super::starts;
+use crate::run::Progress;
 use crate::search::complete::Completed;
 use crate::tolerance::ABOVE_CRITICAL;
+use mceip_check::certificate::PresenceCertificate;
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
 use mceip_model::Problem;
 use num_traits::Zero;
 
-/// Divergence at one mu, decided by a complete search over lambda^2 in [0, infinity).
+/// Divergence at one mu, decided by a complete search over lambda^2 in [0, infinity), or present by
+/// the certificate of an interval around it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sample {
     /// mu.
@@ -34,13 +41,13 @@ pub struct Sample {
 pub struct Range {
     /// The verdict.
     pub verdict: Verdict,
-    /// Its lower end: 0, or the first sample.
+    /// Its lower end: 0, that of a proved interval, or the first sample.
     pub from: Rational,
-    /// Its upper end: the bound below which all is absent (not included), or the last sample;
-    /// `None` for infinity.
+    /// Its upper end: the bound below which all is absent (not included), that of a proved interval,
+    /// or the last sample; `None` for infinity.
     pub to: Option<Rational>,
-    /// What stands behind it: for the range below the bound what proves it everywhere between its
-    /// ends; for samples a measurement, because nothing is proved between them.
+    /// What stands behind it: what proves it everywhere between its ends, or for samples a
+    /// measurement, because nothing is proved between them.
     pub evidence: Evidence,
 }
 
@@ -51,57 +58,149 @@ const AT_SAMPLES: Evidence =
 /// Halvings of the interval between neighbouring samples of different verdicts.
 const HALVINGS: usize = 8;
 
+/// Gaps between proved intervals that get a sample of their own, at most.
+const SAMPLED_GAPS: usize = 4;
+
 /// Ranges of mu and what has been found on the way.
-pub(super) struct Sampled {
+pub(super) struct Ranges {
+    /// The critical mu, with a solution of smaller mu where one was proved on the way.
+    pub(super) critical: Critical,
     pub(super) ranges: Vec<Range>,
     pub(super) samples: Vec<Sample>,
-    /// A solution at the smallest of the samples, where none was known.
-    pub(super) solution: Option<(CertifiedSolution, Proof)>,
 }
 
-/// The proved range below the bound, and samples from it to twice the largest mu of interest.
-pub(super) fn sampled(
+/// The proved range below the bound, and from it to twice the largest mu of interest what is proved
+/// present, and samples of the rest.
+pub(super) fn ranges(
     model: &Model<'_>,
-    friction: &Rational,
-    threshold: &StaticThreshold,
-    critical: &Critical,
-) -> Result<Sampled, AnalysisError> {
-    let mut ranges = vec![Range {
+    known: &Known<'_>,
+    found: Found,
+    proofs: &mut Vec<Proof>,
+) -> Result<Ranges, AnalysisError> {
+    let mut critical = found.critical;
+    let absent = Range {
         verdict: Verdict::Absent,
         from: Rational::zero(),
         to: critical.absent_below.clone(),
         evidence: critical.evidence.clone(),
-    }];
+    };
 
     let Some(below) = &critical.absent_below else {
-        return Ok(Sampled {
-            ranges,
+        return Ok(Ranges {
+            critical,
+            ranges: vec![absent],
             samples: Vec::new(),
-            solution: None,
         });
     };
 
-    let mut largest = friction;
+    let bottom = first_sample(&critical, below);
+    let top = rounded_up(largest_of_interest(known, &critical) * whole(2));
+    let mut sampler = Sampler {
+        model,
+        proved: Vec::new(),
+        starts: Vec::new(),
+        smallest: None,
+    };
+
+    let mut prover = prover(model, known, &found.places, &top)?;
+    if let (Some(prover), Some(start)) = (&mut prover, &found.start) {
+        model.watch.report(&Progress::stage("ranges of mu: proving presence"));
+        prover.climb_from(start, to_f64(&top));
+        prover.close(to_f64(&bottom), to_f64(&top), &known.starts);
+        sampler.proved = prover.certified();
+    }
+
+    let mut samples = sampler.even_samples(&bottom, &top)?;
+    sampler.sample_gaps(&mut samples)?;
+    if let Some(prover) = &mut prover {
+        let starts = std::mem::take(&mut sampler.starts);
+        if prover.close(to_f64(&bottom), to_f64(&top), &starts) {
+            sampler.proved = prover.certified();
+        }
+    }
+    sampler.refine(&mut samples)?;
+
+    let first = proofs.len();
+    let proved = std::mem::take(&mut sampler.proved);
+    let is_new = critical.solution.is_none();
+    let sampled = sampler.smallest.filter(|_| is_new).and_then(solution_of);
+    for (k, certificate) in proved.iter().enumerate() {
+        proofs.push(Proof {
+            name: format!("presence-{}", k + 1),
+            problem: known.problem.clone(),
+            certificate: ProofCertificate::Presence(certificate.clone()),
+        });
+    }
+
+    if let Some((solution, proof)) = sampled {
+        critical.solution = Some(CertifiedSolution {
+            evidence: Evidence::Certificate(proofs.len()),
+            ..solution
+        });
+        proofs.push(proof);
+    }
+    if let Some(smaller) = smaller_solution(&critical, proved.first(), first) {
+        critical.solution = Some(smaller);
+    }
+
+    let mut ranges = vec![absent];
+    ranges.extend(joined(&proved, first, &samples));
+    Ok(Ranges {
+        critical,
+        ranges,
+        samples,
+    })
+}
+
+/// The largest of the mu that was asked for, the thresholds, and the critical mu.
+fn largest_of_interest(known: &Known<'_>, critical: &Critical) -> Rational {
+    let mut largest = known.friction;
     let of_solution = critical.solution.iter().map(|s| s.mu.hi());
-    for mu in threshold.values.iter().map(|v| v.hi()).chain(of_solution) {
+    for mu in known.threshold.values.iter().map(|v| v.hi()).chain(of_solution) {
         largest = largest.max(mu);
     }
 
-    let mut sampler = Sampler {
-        model,
-        smallest: None,
-    };
-    let bottom = first_sample(critical, below);
-    let mut samples = sampler.even_samples(bottom, largest * whole(2))?;
-    sampler.refine(&mut samples)?;
+    largest.clone()
+}
 
-    let is_new = critical.solution.is_none();
-    let solution = sampler.smallest.filter(|_| is_new).and_then(solution_of);
-    ranges.extend(grouped(&samples));
-    Ok(Sampled {
-        ranges,
-        samples,
-        solution,
+/// What proves presence; `None` for particles with zero reaction, of which the certificates do not
+/// speak, and where the work was cancelled.
+fn prover<'a>(
+    model: &Model<'a>,
+    known: &Known<'a>,
+    places: &[Place],
+    top: &Rational,
+) -> Result<Option<Prover<'a>>, AnalysisError> {
+    if model.stopped() || !known.families.zero.is_empty() || known.families.own.mass.is_none() {
+        return Ok(None);
+    }
+
+    let ground = Ground {
+        families: known.families,
+        problem: known.problem,
+        watch: model.watch,
+    };
+    Ok(Some(Prover::new(ground, top, places)?))
+}
+
+/// The solution at the lower end of the first proved interval, if its mu is smaller than that of
+/// the certified one.
+fn smaller_solution(
+    critical: &Critical,
+    first: Option<&PresenceCertificate>,
+    proof: usize,
+) -> Option<CertifiedSolution> {
+    let certificate = first?;
+    let known = critical.solution.as_ref();
+    if known.is_some_and(|known| *known.mu.hi() <= certificate.from) {
+        return None;
+    }
+
+    let [t0, t1] = &certificate.pieces.first()?.interval;
+    Some(CertifiedSolution {
+        mu: Interval::point(certificate.from.clone()),
+        lambda2: Interval::new(t0.0.clone(), t1.0.clone())?,
+        evidence: Evidence::Certificate(proof),
     })
 }
 
@@ -142,6 +241,10 @@ struct Met {
 /// Decides divergence at values of mu.
 struct Sampler<'a> {
     model: &'a Model<'a>,
+    /// Where presence is proved, ascending.
+    proved: Vec<PresenceCertificate>,
+    /// The solutions met, in doubles.
+    starts: Vec<Start>,
     /// The sample of smallest mu with a solution.
     smallest: Option<Met>,
 }
@@ -151,8 +254,8 @@ impl Sampler<'_> {
     /// empty.
     fn even_samples(
         &mut self,
-        bottom: Rational,
-        top: Rational,
+        bottom: &Rational,
+        top: &Rational,
     ) -> Result<Vec<Sample>, AnalysisError> {
         let count = self.model.options.samples;
         let steps = count.saturating_sub(1).max(1);
@@ -163,12 +266,35 @@ impl Sampler<'_> {
 
         for k in 0..count {
             let part = Rational::new(k.into(), steps.into());
-            let mu = &bottom + (&top - &bottom) * part;
+            let mu = bottom + (top - bottom) * part;
             let stage = format!("ranges of mu: sample {} of {count}", k + 1);
             samples.extend(self.sample(&stage, rounded_up(mu))?);
         }
 
         Ok(samples)
+    }
+
+    /// Puts samples into the gaps between proved intervals that have none.
+    fn sample_gaps(&mut self, samples: &mut Vec<Sample>) -> Result<(), AnalysisError> {
+        let mut middles = Vec::new();
+        if self.model.options.samples == 0 {
+            return Ok(());
+        }
+
+        for pair in self.proved.windows(2) {
+            let is_inside = |sample: &Sample| pair[0].to < sample.mu && sample.mu < pair[1].from;
+            if !samples.iter().any(is_inside) {
+                middles.push((&pair[0].to + &pair[1].from) / whole(2));
+            }
+        }
+
+        middles.truncate(SAMPLED_GAPS);
+        for mu in middles {
+            samples.extend(self.sample("ranges of mu: between proved intervals", mu)?);
+        }
+
+        samples.sort_by(|p, q| p.mu.cmp(&q.mu));
+        Ok(())
     }
 
     /// Puts samples between neighbours of different verdicts, each in the middle of the interval in
@@ -202,6 +328,11 @@ impl Sampler<'_> {
 
     /// The verdict at one mu; `None` if the work was cancelled before.
     fn sample(&mut self, stage: &str, mu: Rational) -> Result<Option<Sample>, AnalysisError> {
+        if self.proved.iter().any(|proved| holds(proved, &mu)) {
+            let verdict = Verdict::Present;
+            return Ok(Some(Sample { mu, verdict }));
+        }
+
         if self.model.stopped() {
             return Ok(None);
         }
@@ -209,6 +340,9 @@ impl Sampler<'_> {
         let problem = self.model.problem(Some(&mu))?;
         let found = self.model.complete(stage, &problem)?;
         let verdict = verdict(&found);
+        let slip = problem.pencil().slip();
+        self.starts
+            .extend(starts(&found, &slip, |value| [value, to_f64(&mu)]));
         let is_smallest = self.smallest.as_ref().is_none_or(|met| mu < met.mu);
         if verdict == Verdict::Present && is_smallest {
             self.smallest = Some(Met {
@@ -229,6 +363,32 @@ fn rounded_up(mu: Rational) -> Rational {
         Ok(short) if short >= mu => short,
         _ => mu,
     }
+}
+
+/// Is this mu in a proved interval?
+fn holds(proved: &PresenceCertificate, mu: &Rational) -> bool {
+    proved.from <= *mu && *mu <= proved.to
+}
+
+/// The proved intervals, and runs of samples of one verdict outside them, by ascending mu. `first`
+/// is the index of the first interval's proof.
+fn joined(proved: &[PresenceCertificate], first: usize, samples: &[Sample]) -> Vec<Range> {
+    let mut ranges = Vec::new();
+    let mut rest = samples;
+    for (k, certificate) in proved.iter().enumerate() {
+        let below = rest.partition_point(|sample| sample.mu < certificate.from);
+        ranges.extend(grouped(&rest[..below]));
+        ranges.push(Range {
+            verdict: Verdict::Present,
+            from: certificate.from.clone(),
+            to: Some(certificate.to.clone()),
+            evidence: Evidence::Certificate(first + k),
+        });
+        rest = &rest[rest.partition_point(|sample| sample.mu <= certificate.to)..];
+    }
+
+    ranges.extend(grouped(rest));
+    ranges
 }
 
 /// Runs of samples of one verdict.

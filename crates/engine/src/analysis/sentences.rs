@@ -178,6 +178,8 @@ impl Analysis {
         all.push(self.say_critical());
         all.extend(self.say_unproved());
         all.extend(self.say_solution());
+        all.extend(self.say_presence());
+        all.extend(self.say_gaps());
         all.extend(self.say_ranges());
         all.push(self.say_necessary());
         all.push(self.say_sufficient());
@@ -344,22 +346,82 @@ impl Analysis {
         })
     }
 
-    /// The ranges that are known at samples only; the proved one is the critical bound.
+    /// One sentence for each interval on which presence is proved.
+    fn say_presence(&self) -> Vec<Sentence> {
+        let mut said = Vec::new();
+        for (range, [from, to]) in self.proved_presence() {
+            said.push(Sentence {
+                topic: "presence",
+                text: format!(
+                    "Divergence is present for every mu from {} to {}, with this contact state.",
+                    up(from),
+                    down(to)
+                ),
+                evidence: range.evidence.clone(),
+            });
+        }
+
+        said
+    }
+
+    /// Where nothing is proved between two intervals with divergence.
+    fn say_gaps(&self) -> Option<Sentence> {
+        let proved: Vec<[&Rational; 2]> = self.proved_presence().map(|(_, ends)| ends).collect();
+        let mut gaps = Vec::new();
+        for pair in proved.windows(2) {
+            gaps.push(format!("{} < mu < {}", down(pair[0][1]), up(pair[1][0])));
+        }
+
+        if gaps.is_empty() {
+            return None;
+        }
+
+        Some(Sentence {
+            topic: "presence_gaps",
+            text: format!(
+                "Between these intervals presence is not proved for every mu: {}.",
+                gaps.join(", ")
+            ),
+            evidence: Evidence::Measured("no curve of solutions that was followed passes there"),
+        })
+    }
+
+    /// The ranges that are known at samples only.
     fn say_ranges(&self) -> Option<Sentence> {
         let is_sampled = |range: &&Range| matches!(range.evidence, Evidence::Measured(_));
         let sampled: Vec<&Range> = self.ranges.iter().filter(is_sampled).collect();
         let evidence = sampled.first()?.evidence.clone();
 
+        let is_in = |mu: &Rational, range: &Range| {
+            range.from <= *mu && range.to.as_ref().is_some_and(|to| mu <= to)
+        };
+        let is_counted = |mu: &Rational| sampled.iter().any(|range| is_in(mu, range));
+        let count = self.samples.iter().filter(|s| is_counted(&s.mu)).count();
+        let elsewhere = if self.proved_presence().next().is_some() {
+            "Divergence elsewhere above that"
+        } else {
+            "Divergence above that"
+        };
+
         let parts: Vec<String> = sampled.into_iter().map(range_text).collect();
         let text = format!(
-            "Divergence above that, with this contact state, at {} sampled mu: {}.",
-            self.samples.len(),
+            "{elsewhere}, with this contact state, at {count} sampled mu: {}.",
             parts.join(", ")
         );
         Some(Sentence {
             topic: "ranges",
             text,
             evidence,
+        })
+    }
+
+    /// The intervals with a proof of presence, and their ends.
+    pub(super) fn proved_presence(&self) -> impl Iterator<Item = (&Range, [&Rational; 2])> {
+        let is_present = |range: &&Range| range.verdict == Verdict::Present;
+        let present = self.ranges.iter().filter(is_present);
+        present.filter_map(|range| match (&range.evidence, &range.to) {
+            (Evidence::Certificate(_), Some(to)) => Some((range, [&range.from, to])),
+            _ => None,
         })
     }
 

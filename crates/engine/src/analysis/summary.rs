@@ -8,17 +8,16 @@ use super::answer::Analysis;
 use super::critical::CertifiedSolution;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
+use super::ranges::Range;
 use super::sentences::{down, short, up};
 use mceip_exact::{Rational, to_f64};
 
 impl Analysis {
     /// The answer in one paragraph.
     pub fn summary(&self) -> String {
-        let parts = [
-            self.verdict_at_friction(),
-            self.critical_bounds(),
-            self.standing().to_string(),
-        ];
+        let mut parts = vec![self.verdict_at_friction(), self.critical_bounds()];
+        parts.extend(self.presence());
+        parts.push(self.standing().to_string());
         parts.join(" ")
     }
 
@@ -78,6 +77,29 @@ impl Analysis {
             down(below),
             up(solution.mu.hi())
         )
+    }
+
+    /// Where presence is proved, and whether more is known from samples.
+    fn presence(&self) -> Option<String> {
+        let mut intervals = Vec::new();
+        for (_, [from, to]) in self.proved_presence() {
+            intervals.push(format!("from {} to {}", up(from), down(to)));
+        }
+
+        if intervals.is_empty() {
+            return None;
+        }
+
+        let is_sampled = |range: &Range| matches!(range.evidence, Evidence::Measured(_));
+        let elsewhere = if self.ranges.iter().any(is_sampled) {
+            "; elsewhere above that only samples are decided"
+        } else {
+            ""
+        };
+        Some(format!(
+            "It is present for every mu {}{elsewhere}.",
+            intervals.join(" and ")
+        ))
     }
 
     fn standing(&self) -> &'static str {

@@ -33,7 +33,7 @@ const NEAR_ZERO: f64 = 0.02;
 const PIECES: usize = 16;
 
 /// T0 and T1 over [0, infinity).
-pub(super) struct Family {
+pub(in crate::analysis) struct Family {
     /// P0 and P1.
     pencils: [Pencil; 2],
     /// The same of the system in which particles with zero reaction are free, if there are such.
@@ -44,7 +44,7 @@ pub(super) struct Family {
     expansions: Vec<[Expansion; 2]>,
     /// The anchors, each with V for P1.
     left_friction: Vec<CriticalAnchor>,
-    pub(super) pieces: Vec<PieceOfHalfLine>,
+    pub(in crate::analysis) pieces: Vec<PieceOfHalfLine>,
 }
 
 /// A value of lambda^2 about which condensation is to be precise.
@@ -56,11 +56,11 @@ pub(in crate::analysis) struct Place {
 }
 
 /// An interval of lambda^2 and the anchor that serves it.
-pub(super) struct PieceOfHalfLine {
-    pub(super) lo: Rational,
+pub(in crate::analysis) struct PieceOfHalfLine {
+    pub(in crate::analysis) lo: Rational,
     /// `None` for infinity.
-    pub(super) hi: Option<Rational>,
-    pub(super) anchor: Option<usize>,
+    pub(in crate::analysis) hi: Option<Rational>,
+    pub(in crate::analysis) anchor: Option<usize>,
 }
 
 impl Family {
@@ -69,7 +69,7 @@ impl Family {
     ///
     /// # Errors
     /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
-    pub(super) fn new(
+    pub(in crate::analysis) fn new(
         families: &Families,
         friction: &Rational,
         places: &[Place],
@@ -160,12 +160,12 @@ impl Family {
     }
 
     /// The measure of lambda^2: theta = t / (scale + t).
-    pub(super) fn view(&self) -> &View {
+    pub(in crate::analysis) fn view(&self) -> &View {
         &self.prepared.view
     }
 
     /// The expansions of T0 and T1 for a piece with this anchor.
-    pub(super) fn expansions(&self, anchor: Option<usize>) -> &[Expansion; 2] {
+    pub(in crate::analysis) fn expansions(&self, anchor: Option<usize>) -> &[Expansion; 2] {
         let named = anchor.and_then(|k| self.expansions.get(k));
         named.unwrap_or(&self.expansions[0])
     }
@@ -231,6 +231,25 @@ impl Family {
             mass_factor: condensation.mass_factor.clone(),
             anchors: self.left_friction.clone(),
             tail,
+        })
+    }
+
+    /// The condensation of a certificate that names these anchors only, without a tail.
+    pub(in crate::analysis) fn condensation_about(
+        &self,
+        anchors: &[usize],
+    ) -> Option<CriticalCondensation> {
+        let condensation = self.prepared.condensation.as_ref()?;
+        Some(CriticalCondensation {
+            sigma: condensation.sigma.clone(),
+            stiffness_factor: condensation.stiffness_factor.clone(),
+            mass_sigma: condensation.mass_sigma.clone(),
+            mass_factor: condensation.mass_factor.clone(),
+            anchors: anchors
+                .iter()
+                .map(|&k| self.left_friction[k].clone())
+                .collect(),
+            tail: None,
         })
     }
 
@@ -383,7 +402,7 @@ fn pieces_of(prepared: &Prepared) -> Vec<PieceOfHalfLine> {
 }
 
 /// The ends of T0 + mu T1 over the interval of t for which those of both parts are given.
-pub(super) fn at_friction([constant, slope]: &[Ends; 2], friction: f64) -> Ends {
+pub(in crate::analysis) fn at_friction([constant, slope]: &[Ends; 2], friction: f64) -> Ends {
     let m = [0, 1].map(|end| combined(&constant.m[end], friction, &slope.m[end]));
     let r = match (&constant.r, &slope.r) {
         (Some(r), Some(r_slope)) => Some(combined(r, friction, r_slope)),

@@ -1,0 +1,223 @@
+//! Follows a curve t(mu) of solutions in mu, and proves it piece by piece.
+//!
+//! A stretch [low, high] of mu gets a box of lambda^2 around the curve and the witness of its
+//! middle. Where the witness does not hold the stretch is halved, where it does the next one is
+//! twice as long. Where x_i or y_i reaches 0 the curve goes on with another support; what is
+//! shorter than the least stretch is left out there.
+//!
+//! Input: a solution in doubles, and the mu to go to. Output: [`Stretch`]es, which the checker
+//! decides about. Called by `mod.rs`.
+
+use super::curve::{Curves, Point, beyond};
+use super::witness::{Place, Witness};
+use crate::run::Watch;
+use crate::tolerance::LEAST_STRETCH;
+use mceip_check::certificate::PresencePiece;
+
+/// Stretches tried on one curve at most.
+const MAX_ATTEMPTS: usize = 2000;
+
+/// Places of one curve that are left out at most, each longer than the one before.
+const MAX_SKIPS: usize = 12;
+
+/// Factor between the lengths that are left out one after the other.
+const LONGER_SKIP: f64 = 4.0;
+
+/// Supports tried one after the other where one ends.
+const MAX_SUPPORTS: usize = 8;
+
+/// How far a box reaches beyond the curve in it: shares of the extent of the curve, or of
+/// [`FLAT`] where that is less.
+const BEYOND_CURVE: [f64; 3] = [0.5, 0.15, 1.5];
+
+/// Least extent of a curve in lambda^2 for its box. Unit: lambda^2 + its scale, times the relative
+/// length of the stretch.
+const FLAT: f64 = 0.1;
+
+/// Ends of stretches and boxes are multiples of a power of two at most this share of their width.
+const UNIT_OF_WIDTH: f64 = 0.1;
+
+/// An interval of mu with the piece that proves it.
+#[derive(Debug, Clone)]
+pub(super) struct Stretch {
+    pub(super) low: f64,
+    pub(super) high: f64,
+    pub(super) piece: PresencePiece,
+}
+
+/// What is followed.
+#[derive(Clone, Copy)]
+pub(super) struct Climb<'a> {
+    pub(super) curves: Curves<'a>,
+    pub(super) watch: Watch<'a>,
+}
+
+/// What comes of an attempt to go on along a curve.
+enum Attempt {
+    Done(Point, Option<Stretch>),
+    /// Neither reached nor proved.
+    Failed,
+}
+
+impl Climb<'_> {
+    /// Follows a curve to a mu, with proofs. Returns the stretches in the order of the way.
+    pub(super) fn prove(&self, start: &Point, target: f64) -> Vec<Stretch> {
+        let mut stretches = Vec::new();
+        self.follow(start, target, Some(&mut stretches));
+        stretches
+    }
+
+    /// Follows a curve to a mu; `None` where it ends before.
+    pub(super) fn walk(&self, start: &Point, target: f64) -> Option<Point> {
+        self.follow(start, target, None)
+    }
+
+    fn follow(
+        &self,
+        start: &Point,
+        target: f64,
+        mut stretches: Option<&mut Vec<Stretch>>,
+    ) -> Option<Point> {
+        let mut here = start.clone();
+        let mut step = target - here.mu;
+        let mut skips = 0;
+        for _ in 0..MAX_ATTEMPTS {
+            if here.mu == target {
+                return Some(here);
+            }
+
+            if self.watch.is_cancelled() {
+                return None;
+            }
+
+            let mu = short_end(here.mu, step, target);
+            if let Attempt::Done(next, stretch) = self.attempt(&here, mu, stretches.is_some()) {
+                if let (Some(list), Some(stretch)) = (&mut stretches, stretch) {
+                    list.push(stretch);
+                }
+                here = next;
+                step *= 2.0;
+                continue;
+            }
+
+            let least = LEAST_STRETCH * here.mu;
+            if step.abs() > least {
+                step *= 0.5;
+                continue;
+            }
+
+            if skips == MAX_SKIPS {
+                return None;
+            }
+
+            let aside = least * LONGER_SKIP.powi(skips as i32);
+            skips += 1;
+            if let Some(next) = self.skip(&here, short_end(here.mu, aside.copysign(step), target)) {
+                here = next;
+                step = 2.0 * aside.copysign(step);
+            }
+        }
+
+        None
+    }
+
+    /// The curve from a point to a mu.
+    fn attempt(&self, here: &Point, mu: f64, is_proving: bool) -> Attempt {
+        let is_regular = |point: &Point| point.violated.is_none();
+        let next = self.curves.at_friction(mu, here).filter(is_regular);
+        let Some(next) = next else {
+            return Attempt::Failed;
+        };
+
+        if !is_proving {
+            return Attempt::Done(next, None);
+        }
+
+        match self.stretch(here, &next) {
+            Some(stretch) => Attempt::Done(next, Some(stretch)),
+            None => Attempt::Failed,
+        }
+    }
+
+    /// A point beyond a place that is left out, on this support or another.
+    fn skip(&self, here: &Point, mu: f64) -> Option<Point> {
+        let mut guess = here.clone();
+        for _ in 0..MAX_SUPPORTS {
+            let next = self.curves.at_friction(mu, &guess)?;
+            match next.violated {
+                None => return Some(next),
+                Some(position) => guess = beyond(&next, position),
+            }
+        }
+
+        None
+    }
+
+    /// The proof between two points of a curve.
+    fn stretch(&self, one: &Point, other: &Point) -> Option<Stretch> {
+        let [below, above] = if one.mu < other.mu {
+            [one, other]
+        } else {
+            [other, one]
+        };
+        let middle = self
+            .curves
+            .at_friction(0.5 * (below.mu + above.mu), below)?;
+        if middle.violated.is_some() {
+            return None;
+        }
+
+        let values = [below.t, middle.t, above.t];
+        let lowest = values.iter().fold(f64::INFINITY, |s, t| s.min(*t));
+        let highest = values.iter().fold(0.0f64, |s, t| s.max(*t));
+        let scale = self.curves.scale();
+        let flat = FLAT * (middle.t + scale) * (above.mu - below.mu) / middle.mu;
+        let extent = (highest - lowest).max(flat);
+
+        let anchor = self.curves.anchor(middle.t);
+        let expansions = self.curves.expansions(middle.t);
+        for share in BEYOND_CURVE {
+            let reach = share * extent;
+            let lower = short_multiple(lowest - reach, UNIT_OF_WIDTH * reach).max(0.0);
+            let upper = short_multiple(highest + reach, UNIT_OF_WIDTH * reach);
+            let is_reciprocal = expansions[0].reversed;
+            if is_reciprocal && lower <= 0.0 {
+                continue;
+            }
+
+            let place = Place {
+                t: [lower, upper],
+                mu: [below.mu, above.mu],
+            };
+            let matrix = self.curves.matrix(middle.t, middle.mu);
+            let index = &self.curves.family.view().index;
+            let witness = Witness::of(&matrix, &middle)?;
+            if let Some(piece) = witness.piece(&place, expansions, index) {
+                return Some(Stretch {
+                    low: below.mu,
+                    high: above.mu,
+                    piece: PresencePiece { anchor, ..piece },
+                });
+            }
+        }
+
+        None
+    }
+}
+
+/// A mu about one step further, short, or the target where that is near.
+fn short_end(mu: f64, step: f64, target: f64) -> f64 {
+    let is_near_target = (target - mu).abs() <= 1.25 * step.abs();
+    if is_near_target {
+        return target;
+    }
+
+    short_multiple(mu + step, UNIT_OF_WIDTH * step.abs())
+}
+
+/// The multiple of a power of two next to a number: within `slack` of it.
+pub(super) fn short_multiple(target: f64, slack: f64) -> f64 {
+    let unit = slack.log2().floor().exp2();
+    let multiple = (target / unit).round() * unit;
+    if multiple.is_finite() { multiple } else { target }
+}

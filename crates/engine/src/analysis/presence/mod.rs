@@ -1,0 +1,249 @@
+//! A solution for every mu of an interval: certificates of presence (`mceip-presence/1`).
+//!
+//! | file | what |
+//! |---|---|
+//! | `curve` | solutions of one support as a curve t(mu), in doubles |
+//! | `climb` | follows a curve and proves it piece by piece |
+//! | `witness` | Y, u and v of a box, and whether they hold in it |
+//! | `intervals` | what the stretches of several curves cover together |
+//!
+//! Known solutions are followed in mu, first from just above the smallest of them. What is left
+//! out on one curve, where a support changes or the curve ends, others may cover. Each maximal
+//! interval becomes a certificate, and nothing is said before the checker has accepted it.
+//!
+//! Input: a system, solutions in doubles, and the interval of mu that is asked. Output: [`Proved`].
+//! Called by [`analyse`](super::analyse).
+
+mod climb;
+mod curve;
+mod intervals;
+mod witness;
+
+use super::absence::{Family, Place};
+use super::critical::Start;
+use super::families::Families;
+use crate::run::{Progress, Watch};
+use crate::search::complete::CompleteError;
+use crate::tolerance::{LEAST_INTERVAL, PRESENCE_START};
+use climb::{Climb, Stretch, short_multiple};
+use curve::{Curves, Point};
+use intervals::{Chain, chains, extent, gaps};
+use mceip_check::certificate::PresenceCertificate;
+use mceip_check::{Reason, check_presence};
+use mceip_exact::{Rational, from_f64};
+use mceip_model::Problem;
+
+/// Solutions from which one gap is tried to be closed.
+const STARTS_PER_GAP: usize = 6;
+
+/// Halvings of the distance from the smallest solution at which its curve is met.
+const NEAREST: i32 = 30;
+
+/// Pieces that the checker may refuse before the rest is given up.
+const MAX_REFUSED: usize = 8;
+
+/// What the search rests on.
+pub(super) struct Ground<'a> {
+    pub(super) families: &'a Families,
+    /// MCEIP-lambda2 of the system: what certificates belong to.
+    pub(super) problem: &'a Problem,
+    pub(super) watch: Watch<'a>,
+}
+
+/// The search for intervals with a solution.
+pub(super) struct Prover<'a> {
+    ground: Ground<'a>,
+    family: Family,
+    /// What doubles hold for proved.
+    stretches: Vec<Stretch>,
+}
+
+impl<'a> Prover<'a> {
+    /// Condenses the system. `places` are where condensation is to be precise.
+    ///
+    /// # Errors
+    /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
+    pub(super) fn new(
+        ground: Ground<'a>,
+        friction: &Rational,
+        places: &[Place],
+    ) -> Result<Prover<'a>, CompleteError> {
+        let family = Family::new(ground.families, friction, places)?;
+        Ok(Prover {
+            ground,
+            family,
+            stretches: Vec::new(),
+        })
+    }
+
+    /// Follows the solution of smallest mu upwards, on the sides of larger and of smaller lambda^2
+    /// until one of them reaches the end.
+    pub(super) fn climb_from(&mut self, smallest: &Start, to: f64) {
+        let from = smallest.mu * (1.0 + PRESENCE_START);
+        let from = short_multiple(from, 0.5 * PRESENCE_START * smallest.mu);
+        for side in [1.0, -1.0] {
+            let Some(start) = self.beside(smallest, side, from) else {
+                continue;
+            };
+
+            let found = self.climb().prove(&start, to);
+            self.stretches.extend(found);
+            if gaps(&self.stretches, from, to).len() <= 1 && self.is_covered_at(to) {
+                return;
+            }
+        }
+    }
+
+    /// Closes what gaps it can in [from, to] from these solutions.
+    pub(super) fn close(&mut self, from: f64, to: f64, starts: &[Start]) -> bool {
+        let before = self.stretches.len();
+        for gap in gaps(&self.stretches, from, to) {
+            self.close_gap(gap, starts);
+        }
+
+        self.stretches.len() > before
+    }
+
+    /// Is this mu in a stretch that doubles hold for proved?
+    fn is_covered_at(&self, mu: f64) -> bool {
+        let mut stretches = self.stretches.iter();
+        stretches.any(|stretch| stretch.low <= mu && mu <= stretch.high)
+    }
+
+    fn climb(&self) -> Climb<'_> {
+        Climb {
+            curves: Curves {
+                family: &self.family,
+            },
+            watch: self.ground.watch,
+        }
+    }
+
+    /// The point of a curve at a mu, just above that of its solution of smallest mu, where the
+    /// curve may be vertical: it is met at larger and larger distances in lambda^2.
+    fn beside(&self, smallest: &Start, side: f64, mu: f64) -> Option<Point> {
+        let curves = self.climb().curves;
+        let unit = smallest.lambda2 + curves.scale();
+        let mut guess = smallest.x.clone();
+        let mut friction = smallest.mu;
+        for k in (0..NEAREST).rev() {
+            let t = smallest.lambda2 + side * unit * f64::from(-k).exp2();
+            if t < 0.0 {
+                return None;
+            }
+
+            let point = curves.near([t, friction], &guess, true)?;
+            if point.mu >= mu {
+                return curves
+                    .at_friction(mu, &point)
+                    .filter(|point| point.violated.is_none());
+            }
+
+            guess.clone_from(&point.x);
+            friction = point.mu;
+        }
+
+        None
+    }
+
+    fn close_gap(&mut self, [low, high]: [f64; 2], starts: &[Start]) {
+        let distance = |start: &&Start| (low - start.mu).max(start.mu - high).max(0.0);
+        let mut nearest: Vec<&Start> = starts.iter().collect();
+        nearest.sort_by(|p, q| distance(p).total_cmp(&distance(q)));
+
+        for start in nearest.into_iter().take(STARTS_PER_GAP) {
+            if gaps(&self.stretches, low, high).is_empty() || self.ground.watch.is_cancelled() {
+                return;
+            }
+
+            let found = self.across([low, high], start);
+            self.stretches.extend(found);
+        }
+    }
+
+    /// Stretches of the curve of a solution in [low, high].
+    fn across(&self, [low, high]: [f64; 2], start: &Start) -> Vec<Stretch> {
+        let climb = self.climb();
+        let place = [start.lambda2, start.mu];
+        let Some(point) = climb.curves.near(place, &start.x, false) else {
+            return Vec::new();
+        };
+
+        if point.mu < low {
+            let at_low = climb.walk(&point, low);
+            return at_low.map_or_else(Vec::new, |point| climb.prove(&point, high));
+        }
+        if point.mu > high {
+            let at_high = climb.walk(&point, high);
+            return at_high.map_or_else(Vec::new, |point| climb.prove(&point, low));
+        }
+
+        let mut found = climb.prove(&point, low);
+        found.extend(climb.prove(&point, high));
+        found
+    }
+
+    /// The certificates of the maximal intervals, each accepted by the checker.
+    pub(super) fn certified(&self) -> Vec<PresenceCertificate> {
+        let mut open = chains(&self.stretches);
+        open.reverse();
+        let mut accepted = Vec::new();
+        let mut refused = 0;
+        while let Some(chain) = open.pop() {
+            if refused > MAX_REFUSED || self.ground.watch.is_cancelled() {
+                break;
+            }
+
+            let Some(certificate) = self.certificate(&chain) else {
+                continue;
+            };
+
+            self.ground.watch.report(&Progress {
+                done: chain.len() as u64,
+                ..Progress::stage("ranges of mu: checking presence")
+            });
+            match check_presence(self.ground.problem, &certificate) {
+                Ok(_) => accepted.push(certificate),
+                Err(rejected) => {
+                    refused += 1;
+                    if let Reason::Boxes {
+                        piece: Some(piece), ..
+                    } = rejected.reason
+                    {
+                        open.push(chain[piece + 1..].to_vec());
+                        open.push(chain[..piece].to_vec());
+                    }
+                }
+            }
+        }
+
+        accepted
+    }
+
+    /// What doubles propose for a chain; `None` where it is too short to be worth a file.
+    fn certificate(&self, chain: &Chain) -> Option<PresenceCertificate> {
+        let [from, to] = extent(chain)?;
+        if to - from < LEAST_INTERVAL * to {
+            return None;
+        }
+
+        let mut anchors: Vec<usize> = chain.iter().filter_map(|s| s.piece.anchor).collect();
+        anchors.sort_unstable();
+        anchors.dedup();
+
+        let mut pieces = Vec::with_capacity(chain.len());
+        for stretch in chain {
+            let mut piece = stretch.piece.clone();
+            piece.anchor = piece.anchor.and_then(|k| anchors.binary_search(&k).ok());
+            pieces.push(piece);
+        }
+
+        Some(PresenceCertificate {
+            problem_sha256: self.ground.problem.sha256(),
+            from: from_f64(from).ok()?,
+            to: from_f64(to).ok()?,
+            condensation: self.family.condensation_about(&anchors),
+            pieces,
+        })
+    }
+}
