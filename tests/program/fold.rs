@@ -14,7 +14,7 @@
 //! drawn anew.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits_with_json, read};
+use crate::common::{example, exits, exits_with_json, read};
 use crate::program::Folder;
 use mceip::picture::{BranchPoint, Branches, Picture, branch_picture};
 use mceip_engine::reduction::reduce;
@@ -22,6 +22,7 @@ use mceip_exact::{from_f64, rational, to_f64, whole};
 use mceip_model::file::read_problem_file;
 use mceip_model::{Body, Problem, System, Unknown, Window};
 use mceip_oracle::enumerate;
+use serde_json::Value;
 use std::path::Path;
 
 const PAGE: &str = "spec/fold.md";
@@ -151,29 +152,105 @@ fn the_page_prints_what_the_program_says() {
     const { assert!((SOLUTION - ABSENT_BELOW) / SOLUTION <= 1e-6) };
 }
 
-/// The range below the bound is proved; those above are sampled, and say so.
+/// What `analyze` says of an example, with its certificates in this folder.
+fn analysis(name: &str, proofs: &str, options: &[&str]) -> Value {
+    let problem = example(name);
+    let args = ["analyze", &problem, "--json", "--certificates", proofs];
+    exits_with_json(0, &[&args[..], options].concat())
+}
+
+/// The ends of the ranges in which presence is proved.
+fn proved_presence(report: &Value) -> Vec<[f64; 2]> {
+    let mut proved = Vec::new();
+    for range in report["ranges"].as_array().unwrap() {
+        if range["verdict"] == "present" && range["proved"] == true {
+            let end = |key: &str| to_f64(&range[key].as_str().unwrap().parse().unwrap());
+            proved.push([end("from"), end("to")]);
+        }
+    }
+
+    proved
+}
+
+/// The range below the bound is proved, so is presence where a certificate says so; what is only
+/// sampled says so.
 #[test]
 fn ranges_say_what_is_proved_and_what_is_sampled() {
-    let report = exits_with_json(
-        0,
-        &[
-            "analyze",
-            &example("two-particles"),
-            "--json",
-            "--samples",
-            "5",
-        ],
-    );
+    let folder = Folder::new();
+    let report = analysis("two-particles", &folder.path("proofs"), &["--samples", "5"]);
 
     let ranges = report["ranges"].as_array().unwrap();
     assert_eq!(ranges[0]["verdict"], "absent");
     assert_eq!(ranges[0]["proved"], true);
     assert_eq!(ranges[0]["from"], "0");
     assert_eq!(ranges[0]["to"], report["critical"]["absent_below"]);
-    assert_eq!(ranges[1]["verdict"], "present");
-    assert_eq!(ranges[1]["proved"], false);
+
+    for range in &ranges[1..] {
+        let kind = if range["proved"] == true {
+            "certificate"
+        } else {
+            "measured"
+        };
+        assert_eq!(range["verdict"], "present");
+        assert_eq!(range["evidence"]["kind"], kind);
+    }
 
     let sentences = report["sentences"].as_array().unwrap();
-    let sampled = sentences.iter().find(|s| s["topic"] == "ranges").unwrap();
-    assert_eq!(sampled["evidence"]["kind"], "measured");
+    for sentence in sentences.iter().filter(|s| s["topic"] == "ranges") {
+        let text = sentence["text"].as_str().unwrap();
+        let kind = sentence["evidence"]["kind"].as_str().unwrap();
+        assert_eq!(text.contains("sampled"), kind == "measured", "{text}");
+    }
+}
+
+/// From a relative 1e-5 above the fold on, up to twice the mu of the file. The checker accepts the
+/// certificate, and refuses it with a piece less and with a range that begins below the fold.
+#[test]
+fn presence_is_proved_from_the_fold_on() {
+    let folder = Folder::new();
+    let proofs = folder.path("proofs");
+    let report = analysis("fold-body", &proofs, &["--samples", "4"]);
+
+    let fold = 1.0 + 0.75f64.sqrt();
+    let proved = proved_presence(&report);
+    assert_eq!(proved.len(), 1, "{proved:?}");
+    let [from, to] = proved[0];
+    assert!(from > fold && from < fold * (1.0 + 1e-5), "{from}");
+    assert_eq!(to, 4.0);
+
+    let problem = format!("{proofs}/presence-1.problem.json");
+    let certificate = read(&format!("{proofs}/presence-1.certificate.json"));
+    let verdict = |certificate: &Value, code: i32| {
+        let file = folder.write("forged.json", &certificate.to_string());
+        exits(code, &["check", &problem, &file])
+    };
+
+    let certificate: Value = serde_json::from_str(&certificate).unwrap();
+    assert!(verdict(&certificate, 0).starts_with("PRESENT"));
+
+    let mut without_a_piece = certificate.clone();
+    without_a_piece["pieces"].as_array_mut().unwrap().remove(3);
+    verdict(&without_a_piece, 1);
+
+    let mut from_below = certificate;
+    from_below["from"] = "9/5".into();
+    verdict(&from_below, 1);
+}
+
+/// Table 1, S = (+1, -1), c = 3/5, s = 4/5: there are solutions from mu = (c^2 + 1) / (c s) = 17/6
+/// on, and none below.
+#[test]
+fn presence_agrees_with_the_closed_form_of_table_1() {
+    let folder = Folder::new();
+    let report = analysis("two-particles", &folder.path("proofs"), &["--samples", "5"]);
+
+    let threshold = 17.0 / 6.0;
+    let mut length = 0.0;
+    for [from, to] in proved_presence(&report) {
+        assert!(from >= threshold && to <= 16.0, "{from} {to}");
+        length += to - from;
+    }
+
+    let share = length / (16.0 - threshold);
+    assert!(share > 0.999, "{share}");
 }

@@ -383,6 +383,10 @@ pub(super) fn newton_step(matrix: &[Vec<f64>], b_x: &[f64], x: &[f64]) -> Option
 /// A left null vector of a matrix that is singular up to rounding, by inverse iteration.
 pub(super) fn left_null_vector(matrix: &[Vec<f64>]) -> Option<Vec<f64>> {
     let order = matrix.len();
+    if order == 1 {
+        return Some(vec![1.0]); // the only entry is rounding, and says nothing of scale
+    }
+
     let largest = matrix
         .iter()
         .flatten()
