@@ -115,8 +115,10 @@ fn table(words: &[String]) {
     }
 
     if wanted(words, "complete-graph") {
-        let graph = known::complete_graph(12).expect("n > 0");
-        row("complete graph n=12", &graph.problem);
+        for n in [12, 14] {
+            let graph = known::complete_graph(n).expect("n > 0");
+            row(&format!("complete graph n={n}"), &graph.problem);
+        }
     }
 
     if wanted(words, "backslash") {
@@ -210,7 +212,12 @@ fn row(name: &str, problem: &Problem) {
         measured.kilobytes()
     );
 
-    for open in cover.open.iter().take(MOST_OPEN_SHOWN) {
+    print_open(&measured.completed);
+}
+
+/// Prints the regions that stay open.
+fn print_open(completed: &Completed) {
+    for open in completed.cover.open.iter().take(MOST_OPEN_SHOWN) {
         let min = to_f64(&open.min);
         let max = open.max.as_ref().map_or(f64::INFINITY, to_f64);
         println!(
@@ -287,11 +294,12 @@ fn random(n: usize, unknown: Unknown, count: u64) {
         let problem = mechanical_pencil(n, unknown, seed).expect("n > 0");
         match measure(&problem) {
             Ok(run) => {
-                let leaves = run.completed.cover.leaves;
+                let cover = &run.completed.cover;
                 println!(
-                    "    {name} seed {seed}: {:.3} {:.3} {leaves}",
-                    run.search, run.check
+                    "    {name} seed {seed}: {:.3} {:.3} {} leaves",
+                    run.search, run.check, cover.leaves
                 );
+                print_open(&run.completed);
                 runs.push(run);
             }
             Err(error) => println!("    {name} seed {seed}: {error}"),

@@ -14,11 +14,13 @@ use mceip_exact::{Rational, rational};
 use mceip_model::{Body, Problem, Unknown};
 use mceip_testkit::generators::raw::{digits, doubled, elements, graph, zeros};
 use mceip_testkit::generators::window;
-use mceip_testkit::{Instance, degenerate, known, mechanical, random_pencils, table1_grid};
+use mceip_testkit::{
+    Instance, degenerate, known, mechanical, mechanical_pencil, random_pencils, table1_grid,
+};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::OpenOptions;
 use std::io::Write;
 
@@ -395,6 +397,65 @@ fn families_with_known_answers_agree() {
     let report = Campaign::run(&all).report();
 
     report.assert_mostly_decided();
+}
+
+/// From 16 variables on the search keeps games from region to region: closed forms are the truth
+/// where enumeration takes too long.
+#[test]
+fn closed_forms_beyond_enumeration_are_found() {
+    let forms = [
+        known::path(18),
+        known::cycle(18),
+        known::star(17),
+        known::z_matrix(18),
+        known::jordan(17, 2, false),
+    ];
+    for known in forms.map(Result::unwrap) {
+        let found = complete(&known.problem, &Options::default(), &Watch::nobody()).unwrap();
+
+        let wrong = disagreements(&found.cover, &known.expected);
+        assert!(wrong.is_empty(), "{}: {wrong:?}", known.name);
+        assert!(found.is_complete(), "{}", known.name);
+    }
+}
+
+/// Kept games make the same bytes on any number of threads, of a pencil that is closed.
+#[test]
+fn kept_games_do_not_depend_on_threads() {
+    let problem = mechanical_pencil(18, Unknown::Mu, 1).unwrap();
+    let by_threads = [1, 3].map(|threads| {
+        let options = Options {
+            threads: Some(threads),
+            ..Options::default()
+        };
+        complete(&problem, &options, &Watch::nobody()).unwrap()
+    });
+
+    let [one, three] = by_threads
+        .each_ref()
+        .map(|found| found.certificate.to_json());
+    assert!(by_threads[0].is_complete());
+    assert_eq!(one, three);
+}
+
+/// tI - A with A the adjacency matrix of the complete graph: each of the 2^14 - 1 sets of vertices
+/// moves, k of them at t = k - 1.
+#[test]
+#[ignore = "minutes in release"]
+fn all_solutions_of_a_complete_graph_are_found() {
+    let graph = known::complete_graph(14).unwrap();
+    let found = complete(&graph.problem, &Options::default(), &Watch::nobody()).unwrap();
+
+    assert!(found.is_complete());
+    let mut supports = BTreeSet::new();
+    for solution in &found.cover.solutions {
+        let value = rational(solution.support.len() as i64 - 1, 1);
+        assert!(solution.value.contains(&value), "{:?}", solution.support);
+        supports.insert(solution.support.clone());
+    }
+
+    assert_eq!(found.cover.solutions.len(), (1 << 14) - 1);
+    assert_eq!(supports.len(), found.cover.solutions.len());
 }
 
 /// In rounds, each with some of every family, so that an interrupted run has said something.

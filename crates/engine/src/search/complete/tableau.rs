@@ -207,8 +207,10 @@ impl Tableau {
         let mut best: Option<Candidate> = None;
         for row in 1..=self.rows {
             let pivot = self.at(row, entering);
-            let ratio = self.at(row, 0) / pivot;
-            Candidate::offer(&mut best, row, pivot, ratio);
+            if pivot > GAME_PIVOT {
+                let ratio = self.at(row, 0) / pivot;
+                Candidate::offer(&mut best, row, pivot, ratio);
+            }
         }
 
         best.map(|candidate| candidate.place)
@@ -234,8 +236,10 @@ impl Tableau {
         let mut best: Option<Candidate> = None;
         for column in 1..=self.cols {
             let pivot = sign * self.at(row, column);
-            let ratio = self.at(0, column).max(0.0) / pivot;
-            Candidate::offer(&mut best, column, pivot, ratio);
+            if pivot > GAME_PIVOT {
+                let ratio = self.at(0, column).max(0.0) / pivot;
+                Candidate::offer(&mut best, column, pivot, ratio);
+            }
         }
 
         best.map(|candidate| candidate.place)
@@ -396,10 +400,6 @@ struct Candidate {
 impl Candidate {
     /// Keeps the candidate with the least ratio; of equals the one with the largest pivot.
     fn offer(best: &mut Option<Candidate>, place: usize, pivot: f64, ratio: f64) {
-        if pivot <= GAME_PIVOT {
-            return;
-        }
-
         let is_better = best.as_ref().is_none_or(|b| {
             if ratio == b.ratio {
                 pivot > b.pivot
