@@ -95,8 +95,10 @@ pub(super) fn ranges(
 
     let bottom = first_sample(&critical, below);
     let top = rounded_up(largest_of_interest(known, &critical) * whole(2));
+    let slip = known.families.own.stiffness.slip();
     let mut sampler = Sampler {
         model,
+        slip: &slip,
         proved: Vec::new(),
         starts: Vec::new(),
         smallest: None,
@@ -104,7 +106,9 @@ pub(super) fn ranges(
 
     let mut prover = prover(model, known, &found.places, &top)?;
     if let (Some(prover), Some(start)) = (&mut prover, &found.start) {
-        model.watch.report(&Progress::stage("ranges of mu: proving presence"));
+        model
+            .watch
+            .report(&Progress::stage("ranges of mu: proving presence"));
         prover.climb_from(start, to_f64(&top));
         prover.close(to_f64(&bottom), to_f64(&top), &known.starts);
         sampler.proved = prover.certified();
@@ -156,7 +160,13 @@ pub(super) fn ranges(
 fn largest_of_interest(known: &Known<'_>, critical: &Critical) -> Rational {
     let mut largest = known.friction;
     let of_solution = critical.solution.iter().map(|s| s.mu.hi());
-    for mu in known.threshold.values.iter().map(|v| v.hi()).chain(of_solution) {
+    for mu in known
+        .threshold
+        .values
+        .iter()
+        .map(|v| v.hi())
+        .chain(of_solution)
+    {
         largest = largest.max(mu);
     }
 
@@ -241,6 +251,8 @@ struct Met {
 /// Decides divergence at values of mu.
 struct Sampler<'a> {
     model: &'a Model<'a>,
+    /// The slip variables.
+    slip: &'a [usize],
     /// Where presence is proved, ascending.
     proved: Vec<PresenceCertificate>,
     /// The solutions met, in doubles.
@@ -340,9 +352,9 @@ impl Sampler<'_> {
         let problem = self.model.problem(Some(&mu))?;
         let found = self.model.complete(stage, &problem)?;
         let verdict = verdict(&found);
-        let slip = problem.pencil().slip();
+        let friction = to_f64(&mu);
         self.starts
-            .extend(starts(&found, &slip, |value| [value, to_f64(&mu)]));
+            .extend(starts(&found, self.slip, |value| [value, friction]));
         let is_smallest = self.smallest.as_ref().is_none_or(|met| mu < met.mu);
         if verdict == Verdict::Present && is_smallest {
             self.smallest = Some(Met {

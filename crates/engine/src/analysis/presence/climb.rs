@@ -219,5 +219,9 @@ fn short_end(mu: f64, step: f64, target: f64) -> f64 {
 pub(super) fn short_multiple(target: f64, slack: f64) -> f64 {
     let unit = slack.log2().floor().exp2();
     let multiple = (target / unit).round() * unit;
-    if multiple.is_finite() { multiple } else { target }
+    if multiple.is_finite() {
+        multiple
+    } else {
+        target
+    }
 }

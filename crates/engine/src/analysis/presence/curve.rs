@@ -82,11 +82,6 @@ impl<'a> Curves<'a> {
         self.solved(Unknown::Lambda2, [t, mu], guess)
     }
 
-    /// The solution of a support at a given lambda^2, from a guess.
-    pub(super) fn at_lambda2(&self, t: f64, guess: &Point) -> Option<Point> {
-        self.solved(Unknown::Friction, [t, guess.mu], guess)
-    }
-
     /// A solution near a guess. Components that turn out negative leave the support, and y_i < 0
     /// enters it.
     pub(super) fn near(&self, [t, mu]: [f64; 2], x: &[f64], of_friction: bool) -> Option<Point> {

@@ -144,12 +144,7 @@ impl Witness {
 
     /// The binary exponents of Y, and of u and v, so that rounding moves each component of v, and
     /// each of Y T'v relative to v, by about 2^-bits.
-    fn exponents(
-        &self,
-        bits: i32,
-        place: &Place,
-        expansions: &[Expansion; 2],
-    ) -> Option<[u32; 2]> {
+    fn exponents(&self, bits: i32, place: &Place, expansions: &[Expansion; 2]) -> Option<[u32; 2]> {
         let smallest = self.right.iter().fold(1.0f64, |s, v| s.min(*v));
         let matrix = &place.edge(expansions, place.t[0])[0].m[0];
         let block = principal_block(matrix, &self.rest);
