@@ -8,7 +8,7 @@
 
 use crate::common::{contains_all, example, exit_code, exits, exits_with_json, read, run};
 use crate::program::{Folder, refused};
-use mceip_check::{check, check_critical};
+use mceip_check::{check, check_critical, check_presence};
 use mceip_engine::analysis::{
     Analysis, Evidence, Mode, Obstacle, Options, ProofCertificate, Verdict, analyse,
 };
@@ -42,6 +42,9 @@ fn answer(system: &System, mu: &Rational, samples: usize) -> Analysis {
             }
             ProofCertificate::Absence(absence) => {
                 check_critical(&proof.problem, absence).unwrap();
+            }
+            ProofCertificate::Presence(presence) => {
+                check_presence(&proof.problem, presence).unwrap();
             }
         }
     }

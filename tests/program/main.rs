@@ -28,6 +28,7 @@ mod launcher;
 mod manual;
 mod pictures;
 mod plausibility;
+mod presence;
 mod rivals;
 mod schemas;
 mod simulate;
