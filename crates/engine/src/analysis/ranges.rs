@@ -95,7 +95,6 @@ pub(super) fn ranges(
 
     let bottom = first_sample(&critical, below);
     let top = rounded_up(largest_of_interest(known, &critical) * whole(2));
-    let slip = known.families.own.stiffness.slip();
     let mut sampler = Sampler {
         model,
         slip: known.families.own.stiffness.slip(),
