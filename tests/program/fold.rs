@@ -236,21 +236,3 @@ fn presence_is_proved_from_the_fold_on() {
     from_below["from"] = "9/5".into();
     verdict(&from_below, 1);
 }
-
-/// Table 1, S = (+1, -1), c = 3/5, s = 4/5: there are solutions from mu = (c^2 + 1) / (c s) = 17/6
-/// on, and none below.
-#[test]
-fn presence_agrees_with_the_closed_form_of_table_1() {
-    let folder = Folder::new();
-    let report = analysis("two-particles", &folder.path("proofs"), &["--samples", "5"]);
-
-    let threshold = 17.0 / 6.0;
-    let mut length = 0.0;
-    for [from, to] in proved_presence(&report) {
-        assert!(from >= threshold && to <= 16.0, "{from} {to}");
-        length += to - from;
-    }
-
-    let share = length / (16.0 - threshold);
-    assert!(share > 0.999, "{share}");
-}
