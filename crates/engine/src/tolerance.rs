@@ -72,8 +72,8 @@ pub const WITNESS_MARGIN: f64 = 1e-7;
 pub const ENOUGH_MARGIN: f64 = 4e-3;
 
 /// The least gain in value of a part that counts where divisions are compared by the product of
-/// both gains. Unit: as [`WITNESS_MARGIN`]. Basis: the rounding of a value; with zero in its place a
-/// product could not tell divisions apart that gain on one side only.
+/// both gains. Unit: as [`WITNESS_MARGIN`]. Basis: the rounding of a value; with zero in its place
+/// a product could not tell divisions apart that gain on one side only.
 pub const LEAST_GAIN: f64 = 1e-12;
 
 /// Smallest pivot, relative to the largest entry, at which a symmetric part is offered as definite.

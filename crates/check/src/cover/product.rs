@@ -1,7 +1,8 @@
 //! The product of a matrix of long integers and one of short integers, exactly.
 //!
 //! The entries of the pencil are long and those of W and V short, as a rule below 2^62
-//! ([`IntegerRow`]). So an entry of the left factor is cut into digits of 32 bits that have its sign,
+//! ([`IntegerRow`]). So an entry of the left factor is cut into digits of 32 bits that have its
+//! sign,
 //!
 //! ```text
 //!     v = sum_k v_k 2^(32 k),    |v_k| < 2^32,

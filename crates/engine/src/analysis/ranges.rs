@@ -2,10 +2,10 @@
 //!
 //! Below the proved bound of the critical mu there is none: one range, with the certificate of the
 //! bound. From just above the solution of smallest mu to twice the largest mu of interest presence
-//! is proved on intervals (`presence`), each with a certificate. What they leave out is decided with
-//! certificates at values of mu (samples): those of evenly spread ones that lie outside, one in each
-//! gap, and then by halving between neighbours of different verdicts. Neighbouring samples of one
-//! verdict make a range; between samples nothing is proved.
+//! is proved on intervals (`presence`), each with a certificate. What they leave out is decided
+//! with certificates at values of mu (samples): those of evenly spread ones that lie outside, one
+//! in each gap, and then by halving between neighbours of different verdicts. Neighbouring samples
+//! of one verdict make a range; between samples nothing is proved.
 //!
 //! Input: what is known of the system, and its critical mu. Output: [`Ranges`]. Called by
 //! [`analyse`](super::analyse).
@@ -43,8 +43,8 @@ pub struct Range {
     pub verdict: Verdict,
     /// Its lower end: 0, that of a proved interval, or the first sample.
     pub from: Rational,
-    /// Its upper end: the bound below which all is absent (not included), that of a proved interval,
-    /// or the last sample; `None` for infinity.
+    /// Its upper end: the bound below which all is absent (not included), that of a proved
+    /// interval, or the last sample; `None` for infinity.
     pub to: Option<Rational>,
     /// What stands behind it: what proves it everywhere between its ends, or for samples a
     /// measurement, because nothing is proved between them.
