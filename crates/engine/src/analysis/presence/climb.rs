@@ -52,11 +52,11 @@ pub(super) struct Climb<'a> {
     pub(super) watch: Watch<'a>,
 }
 
-/// What comes of an attempt to go on along a curve.
-enum Attempt {
-    Done(Point, Option<Stretch>),
-    /// Neither reached nor proved.
-    Failed,
+/// The next point of a curve.
+struct Reached {
+    point: Point,
+    /// The proof on the way there, if one was asked for.
+    stretch: Option<Stretch>,
 }
 
 impl Climb<'_> {
@@ -91,11 +91,11 @@ impl Climb<'_> {
             }
 
             let mu = short_end(here.mu, step, target);
-            if let Attempt::Done(next, stretch) = self.attempt(&here, mu, stretches.is_some()) {
-                if let (Some(list), Some(stretch)) = (&mut stretches, stretch) {
-                    list.push(stretch);
+            if let Some(reached) = self.attempt(&here, mu, stretches.is_some()) {
+                if let Some(list) = &mut stretches {
+                    list.extend(reached.stretch);
                 }
-                here = next;
+                here = reached.point;
                 step *= 2.0;
                 continue;
             }
@@ -121,22 +121,17 @@ impl Climb<'_> {
         None
     }
 
-    /// The curve from a point to a mu.
-    fn attempt(&self, here: &Point, mu: f64, is_proving: bool) -> Attempt {
+    /// The curve from a point to a mu; `None` where that is not reached, or not proved.
+    fn attempt(&self, here: &Point, mu: f64, is_proving: bool) -> Option<Reached> {
         let is_regular = |point: &Point| point.violated.is_none();
-        let next = self.curves.at_friction(mu, here).filter(is_regular);
-        let Some(next) = next else {
-            return Attempt::Failed;
+        let point = self.curves.at_friction(mu, here).filter(is_regular)?;
+
+        let stretch = if is_proving {
+            Some(self.stretch(here, &point)?)
+        } else {
+            None
         };
-
-        if !is_proving {
-            return Attempt::Done(next, None);
-        }
-
-        match self.stretch(here, &next) {
-            Some(stretch) => Attempt::Done(next, Some(stretch)),
-            None => Attempt::Failed,
-        }
+        Some(Reached { point, stretch })
     }
 
     /// A point beyond a place that is left out, on this support or another.
