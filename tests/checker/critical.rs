@@ -10,9 +10,12 @@
 use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
 use mceip_check::{Reason, audit_critical, check_critical};
 use mceip_exact::{Rational, Sparse, parse, rational, to_f64, whole};
-use mceip_model::file::{Number, write_problem};
+use mceip_model::file::Number;
+#[cfg(feature = "cli")]
+use mceip_model::file::write_problem;
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use std::cell::Cell;
+#[cfg(feature = "cli")]
 use std::process::Command;
 
 /// Where the boxes of the fold end and a definite matrix takes over.

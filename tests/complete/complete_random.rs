@@ -408,7 +408,6 @@ fn closed_forms_beyond_enumeration_are_found() {
         known::cycle(18),
         known::star(17),
         known::z_matrix(18),
-        known::jordan(17, 2, false),
     ];
     for known in forms.map(Result::unwrap) {
         let found = complete(&known.problem, &Options::default(), &Watch::nobody()).unwrap();

@@ -299,16 +299,10 @@ impl Search<'_> {
             }
             Searched::NotUnique(value) => {
                 self.met.push(value);
-                if self.exact(region, share) {
-                    return true;
+                if !self.exact(region, share) {
+                    self.degenerate(region, ends, value, share);
                 }
 
-                // Variables are decided over wide intervals there, which may hold other values.
-                if self.keeps_games(ends) && region.cuts < MAX_CUTS_SUSPECT {
-                    return false;
-                }
-
-                self.degenerate(region, ends, value, share);
                 true
             }
         }
