@@ -399,25 +399,6 @@ fn families_with_known_answers_agree() {
     report.assert_mostly_decided();
 }
 
-/// From 16 variables on the search keeps games from region to region: closed forms are the truth
-/// where enumeration takes too long.
-#[test]
-fn closed_forms_beyond_enumeration_are_found() {
-    let forms = [
-        known::path(18),
-        known::cycle(18),
-        known::star(17),
-        known::z_matrix(18),
-    ];
-    for known in forms.map(Result::unwrap) {
-        let found = complete(&known.problem, &Options::default(), &Watch::nobody()).unwrap();
-
-        let wrong = disagreements(&found.cover, &known.expected);
-        assert!(wrong.is_empty(), "{}: {wrong:?}", known.name);
-        assert!(found.is_complete(), "{}", known.name);
-    }
-}
-
 /// Kept games make the same bytes on any number of threads, of a pencil that is closed.
 #[test]
 fn kept_games_do_not_depend_on_threads() {
