@@ -23,6 +23,7 @@ mod follow;
 mod json;
 mod model;
 mod modes;
+mod null_vectors;
 mod presence;
 mod ranges;
 mod sentences;

@@ -162,32 +162,21 @@ impl Climb<'_> {
             return None;
         }
 
-        let values = [below.t, middle.t, above.t];
-        let lowest = values.iter().fold(f64::INFINITY, |s, t| s.min(*t));
-        let highest = values.iter().fold(0.0f64, |s, t| s.max(*t));
-        let scale = self.curves.scale();
-        let flat = FLAT * (middle.t + scale) * (above.mu - below.mu) / middle.mu;
-        let extent = (highest - lowest).max(flat);
-
+        let matrix = self.curves.matrix(middle.t, middle.mu);
+        let witness = Witness::of(&matrix, &middle)?;
         let anchor = self.curves.anchor(middle.t);
         let expansions = self.curves.expansions(middle.t);
+        let index = &self.curves.family.view().index;
+
+        let ends = self.ends([below, &middle, above]);
         for share in BEYOND_CURVE {
-            let reach = share * extent;
-            let lower = short_multiple(lowest - reach, UNIT_OF_WIDTH * reach).max(0.0);
-            let upper = short_multiple(highest + reach, UNIT_OF_WIDTH * reach);
-            let is_reciprocal = expansions[0].reversed;
-            if is_reciprocal && lower <= 0.0 {
+            let t = beyond_curve(ends, share);
+            if expansions[0].reversed && t[0] <= 0.0 {
                 continue;
             }
 
-            let place = Place {
-                t: [lower, upper],
-                mu: [below.mu, above.mu],
-            };
-            let matrix = self.curves.matrix(middle.t, middle.mu);
-            let index = &self.curves.family.view().index;
-            let witness = Witness::of(&matrix, &middle)?;
-            if let Some(piece) = witness.piece(&place, expansions, index) {
+            let mu = [below.mu, above.mu];
+            if let Some(piece) = witness.piece(&Place { t, mu }, expansions, index) {
                 return Some(Stretch {
                     low: below.mu,
                     high: above.mu,
@@ -198,6 +187,27 @@ impl Climb<'_> {
 
         None
     }
+
+    /// The least and the largest lambda^2 of three points of a curve, apart by [`FLAT`] at least.
+    fn ends(&self, [below, middle, above]: [&Point; 3]) -> [f64; 2] {
+        let lowest = below.t.min(middle.t).min(above.t);
+        let highest = below.t.max(middle.t).max(above.t);
+
+        let relative_length = (above.mu - below.mu) / middle.mu;
+        let flat = FLAT * (middle.t + self.curves.scale()) * relative_length;
+        let missing = (flat - (highest - lowest)).max(0.0);
+        [lowest - 0.5 * missing, highest + 0.5 * missing]
+    }
+}
+
+/// An interval of lambda^2 that reaches beyond the ends of a curve by a share of their distance.
+fn beyond_curve([lowest, highest]: [f64; 2], share: f64) -> [f64; 2] {
+    let reach = share * (highest - lowest);
+    let slack = UNIT_OF_WIDTH * reach;
+    [
+        short_multiple(lowest - reach, slack).max(0.0),
+        short_multiple(highest + reach, slack),
+    ]
 }
 
 /// A mu about one step further, short, or the target where that is near.

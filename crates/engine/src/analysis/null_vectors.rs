@@ -1,0 +1,325 @@
+//! An approximate inverse and null vectors of T(t, mu) on a support, and what they are worth at
+//! the corners of a box, in doubles.
+//!
+//! S is the support, k in S its *pivot*, T' the block of T on S without k, which is called the
+//! *rest*. From one point of a box come Y ~ T'^-1 and u, v ~ left and right null vectors of T_SS
+//! that are 1 at k:
+//!
+//! ```text
+//!     v = -Y T_'k,    u' = -T_k' Y.
+//! ```
+//!
+//! At a corner, where each entry of T is known up to a radius, the residuals are bounded that a
+//! leaf `regular` (5.18 of `spec/certificates.md`) and a piece of presence (5.19) speak of. Called
+//! by `absence::regular` and `presence::witness`.
+
+use crate::search::complete::pieces::expansion::Ends;
+use crate::search::complete::pieces::matrix::{Matrix, principal_block};
+use crate::search::complete::pieces::skyline::dot;
+use crate::search::complete::rounding::{integers, rounded};
+use crate::tolerance::ROUNDING;
+use mceip_exact::Integer;
+use mceip_mcp::linear::inverse;
+
+/// Y, u and v; positions are those of the complementarity variables.
+pub(super) struct NullVectors {
+    pub(super) pivot: usize,
+    /// The support without the pivot.
+    pub(super) rest: Vec<usize>,
+    /// Y.
+    pub(super) inverse: Matrix,
+    /// u and v on the rest.
+    pub(super) left: Vec<f64>,
+    pub(super) right: Vec<f64>,
+}
+
+/// The same as integers in units of powers of two, as certificates spell them.
+pub(super) struct IntegerVectors {
+    pub(super) inverse: Vec<Vec<Integer>>,
+    pub(super) left: Vec<Integer>,
+    pub(super) right: Vec<Integer>,
+}
+
+impl NullVectors {
+    /// Those of a matrix with the pivot at a place of the support; `None` where T' is singular to
+    /// doubles, or there is no such place.
+    pub(super) fn of(matrix: &Matrix, support: &[usize], place: usize) -> Option<NullVectors> {
+        let pivot = *support.get(place)?;
+        let mut rest = support.to_vec();
+        rest.remove(place);
+        let inverse = if rest.is_empty() {
+            Matrix::new()
+        } else {
+            inverse(&principal_block(matrix, &rest))?
+        };
+
+        let column: Vec<f64> = rest.iter().map(|&i| matrix[i][pivot]).collect();
+        let right = inverse.iter().map(|row| -dot(row, &column)).collect();
+
+        let mut left = vec![0.0; rest.len()];
+        for (&j, row) in rest.iter().zip(&inverse) {
+            for (u, y) in left.iter_mut().zip(row) {
+                *u -= matrix[pivot][j] * y;
+            }
+        }
+
+        Some(NullVectors {
+            pivot,
+            rest,
+            inverse,
+            left,
+            right,
+        })
+    }
+
+    /// Rounded to multiples of 1 / `inverse_unit` and, u and v, of 1 / `unit`.
+    pub(super) fn rounded(&self, inverse_unit: f64, unit: f64) -> NullVectors {
+        let [left, right] = [&self.left, &self.right]
+            .map(|vector| vector.iter().map(|v| (v * unit).round() / unit));
+        NullVectors {
+            pivot: self.pivot,
+            rest: self.rest.clone(),
+            inverse: rounded(&self.inverse, inverse_unit),
+            left: left.collect(),
+            right: right.collect(),
+        }
+    }
+
+    /// The integers of rounded vectors.
+    pub(super) fn integers(&self, inverse_unit: f64, unit: f64) -> IntegerVectors {
+        let [left, right] =
+            [&self.left, &self.right].map(|vector| integers(&vec![vector.clone()], unit).concat());
+        IntegerVectors {
+            inverse: integers(&self.inverse, inverse_unit),
+            left,
+            right,
+        }
+    }
+
+    /// The corners at both ends of each interval.
+    pub(super) fn corners<'a>(&'a self, ends: &'a [Ends]) -> impl Iterator<Item = Corner<'a>> {
+        let both = ends.iter();
+        both.flat_map(move |ends| [0, 1].map(|end| Corner::of(ends, end, self)))
+    }
+}
+
+/// Every number within `radius` of `center`.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Ball {
+    pub(super) center: f64,
+    pub(super) radius: f64,
+}
+
+impl Ball {
+    /// Adds factor * (m +- r), and what rounding may cost.
+    fn add(&mut self, factor: f64, m: f64, r: f64) {
+        let product = factor * m;
+        self.center += product;
+        self.radius += factor.abs() * r + ROUNDING * product.abs();
+    }
+
+    fn magnitude(self) -> f64 {
+        self.center.abs() + self.radius
+    }
+}
+
+/// One corner of a box: every matrix within `r` of `m`.
+pub(super) struct Corner<'a> {
+    vectors: &'a NullVectors,
+    m: &'a Matrix,
+    /// `None` where the matrix is known exactly.
+    r: Option<&'a Matrix>,
+}
+
+impl<'a> Corner<'a> {
+    /// The corner at an end of an interval.
+    pub(super) fn of(ends: &'a Ends, end: usize, vectors: &'a NullVectors) -> Corner<'a> {
+        Corner {
+            vectors,
+            m: &ends.m[end],
+            r: ends.r.as_ref(),
+        }
+    }
+
+    fn radius(&self, i: usize, j: usize) -> f64 {
+        self.r.map_or(0.0, |r| r[i][j])
+    }
+
+    /// |I - Y T'| times weights: a bound for each row.
+    pub(super) fn deviations(&self, weights: &[f64]) -> Vec<f64> {
+        let rest = &self.vectors.rest;
+        let mut deviations = Vec::with_capacity(rest.len());
+        for (i, row) in self.vectors.inverse.iter().enumerate() {
+            let mut products = vec![Ball::default(); rest.len()];
+            for (y, &k) in row.iter().zip(rest) {
+                for (product, &j) in products.iter_mut().zip(rest) {
+                    product.add(*y, self.m[k][j], self.radius(k, j));
+                }
+            }
+
+            products[i].center -= 1.0;
+            let terms = products.iter().zip(weights);
+            deviations.push(terms.map(|(product, w)| product.magnitude() * w).sum());
+        }
+
+        deviations
+    }
+
+    /// (T v)_row.
+    pub(super) fn row_times_v(&self, row: usize) -> Ball {
+        let NullVectors {
+            pivot, rest, right, ..
+        } = self.vectors;
+        let mut sum = Ball::default();
+        sum.add(1.0, self.m[row][*pivot], self.radius(row, *pivot));
+        for (v, &j) in right.iter().zip(rest) {
+            sum.add(*v, self.m[row][j], self.radius(row, j));
+        }
+
+        sum
+    }
+
+    /// (T v)_i for each i of the support, the pivot last.
+    pub(super) fn products(&self) -> Vec<Ball> {
+        let rows = self.vectors.rest.iter().chain([&self.vectors.pivot]);
+        rows.map(|&row| self.row_times_v(row)).collect()
+    }
+
+    /// |Y (T_'k + T'v)|: a bound for each component; `products` is T v.
+    pub(super) fn errors(&self, products: &[Ball]) -> Vec<f64> {
+        let mut errors = Vec::with_capacity(self.vectors.rest.len());
+        for row in &self.vectors.inverse {
+            let mut sum = Ball::default();
+            for (y, product) in row.iter().zip(products) {
+                sum.add(*y, product.center, product.radius);
+            }
+            errors.push(sum.magnitude());
+        }
+
+        errors
+    }
+
+    /// The sum of |T_k' + u'T'|_j times weights.
+    pub(super) fn left_residual(&self, weights: &[f64]) -> f64 {
+        let NullVectors {
+            pivot, rest, left, ..
+        } = self.vectors;
+        let mut total = 0.0;
+        for (weight, &j) in weights.iter().zip(rest) {
+            let mut sum = Ball::default();
+            sum.add(1.0, self.m[*pivot][j], self.radius(*pivot, j));
+            for (u, &i) in left.iter().zip(rest) {
+                sum.add(*u, self.m[i][j], self.radius(i, j));
+            }
+            total += sum.magnitude() * weight;
+        }
+
+        total
+    }
+
+    /// u'Tv; `products` is T v.
+    pub(super) fn value(&self, products: &[Ball]) -> Ball {
+        let mut sum = Ball::default();
+        for (u, product) in self.vectors.left.iter().chain([&1.0]).zip(products) {
+            sum.add(*u, product.center, product.radius);
+        }
+
+        sum
+    }
+
+    /// The sum over the rest of |T_row,j| v_j, radii included.
+    pub(super) fn reach(&self, row: usize) -> f64 {
+        let NullVectors { rest, right, .. } = self.vectors;
+        let mut reach = 0.0;
+        for (v, &j) in right.iter().zip(rest) {
+            reach += (self.m[row][j].abs() + self.radius(row, j)) * v;
+        }
+
+        reach
+    }
+}
+
+/// The largest of numbers that are not negative; infinite if one of them is no number.
+pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    let mut largest: f64 = 0.0;
+    for value in values {
+        let is_number = !value.is_nan();
+        largest = largest.max(if is_number { value } else { f64::INFINITY });
+    }
+
+    largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// T = [[2, 1, 4], [1, 3, 5], [6, 7, 8]] on {0, 1, 2} with the pivot 2.
+    fn matrix() -> Matrix {
+        vec![
+            vec![2.0, 1.0, 4.0],
+            vec![1.0, 3.0, 5.0],
+            vec![6.0, 7.0, 8.0],
+        ]
+    }
+
+    fn exact_ends(matrix: &Matrix) -> Ends {
+        Ends {
+            lo: 0.0,
+            hi: 1.0,
+            m: [matrix.clone(), matrix.clone()],
+            r: None,
+            slope: None,
+        }
+    }
+
+    #[test]
+    fn residuals_vanish_where_the_vectors_come_from() {
+        let matrix = matrix();
+        let vectors = NullVectors::of(&matrix, &[0, 1, 2], 2).unwrap();
+        // T'^-1 = [[3, -1], [-1, 2]] / 5.
+        assert_relative_eq!(vectors.right[0], -7.0 / 5.0, max_relative = 1e-14);
+        assert_relative_eq!(vectors.left[1], -8.0 / 5.0, max_relative = 1e-14);
+
+        let ends = exact_ends(&matrix);
+        let corner = Corner::of(&ends, 0, &vectors);
+        let products = corner.products();
+        assert!(largest(corner.deviations(&[1.0, 1.0])) < 1e-13);
+        assert!(largest(corner.errors(&products)) < 1e-13);
+        assert!(corner.left_residual(&[1.0, 1.0]) < 1e-12);
+
+        // The Schur complement: 8 - (6, 7) T'^-1 (4, 5)' = 8 - (6 * 7 + 7 * 6) / 5.
+        let value = corner.value(&products);
+        assert_relative_eq!(value.center, 8.0 - 84.0 / 5.0, max_relative = 1e-12);
+    }
+
+    /// A changed entry and a radius count where they stand, times the weight.
+    #[test]
+    fn changes_and_radii_are_seen() {
+        let vectors = NullVectors::of(&matrix(), &[0, 1, 2], 2).unwrap();
+        let mut changed = matrix();
+        changed[0][1] += 1.0;
+        let mut ends = exact_ends(&changed);
+        let deviations = Corner::of(&ends, 1, &vectors).deviations(&[1.0, 10.0]);
+        // Y e_0 e_1' is (3, -1)' / 5 in column 1, of weight 10.
+        assert_relative_eq!(deviations[0], 6.0, max_relative = 1e-12);
+        assert_relative_eq!(deviations[1], 2.0, max_relative = 1e-12);
+
+        let mut radii = vec![vec![0.0; 3]; 3];
+        radii[2][0] = 0.5;
+        ends.m[0] = matrix();
+        ends.r = Some(radii);
+        let corner = Corner::of(&ends, 0, &vectors);
+        assert_relative_eq!(corner.left_residual(&[2.0, 1.0]), 1.0, max_relative = 1e-9);
+        let radius = corner.row_times_v(2).radius;
+        assert_relative_eq!(radius, 0.5 * 7.0 / 5.0, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn no_number_counts_as_infinite() {
+        assert_eq!(largest([1.0, 3.0, 2.0]), 3.0);
+        assert_eq!(largest([1.0, f64::NAN]), f64::INFINITY);
+        assert_eq!(largest([]), 0.0);
+    }
+}
