@@ -217,6 +217,21 @@ class Absence:
 
 
 @dataclass(frozen=True)
+class Presence:
+    """What an accepted certificate of presence has proved.
+
+    Attributes:
+        start: the smallest friction coefficient of which this is proved.
+        end: the largest: for each in [start, end] there is a solution with lambda^2 >= 0.
+        pieces: number of pieces that prove it.
+    """
+
+    start: Fraction
+    end: Fraction
+    pieces: int
+
+
+@dataclass(frozen=True)
 class Proof:
     """A certificate that the checker has accepted, with the problem that it belongs to.
 
@@ -230,13 +245,20 @@ class Proof:
     problem: dict[str, Any] = field(repr=False)
     certificate: Certificate = field(repr=False)
 
-    def check(self) -> Accepted | Absence:
+    def check(self) -> Accepted | Absence | Presence:
         """Runs the checker once more; raises `RejectedError` where it refuses."""
         native = NativeProblem.from_json(json.dumps(self.problem))
         text = json.dumps(self.certificate)
-        if self.certificate["format"] == "mceip-critical/1":
+
+        kind = self.certificate["format"]
+        if kind == "mceip-critical/1":
             start, below, leaves = native.check_absence(text)
             return Absence(fraction_of(below), leaves, fraction_of(start))
+
+        if kind == "mceip-presence/1":
+            start, end, pieces = native.check_presence(text)
+            return Presence(fraction_of(start), fraction_of(end), pieces)
+
         return accepted_of(json.loads(native.check(text)))
 
 

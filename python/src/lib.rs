@@ -11,8 +11,8 @@ mod watched;
 
 use contact::Contacts;
 use mceip::{Certificate, Error, Matrix, Problem, Rational, Rejected, Unknown, check};
-use mceip_check::certificate::CriticalCertificate;
-use mceip_check::check_critical;
+use mceip_check::certificate::{CriticalCertificate, PresenceCertificate};
+use mceip_check::{check_critical, check_presence};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -233,6 +233,19 @@ impl NativeProblem {
         let from = accepted.from.to_string();
         let below = accepted.below.to_string();
         Ok((from, below, accepted.leaves))
+    }
+
+    /// The verdict of the checker on `mceip-presence/1`: the smallest and the largest friction
+    /// coefficient of which presence is proved, and the number of pieces that prove it.
+    fn check_presence(&self, py: Python<'_>, text: &str) -> PyResult<(String, String, usize)> {
+        let read = PresenceCertificate::from_json(text);
+        let certificate = read.map_err(|e| MceipError::new_err(e.to_string()))?;
+
+        let verdict = py.detach(|| check_presence(self.0.as_model(), &certificate));
+        let accepted = verdict.map_err(|rejected| rejection(&rejected))?;
+        let from = accepted.from.to_string();
+        let to = accepted.to.to_string();
+        Ok((from, to, accepted.pieces))
     }
 }
 

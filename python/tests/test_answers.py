@@ -155,10 +155,18 @@ def test_every_proof_of_an_analysis_is_accepted_again_and_not_for_another_proble
 
     verdicts = [proof.check() for proof in analysis.proofs]
 
-    assert {type(verdict) for verdict in verdicts} == {mceip.Accepted, mceip.Absence}
+    kinds = {mceip.Accepted, mceip.Absence, mceip.Presence}
+    assert {type(verdict) for verdict in verdicts} == kinds
+
     absence = next(verdict for verdict in verdicts if isinstance(verdict, mceip.Absence))
+    assert absence.start == 0
     assert absence.below == analysis.critical.absent_below
     assert absence.leaves > 0
+
+    presence = next(verdict for verdict in verdicts if isinstance(verdict, mceip.Presence))
+    assert analysis.critical.mu[0] <= presence.start < presence.end
+    assert presence.start <= 3 <= presence.end
+    assert presence.pieces > 0
 
     other = json.loads(example("point").to_json())
     for proof in analysis.proofs:
