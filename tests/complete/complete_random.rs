@@ -10,8 +10,8 @@ use crate::cover::{disagreements, family_disagreements, truth};
 use mceip_check::OpenRegion;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Completed, Options, complete};
-use mceip_exact::{Rational, rational};
-use mceip_model::{Body, Problem, Unknown};
+use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_testkit::generators::raw::{digits, doubled, elements, graph, zeros};
 use mceip_testkit::generators::window;
 use mceip_testkit::{
@@ -416,6 +416,66 @@ fn kept_games_do_not_depend_on_threads() {
         .map(|found| found.certificate.to_json());
     assert!(by_threads[0].is_complete());
     assert_eq!(one, three);
+}
+
+/// Variables of a random pencil, and of the same with variables more that are at rest in every
+/// solution.
+const INNER_ORDER: usize = 8;
+const OUTER_ORDER: usize = 18;
+
+/// A pencil with the solutions of `inner`, and more variables.
+///
+/// The row of a further variable e is y_e = (1 + t) x_e + the sum of all other x_j, so that x_e > 0
+/// and y_e = 0 exclude each other. Its column in the rows of `inner` is random, and meets x_e = 0.
+fn with_variables_at_rest(inner: &Pencil, rng: &mut ChaCha8Rng) -> Pencil {
+    let mut a: Vec<_> = inner
+        .a()
+        .entries()
+        .map(|(i, j, v)| (i, j, v.clone()))
+        .collect();
+    let mut b: Vec<_> = inner
+        .b()
+        .entries()
+        .map(|(i, j, v)| (i, j, v.clone()))
+        .collect();
+
+    for e in inner.order()..OUTER_ORDER {
+        for j in 0..OUTER_ORDER {
+            a.push((e, j, whole(1)));
+        }
+        b.push((e, e, whole(1)));
+
+        for i in 0..inner.order() {
+            a.push((i, e, whole(rng.random_range(-9..=9))));
+            b.push((i, e, whole(rng.random_range(-9..=9))));
+        }
+    }
+
+    let [a, b] = [a, b].map(|entries| Sparse::from_entries(OUTER_ORDER, OUTER_ORDER, entries));
+    Pencil::new(a, b, Vec::new()).unwrap()
+}
+
+/// From 16 variables on games are kept. The truth is the enumeration of a smaller pencil.
+#[test]
+fn searches_that_keep_games_agree_with_enumeration() {
+    let mut solutions = 0;
+    for k in 0..12 {
+        let mut rng = ChaCha8Rng::seed_from_u64(k as u64);
+        let unknown = unknown_of(k);
+        let inner = elements(unknown, &mut rng, INNER_ORDER, 0).unwrap();
+        let outer = with_variables_at_rest(&inner, &mut rng);
+        let [inner, outer] = [inner, outer]
+            .map(|pencil| Problem::new(Body::Pencil(pencil), unknown, Window::all()).unwrap());
+
+        let truth = truth(&inner);
+        let found = complete(&outer, &Options::default(), &Watch::nobody()).unwrap();
+
+        assert!(found.is_complete(), "{k}");
+        assert_eq!(disagreements(&found.cover, &truth), [""; 0], "{k}");
+        solutions += truth.solutions.len();
+    }
+
+    assert!(solutions >= 12, "{solutions}");
 }
 
 /// tI - A with A the adjacency matrix of the complete graph: each of the 2^14 - 1 sets of vertices

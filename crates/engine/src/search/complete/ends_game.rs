@@ -9,7 +9,7 @@
 //! Only for finite intervals over which the chord is exact. Rounding adds up from part to part, so
 //! the weights are tried on the columns themselves before they become a leaf (`leaf::farkas`).
 //!
-//! Called by `divide`.
+//! Called by `gains`.
 
 use super::pieces::expansion::Ends;
 use super::region::{State, possible_support};

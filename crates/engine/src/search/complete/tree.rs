@@ -299,10 +299,16 @@ impl Search<'_> {
             }
             Searched::NotUnique(value) => {
                 self.met.push(value);
-                if !self.exact(region, share) {
-                    self.degenerate(region, ends, value, share);
+                if self.exact(region, share) {
+                    return true;
                 }
 
+                // Variables are decided over wide intervals there, which may hold other values.
+                if self.keeps_games(ends) && region.cuts < MAX_CUTS_SUSPECT {
+                    return false;
+                }
+
+                self.degenerate(region, ends, value, share);
                 true
             }
         }
