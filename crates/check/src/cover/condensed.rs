@@ -773,9 +773,10 @@ enum Beyond {
 impl Equations<'_> {
     /// C(d) - F(d) W(d), in the units of W.
     fn residual(&self, beyond: Beyond) -> Residual {
+        let degree = self.w.coefficients.len();
         let mut squares = vec![vec![Integer::zero(); self.columns]; self.terms()];
         let mut kept = match beyond {
-            Beyond::Kept => vec![Matrix::with_capacity(self.f.len()); self.terms()],
+            Beyond::Kept => vec![Matrix::with_capacity(self.f.len()); self.terms() - degree],
             Beyond::Dropped => Vec::new(),
         };
 
@@ -785,14 +786,14 @@ impl Equations<'_> {
                 add_squares(squares, entries.iter());
             }
 
-            for (matrix, entries) in kept.iter_mut().zip(row).skip(self.w.coefficients.len()) {
+            for (matrix, entries) in kept.iter_mut().zip(row.into_iter().skip(degree)) {
                 matrix.push(entries);
             }
         }
 
         Residual {
             squares,
-            beyond: kept.split_off(kept.len().min(self.w.coefficients.len())),
+            beyond: kept,
         }
     }
 
