@@ -7,6 +7,7 @@
 #![cfg(feature = "cli")]
 
 use crate::common::{contains_all, example, exit_code, exits, exits_with_json, read, run};
+use crate::fold::fold_body;
 use crate::program::{Folder, refused};
 use mceip_check::{check, check_critical, check_presence};
 use mceip_engine::analysis::{
@@ -268,21 +269,6 @@ fn free_dofs_carry_no_reaction() {
     }
 }
 
-/// The fold of errata.md as a mechanical system: K0 = diag(1, 2), K1 = [[0, -3], [1, -4]], M = I.
-fn fold() -> System {
-    let stiffness = Sparse::from_ints(&[
-        &[1, 0, 0, 1],
-        &[0, 2, -3, -4],
-        &[0, -3, 99, 0],
-        &[1, -4, 0, 99],
-    ]);
-    let mass = Sparse::identity(4);
-    let slip = ContactState::Slip { sign: 1 };
-    let particles = vec![Particle::plain(0, 2, slip), Particle::plain(1, 3, slip)];
-
-    System::new(stiffness, Some(mass), None, particles).unwrap()
-}
-
 /// The MCEIP-mu of a system at a fixed lambda^2, by the enumerator.
 fn enumerate_at(system: &System, lambda2: &Rational, window: &Window) -> Enumeration {
     let stiffness = system
@@ -297,7 +283,7 @@ fn enumerate_at(system: &System, lambda2: &Rational, window: &Window) -> Enumera
 
 #[test]
 fn a_fold_lies_below_every_static_threshold() {
-    let analysis = answer(&fold(), &whole(2), 8);
+    let analysis = answer(&fold_body(), &whole(2), 8);
     assert_eq!(analysis.divergence.verdict, Verdict::Present);
     assert_eq!(analysis.divergence.modes.len(), 2);
     assert!(analysis.threshold.values.is_empty());
@@ -321,7 +307,7 @@ fn a_fold_lies_below_every_static_threshold() {
     // Independent of the search: the enumerator finds nothing below at many lambda^2.
     let window = Window::new(whole(0), Some(below)).unwrap();
     for k in 0..60 {
-        let found = enumerate_at(&fold(), &rational(k, 8), &window);
+        let found = enumerate_at(&fold_body(), &rational(k, 8), &window);
         assert!(found.solutions.is_empty(), "{k}");
     }
 
@@ -341,7 +327,7 @@ fn the_answer_says_why_a_bound_is_not_proved() {
     };
     options.limits.boxes = 1;
 
-    let analysis = analyse(None, &fold(), &whole(2), &options, &Watch::nobody()).unwrap();
+    let analysis = analyse(None, &fold_body(), &whole(2), &options, &Watch::nobody()).unwrap();
 
     let critical = &analysis.critical;
     let tried = critical.unproved.as_ref().unwrap();
@@ -393,7 +379,7 @@ fn side_of_the_least_mu(mu: &Rational) -> Rational {
 /// Between nothing and divergence the eigenvalues are complex: absence is not stability.
 #[test]
 fn flutter_is_a_warning_where_divergence_is_absent() {
-    let analysis = answer(&fold(), &whole(1), 0);
+    let analysis = answer(&fold_body(), &whole(1), 0);
     assert_eq!(analysis.divergence.verdict, Verdict::Absent);
 
     // -K* = [[-1, 3], [-1, 2]], lambda^4 - lambda^2 + 1 = 0: lambda^2 = 1/2 + i sqrt(3)/2, and
@@ -653,7 +639,7 @@ fn interrupted_work_is_undecided() {
     let options = Options::default();
 
     let watch = Watch::silent(&stop);
-    let analysis = analyse(None, &fold(), &whole(2), &options, &watch).unwrap();
+    let analysis = analyse(None, &fold_body(), &whole(2), &options, &watch).unwrap();
 
     assert!(analysis.interrupted);
     assert!(!analysis.is_decided());
@@ -681,7 +667,7 @@ fn a_check_of_absence_can_be_interrupted() {
     };
 
     let watch = Watch::new(&stop, &stop_at_check);
-    let analysis = analyse(None, &fold(), &whole(2), &Options::default(), &watch).unwrap();
+    let analysis = analyse(None, &fold_body(), &whole(2), &Options::default(), &watch).unwrap();
 
     assert_eq!(checks.load(Ordering::Relaxed), 1);
     assert!(analysis.interrupted);

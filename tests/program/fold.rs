@@ -77,7 +77,8 @@ fn picture() -> Picture {
     )
 }
 
-fn fold_body() -> System {
+/// The body of the page.
+pub(crate) fn fold_body() -> System {
     let problem = read_problem_file(Path::new(&example("fold-body"))).unwrap();
     let Body::System(system) = problem.body() else {
         panic!("a system")
@@ -159,19 +160,6 @@ fn analysis(name: &str, proofs: &str, options: &[&str]) -> Value {
     exits_with_json(0, &[&args[..], options].concat())
 }
 
-/// The ends of the ranges in which presence is proved.
-fn proved_presence(report: &Value) -> Vec<[f64; 2]> {
-    let mut proved = Vec::new();
-    for range in report["ranges"].as_array().unwrap() {
-        if range["verdict"] == "present" && range["proved"] == true {
-            let end = |key: &str| to_f64(&range[key].as_str().unwrap().parse().unwrap());
-            proved.push([end("from"), end("to")]);
-        }
-    }
-
-    proved
-}
-
 /// The range below the bound is proved, so is presence where a certificate says so; what is only
 /// sampled says so.
 #[test]
@@ -201,38 +189,4 @@ fn ranges_say_what_is_proved_and_what_is_sampled() {
         let kind = sentence["evidence"]["kind"].as_str().unwrap();
         assert_eq!(text.contains("sampled"), kind == "measured", "{text}");
     }
-}
-
-/// From a relative 1e-5 above the fold on, up to twice the mu of the file. The checker accepts the
-/// certificate, and refuses it with a piece less and with a range that begins below the fold.
-#[test]
-fn presence_is_proved_from_the_fold_on() {
-    let folder = Folder::new();
-    let proofs = folder.path("proofs");
-    let report = analysis("fold-body", &proofs, &["--samples", "4"]);
-
-    let fold = 1.0 + 0.75f64.sqrt();
-    let proved = proved_presence(&report);
-    assert_eq!(proved.len(), 1, "{proved:?}");
-    let [from, to] = proved[0];
-    assert!(from > fold && from < fold * (1.0 + 1e-5), "{from}");
-    assert_eq!(to, 4.0);
-
-    let problem = format!("{proofs}/presence-1.problem.json");
-    let certificate = read(&format!("{proofs}/presence-1.certificate.json"));
-    let verdict = |certificate: &Value, code: i32| {
-        let file = folder.write("forged.json", &certificate.to_string());
-        exits(code, &["check", &problem, &file])
-    };
-
-    let certificate: Value = serde_json::from_str(&certificate).unwrap();
-    assert!(verdict(&certificate, 0).starts_with("PRESENT"));
-
-    let mut without_a_piece = certificate.clone();
-    without_a_piece["pieces"].as_array_mut().unwrap().remove(3);
-    verdict(&without_a_piece, 1);
-
-    let mut from_below = certificate;
-    from_below["from"] = "9/5".into();
-    verdict(&from_below, 1);
 }

@@ -145,8 +145,9 @@ fn flutter_text(flutter: &Flutter) -> String {
 
     format!(
         "WARNING of flutter: the all-slip pencil at this mu has {count} complex pair{} lambda^2, \
-         lowest frequencies first: {}{more}.{onset} Damping, which is left out here, may silence slow \
-         growth, and pairs at the highest frequencies may be noise of the mesh: compare two meshes.",
+         lowest frequencies first: {}{more}.{onset} Damping, which is left out here, may silence \
+         slow growth, and pairs at the highest frequencies may be noise of the mesh: compare two \
+         meshes.",
         plural(count),
         named.join(", ")
     )

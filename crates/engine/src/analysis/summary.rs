@@ -97,7 +97,7 @@ impl Analysis {
             ""
         };
         Some(format!(
-            "It is present for every mu {}{elsewhere}.",
+            "Divergence is present for every mu {}{elsewhere}.",
             intervals.join(" and ")
         ))
     }
