@@ -64,21 +64,8 @@ impl Interval {
 
     /// Midpoint.
     pub fn mid(&self) -> Rational {
-        let ends = self.cleared();
-        let sum = ends.lo + ends.hi;
-
-        let power = ends.scale.trailing_zeros().unwrap_or(0);
-        let is_power_of_two = ends.scale.bits() == power + 1;
-
-        if !is_power_of_two {
-            return Rational::new(sum, ends.scale * 2);
-        }
-
-        // Ends of bisection are dyadic: p / 2^k is reduced by counting zeros, without a gcd.
-        let zeros = sum.trailing_zeros().unwrap_or(power + 1);
-        let common = zeros.min(power + 1);
-
-        Rational::new_raw(sum >> common, Integer::one() << (power + 1 - common))
+        let twice = &self.lo + &self.hi;
+        twice * Rational::new_raw(Integer::one(), 2.into())
     }
 
     /// The ends over their common denominator.

@@ -1,6 +1,9 @@
-//! The rational type: num-rational's arithmetic, and comparisons by one product on each side.
+//! The rational type: num-rational's arithmetic, comparisons by one product on each side, and sums
+//! and products of dyadic numbers by shifts.
 //!
-//! p/q < r/s where p s < r q, since denominators are positive.
+//! p/q < r/s where p s < r q, since denominators are positive. A dyadic number is p / 2^k, as every
+//! double is: sums and products of two are brought to lowest terms by counting zeros, where other
+//! rationals need a greatest common divisor. Sums with 0 and products with 1 or -1 need neither.
 //!
 //! Called by everything: this is the only type of rationals in the workspace. Reading and spelling
 //! rationals is in `rational`.
@@ -101,6 +104,92 @@ impl Rational {
     }
 }
 
+/// Numerators of two dyadic numbers over their common denominator, 2^`exponent`.
+struct Dyadics {
+    first: Integer,
+    second: Integer,
+    exponent: u64,
+}
+
+impl Dyadics {
+    /// `None` if one of them is not dyadic.
+    fn of(a: &Rational, b: &Rational) -> Option<Dyadics> {
+        let [p, q] = [binary_exponent(a.denom())?, binary_exponent(b.denom())?];
+        let exponent = p.max(q);
+        let over_common = |v: &Rational, own: u64| match exponent - own {
+            0 => v.numer().clone(),
+            shift => v.numer() << shift,
+        };
+
+        Some(Dyadics {
+            first: over_common(a, p),
+            second: over_common(b, q),
+            exponent,
+        })
+    }
+}
+
+/// k of a denominator 2^k.
+fn binary_exponent(denom: &Integer) -> Option<u64> {
+    let k = denom.trailing_zeros()?;
+    (denom.bits() == k + 1).then_some(k)
+}
+
+/// p / 2^exponent in lowest terms.
+fn dyadic(p: Integer, exponent: u64) -> Rational {
+    let zeros = p.trailing_zeros().unwrap_or(exponent);
+    match zeros.min(exponent) {
+        0 => Rational::new_raw(p, Integer::one() << exponent),
+        common => Rational::new_raw(p >> common, Integer::one() << (exponent - common)),
+    }
+}
+
+/// Is it 1 or -1?
+fn is_unit(v: &Rational) -> bool {
+    v.denom().is_one() && v.numer().magnitude().is_one()
+}
+
+/// `v` or -`v`, with the sign of `unit`.
+fn with_sign(v: &Rational, unit: &Rational) -> Rational {
+    if unit.is_negative() { -v } else { v.clone() }
+}
+
+fn sum(a: &Rational, b: &Rational) -> Rational {
+    if a.is_zero() {
+        return b.clone();
+    }
+
+    match Dyadics::of(a, b) {
+        Some(both) => dyadic(both.first + both.second, both.exponent),
+        None => Rational(&a.0 + &b.0),
+    }
+}
+
+fn difference(a: &Rational, b: &Rational) -> Rational {
+    match Dyadics::of(a, b) {
+        Some(both) => dyadic(both.first - both.second, both.exponent),
+        None => Rational(&a.0 - &b.0),
+    }
+}
+
+fn product(a: &Rational, b: &Rational) -> Rational {
+    if is_unit(a) {
+        return with_sign(b, a);
+    }
+    if is_unit(b) {
+        return with_sign(a, b);
+    }
+
+    match (binary_exponent(a.denom()), binary_exponent(b.denom())) {
+        (Some(p), Some(q)) => dyadic(a.numer() * b.numer(), p + q),
+        _ => Rational(&a.0 * &b.0),
+    }
+}
+
+fn quotient(a: &Rational, b: &Rational) -> Rational {
+    Rational(&a.0 / &b.0)
+}
+
 /// A decimal or a fraction, as [`parse`](super::parse) reads it: "1.1" is 11/10.
 impl FromStr for Rational {
     type Err = super::NumberError;
@@ -170,12 +259,12 @@ impl fmt::Debug for Rational {
 
 /// An operator for values and references of rationals, and with an integer on the right.
 macro_rules! operator {
-    ($trait:ident, $method:ident, $assign:ident, $assign_method:ident) => {
+    ($trait:ident, $method:ident, $assign:ident, $assign_method:ident, $of:ident) => {
         impl $trait<Rational> for Rational {
             type Output = Rational;
 
             fn $method(self, other: Rational) -> Rational {
-                Rational(self.0.$method(other.0))
+                $of(&self, &other)
             }
         }
 
@@ -183,7 +272,7 @@ macro_rules! operator {
             type Output = Rational;
 
             fn $method(self, other: &Rational) -> Rational {
-                Rational(self.0.$method(&other.0))
+                $of(&self, other)
             }
         }
 
@@ -191,7 +280,7 @@ macro_rules! operator {
             type Output = Rational;
 
             fn $method(self, other: Rational) -> Rational {
-                Rational((&self.0).$method(other.0))
+                $of(self, &other)
             }
         }
 
@@ -199,7 +288,7 @@ macro_rules! operator {
             type Output = Rational;
 
             fn $method(self, other: &Rational) -> Rational {
-                Rational((&self.0).$method(&other.0))
+                $of(self, other)
             }
         }
 
@@ -237,13 +326,13 @@ macro_rules! operator {
 
         impl $assign<Rational> for Rational {
             fn $assign_method(&mut self, other: Rational) {
-                self.0.$assign_method(other.0);
+                *self = $of(self, &other);
             }
         }
 
         impl $assign<&Rational> for Rational {
             fn $assign_method(&mut self, other: &Rational) {
-                self.0.$assign_method(&other.0);
+                *self = $of(self, other);
             }
         }
 
@@ -261,10 +350,10 @@ macro_rules! operator {
     };
 }
 
-operator!(Add, add, AddAssign, add_assign);
-operator!(Sub, sub, SubAssign, sub_assign);
-operator!(Mul, mul, MulAssign, mul_assign);
-operator!(Div, div, DivAssign, div_assign);
+operator!(Add, add, AddAssign, add_assign, sum);
+operator!(Sub, sub, SubAssign, sub_assign, difference);
+operator!(Mul, mul, MulAssign, mul_assign, product);
+operator!(Div, div, DivAssign, div_assign, quotient);
 
 impl Neg for Rational {
     type Output = Rational;
@@ -404,6 +493,34 @@ mod tests {
 
         assert_ne!(one, other);
         assert_eq!(one.cmp(&other), other.cmp(&one).reverse());
+    }
+
+    /// Dyadic or not: as num-rational computes, in lowest terms.
+    #[test]
+    fn arithmetic_is_that_of_num_rational() {
+        let long = Integer::from(3).pow(200);
+        let mut numbers = vec![Rational::zero()];
+        for denom in [1, 2, 3, 4, 6, 64] {
+            for numer in [-64, -12, -3, -1, 1, 5, 8] {
+                numbers.push(of(numer, denom));
+            }
+            numbers.push(Rational::new(long.clone(), Integer::from(denom).pow(90)));
+        }
+
+        for a in &numbers {
+            for b in &numbers {
+                assert_same(a + b, &a.0 + &b.0);
+                assert_same(a - b, &a.0 - &b.0);
+                assert_same(a * b, &a.0 * &b.0);
+            }
+        }
+    }
+
+    #[track_caller]
+    fn assert_same(got: Rational, expected: BigRational) {
+        let expected = expected.reduced();
+        assert_eq!(got.numer(), expected.numer());
+        assert_eq!(got.denom(), expected.denom());
     }
 
     #[test]
