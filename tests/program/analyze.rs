@@ -17,7 +17,7 @@ use mceip_engine::reduction::reduce;
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{Rational, Sparse, enclosing_decimals, from_f64, rational, to_f64, whole};
 use mceip_model::file::read_problem_file;
-use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
+use mceip_model::{Body, ContactState, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, TwoParticles, enumerate, table1, thresholds};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState, two_particles};
 use num_traits::Signed as _;

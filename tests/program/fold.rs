@@ -14,7 +14,7 @@
 //! drawn anew.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits, exits_with_json, read};
+use crate::common::{example, exits_with_json, read};
 use crate::program::Folder;
 use mceip::picture::{BranchPoint, Branches, Picture, branch_picture};
 use mceip_engine::reduction::reduce;
