@@ -16,8 +16,8 @@
 //! within these radii; at an infinite end, of those at the lower end plus a non-negative multiple
 //! of such a combination at the upper one. Leaves prove what is linear in T at the four corners,
 //! with the code for covers of one window (`farkas`, `definite`). Those of `regular` prove what is
-//! convex in T. As there, short numbers are tried first, and the long ones decide where these cannot
-//! tell.
+//! convex in T. As there, short numbers are tried first, and the long ones decide where these
+//! cannot tell.
 //!
 //! *Tail.* Above some t sym(A + tB) of the whole pencil is positive definite, and sym(B) is
 //! semidefinite, at mu = `from` and at mu = `below`, so at every mu between. The pencil is that of
