@@ -418,7 +418,12 @@ fn kept_games_do_not_depend_on_threads() {
     assert_eq!(one, three);
 }
 
-/// Variables of a random pencil, and of the same with variables more that are at rest in every
+fn entries_of(matrix: &Sparse) -> Vec<(usize, usize, Rational)> {
+    let entries = matrix.entries();
+    entries.map(|(i, j, v)| (i, j, v.clone())).collect()
+}
+
+/// Variables of a random pencil, and of the same with more variables, which are at rest in every
 /// solution.
 const INNER_ORDER: usize = 8;
 const OUTER_ORDER: usize = 18;
@@ -428,16 +433,8 @@ const OUTER_ORDER: usize = 18;
 /// The row of a further variable e is y_e = (1 + t) x_e + the sum of all other x_j, so that x_e > 0
 /// and y_e = 0 exclude each other. Its column in the rows of `inner` is random, and meets x_e = 0.
 fn with_variables_at_rest(inner: &Pencil, rng: &mut ChaCha8Rng) -> Pencil {
-    let mut a: Vec<_> = inner
-        .a()
-        .entries()
-        .map(|(i, j, v)| (i, j, v.clone()))
-        .collect();
-    let mut b: Vec<_> = inner
-        .b()
-        .entries()
-        .map(|(i, j, v)| (i, j, v.clone()))
-        .collect();
+    let mut a = entries_of(inner.a());
+    let mut b = entries_of(inner.b());
 
     for e in inner.order()..OUTER_ORDER {
         for j in 0..OUTER_ORDER {

@@ -64,8 +64,8 @@ impl Interval {
 
     /// Midpoint.
     pub fn mid(&self) -> Rational {
-        let twice = &self.lo + &self.hi;
-        twice * Rational::new_raw(Integer::one(), 2.into())
+        let sum = &self.lo + &self.hi;
+        sum * Rational::new_raw(Integer::one(), 2.into())
     }
 
     /// The ends over their common denominator.

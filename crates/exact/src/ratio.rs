@@ -158,6 +158,9 @@ fn sum(a: &Rational, b: &Rational) -> Rational {
     if a.is_zero() {
         return b.clone();
     }
+    if b.is_zero() {
+        return a.clone();
+    }
 
     match Dyadics::of(a, b) {
         Some(both) => dyadic(both.first + both.second, both.exponent),

@@ -773,10 +773,10 @@ enum Beyond {
 impl Equations<'_> {
     /// C(d) - F(d) W(d), in the units of W.
     fn residual(&self, beyond: Beyond) -> Residual {
-        let degree = self.w.coefficients.len();
+        let within = self.w.coefficients.len();
         let mut squares = vec![vec![Integer::zero(); self.columns]; self.terms()];
         let mut kept = match beyond {
-            Beyond::Kept => vec![Matrix::with_capacity(self.f.len()); self.terms() - degree],
+            Beyond::Kept => vec![Matrix::with_capacity(self.f.len()); self.terms() - within],
             Beyond::Dropped => Vec::new(),
         };
 
@@ -786,7 +786,7 @@ impl Equations<'_> {
                 add_squares(squares, entries.iter());
             }
 
-            for (matrix, entries) in kept.iter_mut().zip(row.into_iter().skip(degree)) {
+            for (matrix, entries) in kept.iter_mut().zip(row.into_iter().skip(within)) {
                 matrix.push(entries);
             }
         }

@@ -303,7 +303,8 @@ impl Search<'_> {
                     return true;
                 }
 
-                // Variables are decided over wide intervals there, which may hold other values.
+                // While games are kept, variables are decided over wide intervals: there may be
+                // other values, and both halves are searched.
                 if self.keeps_games(ends) && region.cuts < MAX_CUTS_SUSPECT {
                     return false;
                 }
