@@ -1837,6 +1837,11 @@ def critical_pencils(p, parts, integral, obj, lowest, below):
     return pencils, start
 
 
+def witness_bits(inverse, left, right, *exponents):
+    numbers = [integer(x) for row in [*inverse, left, right] for x in row]
+    return max([*exponents, *(abs(x).bit_length() for x in numbers)])
+
+
 class Regular:
     """The leaf `regular` of a decided box (C, mceip-critical/1)."""
 
@@ -1851,8 +1856,7 @@ class Regular:
         m = len(self.others)
         demand(len(inverse) == len(left) == len(right) == m and all(len(r) == m for r in inverse), "regular: lengths")
         demand(max(ex, ey) <= 16_384, "regular: exponents")
-        numbers = [integer(x) for row in [*inverse, left, right] for x in row]
-        self.bits = max([ex, ey, *(abs(x).bit_length() for x in numbers)])
+        self.bits = witness_bits(inverse, left, right, ex, ey)
         self.y = [[Q(integer(x), 2**ey) for x in row] for row in inverse]
         u, v = ([Q(integer(x), 2**ex) for x in vector] for vector in (left, right))
         self.u, self.v = dict(zip(self.others, u)) | {self.k: Q(1)}, dict(zip(self.others, v)) | {self.k: Q(1)}
@@ -1993,6 +1997,7 @@ class Box:
         m = len(self.others)
         demand(len(inverse) == len(left) == len(right) == m and all(len(r) == m for r in inverse), "presence: lengths")
         demand(max(ex, ey) <= 16_384, "presence: exponents")
+        self.bits = witness_bits(inverse, left, right, ex, ey)
         self.y = [[Q(integer(v), 2**ey) for v in r] for r in inverse]
         u, v = ([Q(integer(x), 2**ex) for x in vector] for vector in (left, right))
         self.u, self.v = dict(zip(self.others, u)) | {self.k: Q(1)}, dict(zip(self.others, v)) | {self.k: Q(1)}
@@ -2063,6 +2068,7 @@ def check_presence(p, doc):
     parts, integral = friction_parts(p)
     pencils, _ = critical_pencils(p, parts, integral, obj, start, stop)
     Budget.matrices = (1 << 30) + (len(pieces) << 24)
+    witnesses_left = (1 << 30) + (len(pieces) << 26)
     demand(pieces, "no piece")
     low = start
     for k, piece in enumerate(pieces):
@@ -2072,11 +2078,15 @@ def check_presence(p, doc):
             anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
         demand(0 <= t0 < t1, "presence: interval")
         box = Box(p, piece)
+        mu_bits = rational_bits(low) + rational_bits(high)
+        corner_bits = BITS + rational_bits(t0) + rational_bits(t1) + mu_bits
+        witnesses_left -= 8 * len(box.v) ** 3 * words(box.bits) * words(corner_bits)
+        demand(witnesses_left >= 0, "presence: more work than the file's budget")
 
         def ends(lo, hi):
             """The matrices of [lo, hi] at both ends of [low, high]."""
             both = [pencil.ends(lo, hi, anchor) for pencil in pencils]
-            t_bits, mu_bits = BITS + rational_bits(lo) + rational_bits(hi), rational_bits(low) + rational_bits(high)
+            t_bits = BITS + rational_bits(lo) + rational_bits(hi)
             demand(ns * ns * (t_bits + mu_bits) <= 2**29, "a box's matrices are too large")
             Budget.matrices -= ns * ns * words(t_bits) * words(mu_bits)
             demand(Budget.matrices >= 0, "matrices of boxes: more work than the file's budget")

@@ -5,7 +5,7 @@
 //! computed by hand; those of the example of 5.19 stand there.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus_cases::{Cases, Forgery, Misspelling, fold, problem_json, q};
+use super::corpus_cases::{Cases, Forgery, Misspelling, fold, problem_json, q, replaced};
 use super::corpus_critical::{
     fold_system, free_condensation, free_problem, identity, one, system, with_zero_reaction,
 };
@@ -22,6 +22,7 @@ pub fn presence(cases: &mut Cases) {
     with_a_free_variable(cases);
     a_negative_null_vector(cases);
     other_problems(cases);
+    too_much_work(cases);
     cases.misspelt(
         "presence-",
         &free_problem(),
@@ -562,6 +563,12 @@ fn with_a_free_variable(cases: &mut Cases) {
     let note = "left absent: it is right";
     accept(cases, "free-left-absent", note, &problem, &absent);
 
+    let mut small = good.clone();
+    let anchor = &mut small.condensation.as_mut().unwrap().anchors[0];
+    anchor.left.as_mut().unwrap()[0].exponent = 54;
+    let note = "V = -2^-54: accepted if norms that are whole numbers of units are not rounded up";
+    accept(cases, "free-left-small", note, &problem, &small);
+
     let mut empty = good.clone();
     let anchor = &mut empty.condensation.as_mut().unwrap().anchors[0];
     anchor.right.clear();
@@ -641,6 +648,47 @@ fn other_problems(cases: &mut Cases) {
     let note = "a condensation without free variables";
     let reason = "Cover.Condensation";
     reject(cases, ["condensation", reason, note], &problem, &needless);
+}
+
+/// Products of long numbers.
+fn too_much_work(cases: &mut Cases) {
+    let problem = system(
+        10,
+        &[(0, 5), (1, 6), (2, 7), (3, 8), (4, 9)],
+        &[],
+        &identity(10),
+    );
+    let zeros = integers(&[0; 4]);
+    let piece = PresencePiece {
+        support: (0..5).collect(),
+        pivot: 4,
+        inverse: vec![zeros.clone(); 4],
+        left: zeros.clone(),
+        right: zeros,
+        exponent: 16_384,
+        ..single("2", ["1", "2"], 4)
+    };
+
+    let certificate = certificate(&problem, "1", vec![piece]);
+    let interval = "\"interval\":[\"1\",\"2.@1\"]";
+    let text = replaced(
+        &certificate.to_json(),
+        "\"interval\":[\"1\",\"2\"]",
+        interval,
+    );
+    let file = json!({
+        "verdict": "rejected",
+        "reason": "Cover.TooLarge",
+        "problem": problem_json(&problem),
+        "certificate_text": text,
+        "repeat": { "mark": "@", "unit": "0", "count": 99_990 },
+    });
+    cases.push(
+        "reject",
+        "presence-hostile",
+        file,
+        "a witness with numbers of 16,384 bits below a value of t of 100,000 digits",
+    );
 }
 
 const MISSPELLINGS: [Misspelling; 12] = [

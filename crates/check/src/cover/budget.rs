@@ -21,6 +21,11 @@ const DEFINITE_PER_ENTRY: u64 = 1 << 16;
 const MATRIX_BASE: u64 = 1 << 30;
 const MATRIX_PER_NODE: u64 = 1 << 24;
 
+/// Products of machine words for the witnesses of presence of a file: without any piece, and for
+/// each piece.
+const PIECE_BASE: u64 = 1 << 30;
+const PIECE_EACH: u64 = 1 << 26;
+
 /// What is left for one kind of work.
 pub(super) struct WorkBudget {
     what: &'static str,
@@ -54,6 +59,15 @@ impl WorkBudget {
     pub(super) fn of_matrices(nodes: u64) -> WorkBudget {
         let by_nodes = MATRIX_PER_NODE.saturating_mul(nodes);
         WorkBudget::matrices(MATRIX_BASE.saturating_add(by_nodes))
+    }
+
+    /// What the witnesses of presence of a file may cost: products of machine words.
+    pub(super) fn of_pieces(pieces: u64) -> WorkBudget {
+        let by_pieces = PIECE_EACH.saturating_mul(pieces);
+        WorkBudget {
+            what: "pieces: products of words, left of the file's budget",
+            left: Cell::new(PIECE_BASE.saturating_add(by_pieces)),
+        }
     }
 
     pub(super) fn definite_leaves(left: u64) -> WorkBudget {

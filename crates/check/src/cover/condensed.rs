@@ -883,13 +883,15 @@ fn add_squares<T: Deref<Target = Integer>>(sums: &mut [Integer], row: impl Itera
 }
 
 /// Upper bounds of the Euclidean norms of columns with these sums of squares, in units of
-/// 2^-[`NORM_BITS`]. Column j counts `column_factors[j]` times.
+/// 2^-[`NORM_BITS`]: the norm itself where it is a whole number of units. Column j counts
+/// `column_factors[j]` times.
 fn norms(squares: &[Integer], column_factors: &[Integer]) -> Vec<Integer> {
     let mut norms = Vec::with_capacity(squares.len());
     for (square, factor) in squares.iter().zip(column_factors) {
-        let rounded_up = u8::from(!square.is_zero());
-        let root = ((square * factor * factor) << (2 * NORM_BITS)).sqrt();
-        norms.push(root + rounded_up);
+        let square = (square * factor * factor) << (2 * NORM_BITS);
+        let root = square.sqrt();
+        let is_exact = &root * &root == square;
+        norms.push(root + u8::from(!is_exact));
     }
 
     norms

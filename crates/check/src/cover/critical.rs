@@ -35,6 +35,7 @@ use super::ends::{Corner, Ends, FRACTION_BITS, rational_bits, within_matrix_bits
 use super::expanded::Expanded;
 use super::family::{AnchorExpansion, Family, Linear, end_bits, row_bits, words};
 use super::fault::CoverFault;
+use super::null_witness::NullWitness;
 use super::region::{Matrices, Region, State};
 use super::short::Short;
 use super::walk::NodeFault;
@@ -484,12 +485,9 @@ impl BoxWalk<'_> {
         witness: &Regular,
     ) -> Result<(), CoverFault> {
         let [end_bits, friction_bits] = box_bits(at);
-        let own_words = words(regular::witness_bits(witness));
-        let corner_words = words(end_bits + friction_bits);
-
-        let cubes = (moving as u64).saturating_pow(3) * 8;
-        let products = cubes.saturating_mul(own_words).saturating_mul(corner_words);
-        self.definite_budget.spend(products)
+        let witness = NullWitness::of_leaf(witness);
+        let work = witness.work(moving, end_bits + friction_bits);
+        self.definite_budget.spend(work)
     }
 
     /// The matrices of the box at its lower and at its higher friction, computed once for all boxes

@@ -27,6 +27,7 @@ use super::critical::{bits_of_box, families, of_file, of_piece};
 use super::ends::{Ends, Matrix, within_matrix_bits};
 use super::family::{Family, words};
 use super::fault::CoverFault;
+use super::null_witness::NullWitness;
 use super::root::Ball;
 use super::{check_anchor, check_size};
 use crate::certificate::{PresenceCertificate, PresencePiece};
@@ -34,9 +35,6 @@ use crate::pencil::FrictionParts;
 use crate::reason::Reason;
 use mceip_exact::{Integer, Rational};
 use num_traits::{One, Signed, Zero};
-
-/// Largest binary exponent of a witness.
-const MAX_EXPONENT: u32 = 1 << 14;
 
 /// Checks that the pieces follow one another from `from` to `to`, and that each holds a solution
 /// for every mu.
@@ -51,10 +49,12 @@ pub(crate) fn check(
     let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(2));
     check_size(slip.len(), expansions).map_err(of_file)?;
 
+    let pieces = certificate.pieces.len() as u64;
     let boxes = Boxes {
         families: families(parts, condensation, None).map_err(of_file)?,
         slip,
-        matrix_budget: WorkBudget::of_matrices(certificate.pieces.len() as u64),
+        matrix_budget: WorkBudget::of_matrices(pieces),
+        witness_budget: WorkBudget::of_pieces(pieces),
     };
 
     let mut low = &certificate.from;
@@ -97,13 +97,14 @@ fn piece_end(to: &Rational, got: &Rational) -> CoverFault {
     }
 }
 
-/// What the check of each piece reads, and what is left of the budget of the file.
+/// What the check of each piece reads, and what is left of the budgets of the file.
 struct Boxes {
     /// T0 and T1.
     families: [Family; 2],
     /// The slip variables: positions in matrices to indices of the pencil.
     slip: Vec<usize>,
     matrix_budget: WorkBudget,
+    witness_budget: WorkBudget,
 }
 
 impl Boxes {
@@ -119,6 +120,8 @@ impl Boxes {
         }
 
         let witness = Witness::new(piece, &self.slip)?;
+        self.spend_witness(piece, [t0, t1], friction)?;
+
         let ends = self.ends(piece.anchor, [t0, t1], friction)?;
         let corners = corners_of(&ends);
         let margin = witness.margin(&corners, &self.slip)?;
@@ -135,6 +138,19 @@ impl Boxes {
             lo: t0.clone(),
             hi: t1.clone(),
         })
+    }
+
+    /// Takes the work of a witness from the budget: the product of Y with the four corners.
+    fn spend_witness(
+        &self,
+        piece: &PresencePiece,
+        [t0, t1]: [&Rational; 2],
+        friction: &[Rational; 2],
+    ) -> Result<(), CoverFault> {
+        let [end_bits, friction_bits] = bits_of_box(t0, Some(t1), friction.each_ref());
+        let witness = NullWitness::of_piece(piece);
+        let work = witness.work(piece.support.len(), end_bits + friction_bits);
+        self.witness_budget.spend(work)
     }
 
     /// What is known of phi at one value of t, where the enclosure is that of this value alone.
@@ -285,7 +301,7 @@ impl<'a> Witness<'a> {
         let at_pivot = support.iter().position(|&i| slip[i] == piece.pivot);
         let at_pivot = at_pivot.ok_or(CoverFault::Pivot { index: piece.pivot })?;
         let pivot = support.remove(at_pivot);
-        check_shape(piece, support.len())?;
+        NullWitness::of_piece(piece).check_shape(support.len())?;
         support.push(pivot);
 
         let one = Integer::one() << piece.exponent;
@@ -492,19 +508,6 @@ fn positions(support: &[usize], slip: &[usize]) -> Result<Vec<usize>, CoverFault
     }
 
     Ok(found)
-}
-
-/// Demands that u, v and Y have order n, and that their exponents are within the limit.
-fn check_shape(piece: &PresencePiece, n: usize) -> Result<(), CoverFault> {
-    CoverFault::length("left", n, piece.left.len())?;
-    CoverFault::length("right", n, piece.right.len())?;
-    CoverFault::length("inverse", n, piece.inverse.len())?;
-    for row in &piece.inverse {
-        CoverFault::length("inverse row", n, row.len())?;
-    }
-
-    let exponent = piece.exponent.max(piece.inverse_exponent);
-    CoverFault::at_most("exponent", MAX_EXPONENT.into(), exponent.into())
 }
 
 fn sign_fault(component: &'static str, index: usize, expected: &'static str) -> CoverFault {

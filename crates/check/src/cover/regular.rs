@@ -30,17 +30,15 @@
 //!
 //! Input: the support, the corners, the witness. Called by `critical`.
 
-use super::ends::{Corner, largest_bits};
+use super::ends::Corner;
 use super::fault::CoverFault;
+use super::null_witness::NullWitness;
 use super::region::Region;
 use super::root::Ball;
 use super::short::Short;
 use crate::certificate::Regular;
 use mceip_exact::{Integer, Rational};
 use num_traits::{One, Signed, ToPrimitive, Zero};
-
-/// Largest binary exponent of a witness.
-const MAX_EXPONENT: u32 = 1 << 14;
 
 /// Most bits of a number of a witness for short numbers to be tried.
 ///
@@ -65,31 +63,10 @@ pub(super) fn support(
         index: witness.pivot,
     })?;
     let pivot = support.remove(pivot);
-    check_shape(witness, support.len())?;
+    NullWitness::of_leaf(witness).check_shape(support.len())?;
     support.push(pivot);
 
     Ok(support)
-}
-
-/// Demands that u, v and Y have order n, and that their exponents are within the limit.
-fn check_shape(witness: &Regular, n: usize) -> Result<(), CoverFault> {
-    CoverFault::length("left", n, witness.left.len())?;
-    CoverFault::length("right", n, witness.right.len())?;
-    CoverFault::length("inverse", n, witness.inverse.len())?;
-    for row in &witness.inverse {
-        CoverFault::length("inverse row", n, row.len())?;
-    }
-
-    let exponent = witness.exponent.max(witness.inverse_exponent);
-    CoverFault::at_most("exponent", MAX_EXPONENT.into(), exponent.into())
-}
-
-/// Bits of the longest number of a witness, its units included.
-pub(super) fn witness_bits(witness: &Regular) -> u64 {
-    let inverse = largest_bits(witness.inverse.iter().flatten());
-    let vectors = largest_bits(witness.left.iter().chain(&witness.right));
-    let exponent = witness.exponent.max(witness.inverse_exponent);
-    inverse.max(vectors).max(u64::from(exponent))
 }
 
 /// Do short numbers prove that T is regular on the support?
@@ -226,7 +203,7 @@ struct Witness<N> {
 impl Witness<i64> {
     /// `None` where a number is too long.
     fn of(witness: &Regular) -> Option<Witness<i64>> {
-        if witness_bits(witness) >= SHORT_BITS {
+        if NullWitness::of_leaf(witness).bits() >= SHORT_BITS {
             return None;
         }
 

@@ -153,8 +153,8 @@ fn rational_of(v: &Integer) -> Rational {
     Rational::from_integer(v.clone())
 }
 
-/// The norms of the columns of `p`, whose column j is multiplied by factor[j], as integers in units
-/// of 2^-32.
+/// The norms of the columns of `p`, whose column j is multiplied by factor[j], rounded up to
+/// units of 2^-32.
 fn column_norms(p: &Poly, k: usize, factor: &[Rational; 2]) -> Vec<Integer> {
     let Some(m) = p.get(k) else {
         return vec![Integer::zero(); 2];
@@ -162,8 +162,13 @@ fn column_norms(p: &Poly, k: usize, factor: &[Rational; 2]) -> Vec<Integer> {
     let of = |j: usize| {
         let square: Rational = (0..2).map(|f| &m[f][j] * &factor[j]).map(|v| &v * &v).sum();
         assert!(square.is_integer());
-        let root = (square.to_integer() << 64u32).sqrt();
-        if square.is_zero() { root } else { root + 1 }
+        let square = square.to_integer() << 64u32;
+        let root = square.sqrt();
+        if &root * &root == square {
+            root
+        } else {
+            root + 1
+        }
     };
     vec![of(0), of(1)]
 }
