@@ -8,12 +8,13 @@
 //!
 //! The end of an interval is the smallest positive root of det(A + mu B) with A, B the symmetric
 //! parts. For small orders it is found as that root; otherwise doubles propose it and the null
-//! vector there, an exact LDL' proves definiteness just before it, and the vector refutes it just
-//! after it.
+//! vector there, an exact proof shows definiteness just before it, and the vector refutes it just
+//! after it. As B has few rows, the variables beside them are eliminated once (`eliminated`).
 //!
 //! Input: K* and M* as linear functions of mu ([`MuFamily`]). Output: [`Necessary`]. Called by
 //! [`analyse`](super::analyse) and by the loading path of `mceip block`.
 
+use super::eliminated::Eliminated;
 use crate::reduction::MuFamily;
 use crate::search::complete::pieces::skyline::Skyline;
 use crate::tolerance::{BRACKET_BITS, BRACKET_START_BITS};
@@ -43,6 +44,9 @@ pub enum DefiniteUntil {
 
 /// Largest order for which the end is given as the root of a determinant.
 const EXACT_ORDER: usize = 10;
+
+/// Largest order of which no variable is eliminated: exact minors decide.
+const ELIMINATED_ORDER: usize = 48;
 
 /// The end is looked for between 2^-this and 2^this.
 const END_EXPONENT: i32 = 64;
@@ -79,6 +83,7 @@ impl DefiniteUntil {
     /// assert!(until.end().unwrap().contains(&whole(1)));
     /// ```
     pub fn of(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, ModelError> {
+        let in_rows_of_b = (0..b.rows()).filter(|&i| !b.row(i).is_empty()).collect();
         let a = symmetric_part(a);
         let b = symmetric_part(b);
         if !is_definite(what, &a)? {
@@ -95,7 +100,7 @@ impl DefiniteUntil {
             return Ok(DefiniteUntil::of_root(end));
         }
 
-        bracket(what, &a, &b)
+        bracket(what, &a, &b, in_rows_of_b)
     }
 
     /// The interval that ends at a root, which is enclosed to 2^-64 of its value.
@@ -208,14 +213,15 @@ fn integral(a: &Sparse, scale: &Rational) -> Vec<Vec<Integer>> {
     rows
 }
 
-/// The end between a value at which LDL' proves definiteness and one at which a vector refutes it.
-fn bracket(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, ModelError> {
-    let end = refuted_from(a, b).and_then(|hi| {
-        let lo = proved_before(a, b, &hi)?;
-        Interval::new(lo, hi)
-    });
-
-    match end {
+/// The end between a value at which definiteness is proved and one at which a vector refutes it.
+/// Beside the variables `kept` B is zero.
+fn bracket(
+    what: &'static str,
+    a: &Sparse,
+    b: &Sparse,
+    kept: Vec<usize>,
+) -> Result<DefiniteUntil, ModelError> {
+    match enclosed_end(a, b, &kept) {
         Some(end) => Ok(DefiniteUntil::End { end, exact: None }),
         None => Err(ModelError::DefinitenessUndecided {
             equation: "E19",
@@ -223,6 +229,21 @@ fn bracket(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, 
             index: 0,
         }),
     }
+}
+
+fn enclosed_end(a: &Sparse, b: &Sparse, kept: &[usize]) -> Option<Interval> {
+    let hi = refuted_from(a, b)?;
+    let directly = |mu: &Rational| positive_definite(&a.add_scaled(mu, b)).is_ok();
+
+    let eliminated = if a.rows() > ELIMINATED_ORDER {
+        Eliminated::of(a, b, kept)
+    } else {
+        None
+    };
+    let condensed = eliminated.and_then(|e| proved_before(&hi, &|mu| e.is_definite_at(mu)));
+
+    let lo = condensed.or_else(|| proved_before(&hi, &directly))?;
+    Interval::new(lo, hi)
 }
 
 /// A mu at which A + mu B is not definite, next to the end. Doubles propose x near the null vector
@@ -291,15 +312,15 @@ fn quadratic_form(m: &Sparse, x: &[Rational]) -> Rational {
     sum
 }
 
-/// The value nearest below a mu, among steps that grow by 4, at which A + mu B is proved definite.
-fn proved_before(a: &Sparse, b: &Sparse, end: &Rational) -> Option<Rational> {
+/// The value nearest below a mu, among steps that grow by 4, at which definiteness is proved.
+fn proved_before(end: &Rational, is_proved: &dyn Fn(&Rational) -> bool) -> Option<Rational> {
     for k in 0..=BRACKET_START_BITS / 2 {
         let step = Rational::new(
             Integer::one(),
             Integer::one() << (BRACKET_START_BITS - 2 * k),
         );
         let mu = shorten(&(end * (Rational::one() - step)));
-        if !mu.is_negative() && positive_definite(&a.add_scaled(&mu, b)).is_ok() {
+        if !mu.is_negative() && is_proved(&mu) {
             return Some(mu);
         }
     }

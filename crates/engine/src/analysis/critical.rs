@@ -10,7 +10,9 @@
 //! Input: what [`analyse`](super::analyse) has found so far ([`Known`]). Output: [`Critical`], and
 //! the proofs named `critical` (the solution) and `absence` (the bound).
 
-use super::absence::{Blocked, Cause, Outcome, Place, Quadrant, leaves, unit_of_lambda2};
+use super::absence::{
+    Blocked, Bound, Cause, Family, LastFamily, Outcome, Place, Quadrant, leaves, unit_of_lambda2,
+};
 use super::conditions::Necessary;
 use super::divergence::Divergence;
 use super::error::AnalysisError;
@@ -127,8 +129,8 @@ pub(super) struct Found {
     pub(super) critical: Critical,
     /// The solution of smallest mu in doubles.
     pub(super) start: Option<Start>,
-    /// Where condensation is to be precise.
-    pub(super) places: Vec<Place>,
+    /// The condensation of the last cover, if there was one.
+    pub(super) family: Option<Family>,
 }
 
 /// What is known about a system before its critical mu is sought.
@@ -213,7 +215,7 @@ pub(super) fn critical(
         return Ok(Found {
             critical,
             start: None,
-            places: Vec::new(),
+            family: None,
         });
     };
 
@@ -224,6 +226,7 @@ pub(super) fn critical(
         absence: None,
         unproved: None,
         places: Vec::new(),
+        last: LastFamily::default(),
     };
 
     if known.families.own.mass.is_some() && !model.stopped() {
@@ -246,11 +249,11 @@ pub(super) fn critical(
     }
 
     let start = bounds.start.take();
-    let places = std::mem::take(&mut bounds.places);
+    let family = std::mem::take(&mut bounds.last).into_family();
     Ok(Found {
         critical: bounds.into_critical(excluded, known, proofs),
         start,
-        places,
+        family,
     })
 }
 
@@ -266,9 +269,17 @@ struct Bounds {
     unproved: Option<Unproved>,
     /// Where condensation is to be precise.
     places: Vec<Place>,
+    last: LastFamily,
 }
 
 impl Bounds {
+    /// The mu of the known solution, at least a bound below it.
+    fn at_most(&self, below: &Rational) -> Rational {
+        let known = self.solution.iter().map(|solution| solution.mu.hi());
+        let largest = known.fold(below, Ord::max);
+        largest.clone()
+    }
+
     /// A short number below the known solution, by a relative gap.
     fn short_bound(&self, gap: f64) -> Option<Rational> {
         let solution = self.solution.as_ref()?;
@@ -538,7 +549,12 @@ impl Search<'_> {
             let stage = "critical mu: looking for smaller solutions";
             let relay = |progress: &Progress<'_>| self.model.relay(stage, progress);
             let quadrant = self.quadrant.heard_by(&relay);
-            let obstacles = quadrant.obstacles(&below, &bounds.places)?;
+            let bound = Bound {
+                below: &below,
+                at_most: &bounds.at_most(&below),
+                places: &bounds.places,
+            };
+            let obstacles = quadrant.obstacles(&bound, &mut bounds.last)?;
             let is_over = obstacles.is_empty() || self.model.stopped();
             if is_over || !matches!(self.learn_from(&obstacles, bounds)?, Next::Again) {
                 return Ok(());
@@ -588,7 +604,12 @@ impl Search<'_> {
         let stage = format!("critical mu: proving absence below {:.7}", to_f64(below));
         let relay = |progress: &Progress<'_>| self.model.relay(&stage, progress);
         let quadrant = self.quadrant.heard_by(&relay);
-        match quadrant.cover(below, &bounds.places)? {
+        let bound = Bound {
+            below,
+            at_most: &bounds.at_most(below),
+            places: &bounds.places,
+        };
+        match quadrant.cover(&bound, &mut bounds.last)? {
             Outcome::Absent(certificate) => {
                 bounds.unproved = bounds.unproved.take().filter(|tried| tried.below > *below);
                 bounds.absence = Some(*certificate);

@@ -15,6 +15,7 @@ mod answer;
 pub mod conditions;
 mod critical;
 mod divergence;
+mod eliminated;
 mod error;
 mod evidence;
 mod families;

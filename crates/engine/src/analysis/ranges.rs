@@ -10,7 +10,7 @@
 //! Input: what is known of the system, and its critical mu. Output: [`Ranges`]. Called by
 //! [`analyse`](super::analyse).
 
-use super::absence::Place;
+use super::absence::Family;
 use super::critical::{CertifiedSolution, Critical, Found, Known, Start};
 use super::divergence::{Verdict, verdict};
 use super::error::AnalysisError;
@@ -103,7 +103,7 @@ pub(super) fn ranges(
         smallest: None,
     };
 
-    let mut prover = prover(model, known, &found.places, &top)?;
+    let mut prover = prover(model, known, found.family, &top)?;
     if let (Some(prover), Some(start)) = (&mut prover, &found.start) {
         model
             .watch
@@ -177,7 +177,7 @@ fn largest_of_interest(known: &Known<'_>, critical: &Critical) -> Rational {
 fn prover<'a>(
     model: &Model<'a>,
     known: &Known<'a>,
-    places: &[Place],
+    family: Option<Family>,
     top: &Rational,
 ) -> Result<Option<Prover<'a>>, AnalysisError> {
     if model.stopped() || !known.families.zero.is_empty() || known.families.own.mass.is_none() {
@@ -185,11 +185,14 @@ fn prover<'a>(
     }
 
     let ground = Ground {
-        families: known.families,
         problem: known.problem,
         watch: model.watch,
     };
-    Ok(Some(Prover::new(ground, top, places)?))
+    let family = match family {
+        Some(family) => family,
+        None => Family::new(known.families, top, &[])?,
+    };
+    Ok(Some(Prover::new(ground, family)))
 }
 
 /// The solution at the lower end of the first proved interval, if its mu is smaller than that of

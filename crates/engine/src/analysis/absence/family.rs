@@ -48,7 +48,7 @@ pub(in crate::analysis) struct Family {
 }
 
 /// A value of lambda^2 about which condensation is to be precise.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::analysis) struct Place {
     pub(in crate::analysis) lambda2: f64,
     /// Its anchor is used within this share of lambda^2 + the lowest frequency.

@@ -74,6 +74,55 @@ pub(super) enum Outcome {
     Stopped,
 }
 
+/// The condensation made last: most attempts differ in their bound alone.
+#[derive(Default)]
+pub(super) struct LastFamily(Option<Condensed>);
+
+struct Condensed {
+    /// It serves absence below any friction up to this one.
+    friction: Rational,
+    places: Vec<Place>,
+    family: Family,
+}
+
+impl LastFamily {
+    /// The condensation about these places, made anew where the last one does not serve.
+    fn of(
+        &mut self,
+        families: &Families,
+        friction: &Rational,
+        places: &[Place],
+    ) -> Result<&mut Family, CompleteError> {
+        let serves = |last: &Condensed| last.places == places && *friction <= last.friction;
+        let last = self.0.take().filter(serves);
+        let last = match last {
+            Some(last) => last,
+            None => Condensed {
+                friction: friction.clone(),
+                places: places.to_vec(),
+                family: Family::new(families, friction, places)?,
+            },
+        };
+
+        Ok(&mut self.0.insert(last).family)
+    }
+
+    pub(super) fn into_family(self) -> Option<Family> {
+        self.0.map(|last| last.family)
+    }
+}
+
+/// What is to be proved.
+#[derive(Clone, Copy)]
+pub(super) struct Bound<'a> {
+    /// Absence below this friction.
+    pub(super) below: &'a Rational,
+    /// No later bound is larger than this.
+    pub(super) at_most: &'a Rational,
+    /// Where condensation is to be precise.
+    pub(super) places: &'a [Place],
+}
+
 /// A system whose covers are sought.
 #[derive(Clone, Copy)]
 pub(super) struct Quadrant<'a> {
@@ -103,28 +152,34 @@ impl<'a> Quadrant<'a> {
     /// As [`Quadrant::cover`].
     pub(super) fn obstacles(
         &self,
-        below: &Rational,
-        places: &[Place],
+        bound: &Bound<'_>,
+        last: &mut LastFamily,
     ) -> Result<Vec<Blocked>, CompleteError> {
-        self.watch.report(&Progress::stage("condensing"));
-        let family = Family::new(self.families, below, places)?;
-        let proposed = self.proposed(&family, below);
+        let proposed = self.proposed(self.family(bound, last)?, bound.below);
         Ok(proposed.err().unwrap_or_default())
     }
 
-    /// Covers [0, infinity) x [0, below]. `places` are where condensation is to be precise.
+    fn family<'b>(
+        &self,
+        bound: &Bound<'_>,
+        last: &'b mut LastFamily,
+    ) -> Result<&'b mut Family, CompleteError> {
+        self.watch.report(&Progress::stage("condensing"));
+        last.of(self.families, bound.at_most, bound.places)
+    }
+
+    /// Covers [0, infinity) x [0, below].
     ///
     /// # Errors
     /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
     pub(super) fn cover(
         &self,
-        below: &Rational,
-        places: &[Place],
+        bound: &Bound<'_>,
+        last: &mut LastFamily,
     ) -> Result<Outcome, CompleteError> {
-        self.watch.report(&Progress::stage("condensing"));
-        let mut family = Family::new(self.families, below, places)?;
+        let family = self.family(bound, last)?;
         for _ in 0..=CAUTIOUS_ROUNDS {
-            let certificate = match self.proposed(&family, below) {
+            let certificate = match self.proposed(family, bound.below) {
                 Ok(certificate) => certificate,
                 Err(blocked) => return Ok(Outcome::Blocked(blocked)),
             };
@@ -145,6 +200,7 @@ impl<'a> Quadrant<'a> {
             family.enlarge_remainders(CAUTION);
         }
 
+        *last = LastFamily::default();
         Ok(Outcome::Refused)
     }
 
@@ -252,7 +308,13 @@ mod tests {
             watch,
         };
 
-        let outcome = quadrant.cover(&from_f64(below).unwrap(), places).unwrap();
+        let below = from_f64(below).unwrap();
+        let bound = Bound {
+            below: &below,
+            at_most: &below,
+            places,
+        };
+        let outcome = quadrant.cover(&bound, &mut LastFamily::default()).unwrap();
         if let Outcome::Absent(certificate) = &outcome {
             check_critical(&problem, certificate).unwrap();
         }

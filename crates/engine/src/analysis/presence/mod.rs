@@ -19,18 +19,16 @@ mod curve;
 mod intervals;
 mod witness;
 
-use super::absence::{Family, Place};
+use super::absence::Family;
 use super::critical::Start;
-use super::families::Families;
 use crate::run::{Progress, Watch};
-use crate::search::complete::CompleteError;
 use crate::tolerance::{LEAST_INTERVAL, PRESENCE_START};
 use climb::{Climb, Stretch, short_multiple};
 use curve::{Curves, Point};
 use intervals::{Chain, chains, extent, gaps};
 use mceip_check::certificate::PresenceCertificate;
 use mceip_check::{Reason, check_presence};
-use mceip_exact::{Rational, from_f64};
+use mceip_exact::from_f64;
 use mceip_model::Problem;
 
 /// Solutions from which one gap is tried to be closed.
@@ -44,7 +42,6 @@ const MAX_REFUSED: usize = 8;
 
 /// What the search rests on.
 pub(super) struct Ground<'a> {
-    pub(super) families: &'a Families,
     /// MCEIP-lambda2 of the system: what certificates belong to.
     pub(super) problem: &'a Problem,
     pub(super) watch: Watch<'a>,
@@ -59,21 +56,13 @@ pub(super) struct Prover<'a> {
 }
 
 impl<'a> Prover<'a> {
-    /// Condenses the system. `places` are where condensation is to be precise.
-    ///
-    /// # Errors
-    /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
-    pub(super) fn new(
-        ground: Ground<'a>,
-        friction: &Rational,
-        places: &[Place],
-    ) -> Result<Prover<'a>, CompleteError> {
-        let family = Family::new(ground.families, friction, places)?;
-        Ok(Prover {
+    /// With the condensation that is to stand in the certificates.
+    pub(super) fn new(ground: Ground<'a>, family: Family) -> Prover<'a> {
+        Prover {
             ground,
             family,
             stretches: Vec::new(),
-        })
+        }
     }
 
     /// Follows the solution of smallest mu upwards, on the sides of larger and of smaller lambda^2
