@@ -7,6 +7,7 @@
 //! for growth rates ([`lambda2`]).
 
 mod args;
+mod doubles;
 mod lambda2;
 mod path;
 mod scale;

@@ -428,6 +428,8 @@ fn a_report_has_a_largest_effort() {
     for line in &lines[2..] {
         assert!(line.starts_with("UNDECIDED"), "{line}");
         assert!(line.contains("454430720 were needed"), "{line}");
+        // (1e20 - 5) / (1e20 + 5), rounded up.
+        assert!(line.ends_with("; backward error 1"), "{line}");
     }
 }
 

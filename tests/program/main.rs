@@ -10,6 +10,7 @@ mod program;
 
 mod absence_cli;
 mod analyze;
+mod block;
 mod campaign_cli;
 mod check_foreign;
 mod check_window;

@@ -24,11 +24,14 @@
 //! solves no linear system and finds no root, and it shares no algorithm with the code that finds
 //! solutions. Of a mechanical system it forms A and B itself (`pencil`).
 //!
+//! Of numbers without a certificate, [`backward_error`] says how far they are from a solution.
+//!
 //! A certificate is accepted, or rejected with the first obligation that fails. There is no third
 //! verdict: a file that cannot be read is an error of [`Certificate::from_json`] and never gets
 //! here. The obligations are those of `spec/certificates.md`.
 #![deny(clippy::float_arithmetic)]
 
+mod backward_error;
 pub mod certificate;
 mod cover;
 mod critical;
@@ -39,6 +42,7 @@ mod pencil;
 mod presence;
 mod reason;
 
+pub use backward_error::backward_error;
 pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, Place, SolutionFamily};
 pub use critical::{AcceptedAbsence, audit_critical, check_critical};
 pub use presence::{AcceptedPresence, check_presence};

@@ -292,7 +292,7 @@ impl FrictionParts {
 }
 
 /// value * factor, where the denominator of `value` divides `factor`.
-fn integral(value: &Rational, factor: &Integer) -> Integer {
+pub(super) fn integral(value: &Rational, factor: &Integer) -> Integer {
     value.numer() * (factor / value.denom())
 }
 

@@ -244,6 +244,14 @@ pub enum Reason {
         /// Upper bound found.
         hi: Rational,
     },
+    /// A slip that is negative.
+    #[error("E14: x[{index}]: expected >= 0, got {got}")]
+    XNegative {
+        /// The variable.
+        index: usize,
+        /// Its value.
+        got: Rational,
+    },
     /// Nothing shows that x is not zero.
     #[error("E12: expected some x_i certainly non-zero, got none")]
     XZero,

@@ -87,6 +87,16 @@ pub fn enclosing_decimals(interval: &Interval, digits: usize) -> (String, String
     (round(&down, digits + 1), round(&up, digits + 1)) // both are exact at that length
 }
 
+/// A decimal with `digits` significant digits that is not below the number.
+///
+/// ```
+/// use mceip_exact::{rational, upper_decimal};
+/// assert_eq!(upper_decimal(&rational(1, 3_000_000), 2), "3.4e-7");
+/// ```
+pub fn upper_decimal(value: &Rational, digits: usize) -> String {
+    enclosing_decimals(&Interval::point(value.clone()), digits).1
+}
+
 /// A rational rounded to `digits` significant digits, half away from zero.
 pub(crate) fn round(value: &Rational, digits: usize) -> String {
     if value.is_zero() {

@@ -123,7 +123,8 @@ impl Particle {
 }
 
 /// A mechanical system in frictional contact that satisfies section 2's hypotheses: K symmetric
-/// with K_ff positive definite, M symmetric positive definite where given.
+/// with K_ff positive definite, M symmetric positive definite where given. [`System::new`] proves
+/// that they are definite, [`System::assuming_definite`] does not.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct System {
     stiffness: Sparse,
@@ -145,6 +146,33 @@ impl System {
         friction: Option<Rational>,
         particles: Vec<Particle>,
     ) -> Result<Self, ModelError> {
+        let system = System::assuming_definite(stiffness, mass, friction, particles)?;
+
+        // A z particle may open, so its dofs count as free.
+        let f =
+            system.dofs_outside(|state| matches!(state, ContactState::Free | ContactState::Zero));
+        let k_ff = system.stiffness.submatrix(&f, &f);
+        require_definite("P1", "K_ff", &k_ff)?;
+        if let Some(mass) = &system.mass {
+            require_definite("E3", "M", mass)?;
+        }
+
+        Ok(system)
+    }
+
+    /// Establishes every precondition but one: that K_ff and M are positive definite is assumed.
+    ///
+    /// For matrices so large that a proof costs too much, and questions that have a meaning without
+    /// it, as whether numbers satisfy (9) or (12)-(14). Certificates presuppose it.
+    ///
+    /// # Errors
+    /// [`ModelError`] as [`System::new`], but for definiteness.
+    pub fn assuming_definite(
+        stiffness: Sparse,
+        mass: Option<Sparse>,
+        friction: Option<Rational>,
+        particles: Vec<Particle>,
+    ) -> Result<Self, ModelError> {
         let n = stiffness.rows();
         if n == 0 {
             return Err(ModelError::Empty { what: "system" });
@@ -160,23 +188,12 @@ impl System {
         check_friction(friction.as_ref(), &particles)?;
         check_particles(n, &particles, friction.as_ref())?;
 
-        let system = System {
+        Ok(System {
             stiffness,
             mass,
             friction,
             particles,
-        };
-
-        // A z particle may open, so its dofs count as free.
-        let f =
-            system.dofs_outside(|state| matches!(state, ContactState::Free | ContactState::Zero));
-        let k_ff = system.stiffness.submatrix(&f, &f);
-        require_definite("P1", "K_ff", &k_ff)?;
-        if let Some(mass) = &system.mass {
-            require_definite("E3", "M", mass)?;
-        }
-
-        Ok(system)
+        })
     }
 
     /// Refuses a system that lacks what `unknown` needs: M and mu for lambda^2.
@@ -691,7 +708,14 @@ mod tests {
         let skew =
             Sparse::from_entries(2, 2, [(0, 0, whole(1)), (1, 1, whole(1)), (0, 1, whole(1))]);
         assert!(matches!(
-            System::new(skew, None, None, vec![]),
+            System::new(skew.clone(), None, None, vec![]),
+            Err(ModelError::NotSymmetric { row: 0, col: 1, .. })
+        ));
+
+        let assumed = System::assuming_definite(Sparse::zeros(2, 2), None, None, vec![]);
+        assert!(assumed.is_ok());
+        assert!(matches!(
+            System::assuming_definite(skew, None, None, vec![]),
             Err(ModelError::NotSymmetric { row: 0, col: 1, .. })
         ));
     }

@@ -3,24 +3,28 @@
 //!
 //! For each case (a mesh with its contact states) and each mu, MCEIP-lambda2 is searched from many
 //! starts on the pencil condensed in doubles. Where K has at most [`ENCLOSED_ORDER`] rows, each
-//! solution found is then certified on the exact K and M.
+//! solution found is then certified on the exact K and M. On a larger mesh the checker finds the
+//! backward error of each, for the problem whose K and M are the doubles.
 
 use super::args::{Args, published};
+use super::doubles::CondensedBlock;
 use super::scale;
 use super::scale_error::ScaleError;
 use crate::cli::common::{CliError, exit, positive_number, print};
 use crate::cli::job::Job;
+use mceip_engine::candidate::BACKWARD_ERROR_DIGITS;
 use mceip_engine::certify::{Certifier, ENCLOSED_ORDER};
 use mceip_engine::multistart::{
     CondensedFound, CondensedSearch, CondensedSolution, search_condensed,
 };
-use mceip_engine::reduction::{SparseCondensation, reduce};
+use mceip_engine::reduction::reduce;
 use mceip_engine::report::Table;
 use mceip_engine::run::{Cancel, Progress, Watch};
-use mceip_exact::{Rational, to_f64};
+use mceip_exact::{Rational, to_f64, upper_decimal};
 use mceip_model::{Body, ContactState, Problem, Unknown, Window};
-use mceip_paper::{Block, BlockModel, DoubleBlock};
+use mceip_paper::{Block, BlockModel};
 use serde_json::{Value, json};
+use std::fmt;
 use std::time::Instant;
 
 /// A mesh with its contact states.
@@ -37,7 +41,14 @@ struct Friction {
 }
 
 /// For a solution: the certified value, or why there is none.
-type Evidence = Result<f64, String>;
+type Evidence = Result<f64, Uncertified>;
+
+/// Why a solution is not certified.
+struct Uncertified {
+    reason: String,
+    /// The backward error for K and M in doubles, rounded up; on a large mesh only.
+    backward_error: Option<String>,
+}
 
 /// What came of a case at one friction.
 struct Row {
@@ -148,7 +159,8 @@ impl Case {
         rows: &mut Vec<Row>,
     ) -> Result<(), CliError> {
         job.say(format!("{}: assembling", self.name));
-        let condensation = self.condensation()?;
+        let block = CondensedBlock::new(&self.model, &self.states)?;
+        let condensation = &block.condensation;
         let exact = if condensation.dofs() <= ENCLOSED_ORDER {
             Some(Block::new(&self.model)?)
         } else {
@@ -161,14 +173,19 @@ impl Case {
             let watch = Watch::new(job.cancel(), &show);
 
             let clock = Instant::now();
-            let found = search_condensed(&condensation, to_f64(&friction.mu), search, &watch);
+            let found = search_condensed(condensation, to_f64(&friction.mu), search, &watch);
             let found = found.map_err(ScaleError::from)?;
             let seconds = clock.elapsed().as_secs_f64();
 
-            job.say(format!("{place}: certifying"));
             let evidence = match &exact {
-                Some(block) => self.certify(block, &friction.mu, &found.solutions, job.cancel())?,
-                None => too_large(&found.solutions),
+                Some(block) => {
+                    job.say(format!("{place}: certifying"));
+                    self.certify(block, &friction.mu, &found.solutions, job.cancel())?
+                }
+                None => {
+                    job.say(format!("{place}: backward errors"));
+                    backward_errors(&block, &friction.mu, &found.solutions, job.cancel())?
+                }
             };
             rows.push(Row {
                 name: self.name.clone(),
@@ -185,18 +202,6 @@ impl Case {
         }
 
         Ok(())
-    }
-
-    fn condensation(&self) -> Result<SparseCondensation, ScaleError> {
-        let block = DoubleBlock::new(&self.model)?;
-        let stiffness = scale::symmetric("K", &block.stiffness)?;
-        let mass = scale::symmetric("M", &block.mass)?;
-
-        let particles = block.particles(&self.states);
-        let points = Some(block.points.as_slice());
-        let condensation = SparseCondensation::new(stiffness, Some(mass), &particles, points)?;
-
-        Ok(condensation)
     }
 
     /// Certifies each solution on the exact K and M: the checker has accepted its claim.
@@ -217,7 +222,7 @@ impl Case {
         let mut evidence = Vec::new();
         for solution in solutions {
             evidence.push(if cancel.is_requested() {
-                Err("interrupted".into())
+                Err(Uncertified::because("interrupted".into()))
             } else {
                 accepted(&certifier, solution)
             });
@@ -230,14 +235,63 @@ impl Case {
 /// The value of a solution that the checker accepts.
 fn accepted(certifier: &Certifier<'_>, solution: &CondensedSolution) -> Evidence {
     let certified = certifier.certify_with_verdict(&solution.candidate);
-    let (_, proved) = certified.map_err(|reason| reason.to_string())?;
+    let (_, proved) = certified.map_err(|reason| Uncertified::because(reason.to_string()))?;
     Ok(to_f64(&proved.value.mid()))
 }
 
-/// The evidence for solutions on a mesh that is too large to certify.
-fn too_large(solutions: &[CondensedSolution]) -> Vec<Evidence> {
+/// The evidence for solutions on a mesh that is too large to certify: their backward errors.
+fn backward_errors(
+    block: &CondensedBlock,
+    mu: &Rational,
+    solutions: &[CondensedSolution],
+    cancel: &Cancel,
+) -> Result<Vec<Evidence>, CliError> {
+    let mut evidence = Vec::new();
+    if solutions.is_empty() {
+        return Ok(evidence);
+    }
+
+    let problem = block.problem(mu)?;
+    for solution in solutions {
+        evidence.push(Err(if cancel.is_requested() {
+            Uncertified::because("interrupted".into())
+        } else {
+            too_large(&problem, solution)
+        }));
+    }
+
+    Ok(evidence)
+}
+
+fn too_large(problem: &Problem, solution: &CondensedSolution) -> Uncertified {
     let reason = format!("more than {ENCLOSED_ORDER} dofs");
-    vec![Err(reason); solutions.len()]
+    match solution.candidate.backward_error(problem) {
+        Ok(error) => Uncertified {
+            reason,
+            backward_error: Some(upper_decimal(&error, BACKWARD_ERROR_DIGITS)),
+        },
+        Err(refusal) => Uncertified::because(format!("{reason}; {refusal}")),
+    }
+}
+
+impl Uncertified {
+    /// Without a backward error.
+    fn because(reason: String) -> Uncertified {
+        Uncertified {
+            reason,
+            backward_error: None,
+        }
+    }
+}
+
+impl fmt::Display for Uncertified {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "UNCERTIFIED: {}", self.reason)?;
+        match &self.backward_error {
+            Some(error) => write!(f, "; backward error {error}"),
+            None => Ok(()),
+        }
+    }
 }
 
 fn text_of(rows: &[Row], seed: u64) -> String {
@@ -271,7 +325,7 @@ fn text_of(rows: &[Row], seed: u64) -> String {
             ];
             let evidence = match evidence {
                 Ok(_) => "certified, accepted".into(),
-                Err(reason) => format!("UNCERTIFIED: {reason}"),
+                Err(uncertified) => uncertified.to_string(),
             };
             table.row(row.cells(numbers, solution.runs, evidence));
         }
@@ -319,10 +373,12 @@ impl Row {
     fn json(&self) -> Value {
         let mut solutions = Vec::new();
         for (solution, evidence) in self.found.solutions.iter().zip(&self.evidence) {
+            let uncertified = evidence.as_ref().err();
             solutions.push(json!({
                 "lambda2": value_of(solution, evidence),
                 "certified": evidence.is_ok(),
-                "reason": evidence.as_ref().err(),
+                "reason": uncertified.map(|u| &u.reason),
+                "backward_error": uncertified.map(|u| &u.backward_error),
                 "x_slip": solution.slip,
                 "y_slip": solution.reaction,
                 "runs": solution.runs,

@@ -178,33 +178,39 @@ fn condensed_problem(
     model: &BlockModel,
     condensed: &SparseCondensed<'_>,
 ) -> Result<Problem, ModelError> {
-    let a = exact(&condensed.a)?;
-    let b = exact(&condensed.b)?;
+    let order = condensed.a.len();
+    let a = exact(order, entries(&condensed.a))?;
+    let b = exact(order, entries(&condensed.b))?;
     let pencil = Pencil::new(a, b, Vec::new())?;
 
     let (nx, ny) = model.cells;
-    let slip = condensed.a.len();
-    let name = format!("block of {nx} x {ny} cells, {slip} slip, condensed in doubles");
+    let name = format!("block of {nx} x {ny} cells, {order} slip, condensed in doubles");
     let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
 
     Ok(problem.named(name))
 }
 
 /// A square matrix of doubles as exact numbers.
-fn exact(rows: &[Vec<f64>]) -> Result<Sparse, ModelError> {
-    let order = rows.len();
-    let mut entries = Vec::new();
-    for (i, row) in rows.iter().enumerate() {
-        for (j, value) in row.iter().enumerate().take(order) {
-            let number = from_f64(*value).map_err(|source| ModelError::Number {
-                place: format!("condensed pencil[{i}][{j}]"),
-                source,
-            })?;
-            entries.push((i, j, number));
-        }
+pub(super) fn exact(
+    order: usize,
+    entries: impl Iterator<Item = (usize, usize, f64)>,
+) -> Result<Sparse, ModelError> {
+    let mut exact = Vec::new();
+    for (i, j, value) in entries {
+        let number = from_f64(value).map_err(|source| ModelError::Number {
+            place: format!("matrix in doubles[{i}][{j}]"),
+            source,
+        })?;
+        exact.push((i, j, number));
     }
 
-    Ok(Sparse::from_entries(order, order, entries))
+    Ok(Sparse::from_entries(order, order, exact))
+}
+
+/// (row, column, value) of a matrix by rows.
+fn entries(rows: &[Vec<f64>]) -> impl Iterator<Item = (usize, usize, f64)> {
+    let rows = rows.iter().enumerate();
+    rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, value)| (i, j, *value)))
 }
 
 /// What the complete search says of the condensed pencil.

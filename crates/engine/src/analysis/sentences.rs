@@ -13,7 +13,7 @@ use super::flutter::{Flutter, root};
 use super::modes::{Mode, ZeroMode};
 use super::ranges::Range;
 use mceip_check::OpenRegion;
-use mceip_exact::{Interval, Rational, enclosing_decimals, to_f64};
+use mceip_exact::{Interval, Rational, enclosing_decimals, to_f64, upper_decimal};
 
 /// One sentence of the answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,7 +47,7 @@ pub(super) fn down(v: &Rational) -> String {
 
 /// A rational as a decimal that is not below it.
 pub(super) fn up(v: &Rational) -> String {
-    enclosing_decimals(&Interval::point(v.clone()), 9).1
+    upper_decimal(v, 9)
 }
 
 /// Six decimals without trailing zeros.

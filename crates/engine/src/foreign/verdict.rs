@@ -9,12 +9,13 @@
 use super::agreement::{Agreement, agreement};
 use super::refute::{Effort, refute};
 use super::report::Reported;
-use crate::candidate::Candidate;
+use crate::candidate::{BACKWARD_ERROR_DIGITS, Candidate};
 use crate::certify::certify;
 use crate::multistart::{exact_value, support};
 use crate::reduction::Reduced;
 use mceip_check::certificate::{Claim, EnclosedSolution};
-use mceip_exact::{Algebraic, Interval, Poly, enclosing_decimals, parse, to_decimal};
+use mceip_exact::{Algebraic, Interval, Poly};
+use mceip_exact::{enclosing_decimals, parse, to_decimal, upper_decimal};
 use mceip_model::Problem;
 
 /// Components of a proven x that are printed.
@@ -111,9 +112,11 @@ pub fn judge(
         Err(reason) => {
             return match refute(problem, reduced, candidate, effort) {
                 Ok(refutation) => Verdict::Rejected(refutation),
-                Err(why) => Verdict::Undecided {
-                    reason: format!("{reason}; {why}"),
-                },
+                Err(why) => {
+                    let backward_error = backward_error_text(problem, candidate);
+                    let reason = format!("{reason}; {why}{backward_error}");
+                    Verdict::Undecided { reason }
+                }
             };
         }
     };
@@ -132,6 +135,18 @@ pub fn judge(
     Verdict::Inaccurate {
         proved: Box::new(proved),
         tolerance,
+    }
+}
+
+/// The backward error of a candidate that is neither proved nor refuted, as a clause; empty where
+/// the checker refuses it.
+fn backward_error_text(problem: &Problem, candidate: &Candidate) -> String {
+    match candidate.backward_error(problem) {
+        Ok(error) => format!(
+            "; backward error {}",
+            upper_decimal(&error, BACKWARD_ERROR_DIGITS)
+        ),
+        Err(_) => String::new(),
     }
 }
 

@@ -262,6 +262,16 @@ impl SparseCondensation {
         self.stiffness.order()
     }
 
+    /// K.
+    pub fn stiffness(&self) -> &Symmetric {
+        &self.stiffness
+    }
+
+    /// M, where given.
+    pub fn mass(&self) -> Option<&Symmetric> {
+        self.mass.as_ref()
+    }
+
     /// The fronts of the factorisation.
     pub fn analysis(&self) -> &Analysis {
         &self.analysis
