@@ -449,7 +449,11 @@ fn the_second_checker_gives_every_verdict() {
 
     let folder = tempfile::tempdir().unwrap();
     let entries = entries(folder.path());
-    let codes = second_codes(&entries);
+    let mut files = Vec::new();
+    for entry in &entries {
+        files.push([&entry.problem, &entry.certificate].map(PathBuf::from));
+    }
+    let codes = second_codes(&files);
 
     let mut wrong = Vec::new();
     for (entry, code) in entries.iter().zip(codes) {
@@ -465,23 +469,21 @@ fn the_second_checker_gives_every_verdict() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Exit codes of `spec/checker.py`, one for each file.
-fn second_codes(entries: &[Entry]) -> Vec<i32> {
+/// Exit codes of `spec/checker.py`, one for each pair of a problem and a certificate.
+pub(crate) fn second_codes(files: &[[PathBuf; 2]]) -> Vec<i32> {
     let mut python = Command::new("python3");
     python
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .args(["-c", RUN_ALL])
         .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("spec"));
 
-    for entry in entries {
-        python.args([&entry.problem, &entry.certificate]);
-    }
+    python.args(files.as_flattened());
 
     let output = python.output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
     let codes: Vec<i32> = text.lines().map(|line| line.parse().unwrap()).collect();
     let err = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(codes.len(), entries.len(), "{err}");
+    assert_eq!(codes.len(), files.len(), "{err}");
     codes
 }
 

@@ -3,6 +3,7 @@
 //! author, so that a mistake of one is a difference. Without python3 the test says so and passes.
 #![cfg(feature = "cli")]
 
+use crate::corpus::second_codes;
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, whole};
 use serde_json::{Value, json};
@@ -32,17 +33,6 @@ fn code(command: &mut Command) -> i32 {
 fn first_code(problem: &Path, certificate: &Path) -> i32 {
     let mut check = Command::new(env!("CARGO_BIN_EXE_mceip"));
     code(check.arg("check").arg(problem).arg(certificate))
-}
-
-/// The exit code of `spec/checker.py`.
-fn second_code(problem: &Path, certificate: &Path) -> i32 {
-    let mut python = Command::new("python3");
-    code(
-        python
-            .arg(root("spec/checker.py"))
-            .arg(problem)
-            .arg(certificate),
-    )
 }
 
 /// The certificate that `complete` or `solve` writes for a problem.
@@ -124,43 +114,58 @@ fn forged_number(text: &str, turn: usize) -> String {
     }
 }
 
-/// Asks both checkers about a certificate, then about forgeries at places spread over the file.
-/// Counts the exit codes.
+/// Certificates and forgeries of them about which both checkers are asked.
 struct Comparison<'a> {
-    problem: &'a Path,
-    /// Where the forgeries are written.
-    file: PathBuf,
-    seen: &'a mut [usize; 4],
+    folder: &'a Path,
+    /// Problem and certificate.
+    files: Vec<[PathBuf; 2]>,
 }
 
 impl Comparison<'_> {
-    fn compare(&mut self, certificate: &Value, places: &[String], forgeries: usize) {
-        let unchanged = self.verdict(certificate, 0);
-        assert_eq!(unchanged, 0, "{}", self.problem.display());
+    fn new(folder: &Path) -> Comparison<'_> {
+        Comparison {
+            folder,
+            files: Vec::new(),
+        }
+    }
+
+    /// Writes a certificate, which has to be accepted, and forgeries at places spread over it.
+    fn add(&mut self, problem: &Path, certificate: &Value, places: &[String], forgeries: usize) {
+        let unchanged = self.write(problem, certificate);
+        assert_eq!(first_code(problem, &unchanged), 0, "{}", problem.display());
 
         for turn in 1..=forgeries {
             let place = &places[(turn - 1) * places.len() / forgeries];
             let mut forged = certificate.clone();
             forge(forged.pointer_mut(place).unwrap(), turn);
-            self.verdict(&forged, turn);
+            self.write(problem, &forged);
         }
     }
 
-    /// The exit code that both give.
-    fn verdict(&mut self, certificate: &Value, turn: usize) -> i32 {
-        std::fs::write(&self.file, certificate.to_string()).unwrap();
+    fn write(&mut self, problem: &Path, certificate: &Value) -> PathBuf {
+        let file = self.folder.join(format!("{}.json", self.files.len()));
+        std::fs::write(&file, certificate.to_string()).unwrap();
+        self.files.push([problem.to_path_buf(), file.clone()]);
+        file
+    }
 
-        let ours = first_code(self.problem, &self.file);
-        let theirs = second_code(self.problem, &self.file);
-        assert_eq!(
-            ours,
-            theirs,
-            "mceip check and checker.py on {}, turn {turn}: {certificate}",
-            std::fs::read_to_string(self.problem).unwrap()
-        );
+    /// How often both give each exit code.
+    fn seen(&self) -> [usize; 4] {
+        let mut seen = [0; 4];
+        for (files, theirs) in self.files.iter().zip(second_codes(&self.files)) {
+            let [problem, certificate] = files;
+            let ours = first_code(problem, certificate);
+            assert_eq!(
+                ours,
+                theirs,
+                "mceip check and checker.py on {}: {}",
+                std::fs::read_to_string(problem).unwrap(),
+                std::fs::read_to_string(certificate).unwrap()
+            );
+            seen[usize::try_from(ours).unwrap()] += 1;
+        }
 
-        self.seen[usize::try_from(ours).unwrap()] += 1;
-        ours
+        seen
     }
 }
 
@@ -172,7 +177,7 @@ fn both_checkers_give_the_same_verdicts() {
     }
 
     let folder = tempfile::tempdir().unwrap();
-    let mut seen = [0; 4];
+    let mut comparison = Comparison::new(folder.path());
     for name in EXAMPLES {
         let problem = example(name);
         for command in ["complete", "solve"] {
@@ -180,15 +185,11 @@ fn both_checkers_give_the_same_verdicts() {
             let mut everywhere = Vec::new();
             places(&certificate, "", &mut everywhere);
 
-            let mut comparison = Comparison {
-                problem: &problem,
-                file: folder.path().join("forged.json"),
-                seen: &mut seen,
-            };
-            comparison.compare(&certificate, &everywhere, 8);
+            comparison.add(&problem, &certificate, &everywhere, 8);
         }
     }
 
+    let seen = comparison.seen();
     let [accepted, rejected, unreadable, _] = seen;
     assert!(accepted >= 8, "{seen:?}");
     assert!(rejected > 20, "{seen:?}");
@@ -209,7 +210,7 @@ fn a_cover_with_an_open_leaf_is_undecided_for_both() {
     std::fs::write(&file, certificate.to_string()).unwrap();
 
     assert_eq!(first_code(&problem, &file), 3);
-    assert_eq!(second_code(&problem, &file), 3);
+    assert_eq!(second_codes(&[[problem, file]]), [3]);
 }
 
 /// A and B of degenerate pencils: a double root, a cone, ranges of values with irrational ends, a
@@ -230,10 +231,10 @@ fn both_checkers_agree_on_support_leaves() {
     }
 
     let folder = tempfile::tempdir().unwrap();
-    let problem = folder.path().join("problem.json");
-    let mut seen = [0; 4];
+    let mut comparison = Comparison::new(folder.path());
 
-    for [a, b] in DEGENERATE {
+    for (k, [a, b]) in DEGENERATE.into_iter().enumerate() {
+        let problem = folder.path().join(format!("problem-{k}.json"));
         let text = format!(
             r#"{{"format":"mceip-problem/1","unknown":"lambda2","pencil":{{"a":{a},"b":{b}}}}}"#
         );
@@ -245,14 +246,10 @@ fn both_checkers_agree_on_support_leaves() {
         in_support_leaves.retain(|place| place.contains("/support/"));
         assert!(in_support_leaves.len() > 8, "{a} {b}");
 
-        let mut comparison = Comparison {
-            problem: &problem,
-            file: folder.path().join("certificate.json"),
-            seen: &mut seen,
-        };
-        comparison.compare(&certificate, &in_support_leaves, 16);
+        comparison.add(&problem, &certificate, &in_support_leaves, 16);
     }
 
+    let seen = comparison.seen();
     let [accepted, rejected, _, _] = seen;
     assert!(accepted >= 4, "{seen:?}");
     assert!(rejected > 20, "{seen:?}");

@@ -28,7 +28,7 @@ use std::path::Path;
 const FAMILY: u64 = 97;
 
 /// Random systems.
-const SYSTEMS: u64 = 60;
+const SYSTEMS: u64 = 30;
 
 /// How far above the smallest solution the first interval may begin: share of mu.
 const NEAR_START: f64 = 1e-5;
