@@ -10,8 +10,8 @@
 //!
 //! the backward error is rho = max r_i / s_i. It is the least number such that (t, x) solves
 //! (12)-(14) exactly with some A' and B' instead of A and B, where |A' - A| <= rho |A| and |B' - B|
-//! <= rho |B| for each entry: such A' and B' move y_i by up to rho s_i to both sides, and by no more
-//! (Oettli and Prager, Numerische Mathematik 6, 1964).
+//! <= rho |B| for each entry: such A' and B' move y_i by up to rho s_i to both sides, and by no
+//! more (Oettli and Prager, Numerische Mathematik 6, 1964).
 //!
 //! A small backward error proves no solution with A and B themselves. It is what can be said of a
 //! problem too large for a certificate. Called by the command `block` and by the verdict on

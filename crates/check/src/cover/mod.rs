@@ -23,8 +23,8 @@
 //! through the trees, and `budget` bounds the work.
 //!
 //! `critical` uses the same leaves for boxes of (value, friction): absence below a friction.
-//! `presence` uses the corners of such boxes: a solution for every friction of an interval. Both have
-//! witnesses of one kind, `null_witness`.
+//! `presence` uses the corners of such boxes: a solution for every friction of an interval. Both
+//! have witnesses of one kind, `null_witness`.
 //!
 //! For each kind of leaf there is a file in `crates/engine/src/search/complete/leaf/` that makes
 //! it; the table in its `mod.rs` names both sides.

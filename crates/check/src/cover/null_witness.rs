@@ -1,5 +1,5 @@
-//! What regular leaves and pieces of presence have in common: Y ~ T'^-1 and approximate null vectors
-//! u and v of T, where T' is T without the row and the column of the pivot.
+//! What regular leaves and pieces of presence have in common: Y ~ T'^-1 and approximate null
+//! vectors u and v of T, where T' is T without the row and the column of the pivot.
 
 use super::ends::largest_bits;
 use super::family::words;

@@ -1,9 +1,9 @@
 //! Is A + mu B positive definite, where B has few rows? The other variables are eliminated once for
 //! all mu.
 //!
-//! A and B are symmetric, s holds the variables in rows of B, and f the others, so B_ff = 0. Let
-//! F = A_ff, C(mu) = A_fs + mu B_fs and D(mu) = A_ss + mu B_ss. With any W(mu), here a rounded value
-//! of F^-1 C(mu), and R = C - F W,
+//! A and B are symmetric, s holds variables such that B_ff = 0 for the others f. Let F = A_ff,
+//! C(mu) = A_fs + mu B_fs and D(mu) = A_ss + mu B_ss. With any W(mu), here a rounded value of
+//! F^-1 C(mu), and R = C - F W,
 //!
 //! ```text
 //!     [ I   ]' [ F   C ] [ I  -W ]   =   [ F   R ]        Z = D - C'W - W'R.
@@ -17,8 +17,8 @@
 //!     sigma Z - |R|^2 I
 //! ```
 //!
-//! is, with the Frobenius norm of R. W = W0 + mu W1, so Z has degree two in mu, and |R|^2 is at most
-//! 2 |R0|^2 + 2 mu^2 |R1|^2. Doubles propose W and sigma; everything else is exact.
+//! is, with the Frobenius norm of R. W = W0 + mu W1, so Z has degree two in mu, and |R|^2 is at
+//! most 2 |R0|^2 + 2 mu^2 |R1|^2. Doubles propose W and sigma; everything else is exact.
 //!
 //! Called by [`conditions`](super::conditions), which needs many values of mu.
 
@@ -31,8 +31,8 @@ use num_traits::Zero;
 /// Bits of the largest entry of W.
 const BITS_OF_W: i32 = 60;
 
-/// Z and |R|^2 as polynomials of mu, from integral A and B, W in units of 2^-e: Z and |R|^2 in units
-/// of 2^-2e.
+/// Z and |R|^2 as polynomials of mu, from integral A and B and W in units of 2^-e. So Z and |R|^2
+/// are in units of 2^-2e.
 pub(super) struct Eliminated {
     /// The rows of Z, up to the diagonal, for each power of mu.
     z: [Vec<Vec<Integer>>; 3],
