@@ -6,8 +6,8 @@
 //! F^-1 C(mu), and R = C - F W,
 //!
 //! ```text
-//!     [ I   ]' [ F   C ] [ I  -W ]   =   [ F   R ]        Z = D - C'W - W'R.
-//!     [-W' I]  [ C'  D ] [     I ]       [ R'  Z ],
+//!     P'(A + mu B) P = [ F   R ]      P = [ I  -W ]      Z = D - C'W - W'R.
+//!                      [ R'  Z ],         [ 0   I ],
 //! ```
 //!
 //! If F - sigma I is definite with sigma > 0, A + mu B is definite where Z - R'R / sigma is, and so
