@@ -131,6 +131,8 @@ pub(super) struct Found {
     pub(super) start: Option<Start>,
     /// The condensation of the last cover, if there was one.
     pub(super) family: Option<Family>,
+    /// Where condensation is to be precise.
+    pub(super) places: Vec<Place>,
 }
 
 /// What is known about a system before its critical mu is sought.
@@ -216,6 +218,7 @@ pub(super) fn critical(
             critical,
             start: None,
             family: None,
+            places: Vec::new(),
         });
     };
 
@@ -250,10 +253,12 @@ pub(super) fn critical(
 
     let start = bounds.start.take();
     let family = std::mem::take(&mut bounds.last).into_family();
+    let places = std::mem::take(&mut bounds.places);
     Ok(Found {
         critical: bounds.into_critical(excluded, known, proofs),
         start,
         family,
+        places,
     })
 }
 

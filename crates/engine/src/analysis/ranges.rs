@@ -10,7 +10,7 @@
 //! Input: what is known of the system, and its critical mu. Output: [`Ranges`]. Called by
 //! [`analyse`](super::analyse).
 
-use super::absence::Family;
+use super::absence::{Family, Place};
 use super::critical::{CertifiedSolution, Critical, Found, Known, Start};
 use super::divergence::{Verdict, verdict};
 use super::error::AnalysisError;
@@ -103,7 +103,7 @@ pub(super) fn ranges(
         smallest: None,
     };
 
-    let mut prover = prover(model, known, found.family, &top)?;
+    let mut prover = prover(model, known, found.family, &found.places, &top)?;
     if let (Some(prover), Some(start)) = (&mut prover, &found.start) {
         model
             .watch
@@ -178,6 +178,7 @@ fn prover<'a>(
     model: &Model<'a>,
     known: &Known<'a>,
     family: Option<Family>,
+    places: &[Place],
     top: &Rational,
 ) -> Result<Option<Prover<'a>>, AnalysisError> {
     if model.stopped() || !known.families.zero.is_empty() || known.families.own.mass.is_none() {
@@ -190,7 +191,7 @@ fn prover<'a>(
     };
     let family = match family {
         Some(family) => family,
-        None => Family::new(known.families, top, &[])?,
+        None => Family::new(known.families, top, places)?,
     };
     Ok(Some(Prover::new(ground, family)))
 }
