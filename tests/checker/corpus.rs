@@ -326,8 +326,8 @@ fn our_checker_gives_every_verdict_and_reason() {
 
 /// Reasons that no file reaches: a claim and a cover that contradict each other are not both true,
 /// and a checker that accepts nothing false refuses the false one by its own obligations.
-/// `crates/check/src/lib.rs` tests it on made-up covers. A negative slip is a reason against numbers
-/// without a certificate: `crates/check/src/backward_error.rs` tests it.
+/// `crates/check/src/lib.rs` tests it on made-up covers. A negative slip is a reason against
+/// numbers without a certificate: `crates/check/src/backward_error.rs` tests it.
 const UNREACHABLE: [&str; 2] = ["NotInCover", "XNegative"];
 
 /// Each obligation of the checker is the reason of some file. The obligations are the variants of
