@@ -32,6 +32,13 @@ pub struct Case {
 #[derive(Default)]
 pub struct Cases(pub Vec<Case>);
 
+/// A text with one mark `@`, to be replaced by copies of a unit.
+pub struct Repeated<'a> {
+    pub text: String,
+    pub unit: &'a str,
+    pub count: usize,
+}
+
 /// A change of something that is accepted, and the obligation of the checker that it breaks.
 pub struct Forgery<Subject> {
     pub name: &'static str,
@@ -76,6 +83,23 @@ impl Cases {
             name: name.into(),
             file,
         });
+    }
+
+    /// A small file that asks for much: rejected, with the limit named.
+    pub fn too_large(
+        &mut self,
+        [name, reason, note]: [&str; 3],
+        problem: &Problem,
+        certificate: &Repeated<'_>,
+    ) {
+        let file = json!({
+            "verdict": "rejected",
+            "reason": reason,
+            "problem": problem_json(problem),
+            "certificate_text": certificate.text,
+            "repeat": { "mark": "@", "unit": certificate.unit, "count": certificate.count },
+        });
+        self.push("reject", name, file, note);
     }
 
     pub fn accept(&mut self, name: &str, note: &str, problem: &Problem, good: &Certificate) {

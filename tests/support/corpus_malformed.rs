@@ -18,13 +18,6 @@ fn accepted() -> (Problem, String) {
     (problem, text)
 }
 
-/// A text with one mark, to be replaced by copies of a unit.
-struct Repeated<'a> {
-    text: String,
-    unit: &'a str,
-    count: usize,
-}
-
 fn push_repeated(cases: &mut Cases, name: &str, note: &str, repeated: &Repeated<'_>) {
     let (problem, _) = accepted();
     let file = json!({
@@ -693,13 +686,5 @@ pub fn hostile(cases: &mut Cases) {
 
 fn push_too_large(cases: &mut Cases, name: &str, note: &str, repeated: &Repeated<'_>) {
     let (problem, _) = accepted();
-    let file = json!({
-        "verdict": "rejected",
-        "reason": "TooLarge",
-        "problem": problem_json(&problem),
-        "certificate_text": repeated.text,
-        "repeat": { "mark": "@", "unit": repeated.unit, "count": repeated.count },
-    });
-
-    cases.push("reject", name, file, note);
+    cases.too_large([name, "TooLarge", note], &problem, repeated);
 }

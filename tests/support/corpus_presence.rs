@@ -5,7 +5,7 @@
 //! computed by hand; those of the example of 5.19 stand there.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus_cases::{Cases, Forgery, Misspelling, fold, problem_json, q, replaced};
+use super::corpus_cases::{Cases, Forgery, Misspelling, Repeated, fold, problem_json, q, replaced};
 use super::corpus_critical::{
     fold_system, free_condensation, free_problem, identity, one, system, with_zero_reaction,
 };
@@ -676,18 +676,17 @@ fn too_much_work(cases: &mut Cases) {
         "\"interval\":[\"1\",\"2\"]",
         interval,
     );
-    let file = json!({
-        "verdict": "rejected",
-        "reason": "Cover.TooLarge",
-        "problem": problem_json(&problem),
-        "certificate_text": text,
-        "repeat": { "mark": "@", "unit": "0", "count": 99_990 },
-    });
-    cases.push(
-        "reject",
-        "presence-hostile",
-        file,
-        "a witness with numbers of 16,384 bits below a value of t of 100,000 digits",
+    let repeated = Repeated {
+        text,
+        unit: "0",
+        count: 99_990,
+    };
+
+    let note = "a witness with numbers of 16,384 bits below a value of t of 100,000 digits";
+    cases.too_large(
+        ["presence-hostile", "Cover.TooLarge", note],
+        &problem,
+        &repeated,
     );
 }
 

@@ -5,7 +5,7 @@
 //! computed by hand; those of the example of 5.18 stand there.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus_cases::{Cases, Forgery, Misspelling, problem_json, q, replaced};
+use super::corpus_cases::{Cases, Forgery, Misspelling, Repeated, problem_json, q, replaced};
 use super::corpus_critical::{
     accept, certificate, farkas, free_certificate, free_problem, identity, lower, no_factor, one,
     piece, reject, split, system,
@@ -580,18 +580,17 @@ fn too_much_work(cases: &mut Cases) {
     let mut forged = certificate_of_the_page(&problem);
     leaf(&mut forged).exponent = 16_384;
     let text = replaced(&forged.to_json(), "\"max\":\"2\"", "\"max\":\"2.@1\"");
-    let file = json!({
-        "verdict": "rejected",
-        "reason": "Cover.TooLarge",
-        "problem": problem_json(&problem),
-        "certificate_text": text,
-        "repeat": { "mark": "@", "unit": "0", "count": 99_990 },
-    });
-    cases.push(
-        "reject",
-        "critical-hostile-regular",
-        file,
-        "a leaf with numbers of 16,384 bits between t = 0 and one of 100,000 digits",
+    let repeated = Repeated {
+        text,
+        unit: "0",
+        count: 99_990,
+    };
+
+    let note = "a leaf with numbers of 16,384 bits between t = 0 and one of 100,000 digits";
+    cases.too_large(
+        ["critical-hostile-regular", "Cover.TooLarge", note],
+        &problem,
+        &repeated,
     );
 }
 

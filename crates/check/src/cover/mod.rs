@@ -344,7 +344,8 @@ mod tests {
         assert_eq!(walk.spend_definite(&region), Err(too_large));
     }
 
-    /// What a file may spend on definite leaves: 2^26, 2^20 a node, 2^16 an entry that is not zero.
+    /// What a file may spend on definite leaves: 2^26, 2^20 a node, 2^16 an entry that is not zero;
+    /// on matrices 2^30 and 2^24 a node, on witnesses of presence 2^30 and 2^26 a piece.
     #[test]
     fn the_budget_grows_with_nodes_and_entries() {
         let mut rows = diagonal(2, 3);
@@ -366,6 +367,7 @@ mod tests {
 
         assert_eq!(definite.left(), (1 << 26) + 7 * (1 << 20) + 2 * (1 << 16));
         assert_eq!(matrices.left(), (1 << 30) + 7 * (1 << 24));
+        assert_eq!(WorkBudget::of_pieces(5).left(), (1 << 30) + 5 * (1 << 26));
     }
 
     /// Two variables over [1/3, 2]: four entries, K = 1, ends of 128 + 3 + 3 bits in 3 words,

@@ -22,70 +22,71 @@
 //!
 //! Called by [`conditions`](super::conditions), which needs many values of mu.
 
+use crate::search::complete::pieces::blocks::columns;
 use crate::search::complete::pieces::skyline::Skyline;
 use mceip_exact::{
-    Integer, Rational, Sparse, common_denominator, from_f64, positive_definite, to_f64, truncated,
+    Integer, Rational, Sparse, common_denominator, from_f64, positive_definite, truncated,
 };
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
 /// Bits of the largest entry of W.
 const BITS_OF_W: i32 = 60;
 
+/// Entries of a row, or of a column, that are not zero.
+type SparseLine = Vec<(usize, Integer)>;
+
 /// Z and |R|^2 as polynomials of mu, from integral A and B and W in units of 2^-e. So Z and |R|^2
 /// are in units of 2^-2e.
 pub(super) struct Eliminated {
-    /// The rows of Z, up to the diagonal, for each power of mu.
-    z: [Vec<Vec<Integer>>; 3],
+    /// The coefficients of Z.
+    z: [Sparse; 3],
     /// 2 |R0|^2 and 2 |R1|^2.
-    residual: [Integer; 2],
+    residual: [Rational; 2],
     sigma: Rational,
 }
 
 impl Eliminated {
-    /// Eliminates all variables but `kept`, which have to be those in rows of B at least. `None`
-    /// where F is not shown to be definite.
+    /// Eliminates all variables but `kept`. `None` where B_ff is not zero, or F not shown to be
+    /// definite.
     pub(super) fn of(a: &Sparse, b: &Sparse, kept: &[usize]) -> Option<Eliminated> {
-        let rest: Vec<usize> = (0..a.rows()).filter(|i| !kept.contains(i)).collect();
-        let block = a.submatrix(&rest, &rest);
+        let eliminated: Vec<usize> = (0..a.rows()).filter(|i| !kept.contains(i)).collect();
+        if b.submatrix(&eliminated, &eliminated).entries().count() > 0 {
+            return None;
+        }
+
+        let block = a.submatrix(&eliminated, &eliminated);
         let skyline = Skyline::symmetric(&block);
         let sigma = from_f64(skyline.below_spectrum()?).ok()?;
+        let identity = Sparse::identity(eliminated.len());
+        positive_definite(&block.add_scaled(&-sigma.clone(), &identity)).ok()?;
 
-        let shift = Sparse::identity(rest.len());
-        let shifted = block.add_scaled(&-sigma.clone(), &shift);
-        positive_definite(&shifted).ok()?;
+        let factor = skyline.cholesky()?;
+        let mut solutions = [a, b].map(|m| columns(&m.submatrix(&eliminated, kept)));
+        for columns in &mut solutions {
+            factor.solve_all(columns);
+        }
+        let unit = unit_of(solutions.iter().flatten().flatten())?;
 
         let entries = a.entries().chain(b.entries());
         let scale = Rational::from_integer(common_denominator(entries.map(|(_, _, v)| v)));
         let block = integral(&block, &scale);
-        let factor = skyline.cholesky()?;
-
-        let mut columns = [a, b].map(|m| dense_rows(&m.submatrix(kept, &rest)));
-        columns.iter_mut().for_each(|c| factor.solve_all(c));
-        let unit = unit_of(columns.iter().flatten().flatten())?;
-
-        let [of_a, of_b] = columns;
+        let [of_a, of_b] = &solutions;
+        let [coupling_a, coupling_b] =
+            [a, b].map(|m| integral(&m.submatrix(kept, &eliminated), &scale));
         let parts = [
-            Part::of(
-                &block,
-                &integral(&a.submatrix(kept, &rest), &scale),
-                &of_a,
-                unit,
-            )?,
-            Part::of(
-                &block,
-                &integral(&b.submatrix(kept, &rest), &scale),
-                &of_b,
-                unit,
-            )?,
+            Part::of(&block, coupling_a, of_a, unit)?,
+            Part::of(&block, coupling_b, of_b, unit)?,
         ];
 
+        // D in the units of Z.
+        let square_unit = Rational::from_integer(shifted(&Integer::one(), 2 * unit));
+        let factor = &scale * square_unit;
+        let none = Sparse::zeros(kept.len(), kept.len());
+        let diagonal = [a, b].map(|m| none.add_scaled(&factor, &m.submatrix(kept, kept)));
+
         Some(Eliminated {
-            z: schur(
-                &parts,
-                [a, b].map(|m| integral(&m.submatrix(kept, kept), &scale)),
-                unit,
-            ),
-            residual: parts.each_ref().map(|part| part.square() * 2),
+            z: schur(&parts, &diagonal, unit),
+            residual: parts.each_ref().map(Part::residual_bound),
             sigma: sigma * scale,
         })
     }
@@ -93,36 +94,26 @@ impl Eliminated {
     /// `true` proves that A + mu B is positive definite; `false` says nothing.
     pub(super) fn is_definite_at(&self, mu: &Rational) -> bool {
         let square = mu * mu;
-        let residual = Rational::from_integer(self.residual[0].clone())
-            + &square * Rational::from_integer(self.residual[1].clone());
-
         let [constant, linear, quadratic] = &self.z;
-        let order = constant.len();
-        let mut entries = Vec::new();
-        for i in 0..order {
-            for j in 0..=i {
-                let [z_0, z_1, z_2] =
-                    [constant, linear, quadratic].map(|z| Rational::from_integer(z[i][j].clone()));
-                let z = z_0 + mu * z_1 + &square * z_2;
+        let z = constant
+            .add_scaled(mu, linear)
+            .add_scaled(&square, quadratic);
 
-                if i == j {
-                    entries.push((i, i, &self.sigma * z - &residual));
-                } else {
-                    let scaled = &self.sigma * z;
-                    entries.push((j, i, scaled.clone()));
-                    entries.push((i, j, scaled));
-                }
-            }
-        }
+        let [of_a, of_b] = &self.residual;
+        let residual = of_a + square * of_b;
 
-        positive_definite(&Sparse::from_entries(order, order, entries)).is_ok()
+        let order = z.rows();
+        let less = Sparse::zeros(order, order)
+            .add_scaled(&self.sigma, &z)
+            .add_scaled(&-residual, &Sparse::identity(order));
+        positive_definite(&less).is_ok()
     }
 }
 
 /// What belongs to A or to B: columns over the eliminated variables, one for each kept variable.
 struct Part {
-    /// The columns of C, without zeros.
-    coupling: Vec<Vec<(usize, Integer)>>,
+    /// The columns of C.
+    coupling: Vec<SparseLine>,
     /// W in units of 2^-e.
     w: Vec<Vec<Integer>>,
     /// R = C - F W in the same units.
@@ -130,41 +121,43 @@ struct Part {
 }
 
 impl Part {
-    /// `None` where a number of W is not finite.
+    /// `block` holds the rows of F. `None` where a number of W is not finite.
     fn of(
-        block: &[Vec<(usize, Integer)>],
-        coupling: &[Vec<(usize, Integer)>],
-        solution: &[Vec<f64>],
+        block: &[SparseLine],
+        coupling: Vec<SparseLine>,
+        solutions: &[Vec<f64>],
         unit: i32,
     ) -> Option<Part> {
+        let in_units = |v: &f64| truncated((v * f64::from(unit).exp2()).round());
+
         let mut w = Vec::with_capacity(coupling.len());
         let mut residual = Vec::with_capacity(coupling.len());
-        for (given, column) in coupling.iter().zip(solution) {
-            let rounded = |v: &f64| truncated((v * f64::from(unit).exp2()).round());
-            let column: Vec<Integer> = column.iter().map(rounded).collect::<Option<_>>()?;
+        for (given, solution) in coupling.iter().zip(solutions) {
+            let column: Vec<Integer> = solution.iter().map(in_units).collect::<Option<_>>()?;
 
-            let mut rest = vec![Integer::zero(); column.len()];
+            let mut r = vec![Integer::zero(); column.len()];
             for (i, entry) in given {
-                rest[*i] = shifted(entry, unit);
+                r[*i] = shifted(entry, unit);
             }
-            for (rest_i, row) in rest.iter_mut().zip(block) {
-                *rest_i -= sparse_dot(row, &column);
+            for (r_i, row) in r.iter_mut().zip(block) {
+                *r_i -= sparse_dot(row, &column);
             }
 
             w.push(column);
-            residual.push(rest);
+            residual.push(r);
         }
 
         Some(Part {
-            coupling: coupling.to_vec(),
+            coupling,
             w,
             residual,
         })
     }
 
-    /// |R|^2.
-    fn square(&self) -> Integer {
-        self.residual.iter().flatten().map(|v| v * v).sum()
+    /// 2 |R|^2.
+    fn residual_bound(&self) -> Rational {
+        let square: Integer = self.residual.iter().flatten().map(|v| v * v).sum();
+        Rational::from_integer(square * 2)
     }
 
     /// (C'W + W'R)_ij with W and R of the other part, in units of 2^-2e.
@@ -179,28 +172,35 @@ impl Part {
     }
 }
 
-/// The coefficients of Z(mu), up to the diagonal, in units of 2^-2e.
-fn schur(
-    [of_a, of_b]: &[Part; 2],
-    [d_a, d_b]: [Vec<Vec<(usize, Integer)>>; 2],
-    unit: i32,
-) -> [Vec<Vec<Integer>>; 3] {
-    let mut z: [Vec<Vec<Integer>>; 3] = Default::default();
-    for i in 0..of_a.w.len() {
-        let mut rows: [Vec<Integer>; 3] = Default::default();
-        for j in 0..=i {
-            let mixed = of_a.product(of_b, i, j, unit) + of_b.product(of_a, i, j, unit);
-            rows[0].push(shifted(&entry(&d_a[i], j), 2 * unit) - of_a.product(of_a, i, j, unit));
-            rows[1].push(shifted(&entry(&d_b[i], j), 2 * unit) - mixed);
-            rows[2].push(-of_b.product(of_b, i, j, unit));
-        }
+/// The coefficients of Z(mu) in units of 2^-2e, from those of D in the same units.
+fn schur([of_a, of_b]: &[Part; 2], [d_a, d_b]: &[Sparse; 2], unit: i32) -> [Sparse; 3] {
+    let order = of_a.w.len();
+    let constant = |i, j| of_a.product(of_a, i, j, unit);
+    let linear = |i, j| of_a.product(of_b, i, j, unit) + of_b.product(of_a, i, j, unit);
+    let quadratic = |i, j| of_b.product(of_b, i, j, unit);
 
-        for (z, row) in z.iter_mut().zip(rows) {
-            z.push(row);
+    let minus_one = -Rational::one();
+    [
+        d_a.add_scaled(&minus_one, &symmetric(order, constant)),
+        d_b.add_scaled(&minus_one, &symmetric(order, linear)),
+        Sparse::zeros(order, order).add_scaled(&minus_one, &symmetric(order, quadratic)),
+    ]
+}
+
+/// The symmetric matrix with these entries on and below the diagonal.
+fn symmetric(order: usize, entry: impl Fn(usize, usize) -> Integer) -> Sparse {
+    let mut entries = Vec::new();
+    for i in 0..order {
+        for j in 0..=i {
+            let value = Rational::from_integer(entry(i, j));
+            if i != j {
+                entries.push((j, i, value.clone()));
+            }
+            entries.push((i, j, value));
         }
     }
 
-    z
+    Sparse::from_entries(order, order, entries)
 }
 
 /// e for which the largest number has about [`BITS_OF_W`] bits, but at least 0.
@@ -220,22 +220,17 @@ fn shifted(v: &Integer, unit: i32) -> Integer {
     v << unit.unsigned_abs()
 }
 
-fn entry(row: &[(usize, Integer)], column: usize) -> Integer {
-    let found = row.iter().find(|(j, _)| *j == column);
-    found.map_or_else(Integer::zero, |(_, v)| v.clone())
-}
-
-fn sparse_dot(row: &[(usize, Integer)], column: &[Integer]) -> Integer {
+fn sparse_dot(line: &SparseLine, column: &[Integer]) -> Integer {
     let mut sum = Integer::zero();
-    for (j, v) in row {
+    for (j, v) in line {
         sum += v * &column[*j];
     }
 
     sum
 }
 
-/// The rows of `scale` A, which are integral, without zeros.
-fn integral(a: &Sparse, scale: &Rational) -> Vec<Vec<(usize, Integer)>> {
+/// The rows of `scale` A, which are integral.
+fn integral(a: &Sparse, scale: &Rational) -> Vec<SparseLine> {
     let mut rows = Vec::with_capacity(a.rows());
     for i in 0..a.rows() {
         let scaled = |(j, v): &(usize, Rational)| (*j, (v * scale).to_integer());
@@ -245,21 +240,10 @@ fn integral(a: &Sparse, scale: &Rational) -> Vec<Vec<(usize, Integer)>> {
     rows
 }
 
-/// The rows of A in doubles.
-fn dense_rows(a: &Sparse) -> Vec<Vec<f64>> {
-    let mut rows = vec![vec![0.0; a.cols()]; a.rows()];
-    for (i, j, v) in a.entries() {
-        rows[i][j] = to_f64(v);
-    }
-
-    rows
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
-    use num_traits::One;
 
     /// A chain of order 60, definite, and B in the rows and columns of the last two variables.
     fn chain() -> [Sparse; 2] {
@@ -330,18 +314,19 @@ mod tests {
         let coupling = [&a, &b].map(|m| integral(&m.submatrix(&kept, &rest), &whole(30)));
         let zero = vec![vec![0.0; 58]; 2];
 
-        let parts = coupling.map(|c| Part::of(&block, &c, &zero, 0).unwrap());
-        let diagonal = [&a, &b].map(|m| integral(&m.submatrix(&kept, &kept), &whole(30)));
+        let parts = coupling.map(|c| Part::of(&block, c, &zero, 0).unwrap());
+        let none = Sparse::zeros(2, 2);
+        let diagonal = [&a, &b].map(|m| none.add_scaled(&whole(30), &m.submatrix(&kept, &kept)));
         let eliminated = Eliminated {
-            z: schur(&parts, diagonal, 0),
-            residual: parts.each_ref().map(|part| part.square() * 2),
+            z: schur(&parts, &diagonal, 0),
+            residual: parts.each_ref().map(Part::residual_bound),
             sigma: whole(3), // below the least eigenvalue of 30 F, which is 30 (0.1 + 0.003)
         };
 
-        // Z = D = 30 diag(2.1, 2.1 - mu / 3), and |R|^2 counts the couplings.
+        // Z = D = 30 [[2.1, -1], [-1, 2.1 - mu / 3]], and |R|^2 counts the couplings.
         assert_eq!(
             eliminated.z[0],
-            [vec![63.into()], vec![(-30).into(), 63.into()]]
+            Sparse::from_ints(&[&[63, -30], &[-30, 63]])
         );
         assert!(!eliminated.is_definite_at(&(end + rational(1, 1000))));
     }
@@ -356,16 +341,17 @@ mod tests {
         let eliminated = Eliminated::of(&a, &b, &[1]).unwrap();
 
         let unit = Rational::from_integer(shifted(&Integer::one(), 2 * 61));
-        let z = eliminated
-            .z
-            .each_ref()
-            .map(|z| Rational::from_integer(z[0][0].clone()) / &unit);
+        let z = eliminated.z.each_ref().map(|z| z.get(0, 0) / &unit);
         assert_eq!(z, [whole(1), whole(-2), whole(-1)]);
-        assert_eq!(eliminated.residual, [Integer::zero(), Integer::zero()]);
+        assert_eq!(eliminated.residual, [whole(0), whole(0)]);
         assert!(eliminated.is_definite_at(&rational(41, 100)));
         assert!(!eliminated.is_definite_at(&rational(42, 100)));
 
         let indefinite = Sparse::from_ints(&[&[-4, 2], &[2, 2]]);
         assert!(Eliminated::of(&indefinite, &b, &[1]).is_none());
+
+        // B moves the variable that is to be eliminated.
+        let everywhere = Sparse::from_ints(&[&[1, 2], &[2, 0]]);
+        assert!(Eliminated::of(&a, &everywhere, &[1]).is_none());
     }
 }

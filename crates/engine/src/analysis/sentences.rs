@@ -451,7 +451,7 @@ impl Analysis {
             topic: "necessary",
             text,
             evidence: Evidence::Exact(
-                "exact LDL' on both sides of the end of definiteness, or its polynomial",
+                "proved before its end and refuted by a vector after it, or the end as a root",
             ),
         }
     }

@@ -347,6 +347,36 @@ mod tests {
         assert!(cancel.is_requested());
     }
 
+    /// A larger bound, more places and the same bound: what serves is kept, the rest made anew.
+    #[test]
+    fn one_condensation_serves_the_bounds_it_was_made_for() {
+        let data = TwoParticles {
+            c: rational(3, 5),
+            s: rational(4, 5),
+            k: whole(1000),
+            m: whole(2),
+            mu: whole(1),
+            signs: (1, 1),
+        };
+        let families = Families::of(&two_particles(&data).unwrap()).unwrap();
+        let place = Place {
+            lambda2: 1.0,
+            near: 0.1,
+        };
+
+        let mut last = LastFamily::default();
+        let mut made_for = |friction: i64, places: &[Place]| {
+            last.of(&families, &whole(friction), places).unwrap();
+            last.0.as_ref().unwrap().friction.clone()
+        };
+
+        assert_eq!(made_for(2, &[]), whole(2));
+        assert_eq!(made_for(1, &[]), whole(2));
+        assert_eq!(made_for(3, &[]), whole(3));
+        assert_eq!(made_for(1, &[place]), whole(1));
+        assert!(last.into_family().is_some());
+    }
+
     /// Absence is proved a millionth below the critical mu. Returns where the search stops a
     /// millionth above it.
     #[track_caller]

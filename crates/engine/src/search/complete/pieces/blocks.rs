@@ -150,7 +150,7 @@ impl Blocks {
 }
 
 /// The dense columns of a sparse matrix.
-fn columns(matrix: &Sparse) -> Vec<Vec<f64>> {
+pub(crate) fn columns(matrix: &Sparse) -> Vec<Vec<f64>> {
     let mut columns = vec![vec![0.0; matrix.rows()]; matrix.cols()];
     for (i, j, v) in matrix.entries() {
         columns[j][i] = to_f64(v);
