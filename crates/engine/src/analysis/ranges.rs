@@ -61,6 +61,9 @@ const HALVINGS: usize = 8;
 /// Gaps between proved intervals that get a sample of their own, at most.
 const SAMPLED_GAPS: usize = 4;
 
+/// Order beyond which the system is not condensed a second time for presence.
+const LARGEST_ORDER_CONDENSED_TWICE: usize = 1000;
+
 /// Ranges of mu and what has been found on the way.
 pub(super) struct Ranges {
     /// The critical mu, with a solution of smaller mu where one was proved on the way.
@@ -105,11 +108,18 @@ pub(super) fn ranges(
 
     let mut prover = prover(model, known, found.family, &found.places, &top)?;
     if let (Some(prover), Some(start)) = (&mut prover, &found.start) {
-        model
-            .watch
-            .report(&Progress::stage("ranges of mu: proving presence"));
-        prover.climb_from(start, to_f64(&top));
-        prover.close(to_f64(&bottom), to_f64(&top), &known.starts);
+        let asked = Asked {
+            model,
+            known,
+            smallest: start,
+            bottom: to_f64(&bottom),
+            top: &top,
+        };
+
+        asked.prove(prover);
+        if let Some(precise) = asked.proved_precisely(prover, &found.places)? {
+            *prover = precise;
+        }
         sampler.proved = prover.certified();
     }
 
@@ -170,6 +180,54 @@ fn largest_of_interest(known: &Known<'_>, critical: &Critical) -> Rational {
     }
 
     largest.clone()
+}
+
+/// Where presence is to be proved: for mu in [bottom, top], from known solutions.
+struct Asked<'a, 'b> {
+    model: &'b Model<'a>,
+    known: &'b Known<'a>,
+    smallest: &'b Start,
+    bottom: f64,
+    top: &'b Rational,
+}
+
+impl<'a> Asked<'a, '_> {
+    /// Follows the curve of the solution of smallest mu, and in what it leaves out those of others.
+    fn prove(&self, prover: &mut Prover<'a>) {
+        let stage = Progress::stage("ranges of mu: proving presence");
+        self.model.watch.report(&stage);
+
+        let top = to_f64(self.top);
+        prover.climb_from(self.smallest, top);
+        prover.close(self.bottom, top, &self.known.starts);
+    }
+
+    /// The same with anchors of their own where `prover` failed for want of precision. `None` where
+    /// that proves no more, or takes long.
+    fn proved_precisely(
+        &self,
+        prover: &Prover<'a>,
+        places: &[Place],
+    ) -> Result<Option<Prover<'a>>, AnalysisError> {
+        let families = self.known.families;
+        let stiffness = &families.own.stiffness;
+        let is_cheap = stiffness.order() <= LARGEST_ORDER_CONDENSED_TWICE;
+        let is_condensed = !stiffness.free().is_empty();
+        let imprecise: Vec<Place> = prover.imprecise_places().collect();
+        if !is_cheap || !is_condensed || imprecise.is_empty() || self.model.stopped() {
+            return Ok(None);
+        }
+
+        let all_places = [places, &imprecise].concat();
+        let family = Family::new(families, self.top, &all_places)?;
+
+        let mut precise = Prover::new(prover.ground(), family);
+        self.prove(&mut precise);
+
+        let top = to_f64(self.top);
+        let is_better = precise.uncovered(self.bottom, top) < prover.uncovered(self.bottom, top);
+        Ok(is_better.then_some(precise))
+    }
 }
 
 /// What proves presence; `None` for particles with zero reaction, of which the certificates do not

@@ -2,11 +2,11 @@
 //!
 //! A stretch [low, high] of mu gets a box of lambda^2 around the curve and the witness of its
 //! middle. Where the witness does not hold the stretch is halved, where it does the next one is
-//! twice as long. Where x_i or y_i reaches 0 the curve goes on with another support; what is
-//! shorter than the least stretch is left out there.
+//! twice as long. What is shorter than the least stretch is left out: where x_i or y_i reaches 0
+//! and the curve goes on with another support, and where the expansion of T is not precise enough.
 //!
-//! Input: a solution in doubles, and the mu to go to. Output: [`Stretch`]es, which the checker
-//! decides about. Called by `mod.rs`.
+//! Input: a solution in doubles, and the mu to go to. Output: [`Followed`], whose stretches the
+//! checker decides about. Called by `mod.rs`.
 
 use super::curve::{Curves, Point, beyond};
 use super::witness::{Place, Witness};
@@ -17,10 +17,13 @@ use mceip_check::certificate::PresencePiece;
 /// Stretches tried on one curve at most.
 const MAX_ATTEMPTS: usize = 2000;
 
-/// Places of one curve that are left out at most, each longer than the one before.
-const MAX_SKIPS: usize = 12;
+/// Places of one curve that are left out, at most.
+const MAX_PLACES: usize = 60;
 
-/// Factor between the lengths that are left out one after the other.
+/// Lengths that are left out one after the other at one place, at most.
+const MAX_SKIPS: usize = 8;
+
+/// Factor between these lengths.
 const LONGER_SKIP: f64 = 4.0;
 
 /// Supports tried one after the other where one ends.
@@ -52,6 +55,16 @@ pub(super) struct Climb<'a> {
     pub(super) watch: Watch<'a>,
 }
 
+/// What is proved of a curve.
+#[derive(Debug, Default)]
+pub(super) struct Followed {
+    /// In the order of the way.
+    pub(super) stretches: Vec<Stretch>,
+    /// Values of lambda^2 at which a piece fails although the support does not change: condensation
+    /// is not precise enough there.
+    pub(super) imprecise: Vec<f64>,
+}
+
 /// The next point of a curve.
 struct Reached {
     point: Point,
@@ -60,11 +73,11 @@ struct Reached {
 }
 
 impl Climb<'_> {
-    /// Follows a curve to a mu, with proofs. Returns the stretches in the order of the way.
-    pub(super) fn prove(&self, start: &Point, target: f64) -> Vec<Stretch> {
-        let mut stretches = Vec::new();
-        self.follow(start, target, Some(&mut stretches));
-        stretches
+    /// Follows a curve to a mu, with proofs.
+    pub(super) fn prove(&self, start: &Point, target: f64) -> Followed {
+        let mut followed = Followed::default();
+        self.follow(start, target, Some(&mut followed));
+        followed
     }
 
     /// Follows a curve to a mu; `None` where it ends before.
@@ -76,10 +89,11 @@ impl Climb<'_> {
         &self,
         start: &Point,
         target: f64,
-        mut stretches: Option<&mut Vec<Stretch>>,
+        mut proved: Option<&mut Followed>,
     ) -> Option<Point> {
         let mut here = start.clone();
         let mut step = target - here.mu;
+        let mut places = 0;
         let mut skips = 0;
         for _ in 0..MAX_ATTEMPTS {
             if here.mu == target {
@@ -91,12 +105,13 @@ impl Climb<'_> {
             }
 
             let mu = short_end(here.mu, step, target);
-            if let Some(reached) = self.attempt(&here, mu, stretches.is_some()) {
-                if let Some(list) = &mut stretches {
-                    list.extend(reached.stretch);
+            if let Some(reached) = self.attempt(&here, mu, proved.is_some()) {
+                if let Some(followed) = &mut proved {
+                    followed.stretches.extend(reached.stretch);
                 }
                 here = reached.point;
                 step *= 2.0;
+                skips = 0;
                 continue;
             }
 
@@ -106,15 +121,24 @@ impl Climb<'_> {
                 continue;
             }
 
-            if skips == MAX_SKIPS {
+            let is_new_place = skips == 0;
+            places += usize::from(is_new_place);
+            if skips == MAX_SKIPS || places > MAX_PLACES {
                 return None;
             }
 
-            let aside = least * LONGER_SKIP.powi(skips as i32);
+            let aside = (least * LONGER_SKIP.powi(skips as i32)).copysign(step);
             skips += 1;
-            if let Some(next) = self.skip(&here, short_end(here.mu, aside.copysign(step), target)) {
+            let beyond_place = short_end(here.mu, aside, target);
+            if let Some(next) = self.skip(&here, beyond_place) {
+                if let Some(followed) = &mut proved
+                    && is_new_place
+                    && next.support == here.support
+                {
+                    followed.imprecise.push(here.t);
+                }
                 here = next;
-                step = 2.0 * aside.copysign(step);
+                step = 2.0 * aside;
             }
         }
 

@@ -11,19 +11,22 @@
 //! out on one curve, where a support changes or the curve ends, others may cover. Each maximal
 //! interval becomes a certificate, and nothing is said before the checker has accepted it.
 //!
-//! Input: a system, solutions in doubles, and the interval of mu that is asked. Output: [`Proved`].
-//! Called by [`analyse`](super::analyse).
+//! Condensation may be too coarse for a piece where its curve goes on. A [`Prover`] notes such
+//! values of lambda^2, and its caller may condense anew with anchors there.
+//!
+//! Input: a system, solutions in doubles, and the interval of mu that is asked. Output:
+//! [`PresenceCertificate`]s. Called by `ranges`.
 
 mod climb;
 mod curve;
 mod intervals;
 mod witness;
 
-use super::absence::Family;
+use super::absence::{Family, Place};
 use super::critical::Start;
 use crate::run::{Progress, Watch};
-use crate::tolerance::{LEAST_INTERVAL, PRESENCE_START};
-use climb::{Climb, Stretch, short_multiple};
+use crate::tolerance::{LEAST_INTERVAL, PRESENCE_NEAR, PRESENCE_START};
+use climb::{Climb, Followed, Stretch, short_multiple};
 use curve::{Curves, Point};
 use intervals::{Chain, chains, extent, gaps};
 use mceip_check::certificate::PresenceCertificate;
@@ -41,6 +44,7 @@ const NEAREST: i32 = 30;
 const MAX_REFUSED: usize = 8;
 
 /// What the search rests on.
+#[derive(Clone, Copy)]
 pub(super) struct Ground<'a> {
     /// MCEIP-lambda2 of the system: what certificates belong to.
     pub(super) problem: &'a Problem,
@@ -53,6 +57,8 @@ pub(super) struct Prover<'a> {
     family: Family,
     /// What doubles hold for proved.
     stretches: Vec<Stretch>,
+    /// Values of lambda^2 at which condensation was not precise enough.
+    imprecise: Vec<f64>,
 }
 
 impl<'a> Prover<'a> {
@@ -62,7 +68,28 @@ impl<'a> Prover<'a> {
             ground,
             family,
             stretches: Vec::new(),
+            imprecise: Vec::new(),
         }
+    }
+
+    /// What it rests on.
+    pub(super) fn ground(&self) -> Ground<'a> {
+        self.ground
+    }
+
+    /// Places about which a more precise condensation may prove more.
+    pub(super) fn imprecise_places(&self) -> impl Iterator<Item = Place> {
+        let values = self.imprecise.iter();
+        values.map(|&lambda2| Place {
+            lambda2,
+            near: PRESENCE_NEAR,
+        })
+    }
+
+    /// The part of [from, to] that no stretch covers, as a length.
+    pub(super) fn uncovered(&self, from: f64, to: f64) -> f64 {
+        let gaps = gaps(&self.stretches, from, to);
+        gaps.iter().map(|[low, high]| high - low).sum()
     }
 
     /// Follows the solution of smallest mu upwards, on the sides of larger and of smaller lambda^2
@@ -75,8 +102,8 @@ impl<'a> Prover<'a> {
                 continue;
             };
 
-            let found = self.climb().prove(&start, to);
-            self.stretches.extend(found);
+            let followed = self.climb().prove(&start, to);
+            self.keep(followed);
             if gaps(&self.stretches, from, to).len() <= 1 && self.is_covered_at(to) {
                 return;
             }
@@ -145,13 +172,19 @@ impl<'a> Prover<'a> {
                 return;
             }
 
-            let found = self.across([low, high], start);
-            self.stretches.extend(found);
+            for followed in self.across([low, high], start) {
+                self.keep(followed);
+            }
         }
     }
 
-    /// Stretches of the curve of a solution in [low, high].
-    fn across(&self, [low, high]: [f64; 2], start: &Start) -> Vec<Stretch> {
+    fn keep(&mut self, followed: Followed) {
+        self.stretches.extend(followed.stretches);
+        self.imprecise.extend(followed.imprecise);
+    }
+
+    /// What is proved of the curve of a solution in [low, high].
+    fn across(&self, [low, high]: [f64; 2], start: &Start) -> Vec<Followed> {
         let climb = self.climb();
         let place = [start.lambda2, start.mu];
         let Some(point) = climb.curves.near(place, &start.x, false) else {
@@ -160,16 +193,16 @@ impl<'a> Prover<'a> {
 
         if point.mu < low {
             let at_low = climb.walk(&point, low);
-            return at_low.map_or_else(Vec::new, |point| climb.prove(&point, high));
+            let followed = at_low.map(|point| climb.prove(&point, high));
+            return followed.into_iter().collect();
         }
         if point.mu > high {
             let at_high = climb.walk(&point, high);
-            return at_high.map_or_else(Vec::new, |point| climb.prove(&point, low));
+            let followed = at_high.map(|point| climb.prove(&point, low));
+            return followed.into_iter().collect();
         }
 
-        let mut found = climb.prove(&point, low);
-        found.extend(climb.prove(&point, high));
-        found
+        vec![climb.prove(&point, low), climb.prove(&point, high)]
     }
 
     /// The certificates of the maximal intervals, each accepted by the checker.
