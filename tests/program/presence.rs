@@ -10,8 +10,10 @@ use crate::common::{example, exits, exits_with_json};
 use crate::fold::fold_body;
 use crate::program::Folder;
 use mceip_check::certificate::PresenceCertificate;
-use mceip_check::{Reason, check_presence};
-use mceip_engine::analysis::{Analysis, Evidence, Options, ProofCertificate, Verdict, analyse};
+use mceip_check::{Reason, check_critical, check_presence};
+use mceip_engine::analysis::{
+    Analysis, Evidence, Options, ProofCertificate, Sentence, Verdict, analyse,
+};
 use mceip_engine::reduction::reduce;
 use mceip_engine::run::Watch;
 use mceip_exact::{Rational, rational, to_f64, whole};
@@ -29,6 +31,9 @@ const FAMILY: u64 = 97;
 
 /// Random systems.
 const SYSTEMS: u64 = 30;
+
+/// The random systems up to the 21st that have no solution on a range above their critical mu.
+const ABSENT_ABOVE: [u64; 5] = [7, 9, 11, 13, 20];
 
 /// How far above the smallest solution the first interval may begin: share of mu.
 const NEAR_START: f64 = 1e-5;
@@ -270,6 +275,73 @@ fn random_systems_agree_with_the_enumerator() {
     assert!(met.outside_absent >= 60, "{met:?}");
     assert!(met.changing >= 1, "{met:?}");
     assert!(10 * met.outside_present <= met.inside, "{met:?}");
+}
+
+/// Ranges of absence above the critical mu.
+#[derive(Debug, Default)]
+struct AbsentRanges {
+    proved: u64,
+    /// Known at more than one sample and not proved.
+    sampled: u64,
+}
+
+/// Ranges that samples call absent are proved, and the enumerator finds no solution in them. With a
+/// range that begins at the critical mu the certificate is refused.
+fn compare_absent_ranges(index: u64, met: &mut AbsentRanges) {
+    let system = random_system(index);
+    let options = Options {
+        samples: 5,
+        threads: Some(1),
+        ..Options::default()
+    };
+    let analysis = analyse(None, &system, &whole(2), &options, &Watch::nobody()).unwrap();
+
+    for range in analysis.ranges.iter().skip(1) {
+        let Evidence::Certificate(k) = range.evidence else {
+            let is_longer = range.to.as_ref() > Some(&range.from);
+            met.sampled += u64::from(range.verdict == Verdict::Absent && is_longer);
+            continue;
+        };
+        let proof = &analysis.proofs[k];
+        let ProofCertificate::Absence(certificate) = &proof.certificate else {
+            continue;
+        };
+
+        met.proved += 1;
+        assert_eq!(range.verdict, Verdict::Absent);
+        assert_eq!(range.from, certificate.from);
+        assert_eq!(range.to.as_ref(), Some(&certificate.below));
+        check_critical(&proof.problem, certificate).unwrap();
+        let is_its = |said: &Sentence| said.topic == "absence" && said.evidence == range.evidence;
+        assert!(analysis.sentences().iter().any(is_its));
+        assert!(analysis.summary().contains(", and absent from "));
+
+        let width = &certificate.below - &certificate.from;
+        for (part, whole) in SHARES {
+            let mu = &certificate.from + &width * rational(part, whole);
+            assert!(!is_present(&system, &mu), "system {index} at mu = {mu}");
+        }
+
+        let solution = analysis.critical.solution.as_ref().unwrap();
+        let mut wider = certificate.clone();
+        wider.from = solution.mu.lo().clone();
+        assert!(
+            check_critical(&proof.problem, &wider).is_err(),
+            "system {index}"
+        );
+    }
+}
+
+#[test]
+fn absence_above_the_critical_mu_is_proved_on_ranges() {
+    let mut met = AbsentRanges::default();
+    for index in ABSENT_ABOVE {
+        compare_absent_ranges(index, &mut met);
+    }
+
+    println!("{met:?}");
+    assert!(met.proved >= 5, "{met:?}");
+    assert_eq!(met.sampled, 0, "{met:?}");
 }
 
 /// What one part certifies every other part uses: sentences, JSON, summary and files agree, and

@@ -555,6 +555,7 @@ impl Search<'_> {
             let relay = |progress: &Progress<'_>| self.model.relay(stage, progress);
             let quadrant = self.quadrant.heard_by(&relay);
             let bound = Bound {
+                from: &Rational::zero(),
                 below: &below,
                 at_most: &bounds.at_most(&below),
                 places: &bounds.places,
@@ -610,6 +611,7 @@ impl Search<'_> {
         let relay = |progress: &Progress<'_>| self.model.relay(&stage, progress);
         let quadrant = self.quadrant.heard_by(&relay);
         let bound = Bound {
+            from: &Rational::zero(),
             below,
             at_most: &bounds.at_most(below),
             places: &bounds.places,

@@ -11,6 +11,7 @@
 //! by the front door.
 
 pub mod absence;
+mod absent_ranges;
 mod answer;
 pub mod conditions;
 mod critical;

@@ -5,12 +5,14 @@
 //! is proved on intervals (`presence`), each with a certificate. What they leave out is decided
 //! with certificates at values of mu (samples): those of evenly spread ones that lie outside, one
 //! in each gap, and then by halving between neighbours of different verdicts. Neighbouring samples
-//! of one verdict make a range; between samples nothing is proved.
+//! of one verdict make a range; between samples nothing is proved, but that absence is tried to be
+//! (`absent_ranges`).
 //!
 //! Input: what is known of the system, and its critical mu. Output: [`Ranges`]. Called by
 //! [`analyse`](super::analyse).
 
 use super::absence::{Family, Place};
+use super::absent_ranges;
 use super::critical::{CertifiedSolution, Critical, Found, Known, Start};
 use super::divergence::{Verdict, verdict};
 use super::error::AnalysisError;
@@ -158,6 +160,8 @@ pub(super) fn ranges(
 
     let mut ranges = vec![absent];
     ranges.extend(joined(&proved, first, &samples));
+    absent_ranges::prove(model, known, &mut ranges[1..], proofs)?;
+
     Ok(Ranges {
         critical,
         ranges,

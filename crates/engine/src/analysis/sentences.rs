@@ -106,6 +106,15 @@ fn obstacle_text(reason: Obstacle) -> &'static str {
     }
 }
 
+/// The ranges of a verdict that a certificate proves, and their ends.
+fn proved(ranges: &[Range], verdict: Verdict) -> impl Iterator<Item = (&Range, [&Rational; 2])> {
+    let of_verdict = ranges.iter().filter(move |range| range.verdict == verdict);
+    of_verdict.filter_map(|range| match (&range.evidence, &range.to) {
+        (Evidence::Certificate(_), Some(to)) => Some((range, [&range.from, to])),
+        _ => None,
+    })
+}
+
 fn range_text(range: &Range) -> String {
     let word = range.verdict.word();
     let from = short(&range.from);
@@ -181,6 +190,7 @@ impl Analysis {
         all.extend(self.say_solution());
         all.extend(self.say_presence());
         all.extend(self.say_gaps());
+        all.extend(self.say_absence());
         all.extend(self.say_ranges());
         all.push(self.say_necessary());
         all.push(self.say_sufficient());
@@ -365,6 +375,24 @@ impl Analysis {
         said
     }
 
+    /// One sentence for each interval above the critical mu on which absence is proved.
+    fn say_absence(&self) -> Vec<Sentence> {
+        let mut said = Vec::new();
+        for (range, [from, to]) in self.proved_absence() {
+            said.push(Sentence {
+                topic: "absence",
+                text: format!(
+                    "Divergence is absent for every mu from {} to {}, with this contact state.",
+                    up(from),
+                    down(to)
+                ),
+                evidence: range.evidence.clone(),
+            });
+        }
+
+        said
+    }
+
     /// Where nothing is proved between two intervals with divergence.
     fn say_gaps(&self) -> Option<Sentence> {
         let proved: Vec<[&Rational; 2]> = self.proved_presence().map(|(_, ends)| ends).collect();
@@ -418,12 +446,12 @@ impl Analysis {
 
     /// The intervals with a proof of presence, and their ends.
     pub(super) fn proved_presence(&self) -> impl Iterator<Item = (&Range, [&Rational; 2])> {
-        let is_present = |range: &&Range| range.verdict == Verdict::Present;
-        let present = self.ranges.iter().filter(is_present);
-        present.filter_map(|range| match (&range.evidence, &range.to) {
-            (Evidence::Certificate(_), Some(to)) => Some((range, [&range.from, to])),
-            _ => None,
-        })
+        proved(&self.ranges, Verdict::Present)
+    }
+
+    /// The same for absence, without the first range: that below the critical mu.
+    pub(super) fn proved_absence(&self) -> impl Iterator<Item = (&Range, [&Rational; 2])> {
+        proved(self.ranges.get(1..).unwrap_or_default(), Verdict::Absent)
     }
 
     fn say_necessary(&self) -> Sentence {

@@ -96,8 +96,13 @@ impl Analysis {
         } else {
             ""
         };
+        let mut absent = String::new();
+        for (_, [from, to]) in self.proved_absence() {
+            absent += &format!(", and absent from {} to {}", up(from), down(to));
+        }
+
         Some(format!(
-            "Divergence is present for every mu {}{elsewhere}.",
+            "Divergence is present for every mu {}{absent}{elsewhere}.",
             intervals.join(" and ")
         ))
     }

@@ -20,7 +20,7 @@
 //! in which all is decided is halved until it is empty, or so small that it seems to hold a
 //! solution.
 //!
-//! Input: a piece of [0, infinity) with the expansions of T0 and T1, and the upper end of mu.
+//! Input: a piece of [0, infinity) with the expansions of T0 and T1, and the interval of mu.
 //! Output: the nodes of its tree in preorder, or the box that could not be emptied. Called by
 //! `mod.rs`.
 
@@ -109,19 +109,19 @@ pub(super) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Covers [lo, hi] x [0, below] with all variables open. `share` is its part of the whole
+    /// Covers [lo, hi] x [from, below] with all variables open. `share` is its part of the whole
     /// search.
     pub(super) fn piece(
         &mut self,
         lo: &Rational,
         hi: Option<&Rational>,
-        below: &Rational,
+        [from, below]: [&Rational; 2],
         share: f64,
     ) -> Result<(), Box<Blocked>> {
         let whole = Region {
             lo: lo.clone(),
             hi: hi.cloned(),
-            mu: [Rational::default(), below.clone()],
+            mu: [from.clone(), below.clone()],
             states: vec![State::Undecided; self.view.order()],
             cuts: 0,
         };

@@ -215,12 +215,12 @@ impl Family {
         }
     }
 
-    /// The condensation of a certificate with this bound; `None` where there are no free variables,
-    /// or the tail does not hold up to the bound.
-    pub(super) fn condensation(&self, below: &Rational) -> Option<CriticalCondensation> {
+    /// The condensation of a certificate of absence for these frictions; `None` where there are no
+    /// free variables, or the tail does not hold at both.
+    pub(super) fn condensation(&self, frictions: [&Rational; 2]) -> Option<CriticalCondensation> {
         let condensation = self.prepared.condensation.as_ref()?;
         let tail = match &condensation.tail {
-            Some(tail) => Some(self.tail(&tail.from.0, below)?),
+            Some(tail) => Some(self.tail(&tail.from.0, frictions)?),
             None => None,
         };
 
@@ -253,16 +253,16 @@ impl Family {
         })
     }
 
-    /// The evidence that the symmetric part is definite from a value on, at mu = 0 and at `below`.
-    fn tail(&self, from: &Rational, below: &Rational) -> Option<CriticalTail> {
+    /// The evidence that the symmetric part is definite from a value on, at both frictions.
+    fn tail(&self, value: &Rational, [from, below]: [&Rational; 2]) -> Option<CriticalTail> {
         let pencils = self.tail_pencils.as_ref().unwrap_or(&self.pencils);
-        let at_zero = at(pencils, &Rational::zero()).ok()?;
+        let at_from = at(pencils, from).ok()?;
         let at_below = at(pencils, below).ok()?;
         Some(CriticalTail {
-            from: Number(from.clone()),
-            factor: definite_at(&at_zero, from)?,
-            factor_below: definite_at(&at_below, from)?,
-            mass_factor: semidefinite(at_zero.b())?,
+            from: Number(value.clone()),
+            factor: definite_at(&at_from, value)?,
+            factor_below: definite_at(&at_below, value)?,
+            mass_factor: semidefinite(at_from.b())?,
             mass_factor_below: semidefinite(at_below.b())?,
         })
     }

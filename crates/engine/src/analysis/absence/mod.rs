@@ -1,5 +1,5 @@
-//! No solution for any lambda^2 >= 0 and any mu up to a bound: a cover of
-//! [0, infinity) x [0, bound] x (supports) that the checker reads as `mceip-critical/1`.
+//! No solution for any lambda^2 >= 0 and any mu of an interval: a cover of
+//! [0, infinity) x [from, below] x (supports) that the checker reads as `mceip-critical/1`.
 //!
 //! | file | what |
 //! |---|---|
@@ -9,8 +9,8 @@
 //!
 //! With particles of zero reaction T is that of the split form, and supports are those of its
 //! variables. Doubles propose the cover, and nothing is returned as proved before the checker has
-//! accepted it. Input: a system and the bound. Output: `Outcome`. Called by `critical`, which
-//! chooses bounds.
+//! accepted it. Input: a system and the interval. Output: `Outcome`. Called by `critical`, which
+//! chooses bounds for intervals from 0 on, and by `absent_ranges`.
 
 mod boxes;
 mod family;
@@ -115,7 +115,9 @@ impl LastFamily {
 /// What is to be proved.
 #[derive(Clone, Copy)]
 pub(super) struct Bound<'a> {
-    /// Absence below this friction.
+    /// Absence from this friction on,
+    pub(super) from: &'a Rational,
+    /// up to this one.
     pub(super) below: &'a Rational,
     /// No later bound is larger than this.
     pub(super) at_most: &'a Rational,
@@ -155,7 +157,7 @@ impl<'a> Quadrant<'a> {
         bound: &Bound<'_>,
         last: &mut LastFamily,
     ) -> Result<Vec<Blocked>, CompleteError> {
-        let proposed = self.proposed(self.family(bound, last)?, bound.below);
+        let proposed = self.proposed(self.family(bound, last)?, bound);
         Ok(proposed.err().unwrap_or_default())
     }
 
@@ -168,7 +170,7 @@ impl<'a> Quadrant<'a> {
         last.of(self.families, bound.at_most, bound.places)
     }
 
-    /// Covers [0, infinity) x [0, below].
+    /// Covers [0, infinity) x [from, below].
     ///
     /// # Errors
     /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
@@ -179,7 +181,7 @@ impl<'a> Quadrant<'a> {
     ) -> Result<Outcome, CompleteError> {
         let family = self.family(bound, last)?;
         for _ in 0..=CAUTIOUS_ROUNDS {
-            let certificate = match self.proposed(family, bound.below) {
+            let certificate = match self.proposed(family, bound) {
                 Ok(certificate) => certificate,
                 Err(blocked) => return Ok(Outcome::Blocked(blocked)),
             };
@@ -208,11 +210,11 @@ impl<'a> Quadrant<'a> {
     fn proposed(
         &self,
         family: &Family,
-        below: &Rational,
+        bound: &Bound<'_>,
     ) -> Result<CriticalCertificate, Vec<Blocked>> {
         let shares = Shares::new(self.watch);
         let share = 1.0 / family.pieces.len() as f64;
-        let tree_of = |piece| self.tree(family, piece, below, &shares, share);
+        let tree_of = |piece| self.tree(family, piece, bound, &shares, share);
         let trees: Vec<Result<Vec<CriticalNode>, Box<Blocked>>> = in_threads(self.threads, || {
             family.pieces.par_iter().map(tree_of).collect()
         });
@@ -236,9 +238,9 @@ impl<'a> Quadrant<'a> {
 
         Ok(CriticalCertificate {
             problem_sha256: self.problem.sha256(),
-            from: Rational::default(),
-            below: below.clone(),
-            condensation: family.condensation(below),
+            from: bound.from.clone(),
+            below: bound.below.clone(),
+            condensation: family.condensation([bound.from, bound.below]),
             pieces,
         })
     }
@@ -248,7 +250,7 @@ impl<'a> Quadrant<'a> {
         &self,
         family: &Family,
         piece: &PieceOfHalfLine,
-        below: &Rational,
+        bound: &Bound<'_>,
         shares: &Shares<'_>,
         share: f64,
     ) -> Result<Vec<CriticalNode>, Box<Blocked>> {
@@ -264,7 +266,8 @@ impl<'a> Quadrant<'a> {
             nodes: Vec::new(),
         };
 
-        search.piece(&piece.lo, piece.hi.as_ref(), below, share)?;
+        let friction = [bound.from, bound.below];
+        search.piece(&piece.lo, piece.hi.as_ref(), friction, share)?;
         Ok(search.nodes)
     }
 }
@@ -310,6 +313,7 @@ mod tests {
 
         let below = from_f64(below).unwrap();
         let bound = Bound {
+            from: &whole(0),
             below: &below,
             at_most: &below,
             places,

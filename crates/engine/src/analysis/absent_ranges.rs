@@ -1,0 +1,112 @@
+//! Ranges of mu in which samples have no divergence, proved.
+//!
+//! The range from the first to the last sample of such a run gets a cover of [0, infinity) x [from,
+//! below] (`absence`), which the checker has to accept. Where condensation is too coarse it is made
+//! anew about the boxes that stay open. Where no cover is found the range stays what it was: known
+//! at its samples.
+//!
+//! Input: a system and its ranges. Output: the evidence of ranges, and the proofs named
+//! `absent-range`. Called by `ranges`.
+
+use super::absence::{Blocked, Bound, Cause, LastFamily, Outcome, Place, Quadrant};
+use super::critical::Known;
+use super::divergence::Verdict;
+use super::error::AnalysisError;
+use super::evidence::{Evidence, Proof, ProofCertificate};
+use super::model::Model;
+use super::ranges::Range;
+use crate::run::Progress;
+use crate::tolerance::FIRST_NEAR;
+use mceip_check::certificate::CriticalCertificate;
+use mceip_exact::Rational;
+
+/// How often condensation is made anew for a range.
+const PRECISE_ROUNDS: usize = 3;
+
+/// Proves what it can of the ranges that are absent at samples.
+pub(super) fn prove(
+    model: &Model<'_>,
+    known: &Known<'_>,
+    ranges: &mut [Range],
+    proofs: &mut Vec<Proof>,
+) -> Result<(), AnalysisError> {
+    let mut count = 0;
+    for range in ranges {
+        if model.stopped() {
+            break;
+        }
+
+        let Some(ends) = sampled_absence(range) else {
+            continue;
+        };
+        if let Some(certificate) = cover(model, known, ends)? {
+            count += 1;
+            range.evidence = Evidence::Certificate(proofs.len());
+            proofs.push(Proof {
+                name: format!("absent-range-{count}"),
+                problem: known.problem.clone(),
+                certificate: ProofCertificate::Absence(certificate),
+            });
+        }
+    }
+
+    Ok(())
+}
+
+/// The ends of a range of more than one mu that is absent at samples.
+fn sampled_absence(range: &Range) -> Option<[&Rational; 2]> {
+    let to = range.to.as_ref()?;
+    let is_sampled = matches!(range.evidence, Evidence::Measured(_));
+    let is_absent = range.verdict == Verdict::Absent;
+    (is_sampled && is_absent && range.from < *to).then_some([&range.from, to])
+}
+
+/// A certificate of absence for every mu between two values, if one is found.
+fn cover(
+    model: &Model<'_>,
+    known: &Known<'_>,
+    [from, below]: [&Rational; 2],
+) -> Result<Option<CriticalCertificate>, AnalysisError> {
+    let stage = "ranges of mu: proving absence";
+    let relay = |progress: &Progress<'_>| model.relay(stage, progress);
+    let quadrant = Quadrant {
+        families: known.families,
+        problem: known.problem,
+        limits: model.options.limits,
+        threads: model.options.threads,
+        watch: model.watch,
+    };
+    let quadrant = quadrant.heard_by(&relay);
+
+    let mut places = Vec::new();
+    for _ in 0..=PRECISE_ROUNDS {
+        let bound = Bound {
+            from,
+            below,
+            at_most: below,
+            places: &places,
+        };
+        match quadrant.cover(&bound, &mut LastFamily::default())? {
+            Outcome::Absent(certificate) => return Ok(Some(*certificate)),
+            Outcome::Blocked(boxes) if boxes.iter().all(is_imprecise) => {
+                places.extend(boxes.iter().map(place_of));
+            }
+            Outcome::Blocked(_) | Outcome::Refused | Outcome::Stopped => return Ok(None),
+        }
+    }
+
+    Ok(None)
+}
+
+fn is_imprecise(blocked: &Blocked) -> bool {
+    blocked.cause == Cause::Remainder
+}
+
+/// Where condensation is to be precise for a box to be emptied.
+fn place_of(blocked: &Blocked) -> Place {
+    let [lambda2, _] = blocked.middle;
+    Place {
+        lambda2,
+        near: FIRST_NEAR,
+    }
+}
