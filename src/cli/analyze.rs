@@ -32,7 +32,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N")]
     samples: Option<usize>,
     /// Boxes that may be examined, in each piece of [0, infinity), to bound the critical mu from
-    /// below.
+    /// below, and to prove absence on a range of mu above it.
     #[arg(long, default_value_t = Options::default().limits.boxes)]
     boxes: usize,
     /// Write every certificate and its problem into this folder, for `mceip check`.

@@ -314,7 +314,11 @@ fn compare_absent_ranges(index: u64, met: &mut AbsentRanges) {
         check_critical(&proof.problem, certificate).unwrap();
         let is_its = |said: &Sentence| said.topic == "absence" && said.evidence == range.evidence;
         assert!(analysis.sentences().iter().any(is_its));
-        assert!(analysis.summary().contains(", and absent from "));
+        assert!(
+            analysis
+                .summary()
+                .contains(", and absent for every mu from ")
+        );
 
         let width = &certificate.below - &certificate.from;
         for (part, whole) in SHARES {

@@ -8,15 +8,15 @@
 //! Input: a system and its ranges. Output: the evidence of ranges, and the proofs named
 //! `absent-range`. Called by `ranges`.
 
-use super::absence::{Blocked, Bound, Cause, LastFamily, Outcome, Place, Quadrant};
+use super::absence::{
+    Blocked, Bound, Cause, LastFamily, Outcome, Place, Quadrant, unit_of_lambda2,
+};
 use super::critical::Known;
 use super::divergence::Verdict;
-use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
 use super::model::Model;
 use super::ranges::Range;
 use crate::run::Progress;
-use crate::tolerance::FIRST_NEAR;
 use mceip_check::certificate::CriticalCertificate;
 use mceip_exact::Rational;
 
@@ -29,7 +29,7 @@ pub(super) fn prove(
     known: &Known<'_>,
     ranges: &mut [Range],
     proofs: &mut Vec<Proof>,
-) -> Result<(), AnalysisError> {
+) {
     let mut count = 0;
     for range in ranges {
         if model.stopped() {
@@ -39,7 +39,7 @@ pub(super) fn prove(
         let Some(ends) = sampled_absence(range) else {
             continue;
         };
-        if let Some(certificate) = cover(model, known, ends)? {
+        if let Some(certificate) = cover(model, known, ends) {
             count += 1;
             range.evidence = Evidence::Certificate(proofs.len());
             proofs.push(Proof {
@@ -49,8 +49,6 @@ pub(super) fn prove(
             });
         }
     }
-
-    Ok(())
 }
 
 /// The ends of a range of more than one mu that is absent at samples.
@@ -61,12 +59,13 @@ fn sampled_absence(range: &Range) -> Option<[&Rational; 2]> {
     (is_sampled && is_absent && range.from < *to).then_some([&range.from, to])
 }
 
-/// A certificate of absence for every mu between two values, if one is found.
+/// A certificate of absence for every mu between two values, if one is found. What cannot be
+/// condensed is not proved either.
 fn cover(
     model: &Model<'_>,
     known: &Known<'_>,
     [from, below]: [&Rational; 2],
-) -> Result<Option<CriticalCertificate>, AnalysisError> {
+) -> Option<CriticalCertificate> {
     let stage = "ranges of mu: proving absence";
     let relay = |progress: &Progress<'_>| model.relay(stage, progress);
     let quadrant = Quadrant {
@@ -77,6 +76,7 @@ fn cover(
         watch: model.watch,
     };
     let quadrant = quadrant.heard_by(&relay);
+    let scale = unit_of_lambda2(&known.families.own).ok()?;
 
     let mut places = Vec::new();
     for _ in 0..=PRECISE_ROUNDS {
@@ -86,27 +86,21 @@ fn cover(
             at_most: below,
             places: &places,
         };
-        match quadrant.cover(&bound, &mut LastFamily::default())? {
-            Outcome::Absent(certificate) => return Ok(Some(*certificate)),
+        match quadrant.cover(&bound, &mut LastFamily::default()).ok()? {
+            Outcome::Absent(certificate) => return Some(*certificate),
             Outcome::Blocked(boxes) if boxes.iter().all(is_imprecise) => {
-                places.extend(boxes.iter().map(place_of));
+                for blocked in &boxes {
+                    let [lambda2, _] = blocked.middle;
+                    places.push(Place::sharper(&places, lambda2, scale));
+                }
             }
-            Outcome::Blocked(_) | Outcome::Refused | Outcome::Stopped => return Ok(None),
+            Outcome::Blocked(_) | Outcome::Refused | Outcome::Stopped => return None,
         }
     }
 
-    Ok(None)
+    None
 }
 
 fn is_imprecise(blocked: &Blocked) -> bool {
     blocked.cause == Cause::Remainder
-}
-
-/// Where condensation is to be precise for a box to be emptied.
-fn place_of(blocked: &Blocked) -> Place {
-    let [lambda2, _] = blocked.middle;
-    Place {
-        lambda2,
-        near: FIRST_NEAR,
-    }
 }

@@ -24,7 +24,7 @@ use super::threshold::StaticThreshold;
 use crate::run::Progress;
 use crate::search::complete::Completed;
 use crate::tolerance::{
-    CRITICAL_GAPS, FIRST_GAP, FIRST_NEAR, LEAST_NEAR, NARROW_WINDOWS, NEARER, SMALLER_FRICTION,
+    CRITICAL_GAPS, FIRST_GAP, FIRST_NEAR, LEAST_NEAR, NARROW_WINDOWS, SMALLER_FRICTION,
 };
 use mceip_check::certificate::CriticalCertificate;
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
@@ -303,15 +303,9 @@ impl Bounds {
     /// Makes condensation more precise at a value of lambda^2; false where that is no longer worth
     /// trying.
     fn sharpen(&mut self, lambda2: f64, scale: f64) -> bool {
-        let mut near = FIRST_NEAR;
-        for place in &self.places {
-            if (place.lambda2 - lambda2).abs() <= place.near * (lambda2 + scale) {
-                near = near.min(NEARER * place.near);
-            }
-        }
-
-        self.places.push(Place { lambda2, near });
-        near >= LEAST_NEAR
+        let place = Place::sharper(&self.places, lambda2, scale);
+        self.places.push(place);
+        place.near >= LEAST_NEAR
     }
 
     /// Notes that absence below a bound is not proved.

@@ -32,7 +32,7 @@ pub struct Proof {
 pub enum ProofCertificate {
     /// Solutions, or all solutions in a window (`mceip-certificate/1`).
     Solutions(Certificate),
-    /// No solution below a friction (`mceip-critical/1`).
+    /// No solution for any friction of an interval (`mceip-critical/1`).
     Absence(CriticalCertificate),
     /// A solution for every friction of an interval (`mceip-presence/1`).
     Presence(PresenceCertificate),

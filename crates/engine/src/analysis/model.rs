@@ -18,7 +18,7 @@ pub struct Options {
     pub samples: usize,
     /// Threads, all cores if not given. The answer does not depend on it.
     pub threads: Option<usize>,
-    /// Work for the bound of the critical mu.
+    /// Work for the bound of the critical mu, and for each range of absence above it.
     pub limits: Limits,
 }
 

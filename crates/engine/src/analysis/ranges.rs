@@ -5,8 +5,8 @@
 //! is proved on intervals (`presence`), each with a certificate. What they leave out is decided
 //! with certificates at values of mu (samples): those of evenly spread ones that lie outside, one
 //! in each gap, and then by halving between neighbours of different verdicts. Neighbouring samples
-//! of one verdict make a range; between samples nothing is proved, but that absence is tried to be
-//! (`absent_ranges`).
+//! of one verdict make a range. Between samples nothing is proved, except where `absent_ranges`
+//! finds a cover.
 //!
 //! Input: what is known of the system, and its critical mu. Output: [`Ranges`]. Called by
 //! [`analyse`](super::analyse).
@@ -110,7 +110,7 @@ pub(super) fn ranges(
 
     let mut prover = prover(model, known, found.family, &found.places, &top)?;
     if let (Some(prover), Some(start)) = (&mut prover, &found.start) {
-        let asked = Asked {
+        let task = PresenceTask {
             model,
             known,
             smallest: start,
@@ -118,8 +118,8 @@ pub(super) fn ranges(
             top: &top,
         };
 
-        asked.prove(prover);
-        if let Some(precise) = asked.proved_precisely(prover, &found.places)? {
+        task.prove(prover);
+        if let Some(precise) = task.proved_precisely(prover, &found.places) {
             *prover = precise;
         }
         sampler.proved = prover.certified();
@@ -160,7 +160,7 @@ pub(super) fn ranges(
 
     let mut ranges = vec![absent];
     ranges.extend(joined(&proved, first, &samples));
-    absent_ranges::prove(model, known, &mut ranges[1..], proofs)?;
+    absent_ranges::prove(model, known, &mut ranges[1..], proofs);
 
     Ok(Ranges {
         critical,
@@ -187,7 +187,7 @@ fn largest_of_interest(known: &Known<'_>, critical: &Critical) -> Rational {
 }
 
 /// Where presence is to be proved: for mu in [bottom, top], from known solutions.
-struct Asked<'a, 'b> {
+struct PresenceTask<'a, 'b> {
     model: &'b Model<'a>,
     known: &'b Known<'a>,
     smallest: &'b Start,
@@ -195,7 +195,7 @@ struct Asked<'a, 'b> {
     top: &'b Rational,
 }
 
-impl<'a> Asked<'a, '_> {
+impl<'a> PresenceTask<'a, '_> {
     /// Follows the curve of the solution of smallest mu, and in what it leaves out those of others.
     fn prove(&self, prover: &mut Prover<'a>) {
         let stage = Progress::stage("ranges of mu: proving presence");
@@ -206,31 +206,28 @@ impl<'a> Asked<'a, '_> {
         prover.close(self.bottom, top, &self.known.starts);
     }
 
-    /// The same with anchors of their own where `prover` failed for want of precision. `None` where
-    /// that proves no more, or takes long.
-    fn proved_precisely(
-        &self,
-        prover: &Prover<'a>,
-        places: &[Place],
-    ) -> Result<Option<Prover<'a>>, AnalysisError> {
+    /// A second prover, condensed also about the values of lambda^2 at which `prover` failed.
+    ///
+    /// `None` where it proves no more to doubles, cannot be condensed, or takes long.
+    fn proved_precisely(&self, prover: &Prover<'a>, places: &[Place]) -> Option<Prover<'a>> {
         let families = self.known.families;
         let stiffness = &families.own.stiffness;
         let is_cheap = stiffness.order() <= LARGEST_ORDER_CONDENSED_TWICE;
         let is_condensed = !stiffness.free().is_empty();
-        let imprecise: Vec<Place> = prover.imprecise_places().collect();
+        let imprecise = prover.imprecise_places();
         if !is_cheap || !is_condensed || imprecise.is_empty() || self.model.stopped() {
-            return Ok(None);
+            return None;
         }
 
         let all_places = [places, &imprecise].concat();
-        let family = Family::new(families, self.top, &all_places)?;
+        let family = Family::new(families, self.top, &all_places).ok()?;
 
         let mut precise = Prover::new(prover.ground(), family);
         self.prove(&mut precise);
 
         let top = to_f64(self.top);
         let is_better = precise.uncovered(self.bottom, top) < prover.uncovered(self.bottom, top);
-        Ok(is_better.then_some(precise))
+        is_better.then_some(precise)
     }
 }
 

@@ -189,8 +189,8 @@ impl Analysis {
         all.extend(self.say_unproved());
         all.extend(self.say_solution());
         all.extend(self.say_presence());
-        all.extend(self.say_gaps());
         all.extend(self.say_absence());
+        all.extend(self.say_gaps());
         all.extend(self.say_ranges());
         all.push(self.say_necessary());
         all.push(self.say_sufficient());
@@ -393,9 +393,13 @@ impl Analysis {
         said
     }
 
-    /// Where nothing is proved between two intervals with divergence.
+    /// Where nothing is proved between two of these intervals.
     fn say_gaps(&self) -> Option<Sentence> {
-        let proved: Vec<[&Rational; 2]> = self.proved_presence().map(|(_, ends)| ends).collect();
+        let mut proved: Vec<[&Rational; 2]> =
+            self.proved_presence().map(|(_, ends)| ends).collect();
+        proved.extend(self.proved_absence().map(|(_, ends)| ends));
+        proved.sort_by_key(|[from, _]| *from);
+
         let mut gaps = Vec::new();
         for pair in proved.windows(2) {
             gaps.push(format!("{} < mu < {}", down(pair[0][1]), up(pair[1][0])));
@@ -408,10 +412,10 @@ impl Analysis {
         Some(Sentence {
             topic: "presence_gaps",
             text: format!(
-                "Between these intervals presence is not proved for every mu: {}.",
+                "Between these intervals nothing is proved for every mu: {}.",
                 gaps.join(", ")
             ),
-            evidence: Evidence::Measured("no curve of solutions that was followed passes there"),
+            evidence: Evidence::Measured("no curve that was followed and no cover reaches there"),
         })
     }
 
@@ -426,15 +430,14 @@ impl Analysis {
         };
         let is_counted = |mu: &Rational| sampled.iter().any(|range| is_in(mu, range));
         let count = self.samples.iter().filter(|s| is_counted(&s.mu)).count();
-        let elsewhere = if self.proved_presence().next().is_some() {
-            "Divergence elsewhere above that"
-        } else {
-            "Divergence above that"
+        let above = match &self.critical.absent_below {
+            Some(below) => format!(" above mu = {}", down(below)),
+            None => String::new(),
         };
 
         let parts: Vec<String> = sampled.into_iter().map(range_text).collect();
         let text = format!(
-            "{elsewhere}, with this contact state, at {count} sampled mu: {}.",
+            "Divergence elsewhere{above}, with this contact state, at {count} sampled mu: {}.",
             parts.join(", ")
         );
         Some(Sentence {

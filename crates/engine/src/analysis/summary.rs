@@ -79,31 +79,30 @@ impl Analysis {
         )
     }
 
-    /// Where presence is proved, and whether more is known from samples.
+    /// Where presence and, above the critical mu, absence are proved, and whether samples say more.
     fn presence(&self) -> Option<String> {
-        let mut intervals = Vec::new();
-        for (_, [from, to]) in self.proved_presence() {
-            intervals.push(format!("from {} to {}", up(from), down(to)));
-        }
-
-        if intervals.is_empty() {
+        let mut clauses = Vec::new();
+        clauses.extend(clause(
+            "present",
+            self.proved_presence().map(|(_, ends)| ends),
+        ));
+        clauses.extend(clause(
+            "absent",
+            self.proved_absence().map(|(_, ends)| ends),
+        ));
+        if clauses.is_empty() {
             return None;
         }
 
         let is_sampled = |range: &Range| matches!(range.evidence, Evidence::Measured(_));
         let elsewhere = if self.ranges.iter().any(is_sampled) {
-            "; elsewhere above that only samples are decided"
+            "; elsewhere above the critical mu only samples are decided"
         } else {
             ""
         };
-        let mut absent = String::new();
-        for (_, [from, to]) in self.proved_absence() {
-            absent += &format!(", and absent from {} to {}", up(from), down(to));
-        }
-
         Some(format!(
-            "Divergence is present for every mu {}{absent}{elsewhere}.",
-            intervals.join(" and ")
+            "Divergence is {}{elsewhere}.",
+            clauses.join(", and ")
         ))
     }
 
@@ -127,4 +126,16 @@ impl Analysis {
             }
         }
     }
+}
+
+/// What is said of these intervals; `None` without any.
+fn clause<'a>(word: &str, intervals: impl Iterator<Item = [&'a Rational; 2]>) -> Option<String> {
+    let intervals: Vec<String> = intervals
+        .map(|[from, to]| format!("from {} to {}", up(from), down(to)))
+        .collect();
+    if intervals.is_empty() {
+        return None;
+    }
+
+    Some(format!("{word} for every mu {}", intervals.join(" and ")))
 }

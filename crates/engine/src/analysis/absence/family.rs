@@ -19,6 +19,7 @@ use crate::search::complete::pieces::expansion::{Ends, Expansion};
 use crate::search::complete::pieces::matrix::Matrix;
 use crate::search::complete::pieces::prepared::Prepared;
 use crate::search::complete::pieces::view::{View, common_row_factor, row_factor};
+use crate::tolerance::{FIRST_NEAR, NEARER};
 use mceip_check::certificate::{CriticalAnchor, CriticalCondensation, CriticalTail};
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::Number;
@@ -53,6 +54,21 @@ pub(in crate::analysis) struct Place {
     pub(in crate::analysis) lambda2: f64,
     /// Its anchor is used within this share of lambda^2 + the lowest frequency.
     pub(in crate::analysis) near: f64,
+}
+
+impl Place {
+    /// The place about a value at which condensation was not precise enough with these places:
+    /// nearer than each of them that reaches it. `scale` is the lowest frequency.
+    pub(in crate::analysis) fn sharper(places: &[Place], lambda2: f64, scale: f64) -> Place {
+        let mut near = FIRST_NEAR;
+        for place in places {
+            if (place.lambda2 - lambda2).abs() <= place.near * (lambda2 + scale) {
+                near = near.min(NEARER * place.near);
+            }
+        }
+
+        Place { lambda2, near }
+    }
 }
 
 /// An interval of lambda^2 and the anchor that serves it.

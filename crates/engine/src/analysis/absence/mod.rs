@@ -115,11 +115,11 @@ impl LastFamily {
 /// What is to be proved.
 #[derive(Clone, Copy)]
 pub(super) struct Bound<'a> {
-    /// Absence from this friction on,
+    /// Lower end of the interval of mu, included.
     pub(super) from: &'a Rational,
-    /// up to this one.
+    /// Upper end, included.
     pub(super) below: &'a Rational,
-    /// No later bound is larger than this.
+    /// The condensation is made for mu up to here.
     pub(super) at_most: &'a Rational,
     /// Where condensation is to be precise.
     pub(super) places: &'a [Place],

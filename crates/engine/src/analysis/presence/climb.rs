@@ -17,10 +17,10 @@ use mceip_check::certificate::PresencePiece;
 /// Stretches tried on one curve at most.
 const MAX_ATTEMPTS: usize = 2000;
 
-/// Places of one curve that are left out, at most.
-const MAX_PLACES: usize = 60;
+/// Interruptions of one curve, at most.
+const MAX_INTERRUPTIONS: usize = 60;
 
-/// Lengths that are left out one after the other at one place, at most.
+/// Lengths that are left out one after the other in one interruption, at most.
 const MAX_SKIPS: usize = 8;
 
 /// Factor between these lengths.
@@ -58,10 +58,10 @@ pub(super) struct Climb<'a> {
 /// What is proved of a curve.
 #[derive(Debug, Default)]
 pub(super) struct Followed {
-    /// In the order of the way.
+    /// In the order followed.
     pub(super) stretches: Vec<Stretch>,
-    /// Values of lambda^2 at which a piece fails although the support does not change: condensation
-    /// is not precise enough there.
+    /// Values of lambda^2 at which a piece fails although the support does not change: probably
+    /// because condensation is not precise enough there.
     pub(super) imprecise: Vec<f64>,
 }
 
@@ -89,11 +89,11 @@ impl Climb<'_> {
         &self,
         start: &Point,
         target: f64,
-        mut proved: Option<&mut Followed>,
+        mut record: Option<&mut Followed>,
     ) -> Option<Point> {
         let mut here = start.clone();
         let mut step = target - here.mu;
-        let mut places = 0;
+        let mut interruptions = 0;
         let mut skips = 0;
         for _ in 0..MAX_ATTEMPTS {
             if here.mu == target {
@@ -105,8 +105,8 @@ impl Climb<'_> {
             }
 
             let mu = short_end(here.mu, step, target);
-            if let Some(reached) = self.attempt(&here, mu, proved.is_some()) {
-                if let Some(followed) = &mut proved {
+            if let Some(reached) = self.attempt(&here, mu, record.is_some()) {
+                if let Some(followed) = &mut record {
                     followed.stretches.extend(reached.stretch);
                 }
                 here = reached.point;
@@ -121,18 +121,18 @@ impl Climb<'_> {
                 continue;
             }
 
-            let is_new_place = skips == 0;
-            places += usize::from(is_new_place);
-            if skips == MAX_SKIPS || places > MAX_PLACES {
+            let is_new = skips == 0;
+            interruptions += usize::from(is_new);
+            if skips == MAX_SKIPS || interruptions > MAX_INTERRUPTIONS {
                 return None;
             }
 
             let aside = (least * LONGER_SKIP.powi(skips as i32)).copysign(step);
             skips += 1;
-            let beyond_place = short_end(here.mu, aside, target);
-            if let Some(next) = self.skip(&here, beyond_place) {
-                if let Some(followed) = &mut proved
-                    && is_new_place
+            let resumed_at = short_end(here.mu, aside, target);
+            if let Some(next) = self.skip(&here, resumed_at) {
+                if let Some(followed) = &mut record
+                    && is_new
                     && next.support == here.support
                 {
                     followed.imprecise.push(here.t);

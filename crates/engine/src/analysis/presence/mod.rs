@@ -40,6 +40,9 @@ const STARTS_PER_GAP: usize = 6;
 /// Halvings of the distance from the smallest solution at which its curve is met.
 const NEAREST: i32 = 30;
 
+/// Least distance of places about which condensation is made more precise: share of their reach.
+const APART: f64 = 0.1;
+
 /// Pieces that the checker may refuse before the rest is given up.
 const MAX_REFUSED: usize = 8;
 
@@ -57,7 +60,7 @@ pub(super) struct Prover<'a> {
     family: Family,
     /// What doubles hold for proved.
     stretches: Vec<Stretch>,
-    /// Values of lambda^2 at which condensation was not precise enough.
+    /// Values of lambda^2 at which condensation was probably not precise enough.
     imprecise: Vec<f64>,
 }
 
@@ -77,13 +80,25 @@ impl<'a> Prover<'a> {
         self.ground
     }
 
-    /// Places about which a more precise condensation may prove more.
-    pub(super) fn imprecise_places(&self) -> impl Iterator<Item = Place> {
-        let values = self.imprecise.iter();
-        values.map(|&lambda2| Place {
-            lambda2,
-            near: PRESENCE_NEAR,
-        })
+    /// Places about which a more precise condensation may prove more, [`APART`] at least.
+    pub(super) fn imprecise_places(&self) -> Vec<Place> {
+        let mut values = self.imprecise.clone();
+        values.sort_by(f64::total_cmp);
+
+        let scale = self.family.view().scale;
+        let mut places: Vec<Place> = Vec::new();
+        for lambda2 in values {
+            let reach = PRESENCE_NEAR * (lambda2 + scale);
+            let is_apart = |last: &Place| lambda2 - last.lambda2 > APART * reach;
+            if places.last().is_none_or(is_apart) {
+                places.push(Place {
+                    lambda2,
+                    near: PRESENCE_NEAR,
+                });
+            }
+        }
+
+        places
     }
 
     /// The part of [from, to] that no stretch covers, as a length.
