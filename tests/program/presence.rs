@@ -6,7 +6,7 @@
 //! proved intervals. A certificate with a piece taken out, or with a wider interval, is refused.
 #![cfg(all(feature = "cli", feature = "testkit"))]
 
-use crate::common::{example, exits, exits_with_json};
+use crate::common::{example, exits, exits_with_json, read, repository};
 use crate::fold::fold_body;
 use crate::program::Folder;
 use mceip_check::certificate::PresenceCertificate;
@@ -24,6 +24,7 @@ use mceip_paper::two_particles;
 use mceip_testkit::generators::{Seed, states};
 use num_traits::Zero as _;
 use rand::RngExt;
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// Number of this family of random systems, for [`Seed`].
@@ -312,12 +313,13 @@ fn compare_absent_ranges(index: u64, met: &mut AbsentRanges) {
         assert_eq!(range.from, certificate.from);
         assert_eq!(range.to.as_ref(), Some(&certificate.below));
         check_critical(&proof.problem, certificate).unwrap();
+
         let is_its = |said: &Sentence| said.topic == "absence" && said.evidence == range.evidence;
         assert!(analysis.sentences().iter().any(is_its));
+        let summary = analysis.summary();
         assert!(
-            analysis
-                .summary()
-                .contains(", and absent for every mu from ")
+            summary.contains(", and absent for every mu from "),
+            "{summary}"
         );
 
         let width = &certificate.below - &certificate.from;
@@ -410,4 +412,65 @@ fn no_interval_begins_below_the_solution_that_is_printed() {
             assert!(!range.from.is_zero());
         }
     }
+}
+
+/// With a particle of zero reaction presence is sampled and absence proved, and the answer says
+/// both and above which mu. The particle is not coupled to the system of a file of the corpus.
+#[test]
+fn absence_is_said_where_presence_is_sampled() {
+    let text = read(&repository("spec/corpus/accept/presence-mixed.json"));
+    let mut case: Value = serde_json::from_str(&text).unwrap();
+    let mut problem = case["problem"].take();
+
+    for matrix in ["stiffness", "mass"] {
+        let matrix = &mut problem["system"][matrix];
+        matrix["rows"] = 6.into();
+        matrix["cols"] = 6.into();
+        let entries = matrix["entries"].as_array_mut().unwrap();
+        entries.extend([json!([4, 4, "1"]), json!([5, 5, "1"])]);
+    }
+    let particles = problem["system"]["particles"].as_array_mut().unwrap();
+    particles.push(json!({
+        "tangential": 4,
+        "normal": 5,
+        "normal_direction": 1,
+        "state": "zero",
+    }));
+
+    let folder = Folder::new();
+    let file = folder.write("problem.json", &problem.to_string());
+    let proofs = folder.path("proofs");
+    let args = [
+        "analyze",
+        &file,
+        "--json",
+        "--samples",
+        "4",
+        "--certificates",
+        &proofs,
+    ];
+    let report = exits_with_json(0, &args);
+
+    let bound = "There is none below mu = 0.1291712,";
+    let summary = report["summary"].as_str().unwrap();
+    assert!(summary.contains(bound), "{summary}");
+    assert!(
+        summary.contains("Divergence is absent for every mu from 3.87"),
+        "{summary}"
+    );
+    assert!(!summary.contains("present for every mu"), "{summary}");
+
+    let sentences = report["sentences"].as_array().unwrap();
+    let said = |topic: &str| sentences.iter().find(|s| s["topic"] == topic).unwrap();
+    let sampled = said("ranges")["text"].as_str().unwrap();
+    assert!(
+        sampled.contains("elsewhere above mu = 0.1291712,"),
+        "{sampled}"
+    );
+
+    let certificate = said("absence")["evidence"]["path"].as_str().unwrap();
+    assert!(certificate.ends_with("absent-range-1.certificate.json"));
+    let problem = certificate.replace(".certificate.json", ".problem.json");
+    let text = exits(0, &["check", &problem, certificate]);
+    assert!(text.starts_with("ABSENT for friction in ["), "{text}");
 }

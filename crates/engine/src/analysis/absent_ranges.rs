@@ -8,9 +8,7 @@
 //! Input: a system and its ranges. Output: the evidence of ranges, and the proofs named
 //! `absent-range`. Called by `ranges`.
 
-use super::absence::{
-    Blocked, Bound, Cause, LastFamily, Outcome, Place, Quadrant, unit_of_lambda2,
-};
+use super::absence::{Blocked, Bound, Cause, LastFamily, Outcome, Place, unit_of_lambda2};
 use super::critical::Known;
 use super::divergence::Verdict;
 use super::evidence::{Evidence, Proof, ProofCertificate};
@@ -24,9 +22,9 @@ use mceip_exact::Rational;
 const PRECISE_ROUNDS: usize = 3;
 
 /// Proves what it can of the ranges that are absent at samples.
-pub(super) fn prove(
-    model: &Model<'_>,
-    known: &Known<'_>,
+pub(super) fn prove<'a>(
+    model: &Model<'a>,
+    known: &Known<'a>,
     ranges: &mut [Range],
     proofs: &mut Vec<Proof>,
 ) {
@@ -61,21 +59,15 @@ fn sampled_absence(range: &Range) -> Option<[&Rational; 2]> {
 
 /// A certificate of absence for every mu between two values, if one is found. What cannot be
 /// condensed is not proved either.
-fn cover(
-    model: &Model<'_>,
-    known: &Known<'_>,
+fn cover<'a>(
+    model: &Model<'a>,
+    known: &Known<'a>,
     [from, below]: [&Rational; 2],
 ) -> Option<CriticalCertificate> {
     let stage = "ranges of mu: proving absence";
     let relay = |progress: &Progress<'_>| model.relay(stage, progress);
-    let quadrant = Quadrant {
-        families: known.families,
-        problem: known.problem,
-        limits: model.options.limits,
-        threads: model.options.threads,
-        watch: model.watch,
-    };
-    let quadrant = quadrant.heard_by(&relay);
+    let all = known.quadrant(model);
+    let quadrant = all.heard_by(&relay);
     let scale = unit_of_lambda2(&known.families.own).ok()?;
 
     let mut places = Vec::new();

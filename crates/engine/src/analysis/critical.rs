@@ -149,7 +149,18 @@ pub(super) struct Known<'a> {
     pub(super) starts: Vec<Start>,
 }
 
-impl Known<'_> {
+impl<'a> Known<'a> {
+    /// Where covers are sought.
+    pub(super) fn quadrant(&self, model: &Model<'a>) -> Quadrant<'a> {
+        Quadrant {
+            families: self.families,
+            problem: self.problem,
+            limits: model.options.limits,
+            threads: model.options.threads,
+            watch: model.watch,
+        }
+    }
+
     /// The known solution of smallest mu: at the static threshold (lambda = 0), or at the mu of the
     /// analysis.
     fn smallest_solution(&self) -> Option<CertifiedSolution> {
@@ -238,13 +249,7 @@ pub(super) fn critical(
             model,
             branches: Branches::new(model.system, scale)?,
             scale,
-            quadrant: Quadrant {
-                families: known.families,
-                problem: known.problem,
-                limits: model.options.limits,
-                threads: model.options.threads,
-                watch: model.watch,
-            },
+            quadrant: known.quadrant(model),
         };
 
         search.follow(&known.starts, &mut bounds)?;

@@ -115,6 +115,17 @@ fn proved(ranges: &[Range], verdict: Verdict) -> impl Iterator<Item = (&Range, [
     })
 }
 
+/// What a proved range says of every mu in it.
+fn proved_sentence(topic: &'static str, range: &Range, [from, to]: [&Rational; 2]) -> Sentence {
+    let word = range.verdict.word();
+    let ends = format!("from {} to {}", up(from), down(to));
+    Sentence {
+        topic,
+        text: format!("Divergence is {word} for every mu {ends}, with this contact state."),
+        evidence: range.evidence.clone(),
+    }
+}
+
 fn range_text(range: &Range) -> String {
     let word = range.verdict.word();
     let from = short(&range.from);
@@ -123,6 +134,9 @@ fn range_text(range: &Range) -> String {
         None => format!("{word} from {from} on"),
     }
 }
+
+/// Behind a gap between proved intervals.
+const GAP: &str = "neither a curve that was followed nor a cover that was found reaches there";
 
 /// Pairs of complex lambda^2 named in a sentence; the others are counted.
 const NAMED_PAIRS: usize = 3;
@@ -359,46 +373,22 @@ impl Analysis {
 
     /// One sentence for each interval on which presence is proved.
     fn say_presence(&self) -> Vec<Sentence> {
-        let mut said = Vec::new();
-        for (range, [from, to]) in self.proved_presence() {
-            said.push(Sentence {
-                topic: "presence",
-                text: format!(
-                    "Divergence is present for every mu from {} to {}, with this contact state.",
-                    up(from),
-                    down(to)
-                ),
-                evidence: range.evidence.clone(),
-            });
-        }
-
-        said
+        let said = |(range, ends)| proved_sentence("presence", range, ends);
+        self.proved_presence().map(said).collect()
     }
 
     /// One sentence for each interval above the critical mu on which absence is proved.
     fn say_absence(&self) -> Vec<Sentence> {
-        let mut said = Vec::new();
-        for (range, [from, to]) in self.proved_absence() {
-            said.push(Sentence {
-                topic: "absence",
-                text: format!(
-                    "Divergence is absent for every mu from {} to {}, with this contact state.",
-                    up(from),
-                    down(to)
-                ),
-                evidence: range.evidence.clone(),
-            });
-        }
-
-        said
+        let said = |(range, ends)| proved_sentence("absence", range, ends);
+        self.proved_absence().map(said).collect()
     }
 
-    /// Where nothing is proved between two of these intervals.
+    /// Where neither presence nor absence is proved between two of these intervals.
     fn say_gaps(&self) -> Option<Sentence> {
         let mut proved: Vec<[&Rational; 2]> =
             self.proved_presence().map(|(_, ends)| ends).collect();
         proved.extend(self.proved_absence().map(|(_, ends)| ends));
-        proved.sort_by_key(|[from, _]| *from);
+        proved.sort_unstable();
 
         let mut gaps = Vec::new();
         for pair in proved.windows(2) {
@@ -412,10 +402,10 @@ impl Analysis {
         Some(Sentence {
             topic: "presence_gaps",
             text: format!(
-                "Between these intervals nothing is proved for every mu: {}.",
+                "Between these intervals neither presence nor absence is proved for every mu: {}.",
                 gaps.join(", ")
             ),
-            evidence: Evidence::Measured("no curve that was followed and no cover reaches there"),
+            evidence: Evidence::Measured(GAP),
         })
     }
 
@@ -430,14 +420,15 @@ impl Analysis {
         };
         let is_counted = |mu: &Rational| sampled.iter().any(|range| is_in(mu, range));
         let count = self.samples.iter().filter(|s| is_counted(&s.mu)).count();
-        let above = match &self.critical.absent_below {
-            Some(below) => format!(" above mu = {}", down(below)),
-            None => String::new(),
-        };
+        let below = self.critical.absent_below.as_ref()?;
+        let has_proved = sampled.len() + 1 < self.ranges.len();
+        let elsewhere = if has_proved { " elsewhere" } else { "" };
 
         let parts: Vec<String> = sampled.into_iter().map(range_text).collect();
         let text = format!(
-            "Divergence elsewhere{above}, with this contact state, at {count} sampled mu: {}.",
+            "Divergence{elsewhere} above mu = {}, with this contact state, at {count} sampled mu: \
+             {}.",
+            down(below),
             parts.join(", ")
         );
         Some(Sentence {

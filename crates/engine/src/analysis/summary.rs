@@ -81,15 +81,12 @@ impl Analysis {
 
     /// Where presence and, above the critical mu, absence are proved, and whether samples say more.
     fn presence(&self) -> Option<String> {
+        let present = self.proved_presence().map(|(_, ends)| ends);
+        let absent = self.proved_absence().map(|(_, ends)| ends);
+
         let mut clauses = Vec::new();
-        clauses.extend(clause(
-            "present",
-            self.proved_presence().map(|(_, ends)| ends),
-        ));
-        clauses.extend(clause(
-            "absent",
-            self.proved_absence().map(|(_, ends)| ends),
-        ));
+        clauses.extend(clause("present", present));
+        clauses.extend(clause("absent", absent));
         if clauses.is_empty() {
             return None;
         }
@@ -130,9 +127,8 @@ impl Analysis {
 
 /// What is said of these intervals; `None` without any.
 fn clause<'a>(word: &str, intervals: impl Iterator<Item = [&'a Rational; 2]>) -> Option<String> {
-    let intervals: Vec<String> = intervals
-        .map(|[from, to]| format!("from {} to {}", up(from), down(to)))
-        .collect();
+    let text_of = |[from, to]: [&Rational; 2]| format!("from {} to {}", up(from), down(to));
+    let intervals: Vec<String> = intervals.map(text_of).collect();
     if intervals.is_empty() {
         return None;
     }

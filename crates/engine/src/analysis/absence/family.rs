@@ -58,7 +58,7 @@ pub(in crate::analysis) struct Place {
 
 impl Place {
     /// The place about a value at which condensation was not precise enough with these places:
-    /// nearer than each of them that reaches it. `scale` is the lowest frequency.
+    /// nearer than each of them that reaches it. `scale` is [`unit_of_lambda2`].
     pub(in crate::analysis) fn sharper(places: &[Place], lambda2: f64, scale: f64) -> Place {
         let mut near = FIRST_NEAR;
         for place in places {

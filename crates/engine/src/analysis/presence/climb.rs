@@ -85,6 +85,7 @@ impl Climb<'_> {
         self.follow(start, target, None)
     }
 
+    /// The way of both: with a record, each step is proved and written into it.
     fn follow(
         &self,
         start: &Point,
@@ -121,8 +122,8 @@ impl Climb<'_> {
                 continue;
             }
 
-            let is_new = skips == 0;
-            interruptions += usize::from(is_new);
+            let is_new_interruption = skips == 0;
+            interruptions += usize::from(is_new_interruption);
             if skips == MAX_SKIPS || interruptions > MAX_INTERRUPTIONS {
                 return None;
             }
@@ -132,7 +133,7 @@ impl Climb<'_> {
             let resumed_at = short_end(here.mu, aside, target);
             if let Some(next) = self.skip(&here, resumed_at) {
                 if let Some(followed) = &mut record
-                    && is_new
+                    && is_new_interruption
                     && next.support == here.support
                 {
                     followed.imprecise.push(here.t);
