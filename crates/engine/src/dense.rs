@@ -44,17 +44,56 @@ pub(crate) fn eliminate_below(matrix: &mut [Vec<f64>], k: usize) {
     }
 }
 
-/// Does elimination on a symmetric matrix meet only pivots above `least`?
-pub(crate) fn has_pivots_above(mut matrix: Vec<Vec<f64>>, least: f64) -> bool {
-    for k in 0..matrix.len() {
-        if matrix[k][k] <= least {
-            return false;
+/// A symmetric matrix, by rows in one array; entries left of the diagonal are not used.
+pub(crate) struct Symmetric {
+    order: usize,
+    entries: Vec<f64>,
+}
+
+impl Symmetric {
+    /// The matrix with these entries; `entry(i, j)` is asked for i <= j.
+    pub(crate) fn new(order: usize, entry: impl Fn(usize, usize) -> f64) -> Symmetric {
+        let mut entries = vec![0.0; order * order];
+        for (i, row) in entries.chunks_exact_mut(order.max(1)).enumerate() {
+            for j in i..order {
+                row[j] = entry(i, j);
+            }
         }
 
-        eliminate_below(&mut matrix, k);
+        Symmetric { order, entries }
     }
 
-    true
+    /// Largest modulus of an entry, zero for an empty matrix.
+    pub(crate) fn largest_entry(&self) -> f64 {
+        self.entries
+            .iter()
+            .fold(0.0, |largest, entry| entry.abs().max(largest))
+    }
+
+    pub(crate) fn subtract_from_diagonal(&mut self, i: usize, amount: f64) {
+        self.entries[i * self.order + i] -= amount;
+    }
+
+    /// Does elimination meet only pivots above `least`?
+    pub(crate) fn has_pivots_above(mut self, least: f64) -> bool {
+        for k in 0..self.order {
+            let (upper, lower) = self.entries.split_at_mut((k + 1) * self.order);
+            let pivot_row = &upper[k * self.order..];
+            let pivot = pivot_row[k];
+            if pivot <= least {
+                return false;
+            }
+
+            for (row, i) in lower.chunks_exact_mut(self.order).zip(k + 1..) {
+                let factor = pivot_row[i] / pivot;
+                for (entry, of_pivot_row) in row[i..].iter_mut().zip(&pivot_row[i..]) {
+                    *entry -= factor * of_pivot_row;
+                }
+            }
+        }
+
+        true
+    }
 }
 
 #[cfg(test)]
@@ -82,9 +121,10 @@ mod tests {
     /// [[4, 2], [2, 3]] has the pivots 4 and 3 - 2 2/4 = 2.
     #[test]
     fn the_smallest_pivot_decides() {
-        let matrix = vec![vec![4.0, 2.0], vec![2.0, 3.0]];
+        let entries = [[4.0, 2.0], [2.0, 3.0]];
+        let matrix = || Symmetric::new(2, |i, j| entries[i][j]);
 
-        assert!(has_pivots_above(matrix.clone(), 1.9));
-        assert!(!has_pivots_above(matrix, 2.0));
+        assert!(matrix().has_pivots_above(1.9));
+        assert!(!matrix().has_pivots_above(2.0));
     }
 }

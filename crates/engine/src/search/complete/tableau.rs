@@ -6,8 +6,8 @@
 //! by the dual simplex method (Lemke 1954): the objective stays optimal, only signs of basic
 //! variables are repaired, and every tableau on the way has weights that are proved by it.
 //!
-//! Row 0 holds the objective and entry 0 of each row the right-hand side, so that rows and columns
-//! can be appended. Called by `game` (one game from nothing) and `ends_game` (games of a tree).
+//! Right-hand sides and reduced costs are stored apart from the entries: every step searches all of
+//! them. Called by `game` (one game from nothing) and `ends_game` (games of a tree).
 
 use crate::tolerance::GAME_PIVOT;
 
@@ -44,12 +44,16 @@ impl Strategy {
 /// A tableau; its basis need not be optimal.
 #[derive(Clone)]
 pub(super) struct Tableau {
-    rows: usize,
-    cols: usize,
     /// Length of a row in `entries`: one column more than there are fits in.
     stride: usize,
-    /// (rows + 1) x stride.
+    /// A row for each basic variable, a column for each nonbasic one.
     entries: Vec<f64>,
+    /// The right-hand sides: what the basic variables are.
+    values: Vec<f64>,
+    /// The reduced costs of the nonbasic variables; those of slacks are the dual variables.
+    costs: Vec<f64>,
+    /// The sum of q, which is also the sum of the dual variables.
+    total: f64,
     nonbasic: Vec<Variable>,
     basic: Vec<Variable>,
     shift: f64,
@@ -65,60 +69,55 @@ impl Tableau {
     ) -> Tableau {
         let rows = strategies.len();
         let cols = columns.len();
-        let stride = cols + 2;
+        let stride = cols + 1;
 
-        let mut entries = vec![0.0; (rows + 1) * stride];
-        entries[1..=cols].fill(-1.0);
-        for (r, strategy) in strategies.iter().enumerate() {
-            let row = &mut entries[(r + 1) * stride..][..stride];
-            row[0] = 1.0;
-            for (entry, column) in row[1..].iter_mut().zip(columns) {
+        let mut entries = vec![0.0; rows * stride];
+        for (row, strategy) in entries.chunks_exact_mut(stride).zip(strategies) {
+            for (entry, column) in row.iter_mut().zip(columns) {
                 *entry = strategy.payoff(column) + shift;
             }
         }
 
         Tableau {
-            rows,
-            cols,
             stride,
             entries,
+            values: vec![1.0; rows],
+            costs: vec![-1.0; cols],
+            total: 0.0,
             nonbasic: numbers.iter().copied().map(Variable::Column).collect(),
             basic: strategies.iter().copied().map(Variable::Slack).collect(),
             shift,
         }
     }
 
-    fn at(&self, row: usize, column: usize) -> f64 {
-        self.entries[row * self.stride + column]
+    /// The entries of a row.
+    fn row(&self, row: usize) -> &[f64] {
+        &self.entries[row * self.stride..][..self.costs.len()]
     }
 
     /// The sum of q, which is also the sum of the dual variables.
     pub(super) fn total(&self) -> f64 {
-        self.at(0, 0)
+        self.total
     }
 
     /// What the row player's weights make of the game: once no reduced cost is negative, the margin
     /// by which they make every entry of w'T negative.
     pub(super) fn value(&self) -> f64 {
-        1.0 / self.total() - self.shift
+        1.0 / self.total - self.shift
     }
 
     /// The total, or one where doubles have made nothing of the game.
     fn positive_total(&self) -> f64 {
-        if self.total() > 0.0 {
-            self.total()
-        } else {
-            1.0
-        }
+        if self.total > 0.0 { self.total } else { 1.0 }
     }
 
     /// The column player's mix of the columns 0 to `count - 1`, summing to one.
     pub(super) fn mix(&self, count: usize) -> Vec<f64> {
         let total = self.positive_total();
         let mut mix = vec![0.0; count];
-        for (r, variable) in self.basic.iter().enumerate() {
+        for (variable, value) in self.basic.iter().zip(&self.values) {
             if let Variable::Column(number) = variable {
-                mix[*number] = self.at(r + 1, 0) / total;
+                mix[*number] = value / total;
             }
         }
 
@@ -128,7 +127,7 @@ impl Tableau {
     /// What a variable is in the solution of the basis.
     pub(super) fn value_of(&self, variable: Variable) -> f64 {
         match position(&self.basic, variable) {
-            Some(place) => self.at(place + 1, 0),
+            Some(row) => self.values[row],
             None => 0.0,
         }
     }
@@ -137,9 +136,9 @@ impl Tableau {
     pub(super) fn weights(&self, order: usize) -> Vec<f64> {
         let total = self.positive_total();
         let mut weights = vec![0.0; order];
-        for (j, variable) in self.nonbasic.iter().enumerate() {
+        for (variable, cost) in self.nonbasic.iter().zip(&self.costs) {
             if let Variable::Slack(strategy) = variable {
-                let weight = self.at(0, j + 1).max(0.0);
+                let weight = cost.max(0.0);
                 weights[strategy.row] += strategy.sign() * weight / total;
             }
         }
@@ -170,7 +169,7 @@ impl Tableau {
                 return true;
             }
 
-            let Some(leaving) = self.most_negative() else {
+            let Some(leaving) = self.infeasible() else {
                 return true;
             };
 
@@ -185,92 +184,65 @@ impl Tableau {
     }
 
     fn most_pivots(&self) -> usize {
-        PIVOTS * (self.rows + self.cols)
+        PIVOTS * (self.basic.len() + self.nonbasic.len())
     }
 
-    /// The column with the most negative entry of the objective (Dantzig's rule).
+    /// The column with the most negative reduced cost (Dantzig's rule).
     fn entering(&self) -> Option<usize> {
-        let mut least = -GAME_PIVOT;
-        let mut entering = None;
-        for column in 1..=self.cols {
-            if self.at(0, column) < least {
-                least = self.at(0, column);
-                entering = Some(column);
-            }
-        }
+        most_negative(&self.costs)
+    }
 
-        entering
+    /// The row with the most negative right-hand side.
+    fn infeasible(&self) -> Option<usize> {
+        most_negative(&self.values)
     }
 
     /// The row with the least ratio of right-hand side and pivot; of equals the largest pivot.
     fn leaving(&self, entering: usize) -> Option<usize> {
-        let mut best: Option<Candidate> = None;
-        for row in 1..=self.rows {
-            let pivot = self.at(row, entering);
-            if pivot > GAME_PIVOT {
-                let ratio = self.at(row, 0) / pivot;
-                Candidate::offer(&mut best, row, pivot, ratio);
-            }
-        }
-
-        best.map(|candidate| candidate.place)
-    }
-
-    /// The row with the most negative right-hand side.
-    fn most_negative(&self) -> Option<usize> {
-        let mut least = -GAME_PIVOT;
-        let mut leaving = None;
-        for row in 1..=self.rows {
-            if self.at(row, 0) < least {
-                least = self.at(row, 0);
-                leaving = Some(row);
-            }
-        }
-
-        leaving
+        let rows = self.entries.chunks_exact(self.stride);
+        let pivots: Vec<f64> = rows.map(|row| row[entering]).collect();
+        least_ratio(&self.values, &pivots)
     }
 
     /// The column that costs the objective least where the basic variable of a row grows (sign -1)
     /// or falls (sign 1).
     fn cheapest(&self, row: usize, sign: f64) -> Option<usize> {
-        let mut best: Option<Candidate> = None;
-        for column in 1..=self.cols {
-            let pivot = sign * self.at(row, column);
-            if pivot > GAME_PIVOT {
-                let ratio = self.at(0, column).max(0.0) / pivot;
-                Candidate::offer(&mut best, column, pivot, ratio);
-            }
-        }
-
-        best.map(|candidate| candidate.place)
+        let costs: Vec<f64> = self.costs.iter().map(|cost| cost.max(0.0)).collect();
+        let pivots: Vec<f64> = self.row(row).iter().map(|entry| sign * entry).collect();
+        least_ratio(&costs, &pivots)
     }
 
     fn pivot(&mut self, leaving: usize, entering: usize) {
-        let width = self.cols + 1;
+        let width = self.costs.len();
         let stride = self.stride;
-        let inverse = 1.0 / self.at(leaving, entering);
+        let inverse = 1.0 / self.row(leaving)[entering];
+
         let (before, rest) = self.entries.split_at_mut(leaving * stride);
         let (pivot_row, after) = rest.split_at_mut(stride);
         let pivot_row = &mut pivot_row[..width];
         pivot_row.iter_mut().for_each(|v| *v *= inverse);
         pivot_row[entering] = inverse;
 
+        let (values_before, rest) = self.values.split_at_mut(leaving);
+        let (pivot_value, values_after) = rest.split_at_mut(1);
+        pivot_value[0] *= inverse;
+        let step = Step {
+            entering,
+            row: pivot_row,
+            value: pivot_value[0],
+        };
+
         let other_rows = before
             .chunks_exact_mut(stride)
             .chain(after.chunks_exact_mut(stride));
-        for row in other_rows {
-            let row = &mut row[..width];
-            let factor = row[entering];
-            if factor != 0.0 {
-                row[entering] = 0.0;
-                for (v, p) in row.iter_mut().zip(&*pivot_row) {
-                    *v -= factor * p;
-                }
-            }
+        let other_values = values_before.iter_mut().chain(values_after);
+        for (row, value) in other_rows.zip(other_values) {
+            step.eliminate(&mut row[..width], value);
         }
+        step.eliminate(&mut self.costs, &mut self.total);
 
-        let nonbasic = &mut self.nonbasic[entering - 1];
-        std::mem::swap(nonbasic, &mut self.basic[leaving - 1]);
+        let nonbasic = &mut self.nonbasic[entering];
+        std::mem::swap(nonbasic, &mut self.basic[leaving]);
     }
 
     /// Takes a column from the column player; the reduced costs stay as they should be. Returns
@@ -278,16 +250,15 @@ impl Tableau {
     pub(super) fn remove(&mut self, number: usize) -> bool {
         let variable = Variable::Column(number);
         if let Some(place) = position(&self.nonbasic, variable) {
-            self.delete_column(place + 1);
+            self.delete_column(place);
             return true;
         }
 
-        let Some(place) = position(&self.basic, variable) else {
+        let Some(row) = position(&self.basic, variable) else {
             return true;
         };
 
-        let row = place + 1;
-        let sign = if self.at(row, 0) < 0.0 { -1.0 } else { 1.0 };
+        let sign = if self.values[row] < 0.0 { -1.0 } else { 1.0 };
         let Some(entering) = self.cheapest(row, sign) else {
             return false;
         };
@@ -299,13 +270,13 @@ impl Tableau {
 
     /// Deletes a column that is not in the basis; the last one takes its place.
     fn delete_column(&mut self, column: usize) {
-        let last = self.cols;
+        let last = self.costs.len() - 1;
         for row in self.entries.chunks_exact_mut(self.stride) {
             row[column] = row[last];
         }
 
-        self.nonbasic.swap_remove(column - 1);
-        self.cols -= 1;
+        self.costs.swap_remove(column);
+        self.nonbasic.swap_remove(column);
     }
 
     /// Gives the row player the negative of a row whose positive he has.
@@ -315,25 +286,26 @@ impl Tableau {
     pub(super) fn add_negative(&mut self, row: usize) {
         let twice = 2.0 * self.shift;
         let mut slack = vec![0.0; self.stride];
-        for column in 1..=self.cols {
-            slack[column] = -twice * self.at(0, column);
+        for (entry, cost) in slack.iter_mut().zip(&self.costs) {
+            *entry = -twice * cost;
         }
 
-        slack[0] = 2.0 - twice * self.total();
+        let mut value = 2.0 - twice * self.total;
         let positive = Variable::Slack(Strategy {
             row,
             is_negative: false,
         });
         if let Some(place) = position(&self.nonbasic, positive) {
-            slack[place + 1] += 1.0;
+            slack[place] += 1.0;
         } else if let Some(place) = position(&self.basic, positive) {
-            for column in 0..=self.cols {
-                slack[column] -= self.at(place + 1, column);
+            value -= self.values[place];
+            for (entry, of_positive) in slack.iter_mut().zip(self.row(place)) {
+                *entry -= of_positive;
             }
         }
 
         self.entries.extend(slack);
-        self.rows += 1;
+        self.values.push(value);
         self.basic.push(Variable::Slack(Strategy {
             row,
             is_negative: true,
@@ -363,9 +335,9 @@ impl Tableau {
 
     /// Appends the sum of two columns times their shares.
     fn append_mix(&mut self, numbers: [usize; 2], shares: [f64; 2]) {
-        self.cols += 1;
-        let appended = self.cols;
+        let appended = self.costs.len();
         self.nonbasic.push(INTERIM);
+        self.costs.push(0.0);
         for row in self.entries.chunks_exact_mut(self.stride) {
             row[appended] = 0.0;
         }
@@ -373,11 +345,12 @@ impl Tableau {
         for (number, share) in numbers.into_iter().zip(shares) {
             let variable = Variable::Column(number);
             if let Some(place) = position(&self.nonbasic, variable) {
+                self.costs[appended] += share * self.costs[place];
                 for row in self.entries.chunks_exact_mut(self.stride) {
-                    row[appended] += share * row[place + 1];
+                    row[appended] += share * row[place];
                 }
             } else if let Some(place) = position(&self.basic, variable) {
-                self.entries[(place + 1) * self.stride + appended] += share;
+                self.entries[place * self.stride + appended] += share;
             }
         }
     }
@@ -386,33 +359,99 @@ impl Tableau {
 /// Until the column that it replaces has left, a mix has a number that no other column has.
 const INTERIM: Variable = Variable::Column(usize::MAX);
 
+/// A pivot step: the row of the entering variable, its right-hand side.
+struct Step<'a> {
+    entering: usize,
+    row: &'a [f64],
+    value: f64,
+}
+
+impl Step<'_> {
+    /// Eliminates the entering variable from another row and its right-hand side.
+    fn eliminate(&self, row: &mut [f64], value: &mut f64) {
+        let factor = row[self.entering];
+        if factor == 0.0 {
+            return;
+        }
+
+        row[self.entering] = 0.0;
+        for (entry, of_pivot_row) in row.iter_mut().zip(self.row) {
+            *entry -= factor * of_pivot_row;
+        }
+        *value -= factor * self.value;
+    }
+}
+
+/// The place of the most negative of some numbers; `None` if none is clearly negative.
+fn most_negative(numbers: &[f64]) -> Option<usize> {
+    let mut least = -GAME_PIVOT;
+    let mut place = None;
+    for (k, number) in numbers.iter().enumerate() {
+        if *number < least {
+            least = *number;
+            place = Some(k);
+        }
+    }
+
+    place
+}
+
 fn position(variables: &[Variable], variable: Variable) -> Option<usize> {
     variables.iter().position(|v| *v == variable)
 }
 
-/// A row that may leave the basis, or a column that may enter it.
-struct Candidate {
-    place: usize,
-    pivot: f64,
-    ratio: f64,
+/// The place of the least ratio of a numerator and its pivot; of equals the largest pivot. Only
+/// pivots above [`GAME_PIVOT`] count.
+fn least_ratio(numerators: &[f64], pivots: &[f64]) -> Option<usize> {
+    // All ratios first: the compiler divides several at a time, and no branch depends on the signs
+    // of pivots, which are as good as random.
+    let ratios: Vec<f64> = numerators
+        .iter()
+        .zip(pivots)
+        .map(|(numerator, pivot)| positive_ratio(*numerator, *pivot))
+        .collect();
+
+    let mut least = f64::INFINITY;
+    let mut place = None;
+    for (k, ratio) in ratios.iter().enumerate() {
+        let is_better = match place {
+            Some(best) if *ratio == least => pivots[k] > pivots[best],
+            _ => *ratio < least,
+        };
+        if is_better {
+            least = *ratio;
+            place = Some(k);
+        }
+    }
+
+    place
 }
 
-impl Candidate {
-    /// Keeps the candidate with the least ratio; of equals the one with the largest pivot.
-    fn offer(best: &mut Option<Candidate>, place: usize, pivot: f64, ratio: f64) {
-        let is_better = best.as_ref().is_none_or(|b| {
-            if ratio == b.ratio {
-                pivot > b.pivot
-            } else {
-                ratio < b.ratio
-            }
-        });
-        if is_better {
-            *best = Some(Candidate {
-                place,
-                pivot,
-                ratio,
-            });
-        }
+/// The ratio, infinite where the pivot is too small or negative.
+fn positive_ratio(numerator: f64, pivot: f64) -> f64 {
+    let quotient = numerator / pivot;
+    if pivot > GAME_PIVOT {
+        quotient
+    } else {
+        f64::INFINITY
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_least_ratio_with_the_largest_pivot_is_taken() {
+        assert_eq!(least_ratio(&[1.0, 1.0, 4.0], &[1.0, 2.0, 8.0]), Some(2));
+        assert_eq!(least_ratio(&[4.0, 1.0, 1.0], &[8.0, 2.0, 1.0]), Some(0));
+        assert_eq!(least_ratio(&[3.0, 1.0], &[1.0, 2.0]), Some(1));
+    }
+
+    #[test]
+    fn places_without_a_positive_pivot_are_not_taken() {
+        assert_eq!(least_ratio(&[1.0, 0.0, 0.0], &[1.0, 0.0, -1.0]), Some(0));
+        assert_eq!(least_ratio(&[0.0, 1.0], &[0.5 * GAME_PIVOT, -1.0]), None);
+        assert_eq!(least_ratio(&[], &[]), None);
     }
 }

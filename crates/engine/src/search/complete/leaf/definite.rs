@@ -7,9 +7,9 @@
 //! Called by `tree` for every region. The checker's side is `check::cover::definite`, with the test
 //! itself in `check::cover::enclosed_definite`.
 
-use crate::dense::has_pivots_above;
+use crate::dense::Symmetric;
 use crate::search::complete::pieces::expansion::Ends;
-use crate::search::complete::pieces::matrix::{Matrix, largest_entry};
+use crate::search::complete::pieces::matrix::Matrix;
 use crate::search::complete::region::{State, possible_support};
 use crate::tolerance::DEFINITE_PIVOT;
 use mceip_check::certificate::Node;
@@ -59,20 +59,24 @@ pub(crate) fn is_definite(
     sign: f64,
 ) -> bool {
     let possible = possible_support(states);
-    let mut s = Matrix::new();
-    for &i in &possible {
-        let row = possible.iter().map(|&j| sign * (m[i][j] + m[j][i]));
-        s.push(row.collect());
+
+    // Elimination makes no diagonal entry larger.
+    if possible.iter().any(|&i| sign * m[i][i] <= 0.0) {
+        return false;
     }
 
-    let least_pivot = DEFINITE_PIVOT * largest_entry(&s);
+    let mut symmetric = Symmetric::new(possible.len(), |p, q| {
+        let [i, j] = [possible[p], possible[q]];
+        sign * (m[i][j] + m[j][i])
+    });
+    let least_pivot = DEFINITE_PIVOT * symmetric.largest_entry();
 
     if let Some(radius) = radius {
         for (p, &i) in possible.iter().enumerate() {
             let around = possible.iter().map(|&j| radius[i][j] + radius[j][i]);
-            s[p][p] -= around.sum::<f64>();
+            symmetric.subtract_from_diagonal(p, around.sum());
         }
     }
 
-    has_pivots_above(s, least_pivot)
+    symmetric.has_pivots_above(least_pivot)
 }
