@@ -17,7 +17,7 @@ use mceip_engine::reduction::reduce;
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{Rational, Sparse, enclosing_decimals, from_f64, rational, to_f64, whole};
 use mceip_model::file::read_problem_file;
-use mceip_model::{Body, ContactState, Problem, System, Unknown, Window};
+use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, TwoParticles, enumerate, table1, thresholds};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState, two_particles};
 use num_traits::Signed as _;
@@ -344,6 +344,44 @@ fn the_answer_says_why_a_bound_is_not_proved() {
     assert!(text.contains("used up (--boxes)"), "{text}");
     let json = analysis.to_json(&[]);
     assert_eq!(json["critical"]["unproved"]["reason"], "boxes");
+}
+
+/// One particle with M* = 1 - mu/2 and K* = 1 (by hand): lambda^2 = -K*/M* is positive for mu > 2
+/// and grows beyond all bounds as mu falls to 2, so that nothing is missing between (19) and the
+/// solutions. A bound that a solution refutes is not said to be unproved.
+#[test]
+fn a_refuted_bound_is_not_called_unproved() {
+    let stiffness = Sparse::from_ints(&[&[1, 0], &[0, 1]]);
+    let mass = Sparse::from_entries(
+        2,
+        2,
+        [
+            (0, 0, whole(1)),
+            (0, 1, rational(1, 2)),
+            (1, 0, rational(1, 2)),
+            (1, 1, whole(1)),
+        ],
+    );
+    let mut particle = Particle::plain(0, 1, ContactState::Slip { sign: 1 });
+    particle.normal_direction = -1;
+    let system = System::new(stiffness, Some(mass), None, vec![particle]).unwrap();
+
+    let analysis = answer(&system, &whole(1), 0);
+
+    assert_eq!(analysis.critical.absent_below, Some(whole(2)));
+    let solution = analysis.critical.solution.as_ref().unwrap();
+    assert!(to_f64(solution.mu.hi()) < 2.000001, "{:?}", solution.mu);
+    assert_eq!(analysis.critical.unproved, None);
+
+    let sentences = analysis.sentences();
+    let said = sentences.iter().find(|s| s.topic == "necessary").unwrap();
+    contains_all(
+        &said.text,
+        &[
+            "K* is positive definite for every mu,",
+            "M* is not positive semidefinite for mu > 2.000000000;",
+        ],
+    );
 }
 
 /// The bound of the critical mu rests on a certificate that the checker accepts; with the known

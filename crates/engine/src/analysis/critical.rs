@@ -339,7 +339,10 @@ impl Bounds {
             (solution, _) => solution,
         };
 
-        let unproved = self.unproved;
+        // A solution below a bound shows that there is no absence up to it.
+        let first_solution = solution.as_ref().map(|found| found.mu.hi());
+        let may_be_absent = |tried: &Unproved| first_solution.is_none_or(|mu| tried.below <= *mu);
+        let unproved = self.unproved.filter(may_be_absent);
 
         let beyond_condition = self.absence.filter(|found| found.below > excluded);
         let Some(certificate) = beyond_condition else {

@@ -124,13 +124,13 @@ impl Analysis {
     /// The evidence in words; `paths[i]` is where the certificate of proof i has been written.
     pub fn evidence_text(&self, evidence: &Evidence, paths: &[String]) -> String {
         match evidence {
-            Evidence::Certificate(i) => match paths.get(*i) {
-                Some(path) => format!("proved, certificate {path}"),
-                None => format!(
-                    "proved, certificate {:.12} (--certificates writes it)",
-                    self.certificate_sha256(*i).unwrap_or_default()
-                ),
-            },
+            Evidence::Certificate(i) => {
+                let name = self.proofs.get(*i).map_or("", |proof| &proof.name);
+                match paths.get(*i) {
+                    Some(path) => format!("proved, certificate {path}"),
+                    None => format!("proved, certificate {name} (--certificates writes it)"),
+                }
+            }
             Evidence::Exact(what) => format!("exact: {what}"),
             Evidence::Measured(what) => format!("measured: {what}"),
         }

@@ -83,14 +83,15 @@ fn plural(count: usize) -> &'static str {
     if count == 1 { "" } else { "s" }
 }
 
-/// Where a matrix is not definite; `relation` says whether the end belongs to it.
-fn not_definite_text(until: &DefiniteUntil, relation: &str) -> String {
+/// For which mu a matrix is `definite`; `relation` says whether the end belongs to the others.
+fn definite_text(matrix: &str, definite: &str, until: &DefiniteUntil, relation: &str) -> String {
     match until {
-        DefiniteUntil::Never => "for every mu".into(),
-        DefiniteUntil::Always => "for no mu".into(),
+        DefiniteUntil::Never => format!("{matrix} is {definite} for no mu"),
+        DefiniteUntil::Always => format!("{matrix} is {definite} for every mu"),
         DefiniteUntil::End { end, .. } => {
             // Doubles know the upper end best (`conditions`).
-            format!("for mu {relation} {:.9}", to_f64(end.hi()))
+            let end = to_f64(end.hi());
+            format!("{matrix} is not {definite} for mu {relation} {end:.9}")
         }
     }
 }
@@ -456,17 +457,14 @@ impl Analysis {
             None => "this mu is too close to the end to say",
         };
 
-        let stiffness = not_definite_text(&necessary.stiffness, ">=");
+        let stiffness = definite_text("K*", "positive definite", &necessary.stiffness, ">=");
         let z = if self.zero > 0 { "z" } else { "" }; // Z.4: particles with zero reaction are free
         let text = match &necessary.mass {
-            Some(mass) if !necessary.mass_is_constant => format!(
-                "Necessary condition (19{z}): K* is not positive definite {stiffness}, M* is not \
-                 positive semidefinite {}; {here}.",
-                not_definite_text(mass, ">")
-            ),
-            _ => format!(
-                "Necessary condition (20{z}): K* is not positive definite {stiffness}; {here}."
-            ),
+            Some(mass) if !necessary.mass_is_constant => {
+                let mass = definite_text("M*", "positive semidefinite", mass, ">");
+                format!("Necessary condition (19{z}): {stiffness}, {mass}; {here}.")
+            }
+            _ => format!("Necessary condition (20{z}): {stiffness}; {here}."),
         };
 
         Sentence {
