@@ -78,7 +78,7 @@ const fn tenth_stuck(slip: usize) -> Refined {
 }
 
 /// Orders of the random pencils, each with the number of seeds.
-const RANDOM: [(usize, u64); 4] = [(20, 20), (30, 10), (40, 10), (50, 3)];
+const RANDOM: [(usize, u64); 4] = [(20, 20), (30, 10), (40, 10), (50, 10)];
 
 fn main() {
     let words: Vec<String> = std::env::args()

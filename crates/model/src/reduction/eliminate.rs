@@ -23,6 +23,7 @@
 use crate::{Body, Direction, ModelError, Pencil, Problem, System, Unknown, ZeroVariables};
 use mceip_exact::{Rational, Sparse};
 use num_traits::{One, Zero};
+use std::collections::BTreeMap;
 
 /// What a variable of the reduced pencil stands for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -291,8 +292,8 @@ impl KeptVariables {
             let s_q = of_q.s();
             let k_t = times_direction(k, &of_q.tangent); // K t_q
 
-            for (i, &dof) in self.free.iter().enumerate() {
-                let entry = -&k_t[dof] * &s_q; // -K_fT S
+            for (i, k_ft) in self.free_entries(&k_t) {
+                let entry = -k_ft * &s_q; // -K_fT S
                 constant.push((i, column, entry.clone()));
                 constant.push((column, i, entry)); // -S K_Tf
             }
@@ -311,8 +312,8 @@ impl KeptVariables {
             let row = n_f + p;
             let k_n = times_direction(k, &of_p.friction); // K n_p, which is (n_p' K)'
 
-            for (i, &dof) in self.free.iter().enumerate() {
-                slope.push((row, i, -&k_n[dof])); // -K_Nf
+            for (i, k_nf) in self.free_entries(&k_n) {
+                slope.push((row, i, -k_nf)); // -K_Nf
             }
         }
 
@@ -321,25 +322,44 @@ impl KeptVariables {
             slope: Sparse::from_entries(order, order, slope),
         }
     }
+
+    /// The entries at free degrees of freedom, each with the place of its variable.
+    fn free_entries<'a>(&self, image: &'a Image) -> Vec<(usize, &'a Rational)> {
+        let mut entries = Vec::new();
+        for (dof, entry) in image {
+            if let Ok(place) = self.free.binary_search(dof) {
+                entries.push((place, entry));
+            }
+        }
+
+        entries
+    }
 }
 
+/// A vector over the degrees of freedom: the entries that K couples with a direction.
+pub(super) type Image = BTreeMap<usize, Rational>;
+
 /// K d for a direction d. K is symmetric, so that rows serve as columns.
-pub(super) fn times_direction(k: &Sparse, direction: &Direction) -> Vec<Rational> {
-    let mut product = vec![Rational::zero(); k.rows()];
+pub(super) fn times_direction(k: &Sparse, direction: &Direction) -> Image {
+    let mut image = Image::new();
     for (dof, coefficient) in direction {
         for (j, entry) in k.row(*dof) {
-            product[*j] += coefficient * entry;
+            *image.entry(*j).or_insert_with(Rational::zero) += coefficient * entry;
         }
     }
 
-    product
+    image
 }
 
-pub(super) fn inner_product(direction: &Direction, vector: &[Rational]) -> Rational {
-    direction
-        .iter()
-        .map(|(dof, coefficient)| coefficient * &vector[*dof])
-        .sum()
+pub(super) fn inner_product(direction: &Direction, image: &Image) -> Rational {
+    let mut sum = Rational::zero();
+    for (dof, coefficient) in direction {
+        if let Some(entry) = image.get(dof) {
+            sum += coefficient * entry;
+        }
+    }
+
+    sum
 }
 
 #[cfg(test)]
