@@ -347,8 +347,8 @@ fn the_answer_says_why_a_bound_is_not_proved() {
 }
 
 /// One particle with M* = 1 - mu/2 and K* = 1 (by hand): lambda^2 = -K*/M* is positive for mu > 2
-/// and grows beyond all bounds as mu falls to 2, so that nothing is missing between (19) and the
-/// solutions. A bound that a solution refutes is not said to be unproved.
+/// and grows beyond all bounds as mu falls to 2, so that the bound of (19) is the infimum. A larger
+/// bound is refuted by a solution and not said to be unproved.
 #[test]
 fn a_refuted_bound_is_not_called_unproved() {
     let stiffness = Sparse::from_ints(&[&[1, 0], &[0, 1]]);

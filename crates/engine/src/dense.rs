@@ -1,7 +1,7 @@
 //! Small dense matrices in doubles, by rows: what several parts of the engine do with them.
 //!
-//! Used by the complete search, the analysis and the reduction in doubles. All results are
-//! proposals: exact arithmetic decides later.
+//! Used by the searches, the analysis and the reduction in doubles. Results are proposals that
+//! exact arithmetic decides, or are reported as measured (flutter).
 #![allow(clippy::float_arithmetic)]
 
 use mceip_exact::{Sparse, to_f64};
@@ -44,23 +44,25 @@ pub(crate) fn eliminate_below(matrix: &mut [Vec<f64>], k: usize) {
     }
 }
 
-/// A symmetric matrix, by rows in one array; entries left of the diagonal are not used.
-pub(crate) struct Symmetric {
+/// The upper triangle of a symmetric matrix, by rows of full length in one array; places left of
+/// the diagonal stay zero.
+pub(crate) struct UpperTriangle {
     order: usize,
     entries: Vec<f64>,
 }
 
-impl Symmetric {
+impl UpperTriangle {
     /// The matrix with these entries; `entry(i, j)` is asked for i <= j.
-    pub(crate) fn new(order: usize, entry: impl Fn(usize, usize) -> f64) -> Symmetric {
+    pub(crate) fn new(order: usize, entry: impl Fn(usize, usize) -> f64) -> UpperTriangle {
         let mut entries = vec![0.0; order * order];
+        // Chunks of length 0 are not allowed.
         for (i, row) in entries.chunks_exact_mut(order.max(1)).enumerate() {
             for j in i..order {
                 row[j] = entry(i, j);
             }
         }
 
-        Symmetric { order, entries }
+        UpperTriangle { order, entries }
     }
 
     /// Largest modulus of an entry, zero for an empty matrix.
@@ -80,7 +82,7 @@ impl Symmetric {
             let (upper, lower) = self.entries.split_at_mut((k + 1) * self.order);
             let pivot_row = &upper[k * self.order..];
             let pivot = pivot_row[k];
-            if pivot <= least {
+            if pivot.is_nan() || pivot <= least {
                 return false;
             }
 
@@ -122,9 +124,11 @@ mod tests {
     #[test]
     fn the_smallest_pivot_decides() {
         let entries = [[4.0, 2.0], [2.0, 3.0]];
-        let matrix = || Symmetric::new(2, |i, j| entries[i][j]);
+        let matrix = || UpperTriangle::new(2, |i, j| entries[i][j]);
 
         assert!(matrix().has_pivots_above(1.9));
         assert!(!matrix().has_pivots_above(2.0));
+        assert!(!UpperTriangle::new(1, |_, _| f64::NAN).has_pivots_above(0.0));
+        assert!(UpperTriangle::new(0, |_, _| 0.0).has_pivots_above(0.0));
     }
 }

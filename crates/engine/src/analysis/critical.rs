@@ -339,7 +339,7 @@ impl Bounds {
             (solution, _) => solution,
         };
 
-        // A solution below a bound shows that there is no absence up to it.
+        // A known solution refutes absence below any larger bound: that is false, not unproved.
         let first_solution = solution.as_ref().map(|found| found.mu.hi());
         let may_be_absent = |tried: &Unproved| first_solution.is_none_or(|mu| tried.below <= *mu);
         let unproved = self.unproved.filter(may_be_absent);

@@ -83,7 +83,8 @@ fn plural(count: usize) -> &'static str {
     if count == 1 { "" } else { "s" }
 }
 
-/// For which mu a matrix is `definite`; `relation` says whether the end belongs to the others.
+/// For which mu a matrix is `definite`; `relation` is ">=" where it is not so at the end itself,
+/// else ">".
 fn definite_text(matrix: &str, definite: &str, until: &DefiniteUntil, relation: &str) -> String {
     match until {
         DefiniteUntil::Never => format!("{matrix} is {definite} for no mu"),

@@ -17,8 +17,9 @@
 //! n_p' K t_q, and the columns of K_fT are (K t_q)_f. Where a particle has a friction factor of its
 //! own, its row of K1 is multiplied by that factor: n_p is its friction direction.
 //!
-//! Input: a [`Problem`] or [`System`] whose preconditions have been established (K symmetric).
-//! Called by everything that solves or enumerates, never by `check`, which has its own way.
+//! Input: a [`Problem`] or [`System`] whose preconditions have been established (K and M are
+//! symmetric). Called by everything that solves or enumerates, never by `check`, which has its own
+//! way.
 
 use crate::{Body, Direction, ModelError, Pencil, Problem, System, Unknown, ZeroVariables};
 use mceip_exact::{Rational, Sparse};
@@ -129,8 +130,9 @@ impl Reduced {
 /// The pencil of a problem. A pencil stands for itself; a system goes through (10)-(16).
 ///
 /// # Errors
-/// [`ModelError::Missing`] if the system lacks what the unknown needs, [`ModelError::ZeroReaction`]
-/// with z particles: [`super::reduce_with_zero`] treats those.
+/// [`ModelError::Missing`] if the system lacks what the unknown needs, [`ModelError::Empty`] if no
+/// particle slips, [`ModelError::ZeroReaction`] with z particles: [`super::reduce_with_zero`]
+/// treats those.
 pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
     match problem.body() {
         Body::Pencil(pencil) => Ok(Reduced {
@@ -324,9 +326,9 @@ impl KeptVariables {
     }
 
     /// The entries at free degrees of freedom, each with the place of its variable.
-    fn free_entries<'a>(&self, image: &'a Image) -> Vec<(usize, &'a Rational)> {
+    fn free_entries<'a>(&self, vector: &'a SparseVector) -> Vec<(usize, &'a Rational)> {
         let mut entries = Vec::new();
-        for (dof, entry) in image {
+        for (dof, entry) in vector {
             if let Ok(place) = self.free.binary_search(dof) {
                 entries.push((place, entry));
             }
@@ -336,25 +338,25 @@ impl KeptVariables {
     }
 }
 
-/// A vector over the degrees of freedom: the entries that K couples with a direction.
-pub(super) type Image = BTreeMap<usize, Rational>;
+/// A vector over the degrees of freedom; an entry that is not there is zero.
+pub(super) type SparseVector = BTreeMap<usize, Rational>;
 
-/// K d for a direction d. K is symmetric, so that rows serve as columns.
-pub(super) fn times_direction(k: &Sparse, direction: &Direction) -> Image {
-    let mut image = Image::new();
+/// K d for a direction d, K symmetric (K or M), so that rows serve as columns.
+pub(super) fn times_direction(k: &Sparse, direction: &Direction) -> SparseVector {
+    let mut product = SparseVector::new();
     for (dof, coefficient) in direction {
         for (j, entry) in k.row(*dof) {
-            *image.entry(*j).or_insert_with(Rational::zero) += coefficient * entry;
+            *product.entry(*j).or_insert_with(Rational::zero) += coefficient * entry;
         }
     }
 
-    image
+    product
 }
 
-pub(super) fn inner_product(direction: &Direction, image: &Image) -> Rational {
+pub(super) fn inner_product(direction: &Direction, vector: &SparseVector) -> Rational {
     let mut sum = Rational::zero();
     for (dof, coefficient) in direction {
-        if let Some(entry) = image.get(dof) {
+        if let Some(entry) = vector.get(dof) {
             sum += coefficient * entry;
         }
     }

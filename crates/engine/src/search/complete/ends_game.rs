@@ -54,7 +54,10 @@ impl EndsGame {
         }
 
         let mut tableau = Tableau::new(&strategies, &columns, &numbers, SHIFT);
-        tableau.optimise();
+        if !tableau.optimise() {
+            return None;
+        }
+
         for (position, state) in states.iter().enumerate() {
             if *state == State::InSupport {
                 tableau.add_negative(position);
@@ -182,6 +185,18 @@ mod tests {
                 assert!(part.value() >= whole.value() - 1e-12);
             }
         }
+    }
+
+    /// With x = 0 nothing is left that could be a solution: the value says so.
+    #[test]
+    fn a_game_without_columns_is_won_by_any_margin() {
+        let ends = expansion().ends(0.5, 1.0);
+        let whole = EndsGame::new(&ends, &OPEN).unwrap();
+
+        let none = whole.decided(&OPEN, &[State::AtZero; 3]).unwrap();
+
+        assert_eq!(none.value(), f64::INFINITY);
+        assert_eq!(none.weights(), [0.0; 3]);
     }
 
     /// Narrower ends give the game of the narrower interval, up to the scale of its columns: who

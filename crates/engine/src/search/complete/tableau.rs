@@ -11,8 +11,9 @@
 
 use crate::tolerance::GAME_PIVOT;
 
-/// Pivots at most, for each row and column. Under Dantzig's rule a degenerate game may stall: w is
-/// then worse than it could be and its value, computed from it afterwards, says so.
+/// Pivots at most, for each row and column. Under Dantzig's rule a degenerate game may stall:
+/// `optimise` and `repair` then return false. `game` goes on with the weights that were reached and
+/// computes their value anew.
 const PIVOTS: usize = 20;
 
 /// A variable of the column player's problem.
@@ -44,7 +45,7 @@ impl Strategy {
 /// A tableau; its basis need not be optimal.
 #[derive(Clone)]
 pub(super) struct Tableau {
-    /// Length of a row in `entries`: one column more than there are fits in.
+    /// Length of a row in `entries`: its columns and room for one more, which `replace` needs.
     stride: usize,
     /// A row for each basic variable, a column for each nonbasic one.
     entries: Vec<f64>,
@@ -100,9 +101,13 @@ impl Tableau {
         self.total
     }
 
-    /// What the row player's weights make of the game: once no reduced cost is negative, the margin
-    /// by which they make every entry of w'T negative.
+    /// 1/total - shift: the margin by which the row player's weights w make every entry of w'T
+    /// negative, once no reduced cost is negative. Infinite where no column is left.
     pub(super) fn value(&self) -> f64 {
+        if self.costs.is_empty() {
+            return f64::INFINITY;
+        }
+
         1.0 / self.total - self.shift
     }
 
@@ -132,7 +137,7 @@ impl Tableau {
         }
     }
 
-    /// The weight of each of `order` rows, |w| summing to one.
+    /// The weight of each of `order` rows, |w| summing to one; all zero where no column is left.
     pub(super) fn weights(&self, order: usize) -> Vec<f64> {
         let total = self.positive_total();
         let mut weights = vec![0.0; order];
@@ -146,19 +151,22 @@ impl Tableau {
         weights
     }
 
-    /// The primal simplex method, from a basis whose right-hand sides are not negative.
-    pub(super) fn optimise(&mut self) {
+    /// The primal simplex method, from a basis whose right-hand sides are not negative. Returns
+    /// false where reduced costs stay negative.
+    pub(super) fn optimise(&mut self) -> bool {
         for _ in 0..self.most_pivots() {
             let Some(entering) = self.entering() else {
-                return;
+                return true;
             };
 
             let Some(leaving) = self.leaving(entering) else {
-                return;
+                return false;
             };
 
             self.pivot(leaving, entering);
         }
+
+        false
     }
 
     /// The dual simplex method, from a basis whose reduced costs are not negative, until the basis
@@ -170,7 +178,7 @@ impl Tableau {
             }
 
             let Some(leaving) = self.infeasible() else {
-                return true;
+                return !self.total.is_nan();
             };
 
             let Some(entering) = self.cheapest(leaving, -1.0) else {
@@ -313,7 +321,8 @@ impl Tableau {
     }
 
     /// Puts a mix of two columns in the place of `numbers[replaced]`; the reduced costs stay as
-    /// they should be for shares that are not negative and sum to one.
+    /// they should be for shares that are not negative and sum to one. Returns false where doubles
+    /// find no pivot; the tableau is then of no use.
     pub(super) fn replace(
         &mut self,
         numbers: [usize; 2],
@@ -359,7 +368,8 @@ impl Tableau {
 /// Until the column that it replaces has left, a mix has a number that no other column has.
 const INTERIM: Variable = Variable::Column(usize::MAX);
 
-/// A pivot step: the row of the entering variable, its right-hand side.
+/// A pivot step: the pivot row divided by the pivot, with 1/pivot in the entering column, which
+/// belongs to the leaving variable from then on, and its right-hand side.
 struct Step<'a> {
     entering: usize,
     row: &'a [f64],
@@ -374,7 +384,7 @@ impl Step<'_> {
             return;
         }
 
-        row[self.entering] = 0.0;
+        row[self.entering] = 0.0; // the column is that of the leaving variable
         for (entry, of_pivot_row) in row.iter_mut().zip(self.row) {
             *entry -= factor * of_pivot_row;
         }

@@ -2,12 +2,14 @@
 //!
 //! A solution has x'Tx = x'y = 0. If sym(T) or -sym(T) is positive definite on the variables that
 //! may be in the support, at both ends of the interval and so between, then x = 0. At an infinite
-//! end a direction B that vanishes there suffices, because the matrix at the lower end is definite.
+//! end it also suffices that the symmetric part of the direction B is zero on these variables,
+//! because the matrix at the lower end is definite.
 //!
-//! Called by `tree` for every region. The checker's side is `check::cover::definite`, with the test
-//! itself in `check::cover::enclosed_definite`.
+//! Called by `tree` and `gains` for regions, by `ldl`, by `pieces::wide` and by the boxes of
+//! `analysis::absence`. The checker's side is `check::cover::definite`, with the test itself in
+//! `check::cover::enclosed_definite`.
 
-use crate::dense::Symmetric;
+use crate::dense::UpperTriangle;
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::pieces::matrix::Matrix;
 use crate::search::complete::region::{State, possible_support};
@@ -60,12 +62,12 @@ pub(crate) fn is_definite(
 ) -> bool {
     let possible = possible_support(states);
 
-    // Elimination makes no diagonal entry larger.
+    // Elimination with positive pivots makes no diagonal entry larger.
     if possible.iter().any(|&i| sign * m[i][i] <= 0.0) {
         return false;
     }
 
-    let mut symmetric = Symmetric::new(possible.len(), |p, q| {
+    let mut symmetric = UpperTriangle::new(possible.len(), |p, q| {
         let [i, j] = [possible[p], possible[q]];
         sign * (m[i][j] + m[j][i])
     });
