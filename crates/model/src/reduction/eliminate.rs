@@ -341,7 +341,7 @@ impl KeptVariables {
 /// A vector over the degrees of freedom; an entry that is not there is zero.
 pub(super) type SparseVector = BTreeMap<usize, Rational>;
 
-/// K d for a direction d, K symmetric (K or M), so that rows serve as columns.
+/// The product of K or M with a direction. Both are symmetric, so that rows serve as columns.
 pub(super) fn times_direction(k: &Sparse, direction: &Direction) -> SparseVector {
     let mut product = SparseVector::new();
     for (dof, coefficient) in direction {

@@ -46,7 +46,9 @@ pub(crate) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
     let shift = positive_shift(&strategies, columns);
     let numbers: Vec<usize> = (0..columns.len()).collect();
     let mut tableau = Tableau::new(&strategies, columns, &numbers, shift);
-    tableau.optimise();
+
+    // Weights of a game that has stalled are worse, and their value says so.
+    let _ = tableau.optimise();
 
     let w = tableau.weights(rows);
     let value = columns

@@ -178,6 +178,7 @@ impl Tableau {
             }
 
             let Some(leaving) = self.infeasible() else {
+                // No comparison holds for NaN, so that it looks feasible.
                 return !self.total.is_nan();
             };
 
@@ -220,32 +221,29 @@ impl Tableau {
         least_ratio(&costs, &pivots)
     }
 
+    /// Exchanges the basic variable of a row and the nonbasic variable of a column.
     fn pivot(&mut self, leaving: usize, entering: usize) {
-        let width = self.costs.len();
-        let stride = self.stride;
         let inverse = 1.0 / self.row(leaving)[entering];
-
-        let (before, rest) = self.entries.split_at_mut(leaving * stride);
-        let (pivot_row, after) = rest.split_at_mut(stride);
-        let pivot_row = &mut pivot_row[..width];
-        pivot_row.iter_mut().for_each(|v| *v *= inverse);
+        let scaled = self.row(leaving).iter().map(|entry| entry * inverse);
+        let mut pivot_row: Vec<f64> = scaled.collect();
         pivot_row[entering] = inverse;
 
-        let (values_before, rest) = self.values.split_at_mut(leaving);
-        let (pivot_value, values_after) = rest.split_at_mut(1);
-        pivot_value[0] *= inverse;
+        let width = pivot_row.len();
         let step = Step {
             entering,
             row: pivot_row,
-            value: pivot_value[0],
+            value: self.values[leaving] * inverse,
         };
 
-        let other_rows = before
-            .chunks_exact_mut(stride)
-            .chain(after.chunks_exact_mut(stride));
-        let other_values = values_before.iter_mut().chain(values_after);
-        for (row, value) in other_rows.zip(other_values) {
-            step.eliminate(&mut row[..width], value);
+        let rows = self.entries.chunks_exact_mut(self.stride);
+        for (place, (row, value)) in rows.zip(&mut self.values).enumerate() {
+            let row = &mut row[..width];
+            if place == leaving {
+                row.copy_from_slice(&step.row);
+                *value = step.value;
+            } else {
+                step.eliminate(row, value);
+            }
         }
         step.eliminate(&mut self.costs, &mut self.total);
 
@@ -370,13 +368,13 @@ const INTERIM: Variable = Variable::Column(usize::MAX);
 
 /// A pivot step: the pivot row divided by the pivot, with 1/pivot in the entering column, which
 /// belongs to the leaving variable from then on, and its right-hand side.
-struct Step<'a> {
+struct Step {
     entering: usize,
-    row: &'a [f64],
+    row: Vec<f64>,
     value: f64,
 }
 
-impl Step<'_> {
+impl Step {
     /// Eliminates the entering variable from another row and its right-hand side.
     fn eliminate(&self, row: &mut [f64], value: &mut f64) {
         let factor = row[self.entering];
@@ -385,7 +383,7 @@ impl Step<'_> {
         }
 
         row[self.entering] = 0.0; // the column is that of the leaving variable
-        for (entry, of_pivot_row) in row.iter_mut().zip(self.row) {
+        for (entry, of_pivot_row) in row.iter_mut().zip(&self.row) {
             *entry -= factor * of_pivot_row;
         }
         *value -= factor * self.value;

@@ -62,7 +62,8 @@ pub(crate) fn is_definite(
 ) -> bool {
     let possible = possible_support(states);
 
-    // Elimination with positive pivots makes no diagonal entry larger.
+    // A diagonal entry that is not positive stays so: neither the radius nor elimination with
+    // positive pivots makes one larger.
     if possible.iter().any(|&i| sign * m[i][i] <= 0.0) {
         return false;
     }
