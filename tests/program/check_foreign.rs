@@ -44,6 +44,74 @@ fn check(problem: &str, solutions: &str) -> Checked {
     }
 }
 
+/// The verdicts, in words, on a report of `tests/edges`.
+fn verdicts_on(name: &str) -> Vec<String> {
+    let [problem, report] =
+        ["problem", "report"].map(|kind| format!("tests/edges/{name}-{kind}.json"));
+    let checked = run(&["check", &problem, &report]);
+    let words = checked.stdout.lines().map(|line| {
+        let word = line.split(':').next();
+        word.unwrap_or_default().to_string()
+    });
+    words.collect()
+}
+
+/// A free component is 5,000 times as large as the slip component. At largest |x_i| = 1 these x are
+/// right to 2e-7 and better; at e'x_s = 1 the same digits are off by more than 1e-3.
+#[test]
+fn x_is_compared_in_the_scale_of_the_format() {
+    assert_eq!(verdicts_on("repn"), ["ACCEPTED"; 7]);
+}
+
+/// The slip component is 3e-8 of the free one. Where it is reported as zero or below, by less than
+/// 1e-6, the report has other positive components than the solution near it: nothing is refuted.
+#[test]
+fn a_tiny_component_reported_as_zero_is_undecided() {
+    let verdicts = verdicts_on("repz");
+
+    assert_eq!(verdicts[..3], ["ACCEPTED"; 3]);
+    assert_eq!(verdicts[3..7], ["UNDECIDED"; 4]);
+    assert_eq!(verdicts[7..], ["ACCEPTED"]);
+}
+
+/// Solutions of the enumerator, each as it is, with errors of 3e-7 and 3e-6 of the value, with one
+/// of 1e-3 of it, with errors of 3e-7, 3e-6 and just 1e-3 of one component of x, as -x, and in
+/// scales of 1e200 and 1e-200. What is within 1e-3 in x is near and not refuted.
+#[test]
+fn what_is_near_in_x_is_inaccurate_and_not_refuted() {
+    let of_one_solution = [
+        "ACCEPTED",
+        "ACCEPTED",
+        "INACCURATE",
+        "REJECTED",
+        "ACCEPTED",
+        "INACCURATE",
+        "INACCURATE",
+        "REJECTED",
+        "ACCEPTED",
+        "ACCEPTED",
+    ];
+
+    let verdicts = verdicts_on("near-in-x");
+
+    assert_eq!(verdicts.len(), 31);
+    for of_this_one in verdicts[..30].chunks(10) {
+        assert_eq!(of_this_one, of_one_solution);
+    }
+    assert_eq!(verdicts[30], "REJECTED");
+}
+
+/// The value is off, and every digit of x is right: the verdict does not name a worst component.
+#[test]
+fn a_verdict_says_which_part_agrees() {
+    let fold = example("fold");
+
+    let value_is_off = check(&fold, &point("2.00001", "[2,1]"));
+
+    value_is_off.says(1, "INACCURATE", &["x agrees to 15 or more digits"]);
+    assert!(!value_is_off.text.contains("is worst"));
+}
+
 /// A list of one solution.
 fn point(value: &str, x: &str) -> String {
     format!(r#"[{{"value":{value},"x":{x}}}]"#)

@@ -1,8 +1,10 @@
 //! A claimed solution in doubles, untrusted: what solvers and reports hand to `certify`.
 
+use crate::tolerance::SUPPORT_GUESSES;
 use mceip_check::backward_error;
-use mceip_exact::{Rational, from_f64};
+use mceip_exact::{Rational, from_f64, to_f64};
 use mceip_model::{Problem, ZeroVariables};
+use num_traits::{Signed as _, Zero as _};
 
 /// The format of solution reports.
 pub const SOLUTIONS_FORMAT: &str = "mceip-solutions/1";
@@ -19,7 +21,68 @@ pub struct Candidate {
     pub x: Vec<f64>,
 }
 
+/// The vector divided by its largest modulus: the scale in which vectors are compared
+/// (spec/formats.md, mceip-solutions/1). `None` where that is zero or no finite number.
+pub fn scaled(x: &[f64]) -> Option<Vec<f64>> {
+    let mut largest: f64 = 0.0;
+    for component in x {
+        if !component.is_finite() {
+            return None;
+        }
+        largest = largest.max(component.abs());
+    }
+    if largest == 0.0 {
+        return None;
+    }
+
+    Some(x.iter().map(|component| component / largest).collect())
+}
+
+/// The same for exact numbers, which may lie beyond the range of doubles: they are divided before
+/// they are rounded. `None` for the zero vector.
+pub fn scaled_exactly(x: &[Rational]) -> Option<Vec<f64>> {
+    let largest = x.iter().map(|component| component.abs()).max()?;
+    if largest.is_zero() {
+        return None;
+    }
+
+    Some(
+        x.iter()
+            .map(|component| to_f64(&(component / &largest)))
+            .collect(),
+    )
+}
+
+/// Largest difference of a component of two vectors of one length, both [`scaled`]; infinite where
+/// one of them has no scale.
+pub fn distance(x: &[f64], other: &[f64]) -> f64 {
+    let (Some(x), Some(other)) = (scaled(x), scaled(other)) else {
+        return f64::INFINITY;
+    };
+
+    let mut largest: f64 = 0.0;
+    for (ours, theirs) in x.iter().zip(&other) {
+        largest = largest.max((ours - theirs).abs());
+    }
+
+    largest
+}
+
 impl Candidate {
+    /// Are these the positive components among the slip variables, by one of the guesses of what
+    /// counts as positive ([`SUPPORT_GUESSES`])?
+    pub fn has_support(&self, slip: &[usize], support: &[usize]) -> bool {
+        let mut largest: f64 = 0.0;
+        for &i in slip {
+            largest = largest.max(self.x[i]);
+        }
+
+        SUPPORT_GUESSES.iter().any(|part| {
+            let positive = slip.iter().filter(|&&i| self.x[i] > part * largest);
+            positive.eq(support)
+        })
+    }
+
     /// The backward error of these numbers, found by the checker: [`mceip_check::backward_error`].
     ///
     /// # Errors
@@ -50,5 +113,22 @@ impl Candidate {
         }
 
         candidate
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A free component that is much larger than those of the slip variables is the scale.
+    #[test]
+    fn vectors_are_compared_at_largest_component_one() {
+        assert_eq!(distance(&[-4.0, 1.0], &[-8.0, 2.0]), 0.0);
+        assert_eq!(distance(&[-4.0, 1.0], &[-8.0, 4.0]), 0.25);
+        assert_eq!(distance(&[1000.0, 1.0], &[1000.0, 2.0]), 0.001);
+        assert_eq!(distance(&[1e308, 1e308], &[1.0, 1.0]), 0.0);
+
+        assert_eq!(distance(&[0.0, 0.0], &[1.0, 0.0]), f64::INFINITY);
+        assert_eq!(distance(&[f64::NAN], &[1.0]), f64::INFINITY);
     }
 }

@@ -22,10 +22,14 @@ pub const NEAR_RADII: f64 = 10.0;
 /// and x must agree as well.
 pub const VALUE_RADIUS: f64 = 1e-4;
 
-/// Largest distance between candidate and certified x, both with e'x_s = 1. Unit: none.
+/// Largest distance between candidate and certified x, both at largest |x_i| = 1. Unit: none.
 /// Basis: like [`VALUE_RADIUS`], with the eigenvector's condition on top; a larger distance means
 /// the certified solution is another one than the candidate.
 pub const X_RADIUS: f64 = 1e-3;
+
+/// Upper bound of the error of a distance of two vectors in doubles, both at largest |x_i| = 1.
+/// Unit: none. Basis: two quotients, each rounded three times at most, are 6 times 2^-53 apart.
+pub const DISTANCE_ROUNDING: f64 = 1e-15;
 
 /// Share of a radius that the left side of Krawczyk's inequality may take where radii are proposed.
 /// Unit: none. Basis: the checker asks for less than all of it; the rest is for what doubles do not

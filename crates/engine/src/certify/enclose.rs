@@ -13,15 +13,15 @@ pub(super) mod newton;
 
 use super::failure::AttemptFailure;
 use super::rows::IntegralRows;
-use crate::candidate::Candidate;
+use crate::candidate::{Candidate, distance, scaled_exactly};
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 use krawczyk::Krawczyk;
 use mceip_check::certificate::EnclosedSolution;
-use mceip_exact::{Integer, to_f64};
+use mceip_exact::{Integer, Rational, to_f64};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
 use newton::{Newton, Point};
-use num_traits::Signed;
+use num_traits::{Signed, Zero as _};
 
 /// Bits of the centre's largest component of x, and of its value, that are tried first. Basis: a
 /// value is printed with 17 digits, which are 57 bits.
@@ -101,24 +101,32 @@ fn claim(
     }
 }
 
-/// Demands that the polished point is the candidate, up to its rounding.
+/// Demands that the polished point is the candidate, up to its rounding: in the value, and in x
+/// ([`distance`]).
 fn require_near(
     newton: &Newton<'_>,
     point: &Point,
     candidate: &Candidate,
 ) -> Result<(), AttemptFailure> {
-    let start = newton.start(candidate, FIRST_GRID_BITS)?;
-    let mut distance: f64 = 0.0;
-    for k in 0..=point.x.len() {
-        let difference = point.value(k) - start.value(k);
-        distance = distance.max(to_f64(&difference).abs());
+    let order = point.x.len();
+    let mut x = vec![Rational::zero(); candidate.x.len()];
+    for (k, &index) in newton.active.iter().enumerate() {
+        x[index] = point.value(k);
     }
+    let x = scaled_exactly(&x).ok_or(AttemptFailure::ZeroX)?;
 
-    let limit = X_RADIUS.max(VALUE_RADIUS * (1.0 + candidate.value.abs()));
-    if distance > limit {
+    let of_x = distance(&x, &candidate.x);
+    let of_value = (to_f64(&point.value(order)) - candidate.value).abs();
+    let value_limit = X_RADIUS.max(VALUE_RADIUS * (1.0 + candidate.value.abs()));
+    if of_x > X_RADIUS {
         Err(AttemptFailure::TooFar {
-            distance,
+            distance: of_x,
             limit: X_RADIUS,
+        })
+    } else if of_value > value_limit {
+        Err(AttemptFailure::TooFar {
+            distance: of_value,
+            limit: value_limit,
         })
     } else {
         Ok(())

@@ -13,7 +13,7 @@
 use super::failure::AttemptFailure;
 use super::lifted;
 use super::rows::{IntegralRows, PencilEntry, active};
-use crate::candidate::Candidate;
+use crate::candidate::{Candidate, distance, scaled_exactly};
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 use mceip_check::certificate::ExactSolution;
 use mceip_exact::{
@@ -229,7 +229,7 @@ impl Support<'_> {
             value.sign_of(&y[i]);
         }
 
-        require_near_x(self.pencil, self.candidate, &x, &mut value)?;
+        require_near_x(self.candidate, &x, &mut value)?;
 
         let required = self.required_signs(&x, &y, &biactive);
         required.tighten(&mut value)?;
@@ -439,38 +439,17 @@ fn narrow(value: &mut Algebraic) {
     value.refine_to(&width);
 }
 
-/// Demands that x is the candidate's up to [`X_RADIUS`], both divided by [`scale`].
+/// Demands that x is the candidate's up to [`X_RADIUS`] ([`distance`]).
 fn require_near_x(
-    pencil: &Pencil,
     candidate: &Candidate,
     x: &[Poly],
     value: &mut Algebraic,
 ) -> Result<(), AttemptFailure> {
     narrow(value);
     let mid = value.interval().mid();
-    let mut exact = Vec::new();
-    let mut largest = Rational::zero();
-    for component in x {
-        let component = component.eval(&mid);
-        largest = largest.max(component.abs());
-        exact.push(component);
-    }
-
-    if largest.is_zero() {
-        return Err(AttemptFailure::ZeroX);
-    }
-
-    // Components may be beyond the range of doubles: they are divided before they are rounded.
-    let ours: Vec<f64> = exact.iter().map(|v| to_f64(&(v / &largest))).collect();
-    let slip = pencil.slip();
-    let our_scale = scale(&ours, &slip);
-    let their_scale = scale(&candidate.x, &slip);
-    let mut distance: f64 = 0.0;
-    for (our, their) in ours.iter().zip(&candidate.x) {
-        let difference = our / our_scale - their / their_scale;
-        distance = distance.max(difference.abs());
-    }
-
+    let exact: Vec<Rational> = x.iter().map(|component| component.eval(&mid)).collect();
+    let ours = scaled_exactly(&exact).ok_or(AttemptFailure::ZeroX)?;
+    let distance = distance(&ours, &candidate.x);
     if distance <= X_RADIUS {
         Ok(())
     } else {
@@ -478,16 +457,6 @@ fn require_near_x(
             distance,
             limit: X_RADIUS,
         })
-    }
-}
-
-/// e'x_s where that is positive, else the l1 norm.
-fn scale(x: &[f64], slip: &[usize]) -> f64 {
-    let sum: f64 = slip.iter().map(|&i| x[i]).sum();
-    if sum > 0.0 {
-        sum
-    } else {
-        x.iter().map(|v| v.abs()).sum()
     }
 }
 

@@ -10,6 +10,7 @@
 //! Input: an accepted claim and the report's numbers in doubles. Called by `judge`.
 
 use super::report::Reported;
+use crate::candidate::scaled;
 use crate::certify::rows::active;
 use crate::multistart::support;
 use crate::reduction::Reduced;
@@ -184,8 +185,7 @@ fn weighted(row: &[(usize, Rational)], moduli: &[Rational]) -> Rational {
 
 /// The component that differs most, and the proven x scaled to largest |x_i| = 1.
 fn worst_component(reported: &[f64], proven: &[Ball]) -> Option<(Component, Vec<f64>)> {
-    let moduli = reported.iter().map(|v| v.abs());
-    let reported_scale = moduli.max_by(f64::total_cmp).filter(|v| *v > 0.0)?;
+    let reported = scaled(reported)?;
     let largest_proven = proven
         .iter()
         .max_by(|p, q| p.center.abs().total_cmp(&q.center.abs()))?;
@@ -200,8 +200,7 @@ fn worst_component(reported: &[f64], proven: &[Ball]) -> Option<(Component, Vec<
 
     let mut worst: Option<Component> = None;
     let mut scaled = Vec::new();
-    for (index, (given, known)) in reported.iter().zip(proven).enumerate() {
-        let reported = given / reported_scale;
+    for (index, (&reported, known)) in reported.iter().zip(proven).enumerate() {
         let proven = known.center / proven_scale;
         let radius = known.radius / proven_scale + proven.abs() * scale_error;
         let error = (reported - proven).abs() + radius;

@@ -1,20 +1,23 @@
-//! The proof that no solution is near a reported one, by exact enumeration.
+//! The proof that no solution is near a reported one, or the one that is, by exact enumeration.
 //!
 //! All solutions with a value within [`VALUE_RADIUS`] of the reported one are enumerated (24)-(26)
-//! over all supports. If none has x within [`X_RADIUS`], the report is refuted. The cost grows as
+//! over all supports. If none has x within [`X_RADIUS`] at largest |x_i| = 1 ([`distance`]), the
+//! report is refuted. The cost grows as
 //! 2^n, so only small pencils are treated, and a report as a whole has a limited [`Effort`].
 //!
 //! Called by [`judge`](super::judge) for a point that could not be certified.
 
 use super::singular::has_singular_support;
 use super::verdict::Refutation;
-use crate::candidate::Candidate;
+use crate::candidate::{Candidate, distance, scaled};
 use crate::reduction::Reduced;
-use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
+use crate::tolerance::{DISTANCE_ROUNDING, VALUE_RADIUS, X_RADIUS};
 use mceip_exact::{Rational, from_f64, to_f64};
 use mceip_model::reduction::split_form;
 use mceip_model::{Body, Pencil, Problem, Window};
-use mceip_oracle::{Enumeration, MAX_FREE, Solution, coefficient_bits, enumerate, enumerate_modes};
+use mceip_oracle::{
+    Enumeration, MAX_FREE, ModeList, Solution, coefficient_bits, enumerate, enumerate_modes,
+};
 
 /// Most complementarity variables for which absence near a candidate is proved by enumeration.
 pub const REFUTE_SLIP: usize = 10;
@@ -94,19 +97,27 @@ fn enumeration_cost(slip: u64, free: u64, bits: u64) -> u64 {
     cost
 }
 
-/// Proves that nothing is near a candidate, or says why that was not proved.
+/// What an enumeration says of a candidate.
+pub(super) enum Enumerated {
+    /// Nothing is near.
+    Refuted(Refutation),
+    /// The nearest solution, in doubles.
+    Near(Candidate),
+}
+
+/// Proves that nothing is near a candidate, or finds what is, or says why neither was done.
 pub(super) fn refute(
     problem: &Problem,
     reduced: &Reduced,
     candidate: &Candidate,
     effort: &mut Effort,
-) -> Result<Refutation, String> {
+) -> Result<Enumerated, String> {
     let (lo, hi) = values_near(problem.window(), candidate.value)?;
     let Ok(near) = Window::new(lo.clone(), Some(hi.clone())) else {
-        return Ok(Refutation::OutsideWindow {
+        return Ok(Enumerated::Refuted(Refutation::OutsideWindow {
             value: candidate.value,
             window: problem.window().to_string(),
-        });
+        }));
     };
     let slip = reduced.pencil.slip();
     if slip.len() > REFUTE_SLIP || reduced.pencil.free().len() > MAX_FREE {
@@ -116,83 +127,138 @@ pub(super) fn refute(
     }
 
     let normalised = reduced.normalised();
-    let scaled = ScaledX::of(candidate, &normalised);
-    let others = if normalised == slip {
+    let (found, supports) = if normalised == slip {
         effort.spend(&reduced.pencil)?;
-        others_by_supports(&reduced.pencil, &near, &scaled)?
+        let found = enumerate(&reduced.pencil, &near).map_err(|e| e.to_string())?;
+        let supports = found.supports_total;
+        (Found::Supports(found), supports)
     } else {
         effort.spend_on_modes(&reduced.pencil)?;
-        others_by_modes(problem, &near, &scaled)?
+        let found = modes(problem, &near)?;
+        let choices = found.choices;
+        (Found::Modes(found), choices)
     };
 
-    let others_text = match others.count {
+    if let Some((solution, nearest)) = nearest(found.solutions(), &normalised, candidate) {
+        return if candidate.has_support(&slip, &solution.slip) {
+            Ok(Enumerated::Near(nearest))
+        } else {
+            Err(OTHER_SUPPORT.into())
+        };
+    }
+    let others = found.others(candidate, &normalised)?;
+    let others_text = match others {
         0 => "there is none at all".to_string(),
         n => format!("{n} found with another x"),
     };
-    Ok(Refutation::NothingNear {
+    Ok(Enumerated::Refuted(Refutation::NothingNear {
         lo: to_f64(&lo),
         hi: to_f64(&hi),
         x_radius: X_RADIUS,
-        supports: others.supports,
+        supports,
         others: others_text,
-    })
+    }))
 }
 
-/// What there is in a window, none of it near a candidate.
-struct Others {
-    count: usize,
-    /// Supports, or choices of modes, examined.
-    supports: u64,
+/// All that an enumeration finds in a window.
+enum Found {
+    /// By supports (24)-(26).
+    Supports(Enumeration),
+    /// By modes, for a system with particles in contact with zero reaction
+    /// (`spec/zero-reaction.md`, Z.3).
+    Modes(ModeList),
 }
 
 /// Not all that there is in the window is described.
 const NOT_DESCRIBED: &str = "the answer near the value has parts that are not described";
-/// There is a solution that the candidate could stand for.
-const NOT_TOLD_APART: &str = "a solution is near, but not near enough to be told from others";
+/// A solution is near, and which components are positive tells it from the candidate.
+const OTHER_SUPPORT: &str = "a solution is near, with other positive components";
+/// There are solutions that the candidate could stand for.
+const NOT_TOLD_APART: &str = "a cone of solutions is near, of which the report may be one";
 
-/// All solutions in a window by the enumeration of supports (24)-(26).
-fn others_by_supports(
-    pencil: &Pencil,
-    near: &Window,
-    scaled: &ScaledX<'_>,
-) -> Result<Others, String> {
-    let found = enumerate(pencil, near).map_err(|e| e.to_string())?;
-    if !found.is_complete_list() {
-        return Err(NOT_DESCRIBED.into());
-    }
-    if scaled.is_near_any(&found) {
-        return Err(NOT_TOLD_APART.into());
+impl Found {
+    fn solutions(&self) -> &[Solution] {
+        match self {
+            Found::Supports(found) => &found.solutions,
+            Found::Modes(found) => &found.solutions,
+        }
     }
 
-    Ok(Others {
-        count: found.solutions.len() + found.cones.len() + found.ranges.len(),
-        supports: found.supports_total,
-    })
+    /// How many there are, if all are described and no cone or range of them may hold the
+    /// candidate.
+    fn others(&self, candidate: &Candidate, slip: &[usize]) -> Result<usize, String> {
+        let found = match self {
+            Found::Modes(found) if found.degenerate.is_empty() => {
+                return Ok(found.solutions.len());
+            }
+            Found::Supports(found) if found.is_complete_list() => found,
+            _ => return Err(NOT_DESCRIBED.into()),
+        };
+
+        let cones = found.cones.iter().map(|cone| &cone.slip);
+        let ranges = found.ranges.iter().map(|range| &range.support);
+        for support in cones.chain(ranges) {
+            if is_allowed(candidate, slip, support) {
+                return Err(NOT_TOLD_APART.into());
+            }
+        }
+
+        Ok(found.solutions.len() + found.cones.len() + found.ranges.len())
+    }
 }
 
-/// The same for a system with particles in contact with zero reaction, by the enumeration of modes
-/// (`spec/zero-reaction.md`, Z.3).
-fn others_by_modes(
-    problem: &Problem,
-    near: &Window,
-    scaled: &ScaledX<'_>,
-) -> Result<Others, String> {
+/// The enumeration of modes near a value.
+fn modes(problem: &Problem, near: &Window) -> Result<ModeList, String> {
     let Body::System(system) = problem.body() else {
         return Err("only a system has particles".into());
     };
 
     let split = split_form(system, problem.unknown()).map_err(|e| e.to_string())?;
-    let found = enumerate_modes(&split, near);
-    if !found.degenerate.is_empty() {
-        return Err(NOT_DESCRIBED.into());
-    }
-    if found.solutions.iter().any(|one| scaled.is_near(one)) {
-        return Err(NOT_TOLD_APART.into());
+    Ok(enumerate_modes(&split, near))
+}
+
+/// The solution whose x is nearest to the candidate's, if it is within [`X_RADIUS`], and its
+/// numbers in doubles.
+fn nearest<'a>(
+    solutions: &'a [Solution],
+    slip: &[usize],
+    candidate: &Candidate,
+) -> Option<(&'a Solution, Candidate)> {
+    let mut nearest = None;
+    // Rounding must not make a refutation of a distance that is the radius itself.
+    let mut least = X_RADIUS + DISTANCE_ROUNDING;
+    for solution in solutions {
+        // A decimal that is printed by the oracle can be read.
+        let x = solution.x_decimals(slip, 17);
+        let x: Vec<f64> = x
+            .iter()
+            .filter_map(|decimal| decimal.parse().ok())
+            .collect();
+        let distance = distance(&x, &candidate.x);
+        if distance <= least
+            && let Ok(value) = solution.decimal(17).parse()
+        {
+            least = distance;
+            nearest = Some((solution, Candidate { value, x }));
+        }
     }
 
-    Ok(Others {
-        count: found.solutions.len(),
-        supports: found.choices,
+    nearest
+}
+
+/// Is x >= 0 on the support and x = 0 off it among the slip variables, up to [`X_RADIUS`] at
+/// largest |x_i| = 1?
+fn is_allowed(candidate: &Candidate, slip: &[usize], support: &[usize]) -> bool {
+    let Some(x) = scaled(&candidate.x) else {
+        return false;
+    };
+
+    slip.iter().all(|i| {
+        if support.contains(i) {
+            x[*i] >= -X_RADIUS
+        } else {
+            x[*i].abs() <= X_RADIUS
+        }
     })
 }
 
@@ -211,83 +277,4 @@ fn values_near(window: &Window, value: f64) -> Result<(Rational, Rational), Stri
 
 fn exact(v: f64) -> Result<Rational, String> {
     from_f64(v).map_err(|_| "its value is no finite number".to_string())
-}
-
-/// The x of a candidate in the two scales of enumerated solutions.
-struct ScaledX<'a> {
-    slip: &'a [usize],
-    /// e'x_s = 1 where that sum is positive, else l1 norm 1.
-    by_slip: Vec<f64>,
-    /// l1 norm 1.
-    by_l1: Vec<f64>,
-}
-
-impl<'a> ScaledX<'a> {
-    fn of(candidate: &Candidate, slip: &'a [usize]) -> ScaledX<'a> {
-        let l1_norm: f64 = candidate.x.iter().map(|v| v.abs()).sum();
-        let slip_sum: f64 = slip.iter().map(|&i| candidate.x[i]).sum();
-        let slip_scale = if slip_sum > 0.0 { slip_sum } else { l1_norm };
-
-        let mut scaled = ScaledX {
-            slip,
-            by_slip: Vec::new(),
-            by_l1: Vec::new(),
-        };
-        for component in &candidate.x {
-            scaled.by_slip.push(component / slip_scale);
-            scaled.by_l1.push(component / l1_norm);
-        }
-
-        scaled
-    }
-
-    /// Could one of these solutions be the candidate, by its x? Cones and ranges: wherever their
-    /// supports allow it.
-    fn is_near_any(&self, found: &Enumeration) -> bool {
-        found.solutions.iter().any(|one| self.is_near(one))
-            || found.cones.iter().any(|cone| self.is_allowed(&cone.slip))
-            || found
-                .ranges
-                .iter()
-                .any(|range| self.is_allowed(&range.support))
-    }
-
-    /// Does every component agree with that of the solution up to [`X_RADIUS`]?
-    fn is_near(&self, solution: &Solution) -> bool {
-        let ours = if solution.is_free_only() {
-            &self.by_l1
-        } else {
-            &self.by_slip
-        };
-        let theirs = solution.x_decimals(self.slip, 17);
-        for (decimal, our) in theirs.iter().zip(ours) {
-            // A decimal that is printed by the oracle can be read.
-            let their = decimal.parse::<f64>().unwrap_or(f64::NAN);
-            let is_close = (their - our).abs() <= X_RADIUS;
-            if !is_close {
-                return false;
-            }
-        }
-
-        true
-    }
-
-    /// Is x >= 0 on the support and x = 0 off it, up to [`X_RADIUS`] in the scale in which a
-    /// component is smaller?
-    fn is_allowed(&self, support: &[usize]) -> bool {
-        for &i in self.slip {
-            let modulus = self.by_slip[i].abs().min(self.by_l1[i].abs());
-            let x = modulus.copysign(self.by_slip[i]);
-            let is_allowed = if support.contains(&i) {
-                x >= -X_RADIUS
-            } else {
-                modulus <= X_RADIUS
-            };
-            if !is_allowed {
-                return false;
-            }
-        }
-
-        true
-    }
 }

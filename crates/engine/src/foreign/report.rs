@@ -5,13 +5,13 @@
 //! to largest |x_i| = 1 before it is rounded to doubles. Called by the command `check` and by the
 //! conformance runner, which then [`judge`](super::judge) each solution.
 
-use crate::candidate::{Candidate, SOLUTIONS_FORMAT};
+use crate::candidate::{Candidate, SOLUTIONS_FORMAT, scaled_exactly};
 use crate::reduction::{Reduced, project};
 use crate::tolerance::X_RADIUS;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::{Number, Object, from_json, require_format};
 use mceip_model::{Body, ModelError, Problem};
-use num_traits::{Signed as _, Zero as _};
+use num_traits::Zero as _;
 use serde::{Deserialize, Deserializer};
 
 /// A report, as far as it is read: solutions in the order of the file, and ranges of values.
@@ -239,7 +239,7 @@ fn reported(
     })?;
     let candidate = Candidate {
         value,
-        x: scaled_doubles(&given.x),
+        x: scaled_exactly(&given.x).unwrap_or_else(|| vec![0.0; given.x.len()]),
     };
     Ok(Reported {
         candidate: candidate.one_sided(&reduced.zero_variables()),
@@ -320,15 +320,5 @@ fn normal_double(v: &Rational) -> Option<f64> {
         Some(rounded)
     } else {
         None
-    }
-}
-
-/// x with its largest component 1, rounded after that: x may be given in any scale, also beyond the
-/// doubles.
-fn scaled_doubles(x: &[Rational]) -> Vec<f64> {
-    let largest = x.iter().map(|v| v.abs()).max();
-    match largest.filter(|largest| !largest.is_zero()) {
-        Some(largest) => x.iter().map(|v| to_f64(&(v / &largest))).collect(),
-        None => vec![0.0; x.len()],
     }
 }

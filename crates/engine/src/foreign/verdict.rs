@@ -7,7 +7,7 @@
 //! and by the conformance runner; [`Verdict::line`] is what they print.
 
 use super::agreement::{Agreement, agreement};
-use super::refute::{Effort, refute};
+use super::refute::{Effort, Enumerated, refute};
 use super::report::Reported;
 use crate::candidate::{BACKWARD_ERROR_DIGITS, Candidate};
 use crate::certify::certify;
@@ -83,7 +83,7 @@ pub enum Refutation {
         lo: f64,
         /// Upper end.
         hi: f64,
-        /// Distance in x, both with e'x_s = 1.
+        /// Distance in x, both at largest |x_i| = 1.
         x_radius: f64,
         /// Supports examined.
         supports: u64,
@@ -109,16 +109,14 @@ pub fn judge(
 
     let proved = match prove(problem, reduced, reported, candidate) {
         Ok(proved) => proved,
-        Err(reason) => {
-            return match refute(problem, reduced, candidate, effort) {
-                Ok(refutation) => Verdict::Rejected(refutation),
-                Err(why) => {
-                    let backward_error = backward_error_text(problem, candidate);
-                    let reason = format!("{reason}; {why}{backward_error}");
-                    Verdict::Undecided { reason }
-                }
-            };
-        }
+        Err(reason) => match refute(problem, reduced, candidate, effort) {
+            Ok(Enumerated::Refuted(refutation)) => return Verdict::Rejected(refutation),
+            Ok(Enumerated::Near(nearest)) => match prove(problem, reduced, reported, &nearest) {
+                Ok(proved) => proved,
+                Err(why) => return undecided(problem, candidate, &reason, &why),
+            },
+            Err(why) => return undecided(problem, candidate, &reason, &why),
+        },
     };
     if proved.agreement.is_within(tolerance) {
         return Verdict::Accepted(Box::new(proved));
@@ -135,6 +133,14 @@ pub fn judge(
     Verdict::Inaccurate {
         proved: Box::new(proved),
         tolerance,
+    }
+}
+
+/// The verdict where a proof of presence and one of absence failed for these reasons.
+fn undecided(problem: &Problem, candidate: &Candidate, reason: &str, why: &str) -> Verdict {
+    let backward_error = backward_error_text(problem, candidate);
+    Verdict::Undecided {
+        reason: format!("{reason}; {why}{backward_error}"),
     }
 }
 
@@ -219,10 +225,14 @@ fn inaccurate_text(problem: &Problem, given: f64, proved: &Proved, tolerance: f6
     let x = shown_components(&agreement.proven);
 
     let worst = &agreement.worst;
-    let worst_text = format!(
-        "{}[{}] is worst: expected {:.9}, got {:.9}, error {:.1e}",
-        worst.vector, worst.index, worst.proven, worst.reported, worst.error
-    );
+    let worst_text = if worst.error <= tolerance {
+        format!("x agrees to {}", digits_text(worst.error))
+    } else {
+        format!(
+            "{}[{}] is worst: expected {:.9}, got {:.9}, error {:.1e}",
+            worst.vector, worst.index, worst.proven, worst.reported, worst.error
+        )
+    };
     format!(
         "INACCURATE: {word} = {given}: {exists}, x = ({x}); error of the value {:.1e}; \
          {worst_text} (largest |x_i| = 1; allowed {tolerance:e})",

@@ -6,7 +6,7 @@
 //! certificate could be made of.
 
 use super::complete::{CompleteError, Completed, Options, complete};
-use crate::candidate::Candidate;
+use crate::candidate::{Candidate, distance};
 use crate::run::Watch;
 use crate::tolerance::{ABSENCE_RADII, X_RADIUS};
 use mceip_exact::{Integer, Rational, from_f64, parse};
@@ -147,7 +147,7 @@ fn grid(radius: &Rational) -> Rational {
 fn judge(completed: Completed, candidate: &Candidate) -> Near {
     let is_present = completed
         .solutions()
-        .any(|(solution, x)| distance(x, candidate, &solution.support) <= X_RADIUS);
+        .any(|(_, x)| distance(x, &candidate.x) <= X_RADIUS);
     if is_present {
         Near::Present(completed)
     } else if !completed.cover.is_plain_list() {
@@ -157,29 +157,6 @@ fn judge(completed: Completed, candidate: &Candidate) -> Near {
     } else {
         Near::Others(completed)
     }
-}
-
-/// Largest difference of components once the candidate has sum one on the solution's support too.
-fn distance(x: &[f64], candidate: &Candidate, support: &[usize]) -> f64 {
-    let our_sum = sum_on(support, x);
-    let their_sum = sum_on(support, &candidate.x);
-
-    let mut largest: f64 = 0.0;
-    for (ours, theirs) in x.iter().zip(&candidate.x) {
-        let difference = (ours / our_sum - theirs / their_sum).abs();
-        // NaN (a candidate that is zero there) is no agreement.
-        if difference.is_nan() {
-            largest = f64::INFINITY;
-        } else {
-            largest = difference.max(largest);
-        }
-    }
-
-    largest
-}
-
-fn sum_on(support: &[usize], x: &[f64]) -> f64 {
-    support.iter().filter_map(|&i| x.get(i)).sum()
 }
 
 #[cfg(test)]

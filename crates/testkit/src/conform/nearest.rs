@@ -1,16 +1,16 @@
 //! How far a reported solution is from the nearest one of the complete answer.
 //!
 //! ```text
-//! value:  |t - t*| / (1 + |t*|)        x:  max |x_i - x*_i|,  both with e'x_s = 1
+//! value:  |t - t*| / (1 + |t*|)        x:  max |x_i - x*_i|,  both at largest |x_i| = 1
 //! ```
 //!
-//! (l1 norm 1 where x*_s = 0). A solution that `certify` does not reach is inaccurate where one of
+//! A solution that `certify` does not reach is inaccurate where one of
 //! the answer with the same positive components is within [`NEAR_RADII`] times what `certify`
 //! allows; any other one is wrong. Called by `judge`.
 
 use super::case::Case;
-use mceip_engine::candidate::Candidate;
-use mceip_engine::tolerance::{NEAR_RADII, SUPPORT_GUESSES, VALUE_RADIUS, X_RADIUS};
+use mceip_engine::candidate::{Candidate, distance};
+use mceip_engine::tolerance::{NEAR_RADII, VALUE_RADIUS, X_RADIUS};
 use mceip_oracle::Solution;
 
 /// The distances of a reported solution from one of the answer.
@@ -32,7 +32,7 @@ impl Distance {
         let mut nearest: Option<Distance> = None;
 
         for solution in &case.answer.solutions {
-            if !has_support(reported, &slip, &solution.slip) {
+            if !reported.has_support(&slip, &solution.slip) {
                 continue;
             }
             let Some(distance) = Distance::between(solution, reported, &slip) else {
@@ -57,20 +57,11 @@ impl Distance {
         let value = solution.decimal(17);
         let exact_value: f64 = value.parse().ok()?;
 
-        let size = if solution.is_free_only() {
-            reported.x.iter().map(|x| x.abs()).sum()
-        } else {
-            slip.iter().map(|i| reported.x[*i]).sum::<f64>()
-        };
-        if !size.is_normal() || size < 0.0 {
-            return None;
+        let mut x = Vec::new();
+        for decimal in solution.x_decimals(slip, 17) {
+            x.push(decimal.parse().ok()?);
         }
-
-        let mut of_x = 0.0_f64;
-        for (exact, given) in solution.x_decimals(slip, 17).iter().zip(&reported.x) {
-            let exact: f64 = exact.parse().ok()?;
-            of_x = of_x.max((given / size - exact).abs());
-        }
+        let of_x = distance(&x, &reported.x);
 
         let of_value = (reported.value - exact_value).abs() / (1.0 + exact_value.abs());
         let distance = Distance {
@@ -80,18 +71,6 @@ impl Distance {
         };
         (of_value.is_finite() && of_x.is_finite()).then_some(distance)
     }
-}
-
-/// Are these the positive components among the slip variables, by one of the guesses of what
-/// counts as positive?
-fn has_support(reported: &Candidate, slip: &[usize], support: &[usize]) -> bool {
-    let components = || slip.iter().map(|i| reported.x[*i]);
-    let largest = components().fold(0.0, f64::max);
-
-    SUPPORT_GUESSES.iter().any(|part| {
-        let positive = slip.iter().filter(|i| reported.x[**i] > part * largest);
-        positive.eq(support)
-    })
 }
 
 impl std::fmt::Display for Distance {

@@ -121,20 +121,20 @@ fn components_beyond_doubles_are_compared_exactly() {
     assert!(!is_claimed(&p, &Window::all(), 1.0, &[5.0, 1.0]));
 }
 
-/// x = (1000, 1) with the first free: distances are in units of e'x_s, so that 0.01 of the free one
-/// is far.
+/// x = (1000, 1) with the first free, which is the scale: 2e-3 of it is far, for the slip component
+/// as well.
 #[test]
-fn free_components_are_compared_in_units_of_the_slip_ones() {
+fn a_free_component_may_be_the_scale() {
     let a = Sparse::from_ints(&[&[1, -1000], &[0, -1]]);
     let b = Sparse::from_ints(&[&[0, 0], &[0, 1]]);
     let p = Pencil::new(a, b, vec![0]).unwrap();
 
-    for near in [1000.0, 1000.0001] {
-        assert!(is_claimed(&p, &Window::all(), 1.0, &[near, 1.0]));
+    for near in [[1000.0, 1.0], [1000.01, 1.0], [1000.0, 1.5]] {
+        assert!(is_claimed(&p, &Window::all(), 1.0, &near));
     }
 
-    for far in [1000.01, 999.99] {
-        assert!(!is_claimed(&p, &Window::all(), 1.0, &[far, 1.0]));
+    for far in [[1000.0, 3.0], [-1000.0, 1.0]] {
+        assert!(!is_claimed(&p, &Window::all(), 1.0, &far));
     }
 }
 
