@@ -85,7 +85,7 @@ fn report(problem: &Problem, reduced: &Reduced, found: &Enumeration, is_json: bo
         problem,
         reduced,
         solutions: listed(problem, reduced, &found.solutions),
-        claim: Claimed::complete_if(found.is_complete_list()),
+        claim: Claimed::of_enumeration(found),
         evidence: evidence(found),
         enumeration: Some(found),
         cover: None,

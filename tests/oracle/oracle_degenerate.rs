@@ -281,24 +281,30 @@ fn windows_cut_ranges_and_keep_touching_points() {
     let cut = first_range_within(&pencil, rational(3, 2), whole(5));
     assert_eq!(cut, Some(vec!["[1.5, 2)".to_string()]));
 
-    let touched = first_range_within(&pencil, whole(0), whole(1));
-    assert_eq!(touched, Some(vec!["[1, 1]".to_string()]));
+    // At one value there is a solution, and no range.
+    for (min, max, value) in [
+        (whole(0), whole(1), "1"),
+        (rational(5, 4), rational(5, 4), "1.25"),
+    ] {
+        let window = Window::new(min, Some(max)).unwrap();
+        let found = enumerate(&pencil, &window).unwrap();
+        assert!(found.ranges.is_empty() && found.is_complete_list());
+        let values: Vec<String> = found.solutions.iter().map(|s| s.decimal(9)).collect();
+        assert_eq!(values, [value]);
+    }
 
     let missed = first_range_within(&pencil, whole(2), whole(3));
     assert_eq!(missed, None);
-
-    let point = first_range_within(&pencil, rational(5, 4), rational(5, 4));
-    assert_eq!(point, Some(vec!["[1.25, 1.25]".to_string()]));
 }
 
-/// What is isolated does not depend on where the line is cut. Found by `shifting_moves_the_window`:
-/// a range that ends at 0 from below was listed as a solution, one that ends at a window was not.
+/// A range of which the window holds one value is a solution, at 0 as at any other end of a window.
+/// It was listed as a range, with no solution: "0 solutions: complete".
 #[test]
-fn a_range_that_only_touches_zero_is_no_isolated_solution() {
+fn a_range_that_only_touches_zero_is_a_solution() {
     // {0}: 0 x_0 = 0 for every t; y_1 = -t x_0 >= 0 for t <= 0 only.
     let found = solve(&pencil(&[&[0, 1], &[0, 1]], &[&[0, 0], &[-1, 0]], &[]));
-    assert_ranges(&found, &[(&[0], "[0, 0]")]);
-    assert!(found.solutions.is_empty());
+    assert_ranges(&found, &[]);
+    assert_eq!(rows(&found), [row("0", &[0], &[1])]);
 
     // {0, 1}: x = (1, t), y_2 = -t x_1: nothing but t = 0 is left, where the support is {0}
     // because x_1 = t vanishes.

@@ -46,6 +46,53 @@ fn the_enumerator_lists_the_examples_and_names_its_evidence() {
     }
 }
 
+/// The block of support {1} vanishes for every t, and its signs, y = (-t, 0, 1 + 3t) >= 0, allow
+/// t = 0 alone: one solution, and no interval.
+#[test]
+fn a_range_of_one_value_is_a_solution() {
+    let problem = "tests/edges/enumerate-zero-of-one.json";
+    let [enumerated, complete] =
+        ["enumerate", "complete"].map(|command| exits_with_json(0, &[command, problem, "--json"]));
+
+    for report in [&enumerated, &complete] {
+        assert_eq!(report["claim"], "complete");
+        assert_eq!(report["families"], json!([]));
+        assert_eq!(report["continua"], json!([]));
+
+        let solutions = report["solutions"].as_array().unwrap();
+        assert_eq!(solutions.len(), 1);
+        assert_eq!(solutions[0]["value"], "0");
+        assert_eq!(solutions[0]["x"], json!(["0", "1", "0"]));
+        assert_eq!(solutions[0]["y"], json!(["0", "0", "1"]));
+    }
+}
+
+/// A cone at one value and a range of values, by both writers.
+#[test]
+fn families_have_one_shape_in_both_writers() {
+    let folder = Folder::new();
+    // A double eigenvalue 2 with all of the quadrant.
+    let cone = json!({ "a": [[-2, 0], [0, -2]], "b": [[1, 0], [0, 1]], "free": [] });
+    // The block of {0, 1} has the kernel (1, 1) for every t.
+    let range = json!({ "a": [[1, -1], [-1, 1]], "b": [[0, 0], [0, 0]], "free": [] });
+
+    for (name, pencil, one_value) in [("cone.json", cone, true), ("range.json", range, false)] {
+        let problem = write_problem(&folder, name, pencil);
+        for command in ["enumerate", "complete"] {
+            let report = exits_with_json(0, &[command, &problem, "--json"]);
+            assert_eq!(report["claim"], "complete_with_families", "{command}");
+
+            let families = report["families"].as_array().unwrap();
+            let mut of_both = families.iter().filter(|f| f["slip"] == json!([0, 1]));
+            let whole = of_both.find(|f| f["one_value"] == one_value).unwrap();
+            assert_eq!(whole["one_solution_each"], !one_value, "{command}");
+            if one_value {
+                assert_eq!(whole["from"], json!(["2", "2"]), "{command}");
+            }
+        }
+    }
+}
+
 #[test]
 fn limits_and_options_are_refused_in_one_line() {
     let folder = Folder::new();

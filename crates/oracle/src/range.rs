@@ -49,7 +49,17 @@ pub(super) fn describe(
     let singular = SingularSupport { pencil, support };
     let extent = singular.extent(&critical);
 
-    for value in extent.isolated {
+    let mut pieces = Vec::new();
+    let mut single_values = extent.isolated;
+    for interval in extent.intervals {
+        match clip(interval, window) {
+            Some(Clipped::Interval(piece)) => pieces.push(piece),
+            Some(Clipped::SingleValue(value)) => single_values.push(value),
+            None => {}
+        }
+    }
+
+    for value in single_values {
         if !is_within(&mut value.clone(), window) {
             continue;
         }
@@ -65,11 +75,6 @@ pub(super) fn describe(
         }
     }
 
-    let pieces: Vec<Piece> = extent
-        .intervals
-        .into_iter()
-        .filter_map(|interval| clip(interval, window))
-        .collect();
     if !pieces.is_empty() {
         found.ranges.push(SupportRange {
             support: support.to_vec(),
@@ -146,7 +151,7 @@ fn binomial(n: usize, k: usize) -> usize {
 struct Extent {
     /// Maximal intervals, cut to [0, infinity).
     intervals: Vec<Piece>,
-    /// Values that are isolated on the whole real line, so that no window decides what is isolated.
+    /// Values that are isolated on the whole real line.
     isolated: Vec<Algebraic>,
 }
 
@@ -280,8 +285,15 @@ fn is_within(value: &mut Algebraic, window: &Window) -> bool {
     }
 }
 
-/// The part of a piece in the closed window; a single number may remain.
-fn clip(mut piece: Piece, window: &Window) -> Option<Piece> {
+/// The part of a piece in the closed window.
+enum Clipped {
+    Interval(Piece),
+    /// Solutions at one value are solutions or a cone, and no range.
+    SingleValue(Algebraic),
+}
+
+/// The part of a piece in the closed window; `None` where they do not meet.
+fn clip(mut piece: Piece, window: &Window) -> Option<Clipped> {
     if piece.from.value.cmp_rational(window.min()) == Ordering::Less {
         piece.from = closed_end(window.min());
     }
@@ -297,16 +309,16 @@ fn clip(mut piece: Piece, window: &Window) -> Option<Piece> {
     }
 
     let Some(to) = &mut piece.to else {
-        return Some(piece);
+        return Some(Clipped::Interval(piece));
     };
 
-    let is_kept = match piece.from.value.cmp_exact(&mut to.value) {
-        Ordering::Less => true,
-        Ordering::Equal => piece.from.included && to.included,
-        Ordering::Greater => false,
-    };
-
-    is_kept.then_some(piece)
+    match piece.from.value.cmp_exact(&mut to.value) {
+        Ordering::Less => Some(Clipped::Interval(piece)),
+        Ordering::Equal if piece.from.included && to.included => {
+            Some(Clipped::SingleValue(piece.from.value))
+        }
+        Ordering::Equal | Ordering::Greater => None,
+    }
 }
 
 fn closed_end(value: &Rational) -> End {

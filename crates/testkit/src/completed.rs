@@ -5,11 +5,12 @@
 //! fuzz target `complete_against_plain`.
 
 use super::disagreement::Disagreement;
-use mceip_check::{AcceptedClaim, AcceptedCover};
+use mceip_check::{AcceptedClaim, AcceptedCover, SolutionFamily};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteError, Completed, Options, complete};
+use mceip_exact::Algebraic;
 use mceip_model::Problem;
-use mceip_oracle::{Enumeration, Solution};
+use mceip_oracle::{Cone, Enumeration, Piece, Solution, SupportRange};
 
 /// Nodes per piece in comparisons: instances are small, what needs more is degenerate.
 pub(super) const NODES: usize = 20_000;
@@ -71,39 +72,68 @@ pub(super) fn compare_within(
         }
     }
 
+    if let Some(family) = cover.families.iter().find(|f| !is_described(f, oracle)) {
+        return Err(Disagreement::NotInOracle {
+            support: family.support.clone(),
+        });
+    }
+
     let all_found = !is_found.contains(&false) && holds_all_families(cover, oracle);
     if completed.is_complete() && !all_found {
         return Err(Disagreement::Incomplete {
-            claimed: cover.solutions.len(),
-            enumerated: oracle.solutions.len(),
+            claimed: cover.solutions.len() + cover.families.len(),
+            enumerated: oracle.solutions.len() + oracle.cones.len() + oracle.ranges.len(),
         });
     }
 
     Ok(Some(completed))
 }
 
-/// Does the cover have a family for each cone and each range of the oracle's answer? Of a range
-/// that the window meets in its end only, one solution is listed instead.
+/// Does the cover have a family for each cone and each range of the oracle's answer?
 fn holds_all_families(cover: &AcceptedCover, oracle: &Enumeration) -> bool {
-    for cone in &oracle.cones {
-        if !has_family(cover, &cone.slip) {
-            return false;
-        }
-    }
-
-    for range in &oracle.ranges {
-        let is_listed = cover.solutions.iter().any(|s| s.support == range.support);
-        if !has_family(cover, &range.support) && !is_listed {
-            return false;
-        }
-    }
-
-    true
+    let cones = oracle.cones.iter().map(|cone| &cone.slip);
+    let ranges = oracle.ranges.iter().map(|range| &range.support);
+    cones
+        .chain(ranges)
+        .all(|support| cover.families.iter().any(|f| f.support == *support))
 }
 
-/// Does the cover have a family on this support?
-fn has_family(cover: &AcceptedCover, support: &[usize]) -> bool {
-    cover.families.iter().any(|f| f.support == support)
+/// Is a family of the cover in a cone or a range of the oracle's answer? Of a cone the faces are
+/// families of the cover, too. What the oracle has not described may hold anything.
+fn is_described(family: &SolutionFamily, oracle: &Enumeration) -> bool {
+    let in_cone = |cone: &Cone| {
+        let is_face = family.support.iter().all(|i| cone.slip.contains(i));
+        is_face && is_between(&cone.value, family)
+    };
+    let in_range = |range: &SupportRange| {
+        let is_face = family.support.iter().all(|i| range.support.contains(i));
+        is_face && range.pieces.iter().any(|piece| meets(piece, family))
+    };
+
+    !oracle.is_complete_list()
+        || oracle.cones.iter().any(in_cone)
+        || oracle.ranges.iter().any(in_range)
+}
+
+/// Does the value lie between the outer ends of the family's values?
+fn is_between(value: &Algebraic, family: &SolutionFamily) -> bool {
+    let mut value = value.clone();
+    let is_above = value.cmp_rational(family.from.lo()).is_ge();
+    let to = family.to.as_ref();
+    is_above && to.is_none_or(|to| value.cmp_rational(to.hi()).is_le())
+}
+
+/// Does the piece meet the family's values?
+fn meets(piece: &Piece, family: &SolutionFamily) -> bool {
+    let is_below = match &piece.to {
+        Some(to) => to.value.clone().cmp_rational(family.from.lo()).is_ge(),
+        None => true,
+    };
+    let is_above = match &family.to {
+        Some(to) => piece.from.value.clone().cmp_rational(to.hi()).is_le(),
+        None => true,
+    };
+    is_below && is_above
 }
 
 /// Same support, and the oracle's value lies in the accepted interval.

@@ -9,7 +9,7 @@ use super::table::Table;
 use crate::candidate::SOLUTIONS_FORMAT;
 use crate::reduction::{Reduced, Variable};
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
-use mceip_exact::{Integer, Interval, Poly, enclosing_decimals, to_decimal};
+use mceip_exact::{Algebraic, Integer, Interval, Poly, Rational, enclosing_decimals, to_decimal};
 use mceip_model::{Body, Problem};
 use mceip_oracle::{Cone, End, Enumeration, Piece, SupportRange};
 use serde_json::{Value, json};
@@ -50,6 +50,17 @@ impl Claimed {
     pub fn complete_if(is_complete: bool) -> Claimed {
         if is_complete {
             Claimed::Complete
+        } else {
+            Claimed::Solutions
+        }
+    }
+
+    /// What an enumeration says of its solutions.
+    pub fn of_enumeration(found: &Enumeration) -> Claimed {
+        if found.is_plain_list() {
+            Claimed::Complete
+        } else if found.is_complete_list() {
+            Claimed::CompleteWithFamilies
         } else {
             Claimed::Solutions
         }
@@ -113,6 +124,10 @@ pub fn solutions_json(report: &Report<'_>) -> Value {
         out["undescribed"] = json!(undescribed);
     }
 
+    if let Some(enumeration) = report.enumeration {
+        out["families"] = enumerated_families(enumeration);
+    }
+
     if let Some(cover) = report.cover {
         out["families"] = cover.families.iter().map(family).collect();
         out["open"] = cover.open.iter().map(region).collect();
@@ -123,6 +138,43 @@ pub fn solutions_json(report: &Report<'_>) -> Value {
     }
 
     out
+}
+
+/// The cones and ranges of an enumeration as [`family`] writes those of a cover.
+fn enumerated_families(found: &Enumeration) -> Value {
+    let mut families = Vec::new();
+    for cone in &found.cones {
+        let value = narrowed(&cone.value);
+        families.push(SolutionFamily {
+            support: cone.slip.clone(),
+            from: value.clone(),
+            to: Some(value),
+            is_point: true,
+            is_alone: false,
+        });
+    }
+
+    for range in &found.ranges {
+        for piece in &range.pieces {
+            families.push(SolutionFamily {
+                support: range.support.clone(),
+                from: narrowed(&piece.from.value),
+                to: piece.to.as_ref().map(|to| narrowed(&to.value)),
+                is_point: false,
+                is_alone: range.kernel.len() == 1,
+            });
+        }
+    }
+
+    families.iter().map(family).collect()
+}
+
+/// An interval about a value that is good for the decimals of [`enclosure`].
+fn narrowed(value: &Algebraic) -> Interval {
+    let mut value = value.clone();
+    value.refine_to(&Rational::new(1.into(), Integer::from(1u64 << 62)));
+    value.try_rational();
+    value.interval().clone()
 }
 
 /// A family of a cover: its support, and decimals that enclose the ends of its values.

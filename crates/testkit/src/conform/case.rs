@@ -100,7 +100,7 @@ impl Case {
         Ok(())
     }
 
-    /// The complete answer as `mceip-solutions/1`.
+    /// The complete answer as `mceip-solutions/1`, without the list of families.
     pub fn answer_json(&self) -> Value {
         let mut solutions = Vec::new();
         for solution in &self.answer.solutions {
@@ -108,7 +108,7 @@ impl Case {
             solutions.push(listed);
         }
 
-        solutions_json(&Report {
+        let mut answer = solutions_json(&Report {
             problem: &self.problem,
             reduced: &self.reduced,
             solutions,
@@ -119,7 +119,13 @@ impl Case {
             ),
             enumeration: Some(&self.answer),
             cover: None,
-        })
+        });
+
+        // The pack describes its cones in `solutions` and its ranges in `continua` alone.
+        if let Some(fields) = answer.as_object_mut() {
+            fields.remove("families");
+        }
+        answer
     }
 
     /// The case as the pack has it, without wrong answers.
