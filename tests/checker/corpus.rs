@@ -442,12 +442,8 @@ for problem, certificate in zip(sys.argv[2::2], sys.argv[3::2]):
 ";
 
 #[test]
+#[cfg_attr(not(has_python3), ignore = "needs python3")]
 fn the_second_checker_gives_every_verdict() {
-    if Command::new("python3").arg("--version").output().is_err() {
-        eprintln!("python3 is not installed: spec/checker.py was not run over the corpus");
-        return;
-    }
-
     let folder = tempfile::tempdir().unwrap();
     let entries = entries(folder.path());
     let mut files = Vec::new();

@@ -9,19 +9,6 @@
 use crate::common::{read, repository};
 use crate::program::{Folder, mceip};
 use serde_json::Value;
-use std::process::Command;
-
-pub(crate) fn numpy_is_missing() -> bool {
-    let import = Command::new("python3")
-        .args(["-c", "import numpy"])
-        .output();
-    let is_there = import.is_ok_and(|output| output.status.success());
-
-    if !is_there {
-        eprintln!("SKIPPED: python3 with numpy is not installed: no rival was run");
-    }
-    !is_there
-}
 
 fn adapter() -> String {
     read(&repository("spec/examples/adapter.py"))
@@ -57,11 +44,8 @@ fn count(labels: &Value, label: &str) -> u64 {
 }
 
 #[test]
+#[cfg_attr(not(has_numpy), ignore = "needs python3 with numpy")]
 fn the_adapter_is_right_where_floats_suffice_and_not_on_degenerate_cases() {
-    if numpy_is_missing() {
-        return;
-    }
-
     let report = report_on(&adapter(), &["fold", "coupled_mass", "continuum", "cone"]);
 
     for label in ["crashed", "timed out", "malformed"] {
@@ -84,11 +68,8 @@ fn the_adapter_is_right_where_floats_suffice_and_not_on_degenerate_cases() {
 
 /// Started once, it gets the same labels as started for each case.
 #[test]
+#[cfg_attr(not(has_numpy), ignore = "needs python3 with numpy")]
 fn the_adapter_answers_line_by_line() {
-    if numpy_is_missing() {
-        return;
-    }
-
     let folder = Folder::new();
     let file = folder.write("adapter.py", &adapter());
     let options = ["conform", "--as-pencil", "--json", "--time-limit", "60"];
@@ -106,11 +87,8 @@ fn the_adapter_answers_line_by_line() {
 }
 
 #[test]
+#[cfg_attr(not(has_numpy), ignore = "needs python3 with numpy")]
 fn broken_adapters_get_the_right_labels() {
-    if numpy_is_missing() {
-        return;
-    }
-
     let with_turned_sign = adapter_with("[float(v) for v in x]", "[-float(v) for v in x]");
     let report = report_on(&with_turned_sign, &["window_end"]);
     assert_eq!(report["labels"]["wrong"], report["cases"], "{report:#}");
