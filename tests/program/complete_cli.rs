@@ -306,9 +306,9 @@ fn bad_input_is_one_line_and_exit_2() {
             "complete",
             &problem,
             "--certificate",
-            "/nonexistent/folder/out.json",
+            "Cargo.toml/out.json",
         ],
-        &["/nonexistent"],
+        &["Cargo.toml/out.json"],
     );
 
     bad_files_to_resume_from_are_refused(&bench, &problem);
