@@ -61,7 +61,9 @@ mod front;
 
 pub use front::*;
 pub use mceip_check::certificate::Certificate;
-pub use mceip_check::{Accepted, AcceptedClaim, OpenRegion, Reason, Rejected, SolutionFamily};
+pub use mceip_check::{
+    Accepted, AcceptedClaim, OpenRegion, Proved, Reason, Rejected, SolutionFamily,
+};
 #[cfg(feature = "solver")]
 pub use mceip_engine::analysis::{self, Analysis};
 #[cfg(feature = "solver")]

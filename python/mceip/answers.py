@@ -116,13 +116,14 @@ class Found:
         solutions: by value; the checker has accepted each.
         uncertified: points without proof: do not use them.
         runs: runs of the solver.
-        certificate: of all solutions; None where there are none.
+        certificates: of all solutions; none where there are none, and one unless the solutions
+            cost more together than the checker allows for one file.
     """
 
     solutions: list[Solution]
     uncertified: list[Uncertified]
     runs: int
-    certificate: Certificate | None = field(repr=False)
+    certificates: list[Certificate] = field(repr=False)
 
     def _repr_html_(self) -> str:
         return f"<p>{len(self.solutions)} found</p>" + table_of_solutions(self.solutions)
@@ -444,7 +445,7 @@ def found_of(answer: dict[str, Any]) -> Found:
         solutions=[solution_of(solution) for solution in answer["solutions"]],
         uncertified=uncertified,
         runs=answer["runs"],
-        certificate=answer["certificate"],
+        certificates=answer["certificates"],
     )
 
 

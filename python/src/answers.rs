@@ -10,13 +10,14 @@ use serde_json::{Value, json};
 
 pub(crate) fn found(found: &Found) -> Value {
     let uncertified: Vec<Value> = found.uncertified.iter().map(uncertified).collect();
-    let certificate = (!found.solutions.is_empty()).then(|| document(found.certificate()));
+    let certificates = found.certificates().iter();
+    let certificates: Vec<Value> = certificates.map(|c| document(c.certificate())).collect();
 
     json!({
         "solutions": solutions(&found.solutions),
         "uncertified": uncertified,
         "runs": found.runs,
-        "certificate": certificate,
+        "certificates": certificates,
     })
 }
 

@@ -32,7 +32,7 @@ def test_the_fold_has_two_solutions_and_no_others(example):
     accepted = mceip.check(problem, everything.certificate)
     assert accepted.is_complete
     assert [claim.support for claim in accepted.solutions] == [[0, 1], [0, 1]]
-    assert not mceip.check(problem, found.certificate).is_complete
+    assert not mceip.check(problem, found.certificates[0]).is_complete
 
 
 def test_solutions_have_the_components_of_the_equations(example):
@@ -79,7 +79,7 @@ def test_a_search_goes_on_with_an_earlier_certificate(example):
 
 def test_forged_foreign_and_malformed_certificates_are_refused(example):
     problem = example("fold")
-    certificate = problem.solve().certificate
+    certificate = problem.solve().certificates[0]
     assert len(mceip.check(problem, certificate).claims) == 2
 
     forged = copy.deepcopy(certificate)
@@ -99,7 +99,7 @@ def test_forged_foreign_and_malformed_certificates_are_refused(example):
 def test_a_cover_without_a_piece_is_refused_and_claims_alone_are_no_cover(example):
     problem = example("fold")
     everything = problem.complete().certificate
-    found = problem.solve().certificate
+    found = problem.solve().certificates[0]
 
     with_gap = copy.deepcopy(everything)
     del with_gap["complete_set"]["pieces"][-1]
@@ -114,7 +114,7 @@ def test_a_search_without_result_claims_nothing(example):
     found = example("fold").in_window(4).solve()
 
     assert found.solutions == []
-    assert found.certificate is None
+    assert found.certificates == []
 
 
 def test_a_point_is_certified_and_a_wrong_one_is_not(example):

@@ -6,10 +6,10 @@
 use super::common::{CliError, exit, load, positive, print, text};
 use super::job::Job;
 use super::output::{self, Output};
-use mceip_check::AcceptedCover;
 use mceip_check::certificate::{Certificate, Claim};
+use mceip_check::{AcceptedCover, Proved};
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{Certifier, NotCertified, certificate, lifted, sift};
+use mceip_engine::certify::{Certifier, NotCertified, lifted, sift};
 use mceip_engine::foreign::{ForeignError, ForeignReport};
 use mceip_engine::multistart::same;
 use mceip_engine::reduction::reduce_with_zero;
@@ -87,19 +87,18 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         judged.lift(&problem, system);
     }
 
-    judged.say_counts(candidates.len());
+    let files = Proved::claims(&problem, std::mem::take(&mut judged.claims))?;
     if let Some(folder) = &args.absence {
         judged.write_proofs(folder, &inputs)?;
     }
-
-    let code = judged.exit_code(candidates.len());
-    if let Some(certificate) = judged.answer(&problem, candidates.len()) {
-        match output {
-            Some(output) => output.write(&certificate.to_json())?,
-            None => print(&format!("{}\n", certificate.to_json()))?,
-        }
+    match output {
+        Some(output) => judged.write(output, &files, candidates.len())?,
+        None => judged.print(&files, candidates.len())?,
     }
 
+    let certified: usize = files.iter().map(|file| file.accepted().claims.len()).sum();
+    judged.say_counts(certified, candidates.len());
+    let code = judged.exit_code(candidates.len());
     Ok(if job.is_cancelled() {
         exit::INTERRUPTED
     } else {
@@ -179,10 +178,11 @@ impl Judged {
         refused.filter(|r| r.finding.verdict == verdict).count()
     }
 
-    fn say_counts(&self, reported: usize) {
+    /// Says what became of so many reported solutions, of which `claimed` have claims of their own.
+    fn say_counts(&self, claimed: usize, reported: usize) {
         let disproved = self.count(Verdict::Disproved);
         let undecided = self.count(Verdict::Undecided);
-        let certified = self.claims.len() + self.count(Verdict::Present);
+        let certified = claimed + self.count(Verdict::Present);
         eprintln!(
             "{certified} distinct solutions certified, {disproved} of {reported} disproved, \
              {undecided} undecided"
@@ -213,16 +213,38 @@ impl Judged {
         }
     }
 
-    /// The certificate of all claims; for a report of one solution its proof is the answer,
-    /// whichever way it went.
-    fn answer(self, problem: &Problem, reported: usize) -> Option<Certificate> {
-        if !self.claims.is_empty() {
-            return Some(certificate(problem, self.claims));
+    /// Writes the certificates of all claims.
+    fn write(
+        &self,
+        output: Output,
+        files: &[Proved<Certificate>],
+        reported: usize,
+    ) -> Result<(), CliError> {
+        match self.only_proof(files, reported) {
+            Some(proof) => output.write(&proof.to_json()),
+            None if files.is_empty() => Ok(()),
+            None => output.write_proved(files),
+        }
+    }
+
+    /// Prints them, one a line.
+    fn print(&self, files: &[Proved<Certificate>], reported: usize) -> Result<(), CliError> {
+        if let Some(proof) = self.only_proof(files, reported) {
+            return print(&format!("{}\n", proof.to_json()));
         }
 
-        let mut proofs = self.refused.into_iter().map(|r| r.finding.proof);
-        let proof = proofs.find_map(|proof| proof);
-        proof.filter(|_| reported == 1)
+        for file in files {
+            print(&format!("{}\n", file.file()?))?;
+        }
+
+        Ok(())
+    }
+
+    /// For a report of one solution, its proof is the answer, whichever way it went.
+    fn only_proof(&self, files: &[Proved<Certificate>], reported: usize) -> Option<&Certificate> {
+        let mut proofs = self.refused.iter().filter_map(|r| r.finding.proof.as_ref());
+        let is_only = files.is_empty() && reported == 1;
+        proofs.next().filter(|_| is_only)
     }
 }
 

@@ -118,6 +118,9 @@ pub(super) enum CliError {
         /// What is wrong with it.
         source: mceip_engine::search::complete::CompleteError,
     },
+    /// The checker refuses as a whole what it has accepted claim by claim.
+    #[error("the certificate is refused: {0}")]
+    Refused(#[from] mceip_check::Rejected),
     /// The test kit refuses a run.
     #[error(transparent)]
     Testkit(#[from] TestkitError),

@@ -2,6 +2,7 @@
 //! starts.
 
 use super::common::CliError;
+use mceip_check::{Evidence, Proved};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
@@ -61,6 +62,26 @@ impl Output {
         }
     }
 
+    /// Writes what the checker has accepted, as it was accepted: the first certificate to the path
+    /// given, further ones to files beside it, of which stderr says the names.
+    pub(super) fn write_proved<C: Evidence>(self, proved: &[Proved<C>]) -> Result<(), CliError> {
+        let path = self.path.clone();
+        let mut output = Some(self);
+        for (k, proved) in proved.iter().enumerate() {
+            let text = proved.file()?;
+            if let Some(first) = output.take() {
+                first.write(&text)?;
+                continue;
+            }
+
+            let beside = numbered(&path, k + 1);
+            Output::prepare("certificate", &beside, &[])?.write(&text)?;
+            eprintln!("further claims are in {}", beside.display());
+        }
+
+        Ok(())
+    }
+
     /// Writes the text.
     pub(super) fn write(self, text: &str) -> Result<(), CliError> {
         self.write_bytes(text.as_bytes())
@@ -74,6 +95,16 @@ impl Output {
         };
         written.map_err(|e| CliError::write(self.path.display(), &e))
     }
+}
+
+/// `claims-2.json` beside `claims.json`.
+fn numbered(path: &Path, number: usize) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let name = match path.extension() {
+        Some(extension) => format!("{stem}-{number}.{}", extension.to_string_lossy()),
+        None => format!("{stem}-{number}"),
+    };
+    path.with_file_name(name)
 }
 
 /// Does this path lead to the file at `target`, whose own path is canonical?

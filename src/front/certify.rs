@@ -3,6 +3,7 @@
 use super::error::Error;
 use super::problem::Problem;
 use super::solution::Solution;
+use mceip_check::Proved;
 use mceip_check::certificate::Certificate;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate};
@@ -15,13 +16,13 @@ use mceip_model::reduction::reduce_with_zero;
 pub struct Certified {
     /// The solution near the point.
     pub solution: Solution,
-    certificate: Certificate,
+    certificate: Proved<Certificate>,
 }
 
 impl Certified {
     /// The certificate, which the checker has accepted.
     pub fn certificate(&self) -> &Certificate {
-        &self.certificate
+        self.certificate.certificate()
     }
 }
 
@@ -53,7 +54,7 @@ impl Problem {
 
         let listed = Listed::of_claim(problem, &reduced, &claim);
         let solution = Solution::new(problem.unknown(), &proved, &listed);
-        let certificate = certificate(problem, vec![claim]);
+        let certificate = Proved::new(problem, certificate(problem, vec![claim]))?;
 
         Ok(Certified {
             solution,

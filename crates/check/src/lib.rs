@@ -40,12 +40,14 @@ mod exact_solution;
 mod lifted_solution;
 mod pencil;
 mod presence;
+mod proved;
 mod reason;
 
 pub use backward_error::backward_error;
 pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, Place, SolutionFamily};
 pub use critical::{AcceptedAbsence, audit_critical, check_critical};
 pub use presence::{AcceptedPresence, check_presence};
+pub use proved::{Evidence, Proved};
 pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};
@@ -135,8 +137,7 @@ impl<'a> ClaimChecker<'a> {
         certificate: &'c Certificate,
     ) -> Result<Vec<AcceptedSolution<'c>>, Rejected> {
         let mut solutions = Vec::new();
-        let claims = certificate.claims.len() as u64;
-        let allowed = WORK_BASE.saturating_add(WORK_PER_CLAIM.saturating_mul(claims));
+        let allowed = allowed_work(certificate.claims.len());
         let mut work: u64 = 0;
 
         for (index, claim) in certificate.claims.iter().enumerate() {
@@ -156,6 +157,11 @@ impl<'a> ClaimChecker<'a> {
 
         Ok(solutions)
     }
+}
+
+/// What the exact and lifted claims of a file with so many claims may cost together.
+fn allowed_work(claims: usize) -> u64 {
+    WORK_BASE.saturating_add(WORK_PER_CLAIM.saturating_mul(claims as u64))
 }
 
 /// What Horner's rule for the polynomials of a claim costs at most. An enclosed claim has none.

@@ -298,6 +298,12 @@ pub enum ModelError {
         /// What was found.
         got: u64,
     },
+    /// A text that is not, when it is read again, what was written.
+    #[error(
+        "expected the text of a file to be what was written, got something else (a defect of this \
+         program)"
+    )]
+    NotAsWritten,
     /// A file named by the problem cannot be read.
     #[error("{what}: cannot read {path:?}: {problem}")]
     Unreadable {

@@ -20,7 +20,7 @@ use super::forge::forgeries;
 use super::interior::{INTERIOR_STARTS, from_interior, path_options};
 use super::verified::{VerifiedChecker, VerifiedCounts};
 use mceip_check::certificate::{Certificate, Claim};
-use mceip_check::check;
+use mceip_check::{Proved, check};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate};
 use mceip_engine::multistart::{
@@ -423,6 +423,25 @@ fn certify_oracle(
     claims
 }
 
+/// Counts the claims of an accepted certificate, if it is the same when it is read back, and sends
+/// it to the verified checker.
+fn submit_file(
+    problem: &Problem,
+    file: &Proved<Certificate>,
+    verified: Option<&VerifiedChecker>,
+    report: &mut InstanceReport,
+) {
+    match file.file() {
+        Ok(_) => {
+            report.accepted += file.certificate().claims.len();
+            submit_verified(problem, file.certificate(), verified, report);
+        }
+        Err(e) => report.disagreements.push(Disagreement::Rejected {
+            reason: e.to_string(),
+        }),
+    }
+}
+
 /// Sends claims to the checkers, and forgeries of them.
 fn submit(
     problem: &Problem,
@@ -434,13 +453,12 @@ fn submit(
         return;
     }
 
-    let count = claims.len();
-    let certificate = certificate(problem, claims);
-
-    match check(problem, &certificate) {
-        Ok(_) => {
-            report.accepted += count;
-            submit_verified(problem, &certificate, verified, report);
+    let certificate = certificate(problem, claims.clone());
+    match Proved::claims(problem, claims) {
+        Ok(files) => {
+            for file in &files {
+                submit_file(problem, file, verified, report);
+            }
         }
         Err(e) => report.disagreements.push(Disagreement::Rejected {
             reason: e.to_string(),
