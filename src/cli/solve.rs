@@ -13,8 +13,9 @@ pub(super) use args::Args;
 use super::common::{CliError, exit, load, print, text};
 use super::job::Job;
 use super::output::Output;
+use mceip_check::Proved;
 use mceip_check::certificate::Claim;
-use mceip_engine::certify::certificate;
+use mceip_engine::certify::Preference;
 use mceip_engine::lcp::MCP_FORMAT;
 use mceip_engine::multistart::{Found, multistart_with_zero, support, trace_outcome};
 use mceip_engine::reduction::reduce_with_zero;
@@ -84,7 +85,10 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     let trace_output = Output::prepare_if("trace", args.trace.as_deref(), &[file])?;
     let reduced = reduce_with_zero(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
-    let search = search_of(args.starts, args.seed, args.all, args.trace.is_some());
+    let mut search = search_of(args.starts, args.seed, args.all, args.trace.is_some());
+    if args.exact {
+        search.preference = Preference::Exact;
+    }
 
     let job = Job::begin("searching");
     let found =
@@ -116,14 +120,13 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     } else {
         solutions_text(&report)
     };
-    print(&text)?;
-
     let is_found = !claims.is_empty();
     if let Some(output) = output
         && is_found
     {
-        output.write(&certificate(&problem, claims).to_json())?;
+        output.write_proved(&Proved::claims(&problem, claims)?)?;
     }
+    print(&text)?;
 
     Ok(if found.interrupted {
         exit::INTERRUPTED

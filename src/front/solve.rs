@@ -4,9 +4,9 @@ use super::error::Error;
 use super::problem::Problem;
 use super::run::Watched;
 use super::solution::Solution;
+use mceip_check::Proved;
 use mceip_check::certificate::{Certificate, Claim};
-use mceip_check::check;
-use mceip_engine::certify::certificate;
+use mceip_engine::certify::Preference;
 use mceip_engine::multistart::{Search, Uncertified, multistart_with_zero};
 use mceip_engine::report::Listed;
 use mceip_engine::run::{Cancel, Progress};
@@ -33,14 +33,14 @@ pub struct Found {
     pub runs: usize,
     /// Was the search cancelled?
     pub is_cancelled: bool,
-    certificate: Certificate,
+    certificates: Vec<Proved<Certificate>>,
 }
 
 impl Found {
-    /// The certificate of all solutions. Without solutions it claims nothing, and is refused by
-    /// [`check`](crate::check).
-    pub fn certificate(&self) -> &Certificate {
-        &self.certificate
+    /// The certificates of all solutions, none without solutions. There is one, unless the
+    /// solutions cost more together than the checker allows for one file.
+    pub fn certificates(&self) -> &[Proved<Certificate>] {
+        &self.certificates
     }
 }
 
@@ -91,6 +91,12 @@ impl<'a> Solve<'a> {
         self
     }
 
+    /// Gives every solution an exact value where that can be had, also where a box is cheaper.
+    pub fn exact(mut self) -> Self {
+        self.search.preference = Preference::Exact;
+        self
+    }
+
     /// The switch that ends the search early; what has been found is kept.
     pub fn cancel(mut self, cancel: &Cancel) -> Self {
         self.watched.cancel(cancel);
@@ -115,19 +121,16 @@ impl<'a> Solve<'a> {
         let watch = self.watched.watch();
         let found = multistart_with_zero(problem, &reduced, &admissible, &self.search, &watch)?;
 
-        // The certificate of all solutions is checked as a whole.
         let claims: Vec<Claim> = found.certified.iter().map(|c| c.claim.clone()).collect();
-        let certificate = certificate(problem, claims);
-        let proved = if certificate.claims.is_empty() {
-            Vec::new()
-        } else {
-            check(problem, &certificate)?.claims
-        };
+        let certificates = Proved::claims(problem, claims)?;
 
         let mut solutions = Vec::new();
-        for (proved, claim) in proved.iter().zip(&certificate.claims) {
-            let listed = Listed::of_claim(problem, &reduced, claim);
-            solutions.push(Solution::new(problem.unknown(), proved, &listed));
+        for file in &certificates {
+            let proved = file.accepted().claims.iter();
+            for (proved, claim) in proved.zip(&file.certificate().claims) {
+                let listed = Listed::of_claim(problem, &reduced, claim);
+                solutions.push(Solution::new(problem.unknown(), proved, &listed));
+            }
         }
 
         Ok(Found {
@@ -135,7 +138,7 @@ impl<'a> Solve<'a> {
             uncertified: found.uncertified,
             runs: found.runs,
             is_cancelled: found.interrupted,
-            certificate,
+            certificates,
         })
     }
 }
@@ -153,7 +156,7 @@ mod tests {
         let found = problem.solve().run()?;
 
         assert!(found.solutions.is_empty());
-        assert!(found.certificate().claims.is_empty());
+        assert!(found.certificates().is_empty());
         Ok(())
     }
 }

@@ -8,6 +8,7 @@
 
 use mceip_check::certificate::{Claim, EnclosedSolution};
 use mceip_check::check;
+use mceip_engine::certify::Preference;
 use mceip_engine::certify::certificate;
 use mceip_engine::multistart::{
     Certified, Found, Search, exact_value, multistart_with_zero, support,
@@ -110,7 +111,11 @@ fn system(problem: &Problem) -> &System {
 fn search(problem: &Problem) -> Found {
     let reduced = reduce_with_zero(problem).unwrap();
     let admissible = Admissible::new(&reduced.pencil, problem.unknown()).unwrap();
-    let search = Search::default();
+    // The list has exact values.
+    let search = Search {
+        preference: Preference::Exact,
+        ..Search::default()
+    };
     multistart_with_zero(problem, &reduced, &admissible, &search, &Watch::nobody()).unwrap()
 }
 

@@ -12,6 +12,10 @@ pub(in crate::cli) struct Args {
     /// search above and below each value found (the zeta windows of section 4).
     #[arg(long)]
     pub(super) all: bool,
+    /// State solutions as exact algebraic numbers where that can be had, also on supports of more
+    /// than 6 variables, where a box is cheaper.
+    #[arg(long)]
+    pub(super) exact: bool,
     /// Number of starts on the whole window.
     #[arg(long, default_value_t = 22)]
     pub(super) starts: usize,

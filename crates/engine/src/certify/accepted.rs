@@ -4,7 +4,7 @@
 //! Called by searches, the command `certify`, and `judge` for reported solutions.
 
 use super::failure::{Attempt, AttemptFailure, NotCertified};
-use super::proposals::{Proposal, proposals};
+use super::proposals::{Preference, Proposal, proposals};
 use super::rows::IntegralRows;
 use crate::candidate::Candidate;
 use crate::reduction::zero_of;
@@ -20,11 +20,12 @@ pub struct Certifier<'a> {
     /// The variables of the particles in contact with zero reaction.
     zero: Vec<ZeroVariables>,
     checker: ClaimChecker<'a>,
+    preference: Preference,
 }
 
 impl<'a> Certifier<'a> {
-    /// The certifier of a problem; `pencil` is the problem's reduced pencil, of a system with
-    /// particles in contact with zero reaction that of the split form.
+    /// The certifier of a problem, exact numbers before boxes; `pencil` is the problem's reduced
+    /// pencil, of a system with particles in contact with zero reaction that of the split form.
     pub fn new(problem: &'a Problem, pencil: &'a Pencil) -> Certifier<'a> {
         let zero = zero_of(problem);
         Certifier {
@@ -33,7 +34,13 @@ impl<'a> Certifier<'a> {
             rows: IntegralRows::of(pencil).with_zero(zero.clone()),
             zero,
             checker: ClaimChecker::new(problem),
+            preference: Preference::Exact,
         }
+    }
+
+    /// The same with this choice between exact numbers and boxes.
+    pub fn with_preference(self, preference: Preference) -> Certifier<'a> {
+        Certifier { preference, ..self }
     }
 
     /// A claim that the candidate suggests and the checker accepts, in the problem's window.
@@ -56,7 +63,7 @@ impl<'a> Certifier<'a> {
     ) -> Result<(Claim, AcceptedClaim), NotCertified> {
         let window = self.problem.window();
         let candidate = candidate.one_sided(&self.zero);
-        let proposals = proposals(self.pencil, &self.rows, window, &candidate)?;
+        let proposals = proposals(self.pencil, &self.rows, window, &candidate, self.preference)?;
         self.first_accepted(proposals)
     }
 

@@ -28,7 +28,9 @@ pub use accepted::{Certifier, Sifted, certify, sift};
 pub use failure::{Attempt, AttemptFailure, NotCertified};
 pub use lifted::{flattened, lifted};
 pub(crate) use precise::precise_null;
-pub use proposals::{ENCLOSED_ORDER, EXACT_BITS, EXACT_ORDER, propose};
+pub use proposals::{
+    ENCLOSED_ORDER, EXACT_BITS, EXACT_FIRST_ORDER, EXACT_ORDER, Preference, propose,
+};
 
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_model::Problem;

@@ -1,5 +1,8 @@
-//! The claims that a candidate suggests, unchecked, one for each support tried: exact where the
-//! system of the support is short, else an enclosure.
+//! The claims that a candidate suggests, unchecked, for each support tried.
+//!
+//! Where the system of the support is short, an exact number can be had, else a box. A search that
+//! wants claims at the least cost has a box first on a support of more than a few variables, and an
+//! exact number only where the box proves nothing ([`Preference`]).
 //!
 //! Supports come from [`support`]: guesses by thresholds, best first, and repairs of those at which
 //! a sign is wrong. Input: the reduced pencil, the window of the problem, a candidate in doubles.
@@ -17,6 +20,10 @@ use std::collections::VecDeque;
 /// Exact algebraic numbers of higher degree cost more than they tell.
 pub const EXACT_ORDER: usize = 16;
 
+/// Largest number of active variables for which an exact claim is attempted before an enclosure,
+/// unless [`Preference::Exact`] is asked for.
+pub const EXACT_FIRST_ORDER: usize = 6;
+
 /// Supports that are tried beyond the guesses, at most: each has one component more or less.
 const MAX_REPAIRS: usize = 16;
 
@@ -25,6 +32,29 @@ pub const EXACT_BITS: u64 = 4096;
 
 /// Largest number of active variables for which an enclosure is attempted: it needs dense inverses.
 pub const ENCLOSED_ORDER: usize = 3000;
+
+/// Which form of claim is tried first on a support whose system is short.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Preference {
+    /// An exact number up to [`EXACT_FIRST_ORDER`] active variables, above that a box.
+    #[default]
+    Cheapest,
+    /// An exact number.
+    Exact,
+}
+
+/// The form of a claim.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Exact,
+    Enclosed,
+}
+
+/// A support to be tried with this form of claim.
+struct Waiting {
+    support: Vec<usize>,
+    form: Form,
+}
 
 /// A claim for one support, or what failed on it.
 pub(super) struct Proposal {
@@ -42,8 +72,9 @@ pub(super) struct Proposals<'a> {
     rows: &'a IntegralRows,
     window: &'a Window,
     candidate: &'a Candidate,
-    /// Supports to be tried, the next one first.
-    waiting: VecDeque<Vec<usize>>,
+    preference: Preference,
+    /// What is to be tried, the next one first.
+    waiting: VecDeque<Waiting>,
     guesses: Vec<Vec<usize>>,
     /// Supports that come from another one, by a component that doubles cannot tell from zero.
     repaired: Vec<Vec<usize>>,
@@ -58,23 +89,44 @@ pub(super) fn proposals<'a>(
     rows: &'a IntegralRows,
     window: &'a Window,
     candidate: &'a Candidate,
+    preference: Preference,
 ) -> Result<Proposals<'a>, NotCertified> {
     let guesses = support::guesses(pencil, candidate).map_err(NotCertified::of)?;
-    let waiting = guesses.iter().cloned().collect();
-    Ok(Proposals {
+    let mut proposals = Proposals {
         pencil,
         rows,
         window,
         candidate,
-        waiting,
-        guesses,
+        preference,
+        waiting: VecDeque::new(),
+        guesses: guesses.clone(),
         repaired: Vec::new(),
-    })
+    };
+    for support in guesses {
+        let form = proposals.first_form(&support);
+        proposals.waiting.push_back(Waiting { support, form });
+    }
+
+    Ok(proposals)
 }
 
 impl Proposals<'_> {
+    /// The form of claim that is tried first on a support.
+    fn first_form(&self, support: &[usize]) -> Form {
+        let exact_comes_first = match self.preference {
+            Preference::Exact => true,
+            Preference::Cheapest => self.active_order(support) <= EXACT_FIRST_ORDER,
+        };
+        if exact_comes_first && self.is_short(support) {
+            Form::Exact
+        } else {
+            Form::Enclosed
+        }
+    }
+
     /// A claim about the solution with this support near the candidate.
-    fn claim(&self, support: &[usize]) -> Result<Claim, AttemptFailure> {
+    fn claim(&self, waiting: &Waiting) -> Result<Claim, AttemptFailure> {
+        let Waiting { support, form } = waiting;
         let order = self.active_order(support);
         if order > ENCLOSED_ORDER {
             return Err(AttemptFailure::TooLarge {
@@ -83,7 +135,7 @@ impl Proposals<'_> {
             });
         }
 
-        if self.is_short(support) {
+        if *form == Form::Exact {
             let claim =
                 exact_claim::make(self.pencil, self.rows, self.window, support, self.candidate)?;
             return Ok(Claim::ExactSolution(claim));
@@ -130,7 +182,10 @@ impl Proposals<'_> {
         }
 
         self.repaired.push(repaired.clone());
-        self.waiting.push_front(repaired);
+        self.waiting.push_front(Waiting {
+            support: repaired,
+            form: Form::Enclosed,
+        });
     }
 }
 
@@ -138,8 +193,16 @@ impl Iterator for Proposals<'_> {
     type Item = Proposal;
 
     fn next(&mut self) -> Option<Proposal> {
-        let support = self.waiting.pop_front()?;
-        let claim = self.claim(&support);
+        let waiting = self.waiting.pop_front()?;
+        let claim = self.claim(&waiting);
+        let Waiting { support, form } = waiting;
+        if form == Form::Enclosed && self.is_short(&support) {
+            // Comes next unless this claim is accepted.
+            self.waiting.push_front(Waiting {
+                support: support.clone(),
+                form: Form::Exact,
+            });
+        }
         if let Err(failure) = &claim {
             self.repair(&support, failure);
         }
@@ -162,7 +225,9 @@ pub fn propose(
 ) -> Result<Claim, NotCertified> {
     let rows = IntegralRows::of(pencil);
     let mut attempts = Vec::new();
-    for Proposal { support, claim } in proposals(pencil, &rows, window, candidate)? {
+    for Proposal { support, claim } in
+        proposals(pencil, &rows, window, candidate, Preference::Exact)?
+    {
         match claim {
             Ok(claim) => return Ok(claim),
             Err(failure) => attempts.push(Attempt { support, failure }),
@@ -210,6 +275,36 @@ mod tests {
             Some(AttemptFailure::TooLarge { .. }) => "too large",
             _ => "refused",
         }
+    }
+
+    /// The forms of claims that are tried at value 1 on the cycle of n variables, all of which a
+    /// checker refuses.
+    fn forms(n: usize, preference: Preference) -> Vec<&'static str> {
+        let pencil = cycle(n);
+        let rows = IntegralRows::of(&pencil);
+        let candidate = Candidate {
+            value: 1.0,
+            x: vec![1.0; n],
+        };
+        let window = Window::all();
+        let tried = proposals(&pencil, &rows, &window, &candidate, preference).unwrap();
+        let claims = tried.filter_map(|proposal| proposal.claim.ok());
+        let forms = claims.map(|claim| match claim {
+            Claim::ExactSolution(_) => "exact",
+            _ => "enclosed",
+        });
+        forms.collect()
+    }
+
+    #[test]
+    fn the_cheaper_form_is_tried_first_and_the_exact_one_after_a_box() {
+        assert_eq!(forms(EXACT_FIRST_ORDER, Preference::Cheapest), ["exact"]);
+        assert_eq!(
+            forms(EXACT_FIRST_ORDER + 1, Preference::Cheapest),
+            ["enclosed", "exact"]
+        );
+        assert_eq!(forms(EXACT_FIRST_ORDER + 1, Preference::Exact), ["exact"]);
+        assert_eq!(forms(EXACT_ORDER + 1, Preference::Exact), ["enclosed"]);
     }
 
     /// Small supports of short numbers are solved exactly; order times bits decides, and the order

@@ -57,7 +57,8 @@ pub fn multistart(
     admissible: &Admissible<'_>,
     search: &Search,
 ) -> Result<Found, SolverError> {
-    let certifier = certify::Certifier::new(problem, admissible.pencil());
+    let certifier =
+        certify::Certifier::new(problem, admissible.pencil()).with_preference(search.preference);
     multistart_with(
         admissible,
         problem.window(),
@@ -86,7 +87,7 @@ pub fn multistart_large(
     }
 
     require_dense_order(pencil)?;
-    let certifier = certify::Certifier::new(problem, pencil);
+    let certifier = certify::Certifier::new(problem, pencil).with_preference(search.preference);
     let found = multistart_with(
         admissible,
         problem.window(),
@@ -106,7 +107,7 @@ fn multistart_on_slip_variables(
     watch: &Watch<'_>,
 ) -> Result<(Found, Pencil), SearchError> {
     let pencil = admissible.pencil();
-    let certifier = certify::Certifier::new(problem, pencil);
+    let certifier = certify::Certifier::new(problem, pencil).with_preference(search.preference);
     let condensed = condense(admissible)?;
     let expansion = Expansion::new(pencil).ok_or(SearchError::SingularInDoubles)?;
     require_dense_order(&condensed)?;
@@ -180,7 +181,8 @@ pub fn multistart_with_zero(
     }
 
     require_dense_order(&reduced.pencil)?;
-    let certifier = certify::Certifier::new(problem, &reduced.pencil);
+    let certifier =
+        certify::Certifier::new(problem, &reduced.pencil).with_preference(search.preference);
     let mut found = Found::default();
     let hunt = Hunt {
         admissible,

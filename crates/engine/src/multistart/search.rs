@@ -4,7 +4,7 @@
 //! the solver; its default is what the command `solve` does.
 
 use crate::candidate::Candidate;
-use crate::certify::NotCertified;
+use crate::certify::{NotCertified, Preference};
 use mceip_check::certificate::Claim;
 use mceip_mcp::solver::Options;
 
@@ -31,6 +31,8 @@ pub struct Search {
     pub budget: Option<usize>,
     /// Keep the log of every run as text?
     pub trace: bool,
+    /// Which form the claims have.
+    pub preference: Preference,
     /// Seed of the random starts.
     pub seed: u64,
     /// Options of each run.
@@ -48,6 +50,7 @@ impl Default for Search {
             departures: None,
             budget: None,
             trace: false,
+            preference: Preference::default(),
             seed: 1,
             options: Options::for_search(),
         }
