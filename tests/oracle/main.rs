@@ -8,6 +8,7 @@
 mod third;
 
 mod algebra;
+mod counterexamples;
 mod known_answers;
 mod oracle_degenerate;
 mod oracle_edges;

@@ -9,7 +9,7 @@
 use mceip_engine::reduction::{mu_family, reduce};
 use mceip_exact::{
     Algebraic, Integer, Interval, Poly, Rational, Sparse, common_denominator, determinant,
-    positive_definite, rational, roots_in, whole,
+    positive_definite, rational, roots_in, schur_complement, whole,
 };
 use mceip_model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution, enumerate, is_rational_solution};
@@ -162,6 +162,62 @@ fn condition_19_is_necessary() {
 
     assert!(silent > 60, "{silent} {diverging}");
     assert!(diverging > 30, "{silent} {diverging}");
+}
+
+/// The Schur complement of the free variables, which come first in the pencil of a system.
+fn condensed(matrix: &Sparse, free_count: usize) -> Sparse {
+    let free: Vec<usize> = (0..free_count).collect();
+    let slip: Vec<usize> = (free_count..matrix.rows()).collect();
+    let block = |rows: &[usize], columns: &[usize]| matrix.submatrix(rows, columns);
+
+    let corner = block(&slip, &slip);
+    if free.is_empty() {
+        return corner;
+    }
+    let of_free = block(&free, &free);
+    schur_complement(
+        &of_free,
+        &block(&free, &slip),
+        &block(&slip, &free),
+        &corner,
+    )
+    .unwrap()
+}
+
+/// Chapter 2.3: where the condensed matrix has a definite symmetric part, MCEIP-mu has no solution
+/// up to this mu. It has one wherever K* has one, and beyond.
+#[test]
+fn the_condensed_condition_excludes_lambda_zero() {
+    let mut beyond = 0;
+    let mut diverging = 0;
+
+    for index in 0..140 {
+        let mut rng = rng(6000 + index);
+        let system = random_system(&mut rng, index);
+        let family = mu_family(&system).unwrap().stiffness;
+        let free_count = family.free().len();
+
+        for mu in [rational(1, 8), rational(1, 2), whole(1), whole(2), whole(8)] {
+            let whole_matrix = at_friction(&family, &mu);
+            let is_definite = has_definite_symmetric_part(&whole_matrix);
+            let matrix = condensed(&whole_matrix, free_count);
+
+            if !has_definite_symmetric_part(&matrix) {
+                assert!(!is_definite, "{index}: mu = {mu}");
+                continue;
+            }
+
+            let window = Window::new(whole(0), Some(mu.clone())).unwrap();
+            let found = enumerate(&family, &window).unwrap();
+            assert!(found.solutions.is_empty() && found.cones.is_empty());
+            beyond += usize::from(!is_definite);
+        }
+
+        diverging += usize::from(!solve(&family).solutions.is_empty());
+    }
+
+    assert!(beyond > 20, "{beyond} {diverging}");
+    assert!(diverging > 20, "{beyond} {diverging}");
 }
 
 /// (17)-(18): a null vector with x_s >= 0 at lambda^2 >= 0 is a solution, and the enumerator has

@@ -165,3 +165,44 @@ fn every_reason_of_rejection_is_explained() {
     assert_eq!(explained.iter().cloned().collect::<BTreeSet<_>>(), expected);
     assert_eq!(explained.len(), expected.len(), "a name stands twice");
 }
+
+/// The Rust files below a folder, by their paths within it; modules of unit tests left out.
+fn sources(folder: &Path) -> BTreeSet<String> {
+    let mut files = BTreeSet::new();
+    let mut stack = vec![folder.to_path_buf()];
+
+    while let Some(place) = stack.pop() {
+        for entry in std::fs::read_dir(&place).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                stack.push(path);
+                continue;
+            }
+
+            let name = path.strip_prefix(folder).unwrap().to_str().unwrap();
+            let is_for_tests = name.ends_with("tests.rs") || name.ends_with("order_two.rs");
+            if name.ends_with(".rs") && !is_for_tests {
+                files.insert(name.to_string());
+            }
+        }
+    }
+    files
+}
+
+/// The reading list of 10.3 has every file of the checker, each once.
+#[test]
+fn the_reading_list_has_every_file_of_the_checker() {
+    let page = read(&root().join("spec/verifying.md"));
+    let section = page.split("## 10.3 Read the checker").nth(1).unwrap();
+    let table = section.split("Machine integers").next().unwrap();
+
+    // Every second part of a text split at backquotes stood between two of them.
+    let quoted = table.split('`').skip(1).step_by(2);
+    let listed: Vec<&str> = quoted.filter(|name| name.ends_with(".rs")).collect();
+
+    let expected = sources(&root().join("crates/check/src"));
+    let found: BTreeSet<String> = listed.iter().map(|name| name.to_string()).collect();
+    assert!(expected.len() > 35, "{}", expected.len());
+    assert_eq!(found, expected);
+    assert_eq!(listed.len(), expected.len(), "a file stands twice");
+}
