@@ -93,7 +93,9 @@ fn a_half_of_one_region_does_not_stand_for_another() {
     assert_eq!(open.open.len(), 1);
 
     let not_definite = CoverFault::NotDefinite {
+        leaf: "positive_definite",
         index: 1,
+        expected: "> 0",
         end: "upper",
     };
     assert_eq!(

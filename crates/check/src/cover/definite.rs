@@ -58,13 +58,25 @@ pub(super) fn check_corners(
         }
 
         let verdict = long_definite(corner.m, corner.r, &possible, sign);
-        verdict.map_err(|pivot| CoverFault::NotDefinite {
-            index: index[possible[pivot]],
-            end: corner.name,
-        })?;
+        verdict.map_err(|pivot| not_definite(sign, index[possible[pivot]], corner.name))?;
     }
 
     Ok(())
+}
+
+/// The fault of a leaf of this sign.
+fn not_definite(sign: i8, index: usize, end: &'static str) -> CoverFault {
+    let (leaf, expected) = if sign < 0 {
+        ("negative_definite", "< 0")
+    } else {
+        ("positive_definite", "> 0")
+    };
+    CoverFault::NotDefinite {
+        leaf,
+        index,
+        expected,
+        end,
+    }
 }
 
 /// Is the symmetric part on these variables exactly zero, with zero radius?
@@ -90,8 +102,22 @@ mod tests {
         definite(&region(states), None, || Ok(ends), &INDEX, 1)
     }
 
-    fn not_definite(index: usize, end: &'static str) -> Result<(), CoverFault> {
-        Err(CoverFault::NotDefinite { index, end })
+    fn not_positive(index: usize, end: &'static str) -> Result<(), CoverFault> {
+        Err(not_definite(1, index, end))
+    }
+
+    /// A message names the leaf as the file does, and the sign that its pivots should have.
+    #[test]
+    fn messages_name_the_leaf_of_the_file() {
+        let negative = not_definite(-1, 3, "lower").to_string();
+        let expected = "negative_definite: expected pivot 3 of the symmetric part < 0 \
+                        at the lower end";
+        assert_eq!(negative, expected);
+        assert!(
+            not_definite(1, 3, "lower")
+                .to_string()
+                .starts_with("positive_definite: ")
+        );
     }
 
     /// At an infinite end a symmetric part that vanishes on the possible support will do, radius
@@ -106,17 +132,17 @@ mod tests {
 
         assert_eq!(verdict([eye, eye], true), Ok(()));
         assert_eq!(verdict([eye, skew], true), Ok(()));
-        assert_eq!(verdict([eye, skew], false), not_definite(10, "upper"));
-        assert_eq!(verdict([skew, eye], true), not_definite(10, "lower"));
+        assert_eq!(verdict([eye, skew], false), not_positive(10, "upper"));
+        assert_eq!(verdict([skew, eye], true), not_positive(10, "lower"));
 
         let symmetric = [[0, 5], [5, 0]];
-        assert_eq!(verdict([eye, symmetric], true), not_definite(10, "upper"));
+        assert_eq!(verdict([eye, symmetric], true), not_positive(10, "upper"));
         let singular = [[1 << 20, 0], [0, 0]];
-        assert_eq!(verdict([eye, singular], true), not_definite(11, "upper"));
+        assert_eq!(verdict([eye, singular], true), not_positive(11, "upper"));
 
         let with_radius = ends([eye, skew], [ZERO, [[0, 1], [0, 0]]], true);
         let refused = long_definite_leaf(UNDECIDED, with_radius);
-        assert_eq!(refused, not_definite(10, "upper"));
+        assert_eq!(refused, not_positive(10, "upper"));
 
         // Only entry (1, 1) counts, which is zero with its radius.
         let m = [eye, [[7, 9], [9, 0]]];

@@ -84,10 +84,14 @@ pub enum CoverFault {
     #[error("farkas: expected a strict sign on one moving variable or on all that may move")]
     NotStrict,
     /// The symmetric part is not proved definite.
-    #[error("definite: expected pivot {index} of the symmetric part > 0 at the {end} end")]
+    #[error("{leaf}: expected pivot {index} of the symmetric part {expected} at the {end} end")]
     NotDefinite {
-        /// Position among the variables that may move.
+        /// `positive_definite`, `negative_definite` or `ldl`, as in the file.
+        leaf: &'static str,
+        /// The variable.
         index: usize,
+        /// `> 0` or `< 0`; `>= 0` or `<= 0` at infinity.
+        expected: &'static str,
         /// `lower` or `upper`.
         end: &'static str,
     },

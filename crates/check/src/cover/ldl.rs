@@ -35,6 +35,18 @@ struct End {
     is_infinite: bool,
 }
 
+impl End {
+    /// What is expected of the entries of D here.
+    fn expected_sign(&self, is_negative: bool) -> &'static str {
+        match (is_negative, self.is_infinite) {
+            (false, false) => "> 0",
+            (true, false) => "< 0",
+            (false, true) => ">= 0",
+            (true, true) => "<= 0",
+        }
+    }
+}
+
 pub(super) fn check(
     rows: &Rows,
     region: &Region,
@@ -92,7 +104,9 @@ fn check_end(
         };
         if !has_sign {
             return Err(CoverFault::NotDefinite {
+                leaf: "ldl",
                 index: variables[k],
+                expected: end.expected_sign(is_negative),
                 end: end.name,
             });
         }
@@ -239,12 +253,19 @@ mod tests {
             ],
             [Ok(()), Ok(())]
         );
-        let not = |index, end| Err(CoverFault::NotDefinite { index, end });
+        let not = |index, expected, end| {
+            Err(CoverFault::NotDefinite {
+                leaf: "ldl",
+                index,
+                expected,
+                end,
+            })
+        };
         let mixed = Ldl {
             upper: negative.upper.clone(),
             ..positive.clone()
         };
-        assert_eq!(verdict(1, Some(3), &mixed), not(0, "upper"));
+        assert_eq!(verdict(1, Some(3), &mixed), not(0, "> 0", "upper"));
         let mixed = Ldl {
             lower: negative.lower.clone(),
             ..positive.clone()
@@ -259,7 +280,7 @@ mod tests {
         );
         let mut turned = negative;
         turned.lower.diagonal[1] = number("1");
-        assert_eq!(verdict(-1, Some(3), &turned), not(1, "lower"));
+        assert_eq!(verdict(-1, Some(3), &turned), not(1, "< 0", "lower"));
     }
 
     /// At infinity, which is no value of the window, B may be semidefinite; at an end it may not.
@@ -274,7 +295,9 @@ mod tests {
         assert_eq!(
             verdict(1, Some(3), &at_infinity),
             Err(CoverFault::NotDefinite {
+                leaf: "ldl",
                 index: 1,
+                expected: "> 0",
                 end: "upper"
             })
         );
@@ -285,7 +308,9 @@ mod tests {
         assert_eq!(
             verdict(1, None, &singular),
             Err(CoverFault::NotDefinite {
+                leaf: "ldl",
                 index: 1,
+                expected: "> 0",
                 end: "lower"
             })
         );
