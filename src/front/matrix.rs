@@ -27,7 +27,8 @@ impl Matrix {
     /// A matrix by its rows.
     ///
     /// # Errors
-    /// [`Error::Model`] for rows of different lengths and numbers that are not finite.
+    /// [`Error::Ragged`] for rows of different lengths, [`Error::Model`] for numbers that are not
+    /// finite.
     pub fn from_rows<R: AsRef<[f64]>>(rows: &[R]) -> Result<Matrix, Error> {
         from_exact_rows(rows.iter().map(|row| exact_doubles(row.as_ref())))
     }
@@ -35,7 +36,8 @@ impl Matrix {
     /// A matrix of decimals or fractions ("0.1", "3e-4", "1/3"), each exactly the number it spells.
     ///
     /// # Errors
-    /// [`Error::Model`] for rows of different lengths and text that is no number.
+    /// [`Error::Ragged`] for rows of different lengths, [`Error::Model`] for text that is no
+    /// number.
     pub fn from_decimals<R: AsRef<[S]>, S: AsRef<str>>(rows: &[R]) -> Result<Matrix, Error> {
         from_exact_rows(rows.iter().map(|row| exact_decimals(row.as_ref())))
     }
@@ -44,7 +46,8 @@ impl Matrix {
     /// added, without rounding, as in the assembly of finite elements.
     ///
     /// # Errors
-    /// [`Error::Model`] for an entry outside the matrix or a number that is not finite.
+    /// [`Error::Outside`] for an entry outside the matrix, [`Error::Model`] for a number that is
+    /// not finite.
     pub fn from_triplets(
         rows: usize,
         columns: usize,

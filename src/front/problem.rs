@@ -15,8 +15,9 @@ use std::path::Path;
 /// (A + tB) x = y,   y_f = 0,   0 <= x_s _|_ y_s >= 0
 /// ```
 ///
-/// t is lambda^2, the square of a growth rate, (12)-(14), or the friction coefficient mu at which a
-/// quasi-static motion begins, (21)-(23). A and B come from a mechanical system or are given.
+/// t is lambda^2, the square of a growth rate, (12)-(14), or a friction coefficient mu at which
+/// there is a divergence with lambda = 0, (21)-(23). A and B come from a mechanical system or are
+/// given.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem(mceip_model::Problem);
 
@@ -70,8 +71,8 @@ impl Problem {
         Problem::new(Body::System(system), Unknown::Lambda2)
     }
 
-    /// Friction coefficients at which a quasi-static motion begins: MCEIP-mu, (21)-(23). The
-    /// arguments are as in [`Problem::from_matrices`].
+    /// Friction coefficients at which there is a divergence with lambda = 0: MCEIP-mu, (21)-(23).
+    /// The arguments are as in [`Problem::from_matrices`].
     ///
     /// # Errors
     /// As [`Problem::from_matrices`].

@@ -92,9 +92,10 @@ impl<'a> IntegerPencil<'a> {
 
     /// The kernel of the block at each of the given roots of its determinant.
     ///
-    /// Where the rank is one less than the order, the cofactors of the first row span the kernel
-    /// (Cramer's rule), for all such roots at once. They all vanish where the rank is less; there
-    /// the kernel is found by elimination at the root.
+    /// The cofactors of the first row are in the kernel (Cramer's rule), for all roots at once.
+    /// Where one of them is not zero, the rank is one less than the order and they span the kernel.
+    /// They all vanish where the rank is less, and where the null vector from the left begins with
+    /// 0, as for diag(1, 0). There the kernel is found by elimination at the root.
     pub(super) fn eigenspaces(&self, active: &[usize], roots: Vec<Algebraic>) -> Vec<Eigenspace> {
         if roots.is_empty() {
             return Vec::new();

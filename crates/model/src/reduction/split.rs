@@ -17,7 +17,8 @@
 //! pencil must not be given to what treats all complementarity variables alike; [`super::reduce`]
 //! refuses z.
 //!
-//! Input: a [`System`]. Called by the oracle and its tests. `check` has its own way.
+//! Input: a [`System`]. The program and `engine` call this and hand the [`SplitForm`] to the
+//! oracle's `modes`. `check` has its own way.
 
 use super::eliminate::{
     MuFamily, Reduced, Variable, ZeroPart, inner_product, mu_family, reduce, times_direction,

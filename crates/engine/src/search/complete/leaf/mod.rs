@@ -14,9 +14,14 @@
 //! A file takes a region with its matrices and gives the node, or nothing where the evidence cannot
 //! be had. None of them goes on with the search: that is for `tree`.
 //!
-//! Who adds a kind of leaf writes four places: `certificate/cover.rs` (its data), one file in
-//! `check/cover/`, one file here, and chapter 5 of the book. It is then named in `tree`, which
-//! tries the kinds in turn, and in the checker's `walk`.
+//! Who adds a kind of leaf writes
+//!
+//! - its data: `certificate/cover.rs` and the schema in `spec/schemas/`;
+//! - its check: one file in `check/cover/`, named in the checker's `walk`;
+//! - its maker: one file here, named in `tree`, which tries the kinds in turn;
+//! - its page: a section of chapter 5 with an example, from which `spec/checker.py` follows;
+//! - its forgeries: files of the corpus, one for each reason of rejection;
+//! - its name for the verified checker: `verified/kinds.rs` of the test kit.
 
 pub(crate) mod definite;
 pub(crate) mod farkas;
