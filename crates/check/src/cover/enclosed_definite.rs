@@ -26,9 +26,14 @@ use num_traits::{One, Signed, Zero};
 const BITS: u32 = 40;
 /// Fraction bits of L.
 const UNIT: u32 = 34;
+/// l_ik d_k is multiplied in two halves, the lower one of so many bits.
+const HALF: u32 = 32;
 /// The shift in units of the cut S, per row: above the rounding of L times the largest pivot.
 const SHIFT: i128 = 1 << 8;
-/// Order at which sums of products could leave 128 bits.
+/// Bits of what is multiplied. Of a definite matrix nothing is longer: |l_ij|^2 d_j <= S_ii < 2^40
+/// and d_j >= 1, so |l_ij| <= 2^20 and |l_ij d_j| <= 2^40.
+const FACTOR_BITS: u32 = 57;
+/// Order at which sums of products of such factors could leave 128 bits.
 const MAX_ORDER: usize = 4096;
 
 /// Up to this order, and with entries of so many bits, a matrix is decided without a margin.
@@ -181,21 +186,27 @@ fn slack(t: &Short, variables: &[usize], i: usize, cut: u32) -> i128 {
     rounded_up.min(1 << 60) + lost
 }
 
-/// Rounded factors L D L'.
+/// Rounded factors L D L'. Products are of two machine words, and their sums fit into two.
 struct Ldl {
-    /// Rows of L below the diagonal, in units of 2^-UNIT.
-    l: Vec<Vec<i128>>,
-    d: Vec<i128>,
+    rows: Vec<FactorRow>,
+    d: Vec<i64>,
+}
+
+/// A row of L.
+struct FactorRow {
+    /// The column of the first entry that is not zero.
+    first: usize,
+    /// Up to the diagonal, in units of 2^-UNIT.
+    entries: Vec<i64>,
 }
 
 impl Ldl {
     /// Factors the matrix less the shift. `Err(i)`: row i has no positive pivot.
     ///
-    /// For a definite matrix |l_ij|^2 d_j <= S_ii bounds every product. An overflow therefore means
-    /// that it is not definite, or hardly.
+    /// A factor of more than [`FACTOR_BITS`] bits means that the matrix is not definite, or hardly.
     fn of(lower: &[Vec<i128>], shift: i128) -> Result<Ldl, usize> {
         let mut ldl = Ldl {
-            l: Vec::with_capacity(lower.len()),
+            rows: Vec::with_capacity(lower.len()),
             d: Vec::with_capacity(lower.len()),
         };
         for (i, given) in lower.iter().enumerate() {
@@ -205,37 +216,28 @@ impl Ldl {
         Ok(ldl)
     }
 
-    /// Appends a row of L and its pivot; `None` if that is not positive or a product overflows.
+    /// Appends a row of L and its pivot; `None` if that is not positive or a factor is too long.
     fn push_row(&mut self, given: &[i128], shift: i128) -> Option<()> {
         let i = given.len() - 1;
-        let mut row: Vec<i128> = Vec::with_capacity(i);
-        let mut scaled: Vec<i128> = Vec::with_capacity(i); // l_ik d_k in units of 1
-        let mut nonzero: Vec<usize> = Vec::with_capacity(i); // columns k with l_ik d_k not 0
+        let first = given.iter().position(|entry| *entry != 0).unwrap_or(i);
+        let mut entries: Vec<i64> = Vec::with_capacity(i + 1);
+        let mut scaled: Vec<i64> = Vec::with_capacity(i); // l_ik d_k in units of 1
 
-        for j in 0..i {
-            let mut rest = given[j] << UNIT;
-            for &k in &nonzero {
-                rest = rest.checked_sub(scaled[k].checked_mul(self.l[j][k])?)?;
-            }
-
-            row.push(rest / self.d[j]);
-            scaled.push(rest >> UNIT);
-            if scaled[j] != 0 {
-                nonzero.push(j);
-            }
+        for (j, row) in self.rows.iter().enumerate() {
+            let from = first.max(row.first).min(j);
+            let rest = (given[j] << UNIT) - dot(&scaled[from..], &row.entries[from..j]);
+            entries.push(factor(rest / i128::from(self.d[j]))?);
+            scaled.push(factor(rest >> UNIT)?);
         }
 
-        let mut pivot = (given[i] - shift) << UNIT;
-        for &k in &nonzero {
-            pivot = pivot.checked_sub(scaled[k].checked_mul(row[k])?)?;
-        }
-
-        let pivot = pivot >> UNIT;
+        let rest = ((given[i] - shift) << UNIT) - dot(&scaled, &entries);
+        let pivot = factor(rest >> UNIT)?;
         if pivot <= 0 {
             return None;
         }
 
-        self.l.push(row);
+        entries.push(1 << UNIT);
+        self.rows.push(FactorRow { first, entries });
         self.d.push(pivot);
         Some(())
     }
@@ -244,21 +246,13 @@ impl Ldl {
     /// dominant with a positive diagonal. `Err(i)`: row i is not, or overflows.
     fn check_residual(&self, lower: &[Vec<i128>]) -> Result<(), usize> {
         let n = lower.len();
-        let nonzero: Vec<Vec<usize>> = (0..n)
-            .map(|i| (0..=i).filter(|&k| self.entry(i, k) != 0).collect())
-            .collect();
-
         let mut diagonal = vec![0i128; n];
         let mut off_diagonal = vec![0i128; n];
+
         for i in 0..n {
+            let scaled = self.scaled_row(i).ok_or(i)?;
             for j in 0..=i {
-                // Column k counts where both rows have it.
-                let columns = if nonzero[i].len() < nonzero[j].len() {
-                    &nonzero[i]
-                } else {
-                    &nonzero[j]
-                };
-                let residual = self.residual(lower[i][j], i, j, columns).ok_or(i)?;
+                let residual = self.residual(lower[i][j], &scaled, j).ok_or(i)?;
 
                 if i == j {
                     diagonal[i] = residual;
@@ -278,25 +272,67 @@ impl Ldl {
         Ok(())
     }
 
-    /// L_ik for k <= i, in units of 2^-UNIT.
-    fn entry(&self, i: usize, k: usize) -> i128 {
-        if k == i { 1 << UNIT } else { self.l[i][k] }
-    }
+    /// Row i of L D; `None` if an entry is too long.
+    fn scaled_row(&self, i: usize) -> Option<ScaledRow> {
+        let row = &self.rows[i];
+        let mut scaled = ScaledRow {
+            first: row.first,
+            high: Vec::with_capacity(i + 1),
+            low: Vec::with_capacity(i + 1),
+        };
 
-    /// given - (L D L')_ij for j <= i, in units of 2^-(2 UNIT), summed over `columns` up to j.
-    fn residual(&self, given: i128, i: usize, j: usize, columns: &[usize]) -> Option<i128> {
-        let mut rest = given.checked_mul(1 << (2 * UNIT))?;
-        for &k in columns {
-            if k > j {
-                break;
-            }
-
-            let left = self.entry(i, k).checked_mul(self.d[k])?;
-            rest = rest.checked_sub(left.checked_mul(self.entry(j, k))?)?;
+        for (&entry, &pivot) in row.entries.iter().zip(&self.d) {
+            let value = product(entry, pivot);
+            scaled.high.push(factor(value >> HALF)?);
+            scaled.low.push(factor(value & ((1 << HALF) - 1))?);
         }
 
-        Some(rest)
+        Some(scaled)
     }
+
+    /// given - (L D L')_ij for j <= i, in units of 2^-(2 UNIT); `scaled` is row i of L D.
+    fn residual(&self, given: i128, scaled: &ScaledRow, j: usize) -> Option<i128> {
+        let row = &self.rows[j];
+        let from = scaled.first.max(row.first).min(j);
+        let entries = &row.entries[from..];
+        let high = dot(&scaled.high[from..=j], entries);
+        let low = dot(&scaled.low[from..=j], entries);
+
+        let sum = high.checked_mul(1 << HALF)?.checked_add(low)?;
+        given.checked_mul(1 << (2 * UNIT))?.checked_sub(sum)
+    }
+}
+
+/// A row of L D in units of 2^-UNIT, exact: high 2^HALF + low, with 0 <= low < 2^HALF.
+struct ScaledRow {
+    /// The column of the first entry that is not zero.
+    first: usize,
+    high: Vec<i64>,
+    low: Vec<i64>,
+}
+
+/// The sum of products of factors, of [`MAX_ORDER`] at most.
+fn dot(a: &[i64], b: &[i64]) -> i128 {
+    let mut sum: i128 = 0;
+    for (&a, &b) in a.iter().zip(b) {
+        sum += product(a, b);
+    }
+
+    sum
+}
+
+/// A factor of at most [`FACTOR_BITS`] bits.
+fn factor(value: i128) -> Option<i64> {
+    if value.unsigned_abs() >> FACTOR_BITS > 0 {
+        return None;
+    }
+
+    i64::try_from(value).ok()
+}
+
+/// The product of two machine words.
+fn product(a: i64, b: i64) -> i128 {
+    i128::from(a) * i128::from(b)
 }
 
 #[cfg(test)]
