@@ -844,7 +844,7 @@ def words(bits):
 def spend_matrix(ns, coefficients, entry_words, center_bits, lo, hi):
     """The matrices of all regions have a largest work (C, Limits)."""
     powers = coefficients * words(BITS + center_bits + rational_bits(lo) + (0 if hi is None else rational_bits(hi)))
-    Budget.matrices -= ns * ns * powers * (entry_words + powers)
+    Budget.matrices -= ns * ns * (powers * (entry_words + powers) + 256)
     demand(Budget.matrices >= 0, "matrices of regions: more work than the file's budget")
 
 
@@ -863,6 +863,10 @@ class PlainPencil:
             a, b = ([(row.get(j, 0) << BITS) >> bits for j in range(p.n)] for row in (ra, rb))
             self.parts.append((a, b, int(bits > BITS)))
         self.p, self.n, self.paid = p, p.n, None
+        self.numbers = 0
+
+    def name(self, _anchor):
+        pass
 
     def reversed(self, _anchor):
         return False
@@ -977,25 +981,42 @@ class CondensedPencil:
         self.common = lcm(1, *(rows[i][0] for i in p.free))
         self.longest = max((abs(v).bit_length() for _, ra, rb in rows for r in (ra, rb) for v in r.values()), default=0)
         self.longest += self.common.bit_length()
-        self.coefficients, self.words = [], []
-        self.anchors = [self.read_anchor(a) for a in sequence(anchors)]
+        self.coefficients, self.words, self.costs = [], [], []
+        self.numbers = 0
+        self.unnamed = [self.read_anchor(a) for a in sequence(anchors)]
+        self.anchors = [None] * len(self.unnamed)
         self.cache = {}
 
+    def name(self, anchor):
+        """A piece names this anchor, or none: the first time it is expanded, which takes memory."""
+        if anchor is not None and self.anchors[anchor] is None:
+            Budget.anchors -= self.costs[anchor]
+            demand(Budget.anchors >= 0, "anchors: expansions of more bits than the file's budget")
+            self.anchors[anchor] = self.expand(*self.unnamed[anchor])
+
     def read_anchor(self, obj):
-        """Z (coefficients, units of 2^-fine, rounded down), and column norms of V, l, r_<, r by power of d, rounded up."""
-        p, place = self.p, self.place
+        """What an anchor is expanded from, within its limits."""
         center, right, left, backwards = fields(obj, "center right left", "reversed")
         if "reversed" in obj and not isinstance(backwards, bool):
             raise Unreadable("anchor: reversed")
         demand(not backwards or self.tau > 0, "condensation 3: a reversed anchor needs mass_sigma > 0")
-        a, b = (p.b, p.a) if backwards else (p.a, p.b)
-        scale = self.scales[1 if backwards else 0]
-        center, nf, ns = number(center), len(p.free), len(p.s)
+        center, nf, ns = number(center), len(self.p.free), len(self.p.s)
         (w, ew), (v, ev) = read_coefficients(right, nf, ns), read_coefficients(left, nf, ns)
         self.coefficients.append(len(w) + len(v) + 1)
         of_anchor = sum(max((abs(x).bit_length() for m in e for c in m for x in c), default=0) for e in (w, v))
         bits = ew + ev + of_anchor + self.longest + rational_bits(center)
         demand(ns * ns * self.coefficients[-1] * bits <= 2**29, "an anchor's expansion is too large")
+        self.costs.append(ns * ns * max(len(w) + len(v), 2) * (512 + bits))
+        self.numbers += nf * ns * (len(w) + len(v))
+        largest = max(self.bits[1 if backwards else 0], default=1)
+        self.words.append(words((self.common * center.denominator).bit_length() + ew + ev + largest))
+        return center, backwards, w, ew, v, ev
+
+    def expand(self, center, backwards, w, ew, v, ev):
+        """Z (coefficients, units of 2^-fine, rounded down), and column norms of V, l, r_<, r by power of d, rounded up."""
+        p, place, nf, ns = self.p, self.place, len(self.p.free), len(self.p.s)
+        a, b = (p.b, p.a) if backwards else (p.a, p.b)
+        scale = self.scales[1 if backwards else 0]
         t0 = [plus(x, y, center) for x, y in zip(a, b)]
         den = lcm(1, *(x.denominator for m in (t0, b) for r in m for x in r.values()))
         t0, t1 = ([{j: int(x * den) for j, x in r.items()} for r in m] for m in (t0, b))
@@ -1050,8 +1071,6 @@ class CondensedPencil:
                 c[:] = [-(-x * s.numerator // s.denominator) for x, s in zip(c, scale)]
         nrl = [c if k < low else [0] * ns for k, c in enumerate(nr)]
         linear = len(z) <= 2 and not (self.aff_norm if backwards else self.bff_norm) and all(not any(c) for n, top in ((nr, 1), (nrl, 1), (nl, 2), (nv, 2)) for c in n[top:])
-        largest = max(self.bits[1 if backwards else 0], default=1)
-        self.words.append(words((self.common * center.denominator).bit_length() + ew + ev + largest))
         return center, fine, fixed, nv, nl, nrl, nr, linear, bool(backwards)
 
     def reversed(self, anchor):
@@ -1387,7 +1406,12 @@ class Budget:
     """What the signs of the support leaves of a file may cost, and the matrices of its regions (C, Limits)."""
     left = 0
     matrices = 0
+    anchors = 0
     claims = 0
+
+    @classmethod
+    def of_anchors(cls, pencils):
+        cls.anchors = (1 << 30) + (sum(pencil.numbers for pencil in pencils) << 12)
 
     @classmethod
     def take(cls, cost):
@@ -1648,9 +1672,10 @@ def complete_set(p, rows, window, claims, obj):
     pencil = CondensedPencil(p, rows, condensation) if p.free else PlainPencil(p, rows)
     demand(sequence(pieces), "cover: no piece")
     Budget.left = 1 << 35
+    Budget.of_anchors([pencil])
     nodes = sum(len(sequence(piece["tree"])) for piece in pieces if isinstance(piece, dict) and "tree" in piece)
-    Budget.matrices = (1 << 30) + (nodes << 24)
     entries = sum(len({*ra, *rb}) for _, ra, rb in rows)
+    Budget.matrices = (1 << 30) + (nodes << 20) + (entries << 16)
     definite_left = (1 << 26) + (nodes << 20) + (entries << 16)
     start, found, families, left_open = window[0], [], [], []
     for number_of, piece in enumerate(pieces):
@@ -1660,6 +1685,7 @@ def complete_set(p, rows, window, claims, obj):
         end = None if end is None else number(end)
         if anchor is not None:
             anchor = place_in(anchor, len(pencil.anchors)) if p.free else counter(anchor)
+        pencil.name(anchor)
         if number_of == len(pieces) - 1:
             demand(end == window[1] and (end is None or end > start or len(pieces) == 1), "cover: the last piece")
         else:
@@ -1905,8 +1931,9 @@ def check_critical(p, doc):
     parts, integral = friction_parts(p)
     pencils, tail = critical_pencils(p, parts, integral, obj, lowest, below)
     nodes = sum(len(piece["tree"]) for piece in pieces)
-    Budget.matrices = (1 << 30) + (nodes << 24)
+    Budget.of_anchors(pencils)
     entries = sum(len({*ra, *rb}) for rows in integral for _, ra, rb in rows)
+    Budget.matrices = (1 << 30) + (nodes << 20) + (entries << 16)
     definite_left = (1 << 26) + (nodes << 20) + (entries << 16)
     demand(pieces, "no piece")
     start, leaves = Q(0), 0
@@ -1915,6 +1942,8 @@ def check_critical(p, doc):
         end = None if end is None else number(end)
         if anchor is not None:
             anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
+        for pencil in pencils:
+            pencil.name(anchor)
         demand((end is None) == (k == len(pieces) - 1) and (end is None or end > start), "a piece's max")
         boxes, known = [(start, end, lowest, below, (OPEN,) * ns)], {}
         for node in tree:
@@ -1928,8 +1957,8 @@ def check_critical(p, doc):
                     ends = [pencil.ends(lo, hi, anchor) for pencil in pencils]
                     t_bits = BITS + rational_bits(lo) + (0 if hi is None else rational_bits(hi))
                     mu_bits = rational_bits(low) + rational_bits(high)
-                    demand(ns * ns * (t_bits + mu_bits) <= 2**29, "a box's matrices are too large")
-                    Budget.matrices -= ns * ns * words(t_bits) * words(mu_bits)
+                    demand(2 * ns * ns * (t_bits + mu_bits) <= 2**29, "a box's matrices are too large")
+                    Budget.matrices -= ns * ns * (words(t_bits) * words(mu_bits) + 256)
                     demand(Budget.matrices >= 0, "matrices of boxes: more work than the file's budget")
                     known[lo, hi, low, high] = [at_friction(ends, mu) for mu in (low, high)]
                 return known[lo, hi, low, high]
@@ -2067,7 +2096,9 @@ def check_presence(p, doc):
     demand((obj is not None) == bool(p.free), "condensation is present exactly if there are free variables")
     parts, integral = friction_parts(p)
     pencils, _ = critical_pencils(p, parts, integral, obj, start, stop)
-    Budget.matrices = (1 << 30) + (len(pieces) << 24)
+    Budget.of_anchors(pencils)
+    entries = sum(len({*ra, *rb}) for rows in integral for _, ra, rb in rows)
+    Budget.matrices = (1 << 30) + (len(pieces) << 20) + (entries << 16)
     witnesses_left = (1 << 30) + (len(pieces) << 26)
     demand(pieces, "no piece")
     low = start
@@ -2076,6 +2107,8 @@ def check_presence(p, doc):
         demand(high > low and (high == stop if k == len(pieces) - 1 else high < stop), "a piece's to")
         if anchor is not None:
             anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
+        for pencil in pencils:
+            pencil.name(anchor)
         demand(0 <= t0 < t1, "presence: interval")
         box = Box(p, piece)
         mu_bits = rational_bits(low) + rational_bits(high)
@@ -2087,8 +2120,8 @@ def check_presence(p, doc):
             """The matrices of [lo, hi] at both ends of [low, high]."""
             both = [pencil.ends(lo, hi, anchor) for pencil in pencils]
             t_bits = BITS + rational_bits(lo) + rational_bits(hi)
-            demand(ns * ns * (t_bits + mu_bits) <= 2**29, "a box's matrices are too large")
-            Budget.matrices -= ns * ns * words(t_bits) * words(mu_bits)
+            demand(2 * ns * ns * (t_bits + mu_bits) <= 2**29, "a box's matrices are too large")
+            Budget.matrices -= ns * ns * (words(t_bits) * words(mu_bits) + 256)
             demand(Budget.matrices >= 0, "matrices of boxes: more work than the file's budget")
             return [at_friction(both, mu) for mu in (low, high)]
         corners = [box.around(x, e) for x in ends(t0, t1) for e in (0, 1)]

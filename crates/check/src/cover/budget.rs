@@ -16,17 +16,26 @@ const DEFINITE_BASE: u64 = 1 << 26;
 const DEFINITE_PER_NODE: u64 = 1 << 20;
 const DEFINITE_PER_ENTRY: u64 = 1 << 16;
 
-/// Products of machine words for the matrices of all regions of a file: without any node, and for
-/// each node.
+/// Products of machine words for the matrices of all regions of a file: without any node or entry,
+/// for each node, and for each entry of the pencil.
 const MATRIX_BASE: u64 = 1 << 30;
-const MATRIX_PER_NODE: u64 = 1 << 24;
+const MATRIX_PER_NODE: u64 = 1 << 20;
+const MATRIX_PER_ENTRY: u64 = 1 << 16;
+
+/// What an entry of such a matrix costs beside the products of its words.
+const WORK_OF_AN_ENTRY: u64 = 1 << 8;
 
 /// Products of machine words for the witnesses of presence of a file: without any piece, and for
 /// each piece.
 const PIECE_BASE: u64 = 1 << 30;
 const PIECE_EACH: u64 = 1 << 26;
 
-/// What is left for one kind of work.
+/// Bits of the expansions of the anchors that pieces name: without any number in the matrices of
+/// the anchors, and for each.
+const ANCHOR_BASE: u64 = 1 << 30;
+const ANCHOR_PER_NUMBER: u64 = 1 << 12;
+
+/// What is left for one kind of work, or of memory.
 pub(super) struct WorkBudget {
     what: &'static str,
     left: Cell<u64>,
@@ -38,16 +47,8 @@ impl WorkBudget {
         pencils: impl IntoIterator<Item = &'a Rows>,
         nodes: u64,
     ) -> WorkBudget {
-        let mut entries: u64 = 0;
-        let rows = pencils.into_iter().flat_map(|pencil| &pencil.rows);
-        for (_, a, b) in rows.flatten() {
-            if !a.is_zero() || !b.is_zero() {
-                entries += 1;
-            }
-        }
-
         let by_nodes = DEFINITE_PER_NODE.saturating_mul(nodes);
-        let by_entries = DEFINITE_PER_ENTRY.saturating_mul(entries);
+        let by_entries = DEFINITE_PER_ENTRY.saturating_mul(entries(pencils));
         WorkBudget::definite_leaves(
             DEFINITE_BASE
                 .saturating_add(by_nodes)
@@ -56,9 +57,17 @@ impl WorkBudget {
     }
 
     /// What the matrices of all regions of a file may cost: products of machine words.
-    pub(super) fn of_matrices(nodes: u64) -> WorkBudget {
+    pub(super) fn of_matrices<'a>(
+        pencils: impl IntoIterator<Item = &'a Rows>,
+        nodes: u64,
+    ) -> WorkBudget {
         let by_nodes = MATRIX_PER_NODE.saturating_mul(nodes);
-        WorkBudget::matrices(MATRIX_BASE.saturating_add(by_nodes))
+        let by_entries = MATRIX_PER_ENTRY.saturating_mul(entries(pencils));
+        WorkBudget::matrices(
+            MATRIX_BASE
+                .saturating_add(by_nodes)
+                .saturating_add(by_entries),
+        )
     }
 
     /// What the witnesses of presence of a file may cost: products of machine words.
@@ -67,6 +76,15 @@ impl WorkBudget {
         WorkBudget {
             what: "pieces: products of words, left of the file's budget",
             left: Cell::new(PIECE_BASE.saturating_add(by_pieces)),
+        }
+    }
+
+    /// What the expansions of a file's anchors may take: bits.
+    pub(super) fn of_anchors(numbers: u64) -> WorkBudget {
+        let by_numbers = ANCHOR_PER_NUMBER.saturating_mul(numbers);
+        WorkBudget {
+            what: "anchors: bits of expansions, left of the file's budget",
+            left: Cell::new(ANCHOR_BASE.saturating_add(by_numbers)),
         }
     }
 
@@ -96,6 +114,26 @@ impl WorkBudget {
     pub(super) fn left(&self) -> u64 {
         self.left.get()
     }
+}
+
+/// What the entries of a matrix with so many rows cost: the products of words for each, and what
+/// any number costs that is as short as may be.
+pub(super) fn entries_work(order: usize, products: u64) -> u64 {
+    let entries = (order as u64).saturating_mul(order as u64);
+    entries.saturating_mul(products.saturating_add(WORK_OF_AN_ENTRY))
+}
+
+/// Entries of the integral rows for which A_ij or B_ij is not zero.
+fn entries<'a>(pencils: impl IntoIterator<Item = &'a Rows>) -> u64 {
+    let mut entries: u64 = 0;
+    let rows = pencils.into_iter().flat_map(|pencil| &pencil.rows);
+    for (_, a, b) in rows.flatten() {
+        if !a.is_zero() || !b.is_zero() {
+            entries += 1;
+        }
+    }
+
+    entries
 }
 
 /// The number of nodes of all trees.

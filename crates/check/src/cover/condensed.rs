@@ -21,9 +21,11 @@
 //! *Tail.* If sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite,
 //! then sym(A + tB) is definite for all t >= from, and x'(A + tB)x = x'y = 0 leaves x = 0 only.
 //!
-//! Input: the integral rows of the pencil and the condensation. Output: an expansion of the
-//! condensed pencil for each anchor. Called by the checker of covers.
+//! Input: the integral rows of the pencil and the condensation. Output: [`Anchors`], whose
+//! hypotheses and limits hold; an anchor is expanded when a piece names it, and the memory that
+//! takes is counted. Called by the checker of covers.
 
+use super::budget::WorkBudget;
 use super::ends::{Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::{Expanded, Norms};
 use super::fault::CoverFault;
@@ -43,11 +45,16 @@ use std::ops::Deref;
 const MAX_DEGREE: usize = 8;
 /// Largest binary exponent of an expansion.
 const MAX_EXPONENT: u32 = 1 << 12;
+/// What a long integer and its short form take beside the bits of the integer.
+const BITS_OF_A_NUMBER: u64 = 512;
 /// Fraction bits of norms of columns: the numbers of an expansion may be small integers.
 const NORM_BITS: u32 = 32;
 
-/// Checks the hypotheses and expands the condensed pencil about each anchor.
-pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expanded>, CoverFault> {
+/// Checks the hypotheses and the limits of each anchor.
+pub(super) fn of<'a>(
+    rows: &Rows,
+    condensation: &'a Condensation,
+) -> Result<Anchors<'a>, CoverFault> {
     let bounds = FreeBounds {
         sigma: &condensation.sigma.0,
         stiffness_factor: &condensation.stiffness_factor,
@@ -58,25 +65,20 @@ pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expande
     let expander = Expander::of(rows, bounds, has_reversed);
     check_hypotheses(&expander.blocks, bounds)?;
 
-    let mut expansions = Vec::with_capacity(condensation.anchors.len());
-    for anchor in &condensation.anchors {
-        let elimination = expander.elimination(anchor.into())?;
-        let right = elimination.right_residual();
-        expansions.push(expander.expand(&elimination, &right));
-    }
-
-    Ok(expansions)
+    let anchors = condensation.anchors.iter().map(Expansion::from);
+    Anchors::new(vec![AnchorsOfPart {
+        expander,
+        anchors: anchors.collect(),
+    }])
 }
 
 /// The same for both parts of T0 + mu T1, with one scaling of the rows.
 ///
-/// The free rows of both are the same, and so are the hypotheses, W and r. `go_on` is asked before
-/// each anchor: what follows a no is left out.
-pub(super) fn of_parts(
+/// The free rows of both are the same, and so are the hypotheses, W and r.
+pub(super) fn of_parts<'a>(
     parts: &FrictionParts,
-    condensation: &CriticalCondensation,
-    go_on: &dyn Fn() -> bool,
-) -> Result<[Vec<Expanded>; 2], CoverFault> {
+    condensation: &'a CriticalCondensation,
+) -> Result<Anchors<'a>, CoverFault> {
     let bounds = FreeBounds {
         sigma: &condensation.sigma.0,
         stiffness_factor: &condensation.stiffness_factor,
@@ -89,22 +91,93 @@ pub(super) fn of_parts(
     let mut friction = Expander::of(&parts.friction, bounds, has_reversed);
     plain.share_scaling(&mut friction);
 
-    let mut expansions = [Vec::new(), Vec::new()];
+    let mut of_plain = Vec::with_capacity(condensation.anchors.len());
+    let mut of_friction = Vec::with_capacity(condensation.anchors.len());
     for anchor in &condensation.anchors {
-        if !go_on() {
-            break;
-        }
-
-        let [of_plain, of_friction] = anchor_parts(anchor);
-        let of_plain = plain.elimination(of_plain)?;
-        let of_friction = friction.elimination(of_friction)?;
-
-        let right = of_plain.right_residual();
-        expansions[0].push(plain.expand(&of_plain, &right));
-        expansions[1].push(friction.expand(&of_friction, &right));
+        let [left, left_friction] = anchor_parts(anchor);
+        of_plain.push(left);
+        of_friction.push(left_friction);
     }
 
-    Ok(expansions)
+    Anchors::new(vec![
+        AnchorsOfPart {
+            expander: plain,
+            anchors: of_plain,
+        },
+        AnchorsOfPart {
+            expander: friction,
+            anchors: of_friction,
+        },
+    ])
+}
+
+/// The anchors of a file, whose hypotheses and limits hold, and what is left for their expansions.
+pub(super) struct Anchors<'a> {
+    /// The pencil, or T0 and T1.
+    parts: Vec<AnchorsOfPart<'a>>,
+    memory: WorkBudget,
+}
+
+/// The anchors of one part, and what they are expanded with.
+struct AnchorsOfPart<'a> {
+    expander: Expander<'a>,
+    anchors: Vec<Expansion<'a>>,
+}
+
+impl<'a> Anchors<'a> {
+    /// Demands that each anchor has its shape and is within its limits.
+    fn new(parts: Vec<AnchorsOfPart<'a>>) -> Result<Anchors<'a>, CoverFault> {
+        let mut anchors = Anchors {
+            parts,
+            memory: WorkBudget::of_anchors(0),
+        };
+
+        let mut numbers: u64 = 0;
+        for number in 0..anchors.len() {
+            for elimination in anchors.eliminations(number)? {
+                numbers = numbers.saturating_add(elimination.numbers());
+            }
+        }
+
+        anchors.memory = WorkBudget::of_anchors(numbers);
+        Ok(anchors)
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.parts.first().map_or(0, |part| part.anchors.len())
+    }
+
+    /// The condensed pencil about the anchor with this number, for each part.
+    pub(super) fn expand(&self, number: usize) -> Result<Vec<Expanded>, CoverFault> {
+        let eliminations = self.eliminations(number)?;
+        for elimination in &eliminations {
+            self.memory.spend(elimination.memory_bits())?;
+        }
+
+        // W and r are the same for all parts.
+        let mut right = None;
+        let mut expansions = Vec::with_capacity(self.parts.len());
+        for (part, elimination) in self.parts.iter().zip(&eliminations) {
+            let right = right.get_or_insert_with(|| elimination.right_residual());
+            expansions.push(part.expander.expand(elimination, right));
+        }
+
+        Ok(expansions)
+    }
+
+    /// W and V about the anchor with this number, for each part.
+    fn eliminations(&self, number: usize) -> Result<Vec<Elimination<'_>>, CoverFault> {
+        let mut eliminations = Vec::with_capacity(self.parts.len());
+        for part in &self.parts {
+            let anchor = part.anchors.get(number).ok_or(CoverFault::Anchor {
+                anchors: part.anchors.len(),
+                got: Some(number),
+            })?;
+            eliminations.push(part.expander.elimination(*anchor)?);
+        }
+
+        Ok(eliminations)
+    }
 }
 
 /// F(t) >= (sigma + t tau) I, by Cholesky factors.
@@ -117,6 +190,7 @@ struct FreeBounds<'a> {
 }
 
 /// The polynomials W and V of an anchor.
+#[derive(Clone, Copy)]
 struct Expansion<'a> {
     center: &'a Rational,
     reversed: bool,
@@ -342,6 +416,8 @@ struct Elimination<'a> {
     about: ShiftedBlocks,
     w: Polynomial<'a>,
     v: Polynomial<'a>,
+    /// Bits of a coefficient of an entry of Z, at most.
+    entry_bits: u64,
     /// Is V = W and T_sf' = T_fs as given, so that l = r?
     is_mirrored: bool,
 }
@@ -500,12 +576,7 @@ impl Blocks {
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
         let left = anchor.left.unwrap_or(anchor.right);
         let v = self.polynomial(left, &self.factor)?;
-        self.affordable(
-            anchor.center,
-            coefficients(&w, &v),
-            w.exponent + v.exponent,
-            w.entry_bits + v.entry_bits,
-        )?;
+        let entry_bits = self.affordable(anchor.center, &w, &v)?;
 
         Ok(Elimination {
             blocks: self,
@@ -514,26 +585,27 @@ impl Blocks {
             anchor,
             w,
             v,
+            entry_bits,
         })
     }
 
-    /// Demands that Z is small enough to be formed.
+    /// Demands that Z is small enough to be formed, and returns the bits of a coefficient of an
+    /// entry.
     ///
-    /// It has n_s^2 entries, each of so many coefficients; a coefficient is a sum of products of an
-    /// entry of the pencil, one of W and one of V (`entry_bits` together), in units of
-    /// 2^-`exponent` / D, shifted by the center.
+    /// It has n_s^2 entries; a coefficient is a sum of products of an entry of the pencil, one of W
+    /// and one of V, in units of 2^-(e_w + e_v) / D, shifted by the center.
     fn affordable(
         &self,
         center: &Rational,
-        coefficients: usize,
-        exponent: u32,
-        entry_bits: u64,
-    ) -> Result<(), CoverFault> {
-        let mut bits = self.longest + self.common.bits();
-        bits += rational_bits(center) + u64::from(exponent) + entry_bits;
+        w: &Polynomial<'_>,
+        v: &Polynomial<'_>,
+    ) -> Result<u64, CoverFault> {
+        let mut bits = self.longest + self.common.bits() + rational_bits(center);
+        bits += u64::from(w.exponent + v.exponent) + w.entry_bits + v.entry_bits;
 
         let what = "bits of an anchor's expansion";
-        within_matrix_bits(what, self.slip, coefficients, bits)
+        within_matrix_bits(what, self.slip, coefficients(w, v), bits)?;
+        Ok(bits)
     }
 
     /// Coefficient matrices brought to one exponent, column j multiplied by `column_factors[j]`.
@@ -598,6 +670,25 @@ impl Blocks {
 }
 
 impl Elimination<'_> {
+    /// How many integers W and V have.
+    fn numbers(&self) -> u64 {
+        let matrices = self.w.coefficients.len() + self.v.coefficients.len();
+        let entries = self.blocks.free.saturating_mul(self.blocks.slip) as u64;
+        entries.saturating_mul(matrices as u64)
+    }
+
+    /// What the expansion is counted as: Z has n_s^2 entries, each of as many coefficients as W and
+    /// V have together, of two at least.
+    fn memory_bits(&self) -> u64 {
+        let matrices = self.w.coefficients.len() + self.v.coefficients.len();
+        let coefficients = matrices.max(2) as u64;
+        let entries = (self.blocks.slip as u64).saturating_pow(2);
+
+        entries
+            .saturating_mul(coefficients)
+            .saturating_mul(BITS_OF_A_NUMBER + self.entry_bits)
+    }
+
     /// r = T_fs - F W.
     fn right_residual(&self) -> Residual {
         Equations {

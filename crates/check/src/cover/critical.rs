@@ -30,16 +30,16 @@
 //! Every leaf proves that its box holds no solution. Trees are read as in `walk`, with one more
 //! node that cuts the interval of mu.
 
-use super::budget::WorkBudget;
+use super::budget::{WorkBudget, entries_work};
+use super::condensed::Anchors;
 use super::ends::{Corner, Ends, FRACTION_BITS, rational_bits, within_matrix_bits};
-use super::expanded::Expanded;
-use super::family::{AnchorExpansion, Family, Linear, end_bits, row_bits, words};
+use super::family::{Family, Linear, end_bits, row_bits, words};
 use super::fault::CoverFault;
 use super::null_witness::NullWitness;
 use super::region::{Matrices, Region, State};
 use super::short::Short;
 use super::walk::NodeFault;
-use super::{check_anchor, check_end, check_size, condensed, definite, farkas, regular};
+use super::{check_end, check_size, condensed, definite, expand_anchor, farkas, regular};
 use crate::certificate::{
     CriticalCertificate, CriticalCondensation, CriticalNode, CriticalPiece, CriticalTail, Regular,
 };
@@ -55,6 +55,9 @@ const CORNERS: [[&str; 2]; 2] = [
     ["lower, low-friction", "upper, low-friction"],
     ["lower, high-friction", "upper, high-friction"],
 ];
+
+/// A box has the matrices of two parts, which are there at the same time.
+pub(super) const PARTS: usize = 2;
 
 /// Checks that the boxes cover everything and that each holds no solution. Returns the number of
 /// leaves.
@@ -73,11 +76,8 @@ pub(crate) fn check(
     let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(2));
     check_size(index.len(), expansions).map_err(of_file)?;
 
-    let families = families(parts, condensation, audit).map_err(of_file)?;
-    if has_stopped(audit) {
-        return Ok(0);
-    }
-
+    let anchors = anchors(parts, condensation).map_err(of_file)?;
+    let families = families(parts, anchors.as_ref());
     let tail = condensation.and_then(|c| c.tail.as_ref());
     if let Some(tail) = tail {
         check_tail(parts.of_tail(), certificate, tail).map_err(of_file)?;
@@ -85,6 +85,7 @@ pub(crate) fn check(
 
     let nodes = certificate.pieces.iter().map(|p| p.tree.len() as u64).sum();
     let mut walk = BoxWalk {
+        anchors,
         families,
         index,
         rows: &parts.plain,
@@ -92,7 +93,7 @@ pub(crate) fn check(
         tail: tail.map(|tail| &tail.from.0),
         leaves: 0,
         definite_budget: WorkBudget::of_definite_leaves([&parts.plain, &parts.friction], nodes),
-        matrix_budget: WorkBudget::of_matrices(nodes),
+        matrix_budget: WorkBudget::of_matrices([&parts.plain, &parts.friction], nodes),
         audit,
     };
     check_pieces(&mut walk, &certificate.pieces)?;
@@ -102,7 +103,7 @@ pub(crate) fn check(
 
 /// An examination that passes over the leaves that fail and may be stopped.
 pub(crate) struct Audit<'a> {
-    /// Asked before each anchor and each node: false stops the examination.
+    /// Asked before each piece and each node: false stops the examination.
     go_on: &'a dyn Fn() -> bool,
     has_stopped: Cell<bool>,
     /// The leaves that fail: piece, node.
@@ -139,37 +140,32 @@ fn has_stopped(audit: Option<&Audit<'_>>) -> bool {
     audit.is_some_and(Audit::stops)
 }
 
-/// The enclosures of T0 and T1. A condensation is there exactly if there are free variables. Where
-/// the audit is stopped, anchors are missing.
-pub(super) fn families(
+/// The anchors of the condensation, which is there exactly if there are free variables.
+pub(super) fn anchors<'a>(
     parts: &FrictionParts,
-    condensation: Option<&CriticalCondensation>,
-    audit: Option<&Audit<'_>>,
-) -> Result<[Family; 2], CoverFault> {
+    condensation: Option<&'a CriticalCondensation>,
+) -> Result<Option<Anchors<'a>>, CoverFault> {
     let has_free = parts.plain.is_free.contains(&true);
 
     match condensation {
-        None if !has_free => {
-            let own = row_bits(&parts.plain).into_iter();
-            let bits: Vec<u64> = own
-                .zip(row_bits(&parts.friction))
-                .map(|(plain, friction)| plain.max(friction))
-                .collect();
-            let linear = |rows| Family::Linear(Linear::scaled(rows, &bits));
-            Ok([linear(&parts.plain), linear(&parts.friction)])
-        }
-        Some(condensation) if has_free => {
-            let go_on = || !has_stopped(audit);
-            let expansions = condensed::of_parts(parts, condensation, &go_on)?;
-            Ok(expansions.map(family_of_anchors))
-        }
+        None if !has_free => Ok(None),
+        Some(condensation) if has_free => Ok(Some(condensed::of_parts(parts, condensation)?)),
         _ => Err(CoverFault::Condensation { expected: has_free }),
     }
 }
 
-fn family_of_anchors(expansions: Vec<Expanded>) -> Family {
-    let anchors = expansions.into_iter().map(AnchorExpansion::of);
-    Family::Condensed(anchors.collect())
+/// The enclosures of T0 and T1; no anchor is expanded.
+pub(super) fn families(parts: &FrictionParts, anchors: Option<&Anchors<'_>>) -> [Family; 2] {
+    if let Some(anchors) = anchors {
+        return [Family::condensed(anchors), Family::condensed(anchors)];
+    }
+
+    let own = row_bits(&parts.plain).into_iter();
+    let bits: Vec<u64> = own
+        .zip(row_bits(&parts.friction))
+        .map(|(plain, friction)| plain.max(friction))
+        .collect();
+    [&parts.plain, &parts.friction].map(|rows| Family::Linear(Linear::scaled(rows, &bits)))
 }
 
 /// The whole pencil of these parts is definite from `tail.from` on, at the lowest mu and at the
@@ -197,7 +193,12 @@ fn check_pieces(walk: &mut BoxWalk<'_>, pieces: &[CriticalPiece]) -> Result<(), 
     for (k, piece) in pieces.iter().enumerate() {
         let is_last = k + 1 == pieces.len();
         let max = piece.max.as_ref().map(|n| &n.0);
-        check_anchor(&walk.families[0], piece.anchor).map_err(|fault| of_piece(k, fault))?;
+        if has_stopped(walk.audit) {
+            return Ok(());
+        }
+
+        expand_anchor(walk.anchors.as_ref(), &mut walk.families, piece.anchor)
+            .map_err(|fault| of_piece(k, fault))?;
         check_end(&window, &lo, max, is_last).map_err(|fault| of_piece(k, fault))?;
         walk.piece(k, &lo, piece).map_err(|at| Reason::Boxes {
             piece: Some(k),
@@ -307,6 +308,8 @@ impl FrictionBox {
 
 /// What a walk through the trees reads, and what is left of the budgets of the file.
 struct BoxWalk<'a> {
+    /// Where there are free variables.
+    anchors: Option<Anchors<'a>>,
     /// T0 and T1.
     families: [Family; 2],
     /// The complementarity variables: positions in states and matrices to indices of the pencil.
@@ -438,18 +441,26 @@ impl BoxWalk<'_> {
         anchor: Option<usize>,
         sign: i8,
     ) -> Result<(), CoverFault> {
-        // Twice the corners of a leaf of one window.
-        let order = at.region.possible_support().len() as u64;
-        self.definite_budget.spend(order.saturating_pow(3) * 2)?;
-
+        self.spend_definite(at)?;
         self.affordable(at, anchor)?;
-        let short = self.short(at, anchor);
-        if short.is_some_and(|corners| definite::is_definite_at(&at.region, &*corners, sign)) {
-            return Ok(());
+        if let Some(corners) = self.short(at, anchor) {
+            if definite::is_definite_at(&at.region, &*corners, sign) {
+                return Ok(());
+            }
+
+            self.spend_definite(at)?;
         }
 
         let ends = self.corners(at, anchor)?;
         definite::check_corners(&at.region, &four_corners(&ends), &self.index, sign)
+    }
+
+    /// A definite leaf costs twice the cube of the number of variables that may be in the support:
+    /// it has twice the corners of a leaf of one window. Where short numbers were tried in vain it
+    /// costs that once more.
+    fn spend_definite(&self, at: &FrictionBox) -> Result<(), CoverFault> {
+        let order = at.region.possible_support().len() as u64;
+        self.definite_budget.spend(order.saturating_pow(3) * 2)
     }
 
     fn regular(
@@ -570,7 +581,7 @@ impl BoxWalk<'_> {
 
         let [end_bits, friction_bits] = box_bits(at);
         let what = "bits of a box's matrix";
-        within_matrix_bits(what, self.index.len(), 1, end_bits + friction_bits)?;
+        within_matrix_bits(what, self.index.len(), PARTS, end_bits + friction_bits)?;
 
         let matrices = [&at.region.matrices, &at.friction_matrices];
         for (family, matrices) in self.families.iter().zip(matrices) {
@@ -590,9 +601,8 @@ impl BoxWalk<'_> {
         let order = self.index.len();
         let [end_bits, friction_bits] = box_bits(at);
 
-        let entries = (order * order) as u64;
         let products = words(end_bits).saturating_mul(words(friction_bits));
-        self.matrix_budget.spend(entries.saturating_mul(products))
+        self.matrix_budget.spend(entries_work(order, products))
     }
 }
 

@@ -12,6 +12,8 @@
 //! Called by the walks: `affordable` and `matrix_work` bound the work before `ends` does it, and
 //! `short` gives the ends in short numbers where it can. Those of two families are in one unit.
 
+use super::budget::entries_work;
+use super::condensed::Anchors;
 use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::{Expanded, ShortForm};
 use super::fault::CoverFault;
@@ -29,8 +31,8 @@ const MAX_VECTOR_WORK: u64 = 1 << 24;
 pub(super) enum Family {
     /// A + tB.
     Linear(Linear),
-    /// The condensed pencil about several anchors.
-    Condensed(Vec<AnchorExpansion>),
+    /// The condensed pencil about several anchors, those that pieces have named.
+    Condensed(Vec<Option<AnchorExpansion>>),
 }
 
 /// The condensed pencil about one anchor, and its short numbers.
@@ -49,6 +51,28 @@ pub(super) struct Linear {
 }
 
 impl Family {
+    /// One part of the pencil about these anchors, none of which is expanded.
+    pub(super) fn condensed(anchors: &Anchors<'_>) -> Family {
+        Family::Condensed((0..anchors.len()).map(|_| None).collect())
+    }
+
+    /// Is the anchor with this number expanded, or is there nothing to expand?
+    pub(super) fn has_anchor(&self, number: usize) -> bool {
+        match self {
+            Family::Linear(_) => true,
+            Family::Condensed(list) => list.get(number).is_some_and(Option::is_some),
+        }
+    }
+
+    /// Keeps the expansion about the anchor with this number.
+    pub(super) fn keep_anchor(&mut self, number: usize, expanded: Expanded) {
+        if let Family::Condensed(list) = self
+            && let Some(place) = list.get_mut(number)
+        {
+            *place = Some(AnchorExpansion::of(expanded));
+        }
+    }
+
     /// The ends over [lo, hi] (`None`: infinity).
     pub(super) fn ends(
         &self,
@@ -93,7 +117,7 @@ impl Family {
     pub(super) fn anchor(&self, anchor: Option<usize>) -> Option<&Expanded> {
         match self {
             Family::Linear(_) => None,
-            Family::Condensed(list) => Some(&list.get(anchor?)?.expanded),
+            Family::Condensed(list) => Some(&list.get(anchor?)?.as_ref()?.expanded),
         }
     }
 
@@ -164,7 +188,7 @@ impl Family {
         match self {
             Family::Linear(linear) => Short::linear_ends(linear.short.as_ref()?, lo, hi),
             Family::Condensed(list) => {
-                let AnchorExpansion { expanded, short } = list.get(anchor?)?;
+                let AnchorExpansion { expanded, short } = list.get(anchor?)?.as_ref()?;
                 let order = expanded.weight.len().max(1) as u64;
                 let vector_work = self.matrix_work(anchor, lo, hi) / order;
                 if vector_work > MAX_VECTOR_WORK {
@@ -178,7 +202,7 @@ impl Family {
 }
 
 impl AnchorExpansion {
-    pub(super) fn of(expanded: Expanded) -> AnchorExpansion {
+    fn of(expanded: Expanded) -> AnchorExpansion {
         AnchorExpansion {
             short: ShortForm::of(&expanded),
             expanded,
@@ -195,16 +219,12 @@ struct MatrixWork {
 }
 
 impl MatrixWork {
-    /// n_s^2 E K (C + E K).
+    /// n_s^2 (E K (C + E K) + 2^8).
     fn products(&self) -> u64 {
-        let order = self.order as u64;
-        let entries = order.saturating_mul(order);
         let end_powers = self.end_words.saturating_mul(self.coefficients as u64);
         let value_words = self.coefficient_words.saturating_add(end_powers);
 
-        entries
-            .saturating_mul(end_powers)
-            .saturating_mul(value_words)
+        entries_work(self.order, end_powers.saturating_mul(value_words))
     }
 }
 
@@ -531,10 +551,10 @@ mod tests {
             coefficients: 1,
             reversed: false,
         };
-        Family::Condensed(vec![AnchorExpansion {
+        Family::Condensed(vec![Some(AnchorExpansion {
             expanded,
             short: None,
-        }])
+        })])
     }
 
     /// 512^2 entries of 128 bits, 2 bits of the end 1, and those of sigma and tau.
@@ -557,10 +577,10 @@ mod tests {
     #[test]
     fn bounds_of_a_condensation_make_its_matrices_dearer() {
         let without = expansion(2, 0).matrix_work(Some(0), &whole(1), None);
-        assert_eq!(without, 4 * 3 * (1 + 3));
+        assert_eq!(without, 4 * (3 * (1 + 3) + 256));
 
         let with = expansion(2, 61).matrix_work(Some(0), &whole(1), None);
-        assert_eq!(with, 4 * 4 * (1 + 4));
+        assert_eq!(with, 4 * (4 * (1 + 4) + 256));
     }
 
     /// Long ends are left to long matrices, whose work is counted: with E words for the end 2^k the
@@ -569,7 +589,7 @@ mod tests {
     fn long_ends_have_no_short_numbers() {
         let mut expanded = expansion(2, 0);
         if let Family::Condensed(anchors) = &mut expanded {
-            let anchor = &mut anchors[0];
+            let anchor = anchors[0].as_mut().unwrap();
             let none = || vec![vec![Integer::zero(); 2]];
             anchor.expanded.z = vec![vec![vec![Integer::one(); 2]; 2]; 2];
             anchor.expanded.left = none();

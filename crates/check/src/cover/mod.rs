@@ -71,7 +71,8 @@ use super::pencil::Rows;
 use super::reason::Reason;
 use crate::certificate::{CompleteSet, Piece};
 use budget::WorkBudget;
-use family::{AnchorExpansion, Family, Linear};
+use condensed::Anchors;
+use family::{Family, Linear};
 use mceip_exact::Rational;
 use mceip_model::Window;
 use region::end;
@@ -98,15 +99,20 @@ pub(super) fn check(
     refused: Option<&mut Vec<(usize, usize)>>,
 ) -> Result<AcceptedCover, Reason> {
     let index: Vec<usize> = (0..rows.order()).filter(|&i| !rows.is_free[i]).collect();
-    let anchors = cover.condensation.as_ref().map_or(0, |c| c.anchors.len());
-    check_size(index.len(), anchors).map_err(of_cover)?;
+    let expansions = cover.condensation.as_ref().map_or(0, |c| c.anchors.len());
+    check_size(index.len(), expansions).map_err(of_cover)?;
 
     let has_free = index.len() < rows.order();
-    let family = family(rows, has_free, cover).map_err(of_cover)?;
+    let anchors = anchors(rows, has_free, cover).map_err(of_cover)?;
+    let family = match &anchors {
+        None => Family::Linear(Linear::of(rows)),
+        Some(anchors) => Family::condensed(anchors),
+    };
     let tail = tail(rows, cover).map_err(of_cover)?;
 
     let mut walk = Walk {
         rows,
+        anchors,
         family,
         index,
         window,
@@ -118,7 +124,7 @@ pub(super) fn check(
         leaves: 0,
         sign_budget: SignBudget::new(),
         definite_budget: WorkBudget::of_definite_leaves([rows], budget::nodes(cover)),
-        matrix_budget: WorkBudget::of_matrices(budget::nodes(cover)),
+        matrix_budget: WorkBudget::of_matrices([rows], budget::nodes(cover)),
         refused,
     };
     check_pieces(&mut walk, &cover.pieces)?;
@@ -143,15 +149,15 @@ fn check_size(order: usize, anchors: usize) -> Result<(), CoverFault> {
     CoverFault::at_most(what, MAX_EXPANDED as u64, expanded as u64)
 }
 
-/// The enclosures of T(t). A condensation is there exactly if there are free variables.
-fn family(rows: &Rows, has_free: bool, cover: &CompleteSet) -> Result<Family, CoverFault> {
+/// The anchors of the condensation, which is there exactly if there are free variables.
+fn anchors<'a>(
+    rows: &Rows,
+    has_free: bool,
+    cover: &'a CompleteSet,
+) -> Result<Option<Anchors<'a>>, CoverFault> {
     match &cover.condensation {
-        None if !has_free => Ok(Family::Linear(Linear::of(rows))),
-        Some(condensation) if has_free => {
-            let expansions = condensed::of(rows, condensation)?;
-            let anchors = expansions.into_iter().map(AnchorExpansion::of);
-            Ok(Family::Condensed(anchors.collect()))
-        }
+        None if !has_free => Ok(None),
+        Some(condensation) if has_free => Ok(Some(condensed::of(rows, condensation)?)),
         _ => Err(CoverFault::Condensation { expected: has_free }),
     }
 }
@@ -174,7 +180,9 @@ fn check_pieces(walk: &mut Walk<'_>, pieces: &[Piece]) -> Result<(), Reason> {
     for (k, piece) in pieces.iter().enumerate() {
         let is_last = k + 1 == pieces.len();
         let max = piece.max.as_ref().map(|n| &n.0);
-        check_anchor(&walk.family, piece.anchor).map_err(|fault| of_piece(k, fault))?;
+        let families = std::slice::from_mut(&mut walk.family);
+        expand_anchor(walk.anchors.as_ref(), families, piece.anchor)
+            .map_err(|fault| of_piece(k, fault))?;
         check_end(walk.window, &lo, max, is_last).map_err(|fault| of_piece(k, fault))?;
         walk.piece(k, &lo, piece).map_err(|at| of_node(k, at))?;
 
@@ -193,18 +201,25 @@ fn check_pieces(walk: &mut Walk<'_>, pieces: &[Piece]) -> Result<(), Reason> {
     Ok(())
 }
 
-/// Demands that an anchor that a piece names exists. Without a condensation it is ignored.
-fn check_anchor(family: &Family, anchor: Option<usize>) -> Result<(), CoverFault> {
-    let Family::Condensed(anchors) = family else {
+/// Demands that an anchor that a piece names exists, and expands each part about it the first time.
+/// Without a condensation it is ignored.
+fn expand_anchor(
+    anchors: Option<&Anchors<'_>>,
+    families: &mut [Family],
+    anchor: Option<usize>,
+) -> Result<(), CoverFault> {
+    let (Some(anchors), Some(number)) = (anchors, anchor) else {
         return Ok(());
     };
-    match anchor {
-        Some(k) if k >= anchors.len() => Err(CoverFault::Anchor {
-            anchors: anchors.len(),
-            got: Some(k),
-        }),
-        _ => Ok(()),
+    if families.iter().all(|family| family.has_anchor(number)) {
+        return Ok(());
     }
+
+    for (family, expanded) in families.iter_mut().zip(anchors.expand(number)?) {
+        family.keep_anchor(number, expanded);
+    }
+
+    Ok(())
 }
 
 /// Demands that a piece ends above `lo`, where it begins, and within the window; the last one at
@@ -302,6 +317,7 @@ mod tests {
     fn walk<'a>(rows: &'a Rows, window: &'a Window) -> Walk<'a> {
         Walk {
             rows,
+            anchors: None,
             family: Family::Linear(Linear::of(rows)),
             index: (0..rows.order()).collect(),
             window,
@@ -344,8 +360,42 @@ mod tests {
         assert_eq!(walk.spend_definite(&region), Err(too_large));
     }
 
+    /// [[1, 1 - e], [1 - e, 1]] with e = 2^-90 is definite by long numbers alone: 8 twice. The unit
+    /// matrix is so by short ones.
+    #[test]
+    fn a_leaf_that_short_numbers_cannot_tell_counts_twice() {
+        let one = Integer::from(1) << 90_u32;
+        let entry = |i: usize, a: Integer| (i, a, Integer::from(0));
+        let close = vec![
+            vec![entry(0, one.clone()), entry(1, &one - 1)],
+            vec![entry(0, &one - 1), entry(1, one.clone())],
+        ];
+        let far = vec![vec![entry(0, one.clone())], vec![entry(1, one)]];
+
+        for (matrix, cost) in [(close, 16), (far, 8)] {
+            let rows = Rows {
+                rows: matrix,
+                ..diagonal(2, 1)
+            };
+            let window = Window::all();
+            let mut walk = walk(&rows, &window);
+            walk.matrix_budget = WorkBudget::matrices(1 << 20);
+            let leaf = |walk: &Walk<'_>| {
+                let region = region(whole(0), 1, vec![State::Undecided; 2]);
+                walk.definite(&region, None, 1)
+            };
+
+            walk.definite_budget = WorkBudget::definite_leaves(cost);
+            assert_eq!(leaf(&walk), Ok(()));
+            assert_eq!(walk.definite_budget.left(), 0);
+
+            walk.definite_budget = WorkBudget::definite_leaves(cost - 1);
+            assert!(matches!(leaf(&walk), Err(CoverFault::TooLarge { .. })));
+        }
+    }
+
     /// What a file may spend on definite leaves: 2^26, 2^20 a node, 2^16 an entry that is not zero;
-    /// on matrices 2^30 and 2^24 a node, on witnesses of presence 2^30 and 2^26 a piece.
+    /// on matrices 2^30, 2^20 a node and 2^16 an entry, on witnesses of presence 2^30 and 2^26 a piece.
     #[test]
     fn the_budget_grows_with_nodes_and_entries() {
         let mut rows = diagonal(2, 3);
@@ -363,21 +413,21 @@ mod tests {
         };
 
         let definite = WorkBudget::of_definite_leaves([&rows], budget::nodes(&cover));
-        let matrices = WorkBudget::of_matrices(budget::nodes(&cover));
+        let matrices = WorkBudget::of_matrices([&rows], budget::nodes(&cover));
 
         assert_eq!(definite.left(), (1 << 26) + 7 * (1 << 20) + 2 * (1 << 16));
-        assert_eq!(matrices.left(), (1 << 30) + 7 * (1 << 24));
+        assert_eq!(matrices.left(), (1 << 30) + 7 * (1 << 20) + 2 * (1 << 16));
         assert_eq!(WorkBudget::of_pieces(5).left(), (1 << 30) + 5 * (1 << 26));
     }
 
     /// Two variables over [1/3, 2]: four entries, K = 1, ends of 128 + 3 + 3 bits in 3 words,
-    /// entries of 128 bits in 3.
+    /// entries of 128 bits in 3, and 2^8 each.
     #[test]
     fn matrices_of_regions_spend_a_budget_once_an_interval() {
         let rows = diagonal(2, 3);
         let window = Window::all();
         let mut walk = walk(&rows, &window);
-        let cost = 4 * 3 * (3 + 3);
+        let cost = 4 * (3 * (3 + 3) + 256);
         walk.matrix_budget = WorkBudget::matrices(2 * cost - 1);
 
         let shared = region(rational(1, 3), 2, vec![State::Undecided; 2]);
@@ -395,7 +445,7 @@ mod tests {
     }
 
     /// A root leaf of -6 + t over [5, 7] needs the matrices of its hull and of its interval: 3 (3 +
-    /// 3) each.
+    /// 3) and 2^8 each.
     #[test]
     fn root_leaves_spend_the_same_budget() {
         let rows = diagonal(1, -6);
@@ -413,7 +463,7 @@ mod tests {
             outcome: RootOutcome::Solution,
         };
 
-        let cost = 3 * (3 + 3);
+        let cost = 3 * (3 + 3) + 256;
         walk.matrix_budget = WorkBudget::matrices(2 * cost);
         assert!(walk.root(&region, None, &root).unwrap().is_some());
         assert_eq!(walk.matrix_budget.left(), 0);

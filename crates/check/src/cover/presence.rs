@@ -22,14 +22,14 @@
 //! Left sides that are maxima over corners bound the whole box: they are convex in T, and the radii
 //! are part of them.
 
-use super::budget::WorkBudget;
-use super::critical::{bits_of_box, families, of_file, of_piece};
+use super::budget::{WorkBudget, entries_work};
+use super::critical::{PARTS, anchors, bits_of_box, families, of_file, of_piece};
 use super::ends::{Ends, Matrix, within_matrix_bits};
 use super::family::{Family, words};
 use super::fault::CoverFault;
 use super::null_witness::NullWitness;
 use super::root::Ball;
-use super::{check_anchor, check_size};
+use super::{check_size, expand_anchor};
 use crate::certificate::{PresenceCertificate, PresencePiece};
 use crate::pencil::FrictionParts;
 use crate::reason::Reason;
@@ -50,10 +50,11 @@ pub(crate) fn check(
     check_size(slip.len(), expansions).map_err(of_file)?;
 
     let pieces = certificate.pieces.len() as u64;
-    let boxes = Boxes {
-        families: families(parts, condensation, None).map_err(of_file)?,
+    let anchors = anchors(parts, condensation).map_err(of_file)?;
+    let mut boxes = Boxes {
+        families: families(parts, anchors.as_ref()),
         slip,
-        matrix_budget: WorkBudget::of_matrices(pieces),
+        matrix_budget: WorkBudget::of_matrices([&parts.plain, &parts.friction], pieces),
         witness_budget: WorkBudget::of_pieces(pieces),
     };
 
@@ -62,6 +63,8 @@ pub(crate) fn check(
         let is_last = k + 1 == certificate.pieces.len();
         let high = &piece.to.0;
         check_order(low, high, &certificate.to, is_last).map_err(|fault| of_piece(k, fault))?;
+        expand_anchor(anchors.as_ref(), &mut boxes.families, piece.anchor)
+            .map_err(|fault| of_piece(k, fault))?;
         boxes
             .piece(piece, &[low.clone(), high.clone()])
             .map_err(|fault| of_piece(k, fault))?;
@@ -110,7 +113,6 @@ struct Boxes {
 impl Boxes {
     /// A solution for every mu in `friction`.
     fn piece(&self, piece: &PresencePiece, friction: &[Rational; 2]) -> Result<(), CoverFault> {
-        check_anchor(&self.families[0], piece.anchor)?;
         let [t0, t1] = piece.interval.each_ref().map(|end| &end.0);
         if t0.is_negative() || t0 >= t1 {
             return Err(CoverFault::Interval {
@@ -192,10 +194,9 @@ impl Boxes {
 
         let [end_bits, friction_bits] = bits_of_box(lo, Some(hi), friction.each_ref());
         let what = "bits of a box's matrix";
-        within_matrix_bits(what, order, 1, end_bits + friction_bits)?;
+        within_matrix_bits(what, order, PARTS, end_bits + friction_bits)?;
         let products = words(end_bits).saturating_mul(words(friction_bits));
-        let entries = (order * order) as u64;
-        self.matrix_budget.spend(entries.saturating_mul(products))?;
+        self.matrix_budget.spend(entries_work(order, products))?;
 
         let plain = self.families[0].ends(anchor, lo, Some(hi))?;
         let of_friction = self.families[1].ends(anchor, lo, Some(hi))?;

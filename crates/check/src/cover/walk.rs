@@ -13,6 +13,7 @@
 //! from the budget of the file.
 
 use super::budget::WorkBudget;
+use super::condensed::Anchors;
 use super::ends::Ends;
 use super::family::Family;
 use super::fault::CoverFault;
@@ -32,6 +33,8 @@ use std::rc::Rc;
 /// What a walk reads, what it has found, and what is left of the budgets of the file.
 pub(super) struct Walk<'a> {
     pub(super) rows: &'a Rows,
+    /// Where there are free variables.
+    pub(super) anchors: Option<Anchors<'a>>,
     pub(super) family: Family,
     /// The complementarity variables: positions in states and matrices to indices of the problem.
     pub(super) index: Vec<usize>,
@@ -168,20 +171,31 @@ impl Walk<'_> {
         )
     }
 
-    fn definite(&self, region: &Region, anchor: Option<usize>, sign: i8) -> Result<(), CoverFault> {
+    pub(super) fn definite(
+        &self,
+        region: &Region,
+        anchor: Option<usize>,
+        sign: i8,
+    ) -> Result<(), CoverFault> {
         self.spend_definite(region)?;
         self.affordable(region, anchor)?;
         let short = self.short(region, anchor);
         definite::definite(
             region,
             short.as_deref(),
-            || self.ends(region, anchor),
+            || {
+                if short.is_some() {
+                    self.spend_definite(region)?; // a second time
+                }
+                self.ends(region, anchor)
+            },
             &self.index,
             sign,
         )
     }
 
-    /// A definite leaf costs the cube of the number of variables that may be in the support.
+    /// A definite leaf costs the cube of the number of variables that may be in the support, and
+    /// that twice where short numbers were tried in vain.
     pub(super) fn spend_definite(&self, region: &Region) -> Result<(), CoverFault> {
         let order = region.possible_support().len() as u64;
         self.definite_budget.spend(order.saturating_pow(3))

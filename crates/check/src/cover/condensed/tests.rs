@@ -175,9 +175,9 @@ fn column_norms(p: &Poly, k: usize, factor: &[Rational; 2]) -> Vec<Integer> {
 
 fn check_expansion(p: &(Dense, Dense), anchor: &Anchor) {
     let rows = rows(p);
-    let e: Expanded = of(&rows, &condensation(vec![anchor.clone()]))
-        .unwrap()
-        .remove(0);
+    let condensation = condensation(vec![anchor.clone()]);
+    let anchors = of(&rows, &condensation).unwrap();
+    let e: Expanded = anchors.expand(0).unwrap().remove(0);
     let center = &anchor.center.0;
     let (w, v) = (true_values(&anchor.right), true_values(&anchor.left));
     let [ff, fs, sf, ss] = [(FREE, FREE), (FREE, SLIP), (SLIP, FREE), (SLIP, SLIP)]
@@ -248,6 +248,32 @@ fn the_expansion_is_that_of_the_identity() {
             check_expansion(&pencil(), &anchor(right, left));
         }
     }
+}
+
+/// Two anchors of two free and two slip variables, W and V of one coefficient each: 2^30 and 2^12
+/// for each of 16 integers. An expansion takes 4 entries of two coefficients, each of 512 bits more
+/// than the anchor's limit counts.
+#[test]
+fn expansions_spend_a_budget_of_memory() {
+    let condensation = condensation(vec![anchor(1, 1), anchor(1, 1)]);
+    let rows = rows(&pencil());
+    let anchors = of(&rows, &condensation).unwrap();
+    let before = anchors.memory.left();
+    assert_eq!(before, (1 << 30) + (16 << 12));
+
+    // Exponents 3 + 2, entries of 4 + 3 bits, a center of 2 + 3; the pencil and its free rows.
+    let blocks = Blocks::of(&rows);
+    let bits = 5 + 7 + 5 + blocks.longest + blocks.common.bits();
+    let cost = 4 * 2 * (512 + bits);
+    assert!(anchors.expand(1).is_ok());
+    assert_eq!(anchors.memory.left(), before - cost);
+
+    let short = Anchors {
+        memory: WorkBudget::matrices(cost - 1),
+        ..of(&rows, &condensation).unwrap()
+    };
+    assert!(matches!(short.expand(0), Err(CoverFault::TooLarge { .. })));
+    assert!(matches!(anchors.expand(2), Err(CoverFault::Anchor { .. })));
 }
 
 /// Expansions of more than eight coefficients, or longer exponents, are not multiplied out.
@@ -435,12 +461,18 @@ fn an_expansion_has_a_largest_size() {
         right: vec![],
         left: vec![],
     }; // 3 + 2 bits
-    let entry_bits = 4;
     let size = |longest: u64, exponent: u32| {
-        blocks(longest).affordable(&anchor.center.0, 1, exponent, entry_bits)
+        let polynomial = |exponent: u32, entry_bits: u64| Polynomial {
+            coefficients: vec![],
+            exponent,
+            entry_bits,
+        };
+        let w = polynomial(exponent, 3);
+        let v = polynomial(0, 1);
+        blocks(longest).affordable(&anchor.center.0, &w, &v)
     };
 
-    assert_eq!([size(500, 2), size(300, 202)], [Ok(()), Ok(())]);
+    assert_eq!([size(500, 2), size(300, 202)], [Ok(512), Ok(512)]);
     let refused = CoverFault::TooLarge {
         what: "bits of an anchor's expansion",
         limit: 1 << 29,

@@ -176,6 +176,7 @@ fn condensation(parts: &FrictionParts, center: &Rational, exponent: u32) -> Crit
 
 fn walk(families: [Family; 2], rows: &Rows) -> BoxWalk<'_> {
     BoxWalk {
+        anchors: None,
         families,
         index: vec![2, 3],
         rows,
@@ -295,6 +296,16 @@ fn row_units(
     units
 }
 
+/// Both parts about both anchors.
+fn expanded_families(parts: &FrictionParts, condensation: &CriticalCondensation) -> [Family; 2] {
+    let anchors = anchors(parts, Some(condensation)).unwrap();
+    let mut families = families(parts, anchors.as_ref());
+    for number in [0, 1] {
+        expand_anchor(anchors.as_ref(), &mut families, Some(number)).unwrap();
+    }
+    families
+}
+
 #[test]
 fn the_corners_enclose_the_schur_complement() {
     let parts = parts();
@@ -305,8 +316,7 @@ fn the_corners_enclose_the_schur_complement() {
     // Rounded well and hardly, and far from the center.
     for (center, exponent) in [(rational(4, 5), 40), (rational(4, 5), 2), (whole(7), 30)] {
         let condensation = condensation(&parts, &center, exponent);
-        let expansions = condensed::of_parts(&parts, &condensation, &|| true).unwrap();
-        let walk = walk(expansions.map(family_of_anchors), &parts.plain);
+        let walk = walk(expanded_families(&parts, &condensation), &parts.plain);
 
         for anchor in [0, 1] {
             let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);
@@ -355,8 +365,7 @@ fn the_corners_enclose_the_schur_complement() {
 fn boxes_count_their_matrices_once() {
     let parts = parts();
     let condensation = condensation(&parts, &rational(4, 5), 40);
-    let expansions = condensed::of_parts(&parts, &condensation, &|| true).unwrap();
-    let mut walk = walk(expansions.map(family_of_anchors), &parts.plain);
+    let mut walk = walk(expanded_families(&parts, &condensation), &parts.plain);
     let at = || {
         let t = [rational(1, 3), rational(9, 7)];
         boxed(t, [rational(2, 11), rational(5, 3)])

@@ -271,7 +271,10 @@ fn reversed_ends_are_those_of_the_reciprocals() {
         reversed().ends(&whole(0), Some(&hi)),
         Err(CoverFault::Hypothesis { .. })
     ));
-    let family = Family::Condensed(vec![without_short(linear()), without_short(reversed())]);
+    let family = Family::Condensed(vec![
+        Some(without_short(linear())),
+        Some(without_short(reversed())),
+    ]);
     assert_eq!(
         [None, Some(0), Some(1), Some(2)].map(|k| family.is_reversed(k)),
         [false, false, true, false]
