@@ -1675,7 +1675,7 @@ def complete_set(p, rows, window, claims, obj):
     Budget.of_anchors([pencil])
     nodes = sum(len(sequence(piece["tree"])) for piece in pieces if isinstance(piece, dict) and "tree" in piece)
     entries = sum(len({*ra, *rb}) for _, ra, rb in rows)
-    Budget.matrices = (1 << 30) + (nodes << 20) + (entries << 16)
+    Budget.matrices = (1 << 30) + (nodes << 22) + (entries << 16)
     definite_left = (1 << 26) + (nodes << 20) + (entries << 16)
     start, found, families, left_open = window[0], [], [], []
     for number_of, piece in enumerate(pieces):
@@ -1933,7 +1933,7 @@ def check_critical(p, doc):
     nodes = sum(len(piece["tree"]) for piece in pieces)
     Budget.of_anchors(pencils)
     entries = sum(len({*ra, *rb}) for rows in integral for _, ra, rb in rows)
-    Budget.matrices = (1 << 30) + (nodes << 20) + (entries << 16)
+    Budget.matrices = (1 << 30) + (nodes << 22) + (entries << 16)
     definite_left = (1 << 26) + (nodes << 20) + (entries << 16)
     demand(pieces, "no piece")
     start, leaves = Q(0), 0
@@ -2098,7 +2098,7 @@ def check_presence(p, doc):
     pencils, _ = critical_pencils(p, parts, integral, obj, start, stop)
     Budget.of_anchors(pencils)
     entries = sum(len({*ra, *rb}) for rows in integral for _, ra, rb in rows)
-    Budget.matrices = (1 << 30) + (len(pieces) << 20) + (entries << 16)
+    Budget.matrices = (1 << 30) + (len(pieces) << 22) + (entries << 16)
     witnesses_left = (1 << 30) + (len(pieces) << 26)
     demand(pieces, "no piece")
     low = start

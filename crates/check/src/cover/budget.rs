@@ -19,7 +19,7 @@ const DEFINITE_PER_ENTRY: u64 = 1 << 16;
 /// Products of machine words for the matrices of all regions of a file: without any node or entry,
 /// for each node, and for each entry of the pencil.
 const MATRIX_BASE: u64 = 1 << 30;
-const MATRIX_PER_NODE: u64 = 1 << 20;
+const MATRIX_PER_NODE: u64 = 1 << 22;
 const MATRIX_PER_ENTRY: u64 = 1 << 16;
 
 /// What an entry of such a matrix costs beside the products of its words.

@@ -395,7 +395,8 @@ mod tests {
     }
 
     /// What a file may spend on definite leaves: 2^26, 2^20 a node, 2^16 an entry that is not zero;
-    /// on matrices 2^30, 2^20 a node and 2^16 an entry, on witnesses of presence 2^30 and 2^26 a piece.
+    /// on matrices 2^30, 2^22 a node and 2^16 an entry, on witnesses of presence 2^30 and 2^26 a
+    /// piece.
     #[test]
     fn the_budget_grows_with_nodes_and_entries() {
         let mut rows = diagonal(2, 3);
@@ -416,7 +417,7 @@ mod tests {
         let matrices = WorkBudget::of_matrices([&rows], budget::nodes(&cover));
 
         assert_eq!(definite.left(), (1 << 26) + 7 * (1 << 20) + 2 * (1 << 16));
-        assert_eq!(matrices.left(), (1 << 30) + 7 * (1 << 20) + 2 * (1 << 16));
+        assert_eq!(matrices.left(), (1 << 30) + 7 * (1 << 22) + 2 * (1 << 16));
         assert_eq!(WorkBudget::of_pieces(5).left(), (1 << 30) + 5 * (1 << 26));
     }
 
