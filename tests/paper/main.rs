@@ -8,6 +8,9 @@ mod interrupt;
 
 mod block;
 mod block_observations;
+mod paper_path;
 mod path;
 mod path_found;
+mod path_states;
+mod rounded;
 mod scale;

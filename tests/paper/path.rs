@@ -6,6 +6,7 @@
 //! the paper prints. A wrong condensation, a wrong sign or a missed event contradicts one of them.
 #![cfg(feature = "solver")]
 
+use crate::paper_path::{PAPER_PATH, PaperPath};
 use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::{ContactState, Particle, Reaction, System, Unknown};
 use mceip_paper::path::{
@@ -484,8 +485,7 @@ fn a_gap_that_closes_is_passed_too() {
 /// 800 elements. The path is computed, and only then compared with the paper.
 #[test]
 fn both_published_states_lie_on_the_path() {
-    let block = Block::new(&BlockModel::of_the_paper()).unwrap();
-    let path = follow(&block, &Loading::of_the_paper());
+    let PaperPath { block, path, .. } = &*PAPER_PATH;
     assert!(path.slides());
 
     let seventeen = path.stretches_with(&PublishedState::SeventeenSlip.states());
@@ -528,8 +528,8 @@ fn both_published_states_lie_on_the_path() {
         assert_eq!(slipping.count(), slips[k], "stretch {k}");
     }
 
-    let on_the_path = path.intervals[fifteen[0]].problem(&block, None).unwrap();
-    let published = PublishedState::FifteenSlip.problem(&block).unwrap();
+    let on_the_path = path.intervals[fifteen[0]].problem(block, None).unwrap();
+    let published = PublishedState::FifteenSlip.problem(block).unwrap();
     assert_eq!(on_the_path.sha256(), published.sha256());
 }
 

@@ -12,7 +12,10 @@
 //! Sliding has begun when no node sticks: reactions are constant from then on.
 //!
 //! A rate problem may have several solutions (with much friction it often has, `rates_oracle`). The
-//! states nearest to those before are taken; they are verified, their uniqueness is not claimed.
+//! states nearest to those before are taken, and verified. At a point with a set of nodes on the
+//! friction cone its matrix is T(mu), the condensed pencil of these nodes: there is one solution
+//! for every load rate if and only if T(mu) is a P-matrix. `tests/paper/path_states.rs` proves that
+//! for the path of the paper's block at mu = 1.1; in general it is not claimed.
 //!
 //! A user makes a [`Contact`] of a [`crate::Block`], follows a [`LoadingPath`] and takes from it
 //! the contact states whose eigenproblems are solved, as a problem ([`Interval::problem`]) or as a

@@ -1,0 +1,32 @@
+//! The block of the paper and its loading path, computed once for all tests of this program.
+#![cfg(feature = "solver")]
+
+use mceip_paper::path::{Contact, Interval, Loading, LoadingPath};
+use mceip_paper::{Block, BlockModel};
+use std::ops::ControlFlow;
+use std::sync::LazyLock;
+
+pub(crate) struct PaperPath {
+    pub(crate) block: Block,
+    pub(crate) contact: Contact,
+    pub(crate) path: LoadingPath,
+}
+
+pub(crate) static PAPER_PATH: LazyLock<PaperPath> = LazyLock::new(|| {
+    let block = Block::new(&BlockModel::of_the_paper()).unwrap();
+    let contact = Contact::of(&block).unwrap();
+    let loading = Loading::of_the_paper();
+    let path = LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap();
+
+    PaperPath {
+        block,
+        contact,
+        path,
+    }
+});
+
+/// How many nodes slip, to either side.
+pub(crate) fn slip_nodes(interval: &Interval) -> usize {
+    let [_, left, right, _] = interval.counts();
+    left + right
+}
