@@ -9,7 +9,7 @@ use crate::candidate::{Candidate, SOLUTIONS_FORMAT, scaled_exactly};
 use crate::reduction::{Reduced, project};
 use crate::tolerance::X_RADIUS;
 use mceip_exact::{Rational, to_f64};
-use mceip_model::file::{Number, Object, from_json, require_format};
+use mceip_model::file::{Number, Object, from_json_with_unique_keys, require_format};
 use mceip_model::{Body, ModelError, Problem};
 use num_traits::Zero as _;
 use serde::{Deserialize, Deserializer};
@@ -129,6 +129,17 @@ pub enum ForeignError {
     /// Not a report of this version, or a number that cannot be read.
     #[error(transparent)]
     File(#[from] ModelError),
+    /// Numbers of so many digits that reading them exactly takes too long.
+    #[error(
+        "numbers of the report: expected at most {limit} for the sum of their squared lengths, got \
+         {got}; give fewer digits"
+    )]
+    Digits {
+        /// The limit.
+        limit: u64,
+        /// The sum over the report.
+        got: u64,
+    },
     /// A report on another problem.
     #[error("the report names another problem: expected {expected}, got {got}")]
     Digest {
@@ -200,7 +211,8 @@ impl ForeignReport {
         reduced: &Reduced,
     ) -> Result<ForeignReport, ForeignError> {
         require_format(text, SOLUTIONS_FORMAT)?;
-        let Object(raw): Object<Raw> = from_json(text)?;
+        require_short_numbers(text)?;
+        let Object(raw): Object<Raw> = from_json_with_unique_keys(text)?;
         let expected = problem.sha256();
         if let Some(got) = raw.problem_sha256.filter(|d| *d != expected) {
             return Err(ForeignError::Digest {
@@ -219,6 +231,29 @@ impl ForeignReport {
             continua: raw.continua,
         })
     }
+}
+
+/// Sum of the squared lengths of the numbers of a report, at most: the time to bring them to lowest
+/// terms grows like it, and is about two seconds here. Ten numbers of 100,000 digits are read, and
+/// any number of those that doubles are printed with.
+const MAX_SQUARES: u64 = 100_000_000_000;
+
+/// Refuses a text whose numbers take too long to be read.
+fn require_short_numbers(text: &str) -> Result<(), ForeignError> {
+    let mut squares: u64 = 0;
+    let is_of_no_number = |byte: &u8| !matches!(byte, b'0'..=b'9' | b'.' | b'/' | b'+' | b'-');
+    for number in text.as_bytes().split(is_of_no_number) {
+        let length = number.len() as u64;
+        squares = squares.saturating_add(length.saturating_mul(length));
+    }
+
+    if squares > MAX_SQUARES {
+        return Err(ForeignError::Digits {
+            limit: MAX_SQUARES,
+            got: squares,
+        });
+    }
+    Ok(())
 }
 
 /// The candidate for the reduced pencil that a solution of the file stands for.

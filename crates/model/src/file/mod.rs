@@ -13,6 +13,7 @@ mod object;
 mod order;
 mod private;
 mod raw;
+mod unique;
 mod write;
 
 pub use market::read_matrix_market;
@@ -24,6 +25,7 @@ pub use write::{write_problem, write_sparse};
 use super::{ErrorLocation, ModelError, Problem};
 use std::io::Read as _;
 use std::path::{Component, Path};
+use unique::Unique;
 
 /// The format this program reads and writes.
 pub const PROBLEM_FORMAT: &str = "mceip-problem/1";
@@ -207,6 +209,26 @@ pub fn require_format(text: &str, expected: &'static str) -> Result<(), ModelErr
 /// [`ModelError::Json`].
 pub fn from_json<'a, T: serde::Deserialize<'a>>(text: &'a str) -> Result<T, ModelError> {
     private::refuse_keys(text)?;
+    serde_json::from_str(text).map_err(|e| complaint(&e))
+}
+
+/// [`from_json`] for formats that let unknown fields pass, or keep a part of a file as it is: a
+/// text in which any object has a key twice is refused.
+///
+/// # Errors
+/// [`ModelError::Json`].
+///
+/// ```
+/// use mceip_model::file::{from_json, from_json_with_unique_keys};
+/// let text = r#"{"problem": {"a": 1, "a": 2}}"#;
+/// assert!(from_json::<serde_json::Value>(text).is_ok());
+/// assert!(from_json_with_unique_keys::<serde_json::Value>(text).is_err());
+/// ```
+pub fn from_json_with_unique_keys<'a, T: serde::Deserialize<'a>>(
+    text: &'a str,
+) -> Result<T, ModelError> {
+    private::refuse_keys(text)?;
+    serde_json::from_str::<Unique>(text).map_err(|e| complaint(&e))?;
     serde_json::from_str(text).map_err(|e| complaint(&e))
 }
 

@@ -10,7 +10,7 @@ use super::family::{Case, Id, case};
 use crate::error::TestkitError;
 use crate::families::Instance;
 use mceip_exact::parse;
-use mceip_model::file::{from_json, read_problem, require_format, write_problem};
+use mceip_model::file::{from_json_with_unique_keys, read_problem, require_format, write_problem};
 use mceip_oracle::TwoParticles;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -109,7 +109,7 @@ impl Replay {
     /// [`TestkitError`] for what is not one.
     pub fn from_json(text: &str) -> Result<Replay, TestkitError> {
         require_format(text, REPLAY_FORMAT)?;
-        Ok(from_json(text)?)
+        Ok(from_json_with_unique_keys(text)?)
     }
 
     /// The case to judge again. Where the instance is as drawn, what is known by construction comes
