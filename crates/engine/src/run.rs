@@ -4,9 +4,11 @@
 //! found by then is kept and returned; what it has not examined is left open. It calls
 //! [`Watch::report`] with its [`Progress`] after each step.
 
+use mceip_model::Problem;
 use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// A switch that ends runs early. Clones share its state, so that another thread or a signal
 /// handler can keep one.
@@ -118,7 +120,41 @@ impl fmt::Display for Progress<'_> {
 /// A listener to the progress of a run; it may be called from several threads.
 pub type OnProgress<'a> = dyn Fn(&Progress<'_>) + Sync + 'a;
 
-/// The switch and the listener of a run.
+/// What a run has proved so far: a problem, and a certificate for it that the checker has accepted.
+#[derive(Debug, Clone, Copy)]
+pub struct Kept<'a> {
+    /// Which of the problems of the run it is, for files; empty where there is one only.
+    pub name: &'a str,
+    /// The problem.
+    pub problem: &'a Problem,
+    /// The certificate, as it is written to a file. A complete set may leave regions open.
+    pub certificate: &'a str,
+}
+
+/// A keeper of what a run has proved; it may be called from several threads.
+pub type OnProof<'a> = dyn Fn(&Kept<'_>) + Sync + 'a;
+
+/// Who keeps what a run proves before it ends, and how often a search is asked for it.
+#[derive(Clone, Copy)]
+pub struct Keeper<'a> {
+    /// Time between two certificates of one search, at least.
+    pub every: Duration,
+    on_proof: &'a OnProof<'a>,
+}
+
+impl<'a> Keeper<'a> {
+    /// A keeper that is called with each certificate.
+    pub fn new(every: Duration, on_proof: &'a OnProof<'a>) -> Keeper<'a> {
+        Keeper { every, on_proof }
+    }
+
+    /// Hands a certificate over.
+    pub fn keep(&self, kept: &Kept<'_>) {
+        (self.on_proof)(kept);
+    }
+}
+
+/// The switch, the listener and the keeper of a run.
 ///
 /// ```
 /// use mceip_engine::run::{Cancel, Progress, Watch};
@@ -132,6 +168,7 @@ pub type OnProgress<'a> = dyn Fn(&Progress<'_>) + Sync + 'a;
 pub struct Watch<'a> {
     cancel: Option<&'a Cancel>,
     on_progress: &'a OnProgress<'a>,
+    keeper: Option<Keeper<'a>>,
 }
 
 impl<'a> Watch<'a> {
@@ -140,6 +177,7 @@ impl<'a> Watch<'a> {
         Watch {
             cancel: Some(cancel),
             on_progress,
+            keeper: None,
         }
     }
 
@@ -148,6 +186,7 @@ impl<'a> Watch<'a> {
         Watch {
             cancel: None,
             on_progress: &|_| {},
+            keeper: None,
         }
     }
 
@@ -170,9 +209,22 @@ impl<'a> Watch<'a> {
         'a: 'b,
     {
         Watch {
-            cancel: self.cancel,
             on_progress,
+            ..self
         }
+    }
+
+    /// The same run with this keeper, or with none.
+    pub fn kept_by<'b>(self, keeper: Option<Keeper<'b>>) -> Watch<'b>
+    where
+        'a: 'b,
+    {
+        Watch { keeper, ..self }
+    }
+
+    /// Who keeps what the run proves before it ends.
+    pub fn keeper(&self) -> Option<Keeper<'a>> {
+        self.keeper
     }
 
     /// Has somebody asked the run to end?

@@ -39,12 +39,14 @@ pub(super) fn prove<'a>(
         };
         if let Some(certificate) = cover(model, known, ends) {
             count += 1;
-            range.evidence = Evidence::Certificate(proofs.len());
-            proofs.push(Proof {
+            let proof = Proof {
                 name: format!("absent-range-{count}"),
                 problem: known.problem.clone(),
                 certificate: ProofCertificate::Absence(certificate),
-            });
+            };
+            model.keep(&proof.name, &proof.problem, &proof.certificate);
+            range.evidence = Evidence::Certificate(proofs.len());
+            proofs.push(proof);
         }
     }
 }

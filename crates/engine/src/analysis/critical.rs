@@ -250,6 +250,7 @@ pub(super) fn critical(
             branches: Branches::new(model.system, scale)?,
             scale,
             quadrant: known.quadrant(model),
+            problem: known.problem,
         };
 
         search.follow(&known.starts, &mut bounds)?;
@@ -388,6 +389,8 @@ struct Search<'a> {
     /// The unit of lambda^2.
     scale: f64,
     quadrant: Quadrant<'a>,
+    /// What absence is proved for.
+    problem: &'a Problem,
 }
 
 impl Search<'_> {
@@ -458,10 +461,12 @@ impl Search<'_> {
             lambda2: Interval::point(lambda2),
             evidence: Evidence::Exact(""),
         });
+        let certificate = ProofCertificate::Solutions(found.certificate);
+        self.model.keep("critical", &problem, &certificate);
         bounds.of_solution = Some(Proof {
             name: "critical".into(),
             problem,
-            certificate: ProofCertificate::Solutions(found.certificate),
+            certificate,
         });
         Ok(true)
     }
@@ -482,7 +487,7 @@ impl Search<'_> {
             };
 
             let problem = problem.clone().with_window(window);
-            let found = self.model.complete(&stage, &problem)?;
+            let found = self.model.complete(&stage, &problem, None)?;
             if found.cover.solutions.is_empty() {
                 continue;
             }
@@ -621,6 +626,8 @@ impl Search<'_> {
         match quadrant.cover(&bound, &mut bounds.last)? {
             Outcome::Absent(certificate) => {
                 bounds.unproved = bounds.unproved.take().filter(|tried| tried.below > *below);
+                let proof = ProofCertificate::Absence(*certificate.clone());
+                self.model.keep("absence", self.problem, &proof);
                 bounds.absence = Some(*certificate);
                 Ok(None)
             }

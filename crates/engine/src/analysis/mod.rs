@@ -85,20 +85,21 @@ pub fn analyse(
     watch.report(&Progress::stage("conditions (19), (20)"));
     let necessary = Necessary::of(families.of_condition())?;
 
-    let found = model.complete("divergence at mu, all lambda^2 >= 0", &at_friction)?;
+    let stage = "divergence at mu, all lambda^2 >= 0";
+    let found = model.complete(stage, &at_friction, Some("lambda2"))?;
     let divergence = divergence(system, family, &found);
     let sufficient = sufficient(&families, &found, divergence.verdict);
     let problem_sha256 = at_friction.sha256();
     let slip = family.stiffness.slip();
     let mu = to_f64(friction);
     let mut starts = starts(&found, &slip, |value| [value, mu]);
-    let of_lambda2 = proof("lambda2", at_friction.clone(), found);
+    let of_lambda2 = proof(&model, "lambda2", at_friction.clone(), found);
 
     let at_zero = model.problem(None)?;
-    let found = model.complete("static threshold, all mu >= 0", &at_zero)?;
+    let found = model.complete("static threshold, all mu >= 0", &at_zero, Some("mu"))?;
     let threshold = StaticThreshold::of(&found);
     starts.extend(self::starts(&found, &slip, |value| [0.0, value]));
-    let of_mu = proof("mu", at_zero, found);
+    let of_mu = proof(&model, "mu", at_zero, found);
 
     watch.report(&Progress::stage(
         "critical mu: all lambda^2 >= 0 and all smaller mu",
@@ -145,12 +146,15 @@ pub fn analyse(
     })
 }
 
-/// A problem with the certificate that a complete search made for it.
-fn proof(name: &str, problem: Problem, found: Completed) -> Proof {
+/// A problem with the certificate that a complete search made for it, handed over to the keeper of
+/// the run.
+fn proof(model: &Model<'_>, name: &str, problem: Problem, found: Completed) -> Proof {
+    let certificate = ProofCertificate::Solutions(found.certificate);
+    model.keep(name, &problem, &certificate);
     Proof {
         name: name.into(),
         problem,
-        certificate: ProofCertificate::Solutions(found.certificate),
+        certificate,
     }
 }
 

@@ -6,7 +6,8 @@
 
 use super::absence::Limits;
 use super::error::AnalysisError;
-use crate::run::{Progress, Watch};
+use super::evidence::ProofCertificate;
+use crate::run::{Keeper, Kept, Progress, Watch};
 use crate::search::complete::{self, Completed, complete};
 use mceip_exact::{Rational, Sparse};
 use mceip_model::{Body, Problem, System, Unknown, Window};
@@ -78,12 +79,17 @@ impl Model<'_> {
     }
 
     /// The complete set of a problem, as far as it is found before the work is cancelled. The
-    /// listener hears the counts of the search under the name of the stage.
+    /// listener hears the counts of the search under the name of the stage; the keeper gets what is
+    /// proved meanwhile under the name of the proof, if it has one.
     pub(super) fn complete(
         &self,
         stage: &str,
         problem: &Problem,
+        proof: Option<&str>,
     ) -> Result<Completed, AnalysisError> {
+        let keep = |kept: &Kept<'_>| self.keep_as(proof.unwrap_or_default(), kept);
+        let keeper = self.watch.keeper().filter(|_| proof.is_some());
+        let keeper = keeper.map(|keeper| Keeper::new(keeper.every, &keep));
         let relay = |progress: &Progress<'_>| self.relay(stage, progress);
         self.watch.report(&Progress::stage(stage));
 
@@ -92,7 +98,29 @@ impl Model<'_> {
             ..complete::Options::default()
         };
 
-        Ok(complete(problem, &options, &self.watch.heard_by(&relay))?)
+        let watch = self.watch.heard_by(&relay).kept_by(keeper);
+        Ok(complete(problem, &options, &watch)?)
+    }
+
+    /// Hands a proof over to the keeper of the run, if there is one.
+    pub(super) fn keep(&self, name: &str, problem: &Problem, certificate: &ProofCertificate) {
+        if self.watch.keeper().is_some() {
+            let certificate = &certificate.to_json();
+            self.keep_as(
+                name,
+                &Kept {
+                    name,
+                    problem,
+                    certificate,
+                },
+            );
+        }
+    }
+
+    fn keep_as(&self, name: &str, kept: &Kept<'_>) {
+        if let Some(keeper) = self.watch.keeper() {
+            keeper.keep(&Kept { name, ..*kept });
+        }
     }
 
     /// Passes the progress of a part of a stage on, with the name of the stage before its own.

@@ -123,6 +123,7 @@ pub(super) fn ranges(
             *prover = precise;
         }
         sampler.proved = prover.certified();
+        keep_presence(model, known, &sampler.proved);
     }
 
     let mut samples = sampler.even_samples(&bottom, &top)?;
@@ -131,6 +132,7 @@ pub(super) fn ranges(
         let starts = std::mem::take(&mut sampler.starts);
         if prover.close(to_f64(&bottom), to_f64(&top), &starts) {
             sampler.proved = prover.certified();
+            keep_presence(model, known, &sampler.proved);
         }
     }
     sampler.refine(&mut samples)?;
@@ -141,7 +143,7 @@ pub(super) fn ranges(
     let sampled = sampler.smallest.filter(|_| is_new).and_then(solution_of);
     for (k, certificate) in proved.iter().enumerate() {
         proofs.push(Proof {
-            name: format!("presence-{}", k + 1),
+            name: presence_name(k),
             problem: known.problem.clone(),
             certificate: ProofCertificate::Presence(certificate.clone()),
         });
@@ -167,6 +169,19 @@ pub(super) fn ranges(
         ranges,
         samples,
     })
+}
+
+/// Keeps the proofs of presence found so far.
+fn keep_presence(model: &Model<'_>, known: &Known<'_>, proved: &[PresenceCertificate]) {
+    for (k, certificate) in proved.iter().enumerate() {
+        let certificate = ProofCertificate::Presence(certificate.clone());
+        model.keep(&presence_name(k), known.problem, &certificate);
+    }
+}
+
+/// The name of the k-th proof of presence, from 0.
+fn presence_name(k: usize) -> String {
+    format!("presence-{}", k + 1)
 }
 
 /// The largest of the mu that was asked for, the thresholds, and the critical mu.
@@ -412,7 +427,7 @@ impl Sampler<'_> {
         }
 
         let problem = self.model.problem(Some(&mu))?;
-        let found = self.model.complete(stage, &problem)?;
+        let found = self.model.complete(stage, &problem, None)?;
         let verdict = verdict(&found);
         let met = starts(&found, &self.slip, |value| [value, to_f64(&mu)]);
         self.starts.extend(met);

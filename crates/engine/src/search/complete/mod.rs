@@ -15,6 +15,7 @@
 //! * `leaf` has one file per kind of evidence: `leaf::farkas`, `leaf::definite`, `leaf::ldl`,
 //!   `leaf::tail`, `leaf::root`, `leaf::infinity` (a root over a half line),
 //!   `leaf::support`.
+//! * `checkpoint` keeps what is proved while the search goes on.
 //! * `rounds` searches again what the checker refuses (`audited`), at last in long numbers
 //!   (`precise`).
 //!
@@ -25,6 +26,7 @@
 
 mod accepted_x;
 mod audited;
+mod checkpoint;
 pub(crate) mod dyadic;
 mod ends_game;
 mod error;

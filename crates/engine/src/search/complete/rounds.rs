@@ -9,6 +9,7 @@
 //! Called by `complete` and `resume`.
 
 use super::audited::{Audited, audited};
+use super::checkpoint::{Checkpoints, Snapshots};
 use super::error::CompleteError;
 use super::given::Given;
 use super::options::Options;
@@ -16,8 +17,9 @@ use super::pieces::prepared::Prepared;
 use super::precise;
 use super::shares::Shares;
 use super::splice::{Chosen, Pass, SearchedPiece, numbered};
-use crate::run::{Watch, in_threads};
+use crate::run::{Kept, Watch, in_threads};
 use mceip_check::certificate::{Certificate, CompleteSet};
+use std::time::Instant;
 
 /// Rounds of a search whose leaves were refused, each more cautious than the one before.
 const CAUTIOUS_ROUNDS: usize = 2;
@@ -37,6 +39,7 @@ impl Rounds<'_> {
     /// Searches all open leaves of the certificate, and in its place puts the one that the checker
     /// has accepted. Only the first round tells the listener of its progress.
     pub(super) fn run(&mut self, watch: &Watch<'_>) -> Result<Audited, CompleteError> {
+        let begun = Instant::now();
         let mut audited = self.search(&Chosen::All, &Shares::new(*watch))?;
 
         // What was refused is open: that alone is searched again.
@@ -47,19 +50,35 @@ impl Rounds<'_> {
                 break;
             }
 
+            self.keep(watch, begun);
             audited = self.search(&Chosen::Again(audited.refused), &quiet)?;
         }
 
         let is_few = !audited.refused.is_empty() && audited.refused.len() <= MAX_REFUSED;
         if is_few && !watch.is_cancelled() {
+            self.keep(watch, begun);
             audited = self.search(&Chosen::Exactly(audited.refused), &quiet)?;
         }
 
         if !watch.is_cancelled() && audited.open_count() > 0 {
+            self.keep(watch, begun);
             audited = self.with_long_numbers(audited);
         }
 
         Ok(audited)
+    }
+
+    /// Keeps what the checker has accepted so far, of a search that has gone on for long.
+    fn keep(&self, watch: &Watch<'_>, begun: Instant) {
+        if let Some(keeper) = watch.keeper()
+            && begun.elapsed() >= keeper.every
+        {
+            keeper.keep(&Kept {
+                name: "",
+                problem: self.given.problem,
+                certificate: &self.certificate.to_json(),
+            });
+        }
     }
 
     /// One pass over the chosen open leaves, and what the checker says of the result.
@@ -69,6 +88,8 @@ impl Rounds<'_> {
             .complete_set
             .take()
             .ok_or(CompleteError::NoCompleteSet)?;
+        let keeper = shares.keeper();
+        let snapshots = keeper.map(|_| Snapshots::new(set.pieces.len()));
         let pass = Pass {
             given: self.given,
             prepared: &self.prepared,
@@ -76,9 +97,23 @@ impl Rounds<'_> {
             options: self.options,
             chosen,
             shares,
+            snapshots: snapshots.as_ref(),
         };
 
-        let found = in_threads(self.options.threads, || pass.run());
+        let work = || in_threads(self.options.threads, || pass.run());
+        let found = match (keeper, &snapshots) {
+            (Some(keeper), Some(snapshots)) => {
+                let checkpoints = Checkpoints {
+                    problem: self.given.problem,
+                    keeper,
+                    set: &set,
+                    claims: &self.certificate.claims,
+                    snapshots,
+                };
+                checkpoints.during(work)
+            }
+            _ => work(),
+        };
 
         let mut pieces = Vec::with_capacity(set.pieces.len());
         for (piece, searched) in set.pieces.iter().zip(found) {
@@ -126,6 +161,7 @@ pub(super) fn is_open_below(
         options,
         chosen: &chosen,
         shares: &Shares::new(watch.quiet()),
+        snapshots: None,
     };
 
     let found = in_threads(options.threads, || pass.run());
@@ -146,6 +182,7 @@ pub(super) fn values_met(
         options,
         chosen: &Chosen::All,
         shares: &Shares::new(watch.quiet()),
+        snapshots: None,
     };
 
     let found = in_threads(options.threads, || pass.run());

@@ -3,7 +3,7 @@
 //! Every region has a share of the whole search, which its parts divide among them; the shares of
 //! all leaves add up to one. Called by `tree` and `splice`, from all threads.
 
-use crate::run::{Progress, Watch};
+use crate::run::{Keeper, Progress, Watch};
 use std::sync::{Mutex, PoisonError};
 
 /// The leaves of a search, counted over all threads.
@@ -29,6 +29,11 @@ impl<'a> Shares<'a> {
             watch,
             count: Mutex::default(),
         }
+    }
+
+    /// Who keeps what is proved meanwhile.
+    pub(crate) fn keeper(&self) -> Option<Keeper<'a>> {
+        self.watch.keeper()
     }
 
     /// Should the rest be left open?

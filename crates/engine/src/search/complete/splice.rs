@@ -7,6 +7,7 @@
 //! Input: a cover that the checker has accepted, and which of its leaves to search. Output: the
 //! nodes of every piece, and the values of the null vectors met. Called by `rounds`.
 
+use super::checkpoint::{Copier, Snapshots};
 use super::given::Given;
 use super::options::Options;
 use super::pieces::prepared::Prepared;
@@ -79,6 +80,8 @@ pub(super) struct Pass<'a> {
     pub(super) options: &'a Options,
     pub(super) chosen: &'a Chosen,
     pub(super) shares: &'a Shares<'a>,
+    /// Where copies of the trees are handed over, if anybody keeps them.
+    pub(super) snapshots: Option<&'a Snapshots>,
 }
 
 /// A region still to be copied or searched, and its part of the whole search.
@@ -115,9 +118,14 @@ impl Pass<'_> {
             budget: self.options.nodes_per_piece,
             items: Vec::new(),
             met: Vec::new(),
+            copier: self.snapshots.map(|snapshots| Copier::new(snapshots, k)),
         };
 
         self.splice(&mut search, k);
+        if let Some(copier) = search.copier {
+            copier.finish(&search.items, piece.tree.len());
+        }
+
         SearchedPiece {
             items: search.items,
             met: search.met,
@@ -156,6 +164,9 @@ impl Pass<'_> {
                 let share = here.share / 2.0;
                 waiting.extend(parts.map(|region| Waiting { region, share }));
             } else if *node == Node::Open && self.chosen.takes((k, place)) {
+                if let Some(copier) = &mut search.copier {
+                    copier.begin(place, &search.items);
+                }
                 self.search_leaf(search, &here, piece);
             } else {
                 self.copy_leaf(search, &here, node);

@@ -13,6 +13,7 @@
 //! Input: a region of one piece, the expansion of the piece. Output: the nodes that cover the
 //! region, in preorder. Called by `splice`.
 
+use super::checkpoint::Copier;
 use super::dyadic::short_near;
 use super::gains::Kept;
 use super::given::Given;
@@ -69,6 +70,8 @@ pub(super) struct Search<'a> {
     pub(super) items: Vec<Item>,
     /// Values of null vectors that were met, decided or not.
     pub(super) met: Vec<f64>,
+    /// Hands over copies of the items, if anybody keeps them.
+    pub(super) copier: Option<Copier<'a>>,
 }
 
 impl Search<'_> {
@@ -77,6 +80,13 @@ impl Search<'_> {
     pub(super) fn region(&mut self, region: &Region, share: f64) {
         let ends = self.ends_of(region);
         self.node(region, &ends, None, share);
+    }
+
+    /// Hands over a copy of the items, if somebody has asked for it.
+    fn answer(&mut self) {
+        if let Some(copier) = &mut self.copier {
+            copier.answer(&self.items);
+        }
     }
 
     pub(super) fn ends_of(&self, region: &Region) -> Rc<Ends> {
@@ -120,6 +130,7 @@ impl Search<'_> {
         kept: Option<Kept>,
         share: f64,
     ) {
+        self.answer();
         if self.budget == 0 || self.shares.is_cancelled() {
             return self.leaf(Node::Open, share);
         }
@@ -395,6 +406,7 @@ impl Search<'_> {
     /// Covers a region beyond the reach of the enclosures: a few undecided variables are decided
     /// one by one, and each support by exact arithmetic.
     pub(super) fn by_support(&mut self, region: &Region, share: f64) {
+        self.answer();
         let undecided = region::undecided(&region.states);
         let Some(&position) = undecided.first() else {
             if region.states.contains(&State::InSupport) {
