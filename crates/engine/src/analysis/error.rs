@@ -1,5 +1,6 @@
 //! Why a system is not analysed, and the check that doubles can carry its numbers.
 
+use crate::multistart::decimal_order;
 use crate::search::complete::CompleteError;
 use mceip_exact::{Sparse, to_f64};
 use mceip_model::{ModelError, System};
@@ -61,12 +62,11 @@ fn require_doubles_in(what: &'static str, matrix: &Sparse) -> Result<(), Analysi
     for (row, col, v) in matrix.entries() {
         let size = to_f64(v).abs();
         if !(LARGEST.recip()..=LARGEST).contains(&size) {
-            let bits = v.numer().bits() as i64 - v.denom().bits() as i64;
             return Err(AnalysisError::Units {
                 what,
                 row,
                 col,
-                exponent: bits * 301 / 1000, // log10(2) = 0.301
+                exponent: decimal_order(v),
             });
         }
     }

@@ -8,7 +8,8 @@
 use super::certify::Uncertifiable;
 use super::certify::certify;
 use super::exact::ExactMcp;
-use crate::multistart::trace_outcome;
+use crate::multistart::{require_starts, trace_outcome};
+use crate::run::{Progress, Watch};
 use mceip_exact::Rational;
 use mceip_mcp::mcp::LinearMcp;
 use mceip_mcp::solver::{
@@ -36,6 +37,8 @@ pub struct Found {
     pub first: Option<Outcome>,
     /// The log of every run and curve as text, if it was asked for.
     pub trace: Vec<String>,
+    /// Was the search cancelled?
+    pub interrupted: bool,
 }
 
 /// How to search.
@@ -56,11 +59,13 @@ pub struct Search {
 /// Run 0 is Lemke's method, run 1 the solver from 0; then by turns the solver and, with `all`,
 /// curves from random points (standard Cauchy components, so that all scales occur).
 ///
-/// Without `all` it stops at the first certified solution.
+/// Without `all` it stops at the first certified solution. A search that is cancelled keeps what it
+/// has found.
 ///
 /// # Errors
 /// [`SolverError`] for options and numbers that make no sense.
-pub fn search(problem: &ExactMcp, how: &Search) -> Result<Found, SolverError> {
+pub fn search(problem: &ExactMcp, how: &Search, watch: &Watch<'_>) -> Result<Found, SolverError> {
+    require_starts(how.starts, problem.dimension())?;
     let mut hunt = Hunt {
         problem,
         doubles: problem.to_f64()?,
@@ -74,6 +79,12 @@ pub fn search(problem: &ExactMcp, how: &Search) -> Result<Found, SolverError> {
         if !how.all && !hunt.found.certified.is_empty() {
             break;
         }
+        if watch.is_cancelled() {
+            hunt.found.interrupted = true;
+            break;
+        }
+
+        watch.report(&Progress::of("searching", run, how.starts));
         let start = if run < 2 {
             vec![0.0; problem.dimension()]
         } else {

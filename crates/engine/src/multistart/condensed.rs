@@ -8,6 +8,7 @@
 //! the command `block` and by campaigns.
 
 use super::error::SearchError;
+use super::require_starts;
 use super::same::repeats;
 use crate::candidate::Candidate;
 use crate::reduction::{CondensedEmbedding, SparseCondensation};
@@ -88,6 +89,7 @@ pub fn search_condensed(
     watch: &Watch<'_>,
 ) -> Result<CondensedFound, SearchError> {
     let embedding = CondensedEmbedding::new(condensation, mu)?;
+    require_starts(search.starts, embedding.dimension())?;
     let mut found = CondensedFound::default();
 
     for start in embedding.starts(search.starts, search.seed) {

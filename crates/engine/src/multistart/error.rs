@@ -25,6 +25,18 @@ pub enum SearchError {
         /// Variables of the problem.
         got: usize,
     },
+    /// Numbers that doubles cannot carry, in any scale.
+    #[error(
+        "{place}: expected a number within the range of doubles, in which solutions are looked \
+         for, got one of about 10^{exponent}; choose units in which K, M and lambda^2 are nearer \
+         to 1, or decide it exactly: mceip enumerate"
+    )]
+    BeyondDoubles {
+        /// The entry of A or B, or the window.
+        place: String,
+        /// Its decimal order of magnitude.
+        exponent: i64,
+    },
     /// K_ff is singular in doubles.
     #[error("P1: expected K_ff regular in doubles, got a singular factorisation")]
     SingularInDoubles,

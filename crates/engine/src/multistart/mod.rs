@@ -15,6 +15,7 @@
 mod all_slip;
 mod condensed;
 mod curves;
+mod doubles;
 mod error;
 mod found;
 mod ground;
@@ -25,16 +26,19 @@ mod trace;
 
 pub use all_slip::{AllSlip, all_slip};
 pub use condensed::{CondensedFound, CondensedSearch, CondensedSolution, search_condensed};
+pub(crate) use doubles::decimal_order;
 pub use error::SearchError;
 pub use found::{Certified, Found, Origin, Uncertified};
 pub use same::{exact_value, integer_x, same, support};
-pub use search::{Certifier, Search};
+pub(crate) use search::require_starts;
+pub use search::{Certifier, MAX_STARTS, Search};
 pub use trace::trace_outcome;
 
 use crate::certify;
 use crate::reduction::{Expansion, Reduced, Side, condense};
 use crate::run::Watch;
 use crate::tolerance::WINDOW_GAP;
+use doubles::require_doubles;
 use hunt::{Hunt, WINDOW_SALT};
 use mceip_exact::to_f64;
 use mceip_mcp::solver::SolverError;
@@ -87,6 +91,7 @@ pub fn multistart_large(
     }
 
     require_dense_order(pencil)?;
+    require_doubles(admissible, &[], problem.window())?;
     let certifier = certify::Certifier::new(problem, pencil).with_preference(search.preference);
     let found = multistart_with(
         admissible,
@@ -113,6 +118,7 @@ fn multistart_on_slip_variables(
     require_dense_order(&condensed)?;
 
     let small = Admissible::new(&condensed, Unknown::Mu)?;
+    require_doubles(&small, &[], problem.window())?;
     let found = multistart_with(
         &small,
         problem.window(),
@@ -181,6 +187,7 @@ pub fn multistart_with_zero(
     }
 
     require_dense_order(&reduced.pencil)?;
+    require_doubles(admissible, &zero, problem.window())?;
     let certifier =
         certify::Certifier::new(problem, &reduced.pencil).with_preference(search.preference);
     let mut found = Found::default();
@@ -201,6 +208,9 @@ pub fn multistart_with_zero(
 /// Searches the window, then above and below each value found, and sorts what was found.
 fn search_with(mut hunt: Hunt<'_>) -> Result<(), SolverError> {
     let search = hunt.search;
+    let order = hunt.admissible.pencil().order();
+    require_starts(search.starts.max(search.window_starts), order)?;
+
     let mut origins = vec![to_f64(hunt.window.min())];
     origins.extend(&search.origins);
     for (k, origin) in origins.into_iter().enumerate() {

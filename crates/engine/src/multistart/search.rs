@@ -6,7 +6,33 @@
 use crate::candidate::Candidate;
 use crate::certify::{NotCertified, Preference};
 use mceip_check::certificate::Claim;
-use mceip_mcp::solver::Options;
+use mceip_mcp::solver::{Options, SolverError};
+
+/// The most starts of a search. More than any problem has needed.
+pub const MAX_STARTS: usize = 100_000;
+
+/// Numbers in all starts of a search, at most: they are made before the first is used.
+const MAX_NUMBERS: usize = 1 << 27;
+
+/// Refuses more starts than [`MAX_STARTS`], and more than there is room for with so many variables.
+///
+/// # Errors
+/// [`SolverError::Option`].
+pub(crate) fn require_starts(starts: usize, variables: usize) -> Result<(), SolverError> {
+    let expected = if starts > MAX_STARTS {
+        "at most 100000"
+    } else if starts.saturating_mul(variables) > MAX_NUMBERS {
+        "at most 2^27 divided by the number of variables"
+    } else {
+        return Ok(());
+    };
+
+    Err(SolverError::Option {
+        name: "starts",
+        expected,
+        got: starts as f64,
+    })
+}
 
 /// How to search.
 #[derive(Debug, Clone, PartialEq)]

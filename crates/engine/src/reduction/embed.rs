@@ -22,9 +22,9 @@
 mod ratios;
 
 use crate::candidate::Candidate;
-use mceip_exact::{Sparse, to_f64};
+use mceip_exact::{Integer, Rational, Sparse, to_f64};
 use mceip_mcp::mcp::Mcp;
-use mceip_model::{Admissible, ZeroVariables};
+use mceip_model::{Admissible, Pencil, ZeroVariables};
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -77,8 +77,9 @@ impl Embedding {
         let pencil = admissible.pencil();
         let n = pencil.order();
 
-        let plain_a = dense(pencil.a());
-        let plain_b = dense(pencil.b());
+        let common = common_scale(pencil);
+        let plain_a = dense(pencil.a(), common.as_ref());
+        let plain_b = dense(pencil.b(), common.as_ref());
         let mut diagonal = vec![1.0; n];
         for (i, d) in diagonal.iter_mut().enumerate() {
             *d = scale_of(plain_a[(i, i)], plain_b[(i, i)]);
@@ -138,6 +139,13 @@ impl Embedding {
     pub fn with_c(self, c: f64) -> Option<Embedding> {
         let is_admissible = c > 0.0 && c.is_finite();
         is_admissible.then_some(Embedding { c, ..self })
+    }
+
+    /// Are all numbers of the MCP finite, and is there a unit of t?
+    pub(crate) fn is_finite(&self) -> bool {
+        let mut entries = self.a.iter().chain(&self.b);
+        let has_unit = self.unit.is_finite() && self.unit > 0.0;
+        has_unit && entries.all(|entry| entry.is_finite())
     }
 
     /// gamma = e'u_s - c of (28), (33): zero at every solution with zeta > 0, free at zeta = 0.
@@ -323,11 +331,34 @@ impl Embedding {
     }
 }
 
-/// A matrix of rationals, each entry rounded to the nearest double.
-fn dense(matrix: &Sparse) -> DMatrix<f64> {
+/// Binary orders of magnitude of entries up to which doubles carry their products, too.
+const MODEST: i64 = 500;
+
+/// A power of two that brings the entries of A and B, taken together, into the middle of the
+/// doubles; `None` where they need none. It is another unit of y, and leaves t and x alone.
+fn common_scale(pencil: &Pencil) -> Option<Rational> {
+    let entries = pencil.a().entries().chain(pencil.b().entries());
+    let orders = entries.map(|(_, _, v)| v.numer().bits() as i64 - v.denom().bits() as i64);
+    let orders: Vec<i64> = orders.collect();
+    let least = *orders.iter().min()?;
+    let most = *orders.iter().max()?;
+    if least >= -MODEST && most <= MODEST {
+        return None;
+    }
+
+    let middle = (least + most) / 2;
+    let power = Rational::from_integer(Integer::from(1) << middle.unsigned_abs());
+    Some(if middle > 0 { power.recip() } else { power })
+}
+
+/// A matrix of rationals, multiplied by the scale, each entry rounded to the nearest double.
+fn dense(matrix: &Sparse, scale: Option<&Rational>) -> DMatrix<f64> {
     let mut dense = DMatrix::zeros(matrix.rows(), matrix.cols());
     for (i, j, v) in matrix.entries() {
-        dense[(i, j)] = to_f64(v);
+        dense[(i, j)] = match scale {
+            Some(scale) => to_f64(&(v * scale)),
+            None => to_f64(v),
+        };
     }
     dense
 }
