@@ -163,11 +163,12 @@ fn a_campaign_goes_on_from_its_state_file() {
 
     let first = run(&[], new.clone(), 3).state;
     let resumed = new.clone().resumed(&first.to_json()).unwrap();
-    assert_eq!(resumed, first);
+    assert!(resumed.is_bound());
+    assert_eq!(resumed.to_json(), first.to_json());
 
     let continued = run(&[], resumed, 8).state;
     let at_once = run(&[], new.clone(), 8).state;
-    assert_eq!(continued, at_once);
+    assert_eq!(continued.to_json(), at_once.to_json());
 
     // Another campaign's state is refused, and so is what is no state.
     for (other, word) in [

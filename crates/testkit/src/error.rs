@@ -43,6 +43,27 @@ pub enum TestkitError {
         /// The file's.
         got: String,
     },
+    /// The state of a campaign that says something else than what was written.
+    #[error(
+        "sha256: expected {expected}, got {got}: the state was edited or cut short; without the \
+         file the campaign begins anew"
+    )]
+    StateDigest {
+        /// Digest of what the file says.
+        expected: String,
+        /// Digest in the file.
+        got: String,
+    },
+    /// The state of a campaign whose counts do not fit together.
+    #[error("{what}: expected {expected}, got {got}; without the file the campaign begins anew")]
+    StateCount {
+        /// Which count.
+        what: String,
+        /// What it must be.
+        expected: String,
+        /// What the file says.
+        got: u64,
+    },
     /// A family of instances that does not exist, or one named twice.
     #[error("expected a family of {families}, each once, got {name:?}")]
     Family {

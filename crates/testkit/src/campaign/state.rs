@@ -6,9 +6,10 @@
 
 use super::engine::Judgement;
 use super::family::Id;
+use crate::conform::sha256_of;
 use crate::error::TestkitError;
 use crate::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
-use mceip_model::file::{from_json, require_format};
+use mceip_model::file::{from_json_with_unique_keys, require_format};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -97,7 +98,14 @@ pub struct State {
     pub done: u64,
     /// Counts, one per family.
     pub tallies: Vec<Tally>,
+    /// Digest of all the rest; absent in state files written before there was one, and in a state
+    /// that is not read from a file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    sha256: Option<String>,
 }
+
+/// The most instances of each family in a campaign.
+pub const MAX_INSTANCES: u64 = 1_000_000_000;
 
 impl State {
     /// Nothing done yet.
@@ -110,6 +118,7 @@ impl State {
             families,
             done: 0,
             tallies,
+            sha256: None,
         }
     }
 
@@ -169,19 +178,81 @@ impl State {
         self.tallies.iter().map(|t| t.instances).sum()
     }
 
-    /// The file's text.
+    /// The file's text, with the digest of what it says.
     pub fn to_json(&self) -> String {
+        let bound = State {
+            sha256: Some(self.digest()),
+            ..self.clone()
+        };
         // Strings and numbers: cannot fail.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        serde_json::to_string_pretty(&bound).unwrap_or_default() + "\n"
     }
 
-    /// Reads a state and refuses one that was made with other settings than `self`.
+    /// The SHA-256 of the state without its digest, as JSON in one line. It holds seed, part and
+    /// families, so that a state is bound to its run.
+    fn digest(&self) -> String {
+        let plain = State {
+            sha256: None,
+            ..self.clone()
+        };
+        sha256_of(&serde_json::to_string(&plain).unwrap_or_default())
+    }
+
+    /// Was it read with a digest that binds it to its run?
+    pub fn is_bound(&self) -> bool {
+        self.sha256.is_some()
+    }
+
+    /// Refuses a state whose digest is that of another one: edited, or cut short.
+    fn require_own_digest(&self) -> Result<(), TestkitError> {
+        let expected = self.digest();
+        match &self.sha256 {
+            Some(got) if *got != expected => Err(TestkitError::StateDigest {
+                expected,
+                got: got.chars().take(80).collect(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses counts of instances other than those that the number done tells: families are taken
+    /// in turn.
+    fn require_counts(&self) -> Result<(), TestkitError> {
+        let families = self.families.len() as u64;
+        let most = families.saturating_mul(MAX_INSTANCES);
+        if self.done > most {
+            return Err(TestkitError::StateCount {
+                what: "instances done".into(),
+                expected: format!("at most {most}"),
+                got: self.done,
+            });
+        }
+
+        for (k, (family, tally)) in self.families.iter().zip(&self.tallies).enumerate() {
+            let is_one_ahead = (k as u64) < self.done % families;
+            let expected = self.done / families + u64::from(is_one_ahead);
+            if tally.instances != expected {
+                return Err(TestkitError::StateCount {
+                    what: format!("instances of {family}"),
+                    expected: format!("{expected}, as {} are done in all", self.done),
+                    got: tally.instances,
+                });
+            }
+        }
+
+        Ok(())
+    }
+
+    /// Reads a state and refuses one that was made with other settings than `self`, one whose
+    /// digest is not its own, and one whose counts of instances do not fit together.
     ///
     /// # Errors
     /// [`TestkitError`].
     pub fn resumed(&self, text: &str) -> Result<State, TestkitError> {
         require_format(text, STATE_FORMAT)?;
-        let state: State = from_json(text)?;
+        let state: State = from_json_with_unique_keys(text)?;
+        state.require_own_digest()?;
+        state.require_counts()?;
 
         for (expected, got) in self.settings().into_iter().zip(state.settings()) {
             if expected.value != got.value {

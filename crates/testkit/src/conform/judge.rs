@@ -42,11 +42,13 @@ pub enum Label {
     TimedOut,
     /// What it printed is no report, or too long.
     Malformed,
+    /// Judging its report takes longer than its time.
+    Undecided,
 }
 
 impl Label {
     /// All labels, in the order of tables.
-    pub const ALL: [Label; 7] = [
+    pub const ALL: [Label; 8] = [
         Label::Correct,
         Label::Incomplete,
         Label::Inaccurate,
@@ -54,6 +56,7 @@ impl Label {
         Label::Crashed,
         Label::TimedOut,
         Label::Malformed,
+        Label::Undecided,
     ];
 
     /// Did the program do what the case asks for?
@@ -71,6 +74,7 @@ impl Label {
             Label::Crashed => "crashed",
             Label::TimedOut => "timed out",
             Label::Malformed => "malformed",
+            Label::Undecided => "undecided",
         }
     }
 }
@@ -104,11 +108,19 @@ impl Case {
     }
 }
 
-/// Judges the text of a report on a case.
+/// Judges the text of a report on a case, however long that takes.
 pub fn judge_report(case: &Case, text: &str) -> Judgement {
+    judge_until(case, text, &|| false)
+}
+
+/// Judges the text of a report on a case. The time is looked at before each solution.
+pub(super) fn judge_until(case: &Case, text: &str, is_over: &dyn Fn() -> bool) -> Judgement {
     let report = match ForeignReport::read(text, &case.problem, &case.reduced) {
         Ok(report) => report,
         Err(e @ ForeignError::Digest { .. }) => return Judgement::new(Label::Wrong, e.to_string()),
+        Err(e @ ForeignError::Digits { .. }) => {
+            return Judgement::new(Label::Undecided, e.to_string());
+        }
         Err(e) => return Judgement::new(Label::Malformed, e.to_string()),
     };
 
@@ -126,9 +138,9 @@ pub fn judge_report(case: &Case, text: &str) -> Judgement {
     }
 
     let mut met = Met::nothing(case);
-    let first_inaccurate = match met.place_report(&report) {
+    let first_inaccurate = match met.place_report(&report, is_over) {
         Ok(first) => first,
-        Err(why) => return Judgement::new(Label::Wrong, why),
+        Err(judgement) => return judgement,
     };
 
     match (first_inaccurate, met.missing()) {
@@ -166,24 +178,39 @@ impl Met<'_> {
     }
 
     /// Places everything reported in the answer; the first thing that has no place, nor one near
-    /// by, is the error. The first solution that is only near its place is described.
-    fn place_report(&mut self, report: &ForeignReport) -> Result<Option<String>, String> {
+    /// by, is wrong, and no more is placed when the time is over. The first solution that is only
+    /// near its place is described.
+    fn place_report(
+        &mut self,
+        report: &ForeignReport,
+        is_over: &dyn Fn() -> bool,
+    ) -> Result<Option<String>, Judgement> {
         let certifier = Certifier::new(&self.case.problem, &self.case.reduced.pencil);
         let mut first_inaccurate = None;
 
         for (k, solution) in report.solutions.iter().enumerate() {
+            if is_over() {
+                let count = report.solutions.len();
+                let why = format!("judged {k} of {count} solutions in the time of the case");
+                return Err(Judgement::new(Label::Undecided, why));
+            }
+
             match self.place_solution(solution, &certifier) {
                 Ok(()) => (),
                 Err(NoPlace::Near { distance, why }) => {
                     let text = || format!("solution {k}: {distance}; {why}");
                     first_inaccurate.get_or_insert_with(text);
                 }
-                Err(NoPlace::False(why)) => return Err(format!("solution {k}: {why}")),
+                Err(NoPlace::False(why)) => {
+                    let why = format!("solution {k}: {why}");
+                    return Err(Judgement::new(Label::Wrong, why));
+                }
             }
         }
 
         for continuum in &report.continua {
-            self.place_continuum(continuum)?;
+            let placed = self.place_continuum(continuum);
+            placed.map_err(|why| Judgement::new(Label::Wrong, why))?;
         }
         Ok(first_inaccurate)
     }

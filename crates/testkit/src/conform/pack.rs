@@ -47,7 +47,7 @@ pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, TestkitErro
             "comment": group.comment,
             "cases": cases.len(),
             "wrong": lines.iter().map(|line| line.bugs.len()).sum::<usize>(),
-            "sha256": hex(&text),
+            "sha256": sha256_of(&text),
         }));
         files.push((file, text));
     }
@@ -109,8 +109,8 @@ impl Counts {
     }
 }
 
-/// SHA-256 of the text.
-fn hex(text: &str) -> String {
+/// SHA-256 of the text, in hexadecimal digits.
+pub(crate) fn sha256_of(text: &str) -> String {
     Sha256::digest(text.as_bytes())
         .iter()
         .map(|byte| format!("{byte:02x}"))
@@ -236,7 +236,7 @@ fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, TestkitError> {
     let text = read_group_text(folder, &entry.file);
     let text = text.map_err(|e| TestkitError::problem(&entry.file, e))?;
 
-    let got = hex(&text);
+    let got = sha256_of(&text);
     if got != entry.sha256 {
         return Err(TestkitError::Digest {
             file: entry.file.clone(),

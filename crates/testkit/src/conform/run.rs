@@ -7,7 +7,7 @@
 use super::case::{Case, Draft, Group};
 use super::flag::Flag;
 use super::groups::random_draft;
-use super::judge::{Judgement, Label, judge_report};
+use super::judge::{Judgement, Label, judge_until};
 use super::lines::LineProgram;
 use super::process::{Ending, Limits, run_once};
 use crate::error::TestkitError;
@@ -17,6 +17,7 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
 /// What to run.
 #[derive(Debug, Clone)]
@@ -153,6 +154,7 @@ impl Run<'_> {
     /// Sends the case to the program and judges how it ends. `None` if it was interrupted.
     fn judgement(&self, case: &Case) -> Result<Option<Judgement>, TestkitError> {
         let limits = &self.plan.limits;
+        let watch = self.watch;
         let input = write_problem(&case.problem);
         let judgement = match self.ending(&input)? {
             Ending::Interrupted => return Ok(None),
@@ -172,7 +174,11 @@ impl Run<'_> {
                 stdout,
                 ..
             } => match String::from_utf8(stdout) {
-                Ok(text) => judge_report(case, &text),
+                Ok(text) => {
+                    let begun = Instant::now();
+                    let is_over = || begun.elapsed() > limits.time || watch.is_cancelled();
+                    judge_until(case, &text, &is_over)
+                }
                 Err(_) => Judgement::new(Label::Malformed, "stdout is no UTF-8"),
             },
             Ending::Ended {
@@ -180,7 +186,9 @@ impl Run<'_> {
             } => crashed(code, &complaint),
         };
 
-        Ok(Some(judgement))
+        // What an interrupt has cut short says nothing about the program.
+        let is_cut_short = judgement.label == Label::Undecided && watch.is_cancelled();
+        Ok((!is_cut_short).then_some(judgement))
     }
 }
 

@@ -227,7 +227,7 @@ mod tests {
         assert_eq!(summary.failures.len(), 1);
 
         assert!(summary.text().ends_with(
-            "2 cases: 1 correct, 0 incomplete, 0 inaccurate, 1 wrong, 0 crashed, 0 timed out, 0 malformed\n"
+            "2 cases: 1 correct, 0 incomplete, 0 inaccurate, 1 wrong, 0 crashed, 0 timed out, 0 malformed, 0 undecided\n"
         ));
         let markdown = summary.markdown(&["prog".into()], "mceip 1; a | b");
         assert!(markdown.contains("| q | wrong | a \\| b |"));
