@@ -57,6 +57,9 @@
 //! `mceip_paper` the paper's examples, `mceip_testkit` what compares them all. Whoever needs their
 //! insides uses them directly.
 
+// `println!` and `eprintln!` panic where nothing can be written: `cli::common` prints.
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
 mod front;
 
 pub use front::*;

@@ -7,15 +7,18 @@
 
 mod page;
 
-use super::common::{CliError, exit, load, positive, print, require_threads};
-use super::job::Job;
+use super::common::{CliError, exit, load, positive, print, require_count, require_threads};
+use super::job::{CHECKPOINT, Job};
 use super::output::{Output, make_writable};
 use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, Options, analyse};
+use mceip_engine::run::{Keeper, Kept};
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
 use mceip_model::file::write_problem;
 use mceip_model::{Body, System};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
 /// Arguments of `analyze`.
@@ -35,7 +38,8 @@ pub(super) struct Args {
     /// below, and to prove absence on a range of mu above it.
     #[arg(long, default_value_t = Options::default().limits.boxes)]
     boxes: usize,
-    /// Write every certificate and its problem into this folder, for `mceip check`.
+    /// Write every certificate and its problem into this folder, for `mceip check`, each as soon as
+    /// it is accepted.
     #[arg(long, value_name = "DIR")]
     certificates: Option<PathBuf>,
     /// Write the answers with their evidence and the modes as one HTML page that needs no network;
@@ -51,7 +55,10 @@ pub(super) struct Args {
 }
 
 /// More samples than any plot has use for.
-const MAX_SAMPLES: usize = 10_000;
+const MAX_SAMPLES: u64 = 10_000;
+
+/// More boxes than any machine has room for.
+const MAX_BOXES: u64 = 1_000_000_000;
 
 /// Free degrees of freedom beyond which the ranges of mu are looked for on request only.
 const SAMPLED_FREE: usize = 200;
@@ -64,6 +71,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     let friction = friction(args, system)?;
     require_threads(args.threads)?;
+    require_count("boxes", args.boxes as u64, 0..=MAX_BOXES)?;
     let mut options = Options {
         samples: samples(args, system)?,
         threads: args.threads,
@@ -71,19 +79,29 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     options.limits.boxes = args.boxes;
 
-    if let Some(folder) = &args.certificates {
-        make_writable(folder)?;
-    }
-
+    let keeping = match &args.certificates {
+        Some(folder) => Some(Proofs::prepare(folder, &args.file)?),
+        None => None,
+    };
     let report = Output::prepare_if("report", args.report.as_deref(), &[&args.file])?;
 
     let job = Job::begin("reading");
     let name = problem.name.clone();
-    let analysis = job.watched(|watch| analyse(name, system, &friction, &options, watch))?;
+    let keep = |kept: &Kept<'_>| {
+        let written = keeping.as_ref().map(|proofs| proofs.keep(kept));
+        if let Some(Err(e)) = written {
+            job.note(&format!("mceip: {e}; it is written again at the end"));
+        }
+    };
+    let keeper = keeping.as_ref().map(|_| Keeper::new(CHECKPOINT, &keep));
+    let analysis = job.watched(|watch| {
+        let watch = watch.kept_by(keeper);
+        analyse(name, system, &friction, &options, &watch)
+    })?;
     job.end();
 
-    let paths = match &args.certificates {
-        Some(folder) => write_proofs(folder, &analysis, &args.file)?,
+    let paths = match &keeping {
+        Some(proofs) => proofs.write_all(&analysis)?,
         None => Vec::new(),
     };
     if let Some(output) = report {
@@ -126,14 +144,7 @@ fn samples(args: &Args, system: &System) -> Result<usize, CliError> {
     };
 
     let samples = args.samples.unwrap_or(usual);
-    if samples > MAX_SAMPLES {
-        return Err(CliError::Option {
-            option: "samples",
-            expected: "0 to 10000",
-            got: samples.to_string(),
-        });
-    }
-
+    require_count("samples", samples as u64, 0..=MAX_SAMPLES)?;
     Ok(samples)
 }
 
@@ -147,35 +158,73 @@ fn exit_code(analysis: &Analysis) -> u8 {
     }
 }
 
-/// The two files of a proof.
-struct ProofFiles {
-    problem: Output,
-    certificate: Output,
-    /// Where the certificate goes.
-    path: PathBuf,
+/// The folder of the certificates. Each one is written as soon as it is accepted, and what a long
+/// search has proved every minute.
+struct Proofs<'a> {
+    folder: &'a Path,
+    input: &'a Path,
+    /// The names of the proofs written so far.
+    written: Mutex<BTreeSet<String>>,
 }
 
-/// Writes NAME.problem.json and NAME.certificate.json for each proof; the certificates' paths.
-fn write_proofs(folder: &Path, analysis: &Analysis, input: &Path) -> Result<Vec<String>, CliError> {
-    let mut files = Vec::new();
-    for proof in &analysis.proofs {
-        let problem = folder.join(format!("{}.problem.json", proof.name));
-        let path = folder.join(format!("{}.certificate.json", proof.name));
-        files.push(ProofFiles {
-            problem: Output::prepare("certificates", &problem, &[input])?,
-            certificate: Output::prepare("certificates", &path, &[input])?,
-            path,
-        });
+impl Proofs<'_> {
+    /// Makes the folder if it is not there; refuses one in which no file can be made.
+    fn prepare<'a>(folder: &'a Path, input: &'a Path) -> Result<Proofs<'a>, CliError> {
+        make_writable(folder)?;
+        Ok(Proofs {
+            folder,
+            input,
+            written: Mutex::default(),
+        })
     }
 
-    let mut paths = Vec::new();
-    for (files, proof) in files.into_iter().zip(&analysis.proofs) {
-        files.problem.write(&write_problem(&proof.problem))?;
-        files.certificate.write(&proof.certificate.to_json())?;
-        paths.push(files.path.display().to_string());
+    /// Where a file of a proof is.
+    fn path(&self, name: &str, kind: &str) -> PathBuf {
+        self.folder.join(format!("{name}.{kind}.json"))
     }
 
-    Ok(paths)
+    /// Writes NAME.problem.json and NAME.certificate.json, the problem first.
+    fn keep(&self, kept: &Kept<'_>) -> Result<(), CliError> {
+        let problem = self.path(kept.name, "problem");
+        let certificate = self.path(kept.name, "certificate");
+        let problem = Output::prepare("certificates", &problem, &[self.input])?;
+        let certificate = Output::prepare("certificates", &certificate, &[self.input])?;
+
+        self.written().insert(kept.name.to_owned());
+        problem.write(&write_problem(kept.problem))?;
+        certificate.write(kept.certificate)
+    }
+
+    /// Writes all proofs of the analysis, and removes those that others have taken the place of;
+    /// the certificates' paths.
+    fn write_all(&self, analysis: &Analysis) -> Result<Vec<String>, CliError> {
+        let mut superseded = std::mem::take(&mut *self.written());
+        let mut paths = Vec::new();
+        for proof in &analysis.proofs {
+            self.keep(&Kept {
+                name: &proof.name,
+                problem: &proof.problem,
+                certificate: &proof.certificate.to_json(),
+            })?;
+            superseded.remove(&proof.name);
+            let path = self.path(&proof.name, "certificate");
+            paths.push(path.display().to_string());
+        }
+
+        for name in superseded {
+            for kind in ["certificate", "problem"] {
+                // One that stays is a proof all the same.
+                let _ = std::fs::remove_file(self.path(&name, kind));
+            }
+        }
+
+        Ok(paths)
+    }
+
+    /// A thread that panicked with the lock leaves the set whole.
+    fn written(&self) -> MutexGuard<'_, BTreeSet<String>> {
+        self.written.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 /// What to run next.

@@ -15,7 +15,7 @@ pub(super) mod scale_error;
 
 pub(super) use args::Args;
 
-use super::common::{CliError, exit, print};
+use super::common::{CliError, aside, exit, print};
 use super::job::Job;
 use super::output::Output;
 use args::published;
@@ -101,11 +101,11 @@ fn treat(
 fn say_what_failed(report: &BlockReport) {
     let name = report.state.name();
     for point in &report.uncertified {
-        eprintln!("uncertified: {name}: {point}");
+        aside(&format!("uncertified: {name}: {point}"));
     }
 
     for reason in &report.rejected {
-        eprintln!("DISAGREEMENT: {name}: {reason}");
+        aside(&format!("DISAGREEMENT: {name}: {reason}"));
     }
 }
 

@@ -6,13 +6,13 @@
 
 mod summary;
 
-use super::common::{CliError, exit, part, print, require_threads, text};
+use super::common::{CliError, aside, exit, part, print, require_count, require_threads, text};
 use super::job::{interrupt, is_quiet};
 use super::output::{Output, make};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mceip_engine::run::in_threads;
 use mceip_testkit::campaign::{
-    Campaign, Event, FAMILIES, Limit, Replay, State, family_error, judge, standard,
+    Campaign, Event, FAMILIES, Limit, MAX_INSTANCES, Replay, State, family_error, judge, standard,
 };
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -56,10 +56,20 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// Ten years.
+const MAX_SECONDS: u64 = 10 * 365 * 24 * 3600;
+
 /// Runs a campaign, or judges a replay file.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(path) = &args.replay {
         return replay(args, path);
+    }
+
+    if let Some(seconds) = args.seconds {
+        require_count("seconds", seconds, 0..=MAX_SECONDS)?;
+    }
+    if let Some(count) = args.count {
+        require_count("count", count, 0..=MAX_INSTANCES)?;
     }
 
     let limit = match (args.seconds, args.count) {
@@ -137,11 +147,20 @@ fn start(args: &Args) -> Result<State, CliError> {
     match &args.state {
         Some(path) if path.exists() => {
             let earlier = text("the campaign's state", path)?;
-            new.resumed(&earlier)
-                .map_err(|source| CliError::TestkitFile {
-                    path: path.display().to_string(),
-                    source,
-                })
+            let resumed = new.resumed(&earlier);
+            let state = resumed.map_err(|source| CliError::TestkitFile {
+                path: path.display().to_string(),
+                source,
+            })?;
+
+            if !state.is_bound() {
+                let path = path.display();
+                aside(&format!(
+                    "mceip: {path}: not bound to its run by a digest (an older version has written \
+                     it): its counts are taken as they are"
+                ));
+            }
+            Ok(state)
         }
         _ => Ok(new),
     }
@@ -286,7 +305,7 @@ impl Bars {
     /// A line on stderr, beside the bars or without them.
     fn say(&self, line: &str) {
         if self.all.is_hidden() {
-            eprintln!("{line}");
+            aside(line);
         } else {
             // A terminal that has gone away is no error.
             let _ = self.all.println(line);

@@ -3,7 +3,7 @@
 //! Each point of a report is certified as a solution. Where that fails, all solutions near its
 //! value are searched: the complete set proves that the point is none, or lists it after all.
 
-use super::common::{CliError, exit, load, positive, print, text};
+use super::common::{CliError, aside, exit, load, positive, print, text};
 use super::job::Job;
 use super::output::{self, Output};
 use mceip_check::certificate::{Certificate, Claim};
@@ -53,7 +53,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let report = match ForeignReport::read(&report, &problem, &reduced) {
         Ok(report) => report,
         Err(e @ ForeignError::Digest { .. }) => {
-            eprintln!("rejected: {e}");
+            aside(&format!("rejected: {e}"));
             return Ok(exit::REJECTED);
         }
         Err(source) => {
@@ -163,7 +163,7 @@ impl Judged {
 
         for (index, reason) in sifted.refused {
             let text = format!("undecided: the checker refuses the lifted claim: {reason}");
-            eprintln!("claim {index}: {text}");
+            aside(&format!("claim {index}: {text}"));
             let finding = Finding {
                 verdict: Verdict::Undecided,
                 text,
@@ -183,10 +183,10 @@ impl Judged {
         let disproved = self.count(Verdict::Disproved);
         let undecided = self.count(Verdict::Undecided);
         let certified = claimed + self.count(Verdict::Present);
-        eprintln!(
+        aside(&format!(
             "{certified} distinct solutions certified, {disproved} of {reported} disproved, \
              {undecided} undecided"
-        );
+        ));
     }
 
     /// Writes the proof for each refused solution K that has one to absence-K.json.

@@ -9,6 +9,7 @@ pub(super) mod plain;
 
 use super::common::{CliError, exit, load, parse_window, print, text};
 use super::complete::solutions_text;
+use super::job::{Job, decided};
 use mceip_check::certificate::{
     CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, PRESENCE_FORMAT,
     PresenceCertificate,
@@ -21,6 +22,7 @@ use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, Verdict, judge};
 use mceip_engine::lcp::MCP_FORMAT;
 use mceip_engine::reduction::reduce_with_zero;
+use mceip_engine::run::Progress;
 use mceip_engine::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALUE_RADIUS};
 use mceip_exact::{enclosing_decimals, parse, to_f64};
 use mceip_model::file::require_format;
@@ -87,7 +89,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let read = Certificate::from_json(&source);
     let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
 
-    match check(&problem, &certificate) {
+    match decided(|| check(&problem, &certificate)) {
         Ok(accepted) => say_accepted(&problem, &certificate, &accepted, demanded.as_ref()),
         Err(rejected) => {
             print(&format!("REJECTED: {rejected}\n"))?;
@@ -101,7 +103,7 @@ fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
     let read = CriticalCertificate::from_json(source);
     let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
 
-    let (text, code) = match check_critical(problem, &certificate) {
+    let (text, code) = match decided(|| check_critical(problem, &certificate)) {
         Ok(AcceptedAbsence {
             from,
             below,
@@ -125,7 +127,7 @@ fn presence(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
     let read = PresenceCertificate::from_json(source);
     let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
 
-    let (text, code) = match check_presence(problem, &certificate) {
+    let (text, code) = match decided(|| check_presence(problem, &certificate)) {
         Ok(AcceptedPresence { from, to, pieces }) => {
             let digest = problem.sha256();
             let evidence = format!("lambda2, problem {digest}, {pieces} pieces accepted");
@@ -288,11 +290,12 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
         }
     };
 
-    let mut out = String::new();
+    let job = Job::begin_with_nothing_to_keep("judging");
     let mut is_undecided = report.solutions.is_empty();
     let mut is_rejected = false;
     let mut effort = Effort::default();
-    for reported in &report.solutions {
+    for (k, reported) in report.solutions.iter().enumerate() {
+        job.say(Progress::of("judging", k, report.solutions.len()));
         let line = match reported {
             Ok(reported) => {
                 let verdict = judge(problem, &reduced, reported, tolerance, &mut effort);
@@ -305,15 +308,16 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
                 format!("REJECTED: {bad}")
             }
         };
-        out += &format!("{line}\n");
+        job.print(&format!("{line}\n"))?; // an interrupt leaves what was judged
     }
+    job.end();
 
     if report.solutions.is_empty() {
-        out += "UNDECIDED: the report lists no solution; that there is none is not checked here \
-                (see mceip complete)\n";
+        let nothing = "UNDECIDED: the report lists no solution; that there is none is not checked \
+                       here (see mceip complete)\n";
+        print(nothing)?;
     }
 
-    print(&out)?;
     Ok(if is_rejected {
         exit::REJECTED
     } else if is_undecided {

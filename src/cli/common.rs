@@ -10,9 +10,11 @@ use mceip_model::{ModelError, Problem, Window};
 use mceip_oracle::OracleError;
 use mceip_testkit::TestkitError;
 use num_traits::Signed as _;
-use std::io::{ErrorKind, Write as _};
+use std::io::{ErrorKind, IsTerminal as _, Write as _};
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::OnceLock;
+use std::time::Duration;
 
 /// Exit codes (README, and `mceip --help`).
 pub(super) mod exit {
@@ -161,6 +163,18 @@ pub(super) enum CliError {
         /// What was given.
         got: String,
     },
+    /// An option that counts something has a value beyond its limits.
+    #[error("--{option}: expected {least} to {most}, got \"{got}\"")]
+    Count {
+        /// The option.
+        option: &'static str,
+        /// The smallest value it takes.
+        least: u64,
+        /// The largest.
+        most: u64,
+        /// What was given.
+        got: u64,
+    },
     /// An output cannot be written.
     #[error("cannot write {path}: {reason}")]
     Write {
@@ -300,27 +314,42 @@ fn window_of(text: &str) -> Option<Window> {
     Window::new(min, max).ok()
 }
 
+/// Refuses a count that is not within `limits`.
+pub(super) fn require_count(
+    option: &'static str,
+    got: u64,
+    limits: RangeInclusive<u64>,
+) -> Result<(), CliError> {
+    if limits.contains(&got) {
+        return Ok(());
+    }
+
+    Err(CliError::Count {
+        option,
+        least: *limits.start(),
+        most: *limits.end(),
+        got,
+    })
+}
+
 /// Refuses no threads at all and more than [`MAX_THREADS`]. Says on stderr where the threads wanted
 /// are more than the machine gives, or cannot be started: then the default ones do the work.
 pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
     let Some(wanted) = wanted else {
         return Ok(());
     };
-    if wanted == 0 || wanted > MAX_THREADS {
-        let expected = "1 to 1024";
-        return Err(CliError::option("threads", expected, &wanted.to_string()));
-    }
+    require_count("threads", wanted as u64, 1..=MAX_THREADS as u64)?;
 
     let given = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(wanted).build();
     match pool {
-        Err(e) => eprintln!(
+        Err(e) => aside(&format!(
             "mceip: --threads {wanted}: cannot be started ({e}); the default number of threads is \
              used instead"
-        ),
-        Ok(_) if wanted > given => eprintln!(
+        )),
+        Ok(_) if wanted > given => aside(&format!(
             "mceip: --threads {wanted}: the machine runs {given} at once, which they share"
-        ),
+        )),
         Ok(_) => {}
     }
 
@@ -332,9 +361,19 @@ pub(super) fn number(option: &'static str, given: &str) -> Result<Rational, CliE
     parse(given).map_err(|_| CliError::option(option, "a number", given))
 }
 
+/// Parts that a run may have. More than any number of machines has use for.
+const MAX_PARTS: usize = 100_000;
+
+/// A time > 0 given as an option, in seconds.
+pub(super) fn seconds(option: &'static str, given: f64) -> Result<Duration, CliError> {
+    let time = Duration::try_from_secs_f64(given).ok();
+    let positive = time.filter(|time| !time.is_zero());
+    positive.ok_or_else(|| CliError::option(option, "seconds > 0", &given.to_string()))
+}
+
 /// A part i/n of a run, given as an option: (i - 1, n).
 pub(super) fn part(option: &'static str, given: &str) -> Result<(usize, usize), CliError> {
-    let expected = "i/n with 1 <= i <= n";
+    let expected = "i/n with 1 <= i <= n <= 100000";
     part_of(given).ok_or_else(|| CliError::option(option, expected, given))
 }
 
@@ -343,7 +382,7 @@ fn part_of(text: &str) -> Option<(usize, usize)> {
     let (number, count) = text.split_once('/')?;
     let number: usize = number.parse().ok()?;
     let count: usize = count.parse().ok()?;
-    let is_part = number >= 1 && number <= count;
+    let is_part = number >= 1 && number <= count && count <= MAX_PARTS;
     is_part.then(|| (number - 1, count))
 }
 
@@ -358,10 +397,19 @@ pub(super) fn positive_number(text: &str) -> Option<Rational> {
     parse(text).ok().filter(Rational::is_positive)
 }
 
-/// Prints to stdout; on a terminal with sentences wrapped and verdicts in colour. A reader that has
-/// gone away (a closed pipe) is no error; a full disk is.
+/// Was standard output a terminal when the program began?
+static STDOUT_WAS_TERMINAL: OnceLock<bool> = OnceLock::new();
+
+/// Looks at standard output before any work: of a terminal that was closed meanwhile the system
+/// does not say that it was one.
+pub(super) fn look_at_stdout() {
+    let _ = STDOUT_WAS_TERMINAL.set(std::io::stdout().is_terminal());
+}
+
+/// Prints to stdout, control characters escaped; on a terminal with sentences wrapped and verdicts
+/// in colour. A reader that has gone away (a closed pipe or terminal) is no error; a full disk is.
 pub(super) fn print(text: &str) -> Result<(), CliError> {
-    let mut text = wrapped::for_terminal(text);
+    let mut text = wrapped::for_terminal(&escaped(text));
     if colour::is_wanted() {
         text = colour::coloured(&text);
     }
@@ -369,8 +417,83 @@ pub(super) fn print(text: &str) -> Result<(), CliError> {
     let mut out = std::io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 
+    let was_terminal = STDOUT_WAS_TERMINAL.get() == Some(&true);
     match written {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(CliError::write("stdout", &e)),
+        Err(e) if e.kind() != ErrorKind::BrokenPipe && !was_terminal => {
+            Err(CliError::write("stdout", &e))
+        }
         _ => Ok(()),
+    }
+}
+
+/// Prints a line on stderr, control characters escaped. No answer goes there, so that a stderr that
+/// takes nothing (a closed pipe or terminal, a full disk) is no error.
+pub(super) fn aside(line: &str) {
+    let line = format!("{}\n", escaped(line));
+    let _ = std::io::stderr().lock().write_all(line.as_bytes());
+}
+
+/// Characters of an error that are printed.
+const LONGEST_ERROR: usize = 300;
+
+/// Prints an error: one line on stderr, of a long one the beginning and the end.
+pub(super) fn complain(error: &str) {
+    let line = format!("mceip: {error}").replace('\n', " ");
+    let length = line.chars().count();
+    if length <= LONGEST_ERROR {
+        return aside(&line);
+    }
+
+    let end_length = LONGEST_ERROR / 3;
+    let gap = " ... ";
+    let begin_length = LONGEST_ERROR - end_length - gap.len();
+    let begin: String = line.chars().take(begin_length).collect();
+    let end: String = line.chars().skip(length - end_length).collect();
+    aside(&format!("{begin}{gap}{end}"));
+}
+
+/// The text without characters that act on a terminal: control characters but for ends of line and
+/// tabs, and those that turn the direction of what follows. They are spelt as JSON does, so that a
+/// JSON text means the same.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for character in text.chars() {
+        let is_layout = matches!(character, '\n' | '\t');
+        let turns_direction = matches!(
+            character,
+            '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+        );
+
+        if turns_direction || character.is_control() && !is_layout {
+            out += &format!("\\u{:04x}", u32::from(character));
+        } else {
+            out.push(character);
+        }
+    }
+
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_acts_on_a_terminal_is_spelt_out() {
+        let name = "a\u{1b}[31m\u{7}\u{7f}\u{9b}\r\u{202e}b";
+        let expected = "a\\u001b[31m\\u0007\\u007f\\u009b\\u000d\\u202eb";
+        assert_eq!(escaped(name), expected);
+
+        let plain = "µ = 2,\tλ² = 3\n\\u001b";
+        assert_eq!(escaped(plain), plain);
+    }
+
+    #[test]
+    fn a_json_text_means_the_same_when_it_is_escaped() {
+        let value = serde_json::json!({ "name": "a\u{1b}\u{7f}\u{202e}\\" });
+        let printed = escaped(&format!("{value:#}"));
+        assert!(printed.is_ascii());
+        let read: serde_json::Value = serde_json::from_str(&printed).unwrap();
+        assert_eq!(read, value);
     }
 }

@@ -3,21 +3,24 @@
 //! The certificate can be searched in parts (`--shard`, joined by `mceip merge`) and gone on with
 //! (`--resume`). What is printed is what the checker has proved of it.
 
-use super::common::{CliError, exit, load, part, print, require_threads, text};
+use super::common::{
+    CliError, exit, load, part, print, require_count, require_threads, seconds, text,
+};
 use super::infinity::{AtInfinity, Files};
-use super::job::Job;
+use super::job::{CHECKPOINT, Job, is_quiet};
 use super::output::Output;
 use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_engine::certify::Certifier;
 use mceip_engine::reduction::reduce_with_zero;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
-use mceip_engine::run::Watch;
+use mceip_engine::run::{Keeper, Kept, Watch};
 use mceip_engine::search::complete::{Completed, Options, Shard, complete, resume};
 use mceip_exact::enclosing_decimals;
 use mceip_model::{Body, Problem};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Arguments of `complete`.
 #[derive(clap::Args)]
@@ -27,9 +30,19 @@ pub(super) struct Args {
     /// Closed window a,b of values instead of the file's (b empty or inf: no upper end).
     #[arg(long, allow_hyphen_values = true)]
     window: Option<String>,
-    /// Write the certificate to this file; after an interrupt it holds what is left open.
+    /// Write the certificate to this file; after an interrupt it holds what is left open, and so it
+    /// does every minute while the search goes on.
     #[arg(long, value_name = "OUT")]
     certificate: Option<PathBuf>,
+    /// Seconds between two writes of the certificate while the search goes on.
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value_t = CHECKPOINT.as_secs_f64(),
+        requires = "certificate",
+        allow_hyphen_values = true
+    )]
+    checkpoint: f64,
     /// Go on with a certificate that leaves regions open (after an interrupt, or a shard).
     #[arg(long, value_name = "CERTIFICATE")]
     resume: Option<PathBuf>,
@@ -53,7 +66,7 @@ pub(super) struct Args {
 }
 
 /// More pieces than any machine has use for.
-const MAX_PIECES: usize = 100_000;
+const MAX_PIECES: u64 = 100_000;
 
 /// Families and open regions printed in full.
 const SHOWN: usize = 20;
@@ -70,6 +83,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     require_threads(args.threads)?;
     refuse_useless(args, &problem)?;
+    let every = seconds("checkpoint", args.checkpoint)?;
 
     let earlier = args.resume.as_deref().map(read).transpose()?;
     let path = args.certificate.as_deref();
@@ -86,9 +100,21 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         ..Options::default()
     };
     let job = Job::begin("searching");
-    let completed = job.watched(|watch| match &earlier {
-        None => complete(&problem, &options, watch),
-        Some(certificate) => resume(&problem, certificate, &options, watch),
+    let kept_in = output.as_ref().filter(|output| !output.is_device());
+    let has_said = AtomicBool::new(false);
+    let keep = |kept: &Kept<'_>| {
+        if let Some(output) = kept_in {
+            let written = output.write(kept.certificate);
+            say_checkpoint(&job, &written, args, has_said.swap(true, Ordering::Relaxed));
+        }
+    };
+    let keeper = kept_in.map(|_| Keeper::new(every, &keep));
+    let completed = job.watched(|watch| {
+        let watch = watch.kept_by(keeper);
+        match &earlier {
+            None => complete(&problem, &options, &watch),
+            Some(certificate) => resume(&problem, certificate, &options, &watch),
+        }
     })?;
     let at_infinity = if args.infinity {
         let watch = Watch::silent(job.cancel());
@@ -98,14 +124,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     job.end();
 
-    print(&answer(args, &problem, &completed, at_infinity.as_ref())?)?;
+    // What is proved is in its files before anything is printed.
+    if let Some(output) = &output {
+        output.write(&completed.certificate.to_json())?;
+    }
     if let (Some(at_infinity), Some(files)) = (&at_infinity, files_at_infinity) {
         at_infinity.write(files)?;
     }
-
-    if let Some(output) = output {
-        output.write(&completed.certificate.to_json())?;
-    }
+    print(&answer(args, &problem, &completed, at_infinity.as_ref())?)?;
 
     let is_complete_there = at_infinity.is_none_or(|there| there.is_complete());
     Ok(if completed.is_complete() && is_complete_there {
@@ -117,16 +143,27 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     })
 }
 
+/// Says once that there is a certificate to go on with, and each time that one is not written.
+fn say_checkpoint(job: &Job, written: &Result<(), CliError>, args: &Args, has_said: bool) {
+    match written {
+        Err(e) => job.note(&format!("mceip: {e}; the search goes on")),
+        Ok(()) if has_said || is_quiet() => {}
+        Ok(()) => {
+            let file = args.file.display();
+            let certificate = args.certificate.as_deref().unwrap_or(Path::new("OUT"));
+            let certificate = certificate.display();
+            let seconds = args.checkpoint;
+            job.note(&format!(
+                "what is proved is in {certificate}, at most {seconds} s old; if this run ends \
+                 early: mceip complete {file} --resume {certificate}"
+            ));
+        }
+    }
+}
+
 /// Refuses a number of pieces that helps nobody, and --infinity for a window that ends.
 fn refuse_useless(args: &Args, problem: &Problem) -> Result<(), CliError> {
-    if args.pieces == 0 || args.pieces > MAX_PIECES {
-        return Err(CliError::Option {
-            option: "pieces",
-            expected: "1 to 100000",
-            got: args.pieces.to_string(),
-        });
-    }
-
+    require_count("pieces", args.pieces as u64, 1..=MAX_PIECES)?;
     if args.infinity
         && let Body::System(system) = problem.body()
     {

@@ -3,7 +3,7 @@
 //! Each case of the pack, and each random case, is sent to the program on stdin; its report is
 //! judged by `mceip_testkit`. The rules are in `spec/conform.md`.
 
-use super::common::{CliError, exit, print, require_threads};
+use super::common::{CliError, exit, print, require_count, require_threads, seconds};
 use super::job::Job;
 use super::output::{Output, make};
 use mceip_model::file::write_problem;
@@ -12,7 +12,6 @@ use mceip_testkit::conform::{
     summarise,
 };
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 /// Arguments of `conform`.
 #[derive(clap::Args)]
@@ -75,6 +74,9 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// More random cases than any program is told apart by.
+const MAX_RANDOM: u64 = 1_000_000;
+
 /// Runs the program on every case and prints the summary; or writes the pack, or prints from it.
 pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     if args.flags {
@@ -113,10 +115,10 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     } else {
         summary.text()
     };
-    print(&text)?;
     if let Some(output) = markdown {
         output.write(&summary.markdown(&args.command, &settings(args)))?;
     }
+    print(&text)?;
 
     Ok(if job.is_cancelled() {
         exit::INTERRUPTED
@@ -156,7 +158,8 @@ fn settings(args: &Args) -> String {
 
 /// What is to be run, as the options say.
 fn plan(args: &Args, groups: Vec<Group>) -> Result<Plan, CliError> {
-    let time = time_limit(args.time_limit)?;
+    let time = seconds("time-limit", args.time_limit)?;
+    require_count("count", args.count as u64, 0..=MAX_RANDOM)?;
     require_threads(args.threads)?;
 
     Ok(Plan {
@@ -171,17 +174,6 @@ fn plan(args: &Args, groups: Vec<Group>) -> Result<Plan, CliError> {
             ..Limits::default()
         },
         threads: args.threads,
-    })
-}
-
-fn time_limit(seconds: f64) -> Result<Duration, CliError> {
-    let time = Duration::try_from_secs_f64(seconds).ok();
-    let positive = time.filter(|time| !time.is_zero());
-
-    positive.ok_or_else(|| CliError::Option {
-        option: "time-limit",
-        expected: "seconds > 0",
-        got: seconds.to_string(),
     })
 }
 

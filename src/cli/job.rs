@@ -1,6 +1,6 @@
 //! The run of a subcommand as its user meets it: one line on the terminal, and Ctrl-C.
 
-use super::common::exit;
+use super::common::{CliError, aside, exit, print};
 use indicatif::ProgressBar;
 use mceip_engine::run::{Cancel, Progress, Watch};
 use std::ops::ControlFlow;
@@ -23,6 +23,9 @@ pub(super) fn interrupt() -> Cancel {
     cancel
 }
 
+/// Time between two writes of what a long search has proved.
+pub(super) const CHECKPOINT: Duration = Duration::from_secs(60);
+
 /// Set once, before the command runs.
 static IS_QUIET: AtomicBool = AtomicBool::new(false);
 
@@ -36,6 +39,15 @@ pub(super) fn is_quiet() -> bool {
     IS_QUIET.load(Ordering::Relaxed)
 }
 
+/// Lets the first Ctrl-C end the process: for work that has nothing to keep before it is done.
+fn end_at_interrupt() {
+    // As in `interrupt`: fails only if a handler exists already.
+    let _ = ctrlc::set_handler(|| {
+        aside("mceip: interrupted before it was decided");
+        std::process::exit(i32::from(exit::INTERRUPTED));
+    });
+}
+
 /// A run that Ctrl-C ends, with what has been found kept.
 pub(super) struct Job {
     cancel: Cancel,
@@ -45,8 +57,17 @@ pub(super) struct Job {
 impl Job {
     /// Begins, with a line on stderr if that is a terminal and `--quiet` is not given.
     pub(super) fn begin(what: &str) -> Job {
-        let cancel = interrupt();
+        Job::with_line(what, interrupt())
+    }
 
+    /// Begins work that has nothing to keep before it is done, such as a check: it does not ask for
+    /// an interrupt, which ends the process.
+    pub(super) fn begin_with_nothing_to_keep(what: &str) -> Job {
+        end_at_interrupt();
+        Job::with_line(what, Cancel::new())
+    }
+
+    fn with_line(what: &str, cancel: Cancel) -> Job {
         let line = if is_quiet() {
             ProgressBar::hidden()
         } else {
@@ -84,7 +105,12 @@ impl Job {
 
     /// Prints a line on stderr above the one that is shown.
     pub(super) fn note(&self, text: &str) {
-        self.line.suspend(|| eprintln!("{text}"));
+        self.line.suspend(|| aside(text));
+    }
+
+    /// Prints on stdout above the line that is shown.
+    pub(super) fn print(&self, text: &str) -> Result<(), CliError> {
+        self.line.suspend(|| print(text))
     }
 
     /// Does work that hears Ctrl-C and whose progress is shown.
@@ -97,6 +123,14 @@ impl Job {
     pub(super) fn end(&self) {
         self.line.finish_and_clear();
     }
+}
+
+/// Does a check, which Ctrl-C ends without a verdict.
+pub(super) fn decided<T>(check: impl FnOnce() -> T) -> T {
+    let job = Job::begin_with_nothing_to_keep("checking");
+    let verdict = check();
+    job.end();
+    verdict
 }
 
 impl Drop for Job {

@@ -45,16 +45,16 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     let merged = merge(&problem, &parts);
     let (certificate, cover) = merged.map_err(|e| blame(&problem, &args.parts, &parts, e))?;
+    if let Some(output) = output {
+        output.write(&certificate.to_json())?;
+    }
+
     let text = if args.json {
         to_json(&problem, &certificate)?
     } else {
         solutions_text(&problem, &cover)
     };
     print(&text)?;
-
-    if let Some(output) = output {
-        output.write(&certificate.to_json())?;
-    }
 
     Ok(if cover.open.is_empty() {
         exit::DONE

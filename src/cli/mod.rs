@@ -25,7 +25,7 @@ mod verify;
 mod wrapped;
 
 use clap::{Parser, Subcommand};
-use common::CliError;
+use common::{CliError, complain, look_at_stdout};
 use std::process::ExitCode;
 
 /// Complementarity eigenproblems of frictional contact, verified exactly.
@@ -87,6 +87,7 @@ enum Command {
 
 /// Runs the program on the process's arguments.
 pub fn main() -> ExitCode {
+    look_at_stdout();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(e) => return refuse(&e),
@@ -119,7 +120,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(code) => ExitCode::from(code),
         Err(e) => {
-            eprintln!("mceip: {e}");
+            complain(&e.to_string());
             ExitCode::from(CliError::EXIT)
         }
     }
@@ -140,6 +141,6 @@ fn refuse(e: &clap::Error) -> ExitCode {
     let message = lines.join(" ");
 
     let message = message.strip_prefix("error: ").unwrap_or(&message);
-    eprintln!("mceip: {message} (see mceip --help)");
+    complain(&format!("{message} (see mceip --help)"));
     ExitCode::from(CliError::EXIT)
 }

@@ -1,18 +1,18 @@
 //! Output files that appear whole or not at all, and are known to be writable before the work
 //! starts.
 
-use super::common::CliError;
+use super::common::{CliError, aside};
 use mceip_check::{Evidence, Proved};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// A file to be written at the end. Regular files are written beside their place and renamed;
-/// devices and pipes are written through; links are followed.
+/// A file to be written, whole, as often as there is something new to keep. Regular files are
+/// written beside their place, as `.mceip-*.part`, flushed to the disk and renamed; devices and
+/// pipes are written through; links are followed.
 pub(super) struct Output {
     path: PathBuf,
-    /// `None` for what is no regular file.
-    beside: Option<NamedTempFile>,
+    is_device: bool,
 }
 
 impl Output {
@@ -37,16 +37,14 @@ impl Output {
         }
 
         let is_device = target.exists() && !target.is_file();
-        let beside = if is_device {
-            None
-        } else {
-            let file = new_file_beside(&target);
-            Some(file.map_err(|e| CliError::write(path.display(), &e))?)
-        };
+        if !is_device {
+            let tried = tempfile::tempfile_in(folder_of(&target));
+            tried.map_err(|e| CliError::write(path.display(), &e))?;
+        }
 
         Ok(Output {
             path: target,
-            beside,
+            is_device,
         })
     }
 
@@ -76,22 +74,28 @@ impl Output {
 
             let beside = numbered(&path, k + 1);
             Output::prepare("certificate", &beside, &[])?.write(&text)?;
-            eprintln!("further claims are in {}", beside.display());
+            aside(&format!("further claims are in {}", beside.display()));
         }
 
         Ok(())
     }
 
+    /// Is it a device or a pipe, which keeps what was written first?
+    pub(super) fn is_device(&self) -> bool {
+        self.is_device
+    }
+
     /// Writes the text.
-    pub(super) fn write(self, text: &str) -> Result<(), CliError> {
+    pub(super) fn write(&self, text: &str) -> Result<(), CliError> {
         self.write_bytes(text.as_bytes())
     }
 
     /// Writes bytes.
-    pub(super) fn write_bytes(self, bytes: &[u8]) -> Result<(), CliError> {
-        let written = match self.beside {
-            None => std::fs::write(&self.path, bytes),
-            Some(file) => replace(file, &self.path, bytes),
+    pub(super) fn write_bytes(&self, bytes: &[u8]) -> Result<(), CliError> {
+        let written = if self.is_device {
+            std::fs::write(&self.path, bytes)
+        } else {
+            replace(&self.path, bytes)
         };
         written.map_err(|e| CliError::write(self.path.display(), &e))
     }
@@ -112,14 +116,19 @@ fn is_file_at(path: &Path, target: &Path) -> bool {
     std::fs::canonicalize(path).is_ok_and(|canonical| canonical == target)
 }
 
-/// A new file in the folder of `target`, with the permissions of any new file.
-fn new_file_beside(target: &Path) -> std::io::Result<NamedTempFile> {
-    let parent = target.parent();
-    let folder = parent
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
+/// The folder that a file is in.
+fn folder_of(file: &Path) -> &Path {
+    let parent = file.parent();
+    parent
+        .filter(|folder| !folder.as_os_str().is_empty())
+        .unwrap_or(Path::new("."))
+}
 
+/// A new file in a folder, with the permissions of any new file. A run that is killed while it
+/// writes leaves it behind; its name says whose it is.
+fn part_file(folder: &Path) -> std::io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
+    builder.prefix(".mceip-").suffix(".part");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
@@ -130,11 +139,26 @@ fn new_file_beside(target: &Path) -> std::io::Result<NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// Fills the file and moves it to its place.
-fn replace(mut file: NamedTempFile, place: &Path, bytes: &[u8]) -> std::io::Result<()> {
+/// Puts a file with these bytes in this place. What has been there stays until the new file is on
+/// the disk as a whole.
+fn replace(place: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let folder = folder_of(place);
+    let mut file = part_file(folder)?;
     file.write_all(bytes)?;
+    file.as_file().sync_all()?;
     file.persist(place).map_err(|e| e.error)?;
+    flush_names(folder);
     Ok(())
+}
+
+/// Flushes the names of the files in a folder to the disk. Where the system cannot do that, the
+/// file is in its place all the same.
+fn flush_names(folder: &Path) {
+    if cfg!(unix)
+        && let Ok(opened) = std::fs::File::open(folder)
+    {
+        let _ = opened.sync_all();
+    }
 }
 
 /// A folder for files whose names are known only at the end; it exists and can be written to.

@@ -6,7 +6,7 @@
 
 mod report;
 
-use super::common::{CliError, exit, load, positive, print, require_threads};
+use super::common::{CliError, exit, load, positive, print, require_count, require_threads};
 use super::job::Job;
 use super::output::Output;
 use mceip_engine::certify::Certifier;
@@ -51,8 +51,8 @@ pub(super) struct Args {
 }
 
 /// More steps or impulses than any picture has use for.
-const MAX_STEPS: usize = 1_000_000;
-const MAX_IMPULSES: usize = 1000;
+const MAX_STEPS: u64 = 1_000_000;
+const MAX_IMPULSES: u64 = 1000;
 
 /// Steps of an impulse's run for each step along a mode: 20 periods are longer.
 const STEPS_OF_IMPULSE: usize = 5;
@@ -133,17 +133,8 @@ fn system_of(args: &Args, problem: &Problem) -> Result<System, CliError> {
 }
 
 fn require_counts(args: &Args) -> Result<(), CliError> {
-    if args.steps == 0 || args.steps > MAX_STEPS {
-        let got = args.steps.to_string();
-        return Err(CliError::option("steps", "1 to 1000000", &got));
-    }
-
-    if args.impulses > MAX_IMPULSES {
-        let got = args.impulses.to_string();
-        return Err(CliError::option("impulses", "0 to 1000", &got));
-    }
-
-    Ok(())
+    require_count("steps", args.steps as u64, 1..=MAX_STEPS)?;
+    require_count("impulses", args.impulses as u64, 0..=MAX_IMPULSES)
 }
 
 /// A run along each certified mode.

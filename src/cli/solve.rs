@@ -10,27 +10,29 @@ mod trace;
 
 pub(super) use args::Args;
 
-use super::common::{CliError, exit, load, print, text};
+use super::common::{CliError, aside, exit, load, print, require_count, text};
 use super::job::Job;
 use super::output::Output;
 use mceip_check::Proved;
 use mceip_check::certificate::Claim;
+use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::certify::Preference;
 use mceip_engine::lcp::MCP_FORMAT;
-use mceip_engine::multistart::{Found, multistart_with_zero, support, trace_outcome};
+use mceip_engine::multistart::{
+    Found, MAX_STARTS, SearchError, multistart_with_zero, support, trace_outcome,
+};
 use mceip_engine::reduction::reduce_with_zero;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_model::file::require_format;
 use mceip_model::{Admissible, Pencil, Problem};
 use search::search_of;
+use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Solves the problem, or repeats a trace.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    if args.starts == 0 {
-        return Err(CliError::option("starts", "at least 1", "0"));
-    }
+    require_count("starts", args.starts as u64, 1..=MAX_STARTS as u64)?;
 
     if let Some(path) = &args.replay {
         return trace::replay(path);
@@ -91,11 +93,15 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     }
 
     let job = Job::begin("searching");
-    let found =
-        job.watched(|watch| multistart_with_zero(&problem, &reduced, &admissible, &search, watch))?;
+    let searched =
+        job.watched(|watch| multistart_with_zero(&problem, &reduced, &admissible, &search, watch));
     job.end();
 
-    print_asides(args, &problem, &reduced.pencil, &found);
+    let found = match searched {
+        Err(e @ SearchError::BeyondDoubles { .. }) => return undecided(args, &e),
+        searched => searched?,
+    };
+
     if let Some(output) = trace_output
         && !found.interrupted
     {
@@ -104,6 +110,13 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     }
 
     let claims: Vec<Claim> = found.certified.iter().map(|c| c.claim.clone()).collect();
+    let is_found = !claims.is_empty();
+    if let Some(output) = output
+        && is_found
+    {
+        output.write_proved(&Proved::claims(&problem, claims.clone())?)?;
+    }
+
     let listed = claims.iter();
     let listed = listed.map(|claim| Listed::of_claim(&problem, &reduced, claim));
     let report = Report {
@@ -120,12 +133,7 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     } else {
         solutions_text(&report)
     };
-    let is_found = !claims.is_empty();
-    if let Some(output) = output
-        && is_found
-    {
-        output.write_proved(&Proved::claims(&problem, claims)?)?;
-    }
+    print_asides(args, &problem, &reduced.pencil, &found);
     print(&text)?;
 
     Ok(if found.interrupted {
@@ -137,25 +145,43 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     })
 }
 
+/// A problem whose numbers no search in doubles can take.
+fn undecided(args: &Args, reason: &SearchError) -> Result<u8, CliError> {
+    let text = if args.json {
+        let report = json!({
+            "format": SOLUTIONS_FORMAT,
+            "claim": Claimed::Solutions.word(),
+            "evidence": format!("no search: {reason}"),
+            "solutions": [],
+        });
+        format!("{report}\n")
+    } else {
+        format!("UNDECIDED: {reason}\n")
+    };
+
+    print(&text)?;
+    Ok(exit::UNDECIDED)
+}
+
 /// What goes to stderr: points without a certificate, singular supports, the first run's log.
 fn print_asides(args: &Args, problem: &Problem, pencil: &Pencil, found: &Found) {
     let word = problem.unknown().word();
     for point in &found.uncertified {
         let value = point.candidate.value;
-        eprintln!("uncertified: {word} = {value}: {}", point.reason);
+        aside(&format!("uncertified: {word} = {value}: {}", point.reason));
     }
 
     for support in singular_supports(pencil, found) {
-        eprintln!(
+        aside(&format!(
             "singular pencil: support {support:?} has more values than its order: every value is \
              an eigenvalue, those listed are examples"
-        );
+        ));
     }
 
     if let Some(first) = &found.first
         && args.log
     {
-        eprint!("{}", trace_outcome(first));
+        aside(trace_outcome(first).trim_end_matches('\n'));
     }
 }
 

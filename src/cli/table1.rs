@@ -4,7 +4,7 @@
 //! (S_1, S_2) all solutions of MCEIP-lambda2 are listed as the enumerator finds them, and compared
 //! with the closed form of Table 1 and with what the solver finds and certifies.
 
-use super::common::{CliError, exit, number, positive, print};
+use super::common::{CliError, aside, exit, number, positive, print};
 use super::output::Output;
 use crate::picture::table1_picture;
 use mceip_engine::multistart::Search;
@@ -166,11 +166,11 @@ fn pattern(data: TwoParticles) -> Result<Pattern, CliError> {
     };
     let report = compare(&instance, &Search::default());
     for reason in &report.uncertified {
-        eprintln!("S = {signs:?}: uncertified: {reason}");
+        aside(&format!("S = {signs:?}: uncertified: {reason}"));
     }
 
     for disagreement in &report.disagreements {
-        eprintln!("S = {signs:?}: {disagreement}");
+        aside(&format!("S = {signs:?}: {disagreement}"));
     }
 
     Ok(Pattern {

@@ -4,7 +4,7 @@
 //! are solved, certified, checked and compared with the oracle. With `--verified` each certificate
 //! is also given to the verified checker of `proofs/`. Here the outcome is printed.
 
-use super::common::{CliError, exit, print};
+use super::common::{CliError, exit, print, require_count};
 use super::job::Job;
 use mceip_engine::report::Table;
 use mceip_testkit::floors::{Covered, Shortfall, floor};
@@ -32,6 +32,9 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// More random pencils than any machine verifies in a year.
+const MAX_RANDOM: u64 = 1_000_000_000;
+
 /// Verifies and prints the outcome.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let checker = match &args.verified {
@@ -39,6 +42,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         None => None,
     };
 
+    require_count("random", args.random as u64, 0..=MAX_RANDOM)?;
     let job = Job::begin("verify");
     let outcome = job.watched(|watch| verify(args.random, args.seed, checker.as_ref(), watch))?;
     job.end();

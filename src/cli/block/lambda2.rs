@@ -6,6 +6,7 @@
 //! solution found is then certified on the exact K and M. On a larger mesh the checker finds the
 //! backward error of each, for the problem whose K and M are the doubles.
 
+use super::super::common::require_count;
 use super::args::{Args, published};
 use super::doubles::CondensedBlock;
 use super::scale;
@@ -15,7 +16,7 @@ use crate::cli::job::Job;
 use mceip_engine::candidate::BACKWARD_ERROR_DIGITS;
 use mceip_engine::certify::{Certifier, ENCLOSED_ORDER};
 use mceip_engine::multistart::{
-    CondensedFound, CondensedSearch, CondensedSolution, search_condensed,
+    CondensedFound, CondensedSearch, CondensedSolution, MAX_STARTS, search_condensed,
 };
 use mceip_engine::reduction::reduce;
 use mceip_engine::report::Table;
@@ -66,6 +67,7 @@ struct Row {
 /// Searches each case at each friction and prints the table.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let frictions = frictions(&args.lambda2)?;
+    require_count("starts", args.starts as u64, 1..=MAX_STARTS as u64)?;
     let cases = cases(args)?;
 
     let job = Job::begin("block");

@@ -1,6 +1,7 @@
 //! `mceip check` on a plain LCP or MCP: every point of a solution file, exactly.
 
 use super::super::common::{CliError, exit, print, text};
+use super::super::job::decided;
 use mceip_engine::lcp::{judge, read_mcp, read_solution};
 use std::path::Path;
 
@@ -14,7 +15,7 @@ pub(in super::super) fn verdict(
     let claimed = text("the certificate", certificate)?;
     let claimed = read_solution(&claimed).map_err(|e| CliError::plain(certificate, e))?;
 
-    match judge(&problem, &claimed) {
+    match decided(|| judge(&problem, &claimed)) {
         Ok(count) => {
             let digest = problem.sha256();
             print(&format!(

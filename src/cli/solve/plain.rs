@@ -1,7 +1,8 @@
 //! `mceip solve` on a plain LCP or MCP (mceip-mcp/1): exact solutions, each its own certificate.
 
 use super::super::check::plain::verdict;
-use super::super::common::{CliError, exit, print};
+use super::super::common::{CliError, aside, exit, print};
+use super::super::job::Job;
 use super::super::output::Output;
 use super::args::Args;
 use super::search::plain_search_of;
@@ -22,21 +23,33 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
     let output = Output::prepare_if("certificate", args.certificate.as_deref(), &[path])?;
     let trace_output = Output::prepare_if("trace", args.trace.as_deref(), &[path])?;
     let how = plain_search_of(args.starts, args.seed, args.all, args.trace.is_some());
-    let found = search(&problem, &how).map_err(SearchError::from)?;
+    let job = Job::begin("searching");
+    let searched = job.watched(|watch| search(&problem, &how, watch));
+    let found = searched.map_err(SearchError::from)?;
+    job.end();
 
-    if let Some(output) = trace_output {
+    if let Some(output) = trace_output
+        && !found.interrupted
+    {
         let header = trace::Header::plain(&problem, &how);
         output.write(&trace::render_plain(&header, &found))?;
     }
 
+    let is_found = !found.certified.is_empty();
+    if let Some(output) = output
+        && is_found
+    {
+        output.write(&write_solution(&problem, &found.certified))?;
+    }
+
     for (point, reason) in &found.uncertified {
-        eprintln!("uncertified: z = {point:?}: {reason}");
+        aside(&format!("uncertified: z = {point:?}: {reason}"));
     }
 
     if let Some(first) = &found.first
         && args.log
     {
-        eprint!("{}", trace_outcome(first));
+        aside(trace_outcome(first).trim_end_matches('\n'));
     }
 
     let text = if args.json {
@@ -46,14 +59,9 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
     };
     print(&text)?;
 
-    let is_found = !found.certified.is_empty();
-    if let Some(output) = output
-        && is_found
-    {
-        output.write(&write_solution(&problem, &found.certified))?;
-    }
-
-    Ok(if is_found {
+    Ok(if found.interrupted {
+        exit::INTERRUPTED
+    } else if is_found {
         exit::DONE
     } else {
         exit::UNDECIDED

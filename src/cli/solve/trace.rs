@@ -2,9 +2,10 @@
 //! the replay, which must come out byte for byte.
 
 use super::super::common::{CliError, exit, print, text};
+use super::super::job::Job;
 use super::search::{plain_search_of, search_of};
 use mceip_engine::lcp;
-use mceip_engine::multistart::{Found, Search, SearchError, multistart_with_zero};
+use mceip_engine::multistart::{Found, MAX_STARTS, Search, SearchError, multistart_with_zero};
 use mceip_engine::reduction::reduce_with_zero;
 use mceip_engine::run::Watch;
 use mceip_model::file::{from_json, read_problem, require_format, write_problem};
@@ -122,12 +123,14 @@ pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
     let recorded = text("the trace", path)?;
     let header = read_header(&recorded, path)?;
 
+    let job = Job::begin_with_nothing_to_keep("running the trace again");
     let is_plain = require_format(&header.problem, lcp::MCP_FORMAT).is_ok();
     let again = if is_plain {
-        repeat_plain(&header, path)?
+        job.watched(|watch| repeat_plain(&header, path, watch))?
     } else {
-        repeat(&header, path)?
+        job.watched(|watch| repeat(&header, path, watch))?
     };
+    job.end();
 
     if again.trace == recorded {
         let runs = again.runs;
@@ -149,23 +152,23 @@ fn read_header(recorded: &str, path: &Path) -> Result<Header, CliError> {
     require_format(head, TRACE_FORMAT).map_err(|e| CliError::file(path, e))?;
     let header: Header = from_json(head).map_err(|e| CliError::file(path, e))?;
 
-    if header.starts == 0 {
-        let expected = "a trace of at least 1 start";
-        return Err(CliError::option("replay", expected, "starts: 0"));
+    if !(1..=MAX_STARTS).contains(&header.starts) {
+        let expected = "a trace of 1 to 100000 starts";
+        let got = header.starts.to_string();
+        return Err(CliError::option("replay", expected, &got));
     }
 
     Ok(header)
 }
 
 /// Makes the trace of a header's eigenproblem again.
-fn repeat(header: &Header, path: &Path) -> Result<Repeated, CliError> {
+fn repeat(header: &Header, path: &Path, watch: &Watch<'_>) -> Result<Repeated, CliError> {
     let problem = read_problem(&header.problem, Path::new("."));
     let problem = problem.map_err(|e| CliError::file(path, e))?;
     let search = search_of(header.starts, header.seed, header.all, true);
     let reduced = reduce_with_zero(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
-    let watch = Watch::nobody();
-    let found = multistart_with_zero(&problem, &reduced, &admissible, &search, &watch)?;
+    let found = multistart_with_zero(&problem, &reduced, &admissible, &search, watch)?;
 
     let again = Header::new(&problem, &search, header.all);
     Ok(Repeated {
@@ -175,10 +178,10 @@ fn repeat(header: &Header, path: &Path) -> Result<Repeated, CliError> {
 }
 
 /// Makes the trace of a header's plain problem again.
-fn repeat_plain(header: &Header, path: &Path) -> Result<Repeated, CliError> {
+fn repeat_plain(header: &Header, path: &Path, watch: &Watch<'_>) -> Result<Repeated, CliError> {
     let problem = lcp::read_mcp(&header.problem).map_err(|e| CliError::plain(path, e))?;
     let search = plain_search_of(header.starts, header.seed, header.all, true);
-    let found = lcp::search(&problem, &search).map_err(SearchError::from)?;
+    let found = lcp::search(&problem, &search, watch).map_err(SearchError::from)?;
 
     let again = Header::plain(&problem, &search);
     Ok(Repeated {
