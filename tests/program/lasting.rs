@@ -1,0 +1,363 @@
+//! What is proved lasts: files are on the disk before anything is printed, while a search goes on
+//! they are written from time to time, and nobody who reads the output has to be there.
+//!
+//! A process that is killed leaves at each place a whole file or none. The expected content of a
+//! certificate is what `mceip check` accepts; that nothing was lost is told by its parts.
+#![cfg(all(feature = "cli", unix))]
+
+use crate::common::{Run, example, exits, problem_text, repository, run};
+use crate::interrupt::interrupt;
+use crate::program::Folder;
+use mceip_testkit::known;
+use std::fs::{File, OpenOptions};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+fn edge(name: &str) -> String {
+    repository(&format!("tests/edges/{name}"))
+}
+
+/// The program, to be run with these arguments.
+fn program(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mceip"));
+    command.args(args).stdin(Stdio::null());
+    command
+}
+
+/// A device that is always full.
+fn full() -> Stdio {
+    let full = OpenOptions::new().write(true).open("/dev/full").unwrap();
+    full.into()
+}
+
+/// The writing end of a pipe whose reader has gone away.
+fn closed_pipe() -> Stdio {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    writer.into()
+}
+
+/// The exit code of a run whose stdout and stderr go there, and what it says on a stderr that can
+/// be read.
+fn code(args: &[&str], stdout: Stdio, stderr: Stdio) -> (Option<i32>, String) {
+    let mut command = program(args);
+    let output = command.stdout(stdout).stderr(stderr).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    (output.status.code(), said)
+}
+
+/// Runs that write a file and print: arguments without the file, its option, their exit code.
+fn writers(folder: &Folder) -> Vec<(Vec<String>, &'static str, i32)> {
+    let fold = example("fold");
+    let report = folder.path("report.json");
+    std::fs::write(&report, exits(0, &["enumerate", &fold, "--json"])).unwrap();
+    let part = folder.path("part.json");
+    exits(0, &["complete", &fold, "--certificate", &part]);
+    let lcp = folder.write(
+        "lcp.json",
+        r#"{"format":"mceip-mcp/1","m":[["2","1"],["1","2"]],"q":["-5","-6"]}"#,
+    );
+    let conform = "conform --case table1-000 --time-limit 5 --markdown";
+
+    let words = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
+    let mut conform = words(conform);
+    conform.pop();
+    vec![
+        (words(&format!("complete {fold}")), "--certificate", 0),
+        (words(&format!("solve {fold}")), "--certificate", 0),
+        (words(&format!("solve {fold}")), "--trace", 0),
+        (words(&format!("solve {lcp}")), "--certificate", 0),
+        (words(&format!("certify {fold} {report}")), "--out", 0),
+        (
+            words(&format!("merge --problem {fold} {part}")),
+            "--certificate",
+            0,
+        ),
+        (conform, "--markdown", 1),
+    ]
+}
+
+/// The arguments of a run that writes this file.
+fn with_file(args: &[String], option: &str, file: &str) -> Vec<String> {
+    let mut all = args.to_vec();
+    all.extend([option.to_owned(), file.to_owned()]);
+    if args[0] == "conform" {
+        all.extend(["--".to_owned(), "true".to_owned()]);
+    }
+    all
+}
+
+/// `complete g20.json --certificate c > /dev/full` ended with exit 2 and without a certificate.
+#[test]
+fn files_are_written_where_nothing_can_be_printed() {
+    let folder = Folder::new();
+    for (k, (args, option, expected)) in writers(&folder).into_iter().enumerate() {
+        let files =
+            ["plain", "full", "closed", "mute"].map(|name| folder.path(&format!("{name}-{k}")));
+        let runs = files.each_ref().map(|file| with_file(&args, option, file));
+        let runs = runs
+            .each_ref()
+            .map(|args| args.iter().map(String::as_str).collect::<Vec<_>>());
+
+        let plain = code(&runs[0], Stdio::null(), Stdio::piped());
+        assert_eq!(plain.0, Some(expected), "{args:?}: {}", plain.1);
+        let written = std::fs::read_to_string(&files[0]).unwrap();
+
+        // A full disk is an error, but for `certify --out`, which prints nothing.
+        let on_full = if option == "--out" { expected } else { 2 };
+        let (got, said) = code(&runs[1], full(), Stdio::piped());
+        assert_eq!(got, Some(on_full), "{args:?}: {said}");
+        assert_eq!(said.contains("cannot write stdout"), on_full == 2, "{said}");
+
+        // A reader that has gone away is none.
+        let (got, said) = code(&runs[2], closed_pipe(), Stdio::piped());
+        assert_eq!(got, Some(expected), "{args:?}: {said}");
+        let (got, _) = code(&runs[3], closed_pipe(), closed_pipe());
+        assert_eq!(got, Some(expected), "{args:?}");
+
+        for file in &files[1..] {
+            let again = std::fs::read_to_string(file).unwrap();
+            assert_eq!(again, written, "{args:?} {file}");
+        }
+    }
+}
+
+#[test]
+fn errors_that_nobody_reads_are_exit_2_all_the_same() {
+    let bad = ["complete", "/nowhere/problem.json"];
+    let unknown = ["solve", "--no-such-option"];
+    for args in [&bad[..], &unknown[..]] {
+        assert_eq!(code(args, Stdio::null(), closed_pipe()).0, Some(2));
+        assert_eq!(code(args, closed_pipe(), full()).0, Some(2));
+    }
+
+    // Points without a certificate are named on stderr.
+    let certify = ["certify", &example("fold"), &example("fold")];
+    assert_eq!(code(&certify, closed_pipe(), closed_pipe()).0, Some(2));
+    assert_eq!(code(&["--help"], full(), full()).0, Some(0));
+}
+
+/// A terminal that was closed: the run ended with exit 101, by a panic, and without a certificate.
+#[test]
+fn a_terminal_that_is_closed_takes_nothing_with_it() {
+    let folder = Folder::new();
+    let problem = folder.write("graph.json", &graph_text(9));
+    let certificate = folder.path("c.json");
+    let args = [
+        "complete",
+        &problem,
+        "--threads",
+        "1",
+        "--certificate",
+        &certificate,
+    ];
+    let output = Command::new("python3")
+        .args([&edge("hangup.py"), env!("CARGO_BIN_EXE_mceip")])
+        .args(args)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+
+    // A hangup is an interrupt; a machine may be quick enough to finish before.
+    assert!(matches!(said.trim(), "130" | "0"), "{said:?} {output:?}");
+    assert_accepted(&problem, &certificate);
+}
+
+/// The problem of the complete graph: 2^n - 1 solutions, one for each support.
+fn graph_text(vertices: usize) -> String {
+    problem_text(&known::complete_graph(vertices).unwrap().problem)
+}
+
+/// The checker accepts it, as complete or as undecided.
+#[track_caller]
+fn assert_accepted(problem: &str, certificate: &str) -> Run {
+    let checked = run(&["check", problem, certificate]);
+    assert!(checked.stdout.contains("ACCEPTED"), "{checked:?}");
+    assert!(matches!(checked.code, Some(0 | 3)), "{checked:?}");
+    checked
+}
+
+/// A run that is killed after this time, or has ended before.
+fn killed_after(args: &[&str], time: Duration) -> Option<i32> {
+    let mut command = program(args);
+    let mut child: Child = command
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(time);
+    child.kill().unwrap();
+    child.wait().unwrap().code()
+}
+
+/// Files that are no certificate, no problem, and not left behind under the name of a part.
+fn others(folder: &Path) -> Vec<String> {
+    let mut others = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let is_part = name.starts_with(".mceip-") && name.ends_with(".part");
+        if !is_part && !name.ends_with(".json") {
+            others.push(name);
+        }
+    }
+    others
+}
+
+/// Kills `complete` after so many milliseconds each time; the certificate is whole, accepted, and
+/// gone on with by the next run. Returns how many of the runs had proved something when they ended.
+fn complete_is_killed(vertices: usize, moments: &[u64]) -> usize {
+    let folder = Folder::new();
+    let problem = folder.write("problem.json", &graph_text(vertices));
+    let certificate = folder.path("c.json");
+    let mut kept = 0;
+
+    for &moment in moments {
+        let mut args = vec![
+            "complete",
+            &problem,
+            "--threads",
+            "2",
+            "--checkpoint",
+            "0.02",
+        ];
+        args.extend(["--certificate", &certificate]);
+        let goes_on = Path::new(&certificate).exists();
+        if goes_on {
+            args.extend(["--resume", &certificate]);
+        }
+
+        killed_after(&args, Duration::from_millis(moment));
+        if Path::new(&certificate).exists() {
+            assert_accepted(&problem, &certificate);
+            kept += 1;
+        }
+        assert_eq!(others(Path::new(&folder.path(""))), [""; 0]);
+    }
+
+    kept
+}
+
+/// Kills `analyze` after so many milliseconds each time: each certificate that is there is accepted
+/// for the problem beside it. Returns how many there were.
+fn analyze_is_killed(problem: &str, moments: &[u64]) -> usize {
+    let mut kept = 0;
+    for &moment in moments {
+        let folder = Folder::new();
+        let proofs = folder.path("proofs");
+        let args = ["analyze", problem, "--certificates", &proofs];
+        killed_after(&args, Duration::from_millis(moment));
+        if !Path::new(&proofs).exists() {
+            continue;
+        }
+
+        assert_eq!(others(Path::new(&proofs)), [""; 0]);
+        for entry in std::fs::read_dir(&proofs).unwrap() {
+            let certificate = entry.unwrap().path().display().to_string();
+            if certificate.ends_with(".certificate.json") {
+                let problem = certificate.replace(".certificate.", ".problem.");
+                let checked = run(&["check", &problem, &certificate]);
+                assert!(matches!(checked.code, Some(0 | 3)), "{checked:?}");
+                kept += 1;
+            }
+        }
+    }
+
+    kept
+}
+
+/// Kills `campaign` after so many milliseconds each time: its state is always gone on from.
+fn campaign_is_killed(moments: &[u64]) {
+    let folder = Folder::new();
+    let state = folder.path("state.json");
+    let args = |count| {
+        [
+            "campaign", "--count", count, "--family", "planted", "--state", &state,
+        ]
+    };
+    for &moment in moments {
+        killed_after(&args("1000000"), Duration::from_millis(moment));
+        exits(0, &args("1"));
+    }
+}
+
+#[test]
+fn a_search_that_is_killed_has_kept_what_it_had_proved() {
+    let kept = complete_is_killed(10, &[30, 400, 600]);
+    assert!(kept > 0);
+    analyze_is_killed(&example("fold"), &[1]);
+    campaign_is_killed(&[150]);
+}
+
+#[test]
+#[ignore = "takes minutes: kills each long command at fifty moments"]
+fn fifty_kills_of_each_long_command_leave_whole_files() {
+    // Moments spread evenly over one and a half seconds, in no order.
+    let moments: Vec<u64> = (0..50).map(|k| (k * 619) % 1500).collect();
+    let body = repository("tests/program/l-body-172.json");
+    assert!(complete_is_killed(12, &moments) > 0);
+    assert!(analyze_is_killed(&body, &moments) > 0);
+    campaign_is_killed(&moments);
+}
+
+/// What is written while the search goes on leaves open what is to come, and an interrupt, a
+/// hangup or the end write the same file as without it.
+#[test]
+fn checkpoints_change_nothing_of_the_certificate() {
+    let folder = Folder::new();
+    let problem = folder.write("problem.json", &graph_text(8));
+    let [rare, often] = ["rare.json", "often.json"].map(|name| folder.path(name));
+    exits(0, &["complete", &problem, "--certificate", &rare]);
+    let often_args = [
+        "complete",
+        &problem,
+        "--certificate",
+        &often,
+        "--checkpoint",
+        "0.001",
+    ];
+    let run = run(&often_args);
+
+    assert_eq!(run.code, Some(0), "{run:?}");
+    let read = |path: &str| std::fs::read_to_string(path).unwrap();
+    assert_eq!(read(&rare), read(&often));
+
+    // A search that is over within a millisecond has not said anything.
+    let notes = run.stderr.lines().count();
+    assert!(notes <= 1, "{}", run.stderr);
+    assert!(
+        notes == 0 || run.stderr.contains("--resume"),
+        "{}",
+        run.stderr
+    );
+}
+
+/// An interrupt ends a check, which has nothing to keep, with exit 130.
+#[test]
+fn a_check_answers_an_interrupt() {
+    let folder = Folder::new();
+    let problem = folder.write("problem.json", &graph_text(11));
+    let certificate = folder.path("c.json");
+    // Half of the work is enough to check.
+    exits(
+        3,
+        &[
+            "complete",
+            &problem,
+            "--shard",
+            "1/2",
+            "--certificate",
+            &certificate,
+        ],
+    );
+
+    let mut check = program(&["check", &problem, &certificate]);
+    let stdout = File::create(folder.path("said")).unwrap();
+    let mut child = check.stdout(stdout).stderr(Stdio::null()).spawn().unwrap();
+    interrupt(&child, Duration::ZERO);
+    let code = child.wait().unwrap().code();
+    assert!(matches!(code, Some(130 | 3)), "{code:?}");
+    let is_undecided = code == Some(130);
+    let said = std::fs::read_to_string(folder.path("said")).unwrap();
+    assert_eq!(said.is_empty(), is_undecided, "{said}");
+}

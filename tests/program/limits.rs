@@ -1,0 +1,233 @@
+//! Numbers beyond limits: counts of options, numbers beyond doubles, reports that take long to
+//! judge, states that say something else than what was done.
+#![cfg(feature = "cli")]
+
+use crate::common::{contains_all, example, exits, exits_with_json, repository, run};
+use crate::program::{Folder, refused};
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+
+fn edge(name: &str) -> String {
+    repository(&format!("tests/edges/{name}"))
+}
+
+#[test]
+fn every_count_of_an_option_has_a_limit() {
+    let fold = example("fold");
+    let point = example("point");
+    for (args, limits) in [
+        (vec!["solve", &fold, "--starts"], "1 to 100000"),
+        (vec!["complete", &fold, "--pieces"], "1 to 100000"),
+        (vec!["complete", &fold, "--threads"], "1 to 1024"),
+        (vec!["analyze", &point, "--samples"], "0 to 10000"),
+        (vec!["analyze", &point, "--boxes"], "0 to 1000000000"),
+        (vec!["simulate", &point, "--steps"], "1 to 1000000"),
+        (vec!["simulate", &point, "--impulses"], "0 to 1000"),
+        (vec!["verify", "--random"], "0 to 1000000000"),
+        (vec!["campaign", "--count"], "0 to 1000000000"),
+        (vec!["campaign", "--seconds"], "0 to 315360000"),
+        (vec!["block", "--lambda2", "3", "--starts"], "1 to 100000"),
+    ] {
+        let option = *args.last().unwrap();
+        let args = [&args[..], &["1000000000001"]].concat();
+        refused(
+            &args,
+            &[option, &format!("expected {limits}"), "1000000000001"],
+        );
+    }
+
+    let count = ["conform", "--count", "1000000000001", "--", "true"];
+    refused(&count, &["--count", "expected 0 to 1000000"]);
+    refused(
+        &["solve", &fold, "--starts", "0"],
+        &["expected 1 to 100000, got \"0\""],
+    );
+    for command in ["complete", "campaign"] {
+        let parts = [command, &fold, "--shard", "1/100001"];
+        let parts = if command == "campaign" {
+            &["campaign", "--count", "1", "--shard", "1/100001"][..]
+        } else {
+            &parts[..]
+        };
+        refused(parts, &["--shard", "n <= 100000"]);
+    }
+    for given in ["0", "-1", "nan"] {
+        let args = [
+            "complete",
+            &fold,
+            "--certificate",
+            "/dev/null",
+            "--checkpoint",
+            given,
+        ];
+        refused(&args, &["--checkpoint", "seconds > 0"]);
+    }
+}
+
+/// A trace of 10^12 starts took all memory and answered no interrupt.
+#[test]
+fn a_trace_of_too_many_starts_is_refused() {
+    refused(
+        &["solve", "--replay", &edge("many-starts.trace")],
+        &["--replay", "1 to 100000 starts", "1000000000000"],
+    );
+
+    // Of one start it is run again, and differs in what it lacks.
+    let folder = Folder::new();
+    let text = std::fs::read_to_string(edge("many-starts.trace")).unwrap();
+    let few = text.replace("1000000000000", "1");
+    let few = folder.write("few.trace", &few);
+    let said = exits(1, &["solve", "--replay", &few]);
+    assert!(said.contains("DIFFERENT"), "{said}");
+}
+
+/// "expected a finite start at 1, got NaN" was said of these valid problems.
+#[test]
+fn numbers_beyond_doubles_leave_a_search_undecided() {
+    let folder = Folder::new();
+    let text = std::fs::read_to_string(edge("denorm.json")).unwrap();
+    let tiny = folder.write("tiny.json", &text.replace("5e-324", "5e-399"));
+    for (problem, words) in [
+        (edge("denorm.json"), ["A[0][0]", "10^-322", "choose units"]),
+        (tiny, ["A[0][0]", "10^-398", "choose units"]),
+    ] {
+        for all in [&[][..], &["--all"]] {
+            let args = [&["solve", &problem][..], all].concat();
+            let said = exits(3, &args);
+            assert_eq!(said.lines().count(), 1, "{said}");
+            contains_all(&said, &words);
+            contains_all(&said, &["UNDECIDED"]);
+        }
+
+        let report = exits_with_json(3, &["solve", &problem, "--all", "--json"]);
+        assert_eq!(report["claim"], "solutions");
+        assert_eq!(report["solutions"], json!([]));
+        contains_all(report["evidence"].as_str().unwrap(), &words);
+    }
+
+    // K and M in the same odd unit: lambda^2 = 1/4 is a solution, and the only one.
+    let problem = edge("k1e390.json");
+    let listed = exits_with_json(0, &["enumerate", &problem, "--json"]);
+    for all in [&[][..], &["--all"]] {
+        let args = [&["solve", &problem, "--json"][..], all].concat();
+        let found = exits_with_json(0, &args);
+        assert_eq!(found["solutions"].as_array().unwrap().len(), 1);
+        assert_eq!(
+            found["solutions"][0]["slip"],
+            listed["solutions"][0]["slip"]
+        );
+        let value = found["solutions"][0]["value"].as_str().unwrap();
+        assert!(
+            (value.parse::<f64>().unwrap() - 0.25).abs() < 1e-9,
+            "{value}"
+        );
+    }
+}
+
+/// Fifty solutions with numbers of 99,000 digits took 18 seconds to be read.
+fn report_with_long_numbers() -> String {
+    let sevens = format!("1/{}", "7".repeat(99_000));
+    let threes = format!("0.{}", "3".repeat(99_000));
+    let solution = json!({ "value": 2, "x": [sevens, threes] });
+    let solutions = vec![solution; 50];
+    json!({ "format": "mceip-solutions/1", "solutions": solutions }).to_string()
+}
+
+#[test]
+fn a_report_of_endless_digits_is_refused_at_once() {
+    let folder = Folder::new();
+    let report = folder.write("report.json", &report_with_long_numbers());
+    let begun = Instant::now();
+    for command in ["check", "certify"] {
+        refused(
+            &[command, &example("fold"), &report],
+            &["report.json", "fewer digits"],
+        );
+    }
+    assert!(begun.elapsed() < Duration::from_secs(5));
+
+    // Numbers of a thousand digits are read as they are.
+    let two = format!("2.{}", "0".repeat(1000));
+    let solutions = json!([{ "value": two, "x": [two, 1] }]);
+    let report = json!({ "format": "mceip-solutions/1", "solutions": solutions });
+    let report = folder.write("long.json", &report.to_string());
+    exits(0, &["check", &example("fold"), &report]);
+}
+
+/// The judging of such reports had no end: it is bounded like the program.
+#[cfg(unix)]
+#[test]
+fn a_hostile_report_leaves_its_case_undecided() {
+    let begun = Instant::now();
+    let hostile = edge("hostile.py");
+    let conform = [
+        "conform",
+        "--case",
+        "fold-00",
+        "--time-limit",
+        "5",
+        "--json",
+        "--",
+    ];
+    let summary = exits_with_json(1, &[&conform[..], &["python3", &hostile]].concat());
+    assert_eq!(summary["labels"]["undecided"], 1);
+    let why = summary["failures"][0]["detail"].as_str().unwrap();
+    assert!(why.contains("fewer digits"), "{why}");
+    assert!(begun.elapsed() < Duration::from_secs(20));
+}
+
+/// Goes on from this state.
+fn campaign_with(state: &str) -> [&str; 5] {
+    ["campaign", "--count", "1", "--state", state]
+}
+
+/// An edited state made "10^9 instances CLEAN".
+#[test]
+fn an_edited_state_of_a_campaign_is_refused() {
+    refused(
+        &campaign_with(&edge("state-inst.json")),
+        &[
+            "state-inst.json",
+            "instances of table1",
+            "expected 1",
+            "1000000000",
+        ],
+    );
+    refused(
+        &campaign_with(&edge("state-done.json")),
+        &["state-done.json", "instances done", "1000000000000000"],
+    );
+
+    let folder = Folder::new();
+    let state = folder.path("state.json");
+    let planted = [
+        "campaign", "--family", "planted", "--state", &state, "--count",
+    ];
+    exits(0, &[&planted[..], &["2"]].concat());
+    let text = std::fs::read_to_string(&state).unwrap();
+    let whole: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(whole["sha256"].as_str().unwrap().len(), 64);
+
+    // Whatever is edited, one digit of a count included.
+    for pointer in ["/done", "/seed", "/tallies/0/pivots", "/tallies/0/accepted"] {
+        let mut edited = whole.clone();
+        let count = edited.pointer_mut(pointer).unwrap();
+        *count = json!(count.as_u64().unwrap() + 1);
+        std::fs::write(&state, edited.to_string()).unwrap();
+        refused(&[&planted[..], &["2"]].concat(), &["state.json", "sha256"]);
+    }
+
+    // Another layout of the same content is the same state.
+    std::fs::write(&state, whole.to_string()).unwrap();
+    let again = run(&[&planted[..], &["3"]].concat());
+    assert_eq!((again.code, again.stderr.as_str()), (Some(0), ""));
+    assert!(again.stdout.contains("3 instances"), "{}", again.stdout);
+
+    // A state without a digest, as older versions wrote it.
+    let mut old = whole;
+    old.as_object_mut().unwrap().remove("sha256");
+    std::fs::write(&state, old.to_string()).unwrap();
+    let again = run(&[&planted[..], &["3"]].concat());
+    assert_eq!(again.code, Some(0), "{again:?}");
+    assert!(again.stderr.contains("not bound"), "{again:?}");
+}
