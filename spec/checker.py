@@ -391,7 +391,7 @@ class Problem:
         doc = read_json(path)
         if not isinstance(doc, dict) or doc.get("format") != "mceip-problem/1":
             raise Unreadable("format: mceip-problem/1 was expected")
-        _, self.unknown, window, pencil, system, _, *words = fields(doc, "format unknown", "window pencil system coordinates name comment")
+        _, self.unknown, window, pencil, system, _, _, *words = fields(doc, "format unknown", "window pencil system coordinates warnings name comment")
         for word in words:
             Maybe(text_of)(word)
         if self.unknown not in ("lambda2", "mu") or (pencil is None) == (system is None):

@@ -297,7 +297,8 @@ let read path document =
       | _ -> malformed "format: mceip-problem/1 was expected")
    | _ -> malformed "an object was expected");
   let field = fields ["format"; "unknown"]
-      ["window"; "pencil"; "system"; "name"; "comment"; "coordinates"] document in
+      ["window"; "pencil"; "system"; "name"; "comment"; "coordinates"; "warnings"]
+      document in
   List.iter (fun key -> match field key with
       | Null -> () | v -> ignore (text v)) ["name"; "comment"];
   let unknown = text (field "unknown") in

@@ -41,7 +41,7 @@ from .answers import (
 )
 from .drawing import Drawing, draw_mode
 from .inputs import Contact, Number
-from .problem import Problem, check
+from .problem import ModelWarning, Problem, check
 from .progress import Listener
 
 __all__ = [
@@ -61,6 +61,7 @@ __all__ = [
     "Listener",
     "MceipError",
     "Mode",
+    "ModelWarning",
     "NotCertifiedError",
     "Number",
     "OpenRegion",

@@ -335,6 +335,11 @@ class Analysis:
     proofs: list[Proof] = field(repr=False)
 
     @property
+    def warnings(self) -> list[str]:
+        """What looked wrong when the problem was made."""
+        return [str(sentence) for sentence in self.answer["warnings"]]
+
+    @property
     def summary(self) -> str:
         """The answer in one paragraph."""
         return str(self.answer["summary"])
@@ -368,7 +373,9 @@ class Analysis:
             evidence = evidence_of(sentence["evidence"])
             basis = f"{evidence.kind}: {evidence.source}"
             rows.append([sentence["topic"], sentence["text"], basis])
-        return f"<p>{escape(self.summary)}</p>" + html_table(["", "", "rests on"], rows)
+        paragraphs = [self.summary, *(f"Warning of the model: {text}." for text in self.warnings)]
+        text = "".join(f"<p>{escape(paragraph)}</p>" for paragraph in paragraphs)
+        return text + html_table(["", "", "rests on"], rows)
 
 
 def fraction_of(text: str) -> Fraction:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -28,6 +29,13 @@ from .progress import Progress, listening
 MOST_THREADS = 1024
 
 
+class ModelWarning(UserWarning):
+    """What looks wrong in K, M or the contacts of a model, such as matrices that are exchanged.
+
+    No answer depends on it. `mceip convert` warns of the same.
+    """
+
+
 class Problem:
     """A mixed complementarity eigenproblem: find t >= 0 and x != 0 with
 
@@ -46,8 +54,10 @@ class Problem:
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Problem:
-        """A problem file (`mceip-problem/1`)."""
-        return cls(NativeProblem.read(os.fspath(path)))
+        """A problem file (`mceip-problem/1`). Warnings in it are repeated as `ModelWarning`."""
+        native = NativeProblem.read(os.fspath(path))
+        warn_of(native.warnings())
+        return cls(native)
 
     @classmethod
     def from_json(cls, text: str) -> Problem:
@@ -56,9 +66,17 @@ class Problem:
 
     @classmethod
     def from_matrices(
-        cls, stiffness: Any, mass: Any, friction: Number, contacts: Contacts
+        cls,
+        stiffness: Any,
+        mass: Any,
+        friction: Number,
+        contacts: Contacts,
+        *,
+        accept_warnings: bool = False,
     ) -> Problem:
         """Growth rates of a mechanical system with N degrees of freedom, (12)-(14).
+
+        What looks wrong in the model is said as `ModelWarning`, and kept in `warnings`.
 
         Args:
             stiffness: K, N x N, symmetric to the last bit (use `(K + K.T) / 2`), of numpy or
@@ -70,11 +88,16 @@ class Problem:
                 `normal_y`, `friction_factor`, `reaction_tangential`, `reaction_normal`
                 (spec/tutorial.md): a path to a CSV file, a pandas DataFrame, a mapping of columns,
                 or a list of rows as mappings. Reactions are held against (7).
+            accept_warnings: neither says nor keeps what looks wrong.
         """
         dofs, k = triplets("stiffness", stiffness)
         _, m = triplets("mass", mass, dofs)
         given = contacts_or_table(contacts)
-        return cls(NativeProblem.lambda2(dofs, k, m, spelt(friction), given))
+        native = NativeProblem.lambda2(dofs, k, m, spelt(friction), given)
+        if accept_warnings:
+            return cls(native.without_warnings())
+        warn_of(native.warnings())
+        return cls(native)
 
     @classmethod
     def friction_threshold(cls, stiffness: Any, contacts: Contacts) -> Problem:
@@ -112,6 +135,11 @@ class Problem:
     def unknown(self) -> str:
         """Which number is sought: "lambda2" or "mu"."""
         return self._native.unknown()
+
+    @property
+    def warnings(self) -> list[str]:
+        """What looked wrong when the problem was made; its file and its analysis repeat it."""
+        return self._native.warnings()
 
     @property
     def sha256(self) -> str:
@@ -215,6 +243,12 @@ def check(problem: Problem, certificate: Certificate | str) -> Accepted:
     Exact arithmetic decides. Whoever made the certificate, and however: an accepted one is a proof.
     """
     return problem.check(certificate)
+
+
+def warn_of(sentences: Sequence[str]) -> None:
+    """Says what looks wrong, at the line of the caller of a method of `Problem`."""
+    for sentence in sentences:
+        warnings.warn(sentence, ModelWarning, stacklevel=3)
 
 
 def text_of(certificate: Certificate | str) -> str:

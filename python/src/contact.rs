@@ -3,7 +3,7 @@
 use crate::MceipError;
 use crate::number;
 use mceip::{ContactState, Particle, Rational};
-use mceip_paper::{make_frames_exact, read_contacts};
+use mceip_paper::{ContactTable, make_frames_exact, read_contacts};
 use pyo3::prelude::*;
 
 /// The contacts of a mechanical system.
@@ -28,12 +28,9 @@ pub(crate) struct Contact {
 }
 
 impl Contacts {
-    /// The particles; `friction` is what reactions in a table are held against, (7).
-    pub(crate) fn particles(
-        self,
-        dofs: usize,
-        friction: Option<&Rational>,
-    ) -> PyResult<Vec<Particle>> {
+    /// The particles, with names and reactions where a table has them; `friction` is what these
+    /// reactions are held against, (7).
+    pub(crate) fn table(self, dofs: usize, friction: Option<&Rational>) -> PyResult<ContactTable> {
         match self {
             Contacts::Table(text) => of_table(&text, dofs, friction),
             Contacts::List(contacts) => of_list(contacts),
@@ -41,7 +38,7 @@ impl Contacts {
     }
 }
 
-fn of_table(text: &str, dofs: usize, friction: Option<&Rational>) -> PyResult<Vec<Particle>> {
+fn of_table(text: &str, dofs: usize, friction: Option<&Rational>) -> PyResult<ContactTable> {
     let frictionless = Rational::from_integer(0.into());
     let friction = match friction {
         Some(friction) => friction,
@@ -56,15 +53,19 @@ fn of_table(text: &str, dofs: usize, friction: Option<&Rational>) -> PyResult<Ve
 
     let dof = |name: &str| name.parse().ok().filter(|dof| *dof < dofs);
     let table = read_contacts(text, friction, &dof);
-    let table = table.map_err(|e| MceipError::new_err(e.to_string()))?;
-    Ok(table.particles)
+    table.map_err(|e| MceipError::new_err(e.to_string()))
 }
 
-fn of_list(contacts: Vec<Contact>) -> PyResult<Vec<Particle>> {
+fn of_list(contacts: Vec<Contact>) -> PyResult<ContactTable> {
     let particles = contacts.into_iter().enumerate().map(of_entry);
     let mut particles: Vec<Particle> = particles.collect::<PyResult<_>>()?;
     make_frames_exact(&mut particles);
-    Ok(particles)
+
+    Ok(ContactTable {
+        names: Vec::new(),
+        reactions: vec![None; particles.len()],
+        particles,
+    })
 }
 
 fn of_entry((index, contact): (usize, Contact)) -> PyResult<Particle> {

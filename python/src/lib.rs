@@ -13,6 +13,8 @@ use contact::Contacts;
 use mceip::{Certificate, Error, Matrix, Problem, Rational, Rejected, Unknown, check};
 use mceip_check::certificate::{CriticalCertificate, PresenceCertificate};
 use mceip_check::{check_critical, check_presence};
+use mceip_model::Body;
+use mceip_paper::{ContactTable, Plausibility, PlausibilityInput};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -71,9 +73,14 @@ impl NativeProblem {
         let stiffness = matrix(dofs, stiffness)?;
         let mass = matrix(dofs, mass)?;
         let friction = number("friction", friction)?;
-        let contacts = contacts.particles(dofs, Some(&friction))?;
+        let table = contacts.table(dofs, Some(&friction))?;
 
-        made(py.detach(|| Problem::from_matrices(stiffness, mass, friction, contacts)))
+        made(py.detach(|| {
+            let particles = table.particles.clone();
+            let problem = Problem::from_matrices(stiffness, mass, friction, particles)?;
+            let warnings = warnings(&problem, &table);
+            Ok(problem.with_warnings(warnings))
+        }))
     }
 
     /// MCEIP-mu of a mechanical system with `dofs` degrees of freedom.
@@ -85,9 +92,9 @@ impl NativeProblem {
         contacts: Contacts,
     ) -> PyResult<NativeProblem> {
         let stiffness = matrix(dofs, stiffness)?;
-        let contacts = contacts.particles(dofs, None)?;
+        let table = contacts.table(dofs, None)?;
 
-        made(py.detach(|| Problem::friction_threshold(stiffness, contacts)))
+        made(py.detach(|| Problem::friction_threshold(stiffness, table.particles)))
     }
 
     /// The problem of a pencil A + tB of this order.
@@ -134,6 +141,16 @@ impl NativeProblem {
 
     fn unknown(&self) -> &'static str {
         self.0.unknown().word()
+    }
+
+    /// What looked wrong when the problem was made.
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings().to_vec()
+    }
+
+    /// The same problem with no warning.
+    fn without_warnings(&self) -> NativeProblem {
+        NativeProblem(self.0.clone().with_warnings(Vec::new()))
     }
 
     /// Solutions by the PATH-style solver.
@@ -247,6 +264,23 @@ impl NativeProblem {
         let to = accepted.to.to_string();
         Ok((from, to, accepted.pieces))
     }
+}
+
+/// What `mceip convert` warns of in such a model.
+fn warnings(problem: &Problem, table: &ContactTable) -> Vec<String> {
+    let Body::System(system) = problem.as_model().body() else {
+        return Vec::new();
+    };
+
+    let plausibility = Plausibility::new(&PlausibilityInput {
+        system,
+        names: &table.names,
+        reactions: &table.reactions,
+        displacements: None,
+        coordinates: None,
+        dof_names: None,
+    });
+    plausibility.warnings
 }
 
 /// A problem of the front door as Python holds it.

@@ -210,3 +210,47 @@ def test_threads_that_cannot_be_are_refused(point, threads):
         point().complete(threads=threads)
     with pytest.raises(mceip.MceipError, match="threads"):
         point().analyze(threads=threads)
+
+
+def heavy(**options):
+    """A point and a free node whose mass belongs to another unit of length."""
+    stiffness = np.diag([2.0, 2.0, 3.0])
+    return mceip.Problem.from_matrices(stiffness, np.eye(3) * 1e9, "1.5", [ROW], **options)
+
+
+def test_what_looks_wrong_in_a_model_is_said_and_kept(tmp_path):
+    path = tmp_path / "problem.json"
+
+    with pytest.warns(mceip.ModelWarning, match="the lowest frequency is .* below 1e-2") as said:
+        problem = heavy()
+    path.write_text(problem.to_json())
+    with pytest.warns(mceip.ModelWarning) as repeated:
+        again = mceip.Problem.read(path)
+
+    assert said[0].filename == repeated[0].filename == __file__
+    assert problem.warnings == [str(said[0].message)] == again.warnings
+    assert pickle.loads(pickle.dumps(problem)).warnings == problem.warnings
+    analysis = again.analyze(samples=0)
+    assert analysis.warnings == problem.warnings
+    assert "units that do not fit" in analysis._repr_html_()
+
+
+@pytest.mark.filterwarnings("error")
+def test_accepted_warnings_and_a_sound_model_say_nothing(point):
+    accepted = heavy(accept_warnings=True)
+
+    assert accepted.warnings == [] == point().warnings
+    assert "warnings" not in json.loads(accepted.to_json())
+    assert accepted.analyze(samples=0).warnings == []
+
+
+def test_warnings_name_particles_as_the_table_does():
+    # On the friction cone, within a thousandth, and sticking all the same.
+    nearly = {"reaction_tangential": 1.49999, "reaction_normal": -1.0}
+    rows = [
+        {"particle": "heel", "tangential": 0, "normal": 1, "state": "slip+"},
+        {"particle": "toe", "tangential": 2, "normal": 3, "state": "stick", **nearly},
+    ]
+
+    with pytest.warns(mceip.ModelWarning, match="particle toe sticks"):
+        mceip.Problem.from_matrices(np.eye(4), np.eye(4), "1.5", rows)

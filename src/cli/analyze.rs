@@ -94,11 +94,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         }
     };
     let keeper = keeping.as_ref().map(|_| Keeper::new(CHECKPOINT, &keep));
-    let analysis = job.watched(|watch| {
+    let mut analysis = job.watched(|watch| {
         let watch = watch.kept_by(keeper);
         analyse(name, system, &friction, &options, &watch)
     })?;
     job.end();
+    analysis.warnings.clone_from(&problem.warnings);
 
     let paths = match &keeping {
         Some(proofs) => proofs.write_all(&analysis)?,
@@ -275,6 +276,11 @@ fn text_of(analysis: &Analysis, paths: &[String], args: &Args) -> String {
             zero => format!(", {zero} with zero reaction"),
         }
     );
+
+    for warning in &analysis.warnings {
+        let printable = warning.replace(char::is_control, " ");
+        out += &format!("WARNING of convert: {printable}.\n");
+    }
 
     let next = next_step(analysis, paths, args);
     out += &format!("\n{} {next}\n\n", analysis.summary());

@@ -57,6 +57,16 @@ pub(super) enum CliError {
         /// K or M.
         what: &'static str,
     },
+    /// A model with warnings, where none is wanted.
+    #[error(
+        "--strict: expected a model without warnings, got {}: {}",
+        .warnings.len(),
+        .warnings.join("; ")
+    )]
+    Strict {
+        /// What looks wrong.
+        warnings: Vec<String>,
+    },
     /// A problem built from options.
     #[error(transparent)]
     Model(#[from] ModelError),

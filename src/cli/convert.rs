@@ -3,7 +3,8 @@
 //! Input: K and M (Matrix Market, or CalculiX), a table of contact states and mu. Output: the
 //! MCEIP-lambda2 problem as `mceip-problem/1`. What is changed on the way (directions in doubles
 //! become rational rotations, rounded matrices symmetric) is printed and stands in the comment of
-//! the file. Figures of the model follow, with warnings of what looks wrong (`Plausibility`).
+//! the file. Figures of the model follow, with warnings of what looks wrong (`Plausibility`); the
+//! file keeps the warnings, so that `analyze` repeats them, until they are accepted.
 
 use super::common::{CliError, exit, positive, print, text};
 use super::output::Output;
@@ -41,14 +42,20 @@ pub(super) struct Args {
     /// for each row of K, one a line, or a Matrix Market file with one column.
     #[arg(long, value_name = "FILE")]
     displacements: Option<PathBuf>,
-    /// Where the nodes are, for the pictures of `analyze --report`: CSV (columns in
-    /// spec/tutorial.md). Names of particles are then kept too.
+    /// Where the nodes are: CSV (columns in spec/tutorial.md). The directions of contacts are held
+    /// against them, and `analyze --report` draws the body. Names of particles are then kept too.
     #[arg(long, value_name = "FILE")]
     coordinates: Option<PathBuf>,
     /// Take the mean of K and its transpose, and of M and its, where they differ by rounding (1e-12
     /// of the largest entry). The comment in the problem file says so.
     #[arg(long)]
     symmetrize: bool,
+    /// Leave the warnings out of the file: they have been looked at, and the model is meant so.
+    #[arg(long, conflicts_with = "strict")]
+    accept_warnings: bool,
+    /// Refuse a model with a warning: no file, exit code 2.
+    #[arg(long)]
+    strict: bool,
     /// Name for the problem.
     #[arg(long)]
     name: Option<String>,
@@ -85,21 +92,31 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     let system = System::new(stiffness, Some(mass), Some(friction), contacts.particles)?;
     let coordinates = match &args.coordinates {
-        Some(path) => Some(read_coordinates(path, &indices, contacts.names, &system)?),
+        Some(path) => Some(read_coordinates(path, &indices, &contacts.names, &system)?),
         None => None,
     };
     let slip = system.slip_particles().len();
     let dofs = system.dofs();
     let plausibility = Plausibility::new(&PlausibilityInput {
         system: &system,
+        names: &contacts.names,
         reactions: &contacts.reactions,
         displacements: displacements.as_deref(),
-        counts_dofs: args.dof.is_none(),
+        coordinates: coordinates.as_ref(),
+        dof_names: indices.names.as_ref(),
     });
+    let warnings = &plausibility.warnings;
+    if args.strict && !warnings.is_empty() {
+        let warnings = warnings.clone();
+        return Err(CliError::Strict { warnings });
+    }
 
     let mut problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
     problem.name = args.name.clone();
     problem.coordinates = coordinates;
+    if !args.accept_warnings {
+        problem.warnings.clone_from(warnings);
+    }
     if !changes.is_empty() {
         problem.comment = Some(changes.join(" "));
     }
@@ -113,11 +130,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         print(&format!("{change}\n"))?;
     }
 
-    print_plausibility(&plausibility)?;
+    print_plausibility(&plausibility, args.accept_warnings)?;
     Ok(exit::DONE)
 }
 
-fn print_plausibility(plausibility: &Plausibility) -> Result<(), CliError> {
+fn print_plausibility(plausibility: &Plausibility, are_accepted: bool) -> Result<(), CliError> {
     for (name, found) in &plausibility.table {
         print(&format!("    {name}: {found}\n"))?;
     }
@@ -125,7 +142,21 @@ fn print_plausibility(plausibility: &Plausibility) -> Result<(), CliError> {
         print(&format!("WARNING: {warning}.\n"))?;
     }
 
+    let count = counted_warnings(plausibility.warnings.len());
+    if are_accepted {
+        print(&format!("{count} accepted; not in the file.\n"))?;
+    } else if !plausibility.warnings.is_empty() {
+        print(&format!(
+            "{count} written into the file: `mceip analyze` repeats what --accept-warnings would \
+             leave out.\n"
+        ))?;
+    }
     Ok(())
+}
+
+fn counted_warnings(count: usize) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} warning{plural}")
 }
 
 /// The matrix, or where it is symmetric up to rounding and `symmetrize` is given, its symmetric
@@ -229,7 +260,7 @@ fn read_states(
 fn read_coordinates(
     path: &Path,
     indices: &DofIndices,
-    names: Vec<String>,
+    names: &[String],
     system: &System,
 ) -> Result<Coordinates, CliError> {
     let source = text("the coordinates", path)?;
@@ -240,8 +271,8 @@ fn read_coordinates(
     })?;
 
     let has_names = names.iter().any(|name| !name.is_empty());
-    let names = if has_names { names } else { Vec::new() };
-    let coordinates = Coordinates::new(table.nodes, table.edges, names, system);
+    let names = if has_names { names } else { &[] };
+    let coordinates = Coordinates::new(table.nodes, table.edges, names.to_vec(), system);
     coordinates.map_err(|source| CliError::file(path, source))
 }
 

@@ -85,7 +85,8 @@ impl<'a> Analyze<'a> {
 
         let name = problem.name.clone();
         let watch = self.watched.watch();
-        let analysis = analyse(name, system, friction, &self.options, &watch)?;
+        let mut analysis = analyse(name, system, friction, &self.options, &watch)?;
+        analysis.warnings.clone_from(&problem.warnings);
 
         Ok(analysis)
     }

@@ -125,6 +125,18 @@ impl Problem {
         self.0.window()
     }
 
+    /// What looked wrong when the problem was made: `mceip convert` writes its warnings into the
+    /// file, and an analysis repeats them. No answer depends on them.
+    pub fn warnings(&self) -> &[String] {
+        &self.0.warnings
+    }
+
+    /// The same problem with these warnings in place of its own.
+    pub fn with_warnings(mut self, warnings: Vec<String>) -> Self {
+        self.0.warnings = warnings;
+        self
+    }
+
     /// SHA-256 of the problem's canonical text: what certificates name, so that a proof cannot be
     /// shown for another problem.
     pub fn sha256(&self) -> String {

@@ -203,3 +203,16 @@ fn particles_of_a_system() {
         assert_verdict(folder.path(), &system(particles), expected, what);
     }
 }
+
+/// Warnings of `convert` stand beside the mathematics; a field that means nothing does not.
+#[test]
+fn warnings_of_a_problem() {
+    let folder = tempfile::tempdir().unwrap();
+    let problem = system(json!([{ "tangential": 0, "normal": 1, "state": "slip", "sign": 1 }]));
+
+    for (field, expected) in [("warnings", READ), ("warning", REFUSED)] {
+        let mut with_field = problem.clone();
+        with_field[field] = json!(["the normal points into the body", ""]);
+        assert_verdict(folder.path(), &with_field, expected, field);
+    }
+}

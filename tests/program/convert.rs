@@ -5,11 +5,12 @@
 //! one fault, whose place the refusal must name.
 #![cfg(feature = "cli")]
 
-use crate::common::{exits, read};
+use crate::common::{exits, read, run};
 use crate::program::{Folder, refused};
 use mceip_exact::rational;
 use mceip_model::file::read_problem_file;
 use mceip_model::{Body, ContactState};
+use serde_json::{Value, json};
 use std::path::Path;
 
 // The stiffness and the mass as CalculiX writes them, with its list of degrees of freedom.
@@ -258,7 +259,7 @@ fn bad_files_are_one_line_and_no_output() {
 
     for (contacts, words) in [
         ("wrong.csv", &["wrong.csv", "E7", "line 2"][..]),
-        ("off.csv", &["E7", "mu"]),
+        ("off.csv", &["E7", "0.50000 (mu times", "got 0.80000"]),
         ("unknown.csv", &["line 2", "normal", "11"]),
     ] {
         matrix_market("K.mtx", "M.mtx", contacts).is_refused(&bench, words);
@@ -358,4 +359,86 @@ fn zero_reaction_and_friction_factors_are_written() {
     };
     assert_eq!(system.particles()[0].friction_factor, rational(3, 2));
     assert_eq!(system.particles()[1].state, ContactState::Zero);
+}
+
+/// A body of a million tonnes: what `convert` warns of is in the file, and `analyze` repeats it as
+/// text, as JSON and on the page, until it is accepted. No answer depends on it.
+#[test]
+fn warnings_travel_with_the_file_until_they_are_accepted() {
+    let bench = Bench::new();
+    bench.changed("M.mtx", "heavy.mtx", "e-9", "e9");
+    let heavy = matrix_market("K.mtx", "heavy.mtx", "c.csv").args(&bench, "out.json");
+    let accepted = [&heavy[..], &["--accept-warnings".to_string()]].concat();
+    let convert = |args: &[String]| {
+        let args: Vec<&str> = args.iter().map(String::as_str).collect();
+        let text = exits(0, &args);
+        let problem = read_problem_file(Path::new(&bench.path("out.json"))).unwrap();
+        (text, problem)
+    };
+
+    let page = bench.path("page.html");
+    let out = bench.path("out.json");
+    let analyze = ["analyze", &out, "--samples", "0", "--boxes", "100"];
+    let to_page = [&analyze[..], &["--report", &page]].concat();
+    let as_json = [&analyze[..], &["--json"]].concat();
+
+    let (text, problem) = convert(&heavy);
+    let [warning] = &problem.warnings[..] else {
+        panic!("expected one warning, got {:?}", problem.warnings)
+    };
+    assert!(warning.contains("the lowest frequency is"), "{warning}");
+    assert!(
+        text.contains(&format!("WARNING: {warning}.\n1 warning written")),
+        "{text}"
+    );
+
+    let answer = run(&to_page);
+    let json = run(&as_json);
+    let json: Value = serde_json::from_str(&json.stdout).unwrap();
+    assert!(
+        answer
+            .stdout
+            .contains(&format!("WARNING of convert: {warning}.")),
+        "{answer:?}"
+    );
+    assert!(read(&page).contains(&format!("Warning of convert: {warning}.")));
+    assert_eq!(json["warnings"], json!([warning]));
+
+    let (text, silent) = convert(&accepted);
+    assert!(silent.warnings.is_empty());
+    assert_eq!(silent.sha256(), problem.sha256());
+    assert!(text.contains("1 warning accepted"), "{text}");
+    let without = run(&to_page);
+    assert_eq!(without.code, answer.code);
+    assert!(
+        !without.stdout.contains("WARNING of convert"),
+        "{without:?}"
+    );
+    assert!(!read(&page).contains("Warning of convert"));
+}
+
+#[test]
+fn strict_refuses_a_model_with_a_warning_and_no_other() {
+    let bench = Bench::new();
+    bench.changed("M.mtx", "heavy.mtx", "e-9", "e9");
+    let strict = |mass: &str, more: &[&str]| {
+        let mut args = matrix_market("K.mtx", mass, "c.csv").args(&bench, "never.json");
+        args.push("--strict".to_string());
+        args.extend(more.iter().map(ToString::to_string));
+        args
+    };
+
+    let args = strict("heavy.mtx", &[]);
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    refused(&args, &["--strict", "got 1", "the lowest frequency is"]);
+    assert!(!Path::new(&bench.path("never.json")).exists());
+
+    let args = strict("M.mtx", &["--accept-warnings"]);
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    assert_eq!(run(&args).code, Some(2));
+
+    let args = strict("M.mtx", &[]);
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    exits(0, &args);
+    assert!(Path::new(&bench.path("never.json")).exists());
 }

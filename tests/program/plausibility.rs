@@ -75,13 +75,32 @@ impl Model {
         text
     }
 
+    /// The places of the nodes, and an edge to none.
+    fn nodes(&self) -> String {
+        let mut text = String::from("x,y,dof_x,dof_y\n");
+        for (dof, [x, y]) in self.block.points.iter().enumerate().step_by(2) {
+            writeln!(text, "{x},{y},{dof},{}", dof + 1).unwrap();
+        }
+
+        text
+    }
+
     /// u = K^-1 r, a number a line.
     fn displacements(&self) -> String {
+        self.displacements_under(&[])
+    }
+
+    /// u = K^-1 (r + f); f is given as forces at degrees of freedom.
+    fn displacements_under(&self, loads: &[(usize, f64)]) -> String {
         let order = self.block.stiffness.order;
         let mut solution = vec![0.0; order];
         for node in &self.block.contact {
             solution[2 * node] = MU * PRESSURE;
             solution[2 * node + 1] = PRESSURE;
+        }
+
+        for (dof, load) in loads {
+            solution[*dof] += load;
         }
 
         let factors = SparseLu::new(order, self.block.stiffness.entries.iter().copied()).unwrap();
@@ -96,6 +115,16 @@ impl Model {
     #[track_caller]
     fn convert(&self, [stiffness, mass, contacts]: [&str; 3], displacements: &str) -> String {
         let args = self.args([stiffness, mass, contacts], displacements);
+        let args: Vec<&str> = args.iter().map(String::as_str).collect();
+        exits(0, &args)
+    }
+
+    /// The same with the places of the nodes.
+    #[track_caller]
+    fn convert_with_places(&self, files: [&str; 3], displacements: &str) -> String {
+        let nodes = self.folder.write("nodes.csv", &self.nodes());
+        let mut args = self.args(files, displacements);
+        args.extend(["--coordinates".to_owned(), nodes]);
         let args: Vec<&str> = args.iter().map(String::as_str).collect();
         exits(0, &args)
     }
@@ -122,11 +151,17 @@ const FILES: [&str; 3] = ["K.mtx", "M.mtx", "contacts.csv"];
 
 #[track_caller]
 fn warns_only_of(text: &str, words: &str) {
+    warns_of(text, &[words]);
+}
+
+/// The warnings are these, in this order.
+#[track_caller]
+fn warns_of(text: &str, expected: &[&str]) {
     let warnings: Vec<&str> = text.lines().filter(|l| l.starts_with("WARNING")).collect();
-    let [warning] = warnings[..] else {
-        panic!("expected one warning, got {warnings:#?} in\n{text}");
-    };
-    assert!(warning.contains(words), "expected {words:?}, got {warning}");
+    assert_eq!(warnings.len(), expected.len(), "{expected:?} in\n{text}");
+    for (warning, words) in warnings.iter().zip(expected) {
+        assert!(warning.contains(words), "expected {words:?}, got {warning}");
+    }
 }
 
 #[test]
@@ -380,5 +415,155 @@ fn displacements_of_another_body_are_refused() {
         let args = model.args(FILES, file);
         let args: Vec<&str> = args.iter().map(String::as_str).collect();
         refused(&args, &words);
+    }
+}
+
+/// The obstacle is below the block: the right directions, and one that is turned by 5 degrees, are
+/// not named. Of the wrong ones all particles have the same, or one alone.
+#[test]
+fn directions_are_held_against_the_places_of_the_nodes() {
+    let model = Model::new();
+    let all = "particles n0, n1, n2, n3, n4 and 4 more: ";
+    let turned = "the tangent is turned by up to 20.0 degrees from the line through its neighbours";
+    let a_quarter = "the tangent is turned by up to 90.0 degrees";
+    let into_body = "the normal points into the body";
+
+    for (columns, cells, expected) in [
+        ("normal_direction", "-1", vec![]),
+        ("normal_x,normal_y", "0,-1", vec![]),
+        ("angle,normal_direction", "5,-1", vec![]),
+        ("angle", "180", vec![]),
+        (
+            "angle,normal_direction",
+            "20,-1",
+            vec![format!("{all}{turned}")],
+        ),
+        // The coordinates of the normal are exchanged; at the end of the contact it points inside.
+        (
+            "normal_x,normal_y",
+            "-1,0",
+            vec![
+                format!("{all}{a_quarter}"),
+                format!("particle n8: {into_body}"),
+            ],
+        ),
+        (
+            "normal_x,normal_y",
+            "0,1",
+            vec![format!("{all}{into_body}")],
+        ),
+        ("normal_direction", "1", vec![format!("{all}{into_body}")]),
+    ] {
+        let table = directed(&model, columns, |_| cells);
+        model.folder.write("directed.csv", &table);
+
+        let text = model.convert_with_places(["K.mtx", "M.mtx", "directed.csv"], "");
+        let expected: Vec<&str> = expected.iter().map(String::as_str).collect();
+        warns_of(&text, &expected);
+    }
+
+    let one_wrong = directed(&model, "angle,normal_direction", |k| match k {
+        3 => "-30,-1",
+        _ => "0,-1",
+    });
+    model.folder.write("directed.csv", &one_wrong);
+    let text = model.convert_with_places(["K.mtx", "M.mtx", "directed.csv"], "");
+    warns_only_of(&text, "particle n3: the tangent is turned by 30.0 degrees");
+}
+
+/// A table with names and these columns, without reactions.
+fn directed(model: &Model, columns: &str, cells: impl Fn(usize) -> &'static str) -> String {
+    let mut text = format!("particle,tangential,normal,state,{columns}\n");
+    for (k, node) in model.block.contact.iter().enumerate() {
+        let tangential = 2 * node;
+        let normal = tangential + 1;
+        writeln!(text, "n{k},{tangential},{normal},slip-,{}", cells(k)).unwrap();
+    }
+
+    text
+}
+
+#[test]
+fn degrees_of_freedom_of_two_nodes_are_named() {
+    let model = Model::new();
+    let table = directed(&model, "normal_direction", |_| "-1");
+    let [first, second] = [0, 1].map(|k| 2 * model.block.contact[k]);
+    let crossed = table
+        .replace(
+            &format!("n0,{first},{}", first + 1),
+            &format!("n0,{first},{}", second + 1),
+        )
+        .replace(
+            &format!("n1,{second},{}", second + 1),
+            &format!("n1,{second},{}", first + 1),
+        );
+    model.folder.write("crossed.csv", &crossed);
+
+    let text = model.convert_with_places(["K.mtx", "M.mtx", "crossed.csv"], "");
+    warns_only_of(
+        &text,
+        "particles n0, n1: the tangential and the normal dof move two",
+    );
+}
+
+/// A contact that is left out of the table bears a force beside the others. A load far from them is
+/// a figure and no warning.
+#[test]
+fn a_force_beside_the_contacts_is_named() {
+    let model = Model::new();
+    let node = model.block.contact[4];
+    let all = model.contacts(0, PRESSURE);
+    let line = format!("{},{},-1,slip-,1,2\n", 2 * node, 2 * node + 1);
+    assert!(all.contains(&line), "{line} in\n{all}");
+    model.folder.write("eight.csv", &all.replace(&line, ""));
+    let files = ["K.mtx", "M.mtx", "eight.csv"];
+    let forces = [2 * node + 1, 2 * node].map(|dof| format!("at dof {dof}"));
+
+    let text = model.convert(files, "u.txt");
+    let [normal, tangential] = &forces;
+    warns_only_of(
+        &text,
+        &format!("K u has 2.0000 {normal}, 1.00000 {tangential}, beside"),
+    );
+
+    let text = model.convert_with_places(files, "u.txt");
+    let place = format!("{normal} (node {node} at x = ");
+    warns_only_of(&text, &place);
+
+    let far = model.block.stiffness.order - 1;
+    let loaded = model.displacements_under(&[(far, -3.0)]);
+    model.folder.write("loaded.txt", &loaded);
+    let text = model.convert(FILES, "loaded.txt");
+    warns_of(&text, &[]);
+    let figure = format!("    K u elsewhere: -3.0000 at dof {far} (loads, supports)\n");
+    assert!(text.contains(&figure), "{figure} in\n{text}");
+
+    assert!(!model.convert(FILES, "u.txt").contains("K u elsewhere"));
+}
+
+/// The unit of density is wrong by 10^12: kg/m^3 in place of t/mm^3, and the other way round. A
+/// thousandth, kg in place of t, makes frequencies that bodies have.
+#[test]
+fn masses_in_another_unit_are_named() {
+    let model = Model::new();
+    for (factor, expected) in [
+        (
+            1e12,
+            vec!["cycles per unit of time, below 1e-2: K and M may be in units"],
+        ),
+        (
+            1e-12,
+            vec!["cycles per unit of time, above 1e6: K and M may be in units"],
+        ),
+        (1e3, vec![]),
+    ] {
+        let mut mass = model.block.mass.clone();
+        for (_, _, value) in &mut mass.entries {
+            *value *= factor;
+        }
+        model.folder.write("scaled.mtx", &matrix_market(&mass, 17));
+
+        let text = model.convert(["K.mtx", "scaled.mtx", "contacts.csv"], "");
+        warns_of(&text, &expected);
     }
 }

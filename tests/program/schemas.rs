@@ -372,7 +372,7 @@ fn problem_with_all_forms() -> Value {
     })
 }
 
-/// The two particles with coordinates.
+/// The two particles with coordinates and warnings.
 fn problem_with_coordinates() -> Value {
     let mut problem = read(&root("spec/examples/two-particles.json"));
     problem["coordinates"] = json!({
@@ -380,6 +380,7 @@ fn problem_with_coordinates() -> Value {
         "edges": [[0, 1]],
         "particles": ["left", ""],
     });
+    problem["warnings"] = json!(["the rows of K sum to zero to 1e-5 only", ""]);
     problem
 }
 

@@ -1,7 +1,8 @@
 //! The canonical form of a problem and its digest.
 //!
 //! Mathematical fields only, matrices inlined, entries sorted, rationals in lowest terms; no name,
-//! comment or window, and no reaction (it is checked when read, and changes nothing after that).
+//! comment, warning or window, and no reaction (it is checked when read, and changes nothing after
+//! that).
 //!
 //! The digest is SHA-256 (FIPS 180-4) of that text. Two problems with one digest are, for all that
 //! anybody can do, the same mathematical problem; so a certificate that names the digest is bound

@@ -24,6 +24,8 @@ pub struct Problem {
     pub name: Option<String>,
     /// A remark for people.
     pub comment: Option<String>,
+    /// What looked wrong when the problem was made, for people: sentences without a full stop.
+    pub warnings: Vec<String>,
     /// Where the nodes of a system are, for pictures.
     pub coordinates: Option<Coordinates>,
     unknown: Unknown,
@@ -44,6 +46,7 @@ impl Problem {
         Ok(Problem {
             name: None,
             comment: None,
+            warnings: Vec::new(),
             coordinates: None,
             unknown,
             window,
@@ -87,5 +90,41 @@ impl Problem {
     /// reports name, so that they are bound to these matrices.
     pub fn sha256(&self) -> String {
         canonical::sha256(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::file::{read_problem, write_problem};
+    use crate::{ModelError, Problem};
+    use std::path::Path;
+
+    fn read(warnings: &str) -> Result<Problem, ModelError> {
+        let text = format!(
+            r#"{{"format": "mceip-problem/1", "unknown": "mu", "warnings": {warnings},
+                "pencil": {{"a": [[1]], "b": [[-1]]}}}}"#
+        );
+        read_problem(&text, Path::new("."))
+    }
+
+    #[test]
+    fn warnings_are_read_written_and_no_part_of_the_digest() {
+        let with = read(r#"["K and M", "a \"name\""]"#).unwrap();
+        let without = read("[]").unwrap();
+        assert_eq!(with.warnings, ["K and M", "a \"name\""]);
+
+        let again = read_problem(&write_problem(&with), Path::new(".")).unwrap();
+        assert_eq!(again, with);
+        assert_eq!(with.sha256(), without.sha256());
+        assert!(!write_problem(&without).contains("warnings"));
+    }
+
+    #[test]
+    fn warnings_that_are_no_list_of_texts_are_refused() {
+        for malformed in ["null", "{}", "[1]", "[null]", r#""K and M""#] {
+            let refused = read(malformed);
+            let is_malformed = matches!(refused, Err(ModelError::Json { .. }));
+            assert!(is_malformed, "{malformed}: {refused:?}");
+        }
     }
 }

@@ -22,6 +22,7 @@
 //! to satisfy (7), |r_T| <= mu |r_N|, with equality for slip. Directions become exact rotations
 //! (`rotation.rs`).
 
+use crate::plausibility::with_five_digits;
 use crate::rotation::{Frame, rotation_along, rotation_by_degrees};
 use crate::tolerance::CONE_SLACK;
 use mceip_exact::{Rational, parse, rational, to_f64};
@@ -104,6 +105,30 @@ pub enum ContactsError {
         state: &'static str,
         /// What (7) wants.
         expected: &'static str,
+        /// Reaction along the tangent.
+        tangential: String,
+        /// Reaction along the normal into the obstacle.
+        normal: String,
+    },
+    /// A reaction off the friction cone, or outside of it.
+    #[error(
+        "E7: contacts line {line}, state {state}: expected {expected}, that is |r_T| / |r_N| \
+         {ratio} {friction} (mu times the friction factor), got {got} (r_T = {tangential} along the \
+         tangent, r_N = {normal} along the normal into the obstacle)"
+    )]
+    OffCone {
+        /// Line of the file, from 1.
+        line: usize,
+        /// The state.
+        state: &'static str,
+        /// What (7) wants.
+        expected: &'static str,
+        /// How |r_T| / |r_N| and the friction compare then.
+        ratio: &'static str,
+        /// mu times the friction factor.
+        friction: String,
+        /// |r_T| / |r_N|.
+        got: String,
         /// Reaction along the tangent.
         tangential: String,
         /// Reaction along the normal into the obstacle.
@@ -531,6 +556,9 @@ enum Fit {
     WithinSlack,
     /// It does not; what was expected instead.
     Contradiction(&'static str),
+    /// The reaction is off the cone; what was expected of |r_T|, and how |r_T| / |r_N| and the
+    /// friction compare then.
+    OffCone(&'static str, &'static str),
 }
 
 impl GivenReaction {
@@ -538,7 +566,7 @@ impl GivenReaction {
     /// true if they hold exactly as well. `friction` is that of the particle.
     ///
     /// # Errors
-    /// [`ContactsError::Contradiction`]; `line` is named in it.
+    /// [`ContactsError::Contradiction`] and [`ContactsError::OffCone`]; `line` is named in them.
     fn fits(
         &self,
         line: usize,
@@ -562,6 +590,16 @@ impl GivenReaction {
                 tangential: with_seven_digits(&self.tangential),
                 normal: with_seven_digits(&self.normal),
             }),
+            Fit::OffCone(expected, ratio) => Err(ContactsError::OffCone {
+                line,
+                state: state.word(),
+                expected,
+                ratio,
+                friction: with_five_digits(to_f64(friction)),
+                got: with_five_digits(to_f64(&(self.tangential.abs() / pressure))),
+                tangential: with_seven_digits(&self.tangential),
+                normal: with_seven_digits(&self.normal),
+            }),
         }
     }
 
@@ -581,7 +619,7 @@ impl GivenReaction {
 
         let excess = self.excess(pressure, friction);
         if excess > slack(pressure, friction) {
-            Fit::Contradiction("|r_T| < mu |r_N|")
+            Fit::OffCone("|r_T| < mu |r_N|", "<")
         } else if excess.is_negative() {
             Fit::Exact
         } else {
@@ -600,7 +638,7 @@ impl GivenReaction {
 
         let excess = self.excess(pressure, friction);
         if excess.abs() > slack(pressure, friction) {
-            Fit::Contradiction("|r_T| = mu |r_N|")
+            Fit::OffCone("|r_T| = mu |r_N|", "=")
         } else if excess.is_zero() {
             Fit::Exact
         } else {
@@ -691,9 +729,8 @@ mod tests {
     fn contradictions_with_7_are_refused() {
         for line in [
             "a,0,1,slip+,,1,-2",
-            "a,0,1,slip-,,0.9,-2",
             "a,0,1,slip-,,1,2",
-            "a,0,1,stick,,1.1,-2",
+            "a,0,1,stick,,1,2",
             "a,0,1,free,,0,-1",
         ] {
             let refused = read(&format!("{HEADER}{line}\n"));
@@ -701,6 +738,30 @@ mod tests {
                 matches!(refused, Err(ContactsError::Contradiction { line: 2, .. })),
                 "{line}"
             );
+        }
+    }
+
+    /// mu = 1/2 and the factor 3; both ratios are printed, the one of the table and the one of (7).
+    #[test]
+    fn reactions_off_the_cone_are_refused_with_both_ratios() {
+        let header = "tangential,normal,state,friction_factor,reaction_tangential,reaction_normal";
+        for (line, relation, got) in [
+            ("0,1,slip-,3,2.4,-2", "=", "1.2000"),
+            ("0,1,slip-,3,3.5,-2", "=", "1.7500"),
+            ("0,1,stick,3,3.5,-2", "<", "1.7500"),
+        ] {
+            let refused = read(&format!("{header}\n{line}\n")).unwrap_err();
+
+            let is_named = matches!(refused, ContactsError::OffCone { line: 2, .. });
+            assert!(is_named, "{line}: {refused}");
+            let ratios = format!("|r_T| / |r_N| {relation} 1.5000 (mu times the friction factor)");
+            let text = refused.to_string();
+            assert!(text.contains(&ratios), "{text}");
+            assert!(text.contains(&format!("got {got}")), "{text}");
+        }
+
+        for line in ["0,1,slip-,3,3,-2", "0,1,stick,3,2.9,-2"] {
+            assert!(read(&format!("{header}\n{line}\n")).is_ok(), "{line}");
         }
     }
 
@@ -763,7 +824,7 @@ mod tests {
         );
 
         let common = read(&format!("{header}0,1,slip-,,3,-2\n"));
-        assert!(matches!(common, Err(ContactsError::Contradiction { .. })));
+        assert!(matches!(common, Err(ContactsError::OffCone { .. })));
         let none = read(&format!("{header}0,1,slip-,0,0,-2\n"));
         assert!(matches!(
             none,

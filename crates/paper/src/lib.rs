@@ -22,6 +22,7 @@ mod block;
 mod block_model;
 pub mod calculix;
 mod contacts;
+mod directions;
 mod doubles;
 mod element;
 mod error;

@@ -7,30 +7,42 @@
 //! | lowest frequencies | K_ff v = omega^2 M_ff v, the contacts held | |
 //! | signs | K cancels along e = (1, ..., 1), row by row, M adds up | K and M exchanged |
 //! | balance of rows | \|K e\| is zero but near supports | entries of few digits |
+//! | units | the lowest frequency is between 1e-2 and 1e6 | units that do not fit |
 //! | masses of a node | one diagonal entry of M for both its dofs | numbers from 1 |
 //! | reactions | K u at the contacts, where u is given | numbers from 1, another step or sign |
+//! | other forces | K u at dofs of no particle | a contact that is missing |
 //! | cones | \|r_T\| over mu \|r_N\| | |
+//! | directions | `directions`, where the places of the nodes are given | wrong angles, normals |
 //!
 //! All in doubles, all for a reader: nothing here changes the problem or refuses it.
 #![allow(clippy::float_arithmetic)]
 
-use crate::contacts::TableReaction;
+use crate::contacts::{TableReaction, shown};
+use crate::directions::WrongDirections;
 use crate::doubles::DoubleMatrix;
 use crate::frequencies::lowest_frequencies;
-use crate::tolerance::{BALANCED_ROWS, CONE_SLACK, EQUAL_MASSES, NEAR_SUPPORTS, REACTION_MISMATCH};
+use crate::tolerance::{
+    BALANCED_ROWS, CONE_SLACK, EQUAL_MASSES, NEAR_SUPPORTS, REACTION_MISMATCH, USUAL_FREQUENCIES,
+};
 use mceip_exact::{Sparse, to_f64};
-use mceip_model::{ContactState, Particle, System};
+use mceip_model::{ContactState, Coordinates, Particle, System};
+use std::collections::HashMap;
 
 /// What the figures are made of.
 pub struct PlausibilityInput<'a> {
     /// The body, with M and mu.
     pub system: &'a System,
+    /// The particles' names; empty if they have none.
+    pub names: &'a [String],
     /// For each particle, the reaction that the table of contacts gives.
     pub reactions: &'a [Option<TableReaction>],
     /// The displacements of the equilibrium, one for each degree of freedom.
     pub displacements: Option<&'a [f64]>,
-    /// Does the table name degrees of freedom by numbers, so that it may count from 1?
-    pub counts_dofs: bool,
+    /// Where the nodes are.
+    pub coordinates: Option<&'a Coordinates>,
+    /// The names by which the table has the degrees of freedom; without them it has their numbers,
+    /// and may count from 1.
+    pub dof_names: Option<&'a HashMap<String, usize>>,
 }
 
 /// Figures of a model, and what looks wrong.
@@ -56,18 +68,32 @@ impl Plausibility {
 
         if let Some(mass) = input.system.mass() {
             let mass = in_doubles(mass);
-            let sum = sum_of_entries(&mass);
+            let sum = with_five_digits(sum_of_entries(&mass));
             let range = range_of_diagonal(&mass);
-            found.figure("M", format!("{range}, sum of all entries {}", number(sum)));
-            found.look_at_signs(&stiffness, &mass);
-            found.look_at_frequencies(input.system, &stiffness, &mass);
-            if input.counts_dofs {
+            found.figure("M", format!("{range}, sum of all entries {sum}"));
+            let are_exchanged = found.look_at_signs(&stiffness, &mass);
+            let lowest = found.look_at_frequencies(input.system, &stiffness, &mass);
+            if let Some(lowest) = lowest
+                && !are_exchanged
+            {
+                found.look_at_units(lowest);
+            }
+            if input.dof_names.is_none() {
                 found.look_at_masses(input.system.particles(), &diagonal(&mass));
             }
         }
 
         found.look_at_cones(input);
-        found.look_at_reactions(input, &stiffness);
+        if let Some(displacements) = input.displacements {
+            let forces = stiffness.times(displacements);
+            let are_from_one = found.look_at_reactions(input, &forces);
+            if !are_from_one {
+                found.look_at_other_forces(input, &stiffness, &forces);
+            }
+        }
+        if let Some(coordinates) = input.coordinates {
+            found.look_at_directions(input, coordinates);
+        }
         found
     }
 
@@ -97,37 +123,64 @@ impl Plausibility {
         }
     }
 
-    /// Along a translation the entries of K cancel, row by row, and those of M add up.
-    fn look_at_signs(&mut self, stiffness: &DoubleMatrix, mass: &DoubleMatrix) {
+    /// Along a translation the entries of K cancel, row by row, and those of M add up. True if the
+    /// two seem to be exchanged.
+    fn look_at_signs(&mut self, stiffness: &DoubleMatrix, mass: &DoubleMatrix) -> bool {
         let mass_cancels = median_balance(mass).is_some_and(|balance| balance <= NEAR_SUPPORTS);
-        if mass_cancels && coherence(stiffness) > coherence(mass) {
+        let are_exchanged = mass_cancels && coherence(stiffness) > coherence(mass);
+        if are_exchanged {
             self.warnings.push(
                 "the entries of K add up and those of M cancel, as if the files of K and M were \
                  exchanged"
                     .to_owned(),
             );
         }
+
+        are_exchanged
     }
 
+    /// The lowest frequency, if there is one.
     fn look_at_frequencies(
         &mut self,
         system: &System,
         stiffness: &DoubleMatrix,
         mass: &DoubleMatrix,
-    ) {
+    ) -> Option<f64> {
         let held = held_dofs(system);
         let frequencies = lowest_frequencies(&without(stiffness, &held), &without(mass, &held));
+        let lowest = frequencies
+            .as_ref()
+            .and_then(|values| values.first().copied());
         let text = match frequencies {
             None => "not found in doubles".to_owned(),
             Some(values) if values.is_empty() => "none, every degree of freedom is held".to_owned(),
             Some(values) => {
-                let printed: Vec<String> = values.into_iter().map(number).collect();
+                let printed: Vec<String> = values.into_iter().map(with_five_digits).collect();
                 let values = printed.join(", ");
                 format!("{values} cycles per unit of time (contacts held; Hz for seconds)")
             }
         };
 
         self.figure("lowest frequencies", text);
+        lowest
+    }
+
+    /// A body that vibrates far slower or faster than bodies do has a mass in another unit.
+    fn look_at_units(&mut self, lowest: f64) {
+        let [slow, fast] = USUAL_FREQUENCIES;
+        let unusual = if lowest < slow {
+            format!("below {slow:e}")
+        } else if lowest > fast {
+            format!("above {fast:e}")
+        } else {
+            return;
+        };
+
+        let lowest = with_five_digits(lowest);
+        self.warnings.push(format!(
+            "the lowest frequency is {lowest} cycles per unit of time, {unusual}: K and M may be \
+             in units that do not fit (tonnes belong to N and mm, kg to N and m)"
+        ));
     }
 
     /// Both degrees of freedom of a node carry its mass. Where they do not, and those numbered one
@@ -170,43 +223,42 @@ impl Plausibility {
             self.figure("reactions, slip", text);
         }
         if let Some((ratio, index)) = stick {
-            let text = format!("|r_T| at most {ratio:.4} mu |r_N| (particle {index})");
+            let particle = listed(input.names, &[index]);
+            let text = format!("|r_T| at most {ratio:.4} mu |r_N| ({particle})");
             self.figure("reactions, stick", text);
 
             let (numerator, denominator) = CONE_SLACK;
             let slack = numerator as f64 / denominator as f64;
             if ratio > 1.0 - slack {
                 self.warnings.push(format!(
-                    "particle {index} sticks with |r_T| = mu |r_N| up to {slack:.0e} of it: on the \
+                    "{particle} sticks with |r_T| = mu |r_N| up to {slack:.0e} of it: on the \
                      friction cone it is about to slip, and with state slip the answers differ"
                 ));
             }
         }
     }
 
-    /// (1) at rest: K u is the reaction at a contact without other loads.
-    fn look_at_reactions(&mut self, input: &PlausibilityInput<'_>, stiffness: &DoubleMatrix) {
-        let Some(displacements) = input.displacements else {
-            return;
-        };
-        let forces = stiffness.times(displacements);
-
-        let Some(as_given) = mismatch(input, &forces, 0) else {
+    /// (1) at rest: K u is the reaction at a contact without other loads. True if the table seems
+    /// to count from 1.
+    fn look_at_reactions(&mut self, input: &PlausibilityInput<'_>, forces: &[f64]) -> bool {
+        let Some(as_given) = mismatch(input, forces, 0) else {
             self.warnings.push(
                 "the reactions are not compared with K u, since no CSV table gives one other than \
                  zero: without them nothing shows a wrong state, angle or direction of slip"
                     .into(),
             );
-            return;
+            return false;
         };
         let text = format!("differ by {as_given:.0e} of the largest");
         self.figure("reactions against K u", text);
         if as_given <= REACTION_MISMATCH {
-            return;
+            return false;
         }
 
-        let one_less = mismatch(input, &forces, 1);
-        if input.counts_dofs && one_less.is_some_and(|m| m <= REACTION_MISMATCH) {
+        let one_less = mismatch(input, forces, 1);
+        let fits_one_less = one_less.is_some_and(|m| m <= REACTION_MISMATCH);
+        let are_from_one = input.dof_names.is_none() && fits_one_less;
+        if are_from_one {
             self.warnings.push(format!(
                 "the reactions are those of K u where every number is one less: {COUNT_FROM_ZERO}"
             ));
@@ -216,7 +268,154 @@ impl Plausibility {
                  another sign, loads at the contacts, or K written with few digits"
             ));
         }
+
+        are_from_one
     }
+
+    /// (5) at rest: K u is zero where there is no contact, no load and no support. What loads there
+    /// are is not known here; but few bodies are loaded right beside their contacts.
+    fn look_at_other_forces(
+        &mut self,
+        input: &PlausibilityInput<'_>,
+        stiffness: &DoubleMatrix,
+        forces: &[f64],
+    ) {
+        let mut in_table = vec![false; forces.len()];
+        for particle in input.system.particles() {
+            in_table[particle.tangential] = true;
+            in_table[particle.normal] = true;
+        }
+
+        let mut largest: f64 = 0.0;
+        for (force, is_in_table) in forces.iter().zip(&in_table) {
+            if *is_in_table {
+                largest = largest.max(force.abs());
+            }
+        }
+
+        let least = REACTION_MISMATCH * largest;
+        let is_large = |dof: &usize| forces[*dof].abs() > least;
+        let outside = (0..forces.len()).filter(|dof| !in_table[*dof]);
+        let mut others: Vec<usize> = outside.filter(is_large).collect();
+        if largest == 0.0 || others.is_empty() {
+            return;
+        }
+
+        others.sort_by(|a, b| forces[*b].abs().total_cmp(&forces[*a].abs()));
+        let list = listed_forces(input, forces, &others);
+        self.figure("K u elsewhere", format!("{list} (loads, supports)"));
+
+        let beside = dofs_beside(stiffness, &in_table);
+        others.retain(|dof| beside[*dof]);
+        if !others.is_empty() {
+            let list = listed_forces(input, forces, &others);
+            self.warnings.push(format!(
+                "K u has {list}, beside the contacts and in no line of their table: a load, a \
+                 support, or a contact that is missing"
+            ));
+        }
+    }
+
+    /// Tangents are along the boundary, and normals point out of the body.
+    fn look_at_directions(&mut self, input: &PlausibilityInput<'_>, coordinates: &Coordinates) {
+        let wrong = WrongDirections::of(input.system, coordinates);
+
+        if !wrong.turned.is_empty() {
+            let indices: Vec<usize> = wrong.turned.iter().map(|(index, _)| *index).collect();
+            let particles = listed(input.names, &indices);
+            let degrees = wrong.turned.iter().map(|(_, degrees)| *degrees);
+            let largest = degrees.fold(0.0, f64::max);
+            let up_to = if indices.len() > 1 { "up to " } else { "" };
+            self.warnings.push(format!(
+                "{particles}: the tangent is turned by {up_to}{largest:.1} degrees from the line \
+                 through its neighbours (angle, normal_x, normal_y, or the order of the dofs)"
+            ));
+        }
+
+        if !wrong.into_body.is_empty() {
+            let particles = listed(input.names, &wrong.into_body);
+            self.warnings.push(format!(
+                "{particles}: the normal points into the body (normal_direction, angle, normal_x, \
+                 normal_y)"
+            ));
+        }
+
+        if !wrong.of_two_nodes.is_empty() {
+            let particles = listed(input.names, &wrong.of_two_nodes);
+            self.warnings.push(format!(
+                "{particles}: the tangential and the normal dof move two different nodes"
+            ));
+        }
+    }
+}
+
+/// How many particles or forces a warning lists.
+const LISTED: usize = 5;
+
+/// Particles by their names, or by their indices.
+fn listed(names: &[String], indices: &[usize]) -> String {
+    let mut words = Vec::new();
+    for index in indices.iter().take(LISTED) {
+        match names.get(*index) {
+            Some(name) if !name.is_empty() => words.push(shown(name)),
+            _ => words.push(index.to_string()),
+        }
+    }
+
+    let plural = if indices.len() == 1 { "" } else { "s" };
+    let more = and_more(indices.len());
+    format!("particle{plural} {}{more}", words.join(", "))
+}
+
+/// The first forces with their degrees of freedom, and where these are, if that is known.
+fn listed_forces(input: &PlausibilityInput<'_>, forces: &[f64], dofs: &[usize]) -> String {
+    let mut words = Vec::new();
+    for &dof in dofs.iter().take(LISTED) {
+        let force = with_five_digits(forces[dof]);
+        words.push(format!("{force} at dof {dof}{}", whereabouts(input, dof)));
+    }
+
+    let more = and_more(dofs.len());
+    format!("{}{more}", words.join(", "))
+}
+
+fn and_more(count: usize) -> String {
+    match count.saturating_sub(LISTED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    }
+}
+
+/// The name of a degree of freedom, or else its node and its place, in parentheses.
+fn whereabouts(input: &PlausibilityInput<'_>, dof: usize) -> String {
+    if let Some(names) = input.dof_names {
+        let name = names.iter().find(|(_, index)| **index == dof);
+        return name.map_or(String::new(), |(name, _)| format!(" ({})", shown(name)));
+    }
+
+    let Some(coordinates) = input.coordinates else {
+        return String::new();
+    };
+    match coordinates.node_of(dof) {
+        Some(node) => {
+            let [x, y] = coordinates.nodes()[node].place.each_ref().map(to_f64);
+            let [x, y] = [x, y].map(with_five_digits);
+            format!(" (node {node} at x = {x}, y = {y})")
+        }
+        None => String::new(),
+    }
+}
+
+/// Is the degree of freedom coupled with one that has the mark?
+fn dofs_beside(matrix: &DoubleMatrix, marked: &[bool]) -> Vec<bool> {
+    let mut beside = vec![false; matrix.order];
+    for &(row, column, _) in &matrix.entries {
+        if marked[column] {
+            beside[row] = true;
+        }
+    }
+
+    beside
 }
 
 /// What a reader does about numbers from 1.
@@ -231,7 +430,7 @@ fn in_doubles(matrix: &Sparse) -> DoubleMatrix {
 }
 
 /// A number with five digits, without a power of ten where it can do without.
-fn number(value: f64) -> String {
+pub(crate) fn with_five_digits(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -261,7 +460,11 @@ fn range_of_diagonal(matrix: &DoubleMatrix) -> String {
     let smallest = values.iter().copied().fold(f64::INFINITY, f64::min);
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
 
-    format!("diagonal {} to {}", number(smallest), number(largest))
+    format!(
+        "diagonal {} to {}",
+        with_five_digits(smallest),
+        with_five_digits(largest)
+    )
 }
 
 fn sum_of_entries(matrix: &DoubleMatrix) -> f64 {

@@ -50,6 +50,23 @@ pub(crate) const NEAR_SUPPORTS: f64 = 1e-2;
 /// Unit: none. Basis: they are equal but for rounding; nodes of different volume differ by more.
 pub(crate) const EQUAL_MASSES: f64 = 1e-9;
 
+/// Lowest and highest first frequency, in cycles per unit of time, that are not asked about. Basis:
+/// in seconds, tall buildings have 0.1, steel of a millimetre 1e6. A density in kg/m^3 beside N and
+/// mm is wrong by 1e12, its frequencies by 1e6; kg in place of t makes 32, which no bound sees.
+pub(crate) const USUAL_FREQUENCIES: [f64; 2] = [1e-2, 1e6];
+
+/// How far a tangent may be turned from the line through neighbouring nodes in contact, in degrees.
+/// Basis: on an arc of eight elements to the quarter circle a chord is turned by 6 degrees from the
+/// tangent at its end. An angle with the wrong sign is wrong by twice its size, exchanged
+/// coordinates of a normal turn it by 90 degrees less twice its angle with x.
+pub(crate) const TURNED_TANGENT: f64 = 10.0;
+
+/// Mean cosine of the angle between the normal into the obstacle and the edges to neighbouring
+/// nodes from which on the normal points into the body. Unit: none. Basis: at a flat boundary the
+/// mean is -0.3 to -0.5 on meshes of triangles and quadrilaterals; with nodes along the boundary
+/// alone it is at most 0.17, the sine of 10 degrees, where the boundary bends by less than that.
+pub(crate) const INTO_THE_BODY: f64 = 0.17;
+
 /// How far reactions may be from K u, relative to the largest. Unit: none. Basis: finite-element
 /// programs iterate on contact to 1e-3 or better; a wrong number or sign misses by about 1.
 pub(crate) const REACTION_MISMATCH: f64 = 1e-2;

@@ -100,6 +100,9 @@ fn system(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     };
 
     let mut content = vec![table];
+    for warning in &analysis.warnings {
+        content.push(Content::Warning(format!("Warning of convert: {warning}.")));
+    }
     content.extend(drawn.body("The body", None));
 
     Section {

@@ -15,6 +15,9 @@ use mceip_exact::Rational;
 pub struct Analysis {
     /// Name of the problem.
     pub name: Option<String>,
+    /// What looked wrong when the problem was made; [`analyse`](super::analyse) leaves it empty, who
+    /// has the problem sets it.
+    pub warnings: Vec<String>,
     /// Digest of the MCEIP-lambda2 problem that was analysed.
     pub problem_sha256: String,
     /// mu.

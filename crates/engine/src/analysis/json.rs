@@ -247,6 +247,7 @@ impl Analysis {
         json!({
             "format": ANALYSIS_FORMAT,
             "name": self.name,
+            "warnings": self.warnings,
             "problem_sha256": self.problem_sha256,
             "friction": self.friction.to_string(),
             "sizes": self.sizes_json(),

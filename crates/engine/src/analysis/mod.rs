@@ -129,6 +129,7 @@ pub fn analyse(
 
     Ok(Analysis {
         name,
+        warnings: Vec::new(),
         problem_sha256,
         friction: friction.clone(),
         sizes: sizes(system),

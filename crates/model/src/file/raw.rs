@@ -22,6 +22,8 @@ pub(super) struct RawProblem {
     _format: String, // checked before
     name: Option<String>,
     comment: Option<String>,
+    #[serde(default)]
+    warnings: Vec<String>,
     coordinates: Option<Object<RawCoordinates>>,
     unknown: Word<Unknown>,
     window: Option<Object<RawWindow>>,
@@ -117,6 +119,7 @@ impl RawProblem {
         let mut problem = Problem::new(body, self.unknown.0, window)?;
         problem.name = self.name;
         problem.comment = self.comment;
+        problem.warnings = self.warnings;
         problem.coordinates = coordinates;
 
         Ok(problem)

@@ -21,6 +21,10 @@ pub fn write_problem(problem: &Problem) -> String {
         out.insert("comment".into(), json!(comment));
     }
 
+    if !problem.warnings.is_empty() {
+        out.insert("warnings".into(), json!(problem.warnings));
+    }
+
     if let Some(coordinates) = &problem.coordinates {
         out.insert("coordinates".into(), write_coordinates(coordinates));
     }
