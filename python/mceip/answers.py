@@ -301,18 +301,24 @@ class CriticalFriction:
     """What is proved of the smallest friction coefficient with divergence of the form (8).
 
     Attributes:
-        absent_below: there is no divergence below it; None: there is none at any coefficient.
+        without_friction: divergence at the coefficient 0: "present", "absent", "undecided".
+        absent_below: there is no divergence below it, 0 if no such bound is proved; None: there is
+            none at any coefficient.
         absent_evidence: what that rests on.
         mu: encloses a coefficient with divergence, the smallest that was found; None if none was.
         lambda2: encloses lambda^2 there; 0 at the static threshold.
         evidence: what that rests on.
+        unbounded: encloses the coefficient beside which growth has no bound, where the critical one
+            lies there, because M* loses its property; None elsewhere.
     """
 
+    without_friction: str
     absent_below: Fraction | None
     absent_evidence: Evidence
     mu: Interval | None
     lambda2: Interval | None
     evidence: Evidence | None
+    unbounded: Interval | None
 
     @property
     def bounds(self) -> Interval | None:
@@ -501,12 +507,15 @@ def mode_of(answer: dict[str, Any]) -> Mode:
 
 def critical_of(answer: dict[str, Any]) -> CriticalFriction:
     solution = answer["solution"]
+    unbounded = answer["unbounded"]
     return CriticalFriction(
+        without_friction=answer["without_friction"],
         absent_below=upper_of(answer["absent_below"]),
         absent_evidence=evidence_of(answer["absent_evidence"]),
         mu=None if solution is None else interval_of(solution["mu"]),
         lambda2=None if solution is None else interval_of(solution["lambda2"]),
         evidence=None if solution is None else evidence_of(solution["evidence"]),
+        unbounded=None if unbounded is None else interval_of(unbounded["mu"]),
     )
 
 

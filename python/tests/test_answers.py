@@ -180,6 +180,8 @@ def test_without_divergence_at_any_friction_there_is_no_critical_one(point):
 
     assert analysis.verdict == "absent"
     assert analysis.critical.absent_below is None
+    assert analysis.critical.without_friction == "absent"
+    assert analysis.critical.unbounded is None
     assert analysis.critical_friction is None
     assert analysis.modes == []
 

@@ -7,15 +7,17 @@
 
 mod page;
 
-use super::common::{CliError, exit, load, positive, print, require_count, require_threads};
+use super::common::{CliError, exit, number, print, require_count, require_threads};
 use super::job::{CHECKPOINT, Job};
 use super::output::{Output, make_writable};
+use super::question::load_system;
 use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, Options, analyse};
 use mceip_engine::run::{Keeper, Kept};
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
-use mceip_model::file::write_problem;
-use mceip_model::{Body, System};
+use mceip_model::System;
+use mceip_model::file::{SystemFile, write_problem};
+use num_traits::Signed;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -65,11 +67,11 @@ const SAMPLED_FREE: usize = 200;
 
 /// Analyses the system, writes the proofs and prints the answers.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    let problem = load(&args.file, None)?;
-    let Body::System(system) = problem.body() else {
+    let Some(file) = load_system(&args.file)? else {
         return Err(AnalysisError::NotASystem.into());
     };
-    let friction = friction(args, system)?;
+    let system = &file.system;
+    let friction = friction(args, &file)?;
     require_threads(args.threads)?;
     require_count("boxes", args.boxes as u64, 0..=MAX_BOXES)?;
     let mut options = Options {
@@ -86,7 +88,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let report = Output::prepare_if("report", args.report.as_deref(), &[&args.file])?;
 
     let job = Job::begin("reading");
-    let name = problem.name.clone();
+    let name = file.name.clone();
     let keep = |kept: &Kept<'_>| {
         let written = keeping.as_ref().map(|proofs| proofs.keep(kept));
         if let Some(Err(e)) = written {
@@ -99,7 +101,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         analyse(name, system, &friction, &options, &watch)
     })?;
     job.end();
-    analysis.warnings.clone_from(&problem.warnings);
+    analysis.warnings.clone_from(&file.warnings);
 
     let paths = match &keeping {
         Some(proofs) => proofs.write_all(&analysis)?,
@@ -108,7 +110,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(output) = report {
         let drawn = page::Drawn {
             system,
-            coordinates: problem.coordinates.as_ref(),
+            coordinates: file.coordinates.as_ref(),
             paths: &paths,
             date: SystemTime::now(),
         };
@@ -126,12 +128,16 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 }
 
 /// The coefficient of friction: the option's, or else the file's.
-fn friction(args: &Args, system: &System) -> Result<Rational, CliError> {
+fn friction(args: &Args, file: &SystemFile) -> Result<Rational, CliError> {
     if let Some(given) = &args.friction {
-        return positive("friction", given);
+        let mu = number("friction", given)?;
+        if mu.is_negative() {
+            return Err(CliError::option("friction", "a number >= 0", given));
+        }
+        return Ok(mu);
     }
 
-    let own = system.friction().cloned();
+    let own = file.friction.clone();
     own.ok_or_else(|| AnalysisError::NoFriction.into())
 }
 
@@ -241,6 +247,10 @@ fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
     {
         let boxes = args.boxes.saturating_mul(10);
         return format!("Next: `mceip analyze {file} --boxes {boxes}` may narrow that.");
+    }
+
+    if analysis.proofs.is_empty() {
+        return "The theorem and its proof: spec/zero-reaction.md, Z.2.".into();
     }
 
     let bound = match analysis.critical.evidence {

@@ -3,12 +3,11 @@
 //! The certificate can be searched in parts (`--shard`, joined by `mceip merge`) and gone on with
 //! (`--resume`). What is printed is what the checker has proved of it.
 
-use super::common::{
-    CliError, exit, load, part, print, require_count, require_threads, seconds, text,
-};
+use super::common::{CliError, exit, part, print, require_count, require_threads, seconds, text};
 use super::infinity::{AtInfinity, Files};
 use super::job::{CHECKPOINT, Job, is_quiet};
 use super::output::Output;
+use super::question::{Question, load_question};
 use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_engine::certify::Certifier;
@@ -73,7 +72,12 @@ const SHOWN: usize = 20;
 
 /// Searches, prints what is proved and writes the certificate.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    let problem = load(&args.file, args.window.as_deref())?;
+    let problem = match load_question(&args.file, args.window.as_deref())? {
+        Question::Problem(problem) => *problem,
+        Question::NoSolution(answer) => {
+            return answer.print(args.json, args.certificate.as_deref());
+        }
+    };
     let shard = match &args.shard {
         Some(given) => {
             let (index, count) = part("shard", given)?;

@@ -4,8 +4,9 @@
 //! ones that meet the inequalities. With particles in contact with zero reaction the same for each
 //! choice of modes (`spec/zero-reaction.md`, Z.3).
 
-use super::common::{CliError, exit, load, print};
+use super::common::{CliError, exit, print};
 use super::job::Job;
+use super::question::{Question, load_question};
 use mceip_engine::reduction::{Reduced, reduce, reduce_with_zero};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_engine::run::Progress;
@@ -29,7 +30,10 @@ pub(super) struct Args {
 
 /// Enumerates the supports and prints the solutions.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    let problem = load(&args.file, args.window.as_deref())?;
+    let problem = match load_question(&args.file, args.window.as_deref())? {
+        Question::Problem(problem) => *problem,
+        Question::NoSolution(answer) => return answer.print(args.json, None),
+    };
     if let Body::System(system) = problem.body()
         && system.require_no_zero().is_err()
     {

@@ -17,6 +17,7 @@ mod job;
 mod manual;
 mod merge;
 mod output;
+mod question;
 mod reduce;
 mod simulate;
 mod solve;

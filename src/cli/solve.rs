@@ -10,9 +10,10 @@ mod trace;
 
 pub(super) use args::Args;
 
-use super::common::{CliError, aside, exit, load, print, require_count, text};
+use super::common::{CliError, aside, exit, print, require_count, text};
 use super::job::Job;
 use super::output::Output;
+use super::question::{Question, load_question};
 use mceip_check::Proved;
 use mceip_check::certificate::Claim;
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
@@ -82,7 +83,12 @@ fn refuse_check(args: &Args) -> Result<(), CliError> {
 
 /// Searches, certifies and prints an `mceip-problem/1`.
 fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
-    let problem = load(file, args.window.as_deref())?;
+    let problem = match load_question(file, args.window.as_deref())? {
+        Question::Problem(problem) => *problem,
+        Question::NoSolution(answer) => {
+            return answer.print(args.json, args.certificate.as_deref());
+        }
+    };
     let output = Output::prepare_if("certificate", args.certificate.as_deref(), &[file])?;
     let trace_output = Output::prepare_if("trace", args.trace.as_deref(), &[file])?;
     let reduced = reduce_with_zero(&problem)?;

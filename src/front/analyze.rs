@@ -40,7 +40,7 @@ impl Problem {
 }
 
 impl<'a> Analyze<'a> {
-    /// The friction coefficient; the system's own if not said.
+    /// The friction coefficient; the system's own if not said. At 0 a theorem answers.
     pub fn friction(mut self, friction: Rational) -> Self {
         self.friction = Some(friction);
         self

@@ -6,6 +6,7 @@
 //! numbering. Each test also counts how often its law had something to say.
 #![cfg(feature = "testkit")]
 
+use mceip_engine::analysis::conditions::{DefiniteUntil, condensed};
 use mceip_engine::reduction::{mu_family, reduce};
 use mceip_exact::{
     Algebraic, Integer, Interval, Poly, Rational, Sparse, common_denominator, determinant,
@@ -165,7 +166,7 @@ fn condition_19_is_necessary() {
 }
 
 /// The Schur complement of the free variables, which come first in the pencil of a system.
-fn condensed(matrix: &Sparse, free_count: usize) -> Sparse {
+fn over_slip_variables(matrix: &Sparse, free_count: usize) -> Sparse {
     let free: Vec<usize> = (0..free_count).collect();
     let slip: Vec<usize> = (free_count..matrix.rows()).collect();
     let block = |rows: &[usize], columns: &[usize]| matrix.submatrix(rows, columns);
@@ -200,7 +201,7 @@ fn the_condensed_condition_excludes_lambda_zero() {
         for mu in [rational(1, 8), rational(1, 2), whole(1), whole(2), whole(8)] {
             let whole_matrix = at_friction(&family, &mu);
             let is_definite = has_definite_symmetric_part(&whole_matrix);
-            let matrix = condensed(&whole_matrix, free_count);
+            let matrix = over_slip_variables(&whole_matrix, free_count);
 
             if !has_definite_symmetric_part(&matrix) {
                 assert!(!is_definite, "{index}: mu = {mu}");
@@ -218,6 +219,41 @@ fn the_condensed_condition_excludes_lambda_zero() {
 
     assert!(beyond > 20, "{beyond} {diverging}");
     assert!(diverging > 20, "{beyond} {diverging}");
+}
+
+/// The end of the condensed condition as the program computes it: no solution of MCEIP-mu lies
+/// below, and the end of (19) itself does not lie beyond.
+#[test]
+fn no_static_threshold_lies_below_the_end_of_the_condensed_condition() {
+    let mut beyond = 0;
+    let mut bounded = 0;
+
+    for index in 0..300 {
+        let mut rng = rng(3000 + index);
+        let system = random_system(&mut rng, index);
+        let pencil = mu_family(&system).unwrap().stiffness;
+        let of_k = DefiniteUntil::of("K*", pencil.a(), pencil.b()).unwrap();
+        let Some(of_t) = condensed(&pencil, &of_k) else {
+            continue;
+        };
+
+        let found = solve(&pencil);
+        let (Some(end_of_k), Some(end)) = (of_k.end(), of_t.end()) else {
+            let is_always = matches!(of_t, DefiniteUntil::Always);
+            assert!(!is_always || found.solutions.is_empty(), "{index}");
+            continue;
+        };
+
+        assert!(end_of_k.lo() <= end.hi(), "{index}");
+        beyond += usize::from(end_of_k.hi() < end.lo());
+        for solution in found.solutions {
+            let mut value = solution.value;
+            assert!(value.cmp_rational(end.lo()).is_ge(), "{index}: {end:?}");
+            bounded += 1;
+        }
+    }
+
+    assert!(beyond > 20 && bounded > 20, "{beyond} {bounded}");
 }
 
 /// (17)-(18): a null vector with x_s >= 0 at lambda^2 >= 0 is a solution, and the enumerator has

@@ -68,7 +68,12 @@ fn malformed_problems_are_refused_in_one_line() {
 
     for (name, words) in expected {
         let file = repository(&format!("tests/malformed/{name}.json"));
-        for command in ["enumerate", "solve", "reduce"] {
+        // What only answers takes mu = 0 for a question, which a theorem answers.
+        let commands: &[&str] = match name {
+            "friction-zero" => &["reduce", "simulate"],
+            _ => &["enumerate", "solve", "reduce"],
+        };
+        for command in commands {
             refused(&[command, &file], words);
         }
     }

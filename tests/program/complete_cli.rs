@@ -302,12 +302,7 @@ fn bad_input_is_one_line_and_exit_2() {
         &["--certificate"],
     );
     refused(
-        &[
-            "complete",
-            &problem,
-            "--certificate",
-            "Cargo.toml/out.json",
-        ],
+        &["complete", &problem, "--certificate", "Cargo.toml/out.json"],
         &["Cargo.toml/out.json"],
     );
 

@@ -74,7 +74,7 @@ fn the_commands_give_what_the_page_says() {
             "lowest frequencies: 508.52, 708.42, 766.43",
             "form (8) is ABSENT",
             "[2.21062778, 2.21062779]",
-            "WARNING of flutter",
+            "sliding steadily in these contact states",
             "ACCEPTED",
         ],
     );

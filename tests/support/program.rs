@@ -36,8 +36,8 @@ fn written_certificate<'a>(args: &[&'a str]) -> Option<[&'a str; 2]> {
     let place = args.iter().position(|arg| *arg == option)?;
     let certificate = args.get(place + 1)?;
     let problem = args.get(1)?;
-    let are_files = std::path::Path::new(problem).is_file()
-        && std::path::Path::new(certificate).is_file();
+    let are_files =
+        std::path::Path::new(problem).is_file() && std::path::Path::new(certificate).is_file();
     are_files.then_some([*problem, *certificate])
 }
 

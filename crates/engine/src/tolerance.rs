@@ -4,6 +4,8 @@
 //! None of them decides a truth: they steer guesses that exact arithmetic then confirms or not. The
 //! tolerances of the solver's own arithmetic are in `crates/mcp/src/solver/tolerance.rs`.
 
+use std::ops::RangeInclusive;
+
 /// Thresholds at which x_i, relative to max x_s, is guessed to be positive. Unit: none. Basis: the
 /// block's lambda^2 mode has a true component of 6e-11 of its norm, and reports of six digits have
 /// noise of 1e-6; so several guesses are tried and the exact signs decide. Last every component as
@@ -158,6 +160,11 @@ pub const BRACKET_START_BITS: u32 = 32;
 /// complex. Unit: none. Basis: a double eigenvalue splits by 1e-8 in doubles; what is warned of is
 /// measured only.
 pub const FLUTTER_ANGLE: f64 = 1e-6;
+
+/// Sizes of numbers that a sentence prints with six decimals; others get six digits and an
+/// exponent. Unit: none. Reason: below, six decimals have two digits at most; above, doubles do not
+/// tell whole numbers apart.
+pub const WITH_SIX_DECIMALS: RangeInclusive<f64> = 1e-4..=1e15;
 
 /// Imaginary part, relative to the largest eigenvalue, up to which an eigenvalue of the QR
 /// algorithm is offered as real, and the residual up to which Newton's method then keeps it. Unit:

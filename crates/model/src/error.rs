@@ -50,6 +50,12 @@ pub enum ModelError {
         /// What is empty.
         what: &'static str,
     },
+    /// No particle is in impending slip. That is an answer: there is no solution.
+    #[error(
+        "expected a particle in impending slip, got none: (9) has no solution then, for any \
+         mu >= 0 and lambda^2 >= 0 (spec/zero-reaction.md, Z.2)"
+    )]
+    NothingSlips,
     /// A matrix that must be symmetric is not.
     #[error(
         "{equation}: expected {what} symmetric, \

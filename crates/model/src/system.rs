@@ -199,31 +199,30 @@ impl System {
     /// Refuses a system that lacks what `unknown` needs: M and mu for lambda^2.
     ///
     /// # Errors
-    /// [`ModelError::Missing`] or [`ModelError::Empty`] (no slip particle: nothing can diverge).
+    /// [`ModelError::Missing`], or [`ModelError::NothingSlips`] for a system without solutions.
     pub fn require_for(&self, unknown: Unknown) -> Result<(), ModelError> {
-        if self.slip_particles().is_empty() {
-            return Err(ModelError::Empty {
-                what: "the slip particles of the system",
+        let is_dynamic = unknown == Unknown::Lambda2;
+        let missing = if is_dynamic && self.mass.is_none() {
+            Some("mass")
+        } else if is_dynamic && self.friction.is_none() {
+            Some("friction")
+        } else {
+            None
+        };
+
+        if let Some(what) = missing {
+            return Err(ModelError::Missing {
+                equation: "E12",
+                what,
+                unknown: unknown.word(),
             });
         }
 
-        if unknown == Unknown::Mu {
-            return Ok(());
+        if self.slip_particles().is_empty() {
+            return Err(ModelError::NothingSlips);
         }
 
-        let missing = if self.mass.is_none() {
-            "mass"
-        } else if self.friction.is_none() {
-            "friction"
-        } else {
-            return Ok(());
-        };
-
-        Err(ModelError::Missing {
-            equation: "E12",
-            what: missing,
-            unknown: unknown.word(),
-        })
+        Ok(())
     }
 
     /// Number of degrees of freedom, N.
@@ -526,10 +525,9 @@ mod tests {
         assert!(system.require_for(Unknown::Lambda2).is_ok());
 
         let stuck = build(1, vec![Particle::plain(0, 1, ContactState::Stick)]).unwrap();
-        assert!(matches!(
-            stuck.require_for(Unknown::Mu),
-            Err(ModelError::Empty { .. })
-        ));
+        for unknown in [Unknown::Mu, Unknown::Lambda2] {
+            assert_eq!(stuck.require_for(unknown), Err(ModelError::NothingSlips));
+        }
     }
 
     /// A z particle belongs neither to f nor to s, and K has to be definite on its dofs.

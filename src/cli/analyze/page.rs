@@ -85,7 +85,7 @@ fn system(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
         row(["particles that stick", &stick.to_string()]),
         row([
             "coefficient of friction asked for",
-            &to_f64(&analysis.friction).to_string(),
+            &analysis.friction_text(),
         ]),
     ];
     if analysis.zero > 0 {
@@ -142,8 +142,8 @@ fn answers(analysis: &Analysis, paths: &[String]) -> Section {
             &presence(analysis),
         ),
         caption: "Where in \u{3bc} divergence of the form (8) exists, with these contact states. \
-                  Dots are single values, each decided by a complete search; in a dashed box nothing \
-                  is proved between them. Where there is no box, nothing was examined."
+                  Dots are single values, each decided by a complete search; in a dashed box \
+                  nothing is proved between them. Where there is no box, nothing was examined."
             .into(),
     });
 
@@ -291,7 +291,10 @@ fn with_digits(value: f64, digits: i32) -> String {
 
 /// What was analysed and what proves it, by their digests, and when.
 fn proofs(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
-    let mut rows = vec![row(["problem", &analysis.problem_sha256])];
+    let mut rows = Vec::new();
+    if let Some(digest) = &analysis.problem_sha256 {
+        rows.push(row(["problem", digest]));
+    }
     for (k, proof) in analysis.proofs.iter().enumerate() {
         let digest = analysis.certificate_sha256(k).unwrap_or_default();
         rows.push(vec![format!("certificate {}", proof.name), digest]);

@@ -1,13 +1,14 @@
 //! Everything that is said about a system at one mu: the data that [`analyse`](super::analyse)
 //! makes, and that `sentences` and `json` present.
 
-use super::conditions::Necessary;
+use super::conditions::{DefiniteUntil, Necessary};
 use super::critical::Critical;
-use super::divergence::Divergence;
+use super::divergence::{Divergence, Verdict};
 use super::evidence::Proof;
 use super::flutter::Flutter;
 use super::ranges::{Range, Sample};
 use super::threshold::StaticThreshold;
+use super::unbounded::UnboundedGrowth;
 use mceip_exact::Rational;
 
 /// Everything that is said about a system at one mu.
@@ -15,11 +16,12 @@ use mceip_exact::Rational;
 pub struct Analysis {
     /// Name of the problem.
     pub name: Option<String>,
-    /// What looked wrong when the problem was made; [`analyse`](super::analyse) leaves it empty, who
-    /// has the problem sets it.
+    /// What looked wrong when the problem was made; [`analyse`](super::analyse) leaves it empty,
+    /// who has the problem sets it.
     pub warnings: Vec<String>,
-    /// Digest of the MCEIP-lambda2 problem that was analysed.
-    pub problem_sha256: String,
+    /// Digest of the MCEIP-lambda2 problem that was analysed; `None` for mu = 0 and where nothing
+    /// slips, which are no such problems.
+    pub problem_sha256: Option<String>,
     /// mu.
     pub friction: Rational,
     /// Numbers of degrees of freedom, free degrees of freedom, slip particles, stick particles.
@@ -28,16 +30,23 @@ pub struct Analysis {
     pub zero: usize,
     /// Divergence at mu.
     pub divergence: Divergence,
+    /// Divergence at mu = 0, by the condition on K* alone.
+    pub without_friction: Verdict,
     /// The smallest mu with lambda = 0.
     pub threshold: StaticThreshold,
     /// The infimum of mu over all lambda^2 >= 0.
     pub critical: Critical,
+    /// The mu of unbounded growth, where the infimum lies there.
+    pub unbounded: Option<UnboundedGrowth>,
     /// Where in mu divergence exists.
     pub ranges: Vec<Range>,
     /// The decided values of mu behind the ranges.
     pub samples: Vec<Sample>,
     /// (19), (20).
     pub necessary: Necessary,
+    /// Where the condensed matrix sym T of lambda = 0 is positive definite; `None` without free
+    /// variables, with particles of zero reaction, and where no end was found.
+    pub condensed: Option<DefiniteUntil>,
     /// (17)-(18) at mu; `None` if undecided.
     pub sufficient: Option<bool>,
     /// Complex eigenvalues of the all-slip pencil at mu, unless the work was interrupted.

@@ -11,18 +11,25 @@
 //! vector there, an exact proof shows definiteness just before it, and the vector refutes it just
 //! after it. As B has few rows, the variables beside them are eliminated once (`eliminated`).
 //!
-//! Input: K* and M* as linear functions of mu ([`MuFamily`]). Output: [`Necessary`]. Called by
-//! [`analyse`](super::analyse) and by the loading path of `mceip block`.
+//! At lambda = 0 the free variables can be eliminated first: T(mu) = S + mu R_c, the matrix of
+//! MCEIP-mu over the slip variables (T(0, mu) of `spec/reduction.md`, 2.3). A solution (mu, x) has
+//! x'T(mu) x = 0 with x != 0, so there is none where the symmetric part of T is positive definite:
+//! on an interval from 0 again, which contains that of K* ([`condensed`]). With lambda^2 > 0 the
+//! matrix is another one, and nothing follows.
+//!
+//! Input: K* and M* as linear functions of mu ([`MuFamily`]). Output: [`Necessary`] and, of the
+//! condensed form, a [`DefiniteUntil`]. Called by [`analyse`](super::analyse) and by the loading
+//! path of `mceip block`.
 
 use super::eliminated::Eliminated;
-use crate::reduction::MuFamily;
+use crate::reduction::{MuFamily, condense};
 use crate::search::complete::pieces::skyline::Skyline;
 use crate::tolerance::{BRACKET_BITS, BRACKET_START_BITS};
 use mceip_exact::{
     Algebraic, DefiniteError, Dense, Integer, Interval, Rational, Sparse, common_denominator,
     determinant, from_f64, positive_definite, rational, roots_in, to_f64,
 };
-use mceip_model::{ModelError, Pencil, Window};
+use mceip_model::{Admissible, ModelError, Pencil, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution, examine_support};
 use num_traits::{One, Signed, Zero};
 
@@ -314,18 +321,22 @@ fn quadratic_form(m: &Sparse, x: &[Rational]) -> Rational {
 
 /// The value nearest below a mu, among steps that grow by 4, at which definiteness is proved.
 fn proved_before(end: &Rational, is_proved: &dyn Fn(&Rational) -> bool) -> Option<Rational> {
-    for k in 0..=BRACKET_START_BITS / 2 {
-        let step = Rational::new(
-            Integer::one(),
-            Integer::one() << (BRACKET_START_BITS - 2 * k),
-        );
-        let mu = shorten(&(end * (Rational::one() - step)));
-        if !mu.is_negative() && is_proved(&mu) {
-            return Some(mu);
-        }
-    }
+    let below = |step: Rational| shorten(&(end * (Rational::one() - step)));
+    let mut tried = steps().map(below);
+    tried.find(|mu| !mu.is_negative() && is_proved(mu))
+}
 
-    None
+/// The value nearest above a mu, among the same steps, at which definiteness is refuted.
+fn refuted_after(end: &Rational, is_refuted: &dyn Fn(&Rational) -> bool) -> Option<Rational> {
+    let above = |step: Rational| shorten(&(end * (Rational::one() + step)));
+    let mut tried = steps().map(above);
+    tried.find(|mu| is_refuted(mu))
+}
+
+/// Shares of an end, from the smallest to 1, each four times the one before.
+fn steps() -> impl Iterator<Item = Rational> {
+    let bits = (0..=BRACKET_START_BITS / 2).map(|k| BRACKET_START_BITS - 2 * k);
+    bits.map(|bits| Rational::new(Integer::one(), Integer::one() << bits))
 }
 
 /// The same number to a double's digits: short numbers keep LDL' cheap.
@@ -418,6 +429,52 @@ fn past(until: &DefiniteUntil, mu: &Rational, open: bool) -> Option<bool> {
             }
         }
     }
+}
+
+/// Where the symmetric part of T(mu) = S + mu R_c is positive definite, so that MCEIP-mu has no
+/// solution; K* = K0 + mu K1 is the pencil, `whole` says where it is definite itself.
+///
+/// T has the slip variables: S = K_ss - K_sf K_ff^-1 K_fs, and R_c likewise from K1. Small pencils
+/// are condensed exactly; of large ones K_ff^-1 K_fs is rounded, and its error bounded. `None`
+/// without free variables, where T is K*, and where no end is found.
+///
+/// ```
+/// use mceip_engine::analysis::conditions::{DefiniteUntil, condensed};
+/// use mceip_exact::{Sparse, whole};
+/// use mceip_model::Pencil;
+/// // K_ff = 1, and K1 has a free column: K* = [1, 0; 2 mu, 4] is definite below mu = 2, T = 4.
+/// let k1 = Sparse::from_ints(&[&[0, 0], &[2, 0]]);
+/// let pencil = Pencil::new(Sparse::from_ints(&[&[1, 0], &[0, 4]]), k1, vec![0]).unwrap();
+/// let of_k = DefiniteUntil::of("K*", pencil.a(), pencil.b()).unwrap();
+/// assert!(of_k.end().unwrap().contains(&whole(2)));
+/// assert!(matches!(condensed(&pencil, &of_k), Some(DefiniteUntil::Always)));
+/// ```
+pub fn condensed(pencil: &Pencil, whole: &DefiniteUntil) -> Option<DefiniteUntil> {
+    if pencil.free().is_empty() {
+        return None;
+    }
+
+    // T(0) = S is definite where K0 is, because K_ff is; and T where K* is.
+    if !matches!(whole, DefiniteUntil::End { .. }) {
+        return Some(whole.clone());
+    }
+
+    if pencil.order() <= ELIMINATED_ORDER {
+        let admissible = Admissible::new(pencil, Unknown::Mu).ok()?;
+        let matrix = condense(&admissible).ok()?;
+        return DefiniteUntil::of("T", matrix.a(), matrix.b()).ok();
+    }
+
+    let a = symmetric_part(pencil.a());
+    let b = symmetric_part(pencil.b());
+    let eliminated = Eliminated::of(&a, &b, &pencil.slip())?;
+    let [constant, linear] = eliminated.condensed();
+    let near = refuted_from(constant, linear)?;
+
+    let hi = refuted_after(&near, &|mu| eliminated.is_condensed_refuted_at(mu))?;
+    let lo = proved_before(&hi, &|mu| eliminated.is_condensed_definite_at(mu))?;
+    let end = Interval::new(lo, hi)?;
+    Some(DefiniteUntil::End { end, exact: None })
 }
 
 /// Is K* positive definite and M* positive semidefinite at this mu, so that no divergence is
@@ -573,6 +630,78 @@ mod tests {
         assert!(matches!(always, DefiniteUntil::Always));
         let never = DefiniteUntil::of("K*", &semidefinite, &semidefinite).unwrap();
         assert!(matches!(never, DefiniteUntil::Never));
+    }
+
+    /// A chain of order 60, of which the last two variables slip; K1 is in their rows, and not
+    /// symmetric. The end of the rounded elimination encloses that of the exact one, which is a
+    /// root, and lies beyond that of (19). Negated rows end at another mu.
+    #[test]
+    fn a_large_matrix_is_condensed_as_a_small_one() {
+        let order = 60;
+        let slip = [58, 59];
+        let mut entries = Vec::new();
+        for i in 0..order {
+            entries.push((i, i, rational(21, 10)));
+            if i > 0 {
+                entries.push((i, i - 1, whole(-1)));
+                entries.push((i - 1, i, whole(-1)));
+            }
+        }
+        let stiffness = Sparse::from_entries(order, order, entries);
+        let slope = |factor: i64| {
+            let rows = [
+                (58, 57, 4),
+                (58, 40, -2),
+                (58, 59, 1),
+                (59, 59, -1),
+                (59, 3, 1),
+            ];
+            let entries = rows.map(|(i, j, v)| (i, j, rational(v * factor, 3)));
+            Sparse::from_entries(order, order, entries)
+        };
+
+        for factor in [1, -1] {
+            let free = (0..slip[0]).collect();
+            let pencil = Pencil::new(stiffness.clone(), slope(factor), free).unwrap();
+            let whole_matrix = DefiniteUntil::of("K*", pencil.a(), pencil.b()).unwrap();
+
+            let condensed = condensed(&pencil, &whole_matrix).unwrap();
+
+            let admissible = Admissible::new(&pencil, Unknown::Mu).unwrap();
+            let exact = condense(&admissible).unwrap();
+            let exact = DefiniteUntil::of("T", exact.a(), exact.b()).unwrap();
+            let enclosed = condensed.end().unwrap();
+            let root = exact.end().unwrap();
+            assert!(enclosed.lo() < root.lo() && root.hi() < enclosed.hi());
+            assert!(enclosed.width() < rational(1, 1_000_000), "{enclosed:?}");
+            assert!(whole_matrix.end().unwrap().hi() < enclosed.lo());
+        }
+    }
+
+    /// K0 = [2, -1; -1, 2] with the first variable free, K1 = [0, 0; 3, -3]: S = 3/2 and
+    /// R_c = -3 + 3/2, so that T = 3/2 (1 - mu) ends at 1, which is the static threshold, and K*
+    /// with det sym K* = 3 - 3 mu - 9/4 mu^2 at 2/3. Without free variables T is K* itself, and
+    /// without definiteness at mu = 0 there is none of T either.
+    #[test]
+    fn the_condensed_form_by_hand() {
+        let k0 = Sparse::from_ints(&[&[2, -1], &[-1, 2]]);
+        let k1 = Sparse::from_ints(&[&[0, 0], &[3, -3]]);
+        let pencil = Pencil::new(k0.clone(), k1.clone(), vec![0]).unwrap();
+        let of_k = DefiniteUntil::of("K*", pencil.a(), pencil.b()).unwrap();
+
+        let end = condensed(&pencil, &of_k).unwrap();
+
+        assert_eq!(end.end(), Some(&Interval::point(whole(1))));
+        assert_eq!(of_k.end(), Some(&Interval::point(rational(2, 3))));
+
+        let without = Pencil::new(k0, k1.clone(), vec![]).unwrap();
+        assert!(condensed(&without, &of_k).is_none());
+
+        let indefinite = Sparse::from_ints(&[&[2, -1], &[-1, 0]]);
+        let never = Pencil::new(indefinite, k1, vec![0]).unwrap();
+        let of_k = DefiniteUntil::of("K*", never.a(), never.b()).unwrap();
+        let of_t = condensed(&never, &of_k);
+        assert!(matches!(of_t, Some(DefiniteUntil::Never)));
     }
 
     #[test]

@@ -45,8 +45,8 @@ pub struct CertifiedSolution {
 /// What is proved about the smallest mu with divergence.
 #[derive(Debug, Clone)]
 pub struct Critical {
-    /// For no lambda^2 >= 0 is there a solution with mu below this (not included); `None`: for no
-    /// mu at all.
+    /// For no lambda^2 >= 0 is there a solution with mu below this (not included); 0 where no such
+    /// bound is proved; `None`: for no mu at all.
     pub absent_below: Option<Rational>,
     /// Why.
     pub evidence: Evidence,
@@ -107,9 +107,15 @@ const BY_CONDITION_WITH_ZERO: Evidence = Evidence::Exact(
      positive semidefinite below it, by exact LDL' and linearity in mu",
 );
 
-/// What stands behind the bound of condition (19), or (19z).
-fn by_condition(families: &Families) -> Evidence {
-    if families.zero.is_empty() {
+const NO_BOUND: Evidence = Evidence::Exact(
+    "no bound by condition (19): K* is not positive definite at mu = 0 already, by exact LDL'",
+);
+
+/// What stands behind the bound `excluded` of condition (19), or (19z).
+fn by_condition(families: &Families, excluded: Option<&Rational>) -> Evidence {
+    if excluded.is_some_and(Rational::is_zero) {
+        NO_BOUND
+    } else if families.zero.is_empty() {
         BY_CONDITION
     } else {
         BY_CONDITION_WITH_ZERO
@@ -207,7 +213,7 @@ const FINE_GAP_FREE: usize = 100;
 const ROUNDS_PER_GAP: usize = 12;
 
 /// Where no solution is known: bounds tried one after the other, as multiples of the mu below which
-/// condition (19) excludes all.
+/// condition (19) excludes all; of the mu of the analysis, or 1, where that is 0.
 const BOUNDS_WITHOUT_SOLUTION: [i64; 3] = [16, 1 << 10, 1 << 24];
 
 /// Bounds the infimum from both sides.
@@ -220,7 +226,7 @@ pub(super) fn critical(
     let Some(excluded) = known.necessary.excluded_below() else {
         let critical = Critical {
             absent_below: None,
-            evidence: by_condition(known.families),
+            evidence: by_condition(known.families, None),
             solution: None,
             boxes: None,
             unproved: None,
@@ -251,6 +257,7 @@ pub(super) fn critical(
             scale,
             quadrant: known.quadrant(model),
             problem: known.problem,
+            friction: known.friction,
         };
 
         search.follow(&known.starts, &mut bounds)?;
@@ -348,8 +355,8 @@ impl Bounds {
         let beyond_condition = self.absence.filter(|found| found.below > excluded);
         let Some(certificate) = beyond_condition else {
             return Critical {
+                evidence: by_condition(known.families, Some(&excluded)),
                 absent_below: Some(excluded),
-                evidence: by_condition(known.families),
                 solution,
                 boxes: None,
                 unproved,
@@ -391,6 +398,8 @@ struct Search<'a> {
     quadrant: Quadrant<'a>,
     /// What absence is proved for.
     problem: &'a Problem,
+    /// The mu of the analysis.
+    friction: &'a Rational,
 }
 
 impl Search<'_> {
@@ -531,8 +540,10 @@ impl Search<'_> {
 
     /// Proves absence far beyond the condition, where no solution is known; or finds one.
     fn far_bounds(&self, excluded: &Rational, bounds: &mut Bounds) -> Result<(), AnalysisError> {
+        let units = [to_f64(excluded), to_f64(self.friction)];
+        let unit = units.into_iter().find(|mu| *mu > 0.0).unwrap_or(1.0);
         for factor in BOUNDS_WITHOUT_SOLUTION {
-            let Ok(below) = from_f64(to_f64(excluded) * factor as f64) else {
+            let Ok(below) = from_f64(unit * factor as f64) else {
                 return Ok(());
             };
 

@@ -20,12 +20,25 @@
 //! is, with the Frobenius norm of R. W = W0 + mu W1, so Z has degree two in mu, and |R|^2 is at
 //! most 2 |R0|^2 + 2 mu^2 |R1|^2. Doubles propose W and sigma; everything else is exact.
 //!
+//! **Condensed.** Let A + mu B be the symmetric part of K* (16), with the free variables for f.
+//! Then F = K_ff, and C(mu) = K_fs + mu R_f'/2 where R_f holds the columns f of the slip rows of
+//! K1. The Schur complement D - C'F^-1 C is, coefficient by coefficient in mu,
+//!
+//! ```text
+//!     sym T(mu) - (mu^2 / 4) R_f F^-1 R_f',     T(mu) = S + mu R_c the matrix of MCEIP-mu,
+//! ```
+//!
+//! S and R_c as `condense` makes them. So the coefficients 1 and mu of Z are those of sym T but for
+//! R'F^-1 R, of which |R0|^2 + 2 mu |R0||R1| bounds the same coefficients, and that is at most
+//! 2 |R0|^2 + 2 mu^2 |R1|^2 again.
+//!
 //! Called by [`conditions`](super::conditions), which needs many values of mu.
 
 use crate::search::complete::pieces::blocks::columns;
 use crate::search::complete::pieces::skyline::Skyline;
 use mceip_exact::{
-    Integer, Rational, Sparse, common_denominator, from_f64, positive_definite, truncated,
+    DefiniteError, Integer, Rational, Sparse, common_denominator, from_f64, positive_definite,
+    truncated,
 };
 use num_traits::{One, Zero};
 
@@ -93,20 +106,52 @@ impl Eliminated {
 
     /// `true` proves that A + mu B is positive definite; `false` says nothing.
     pub(super) fn is_definite_at(&self, mu: &Rational) -> bool {
-        let square = mu * mu;
         let [constant, linear, quadratic] = &self.z;
         let z = constant
             .add_scaled(mu, linear)
-            .add_scaled(&square, quadratic);
+            .add_scaled(&(mu * mu), quadratic);
+        let less = self.beside(&z, &-self.residual_at(mu));
 
-        let [of_a, of_b] = &self.residual;
-        let residual = of_a + square * of_b;
-
-        let order = z.rows();
-        let less = Sparse::zeros(order, order)
-            .add_scaled(&self.sigma, &z)
-            .add_scaled(&-residual, &Sparse::identity(order));
         positive_definite(&less).is_ok()
+    }
+
+    /// `true` proves that the condensed matrix sym T is positive definite at this mu; `false` says
+    /// nothing.
+    pub(super) fn is_condensed_definite_at(&self, mu: &Rational) -> bool {
+        let [constant, linear] = self.condensed();
+        let z = constant.add_scaled(mu, linear);
+        let less = self.beside(&z, &-self.residual_at(mu));
+
+        positive_definite(&less).is_ok()
+    }
+
+    /// `true` proves that sym T is not positive definite at this mu; `false` says nothing.
+    pub(super) fn is_condensed_refuted_at(&self, mu: &Rational) -> bool {
+        let [constant, linear] = self.condensed();
+        let z = constant.add_scaled(mu, linear);
+        let more = self.beside(&z, &self.residual_at(mu));
+
+        matches!(positive_definite(&more), Err(DefiniteError::Not(_)))
+    }
+
+    /// The coefficients of sym T, but for the part of R'F^-1 R in them.
+    pub(super) fn condensed(&self) -> [&Sparse; 2] {
+        let [constant, linear, _] = &self.z;
+        [constant, linear]
+    }
+
+    /// A bound of |R|^2 at mu, in the units of sigma Z.
+    fn residual_at(&self, mu: &Rational) -> Rational {
+        let [of_a, of_b] = &self.residual;
+        of_a + mu * mu * of_b
+    }
+
+    /// sigma Z + s I.
+    fn beside(&self, z: &Sparse, s: &Rational) -> Sparse {
+        let order = z.rows();
+        Sparse::zeros(order, order)
+            .add_scaled(&self.sigma, z)
+            .add_scaled(s, &Sparse::identity(order))
     }
 }
 

@@ -2,8 +2,9 @@
 
 use crate::multistart::decimal_order;
 use crate::search::complete::CompleteError;
-use mceip_exact::{Sparse, to_f64};
+use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::{ModelError, System};
+use num_traits::Signed;
 
 /// Why a system is not analysed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -26,6 +27,9 @@ pub enum AnalysisError {
     /// Divergence is asked for at a mu.
     #[error("E2: expected friction in the file or by --friction, got none")]
     NoFriction,
+    /// A coefficient of friction below zero.
+    #[error("analyze: expected friction >= 0, got {0}")]
+    FrictionNegative(Rational),
     /// The system cannot be condensed in doubles.
     #[error("condensation in doubles: {0}")]
     NotCondensed(String),
@@ -44,6 +48,18 @@ pub enum AnalysisError {
         /// Its decimal order of magnitude.
         exponent: i64,
     },
+}
+
+/// Refuses what no question of divergence can be put to.
+pub(super) fn require_question(system: &System, friction: &Rational) -> Result<(), AnalysisError> {
+    if system.mass().is_none() {
+        return Err(AnalysisError::NoMass);
+    }
+    if friction.is_negative() {
+        return Err(AnalysisError::FrictionNegative(friction.clone()));
+    }
+
+    Ok(())
 }
 
 /// Largest magnitude of an entry: its square is within the range of doubles.

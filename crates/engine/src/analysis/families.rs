@@ -6,6 +6,7 @@
 //!
 //! Input: a system. Called by [`analyse`](super::analyse), `critical` and `absence`.
 
+use super::conditions::{DefiniteUntil, Necessary, condensed};
 use crate::reduction::{MuFamily, mu_family, mu_family_with_zero};
 use mceip_model::reduction::zero_variables;
 use mceip_model::{ModelError, System, ZeroVariables};
@@ -36,6 +37,15 @@ impl Families {
             with_zero_free,
             zero,
         })
+    }
+
+    /// Where sym T of lambda = 0 is definite; with zero reaction the free variables of the
+    /// condition are not those that can be eliminated.
+    pub(super) fn condensed(&self, necessary: &Necessary) -> Option<DefiniteUntil> {
+        match &self.with_zero_free {
+            None => condensed(&self.own.stiffness, &necessary.stiffness),
+            Some(_) => None,
+        }
     }
 
     /// The family of conditions (19), (20) and of tails.

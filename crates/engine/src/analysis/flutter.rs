@@ -1,8 +1,12 @@
-//! A warning from doubles: complex lambda^2 of the all-slip pencil at mu. They lie outside (8).
+//! Measured in doubles: complex lambda^2 of the all-slip pencil at mu. They lie outside (8).
 //!
 //! With every slip particle slipping (lambda^2 M* + K*) x = 0, so the lambda^2 are the eigenvalues
-//! of -M*^-1 K*. A complex one means growing oscillation (flutter), whatever the signs of x. Input:
-//! K* and M* as functions of mu. Output: [`Flutter`]; nothing is proved.
+//! of -M*^-1 K*. A complex one is a growing oscillation (flutter) of *steady sliding*: of a body
+//! whose slip particles all slide against their reactions, so that a small x of either sign leaves
+//! them sliding. At rest it is no motion: a slip particle moves one way only, x' >= 0, and cannot
+//! oscillate through zero velocity. So nothing follows for the equilibrium, which may be stable.
+//!
+//! Input: K* and M* as functions of mu. Output: [`Flutter`]; nothing is proved.
 //!
 //! Where such eigenvalues begin is looked for by trying values of mu: evenly spread ones first, and
 //! then by halving below the smallest that has some. Called by [`analyse`](super::analyse).
@@ -16,7 +20,8 @@ use mceip_mcp::linear::{eigenvalues, solve};
 use mceip_model::Pencil;
 use std::cmp::Ordering;
 
-/// Complex lambda^2 of (lambda^2 M* + K*) x = 0 with every slip particle slipping.
+/// Complex lambda^2 of (lambda^2 M* + K*) x = 0 with every slip particle slipping: flutter of
+/// steady sliding in these contact states, not of the equilibrium at rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flutter {
     /// lambda^2 = re + i im with im > 0, by ascending frequency.
@@ -37,6 +42,35 @@ pub struct Onset {
     pub none_at: Rational,
     /// The smallest value with complex lambda^2.
     pub some_at: Rational,
+}
+
+/// A growing oscillation: a pair lambda = growth rate +- i frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Oscillation {
+    /// Re lambda, 1/s.
+    pub growth_rate: f64,
+    /// |Im lambda|, rad/s.
+    pub frequency: f64,
+}
+
+impl Oscillation {
+    /// The frequency in cycles per second.
+    pub fn hertz(self) -> f64 {
+        self.frequency / std::f64::consts::TAU
+    }
+}
+
+impl Flutter {
+    /// The oscillations of all complex lambda^2, by ascending frequency.
+    pub fn pairs(&self) -> Vec<Oscillation> {
+        let roots = self.eigenvalues.iter().map(|eigenvalue| root(*eigenvalue));
+        roots
+            .map(|(growth_rate, frequency)| Oscillation {
+                growth_rate,
+                frequency,
+            })
+            .collect()
+    }
 }
 
 /// Order beyond which the dense eigenproblem is not tried.
@@ -160,7 +194,7 @@ fn by_ascending_frequency(p: (f64, f64), q: (f64, f64)) -> Ordering {
 }
 
 /// lambda of lambda^2 = re + i im: the square root with positive real part, (Re, Im).
-pub(super) fn root((re, im): (f64, f64)) -> (f64, f64) {
+fn root((re, im): (f64, f64)) -> (f64, f64) {
     let size = re.hypot(im);
     // |z| + re without cancellation where re < 0.
     let growth = if re >= 0.0 {

@@ -9,7 +9,7 @@ use super::conditions::DefiniteUntil;
 use super::critical::Unproved;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
-use super::flutter::{Flutter, Onset};
+use super::flutter::{Flutter, Onset, Oscillation};
 use super::modes::Mode;
 use super::ranges::{Range, Sample};
 use super::sentences::Sentence;
@@ -106,6 +106,15 @@ fn flutter(flutter: &Flutter) -> Value {
         "lambda2": flutter.eigenvalues,
         "growth_rate": flutter.growth_rate,
         "frequency": flutter.frequency,
+        "pairs": flutter.pairs().iter().map(pair).collect::<Vec<Value>>(),
+    })
+}
+
+fn pair(pair: &Oscillation) -> Value {
+    json!({
+        "growth_rate": pair.growth_rate,
+        "frequency": pair.frequency,
+        "hertz": pair.hertz(),
     })
 }
 
@@ -213,12 +222,22 @@ impl Analysis {
             })
         });
 
+        let unbounded = self.unbounded.as_ref().map(|unbounded| {
+            json!({
+                "mu": enclosure(&unbounded.mu),
+                "from_above": unbounded.is_from_above,
+                "evidence": self.evidence_json(&unbounded.evidence, paths),
+            })
+        });
+
         json!({
+            "without_friction": self.without_friction.word(),
             "absent_below": critical.absent_below.as_ref().map(ToString::to_string),
             "absent_evidence": self.evidence_json(&critical.evidence, paths),
             "solution": solution,
             "boxes": critical.boxes,
             "unproved": critical.unproved.as_ref().map(unproved),
+            "unbounded": unbounded,
         })
     }
 
@@ -229,6 +248,7 @@ impl Analysis {
             "stiffness": definite_until(&necessary.stiffness),
             "mass": necessary.mass.as_ref().map(definite_until),
             "mass_is_constant": necessary.mass_is_constant,
+            "condensed_at_zero": self.condensed.as_ref().map(definite_until),
         })
     }
 

@@ -4,15 +4,16 @@
 //! any: at lambda = 0 (the static threshold), and over all lambda^2 >= 0 (the critical mu)? Do the
 //! conditions (17)-(20) hold? What stands behind each sentence?
 //!
-//! Input: a [`System`] with mass and at least one slip particle, and mu. [`analyse`] makes plain
-//! data ([`Analysis`]); [`Analysis::sentences`] says it in words, [`Analysis::to_json`] as
-//! `mceip-analysis/1`. A sentence rests on a certificate that [`mceip_check`] has accepted, on an
-//! exact condition, or on a measurement in doubles, and says which. Called by `mceip analyze` and
-//! by the front door.
+//! Input: a [`System`] with mass, and mu >= 0. Without slip particles, and for mu = 0, a theorem
+//! answers (`by_theorem`). [`analyse`] makes plain data ([`Analysis`]); [`Analysis::sentences`]
+//! says it in words, [`Analysis::to_json`] as `mceip-analysis/1`. A sentence rests on a certificate
+//! that [`mceip_check`] has accepted, on an exact condition, or on a measurement in doubles, and
+//! says which. Called by `mceip analyze` and by the front door.
 
 pub mod absence;
 mod absent_ranges;
 mod answer;
+mod by_theorem;
 pub mod conditions;
 mod critical;
 mod divergence;
@@ -31,19 +32,21 @@ mod ranges;
 mod sentences;
 mod summary;
 mod threshold;
+mod unbounded;
 
 pub use answer::Analysis;
 pub use critical::{CertifiedSolution, Critical, Obstacle, Unproved};
 pub use divergence::{Divergence, Verdict};
 pub use error::AnalysisError;
 pub use evidence::{Evidence, Proof, ProofCertificate};
-pub use flutter::{Flutter, Onset};
+pub use flutter::{Flutter, Onset, Oscillation};
 pub use json::ANALYSIS_FORMAT;
 pub use model::Options;
 pub use modes::{Mode, ZeroMode};
 pub use ranges::{Range, Sample};
 pub use sentences::Sentence;
 pub use threshold::StaticThreshold;
+pub use unbounded::UnboundedGrowth;
 
 use crate::run::{Progress, Watch};
 use crate::search::complete::Completed;
@@ -52,9 +55,10 @@ use critical::{Known, Start};
 use divergence::divergence;
 use families::Families;
 use mceip_check::certificate::Claim;
-use mceip_exact::{Rational, to_f64};
+use mceip_exact::{Rational, to_f64, whole};
 use mceip_model::{ContactState, Problem, System};
 use model::Model;
+use num_traits::{Signed, Zero};
 
 /// Analyses a mechanical system at a mu.
 ///
@@ -62,8 +66,7 @@ use model::Model;
 /// used. An analysis that is cancelled leaves open what is not done.
 ///
 /// # Errors
-/// [`AnalysisError`]: no mass, no slip particle, numbers beyond doubles, a definiteness not
-/// decided.
+/// [`AnalysisError`]: no mass, mu < 0, numbers beyond doubles, a definiteness not decided.
 pub fn analyse(
     name: Option<String>,
     system: &System,
@@ -71,6 +74,11 @@ pub fn analyse(
     options: &Options,
     watch: &Watch<'_>,
 ) -> Result<Analysis, AnalysisError> {
+    error::require_question(system, friction)?;
+    if system.slip_particles().is_empty() {
+        return Ok(by_theorem::nothing_slips(name, system, friction));
+    }
+
     error::require_doubles(system)?;
     let model = Model {
         system,
@@ -78,45 +86,40 @@ pub fn analyse(
         watch: *watch,
     };
 
-    let at_friction = model.problem(Some(friction))?;
     let families = Families::of(system)?;
-    let family = &families.own;
 
     watch.report(&Progress::stage("conditions (19), (20)"));
     let necessary = Necessary::of(families.of_condition())?;
+    let condensed = families.condensed(&necessary);
 
-    let stage = "divergence at mu, all lambda^2 >= 0";
-    let found = model.complete(stage, &at_friction, Some("lambda2"))?;
-    let divergence = divergence(system, family, &found);
-    let sufficient = sufficient(&families, &found, divergence.verdict);
-    let problem_sha256 = at_friction.sha256();
-    let slip = family.stiffness.slip();
-    let mu = to_f64(friction);
-    let mut starts = starts(&found, &slip, |value| [value, mu]);
-    let of_lambda2 = proof(&model, "lambda2", at_friction.clone(), found);
+    let at_friction = AtFriction::decide(&model, &families, &necessary, friction)?;
+    let mut proofs = Vec::from_iter(at_friction.proof);
+    let mut starts = at_friction.starts;
 
     let at_zero = model.problem(None)?;
     let found = model.complete("static threshold, all mu >= 0", &at_zero, Some("mu"))?;
-    let threshold = StaticThreshold::of(&found);
+    let threshold = StaticThreshold::of(&found, proofs.len());
+    let slip = families.own.stiffness.slip();
     starts.extend(self::starts(&found, &slip, |value| [0.0, value]));
-    let of_mu = proof(&model, "mu", at_zero, found);
+    proofs.push(proof(&model, "mu", at_zero, found));
 
     watch.report(&Progress::stage(
         "critical mu: all lambda^2 >= 0 and all smaller mu",
     ));
-    let mut proofs = vec![of_lambda2, of_mu];
     let known = Known {
         families: &families,
         necessary: &necessary,
         friction,
-        problem: &at_friction,
-        divergence: &divergence,
+        problem: &at_friction.problem,
+        divergence: &at_friction.divergence,
         threshold: &threshold,
         starts,
     };
 
     let found = critical::critical(&model, &known, &mut proofs)?;
     let of_ranges = ranges::ranges(&model, &known, found, &mut proofs)?;
+    let critical = of_ranges.critical;
+    let unbounded = unbounded::unbounded(&model, &necessary, &critical, &mut proofs)?;
 
     let flutter = if watch.is_cancelled() {
         None
@@ -130,21 +133,73 @@ pub fn analyse(
     Ok(Analysis {
         name,
         warnings: Vec::new(),
-        problem_sha256,
+        problem_sha256: friction.is_positive().then(|| at_friction.problem.sha256()),
         friction: friction.clone(),
         sizes: sizes(system),
         zero: families.zero.len(),
         flutter,
-        divergence,
+        without_friction: by_theorem::without_friction(&necessary, families.zero.len()).verdict,
+        divergence: at_friction.divergence,
         threshold,
-        critical: of_ranges.critical,
+        critical,
+        unbounded,
         ranges: of_ranges.ranges,
         samples: of_ranges.samples,
         necessary,
-        sufficient,
+        condensed,
+        sufficient: at_friction.sufficient,
         proofs,
         interrupted: watch.is_cancelled(),
     })
+}
+
+/// What is known at the mu of the analysis.
+struct AtFriction {
+    /// MCEIP-lambda2 at this mu; for mu = 0, of which there is none, at mu = 1.
+    problem: Problem,
+    divergence: Divergence,
+    sufficient: Option<bool>,
+    /// The solutions in doubles.
+    starts: Vec<Start>,
+    /// The certificate of a search.
+    proof: Option<Proof>,
+}
+
+impl AtFriction {
+    /// By a complete search, or for mu = 0 by a theorem.
+    fn decide(
+        model: &Model<'_>,
+        families: &Families,
+        necessary: &Necessary,
+        friction: &Rational,
+    ) -> Result<AtFriction, AnalysisError> {
+        if friction.is_zero() {
+            let divergence = by_theorem::without_friction(necessary, families.zero.len());
+            let is_absent = divergence.verdict == Verdict::Absent;
+            return Ok(AtFriction {
+                problem: model.problem(Some(&whole(1)))?,
+                divergence,
+                sufficient: is_absent.then_some(false),
+                starts: Vec::new(),
+                proof: None,
+            });
+        }
+
+        let problem = model.problem(Some(friction))?;
+        let stage = "divergence at mu, all lambda^2 >= 0";
+        let found = model.complete(stage, &problem, Some("lambda2"))?;
+        let divergence = divergence(model.system, &families.own, &found);
+        let mu = to_f64(friction);
+        let slip = families.own.stiffness.slip();
+
+        Ok(AtFriction {
+            sufficient: sufficient(families, &found, divergence.verdict),
+            starts: starts(&found, &slip, |value| [value, mu]),
+            proof: Some(proof(model, "lambda2", problem.clone(), found)),
+            problem,
+            divergence,
+        })
+    }
 }
 
 /// A problem with the certificate that a complete search made for it, handed over to the keeper of

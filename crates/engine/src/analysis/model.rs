@@ -58,6 +58,12 @@ impl Model<'_> {
         self.posed(stiffness, None)
     }
 
+    /// MCEIP-mu with M in place of K: of infinite lambda^2.
+    pub(super) fn of_mass(&self) -> Result<Problem, AnalysisError> {
+        let mass = self.system.mass().ok_or(AnalysisError::NoMass)?;
+        self.posed(mass.clone(), None)
+    }
+
     /// MCEIP-lambda2 if mass and mu are given, else MCEIP-mu.
     fn posed(
         &self,

@@ -5,12 +5,13 @@
 //! where v = x on the free dofs and v_T = -S x on the slip particles (10). Input: an accepted
 //! solution with its x in doubles. Output: [`Mode`]. Called by `divergence`.
 
+use super::sentences::{short, short_is_plain};
 use crate::reduction::{MuFamily, mode};
 use mceip_check::AcceptedClaim;
-use mceip_exact::{Interval, to_f64};
+use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
 use mceip_model::reduction::zero_variables;
 use mceip_model::{ContactState, System, ZeroVariables};
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 
 /// A diverging solution u(t) = u0 + alpha(t) v with alpha growing like exp(lambda t). // (8)
 #[derive(Debug, Clone, PartialEq)]
@@ -18,7 +19,7 @@ pub struct Mode {
     /// Encloses lambda^2, in 1/s^2 for consistent units.
     pub lambda2: Interval,
     /// lambda = sqrt(lambda^2), in 1/s; 0 where the enclosure reaches 0 (a threshold: linear
-    /// departure).
+    /// departure), and infinite beyond doubles.
     pub growth_rate: f64,
     /// Particles that slip, as indices into the particles of the system.
     pub slipping: Vec<usize>,
@@ -29,6 +30,19 @@ pub struct Mode {
     /// v over all degrees of freedom, in doubles; the slip rates |v_T| of the slip particles sum to
     /// one.
     pub v: Vec<f64>,
+}
+
+/// lambda in decimals, also where doubles cannot hold it: with six decimals, or six digits and an
+/// exponent.
+fn root_text(lambda2: &Rational) -> String {
+    // sqrt(m 10^2k) = sqrt(m) 10^k, with m between 10^-2 and 10^2 or so.
+    let bits = lambda2.numer().bits() as i64 - lambda2.denom().bits() as i64;
+    let half_exponent = bits * 301 / 2000; // log10(2) = 0.301
+    let ten_to_half = whole(10).pow(half_exponent as i32);
+    let m = lambda2 / (&ten_to_half * &ten_to_half);
+
+    let root = from_f64(to_f64(&m).sqrt()).unwrap_or_else(|_| Rational::zero());
+    short(&(root * ten_to_half))
 }
 
 /// What a particle with zero reaction does (`spec/zero-reaction.md`, Z.1).
@@ -89,6 +103,20 @@ fn zero_modes(system: &System, support: &[usize]) -> Vec<(usize, ZeroMode)> {
 }
 
 impl Mode {
+    /// The growth rate in decimals; `None` at a threshold.
+    pub(super) fn growth_text(&self) -> Option<String> {
+        if !self.lambda2.lo().is_positive() {
+            return None;
+        }
+
+        let is_in_doubles = self.growth_rate.is_normal();
+        Some(if is_in_doubles && short_is_plain(self.growth_rate) {
+            format!("{:.6}", self.growth_rate)
+        } else {
+            root_text(&self.lambda2.mid())
+        })
+    }
+
     /// The mode of a solution with the support of the variables of `family`.
     pub(super) fn of(
         system: &System,

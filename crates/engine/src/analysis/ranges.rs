@@ -60,6 +60,9 @@ const AT_SAMPLES: Evidence =
 /// Halvings of the interval between neighbouring samples of different verdicts.
 const HALVINGS: usize = 8;
 
+/// Where divergence begins at mu = 0, the first sample is the last one divided by this.
+const LEAST_PART_OF_TOP: i64 = 1 << 10;
+
 /// Gaps between proved intervals that get a sample of their own, at most.
 const SAMPLED_GAPS: usize = 4;
 
@@ -83,23 +86,18 @@ pub(super) fn ranges(
     proofs: &mut Vec<Proof>,
 ) -> Result<Ranges, AnalysisError> {
     let mut critical = found.critical;
-    let absent = Range {
-        verdict: Verdict::Absent,
-        from: Rational::zero(),
-        to: critical.absent_below.clone(),
-        evidence: critical.evidence.clone(),
-    };
+    let absent = below_bound(&critical);
 
     let Some(below) = &critical.absent_below else {
         return Ok(Ranges {
             critical,
-            ranges: vec![absent],
+            ranges: Vec::from_iter(absent),
             samples: Vec::new(),
         });
     };
 
-    let bottom = first_sample(&critical, below);
     let top = rounded_up(largest_of_interest(known, &critical) * whole(2));
+    let bottom = first_sample(&critical, below, &top);
     let mut sampler = Sampler {
         model,
         slip: known.families.own.stiffness.slip(),
@@ -160,9 +158,10 @@ pub(super) fn ranges(
         critical.solution = Some(smaller);
     }
 
-    let mut ranges = vec![absent];
-    ranges.extend(joined(&proved, first, &samples));
-    absent_ranges::prove(model, known, &mut ranges[1..], proofs);
+    let mut others = joined(&proved, first, &samples);
+    absent_ranges::prove(model, known, &mut others, proofs);
+    let mut ranges = Vec::from_iter(absent);
+    ranges.extend(others);
 
     Ok(Ranges {
         critical,
@@ -184,7 +183,23 @@ fn presence_name(k: usize) -> String {
     format!("presence-{}", k + 1)
 }
 
-/// The largest of the mu that was asked for, the thresholds, and the critical mu.
+/// The range from 0 to the bound of the critical mu; `None` where no bound is proved.
+fn below_bound(critical: &Critical) -> Option<Range> {
+    let to = critical.absent_below.clone();
+    if to.as_ref().is_some_and(Rational::is_zero) {
+        return None;
+    }
+
+    Some(Range {
+        verdict: Verdict::Absent,
+        from: Rational::zero(),
+        to,
+        evidence: critical.evidence.clone(),
+    })
+}
+
+/// The largest of the mu that was asked for, the thresholds, and the critical mu; 1 where all of
+/// them are 0.
 fn largest_of_interest(known: &Known<'_>, critical: &Critical) -> Rational {
     let mut largest = known.friction;
     let of_solution = critical.solution.iter().map(|s| s.mu.hi());
@@ -198,6 +213,9 @@ fn largest_of_interest(known: &Known<'_>, critical: &Critical) -> Rational {
         largest = largest.max(mu);
     }
 
+    if largest.is_zero() {
+        return whole(1);
+    }
     largest.clone()
 }
 
@@ -217,7 +235,9 @@ impl<'a> PresenceTask<'a, '_> {
         self.model.watch.report(&stage);
 
         let top = to_f64(self.top);
-        prover.climb_from(self.smallest, top);
+        if self.smallest.mu > 0.0 {
+            prover.climb_from(self.smallest, top);
+        }
         prover.close(self.bottom, top, &self.known.starts);
     }
 
@@ -291,15 +311,21 @@ fn smaller_solution(
     })
 }
 
-/// The first sample: just above the solution of smallest mu, or the bound where none is known.
-fn first_sample(critical: &Critical, below: &Rational) -> Rational {
-    match &critical.solution {
+/// The first sample: just above the solution of smallest mu, or the bound where none is known; a
+/// small share of the last sample where that is 0.
+fn first_sample(critical: &Critical, below: &Rational, top: &Rational) -> Rational {
+    let first = match &critical.solution {
         Some(solution) => {
             let above = from_f64(to_f64(solution.mu.hi()) * (1.0 + ABOVE_CRITICAL));
             above.unwrap_or_else(|_| solution.mu.hi().clone())
         }
         None => below.clone(),
+    };
+
+    if first.is_zero() {
+        return top / whole(LEAST_PART_OF_TOP);
     }
+    first
 }
 
 /// The solution of smallest lambda^2 that was met at a sample, with its proof.

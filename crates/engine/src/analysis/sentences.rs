@@ -2,18 +2,21 @@
 //!
 //! Input: an [`Analysis`]. Output: its sentences, for people (`mceip analyze`) and as a part of
 //! `mceip-analysis/1`. The words PRESENT, ABSENT and UNDECIDED are printed as the verdicts of
-//! accepted certificates only.
+//! accepted certificates only, and of the theorems of `by_theorem`.
 
 use super::answer::Analysis;
+use super::by_theorem::NOT_DEFINITE;
 use super::conditions::DefiniteUntil;
 use super::critical::Obstacle;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
-use super::flutter::{Flutter, root};
+use super::flutter::Flutter;
 use super::modes::{Mode, ZeroMode};
 use super::ranges::Range;
+use crate::tolerance::WITH_SIX_DECIMALS;
 use mceip_check::OpenRegion;
 use mceip_exact::{Interval, Rational, enclosing_decimals, to_f64, upper_decimal};
+use num_traits::{Signed, Zero};
 
 /// One sentence of the answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,12 +29,12 @@ pub struct Sentence {
     pub evidence: Evidence,
 }
 
-const OUTSIDE: &str = "Outside (8), and so not answered: flutter, stick-slip growth, finite \
-                       motions, other contact states; \
+const OUTSIDE: &str = "Outside (8), and so not answered: flutter of steady sliding, stick-slip \
+                       growth, finite motions, other contact states; \
                        absence of divergence of the form (8) is not stability.";
 
 /// Ends of an enclosure in short decimals, rounded outwards.
-fn between(v: &Interval) -> String {
+pub(super) fn between(v: &Interval) -> String {
     let (lo, hi) = enclosing_decimals(v, 9);
     if lo == hi {
         format!("= {lo}")
@@ -50,10 +53,20 @@ pub(super) fn up(v: &Rational) -> String {
     upper_decimal(v, 9)
 }
 
-/// Six decimals without trailing zeros.
+/// Six decimals without trailing zeros; beyond [`WITH_SIX_DECIMALS`] six digits and an exponent.
 pub(super) fn short(v: &Rational) -> String {
-    let text = format!("{:.6}", to_f64(v));
+    let value = to_f64(v);
+    if !v.is_zero() && !short_is_plain(value) {
+        return enclosing_decimals(&Interval::point(v.clone()), 6).0;
+    }
+
+    let text = format!("{value:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_string()
+}
+
+/// Is a number of this size printed with six decimals?
+pub(super) fn short_is_plain(value: f64) -> bool {
+    WITH_SIX_DECIMALS.contains(&value.abs())
 }
 
 /// Open regions named in a sentence; the others are counted.
@@ -144,12 +157,15 @@ const GAP: &str = "neither a curve that was followed nor a cover that was found 
 const NAMED_PAIRS: usize = 3;
 
 fn flutter_text(flutter: &Flutter) -> String {
-    let count = flutter.eigenvalues.len();
+    let pairs = flutter.pairs();
+    let count = pairs.len();
     let mut named = Vec::new();
-    for eigenvalue in flutter.eigenvalues.iter().take(NAMED_PAIRS) {
-        let (growth_rate, frequency) = root(*eigenvalue);
+    for pair in pairs.iter().take(NAMED_PAIRS) {
         named.push(format!(
-            "{frequency:.6} rad/s growing at {growth_rate:.6} 1/s"
+            "at {:.6} Hz ({:.6} rad/s) with growth rate {:.6} 1/s",
+            pair.hertz(),
+            pair.frequency,
+            pair.growth_rate
         ));
     }
 
@@ -169,12 +185,14 @@ fn flutter_text(flutter: &Flutter) -> String {
     });
 
     format!(
-        "WARNING of flutter: the all-slip pencil at this mu has {count} complex pair{} lambda^2, \
-         lowest frequencies first: {}{more}.{onset} Damping, which is left out here, may silence \
-         slow growth, and pairs at the highest frequencies may be noise of the mesh: compare two \
-         meshes.",
-        plural(count),
-        named.join(", ")
+        "Flutter of steady sliding: if the body were sliding steadily in these contact states, \
+         every slip particle against its reaction, it would oscillate with growing amplitude \
+         {}{more}: the all-slip pencil at this mu has {count} complex pair{} lambda^2. At rest \
+         this says nothing about the equilibrium: a particle there slips one way only.{onset} \
+         Damping, which is left out here, may silence slow growth, and pairs at the highest \
+         frequencies may be noise of the mesh: compare two meshes.",
+        named.join(", "),
+        plural(count)
     )
 }
 
@@ -201,14 +219,17 @@ impl Analysis {
         let mut all = vec![self.say_divergence()];
         all.extend(self.say_modes());
         all.push(self.say_threshold());
-        all.push(self.say_critical());
+        all.extend(self.say_without_friction());
+        all.extend(self.say_critical());
         all.extend(self.say_unproved());
         all.extend(self.say_solution());
+        all.extend(self.say_unbounded());
         all.extend(self.say_presence());
         all.extend(self.say_absence());
         all.extend(self.say_gaps());
         all.extend(self.say_ranges());
         all.push(self.say_necessary());
+        all.extend(self.say_condensed());
         all.push(self.say_sufficient());
         all.push(self.say_flutter());
         all.push(Sentence {
@@ -232,15 +253,28 @@ impl Analysis {
         };
 
         let mu = short(&self.friction);
+        let [_, _, slip, _] = self.sizes;
+        let state = if slip == 0 || self.friction.is_zero() {
+            format!("With these contact states held, at mu = {mu}")
+        } else {
+            format!("For this contact state, taken as impending slip at mu = {mu}")
+        };
+
         Sentence {
             topic: "divergence",
-            text: format!("For this contact state, taken as impending slip at mu = {mu}, {what}"),
+            text: format!("{state}, {what}"),
             evidence: self.divergence.evidence.clone(),
         }
     }
 
     fn present_text(&self) -> String {
         let divergence = &self.divergence;
+        if self.friction.is_zero() {
+            return "divergence instability of the form (8) is PRESENT: the stiffness on the \
+                    motions that the contacts leave is not positive definite."
+                .into();
+        }
+
         let count = divergence.modes.len();
         let families = match divergence.families {
             0 => String::new(),
@@ -269,10 +303,9 @@ impl Analysis {
     }
 
     fn say_mode(&self, number: usize, mode: &Mode) -> Sentence {
-        let growth = if mode.growth_rate > 0.0 {
-            format!("growth rate lambda = {:.6} 1/s", mode.growth_rate)
-        } else {
-            "growth rate 0 (a threshold: departure linear in time)".into()
+        let growth = match mode.growth_text() {
+            Some(rate) => format!("growth rate lambda = {rate} 1/s"),
+            None => "growth rate 0 (a threshold: departure linear in time)".into(),
         };
 
         let slipping = &mode.slipping;
@@ -321,27 +354,79 @@ impl Analysis {
         }
     }
 
-    fn say_critical(&self) -> Sentence {
+    /// That there is divergence at mu = 0 already.
+    fn say_without_friction(&self) -> Option<Sentence> {
+        Some(Sentence {
+            topic: "without_friction",
+            text: self.without_friction_text()?,
+            evidence: NOT_DEFINITE,
+        })
+    }
+
+    /// The same for the summary; `None` where mu = 0 has no divergence.
+    pub(super) fn without_friction_text(&self) -> Option<String> {
+        if self.without_friction != Verdict::Present {
+            return None;
+        }
+
+        let start = if self.is_critical_at_zero() {
+            "Critical mu: 0; there"
+        } else {
+            "There"
+        };
+        Some(format!(
+            "{start} is divergence without friction already: at mu = 0 the stiffness on \
+             the motions that the contacts leave is not positive definite."
+        ))
+    }
+
+    /// Is there divergence at mu = 0, and no mu > 0 known below which there is none?
+    pub(super) fn is_critical_at_zero(&self) -> bool {
+        self.without_friction == Verdict::Present && self.has_no_bound()
+    }
+
+    /// Is no mu > 0 known below which nothing diverges?
+    pub(super) fn has_no_bound(&self) -> bool {
+        let bound = self.critical.absent_below.as_ref();
+        bound.is_some_and(Rational::is_zero)
+    }
+
+    fn say_critical(&self) -> Option<Sentence> {
         let text = match &self.critical.absent_below {
             None => {
                 "Critical mu: no mu has divergence of the form (8), for any lambda^2 >= 0.".into()
             }
+            Some(_) if self.has_no_bound() => return None,
             Some(bound) => format!(
-                "Critical mu: for 0 <= mu < {} there is no solution for any lambda^2 >= 0.",
+                "Critical mu: for {}mu < {} there is no solution for any lambda^2 >= 0.",
+                self.lower_end_text(),
                 down(bound)
             ),
         };
 
-        Sentence {
+        Some(Sentence {
             topic: "critical_absence",
             text,
             evidence: self.critical.evidence.clone(),
+        })
+    }
+
+    /// "0 <= ", or "0 < " where mu = 0, at which slip particles may slide either way, has a
+    /// solution.
+    fn lower_end_text(&self) -> &'static str {
+        match self.without_friction {
+            Verdict::Absent => "0 <= ",
+            Verdict::Present | Verdict::Undecided => "0 < ",
         }
     }
 
     /// Why no finer bound was proved, where one was tried.
     fn say_unproved(&self) -> Option<Sentence> {
         let tried = self.critical.unproved.as_ref()?;
+        if self.is_critical_at_zero() {
+            return None;
+        }
+
         let place = match tried.place {
             Some([lambda2, mu]) => format!(", first at lambda^2 = {lambda2:.6e}, mu = {mu:.9}"),
             None => String::new(),
@@ -358,8 +443,14 @@ impl Analysis {
         })
     }
 
+    /// The solution of smallest mu; not where growth is unbounded beside it, so that its lambda^2
+    /// says nothing, and not where a theorem says that the critical mu is 0.
     fn say_solution(&self) -> Option<Sentence> {
         let solution = self.critical.solution.as_ref()?;
+        if self.unbounded.is_some() || self.is_critical_at_zero() {
+            return None;
+        }
+
         let mu = between(&solution.mu);
         let lambda2 = between(&solution.lambda2);
 
@@ -370,6 +461,22 @@ impl Analysis {
                  the critical mu is at most that."
             ),
             evidence: solution.evidence.clone(),
+        })
+    }
+
+    fn say_unbounded(&self) -> Option<Sentence> {
+        let unbounded = self.unbounded.as_ref()?;
+        let mu = between(&unbounded.mu);
+
+        Some(Sentence {
+            topic: "unbounded_growth",
+            text: format!(
+                "Critical mu: growth is unbounded as mu {} this value: mu {mu}, where the mass \
+                 matrix M* loses its property (0 <= x _|_ M* x >= 0 has a solution, as in the \
+                 paradox of Painleve).",
+                unbounded.verb()
+            ),
+            evidence: unbounded.evidence.clone(),
         })
     }
 
@@ -423,7 +530,7 @@ impl Analysis {
         let is_counted = |mu: &Rational| sampled.iter().any(|range| is_in(mu, range));
         let count = self.samples.iter().filter(|s| is_counted(&s.mu)).count();
         let below = self.critical.absent_below.as_ref()?;
-        let has_proved = sampled.len() + 1 < self.ranges.len();
+        let has_proved = self.proved_presence().chain(self.proved_absence()).count() > 0;
         let elsewhere = if has_proved { " elsewhere" } else { "" };
 
         let parts: Vec<String> = sampled.into_iter().map(range_text).collect();
@@ -445,9 +552,10 @@ impl Analysis {
         proved(&self.ranges, Verdict::Present)
     }
 
-    /// The same for absence, without the first range: that below the critical mu.
+    /// The same for absence, without the range from 0 to the bound of the critical mu.
     pub(super) fn proved_absence(&self) -> impl Iterator<Item = (&Range, [&Rational; 2])> {
-        proved(self.ranges.get(1..).unwrap_or_default(), Verdict::Absent)
+        let all = proved(&self.ranges, Verdict::Absent);
+        all.filter(|(range, _)| range.from.is_positive())
     }
 
     fn say_necessary(&self) -> Sentence {
@@ -475,6 +583,29 @@ impl Analysis {
                 "proved before its end and refuted by a vector after it, or the end as a root",
             ),
         }
+    }
+
+    /// What the condensed form excludes: solutions with lambda = 0 alone.
+    fn say_condensed(&self) -> Option<Sentence> {
+        let text = match self.condensed.as_ref()? {
+            DefiniteUntil::Never => return None,
+            DefiniteUntil::Always => {
+                "is positive definite for every mu: there is no static threshold.".into()
+            }
+            DefiniteUntil::End { end, .. } => format!(
+                "is positive definite for mu < {}: there is no static threshold below.",
+                down(end.lo())
+            ),
+        };
+
+        Some(Sentence {
+            topic: "condensed",
+            text: format!(
+                "Condition (19) condensed at lambda = 0: K* without the free variables {text} Of \
+                 lambda^2 > 0 it says nothing."
+            ),
+            evidence: Evidence::Exact("the symmetric part of T, by exact LDL'"),
+        })
     }
 
     fn say_sufficient(&self) -> Sentence {
@@ -508,7 +639,9 @@ impl Analysis {
             }
             None => "Flutter: not examined (no all-slip eigenvalues in doubles).".into(),
             Some(flutter) if flutter.eigenvalues.is_empty() => {
-                "Flutter: the all-slip pencil at this mu has no complex lambda^2.".into()
+                "Flutter of steady sliding: the all-slip pencil at this mu has no complex \
+                 lambda^2."
+                    .into()
             }
             Some(flutter) => flutter_text(flutter),
         };

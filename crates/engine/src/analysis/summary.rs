@@ -8,9 +8,12 @@ use super::answer::Analysis;
 use super::critical::CertifiedSolution;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
+use super::modes::Mode;
 use super::ranges::Range;
-use super::sentences::{down, short, up};
+use super::sentences::{between, down, short, up};
+use super::unbounded::UnboundedGrowth;
 use mceip_exact::{Rational, to_f64};
+use num_traits::Zero;
 
 impl Analysis {
     /// The answer in one paragraph.
@@ -21,11 +24,20 @@ impl Analysis {
         parts.join(" ")
     }
 
+    /// mu in short decimals.
+    pub fn friction_text(&self) -> String {
+        short(&self.friction)
+    }
+
     /// How far apart the two bounds of the critical mu are, as a share of the upper one; `None`
     /// where one of them is missing.
     pub fn critical_gap(&self) -> Option<f64> {
         let below = self.critical.absent_below.as_ref()?;
         let above = self.critical.solution.as_ref()?.mu.hi();
+        if self.has_no_bound() {
+            return None;
+        }
+
         Some(to_f64(&((above - below) / above)))
     }
 
@@ -37,25 +49,43 @@ impl Analysis {
             Verdict::Undecided => "UNDECIDED",
         };
 
-        let rates = self.divergence.modes.iter().map(|mode| mode.growth_rate);
-        let growth = match rates.fold(0.0, f64::max) {
-            0.0 => String::new(),
-            fastest => format!(", growing at up to {fastest:.6} 1/s"),
+        let fastest = self.divergence.modes.last().and_then(Mode::growth_text);
+        let growth = match fastest {
+            None => String::new(),
+            Some(fastest) => format!(", growing at up to {fastest} 1/s"),
         };
 
-        format!("At mu = {mu} divergence of the form (8) is {verdict}{growth}.")
+        format!(
+            "With these contact states held, at mu = {mu} divergence of the form (8) is \
+             {verdict}{growth}."
+        )
     }
 
     fn critical_bounds(&self) -> String {
-        match (&self.critical.absent_below, &self.critical.solution) {
-            (None, _) => "No mu has any.".into(),
-            (Some(below), Some(solution)) => self.two_bounds(below, solution),
-            (Some(below), None) => {
-                format!(
-                    "There is none below mu = {}, and none is known.",
-                    down(below)
-                )
+        match self.without_friction_text() {
+            None => self.bounds_text(),
+            Some(text) if self.has_no_bound() => text,
+            Some(text) => format!("{text} For mu > 0: {}", self.bounds_text()),
+        }
+    }
+
+    fn bounds_text(&self) -> String {
+        let Some(below) = &self.critical.absent_below else {
+            return "No mu has any.".into();
+        };
+        if let Some(unbounded) = &self.unbounded {
+            return self.unbounded_text(below, unbounded);
+        }
+
+        match &self.critical.solution {
+            Some(solution) => self.two_bounds(below, solution),
+            None if below.is_zero() => {
+                "No bound below which there is none is proved, and none is known.".into()
             }
+            None => format!(
+                "There is none below mu = {}, and none is known.",
+                down(below)
+            ),
         }
     }
 
@@ -70,13 +100,42 @@ impl Analysis {
             )
         };
 
-        let gap = self.critical_gap().unwrap_or_default();
+        if below.is_zero() {
+            return format!(
+                "At mu = {} there is some, {place}; no bound below which there is none is proved.",
+                up(solution.mu.hi())
+            );
+        }
+
         format!(
-            "There is none below mu = {}, and at mu = {} there is, {place}: the critical mu is \
-             known to a relative {gap:.1e}.",
+            "There is none below mu = {}, and at mu = {} there is, {place}{}.",
             down(below),
-            up(solution.mu.hi())
+            up(solution.mu.hi()),
+            self.gap_text()
         )
+    }
+
+    fn unbounded_text(&self, below: &Rational, unbounded: &UnboundedGrowth) -> String {
+        let ends = between(&unbounded.mu);
+        let place = match ends.strip_prefix("= ") {
+            Some(value) => value.to_string(),
+            None => format!("a value {ends}"),
+        };
+
+        format!(
+            "There is none below mu = {}, and growth is unbounded as mu {} {place}, where the mass \
+             matrix M* loses its property (Painleve){}.",
+            down(below),
+            unbounded.verb(),
+            self.gap_text()
+        )
+    }
+
+    fn gap_text(&self) -> String {
+        match self.critical_gap() {
+            Some(gap) => format!(": the critical mu is known to a relative {gap:.1e}"),
+            None => String::new(),
+        }
     }
 
     /// Where presence and, above the critical mu, absence are proved, and whether samples say more.
@@ -104,7 +163,17 @@ impl Analysis {
     }
 
     fn standing(&self) -> &'static str {
-        let is_open = self.interrupted || self.divergence.verdict == Verdict::Undecided;
+        let is_undecided = self.divergence.verdict == Verdict::Undecided;
+        let is_open = self.interrupted || is_undecided || self.has_no_bound();
+        if self.proofs.is_empty() {
+            return "It rests on a theorem, whose hypotheses were decided exactly.";
+        }
+        if self.without_friction == Verdict::Present {
+            return "What is said of mu = 0 rests on a theorem, whose hypothesis was decided \
+                    exactly, the rest on certificates that the checker has accepted; what neither \
+                    proves is open.";
+        }
+
         match (&self.critical.evidence, is_open) {
             (_, true) => {
                 "What is said to be present or absent is proved by certificates that the checker \

@@ -22,8 +22,8 @@ pub struct StaticThreshold {
 
 impl StaticThreshold {
     /// Single values of families count as values; of a family over an interval the ends alone are
-    /// known, so that it is left open.
-    pub(super) fn of(found: &Completed) -> StaticThreshold {
+    /// known, so that it is left open. `proof` is the index of the certificate.
+    pub(super) fn of(found: &Completed, proof: usize) -> StaticThreshold {
         let mut values = Vec::new();
         let mut open = found.cover.open.clone();
         for solution in &found.cover.solutions {
@@ -43,7 +43,7 @@ impl StaticThreshold {
         StaticThreshold {
             values,
             open,
-            evidence: Evidence::Certificate(1),
+            evidence: Evidence::Certificate(proof),
         }
     }
 

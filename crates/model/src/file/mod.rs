@@ -22,7 +22,8 @@ pub use object::{Object, Word, word_or_kind};
 pub use order::MAX_ORDER;
 pub use write::{write_problem, write_sparse};
 
-use super::{ErrorLocation, ModelError, Problem};
+use super::{Coordinates, ErrorLocation, ModelError, Problem, System, Unknown};
+use mceip_exact::Rational;
 use std::io::Read as _;
 use std::path::{Component, Path};
 use unique::Unique;
@@ -57,8 +58,42 @@ pub fn read_problem(text: &str, folder: &Path) -> Result<Problem, ModelError> {
 /// [`ModelError::Unreadable`], [`ModelError::TooLarge`], or what [`read_problem`] finds.
 pub fn read_problem_file(path: &Path) -> Result<Problem, ModelError> {
     let text = read_text("the problem", path)?;
-    let folder = path.parent().map_or(Path::new("."), or_here);
-    read_problem(&text, folder)
+    read_problem(&text, folder_of(path))
+}
+
+/// A mechanical system as a problem file gives it, whatever is asked of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SystemFile {
+    /// A name for people.
+    pub name: Option<String>,
+    /// What looked wrong when the file was made.
+    pub warnings: Vec<String>,
+    /// Where its nodes are.
+    pub coordinates: Option<Coordinates>,
+    /// What the file seeks.
+    pub unknown: Unknown,
+    /// The system; without friction where `friction` is 0, which a [`System`] with slip particles
+    /// cannot have.
+    pub system: System,
+    /// mu of the file, 0 or positive.
+    pub friction: Option<Rational>,
+}
+
+/// Reads the system of a problem file for questions that have an answer without a [`Problem`]: with
+/// mu = 0, or with no particle in impending slip. All else that a problem file has to be is
+/// established. `None` for a pencil.
+///
+/// # Errors
+/// As [`read_problem`].
+pub fn read_system(text: &str, folder: &Path) -> Result<Option<SystemFile>, ModelError> {
+    require_format(text, PROBLEM_FORMAT)?;
+    let Object(raw): Object<raw::RawProblem> = from_json(text)?;
+    raw.build_system(folder)
+}
+
+/// The folder in which a problem file looks for others.
+pub fn folder_of(path: &Path) -> &Path {
+    path.parent().map_or(Path::new("."), or_here)
 }
 
 /// The folder of a plain file name is the empty path, which stands for the current folder.

@@ -5,12 +5,13 @@
 //! them, which establish every precondition.
 
 use super::matrix::RawMatrix;
-use super::{Number, Object, Word};
+use super::{Number, Object, SystemFile, Word};
 use crate::{
     Body, ContactState, Coordinates, ModelError, Node, Particle, Pencil, Problem, Reaction, System,
     Unknown, Window,
 };
 use mceip_exact::{Rational, whole};
+use num_traits::Zero;
 use serde::Deserialize;
 use std::path::Path;
 
@@ -99,10 +100,7 @@ struct RawReaction {
 impl RawProblem {
     /// Builds the problem; Matrix Market files that it names are looked for in `folder`.
     pub(super) fn build(self, folder: &Path) -> Result<Problem, ModelError> {
-        let window = match self.window {
-            None => Window::all(),
-            Some(Object(window)) => window.build()?,
-        };
+        let window = RawWindow::build_given(self.window)?;
 
         let body = match (self.pencil, self.system) {
             (Some(Object(pencil)), None) => Body::Pencil(pencil.build(folder)?),
@@ -111,9 +109,15 @@ impl RawProblem {
             (Some(_), Some(_)) => return Err(ModelError::Body { got: "both" }),
         };
 
-        let coordinates = match self.coordinates {
-            Some(Object(coordinates)) => Some(coordinates.build(&body)?),
-            None => None,
+        let coordinates = match (self.coordinates, &body) {
+            (None, _) => None,
+            (Some(Object(coordinates)), Body::System(system)) => Some(coordinates.build(system)?),
+            (Some(_), Body::Pencil(_)) => {
+                return Err(ModelError::Coordinates {
+                    expected: "coordinates of a system only",
+                    got: "those of a pencil".into(),
+                });
+            }
         };
 
         let mut problem = Problem::new(body, self.unknown.0, window)?;
@@ -124,9 +128,48 @@ impl RawProblem {
 
         Ok(problem)
     }
+
+    /// Builds the system alone, without friction where that is 0; `None` for a pencil.
+    pub(super) fn build_system(self, folder: &Path) -> Result<Option<SystemFile>, ModelError> {
+        RawWindow::build_given(self.window)?;
+        let mut raw = match (self.pencil, self.system) {
+            (None, Some(Object(raw))) => raw,
+            (Some(_), None) => return Ok(None),
+            (None, None) => return Err(ModelError::Body { got: "neither" }),
+            (Some(_), Some(_)) => return Err(ModelError::Body { got: "both" }),
+        };
+
+        let friction = raw.friction.as_ref().map(|number| number.0.clone());
+        if friction.as_ref().is_some_and(Rational::is_zero) {
+            raw.friction = None;
+        }
+
+        let system = raw.build(folder)?;
+        let coordinates = match self.coordinates {
+            Some(Object(coordinates)) => Some(coordinates.build(&system)?),
+            None => None,
+        };
+
+        Ok(Some(SystemFile {
+            name: self.name,
+            warnings: self.warnings,
+            coordinates,
+            unknown: self.unknown.0,
+            system,
+            friction,
+        }))
+    }
 }
 
 impl RawWindow {
+    /// All values without a window.
+    fn build_given(given: Option<Object<RawWindow>>) -> Result<Window, ModelError> {
+        match given {
+            None => Ok(Window::all()),
+            Some(Object(window)) => window.build(),
+        }
+    }
+
     /// No `min` means 0, no `max` means infinity.
     fn build(self) -> Result<Window, ModelError> {
         let min = match self.min {
@@ -164,14 +207,7 @@ impl RawSystem {
 }
 
 impl RawCoordinates {
-    fn build(self, body: &Body) -> Result<Coordinates, ModelError> {
-        let Body::System(system) = body else {
-            return Err(ModelError::Coordinates {
-                expected: "coordinates of a system only",
-                got: "those of a pencil".into(),
-            });
-        };
-
+    fn build(self, system: &System) -> Result<Coordinates, ModelError> {
         let mut nodes = Vec::with_capacity(self.nodes.len());
         for (along_x, along_y, x, y) in self.nodes {
             nodes.push(Node {

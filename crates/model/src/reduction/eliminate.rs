@@ -130,9 +130,9 @@ impl Reduced {
 /// The pencil of a problem. A pencil stands for itself; a system goes through (10)-(16).
 ///
 /// # Errors
-/// [`ModelError::Missing`] if the system lacks what the unknown needs, [`ModelError::Empty`] if no
-/// particle slips, [`ModelError::ZeroReaction`] with z particles: [`super::reduce_with_zero`]
-/// treats those.
+/// [`ModelError::Missing`] if the system lacks what the unknown needs,
+/// [`ModelError::NothingSlips`], [`ModelError::ZeroReaction`] with z particles:
+/// [`super::reduce_with_zero`] treats those.
 pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
     match problem.body() {
         Body::Pencil(pencil) => Ok(Reduced {
@@ -157,7 +157,7 @@ pub struct MuFamily {
 /// (K0, K1) and (M0, M1) of (16).
 ///
 /// # Errors
-/// [`ModelError::Empty`] if no particle slips, [`ModelError::ZeroReaction`] with z particles.
+/// [`ModelError::NothingSlips`], [`ModelError::ZeroReaction`] with z particles.
 pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
     system.require_for(Unknown::Mu)?;
     system.require_no_zero()?;

@@ -33,7 +33,8 @@ use num_traits::One;
 /// The split form of a system; without z particles the pencil of [`super::reduce`].
 ///
 /// # Errors
-/// [`ModelError::Missing`] or [`ModelError::Empty`] if the system lacks what the unknown needs.
+/// [`ModelError::Missing`] if the system lacks what the unknown needs, or
+/// [`ModelError::NothingSlips`].
 pub fn split_form(system: &System, unknown: Unknown) -> Result<SplitForm, ModelError> {
     system.require_for(unknown)?;
     let changes = Changes::of(system);

@@ -48,8 +48,7 @@ impl Pencils<'_> {
         self.require_a_state_for_each_node(states)?;
         let slip = slip_nodes(states);
         if slip.is_empty() {
-            let what = "the slip particles of the system";
-            return Err(ModelError::Empty { what }.into());
+            return Err(ModelError::NothingSlips.into());
         }
 
         let moved = self.move_each(&slip, states)?;
@@ -211,7 +210,7 @@ mod tests {
         ));
         assert!(matches!(
             pencils.of(&[stick; 5]),
-            Err(PathError::Model(ModelError::Empty { .. }))
+            Err(PathError::Model(ModelError::NothingSlips))
         ));
     }
 }
