@@ -113,8 +113,8 @@ pub enum ContactsError {
     /// A reaction off the friction cone, or outside of it.
     #[error(
         "E7: contacts line {line}, state {state}: expected {expected}, that is |r_T| / |r_N| \
-         {ratio} {friction} (mu times the friction factor), got {got} (r_T = {tangential} along the \
-         tangent, r_N = {normal} along the normal into the obstacle)"
+         {ratio} {friction} (mu times the friction factor), got {got} (r_T = {tangential} along \
+         the tangent, r_N = {normal} along the normal into the obstacle)"
     )]
     OffCone {
         /// Line of the file, from 1.

@@ -473,7 +473,8 @@ impl Analysis {
             text: format!(
                 "Critical mu: growth is unbounded as mu {} this value: mu {mu}, where the mass \
                  matrix M* loses its property (0 <= x _|_ M* x >= 0 has a solution, as in the \
-                 paradox of Painleve).",
+                 paradox of Painleve). The certificate proves this solution; that growth is \
+                 unbounded near it takes it to be regular (strict signs, a simple root).",
                 unbounded.verb()
             ),
             evidence: unbounded.evidence.clone(),

@@ -124,7 +124,7 @@ impl Analysis {
 
         format!(
             "There is none below mu = {}, and growth is unbounded as mu {} {place}, where the mass \
-             matrix M* loses its property (Painleve){}.",
+             matrix M* loses its property (Painleve), its solution there taken to be regular{}.",
             down(below),
             unbounded.verb(),
             self.gap_text()
