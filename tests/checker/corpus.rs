@@ -1,49 +1,10 @@
 //! `spec/corpus`: certificates that must be accepted, rejected for the reason they name, or refused
-//! as malformed. Our checker and `spec/checker.py` go over all of it. The verdict of a file is
-//! written down in it and known from how the file was made; no checker is asked for it. A file is
-//! never changed once
-//! it is released (spec/formats.md, Versions); new ones are written by
+//! as malformed. Our checker and `spec/checker.py` go over all of it.
 //!
-//!     cargo test --test checker -- --ignored corpus::write_the_corpus
-//!
-//! but for the files `hostile-*` whose work is limited (spec/certificates.md, Limits), which are
-//! written by hand.
+//! The verdict of a file is written down in it and known from how the file was made; no checker is
+//! asked for it. `spec/corpus/README.md` says what the files are about and how to add one.
 #![cfg(feature = "cli")]
 
-#[path = "../support/corpus_beside.rs"]
-mod corpus_beside;
-#[path = "../support/corpus_by_leaf.rs"]
-mod corpus_by_leaf;
-#[path = "../support/corpus_cases.rs"]
-mod corpus_cases;
-#[path = "../support/corpus_claims.rs"]
-mod corpus_claims;
-#[path = "../support/corpus_covers.rs"]
-mod corpus_covers;
-#[path = "../support/corpus_critical.rs"]
-mod corpus_critical;
-#[path = "../support/corpus_infinity.rs"]
-mod corpus_infinity;
-#[path = "../support/corpus_malformed.rs"]
-mod corpus_malformed;
-#[path = "../support/corpus_mcp.rs"]
-mod corpus_mcp;
-#[path = "../support/corpus_presence.rs"]
-mod corpus_presence;
-#[path = "../support/corpus_regular.rs"]
-mod corpus_regular;
-#[path = "../support/corpus_support.rs"]
-mod corpus_support;
-#[path = "../support/corpus_zero.rs"]
-mod corpus_zero;
-#[path = "../support/corpus_zero_covers.rs"]
-mod corpus_zero_covers;
-#[path = "../support/corpus_zero_critical.rs"]
-mod corpus_zero_critical;
-#[path = "../support/corpus_zero_order.rs"]
-mod corpus_zero_order;
-
-use corpus_cases::Cases;
 use mceip_check::certificate::{
     CRITICAL_FORMAT, Certificate, CriticalCertificate, PRESENCE_FORMAT, PresenceCertificate,
 };
@@ -482,43 +443,4 @@ pub(crate) fn second_codes(files: &[[PathBuf; 2]]) -> Vec<i32> {
     let err = String::from_utf8_lossy(&output.stderr);
     assert_eq!(codes.len(), files.len(), "{err}");
     codes
-}
-
-#[test]
-#[ignore = "writes spec/corpus"]
-fn write_the_corpus() {
-    let mut cases = Cases::default();
-    corpus_beside::beside(&mut cases);
-    corpus_by_leaf::supports(&mut cases);
-    corpus_claims::exact_claims(&mut cases);
-    corpus_claims::enclosed_claims(&mut cases);
-    corpus_claims::lifted_claims(&mut cases);
-    corpus_covers::covers(&mut cases);
-    corpus_covers::without_left_coefficients(&mut cases);
-    corpus_covers::absence(&mut cases);
-    corpus_support::supports(&mut cases);
-    corpus_infinity::infinity(&mut cases);
-    corpus_mcp::plain(&mut cases);
-    corpus_zero::zero_reaction(&mut cases);
-    corpus_zero_order::boxes(&mut cases);
-    corpus_zero_covers::covers(&mut cases);
-    corpus_critical::critical(&mut cases);
-    corpus_regular::regular(&mut cases);
-    corpus_zero_critical::absence(&mut cases);
-    corpus_presence::presence(&mut cases);
-    corpus_malformed::malformed(&mut cases);
-    corpus_malformed::spelling(&mut cases);
-    corpus_malformed::hostile(&mut cases);
-
-    for case in cases.0 {
-        let folder = root().join(case.folder);
-        std::fs::create_dir_all(&folder).unwrap();
-
-        // What is released stays: only what is missing is written.
-        let path = folder.join(format!("{}.json", case.name));
-        if !path.exists() {
-            let text = serde_json::to_string(&case.file).unwrap();
-            std::fs::write(path, format!("{text}\n")).unwrap();
-        }
-    }
 }

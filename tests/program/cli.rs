@@ -231,9 +231,9 @@ fn zero_reaction_is_solved_and_checked() {
     }
 }
 
-/// The critical friction of a particle that slides with friction is 6/7
-/// (`tests/support/corpus_zero_critical.rs`): `analyze` bounds it from both sides, names what is
-/// not defined, and its certificates are accepted.
+/// The critical friction of a particle that slides with friction is 6/7 (`spec/corpus/README.md`):
+/// `analyze` bounds it from both sides, names what is not defined, and its certificates are
+/// accepted.
 #[test]
 fn zero_reaction_is_analysed() {
     let folder = tempfile::tempdir().unwrap();
