@@ -8,4 +8,3 @@ mod families;
 
 mod checker_memory;
 mod solver_allocations;
-mod solver_sparse;

@@ -7,7 +7,7 @@
 
 use mceip_mcp::mcp::{LinearMcp, Mcp};
 use mceip_mcp::solver::{
-    NonFinite, Options, Outcome, SolverError, Termination, multistart, solve, solve_linear,
+    NonFinite, Options, Outcome, SolverError, Termination, solve, solve_linear,
 };
 use nalgebra::{DMatrix, dmatrix};
 use proptest::prelude::*;
@@ -109,8 +109,8 @@ fn refusals_name_index_expected_and_got() {
     assert_eq!(not_a_number, "expected a finite start at 1, got NaN");
     let infinite = refusal(&lcp, &[INF, 0.0]);
     assert_eq!(infinite, "expected a finite start at 0, got inf");
-    let starts = [vec![0.0; 2], vec![0.0; 3]];
-    assert!(multistart(&lcp, starts, &Options::default()).is_err());
+    let long = refusal(&lcp, &[0.0; 3]);
+    assert_eq!(long, "expected a start of length 2, got 3");
 
     // Options.
     let without_tolerance = Options {

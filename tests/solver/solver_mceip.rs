@@ -6,7 +6,7 @@
 #![cfg(feature = "solver")]
 
 use crate::support::{Embedded, Truth, contains, enumerate, random_pencil, table1};
-use mceip_mcp::solver::{Options, Outcome, PathEnd, PathRecord, Start, multistart, solve};
+use mceip_mcp::solver::{Options, Outcome, PathEnd, PathRecord, Start, solve};
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -29,7 +29,8 @@ fn distinct_solutions(problem: &Embedded, starts: Vec<Vec<f64>>) -> Vec<Truth> {
     let n = problem.a.nrows();
     let mut found: Vec<Truth> = Vec::new();
 
-    for outcome in multistart(problem, starts, &Options::default()).unwrap() {
+    for start in starts {
+        let outcome = solve(problem, &start, &Options::default()).unwrap();
         let x = &outcome.point[..n];
         let t = outcome.point[n];
         if outcome.termination.reached_tolerance() && !contains(&found, t, x) {
@@ -207,9 +208,10 @@ fn random_pencils_converge_from_the_first_start() {
 fn runs_repeat_bit_by_bit() {
     let mut rng = ChaCha8Rng::seed_from_u64(3);
     let problem = random_problem(&mut rng, "mu", 10);
-    let run = || multistart(&problem, problem.starts(6, 10.0, 5), &Options::default()).unwrap();
-
-    assert_eq!(run(), run());
+    for start in problem.starts(6, 10.0, 5) {
+        let run = || solve(&problem, &start, &Options::default()).unwrap();
+        assert_eq!(run(), run());
+    }
 }
 
 /// (+,+): solutions begin where 1 + q^2 = (c^2 + 1)^2. Just below there are none.
@@ -222,10 +224,9 @@ fn next_to_a_threshold_there_is_a_reason_and_no_panic() {
         let problem = two_particles(threshold * (1.0 - gap), 1.0, 1.0);
         let starts = problem.starts(22, 2.0, 1);
 
-        let outcomes = multistart(&problem, starts, &Options::default()).unwrap();
-
         let mut reached = 0;
-        for outcome in &outcomes {
+        for start in starts {
+            let outcome = solve(&problem, &start, &Options::default()).unwrap();
             reached += usize::from(outcome.termination.reached_tolerance());
         }
         println!("gap {gap:e}: {reached} of 22 within tolerance where no solution exists");

@@ -7,7 +7,7 @@
 
 use mceip_mcp::mcp::{LinearMcp, Mcp};
 use mceip_mcp::solver::{
-    Options, Outcome, PathEnd, PivotKind, RatioTest, Termination, multistart, solve, solve_linear,
+    Options, Outcome, PathEnd, PivotKind, RatioTest, Termination, solve, solve_linear,
 };
 use nalgebra::{DMatrix, dmatrix};
 
@@ -163,7 +163,8 @@ fn two_sided_bounds() {
     ];
     let saddle = with_bounds(m, &[0.5, 0.5], &[0.0; 2], &[1.0; 2]);
     let starts = [vec![0.0, 0.0], vec![1.0, 0.0], vec![0.3, 0.8]];
-    for outcome in multistart(&saddle, starts, &Options::default()).unwrap() {
+    for start in starts {
+        let outcome = solve(&saddle, &start, &Options::default()).unwrap();
         assert!(outcome.residuals.within(1e-10), "{outcome:?}");
     }
 }
@@ -352,7 +353,8 @@ fn josephy() {
     let problem = FourByFour::josephy();
     let expected = [1.5f64.sqrt(), 0.0, 0.0, 0.5];
 
-    for outcome in multistart(&problem, starts_of_four(), &Options::default()).unwrap() {
+    for start in starts_of_four() {
+        let outcome = solve(&problem, &start, &Options::default()).unwrap();
         assert_solves(&outcome, &expected);
     }
 }
@@ -370,7 +372,8 @@ fn kojima_and_shindo_has_two_solutions_one_of_them_degenerate() {
     let mut degenerate_is_seen = false;
     let mut regular_is_seen = false;
 
-    for outcome in multistart(&problem, starts_of_four(), &Options::default()).unwrap() {
+    for start in starts_of_four() {
+        let outcome = solve(&problem, &start, &Options::default()).unwrap();
         assert!(outcome.termination.reached_tolerance(), "{outcome:?}");
 
         let is_degenerate = is_near(&outcome.point, &degenerate);

@@ -5,7 +5,6 @@
 //! |---|---|
 //! | [`mcp`] | problems: a function with its Jacobian, and bounds |
 //! | [`solver`] | their solution as PATH does it |
-//! | [`sparse`] | sparse linear problems: unknowns without bounds are eliminated first |
 //! | [`linear`] | dense and sparse factorisations |
 //!
 //! The crate knows nothing of friction, and nothing here is trusted. What a run finds is a
@@ -14,5 +13,4 @@
 pub mod linear;
 pub mod mcp;
 pub mod solver;
-pub mod sparse;
 mod tolerance;

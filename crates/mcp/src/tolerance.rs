@@ -11,7 +11,3 @@ pub(crate) const ASYMMETRY: f64 = 1e-13;
 /// none. Basis: sums of some hundred terms round to 1e-14; a singular matrix leaves pivots of that
 /// size and either sign, an elastic body that is held leaves above 1e-6.
 pub(crate) const SINGULAR_PIVOT: f64 = 1e-13;
-
-/// Change of a solution by one step of iterative refinement, relative to it, above which a sparse
-/// block counts as singular. Unit: none. Basis: with six digits another step would still contract.
-pub(crate) const REFINED: f64 = 1e-6;

@@ -22,7 +22,6 @@
 //! | `newton` | the outer loop |
 //! | `structure`, `matching` | Jacobians that are singular by their zeros |
 //! | `linear`, `preprocess` | Lemke's method alone; what bounds decide before it |
-//! | `multistart` | many starts |
 //! | `reuse` | a solver that keeps its storage from run to run |
 //! | `outcome`, `log` | point, residuals, reason, log of every pivot |
 
@@ -37,7 +36,6 @@ mod jacobian;
 mod linear;
 mod log;
 mod matching;
-mod multistart;
 mod newton;
 mod normal_map;
 mod number;
@@ -59,13 +57,11 @@ pub use continuation::{Curve, CurveEnd, Sense, continuation, continuation_throug
 pub use error::SolverError;
 pub use linear::solve_linear;
 pub use matching::unmatched;
-pub use multistart::multistart;
 pub use options::{CrashMethod, Options, RatioTest};
 pub use outcome::{Counters, MajorRecord, NonFinite, Outcome, PathRecord, StepKind, Termination};
 pub use path::{PathEnd, Pivot, PivotKind, Start, Variable};
 pub use residual::Residuals;
 pub use reuse::{Ended, Solver};
-pub(crate) use validate::check_start;
 
 use crate::mcp::Mcp;
 

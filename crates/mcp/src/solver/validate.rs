@@ -27,7 +27,7 @@ pub(super) fn validate<P: Mcp + ?Sized>(
 }
 
 /// Refuses a start of another length than n, or one that is not finite.
-pub(crate) fn check_start(n: usize, start: &[f64]) -> Result<(), SolverError> {
+fn check_start(n: usize, start: &[f64]) -> Result<(), SolverError> {
     if start.len() != n {
         return Err(SolverError::StartLength {
             expected: n,
