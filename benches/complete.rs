@@ -18,10 +18,11 @@
 mod cost;
 
 use mceip_check::check;
-use mceip_engine::reduction::{condense, reduce};
+use mceip_engine::reduction::condense;
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_engine::search::complete::{CompleteError, Completed, Options, complete};
 use mceip_exact::to_f64;
+use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Body, Problem, Unknown, Window};
 use mceip_paper::{Block, MassKind, PublishedState};
 use mceip_testkit::{

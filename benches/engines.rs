@@ -2,9 +2,10 @@
 //! are what to quote; `cargo bench` prints both.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use mceip_engine::reduction::{Embedding, Side, condense, reduce};
+use mceip_engine::reduction::{Embedding, Side, condense};
 use mceip_exact::{Sparse, whole};
 use mceip_mcp::solver::{Options, Solver, solve};
+use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Body, ContactState, Pencil, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState};

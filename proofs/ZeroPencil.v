@@ -20,7 +20,7 @@
    variables are the solution ([zero_variables_of_motion]).
 
    Pages: spec/certificates.md, 5.1 and 5.3; spec/zero-reaction.md, Z.3.
-   Rust: crates/model/src/reduction/split.rs, crates/check/src/pencil.rs. *)
+   Rust: crates/model/src/reduction/eliminate.rs, crates/check/src/pencil.rs. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.

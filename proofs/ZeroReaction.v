@@ -25,7 +25,7 @@
    rows of the pencil of an exact claim.
 
    Pages: spec/zero-reaction.md, Z.1 and Z.3; spec/certificates.md, 5.3 and 5.4.
-   Rust: crates/check/src/lifted_solution.rs, crates/model/src/reduction/split.rs. *)
+   Rust: crates/check/src/lifted_solution.rs, crates/model/src/reduction/eliminate.rs. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.

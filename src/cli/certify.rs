@@ -12,10 +12,10 @@ use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, NotCertified, lifted, sift};
 use mceip_engine::foreign::{ForeignError, ForeignReport};
 use mceip_engine::multistart::same;
-use mceip_engine::reduction::reduce_with_zero;
 use mceip_engine::search::complete::Completed;
 use mceip_engine::search::near::{Near, near};
 use mceip_exact::{Interval, Rational, enclosing_decimals};
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, System, Unknown};
 use std::path::{Path, PathBuf};
 
@@ -48,7 +48,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
     let inputs = [args.file.as_path(), args.report.as_path()];
     let output = Output::prepare_if("out", args.out.as_deref(), &inputs)?;
-    let reduced = reduce_with_zero(&problem)?;
+    let reduced = reduce(&problem)?;
     let report = text("the report", &args.report)?;
     let report = match ForeignReport::read(&report, &problem, &reduced) {
         Ok(report) => report,

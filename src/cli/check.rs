@@ -21,11 +21,11 @@ use mceip_check::{
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, Verdict, judge};
 use mceip_engine::lcp::MCP_FORMAT;
-use mceip_engine::reduction::reduce_with_zero;
 use mceip_engine::run::Progress;
 use mceip_engine::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALUE_RADIUS};
 use mceip_exact::{enclosing_decimals, parse, to_f64};
 use mceip_model::file::require_format;
+use mceip_model::reduction::reduce;
 use mceip_model::{Problem, Window};
 use std::path::{Path, PathBuf};
 
@@ -275,7 +275,7 @@ fn smaller_text(certified: &Window, wanted: &Window) -> String {
 
 /// One line per solution of a foreign report; the exit code is that of the worst.
 fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Result<u8, CliError> {
-    let reduced = reduce_with_zero(problem)?;
+    let reduced = reduce(problem)?;
     let report = match ForeignReport::read(source, problem, &reduced) {
         Ok(report) => report,
         Err(e @ ForeignError::Digest { .. }) => {

@@ -11,11 +11,11 @@ use super::question::{Question, load_question};
 use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_engine::certify::Certifier;
-use mceip_engine::reduction::reduce_with_zero;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_engine::run::{Keeper, Kept, Watch};
 use mceip_engine::search::complete::{Completed, Options, Shard, complete, resume};
 use mceip_exact::enclosing_decimals;
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, Problem};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -310,7 +310,7 @@ fn family_text(word: &str, family: &SolutionFamily) -> String {
 
 /// The complete set as `mceip-solutions/1`.
 pub(super) fn report_json(problem: &Problem, completed: &Completed) -> Result<Value, CliError> {
-    let reduced = reduce_with_zero(problem)?;
+    let reduced = reduce(problem)?;
     let certifier = Certifier::new(problem, &reduced.pencil);
     let mut solutions = Vec::new();
     for (proved, x) in completed.solutions() {

@@ -7,11 +7,10 @@
 use super::common::{CliError, exit, print};
 use super::job::Job;
 use super::question::{Question, load_question};
-use mceip_engine::reduction::{Reduced, reduce, reduce_with_zero};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_engine::run::Progress;
-use mceip_model::reduction::split_form;
-use mceip_model::{Body, Problem, SplitForm};
+use mceip_model::Problem;
+use mceip_model::reduction::{Reduced, reduce};
 use mceip_oracle::{Enumeration, ModeList, Solution, enumerate_modes_with, enumerate_with};
 use std::path::PathBuf;
 
@@ -34,14 +33,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Question::Problem(problem) => *problem,
         Question::NoSolution(answer) => return answer.print(args.json, None),
     };
-    if let Body::System(system) = problem.body()
-        && system.require_no_zero().is_err()
-    {
-        let split = split_form(system, problem.unknown())?;
-        return run_modes(args, &problem, &split);
+    let reduced = reduce(&problem)?;
+    if !reduced.zero.is_empty() {
+        return run_modes(args, &problem, &reduced);
     }
 
-    let reduced = reduce(&problem)?;
     let job = Job::begin("supports");
     let show = |done: u64, total: u64| {
         job.say(Progress::of("supports", done as usize, total as usize));
@@ -55,9 +51,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 }
 
 /// Enumerates the modes of a system with particles in contact with zero reaction.
-fn run_modes(args: &Args, problem: &Problem, split: &SplitForm) -> Result<u8, CliError> {
-    let reduced = reduce_with_zero(problem)?;
-
+fn run_modes(args: &Args, problem: &Problem, reduced: &Reduced) -> Result<u8, CliError> {
     let job = Job::begin("choices of modes");
     let show = |done: u64, total: u64| {
         job.say(Progress::of(
@@ -67,13 +61,13 @@ fn run_modes(args: &Args, problem: &Problem, split: &SplitForm) -> Result<u8, Cl
         ));
         job.flow()
     };
-    let found = enumerate_modes_with(split, problem.window(), show)?;
+    let found = enumerate_modes_with(reduced, problem.window(), show)?;
     job.end();
 
     let report = Report {
         problem,
-        reduced: &reduced,
-        solutions: listed(problem, &reduced, &found.solutions),
+        reduced,
+        solutions: listed(problem, reduced, &found.solutions),
         claim: Claimed::complete_if(found.is_complete_list()),
         evidence: evidence_of_modes(&found),
         enumeration: None,

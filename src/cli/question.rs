@@ -8,9 +8,9 @@
 use super::common::{CliError, aside, exit, load, print, text};
 use mceip_engine::analysis::conditions::excluded_at;
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
-use mceip_engine::reduction::mu_family;
 use mceip_exact::Rational;
 use mceip_model::file::{SystemFile, folder_of, read_system};
+use mceip_model::reduction::mu_family;
 use mceip_model::{ModelError, Problem, Unknown};
 use num_traits::Zero as _;
 use serde_json::json;

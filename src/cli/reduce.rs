@@ -1,9 +1,10 @@
 //! `mceip reduce`: the pencil of a mechanical system as a problem file.
 
 use super::common::{CliError, exit, load, print};
-use mceip_engine::reduction::{Reduced, Variable, condense, reduce};
+use mceip_engine::reduction::condense;
 use mceip_exact::whole;
 use mceip_model::file::write_problem;
+use mceip_model::reduction::{Reduced, Variable, reduce};
 use mceip_model::{Admissible, Body, Problem};
 use std::path::PathBuf;
 
@@ -20,7 +21,7 @@ pub(super) struct Args {
 /// Prints the pencil as a problem of its own; its comment says where it comes from.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
-    let reduced = reduce(&problem)?;
+    let reduced = reduce(&problem)?.without_zero()?;
     let comment = comment(args, &problem, &reduced);
 
     let pencil = if args.condense {

@@ -10,10 +10,10 @@ use super::common::{CliError, exit, load, positive, print, require_count, requir
 use super::job::Job;
 use super::output::Output;
 use mceip_engine::certify::Certifier;
-use mceip_engine::reduction::reduce;
 use mceip_engine::report::Listed;
 use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_exact::to_f64;
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Particle, Problem, System, Unknown, Window};
 use mceip_motion::{
     AfterImpulse, Agreement, Equations, Mode, MotionClass, Plan, StepSolutions, Stepper, along_mode,

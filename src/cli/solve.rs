@@ -20,12 +20,12 @@ use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::certify::Preference;
 use mceip_engine::lcp::MCP_FORMAT;
 use mceip_engine::multistart::{
-    Found, MAX_STARTS, SearchError, multistart_with_zero, support, trace_outcome,
+    Found, MAX_STARTS, SearchError, multistart, support, trace_outcome,
 };
-use mceip_engine::reduction::reduce_with_zero;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_model::file::require_format;
-use mceip_model::{Admissible, Pencil, Problem};
+use mceip_model::reduction::reduce;
+use mceip_model::{Pencil, Problem};
 use search::search_of;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -91,16 +91,14 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     };
     let output = Output::prepare_if("certificate", args.certificate.as_deref(), &[file])?;
     let trace_output = Output::prepare_if("trace", args.trace.as_deref(), &[file])?;
-    let reduced = reduce_with_zero(&problem)?;
-    let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
+    let reduced = reduce(&problem)?;
     let mut search = search_of(args.starts, args.seed, args.all, args.trace.is_some());
     if args.exact {
         search.preference = Preference::Exact;
     }
 
     let job = Job::begin("searching");
-    let searched =
-        job.watched(|watch| multistart_with_zero(&problem, &reduced, &admissible, &search, watch));
+    let searched = job.watched(|watch| multistart(&problem, &reduced, &search, watch));
     job.end();
 
     let found = match searched {

@@ -8,7 +8,7 @@ use mceip_check::certificate::Certificate;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate};
 use mceip_engine::report::Listed;
-use mceip_model::reduction::reduce_with_zero;
+use mceip_model::reduction::reduce;
 
 /// A solution with its own certificate.
 #[derive(Debug, Clone)]
@@ -44,7 +44,7 @@ impl Problem {
     /// ```
     pub fn certify(&self, value: f64, x: &[f64]) -> Result<Certified, Error> {
         let problem = self.as_model();
-        let reduced = reduce_with_zero(problem)?;
+        let reduced = reduce(problem)?;
         let certifier = Certifier::new(problem, &reduced.pencil);
         let candidate = Candidate {
             value,

@@ -10,7 +10,7 @@ use mceip_engine::certify::Certifier;
 use mceip_engine::report::Listed;
 use mceip_engine::run::{Cancel, Progress};
 use mceip_engine::search::complete::{Options, complete, resume};
-use mceip_model::reduction::reduce_with_zero;
+use mceip_model::reduction::reduce;
 
 /// A search for all solutions; see [`Problem::complete`].
 pub struct Complete<'a> {
@@ -113,7 +113,7 @@ impl<'a> Complete<'a> {
             Some(earlier) => resume(problem, earlier, &self.options, &watch)?,
         };
 
-        let reduced = reduce_with_zero(problem)?;
+        let reduced = reduce(problem)?;
         let certifier = Certifier::new(problem, &reduced.pencil);
         let mut solutions = Vec::new();
         for (proved, x) in completed.solutions() {

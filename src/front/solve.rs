@@ -7,11 +7,10 @@ use super::solution::Solution;
 use mceip_check::Proved;
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_engine::certify::Preference;
-use mceip_engine::multistart::{Search, Uncertified, multistart_with_zero};
+use mceip_engine::multistart::{Search, Uncertified, multistart};
 use mceip_engine::report::Listed;
 use mceip_engine::run::{Cancel, Progress};
-use mceip_model::Admissible;
-use mceip_model::reduction::reduce_with_zero;
+use mceip_model::reduction::reduce;
 
 /// A search for solutions; see [`Problem::solve`].
 pub struct Solve<'a> {
@@ -116,10 +115,9 @@ impl<'a> Solve<'a> {
     /// problem is beyond the solver.
     pub fn run(self) -> Result<Found, Error> {
         let problem = self.problem.as_model();
-        let reduced = reduce_with_zero(problem)?;
-        let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
+        let reduced = reduce(problem)?;
         let watch = self.watched.watch();
-        let found = multistart_with_zero(problem, &reduced, &admissible, &self.search, &watch)?;
+        let found = multistart(problem, &reduced, &self.search, &watch)?;
 
         let claims: Vec<Claim> = found.certified.iter().map(|c| c.claim.clone()).collect();
         let certificates = Proved::claims(problem, claims)?;

@@ -9,10 +9,10 @@
 //! --nocapture floors::`
 #![cfg(feature = "testkit")]
 
-use mceip_engine::multistart::{Found, Search, multistart};
-use mceip_engine::reduction::{condense, reduce};
+use mceip_engine::multistart::{Found, Search, SearchError, multistart};
+use mceip_engine::reduction::condense;
 use mceip_engine::run::{Cancel, Watch};
-use mceip_mcp::solver::SolverError;
+use mceip_model::reduction::{Reduced, reduce};
 use mceip_model::{Admissible, Problem, Unknown};
 use mceip_paper::{Block, MassKind, PublishedState};
 use mceip_testkit::campaign::{
@@ -246,17 +246,23 @@ fn measure_the_block() {
 }
 
 /// A solver that finds nothing.
-fn finds_nothing(_: &Problem, _: &Admissible<'_>, _: &Search) -> Result<Found, SolverError> {
+fn finds_nothing(
+    _: &Problem,
+    _: &Reduced,
+    _: &Search,
+    _: &Watch<'_>,
+) -> Result<Found, SearchError> {
     Ok(Found::default())
 }
 
 /// A solver that forgets every second solution of an instance, the first one among them.
 fn drops_every_second(
     problem: &Problem,
-    admissible: &Admissible<'_>,
+    reduced: &Reduced,
     search: &Search,
-) -> Result<Found, SolverError> {
-    let mut found = multistart(problem, admissible, search)?;
+    watch: &Watch<'_>,
+) -> Result<Found, SearchError> {
+    let mut found = multistart(problem, reduced, search, watch)?;
     let mut index = 0;
     found.certified.retain(|_| {
         index += 1;
@@ -270,10 +276,11 @@ fn drops_every_second(
 /// is not touched.
 fn keeps_every_first(
     problem: &Problem,
-    admissible: &Admissible<'_>,
+    reduced: &Reduced,
     search: &Search,
-) -> Result<Found, SolverError> {
-    let mut found = multistart(problem, admissible, search)?;
+    watch: &Watch<'_>,
+) -> Result<Found, SearchError> {
+    let mut found = multistart(problem, reduced, search, watch)?;
     let mut index = 0;
     found.certified.retain(|_| {
         index += 1;

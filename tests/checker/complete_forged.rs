@@ -11,9 +11,9 @@ use crate::cover::{
 };
 use mceip_check::certificate::{Certificate, Condensation, Node, Root, RootOutcome};
 use mceip_check::{CoverFault, Reason, Rejected, audit, check};
-use mceip_engine::reduction::reduce;
 use mceip_exact::{Integer, Rational, rational, whole};
 use mceip_model::file::Number;
+use mceip_model::reduction::reduce;
 use mceip_model::{Problem, Unknown, Window};
 use mceip_oracle::Enumeration;
 use mceip_testkit::{degenerate, known, mechanical_pencil};

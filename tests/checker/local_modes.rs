@@ -10,11 +10,11 @@ use mceip_check::check;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, propose, sift};
 use mceip_engine::multistart::{Found, Search, multistart};
-use mceip_engine::reduction::reduce;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::{Sparse, parse, rational, whole};
-use mceip_model::{Admissible, Body, Pencil, Problem, Unknown, Window};
+use mceip_model::reduction::reduce;
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use num_traits::Signed;
 
 /// Free variables of the chain: more than exact claims are made for.
@@ -45,14 +45,13 @@ fn chain(end: i64) -> Problem {
 }
 
 fn found(problem: &Problem) -> Found {
-    let pencil = reduce(problem).unwrap().pencil;
-    let admissible = Admissible::new(&pencil, problem.unknown()).unwrap();
+    let reduced = reduce(problem).unwrap();
     let search = Search {
         starts: 4,
         window_starts: 1,
         ..Search::default()
     };
-    multistart(problem, &admissible, &search).unwrap()
+    multistart(problem, &reduced, &search, &Watch::nobody()).unwrap()
 }
 
 fn enclosed(claim: &Claim) -> EnclosedSolution {

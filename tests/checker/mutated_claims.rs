@@ -12,12 +12,12 @@ use mceip_check::certificate::{
 use mceip_check::check;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, flattened, lifted, propose};
-use mceip_engine::reduction::{Reduced, lift, reduce};
 use mceip_exact::{
     Algebraic, Integer, Interval, Poly, Rational, Sign, Sparse, common_denominator, rational,
     roots_in, whole,
 };
 use mceip_model::file::Number;
+use mceip_model::reduction::{Reduced, lift, reduce};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate, is_solution};
 use mceip_testkit::{degenerate, mechanical, mutate, random_pencils};

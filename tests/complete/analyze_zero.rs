@@ -11,7 +11,7 @@ use mceip_engine::analysis::absence::Limits;
 use mceip_engine::analysis::{Analysis, CertifiedSolution, Options, ProofCertificate, analyse};
 use mceip_engine::run::Watch;
 use mceip_exact::{Rational, rational, whole};
-use mceip_model::reduction::split_form;
+use mceip_model::reduction::reduce_system;
 use mceip_model::{ContactState, System, Unknown, Window};
 use mceip_oracle::{Solution, enumerate_modes};
 use mceip_testkit::generators::{Seed, states};
@@ -82,7 +82,7 @@ fn at_friction(system: &System, mu: &Rational) -> Option<Vec<Solution>> {
     let stiffness = system.stiffness().clone();
     let mass = system.mass().cloned();
     let system = System::new(stiffness, mass, Some(mu.clone()), particles).unwrap();
-    let split = split_form(&system, Unknown::Lambda2).unwrap();
+    let split = reduce_system(&system, Unknown::Lambda2).unwrap();
 
     let all = enumerate_modes(&split, &Window::all());
     all.degenerate.is_empty().then_some(all.solutions)
@@ -94,7 +94,7 @@ fn is_in_the_list(system: &System, solution: &CertifiedSolution) -> bool {
     let mass = system.mass().unwrap();
     let stiffness = system.stiffness().add_scaled(solution.lambda2.lo(), mass);
     let shifted = System::new(stiffness, None, None, particles).unwrap();
-    let split = split_form(&shifted, Unknown::Mu).unwrap();
+    let split = reduce_system(&shifted, Unknown::Mu).unwrap();
 
     let all = enumerate_modes(&split, &Window::all());
     all.solutions.iter().any(|one| {

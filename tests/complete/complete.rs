@@ -3,8 +3,8 @@
 //! The truth is the exact enumerator: the search must list the same set, and close every instance.
 #![cfg(feature = "testkit")]
 
-use mceip_engine::reduction::reduce;
 use mceip_model::Pencil;
+use mceip_model::reduction::reduce;
 use mceip_oracle::enumerate;
 use mceip_testkit::{Instance, compare_complete, degenerate, random_pencils, table1_grid};
 

@@ -9,10 +9,10 @@
 
 use mceip_check::AcceptedClaim;
 use mceip_engine::analysis::conditions::excluded_at;
-use mceip_engine::reduction::{mu_family, reduce};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_exact::{parse, to_f64};
+use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
 use mceip_paper::PublishedState::{FifteenSlip, SeventeenSlip};

@@ -9,8 +9,8 @@
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
-use mceip_model::reduction::split_form;
-use mceip_model::{Body, ContactState, Problem, SplitForm, Unknown, Window};
+use mceip_model::reduction::{Reduced, reduce_system};
+use mceip_model::{Body, ContactState, Problem, Unknown, Window};
 use mceip_oracle::{Solution, enumerate_modes};
 use mceip_testkit::generators::{Seed, states};
 use rand::RngExt;
@@ -42,7 +42,7 @@ struct Met {
 
 impl Met {
     /// The mode of each z particle in a solution that was found.
-    fn count_modes(&mut self, split: &SplitForm, support: &[usize]) {
+    fn count_modes(&mut self, split: &Reduced, support: &[usize]) {
         for variables in &split.zero {
             if support.contains(&variables.gap) {
                 self.open += 1;
@@ -82,11 +82,11 @@ fn random_problem(index: u64) -> Problem {
     Problem::new(Body::System(system), unknown, Window::all()).unwrap()
 }
 
-fn split(problem: &Problem) -> SplitForm {
+fn split(problem: &Problem) -> Reduced {
     let Body::System(system) = problem.body() else {
         panic!("a system")
     };
-    split_form(system, problem.unknown()).unwrap()
+    reduce_system(system, problem.unknown()).unwrap()
 }
 
 /// Is the solution of the list the one of the cover?

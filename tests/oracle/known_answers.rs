@@ -6,8 +6,8 @@
 //! Answers are compared exactly, and near misses must differ.
 #![cfg(feature = "testkit")]
 
-use mceip_engine::reduction::reduce;
 use mceip_exact::{Algebraic, Integer, Poly, Rational, common_denominator, parse, rational, whole};
+use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Body, Pencil, Problem};
 use mceip_oracle::{Enumeration, Solution, enumerate, is_rational_solution};
 use mceip_testkit::known::{Known, complete_graph, cycle, diagonal, jordan, path, star, z_matrix};

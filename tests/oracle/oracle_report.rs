@@ -4,11 +4,11 @@
 //! must both name them. Decimals of any length are compared with the exact number they stand for.
 #![cfg(feature = "solver")]
 
-use mceip_engine::reduction::reduce;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_exact::{
     Algebraic, Integer, Poly, Rational, Sparse, nonnegative_roots, parse, to_decimal, whole,
 };
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
 use serde_json::{Value, json};

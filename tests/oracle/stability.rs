@@ -7,11 +7,11 @@
 #![cfg(feature = "testkit")]
 
 use mceip_engine::analysis::conditions::{DefiniteUntil, condensed};
-use mceip_engine::reduction::{mu_family, reduce};
 use mceip_exact::{
     Algebraic, Integer, Interval, Poly, Rational, Sparse, common_denominator, determinant,
     positive_definite, rational, roots_in, schur_complement, whole,
 };
+use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution, enumerate, is_rational_solution};
 use mceip_testkit::generators::{Seed, gram, permuted, raw, sparse, states, with_scaled_rows};

@@ -7,8 +7,8 @@
 #![cfg(feature = "testkit")]
 
 use mceip_engine::multistart::Search;
-use mceip_engine::reduction::reduce;
 use mceip_exact::{Poly, Quadratic, Rational, Sign, Sparse, rational, whole};
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution, TwoParticles, enumerate, table1, thresholds};
 use mceip_paper::{pythagorean_angles, two_particles};

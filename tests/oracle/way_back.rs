@@ -6,10 +6,9 @@
 //! has a denominator and a forgotten scale shows.
 #![cfg(feature = "solver")]
 
-use mceip_engine::reduction::{
-    Lifted, Line, Projected, check_lines, condense, lift, project, reduce,
-};
+use mceip_engine::reduction::{Projected, condense, project};
 use mceip_exact::{Algebraic, Integer, Poly, Rational, Sparse, rational, whole};
+use mceip_model::reduction::{Lifted, Line, check_lines, lift, reduce};
 use mceip_model::{
     Admissible, Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window,
 };

@@ -12,8 +12,8 @@ use mceip_check::certificate::{Certificate, Claim, ExactSolution};
 use mceip_check::check;
 use mceip_exact::{Algebraic, Poly, Rational, Sign, rational};
 use mceip_model::file::Number;
-use mceip_model::reduction::{Lifted, check_lines, lift_along, split_form};
-use mceip_model::{Body, ContactState, Problem, SplitForm, System, Unknown, Window};
+use mceip_model::reduction::{Lifted, Reduced, check_lines, lift, reduce_system};
+use mceip_model::{Body, ContactState, Problem, System, Unknown, Window};
 use mceip_oracle::{
     Motion, OracleError, PhysicalSystem, Solution, enumerate_modes, enumerate_modes_with,
     enumerate_motions,
@@ -100,7 +100,7 @@ struct Corners {
 
 impl Corners {
     /// The mode of each z particle in a solution.
-    fn count(&mut self, split: &SplitForm, unknown: usize, solution: &Solution) {
+    fn count(&mut self, split: &Reduced, unknown: usize, solution: &Solution) {
         self.solutions_of[unknown] += 1;
         self.several_zero += usize::from(split.zero.len() > 1);
         self.irrational += usize::from(solution.value.as_rational().is_none());
@@ -145,7 +145,7 @@ fn compare(index: u64, mixture: Mixture, corners: &mut Corners) {
 
     let physical = PhysicalSystem::of(&system, unknown).unwrap();
     let direct = enumerate_motions(&physical, &Window::all()).unwrap();
-    let split = split_form(&system, unknown).unwrap();
+    let split = reduce_system(&system, unknown).unwrap();
     let found = enumerate_modes(&split, &Window::all());
     let choices = ((1 << mixture.slip) - 1) * (1u64 << (2 * mixture.zero));
     assert_eq!(found.choices, choices, "{label}");
@@ -157,7 +157,7 @@ fn compare(index: u64, mixture: Mixture, corners: &mut Corners) {
 
     assert_eq!(direct.motions.len(), found.solutions.len(), "{label}");
     for solution in &found.solutions {
-        let lifted = lift_along(&system, unknown, &split.columns, &solution.x);
+        let lifted = lift(&system, unknown, &split.variables, &solution.x);
         let is_same = |motion: &&Motion| is_same_motion(motion, solution, &lifted);
         let same = direct.motions.iter().filter(is_same).count();
         assert_eq!(same, 1, "{label}");
@@ -318,7 +318,7 @@ fn an_enumeration_of_modes_can_be_stopped_and_is_limited() {
         stick: 0,
         slip,
     };
-    let split = |mixture| split_form(&random_system(0, mixture), Unknown::Lambda2).unwrap();
+    let split = |mixture| reduce_system(&random_system(0, mixture), Unknown::Lambda2).unwrap();
     let window = Window::all();
 
     let two_and_one = split(mixture(2, 1));

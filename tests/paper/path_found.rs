@@ -6,12 +6,12 @@
 #![cfg(feature = "testkit")]
 
 use mceip_check::certificate::Claim;
-use mceip_engine::multistart::{Certified, Found, Search, exact_value, multistart_large, support};
-use mceip_engine::reduction::reduce;
+use mceip_engine::multistart::{Certified, Found, Search, exact_value, multistart, support};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::to_f64;
-use mceip_model::{Admissible, Problem, Unknown};
+use mceip_model::Problem;
+use mceip_model::reduction::reduce;
 use mceip_paper::path::{Contact, Loading, LoadingPath};
 use mceip_paper::{Block, BlockModel, MassKind};
 use std::ops::ControlFlow;
@@ -92,11 +92,8 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
 
 /// What many starts find for a problem with unknown mu.
 fn search(problem: &Problem, how: &Search) -> Found {
-    let pencil = reduce(problem).unwrap().pencil;
-    let admissible = Admissible::new(&pencil, Unknown::Mu).unwrap();
-    let (found, _) = multistart_large(problem, &admissible, how, &Watch::nobody()).unwrap();
-
-    found
+    let reduced = reduce(problem).unwrap();
+    multistart(problem, &reduced, how, &Watch::nobody()).unwrap()
 }
 
 /// The certified solution with this slip set and, to 1e-6, this value.

@@ -21,11 +21,11 @@ use crate::paper_path::{PAPER_PATH, slip_nodes};
 use mceip_check::certificate::{Certificate, CompleteSet, Node, Piece};
 use mceip_check::{Accepted, Rejected, check};
 use mceip_engine::analysis::conditions::excluded_at;
-use mceip_engine::reduction::mu_family;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::{Rational, rational, to_f64};
 use mceip_model::file::Number;
+use mceip_model::reduction::mu_family;
 use mceip_model::{Body, ContactState, Pencil, Problem, Unknown, Window};
 use mceip_paper::path::Bound;
 

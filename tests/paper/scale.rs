@@ -8,10 +8,11 @@
 use mceip_check::check;
 use mceip_engine::certify::{certificate, propose};
 use mceip_engine::multistart::{CondensedFound, CondensedSearch, all_slip, search_condensed};
-use mceip_engine::reduction::{CondensationError, SparseCondensation, condense, reduce};
+use mceip_engine::reduction::{CondensationError, SparseCondensation, condense};
 use mceip_engine::run::Watch;
 use mceip_exact::{Sparse, parse, rational, to_f64};
 use mceip_mcp::linear::Symmetric;
+use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Body, ContactState, Particle, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
 use mceip_paper::{Block, BlockModel, DoubleBlock, MassKind, MeshKind, Plane, PublishedState};

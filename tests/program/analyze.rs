@@ -14,12 +14,12 @@ use mceip_engine::analysis::conditions::{Necessary, condensed};
 use mceip_engine::analysis::{
     Analysis, Evidence, Mode, Obstacle, Options, ProofCertificate, Verdict, analyse,
 };
-use mceip_engine::reduction::{mu_family, reduce};
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{
     Interval, Rational, Sparse, enclosing_decimals, from_f64, rational, to_f64, whole,
 };
 use mceip_model::file::read_problem_file;
+use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, TwoParticles, enumerate, table1, thresholds};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState, two_particles};

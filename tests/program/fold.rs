@@ -17,9 +17,9 @@
 use crate::common::{example, exits_with_json, read};
 use crate::program::Folder;
 use mceip::picture::{BranchPoint, Branches, Picture, branch_picture};
-use mceip_engine::reduction::reduce;
 use mceip_exact::{from_f64, rational, to_f64, whole};
 use mceip_model::file::read_problem_file;
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, Problem, System, Unknown, Window};
 use mceip_oracle::enumerate;
 use serde_json::Value;

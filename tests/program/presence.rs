@@ -14,10 +14,10 @@ use mceip_check::{Reason, check_critical, check_presence};
 use mceip_engine::analysis::{
     Analysis, Evidence, Options, ProofCertificate, Sentence, Verdict, analyse,
 };
-use mceip_engine::reduction::reduce;
 use mceip_engine::run::Watch;
 use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::file::Number;
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, ContactState, Problem, System, Unknown, Window};
 use mceip_oracle::{TwoParticles, enumerate, table1};
 use mceip_paper::two_particles;

@@ -11,9 +11,9 @@ use jsonschema::Validator;
 use mceip_check::certificate::{Certificate, CriticalCertificate, PresenceCertificate};
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport};
 use mceip_engine::lcp::{FileError, read_mcp, read_solution};
-use mceip_engine::reduction::reduce;
 use mceip_model::ModelError;
 use mceip_model::file::read_problem;
+use mceip_model::reduction::reduce;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 

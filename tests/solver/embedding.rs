@@ -7,10 +7,12 @@
 
 use mceip_engine::candidate::Candidate;
 use mceip_engine::multistart::{Search, multistart};
-use mceip_engine::reduction::{Embedding, Side, reduce};
+use mceip_engine::reduction::{Embedding, Side};
+use mceip_engine::run::Watch;
 use mceip_exact::{to_f64, whole};
 use mceip_mcp::mcp::Mcp;
 use mceip_mcp::solver::{Options, Residuals, solve};
+use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Pencil, Unknown, Window};
 use mceip_oracle::{Solution, enumerate};
 use mceip_testkit::{Instance, mechanical, random_pencils};
@@ -79,10 +81,10 @@ fn solutions_of_the_eigenproblem_solve_the_mcp() {
 #[test]
 fn solutions_of_the_mcp_are_certified_or_reported() {
     for instance in instances() {
-        let pencil = pencil_of(&instance);
-        let admissible = Admissible::new(&pencil, instance.problem.unknown()).unwrap();
+        let problem = &instance.problem;
+        let reduced = reduce(problem).unwrap();
 
-        let found = multistart(&instance.problem, &admissible, &Search::default()).unwrap();
+        let found = multistart(problem, &reduced, &Search::default(), &Watch::nobody()).unwrap();
 
         let mut reached = 0;
         for (termination, count) in &found.terminations {

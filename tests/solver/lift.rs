@@ -5,8 +5,8 @@
 //! vector that breaks it, and the inequality a reaction outside the friction cone.
 #![cfg(feature = "testkit")]
 
-use mceip_engine::reduction::{Lifted, Line, check_lines, lift, reduce};
 use mceip_exact::{Algebraic, Poly, Rational, Sparse, to_f64, whole};
+use mceip_model::reduction::{Lifted, Line, check_lines, lift, reduce};
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::{Solution, enumerate};
 use mceip_testkit::mechanical;

@@ -9,9 +9,9 @@ use mceip_check::certificate::{Certificate, Claim, ExactSolution, LiftedSolution
 use mceip_check::{Accepted, Reason, check};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, flattened, lifted, propose};
-use mceip_engine::reduction::reduce;
 use mceip_exact::{Rational, Sparse, parse, rational, whole};
 use mceip_model::file::Number;
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
 use mceip_oracle::{Solution, enumerate};
 use mceip_testkit::{forgeries, mechanical};

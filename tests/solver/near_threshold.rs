@@ -15,7 +15,7 @@ use mceip_engine::run::Watch;
 use mceip_engine::search::near::{Near, near};
 use mceip_exact::{Rational, Sparse, from_f64, parse, to_f64, whole};
 use mceip_model::reduction::reduce;
-use mceip_model::{Admissible, Body, Pencil, Problem, Unknown, Window};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_oracle::{Solution, TwoParticles, enumerate, table1};
 use mceip_paper::{pythagorean_angles, two_particles};
 
@@ -209,16 +209,17 @@ struct Searched {
 /// What the search says of a problem: every claim is checked against the problem and the exact
 /// enumeration.
 fn searched(problem: &Problem) -> Searched {
-    let pencil = reduce(problem).unwrap().pencil;
-    let admissible = Admissible::new(&pencil, problem.unknown()).unwrap();
+    let reduced = reduce(problem).unwrap();
     let search = Search {
         starts: 6,
         window_starts: 1,
         ..Search::default()
     };
 
-    let found = multistart(problem, &admissible, &search).unwrap();
-    let truth = enumerate(&pencil, problem.window()).unwrap().solutions;
+    let found = multistart(problem, &reduced, &search, &Watch::nobody()).unwrap();
+    let truth = enumerate(&reduced.pencil, problem.window())
+        .unwrap()
+        .solutions;
 
     let claimed = found.certified.len();
     assert!(

@@ -8,12 +8,14 @@
 use crate::families::{Case, random_case, table1_cases};
 use mceip_engine::multistart::{Found, Search, multistart, support};
 use mceip_engine::reduction::{Embedding, Side};
+use mceip_engine::run::Watch;
 use mceip_exact::Sparse;
 use mceip_mcp::mcp::{LinearMcp, Mcp};
 use mceip_mcp::solver::{
     CurveEnd, Options, Outcome, Sense, StepKind, continuation, continuation_through, solve,
     solve_linear,
 };
+use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Pencil, Unknown, Window};
 use mceip_oracle::enumerate;
 use nalgebra::{DMatrix, dmatrix};
@@ -398,14 +400,15 @@ impl Searched {
 
 /// Ten fresh starts within the work of so many runs.
 fn searched(case: &Case, budget: Option<usize>) -> Searched {
-    let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
+    let problem = case.problem();
+    let reduced = reduce(&problem).unwrap();
     let search = Search {
         starts: 10,
         window_starts: 0,
         budget,
         ..Search::default()
     };
-    let found = multistart(&case.problem(), &admissible, &search).unwrap();
+    let found = multistart(&problem, &reduced, &search, &Watch::nobody()).unwrap();
     let work = found.pivots + found.factorisations;
     Searched { found, work }
 }

@@ -10,7 +10,9 @@
 use crate::families::{Case, random_case, table1_cases};
 use mceip_engine::multistart::{Certified, Found, Origin, Search, multistart, same, support};
 use mceip_engine::reduction::{Embedding, Side};
+use mceip_engine::run::Watch;
 use mceip_mcp::solver::{CurveEnd, Options, solve};
+use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Window};
 use mceip_oracle::{Solution, enumerate};
 use std::collections::BTreeMap;
@@ -51,7 +53,9 @@ impl Tally {
         let Some(search) = search else {
             return;
         };
-        let found = multistart(&case.problem(), &admissible, search).unwrap();
+        let problem = case.problem();
+        let reduced = reduce(&problem).unwrap();
+        let found = multistart(&problem, &reduced, search, &Watch::nobody()).unwrap();
         self.add_search(&found, &truth);
         print_first_missed(case, &found, &truth);
     }

@@ -9,8 +9,9 @@
 use mceip_check::{AcceptedClaim, check};
 use mceip_engine::certify::certificate;
 use mceip_engine::multistart::{Certified, Search};
-use mceip_engine::reduction::reduce;
+use mceip_engine::run::Watch;
 use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::reduction::reduce;
 use mceip_model::{
     Admissible, Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window,
 };
@@ -535,17 +536,18 @@ fn table_is_sound(two: Two) -> Result<bool, String> {
     let data = two.data();
     let body = Body::System(two_particles(&data).unwrap());
     let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
-    let pencil = reduce(&problem).unwrap().pencil;
-    let Ok(admissible) = Admissible::new(&pencil, Unknown::Lambda2) else {
+    let reduced = reduce(&problem).unwrap();
+    if Admissible::new(&reduced.pencil, Unknown::Lambda2).is_err() {
         return Ok(true);
-    };
+    }
     let truth = table1(&data);
 
     let search = Search {
         starts: 22,
         ..Search::default()
     };
-    let found = from_interior(&problem, &admissible, &search).map_err(|e| e.to_string())?;
+    let found = from_interior(&problem, &reduced, &search, &Watch::nobody());
+    let found = found.map_err(|e| e.to_string())?;
     let certified = found.certified.len();
     if certified > truth.len() {
         let known = truth.len();

@@ -10,14 +10,12 @@ use mceip_check::certificate::{Claim, EnclosedSolution};
 use mceip_check::check;
 use mceip_engine::certify::Preference;
 use mceip_engine::certify::certificate;
-use mceip_engine::multistart::{
-    Certified, Found, Search, exact_value, multistart_with_zero, support,
-};
-use mceip_engine::reduction::{Embedding, Side, reduce_with_zero};
+use mceip_engine::multistart::{Certified, Found, Search, exact_value, multistart, support};
+use mceip_engine::reduction::{Embedding, Side};
 use mceip_engine::run::Watch;
 use mceip_mcp::mcp::Mcp;
-use mceip_model::reduction::split_form;
-use mceip_model::{Admissible, Body, ContactState, Problem, SplitForm, System, Unknown, Window};
+use mceip_model::reduction::{Reduced, reduce, reduce_system};
+use mceip_model::{Admissible, Body, ContactState, Problem, System, Unknown, Window};
 use mceip_oracle::{Solution, enumerate_modes};
 use mceip_testkit::floors::{Coverage, Starts, floor, shortfalls};
 use mceip_testkit::generators::{Seed, states};
@@ -57,7 +55,7 @@ struct Met {
 
 impl Met {
     /// The mode of each z particle in a solution that was found.
-    fn count_modes(&mut self, split: &SplitForm, positive: &[usize]) {
+    fn count_modes(&mut self, split: &Reduced, positive: &[usize]) {
         for variables in &split.zero {
             if positive.contains(&variables.gap) {
                 self.open += 1;
@@ -109,14 +107,13 @@ fn system(problem: &Problem) -> &System {
 }
 
 fn search(problem: &Problem) -> Found {
-    let reduced = reduce_with_zero(problem).unwrap();
-    let admissible = Admissible::new(&reduced.pencil, problem.unknown()).unwrap();
+    let reduced = reduce(problem).unwrap();
     // The list has exact values.
     let search = Search {
         preference: Preference::Exact,
         ..Search::default()
     };
-    multistart_with_zero(problem, &reduced, &admissible, &search, &Watch::nobody()).unwrap()
+    multistart(problem, &reduced, &search, &Watch::nobody()).unwrap()
 }
 
 /// Is a certified solution that of the list?
@@ -129,7 +126,7 @@ fn is_listed_as(certified: &Certified, solution: &Solution) -> bool {
 /// Solves a problem and compares with the list of all solutions.
 fn compare(index: u64, met: &mut Met) {
     let problem = random_problem(index);
-    let split = split_form(system(&problem), problem.unknown()).unwrap();
+    let split = reduce_system(system(&problem), problem.unknown()).unwrap();
     let all = enumerate_modes(&split, &Window::all());
     if !all.degenerate.is_empty() {
         met.degenerate += 1;
@@ -199,7 +196,7 @@ fn large_systems_are_certified_by_boxes() {
     let mut met = Met::default();
     for index in 0..LARGE_SYSTEMS {
         let problem = large_problem(index);
-        let split = split_form(system(&problem), problem.unknown()).unwrap();
+        let split = reduce_system(system(&problem), problem.unknown()).unwrap();
         let all = enumerate_modes(&split, &Window::all());
         assert!(all.degenerate.is_empty(), "system {index}");
 
@@ -230,11 +227,7 @@ fn large_systems_are_certified_by_boxes() {
 }
 
 /// The checker accepts the box, and not the same box about the other half of v_T.
-fn assert_the_other_half_is_refused(
-    problem: &Problem,
-    split: &SplitForm,
-    claim: &EnclosedSolution,
-) {
+fn assert_the_other_half_is_refused(problem: &Problem, split: &Reduced, claim: &EnclosedSolution) {
     let good = Claim::EnclosedSolution(claim.clone());
     let accepted = check(problem, &certificate(problem, vec![good]));
     assert!(accepted.is_ok(), "{accepted:?}");
@@ -319,20 +312,20 @@ fn every_solution_solves_the_mcp() {
     let mut solutions = 0;
     for index in 0..FEW {
         let problem = random_problem(index);
-        let split = split_form(system(&problem), problem.unknown()).unwrap();
+        let split = reduce_system(system(&problem), problem.unknown()).unwrap();
         let admissible = Admissible::new(&split.pencil, problem.unknown()).unwrap();
         let embedding = Embedding::with_zero(&admissible, &split.zero, Side::Above(0.0));
 
         for solution in &enumerate_modes(&split, &Window::all()).solutions {
             let value: f64 = solution.decimal(17).parse().unwrap();
-            let decimals = solution.x_decimals(&split.slip, 17);
+            let decimals = solution.x_decimals(&split.normalised(), 17);
             let x: Vec<f64> = decimals.iter().map(|d| d.parse().unwrap()).collect();
 
             let z = embedding.point(value, &x);
 
             assert!(residual(&embedding, &z) < 1e-6, "system {index}: {z:?}");
             let back = embedding.candidate(&z);
-            let scale: f64 = split.slip.iter().map(|&i| back.x[i]).sum();
+            let scale: f64 = split.normalised().iter().map(|&i| back.x[i]).sum();
             for (there, given) in back.x.iter().zip(&x) {
                 let there = there / scale;
                 approx::assert_relative_eq!(there, *given, epsilon = 1e-9, max_relative = 1e-9);
@@ -362,7 +355,7 @@ fn residual(embedding: &Embedding, z: &[f64]) -> f64 {
 fn the_jacobian_is_the_derivative() {
     for index in 0..20 {
         let problem = random_problem(index);
-        let split = split_form(system(&problem), problem.unknown()).unwrap();
+        let split = reduce_system(system(&problem), problem.unknown()).unwrap();
         let admissible = Admissible::new(&split.pencil, problem.unknown()).unwrap();
         let embedding = Embedding::with_zero(&admissible, &split.zero, Side::Above(0.0));
         let n = embedding.dimension();

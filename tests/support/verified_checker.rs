@@ -8,8 +8,8 @@
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, Rational, parse, rational};
 use mceip_model::file::read_problem_file;
-use mceip_model::reduction::{reduce, reduce_with_zero, split_form};
-use mceip_model::{Body, Particle, Pencil, Problem, SplitForm, System, Unknown, Window};
+use mceip_model::reduction::{Reduced, reduce};
+use mceip_model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate, enumerate_modes};
 use mceip_testkit::verified::{VerifiedChecker, VerifiedVerdict};
 use std::fs::File;
@@ -68,17 +68,16 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
     let Some(asked) = window_of(certificate) else {
         return vec!["accepted without a window".into()];
     };
-    let pencil = reduce_with_zero(problem).unwrap().pencil;
+    let reduced = reduce(problem).unwrap();
+    let pencil = &reduced.pencil;
     let Some(statement) = Statement::read(lines, &pencil.slip()) else {
         return vec![format!("an unknown sentence in {lines:?}")];
     };
 
-    match problem.body() {
-        Body::System(system) if system.require_no_zero().is_err() => {
-            let split = split_form(system, problem.unknown()).unwrap();
-            statement.falsehoods_by_modes(&split, &asked)
-        }
-        _ => statement.falsehoods(&pencil, &asked),
+    if reduced.zero.is_empty() {
+        statement.falsehoods(pencil, &asked)
+    } else {
+        statement.falsehoods_by_modes(&reduced, &asked)
     }
 }
 
@@ -299,7 +298,7 @@ impl Statement {
 
     /// The same for a system with particles in contact with zero reaction. Where the enumerator of
     /// modes leaves something undescribed, nothing is held against the statement.
-    fn falsehoods_by_modes(&self, split: &SplitForm, asked: &Window) -> Vec<String> {
+    fn falsehoods_by_modes(&self, split: &Reduced, asked: &Window) -> Vec<String> {
         let list = enumerate_modes(split, asked);
         if !list.is_complete_list() {
             return Vec::new();

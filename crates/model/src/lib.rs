@@ -15,7 +15,6 @@ pub mod file;
 mod pencil;
 mod problem;
 pub mod reduction;
-mod split_form;
 mod system;
 mod window;
 
@@ -23,6 +22,6 @@ pub use coordinates::{Coordinates, Node};
 pub use error::{ErrorLocation, ModelError};
 pub use pencil::{Admissible, Pencil, Unknown};
 pub use problem::{Body, Problem};
-pub use split_form::{SplitForm, ZeroVariables};
+pub use reduction::ZeroVariables;
 pub use system::{ContactState, Direction, Particle, Reaction, System};
 pub use window::Window;

@@ -1,6 +1,6 @@
 //! The enumerator of the split form: systems with particles in contact with zero reaction (z).
 //!
-//! The pencil of [`SplitForm`] has the variables x = (x_f, x_s, g, v+, v-). A *choice of modes*
+//! The pencil of [`Reduced`] has the variables x = (x_f, x_s, g, v+, v-). A *choice of modes*
 //! says of each s particle whether it slips, and of each z particle one of
 //!
 //! | mode | variables of the block | inequalities |
@@ -25,7 +25,8 @@ use super::physical::Mode;
 use super::plain::{OracleError, multiplicity, require_size};
 use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
-use mceip_model::{SplitForm, Window, ZeroVariables};
+use mceip_model::Window;
+use mceip_model::reduction::{Reduced, ZeroVariables};
 use std::ops::ControlFlow;
 
 /// A choice of modes that is listed and not described.
@@ -68,7 +69,7 @@ impl ModeList {
 /// All solutions of (9) with a value in the window, in the variables of the split form.
 ///
 /// The work is (2^n_s - 1) 4^n_z determinants: meant for a few particles.
-pub fn enumerate_modes(split: &SplitForm, window: &Window) -> ModeList {
+pub fn enumerate_modes(split: &Reduced, window: &Window) -> ModeList {
     examine_all(split, window, |_, _| ControlFlow::Continue(()))
 }
 
@@ -80,12 +81,12 @@ pub fn enumerate_modes(split: &SplitForm, window: &Window) -> ModeList {
 /// [`MAX_SLIP`](super::MAX_SLIP) and [`MAX_FREE`](super::MAX_FREE), or coefficients beyond
 /// [`MAX_BITS`](super::MAX_BITS).
 pub fn enumerate_modes_with(
-    split: &SplitForm,
+    split: &Reduced,
     window: &Window,
     progress: impl FnMut(u64, u64) -> ControlFlow<()>,
 ) -> Result<ModeList, OracleError> {
     // Two bits say which of the four modes a z particle has.
-    let bits = split.slip.len() + 2 * split.zero.len();
+    let bits = split.normalised().len() + 2 * split.zero.len();
     require_size(&split.pencil, "slip variables + 2 z particles", bits)?;
 
     let mut found = examine_all(split, window, progress);
@@ -97,20 +98,21 @@ pub fn enumerate_modes_with(
 }
 
 fn examine_all(
-    split: &SplitForm,
+    split: &Reduced,
     window: &Window,
     mut progress: impl FnMut(u64, u64) -> ControlFlow<()>,
 ) -> ModeList {
     let integers = IntegerPencil::of(&split.pencil);
     let modes = choices_of_modes(split.zero.len());
-    let slip_sets = (1u64 << split.slip.len()) - 1;
+    let slip_variables = split.normalised();
+    let slip_sets = (1u64 << slip_variables.len()) - 1;
     let mut found = ModeList {
         choices_total: slip_sets * modes.len() as u64,
         ..ModeList::default()
     };
 
     for number in 1..=slip_sets {
-        let slip = members(&split.slip, number);
+        let slip = members(&slip_variables, number);
         for zero in &modes {
             let choice = Choice {
                 split,
@@ -180,7 +182,7 @@ fn block_of(variables: &ZeroVariables, mode: Mode) -> Vec<usize> {
 
 /// A choice of modes.
 struct Choice<'a> {
-    split: &'a SplitForm,
+    split: &'a Reduced,
     slip: &'a [usize],
     zero: &'a [Mode],
 }

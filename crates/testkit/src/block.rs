@@ -13,11 +13,12 @@ use crate::error::TestkitError;
 use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedClaim, AcceptedCover, Rejected, check};
 use mceip_engine::certify::certificate;
-use mceip_engine::multistart::{Search, SearchError, multistart_large};
-use mceip_engine::reduction::reduce;
+use mceip_engine::multistart::{Search, SearchError, multistart};
+use mceip_engine::reduction::condense;
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::to_f64;
+use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Pencil, Problem, Unknown};
 use mceip_paper::{Block, PublishedState};
 
@@ -120,8 +121,9 @@ pub fn block_state(
 ) -> Result<Option<BlockReport>, TestkitError> {
     watch.report(&Progress::stage("reducing"));
     let problem = state.problem(block)?;
-    let pencil = reduce(&problem)?.pencil;
-    let full = Admissible::new(&pencil, Unknown::Mu)?;
+    let reduced = reduce(&problem)?;
+    let pencil = &reduced.pencil;
+    let condensed = condense(&Admissible::new(pencil, Unknown::Mu)?)?;
 
     if watch.is_cancelled() {
         return Ok(None);
@@ -132,7 +134,7 @@ pub fn block_state(
         window_starts: 2,
         ..Search::default()
     };
-    let (found, condensed) = multistart_large(&problem, &full, &search, &watch.quiet())?;
+    let found = multistart(&problem, &reduced, &search, &watch.quiet())?;
 
     if watch.is_cancelled() {
         return Ok(None);
@@ -157,7 +159,7 @@ pub fn block_state(
         forgeries: 0,
         rejected_forgeries: 0,
         orders: (block.stiffness.rows(), pencil.order(), pencil.slip().len()),
-        bits: condensed.as_ref().map_or(0, denominator_bits),
+        bits: denominator_bits(&condensed),
         runs: found.runs,
         pivots: found.pivots,
         certificate: None,
@@ -170,13 +172,11 @@ pub fn block_state(
         missing: 0,
     };
 
-    if let Some(condensed) = &condensed {
-        let small = Admissible::new(condensed, Unknown::Mu)?;
-        let proved = &report.cover.solutions;
-        let values: Vec<f64> = proved.iter().map(|s| to_f64(&s.value.mid())).collect();
-        report.path =
-            path_coverage(&small, &values, BLOCK_STARTS, search.seed).map_err(SearchError::from)?;
-    }
+    let small = Admissible::new(&condensed, Unknown::Mu)?;
+    let proved = &report.cover.solutions;
+    let values: Vec<f64> = proved.iter().map(|s| to_f64(&s.value.mid())).collect();
+    report.path =
+        path_coverage(&small, &values, BLOCK_STARTS, search.seed).map_err(SearchError::from)?;
 
     if found.certified.is_empty() {
         return Ok(Some(report));

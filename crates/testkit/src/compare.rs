@@ -24,11 +24,11 @@ use mceip_check::{Proved, check};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate};
 use mceip_engine::multistart::{
-    Found, Origin, Search, exact_value, integer_x, multistart, support,
+    Found, Origin, Search, SearchError, exact_value, integer_x, multistart, support,
 };
-use mceip_engine::reduction::{Reduced, check_lines, lift, reduce};
+use mceip_engine::run::Watch;
 use mceip_exact::{Algebraic, Quadratic, Rational, Sign};
-use mceip_mcp::solver::SolverError;
+use mceip_model::reduction::{Reduced, check_lines, lift, reduce};
 use mceip_model::{Admissible, Body, Pencil, Problem};
 use mceip_oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
 use num_traits::Signed;
@@ -99,7 +99,7 @@ pub struct Reached {
 
 /// What is asked for the solutions of a problem: [`multistart`], [`from_interior`], or one that is
 /// wrong on purpose.
-pub type Solver = fn(&Problem, &Admissible<'_>, &Search) -> Result<Found, SolverError>;
+pub type Solver = fn(&Problem, &Reduced, &Search, &Watch<'_>) -> Result<Found, SearchError>;
 
 /// How an instance is treated.
 #[derive(Debug, Clone)]
@@ -176,7 +176,7 @@ pub fn coverage_of(
         ..InstanceReport::default()
     };
 
-    run_solver(instance, &reduced.pencil, &oracle, treatment, &mut report);
+    run_solver(instance, &reduced, &oracle, treatment, &mut report);
     Ok(report)
 }
 
@@ -211,22 +211,23 @@ pub(super) fn compare_with(
         Err(disagreement) => report.disagreements.push(disagreement),
     }
 
-    run_solver(instance, &reduced.pencil, oracle, treatment, report);
+    run_solver(instance, reduced, oracle, treatment, report);
 }
 
 /// The solver on an instance that fulfils the hypotheses of Proposition 1 or 2; on Table 1 also
 /// from interior starts.
 fn run_solver(
     instance: &Instance,
-    pencil: &Pencil,
+    reduced: &Reduced,
     oracle: &Enumeration,
     treatment: &Treatment,
     report: &mut InstanceReport,
 ) {
     let problem = &instance.problem;
-    let Ok(admissible) = Admissible::new(pencil, problem.unknown()) else {
+    let pencil = &reduced.pencil;
+    if Admissible::new(pencil, problem.unknown()).is_err() {
         return;
-    };
+    }
 
     report.solved = true;
 
@@ -253,7 +254,7 @@ fn run_solver(
         verified: treatment.verified.as_ref(),
     };
     for (starts, solver, search) in runs {
-        match solver(problem, &admissible, &search) {
+        match solver(problem, reduced, &search, &Watch::nobody()) {
             Ok(found) => compare_found(&answered, starts, found, report),
             Err(e) => report.disagreements.push(Disagreement::Refused {
                 engine: "solver",
@@ -265,7 +266,8 @@ fn run_solver(
 
 /// The reduction and the enumerator's answer.
 pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disagreement> {
-    let reduced = reduce(problem).map_err(|e| Disagreement::Refused {
+    let reduced = reduce(problem).and_then(Reduced::without_zero);
+    let reduced = reduced.map_err(|e| Disagreement::Refused {
         engine: "reduction",
         reason: e.to_string(),
     })?;

@@ -11,11 +11,13 @@
 
 use super::floors::Coverage;
 use mceip_engine::certify::Certifier;
-use mceip_engine::multistart::{Found, Origin, Search};
+use mceip_engine::multistart::{Found, Origin, Search, SearchError};
 use mceip_engine::reduction::{Embedding, Side};
+use mceip_engine::run::Watch;
 use mceip_engine::tolerance::PATH_VALUE;
 use mceip_exact::{Sparse, to_f64};
 use mceip_mcp::solver::{CrashMethod, Options, Sense, SolverError, continuation, solve};
+use mceip_model::reduction::Reduced;
 use mceip_model::{Admissible, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -90,15 +92,17 @@ fn largest(matrix: &Sparse) -> f64 {
 /// [`mceip_engine::multistart::multistart`].
 ///
 /// # Errors
-/// [`SolverError`] for options out of range.
+/// [`SearchError`] for options out of range, and a problem outside the propositions.
 pub fn from_interior(
     problem: &Problem,
-    admissible: &Admissible<'_>,
+    reduced: &Reduced,
     search: &Search,
-) -> Result<Found, SolverError> {
+    _: &Watch<'_>,
+) -> Result<Found, SearchError> {
+    let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let bottom = to_f64(problem.window().min());
-    let certifier = Certifier::new(problem, admissible.pencil());
-    let embedding = Embedding::new(admissible, Side::Above(bottom));
+    let certifier = Certifier::new(problem, &reduced.pencil);
+    let embedding = Embedding::new(&admissible, Side::Above(bottom));
 
     let mut attempt = Attempt {
         certifier,
@@ -107,7 +111,7 @@ pub fn from_interior(
     };
 
     let mut points = Vec::new();
-    for start in interior_starts(admissible, search.starts, search.seed) {
+    for start in interior_starts(&admissible, search.starts, search.seed) {
         let value = bottom + start.value;
         points.push(attempt.embedding.point(value, &start.x));
     }
@@ -212,9 +216,9 @@ mod tests {
     use super::*;
     use crate::table1_grid;
     use mceip_engine::multistart::{multistart, same};
-    use mceip_engine::reduction::reduce;
     use mceip_mcp::mcp::Mcp;
     use mceip_model::Unknown;
+    use mceip_model::reduction::reduce;
 
     /// Rows of the pencil at a start, scaled to e'x_s = 1: the largest violation of
     /// complementarity.
@@ -261,7 +265,6 @@ mod tests {
         let mut found = 0;
         for instance in table1_grid().unwrap().iter().step_by(11) {
             let reduced = reduce(&instance.problem).unwrap();
-            let admissible = Admissible::new(&reduced.pencil, Unknown::Lambda2).unwrap();
             let problem = &instance.problem;
 
             let search = Search {
@@ -269,8 +272,9 @@ mod tests {
                 ..Search::default()
             };
 
-            let interior = from_interior(problem, &admissible, &search).unwrap();
-            let whole = multistart(problem, &admissible, &search).unwrap();
+            let nobody = Watch::nobody();
+            let interior = from_interior(problem, &reduced, &search, &nobody).unwrap();
+            let whole = multistart(problem, &reduced, &search, &nobody).unwrap();
 
             let label = &instance.label;
             assert!(interior.runs >= INTERIOR_STARTS, "{label}");

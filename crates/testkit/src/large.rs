@@ -5,10 +5,10 @@
 //! are taken as exact numbers.
 
 use crate::error::TestkitError;
-use mceip_engine::reduction::reduce;
 use mceip_engine::run::{Cancel, Watch};
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64, whole};
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
 use mceip_paper::{Block, BlockModel};
 use num_traits::One;
@@ -77,7 +77,7 @@ pub fn backslash_block() -> Result<Problem, TestkitError> {
 /// # Errors
 /// [`TestkitError`]; also where the unknown multiplies free rows or columns, as in MCEIP-lambda2.
 pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, TestkitError> {
-    let pencil = reduce(problem)?.pencil;
+    let pencil = reduce(problem)?.without_zero()?.pencil;
     let Some(elimination) = elimination_in_doubles(problem)? else {
         return Ok(problem.clone());
     };

@@ -27,9 +27,9 @@ use super::forge::forgeries;
 use mceip_check::certificate::Certificate;
 use mceip_check::check;
 use mceip_engine::certify::{certificate, propose};
-use mceip_engine::reduction::reduce;
 use mceip_exact::{Sparse, whole};
 use mceip_model::file::{read_problem, write_problem};
+use mceip_model::reduction::{Reduced, reduce};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
 use std::path::Path;
@@ -125,7 +125,7 @@ pub fn checker_against_forgeries(data: &[u8]) {
 
 /// A certificate for each solution the enumerator lists.
 fn certificates(problem: &Problem) -> Vec<Certificate> {
-    let Ok(reduced) = reduce(problem) else {
+    let Ok(reduced) = reduce(problem).and_then(Reduced::without_zero) else {
         return Vec::new();
     };
     let Ok(oracle) = enumerate(&reduced.pencil, problem.window()) else {

@@ -18,10 +18,10 @@ use mceip_engine::certify::{Certifier, ENCLOSED_ORDER};
 use mceip_engine::multistart::{
     CondensedFound, CondensedSearch, CondensedSolution, MAX_STARTS, search_condensed,
 };
-use mceip_engine::reduction::reduce;
 use mceip_engine::report::Table;
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{Rational, to_f64, upper_decimal};
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, ContactState, Problem, Unknown, Window};
 use mceip_paper::{Block, BlockModel};
 use serde_json::{Value, json};

@@ -5,11 +5,11 @@ use super::super::common::{CliError, exit, print, text};
 use super::super::job::Job;
 use super::search::{plain_search_of, search_of};
 use mceip_engine::lcp;
-use mceip_engine::multistart::{Found, MAX_STARTS, Search, SearchError, multistart_with_zero};
-use mceip_engine::reduction::reduce_with_zero;
+use mceip_engine::multistart::{Found, MAX_STARTS, Search, SearchError, multistart};
 use mceip_engine::run::Watch;
+use mceip_model::Problem;
 use mceip_model::file::{from_json, read_problem, require_format, write_problem};
-use mceip_model::{Admissible, Problem};
+use mceip_model::reduction::reduce;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -166,9 +166,8 @@ fn repeat(header: &Header, path: &Path, watch: &Watch<'_>) -> Result<Repeated, C
     let problem = read_problem(&header.problem, Path::new("."));
     let problem = problem.map_err(|e| CliError::file(path, e))?;
     let search = search_of(header.starts, header.seed, header.all, true);
-    let reduced = reduce_with_zero(&problem)?;
-    let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
-    let found = multistart_with_zero(&problem, &reduced, &admissible, &search, watch)?;
+    let reduced = reduce(&problem)?;
+    let found = multistart(&problem, &reduced, &search, watch)?;
 
     let again = Header::new(&problem, &search, header.all);
     Ok(Repeated {

@@ -22,13 +22,14 @@
 //! path of `mceip block`.
 
 use super::eliminated::Eliminated;
-use crate::reduction::{MuFamily, condense};
+use crate::reduction::condense;
 use crate::search::complete::pieces::skyline::Skyline;
 use crate::tolerance::{BRACKET_BITS, BRACKET_START_BITS};
 use mceip_exact::{
     Algebraic, DefiniteError, Dense, Integer, Interval, Rational, Sparse, common_denominator,
     determinant, from_f64, positive_definite, rational, roots_in, to_f64,
 };
+use mceip_model::reduction::MuFamily;
 use mceip_model::{Admissible, ModelError, Pencil, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution, examine_support};
 use num_traits::{One, Signed, Zero};
@@ -525,8 +526,8 @@ pub fn is_all_slip(pencil: &Pencil, support: &[usize], biactive: &[usize]) -> bo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reduction::mu_family;
     use mceip_exact::{rational, whole};
+    use mceip_model::reduction::mu_family;
     use mceip_model::{ContactState, Particle, System};
     use mceip_oracle::{TwoParticles, table1, thresholds};
     use mceip_paper::two_particles;

@@ -6,10 +6,10 @@
 
 use super::evidence::Evidence;
 use super::modes::Mode;
-use crate::reduction::MuFamily;
 use crate::search::complete::Completed;
 use mceip_check::OpenRegion;
 use mceip_model::System;
+use mceip_model::reduction::MuFamily;
 
 /// Does divergence of the form (8) exist? Never "stable": flutter and stick-slip growth lie outside
 /// (8).

@@ -7,8 +7,7 @@
 //! Input: a system. Called by [`analyse`](super::analyse), `critical` and `absence`.
 
 use super::conditions::{DefiniteUntil, Necessary, condensed};
-use crate::reduction::{MuFamily, mu_family, mu_family_with_zero};
-use mceip_model::reduction::zero_variables;
+use mceip_model::reduction::{MuFamily, mu_family, zero_variables};
 use mceip_model::{ModelError, System, ZeroVariables};
 
 /// The families of a system.
@@ -33,7 +32,7 @@ impl Families {
         };
 
         Ok(Families {
-            own: mu_family_with_zero(system)?,
+            own: mu_family(system)?,
             with_zero_free,
             zero,
         })

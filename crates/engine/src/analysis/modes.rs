@@ -6,10 +6,10 @@
 //! solution with its x in doubles. Output: [`Mode`]. Called by `divergence`.
 
 use super::sentences::{short, short_is_plain};
-use crate::reduction::{MuFamily, mode};
+use crate::reduction::mode;
 use mceip_check::AcceptedClaim;
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
-use mceip_model::reduction::zero_variables;
+use mceip_model::reduction::{MuFamily, zero_variables};
 use mceip_model::{ContactState, System, ZeroVariables};
 use num_traits::{Signed, Zero};
 

@@ -13,11 +13,11 @@ use super::report::Reported;
 use crate::candidate::scaled;
 use crate::certify::rows::active;
 use crate::multistart::support;
-use crate::reduction::Reduced;
 use crate::report::Listed;
 use crate::tolerance::VALUE_FLOOR;
 use mceip_check::certificate::Claim;
 use mceip_exact::{Rational, from_f64, to_f64};
+use mceip_model::reduction::Reduced;
 use mceip_model::{Pencil, Problem};
 use num_traits::{Signed, Zero};
 

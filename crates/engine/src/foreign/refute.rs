@@ -10,10 +10,9 @@
 use super::singular::has_singular_support;
 use super::verdict::Refutation;
 use crate::candidate::{Candidate, distance, scaled};
-use crate::reduction::Reduced;
 use crate::tolerance::{DISTANCE_ROUNDING, VALUE_RADIUS, X_RADIUS};
 use mceip_exact::{Rational, from_f64, to_f64};
-use mceip_model::reduction::split_form;
+use mceip_model::reduction::{Reduced, reduce_system};
 use mceip_model::{Body, Pencil, Problem, Window};
 use mceip_oracle::{
     Enumeration, MAX_FREE, ModeList, Solution, coefficient_bits, enumerate, enumerate_modes,
@@ -213,7 +212,7 @@ fn modes(problem: &Problem, near: &Window) -> Result<ModeList, String> {
         return Err("only a system has particles".into());
     };
 
-    let split = split_form(system, problem.unknown()).map_err(|e| e.to_string())?;
+    let split = reduce_system(system, problem.unknown()).map_err(|e| e.to_string())?;
     Ok(enumerate_modes(&split, near))
 }
 

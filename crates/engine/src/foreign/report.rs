@@ -6,10 +6,11 @@
 //! conformance runner, which then [`judge`](super::judge) each solution.
 
 use crate::candidate::{Candidate, SOLUTIONS_FORMAT, scaled_exactly};
-use crate::reduction::{Reduced, project};
+use crate::reduction::project;
 use crate::tolerance::X_RADIUS;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::{Number, Object, from_json_with_unique_keys, require_format};
+use mceip_model::reduction::Reduced;
 use mceip_model::{Body, ModelError, Problem};
 use num_traits::Zero as _;
 use serde::{Deserialize, Deserializer};
@@ -277,7 +278,7 @@ fn reported(
         x: scaled_exactly(&given.x).unwrap_or_else(|| vec![0.0; given.x.len()]),
     };
     Ok(Reported {
-        candidate: candidate.one_sided(&reduced.zero_variables()),
+        candidate: candidate.one_sided(&reduced.zero),
         off: given.off,
     })
 }

@@ -12,11 +12,11 @@ use super::report::Reported;
 use crate::candidate::{BACKWARD_ERROR_DIGITS, Candidate};
 use crate::certify::certify;
 use crate::multistart::{exact_value, support};
-use crate::reduction::Reduced;
 use mceip_check::certificate::{Claim, EnclosedSolution};
 use mceip_exact::{Algebraic, Interval, Poly};
 use mceip_exact::{enclosing_decimals, parse, to_decimal, upper_decimal};
 use mceip_model::Problem;
+use mceip_model::reduction::Reduced;
 
 /// Components of a proven x that are printed.
 const COMPONENTS_SHOWN: usize = 8;

@@ -14,7 +14,7 @@ pub enum SearchError {
     /// The condensation failed.
     #[error(transparent)]
     Condensation(#[from] CondensationError),
-    /// The condensed pencil was refused.
+    /// The pencil is outside the propositions, or the condensed one is refused.
     #[error(transparent)]
     Model(#[from] ModelError),
     /// More variables than dense matrices are made for.

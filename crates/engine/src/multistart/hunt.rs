@@ -7,7 +7,7 @@
 //! solution that is known is left on new curves.
 //!
 //! Every point where a run ends with small residuals is handed to the certifier and listed once.
-//! Called by [`multistart_with`](super::multistart_with).
+//! Called by [`multistart`](super::multistart).
 
 use super::found::{Found, Origin};
 use super::ground::Ground;
@@ -37,7 +37,7 @@ pub(super) struct Hunt<'a> {
     pub(super) search: &'a Search,
     pub(super) certifier: &'a Certifier<'a>,
     pub(super) watch: Watch<'a>,
-    pub(super) found: &'a mut Found,
+    pub(super) found: Found,
 }
 
 impl Hunt<'_> {

@@ -31,18 +31,19 @@ pub use error::SearchError;
 pub use found::{Certified, Found, Origin, Uncertified};
 pub use same::{exact_value, integer_x, same, support};
 pub(crate) use search::require_starts;
-pub use search::{Certifier, MAX_STARTS, Search};
+pub use search::{MAX_STARTS, Search};
 pub use trace::trace_outcome;
 
 use crate::certify;
-use crate::reduction::{Expansion, Reduced, Side, condense};
+use crate::reduction::{Expansion, Side, condense};
 use crate::run::Watch;
 use crate::tolerance::WINDOW_GAP;
 use doubles::require_doubles;
 use hunt::{Hunt, WINDOW_SALT};
 use mceip_exact::to_f64;
 use mceip_mcp::solver::SolverError;
-use mceip_model::{Admissible, Pencil, Problem, Unknown, Window};
+use mceip_model::reduction::Reduced;
+use mceip_model::{Admissible, Pencil, Problem, Unknown};
 
 /// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
 pub const CONDENSE_FROM: usize = 12;
@@ -52,81 +53,47 @@ pub const CONDENSE_FROM: usize = 12;
 const MAX_DENSE_ORDER: usize = 6000;
 
 /// Searches for solutions in the problem's window: plain starts, then above and below each value
-/// found. `admissible` is the problem's reduced pencil.
+/// found. `reduced` is the problem's.
+///
+/// MCEIP-mu with many free variables is condensed exactly, searched on its slip variables, and
+/// *certified on the given pencil*, not on the condensed one.
 ///
 /// # Errors
-/// [`SolverError`] for options out of range.
+/// [`SearchError`]; among them hypotheses of the propositions that fail.
 pub fn multistart(
     problem: &Problem,
-    admissible: &Admissible<'_>,
-    search: &Search,
-) -> Result<Found, SolverError> {
-    let certifier =
-        certify::Certifier::new(problem, admissible.pencil()).with_preference(search.preference);
-    multistart_with(
-        admissible,
-        problem.window(),
-        search,
-        &|candidate| certifier.certify(candidate),
-        &Watch::nobody(),
-    )
-}
-
-/// [`multistart`] for pencils of any size: MCEIP-mu with many free variables is condensed exactly,
-/// searched on its slip variables, and *certified on the given pencil*, not on the condensed one.
-/// The condensed pencil is returned too, where there was one.
-///
-/// # Errors
-/// [`SearchError`].
-pub fn multistart_large(
-    problem: &Problem,
-    admissible: &Admissible<'_>,
+    reduced: &Reduced,
     search: &Search,
     watch: &Watch<'_>,
-) -> Result<(Found, Option<Pencil>), SearchError> {
-    let pencil = admissible.pencil();
-    if admissible.unknown() == Unknown::Mu && pencil.free().len() >= CONDENSE_FROM {
-        let (found, condensed) = multistart_on_slip_variables(problem, admissible, search, watch)?;
-        return Ok((found, Some(condensed)));
+) -> Result<Found, SearchError> {
+    let pencil = &reduced.pencil;
+    let admissible = Admissible::new(pencil, problem.unknown())?;
+    let certifier = certify::Certifier::new(problem, pencil).with_preference(search.preference);
+
+    let has_many_free = pencil.free().len() >= CONDENSE_FROM;
+    if reduced.zero.is_empty() && problem.unknown() == Unknown::Mu && has_many_free {
+        let condensed = condense(&admissible)?;
+        let expansion = Expansion::new(pencil).ok_or(SearchError::SingularInDoubles)?;
+        return search_with(Hunt {
+            admissible: &Admissible::new(&condensed, Unknown::Mu)?,
+            zero: &[],
+            window: problem.window(),
+            search,
+            certifier: &|candidate| certifier.certify(&expansion.expand(candidate)),
+            watch: *watch,
+            found: Found::default(),
+        });
     }
 
-    require_dense_order(pencil)?;
-    require_doubles(admissible, &[], problem.window())?;
-    let certifier = certify::Certifier::new(problem, pencil).with_preference(search.preference);
-    let found = multistart_with(
-        admissible,
-        problem.window(),
+    search_with(Hunt {
+        admissible: &admissible,
+        zero: &reduced.zero,
+        window: problem.window(),
         search,
-        &|candidate| certifier.certify(candidate),
-        watch,
-    )?;
-    Ok((found, None))
-}
-
-/// Searches MCEIP-mu on its exactly condensed pencil, which is returned too. Candidates are
-/// expanded by the free variables and certified on the given pencil.
-fn multistart_on_slip_variables(
-    problem: &Problem,
-    admissible: &Admissible<'_>,
-    search: &Search,
-    watch: &Watch<'_>,
-) -> Result<(Found, Pencil), SearchError> {
-    let pencil = admissible.pencil();
-    let certifier = certify::Certifier::new(problem, pencil).with_preference(search.preference);
-    let condensed = condense(admissible)?;
-    let expansion = Expansion::new(pencil).ok_or(SearchError::SingularInDoubles)?;
-    require_dense_order(&condensed)?;
-
-    let small = Admissible::new(&condensed, Unknown::Mu)?;
-    require_doubles(&small, &[], problem.window())?;
-    let found = multistart_with(
-        &small,
-        problem.window(),
-        search,
-        &|candidate| certifier.certify(&expansion.expand(candidate)),
-        watch,
-    )?;
-    Ok((found, condensed))
+        certifier: &|candidate| certifier.certify(candidate),
+        watch: *watch,
+        found: Found::default(),
+    })
 }
 
 /// Demands that dense matrices of the pencil's order may be formed.
@@ -142,74 +109,13 @@ fn require_dense_order(pencil: &Pencil) -> Result<(), SearchError> {
     }
 }
 
-/// [`multistart`] with a certifier of one's own.
-///
-/// # Errors
-/// As [`multistart`].
-pub fn multistart_with(
-    admissible: &Admissible<'_>,
-    window: &Window,
-    search: &Search,
-    certifier: &Certifier<'_>,
-    watch: &Watch<'_>,
-) -> Result<Found, SolverError> {
-    let mut found = Found::default();
-    let hunt = Hunt {
-        admissible,
-        zero: &[],
-        window,
-        search,
-        certifier,
-        watch: *watch,
-        found: &mut found,
-    };
-
-    search_with(hunt)?;
-    Ok(found)
-}
-
-/// [`multistart_large`], also for systems with particles in contact with zero reaction: `reduced`
-/// is that of [`reduce_with_zero`](crate::reduction::reduce_with_zero), `admissible` its pencil.
-///
-/// # Errors
-/// [`SearchError`].
-pub fn multistart_with_zero(
-    problem: &Problem,
-    reduced: &Reduced,
-    admissible: &Admissible<'_>,
-    search: &Search,
-    watch: &Watch<'_>,
-) -> Result<Found, SearchError> {
-    let zero = reduced.zero_variables();
-    if zero.is_empty() {
-        let (found, _) = multistart_large(problem, admissible, search, watch)?;
-        return Ok(found);
-    }
-
-    require_dense_order(&reduced.pencil)?;
-    require_doubles(admissible, &zero, problem.window())?;
-    let certifier =
-        certify::Certifier::new(problem, &reduced.pencil).with_preference(search.preference);
-    let mut found = Found::default();
-    let hunt = Hunt {
-        admissible,
-        zero: &zero,
-        window: problem.window(),
-        search,
-        certifier: &|candidate| certifier.certify(candidate),
-        watch: *watch,
-        found: &mut found,
-    };
-
-    search_with(hunt)?;
-    Ok(found)
-}
-
 /// Searches the window, then above and below each value found, and sorts what was found.
-fn search_with(mut hunt: Hunt<'_>) -> Result<(), SolverError> {
+fn search_with(mut hunt: Hunt<'_>) -> Result<Found, SearchError> {
     let search = hunt.search;
-    let order = hunt.admissible.pencil().order();
-    require_starts(search.starts.max(search.window_starts), order)?;
+    let pencil = hunt.admissible.pencil();
+    require_dense_order(pencil)?;
+    require_doubles(hunt.admissible, hunt.zero, hunt.window)?;
+    require_starts(search.starts.max(search.window_starts), pencil.order())?;
 
     let mut origins = vec![to_f64(hunt.window.min())];
     origins.extend(&search.origins);
@@ -221,12 +127,12 @@ fn search_with(mut hunt: Hunt<'_>) -> Result<(), SolverError> {
         hunt_around_values(&mut hunt)?;
     }
 
-    let certified = &mut hunt.found.certified;
-    certified.sort_by(|a, b| {
+    let mut found = hunt.found;
+    found.certified.sort_by(|a, b| {
         let by_value = a.candidate.value.total_cmp(&b.candidate.value);
         by_value.then_with(|| support(&a.claim).cmp(support(&b.claim)))
     });
-    Ok(())
+    Ok(found)
 }
 
 /// Searches above and below the value of each solution found, also of those found on the way.
@@ -255,8 +161,9 @@ mod tests {
     use mceip_check::Reason;
     use mceip_check::certificate::Claim;
     use mceip_exact::{Sparse, whole};
-    use mceip_model::Body;
     use mceip_model::file::Number;
+    use mceip_model::reduction::reduce;
+    use mceip_model::{Body, Window};
 
     /// [[1, -6], [2, -6]] + t I: lambda^2 = 2 with x = (2, 1) and 3 with (3, 2).
     fn fold() -> Pencil {
@@ -332,13 +239,15 @@ mod tests {
         let admissible = Admissible::new(&pencil, Unknown::Lambda2).unwrap();
         let search = Search::default();
 
-        let found = multistart_with(
-            &admissible,
-            problem.window(),
-            &search,
-            &|candidate| checked(&problem, wrong_above(&pencil, candidate)?),
-            &Watch::nobody(),
-        )
+        let found = search_with(Hunt {
+            admissible: &admissible,
+            zero: &[],
+            window: problem.window(),
+            search: &search,
+            certifier: &|candidate| checked(&problem, wrong_above(&pencil, candidate)?),
+            watch: Watch::nobody(),
+            found: Found::default(),
+        })
         .unwrap();
 
         assert_eq!(found.certified.len(), 1);
@@ -353,7 +262,8 @@ mod tests {
             refused.reason
         );
 
-        let all = multistart(&problem, &admissible, &search).unwrap();
+        let reduced = reduce(&problem).unwrap();
+        let all = multistart(&problem, &reduced, &search, &Watch::nobody()).unwrap();
         assert_eq!((all.certified.len(), all.uncertified.len()), (2, 0));
     }
 }

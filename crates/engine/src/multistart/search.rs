@@ -83,7 +83,6 @@ impl Default for Search {
     }
 }
 
-/// What turns a candidate into a claim that the checker has accepted:
-/// [`multistart_with`](super::multistart_with) takes any, so that a condensed pencil can be
-/// searched and the claim made about the full one.
-pub type Certifier<'a> = dyn Fn(&Candidate) -> Result<Claim, NotCertified> + 'a;
+/// What turns a candidate into a claim that the checker has accepted: any function, so that a
+/// condensed pencil can be searched and the claim made about the full one.
+pub(super) type Certifier<'a> = dyn Fn(&Candidate) -> Result<Claim, NotCertified> + 'a;

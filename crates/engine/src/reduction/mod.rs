@@ -1,7 +1,7 @@
 //! From the mechanical system to the pencil, from the pencil to an MCP in doubles, and back.
 //!
-//! The exact reduction (10)-(16), the lift and the lines of (9) stand in the crate `mceip-model`
-//! and are named here again. This folder adds what the engine needs besides:
+//! The exact reduction (10)-(16), the lift and the lines of (9) stand in the crate `mceip-model`.
+//! This folder adds what the engine needs besides:
 //!
 //! | file | what |
 //! |---|---|
@@ -32,10 +32,6 @@ pub use condensed_mcp::CondensedEmbedding;
 pub use embed::{Embedding, Side};
 pub use error::CondensationError;
 pub use expand::{Expansion, mode};
-pub use mceip_model::reduction::{
-    Lifted, Line, LineViolated, MuFamily, Reduced, Variable, ZeroPart, check_lines, lift,
-    mu_family, mu_family_with_zero, reduce, reduce_with_zero,
-};
 pub use project::{Projected, project};
 pub use reversed::reversed;
 

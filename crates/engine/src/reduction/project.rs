@@ -108,8 +108,8 @@ fn largest_share(unexplained: &[Rational], v: &[Rational]) -> Option<(usize, Rat
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reduction::{lift, reduce};
     use mceip_exact::{Algebraic, Poly, rational, whole};
+    use mceip_model::reduction::{lift, reduce};
     use mceip_model::{Body, System};
     use mceip_testkit::mechanical;
 

@@ -52,7 +52,7 @@ use num_traits::Zero;
 /// );
 /// ```
 pub fn reversed(problem: &Problem) -> Result<Problem, ModelError> {
-    let pencil = reduce(problem)?.pencil;
+    let pencil = reduce(problem)?.without_zero()?.pencil;
     let order = pencil.order();
 
     let mut a = Vec::new();

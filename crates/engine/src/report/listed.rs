@@ -9,13 +9,13 @@ use crate::candidate::Candidate;
 use crate::certify::rows::active;
 use crate::certify::{Certifier, flattened};
 use crate::multistart::{exact_value, integer_x};
-use crate::reduction::{Reduced, lift};
 use mceip_check::AcceptedClaim;
 use mceip_check::certificate::{Claim, EnclosedSolution, ExactSolution};
 use mceip_exact::{
     Algebraic, Integer, Poly, Rational, common_denominator, enclosing_decimals, from_f64,
     ratio_to_decimal, to_decimal, to_f64,
 };
+use mceip_model::reduction::{Reduced, lift};
 use mceip_model::{Body, Pencil, Problem};
 use mceip_oracle::{Cone, Enumeration, Solution};
 use std::cmp::Ordering;
@@ -307,7 +307,7 @@ fn of_point(
         y: Vec::new(),
     };
 
-    let zero = reduced.zero_variables();
+    let zero = &reduced.zero;
     let vanishing = zero.iter().filter_map(|places| places.vanishing(support));
     Listed {
         exact: None,
@@ -356,8 +356,8 @@ fn row_times(pencil: &Pencil, i: usize, x: &[Poly]) -> (Poly, Integer) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reduction::reduce;
     use mceip_exact::{Interval, Sparse, rational, whole};
+    use mceip_model::reduction::reduce;
     use mceip_model::{Unknown, Window};
 
     /// [[1, -6], [2, -6]] + t I: t = 2 with x = (2, 1).

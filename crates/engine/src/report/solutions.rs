@@ -7,9 +7,9 @@
 use super::listed::{DIGITS, Listed};
 use super::table::Table;
 use crate::candidate::SOLUTIONS_FORMAT;
-use crate::reduction::{Reduced, Variable};
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Algebraic, Integer, Interval, Poly, Rational, enclosing_decimals, to_decimal};
+use mceip_model::reduction::{Reduced, Variable};
 use mceip_model::{Body, Problem};
 use mceip_oracle::{Cone, End, Enumeration, Piece, SupportRange};
 use serde_json::{Value, json};

@@ -13,10 +13,11 @@
 
 use super::complete::{CompleteError, Options, complete};
 use crate::dense::rounded;
-use crate::reduction::{Variable, mode, mu_family};
+use crate::reduction::mode;
 use crate::run::Watch;
 use mceip_exact::{Sparse, from_f64, to_f64};
 use mceip_mcp::linear;
+use mceip_model::reduction::{Variable, mu_family};
 use mceip_model::{Body, Pencil, Problem, System, Unknown, Window};
 
 /// A system in doubles, by the blocks of (16).
@@ -60,6 +61,7 @@ impl Levels {
     /// # Errors
     /// [`CompleteError::Model`] if the system has no stiffness that (16) could take.
     pub fn new(system: &System) -> Result<Levels, CompleteError> {
+        system.require_no_zero()?;
         let family = mu_family(system)?;
         let n = family.stiffness.order();
         let massless = vec![vec![0.0; n]; n];
@@ -225,8 +227,8 @@ fn exact(rows: &[Vec<f64>]) -> Option<Sparse> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reduction::reduce;
     use mceip_exact::{rational, whole};
+    use mceip_model::reduction::reduce;
     use mceip_oracle::{TwoParticles, enumerate};
     use mceip_paper::{Block, BlockModel, two_particles};
 

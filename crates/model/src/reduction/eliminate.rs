@@ -1,30 +1,43 @@
 //! The elimination (10)-(16): from a mechanical system to the pencil of its eigenproblem.
 //!
-//! Stick particles and the normal degrees of freedom of slip particles leave the problem (v = 0),
-//! and v_T = -S x turns the slip rates into x >= 0. With G = lambda^2 M + K, f the free degrees of
-//! freedom, T and N the tangential and normal directions of the slip particles, the lines w_f = 0
-//! and -(S w_T + mu w_N) = y of (9) become, by (16),
+//! Every motion v with (9) is v = T x, and its reactions w give the rows y = P' w. With
+//! G = lambda^2 M + K the lines of (9) become y = P' G T x. The columns of T and P are
 //!
 //! ```text
-//! K0 = [  K_ff     -K_fT S  ]      K1 = [   0       0     ]
-//!      [ -S K_Tf  S K_TT S  ],          [ -K_Nf   K_NT S  ],
+//!                      x                    T        P
+//! free (f):            v at the dof         e_dof    e_dof
+//! impending slip (s):  -S v_T               -S t     -(S t + c mu n)
+//! zero reaction (z):   g  = -v_N            -n       -n
+//!                      v+ = max(v_T, 0)      t        t - c mu n
+//!                      v- = max(-v_T, 0)    -t       -t - c mu n
 //! ```
 //!
-//! M0 and M1 likewise. MCEIP-mu is the pencil K0 + mu K1; MCEIP-lambda2 is K* + lambda^2 M* with
-//! K* = K0 + mu K1 and M* = M0 + mu M1.
+//! t and n the tangent and the normal of the particle, which may be oblique, and c its friction
+//! factor. Stick particles and the normal motion of slip particles have no variable: v = 0 there.
+//! P = T + mu F, so that K* = P' K T = K0 + mu K1 with
 //!
-//! Directions t_p and n_p may be oblique: the entries of K_TT are t_p' K t_q, those of K_NT are
-//! n_p' K t_q, and the columns of K_fT are (K t_q)_f. Where a particle has a friction factor of its
-//! own, its row of K1 is multiplied by that factor: n_p is its friction direction.
+//! ```text
+//! K0 = T' K T = [  K_ff     -K_fT S  ]      K1 = F' K T = [   0       0     ]
+//!               [ -S K_Tf  S K_TT S  ],                   [ -K_Nf   K_NT S  ]        (16)
+//! ```
+//!
+//! without z, and M0 and M1 likewise. MCEIP-mu is the pencil K0 + mu K1; MCEIP-lambda2 is
+//! K* + lambda^2 M* with K* = K0 + mu K1 and M* = M0 + mu M1.
+//!
+//! With z this is the split form of `spec/zero-reaction.md`, Z.3. It has solutions x != 0 with
+//! v = 0, namely v+ = v- for any z particle and any t. A solution of (9) is a solution of the form
+//! in which v+ or v- is 0 for each z particle. So the pencil must not be given to what treats all
+//! complementarity variables alike: that asks for [`Reduced::without_zero`].
 //!
 //! Input: a [`Problem`] or [`System`] whose preconditions have been established (K and M are
 //! symmetric). Called by everything that solves or enumerates, never by `check`, which has its own
 //! way.
 
-use crate::{Body, Direction, ModelError, Pencil, Problem, System, Unknown, ZeroVariables};
+use crate::{
+    Body, ContactState, Direction, ModelError, Particle, Pencil, Problem, System, Unknown,
+};
 use mceip_exact::{Rational, Sparse};
-use num_traits::{One, Zero};
-use std::collections::BTreeMap;
+use num_traits::One;
 
 /// What a variable of the reduced pencil stands for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -76,6 +89,39 @@ impl ZeroPart {
     }
 }
 
+/// The places of the three variables of a particle in contact with zero reaction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ZeroVariables {
+    /// The particle's number in the system.
+    pub particle: usize,
+    /// g, the rate at which the gap opens.
+    pub gap: usize,
+    /// v+, sliding along the tangent.
+    pub right: usize,
+    /// v-, sliding against the tangent.
+    pub left: usize,
+}
+
+impl ZeroVariables {
+    /// The half of v_T off a support whose y vanishes with those of the support, if there is one.
+    ///
+    /// y_right + y_left = 2 c mu y_gap for every x, c the friction factor. So where the gap and one
+    /// half are in the support, y = 0 at the other half.
+    pub fn vanishing(&self, support: &[usize]) -> Option<usize> {
+        if !support.contains(&self.gap) {
+            return None;
+        }
+
+        let slides_right = support.contains(&self.right);
+        let slides_left = support.contains(&self.left);
+        match (slides_right, slides_left) {
+            (true, false) => Some(self.left),
+            (false, true) => Some(self.right),
+            _ => None,
+        }
+    }
+}
+
 impl Variable {
     /// The motion v that belongs to x = 1. // (10)
     pub fn column(&self) -> Direction {
@@ -94,52 +140,32 @@ impl Variable {
 /// gap, right and left of each particle in contact with zero reaction.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reduced {
-    /// The pencil of (12) or (21).
+    /// The pencil of (12) or (21), with z particles that of the split form.
     pub pencil: Pencil,
     /// One entry per variable; empty for a problem that was given as a pencil.
     pub variables: Vec<Variable>,
+    /// The variables of the z particles, in file order.
+    pub zero: Vec<ZeroVariables>,
 }
 
 impl Reduced {
+    /// The same, for what treats all complementarity variables alike.
+    ///
+    /// # Errors
+    /// [`ModelError::ZeroReaction`] with z particles: some solutions of the pencil are no motion.
+    pub fn without_zero(self) -> Result<Reduced, ModelError> {
+        match self.zero.first() {
+            None => Ok(self),
+            Some(&ZeroVariables { particle, .. }) => Err(ModelError::ZeroReaction { particle }),
+        }
+    }
+
     /// The variables of e'x_s, by which solutions are normalised: the complementarity variables but
     /// those of particles in contact with zero reaction.
     pub fn normalised(&self) -> Vec<usize> {
         let mut slip = self.pencil.slip();
         slip.retain(|&i| !matches!(self.variables.get(i), Some(Variable::Zero { .. })));
         slip
-    }
-
-    /// The variables of the particles in contact with zero reaction, in file order.
-    pub fn zero_variables(&self) -> Vec<ZeroVariables> {
-        let mut zero = Vec::new();
-        for variable in &self.variables {
-            if let Variable::Zero {
-                variables,
-                part: ZeroPart::Gap,
-                ..
-            } = variable
-            {
-                zero.push(*variables);
-            }
-        }
-
-        zero
-    }
-}
-
-/// The pencil of a problem. A pencil stands for itself; a system goes through (10)-(16).
-///
-/// # Errors
-/// [`ModelError::Missing`] if the system lacks what the unknown needs,
-/// [`ModelError::NothingSlips`], [`ModelError::ZeroReaction`] with z particles:
-/// [`super::reduce_with_zero`] treats those.
-pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
-    match problem.body() {
-        Body::Pencil(pencil) => Ok(Reduced {
-            pencil: pencil.clone(),
-            variables: Vec::new(),
-        }),
-        Body::System(system) => reduce_system(system, problem.unknown()),
     }
 }
 
@@ -154,43 +180,35 @@ pub struct MuFamily {
     pub variables: Vec<Variable>,
 }
 
-/// (K0, K1) and (M0, M1) of (16).
+/// The pencil of a problem. A pencil stands for itself; a system goes through (10)-(16).
 ///
 /// # Errors
-/// [`ModelError::NothingSlips`], [`ModelError::ZeroReaction`] with z particles.
-pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
-    system.require_for(Unknown::Mu)?;
-    system.require_no_zero()?;
-    let kept = KeptVariables::of(system);
-
-    let stiffness = kept.blocks(system.stiffness());
-    let stiffness = Pencil::new(stiffness.constant, stiffness.slope, kept.free_indices())?;
-
-    let mass = match system.mass() {
-        None => None,
-        Some(mass) => {
-            let mass = kept.blocks(mass);
-            Some(Pencil::new(mass.constant, mass.slope, kept.free_indices())?)
-        }
-    };
-
-    Ok(MuFamily {
-        stiffness,
-        mass,
-        variables: kept.variables(),
-    })
+/// As [`reduce_system`].
+pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
+    match problem.body() {
+        Body::Pencil(pencil) => Ok(Reduced {
+            pencil: pencil.clone(),
+            variables: Vec::new(),
+            zero: Vec::new(),
+        }),
+        Body::System(system) => reduce_system(system, problem.unknown()),
+    }
 }
 
-fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelError> {
+/// The pencil of a system for an unknown.
+///
+/// # Errors
+/// [`ModelError::Missing`] if the system lacks what the unknown needs, or
+/// [`ModelError::NothingSlips`].
+pub fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelError> {
     system.require_for(unknown)?;
-    system.require_no_zero()?;
-    let kept = KeptVariables::of(system);
-    let stiffness = kept.blocks(system.stiffness());
+    let changes = Changes::of(system);
+    let stiffness = changes.blocks(system.stiffness());
 
     let (a, b) = match (unknown, system.mass(), system.friction()) {
         // (12), (15)
         (Unknown::Lambda2, Some(mass), Some(mu)) => {
-            let mass = kept.blocks(mass);
+            let mass = changes.blocks(mass);
             (stiffness.at(mu), mass.at(mu))
         }
         // (21); require_for has refused lambda2 without M and mu.
@@ -198,9 +216,51 @@ fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelErro
     };
 
     Ok(Reduced {
-        pencil: Pencil::new(a, b, kept.free_indices())?,
-        variables: kept.variables(),
+        pencil: Pencil::new(a, b, changes.free())?,
+        variables: changes.variables,
+        zero: zero_variables(system),
     })
+}
+
+/// (K0, K1) and (M0, M1) of (16).
+///
+/// # Errors
+/// [`ModelError::NothingSlips`].
+pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
+    system.require_for(Unknown::Mu)?;
+    let changes = Changes::of(system);
+    let family = |matrix| {
+        let Blocks { constant, slope } = changes.blocks(matrix);
+        Pencil::new(constant, slope, changes.free())
+    };
+
+    Ok(MuFamily {
+        stiffness: family(system.stiffness())?,
+        mass: system.mass().map(family).transpose()?,
+        variables: changes.variables,
+    })
+}
+
+/// The places of the variables of a system's z particles, in file order: they come after those of f
+/// and of s.
+pub fn zero_variables(system: &System) -> Vec<ZeroVariables> {
+    let mut gap = system.free_dofs().len() + system.slip_particles().len();
+    let mut list = Vec::new();
+    for (particle, its) in system.particles().iter().enumerate() {
+        if its.state != ContactState::Zero {
+            continue;
+        }
+
+        list.push(ZeroVariables {
+            particle,
+            gap,
+            right: gap + 1,
+            left: gap + 2,
+        });
+        gap += 3;
+    }
+
+    list
 }
 
 /// K0 and K1 of (16), or M0 and M1: a matrix that is linear in mu.
@@ -216,152 +276,123 @@ impl Blocks {
     }
 }
 
-/// What is left of the degrees of freedom, in the order of the pencil's variables.
-struct KeptVariables {
-    /// f, ascending.
-    free: Vec<usize>,
-    /// The slip particles in file order.
-    slip: Vec<SlipDirections>,
+/// The changes of variables v = T x and y = (T + mu F)' w.
+struct Changes {
+    variables: Vec<Variable>,
+    /// T.
+    motion: ByDof,
+    /// F: -c n for each sliding variable.
+    friction: ByDof,
 }
 
-/// S and the directions of a particle in impending slip.
-struct SlipDirections {
-    sign: i8,
-    tangent: Direction,
-    normal: Direction,
-    /// The normal times the friction factor.
-    friction: Direction,
-}
+impl Changes {
+    fn of(system: &System) -> Changes {
+        let mut changes = Changes {
+            variables: Vec::new(),
+            motion: ByDof::zero(system.dofs()),
+            friction: ByDof::zero(system.dofs()),
+        };
 
-impl SlipDirections {
-    fn s(&self) -> Rational {
-        Rational::from_integer(self.sign.into())
-    }
-}
+        for dof in system.free_dofs() {
+            changes.add(Variable::Free { dof }, None);
+        }
 
-impl KeptVariables {
-    fn of(system: &System) -> KeptVariables {
-        let mut slip = Vec::new();
         for (particle, sign) in system.slip_particles() {
-            slip.push(SlipDirections {
+            let slip = Variable::Slip {
                 sign,
                 tangent: particle.tangent(),
                 normal: particle.into_obstacle(),
-                friction: particle.friction_direction(),
-            });
+            };
+            changes.add(slip, Some(particle));
         }
 
-        let free = system.free_dofs();
-
-        KeptVariables { free, slip }
-    }
-
-    fn variables(&self) -> Vec<Variable> {
-        let mut variables = Vec::new();
-        for &dof in &self.free {
-            variables.push(Variable::Free { dof });
+        for variables in zero_variables(system) {
+            changes.add_zero(variables, &system.particles()[variables.particle]);
         }
 
-        for particle in &self.slip {
-            variables.push(Variable::Slip {
-                sign: particle.sign,
-                tangent: particle.tangent.clone(),
-                normal: particle.normal.clone(),
-            });
+        changes
+    }
+
+    fn add_zero(&mut self, variables: ZeroVariables, particle: &Particle) {
+        let right = particle.tangent();
+        let left = scaled(&right, -1);
+        let gap = scaled(&particle.into_obstacle(), -1);
+
+        for (part, column) in [
+            (ZeroPart::Gap, gap),
+            (ZeroPart::Right, right),
+            (ZeroPart::Left, left),
+        ] {
+            let sliding = (part != ZeroPart::Gap).then_some(particle);
+            let variable = Variable::Zero {
+                variables,
+                part,
+                column,
+            };
+            self.add(variable, sliding);
         }
-
-        variables
     }
 
-    /// The free variables of the pencil: they come first.
-    fn free_indices(&self) -> Vec<usize> {
-        (0..self.free.len()).collect()
+    /// The next variable, and the particle whose sliding it is.
+    fn add(&mut self, variable: Variable, sliding: Option<&Particle>) {
+        let place = self.variables.len();
+        self.motion.add(place, &variable.column());
+        if let Some(particle) = sliding {
+            let against_normal = scaled(&particle.friction_direction(), -1);
+            self.friction.add(place, &against_normal);
+        }
+        self.variables.push(variable);
     }
 
-    /// K0 and K1 from K, M0 and M1 from M. // (16)
+    /// The free variables of the pencil.
+    fn free(&self) -> Vec<usize> {
+        let is_free = |&i: &usize| matches!(self.variables[i], Variable::Free { .. });
+        (0..self.variables.len()).filter(is_free).collect()
+    }
+
+    /// T' K T and F' K T. // (16)
     fn blocks(&self, k: &Sparse) -> Blocks {
-        let n_f = self.free.len();
-        let order = n_f + self.slip.len();
-        let mut constant = Vec::new();
-        let mut slope = Vec::new();
-
-        for (i, j, entry) in k.submatrix(&self.free, &self.free).entries() {
-            constant.push((i, j, entry.clone())); // K_ff
-        }
-
-        for (q, of_q) in self.slip.iter().enumerate() {
-            let column = n_f + q;
-            let s_q = of_q.s();
-            let k_t = times_direction(k, &of_q.tangent); // K t_q
-
-            for (i, k_ft) in self.free_entries(&k_t) {
-                let entry = -k_ft * &s_q; // -K_fT S
-                constant.push((i, column, entry.clone()));
-                constant.push((column, i, entry)); // -S K_Tf
-            }
-
-            for (p, of_p) in self.slip.iter().enumerate() {
-                let row = n_f + p;
-                let s_p = of_p.s();
-                let k_tt = inner_product(&of_p.tangent, &k_t);
-                let k_nt = inner_product(&of_p.friction, &k_t);
-                constant.push((row, column, &s_p * k_tt * &s_q)); // S K_TT S
-                slope.push((row, column, k_nt * &s_q)); // K_NT S
-            }
-        }
-
-        for (p, of_p) in self.slip.iter().enumerate() {
-            let row = n_f + p;
-            let k_n = times_direction(k, &of_p.friction); // K n_p, which is (n_p' K)'
-
-            for (i, k_nf) in self.free_entries(&k_n) {
-                slope.push((row, i, -k_nf)); // -K_Nf
-            }
-        }
-
+        let order = self.variables.len();
         Blocks {
-            constant: Sparse::from_entries(order, order, constant),
-            slope: Sparse::from_entries(order, order, slope),
+            constant: product(order, &self.motion, k, &self.motion),
+            slope: product(order, &self.friction, k, &self.motion),
         }
     }
+}
 
-    /// The entries at free degrees of freedom, each with the place of its variable.
-    fn free_entries<'a>(&self, vector: &'a SparseVector) -> Vec<(usize, &'a Rational)> {
-        let mut entries = Vec::new();
-        for (dof, entry) in vector {
-            if let Ok(place) = self.free.binary_search(dof) {
-                entries.push((place, entry));
+/// A matrix with a row for each degree of freedom and a column for each variable.
+struct ByDof(Vec<Vec<(usize, Rational)>>);
+
+impl ByDof {
+    fn zero(dofs: usize) -> ByDof {
+        ByDof(vec![Vec::new(); dofs])
+    }
+
+    fn add(&mut self, variable: usize, column: &Direction) {
+        for (dof, coefficient) in column {
+            self.0[*dof].push((variable, coefficient.clone()));
+        }
+    }
+}
+
+/// left' K right. Entries of K at stick particles meet no variable.
+fn product(order: usize, left: &ByDof, k: &Sparse, right: &ByDof) -> Sparse {
+    let mut entries = Vec::new();
+    for (row_dof, column_dof, entry) in k.entries() {
+        for (row, row_factor) in &left.0[row_dof] {
+            for (column, column_factor) in &right.0[column_dof] {
+                let factor = row_factor * column_factor;
+                entries.push((*row, *column, factor * entry));
             }
         }
-
-        entries
     }
+
+    Sparse::from_entries(order, order, entries)
 }
 
-/// A vector over the degrees of freedom; an entry that is not there is zero.
-pub(super) type SparseVector = BTreeMap<usize, Rational>;
-
-/// The product of K or M with a direction. Both are symmetric, so that rows serve as columns.
-pub(super) fn times_direction(k: &Sparse, direction: &Direction) -> SparseVector {
-    let mut product = SparseVector::new();
-    for (dof, coefficient) in direction {
-        for (j, entry) in k.row(*dof) {
-            *product.entry(*j).or_insert_with(Rational::zero) += coefficient * entry;
-        }
-    }
-
-    product
-}
-
-pub(super) fn inner_product(direction: &Direction, vector: &SparseVector) -> Rational {
-    let mut sum = Rational::zero();
-    for (dof, coefficient) in direction {
-        if let Some(entry) = vector.get(dof) {
-            sum += coefficient * entry;
-        }
-    }
-
-    sum
+fn scaled(direction: &Direction, factor: i64) -> Direction {
+    let factor = Rational::from_integer(factor.into());
+    direction.iter().map(|(d, c)| (*d, c * &factor)).collect()
 }
 
 #[cfg(test)]
@@ -434,5 +465,69 @@ mod tests {
 
         assert_eq!(pencil.a().get(0, 0), whole(2)); // K_TT + mu K_NT S = 2
         assert_eq!(pencil.b().get(0, 0), rational(5, 2)); // M_TT + mu M_NT S
+    }
+
+    fn system(second: ContactState) -> System {
+        let k = Sparse::from_ints(&[
+            &[20, 2, 1, 3],
+            &[2, 20, 4, 0],
+            &[1, 4, 20, 5],
+            &[3, 0, 5, 20],
+        ]);
+        let rough = Particle {
+            friction_factor: rational(1, 2),
+            ..Particle::plain(2, 3, second)
+        };
+        let slip = Particle::plain(0, 1, ContactState::Slip { sign: 1 });
+        System::new(k, None, None, vec![slip, rough]).unwrap()
+    }
+
+    /// Particle 0 slips with S = 1, particle 1 has zero reaction and the factor 1/2.
+    #[test]
+    fn the_split_form_by_hand() {
+        let split = reduce_system(&system(ContactState::Zero), Unknown::Mu).unwrap();
+
+        // (x, g, v+, v-) stands for v = (-x, 0, v+ - v-, -g).
+        let a = Sparse::from_ints(&[
+            &[20, 3, -1, 1],
+            &[3, 20, -5, 5],
+            &[-1, -5, 20, -20],
+            &[1, 5, -20, 20],
+        ]);
+        assert_eq!(*split.pencil.a(), a);
+
+        // -w_N1 = 2 x - 4 (v+ - v-), and -w_N2 / 2 = (3 x + 20 g - 5 (v+ - v-)) / 2.
+        let of_zero = [rational(3, 2), whole(10), rational(-5, 2), rational(5, 2)];
+        let of_slip = [2, 0, -4, 4].map(whole);
+        for (j, (slip, zero)) in of_slip.iter().zip(&of_zero).enumerate() {
+            assert_eq!(split.pencil.b().get(0, j), *slip);
+            assert_eq!(split.pencil.b().get(1, j), whole(0));
+            assert_eq!(split.pencil.b().get(2, j), *zero);
+            assert_eq!(split.pencil.b().get(3, j), *zero);
+        }
+    }
+
+    #[test]
+    fn what_does_not_treat_zero_reaction_refuses_it() {
+        let body = Body::System(system(ContactState::Zero));
+        let problem = Problem::new(body, Unknown::Mu, Window::all()).unwrap();
+
+        let refused = reduce(&problem).unwrap().without_zero().unwrap_err();
+        assert_eq!(refused, ModelError::ZeroReaction { particle: 1 });
+    }
+
+    /// e'x_s is the sum over s alone.
+    #[test]
+    fn variables_of_zero_reaction_are_not_normalised() {
+        let reduced = reduce_system(&system(ContactState::Zero), Unknown::Mu).unwrap();
+
+        let gap = ZeroVariables {
+            particle: 1,
+            gap: 1,
+            right: 2,
+            left: 3,
+        };
+        assert_eq!(reduced.zero, [gap]);
+        assert_eq!(reduced.normalised(), [0]);
     }
 }

@@ -9,7 +9,7 @@
 //! Called by `engine` for reports; [`super::check_lines`] holds the result against (9).
 
 use super::Variable;
-use crate::{Direction, System, Unknown};
+use crate::{System, Unknown};
 use mceip_exact::{Integer, Poly, Rational, Sparse, common_denominator};
 use num_traits::Zero;
 
@@ -30,17 +30,10 @@ pub struct Lifted {
 ///
 /// `variables` says what each entry of `x` stands for, as [`super::reduce`] gave it.
 pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly]) -> Lifted {
-    let columns: Vec<Direction> = variables.iter().map(Variable::column).collect();
-    lift_along(system, unknown, &columns, x)
-}
-
-/// Lifts x to v = sum_j x_j d_j and w, where the columns d_j say which motion each variable stands
-/// for.
-pub fn lift_along(system: &System, unknown: Unknown, columns: &[Direction], x: &[Poly]) -> Lifted {
     let mut v = RationalVector::zero(system.dofs());
-    for (column, x_j) in columns.iter().zip(x) {
-        for (dof, coefficient) in column {
-            add_scaled(&mut v.0[*dof], coefficient, x_j, 0);
+    for (variable, x_j) in variables.iter().zip(x) {
+        for (dof, coefficient) in variable.column() {
+            add_scaled(&mut v.0[dof], &coefficient, x_j, 0);
         }
     }
 

@@ -167,7 +167,8 @@ impl Scale {
 mod tests {
     use super::*;
     use crate::{Block, BlockModel, MeshKind, Plane};
-    use mceip_engine::reduction::{condense, reduce};
+    use mceip_engine::reduction::condense;
+    use mceip_model::reduction::reduce;
     use mceip_model::{Admissible, Unknown};
 
     const LEFT: ContactState = ContactState::Slip { sign: 1 };

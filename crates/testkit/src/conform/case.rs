@@ -6,9 +6,9 @@
 
 use super::flag::{Flag, derive};
 use crate::error::TestkitError;
-use mceip_engine::reduction::{Reduced, reduce};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_model::file::write_problem;
+use mceip_model::reduction::{Reduced, reduce};
 use mceip_model::{Body, ModelError, Problem};
 use mceip_oracle::{Enumeration, enumerate};
 use serde_json::{Value, json};
@@ -63,7 +63,8 @@ impl Case {
     /// [`TestkitError::Oracle`] for a problem beyond the plain oracle, [`TestkitError::Problem`]
     /// for a system that lacks what its unknown needs.
     pub fn answer(draft: &Draft, as_pencil: bool) -> Result<Case, TestkitError> {
-        let reduced = reduce(&draft.problem).map_err(|e| TestkitError::problem(&draft.id, e))?;
+        let reduced = reduce(&draft.problem).and_then(Reduced::without_zero);
+        let reduced = reduced.map_err(|e| TestkitError::problem(&draft.id, e))?;
         let answer = enumerate(&reduced.pencil, draft.problem.window());
         let answer = answer.map_err(|source| TestkitError::Oracle {
             case: draft.id.clone(),
@@ -96,7 +97,7 @@ impl Case {
         let pencil = Problem::new(body, self.problem.unknown(), window)?;
 
         self.problem = pencil.named(self.id.clone());
-        self.reduced = reduce(&self.problem)?;
+        self.reduced = reduce(&self.problem)?.without_zero()?;
         Ok(())
     }
 

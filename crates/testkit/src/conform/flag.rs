@@ -4,8 +4,8 @@
 //! answer by [`derive`]. Called by `case` when a draft is answered, and by `summary`, which counts
 //! outcomes by flag.
 
-use mceip_engine::reduction::Reduced;
 use mceip_exact::{Algebraic, Rational, parse, rational, whole};
+use mceip_model::reduction::Reduced;
 use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution};
 use num_traits::{Signed, Zero};

@@ -11,10 +11,10 @@ use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, propose};
 use mceip_engine::foreign::{BadPoint, ForeignReport, Reported};
 use mceip_engine::multistart::support;
-use mceip_engine::reduction::reduce;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::{Algebraic, Sparse, from_f64};
+use mceip_model::reduction::{Reduced, reduce};
 use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
 use mceip_oracle::{Cone, Enumeration, Solution, enumerate};
 use std::cmp::Ordering;
@@ -82,7 +82,7 @@ fn any_candidate(data: &[u8]) -> Option<Candidate> {
 
 /// What is certified from the candidate is accepted, and true.
 fn assert_certified_is_true(problem: &Problem, candidate: &Candidate) {
-    let Ok(reduced) = reduce(problem) else {
+    let Ok(reduced) = reduce(problem).and_then(Reduced::without_zero) else {
         panic!("a fixed problem is refused")
     };
     let Ok(claim) = propose(&reduced.pencil, problem.window(), candidate) else {
@@ -101,7 +101,7 @@ fn assert_certified_is_true(problem: &Problem, candidate: &Candidate) {
 /// A report of the candidate is read as this candidate, or refused in one line because one of its
 /// numbers is not finite.
 fn assert_read_as_it_is(problem: &Problem, candidate: &Candidate) {
-    let Ok(reduced) = reduce(problem) else {
+    let Ok(reduced) = reduce(problem).and_then(Reduced::without_zero) else {
         panic!("a fixed problem is refused")
     };
 
@@ -145,7 +145,7 @@ fn is_same_point(read: &[Result<Reported, BadPoint>], candidate: &Candidate) -> 
 pub(super) fn report_reader(text: &str) {
     let list = subjects();
     let problem = &list[0];
-    let Ok(reduced) = reduce(problem) else {
+    let Ok(reduced) = reduce(problem).and_then(Reduced::without_zero) else {
         panic!("a fixed problem is refused")
     };
 
@@ -188,7 +188,7 @@ fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Result<Pencil, ModelErr
 
 /// The enumerator's answer to a fixed problem in this window.
 fn answer(problem: &Problem) -> Enumeration {
-    let Ok(reduced) = reduce(problem) else {
+    let Ok(reduced) = reduce(problem).and_then(Reduced::without_zero) else {
         panic!("a fixed problem is refused")
     };
     let Ok(answer) = enumerate(&reduced.pencil, problem.window()) else {
@@ -273,7 +273,7 @@ pub fn certificate_seeds() -> Vec<String> {
             out.push(found.certificate.to_json());
         }
 
-        let Ok(reduced) = reduce(&problem) else {
+        let Ok(reduced) = reduce(&problem).and_then(Reduced::without_zero) else {
             continue;
         };
         let Ok(oracle) = enumerate(&reduced.pencil, problem.window()) else {

@@ -9,11 +9,11 @@ use super::coverage::Counter;
 use crate::compare::{Treatment, compare_by};
 use crate::families::Instance;
 use mceip_check::check;
-use mceip_engine::reduction::reduce;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::file::write_problem;
+use mceip_model::reduction::{Reduced, reduce};
 use mceip_model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
 use mceip_oracle::TwoParticles;
 use mceip_paper::two_particles;
@@ -74,7 +74,7 @@ pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Count
         return;
     };
 
-    let Ok(reduced) = reduce(&problem) else {
+    let Ok(reduced) = reduce(&problem).and_then(Reduced::without_zero) else {
         panic!(
             "a system of the generator is refused: {}",
             write_problem(&problem)

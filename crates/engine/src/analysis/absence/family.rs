@@ -10,7 +10,6 @@
 //! pieces of [0, infinity), and for each the expansions of both parts. Called by `mod.rs`.
 
 use super::super::families::Families;
-use crate::reduction::MuFamily;
 use crate::search::complete::CompleteError;
 use crate::search::complete::leaf::tail::{definite_at, semidefinite};
 use crate::search::complete::pieces::blocks::Blocks;
@@ -23,6 +22,7 @@ use crate::tolerance::{FIRST_NEAR, NEARER};
 use mceip_check::certificate::{CriticalAnchor, CriticalCondensation, CriticalTail};
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::Number;
+use mceip_model::reduction::MuFamily;
 use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
 use num_traits::{One, Zero};
 

@@ -1,8 +1,9 @@
 //! Against the exact condensation of an oblique system, and the residuals against dense algebra.
 
 use super::*;
-use crate::reduction::{condense, reduce};
+use crate::reduction::condense;
 use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Body, Pencil, Problem, System, Unknown, Window};
 use nalgebra::{DMatrix, DVector};
 

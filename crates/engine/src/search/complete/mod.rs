@@ -52,7 +52,6 @@ pub use merge::merge;
 pub use options::{Options, Shard};
 
 use crate::certify::certificate;
-use crate::reduction::reduce_with_zero;
 use crate::run::Watch;
 use accepted_x::accepted_x;
 use audited::{Audited, audited};
@@ -60,6 +59,7 @@ use given::Given;
 use mceip_check::certificate::{Certificate, CompleteSet, Piece};
 use mceip_check::{Accepted, AcceptedClaim, AcceptedCover, check};
 use mceip_model::file::Number;
+use mceip_model::reduction::reduce;
 use mceip_model::{Pencil, Problem};
 use pieces::prepared::Prepared;
 use rounds::{Rounds, is_open_below, values_met};
@@ -136,7 +136,7 @@ pub fn complete(
     options: &Options,
     watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
-    let pencil = reduce_with_zero(problem)?.pencil;
+    let pencil = reduce(problem)?.pencil;
     let mut prepared = Prepared::new(problem, &pencil, options.pieces)?;
     if options.shard.is_none()
         && let Some(completed) = by_definiteness(problem, &pencil, &prepared)?
@@ -164,7 +164,7 @@ pub fn resume(
     options: &Options,
     watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
-    let pencil = reduce_with_zero(problem)?.pencil;
+    let pencil = reduce(problem)?.pencil;
     error::same_problem(problem, earlier)?;
     check(problem, earlier)?;
 
