@@ -232,7 +232,7 @@ fn number(value: Option<f64>) -> String {
     value.map_or("none".into(), |value| format!("{value:.6}"))
 }
 
-/// A row of the table of spec/measurements.md, D.6.
+/// A row of the table of spec/log/2026-11-21-meshes.md (spec/measurements.md, D.6).
 fn row(model: &BlockModel, ratio: &Rational, seen: &Observed, seconds: f64) -> String {
     let smallest_mu = seen.last().smallest().map(|solution| solution.mu);
     let onset = match seen.onset() {
@@ -321,7 +321,7 @@ fn with_one_solution(slip: usize, mu: f64) -> State {
 }
 
 /// `cargo test --release --test paper -- --ignored --nocapture block_observations::`: the table of
-/// spec/measurements.md, D.6.
+/// spec/log/2026-11-21-meshes.md (spec/measurements.md, D.6).
 #[test]
 #[ignore = "minutes in the release profile"]
 fn observations_over_meshes_planes_and_ratios() {

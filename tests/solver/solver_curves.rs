@@ -446,8 +446,8 @@ impl FamilyCount {
     }
 }
 
-/// First starts and coverage on two families against the plain enumerator; the full tables are in
-/// `spec/measurements.md`, D.3.
+/// First starts and coverage on two families against the plain enumerator; the figures of all
+/// families are in `spec/measurements.md`, D.3.
 #[test]
 fn first_starts_and_coverage_on_held_out_seeds() {
     for family in ["lambda2", "mu"] {
