@@ -155,7 +155,12 @@ struct Measured {
 impl Measured {
     /// Length of the certificate.
     fn kilobytes(&self) -> usize {
-        self.completed.certificate.to_json().len().div_ceil(1000)
+        self.completed
+            .proved
+            .certificate()
+            .to_json()
+            .len()
+            .div_ceil(1000)
     }
 }
 
@@ -178,7 +183,7 @@ fn measure(problem: &Problem) -> Result<Measured, CompleteError> {
     let total = cpu() - start;
 
     let start = cpu();
-    check(problem, &completed.certificate).expect("accepted before");
+    check(problem, completed.proved.certificate()).expect("accepted before");
     let check = cpu() - start;
 
     Ok(Measured {

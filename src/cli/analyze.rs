@@ -211,7 +211,7 @@ impl Proofs<'_> {
             self.keep(&Kept {
                 name: &proof.name,
                 problem: &proof.problem,
-                certificate: &proof.certificate.to_json(),
+                certificate: &proof.certificate.file()?,
             })?;
             superseded.remove(&proof.name);
             let path = self.path(&proof.name, "certificate");

@@ -19,6 +19,7 @@ use super::common::{CliError, aside, exit, print};
 use super::job::Job;
 use super::output::Output;
 use args::published;
+use mceip_check::Proved;
 use mceip_engine::report::Table;
 use mceip_engine::run::{Progress, Watch};
 use mceip_model::file::write_problem;
@@ -137,9 +138,9 @@ fn write_files(block: &Block, report: &BlockReport, folder: &Path) -> Result<(),
     let problem = report.state.problem(block)?;
     Output::prepare("write", &path, &[])?.write(&write_problem(&problem))?;
 
-    if let Some(certificate) = &report.certificate {
+    if let Some(proved) = &report.certificate {
         let path = folder.join(format!("{name}.certificate.json"));
-        Output::prepare("write", &path, &[])?.write(&certificate.to_json())?;
+        Output::prepare("write", &path, &[])?.write(&proved.file()?)?;
     }
 
     Ok(())
@@ -229,7 +230,7 @@ fn json_of(report: &BlockReport) -> Value {
         }));
     }
 
-    let certificate = report.certificate.as_ref();
+    let certificate = report.certificate.as_ref().map(Proved::certificate);
     json!({
         "state": report.state.name(),
         "paper_mu": report.state.printed_mu(),

@@ -136,7 +136,7 @@ struct Finding {
     /// For people, one line.
     text: String,
     /// The complete set near its value.
-    proof: Option<Certificate>,
+    proof: Option<Proved<Certificate>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -195,7 +195,7 @@ impl Judged {
             if let Some(proof) = &refused.finding.proof {
                 let path = folder.join(format!("absence-{}.json", refused.index));
                 let output = Output::prepare("absence", &path, inputs)?;
-                output.write(&proof.to_json())?;
+                output.write(&proof.file()?)?;
             }
         }
 
@@ -221,7 +221,7 @@ impl Judged {
         reported: usize,
     ) -> Result<(), CliError> {
         match self.only_proof(files, reported) {
-            Some(proof) => output.write(&proof.to_json()),
+            Some(proof) => output.write(&proof.file()?),
             None if files.is_empty() => Ok(()),
             None => output.write_proved(files),
         }
@@ -230,7 +230,7 @@ impl Judged {
     /// Prints them, one a line.
     fn print(&self, files: &[Proved<Certificate>], reported: usize) -> Result<(), CliError> {
         if let Some(proof) = self.only_proof(files, reported) {
-            return print(&format!("{}\n", proof.to_json()));
+            return print(&format!("{}\n", proof.file()?));
         }
 
         for file in files {
@@ -241,7 +241,11 @@ impl Judged {
     }
 
     /// For a report of one solution, its proof is the answer, whichever way it went.
-    fn only_proof(&self, files: &[Proved<Certificate>], reported: usize) -> Option<&Certificate> {
+    fn only_proof(
+        &self,
+        files: &[Proved<Certificate>],
+        reported: usize,
+    ) -> Option<&Proved<Certificate>> {
         let mut proofs = self.refused.iter().filter_map(|r| r.finding.proof.as_ref());
         let is_only = files.is_empty() && reported == 1;
         proofs.next().filter(|_| is_only)
@@ -318,7 +322,7 @@ impl Certifying<'_> {
                     "REFUSED: no solution {} (proved)",
                     interval(problem, &proved)
                 ),
-                proof: Some(proved.certificate),
+                proof: Some(proved.proved),
             },
             Ok(Near::Others(proved)) => Finding {
                 verdict: Verdict::Disproved,
@@ -327,7 +331,7 @@ impl Certifying<'_> {
                     interval(problem, &proved),
                     solutions_text(&proved.cover)
                 ),
-                proof: Some(proved.certificate),
+                proof: Some(proved.proved),
             },
             Ok(Near::Present(proved)) => Finding {
                 verdict: Verdict::Present,
@@ -335,7 +339,7 @@ impl Certifying<'_> {
                     "certified: listed by a cover {}",
                     interval(problem, &proved)
                 ),
-                proof: Some(proved.certificate),
+                proof: Some(proved.proved),
             },
             Ok(Near::Open(searched)) => Finding {
                 verdict: Verdict::Undecided,
@@ -371,7 +375,7 @@ fn solutions_text(cover: &AcceptedCover) -> String {
 /// "with lambda2 in [a, b]".
 fn interval(problem: &Problem, proved: &Completed) -> String {
     let word = problem.unknown().word();
-    let window = &proved.certificate.window;
+    let window = &proved.proved.certificate().window;
     let min = decimal(window.min());
 
     match window.max() {

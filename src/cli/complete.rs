@@ -130,7 +130,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     // What is proved is in its files before anything is printed.
     if let Some(output) = &output {
-        output.write(&completed.certificate.to_json())?;
+        output.write(&completed.proved.file()?)?;
     }
     if let (Some(at_infinity), Some(files)) = (&at_infinity, files_at_infinity) {
         at_infinity.write(files)?;

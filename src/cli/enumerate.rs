@@ -9,8 +9,8 @@ use super::job::Job;
 use super::question::{Question, load_question};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_engine::run::Progress;
-use mceip_model::Problem;
-use mceip_model::reduction::{Reduced, reduce};
+use mceip_model::reduction::reduce;
+use mceip_model::{Problem, Reduced};
 use mceip_oracle::{Enumeration, ModeList, Solution, enumerate_modes_with, enumerate_with};
 use std::path::PathBuf;
 

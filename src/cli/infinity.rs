@@ -155,7 +155,7 @@ impl AtInfinity {
     pub(super) fn write(&self, files: Files) -> Result<(), CliError> {
         files.problem.write(&write_problem(&self.problem))?;
         match &self.completed {
-            Ok(completed) => files.certificate.write(&completed.certificate.to_json()),
+            Ok(completed) => files.certificate.write(&completed.proved.file()?),
             Err(_) => Ok(()),
         }
     }

@@ -7,7 +7,7 @@ use super::output::Output;
 use mceip_check::certificate::Certificate;
 use mceip_check::check;
 use mceip_engine::run::{Cancel, Watch};
-use mceip_engine::search::complete::{CompleteError, Options, merge, resume};
+use mceip_engine::search::complete::{CompleteError, Completed, Options, merge, resume};
 use mceip_model::Problem;
 use std::path::PathBuf;
 
@@ -44,15 +44,18 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let output = Output::prepare_if("certificate", args.certificate.as_deref(), &inputs)?;
 
     let merged = merge(&problem, &parts);
-    let (certificate, cover) = merged.map_err(|e| blame(&problem, &args.parts, &parts, e))?;
+    let proved = merged.map_err(|e| blame(&problem, &args.parts, &parts, e))?;
     if let Some(output) = output {
-        output.write(&certificate.to_json())?;
+        output.write(&proved.file()?)?;
     }
 
+    let cover = proved.accepted().cover.as_ref();
+    let cover = cover.ok_or(CompleteError::NoCompleteSet)?;
     let text = if args.json {
-        to_json(&problem, &certificate)?
+        let completed = with_x(&problem, proved.certificate())?;
+        format!("{}\n", report_json(&problem, &completed)?)
     } else {
-        solutions_text(&problem, &cover)
+        solutions_text(&problem, cover)
     };
     print(&text)?;
 
@@ -65,12 +68,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
 /// The solutions with their x: a search that goes on with the merged certificate and is stopped at
 /// once.
-fn to_json(problem: &Problem, certificate: &Certificate) -> Result<String, CliError> {
+fn with_x(problem: &Problem, certificate: &Certificate) -> Result<Completed, CliError> {
     let cancel = Cancel::requested();
     let watch = Watch::silent(&cancel);
-    let completed = resume(problem, certificate, &Options::default(), &watch)?;
-    let report = report_json(problem, &completed)?;
-    Ok(format!("{report}\n"))
+    Ok(resume(problem, certificate, &Options::default(), &watch)?)
 }
 
 /// Names the part at fault, where one is.

@@ -2,7 +2,7 @@
 //! starts.
 
 use super::common::{CliError, aside};
-use mceip_check::{Evidence, Proved};
+use mceip_check::{Provable, Proved};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
@@ -62,7 +62,7 @@ impl Output {
 
     /// Writes what the checker has accepted, as it was accepted: the first certificate to the path
     /// given, further ones to files beside it, of which stderr says the names.
-    pub(super) fn write_proved<C: Evidence>(self, proved: &[Proved<C>]) -> Result<(), CliError> {
+    pub(super) fn write_proved<C: Provable>(self, proved: &[Proved<C>]) -> Result<(), CliError> {
         let path = self.path.clone();
         let mut output = Some(self);
         for (k, proved) in proved.iter().enumerate() {

@@ -4,8 +4,8 @@ use super::common::{CliError, exit, load, print};
 use mceip_engine::reduction::condense;
 use mceip_exact::whole;
 use mceip_model::file::write_problem;
-use mceip_model::reduction::{Reduced, Variable, reduce};
-use mceip_model::{Admissible, Body, Problem};
+use mceip_model::reduction::reduce;
+use mceip_model::{Admissible, Body, Problem, Reduced, Variable};
 use std::path::PathBuf;
 
 /// Arguments of `reduce`.

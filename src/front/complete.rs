@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::run::Watched;
 use super::solution::Solution;
 use mceip_check::certificate::Certificate;
-use mceip_check::{OpenRegion, SolutionFamily};
+use mceip_check::{OpenRegion, Proved, SolutionFamily};
 use mceip_engine::certify::Certifier;
 use mceip_engine::report::Listed;
 use mceip_engine::run::{Cancel, Progress};
@@ -31,7 +31,7 @@ pub struct SolutionSet {
     pub families: Vec<SolutionFamily>,
     /// What is left open: intervals of values with variables not decided.
     pub open: Vec<OpenRegion>,
-    certificate: Certificate,
+    proved: Proved<Certificate>,
 }
 
 impl SolutionSet {
@@ -49,7 +49,7 @@ impl SolutionSet {
 
     /// The certificate, which the checker has accepted.
     pub fn certificate(&self) -> &Certificate {
-        &self.certificate
+        self.proved.certificate()
     }
 }
 
@@ -125,7 +125,7 @@ impl<'a> Complete<'a> {
             solutions,
             families: completed.cover.families,
             open: completed.cover.open,
-            certificate: completed.certificate,
+            proved: completed.proved,
         })
     }
 }

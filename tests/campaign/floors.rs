@@ -12,8 +12,8 @@
 use mceip_engine::multistart::{Found, Search, SearchError, multistart};
 use mceip_engine::reduction::condense;
 use mceip_engine::run::{Cancel, Watch};
-use mceip_model::reduction::{Reduced, reduce};
-use mceip_model::{Admissible, Problem, Unknown};
+use mceip_model::reduction::reduce;
+use mceip_model::{Admissible, Problem, Reduced, Unknown};
 use mceip_paper::{Block, MassKind, PublishedState};
 use mceip_testkit::campaign::{
     Campaign, Engine, FAMILIES, Id, Limit, Pipeline, State, case, treatment,

@@ -81,7 +81,12 @@ fn block(block: &Block, state: PublishedState) -> Subject {
     let found = block_state(block, state, &Watch::nobody());
     Subject {
         problem: state.problem(block).unwrap(),
-        certificate: found.unwrap().unwrap().certificate.unwrap(),
+        certificate: found
+            .unwrap()
+            .unwrap()
+            .certificate
+            .unwrap()
+            .into_certificate(),
     }
 }
 

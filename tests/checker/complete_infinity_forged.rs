@@ -263,7 +263,7 @@ impl Case {
         Case {
             name,
             order,
-            good: found.certificate,
+            good: found.proved.into_certificate(),
             truth: truth(&problem),
             truth_of_whole_line: truth(&whole_line),
             problem,

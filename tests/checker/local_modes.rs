@@ -168,7 +168,7 @@ fn the_complete_set_of_a_local_mode_closes() {
         let supports: Vec<_> = cover.solutions.iter().map(|s| &s.support).collect();
         assert_eq!(supports, [&support]);
 
-        let read = Certificate::from_json(&completed.certificate.to_json()).unwrap();
+        let read = Certificate::from_json(&completed.proved.certificate().to_json()).unwrap();
         let accepted = check(&problem, &read).unwrap().cover.unwrap();
         assert_eq!(accepted.solutions, cover.solutions);
     }

@@ -17,8 +17,8 @@ use mceip_exact::{
     roots_in, whole,
 };
 use mceip_model::file::Number;
-use mceip_model::reduction::{Reduced, lift, reduce};
-use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_model::reduction::{lift, reduce};
+use mceip_model::{Body, Pencil, Problem, Reduced, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate, is_solution};
 use mceip_testkit::{degenerate, mechanical, mutate, random_pencils};
 use rand::{RngExt, SeedableRng};

@@ -388,7 +388,7 @@ fn covered(problem: &Problem) -> Option<Forgery> {
     let found = complete(problem, &options, &Watch::nobody()).ok()?;
     Some(Forgery {
         problem: problem.clone(),
-        text: found.certificate.to_json(),
+        text: found.proved.certificate().to_json(),
     })
 }
 

@@ -104,7 +104,8 @@ fn lines_of(case: &Case, certificate: &Certificate) -> Vec<String> {
 }
 
 fn critical_lines(case: &Case, certificate: &CriticalCertificate) -> Vec<String> {
-    let audited = audit_critical(&case.problem, certificate, &|| true).map(Option::unwrap);
+    let audited = audit_critical(&case.problem, certificate, &|| true);
+    let audited = audited.map(|audited| audited.unwrap().1);
     let refused = |list| format!("audit: leaves refused (piece, node): {list:?}");
 
     match (check_critical(&case.problem, certificate), audited) {

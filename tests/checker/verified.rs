@@ -107,12 +107,16 @@ fn no_complete_set_of_the_conformance_pack_is_refused() {
             continue;
         };
 
-        let verdict = checker.judge(problem, &found.certificate);
-        counts.count(&found.certificate, &verdict);
+        let verdict = checker.judge(problem, found.proved.certificate());
+        counts.count(found.proved.certificate(), &verdict);
 
         let mut faults: Vec<String> = verdict.refusal().into_iter().collect();
         if let Some(lines) = verdict.statement() {
-            faults.extend(falsehoods(problem, &found.certificate.to_json(), lines));
+            faults.extend(falsehoods(
+                problem,
+                &found.proved.certificate().to_json(),
+                lines,
+            ));
         }
         if !faults.is_empty() {
             wrong.push(format!("{}: {faults:?}", draft.id));

@@ -107,12 +107,12 @@ fn is_in_the_list(system: &System, solution: &CertifiedSolution) -> bool {
 fn assert_proofs(index: u64, analysis: &Analysis) {
     for proof in &analysis.proofs {
         match &proof.certificate {
-            ProofCertificate::Absence(certificate) => {
-                let accepted = check_critical(&proof.problem, certificate);
+            ProofCertificate::Absence(proved) => {
+                let accepted = check_critical(&proof.problem, proved.certificate());
                 assert!(accepted.is_ok(), "system {index}: {accepted:?}");
             }
-            ProofCertificate::Solutions(certificate) => {
-                let accepted = check(&proof.problem, certificate);
+            ProofCertificate::Solutions(proved) => {
+                let accepted = check(&proof.problem, proved.certificate());
                 assert!(accepted.is_ok(), "system {index}: {accepted:?}");
             }
             ProofCertificate::Presence(_) => panic!("system {index}: zero reaction"),

@@ -90,7 +90,7 @@ fn the_smallest_mesh_is_as_in_the_table() {
 
     let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
 
-    let accepted = check(&problem, &found.certificate).unwrap();
+    let accepted = check(&problem, found.proved.certificate()).unwrap();
     let cover = accepted.cover.unwrap();
     assert_eq!(cover.solutions.len(), row.solutions);
     assert_eq!(cover.open.len(), row.open);

@@ -232,7 +232,7 @@ fn a_checkpoint_of_another_problem_or_window_is_refused() {
     let zero = whole(0);
     let five = whole(5);
     let own = two_and_three(&zero, Some(&five));
-    let certificate = search(&own).certificate;
+    let certificate = search(&own).proved.into_certificate();
     assert!(resumed(&own, &certificate).is_ok());
 
     let longer = two_and_three(&zero, Some(&whole(6)));

@@ -492,7 +492,7 @@ fn kept_games_do_not_depend_on_threads() {
 
     let [one, three] = by_threads
         .each_ref()
-        .map(|found| found.certificate.to_json());
+        .map(|found| found.proved.certificate().to_json());
     assert!(by_threads[0].is_complete());
     assert_eq!(one, three);
 }

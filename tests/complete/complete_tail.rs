@@ -62,7 +62,7 @@ impl Count {
         by_mass.open += usize::from(!found.is_complete());
         by_mass.all += 1;
 
-        let set = found.certificate.complete_set.as_ref().unwrap();
+        let set = found.proved.certificate().complete_set.as_ref().unwrap();
         self.reversed += usize::from(has_reversed_anchor(set));
         self.with_roots += usize::from(has_roots_in_last_piece(set));
     }
@@ -248,7 +248,7 @@ fn the_limit_of_a_large_support_is_named() {
 
         let regions = found.cover.open.iter();
         open += regions.filter(|region| region.max.is_none()).count();
-        if let Some(set) = &found.certificate.complete_set {
+        if let Some(set) = &found.proved.certificate().complete_set {
             named += count_of_infinity_outcomes(set);
         }
     }

@@ -9,8 +9,8 @@
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
-use mceip_model::reduction::{Reduced, reduce_system};
-use mceip_model::{Body, ContactState, Problem, Unknown, Window};
+use mceip_model::reduction::reduce_system;
+use mceip_model::{Body, ContactState, Problem, Reduced, Unknown, Window};
 use mceip_oracle::{Solution, enumerate_modes};
 use mceip_testkit::generators::{Seed, states};
 use rand::RngExt;

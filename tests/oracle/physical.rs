@@ -9,8 +9,10 @@
 #![cfg(feature = "testkit")]
 
 use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator, rational, whole};
-use mceip_model::reduction::{Lifted, Variable, check_lines, lift, reduce};
-use mceip_model::{Body, ContactState, Direction, Particle, Problem, System, Unknown, Window};
+use mceip_model::reduction::{Lifted, check_lines, lift, reduce};
+use mceip_model::{
+    Body, ContactState, Direction, Particle, Problem, System, Unknown, Variable, Window,
+};
 use mceip_oracle::{
     Enumeration, Mode, Motion, Motions, PhysicalState, PhysicalSystem, TwoParticles, enumerate,
     enumerate_motions,

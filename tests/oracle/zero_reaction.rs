@@ -12,8 +12,8 @@ use mceip_check::certificate::{Certificate, Claim, ExactSolution};
 use mceip_check::check;
 use mceip_exact::{Algebraic, Poly, Rational, Sign, rational};
 use mceip_model::file::Number;
-use mceip_model::reduction::{Lifted, Reduced, check_lines, lift, reduce_system};
-use mceip_model::{Body, ContactState, Problem, System, Unknown, Window};
+use mceip_model::reduction::{Lifted, check_lines, lift, reduce_system};
+use mceip_model::{Body, ContactState, Problem, Reduced, System, Unknown, Window};
 use mceip_oracle::{
     Motion, OracleError, PhysicalSystem, Solution, enumerate_modes, enumerate_modes_with,
     enumerate_motions,

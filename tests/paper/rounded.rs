@@ -40,7 +40,7 @@ fn with_k_in_four_decimals_both_printed_values_come_out() {
         let problem = state.problem(&printed).unwrap();
         let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
 
-        let read = Certificate::from_json(&found.certificate.to_json()).unwrap();
+        let read = Certificate::from_json(&found.proved.certificate().to_json()).unwrap();
         let cover = check(&problem, &read).unwrap().cover.unwrap();
         assert!(cover.open.is_empty());
         assert!(cover.families.is_empty());

@@ -42,13 +42,13 @@ fn answer(system: &System, mu: &Rational, samples: usize) -> Analysis {
     for proof in &analysis.proofs {
         match &proof.certificate {
             ProofCertificate::Solutions(found) => {
-                check(&proof.problem, found).unwrap();
+                check(&proof.problem, found.certificate()).unwrap();
             }
             ProofCertificate::Absence(absence) => {
-                check_critical(&proof.problem, absence).unwrap();
+                check_critical(&proof.problem, absence.certificate()).unwrap();
             }
             ProofCertificate::Presence(presence) => {
-                check_presence(&proof.problem, presence).unwrap();
+                check_presence(&proof.problem, presence.certificate()).unwrap();
             }
         }
     }
@@ -433,10 +433,11 @@ fn absence_is_accepted_and_more_is_refused(analysis: &Analysis) {
         panic!("{:?}", analysis.critical.evidence)
     };
     let proof = &analysis.proofs[number];
-    let ProofCertificate::Absence(certificate) = &proof.certificate else {
+    let ProofCertificate::Absence(proved) = &proof.certificate else {
         panic!("a certificate of absence")
     };
 
+    let certificate = proved.certificate();
     let accepted = check_critical(&proof.problem, certificate).unwrap();
     assert_eq!(Some(accepted.below), analysis.critical.absent_below);
 

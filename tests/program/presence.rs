@@ -52,7 +52,8 @@ fn analysis(system: &System, mu: &Rational) -> Analysis {
 fn certificates(analysis: &Analysis) -> Vec<(&Problem, &PresenceCertificate)> {
     let mut found = Vec::new();
     for proof in &analysis.proofs {
-        if let ProofCertificate::Presence(certificate) = &proof.certificate {
+        if let ProofCertificate::Presence(proved) = &proof.certificate {
+            let certificate = proved.certificate();
             check_presence(&proof.problem, certificate).unwrap();
             found.push((&proof.problem, certificate));
         }
@@ -304,10 +305,11 @@ fn compare_absent_ranges(index: u64, met: &mut AbsentRanges) {
             continue;
         };
         let proof = &analysis.proofs[k];
-        let ProofCertificate::Absence(certificate) = &proof.certificate else {
+        let ProofCertificate::Absence(proved) = &proof.certificate else {
             continue;
         };
 
+        let certificate = proved.certificate();
         met.proved += 1;
         assert_eq!(range.verdict, Verdict::Absent);
         assert_eq!(range.from, certificate.from);

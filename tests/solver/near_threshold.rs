@@ -117,11 +117,14 @@ fn assert_absence_is_proved(problem: &Problem, candidate: &Candidate, label: &st
         Near::Absent(absence) => absence,
         other => panic!("{label}: {other:?}"),
     };
-    let cover = check(problem, &absence.certificate).unwrap().cover.unwrap();
+    let cover = check(problem, absence.proved.certificate())
+        .unwrap()
+        .cover
+        .unwrap();
     assert!(cover.solutions.is_empty());
     assert!(cover.open.is_empty());
 
-    let window = &absence.certificate.window;
+    let window = &absence.proved.certificate().window;
     let value = from_f64(candidate.value).unwrap();
     let beyond = &value + parse("1e-10").unwrap();
     assert!(*window.min() <= value);

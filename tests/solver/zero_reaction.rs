@@ -14,8 +14,8 @@ use mceip_engine::multistart::{Certified, Found, Search, exact_value, multistart
 use mceip_engine::reduction::{Embedding, Side};
 use mceip_engine::run::Watch;
 use mceip_mcp::mcp::Mcp;
-use mceip_model::reduction::{Reduced, reduce, reduce_system};
-use mceip_model::{Admissible, Body, ContactState, Problem, System, Unknown, Window};
+use mceip_model::reduction::{reduce, reduce_system};
+use mceip_model::{Admissible, Body, ContactState, Problem, Reduced, System, Unknown, Window};
 use mceip_oracle::{Solution, enumerate_modes};
 use mceip_testkit::floors::{Coverage, Starts, floor, shortfalls};
 use mceip_testkit::generators::{Seed, states};

@@ -350,7 +350,8 @@ pub fn proved(problem: &Problem) -> Certificate {
     };
     let certificate = complete(problem, &options, &Watch::nobody())
         .unwrap()
-        .certificate;
+        .proved
+        .into_certificate();
 
     assert!(check(problem, &certificate).is_ok());
     certificate

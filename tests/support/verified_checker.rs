@@ -8,8 +8,8 @@
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, Rational, parse, rational};
 use mceip_model::file::read_problem_file;
-use mceip_model::reduction::{Reduced, reduce};
-use mceip_model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
+use mceip_model::reduction::reduce;
+use mceip_model::{Body, Particle, Pencil, Problem, Reduced, System, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate, enumerate_modes};
 use mceip_testkit::verified::{VerifiedChecker, VerifiedVerdict};
 use std::fs::File;

@@ -5,6 +5,7 @@
 //! file. This module demands that it belongs to the problem and says something; `cover::critical`
 //! checks its boxes. The obligations are those of `spec/certificates.md`, 5.18.
 
+use crate::LeafPlace;
 use crate::certificate::CriticalCertificate;
 use crate::cover;
 use crate::cover::critical::Audit;
@@ -37,8 +38,8 @@ pub fn check_critical(
     verdict(problem, certificate, None).map_err(rejected)
 }
 
-/// The leaves of a certificate that fail, as pairs of the number of the piece and the number of the
-/// node in its tree. Without any, [`check_critical`] accepts the certificate.
+/// What a certificate proves without the leaves that fail, and these leaves. Without any,
+/// [`check_critical`] accepts the certificate.
 ///
 /// A search that wants to replace all leaves that fail calls this once, where it would have to call
 /// [`check_critical`] once for each of them. `go_on` is asked before each anchor and each node;
@@ -50,10 +51,10 @@ pub fn audit_critical(
     problem: &Problem,
     certificate: &CriticalCertificate,
     go_on: &dyn Fn() -> bool,
-) -> Result<Option<Vec<(usize, usize)>>, Rejected> {
+) -> Result<Option<(AcceptedAbsence, Vec<LeafPlace>)>, Rejected> {
     let audit = Audit::new(go_on);
-    verdict(problem, certificate, Some(&audit)).map_err(rejected)?;
-    Ok(audit.into_refused())
+    let accepted = verdict(problem, certificate, Some(&audit)).map_err(rejected)?;
+    Ok(audit.into_refused().map(|refused| (accepted, refused)))
 }
 
 fn verdict(

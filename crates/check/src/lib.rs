@@ -47,7 +47,7 @@ pub use backward_error::backward_error;
 pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, Place, SolutionFamily};
 pub use critical::{AcceptedAbsence, audit_critical, check_critical};
 pub use presence::{AcceptedPresence, check_presence};
-pub use proved::{Evidence, Proved};
+pub use proved::{Provable, Proved, Refused};
 pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};
@@ -60,6 +60,9 @@ use pencil::Rows;
 /// What the exact and lifted claims of a file may cost together: without any claim, and for each.
 const WORK_BASE: u64 = 1 << 43;
 const WORK_PER_CLAIM: u64 = 1 << 34;
+
+/// A leaf of a cover: the number of the piece, and of the node in its tree.
+pub type LeafPlace = (usize, usize);
 
 /// What an accepted certificate has proved, claim by claim.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -89,8 +92,7 @@ pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, R
 
 /// Checks a certificate as [`check`] does, but leaves open each leaf of its cover that fails.
 ///
-/// Beside the verdict on the rest it returns those leaves, as pairs of the number of the piece and
-/// the number of the node in the tree of the piece. A search that wants to replace all leaves that
+/// Beside the verdict on the rest it returns those leaves. A search that wants to replace all leaves that
 /// fail calls this once, where it would have to call [`check`] once for each of them.
 ///
 /// # Errors
@@ -98,7 +100,7 @@ pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, R
 pub fn audit(
     problem: &Problem,
     certificate: &Certificate,
-) -> Result<(Accepted, Vec<(usize, usize)>), Rejected> {
+) -> Result<(Accepted, Vec<LeafPlace>), Rejected> {
     let mut refused = Vec::new();
     let accepted = verdict(problem, certificate, Some(&mut refused))?;
     Ok((accepted, refused))
@@ -182,7 +184,7 @@ fn work_of(claim: &Claim) -> u64 {
 fn verdict(
     problem: &Problem,
     certificate: &Certificate,
-    refused: Option<&mut Vec<(usize, usize)>>,
+    refused: Option<&mut Vec<LeafPlace>>,
 ) -> Result<Accepted, Rejected> {
     check_frame(problem, certificate).map_err(of_certificate)?;
 

@@ -5,13 +5,14 @@
 //! very certificate. Claims that cost more together than one file may are shared out over several
 //! files ([`Proved::claims`]).
 
-use crate::certificate::{Certificate, Claim, CriticalCertificate, PresenceCertificate};
-use crate::{Accepted, AcceptedAbsence, AcceptedPresence, Rejected};
-use crate::{allowed_work, check, check_critical, check_presence, work_of};
+use crate::certificate::{Certificate, Claim, CriticalCertificate, Node, PresenceCertificate};
+use crate::{Accepted, AcceptedAbsence, AcceptedPresence, LeafPlace, Rejected};
+use crate::{allowed_work, audit, audit_critical, work_of};
+use crate::{check, check_critical, check_presence};
 use mceip_model::{ModelError, Problem};
 
 /// A kind of certificate: its verdict and its file.
-pub trait Evidence: Sized + PartialEq {
+pub trait Provable: Sized + PartialEq {
     /// What an accepted one has proved.
     type Accepted;
 
@@ -31,7 +32,7 @@ pub trait Evidence: Sized + PartialEq {
     fn read(text: &str) -> Result<Self, ModelError>;
 }
 
-impl Evidence for Certificate {
+impl Provable for Certificate {
     type Accepted = Accepted;
 
     fn check(&self, problem: &Problem) -> Result<Accepted, Rejected> {
@@ -47,7 +48,7 @@ impl Evidence for Certificate {
     }
 }
 
-impl Evidence for CriticalCertificate {
+impl Provable for CriticalCertificate {
     type Accepted = AcceptedAbsence;
 
     fn check(&self, problem: &Problem) -> Result<AcceptedAbsence, Rejected> {
@@ -63,7 +64,7 @@ impl Evidence for CriticalCertificate {
     }
 }
 
-impl Evidence for PresenceCertificate {
+impl Provable for PresenceCertificate {
     type Accepted = AcceptedPresence;
 
     fn check(&self, problem: &Problem) -> Result<AcceptedPresence, Rejected> {
@@ -81,12 +82,12 @@ impl Evidence for PresenceCertificate {
 
 /// A certificate that is accepted as a whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Proved<C: Evidence> {
+pub struct Proved<C: Provable> {
     certificate: C,
     accepted: C::Accepted,
 }
 
-impl<C: Evidence> Proved<C> {
+impl<C: Provable> Proved<C> {
     /// The certificate, if it is accepted for this problem.
     ///
     /// # Errors
@@ -102,6 +103,11 @@ impl<C: Evidence> Proved<C> {
     /// The certificate.
     pub fn certificate(&self) -> &C {
         &self.certificate
+    }
+
+    /// The certificate, to be changed: what comes of it is proved no longer.
+    pub fn into_certificate(self) -> C {
+        self.certificate
     }
 
     /// What it has proved.
@@ -125,7 +131,48 @@ impl<C: Evidence> Proved<C> {
     }
 }
 
+/// A certificate that is refused, to be mended.
+#[derive(Debug)]
+pub struct Refused {
+    /// The certificate.
+    pub certificate: Certificate,
+    /// Why.
+    pub rejected: Rejected,
+}
+
 impl Proved<Certificate> {
+    /// The certificate in which each leaf of the cover that fails is open, and these leaves.
+    ///
+    /// # Errors
+    /// [`Refused`] with an obligation that fails although these leaves are open.
+    pub fn opened(
+        problem: &Problem,
+        mut certificate: Certificate,
+    ) -> Result<(Proved<Certificate>, Vec<LeafPlace>), Box<Refused>> {
+        let (accepted, refused) = match audit(problem, &certificate) {
+            Ok(audited) => audited,
+            Err(rejected) => {
+                return Err(Box::new(Refused {
+                    certificate,
+                    rejected,
+                }));
+            }
+        };
+
+        // The verdict takes these leaves for open; so the certificate must have them open.
+        if let Some(set) = &mut certificate.complete_set {
+            for &(piece, node) in &refused {
+                set.pieces[piece].tree[node] = Node::Open;
+            }
+        }
+
+        let proved = Proved {
+            certificate,
+            accepted,
+        };
+        Ok((proved, refused))
+    }
+
     /// The claims, without a complete set, in as few files as their order and the limit of work of
     /// a file allow; none for no claims.
     ///
@@ -150,6 +197,28 @@ impl Proved<Certificate> {
             complete_set: None,
         });
         certificates.map(|c| Proved::new(problem, c)).collect()
+    }
+}
+
+impl Proved<CriticalCertificate> {
+    /// The certificate, if it is accepted for this problem; `None` if `go_on` has said no, which is
+    /// asked before each anchor and each node.
+    ///
+    /// # Errors
+    /// [`Rejected`] with an obligation that fails.
+    pub fn unless_stopped(
+        problem: &Problem,
+        certificate: CriticalCertificate,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Option<Proved<CriticalCertificate>>, Rejected> {
+        match audit_critical(problem, &certificate, go_on)? {
+            None => Ok(None),
+            Some((accepted, refused)) if refused.is_empty() => Ok(Some(Proved {
+                certificate,
+                accepted,
+            })),
+            Some(_) => Proved::new(problem, certificate).map(Some),
+        }
     }
 }
 

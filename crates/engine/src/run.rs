@@ -4,6 +4,7 @@
 //! found by then is kept and returned; what it has not examined is left open. It calls
 //! [`Watch::report`] with its [`Progress`] after each step.
 
+use mceip_check::{Provable, Proved};
 use mceip_model::Problem;
 use std::fmt;
 use std::sync::Arc;
@@ -148,8 +149,19 @@ impl<'a> Keeper<'a> {
         Keeper { every, on_proof }
     }
 
-    /// Hands a certificate over.
-    pub fn keep(&self, kept: &Kept<'_>) {
+    /// Hands a certificate over; one that cannot be written as it was accepted is passed over.
+    pub fn keep<C: Provable>(&self, name: &str, problem: &Problem, proved: &Proved<C>) {
+        if let Ok(certificate) = proved.file() {
+            self.hand_over(&Kept {
+                name,
+                problem,
+                certificate: &certificate,
+            });
+        }
+    }
+
+    /// Hands over what a keeper of a part of the run has got.
+    pub fn hand_over(&self, kept: &Kept<'_>) {
         (self.on_proof)(kept);
     }
 }

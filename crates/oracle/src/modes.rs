@@ -25,8 +25,7 @@ use super::physical::Mode;
 use super::plain::{OracleError, multiplicity, require_size};
 use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
-use mceip_model::Window;
-use mceip_model::reduction::{Reduced, ZeroVariables};
+use mceip_model::{Reduced, Window, ZeroVariables};
 use std::ops::ControlFlow;
 
 /// A choice of modes that is listed and not described.

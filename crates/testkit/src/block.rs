@@ -11,7 +11,7 @@ use super::interior::path_coverage;
 use super::verified::{VerifiedChecker, VerifiedCounts};
 use crate::error::TestkitError;
 use mceip_check::certificate::Certificate;
-use mceip_check::{AcceptedClaim, AcceptedCover, Rejected, check};
+use mceip_check::{AcceptedClaim, AcceptedCover, Proved, Rejected, check};
 use mceip_engine::certify::certificate;
 use mceip_engine::multistart::{Search, SearchError, multistart};
 use mceip_engine::reduction::condense;
@@ -19,7 +19,7 @@ use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::to_f64;
 use mceip_model::reduction::reduce;
-use mceip_model::{Admissible, Pencil, Problem, Unknown};
+use mceip_model::{Admissible, Pencil, Unknown};
 use mceip_paper::{Block, PublishedState};
 
 /// A certified and accepted solution of a state.
@@ -57,11 +57,11 @@ pub struct BlockReport {
     /// Pivots of the solver.
     pub pivots: usize,
     /// The certificate, if anything was certified.
-    pub certificate: Option<Certificate>,
+    pub certificate: Option<Proved<Certificate>>,
     /// What the complete search proved on the given K over [0, infinity).
     pub cover: AcceptedCover,
     /// The certificate of the complete set.
-    pub complete_certificate: Certificate,
+    pub complete_certificate: Proved<Certificate>,
     /// Verdicts of the verified checker on both certificates; all zero without one.
     pub verified: VerifiedCounts,
     /// Why the verified checker refuses a certificate: a bug.
@@ -97,8 +97,10 @@ impl BlockReport {
 
         let mut certificates = vec![&self.complete_certificate];
         certificates.extend(&self.certificate);
-        for certificate in certificates {
-            let refusal = self.verified.submit(checker, &problem, certificate);
+        for proved in certificates {
+            let refusal = self
+                .verified
+                .submit(checker, &problem, proved.certificate());
             self.refused.extend(refusal);
         }
         Ok(())
@@ -166,7 +168,7 @@ pub fn block_state(
         unfound: completed.cover.solutions.len(),
         path: Coverage::default(),
         cover: completed.cover,
-        complete_certificate: completed.certificate,
+        complete_certificate: completed.proved,
         verified: VerifiedCounts::default(),
         refused: Vec::new(),
         missing: 0,
@@ -183,10 +185,16 @@ pub fn block_state(
     }
 
     let claims = found.certified.into_iter().map(|c| c.claim).collect();
-    let certificate = certificate(&problem, claims);
-    submit(&problem, &pencil.slip(), &certificate, &mut report);
+    let proved = match Proved::new(&problem, certificate(&problem, claims)) {
+        Ok(proved) => proved,
+        Err(rejected) => {
+            report.rejected.push(rejected);
+            return Ok(Some(report));
+        }
+    };
+    compare(&pencil.slip(), &proved.accepted().claims, &mut report);
 
-    for forgery in forgeries(&certificate) {
+    for forgery in forgeries(proved.certificate()) {
         if watch.is_cancelled() {
             return Ok(None);
         }
@@ -197,7 +205,7 @@ pub fn block_state(
         report.rejected_forgeries += usize::from(is_rejected);
     }
 
-    report.certificate = Some(certificate);
+    report.certificate = Some(proved);
     Ok(Some(report))
 }
 
@@ -208,16 +216,8 @@ fn denominator_bits(pencil: &Pencil) -> u64 {
     bits.max().unwrap_or(0)
 }
 
-/// Sends the certificate to the checker, and compares what it accepts with the complete set.
-fn submit(problem: &Problem, slip: &[usize], certificate: &Certificate, report: &mut BlockReport) {
-    let claims = match check(problem, certificate) {
-        Ok(accepted) => accepted.claims,
-        Err(e) => {
-            report.rejected.push(e);
-            return;
-        }
-    };
-
+/// Compares what the checker has accepted with the complete set.
+fn compare(slip: &[usize], claims: &[AcceptedClaim], report: &mut BlockReport) {
     let proved = &report.cover.solutions;
     if report.is_complete() {
         let is_missing = |c: &&AcceptedClaim| !proved.iter().any(|s| may_be_same(s, c));

@@ -28,8 +28,8 @@ use mceip_engine::multistart::{
 };
 use mceip_engine::run::Watch;
 use mceip_exact::{Algebraic, Quadratic, Rational, Sign};
-use mceip_model::reduction::{Reduced, check_lines, lift, reduce};
-use mceip_model::{Admissible, Body, Pencil, Problem};
+use mceip_model::reduction::{check_lines, lift, reduce};
+use mceip_model::{Admissible, Body, Pencil, Problem, Reduced};
 use mceip_oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
 use num_traits::Signed;
 
@@ -205,7 +205,7 @@ pub(super) fn compare_with(
     match compare_within(problem, oracle, treatment.nodes) {
         Ok(Some(completed)) => {
             report.completed = completed.is_complete();
-            submit_verified(problem, &completed.certificate, verified, report);
+            submit_verified(problem, completed.proved.certificate(), verified, report);
         }
         Ok(None) => {}
         Err(disagreement) => report.disagreements.push(disagreement),

@@ -17,8 +17,7 @@ use mceip_engine::run::Watch;
 use mceip_engine::tolerance::PATH_VALUE;
 use mceip_exact::{Sparse, to_f64};
 use mceip_mcp::solver::{CrashMethod, Options, Sense, SolverError, continuation, solve};
-use mceip_model::reduction::Reduced;
-use mceip_model::{Admissible, Problem};
+use mceip_model::{Admissible, Problem, Reduced};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -102,7 +102,7 @@ fn elimination_in_doubles(problem: &Problem) -> Result<Option<Vec<Vec<f64>>>, Te
         ..Options::default()
     };
     let stopped = complete(problem, &options, &Watch::silent(&Cancel::requested()))?;
-    let set = stopped.certificate.complete_set;
+    let set = stopped.proved.into_certificate().complete_set;
     let Some(condensation) = set.and_then(|s| s.condensation) else {
         return Ok(None);
     };
@@ -219,6 +219,6 @@ mod tests {
         assert!((to_f64(&found.cover.solutions[0].value.mid()) - 1.71).abs() < 0.01);
 
         // The near problem's certificate is none for the given one.
-        assert!(check(&problem, &found.certificate).is_err());
+        assert!(check(&problem, found.proved.certificate()).is_err());
     }
 }

@@ -29,8 +29,8 @@ use mceip_check::check;
 use mceip_engine::certify::{certificate, propose};
 use mceip_exact::{Sparse, whole};
 use mceip_model::file::{read_problem, write_problem};
-use mceip_model::reduction::{Reduced, reduce};
-use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_model::reduction::reduce;
+use mceip_model::{Body, Pencil, Problem, Reduced, Unknown, Window};
 use mceip_oracle::enumerate;
 use std::path::Path;
 

@@ -40,6 +40,7 @@ use super::region::{Matrices, Region, State};
 use super::short::Short;
 use super::walk::NodeFault;
 use super::{check_end, check_size, condensed, definite, expand_anchor, farkas, regular};
+use crate::LeafPlace;
 use crate::certificate::{
     CriticalCertificate, CriticalCondensation, CriticalNode, CriticalPiece, CriticalTail, Regular,
 };
@@ -107,7 +108,7 @@ pub(crate) struct Audit<'a> {
     go_on: &'a dyn Fn() -> bool,
     has_stopped: Cell<bool>,
     /// The leaves that fail: piece, node.
-    refused: RefCell<Vec<(usize, usize)>>,
+    refused: RefCell<Vec<LeafPlace>>,
 }
 
 impl<'a> Audit<'a> {
@@ -120,7 +121,7 @@ impl<'a> Audit<'a> {
     }
 
     /// The leaves that fail; `None` if the audit was stopped.
-    pub(crate) fn into_refused(self) -> Option<Vec<(usize, usize)>> {
+    pub(crate) fn into_refused(self) -> Option<Vec<LeafPlace>> {
         let is_complete = !self.has_stopped.get();
         is_complete.then(|| self.refused.into_inner())
     }
@@ -391,11 +392,7 @@ impl BoxWalk<'_> {
     }
 
     /// Passes on the verdict on a leaf, or notes where one fails.
-    fn settle(
-        &self,
-        verdict: Result<(), CoverFault>,
-        place: (usize, usize),
-    ) -> Result<(), CoverFault> {
+    fn settle(&self, verdict: Result<(), CoverFault>, place: LeafPlace) -> Result<(), CoverFault> {
         match (&verdict, self.audit) {
             (Err(_), Some(audit)) => {
                 audit.refused.borrow_mut().push(place);

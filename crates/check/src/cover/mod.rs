@@ -69,6 +69,7 @@ pub use proved::{AcceptedCover, OpenRegion, SolutionFamily};
 
 use super::pencil::Rows;
 use super::reason::Reason;
+use crate::LeafPlace;
 use crate::certificate::{CompleteSet, Piece};
 use budget::WorkBudget;
 use condensed::Anchors;
@@ -96,7 +97,7 @@ pub(super) fn check(
     window: &Window,
     claims: &[AcceptedSolution<'_>],
     cover: &CompleteSet,
-    refused: Option<&mut Vec<(usize, usize)>>,
+    refused: Option<&mut Vec<LeafPlace>>,
 ) -> Result<AcceptedCover, Reason> {
     let index: Vec<usize> = (0..rows.order()).filter(|&i| !rows.is_free[i]).collect();
     let expansions = cover.condensation.as_ref().map_or(0, |c| c.anchors.len());

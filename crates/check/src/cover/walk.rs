@@ -23,9 +23,9 @@ use super::short::Short;
 use super::sign_budget::SignBudget;
 use super::support::Held;
 use super::{definite, farkas, infinity, ldl, root, support};
-use crate::AcceptedClaim;
 use crate::certificate::{Node, Piece, Root, RootOutcome, Support};
 use crate::pencil::Rows;
+use crate::{AcceptedClaim, LeafPlace};
 use mceip_exact::{Interval, Rational};
 use mceip_model::Window;
 use std::rc::Rc;
@@ -52,7 +52,7 @@ pub(super) struct Walk<'a> {
     pub(super) definite_budget: WorkBudget,
     pub(super) matrix_budget: WorkBudget,
     /// Where leaves that fail are noted (piece, node), if they are to be left open.
-    pub(super) refused: Option<&'a mut Vec<(usize, usize)>>,
+    pub(super) refused: Option<&'a mut Vec<LeafPlace>>,
 }
 
 /// A fault and the number of the node at which it was found.
@@ -118,7 +118,7 @@ impl Walk<'_> {
         &mut self,
         region: &Region,
         verdict: Result<(), CoverFault>,
-        place: (usize, usize),
+        place: LeafPlace,
     ) -> Result<(), CoverFault> {
         match (&verdict, self.refused.as_mut()) {
             (Err(_), Some(refused)) => {

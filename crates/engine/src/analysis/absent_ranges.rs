@@ -15,6 +15,7 @@ use super::evidence::{Evidence, Proof, ProofCertificate};
 use super::model::Model;
 use super::ranges::Range;
 use crate::run::Progress;
+use mceip_check::Proved;
 use mceip_check::certificate::CriticalCertificate;
 use mceip_exact::Rational;
 
@@ -65,7 +66,7 @@ fn cover<'a>(
     model: &Model<'a>,
     known: &Known<'a>,
     [from, below]: [&Rational; 2],
-) -> Option<CriticalCertificate> {
+) -> Option<Proved<CriticalCertificate>> {
     let stage = "ranges of mu: proving absence";
     let relay = |progress: &Progress<'_>| model.relay(stage, progress);
     let all = known.quadrant(model);
@@ -81,7 +82,7 @@ fn cover<'a>(
             places: &places,
         };
         match quadrant.cover(&bound, &mut LastFamily::default()).ok()? {
-            Outcome::Absent(certificate) => return Some(*certificate),
+            Outcome::Absent(proved) => return Some(*proved),
             Outcome::Blocked(boxes) if boxes.iter().all(is_imprecise) => {
                 for blocked in &boxes {
                     let [lambda2, _] = blocked.middle;

@@ -29,8 +29,7 @@ use mceip_exact::{
     Algebraic, DefiniteError, Dense, Integer, Interval, Rational, Sparse, common_denominator,
     determinant, from_f64, positive_definite, rational, roots_in, to_f64,
 };
-use mceip_model::reduction::MuFamily;
-use mceip_model::{Admissible, ModelError, Pencil, Unknown, Window};
+use mceip_model::{Admissible, ModelError, MuFamily, Pencil, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution, examine_support};
 use num_traits::{One, Signed, Zero};
 

@@ -11,7 +11,7 @@
 //! the proofs named `critical` (the solution) and `absence` (the bound).
 
 use super::absence::{
-    Blocked, Bound, Cause, Family, LastFamily, Outcome, Place, Quadrant, leaves, unit_of_lambda2,
+    Blocked, Bound, Cause, Family, LastFamily, Outcome, Place, Quadrant, unit_of_lambda2,
 };
 use super::conditions::Necessary;
 use super::divergence::Divergence;
@@ -26,6 +26,7 @@ use crate::search::complete::Completed;
 use crate::tolerance::{
     CRITICAL_GAPS, FIRST_GAP, FIRST_NEAR, LEAST_NEAR, NARROW_WINDOWS, SMALLER_FRICTION,
 };
+use mceip_check::Proved;
 use mceip_check::certificate::CriticalCertificate;
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
 use mceip_model::{Problem, Window};
@@ -282,7 +283,7 @@ struct Bounds {
     start: Option<Start>,
     /// The proof of that solution, if it is none of those known before.
     of_solution: Option<Proof>,
-    absence: Option<CriticalCertificate>,
+    absence: Option<Proved<CriticalCertificate>>,
     /// The bound tried last in vain.
     unproved: Option<Unproved>,
     /// Where condensation is to be precise.
@@ -352,8 +353,9 @@ impl Bounds {
         let may_be_absent = |tried: &Unproved| first_solution.is_none_or(|mu| tried.below <= *mu);
         let unproved = self.unproved.filter(may_be_absent);
 
-        let beyond_condition = self.absence.filter(|found| found.below > excluded);
-        let Some(certificate) = beyond_condition else {
+        let absence = self.absence;
+        let beyond_condition = absence.filter(|found| found.accepted().below > excluded);
+        let Some(proved) = beyond_condition else {
             return Critical {
                 evidence: by_condition(known.families, Some(&excluded)),
                 absent_below: Some(excluded),
@@ -363,12 +365,12 @@ impl Bounds {
             };
         };
 
-        let absent_below = certificate.below.clone();
-        let boxes = leaves(&certificate);
+        let absent_below = proved.accepted().below.clone();
+        let boxes = proved.accepted().leaves;
         proofs.push(Proof {
             name: "absence".into(),
             problem: known.problem.clone(),
-            certificate: ProofCertificate::Absence(certificate),
+            certificate: ProofCertificate::Absence(proved),
         });
 
         Critical {
@@ -470,7 +472,7 @@ impl Search<'_> {
             lambda2: Interval::point(lambda2),
             evidence: Evidence::Exact(""),
         });
-        let certificate = ProofCertificate::Solutions(found.certificate);
+        let certificate = ProofCertificate::Solutions(found.proved);
         self.model.keep("critical", &problem, &certificate);
         bounds.of_solution = Some(Proof {
             name: "critical".into(),
@@ -635,11 +637,11 @@ impl Search<'_> {
             places: &bounds.places,
         };
         match quadrant.cover(&bound, &mut bounds.last)? {
-            Outcome::Absent(certificate) => {
+            Outcome::Absent(proved) => {
                 bounds.unproved = bounds.unproved.take().filter(|tried| tried.below > *below);
-                let proof = ProofCertificate::Absence(*certificate.clone());
+                let proof = ProofCertificate::Absence(*proved.clone());
                 self.model.keep("absence", self.problem, &proof);
-                bounds.absence = Some(*certificate);
+                bounds.absence = Some(*proved);
                 Ok(None)
             }
             Outcome::Refused => {

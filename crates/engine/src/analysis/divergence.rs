@@ -8,8 +8,7 @@ use super::evidence::Evidence;
 use super::modes::Mode;
 use crate::search::complete::Completed;
 use mceip_check::OpenRegion;
-use mceip_model::System;
-use mceip_model::reduction::MuFamily;
+use mceip_model::{MuFamily, System};
 
 /// Does divergence of the form (8) exist? Never "stable": flutter and stick-slip growth lie outside
 /// (8).

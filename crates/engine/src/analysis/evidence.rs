@@ -1,8 +1,9 @@
 //! What stands behind a sentence: certificates accepted by the checker, exact conditions,
 //! measurements.
 
+use mceip_check::Proved;
 use mceip_check::certificate::{Certificate, CriticalCertificate, PresenceCertificate};
-use mceip_model::Problem;
+use mceip_model::{ModelError, Problem};
 
 /// What stands behind a sentence.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,20 +32,23 @@ pub struct Proof {
 #[derive(Debug, Clone)]
 pub enum ProofCertificate {
     /// Solutions, or all solutions in a window (`mceip-certificate/1`).
-    Solutions(Certificate),
+    Solutions(Proved<Certificate>),
     /// No solution for any friction of an interval (`mceip-critical/1`).
-    Absence(CriticalCertificate),
+    Absence(Proved<CriticalCertificate>),
     /// A solution for every friction of an interval (`mceip-presence/1`).
-    Presence(PresenceCertificate),
+    Presence(Proved<PresenceCertificate>),
 }
 
 impl ProofCertificate {
-    /// The certificate as JSON.
-    pub fn to_json(&self) -> String {
+    /// The text of its file.
+    ///
+    /// # Errors
+    /// As [`Proved::file`].
+    pub fn file(&self) -> Result<String, ModelError> {
         match self {
-            ProofCertificate::Solutions(certificate) => certificate.to_json(),
-            ProofCertificate::Absence(certificate) => certificate.to_json(),
-            ProofCertificate::Presence(certificate) => certificate.to_json(),
+            ProofCertificate::Solutions(proved) => proved.file(),
+            ProofCertificate::Absence(proved) => proved.file(),
+            ProofCertificate::Presence(proved) => proved.file(),
         }
     }
 }

@@ -7,8 +7,8 @@
 //! Input: a system. Called by [`analyse`](super::analyse), `critical` and `absence`.
 
 use super::conditions::{DefiniteUntil, Necessary, condensed};
-use mceip_model::reduction::{MuFamily, mu_family, zero_variables};
-use mceip_model::{ModelError, System, ZeroVariables};
+use mceip_model::reduction::{mu_family, zero_variables};
+use mceip_model::{ModelError, MuFamily, System, ZeroVariables};
 
 /// The families of a system.
 pub(super) struct Families {

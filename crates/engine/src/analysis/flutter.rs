@@ -16,8 +16,7 @@ use crate::dense::{rounded, transposed};
 use crate::tolerance::FLUTTER_ANGLE;
 use mceip_exact::{Rational, whole};
 use mceip_mcp::linear::{eigenvalues, solve};
-use mceip_model::Pencil;
-use mceip_model::reduction::MuFamily;
+use mceip_model::{MuFamily, Pencil};
 use std::cmp::Ordering;
 
 /// Complex lambda^2 of (lambda^2 M* + K*) x = 0 with every slip particle slipping: flutter of

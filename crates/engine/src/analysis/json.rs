@@ -121,7 +121,7 @@ fn pair(pair: &Oscillation) -> Value {
 impl Analysis {
     /// SHA-256 of a proof's certificate as it is written to a file.
     pub fn certificate_sha256(&self, proof: usize) -> Option<String> {
-        let text = self.proofs.get(proof)?.certificate.to_json();
+        let text = self.proofs.get(proof)?.certificate.file().ok()?;
         let mut hex = String::new();
         for byte in Sha256::digest(text.as_bytes()) {
             let _ = write!(hex, "{byte:02x}"); // a String takes everything

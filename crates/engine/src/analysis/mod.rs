@@ -205,7 +205,7 @@ impl AtFriction {
 /// A problem with the certificate that a complete search made for it, handed over to the keeper of
 /// the run.
 fn proof(model: &Model<'_>, name: &str, problem: Problem, found: Completed) -> Proof {
-    let certificate = ProofCertificate::Solutions(found.certificate);
+    let certificate = ProofCertificate::Solutions(found.proved);
     model.keep(name, &problem, &certificate);
     Proof {
         name: name.into(),
@@ -264,7 +264,7 @@ fn sufficient(families: &Families, found: &Completed, verdict: Verdict) -> Optio
 /// The biactive indices of the claims with a support.
 fn claimed_biactive(found: &Completed, support: &[usize]) -> Vec<usize> {
     let mut biactive = Vec::new();
-    for claim in &found.certificate.claims {
+    for claim in &found.proved.certificate().claims {
         if let Claim::ExactSolution(claim) = claim
             && claim.support == support
         {

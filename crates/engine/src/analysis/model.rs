@@ -110,8 +110,9 @@ impl Model<'_> {
 
     /// Hands a proof over to the keeper of the run, if there is one.
     pub(super) fn keep(&self, name: &str, problem: &Problem, certificate: &ProofCertificate) {
-        if self.watch.keeper().is_some() {
-            let certificate = &certificate.to_json();
+        if self.watch.keeper().is_some()
+            && let Ok(certificate) = &certificate.file()
+        {
             self.keep_as(
                 name,
                 &Kept {
@@ -125,7 +126,7 @@ impl Model<'_> {
 
     fn keep_as(&self, name: &str, kept: &Kept<'_>) {
         if let Some(keeper) = self.watch.keeper() {
-            keeper.keep(&Kept { name, ..*kept });
+            keeper.hand_over(&Kept { name, ..*kept });
         }
     }
 

@@ -9,8 +9,8 @@ use super::sentences::{short, short_is_plain};
 use crate::reduction::mode;
 use mceip_check::AcceptedClaim;
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
-use mceip_model::reduction::{MuFamily, zero_variables};
-use mceip_model::{ContactState, System, ZeroVariables};
+use mceip_model::reduction::zero_variables;
+use mceip_model::{ContactState, MuFamily, System, ZeroVariables};
 use num_traits::{Signed, Zero};
 
 /// A diverging solution u(t) = u0 + alpha(t) v with alpha growing like exp(lambda t). // (8)

@@ -24,6 +24,7 @@ use crate::run::Progress;
 use crate::search::complete::Completed;
 use crate::tolerance::ABOVE_CRITICAL;
 use mceip_check::certificate::PresenceCertificate;
+use mceip_check::{AcceptedPresence, Proved};
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
 use mceip_model::Problem;
 use num_traits::Zero;
@@ -171,7 +172,7 @@ pub(super) fn ranges(
 }
 
 /// Keeps the proofs of presence found so far.
-fn keep_presence(model: &Model<'_>, known: &Known<'_>, proved: &[PresenceCertificate]) {
+fn keep_presence(model: &Model<'_>, known: &Known<'_>, proved: &[Proved<PresenceCertificate>]) {
     for (k, certificate) in proved.iter().enumerate() {
         let certificate = ProofCertificate::Presence(certificate.clone());
         model.keep(&presence_name(k), known.problem, &certificate);
@@ -294,18 +295,19 @@ fn prover<'a>(
 /// the certified one.
 fn smaller_solution(
     critical: &Critical,
-    first: Option<&PresenceCertificate>,
+    first: Option<&Proved<PresenceCertificate>>,
     proof: usize,
 ) -> Option<CertifiedSolution> {
-    let certificate = first?;
+    let proved = first?;
+    let from = &proved.accepted().from;
     let known = critical.solution.as_ref();
-    if known.is_some_and(|known| *known.mu.hi() <= certificate.from) {
+    if known.is_some_and(|known| known.mu.hi() <= from) {
         return None;
     }
 
-    let [t0, t1] = &certificate.pieces.first()?.interval;
+    let [t0, t1] = &proved.certificate().pieces.first()?.interval;
     Some(CertifiedSolution {
-        mu: Interval::point(certificate.from.clone()),
+        mu: Interval::point(from.clone()),
         lambda2: Interval::new(t0.0.clone(), t1.0.clone())?,
         evidence: Evidence::Certificate(proof),
     })
@@ -339,7 +341,7 @@ fn solution_of(met: Met) -> Option<(CertifiedSolution, Proof)> {
     let proof = Proof {
         name: "critical".into(),
         problem: met.problem,
-        certificate: ProofCertificate::Solutions(met.found.certificate),
+        certificate: ProofCertificate::Solutions(met.found.proved),
     };
     Some((solution, proof))
 }
@@ -357,7 +359,7 @@ struct Sampler<'a> {
     /// The slip variables of the pencil.
     slip: Vec<usize>,
     /// Where presence is proved, ascending.
-    proved: Vec<PresenceCertificate>,
+    proved: Vec<Proved<PresenceCertificate>>,
     /// The solutions met, in doubles.
     starts: Vec<Start>,
     /// The sample of smallest mu with a solution.
@@ -397,9 +399,11 @@ impl Sampler<'_> {
         }
 
         for pair in self.proved.windows(2) {
-            let is_inside = |sample: &Sample| pair[0].to < sample.mu && sample.mu < pair[1].from;
+            let from = &pair[0].accepted().to;
+            let to = &pair[1].accepted().from;
+            let is_inside = |sample: &Sample| *from < sample.mu && sample.mu < *to;
             if !samples.iter().any(is_inside) {
-                middles.push((&pair[0].to + &pair[1].from) / whole(2));
+                middles.push((from + to) / whole(2));
             }
         }
 
@@ -480,25 +484,27 @@ fn rounded_up(mu: Rational) -> Rational {
 }
 
 /// Is this mu in a proved interval?
-fn holds(proved: &PresenceCertificate, mu: &Rational) -> bool {
-    proved.from <= *mu && *mu <= proved.to
+fn holds(proved: &Proved<PresenceCertificate>, mu: &Rational) -> bool {
+    let AcceptedPresence { from, to, .. } = proved.accepted();
+    from <= mu && mu <= to
 }
 
 /// The proved intervals, and runs of samples of one verdict outside them, by ascending mu. `first`
 /// is the index of the first interval's proof.
-fn joined(proved: &[PresenceCertificate], first: usize, samples: &[Sample]) -> Vec<Range> {
+fn joined(proved: &[Proved<PresenceCertificate>], first: usize, samples: &[Sample]) -> Vec<Range> {
     let mut ranges = Vec::new();
     let mut rest = samples;
-    for (k, certificate) in proved.iter().enumerate() {
-        let below = rest.partition_point(|sample| sample.mu < certificate.from);
+    for (k, proved) in proved.iter().enumerate() {
+        let AcceptedPresence { from, to, .. } = proved.accepted();
+        let below = rest.partition_point(|sample| sample.mu < *from);
         ranges.extend(grouped(&rest[..below]));
         ranges.push(Range {
             verdict: Verdict::Present,
-            from: certificate.from.clone(),
-            to: Some(certificate.to.clone()),
+            from: from.clone(),
+            to: Some(to.clone()),
             evidence: Evidence::Certificate(first + k),
         });
-        rest = &rest[rest.partition_point(|sample| sample.mu <= certificate.to)..];
+        rest = &rest[rest.partition_point(|sample| sample.mu <= *to)..];
     }
 
     ranges.extend(grouped(rest));

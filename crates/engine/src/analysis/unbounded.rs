@@ -85,7 +85,7 @@ pub(super) fn unbounded(
         proofs.push(Proof {
             name: "mass".into(),
             problem,
-            certificate: ProofCertificate::Solutions(found.certificate),
+            certificate: ProofCertificate::Solutions(found.proved),
         });
 
         let below = critical.absent_below.as_ref();

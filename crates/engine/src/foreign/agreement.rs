@@ -17,8 +17,7 @@ use crate::report::Listed;
 use crate::tolerance::VALUE_FLOOR;
 use mceip_check::certificate::Claim;
 use mceip_exact::{Rational, from_f64, to_f64};
-use mceip_model::reduction::Reduced;
-use mceip_model::{Pencil, Problem};
+use mceip_model::{Pencil, Problem, Reduced};
 use num_traits::{Signed, Zero};
 
 /// Errors of a reported solution, relative to the proven one.

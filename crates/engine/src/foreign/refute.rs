@@ -12,8 +12,8 @@ use super::verdict::Refutation;
 use crate::candidate::{Candidate, distance, scaled};
 use crate::tolerance::{DISTANCE_ROUNDING, VALUE_RADIUS, X_RADIUS};
 use mceip_exact::{Rational, from_f64, to_f64};
-use mceip_model::reduction::{Reduced, reduce_system};
-use mceip_model::{Body, Pencil, Problem, Window};
+use mceip_model::reduction::reduce_system;
+use mceip_model::{Body, Pencil, Problem, Reduced, Window};
 use mceip_oracle::{
     Enumeration, MAX_FREE, ModeList, Solution, coefficient_bits, enumerate, enumerate_modes,
 };

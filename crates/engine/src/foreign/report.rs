@@ -10,8 +10,7 @@ use crate::reduction::project;
 use crate::tolerance::X_RADIUS;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::{Number, Object, from_json_with_unique_keys, require_format};
-use mceip_model::reduction::Reduced;
-use mceip_model::{Body, ModelError, Problem};
+use mceip_model::{Body, ModelError, Problem, Reduced};
 use num_traits::Zero as _;
 use serde::{Deserialize, Deserializer};
 

@@ -15,8 +15,7 @@ use crate::multistart::{exact_value, support};
 use mceip_check::certificate::{Claim, EnclosedSolution};
 use mceip_exact::{Algebraic, Interval, Poly};
 use mceip_exact::{enclosing_decimals, parse, to_decimal, upper_decimal};
-use mceip_model::Problem;
-use mceip_model::reduction::Reduced;
+use mceip_model::{Problem, Reduced};
 
 /// Components of a proven x that are printed.
 const COMPONENTS_SHOWN: usize = 8;
@@ -32,11 +31,11 @@ const VALUE_DIGITS: usize = 17;
 pub enum Verdict {
     /// It exists: `certify` made the claim, which the checker has accepted, and the report agrees
     /// with it to the tolerance.
-    Accepted(Box<Proved>),
+    Accepted(Box<Confirmed>),
     /// A solution near it exists, and the report differs from that by more than the tolerance.
     Inaccurate {
         /// What exists, and by how much the report differs.
-        proved: Box<Proved>,
+        proved: Box<Confirmed>,
         /// The largest error allowed.
         tolerance: f64,
     },
@@ -51,7 +50,7 @@ pub enum Verdict {
 
 /// A solution proved near a reported one.
 #[derive(Debug, Clone)]
-pub struct Proved {
+pub struct Confirmed {
     /// The claim; `check` accepts it.
     pub claim: Claim,
     /// How near the report is to it.
@@ -163,11 +162,11 @@ fn prove(
     reduced: &Reduced,
     reported: &Reported,
     candidate: &Candidate,
-) -> Result<Proved, String> {
+) -> Result<Confirmed, String> {
     let claim = certify(problem, &reduced.pencil, candidate).map_err(|e| e.to_string())?;
     let agreement = agreement(problem, reduced, &claim, reported);
     let agreement = agreement.ok_or("its numbers are beyond the range of doubles")?;
-    Ok(Proved { claim, agreement })
+    Ok(Confirmed { claim, agreement })
 }
 
 /// The candidate with components up to `tolerance` of the largest set to zero.
@@ -218,7 +217,7 @@ fn existing(problem: &Problem, claim: &Claim) -> String {
 
 /// The verdict on a report that differs too much from the proven solution: both values, the proven
 /// x, the worst component.
-fn inaccurate_text(problem: &Problem, given: f64, proved: &Proved, tolerance: f64) -> String {
+fn inaccurate_text(problem: &Problem, given: f64, proved: &Confirmed, tolerance: f64) -> String {
     let word = problem.unknown().word();
     let agreement = &proved.agreement;
     let exists = existing(problem, &proved.claim);

@@ -42,8 +42,7 @@ use doubles::require_doubles;
 use hunt::{Hunt, WINDOW_SALT};
 use mceip_exact::to_f64;
 use mceip_mcp::solver::SolverError;
-use mceip_model::reduction::Reduced;
-use mceip_model::{Admissible, Pencil, Problem, Unknown};
+use mceip_model::{Admissible, Pencil, Problem, Reduced, Unknown};
 
 /// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
 pub const CONDENSE_FROM: usize = 12;

@@ -16,8 +16,7 @@ use crate::candidate::Candidate;
 use crate::dense::rounded;
 use mceip_exact::to_f64;
 use mceip_mcp::linear::solve;
-use mceip_model::Pencil;
-use mceip_model::reduction::Variable;
+use mceip_model::{Pencil, Variable};
 
 /// From a candidate of the condensed pencil to one of the full pencil: x_f = -A_ff^-1 A_fs x_s.
 pub struct Expansion {
@@ -84,8 +83,7 @@ pub fn mode(variables: &[Variable], x: &[f64], dofs: usize) -> Vec<f64> {
 mod tests {
     use super::*;
     use mceip_exact::{Sparse, rational};
-    use mceip_model::ZeroVariables;
-    use mceip_model::reduction::ZeroPart;
+    use mceip_model::{ZeroPart, ZeroVariables};
 
     #[test]
     fn free_rows_balance_after_expansion() {

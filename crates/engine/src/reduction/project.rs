@@ -8,7 +8,7 @@
 //! which reads modes that other programs report.
 
 use mceip_exact::Rational;
-use mceip_model::reduction::{Variable, ZeroPart};
+use mceip_model::{Variable, ZeroPart};
 use num_traits::{Signed, Zero};
 use std::cmp::Reverse;
 

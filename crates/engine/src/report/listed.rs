@@ -15,8 +15,8 @@ use mceip_exact::{
     Algebraic, Integer, Poly, Rational, common_denominator, enclosing_decimals, from_f64,
     ratio_to_decimal, to_decimal, to_f64,
 };
-use mceip_model::reduction::{Reduced, lift};
-use mceip_model::{Body, Pencil, Problem};
+use mceip_model::reduction::lift;
+use mceip_model::{Body, Pencil, Problem, Reduced};
 use mceip_oracle::{Cone, Enumeration, Solution};
 use std::cmp::Ordering;
 

@@ -9,8 +9,7 @@ use super::table::Table;
 use crate::candidate::SOLUTIONS_FORMAT;
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Algebraic, Integer, Interval, Poly, Rational, enclosing_decimals, to_decimal};
-use mceip_model::reduction::{Reduced, Variable};
-use mceip_model::{Body, Problem};
+use mceip_model::{Body, Problem, Reduced, Variable};
 use mceip_oracle::{Cone, End, Enumeration, Piece, SupportRange};
 use serde_json::{Value, json};
 

@@ -17,8 +17,8 @@ use crate::reduction::mode;
 use crate::run::Watch;
 use mceip_exact::{Sparse, from_f64, to_f64};
 use mceip_mcp::linear;
-use mceip_model::reduction::{Variable, mu_family};
-use mceip_model::{Body, Pencil, Problem, System, Unknown, Window};
+use mceip_model::reduction::mu_family;
+use mceip_model::{Body, Pencil, Problem, System, Unknown, Variable, Window};
 
 /// A system in doubles, by the blocks of (16).
 #[derive(Debug, Clone)]

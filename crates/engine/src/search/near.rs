@@ -215,8 +215,11 @@ mod tests {
             panic!("absent")
         };
 
-        assert_eq!(at_end.certificate.window.min(), &rational(12, 5));
-        assert_eq!(at_end.certificate.window.max(), Some(&rational(5, 2)));
+        assert_eq!(at_end.proved.certificate().window.min(), &rational(12, 5));
+        assert_eq!(
+            at_end.proved.certificate().window.max(),
+            Some(&rational(5, 2))
+        );
     }
 
     /// The pencil is singular on {0, 1}: a solution for every value. The cover closes, and is no

@@ -8,8 +8,7 @@
 //!
 //! Called by `engine` for reports; [`super::check_lines`] holds the result against (9).
 
-use super::Variable;
-use crate::{System, Unknown};
+use crate::{System, Unknown, Variable};
 use mceip_exact::{Integer, Poly, Rational, Sparse, common_denominator};
 use num_traits::Zero;
 

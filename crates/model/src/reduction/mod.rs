@@ -8,9 +8,6 @@ mod eliminate;
 mod lift;
 mod lines;
 
-pub use eliminate::{
-    MuFamily, Reduced, Variable, ZeroPart, ZeroVariables, mu_family, reduce, reduce_system,
-    zero_variables,
-};
+pub use eliminate::{mu_family, reduce, reduce_system, zero_variables};
 pub use lift::{Lifted, lift};
 pub use lines::{Line, LineViolated, check_lines};

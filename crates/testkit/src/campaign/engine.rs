@@ -10,8 +10,7 @@ use crate::disagreement::Disagreement;
 use crate::families::Corner;
 use mceip_engine::multistart::Search;
 use mceip_exact::{Algebraic, Poly, Rational, common_denominator};
-use mceip_model::reduction::Reduced;
-use mceip_model::{Pencil, Window};
+use mceip_model::{Pencil, Reduced, Window};
 use mceip_oracle::Enumeration;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

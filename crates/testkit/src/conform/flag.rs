@@ -5,8 +5,7 @@
 //! outcomes by flag.
 
 use mceip_exact::{Algebraic, Rational, parse, rational, whole};
-use mceip_model::reduction::Reduced;
-use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Window};
+use mceip_model::{Body, ContactState, Pencil, Problem, Reduced, System, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution};
 use num_traits::{Signed, Zero};
 use std::collections::BTreeSet;

@@ -14,8 +14,8 @@ use mceip_engine::multistart::support;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::{Algebraic, Sparse, from_f64};
-use mceip_model::reduction::{Reduced, reduce};
-use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
+use mceip_model::reduction::reduce;
+use mceip_model::{Body, ModelError, Pencil, Problem, Reduced, Unknown, Window};
 use mceip_oracle::{Cone, Enumeration, Solution, enumerate};
 use std::cmp::Ordering;
 
@@ -270,7 +270,7 @@ pub fn certificate_seeds() -> Vec<String> {
     let mut out = Vec::new();
     for problem in subjects() {
         if let Ok(found) = complete(&problem, &options, &Watch::nobody()) {
-            out.push(found.certificate.to_json());
+            out.push(found.proved.certificate().to_json());
         }
 
         let Ok(reduced) = reduce(&problem).and_then(Reduced::without_zero) else {

@@ -13,8 +13,10 @@ use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::file::write_problem;
-use mceip_model::reduction::{Reduced, reduce};
-use mceip_model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
+use mceip_model::reduction::reduce;
+use mceip_model::{
+    Body, ContactState, Particle, Pencil, Problem, Reduced, System, Unknown, Window,
+};
 use mceip_oracle::TwoParticles;
 use mceip_paper::two_particles;
 use num_traits::{One, Zero};
@@ -410,7 +412,7 @@ fn same_verdict(problem: &Problem, pencil: &Pencil) {
         return;
     };
 
-    let mut certificate = found.certificate;
+    let mut certificate = found.proved.into_certificate();
     let on_the_system = check(problem, &certificate);
     certificate.problem_sha256 = reduced.sha256();
 

@@ -22,8 +22,7 @@ use crate::tolerance::{FIRST_NEAR, NEARER};
 use mceip_check::certificate::{CriticalAnchor, CriticalCondensation, CriticalTail};
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::Number;
-use mceip_model::reduction::MuFamily;
-use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
+use mceip_model::{Body, ModelError, MuFamily, Pencil, Problem, Unknown, Window};
 use num_traits::{One, Zero};
 
 /// Values of lambda^2 at or below this share of (lambda^2 + lowest frequency) are served by an

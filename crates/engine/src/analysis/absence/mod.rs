@@ -24,7 +24,7 @@ use boxes::Search;
 pub(super) use boxes::{Blocked, Cause};
 use family::PieceOfHalfLine;
 pub(super) use family::{Family, Place, at_friction, unit_of_lambda2};
-use mceip_check::audit_critical;
+use mceip_check::Proved;
 use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
 use mceip_exact::Rational;
 use mceip_model::Problem;
@@ -65,7 +65,7 @@ const CAUTIOUS_ROUNDS: usize = 2;
 /// What a search ends with.
 pub(super) enum Outcome {
     /// The checker has accepted it.
-    Absent(Box<CriticalCertificate>),
+    Absent(Box<Proved<CriticalCertificate>>),
     /// Of each piece that was not emptied the first box that could not be.
     Blocked(Vec<Blocked>),
     /// The checker refuses what doubles propose.
@@ -191,12 +191,10 @@ impl<'a> Quadrant<'a> {
                 ..Progress::stage("checking its leaves")
             });
             let go_on = || !self.watch.is_cancelled();
-            match audit_critical(self.problem, &certificate, &go_on) {
-                Ok(Some(refused)) if refused.is_empty() => {
-                    return Ok(Outcome::Absent(Box::new(certificate)));
-                }
+            match Proved::unless_stopped(self.problem, certificate, &go_on) {
+                Ok(Some(proved)) => return Ok(Outcome::Absent(Box::new(proved))),
                 Ok(None) => return Ok(Outcome::Stopped),
-                _ => {}
+                Err(_) => {}
             }
 
             family.enlarge_remainders(CAUTION);
@@ -288,7 +286,6 @@ pub(super) fn leaves(certificate: &CriticalCertificate) -> usize {
 mod tests {
     use super::*;
     use crate::run::Cancel;
-    use mceip_check::check_critical;
     use mceip_exact::{Sparse, from_f64, rational, whole};
     use mceip_model::{Body, ContactState, Particle, System, Unknown, Window};
     use mceip_oracle::TwoParticles;
@@ -318,11 +315,7 @@ mod tests {
             at_most: &below,
             places,
         };
-        let outcome = quadrant.cover(&bound, &mut LastFamily::default()).unwrap();
-        if let Outcome::Absent(certificate) = &outcome {
-            check_critical(&problem, certificate).unwrap();
-        }
-        outcome
+        quadrant.cover(&bound, &mut LastFamily::default()).unwrap()
     }
 
     /// Interrupted while the checker reads a cover that it would accept: not proved, not refused.

@@ -30,7 +30,7 @@ use climb::{Climb, Followed, Stretch, short_multiple};
 use curve::{Curves, Point};
 use intervals::{Chain, chains, extent, gaps};
 use mceip_check::certificate::PresenceCertificate;
-use mceip_check::{Reason, check_presence};
+use mceip_check::{Proved, Reason};
 use mceip_exact::from_f64;
 use mceip_model::Problem;
 
@@ -221,7 +221,7 @@ impl<'a> Prover<'a> {
     }
 
     /// The certificates of the maximal intervals, each accepted by the checker.
-    pub(super) fn certified(&self) -> Vec<PresenceCertificate> {
+    pub(super) fn certified(&self) -> Vec<Proved<PresenceCertificate>> {
         let mut open = chains(&self.stretches);
         open.reverse();
         let mut accepted = Vec::new();
@@ -239,8 +239,8 @@ impl<'a> Prover<'a> {
                 done: chain.len() as u64,
                 ..Progress::stage("ranges of mu: checking presence")
             });
-            match check_presence(self.ground.problem, &certificate) {
-                Ok(_) => accepted.push(certificate),
+            match Proved::new(self.ground.problem, certificate) {
+                Ok(proved) => accepted.push(proved),
                 Err(rejected) => {
                     refused += 1;
                     if let Reason::Boxes {

@@ -6,16 +6,14 @@
 //! `rounds` after every pass of the search.
 
 use super::error::CompleteError;
-use super::splice::LeafPlace;
 use mceip_check::certificate::{Certificate, CompleteSet, Node};
-use mceip_check::{Accepted, CoverFault, Reason, Rejected, audit};
+use mceip_check::{CoverFault, LeafPlace, Proved, Reason, Refused};
 use mceip_model::Problem;
 use std::collections::BTreeSet;
 
-/// What the checker says of a certificate.
+/// A certificate that the checker has accepted.
 pub(super) struct Audited {
-    /// What it has accepted.
-    pub(super) accepted: Accepted,
+    pub(super) proved: Proved<Certificate>,
     /// The leaves that it has refused, which are open in the certificate.
     pub(super) refused: BTreeSet<LeafPlace>,
 }
@@ -23,7 +21,7 @@ pub(super) struct Audited {
 impl Audited {
     /// Number of open regions.
     pub(super) fn open_count(&self) -> usize {
-        match &self.accepted.cover {
+        match &self.proved.accepted().cover {
             Some(cover) => cover.open.len(),
             None => 0,
         }
@@ -35,34 +33,27 @@ impl Audited {
 /// # Errors
 /// [`CompleteError`] where the refusal concerns more than leaves, a tail or solutions.
 pub(super) fn audited(
-    certificate: &mut Certificate,
+    mut certificate: Certificate,
     problem: &Problem,
 ) -> Result<Audited, CompleteError> {
     // Every round opens the tail or solutions of one support, so that this comes to an end.
-    let (accepted, refused) = loop {
-        match audit(problem, certificate) {
-            Ok(audited) => break audited,
-            Err(rejected) => open_refused(certificate, rejected)?,
-        }
-    };
-
-    if let Some(set) = certificate.complete_set.as_mut() {
-        for &(piece, node) in &refused {
-            let leaf = set.pieces.get_mut(piece).and_then(|p| p.tree.get_mut(node));
-            if let Some(leaf) = leaf {
-                *leaf = Node::Open;
+    loop {
+        match Proved::opened(problem, certificate) {
+            Ok((proved, refused)) => {
+                let refused = refused.into_iter().collect();
+                return Ok(Audited { proved, refused });
             }
+            Err(refused) => certificate = open_refused(*refused)?,
         }
     }
-
-    Ok(Audited {
-        accepted,
-        refused: refused.into_iter().collect(),
-    })
 }
 
 /// Opens what is refused as a whole, or says why there is no certificate.
-fn open_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<(), CompleteError> {
+fn open_refused(refused: Refused) -> Result<Certificate, CompleteError> {
+    let Refused {
+        mut certificate,
+        rejected,
+    } = refused;
     let Some(set) = certificate.complete_set.as_mut() else {
         return Err(rejected.into());
     };
@@ -76,7 +67,7 @@ fn open_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<(),
 
     // Proved in doubles that rounding has misled: the scales of the rows differ too much.
     if open_tail(set) {
-        return Ok(());
+        return Ok(certificate);
     }
 
     match fault {
@@ -89,7 +80,7 @@ fn open_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<(),
             }
 
             if opened > 0 {
-                Ok(())
+                Ok(certificate)
             } else {
                 Err(rejected.into())
             }

@@ -13,7 +13,7 @@ use super::audited::audited;
 use super::region::Item;
 use super::splice::numbered;
 use crate::certify::certificate;
-use crate::run::{Keeper, Kept};
+use crate::run::Keeper;
 use mceip_check::certificate::{Certificate, Claim, CompleteSet, Node};
 use mceip_model::Problem;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -205,18 +205,14 @@ impl Checkpoints<'_> {
     fn keep(&self) {
         let mut claims = self.claims.to_vec();
         let set = self.snapshots.cover(self.set, &mut claims);
-        let mut certificate = Certificate {
+        let certificate = Certificate {
             complete_set: Some(set),
             ..certificate(self.problem, claims)
         };
 
         // What is refused as a whole here is searched again in the rounds to come.
-        if audited(&mut certificate, self.problem).is_ok() {
-            self.keeper.keep(&Kept {
-                name: "",
-                problem: self.problem,
-                certificate: &certificate.to_json(),
-            });
+        if let Ok(audited) = audited(certificate, self.problem) {
+            self.keeper.keep("", self.problem, &audited.proved);
         }
     }
 }
@@ -229,7 +225,7 @@ fn has_ended(end: &Receiver<()>, wait: Duration) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Watch;
+    use crate::run::{Kept, Watch};
     use crate::search::complete::{Completed, Options, complete, resume};
     use mceip_check::check;
     use mceip_exact::Sparse;
@@ -313,7 +309,7 @@ mod tests {
         let problem = graph(8);
         let (parts, completed) = kept(&problem, None);
         let alone = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
-        assert_eq!(completed.certificate, alone.certificate);
+        assert_eq!(completed.proved, alone.proved);
         assert_eq!(completed.cover.solutions.len(), 255);
 
         let is_part = |part: &&Certificate| accepted(&problem, part)[1] > 0;

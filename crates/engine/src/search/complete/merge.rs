@@ -9,8 +9,8 @@
 use super::error;
 use super::error::CompleteError;
 use super::splice::number;
+use mceip_check::Proved;
 use mceip_check::certificate::{Certificate, Claim, CompleteSet, Node, Piece, RootOutcome};
-use mceip_check::{AcceptedCover, check};
 use mceip_model::Problem;
 
 /// One certificate from several of the same problem, window and pieces. The checker reads the
@@ -22,7 +22,7 @@ use mceip_model::Problem;
 pub fn merge(
     problem: &Problem,
     parts: &[Certificate],
-) -> Result<(Certificate, AcceptedCover), CompleteError> {
+) -> Result<Proved<Certificate>, CompleteError> {
     let first = parts.first().ok_or(CompleteError::NoParts)?;
     for part in parts {
         error::same_problem(problem, part)?;
@@ -66,10 +66,7 @@ pub fn merge(
         ..first.clone()
     };
 
-    let cover = check(problem, &certificate)?
-        .cover
-        .ok_or(CompleteError::NoCompleteSet)?;
-    Ok((certificate, cover))
+    Ok(Proved::new(problem, certificate)?)
 }
 
 fn same_pieces(a: &CompleteSet, b: &CompleteSet) -> bool {

@@ -57,7 +57,7 @@ use accepted_x::accepted_x;
 use audited::{Audited, audited};
 use given::Given;
 use mceip_check::certificate::{Certificate, CompleteSet, Piece};
-use mceip_check::{Accepted, AcceptedClaim, AcceptedCover, check};
+use mceip_check::{AcceptedClaim, AcceptedCover, Proved, check};
 use mceip_model::file::Number;
 use mceip_model::reduction::reduce;
 use mceip_model::{Pencil, Problem};
@@ -67,8 +67,8 @@ use rounds::{Rounds, is_open_below, values_met};
 /// What a search has proved.
 #[derive(Debug, Clone)]
 pub struct Completed {
-    /// The certificate; [`check`] has accepted it.
-    pub certificate: Certificate,
+    /// The certificate.
+    pub proved: Proved<Certificate>,
     /// What the checker read off it.
     pub cover: AcceptedCover,
     /// x of each solution of the cover over all variables of the pencil, e'x_s = 1, in doubles.
@@ -80,20 +80,16 @@ impl Completed {
     fn new(
         pencil: &Pencil,
         prepared: &Prepared,
-        certificate: Certificate,
-        accepted: Accepted,
+        proved: Proved<Certificate>,
     ) -> Result<Completed, CompleteError> {
-        let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
+        let cover = proved.accepted().cover.clone();
+        let cover = cover.ok_or(CompleteError::NoCompleteSet)?;
         let mut x = Vec::with_capacity(cover.solutions.len());
         for solution in &cover.solutions {
-            x.push(accepted_x(&certificate, prepared, pencil, solution));
+            x.push(accepted_x(proved.certificate(), prepared, pencil, solution));
         }
 
-        Ok(Completed {
-            certificate,
-            cover,
-            x,
-        })
+        Ok(Completed { proved, cover, x })
     }
 
     /// Is nothing left open? There may be families beside the solutions
@@ -236,10 +232,9 @@ fn by_definiteness(
         ..prepared.open_set()
     };
 
-    let mut certificate = with_set(problem, set);
-    let Audited { accepted, refused } = audited(&mut certificate, problem)?;
+    let Audited { proved, refused } = audited(with_set(problem, set), problem)?;
     if refused.is_empty() {
-        Completed::new(pencil, prepared, certificate, accepted).map(Some)
+        Completed::new(pencil, prepared, proved).map(Some)
     } else {
         Ok(None)
     }
@@ -265,9 +260,8 @@ fn run(
         given,
         options,
         prepared,
-        certificate,
     };
 
-    let accepted = rounds.run(watch)?.accepted;
-    Completed::new(given.pencil, &rounds.prepared, rounds.certificate, accepted)
+    let proved = rounds.run(certificate, watch)?.proved;
+    Completed::new(given.pencil, &rounds.prepared, proved)
 }

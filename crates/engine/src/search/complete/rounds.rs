@@ -17,7 +17,7 @@ use super::pieces::prepared::Prepared;
 use super::precise;
 use super::shares::Shares;
 use super::splice::{Chosen, Pass, SearchedPiece, numbered};
-use crate::run::{Kept, Watch, in_threads};
+use crate::run::{Watch, in_threads};
 use mceip_check::certificate::{Certificate, CompleteSet};
 use std::time::Instant;
 
@@ -27,20 +27,23 @@ const CAUTIOUS_ROUNDS: usize = 2;
 /// Refused leaves up to which exact arithmetic is asked.
 const MAX_REFUSED: usize = 200;
 
-/// A search under way: the certificate as far as it is known.
+/// A search under way.
 pub(super) struct Rounds<'a> {
     pub(super) given: &'a Given<'a>,
     pub(super) options: &'a Options,
     pub(super) prepared: Prepared,
-    pub(super) certificate: Certificate,
 }
 
 impl Rounds<'_> {
-    /// Searches all open leaves of the certificate, and in its place puts the one that the checker
-    /// has accepted. Only the first round tells the listener of its progress.
-    pub(super) fn run(&mut self, watch: &Watch<'_>) -> Result<Audited, CompleteError> {
+    /// Searches all open leaves of a certificate. Only the first round tells the listener of its
+    /// progress.
+    pub(super) fn run(
+        &mut self,
+        certificate: Certificate,
+        watch: &Watch<'_>,
+    ) -> Result<Audited, CompleteError> {
         let begun = Instant::now();
-        let mut audited = self.search(&Chosen::All, &Shares::new(*watch))?;
+        let mut audited = self.search(certificate, &Chosen::All, &Shares::new(*watch))?;
 
         // What was refused is open: that alone is searched again.
         let quiet = Shares::new(watch.quiet());
@@ -50,18 +53,20 @@ impl Rounds<'_> {
                 break;
             }
 
-            self.keep(watch, begun);
-            audited = self.search(&Chosen::Again(audited.refused), &quiet)?;
+            self.keep(&audited, watch, begun);
+            let certificate = audited.proved.into_certificate();
+            audited = self.search(certificate, &Chosen::Again(audited.refused), &quiet)?;
         }
 
         let is_few = !audited.refused.is_empty() && audited.refused.len() <= MAX_REFUSED;
         if is_few && !watch.is_cancelled() {
-            self.keep(watch, begun);
-            audited = self.search(&Chosen::Exactly(audited.refused), &quiet)?;
+            self.keep(&audited, watch, begun);
+            let certificate = audited.proved.into_certificate();
+            audited = self.search(certificate, &Chosen::Exactly(audited.refused), &quiet)?;
         }
 
         if !watch.is_cancelled() && audited.open_count() > 0 {
-            self.keep(watch, begun);
+            self.keep(&audited, watch, begun);
             audited = self.with_long_numbers(audited);
         }
 
@@ -69,25 +74,23 @@ impl Rounds<'_> {
     }
 
     /// Keeps what the checker has accepted so far, of a search that has gone on for long.
-    fn keep(&self, watch: &Watch<'_>, begun: Instant) {
+    fn keep(&self, audited: &Audited, watch: &Watch<'_>, begun: Instant) {
         if let Some(keeper) = watch.keeper()
             && begun.elapsed() >= keeper.every
         {
-            keeper.keep(&Kept {
-                name: "",
-                problem: self.given.problem,
-                certificate: &self.certificate.to_json(),
-            });
+            keeper.keep("", self.given.problem, &audited.proved);
         }
     }
 
     /// One pass over the chosen open leaves, and what the checker says of the result.
-    fn search(&mut self, chosen: &Chosen, shares: &Shares<'_>) -> Result<Audited, CompleteError> {
-        let set = self
-            .certificate
-            .complete_set
-            .take()
-            .ok_or(CompleteError::NoCompleteSet)?;
+    fn search(
+        &self,
+        mut certificate: Certificate,
+        chosen: &Chosen,
+        shares: &Shares<'_>,
+    ) -> Result<Audited, CompleteError> {
+        let set = certificate.complete_set.take();
+        let set = set.ok_or(CompleteError::NoCompleteSet)?;
         let keeper = shares.keeper();
         let snapshots = keeper.map(|_| Snapshots::new(set.pieces.len()));
         let pass = Pass {
@@ -107,7 +110,7 @@ impl Rounds<'_> {
                     problem: self.given.problem,
                     keeper,
                     set: &set,
-                    claims: &self.certificate.claims,
+                    claims: &certificate.claims,
                     snapshots,
                 };
                 checkpoints.during(work)
@@ -117,29 +120,27 @@ impl Rounds<'_> {
 
         let mut pieces = Vec::with_capacity(set.pieces.len());
         for (piece, searched) in set.pieces.iter().zip(found) {
-            let claims = &mut self.certificate.claims;
+            let claims = &mut certificate.claims;
             pieces.push(numbered(piece, searched.items, claims));
         }
 
-        self.certificate.complete_set = Some(CompleteSet {
+        certificate.complete_set = Some(CompleteSet {
             condensation: set.condensation,
             pieces,
         });
-        audited(&mut self.certificate, self.given.problem)
+        audited(certificate, self.given.problem)
     }
 
     /// Lets long numbers decide open regions, if fewer stay open according to the checker.
-    fn with_long_numbers(&mut self, before: Audited) -> Audited {
-        let longer = precise::closed(self.given, &self.prepared, &self.certificate);
-        let Some(mut longer) = longer else {
+    fn with_long_numbers(&self, before: Audited) -> Audited {
+        let certificate = before.proved.certificate();
+        let longer = precise::closed(self.given, &self.prepared, certificate);
+        let Some(longer) = longer else {
             return before;
         };
 
-        match audited(&mut longer, self.given.problem) {
-            Ok(after) if after.open_count() < before.open_count() => {
-                self.certificate = longer;
-                after
-            }
+        match audited(longer, self.given.problem) {
+            Ok(after) if after.open_count() < before.open_count() => after,
             _ => before,
         }
     }

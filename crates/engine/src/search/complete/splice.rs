@@ -14,6 +14,7 @@ use super::pieces::prepared::Prepared;
 use super::region::{Item, Region};
 use super::shares::Shares;
 use super::tree::Search;
+use mceip_check::LeafPlace;
 use mceip_check::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
 use mceip_exact::Rational;
 use rayon::prelude::*;
@@ -33,9 +34,6 @@ impl SearchedPiece {
         items.any(|item| matches!(item, Item::Node(Node::Open)))
     }
 }
-
-/// The place of a leaf in a cover: piece, node of its tree.
-pub(super) type LeafPlace = (usize, usize);
 
 /// Which open leaves are searched, and how.
 pub(super) enum Chosen {
