@@ -17,7 +17,7 @@ fn main() -> Result<(), Error> {
     let all = problem.complete().run()?;
     println!(
         "in all {}, complete: {}",
-        all.solutions.len(),
+        all.solutions().len(),
         all.is_complete()
     );
 

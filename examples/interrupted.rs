@@ -22,13 +22,13 @@ fn main() -> Result<(), Error> {
         .cancel(&cancel)
         .on_progress(end_after_two_leaves)
         .run()?;
-    println!("ended with {} regions open", part.open.len());
+    println!("ended with {} regions open", part.open().len());
 
     let all = problem.complete().resume(part.certificate()).run()?;
     println!(
         "complete: {}, {} solutions",
         all.is_complete(),
-        all.solutions.len()
+        all.solutions().len()
     );
     Ok(())
 }

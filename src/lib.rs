@@ -24,7 +24,7 @@
 //!     let found = problem.solve().run()?; // the PATH-style solver, every solution certified
 //!     let all = problem.complete().run()?; // all solutions, and a proof that there are no others
 //!     check(&problem, all.certificate())?; // what anybody else would run
-//!     println!("{} found, {} in all", found.solutions.len(), all.solutions.len());
+//!     println!("{} found, {} in all", found.solutions.len(), all.solutions().len());
 //!     Ok(())
 //! }
 //! ```
@@ -61,6 +61,8 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod front;
+#[cfg(feature = "solver")]
+mod say;
 
 pub use front::*;
 pub use mceip_check::certificate::Certificate;
@@ -72,7 +74,7 @@ pub use mceip_engine::analysis::{self, Analysis};
 #[cfg(feature = "solver")]
 pub use mceip_engine::multistart::Uncertified;
 #[cfg(feature = "solver")]
-pub use mceip_engine::run::{Cancel, Progress};
+pub use mceip_engine::run::{Cancel, Kept, Progress};
 pub use mceip_exact::{Interval, Rational};
 pub use mceip_model::{ContactState, ModelError, Particle, Unknown, Window};
 

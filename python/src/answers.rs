@@ -3,8 +3,8 @@
 //! Exact numbers are text ("p/q"), doubles are numbers.
 
 use mceip::{
-    Accepted, AcceptedClaim, Analysis, Certificate, Certified, Found, Interval, OpenRegion,
-    Solution, SolutionFamily, SolutionSet, Uncertified,
+    Accepted, AcceptedClaim, Analysis, Certificate, Certified, Found, Interval, ModelError,
+    OpenRegion, Solution, SolutionFamily, SolutionSet, Uncertified,
 };
 use serde_json::{Value, json};
 
@@ -31,9 +31,9 @@ fn uncertified(point: &Uncertified) -> Value {
 
 pub(crate) fn solution_set(all: &SolutionSet) -> Value {
     json!({
-        "solutions": solutions(&all.solutions),
-        "families": families(&all.families),
-        "open": regions(&all.open),
+        "solutions": solutions(all.solutions()),
+        "families": families(all.families()),
+        "open": regions(all.open()),
         "certificate": document(all.certificate()),
     })
 }
@@ -46,19 +46,19 @@ pub(crate) fn certified(certified: &Certified) -> Value {
 }
 
 /// `mceip-analysis/1` with the proofs: problem and certificate of each.
-pub(crate) fn analysis(analysis: &Analysis) -> Value {
+pub(crate) fn analysis(analysis: &Analysis) -> Result<Value, ModelError> {
     let mut proofs = Vec::new();
     for proof in &analysis.proofs {
         let problem = mceip::Problem::from(proof.problem.clone());
         proofs.push(json!({
             "name": proof.name,
             "problem": text_as_json(&problem.to_json()),
-            "certificate": text_as_json(&proof.certificate.to_json()),
+            "certificate": text_as_json(&proof.certificate.file()?),
         }));
     }
 
     let paths: Vec<String> = analysis.proofs.iter().map(|p| p.name.clone()).collect();
-    json!({ "answer": analysis.to_json(&paths), "proofs": proofs })
+    Ok(json!({ "answer": analysis.to_json(&paths), "proofs": proofs }))
 }
 
 pub(crate) fn accepted(accepted: &Accepted) -> Value {

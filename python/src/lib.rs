@@ -222,7 +222,8 @@ impl NativeProblem {
         })?;
 
         let analysis = analysis.map_err(refused)?;
-        Ok(answers::analysis(&analysis).to_string())
+        let answer = answers::analysis(&analysis).map_err(|e| refused(e.into()))?;
+        Ok(answer.to_string())
     }
 
     /// A proof for a point in doubles.

@@ -8,8 +8,8 @@
 pub(super) mod plain;
 
 use super::common::{CliError, exit, load, parse_window, print, text};
-use super::complete::solutions_text;
 use super::job::{Job, decided};
+use crate::say;
 use mceip_check::certificate::{
     CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, PRESENCE_FORMAT,
     PresenceCertificate,
@@ -235,7 +235,7 @@ fn absence_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) ->
 /// What a cover holds, and the verdict on it.
 fn cover_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) -> String {
     let windowed = problem.clone().with_window(window.clone());
-    let solutions = solutions_text(&windowed, cover);
+    let solutions = say::cover::text(&windowed, cover);
 
     let verdict = if cover.open.is_empty() {
         "ACCEPTED"

@@ -76,6 +76,9 @@ pub(super) enum CliError {
     /// The search refuses.
     #[error("{0}")]
     Search(#[from] SearchError),
+    /// A question of the library is refused.
+    #[error(transparent)]
+    Question(#[from] crate::Error),
     /// The complete search refuses.
     #[error(transparent)]
     Complete(#[from] mceip_engine::search::complete::CompleteError),

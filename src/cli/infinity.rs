@@ -6,24 +6,20 @@
 
 use super::common::CliError;
 use super::output::Output;
-use mceip_check::AcceptedCover;
-use mceip_engine::reduction::reversed;
+use crate::{Cancel, Error, Problem, SolutionSet, say};
 use mceip_engine::report::Claimed;
-use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{CompleteError, Completed, Options, complete};
-use mceip_exact::Rational;
-use mceip_model::file::write_problem;
-use mceip_model::{Problem, Window};
-use num_traits::Zero;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
+
+/// The limit of a problem, to be searched.
+pub(super) struct Limit(Problem);
 
 /// What there is at infinity.
 pub(super) struct AtInfinity {
     problem: Problem,
     /// The reversed problem may be outside the hypotheses (free variables that B does not couple
     /// definitely): that is said.
-    completed: Result<Completed, CompleteError>,
+    set: Result<SolutionSet, Error>,
 }
 
 /// The files of the certificate and of the problem that it is for: beside the main certificate.
@@ -51,74 +47,51 @@ fn with_ending(path: &Path, ending: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-impl AtInfinity {
-    /// Searches the reversed problem at the value 0.
-    pub(super) fn search(
-        problem: &Problem,
-        options: &Options,
-        watch: &Watch<'_>,
-    ) -> Result<AtInfinity, CliError> {
-        let zero = Window::new(Rational::zero(), Some(Rational::zero()))?;
-        let mut at_zero = reversed(problem)?.with_window(zero);
-        let digest = problem.sha256();
-        let comment = format!("the limit at infinity of problem {digest}, at the value 0");
-        at_zero.comment = Some(comment);
+impl Limit {
+    /// Of a problem whose window has no upper end.
+    pub(super) fn of(problem: &Problem) -> Result<Limit, CliError> {
+        let limit = problem.at_infinity()?;
+        if problem.window().max().is_some() {
+            let expected = "a window without upper end";
+            return Err(CliError::option("infinity", expected, "one that ends"));
+        }
 
-        let options = Options {
-            pieces: 1,
-            shard: None,
-            ..*options
-        };
-        let completed = complete(&at_zero, &options, watch);
-
-        Ok(AtInfinity {
-            problem: at_zero,
-            completed,
-        })
+        Ok(Limit(limit))
     }
 
+    /// All solutions there.
+    pub(super) fn search(self, threads: Option<usize>, cancel: &Cancel) -> AtInfinity {
+        let mut search = self.0.complete().pieces(1).cancel(cancel);
+        if let Some(threads) = threads {
+            search = search.threads(threads);
+        }
+
+        let set = search.run();
+        AtInfinity {
+            problem: self.0,
+            set,
+        }
+    }
+}
+
+impl AtInfinity {
     /// Is everything at infinity known?
     pub(super) fn is_complete(&self) -> bool {
-        self.completed.as_ref().is_ok_and(Completed::is_complete)
+        self.set.as_ref().is_ok_and(SolutionSet::is_complete)
     }
 
     /// What there is at infinity, for people.
     pub(super) fn text(&self) -> String {
-        let cover = match &self.completed {
-            Ok(completed) => &completed.cover,
-            Err(e) => return format!("UNDECIDED at infinity: {e}\n"),
-        };
-
-        let mut out = String::new();
-        for solution in &cover.solutions {
-            out += &format!("at infinity: slip {:?}\n", solution.support);
+        match &self.set {
+            Ok(set) => say::cover::text_at_infinity(&set.as_completed().cover),
+            Err(e) => format!("UNDECIDED at infinity: {e}\n"),
         }
-
-        for family in &cover.families {
-            let support = &family.support;
-            out += &format!("at infinity: a cone of solutions, slip {support:?}\n");
-        }
-
-        for region in &cover.open {
-            out += &format!(
-                "at infinity: open, moving {:?}, undecided {:?}\n",
-                region.moving, region.undecided
-            );
-        }
-
-        let verdict = verdict_text(cover);
-        let leaves = cover.leaves;
-        out += &format!(
-            "{verdict}; {leaves} leaves, accepted by the checker for the reversed problem\n"
-        );
-
-        out
     }
 
     /// What there is at infinity, for programs.
     pub(super) fn json(&self) -> Value {
-        let completed = match &self.completed {
-            Ok(completed) => completed,
+        let completed = match &self.set {
+            Ok(set) => set.as_completed(),
             Err(e) => {
                 return json!({ "claim": "solutions", "solutions": [], "reason": e.to_string() });
             }
@@ -153,24 +126,10 @@ impl AtInfinity {
     /// Writes the problem and, if there is one, the certificate. Without a certificate the problem
     /// shows what was asked.
     pub(super) fn write(&self, files: Files) -> Result<(), CliError> {
-        files.problem.write(&write_problem(&self.problem))?;
-        match &self.completed {
-            Ok(completed) => files.certificate.write(&completed.proved.file()?),
+        files.problem.write(&self.problem.to_json())?;
+        match &self.set {
+            Ok(set) => files.certificate.write(&set.proved().file()?),
             Err(_) => Ok(()),
         }
-    }
-}
-
-/// Is everything at infinity known, and how much is it?
-fn verdict_text(cover: &AcceptedCover) -> String {
-    let count = cover.solutions.len() + cover.families.len();
-    let open = cover.open.len();
-
-    if open > 0 {
-        format!("UNDECIDED at infinity: {count} proved, {open} regions open")
-    } else if count == 0 {
-        "COMPLETE: nothing at infinity".into()
-    } else {
-        format!("COMPLETE: {count} at infinity (limits of x, no value of the window), and no other")
     }
 }

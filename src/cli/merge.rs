@@ -2,13 +2,11 @@
 //! refused.
 
 use super::common::{CliError, exit, load, print};
-use super::complete::{read, report_json, solutions_text};
+use super::complete::read;
 use super::output::Output;
+use crate::{Error, Problem, check};
 use mceip_check::certificate::Certificate;
-use mceip_check::check;
-use mceip_engine::run::{Cancel, Watch};
-use mceip_engine::search::complete::{CompleteError, Completed, Options, merge, resume};
-use mceip_model::Problem;
+use mceip_engine::search::complete::CompleteError;
 use std::path::PathBuf;
 
 /// Arguments of `merge`.
@@ -35,7 +33,7 @@ pub(super) struct Args {
 /// Merges the parts, prints what they prove and writes the certificate.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let file = args.problem.as_path();
-    let problem = load(file, args.window.as_deref())?;
+    let problem = Problem::from(load(file, args.window.as_deref())?);
     let parts = args.parts.iter().map(|path| read(path));
     let parts = parts.collect::<Result<Vec<_>, _>>()?;
 
@@ -43,44 +41,32 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     inputs.extend(args.parts.iter().map(PathBuf::as_path));
     let output = Output::prepare_if("certificate", args.certificate.as_deref(), &inputs)?;
 
-    let merged = merge(&problem, &parts);
-    let proved = merged.map_err(|e| blame(&problem, &args.parts, &parts, e))?;
+    let set = problem.merge(&parts);
+    let set = set.map_err(|e| blame(&problem, &args.parts, &parts, e))?;
     if let Some(output) = output {
-        output.write(&proved.file()?)?;
+        output.write(&set.proved().file()?)?;
     }
 
-    let cover = proved.accepted().cover.as_ref();
-    let cover = cover.ok_or(CompleteError::NoCompleteSet)?;
     let text = if args.json {
-        let completed = with_x(&problem, proved.certificate())?;
-        format!("{}\n", report_json(&problem, &completed)?)
+        format!("{}\n", set.to_json())
     } else {
-        solutions_text(&problem, cover)
+        set.to_string()
     };
     print(&text)?;
 
-    Ok(if cover.open.is_empty() {
+    Ok(if set.is_complete() {
         exit::DONE
     } else {
         exit::UNDECIDED
     })
 }
 
-/// The solutions with their x: a search that goes on with the merged certificate and is stopped at
-/// once.
-fn with_x(problem: &Problem, certificate: &Certificate) -> Result<Completed, CliError> {
-    let cancel = Cancel::requested();
-    let watch = Watch::silent(&cancel);
-    Ok(resume(problem, certificate, &Options::default(), &watch)?)
-}
-
 /// Names the part at fault, where one is.
-fn blame(
-    problem: &Problem,
-    paths: &[PathBuf],
-    parts: &[Certificate],
-    e: CompleteError,
-) -> CliError {
+fn blame(problem: &Problem, paths: &[PathBuf], parts: &[Certificate], e: Error) -> CliError {
+    let Error::Complete(e) = e else {
+        return e.into();
+    };
+
     let mut certificates = parts.iter();
     let at_fault = match &e {
         CompleteError::OtherProblem { .. } => {

@@ -1,12 +1,14 @@
-//! The switch and the listener that every question of the front door can be given.
+//! The switch, the listener and the keeper that every question of the front door can be given.
 
-use mceip_engine::run::{Cancel, OnProgress, Progress, Watch};
+use mceip_engine::run::{Cancel, Keeper, Kept, OnProgress, OnProof, Progress, Watch};
+use std::time::Duration;
 
 /// How a question is watched while it is worked on.
 #[derive(Default)]
 pub(super) struct Watched<'a> {
     cancel: Cancel,
     on_progress: Option<Box<OnProgress<'a>>>,
+    keeping: Option<(Duration, Box<OnProof<'a>>)>,
 }
 
 impl<'a> Watched<'a> {
@@ -20,11 +22,19 @@ impl<'a> Watched<'a> {
         self.on_progress = Some(Box::new(hear));
     }
 
-    /// Both, as the engine takes them.
+    /// Takes the keeper of what is proved meanwhile, and how often it is asked for.
+    pub(super) fn keep(&mut self, every: Duration, keep: impl Fn(&Kept<'_>) + Sync + 'a) {
+        self.keeping = Some((every, Box::new(keep)));
+    }
+
+    /// All of them, as the engine takes them.
     pub(super) fn watch(&self) -> Watch<'_> {
-        match &self.on_progress {
+        let watch = match &self.on_progress {
             Some(hear) => Watch::new(&self.cancel, hear.as_ref()),
             None => Watch::silent(&self.cancel),
-        }
+        };
+
+        let keeping = self.keeping.as_ref();
+        watch.kept_by(keeping.map(|(every, keep)| Keeper::new(*every, keep.as_ref())))
     }
 }

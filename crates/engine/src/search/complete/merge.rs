@@ -6,12 +6,15 @@
 //! divide it differently, the subtree with fewer open leaves is taken. So no region is open that
 //! some part has closed by the same divisions.
 
+use super::Completed;
 use super::error;
 use super::error::CompleteError;
+use super::pieces::prepared::Prepared;
 use super::splice::number;
 use mceip_check::Proved;
 use mceip_check::certificate::{Certificate, Claim, CompleteSet, Node, Piece, RootOutcome};
 use mceip_model::Problem;
+use mceip_model::reduction::reduce;
 
 /// One certificate from several of the same problem, window and pieces. The checker reads the
 /// result.
@@ -19,10 +22,7 @@ use mceip_model::Problem;
 /// # Errors
 /// [`CompleteError`]: parts of another problem or window, cut into other pieces, a piece that no
 /// part has searched, a certificate that the checker rejects.
-pub fn merge(
-    problem: &Problem,
-    parts: &[Certificate],
-) -> Result<Proved<Certificate>, CompleteError> {
+pub fn merge(problem: &Problem, parts: &[Certificate]) -> Result<Completed, CompleteError> {
     let first = parts.first().ok_or(CompleteError::NoParts)?;
     for part in parts {
         error::same_problem(problem, part)?;
@@ -66,7 +66,12 @@ pub fn merge(
         ..first.clone()
     };
 
-    Ok(Proved::new(problem, certificate)?)
+    let proved = Proved::new(problem, certificate)?;
+    let pencil = reduce(problem)?.pencil;
+    let set = proved.certificate().complete_set.as_ref();
+    let set = set.ok_or(CompleteError::NoCompleteSet)?;
+    let prepared = Prepared::again(problem, &pencil, set)?;
+    Completed::new(&pencil, &prepared, proved)
 }
 
 fn same_pieces(a: &CompleteSet, b: &CompleteSet) -> bool {

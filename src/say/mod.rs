@@ -1,0 +1,6 @@
+//! What the answers are in words: sentences of the results of the front door.
+//!
+//! The texts are data of no other part: the front door hands over numbers, intervals and counts,
+//! and every sentence about them is made here. Called by the front door and the program.
+
+pub(crate) mod cover;
