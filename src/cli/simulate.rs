@@ -9,7 +9,6 @@ mod report;
 use super::common::{CliError, exit, load, positive, print, require_count, require_threads};
 use super::job::Job;
 use super::output::Output;
-use mceip_engine::certify::Certifier;
 use mceip_engine::report::Listed;
 use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_exact::to_f64;
@@ -147,17 +146,15 @@ fn along_modes(
     job: &Job,
 ) -> Result<Vec<SimulatedMode>, CliError> {
     let reduced = reduce(problem)?;
-    let certifier = Certifier::new(problem, &reduced.pencil);
     let unit = equations.longest_period()?;
 
     let mut modes = Vec::new();
-    for (proved, x) in completed.solutions() {
+    for (proved, listed) in Listed::of_cover(problem, &reduced, completed) {
         if job.is_cancelled() {
             break;
         }
 
         job.say(format!("mode {}", modes.len() + 1));
-        let listed = Listed::of_cover(problem, &reduced, &certifier, proved, x);
         let mode = mode_of(&listed, equations)?;
         let plan = Plan {
             duration: duration.unwrap_or_else(|| mode.usual_duration(unit)),

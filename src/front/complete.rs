@@ -7,7 +7,6 @@ use super::solution::Solution;
 use crate::say;
 use mceip_check::certificate::Certificate;
 use mceip_check::{OpenRegion, Proved, SolutionFamily};
-use mceip_engine::certify::Certifier;
 use mceip_engine::reduction::reversed;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_engine::run::{Cancel, Kept, Progress};
@@ -118,11 +117,10 @@ impl SolutionSet {
 
     fn listed(&self) -> &(Vec<Solution>, Vec<Listed>) {
         self.listed.get_or_init(|| {
-            let certifier = Certifier::new(&self.problem, &self.reduced.pencil);
             let mut solutions = Vec::new();
             let mut all_listed = Vec::new();
-            for (proved, x) in self.completed.solutions() {
-                let listed = Listed::of_cover(&self.problem, &self.reduced, &certifier, proved, x);
+            let found = Listed::of_cover(&self.problem, &self.reduced, &self.completed);
+            for (proved, listed) in found {
                 solutions.push(Solution::new(self.problem.unknown(), proved, &listed));
                 all_listed.push(listed);
             }

@@ -6,7 +6,6 @@
 //! slip in the wrong direction fails.
 
 use super::*;
-use mceip_engine::certify::Certifier;
 use mceip_engine::report::Listed;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
@@ -419,10 +418,8 @@ fn certified_modes(system: &System, equations: &Equations) -> Vec<Mode> {
     assert!(found.is_complete());
 
     let reduced = reduce(&problem).unwrap();
-    let certifier = Certifier::new(&problem, &reduced.pencil);
     let mut modes = Vec::new();
-    for (proved, x) in found.solutions() {
-        let listed = Listed::of_cover(&problem, &reduced, &certifier, proved, x);
+    for (_, listed) in Listed::of_cover(&problem, &reduced, &found) {
         let (v, _) = listed.lifted.unwrap();
         let v: Vec<f64> = v.iter().map(|decimal| decimal.parse().unwrap()).collect();
         modes.push(Mode {

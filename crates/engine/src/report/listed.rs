@@ -9,6 +9,7 @@ use crate::candidate::Candidate;
 use crate::certify::rows::active;
 use crate::certify::{Certifier, flattened};
 use crate::multistart::{exact_value, integer_x};
+use crate::search::complete::Completed;
 use mceip_check::AcceptedClaim;
 use mceip_check::certificate::{Claim, EnclosedSolution, ExactSolution};
 use mceip_exact::{
@@ -182,32 +183,43 @@ impl Listed {
         }
     }
 
-    /// From a solution that a cover has proved, with x in doubles: exact where `certify` makes an
-    /// exact claim of it, digits of an enclosed claim else, and those of the doubles where there is
-    /// no claim.
-    pub fn of_cover(
-        problem: &Problem,
-        reduced: &Reduced,
-        certifier: &Certifier<'_>,
-        proved: &AcceptedClaim,
-        x: &[f64],
-    ) -> Listed {
-        let candidate = Candidate {
-            value: to_f64(&proved.value.mid()),
-            x: x.to_vec(),
+    /// The solutions of a complete set, each with what the checker has read off it: digits of the
+    /// exact claim about it, which the certificate has or `certify` makes, or else of an enclosed
+    /// one; those of the doubles where there is no claim.
+    pub fn of_cover<'a>(
+        problem: &'a Problem,
+        reduced: &'a Reduced,
+        found: &'a Completed,
+    ) -> impl Iterator<Item = (&'a AcceptedClaim, Listed)> {
+        let list = ProvedList {
+            problem,
+            reduced,
+            certifier: Certifier::new(problem, &reduced.pencil),
         };
+        found.solutions().map(move |(proved, x)| {
+            let listed = list.listed(proved, x, found.claim_about(proved));
+            (proved, listed)
+        })
+    }
+}
 
-        let claimed = certifier
-            .certify_with_verdict(&candidate)
-            .ok()
-            .filter(|(_, verdict)| is_about(verdict, proved));
+/// What lists the solutions of a cover.
+struct ProvedList<'a> {
+    problem: &'a Problem,
+    reduced: &'a Reduced,
+    certifier: Certifier<'a>,
+}
 
-        let listed = match claimed {
-            Some((claim, _)) => Listed::of_claim(problem, reduced, &claim),
+impl ProvedList<'_> {
+    /// A solution with x in doubles, and the claim of the certificate about it.
+    fn listed(&self, proved: &AcceptedClaim, x: &[f64], claim: Option<&Claim>) -> Listed {
+        let listed = match self.claim_about(proved, x, claim) {
+            Some(claim) => Listed::of_claim(self.problem, self.reduced, &claim),
             None => {
                 let x = x.iter().map(|v| from_f64(*v).unwrap_or_default());
                 let x: Vec<Rational> = x.collect();
-                of_point(problem, reduced, &proved.support, proved.value.mid(), &x)
+                let value = proved.value.mid();
+                of_point(self.problem, self.reduced, &proved.support, value, &x)
             }
         };
 
@@ -216,15 +228,40 @@ impl Listed {
             ..listed
         }
     }
+
+    /// An exact claim about the solution if there is one, or else an enclosed one.
+    fn claim_about(
+        &self,
+        proved: &AcceptedClaim,
+        x: &[f64],
+        claim: Option<&Claim>,
+    ) -> Option<Claim> {
+        if let Some(exact) = claim.filter(|claim| exact_value(claim).is_some()) {
+            return Some(exact.clone());
+        }
+
+        let candidate = Candidate {
+            value: to_f64(&proved.value.mid()),
+            x: x.to_vec(),
+        };
+        let certified = self.certifier.certify_with_verdict(&candidate).ok();
+        let made =
+            certified.filter(|(claim, verdict)| is_about(verdict, exact_value(claim), proved));
+        let made = made.map(|(claim, _)| claim);
+        made.or_else(|| claim.cloned())
+    }
 }
 
-/// Is the claim about this solution of a cover, the only one with its support in its enclosure?
-/// Surely so if the claim's values lie within it. Where they only overlap, the claim could be about
-/// another solution near by.
-fn is_about(claim: &AcceptedClaim, proved: &AcceptedClaim) -> bool {
-    let begins_within = claim.value.lo() >= proved.value.lo();
-    let ends_within = claim.value.hi() <= proved.value.hi();
-    claim.support == proved.support && begins_within && ends_within
+/// Is a claim about this solution of a cover, the only one with its support in its enclosure?
+/// Surely so if the claim's value lies within it. Where they only overlap, the claim could be about
+/// another solution near by. `exact` is the value of an exact claim.
+fn is_about(verdict: &AcceptedClaim, exact: Option<Algebraic>, proved: &AcceptedClaim) -> bool {
+    let [lo, hi] = [proved.value.lo(), proved.value.hi()];
+    let lies_within = match exact {
+        Some(mut value) => value.cmp_rational(lo).is_ge() && value.cmp_rational(hi).is_le(),
+        None => verdict.value.lo() >= lo && verdict.value.hi() <= hi,
+    };
+    verdict.support == proved.support && lies_within
 }
 
 /// A solution or cone of the enumerator with the keys of its place in the list.
@@ -366,7 +403,11 @@ mod tests {
         let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
         let reduced = reduce(&problem).unwrap();
-        let certifier = Certifier::new(&problem, &reduced.pencil);
+        let list = ProvedList {
+            problem: &problem,
+            reduced: &reduced,
+            certifier: Certifier::new(&problem, &reduced.pencil),
+        };
 
         let radius = rational(1, 1 << 20);
         let value = Interval::new(whole(2) - &radius, whole(2) + &radius).unwrap();
@@ -375,7 +416,7 @@ mod tests {
             value,
         };
 
-        Listed::of_cover(&problem, &reduced, &certifier, &proved, x)
+        list.listed(&proved, x, None)
     }
 
     #[test]
@@ -403,16 +444,23 @@ mod tests {
     fn a_claim_that_only_overlaps_is_not_taken() {
         let proved = accepted(&[0, 1], 4, 6);
 
-        assert!(is_about(&accepted(&[0, 1], 4, 6), &proved));
-        assert!(is_about(&accepted(&[0, 1], 5, 5), &proved));
+        assert!(is_about(&accepted(&[0, 1], 4, 6), None, &proved));
+        assert!(is_about(&accepted(&[0, 1], 5, 5), None, &proved));
         for other in [
             accepted(&[0, 1], 3, 5),
             accepted(&[0, 1], 5, 7),
             accepted(&[0, 1], 3, 7),
             accepted(&[0], 5, 5),
         ] {
-            assert!(!is_about(&other, &proved), "{other:?}");
+            assert!(!is_about(&other, None, &proved), "{other:?}");
         }
+
+        // The value of an exact claim counts, not the interval that isolates it.
+        let wide = accepted(&[0, 1], 3, 7);
+        let five = Some(Algebraic::rational(whole(5)));
+        let seven = Some(Algebraic::rational(whole(7)));
+        assert!(is_about(&wide, five, &proved));
+        assert!(!is_about(&wide, seven, &proved));
     }
 
     /// x from which no claim comes: the digits of the doubles, and nothing that looks exact.

@@ -1,27 +1,92 @@
 //! The x of a solution that the checker has accepted, over all variables of the pencil, in doubles.
 //!
-//! A support leaf has x as polynomials in t, which are read at the middle of the value's interval.
-//! For every other solution the null vector is computed again. Both are scaled to e'x_s = 1. Called
-//! by `complete` for the report; nothing depends on it.
+//! A claim of the certificate that is about the solution has x, exactly or as the centre of a box. A
+//! support leaf has x as polynomials in t, which are read at the middle of the value's interval. For
+//! every other solution the null vector is computed again. All are scaled to e'x = 1 on the support.
+//! Called by `complete` for reports and modes; no proof depends on it.
 
 use super::null_vector::null_vector;
+use super::pieces::expansion::Expansion;
+use super::pieces::matrix::{largest_entry, principal_block};
 use super::pieces::prepared::Prepared;
-use super::region::State;
+use super::region::{State, support};
+use crate::certify::rows::active;
+use crate::multistart::{exact_value, integer_x};
 use crate::tolerance::SAME_ROOT;
-use mceip_check::AcceptedClaim;
-use mceip_check::certificate::{Certificate, Exact, Node, Support};
-use mceip_exact::{Poly, Rational, to_f64};
+use mceip_check::certificate::{Certificate, Claim, Exact, Node, Support};
+use mceip_check::{AcceptedClaim, Proved};
+use mceip_exact::{Integer, Poly, Rational, to_f64};
 use mceip_model::Pencil;
+use num_traits::{One, Zero};
+
+/// Bits to which a value is refined beyond those of the coefficients that it is put into.
+const DIGITS_BEYOND: u64 = 128;
 
 /// x of an accepted solution of the certificate; NaN where no null vector is found.
 pub(super) fn accepted_x(
-    certificate: &Certificate,
+    proved: &Proved<Certificate>,
     prepared: &Prepared,
     pencil: &Pencil,
     solution: &AcceptedClaim,
 ) -> Vec<f64> {
-    by_support_leaf(certificate, pencil, solution)
-        .unwrap_or_else(|| by_null_vector(prepared, pencil, solution))
+    let exact = by_claim(proved, pencil, solution)
+        .or_else(|| by_support_leaf(proved.certificate(), pencil, solution));
+    match exact {
+        Some(x) => scaled(&x, &solution.support),
+        None => by_null_vector(prepared, pencil, solution),
+    }
+}
+
+/// The claim that is about a solution of the cover: of its support, with a value that lies where the
+/// cover proves it to be the only one.
+pub(super) fn claim_about<'a>(
+    proved: &'a Proved<Certificate>,
+    solution: &AcceptedClaim,
+) -> Option<&'a Claim> {
+    let accepted = &proved.accepted().claims;
+    let place = accepted.iter().position(|claim| {
+        let begins_within = claim.value.lo() >= solution.value.lo();
+        let ends_within = claim.value.hi() <= solution.value.hi();
+        claim.support == solution.support && begins_within && ends_within
+    })?;
+    proved.certificate().claims.get(place)
+}
+
+/// x of the claim that is about the solution, at its value or a number very close to it.
+fn by_claim(
+    proved: &Proved<Certificate>,
+    pencil: &Pencil,
+    solution: &AcceptedClaim,
+) -> Option<Vec<Rational>> {
+    let claim = claim_about(proved, solution)?;
+    match claim {
+        Claim::ExactSolution(exact) => {
+            let x = integer_x(exact);
+            let coefficients = x.iter().flat_map(Poly::coeffs);
+            let longest = coefficients.map(|c| c.bits()).max().unwrap_or(0);
+
+            let mut value = exact_value(claim)?;
+            let width = Rational::new(Integer::one(), Integer::one() << (longest + DIGITS_BEYOND));
+            value.refine_to(&width);
+            let value = value.interval().mid();
+            Some(x.iter().map(|p| p.eval(&value)).collect())
+        }
+        Claim::EnclosedSolution(enclosed) => {
+            let mut x = vec![Rational::zero(); pencil.order()];
+            let variables = active(pencil, &enclosed.support);
+            for (i, center) in variables.into_iter().zip(&enclosed.center) {
+                x[i] = center.0.clone();
+            }
+            Some(x)
+        }
+        Claim::LiftedSolution(_) => None,
+    }
+}
+
+/// x in doubles with e'x = 1 on the support.
+fn scaled(x: &[Rational], support: &[usize]) -> Vec<f64> {
+    let sum: Rational = support.iter().map(|&i| x[i].clone()).sum();
+    x.iter().map(|x_i| to_f64(&(x_i / &sum))).collect()
 }
 
 /// x of a solution that a support leaf of the certificate yields.
@@ -29,7 +94,7 @@ fn by_support_leaf(
     certificate: &Certificate,
     pencil: &Pencil,
     solution: &AcceptedClaim,
-) -> Option<Vec<f64>> {
+) -> Option<Vec<Rational>> {
     let set = certificate.complete_set.as_ref()?;
     let mut nodes = set.pieces.iter().flat_map(|piece| &piece.tree);
     let x = nodes.find_map(|node| match node {
@@ -38,16 +103,7 @@ fn by_support_leaf(
     })?;
 
     let value = solution.value.mid();
-    let values: Vec<Rational> = x.iter().map(|p| p.eval(&value)).collect();
-    let on_support = solution.support.iter().map(|&i| values[i].clone());
-    let sum: Rational = on_support.sum();
-
-    let mut scaled = Vec::with_capacity(values.len());
-    for value in &values {
-        scaled.push(to_f64(&(value / &sum)));
-    }
-
-    Some(scaled)
+    Some(x.iter().map(|p| p.eval(&value)).collect())
 }
 
 /// x at the point of a leaf that is this solution.
@@ -69,10 +125,6 @@ fn yielded(leaf: &Support, pencil: &Pencil, solution: &AcceptedClaim) -> Option<
 }
 
 fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim) -> Vec<f64> {
-    let t = to_f64(&solution.value.mid());
-    let width = to_f64(solution.value.hi()) - to_f64(solution.value.lo());
-    let reach = width.max(SAME_ROOT * t.abs()).max(f64::MIN_POSITIVE);
-
     let mut states = Vec::with_capacity(prepared.view.order());
     for variable in &prepared.view.index {
         states.push(if solution.support.contains(variable) {
@@ -83,6 +135,10 @@ fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim
     }
 
     let expansion = prepared.expansion_at(solution.value.lo());
+    let t = to_f64(&solution.value.mid());
+    let width = to_f64(solution.value.hi()) - to_f64(solution.value.lo());
+    let size = t.abs().max(unit(expansion, t, &support(&states)));
+    let reach = width.max(SAME_ROOT * size).max(f64::MIN_POSITIVE);
     let x = match null_vector(expansion, &states, t - reach, t + reach) {
         Some(null) => null.spread(states.len()),
         None => vec![f64::NAN; states.len()],
@@ -101,4 +157,13 @@ fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim
     }
 
     all
+}
+
+/// The change of t that changes T(t) on the support by its own size: the measure of nearness where
+/// t itself is 0.
+fn unit(expansion: &Expansion, t: f64, support: &[usize]) -> f64 {
+    let matrix = principal_block(&expansion.at(t), support);
+    let derivative = principal_block(&expansion.derivative(t), support);
+    let unit = largest_entry(&matrix) / largest_entry(&derivative);
+    if unit.is_finite() { unit } else { 0.0 }
 }

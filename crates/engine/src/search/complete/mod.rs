@@ -53,10 +53,10 @@ pub use options::{Options, Shard};
 
 use crate::certify::certificate;
 use crate::run::Watch;
-use accepted_x::accepted_x;
+use accepted_x::{accepted_x, claim_about};
 use audited::{Audited, audited};
 use given::Given;
-use mceip_check::certificate::{Certificate, CompleteSet, Piece};
+use mceip_check::certificate::{Certificate, Claim, CompleteSet, Piece};
 use mceip_check::{AcceptedClaim, AcceptedCover, Proved, check};
 use mceip_model::file::Number;
 use mceip_model::reduction::reduce;
@@ -71,7 +71,8 @@ pub struct Completed {
     pub proved: Proved<Certificate>,
     /// What the checker read off it.
     pub cover: AcceptedCover,
-    /// x of each solution of the cover over all variables of the pencil, e'x_s = 1, in doubles.
+    /// x of each solution of the cover over all variables of the pencil, e'x_s = 1, in doubles; NaN
+    /// where it is not known.
     pub x: Vec<Vec<f64>>,
 }
 
@@ -86,7 +87,7 @@ impl Completed {
         let cover = cover.ok_or(CompleteError::NoCompleteSet)?;
         let mut x = Vec::with_capacity(cover.solutions.len());
         for solution in &cover.solutions {
-            x.push(accepted_x(proved.certificate(), prepared, pencil, solution));
+            x.push(accepted_x(&proved, prepared, pencil, solution));
         }
 
         Ok(Completed { proved, cover, x })
@@ -96,6 +97,11 @@ impl Completed {
     /// ([`AcceptedCover::is_plain_list`]).
     pub fn is_complete(&self) -> bool {
         self.cover.open.is_empty()
+    }
+
+    /// The claim of the certificate that is about a solution of the cover, if it has one.
+    pub fn claim_about(&self, solution: &AcceptedClaim) -> Option<&Claim> {
+        claim_about(&self.proved, solution)
     }
 
     /// The solutions with their x.

@@ -86,6 +86,7 @@ impl Iteration<'_> {
         let width = self.hi - self.lo;
         let mut t = self.lo + START * width;
         let mut vectors = Vectors::ones(self.support.len());
+        let mut is_solved = false;
 
         for step in 0..NEWTON_STEPS {
             let matrix = principal_block(&self.expansion.at(t), &self.support);
@@ -97,6 +98,7 @@ impl Iteration<'_> {
             };
 
             vectors = next.normalised()?;
+            is_solved = true;
             if step < settling {
                 continue;
             }
@@ -114,7 +116,7 @@ impl Iteration<'_> {
             }
         }
 
-        Some(NullVector {
+        is_solved.then(|| NullVector {
             value: t,
             support: self.support.clone(),
             left: vectors.left,
