@@ -9,7 +9,7 @@ mod page;
 
 use super::common::{CliError, exit, number, print, require_count, require_threads};
 use super::job::{CHECKPOINT, Job};
-use super::output::{Output, make_writable};
+use super::output::{Output, folder_of, make_writable};
 use super::question::load_system;
 use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, Options, analyse};
 use mceip_engine::run::{Keeper, Kept};
@@ -86,6 +86,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         None => None,
     };
     let report = Output::prepare_if("report", args.report.as_deref(), &[&args.file])?;
+    if let (Some(report), Some(folder)) = (&args.report, &args.certificates) {
+        refuse_among_proofs(report, folder)?;
+    }
 
     let job = Job::begin("reading");
     let name = file.name.clone();
@@ -139,6 +142,20 @@ fn friction(args: &Args, file: &SystemFile) -> Result<Rational, CliError> {
 
     let own = file.friction.clone();
     own.ok_or_else(|| AnalysisError::NoFriction.into())
+}
+
+/// Refuses a report in the place of a problem or certificate that the analysis may write.
+fn refuse_among_proofs(report: &Path, folder: &Path) -> Result<(), CliError> {
+    let place = |path: &Path| std::fs::canonicalize(path).ok();
+    let is_inside = place(folder_of(report)) == place(folder);
+    let name = report.to_string_lossy();
+    let is_named_alike = name.ends_with(".certificate.json") || name.ends_with(".problem.json");
+    if !(is_inside && is_named_alike) {
+        return Ok(());
+    }
+
+    let expected = "another file than those of --certificates";
+    Err(CliError::option("report", expected, &name))
 }
 
 /// The number of values of mu at which divergence is decided.

@@ -10,7 +10,7 @@ use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{AcceptedCover, Proved};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, NotCertified, lifted, sift};
-use mceip_engine::foreign::{ForeignError, ForeignReport};
+use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport, Reported};
 use mceip_engine::multistart::same;
 use mceip_engine::search::complete::Completed;
 use mceip_engine::search::near::{Near, near};
@@ -64,7 +64,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         }
     };
 
-    let candidates = candidates(report)?;
+    let points = report.solutions;
     let radius = args.absence_radius.as_deref();
     let radius = radius
         .map(|given| positive("absence-radius", given))
@@ -79,7 +79,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         radius: radius.as_ref(),
         job: &job,
     };
-    let mut judged = certifying.judge(&reduced.pencil, &candidates);
+    let mut judged = certifying.judge(&reduced.pencil, &points);
     job.end();
     if let Body::System(system) = problem.body()
         && args.lifted
@@ -92,28 +92,18 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         judged.write_proofs(folder, &inputs)?;
     }
     match output {
-        Some(output) => judged.write(output, &files, candidates.len())?,
-        None => judged.print(&files, candidates.len())?,
+        Some(output) => judged.write(output, &files, points.len())?,
+        None => judged.print(&files, points.len())?,
     }
 
     let certified: usize = files.iter().map(|file| file.accepted().claims.len()).sum();
-    judged.say_counts(certified, candidates.len());
-    let code = judged.exit_code(candidates.len());
+    judged.say_counts(certified, points.len());
+    let code = judged.exit_code(points.len());
     Ok(if job.is_cancelled() {
         exit::INTERRUPTED
     } else {
         code
     })
-}
-
-/// The points of a report, all of which must be vectors of the problem.
-fn candidates(report: ForeignReport) -> Result<Vec<Candidate>, CliError> {
-    let mut candidates = Vec::new();
-    for reported in report.solutions {
-        candidates.push(reported?.candidate);
-    }
-
-    Ok(candidates)
 }
 
 /// What became of a report: distinct claims that the checker has accepted, and the rest.
@@ -137,6 +127,17 @@ struct Finding {
     text: String,
     /// The complete set near its value.
     proof: Option<Proved<Certificate>>,
+}
+
+impl Finding {
+    /// What is no vector of the problem is no solution.
+    fn no_vector(bad: &BadPoint) -> Finding {
+        Finding {
+            verdict: Verdict::Disproved,
+            text: format!("REFUSED: {bad}"),
+            proof: None,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -270,16 +271,27 @@ struct Certifying<'a> {
 
 impl Certifying<'_> {
     /// Certifies one after the other and says what becomes of each, until interrupted.
-    fn judge(&self, pencil: &Pencil, candidates: &[Candidate]) -> Judged {
+    fn judge(&self, pencil: &Pencil, points: &[Result<Reported, BadPoint>]) -> Judged {
         let certifier = Certifier::new(self.problem, pencil);
         let mut judged = Judged::default();
-        for (index, candidate) in candidates.iter().enumerate() {
+        for (index, point) in points.iter().enumerate() {
             if self.job.is_cancelled() {
                 self.job.note(&format!(
                     "solution {index}: interrupted before it was looked at"
                 ));
                 break;
             }
+
+            let candidate = match point {
+                Ok(reported) => &reported.candidate,
+                Err(bad) => {
+                    let finding = Finding::no_vector(bad);
+                    self.job
+                        .note(&format!("solution {index}: {}", finding.text));
+                    judged.refused.push(Refused { index, finding });
+                    continue;
+                }
+            };
 
             let value = candidate.value;
             match certifier.certify(candidate) {

@@ -204,6 +204,16 @@ pub(super) enum CliError {
         /// The file.
         path: String,
     },
+    /// Two outputs in one place.
+    #[error("--{option}: expected another file than that of --{other}, {path}")]
+    OutputTwice {
+        /// The option.
+        option: &'static str,
+        /// The option that was given the file first.
+        other: &'static str,
+        /// The file.
+        path: String,
+    },
     /// Somebody's report.
     #[error("{path}: {source}")]
     Foreign {
@@ -212,9 +222,6 @@ pub(super) enum CliError {
         /// What is wrong with it.
         source: mceip_engine::foreign::ForeignError,
     },
-    /// A solution of a report does not fit the problem.
-    #[error(transparent)]
-    BadPoint(#[from] mceip_engine::foreign::BadPoint),
     /// A word that no page of the book explains.
     #[error("no page explains {term:?}; {near}")]
     Term {

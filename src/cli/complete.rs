@@ -23,10 +23,11 @@ pub(super) struct Args {
     #[arg(long, allow_hyphen_values = true)]
     window: Option<String>,
     /// Write the certificate to this file; after an interrupt it holds what is left open, and so it
-    /// does every minute while the search goes on.
+    /// does from time to time while the search goes on.
     #[arg(long, value_name = "OUT")]
     certificate: Option<PathBuf>,
-    /// Seconds between two writes of the certificate while the search goes on.
+    /// Seconds between two writes of the certificate while the search goes on, at least: a tenth of
+    /// the time is spent on checking what is written.
     #[arg(
         long,
         value_name = "SECONDS",
@@ -141,8 +142,9 @@ fn say_checkpoint(job: &Job, written: &Result<(), CliError>, args: &Args, has_sa
             let certificate = certificate.display();
             let seconds = args.checkpoint;
             job.note(&format!(
-                "what is proved is in {certificate}, at most {seconds} s old; if this run ends \
-                 early: mceip complete {file} --resume {certificate}"
+                "what is proved so far is in {certificate}, written anew every {seconds} s, or where \
+                 it takes long to check ten times as rarely as that takes; if this run ends early: \
+                 mceip complete {file} --resume {certificate}"
             ));
         }
     }

@@ -1,10 +1,13 @@
 //! Output files that appear whole or not at all, and are known to be writable before the work
 //! starts.
 
-use super::common::{CliError, aside};
+use super::common::{CliError, aside, text};
 use mceip_check::{Provable, Proved};
+use serde_json::Value;
+use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
 
 /// A file to be written, whole, as often as there is something new to keep. Regular files are
@@ -16,15 +19,18 @@ pub(super) struct Output {
 }
 
 impl Output {
-    /// Prepares the output named by `option`; refuses a path that cannot be written or is one of
-    /// `inputs`.
+    /// Prepares the output named by `option`; refuses a path that cannot be written, is one of
+    /// `inputs` or a matrix that one of them names, or is the output of another option.
     pub(super) fn prepare(
         option: &'static str,
         path: &Path,
         inputs: &[&Path],
     ) -> Result<Output, CliError> {
         let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-        if inputs.iter().any(|input| is_file_at(input, &target)) {
+        let is_read = |input: &&Path| {
+            is_file_at(input, &target) || matrices_of(input).iter().any(|m| is_file_at(m, &target))
+        };
+        if inputs.iter().any(is_read) {
             return Err(CliError::OutputIsInput {
                 option,
                 path: path.display().to_string(),
@@ -38,6 +44,7 @@ impl Output {
 
         let is_device = target.exists() && !target.is_file();
         if !is_device {
+            claim(option, &target)?;
             let tried = tempfile::tempfile_in(folder_of(&target));
             tried.map_err(|e| CliError::write(path.display(), &e))?;
         }
@@ -101,6 +108,66 @@ impl Output {
     }
 }
 
+/// The places of the outputs of this run, and the options that they were named by.
+static CLAIMED: Mutex<BTreeMap<PathBuf, &'static str>> = Mutex::new(BTreeMap::new());
+
+/// Refuses a place that another option has.
+fn claim(option: &'static str, target: &Path) -> Result<(), CliError> {
+    let place = match (std::fs::canonicalize(folder_of(target)), target.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => target.to_path_buf(),
+    };
+
+    // A thread that panicked with the lock leaves the map whole.
+    let mut claimed = CLAIMED.lock().unwrap_or_else(PoisonError::into_inner);
+    let other = *claimed.entry(place).or_insert(option);
+    if other == option {
+        return Ok(());
+    }
+
+    Err(CliError::OutputTwice {
+        option,
+        other,
+        path: target.display().to_string(),
+    })
+}
+
+/// The files of the matrices that a problem file names; none of what is no problem file.
+fn matrices_of(input: &Path) -> Vec<PathBuf> {
+    const FIELD: &str = "matrix_market";
+    // A pipe can be read once, by whoever needs it.
+    if !(input.is_file() || input == Path::new("-")) {
+        return Vec::new();
+    }
+    let Ok(text) = text("the problem", input) else {
+        return Vec::new();
+    };
+    if !text.contains(FIELD) {
+        return Vec::new();
+    }
+
+    let mut files = Vec::new();
+    let mut waiting: Vec<Value> = serde_json::from_str(&text).into_iter().collect();
+    while let Some(value) = waiting.pop() {
+        match value {
+            Value::Array(values) => waiting.extend(values),
+            Value::Object(fields) => {
+                for (name, value) in fields {
+                    match value {
+                        Value::String(file) if name == FIELD => {
+                            files.push(folder_of(input).join(file));
+                        }
+                        value => waiting.push(value),
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    files
+}
+
 /// `claims-2.json` beside `claims.json`.
 fn numbered(path: &Path, number: usize) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -117,7 +184,7 @@ fn is_file_at(path: &Path, target: &Path) -> bool {
 }
 
 /// The folder that a file is in.
-fn folder_of(file: &Path) -> &Path {
+pub(super) fn folder_of(file: &Path) -> &Path {
     let parent = file.parent();
     parent
         .filter(|folder| !folder.as_os_str().is_empty())

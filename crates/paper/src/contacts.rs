@@ -25,7 +25,7 @@
 use crate::plausibility::with_five_digits;
 use crate::rotation::{Frame, rotation_along, rotation_by_degrees};
 use crate::tolerance::CONE_SLACK;
-use mceip_exact::{Rational, parse, rational, to_f64};
+use mceip_exact::{Rational, parse, rational, to_f64, whole};
 use mceip_model::{ContactState, Particle, Reaction};
 use num_traits::{One, Signed, Zero};
 
@@ -293,8 +293,14 @@ impl Table {
             return Err(ContactsError::Separator { got });
         }
 
-        let names: Vec<&str> = header.split(',').map(str::trim).collect();
+        if header.trim().is_empty() {
+            return Err(ContactsError::MissingColumn {
+                column: Column::NEEDED[0].name(),
+                got: String::new(),
+            });
+        }
 
+        let names: Vec<&str> = header.split(',').map(str::trim).collect();
         let mut place = [None; 11];
         for (k, name) in names.iter().enumerate() {
             match Column::named(name) {
@@ -461,7 +467,9 @@ impl Row<'_> {
         let frame = match (angle, x, y) {
             (None, None, None) => None,
             (Some(angle), None, None) => {
-                let frame = rotation_by_degrees(to_f64(&angle));
+                let turn = whole(360);
+                let within_a_turn = &angle - &turn * (&angle / &turn).floor();
+                let frame = rotation_by_degrees(to_f64(&within_a_turn));
                 Some(frame.ok_or_else(|| self.unexpected(Column::Angle, "degrees"))?)
             }
             (None, Some(x), Some(y)) if self.cell(Column::NormalDirection).is_none() => {

@@ -64,6 +64,28 @@ pub(super) fn short(v: &Rational) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
+/// The number itself: a decimal where twelve digits spell it, or else a fraction beside the rounded
+/// decimal where it is short.
+pub(super) fn exactly(v: &Rational) -> String {
+    let (lo, hi) = enclosing_decimals(&Interval::point(v.clone()), 12);
+    if lo == hi {
+        return match v.is_integer() {
+            true => v.to_string(),
+            false => lo,
+        };
+    }
+
+    let fraction = v.to_string();
+    if fraction.len() <= LONGEST_FRACTION {
+        format!("{fraction} ({})", short(v))
+    } else {
+        enclosing_decimals(&Interval::point(v.clone()), 17).0
+    }
+}
+
+/// Characters of a fraction that a sentence shows.
+const LONGEST_FRACTION: usize = 24;
+
 /// Is a number of this size printed with six decimals?
 pub(super) fn short_is_plain(value: f64) -> bool {
     WITH_SIX_DECIMALS.contains(&value.abs())
@@ -103,9 +125,8 @@ fn definite_text(matrix: &str, definite: &str, until: &DefiniteUntil, relation: 
         DefiniteUntil::Never => format!("{matrix} is {definite} for no mu"),
         DefiniteUntil::Always => format!("{matrix} is {definite} for every mu"),
         DefiniteUntil::End { end, .. } => {
-            // Doubles know the upper end best (`conditions`).
-            let end = to_f64(end.hi());
-            format!("{matrix} is not {definite} for mu {relation} {end:.9}")
+            let end = up(end.hi());
+            format!("{matrix} is not {definite} for mu {relation} {end}")
         }
     }
 }
@@ -252,7 +273,7 @@ impl Analysis {
             ),
         };
 
-        let mu = short(&self.friction);
+        let mu = exactly(&self.friction);
         let [_, _, slip, _] = self.sizes;
         let state = if slip == 0 || self.friction.is_zero() {
             format!("With these contact states held, at mu = {mu}")

@@ -10,7 +10,7 @@ use super::divergence::Verdict;
 use super::evidence::Evidence;
 use super::modes::Mode;
 use super::ranges::Range;
-use super::sentences::{between, down, short, up};
+use super::sentences::{between, down, exactly, up};
 use super::unbounded::UnboundedGrowth;
 use mceip_exact::{Rational, to_f64};
 use num_traits::Zero;
@@ -24,9 +24,9 @@ impl Analysis {
         parts.join(" ")
     }
 
-    /// mu in short decimals.
+    /// The mu asked for, as it is.
     pub fn friction_text(&self) -> String {
-        short(&self.friction)
+        exactly(&self.friction)
     }
 
     /// How far apart the two bounds of the critical mu are, as a share of the upper one; `None`
@@ -42,7 +42,7 @@ impl Analysis {
     }
 
     fn verdict_at_friction(&self) -> String {
-        let mu = short(&self.friction);
+        let mu = exactly(&self.friction);
         let verdict = match self.divergence.verdict {
             Verdict::Present => "PRESENT",
             Verdict::Absent => "ABSENT",

@@ -37,7 +37,7 @@ pub struct Listed {
     pub slip: Vec<usize>,
     /// Indices with x_i = y_i = 0.
     pub biactive: Vec<usize>,
-    /// x with e'x_s = 1.
+    /// x with e'x_s = 1; empty where it is not known.
     pub x: Vec<String>,
     /// y = (A + tB) x.
     pub y: Vec<String>,
@@ -216,10 +216,12 @@ impl ProvedList<'_> {
         let listed = match self.claim_about(proved, x, claim) {
             Some(claim) => Listed::of_claim(self.problem, self.reduced, &claim),
             None => {
-                let x = x.iter().map(|v| from_f64(*v).unwrap_or_default());
-                let x: Vec<Rational> = x.collect();
+                let x: Result<Vec<Rational>, _> = x.iter().map(|v| from_f64(*v)).collect();
                 let value = proved.value.mid();
-                of_point(self.problem, self.reduced, &proved.support, value, &x)
+                match x {
+                    Ok(x) => of_point(self.problem, self.reduced, &proved.support, value, &x),
+                    Err(_) => without_x(&proved.support, value),
+                }
             }
         };
 
@@ -322,6 +324,23 @@ fn of_enclosed(problem: &Problem, reduced: &Reduced, enclosed: &EnclosedSolution
     };
 
     of_point(problem, reduced, &enclosed.support, value, &x)
+}
+
+/// A solution whose x is not known.
+fn without_x(support: &[usize], value: Rational) -> Listed {
+    let mut value = Algebraic::rational(value);
+    Listed {
+        value: to_decimal(&mut value, &Poly::from_ints(&[0, 1]), DIGITS),
+        enclosure: None,
+        exact: None,
+        slip: support.to_vec(),
+        biactive: Vec::new(),
+        x: Vec::new(),
+        y: Vec::new(),
+        lifted: None,
+        kernel_dimension: 1,
+        cone: None,
+    }
 }
 
 /// A solution known in rounded numbers only, x in any positive scale. Biactive are the halves of

@@ -362,7 +362,8 @@ fn table(report: &Report<'_>) -> Table {
 /// The printed components of x.
 fn vector_text(report: &Report<'_>, x: &[String]) -> String {
     let printed = printed_variables(report);
-    let components: Vec<String> = printed.iter().map(|&i| short(&x[i])).collect();
+    let known = printed.iter().filter_map(|&i| x.get(i));
+    let components: Vec<String> = known.map(|x_i| short(x_i)).collect();
     components.join(" ")
 }
 
