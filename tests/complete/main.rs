@@ -20,3 +20,4 @@ mod complete_ends;
 mod complete_random;
 mod complete_tail;
 mod complete_zero;
+mod listed_x;

@@ -5,7 +5,7 @@
 //! every other solution the null vector is computed again. All are scaled to e'x = 1 on the support.
 //! Called by `complete` for reports and modes; no proof depends on it.
 
-use super::null_vector::null_vector;
+use super::null_vector::existing_null_vector;
 use super::pieces::expansion::Expansion;
 use super::pieces::matrix::{largest_entry, principal_block};
 use super::pieces::prepared::Prepared;
@@ -139,7 +139,7 @@ fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim
     let width = to_f64(solution.value.hi()) - to_f64(solution.value.lo());
     let size = t.abs().max(unit(expansion, t, &support(&states)));
     let reach = width.max(SAME_ROOT * size).max(f64::MIN_POSITIVE);
-    let x = match null_vector(expansion, &states, t - reach, t + reach) {
+    let x = match existing_null_vector(expansion, &states, t - reach, t + reach) {
         Some(null) => null.spread(states.len()),
         None => vec![f64::NAN; states.len()],
     };

@@ -54,9 +54,30 @@ pub(crate) fn null_vector(
         hi,
     };
 
+    let ones = Vectors::ones(iteration.support.len());
     SETTLING_STEPS
         .iter()
-        .find_map(|settling| iteration.run(*settling))
+        .find_map(|settling| iteration.run(*settling, ones.clone()))
+}
+
+/// [`null_vector`] where there surely is one. Vectors of ones may be null vectors of another value,
+/// which the iteration does not leave; then it starts from vectors of no pattern.
+pub(crate) fn existing_null_vector(
+    expansion: &Expansion,
+    states: &[State],
+    lo: f64,
+    hi: f64,
+) -> Option<NullVector> {
+    null_vector(expansion, states, lo, hi).or_else(|| {
+        let iteration = Iteration {
+            expansion,
+            support: support(states),
+            lo,
+            hi,
+        };
+        let start = Vectors::without_pattern(iteration.support.len());
+        iteration.run(SETTLING_STEPS[1], start)
+    })
 }
 
 impl NullVector {
@@ -82,10 +103,10 @@ struct Iteration<'a> {
 }
 
 impl Iteration<'_> {
-    fn run(&self, settling: usize) -> Option<NullVector> {
+    fn run(&self, settling: usize, start: Vectors) -> Option<NullVector> {
         let width = self.hi - self.lo;
         let mut t = self.lo + START * width;
-        let mut vectors = Vectors::ones(self.support.len());
+        let mut vectors = start;
         let mut is_solved = false;
 
         for step in 0..NEWTON_STEPS {
@@ -126,6 +147,7 @@ impl Iteration<'_> {
 }
 
 /// Approximate null vectors from both sides.
+#[derive(Clone)]
 struct Vectors {
     left: Vec<f64>,
     right: Vec<f64>,
@@ -136,6 +158,17 @@ impl Vectors {
         Vectors {
             left: vec![1.0; order],
             right: vec![1.0; order],
+        }
+    }
+
+    /// Components from 1 to 2 that no small matrix has for a null vector: 1 + the fractional part
+    /// of k times the golden ratio.
+    fn without_pattern(order: usize) -> Vectors {
+        let golden = (1.0 + 5f64.sqrt()) / 2.0;
+        let component = |k: usize| 1.0 + (k as f64 * golden).fract();
+        Vectors {
+            left: (0..order).map(|k| component(k + 1)).collect(),
+            right: (0..order).map(|k| component(k + 2)).collect(),
         }
     }
 
@@ -193,7 +226,7 @@ mod tests {
             hi: 4636.0,
         };
 
-        assert!(iteration.run(0).is_none());
+        assert!(iteration.run(0, Vectors::ones(2)).is_none());
         let found = null_vector(
             &view.expansions[0],
             &[State::InSupport; 2],
