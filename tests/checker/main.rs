@@ -6,9 +6,14 @@
 //! of `proofs/` beside ours.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "../support/corpus.rs"]
+mod corpus_reader;
 #[cfg(feature = "testkit")]
 #[path = "../support/cover.rs"]
 mod cover;
+#[cfg(feature = "testkit")]
+#[path = "../support/python_checker.rs"]
+mod python_checker;
 #[cfg(feature = "testkit")]
 #[path = "../support/structural.rs"]
 mod structural;

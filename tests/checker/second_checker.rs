@@ -3,7 +3,7 @@
 //! author, so that a mistake of one is a difference. Without python3 the tests are ignored.
 #![cfg(feature = "cli")]
 
-use crate::corpus::second_codes;
+use crate::python_checker::codes;
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, whole};
 use serde_json::{Value, json};
@@ -148,7 +148,7 @@ impl Comparison<'_> {
     /// How often both give each exit code.
     fn seen(&self) -> [usize; 4] {
         let mut seen = [0; 4];
-        for (files, theirs) in self.files.iter().zip(second_codes(&self.files)) {
+        for (files, theirs) in self.files.iter().zip(codes(&self.files)) {
             let [problem, certificate] = files;
             let ours = first_code(problem, certificate);
             assert_eq!(
@@ -199,7 +199,7 @@ fn a_cover_with_an_open_leaf_is_undecided_for_both() {
     std::fs::write(&file, certificate.to_string()).unwrap();
 
     assert_eq!(first_code(&problem, &file), 3);
-    assert_eq!(second_codes(&[[problem, file]]), [3]);
+    assert_eq!(codes(&[[problem, file]]), [3]);
 }
 
 /// A and B of degenerate pencils: a double root, a cone, ranges of values with irrational ends, a

@@ -11,6 +11,9 @@
 //! that is forgotten on one side is one there only.
 #![cfg(feature = "testkit")]
 
+use crate::corpus_reader::{ACCEPTED, MALFORMED, REJECTED, UNDECIDED};
+use crate::verified_checker::verdicts_on;
+use crate::{python_checker, verified_checker};
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{Accepted, check};
 use mceip_engine::candidate::Candidate;
@@ -28,15 +31,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
-
-/// Exit codes of both programs.
-const ACCEPTED: i32 = 0;
-const REJECTED: i32 = 1;
-const MALFORMED: i32 = 2;
-const UNDECIDED: i32 = 3;
 
 /// A problem and a text that claims to be its certificate.
 struct Forgery {
@@ -84,7 +79,7 @@ fn falsehoods(problem: &Problem, certificate: &Certificate, accepted: &Accepted)
 
     let mut wrong = Vec::new();
     for claim in &accepted.claims {
-        if !crate::verified_checker::is_solution(&truth, claim) {
+        if !verified_checker::is_solution(&truth, claim) {
             wrong.push(format!("{claim:?}"));
         }
     }
@@ -95,41 +90,9 @@ fn falsehoods(problem: &Problem, certificate: &Certificate, accepted: &Accepted)
     wrong
 }
 
-/// One process of Python for all files of a folder.
-const RUN_ALL: &str = "
-import contextlib, io, sys
-sys.path.insert(0, sys.argv[1])
-import checker
-for line in open(sys.argv[2]):
-    problem, certificate = line.split()
-    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-        code = checker.main([problem, certificate])
-    print(code)
-";
-
-/// Exit codes of `spec/checker.py`.
-fn second_verdicts(forgeries: &[Forgery]) -> Vec<i32> {
-    let folder = tempfile::tempdir().unwrap();
-    let list = write_all(forgeries, folder.path());
-
-    let mut python = Command::new("python3");
-    python
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .args(["-c", RUN_ALL])
-        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("spec"))
-        .arg(list);
-    let output = python.output().unwrap();
-
-    let text = String::from_utf8_lossy(&output.stdout);
-    let codes: Vec<i32> = text.lines().map(|line| line.parse().unwrap()).collect();
-    let err = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(codes.len(), forgeries.len(), "{err}");
-    codes
-}
-
-/// Writes every problem once and every certificate; the list that `RUN_ALL` reads.
-fn write_all(forgeries: &[Forgery], folder: &Path) -> PathBuf {
-    let mut list = String::new();
+/// Writes every problem once and every certificate; the pairs of their paths.
+fn write_all(forgeries: &[Forgery], folder: &Path) -> Vec<[PathBuf; 2]> {
+    let mut files = Vec::new();
     let mut problems: BTreeMap<String, PathBuf> = BTreeMap::new();
 
     for (number, forgery) in forgeries.iter().enumerate() {
@@ -143,12 +106,9 @@ fn write_all(forgeries: &[Forgery], folder: &Path) -> PathBuf {
 
         let certificate = folder.join(format!("{number}.json"));
         std::fs::write(&certificate, &forgery.text).unwrap();
-        writeln!(list, "{} {}", problem.display(), certificate.display()).unwrap();
+        files.push([problem.clone(), certificate]);
     }
-
-    let list_path = folder.join("list");
-    std::fs::write(&list_path, list).unwrap();
-    list_path
+    files
 }
 
 /// Judges all forgeries thrice and counts what was reached.
@@ -161,7 +121,9 @@ fn compare(forgeries: &[Forgery]) -> Reached {
         ours.push(code);
     }
 
-    let theirs = second_verdicts(forgeries);
+    let folder = tempfile::tempdir().unwrap();
+    let files = write_all(forgeries, folder.path());
+    let theirs = python_checker::codes(&files);
     let differences = differences(forgeries, &ours, &theirs);
     assert!(
         differences.is_empty(),
@@ -171,7 +133,8 @@ fn compare(forgeries: &[Forgery]) -> Reached {
     );
 
     if cfg!(has_verified_checker) {
-        let verified = verified_verdicts(forgeries);
+        let verified = verdicts_on(&verified_checker::checker(), &files);
+        assert_eq!(verified.len(), forgeries.len(), "{:?}", verified.last());
         let wrong = wrongly_verified(forgeries, &ours, &verified);
         assert!(
             wrong.is_empty(),
@@ -187,17 +150,6 @@ fn compare(forgeries: &[Forgery]) -> Reached {
         reached.verdicts, reached.reasons
     );
     reached
-}
-
-/// Verdicts of the verified checker.
-fn verified_verdicts(forgeries: &[Forgery]) -> Vec<VerifiedVerdict> {
-    let checker = crate::verified_checker::checker();
-    let folder = tempfile::tempdir().unwrap();
-    let list = write_all(forgeries, folder.path());
-
-    let verdicts = crate::verified_checker::verdicts_on_list(&checker, &list);
-    assert_eq!(verdicts.len(), forgeries.len(), "{:?}", verdicts.last());
-    verdicts
 }
 
 /// Certificates that `check` accepts and the verified checker refuses, and certificates that the
@@ -217,7 +169,7 @@ fn wrongly_verified(
             faults.extend(verdict.refusal());
         }
         if let Some(lines) = verdict.statement() {
-            faults.extend(crate::verified_checker::falsehoods(problem, text, lines));
+            faults.extend(verified_checker::falsehoods(problem, text, lines));
         }
         if let VerifiedVerdict::NotVerified(what) = verdict
             && what.starts_with("a fault of this program")

@@ -5,6 +5,7 @@
 //!
 //!     cargo test --test checker -- --ignored verdicts::write_the_verdicts
 
+use crate::corpus_reader::{Entry, MALFORMED, entries};
 use mceip_check::certificate::{
     CRITICAL_FORMAT, Certificate, CriticalCertificate, PRESENCE_FORMAT, PresenceCertificate,
 };
@@ -16,13 +17,11 @@ use mceip_exact::Interval;
 use mceip_model::Problem;
 use mceip_model::file::{read_problem, require_format};
 use num_traits::Zero;
-use serde_json::Value;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
-}
+/// The verdicts, from the folder of the package, in which tests run.
+const VERDICTS: &str = "tests/verdicts.txt";
 
 /// A file of the corpus whose certificate can be read.
 struct Case {
@@ -38,46 +37,33 @@ enum Read {
     Presence(PresenceCertificate),
 }
 
-/// The files whose certificates can be read, by name; hostile ones, which repeat a unit, are for
-/// `corpus.rs`.
+/// The files whose certificates can be read, by name; those that repeat a unit and those about plain
+/// LCPs and MCPs are for `tests/data/corpus.rs`.
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
-    for kind in ["accept", "reject"] {
-        let folder = root().join("spec/corpus").join(kind);
-        for entry in std::fs::read_dir(folder).unwrap() {
-            cases.extend(read_case(kind, &entry.unwrap().path()));
+    for entry in entries() {
+        if entry.code != MALFORMED && !entry.is_repeated() && !entry.is_plain() {
+            cases.push(read_case(&entry));
         }
     }
-
-    cases.sort_by(|a, b| a.name.cmp(&b.name));
     cases
 }
 
-fn read_case(kind: &str, path: &Path) -> Option<Case> {
-    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    let is_repeated = file.get("repeat").is_some();
-    let is_plain = file["problem"]["format"] == "mceip-mcp/1";
-    if is_repeated || is_plain {
-        return None;
-    }
-
-    let problem = file["problem"].to_string();
-    let certificate = match file["certificate_text"].as_str() {
-        Some(text) => text.to_string(),
-        None => file["certificate"].to_string(),
-    };
-    let certificate = if require_format(&certificate, CRITICAL_FORMAT).is_ok() {
-        Read::Critical(CriticalCertificate::from_json(&certificate).unwrap())
-    } else if require_format(&certificate, PRESENCE_FORMAT).is_ok() {
-        Read::Presence(PresenceCertificate::from_json(&certificate).unwrap())
+fn read_case(entry: &Entry) -> Case {
+    let text = &entry.certificate;
+    let certificate = if require_format(text, CRITICAL_FORMAT).is_ok() {
+        Read::Critical(CriticalCertificate::from_json(text).unwrap())
+    } else if require_format(text, PRESENCE_FORMAT).is_ok() {
+        Read::Presence(PresenceCertificate::from_json(text).unwrap())
     } else {
-        Read::Certificate(Certificate::from_json(&certificate).unwrap())
+        Read::Certificate(Certificate::from_json(text).unwrap())
     };
-    Some(Case {
-        name: format!("{kind}/{}", path.file_stem().unwrap().to_str().unwrap()),
-        problem: read_problem(&problem, Path::new("/")).unwrap(),
+
+    Case {
+        name: entry.name.clone(),
+        problem: read_problem(&entry.problem, Path::new("/")).unwrap(),
         certificate,
-    })
+    }
 }
 
 /// The text of `tests/verdicts.txt`: each line begins with the name of a file.
@@ -216,7 +202,7 @@ fn rejected_lines(case: &Case, certificate: &Certificate, rejected: &Rejected) -
 
 #[test]
 fn every_verdict_is_the_same_to_the_last_digit() {
-    let expected = std::fs::read_to_string(root().join("tests/verdicts.txt")).unwrap();
+    let expected = std::fs::read_to_string(VERDICTS).unwrap();
     let got = verdicts();
 
     let mut wrong = Vec::new();
@@ -234,5 +220,5 @@ fn every_verdict_is_the_same_to_the_last_digit() {
 #[test]
 #[ignore = "writes tests/verdicts.txt"]
 fn write_the_verdicts() {
-    std::fs::write(root().join("tests/verdicts.txt"), verdicts()).unwrap();
+    std::fs::write(VERDICTS, verdicts()).unwrap();
 }

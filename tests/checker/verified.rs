@@ -8,7 +8,7 @@
 //! Certificates of the test kit's families: `tests/campaign/verify.rs`. Mutants: `two_checkers`.
 #![cfg(feature = "cli")]
 
-use crate::corpus::{ACCEPTED, Entry, UNDECIDED, entries};
+use crate::corpus_reader::{ACCEPTED, Entry, UNDECIDED, entries};
 use crate::verified_checker::{checker, falsehoods};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
@@ -28,13 +28,12 @@ const PACK_FLOOR: usize = 100;
 #[cfg_attr(not(has_verified_checker), ignore = "needs `make -C proofs program`")]
 fn the_corpus_gets_no_wrong_verdict() {
     let checker = checker();
-    let folder = tempfile::tempdir().unwrap();
     let mut accepted = 0;
     let mut wrong = Vec::new();
 
-    for entry in entries(folder.path()) {
-        let verdict = checker.judge_texts(&entry.problem_text(), &entry.certificate_text());
-        let is_good = matches!(entry.code(), ACCEPTED | UNDECIDED);
+    for entry in entries() {
+        let verdict = checker.judge_texts(&entry.problem, &entry.certificate);
+        let is_good = matches!(entry.code, ACCEPTED | UNDECIDED);
         accepted += usize::from(is_good && verdict.statement().is_some());
 
         let fault = if is_good {
@@ -60,8 +59,8 @@ fn fault_of_acceptance(entry: &Entry, verdict: &VerifiedVerdict) -> Option<Strin
     if entry.is_plain() {
         return Some(format!("accepted: {lines:?}"));
     }
-    let problem = read_problem(&entry.problem_text(), Path::new("/")).unwrap();
-    let false_sentences = falsehoods(&problem, &entry.certificate_text(), lines);
+    let problem = read_problem(&entry.problem, Path::new("/")).unwrap();
+    let false_sentences = falsehoods(&problem, &entry.certificate, lines);
     (!false_sentences.is_empty()).then(|| format!("{false_sentences:?}"))
 }
 

@@ -7,16 +7,16 @@
 #![cfg(feature = "cli")]
 
 use crate::common::{Run, example, exits, pencil_problem, read, repository, run};
+use crate::corpus_reader::entry;
 use crate::program::{Folder, refused};
 use serde_json::{Value, json};
 
 /// `check` on a file of the corpus.
 fn check_corpus(name: &str) -> Run {
     let folder = Folder::new();
-    let case = read(&repository(&format!("spec/corpus/accept/{name}.json")));
-    let case: Value = serde_json::from_str(&case).unwrap();
-    let problem = folder.write("p.json", &case["problem"].to_string());
-    let certificate = folder.write("c.json", &case["certificate"].to_string());
+    let case = entry(&format!("accept/{name}"));
+    let problem = folder.write("p.json", &case.problem);
+    let certificate = folder.write("c.json", &case.certificate);
 
     run(&["check", &problem, &certificate])
 }

@@ -7,6 +7,7 @@
 use crate::common::{
     contains_all, example, exit_code, exits, exits_with_json, read, repository, run, solutions_text,
 };
+use crate::corpus_reader::entry;
 use crate::program::Folder;
 use serde_json::Value;
 use std::process::{Command, Stdio};
@@ -287,11 +288,8 @@ fn zero_reaction_is_analysed() {
 
 /// The problem of a file of `spec/corpus/accept`, as a file of its own.
 fn zero_reaction_problem(folder: &std::path::Path, name: &str) -> String {
-    let path = repository(&format!("spec/corpus/accept/{name}.json"));
-    let text = std::fs::read_to_string(path).unwrap();
-    let case: serde_json::Value = serde_json::from_str(&text).unwrap();
     let problem = folder.join("problem.json");
-    std::fs::write(&problem, case["problem"].to_string()).unwrap();
+    std::fs::write(&problem, entry(&format!("accept/{name}")).problem).unwrap();
     problem.to_str().unwrap().into()
 }
 

@@ -1,6 +1,9 @@
 //! The program from outside: its commands, exit codes, text, files and pictures.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[cfg(feature = "cli")]
+#[path = "../support/corpus.rs"]
+mod corpus_reader;
 #[cfg(all(feature = "cli", unix))]
 #[path = "../support/interrupt.rs"]
 mod interrupt;

@@ -6,7 +6,8 @@
 //! proved intervals. A certificate with a piece taken out, or with a wider interval, is refused.
 #![cfg(all(feature = "cli", feature = "testkit"))]
 
-use crate::common::{example, exits, exits_with_json, read, repository};
+use crate::common::{example, exits, exits_with_json};
+use crate::corpus_reader::entry;
 use crate::fold::fold_body;
 use crate::program::Folder;
 use mceip_check::certificate::PresenceCertificate;
@@ -24,7 +25,7 @@ use mceip_paper::two_particles;
 use mceip_testkit::generators::{Seed, states};
 use num_traits::Zero as _;
 use rand::RngExt;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::path::Path;
 
 /// Number of this family of random systems, for [`Seed`].
@@ -420,9 +421,7 @@ fn no_interval_begins_below_the_solution_that_is_printed() {
 /// both and above which mu. The particle is not coupled to the system of a file of the corpus.
 #[test]
 fn absence_is_said_where_presence_is_sampled() {
-    let text = read(&repository("spec/corpus/accept/presence-mixed.json"));
-    let mut case: Value = serde_json::from_str(&text).unwrap();
-    let mut problem = case["problem"].take();
+    let mut problem = entry("accept/presence-mixed").file["problem"].take();
 
     for matrix in ["stiffness", "mass"] {
         let matrix = &mut problem["system"][matrix];

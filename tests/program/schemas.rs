@@ -6,6 +6,7 @@
 #![cfg(feature = "cli")]
 
 use crate::common::{example, exits, pencil_problem, run};
+use crate::corpus_reader::{Entry, MALFORMED, entries, entry};
 use crate::program::Folder;
 use jsonschema::Validator;
 use mceip_check::certificate::{Certificate, CriticalCertificate, PresenceCertificate};
@@ -435,15 +436,22 @@ fn the_corpus_is_valid() {
     let mcp = schema("mceip-mcp-1");
     let mcp_solution = schema("mceip-mcp-solution-1");
 
-    let mut judged = json_files("spec/corpus/accept");
-    judged.extend(json_files("spec/corpus/reject"));
     let mut plain = 0;
+    let mut leaves = 0;
 
-    for path in judged {
-        let file = read(&path);
-        let name = path.display().to_string();
+    for Entry {
+        name, file, code, ..
+    } in entries()
+    {
+        if code == MALFORMED {
+            if name.starts_with("malformed/support-leaf-") {
+                support_leaf_is_invalid(&certificates, &name, &file);
+                leaves += 1;
+            }
+            continue;
+        }
+
         let is_plain = file["problem"]["format"] == "mceip-mcp/1";
-
         if is_plain {
             valid(&mcp, &file["problem"], &name);
             plain += 1;
@@ -467,23 +475,17 @@ fn the_corpus_is_valid() {
 
     assert!(plain >= 19, "{plain}");
 
-    let mut leaves = json_files("spec/corpus/malformed");
-    leaves.retain(|path| {
-        let name = path.file_stem().unwrap().to_string_lossy();
-        name.starts_with("support-leaf-")
-    });
+    assert!(leaves >= 8, "{leaves}");
+}
 
-    assert!(leaves.len() >= 8);
-    for path in leaves {
-        let file = read(&path);
-        let text = file["certificate_text"].as_str().unwrap();
-        let certificate = serde_json::from_str(text).unwrap();
+fn support_leaf_is_invalid(certificates: &Validator, name: &str, file: &Value) {
+    let text = file["certificate_text"].as_str().unwrap();
+    let certificate = serde_json::from_str(text).unwrap();
 
-        // That 1/2 is no integer follows from its meaning: a schema cannot divide.
-        let of_meaning = path.ends_with("support-leaf-coefficient-fraction.json");
-        let is_valid = certificates.is_valid(&certificate);
-        assert_eq!(is_valid, of_meaning, "{}", path.display());
-    }
+    // That 1/2 is no integer follows from its meaning: a schema cannot divide.
+    let of_meaning = name == "malformed/support-leaf-coefficient-fraction";
+    let is_valid = certificates.is_valid(&certificate);
+    assert_eq!(is_valid, of_meaning, "{name}");
 }
 
 /// How many files a schema took and refused.
@@ -572,8 +574,7 @@ fn damaged_certificates_agree(tally: &mut Tally) {
         "absence-ldl-interval",
         "lifted",
     ] {
-        let mut case = read(&root(&format!("spec/corpus/accept/{name}.json")));
-        certificates.push(case["certificate"].take());
+        certificates.push(entry(&format!("accept/{name}")).file["certificate"].take());
     }
 
     for copy in certificates.iter().flat_map(damaged) {

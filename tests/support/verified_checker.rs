@@ -5,6 +5,7 @@
 //! one by one, knows what is true.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
+use crate::python_checker::list_of;
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, Rational, parse, rational};
 use mceip_model::file::read_problem_file;
@@ -12,8 +13,7 @@ use mceip_model::reduction::reduce;
 use mceip_model::{Body, Particle, Pencil, Problem, Reduced, System, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate, enumerate_modes};
 use mceip_testkit::verified::{VerifiedChecker, VerifiedVerdict};
-use std::fs::File;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The program, which a test demands where the build has found it.
@@ -21,13 +21,13 @@ pub fn checker() -> VerifiedChecker {
     VerifiedChecker::find(None).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Verdicts on all pairs of a list (a line: the paths of a problem and of a certificate), by one
-/// process. Fewer verdicts than pairs: the program ended at the first pair without one.
-pub fn verdicts_on_list(checker: &VerifiedChecker, list: &Path) -> Vec<VerifiedVerdict> {
+/// Verdicts on pairs of a problem and a certificate, by one process. Fewer verdicts than pairs: the
+/// program ended at the first pair without one.
+pub fn verdicts_on(checker: &VerifiedChecker, files: &[[PathBuf; 2]]) -> Vec<VerifiedVerdict> {
     let mut command = Command::new(checker.program());
     let output = command
         .arg("--lines")
-        .stdin(File::open(list).unwrap())
+        .stdin(list_of(files))
         .output()
         .unwrap();
     let text = String::from_utf8(output.stdout).unwrap();

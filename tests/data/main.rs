@@ -1,0 +1,18 @@
+//! Tests whose cases are files, one test for each file, so that one can be run alone:
+//!
+//!     cargo test --test data corpus::reject::cover-pivot
+//!
+//! `corpus` judges the files of `spec/corpus`.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+#[path = "../support/corpus.rs"]
+mod support;
+
+mod corpus;
+
+use libtest_mimic::{Arguments, run};
+
+fn main() {
+    let arguments = Arguments::from_args();
+    run(&arguments, corpus::tests()).exit();
+}
