@@ -2,17 +2,20 @@
 //!
 //!     cargo test --test data corpus::reject::cover-pivot
 //!
-//! `corpus` judges the files of `spec/corpus`.
+//! `corpus` judges the files of `spec/corpus`, `transcripts` runs the pages of `tests/transcripts`.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[path = "../support/corpus.rs"]
 mod support;
 
 mod corpus;
+mod transcripts;
 
 use libtest_mimic::{Arguments, run};
 
 fn main() {
     let arguments = Arguments::from_args();
-    run(&arguments, corpus::tests()).exit();
+    let mut tests = corpus::tests();
+    tests.extend(transcripts::tests());
+    run(&arguments, tests).exit();
 }

@@ -1,0 +1,139 @@
+//! `tests/transcripts`: what the program prints. A page is run in a folder of its own from top to
+//! bottom, and has to be what comes out:
+//!
+//! - a code block with a name, such as "```json report.json", is written to that file;
+//! - in a block "```console" a line `$ mceip ...` is a command, and what follows is its text on
+//!   stdout, its lines on stderr after `! `, and `? 2` for its exit code if that is not 0;
+//! - at the end of a command `> report.json` puts its stdout into a file;
+//! - `[ROOT]` is the repository. A line `...` stands for any lines, `[..]` for any part of a line.
+//!
+//! `SNAPSHOTS=overwrite cargo test --test data transcripts` rewrites what differs; read the change
+//! before it is committed.
+
+use libtest_mimic::{Failed, Trial};
+use snapbox::{Assert, Data};
+use std::path::Path;
+use std::process::Command;
+
+/// The repository.
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// A test for each page: `transcripts::explain`.
+pub(crate) fn tests() -> Vec<Trial> {
+    let mut tests = Vec::new();
+    for file in std::fs::read_dir(Path::new(ROOT).join("tests/transcripts")).unwrap() {
+        let path = file.unwrap().path();
+        let name = format!("transcripts::{}", path.file_stem().unwrap().display());
+        tests.push(Trial::test(name, move || is_what_comes_out(&path)));
+    }
+
+    assert!(!tests.is_empty());
+    tests
+}
+
+fn is_what_comes_out(path: &Path) -> Result<(), Failed> {
+    let page = std::fs::read_to_string(path).unwrap();
+    assert!(page.contains("\n$ mceip "), "a page without a command");
+
+    let assert = Assert::new()
+        .action_env("SNAPSHOTS")
+        .normalize_paths(false);
+    let name = path.file_name().unwrap().to_str().unwrap();
+    let expected = Data::read_from(path, None);
+    assert.try_eq(Some(&name), run(&page).into(), expected)?;
+    Ok(())
+}
+
+/// The page with the text that its commands print.
+fn run(page: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let mut out = String::new();
+    let mut block: Option<Block> = None;
+
+    for line in page.lines() {
+        match &mut block {
+            None => {
+                block = line.strip_prefix("```").map(Block::new);
+                push(&mut out, line);
+            }
+            Some(open) if line == "```" => {
+                open.write_to(folder.path());
+                block = None;
+                push(&mut out, line);
+            }
+            Some(open) if !open.is_console => {
+                push(&mut open.text, line);
+                push(&mut out, line);
+            }
+            Some(_) => {
+                // What the page says of the output is replaced by what the command prints.
+                if let Some(command) = line.strip_prefix("$ mceip ") {
+                    push(&mut out, line);
+                    out += &printed(command, folder.path());
+                }
+            }
+        }
+    }
+
+    assert!(block.is_none(), "a code block without an end");
+    out
+}
+
+fn push(text: &mut String, line: &str) {
+    text.push_str(line);
+    text.push('\n');
+}
+
+/// A code block that is read.
+struct Block {
+    is_console: bool,
+    /// The name of the file that it is written to.
+    file: Option<String>,
+    text: String,
+}
+
+impl Block {
+    /// From what follows the backquotes: a language, and a name.
+    fn new(information: &str) -> Block {
+        let name = information.split_once(' ').map(|(_, name)| name.into());
+        Block {
+            is_console: information == "console",
+            file: name,
+            text: String::new(),
+        }
+    }
+
+    fn write_to(&self, folder: &Path) {
+        if let Some(file) = &self.file {
+            std::fs::write(folder.join(file), &self.text).unwrap();
+        }
+    }
+}
+
+/// What a command prints in this folder, as it stands on a page.
+fn printed(command: &str, folder: &Path) -> String {
+    let (command, file) = match command.split_once(" > ") {
+        None => (command, None),
+        Some((command, file)) => (command, Some(folder.join(file))),
+    };
+    let arguments = command.split(' ').map(|word| word.replace("[ROOT]", ROOT));
+    let output = Command::new(env!("CARGO_BIN_EXE_mceip"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+
+    let mut text = String::new();
+    match file {
+        Some(file) => std::fs::write(file, &output.stdout).unwrap(),
+        None => text += &String::from_utf8(output.stdout).unwrap(),
+    }
+    for line in String::from_utf8(output.stderr).unwrap().lines() {
+        text += &format!("! {line}\n");
+    }
+    match output.status.code() {
+        Some(0) => {}
+        code => text += &format!("? {}\n", code.unwrap()),
+    }
+    text.replace(ROOT, "[ROOT]")
+}
