@@ -37,8 +37,8 @@ enum Read {
     Presence(PresenceCertificate),
 }
 
-/// The files whose certificates can be read, by name; those that repeat a unit and those about plain
-/// LCPs and MCPs are for `tests/data/corpus.rs`.
+/// The files whose certificates can be read, by name; those that repeat a unit and those about
+/// plain LCPs and MCPs are for `tests/data/corpus.rs`.
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for entry in entries() {

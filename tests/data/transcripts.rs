@@ -11,6 +11,7 @@
 //! before it is committed.
 
 use libtest_mimic::{Failed, Trial};
+use snapbox::filter::NormalizeToExpected;
 use snapbox::{Assert, Data};
 use std::path::Path;
 use std::process::Command;
@@ -35,44 +36,31 @@ fn is_what_comes_out(path: &Path) -> Result<(), Failed> {
     let page = std::fs::read_to_string(path).unwrap();
     assert!(page.contains("\n$ mceip "), "a page without a command");
 
-    let assert = Assert::new()
-        .action_env("SNAPSHOTS")
-        .normalize_paths(false);
-    let name = path.file_name().unwrap().to_str().unwrap();
-    let expected = Data::read_from(path, None);
-    assert.try_eq(Some(&name), run(&page).into(), expected)?;
+    let expected = Data::read_from(path, None).raw();
+    let assert = Assert::new().action_env("SNAPSHOTS");
+    assert.try_eq(None, run(&page).into(), expected)?;
     Ok(())
 }
 
-/// The page with the text that its commands print.
+/// The page with what its commands print, in the words of the page as far as these stand for it.
 fn run(page: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let mut out = String::new();
     let mut block: Option<Block> = None;
 
     for line in page.lines() {
-        match &mut block {
-            None => {
-                block = line.strip_prefix("```").map(Block::new);
-                push(&mut out, line);
-            }
-            Some(open) if line == "```" => {
-                open.write_to(folder.path());
+        if let Some(open) = &mut block {
+            if line == "```" {
+                out += &open.text(folder.path());
                 block = None;
-                push(&mut out, line);
+            } else {
+                push(&mut open.lines, line);
+                continue;
             }
-            Some(open) if !open.is_console => {
-                push(&mut open.text, line);
-                push(&mut out, line);
-            }
-            Some(_) => {
-                // What the page says of the output is replaced by what the command prints.
-                if let Some(command) = line.strip_prefix("$ mceip ") {
-                    push(&mut out, line);
-                    out += &printed(command, folder.path());
-                }
-            }
+        } else {
+            block = line.strip_prefix("```").map(Block::new);
         }
+        push(&mut out, line);
     }
 
     assert!(block.is_none(), "a code block without an end");
@@ -84,12 +72,12 @@ fn push(text: &mut String, line: &str) {
     text.push('\n');
 }
 
-/// A code block that is read.
+/// A code block.
 struct Block {
     is_console: bool,
     /// The name of the file that it is written to.
     file: Option<String>,
-    text: String,
+    lines: String,
 }
 
 impl Block {
@@ -99,15 +87,34 @@ impl Block {
         Block {
             is_console: information == "console",
             file: name,
-            text: String::new(),
+            lines: String::new(),
         }
     }
 
-    fn write_to(&self, folder: &Path) {
+    /// The lines of the block, commands run and a file written.
+    fn text(&self, folder: &Path) -> String {
         if let Some(file) = &self.file {
-            std::fs::write(folder.join(file), &self.text).unwrap();
+            std::fs::write(folder.join(file), &self.lines).unwrap();
         }
+        if !self.is_console {
+            return self.lines.clone();
+        }
+
+        let mut text = String::new();
+        for part in self.lines.split("$ mceip ").skip(1) {
+            let (command, expected) = part.split_once('\n').unwrap();
+            push(&mut text, &format!("$ mceip {command}"));
+            text += &in_the_words_of(expected, printed(command, folder));
+        }
+        text
     }
+}
+
+/// The text with what `expected` leaves open in place of what it stands for.
+fn in_the_words_of(expected: &str, text: String) -> String {
+    let expected = Data::text(expected);
+    let filter = NormalizeToExpected::new().redact();
+    filter.normalize(Data::text(text), &expected).to_string()
 }
 
 /// What a command prints in this folder, as it stands on a page.

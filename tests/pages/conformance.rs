@@ -65,9 +65,12 @@ fn read_row(line: &str) -> Row {
     }
 }
 
-/// Does `file::name` name a test function in that file, a macro-made one, or one that is run for each
-/// file of a folder?
+/// Does `file::name` name a test function in that file, a macro-made one, or one that is run for
+/// each file of a folder? Or is it a page of transcripts?
 fn exists(test: &str) -> bool {
+    if test.starts_with("tests/transcripts/") {
+        return read(test).is_some();
+    }
     let Some((file, name)) = test.split_once("::") else {
         return false;
     };
@@ -174,6 +177,7 @@ fn a_missing_test_would_be_noticed() {
     assert!(!exists("nonsense"));
     assert!(!exists("tests/pages/conformance.rs::exists")); // a helper is no test
     assert!(!exists("tests/data/corpus.rs::judge"));
+    assert!(!exists("tests/transcripts/no-such-page.md"));
     assert!(exists(
         "tests/pages/conformance.rs::a_missing_test_would_be_noticed"
     ));

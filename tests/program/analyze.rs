@@ -6,7 +6,7 @@
 //! checker.
 #![cfg(feature = "cli")]
 
-use crate::common::{contains_all, example, exit_code, exits, exits_with_json, read, run};
+use crate::common::{contains_all, example, exits, exits_with_json, read, run};
 use crate::fold::fold_body;
 use crate::program::{Folder, refused};
 use mceip_check::{check, check_critical, check_presence};
@@ -1096,48 +1096,4 @@ fn the_answer_does_not_depend_on_threads() {
 
     assert!(!by_one.stdout.is_empty());
     assert_eq!(by_one.stdout, by_three.stdout);
-}
-
-/// The text of a mechanical problem with one particle. `friction` is a field with its comma.
-fn system_text(stiffness: &str, friction: &str) -> String {
-    let particles = r#"[{"tangential":0,"normal":1,"state":"slip","sign":1,
-        "reaction":{"tangential":"1","normal":"-1"}}]"#;
-    format!(
-        r#"{{"format":"mceip-problem/1","unknown":"lambda2","system":{{
-            "stiffness":{stiffness},"mass":[[1,0],[0,1]],{friction}"particles":{particles}}}}}"#
-    )
-}
-
-#[test]
-fn bad_input_is_one_line() {
-    let folder = Folder::new();
-    let good = "[[2,0],[0,2]]";
-    let huge = r#"[["1e300",0],[0,"1e300"]]"#;
-    let friction = r#""friction":1,"#;
-    let other_friction = r#""friction":2,"#;
-
-    let nowhere = folder.path("nowhere.json");
-    refused(&["analyze", &nowhere], &["nowhere.json"]);
-    refused(
-        &["analyze", &example("fold")],
-        &["mechanical system", "pencil"],
-    );
-
-    let skew = folder.write("skew.json", &system_text("[[2,1],[0,2]]", friction));
-    refused(&["analyze", &skew], &["E3", "symmetric"]);
-
-    let off_the_cone = folder.write("cone.json", &system_text(good, other_friction));
-    refused(&["analyze", &off_the_cone], &["E7", "particle 0"]);
-
-    let beyond_units = folder.write("units.json", &system_text(huge, friction));
-    refused(&["analyze", &beyond_units], &["K[0][0]", "units"]);
-
-    let fine = folder.write("fine.json", &system_text(good, friction));
-    refused(&["analyze", &fine, "--friction", "-1"], &["--friction"]);
-    refused(&["analyze", &fine, "--threads", "0"], &["--threads"]);
-    refused(
-        &["analyze", &fine, "--certificates", "/dev/null/x"],
-        &["cannot write"],
-    );
-    assert_eq!(exit_code(&["analyze", &fine, "--samples", "3"]), Some(0));
 }

@@ -4,9 +4,7 @@
 //! agreement of the commands: what one writes the next must take, and what was changed it must not.
 #![cfg(feature = "cli")]
 
-use crate::common::{
-    contains_all, example, exit_code, exits, exits_with_json, read, repository, run, solutions_text,
-};
+use crate::common::{contains_all, example, exits, exits_with_json, read, repository, run};
 use crate::corpus_reader::entry;
 use crate::program::Folder;
 use serde_json::Value;
@@ -93,18 +91,6 @@ fn malformed_files() -> Vec<String> {
     names
 }
 
-/// A problem with a particle in contact with zero reaction is well formed. What does not treat it
-/// says so.
-#[test]
-fn zero_reaction_is_refused_where_it_is_not_supported() {
-    let folder = tempfile::tempdir().unwrap();
-    let problem = zero_reaction_problem(folder.path(), "zero-right");
-
-    let expected = ["particle 1", "zero", "not supported"];
-    refused(&["reduce", &problem], &expected);
-    refused(&["complete", &problem, "--infinity"], &expected);
-}
-
 /// Reports on a problem with a particle in contact with zero reaction, by x and by v: each mode is
 /// accepted and certified, what is no solution is refuted by `check` and stays without a
 /// certificate.
@@ -145,40 +131,6 @@ fn reports_with_zero_reaction_are_checked_and_certified() {
 fn remove_x(report: &mut Value) {
     for solution in report["solutions"].as_array_mut().unwrap() {
         solution.as_object_mut().unwrap().remove("x");
-    }
-}
-
-/// The only solution is at 2 with x = (1, 0, 1/4, 0): v_T of particle 1 is 1/4, to the right. What
-/// `certify` refuses it refutes: by a complete set near the value, which `check` accepts.
-#[test]
-fn false_reports_with_zero_reaction_are_refuted() {
-    let folder = Folder::new();
-    let certificate = folder.path("near.json");
-    let case = tempfile::tempdir().unwrap();
-    let problem = zero_reaction_problem(case.path(), "zero-right");
-    let report = |value: &str, x: &str| {
-        let solutions = format!(r#"[{{"value": {value}, "x": {x}}}]"#);
-        folder.write("r.json", &solutions_text(&solutions))
-    };
-
-    // The same motion, v+ and v- both larger by 1.
-    let both_larger = report("2", "[1, 0, 1.25, 1]");
-    contains_all(&exits(0, &["check", &problem, &both_larger]), &["ACCEPTED"]);
-
-    for (value, x) in [
-        ("2", "[1, 0, 0, 0.25]"),
-        ("2", "[1, 0, 0, 0]"),
-        ("2", "[1, 0.25, 0.25, 0]"),
-        ("2.5", "[1, 0, 0.25, 0]"),
-        ("2", "[0, 0, 1, 1]"),
-    ] {
-        let wrong = report(value, x);
-        contains_all(&exits(1, &["check", &problem, &wrong]), &["REJECTED"]);
-
-        let refused = run(&["certify", &problem, &wrong, "--out", &certificate]);
-        assert_eq!(refused.code, Some(1), "{value} {x}: {refused:?}");
-        assert!(refused.stderr.contains("REFUSED"), "{refused:?}");
-        exits(0, &["check", &problem, &certificate]);
     }
 }
 
@@ -293,50 +245,6 @@ fn zero_reaction_problem(folder: &std::path::Path, name: &str) -> String {
     problem.to_str().unwrap().into()
 }
 
-#[test]
-fn options_and_files_are_refused_in_one_line() {
-    let fold = example("fold");
-
-    refused(&["enumerate", "/nowhere.json"], &["/nowhere.json"]);
-    refused(
-        &["enumerate", &fold, "--window", "3,2"],
-        &["--window", "3,2"],
-    );
-    refused(&["enumerate", &fold, "--window=-1,2"], &["--window"]);
-    refused(
-        &["enumerate", &fold, "--window", "-1,2"],
-        &["--window", "-1,2"],
-    );
-
-    refused(&["solve", &fold, "--starts", "0"], &["--starts"]);
-    refused(&["solve", &fold, "--starts", "many"], &["many", "--starts"]);
-    refused(
-        &["solve", &fold, "--certificate", "/nowhere/c.json"],
-        &["/nowhere/c.json"],
-    );
-    refused(
-        &["solve", &fold, "--certificate", &fold],
-        &["--certificate", "input"],
-    );
-
-    refused(
-        &["table1", "--c", "0.5", "--s", "0.5"],
-        &["--s", "c^2 + s^2 = 1"],
-    );
-    refused(&["table1", "--mu", "0"], &["--mu"]);
-    refused(&["table1", "--mu", "-1"], &["--mu", "> 0"]);
-
-    refused(&["block", "--state", "16"], &["--state", "15 or 17"]);
-    refused(
-        &["verify", "--verified", "/nowhere/mceip-verified"],
-        &["/nowhere/mceip-verified", "make -C proofs program"],
-    );
-    refused(&["check", &fold, &fold], &["mceip-certificate/1"]);
-    refused(&["certify", &fold, &fold], &["mceip-solutions/1"]);
-    refused(&["frobnicate"], &["frobnicate"]);
-    assert_eq!(exit_code(&["--help"]), Some(0));
-}
-
 /// A report has this claim and so many solutions.
 #[track_caller]
 fn claims(report: &Value, claim: &str, count: usize) {
@@ -388,37 +296,6 @@ fn the_chain_of_commands() {
             &["check", &example("two-particles"), &certificate],
         );
     }
-}
-
-/// The exit code of `certify` on the fold with these solutions.
-fn certify_fold(solutions: &str) -> Option<i32> {
-    let folder = Folder::new();
-    let report = folder.write("r.json", &solutions_text(solutions));
-    exit_code(&["certify", &example("fold"), &report])
-}
-
-#[test]
-fn foreign_digits_suffice_and_false_ones_do_not() {
-    let rounded = r#"[{"value":2.00000,"x":[0.666667,0.333333]}]"#;
-    assert_eq!(certify_fold(rounded), Some(0));
-
-    // No solution near 2.5; at 2 another x: both are proved, so the report is rejected.
-    let wrong_value = r#"[{"value":2.5,"x":[0.666667,0.333333]}]"#;
-    let wrong_x = r#"[{"value":2,"x":[0.333333,0.666667]}]"#;
-    assert_eq!(certify_fold(wrong_value), Some(1));
-    assert_eq!(certify_fold(wrong_x), Some(1));
-    assert_eq!(certify_fold(r#"[{"value":2,"x":[0,0]}]"#), Some(1));
-
-    assert_eq!(certify_fold("[]"), Some(3));
-    assert_eq!(certify_fold(r#"[{"value":2,"x":[1]}]"#), Some(2));
-    assert_eq!(certify_fold(r#"[{"value":1e999,"x":[1,1]}]"#), Some(2));
-
-    let folder = Folder::new();
-    let of_another_problem =
-        r#"{"format":"mceip-solutions/1","problem_sha256":"00","solutions":[]}"#;
-    let report = folder.write("f.json", of_another_problem);
-
-    exits(1, &["certify", &example("fold"), &report]);
 }
 
 /// The values that the enumerator lists.

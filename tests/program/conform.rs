@@ -600,23 +600,3 @@ fn cases_are_listed_printed_and_run_one_by_one() {
     let one = exits_with_json(1, &["conform", "--case", id, "--json", "--", "true"]);
     assert_eq!(one["cases"], 1, "{one}");
 }
-
-#[test]
-fn an_unknown_case_is_refused() {
-    refused(
-        &["conform", "--print", "no-such-case"],
-        &["--print", "no-such-case", "--list"],
-    );
-    refused(
-        &["conform", "--case", "no-such-case", "--", "true"],
-        &["--case", "no-such-case"],
-    );
-
-    // A pack with some of its cases would look like the pack.
-    let folder = Folder::new();
-    let pack = folder.path("pack");
-    refused(
-        &["conform", "--case", "table1-000", "--write", &pack],
-        &["--case", "--write"],
-    );
-}

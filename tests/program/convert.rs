@@ -234,48 +234,6 @@ fn coordinates_are_kept() {
     assert!(!Path::new(&path).exists());
 }
 
-#[test]
-fn bad_files_are_one_line_and_no_output() {
-    let bench = Bench::new();
-    bench.changed("G.mtx", "skew.mtx", "1 2 -1", "1 2 -2");
-    bench.changed("K.mtx", "indefinite.mtx", "1 1 4", "1 1 -4");
-    bench.changed("M.mtx", "massless.mtx", "3 3 1e-9", "3 3 0");
-    bench.changed("c.csv", "wrong.csv", "slip-", "slip+");
-    bench.changed("c.csv", "off.csv", "0.5000001", "0.8");
-    bench.changed("c.csv", "unknown.csv", "2,3,", "2,11,");
-    bench.changed("c.csv", "unknown-name.csv", "2,3,", "9.1,9.3,");
-    bench.0.write("broken.sti", "1 1 4.0\n5 5 1.0\n");
-
-    for (stiffness, words) in [
-        ("nowhere.mtx", &["nowhere.mtx"][..]),
-        ("skew.mtx", &["E3", "K symmetric"]),
-        ("indefinite.mtx", &["K_ff", "positive definite"]),
-    ] {
-        matrix_market(stiffness, "M.mtx", "c.csv").is_refused(&bench, words);
-    }
-
-    let massless = matrix_market("K.mtx", "massless.mtx", "c.csv");
-    massless.is_refused(&bench, &["M", "positive definite"]);
-
-    for (contacts, words) in [
-        ("wrong.csv", &["wrong.csv", "E7", "line 2"][..]),
-        ("off.csv", &["E7", "0.50000 (mu times", "got 0.80000"]),
-        ("unknown.csv", &["line 2", "normal", "11"]),
-    ] {
-        matrix_market("K.mtx", "M.mtx", contacts).is_refused(&bench, words);
-    }
-
-    calculix("k.sti", "unknown-name.csv").is_refused(&bench, &["9.3"]);
-    calculix("broken.sti", "named.csv").is_refused(&bench, &["broken.sti", "line 2"]);
-    let without_dof = matrix_market("k.sti", "m.mas", "named.csv");
-    without_dof.is_refused(&bench, &["k.sti", "Matrix Market"]);
-
-    // An output that is an input.
-    let args = matrix_market("K.mtx", "M.mtx", "c.csv").args(&bench, "K.mtx");
-    let args: Vec<&str> = args.iter().map(String::as_str).collect();
-    refused(&args, &["--out", "input"]);
-}
-
 /// An obstacle at an angle: as degrees, as its normal, and as a frame in doubles. The printed line
 /// and the comment in the file say what the rotation is.
 #[test]
@@ -303,18 +261,6 @@ fn oblique_obstacles_become_rational_rotations() {
     exits(0, &["analyze", &bench.path("out.json"), "--samples", "0"]);
 }
 
-/// Frames that are no rotations within rounding are refused as they are.
-#[test]
-fn a_frame_that_is_no_rotation_is_refused() {
-    let bench = Bench::new();
-    let frame =
-        r#"[{"tangential":2,"normal":3,"state":"slip","sign":1,"frame":[[0.8,0.6],[-0.6,0.81]]}]"#;
-    bench.0.write("frame.json", frame);
-
-    let conversion = matrix_market("K.mtx", "M.mtx", "frame.json");
-    conversion.is_refused(&bench, &["frame", "rotation"]);
-}
-
 #[test]
 fn rounded_matrices_are_made_symmetric_on_request_only() {
     let bench = Bench::new();
@@ -330,18 +276,6 @@ fn rounded_matrices_are_made_symmetric_on_request_only() {
     let file = read(&bench.path("out.json"));
     assert!(file.contains("K is the mean of the given matrix and its transpose."));
     assert!(file.contains("-2000000000001/2000000000000"), "{file}");
-}
-
-#[test]
-fn a_table_with_semicolons_is_refused_with_the_remedy() {
-    let bench = Bench::new();
-    bench.0.write(
-        "semicolons.csv",
-        "tangential;normal;state;reaction_normal\n2;3;slip-;-0,5\n",
-    );
-
-    let conversion = matrix_market("K.mtx", "M.mtx", "semicolons.csv");
-    conversion.is_refused(&bench, &["semicolons.csv", "commas", "decimal point"]);
 }
 
 /// States that not every command treats are written all the same, as are friction factors.
@@ -415,30 +349,4 @@ fn warnings_travel_with_the_file_until_they_are_accepted() {
         "{without:?}"
     );
     assert!(!read(&page).contains("Warning of convert"));
-}
-
-#[test]
-fn strict_refuses_a_model_with_a_warning_and_no_other() {
-    let bench = Bench::new();
-    bench.changed("M.mtx", "heavy.mtx", "e-9", "e9");
-    let strict = |mass: &str, more: &[&str]| {
-        let mut args = matrix_market("K.mtx", mass, "c.csv").args(&bench, "never.json");
-        args.push("--strict".to_string());
-        args.extend(more.iter().map(ToString::to_string));
-        args
-    };
-
-    let args = strict("heavy.mtx", &[]);
-    let args: Vec<&str> = args.iter().map(String::as_str).collect();
-    refused(&args, &["--strict", "got 1", "the lowest frequency is"]);
-    assert!(!Path::new(&bench.path("never.json")).exists());
-
-    let args = strict("M.mtx", &["--accept-warnings"]);
-    let args: Vec<&str> = args.iter().map(String::as_str).collect();
-    assert_eq!(run(&args).code, Some(2));
-
-    let args = strict("M.mtx", &[]);
-    let args: Vec<&str> = args.iter().map(String::as_str).collect();
-    exits(0, &args);
-    assert!(Path::new(&bench.path("never.json")).exists());
 }

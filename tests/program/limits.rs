@@ -11,59 +11,6 @@ fn edge(name: &str) -> String {
     repository(&format!("tests/edges/{name}"))
 }
 
-#[test]
-fn every_count_of_an_option_has_a_limit() {
-    let fold = example("fold");
-    let point = example("point");
-    for (args, limits) in [
-        (vec!["solve", &fold, "--starts"], "1 to 100000"),
-        (vec!["complete", &fold, "--pieces"], "1 to 100000"),
-        (vec!["complete", &fold, "--threads"], "1 to 1024"),
-        (vec!["analyze", &point, "--samples"], "0 to 10000"),
-        (vec!["analyze", &point, "--boxes"], "0 to 1000000000"),
-        (vec!["simulate", &point, "--steps"], "1 to 1000000"),
-        (vec!["simulate", &point, "--impulses"], "0 to 1000"),
-        (vec!["verify", "--random"], "0 to 1000000000"),
-        (vec!["campaign", "--count"], "0 to 1000000000"),
-        (vec!["campaign", "--seconds"], "0 to 315360000"),
-        (vec!["block", "--lambda2", "3", "--starts"], "1 to 100000"),
-    ] {
-        let option = *args.last().unwrap();
-        let args = [&args[..], &["1000000000001"]].concat();
-        refused(
-            &args,
-            &[option, &format!("expected {limits}"), "1000000000001"],
-        );
-    }
-
-    let count = ["conform", "--count", "1000000000001", "--", "true"];
-    refused(&count, &["--count", "expected 0 to 1000000"]);
-    refused(
-        &["solve", &fold, "--starts", "0"],
-        &["expected 1 to 100000, got \"0\""],
-    );
-    for command in ["complete", "campaign"] {
-        let parts = [command, &fold, "--shard", "1/100001"];
-        let parts = if command == "campaign" {
-            &["campaign", "--count", "1", "--shard", "1/100001"][..]
-        } else {
-            &parts[..]
-        };
-        refused(parts, &["--shard", "n <= 100000"]);
-    }
-    for given in ["0", "-1", "nan"] {
-        let args = [
-            "complete",
-            &fold,
-            "--certificate",
-            "/dev/null",
-            "--checkpoint",
-            given,
-        ];
-        refused(&args, &["--checkpoint", "seconds > 0"]);
-    }
-}
-
 /// A trace of 10^12 starts took all memory and answered no interrupt.
 #[test]
 fn a_trace_of_too_many_starts_is_refused() {

@@ -5,8 +5,8 @@
 //! several solutions fails.
 #![cfg(feature = "cli")]
 
-use crate::common::{contains_all, example, exits, exits_with_json, read, repository};
-use crate::program::{Folder, refused};
+use crate::common::{example, exits, exits_with_json, read, repository};
+use crate::program::Folder;
 use roxmltree::Document;
 use serde_json::Value;
 
@@ -46,23 +46,6 @@ fn certified_modes_grow_as_predicted() {
     }
 }
 
-/// At mu = 1 < 4/3 no solution exists.
-#[test]
-fn proved_absence_is_no_stability() {
-    let point = example("point");
-
-    let text = simulate(0, &[&point, "--friction", "1"]);
-
-    contains_all(
-        &text,
-        &[
-            "No divergence instability of the form (8): proved",
-            "Impulse 1: no growth seen",
-            "absence of (8) is not stability",
-        ],
-    );
-}
-
 /// K* = 0 at mu = 4/3: alpha is linear.
 #[test]
 fn at_the_threshold_the_departure_is_linear() {
@@ -74,13 +57,6 @@ fn at_the_threshold_the_departure_is_linear() {
     let points = mode["points"].as_array().unwrap();
     let end = points.last().unwrap();
     assert!((end[3].as_f64().unwrap() - 2.0).abs() < 1e-9);
-}
-
-#[test]
-fn a_run_without_growth_is_no_agreement() {
-    let text = simulate(3, &[&example("point"), "--duration", "0.1"]);
-
-    assert!(text.contains("TOO SHORT"), "{text}");
 }
 
 /// M* = 1 - 0.9 mu is negative at mu = 2.
@@ -107,36 +83,6 @@ fn where_a_step_may_have_several_solutions_nothing_is_integrated() {
 
     // The same file at mu = 1 has one solution a step.
     simulate(0, &[&file, "--friction", "1"]);
-}
-
-#[test]
-fn what_has_no_motion_is_refused_in_one_line() {
-    let folder = Folder::new();
-    let point = example("point");
-    let broken = folder.write("broken.json", "{");
-
-    refused(
-        &["simulate", &example("fold")],
-        &["expected a mechanical system"],
-    );
-    refused(&["simulate", &broken], &["broken.json"]);
-    refused(
-        &["simulate", "/nowhere/at-all.json"],
-        &["/nowhere/at-all.json"],
-    );
-    refused(&["simulate", &point, "--steps", "0"], &["--steps"]);
-    refused(&["simulate", &point, "--impulses", "1001"], &["--impulses"]);
-    refused(&["simulate", &point, "--friction", "-1"], &["--friction"]);
-    refused(&["simulate", &point, "--duration", "0"], &["--duration"]);
-    refused(&["simulate", &point, "--picture", &point], &["--picture"]);
-    refused(
-        &["simulate", &point, "--picture", "/nowhere/p.svg"],
-        &["/nowhere/p.svg"],
-    );
-    refused(
-        &["simulate", &point, "--duration", "100", "--steps", "1"],
-        &["expected steps shorter than 100"],
-    );
 }
 
 /// The dots of a picture: time and value.
