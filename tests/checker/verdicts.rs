@@ -3,7 +3,7 @@
 //! and open region that is proved. `tests/verdicts.txt` holds it. A line changes only with a
 //! reason; new files of the corpus are added by
 //!
-//!     cargo test --test checker -- --ignored verdicts::write_the_verdicts
+//!     SNAPSHOTS=overwrite cargo test --test checker verdicts
 
 use crate::corpus_reader::{Entry, MALFORMED, entries};
 use mceip_check::certificate::{
@@ -17,11 +17,9 @@ use mceip_exact::Interval;
 use mceip_model::Problem;
 use mceip_model::file::{read_problem, require_format};
 use num_traits::Zero;
+use snapbox::{Assert, Data};
 use std::fmt::Write as _;
 use std::path::Path;
-
-/// The verdicts, from the folder of the package, in which tests run.
-const VERDICTS: &str = "tests/verdicts.txt";
 
 /// A file of the corpus whose certificate can be read.
 struct Case {
@@ -202,23 +200,7 @@ fn rejected_lines(case: &Case, certificate: &Certificate, rejected: &Rejected) -
 
 #[test]
 fn every_verdict_is_the_same_to_the_last_digit() {
-    let expected = std::fs::read_to_string(VERDICTS).unwrap();
-    let got = verdicts();
-
-    let mut wrong = Vec::new();
-    for (expected, got) in expected.lines().zip(got.lines()) {
-        if expected != got {
-            wrong.push(format!("expected {expected}\n     got {got}"));
-        }
-    }
-
-    wrong.truncate(5);
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert_eq!(expected.lines().count(), got.lines().count());
-}
-
-#[test]
-#[ignore = "writes tests/verdicts.txt"]
-fn write_the_verdicts() {
-    std::fs::write(VERDICTS, verdicts()).unwrap();
+    let expected = Data::read_from(Path::new("tests/verdicts.txt"), None).raw();
+    let assert = Assert::new().action_env("SNAPSHOTS");
+    assert.eq(verdicts(), expected);
 }

@@ -22,7 +22,6 @@ mod solver_curves;
 mod solver_hostile;
 mod solver_lemke;
 mod solver_mceip;
-mod solver_measure;
 mod solver_paths;
 mod solver_properties;
 mod solver_textbook;

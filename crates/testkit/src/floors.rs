@@ -220,11 +220,8 @@ fn at_most(found: u64, of: u64, probability: f64) -> f64 {
 ///
 /// ```text
 /// export FLOOR_SEEDS=9001,9002
-/// measure="cargo test --release --test campaign -- --ignored --nocapture"
-/// FLOOR_COUNT=1000 $measure floors::measure_the_families_of_verify
-/// FLOOR_COUNT=200 $measure floors::measure_the_families_of_the_campaign
-/// FLOOR_COUNT=200 $measure floors::measure_the_fuzz_targets
-/// $measure floors::measure_the_block
+/// FLOOR_COUNT=1000 cargo bench --bench floors -- verify
+/// FLOOR_COUNT=200 cargo bench --bench floors -- campaign fuzz block
 /// cargo test --release --test solver -- --ignored --nocapture solver_properties::
 /// ```
 ///

@@ -1,13 +1,15 @@
-//! Measurements of the search, against the exact enumerator; nothing is asserted but that no claim
-//! is made twice.
+//! How many solutions the search finds of those that the exact enumerator lists, and at what cost.
 //!
-//! Printed with `cargo test --release --test solver -- --ignored --nocapture solver_measure::`.
-//! Settings are environment variables: seeds by MEASURE_SEEDS=101,102; MEASURE_ONLY=first for first
-//! starts alone, else a part of the name of a search; a family by MEASURE_FAMILY=mu20; the work of
-//! a search in runs by MEASURE_BUDGET=22.
-#![cfg(feature = "testkit")]
+//! `cargo bench --bench search` prints it for random pencils and for Table 1; `-- pencils` and
+//! `-- table1` for one of them. Settings are environment variables: seeds by MEASURE_SEEDS=101,102;
+//! MEASURE_ONLY=first for first starts alone, else a part of the name of a search; a family by
+//! MEASURE_FAMILY=mu20; the work of a search in runs by MEASURE_BUDGET=22.
+#![allow(clippy::unwrap_used, reason = "a measurement may panic")]
 
-use crate::families::{Case, random_case, table1_cases};
+#[path = "../tests/families/mod.rs"]
+mod families;
+
+use families::{Case, random_case, table1_cases};
 use mceip_engine::multistart::{Certified, Found, Origin, Search, multistart, same, support};
 use mceip_engine::reduction::{Embedding, Side};
 use mceip_engine::run::Watch;
@@ -17,6 +19,19 @@ use mceip_model::{Admissible, Window};
 use mceip_oracle::{Solution, enumerate};
 use std::collections::BTreeMap;
 use std::time::Instant;
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let is_named = |name: &str| words.iter().any(|word| word == name);
+    let is_whole = !is_named("pencils") && !is_named("table1");
+
+    if is_whole || is_named("pencils") {
+        random_pencils();
+    }
+    if is_whole || is_named("table1") {
+        table_one();
+    }
+}
 
 /// What came of the problems of a family.
 #[derive(Default)]
@@ -252,8 +267,6 @@ fn is_left_out(family: &str, n: usize) -> bool {
     }
 }
 
-#[test]
-#[ignore = "a measurement: run on request, in release"]
 fn random_pencils() {
     let families = [
         ("lambda2", 5),
@@ -282,8 +295,6 @@ fn random_pencils() {
     }
 }
 
-#[test]
-#[ignore = "a measurement: run on request, in release"]
 fn table_one() {
     for NamedSearch { name, search } in searches() {
         for seed in seeds() {
