@@ -1,8 +1,8 @@
-//! `certify` from outside: lifted claims, and reports that have to be given up at once. What it
-//! prints of absence stands in `tests/transcripts/certify.md`.
+//! `certify` on a report that has to be given up at once. What it prints of absence stands in
+//! `tests/transcripts/certify.md`.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exit_code, read, run, solutions_text};
+use crate::common::{run, solutions_text};
 use crate::program::Folder;
 use std::time::Instant;
 
@@ -16,23 +16,6 @@ fn certify(code: i32, args: &[&str]) -> String {
     let run = run(&[&["certify"][..], args].concat());
     assert_eq!(run.code, Some(code), "{}", run.stderr);
     run.stderr
-}
-
-#[test]
-fn lifted_claims_are_written_and_checked() {
-    let folder = Folder::new();
-
-    for name in ["two-particles", "oblique", "two-particles-mu"] {
-        let problem = example(name);
-        let listed = run(&["enumerate", &problem, "--json"]).stdout;
-        let listed = folder.write("listed.json", &listed);
-        let lifted = folder.path("lifted.json");
-
-        certify(0, &[&problem, &listed, "--lifted", "--out", &lifted]);
-
-        assert!(read(&lifted).contains("\"lifted_solution\""));
-        assert_eq!(exit_code(&["check", &problem, &lifted]), Some(0));
-    }
 }
 
 /// Entries from 1e-400 to 1e400: an exact decision of a support takes minors of thousands of bits

@@ -1,12 +1,10 @@
-//! `mceip campaign` from outside: exit codes, summary, state file, replay.
+//! `mceip campaign` from outside: exit code and summary. States and replays: `tests/transcripts`.
 //!
-//! A campaign is a function of its seed and its families: its text must not depend on threads, and
-//! its state file must continue the same campaign alone.
+//! A campaign is a function of its seed and its families: its text must not depend on threads.
 #![cfg(feature = "cli")]
 
 use crate::common::{contains_all, exits, exits_with_json};
-use crate::program::{Folder, refused};
-use serde_json::Value;
+use crate::program::Folder;
 use std::path::Path;
 
 #[test]
@@ -43,39 +41,4 @@ fn a_short_campaign_is_clean_and_the_same_on_any_number_of_threads() {
     let report = exits_with_json(0, &[&on_two_threads[..], &["--json"]].concat());
     assert_eq!(report["instances"], 6);
     assert_eq!(report["families"][1]["name"], "degenerate");
-}
-
-/// Goes on from a state file to so many instances of a family; how many there are then.
-#[track_caller]
-fn instances_after(count: &str, state: &str) -> Value {
-    let report = exits_with_json(
-        0,
-        &[
-            "campaign", "--count", count, "--family", "planted", "--state", state, "--json",
-        ],
-    );
-
-    report["instances"].clone()
-}
-
-#[test]
-fn a_state_file_is_gone_on_from() {
-    let folder = Folder::new();
-    let state = folder.path("state.json");
-    assert_eq!(instances_after("2", &state), 2);
-    assert_eq!(instances_after("5", &state), 5);
-    assert_eq!(instances_after("1", &state), 5);
-
-    refused(
-        &[
-            "campaign", "--count", "5", "--family", "planted", "--seed", "2", "--state", &state,
-        ],
-        &["seed 2, got 1"],
-    );
-
-    let broken = folder.write("broken.json", "[]");
-    refused(
-        &["campaign", "--count", "5", "--state", &broken],
-        &["broken.json"],
-    );
 }

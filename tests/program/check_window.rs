@@ -1,9 +1,9 @@
-//! Reports of `complete` and the number of threads say what they are: a report whose word does not
-//! fit its families fails. What `mceip check` prints stands in `tests/transcripts`.
+//! Reports of `complete` say what they are: one whose word does not fit its families fails. What
+//! `mceip check` prints stands in `tests/transcripts`.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits, pencil_problem, read, repository, run};
-use crate::program::{Folder, refused};
+use crate::common::{exits, pencil_problem, read, repository};
+use crate::program::Folder;
 use serde_json::{Value, json};
 
 /// diag(t - 1, t - 1) has a cone at 1: its list of solutions is not all there is.
@@ -40,27 +40,4 @@ fn a_report_with_families_claims_them() {
         let is_valid = validator.is_valid(&under_the_other_word);
         assert_eq!(is_valid, !has_families, "{under_the_other_word}");
     }
-}
-
-#[test]
-fn threads_that_the_machine_does_not_give_are_said() {
-    let fold = example("fold");
-
-    let one = run(&["complete", &fold, "--threads", "1"]);
-    assert_eq!(one.code, Some(0));
-    assert_eq!(one.stderr, "");
-
-    let many = run(&["complete", &fold, "--threads", "200"]);
-    let message = &many.stderr;
-    assert_eq!(many.code, Some(0));
-    assert_eq!(message.lines().count(), 1, "{message}");
-    assert!(
-        message.starts_with("mceip: --threads 200: the machine runs "),
-        "{message}"
-    );
-
-    refused(
-        &["complete", &fold, "--threads", "0"],
-        &["--threads", "1 to 1024"],
-    );
 }

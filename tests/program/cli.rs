@@ -245,59 +245,6 @@ fn zero_reaction_problem(folder: &std::path::Path, name: &str) -> String {
     problem.to_str().unwrap().into()
 }
 
-/// A report has this claim and so many solutions.
-#[track_caller]
-fn claims(report: &Value, claim: &str, count: usize) {
-    assert_eq!(report["claim"], claim);
-    assert_eq!(report["solutions"].as_array().unwrap().len(), count);
-}
-
-/// enumerate -> certify -> check, solve -> check, another problem -> exit 1.
-#[test]
-fn the_chain_of_commands() {
-    let folder = Folder::new();
-
-    for (name, count) in [
-        ("two-particles", 3),
-        ("two-particles-mu", 1),
-        ("fold", 2),
-        ("oblique", 1),
-    ] {
-        let problem = example(name);
-
-        let listed = exits(0, &["enumerate", &problem, "--json"]);
-        claims(&serde_json::from_str(&listed).unwrap(), "complete", count);
-        let report = folder.write("report.json", &listed);
-
-        let certificate = folder.path("certificate.json");
-        exits(0, &["certify", &problem, &report, "--out", &certificate]);
-        let accepted = exits(0, &["check", &problem, &certificate]);
-        assert!(
-            accepted.contains(&format!("ACCEPTED: {count} claim(s)")),
-            "{accepted}"
-        );
-
-        let solved = folder.path("solved.json");
-        let args = [
-            "solve",
-            &problem,
-            "--all",
-            "--json",
-            "--certificate",
-            &solved,
-        ];
-        claims(&exits_with_json(0, &args), "solutions", count);
-        exits(0, &["check", &problem, &solved]);
-
-        // The certificate holds for its own problem alone.
-        let expected = i32::from(name != "two-particles");
-        exits(
-            expected,
-            &["check", &example("two-particles"), &certificate],
-        );
-    }
-}
-
 /// The values that the enumerator lists.
 fn values(problem: &str) -> Vec<String> {
     let report: Value =

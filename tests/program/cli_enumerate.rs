@@ -46,27 +46,6 @@ fn the_enumerator_lists_the_examples_and_names_its_evidence() {
     }
 }
 
-/// The block of support {1} vanishes for every t, and its signs, y = (-t, 0, 1 + 3t) >= 0, allow
-/// t = 0 alone: one solution, and no interval.
-#[test]
-fn a_range_of_one_value_is_a_solution() {
-    let problem = "tests/edges/enumerate-zero-of-one.json";
-    let [enumerated, complete] =
-        ["enumerate", "complete"].map(|command| exits_with_json(0, &[command, problem, "--json"]));
-
-    for report in [&enumerated, &complete] {
-        assert_eq!(report["claim"], "complete");
-        assert_eq!(report["families"], json!([]));
-        assert_eq!(report["continua"], json!([]));
-
-        let solutions = report["solutions"].as_array().unwrap();
-        assert_eq!(solutions.len(), 1);
-        assert_eq!(solutions[0]["value"], "0");
-        assert_eq!(solutions[0]["x"], json!(["0", "1", "0"]));
-        assert_eq!(solutions[0]["y"], json!(["0", "0", "1"]));
-    }
-}
-
 /// A cone at one value and a range of values, by both writers.
 #[test]
 fn families_have_one_shape_in_both_writers() {

@@ -11,23 +11,6 @@ fn edge(name: &str) -> String {
     repository(&format!("tests/edges/{name}"))
 }
 
-/// A trace of 10^12 starts took all memory and answered no interrupt.
-#[test]
-fn a_trace_of_too_many_starts_is_refused() {
-    refused(
-        &["solve", "--replay", &edge("many-starts.trace")],
-        &["--replay", "1 to 100000 starts", "1000000000000"],
-    );
-
-    // Of one start it is run again, and differs in what it lacks.
-    let folder = Folder::new();
-    let text = std::fs::read_to_string(edge("many-starts.trace")).unwrap();
-    let few = text.replace("1000000000000", "1");
-    let few = folder.write("few.trace", &few);
-    let said = exits(1, &["solve", "--replay", &few]);
-    assert!(said.contains("DIFFERENT"), "{said}");
-}
-
 /// "expected a finite start at 1, got NaN" was said of these valid problems.
 #[test]
 fn numbers_beyond_doubles_leave_a_search_undecided() {
