@@ -2,8 +2,9 @@
 //! bottom, and has to be what comes out:
 //!
 //! - a code block with a name, such as "```json report.json", is written to that file;
-//! - in a block "```console" a line `$ mceip ...` is a command, and what follows is its text on
-//!   stdout, its lines on stderr after `! `, and `? 2` for its exit code if that is not 0;
+//! - in a block "```console" a line `$ mceip ...` is a command, split at blanks; what follows is
+//!   its text on stdout, its lines on stderr after `! `, and `? 2` for its exit code if that is not
+//!   0;
 //! - at the end of a command `> report.json` puts its stdout into a file;
 //! - `[ROOT]` is the repository. A line `...` stands for any lines, `[..]` for any part of a line.
 //!

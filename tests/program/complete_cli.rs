@@ -1,15 +1,14 @@
-//! `mceip complete` and the merging of its shards from outside: threads, interrupts, resume,
-//! refusals.
+//! `mceip complete` and the merging of its shards from outside: threads, interrupts, resume.
 //!
 //! The truth is the enumerator, the checker, and the run by one thread without shards: every other
-//! way to the end must give the same certificate or the same set. What is no whole must be refused
-//! by the name of the file or the piece.
+//! way to the end must give the same certificate or the same set. What is refused stands in
+//! `tests/transcripts/complete.md`.
 #![cfg(feature = "cli")]
 
 use crate::common::{example, exits, exits_with_json, problem_text, read, repository, run};
 #[cfg(unix)]
 use crate::interrupt::interrupt;
-use crate::program::{Folder, refused};
+use crate::program::Folder;
 use mceip_model::{Problem, Unknown};
 use mceip_testkit::{known, mechanical_pencil};
 use serde_json::Value;
@@ -188,167 +187,6 @@ fn shards_merged_are_the_single_run() {
         );
         exits(0, &["check", &problem, &merged]);
     }
-}
-
-/// `merge` refuses these parts and options of a problem in one line with these words.
-#[track_caller]
-fn merge_refuses(problem: &str, parts: &[&str], words: &[&str]) {
-    let args = [&["merge", "--problem", problem][..], parts].concat();
-    refused(&args, words);
-}
-
-#[test]
-fn merge_refuses_what_is_no_whole_by_name() {
-    let bench = Bench::new();
-    let problem = bench.random(8);
-    let shards = bench.three_shards(&problem);
-    let [first, second, third] = shards.each_ref().map(String::as_str);
-
-    // A piece that nobody searched.
-    merge_refuses(&problem, &[first, third], &["piece 1 of 16"]);
-    merge_refuses(&problem, &[first, first], &["piece 1 of 16"]);
-    refused(&["merge", first, second, third], &["--problem"]);
-
-    // Certificates of another problem and of another window.
-    let other = bench.random(7);
-    let alien = bench.path("alien.json");
-    exits(0, &["complete", &other, "--certificate", &alien]);
-
-    merge_refuses(
-        &problem,
-        &[first, &alien, third],
-        &["alien.json", "expected problem"],
-    );
-    let narrow = bench.path("narrow.json");
-
-    exits(
-        0,
-        &[
-            "complete",
-            &problem,
-            "--window",
-            "0,1/10",
-            "--certificate",
-            &narrow,
-        ],
-    );
-
-    merge_refuses(
-        &problem,
-        &[first, second, third, &narrow],
-        &["narrow.json", "window", "1/10"],
-    );
-
-    // A part that is cut off, and one whose proof does not hold.
-    let text = read(second);
-    let broken = bench.write("broken.json", &text[..200]);
-    merge_refuses(&problem, &[first, &broken, third], &["broken.json"]);
-    let changed = text.replacen("\"positive_definite\"", "\"negative_definite\"", 1);
-
-    if changed != text {
-        let forged = bench.write("forged.json", &changed);
-        merge_refuses(
-            &problem,
-            &[first, &forged, third],
-            &["forged.json", "definite"],
-        );
-    }
-
-    // A file that is not there, and one of another kind.
-    let missing = bench.path("missing.json");
-    merge_refuses(&problem, &[first, &missing], &["missing.json"]);
-    merge_refuses(&problem, &[first, &problem], &["random-8.json", "format"]);
-
-    // A certificate is never written over an input.
-    merge_refuses(
-        &problem,
-        &[first, second, third, "--certificate", first],
-        &["shard-1-3.json"],
-    );
-}
-
-#[test]
-fn bad_input_is_one_line_and_exit_2() {
-    let bench = Bench::new();
-    let problem = bench.random(6);
-
-    for shard in ["0/3", "4/3", "1", "a/b", "1/0", "-1/3"] {
-        refused(
-            &["complete", &problem, &format!("--shard={shard}")],
-            &["--shard", "1 <= i <= n"],
-        );
-    }
-
-    for window in ["2,1", "-1,2", "x,y", "3"] {
-        refused(
-            &["complete", &problem, &format!("--window={window}")],
-            &["--window"],
-        );
-    }
-
-    for threads in ["0", "1025", "1000000000"] {
-        refused(
-            &["complete", &problem, "--threads", threads],
-            &["--threads", threads, "1024"],
-        );
-    }
-
-    refused(
-        &["complete", &bench.path("nothing.json")],
-        &["nothing.json"],
-    );
-    refused(
-        &["complete", &problem, "--certificate", &problem],
-        &["--certificate"],
-    );
-    refused(
-        &["complete", &problem, "--certificate", "Cargo.toml/out.json"],
-        &["Cargo.toml/out.json"],
-    );
-
-    bad_files_to_resume_from_are_refused(&bench, &problem);
-}
-
-#[track_caller]
-fn bad_files_to_resume_from_are_refused(bench: &Bench, problem: &str) {
-    let certificate = bench.path("certificate.json");
-    exits(0, &["complete", problem, "--certificate", &certificate]);
-
-    let text = read(&certificate);
-
-    let other = bench.random(5);
-    refused(
-        &["complete", &other, "--resume", &certificate],
-        &["expected problem"],
-    );
-    refused(
-        &[
-            "complete",
-            problem,
-            "--window",
-            "0,3",
-            "--resume",
-            &certificate,
-        ],
-        &["window", "[0, 3]"],
-    );
-
-    let cut = bench.write("cut.json", &text[..text.len() / 2]);
-    refused(&["complete", problem, "--resume", &cut], &["cut.json"]);
-
-    let with_two_roots = text.replacen("\"tree\":[", "\"tree\":[\"open\",", 1);
-    let wrong = bench.write("wrong.json", &with_two_roots);
-    refused(
-        &["complete", problem, "--resume", &wrong],
-        &["rejects", "piece 0"],
-    );
-
-    let of_another_format = text.replacen("mceip-certificate/1", "mceip-certificate/9", 1);
-    let none = bench.write("none.json", &of_another_format);
-    refused(
-        &["complete", problem, "--resume", &none],
-        &["none.json", "mceip-certificate/1"],
-    );
 }
 
 /// SIGINT in the middle: what has been proved is kept, checked, and gone on with to the same set.
