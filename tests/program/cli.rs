@@ -4,7 +4,7 @@
 //! agreement of the commands: what one writes the next must take, and what was changed it must not.
 #![cfg(feature = "cli")]
 
-use crate::common::{contains_all, example, exits, exits_with_json, read, repository, run};
+use crate::common::{contains_all, exits, exits_with_json, read, repository, run};
 use crate::corpus_reader::entry;
 use crate::program::Folder;
 use serde_json::Value;
@@ -243,39 +243,6 @@ fn zero_reaction_problem(folder: &std::path::Path, name: &str) -> String {
     let problem = folder.join("problem.json");
     std::fs::write(&problem, entry(&format!("accept/{name}")).problem).unwrap();
     problem.to_str().unwrap().into()
-}
-
-/// The values that the enumerator lists.
-fn values(problem: &str) -> Vec<String> {
-    let report: Value =
-        serde_json::from_str(&run(&["enumerate", problem, "--json"]).stdout).unwrap();
-    let solutions = report["solutions"].as_array().unwrap().iter();
-    let values = solutions.map(|solution| solution["value"].as_str().unwrap());
-
-    values.map(String::from).collect()
-}
-
-#[test]
-fn reduced_and_condensed_problems_have_the_same_solutions() {
-    let folder = Folder::new();
-    let problem = example("two-particles-mu");
-
-    // sqrt(59)/5 / (4/5) = sqrt(59)/4
-    let direct = values(&problem);
-    assert_eq!(direct, ["1.920286436967152"]);
-
-    for args in [
-        &["reduce", &problem][..],
-        &["reduce", &problem, "--condense"],
-    ] {
-        let reduced = folder.write("reduced.json", &run(args).stdout);
-        assert_eq!(values(&reduced), direct);
-    }
-
-    refused(
-        &["reduce", &example("two-particles"), "--condense"],
-        &["E16", "lambda2"],
-    );
 }
 
 #[test]

@@ -1,13 +1,11 @@
-//! `mceip enumerate` from outside: its list, limits, an interrupt; and what `merge` refuses.
-//!
-//! The limits are part of the book; a problem one beyond each of them must be refused with the
-//! limit and its own figure. An interrupted enumeration must not claim to be complete.
+//! `mceip enumerate` from outside: its list, and an interrupt, after which it must not claim to be
+//! complete. Limits: `tests/transcripts/enumerate.md`.
 #![cfg(feature = "cli")]
 
 use crate::common::{example, exits_with_json, pencil_problem};
 #[cfg(unix)]
 use crate::interrupt::interrupt;
-use crate::program::{Folder, refused};
+use crate::program::Folder;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
@@ -26,12 +24,6 @@ fn random_digits(rng: &mut ChaCha8Rng, order: usize) -> Vec<Vec<i64>> {
         rows.push((0..order).map(|_| rng.random_range(-9..=9)).collect());
     }
     rows
-}
-
-/// The sparse identity of a problem file.
-fn identity(order: usize) -> Value {
-    let entries: Vec<Value> = (0..order).map(|i| json!([i, i, 1])).collect();
-    json!({ "rows": order, "cols": order, "entries": entries })
 }
 
 #[test]
@@ -70,43 +62,6 @@ fn families_have_one_shape_in_both_writers() {
             }
         }
     }
-}
-
-#[test]
-fn limits_and_options_are_refused_in_one_line() {
-    let folder = Folder::new();
-    let problem = example("fold");
-
-    for order in [17, 70] {
-        let pencil = json!({ "a": identity(order), "b": identity(order), "free": [] });
-        let large = write_problem(&folder, "large.json", pencil);
-        refused(
-            &["enumerate", &large],
-            &["16 slip variables", &order.to_string()],
-        );
-    }
-
-    let free: Vec<usize> = (0..17).collect();
-    let pencil = json!({ "a": identity(18), "b": identity(18), "free": free });
-    let many_free = write_problem(&folder, "free.json", pencil);
-
-    refused(&["enumerate", &many_free], &["16 free variables", "17"]);
-
-    let digits = format!("1{}", "0".repeat(3000));
-    let a = json!([[digits, 1], [1, digits]]);
-    let pencil = json!({ "a": a, "b": [[1, 0], [0, 1]], "free": [] });
-    let long = write_problem(&folder, "long.json", pencil);
-
-    refused(
-        &["enumerate", &long],
-        &["bits of a determinant's coefficients", "8192"],
-    );
-
-    refused(&["enumerate", &problem, "--window", "3,2"], &["--window"]);
-    refused(&["enumerate", &problem, "--window", "-1,2"], &["--window"]);
-    refused(&["enumerate", &problem, "--screened"], &["--screened"]);
-    refused(&["merge", "--problem", &problem], &["PARTS"]);
-    refused(&["merge", &problem], &["--problem"]);
 }
 
 /// SIGINT: exit 130, and what was found is printed with how far the enumeration came.

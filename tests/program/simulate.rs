@@ -59,32 +59,6 @@ fn at_the_threshold_the_departure_is_linear() {
     assert!((end[3].as_f64().unwrap() - 2.0).abs() < 1e-9);
 }
 
-/// M* = 1 - 0.9 mu is negative at mu = 2.
-#[test]
-fn where_a_step_may_have_several_solutions_nothing_is_integrated() {
-    let folder = Folder::new();
-    let coupled = read(&example("point")).replace(
-        r#"[["1", "0"], ["0", "1"]]"#,
-        r#"[["1", "0.9"], ["0.9", "1"]]"#,
-    );
-    let file = folder.write("coupled.json", &coupled);
-
-    let text = simulate(3, &[&file, "--friction", "2"]);
-    assert!(
-        text.contains("NOT INTEGRATED: M* has a principal minor"),
-        "{text}"
-    );
-    assert!(text.contains("slip particles [0]"), "{text}");
-
-    let motion = simulate_json(3, &[&file, "--friction", "2"]);
-    assert_eq!(motion["solutions_of_a_step"], "several");
-    assert_eq!(motion["minor"][0], 0);
-    assert_eq!(motion["impulses"].as_array().unwrap().len(), 0);
-
-    // The same file at mu = 1 has one solution a step.
-    simulate(0, &[&file, "--friction", "1"]);
-}
-
 /// The dots of a picture: time and value.
 fn dots(svg: &str) -> Vec<(f64, f64)> {
     let tree = Document::parse(svg).unwrap();
