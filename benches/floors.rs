@@ -10,7 +10,8 @@
 mod solver_targets;
 
 use mceip_engine::multistart::Search;
-use mceip_engine::reduction::{condense, reduce};
+use mceip_engine::reduction::condense;
+use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Unknown};
 use mceip_paper::{Block, MassKind, PublishedState};
 use mceip_testkit::campaign::{FAMILIES, Id, case, treatment};
