@@ -467,8 +467,7 @@ impl Row<'_> {
         let frame = match (angle, x, y) {
             (None, None, None) => None,
             (Some(angle), None, None) => {
-                let turn = whole(360);
-                let within_a_turn = &angle - &turn * (&angle / &turn).floor();
+                let within_a_turn = &angle - whole(360) * (&angle / whole(360)).trunc();
                 let frame = rotation_by_degrees(to_f64(&within_a_turn));
                 Some(frame.ok_or_else(|| self.unexpected(Column::Angle, "degrees"))?)
             }
@@ -775,6 +774,14 @@ mod tests {
 
     #[test]
     fn oblique_obstacles_by_angle_or_by_normal() {
+        let turned = read("tangential,normal,state,angle\n0,1,slip+,1e30\n").unwrap();
+        let frame = turned[0].frame.clone().unwrap();
+        let degrees = crate::angle_in_degrees(&frame);
+        assert!(
+            (degrees + 80.0).abs() < 1e-9,
+            "10^30 = 280 modulo 360: {degrees}"
+        );
+
         let by_angle = read("tangential,normal,state,angle\n0,1,slip+,30\n").unwrap();
         let frame = by_angle[0].frame.clone().unwrap();
         assert!((to_f64(&frame[0][0]) - 0.75_f64.sqrt()).abs() < 1e-11);
@@ -852,6 +859,13 @@ mod tests {
 
     #[test]
     fn malformed_tables_name_line_and_column() {
+        assert!(matches!(
+            read(""),
+            Err(ContactsError::MissingColumn {
+                column: "tangential",
+                ..
+            })
+        ));
         assert!(matches!(
             read("tangential,normal\n0,1\n"),
             Err(ContactsError::MissingColumn {
