@@ -34,6 +34,7 @@
 //! | read or make a problem | [`Problem::read`], [`Problem::from_matrices`], [`Problem::from_pencil`] |
 //! | find solutions | [`Problem::solve`] |
 //! | find all solutions, or prove that there are none | [`Problem::complete`] |
+//! | list all solutions of a small problem by plain enumeration | [`Problem::enumerate`] |
 //! | know whether an equilibrium can diverge, and from which friction on | [`Problem::analyze`] |
 //! | prove a solution that you have computed | [`Problem::certify`] |
 //! | check a certificate | [`check`](check()) |

@@ -9,10 +9,8 @@ mod report;
 use super::common::{CliError, exit, load, positive, print, require_count, require_threads};
 use super::job::Job;
 use super::output::Output;
-use mceip_engine::report::Listed;
-use mceip_engine::search::complete::{Completed, Options, complete};
+use crate::SolutionSet;
 use mceip_exact::to_f64;
-use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Particle, Problem, System, Unknown, Window};
 use mceip_motion::{
     AfterImpulse, Agreement, Equations, Mode, MotionClass, Plan, StepSolutions, Stepper, along_mode,
@@ -73,26 +71,28 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let output = Output::prepare_if("picture", args.picture.as_deref(), &[&args.file])?;
 
     let job = Job::begin("searching");
-    let options = Options {
-        threads: args.threads,
-        ..Options::default()
-    };
     let lambda2 = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
-    let completed = job.watched(|watch| complete(&lambda2, &options, watch))?;
+    let lambda2 = crate::Problem::from(lambda2);
+    let search = lambda2.complete().cancel(job.cancel());
+    let mut search = search.on_progress(|progress| job.say(progress));
+    if let Some(threads) = args.threads {
+        search = search.threads(threads);
+    }
+    let set = search.run()?;
     let mut simulation = Simulation {
         name: problem.name.clone(),
         problem_sha256: lambda2.sha256(),
         solutions_of_a_step: Stepper::new(&equations, 0.0)?.solutions(),
         slip_particles: equations.slip_particles().to_vec(),
-        is_complete: completed.is_complete(),
-        families: completed.cover.families.len(),
+        is_complete: set.is_complete(),
+        families: set.families().len(),
         modes: Vec::new(),
         impulses: Vec::new(),
         is_interrupted: false,
     };
 
     if simulation.solutions_of_a_step == StepSolutions::One {
-        simulation.modes = along_modes(args, duration, &lambda2, &completed, &equations, &job)?;
+        simulation.modes = along_modes(args, duration, &set, &equations, &job)?;
         simulation.impulses = after_impulses(args, &equations, &job)?;
     }
     simulation.is_interrupted = job.is_cancelled();
@@ -140,22 +140,24 @@ fn require_counts(args: &Args) -> Result<(), CliError> {
 fn along_modes(
     args: &Args,
     duration: Option<f64>,
-    problem: &Problem,
-    completed: &Completed,
+    set: &SolutionSet,
     equations: &Equations,
     job: &Job,
 ) -> Result<Vec<SimulatedMode>, CliError> {
-    let reduced = reduce(problem)?;
     let unit = equations.longest_period()?;
 
     let mut modes = Vec::new();
-    for (proved, listed) in Listed::of_cover(problem, &reduced, completed) {
+    for solution in set.solutions() {
         if job.is_cancelled() {
             break;
         }
 
         job.say(format!("mode {}", modes.len() + 1));
-        let mode = mode_of(&listed, equations)?;
+        let v = solution.v.as_deref().unwrap_or_default();
+        let mode = Mode {
+            lambda2: solution.value,
+            displacement: equations.coordinates(v)?,
+        };
         let plan = Plan {
             duration: duration.unwrap_or_else(|| mode.usual_duration(unit)),
             steps: args.steps,
@@ -163,26 +165,14 @@ fn along_modes(
 
         let growth = along_mode(equations, &mode, plan)?;
         modes.push(SimulatedMode {
-            lambda2: proved.value.clone(),
+            lambda2: solution.enclosure.clone(),
             rate: mode.rate(),
-            support: proved.support.clone(),
+            support: solution.support.clone(),
             growth,
         });
     }
 
     Ok(modes)
-}
-
-/// The mode in doubles.
-fn mode_of(listed: &Listed, equations: &Equations) -> Result<Mode, CliError> {
-    let double = |decimal: &String| decimal.parse().unwrap_or(f64::NAN);
-    let lifted = listed.lifted.as_ref();
-    let v: Vec<f64> = lifted.map_or_else(Vec::new, |(v, _)| v.iter().map(double).collect());
-
-    Ok(Mode {
-        lambda2: double(&listed.value),
-        displacement: equations.coordinates(&v)?,
-    })
 }
 
 /// The motions that random impulses set off.

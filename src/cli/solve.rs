@@ -14,18 +14,14 @@ use super::common::{CliError, aside, exit, print, require_count, text};
 use super::job::Job;
 use super::output::Output;
 use super::question::{Question, load_question};
-use mceip_check::Proved;
-use mceip_check::certificate::Claim;
+use crate::{Error, Found, Problem};
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
-use mceip_engine::certify::Preference;
 use mceip_engine::lcp::MCP_FORMAT;
-use mceip_engine::multistart::{
-    Found, MAX_STARTS, SearchError, multistart, support, trace_outcome,
-};
-use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
+use mceip_engine::multistart::{self, MAX_STARTS, SearchError, support, trace_outcome};
+use mceip_engine::report::Claimed;
+use mceip_model::Pencil;
 use mceip_model::file::require_format;
 use mceip_model::reduction::reduce;
-use mceip_model::{Pencil, Problem};
 use search::search_of;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -84,63 +80,55 @@ fn refuse_check(args: &Args) -> Result<(), CliError> {
 /// Searches, certifies and prints an `mceip-problem/1`.
 fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     let problem = match load_question(file, args.window.as_deref())? {
-        Question::Problem(problem) => *problem,
+        Question::Problem(problem) => Problem::from(*problem),
         Question::NoSolution(answer) => {
             return answer.print(args.json, args.certificate.as_deref());
         }
     };
     let output = Output::prepare_if("certificate", args.certificate.as_deref(), &[file])?;
     let trace_output = Output::prepare_if("trace", args.trace.as_deref(), &[file])?;
-    let reduced = reduce(&problem)?;
-    let mut search = search_of(args.starts, args.seed, args.all, args.trace.is_some());
-    if args.exact {
-        search.preference = Preference::Exact;
-    }
 
     let job = Job::begin("searching");
-    let searched = job.watched(|watch| multistart(&problem, &reduced, &search, watch));
+    let mut search = search_of(&problem, args.starts, args.seed, args.all);
+    if args.exact {
+        search = search.exact();
+    }
+    if args.trace.is_some() {
+        search = search.trace();
+    }
+    let searched = search
+        .cancel(job.cancel())
+        .on_progress(|progress| job.say(progress));
+    let searched = searched.run();
     job.end();
 
     let found = match searched {
-        Err(e @ SearchError::BeyondDoubles { .. }) => return undecided(args, &e),
+        Err(Error::Solve(e @ SearchError::BeyondDoubles { .. })) => return undecided(args, &e),
         searched => searched?,
     };
 
     if let Some(output) = trace_output
-        && !found.interrupted
+        && !found.is_cancelled
     {
-        let header = trace::Header::new(&problem, &search, args.all);
-        output.write(&trace::render(&header, &found))?;
+        output.write(&trace::text_of(&problem, &found, args.all))?;
     }
 
-    let claims: Vec<Claim> = found.certified.iter().map(|c| c.claim.clone()).collect();
-    let is_found = !claims.is_empty();
+    let is_found = !found.solutions.is_empty();
     if let Some(output) = output
         && is_found
     {
-        output.write_proved(&Proved::claims(&problem, claims.clone())?)?;
+        output.write_proved(found.certificates())?;
     }
 
-    let listed = claims.iter();
-    let listed = listed.map(|claim| Listed::of_claim(&problem, &reduced, claim));
-    let report = Report {
-        problem: &problem,
-        reduced: &reduced,
-        solutions: listed.collect(),
-        claim: Claimed::Solutions,
-        evidence: evidence(args, &found),
-        enumeration: None,
-        cover: None,
-    };
     let text = if args.json {
-        format!("{}\n", solutions_json(&report))
+        format!("{}\n", found.to_json())
     } else {
-        solutions_text(&report)
+        found.to_string()
     };
-    print_asides(args, &problem, &reduced.pencil, &found);
+    print_asides(args, &problem, &found)?;
     print(&text)?;
 
-    Ok(if found.interrupted {
+    Ok(if found.is_cancelled {
         exit::INTERRUPTED
     } else if is_found {
         exit::DONE
@@ -168,52 +156,34 @@ fn undecided(args: &Args, reason: &SearchError) -> Result<u8, CliError> {
 }
 
 /// What goes to stderr: points without a certificate, singular supports, the first run's log.
-fn print_asides(args: &Args, problem: &Problem, pencil: &Pencil, found: &Found) {
+fn print_asides(args: &Args, problem: &Problem, found: &Found) -> Result<(), CliError> {
+    let pencil = reduce(problem.as_model())?.pencil;
+    let run = found.as_run();
     let word = problem.unknown().word();
     for point in &found.uncertified {
         let value = point.candidate.value;
         aside(&format!("uncertified: {word} = {value}: {}", point.reason));
     }
 
-    for support in singular_supports(pencil, found) {
+    for support in singular_supports(&pencil, run) {
         aside(&format!(
             "singular pencil: support {support:?} has more values than its order: every value is \
              an eigenvalue, those listed are examples"
         ));
     }
 
-    if let Some(first) = &found.first
+    if let Some(first) = &run.first
         && args.log
     {
         aside(trace_outcome(first).trim_end_matches('\n'));
     }
-}
 
-/// What the search was and how it went.
-fn evidence(args: &Args, found: &Found) -> String {
-    let search = if found.interrupted {
-        "an interrupted search of "
-    } else {
-        ""
-    };
-
-    format!(
-        "{} certified found in {search}{} runs (seed {}, {} pivots, {} factorisations, {} repeats, \
-         {} outside the window, endings {:?}); completeness unknown",
-        found.certified.len(),
-        found.runs,
-        args.seed,
-        found.pivots,
-        found.factorisations,
-        found.repeated,
-        found.outside,
-        found.terminations
-    )
+    Ok(())
 }
 
 /// Supports with more certified values than a determinant of their order has roots: it vanishes
 /// identically.
-fn singular_supports(pencil: &Pencil, found: &Found) -> Vec<Vec<usize>> {
+fn singular_supports(pencil: &Pencil, found: &multistart::Found) -> Vec<Vec<usize>> {
     let mut counts: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
     for certified in &found.certified {
         let support = support(&certified.claim).to_vec();

@@ -8,6 +8,8 @@ use mceip_engine::certify::NotCertified;
 use mceip_engine::multistart::SearchError;
 #[cfg(feature = "solver")]
 use mceip_engine::search::complete::CompleteError;
+#[cfg(feature = "solver")]
+use mceip_oracle::OracleError;
 
 use mceip_check::Rejected;
 use mceip_model::ModelError;
@@ -48,6 +50,10 @@ pub enum Error {
     #[cfg(feature = "solver")]
     #[error(transparent)]
     Solve(#[from] SearchError),
+    /// The enumerator refuses the problem.
+    #[cfg(feature = "solver")]
+    #[error(transparent)]
+    Enumerate(#[from] OracleError),
     /// The complete search refuses the problem.
     #[cfg(feature = "solver")]
     #[error(transparent)]

@@ -6,6 +6,8 @@ mod analyze;
 mod certify;
 #[cfg(feature = "solver")]
 mod complete;
+#[cfg(feature = "solver")]
+mod enumerate;
 mod error;
 mod matrix;
 mod problem;
@@ -22,6 +24,8 @@ pub use analyze::Analyze;
 pub use certify::Certified;
 #[cfg(feature = "solver")]
 pub use complete::{Complete, SolutionSet};
+#[cfg(feature = "solver")]
+pub use enumerate::{Enumerate, Enumerated};
 pub use error::Error;
 pub use matrix::Matrix;
 pub use problem::{Problem, check};

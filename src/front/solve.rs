@@ -4,13 +4,17 @@ use super::error::Error;
 use super::problem::Problem;
 use super::run::Watched;
 use super::solution::Solution;
+use crate::say;
 use mceip_check::Proved;
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_engine::certify::Preference;
-use mceip_engine::multistart::{Search, Uncertified, multistart};
-use mceip_engine::report::Listed;
+use mceip_engine::multistart::{self, Search, Uncertified, multistart};
+use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_engine::run::{Cancel, Progress};
+use mceip_model::Reduced;
 use mceip_model::reduction::reduce;
+use serde_json::Value;
+use std::fmt;
 
 /// A search for solutions; see [`Problem::solve`].
 pub struct Solve<'a> {
@@ -33,6 +37,11 @@ pub struct Found {
     /// Was the search cancelled?
     pub is_cancelled: bool,
     certificates: Vec<Proved<Certificate>>,
+    problem: mceip_model::Problem,
+    reduced: Reduced,
+    listed: Vec<Listed>,
+    search: Search,
+    run: multistart::Found,
 }
 
 impl Found {
@@ -40,6 +49,40 @@ impl Found {
     /// solutions cost more together than the checker allows for one file.
     pub fn certificates(&self) -> &[Proved<Certificate>] {
         &self.certificates
+    }
+
+    /// The solutions as `mceip-solutions/1`.
+    pub fn to_json(&self) -> Value {
+        solutions_json(&self.report())
+    }
+
+    /// What the search has found, as the engine has it.
+    pub fn as_run(&self) -> &multistart::Found {
+        &self.run
+    }
+
+    /// How was searched.
+    pub fn search(&self) -> &Search {
+        &self.search
+    }
+
+    fn report(&self) -> Report<'_> {
+        Report {
+            problem: &self.problem,
+            reduced: &self.reduced,
+            solutions: self.listed.clone(),
+            claim: Claimed::Solutions,
+            evidence: say::search::evidence(&self.run, self.search.seed),
+            enumeration: None,
+            cover: None,
+        }
+    }
+}
+
+/// A table of the solutions, and what the search was.
+impl fmt::Display for Found {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&solutions_text(&self.report()))
     }
 }
 
@@ -90,6 +133,12 @@ impl<'a> Solve<'a> {
         self
     }
 
+    /// Keeps the log of every run: [`Found::as_run`].
+    pub fn trace(mut self) -> Self {
+        self.search.trace = true;
+        self
+    }
+
     /// Gives every solution an exact value where that can be had, also where a box is cheaper.
     pub fn exact(mut self) -> Self {
         self.search.preference = Preference::Exact;
@@ -117,26 +166,33 @@ impl<'a> Solve<'a> {
         let problem = self.problem.as_model();
         let reduced = reduce(problem)?;
         let watch = self.watched.watch();
-        let found = multistart(problem, &reduced, &self.search, &watch)?;
+        let run = multistart(problem, &reduced, &self.search, &watch)?;
 
-        let claims: Vec<Claim> = found.certified.iter().map(|c| c.claim.clone()).collect();
+        let claims: Vec<Claim> = run.certified.iter().map(|c| c.claim.clone()).collect();
         let certificates = Proved::claims(problem, claims)?;
 
         let mut solutions = Vec::new();
+        let mut all_listed = Vec::new();
         for file in &certificates {
             let proved = file.accepted().claims.iter();
             for (proved, claim) in proved.zip(&file.certificate().claims) {
                 let listed = Listed::of_claim(problem, &reduced, claim);
                 solutions.push(Solution::new(problem.unknown(), proved, &listed));
+                all_listed.push(listed);
             }
         }
 
         Ok(Found {
             solutions,
-            uncertified: found.uncertified,
-            runs: found.runs,
-            is_cancelled: found.interrupted,
+            uncertified: run.uncertified.clone(),
+            runs: run.runs,
+            is_cancelled: run.interrupted,
             certificates,
+            problem: problem.clone(),
+            reduced,
+            listed: all_listed,
+            search: self.search,
+            run,
         })
     }
 }

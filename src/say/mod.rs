@@ -4,3 +4,5 @@
 //! and every sentence about them is made here. Called by the front door and the program.
 
 pub(crate) mod cover;
+pub(crate) mod enumeration;
+pub(crate) mod search;

@@ -1,25 +1,13 @@
 //! The searches that the options ask for: of an eigenproblem, and of a plain LCP or MCP.
 
+use crate::{Problem, Solve};
 use mceip_engine::lcp;
-use mceip_engine::multistart::Search;
 use mceip_mcp::solver::Options;
 
 /// The search that the options ask for.
-pub(super) fn search_of(starts: usize, seed: u64, all: bool, trace: bool) -> Search {
-    let window_starts = if all {
-        Search::default().window_starts
-    } else {
-        0
-    };
-
-    Search {
-        starts,
-        window_starts,
-        curves: all,
-        seed,
-        trace,
-        ..Search::default()
-    }
+pub(super) fn search_of(problem: &Problem, starts: usize, seed: u64, all: bool) -> Solve<'_> {
+    let search = problem.solve().starts(starts).seed(seed);
+    if all { search.all() } else { search }
 }
 
 /// The same of a plain problem.

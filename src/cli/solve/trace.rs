@@ -4,12 +4,11 @@
 use super::super::common::{CliError, exit, print, text};
 use super::super::job::Job;
 use super::search::{plain_search_of, search_of};
+use crate::{Found, Problem};
 use mceip_engine::lcp;
-use mceip_engine::multistart::{Found, MAX_STARTS, Search, SearchError, multistart};
+use mceip_engine::multistart::{self, MAX_STARTS, Search, SearchError};
 use mceip_engine::run::Watch;
-use mceip_model::Problem;
-use mceip_model::file::{from_json, read_problem, require_format, write_problem};
-use mceip_model::reduction::reduce;
+use mceip_model::file::{from_json, read_problem, require_format};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -33,7 +32,7 @@ pub(super) struct Header {
 
 impl Header {
     /// Of an eigenproblem.
-    pub(super) fn new(problem: &Problem, search: &Search, all: bool) -> Header {
+    fn new(problem: &Problem, search: &Search, all: bool) -> Header {
         Header {
             format: TRACE_FORMAT.into(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -41,7 +40,7 @@ impl Header {
             seed: search.seed,
             all,
             options: format!("{:?}", search.options),
-            problem: write_problem(problem),
+            problem: problem.to_json(),
         }
     }
 
@@ -79,8 +78,12 @@ fn first_line(header: &Header) -> String {
     format!("{head}\n")
 }
 
-/// The whole trace.
-pub(super) fn render(header: &Header, found: &Found) -> String {
+/// The whole trace of a search.
+pub(super) fn text_of(problem: &Problem, found: &Found, all: bool) -> String {
+    render(&Header::new(problem, found.search(), all), found.as_run())
+}
+
+fn render(header: &Header, found: &multistart::Found) -> String {
     let mut out = first_line(header);
     out.extend(found.trace.iter().map(String::as_str));
     for solution in &found.certified {
@@ -128,7 +131,7 @@ pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
     let again = if is_plain {
         job.watched(|watch| repeat_plain(&header, path, watch))?
     } else {
-        job.watched(|watch| repeat(&header, path, watch))?
+        repeat(&header, path, &job)?
     };
     job.end();
 
@@ -162,16 +165,18 @@ fn read_header(recorded: &str, path: &Path) -> Result<Header, CliError> {
 }
 
 /// Makes the trace of a header's eigenproblem again.
-fn repeat(header: &Header, path: &Path, watch: &Watch<'_>) -> Result<Repeated, CliError> {
+fn repeat(header: &Header, path: &Path, job: &Job) -> Result<Repeated, CliError> {
     let problem = read_problem(&header.problem, Path::new("."));
-    let problem = problem.map_err(|e| CliError::file(path, e))?;
-    let search = search_of(header.starts, header.seed, header.all, true);
-    let reduced = reduce(&problem)?;
-    let found = multistart(&problem, &reduced, &search, watch)?;
+    let problem = Problem::from(problem.map_err(|e| CliError::file(path, e))?);
+    let search = search_of(&problem, header.starts, header.seed, header.all).trace();
+    let search = search
+        .cancel(job.cancel())
+        .on_progress(|progress| job.say(progress));
+    let found = search.run()?;
 
-    let again = Header::new(&problem, &search, header.all);
+    let again = Header::new(&problem, found.search(), header.all);
     Ok(Repeated {
-        trace: render(&in_old_words(again, header), &found),
+        trace: render(&in_old_words(again, header), found.as_run()),
         runs: found.runs,
     })
 }

@@ -1,0 +1,24 @@
+//! What a search from many starts was, in words.
+
+use mceip_engine::multistart::Found;
+
+/// What the search was and how it went.
+pub(crate) fn evidence(found: &Found, seed: u64) -> String {
+    let search = if found.interrupted {
+        "an interrupted search of "
+    } else {
+        ""
+    };
+
+    format!(
+        "{} certified found in {search}{} runs (seed {seed}, {} pivots, {} factorisations, {} repeats, \
+         {} outside the window, endings {:?}); completeness unknown",
+        found.certified.len(),
+        found.runs,
+        found.pivots,
+        found.factorisations,
+        found.repeated,
+        found.outside,
+        found.terminations
+    )
+}
