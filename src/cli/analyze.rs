@@ -11,8 +11,9 @@ use super::common::{CliError, exit, number, print, require_count, require_thread
 use super::job::{CHECKPOINT, Job};
 use super::output::{Output, folder_of, make_writable};
 use super::question::load_system;
-use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, Options, analyse};
-use mceip_engine::run::{Keeper, Kept};
+use crate::Analyze;
+use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, Options};
+use mceip_engine::run::Kept;
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
 use mceip_model::System;
@@ -74,12 +75,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let friction = friction(args, &file)?;
     require_threads(args.threads)?;
     require_count("boxes", args.boxes as u64, 0..=MAX_BOXES)?;
-    let mut options = Options {
-        samples: samples(args, system)?,
-        threads: args.threads,
-        ..Options::default()
-    };
-    options.limits.boxes = args.boxes;
+    let samples = samples(args, system)?;
 
     let keeping = match &args.certificates {
         Some(folder) => Some(Proofs::prepare(folder, &args.file)?),
@@ -91,20 +87,21 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 
     let job = Job::begin("reading");
-    let name = file.name.clone();
-    let keep = |kept: &Kept<'_>| {
-        let written = keeping.as_ref().map(|proofs| proofs.keep(kept));
-        if let Some(Err(e)) = written {
-            job.note(&format!("mceip: {e}; it is written again at the end"));
-        }
-    };
-    let keeper = keeping.as_ref().map(|_| Keeper::new(CHECKPOINT, &keep));
-    let mut analysis = job.watched(|watch| {
-        let watch = watch.kept_by(keeper);
-        analyse(name, system, &friction, &options, &watch)
-    })?;
+    let question = Analyze::from(&file).friction(friction).samples(samples);
+    let question = question.boxes(args.boxes).cancel(job.cancel());
+    let mut question = question.on_progress(|progress| job.say(progress));
+    if let Some(threads) = args.threads {
+        question = question.threads(threads);
+    }
+    if let Some(proofs) = &keeping {
+        question = question.keep(CHECKPOINT, |kept| {
+            if let Err(e) = proofs.keep(kept) {
+                job.note(&format!("mceip: {e}; it is written again at the end"));
+            }
+        });
+    }
+    let analysis = question.run()?;
     job.end();
-    analysis.warnings.clone_from(&file.warnings);
 
     let paths = match &keeping {
         Some(proofs) => proofs.write_all(&analysis)?,

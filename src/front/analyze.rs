@@ -5,13 +5,20 @@ use super::error::Error;
 use super::problem::Problem;
 use super::run::Watched;
 use mceip_engine::analysis::{Analysis, Options, analyse};
-use mceip_engine::run::{Cancel, Progress};
+use mceip_engine::run::{Cancel, Kept, Progress};
 use mceip_exact::Rational;
-use mceip_model::Body;
+use mceip_model::file::SystemFile;
+use mceip_model::{Body, System};
+use std::time::Duration;
 
 /// An analysis; see [`Problem::analyze`].
 pub struct Analyze<'a> {
-    problem: &'a Problem,
+    /// None for a pencil.
+    system: Option<&'a System>,
+    /// The friction coefficient of the file.
+    own_friction: Option<&'a Rational>,
+    name: Option<String>,
+    warnings: &'a [String],
     friction: Option<Rational>,
     options: Options,
     watched: Watched<'a>,
@@ -30,8 +37,32 @@ impl Problem {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn analyze(&self) -> Analyze<'_> {
+        let problem = self.as_model();
+        let system = match problem.body() {
+            Body::System(system) => Some(system),
+            Body::Pencil(_) => None,
+        };
+
         Analyze {
-            problem: self,
+            system,
+            own_friction: system.and_then(System::friction),
+            name: problem.name.clone(),
+            warnings: &problem.warnings,
+            friction: None,
+            options: Options::default(),
+            watched: Watched::default(),
+        }
+    }
+}
+
+/// The analysis of a file that need not be a problem: mu = 0, or nothing slips.
+impl<'a> From<&'a SystemFile> for Analyze<'a> {
+    fn from(file: &'a SystemFile) -> Analyze<'a> {
+        Analyze {
+            system: Some(&file.system),
+            own_friction: file.friction.as_ref(),
+            name: file.name.clone(),
+            warnings: &file.warnings,
             friction: None,
             options: Options::default(),
             watched: Watched::default(),
@@ -53,6 +84,12 @@ impl<'a> Analyze<'a> {
         self
     }
 
+    /// Boxes of a piece of a cover of lambda^2 and mu, at most.
+    pub fn boxes(mut self, boxes: usize) -> Self {
+        self.options.limits.boxes = boxes;
+        self
+    }
+
     /// Threads, at most 1024; all cores if not said. The answer does not depend on it.
     pub fn threads(mut self, threads: usize) -> Self {
         self.options.threads = Some(threads);
@@ -71,22 +108,25 @@ impl<'a> Analyze<'a> {
         self
     }
 
+    /// Hands over what is proved so far: each proof when it is made, and what a long search has
+    /// proved about as often as said.
+    pub fn keep(mut self, every: Duration, keep: impl Fn(&Kept<'_>) + Sync + 'a) -> Self {
+        self.watched.keep(every, keep);
+        self
+    }
+
     /// Analyses.
     ///
     /// # Errors
     /// [`Error::NotASystem`] for a pencil, [`Error::NoFriction`], and [`Error::Analyze`].
     pub fn run(self) -> Result<Analysis, Error> {
-        let problem = self.problem.as_model();
-        let Body::System(system) = problem.body() else {
-            return Err(Error::NotASystem);
-        };
-        let given = self.friction.as_ref();
-        let friction = given.or(system.friction()).ok_or(Error::NoFriction)?;
+        let system = self.system.ok_or(Error::NotASystem)?;
+        let friction = self.friction.as_ref().or(self.own_friction);
+        let friction = friction.ok_or(Error::NoFriction)?;
 
-        let name = problem.name.clone();
         let watch = self.watched.watch();
-        let mut analysis = analyse(name, system, friction, &self.options, &watch)?;
-        analysis.warnings.clone_from(&problem.warnings);
+        let mut analysis = analyse(self.name, system, friction, &self.options, &watch)?;
+        analysis.warnings = self.warnings.to_vec();
 
         Ok(analysis)
     }
