@@ -8,6 +8,7 @@
 use super::common::{CliError, aside, exit, load, print, text};
 use mceip_engine::analysis::conditions::excluded_at;
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
+use mceip_engine::report::Claimed;
 use mceip_exact::Rational;
 use mceip_model::file::{SystemFile, folder_of, read_system};
 use mceip_model::reduction::mu_family;
@@ -43,22 +44,36 @@ impl NoSolution {
             ));
         }
 
-        let out = if is_json {
-            let report = json!({
-                "format": SOLUTIONS_FORMAT,
-                "unknown": self.unknown.word(),
-                "claim": "complete",
-                "evidence": format!("theorem: {why}"),
-                "solutions": [],
-            });
-            format!("{report}\n")
-        } else {
-            format!("COMPLETE: no solution, by theorem: {why}\n")
-        };
-
-        print(&out)?;
+        let complete = Claimed::Complete.word();
+        let evidence = format!("theorem: {why}");
+        let sentence = format!("COMPLETE: no solution, by theorem: {why}\n");
+        print(&without_solutions(
+            self.unknown,
+            is_json,
+            [complete, &evidence, &sentence],
+        ))?;
         Ok(exit::DONE)
     }
+}
+
+/// A report that lists no solution: its claim and evidence for programs, its sentence for people.
+pub(super) fn without_solutions(
+    unknown: Unknown,
+    is_json: bool,
+    [claim, evidence, sentence]: [&str; 3],
+) -> String {
+    if !is_json {
+        return sentence.to_string();
+    }
+
+    let report = json!({
+        "format": SOLUTIONS_FORMAT,
+        "unknown": unknown.word(),
+        "claim": claim,
+        "evidence": evidence,
+        "solutions": [],
+    });
+    format!("{report}\n")
 }
 
 const NOTHING_SLIPS: &str = "no particle is in impending slip (spec/zero-reaction.md, Z.2)";

@@ -13,17 +13,15 @@ pub(super) use args::Args;
 use super::common::{CliError, aside, exit, print, require_count, text};
 use super::job::Job;
 use super::output::Output;
-use super::question::{Question, load_question};
+use super::question::{Question, load_question, without_solutions};
 use crate::{Error, Found, Problem};
-use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::lcp::MCP_FORMAT;
 use mceip_engine::multistart::{self, MAX_STARTS, SearchError, support, trace_outcome};
 use mceip_engine::report::Claimed;
-use mceip_model::Pencil;
 use mceip_model::file::require_format;
 use mceip_model::reduction::reduce;
+use mceip_model::{Pencil, Unknown};
 use search::search_of;
-use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -103,7 +101,9 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     job.end();
 
     let found = match searched {
-        Err(Error::Solve(e @ SearchError::BeyondDoubles { .. })) => return undecided(args, &e),
+        Err(Error::Solve(e @ SearchError::BeyondDoubles { .. })) => {
+            return undecided(args, problem.unknown(), &e);
+        }
         searched => searched?,
     };
 
@@ -138,20 +138,15 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
 }
 
 /// A problem whose numbers no search in doubles can take.
-fn undecided(args: &Args, reason: &SearchError) -> Result<u8, CliError> {
-    let text = if args.json {
-        let report = json!({
-            "format": SOLUTIONS_FORMAT,
-            "claim": Claimed::Solutions.word(),
-            "evidence": format!("no search: {reason}"),
-            "solutions": [],
-        });
-        format!("{report}\n")
-    } else {
-        format!("UNDECIDED: {reason}\n")
-    };
-
-    print(&text)?;
+fn undecided(args: &Args, unknown: Unknown, reason: &SearchError) -> Result<u8, CliError> {
+    let claim = Claimed::Solutions.word();
+    let evidence = format!("no search: {reason}");
+    let sentence = format!("UNDECIDED: {reason}\n");
+    print(&without_solutions(
+        unknown,
+        args.json,
+        [claim, &evidence, &sentence],
+    ))?;
     Ok(exit::UNDECIDED)
 }
 
