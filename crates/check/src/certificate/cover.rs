@@ -222,9 +222,15 @@ pub struct LdlFactor {
 }
 
 /// Elimination of the free variables f by F(t) = T_ff(t), enclosed without inverting F.
+///
+/// A certificate for every friction of an interval has other anchors and another tail
+/// ([`super::CriticalCondensation`]): F and T_fs do not depend on the friction.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Condensation {
+#[serde(
+    deny_unknown_fields,
+    bound(deserialize = "A: Deserialize<'de>, T: Deserialize<'de>")
+)]
+pub struct Condensation<A = Anchor, T = Tail> {
     /// sigma > 0 with A_ff - sigma I positive semidefinite.
     pub sigma: Number,
     /// Approximate Cholesky factor of A_ff - sigma I.
@@ -242,14 +248,14 @@ pub struct Condensation {
     pub mass_factor: Option<Factor>,
     /// Centres at which the condensed pencil is expanded.
     #[serde(deserialize_with = "object::list")]
-    pub anchors: Vec<Anchor>,
+    pub anchors: Vec<A>,
     /// Proof that nothing lies above some value, for [`Node::Tail`].
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",
         deserialize_with = "object::option"
     )]
-    pub tail: Option<Tail>,
+    pub tail: Option<T>,
 }
 
 /// Above `from` the symmetric part of the whole pencil, free variables included, is definite.

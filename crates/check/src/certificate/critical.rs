@@ -19,7 +19,7 @@
 //! This module holds data and reads and writes it; it decides nothing. The checker is
 //! `crate::critical`, the normative text is `spec/certificates.md`, 5.18.
 
-use super::{Factor, IntegerMatrix, Number, integer_rows, integers, object};
+use super::{Condensation, Factor, IntegerMatrix, Number, integer_rows, integers, object};
 use mceip_exact::{Integer, Rational};
 use mceip_model::ModelError;
 use mceip_model::file::{from_json, require_format, word_or_kind};
@@ -105,37 +105,8 @@ pub struct Regular {
     pub exponent: u32,
 }
 
-/// Elimination of the free variables by F(t) = T_ff(t), enclosed without inverting F. F and T_fs do
-/// not depend on mu.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CriticalCondensation {
-    /// sigma > 0 with K_ff - sigma I positive semidefinite.
-    pub sigma: Number,
-    /// Approximate Cholesky factor of K_ff - sigma I.
-    #[serde(deserialize_with = "object::one")]
-    pub stiffness_factor: Factor,
-    /// tau >= 0 with M_ff - tau I positive semidefinite.
-    pub mass_sigma: Number,
-    /// Approximate Cholesky factor of M_ff - tau I, where that is neither zero nor a non-negative
-    /// diagonal.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
-    pub mass_factor: Option<Factor>,
-    /// Centres at which both parts of the condensed pencil are expanded.
-    #[serde(deserialize_with = "object::list")]
-    pub anchors: Vec<CriticalAnchor>,
-    /// Proof that nothing lies above some lambda^2, for [`CriticalNode::Tail`].
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
-    pub tail: Option<CriticalTail>,
-}
+/// Elimination of the free variables; both parts of the condensed pencil are expanded at its anchors.
+pub type CriticalCondensation = Condensation<CriticalAnchor, CriticalTail>;
 
 /// Approximations in powers of (t - center), as in [`super::Anchor`].
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

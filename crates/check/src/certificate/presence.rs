@@ -73,7 +73,7 @@ pub struct PresencePiece {
 /// tail.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Condensation {
+struct WithoutTail {
     sigma: Number,
     #[serde(deserialize_with = "object::one")]
     stiffness_factor: Factor,
@@ -88,8 +88,8 @@ struct Condensation {
     anchors: Vec<CriticalAnchor>,
 }
 
-impl From<Condensation> for CriticalCondensation {
-    fn from(read: Condensation) -> CriticalCondensation {
+impl From<WithoutTail> for CriticalCondensation {
+    fn from(read: WithoutTail) -> CriticalCondensation {
         CriticalCondensation {
             sigma: read.sigma,
             stiffness_factor: read.stiffness_factor,
@@ -101,9 +101,9 @@ impl From<Condensation> for CriticalCondensation {
     }
 }
 
-impl From<CriticalCondensation> for Condensation {
-    fn from(own: CriticalCondensation) -> Condensation {
-        Condensation {
+impl From<CriticalCondensation> for WithoutTail {
+    fn from(own: CriticalCondensation) -> WithoutTail {
+        WithoutTail {
             sigma: own.sigma,
             stiffness_factor: own.stiffness_factor,
             mass_sigma: own.mass_sigma,
@@ -126,7 +126,7 @@ struct File {
         skip_serializing_if = "Option::is_none",
         deserialize_with = "object::option"
     )]
-    condensation: Option<Condensation>,
+    condensation: Option<WithoutTail>,
     #[serde(deserialize_with = "object::list")]
     pieces: Vec<PresencePiece>,
 }
@@ -139,7 +139,7 @@ impl PresenceCertificate {
             problem_sha256: self.problem_sha256.clone(),
             from: Number(self.from.clone()),
             to: Number(self.to.clone()),
-            condensation: self.condensation.clone().map(Condensation::from),
+            condensation: self.condensation.clone().map(WithoutTail::from),
             pieces: self.pieces.clone(),
         };
 
