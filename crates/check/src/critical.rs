@@ -5,12 +5,12 @@
 //! file. This module demands that it belongs to the problem and says something; `cover::critical`
 //! checks its boxes. The obligations are those of `spec/certificates.md`, 5.18.
 
-use crate::LeafPlace;
 use crate::certificate::CriticalCertificate;
 use crate::cover;
 use crate::cover::critical::Audit;
 use crate::pencil::FrictionParts;
 use crate::reason::{Reason, Rejected};
+use crate::{LeafPlace, of_problem};
 use mceip_exact::Rational;
 use mceip_model::{Body, Problem, Unknown};
 use num_traits::Signed;
@@ -62,14 +62,7 @@ fn verdict(
     certificate: &CriticalCertificate,
     audit: Option<&Audit<'_>>,
 ) -> Result<AcceptedAbsence, Reason> {
-    let digest = problem.sha256();
-    if certificate.problem_sha256 != digest {
-        return Err(Reason::Digest {
-            expected: digest,
-            got: certificate.problem_sha256.clone(),
-        });
-    }
-
+    of_problem(problem, &certificate.problem_sha256)?;
     let parts = friction_parts(problem)?;
     let CriticalCertificate { from, below, .. } = certificate;
     if !below.is_positive() {

@@ -212,14 +212,7 @@ fn verdict(
 
 /// Demands that the certificate belongs to this problem and claims something.
 fn check_frame(problem: &Problem, certificate: &Certificate) -> Result<(), Reason> {
-    let digest = problem.sha256();
-    if certificate.problem_sha256 != digest {
-        return Err(Reason::Digest {
-            expected: digest,
-            got: certificate.problem_sha256.clone(),
-        });
-    }
-
+    of_problem(problem, &certificate.problem_sha256)?;
     if certificate.unknown != problem.unknown() {
         return Err(Reason::Unknown {
             expected: problem.unknown().word(),
@@ -232,6 +225,19 @@ fn check_frame(problem: &Problem, certificate: &Certificate) -> Result<(), Reaso
     }
 
     Ok(())
+}
+
+/// Demands that a certificate names the digest of this problem.
+pub(crate) fn of_problem(problem: &Problem, named: &str) -> Result<(), Reason> {
+    let digest = problem.sha256();
+    if named == digest {
+        return Ok(());
+    }
+
+    Err(Reason::Digest {
+        expected: digest,
+        got: named.into(),
+    })
 }
 
 /// The variables of which a claim says that x_i = y_i = 0, for a cover. An enclosed solution has

@@ -6,9 +6,9 @@
 //! its pieces. The obligations are those of `spec/certificates.md`, 5.19.
 
 use crate::certificate::PresenceCertificate;
-use crate::cover;
 use crate::critical::friction_parts;
 use crate::reason::{Reason, Rejected};
+use crate::{cover, of_problem};
 use mceip_exact::Rational;
 use mceip_model::Problem;
 use num_traits::Signed;
@@ -43,14 +43,7 @@ fn verdict(
     problem: &Problem,
     certificate: &PresenceCertificate,
 ) -> Result<AcceptedPresence, Reason> {
-    let digest = problem.sha256();
-    if certificate.problem_sha256 != digest {
-        return Err(Reason::Digest {
-            expected: digest,
-            got: certificate.problem_sha256.clone(),
-        });
-    }
-
+    of_problem(problem, &certificate.problem_sha256)?;
     let parts = friction_parts(problem)?;
     parts
         .plain

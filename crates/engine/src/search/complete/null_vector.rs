@@ -37,6 +37,9 @@ pub(crate) struct NullVector {
     /// u'T = 0 and T v = 0 over the support; the largest component of each is 1.
     pub(crate) left: Vec<f64>,
     pub(crate) right: Vec<f64>,
+    /// Was a step of the iteration possible? Where T is singular at every step, the vectors are
+    /// those of the start; a search that meets such a support decides it exactly.
+    is_solved: bool,
 }
 
 /// The null vector that Newton's method reaches from the middle of [lo, hi]; `None` if it ends
@@ -47,17 +50,7 @@ pub(crate) fn null_vector(
     lo: f64,
     hi: f64,
 ) -> Option<NullVector> {
-    let iteration = Iteration {
-        expansion,
-        support: support(states),
-        lo,
-        hi,
-    };
-
-    let ones = Vectors::ones(iteration.support.len());
-    SETTLING_STEPS
-        .iter()
-        .find_map(|settling| iteration.run(*settling, ones.clone()))
+    Iteration::new(expansion, states, [lo, hi]).started_at_ones()
 }
 
 /// [`null_vector`] where there surely is one. Vectors of ones may be null vectors of another value,
@@ -68,15 +61,12 @@ pub(crate) fn existing_null_vector(
     lo: f64,
     hi: f64,
 ) -> Option<NullVector> {
-    null_vector(expansion, states, lo, hi).or_else(|| {
-        let iteration = Iteration {
-            expansion,
-            support: support(states),
-            lo,
-            hi,
-        };
+    let iteration = Iteration::new(expansion, states, [lo, hi]);
+    let found = iteration.started_at_ones().filter(|null| null.is_solved);
+    found.or_else(|| {
         let start = Vectors::without_pattern(iteration.support.len());
-        iteration.run(SETTLING_STEPS[1], start)
+        let found = iteration.run(SETTLING_STEPS[1], start);
+        found.filter(|null| null.is_solved)
     })
 }
 
@@ -102,7 +92,23 @@ struct Iteration<'a> {
     hi: f64,
 }
 
-impl Iteration<'_> {
+impl<'a> Iteration<'a> {
+    fn new(expansion: &'a Expansion, states: &[State], [lo, hi]: [f64; 2]) -> Iteration<'a> {
+        Iteration {
+            expansion,
+            support: support(states),
+            lo,
+            hi,
+        }
+    }
+
+    /// From vectors of ones, after so many settling steps as lead to a null vector.
+    fn started_at_ones(&self) -> Option<NullVector> {
+        let ones = Vectors::ones(self.support.len());
+        let mut attempts = SETTLING_STEPS.iter();
+        attempts.find_map(|settling| self.run(*settling, ones.clone()))
+    }
+
     fn run(&self, settling: usize, start: Vectors) -> Option<NullVector> {
         let width = self.hi - self.lo;
         let mut t = self.lo + START * width;
@@ -137,11 +143,12 @@ impl Iteration<'_> {
             }
         }
 
-        is_solved.then(|| NullVector {
+        Some(NullVector {
             value: t,
             support: self.support.clone(),
             left: vectors.left,
             right: vectors.right,
+            is_solved,
         })
     }
 }
