@@ -27,6 +27,7 @@ mod wrapped;
 
 use clap::{Parser, Subcommand};
 use common::{CliError, complain, look_at_stdout};
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 /// Complementarity eigenproblems of frictional contact, verified exactly.
@@ -130,9 +131,13 @@ pub fn main() -> ExitCode {
 /// Help and version go to stdout; a usage error is one line on stderr, like all bad input.
 fn refuse(e: &clap::Error) -> ExitCode {
     if !e.use_stderr() {
-        // Nothing can be done if the reader has gone away.
-        let _ = e.print();
-        return ExitCode::SUCCESS;
+        return match e.print() {
+            Err(e) if e.kind() != ErrorKind::BrokenPipe => {
+                complain(&CliError::write("stdout", &e).to_string());
+                ExitCode::from(CliError::EXIT)
+            }
+            _ => ExitCode::SUCCESS, // also if the reader has gone away
+        };
     }
 
     // clap's message is its first paragraph; usage and tips follow.

@@ -123,8 +123,11 @@ pub fn solutions_json(report: &Report<'_>) -> Value {
         out["undescribed"] = json!(undescribed);
     }
 
-    if let Some(enumeration) = report.enumeration {
-        out["families"] = enumerated_families(enumeration);
+    match report.enumeration {
+        Some(enumeration) => out["families"] = enumerated_families(enumeration),
+        // A list of modes is complete only where no mode has more than single solutions.
+        None if report.claim == Claimed::Complete => out["families"] = json!([]),
+        None => {}
     }
 
     if let Some(cover) = report.cover {
