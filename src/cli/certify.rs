@@ -286,8 +286,7 @@ impl Certifying<'_> {
                 Ok(reported) => &reported.candidate,
                 Err(bad) => {
                     let finding = Finding::no_vector(bad);
-                    self.job
-                        .note(&format!("solution {index}: {}", finding.text));
+                    self.job.note(&finding.text);
                     judged.refused.push(Refused { index, finding });
                     continue;
                 }

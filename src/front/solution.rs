@@ -25,8 +25,8 @@ pub struct Solution {
     pub support: Vec<usize>,
     /// Indices with x_i = y_i = 0, where that is proved; empty where the solution is only enclosed.
     pub biactive: Vec<usize>,
-    /// x over the variables of the pencil, scaled so that the slip variables sum to one; empty where
-    /// it is not known.
+    /// x over the variables of the pencil, scaled so that the slip variables sum to one; empty
+    /// where it is not known.
     pub x: Vec<f64>,
     /// y = (A + tB) x.
     pub y: Vec<f64>,

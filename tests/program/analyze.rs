@@ -382,7 +382,7 @@ fn a_refuted_bound_is_not_called_unproved() {
         &said.text,
         &[
             "K* is positive definite for every mu,",
-            "M* is not positive semidefinite for mu > 2.000000000;",
+            "M* is not positive semidefinite for mu > 2;",
         ],
     );
 

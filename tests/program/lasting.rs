@@ -135,7 +135,7 @@ fn errors_that_nobody_reads_are_exit_2_all_the_same() {
     // Points without a certificate are named on stderr.
     let certify = ["certify", &example("fold"), &example("fold")];
     assert_eq!(code(&certify, closed_pipe(), closed_pipe()).0, Some(2));
-    assert_eq!(code(&["--help"], full(), full()).0, Some(0));
+    assert_eq!(code(&["--help"], full(), full()).0, Some(2));
 }
 
 /// A terminal that was closed: the run ended with exit 101, by a panic, and without a certificate.

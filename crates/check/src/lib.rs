@@ -92,8 +92,8 @@ pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, R
 
 /// Checks a certificate as [`check`] does, but leaves open each leaf of its cover that fails.
 ///
-/// Beside the verdict on the rest it returns those leaves. A search that wants to replace all leaves that
-/// fail calls this once, where it would have to call [`check`] once for each of them.
+/// Beside the verdict on the rest it returns those leaves. A search that wants to replace all
+/// leaves that fail calls this once, where it would have to call [`check`] once for each of them.
 ///
 /// # Errors
 /// [`Rejected`] with an obligation that fails although these leaves are open.

@@ -105,7 +105,8 @@ pub struct Regular {
     pub exponent: u32,
 }
 
-/// Elimination of the free variables; both parts of the condensed pencil are expanded at its anchors.
+/// Elimination of the free variables; both parts of the condensed pencil are expanded at its
+/// anchors.
 pub type CriticalCondensation = Condensation<CriticalAnchor, CriticalTail>;
 
 /// Approximations in powers of (t - center), as in [`super::Anchor`].

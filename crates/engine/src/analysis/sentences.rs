@@ -69,10 +69,7 @@ pub(super) fn short(v: &Rational) -> String {
 pub(super) fn exactly(v: &Rational) -> String {
     let (lo, hi) = enclosing_decimals(&Interval::point(v.clone()), 12);
     if lo == hi {
-        return match v.is_integer() {
-            true => v.to_string(),
-            false => lo,
-        };
+        return lo;
     }
 
     let fraction = v.to_string();

@@ -133,6 +133,7 @@ impl Analysis {
 
     fn gap_text(&self) -> String {
         match self.critical_gap() {
+            Some(0.0) => ": both are the critical mu itself, rounded".into(),
             Some(gap) => format!(": the critical mu is known to a relative {gap:.1e}"),
             None => String::new(),
         }

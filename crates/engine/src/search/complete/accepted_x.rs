@@ -1,9 +1,9 @@
 //! The x of a solution that the checker has accepted, over all variables of the pencil, in doubles.
 //!
-//! A claim of the certificate that is about the solution has x, exactly or as the centre of a box. A
-//! support leaf has x as polynomials in t, which are read at the middle of the value's interval. For
-//! every other solution the null vector is computed again. All are scaled to e'x = 1 on the support.
-//! Called by `complete` for reports and modes; no proof depends on it.
+//! A claim of the certificate that is about the solution has x, exactly or as the centre of a box.
+//! A support leaf has x as polynomials in t, which are read at the middle of the value's interval.
+//! For every other solution the null vector is computed again. All are scaled to e'x = 1 on the
+//! support. Called by `complete` for reports and modes; no proof depends on it.
 
 use super::null_vector::existing_null_vector;
 use super::pieces::expansion::Expansion;
@@ -37,8 +37,8 @@ pub(super) fn accepted_x(
     }
 }
 
-/// The claim that is about a solution of the cover: of its support, with a value that lies where the
-/// cover proves it to be the only one.
+/// The claim that is about a solution of the cover: of its support, with a value that lies where
+/// the cover proves it to be the only one.
 pub(super) fn claim_about<'a>(
     proved: &'a Proved<Certificate>,
     solution: &AcceptedClaim,
