@@ -29,7 +29,8 @@ pub struct Projected {
 ///
 /// ```
 /// use mceip_exact::whole;
-/// use mceip_engine::reduction::{Variable, project};
+/// use mceip_engine::reduction::project;
+/// use mceip_model::Variable;
 /// let slip = Variable::Slip {
 ///     sign: 1,
 ///     tangent: vec![(0, whole(1))],
