@@ -6,7 +6,7 @@
 
 use super::common::CliError;
 use super::output::Output;
-use crate::{Cancel, Error, Problem, SolutionSet, say};
+use crate::{Cancel, Error, Problem, SolutionSet};
 use mceip_engine::report::Claimed;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -83,7 +83,7 @@ impl AtInfinity {
     /// What there is at infinity, for people.
     pub(super) fn text(&self) -> String {
         match &self.set {
-            Ok(set) => say::cover::text_at_infinity(&set.as_completed().cover),
+            Ok(set) => set.text_at_infinity(),
             Err(e) => format!("UNDECIDED at infinity: {e}\n"),
         }
     }

@@ -110,6 +110,11 @@ impl SolutionSet {
         })
     }
 
+    /// What is proved of the limit at infinity, for a set of the problem [`Problem::at_infinity`].
+    pub fn text_at_infinity(&self) -> String {
+        say::cover::text_at_infinity(&self.completed.cover)
+    }
+
     /// What the search has found, as the engine has it.
     pub fn as_completed(&self) -> &Completed {
         &self.completed
