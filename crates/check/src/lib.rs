@@ -47,7 +47,7 @@ pub use backward_error::backward_error;
 pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, Place, SolutionFamily};
 pub use critical::{AcceptedAbsence, audit_critical, check_critical};
 pub use presence::{AcceptedPresence, check_presence};
-pub use proved::{Provable, Proved, Refused};
+pub use proved::{NotAccepted, Provable, Proved};
 pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};

@@ -11,8 +11,17 @@ use crate::{allowed_work, audit, audit_critical, work_of};
 use crate::{check, check_critical, check_presence};
 use mceip_model::{ModelError, Problem};
 
+/// The kinds are those of this crate: nobody else says what is accepted.
+mod sealed {
+    pub trait Kind {}
+}
+
+impl sealed::Kind for Certificate {}
+impl sealed::Kind for CriticalCertificate {}
+impl sealed::Kind for PresenceCertificate {}
+
 /// A kind of certificate: its verdict and its file.
-pub trait Provable: Sized + PartialEq {
+pub trait Provable: Sized + PartialEq + sealed::Kind {
     /// What an accepted one has proved.
     type Accepted;
 
@@ -133,7 +142,7 @@ impl<C: Provable> Proved<C> {
 
 /// A certificate that is refused, to be mended.
 #[derive(Debug)]
-pub struct Refused {
+pub struct NotAccepted {
     /// The certificate.
     pub certificate: Certificate,
     /// Why.
@@ -144,15 +153,15 @@ impl Proved<Certificate> {
     /// The certificate in which each leaf of the cover that fails is open, and these leaves.
     ///
     /// # Errors
-    /// [`Refused`] with an obligation that fails although these leaves are open.
+    /// [`NotAccepted`] with an obligation that fails although these leaves are open.
     pub fn opened(
         problem: &Problem,
         mut certificate: Certificate,
-    ) -> Result<(Proved<Certificate>, Vec<LeafPlace>), Box<Refused>> {
+    ) -> Result<(Proved<Certificate>, Vec<LeafPlace>), Box<NotAccepted>> {
         let (accepted, refused) = match audit(problem, &certificate) {
             Ok(audited) => audited,
             Err(rejected) => {
-                return Err(Box::new(Refused {
+                return Err(Box::new(NotAccepted {
                     certificate,
                     rejected,
                 }));

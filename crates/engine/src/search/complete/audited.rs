@@ -7,7 +7,7 @@
 
 use super::error::CompleteError;
 use mceip_check::certificate::{Certificate, CompleteSet, Node};
-use mceip_check::{CoverFault, LeafPlace, Proved, Reason, Refused};
+use mceip_check::{CoverFault, LeafPlace, NotAccepted, Proved, Reason};
 use mceip_model::Problem;
 use std::collections::BTreeSet;
 
@@ -49,8 +49,8 @@ pub(super) fn audited(
 }
 
 /// Opens what is refused as a whole, or says why there is no certificate.
-fn open_refused(refused: Refused) -> Result<Certificate, CompleteError> {
-    let Refused {
+fn open_refused(refused: NotAccepted) -> Result<Certificate, CompleteError> {
+    let NotAccepted {
         mut certificate,
         rejected,
     } = refused;
