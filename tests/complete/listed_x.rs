@@ -9,9 +9,11 @@
 use mceip_engine::report::Listed;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Completed, Options, complete};
-use mceip_exact::{Rational, Sparse, whole};
+use mceip_exact::{Integer, Rational, Sparse, rational, whole};
 use mceip_model::reduction::reduce;
-use mceip_model::{Body, Pencil, Problem, Reduced, Unknown, Window};
+use mceip_model::{
+    Body, ContactState, Particle, Pencil, Problem, Reduced, System, Unknown, Window,
+};
 use mceip_oracle::{Solution, enumerate};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -98,6 +100,59 @@ fn a_row_without_an_entry_is_biactive() {
     let found = searched(&problem);
     let (_, listed) = Listed::of_cover(&problem, &reduced, &found).next().unwrap();
     assert_eq!(listed.biactive, [2]);
+}
+
+/// Free components far from the anchor of the condensation: they had six digits.
+#[test]
+fn free_variables_have_all_their_digits() {
+    let stiffness = Sparse::from_entries(
+        3,
+        3,
+        [
+            (0, 0, whole(9)),
+            (0, 1, whole(-2)),
+            (0, 2, whole(-4)),
+            (1, 0, whole(-2)),
+            (1, 1, whole(4)),
+            (1, 2, whole(2)),
+            (2, 0, whole(-4)),
+            (2, 1, whole(2)),
+            (2, 2, rational(41, 10)),
+        ],
+    );
+    let mass = Sparse::from_ints(&[&[2, 0, 0], &[0, 1, 0], &[0, 0, 2]]);
+    let slips = Particle::plain(0, 1, ContactState::Slip { sign: 1 });
+    let friction = Some(rational(209, 2));
+    let system = System::new(stiffness, Some(mass), friction, vec![slips]).unwrap();
+    let body = Body::System(system);
+    let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
+
+    assert_eq!(assert_x_is_that_of_the_enumerator(&problem), 2);
+}
+
+/// Entries of 1e-20 beside 3: no claim is made, and y on the support is 0 all the same.
+#[test]
+fn y_is_zero_on_the_support() {
+    let tiny = Rational::new(2.into(), Integer::from(10).pow(20));
+    let entries = [
+        (0, 0, whole(-3)),
+        (0, 1, tiny.clone()),
+        (1, 0, whole(3)),
+        (1, 1, -tiny),
+    ];
+    let a = Sparse::from_entries(2, 2, entries);
+    let problem = problem_of(a, Sparse::identity(2), vec![], Unknown::Lambda2);
+    let reduced = reduce(&problem).unwrap();
+    let found = searched(&problem);
+
+    let mut count = 0;
+    for (_, listed) in Listed::of_cover(&problem, &reduced, &found) {
+        for &i in &listed.slip {
+            assert_eq!(listed.y[i], "0", "{listed:?}");
+        }
+        count += 1;
+    }
+    assert!(count > 0);
 }
 
 /// A random pencil of integers with A x = 0 for a positive x: the value 0 is a solution.

@@ -6,7 +6,8 @@
 //!
 //! Input: the full pencil, and candidates of the pencil that `condense` made of it. Output:
 //! candidates over all variables; exact arithmetic decides about them later. Called by
-//! `multistart`.
+//! `multistart`. At a single value, for B of any form, [`free_variables`] does the same by sparse
+//! factors; called for the x of complete sets.
 //!
 //! A variable stands for a motion d_j of the body ([`Variable::column`]), so v = sum_j x_j d_j. It
 //! is for pictures and text; [`lift`](super::lift) does the same exactly.
@@ -15,7 +16,7 @@
 use crate::candidate::Candidate;
 use crate::dense::rounded;
 use mceip_exact::to_f64;
-use mceip_mcp::linear::solve;
+use mceip_mcp::linear::{SparseLu, solve};
 use mceip_model::{Pencil, Variable};
 
 /// From a candidate of the condensed pencil to one of the full pencil: x_f = -A_ff^-1 A_fs x_s.
@@ -61,6 +62,30 @@ impl Expansion {
             x,
         }
     }
+}
+
+/// x_f of x_s at a value t: (A + tB)_ff x_f = -(A + tB)_fs x_s, in doubles. `x` is over all
+/// variables; its free ones are not read. `None` where elimination finds no pivot, or a number is
+/// not finite.
+pub(crate) fn free_variables(pencil: &Pencil, t: f64, x: &[f64]) -> Option<Vec<f64>> {
+    let free = pencil.free();
+    let mut block = Vec::new();
+    let mut right = vec![0.0; free.len()];
+    for (row, &i) in free.iter().enumerate() {
+        let of_a = pencil.a().row(i).iter().map(|(j, v)| (*j, to_f64(v)));
+        let of_b = pencil.b().row(i).iter().map(|(j, v)| (*j, t * to_f64(v)));
+        for (j, entry) in of_a.chain(of_b) {
+            match free.binary_search(&j) {
+                Ok(column) => block.push((row, column, entry)),
+                Err(_) => right[row] -= entry * x[j],
+            }
+        }
+    }
+
+    let mut columns = [right];
+    SparseLu::new(free.len(), block)?.solve(&mut columns);
+    let [solution] = columns;
+    solution.iter().all(|v| v.is_finite()).then_some(solution)
 }
 
 /// v over `dofs` degrees of freedom of x over the variables of a reduced system: v = x on the free

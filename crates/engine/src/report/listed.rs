@@ -43,8 +43,8 @@ pub struct Listed {
     pub y: Vec<String>,
     /// v and w over all degrees of freedom, for a system.
     pub lifted: Option<(Vec<String>, Vec<String>)>,
-    /// Dimension of the kernel on the support; 1 where it was not computed.
-    pub kernel_dimension: usize,
+    /// Dimension of the kernel on the support, where it was computed.
+    pub kernel_dimension: Option<usize>,
     /// The cone of solutions that `x` lies inside of, where `x` is not the only one.
     pub cone: Option<ListedCone>,
 }
@@ -94,7 +94,7 @@ impl Listed {
             x,
             y,
             lifted,
-            kernel_dimension: 1,
+            kernel_dimension: Some(1),
             cone: None,
         }
     }
@@ -108,7 +108,7 @@ impl Listed {
         let mut entries = Vec::new();
         for solution in &found.solutions {
             let listed = Listed {
-                kernel_dimension: found.kernel_dimension(solution),
+                kernel_dimension: Some(found.kernel_dimension(solution)),
                 ..Listed::of_solution(problem, reduced, solution)
             };
             entries.push(Entry {
@@ -155,7 +155,7 @@ impl Listed {
         };
 
         Listed {
-            kernel_dimension: cone.kernel_dimension,
+            kernel_dimension: Some(cone.kernel_dimension),
             cone: Some(listed_cone),
             ..Listed::of_solution(problem, reduced, &center)
         }
@@ -338,13 +338,13 @@ fn without_x(support: &[usize], value: Rational) -> Listed {
         x: Vec::new(),
         y: Vec::new(),
         lifted: None,
-        kernel_dimension: 1,
+        kernel_dimension: None,
         cone: None,
     }
 }
 
-/// A solution known in rounded numbers only, x in any positive scale. Biactive are the halves of
-/// v_T of which y vanishes with y on the support.
+/// A solution known in rounded numbers only, x in any positive scale, with y = 0 on the free rows
+/// and those of the support. Biactive are the halves of v_T of which y vanishes with these.
 fn of_point(
     problem: &Problem,
     reduced: &Reduced,
@@ -365,10 +365,22 @@ fn of_point(
 
     let zero = &reduced.zero;
     let vanishing = zero.iter().filter_map(|places| places.vanishing(support));
+    let biactive: Vec<usize> = vanishing.collect();
+
+    // y of the solution is 0 there; that of the rounded numbers is not.
+    let listed = Listed::of_solution(problem, reduced, &solution);
+    let mut y = listed.y;
+    let active = active(&reduced.pencil, support);
+    for i in active.into_iter().chain(biactive.iter().copied()) {
+        y[i] = "0".into();
+    }
+
     Listed {
         exact: None,
-        biactive: vanishing.collect(),
-        ..Listed::of_solution(problem, reduced, &solution)
+        biactive,
+        y,
+        kernel_dimension: None,
+        ..listed
     }
 }
 
@@ -386,7 +398,10 @@ fn of_exact(problem: &Problem, reduced: &Reduced, claim: &Claim, exact: &ExactSo
         y: Vec::new(),
     };
 
-    Listed::of_solution(problem, reduced, &solution)
+    Listed {
+        kernel_dimension: None,
+        ..Listed::of_solution(problem, reduced, &solution)
+    }
 }
 
 /// Row i of (A + tB) x as an integer polynomial and the positive integer it was multiplied by.

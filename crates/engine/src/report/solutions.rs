@@ -254,8 +254,11 @@ fn listed(s: &Listed) -> Value {
         "biactive": s.biactive,
         "x": s.x,
         "y": s.y,
-        "kernel_dimension": s.kernel_dimension,
     });
+    if let Some(dimension) = s.kernel_dimension {
+        out["kernel_dimension"] = json!(dimension);
+    }
+
     if let Some(cone) = &s.cone {
         out["cone_dimension"] = json!(cone.dimension);
         out["rays"] = cone.rays.iter().map(ray).collect();

@@ -1,9 +1,9 @@
 //! The x of a solution that the checker has accepted, over all variables of the pencil, in doubles.
 //!
-//! A claim of the certificate that is about the solution has x, exactly or as the centre of a box.
-//! A support leaf has x as polynomials in t, which are read at the middle of the value's interval.
-//! For every other solution the null vector is computed again. All are scaled to e'x = 1 on the
-//! support. Called by `complete` for reports and modes; no proof depends on it.
+//! An exact claim of the certificate about the solution, or a support leaf, has x as polynomials in
+//! the value; a box has it as its centre. For every other solution the null vector is computed
+//! again. All are scaled to e'x = 1 on the support. Called by `complete` for reports and modes; no
+//! proof depends on it.
 
 use super::null_vector::existing_null_vector;
 use super::pieces::expansion::Expansion;
@@ -12,12 +12,13 @@ use super::pieces::prepared::Prepared;
 use super::region::{State, support};
 use crate::certify::rows::active;
 use crate::multistart::{exact_value, integer_x};
+use crate::reduction::free_variables;
 use crate::tolerance::SAME_ROOT;
 use mceip_check::certificate::{Certificate, Claim, Exact, Node, Support};
 use mceip_check::{AcceptedClaim, Proved};
-use mceip_exact::{Integer, Poly, Rational, to_f64};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, to_f64};
 use mceip_model::Pencil;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 /// Bits to which a value is refined beyond those of the coefficients that it is put into.
 const DIGITS_BEYOND: u64 = 128;
@@ -29,12 +30,10 @@ pub(super) fn accepted_x(
     pencil: &Pencil,
     solution: &AcceptedClaim,
 ) -> Vec<f64> {
-    let exact = by_claim(proved, pencil, solution)
-        .or_else(|| by_support_leaf(proved.certificate(), pencil, solution));
-    match exact {
-        Some(x) => scaled(&x, &solution.support),
-        None => by_null_vector(prepared, pencil, solution),
-    }
+    by_claim(proved, pencil, solution)
+        .or_else(|| by_support_leaf(proved.certificate(), pencil, solution))
+        .and_then(|x| scaled(&x, &solution.support))
+        .unwrap_or_else(|| by_null_vector(prepared, pencil, solution))
 }
 
 /// The claim that is about a solution of the cover: of its support, with a value that lies where
@@ -52,7 +51,7 @@ pub(super) fn claim_about<'a>(
     proved.certificate().claims.get(place)
 }
 
-/// x of the claim that is about the solution, at its value or a number very close to it.
+/// x of the claim that is about the solution.
 fn by_claim(
     proved: &Proved<Certificate>,
     pencil: &Pencil,
@@ -60,17 +59,7 @@ fn by_claim(
 ) -> Option<Vec<Rational>> {
     let claim = claim_about(proved, solution)?;
     match claim {
-        Claim::ExactSolution(exact) => {
-            let x = integer_x(exact);
-            let coefficients = x.iter().flat_map(Poly::coeffs);
-            let longest = coefficients.map(|c| c.bits()).max().unwrap_or(0);
-
-            let mut value = exact_value(claim)?;
-            let width = Rational::new(Integer::one(), Integer::one() << (longest + DIGITS_BEYOND));
-            value.refine_to(&width);
-            let value = value.interval().mid();
-            Some(x.iter().map(|p| p.eval(&value)).collect())
-        }
+        Claim::ExactSolution(exact) => Some(at_root(&integer_x(exact), exact_value(claim)?)),
         Claim::EnclosedSolution(enclosed) => {
             let mut x = vec![Rational::zero(); pencil.order()];
             let variables = active(pencil, &enclosed.support);
@@ -83,10 +72,22 @@ fn by_claim(
     }
 }
 
-/// x in doubles with e'x = 1 on the support.
-fn scaled(x: &[Rational], support: &[usize]) -> Vec<f64> {
+/// x at an algebraic number, or at a rational one very close to it.
+fn at_root(x: &[Poly], mut value: Algebraic) -> Vec<Rational> {
+    let coefficients = x.iter().flat_map(Poly::coeffs);
+    let longest = coefficients.map(|c| c.bits()).max().unwrap_or(0);
+    let width = Rational::new(Integer::one(), Integer::one() << (longest + DIGITS_BEYOND));
+    value.refine_to(&width);
+
+    let value = value.interval().mid();
+    x.iter().map(|p| p.eval(&value)).collect()
+}
+
+/// x in doubles with e'x = 1 on the support; `None` where that sum is not positive.
+fn scaled(x: &[Rational], support: &[usize]) -> Option<Vec<f64>> {
     let sum: Rational = support.iter().map(|&i| x[i].clone()).sum();
-    x.iter().map(|x_i| to_f64(&(x_i / &sum))).collect()
+    sum.is_positive()
+        .then(|| x.iter().map(|x_i| to_f64(&(x_i / &sum))).collect())
 }
 
 /// x of a solution that a support leaf of the certificate yields.
@@ -97,17 +98,14 @@ fn by_support_leaf(
 ) -> Option<Vec<Rational>> {
     let set = certificate.complete_set.as_ref()?;
     let mut nodes = set.pieces.iter().flat_map(|piece| &piece.tree);
-    let x = nodes.find_map(|node| match node {
+    nodes.find_map(|node| match node {
         Node::Support(leaf) => yielded(leaf, pencil, solution),
         _ => None,
-    })?;
-
-    let value = solution.value.mid();
-    Some(x.iter().map(|p| p.eval(&value)).collect())
+    })
 }
 
 /// x at the point of a leaf that is this solution.
-fn yielded(leaf: &Support, pencil: &Pencil, solution: &AcceptedClaim) -> Option<Vec<Poly>> {
+fn yielded(leaf: &Support, pencil: &Pencil, solution: &AcceptedClaim) -> Option<Vec<Rational>> {
     let point = leaf.points.iter().find(|point| {
         let [lo, hi] = &point.interval;
         lo.0 == *solution.value.lo() && hi.0 == *solution.value.hi()
@@ -121,7 +119,8 @@ fn yielded(leaf: &Support, pencil: &Pencil, solution: &AcceptedClaim) -> Option<
         .slip()
         .iter()
         .all(|i| solution.support.contains(i) != x[*i].is_zero());
-    has_its_support.then_some(x)
+    let value = Algebraic::from_claim(Poly::new(point.polynomial.clone()), solution.value.clone());
+    has_its_support.then(|| at_root(&x, value))
 }
 
 fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim) -> Vec<f64> {
@@ -150,9 +149,9 @@ fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim
         all[i] = v / sum;
     }
 
-    if let Some(free) = expansion.free_part(t, &x) {
+    if let Some(free) = free_variables(pencil, t, &all) {
         for (&i, v) in pencil.free().iter().zip(free) {
-            all[i] = v / sum;
+            all[i] = v;
         }
     }
 

@@ -18,6 +18,7 @@ use super::pieces::view::View;
 use super::region::{Region, State, support};
 use crate::candidate::Candidate;
 use crate::certify::{ENCLOSED_ORDER, precise_null};
+use crate::reduction::free_variables;
 use mceip_check::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
 use mceip_exact::{Integer, Rational, to_f64};
 use num_traits::{One, Signed, Zero};
@@ -183,7 +184,7 @@ fn root(given: &Given<'_>, view: &View, expansion: &Expansion, region: &Region) 
         return None;
     }
 
-    let candidate = over_all_variables(given, &view.index, expansion, &null);
+    let candidate = over_all_variables(given, &view.index, &null);
     let precise = precise_null(given.pencil, &support, &candidate, VECTOR_BITS)?;
 
     let half = half_width(&precise.value, view.scale)?;
@@ -226,22 +227,14 @@ fn write_signs(root: &mut Root, x: &[Component], y: &[Component]) -> Option<()> 
 }
 
 /// The null vector in doubles over the variables of the pencil.
-fn over_all_variables(
-    given: &Given<'_>,
-    index: &[usize],
-    expansion: &Expansion,
-    null: &NullVector,
-) -> Candidate {
+fn over_all_variables(given: &Given<'_>, index: &[usize], null: &NullVector) -> Candidate {
     let on_positions = null.spread(index.len());
-    let free = expansion
-        .free_part(null.value, &on_positions)
-        .unwrap_or_default();
-
     let mut x = vec![0.0; given.pencil.order()];
     for (&i, v) in index.iter().zip(&on_positions) {
         x[i] = *v;
     }
 
+    let free = free_variables(given.pencil, null.value, &x).unwrap_or_default();
     for (&i, v) in given.pencil.free().iter().zip(free) {
         x[i] = v;
     }

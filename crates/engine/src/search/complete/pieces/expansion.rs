@@ -224,24 +224,6 @@ impl Expansion {
         sum
     }
 
-    /// The free variables that belong to x_s at t; `None` where there are none.
-    pub(crate) fn free_part(&self, t: f64, x: &[f64]) -> Option<Vec<f64>> {
-        let d = self.argument(t) - self.center;
-        let free_count = self.free.first()?.first()?.len();
-        let mut sum = vec![0.0; free_count];
-
-        for coefficient in self.free.iter().rev() {
-            sum.iter_mut().for_each(|s| *s *= d);
-            for (column, x_j) in coefficient.iter().zip(x) {
-                for (s, w) in sum.iter_mut().zip(column) {
-                    *s -= w * x_j;
-                }
-            }
-        }
-
-        Some(sum)
-    }
-
     /// The ends over [lo, hi] as the checker will see them.
     pub(crate) fn ends(&self, lo: f64, hi: f64) -> Ends {
         if !self.reversed {
