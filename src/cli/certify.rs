@@ -286,7 +286,8 @@ impl Certifying<'_> {
                 Ok(reported) => &reported.candidate,
                 Err(bad) => {
                     let finding = Finding::no_vector(bad);
-                    self.job.note(&finding.text);
+                    let text = &finding.text;
+                    self.job.note(&format!("solution {index}: {text}"));
                     judged.refused.push(Refused { index, finding });
                     continue;
                 }

@@ -142,9 +142,9 @@ fn say_checkpoint(job: &Job, written: &Result<(), CliError>, args: &Args, has_sa
             let certificate = certificate.display();
             let seconds = args.checkpoint;
             job.note(&format!(
-                "what is proved so far is in {certificate}, written anew every {seconds} s, or where \
-                 it takes long to check ten times as rarely as that takes; if this run ends early: \
-                 mceip complete {file} --resume {certificate}"
+                "what is proved so far is in {certificate}, written anew every {seconds} s, or \
+                 where it takes long to check ten times as rarely as that takes; if this run ends \
+                 early: mceip complete {file} --resume {certificate}"
             ));
         }
     }

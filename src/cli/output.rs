@@ -44,7 +44,7 @@ impl Output {
 
         let is_device = target.exists() && !target.is_file();
         if !is_device {
-            claim(option, &target)?;
+            reserve(option, &target)?;
             let tried = tempfile::tempfile_in(folder_of(&target));
             tried.map_err(|e| CliError::write(path.display(), &e))?;
         }
@@ -109,18 +109,18 @@ impl Output {
 }
 
 /// The places of the outputs of this run, and the options that they were named by.
-static CLAIMED: Mutex<BTreeMap<PathBuf, &'static str>> = Mutex::new(BTreeMap::new());
+static RESERVED: Mutex<BTreeMap<PathBuf, &'static str>> = Mutex::new(BTreeMap::new());
 
 /// Refuses a place that another option has.
-fn claim(option: &'static str, target: &Path) -> Result<(), CliError> {
+fn reserve(option: &'static str, target: &Path) -> Result<(), CliError> {
     let place = match (std::fs::canonicalize(folder_of(target)), target.file_name()) {
         (Ok(folder), Some(name)) => folder.join(name),
         _ => target.to_path_buf(),
     };
 
     // A thread that panicked with the lock leaves the map whole.
-    let mut claimed = CLAIMED.lock().unwrap_or_else(PoisonError::into_inner);
-    let other = *claimed.entry(place).or_insert(option);
+    let mut reserved = RESERVED.lock().unwrap_or_else(PoisonError::into_inner);
+    let other = *reserved.entry(place).or_insert(option);
     if other == option {
         return Ok(());
     }

@@ -172,8 +172,8 @@ impl Problem {
         SolutionSet::new(problem, merge(problem, parts)?)
     }
 
-    /// The problem whose solutions are those at infinity: the reversed one, s (A + B/s) with
-    /// s = 1/t, at the value s = 0.
+    /// The problem whose solutions are those at infinity: the reversed one, sA + B with s = 1/t, at
+    /// the value s = 0.
     ///
     /// # Errors
     /// [`Error::Model`] with particles in contact with zero reaction: the reversed problem is a

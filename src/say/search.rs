@@ -11,8 +11,8 @@ pub(crate) fn evidence(found: &Found, seed: u64) -> String {
     };
 
     format!(
-        "{} certified found in {search}{} runs (seed {seed}, {} pivots, {} factorisations, {} repeats, \
-         {} outside the window, endings {:?}); completeness unknown",
+        "{} certified found in {search}{} runs (seed {seed}, {} pivots, {} factorisations, \
+         {} repeats, {} outside the window, endings {:?}); completeness unknown",
         found.certified.len(),
         found.runs,
         found.pivots,

@@ -5,6 +5,8 @@
 //! `corpus` judges the files of `spec/corpus`, `transcripts` runs the pages of `tests/transcripts`.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "../support/program.rs"]
+mod program;
 #[path = "../support/corpus.rs"]
 mod support;
 

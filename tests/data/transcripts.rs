@@ -8,14 +8,16 @@
 //! - at the end of a command `> report.json` puts its stdout into a file;
 //! - `[ROOT]` is the repository. A line `...` stands for any lines, `[..]` for any part of a line.
 //!
+//! A certificate that a command has written is read back and has to be accepted, on every page.
+//!
 //! `SNAPSHOTS=overwrite cargo test --test data transcripts` rewrites what differs; read the change
 //! before it is committed.
 
+use crate::program;
 use libtest_mimic::{Failed, Trial};
 use snapbox::filter::NormalizeToExpected;
 use snapbox::{Assert, Data};
 use std::path::Path;
-use std::process::Command;
 
 /// The repository.
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -124,12 +126,9 @@ fn printed(command: &str, folder: &Path) -> String {
         None => (command, None),
         Some((command, file)) => (command, Some(folder.join(file))),
     };
-    let arguments = command.split(' ').map(|word| word.replace("[ROOT]", ROOT));
-    let output = Command::new(env!("CARGO_BIN_EXE_mceip"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
+    let command = command.replace("[ROOT]", ROOT);
+    let arguments: Vec<&str> = command.split(' ').collect();
+    let output = program::mceip_in(folder, &arguments);
 
     let mut text = String::new();
     match file {

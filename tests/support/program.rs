@@ -1,13 +1,20 @@
 //! The program from outside, and a folder of files for it.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
+use std::path::Path;
 use std::process::{Command, Output};
 
 /// Runs the program. Where it ends with exit 0, the certificate that it was asked for has been
 /// written, unless it says that none is, and is accepted when it is read from the disk.
 #[track_caller]
 pub fn mceip(args: &[&str]) -> Output {
-    let output = without_check(args);
+    mceip_in(Path::new("."), args)
+}
+
+/// The same in a folder.
+#[track_caller]
+pub fn mceip_in(folder: &Path, args: &[&str]) -> Output {
+    let output = without_check(folder, args);
     let is_said = |text: &[u8]| String::from_utf8_lossy(text).contains("is not written");
     let is_written = !is_said(&output.stdout) && !is_said(&output.stderr);
 
@@ -15,7 +22,7 @@ pub fn mceip(args: &[&str]) -> Output {
         && output.status.success()
         && is_written
     {
-        let verdict = without_check(&["check", problem, certificate]);
+        let verdict = without_check(folder, &["check", problem, certificate]);
         let said = String::from_utf8_lossy(&verdict.stdout);
         let err = String::from_utf8_lossy(&verdict.stderr);
         assert_eq!(verdict.status.code(), Some(0), "{args:?}: {said}{err}");
@@ -24,9 +31,10 @@ pub fn mceip(args: &[&str]) -> Output {
     output
 }
 
-fn without_check(args: &[&str]) -> Output {
+fn without_check(folder: &Path, args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_mceip"))
         .args(args)
+        .current_dir(folder)
         .output()
         .unwrap()
 }

@@ -65,7 +65,7 @@ pub(super) fn short(v: &Rational) -> String {
 }
 
 /// The number itself: a decimal where twelve digits spell it, or else a fraction beside the rounded
-/// decimal where it is short.
+/// decimal where it is short; about 17 digits of any other.
 pub(super) fn exactly(v: &Rational) -> String {
     let (lo, hi) = enclosing_decimals(&Interval::point(v.clone()), 12);
     if lo == hi {
@@ -76,7 +76,10 @@ pub(super) fn exactly(v: &Rational) -> String {
     if fraction.len() <= LONGEST_FRACTION {
         format!("{fraction} ({})", short(v))
     } else {
-        enclosing_decimals(&Interval::point(v.clone()), 17).0
+        format!(
+            "about {}",
+            enclosing_decimals(&Interval::point(v.clone()), 17).0
+        )
     }
 }
 

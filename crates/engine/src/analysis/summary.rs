@@ -52,7 +52,7 @@ impl Analysis {
         let fastest = self.divergence.modes.last().and_then(Mode::growth_text);
         let growth = match fastest {
             None => String::new(),
-            Some(fastest) => format!(", growing at up to {fastest} 1/s"),
+            Some(fastest) => format!(", growing at up to about {fastest} 1/s"),
         };
 
         format!(
@@ -134,7 +134,10 @@ impl Analysis {
     fn gap_text(&self) -> String {
         match self.critical_gap() {
             Some(0.0) => ": both are the critical mu itself, rounded".into(),
-            Some(gap) => format!(": the critical mu is known to a relative {gap:.1e}"),
+            Some(gap) => format!(
+                ": the critical mu is known to a relative {}",
+                two_digits_up(gap)
+            ),
             None => String::new(),
         }
     }
@@ -193,6 +196,12 @@ impl Analysis {
             }
         }
     }
+}
+
+/// A positive number in two digits, rounded upwards.
+fn two_digits_up(v: f64) -> String {
+    let unit = 10f64.powf(v.log10().floor() - 1.0);
+    format!("{:.1e}", (v / unit).ceil() * unit)
 }
 
 /// What is said of these intervals; `None` without any.
