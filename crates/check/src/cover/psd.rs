@@ -5,19 +5,17 @@
 //! (Gershgorin), and so is S = L L' + E. If it is strictly dominant, S is definite. Without a
 //! factor S has to be a non-negative diagonal.
 //!
-//! Only the lower triangle is looked at, so S must be symmetric. Entries of L L' are computed in
-//! machine integers where they fit. Called by `condensed` for its hypotheses.
+//! Only the lower triangle is looked at, so S must be symmetric. Called by
+//! `condensed` for its hypotheses.
 
 use super::fault::CoverFault;
-use crate::certificate::{Factor, IntegerRow};
+use crate::certificate::Factor;
 use mceip_exact::Integer;
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 
 /// Largest binary exponent of a factor.
 const MAX_EXPONENT: u32 = 1 << 12;
-/// Bits that a sum of absolute values of entries of L L' may have in machine integers.
-const SHORT_BITS: u64 = 126;
 
 /// A symmetric matrix by rows: column to entry.
 pub(super) type Symmetric = Vec<BTreeMap<usize, Integer>>;
@@ -76,44 +74,20 @@ impl RowSums {
     fn of_residual(s: &Symmetric, scale: &Integer, factor: &Factor) -> RowSums {
         let n = s.len();
         let lift = Integer::one() << (2 * factor.exponent);
-        let short = short(factor);
         let mut sums = RowSums {
             diagonal: vec![Integer::zero(); n],
             off_diagonal: vec![Integer::zero(); n],
         };
-        // The sums over the entries where S is zero, in units of 1 / 4^exponent.
-        let mut fill = vec![0i128; n];
 
         for i in 0..n {
             let first_of_s = s[i].keys().next().copied().unwrap_or(i);
             for j in factor.first[i].min(first_of_s)..=i {
-                let given = s[i].get(&j);
-                let product = match &short {
-                    Some(rows) => {
-                        let product = short_product(factor, rows, i, j);
-                        if given.is_none() && i != j {
-                            fill[i] += product.abs();
-                            fill[j] += product.abs();
-                            continue;
-                        }
-
-                        Integer::from(product)
-                    }
-                    None => product(factor, i, j),
-                };
-
-                let mut residual = -product * scale;
-                if let Some(given) = given {
+                let mut residual = -product(factor, i, j) * scale;
+                if let Some(given) = s[i].get(&j) {
                     residual += given * &lift;
                 }
 
                 sums.add(i, j, residual);
-            }
-        }
-
-        for (sum, fill) in sums.off_diagonal.iter_mut().zip(fill) {
-            if fill > 0 {
-                *sum += Integer::from(fill) * scale;
             }
         }
 
@@ -148,32 +122,6 @@ fn product(factor: &Factor, i: usize, j: usize) -> Integer {
     let mut sum = Integer::zero();
     for (p, q) in left.zip(right) {
         sum += &*p * &*q;
-    }
-
-    sum
-}
-
-/// The factor's rows in machine integers, if a row sum of |L L'|, of at most n^2 products, fits
-/// into 128 bits.
-fn short(factor: &Factor) -> Option<Vec<&[i64]>> {
-    let bits = factor.rows.iter().map(IntegerRow::bits).max().unwrap_or(0);
-    let bits_of_order = u64::from(usize::BITS - factor.rows.len().leading_zeros());
-    if 2 * bits + 2 * bits_of_order > SHORT_BITS {
-        return None;
-    }
-
-    factor.rows.iter().map(IntegerRow::as_short).collect()
-}
-
-/// [`product`] of such rows.
-fn short_product(factor: &Factor, rows: &[&[i64]], i: usize, j: usize) -> i128 {
-    let start = factor.first[i].max(factor.first[j]);
-    let left = &rows[i][start - factor.first[i]..];
-    let right = rows[j].get(start - factor.first[j]..);
-
-    let mut sum = 0;
-    for (p, q) in left.iter().zip(right.unwrap_or_default()) {
-        sum += i128::from(*p) * i128::from(*q);
     }
 
     sum
@@ -247,51 +195,10 @@ mod tests {
         assert!(!check(8, true) && !check(7, false));
     }
 
-    /// Rows of different beginnings, at both sides of the length at which machine integers end.
-    #[test]
-    fn short_and_long_products_agree() {
-        let row = |list: &[i64], bits: u32| -> IntegerRow {
-            list.iter().map(|v| Integer::from(*v) << bits).collect()
-        };
-        let of = |bits| Factor {
-            first: vec![0, 0, 2],
-            rows: vec![row(&[15], bits), row(&[-15, 14], bits), row(&[-13], bits)],
-            exponent: 0,
-        };
-        for bits in [0, 55, 56, 57] {
-            let factor = of(bits);
-            let rows = short(&factor);
-            // Three rows are 2 bits, entries 4 + bits: 2 (4 + bits) + 4 may be at most 126.
-            assert_eq!(rows.is_some(), bits <= 57, "{bits}");
-            for (i, j) in [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)] {
-                assert_eq!(
-                    Integer::from(short_product(&factor, rows.as_ref().unwrap(), i, j)),
-                    product(&factor, i, j)
-                );
-            }
-        }
-        assert!(short(&of(58)).is_none() && short(&of(70)).is_none());
-    }
-
-    /// The room for entries is smaller where rows are many: eight of them take eight bits.
-    #[test]
-    fn the_number_of_rows_counts_twice() {
-        let of = |bits: u32| {
-            let rows = vec![vec![Integer::one() << (bits - 1)].into(); 8];
-            short(&Factor {
-                first: (0..8).collect(),
-                rows,
-                exponent: 0,
-            })
-            .is_some()
-        };
-        assert_eq!([of(59), of(60)], [true, false]);
-    }
-
     /// S = L L' + E with an S that is zero where L L' is not, for short and for long factors and
     /// two scales: E_ii - sum |E_ij| is `more` units, row by row, and the sign of that decides.
     #[test]
-    fn fill_counts_in_both_arithmetics() {
+    fn fill_counts() {
         let verdict = |bits: u32, scale: i64, more: [i64; 3], strictly: bool| {
             let value = |v: i64| Integer::from(v) << bits;
             // L = [[3], [-1, 3], [-1, 1, 3]]: L L' = [[9, -3, -3], [-3, 10, 4], [-3, 4, 11]].
@@ -313,7 +220,6 @@ mod tests {
                 BTreeMap::from([(0, entry(-2)), (1, entry(10 + 5) + more[1])]),
                 BTreeMap::from([(2, entry(11 + 7) + more[2])]),
             ];
-            assert_eq!(short(&factor).is_some(), bits < 60);
             semidefinite(&s, &Integer::from(scale), Some(&factor), strictly, "S")
         };
         for (bits, scale) in [(0, 1), (0, 3), (40, 7), (59, 3), (60, 3), (90, 1)] {
