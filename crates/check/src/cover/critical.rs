@@ -30,12 +30,12 @@
 //! Every leaf proves that its box holds no solution. Trees are read as in `walk`, with one more
 //! node that cuts the interval of mu.
 
+use super::bordered::{Bordered, NullWitness};
 use super::budget::{WorkBudget, entries_work};
 use super::condensed::Anchors;
 use super::ends::{Corner, Ends, FRACTION_BITS, rational_bits, within_matrix_bits};
 use super::family::{Family, Linear, end_bits, row_bits, words};
 use super::fault::CoverFault;
-use super::null_witness::NullWitness;
 use super::region::{Matrices, Region, State};
 use super::short::Short;
 use super::walk::NodeFault;
@@ -471,17 +471,12 @@ impl BoxWalk<'_> {
             return Err(CoverFault::OutcomeOnHalfLine { outcome: "regular" });
         }
 
-        let support = regular::support(&at.region, &self.index, witness)?;
+        let bordered = Bordered::of_leaf(&at.region, &self.index, witness.into())?;
         self.affordable(at, anchor)?;
-        self.spend_regular(at, support.len(), witness)?;
-
-        let short = self.short(at, anchor);
-        if short.is_some_and(|corners| regular::is_regular_at(&support, &*corners, witness)) {
-            return Ok(());
-        }
+        self.spend_regular(at, bordered.support.len(), witness)?;
 
         let ends = self.corners(at, anchor)?;
-        regular::check_corners(&support, &four_corners(&ends), witness)
+        regular::check_corners(&bordered, &four_corners(&ends))
     }
 
     /// Takes the work of a regular leaf from the budget of definite leaves, which counts order^3 as
@@ -493,8 +488,7 @@ impl BoxWalk<'_> {
         witness: &Regular,
     ) -> Result<(), CoverFault> {
         let [end_bits, friction_bits] = box_bits(at);
-        let witness = NullWitness::of_leaf(witness);
-        let work = witness.work(moving, end_bits + friction_bits);
+        let work = NullWitness::from(witness).work(moving, end_bits + friction_bits);
         self.definite_budget.spend(work)
     }
 

@@ -13,11 +13,13 @@
 //! Short numbers (`short`) are tried first. Where they cannot tell, `ends` gives the long ones.
 //! `enclosed_definite` decides at an end. Called by the walk through the trees.
 
+use super::ball::BallMatrix;
 use super::enclosed_definite::{long_definite, positive_definite};
-use super::ends::{Corner, ENDS, Ends, Matrix};
+use super::ends::{Corner, ENDS, Ends};
 use super::fault::CoverFault;
 use super::region::Region;
 use super::short::Short;
+use mceip_exact::Integer;
 use num_traits::Zero;
 use std::rc::Rc;
 
@@ -53,11 +55,11 @@ pub(super) fn check_corners(
 ) -> Result<(), CoverFault> {
     let possible = region.possible_support();
     for corner in corners {
-        if corner.is_limit && is_skew(corner.m, corner.r, &possible) {
+        if corner.is_limit && is_skew(corner.matrix, &possible) {
             continue; // semidefinite, which suffices there
         }
 
-        let verdict = long_definite(corner.m, corner.r, &possible, sign);
+        let verdict = long_definite(corner.matrix, &possible, sign);
         verdict.map_err(|pivot| not_definite(sign, index[possible[pivot]], corner.name))?;
     }
 
@@ -80,7 +82,8 @@ fn not_definite(sign: i8, index: usize, end: &'static str) -> CoverFault {
 }
 
 /// Is the symmetric part on these variables exactly zero, with zero radius?
-fn is_skew(m: &Matrix, r: &Matrix, variables: &[usize]) -> bool {
+fn is_skew(matrix: &BallMatrix<Integer>, variables: &[usize]) -> bool {
+    let BallMatrix { m, r } = matrix;
     for &i in variables {
         for &j in variables {
             if !(&m[i][j] + &m[j][i]).is_zero() || !r[i][j].is_zero() {

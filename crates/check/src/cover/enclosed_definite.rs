@@ -16,6 +16,7 @@
 //! Called by `definite`: `positive_definite` with short numbers, `long_definite` with the long
 //! ones.
 
+use super::ball::BallMatrix;
 use super::ends::{Matrix, largest_bits};
 use super::short::Short;
 use mceip_exact::Integer;
@@ -45,13 +46,12 @@ const MAX_EXACT_BITS: u64 = 1024;
 /// `Err(k)`: the k-th of the variables breaks it, or the matrix is too large and too close to a
 /// singular one to say.
 pub(super) fn long_definite(
-    m: &Matrix,
-    r: &Matrix,
+    matrix: &BallMatrix<Integer>,
     variables: &[usize],
     sign: i8,
 ) -> Result<(), usize> {
     // The principal part is cut by itself: it may be small beside the rest.
-    let verdict = match Short::of(m, r, variables) {
+    let verdict = match Short::of(&matrix.m, &matrix.r, variables) {
         Some(block) => {
             let all: Vec<usize> = (0..variables.len()).collect();
             positive_definite(&block, &all, sign)
@@ -62,7 +62,7 @@ pub(super) fn long_definite(
         return verdict;
     }
 
-    let least = primitive(least_member(m, r, variables, sign));
+    let least = primitive(least_member(matrix, variables, sign));
     if largest_bits(least.iter().flatten()) > MAX_EXACT_BITS {
         verdict
     } else {
@@ -71,7 +71,8 @@ pub(super) fn long_definite(
 }
 
 /// 2 `sign` sym(M) on `variables`, less the row sums of twice the symmetric radius on its diagonal.
-fn least_member(m: &Matrix, r: &Matrix, variables: &[usize], sign: i8) -> Matrix {
+fn least_member(matrix: &BallMatrix<Integer>, variables: &[usize], sign: i8) -> Matrix {
+    let BallMatrix { m, r } = matrix;
     let mut least = Matrix::with_capacity(variables.len());
 
     for (position, &i) in variables.iter().enumerate() {
@@ -151,7 +152,7 @@ fn least_lower_triangle(t: &Short, variables: &[usize], sign: i8) -> Vec<Vec<i12
     let mut largest: u64 = 0;
     for &i in variables {
         for &j in variables {
-            largest |= t.m[i][j].unsigned_abs();
+            largest |= t.entries.m[i][j].unsigned_abs();
         }
     }
 
@@ -162,7 +163,7 @@ fn least_lower_triangle(t: &Short, variables: &[usize], sign: i8) -> Vec<Vec<i12
     for (position, &i) in variables.iter().enumerate() {
         let mut row = Vec::with_capacity(position + 1);
         for &j in &variables[..=position] {
-            let twice = i128::from(t.m[i][j]) + i128::from(t.m[j][i]);
+            let twice = i128::from(t.entries.m[i][j]) + i128::from(t.entries.m[j][i]);
             row.push((twice * i128::from(sign)) >> cut);
         }
 
@@ -177,7 +178,7 @@ fn least_lower_triangle(t: &Short, variables: &[usize], sign: i8) -> Vec<Vec<i12
 fn slack(t: &Short, variables: &[usize], i: usize, cut: u32) -> i128 {
     let mut radius: i128 = 0;
     for &j in variables {
-        radius += i128::from(t.r[i][j]) + i128::from(t.r[j][i]);
+        radius += i128::from(t.entries.r[i][j]) + i128::from(t.entries.r[j][i]);
     }
 
     let rounded_up = (radius >> cut) + i128::from(radius > 0 && cut > 0);
@@ -351,6 +352,10 @@ mod tests {
             .collect()
     }
 
+    fn of(m: &Matrix, r: Matrix) -> BallMatrix<Integer> {
+        BallMatrix { m: m.clone(), r }
+    }
+
     fn zero(n: usize) -> Matrix {
         vec![vec![Integer::zero(); n]; n]
     }
@@ -522,12 +527,12 @@ mod tests {
             Err(1),
             "the margin is too small for short numbers"
         );
-        assert_eq!(long_definite(&m, &zero(2), &[0, 1], 1), Ok(()));
-        assert_eq!(long_definite(&singular, &zero(2), &[0, 1], 1), Err(1));
+        assert_eq!(long_definite(&of(&m, zero(2)), &[0, 1], 1), Ok(()));
+        assert_eq!(long_definite(&of(&singular, zero(2)), &[0, 1], 1), Err(1));
 
         // A radius of r e at the first entry leaves the determinant (2 - r) e - e^2.
-        assert_eq!(long_definite(&m, &radius(1), &[0, 1], 1), Ok(()));
-        assert_eq!(long_definite(&m, &radius(2), &[0, 1], 1), Err(1));
+        assert_eq!(long_definite(&of(&m, radius(1)), &[0, 1], 1), Ok(()));
+        assert_eq!(long_definite(&of(&m, radius(2)), &[0, 1], 1), Err(1));
 
         let negative: Matrix = m
             .iter()
@@ -535,8 +540,8 @@ mod tests {
             .collect();
         assert_eq!(
             [
-                long_definite(&negative, &zero(2), &[0, 1], -1),
-                long_definite(&m, &zero(2), &[0, 1], -1)
+                long_definite(&of(&negative, zero(2)), &[0, 1], -1),
+                long_definite(&of(&m, zero(2)), &[0, 1], -1)
             ],
             [Ok(()), Err(0)]
         );
@@ -557,7 +562,11 @@ mod tests {
                 .collect()
         };
         let decide = |n: usize, bits: u64| {
-            long_definite(&tight(n, bits), &zero(n), &(0..n).collect::<Vec<_>>(), 1)
+            long_definite(
+                &of(&tight(n, bits), zero(n)),
+                &(0..n).collect::<Vec<_>>(),
+                1,
+            )
         };
 
         // Twice the entries, without their factor of two: 2^b has b + 1 bits.

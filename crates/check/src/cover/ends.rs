@@ -3,6 +3,7 @@
 //! An entry of a matrix here is an integer in units of 1 / `scale`. The radius of an entry bounds
 //! how far the true number may be from it.
 
+use super::ball::BallMatrix;
 use super::fault::CoverFault;
 use mceip_exact::{Integer, Rational};
 
@@ -19,27 +20,27 @@ pub(super) const MAX_MATRIX_BITS: u64 = 1 << 29;
 /// The ends of an interval, as messages name them.
 pub(super) const ENDS: [&str; 2] = ["lower", "upper"];
 
-/// T(t) for t between two values: convex combinations of a matrix within r[0] of m[0] and one
-/// within r[1] of m[1], all in units of 1 / `scale`.
+/// T(t) for t between two values: convex combinations of a matrix of the lower end and one of the
+/// upper end, all in units of 1 / `scale`.
 ///
-/// At an infinite end m[1] is a direction: T(t) is a matrix within r[0] of m[0] plus a non-negative
-/// multiple of one within r[1] of m[1]. (Of a reversed expansion and of a chord, m[1] is the limit
-/// at infinity of a positive multiple of T(t), and all between are convex combinations.)
+/// An infinite end is a direction: T(t) is a matrix of the lower end plus a non-negative multiple of
+/// one of the direction. (Of a reversed expansion and of a chord, the upper end is the limit at
+/// infinity of a positive multiple of T(t), and all between are convex combinations.)
 #[derive(Clone)]
 pub(super) struct Ends {
-    pub(super) m: [Matrix; 2],
-    pub(super) r: [Matrix; 2],
-    /// (t1 - t0) T'(t) lies within this of m[1] - m[0]. Only the hull of a root leaf has it.
+    /// The lower and the upper one.
+    pub(super) at: [BallMatrix<Integer>; 2],
+    /// (t1 - t0) T'(t) lies within this of the difference of the centers. Only the hull of a root
+    /// leaf has it.
     pub(super) slope: Option<Matrix>,
     pub(super) scale: Integer,
-    /// Is m[1] no value of the window, so that weak inequalities suffice there?
+    /// Is the upper end no value of the window, so that weak inequalities suffice there?
     pub(super) infinite: bool,
 }
 
-/// One end of a region: T is a convex combination of matrices within `r` of `m` at its ends.
+/// One end of a region: T is a convex combination of matrices of its ends.
 pub(super) struct Corner<'a> {
-    pub(super) m: &'a Matrix,
-    pub(super) r: &'a Matrix,
+    pub(super) matrix: &'a BallMatrix<Integer>,
     pub(super) scale: &'a Integer,
     /// As messages name it.
     pub(super) name: &'static str,
@@ -51,8 +52,7 @@ impl Ends {
     /// Both ends, with their names in messages.
     pub(super) fn corners(&self, names: [&'static str; 2]) -> [Corner<'_>; 2] {
         [0, 1].map(|end| Corner {
-            m: &self.m[end],
-            r: &self.r[end],
+            matrix: &self.at[end],
             scale: &self.scale,
             name: names[end],
             is_limit: end == 1 && self.infinite,
@@ -63,32 +63,13 @@ impl Ends {
     ///
     /// Both convex combinations have the same weights, so that of the sum has them as well.
     pub(super) fn plus_multiple(&self, other: &Ends, mu: &Rational) -> Ends {
-        let sum = |own: &Matrix, other: &Matrix| combination(own, mu.denom(), other, mu.numer());
-
         Ends {
-            m: [0, 1].map(|end| sum(&self.m[end], &other.m[end])),
-            r: [0, 1].map(|end| sum(&self.r[end], &other.r[end])),
+            at: [0, 1].map(|end| self.at[end].combine(mu.denom(), &other.at[end], mu.numer())),
             slope: None,
             scale: &self.scale * mu.denom(),
             infinite: self.infinite,
         }
     }
-}
-
-/// q A + p B.
-fn combination(a: &Matrix, q: &Integer, b: &Matrix, p: &Integer) -> Matrix {
-    let mut sum = Matrix::with_capacity(a.len());
-    for (a_row, b_row) in a.iter().zip(b) {
-        sum.push(
-            a_row
-                .iter()
-                .zip(b_row)
-                .map(|(a, b)| q * a + p * b)
-                .collect(),
-        );
-    }
-
-    sum
 }
 
 /// Demands that order^2 entries of so many coefficients of so many bits are at most

@@ -23,6 +23,7 @@
 //! Entries are rounded to units of 2^-128, outward. Fractions are kept as numerator and denominator
 //! without reducing them, because a gcd costs more than all else here. Called by `family`.
 
+use super::ball::BallMatrix;
 use super::ends::{Ends, FRACTION_BITS, Matrix};
 use super::fault::CoverFault;
 use super::short::Short;
@@ -82,8 +83,7 @@ impl Expanded {
         };
 
         if self.reversed {
-            ends.m.swap(0, 1);
-            ends.r.swap(0, 1);
+            ends.at.swap(0, 1);
             ends.infinite = hi.is_none(); // s = 0 itself is not part of the window
         }
 
@@ -119,10 +119,15 @@ impl Expanded {
         let d = lo - &self.center;
         let weight = self.weight_above(lo);
         Ok(Ends {
-            m: [self.at(&d), self.direction()],
-            r: [
-                self.remainder(&d.abs(), &weight),
-                self.remainder_direction(),
+            at: [
+                BallMatrix {
+                    m: self.at(&d),
+                    r: self.remainder(&d.abs(), &weight),
+                },
+                BallMatrix {
+                    m: self.direction(),
+                    r: self.remainder_direction(),
+                },
             ],
             slope: None,
             scale: Integer::one() << FRACTION_BITS,
@@ -147,8 +152,7 @@ impl Expanded {
         };
 
         Ends {
-            m: [self.at(&d0), self.at(&d1)],
-            r: [r0, r1],
+            at: [(d0, r0), (d1, r1)].map(|(d, r)| BallMatrix { m: self.at(&d), r }),
             slope: None,
             scale: Integer::one() << FRACTION_BITS,
             infinite: false,

@@ -12,6 +12,7 @@
 //! Called by the walks: `affordable` and `matrix_work` bound the work before `ends` does it, and
 //! `short` gives the ends in short numbers where it can. Those of two families are in one unit.
 
+use super::ball::{BallMatrix, combination};
 use super::budget::entries_work;
 use super::condensed::Anchors;
 use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits, rational_bits, within_matrix_bits};
@@ -281,22 +282,17 @@ impl Linear {
         self.radius.iter().map(|r| vec![factor * r; n]).collect()
     }
 
-    /// p B + q A.
-    fn combination(&self, p: &Integer, q: &Integer) -> Matrix {
-        let mut sum = Matrix::with_capacity(self.a.len());
-        for (a, b) in self.a.iter().zip(&self.b) {
-            sum.push(a.iter().zip(b).map(|(a, b)| q * a + p * b).collect());
+    /// q A + p B for q > 0, with what was cut off.
+    fn at(&self, p: &Integer, q: &Integer) -> BallMatrix<Integer> {
+        BallMatrix {
+            m: combination(&self.a, q, &self.b, p),
+            r: self.by_row(&(q + p.abs())),
         }
-
-        sum
     }
 
     /// factor B.
     fn direction(&self, factor: &Integer) -> Matrix {
-        self.b
-            .iter()
-            .map(|row| row.iter().map(|v| v * factor).collect())
-            .collect()
+        combination(&self.b, factor, &self.b, &Integer::zero())
     }
 
     /// The ends over [lo, hi], in units of 1 / (common 2^128) with a common denominator of both.
@@ -304,13 +300,15 @@ impl Linear {
         let common = lo.denom().lcm(hi.unwrap_or(lo).denom());
         let scale = &common << FRACTION_BITS;
         let lower = lo.numer() * (&common / lo.denom());
-        let m0 = self.combination(&lower, &common);
-        let r0 = self.by_row(&(&common + lower.abs()));
+        let at_lo = self.at(&lower, &common);
 
         let Some(hi) = hi else {
+            let direction = BallMatrix {
+                m: self.direction(&common),
+                r: self.by_row(&common),
+            };
             return Ends {
-                m: [m0, self.direction(&common)],
-                r: [r0, self.by_row(&common)],
+                at: [at_lo, direction],
                 slope: None,
                 scale,
                 infinite: true,
@@ -319,8 +317,7 @@ impl Linear {
 
         let upper = hi.numer() * (&common / hi.denom());
         Ends {
-            m: [m0, self.combination(&upper, &common)],
-            r: [r0, self.by_row(&(&common + upper.abs()))],
+            at: [at_lo, self.at(&upper, &common)],
             slope: None,
             scale,
             infinite: false,
@@ -421,11 +418,11 @@ mod tests {
             for j in 0..3 {
                 let (a, b) = fixed(&rows, i, j);
                 assert_eq!(
-                    [&ends.m[0][i][j], &ends.m[1][i][j]],
+                    [&ends.at[0].m[i][j], &ends.at[1].m[i][j]],
                     [&(&a * 15 + &b * 10), &(&a * 15 + &b * 21)]
                 );
                 assert_eq!(
-                    [&ends.r[0][i][j], &ends.r[1][i][j]],
+                    [&ends.at[0].r[i][j], &ends.at[1].r[i][j]],
                     [25 * radius, 36 * radius].map(Integer::from).each_ref()
                 );
                 assert_eq!(slope[i][j], Integer::from(11 * radius));
@@ -468,8 +465,8 @@ mod tests {
                 for j in 0..3 {
                     for (end, t) in [(0, Some(&lo)), (1, None)] {
                         let unit = |v: &Integer| Rational::new(v.clone(), ends.scale.clone());
-                        let distance = unit(&ends.m[end][i][j]) - given(&rows, i, j, t);
-                        let radius = unit(&ends.r[end][i][j]);
+                        let distance = unit(&ends.at[end].m[i][j]) - given(&rows, i, j, t);
+                        let radius = unit(&ends.at[end].r[i][j]);
 
                         assert!(
                             distance.abs() <= radius,

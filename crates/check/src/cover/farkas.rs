@@ -17,6 +17,7 @@
 //! Short numbers (`short`) are tried first. Where they cannot tell, `ends` gives the long ones.
 //! Called by the walk through the trees.
 
+use super::ball::BallMatrix;
 use super::ends::{Corner, ENDS, Ends};
 use super::fault::CoverFault;
 use super::region::{Region, State};
@@ -121,9 +122,10 @@ fn upper_bound(corner: &Corner<'_>, w: &[i64], j: usize) -> Integer {
             continue;
         }
 
-        bound += &corner.m[i][j] * weight;
+        let BallMatrix { m, r } = corner.matrix;
+        bound += &m[i][j] * weight;
 
-        let radius = &corner.r[i][j];
+        let radius = &r[i][j];
         if !radius.is_zero() {
             bound += radius * weight.unsigned_abs();
         }

@@ -16,7 +16,8 @@
 //!
 //! Called by the walk for the ends of root leaves and for that outcome.
 
-use super::ends::{Ends, Matrix};
+use super::ball::combination;
+use super::ends::Ends;
 use super::family::Family;
 use super::fault::CoverFault;
 use crate::pencil::Rows;
@@ -57,38 +58,17 @@ impl Family {
 ///
 /// In units of 1 / (scale of the cone times the denominator of lo).
 fn chord(cone: &Ends, lo: &Rational) -> Ends {
-    let [at_lo, direction] = &cone.m;
-    let [radius_at_lo, radius_of_direction] = &cone.r;
+    let [at_lo, direction] = &cone.at;
     let p = lo.numer();
     let q = lo.denom();
 
-    let radius = [multiple(q, radius_at_lo), multiple(p, radius_of_direction)];
-    // d(sT)/ds = T(lo) - lo B, and each of the two lies within its radius.
-    let slope = sum(&radius[0], &radius[1]);
-
     Ends {
-        m: [multiple(q, at_lo), multiple(p, direction)],
-        r: radius,
-        slope: Some(slope),
+        at: [at_lo.times(q), direction.times(p)],
+        // d(sT)/ds = T(lo) - lo B, and each of the two lies within its radius.
+        slope: Some(combination(&at_lo.r, q, &direction.r, p)),
         scale: &cone.scale * q,
         infinite: true,
     }
-}
-
-fn multiple(factor: &Integer, matrix: &Matrix) -> Matrix {
-    matrix
-        .iter()
-        .map(|row| row.iter().map(|v| factor * v).collect())
-        .collect()
-}
-
-fn sum(left: &Matrix, right: &Matrix) -> Matrix {
-    let mut sum = Matrix::with_capacity(left.len());
-    for (l, r) in left.iter().zip(right) {
-        sum.push(l.iter().zip(r).map(|(l, r)| l + r).collect());
-    }
-
-    sum
 }
 
 /// Demands that x is a null vector of the pencil's limit at infinity on the support.
@@ -150,6 +130,8 @@ fn fault(expected: &'static str, index: usize) -> CoverFault {
 
 #[cfg(test)]
 mod tests {
+    use super::super::ball::BallMatrix;
+    use super::super::ends::Matrix;
     use super::super::family::Linear;
     use super::*;
     use mceip_exact::{rational, whole};
@@ -187,7 +169,7 @@ mod tests {
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let (a, b) = given[i][j];
                 let entry =
-                    |end: usize| Rational::new(chord.m[end][i][j].clone(), chord.scale.clone());
+                    |end: usize| Rational::new(chord.at[end].m[i][j].clone(), chord.scale.clone());
 
                 assert_eq!(
                     entry(0) * &row_scale,
@@ -209,8 +191,7 @@ mod tests {
         let of = |v: i64| vec![vec![Integer::from(v)]];
         let scale = Integer::from(5);
         let cone = Ends {
-            m: [of(10), of(1)],
-            r: [of(2), of(3)],
+            at: [(10, 2), (1, 3)].map(|(m, r)| BallMatrix { m: of(m), r: of(r) }),
             slope: None,
             scale,
             infinite: true,
@@ -221,11 +202,11 @@ mod tests {
         // T(lo) = 10/5 +- 2/5, B = 1/5 +- 3/5, lo = 3/2.
         let number = |m: &Matrix| Rational::new(m[0][0].clone(), chord.scale.clone());
         assert_eq!(
-            [number(&chord.m[0]), number(&chord.m[1])],
+            [number(&chord.at[0].m), number(&chord.at[1].m)],
             [whole(2), rational(3, 10)]
         );
         assert_eq!(
-            [number(&chord.r[0]), number(&chord.r[1])],
+            [number(&chord.at[0].r), number(&chord.at[1].r)],
             [rational(2, 5), rational(9, 10)]
         );
         assert_eq!(number(&chord.slope.unwrap()), rational(13, 10));

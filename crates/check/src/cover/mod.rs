@@ -19,12 +19,12 @@
 //! (`found`).
 //!
 //! `ends`, `family`, `expanded` and `condensed` enclose T(t) over an interval, `infinity` over a
-//! half line. `product`, `short`, `definite` and `psd` are the arithmetic behind it. `walk` goes
+//! half line. `ball`, `product`, `short`, `definite` and `psd` are the arithmetic behind it. `walk` goes
 //! through the trees, and `budget` bounds the work.
 //!
 //! `critical` uses the same leaves for boxes of (value, friction): absence below a friction.
-//! `presence` uses the corners of such boxes: a solution for every friction of an interval. Both
-//! have witnesses of one kind, `null_witness`.
+//! `presence` uses the corners of such boxes: a solution for every friction of an interval. What an
+//! approximate inverse and null vectors prove, for `root`, `regular` and `presence`, is in `bordered`.
 //!
 //! For each kind of leaf there is a file in `crates/engine/src/search/complete/leaf/` that makes
 //! it; the table in its `mod.rs` names both sides.
@@ -32,7 +32,9 @@
 //! Input: the integral rows of the pencil, the window, the claims of the certificate that have been
 //! accepted, and the cover. Called by [`crate::check`].
 
+mod ball;
 mod beside;
+mod bordered;
 mod budget;
 mod condensed;
 pub(crate) mod critical;
@@ -46,7 +48,6 @@ pub(crate) mod fault;
 mod found;
 mod infinity;
 mod ldl;
-mod null_witness;
 #[cfg(test)]
 mod order_two;
 pub(crate) mod presence;

@@ -1,5 +1,6 @@
 //! Regions and enclosures of order 2 for the unit tests of leaves.
 
+use super::ball::BallMatrix;
 use super::ends::{Ends, Matrix};
 use super::fault::CoverFault;
 use super::region::{Region, State};
@@ -34,8 +35,10 @@ pub(super) fn region(states: [State; 2]) -> Region {
 
 pub(super) fn ends(m: [Square; 2], r: [Square; 2], infinite: bool) -> Rc<Ends> {
     Rc::new(Ends {
-        m: m.map(matrix),
-        r: r.map(matrix),
+        at: [0, 1].map(|end| BallMatrix {
+            m: matrix(m[end]),
+            r: matrix(r[end]),
+        }),
         slope: None,
         scale: 1.into(),
         infinite,

@@ -3,9 +3,8 @@
 //!
 //! For a mechanical system the condensed pencil is affine in mu, T(t, mu) = T0(t) + mu T1(t), with
 //! t = lambda^2. Over a box [t0, t1] x [low, high] it is enclosed by four corners as in `critical`.
-//! Let S be the support of the piece, k in S its pivot, T' the block of T on S without k. The
-//! witness is Y ~ T'^-1 and vectors v, u ~ the right and left null vectors of T_SS, with
-//! v_k = u_k = 1 and v > 0. Indices i, j belong to S without k.
+//! The witness is that of `bordered` on the support S of the piece, with v > 0 and the pivot k.
+//! Indices i, j belong to S without k.
 //!
 //! 1. d = v - max |I - Y T'| v > 0, the largest value of each row over the corners. So Y and T' are
 //!    regular in the whole box, and v_true = -T'^-1 T_'k, 1 at k, is the only candidate for x.
@@ -22,13 +21,13 @@
 //! Left sides that are maxima over corners bound the whole box: they are convex in T, and the radii
 //! are part of them.
 
+use super::bordered::{Block, Bordered, NullWitness};
 use super::budget::{WorkBudget, entries_work};
 use super::critical::{PARTS, anchors, bits_of_box, families, of_file, of_piece};
-use super::ends::{Ends, Matrix, within_matrix_bits};
+use super::ends::{Ends, within_matrix_bits};
 use super::family::{Family, words};
 use super::fault::CoverFault;
-use super::null_witness::NullWitness;
-use super::root::Ball;
+use super::root::sign_fault;
 use super::{check_size, expand_anchor};
 use crate::certificate::{PresenceCertificate, PresencePiece};
 use crate::pencil::FrictionParts;
@@ -125,10 +124,16 @@ impl Boxes {
         self.spend_witness(piece, [t0, t1], friction)?;
 
         let ends = self.ends(piece.anchor, [t0, t1], friction)?;
-        let corners = corners_of(&ends);
-        let margin = witness.margin(&corners, &self.slip)?;
-        let theta = witness.theta(&corners, &margin, &self.slip)?;
-        witness.check_rest(&corners, &theta, &self.slip)?;
+        let mut corners = Vec::with_capacity(4);
+        for ends in &ends {
+            for end in &ends.at {
+                corners.push(witness.bordered.block(end, &ends.scale));
+            }
+        }
+
+        let margin = witness.margin(&corners)?;
+        let theta = witness.theta(&corners, &margin)?;
+        witness.check_rest(&ends, &theta)?;
 
         let at_lower = self.edge(&witness, &margin, piece.anchor, t0, friction)?;
         let at_upper = self.edge(&witness, &margin, piece.anchor, t1, friction)?;
@@ -150,8 +155,7 @@ impl Boxes {
         friction: &[Rational; 2],
     ) -> Result<(), CoverFault> {
         let [end_bits, friction_bits] = bits_of_box(t0, Some(t1), friction.each_ref());
-        let witness = NullWitness::of_piece(piece);
-        let work = witness.work(piece.support.len(), end_bits + friction_bits);
+        let work = NullWitness::from(piece).work(piece.support.len(), end_bits + friction_bits);
         self.witness_budget.spend(work)
     }
 
@@ -166,13 +170,8 @@ impl Boxes {
     ) -> Result<Edge, CoverFault> {
         let ends = self.ends(anchor, [t, t], friction)?;
         let at = ends.each_ref().map(|ends| {
-            let corner = Corner::of(ends, 0);
-            EdgeEnd {
-                value: witness.value(&corner),
-                radius: witness.value_radius(&corner),
-                residual: witness.left_residual(&corner),
-                error: witness.error_at(&corner, margin),
-            }
+            let corner = witness.bordered.block(&ends.at[0], &ends.scale);
+            witness.edge_end(&corner, &ends.scale, margin)
         });
 
         Ok(Edge { at })
@@ -204,33 +203,6 @@ impl Boxes {
             .each_ref()
             .map(|mu| plain.plus_multiple(&of_friction, mu)))
     }
-}
-
-/// Every matrix within `r` of `m`, in units of 1 / `scale`.
-struct Corner<'a> {
-    m: &'a Matrix,
-    r: &'a Matrix,
-    scale: &'a Integer,
-}
-
-impl<'a> Corner<'a> {
-    fn of(ends: &'a Ends, end: usize) -> Corner<'a> {
-        Corner {
-            m: &ends.m[end],
-            r: &ends.r[end],
-            scale: &ends.scale,
-        }
-    }
-}
-
-/// The corners at the lower friction, then those at the higher one.
-fn corners_of([low, high]: &[Ends; 2]) -> [Corner<'_>; 4] {
-    [
-        Corner::of(low, 0),
-        Corner::of(low, 1),
-        Corner::of(high, 0),
-        Corner::of(high, 1),
-    ]
 }
 
 /// At an end of [low, high] and one value of t, with a common unit: u'Tv and its radius, p, and the
@@ -284,67 +256,42 @@ impl Edge {
     }
 }
 
-/// The witness of a piece, with positions among the slip variables. u and v are over `support`,
-/// whose last entry is the pivot, with component 1.
+/// The witness of a piece. `slip` are the indices of the positions in the matrices.
 struct Witness<'a> {
-    support: Vec<usize>,
-    /// Y.
-    y: &'a Matrix,
-    /// 1 in units of Y.
-    y_one: Integer,
-    u: Vec<Integer>,
-    v: Vec<Integer>,
+    bordered: Bordered<'a>,
+    slip: &'a [usize],
 }
 
 impl<'a> Witness<'a> {
-    fn new(piece: &'a PresencePiece, slip: &[usize]) -> Result<Self, CoverFault> {
-        let mut support = positions(&piece.support, slip)?;
-        let at_pivot = support.iter().position(|&i| slip[i] == piece.pivot);
-        let at_pivot = at_pivot.ok_or(CoverFault::Pivot { index: piece.pivot })?;
-        let pivot = support.remove(at_pivot);
-        NullWitness::of_piece(piece).check_shape(support.len())?;
-        support.push(pivot);
-
-        let one = Integer::one() << piece.exponent;
-        let mut u = piece.left.clone();
-        let mut v = piece.right.clone();
-        u.push(one.clone());
-        v.push(one);
-
-        Ok(Witness {
-            support,
-            y: &piece.inverse,
-            y_one: Integer::one() << piece.inverse_exponent,
-            u,
-            v,
-        })
+    fn new(piece: &'a PresencePiece, slip: &'a [usize]) -> Result<Self, CoverFault> {
+        let support = positions(&piece.support, slip)?;
+        let bordered = Bordered::new(support, slip, piece.into())?;
+        Ok(Witness { bordered, slip })
     }
 
-    /// Order of T'.
-    fn order(&self) -> usize {
-        self.support.len() - 1
+    /// The problem's index of component i.
+    fn index(&self, i: usize) -> usize {
+        self.slip[self.bordered.support[i]]
     }
 
     /// d = v - max |I - Y T'| v over the corners, in units of v. Demands that it is positive.
-    fn margin(&self, corners: &[Corner<'_>], slip: &[usize]) -> Result<Vec<Rational>, CoverFault> {
-        let mut margin = Vec::with_capacity(self.order());
-        for i in 0..self.order() {
+    fn margin(&self, corners: &[Block<'_>]) -> Result<Vec<Rational>, CoverFault> {
+        let mut margin = Vec::with_capacity(self.bordered.order());
+        for i in 0..self.bordered.order() {
             let mut largest = Rational::zero();
             for corner in corners {
                 largest = largest.max(self.deviation(corner, i));
             }
 
-            let v = Rational::from_integer(self.v[i].clone());
+            let v = Rational::from_integer(self.bordered.v[i].clone());
             if largest >= v {
-                let is_quotient = v.is_positive();
-                return Err(CoverFault::NotContracting {
-                    index: slip[self.support[i]],
-                    got: if is_quotient {
-                        largest / v
-                    } else {
-                        Rational::one()
-                    },
-                });
+                let got = if v.is_positive() {
+                    largest / v
+                } else {
+                    Rational::one()
+                };
+                let index = self.index(i);
+                return Err(CoverFault::NotContracting { index, got });
             }
 
             margin.push(v - largest);
@@ -354,42 +301,27 @@ impl<'a> Witness<'a> {
     }
 
     /// (|I - Y T'| v)_i at a corner, in units of v.
-    fn deviation(&self, corner: &Corner<'_>, i: usize) -> Rational {
-        let one = &self.y_one * corner.scale;
+    fn deviation(&self, corner: &Block<'_>, i: usize) -> Rational {
         let mut sum = Integer::zero();
-        for j in 0..self.order() {
-            let mut product = Ball::default();
-            for k in 0..self.order() {
-                let row = self.support[k];
-                let column = self.support[j];
-                product.add(
-                    &self.y[i][k],
-                    &corner.m[row][column],
-                    &corner.r[row][column],
-                );
-            }
-
-            if i == j {
-                product.center -= &one;
-            }
-            sum += product.magnitude() * &self.v[j];
+        for (entry, v) in self
+            .bordered
+            .deviation(corner, i)
+            .iter()
+            .zip(&self.bordered.v)
+        {
+            sum += entry * v;
         }
 
-        Rational::new(sum, one)
+        Rational::new(sum, self.bordered.deviation_unit(corner))
     }
 
     /// theta over the corners. Demands that it is less than one: x is positive.
-    fn theta(
-        &self,
-        corners: &[Corner<'_>],
-        margin: &[Rational],
-        slip: &[usize],
-    ) -> Result<Rational, CoverFault> {
+    fn theta(&self, corners: &[Block<'_>], margin: &[Rational]) -> Result<Rational, CoverFault> {
         let mut theta = Rational::zero();
         for corner in corners {
             for (i, error) in self.errors(corner, margin).into_iter().enumerate() {
                 if error >= Rational::one() {
-                    return Err(sign_fault("x", slip[self.support[i]], "> 0"));
+                    return Err(sign_fault("x", self.index(i), "> 0"));
                 }
                 theta = theta.max(error);
             }
@@ -398,60 +330,35 @@ impl<'a> Witness<'a> {
         Ok(theta)
     }
 
-    /// The largest component of |Y (T_'k + T'v)| / d at a corner.
-    fn error_at(&self, corner: &Corner<'_>, margin: &[Rational]) -> Rational {
-        let errors = self.errors(corner, margin);
-        errors.into_iter().max().unwrap_or_default()
-    }
-
     /// |Y (T_'k + T'v)|_i / d_i at a corner.
-    fn errors(&self, corner: &Corner<'_>, margin: &[Rational]) -> Vec<Rational> {
-        let residual: Vec<Ball> = self.support[..self.order()]
-            .iter()
-            .map(|&row| self.row_times_v(corner, row))
-            .collect();
+    fn errors(&self, corner: &Block<'_>, margin: &[Rational]) -> Vec<Rational> {
+        let products = self.bordered.products(corner);
+        let unit = self.bordered.deviation_unit(corner);
 
-        let unit = &self.y_one * corner.scale;
-        let mut errors = Vec::with_capacity(self.order());
-        for (row, d) in self.y.iter().zip(margin) {
-            let mut sum = Ball::default();
-            for (y, entry) in row.iter().zip(&residual) {
-                sum.add(y, &entry.center, &entry.radius);
-            }
-            errors.push(Rational::new(sum.magnitude(), unit.clone()) / d);
+        let mut errors = Vec::with_capacity(margin.len());
+        for (correction, d) in self.bordered.corrections(&products).into_iter().zip(margin) {
+            errors.push(Rational::new(correction, unit.clone()) / d);
         }
 
         errors
     }
 
-    /// (T v)_row.
-    fn row_times_v(&self, corner: &Corner<'_>, row: usize) -> Ball {
-        let mut sum = Ball::default();
-        for (v, &column) in self.v.iter().zip(&self.support) {
-            sum.add(v, &corner.m[row][column], &corner.r[row][column]);
-        }
+    /// Demands (T v_true)_i >= 0 for every i off the support, at all corners.
+    fn check_rest(&self, ends: &[Ends; 2], theta: &Rational) -> Result<(), CoverFault> {
+        let support = &self.bordered.support;
+        for row in (0..self.slip.len()).filter(|row| !support.contains(row)) {
+            for corner in ends.iter().flat_map(|ends| &ends.at) {
+                let line = self.bordered.line(corner, row);
+                let y = self.bordered.times_v(&line);
 
-        sum
-    }
-
-    /// Demands (T v_true)_i >= 0 for every i off the support.
-    fn check_rest(
-        &self,
-        corners: &[Corner<'_>],
-        theta: &Rational,
-        slip: &[usize],
-    ) -> Result<(), CoverFault> {
-        for row in (0..slip.len()).filter(|row| !self.support.contains(row)) {
-            for corner in corners {
-                let sum = self.row_times_v(corner, row);
                 let mut reach = Integer::zero(); // sum of (|m| + r) v without the pivot
-                for (v, &column) in self.v[..self.order()].iter().zip(&self.support) {
-                    reach += (corner.m[row][column].abs() + &corner.r[row][column]) * v;
+                for ((m, r), v) in line[..self.bordered.order()].iter().zip(&self.bordered.v) {
+                    reach += (m.abs() + *r) * v;
                 }
 
-                let least = (sum.center - sum.radius) * theta.denom();
+                let least = (y.center - y.radius) * theta.denom();
                 if least < reach * theta.numer() {
-                    return Err(sign_fault("y", slip[row], ">= 0"));
+                    return Err(sign_fault("y", self.slip[row], ">= 0"));
                 }
             }
         }
@@ -459,38 +366,23 @@ impl<'a> Witness<'a> {
         Ok(())
     }
 
-    /// u'Tv.
-    fn value(&self, corner: &Corner<'_>) -> Rational {
-        let mut sum = Integer::zero();
-        for (u, &row) in self.u.iter().zip(&self.support) {
-            sum += u * self.row_times_v(corner, row).center;
+    /// What is known of phi at a corner in units of 1 / `scale`.
+    fn edge_end(&self, corner: &Block<'_>, scale: &Integer, margin: &[Rational]) -> EdgeEnd {
+        let mut residual = Integer::zero();
+        let left_products = self.bordered.left_products(corner);
+        for (entry, v) in left_products[..margin.len()].iter().zip(&self.bordered.v) {
+            residual += entry.magnitude() * v;
         }
 
-        Rational::new(sum, corner.scale.clone())
-    }
-
-    /// What the radii of T make of u'Tv.
-    fn value_radius(&self, corner: &Corner<'_>) -> Rational {
-        let mut sum = Integer::zero();
-        for (u, &row) in self.u.iter().zip(&self.support) {
-            sum += u.abs() * self.row_times_v(corner, row).radius;
+        let in_units = |number| Rational::new(number, scale.clone());
+        let value = self.bordered.value(&self.bordered.products(corner));
+        let errors = self.errors(corner, margin);
+        EdgeEnd {
+            value: in_units(value.center),
+            radius: in_units(value.radius),
+            residual: in_units(residual),
+            error: errors.into_iter().max().unwrap_or_default(),
         }
-
-        Rational::new(sum, corner.scale.clone())
-    }
-
-    /// p: sum of |T_k' + u'T'|_j v_j, in the unit of [`Witness::value`].
-    fn left_residual(&self, corner: &Corner<'_>) -> Rational {
-        let mut sum = Integer::zero();
-        for (v, &column) in self.v[..self.order()].iter().zip(&self.support) {
-            let mut residual = Ball::default();
-            for (u, &row) in self.u.iter().zip(&self.support) {
-                residual.add(u, &corner.m[row][column], &corner.r[row][column]);
-            }
-            sum += residual.magnitude() * v;
-        }
-
-        Rational::new(sum, corner.scale.clone())
     }
 }
 
@@ -509,12 +401,4 @@ fn positions(support: &[usize], slip: &[usize]) -> Result<Vec<usize>, CoverFault
     }
 
     Ok(found)
-}
-
-fn sign_fault(component: &'static str, index: usize, expected: &'static str) -> CoverFault {
-    CoverFault::Sign {
-        component,
-        index,
-        expected,
-    }
 }

@@ -13,6 +13,7 @@
 //! Overflow: entries, radii and factors are at most 2^62 in absolute value, so that the products of
 //! two have at most 124 bits and a sum of four of them fits into an `i128`.
 
+use super::ball::{Ball, BallMatrix};
 use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits};
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
@@ -21,19 +22,12 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 /// Bits of the largest entry, and of a factor of a combination.
 const BITS: u64 = 62;
 
-/// Each entry lies within r of m, in units of 2^`unit`. All numbers are at most 2^62 in absolute
+/// A matrix with radii in units of 2^`unit`. All numbers are at most 2^62 in absolute
 /// value.
 #[derive(Clone)]
 pub(super) struct Short {
-    pub(super) m: Vec<Vec<i64>>,
-    pub(super) r: Vec<Vec<i64>>,
+    pub(super) entries: BallMatrix<i64>,
     unit: i64,
-}
-
-/// Every number within `radius` of `center`, as an entry.
-struct ShortBall {
-    center: i64,
-    radius: i64,
 }
 
 /// A factor, rounded down: less than one more than `value`, if not exactly that.
@@ -42,19 +36,15 @@ struct ShortFactor {
     is_exact: bool,
 }
 
-/// The same as a [`ShortBall`] before it is cut to an entry.
-struct WideBall {
-    center: i128,
-    radius: i128,
-}
-
 impl Ends {
     /// Both ends in short numbers.
     pub(super) fn short(&self) -> Option<[Short; 2]> {
-        let all: Vec<usize> = (0..self.m[0].len()).collect();
-        let lower = Short::of(&self.m[0], &self.r[0], &all)?;
-        let upper = Short::of(&self.m[1], &self.r[1], &all)?;
-        Some([lower, upper])
+        let [lower, upper] = &self.at;
+        let all: Vec<usize> = (0..lower.m.len()).collect();
+        Some([
+            Short::of(&lower.m, &lower.r, &all)?,
+            Short::of(&upper.m, &upper.r, &all)?,
+        ])
     }
 }
 
@@ -70,29 +60,25 @@ impl Short {
         for &i in keep {
             let row = keep
                 .iter()
-                .map(|&j| ShortBall::cut(&m[i][j], &r[i][j], unit));
+                .map(|&j| Ball::<i64>::cut(&m[i][j], &r[i][j], unit));
             short.push_row(row)?;
         }
 
         Some(short)
     }
 
-    /// 1 in units of the entries; `None` where it is less than one of them.
-    pub(super) fn scale(&self) -> Option<Integer> {
-        let bits = u64::try_from(FRACTION_BITS as i64 - self.unit).ok()?;
-        Some(Integer::one() << bits)
-    }
-
     fn with_unit(unit: i64, order: usize) -> Short {
         Short {
-            m: Vec::with_capacity(order),
-            r: Vec::with_capacity(order),
+            entries: BallMatrix {
+                m: Vec::with_capacity(order),
+                r: Vec::with_capacity(order),
+            },
             unit,
         }
     }
 
     /// Appends a row; `None` if an entry does not fit.
-    fn push_row(&mut self, row: impl ExactSizeIterator<Item = Option<ShortBall>>) -> Option<()> {
+    fn push_row(&mut self, row: impl ExactSizeIterator<Item = Option<Ball<i64>>>) -> Option<()> {
         let mut centers = Vec::with_capacity(row.len());
         let mut radii = Vec::with_capacity(row.len());
         for entry in row {
@@ -101,16 +87,18 @@ impl Short {
             radii.push(entry.radius);
         }
 
-        self.m.push(centers);
-        self.r.push(radii);
+        self.entries.m.push(centers);
+        self.entries.r.push(radii);
         Some(())
     }
 
     /// Zero within so many units of 1, for every entry.
     pub(super) fn around_zero(order: usize, radius: i64) -> Short {
         Short {
-            m: vec![vec![0; order]; order],
-            r: vec![vec![radius; order]; order],
+            entries: BallMatrix {
+                m: vec![vec![0; order]; order],
+                r: vec![vec![radius; order]; order],
+            },
             unit: 0,
         }
     }
@@ -152,7 +140,7 @@ impl Short {
         let cut = BITS + 1;
         let mut short = Short::with_unit(left_unit + right_unit + cut as i64, left.len());
         for l in left {
-            let row = right.iter().map(|r| WideBall::around_zero(l * r).cut(cut));
+            let row = right.iter().map(|r| Ball::around_zero(l * r).to_entry(cut));
             short.push_row(row)?;
         }
 
@@ -162,16 +150,17 @@ impl Short {
     /// Zero within a non-negative multiple of the absolute values of all members.
     pub(super) fn within_multiple(&self, factor: &Rational) -> Option<Short> {
         // Half of |m| + r, rounded up, is at most 2^62.
-        let mut halves = Short::with_unit(self.unit + 1, self.m.len());
-        for (m, r) in self.m.iter().zip(&self.r) {
+        let BallMatrix { m, r } = &self.entries;
+        let mut halves = Short::with_unit(self.unit + 1, m.len());
+        for (m, r) in m.iter().zip(r) {
             let mut radii = Vec::with_capacity(m.len());
             for (m, r) in m.iter().zip(r) {
                 let magnitude = m.unsigned_abs() + r.unsigned_abs();
                 radii.push(magnitude.div_ceil(2) as i64);
             }
 
-            halves.m.push(vec![0; radii.len()]);
-            halves.r.push(radii);
+            halves.entries.m.push(vec![0; radii.len()]);
+            halves.entries.r.push(radii);
         }
 
         halves.combine(factor, &halves, &Rational::zero())
@@ -212,12 +201,13 @@ impl Short {
         let q = ShortFactor::of(q, factor_unit - other.unit)?;
 
         // Sums of four products stay below 2^126.
-        let n = self.m.len();
+        let BallMatrix { m, r } = &self.entries;
+        let n = m.len();
         let mut sums = Vec::with_capacity(n * n);
         let mut largest = 0u128;
         for i in 0..n {
-            let own = self.m[i].iter().zip(&self.r[i]);
-            let others = other.m[i].iter().zip(&other.r[i]);
+            let own = m[i].iter().zip(&r[i]);
+            let others = other.entries.m[i].iter().zip(&other.entries.r[i]);
             for ((&a, &s), (&b, &t)) in own.zip(others) {
                 let of_own = p.times(a, s);
                 let of_other = q.times(b, t);
@@ -225,14 +215,14 @@ impl Short {
                 let radius = of_own.radius + of_other.radius;
 
                 largest |= center.unsigned_abs() | radius.unsigned_abs();
-                sums.push(WideBall { center, radius });
+                sums.push(Ball { center, radius });
             }
         }
 
         let cut = (128 - u64::from(largest.leading_zeros())).saturating_sub(BITS);
         let mut short = Short::with_unit(factor_unit + cut as i64, n);
         for row in sums.chunks_exact(n.max(1)) {
-            short.push_row(row.iter().map(|sum| sum.cut(cut)))?;
+            short.push_row(row.iter().map(|sum| sum.to_entry(cut)))?;
         }
 
         Some(short)
@@ -254,7 +244,7 @@ impl Short {
 
             let weight = i128::from(w_i);
             let size = i128::from(w_i.unsigned_abs());
-            let row = self.m[i].iter().zip(&self.r[i]);
+            let row = self.entries.m[i].iter().zip(&self.entries.r[i]);
             for (bound, (m, r)) in bounds.iter_mut().zip(row) {
                 *bound += weight * i128::from(*m) + size * i128::from(*r);
             }
@@ -270,30 +260,31 @@ impl Short {
     pub(super) fn entry(&self, i: usize, j: usize) -> [Rational; 2] {
         let two = Rational::from_integer(2.into());
         let unit = two.pow(self.unit as i32);
-        [self.m[i][j], self.r[i][j]].map(|v| Rational::from_integer(v.into()) * &unit)
+        [self.entries.m[i][j], self.entries.r[i][j]]
+            .map(|v| Rational::from_integer(v.into()) * &unit)
     }
 }
 
-impl ShortBall {
+impl Ball<i64> {
     /// v +- r in units of 2^unit.
-    fn cut(v: &Integer, r: &Integer, unit: u64) -> Option<ShortBall> {
+    fn cut(v: &Integer, r: &Integer, unit: u64) -> Option<Ball<i64>> {
         let center = v >> unit;
         let is_whole = &center << unit == *v;
         let is_exact = is_whole && !r.is_positive();
         let radius = r >> unit;
 
-        ShortBall::rounded(center.to_i64()?, radius.to_i64()?, is_exact)
+        Ball::rounded(center.to_i64()?, radius.to_i64()?, is_exact)
     }
 
     /// A center and a radius that have been rounded down: rounding each has cost less than one
     /// unit. `None` if one of them is larger than an entry may be.
-    fn rounded(center: i64, radius: i64, is_exact: bool) -> Option<ShortBall> {
+    fn rounded(center: i64, radius: i64, is_exact: bool) -> Option<Ball<i64>> {
         let radius = if is_exact { 0 } else { radius.checked_add(2)? };
         let center_fits = center.unsigned_abs() <= 1 << BITS;
         let radius_fits = radius <= 1 << BITS;
 
         let fits = center_fits && radius_fits;
-        fits.then_some(ShortBall { center, radius })
+        fits.then_some(Ball { center, radius })
     }
 }
 
@@ -310,7 +301,7 @@ impl ShortFactor {
     }
 
     /// The product with every number within r of m.
-    fn times(&self, m: i64, r: i64) -> WideBall {
+    fn times(&self, m: i64, r: i64) -> Ball<i128> {
         // The products of machine words into 128 bits are the whole cost of a combination.
         let center = i128::from(self.value) * i128::from(m);
         let radius = i128::from(self.value.abs()) * i128::from(r);
@@ -320,25 +311,25 @@ impl ShortFactor {
             i128::from(m.abs()) + i128::from(r)
         };
 
-        WideBall {
+        Ball {
             center,
             radius: radius + lost,
         }
     }
 }
 
-impl WideBall {
-    fn around_zero(radius: i128) -> WideBall {
-        WideBall { center: 0, radius }
+impl Ball<i128> {
+    fn around_zero(radius: i128) -> Ball<i128> {
+        Ball { center: 0, radius }
     }
 
     /// The same in units of 2^unit.
-    fn cut(&self, unit: u64) -> Option<ShortBall> {
+    fn to_entry(&self, unit: u64) -> Option<Ball<i64>> {
         let center = self.center >> unit;
         let is_whole = center << unit == self.center;
         let is_exact = is_whole && self.radius == 0;
         let radius = self.radius >> unit;
-        ShortBall::rounded(center.to_i64()?, radius.to_i64()?, is_exact)
+        Ball::rounded(center.to_i64()?, radius.to_i64()?, is_exact)
     }
 }
 
@@ -380,7 +371,7 @@ mod tests {
     /// Does the enclosure contain p A + q B, entry by entry, if one unit of it is `unit`?
     fn contains(short: &Short, exact: &Matrix, unit: &Integer) -> bool {
         let holds = |i: usize, j: usize| {
-            (&exact[i][j] - unit * short.m[i][j]).abs() <= unit * short.r[i][j]
+            (&exact[i][j] - unit * short.entries.m[i][j]).abs() <= unit * short.entries.r[i][j]
         };
         (0..exact.len()).all(|i| (0..exact.len()).all(|j| holds(i, j)))
     }
@@ -391,11 +382,11 @@ mod tests {
         let long = big(&[&[3, -5], &[0, 7]], 100);
         let short = Short::of(&long, &zero, &[0, 1]).unwrap();
         assert!(contains(&short, &long, &(Integer::one() << short.unit)));
-        assert_eq!(short.r[1][0], 0); // an exact zero stays one
-        assert!(short.r[0][0] > 0);
+        assert_eq!(short.entries.r[1][0], 0); // an exact zero stays one
+        assert!(short.entries.r[0][0] > 0);
         let exact = Short::of(&big(&[&[3, -5], &[0, 7]], 40), &zero, &[1]).unwrap();
         assert_eq!(
-            (exact.m, exact.r, exact.unit),
+            (exact.entries.m, exact.entries.r, exact.unit),
             (vec![vec![(7 << 40) + 1]], vec![vec![0]], 0)
         );
         let wide = big(&[&[1, 1], &[1, 1]], 200);
@@ -444,7 +435,7 @@ mod tests {
                 assert!((exact(i, j) - center).abs() <= radius);
                 assert!(&radius * whole(1 << 59) < exact(1, 1));
             }
-            assert_eq!(short.r[1][0], 0);
+            assert_eq!(short.entries.r[1][0], 0);
         }
     }
 
@@ -463,7 +454,7 @@ mod tests {
         }
 
         let short = Short::quotient(&vec![vec![divisor.clone()]], &divisor).unwrap();
-        assert_eq!(short.r, [[0]]);
+        assert_eq!(short.entries.r, [[0]]);
     }
 
     /// In units of 2^(1 - 62): the largest value is less than 2^1.
@@ -484,8 +475,10 @@ mod tests {
     fn the_largest_numbers_do_not_overflow() {
         let limit = 1i64 << BITS;
         let of = |m: i64, r: i64| Short {
-            m: vec![vec![m]],
-            r: vec![vec![r]],
+            entries: BallMatrix {
+                m: vec![vec![m]],
+                r: vec![vec![r]],
+            },
             unit: 0,
         };
         let long = |bits: u32| Rational::from_integer(Integer::one() << bits);
@@ -530,8 +523,10 @@ mod tests {
         assert_eq!([center, radius], [whole(0), whole(3)]);
 
         let exact = Short {
-            m: vec![vec![-5]],
-            r: vec![vec![0]],
+            entries: BallMatrix {
+                m: vec![vec![-5]],
+                r: vec![vec![0]],
+            },
             unit: -3,
         };
         let sum = exact.plus_multiple(&exact, &whole(-7)).unwrap();
@@ -553,15 +548,17 @@ mod tests {
                 assert!(excess * whole(1 << 58) < &left[2] * &right[0]);
             }
         }
-        assert_eq!(short.r[1], [0, 0, 0]);
+        assert_eq!(short.entries.r[1], [0, 0, 0]);
     }
 
     #[test]
     fn magnitudes_are_upper_bounds() {
         let top = 1 << BITS;
         let given = Short {
-            m: vec![vec![-3, top], vec![0, -top]],
-            r: vec![vec![2, top], vec![0, 0]],
+            entries: BallMatrix {
+                m: vec![vec![-3, top], vec![0, -top]],
+                r: vec![vec![2, top], vec![0, 0]],
+            },
             unit: -5,
         };
         let short = given.within_multiple(&whole(6)).unwrap();
@@ -573,14 +570,16 @@ mod tests {
             let excess = radius - exact;
             assert!(center.is_zero() && !excess.is_negative() && excess < whole(4));
         }
-        assert_eq!(short.r[1][0], 0);
+        assert_eq!(short.entries.r[1][0], 0);
     }
 
     #[test]
     fn products_bound_both_signs_of_the_radius() {
         let short = Short {
-            m: vec![vec![3, -4], vec![-5, 1]],
-            r: vec![vec![1, 0], vec![2, 0]],
+            entries: BallMatrix {
+                m: vec![vec![3, -4], vec![-5, 1]],
+                r: vec![vec![1, 0], vec![2, 0]],
+            },
             unit: 0,
         };
         assert_eq!(short.product(&[2, -1]), Some(vec![6 + 5 + 2 + 2, -8 - 1]));
@@ -599,8 +598,8 @@ mod tests {
         ];
         let short = Short::of(&m, &big(&[&[0, 0], &[0, 0]], 0), &[0, 1]).unwrap();
         assert_eq!(short.unit, 141 - 62);
-        assert_eq!((short.m[0][0], short.r[0][0]), (3 << 21, 0));
-        assert_eq!((short.m[0][1], short.r[0][1]), (0, 2));
+        assert_eq!((short.entries.m[0][0], short.entries.r[0][0]), (3 << 21, 0));
+        assert_eq!((short.entries.m[0][1], short.entries.r[0][1]), (0, 2));
     }
 
     /// The formula of `combine` in rational numbers: values and radii to the last unit.
@@ -617,8 +616,10 @@ mod tests {
             (whole(1), whole(0)),
         ];
         let short = |m: [[i64; 2]; 2], r: [[i64; 2]; 2], unit: i64| Short {
-            m: m.map(|row| row.to_vec()).to_vec(),
-            r: r.map(|row| row.to_vec()).to_vec(),
+            entries: BallMatrix {
+                m: m.map(|row| row.to_vec()).to_vec(),
+                r: r.map(|row| row.to_vec()).to_vec(),
+            },
             unit,
         };
         let small = [[3, -5], [7, 11]];
@@ -651,7 +652,10 @@ mod tests {
                     let first = short(a, ra, unit_a);
                     let second = short(b, rb, unit_b);
                     let got = first.combine(p, &second, q).unwrap();
-                    assert_eq!((got.m, got.r, got.unit), formula(p, &first, q, &second));
+                    assert_eq!(
+                        (got.entries.m, got.entries.r, got.unit),
+                        formula(p, &first, q, &second)
+                    );
                 }
             }
         }
@@ -674,11 +678,12 @@ mod tests {
         let q = q * power_of_two(b.unit - factor_unit);
         let lost = |x: &Rational| whole(i64::from(!x.is_integer()));
 
-        let center =
-            |i: usize, j: usize| p.floor() * whole(a.m[i][j]) + q.floor() * whole(b.m[i][j]);
+        let center = |i: usize, j: usize| {
+            p.floor() * whole(a.entries.m[i][j]) + q.floor() * whole(b.entries.m[i][j])
+        };
         let of = |x: &Rational, s: &Short, i: usize, j: usize| {
-            let magnitude = whole(s.m[i][j]).abs() + whole(s.r[i][j]);
-            x.floor().abs() * whole(s.r[i][j]) + lost(x) * magnitude
+            let magnitude = whole(s.entries.m[i][j]).abs() + whole(s.entries.r[i][j]);
+            x.floor().abs() * whole(s.entries.r[i][j]) + lost(x) * magnitude
         };
         let radius = |i: usize, j: usize| of(&p, a, i, j) + of(&q, b, i, j);
 
@@ -719,7 +724,7 @@ mod tests {
     fn values_and_radii_have_a_limit() {
         let limit = 1i64 << BITS;
         let rounded = |center: i64, radius: i64, is_exact: bool| {
-            ShortBall::rounded(center, radius, is_exact).map(|ball| (ball.center, ball.radius))
+            Ball::rounded(center, radius, is_exact).map(|ball| (ball.center, ball.radius))
         };
 
         assert_eq!(rounded(limit, 0, true), Some((limit, 0)));

@@ -216,7 +216,7 @@ fn long_corners(ends: &[Ends; 2]) -> [Enclosure; 4] {
                 .map(|row| row.iter().map(entry).collect())
                 .collect()
         };
-        [in_units_of_one(corner.m), in_units_of_one(corner.r)]
+        [&corner.matrix.m, &corner.matrix.r].map(in_units_of_one)
     })
 }
 

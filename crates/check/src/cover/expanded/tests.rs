@@ -133,7 +133,7 @@ fn check_finite(e: &Expanded, is_linear: bool, lo: &Rational, hi: &Rational) {
         up(second * &width * &width / Rational::from_integer(e.unit.clone()))
     };
     for end in 0..2 {
-        assert_eq!(got.m[end], at(e, &d[end]));
+        assert_eq!(got.at[end].m, at(e, &d[end]));
         let reach = if is_linear {
             d[end].abs()
         } else {
@@ -143,7 +143,7 @@ fn check_finite(e: &Expanded, is_linear: bool, lo: &Rational, hi: &Rational) {
             ((bend(i, j) / whole(8)).floor() + whole(1) + remainder(e, &reach, &weight, i, j))
                 .to_integer()
         });
-        assert_eq!(got.r[end], radius, "end {end}");
+        assert_eq!(got.at[end].r, radius, "end {end}");
     }
     let of = |list: &[Vec<Integer>], i: usize| up(sum(list, i, &reach));
     let d_of = |list: &[Vec<Integer>], i: usize| up(slope(list, i, &reach));
@@ -189,9 +189,9 @@ fn an_infinite_end_has_the_direction_and_its_remainder() {
     let weight = weights(&e, &lo);
     assert!(got.infinite);
     assert_eq!(e.slope(&lo, None), Ok(grid(2, |_, _| Integer::zero())));
-    assert_eq!(got.m[0], at(&e, &d));
+    assert_eq!(got.at[0].m, at(&e, &d));
     assert_eq!(
-        got.r[0],
+        got.at[0].r,
         grid(2, |i, j| remainder(&e, &d, &weight, i, j).to_integer())
     );
     let direction = |i: usize, j: usize| {
@@ -199,7 +199,7 @@ fn an_infinite_end_has_the_direction_and_its_remainder() {
             .floor()
             .to_integer()
     };
-    assert_eq!(got.m[1], grid(2, direction));
+    assert_eq!(got.at[1].m, grid(2, direction));
     let one = |l: &[Integer], i: usize| Rational::from_integer(l[i].clone()) * unit();
     let radius = |i: usize, j: usize| {
         weigh(&one(&e.left[1], i), &one(&e.right[0], j), &e.weight[i])
@@ -210,7 +210,7 @@ fn an_infinite_end_has_the_direction_and_its_remainder() {
             )
             + whole(1)
     };
-    assert_eq!(got.r[1], grid(2, |i, j| radius(i, j).to_integer()));
+    assert_eq!(got.at[1].r, grid(2, |i, j| radius(i, j).to_integer()));
 }
 
 /// Whatever is not linear in t, were it one coefficient, has no direction at infinity.
@@ -253,8 +253,14 @@ fn reversed_ends_are_those_of_the_reciprocals() {
         plain.ends(&hi.recip(), Some(&lo.recip())).unwrap(),
         reversed().ends(&lo, Some(&hi)).unwrap(),
     );
-    assert_eq!((&here.m[0], &here.m[1]), (&there.m[1], &there.m[0]));
-    assert_eq!((&here.r[0], &here.r[1]), (&there.r[1], &there.r[0]));
+    assert_eq!(
+        (&here.at[0].m, &here.at[1].m),
+        (&there.at[1].m, &there.at[0].m)
+    );
+    assert_eq!(
+        (&here.at[0].r, &here.at[1].r),
+        (&there.at[1].r, &there.at[0].r)
+    );
     assert_eq!(
         reversed().slope(&lo, Some(&hi)),
         plain.slope(&hi.recip(), Some(&lo.recip()))
@@ -264,8 +270,8 @@ fn reversed_ends_are_those_of_the_reciprocals() {
         reversed().ends(&lo, None).unwrap(),
     );
     assert_eq!(
-        (&here.m[0], &here.m[1], here.infinite, there.infinite),
-        (&there.m[1], &there.m[0], true, false)
+        (&here.at[0].m, &here.at[1].m, here.infinite, there.infinite),
+        (&there.at[1].m, &there.at[0].m, true, false)
     );
     assert!(matches!(
         reversed().ends(&whole(0), Some(&hi)),
@@ -420,8 +426,8 @@ fn assert_holds_long_ends(e: &Expanded, lo: &Rational, hi: Option<&Rational>) {
     for end in [0, 1] {
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             let [center, radius] = short[end].entry(i, j);
-            let distance = (in_fixed_unit(&long.m[end][i][j]) - center).abs();
-            let reach = distance + in_fixed_unit(&long.r[end][i][j]);
+            let distance = (in_fixed_unit(&long.at[end].m[i][j]) - center).abs();
+            let reach = distance + in_fixed_unit(&long.at[end].r[i][j]);
             assert!(reach <= radius, "end {end}, entry ({i}, {j}), lo {lo}");
         }
     }

@@ -1,8 +1,13 @@
 //! The leaf against determinants: what it accepts has no singular matrix between its corners.
 
+use super::super::ball::BallMatrix;
+use super::super::bordered::NullWitness;
+use super::super::region::Region;
 use super::*;
+use crate::certificate::Regular;
 use crate::cover::region::State;
-use mceip_exact::{rational, whole};
+use mceip_exact::{Integer, rational, whole};
+use num_traits::Zero;
 use std::rc::Rc;
 
 const INDEX: [usize; 3] = [10, 11, 12];
@@ -38,38 +43,32 @@ fn witness(inverse: &Small, left: &[i64], right: &[i64], exponent: u32) -> Regul
     }
 }
 
-/// The verdict of the long numbers on corners in units of 1/8, and that of the short ones.
-fn verdicts(
-    support: &[usize],
+/// The verdict on corners in units of 1/8, on the first `order` variables.
+fn verdict_on(
+    order: usize,
     corners: &[(Small, Small)],
     witness: &Regular,
-) -> [Result<(), CoverFault>; 2] {
+) -> Result<(), CoverFault> {
     let scale = Integer::from(8);
-    let long: Vec<_> = corners
+    let matrices: Vec<BallMatrix<Integer>> = corners
         .iter()
-        .map(|(m, r)| [integers(m), integers(r)])
+        .map(|(m, r)| BallMatrix {
+            m: integers(m),
+            r: integers(r),
+        })
         .collect();
-    let of_long: Vec<Corner<'_>> = long
+    let corners: Vec<Corner<'_>> = matrices
         .iter()
-        .map(|[m, r]| Corner {
-            m,
-            r,
+        .map(|matrix| Corner {
+            matrix,
             scale: &scale,
             name: "lower",
             is_limit: false,
         })
         .collect();
 
-    let short = Witness::<i64>::of(witness).unwrap();
-    let of_short: Vec<Block<i64>> = corners
-        .iter()
-        .map(|(m, r)| Block::of(m, r, scale.clone(), support))
-        .collect();
-
-    [
-        check_corners(support, &of_long, witness),
-        short.check(&of_short),
-    ]
+    let bordered = Bordered::new((0..order).collect(), &INDEX, witness.into())?;
+    check_corners(&bordered, &corners)
 }
 
 /// T = [[8, 0], [0, 4]] / 8 on the variables 10 and 11, with a radius in one place.
@@ -84,12 +83,7 @@ fn with_radius(i: usize, j: usize, radius: i64) -> (Small, Small) {
 #[test]
 fn the_radius_of_each_entry_counts() {
     let witness = witness(&vec![vec![4]], &[0], &[0], 2);
-    let support = [0, 1];
-    let verdict = |corners: &[(Small, Small)]| {
-        let [long, short] = verdicts(&support, corners, &witness);
-        assert_eq!(long, short);
-        long
-    };
+    let verdict = |corners: &[(Small, Small)]| verdict_on(2, corners, &witness);
 
     // rho = 7/8 < 1, and rho = 1.
     assert_eq!(verdict(&[with_radius(0, 0, 7)]), Ok(()));
@@ -135,11 +129,11 @@ fn the_radius_of_each_entry_counts() {
 fn both_signs_will_do_but_not_together() {
     let witness = witness(&vec![vec![4]], &[0], &[0], 2);
     let corner = |last: i64| (vec![vec![8, 0], vec![0, last]], vec![vec![0; 2]; 2]);
-    let verdict = |corners: &[(Small, Small)]| verdicts(&[0, 1], corners, &witness);
+    let verdict = |corners: &[(Small, Small)]| verdict_on(2, corners, &witness);
 
-    assert_eq!(verdict(&[corner(1), corner(4)]), [Ok(()), Ok(())]);
-    assert_eq!(verdict(&[corner(-1), corner(-4)]), [Ok(()), Ok(())]);
-    let refused = [Err(CoverFault::SignChange), Err(CoverFault::SignChange)];
+    assert_eq!(verdict(&[corner(1), corner(4)]), Ok(()));
+    assert_eq!(verdict(&[corner(-1), corner(-4)]), Ok(()));
+    let refused = Err(CoverFault::SignChange);
     assert_eq!(verdict(&[corner(-1), corner(4)]), refused);
     assert_eq!(verdict(&[corner(4), corner(-1)]), refused);
     assert_eq!(verdict(&[corner(0), corner(4)]), refused);
@@ -148,34 +142,67 @@ fn both_signs_will_do_but_not_together() {
 #[test]
 fn the_witness_belongs_to_the_variables_that_move() {
     let one = witness(&vec![vec![4]], &[0], &[0], 2);
+    let support = |states: [State; 3], witness: &Regular| {
+        let bordered = Bordered::of_leaf(&region(&states), &INDEX, witness.into());
+        bordered.map(|bordered| bordered.support)
+    };
     let states = [State::InSupport, State::InSupport, State::AtZero];
-    assert_eq!(support(&region(&states), &INDEX, &one), Ok(vec![0, 1]));
+    assert_eq!(support(states, &one), Ok(vec![0, 1]));
 
     let open = [State::InSupport, State::InSupport, State::Undecided];
     let early = Err(CoverFault::RootTooEarly);
-    assert_eq!(support(&region(&open), &INDEX, &one), early);
-    assert_eq!(support(&region(&[State::AtZero; 3]), &INDEX, &one), early);
+    assert_eq!(support(open, &one), early);
+    assert_eq!(support([State::AtZero; 3], &one), early);
 
     let resting = [State::InSupport, State::AtZero, State::InSupport];
-    assert_eq!(
-        support(&region(&resting), &INDEX, &one),
-        Err(CoverFault::Pivot { index: 11 })
-    );
+    let pivot = Err(CoverFault::Pivot { index: 11 });
+    assert_eq!(support(resting, &one), pivot);
+
+    let first = Regular {
+        pivot: 10,
+        ..one.clone()
+    };
+    assert_eq!(support(states, &first), Ok(vec![1, 0]));
 
     let longest = Regular {
         exponent: 1 << 14,
         ..one.clone()
     };
-    assert!(support(&region(&states), &INDEX, &longest).is_ok());
+    assert!(support(states, &longest).is_ok());
     for (exponent, inverse_exponent) in [((1 << 14) + 1, 0), (0, (1 << 14) + 1)] {
         let longer = Regular {
             exponent,
             inverse_exponent,
             ..one.clone()
         };
-        let refused = support(&region(&states), &INDEX, &longer);
+        let refused = support(states, &longer);
         assert!(matches!(refused, Err(CoverFault::TooLarge { .. })));
     }
+
+    let short = Regular {
+        left: vec![],
+        ..one.clone()
+    };
+    let refused = support(states, &short);
+    assert!(matches!(refused, Err(CoverFault::Length { .. })));
+}
+
+/// 8 q^3 y e' with y = 1 + b / 64 for the longest of numbers and exponents.
+#[test]
+fn the_work_is_that_of_the_page() {
+    let work = |number: i64, [inverse_exponent, exponent]: [u32; 2], corner_bits| {
+        let witness = Regular {
+            inverse_exponent,
+            ..witness(&vec![vec![number]], &[number], &[number], exponent)
+        };
+        NullWitness::from(&witness).work(2, corner_bits)
+    };
+
+    assert_eq!(work(3, [0, 0], 0), 64);
+    assert_eq!(work(3, [0, 0], 128), 64 * 3);
+    assert_eq!(work(3, [64, 0], 127), 64 * 2 * 2);
+    assert_eq!(work(3, [0, 130], 0), 64 * 3);
+    assert_eq!(work(i64::MIN, [0, 0], 0), 64 * 2);
 }
 
 /// A generator of digits (Knuth's multiplier).
@@ -248,14 +275,7 @@ fn what_is_accepted_has_no_singular_matrix() {
         let Some(witness) = witness_of(&center, &mut digits) else {
             continue;
         };
-        // The pivot is at position 1 of the index.
-        let mut support: Vec<usize> = (0..order).collect();
-        support.retain(|&i| i != 1);
-        support.push(1);
-
-        let [long, short] = verdicts(&support, &corners, &witness);
-        assert_eq!(long, short);
-        if long.is_err() {
+        if verdict_on(order, &corners, &witness).is_err() {
             refused += 1;
             continue;
         }

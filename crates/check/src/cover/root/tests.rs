@@ -1,6 +1,7 @@
 //! Each bound again, in rational numbers as its formula stands, on a matrix whose every entry has a
 //! radius; and each decision at the last number that is refused and the first that is accepted.
 
+use super::super::ball::BallMatrix;
 use super::super::ends::Matrix;
 use super::*;
 use crate::certificate::Root;
@@ -20,27 +21,32 @@ fn matrix(list: [[i64; 4]; 4]) -> Matrix {
         .collect()
 }
 
+fn balls([m0, m1]: [Matrix; 2], [r0, r1]: [Matrix; 2]) -> [BallMatrix<Integer>; 2] {
+    [BallMatrix { m: m0, r: r0 }, BallMatrix { m: m1, r: r1 }]
+}
+
 /// T' = [[2, 1], [1, 3]] on (2, 0), nearly.
 fn ends() -> Ends {
+    let m = [
+        matrix([
+            [3010, -420, 1020, 310],
+            [770, 2345, -1234, 88],
+            [990, 1377, 2005, -71],
+            [151, -333, 707, 5],
+        ]),
+        matrix([
+            [2990, -511, 985, 290],
+            [815, 3456, -1301, 93],
+            [1015, 1298, 1985, -69],
+            [160, -349, 688, 6],
+        ]),
+    ];
+    let r = [
+        matrix([[3, 7, 2, 4], [5, 11, 6, 1], [2, 9, 8, 3], [13, 4, 5, 2]]),
+        matrix([[4, 5, 3, 1], [7, 6, 9, 2], [3, 8, 5, 6], [11, 2, 7, 3]]),
+    ];
     Ends {
-        m: [
-            matrix([
-                [3010, -420, 1020, 310],
-                [770, 2345, -1234, 88],
-                [990, 1377, 2005, -71],
-                [151, -333, 707, 5],
-            ]),
-            matrix([
-                [2990, -511, 985, 290],
-                [815, 3456, -1301, 93],
-                [1015, 1298, 1985, -69],
-                [160, -349, 688, 6],
-            ]),
-        ],
-        r: [
-            matrix([[3, 7, 2, 4], [5, 11, 6, 1], [2, 9, 8, 3], [13, 4, 5, 2]]),
-            matrix([[4, 5, 3, 1], [7, 6, 9, 2], [3, 8, 5, 6], [11, 2, 7, 3]]),
-        ],
+        at: balls(m, r),
         slope: Some(matrix([
             [6, 9, 4, 1],
             [8, 7, 3, 2],
@@ -59,16 +65,11 @@ fn inverse() -> Matrix {
     ]
 }
 
-fn witness(y: &Matrix) -> Witness<'_> {
-    let list = |v: [i64; 3]| v.iter().map(|&v| v.into()).collect();
-    Witness {
-        support: SUPPORT.to_vec(),
-        y,
-        y_one: Y_ONE.into(),
-        u: list([1, -3, ONE]),
-        v: list([-5, 3, ONE]),
-        one: ONE.into(),
-    }
+/// u and v.
+const VECTORS: [&[i64]; 2] = [&[1, -3, ONE], &[-5, 3, ONE]];
+
+fn witness(y: &Matrix) -> Bordered<'_> {
+    Bordered::of_numbers(&SUPPORT, (y, Y_ONE), VECTORS, ONE)
 }
 
 fn rational_of(v: &Integer) -> Rational {
@@ -78,25 +79,25 @@ fn rational_of(v: &Integer) -> Rational {
 /// An entry among the variables of the support and its radius, as real numbers.
 fn entry(e: &Ends, end: usize, i: usize, j: usize) -> (Rational, Rational) {
     let of = |m: &Matrix| rational_of(&m[SUPPORT[i]][SUPPORT[j]]) / whole(SCALE);
-    (of(&e.m[end]), of(&e.r[end]))
+    (of(&e.at[end].m), of(&e.at[end].r))
 }
 
-fn inverse_entry(s: &Witness<'_>, i: usize, k: usize) -> Rational {
-    rational_of(&s.y[i][k]) / whole(Y_ONE)
+fn inverse_entry(i: usize, k: usize) -> Rational {
+    rational_of(&inverse()[i][k]) / whole(Y_ONE)
 }
 
 fn largest(list: impl Iterator<Item = Rational>) -> Rational {
     list.max().unwrap()
 }
 
-fn norm(s: &Witness<'_>, e: &Ends, is_right: bool) -> Rational {
+fn norm(e: &Ends, is_right: bool) -> Rational {
     let row = |end: usize, i: usize| -> Rational {
         let cell = |j: usize| {
             let term = |k: usize| {
                 if is_right {
-                    (inverse_entry(s, i, k), entry(e, end, k, j))
+                    (inverse_entry(i, k), entry(e, end, k, j))
                 } else {
-                    (inverse_entry(s, k, i), entry(e, end, j, k))
+                    (inverse_entry(k, i), entry(e, end, j, k))
                 }
             };
             let product: Rational = (0..2).map(|k| term(k).0 * term(k).1.0).sum();
@@ -113,7 +114,7 @@ fn norm(s: &Witness<'_>, e: &Ends, is_right: bool) -> Rational {
 }
 
 fn residual(
-    s: &Witness<'_>,
+    s: &Bordered<'_>,
     e: &Ends,
     end: usize,
     is_right: bool,
@@ -132,13 +133,13 @@ fn residual(
     )
 }
 
-fn error_at(s: &Witness<'_>, e: &Ends, end: usize, is_right: bool, norm: &Rational) -> Rational {
+fn error_at(s: &Bordered<'_>, e: &Ends, end: usize, is_right: bool, norm: &Rational) -> Rational {
     let row = |i: usize| -> Rational {
         let entry = |k: usize| {
             if is_right {
-                inverse_entry(s, i, k)
+                inverse_entry(i, k)
             } else {
-                inverse_entry(s, k, i)
+                inverse_entry(k, i)
             }
         };
         let sum: Rational = (0..2)
@@ -154,37 +155,36 @@ fn error_at(s: &Witness<'_>, e: &Ends, end: usize, is_right: bool, norm: &Ration
 
 #[test]
 fn norms_and_errors_are_those_of_the_formulas() {
-    let (y, e) = (inverse(), ends());
+    let y = inverse();
     let s = witness(&y);
     let mut swapped = ends();
-    swapped.m.swap(0, 1);
-    swapped.r.swap(0, 1);
-    for e in [e, swapped] {
-        for (side, other, is_right) in [
-            (Side::Right, Side::Right, true),
-            (Side::Left, Side::Left, false),
-        ] {
-            let expected = norm(&s, &e, is_right);
-            assert!(expected < whole(1));
-            assert_eq!(s.norm(&e, side).unwrap(), expected);
-            let at: Vec<Rational> = (0..2)
-                .map(|end| error_at(&s, &e, end, is_right, &expected))
-                .collect();
-            assert_eq!(s.error_at(&e, 0, other, &expected), at[0]);
-            assert_eq!(s.error_at(&e, 1, other, &expected), at[1]);
-            assert_eq!(s.error(&e, other, &expected), largest(at.into_iter()));
-        }
-        for (end, side) in [(0, Side::Right), (1, Side::Left)] {
-            let got = s.residual(&e, end, side);
+    swapped.at.swap(0, 1);
+    for e in [ends(), swapped] {
+        let blocks = blocks(&s, &e);
+
+        let rho = norm(&e, true);
+        assert!(rho < whole(1));
+        assert_eq!(s.norm(&blocks).unwrap(), rho);
+        let at = [0, 1].map(|end| error_at(&s, &e, end, true, &rho));
+        assert_eq!(s.error(&blocks[..1], &rho), at[0]);
+        assert_eq!(s.error(&blocks[1..], &rho), at[1]);
+        assert_eq!(s.error(&blocks, &rho), largest(at.into_iter()));
+
+        let eta = norm(&e, false);
+        assert!(eta < whole(1));
+        let at = [0, 1].map(|end| error_at(&s, &e, end, false, &eta));
+        assert_eq!(s.left_error(&blocks).unwrap(), largest(at.into_iter()));
+
+        for (end, block) in blocks.iter().enumerate() {
             let unit = whole(ONE * SCALE);
-            for (i, ball) in got.iter().enumerate() {
-                assert_eq!(
-                    (
-                        rational_of(&ball.center) / &unit,
-                        rational_of(&ball.radius) / &unit
-                    ),
-                    residual(&s, &e, end, matches!(side, Side::Right), i)
-                );
+            for (is_right, got) in [(true, s.products(block)), (false, s.left_products(block))] {
+                for (i, ball) in got[..2].iter().enumerate() {
+                    let got = [&ball.center, &ball.radius].map(|v| rational_of(v) / &unit);
+                    assert_eq!(
+                        (got[0].clone(), got[1].clone()),
+                        residual(&s, &e, end, is_right, i)
+                    );
+                }
             }
         }
     }
@@ -194,35 +194,33 @@ fn norms_and_errors_are_those_of_the_formulas() {
 #[test]
 fn one_variable_needs_no_inverse() {
     let none: Matrix = vec![];
-    let s = Witness {
-        support: vec![1],
-        y: &none,
-        y_one: 1.into(),
-        u: vec![ONE.into()],
-        v: vec![ONE.into()],
-        one: ONE.into(),
-    };
+    let s = Bordered::of_numbers(&[1], (&none, 1), [&[ONE], &[ONE]], ONE);
     let e = ends();
-    assert_eq!(s.norm(&e, Side::Right).unwrap(), whole(0));
-    assert_eq!(s.error(&e, Side::Left, &whole(0)), whole(0));
-    assert_eq!(s.schur_sign(&e, 0, &whole(0)), 1);
+    let blocks = blocks(&s, &e);
+    assert_eq!(s.norm(&blocks).unwrap(), whole(0));
+    assert_eq!(s.left_error(&blocks).unwrap(), whole(0));
+    assert_eq!(schur_sign(&s, &blocks[0], &whole(0)), 1);
 }
 
 #[test]
 fn a_norm_of_one_is_not_regular() {
     let y = vec![vec![0.into(), 0.into()], vec![0.into(), 0.into()]];
-    let got = witness(&y).norm(&ends(), Side::Right);
+    let s = witness(&y);
+    let e = ends();
+    let blocks = blocks(&s, &e);
+    assert!(s.left_error(&blocks).is_err());
+    let got = s.norm(&blocks);
     assert!(matches!(got, Err(CoverFault::NotRegular { got }) if got == whole(1)));
 }
 
 /// phi at an end and its radius, both times one^2 scale.
-fn phi(s: &Witness<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Integer) {
+fn phi(s: &Bordered<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Integer) {
     let pairs = || (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
     let value: Integer = pairs()
-        .map(|(i, j)| &s.u[i] * &e.m[end][SUPPORT[i]][SUPPORT[j]] * &s.v[j])
+        .map(|(i, j)| &s.u[i] * &e.at[end].m[SUPPORT[i]][SUPPORT[j]] * &s.v[j])
         .sum();
     let around: Integer = pairs()
-        .map(|(i, j)| s.u[i].abs() * &e.r[end][SUPPORT[i]][SUPPORT[j]] * s.v[j].abs())
+        .map(|(i, j)| s.u[i].abs() * &e.at[end].r[SUPPORT[i]][SUPPORT[j]] * s.v[j].abs())
         .sum();
     let left: Rational = (0..2)
         .map(|i| residual(s, e, end, false, i))
@@ -237,12 +235,16 @@ fn phi(s: &Witness<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Inte
 fn the_schur_complement_has_a_sign_beyond_its_radius_only() {
     let y = inverse();
     let s = witness(&y);
-    let (rho, step) = (norm(&s, &ends(), true), Integer::from(ONE * ONE));
+    let (rho, step) = (norm(&ends(), true), Integer::from(ONE * ONE));
     let of = |end: usize, shift: &Integer| {
         let mut e = ends();
-        e.m[end][1][1] += shift;
+        e.at[end].m[1][1] += shift;
         let (value, radius) = phi(&s, &e, end, &rho);
-        (s.schur_sign(&e, end, &rho), value - &radius, radius)
+        (
+            schur_sign(&s, &blocks(&s, &e)[end], &rho),
+            value - &radius,
+            radius,
+        )
     };
     for end in 0..2 {
         let (_, over, radius) = of(end, &Integer::zero());
@@ -264,18 +266,11 @@ fn the_schur_complement_has_a_sign_beyond_its_radius_only() {
 fn at_its_radius_the_schur_complement_has_no_sign() {
     // No inverse is needed for one variable: phi = one^2 m, its radius one^2 r.
     let none: Matrix = vec![];
-    let s = Witness {
-        support: vec![1],
-        y: &none,
-        y_one: 1.into(),
-        u: vec![1.into()],
-        v: vec![1.into()],
-        one: 1.into(),
-    };
+    let s = Bordered::of_numbers(&[1], (&none, 1), [&[1], &[1]], 1);
     let mut e = ends();
     let mut sign = |m: i64, r: i64| {
-        (e.m[0][1][1], e.r[0][1][1]) = (m.into(), r.into());
-        s.schur_sign(&e, 0, &whole(0))
+        (e.at[0].m[1][1], e.at[0].r[1][1]) = (m.into(), r.into());
+        schur_sign(&s, &blocks(&s, &e)[0], &whole(0))
     };
     assert_eq!(
         [
@@ -291,13 +286,14 @@ fn at_its_radius_the_schur_complement_has_no_sign() {
 }
 
 /// slope and radius of the derivative of phi, times one^2 scale.
-fn derivative(s: &Witness<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
+fn derivative(s: &Bordered<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
     let mut slope = 0;
     let mut radius = 0;
     let short = |v: &Integer| v.to_i64().unwrap();
     for i in 0..3 {
         for j in 0..3 {
-            let d = short(&e.m[1][SUPPORT[i]][SUPPORT[j]]) - short(&e.m[0][SUPPORT[i]][SUPPORT[j]]);
+            let d = short(&e.at[1].m[SUPPORT[i]][SUPPORT[j]])
+                - short(&e.at[0].m[SUPPORT[i]][SUPPORT[j]]);
             let around = short(&e.slope.as_ref().unwrap()[SUPPORT[i]][SUPPORT[j]]);
             let u = short(&s.u[i]);
             let v = short(&s.v[j]);
@@ -334,9 +330,12 @@ fn the_derivative_has_a_sign_beyond_its_radius_only() {
         let (e_u, e_v) = (rational(left, one), rational(right, one));
         let mut e = ends();
         let mut at = |pivot: i64, around: i64| {
-            e.m[1][1][1] = &e.m[0][1][1] + pivot;
+            e.at[1].m[1][1] = &e.at[0].m[1][1] + pivot;
             e.slope.as_mut().unwrap()[1][1] = around.into();
-            (derivative(&s, &e, left, right), s.monotone(&e, &e_u, &e_v))
+            (
+                derivative(&s, &e, left, right),
+                is_monotone(&s, &e, &e_u, &e_v),
+            )
         };
         let ((slope, radius), _) = at(0, 7);
         for sign in [1, -1] {
@@ -349,8 +348,8 @@ fn the_derivative_has_a_sign_beyond_its_radius_only() {
         // A little more of the error, and it is refused: errors are rounded up.
         at(radius - slope + 1, 7);
         let more = |e: &Rational| e + rational(1, 1000);
-        assert!(s.monotone(&e, &e_u, &e_v));
-        assert!(!s.monotone(&e, &more(&e_u), &e_v) && !s.monotone(&e, &e_u, &more(&e_v)));
+        assert!(is_monotone(&s, &e, &e_u, &e_v));
+        assert!(!is_monotone(&s, &e, &more(&e_u), &e_v) && !is_monotone(&s, &e, &e_u, &more(&e_v)));
     }
 }
 
@@ -360,10 +359,12 @@ fn a_resting_row_has_a_sign_beyond_its_radius_only() {
     let y = inverse();
     let mut s = witness(&y);
     (s.v, s.one) = ([-5, 2, 1].map(Integer::from).to_vec(), 1.into());
+    let index = [0, 1, 2, 3];
+    let region = region();
     for (end, error) in [(0, 0), (1, 0), (0, 4), (1, 9)] {
         let mut e = ends();
-        let entry = |e: &Ends, j: usize| e.m[end][3][SUPPORT[j]].to_i64().unwrap();
-        let radius_of = |e: &Ends, j: usize| e.r[end][3][SUPPORT[j]].to_i64().unwrap();
+        let entry = |e: &Ends, j: usize| e.at[end].m[3][SUPPORT[j]].to_i64().unwrap();
+        let radius_of = |e: &Ends, j: usize| e.at[end].r[3][SUPPORT[j]].to_i64().unwrap();
         let radius = 5 * radius_of(&e, 0)
             + 2 * radius_of(&e, 1)
             + radius_of(&e, 2)
@@ -371,8 +372,18 @@ fn a_resting_row_has_a_sign_beyond_its_radius_only() {
                 * (entry(&e, 0).abs() + radius_of(&e, 0) + entry(&e, 1).abs() + radius_of(&e, 1));
         let others = -5 * entry(&e, 0) + 2 * entry(&e, 1);
         let mut sign = |value: i64| {
-            e.m[end][3][1] = (value - others).into();
-            s.row_sign(&e, end, 3, &whole(error))
+            e.at[end].m[3][1] = (value - others).into();
+            // The same at the other end: y has a sign if it is that of both.
+            e.at[1 - end] = e.at[end].clone();
+            let candidate = Candidate {
+                witness: &s,
+                ends: &e,
+                error: whole(error),
+                region: &region,
+                index: &index,
+                vanishing: &[],
+            };
+            candidate.y_sign(3)
         };
         assert_eq!(
             [radius + 1, radius, -radius, -radius - 1].map(&mut sign),
@@ -419,8 +430,7 @@ fn simple(t: [i64; 2], a: i64, b: i64, c: [i64; 2]) -> Ends {
     };
     let zero = || vec![vec![Integer::zero(); 3]; 3];
     Ends {
-        m: [at_end(0), at_end(1)],
-        r: [zero(), zero()],
+        at: balls([at_end(0), at_end(1)], [zero(), zero()]),
         slope: Some(zero()),
         scale: 1.into(),
         infinite: false,
@@ -517,28 +527,32 @@ fn signs_of_x_and_y_are_those_stated() {
     }
 }
 
+/// Is it a solution? The error is in units of v.
+fn outcome(
+    witness: &Bordered<'_>,
+    ends: &Ends,
+    error: Rational,
+    vanishing: &[usize],
+) -> Result<(), CoverFault> {
+    let candidate = Candidate {
+        witness,
+        ends,
+        error,
+        region: &region(),
+        index: &INDEX,
+        vanishing,
+    };
+    candidate.check_outcome(&RootOutcome::Solution)
+}
+
 /// The error counts for every component but the pivot's, which is 1 and exact.
 #[test]
 fn components_are_positive_beyond_the_error_only() {
     let y: Matrix = vec![vec![1.into()]];
     let ends = simple([-1, 1], 0, 0, [100, 100]);
     let solution = |x: i64, one: i64, error: Rational| {
-        let v = vec![x.into(), one.into()];
-        let s = Witness {
-            support: vec![0, 1],
-            y: &y,
-            y_one: 1.into(),
-            u: v.clone(),
-            v,
-            one: one.into(),
-        };
-        s.check_outcome(
-            &region(),
-            &ends,
-            &error,
-            [&INDEX, &[]],
-            &RootOutcome::Solution,
-        )
+        let s = Bordered::of_numbers(&[0, 1], (&y, 1), [&[x, one]; 2], one);
+        outcome(&s, &ends, error * whole(one), &[])
     };
     let fault = Err(CoverFault::Sign {
         component: "x",
@@ -563,8 +577,8 @@ fn components_are_positive_beyond_the_error_only() {
 fn a_moving_row_is_no_negative_y() {
     let wide = simple([-9, 9], 0, 0, [1, 1]);
     let mut narrow = simple([-1, 1], 0, 0, [1, 1]);
-    narrow.m[0][0] = [1, -3, 0].map(Integer::from).to_vec();
-    narrow.m[1][0] = [1, -3, 0].map(Integer::from).to_vec();
+    narrow.at[0].m[0] = [1, -3, 0].map(Integer::from).to_vec();
+    narrow.at[1].m[0] = [1, -3, 0].map(Integer::from).to_vec();
     let got = verdict(RootOutcome::NegativeY(10), &wide, &narrow, -1);
     assert_eq!(
         got,
@@ -576,42 +590,13 @@ fn a_moving_row_is_no_negative_y() {
     );
 }
 
-#[test]
-fn certain_signs_exclude_zero() {
-    let of = |value: i64, radius: i64| certain(&value.into(), &radius.into());
-    assert_eq!(
-        [
-            of(3, 2),
-            of(2, 2),
-            of(-2, 2),
-            of(-3, 2),
-            of(0, 0),
-            of(1, 0),
-            of(-1, 0),
-            of(0, 1)
-        ],
-        [1, 0, 0, -1, 0, 1, -1, 0]
-    );
-}
-
 /// A solution needs no sign of a row that vanishes, and the sign of every other row at rest.
 #[test]
 fn a_row_that_vanishes_needs_no_sign() {
     let y: Matrix = vec![vec![1.into()]];
     let ends = simple([-1, 1], 0, 0, [0, 0]);
-    let witness = Witness {
-        support: vec![0, 1],
-        y: &y,
-        y_one: 1.into(),
-        u: vec![1.into(), 1.into()],
-        v: vec![1.into(), 1.into()],
-        one: 1.into(),
-    };
-    let solution = |vanishing: &[usize]| {
-        let indices = [INDEX.as_slice(), vanishing];
-        let error = rational(1, 2);
-        witness.check_outcome(&region(), &ends, &error, indices, &RootOutcome::Solution)
-    };
+    let witness = Bordered::of_numbers(&[0, 1], (&y, 1), [&[1, 1]; 2], 1);
+    let solution = |vanishing: &[usize]| outcome(&witness, &ends, rational(1, 2), vanishing);
 
     assert_eq!(solution(&[INDEX[2]]), Ok(()));
     for others in [&[][..], &[INDEX[0], INDEX[1]]] {
