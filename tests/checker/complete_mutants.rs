@@ -152,7 +152,9 @@ fn alter(node: &mut Node, rng: &mut ChaCha8Rng) {
         Node::Farkas(weights) => alter_weights(weights, rng),
         Node::PositiveDefinite => *node = Node::NegativeDefinite,
         Node::NegativeDefinite => *node = Node::PositiveDefinite,
-        Node::Tail | Node::Open | Node::Ldl(_) => *node = Node::PositiveDefinite,
+        Node::Tail | Node::Open | Node::Ldl(_) | Node::Friction(_) | Node::Regular(_) => {
+            *node = Node::PositiveDefinite;
+        }
         Node::Support(leaf) => alter_support(leaf, rng),
         Node::Root(root) => alter_root(root, &factor, rng),
     }

@@ -31,8 +31,9 @@ fn there_are_files_of_every_verdict() {
 /// Reasons that no file reaches: a claim and a cover that contradict each other are not both true,
 /// and a checker that accepts nothing false refuses the false one by its own obligations.
 /// `crates/check/src/lib.rs` tests it on made-up covers. A negative slip is a reason against
-/// numbers without a certificate: `crates/check/src/backward_error.rs` tests it.
-const UNREACHABLE: [&str; 2] = ["NotInCover", "XNegative"];
+/// numbers without a certificate: `crates/check/src/backward_error.rs` tests it. A file with a kind
+/// of node that its format has not is malformed: `crates/check/src/cover/walk.rs` tests the rest.
+const UNREACHABLE: [&str; 3] = ["NotInCover", "XNegative", "Cover.Kind"];
 
 /// Each obligation of the checker is the reason of some file. The obligations are the variants of
 /// the enumerations in the source, so that a new one without a file is noticed.
@@ -53,7 +54,7 @@ fn every_obligation_has_a_forgery() {
 
     for name in variants("crates/check/src/cover/fault.rs", "CoverFault") {
         let reason = format!("Cover.{name}");
-        if !all.contains(&reason) {
+        if !all.contains(&reason) && !UNREACHABLE.contains(&reason.as_str()) {
             missing.push(reason);
         }
     }

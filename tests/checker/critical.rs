@@ -7,7 +7,7 @@
 //! tree may be accepted above it: random ones are tried, and those of the search, which is right
 //! everywhere but at the fold.
 
-use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
+use mceip_check::certificate::{CriticalCertificate, Node, Piece};
 use mceip_check::{Reason, audit_critical, check_critical};
 use mceip_exact::{Rational, Sparse, parse, rational, to_f64, whole};
 use mceip_model::file::Number;
@@ -84,7 +84,7 @@ impl Rectangle {
     }
 
     /// Cuts the side that is longer in comparison with [0, LAST] x [0, 2].
-    fn halves(&self) -> (CriticalNode, [Rectangle; 2]) {
+    fn halves(&self) -> (Node, [Rectangle; 2]) {
         let width = |[lo, hi]: &[Rational; 2]| to_f64(&(hi - lo));
         let mut lower = self.clone();
         let mut upper = self.clone();
@@ -93,12 +93,12 @@ impl Rectangle {
             let at = middle(&self.t);
             lower.t[1] = at.clone();
             upper.t[0] = at.clone();
-            (CriticalNode::Split(Number(at)), [lower, upper])
+            (Node::Split(Number(at)), [lower, upper])
         } else {
             let at = middle(&self.mu);
             lower.mu[1] = at.clone();
             upper.mu[0] = at.clone();
-            (CriticalNode::Friction(Number(at)), [lower, upper])
+            (Node::Friction(Number(at)), [lower, upper])
         }
     }
 }
@@ -108,12 +108,12 @@ fn middle([lo, hi]: &[Rational; 2]) -> Rational {
 }
 
 /// The leaf for weights of rows that are not scaled.
-fn scaled(w: &[i64]) -> CriticalNode {
-    CriticalNode::Farkas(vec![w[0], 2 * w[1]])
+fn scaled(w: &[i64]) -> Node {
+    Node::Farkas(vec![w[0], 2 * w[1]])
 }
 
 /// Closes a rectangle where both variables move; beyond `depth` cuts with a vector that may fail.
-fn close(rectangle: &Rectangle, depth: usize, tree: &mut Vec<CriticalNode>) {
+fn close(rectangle: &Rectangle, depth: usize, tree: &mut Vec<Node>) {
     let w = rectangle.weights();
     if depth == 0 || rectangle.is_closed_by(&w) {
         tree.push(scaled(&w));
@@ -131,11 +131,11 @@ fn close(rectangle: &Rectangle, depth: usize, tree: &mut Vec<CriticalNode>) {
 fn searched(problem: &Problem, below: &Rational, depth: usize) -> CriticalCertificate {
     // Where both rest, 0; where 0 moves alone, -T_00 < 0; where 1 does, 2 T_01 - T_11 < 0.
     let mut tree = vec![
-        CriticalNode::Branch(0),
-        CriticalNode::Branch(1),
+        Node::Branch(0),
+        Node::Branch(1),
         scaled(&[0, 0]),
         scaled(&[2, -1]),
-        CriticalNode::Branch(1),
+        Node::Branch(1),
         scaled(&[-1, 0]),
     ];
     let rectangle = Rectangle {
@@ -148,12 +148,8 @@ fn searched(problem: &Problem, below: &Rational, depth: usize) -> CriticalCertif
 }
 
 /// A tree for [0, LAST], and a definite matrix beyond.
-fn certificate(
-    problem: &Problem,
-    below: &Rational,
-    tree: Vec<CriticalNode>,
-) -> CriticalCertificate {
-    let piece = |max: Option<i64>, tree: Vec<CriticalNode>| CriticalPiece {
+fn certificate(problem: &Problem, below: &Rational, tree: Vec<Node>) -> CriticalCertificate {
+    let piece = |max: Option<i64>, tree: Vec<Node>| Piece {
         max: max.map(|max| Number(whole(max))),
         anchor: None,
         tree,
@@ -166,7 +162,7 @@ fn certificate(
         condensation: None,
         pieces: vec![
             piece(Some(LAST), tree),
-            piece(None, vec![CriticalNode::PositiveDefinite]),
+            piece(None, vec![Node::PositiveDefinite]),
         ],
     }
 }
@@ -274,7 +270,7 @@ fn random_tree(
     rectangle: &Rectangle,
     open: &[usize],
     depth: usize,
-    tree: &mut Vec<CriticalNode>,
+    tree: &mut Vec<Node>,
 ) {
     let choice = if depth == 0 { 3 } else { random.below(4) };
     let depth = depth.saturating_sub(1);
@@ -285,7 +281,7 @@ fn random_tree(
             let mut halves = [rectangle.clone(), rectangle.clone()];
             halves[0].t[1] = at.clone();
             halves[1].t[0] = at.clone();
-            tree.push(CriticalNode::Split(Number(at)));
+            tree.push(Node::Split(Number(at)));
             for half in &halves {
                 random_tree(random, half, open, depth, tree);
             }
@@ -295,13 +291,13 @@ fn random_tree(
             let mut halves = [rectangle.clone(), rectangle.clone()];
             halves[0].mu[1] = at.clone();
             halves[1].mu[0] = at.clone();
-            tree.push(CriticalNode::Friction(Number(at)));
+            tree.push(Node::Friction(Number(at)));
             for half in &halves {
                 random_tree(random, half, open, depth, tree);
             }
         }
         2 if !open.is_empty() => {
-            tree.push(CriticalNode::Branch(open[0]));
+            tree.push(Node::Branch(open[0]));
             for _ in 0..2 {
                 random_tree(random, rectangle, &open[1..], depth, tree);
             }
@@ -310,14 +306,14 @@ fn random_tree(
     }
 }
 
-fn random_leaf(random: &mut Random, rectangle: &Rectangle) -> CriticalNode {
+fn random_leaf(random: &mut Random, rectangle: &Rectangle) -> Node {
     let mut weight = || i64::try_from(random.below(9)).unwrap() - 4;
     let weights = vec![weight(), weight()];
 
     match random.below(4) {
-        0 => CriticalNode::PositiveDefinite,
-        1 => CriticalNode::NegativeDefinite,
-        2 => CriticalNode::Farkas(weights),
+        0 => Node::PositiveDefinite,
+        1 => Node::NegativeDefinite,
+        2 => Node::Farkas(weights),
         _ => scaled(&rectangle.weights()),
     }
 }
@@ -361,9 +357,9 @@ fn no_random_tree_is_accepted_above_the_fold() {
 fn pending_boxes_share_a_long_cut() {
     let problem = fold();
     let cut = format!("0.{}1", "0".repeat(99_990));
-    let mut tree = vec![CriticalNode::Friction(Number(parse(&cut).unwrap()))];
+    let mut tree = vec![Node::Friction(Number(parse(&cut).unwrap()))];
     for t in (1..=20_000).rev() {
-        tree.push(CriticalNode::Split(Number(rational(t, 2000))));
+        tree.push(Node::Split(Number(rational(t, 2000))));
     }
     let certificate = certificate(&problem, &whole(1), tree);
 

@@ -7,7 +7,7 @@
 
 use crate::certificate::CriticalCertificate;
 use crate::cover;
-use crate::cover::critical::Audit;
+use crate::cover::walk::Audit;
 use crate::pencil::FrictionParts;
 use crate::reason::{Reason, Rejected};
 use crate::{LeafPlace, of_problem};

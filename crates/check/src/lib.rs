@@ -52,6 +52,7 @@ pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};
 use cover::AcceptedSolution;
+use cover::walk::Audit;
 use exact_solution::{ClaimSize, MAX_WORK};
 use mceip_exact::Interval;
 use mceip_model::{Problem, Window};
@@ -101,9 +102,9 @@ pub fn audit(
     problem: &Problem,
     certificate: &Certificate,
 ) -> Result<(Accepted, Vec<LeafPlace>), Rejected> {
-    let mut refused = Vec::new();
-    let accepted = verdict(problem, certificate, Some(&mut refused))?;
-    Ok((accepted, refused))
+    let audit = Audit::new(&|| true);
+    let accepted = verdict(problem, certificate, Some(&audit))?;
+    Ok((accepted, audit.into_refused().unwrap_or_default()))
 }
 
 /// Checks claims about one problem one by one: its rows are formed once.
@@ -180,11 +181,11 @@ fn work_of(claim: &Claim) -> u64 {
     size.work().min(MAX_WORK)
 }
 
-/// The verdict of [`check`], or with a list `refused` that of [`audit`].
+/// The verdict of [`check`], or with an audit that of [`audit`].
 fn verdict(
     problem: &Problem,
     certificate: &Certificate,
-    refused: Option<&mut Vec<LeafPlace>>,
+    audit: Option<&Audit<'_>>,
 ) -> Result<Accepted, Rejected> {
     check_frame(problem, certificate).map_err(of_certificate)?;
 
@@ -196,7 +197,7 @@ fn verdict(
         Some(complete_set) => {
             let rows = &checker.rows;
             let window = &certificate.window;
-            let accepted = cover::check(rows, window, &solutions, complete_set, refused);
+            let accepted = cover::check(rows, window, &solutions, complete_set, audit);
             Some(accepted.map_err(of_certificate)?)
         }
         None => None,

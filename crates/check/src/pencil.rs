@@ -144,6 +144,11 @@ impl Rows {
         self.rows.len()
     }
 
+    /// The indices of the complementarity variables.
+    pub(super) fn complementarity_variables(&self) -> Vec<usize> {
+        (0..self.order()).filter(|&i| !self.is_free[i]).collect()
+    }
+
     /// The variables off a support whose y vanishes with those of the support.
     ///
     /// The rows of a particle with zero reaction satisfy, for every v,

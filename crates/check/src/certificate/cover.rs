@@ -11,8 +11,9 @@
 //! only. The normative text is `spec/certificates.md`; symbols are explained there and in the
 //! modules of the checker, one for each kind of leaf.
 
-use super::{Integer, IntegerRow, Number, integer_rows, integers, object};
+use super::{Integer, IntegerRow, Number, Regular, integer_rows, integers, object};
 use mceip_model::file::word_or_kind;
+use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// All solutions in the certificate's window: a cover, or what is left of one (open leaves).
@@ -27,11 +28,12 @@ pub struct CompleteSet {
     )]
     pub condensation: Option<Condensation>,
     /// Consecutive intervals from the lower to the upper end of the window.
-    #[serde(deserialize_with = "object::list")]
+    #[serde(deserialize_with = "pieces_over_values")]
     pub pieces: Vec<Piece>,
 }
 
-/// One interval of the unknown and the tree that covers it.
+/// One interval of the unknown and the tree that covers it; in `mceip-critical/1` the tree covers an
+/// interval of friction as well.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
@@ -46,7 +48,7 @@ pub struct Piece {
 }
 
 /// A number or null: a missing field is refused.
-pub(super) fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::Error> {
+fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::Error> {
     Option::deserialize(d)
 }
 
@@ -54,8 +56,10 @@ pub(super) fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<N
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Node {
-    /// Cuts the interval at this value: the lower part follows, then the upper part.
+    /// Cuts the interval of values: the lower part follows, then the upper part.
     Split(Number),
+    /// Cuts the interval of friction: the lower part follows, then the upper part.
+    Friction(Number),
     /// Decides a complementarity variable: x_i = 0 follows, then x_i > 0.
     Branch(usize),
     /// Weights w, one per complementarity variable: w >= 0 off the support and w'T < 0 on all
@@ -75,8 +79,80 @@ pub enum Node {
     Root(Box<Root>),
     /// Every variable is decided: what there is at every value of the interval, exactly.
     Support(Box<Support>),
+    /// Every variable is decided, and the pencil is regular on the support everywhere in the region.
+    Regular(Box<Regular>),
     /// Not decided.
     Open,
+}
+
+impl Node {
+    /// The word of the kind in a file.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Node::Split(_) => "split",
+            Node::Friction(_) => "friction",
+            Node::Branch(_) => "branch",
+            Node::Farkas(_) => "farkas",
+            Node::PositiveDefinite => "positive_definite",
+            Node::NegativeDefinite => "negative_definite",
+            Node::Ldl(_) => "ldl",
+            Node::Tail => "tail",
+            Node::Root(_) => "root",
+            Node::Support(_) => "support",
+            Node::Regular(_) => "regular",
+            Node::Open => "open",
+        }
+    }
+
+    /// Does the node close its region? The others divide it in two.
+    pub fn is_leaf(&self) -> bool {
+        !matches!(self, Node::Split(_) | Node::Friction(_) | Node::Branch(_))
+    }
+
+    /// Does a tree have such nodes: one over an interval of friction as well, or one over values
+    /// alone?
+    ///
+    /// Soundness hangs on this: `ldl`, `root` and `support` prove something of one friction only, and
+    /// an open region is no absence.
+    pub(crate) fn fits(&self, has_friction: bool) -> bool {
+        match self {
+            Node::Friction(_) | Node::Regular(_) => has_friction,
+            Node::Ldl(_) | Node::Root(_) | Node::Support(_) | Node::Open => !has_friction,
+            Node::Split(_)
+            | Node::Branch(_)
+            | Node::Farkas(_)
+            | Node::PositiveDefinite
+            | Node::NegativeDefinite
+            | Node::Tail => true,
+        }
+    }
+}
+
+/// Pieces whose trees cover values alone.
+fn pieces_over_values<'de, D: Deserializer<'de>>(d: D) -> Result<Vec<Piece>, D::Error> {
+    pieces_with_nodes(d, false)
+}
+
+/// Pieces whose trees cover an interval of friction as well.
+pub(super) fn pieces_over_friction<'de, D: Deserializer<'de>>(
+    d: D,
+) -> Result<Vec<Piece>, D::Error> {
+    pieces_with_nodes(d, true)
+}
+
+fn pieces_with_nodes<'de, D: Deserializer<'de>>(
+    d: D,
+    has_friction: bool,
+) -> Result<Vec<Piece>, D::Error> {
+    let pieces: Vec<Piece> = object::list(d)?;
+    let mut nodes = pieces.iter().flat_map(|piece| &piece.tree);
+    match nodes.find(|node| !node.fits(has_friction)) {
+        None => Ok(pieces),
+        Some(node) => {
+            let message = format!("expected a node of this format, got {}", node.kind());
+            Err(D::Error::custom(message))
+        }
+    }
 }
 
 /// Proof that T(t) restricted to the support has one null vector at most (up to scale, over the
@@ -340,6 +416,7 @@ enum NodeWord {
 #[serde(rename_all = "snake_case")]
 enum NodeKind {
     Split(Number),
+    Friction(Number),
     Branch(usize),
     Farkas(Vec<i64>),
     #[serde(deserialize_with = "object::one")]
@@ -348,6 +425,8 @@ enum NodeKind {
     Root(Box<Root>),
     #[serde(deserialize_with = "object::one")]
     Support(Box<Support>),
+    #[serde(deserialize_with = "object::one")]
+    Regular(Box<Regular>),
 }
 
 impl From<NodeWord> for Node {
@@ -365,11 +444,13 @@ impl From<NodeKind> for Node {
     fn from(kind: NodeKind) -> Node {
         match kind {
             NodeKind::Split(at) => Node::Split(at),
+            NodeKind::Friction(at) => Node::Friction(at),
             NodeKind::Branch(index) => Node::Branch(index),
             NodeKind::Farkas(weights) => Node::Farkas(weights),
             NodeKind::Ldl(factors) => Node::Ldl(factors),
             NodeKind::Root(root) => Node::Root(root),
             NodeKind::Support(support) => Node::Support(support),
+            NodeKind::Regular(regular) => Node::Regular(regular),
         }
     }
 }

@@ -19,12 +19,12 @@
 //! This module holds data and reads and writes it; it decides nothing. The checker is
 //! `crate::critical`, the normative text is `spec/certificates.md`, 5.18.
 
-use super::{Condensation, Factor, IntegerMatrix, Number, integer_rows, integers, object};
+use super::{Condensation, Factor, IntegerMatrix, Number, Piece, integer_rows, integers, object};
 use mceip_exact::{Integer, Rational};
 use mceip_model::ModelError;
-use mceip_model::file::{from_json, require_format, word_or_kind};
+use mceip_model::file::{from_json, require_format};
 use num_traits::Zero;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 /// The format of certified absence below a friction.
 pub const CRITICAL_FORMAT: &str = "mceip-critical/1";
@@ -41,44 +41,9 @@ pub struct CriticalCertificate {
     pub below: Rational,
     /// How the free variables were eliminated; absent where there are none.
     pub condensation: Option<CriticalCondensation>,
-    /// Consecutive intervals of lambda^2 from 0 to infinity.
-    pub pieces: Vec<CriticalPiece>,
-}
-
-/// One interval of lambda^2 and the tree that covers it, with mu in [`from`, `below`].
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CriticalPiece {
-    /// Upper end, where the next piece begins; null for infinity, but not absent.
-    #[serde(deserialize_with = "super::cover::present")]
-    pub max: Option<Number>,
-    /// The anchor of the condensation that encloses the pencil here.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub anchor: Option<usize>,
-    /// The tree in preorder.
-    pub tree: Vec<CriticalNode>,
-}
-
-/// A node of the tree, in preorder. Each leaf proves that its box holds no solution.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum CriticalNode {
-    /// Cuts the interval of lambda^2: the lower part follows, then the upper part.
-    Split(Number),
-    /// Cuts the interval of mu: the lower part follows, then the upper part.
-    Friction(Number),
-    /// Decides a complementarity variable, by its index: x_i = 0 follows, then x_i > 0.
-    Branch(usize),
-    /// Weights w, one per complementarity variable, as in [`super::Node::Farkas`], at all corners.
-    Farkas(Vec<i64>),
-    /// sym(T) is positive definite on the variables that may be positive, at all four corners.
-    PositiveDefinite,
-    /// sym(T) is negative definite there.
-    NegativeDefinite,
-    /// Every variable is decided, and T on the support is regular in the whole box.
-    Regular(Box<Regular>),
-    /// The condensation's tail begins at or below this box.
-    Tail,
+    /// Consecutive intervals of lambda^2 from 0 to infinity; the tree of each covers [`from`, `below`]
+    /// as well.
+    pub pieces: Vec<Piece>,
 }
 
 /// Proof that T restricted to the support of a box is regular everywhere in the box.
@@ -164,58 +129,6 @@ pub struct CriticalTail {
     pub mass_factor_below: Option<Factor>,
 }
 
-/// The nodes that stand in a file as words.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum NodeWord {
-    PositiveDefinite,
-    NegativeDefinite,
-    Tail,
-}
-
-/// The nodes that stand in a file as objects with one key.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum NodeKind {
-    Split(Number),
-    Friction(Number),
-    Branch(usize),
-    Farkas(Vec<i64>),
-    #[serde(deserialize_with = "object::one")]
-    Regular(Box<Regular>),
-}
-
-impl From<NodeWord> for CriticalNode {
-    fn from(word: NodeWord) -> CriticalNode {
-        match word {
-            NodeWord::PositiveDefinite => CriticalNode::PositiveDefinite,
-            NodeWord::NegativeDefinite => CriticalNode::NegativeDefinite,
-            NodeWord::Tail => CriticalNode::Tail,
-        }
-    }
-}
-
-impl From<NodeKind> for CriticalNode {
-    fn from(kind: NodeKind) -> CriticalNode {
-        match kind {
-            NodeKind::Split(at) => CriticalNode::Split(at),
-            NodeKind::Friction(at) => CriticalNode::Friction(at),
-            NodeKind::Branch(index) => CriticalNode::Branch(index),
-            NodeKind::Farkas(weights) => CriticalNode::Farkas(weights),
-            NodeKind::Regular(regular) => CriticalNode::Regular(regular),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for CriticalNode {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        word_or_kind::<D, NodeWord, NodeKind, CriticalNode>(
-            deserializer,
-            "a node: a word, or an object with one key",
-        )
-    }
-}
-
 /// The file form of a [`CriticalCertificate`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -231,8 +144,8 @@ struct File {
         deserialize_with = "object::option"
     )]
     condensation: Option<CriticalCondensation>,
-    #[serde(deserialize_with = "object::list")]
-    pieces: Vec<CriticalPiece>,
+    #[serde(deserialize_with = "super::cover::pieces_over_friction")]
+    pieces: Vec<Piece>,
 }
 
 impl CriticalCertificate {

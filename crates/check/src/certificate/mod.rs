@@ -24,8 +24,8 @@ pub use cover::{
     Node, Piece, Point, Polynomials, Root, RootOutcome, Support, Tail,
 };
 pub use critical::{
-    CRITICAL_FORMAT, CriticalAnchor, CriticalCertificate, CriticalCondensation, CriticalNode,
-    CriticalPiece, CriticalTail, Regular,
+    CRITICAL_FORMAT, CriticalAnchor, CriticalCertificate, CriticalCondensation, CriticalTail,
+    Regular,
 };
 pub use presence::{PRESENCE_FORMAT, PresenceCertificate, PresencePiece};
 pub use row::IntegerRow;

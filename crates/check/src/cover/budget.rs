@@ -5,7 +5,7 @@
 //! support leaves is in `sign_budget`.
 
 use super::fault::CoverFault;
-use crate::certificate::CompleteSet;
+use crate::certificate::Piece;
 use crate::pencil::Rows;
 use num_traits::Zero;
 use std::cell::Cell;
@@ -43,10 +43,7 @@ pub(super) struct WorkBudget {
 
 impl WorkBudget {
     /// What the definite leaves of a file may cost in all: the sum of the cubes of their orders.
-    pub(super) fn of_definite_leaves<'a>(
-        pencils: impl IntoIterator<Item = &'a Rows>,
-        nodes: u64,
-    ) -> WorkBudget {
+    pub(super) fn of_definite_leaves(pencils: &[&Rows], nodes: u64) -> WorkBudget {
         let by_nodes = DEFINITE_PER_NODE.saturating_mul(nodes);
         let by_entries = DEFINITE_PER_ENTRY.saturating_mul(entries(pencils));
         WorkBudget::definite_leaves(
@@ -57,10 +54,7 @@ impl WorkBudget {
     }
 
     /// What the matrices of all regions of a file may cost: products of machine words.
-    pub(super) fn of_matrices<'a>(
-        pencils: impl IntoIterator<Item = &'a Rows>,
-        nodes: u64,
-    ) -> WorkBudget {
+    pub(super) fn of_matrices(pencils: &[&Rows], nodes: u64) -> WorkBudget {
         let by_nodes = MATRIX_PER_NODE.saturating_mul(nodes);
         let by_entries = MATRIX_PER_ENTRY.saturating_mul(entries(pencils));
         WorkBudget::matrices(
@@ -124,9 +118,9 @@ pub(super) fn entries_work(order: usize, products: u64) -> u64 {
 }
 
 /// Entries of the integral rows for which A_ij or B_ij is not zero.
-fn entries<'a>(pencils: impl IntoIterator<Item = &'a Rows>) -> u64 {
+fn entries(pencils: &[&Rows]) -> u64 {
     let mut entries: u64 = 0;
-    let rows = pencils.into_iter().flat_map(|pencil| &pencil.rows);
+    let rows = pencils.iter().flat_map(|pencil| &pencil.rows);
     for (_, a, b) in rows.flatten() {
         if !a.is_zero() || !b.is_zero() {
             entries += 1;
@@ -137,10 +131,6 @@ fn entries<'a>(pencils: impl IntoIterator<Item = &'a Rows>) -> u64 {
 }
 
 /// The number of nodes of all trees.
-pub(super) fn nodes(cover: &CompleteSet) -> u64 {
-    cover
-        .pieces
-        .iter()
-        .map(|piece| piece.tree.len() as u64)
-        .sum()
+pub(super) fn nodes(pieces: &[Piece]) -> u64 {
+    pieces.iter().map(|piece| piece.tree.len() as u64).sum()
 }

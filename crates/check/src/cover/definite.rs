@@ -10,36 +10,45 @@
 //! which is no value of the window, a semidefinite matrix suffices: the matrix at the lower end
 //! adds the strict inequality.
 //!
-//! Short numbers (`short`) are tried first. Where they cannot tell, `ends` gives the long ones.
-//! `enclosed_definite` decides at an end. Called by the walk through the trees.
+//! A leaf costs the cube of the number of variables that may be in the support, and that twice where
+//! short numbers were tried in vain. `enclosed_definite` decides at an end. Called by the walk through the trees.
 
 use super::ball::BallMatrix;
+use super::context::{Context, corners};
 use super::enclosed_definite::{long_definite, positive_definite};
-use super::ends::{Corner, ENDS, Ends};
+use super::ends::Corner;
 use super::fault::CoverFault;
+use super::leaf::{Leaf, Yield};
 use super::region::Region;
 use super::short::Short;
 use mceip_exact::Integer;
 use num_traits::Zero;
-use std::rc::Rc;
 
-/// Demands that `sign` sym(T) is positive definite on the variables that may be in the support.
-pub(super) fn definite(
-    region: &Region,
-    short: Option<&[Short; 2]>,
-    ends: impl FnOnce() -> Result<Rc<Ends>, CoverFault>,
-    index: &[usize],
-    sign: i8,
-) -> Result<(), CoverFault> {
-    if short.is_some_and(|ends| is_definite_at(region, ends, sign)) {
-        return Ok(());
+/// `sign` sym(T) is positive definite on the variables that may be in the support.
+pub(super) struct Definite {
+    pub(super) sign: i8,
+}
+
+impl Leaf for Definite {
+    fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
+        context.spend_definite(at)?;
+        context.affordable(at)?;
+        if let Some(corners) = context.short(at) {
+            if is_definite_at(at, &corners, self.sign) {
+                return Ok(Yield::default());
+            }
+
+            context.spend_definite(at)?; // a second time
+        }
+
+        let ends = context.ends(at)?;
+        check_corners(at, &corners(&ends), &context.index, self.sign)?;
+        Ok(Yield::default())
     }
-
-    check_corners(region, &ends()?.corners(ENDS), index, sign)
 }
 
 /// Is `sign` sym(T) positive definite on these variables at all these corners?
-pub(super) fn is_definite_at(region: &Region, corners: &[Short], sign: i8) -> bool {
+fn is_definite_at(region: &Region, corners: &[Short], sign: i8) -> bool {
     let possible = region.possible_support();
     corners
         .iter()
@@ -47,7 +56,7 @@ pub(super) fn is_definite_at(region: &Region, corners: &[Short], sign: i8) -> bo
 }
 
 /// Demands the same at all corners of the region.
-pub(super) fn check_corners(
+fn check_corners(
     region: &Region,
     corners: &[Corner<'_>],
     index: &[usize],
@@ -98,11 +107,12 @@ fn is_skew(matrix: &BallMatrix<Integer>, variables: &[usize]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cover::order_two::{INDEX, Square, UNDECIDED, ZERO, ends, no_ends, region, short};
+    use crate::cover::ends::Ends;
+    use crate::cover::order_two::{INDEX, Square, UNDECIDED, ZERO, ends, region, short};
     use crate::cover::region::State;
 
-    fn long_definite_leaf(states: [State; 2], ends: Rc<Ends>) -> Result<(), CoverFault> {
-        definite(&region(states), None, || Ok(ends), &INDEX, 1)
+    fn long_definite_leaf(states: [State; 2], ends: Ends) -> Result<(), CoverFault> {
+        check_corners(&region(states), &corners(&[ends]), &INDEX, 1)
     }
 
     fn not_positive(index: usize, end: &'static str) -> Result<(), CoverFault> {
@@ -154,15 +164,13 @@ mod tests {
         assert_eq!(long_definite_leaf(first_at_zero, ends(m, r, true)), Ok(()));
     }
 
-    /// The short numbers only ever say what the long ones say.
+    /// Short numbers say no more than the long ones.
     #[test]
-    fn short_numbers_are_asked_first() {
-        let verdict =
-            |short: &[Short; 2]| definite(&region(UNDECIDED), Some(short), no_ends, &INDEX, 1);
+    fn short_numbers_may_tell() {
+        let verdict = |short: &[Short; 2]| is_definite_at(&region(UNDECIDED), short, 1);
         let eye = [[1 << 20, 0], [0, 1 << 20]];
 
-        assert_eq!(verdict(&[short(eye), short(eye)]), Ok(()));
-        let unclear = verdict(&[short(eye), short(ZERO)]);
-        assert_eq!(unclear, Err(CoverFault::Trailing));
+        assert!(verdict(&[short(eye), short(eye)]));
+        assert!(!verdict(&[short(eye), short(ZERO)]));
     }
 }

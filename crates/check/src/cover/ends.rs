@@ -17,9 +17,6 @@ pub(super) const FRACTION_BITS: u64 = 128;
 /// together.
 pub(super) const MAX_MATRIX_BITS: u64 = 1 << 29;
 
-/// The ends of an interval, as messages name them.
-pub(super) const ENDS: [&str; 2] = ["lower", "upper"];
-
 /// T(t) for t between two values: convex combinations of a matrix of the lower end and one of the
 /// upper end, all in units of 1 / `scale`.
 ///

@@ -52,9 +52,21 @@ pub(super) struct Linear {
 }
 
 impl Family {
-    /// One part of the pencil about these anchors, none of which is expanded.
-    pub(super) fn condensed(anchors: &Anchors<'_>) -> Family {
-        Family::Condensed((0..anchors.len()).map(|_| None).collect())
+    /// The parts of the pencil, in one unit: with free variables about these anchors, none of which is
+    /// expanded.
+    pub(super) fn of_parts(parts: &[&Rows], anchors: Option<&Anchors<'_>>) -> Vec<Family> {
+        let mut bits = vec![0; parts[0].order()];
+        for rows in parts {
+            for (bits, of_row) in bits.iter_mut().zip(row_bits(rows)) {
+                *bits = of_row.max(*bits);
+            }
+        }
+
+        let of_part = |rows: &&Rows| match anchors {
+            Some(anchors) => Family::Condensed((0..anchors.len()).map(|_| None).collect()),
+            None => Family::Linear(Linear::scaled(rows, &bits)),
+        };
+        parts.iter().map(of_part).collect()
     }
 
     /// Is the anchor with this number expanded, or is there nothing to expand?
@@ -230,13 +242,8 @@ impl MatrixWork {
 }
 
 impl Linear {
-    /// The pencil of a problem without free variables.
-    pub(super) fn of(rows: &Rows) -> Linear {
-        Linear::scaled(rows, &row_bits(rows))
-    }
-
-    /// The same with row i divided by 2^bits_i.
-    pub(super) fn scaled(rows: &Rows, bits: &[u64]) -> Linear {
+    /// The pencil of a problem without free variables, row i divided by 2^bits_i.
+    fn scaled(rows: &Rows, bits: &[u64]) -> Linear {
         let n = rows.order();
         let mut linear = Linear {
             a: Vec::with_capacity(n),
@@ -333,7 +340,7 @@ impl Linear {
 }
 
 /// Bit length of the largest entry of A in each row, at least 1: the row is divided by 2^that.
-pub(super) fn row_bits(rows: &Rows) -> Vec<u64> {
+fn row_bits(rows: &Rows) -> Vec<u64> {
     let row_bits = |row: &Row| largest_bits(row.iter().map(|(_, a, _)| a)).max(1);
     rows.rows.iter().map(row_bits).collect()
 }
@@ -404,7 +411,7 @@ mod tests {
     #[test]
     fn ends_are_exact_but_for_what_is_cut_off() {
         let rows = rows();
-        let linear = Linear::of(&rows);
+        let linear = Linear::scaled(&rows, &row_bits(&rows));
         assert_eq!(linear.radius, [0, 0, 1].map(Integer::from));
         let (lo, hi) = (rational(2, 3), rational(7, 5));
         let ends = linear.ends(&lo, Some(&hi));
@@ -457,8 +464,8 @@ mod tests {
             rational(1, 1000),
             rational(1001, 7),
         ] {
-            let ends = Linear::of(&rows).ends(&lo, None);
-            let slope = Linear::of(&rows).slope(&lo, None);
+            let ends = Linear::scaled(&rows, &row_bits(&rows)).ends(&lo, None);
+            let slope = Linear::scaled(&rows, &row_bits(&rows)).slope(&lo, None);
             assert!(ends.infinite);
 
             for i in 0..3 {
@@ -483,7 +490,7 @@ mod tests {
             }
         }
         assert!(
-            Family::Linear(Linear::of(&rows))
+            Family::Linear(Linear::scaled(&rows, &row_bits(&rows)))
                 .ends(None, &whole(1), None)
                 .is_ok()
         );
@@ -498,7 +505,7 @@ mod tests {
             factor: vec![Integer::one(); n],
             is_free: vec![false; n],
         };
-        let family = Family::Linear(Linear::of(&rows(1024)));
+        let family = Family::of_parts(&[&rows(1024)], None).remove(0);
         // With its denominator of one bit.
         let value = |bits: u64| Rational::from_integer(Integer::one() << (bits - 2));
 
@@ -611,7 +618,7 @@ mod tests {
     /// ones.
     #[test]
     fn ordinary_matrices_have_short_numbers() {
-        let linear = Linear::of(&rows());
+        let linear = Linear::scaled(&rows(), &row_bits(&rows()));
         let (lo, hi) = (rational(2, 3), rational(7, 5));
         assert!(
             linear.ends(&lo, Some(&hi)).short().is_some()

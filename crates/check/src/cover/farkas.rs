@@ -14,37 +14,39 @@
 //! At an infinite end, which is no value of the window, the weak inequality suffices: the matrix at
 //! the lower end adds the strict one.
 //!
-//! Short numbers (`short`) are tried first. Where they cannot tell, `ends` gives the long ones.
 //! Called by the walk through the trees.
 
 use super::ball::BallMatrix;
-use super::ends::{Corner, ENDS, Ends};
+use super::context::{Context, corners};
+use super::ends::Corner;
 use super::fault::CoverFault;
+use super::leaf::{Leaf, Yield};
 use super::region::{Region, State};
 use super::short::Short;
 use mceip_exact::{Integer, Rational};
 use num_traits::{Signed, Zero};
-use std::rc::Rc;
 
-/// Checks the weights `w`, one per complementarity variable, as a Farkas vector.
-pub(super) fn farkas(
-    region: &Region,
-    short: Option<&[Short; 2]>,
-    ends: impl FnOnce() -> Result<Rc<Ends>, CoverFault>,
-    index: &[usize],
-    w: &[i64],
-) -> Result<(), CoverFault> {
-    check_weights(region, index, w)?;
+/// The weights w, one per complementarity variable.
+pub(super) struct Farkas<'a>(pub(super) &'a [i64]);
 
-    if short.is_some_and(|ends| is_negative_at(region, ends, w)) {
-        return Ok(());
+impl Leaf for Farkas<'_> {
+    fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
+        let Farkas(w) = *self;
+        context.affordable(at)?;
+        check_weights(at, &context.index, w)?;
+        let short = context.short(at);
+        if short.is_some_and(|corners| is_negative_at(at, &corners, w)) {
+            return Ok(Yield::default());
+        }
+
+        let ends = context.ends(at)?;
+        check_columns(at, &corners(&ends), &context.index, w)?;
+        Ok(Yield::default())
     }
-
-    check_columns(region, &ends()?.corners(ENDS), index, w)
 }
 
 /// Demands one weight for each complementarity variable, >= 0 off the support.
-pub(super) fn check_weights(region: &Region, index: &[usize], w: &[i64]) -> Result<(), CoverFault> {
+fn check_weights(region: &Region, index: &[usize], w: &[i64]) -> Result<(), CoverFault> {
     CoverFault::length("farkas", index.len(), w.len())?;
     for (i, &weight) in w.iter().enumerate() {
         if weight < 0 && region.states[i] != State::InSupport {
@@ -60,7 +62,7 @@ pub(super) fn check_weights(region: &Region, index: &[usize], w: &[i64]) -> Resu
 
 /// Demands that w'T <= 0 at all corners of the region, < 0 at those that are values of the window
 /// for all variables that may be in the support, or for one that is.
-pub(super) fn check_columns(
+fn check_columns(
     region: &Region,
     corners: &[Corner<'_>],
     index: &[usize],
@@ -96,7 +98,7 @@ pub(super) fn check_columns(
 }
 
 /// Is w'T < 0 at all these corners, on all variables that may be in the support?
-pub(super) fn is_negative_at(region: &Region, corners: &[Short], w: &[i64]) -> bool {
+fn is_negative_at(region: &Region, corners: &[Short], w: &[i64]) -> bool {
     corners.iter().all(|corner| is_negative(region, corner, w))
 }
 
@@ -137,11 +139,12 @@ fn upper_bound(corner: &Corner<'_>, w: &[i64], j: usize) -> Integer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cover::order_two::{INDEX, UNDECIDED, ZERO, ends, no_ends, region, short};
+    use crate::cover::ends::Ends;
+    use crate::cover::order_two::{INDEX, UNDECIDED, ZERO, ends, region, short};
     use mceip_exact::whole;
 
-    fn long_farkas(states: [State; 2], ends: Rc<Ends>, w: [i64; 2]) -> Result<(), CoverFault> {
-        farkas(&region(states), None, || Ok(ends), &INDEX, &w)
+    fn long_farkas(states: [State; 2], ends: Ends, w: [i64; 2]) -> Result<(), CoverFault> {
+        check_columns(&region(states), &corners(&[ends]), &INDEX, &w)
     }
 
     /// (w'T)_j at its largest: the radius counts with |w|, whatever the sign of w.
@@ -196,19 +199,32 @@ mod tests {
         assert_eq!(verdict(second_at_zero, [1, 0], [1, 0], false), Ok(()));
     }
 
-    /// The short numbers only ever say what the long ones say.
     #[test]
-    fn short_numbers_are_asked_first() {
-        let verdict = |states, short: &[Short; 2]| {
-            farkas(&region(states), Some(short), no_ends, &INDEX, &[1, 0])
-        };
+    fn weights_off_the_support_are_not_negative() {
+        let verdict = |states, w: &[i64]| check_weights(&region(states), &INDEX, w);
+        let second_in_support = [State::AtZero, State::InSupport];
+        assert_eq!(verdict(second_in_support, &[0, -1]), Ok(()));
+
+        let negative = Err(CoverFault::NegativeWeight { index: 10, got: -1 });
+        assert_eq!(verdict(second_in_support, &[-1, 1]), negative);
+        assert_eq!(verdict(UNDECIDED, &[-1, 1]), negative);
+        assert!(matches!(
+            verdict(UNDECIDED, &[1]),
+            Err(CoverFault::Length { .. })
+        ));
+    }
+
+    /// Short numbers say no more than the long ones.
+    #[test]
+    fn short_numbers_may_tell() {
+        let verdict = |states, short: &[Short; 2]| is_negative_at(&region(states), short, &[1, 0]);
         let negative = [short([[-1, -1], [0, 0]]), short([[-1, -2], [0, 0]])];
         let unclear = [short([[-1, 0], [0, 0]]), short([[-1, -2], [0, 0]])];
-        assert_eq!(verdict(UNDECIDED, &negative), Ok(()));
-        assert_eq!(verdict(UNDECIDED, &unclear), Err(CoverFault::Trailing));
+        assert!(verdict(UNDECIDED, &negative));
+        assert!(!verdict(UNDECIDED, &unclear));
 
         // w'T need not be negative on a variable at zero.
         let second_at_zero = [State::Undecided, State::AtZero];
-        assert_eq!(verdict(second_at_zero, &unclear), Ok(()));
+        assert!(verdict(second_at_zero, &unclear));
     }
 }

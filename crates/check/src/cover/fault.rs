@@ -26,6 +26,12 @@ pub enum CoverFault {
     /// Nodes beyond the end of a tree.
     #[error("tree: expected the end, got a further node")]
     Trailing,
+    /// A kind of node that trees of this format have not.
+    #[error("tree: expected a kind of node of this format, got {kind}")]
+    Kind {
+        /// Its word in a file.
+        kind: &'static str,
+    },
     /// A cut outside its interval.
     #[error("split: expected a value inside ({lo}, {hi}), got {got}")]
     Cut {

@@ -132,7 +132,6 @@ fn fault(expected: &'static str, index: usize) -> CoverFault {
 mod tests {
     use super::super::ball::BallMatrix;
     use super::super::ends::Matrix;
-    use super::super::family::Linear;
     use super::*;
     use mceip_exact::{rational, whole};
     use num_traits::One;
@@ -158,7 +157,7 @@ mod tests {
     #[test]
     fn a_chord_to_infinity_leads_from_the_pencil_to_its_direction() {
         let given: &[&[(i64, i64)]] = &[&[(3, 1), (-5, 2)], &[(7, -4), (0, 9)]];
-        let family = Family::Linear(Linear::of(&rows(given, &[])));
+        let family = Family::of_parts(&[&rows(given, &[])], None).remove(0);
         // The largest entries of A are 5 and 7, both below 8.
         let row_scale = whole(8);
 

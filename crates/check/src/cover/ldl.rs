@@ -14,7 +14,9 @@
 //! These are conditions (19) and (20) over an interval of any length, with no margin lost. Called
 //! by the walk through the trees.
 
+use super::context::Context;
 use super::fault::CoverFault;
+use super::leaf::{Leaf, Yield};
 use super::region::{Region, State};
 use crate::certificate::{Ldl, LdlFactor};
 use crate::pencil::Rows;
@@ -47,12 +49,14 @@ impl End {
     }
 }
 
-pub(super) fn check(
-    rows: &Rows,
-    region: &Region,
-    index: &[usize],
-    ldl: &Ldl,
-) -> Result<(), CoverFault> {
+impl Leaf for Ldl {
+    fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
+        check(context.rows, at, &context.index, self)?;
+        Ok(Yield::default())
+    }
+}
+
+fn check(rows: &Rows, region: &Region, index: &[usize], ldl: &Ldl) -> Result<(), CoverFault> {
     let at_zero = region.positions(|state| state == State::AtZero);
     let at_zero: Vec<usize> = at_zero.into_iter().map(|p| index[p]).collect();
     let possible: Vec<usize> = (0..rows.order())
@@ -228,10 +232,8 @@ mod tests {
             Rows::of(&Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap());
         let states = vec![State::Undecided, State::InSupport];
         let region = Region {
-            lo: whole(1).into(),
-            hi: hi.map(|hi| whole(hi).into()),
             states,
-            matrices: Default::default(),
+            ..Region::new(whole(1).into(), hi.map(|hi| whole(hi).into()), None, 0)
         };
         check(&rows, &region, &[0, 1], ldl)
     }

@@ -37,6 +37,7 @@ mod beside;
 mod bordered;
 mod budget;
 mod condensed;
+mod context;
 pub(crate) mod critical;
 mod definite;
 mod enclosed_definite;
@@ -48,6 +49,7 @@ pub(crate) mod fault;
 mod found;
 mod infinity;
 mod ldl;
+mod leaf;
 #[cfg(test)]
 mod order_two;
 pub(crate) mod presence;
@@ -61,7 +63,7 @@ mod rootless;
 mod short;
 mod sign_budget;
 mod support;
-mod walk;
+pub(crate) mod walk;
 
 pub use beside::Place;
 pub use fault::CoverFault;
@@ -70,16 +72,12 @@ pub use proved::{AcceptedCover, OpenRegion, SolutionFamily};
 
 use super::pencil::Rows;
 use super::reason::Reason;
-use crate::LeafPlace;
-use crate::certificate::{CompleteSet, Piece};
-use budget::WorkBudget;
+use crate::certificate::{CompleteSet, Condensation};
 use condensed::Anchors;
-use family::{Family, Linear};
+use context::Context;
 use mceip_exact::Rational;
 use mceip_model::Window;
-use region::end;
-use sign_budget::SignBudget;
-use walk::{NodeFault, Walk};
+use walk::{Audit, FaultAt, Walk};
 
 /// Largest number of complementarity variables of a cover: a region has dense matrices of this
 /// order.
@@ -91,54 +89,69 @@ const MAX_EXPANDED: usize = 3 << 20;
 
 /// Checks a cover.
 ///
-/// `claims` are the certificate's claims in order, all accepted. With a list `refused`, a leaf that
-/// fails is left open and noted there (piece, node).
+/// `claims` are the certificate's claims in order, all accepted. With an audit, a leaf that fails is
+/// left open and noted there, and what is returned means nothing if the audit was stopped.
 pub(super) fn check(
     rows: &Rows,
     window: &Window,
     claims: &[AcceptedSolution<'_>],
     cover: &CompleteSet,
-    refused: Option<&mut Vec<LeafPlace>>,
+    audit: Option<&Audit<'_>>,
 ) -> Result<AcceptedCover, Reason> {
-    let index: Vec<usize> = (0..rows.order()).filter(|&i| !rows.is_free[i]).collect();
-    let expansions = cover.condensation.as_ref().map_or(0, |c| c.anchors.len());
-    check_size(index.len(), expansions).map_err(of_cover)?;
+    check_cover(rows, window, claims, cover, audit).map_err(|at| Reason::Cover {
+        piece: at.piece,
+        node: at.node,
+        fault: at.fault,
+    })
+}
 
-    let has_free = index.len() < rows.order();
-    let anchors = anchors(rows, has_free, cover).map_err(of_cover)?;
-    let family = match &anchors {
-        None => Family::Linear(Linear::of(rows)),
-        Some(anchors) => Family::condensed(anchors),
-    };
-    let tail = tail(rows, cover).map_err(of_cover)?;
+fn check_cover(
+    rows: &Rows,
+    window: &Window,
+    claims: &[AcceptedSolution<'_>],
+    cover: &CompleteSet,
+    audit: Option<&Audit<'_>>,
+) -> Result<AcceptedCover, FaultAt> {
+    let anchors = anchors(&[rows], cover.condensation.as_ref(), |condensation| {
+        condensed::of(rows, condensation)
+    })?;
+    let nodes = budget::nodes(&cover.pieces);
+    let mut context = Context::new(&[rows], anchors.as_ref(), window, nodes);
+    context.claims = claims;
+    context.tail = tail(rows, cover)?;
 
-    let mut walk = Walk {
-        rows,
-        anchors,
-        family,
-        index,
-        window,
-        tail,
-        claims,
-        found: Vec::new(),
-        families: Vec::new(),
-        open: Vec::new(),
-        leaves: 0,
-        sign_budget: SignBudget::new(),
-        definite_budget: WorkBudget::of_definite_leaves([rows], budget::nodes(cover)),
-        matrix_budget: WorkBudget::of_matrices([rows], budget::nodes(cover)),
-        refused,
-    };
-    check_pieces(&mut walk, &cover.pieces)?;
+    let mut walk = Walk::new(context, anchors);
+    walk.audit = audit;
+    walk.pieces(&cover.pieces)?;
 
     let families = found::families(&mut walk.found, walk.families);
-    let solutions = found::distinct(walk.found).map_err(of_cover)?;
+    let solutions = found::distinct(walk.found)?;
     Ok(AcceptedCover {
         solutions,
         families,
         open: walk.open,
         leaves: walk.leaves,
     })
+}
+
+/// The anchors of the condensation, which is there exactly if there are free variables. Demands that
+/// matrices of the problem's order may be formed, for each part about each anchor.
+fn anchors<'a, A, T>(
+    parts: &[&Rows],
+    condensation: Option<&'a Condensation<A, T>>,
+    of: impl FnOnce(&'a Condensation<A, T>) -> Result<Anchors<'a>, CoverFault>,
+) -> Result<Option<Anchors<'a>>, CoverFault> {
+    let rows = parts[0];
+    let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(parts.len()));
+    let order = rows.complementarity_variables().len();
+    check_size(order, expansions)?;
+
+    let has_free = order < rows.order();
+    match condensation {
+        None if !has_free => Ok(None),
+        Some(condensation) if has_free => Ok(Some(of(condensation)?)),
+        _ => Err(CoverFault::Condensation { expected: has_free }),
+    }
 }
 
 /// Demands that matrices of the problem's order may be formed.
@@ -151,19 +164,6 @@ fn check_size(order: usize, anchors: usize) -> Result<(), CoverFault> {
     CoverFault::at_most(what, MAX_EXPANDED as u64, expanded as u64)
 }
 
-/// The anchors of the condensation, which is there exactly if there are free variables.
-fn anchors<'a>(
-    rows: &Rows,
-    has_free: bool,
-    cover: &'a CompleteSet,
-) -> Result<Option<Anchors<'a>>, CoverFault> {
-    match &cover.condensation {
-        None if !has_free => Ok(None),
-        Some(condensation) if has_free => Ok(Some(condensed::of(rows, condensation)?)),
-        _ => Err(CoverFault::Condensation { expected: has_free }),
-    }
-}
-
 /// The value from which on there is no solution, if the condensation proves one.
 fn tail<'a>(rows: &Rows, cover: &'a CompleteSet) -> Result<Option<&'a Rational>, CoverFault> {
     let tail = cover.condensation.as_ref().and_then(|c| c.tail.as_ref());
@@ -174,119 +174,14 @@ fn tail<'a>(rows: &Rows, cover: &'a CompleteSet) -> Result<Option<&'a Rational>,
     Ok(Some(from))
 }
 
-/// Checks the pieces: they follow one another from one end of the window to the other, and each
-/// tree covers its piece.
-fn check_pieces(walk: &mut Walk<'_>, pieces: &[Piece]) -> Result<(), Reason> {
-    let mut lo = walk.window.min().clone();
-
-    for (k, piece) in pieces.iter().enumerate() {
-        let is_last = k + 1 == pieces.len();
-        let max = piece.max.as_ref().map(|n| &n.0);
-        let families = std::slice::from_mut(&mut walk.family);
-        expand_anchor(walk.anchors.as_ref(), families, piece.anchor)
-            .map_err(|fault| of_piece(k, fault))?;
-        check_end(walk.window, &lo, max, is_last).map_err(|fault| of_piece(k, fault))?;
-        walk.piece(k, &lo, piece).map_err(|at| of_node(k, at))?;
-
-        if let Some(max) = &piece.max {
-            lo = max.0.clone();
-        }
-    }
-
-    if pieces.is_empty() {
-        return Err(of_cover(CoverFault::PieceEnd {
-            expected: end(walk.window.max()),
-            got: lo.to_string(),
-        }));
-    }
-
-    Ok(())
-}
-
-/// Demands that an anchor that a piece names exists, and expands each part about it the first time.
-/// Without a condensation it is ignored.
-fn expand_anchor(
-    anchors: Option<&Anchors<'_>>,
-    families: &mut [Family],
-    anchor: Option<usize>,
-) -> Result<(), CoverFault> {
-    let (Some(anchors), Some(number)) = (anchors, anchor) else {
-        return Ok(());
-    };
-    if families.iter().all(|family| family.has_anchor(number)) {
-        return Ok(());
-    }
-
-    for (family, expanded) in families.iter_mut().zip(anchors.expand(number)?) {
-        family.keep_anchor(number, expanded);
-    }
-
-    Ok(())
-}
-
-/// Demands that a piece ends above `lo`, where it begins, and within the window; the last one at
-/// the end of the window. A window of one point is one piece.
-fn check_end(
-    window: &Window,
-    lo: &Rational,
-    max: Option<&Rational>,
-    is_last: bool,
-) -> Result<(), CoverFault> {
-    if is_last && max != window.max() {
-        return Err(CoverFault::PieceEnd {
-            expected: end(window.max()),
-            got: end(max),
-        });
-    }
-
-    let rises = match max {
-        None => true,
-        Some(max) => max > lo || (is_last && max == lo),
-    };
-    let is_inside = match max {
-        _ if is_last => true,
-        None => false,
-        Some(max) => window.max().is_none_or(|window_max| max < window_max),
-    };
-    if rises && is_inside {
-        return Ok(());
-    }
-
-    Err(CoverFault::PieceEnd {
-        expected: format!("a value above {lo} within the window"),
-        got: end(max),
-    })
-}
-
-fn of_cover(fault: CoverFault) -> Reason {
-    Reason::Cover {
-        piece: None,
-        node: None,
-        fault,
-    }
-}
-
-fn of_piece(piece: usize, fault: CoverFault) -> Reason {
-    Reason::Cover {
-        piece: Some(piece),
-        node: None,
-        fault,
-    }
-}
-
-fn of_node(piece: usize, at: NodeFault) -> Reason {
-    Reason::Cover {
-        piece: Some(piece),
-        node: Some(at.node),
-        fault: at.fault,
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::budget::WorkBudget;
+    use super::definite::Definite;
+    use super::leaf::Leaf;
     use super::region::{Region, State};
     use super::*;
-    use crate::certificate::{Node, Root, RootOutcome};
+    use crate::certificate::{Node, Piece, Root, RootOutcome};
     use mceip_exact::{Integer, rational, whole};
     use mceip_model::file::Number;
     use std::rc::Rc;
@@ -308,32 +203,14 @@ mod tests {
 
     fn region(lo: Rational, hi: i64, states: Vec<State>) -> Region {
         Region {
-            lo: Rc::new(lo),
-            hi: Some(Rc::new(whole(hi))),
             states,
-            matrices: Rc::default(),
+            ..Region::new(Rc::new(lo), Some(Rc::new(whole(hi))), None, 0)
         }
     }
 
-    /// A walk with nothing left of its budgets.
-    fn walk<'a>(rows: &'a Rows, window: &'a Window) -> Walk<'a> {
-        Walk {
-            rows,
-            anchors: None,
-            family: Family::Linear(Linear::of(rows)),
-            index: (0..rows.order()).collect(),
-            window,
-            tail: None,
-            claims: &[],
-            found: Vec::new(),
-            families: Vec::new(),
-            open: Vec::new(),
-            leaves: 0,
-            sign_budget: SignBudget::new(),
-            definite_budget: WorkBudget::definite_leaves(0),
-            matrix_budget: WorkBudget::matrices(0),
-            refused: None,
-        }
+    /// The context of a file with one node.
+    fn context<'a>(rows: &'a Rows, window: &'a Window) -> Context<'a> {
+        Context::new(&[rows], None, window, 1)
     }
 
     /// Three variables that may be positive cost 27; the second leaf does not find enough left.
@@ -341,8 +218,8 @@ mod tests {
     fn definite_leaves_spend_a_budget() {
         let rows = diagonal(4, 3);
         let window = Window::all();
-        let mut walk = walk(&rows, &window);
-        walk.definite_budget = WorkBudget::definite_leaves(50);
+        let mut context = context(&rows, &window);
+        context.definite_budget = WorkBudget::definite_leaves(50);
         let states = vec![
             State::Undecided,
             State::InSupport,
@@ -351,15 +228,15 @@ mod tests {
         ];
         let region = region(whole(0), 1, states);
 
-        assert_eq!(walk.spend_definite(&region), Ok(()));
-        assert_eq!(walk.definite_budget.left(), 23);
+        assert_eq!(context.spend_definite(&region), Ok(()));
+        assert_eq!(context.definite_budget.left(), 23);
 
         let too_large = CoverFault::TooLarge {
             what: "definite leaves: order cubed, left of the file's budget",
             limit: 23,
             got: 27,
         };
-        assert_eq!(walk.spend_definite(&region), Err(too_large));
+        assert_eq!(context.spend_definite(&region), Err(too_large));
     }
 
     /// [[1, 1 - e], [1 - e, 1]] with e = 2^-90 is definite by long numbers alone: 8 twice. The unit
@@ -380,19 +257,19 @@ mod tests {
                 ..diagonal(2, 1)
             };
             let window = Window::all();
-            let mut walk = walk(&rows, &window);
-            walk.matrix_budget = WorkBudget::matrices(1 << 20);
-            let leaf = |walk: &Walk<'_>| {
+            let mut context = context(&rows, &window);
+            context.matrix_budget = WorkBudget::matrices(1 << 20);
+            let leaf = |context: &Context<'_>| {
                 let region = region(whole(0), 1, vec![State::Undecided; 2]);
-                walk.definite(&region, None, 1)
+                Definite { sign: 1 }.check(&region, context).map(drop)
             };
 
-            walk.definite_budget = WorkBudget::definite_leaves(cost);
-            assert_eq!(leaf(&walk), Ok(()));
-            assert_eq!(walk.definite_budget.left(), 0);
+            context.definite_budget = WorkBudget::definite_leaves(cost);
+            assert_eq!(leaf(&context), Ok(()));
+            assert_eq!(context.definite_budget.left(), 0);
 
-            walk.definite_budget = WorkBudget::definite_leaves(cost - 1);
-            assert!(matches!(leaf(&walk), Err(CoverFault::TooLarge { .. })));
+            context.definite_budget = WorkBudget::definite_leaves(cost - 1);
+            assert!(matches!(leaf(&context), Err(CoverFault::TooLarge { .. })));
         }
     }
 
@@ -415,8 +292,8 @@ mod tests {
             pieces: vec![piece(3), piece(4)],
         };
 
-        let definite = WorkBudget::of_definite_leaves([&rows], budget::nodes(&cover));
-        let matrices = WorkBudget::of_matrices([&rows], budget::nodes(&cover));
+        let definite = WorkBudget::of_definite_leaves(&[&rows], budget::nodes(&cover.pieces));
+        let matrices = WorkBudget::of_matrices(&[&rows], budget::nodes(&cover.pieces));
 
         assert_eq!(definite.left(), (1 << 26) + 7 * (1 << 20) + 2 * (1 << 16));
         assert_eq!(matrices.left(), (1 << 30) + 7 * (1 << 22) + 2 * (1 << 16));
@@ -429,14 +306,14 @@ mod tests {
     fn matrices_of_regions_spend_a_budget_once_an_interval() {
         let rows = diagonal(2, 3);
         let window = Window::all();
-        let mut walk = walk(&rows, &window);
+        let mut context = context(&rows, &window);
         let cost = 4 * (3 * (3 + 3) + 256);
-        walk.matrix_budget = WorkBudget::matrices(2 * cost - 1);
+        context.matrix_budget = WorkBudget::matrices(2 * cost - 1);
 
         let shared = region(rational(1, 3), 2, vec![State::Undecided; 2]);
-        assert_eq!(walk.affordable(&shared, None), Ok(()));
-        assert_eq!(walk.affordable(&shared, None), Ok(()));
-        assert_eq!(walk.matrix_budget.left(), cost - 1);
+        assert_eq!(context.affordable(&shared), Ok(()));
+        assert_eq!(context.affordable(&shared), Ok(()));
+        assert_eq!(context.matrix_budget.left(), cost - 1);
 
         let other = region(rational(1, 3), 2, vec![State::Undecided; 2]);
         let too_large = CoverFault::TooLarge {
@@ -444,7 +321,7 @@ mod tests {
             limit: cost - 1,
             got: cost,
         };
-        assert_eq!(walk.affordable(&other, None), Err(too_large));
+        assert_eq!(context.affordable(&other), Err(too_large));
     }
 
     /// A root leaf of -6 + t over [5, 7] needs the matrices of its hull and of its interval: 3 (3 +
@@ -453,7 +330,7 @@ mod tests {
     fn root_leaves_spend_the_same_budget() {
         let rows = diagonal(1, -6);
         let window = Window::all();
-        let mut walk = walk(&rows, &window);
+        let mut context = context(&rows, &window);
         let region = region(whole(5), 7, vec![State::InSupport]);
         let root = Root {
             pivot: 0,
@@ -467,18 +344,19 @@ mod tests {
         };
 
         let cost = 3 * (3 + 3) + 256;
-        walk.matrix_budget = WorkBudget::matrices(2 * cost);
-        assert!(walk.root(&region, None, &root).unwrap().is_some());
-        assert_eq!(walk.matrix_budget.left(), 0);
+        context.matrix_budget = WorkBudget::matrices(2 * cost);
+        let held = root.check(&region, &context);
+        assert_eq!(held.map(|held| held.found.len()).ok(), Some(1));
+        assert_eq!(context.matrix_budget.left(), 0);
 
         for left in [cost - 1, 2 * cost - 1] {
-            walk.matrix_budget = WorkBudget::matrices(left);
+            context.matrix_budget = WorkBudget::matrices(left);
             let too_large = CoverFault::TooLarge {
                 what: MATRIX_BUDGET,
                 limit: cost - 1,
                 got: cost,
             };
-            let refused = walk.root(&region, None, &root).err();
+            let refused = root.check(&region, &context).err();
             assert_eq!(refused, Some(too_large), "{left}");
         }
     }
@@ -487,10 +365,10 @@ mod tests {
     fn a_region_has_short_numbers() {
         let rows = diagonal(2, 3);
         let window = Window::all();
-        let walk = walk(&rows, &window);
+        let context = context(&rows, &window);
 
         let region = region(whole(0), 1, vec![State::Undecided; 2]);
 
-        assert!(walk.short(&region, None).is_some());
+        assert!(context.short(&region).is_some());
     }
 }

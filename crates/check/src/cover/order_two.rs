@@ -2,12 +2,10 @@
 
 use super::ball::BallMatrix;
 use super::ends::{Ends, Matrix};
-use super::fault::CoverFault;
 use super::region::{Region, State};
 use super::short::Short;
 use mceip_exact::{Integer, Rational};
 use num_traits::{One, Zero};
-use std::rc::Rc;
 
 pub(super) type Square = [[i64; 2]; 2];
 
@@ -26,15 +24,18 @@ pub(super) fn short(m: Square) -> Short {
 
 pub(super) fn region(states: [State; 2]) -> Region {
     Region {
-        lo: Rational::zero().into(),
-        hi: Some(Rational::one().into()),
         states: states.to_vec(),
-        matrices: Default::default(),
+        ..Region::new(
+            Rational::zero().into(),
+            Some(Rational::one().into()),
+            None,
+            0,
+        )
     }
 }
 
-pub(super) fn ends(m: [Square; 2], r: [Square; 2], infinite: bool) -> Rc<Ends> {
-    Rc::new(Ends {
+pub(super) fn ends(m: [Square; 2], r: [Square; 2], infinite: bool) -> Ends {
+    Ends {
         at: [0, 1].map(|end| BallMatrix {
             m: matrix(m[end]),
             r: matrix(r[end]),
@@ -42,10 +43,5 @@ pub(super) fn ends(m: [Square; 2], r: [Square; 2], infinite: bool) -> Rc<Ends> {
         slope: None,
         scale: 1.into(),
         infinite,
-    })
-}
-
-/// Stands for long numbers that must not be asked for.
-pub(super) fn no_ends() -> Result<Rc<Ends>, CoverFault> {
-    Err(CoverFault::Trailing)
+    }
 }

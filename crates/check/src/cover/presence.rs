@@ -22,18 +22,22 @@
 //! are part of them.
 
 use super::bordered::{Block, Bordered, NullWitness};
-use super::budget::{WorkBudget, entries_work};
-use super::critical::{PARTS, anchors, bits_of_box, families, of_file, of_piece};
-use super::ends::{Ends, within_matrix_bits};
-use super::family::{Family, words};
+use super::budget::WorkBudget;
+use super::context::{Context, corner_bits, corners};
+use super::critical::of_boxes;
+use super::ends::{Corner, Ends};
 use super::fault::CoverFault;
+use super::region::Region;
 use super::root::sign_fault;
-use super::{check_size, expand_anchor};
+use super::walk::FaultAt;
+use super::{anchors, condensed};
 use crate::certificate::{PresenceCertificate, PresencePiece};
 use crate::pencil::FrictionParts;
 use crate::reason::Reason;
 use mceip_exact::{Integer, Rational};
+use mceip_model::Window;
 use num_traits::{One, Signed, Zero};
+use std::rc::Rc;
 
 /// Checks that the pieces follow one another from `from` to `to`, and that each holds a solution
 /// for every mu.
@@ -41,37 +45,35 @@ pub(crate) fn check(
     parts: &FrictionParts,
     certificate: &PresenceCertificate,
 ) -> Result<(), Reason> {
-    let is_free = &parts.plain.is_free;
-    let slip: Vec<usize> = (0..is_free.len()).filter(|&i| !is_free[i]).collect();
-    let condensation = certificate.condensation.as_ref();
-    // Each anchor is expanded for both parts.
-    let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(2));
-    check_size(slip.len(), expansions).map_err(of_file)?;
+    check_pieces(parts, certificate).map_err(of_boxes)
+}
 
+fn check_pieces(parts: &FrictionParts, certificate: &PresenceCertificate) -> Result<(), FaultAt> {
+    let both = [&parts.plain, &parts.friction];
+    let condensation = certificate.condensation.as_ref();
+    let anchors = anchors(&both, condensation, |c| condensed::of_parts(parts, c))?;
+
+    let window = Window::all();
     let pieces = certificate.pieces.len() as u64;
-    let anchors = anchors(parts, condensation).map_err(of_file)?;
-    let mut boxes = Boxes {
-        families: families(parts, anchors.as_ref()),
-        slip,
-        matrix_budget: WorkBudget::of_matrices([&parts.plain, &parts.friction], pieces),
-        witness_budget: WorkBudget::of_pieces(pieces),
-    };
+    let mut context = Context::new(&both, anchors.as_ref(), &window, pieces);
+    let budget = WorkBudget::of_pieces(pieces);
 
     let mut low = &certificate.from;
     for (k, piece) in certificate.pieces.iter().enumerate() {
+        let of_piece = |fault| FaultAt::piece(k, fault);
         let is_last = k + 1 == certificate.pieces.len();
         let high = &piece.to.0;
-        check_order(low, high, &certificate.to, is_last).map_err(|fault| of_piece(k, fault))?;
-        expand_anchor(anchors.as_ref(), &mut boxes.families, piece.anchor)
-            .map_err(|fault| of_piece(k, fault))?;
-        boxes
-            .piece(piece, &[low.clone(), high.clone()])
-            .map_err(|fault| of_piece(k, fault))?;
+        check_order(low, high, &certificate.to, is_last).map_err(of_piece)?;
+        context
+            .use_anchor(anchors.as_ref(), piece.anchor)
+            .map_err(of_piece)?;
+        let friction = [low, high].map(|mu| Rc::new(mu.clone()));
+        check_piece(&context, piece, friction, &budget).map_err(of_piece)?;
         low = high;
     }
 
     if certificate.pieces.is_empty() {
-        return Err(of_file(piece_end(&certificate.to, low)));
+        return Err(piece_end(&certificate.to, low).into());
     }
 
     Ok(())
@@ -99,110 +101,71 @@ fn piece_end(to: &Rational, got: &Rational) -> CoverFault {
     }
 }
 
-/// What the check of each piece reads, and what is left of the budgets of the file.
-struct Boxes {
-    /// T0 and T1.
-    families: [Family; 2],
-    /// The slip variables: positions in matrices to indices of the pencil.
-    slip: Vec<usize>,
-    matrix_budget: WorkBudget,
-    witness_budget: WorkBudget,
+/// A solution for every mu in `friction`.
+fn check_piece(
+    context: &Context<'_>,
+    piece: &PresencePiece,
+    friction: [Rc<Rational>; 2],
+    budget: &WorkBudget,
+) -> Result<(), CoverFault> {
+    let [t0, t1] = piece.interval.each_ref().map(|end| Rc::new(end.0.clone()));
+    let no_interval = t0.is_negative() || t0 >= t1;
+    if no_interval {
+        return Err(CoverFault::Interval {
+            a: Rational::clone(&t0),
+            b: Rational::clone(&t1),
+        });
+    }
+
+    let witness = Witness::new(piece, &context.index)?;
+    let over = |lo: &Rc<Rational>, hi: &Rc<Rational>| {
+        let order = context.index.len();
+        Region::new(
+            Rc::clone(lo),
+            Some(Rc::clone(hi)),
+            Some(friction.clone()),
+            order,
+        )
+    };
+    let region = over(&t0, &t1);
+    let [end_bits, friction_bits] = corner_bits(&region);
+    let work = NullWitness::from(piece).work(piece.support.len(), end_bits + friction_bits);
+    budget.spend(work)?;
+
+    context.affordable(&region)?;
+    let ends = context.ends(&region)?;
+    let mut blocks = Vec::with_capacity(4);
+    for corner in corners(&ends) {
+        blocks.push(witness.bordered.block(corner.matrix, corner.scale));
+    }
+
+    let margin = witness.margin(&blocks)?;
+    let theta = witness.theta(&blocks, &margin)?;
+    witness.check_rest(&corners(&ends), &theta)?;
+
+    let at_lower = edge(context, &over(&t0, &t0), &witness, &margin)?;
+    let at_upper = edge(context, &over(&t1, &t1), &witness, &margin)?;
+    if at_lower.sign() * at_upper.sign() == -1 {
+        return Ok(());
+    }
+
+    Err(CoverFault::NoSignChange {
+        lo: Rational::clone(&t0),
+        hi: Rational::clone(&t1),
+    })
 }
 
-impl Boxes {
-    /// A solution for every mu in `friction`.
-    fn piece(&self, piece: &PresencePiece, friction: &[Rational; 2]) -> Result<(), CoverFault> {
-        let [t0, t1] = piece.interval.each_ref().map(|end| &end.0);
-        if t0.is_negative() || t0 >= t1 {
-            return Err(CoverFault::Interval {
-                a: t0.clone(),
-                b: t1.clone(),
-            });
-        }
-
-        let witness = Witness::new(piece, &self.slip)?;
-        self.spend_witness(piece, [t0, t1], friction)?;
-
-        let ends = self.ends(piece.anchor, [t0, t1], friction)?;
-        let mut corners = Vec::with_capacity(4);
-        for ends in &ends {
-            for end in &ends.at {
-                corners.push(witness.bordered.block(end, &ends.scale));
-            }
-        }
-
-        let margin = witness.margin(&corners)?;
-        let theta = witness.theta(&corners, &margin)?;
-        witness.check_rest(&ends, &theta)?;
-
-        let at_lower = self.edge(&witness, &margin, piece.anchor, t0, friction)?;
-        let at_upper = self.edge(&witness, &margin, piece.anchor, t1, friction)?;
-        if at_lower.sign() * at_upper.sign() == -1 {
-            return Ok(());
-        }
-
-        Err(CoverFault::NoSignChange {
-            lo: t0.clone(),
-            hi: t1.clone(),
-        })
-    }
-
-    /// Takes the work of a witness from the budget: the product of Y with the four corners.
-    fn spend_witness(
-        &self,
-        piece: &PresencePiece,
-        [t0, t1]: [&Rational; 2],
-        friction: &[Rational; 2],
-    ) -> Result<(), CoverFault> {
-        let [end_bits, friction_bits] = bits_of_box(t0, Some(t1), friction.each_ref());
-        let work = NullWitness::from(piece).work(piece.support.len(), end_bits + friction_bits);
-        self.witness_budget.spend(work)
-    }
-
-    /// What is known of phi at one value of t, where the enclosure is that of this value alone.
-    fn edge(
-        &self,
-        witness: &Witness<'_>,
-        margin: &[Rational],
-        anchor: Option<usize>,
-        t: &Rational,
-        friction: &[Rational; 2],
-    ) -> Result<Edge, CoverFault> {
-        let ends = self.ends(anchor, [t, t], friction)?;
-        let at = ends.each_ref().map(|ends| {
-            let corner = witness.bordered.block(&ends.at[0], &ends.scale);
-            witness.edge_end(&corner, &ends.scale, margin)
-        });
-
-        Ok(Edge { at })
-    }
-
-    /// The matrices over an interval of t, at both ends of that of mu.
-    fn ends(
-        &self,
-        anchor: Option<usize>,
-        [lo, hi]: [&Rational; 2],
-        friction: &[Rational; 2],
-    ) -> Result<[Ends; 2], CoverFault> {
-        let order = self.slip.len();
-        for family in &self.families {
-            family.affordable(anchor, lo, Some(hi))?;
-            let work = family.matrix_work(anchor, lo, Some(hi));
-            self.matrix_budget.spend(work)?;
-        }
-
-        let [end_bits, friction_bits] = bits_of_box(lo, Some(hi), friction.each_ref());
-        let what = "bits of a box's matrix";
-        within_matrix_bits(what, order, PARTS, end_bits + friction_bits)?;
-        let products = words(end_bits).saturating_mul(words(friction_bits));
-        self.matrix_budget.spend(entries_work(order, products))?;
-
-        let plain = self.families[0].ends(anchor, lo, Some(hi))?;
-        let of_friction = self.families[1].ends(anchor, lo, Some(hi))?;
-        Ok(friction
-            .each_ref()
-            .map(|mu| plain.plus_multiple(&of_friction, mu)))
-    }
+/// What is known of phi at one value of t, where the enclosure is that of this value alone.
+fn edge(
+    context: &Context<'_>,
+    at: &Region,
+    witness: &Witness<'_>,
+    margin: &[Rational],
+) -> Result<Edge, CoverFault> {
+    context.affordable(at)?;
+    let ends = context.ends(at)?;
+    let at = [0, 1].map(|end| witness.edge_end(&ends[end], margin));
+    Ok(Edge { at })
 }
 
 /// At an end of [low, high] and one value of t, with a common unit: u'Tv and its radius, p, and the
@@ -344,11 +307,11 @@ impl<'a> Witness<'a> {
     }
 
     /// Demands (T v_true)_i >= 0 for every i off the support, at all corners.
-    fn check_rest(&self, ends: &[Ends; 2], theta: &Rational) -> Result<(), CoverFault> {
+    fn check_rest(&self, corners: &[Corner<'_>], theta: &Rational) -> Result<(), CoverFault> {
         let support = &self.bordered.support;
         for row in (0..self.slip.len()).filter(|row| !support.contains(row)) {
-            for corner in ends.iter().flat_map(|ends| &ends.at) {
-                let line = self.bordered.line(corner, row);
+            for corner in corners {
+                let line = self.bordered.line(corner.matrix, row);
                 let y = self.bordered.times_v(&line);
 
                 let mut reach = Integer::zero(); // sum of (|m| + r) v without the pivot
@@ -366,17 +329,20 @@ impl<'a> Witness<'a> {
         Ok(())
     }
 
-    /// What is known of phi at a corner in units of 1 / `scale`.
-    fn edge_end(&self, corner: &Block<'_>, scale: &Integer, margin: &[Rational]) -> EdgeEnd {
+    /// What is known of phi at the lower end, in units of 1 / its scale.
+    fn edge_end(&self, ends: &Ends, margin: &[Rational]) -> EdgeEnd {
+        let scale = &ends.scale;
+        let corner = self.bordered.block(&ends.at[0], scale);
+
         let mut residual = Integer::zero();
-        let left_products = self.bordered.left_products(corner);
+        let left_products = self.bordered.left_products(&corner);
         for (entry, v) in left_products[..margin.len()].iter().zip(&self.bordered.v) {
             residual += entry.magnitude() * v;
         }
 
         let in_units = |number| Rational::new(number, scale.clone());
-        let value = self.bordered.value(&self.bordered.products(corner));
-        let errors = self.errors(corner, margin);
+        let value = self.bordered.value(&self.bordered.products(&corner));
+        let errors = self.errors(&corner, margin);
         EdgeEnd {
             value: in_units(value.center),
             radius: in_units(value.radius),

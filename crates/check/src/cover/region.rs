@@ -1,4 +1,4 @@
-//! Regions: an interval of the unknown and what is known of the support.
+//! Regions: intervals of the unknown and of the friction, and what is known of the support.
 
 use super::budget::WorkBudget;
 use super::ends::Ends;
@@ -18,18 +18,42 @@ pub(super) enum State {
     InSupport,
 }
 
-/// The part of (supports) x (window) that belongs to a node: values in [lo, hi] and the supports
-/// that its states allow. `None` stands for infinity.
+/// The part of (supports) x (window) that belongs to a node: values in [lo, hi], of a tree that
+/// covers frictions as well those in `friction`, and the supports that its states allow. `None` as
+/// the upper end stands for infinity.
+///
+/// Regions share their ends: a cut may be a long number, and many regions may be pending.
+#[derive(Clone)]
 pub(super) struct Region {
-    /// Regions share their ends: a cut may be a long number, and many regions may be pending.
     pub(super) lo: Rc<Rational>,
     pub(super) hi: Option<Rc<Rational>>,
+    pub(super) friction: Option<[Rc<Rational>; 2]>,
     /// One per complementarity variable, ascending.
     pub(super) states: Vec<State>,
-    pub(super) matrices: Rc<Matrices>,
+    /// The matrices over [lo, hi]: of T, or of T0 and of T1 where T = T0 + mu T1.
+    pub(super) parts: Rc<[Matrices; 2]>,
+    /// The matrices T0 + mu T1 at both ends of the interval of friction.
+    pub(super) boxed: Rc<Matrices>,
 }
 
 impl Region {
+    /// A region of these intervals with nothing decided.
+    pub(super) fn new(
+        lo: Rc<Rational>,
+        hi: Option<Rc<Rational>>,
+        friction: Option<[Rc<Rational>; 2]>,
+        variables: usize,
+    ) -> Region {
+        Region {
+            lo,
+            hi,
+            friction,
+            states: vec![State::Undecided; variables],
+            parts: Rc::default(),
+            boxed: Rc::default(),
+        }
+    }
+
     /// The values up to a cut and those from it on.
     pub(super) fn split(self, at: &Rational) -> Result<[Region; 2], CoverFault> {
         let is_above_lo = at > self.lo.as_ref();
@@ -42,21 +66,48 @@ impl Region {
             });
         }
 
-        self.matrices.forget();
+        self.parts.iter().for_each(Matrices::forget);
+        self.boxed.forget();
         let cut = Rc::new(at.clone());
-        let upper = Region {
-            lo: Rc::clone(&cut),
-            hi: self.hi,
-            states: self.states.clone(),
-            matrices: Rc::default(),
-        };
         let lower = Region {
-            lo: self.lo,
-            hi: Some(cut),
-            states: self.states,
-            matrices: Rc::default(),
+            hi: Some(Rc::clone(&cut)),
+            parts: Rc::default(),
+            boxed: Rc::default(),
+            ..self.clone()
+        };
+        let upper = Region {
+            lo: cut,
+            parts: Rc::default(),
+            boxed: Rc::default(),
+            ..self
         };
         Ok([lower, upper])
+    }
+
+    /// The frictions up to a cut and those from it on.
+    pub(super) fn split_friction(self, at: &Rational) -> Result<[Region; 2], CoverFault> {
+        let Some([lower, higher]) = &self.friction else {
+            return Err(CoverFault::Kind { kind: "friction" });
+        };
+        if at <= lower.as_ref() || at >= higher.as_ref() {
+            return Err(CoverFault::FrictionCut {
+                lower: Rational::clone(lower),
+                higher: Rational::clone(higher),
+                got: at.clone(),
+            });
+        }
+
+        self.boxed.forget();
+        let cut = Rc::new(at.clone());
+        let halves = [
+            [Rc::clone(lower), Rc::clone(&cut)],
+            [cut, Rc::clone(higher)],
+        ];
+        Ok(halves.map(|friction| Region {
+            friction: Some(friction),
+            boxed: Rc::default(),
+            ..self.clone()
+        }))
     }
 
     /// x_i = 0 and x_i > 0 for the undecided variable i of the problem; `indices` are those of the
@@ -74,44 +125,17 @@ impl Region {
             .filter(|&p| self.states[p] == State::Undecided)
             .ok_or(CoverFault::Branch { index })?;
 
-        let mut at_zero = self.states.clone();
-        at_zero[position] = State::AtZero;
-        let mut in_support = self.states;
-        in_support[position] = State::InSupport;
+        let mut at_zero = self.clone();
+        at_zero.states[position] = State::AtZero;
+        let mut in_support = self;
+        in_support.states[position] = State::InSupport;
 
         let other = indices.iter().position(|&i| Some(i) == other_half);
         if let Some(other) = other {
-            in_support[other] = State::AtZero;
+            in_support.states[other] = State::AtZero;
         }
 
-        Ok([at_zero, in_support].map(|states| Region {
-            lo: Rc::clone(&self.lo),
-            hi: self.hi.clone(),
-            states,
-            matrices: Rc::clone(&self.matrices),
-        }))
-    }
-
-    /// The same region.
-    pub(super) fn same(&self) -> Region {
-        Region {
-            lo: Rc::clone(&self.lo),
-            hi: self.hi.clone(),
-            states: self.states.clone(),
-            matrices: Rc::clone(&self.matrices),
-        }
-    }
-
-    /// Demands that the region lies above the value from which on the condensation's tail excludes
-    /// solutions.
-    pub(super) fn is_in_tail(&self, tail: Option<&Rational>) -> Result<(), CoverFault> {
-        match tail {
-            Some(from) if from <= self.lo.as_ref() => Ok(()),
-            _ => Err(CoverFault::Hypothesis {
-                expected: "a tail that begins at or below the region",
-                row: 0,
-            }),
-        }
+        Ok([at_zero, in_support])
     }
 
     /// Positions of the variables that are in the support.
@@ -135,13 +159,13 @@ impl Region {
     }
 }
 
-/// The matrices at the ends of an interval, computed when they are asked for. Regions of one
-/// interval share them.
+/// The matrices at the ends of intervals, computed when they are asked for, and shared by all
+/// regions of these intervals: both ends of the interval of values, at each friction that is an end.
 #[derive(Default)]
 pub(super) struct Matrices {
-    pub(super) exact: RefCell<Option<Rc<Ends>>>,
+    exact: RefCell<Option<Rc<[Ends]>>>,
     /// `Some(None)`: there are no short numbers for them.
-    pub(super) short: RefCell<Option<Option<Rc<[Short; 2]>>>>,
+    short: RefCell<Option<Option<Rc<[Short]>>>>,
     is_counted: Cell<bool>,
 }
 
@@ -159,13 +183,13 @@ impl Matrices {
     /// The long numbers, computed where they are not yet known.
     pub(super) fn ends(
         &self,
-        compute: impl FnOnce() -> Result<Ends, CoverFault>,
-    ) -> Result<Rc<Ends>, CoverFault> {
+        compute: impl FnOnce() -> Result<Rc<[Ends]>, CoverFault>,
+    ) -> Result<Rc<[Ends]>, CoverFault> {
         if let Some(ends) = &*self.exact.borrow() {
             return Ok(Rc::clone(ends));
         }
 
-        let ends = Rc::new(compute()?);
+        let ends = compute()?;
         self.exact.replace(Some(Rc::clone(&ends)));
         Ok(ends)
     }
@@ -173,20 +197,20 @@ impl Matrices {
     /// The short numbers, computed where they are not yet known.
     pub(super) fn short(
         &self,
-        compute: impl FnOnce() -> Option<[Short; 2]>,
-    ) -> Option<Rc<[Short; 2]>> {
+        compute: impl FnOnce() -> Option<Rc<[Short]>>,
+    ) -> Option<Rc<[Short]>> {
         if let Some(known) = &*self.short.borrow() {
             return known.clone();
         }
 
-        let short = compute().map(Rc::new);
+        let short = compute();
         self.short.replace(Some(short.clone()));
         short
     }
 
     /// Frees the memory. A region that is split needs its matrices no more, and its siblings
     /// compute them again, so that a deep tree of splits holds the matrices of one interval.
-    pub(super) fn forget(&self) {
+    fn forget(&self) {
         self.exact.take();
         self.short.take();
         self.is_counted.set(false);

@@ -22,18 +22,40 @@
 //! is x - v without k, with |z| <= epsilon. Then 0 = u'Tx = u'Tv + (T_k' + u'T') z, whose last term
 //! is at most P epsilon: a contradiction. As y = 0 on the support of a solution, the box holds none.
 //!
-//! Input: the corners, the witness on the support. Called by `critical`.
+//! Input: the corners, the witness on the support. Called by the walk through the trees.
 
-use super::bordered::{Block, Bordered};
+use super::bordered::{Block, Bordered, NullWitness};
+use super::context::{Context, corner_bits, corners};
 use super::ends::Corner;
 use super::fault::CoverFault;
+use super::leaf::{Leaf, Yield};
+use super::region::Region;
+use crate::certificate::Regular;
 use mceip_exact::{Integer, Rational};
 
+impl Leaf for Regular {
+    fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
+        if at.hi.is_none() && !context.families[0].is_reversed(context.anchor) {
+            return Err(CoverFault::OutcomeOnHalfLine { outcome: "regular" });
+        }
+
+        let bordered = Bordered::of_leaf(at, &context.index, self.into())?;
+        context.affordable(at)?;
+
+        // The budget of definite leaves counts order^3 as well.
+        let [end_bits, friction_bits] = corner_bits(at);
+        let corner_bits = end_bits + friction_bits;
+        let work = NullWitness::from(self).work(bordered.support.len(), corner_bits);
+        context.definite_budget.spend(work)?;
+
+        let ends = context.ends(at)?;
+        check_corners(&bordered, &corners(&ends))?;
+        Ok(Yield::default())
+    }
+}
+
 /// Demands that T is regular on the support.
-pub(super) fn check_corners(
-    witness: &Bordered<'_>,
-    corners: &[Corner<'_>],
-) -> Result<(), CoverFault> {
+fn check_corners(witness: &Bordered<'_>, corners: &[Corner<'_>]) -> Result<(), CoverFault> {
     let mut blocks: Vec<Block<'_>> = Vec::with_capacity(corners.len());
     for corner in corners {
         blocks.push(witness.block(corner.matrix, corner.scale));

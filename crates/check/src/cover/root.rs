@@ -15,22 +15,163 @@
 //!    the ends of [a, b], the only null vector is at a t in [a, b], and lies within eps of v there:
 //!    signs of x = v_true and of y = T x outside the support decide whether it is a solution.
 //!
-//! Input: the region, the *wide* ends over the hull of its interval and [a, b], the *narrow* ends
-//! over [a, b], the witness. Called by the walk, which treats the outcomes `claim` and `infinity`.
+//! The bounds of steps 1 to 3 are those of the *wide* ends, over the hull of the region's interval and
+//! [a, b]; signs in [a, b] are those of the *narrow* ends. The outcome `claim` names the null vector
+//! by a claim of the certificate, `infinity` by what it is at infinity (`infinity`). Called by the walk
+//! through the trees.
 
 use super::ball::Ball;
 use super::bordered::{Block, Bordered};
+use super::context::Context;
 use super::ends::Ends;
 use super::fault::CoverFault;
+use super::infinity;
+use super::leaf::{Leaf, Yield};
+use super::proved::Found;
 use super::region::{Region, State};
+use crate::AcceptedClaim;
 use crate::certificate::{Root, RootOutcome};
-use mceip_exact::{Integer, Rational};
+use mceip_exact::{Integer, Interval, Rational};
+use mceip_model::Window;
 use num_traits::{Signed, Zero};
+
+impl Leaf for Root {
+    fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
+        let value = interval(self, context.window)?;
+        is_meant_for(at, context, &self.outcome)?;
+
+        // Uniqueness is proved over the hull of the region's interval and the root's.
+        let family = &context.families[0];
+        let anchor = context.anchor;
+        let hull_lo = at.lo.as_ref().min(value.lo());
+        let hull_hi = at.hi.as_deref().map(|hi| hi.max(value.hi()));
+        // What is the only one up to infinity is the only one up to b.
+        let hull_end = hull_hi.unwrap_or(value.hi());
+        let hull =
+            Interval::new(hull_lo.clone(), hull_end.clone()).ok_or_else(|| outside_window(self))?;
+
+        let spend_matrix = |lo: &Rational, hi: Option<&Rational>| {
+            let cost = family.matrix_work(anchor, lo, hi);
+            context.matrix_budget.spend(cost)
+        };
+        spend_matrix(hull_lo, hull_hi)?;
+        let wide = family.hull_ends(anchor, hull_lo, hull_hi)?;
+        let narrow = || {
+            spend_matrix(value.lo(), Some(value.hi()))?;
+            family.ends(anchor, value.lo(), Some(value.hi()))
+        };
+        let support = context.problem_indices(at.support());
+        let vanishing = context.rows.vanishing(&support);
+        check(at, &wide, narrow, &context.index, &vanishing, self)?;
+
+        let solution = match &self.outcome {
+            RootOutcome::Absent | RootOutcome::NegativeX(_) | RootOutcome::NegativeY(_) => None,
+            RootOutcome::Solution => Some(AcceptedClaim { support, value }),
+            RootOutcome::Claim(claim) => {
+                let known = claim_of_leaf(context, *claim, &support, &value)?;
+                let is_here = known.support == support;
+                is_here.then(|| known.clone())
+            }
+            RootOutcome::Infinity(x) => {
+                let is_reversed = family.is_reversed(anchor);
+                infinity::null_vector(context.rows, &support, at.hi.is_none(), is_reversed, x)?;
+                None
+            }
+        };
+
+        let found = solution.map(|solution| Found { solution, hull });
+        Ok(Yield {
+            found: found.into_iter().collect(),
+            ..Yield::default()
+        })
+    }
+}
+
+/// The interval of a root leaf: within the window, and a point only where the outcome needs no
+/// change of sign.
+fn interval(leaf: &Root, window: &Window) -> Result<Interval, CoverFault> {
+    let [a, b] = &leaf.interval;
+    let value = Interval::new(a.0.clone(), b.0.clone()).ok_or_else(|| outside_window(leaf))?;
+
+    let may_be_point = matches!(
+        leaf.outcome,
+        RootOutcome::Claim(_) | RootOutcome::Absent | RootOutcome::Infinity(_)
+    );
+    let is_below = value.lo() < window.min();
+    let is_above = window.max().is_some_and(|max| value.hi() > max);
+    if is_below || is_above || (value.is_point() && !may_be_point) {
+        return Err(outside_window(leaf));
+    }
+
+    Ok(value)
+}
+
+fn outside_window(leaf: &Root) -> CoverFault {
+    let [a, b] = &leaf.interval;
+    CoverFault::Interval {
+        a: a.0.clone(),
+        b: b.0.clone(),
+    }
+}
+
+/// Refuses outcomes that need a narrow interval on a chord: over a half line without a reversed
+/// anchor only `absent`, `infinity` and `claim` are read.
+fn is_meant_for(
+    at: &Region,
+    context: &Context<'_>,
+    outcome: &RootOutcome,
+) -> Result<(), CoverFault> {
+    let is_chord = at.hi.is_none() && !context.families[0].is_reversed(context.anchor);
+
+    let outcome = match outcome {
+        RootOutcome::Solution => "solution",
+        RootOutcome::NegativeX(_) => "negative_x",
+        RootOutcome::NegativeY(_) => "negative_y",
+        RootOutcome::Absent | RootOutcome::Claim(_) | RootOutcome::Infinity(_) => return Ok(()),
+    };
+
+    if is_chord {
+        return Err(CoverFault::OutcomeOnHalfLine { outcome });
+    }
+
+    Ok(())
+}
+
+/// The claim with this number, whose x is a null vector of the leaf's block at a value in the
+/// leaf's interval.
+///
+/// That is so if x is zero off the leaf's support and y is zero on it: the claim's support is
+/// part of the leaf's, and the rest of the leaf's support is biactive.
+fn claim_of_leaf<'c>(
+    context: &'c Context<'_>,
+    claim: usize,
+    support: &[usize],
+    interval: &Interval,
+) -> Result<&'c AcceptedClaim, CoverFault> {
+    let not_the_claim = CoverFault::NotTheClaim { claim };
+    let Some(known) = context.claims.get(claim) else {
+        return Err(not_the_claim);
+    };
+    let own = &known.claim.support;
+    let value = &known.claim.value;
+
+    let is_part = !own.is_empty() && own.iter().all(|i| support.contains(i));
+    let is_null = support
+        .iter()
+        .all(|i| own.contains(i) || known.biactive.contains(i));
+    let is_inside = value.lo() >= interval.lo() && value.hi() <= interval.hi();
+
+    if is_part && is_null && is_inside {
+        Ok(&known.claim)
+    } else {
+        Err(not_the_claim)
+    }
+}
 
 /// Checks the witness. `vanishing` are variables at rest of which y = 0 follows from y = 0 on the
 /// support: a solution needs no sign there. For [`RootOutcome::Claim`] and
 /// [`RootOutcome::Infinity`] it checks uniqueness only, steps 1 to 3.
-pub(super) fn check(
+fn check(
     region: &Region,
     wide: &Ends,
     narrow: impl FnOnce() -> Result<Ends, CoverFault>,

@@ -29,10 +29,14 @@
 //! Signs at a point are those of remainders, signs on a cell come from `rootless`. Called by the
 //! walk through the trees, with the budget of signs for the whole file.
 
+use super::context::Context;
 use super::fault::CoverFault;
+use super::leaf::{Leaf, Yield};
+use super::proved::{Found, SolutionFamily};
 use super::region::Region;
 use super::rootless::{AlgebraicValue, sign_between};
 use super::sign_budget::{PolySize, SignBudget};
+use crate::AcceptedClaim;
 use crate::certificate::{Alone, Exact, Polynomials, Support};
 use crate::exact_solution::isolate;
 use crate::pencil::{Row, Rows};
@@ -45,15 +49,15 @@ const MAX_COEFFICIENTS: usize = 256;
 const MAX_SIZE: u64 = 1 << 23;
 
 /// Solutions of the support in one place of the leaf.
-pub(super) struct Held {
-    pub(super) from: Interval,
+struct Held {
+    from: Interval,
     /// The same as `from` at a point, `None`: infinity.
-    pub(super) to: Option<Interval>,
-    pub(super) is_point: bool,
+    to: Option<Interval>,
+    is_point: bool,
     /// Is there one only, up to its factor, at each value?
-    pub(super) is_alone: bool,
+    is_alone: bool,
     /// If neighbouring cells hold nothing: a part of the leaf that holds no other.
-    pub(super) hull: Option<Interval>,
+    hull: Option<Interval>,
 }
 
 /// What a place holds.
@@ -66,9 +70,38 @@ enum Content {
     },
 }
 
+impl Leaf for Support {
+    /// Isolated single solutions are listed, the others are families.
+    fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
+        let support = context.problem_indices(at.support());
+        let held = check(context.rows, at, &context.index, self, &context.sign_budget)?;
+
+        let mut held_here = Yield::default();
+        for place in held {
+            let support = support.clone();
+            match place.hull {
+                Some(hull) if place.is_alone => {
+                    let value = place.from;
+                    let solution = AcceptedClaim { support, value };
+                    held_here.found.push(Found { solution, hull });
+                }
+                _ => held_here.families.push(SolutionFamily {
+                    support,
+                    from: place.from,
+                    to: place.to,
+                    is_point: place.is_point,
+                    is_alone: place.is_alone,
+                }),
+            }
+        }
+
+        Ok(held_here)
+    }
+}
+
 /// Checks a leaf and returns where it holds solutions. The budget is that of all leaves of the
 /// file.
-pub(super) fn check(
+fn check(
     rows: &Rows,
     region: &Region,
     index: &[usize],

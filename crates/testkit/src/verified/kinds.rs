@@ -33,16 +33,8 @@ fn of_claim(claim: &Claim) -> &'static str {
 
 fn of_node(node: &Node) -> &'static str {
     match node {
-        Node::Split(_) => "split",
-        Node::Branch(_) => "branch",
-        Node::Farkas(_) => "farkas",
-        Node::PositiveDefinite => "positive_definite",
-        Node::NegativeDefinite => "negative_definite",
-        Node::Ldl(_) => "ldl",
-        Node::Tail => "tail",
         Node::Root(root) => of_outcome(&root.outcome),
-        Node::Support(_) => "support",
-        Node::Open => "open",
+        other => other.kind(),
     }
 }
 

@@ -1,10 +1,15 @@
 //! The corners of boxes against the Schur complement in rational numbers, for a system with two
 //! free degrees of freedom, an oblique particle and a consistent mass.
 
+use super::super::budget::WorkBudget;
+use super::super::context::corners;
+use super::super::ends::{Corner, Ends, FRACTION_BITS};
+use super::super::region::Region;
+use super::super::short::Short;
 use super::*;
 use crate::certificate::{CriticalAnchor, CriticalCondensation, Factor, IntegerMatrix};
 use crate::pencil::Rows;
-use mceip_exact::{Integer, Sparse, rational, whole};
+use mceip_exact::{Integer, Rational, Sparse, rational, whole};
 use mceip_model::file::Number;
 use mceip_model::{ContactState, Particle, System};
 use num_traits::{One, Signed};
@@ -174,41 +179,16 @@ fn condensation(parts: &FrictionParts, center: &Rational, exponent: u32) -> Crit
     }
 }
 
-fn walk(families: [Family; 2], rows: &Rows) -> BoxWalk<'_> {
-    BoxWalk {
-        anchors: None,
-        families,
-        index: vec![2, 3],
-        rows,
-        friction: [whole(0), whole(2)].map(Rc::new),
-        tail: None,
-        leaves: 0,
-        definite_budget: WorkBudget::definite_leaves(1 << 30),
-        matrix_budget: WorkBudget::matrices(1 << 30),
-        audit: None,
-    }
-}
-
-fn boxed(t: [Rational; 2], friction: [Rational; 2]) -> FrictionBox {
+fn boxed(t: [Rational; 2], friction: [Rational; 2]) -> Region {
     let [lo, hi] = t.map(Rc::new);
-    FrictionBox {
-        region: Region {
-            lo,
-            hi: Some(hi),
-            states: vec![State::Undecided; 2],
-            matrices: Rc::default(),
-        },
-        friction: friction.map(Rc::new),
-        friction_matrices: Rc::default(),
-        corners: Rc::default(),
-    }
+    Region::new(lo, Some(hi), Some(friction.map(Rc::new)), 2)
 }
 
 /// Centers and radii.
 type Enclosure = [Dense; 2];
 
-fn long_corners(ends: &[Ends; 2]) -> [Enclosure; 4] {
-    four_corners(ends).map(|corner| {
+fn long_corners(ends: &[Ends]) -> Vec<Enclosure> {
+    let of_corner = |corner: Corner<'_>| {
         let in_units_of_one = |matrix: &Vec<Vec<Integer>>| -> Dense {
             let entry = |v: &Integer| Rational::new(v.clone(), corner.scale.clone());
             matrix
@@ -217,23 +197,26 @@ fn long_corners(ends: &[Ends; 2]) -> [Enclosure; 4] {
                 .collect()
         };
         [&corner.matrix.m, &corner.matrix.r].map(in_units_of_one)
-    })
+    };
+    corners(ends).into_iter().map(of_corner).collect()
 }
 
-fn short_corners(corners: &[Short; 4]) -> [Enclosure; 4] {
+fn short_corners(corners: &[Short]) -> Vec<Enclosure> {
     let fixed_unit = Rational::from_integer(Integer::one() << FRACTION_BITS);
-    corners.each_ref().map(|corner| {
-        [0, 1].map(|part| {
+    let of_corner = |corner: &Short| {
+        [0, 1].map(|part| -> Dense {
             let entry = |i: usize, j: usize| &corner.entry(i, j)[part] / &fixed_unit;
             (0..2)
                 .map(|i| (0..2).map(|j| entry(i, j)).collect())
                 .collect()
         })
-    })
+    };
+    corners.iter().map(of_corner).collect()
 }
 
 /// Demands that the first corners hold every matrix within the radius of the others.
-fn assert_hold(wide: &[Enclosure; 4], narrow: &[Enclosure; 4]) {
+fn assert_hold(wide: &[Enclosure], narrow: &[Enclosure]) {
+    assert_eq!([wide.len(), narrow.len()], [4, 4]);
     for (wide, narrow) in wide.iter().zip(narrow) {
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             let distance = (&wide[0][i][j] - &narrow[0][i][j]).abs();
@@ -245,7 +228,7 @@ fn assert_hold(wide: &[Enclosure; 4], narrow: &[Enclosure; 4]) {
 /// Demands that T(t, mu), scaled, lies within the combination of the corners with these shares of
 /// the upper end and of the higher friction. Returns the largest radius.
 fn assert_enclosed(
-    corners: &[Enclosure; 4],
+    corners: &[Enclosure],
     [upper, higher]: [&Rational; 2],
     truth: &Dense,
     row_units: &[Rational],
@@ -296,14 +279,19 @@ fn row_units(
     units
 }
 
-/// Both parts about both anchors.
-fn expanded_families(parts: &FrictionParts, condensation: &CriticalCondensation) -> [Family; 2] {
-    let anchors = anchors(parts, Some(condensation)).unwrap();
-    let mut families = families(parts, anchors.as_ref());
-    for number in [0, 1] {
-        expand_anchor(anchors.as_ref(), &mut families, Some(number)).unwrap();
-    }
-    families
+/// Both parts about the anchor with this number.
+fn context<'a>(
+    parts: &'a FrictionParts,
+    condensation: &CriticalCondensation,
+    window: &'a Window,
+    anchor: usize,
+) -> Context<'a> {
+    let both = [&parts.plain, &parts.friction];
+    let of = |c| condensed::of_parts(parts, c);
+    let anchors = anchors(&both, Some(condensation), of).unwrap();
+    let mut context = Context::new(&both, anchors.as_ref(), window, 1);
+    context.use_anchor(anchors.as_ref(), Some(anchor)).unwrap();
+    context
 }
 
 #[test]
@@ -316,12 +304,13 @@ fn the_corners_enclose_the_schur_complement() {
     // Rounded well and hardly, and far from the center.
     for (center, exponent) in [(rational(4, 5), 40), (rational(4, 5), 2), (whole(7), 30)] {
         let condensation = condensation(&parts, &center, exponent);
-        let walk = walk(expanded_families(&parts, &condensation), &parts.plain);
 
         for anchor in [0, 1] {
+            let window = Window::all();
+            let context = context(&parts, &condensation, &window, anchor);
             let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);
-            let long = long_corners(&walk.corners(&at, Some(anchor)).unwrap());
-            let short = short_corners(&walk.short(&at, Some(anchor)).unwrap());
+            let long = long_corners(&context.ends(&at).unwrap());
+            let short = short_corners(&context.short(&at).unwrap());
             assert_hold(&short, &long);
             let is_reversed = anchor == 1;
             let units = row_units(
@@ -365,28 +354,29 @@ fn the_corners_enclose_the_schur_complement() {
 fn boxes_count_their_matrices_once() {
     let parts = parts();
     let condensation = condensation(&parts, &rational(4, 5), 40);
-    let mut walk = walk(expanded_families(&parts, &condensation), &parts.plain);
+    let window = Window::all();
+    let mut context = context(&parts, &condensation, &window, 0);
     let at = || {
         let t = [rational(1, 3), rational(9, 7)];
         boxed(t, [rational(2, 11), rational(5, 3)])
     };
-    let before = walk.matrix_budget.left();
+    let before = context.matrix_budget.left();
 
     let first = at();
-    assert_eq!(walk.affordable(&first, Some(0)), Ok(()));
-    assert!(walk.short(&first, Some(0)).is_some());
-    let cost = before - walk.matrix_budget.left();
+    assert_eq!(context.affordable(&first), Ok(()));
+    assert!(context.short(&first).is_some());
+    let cost = before - context.matrix_budget.left();
     assert!(cost > 0);
 
     // Long numbers of the same box, and a box that differs in its states alone, cost no more.
-    assert!(walk.corners(&first, Some(0)).is_ok());
+    assert!(context.ends(&first).is_ok());
     let [resting, moving] = first.branch(2, &[2, 3], None).unwrap();
     for sibling in [resting, moving] {
-        assert_eq!(walk.affordable(&sibling, Some(0)), Ok(()));
+        assert_eq!(context.affordable(&sibling), Ok(()));
     }
-    assert_eq!(walk.matrix_budget.left(), before - cost);
+    assert_eq!(context.matrix_budget.left(), before - cost);
 
-    walk.matrix_budget = WorkBudget::matrices(cost - 1);
-    let refused = walk.affordable(&at(), Some(0));
+    context.matrix_budget = WorkBudget::matrices(cost - 1);
+    let refused = context.affordable(&at());
     assert!(matches!(refused, Err(CoverFault::TooLarge { .. })));
 }

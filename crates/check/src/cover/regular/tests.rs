@@ -1,14 +1,10 @@
 //! The leaf against determinants: what it accepts has no singular matrix between its corners.
 
 use super::super::ball::BallMatrix;
-use super::super::bordered::NullWitness;
-use super::super::region::Region;
 use super::*;
-use crate::certificate::Regular;
 use crate::cover::region::State;
 use mceip_exact::{Integer, rational, whole};
 use num_traits::Zero;
-use std::rc::Rc;
 
 const INDEX: [usize; 3] = [10, 11, 12];
 
@@ -22,12 +18,9 @@ fn integers(m: &Small) -> Vec<Vec<Integer>> {
 }
 
 fn region(states: &[State]) -> Region {
-    Region {
-        lo: whole(0).into(),
-        hi: Some(whole(1).into()),
-        states: states.to_vec(),
-        matrices: Rc::default(),
-    }
+    let mut region = Region::new(whole(0).into(), Some(whole(1).into()), None, 0);
+    region.states = states.to_vec();
+    region
 }
 
 /// Y, u and v of order `left.len()`, with 11 as the pivot.

@@ -410,13 +410,9 @@ fn root(outcome: RootOutcome) -> Root {
 const INDEX: [usize; 3] = [10, 11, 12];
 
 fn region() -> Region {
-    let states = vec![State::InSupport, State::InSupport, State::AtZero];
-    Region {
-        lo: whole(0).into(),
-        hi: Some(whole(1).into()),
-        states,
-        matrices: Default::default(),
-    }
+    let mut region = Region::new(whole(0).into(), Some(whole(1).into()), None, 0);
+    region.states = vec![State::InSupport, State::InSupport, State::AtZero];
+    region
 }
 
 /// T = [[1, a, .], [0, t, .], [b, c, .]] with t from one value to another: x = (-a, 1), y_3 = c - a

@@ -37,10 +37,8 @@ fn region(lo: i64, hi: Option<i64>, moving: &[usize], order: usize) -> Region {
         })
         .collect();
     Region {
-        lo: whole(lo).into(),
-        hi: hi.map(|hi| whole(hi).into()),
         states,
-        matrices: Default::default(),
+        ..Region::new(whole(lo).into(), hi.map(|hi| whole(hi).into()), None, 0)
     }
 }
 

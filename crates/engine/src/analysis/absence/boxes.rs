@@ -35,7 +35,7 @@ use crate::search::complete::pieces::view::View;
 use crate::search::complete::region::{State, undecided};
 use crate::search::complete::shares::Shares;
 use crate::tolerance::THIN_MARGIN;
-use mceip_check::certificate::CriticalNode;
+use mceip_check::certificate::Node;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::Number;
 use std::rc::Rc;
@@ -105,7 +105,7 @@ pub(super) struct Search<'a> {
     /// Nodes this piece may still use.
     pub(super) budget: usize,
     /// The nodes found, in preorder.
-    pub(super) nodes: Vec<CriticalNode>,
+    pub(super) nodes: Vec<Node>,
 }
 
 impl Search<'_> {
@@ -145,7 +145,7 @@ impl Search<'_> {
         self.expansions.each_ref().map(|part| part.ends(lo, hi))
     }
 
-    fn leaf(&mut self, node: CriticalNode, share: f64) {
+    fn leaf(&mut self, node: Node, share: f64) {
         self.nodes.push(node);
         self.shares.closed(share, false);
     }
@@ -182,7 +182,7 @@ impl Search<'_> {
 
         let columns = Columns::of_all(&corners, &region.states);
         if let Some(weights) = farkas::weights(&columns, &middle, &region.states) {
-            self.leaf(CriticalNode::Farkas(weights), share);
+            self.leaf(Node::Farkas(weights), share);
             return Ok(());
         }
 
@@ -274,7 +274,7 @@ impl Search<'_> {
             let cut = cut_near(place[1], &region.mu[0], Some(&region.mu[1]));
             lower.mu[1].clone_from(&cut);
             upper.mu[0].clone_from(&cut);
-            self.nodes.push(CriticalNode::Friction(Number(cut)));
+            self.nodes.push(Node::Friction(Number(cut)));
             self.node(&lower, ends, 0.5 * share)?;
             return self.node(&upper, ends, 0.5 * share);
         }
@@ -282,7 +282,7 @@ impl Search<'_> {
         let cut = cut_near(place[0], &region.lo, region.hi.as_ref());
         lower.hi = Some(cut.clone());
         upper.lo.clone_from(&cut);
-        self.nodes.push(CriticalNode::Split(Number(cut)));
+        self.nodes.push(Node::Split(Number(cut)));
         self.fresh_box(&lower, 0.5 * share)?;
         self.fresh_box(&upper, 0.5 * share)
     }
@@ -307,8 +307,7 @@ impl Search<'_> {
         ends: &Rc<[Ends; 2]>,
         share: f64,
     ) -> Result<(), Box<Blocked>> {
-        self.nodes
-            .push(CriticalNode::Branch(self.view.index[position]));
+        self.nodes.push(Node::Branch(self.view.index[position]));
         for state in [State::AtZero, State::InSupport] {
             let mut child = region.clone();
             child.states[position] = state;
@@ -350,16 +349,16 @@ fn corners_at(ends: &[Ends; 2], region: &Region) -> [Ends; 2] {
     region.mu.each_ref().map(|mu| at_friction(ends, to_f64(mu)))
 }
 
-fn definite_leaf(corners: &[Ends; 2], states: &[State]) -> Option<CriticalNode> {
+fn definite_leaf(corners: &[Ends; 2], states: &[State]) -> Option<Node> {
     let is_definite = |sign| {
         corners
             .iter()
             .all(|ends| holds_at_both_ends(ends, states, sign))
     };
     if is_definite(1.0) {
-        Some(CriticalNode::PositiveDefinite)
+        Some(Node::PositiveDefinite)
     } else if is_definite(-1.0) {
-        Some(CriticalNode::NegativeDefinite)
+        Some(Node::NegativeDefinite)
     } else {
         None
     }

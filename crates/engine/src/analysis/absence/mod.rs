@@ -25,7 +25,7 @@ pub(super) use boxes::{Blocked, Cause};
 use family::PieceOfHalfLine;
 pub(super) use family::{Family, Place, at_friction, unit_of_lambda2};
 use mceip_check::Proved;
-use mceip_check::certificate::{CriticalCertificate, CriticalNode, CriticalPiece};
+use mceip_check::certificate::{CriticalCertificate, Node, Piece};
 use mceip_exact::Rational;
 use mceip_model::Problem;
 use mceip_model::file::Number;
@@ -213,7 +213,7 @@ impl<'a> Quadrant<'a> {
         let shares = Shares::new(self.watch);
         let share = 1.0 / family.pieces.len() as f64;
         let tree_of = |piece| self.tree(family, piece, bound, &shares, share);
-        let trees: Vec<Result<Vec<CriticalNode>, Box<Blocked>>> = in_threads(self.threads, || {
+        let trees: Vec<Result<Vec<Node>, Box<Blocked>>> = in_threads(self.threads, || {
             family.pieces.par_iter().map(tree_of).collect()
         });
 
@@ -221,7 +221,7 @@ impl<'a> Quadrant<'a> {
         let mut blocked = Vec::new();
         for (piece, tree) in family.pieces.iter().zip(trees) {
             match tree {
-                Ok(tree) => pieces.push(CriticalPiece {
+                Ok(tree) => pieces.push(Piece {
                     max: piece.hi.clone().map(Number),
                     anchor: piece.anchor,
                     tree,
@@ -251,9 +251,9 @@ impl<'a> Quadrant<'a> {
         bound: &Bound<'_>,
         shares: &Shares<'_>,
         share: f64,
-    ) -> Result<Vec<CriticalNode>, Box<Blocked>> {
+    ) -> Result<Vec<Node>, Box<Blocked>> {
         if piece.hi.is_none() && family.has_tail() {
-            return Ok(vec![CriticalNode::Tail]);
+            return Ok(vec![Node::Tail]);
         }
 
         let mut search = Search {
@@ -273,13 +273,7 @@ impl<'a> Quadrant<'a> {
 /// How many leaves a certificate has.
 pub(super) fn leaves(certificate: &CriticalCertificate) -> usize {
     let nodes = certificate.pieces.iter().flat_map(|piece| &piece.tree);
-    let is_leaf = |node: &&CriticalNode| {
-        !matches!(
-            node,
-            CriticalNode::Split(_) | CriticalNode::Friction(_) | CriticalNode::Branch(_)
-        )
-    };
-    nodes.filter(is_leaf).count()
+    nodes.filter(|node| node.is_leaf()).count()
 }
 
 #[cfg(test)]

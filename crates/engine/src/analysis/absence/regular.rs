@@ -21,7 +21,7 @@ use crate::search::complete::pieces::matrix::{Matrix, principal_block};
 use crate::search::complete::region::{State, support};
 use crate::search::complete::rounding::exponent;
 use crate::tolerance::REGULAR_MARGIN;
-use mceip_check::certificate::{CriticalNode, Regular};
+use mceip_check::certificate::{Node, Regular};
 use mceip_mcp::linear::inverse;
 
 /// Bits tried for the largest number of Y, and of u and v.
@@ -92,7 +92,7 @@ impl Witness {
     }
 
     /// The leaf, if it holds at these corners; `index` gives the problem's numbers of positions.
-    pub(super) fn leaf(&self, corners: &[Ends], index: &[usize]) -> Option<CriticalNode> {
+    pub(super) fn leaf(&self, corners: &[Ends], index: &[usize]) -> Option<Node> {
         if !Bounds::of(&self.0, corners).hold() {
             return None;
         }
@@ -112,7 +112,7 @@ impl Witness {
     }
 
     /// The leaf with numbers of so many bits, if it still holds.
-    fn rounded_leaf(&self, bits: i32, corners: &[Ends], index: &[usize]) -> Option<CriticalNode> {
+    fn rounded_leaf(&self, bits: i32, corners: &[Ends], index: &[usize]) -> Option<Node> {
         let NullVectors {
             inverse,
             left,
@@ -131,7 +131,7 @@ impl Witness {
         }
 
         let integers = short.integers(inverse_unit, unit);
-        Some(CriticalNode::Regular(Box::new(Regular {
+        Some(Node::Regular(Box::new(Regular {
             pivot: index[*pivot],
             inverse: integers.inverse,
             inverse_exponent,

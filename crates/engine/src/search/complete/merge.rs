@@ -124,7 +124,7 @@ impl<'a> Preorder<'a> {
 
         // Children stand behind their parent, so that they are known before it.
         for k in (0..count).rev() {
-            if is_inner(nodes[k].node) {
+            if !nodes[k].node.is_leaf() {
                 let first_child = k + 1;
                 let second_child = end.get(first_child).copied().unwrap_or(count);
                 end[k] = end.get(second_child).copied().unwrap_or(count);
@@ -155,7 +155,7 @@ impl<'a> Preorder<'a> {
             };
 
             let both_open = self.open[mine] > 0 && other.open[theirs] > 0;
-            let divide_alike = is_inner(my_node.node) && my_node.node == their_node.node;
+            let divide_alike = !my_node.node.is_leaf() && my_node.node == their_node.node;
             if both_open && divide_alike {
                 nodes.push(*my_node);
                 let my_second_half = self.end_of(mine + 1);
@@ -208,11 +208,6 @@ impl<'a> Preorder<'a> {
 
         tree
     }
-}
-
-/// Does the node divide its region in two?
-fn is_inner(node: &Node) -> bool {
-    matches!(node, Node::Split(_) | Node::Branch(_))
 }
 
 #[cfg(test)]

@@ -1,0 +1,67 @@
+//! Leaves: what the proof of each kind reads and what it yields.
+//!
+//! A kind is a file of this folder with the proof, a line of [`check`], and a variant of
+//! [`Node`]. What a leaf proves is said there; `critical` says what holds over an interval of
+//! friction.
+
+use super::context::Context;
+use super::definite::Definite;
+use super::farkas::Farkas;
+use super::fault::CoverFault;
+use super::proved::{Found, SolutionFamily};
+use super::region::Region;
+use crate::certificate::Node;
+
+/// The proof of a leaf.
+pub(super) trait Leaf {
+    /// Demands that the proof holds in this region, and returns what the region holds.
+    fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault>;
+}
+
+/// What a region holds; by default no solution.
+#[derive(Default)]
+pub(super) struct Yield {
+    /// Isolated single solutions.
+    pub(super) found: Vec<Found>,
+    pub(super) families: Vec<SolutionFamily>,
+    /// Is nothing proved of it?
+    pub(super) is_open: bool,
+}
+
+/// What an open region holds.
+pub(super) const OPEN: Yield = Yield {
+    found: Vec::new(),
+    families: Vec::new(),
+    is_open: true,
+};
+
+/// Checks the proof of a leaf. A cut or a branch is none, and yields nothing.
+pub(super) fn check(node: &Node, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
+    match node {
+        Node::Split(_) | Node::Friction(_) | Node::Branch(_) => Ok(Yield::default()),
+        Node::Farkas(weights) => Farkas(weights).check(at, context),
+        Node::PositiveDefinite => Definite { sign: 1 }.check(at, context),
+        Node::NegativeDefinite => Definite { sign: -1 }.check(at, context),
+        Node::Ldl(factors) => factors.check(at, context),
+        Node::Support(support) => support.check(at, context),
+        Node::Root(root) => root.check(at, context),
+        Node::Regular(witness) => witness.check(at, context),
+        Node::Tail => Tail.check(at, context),
+        Node::Open => Ok(OPEN),
+    }
+}
+
+/// The condensation's tail begins at or below the region: there is no solution from there on.
+struct Tail;
+
+impl Leaf for Tail {
+    fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
+        match context.tail {
+            Some(from) if from <= at.lo.as_ref() => Ok(Yield::default()),
+            _ => Err(CoverFault::Hypothesis {
+                expected: "a tail that begins at or below the region",
+                row: 0,
+            }),
+        }
+    }
+}
