@@ -32,8 +32,8 @@ pub struct CompleteSet {
     pub pieces: Vec<Piece>,
 }
 
-/// One interval of the unknown and the tree that covers it; in `mceip-critical/1` the tree covers an
-/// interval of friction as well.
+/// One interval of the unknown and the tree that covers it; in `mceip-critical/1` the tree covers
+/// an interval of friction as well.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
@@ -79,7 +79,8 @@ pub enum Node {
     Root(Box<Root>),
     /// Every variable is decided: what there is at every value of the interval, exactly.
     Support(Box<Support>),
-    /// Every variable is decided, and the pencil is regular on the support everywhere in the region.
+    /// Every variable is decided, and the pencil is regular on the support everywhere in the
+    /// region.
     Regular(Box<Regular>),
     /// Not decided.
     Open,
@@ -112,8 +113,8 @@ impl Node {
     /// Does a tree have such nodes: one over an interval of friction as well, or one over values
     /// alone?
     ///
-    /// Soundness hangs on this: `ldl`, `root` and `support` prove something of one friction only, and
-    /// an open region is no absence.
+    /// Soundness hangs on this: `ldl`, `root` and `support` prove something of one friction only,
+    /// and an open region is no absence.
     pub(crate) fn fits(&self, has_friction: bool) -> bool {
         match self {
             Node::Friction(_) | Node::Regular(_) => has_friction,

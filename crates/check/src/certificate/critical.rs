@@ -41,8 +41,8 @@ pub struct CriticalCertificate {
     pub below: Rational,
     /// How the free variables were eliminated; absent where there are none.
     pub condensation: Option<CriticalCondensation>,
-    /// Consecutive intervals of lambda^2 from 0 to infinity; the tree of each covers [`from`, `below`]
-    /// as well.
+    /// Consecutive intervals of lambda^2 from 0 to infinity; the tree of each covers [`from`,
+    /// `below`] as well.
     pub pieces: Vec<Piece>,
 }
 

@@ -1,8 +1,8 @@
 //! The bordered inverse: what is proved of a block of a matrix by an approximate inverse and
 //! approximate null vectors.
 //!
-//! Let S be a support, k in S the *pivot*, T a matrix on S, known up to radii, and T' the block of T
-//! without k. The witness is Y ~ T'^-1 and vectors v, u ~ the right and left null vectors, with
+//! Let S be a support, k in S the *pivot*, T a matrix on S, known up to radii, and T' the block of
+//! T without k. The witness is Y ~ T'^-1 and vectors v, u ~ the right and left null vectors, with
 //! v_k = u_k = 1. Whatever numbers stand there, for every matrix within the radii:
 //!
 //! ```text
@@ -12,9 +12,9 @@
 //!     u' T v                in `value`.
 //! ```
 //!
-//! If the largest row sum rho of `deviation` is less than 1, Y and T' are regular. Then a null vector
-//! of T has a component k other than zero; scaled to 1 there it is v_true = -T'^-1 T_'k on the rest,
-//! and as T'^-1 = (Y T')^-1 Y,
+//! If the largest row sum rho of `deviation` is less than 1, Y and T' are regular. Then a null
+//! vector of T has a component k other than zero; scaled to 1 there it is v_true = -T'^-1 T_'k on
+//! the rest, and as T'^-1 = (Y T')^-1 Y,
 //!
 //! ```text
 //!     |v_true - v| = |T'^-1 (T_'k + T'v)|  <=  |Y (T_'k + T'v)| / (1 - rho)  =  `error`.
@@ -317,7 +317,8 @@ impl<'a> Bordered<'a> {
 
 #[cfg(test)]
 impl<'a> Bordered<'a> {
-    /// Y, u and v, the latter with the component of the pivot, in units of 1 / `y_one` and 1 / `one`.
+    /// Y, u and v, the latter with the component of the pivot, in units of 1 / `y_one` and 1 /
+    /// `one`.
     pub(super) fn of_numbers(
         support: &[usize],
         (y, y_one): (&'a Matrix, i64),

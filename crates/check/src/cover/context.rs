@@ -1,10 +1,10 @@
 //! What the proofs of leaves read: the pencil, the matrices of a region, and what is left of the
 //! budgets of the file.
 //!
-//! The pencil is T(t), or T(t, mu) = T0(t) + mu T1(t) of a mechanical system with t = lambda^2: only
-//! the slip rows depend on mu, and the elimination of the free variables uses the free rows and
-//! columns alone, so the condensed pencil is affine in mu as well. Each part is enclosed over an
-//! interval of t by its ends (`family`), all by convex combinations with the same weights.
+//! The pencil is T(t), or T(t, mu) = T0(t) + mu T1(t) of a mechanical system with t = lambda^2:
+//! only the slip rows depend on mu, and the elimination of the free variables uses the free rows
+//! and columns alone, so the condensed pencil is affine in mu as well. Each part is enclosed over
+//! an interval of t by its ends (`family`), all by convex combinations with the same weights.
 //!
 //! The *corners* of a region are its ends; of one with an interval of mu, for both ends e of the
 //! interval of t and both ends k of that of mu,
@@ -13,13 +13,14 @@
 //!     M_e0 + mu_k M_e1    with the radius    R_e0 + mu_k R_e1.
 //! ```
 //!
-//! T is linear in mu for every t, so every T of the region is a convex combination of matrices within
-//! these radii; at an infinite end, of those at the lower end plus a non-negative multiple of such a
-//! combination at the upper one. What is linear in T, or convex, holds in the region if it holds at
-//! the corners.
+//! T is linear in mu for every t, so every T of the region is a convex combination of matrices
+//! within these radii; at an infinite end, of those at the lower end plus a non-negative multiple
+//! of such a combination at the upper one. What is linear in T, or convex, holds in the region if
+//! it holds at the corners.
 //!
-//! Matrices are computed once for all regions of the same intervals, and their work is taken from the
-//! budget of the file. Short numbers are tried first; the long ones decide where these cannot tell.
+//! Matrices are computed once for all regions of the same intervals, and their work is taken from
+//! the budget of the file. Short numbers are tried first; the long ones decide where these cannot
+//! tell.
 
 use super::budget::{WorkBudget, entries_work};
 use super::condensed::Anchors;
@@ -115,8 +116,8 @@ impl<'a> Context<'a> {
         positions.into_iter().map(|p| self.index[p]).collect()
     }
 
-    /// Demands that the matrices of the region are small enough to be computed, and counts them once
-    /// for all regions that share them.
+    /// Demands that the matrices of the region are small enough to be computed, and counts them
+    /// once for all regions that share them.
     pub(super) fn affordable(&self, region: &Region) -> Result<(), CoverFault> {
         let lo = &region.lo;
         let hi = region.hi.as_deref();
@@ -142,8 +143,8 @@ impl<'a> Context<'a> {
             .count(&self.matrix_budget, entries_work(order, products))
     }
 
-    /// The matrices at the ends of the region's interval of values; at both ends of that of mu, if it
-    /// has one.
+    /// The matrices at the ends of the region's interval of values; at both ends of that of mu, if
+    /// it has one.
     pub(super) fn ends(&self, region: &Region) -> Result<Rc<[Ends]>, CoverFault> {
         let Some(friction) = &region.friction else {
             return self.part_ends(region, 0);

@@ -1,8 +1,8 @@
 //! Absence below a friction: a cover of (supports) x [0, infinity) x [from, below].
 //!
 //! For a mechanical system T(t, mu) = T0(t) + mu T1(t), with t = lambda^2. Trees are those of
-//! `walk`, their regions have an interval of mu as well, and their leaves prove that a region holds no
-//! solution: `farkas` and `definite` by what is linear in T at the four corners of the region
+//! `walk`, their regions have an interval of mu as well, and their leaves prove that a region holds
+//! no solution: `farkas` and `definite` by what is linear in T at the four corners of the region
 //! (`context`), `regular` by what is convex in T.
 //!
 //! *Tail.* Above some t sym(A + tB) of the whole pencil is positive definite, and sym(B) is

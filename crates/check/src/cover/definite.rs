@@ -10,8 +10,9 @@
 //! which is no value of the window, a semidefinite matrix suffices: the matrix at the lower end
 //! adds the strict inequality.
 //!
-//! A leaf costs the cube of the number of variables that may be in the support, and that twice where
-//! short numbers were tried in vain. `enclosed_definite` decides at an end. Called by the walk through the trees.
+//! A leaf costs the cube of the number of variables that may be in the support, and that twice
+//! where short numbers were tried in vain. `enclosed_definite` decides at an end. Called by the
+//! walk through the trees.
 
 use super::ball::BallMatrix;
 use super::context::{Context, corners};

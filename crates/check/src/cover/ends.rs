@@ -20,8 +20,8 @@ pub(super) const MAX_MATRIX_BITS: u64 = 1 << 29;
 /// T(t) for t between two values: convex combinations of a matrix of the lower end and one of the
 /// upper end, all in units of 1 / `scale`.
 ///
-/// An infinite end is a direction: T(t) is a matrix of the lower end plus a non-negative multiple of
-/// one of the direction. (Of a reversed expansion and of a chord, the upper end is the limit at
+/// An infinite end is a direction: T(t) is a matrix of the lower end plus a non-negative multiple
+/// of one of the direction. (Of a reversed expansion and of a chord, the upper end is the limit at
 /// infinity of a positive multiple of T(t), and all between are convex combinations.)
 #[derive(Clone)]
 pub(super) struct Ends {

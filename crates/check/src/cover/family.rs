@@ -52,8 +52,8 @@ pub(super) struct Linear {
 }
 
 impl Family {
-    /// The parts of the pencil, in one unit: with free variables about these anchors, none of which is
-    /// expanded.
+    /// The parts of the pencil, in one unit: with free variables about these anchors, none of which
+    /// is expanded.
     pub(super) fn of_parts(parts: &[&Rows], anchors: Option<&Anchors<'_>>) -> Vec<Family> {
         let mut bits = vec![0; parts[0].order()];
         for rows in parts {

@@ -19,12 +19,13 @@
 //! (`found`).
 //!
 //! `ends`, `family`, `expanded` and `condensed` enclose T(t) over an interval, `infinity` over a
-//! half line. `ball`, `product`, `short`, `definite` and `psd` are the arithmetic behind it. `walk` goes
-//! through the trees, and `budget` bounds the work.
+//! half line. `ball`, `product`, `short`, `definite` and `psd` are the arithmetic behind it. `walk`
+//! goes through the trees, and `budget` bounds the work.
 //!
 //! `critical` uses the same leaves for boxes of (value, friction): absence below a friction.
 //! `presence` uses the corners of such boxes: a solution for every friction of an interval. What an
-//! approximate inverse and null vectors prove, for `root`, `regular` and `presence`, is in `bordered`.
+//! approximate inverse and null vectors prove, for `root`, `regular` and `presence`, is in
+//! `bordered`.
 //!
 //! For each kind of leaf there is a file in `crates/engine/src/search/complete/leaf/` that makes
 //! it; the table in its `mod.rs` names both sides.
@@ -89,8 +90,8 @@ const MAX_EXPANDED: usize = 3 << 20;
 
 /// Checks a cover.
 ///
-/// `claims` are the certificate's claims in order, all accepted. With an audit, a leaf that fails is
-/// left open and noted there, and what is returned means nothing if the audit was stopped.
+/// `claims` are the certificate's claims in order, all accepted. With an audit, a leaf that fails
+/// is left open and noted there, and what is returned means nothing if the audit was stopped.
 pub(super) fn check(
     rows: &Rows,
     window: &Window,
@@ -134,8 +135,8 @@ fn check_cover(
     })
 }
 
-/// The anchors of the condensation, which is there exactly if there are free variables. Demands that
-/// matrices of the problem's order may be formed, for each part about each anchor.
+/// The anchors of the condensation, which is there exactly if there are free variables. Demands
+/// that matrices of the problem's order may be formed, for each part about each anchor.
 fn anchors<'a, A, T>(
     parts: &[&Rows],
     condensation: Option<&'a Condensation<A, T>>,

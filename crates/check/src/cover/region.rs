@@ -160,7 +160,8 @@ impl Region {
 }
 
 /// The matrices at the ends of intervals, computed when they are asked for, and shared by all
-/// regions of these intervals: both ends of the interval of values, at each friction that is an end.
+/// regions of these intervals: both ends of the interval of values, at each friction that is an
+/// end.
 #[derive(Default)]
 pub(super) struct Matrices {
     exact: RefCell<Option<Rc<[Ends]>>>,

@@ -18,9 +18,10 @@
 //!
 //! and so in the whole box, because u'Tv is linear in T.
 //!
-//! Let T x = 0 on the support with x != 0. T' is regular, so x_k is not zero: it is scaled to 1, and z
-//! is x - v without k, with |z| <= epsilon. Then 0 = u'Tx = u'Tv + (T_k' + u'T') z, whose last term
-//! is at most P epsilon: a contradiction. As y = 0 on the support of a solution, the box holds none.
+//! Let T x = 0 on the support with x != 0. T' is regular, so x_k is not zero: it is scaled to 1,
+//! and z is x - v without k, with |z| <= epsilon. Then 0 = u'Tx = u'Tv + (T_k' + u'T') z, whose
+//! last term is at most P epsilon: a contradiction. As y = 0 on the support of a solution, the box
+//! holds none.
 //!
 //! Input: the corners, the witness on the support. Called by the walk through the trees.
 

@@ -3,9 +3,9 @@
 //! Every variable is decided. The witness is that of `bordered`, for T(t) on the support with its
 //! pivot k. All bounds hold for every T(t) of the enclosure:
 //!
-//! 1. rho < 1 and, for the transpose, eta < 1: T' is regular. A null vector of T on the support, scaled
-//!    to 1 at k, is v_true, and it exists exactly where the Schur complement phi(t) = T_kk - T_k'
-//!    T'^-1 T_'k is zero.
+//! 1. rho < 1 and, for the transpose, eta < 1: T' is regular. A null vector of T on the support,
+//!    scaled to 1 at k, is v_true, and it exists exactly where the Schur complement
+//!    phi(t) = T_kk - T_k' T'^-1 T_'k is zero.
 //! 2. |v_true - v| <= eps_v, |u_true - u| <= eps_u.
 //! 3. phi' = u_true' (dT/dt) v_true. If this is certainly not zero (*monotone*), phi has at most
 //!    one zero t.
@@ -15,10 +15,10 @@
 //!    the ends of [a, b], the only null vector is at a t in [a, b], and lies within eps of v there:
 //!    signs of x = v_true and of y = T x outside the support decide whether it is a solution.
 //!
-//! The bounds of steps 1 to 3 are those of the *wide* ends, over the hull of the region's interval and
-//! [a, b]; signs in [a, b] are those of the *narrow* ends. The outcome `claim` names the null vector
-//! by a claim of the certificate, `infinity` by what it is at infinity (`infinity`). Called by the walk
-//! through the trees.
+//! The bounds of steps 1 to 3 are those of the *wide* ends, over the hull of the region's interval
+//! and [a, b]; signs in [a, b] are those of the *narrow* ends. The outcome `claim` names the null
+//! vector by a claim of the certificate, `infinity` by what it is at infinity (`infinity`). Called
+//! by the walk through the trees.
 
 use super::ball::Ball;
 use super::bordered::{Block, Bordered};

@@ -4,8 +4,8 @@
 //! A tree is written in preorder. The walk keeps the regions that are still to be closed on a
 //! stack. A node takes the region on top: a cut or a branch puts two in its place, whose union is
 //! the region that was taken; a leaf proves what its region holds. A tree that ends exactly when
-//! the stack is empty has therefore accounted for every (support, value) of its piece, and for every
-//! friction where the trees cover an interval of it.
+//! the stack is empty has therefore accounted for every (support, value) of its piece, and for
+//! every friction where the trees cover an interval of it.
 //!
 //! Where one half of v_T of a particle with zero reaction moves, a branch puts the other one at
 //! rest: what is covered are the motions, each with at most one of them.
@@ -200,8 +200,8 @@ impl<'a> Walk<'a> {
         })
     }
 
-    /// Checks the proof of a leaf and keeps what it yields. In an audit the region of one that fails
-    /// is left open, and its place noted.
+    /// Checks the proof of a leaf and keeps what it yields. In an audit the region of one that
+    /// fails is left open, and its place noted.
     fn leaf(&mut self, region: &Region, node: &Node, place: LeafPlace) -> Result<(), CoverFault> {
         self.leaves += 1;
         if !node.fits(region.friction.is_some()) {
@@ -313,8 +313,8 @@ mod tests {
         walk.pieces(&[piece]).err().map(|at| at.fault)
     }
 
-    /// What proves something of one friction only, or nothing, is no leaf of a tree over an interval
-    /// of friction.
+    /// What proves something of one friction only, or nothing, is no leaf of a tree over an
+    /// interval of friction.
     #[test]
     fn a_tree_has_the_kinds_of_its_format() {
         assert_eq!(fault(vec![Node::PositiveDefinite], true), None);
