@@ -249,6 +249,14 @@ impl Equations {
 
         let mass = shape.dot(&(&self.energy_mass * &shape));
         let stiffness = shape.dot(&(&self.energy_stiffness * &shape));
+        let rounding = f64::EPSILON * self.order() as f64 * self.energy_stiffness.amax();
+        if stiffness <= rounding {
+            return Err(MotionError::Doubles {
+                what: "a K that is singular on the motions that the contacts leave: one of them \
+                       needs no force, so no period measures the time",
+            });
+        }
+
         Ok(std::f64::consts::TAU * (mass / stiffness).sqrt())
     }
 }

@@ -217,7 +217,7 @@ fn summary(modes: &[Mode], drawn: &Drawn<'_>) -> Content {
         "lambda^2 (1/s^2)",
         "lambda (1/s)",
         "slipping particles",
-        "particles that get stuck",
+        "particles that do not move",
         "particles with zero reaction",
     ];
     let has_zero = modes.iter().any(|mode| !mode.zero.is_empty());

@@ -55,7 +55,7 @@ const NOT_DEFINITE_WITH_ZERO: Evidence = Evidence::Exact(
 
 /// Divergence at mu = 0, from the condition on K*, with this many particles of zero reaction.
 pub(super) fn without_friction(necessary: &Necessary, zero_count: usize) -> Divergence {
-    let is_definite = !matches!(necessary.stiffness, DefiniteUntil::Never);
+    let is_definite = !matches!(necessary.stiffness, DefiniteUntil::NotAtZero(_));
     let (verdict, evidence) = match (is_definite, zero_count) {
         (true, _) => (Verdict::Absent, DEFINITE),
         (false, 0) => (Verdict::Present, NOT_DEFINITE),

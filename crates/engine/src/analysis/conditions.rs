@@ -1,10 +1,11 @@
 //! The necessary conditions (19), (20) and the sufficient condition (17)-(18), decided exactly.
 //!
-//! K0 and M0 are symmetric positive definite, so the mu >= 0 at which K* = K0 + mu K1 is positive
-//! definite (its symmetric part, that is) form an interval from 0: the smallest eigenvalue is a
-//! concave function of mu. The same holds of M* = M0 + mu M1. Divergence needs that K* is not
-//! positive definite or M* not positive semidefinite (19), so it is excluded up to the end of the
-//! shorter of the two intervals. Where M1 = 0 only K* counts (20).
+//! The smallest eigenvalue of the symmetric part of K* = K0 + mu K1 is a concave function of mu. So
+//! where K0 is positive definite, the mu >= 0 at which K* is so form an interval from 0. The same
+//! holds of M* = M0 + mu M1. (Only K_ff has to be definite. Where K0 is not, K* may be so on an
+//! interval of larger mu: it is decided for one mu where it is asked for.) Divergence needs that K*
+//! is not positive definite or M* not positive semidefinite (19), so it is excluded up to the end
+//! of the shorter of the two intervals. Where M1 = 0 only K* counts (20).
 //!
 //! The end of an interval is the smallest positive root of det(A + mu B) with A, B the symmetric
 //! parts. For small orders it is found as that root; otherwise doubles propose it and the null
@@ -33,11 +34,11 @@ use mceip_model::{Admissible, ModelError, MuFamily, Pencil, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution, examine_support};
 use num_traits::{One, Signed, Zero};
 
-/// The mu >= 0 at which the symmetric part of A + mu B is positive definite: an interval from 0.
+/// Up to which mu the symmetric part of A + mu B is positive definite, from mu = 0 on.
 #[derive(Debug, Clone)]
 pub enum DefiniteUntil {
-    /// Not even at mu = 0.
-    Never,
+    /// Not at mu = 0; it may be so for larger mu. The symmetric parts of A and B.
+    NotAtZero(Box<[Sparse; 2]>),
     /// For every mu >= 0: A is positive definite and B positive semidefinite.
     Always,
     /// Exactly for 0 <= mu < end; at the end the matrix is semidefinite, beyond it is not.
@@ -94,7 +95,7 @@ impl DefiniteUntil {
         let a = symmetric_part(a);
         let b = symmetric_part(b);
         if !is_definite(what, &a)? {
-            return Ok(DefiniteUntil::Never);
+            return Ok(DefiniteUntil::NotAtZero(Box::new([a, b])));
         }
 
         if is_semidefinite(&b) {
@@ -127,7 +128,7 @@ impl DefiniteUntil {
     /// mu.
     fn proved_below(&self) -> Option<Rational> {
         match self {
-            DefiniteUntil::Never => Some(Rational::zero()),
+            DefiniteUntil::NotAtZero(_) => Some(Rational::zero()),
             DefiniteUntil::Always => None,
             DefiniteUntil::End { end, .. } => Some(end.lo().clone()),
         }
@@ -378,7 +379,7 @@ impl Necessary {
     }
 
     /// Does the condition hold at this mu: may there be divergence? `None` if mu lies inside the
-    /// enclosure of an end that is not known exactly.
+    /// enclosure of an end that is not known exactly, or the matrix is too close to a singular one.
     pub fn holds_at(&self, mu: &Rational) -> Option<bool> {
         let stiffness_not_definite = past(&self.stiffness, mu, false);
         let mass_not_semidefinite = match &self.mass {
@@ -411,7 +412,7 @@ impl Necessary {
 /// Has definiteness ended at mu? `open`: the end itself does not count (semidefinite is enough).
 fn past(until: &DefiniteUntil, mu: &Rational, open: bool) -> Option<bool> {
     match until {
-        DefiniteUntil::Never => Some(true),
+        DefiniteUntil::NotAtZero(parts) => not_definite_at(parts, mu, open),
         DefiniteUntil::Always => Some(false),
         DefiniteUntil::End {
             exact: Some(end), ..
@@ -428,6 +429,20 @@ fn past(until: &DefiniteUntil, mu: &Rational, open: bool) -> Option<bool> {
                 None
             }
         }
+    }
+}
+
+/// Is A + mu B not positive definite, or where `open` not positive semidefinite?
+fn not_definite_at([a, b]: &[Sparse; 2], mu: &Rational, open: bool) -> Option<bool> {
+    let matrix = a.add_scaled(mu, b);
+    match positive_definite(&matrix) {
+        Ok(()) => Some(false),
+        Err(DefiniteError::Undecided { .. }) => None,
+        Err(DefiniteError::Not(_)) if !open => Some(true),
+        Err(DefiniteError::Not(_)) if matrix.rows() <= ELIMINATED_ORDER => {
+            Some(!is_semidefinite(&matrix))
+        }
+        Err(DefiniteError::Not(_)) => None,
     }
 }
 
@@ -629,7 +644,7 @@ mod tests {
         let always = DefiniteUntil::of("K*", &Sparse::identity(2), &semidefinite).unwrap();
         assert!(matches!(always, DefiniteUntil::Always));
         let never = DefiniteUntil::of("K*", &semidefinite, &semidefinite).unwrap();
-        assert!(matches!(never, DefiniteUntil::Never));
+        assert!(matches!(never, DefiniteUntil::NotAtZero(_)));
     }
 
     /// A chain of order 60, of which the last two variables slip; K1 is in their rows, and not
@@ -701,7 +716,7 @@ mod tests {
         let never = Pencil::new(indefinite, k1, vec![0]).unwrap();
         let of_k = DefiniteUntil::of("K*", never.a(), never.b()).unwrap();
         let of_t = condensed(&never, &of_k);
-        assert!(matches!(of_t, Some(DefiniteUntil::Never)));
+        assert!(matches!(of_t, Some(DefiniteUntil::NotAtZero(_))));
     }
 
     #[test]

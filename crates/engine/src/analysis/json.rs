@@ -47,7 +47,7 @@ fn region(region: &OpenRegion) -> Value {
 
 fn definite_until(until: &DefiniteUntil) -> Value {
     match until {
-        DefiniteUntil::Never => json!({ "definite": "never" }),
+        DefiniteUntil::NotAtZero(_) => json!({ "definite": "not_at_zero" }),
         DefiniteUntil::Always => json!({ "definite": "always" }),
         DefiniteUntil::End { end, exact } => json!({
             "definite": "below",
@@ -226,6 +226,10 @@ impl Analysis {
             json!({
                 "mu": enclosure(&unbounded.mu),
                 "from_above": unbounded.is_from_above,
+                "beside": {
+                    "lambda2": unbounded.beside.lambda2.to_string(),
+                    "mu": enclosure(&unbounded.beside.mu),
+                },
                 "evidence": self.evidence_json(&unbounded.evidence, paths),
             })
         });

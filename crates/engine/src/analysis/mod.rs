@@ -54,7 +54,6 @@ use conditions::{Necessary, is_all_slip};
 use critical::{Known, Start};
 use divergence::divergence;
 use families::Families;
-use mceip_check::certificate::Claim;
 use mceip_exact::{Rational, to_f64, whole};
 use mceip_model::{ContactState, Problem, System};
 use model::Model;
@@ -193,7 +192,7 @@ impl AtFriction {
         let slip = families.own.stiffness.slip();
 
         Ok(AtFriction {
-            sufficient: sufficient(families, &found, divergence.verdict),
+            sufficient: sufficient(families, &problem, &found, divergence.verdict),
             starts: starts(&found, &slip, |value| [value, mu]),
             proof: Some(proof(model, "lambda2", problem.clone(), found)),
             problem,
@@ -240,37 +239,30 @@ fn sizes(system: &System) -> [usize; 4] {
     ]
 }
 
-/// (17)-(18): is one of the solutions an all-slip one? `None` where none of those found is, and
-/// others may exist, and for particles with zero reaction, for which these conditions say nothing.
-fn sufficient(families: &Families, found: &Completed, verdict: Verdict) -> Option<bool> {
+/// (17)-(18): is one of the solutions of the problem an all-slip one? `None` where none of those
+/// found is known to be one, and others may be or may exist, and for particles with zero reaction,
+/// for which these conditions say nothing.
+fn sufficient(
+    families: &Families,
+    problem: &Problem,
+    found: &Completed,
+    verdict: Verdict,
+) -> Option<bool> {
     if !families.zero.is_empty() {
         return None;
     }
 
-    let has_all_slip = found.cover.solutions.iter().any(|solution| {
-        let biactive = claimed_biactive(found, &solution.support);
-        is_all_slip(&families.own.stiffness, &solution.support, &biactive)
-    });
-
-    if has_all_slip {
-        Some(true)
-    } else if verdict == Verdict::Undecided || !found.cover.is_plain_list() {
-        None
-    } else {
-        Some(false)
-    }
-}
-
-/// The biactive indices of the claims with a support.
-fn claimed_biactive(found: &Completed, support: &[usize]) -> Vec<usize> {
-    let mut biactive = Vec::new();
-    for claim in &found.proved.certificate().claims {
-        if let Claim::ExactSolution(claim) = claim
-            && claim.support == support
-        {
-            biactive.extend(&claim.biactive);
+    let pencil = &families.own.stiffness;
+    let mut is_known = verdict != Verdict::Undecided && found.cover.is_plain_list();
+    for solution in &found.cover.solutions {
+        match found.biactive(problem, solution) {
+            Some(biactive) if is_all_slip(pencil, &solution.support, &biactive) => {
+                return Some(true);
+            }
+            Some(_) => {}
+            None => is_known = false,
         }
     }
 
-    biactive
+    is_known.then_some(false)
 }

@@ -122,7 +122,7 @@ fn plural(count: usize) -> &'static str {
 /// else ">".
 fn definite_text(matrix: &str, definite: &str, until: &DefiniteUntil, relation: &str) -> String {
     match until {
-        DefiniteUntil::Never => format!("{matrix} is {definite} for no mu"),
+        DefiniteUntil::NotAtZero(_) => format!("{matrix} is not {definite} at mu = 0"),
         DefiniteUntil::Always => format!("{matrix} is {definite} for every mu"),
         DefiniteUntil::End { end, .. } => {
             let end = up(end.hi());
@@ -333,7 +333,7 @@ impl Analysis {
         let stuck = if mode.sticking.is_empty() {
             "none gets stuck".to_owned()
         } else {
-            format!("{:?} get stuck", mode.sticking)
+            format!("{:?} do not move", mode.sticking)
         };
 
         let zero = zero_text(mode);
@@ -494,9 +494,12 @@ impl Analysis {
             text: format!(
                 "Critical mu: growth is unbounded as mu {} this value: mu {mu}, where the mass \
                  matrix M* loses its property (0 <= x _|_ M* x >= 0 has a solution, as in the \
-                 paradox of Painleve). The certificate proves this solution; that growth is \
-                 unbounded near it takes it to be regular (strict signs, a simple root).",
-                unbounded.verb()
+                 paradox of Painleve). Beside it there is a solution with lambda^2 = {:.6e} 1/s^2, \
+                 mu {}. Certificates prove both; that growth is unbounded takes the first to be \
+                 regular (strict signs, a simple root).",
+                unbounded.verb(),
+                to_f64(&unbounded.beside.lambda2),
+                between(&unbounded.beside.mu)
             ),
             evidence: unbounded.evidence.clone(),
         })
@@ -585,7 +588,7 @@ impl Analysis {
         let here = match necessary.holds_at(&self.friction) {
             Some(true) => "it holds at this mu",
             Some(false) => "it does not hold at this mu, which alone excludes divergence",
-            None => "this mu is too close to the end to say",
+            None => "it is not decided at this mu",
         };
 
         let stiffness = definite_text("K*", "positive definite", &necessary.stiffness, ">=");
@@ -602,7 +605,8 @@ impl Analysis {
             topic: "necessary",
             text,
             evidence: Evidence::Exact(
-                "proved before its end and refuted by a vector after it, or the end as a root",
+                "proved before its end and refuted by a vector after it, or the end as a root; \
+                 without one, by LDL' at this mu",
             ),
         }
     }
@@ -610,7 +614,7 @@ impl Analysis {
     /// What the condensed form excludes: solutions with lambda = 0 alone.
     fn say_condensed(&self) -> Option<Sentence> {
         let text = match self.condensed.as_ref()? {
-            DefiniteUntil::Never => return None,
+            DefiniteUntil::NotAtZero(_) => return None,
             DefiniteUntil::Always => {
                 "is positive definite for every mu: there is no static threshold.".into()
             }

@@ -12,7 +12,7 @@ use super::modes::Mode;
 use super::ranges::Range;
 use super::sentences::{between, down, exactly, up};
 use super::unbounded::UnboundedGrowth;
-use mceip_exact::{Rational, to_f64};
+use mceip_exact::{Interval, Rational, to_f64};
 use num_traits::Zero;
 
 impl Analysis {
@@ -102,15 +102,15 @@ impl Analysis {
 
         if below.is_zero() {
             return format!(
-                "At mu = {} there is some, {place}; no bound below which there is none is proved.",
-                up(solution.mu.hi())
+                "There is some {}, {place}; no bound below which there is none is proved.",
+                at_some(&solution.mu)
             );
         }
 
         format!(
-            "There is none below mu = {}, and at mu = {} there is, {place}{}.",
+            "There is none below mu = {}, and there is {}, {place}{}.",
             down(below),
-            up(solution.mu.hi()),
+            at_some(&solution.mu),
             self.gap_text()
         )
     }
@@ -195,6 +195,15 @@ impl Analysis {
                  certificates that the checker has accepted."
             }
         }
+    }
+}
+
+/// Where a mu of this enclosure lies. The end that is printed is none itself, unless it is the mu.
+fn at_some(mu: &Interval) -> String {
+    let text = between(mu);
+    match text.strip_prefix("= ") {
+        Some(value) => format!("at mu = {value}"),
+        None => format!("at some mu up to {}", up(mu.hi())),
     }
 }
 

@@ -13,8 +13,12 @@
 //! mu. There the mass matrix M* loses its property, as in the paradox of Painleve. With M1 = 0, as
 //! for lumped masses, M* = M0 is definite and there is no such mu.
 //!
+//! The curve may be constant (for M = K all solutions have the same mu), and where the solution is
+//! not regular there may be none: so growth is called unbounded only if a solution with a large
+//! lambda^2 is proved at another mu beside it.
+//!
 //! Input: a system and the bounds of its critical mu. Output: [`UnboundedGrowth`], where the
-//! infimum of mu is not attained but lies there, and the proof named `mass`. Called by
+//! infimum of mu is not attained but lies there, and the proofs named `mass` and `large`. Called by
 //! [`analyse`](super::analyse).
 
 use super::conditions::{DefiniteUntil, Necessary};
@@ -23,8 +27,9 @@ use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
 use super::model::Model;
 use super::threshold::StaticThreshold;
-use mceip_exact::Interval;
-use mceip_model::Window;
+use mceip_exact::{Interval, Rational, Sparse, whole};
+use mceip_model::{System, Window};
+use num_traits::Signed;
 
 /// The smallest mu near which lambda^2 has no bound, where no solution is known below it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,7 +41,24 @@ pub struct UnboundedGrowth {
     pub is_from_above: bool,
     /// The certificate that M* has a solution there, and for no smaller mu.
     pub evidence: Evidence,
+    /// A solution of large lambda^2 beside it.
+    pub beside: LargeGrowth,
 }
+
+/// A proved solution of large lambda^2.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LargeGrowth {
+    /// lambda^2, which is given.
+    pub lambda2: Rational,
+    /// Encloses the mu of the solution.
+    pub mu: Interval,
+}
+
+/// The large lambda^2 is 2^this times that at which K and lambda^2 M are of one size.
+const LARGE_EXPONENT: u32 = 24;
+
+/// Within this share of mu a solution of large lambda^2 lies beside it.
+const BESIDE: i64 = 64;
 
 impl UnboundedGrowth {
     /// What mu does: "falls to", or where a smaller mu may have a solution "comes close to".
@@ -82,21 +104,68 @@ pub(super) fn unbounded(
             return Ok(None);
         }
 
+        let Some((beside, large)) = beside(model, &mu)? else {
+            return Ok(None);
+        };
         proofs.push(Proof {
             name: "mass".into(),
             problem,
             certificate: ProofCertificate::Solutions(found.proved),
         });
+        proofs.push(large);
 
         let below = critical.absent_below.as_ref();
+        let has_none_below = below.is_some_and(|below| below >= mu.lo());
         return Ok(Some(UnboundedGrowth {
-            is_from_above: below.is_some_and(|below| below >= mu.lo()),
+            is_from_above: has_none_below && beside.mu.lo() > mu.hi(),
             mu,
             evidence: threshold.evidence,
+            beside,
         }));
     }
 
     Ok(None)
+}
+
+/// A solution of large lambda^2 whose mu lies beside this one and is certainly another, and its
+/// proof.
+fn beside(model: &Model<'_>, mu: &Interval) -> Result<Option<(LargeGrowth, Proof)>, AnalysisError> {
+    let lambda2 = large_lambda2(model.system);
+    let problem = model.at_lambda2(&lambda2)?;
+    let found = model.complete("mu of large lambda^2", &problem, None)?;
+
+    let reach = mu.hi() / whole(BESIDE);
+    let is_beside = |value: &Interval| {
+        let is_above = value.lo() > mu.hi() && value.hi() - mu.hi() <= reach;
+        let is_below = value.hi() < mu.lo() && mu.lo() - value.lo() <= reach;
+        is_above || is_below
+    };
+    let mut values = found.cover.solutions.iter().map(|solution| &solution.value);
+    let Some(value) = values.find(|value| is_beside(value)).cloned() else {
+        return Ok(None);
+    };
+
+    let large = LargeGrowth { lambda2, mu: value };
+    let proof = Proof {
+        name: "large".into(),
+        problem,
+        certificate: ProofCertificate::Solutions(found.proved),
+    };
+    Ok(Some((large, proof)))
+}
+
+/// A power of two times 2^[`LARGE_EXPONENT`], at which lambda^2 M outweighs K.
+fn large_lambda2(system: &System) -> Rational {
+    let largest = |matrix: &Sparse| matrix.entries().map(|(_, _, v)| v.abs()).max();
+    let of_stiffness = largest(system.stiffness());
+    let of_mass = system.mass().and_then(largest);
+    let (Some(stiffness), Some(mass)) = (of_stiffness, of_mass) else {
+        return whole(1);
+    };
+
+    let ratio = stiffness / mass;
+    let bits = ratio.numer().bits() as i32 - ratio.denom().bits() as i32;
+    whole(2).pow(bits + LARGE_EXPONENT as i32)
 }
 
 /// Where the mu is looked for: at the end of definiteness of M* first, if that is known exactly.

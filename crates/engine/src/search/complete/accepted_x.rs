@@ -16,7 +16,7 @@ use crate::reduction::free_variables;
 use crate::tolerance::SAME_ROOT;
 use mceip_check::certificate::{Certificate, Claim, Exact, Node, Support};
 use mceip_check::{AcceptedClaim, Proved};
-use mceip_exact::{Algebraic, Integer, Poly, Rational, to_f64};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, common_denominator, to_f64};
 use mceip_model::Pencil;
 use num_traits::{One, Signed, Zero};
 
@@ -72,6 +72,62 @@ fn by_claim(
     }
 }
 
+/// The variables at zero with y = 0 of an accepted solution, if its evidence tells: an exact claim
+/// says so, in a box and in a root leaf every sign is strict, a support leaf has x as polynomials.
+pub(super) fn biactive(
+    proved: &Proved<Certificate>,
+    pencil: &Pencil,
+    solution: &AcceptedClaim,
+) -> Option<Vec<usize>> {
+    match claim_about(proved, solution) {
+        Some(Claim::ExactSolution(exact)) => return Some(exact.biactive.clone()),
+        Some(Claim::LiftedSolution(lifted)) => return Some(lifted.biactive.clone()),
+        Some(Claim::EnclosedSolution(_)) => return Some(Vec::new()),
+        None => {}
+    }
+
+    match of_support_leaf(proved.certificate(), pencil, solution) {
+        Some((x, value)) => vanishing_y(pencil, solution, &x, &value),
+        None => Some(Vec::new()),
+    }
+}
+
+/// The rows off the support in which y = (A + tB) x vanishes at a root; `None` where the sign of
+/// one cannot be told.
+fn vanishing_y(
+    pencil: &Pencil,
+    solution: &AcceptedClaim,
+    x: &[Poly],
+    value: &Algebraic,
+) -> Option<Vec<usize>> {
+    let mut vanishing = Vec::new();
+    for i in pencil.slip() {
+        if solution.support.contains(&i) {
+            continue;
+        }
+
+        let entries = || pencil.a().row(i).iter().chain(pencil.b().row(i));
+        let unit = common_denominator(entries().map(|(_, v)| v));
+        let integral = |v: &Rational| v.numer() * (&unit / v.denom());
+        let mut y = Poly::default();
+        for (j, a) in pencil.a().row(i) {
+            y += &x[*j].scale(&integral(a));
+        }
+        for (j, b) in pencil.b().row(i) {
+            y += &x[*j].scale(&integral(b)).shift(1);
+        }
+
+        let rest = y.pseudo_rem(value.poly());
+        if rest.is_zero() {
+            vanishing.push(i);
+        } else if value.interval().horner_rounded(&rest).certain_sign() == 0 {
+            return None;
+        }
+    }
+
+    Some(vanishing)
+}
+
 /// x at an algebraic number, or at a rational one very close to it.
 fn at_root(x: &[Poly], mut value: Algebraic) -> Vec<Rational> {
     let coefficients = x.iter().flat_map(Poly::coeffs);
@@ -96,6 +152,16 @@ fn by_support_leaf(
     pencil: &Pencil,
     solution: &AcceptedClaim,
 ) -> Option<Vec<Rational>> {
+    let (x, value) = of_support_leaf(certificate, pencil, solution)?;
+    Some(at_root(&x, value))
+}
+
+/// The same as polynomials in the value.
+fn of_support_leaf(
+    certificate: &Certificate,
+    pencil: &Pencil,
+    solution: &AcceptedClaim,
+) -> Option<(Vec<Poly>, Algebraic)> {
     let set = certificate.complete_set.as_ref()?;
     let mut nodes = set.pieces.iter().flat_map(|piece| &piece.tree);
     nodes.find_map(|node| match node {
@@ -105,7 +171,11 @@ fn by_support_leaf(
 }
 
 /// x at the point of a leaf that is this solution.
-fn yielded(leaf: &Support, pencil: &Pencil, solution: &AcceptedClaim) -> Option<Vec<Rational>> {
+fn yielded(
+    leaf: &Support,
+    pencil: &Pencil,
+    solution: &AcceptedClaim,
+) -> Option<(Vec<Poly>, Algebraic)> {
     let point = leaf.points.iter().find(|point| {
         let [lo, hi] = &point.interval;
         lo.0 == *solution.value.lo() && hi.0 == *solution.value.hi()
@@ -120,7 +190,7 @@ fn yielded(leaf: &Support, pencil: &Pencil, solution: &AcceptedClaim) -> Option<
         .iter()
         .all(|i| solution.support.contains(i) != x[*i].is_zero());
     let value = Algebraic::from_claim(Poly::new(point.polynomial.clone()), solution.value.clone());
-    has_its_support.then(|| at_root(&x, value))
+    has_its_support.then_some((x, value))
 }
 
 fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim) -> Vec<f64> {

@@ -104,6 +104,13 @@ impl Completed {
         claim_about(&self.proved, solution)
     }
 
+    /// The variables at zero with y = 0 of a solution of the cover, as its evidence proves them;
+    /// `None` where that does not tell.
+    pub fn biactive(&self, problem: &Problem, solution: &AcceptedClaim) -> Option<Vec<usize>> {
+        let pencil = reduce(problem).ok()?.pencil;
+        accepted_x::biactive(&self.proved, &pencil, solution)
+    }
+
     /// The solutions with their x.
     pub fn solutions(&self) -> impl Iterator<Item = (&AcceptedClaim, &[f64])> {
         self.cover
