@@ -23,6 +23,7 @@
 //! | [`run`] | cancelling a long run, and its progress |
 
 pub mod analysis;
+mod bordered;
 pub mod candidate;
 pub mod certify;
 mod dense;

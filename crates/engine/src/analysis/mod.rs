@@ -26,7 +26,6 @@ mod follow;
 mod json;
 mod model;
 mod modes;
-mod null_vectors;
 mod presence;
 mod ranges;
 mod sentences;

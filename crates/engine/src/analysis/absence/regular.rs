@@ -15,7 +15,7 @@
 //! Numbers are rounded to the fewest bits that still prove. Called by `boxes` for decided boxes
 //! with finite ends. The checker's side is `check::cover::regular`.
 
-use super::super::null_vectors::{NullVectors, largest};
+use crate::bordered::{NullVectors, largest};
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::pieces::matrix::{Matrix, principal_block};
 use crate::search::complete::region::{State, support};

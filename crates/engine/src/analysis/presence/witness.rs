@@ -17,8 +17,8 @@
 //! `climb`; the checker's side is `check::cover::presence`.
 
 use super::super::absence::at_friction;
-use super::super::null_vectors::{Ball, Corner, NullVectors, largest};
 use super::curve::Point;
+use crate::bordered::{Ball, Corner, NullVectors, largest};
 use crate::search::complete::pieces::expansion::{Ends, Expansion};
 use crate::search::complete::pieces::matrix::{Matrix, principal_block, times};
 use crate::tolerance::PRESENCE_MARGIN;

@@ -67,14 +67,6 @@ impl Ends {
         }
     }
 
-    /// Radius of entry (i, j).
-    pub(crate) fn radius(&self, i: usize, j: usize) -> f64 {
-        match &self.r {
-            Some(radius) => radius[i][j],
-            None => 0.0,
-        }
-    }
-
     /// Radius of entry (i, j) of (hi - lo) T' about m[1] - m[0].
     pub(crate) fn slope_radius(&self, i: usize, j: usize) -> f64 {
         match &self.slope {

@@ -21,7 +21,8 @@
 //!
 //! Called by the leaves `root` and `infinity` and by `precise`.
 
-use super::bounds::Approximation;
+use super::bounds::{Errors, is_monotone, sign_product};
+use crate::bordered::{Ball, Corner, NullVectors};
 use crate::search::complete::null_vector::NullVector;
 use crate::search::complete::pieces::expansion::{Ends, Expansion};
 use crate::search::complete::pieces::matrix::Matrix;
@@ -43,7 +44,7 @@ const PIVOTS: usize = 3;
 
 /// A pivot with Y, u and v that prove uniqueness over an interval.
 pub(crate) struct Unique {
-    approximation: Approximation,
+    vectors: NullVectors,
     /// Y in units of 2^-`inverse_bits`.
     inverse: Vec<Vec<Integer>>,
     inverse_bits: u32,
@@ -92,7 +93,7 @@ impl Unique {
             inverse(&middle_block(wide, &rest))?
         };
 
-        let mut approximation = Approximation {
+        let mut vectors = NullVectors {
             rest,
             pivot,
             inverse: Vec::new(),
@@ -103,16 +104,15 @@ impl Unique {
         for bits in INVERSE_BITS {
             let inverse_bits = exponent(&inverse_at_middle, bits);
             let unit = f64::from(inverse_bits).exp2();
-            approximation.inverse = rounded(&inverse_at_middle, unit);
+            vectors.inverse = rounded(&inverse_at_middle, unit);
 
-            let is_proof = approximation
-                .errors(wide)
-                .is_some_and(|errors| approximation.is_monotone(wide, &errors));
+            let errors = Errors::of(&vectors, wide);
+            let is_proof = errors.is_some_and(|errors| is_monotone(&vectors, wide, &errors));
             if is_proof {
-                let inverse = integers(&approximation.inverse, unit);
-                approximation.inverse = doubles(&inverse, inverse_bits);
+                let inverse = integers(&vectors.inverse, unit);
+                vectors.inverse = doubles(&inverse, inverse_bits);
                 return Some(Unique {
-                    approximation,
+                    vectors,
                     inverse,
                     inverse_bits,
                 });
@@ -131,10 +131,10 @@ impl Unique {
         outcome: RootOutcome,
     ) -> Root {
         let unit = f64::from(VECTOR_BITS).exp2();
-        let left = &self.approximation.left;
-        let right = &self.approximation.right;
+        let left = &self.vectors.left;
+        let right = &self.vectors.right;
         Root {
-            pivot: index[self.approximation.pivot],
+            pivot: index[self.vectors.pivot],
             interval: interval.map(Number),
             inverse: self.inverse.clone(),
             inverse_exponent: self.inverse_bits,
@@ -166,8 +166,8 @@ impl Unique {
             let center = nearest_end(value, ends, 0.5 * half);
             let narrow = expansion.ends(center - half, center + half);
 
-            let errors = self.approximation.errors(&narrow)?;
-            if self.approximation.sign_product(&narrow, &errors) != -1 {
+            let errors = Errors::of(&self.vectors, &narrow)?;
+            if sign_product(&self.vectors, &narrow, &errors) != -1 {
                 return None;
             }
 
@@ -181,10 +181,8 @@ impl Unique {
     ///
     /// `wide` lies where [`Unique::of`] has shown it monotone, so equal signs at both ends suffice.
     pub(crate) fn is_absent(&self, wide: &Ends) -> bool {
-        match self.approximation.errors(wide) {
-            Some(errors) => self.approximation.sign_product(wide, &errors) == 1,
-            None => false,
-        }
+        let errors = Errors::of(&self.vectors, wide);
+        errors.is_some_and(|errors| sign_product(&self.vectors, wide, &errors) == 1)
     }
 
     /// What the signs of x on the support and of y = T x off it say; `None` if one is not certain.
@@ -199,12 +197,7 @@ impl Unique {
     ) -> Option<RootOutcome> {
         let error = 2.0 * error + ROUNDING;
         let mut is_certain = true;
-        for (&i, v) in self
-            .approximation
-            .rest
-            .iter()
-            .zip(&self.approximation.right)
-        {
+        for (&i, v) in self.vectors.rest.iter().zip(&self.vectors.right) {
             if *v < -error {
                 return Some(RootOutcome::NegativeX(index[i]));
             }
@@ -218,42 +211,26 @@ impl Unique {
             }
 
             let at_ends = [0, 1].map(|end| self.reaction(narrow, end, i, error));
-            if at_ends.iter().all(|y| -y.value > y.around) {
+            if at_ends.iter().all(|y| y.sign() == -1) {
                 return Some(RootOutcome::NegativeY(index[i]));
             }
 
-            is_certain &= at_ends.iter().all(|y| y.value > y.around);
+            is_certain &= at_ends.iter().all(|y| y.sign() == 1);
         }
 
         is_certain.then_some(RootOutcome::Solution)
     }
 
     /// Row i of T x at an end, for every x within `error` of the right vector.
-    fn reaction(&self, narrow: &Ends, end: usize, i: usize, error: f64) -> Reaction {
-        let rest = self.approximation.rest.iter();
-        let on_rest = rest.zip(&self.approximation.right);
-        let mut y = Reaction {
-            value: 0.0,
-            around: 0.0,
-        };
-
-        for (&j, v) in on_rest.chain([(&self.approximation.pivot, &1.0)]) {
-            let entry = narrow.m[end][i][j];
-            let radius = narrow.radius(i, j);
-            y.value += entry * v;
-            y.around += radius * v.abs();
-            y.around += error * (entry.abs() + radius);
-            y.around += ROUNDING * (entry * v).abs();
+    fn reaction(&self, narrow: &Ends, end: usize, i: usize, error: f64) -> Ball {
+        let corner = Corner::of(narrow, end, &self.vectors);
+        let mut y = corner.row_times_v(i);
+        for &j in &self.vectors.support() {
+            y.radius += error * corner.entry(i, j).magnitude();
         }
 
         y
     }
-}
-
-/// A component of y and how far it may be off.
-struct Reaction {
-    value: f64,
-    around: f64,
 }
 
 /// The value, or an end within `distance` of it: of several the one with the shortest number, which

@@ -1,18 +1,21 @@
-//! An approximate inverse and null vectors of T(t, mu) on a support, and what they are worth at
-//! the corners of a box, in doubles.
+//! An approximate inverse and null vectors of T on a support, and what they are worth where T is
+//! known up to radii, in doubles.
 //!
 //! S is the support, k in S its *pivot*, T' the block of T on S without k, which is called the
-//! *rest*. From one point of a box come Y ~ T'^-1 and u, v ~ left and right null vectors of T_SS
-//! that are 1 at k:
+//! *rest*. The witness is Y ~ T'^-1 and u, v ~ left and right null vectors of T_SS that are 1 at k;
+//! from one matrix come
 //!
 //! ```text
 //!     v = -Y T_'k,    u' = -T_k' Y.
 //! ```
 //!
-//! At a corner, where each entry of T is known up to a radius, the residuals are bounded that a
-//! leaf `regular` (5.18 of `spec/certificates.md`) and a piece of presence (5.19) speak of. Called
-//! by `absence::regular` and `presence::witness`.
+//! At a corner, where each entry of T is known up to a radius, the residuals are bounded that the
+//! leaves `root` and `regular` (5.11 and 5.18 of `spec/certificates.md`) and pieces of presence
+//! (5.19) speak of. What is bounded of the left null vector is bounded of the right one of the
+//! transpose ([`NullVectors::mirrored`]). Called by the makers of these; the checker's side is
+//! `check::cover::bordered`.
 
+use crate::dense::transposed;
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::pieces::matrix::{Matrix, principal_block};
 use crate::search::complete::pieces::skyline::dot;
@@ -22,28 +25,28 @@ use mceip_exact::Integer;
 use mceip_mcp::linear::inverse;
 
 /// Y, u and v; positions are those of the complementarity variables.
-pub(super) struct NullVectors {
-    pub(super) pivot: usize,
+pub(crate) struct NullVectors {
+    pub(crate) pivot: usize,
     /// The support without the pivot.
-    pub(super) rest: Vec<usize>,
+    pub(crate) rest: Vec<usize>,
     /// Y.
-    pub(super) inverse: Matrix,
+    pub(crate) inverse: Matrix,
     /// u and v on the rest.
-    pub(super) left: Vec<f64>,
-    pub(super) right: Vec<f64>,
+    pub(crate) left: Vec<f64>,
+    pub(crate) right: Vec<f64>,
 }
 
 /// The same as integers in units of powers of two, as certificates spell them.
-pub(super) struct IntegerVectors {
-    pub(super) inverse: Vec<Vec<Integer>>,
-    pub(super) left: Vec<Integer>,
-    pub(super) right: Vec<Integer>,
+pub(crate) struct IntegerVectors {
+    pub(crate) inverse: Vec<Vec<Integer>>,
+    pub(crate) left: Vec<Integer>,
+    pub(crate) right: Vec<Integer>,
 }
 
 impl NullVectors {
     /// Those of a matrix with the pivot at a place of the support; `None` where T' is singular to
     /// doubles, or there is no such place.
-    pub(super) fn of(matrix: &Matrix, support: &[usize], place: usize) -> Option<NullVectors> {
+    pub(crate) fn of(matrix: &Matrix, support: &[usize], place: usize) -> Option<NullVectors> {
         let pivot = *support.get(place)?;
         let mut rest = support.to_vec();
         rest.remove(place);
@@ -72,8 +75,26 @@ impl NullVectors {
         })
     }
 
+    /// The witness for the transpose.
+    pub(crate) fn mirrored(&self) -> NullVectors {
+        NullVectors {
+            pivot: self.pivot,
+            rest: self.rest.clone(),
+            inverse: transposed(&self.inverse),
+            left: self.right.clone(),
+            right: self.left.clone(),
+        }
+    }
+
+    /// Positions of the support, the pivot last.
+    pub(crate) fn support(&self) -> Vec<usize> {
+        let mut support = self.rest.clone();
+        support.push(self.pivot);
+        support
+    }
+
     /// Rounded to multiples of 1 / `inverse_unit` and, u and v, of 1 / `unit`.
-    pub(super) fn rounded(&self, inverse_unit: f64, unit: f64) -> NullVectors {
+    pub(crate) fn rounded(&self, inverse_unit: f64, unit: f64) -> NullVectors {
         let [left, right] = [&self.left, &self.right]
             .map(|vector| vector.iter().map(|v| (v * unit).round() / unit));
         NullVectors {
@@ -86,7 +107,7 @@ impl NullVectors {
     }
 
     /// The integers of rounded vectors.
-    pub(super) fn integers(&self, inverse_unit: f64, unit: f64) -> IntegerVectors {
+    pub(crate) fn integers(&self, inverse_unit: f64, unit: f64) -> IntegerVectors {
         let [left, right] =
             [&self.left, &self.right].map(|vector| integers(&vec![vector.clone()], unit).concat());
         IntegerVectors {
@@ -97,7 +118,7 @@ impl NullVectors {
     }
 
     /// The corners at both ends of each interval.
-    pub(super) fn corners<'a>(&'a self, ends: &'a [Ends]) -> impl Iterator<Item = Corner<'a>> {
+    pub(crate) fn corners<'a>(&'a self, ends: &'a [Ends]) -> impl Iterator<Item = Corner<'a>> {
         let both = ends.iter();
         both.flat_map(move |ends| [0, 1].map(|end| Corner::of(ends, end, self)))
     }
@@ -105,55 +126,88 @@ impl NullVectors {
 
 /// Every number within `radius` of `center`.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Ball {
-    pub(super) center: f64,
-    pub(super) radius: f64,
+pub(crate) struct Ball {
+    pub(crate) center: f64,
+    pub(crate) radius: f64,
 }
 
 impl Ball {
-    /// Adds factor * (m +- r), and what rounding may cost.
-    fn add(&mut self, factor: f64, m: f64, r: f64) {
-        let product = factor * m;
+    /// Adds factor * other, and what rounding may cost.
+    fn add(&mut self, factor: f64, other: Ball) {
+        let product = factor * other.center;
         self.center += product;
-        self.radius += factor.abs() * r + ROUNDING * product.abs();
+        self.radius += factor.abs() * other.radius + ROUNDING * product.abs();
     }
 
-    fn magnitude(self) -> f64 {
+    /// The sign of all these numbers, 0 if they differ.
+    pub(crate) fn sign(self) -> i8 {
+        if self.center > self.radius {
+            1
+        } else if -self.center > self.radius {
+            -1
+        } else {
+            0
+        }
+    }
+
+    /// The largest absolute value.
+    pub(crate) fn magnitude(self) -> f64 {
         self.center.abs() + self.radius
     }
 }
 
 /// One corner of a box: every matrix within `r` of `m`.
-pub(super) struct Corner<'a> {
+pub(crate) struct Corner<'a> {
     vectors: &'a NullVectors,
     m: &'a Matrix,
     /// `None` where the matrix is known exactly.
     r: Option<&'a Matrix>,
+    /// Is the transpose meant?
+    is_mirrored: bool,
 }
 
 impl<'a> Corner<'a> {
     /// The corner at an end of an interval.
-    pub(super) fn of(ends: &'a Ends, end: usize, vectors: &'a NullVectors) -> Corner<'a> {
+    pub(crate) fn of(ends: &'a Ends, end: usize, vectors: &'a NullVectors) -> Corner<'a> {
         Corner {
             vectors,
             m: &ends.m[end],
             r: ends.r.as_ref(),
+            is_mirrored: false,
         }
     }
 
-    fn radius(&self, i: usize, j: usize) -> f64 {
-        self.r.map_or(0.0, |r| r[i][j])
+    /// The transpose at an end of an interval, with the witness for it.
+    pub(crate) fn mirrored(ends: &'a Ends, end: usize, vectors: &'a NullVectors) -> Corner<'a> {
+        Corner {
+            is_mirrored: true,
+            ..Corner::of(ends, end, vectors)
+        }
+    }
+
+    /// Order of T'.
+    pub(crate) fn order(&self) -> usize {
+        self.vectors.rest.len()
+    }
+
+    /// An entry and its radius.
+    pub(crate) fn entry(&self, i: usize, j: usize) -> Ball {
+        let [i, j] = if self.is_mirrored { [j, i] } else { [i, j] };
+        Ball {
+            center: self.m[i][j],
+            radius: self.r.map_or(0.0, |r| r[i][j]),
+        }
     }
 
     /// |I - Y T'| times weights: a bound for each row.
-    pub(super) fn deviations(&self, weights: &[f64]) -> Vec<f64> {
+    pub(crate) fn deviations(&self, weights: &[f64]) -> Vec<f64> {
         let rest = &self.vectors.rest;
         let mut deviations = Vec::with_capacity(rest.len());
         for (i, row) in self.vectors.inverse.iter().enumerate() {
             let mut products = vec![Ball::default(); rest.len()];
             for (y, &k) in row.iter().zip(rest) {
                 for (product, &j) in products.iter_mut().zip(rest) {
-                    product.add(*y, self.m[k][j], self.radius(k, j));
+                    product.add(*y, self.entry(k, j));
                 }
             }
 
@@ -166,32 +220,32 @@ impl<'a> Corner<'a> {
     }
 
     /// (T v)_row.
-    pub(super) fn row_times_v(&self, row: usize) -> Ball {
+    pub(crate) fn row_times_v(&self, row: usize) -> Ball {
         let NullVectors {
             pivot, rest, right, ..
         } = self.vectors;
         let mut sum = Ball::default();
-        sum.add(1.0, self.m[row][*pivot], self.radius(row, *pivot));
+        sum.add(1.0, self.entry(row, *pivot));
         for (v, &j) in right.iter().zip(rest) {
-            sum.add(*v, self.m[row][j], self.radius(row, j));
+            sum.add(*v, self.entry(row, j));
         }
 
         sum
     }
 
     /// (T v)_i for each i of the support, the pivot last.
-    pub(super) fn products(&self) -> Vec<Ball> {
+    pub(crate) fn products(&self) -> Vec<Ball> {
         let rows = self.vectors.rest.iter().chain([&self.vectors.pivot]);
         rows.map(|&row| self.row_times_v(row)).collect()
     }
 
     /// |Y (T_'k + T'v)|: a bound for each component; `products` is T v.
-    pub(super) fn errors(&self, products: &[Ball]) -> Vec<f64> {
+    pub(crate) fn errors(&self, products: &[Ball]) -> Vec<f64> {
         let mut errors = Vec::with_capacity(self.vectors.rest.len());
         for row in &self.vectors.inverse {
             let mut sum = Ball::default();
             for (y, product) in row.iter().zip(products) {
-                sum.add(*y, product.center, product.radius);
+                sum.add(*y, *product);
             }
             errors.push(sum.magnitude());
         }
@@ -200,16 +254,16 @@ impl<'a> Corner<'a> {
     }
 
     /// The sum of |T_k' + u'T'|_j times weights.
-    pub(super) fn left_residual(&self, weights: &[f64]) -> f64 {
+    pub(crate) fn left_residual(&self, weights: &[f64]) -> f64 {
         let NullVectors {
             pivot, rest, left, ..
         } = self.vectors;
         let mut total = 0.0;
         for (weight, &j) in weights.iter().zip(rest) {
             let mut sum = Ball::default();
-            sum.add(1.0, self.m[*pivot][j], self.radius(*pivot, j));
+            sum.add(1.0, self.entry(*pivot, j));
             for (u, &i) in left.iter().zip(rest) {
-                sum.add(*u, self.m[i][j], self.radius(i, j));
+                sum.add(*u, self.entry(i, j));
             }
             total += sum.magnitude() * weight;
         }
@@ -218,21 +272,21 @@ impl<'a> Corner<'a> {
     }
 
     /// u'Tv; `products` is T v.
-    pub(super) fn value(&self, products: &[Ball]) -> Ball {
+    pub(crate) fn value(&self, products: &[Ball]) -> Ball {
         let mut sum = Ball::default();
         for (u, product) in self.vectors.left.iter().chain([&1.0]).zip(products) {
-            sum.add(*u, product.center, product.radius);
+            sum.add(*u, *product);
         }
 
         sum
     }
 
     /// The sum over the rest of |T_row,j| v_j, radii included.
-    pub(super) fn reach(&self, row: usize) -> f64 {
+    pub(crate) fn reach(&self, row: usize) -> f64 {
         let NullVectors { rest, right, .. } = self.vectors;
         let mut reach = 0.0;
         for (v, &j) in right.iter().zip(rest) {
-            reach += (self.m[row][j].abs() + self.radius(row, j)) * v;
+            reach += self.entry(row, j).magnitude() * v;
         }
 
         reach
@@ -240,7 +294,7 @@ impl<'a> Corner<'a> {
 }
 
 /// The largest of numbers that are not negative; infinite if one of them is no number.
-pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     let mut largest: f64 = 0.0;
     for value in values {
         let is_number = !value.is_nan();
