@@ -1,7 +1,8 @@
 //! What an accepted cover has proved, in lines: solutions, families, open regions, and the verdict.
 
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
-use mceip_exact::enclosing_decimals;
+use mceip_engine::search::complete::continua::joined;
+use mceip_exact::{Interval, enclosing_decimals};
 use mceip_model::Problem;
 
 /// Families and open regions printed in full.
@@ -17,11 +18,12 @@ pub(crate) fn text(problem: &Problem, cover: &AcceptedCover) -> String {
         out += &format!("solution: {word} in [{lo}, {hi}], slip {support:?}\n");
     }
 
-    for family in cover.families.iter().take(SHOWN) {
+    let families = joined(&cover.families);
+    for family in families.iter().take(SHOWN) {
         out += &format!("family: {}\n", family_text(word, family));
     }
 
-    let more = cover.families.len().saturating_sub(SHOWN);
+    let more = families.len().saturating_sub(SHOWN);
     if more > 0 {
         out += &format!("family: {more} more (see the certificate)\n");
     }
@@ -64,8 +66,10 @@ fn count_text(cover: &AcceptedCover) -> String {
         1 => "1 solution".into(),
         n => format!("{n} solutions"),
     };
-    if !cover.families.is_empty() {
-        count += &format!(" and {} families of them", cover.families.len());
+    match joined(&cover.families).len() {
+        0 => {}
+        1 => count += " and 1 family of them",
+        n => count += &format!(" and {n} families of them"),
     }
 
     count
@@ -84,14 +88,11 @@ fn open_text(word: &str, region: &OpenRegion) -> String {
 }
 
 fn family_text(word: &str, family: &SolutionFamily) -> String {
-    let (lo, hi) = enclosing_decimals(&family.from, 15);
+    let from = end_text(&family.from);
     let values = match &family.to {
-        _ if family.is_point => format!("{word} in [{lo}, {hi}] (one value)"),
-        None => format!("every {word} above a value in [{lo}, {hi}]"),
-        Some(to) => {
-            let (a, b) = enclosing_decimals(to, 15);
-            format!("every {word} between values in [{lo}, {hi}] and [{a}, {b}]")
-        }
+        _ if family.is_point => format!("{word} = {from}"),
+        None => format!("every {word} above {from}"),
+        Some(to) => format!("every {word} between {from} and {}", end_text(to)),
     };
 
     let how_many = if family.is_alone {
@@ -101,6 +102,16 @@ fn family_text(word: &str, family: &SolutionFamily) -> String {
     };
 
     format!("{values}, slip {:?}, {how_many}", family.support)
+}
+
+/// An end of a family: the number, or where it lies.
+fn end_text(end: &Interval) -> String {
+    let (lo, hi) = enclosing_decimals(end, 15);
+    if lo == hi {
+        lo
+    } else {
+        format!("a value in [{lo}, {hi}]")
+    }
 }
 
 /// What a cover of the limit at infinity has proved, for people.

@@ -477,7 +477,7 @@ mod tests {
                     for (j, entry) in row.iter().enumerate() {
                         let distance = (entry - part.m[0][i][j]).abs();
                         assert!(
-                            distance <= part.radius(i, j),
+                            distance <= part.r.as_ref().map_or(0.0, |r| r[i][j]),
                             "{middle} {i} {j}: {distance}"
                         );
                     }

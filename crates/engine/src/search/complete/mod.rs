@@ -27,6 +27,7 @@
 mod accepted_x;
 mod audited;
 mod checkpoint;
+pub mod continua;
 pub(crate) mod dyadic;
 mod ends_game;
 mod error;
@@ -84,7 +85,8 @@ impl Completed {
         proved: Proved<Certificate>,
     ) -> Result<Completed, CompleteError> {
         let cover = proved.accepted().cover.clone();
-        let cover = cover.ok_or(CompleteError::NoCompleteSet)?;
+        let mut cover = cover.ok_or(CompleteError::NoCompleteSet)?;
+        cover.families = continua::joined(&cover.families);
         let mut x = Vec::with_capacity(cover.solutions.len());
         for solution in &cover.solutions {
             x.push(accepted_x(&proved, prepared, pencil, solution));
