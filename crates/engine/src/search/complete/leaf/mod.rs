@@ -9,6 +9,7 @@
 //! | `root` | [`root`], and `precise` with long numbers | `root` |
 //! | `root` over a half line | [`infinity`] | `infinity` |
 //! | `support` | [`support`] | `support` |
+//! | `regular`, over an interval of friction | `analysis::absence::regular` | `regular` |
 //! | `open` | `tree` | nothing is proved |
 //!
 //! A file takes a region with its matrices and gives the node, or nothing where the evidence cannot
@@ -16,8 +17,9 @@
 //!
 //! Who adds a kind of leaf writes
 //!
-//! - its data: `certificate/cover.rs` and the schema in `spec/schemas/`;
-//! - its check: one file in `check/cover/`, named in the checker's `walk`;
+//! - its data: a variant of `Node` in `certificate/cover.rs`, with its word and the formats that have
+//!   it (`kind`, `fits`), and the schema in `spec/schemas/`;
+//! - its check: one file in `check/cover/` that implements `Leaf`, and a line of `leaf::check`;
 //! - its maker: one file here, named in `tree`, which tries the kinds in turn;
 //! - its page: a section of chapter 5 with an example, from which `spec/checker.py` follows;
 //! - its forgeries: files of the corpus, one for each reason of rejection;
