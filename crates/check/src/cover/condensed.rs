@@ -31,10 +31,8 @@ use super::expanded::{Expanded, Norms};
 use super::fault::CoverFault;
 use super::product::{Linear, NonzeroRows, Part, part_of, row_of, row_times, times, transposed};
 use super::psd::{Symmetric, semidefinite};
-use crate::certificate::{
-    Anchor, Condensation, CriticalAnchor, CriticalCondensation, Factor, IntegerMatrix, IntegerRow,
-};
-use crate::pencil::{FrictionParts, Row, Rows};
+use crate::certificate::{Anchor, Condensation, CriticalAnchor, Factor, IntegerMatrix, IntegerRow};
+use crate::pencil::{Row, Rows};
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -50,34 +48,13 @@ const BITS_OF_A_NUMBER: u64 = 512;
 /// Fraction bits of norms of columns: the numbers of an expansion may be small integers.
 const NORM_BITS: u32 = 32;
 
-/// Checks the hypotheses and the limits of each anchor.
-pub(super) fn of<'a>(
-    rows: &Rows,
-    condensation: &'a Condensation,
-) -> Result<Anchors<'a>, CoverFault> {
-    let bounds = FreeBounds {
-        sigma: &condensation.sigma.0,
-        stiffness_factor: &condensation.stiffness_factor,
-        tau: &condensation.mass_sigma.0,
-        mass_factor: condensation.mass_factor.as_ref(),
-    };
-    let has_reversed = condensation.anchors.iter().any(|anchor| anchor.reversed);
-    let expander = Expander::of(rows, bounds, has_reversed);
-    check_hypotheses(&expander.blocks, bounds)?;
-
-    let anchors = condensation.anchors.iter().map(Expansion::from);
-    Anchors::new(vec![AnchorsOfPart {
-        expander,
-        anchors: anchors.collect(),
-    }])
-}
-
-/// The same for both parts of T0 + mu T1, with one scaling of the rows.
+/// Checks the hypotheses and the limits of each anchor, for each part of the pencil: T, or T0 and T1
+/// with T = T0 + mu T1.
 ///
-/// The free rows of both are the same, and so are the hypotheses, W and r.
-pub(super) fn of_parts<'a>(
-    parts: &FrictionParts,
-    condensation: &'a CriticalCondensation,
+/// The free rows of all parts are the same, and so are the hypotheses, W and r; rows are scaled alike.
+pub(super) fn of<'a, A: AnchorOfParts, T>(
+    parts: &[&Rows],
+    condensation: &'a Condensation<A, T>,
 ) -> Result<Anchors<'a>, CoverFault> {
     let bounds = FreeBounds {
         sigma: &condensation.sigma.0,
@@ -85,30 +62,21 @@ pub(super) fn of_parts<'a>(
         tau: &condensation.mass_sigma.0,
         mass_factor: condensation.mass_factor.as_ref(),
     };
-    let has_reversed = condensation.anchors.iter().any(|anchor| anchor.reversed);
-    let mut plain = Expander::of(&parts.plain, bounds, has_reversed);
-    check_hypotheses(&plain.blocks, bounds)?;
-    let mut friction = Expander::of(&parts.friction, bounds, has_reversed);
-    plain.share_scaling(&mut friction);
+    let anchors = &condensation.anchors;
+    let has_reversed = anchors.iter().any(|anchor| anchor.of_part(0).reversed);
 
-    let mut of_plain = Vec::with_capacity(condensation.anchors.len());
-    let mut of_friction = Vec::with_capacity(condensation.anchors.len());
-    for anchor in &condensation.anchors {
-        let [left, left_friction] = anchor_parts(anchor);
-        of_plain.push(left);
-        of_friction.push(left_friction);
+    let mut expanders: Vec<Expander<'_>> = Vec::with_capacity(parts.len());
+    for rows in parts {
+        expanders.push(Expander::of(rows, bounds, has_reversed));
     }
+    check_hypotheses(&expanders[0].blocks, bounds)?;
+    share_scaling(&mut expanders);
 
-    Anchors::new(vec![
-        AnchorsOfPart {
-            expander: plain,
-            anchors: of_plain,
-        },
-        AnchorsOfPart {
-            expander: friction,
-            anchors: of_friction,
-        },
-    ])
+    let of_part = |(part, expander)| AnchorsOfPart {
+        expander,
+        anchors: anchors.iter().map(|anchor| anchor.of_part(part)).collect(),
+    };
+    Anchors::new(expanders.into_iter().enumerate().map(of_part).collect())
 }
 
 /// The anchors of a file, whose hypotheses and limits hold, and what is left for their expansions.
@@ -191,7 +159,7 @@ struct FreeBounds<'a> {
 
 /// The polynomials W and V of an anchor.
 #[derive(Clone, Copy)]
-struct Expansion<'a> {
+pub(super) struct Expansion<'a> {
     center: &'a Rational,
     reversed: bool,
     right: &'a [IntegerMatrix],
@@ -199,26 +167,36 @@ struct Expansion<'a> {
     left: Option<&'a [IntegerMatrix]>,
 }
 
-impl<'a> From<&'a Anchor> for Expansion<'a> {
-    fn from(anchor: &'a Anchor) -> Expansion<'a> {
+/// An anchor as a file spells it.
+pub(super) trait AnchorOfParts {
+    /// The polynomials W and V for a part of the pencil.
+    fn of_part(&self, part: usize) -> Expansion<'_>;
+}
+
+impl AnchorOfParts for Anchor {
+    fn of_part(&self, _: usize) -> Expansion<'_> {
         Expansion {
-            center: &anchor.center.0,
-            reversed: anchor.reversed,
-            right: &anchor.right,
-            left: Some(&anchor.left),
+            center: &self.center.0,
+            reversed: self.reversed,
+            right: &self.right,
+            left: Some(&self.left),
         }
     }
 }
 
-/// W with the V of T0, and with that of T1.
-fn anchor_parts(anchor: &CriticalAnchor) -> [Expansion<'_>; 2] {
-    let left_friction = Some(anchor.left_friction.as_slice());
-    [anchor.left.as_deref(), left_friction].map(|left| Expansion {
-        center: &anchor.center.0,
-        reversed: anchor.reversed,
-        right: &anchor.right,
-        left,
-    })
+impl AnchorOfParts for CriticalAnchor {
+    fn of_part(&self, part: usize) -> Expansion<'_> {
+        let left = match part {
+            0 => self.left.as_deref(),
+            _ => Some(self.left_friction.as_slice()),
+        };
+        Expansion {
+            center: &self.center.0,
+            reversed: self.reversed,
+            right: &self.right,
+            left,
+        }
+    }
 }
 
 /// Expands the condensed pencil about anchors, given its hypotheses.
@@ -237,14 +215,6 @@ impl<'a> Expander<'a> {
             bounds,
             blocks: Blocks::of(rows),
             reversed: may_be_reversed.then(|| Blocks::of(&rows.reversed())),
-        }
-    }
-
-    /// Divides row i of both by the same power of two, the larger one.
-    fn share_scaling(&mut self, other: &mut Expander<'_>) {
-        share_bits(&mut self.blocks, &mut other.blocks);
-        if let (Some(own), Some(other)) = (&mut self.reversed, &mut other.reversed) {
-            share_bits(own, other);
         }
     }
 
@@ -272,12 +242,29 @@ impl<'a> Expander<'a> {
     }
 }
 
-/// The larger of both bit lengths for each slip row.
-fn share_bits(own: &mut Blocks, other: &mut Blocks) {
-    for (own, other) in own.bits.iter_mut().zip(&mut other.bits) {
-        let largest = (*own).max(*other);
-        *own = largest;
-        *other = largest;
+/// Divides row i of all parts by the same power of two, the largest one.
+fn share_scaling(parts: &mut [Expander<'_>]) {
+    share_bits(parts.iter_mut().map(|part| &mut part.blocks).collect());
+    share_bits(
+        parts
+            .iter_mut()
+            .filter_map(|part| part.reversed.as_mut())
+            .collect(),
+    );
+}
+
+/// The largest bit length for each slip row.
+fn share_bits(mut parts: Vec<&mut Blocks>) {
+    let mut largest: Vec<u64> = Vec::new();
+    for blocks in &parts {
+        largest.resize(blocks.bits.len(), 0);
+        for (largest, bits) in largest.iter_mut().zip(&blocks.bits) {
+            *largest = bits.max(largest).to_owned();
+        }
+    }
+
+    for blocks in &mut parts {
+        blocks.bits.clone_from(&largest);
     }
 }
 

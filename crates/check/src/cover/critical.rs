@@ -53,7 +53,7 @@ fn check_boxes(
 ) -> Result<usize, FaultAt> {
     let both = [&parts.plain, &parts.friction];
     let condensation = certificate.condensation.as_ref();
-    let anchors = anchors(&both, condensation, |c| condensed::of_parts(parts, c))?;
+    let anchors = anchors(&both, condensation)?;
     let tail = condensation.and_then(|c| c.tail.as_ref());
     if let Some(tail) = tail {
         check_tail(parts.of_tail(), certificate, tail)?;

@@ -74,7 +74,7 @@ pub use proved::{AcceptedCover, OpenRegion, SolutionFamily};
 use super::pencil::Rows;
 use super::reason::Reason;
 use crate::certificate::{CompleteSet, Condensation};
-use condensed::Anchors;
+use condensed::{AnchorOfParts, Anchors};
 use context::Context;
 use mceip_exact::Rational;
 use mceip_model::Window;
@@ -113,9 +113,7 @@ fn check_cover(
     cover: &CompleteSet,
     audit: Option<&Audit<'_>>,
 ) -> Result<AcceptedCover, FaultAt> {
-    let anchors = anchors(&[rows], cover.condensation.as_ref(), |condensation| {
-        condensed::of(rows, condensation)
-    })?;
+    let anchors = anchors(&[rows], cover.condensation.as_ref())?;
     let nodes = budget::nodes(&cover.pieces);
     let mut context = Context::new(&[rows], anchors.as_ref(), window, nodes);
     context.claims = claims;
@@ -137,10 +135,9 @@ fn check_cover(
 
 /// The anchors of the condensation, which is there exactly if there are free variables. Demands
 /// that matrices of the problem's order may be formed, for each part about each anchor.
-fn anchors<'a, A, T>(
+fn anchors<'a, A: AnchorOfParts, T>(
     parts: &[&Rows],
     condensation: Option<&'a Condensation<A, T>>,
-    of: impl FnOnce(&'a Condensation<A, T>) -> Result<Anchors<'a>, CoverFault>,
 ) -> Result<Option<Anchors<'a>>, CoverFault> {
     let rows = parts[0];
     let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(parts.len()));
@@ -150,7 +147,7 @@ fn anchors<'a, A, T>(
     let has_free = order < rows.order();
     match condensation {
         None if !has_free => Ok(None),
-        Some(condensation) if has_free => Ok(Some(of(condensation)?)),
+        Some(condensation) if has_free => Ok(Some(condensed::of(parts, condensation)?)),
         _ => Err(CoverFault::Condensation { expected: has_free }),
     }
 }

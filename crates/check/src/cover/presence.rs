@@ -21,6 +21,7 @@
 //! Left sides that are maxima over corners bound the whole box: they are convex in T, and the radii
 //! are part of them.
 
+use super::anchors;
 use super::bordered::{Block, Bordered, NullWitness};
 use super::budget::WorkBudget;
 use super::context::{Context, corner_bits, corners};
@@ -30,7 +31,6 @@ use super::fault::CoverFault;
 use super::region::Region;
 use super::root::sign_fault;
 use super::walk::FaultAt;
-use super::{anchors, condensed};
 use crate::certificate::{PresenceCertificate, PresencePiece};
 use crate::pencil::FrictionParts;
 use crate::reason::Reason;
@@ -51,7 +51,7 @@ pub(crate) fn check(
 fn check_pieces(parts: &FrictionParts, certificate: &PresenceCertificate) -> Result<(), FaultAt> {
     let both = [&parts.plain, &parts.friction];
     let condensation = certificate.condensation.as_ref();
-    let anchors = anchors(&both, condensation, |c| condensed::of_parts(parts, c))?;
+    let anchors = anchors(&both, condensation)?;
 
     let window = Window::all();
     let pieces = certificate.pieces.len() as u64;

@@ -287,8 +287,7 @@ fn context<'a>(
     anchor: usize,
 ) -> Context<'a> {
     let both = [&parts.plain, &parts.friction];
-    let of = |c| condensed::of_parts(parts, c);
-    let anchors = anchors(&both, Some(condensation), of).unwrap();
+    let anchors = anchors(&both, Some(condensation)).unwrap();
     let mut context = Context::new(&both, anchors.as_ref(), window, 1);
     context.use_anchor(anchors.as_ref(), Some(anchor)).unwrap();
     context
