@@ -403,6 +403,33 @@ fn a_refuted_bound_is_not_called_unproved() {
     assert_eq!(json["critical"]["unbounded"]["from_above"], true);
 }
 
+/// K_TT = [[1, 2], [2, 1]] is indefinite: there is divergence at mu = 0, where slip particles may
+/// slide either way, and none for the mu > 0 below 1.
+#[test]
+fn absence_above_mu_zero_does_not_hold_there() {
+    let stiffness = Sparse::from_ints(&[
+        &[1, 2, -1, 0],
+        &[2, 1, 0, -1],
+        &[-1, 0, 1000, 0],
+        &[0, -1, 0, 1000],
+    ]);
+    let particles = vec![
+        Particle::plain(0, 2, ContactState::Slip { sign: 1 }),
+        Particle::plain(1, 3, ContactState::Slip { sign: 1 }),
+    ];
+    let mass = Some(Sparse::identity(4));
+    let system = System::new(stiffness, mass, None, particles).unwrap();
+
+    let json = answer(&system, &whole(3), 0).to_json(&[]);
+
+    assert_eq!(json["critical"]["without_friction"], "present");
+    let first = &json["ranges"][0];
+    assert_eq!(first["verdict"], "absent");
+    assert_eq!(first["from"], "0");
+    assert_eq!(first["from_included"], false);
+    assert_eq!(json["ranges"][1]["from_included"], true);
+}
+
 /// One particle with M* = 1 - mu and K* = 1 - 2 mu: lambda^2 = (2 mu - 1) / (1 - mu) from 1/2 to 1,
 /// unbounded as mu rises to 1. The infimum is the static threshold, and lambda^2 = 0 there.
 #[test]

@@ -65,6 +65,8 @@ pub struct Stepper<'a> {
     slip_row: DMatrix<f64>,
     /// C.
     schur: DMatrix<f64>,
+    /// The sizes of the terms of each of its diagonal entries.
+    sizes: Vec<f64>,
 }
 
 /// Pivots of one step beyond which it is given up.
@@ -88,6 +90,9 @@ impl<'a> Stepper<'a> {
         let free_per_slip = free_factor.solve(&a.view((0, f), (f, s)).into_owned());
         let slip_row = a.view((f, 0), (s, f)).into_owned();
         let schur = a.view((f, f), (s, s)) - &slip_row * &free_per_slip;
+        let eliminated = slip_row.abs() * free_per_slip.abs();
+        let size = |i: usize| a[(f + i, f + i)].abs() + eliminated[(i, i)];
+        let sizes = (0..s).map(size).collect();
         Ok(Stepper {
             equations,
             h,
@@ -95,12 +100,13 @@ impl<'a> Stepper<'a> {
             free_per_slip,
             slip_row,
             schur,
+            sizes,
         })
     }
 
     /// How many solutions may a step have?
     pub fn solutions(&self) -> StepSolutions {
-        step_solutions(&self.schur)
+        step_solutions(&self.schur, &self.sizes)
     }
 
     /// The state one step later, and the impulse P.

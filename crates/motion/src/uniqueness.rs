@@ -30,11 +30,17 @@ pub enum StepSolutions {
 /// Slip coordinates up to which all 2^n minors are tested.
 const MINORS_UP_TO: usize = 20;
 
-/// Is the matrix a P-matrix?
-pub(crate) fn step_solutions(matrix: &DMatrix<f64>) -> StepSolutions {
+/// Is the matrix a P-matrix? `sizes` are those of the terms that each diagonal entry is the sum of.
+pub(crate) fn step_solutions(matrix: &DMatrix<f64>, sizes: &[f64]) -> StepSolutions {
     let n = matrix.nrows();
-    if let Some(i) = (0..n).find(|&i| matrix[(i, i)] <= 0.0) {
-        return StepSolutions::Several { minor: vec![i] };
+    for (i, size) in sizes.iter().enumerate() {
+        let rounding = MINOR * size;
+        if matrix[(i, i)] < -rounding {
+            return StepSolutions::Several { minor: vec![i] };
+        }
+        if matrix[(i, i)] <= rounding {
+            return StepSolutions::NotDecided;
+        }
     }
 
     // Signs of minors do not change under D C D with a positive diagonal D.
@@ -90,6 +96,11 @@ mod tests {
     use super::*;
     use nalgebra::dmatrix;
 
+    fn step_solutions(matrix: &DMatrix<f64>) -> StepSolutions {
+        let sizes: Vec<f64> = matrix.diagonal().iter().map(|v| v.abs()).collect();
+        super::step_solutions(matrix, &sizes)
+    }
+
     #[test]
     fn p_matrices_need_not_be_definite() {
         // Minors 1, 1 and 1 + 12; its symmetric part has the determinant 1 - 1.
@@ -119,6 +130,20 @@ mod tests {
         assert_eq!(
             step_solutions(&dmatrix![1.0, 1.0; 1.0, 1.0]),
             StepSolutions::NotDecided
+        );
+    }
+
+    /// 1 - 1, of which rounding has left something.
+    #[test]
+    fn a_diagonal_entry_that_is_rounding_is_left_undecided() {
+        let rounding = dmatrix![1e-17];
+        assert_eq!(
+            super::step_solutions(&rounding, &[2.0]),
+            StepSolutions::NotDecided
+        );
+        assert_eq!(
+            super::step_solutions(&rounding, &[1e-17]),
+            StepSolutions::One
         );
     }
 }

@@ -194,7 +194,10 @@ fn modes(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     let modes = &analysis.divergence.modes;
     let mut content = Vec::new();
     if modes.is_empty() {
-        let none = "None was found at this friction.";
+        let none = match analysis.divergence.verdict {
+            Verdict::Present => "No single mode: what is present is said above.",
+            Verdict::Absent | Verdict::Undecided => "None was found at this friction.",
+        };
         content.push(Content::Paragraph(none.into()));
     } else {
         content.push(summary(modes, drawn));

@@ -48,10 +48,11 @@ const BITS_OF_A_NUMBER: u64 = 512;
 /// Fraction bits of norms of columns: the numbers of an expansion may be small integers.
 const NORM_BITS: u32 = 32;
 
-/// Checks the hypotheses and the limits of each anchor, for each part of the pencil: T, or T0 and T1
-/// with T = T0 + mu T1.
+/// Checks the hypotheses and the limits of each anchor, for each part of the pencil: T, or T0 and
+/// T1 with T = T0 + mu T1.
 ///
-/// The free rows of all parts are the same, and so are the hypotheses, W and r; rows are scaled alike.
+/// The free rows of all parts are the same, and so are the hypotheses, W and r; rows are scaled
+/// alike.
 pub(super) fn of<'a, A: AnchorOfParts, T>(
     parts: &[&Rows],
     condensation: &'a Condensation<A, T>,

@@ -111,6 +111,7 @@ pub(super) fn nothing_slips(
         without_friction: Verdict::Absent,
         threshold: StaticThreshold {
             values: Vec::new(),
+            intervals: Vec::new(),
             open: Vec::new(),
             evidence: NOTHING_SLIPS,
         },

@@ -13,7 +13,7 @@
 
 use super::families::Families;
 use crate::dense::{rounded, transposed};
-use crate::tolerance::FLUTTER_ANGLE;
+use crate::tolerance::{FLUTTER_ANGLE, FLUTTER_NOISE};
 use mceip_exact::{Rational, whole};
 use mceip_mcp::linear::{eigenvalues, solve};
 use mceip_model::{MuFamily, Pencil};
@@ -171,8 +171,10 @@ fn complex_eigenvalues(family: &MuFamily, mu: &Rational) -> Option<Vec<(f64, f64
 
     let solved = solve(&dense_at(mass, mu), &columns)?;
 
+    let largest = solved.iter().flatten().fold(0.0f64, |s, v| s.max(v.abs()));
+    let noise = FLUTTER_NOISE * largest;
     let mut complex = eigenvalues(&transposed(&solved))?;
-    complex.retain(|(re, im)| *im > FLUTTER_ANGLE * re.hypot(*im));
+    complex.retain(|(re, im)| *im > noise && *im > FLUTTER_ANGLE * re.hypot(*im));
     complex.sort_by(|p, q| by_ascending_frequency(*p, *q));
 
     Some(complex)

@@ -13,8 +13,9 @@ use super::flutter::{Flutter, Onset, Oscillation};
 use super::modes::Mode;
 use super::ranges::{Range, Sample};
 use super::sentences::Sentence;
-use mceip_check::OpenRegion;
+use mceip_check::{OpenRegion, SolutionFamily};
 use mceip_exact::{Algebraic, Interval, enclosing_decimals, to_f64};
+use num_traits::Zero;
 use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
@@ -43,6 +44,15 @@ fn region(region: &OpenRegion) -> Value {
         "moving": region.moving,
         "undecided": region.undecided,
     })
+}
+
+/// Intervals of values, each between enclosures of its ends.
+fn intervals(families: &[SolutionFamily]) -> Vec<Value> {
+    let interval = |family: &SolutionFamily| {
+        let to = family.to.as_ref().map(enclosure);
+        json!({ "from": enclosure(&family.from), "to": to })
+    };
+    families.iter().map(interval).collect()
 }
 
 fn definite_until(until: &DefiniteUntil) -> Value {
@@ -186,10 +196,18 @@ impl Analysis {
         json!({
             "verdict": range.verdict.word(),
             "from": range.from.to_string(),
+            "from_included": self.is_from_included(range),
             "to": range.to.as_ref().map(ToString::to_string),
             "proved": !matches!(range.evidence, Evidence::Measured(_)),
             "evidence": self.evidence_json(&range.evidence, paths),
         })
+    }
+
+    /// Does what is said of a range hold at its lower end? Absence from 0 on is that for mu > 0
+    /// where mu = 0, at which slip particles may slide either way, is not proved to have none.
+    fn is_from_included(&self, range: &Range) -> bool {
+        let is_absence_from_zero = range.verdict == Verdict::Absent && range.from.is_zero();
+        !is_absence_from_zero || self.without_friction == Verdict::Absent
     }
 
     fn divergence_json(&self) -> Value {
@@ -208,6 +226,7 @@ impl Analysis {
         json!({
             "smallest": self.threshold.smallest().map(enclosure),
             "values": enclosures(&self.threshold.values),
+            "intervals": intervals(&self.threshold.intervals),
             "open": regions(&self.threshold.open),
         })
     }

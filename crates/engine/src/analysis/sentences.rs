@@ -14,7 +14,7 @@ use super::flutter::Flutter;
 use super::modes::{Mode, ZeroMode};
 use super::ranges::Range;
 use crate::tolerance::WITH_SIX_DECIMALS;
-use mceip_check::OpenRegion;
+use mceip_check::{OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, Rational, enclosing_decimals, to_f64, upper_decimal};
 use num_traits::{Signed, Zero};
 
@@ -128,6 +128,15 @@ fn definite_text(matrix: &str, definite: &str, until: &DefiniteUntil, relation: 
             let end = up(end.hi());
             format!("{matrix} is not {definite} for mu {relation} {end}")
         }
+    }
+}
+
+/// The values of mu of a family over an interval.
+fn values_text(family: &SolutionFamily) -> String {
+    let from = up(family.from.hi());
+    match &family.to {
+        None => format!("every mu > {from}"),
+        Some(to) => format!("every mu between {from} and {}", down(to.lo())),
     }
 }
 
@@ -358,11 +367,20 @@ impl Analysis {
 
     fn say_threshold(&self) -> Sentence {
         let threshold = &self.threshold;
+        let intervals = threshold.intervals.iter().map(values_text);
+        let intervals: Vec<String> = intervals.collect();
         let text = if let Some(mu) = threshold.smallest() {
             let mu = between(mu);
-            format!("Static threshold: the smallest mu with lambda = 0: mu {mu}.")
+            let also = match intervals.as_slice() {
+                [] => String::new(),
+                all => format!("; {} has such a solution as well", all.join(" and ")),
+            };
+            format!("Static threshold: the smallest mu with lambda = 0: mu {mu}{also}.")
+        } else if threshold.open.is_empty() && !intervals.is_empty() {
+            let all = intervals.join(" and ");
+            format!("Static threshold: lambda = 0 has a solution for {all}.")
         } else if threshold.open.is_empty() {
-            "Static threshold: none; no mu >= 0 has a solution with lambda = 0.".into()
+            "Static threshold: none; no mu > 0 has a solution with lambda = 0.".into()
         } else {
             let open = open_text("mu", &threshold.open);
             format!("Static threshold: UNDECIDED for {open}.")

@@ -49,10 +49,13 @@ impl Analysis {
             Verdict::Undecided => "UNDECIDED",
         };
 
+        // Families and open regions may hold something faster.
+        let is_all = self.divergence.families == 0 && self.divergence.open.is_empty();
         let fastest = self.divergence.modes.last().and_then(Mode::growth_text);
         let growth = match fastest {
             None => String::new(),
-            Some(fastest) => format!(", growing at up to about {fastest} 1/s"),
+            Some(fastest) if is_all => format!(", growing at up to about {fastest} 1/s"),
+            Some(fastest) => format!(", with a mode that grows at about {fastest} 1/s"),
         };
 
         format!(

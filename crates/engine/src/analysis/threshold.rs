@@ -12,8 +12,10 @@ use mceip_exact::Interval;
 /// The static threshold: the smallest MCEIP-mu value (lambda = 0).
 #[derive(Debug, Clone)]
 pub struct StaticThreshold {
-    /// All values found in [0, infinity), ascending.
+    /// All single values found in [0, infinity), ascending.
     pub values: Vec<Interval>,
+    /// Families over an interval of mu: each mu of it is a value.
+    pub intervals: Vec<SolutionFamily>,
     /// Parts of [0, infinity) in which nothing is proved.
     pub open: Vec<OpenRegion>,
     /// The certificate.
@@ -21,11 +23,10 @@ pub struct StaticThreshold {
 }
 
 impl StaticThreshold {
-    /// Single values of families count as values; of a family over an interval the ends alone are
-    /// known, so that it is left open. `proof` is the index of the certificate.
+    /// Single values of families count as values. `proof` is the index of the certificate.
     pub(super) fn of(found: &Completed, proof: usize) -> StaticThreshold {
         let mut values = Vec::new();
-        let mut open = found.cover.open.clone();
+        let mut intervals = Vec::new();
         for solution in &found.cover.solutions {
             values.push(solution.value.clone());
         }
@@ -34,7 +35,7 @@ impl StaticThreshold {
             if family.is_point {
                 values.push(family.from.clone());
             } else {
-                open.push(open_region(family));
+                intervals.push(family.clone());
             }
         }
 
@@ -42,7 +43,8 @@ impl StaticThreshold {
 
         StaticThreshold {
             values,
-            open,
+            intervals,
+            open: found.cover.open.clone(),
             evidence: Evidence::Certificate(proof),
         }
     }
@@ -50,17 +52,9 @@ impl StaticThreshold {
     /// The smallest value, if it is proved that there is no smaller one.
     pub fn smallest(&self) -> Option<&Interval> {
         let smallest = self.values.first()?;
-        let is_alone = self.open.iter().all(|o| o.min > *smallest.hi());
-        is_alone.then_some(smallest)
-    }
-}
-
-/// The interval of a family as a region in which nothing is proved.
-fn open_region(family: &SolutionFamily) -> OpenRegion {
-    OpenRegion {
-        min: family.from.lo().clone(),
-        max: family.to.as_ref().map(|end| end.hi().clone()),
-        moving: family.support.clone(),
-        undecided: Vec::new(),
+        let is_first = self.open.iter().all(|o| o.min > *smallest.hi());
+        let begins_all =
+            |family: &SolutionFamily| family.from == *smallest || family.from.lo() > smallest.hi();
+        (is_first && self.intervals.iter().all(begins_all)).then_some(smallest)
     }
 }

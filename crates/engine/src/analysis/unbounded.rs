@@ -14,8 +14,8 @@
 //! for lumped masses, M* = M0 is definite and there is no such mu.
 //!
 //! The curve may be constant (for M = K all solutions have the same mu), and where the solution is
-//! not regular there may be none: so growth is called unbounded only if a solution with a large
-//! lambda^2 is proved at another mu beside it.
+//! not regular there may be none: so growth is called unbounded only if the signs of the solution
+//! are strict, and one of its support with a large lambda^2 is proved at another mu beside it.
 //!
 //! Input: a system and the bounds of its critical mu. Output: [`UnboundedGrowth`], where the
 //! infimum of mu is not attained but lies there, and the proofs named `mass` and `large`. Called by
@@ -27,8 +27,9 @@ use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
 use super::model::Model;
 use super::threshold::StaticThreshold;
+use crate::search::complete::Completed;
 use mceip_exact::{Interval, Rational, Sparse, whole};
-use mceip_model::{System, Window};
+use mceip_model::{Problem, System, Window};
 use num_traits::Signed;
 
 /// The smallest mu near which lambda^2 has no bound, where no solution is known below it.
@@ -104,7 +105,10 @@ pub(super) fn unbounded(
             return Ok(None);
         }
 
-        let Some((beside, large)) = beside(model, &mu)? else {
+        let Some(support) = regular_support(&found, &problem, &mu) else {
+            return Ok(None);
+        };
+        let Some((beside, large)) = beside(model, &support, &mu)? else {
             return Ok(None);
         };
         proofs.push(Proof {
@@ -127,9 +131,26 @@ pub(super) fn unbounded(
     Ok(None)
 }
 
-/// A solution of large lambda^2 whose mu lies beside this one and is certainly another, and its
-/// proof.
-fn beside(model: &Model<'_>, mu: &Interval) -> Result<Option<(LargeGrowth, Proof)>, AnalysisError> {
+/// The support of the only solution with this mu, if its signs are strict.
+fn regular_support(found: &Completed, problem: &Problem, mu: &Interval) -> Option<Vec<usize>> {
+    let is_here = |value: &Interval| value.lo() <= mu.hi() && value.hi() >= mu.lo();
+    let solutions = &found.cover.solutions;
+    let mut here = solutions.iter().filter(|solution| is_here(&solution.value));
+    let solution = here.next()?;
+    let mut families = found.cover.families.iter();
+    let is_alone = here.next().is_none() && !families.any(|family| is_here(&family.from));
+
+    let biactive = found.biactive(problem, solution)?;
+    (is_alone && biactive.is_empty()).then(|| solution.support.clone())
+}
+
+/// A solution of large lambda^2 with this support, whose mu lies beside this one and is certainly
+/// another, and its proof.
+fn beside(
+    model: &Model<'_>,
+    support: &[usize],
+    mu: &Interval,
+) -> Result<Option<(LargeGrowth, Proof)>, AnalysisError> {
     let lambda2 = large_lambda2(model.system);
     let problem = model.at_lambda2(&lambda2)?;
     let found = model.complete("mu of large lambda^2", &problem, None)?;
@@ -140,12 +161,16 @@ fn beside(model: &Model<'_>, mu: &Interval) -> Result<Option<(LargeGrowth, Proof
         let is_below = value.hi() < mu.lo() && mu.lo() - value.lo() <= reach;
         is_above || is_below
     };
-    let mut values = found.cover.solutions.iter().map(|solution| &solution.value);
-    let Some(value) = values.find(|value| is_beside(value)).cloned() else {
+    let mut solutions = found.cover.solutions.iter();
+    let of_branch = solutions.find(|s| s.support == support && is_beside(&s.value));
+    let Some(solution) = of_branch else {
         return Ok(None);
     };
 
-    let large = LargeGrowth { lambda2, mu: value };
+    let large = LargeGrowth {
+        lambda2,
+        mu: solution.value.clone(),
+    };
     let proof = Proof {
         name: "large".into(),
         problem,

@@ -17,8 +17,8 @@
 //!
 //! Who adds a kind of leaf writes
 //!
-//! - its data: a variant of `Node` in `certificate/cover.rs`, with its word and the formats that have
-//!   it (`kind`, `fits`), and the schema in `spec/schemas/`;
+//! - its data: a variant of `Node` in `certificate/cover.rs`, with its word and the formats that
+//!   have it (`kind`, `fits`), and the schema in `spec/schemas/`;
 //! - its check: one file in `check/cover/` that implements `Leaf`, and a line of `leaf::check`;
 //! - its maker: one file here, named in `tree`, which tries the kinds in turn;
 //! - its page: a section of chapter 5 with an example, from which `spec/checker.py` follows;
