@@ -11,7 +11,7 @@ use mceip_check::{AcceptedCover, Proved};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, NotCertified, lifted, sift};
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport, Reported};
-use mceip_engine::multistart::same;
+use mceip_engine::multistart::same_x;
 use mceip_engine::search::complete::Completed;
 use mceip_engine::search::near::{Near, near};
 use mceip_exact::{Interval, Rational, enclosing_decimals};
@@ -295,7 +295,7 @@ impl Certifying<'_> {
 
             let value = candidate.value;
             match certifier.certify(candidate) {
-                Ok(claim) if judged.claims.iter().any(|c| same(c, &claim)) => {
+                Ok(claim) if judged.claims.iter().any(|c| same_x(c, &claim)) => {
                     self.job
                         .note(&format!("solution {index} (value {value}): listed before"));
                 }

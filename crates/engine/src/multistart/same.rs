@@ -70,6 +70,16 @@ pub fn same(a: &Claim, b: &Claim) -> bool {
     }
 }
 
+/// Do two claims speak of the same solution and, where it is one of a cone, of the same x?
+pub fn same_x(a: &Claim, b: &Claim) -> bool {
+    let has_same_x = match (a, b) {
+        (Claim::ExactSolution(a), Claim::ExactSolution(b)) => a.x == b.x,
+        (Claim::LiftedSolution(a), Claim::LiftedSolution(b)) => a.v == b.v,
+        _ => true,
+    };
+    has_same_x && same(a, b)
+}
+
 /// Does the box of `a` hold the centre of `b`?
 fn holds_center(a: &EnclosedSolution, b: &EnclosedSolution) -> bool {
     if a.center.len() != b.center.len() {
