@@ -220,7 +220,7 @@ fn summary(modes: &[Mode], drawn: &Drawn<'_>) -> Content {
         "lambda^2 (1/s^2)",
         "lambda (1/s)",
         "slipping particles",
-        "particles that do not move",
+        "particles at rest",
         "particles with zero reaction",
     ];
     let has_zero = modes.iter().any(|mode| !mode.zero.is_empty());

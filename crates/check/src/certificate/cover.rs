@@ -107,7 +107,18 @@ impl Node {
 
     /// Does the node close its region? The others divide it in two.
     pub fn is_leaf(&self) -> bool {
-        !matches!(self, Node::Split(_) | Node::Friction(_) | Node::Branch(_))
+        match self {
+            Node::Split(_) | Node::Friction(_) | Node::Branch(_) => false,
+            Node::Farkas(_)
+            | Node::PositiveDefinite
+            | Node::NegativeDefinite
+            | Node::Ldl(_)
+            | Node::Tail
+            | Node::Root(_)
+            | Node::Support(_)
+            | Node::Regular(_)
+            | Node::Open => true,
+        }
     }
 
     /// Does a tree have such nodes: one over an interval of friction as well, or one over values

@@ -35,10 +35,15 @@ pub(super) const OPEN: Yield = Yield {
     is_open: true,
 };
 
-/// Checks the proof of a leaf. A cut or a branch is none, and yields nothing.
+/// Checks the proof of a leaf.
+///
+/// Soundness hangs on the refusal of the nodes that divide: "no solution" is what a proof yields,
+/// and they prove nothing. The walk divides their regions and does not bring them here.
 pub(super) fn check(node: &Node, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
     match node {
-        Node::Split(_) | Node::Friction(_) | Node::Branch(_) => Ok(Yield::default()),
+        Node::Split(_) | Node::Friction(_) | Node::Branch(_) => {
+            Err(CoverFault::Kind { kind: node.kind() })
+        }
         Node::Farkas(weights) => Farkas(weights).check(at, context),
         Node::PositiveDefinite => Definite { sign: 1 }.check(at, context),
         Node::NegativeDefinite => Definite { sign: -1 }.check(at, context),

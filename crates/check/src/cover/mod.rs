@@ -359,6 +359,24 @@ mod tests {
         }
     }
 
+    /// A node that divides its region proves nothing of it.
+    #[test]
+    fn a_node_that_divides_is_no_leaf() {
+        let rows = diagonal(2, 3);
+        let window = Window::all();
+        let context = context(&rows, &window);
+        let region = region(whole(0), 1, vec![State::Undecided; 2]);
+        let half = || Number(rational(1, 2));
+
+        for node in [Node::Split(half()), Node::Friction(half()), Node::Branch(0)] {
+            assert!(!node.is_leaf());
+            let refused = CoverFault::Kind { kind: node.kind() };
+            assert_eq!(leaf::check(&node, &region, &context).err(), Some(refused));
+        }
+
+        assert!(leaf::check(&Node::PositiveDefinite, &region, &context).is_ok());
+    }
+
     #[test]
     fn a_region_has_short_numbers() {
         let rows = diagonal(2, 3);

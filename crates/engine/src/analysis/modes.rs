@@ -23,7 +23,7 @@ pub struct Mode {
     pub growth_rate: f64,
     /// Particles that slip, as indices into the particles of the system.
     pub slipping: Vec<usize>,
-    /// Particles in impending slip that do not move.
+    /// Particles in impending slip that stay at rest: they stick, or are biactive.
     pub sticking: Vec<usize>,
     /// What each particle with zero reaction does.
     pub zero: Vec<(usize, ZeroMode)>,

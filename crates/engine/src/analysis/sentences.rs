@@ -13,6 +13,7 @@ use super::evidence::Evidence;
 use super::flutter::Flutter;
 use super::modes::{Mode, ZeroMode};
 use super::ranges::Range;
+use super::threshold::StaticThreshold;
 use crate::tolerance::WITH_SIX_DECIMALS;
 use mceip_check::{OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, Rational, enclosing_decimals, to_f64, upper_decimal};
@@ -91,27 +92,30 @@ pub(super) fn short_is_plain(value: f64) -> bool {
     WITH_SIX_DECIMALS.contains(&value.abs())
 }
 
-/// Open regions named in a sentence; the others are counted.
-const NAMED_REGIONS: usize = 3;
+/// Regions or values named in a sentence; the others are counted.
+const NAMED: usize = 3;
 
-/// "mu in [..], mu in [..] and 4 more regions", where `name` is mu.
+/// "a, b, c and 4 more".
+fn named(all: &[String]) -> String {
+    let first = all[..all.len().min(NAMED)].join(", ");
+    match all.len().saturating_sub(NAMED) {
+        0 => first,
+        more => format!("{first} and {more} more"),
+    }
+}
+
+/// "mu in [..], mu in [..]", where `name` is mu.
 fn open_text(name: &str, open: &[OpenRegion]) -> String {
-    let mut named = Vec::new();
-    for region in open.iter().take(NAMED_REGIONS) {
+    let region = |region: &OpenRegion| {
         let min = short(&region.min);
         let max = match &region.max {
             Some(max) => short(max),
             None => "infinity".into(),
         };
-        named.push(format!("{name} in [{min}, {max}]"));
-    }
+        format!("{name} in [{min}, {max}]")
+    };
 
-    let mut text = named.join(", ");
-    if open.len() > NAMED_REGIONS {
-        text += &format!(" and {} more regions", open.len() - NAMED_REGIONS);
-    }
-
-    text
+    named(&open.iter().map(region).collect::<Vec<_>>())
 }
 
 fn plural(count: usize) -> &'static str {
@@ -137,6 +141,33 @@ fn values_text(family: &SolutionFamily) -> String {
     match &family.to {
         None => format!("every mu > {from}"),
         Some(to) => format!("every mu between {from} and {}", down(to.lo())),
+    }
+}
+
+/// The smallest mu with lambda = 0, or what is proved and what is open where that is not known.
+fn threshold_text(threshold: &StaticThreshold) -> String {
+    let over_intervals = threshold.intervals.iter().map(values_text);
+    let mut proved: Vec<String> = over_intervals.collect();
+
+    if let Some(smallest) = threshold.smallest() {
+        let also = match proved.as_slice() {
+            [] => String::new(),
+            all => format!("; {} has such a solution as well", all.join(" and ")),
+        };
+        let smallest = between(smallest);
+        return format!("the smallest mu with lambda = 0: mu {smallest}{also}");
+    }
+
+    let single = threshold.values.iter();
+    proved.extend(single.map(|mu| format!("mu {}", between(mu))));
+    let proved = named(&proved);
+    let open = open_text("mu", &threshold.open);
+
+    match (proved.as_str(), open.as_str()) {
+        ("", "") => "none; no mu > 0 has a solution with lambda = 0".into(),
+        (proved, "") => format!("lambda = 0 has a solution for {proved}"),
+        ("", open) => format!("UNDECIDED for {open}"),
+        (proved, open) => format!("UNDECIDED for {open}; lambda = 0 has a solution for {proved}"),
     }
 }
 
@@ -339,10 +370,10 @@ impl Analysis {
         };
 
         let slipping = &mode.slipping;
-        let stuck = if mode.sticking.is_empty() {
-            "none gets stuck".to_owned()
+        let resting = if mode.sticking.is_empty() {
+            "none stays at rest".to_owned()
         } else {
-            format!("{:?} do not move", mode.sticking)
+            format!("{:?} stay at rest", mode.sticking)
         };
 
         let zero = zero_text(mode);
@@ -354,7 +385,7 @@ impl Analysis {
 
         let text = format!(
             "Mode {number}: {growth}, lambda^2 {} 1/s^2; particles {slipping:?} slip, \
-             {stuck}{zero}{where_v_is}.",
+             {resting}{zero}{where_v_is}.",
             between(&mode.lambda2)
         );
 
@@ -367,28 +398,9 @@ impl Analysis {
 
     fn say_threshold(&self) -> Sentence {
         let threshold = &self.threshold;
-        let intervals = threshold.intervals.iter().map(values_text);
-        let intervals: Vec<String> = intervals.collect();
-        let text = if let Some(mu) = threshold.smallest() {
-            let mu = between(mu);
-            let also = match intervals.as_slice() {
-                [] => String::new(),
-                all => format!("; {} has such a solution as well", all.join(" and ")),
-            };
-            format!("Static threshold: the smallest mu with lambda = 0: mu {mu}{also}.")
-        } else if threshold.open.is_empty() && !intervals.is_empty() {
-            let all = intervals.join(" and ");
-            format!("Static threshold: lambda = 0 has a solution for {all}.")
-        } else if threshold.open.is_empty() {
-            "Static threshold: none; no mu > 0 has a solution with lambda = 0.".into()
-        } else {
-            let open = open_text("mu", &threshold.open);
-            format!("Static threshold: UNDECIDED for {open}.")
-        };
-
         Sentence {
             topic: "static_threshold",
-            text,
+            text: format!("Static threshold: {}.", threshold_text(threshold)),
             evidence: threshold.evidence.clone(),
         }
     }
@@ -695,5 +707,77 @@ impl Analysis {
             text,
             evidence: Evidence::Measured("eigenvalues in doubles"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::whole;
+
+    fn at(mu: i64) -> Interval {
+        Interval::point(whole(mu))
+    }
+
+    /// Values 3 and 7, every mu between `from` and 5, and an open region from `open` on.
+    fn threshold(from: Option<i64>, open: Option<i64>) -> StaticThreshold {
+        let family = |from| SolutionFamily {
+            support: vec![0],
+            from: at(from),
+            to: Some(at(5)),
+            is_point: false,
+            is_alone: true,
+        };
+        let region = |min| OpenRegion {
+            min: whole(min),
+            max: None,
+            moving: vec![],
+            undecided: vec![0],
+        };
+
+        StaticThreshold {
+            values: vec![at(3), at(7)],
+            intervals: from.map(family).into_iter().collect(),
+            open: open.map(region).into_iter().collect(),
+            evidence: NOT_DEFINITE,
+        }
+    }
+
+    /// Where the smallest value is not known, what is proved is said beside what is open.
+    #[test]
+    fn a_threshold_keeps_what_is_proved() {
+        let expected = [
+            (None, None, "the smallest mu with lambda = 0: mu = 3"),
+            (
+                Some(4),
+                Some(6),
+                "the smallest mu with lambda = 0: mu = 3; every mu between 4 and 5 has such a \
+                 solution as well",
+            ),
+            (
+                Some(2),
+                None,
+                "lambda = 0 has a solution for every mu between 2 and 5, mu = 3, mu = 7",
+            ),
+            (
+                Some(2),
+                Some(1),
+                "UNDECIDED for mu in [1, infinity]; lambda = 0 has a solution for every mu between \
+                 2 and 5, mu = 3, mu = 7",
+            ),
+        ];
+
+        for (from, open, text) in expected {
+            assert_eq!(threshold_text(&threshold(from, open)), text);
+        }
+    }
+
+    #[test]
+    fn three_are_named_and_the_others_counted() {
+        let all: Vec<String> = ["a", "b", "c", "d", "e"].map(String::from).into();
+
+        assert_eq!(named(&all[..3]), "a, b, c");
+        assert_eq!(named(&all), "a, b, c and 2 more");
+        assert_eq!(named(&[]), "");
     }
 }

@@ -28,6 +28,7 @@ use super::evidence::{Evidence, Proof, ProofCertificate};
 use super::model::Model;
 use super::threshold::StaticThreshold;
 use crate::search::complete::Completed;
+use mceip_check::SolutionFamily;
 use mceip_exact::{Interval, Rational, Sparse, whole};
 use mceip_model::{Problem, System, Window};
 use num_traits::Signed;
@@ -137,8 +138,12 @@ fn regular_support(found: &Completed, problem: &Problem, mu: &Interval) -> Optio
     let solutions = &found.cover.solutions;
     let mut here = solutions.iter().filter(|solution| is_here(&solution.value));
     let solution = here.next()?;
-    let mut families = found.cover.families.iter();
-    let is_alone = here.next().is_none() && !families.any(|family| is_here(&family.from));
+    let reaches_here = |family: &SolutionFamily| {
+        let ends_below = family.to.as_ref().is_some_and(|to| to.hi() < mu.lo());
+        family.from.lo() <= mu.hi() && !ends_below
+    };
+    let has_family = found.cover.families.iter().any(reaches_here);
+    let is_alone = here.next().is_none() && !has_family;
 
     let biactive = found.biactive(problem, solution)?;
     (is_alone && biactive.is_empty()).then(|| solution.support.clone())

@@ -74,6 +74,9 @@ fn by_claim(
 
 /// The variables at zero with y = 0 of an accepted solution, if its evidence tells: an exact claim
 /// says so, in a box and in a root leaf every sign is strict, a support leaf has x as polynomials.
+///
+/// Not told of a particle with zero reaction that opens and slips: its other half of v_T, at which
+/// y = 0 follows from y = 0 on the support, whatever the value.
 pub(super) fn biactive(
     proved: &Proved<Certificate>,
     pencil: &Pencil,

@@ -107,7 +107,8 @@ impl Completed {
     }
 
     /// The variables at zero with y = 0 of a solution of the cover, as its evidence proves them;
-    /// `None` where that does not tell.
+    /// `None` where that does not tell. Of a particle with zero reaction that opens and slips, the
+    /// half of v_T at rest may be left out.
     pub fn biactive(&self, problem: &Problem, solution: &AcceptedClaim) -> Option<Vec<usize>> {
         let pencil = reduce(problem).ok()?.pencil;
         accepted_x::biactive(&self.proved, &pencil, solution)
