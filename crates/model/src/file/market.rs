@@ -50,7 +50,7 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
             return Err(reader.complain(line, expected, text));
         }
         let (i, j, value) = reader.entry(line, text, &layout, got)?;
-        if layout.symmetric && i != j {
+        if layout.banner.symmetric && i != j {
             entries.push((j, i, value.clone()));
         }
         entries.push((i, j, value));
@@ -73,14 +73,15 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
 struct Banner {
     /// Entries with their indices, not all values in order.
     coordinate: bool,
+    /// Whole numbers only.
+    integer: bool,
     /// The lower triangle only.
     symmetric: bool,
 }
 
 /// How the entries of the file map to places of the matrix.
 struct Layout {
-    coordinate: bool,
-    symmetric: bool,
+    banner: Banner,
     rows: usize,
     cols: usize,
     /// Number of entry lines.
@@ -90,7 +91,7 @@ struct Layout {
 impl Layout {
     /// Place of the k-th value of an array file: column by column, lower triangle if symmetric.
     fn place_in_array(&self, k: usize) -> (usize, usize) {
-        if !self.symmetric {
+        if !self.banner.symmetric {
             return (k % self.rows, k / self.rows);
         }
 
@@ -148,10 +149,11 @@ impl Reader {
                 "%%matrixmarket",
                 "matrix",
                 layout @ ("coordinate" | "array"),
-                "real" | "integer" | "double",
+                field @ ("real" | "integer" | "double"),
                 symmetry @ ("general" | "symmetric"),
             ] => Ok(Banner {
                 coordinate: layout == "coordinate",
+                integer: field == "integer",
                 symmetric: symmetry == "symmetric",
             }),
             _ => Err(self.complain(
@@ -180,8 +182,7 @@ impl Reader {
         };
 
         Ok(Layout {
-            coordinate: banner.coordinate,
-            symmetric: banner.symmetric,
+            banner,
             rows,
             cols,
             count,
@@ -209,17 +210,17 @@ impl Reader {
     ) -> Result<(usize, usize, Rational), ModelError> {
         let words: Vec<&str> = words_of(text).collect();
         let (i, j, value) = match words[..] {
-            [i, j, value] if layout.coordinate => {
+            [i, j, value] if layout.banner.coordinate => {
                 let (Some(i), Some(j)) = (index_from_one(i), index_from_one(j)) else {
                     return Err(self.complain(line, "1-based indices", text));
                 };
                 (i, j, value)
             }
-            [value] if !layout.coordinate => {
+            [value] if !layout.banner.coordinate => {
                 let (i, j) = layout.place_in_array(k);
                 (i, j, value)
             }
-            _ if layout.coordinate => {
+            _ if layout.banner.coordinate => {
                 return Err(self.complain(line, "row column value", text));
             }
             _ => return Err(self.complain(line, "one value", text)),
@@ -229,7 +230,7 @@ impl Reader {
             return Err(self.complain(line, "indices within the size", text));
         }
 
-        if layout.symmetric && i < j {
+        if layout.banner.symmetric && i < j {
             return Err(self.complain(line, "the lower triangle of a symmetric matrix", text));
         }
 
@@ -237,6 +238,9 @@ impl Reader {
             place: format!("{} line {line}", self.what),
             source,
         })?;
+        if layout.banner.integer && !value.is_integer() {
+            return Err(self.complain(line, "an integer, as line 1 says (or `real` there)", text));
+        }
 
         Ok((i, j, value))
     }
@@ -283,6 +287,18 @@ mod tests {
         )
         .unwrap();
         assert_eq!((wide.get(1, 1), wide.get(0, 2)), (whole(4), whole(5)));
+    }
+
+    #[test]
+    fn a_file_of_integers_holds_no_fraction() {
+        let of_integers = HEAD.replace("real", "integer");
+        let read = |value| read_matrix_market("K", &format!("{of_integers}1 1 1\n1 1 {value}\n"));
+
+        assert_eq!(read("20e-1").unwrap().get(0, 0), whole(2));
+        for value in ["1.5", "1e-1"] {
+            let message = read(value).unwrap_err().to_string();
+            assert!(message.contains("an integer, as line 1 says"), "{message}");
+        }
     }
 
     /// Lines end in LF or in CR LF; a CR alone is part of a word.
