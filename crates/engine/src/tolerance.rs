@@ -156,15 +156,17 @@ pub const BRACKET_BITS: u32 = 64;
 /// is too small costs an exact LDL'.
 pub const BRACKET_START_BITS: u32 = 32;
 
-/// Sine of the angle in the complex plane from which an eigenvalue lambda^2 in doubles counts as
-/// complex. Unit: none. Basis: in doubles a double eigenvalue splits by 1e-8, a triple one by 1e-5,
-/// times what the condition of M costs; growth below a ten-thousandth of the frequency is less than
-/// any damping.
+/// Sine of the angle in the complex plane from which an eigenvalue lambda^2 of a large matrix in
+/// doubles counts as complex. Unit: none. Basis: in doubles a double eigenvalue splits by 1e-8, a
+/// triple one by 1e-5, times what the condition of M costs; growth below a ten-thousandth of the
+/// frequency is less than any damping.
 pub const FLUTTER_ANGLE: f64 = 1e-4;
 
-/// Imaginary part of an eigenvalue lambda^2 in doubles up to which it is rounding. Unit: share of
-/// the largest entry of the matrix. Basis: eigenvalues of order one hundred keep 1e-14 of it.
-pub const FLUTTER_NOISE: f64 = 1e-13;
+/// Change of a matrix in doubles that counts as rounding where complex lambda^2 are told from real
+/// ones. Unit: share of its largest entry, times its order and the condition of M*. Basis: a
+/// hundred times what solving with M* and the iteration for eigenvalues leave. Reason: a pair that
+/// such a change can make real is not called flutter.
+pub const FLUTTER_ROUNDING: f64 = 1e-14;
 
 /// Sizes of numbers that a sentence prints with six decimals; others get six digits and an
 /// exponent. Unit: none. Reason: below, six decimals have two digits at most; above, doubles do not

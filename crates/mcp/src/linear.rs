@@ -20,6 +20,9 @@ mod multifrontal;
 mod symmetric;
 
 pub use analysis::Analysis;
-pub use dense::{SparseLu, definite_eigenvalues, eigenvalues, inverse, solve};
+pub use dense::{
+    Eigenvalue, SparseLu, conditioned_eigenvalues, definite_eigenvalues, eigenvalues, inverse,
+    solve,
+};
 pub use multifrontal::{NotDefinite, SchurFactor};
 pub use symmetric::{Symmetric, SymmetricError};

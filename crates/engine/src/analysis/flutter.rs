@@ -13,9 +13,9 @@
 
 use super::families::Families;
 use crate::dense::{rounded, transposed};
-use crate::tolerance::{FLUTTER_ANGLE, FLUTTER_NOISE};
+use crate::tolerance::{FLUTTER_ANGLE, FLUTTER_ROUNDING};
 use mceip_exact::{Rational, whole};
-use mceip_mcp::linear::{eigenvalues, solve};
+use mceip_mcp::linear::{conditioned_eigenvalues, eigenvalues, inverse, solve};
 use mceip_model::{MuFamily, Pencil};
 use std::cmp::Ordering;
 
@@ -75,7 +75,7 @@ impl Flutter {
 /// Order beyond which the dense eigenproblem is not tried.
 const LARGEST_ORDER: usize = 2500;
 
-/// Order beyond which it is not tried at more than one mu.
+/// Order beyond which it is not tried at more than one mu, and not with eigenvectors.
 const LARGEST_ORDER_OF_ONSET: usize = 200;
 
 /// Evenly spread values of mu that are tried for the onset.
@@ -93,7 +93,8 @@ pub(super) fn flutter(families: &Families, mu: &Rational) -> Option<Flutter> {
     }
 
     let family = &families.own;
-    let eigenvalues = complex_eigenvalues(family, mu)?;
+    let mut eigenvalues = complex_at(family, mu)?;
+    eigenvalues.sort_by(|p, q| by_ascending_frequency(*p, *q));
 
     let mut growth_rate = 0.0;
     let mut frequency = 0.0;
@@ -107,7 +108,7 @@ pub(super) fn flutter(families: &Families, mu: &Rational) -> Option<Flutter> {
 
     let is_cheap = family.stiffness.order() <= LARGEST_ORDER_OF_ONSET;
     let onset = if is_cheap && !eigenvalues.is_empty() {
-        let has_some = |mu: &Rational| Some(!complex_eigenvalues(family, mu)?.is_empty());
+        let has_some = |mu: &Rational| Some(!complex_at(family, mu)?.is_empty());
         onset(mu, &has_some)
     } else {
         None
@@ -154,30 +155,67 @@ fn onset(mu: &Rational, has_some: &dyn Fn(&Rational) -> Option<bool>) -> Option<
     Some(onset)
 }
 
-/// The complex lambda^2 at mu, by ascending frequency.
-fn complex_eigenvalues(family: &MuFamily, mu: &Rational) -> Option<Vec<(f64, f64)>> {
+/// The complex lambda^2 at mu, in no particular order; `None` beyond the largest order, without a
+/// mass, or where doubles fail.
+fn complex_at(family: &MuFamily, mu: &Rational) -> Option<Vec<(f64, f64)>> {
     let mass = family.mass.as_ref()?;
     if family.stiffness.order() > LARGEST_ORDER {
         return None;
     }
 
-    // -M*^-1 K*, column by column.
-    let mut columns = transposed(&dense_at(&family.stiffness, mu));
+    complex_eigenvalues(&dense_at(&family.stiffness, mu), &dense_at(mass, mu))
+}
+
+/// The complex eigenvalues of A = -M^-1 K, those above the real axis, in no particular order.
+///
+/// A real eigenvalue of multiplicity m becomes m eigenvalues around it in doubles, complex ones
+/// among them, at a distance of the m-th root of rounding; so no angle tells them from flutter.
+/// What tells is the condition: a change of A by its rounding moves each of them to the real axis.
+/// That rounding is what solving with M leaves, by its condition | |M^-1| |M| |, which the units of
+/// rows do not change. For a large matrix, whose eigenvectors take long, the angle has to do.
+fn complex_eigenvalues(stiffness: &[Vec<f64>], mass: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
+    let mut columns = transposed(stiffness);
     for column in &mut columns {
         for entry in column {
             *entry = -*entry;
         }
     }
 
-    let solved = solve(&dense_at(mass, mu), &columns)?;
+    let matrix = transposed(&solve(mass, &columns)?);
+    if matrix.len() > LARGEST_ORDER_OF_ONSET {
+        let mut complex = eigenvalues(&matrix)?;
+        let rounding = FLUTTER_ROUNDING * largest_entry(&matrix);
+        complex.retain(|(re, im)| *im > rounding && *im > FLUTTER_ANGLE * re.hypot(*im));
+        return Some(complex);
+    }
 
-    let largest = solved.iter().flatten().fold(0.0f64, |s, v| s.max(v.abs()));
-    let noise = FLUTTER_NOISE * largest;
-    let mut complex = eigenvalues(&transposed(&solved))?;
-    complex.retain(|(re, im)| *im > noise && *im > FLUTTER_ANGLE * re.hypot(*im));
-    complex.sort_by(|p, q| by_ascending_frequency(*p, *q));
+    let order = matrix.len() as f64;
+    let rounding = FLUTTER_ROUNDING * order * condition(mass)? * largest_entry(&matrix);
+    let mut complex = conditioned_eigenvalues(&matrix)?;
+    complex.retain(|z| z.im > rounding * z.condition);
+    Some(complex.iter().map(|z| (z.re, z.im)).collect())
+}
 
-    Some(complex)
+/// The largest row sum of |M^-1| |M|.
+fn condition(mass: &[Vec<f64>]) -> Option<f64> {
+    let row_sums: Vec<f64> = mass
+        .iter()
+        .map(|row| row.iter().map(|v| v.abs()).sum())
+        .collect();
+
+    let mut largest: f64 = 0.0;
+    for row in inverse(mass)? {
+        let products = row.iter().zip(&row_sums);
+        largest = largest.max(products.map(|(v, sum)| v.abs() * sum).sum());
+    }
+
+    Some(largest)
+}
+
+fn largest_entry(rows: &[Vec<f64>]) -> f64 {
+    rows.iter()
+        .flatten()
+        .fold(0.0, |largest, entry| f64::max(largest, entry.abs()))
 }
 
 /// A + mu B by rows, each entry rounded to the nearest double.
@@ -240,5 +278,96 @@ mod tests {
     fn without_a_value_that_has_none_there_is_no_onset() {
         assert_eq!(onset(&whole(1), &|_| Some(true)), None);
         assert_eq!(onset(&whole(1), &|_| None), None);
+    }
+
+    fn identity(order: usize) -> Vec<Vec<f64>> {
+        let mut identity = vec![vec![0.0; order]; order];
+        for (k, row) in identity.iter_mut().enumerate() {
+            row[k] = 1.0;
+        }
+        identity
+    }
+
+    /// The complex eigenvalues of a matrix, as those of a stiffness for M = I.
+    fn without_mass(matrix: &[Vec<f64>]) -> Vec<(f64, f64)> {
+        let mut stiffness = matrix.to_vec();
+        stiffness.iter_mut().flatten().for_each(|v| *v = -*v);
+        complex_eigenvalues(&stiffness, &identity(matrix.len())).unwrap()
+    }
+
+    /// K = M [[4, -1], [0, 4]] with det M = 1e-4: lambda^2 = -4 twice.
+    #[test]
+    fn a_double_eigenvalue_of_a_nearly_singular_mass_is_not_complex() {
+        let mass = [vec![1.0, 2.25], vec![2.25, 5.0626]];
+        let stiffness = [vec![4.0, 8.0], vec![9.0, 18.0004]];
+
+        assert_eq!(complex_eigenvalues(&stiffness, &mass), Some(vec![]));
+
+        // A mass of very different units has no part in it: -1 +- i.
+        let mass = [vec![1.0, 0.0], vec![0.0, 1e-9]];
+        let stiffness = [vec![1.0, -1.0], vec![1e-9, 1e-9]];
+        assert_eq!(complex_eigenvalues(&stiffness, &mass).unwrap().len(), 1);
+    }
+
+    /// A = S D S^-1 with S of small whole numbers and the eigenvalue 1 of multiplicity `order`:
+    /// doubles find it split by the `order`-th root of rounding.
+    fn jordan_block(order: usize, coupling: f64) -> Vec<Vec<f64>> {
+        let mut rows = vec![vec![0.0; order]; order];
+        for row in 0..order {
+            rows[row][row] = 1.0;
+            if row + 1 < order {
+                rows[row][row + 1] = coupling;
+            }
+        }
+
+        // Rows row += row + 1 times w, columns col + 1 -= col times w: a similarity by I + w E.
+        for step in 0..order - 1 {
+            let weight = 1.0 + 0.7 * step as f64;
+            let below = rows[step + 1].clone();
+            for (entry, add) in rows[step].iter_mut().zip(below) {
+                *entry += weight * add;
+            }
+            for row in &mut rows {
+                row[step + 1] -= weight * row[step];
+            }
+            rows = transposed(&rows);
+        }
+        rows
+    }
+
+    #[test]
+    fn a_real_eigenvalue_that_doubles_split_is_not_complex() {
+        let mut split = 0;
+        for order in 2..=7 {
+            for coupling in [0.3, 1.0, 7.0] {
+                let matrix = jordan_block(order, coupling);
+                let found = eigenvalues(&matrix).unwrap();
+                split += found.iter().filter(|(_, im)| *im > 1e-10).count();
+
+                let complex = without_mass(&matrix);
+                assert!(complex.is_empty(), "order {order}: {found:?}");
+            }
+        }
+        assert!(split > 10, "{split} eigenvalues were split");
+    }
+
+    #[test]
+    fn a_complex_pair_close_to_the_real_axis_is_found() {
+        // (1 - t)^2 + d^2 = 0.
+        for distance in [1e-1, 1e-3, 1e-5] {
+            let matrix = [vec![1.0, distance], vec![-distance, 1.0]];
+            assert_eq!(without_mass(&matrix).len(), 1, "{distance}");
+        }
+    }
+
+    /// -2 +- i beside -2: the real part of the pair is an eigenvalue of its own.
+    #[test]
+    fn a_complex_pair_beside_a_real_eigenvalue_of_its_real_part_is_found() {
+        let matrix = [
+            vec![-2.0, 0.0, 0.0],
+            vec![0.0, -2.0, -1.0],
+            vec![0.0, 1.0, -2.0],
+        ];
+        assert_eq!(without_mass(&matrix), [(-2.0, 1.0)]);
     }
 }

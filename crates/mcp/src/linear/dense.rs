@@ -1,7 +1,7 @@
 //! Dense factorisations in doubles, and sparse LU. The only file that names faer.
 //!
-//! Public: [`inverse`], [`solve`], [`eigenvalues`], [`definite_eigenvalues`] of dense matrices, and
-//! [`SparseLu`]. `eliminate_front` is the kernel of the sparse Cholesky factors of `multifrontal`.
+//! Public: [`inverse`], [`solve`], [`eigenvalues`], [`conditioned_eigenvalues`],
+//! [`definite_eigenvalues`] of dense matrices, and [`SparseLu`]. `eliminate_front` is the kernel of the sparse Cholesky factors of `multifrontal`.
 //!
 //! A dense matrix is given by rows, all of the same length; the caller answers for the shape.
 //! Results are not certified: a matrix that is singular but for rounding may pass.
@@ -132,6 +132,49 @@ pub fn eigenvalues(rows: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
     Some(values.iter().map(|z| (z.re, z.im)).collect())
 }
 
+/// An eigenvalue re + i im of a square matrix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Eigenvalue {
+    /// Real part.
+    pub re: f64,
+    /// Imaginary part.
+    pub im: f64,
+    /// |u| |v| / |u'v| for the left and right eigenvectors u, v: a change of the matrix by e moves
+    /// the eigenvalue by this times e at most, to first order. Infinite where doubles find no u.
+    pub condition: f64,
+}
+
+/// The eigenvalues of a square matrix given by rows with their condition, in no particular order.
+///
+/// The left eigenvectors are the rows of V^-1, V the matrix of right ones. `None` if an entry is
+/// not finite or the iteration does not converge.
+pub fn conditioned_eigenvalues(rows: &[Vec<f64>]) -> Option<Vec<Eigenvalue>> {
+    if !are_finite(rows) {
+        return None;
+    }
+
+    let eigen = square(rows).eigen().ok()?;
+    let right = eigen.U();
+    let left = right.partial_piv_lu().inverse();
+
+    let values = eigen.S().column_vector();
+    let mut eigenvalues = Vec::with_capacity(rows.len());
+    for k in 0..rows.len() {
+        let condition = left.row(k).norm_l2() * right.col(k).norm_l2();
+        eigenvalues.push(Eigenvalue {
+            re: values[k].re,
+            im: values[k].im,
+            condition: if condition.is_finite() {
+                condition
+            } else {
+                f64::INFINITY
+            },
+        });
+    }
+
+    Some(eigenvalues)
+}
+
 /// The eigenvalues t of B v = t A v for symmetric B and symmetric positive definite A, ascending.
 ///
 /// With the Cholesky factor L of A they are those of the symmetric matrix L^-1 B L^-T. `None` if A
@@ -235,6 +278,14 @@ mod tests {
         approx::assert_relative_eq!(values[0].1, -2.0, epsilon = 1e-12);
         approx::assert_relative_eq!(values[1].1, 2.0, epsilon = 1e-12);
         assert!(eigenvalues(&[vec![f64::NAN]]).is_none());
+
+        // (1, 0) and (1, d) are the right eigenvectors of [1 1; 0 1 + d], at an angle of d.
+        let nearly_double = [vec![1.0, 1.0], vec![0.0, 1.0 + 1e-6]];
+        let values = conditioned_eigenvalues(&nearly_double).unwrap();
+        approx::assert_relative_eq!(values[0].condition, 1e6, max_relative = 1e-6);
+        let values = conditioned_eigenvalues(&rotation).unwrap();
+        approx::assert_relative_eq!(values[0].im.abs(), 2.0, epsilon = 1e-12);
+        approx::assert_relative_eq!(values[1].condition, 1.0, epsilon = 1e-12);
 
         // det(B - t A) = 3 t^2 - 4 t - 3 for these two.
         let b = vec![vec![3.0, 0.0], vec![0.0, -1.0]];
