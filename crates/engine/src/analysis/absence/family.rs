@@ -14,8 +14,7 @@ use crate::search::complete::CompleteError;
 use crate::search::complete::leaf::tail::{definite_at, semidefinite};
 use crate::search::complete::pieces::blocks::Blocks;
 use crate::search::complete::pieces::condense::beside;
-use crate::search::complete::pieces::expansion::{Ends, Expansion};
-use crate::search::complete::pieces::matrix::Matrix;
+use crate::search::complete::pieces::expansion::Expansion;
 use crate::search::complete::pieces::prepared::Prepared;
 use crate::search::complete::pieces::view::{View, common_row_factor, row_factor};
 use crate::tolerance::{FIRST_NEAR, NEARER};
@@ -193,7 +192,7 @@ impl Family {
 
     /// T0 and T1 at a value, by solving with T_ff there, rows scaled as those of the expansions.
     #[cfg(test)]
-    pub(super) fn direct(&self, value: f64) -> [Matrix; 2] {
+    pub(super) fn direct(&self, value: f64) -> [Vec<Vec<f64>>; 2] {
         let exact = mceip_exact::from_f64(value).unwrap_or_default();
         self.pencils.each_ref().map(|pencil| {
             let at_value = pencil.a().add_scaled(&exact, pencil.b());
@@ -414,33 +413,4 @@ fn pieces_of(prepared: &Prepared) -> Vec<PieceOfHalfLine> {
     }
 
     pieces
-}
-
-/// The ends of T0 + mu T1 over the interval of t for which those of both parts are given.
-pub(in crate::analysis) fn at_friction([constant, slope]: &[Ends; 2], friction: f64) -> Ends {
-    let m = [0, 1].map(|end| combined(&constant.m[end], friction, &slope.m[end]));
-    let r = match (&constant.r, &slope.r) {
-        (Some(r), Some(r_slope)) => Some(combined(r, friction, r_slope)),
-        (r, r_slope) => r.clone().or(r_slope.clone()),
-    };
-
-    Ends {
-        lo: constant.lo,
-        hi: constant.hi,
-        m,
-        r,
-        slope: None,
-    }
-}
-
-/// a + factor b.
-fn combined(a: &Matrix, factor: f64, b: &Matrix) -> Matrix {
-    let mut sum = a.clone();
-    for (row, b_row) in sum.iter_mut().zip(b) {
-        for (entry, b) in row.iter_mut().zip(b_row) {
-            *entry += factor * b;
-        }
-    }
-
-    sum
 }

@@ -4,8 +4,7 @@
 //! | file | what |
 //! |---|---|
 //! | `family` | T(t, mu) = T0(t) + mu T1(t), condensed about common anchors |
-//! | `boxes` | branch and prune over boxes of (t, mu) and states |
-//! | `regular` | leaves for decided boxes near a branch of solutions |
+//! | `boxes` | what the search over boxes of (t, mu) does with decided ones |
 //!
 //! With particles of zero reaction T is that of the split form, and supports are those of its
 //! variables. Doubles propose the cover, and nothing is returned as proved before the checker has
@@ -14,16 +13,18 @@
 
 mod boxes;
 mod family;
-mod regular;
 
 use super::families::Families;
 use crate::run::{OnProgress, Progress, Watch, in_threads};
 use crate::search::complete::CompleteError;
+use crate::search::complete::region::Region;
 use crate::search::complete::shares::Shares;
-use boxes::Search;
+use crate::search::complete::splice::numbered;
+use crate::search::complete::tree::Search;
+use boxes::Absence;
 pub(super) use boxes::{Blocked, Cause};
 use family::PieceOfHalfLine;
-pub(super) use family::{Family, Place, at_friction, unit_of_lambda2};
+pub(super) use family::{Family, Place, unit_of_lambda2};
 use mceip_check::Proved;
 use mceip_check::certificate::{CriticalCertificate, Node, Piece};
 use mceip_exact::Rational;
@@ -212,21 +213,17 @@ impl<'a> Quadrant<'a> {
     ) -> Result<CriticalCertificate, Vec<Blocked>> {
         let shares = Shares::new(self.watch);
         let share = 1.0 / family.pieces.len() as f64;
-        let tree_of = |piece| self.tree(family, piece, bound, &shares, share);
-        let trees: Vec<Result<Vec<Node>, Box<Blocked>>> = in_threads(self.threads, || {
-            family.pieces.par_iter().map(tree_of).collect()
+        let searched = |piece| self.piece(family, piece, bound, &shares, share);
+        let searched: Vec<Result<Piece, Blocked>> = in_threads(self.threads, || {
+            family.pieces.par_iter().map(searched).collect()
         });
 
-        let mut pieces = Vec::with_capacity(trees.len());
+        let mut pieces = Vec::with_capacity(searched.len());
         let mut blocked = Vec::new();
-        for (piece, tree) in family.pieces.iter().zip(trees) {
-            match tree {
-                Ok(tree) => pieces.push(Piece {
-                    max: piece.hi.clone().map(Number),
-                    anchor: piece.anchor,
-                    tree,
-                }),
-                Err(found) => blocked.push(*found),
+        for found in searched {
+            match found {
+                Ok(piece) => pieces.push(piece),
+                Err(found) => blocked.push(found),
             }
         }
 
@@ -243,17 +240,23 @@ impl<'a> Quadrant<'a> {
         })
     }
 
-    /// The tree of one piece.
-    fn tree(
+    /// One piece, covered.
+    fn piece(
         &self,
         family: &Family,
         piece: &PieceOfHalfLine,
         bound: &Bound<'_>,
         shares: &Shares<'_>,
         share: f64,
-    ) -> Result<Vec<Node>, Box<Blocked>> {
+    ) -> Result<Piece, Blocked> {
+        let mut covered = Piece {
+            max: piece.hi.clone().map(Number),
+            anchor: piece.anchor,
+            tree: Vec::new(),
+        };
         if piece.hi.is_none() && family.has_tail() {
-            return Ok(vec![Node::Tail]);
+            covered.tree.push(Node::Tail);
+            return Ok(covered);
         }
 
         let mut search = Search {
@@ -261,12 +264,21 @@ impl<'a> Quadrant<'a> {
             expansions: family.expansions(piece.anchor),
             shares,
             budget: self.limits.boxes_for(family.view().order()),
-            nodes: Vec::new(),
+            items: Vec::new(),
+            aim: Absence::default(),
         };
 
-        let friction = [bound.from, bound.below];
-        search.piece(&piece.lo, piece.hi.as_ref(), friction, share)?;
-        Ok(search.nodes)
+        let region = Region {
+            mu: [bound.from.clone(), bound.below.clone()],
+            ..Region::whole(piece.lo.clone(), piece.hi.clone(), search.view.order())
+        };
+        search.region(&region, share);
+
+        match search.aim.blocked {
+            // A leaf of such a cover names no claim.
+            None => Ok(numbered(&covered, search.items, &mut Vec::new())),
+            Some(blocked) => Err(blocked),
+        }
     }
 }
 

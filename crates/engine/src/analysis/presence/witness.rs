@@ -16,7 +16,6 @@
 //! Doubles propose a witness that holds by a margin, with the fewest bits that still do. Called by
 //! `climb`; the checker's side is `check::cover::presence`.
 
-use super::super::absence::at_friction;
 use super::curve::Point;
 use crate::bordered::{Ball, Corner, NullVectors, largest};
 use crate::search::complete::pieces::expansion::{Ends, Expansion};
@@ -42,13 +41,13 @@ impl Place {
     fn corners(&self, expansions: &[Expansion; 2]) -> [Ends; 2] {
         let [t0, t1] = self.t;
         let ends = expansions.each_ref().map(|part| part.ends(t0, t1));
-        self.mu.map(|mu| at_friction(&ends, mu))
+        self.mu.map(|mu| Ends::at_friction(ends.each_ref(), mu))
     }
 
     /// The matrices at one value of lambda^2 at both ends of the interval of mu.
     fn edge(&self, expansions: &[Expansion; 2], t: f64) -> [Ends; 2] {
         let ends = expansions.each_ref().map(|part| part.ends(t, t));
-        self.mu.map(|mu| at_friction(&ends, mu))
+        self.mu.map(|mu| Ends::at_friction(ends.each_ref(), mu))
     }
 }
 

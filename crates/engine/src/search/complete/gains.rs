@@ -14,7 +14,8 @@ use super::ends_game::EndsGame;
 use super::leaf::farkas::Columns;
 use super::pieces::expansion::Ends;
 use super::region::{self, Region, State};
-use super::tree::{MAX_CUTS, SLACK_OF_HALF, Search};
+use super::solutions::Solutions;
+use super::tree::{Aim, MAX_CUTS, SLACK_OF_HALF, Search};
 use crate::tolerance::{LEAST_GAIN, NARROW, WITNESS_MARGIN};
 use mceip_check::certificate::Node;
 use mceip_exact::{Rational, to_f64};
@@ -31,7 +32,7 @@ const TRIED: usize = 2;
 const WIDE: f64 = 1.0 / 24.0;
 
 /// A game that belongs to a region, and what is known besides.
-pub(super) struct Kept {
+pub(crate) struct Kept {
     game: EndsGame,
     /// Is the symmetric part known to be indefinite?
     is_indefinite: bool,
@@ -65,7 +66,7 @@ fn gain(value: f64, part: &EndsGame) -> f64 {
     gain.max(LEAST_GAIN)
 }
 
-impl Search<'_> {
+impl Search<'_, Solutions<'_>> {
     /// Are games kept over such an interval? T has to be linear there.
     pub(super) fn keeps_games(&self, ends: &Ends) -> bool {
         self.view.order() >= KEPT_FROM && ends.r.is_none() && !ends.is_half_line()
@@ -76,10 +77,11 @@ impl Search<'_> {
     pub(super) fn by_gains(
         &mut self,
         region: &Region,
-        ends: &Rc<Ends>,
+        parts: &Rc<[Ends]>,
         kept: Option<Kept>,
         share: f64,
     ) -> bool {
+        let ends = &parts[0];
         if !self.keeps_games(ends) || region.is_decided() {
             return false;
         }
@@ -90,15 +92,14 @@ impl Search<'_> {
             .is_some_and(|kept| kept.game.value() > WITNESS_MARGIN);
         if !is_indefinite
             && !is_known_empty
-            && let Some(leaf) = self.definite_leaf(region, ends)
+            && let Some(leaf) = Solutions::definite_leaf(self, region, parts)
         {
             self.leaf(leaf, share);
             return true;
         }
 
-        let width = self.view.theta(ends.hi) - self.view.theta(ends.lo);
         if kept.is_none()
-            && width > WIDE
+            && self.width(ends) > WIDE
             && let Some(cut) = self.middle_cut(region, ends)
         {
             let games = [None, None];
@@ -115,7 +116,7 @@ impl Search<'_> {
         };
 
         if game.value() > WITNESS_MARGIN {
-            let columns = Columns::of(ends, &region.states);
+            let columns = Columns::of(parts, &region.states);
             return match columns.rounded(&game.weights()) {
                 Some(weights) => {
                     self.leaf(Node::Farkas(weights), share);
@@ -133,7 +134,7 @@ impl Search<'_> {
         drop(game);
         match division.divided_by {
             DividedBy::Variable(position) => {
-                self.decide(position, region, ends, division.games, share);
+                self.decide(position, region, parts, division.games, share);
             }
             DividedBy::Cut(cut) => {
                 let games = division.games.map(Some);
@@ -184,8 +185,7 @@ impl Search<'_> {
     }
 
     fn by_cut(&self, region: &Region, ends: &Ends, game: &EndsGame) -> Option<Division> {
-        let width = self.view.theta(ends.hi) - self.view.theta(ends.lo);
-        if width < NARROW || region.cuts >= MAX_CUTS {
+        if self.width(ends) < NARROW || region.cuts >= MAX_CUTS {
             return None;
         }
 
@@ -204,7 +204,7 @@ impl Search<'_> {
     /// A short number near the middle of an interval.
     fn middle_cut(&self, region: &Region, ends: &Ends) -> Option<Rational> {
         let slack = SLACK_OF_HALF * (ends.hi - ends.lo);
-        let cut = short_near(self.middle(ends), slack)?;
+        let cut = short_near(self.middle(region), slack)?;
         region.has_inside(&cut).then_some(cut)
     }
 
@@ -212,7 +212,7 @@ impl Search<'_> {
         &mut self,
         position: usize,
         region: &Region,
-        ends: &Rc<Ends>,
+        ends: &Rc<[Ends]>,
         games: [EndsGame; 2],
         share: f64,
     ) {

@@ -11,7 +11,8 @@
 //! * `pieces` eliminates the free variables, cuts the window into pieces, and encloses T(t) over
 //!   intervals.
 //! * `tree` divides regions, an interval and a state for each complementarity variable, until a
-//!   leaf closes them; `splice` puts its nodes into the cover, `shares` counts them.
+//!   leaf closes them, and `solutions` says how those with one support are closed; `splice` puts
+//!   the nodes into the cover, `shares` counts them.
 //! * `leaf` has one file per kind of evidence: `leaf::farkas`, `leaf::definite`, `leaf::ldl`,
 //!   `leaf::tail`, `leaf::root`, `leaf::infinity` (a root over a half line),
 //!   `leaf::support`.
@@ -31,7 +32,7 @@ pub mod continua;
 pub(crate) mod dyadic;
 mod ends_game;
 mod error;
-mod gains;
+pub(crate) mod gains;
 pub(crate) mod game;
 mod given;
 pub(crate) mod leaf;
@@ -44,9 +45,10 @@ pub(crate) mod region;
 pub(crate) mod rounding;
 pub(crate) mod rounds;
 pub(crate) mod shares;
-mod splice;
+mod solutions;
+pub(crate) mod splice;
 mod tableau;
-mod tree;
+pub(crate) mod tree;
 
 pub use error::CompleteError;
 pub use merge::merge;

@@ -1,15 +1,17 @@
 //! Regions of the search, and the nodes that the search puts in their place.
 //!
-//! A region is an interval of the unknown t and, for each complementarity variable, what is known
-//! of it: x_i = 0, x_i > 0 or undecided. A piece begins as one region in which nothing is decided.
-//! A cut of the interval or a branch on a variable divides a region in two.
+//! A region is an interval of the unknown t, an interval of mu where the pencil depends on it, and,
+//! for each complementarity variable, what is known of it: x_i = 0, x_i > 0 or undecided. A piece
+//! begins as one region in which nothing is decided. A cut of an interval or a branch on a variable
+//! divides a region in two.
 //!
 //! Variables are named by their *position* in the view of the pencil; `View::index` gives their
 //! numbers in the pencil.
 
 use super::pieces::view::View;
 use mceip_check::certificate::{Claim, Node, Root, RootOutcome};
-use mceip_exact::Rational;
+use mceip_exact::{Rational, to_f64};
+use num_traits::Zero;
 
 /// What is known of a complementarity variable in a region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,12 +54,14 @@ fn positions(states: &[State], holds: impl Fn(State) -> bool) -> Vec<usize> {
     positions
 }
 
-/// The part of (supports) x (window) that belongs to a node of the tree.
+/// The part of (supports) x (window) x (interval of mu) that belongs to a node of the tree.
 #[derive(Clone)]
 pub(crate) struct Region {
     /// The interval [lo, hi] of the unknown; `None` stands for infinity.
     pub(crate) lo: Rational,
     pub(crate) hi: Option<Rational>,
+    /// The interval of mu; [0, 0] where the pencil does not depend on it.
+    pub(crate) mu: [Rational; 2],
     /// One per complementarity variable, by position.
     pub(crate) states: Vec<State>,
     /// Cuts since the last branch: towards a degenerate end cutting alone would not come to an end.
@@ -67,11 +71,12 @@ pub(crate) struct Region {
 }
 
 impl Region {
-    /// An interval with nothing decided.
+    /// An interval of t with nothing decided.
     pub(crate) fn whole(lo: Rational, hi: Option<Rational>, variables: usize) -> Region {
         Region {
             lo,
             hi,
+            mu: [Rational::zero(), Rational::zero()],
             states: vec![State::Undecided; variables],
             cuts: 0,
             is_suspect: false,
@@ -94,11 +99,25 @@ impl Region {
         }
     }
 
+    /// The parts below and above a cut of mu.
+    pub(crate) fn cut_in_mu(&self, cut: &Rational) -> [Region; 2] {
+        let [from, to] = &self.mu;
+        let with_mu = |from: &Rational, to: &Rational| Region {
+            mu: [from.clone(), to.clone()],
+            ..self.clone()
+        };
+        [with_mu(from, cut), with_mu(cut, to)]
+    }
+
     /// The two parts into which an inner node of a tree divides the region, the one that comes
     /// first in preorder last; `None` for a leaf.
     pub(crate) fn parts(&self, node: &Node, view: &View) -> Option<[Region; 2]> {
         match node {
             Node::Split(cut) => Some([self.above(&cut.0), self.below(&cut.0)]),
+            Node::Friction(cut) => {
+                let [below, above] = self.cut_in_mu(&cut.0);
+                Some([above, below])
+            }
             Node::Branch(variable) => {
                 let position = view.position(*variable).unwrap_or(0);
                 let in_support = view.part(self, position, State::InSupport);
@@ -107,6 +126,17 @@ impl Region {
             }
             _ => None,
         }
+    }
+
+    /// The interval of t in doubles.
+    pub(crate) fn interval(&self) -> [f64; 2] {
+        let hi = self.hi.as_ref().map_or(f64::INFINITY, to_f64);
+        [to_f64(&self.lo), hi]
+    }
+
+    pub(crate) fn middle_friction(&self) -> f64 {
+        let [from, to] = self.mu.each_ref().map(to_f64);
+        0.5 * (from + to)
     }
 
     pub(crate) fn is_decided(&self) -> bool {

@@ -13,6 +13,7 @@ use super::options::Options;
 use super::pieces::prepared::Prepared;
 use super::region::{Item, Region};
 use super::shares::Shares;
+use super::solutions::Solutions;
 use super::tree::Search;
 use mceip_check::LeafPlace;
 use mceip_check::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
@@ -108,25 +109,28 @@ impl Pass<'_> {
             };
         }
 
+        let expansion = self.prepared.view.expansion(piece.anchor);
         let mut search = Search {
-            given: self.given,
             view: &self.prepared.view,
-            expansion: self.prepared.view.expansion(piece.anchor),
+            expansions: std::slice::from_ref(expansion),
             shares: self.shares,
             budget: self.options.nodes_per_piece,
             items: Vec::new(),
-            met: Vec::new(),
-            copier: self.snapshots.map(|snapshots| Copier::new(snapshots, k)),
+            aim: Solutions {
+                given: self.given,
+                met: Vec::new(),
+                copier: self.snapshots.map(|snapshots| Copier::new(snapshots, k)),
+            },
         };
 
         self.splice(&mut search, k);
-        if let Some(copier) = search.copier {
+        if let Some(copier) = search.aim.copier {
             copier.finish(&search.items, piece.tree.len());
         }
 
         SearchedPiece {
             items: search.items,
-            met: search.met,
+            met: search.aim.met,
         }
     }
 
@@ -143,7 +147,7 @@ impl Pass<'_> {
 
     /// Copies the tree of a piece in preorder; a chosen open leaf is replaced by what the search of
     /// its region finds.
-    fn splice(&self, search: &mut Search<'_>, k: usize) {
+    fn splice(&self, search: &mut Search<'_, Solutions<'_>>, k: usize) {
         let piece = &self.set.pieces[k];
         let hi = piece.max.as_ref().map(|number| number.0.clone());
         let mut waiting = vec![Waiting {
@@ -162,7 +166,7 @@ impl Pass<'_> {
                 let share = here.share / 2.0;
                 waiting.extend(parts.map(|region| Waiting { region, share }));
             } else if *node == Node::Open && self.chosen.takes((k, place)) {
-                if let Some(copier) = &mut search.copier {
+                if let Some(copier) = &mut search.aim.copier {
                     copier.begin(place, &search.items);
                 }
                 self.search_leaf(search, &here, piece);
@@ -173,9 +177,9 @@ impl Pass<'_> {
     }
 
     /// Searches the region of an open leaf.
-    fn search_leaf(&self, search: &mut Search<'_>, leaf: &Waiting, piece: &Piece) {
+    fn search_leaf(&self, search: &mut Search<'_, Solutions<'_>>, leaf: &Waiting, piece: &Piece) {
         // A piece beyond the anchors has no matrices to search with.
-        let is_enclosed = piece.anchor.is_some() || search.expansion.is_everywhere();
+        let is_enclosed = piece.anchor.is_some() || search.expansion().is_everywhere();
         let is_exact = matches!(self.chosen, Chosen::Exactly(_));
         if is_enclosed && !is_exact {
             search.region(&leaf.region, leaf.share);
@@ -184,7 +188,7 @@ impl Pass<'_> {
         }
     }
 
-    fn copy_leaf(&self, search: &mut Search<'_>, leaf: &Waiting, node: &Node) {
+    fn copy_leaf(&self, search: &mut Search<'_, Solutions<'_>>, leaf: &Waiting, node: &Node) {
         search.items.push(Item::Node(node.clone()));
         if *node != Node::Open {
             self.shares.closed(leaf.share, false);
@@ -194,7 +198,7 @@ impl Pass<'_> {
 
 /// The piece with these nodes, its claims numbered in the certificate's list, which grows by those
 /// that are new.
-pub(super) fn numbered(piece: &Piece, items: Vec<Item>, claims: &mut Vec<Claim>) -> Piece {
+pub(crate) fn numbered(piece: &Piece, items: Vec<Item>, claims: &mut Vec<Claim>) -> Piece {
     let mut tree = Vec::with_capacity(items.len());
     for item in items {
         tree.push(match item {

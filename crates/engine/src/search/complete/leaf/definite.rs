@@ -5,8 +5,7 @@
 //! end it also suffices that the symmetric part of the direction B is zero on these variables,
 //! because the matrix at the lower end is definite.
 //!
-//! Called by `tree` and `gains` for regions, by `ldl`, by `pieces::wide` and by the boxes of
-//! `analysis::absence`. The checker's side is `check::cover::definite`, with the test itself in
+//! Called by `tree` and `gains` for regions, by `ldl` and by `pieces::wide`. The checker's side is `check::cover::definite`, with the test itself in
 //! `check::cover::enclosed_definite`.
 
 use crate::dense::UpperTriangle;
@@ -16,11 +15,17 @@ use crate::search::complete::region::{State, possible_support};
 use crate::tolerance::DEFINITE_PIVOT;
 use mceip_check::certificate::Node;
 
-/// The leaf of a region with these ends and states, if its symmetric part is definite.
-pub(crate) fn leaf(ends: &Ends, states: &[State]) -> Option<Node> {
-    if holds_at_both_ends(ends, states, 1.0) {
+/// The leaf of a region with these states, if its symmetric part is definite at all corners: the
+/// ends of its interval of t, at both ends of its interval of mu.
+pub(crate) fn leaf(corners: &[Ends], states: &[State]) -> Option<Node> {
+    let is_definite = |sign| {
+        let mut corners = corners.iter();
+        corners.all(|ends| holds_at_both_ends(ends, states, sign))
+    };
+
+    if is_definite(1.0) {
         Some(Node::PositiveDefinite)
-    } else if holds_at_both_ends(ends, states, -1.0) {
+    } else if is_definite(-1.0) {
         Some(Node::NegativeDefinite)
     } else {
         None

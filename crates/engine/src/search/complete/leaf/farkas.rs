@@ -163,19 +163,13 @@ impl Columns {
         columns
     }
 
-    /// Of both ends of an interval: all columns of the lower, then all of the upper end.
-    pub(crate) fn of(ends: &Ends, states: &[State]) -> Columns {
+    /// Of both ends of an interval, for each corner of mu: all columns of the lower, then all of the
+    /// upper end.
+    pub(crate) fn of(corners: &[Ends], states: &[State]) -> Columns {
         let mut columns = Columns { list: Vec::new() };
-        columns.add(&ends.m[0], ends.r.as_ref(), states, false);
-        columns.add(&ends.m[1], ends.r.as_ref(), states, ends.is_half_line());
-        columns
-    }
-
-    /// Of both ends of several intervals.
-    pub(crate) fn of_all(all_ends: &[Ends], states: &[State]) -> Columns {
-        let mut columns = Columns { list: Vec::new() };
-        for ends in all_ends {
-            columns.list.extend(Columns::of(ends, states).list);
+        for ends in corners {
+            columns.add(&ends.m[0], ends.r.as_ref(), states, false);
+            columns.add(&ends.m[1], ends.r.as_ref(), states, ends.is_half_line());
         }
 
         columns

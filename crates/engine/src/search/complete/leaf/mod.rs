@@ -9,7 +9,7 @@
 //! | `root` | [`root`], and `precise` with long numbers | `root` |
 //! | `root` over a half line | [`infinity`] | `infinity` |
 //! | `support` | [`support`] | `support` |
-//! | `regular`, over an interval of friction | `analysis::absence::regular` | `regular` |
+//! | `regular` | [`regular`] | `regular` |
 //! | `open` | `tree` | nothing is proved |
 //!
 //! A file takes a region with its matrices and gives the node, or nothing where the evidence cannot
@@ -29,6 +29,7 @@ pub(crate) mod definite;
 pub(crate) mod farkas;
 pub(super) mod infinity;
 pub(super) mod ldl;
+pub(crate) mod regular;
 pub(super) mod root;
 pub(super) mod support;
 pub(crate) mod tail;

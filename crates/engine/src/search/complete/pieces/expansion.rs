@@ -67,6 +67,23 @@ impl Ends {
         }
     }
 
+    /// The ends of T0 + mu T1, given those of T0 and T1 over one interval of t.
+    pub(crate) fn at_friction([constant, slope]: [&Ends; 2], friction: f64) -> Ends {
+        let m = [0, 1].map(|end| combined(&constant.m[end], friction, &slope.m[end]));
+        let r = match (&constant.r, &slope.r) {
+            (Some(r), Some(r_slope)) => Some(combined(r, friction, r_slope)),
+            (r, r_slope) => r.clone().or(r_slope.clone()),
+        };
+
+        Ends {
+            lo: constant.lo,
+            hi: constant.hi,
+            m,
+            r,
+            slope: None,
+        }
+    }
+
     /// Radius of entry (i, j) of (hi - lo) T' about m[1] - m[0].
     pub(crate) fn slope_radius(&self, i: usize, j: usize) -> f64 {
         match &self.slope {
@@ -78,6 +95,18 @@ impl Ends {
     pub(crate) fn is_half_line(&self) -> bool {
         self.hi.is_infinite()
     }
+}
+
+/// a + factor b.
+fn combined(a: &Matrix, factor: f64, b: &Matrix) -> Matrix {
+    let mut sum = a.clone();
+    for (row, b_row) in sum.iter_mut().zip(b) {
+        for (entry, b) in row.iter_mut().zip(b_row) {
+            *entry += factor * b;
+        }
+    }
+
+    sum
 }
 
 /// The remainder of an expansion over an interval, entry by entry.

@@ -12,8 +12,8 @@
 //! P epsilon is of second order in the size of the box.
 //!
 //! The pivot is the one with the largest |(T_LL^-1)_kk| = |det T' / det T_LL| at the middle.
-//! Numbers are rounded to the fewest bits that still prove. Called by `boxes` for decided boxes
-//! with finite ends. The checker's side is `check::cover::regular`.
+//! Numbers are rounded to the fewest bits that still prove. Called by `analysis::absence`
+//! for decided boxes with finite ends. The checker's side is `check::cover::regular`.
 
 use crate::bordered::{NullVectors, largest};
 use crate::search::complete::pieces::expansion::Ends;
@@ -28,7 +28,7 @@ use mceip_mcp::linear::inverse;
 const BITS: [i32; 3] = [12, 22, 40];
 
 /// Y, u and v of a decided box.
-pub(super) struct Witness(NullVectors);
+pub(crate) struct Witness(NullVectors);
 
 /// What the corners of a box make of a witness.
 struct Bounds {
@@ -82,7 +82,7 @@ impl Bounds {
 impl Witness {
     /// The witness of the middle of a box, where T is `matrix`; `None` where nothing moves or T is
     /// singular to doubles.
-    pub(super) fn of(matrix: &Matrix, states: &[State]) -> Option<Witness> {
+    pub(crate) fn of(matrix: &Matrix, states: &[State]) -> Option<Witness> {
         let support = support(states);
         let whole = inverse(&principal_block(matrix, &support))?;
         let size = |place: usize| whole[place][place].abs();
@@ -92,7 +92,7 @@ impl Witness {
     }
 
     /// The leaf, if it holds at these corners; `index` gives the problem's numbers of positions.
-    pub(super) fn leaf(&self, corners: &[Ends], index: &[usize]) -> Option<Node> {
+    pub(crate) fn leaf(&self, corners: &[Ends], index: &[usize]) -> Option<Node> {
         if !Bounds::of(&self.0, corners).hold() {
             return None;
         }
@@ -102,7 +102,7 @@ impl Witness {
     }
 
     /// How far the leaf is from holding at these corners; infinite where T' may be singular.
-    pub(super) fn excess(&self, corners: &[Ends]) -> f64 {
+    pub(crate) fn excess(&self, corners: &[Ends]) -> f64 {
         let bounds = Bounds::of(&self.0, corners);
         if bounds.norm < 1.0 {
             bounds.excess()
