@@ -24,6 +24,7 @@
 
 pub mod analysis;
 mod bordered;
+mod branch;
 pub mod candidate;
 pub mod certify;
 mod dense;

@@ -18,7 +18,7 @@ use super::divergence::Divergence;
 use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
 use super::families::Families;
-use super::follow::{Branches, Point};
+use super::follow::{Branches, Minimum};
 use super::model::Model;
 use super::threshold::StaticThreshold;
 use crate::run::Progress;
@@ -411,7 +411,7 @@ impl Search<'_> {
         starts.sort_by(|p, q| p.mu.total_cmp(&q.mu));
         starts.truncate(MAX_STARTS);
 
-        let mut minima: Vec<Point> = Vec::new();
+        let mut minima: Vec<Minimum> = Vec::new();
         for (k, start) in starts.iter().enumerate() {
             if self.model.stopped() {
                 break;
@@ -426,9 +426,9 @@ impl Search<'_> {
             );
         }
 
-        minima.sort_by(|p, q| p.mu.total_cmp(&q.mu));
-        for point in &minima {
-            if self.certify(point, bounds)? {
+        minima.sort_by(|p, q| p.point.mu.total_cmp(&q.point.mu));
+        for minimum in &minima {
+            if self.certify(minimum, bounds)? {
                 break;
             }
         }
@@ -446,13 +446,13 @@ impl Search<'_> {
 
     /// Certifies a solution in doubles, if its mu is smaller than that of the known one; is it
     /// known afterwards?
-    fn certify(&self, point: &Point, bounds: &mut Bounds) -> Result<bool, AnalysisError> {
-        if self.model.stopped() || !bounds.is_smaller(point.mu) {
+    fn certify(&self, minimum: &Minimum, bounds: &mut Bounds) -> Result<bool, AnalysisError> {
+        if self.model.stopped() || !bounds.is_smaller(minimum.point.mu) {
             return Ok(false);
         }
 
         // lambda = 0 is left out: there the static threshold is the smallest.
-        let Some((lambda2, moved)) = self.branches.at_short_value(point) else {
+        let Some((lambda2, moved)) = self.branches.at_short_value(minimum) else {
             return Ok(false);
         };
 
@@ -680,12 +680,12 @@ impl Search<'_> {
     ) -> Result<Next, AnalysisError> {
         for blocked in obstacles {
             let [lambda2, mu] = blocked.middle;
-            let point = self.branches.minimum_below(lambda2, mu, &blocked.x);
-            if let Some(point) = point
-                && self.certify(&point, bounds)?
+            let minimum = self.branches.minimum_below(lambda2, mu, &blocked.x);
+            if let Some(minimum) = minimum
+                && self.certify(&minimum, bounds)?
             {
                 bounds.places.push(Place {
-                    lambda2: point.t,
+                    lambda2: minimum.point.t,
                     near: FIRST_NEAR,
                 });
                 return Ok(Next::Again);

@@ -4,11 +4,10 @@
 //! gives the eigenvalues; Newton's method from each real positive one gives its x, which is kept
 //! where it is positive. Called by the command `block` and by campaigns; nothing is certified here.
 
+use crate::branch::{Pencils, Slice, Unknown};
+use crate::search::complete::pieces::matrix::{Matrix, combined};
 use crate::tolerance::REAL_EIGENVALUE;
 use mceip_mcp::linear::{eigenvalues, solve};
-
-/// Newton steps from an eigenvalue of the QR algorithm and the even vector.
-const STEPS: usize = 30;
 
 /// An all-slip solution in doubles: (A + mu B) x = 0, x > 0, e'x = 1. Not certified.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,68 +73,54 @@ struct DensePencil<'a> {
     b: &'a [Vec<f64>],
 }
 
-impl DensePencil<'_> {
-    /// Newton's method for (A + mu B) x = 0, e'x = 1, from the even vector: its first step is one
-    /// of inverse iteration. `None` where it does not end near `start` with x > 0.
-    fn polished(&self, start: f64) -> Option<AllSlip> {
-        let n = self.a.len();
-        let mut mu = start;
-        let mut x = vec![1.0 / n as f64; n];
-        let mut best: Option<AllSlip> = None;
+/// It does not depend on t.
+impl Pencils for DensePencil<'_> {
+    type Slice<'s>
+        = &'s Self
+    where
+        Self: 's;
 
-        for _ in 0..STEPS {
-            let step = self.newton_step(mu, &x)?;
-            for (component, change) in x.iter_mut().zip(&step) {
-                *component += change;
-            }
-            mu += step[n];
-            let residual = self.residual(mu, &x);
-
-            // Steps go on while they help: the last digits are worth one or two more.
-            if let Some(best) = &best
-                && best.residual <= residual
-                && best.residual < REAL_EIGENVALUE
-            {
-                break;
-            }
-            best = Some(AllSlip {
-                mu,
-                x: x.clone(),
-                residual,
-            });
-        }
-
-        let best = best?;
-        let is_solution = best.residual < REAL_EIGENVALUE;
-        let is_near = (best.mu - start).abs() < 1e3 * REAL_EIGENVALUE * start;
-        let is_positive = best.x.iter().all(|v| *v > 0.0);
-        (is_solution && is_near && is_positive).then_some(best)
+    fn at(&self, _t: f64) -> Option<&Self> {
+        Some(self)
     }
 
-    /// The step (of x, of mu) for the equations (A + mu B) x = 0 and e'x = 1, whose Jacobian is
-    /// [[A + mu B, B x], [e', 0]]; `None` where that is singular.
-    fn newton_step(&self, mu: f64, x: &[f64]) -> Option<Vec<f64>> {
-        let n = x.len();
-        let ax = product(self.a, x);
-        let bx = product(self.b, x);
+    fn unit(&self) -> f64 {
+        1.0
+    }
+}
 
-        let mut jacobian = Vec::new();
-        let mut right = Vec::new();
-        for i in 0..n {
-            let mut row = Vec::new();
-            for j in 0..n {
-                row.push(self.a[i][j] + mu * self.b[i][j]);
-            }
-            row.push(bx[i]);
-            jacobian.push(row);
-            right.push(-(ax[i] + mu * bx[i]));
-        }
+impl Slice for &DensePencil<'_> {
+    fn matrix(&self, mu: f64) -> Matrix {
+        combined(self.a, mu, self.b)
+    }
 
-        let mut last_row = vec![1.0; n];
-        last_row.push(0.0);
-        jacobian.push(last_row);
-        right.push(1.0 - x.iter().sum::<f64>());
-        solve(&jacobian, &[right])?.pop()
+    fn of_mu(&self) -> &[Vec<f64>] {
+        self.b
+    }
+
+    fn of_t(&self, _mu: f64, x: &[f64]) -> Vec<f64> {
+        vec![0.0; x.len()]
+    }
+}
+
+impl DensePencil<'_> {
+    /// The solution near an eigenvalue, from the even vector: the first step of Newton's method is
+    /// one of inverse iteration. `None` where it does not end near `start` with x > 0.
+    fn polished(&self, start: f64) -> Option<AllSlip> {
+        let order = self.a.len();
+        let every_variable: Vec<usize> = (0..order).collect();
+        let even = vec![1.0; order];
+        let found = self.solved(Unknown::Friction, [0.0, start], &even, &every_variable)?;
+
+        let residual = self.residual(found.mu, &found.x);
+        let is_solution = residual < REAL_EIGENVALUE;
+        let is_near = (found.mu - start).abs() < 1e3 * REAL_EIGENVALUE * start;
+        let is_positive = found.x.iter().all(|v| *v > 0.0);
+        (is_solution && is_near && is_positive).then_some(AllSlip {
+            mu: found.mu,
+            x: found.x,
+            residual,
+        })
     }
 
     /// The largest entry of (A + mu B) x, relative to the largest sum of moduli it is made of.
@@ -160,16 +145,6 @@ impl DensePencil<'_> {
 
         residual
     }
-}
-
-/// Matrix times vector.
-fn product(matrix: &[Vec<f64>], x: &[f64]) -> Vec<f64> {
-    let mut product = Vec::new();
-    for row in matrix {
-        product.push(row.iter().zip(x).map(|(m, x)| m * x).sum());
-    }
-
-    product
 }
 
 #[cfg(test)]

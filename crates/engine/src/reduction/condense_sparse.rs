@@ -23,6 +23,7 @@
 #![allow(clippy::float_arithmetic)]
 
 use super::CondensationError;
+use crate::search::complete::pieces::matrix::combined;
 use mceip_exact::to_f64;
 use mceip_mcp::linear::{Analysis, SchurFactor, Symmetric};
 use mceip_model::{ContactState, Direction, Particle};
@@ -353,14 +354,7 @@ impl SparseCondensation {
 impl SparseCondensed<'_> {
     /// T = A + mu B, n_s x n_s by rows.
     pub fn pencil(&self, mu: f64) -> Vec<Vec<f64>> {
-        let mut t = self.a.clone();
-        for (row, b_row) in t.iter_mut().zip(&self.b) {
-            for (entry, b) in row.iter_mut().zip(b_row) {
-                *entry += mu * b;
-            }
-        }
-
-        t
+        combined(&self.a, mu, &self.b)
     }
 
     /// v over all dofs of K for x of the slip particles: v_T = -S x, v_N = 0, f in balance. // (10)

@@ -8,8 +8,9 @@
 //! Input: a solution in doubles, and the mu to go to. Output: [`Followed`], whose stretches the
 //! checker decides about. Called by `mod.rs`.
 
-use super::curve::{Curves, Point, beyond};
+use super::curve::Curves;
 use super::witness::{Place, Witness};
+use crate::branch::{Pencils, Point, Slice, Unknown};
 use crate::run::Watch;
 use crate::tolerance::LEAST_STRETCH;
 use mceip_check::certificate::PresencePiece;
@@ -161,16 +162,18 @@ impl Climb<'_> {
 
     /// A point beyond a place that is left out, on this support or another.
     fn skip(&self, here: &Point, mu: f64) -> Option<Point> {
-        let mut guess = here.clone();
-        for _ in 0..MAX_SUPPORTS {
-            let next = self.curves.at_friction(mu, &guess)?;
-            match next.violated {
-                None => return Some(next),
-                Some(position) => guess = beyond(&next, position),
-            }
+        let mut point = self.curves.at_friction(mu, here)?;
+        for _ in 1..MAX_SUPPORTS {
+            let Some(position) = point.violated else {
+                return Some(point);
+            };
+            let place = [point.t, mu];
+            point = self
+                .curves
+                .beyond(Unknown::Lambda2, place, &point, position)?;
         }
 
-        None
+        point.violated.is_none().then_some(point)
     }
 
     /// The proof between two points of a curve.
@@ -187,7 +190,7 @@ impl Climb<'_> {
             return None;
         }
 
-        let matrix = self.curves.matrix(middle.t, middle.mu);
+        let matrix = self.curves.at(middle.t)?.matrix(middle.mu);
         let witness = Witness::of(&matrix, &middle)?;
         let anchor = self.curves.anchor(middle.t);
         let expansions = self.curves.expansions(middle.t);
@@ -219,7 +222,7 @@ impl Climb<'_> {
         let highest = below.t.max(middle.t).max(above.t);
 
         let relative_length = (above.mu - below.mu) / middle.mu;
-        let flat = FLAT * (middle.t + self.curves.scale()) * relative_length;
+        let flat = FLAT * (middle.t + self.curves.unit()) * relative_length;
         let missing = (flat - (highest - lowest)).max(0.0);
         [lowest - 0.5 * missing, highest + 0.5 * missing]
     }

@@ -24,10 +24,11 @@ mod witness;
 
 use super::absence::{Family, Place};
 use super::critical::Start;
+use crate::branch::{Pencils, Point, Unknown};
 use crate::run::{Progress, Watch};
 use crate::tolerance::{LEAST_INTERVAL, PRESENCE_NEAR, PRESENCE_START};
 use climb::{Climb, Followed, Stretch, short_multiple};
-use curve::{Curves, Point};
+use curve::Curves;
 use intervals::{Chain, chains, extent, gaps};
 use mceip_check::certificate::PresenceCertificate;
 use mceip_check::{Proved, Reason};
@@ -154,7 +155,7 @@ impl<'a> Prover<'a> {
     /// curve may be vertical: it is met at larger and larger distances in lambda^2.
     fn beside(&self, smallest: &Start, side: f64, mu: f64) -> Option<Point> {
         let curves = self.climb().curves;
-        let unit = smallest.lambda2 + curves.scale();
+        let unit = smallest.lambda2 + curves.unit();
         let mut guess = smallest.x.clone();
         let mut friction = smallest.mu;
         for k in (0..NEAREST).rev() {
@@ -163,7 +164,7 @@ impl<'a> Prover<'a> {
                 return None;
             }
 
-            let point = curves.near([t, friction], &guess, true)?;
+            let point = curves.near(Unknown::Friction, [t, friction], &guess)?;
             if point.mu >= mu {
                 return curves
                     .at_friction(mu, &point)
@@ -202,7 +203,7 @@ impl<'a> Prover<'a> {
     fn across(&self, [low, high]: [f64; 2], start: &Start) -> Vec<Followed> {
         let climb = self.climb();
         let place = [start.lambda2, start.mu];
-        let Some(point) = climb.curves.near(place, &start.x, false) else {
+        let Some(point) = climb.curves.near(Unknown::Lambda2, place, &start.x) else {
             return Vec::new();
         };
 

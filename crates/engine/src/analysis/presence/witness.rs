@@ -16,8 +16,8 @@
 //! Doubles propose a witness that holds by a margin, with the fewest bits that still do. Called by
 //! `climb`; the checker's side is `check::cover::presence`.
 
-use super::curve::Point;
 use crate::bordered::{Ball, Corner, NullVectors, largest};
+use crate::branch::Point;
 use crate::search::complete::pieces::expansion::{Ends, Expansion};
 use crate::search::complete::pieces::matrix::{Matrix, principal_block, times};
 use crate::tolerance::PRESENCE_MARGIN;

@@ -13,7 +13,7 @@
 //! Made by `view` (no free variables) and `anchor` (about the anchors of a condensation); read by
 //! every leaf.
 
-use super::matrix::{Matrix, zeros};
+use super::matrix::{Matrix, combined, zeros};
 use crate::tolerance::CONDENSATION_NOISE;
 
 /// Norms of the columns of a matrix polynomial: `[k][j]` is that of column j of coefficient k.
@@ -95,18 +95,6 @@ impl Ends {
     pub(crate) fn is_half_line(&self) -> bool {
         self.hi.is_infinite()
     }
-}
-
-/// a + factor b.
-fn combined(a: &Matrix, factor: f64, b: &Matrix) -> Matrix {
-    let mut sum = a.clone();
-    for (row, b_row) in sum.iter_mut().zip(b) {
-        for (entry, b) in row.iter_mut().zip(b_row) {
-            *entry += factor * b;
-        }
-    }
-
-    sum
 }
 
 /// The remainder of an expansion over an interval, entry by entry.

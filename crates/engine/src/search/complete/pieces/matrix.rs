@@ -10,7 +10,7 @@ pub(crate) fn zeros(order: usize) -> Matrix {
 }
 
 /// Largest modulus of an entry, zero for an empty matrix.
-pub(crate) fn largest_entry(matrix: &Matrix) -> f64 {
+pub(crate) fn largest_entry(matrix: &[Vec<f64>]) -> f64 {
     matrix
         .iter()
         .flatten()
@@ -18,7 +18,7 @@ pub(crate) fn largest_entry(matrix: &Matrix) -> f64 {
 }
 
 /// The block on these rows and columns.
-pub(crate) fn principal_block(matrix: &Matrix, indices: &[usize]) -> Matrix {
+pub(crate) fn principal_block(matrix: &[Vec<f64>], indices: &[usize]) -> Matrix {
     let mut block = Vec::with_capacity(indices.len());
     for &i in indices {
         block.push(indices.iter().map(|&j| matrix[i][j]).collect());
@@ -28,7 +28,7 @@ pub(crate) fn principal_block(matrix: &Matrix, indices: &[usize]) -> Matrix {
 }
 
 /// The product `matrix * x`.
-pub(crate) fn times(matrix: &Matrix, x: &[f64]) -> Vec<f64> {
+pub(crate) fn times(matrix: &[Vec<f64>], x: &[f64]) -> Vec<f64> {
     matrix
         .iter()
         .map(|row| row.iter().zip(x).map(|(a, b)| a * b).sum())
@@ -36,7 +36,7 @@ pub(crate) fn times(matrix: &Matrix, x: &[f64]) -> Vec<f64> {
 }
 
 /// The multiple `factor * matrix`.
-pub(crate) fn scaled(matrix: &Matrix, factor: f64) -> Matrix {
+pub(crate) fn scaled(matrix: &[Vec<f64>], factor: f64) -> Matrix {
     matrix
         .iter()
         .map(|row| row.iter().map(|v| factor * v).collect())
@@ -44,7 +44,19 @@ pub(crate) fn scaled(matrix: &Matrix, factor: f64) -> Matrix {
 }
 
 /// u' matrix v
-pub(crate) fn bilinear(u: &[f64], matrix: &Matrix, v: &[f64]) -> f64 {
+pub(crate) fn bilinear(u: &[f64], matrix: &[Vec<f64>], v: &[f64]) -> f64 {
     let product = times(matrix, v);
     u.iter().zip(product).map(|(u_i, p_i)| u_i * p_i).sum()
+}
+
+/// a + factor b.
+pub(crate) fn combined(a: &[Vec<f64>], factor: f64, b: &[Vec<f64>]) -> Matrix {
+    let mut sum = a.to_vec();
+    for (row, b_row) in sum.iter_mut().zip(b) {
+        for (entry, b) in row.iter_mut().zip(b_row) {
+            *entry += factor * b;
+        }
+    }
+
+    sum
 }
