@@ -27,6 +27,7 @@ use mceip_exact::{enclosing_decimals, parse, to_f64};
 use mceip_model::file::require_format;
 use mceip_model::reduction::reduce;
 use mceip_model::{Problem, Window};
+use num_traits::Zero;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `check`.
@@ -111,7 +112,9 @@ fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
         }) => {
             let digest = problem.sha256();
             let evidence = format!("lambda2, problem {digest}, {leaves} leaves accepted");
-            let window = format!("friction in [{from}, {below}], lambda2 in [0, infinity)");
+            // At mu = 0 a slip particle may slide both ways, of which (9) has one.
+            let begin = if from.is_zero() { "(" } else { "[" };
+            let window = format!("friction in {begin}{from}, {below}], lambda2 in [0, infinity)");
             let text = format!("ABSENT for {window}: no solution ({evidence})\n");
             (text, exit::DONE)
         }

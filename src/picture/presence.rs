@@ -28,6 +28,8 @@ pub struct PresenceRange {
     pub presence: Presence,
     /// Lower end.
     pub from: f64,
+    /// Does the verdict hold at the lower end?
+    pub is_from_included: bool,
     /// Upper end; `None` for infinity.
     pub to: Option<f64>,
     /// Does it hold everywhere between the ends? If not, only at the samples in it.
@@ -168,8 +170,13 @@ fn band(chart: &Chart, range: &PresenceRange) -> Element {
 
     let standing = if range.is_proved { "proved" } else { "sampled" };
     let to = range.to.map_or_else(|| "infinity".into(), label);
+    let begin = if range.is_from_included {
+        "from"
+    } else {
+        "above"
+    };
     let tip = format!(
-        "mu from {} to {to}: {}, {standing}",
+        "mu {begin} {} to {to}: {}, {standing}",
         label(range.from),
         range.presence.word()
     );

@@ -151,6 +151,9 @@ fn verdict_at_infinity(cover: &AcceptedCover) -> String {
     } else if count == 0 {
         "COMPLETE: nothing at infinity".into()
     } else {
-        format!("COMPLETE: {count} at infinity (limits of x, no value of the window), and no other")
+        format!(
+            "COMPLETE: {count} at infinity (what limits of x can be, no value of the window), and no \
+             other"
+        )
     }
 }

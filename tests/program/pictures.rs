@@ -427,18 +427,21 @@ fn presence_of_every_kind() -> PresenceChart {
             PresenceRange {
                 presence: Presence::Absent,
                 from: 0.0,
+                is_from_included: false,
                 to: Some(1.0),
                 is_proved: true,
             },
             PresenceRange {
                 presence: Presence::Present,
                 from: 1.2,
+                is_from_included: true,
                 to: Some(2.0),
                 is_proved: false,
             },
             PresenceRange {
                 presence: Presence::Undecided,
                 from: 2.5,
+                is_from_included: true,
                 to: None,
                 is_proved: false,
             },
@@ -468,6 +471,16 @@ fn presence_is_drawn_at_its_values_of_mu() {
         "range undecided sampled",
     ];
     assert_eq!(classes, expected);
+
+    // Absence for 0 < mu says nothing of mu = 0.
+    assert!(
+        text.contains("mu above 0 to 1: no divergence, proved"),
+        "{text}"
+    );
+    assert!(
+        text.contains("mu from 1.2 to 2: divergence, sampled"),
+        "{text}"
+    );
 
     // A proof has a full outline, samples a dashed one; the undecided range alone is hatched.
     let mut dashes = Vec::new();

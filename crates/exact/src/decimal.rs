@@ -45,8 +45,8 @@ pub fn ratio_to_decimal(
         if let Some(quotient) = top.div(&bottom)
             && quotient.certain_sign() != 0
         {
-            let rounded_lo = round(quotient.lo(), digits);
-            let rounded_hi = round(quotient.hi(), digits);
+            let rounded_lo = nearest_decimal(quotient.lo(), digits);
+            let rounded_hi = nearest_decimal(quotient.hi(), digits);
             if rounded_lo == rounded_hi {
                 return rounded_lo;
             }
@@ -54,7 +54,7 @@ pub fn ratio_to_decimal(
                 // numerator - tie * denominator vanishes here exactly when the quotient is the tie.
                 let difference = &numerator.scale(tie.denom()) - &denominator.scale(tie.numer());
                 if number.sign_of(&difference) == Sign::Zero {
-                    return round(&tie, digits);
+                    return nearest_decimal(&tie, digits);
                 }
             }
         }
@@ -84,7 +84,10 @@ pub fn enclosing_decimals(interval: &Interval, digits: usize) -> (String, String
     let down = times_power_of_ten(&times_power_of_ten(interval.lo(), power).floor(), -power);
     let up = times_power_of_ten(&times_power_of_ten(interval.hi(), power).ceil(), -power);
 
-    (round(&down, digits + 1), round(&up, digits + 1)) // both are exact at that length
+    (
+        nearest_decimal(&down, digits + 1),
+        nearest_decimal(&up, digits + 1),
+    ) // both are exact at that length
 }
 
 /// A decimal with `digits` significant digits that is not below the number.
@@ -98,7 +101,12 @@ pub fn upper_decimal(value: &Rational, digits: usize) -> String {
 }
 
 /// A rational rounded to `digits` significant digits, half away from zero.
-pub(crate) fn round(value: &Rational, digits: usize) -> String {
+///
+/// ```
+/// use mceip_exact::{nearest_decimal, rational};
+/// assert_eq!(nearest_decimal(&rational(2, 3_000_000), 2), "6.7e-7");
+/// ```
+pub fn nearest_decimal(value: &Rational, digits: usize) -> String {
     if value.is_zero() {
         return "0".into();
     }
@@ -205,7 +213,11 @@ mod tests {
             ("1.25e30", 3, "1.25e30"),
             ("0.0001234", 2, "0.00012"),
         ] {
-            assert_eq!(round(&parse(text).unwrap(), digits), want, "{text}");
+            assert_eq!(
+                nearest_decimal(&parse(text).unwrap(), digits),
+                want,
+                "{text}"
+            );
         }
     }
 

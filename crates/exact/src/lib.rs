@@ -36,7 +36,9 @@ mod sparse;
 pub use algebraic::{Algebraic, Sign, simplest_between};
 pub use cofactor::first_row_cofactors;
 pub use cone::{Generators, cone_generators, dot};
-pub use decimal::{enclosing_decimals, ratio_to_decimal, to_decimal, upper_decimal};
+pub use decimal::{
+    enclosing_decimals, nearest_decimal, ratio_to_decimal, to_decimal, upper_decimal,
+};
 pub use definite::{DefiniteError, NotDefinite, positive_definite};
 pub use dense::Dense;
 pub use double::{from_f64, to_f64, truncated};

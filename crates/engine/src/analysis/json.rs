@@ -15,7 +15,6 @@ use super::ranges::{Range, Sample};
 use super::sentences::Sentence;
 use mceip_check::{OpenRegion, SolutionFamily};
 use mceip_exact::{Algebraic, Interval, enclosing_decimals, to_f64};
-use num_traits::Zero;
 use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
@@ -201,13 +200,6 @@ impl Analysis {
             "proved": !matches!(range.evidence, Evidence::Measured(_)),
             "evidence": self.evidence_json(&range.evidence, paths),
         })
-    }
-
-    /// Does what is said of a range hold at its lower end? Absence from 0 on is that for mu > 0
-    /// where mu = 0, at which slip particles may slide either way, is not proved to have none.
-    fn is_from_included(&self, range: &Range) -> bool {
-        let is_absence_from_zero = range.verdict == Verdict::Absent && range.from.is_zero();
-        !is_absence_from_zero || self.without_friction == Verdict::Absent
     }
 
     fn divergence_json(&self) -> Value {

@@ -13,6 +13,7 @@
 
 use super::absence::{Family, Place};
 use super::absent_ranges;
+use super::answer::Analysis;
 use super::critical::{CertifiedSolution, Critical, Found, Known, Start};
 use super::divergence::{Verdict, verdict};
 use super::error::AnalysisError;
@@ -52,6 +53,15 @@ pub struct Range {
     /// What stands behind it: what proves it everywhere between its ends, or for samples a
     /// measurement, because nothing is proved between them.
     pub evidence: Evidence,
+}
+
+impl Analysis {
+    /// Does what is said of a range hold at its lower end? Absence from 0 on is that for mu > 0
+    /// where mu = 0, at which slip particles may slide either way, is not proved to have none.
+    pub fn is_from_included(&self, range: &Range) -> bool {
+        let is_absence_from_zero = range.verdict == Verdict::Absent && range.from.is_zero();
+        !is_absence_from_zero || self.without_friction == Verdict::Absent
+    }
 }
 
 /// Behind a range of samples.

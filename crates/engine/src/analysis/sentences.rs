@@ -16,7 +16,7 @@ use super::ranges::Range;
 use super::threshold::StaticThreshold;
 use crate::tolerance::WITH_SIX_DECIMALS;
 use mceip_check::{OpenRegion, SolutionFamily};
-use mceip_exact::{Interval, Rational, enclosing_decimals, to_f64, upper_decimal};
+use mceip_exact::{Interval, Rational, enclosing_decimals, nearest_decimal, to_f64, upper_decimal};
 use num_traits::{Signed, Zero};
 
 /// One sentence of the answer.
@@ -58,7 +58,7 @@ pub(super) fn up(v: &Rational) -> String {
 pub(super) fn short(v: &Rational) -> String {
     let value = to_f64(v);
     if !v.is_zero() && !short_is_plain(value) {
-        return enclosing_decimals(&Interval::point(v.clone()), 6).0;
+        return nearest_decimal(v, 6);
     }
 
     let text = format!("{value:.6}");
@@ -77,10 +77,7 @@ pub(super) fn exactly(v: &Rational) -> String {
     if fraction.len() <= LONGEST_FRACTION {
         format!("{fraction} ({})", short(v))
     } else {
-        format!(
-            "about {}",
-            enclosing_decimals(&Interval::point(v.clone()), 17).0
-        )
+        format!("about {}", nearest_decimal(v, 17))
     }
 }
 
