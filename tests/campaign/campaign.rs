@@ -75,8 +75,6 @@ fn whole_campaign(seed: u64, families: Vec<String>) -> State {
 
 #[test]
 fn every_family_is_clean_and_reaches_its_corners() {
-    use Corner::*;
-
     let Outcome { state, replays } = run(&standard(1), whole_campaign(1, all_families()), 2);
     assert!(replays.is_empty(), "{replays:#?}");
     assert_eq!(state.disagreements(), 0);
@@ -95,27 +93,7 @@ fn every_family_is_clean_and_reaches_its_corners() {
         reached.extend(tally.corners.keys().cloned());
     }
 
-    for corner in [
-        Biactive,
-        Repeated,
-        ZeroValue,
-        WideKernel,
-        Singular,
-        Threshold,
-        OneByOne,
-        FreeVariables,
-        Oblique,
-        Stick,
-        CoupledMass,
-        NearThreshold,
-        IllConditioned,
-        HugeScale,
-        TinyScale,
-        Planted,
-        FiniteWindow,
-        PointWindow,
-        Empty,
-    ] {
+    for corner in Corner::ALL {
         let name = format!("{corner:?}");
         assert!(reached.contains(&name), "{name} not reached");
     }

@@ -12,10 +12,9 @@ use mceip_engine::analysis::{Analysis, CertifiedSolution, Options, ProofCertific
 use mceip_engine::run::Watch;
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::reduction::reduce_system;
-use mceip_model::{ContactState, System, Unknown, Window};
+use mceip_model::{System, Unknown, Window};
 use mceip_oracle::{Solution, enumerate_modes};
 use mceip_testkit::generators::{Seed, states};
-use rand::RngExt;
 
 /// Number of this family of random systems, for [`Seed`].
 const FAMILY: u64 = 95;
@@ -60,19 +59,7 @@ fn random_system(index: u64) -> System {
         index,
     };
     let mut rng = seed.rng();
-    let mut list = Vec::new();
-    for _ in 0..rng.random_range(1..=2) {
-        let sign = if rng.random_range(0..2) == 0 { 1 } else { -1 };
-        list.push(ContactState::Slip { sign });
-    }
-    list.extend(vec![ContactState::Zero; rng.random_range(1..=2)]);
-    if rng.random_range(0..3) == 0 {
-        list.push(ContactState::Stick);
-    }
-    if rng.random_range(0..3) == 0 {
-        list.push(ContactState::Free);
-    }
-
+    let list = states::mixture_with_zero(&mut rng, 2, 3);
     states::system(&mut rng, &list, &mut Vec::new()).unwrap()
 }
 

@@ -18,10 +18,10 @@ use mceip_model::reduction::{reduce, reduce_system};
 use mceip_model::{Admissible, Body, ContactState, Problem, Reduced, System, Unknown, Window};
 use mceip_oracle::{Solution, enumerate_modes};
 use mceip_testkit::floors::{Coverage, Starts, floor, shortfalls};
+use mceip_testkit::generators::states::ZeroModes;
 use mceip_testkit::generators::{Seed, states};
 use nalgebra::DMatrix;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
 
 /// Number of this family of random systems, for [`Seed`], and of those with many free degrees of
 /// freedom.
@@ -47,43 +47,7 @@ struct Met {
     without_solution: usize,
     degenerate: usize,
     uncertified: usize,
-    open: usize,
-    sticking: usize,
-    right: usize,
-    left: usize,
-}
-
-impl Met {
-    /// The mode of each z particle in a solution that was found.
-    fn count_modes(&mut self, split: &Reduced, positive: &[usize]) {
-        for variables in &split.zero {
-            if positive.contains(&variables.gap) {
-                self.open += 1;
-            } else if positive.contains(&variables.right) {
-                self.right += 1;
-            } else if positive.contains(&variables.left) {
-                self.left += 1;
-            } else {
-                self.sticking += 1;
-            }
-        }
-    }
-}
-
-fn random_states(rng: &mut ChaCha8Rng) -> Vec<ContactState> {
-    let mut states = Vec::new();
-    for _ in 0..rng.random_range(1..=3) {
-        let sign = if rng.random_range(0..2) == 0 { 1 } else { -1 };
-        states.push(ContactState::Slip { sign });
-    }
-    states.extend(vec![ContactState::Zero; rng.random_range(1..=2)]);
-    if rng.random_range(0..2) == 0 {
-        states.push(ContactState::Stick);
-    }
-    if rng.random_range(0..2) == 0 {
-        states.push(ContactState::Free);
-    }
-    states
+    modes: ZeroModes,
 }
 
 fn random_problem(index: u64) -> Problem {
@@ -93,7 +57,7 @@ fn random_problem(index: u64) -> Problem {
         index,
     };
     let mut rng = seed.rng();
-    let states = random_states(&mut rng);
+    let states = states::mixture_with_zero(&mut rng, 3, 2);
     let system = states::system(&mut rng, &states, &mut Vec::new()).unwrap();
     let unknown = [Unknown::Lambda2, Unknown::Mu][(index % 2) as usize];
     Problem::new(Body::System(system), unknown, Window::all()).unwrap()
@@ -139,7 +103,7 @@ fn compare(index: u64, met: &mut Met) {
         let is_known = |solution: &&Solution| is_listed_as(certified, solution);
         let same = all.solutions.iter().filter(is_known).count();
         assert_eq!(same, 1, "system {index}: {certified:?}");
-        met.count_modes(&split, support(&certified.claim));
+        met.modes.count(&split, support(&certified.claim));
         assert_the_opposite_is_refused(&problem, &certified.claim);
     }
 
@@ -208,7 +172,7 @@ fn large_systems_are_certified_by_boxes() {
             };
             let same = all.solutions.iter().filter(|one| is_in(claim, one)).count();
             assert_eq!(same, 1, "system {index}");
-            met.count_modes(&split, &claim.support);
+            met.modes.count(&split, &claim.support);
             assert_the_other_half_is_refused(&problem, &split, claim);
         }
 
@@ -222,8 +186,7 @@ fn large_systems_are_certified_by_boxes() {
     println!("{met:?}");
     let short = shortfalls(FLOOR, Starts::Search, &met.coverage);
     assert!(short.is_empty(), "{short:?}, {met:?}");
-    let modes = [met.open, met.sticking, met.right, met.left];
-    assert!(modes.iter().all(|&count| count >= 1), "{met:?}");
+    assert!(met.modes.rarest() >= 1, "{met:?}");
 }
 
 /// The checker accepts the box, and not the same box about the other half of v_T.
@@ -291,8 +254,7 @@ fn solutions_with_zero_reaction_are_found_and_certified() {
 
     assert!(met.coverage.solvable >= 15, "{met:?}");
     assert!(met.without_solution >= 10, "{met:?}");
-    let modes = [met.open, met.sticking, met.right, met.left];
-    assert!(modes.iter().all(|&count| count >= 3), "{met:?}");
+    assert!(met.modes.rarest() >= 3, "{met:?}");
 }
 
 #[test]
@@ -301,8 +263,7 @@ fn solutions_with_zero_reaction_of_two_thousand_systems_are_found() {
     let met = run(FEW..FEW + MANY);
 
     assert!(met.coverage.solvable >= 500, "{met:?}");
-    let modes = [met.open, met.sticking, met.right, met.left];
-    assert!(modes.iter().all(|&count| count >= 100), "{met:?}");
+    assert!(met.modes.rarest() >= 100, "{met:?}");
 }
 
 /// Each solution of the list is a zero of the MCP's normal map: rows of free unknowns vanish, the

@@ -58,6 +58,31 @@ pub enum Corner {
     Empty,
 }
 
+impl Corner {
+    /// All of them.
+    pub const ALL: [Corner; 19] = [
+        Corner::Biactive,
+        Corner::Repeated,
+        Corner::ZeroValue,
+        Corner::WideKernel,
+        Corner::Singular,
+        Corner::Threshold,
+        Corner::OneByOne,
+        Corner::FreeVariables,
+        Corner::Oblique,
+        Corner::Stick,
+        Corner::CoupledMass,
+        Corner::NearThreshold,
+        Corner::IllConditioned,
+        Corner::HugeScale,
+        Corner::TinyScale,
+        Corner::Planted,
+        Corner::FiniteWindow,
+        Corner::PointWindow,
+        Corner::Empty,
+    ];
+}
+
 /// A problem of a family, with the closed form where there is one.
 #[derive(Debug, Clone)]
 pub struct Instance {

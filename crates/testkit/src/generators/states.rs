@@ -7,7 +7,7 @@
 use super::{gram, random_order, sparse};
 use crate::families::Corner;
 use mceip_exact::{Rational, Sparse, rational, whole};
-use mceip_model::{ContactState, ModelError, Particle, System};
+use mceip_model::{ContactState, ModelError, Particle, Reduced, System};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -51,6 +51,67 @@ fn decoded(code: usize, particles: u32) -> Vec<ContactState> {
 
 fn is_slip(state: &ContactState) -> bool {
     matches!(state, ContactState::Slip { .. })
+}
+
+/// One to `most_slip` particles that slip, one or two with zero reaction, and one that sticks and
+/// one that is free, each in one of `rarity` mixtures.
+pub fn mixture_with_zero(rng: &mut ChaCha8Rng, most_slip: usize, rarity: u32) -> Vec<ContactState> {
+    let mut states = Vec::new();
+    for _ in 0..rng.random_range(1..=most_slip) {
+        let sign = if rng.random_range(0..2) == 0 { 1 } else { -1 };
+        states.push(ContactState::Slip { sign });
+    }
+    states.extend(vec![ContactState::Zero; rng.random_range(1..=2)]);
+
+    for beside in [ContactState::Stick, ContactState::Free] {
+        if rng.random_range(0..rarity) == 0 {
+            states.push(beside);
+        }
+    }
+
+    states
+}
+
+/// How often particles with zero reaction do each thing that they can.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ZeroModes {
+    /// They leave the obstacle.
+    pub open: usize,
+    /// They rest.
+    pub sticking: usize,
+    /// They slide along their tangent.
+    pub right: usize,
+    /// They slide against it.
+    pub left: usize,
+}
+
+impl ZeroModes {
+    /// Counts what each of them does in a solution with this support.
+    pub fn count(&mut self, split: &Reduced, support: &[usize]) {
+        for variables in &split.zero {
+            let mode = if support.contains(&variables.gap) {
+                &mut self.open
+            } else if support.contains(&variables.right) {
+                &mut self.right
+            } else if support.contains(&variables.left) {
+                &mut self.left
+            } else {
+                &mut self.sticking
+            };
+            *mode += 1;
+        }
+    }
+
+    /// How often the rarest of them was counted.
+    pub fn rarest(self) -> usize {
+        let ZeroModes {
+            open,
+            sticking,
+            right,
+            left,
+        } = self;
+        open.min(sticking).min(right).min(left)
+    }
 }
 
 /// A random system with these states: K and M definite, frames and normals of every kind, up to two
