@@ -40,7 +40,7 @@ Local Open Scope Z_scope.
 Variable Q : pencil.
 
 (* The complementarity variables, ascending. *)
-Definition slip := [seq i <- iota 0 (order Q) | i \notin free Q].
+Definition slip : seq nat := [seq i <- iota 0 (order Q) | i \notin free Q].
 
 Definition row_a i := nth [::] (rows_a Q) i.
 Definition row_b i := nth [::] (rows_b Q) i.

@@ -133,6 +133,12 @@ type presence = {
 
 type file = Complete of t | Critical of critical | Presence of presence
 
+(* An index that may name nothing.  A negative one is malformed: the kernel has none. *)
+let place item =
+  let i = counter item in
+  if i < 0 then malformed "a negative index";
+  i
+
 (* A non-negative exponent within the limits (5.16). *)
 let exponent_of item =
   let e = counter item in
@@ -149,22 +155,16 @@ let read_root item =
   let outcome = match field "outcome" with
     | String "solution" -> Solution
     | String "absent" -> Absent
-    | Object ["negative_x", i] -> Negative_x (counter i)
-    | Object ["negative_y", i] -> Negative_y (counter i)
-    | Object ["claim", c] -> Claim (counter c)
+    | Object ["negative_x", i] -> Negative_x (place i)
+    | Object ["negative_y", i] -> Negative_y (place i)
+    | Object ["claim", c] -> Claim (place c)
     | Object ["infinity", x] -> Infinity (integers x)
     | _ -> malformed "an outcome" in
   let interval = match list (field "interval") with
     | [a; b] -> rational a, rational b
     | _ -> malformed "an interval has two ends" in
-  { pivot = counter (field "pivot"); interval; left = integers (field "left");
+  { pivot = place (field "pivot"); interval; left = integers (field "left");
     right = integers (field "right"); exponent = exponent_of (field "exponent"); outcome }
-
-(* An index that may name nothing, but not a negative one. *)
-let ordinal item =
-  let i = counter item in
-  if i < 0 then malformed "a negative index";
-  i
 
 let read_vector item = List.map integers (list item)
 
@@ -177,9 +177,9 @@ let read_reason = function
       | item ->
         let field = fields ["pivot"; "rows"] [] item in
         let row item = match list item with
-          | [j; l] -> ordinal j, read_vector l
+          | [j; l] -> place j, read_vector l
           | _ -> malformed "a row of alone is [j, l]" in
-        Some (ordinal (field "pivot"), List.map row (list (field "rows"))) in
+        Some (place (field "pivot"), List.map row (list (field "rows"))) in
     Something (read_vector (field "x"), alone)
   | _ -> malformed "a reason of a support leaf"
 
@@ -191,9 +191,9 @@ let read_support item =
       | [a; b] -> rational a, rational b
       | _ -> malformed "an interval has two ends" in
     { point_polynomial = integers (field "polynomial"); point_interval;
-      point_reason = ordinal (field "reason") } in
+      point_reason = place (field "reason") } in
   { points = List.map point (list (field "points"));
-    cells = List.map ordinal (list (field "cells"));
+    cells = List.map place (list (field "cells"));
     reasons = List.map read_reason (list (field "reasons")) }
 
 let read_node = function
@@ -202,7 +202,7 @@ let read_node = function
   | String "tail" -> Tail
   | String "open" -> Open
   | Object ["split", t] -> Split (rational t)
-  | Object ["branch", i] -> Branch (counter i)
+  | Object ["branch", i] -> Branch (place i)
   | Object ["farkas", w] -> Farkas (integers w)
   | Object ["ldl", _] -> Ldl
   | Object ["root", r] -> Root (read_root r)
@@ -211,7 +211,7 @@ let read_node = function
 
 let read_factor item =
   let field = fields ["first"; "rows"; "exponent"] [] item in
-  { first = List.map counter (list (field "first"));
+  { first = List.map place (list (field "first"));
     rows = List.map integers (list (field "rows")); exponent = exponent_of (field "exponent") }
 
 let read_coefficients item =
@@ -252,14 +252,8 @@ let read_tree read item = List.rev (List.rev_map read (list item))
 let read_piece item =
   let field = fields ["tree"] ["max"; "anchor"] item in
   { max = (match field "max" with Null -> None | v -> Some (rational v));
-    anchor = (match field "anchor" with Null -> 0 | v -> counter v);
+    anchor = (match field "anchor" with Null -> 0 | v -> place v);
     tree = read_tree read_node (field "tree") }
-
-(* An index that may name nothing; a negative one is malformed. *)
-let place item =
-  let i = counter item in
-  if i < 0 then malformed "a negative index";
-  i
 
 (* A polynomial, constant term first, without zeros at its end. *)
 let strip is_zero p =

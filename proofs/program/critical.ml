@@ -124,7 +124,7 @@ type places = {
   corners : (int * (Kernel.matrix * Kernel.matrix)) list }
 
 let places_of parts k region box =
-  let moving = Obj.magic (Kernel.moving (fst parts) region) in
+  let moving = Kernel.moving (fst parts) region in
   if not (List.mem k moving && finite region.Kernel.upper) then None
   else begin
     let order = k :: List.filter (fun j -> j <> k) moving in

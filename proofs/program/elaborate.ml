@@ -15,10 +15,8 @@ let no_witness fmt = Printf.ksprintf (fun text -> raise (No_witness text)) fmt
 let element list number = if number < 0 then None else List.nth_opt list number
 
 let two_to k = Z.shift_left Z.one k
-let point_of q = (Q.num q, Q.den q)
+let point_of, upper_point, value_of = Problem.(point_of, upper_point, value_of)
 let bits z = Z.numbits (Z.abs z)
-
-let value_of (p, q) = Q.make p q
 
 (* ---------- matrices of doubles *)
 
@@ -613,8 +611,6 @@ let build_piece ?(other_half = fun _ _ -> None) slip leaf nodes (region : Kernel
   match build 0 region nodes with
   | tree, [] -> tree
   | _ -> no_witness "a tree has a node too many"
-
-let upper_point = function Some q -> point_of q | None -> Kernel.infinity
 
 (* The pieces of a window as one tree. *)
 let build_pieces ?other_half slip leaf (lo, _) pieces =

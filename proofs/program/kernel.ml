@@ -2180,12 +2180,13 @@ let places l =
 type pencil = { order : int; rows_a : sparse_row list;
                 rows_b : sparse_row list; free : int list }
 
-(** val slip : pencil -> Equality.sort list **)
+(** val slip : pencil -> int list **)
 
 let slip q =
   filter (fun i ->
-    negb (in_mem i (mem (seq_predType nat_eqType) (Obj.magic q.free))))
-    (Obj.magic iota 0 q.order)
+    negb
+      (in_mem (Obj.magic i)
+        (mem (seq_predType nat_eqType) (Obj.magic q.free)))) (iota 0 q.order)
 
 (** val row_a : pencil -> int -> (int * Big_int_Z.big_int) list **)
 
@@ -2230,7 +2231,7 @@ let blocks_by q place0 columns0 =
 (** val blocks_of : pencil -> blocks **)
 
 let blocks_of q =
-  blocks_by q (places q.free) (Obj.magic slip q)
+  blocks_by q (places q.free) (slip q)
 
 type whole_factor =
 | Dense of Big_int_Z.big_int list * matrix
@@ -2255,7 +2256,7 @@ let weighted weight i row =
 let may_move q r =
   let columns0 = slip q in
   cat q.free
-    (map0 (fun j -> nth 0 (Obj.magic columns0) j)
+    (map0 (fun j -> nth 0 columns0 j)
       (filter (fun j -> negb (is_resting (state_of r j)))
         (iota 0 (size columns0))))
 
@@ -2511,23 +2512,23 @@ let check_claim q k =
               (cat k.support k.biactive))
             ((&&)
               (all (fun i ->
-                if in_mem i
+                if in_mem (Obj.magic i)
                      (mem (seq_predType nat_eqType) (Obj.magic k.support))
-                then (&&) (x_positive k (Obj.magic i))
-                       ((&&) (y_zero q k (Obj.magic i))
+                then (&&) (x_positive k i)
+                       ((&&) (y_zero q k i)
                          (negb
-                           (in_mem i
+                           (in_mem (Obj.magic i)
                              (mem (seq_predType nat_eqType)
                                (Obj.magic k.biactive)))))
-                else (&&) (x_zero k (Obj.magic i))
-                       (if in_mem i
+                else (&&) (x_zero k i)
+                       (if in_mem (Obj.magic i)
                              (mem (seq_predType nat_eqType)
                                (Obj.magic k.biactive))
-                        then y_zero q k (Obj.magic i)
-                        else y_positive q k (Obj.magic i))) (slip q))
+                        then y_zero q k i
+                        else y_positive q k i)) (slip q))
               ((||)
                 (has (fun i ->
-                  in_mem i
+                  in_mem (Obj.magic i)
                     (mem (seq_predType nat_eqType) (Obj.magic k.support)))
                   (slip q))
                 (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
@@ -2788,9 +2789,10 @@ let box_signs q c eps =
           (nth Big_int_Z.zero_big_int c.box_center j)) c.box_support)
       (all (fun i ->
         (||)
-          (in_mem i (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
-          ((&&) (reaction_positive q c eps c.box_from (Obj.magic i))
-            (reaction_positive q c eps c.box_to (Obj.magic i)))) (slip q)))
+          (in_mem (Obj.magic i)
+            (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
+          ((&&) (reaction_positive q c eps c.box_from i)
+            (reaction_positive q c eps c.box_to i))) (slip q)))
 
 (** val check_enclosed_claim : pencil -> enclosed_claim -> bool **)
 
@@ -2824,7 +2826,7 @@ type solution_claim =
 (** val positions : pencil -> int list -> int list **)
 
 let positions q l =
-  map0 (fun i -> index nat_eqType (Obj.magic i) (slip q)) l
+  map0 (fun i -> index nat_eqType (Obj.magic i) (Obj.magic slip q)) l
 
 (** val claimed_support : solution_claim -> int list **)
 
@@ -2872,9 +2874,7 @@ let known_solutions q claims =
     pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
 
 let check_limit q r k x =
-  let at_slip = fun j ->
-    nth Big_int_Z.zero_big_int x (nth 0 (Obj.magic slip q) j)
-  in
+  let at_slip = fun j -> nth Big_int_Z.zero_big_int x (nth 0 (slip q) j) in
   (&&) (columns_in_order q)
     ((&&) (negb (Z.eqb (at_slip k) Big_int_Z.zero_big_int))
       ((&&) (leq (Stdlib.Int.succ k) (size (slip q)))
@@ -2883,7 +2883,7 @@ let check_limit q r k x =
             Z.eqb (sparse_dot (row_a q i) x) Big_int_Z.zero_big_int) q.free)
           (all (fun j ->
             if is_moving (state_of r j)
-            then Z.eqb (sparse_dot (row_b q (nth 0 (Obj.magic slip q) j)) x)
+            then Z.eqb (sparse_dot (row_b q (nth 0 (slip q) j)) x)
                    Big_int_Z.zero_big_int
             else Z.eqb (at_slip j) Big_int_Z.zero_big_int)
             (iota 0 (size (slip q)))))))
@@ -4084,13 +4084,15 @@ let is_free q i =
 
 let moves q r i =
   (&&) (negb (is_free q i))
-    (is_moving (state_of r (index nat_eqType (Obj.magic i) (slip q))))
+    (is_moving
+      (state_of r (index nat_eqType (Obj.magic i) (Obj.magic slip q))))
 
 (** val rests : pencil -> region -> int -> bool **)
 
 let rests q r i =
   (&&) (negb (is_free q i))
-    (is_resting (state_of r (index nat_eqType (Obj.magic i) (slip q))))
+    (is_resting
+      (state_of r (index nat_eqType (Obj.magic i) (Obj.magic slip q))))
 
 (** val is_active : pencil -> region -> int -> bool **)
 
@@ -4650,13 +4652,12 @@ let ff_block q row =
 let fs_block q row =
   let columns0 = slip q in
   map0 (fun i ->
-    let entries = row i in
-    map0 (fun j -> lookup entries (Obj.magic j)) columns0) q.free
+    let entries = row i in map0 (fun j -> lookup entries j) columns0) q.free
 
 (** val sf_block : pencil -> (int -> sparse_row) -> matrix **)
 
 let sf_block q row =
-  let rows = map0 (fun i -> Obj.magic row i) (slip q) in
+  let rows = map0 row (slip q) in
   map0 (fun j -> map0 (fun entries -> lookup entries j) rows) q.free
 
 (** val ss_block : pencil -> (int -> sparse_row) -> matrix **)
@@ -4664,8 +4665,7 @@ let sf_block q row =
 let ss_block q row =
   let columns0 = slip q in
   map0 (fun i ->
-    let entries = Obj.magic row i in
-    map0 (fun j -> lookup entries (Obj.magic j)) columns0) columns0
+    let entries = row i in map0 (fun j -> lookup entries j) columns0) columns0
 
 (** val residual_series :
     anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix
@@ -5048,9 +5048,7 @@ let finite_root = function
     pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
 
 let check_direction q r k x =
-  let at_slip = fun j ->
-    nth Big_int_Z.zero_big_int x (nth 0 (Obj.magic slip q) j)
-  in
+  let at_slip = fun j -> nth Big_int_Z.zero_big_int x (nth 0 (slip q) j) in
   (&&) (columns_in_order q)
     ((&&) (negb (Z.eqb (at_slip k) Big_int_Z.zero_big_int))
       ((&&)
@@ -5058,7 +5056,7 @@ let check_direction q r k x =
           Z.eqb (sparse_dot (row_b q i) x) Big_int_Z.zero_big_int) q.free)
         (all (fun j ->
           if is_moving (state_of r j)
-          then Z.eqb (sparse_dot (row_b q (nth 0 (Obj.magic slip q) j)) x)
+          then Z.eqb (sparse_dot (row_b q (nth 0 (slip q) j)) x)
                  Big_int_Z.zero_big_int
           else Z.eqb (at_slip j) Big_int_Z.zero_big_int)
           (iota 0 (size (slip q))))))
@@ -5511,9 +5509,8 @@ let same_weights s a b =
     (eq_op bool_eqType (Obj.magic a.whole_negative)
       (Obj.magic b.whole_negative))
     (all (fun i ->
-      Z.eqb (nth Big_int_Z.unit_big_int a.whole_weights (Obj.magic i))
-        (nth Big_int_Z.unit_big_int b.whole_weights (Obj.magic i)))
-      (slip (part_plain s)))
+      Z.eqb (nth Big_int_Z.unit_big_int a.whole_weights i)
+        (nth Big_int_Z.unit_big_int b.whole_weights i)) (slip (part_plain s)))
 
 (** val check_critical_leaf :
     system -> (enclosed * enclosed) option -> region -> point -> point ->
@@ -5962,7 +5959,7 @@ type pinned_box = { box_interval : interval; near_anchor : int;
     zero_system -> unknown -> region -> Equality.sort -> state **)
 
 let half_state z0 u r i =
-  state_of r (index nat_eqType i (slip (zero_pencil z0 u)))
+  state_of r (index nat_eqType i (Obj.magic slip (zero_pencil z0 u)))
 
 (** val halves_apart : zero_system -> unknown -> region -> bool **)
 

@@ -717,7 +717,7 @@ val places : int list -> int option list
 type pencil = { order : int; rows_a : sparse_row list;
                 rows_b : sparse_row list; free : int list }
 
-val slip : pencil -> Equality.sort list
+val slip : pencil -> int list
 
 val row_a : pencil -> int -> (int * Big_int_Z.big_int) list
 

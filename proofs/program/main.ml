@@ -1,102 +1,13 @@
 (* mceip-verified PROBLEM CERTIFICATE
 
-   Exit codes: 0 accepted, 1 rejected, 2 malformed, 3 not verified: the certificate has evidence
-   that the kernel has no theorem for, or no witness was found.
+   Exit codes: 0 accepted, 1 rejected, 2 malformed, 3 undecided: the verified statement leaves
+   regions open, 4 not verified: the certificate has evidence that the kernel has no theorem for,
+   or no witness was found.
 
-   The verdict "accepted" is printed only after a function of the kernel returned true for the
-   problem and the window that were read; the window and the list of solutions are printed from the
-   arguments and the result of that function. *)
+   A verdict with the word VERIFIED is printed only after a function of the kernel returned true for
+   the problem and the window that were read. *)
 
 exception Rejected of string
-
-let show_point (p, q) = if Z.sign q = 0 then "infinity" else Q.to_string (Q.make p q)
-
-let show_decimal rounded (p, q) =
-  if Z.sign q = 0 then "infinity" else rounded (Q.make p q)
-
-(* The moving variables of a region, as positions among the complementarity variables. *)
-let moving (region : Kernel.region) =
-  List.filter_map Fun.id
-    (List.mapi (fun i s -> if s = Kernel.Moving then Some i else None) region.states)
-
-let resting (region : Kernel.region) =
-  List.filter_map Fun.id
-    (List.mapi (fun i s -> if s = Kernel.Resting then Some i else None) region.states)
-
-let show_interval lo hi =
-  Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
-    (if Z.sign (snd hi) = 0 then ")" else "]")
-
-let show_value (v : Kernel.value) =
-  let lo = Kernel.start_of v and hi = Kernel.end_of v in
-  if Z.equal v.value_from v.value_to then show_point lo
-  else
-    Printf.sprintf "a root in [%s, %s]" (show_decimal Decimal.lower lo)
-      (show_decimal Decimal.upper hi)
-
-let show_place = function
-  | Kernel.PointAt v -> "value " ^ show_value v
-  | Between (v, v') -> Printf.sprintf "values between %s and %s" (show_value v) (show_value v')
-  | Above v -> "values above " ^ show_value v
-
-(* Two leaves share the value at their common end: it is listed once, as alone if one says so. *)
-let listed_once families =
-  let kept = Hashtbl.create 64 in
-  let key number (region, (h : Kernel.holding)) = match h.held_place with
-    | PointAt v when Kernel.rational v ->
-      moving region, Some (Q.to_string (Q.make v.value_from v.value_den)), 0
-    | _ -> [], None, number in
-  List.iteri (fun number f ->
-      let k = key number f in
-      match Hashtbl.find_opt kept k with
-      | Some (first, (_, (h : Kernel.holding))) ->
-        if not h.held_alone then Hashtbl.replace kept k (first, f)
-      | None -> Hashtbl.add kept k (number, f)) families;
-  List.map snd (List.sort (fun (i, _) (j, _) -> compare i j)
-                  (List.of_seq (Hashtbl.to_seq_values kept)))
-
-let shown_regions = 20
-
-(* Prints what the theorems [system_families_number] and [system_families_hold] say of the
-   solutions found, the families and the regions left open; the exit code. *)
-let report slip lo hi found families left_open =
-  let names positions = String.concat " " (List.map (fun i -> string_of_int slip.(i)) positions) in
-  let window = show_interval lo hi and count = List.length found in
-  let families_found = match List.length families with
-    | 0 -> ""
-    | 1 -> " and one family"
-    | n -> Printf.sprintf " and %d families" n in
-  if left_open = [] && families <> [] then
-    Printf.printf "ACCEPTED, VERIFIED: %d solution(s)%s, and no others, in %s\n" count
-      families_found window
-  else if left_open = [] then
-    Printf.printf "ACCEPTED, VERIFIED: %s in %s\n"
-      (match count with
-       | 0 -> "no solution"
-       | 1 -> "exactly one solution"
-       | _ -> Printf.sprintf "exactly %d solutions" count) window
-  else
-    Printf.printf "UNDECIDED, VERIFIED: %s in %s lies in one of %d open region(s)\n"
-      (match count, families with
-       | 0, [] -> "every solution"
-       | 1, [] -> "one solution; every other one"
-       | _ -> Printf.sprintf "%d solutions%s; every other one" count families_found)
-      window (List.length left_open);
-  List.iter (fun (y : Kernel.yield) ->
-      Printf.printf "solution: value in [%s, %s], moving %s\n"
-        (show_decimal Decimal.lower y.yield_from) (show_decimal Decimal.upper y.yield_to)
-        (names (moving y.yield_region))) found;
-  List.iter (fun (region, (h : Kernel.holding)) ->
-      Printf.printf "family: %s, moving %s, %s\n" (show_place h.held_place)
-        (names (moving region))
-        (if h.held_alone then "one solution at each value" else "solutions at each value"))
-    families;
-  List.iteri (fun k (r : Kernel.region) ->
-      if k < shown_regions then
-        Printf.printf "open: values in %s, moving {%s}, at rest {%s}\n"
-          (show_interval r.lower r.upper) (names (moving r)) (names (resting r))
-      else if k = shown_regions then Printf.printf "open: more regions\n") left_open;
-  if left_open = [] then 0 else 3
 
 let time = Sys.getenv_opt "MCEIP_VERIFIED_TIMES" <> None
 
@@ -172,10 +83,6 @@ let in_window (certificate : Certificate.t) (a, b) =
 
 let refuse_unless accepted = if not accepted then raise (Rejected "the kernel refuses a claim")
 
-let show_claim (a, b) support () =
-  Printf.printf "claim: a solution with a value in [%s, %s], support %s\n" (Q.to_string a)
-    (Q.to_string b) (String.concat " " (List.map string_of_int support))
-
 (* The kernel's claim has the support and the interval of the certificate. *)
 let states (claim : Kernel.claim) (e : Certificate.exact) =
   let over p = Q.make p claim.claim_denominator in
@@ -226,7 +133,7 @@ let verify_enclosed (problem : Problem.t) pencil (certificate : Certificate.t)
   match Elaborate.enclosed_claim_of pencil e with
   | None -> raise (Elaborate.No_witness "an enclosed solution")
   | Some claim ->
-    let low = Elaborate.value_of claim.box_from and high = Elaborate.value_of claim.box_to in
+    let low = Problem.value_of claim.box_from and high = Problem.value_of claim.box_to in
     refuse_unless (claim.box_support = e.box_support && Q.geq low (fst value)
                    && Q.leq high (snd value));
     let accepted = match problem.question with
@@ -246,13 +153,13 @@ let verify_claim (problem : Problem.t) pencil (certificate : Certificate.t) clai
   match claim with
   | Certificate.Exact e ->
     check_root certificate e;
-    verify_exact problem pencil e, show_claim e.value e.support
+    verify_exact problem pencil e, (e.value, e.support)
   | Lifted l ->
     check_root certificate l.motion;
-    verify_lifted problem pencil l, show_claim l.motion.value l.motion.support
+    verify_lifted problem pencil l, (l.motion.value, l.motion.support)
   | Enclosed e ->
     let claim, value = verify_enclosed problem pencil certificate e in
-    lazy (Kernel.BoxClaim claim), show_claim value e.box_support
+    lazy (Kernel.BoxClaim claim), (value, e.box_support)
 
 (* The work for a motion of so many degrees of freedom with these polynomials, which are written
    with one denominator. *)
@@ -283,10 +190,10 @@ let verify_zero_box (certificate : Certificate.t) (zero : Kernel.zero_system) un
   match Elaborate.zero_enclosed_of zero unknown e with
   | None -> refuse ()
   | Some claim ->
-    let low = Elaborate.value_of claim.box_from and high = Elaborate.value_of claim.box_to in
+    let low = Problem.value_of claim.box_from and high = Problem.value_of claim.box_to in
     refuse_unless (Q.geq low (fst value) && Q.leq high (snd value));
     if not (Kernel.check_zero_enclosed zero unknown e.box_support claim) then refuse ();
-    show_claim (low, high) e.box_support
+    (low, high), e.box_support
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in
@@ -300,8 +207,7 @@ let verify_plain document certificate_path =
   Plain.limit_work problem points;
   let accepted = Kernel.check_mcp problem.rows (List.map (Plain.point_of n) points) in
   if not accepted then raise (Rejected "the kernel refuses a point");
-  Printf.printf "ACCEPTED, VERIFIED: %d point(s) solve the problem, nothing said about others\n"
-    (List.length points);
+  Sentences.points problem.digest;
   0
 
 (* Print the accepted question and its witness as a Coq file instead of the verdict. *)
@@ -442,7 +348,7 @@ let verify_zero_claims (problem : Problem.t) (certificate : Certificate.t)
     let claim = Elaborate.zero_of zero unknown factor l in
     refuse_unless (states claim.lifted_part.motion_claim l.motion);
     refuse_unless (Kernel.check_zero zero unknown claim);
-    show_claim l.motion.value l.motion.support in
+    l.motion.value, l.motion.support in
   let verify = Either.fold ~left:verify_motion ~right:(verify_zero_box certificate zero unknown) in
   timed "claims" (fun () -> List.map verify claims)
 
@@ -547,6 +453,9 @@ let depends_on_value pencil (certificate : Certificate.t) =
   not (Kernel.free_rows_constant pencil)
   || pencil.free <> [] && not (List.exists Elaborate.needs_anchor certificate.pieces)
 
+(* Every other solution may lie in a region that is left open. *)
+let exit_code left_open = if left_open = [] then 0 else 3
+
 let limit_yields yielded families =
   if List.length yielded > 10_000 then
     Problem.not_verified "more than 10,000 regions with a solution";
@@ -555,21 +464,20 @@ let limit_yields yielded families =
 let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kernel.zero_system)
     unknown =
   let shown = verify_zero_claims problem certificate zero unknown in
-  let report_claims () = List.iter (fun show -> show ()) shown in
+  let report_claims () = List.iter (Sentences.claim problem) shown in
   if certificate.pieces = [] then begin
-    Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
-      (List.length shown);
+    Sentences.claims_only problem certificate.window;
     report_claims ();
     0
   end
   else begin
     let pencil = timed "pencil" (fun () -> Kernel.zero_pencil zero unknown) in
-    let slip_list = Obj.magic (Kernel.slip pencil) in
+    let slip_list = Kernel.slip pencil in
     let slip = Array.of_list slip_list in
     if Array.length slip > 300 then
       Problem.not_verified "more than 300 complementarity variables";
-    let lo = Elaborate.point_of (fst certificate.window) in
-    let hi = Elaborate.upper_point (snd certificate.window) in
+    let lo = Problem.point_of (fst certificate.window) in
+    let hi = Problem.upper_point (snd certificate.window) in
     let q = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims = [] } in
     let cover =
       if depends_on_value pencil certificate then verify_zero_varying q zero unknown
@@ -579,10 +487,10 @@ let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kern
     | None ->
       Problem.not_verified "regions that may hold the same solution, or a value beside the window"
     | Some found ->
-      let code =
-        report slip lo hi (List.rev found) (listed_once cover.zero_families) cover.zero_open in
+      let families = cover.zero_families and left_open = cover.zero_open in
+      Sentences.cover problem certificate.window slip (List.rev found) families left_open;
       report_claims ();
-      code
+      exit_code left_open
   end
 
 (* The context of a statement about an interval of mu; rejects a problem that has none. *)
@@ -601,13 +509,13 @@ let context_of_friction (problem : Problem.t) what digest condensation (low, hig
   if (condensation <> None) <> (system.free_dofs <> []) then
     raise (Rejected "a condensation is given exactly if there are free variables");
 
-  let slip_list = Obj.magic (Kernel.slip (Kernel.part_plain system)) in
+  let slip_list = Kernel.slip (Kernel.part_plain system) in
   if List.length slip_list > 300 then
     Problem.not_verified "more than 300 complementarity variables";
   let slip_factor = Z.mul problem.common system.unit_length in
   let context =
     { Critical.system; slip = Array.of_list slip_list; free_factor = problem.common; slip_factor;
-      tail; mu_low = Elaborate.point_of low; mu_high = Elaborate.point_of high } in
+      tail; mu_low = Problem.point_of low; mu_high = Problem.point_of high } in
   context, slip_list
 
 (* No solution of a system for mu in [from, below] and lambda^2 >= 0. *)
@@ -640,8 +548,7 @@ let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
   refuse_tree_unless (match condensation with
       | None -> without_free_variables ()
       | Some condensation -> about_anchors condensation);
-  Printf.printf "ACCEPTED, VERIFIED: no solution for mu in %s and lambda^2 in %s\n"
-    (show_interval context.mu_low context.mu_high) (show_interval Kernel.zero Kernel.infinity);
+  Sentences.absent problem context.mu_low context.mu_high;
   0
 
 (* A solution of a system with some lambda^2 >= 0 for each mu in [from, to]. *)
@@ -661,16 +568,20 @@ let verify_presence (problem : Problem.t) (certificate : Certificate.presence) =
   refuse_tree_unless (timed "kernel" (fun () ->
       Kernel.check_presence system anchored.anchoring kernel_pieces context.mu_low
         context.mu_high));
-  Printf.printf "ACCEPTED, VERIFIED: for every mu in %s a solution with lambda^2 >= 0\n"
-    (show_interval context.mu_low context.mu_high);
+  Sentences.present problem context.mu_low context.mu_high;
   0
 
-let verify_complete (problem : Problem.t) (certificate : Certificate.t) =
+let verify_complete demanded (problem : Problem.t) (certificate : Certificate.t) =
   if certificate.digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
   if certificate.unknown <> problem.unknown then
     raise (Rejected "the unknown is not the problem's");
   if certificate.pieces = [] && certificate.claims = [] then raise (Rejected "no claim");
+  (match demanded with
+   | Some window when not (Sentences.covers certificate.window window) ->
+     raise (Rejected (Printf.sprintf "window: expected one that covers %s, got %s"
+                        (Sentences.show_window window) (Sentences.show_window certificate.window)))
+   | _ -> ());
 
   match problem.question with
   | Zero_reaction (system, unknown) -> verify_zero problem certificate system unknown
@@ -679,20 +590,19 @@ let verify_complete (problem : Problem.t) (certificate : Certificate.t) =
       | Raw pencil -> pencil
       | Mechanical (system, unknown) -> Kernel.pencil_of system unknown
       | Zero_reaction _ -> invalid_arg "zero reaction") in
-  let slip_list = Obj.magic (Kernel.slip pencil) in
+  let slip_list = Kernel.slip pencil in
   let slip = Array.of_list slip_list in
   if certificate.pieces <> [] && Array.length slip > 300 then
     Problem.not_verified "more than 300 complementarity variables";
-  let lo = Elaborate.point_of (fst certificate.window) in
-  let hi = Elaborate.upper_point (snd certificate.window) in
+  let lo = Problem.point_of (fst certificate.window) in
+  let hi = Problem.upper_point (snd certificate.window) in
   let claims = timed "claims" (fun () ->
       limit_work problem pencil certificate.claims;
       List.map (verify_claim problem pencil certificate) certificate.claims) in
-  let report_claims () = List.iter (fun (_, print) -> print ()) claims in
+  let report_claims () = List.iter (fun (_, said) -> Sentences.claim problem said) claims in
 
   if certificate.pieces = [] then begin
-    Printf.printf "ACCEPTED, VERIFIED: %d solution(s) claimed, nothing said about others\n"
-      (List.length claims);
+    Sentences.claims_only problem certificate.window;
     report_claims ();
     0
   end
@@ -712,40 +622,64 @@ let verify_complete (problem : Problem.t) (certificate : Certificate.t) =
       Problem.not_verified "regions that may hold the same solution, or a value beside the window"
     | Some found when !as_coq -> cover.print_coq found; 0
     | Some found ->
-      let code =
-        report slip lo hi (List.rev found) (listed_once cover.families) cover.still_open in
+      let families = cover.families and left_open = cover.still_open in
+      Sentences.cover problem certificate.window slip (List.rev found) families left_open;
       report_claims ();
-      code
+      exit_code left_open
   end
 
-let verify_eigenproblem document problem_path certificate_path =
+(* a,b with 0 <= a <= b; b may be inf or empty. *)
+let window_of text =
+  let bad () = Json.malformed "--window: a,b with 0 <= a <= b was expected (b may be inf)" in
+  match List.map String.trim (String.split_on_char ',' text) with
+  | [a; b] ->
+    let lo = Json.rational_of_spelling a in
+    let hi = if b = "" || b = "inf" then None else Some (Json.rational_of_spelling b) in
+    if Q.sign lo < 0 || (match hi with Some h -> Q.lt h lo | None -> false) then bad ();
+    lo, hi
+  | _ -> bad ()
+
+let refuse_window demanded kind =
+  if demanded <> None then
+    Json.malformed "--window: expected it with mceip-certificate/1 only, got %s" kind
+
+let verify_eigenproblem demanded document problem_path certificate_path =
   let problem = timed "problem" (fun () -> Problem.read problem_path document) in
   match timed "certificate" (fun () -> Certificate.read certificate_path) with
-  | Complete certificate -> verify_complete problem certificate
-  | Critical certificate -> verify_critical problem certificate
-  | Presence certificate -> verify_presence problem certificate
+  | Complete certificate -> verify_complete demanded problem certificate
+  | Critical certificate ->
+    refuse_window demanded "mceip-critical/1";
+    verify_critical problem certificate
+  | Presence certificate ->
+    refuse_window demanded "mceip-presence/1";
+    verify_presence problem certificate
 
-let verify problem_path certificate_path =
+let verify window problem_path certificate_path =
   Elaborate.start_anew ();
   Supports.work := 0;
   Critical.kept := [];
+  let demanded = Option.map window_of window in
   let document = Json.read problem_path in
-  if Plain.is_plain document then verify_plain document certificate_path
-  else verify_eigenproblem document problem_path certificate_path
+  if Plain.is_plain document then begin
+    refuse_window demanded "a plain problem";
+    verify_plain document certificate_path
+  end
+  else verify_eigenproblem demanded document problem_path certificate_path
 
-(* The exit code for a problem and a certificate, after the verdict has been printed. *)
-let answer problem certificate =
+(* The exit code for a problem and a certificate, after the verdict has been printed.  [window]: the
+   text of the window that the certificate has to cover. *)
+let answer ?window problem certificate =
   let say code text = print_endline text; code in
-  try verify problem certificate with
+  let not_verified what = say 4 ("NOT VERIFIED: " ^ what) in
+  try verify window problem certificate with
   | Rejected reason -> say 1 ("REJECTED: " ^ reason)
   | Json.Malformed reason -> say 2 ("MALFORMED: " ^ reason)
-  | Sys_error reason -> say 2 reason
-  | Stack_overflow | Out_of_memory -> say 3 "NOT VERIFIED: the memory of this program"
-  | Problem.Not_verified kind -> say 3 ("NOT VERIFIED: " ^ kind)
-  | Elaborate.No_witness what -> say 3 ("NOT VERIFIED: no witness for " ^ what)
-  | Invalid_argument what | Failure what -> say 3 ("NOT VERIFIED: a fault of this program: " ^ what)
-  | Not_found | Division_by_zero | Match_failure _ ->
-    say 3 "NOT VERIFIED: a fault of this program"
+  | Sys_error reason -> say 2 ("MALFORMED: " ^ reason)
+  | Stack_overflow | Out_of_memory -> not_verified "the memory of this program"
+  | Problem.Not_verified kind -> not_verified kind
+  | Elaborate.No_witness what -> not_verified ("no witness for " ^ what)
+  | Invalid_argument what | Failure what -> not_verified ("a fault of this program: " ^ what)
+  | Not_found | Division_by_zero | Match_failure _ -> not_verified "a fault of this program"
 
 (* For tests with many files: each line of stdin has the paths of a problem and a certificate,
    without blanks; after what is printed for them comes a line "exit CODE". *)
@@ -763,5 +697,7 @@ let () =
   | [| _; "--lines" |] -> answer_lines ()
   | [| _; "--coq"; problem; certificate |] -> as_coq := true; exit (answer problem certificate)
   | [| _; problem; certificate |] -> exit (answer problem certificate)
+  | [| _; problem; certificate; "--window"; window |] ->
+    exit (answer ~window problem certificate)
   | _ ->
-    prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE"; exit 2
+    prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE [--window a,b]"; exit 2

@@ -19,6 +19,8 @@ type question =
 
 type t = {
   unknown : string;
+  friction : Q.t option;  (* where the unknown is lambda2 and the problem is a system *)
+  window : Q.t * Q.t option;
   digest : string;
   question : question;
   common : Z.t;  (* the factor of the entries; for a system, of those of the free rows *)
@@ -99,6 +101,11 @@ let read_matrix folder = function
         | _ -> malformed "one way to give a matrix was expected")
   | _ -> malformed "a matrix was expected"
 
+(* Values as fractions of integers, as the kernel has them. *)
+let point_of q = Q.num q, Q.den q
+let upper_point = function Some q -> point_of q | None -> Kernel.infinity
+let value_of (p, q) = Q.make p q
+
 let read_window item =
   match item with
   | Null -> Q.zero, None
@@ -142,7 +149,7 @@ let read_pencil folder item =
              @ canonical_matrix "a" a @ canonical_matrix "b" b in
   let pencil = { Kernel.order = n; rows_a = integer_rows common a;
                  rows_b = integer_rows common b; free = sorted } in
-  text, Raw pencil, common, common
+  text, Raw pencil, None, common, common
 
 let symmetric m =
   m.rows = m.cols &&
@@ -287,7 +294,8 @@ let read_system folder unknown item =
     if zeros = [] then Mechanical (system, kind)
     else Zero_reaction ({ Kernel.without_zero = system;
                           zero_particles = List.map kernel_particle zeros }, kind) in
-  text, question, free_common, Z.mul free_common (Z.mul unit_length friction)
+  let friction_given = if unknown = "lambda2" then mu else None in
+  text, question, friction_given, free_common, Z.mul free_common (Z.mul unit_length friction)
 
 let read path document =
   (match document with
@@ -303,12 +311,12 @@ let read path document =
       | Null -> () | v -> ignore (text v)) ["name"; "comment"];
   let unknown = text (field "unknown") in
   if unknown <> "lambda2" && unknown <> "mu" then malformed "unknown is lambda2 or mu";
-  ignore (read_window (field "window"));
+  let window = read_window (field "window") in
   let folder = Filename.dirname path in
-  let lines, question, common, slip_common = match field "pencil", field "system" with
+  let lines, question, friction, common, slip_common = match field "pencil", field "system" with
     | pencil, Null when pencil <> Null -> read_pencil folder pencil
     | Null, system when system <> Null -> read_system folder unknown system
     | _ -> malformed "exactly one of pencil and system" in
   let lines = ["mceip-canonical/1"; "unknown " ^ unknown] @ lines in
   let digest = Sha256.hex (String.concat "" (List.map (fun line -> line ^ "\n") lines)) in
-  { unknown; digest; question; common; slip_common }
+  { unknown; friction; window; digest; question; common; slip_common }
