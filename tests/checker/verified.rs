@@ -1,7 +1,7 @@
 //! The verified checker of `proofs/` on the corpus, the examples of chapter 5 and the conformance
 //! pack. Where it is not built, the tests are ignored.
 //!
-//! It refuses nothing that is to be accepted (it may have no theorem for it, exit code 3), and what
+//! It refuses nothing that is to be accepted (it may have no theorem for it, exit code 4), and what
 //! it accepts of the other files is true by the exact enumerator: it verifies the statement of a
 //! certificate with evidence of its own, so that wrong evidence for a true statement may pass.
 //!

@@ -54,15 +54,19 @@ pub fn verdicts_on(checker: &VerifiedChecker, files: &[[PathBuf; 2]]) -> Vec<Ver
 /// The certificate may be malformed for our reader: the verified checker does not read evidence
 /// that it replaces by its own.
 pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec<String> {
-    if let [line] = lines
-        && let Some(range) = absence_range(line)
-    {
-        return absence_falsehoods(problem, certificate, &range);
+    let Some(verdict) = lines.first().and_then(|line| VerdictLine::read(line)) else {
+        return vec![format!("no problem is named in {lines:?}")];
+    };
+
+    if let Some(range) = absence_range(verdict.sentence) {
+        let mut wrong = verdict.other_than(&name(problem, None), "");
+        wrong.extend(absence_falsehoods(problem, certificate, &range));
+        return wrong;
     }
-    if let [line] = lines
-        && let Some(range) = presence_range(line)
-    {
-        return presence_falsehoods(problem, certificate, &range);
+    if let Some(range) = presence_range(verdict.sentence) {
+        let mut wrong = verdict.other_than(&name(problem, None), "");
+        wrong.extend(presence_falsehoods(problem, certificate, &range));
+        return wrong;
     }
 
     let Some(asked) = window_of(certificate) else {
@@ -70,27 +74,89 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
     };
     let reduced = reduce(problem).unwrap();
     let pencil = &reduced.pencil;
-    let Some(statement) = Statement::read(lines, &pencil.slip()) else {
+    let word = problem.unknown().word();
+    let Some(statement) = Statement::read(verdict.sentence, &lines[1..], word, &pencil.slip())
+    else {
         return vec![format!("an unknown sentence in {lines:?}")];
     };
 
-    if reduced.zero.is_empty() {
+    let mut wrong = verdict.other_than(
+        &name(problem, friction_of(problem)),
+        &left_out(&asked, problem.window()),
+    );
+    wrong.extend(if reduced.zero.is_empty() {
         statement.falsehoods(pencil, &asked)
     } else {
         statement.falsehoods_by_modes(&reduced, &asked)
+    });
+    wrong
+}
+
+/// `sentence (name of the question)`, and what follows it.
+struct VerdictLine<'a> {
+    sentence: &'a str,
+    name: &'a str,
+    rest: &'a str,
+}
+
+impl VerdictLine<'_> {
+    fn read(line: &str) -> Option<VerdictLine<'_>> {
+        let (sentence, others) = line.split_once(" (")?;
+        let (name, rest) = others.split_once(')')?;
+        Some(VerdictLine {
+            sentence,
+            name,
+            rest,
+        })
+    }
+
+    /// What the line says of the question and its window in place of this.
+    fn other_than(&self, name: &str, rest: &str) -> Vec<String> {
+        let mut wrong = Vec::new();
+        if self.name != name {
+            wrong.push(format!("about {} in place of {name}", self.name));
+        }
+        if self.rest != rest {
+            wrong.push(format!("{:?} in place of {rest:?}", self.rest));
+        }
+        wrong
     }
 }
 
-/// [a, b] of "no solution for mu in [a, b] and lambda^2 in [0, infinity)".
-fn absence_range(line: &str) -> Option<Interval> {
-    let range = line.strip_prefix("no solution for mu in ")?;
-    read_interval(range.strip_suffix(" and lambda^2 in [0, infinity)")?)
+/// The question of a problem, as the verdict line names it.
+fn name(problem: &Problem, friction: Option<&Rational>) -> String {
+    let word = problem.unknown().word();
+    let friction = friction.map_or(String::new(), |mu| format!("friction {mu}, "));
+    format!("{word}, {friction}problem {}", problem.sha256())
 }
 
-/// [a, b] of "for every mu in [a, b] a solution with lambda^2 >= 0".
-fn presence_range(line: &str) -> Option<Interval> {
-    let range = line.strip_prefix("for every mu in ")?;
-    read_interval(range.strip_suffix(" a solution with lambda^2 >= 0")?)
+/// The friction of a system, where the unknown is lambda^2.
+fn friction_of(problem: &Problem) -> Option<&Rational> {
+    match problem.body() {
+        Body::System(system) if problem.unknown() == Unknown::Lambda2 => system.friction(),
+        _ => None,
+    }
+}
+
+/// What is said where a window is not all of the problem's.
+fn left_out(asked: &Window, whole: &Window) -> String {
+    if asked.covers(whole) {
+        String::new()
+    } else {
+        format!("; NOT the whole window {whole} of the problem")
+    }
+}
+
+/// [a, b] of "no solution for friction in [a, b], lambda2 in [0, infinity)".
+fn absence_range(sentence: &str) -> Option<Interval> {
+    let range = sentence.strip_prefix("no solution for friction in ")?;
+    read_interval(range.strip_suffix(", lambda2 in [0, infinity)")?)
+}
+
+/// [a, b] of "a solution with lambda2 >= 0 for every friction in [a, b]".
+fn presence_range(sentence: &str) -> Option<Interval> {
+    let range = sentence.strip_prefix("a solution with lambda2 >= 0 for every friction in ")?;
+    read_interval(range)
 }
 
 /// Values of lambda^2 at which the enumerator looks for solutions of every mu of the range.
@@ -218,6 +284,7 @@ fn spelt(value: &serde_json::Value) -> Option<Rational> {
 /// The sentences about a complete set, about claims, or both.
 #[derive(Debug)]
 pub struct Statement {
+    window: Window,
     /// All solutions in the window; `None` where nothing is said about others.
     cover: Option<SaidCover>,
     /// Solutions that are claimed one by one.
@@ -226,8 +293,7 @@ pub struct Statement {
 
 #[derive(Debug)]
 struct SaidCover {
-    window: Window,
-    /// What the first line announces.
+    /// What the verdict line announces.
     announced: Announced,
     /// What the other lines say.
     said: AcceptedCover,
@@ -235,11 +301,11 @@ struct SaidCover {
     leaves_out: bool,
 }
 
-/// How many there are of each sort.
+/// How many there are of each sort; families are not counted.
 #[derive(Debug, PartialEq, Eq)]
 struct Announced {
     solutions: usize,
-    families: usize,
+    has_families: bool,
     open: usize,
 }
 
@@ -254,25 +320,29 @@ struct Listed {
 }
 
 impl Statement {
-    /// Reads the lines of a verdict; `slip` are the complementarity variables. `None` for a
-    /// sentence that is not known here.
-    pub fn read(lines: &[String], slip: &[usize]) -> Option<Statement> {
-        let (first_line, others) = lines.split_first()?;
+    /// Reads the sentence of the verdict line and the lines under it; `word` is the unknown, `slip`
+    /// are the complementarity variables. `None` for a sentence that is not known here.
+    pub fn read(
+        sentence: &str,
+        others: &[String],
+        word: &str,
+        slip: &[usize],
+    ) -> Option<Statement> {
         let mut listed = Listed::default();
         for line in others {
-            listed.read(line, slip)?;
+            listed.read(line, word, slip)?;
         }
 
-        let count = listed.claims.len();
-        let claims_only = format!("{count} solution(s) claimed, nothing said about others");
-        if *first_line == claims_only {
+        if let Some(rest) = sentence.strip_prefix("claims, each has a solution in ") {
+            let window = rest.strip_suffix("; nothing said about others")?;
             return Some(Statement {
+                window: read_window(window)?,
                 cover: None,
                 claims: listed.claims,
             });
         }
 
-        let (window, announced) = first_sentence(first_line)?;
+        let (window, announced) = sentence_of_a_cover(sentence)?;
         let said = AcceptedCover {
             solutions: listed.solutions,
             families: listed.families,
@@ -280,8 +350,8 @@ impl Statement {
             leaves: 1,
         };
         Some(Statement {
+            window,
             cover: Some(SaidCover {
-                window,
                 announced,
                 said,
                 leaves_out: listed.leaves_out,
@@ -313,6 +383,10 @@ impl Statement {
 
     fn falsehoods_beside(&self, truth: &Enumeration, asked: &Window) -> Vec<String> {
         let mut wrong = Vec::new();
+        if self.window != *asked {
+            wrong.push(format!("about {:?} in place of {asked:?}", self.window));
+        }
+
         for claim in &self.claims {
             if !is_solution(truth, claim) {
                 wrong.push(format!("there is no solution {claim:?}"));
@@ -320,27 +394,23 @@ impl Statement {
         }
 
         if let Some(cover) = &self.cover {
-            wrong.extend(cover.falsehoods(truth, asked));
+            wrong.extend(cover.falsehoods(truth));
         }
         wrong
     }
 }
 
 impl SaidCover {
-    fn falsehoods(&self, truth: &Enumeration, asked: &Window) -> Vec<String> {
-        let mut wrong = Vec::new();
-        if self.window != *asked {
-            wrong.push(format!("about {:?} in place of {asked:?}", self.window));
-        }
-
+    fn falsehoods(&self, truth: &Enumeration) -> Vec<String> {
         // What the regions that are not listed hold, the sentences do not say.
         if self.leaves_out {
-            return wrong;
+            return Vec::new();
         }
 
+        let mut wrong = Vec::new();
         let listed = Announced {
             solutions: self.said.solutions.len(),
-            families: self.said.families.len(),
+            has_families: !self.said.families.is_empty(),
             open: self.said.open.len(),
         };
         if self.announced != listed {
@@ -352,55 +422,51 @@ impl SaidCover {
 }
 
 impl Listed {
-    fn read(&mut self, line: &str, slip: &[usize]) -> Option<()> {
+    fn read(&mut self, line: &str, word: &str, slip: &[usize]) -> Option<()> {
         let (sort, rest) = line.split_once(": ")?;
+        let in_range = rest.strip_prefix(&format!("{word} in "));
         match sort {
-            "solution" => {
-                let rest = rest.strip_prefix("value in ")?;
-                self.solutions.push(valued(rest, ", moving")?);
+            "solution" => self.solutions.push(valued(in_range?)?),
+            "claim" => self.claims.push(valued(in_range?)?),
+            "family" => self.families.push(family(rest, word)?),
+            "open" if rest.ends_with(" more regions (see the certificate)") => {
+                self.leaves_out = true;
             }
-            "claim" => {
-                let rest = rest.strip_prefix("a solution with a value in ")?;
-                self.claims.push(valued(rest, ", support")?);
-            }
-            "family" => self.families.push(family(rest)?),
-            "open" if rest == "more regions" => self.leaves_out = true,
-            "open" => self.open.push(open_region(rest, slip)?),
+            "open" => self.open.push(open_region(in_range?, slip)?),
             _ => return None,
         }
         Some(())
     }
 }
 
-/// `exactly 2 solutions in W`, `2 solution(s) and one family, and no others, in W`, or
-/// `one solution; every other one in W lies in one of 3 open region(s)`.
-fn first_sentence(line: &str) -> Option<(Window, Announced)> {
-    let (closed_part, open) = match line.split_once(" lies in one of ") {
-        None => (line, 0),
+/// `no solution in W`, `2 solutions and families of them in W, and no other`, or
+/// `1 solution in W, and no other outside 3 open regions`.
+fn sentence_of_a_cover(sentence: &str) -> Option<(Window, Announced)> {
+    let (closed_part, open) = match sentence.split_once(" outside ") {
+        None => (sentence, 0),
         Some((part, regions)) => (part, first_word(regions)?.parse().ok()?),
     };
 
-    let (counts, window) = closed_part.rsplit_once(" in ")?;
-    let counts = counts.trim_end_matches(", and no others,");
-    let counts = counts.trim_end_matches("; every other one");
-    let (solutions, families) = counts.split_once(" and ").unwrap_or((counts, ""));
-
-    let solutions = match solutions {
-        "no solution" | "every solution" => 0,
-        "exactly one solution" | "one solution" => 1,
-        many => first_word(many.trim_start_matches("exactly "))?
-            .parse()
-            .ok()?,
+    let (counts, place) = closed_part.split_once(" in ")?;
+    let others = place.strip_suffix(", and no other");
+    let (solutions, has_families) = match counts.strip_suffix(" and families of them") {
+        None => (counts, false),
+        Some(solutions) => (solutions, true),
     };
-    let families = match families {
-        "" => 0,
-        "one family" => 1,
-        many => first_word(many)?.parse().ok()?,
+
+    let window = match (solutions, others) {
+        ("no solution", None) => place,
+        ("no solution", Some(_)) | (_, None) => return None,
+        (_, Some(window)) => window,
+    };
+    let solutions = match first_word(solutions)? {
+        "no" => 0,
+        count => count.parse().ok()?,
     };
 
     let announced = Announced {
         solutions,
-        families,
+        has_families,
         open,
     };
     Some((read_window(window)?, announced))
@@ -420,28 +486,28 @@ fn read_window(text: &str) -> Option<Window> {
     Window::new(number(min)?, max).ok()
 }
 
-/// `[a, b], moving 0 2`: an interval, a word, the support.
-fn valued(text: &str, word: &str) -> Option<AcceptedClaim> {
-    let (interval, support) = text.split_once(word)?;
+/// `[a, b], slip [0, 2]`: an interval, the support.
+fn valued(text: &str) -> Option<AcceptedClaim> {
+    let (interval, support) = text.split_once(", slip ")?;
     Some(AcceptedClaim {
         support: indices(support)?,
         value: read_interval(interval)?,
     })
 }
 
-/// `values between V and V, moving 0 2, one solution at each value`; V is a number or
-/// `a root in [a, b]`.
-fn family(text: &str) -> Option<SolutionFamily> {
+/// `every lambda2 between V and V, slip [0, 2], one solution at each`; V is a number or
+/// `a value in [a, b]`.
+fn family(text: &str, word: &str) -> Option<SolutionFamily> {
     let (rest, how_many) = text.rsplit_once(", ")?;
-    let (place, support) = rest.rsplit_once(", moving")?;
+    let (place, support) = rest.rsplit_once(", slip ")?;
 
-    let (from, to, is_point) = if let Some(value) = place.strip_prefix("value ") {
+    let (from, to, is_point) = if let Some(value) = place.strip_prefix(&format!("{word} = ")) {
         let value = enclosed(value)?;
         (value.clone(), Some(value), true)
-    } else if let Some(value) = place.strip_prefix("values above ") {
+    } else if let Some(value) = place.strip_prefix(&format!("every {word} above ")) {
         (enclosed(value)?, None, false)
     } else {
-        let ends = place.strip_prefix("values between ")?;
+        let ends = place.strip_prefix(&format!("every {word} between "))?;
         let (from, to) = ends.split_once(" and ")?;
         (enclosed(from)?, Some(enclosed(to)?), false)
     };
@@ -451,20 +517,22 @@ fn family(text: &str) -> Option<SolutionFamily> {
         from,
         to,
         is_point,
-        is_alone: how_many == "one solution at each value",
+        is_alone: how_many == "one solution at each",
     })
 }
 
-/// `values in [a, b], moving {0 2}, at rest {1}`; the other variables are undecided.
+/// `[a, b], moving [0, 2], undecided [1]`; the other complementarity variables are at rest.
 fn open_region(text: &str, slip: &[usize]) -> Option<OpenRegion> {
-    let (window, states) = text.strip_prefix("values in ")?.split_once(", moving {")?;
-    let (moving, resting) = states.strip_suffix('}')?.split_once("}, at rest {")?;
+    let (window, states) = text.split_once(", moving ")?;
+    let (moving, undecided) = states.split_once(", undecided ")?;
     let window = read_window(window)?;
     let moving = indices(moving)?;
-    let resting = indices(resting)?;
+    let undecided = indices(undecided)?;
 
-    let is_undecided = |i: &usize| !moving.contains(i) && !resting.contains(i);
-    let undecided = slip.iter().copied().filter(is_undecided).collect();
+    let is_known = |i: &usize| slip.contains(i);
+    if !moving.iter().chain(&undecided).all(is_known) {
+        return None;
+    }
     Some(OpenRegion {
         min: window.min().clone(),
         max: window.max().cloned(),
@@ -474,7 +542,7 @@ fn open_region(text: &str, slip: &[usize]) -> Option<OpenRegion> {
 }
 
 fn enclosed(text: &str) -> Option<Interval> {
-    match text.strip_prefix("a root in ") {
+    match text.strip_prefix("a value in ") {
         Some(interval) => read_interval(interval),
         None => Some(Interval::point(number(text)?)),
     }
@@ -488,12 +556,9 @@ fn read_interval(text: &str) -> Option<Interval> {
     Interval::new(number(min)?, number(max)?)
 }
 
+/// `[0, 2]`
 fn indices(text: &str) -> Option<Vec<usize>> {
-    let mut list = Vec::new();
-    for index in text.split_whitespace() {
-        list.push(index.parse().ok()?);
-    }
-    Some(list)
+    serde_json::from_str(text).ok()
 }
 
 fn number(text: &str) -> Option<Rational> {
@@ -523,39 +588,78 @@ pub fn is_solution(truth: &Enumeration, claim: &AcceptedClaim) -> bool {
 #[test]
 fn sentences_are_read() {
     let read = |text: &str| {
-        let lines: Vec<String> = text.lines().map(String::from).collect();
-        Statement::read(&lines, &[0, 1, 2])
+        let (sentence, others) = text.split_once('\n').unwrap_or((text, ""));
+        let others: Vec<String> = others.lines().map(String::from).collect();
+        Statement::read(sentence, &others, "mu", &[0, 1, 2])
     };
 
-    let one = "exactly one solution in [0, infinity)\nsolution: value in [1.4, 3/2], moving 0 2";
+    let one = "1 solution in [0, infinity), and no other\nsolution: mu in [1.4, 3/2], slip [0, 2]";
     let cover = read(one).unwrap().cover.unwrap();
     assert_eq!(cover.said.solutions[0].support, [0, 2]);
     assert_eq!(cover.announced.solutions, 1);
 
-    let open = "2 solutions and one family; every other one in [0, 4] lies in one of 1 open \
-                region(s)\nopen: values in [1, 2], moving {0}, at rest {}";
+    let open = "2 solutions and families of them in [0, 4], and no other outside 1 open region\n\
+                open: mu in [1, 2], moving [0], undecided [1, 2]";
     let cover = read(open).unwrap().cover.unwrap();
     assert_eq!(cover.said.open[0].undecided, [1, 2]);
     let announced = Announced {
         solutions: 2,
-        families: 1,
+        has_families: true,
         open: 1,
     };
     assert_eq!(cover.announced, announced);
 
-    let family = "0 solution(s) and one family, and no others, in [0, 4]\nfamily: values between \
-                  a root in [1, 2] and 3, moving 1, solutions at each value";
+    let family = "0 solutions and families of them in [0, 4], and no other\nfamily: every mu \
+                  between a value in [1, 2] and 3, slip [1], a solution at each";
     let cover = read(family).unwrap().cover.unwrap();
     assert_eq!(cover.said.families[0].support, [1]);
     assert!(!cover.said.families[0].is_alone);
 
-    let claim = "1 solution(s) claimed, nothing said about others\n\
-                 claim: a solution with a value in [1, 2], support 0";
+    let claim = "claims, each has a solution in [0, 4]; nothing said about others\n\
+                 claim: mu in [1, 2], slip [0]";
     assert_eq!(read(claim).unwrap().claims.len(), 1);
 
-    assert!(read("exactly some solutions in [0, 4]").is_none());
+    let none = read("no solution in [0, 4] outside 2 open regions").unwrap();
+    assert_eq!(none.cover.unwrap().announced.open, 2);
+
+    assert!(read("some solutions in [0, 4], and no other").is_none());
+    assert!(read("1 solution in [0, 4]").is_none());
+    assert!(read("no solution in [0, 4], and no other").is_none());
     assert!(read("no solution in [4, 0]").is_none());
     assert!(read("no solution in [0, 4]\nbelieve: me").is_none());
+    assert!(read(&one.replace("mu in", "lambda2 in")).is_none());
+}
+
+/// The name of the question and the window of the problem are part of what is said.
+#[test]
+fn a_verdict_about_another_question_is_found() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec/examples/certificates");
+    let problem = read_problem_file(&folder.join("claim.problem.json")).unwrap();
+    let certificate = std::fs::read_to_string(folder.join("claim.json")).unwrap();
+    let digest = problem.sha256();
+    let right = format!(
+        "1 solution in [0, 3], and no other (lambda2, problem {digest}); NOT the whole window \
+         [0, infinity) of the problem"
+    );
+
+    let wrong_in = |line: &str| {
+        let lines = [line, "solution: lambda2 in [1, 1], slip [0]"].map(String::from);
+        falsehoods(&problem, &certificate, &lines)
+    };
+    assert_eq!(wrong_in(&right), Vec::<String>::new());
+
+    let others = [
+        right.replace("lambda2", "mu"),
+        right.replace("(lambda2", "(lambda2, friction 1"),
+        right.replace(&digest, &"0".repeat(64)),
+        right.replace("[0, 3]", "[0, 4]"),
+        right.replace("[0, infinity)", "[0, 4]"),
+        right.replace("; NOT the whole window [0, infinity) of the problem", ""),
+    ];
+    for other in others {
+        assert_eq!(wrong_in(&other).len(), 1, "{other}");
+    }
+    assert!(!wrong_in("1 solution in [0, 3], and no other").is_empty());
 }
 
 /// The mass point of chapter 5 has its critical friction at 1.
@@ -563,8 +667,15 @@ fn sentences_are_read() {
 fn a_false_range_of_friction_is_found() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec/examples/certificates");
     let problem = read_problem_file(&folder.join("critical.problem.json")).unwrap();
+    let name = format!("lambda2, problem {}", problem.sha256());
+    let absence = |from: &str, below: &str| {
+        format!("no solution for friction in [{from}, {below}], lambda2 in [0, infinity) ({name})")
+    };
+    let presence = |from: &str, to: &str| {
+        format!("a solution with lambda2 >= 0 for every friction in [{from}, {to}] ({name})")
+    };
     let absent = |from: &str, below: &str| {
-        let line = format!("no solution for mu in [{from}, {below}] and lambda^2 in [0, infinity)");
+        let line = absence(from, below);
         let certificate = format!(r#"{{"from": "{from}", "below": "{below}"}}"#);
         falsehoods(&problem, &certificate, &[line])
     };
@@ -574,7 +685,7 @@ fn a_false_range_of_friction_is_found() {
     assert!(!absent("0", "9/8").is_empty());
     assert!(!absent("9/8", "5/4").is_empty());
 
-    let line = "no solution for mu in [0, 1/2] and lambda^2 in [0, infinity)".to_string();
+    let line = absence("0", "1/2");
     assert_eq!(
         falsehoods(&problem, r#"{"below": "1/2"}"#, std::slice::from_ref(&line)),
         Vec::<String>::new()
@@ -584,13 +695,13 @@ fn a_false_range_of_friction_is_found() {
     }
 
     let present = |from: &str, to: &str| {
-        let line = format!("for every mu in [{from}, {to}] a solution with lambda^2 >= 0");
+        let line = presence(from, to);
         let certificate = r#"{"from": "5/4", "to": "2"}"#;
         falsehoods(&problem, certificate, &[line])
     };
     assert_eq!(present("5/4", "2"), Vec::<String>::new());
     assert!(!present("1", "2").is_empty());
 
-    let line = "for every mu in [1/2, 2] a solution with lambda^2 >= 0".to_string();
+    let line = presence("1/2", "2");
     assert!(!falsehoods(&problem, r#"{"from": "1/2", "to": "2"}"#, &[line]).is_empty());
 }

@@ -10,7 +10,7 @@
 //! | 3 | `UNDECIDED, VERIFIED: statement` | the same; the statement names open regions |
 //! | 1 | `REJECTED: reason` | refused |
 //! | 2 | `MALFORMED: reason` | refused |
-//! | 3 | `NOT VERIFIED: kind` | no theorem for this evidence; nothing is said |
+//! | 4 | `NOT VERIFIED: kind` | no theorem for this evidence; nothing is said |
 //!
 //! Everything else (another code, another word, no end in time) is no verdict, which counts as
 //! refused. Called by `compare` and `verify`, and by the tests of the three checkers.

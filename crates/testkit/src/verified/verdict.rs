@@ -34,7 +34,7 @@ impl VerifiedVerdict {
             (3, "UNDECIDED, VERIFIED") => Some(VerifiedVerdict::Undecided(statement())),
             (1, "REJECTED") => Some(VerifiedVerdict::Rejected(rest)),
             (2, "MALFORMED") => Some(VerifiedVerdict::Malformed(rest)),
-            (3, "NOT VERIFIED") => Some(VerifiedVerdict::NotVerified(rest)),
+            (4, "NOT VERIFIED") => Some(VerifiedVerdict::NotVerified(rest)),
             _ => None,
         }
     }
@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn code_and_word_must_agree() {
-        let accepted = "ACCEPTED, VERIFIED: exactly one solution in [0, 1]\nsolution: value in";
+        let accepted = "ACCEPTED, VERIFIED: 1 solution in [0, 1], and no other\nsolution: mu in";
         let lines = accepted.trim_start_matches("ACCEPTED, VERIFIED: ").lines();
         let statement: Vec<String> = lines.map(String::from).collect();
         assert_eq!(
@@ -78,13 +78,12 @@ mod tests {
         assert_eq!(rejected, Verdict::Rejected("no claim".into()));
         assert!(rejected.refusal().is_some());
 
-        let open = Verdict::read(Some(3), "NOT VERIFIED: open\n").unwrap();
+        let open = Verdict::read(Some(4), "NOT VERIFIED: open\n").unwrap();
         assert_eq!(open, Verdict::NotVerified("open".into()));
         assert_eq!(open.statement(), None);
         assert_eq!(open.refusal(), None);
 
-        let undecided =
-            "UNDECIDED, VERIFIED: every solution in [0, 1] lies in one of 1 open region(s)";
+        let undecided = "UNDECIDED, VERIFIED: no solution in [0, 1] outside 1 open region";
         let undecided = Verdict::read(Some(3), undecided).unwrap();
         assert_eq!(undecided.statement().map(<[String]>::len), Some(1));
         assert_eq!(undecided.refusal(), None);
@@ -94,6 +93,8 @@ mod tests {
         assert_eq!(Verdict::read(Some(0), "REJECTED: no claim"), None);
         assert_eq!(Verdict::read(Some(0), ""), None);
         assert_eq!(Verdict::read(Some(1), accepted), None);
+        assert_eq!(Verdict::read(Some(3), "NOT VERIFIED: open\n"), None);
+        assert_eq!(Verdict::read(Some(4), "UNDECIDED, VERIFIED: "), None);
         assert_eq!(Verdict::read(None, accepted), None);
     }
 }
