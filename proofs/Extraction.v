@@ -1,7 +1,9 @@
 (* Extraction of the checker to OCaml.
 
-   Integers (Z) become zarith's arbitrary-precision integers, natural numbers become OCaml's int
-   (they count rows and columns), and the equality test of natural numbers becomes that of int.
+   Integers (Z) become zarith's arbitrary-precision integers, natural numbers become OCaml's int,
+   and the equality test of natural numbers becomes that of int.  Natural numbers are lengths of
+   lists and places in them; they are added, lessened, compared, and multiplied by three
+   (ZeroReaction.v), and nothing else, so that none overflows (program/json.ml).
    These three mappings are part of the trusted base (README.md).  Everything else is Coq's
    extraction of the functions whose soundness System.v, Complete.v, Families.v, Varying.v, Claim.v,
    Lifted.v, EnclosedClaim.v, PlainMcp.v, ZeroReaction.v, ZeroEnclosed.v, ZeroComplete.v,
