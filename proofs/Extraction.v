@@ -1,16 +1,15 @@
 (* Extraction of the checker to OCaml.
 
-   Integers (Z) become zarith's arbitrary-precision integers, natural numbers become OCaml's int,
-   and the equality test of natural numbers becomes that of int.  Natural numbers are lengths of
-   lists and places in them; they are added, lessened, compared, and multiplied by three
-   (ZeroReaction.v), and nothing else, so that none overflows (program/json.ml).
+   Integers (Z) become zarith's arbitrary-precision integers, natural numbers become OCaml's int
+   with the functions of program/natural.ml, and the equality test of natural numbers becomes that
+   of int.
    These three mappings are part of the trusted base (README.md).  Everything else is Coq's
    extraction of the functions whose soundness System.v, Complete.v, Families.v, Varying.v, Claim.v,
    Lifted.v, EnclosedClaim.v, PlainMcp.v, ZeroReaction.v, ZeroEnclosed.v, ZeroComplete.v,
    Critical.v, CriticalAnchors.v and PresenceAnchors.v prove. *)
 
 From Coq Require Import ZArith.
-From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt ExtrOcamlNatInt.
+From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt.
 From mathcomp Require Import all_ssreflect.
 From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned Cover.
 From Mceip Require Import Number Condensation Pencil Whole Complete Claim System ZeroReaction.
@@ -20,6 +19,11 @@ From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Regular.
 From Mceip Require Import Critical CriticalAnchors Presence PresenceAnchors.
 From Mceip Require Import ZeroPencil ZeroComplete.
 
+Extract Inductive nat => int [ "0" "Natural.succ" ]
+  "(fun zero next n -> if n = 0 then zero () else next (Natural.before n))".
+Extract Inlined Constant plus => "Natural.add".
+Extract Inlined Constant minus => "Natural.sub".
+Extract Inlined Constant mult => "Natural.mul".
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
 

@@ -231,16 +231,11 @@ let integer item =
   let q = rational item in
   if Z.equal (Q.den q) Z.one then Q.num q else malformed "an integer was expected"
 
-(* The kernel's natural numbers are OCaml's int, which ends at 2^62.  They are lengths of lists and
-   places in lists; the kernel adds a few of them and multiplies by three (Extraction.v).  What is
-   read is below 2^32, and no list in memory is as long as 2^40, so that no sum overflows. *)
-let largest_counter = 1 lsl 32
-
 (* An index or a size: a JSON number spelt as an integer. *)
 let counter = function
   | Number s when s <> "-0" && String.for_all (fun c -> c = '-' || (c >= '0' && c <= '9')) s ->
     (match int_of_string_opt s with
-     | Some i when abs i < largest_counter -> i
+     | Some i when abs i < Natural.limit -> i
      | _ -> malformed "%s is too large" s)
   | _ -> malformed "an integer was expected"
 

@@ -30,19 +30,13 @@ type comparison =
 
 (** val pred : int -> int **)
 
-let pred = fun n -> Stdlib.max 0 (n-1)
+let pred n =
+  (fun zero next n -> if n = 0 then zero () else next (Natural.before n))
+    (fun _ -> n)
+    (fun u -> u)
+    n
 
-(** val add : int -> int -> int **)
 
-let rec add = (+)
-
-(** val mul : int -> int -> int **)
-
-let rec mul = ( * )
-
-(** val sub : int -> int -> int **)
-
-let rec sub = fun n m -> Stdlib.max 0 (n-m)
 
 type reflect =
 | ReflectT
@@ -756,7 +750,7 @@ let nat_eqType =
 (** val addn_rec : int -> int -> int **)
 
 let addn_rec =
-  add
+  Natural.add
 
 (** val addn : int -> int -> int **)
 
@@ -766,7 +760,7 @@ let addn =
 (** val subn_rec : int -> int -> int **)
 
 let subn_rec =
-  sub
+  Natural.sub
 
 (** val subn : int -> int -> int **)
 
@@ -781,7 +775,7 @@ let leq m n =
 (** val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1 **)
 
 let rec iter n f x =
-  (fun fO fS n -> if n=0 then fO () else fS (n-1))
+  (fun zero next n -> if n = 0 then zero () else next (Natural.before n))
     (fun _ -> x)
     (fun i -> f (iter i f x))
     n
@@ -789,7 +783,7 @@ let rec iter n f x =
 (** val muln_rec : int -> int -> int **)
 
 let muln_rec =
-  mul
+  Natural.mul
 
 (** val muln : int -> int -> int **)
 
@@ -799,7 +793,7 @@ let muln =
 (** val odd : int -> bool **)
 
 let rec odd n =
-  (fun fO fS n -> if n=0 then fO () else fS (n-1))
+  (fun zero next n -> if n = 0 then zero () else next (Natural.before n))
     (fun _ -> false)
     (fun n' -> negb (odd n'))
     n
@@ -808,7 +802,7 @@ let rec odd n =
 
 let rec size = function
 | [] -> 0
-| _ :: s' -> Stdlib.Int.succ (size s')
+| _ :: s' -> Natural.succ (size s')
 
 (** val nilp : 'a1 list -> bool **)
 
@@ -845,7 +839,7 @@ let rec nth x0 s n =
   match s with
   | [] -> x0
   | x :: s' ->
-    ((fun fO fS n -> if n=0 then fO () else fS (n-1))
+    ((fun zero next n -> if n = 0 then zero () else next (Natural.before n))
        (fun _ -> x)
        (fun n' -> nth x0 s' n')
        n)
@@ -856,7 +850,7 @@ let rec set_nth x0 s n y =
   match s with
   | [] -> ncons n x0 (y :: [])
   | x :: s' ->
-    ((fun fO fS n -> if n=0 then fO () else fS (n-1))
+    ((fun zero next n -> if n = 0 then zero () else next (Natural.before n))
        (fun _ -> y :: s')
        (fun n' -> x :: (set_nth x0 s' n' y))
        n)
@@ -865,7 +859,7 @@ let rec set_nth x0 s n y =
 
 let rec find a = function
 | [] -> 0
-| x :: s' -> if a x then 0 else Stdlib.Int.succ (find a s')
+| x :: s' -> if a x then 0 else Natural.succ (find a s')
 
 (** val filter : 'a1 pred0 -> 'a1 list -> 'a1 list **)
 
@@ -890,7 +884,7 @@ let rec all a = function
 let rec drop n s = match s with
 | [] -> s
 | _ :: s' ->
-  ((fun fO fS n -> if n=0 then fO () else fS (n-1))
+  ((fun zero next n -> if n = 0 then zero () else next (Natural.before n))
      (fun _ -> s)
      (fun n' -> drop n' s')
      n)
@@ -996,9 +990,9 @@ let rec pmap f = function
 (** val iota : int -> int -> int list **)
 
 let rec iota m n =
-  (fun fO fS n -> if n=0 then fO () else fS (n-1))
+  (fun zero next n -> if n = 0 then zero () else next (Natural.before n))
     (fun _ -> [])
-    (fun n' -> m :: (iota (Stdlib.Int.succ m) n'))
+    (fun n' -> m :: (iota (Natural.succ m) n'))
     n
 
 (** val foldr : ('a1 -> 'a2 -> 'a2) -> 'a2 -> 'a1 list -> 'a2 **)
@@ -1110,7 +1104,7 @@ let rec check_tree n evidence tr r =
         ((&&) (check_tree n evidence tr1 (below t r))
           (check_tree n evidence tr2 (above t r))))
   | Branch (i, tr1, tr2) ->
-    (&&) (leq (Stdlib.Int.succ i) n)
+    (&&) (leq (Natural.succ i) n)
       ((&&) (check_tree n evidence tr1 (decide i Resting r))
         (check_tree n evidence tr2 (decide i Moving r)))
   | Leaf l -> (&&) (ordered r.lower r.upper) (evidence r l)
@@ -1206,19 +1200,19 @@ let farkas p r w =
 
 let rec sum_from f k = function
 | [] -> Big_int_Z.zero_big_int
-| x :: l' -> Z.add (f k x) (sum_from f (Stdlib.Int.succ k) l')
+| x :: l' -> Z.add (f k x) (sum_from f (Natural.succ k) l')
 
 (** val all_from : (int -> 'a1 -> bool) -> int -> 'a1 list -> bool **)
 
 let rec all_from f k = function
 | [] -> true
-| x :: l' -> (&&) (f k x) (all_from f (Stdlib.Int.succ k) l')
+| x :: l' -> (&&) (f k x) (all_from f (Natural.succ k) l')
 
 (** val map_from : (int -> 'a1 -> 'a2) -> int -> 'a1 list -> 'a2 list **)
 
 let rec map_from f k = function
 | [] -> []
-| x :: l' -> (f k x) :: (map_from f (Stdlib.Int.succ k) l')
+| x :: l' -> (f k x) :: (map_from f (Natural.succ k) l')
 
 (** val remainder :
     ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
@@ -1859,7 +1853,7 @@ let check_leaf p solutions check_whole0 check_limit0 r = function
 | Root (h, c, o) -> (&&) (reaches r h) (check_root p (extended r h) c o)
 | Claimed (h, c, n) ->
   (&&) (reaches r h)
-    ((&&) (leq (Stdlib.Int.succ n) (size solutions))
+    ((&&) (leq (Natural.succ n) (size solutions))
       (check_claimed p (extended r h) c (known_at solutions n)))
 | Infinite (h, c, x) ->
   (&&) (reaches r h)
@@ -2083,8 +2077,8 @@ let stiffness_positive d w =
   (&&) (Z.ltb Big_int_Z.zero_big_int w.bound_d)
     ((&&)
       (all (fun row ->
-        all (fun entry0 -> leq (Stdlib.Int.succ (fst entry0)) d.free_count)
-          row) d.ff)
+        all (fun entry0 -> leq (Natural.succ (fst entry0)) d.free_count) row)
+        d.ff)
       (bounded_rows (Obj.magic d.free_count) d.ff { bound_times = w.bound_c;
         bound_at = w.bound_d; gram_times = w.factor_scale; gram_rows =
         w.stiffness_factor }))
@@ -2169,8 +2163,7 @@ let rec mark value0 k l table0 =
   match l with
   | [] -> table0
   | i :: l' ->
-    set_nth None (mark value0 (Stdlib.Int.succ k) l' table0) i (Some
-      (value0 k))
+    set_nth None (mark value0 (Natural.succ k) l' table0) i (Some (value0 k))
 
 (** val places : int list -> int option list **)
 
@@ -2202,7 +2195,7 @@ let row_b q i =
 
 let wellformed q =
   (&&) (uniq nat_eqType (Obj.magic q.free))
-    (all (fun i -> leq (Stdlib.Int.succ i) q.order) q.free)
+    (all (fun i -> leq (Natural.succ i) q.order) q.free)
 
 (** val free_rows_constant : pencil -> bool **)
 
@@ -2493,10 +2486,10 @@ let y_positive q k i =
 
 let columns_in_order q =
   (&&)
-    (all (fun row ->
-      all (fun e -> leq (Stdlib.Int.succ (fst e)) q.order) row) q.rows_a)
-    (all (fun row ->
-      all (fun e -> leq (Stdlib.Int.succ (fst e)) q.order) row) q.rows_b)
+    (all (fun row -> all (fun e -> leq (Natural.succ (fst e)) q.order) row)
+      q.rows_a)
+    (all (fun row -> all (fun e -> leq (Natural.succ (fst e)) q.order) row)
+      q.rows_b)
 
 (** val check_claim : pencil -> claim -> bool **)
 
@@ -2877,7 +2870,7 @@ let check_limit q r k x =
   let at_slip = fun j -> nth Big_int_Z.zero_big_int x (nth 0 (slip q) j) in
   (&&) (columns_in_order q)
     ((&&) (negb (Z.eqb (at_slip k) Big_int_Z.zero_big_int))
-      ((&&) (leq (Stdlib.Int.succ k) (size (slip q)))
+      ((&&) (leq (Natural.succ k) (size (slip q)))
         ((&&)
           (all (fun i ->
             Z.eqb (sparse_dot (row_a q i) x) Big_int_Z.zero_big_int) q.free)
@@ -3091,8 +3084,7 @@ let pencil_of s u =
 (** val columns_in_range : system -> sparse_row list -> bool **)
 
 let columns_in_range s rows =
-  all (fun row -> all (fun e -> leq (Stdlib.Int.succ (fst e)) s.dofs) row)
-    rows
+  all (fun row -> all (fun e -> leq (Natural.succ (fst e)) s.dofs) row) rows
 
 (** val inner : planar -> planar -> Big_int_Z.big_int **)
 
@@ -3112,7 +3104,7 @@ let particle_wellformed s p =
 
 let system_wellformed s u =
   (&&) (uniq nat_eqType (Obj.magic moving_dofs s))
-    ((&&) (all (fun d -> leq (Stdlib.Int.succ d) s.dofs) (moving_dofs s))
+    ((&&) (all (fun d -> leq (Natural.succ d) s.dofs) (moving_dofs s))
       ((&&) (all (particle_wellformed s) s.particles)
         ((&&)
           ((&&) (columns_in_range s s.stiffness) (columns_in_range s s.mass))
@@ -3267,7 +3259,7 @@ let particle_states s u l j =
 let slip_variables s =
   all (fun i ->
     (&&) (leq (free_number s) i)
-      (leq (Stdlib.Int.succ i) (addn (free_number s) (size s.particles))))
+      (leq (Natural.succ i) (addn (free_number s) (size s.particles))))
 
 (** val check_lifted : system -> unknown -> lifted -> bool **)
 
@@ -3322,17 +3314,17 @@ let moving_with_zero z0 =
 
 let gap z0 j =
   addn (addn (free_number z0.without_zero) (size z0.without_zero.particles))
-    (muln (Stdlib.Int.succ (Stdlib.Int.succ (Stdlib.Int.succ 0))) j)
+    (muln (Natural.succ (Natural.succ (Natural.succ 0))) j)
 
 (** val right : zero_system -> int -> int **)
 
 let right z0 j =
-  Stdlib.Int.succ (gap z0 j)
+  Natural.succ (gap z0 j)
 
 (** val left : zero_system -> int -> int **)
 
 let left z0 j =
-  Stdlib.Int.succ (Stdlib.Int.succ (gap z0 j))
+  Natural.succ (Natural.succ (gap z0 j))
 
 (** val frame_wellformed : zero_system -> slip_particle -> bool **)
 
@@ -3350,8 +3342,8 @@ let zero_wellformed z0 u =
     ((&&) (uniq nat_eqType (Obj.magic moving_with_zero z0))
       ((&&)
         (all (fun p ->
-          (&&) (leq (Stdlib.Int.succ p.first_dof) z0.without_zero.dofs)
-            (leq (Stdlib.Int.succ p.second_dof) z0.without_zero.dofs))
+          (&&) (leq (Natural.succ p.first_dof) z0.without_zero.dofs)
+            (leq (Natural.succ p.second_dof) z0.without_zero.dofs))
           z0.zero_particles) (all (frame_wellformed z0) z0.zero_particles)))
 
 (** val with_sign : Big_int_Z.big_int -> slip_particle -> slip_particle **)
@@ -3445,11 +3437,11 @@ let zero_states z0 u c j =
 let zero_variables z0 =
   all (fun i ->
     (&&) (leq (free_number z0.without_zero) i)
-      (leq (Stdlib.Int.succ i)
+      (leq (Natural.succ i)
         (addn
           (addn (free_number z0.without_zero)
             (size z0.without_zero.particles))
-          (muln (Stdlib.Int.succ (Stdlib.Int.succ (Stdlib.Int.succ 0)))
+          (muln (Natural.succ (Natural.succ (Natural.succ 0)))
             (size z0.zero_particles)))))
 
 (** val check_zero : zero_system -> unknown -> zero_claim -> bool **)
@@ -3731,7 +3723,7 @@ let bound_wellformed = function
 (** val row_wellformed : mcp -> mcp_row -> bool **)
 
 let row_wellformed p r =
-  (&&) (all (fun e -> leq (Stdlib.Int.succ (fst e)) (size p)) r.row_m)
+  (&&) (all (fun e -> leq (Natural.succ (fst e)) (size p)) r.row_m)
     ((&&) (bound_wellformed r.lower_bound) (bound_wellformed r.upper_bound))
 
 (** val coordinate : mcp_point -> int -> Big_int_Z.big_int **)
@@ -4187,7 +4179,7 @@ let check_branch q r pl b =
 let check_bound q r pl b k o =
   let f = o.bound_signs in
   (&&) (is_active q r o.bounded)
-    ((&&) (leq (Stdlib.Int.succ o.bounded) q.order)
+    ((&&) (leq (Natural.succ o.bounded) q.order)
       ((&&)
         (all (fun i ->
           (||) (negb (rests q r i))
@@ -4218,7 +4210,7 @@ let check_alone q r pl b =
   | Some p ->
     let (k, bounds) = p in
     (&&) (moves q r k)
-      ((&&) (leq (Stdlib.Int.succ k) q.order)
+      ((&&) (leq (Natural.succ k) q.order)
         ((&&) (all (check_bound q r pl b k) bounds)
           (all (fun j ->
             (||) (negb (is_active q r j))
@@ -5116,7 +5108,7 @@ let check_varying_leaf q w families0 solutions r = function
     (at_anchor w families0 n (extended r h) (leaf_at q grain e))
 | OfClaim (n, grain, h, c, k) ->
   (&&) (reaches r h)
-    ((&&) (leq (Stdlib.Int.succ k) (size solutions))
+    ((&&) (leq (Natural.succ k) (size solutions))
       (at_anchor w families0 n (extended r h)
         (claim_at q grain c (known_at solutions k))))
 | OfLimit (n, grain, h, c, x) ->
@@ -5251,7 +5243,7 @@ let rec check_boxes n evidence tr r low high =
         ((&&) (check_boxes n evidence tr1 r low m)
           (check_boxes n evidence tr2 r m high)))
   | Decide (i, tr1, tr2) ->
-    (&&) (leq (Stdlib.Int.succ i) n)
+    (&&) (leq (Natural.succ i) n)
       ((&&) (check_boxes n evidence tr1 (decide i Resting r) low high)
         (check_boxes n evidence tr2 (decide i Moving r) low high))
   | BoxLeaf l ->
@@ -5319,7 +5311,7 @@ let combine_rows c rows =
     int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let against_right m w p =
-  sumZ (iota 0 (Stdlib.Int.succ m)) (fun j ->
+  sumZ (iota 0 (Natural.succ m)) (fun j ->
     Z.mul (nth Big_int_Z.zero_big_int p j)
       (nth Big_int_Z.zero_big_int w.regular_right j))
 
@@ -5327,7 +5319,7 @@ let against_right m w p =
     int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let against_radius m w r =
-  sumZ (iota 0 (Stdlib.Int.succ m)) (fun j ->
+  sumZ (iota 0 (Natural.succ m)) (fun j ->
     Z.mul (nth Big_int_Z.zero_big_int r j)
       (Z.abs (nth Big_int_Z.zero_big_int w.regular_right j)))
 
@@ -5341,8 +5333,8 @@ let off_pivot m w u i p r =
       (Z.add
         (Z.abs
           (Z.sub (unit_entry u i j)
-            (nth Big_int_Z.zero_big_int p (Stdlib.Int.succ j))))
-        (nth Big_int_Z.zero_big_int r (Stdlib.Int.succ j)))
+            (nth Big_int_Z.zero_big_int p (Natural.succ j))))
+        (nth Big_int_Z.zero_big_int r (Natural.succ j)))
       (nth Big_int_Z.zero_big_int w.regular_widths j))
 
 (** val regular_row0 :
@@ -5397,9 +5389,7 @@ let restricted l f =
 (** val corner_pencil : enclosed -> enclosed -> int -> enclosed **)
 
 let corner_pencil p p' c =
-  if leq (Stdlib.Int.succ c) (Stdlib.Int.succ (Stdlib.Int.succ 0))
-  then p
-  else p'
+  if leq (Natural.succ c) (Natural.succ (Natural.succ 0)) then p else p'
 
 (** val corner_end : region -> int -> point **)
 
@@ -5435,8 +5425,8 @@ let sign_at0 p p' r l w c =
 (** val four_corners : int list **)
 
 let four_corners =
-  0 :: ((Stdlib.Int.succ 0) :: ((Stdlib.Int.succ (Stdlib.Int.succ
-    0)) :: ((Stdlib.Int.succ (Stdlib.Int.succ (Stdlib.Int.succ 0))) :: [])))
+  0 :: ((Natural.succ 0) :: ((Natural.succ (Natural.succ
+    0)) :: ((Natural.succ (Natural.succ (Natural.succ 0))) :: [])))
 
 (** val box_regular : enclosed -> enclosed -> region -> regular -> bool **)
 
@@ -5751,7 +5741,7 @@ let check_presence_piece p p' r w =
                 Z.ltb
                   (nth Big_int_Z.zero_big_int w.presence_box.regular_widths j)
                   (nth Big_int_Z.zero_big_int w.presence_box.regular_right
-                    (Stdlib.Int.succ j)))
+                    (Natural.succ j)))
                 (iota 0
                   (pred
                     (size
@@ -5764,11 +5754,11 @@ let check_presence_piece p p' r w =
                   (indices p))
                 ((&&)
                   (presence_edge p p' r w w.presence_start
-                    (0 :: ((Stdlib.Int.succ (Stdlib.Int.succ 0)) :: [])))
+                    (0 :: ((Natural.succ (Natural.succ 0)) :: [])))
                   ((&&)
-                    (presence_edge p p' r w w.presence_finish
-                      ((Stdlib.Int.succ 0) :: ((Stdlib.Int.succ
-                      (Stdlib.Int.succ (Stdlib.Int.succ 0))) :: [])))
+                    (presence_edge p p' r w w.presence_finish ((Natural.succ
+                      0) :: ((Natural.succ (Natural.succ (Natural.succ
+                      0))) :: [])))
                     (negb
                       (eq_op bool_eqType
                         (Obj.magic w.presence_start.regular_minus)
@@ -5940,7 +5930,7 @@ let pencil_by_table z0 u table0 =
   { order =
     (addn
       (addn (free_number z0.without_zero) (size z0.without_zero.particles))
-      (muln (Stdlib.Int.succ (Stdlib.Int.succ (Stdlib.Int.succ 0)))
+      (muln (Natural.succ (Natural.succ (Natural.succ 0)))
         (size z0.zero_particles))); rows_a =
     (map0 (fun f -> zero_row table0 (fst f)) (variable_forms z0 u)); rows_b =
     (map0 (fun f -> zero_row table0 (snd f)) (variable_forms z0 u)); free =

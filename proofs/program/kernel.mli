@@ -16,11 +16,7 @@ type comparison =
 
 val pred : int -> int
 
-val add : int -> int -> int
 
-val mul : int -> int -> int
-
-val sub : int -> int -> int
 
 type reflect =
 | ReflectT
