@@ -241,7 +241,7 @@ let box_anchor c plain friction slip (a : anchor) left_friction =
 let anchored_of c plain friction slip (condensation : critical_condensation) used =
   let given = condensation.plain in
   let nf = List.length plain.Kernel.free and ns = List.length slip in
-  let both k = match element given.anchors k, element condensation.left_friction k with
+  let both k = match List.nth_opt given.anchors k, List.nth_opt condensation.left_friction k with
     | Some a, Some l -> a, l
     | _ -> no_witness "a piece names no anchor" in
   let chosen = List.map both used in

@@ -11,9 +11,6 @@ exception No_witness of string
 
 let no_witness fmt = Printf.ksprintf (fun text -> raise (No_witness text)) fmt
 
-(* The element of a list, if the number that a file gives names one: it may be negative. *)
-let element list number = if number < 0 then None else List.nth_opt list number
-
 let two_to k = Z.shift_left Z.one k
 let point_of, upper_point, value_of = Problem.(point_of, upper_point, value_of)
 let bits z = Z.numbits (Z.abs z)
@@ -682,7 +679,7 @@ let elimination (pencil : Kernel.pencil) slip common slip_common
   else match condensation with
     | None -> no_witness "a condensation is missing"
     | Some c ->
-      let a = match element c.anchors anchor with
+      let a = match List.nth_opt c.anchors anchor with
         | Some a when bits (Q.num a.center) + bits (Q.den a.center) > 2_048 ->
           Problem.not_verified "a center of more than 2,048 bits"
         | Some a when not a.reversed && a.right <> [] -> a
@@ -693,7 +690,7 @@ let elimination (pencil : Kernel.pencil) slip common slip_common
       let columns (k, rows) =
         transpose ns (List.map (List.map (fun z -> Z.shift_left z (e - k))) rows) in
       let zero = List.init ns (fun _ -> List.init nf (fun _ -> Z.zero)) in
-      let nth l k = match element l k with Some m -> columns m | None -> zero in
+      let nth l k = match List.nth_opt l k with Some m -> columns m | None -> zero in
       (* V(t) = left_0 + (t - center) left_1 as V_a + t V_b; V need not be exact. *)
       let ratio = Z.divexact slip_common common in
       let left_vb = List.map (List.map (Z.mul ratio)) (nth left 1) in
@@ -786,7 +783,7 @@ let with_anchors (pencil : Kernel.pencil) slip_list free_factor slip_factor clai
   let used = List.sort_uniq compare
       (List.filter_map (fun (p : piece) -> if needs_anchor p then Some p.anchor else None)
          pieces) in
-  let given k = match element c.anchors k with
+  let given k = match List.nth_opt c.anchors k with
     | Some a -> a
     | None -> no_witness "a piece names no anchor" in
   limit_anchors nf ns (List.map given used);

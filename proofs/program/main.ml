@@ -1,4 +1,4 @@
-(* mceip-verified PROBLEM CERTIFICATE
+(* mceip-verified PROBLEM CERTIFICATE [--window a,b]
 
    Exit codes: 0 accepted, 1 rejected, 2 malformed, 3 undecided: the verified statement leaves
    regions open, 4 not verified: the certificate has evidence that the kernel has no theorem for,
