@@ -175,7 +175,7 @@ fn a_sound_model_has_figures_and_no_warning() {
         "    rows of K: sum to zero to ",
         "    M: diagonal ",
         "    lowest frequencies: ",
-        "    reactions, slip: |r_T| is mu |r_N|, but for at most 0e0 of it",
+        "    reactions, slip: |r_T| is mu |r_N|, but for at most 0 of it",
         "    reactions against K u: differ by ",
     ] {
         assert!(text.contains(figure), "{figure:?} in\n{text}");

@@ -24,7 +24,7 @@ use crate::frequencies::lowest_frequencies;
 use crate::tolerance::{
     BALANCED_ROWS, CONE_SLACK, EQUAL_MASSES, NEAR_SUPPORTS, REACTION_MISMATCH, USUAL_FREQUENCIES,
 };
-use mceip_exact::{Sparse, to_f64};
+use mceip_exact::{Sparse, from_f64, to_f64, upper_decimal};
 use mceip_model::{ContactState, Coordinates, Particle, System};
 use std::collections::HashMap;
 
@@ -219,12 +219,14 @@ impl Plausibility {
         }
 
         if let Some(error) = slip_error {
-            let text = format!("|r_T| is mu |r_N|, but for at most {error:.0e} of it");
+            let error = rounded_up(error, 1);
+            let text = format!("|r_T| is mu |r_N|, but for at most {error} of it");
             self.figure("reactions, slip", text);
         }
         if let Some((ratio, index)) = stick {
             let particle = listed(input.names, &[index]);
-            let text = format!("|r_T| at most {ratio:.4} mu |r_N| ({particle})");
+            let at_most = rounded_up(ratio, 4);
+            let text = format!("|r_T| at most {at_most} mu |r_N| ({particle})");
             self.figure("reactions, stick", text);
 
             let (numerator, denominator) = CONE_SLACK;
@@ -561,4 +563,10 @@ fn mismatch(input: &PlausibilityInput<'_>, forces: &[f64], less: usize) -> Optio
     }
 
     (largest > 0.0).then(|| difference / largest)
+}
+
+/// A decimal with so many significant digits that is not below a number.
+fn rounded_up(value: f64, digits: usize) -> String {
+    let exact = from_f64(value).unwrap_or_default();
+    upper_decimal(&exact, digits)
 }
