@@ -31,7 +31,7 @@ const CLOSED: u64 = 60;
 const CLOSE: f64 = 1e-3;
 
 /// Boxes of a piece, at most: what takes more is not closed.
-const BOXES: usize = 4_000;
+const BOXES: usize = 1_000;
 
 /// What a run has met.
 #[derive(Debug, Default)]

@@ -34,7 +34,7 @@ const FLOOR: &str = "zero reaction";
 /// Particles in state `free` of a large system: 16 free degrees of freedom and one variable more
 /// make a claim a box.
 const MANY_FREE: usize = 8;
-const LARGE_SYSTEMS: u64 = 12;
+const LARGE_SYSTEMS: u64 = 4;
 
 /// Systems of the plain run and of the opt-in run.
 const FEW: u64 = 60;
