@@ -14,9 +14,9 @@
 //!     d mu / dt = - u' T_t x / u' T1 x.
 //! ```
 //!
-//! T comes from who implements [`Pencils`]: `analysis::follow` and `analysis::presence::curve`,
-//! which follow branches, and `multistart::all_slip`, where T does not depend on t. Nothing is
-//! proved here.
+//! T comes from who implements [`BranchPencils`]: `analysis::follow` and
+//! `analysis::presence::curve`, which follow branches, and `multistart::all_slip`, where T does not
+//! depend on t. Nothing is proved here.
 
 use crate::dense::transposed;
 use crate::search::complete::pieces::matrix::{Matrix, principal_block, times};
@@ -29,7 +29,7 @@ const NEWTON_STEPS: usize = 30;
 
 /// What Newton's method solves for beside x.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Unknown {
+pub(crate) enum BranchUnknown {
     Lambda2,
     Friction,
 }
@@ -48,7 +48,7 @@ pub(crate) trait Slice {
 
 /// A solution: x over all positions, of sum one.
 #[derive(Debug, Clone)]
-pub(crate) struct Point {
+pub(crate) struct BranchPoint {
     pub(crate) t: f64,
     pub(crate) mu: f64,
     pub(crate) x: Vec<f64>,
@@ -64,7 +64,7 @@ pub(crate) struct Point {
     pub(crate) violated: Option<usize>,
 }
 
-impl Point {
+impl BranchPoint {
     /// d mu / dt along the support.
     pub(crate) fn slope_of_mu(&self) -> f64 {
         -self.of_t / self.of_mu
@@ -89,7 +89,7 @@ impl Point {
 }
 
 /// T as a function of t and mu, in doubles.
-pub(crate) trait Pencils {
+pub(crate) trait BranchPencils {
     type Slice<'a>: Slice
     where
         Self: 'a;
@@ -104,11 +104,11 @@ pub(crate) trait Pencils {
     /// `None` where Newton's method does not converge, or not to t >= 0 and mu > 0.
     fn solved(
         &self,
-        unknown: Unknown,
+        unknown: BranchUnknown,
         [mut t, mut mu]: [f64; 2],
         guess: &[f64],
         support: &[usize],
-    ) -> Option<Point> {
+    ) -> Option<BranchPoint> {
         if support.is_empty() {
             return None;
         }
@@ -118,8 +118,8 @@ pub(crate) trait Pencils {
         for _ in 0..NEWTON_STEPS {
             let block = principal_block(&slice.matrix(mu), support);
             let derivative = match unknown {
-                Unknown::Lambda2 => slice.of_t(mu, &x),
-                Unknown::Friction => times(slice.of_mu(), &x),
+                BranchUnknown::Lambda2 => slice.of_t(mu, &x),
+                BranchUnknown::Friction => times(slice.of_mu(), &x),
             };
 
             let step = newton_step(&block, &at(&derivative, support), &at(&x, support))?;
@@ -131,12 +131,12 @@ pub(crate) trait Pencils {
             }
 
             let unit = match unknown {
-                Unknown::Lambda2 => {
+                BranchUnknown::Lambda2 => {
                     t += change;
                     slice = self.at(t).filter(|_| t >= 0.0)?;
                     t + self.unit()
                 }
-                Unknown::Friction => {
+                BranchUnknown::Friction => {
                     mu += change;
                     mu.abs()
                 }
@@ -155,7 +155,7 @@ pub(crate) trait Pencils {
 
     /// A solution near a guess. Components that turn out negative leave the support, and positions
     /// with y_i < 0 enter it.
-    fn near(&self, unknown: Unknown, [t, mu]: [f64; 2], x: &[f64]) -> Option<Point> {
+    fn near(&self, unknown: BranchUnknown, [t, mu]: [f64; 2], x: &[f64]) -> Option<BranchPoint> {
         let support: Vec<usize> = (0..x.len()).filter(|&i| x[i] > 0.0).collect();
         let mut point = self.solved(unknown, [t, mu], x, &support)?;
         for _ in 0..x.len() {
@@ -171,11 +171,11 @@ pub(crate) trait Pencils {
     /// The solution of the support that a position enters or leaves, from a guess at its place.
     fn beyond(
         &self,
-        unknown: Unknown,
+        unknown: BranchUnknown,
         place: [f64; 2],
-        point: &Point,
+        point: &BranchPoint,
         position: usize,
-    ) -> Option<Point> {
+    ) -> Option<BranchPoint> {
         let guess: Vec<f64> = point.x.iter().map(|v| v.max(0.0)).collect();
         self.solved(unknown, place, &guess, &point.toggled(position))
     }
@@ -206,13 +206,18 @@ fn largest(vector: &[f64]) -> f64 {
 }
 
 /// The solution with what belongs to it.
-fn point(slice: &impl Slice, [t, mu]: [f64; 2], x: Vec<f64>, support: &[usize]) -> Option<Point> {
+fn point(
+    slice: &impl Slice,
+    [t, mu]: [f64; 2],
+    x: Vec<f64>,
+    support: &[usize],
+) -> Option<BranchPoint> {
     let matrix = slice.matrix(mu);
     let left = left_null_vector(&principal_block(&matrix, support))?;
     let of_t = dot(&left, &at(&slice.of_t(mu, &x), support));
     let of_mu = dot(&left, &at(&times(slice.of_mu(), &x), support));
 
-    Some(Point {
+    Some(BranchPoint {
         t,
         mu,
         violated: violated(&matrix, &x, support),

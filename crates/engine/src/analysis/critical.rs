@@ -132,7 +132,7 @@ pub(super) struct Start {
 }
 
 /// The critical mu, and what presence above it starts from.
-pub(super) struct Found {
+pub(super) struct CriticalFound {
     pub(super) critical: Critical,
     /// The solution of smallest mu in doubles.
     pub(super) start: Option<Start>,
@@ -222,7 +222,7 @@ pub(super) fn critical(
     model: &Model<'_>,
     known: &Known<'_>,
     proofs: &mut Vec<Proof>,
-) -> Result<Found, AnalysisError> {
+) -> Result<CriticalFound, AnalysisError> {
     let solution = known.smallest_solution();
     let Some(excluded) = known.necessary.excluded_below() else {
         let critical = Critical {
@@ -232,7 +232,7 @@ pub(super) fn critical(
             boxes: None,
             unproved: None,
         };
-        return Ok(Found {
+        return Ok(CriticalFound {
             critical,
             start: None,
             family: None,
@@ -252,7 +252,7 @@ pub(super) fn critical(
 
     if known.families.own.mass.is_some() && !model.stopped() {
         let scale = unit_of_lambda2(&known.families.own)?;
-        let search = Search {
+        let search = CriticalSearch {
             model,
             branches: Branches::new(model.system, scale)?,
             scale,
@@ -268,7 +268,7 @@ pub(super) fn critical(
     let start = bounds.start.take();
     let family = std::mem::take(&mut bounds.last).into_family();
     let places = std::mem::take(&mut bounds.places);
-    Ok(Found {
+    Ok(CriticalFound {
         critical: bounds.into_critical(excluded, known, proofs),
         start,
         family,
@@ -392,7 +392,7 @@ enum Next {
 }
 
 /// The search for both bounds.
-struct Search<'a> {
+struct CriticalSearch<'a> {
     model: &'a Model<'a>,
     branches: Branches,
     /// The unit of lambda^2.
@@ -404,7 +404,7 @@ struct Search<'a> {
     friction: &'a Rational,
 }
 
-impl Search<'_> {
+impl CriticalSearch<'_> {
     /// Follows the known solutions to their minima and certifies the smallest.
     fn follow(&self, starts: &[Start], bounds: &mut Bounds) -> Result<(), AnalysisError> {
         let mut starts: Vec<&Start> = starts.iter().collect();

@@ -1,7 +1,7 @@
 //! Follows a solution in (lambda^2, mu) to a local minimum of mu, in doubles.
 //!
-//! With t = lambda^2 the solutions of one support form a branch mu(t) (`branch`), here of the system
-//! condensed to the slip particles and, in the split form, to those with zero reaction.
+//! With t = lambda^2 the solutions of one support form a branch mu(t) (`branch`), here of the
+//! system condensed to the slip particles and, in the split form, to those with zero reaction.
 //!
 //! A branch is followed downhill until this slope is zero (a fold), until t = 0, or until some x_i
 //! or y_i reaches 0 (a kink), where the branch goes on in the neighbouring support or ends in a
@@ -11,7 +11,7 @@
 //! a proposal that `critical` certifies. Called by `critical`.
 
 use super::error::AnalysisError;
-use crate::branch::{Pencils, Point, Slice, Unknown};
+use crate::branch::{BranchPencils, BranchPoint, BranchUnknown, Slice};
 use crate::reduction::{SparseCondensation, SparseCondensed};
 use crate::search::complete::dyadic::short_near;
 use crate::search::complete::pieces::matrix::Matrix;
@@ -30,7 +30,7 @@ const FOLD_STEPS: usize = 60;
 
 /// Where a branch has been followed to.
 pub(super) struct Minimum {
-    pub(super) point: Point,
+    pub(super) point: BranchPoint,
     /// The side on which the solution goes on, beside a kink: 1 upwards in t, -1 downwards; 0
     /// elsewhere.
     side: f64,
@@ -45,7 +45,7 @@ pub(super) struct Branches {
     scale: f64,
 }
 
-impl Pencils for Branches {
+impl BranchPencils for Branches {
     type Slice<'a> = SparseCondensed<'a>;
 
     fn at(&self, t: f64) -> Option<SparseCondensed<'_>> {
@@ -99,7 +99,7 @@ impl Branches {
     pub(super) fn minimum_below(&self, t: f64, mu: f64, x: &[f64]) -> Option<Minimum> {
         let mut guess = x.to_vec();
         self.take_off_common_halves(&mut guess);
-        let mut point = self.near(Unknown::Friction, [t, mu], &guess)?;
+        let mut point = self.near(BranchUnknown::Friction, [t, mu], &guess)?;
         for _ in 0..MAX_SUPPORTS {
             let end = self.downhill(point);
             match self.beyond_the_kink(&end) {
@@ -113,7 +113,7 @@ impl Branches {
 
     /// The same solution at a short value of lambda^2 near its own, and that value; `None` where
     /// there is none.
-    pub(super) fn at_short_value(&self, minimum: &Minimum) -> Option<(Rational, Point)> {
+    pub(super) fn at_short_value(&self, minimum: &Minimum) -> Option<(Rational, BranchPoint)> {
         let point = &minimum.point;
         let slack = SHORT_VALUE * (point.t + self.scale).min(point.t);
         let target = point.t + 2.0 * minimum.side * slack;
@@ -133,12 +133,12 @@ impl Branches {
     }
 
     /// The solution of a point's support at another value of t, from a guess at its mu.
-    fn moved(&self, point: &Point, t: f64, mu: f64) -> Option<Point> {
-        self.solved(Unknown::Friction, [t, mu], &point.x, &point.support)
+    fn moved(&self, point: &BranchPoint, t: f64, mu: f64) -> Option<BranchPoint> {
+        self.solved(BranchUnknown::Friction, [t, mu], &point.x, &point.support)
     }
 
     /// Follows a support downhill as far as it goes.
-    fn downhill(&self, start: Point) -> End {
+    fn downhill(&self, start: BranchPoint) -> End {
         let direction = if start.slope_of_mu() > 0.0 { -1.0 } else { 1.0 };
         let mut here = start;
         let mut step = BRANCH_STEP * (here.t + self.scale);
@@ -186,7 +186,7 @@ impl Branches {
     }
 
     /// The place between two points of a support where the slope is zero.
-    fn fold(&self, mut below: Point, mut above: Point) -> Point {
+    fn fold(&self, mut below: BranchPoint, mut above: BranchPoint) -> BranchPoint {
         for k in 0..FOLD_STEPS {
             let width = above.t - below.t;
             if width.abs() <= FOLD_WIDTH * (below.t.abs() + self.scale * FOLD_WIDTH) {
@@ -217,7 +217,7 @@ impl Branches {
     }
 
     /// The first point of the neighbouring support beyond a kink, if mu falls there.
-    fn beyond_the_kink(&self, end: &End) -> Option<Point> {
+    fn beyond_the_kink(&self, end: &End) -> Option<BranchPoint> {
         let position = end.kink?;
         let last = &end.last;
         let aside = KINK_SIDE * (last.t + self.scale);
@@ -227,7 +227,7 @@ impl Branches {
                 continue;
             }
 
-            let next = self.beyond(Unknown::Friction, [t, last.mu], last, position);
+            let next = self.beyond(BranchUnknown::Friction, [t, last.mu], last, position);
             let falls = next.filter(|next| next.violated.is_none() && next.mu < last.mu);
             if falls.is_some() {
                 return falls;
@@ -240,7 +240,7 @@ impl Branches {
 
 /// Where a support has been followed to.
 struct End {
-    last: Point,
+    last: BranchPoint,
     /// The position that changes its sign beyond the last point.
     kink: Option<usize>,
     /// 1 upwards in t, -1 downwards.
@@ -261,7 +261,7 @@ impl End {
         }
     }
 
-    fn fold(last: Point) -> End {
+    fn fold(last: BranchPoint) -> End {
         End {
             last,
             kink: None,

@@ -14,12 +14,12 @@
 use super::absence::{Family, Place};
 use super::absent_ranges;
 use super::answer::Analysis;
-use super::critical::{CertifiedSolution, Critical, Found, Known, Start};
+use super::critical::{CertifiedSolution, Critical, CriticalFound, Known, Start};
 use super::divergence::{Verdict, verdict};
 use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
 use super::model::Model;
-use super::presence::{Ground, Prover};
+use super::presence::{PresenceGround, Prover};
 use super::starts;
 use crate::run::Progress;
 use crate::search::complete::Completed;
@@ -93,7 +93,7 @@ pub(super) struct Ranges {
 pub(super) fn ranges(
     model: &Model<'_>,
     known: &Known<'_>,
-    found: Found,
+    found: CriticalFound,
     proofs: &mut Vec<Proof>,
 ) -> Result<Ranges, AnalysisError> {
     let mut critical = found.critical;
@@ -290,7 +290,7 @@ fn prover<'a>(
         return Ok(None);
     }
 
-    let ground = Ground {
+    let ground = PresenceGround {
         problem: known.problem,
         watch: model.watch,
     };

@@ -4,7 +4,7 @@
 //! gives the eigenvalues; Newton's method from each real positive one gives its x, which is kept
 //! where it is positive. Called by the command `block` and by campaigns; nothing is certified here.
 
-use crate::branch::{Pencils, Slice, Unknown};
+use crate::branch::{BranchPencils, BranchUnknown, Slice};
 use crate::search::complete::pieces::matrix::{Matrix, combined};
 use crate::tolerance::REAL_EIGENVALUE;
 use mceip_mcp::linear::{eigenvalues, solve};
@@ -74,7 +74,7 @@ struct DensePencil<'a> {
 }
 
 /// It does not depend on t.
-impl Pencils for DensePencil<'_> {
+impl BranchPencils for DensePencil<'_> {
     type Slice<'s>
         = &'s Self
     where
@@ -110,7 +110,12 @@ impl DensePencil<'_> {
         let order = self.a.len();
         let every_variable: Vec<usize> = (0..order).collect();
         let even = vec![1.0; order];
-        let found = self.solved(Unknown::Friction, [0.0, start], &even, &every_variable)?;
+        let found = self.solved(
+            BranchUnknown::Friction,
+            [0.0, start],
+            &even,
+            &every_variable,
+        )?;
 
         let residual = self.residual(found.mu, &found.x);
         let is_solution = residual < REAL_EIGENVALUE;

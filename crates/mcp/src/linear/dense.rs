@@ -1,7 +1,8 @@
 //! Dense factorisations in doubles, and sparse LU. The only file that names faer.
 //!
 //! Public: [`inverse`], [`solve`], [`eigenvalues`], [`conditioned_eigenvalues`],
-//! [`definite_eigenvalues`] of dense matrices, and [`SparseLu`]. `eliminate_front` is the kernel of the sparse Cholesky factors of `multifrontal`.
+//! [`definite_eigenvalues`] of dense matrices, and [`SparseLu`]. `eliminate_front` is the kernel of
+//! the sparse Cholesky factors of `multifrontal`.
 //!
 //! A dense matrix is given by rows, all of the same length; the caller answers for the shape.
 //! Results are not certified: a matrix that is singular but for rounding may pass.

@@ -1,8 +1,8 @@
 //! The search for a proof that a box [t] x [mu] holds no solution.
 //!
 //! A box in which every variable is decided is empty if T on its support is regular in the whole
-//! box (`leaf::regular`). Definite and Farkas leaves are of first order in the size of the box, this
-//! one is of second order: near a branch of solutions variables are decided before the box is
+//! box (`leaf::regular`). Definite and Farkas leaves are of first order in the size of the box,
+//! this one is of second order: near a branch of solutions variables are decided before the box is
 //! halved often. It is halved in the direction in which the witness of its middle is lost, until it
 //! is empty, or so small that it seems to hold a solution: there the search of the piece ends.
 //!
@@ -10,7 +10,7 @@
 
 use crate::search::complete::dyadic::short_near;
 use crate::search::complete::leaf::farkas::{Columns, MiddleTest};
-use crate::search::complete::leaf::regular::Witness;
+use crate::search::complete::leaf::regular::RegularWitness;
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::region::{Item, Region};
 use crate::search::complete::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, Search};
@@ -68,7 +68,7 @@ impl Aim for Absence {
     /// A leaf `regular`, or both halves.
     fn decided(search: &mut Search<'_, Self>, here: &Here<'_>, share: f64) {
         let witness = if search.may_be_regular(here) {
-            Witness::of(&here.middle.matrix, &here.region.states)
+            RegularWitness::of(&here.middle.matrix, &here.region.states)
         } else {
             None
         };
@@ -128,7 +128,7 @@ impl Search<'_, Absence> {
 
     /// Covers both halves of a box, halved in the direction in which the witness of its middle
     /// loses more of its margin.
-    fn halve(&mut self, here: &Here<'_>, witness: Option<&Witness>, share: f64) {
+    fn halve(&mut self, here: &Here<'_>, witness: Option<&RegularWitness>, share: f64) {
         let slices = self.slices(here);
         let is_lost_along_friction = match witness {
             Some(witness) => {

@@ -77,9 +77,9 @@ pub(super) enum Outcome {
 
 /// The condensation made last: most attempts differ in their bound alone.
 #[derive(Default)]
-pub(super) struct LastFamily(Option<Condensed>);
+pub(super) struct LastFamily(Option<KeptFamily>);
 
-struct Condensed {
+struct KeptFamily {
     /// It serves absence below any friction up to this one.
     friction: Rational,
     places: Vec<Place>,
@@ -94,11 +94,11 @@ impl LastFamily {
         friction: &Rational,
         places: &[Place],
     ) -> Result<&mut Family, CompleteError> {
-        let serves = |last: &Condensed| last.places == places && *friction <= last.friction;
+        let serves = |last: &KeptFamily| last.places == places && *friction <= last.friction;
         let last = self.0.take().filter(serves);
         let last = match last {
             Some(last) => last,
-            None => Condensed {
+            None => KeptFamily {
                 friction: friction.clone(),
                 places: places.to_vec(),
                 family: Family::new(families, friction, places)?,

@@ -9,8 +9,8 @@
 //! checker decides about. Called by `mod.rs`.
 
 use super::curve::Curves;
-use super::witness::{Place, Witness};
-use crate::branch::{Pencils, Point, Slice, Unknown};
+use super::witness::{CurveBox, PresenceWitness};
+use crate::branch::{BranchPencils, BranchPoint, BranchUnknown, Slice};
 use crate::run::Watch;
 use crate::tolerance::LEAST_STRETCH;
 use mceip_check::certificate::PresencePiece;
@@ -68,31 +68,31 @@ pub(super) struct Followed {
 
 /// The next point of a curve.
 struct Reached {
-    point: Point,
+    point: BranchPoint,
     /// The proof on the way there, if one was asked for.
     stretch: Option<Stretch>,
 }
 
 impl Climb<'_> {
     /// Follows a curve to a mu, with proofs.
-    pub(super) fn prove(&self, start: &Point, target: f64) -> Followed {
+    pub(super) fn prove(&self, start: &BranchPoint, target: f64) -> Followed {
         let mut followed = Followed::default();
         self.follow(start, target, Some(&mut followed));
         followed
     }
 
     /// Follows a curve to a mu; `None` where it ends before.
-    pub(super) fn walk(&self, start: &Point, target: f64) -> Option<Point> {
+    pub(super) fn walk(&self, start: &BranchPoint, target: f64) -> Option<BranchPoint> {
         self.follow(start, target, None)
     }
 
     /// The way of both: with a record, each step is proved and written into it.
     fn follow(
         &self,
-        start: &Point,
+        start: &BranchPoint,
         target: f64,
         mut record: Option<&mut Followed>,
-    ) -> Option<Point> {
+    ) -> Option<BranchPoint> {
         let mut here = start.clone();
         let mut step = target - here.mu;
         let mut interruptions = 0;
@@ -148,8 +148,8 @@ impl Climb<'_> {
     }
 
     /// The curve from a point to a mu; `None` where that is not reached, or not proved.
-    fn attempt(&self, here: &Point, mu: f64, is_proving: bool) -> Option<Reached> {
-        let is_regular = |point: &Point| point.violated.is_none();
+    fn attempt(&self, here: &BranchPoint, mu: f64, is_proving: bool) -> Option<Reached> {
+        let is_regular = |point: &BranchPoint| point.violated.is_none();
         let point = self.curves.at_friction(mu, here).filter(is_regular)?;
 
         let stretch = if is_proving {
@@ -161,7 +161,7 @@ impl Climb<'_> {
     }
 
     /// A point beyond a place that is left out, on this support or another.
-    fn skip(&self, here: &Point, mu: f64) -> Option<Point> {
+    fn skip(&self, here: &BranchPoint, mu: f64) -> Option<BranchPoint> {
         let mut point = self.curves.at_friction(mu, here)?;
         for _ in 1..MAX_SUPPORTS {
             let Some(position) = point.violated else {
@@ -170,14 +170,14 @@ impl Climb<'_> {
             let place = [point.t, mu];
             point = self
                 .curves
-                .beyond(Unknown::Lambda2, place, &point, position)?;
+                .beyond(BranchUnknown::Lambda2, place, &point, position)?;
         }
 
         point.violated.is_none().then_some(point)
     }
 
     /// The proof between two points of a curve.
-    fn stretch(&self, one: &Point, other: &Point) -> Option<Stretch> {
+    fn stretch(&self, one: &BranchPoint, other: &BranchPoint) -> Option<Stretch> {
         let [below, above] = if one.mu < other.mu {
             [one, other]
         } else {
@@ -191,7 +191,7 @@ impl Climb<'_> {
         }
 
         let matrix = self.curves.at(middle.t)?.matrix(middle.mu);
-        let witness = Witness::of(&matrix, &middle)?;
+        let witness = PresenceWitness::of(&matrix, &middle)?;
         let anchor = self.curves.anchor(middle.t);
         let expansions = self.curves.expansions(middle.t);
         let index = &self.curves.family.view().index;
@@ -204,7 +204,7 @@ impl Climb<'_> {
             }
 
             let mu = [below.mu, above.mu];
-            if let Some(piece) = witness.piece(&Place { t, mu }, expansions, index) {
+            if let Some(piece) = witness.piece(&CurveBox { t, mu }, expansions, index) {
                 return Some(Stretch {
                     low: below.mu,
                     high: above.mu,
@@ -217,7 +217,7 @@ impl Climb<'_> {
     }
 
     /// The least and the largest lambda^2 of three points of a curve, apart by [`FLAT`] at least.
-    fn ends(&self, [below, middle, above]: [&Point; 3]) -> [f64; 2] {
+    fn ends(&self, [below, middle, above]: [&BranchPoint; 3]) -> [f64; 2] {
         let lowest = below.t.min(middle.t).min(above.t);
         let highest = below.t.max(middle.t).max(above.t);
 

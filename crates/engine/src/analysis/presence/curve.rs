@@ -4,7 +4,7 @@
 //! `branch`. Called by `climb`.
 
 use super::super::absence::Family;
-use crate::branch::{Pencils, Point, Slice, Unknown};
+use crate::branch::{BranchPencils, BranchPoint, BranchUnknown, Slice};
 use crate::search::complete::pieces::expansion::Expansion;
 use crate::search::complete::pieces::matrix::{Matrix, combined, times};
 use mceip_exact::to_f64;
@@ -29,22 +29,22 @@ impl<'a> Curves<'a> {
     }
 
     /// The solution of a point's support at another mu.
-    pub(super) fn at_friction(&self, mu: f64, from: &Point) -> Option<Point> {
+    pub(super) fn at_friction(&self, mu: f64, from: &BranchPoint) -> Option<BranchPoint> {
         let t = (from.t + from.slope_of_t() * (mu - from.mu)).max(0.0);
-        self.solved(Unknown::Lambda2, [t, mu], &from.x, &from.support)
+        self.solved(BranchUnknown::Lambda2, [t, mu], &from.x, &from.support)
     }
 }
 
-impl Pencils for Curves<'_> {
+impl BranchPencils for Curves<'_> {
     type Slice<'b>
-        = Expanded<'b>
+        = ExpansionsAt<'b>
     where
         Self: 'b;
 
-    fn at(&self, t: f64) -> Option<Expanded<'_>> {
+    fn at(&self, t: f64) -> Option<ExpansionsAt<'_>> {
         let expansions = self.expansions(t);
         let parts = expansions.each_ref().map(|part| part.at(t));
-        t.is_finite().then_some(Expanded {
+        t.is_finite().then_some(ExpansionsAt {
             t,
             expansions,
             parts,
@@ -57,13 +57,13 @@ impl Pencils for Curves<'_> {
 }
 
 /// T0 and T1 at one value of lambda^2.
-pub(super) struct Expanded<'a> {
+pub(super) struct ExpansionsAt<'a> {
     t: f64,
     expansions: &'a [Expansion; 2],
     parts: [Matrix; 2],
 }
 
-impl Slice for Expanded<'_> {
+impl Slice for ExpansionsAt<'_> {
     fn matrix(&self, mu: f64) -> Matrix {
         let [constant, slope] = &self.parts;
         combined(constant, mu, slope)

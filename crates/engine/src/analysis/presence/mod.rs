@@ -24,7 +24,7 @@ mod witness;
 
 use super::absence::{Family, Place};
 use super::critical::Start;
-use crate::branch::{Pencils, Point, Unknown};
+use crate::branch::{BranchPencils, BranchPoint, BranchUnknown};
 use crate::run::{Progress, Watch};
 use crate::tolerance::{LEAST_INTERVAL, PRESENCE_NEAR, PRESENCE_START};
 use climb::{Climb, Followed, Stretch, short_multiple};
@@ -49,7 +49,7 @@ const MAX_REFUSED: usize = 8;
 
 /// What the search rests on.
 #[derive(Clone, Copy)]
-pub(super) struct Ground<'a> {
+pub(super) struct PresenceGround<'a> {
     /// MCEIP-lambda2 of the system: what certificates belong to.
     pub(super) problem: &'a Problem,
     pub(super) watch: Watch<'a>,
@@ -57,7 +57,7 @@ pub(super) struct Ground<'a> {
 
 /// The search for intervals with a solution.
 pub(super) struct Prover<'a> {
-    ground: Ground<'a>,
+    ground: PresenceGround<'a>,
     family: Family,
     /// What doubles hold for proved.
     stretches: Vec<Stretch>,
@@ -67,7 +67,7 @@ pub(super) struct Prover<'a> {
 
 impl<'a> Prover<'a> {
     /// With the condensation that is to stand in the certificates.
-    pub(super) fn new(ground: Ground<'a>, family: Family) -> Prover<'a> {
+    pub(super) fn new(ground: PresenceGround<'a>, family: Family) -> Prover<'a> {
         Prover {
             ground,
             family,
@@ -77,7 +77,7 @@ impl<'a> Prover<'a> {
     }
 
     /// What it rests on.
-    pub(super) fn ground(&self) -> Ground<'a> {
+    pub(super) fn ground(&self) -> PresenceGround<'a> {
         self.ground
     }
 
@@ -153,7 +153,7 @@ impl<'a> Prover<'a> {
 
     /// The point of a curve at a mu, just above that of its solution of smallest mu, where the
     /// curve may be vertical: it is met at larger and larger distances in lambda^2.
-    fn beside(&self, smallest: &Start, side: f64, mu: f64) -> Option<Point> {
+    fn beside(&self, smallest: &Start, side: f64, mu: f64) -> Option<BranchPoint> {
         let curves = self.climb().curves;
         let unit = smallest.lambda2 + curves.unit();
         let mut guess = smallest.x.clone();
@@ -164,7 +164,7 @@ impl<'a> Prover<'a> {
                 return None;
             }
 
-            let point = curves.near(Unknown::Friction, [t, friction], &guess)?;
+            let point = curves.near(BranchUnknown::Friction, [t, friction], &guess)?;
             if point.mu >= mu {
                 return curves
                     .at_friction(mu, &point)
@@ -203,7 +203,7 @@ impl<'a> Prover<'a> {
     fn across(&self, [low, high]: [f64; 2], start: &Start) -> Vec<Followed> {
         let climb = self.climb();
         let place = [start.lambda2, start.mu];
-        let Some(point) = climb.curves.near(Unknown::Lambda2, place, &start.x) else {
+        let Some(point) = climb.curves.near(BranchUnknown::Lambda2, place, &start.x) else {
             return Vec::new();
         };
 

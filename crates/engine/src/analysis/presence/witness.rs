@@ -17,7 +17,7 @@
 //! `climb`; the checker's side is `check::cover::presence`.
 
 use crate::bordered::{Ball, Corner, NullVectors, largest};
-use crate::branch::Point;
+use crate::branch::BranchPoint;
 use crate::search::complete::pieces::expansion::{Ends, Expansion};
 use crate::search::complete::pieces::matrix::{Matrix, principal_block, times};
 use crate::tolerance::PRESENCE_MARGIN;
@@ -30,14 +30,14 @@ const BITS: [i32; 3] = [10, 22, 40];
 
 /// A box of (lambda^2, mu).
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct CurveBox {
     /// The interval of lambda^2.
     pub(super) t: [f64; 2],
     /// The interval of mu.
     pub(super) mu: [f64; 2],
 }
 
-impl Place {
+impl CurveBox {
     fn corners(&self, expansions: &[Expansion; 2]) -> [Ends; 2] {
         let [t0, t1] = self.t;
         let ends = expansions.each_ref().map(|part| part.ends(t0, t1));
@@ -52,29 +52,29 @@ impl Place {
 }
 
 /// Y, u and v of a box.
-pub(super) struct Witness(NullVectors);
+pub(super) struct PresenceWitness(NullVectors);
 
-impl Witness {
+impl PresenceWitness {
     /// The witness of a point on a branch, where T is `matrix`; `None` where T' is singular to
     /// doubles, or v is not positive.
     ///
     /// The pivot k has the largest u_k x_k, with null vectors u and x: det T' is proportional to
     /// it.
-    pub(super) fn of(matrix: &Matrix, point: &Point) -> Option<Witness> {
+    pub(super) fn of(matrix: &Matrix, point: &BranchPoint) -> Option<PresenceWitness> {
         let support = &point.support;
         let share = |place: usize| (point.left[place] * point.x[support[place]]).abs();
         let place = (0..support.len()).max_by(|&i, &j| share(i).total_cmp(&share(j)))?;
 
         let vectors = NullVectors::of(matrix, support, place)?;
         let is_positive = vectors.right.iter().all(|v| v.is_finite() && *v > 0.0);
-        is_positive.then_some(Witness(vectors))
+        is_positive.then_some(PresenceWitness(vectors))
     }
 
     /// The piece, if the witness holds in this box; `index` gives the problem's numbers of
     /// positions.
     pub(super) fn piece(
         &self,
-        place: &Place,
+        place: &CurveBox,
         expansions: &[Expansion; 2],
         index: &[usize],
     ) -> Option<PresencePiece> {
@@ -90,13 +90,13 @@ impl Witness {
     fn rounded_piece(
         &self,
         bits: i32,
-        place: &Place,
+        place: &CurveBox,
         expansions: &[Expansion; 2],
         index: &[usize],
     ) -> Option<PresencePiece> {
         let [inverse_exponent, exponent] = self.exponents(bits, place, expansions)?;
         let [inverse_unit, unit] = [inverse_exponent, exponent].map(|e| f64::from(e).exp2());
-        let short = Witness(self.0.rounded(inverse_unit, unit));
+        let short = PresenceWitness(self.0.rounded(inverse_unit, unit));
         if !short.holds(place, expansions) {
             return None;
         }
@@ -123,7 +123,12 @@ impl Witness {
 
     /// The binary exponents of Y, and of u and v, so that rounding moves each component of v, and
     /// each of Y T'v relative to v, by about 2^-bits.
-    fn exponents(&self, bits: i32, place: &Place, expansions: &[Expansion; 2]) -> Option<[u32; 2]> {
+    fn exponents(
+        &self,
+        bits: i32,
+        place: &CurveBox,
+        expansions: &[Expansion; 2],
+    ) -> Option<[u32; 2]> {
         let NullVectors { rest, right, .. } = &self.0;
         let smallest = right.iter().fold(1.0f64, |s, v| s.min(*v));
         let matrix = &place.edge(expansions, place.t[0])[0].m[0];
@@ -142,7 +147,7 @@ impl Witness {
     }
 
     /// Do the inequalities hold by a margin for what doubles do not see?
-    fn holds(&self, place: &Place, expansions: &[Expansion; 2]) -> bool {
+    fn holds(&self, place: &CurveBox, expansions: &[Expansion; 2]) -> bool {
         let corners = place.corners(expansions);
         let Some(margin) = self.margin(&corners) else {
             return false;

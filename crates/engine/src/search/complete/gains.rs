@@ -32,7 +32,7 @@ const TRIED: usize = 2;
 const WIDE: f64 = 1.0 / 24.0;
 
 /// A game that belongs to a region, and what is known besides.
-pub(crate) struct Kept {
+pub(crate) struct KeptGame {
     game: EndsGame,
     /// Is the symmetric part known to be indefinite?
     is_indefinite: bool,
@@ -78,7 +78,7 @@ impl Search<'_, Solutions<'_>> {
         &mut self,
         region: &Region,
         parts: &Rc<[Ends]>,
-        kept: Option<Kept>,
+        kept: Option<KeptGame>,
         share: f64,
     ) -> bool {
         let ends = &parts[0];
@@ -226,7 +226,7 @@ impl Search<'_, Solutions<'_>> {
                 .iter()
                 .zip(&region.states)
                 .all(|(new, old)| (*new == State::AtZero) == (*old == State::AtZero));
-            let kept = Kept {
+            let kept = KeptGame {
                 game,
                 is_indefinite: has_same_block,
             };
@@ -245,7 +245,7 @@ impl Search<'_, Solutions<'_>> {
         let parts = [region.below(cut), region.above(cut)];
         for (mut part, game) in parts.into_iter().zip(games) {
             part.cuts += 1;
-            let kept = game.map(|game| Kept {
+            let kept = game.map(|game| KeptGame {
                 game,
                 is_indefinite: false,
             });

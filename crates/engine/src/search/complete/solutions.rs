@@ -9,7 +9,7 @@
 
 use super::checkpoint::Copier;
 use super::dyadic::short_near;
-use super::gains::Kept;
+use super::gains::KeptGame;
 use super::given::Given;
 use super::leaf::farkas::{Columns, MiddleTest};
 use super::leaf::root::{PartLeaf, RootSearch, Searched, part_around};
@@ -67,7 +67,7 @@ impl Aim for Solutions<'_> {
         search: &mut Search<'_, Self>,
         region: &Region,
         ends: &Rc<[Ends]>,
-        kept: Option<Kept>,
+        kept: Option<KeptGame>,
         share: f64,
     ) -> bool {
         search.by_gains(region, ends, kept, share)

@@ -16,7 +16,7 @@
 //! friction (`analysis::absence`). Input: a region of one piece, the expansions of the piece.
 //! Output: the nodes that cover the region, in preorder.
 
-use super::gains::Kept;
+use super::gains::KeptGame;
 use super::leaf::definite;
 use super::leaf::farkas::{self, Columns, MiddleTest};
 use super::pieces::expansion::{Ends, Expansion};
@@ -75,7 +75,7 @@ pub(crate) trait Aim: Sized {
         _search: &mut Search<'_, Self>,
         _region: &Region,
         _ends: &Rc<[Ends]>,
-        _kept: Option<Kept>,
+        _kept: Option<KeptGame>,
         _share: f64,
     ) -> bool {
         false
@@ -117,7 +117,7 @@ impl<A: Aim> Search<'_, A> {
         &mut self,
         region: &Region,
         ends: &Rc<[Ends]>,
-        kept: Option<Kept>,
+        kept: Option<KeptGame>,
         share: f64,
     ) {
         if self.aim.is_over() {

@@ -5,8 +5,8 @@
 //! end it also suffices that the symmetric part of the direction B is zero on these variables,
 //! because the matrix at the lower end is definite.
 //!
-//! Called by `tree` and `gains` for regions, by `ldl` and by `pieces::wide`. The checker's side is `check::cover::definite`, with the test itself in
-//! `check::cover::enclosed_definite`.
+//! Called by `tree` and `gains` for regions, by `ldl` and by `pieces::wide`. The checker's side is
+//! `check::cover::definite`, with the test itself in `check::cover::enclosed_definite`.
 
 use crate::dense::UpperTriangle;
 use crate::search::complete::pieces::expansion::Ends;

@@ -163,8 +163,8 @@ impl Columns {
         columns
     }
 
-    /// Of both ends of an interval, for each corner of mu: all columns of the lower, then all of the
-    /// upper end.
+    /// Of both ends of an interval, for each corner of mu: all columns of the lower, then all of
+    /// the upper end.
     pub(crate) fn of(corners: &[Ends], states: &[State]) -> Columns {
         let mut columns = Columns { list: Vec::new() };
         for ends in corners {

@@ -28,7 +28,7 @@ use mceip_mcp::linear::inverse;
 const BITS: [i32; 3] = [12, 22, 40];
 
 /// Y, u and v of a decided box.
-pub(crate) struct Witness(NullVectors);
+pub(crate) struct RegularWitness(NullVectors);
 
 /// What the corners of a box make of a witness.
 struct Bounds {
@@ -79,16 +79,16 @@ impl Bounds {
     }
 }
 
-impl Witness {
+impl RegularWitness {
     /// The witness of the middle of a box, where T is `matrix`; `None` where nothing moves or T is
     /// singular to doubles.
-    pub(crate) fn of(matrix: &Matrix, states: &[State]) -> Option<Witness> {
+    pub(crate) fn of(matrix: &Matrix, states: &[State]) -> Option<RegularWitness> {
         let support = support(states);
         let whole = inverse(&principal_block(matrix, &support))?;
         let size = |place: usize| whole[place][place].abs();
         let place = (0..support.len()).max_by(|&i, &j| size(i).total_cmp(&size(j)))?;
 
-        NullVectors::of(matrix, &support, place).map(Witness)
+        NullVectors::of(matrix, &support, place).map(RegularWitness)
     }
 
     /// The leaf, if it holds at these corners; `index` gives the problem's numbers of positions.

@@ -42,7 +42,7 @@ const SLACK_OF_REACH: f64 = 0.2;
 
 /// An interval of the window: it begins where the one before ends.
 #[derive(Clone)]
-pub(crate) struct Interval {
+pub(crate) struct AnchoredInterval {
     /// Upper end; `None` for infinity.
     pub(crate) max: Option<Rational>,
     /// The anchor of the condensation that encloses the pencil there.
@@ -60,7 +60,7 @@ pub(crate) struct Prepared {
     shared_up_to: f64,
     /// How anchors are expanded.
     precisions: Precisions,
-    pub(crate) intervals: Vec<Interval>,
+    pub(crate) intervals: Vec<AnchoredInterval>,
 }
 
 impl Prepared {
@@ -121,7 +121,7 @@ impl Prepared {
         let view = View::of(pencil);
         let intervals = cuts(&view, window.min(), window.max(), count)
             .into_iter()
-            .map(|max| Interval { max, anchor: None })
+            .map(|max| AnchoredInterval { max, anchor: None })
             .collect();
         Ok(Prepared {
             view,
@@ -176,7 +176,7 @@ impl Prepared {
         view.zero = zero_of(problem);
         let mut intervals = Vec::new();
         for piece in &set.pieces {
-            intervals.push(Interval {
+            intervals.push(AnchoredInterval {
                 max: piece.max.as_ref().map(|number| number.0.clone()),
                 anchor: piece.anchor,
             });
@@ -354,7 +354,7 @@ impl Prepared {
                     interval.anchor
                 };
 
-                intervals.push(Interval { max, anchor });
+                intervals.push(AnchoredInterval { max, anchor });
             }
         }
 
@@ -405,7 +405,7 @@ struct Division<'a> {
 }
 
 impl Division<'_> {
-    fn intervals(&self) -> Vec<Interval> {
+    fn intervals(&self) -> Vec<AnchoredInterval> {
         let view = &self.condensed.view;
         let anchors = self.condensed.ends.len();
         let is_unbounded = self.window.max().is_none();
@@ -432,7 +432,7 @@ impl Division<'_> {
                 intervals.extend(with_anchor(cuts, anchors));
             } else {
                 // The tail, or what no anchor reaches.
-                intervals.push(Interval {
+                intervals.push(AnchoredInterval {
                     max: None,
                     anchor: None,
                 });
@@ -483,8 +483,11 @@ impl Division<'_> {
     }
 }
 
-fn with_anchor(cuts: Vec<Option<Rational>>, anchor: usize) -> impl Iterator<Item = Interval> {
-    cuts.into_iter().map(move |max| Interval {
+fn with_anchor(
+    cuts: Vec<Option<Rational>>,
+    anchor: usize,
+) -> impl Iterator<Item = AnchoredInterval> {
+    cuts.into_iter().map(move |max| AnchoredInterval {
         max,
         anchor: Some(anchor),
     })
