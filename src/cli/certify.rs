@@ -7,11 +7,11 @@ use super::common::{CliError, aside, exit, load, positive, print, text};
 use super::job::Job;
 use super::output::{self, Output};
 use mceip_check::certificate::{Certificate, Claim};
-use mceip_check::{AcceptedCover, Proved};
+use mceip_check::{AcceptedClaim, AcceptedCover, Proved};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, NotCertified, lifted, sift};
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport, Reported};
-use mceip_engine::multistart::same_x;
+use mceip_engine::multistart::{exact_value, same_x, support};
 use mceip_engine::search::complete::Completed;
 use mceip_engine::search::near::{Near, near};
 use mceip_exact::{Interval, Rational, enclosing_decimals};
@@ -127,6 +127,8 @@ struct Finding {
     text: String,
     /// The complete set near its value.
     proof: Option<Proved<Certificate>>,
+    /// The solution of that set, where it is one.
+    solution: Option<AcceptedClaim>,
 }
 
 impl Finding {
@@ -136,6 +138,7 @@ impl Finding {
             verdict: Verdict::Disproved,
             text: format!("REFUSED: {bad}"),
             proof: None,
+            solution: None,
         }
     }
 }
@@ -169,6 +172,7 @@ impl Judged {
                 verdict: Verdict::Undecided,
                 text,
                 proof: None,
+                solution: None,
             };
             self.refused.push(Refused { index, finding });
         }
@@ -177,6 +181,20 @@ impl Judged {
     fn count(&self, verdict: Verdict) -> usize {
         let refused = self.refused.iter();
         refused.filter(|r| r.finding.verdict == verdict).count()
+    }
+
+    /// Is this solution claimed already, or listed by a cover?
+    fn has(&self, solution: Option<&AcceptedClaim>) -> bool {
+        let Some(solution) = solution else {
+            return false;
+        };
+
+        let is_claimed = self.claims.iter().any(|claim| is_about(claim, solution));
+        let mut listed = self
+            .refused
+            .iter()
+            .filter_map(|r| r.finding.solution.as_ref());
+        is_claimed || listed.any(|other| is_one(other, solution))
     }
 
     /// Says what became of so many reported solutions, of which `claimed` have claims of their own.
@@ -253,6 +271,23 @@ impl Judged {
     }
 }
 
+/// Is an exact claim about a solution of a cover? A box that was accepted is its own proof, and no
+/// cover is asked for the same point.
+fn is_about(claim: &Claim, solution: &AcceptedClaim) -> bool {
+    let has_its_value = exact_value(claim).is_some_and(|mut value| {
+        let is_above = value.cmp_rational(solution.value.lo()).is_ge();
+        let is_below = value.cmp_rational(solution.value.hi()).is_le();
+        is_above && is_below
+    });
+    has_its_value && support(claim) == solution.support
+}
+
+/// Are two solutions of covers one? Each is the only one of its support in its interval.
+fn is_one(first: &AcceptedClaim, second: &AcceptedClaim) -> bool {
+    let is_apart = first.value.hi() < second.value.lo() || second.value.hi() < first.value.lo();
+    first.support == second.support && !is_apart
+}
+
 /// An exact claim as one about the system, (v, w) over all its degrees of freedom.
 fn as_lifted(system: &System, unknown: Unknown, claim: Claim) -> Claim {
     match claim {
@@ -302,6 +337,12 @@ impl Certifying<'_> {
                 Ok(claim) => judged.claims.push(claim),
                 Err(reason) => {
                     let finding = self.look_nearby(candidate, &reason);
+                    if judged.has(finding.solution.as_ref()) {
+                        self.job
+                            .note(&format!("solution {index} (value {value}): listed before"));
+                        continue;
+                    }
+
                     let text = &finding.text;
                     self.job
                         .note(&format!("solution {index} (value {value}): {text}"));
@@ -327,6 +368,7 @@ impl Certifying<'_> {
                 verdict: Verdict::Disproved,
                 text: "REFUSED: its value lies outside the problem's window".into(),
                 proof: None,
+                solution: None,
             },
             Ok(Near::Absent(proved)) => Finding {
                 verdict: Verdict::Disproved,
@@ -335,6 +377,7 @@ impl Certifying<'_> {
                     interval(problem, &proved)
                 ),
                 proof: Some(proved.proved),
+                solution: None,
             },
             Ok(Near::Others(proved)) => Finding {
                 verdict: Verdict::Disproved,
@@ -344,14 +387,16 @@ impl Certifying<'_> {
                     solutions_text(&proved.cover)
                 ),
                 proof: Some(proved.proved),
+                solution: None,
             },
-            Ok(Near::Present(proved)) => Finding {
+            Ok(Near::Present(proved, solution)) => Finding {
                 verdict: Verdict::Present,
                 text: format!(
                     "certified: listed by a cover {}",
                     interval(problem, &proved)
                 ),
                 proof: Some(proved.proved),
+                solution: Some(solution),
             },
             Ok(Near::Open(searched)) => Finding {
                 verdict: Verdict::Undecided,
@@ -362,11 +407,13 @@ impl Certifying<'_> {
                     interval(problem, &searched)
                 ),
                 proof: None,
+                solution: None,
             },
             Err(why) => Finding {
                 verdict: Verdict::Undecided,
                 text: format!("undecided: {reason}; no proof of absence either: {why}"),
                 proof: None,
+                solution: None,
             },
         }
     }

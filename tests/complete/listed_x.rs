@@ -198,3 +198,22 @@ fn planted_values_of_zero_have_the_x_that_was_planted() {
 
     assert!(checked > 300 && at_zero > 150, "{checked}, {at_zero} at 0");
 }
+
+/// The support {0, 1} has two roots, 2 -+ 3e-8; at the lower one x_1 is negative. In a window there
+/// is no claim beside the cover, and doubles reach the lower one.
+#[test]
+fn a_root_that_is_no_solution_lends_no_x_to_one_that_is() {
+    let number = |text: &str| mceip_exact::parse(text).unwrap();
+    let entries = [
+        (0, 0, number("-2")),
+        (0, 1, number("-1e-6")),
+        (1, 0, number("-9e-16")),
+        (1, 1, number("-2e-6")),
+    ];
+    let a = Sparse::from_entries(2, 2, entries);
+    let b = Sparse::from_entries(2, 2, [(0, 0, whole(1)), (1, 1, number("1e-6"))]);
+    let window = Window::new(number("1.999699"), Some(number("2.0003"))).unwrap();
+    let problem = problem_of(a, b, vec![], Unknown::Lambda2).with_window(window);
+
+    assert_eq!(assert_x_is_that_of_the_enumerator(&problem), 1);
+}

@@ -130,8 +130,12 @@ pub const ROUNDING: f64 = 1e-15;
 pub const DEGENERATE_PART: f64 = 1e-3;
 
 /// Distance, relative to the value, within which the x of an accepted solution is looked for. Unit:
-/// none. Basis: far wider than the accepted interval, narrower than the distance to other values.
+/// none. Basis: far wider than the accepted interval; what is found is held against it.
 pub const SAME_ROOT: f64 = 1e-6;
+
+/// Distance from the accepted value at which a null vector in doubles is that of another one. Unit:
+/// of the value and of the scale of T. Basis: simple values come with 1e-15 times their condition.
+pub const SAME_VALUE: f64 = 1e-12;
 
 /// Where the search for a definite tail begins, relative to |A| / |B|. Unit: none. Basis: low
 /// frequencies of meshes of a million elements; it doubles from there.

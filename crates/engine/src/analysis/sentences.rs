@@ -16,7 +16,9 @@ use super::ranges::Range;
 use super::threshold::StaticThreshold;
 use crate::tolerance::WITH_SIX_DECIMALS;
 use mceip_check::{OpenRegion, SolutionFamily};
-use mceip_exact::{Interval, Rational, enclosing_decimals, nearest_decimal, to_f64, upper_decimal};
+use mceip_exact::{
+    Interval, Rational, enclosing_decimals, from_f64, nearest_decimal, to_f64, upper_decimal,
+};
 use num_traits::{Signed, Zero};
 
 /// One sentence of the answer.
@@ -214,16 +216,24 @@ const GAP: &str = "neither a curve that was followed nor a cover that was found 
 /// Pairs of complex lambda^2 named in a sentence; the others are counted.
 const NAMED_PAIRS: usize = 3;
 
+/// Six decimals, or six digits and an exponent where these have too few digits.
+fn six_digits(value: f64) -> String {
+    if short_is_plain(value) {
+        format!("{value:.6}")
+    } else {
+        short(&from_f64(value).unwrap_or_default())
+    }
+}
+
 fn flutter_text(flutter: &Flutter) -> String {
     let pairs = flutter.pairs();
     let count = pairs.len();
     let mut named = Vec::new();
     for pair in pairs.iter().take(NAMED_PAIRS) {
+        let [hertz, frequency, growth] =
+            [pair.hertz(), pair.frequency, pair.growth_rate].map(six_digits);
         named.push(format!(
-            "at {:.6} Hz ({:.6} rad/s) with growth rate {:.6} 1/s",
-            pair.hertz(),
-            pair.frequency,
-            pair.growth_rate
+            "at {hertz} Hz ({frequency} rad/s) with growth rate {growth} 1/s"
         ));
     }
 

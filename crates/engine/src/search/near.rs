@@ -9,6 +9,7 @@ use super::complete::{CompleteError, Completed, Options, complete};
 use crate::candidate::{Candidate, distance};
 use crate::run::Watch;
 use crate::tolerance::{ABSENCE_RADII, X_RADIUS};
+use mceip_check::AcceptedClaim;
 use mceip_exact::{Integer, Rational, from_f64, parse};
 use mceip_model::{Problem, Window};
 use num_traits::Signed;
@@ -27,8 +28,8 @@ pub enum Near {
     Absent(Completed),
     /// The solutions there are these, and the candidate's x belongs to none of them.
     Others(Completed),
-    /// The candidate's x belongs to one of the solutions there.
-    Present(Completed),
+    /// The candidate's x belongs to one of the solutions there, this one.
+    Present(Completed, AcceptedClaim),
     /// Regions stay open in the smallest window tried, or families of solutions lie in it, to which
     /// the candidate may belong.
     Open(Completed),
@@ -145,11 +146,15 @@ fn grid(radius: &Rational) -> Rational {
 
 /// What a complete set says of a candidate.
 fn judge(completed: Completed, candidate: &Candidate) -> Near {
-    let is_present = completed
+    let close = completed
         .solutions()
-        .any(|(_, x)| distance(x, &candidate.x) <= X_RADIUS);
-    if is_present {
-        Near::Present(completed)
+        .map(|(solution, x)| (distance(x, &candidate.x), solution))
+        .filter(|(distance, _)| *distance <= X_RADIUS)
+        .min_by(|p, q| p.0.total_cmp(&q.0));
+
+    if let Some((_, solution)) = close {
+        let solution = solution.clone();
+        Near::Present(completed, solution)
     } else if !completed.cover.is_plain_list() {
         Near::Open(completed)
     } else if completed.cover.proves_absence() {
@@ -205,7 +210,7 @@ mod tests {
         assert_eq!(both.cover.solutions.len(), 2);
 
         let present = ask(&all, 2.0, &[4.0, 2.0], None);
-        assert!(matches!(present, Near::Present(_)));
+        assert!(matches!(present, Near::Present(..)));
 
         let negative = ask(&all, -1.0, &[4.0, 2.0], None);
         assert!(matches!(negative, Near::OutsideWindow));

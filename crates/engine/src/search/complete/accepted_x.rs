@@ -2,9 +2,10 @@
 //!
 //! An exact claim of the certificate about the solution, or a support leaf, has x as polynomials in
 //! the value; a box has it as its centre. For every other solution the null vector is computed
-//! again. All are scaled to e'x = 1 on the support. Called by `complete` for reports and modes; no
-//! proof depends on it.
+//! again, in doubles or, where these reach another root of the support, exactly. All are scaled to
+//! e'x = 1 on the support. Called by `complete` for reports and modes; no proof depends on it.
 
+use super::leaf::support::leaf as support_leaf;
 use super::null_vector::existing_null_vector;
 use super::pieces::expansion::Expansion;
 use super::pieces::matrix::{largest_entry, principal_block};
@@ -13,10 +14,10 @@ use super::region::{State, support};
 use crate::certify::rows::active;
 use crate::multistart::{exact_value, integer_x};
 use crate::reduction::free_variables;
-use crate::tolerance::SAME_ROOT;
-use mceip_check::certificate::{Certificate, Claim, Exact, Node, Support};
+use crate::tolerance::{SAME_ROOT, SAME_VALUE};
+use mceip_check::certificate::{Certificate, Claim, Exact, Node, Polynomials, Support};
 use mceip_check::{AcceptedClaim, Proved};
-use mceip_exact::{Algebraic, Integer, Poly, Rational, common_denominator, to_f64};
+use mceip_exact::{Algebraic, Integer, Interval, Poly, Rational, common_denominator, to_f64};
 use mceip_model::Pencil;
 use num_traits::{One, Signed, Zero};
 
@@ -187,15 +188,42 @@ fn yielded(
         return None;
     };
 
-    let x: Vec<Poly> = member.x.0.iter().map(|c| Poly::new(c.clone())).collect();
-    let has_its_support = pencil
-        .slip()
-        .iter()
-        .all(|i| solution.support.contains(i) != x[*i].is_zero());
+    let x = polynomials(&member.x);
     let value = Algebraic::from_claim(Poly::new(point.polynomial.clone()), solution.value.clone());
-    has_its_support.then_some((x, value))
+    has_support(&x, pencil, &solution.support).then_some((x, value))
 }
 
+fn polynomials(x: &Polynomials) -> Vec<Poly> {
+    x.0.iter().map(|c| Poly::new(c.clone())).collect()
+}
+
+/// Are just the slip components of this support not zero?
+fn has_support(x: &[Poly], pencil: &Pencil, support: &[usize]) -> bool {
+    let slip = pencil.slip();
+    slip.iter().all(|i| support.contains(i) != x[*i].is_zero())
+}
+
+/// x of a solution by exact arithmetic on its support; `None` where that is too large.
+fn by_exact_support(pencil: &Pencil, solution: &AcceptedClaim) -> Option<Vec<Rational>> {
+    let value = &solution.value;
+    let support = &solution.support;
+    let leaf = support_leaf(pencil, support, value.lo(), Some(value.hi()), &|| false)?;
+    let mut points = leaf.points.iter();
+    points.find_map(|point| {
+        let Exact::Some(member) = leaf.reasons.get(point.reason)? else {
+            return None;
+        };
+
+        let x = polynomials(&member.x);
+        let [lo, hi] = &point.interval;
+        let interval = Interval::new(lo.0.clone(), hi.0.clone())?;
+        let value = Algebraic::from_claim(Poly::new(point.polynomial.clone()), interval);
+        has_support(&x, pencil, support).then(|| at_root(&x, value))
+    })
+}
+
+/// x of a solution by its null vector in doubles, or by exact arithmetic where that of another
+/// solution was reached; NaN where neither tells.
 fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim) -> Vec<f64> {
     let mut states = Vec::with_capacity(prepared.view.order());
     for variable in &prepared.view.index {
@@ -211,9 +239,19 @@ fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim
     let width = to_f64(solution.value.hi()) - to_f64(solution.value.lo());
     let size = t.abs().max(unit(expansion, t, &support(&states)));
     let reach = width.max(SAME_ROOT * size).max(f64::MIN_POSITIVE);
-    let x = match existing_null_vector(expansion, &states, t - reach, t + reach) {
+    let found = existing_null_vector(expansion, &states, t - reach, t + reach);
+    // Another root of the support may be nearer to the start than the value is.
+    let found = found.filter(|null| {
+        let is_at_the_value = (null.value - t).abs() <= width + SAME_VALUE * size;
+        is_at_the_value && null.is_positive()
+    });
+    let x = match found {
         Some(null) => null.spread(states.len()),
-        None => vec![f64::NAN; states.len()],
+        None => {
+            let exact = by_exact_support(pencil, solution);
+            let scaled = exact.and_then(|x| scaled(&x, &solution.support));
+            return scaled.unwrap_or_else(|| vec![f64::NAN; pencil.order()]);
+        }
     };
 
     let sum: f64 = x.iter().sum();

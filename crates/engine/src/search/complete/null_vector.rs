@@ -71,6 +71,12 @@ pub(crate) fn existing_null_vector(
 }
 
 impl NullVector {
+    /// Have all components on the support one sign?
+    pub(crate) fn is_positive(&self) -> bool {
+        let mut components = self.right.iter();
+        components.all(|v| *v > 0.0) || self.right.iter().all(|v| *v < 0.0)
+    }
+
     /// x over all `order` positions, signed so that its sum is not negative.
     pub(crate) fn spread(&self, order: usize) -> Vec<f64> {
         let sum: f64 = self.right.iter().sum();
