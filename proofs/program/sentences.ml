@@ -40,9 +40,14 @@ let verdict_for_friction (problem : Problem.t) statement =
   verdict "ACCEPTED" statement (Printf.sprintf "lambda2, problem %s" problem.digest);
   print_newline ()
 
+(* At friction 0 a particle may slide both ways, of which (9) has one: the sentence leaves 0 out. *)
 let absent problem low high =
+  let closed = show_interval low high in
+  let frictions =
+    if Q.sign (Problem.value_of low) > 0 then closed
+    else "(" ^ String.sub closed 1 (String.length closed - 1) in
   verdict_for_friction problem
-    (Printf.sprintf "no solution for friction in %s, lambda2 in %s" (show_interval low high)
+    (Printf.sprintf "no solution for friction in %s, lambda2 in %s" frictions
        (show_interval Kernel.zero Kernel.infinity))
 
 let present problem low high =

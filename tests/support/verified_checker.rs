@@ -13,6 +13,7 @@ use mceip_model::reduction::reduce;
 use mceip_model::{Body, Particle, Pencil, Problem, Reduced, System, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate, enumerate_modes};
 use mceip_testkit::verified::{VerifiedChecker, VerifiedVerdict};
+use num_traits::Signed;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -101,7 +102,7 @@ struct VerdictLine<'a> {
 
 impl VerdictLine<'_> {
     fn read(line: &str) -> Option<VerdictLine<'_>> {
-        let (sentence, others) = line.split_once(" (")?;
+        let (sentence, others) = line.rsplit_once(" (")?;
         let (name, rest) = others.split_once(')')?;
         Some(VerdictLine {
             sentence,
@@ -147,10 +148,14 @@ fn left_out(asked: &Window, whole: &Window) -> String {
     }
 }
 
-/// [a, b] of "no solution for friction in [a, b], lambda2 in [0, infinity)".
+/// [a, b] of "no solution for friction in [a, b], lambda2 in [0, infinity)"; (0, b] for a = 0.
 fn absence_range(sentence: &str) -> Option<Interval> {
     let range = sentence.strip_prefix("no solution for friction in ")?;
-    read_interval(range.strip_suffix(", lambda2 in [0, infinity)")?)
+    let range = range.strip_suffix(", lambda2 in [0, infinity)")?;
+    match range.strip_prefix("(0, ") {
+        Some(end) => read_interval(&format!("[0, {end}")),
+        None => read_interval(range).filter(|range| range.lo().is_positive()),
+    }
 }
 
 /// [a, b] of "a solution with lambda2 >= 0 for every friction in [a, b]".
@@ -669,7 +674,9 @@ fn a_false_range_of_friction_is_found() {
     let problem = read_problem_file(&folder.join("critical.problem.json")).unwrap();
     let name = format!("lambda2, problem {}", problem.sha256());
     let absence = |from: &str, below: &str| {
-        format!("no solution for friction in [{from}, {below}], lambda2 in [0, infinity) ({name})")
+        let begin = if from == "0" { "(" } else { "[" };
+        let range = format!("{begin}{from}, {below}]");
+        format!("no solution for friction in {range}, lambda2 in [0, infinity) ({name})")
     };
     let presence = |from: &str, to: &str| {
         format!("a solution with lambda2 >= 0 for every friction in [{from}, {to}] ({name})")
