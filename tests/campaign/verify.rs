@@ -9,17 +9,13 @@ use mceip_engine::multistart::Search;
 use mceip_engine::run::{Cancel, Watch};
 use mceip_paper::PublishedState;
 use mceip_testkit::floors::{Starts, floor};
-use mceip_testkit::verified::{VerifiedChecker, VerifiedCounts};
+use mceip_testkit::verified::VerifiedChecker;
 use mceip_testkit::{
     BLOCK_STARTS, Corner, Instance, Treatment, Verification, degenerate, random_pencils, verify,
     verify_family,
 };
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
-
-/// Of the certificates that hold a kind of evidence, so many percent are accepted by the verified
-/// checker at least. To be raised with its theorems.
-const VERIFIED_FLOORS: [(&str, usize); 0] = [];
 
 /// The run, one for the tests of this file. The verified checker reads its certificates too, where
 /// the build has found it.
@@ -56,7 +52,10 @@ fn no_disagreement() {
     assert_eq!(starts, Starts::ALL);
 
     if cfg!(has_verified_checker) {
-        assert_verified_floors(&verification.verified());
+        let verified = verification.verified();
+        assert!(verified.accepted > 500, "{verified:#?}");
+        assert_eq!(verified.refused, 0, "{verified:#?}");
+        assert!(verified.not_verified.is_empty(), "{verified:#?}");
     }
 
     // Every rate has a floor to be held against.
@@ -115,20 +114,6 @@ fn published_states_are_found_certified_and_accepted() {
         assert!(report.refused.is_empty(), "{:?}", report.refused);
         assert_eq!(report.path.solvable, BLOCK_STARTS as u64);
         assert_eq!(report.unfound, 0);
-    }
-}
-
-fn assert_verified_floors(counts: &VerifiedCounts) {
-    println!("{counts:#?}");
-    assert_eq!(counts.refused, 0);
-
-    for (kind, percent) in VERIFIED_FLOORS {
-        let of_kind = counts.kinds.get(kind).copied().unwrap_or_default();
-        assert!(of_kind.total() > 0, "no certificate holds {kind}");
-        assert!(
-            100 * of_kind.accepted >= percent * of_kind.total(),
-            "{kind}: {of_kind:?}, expected {percent} percent accepted"
-        );
     }
 }
 
