@@ -11,7 +11,7 @@ use mceip_check::{AcceptedClaim, AcceptedCover, Proved};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, NotCertified, lifted, sift};
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport, Reported};
-use mceip_engine::multistart::{exact_value, same_x, support};
+use mceip_engine::multistart::{exact_value, is_about, same_x};
 use mceip_engine::search::complete::Completed;
 use mceip_engine::search::near::{Near, near};
 use mceip_exact::{Interval, Rational, enclosing_decimals};
@@ -110,6 +110,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 #[derive(Default)]
 struct Judged {
     claims: Vec<Claim>,
+    /// What the checker has read off each claim.
+    verdicts: Vec<AcceptedClaim>,
     refused: Vec<Refused>,
 }
 
@@ -132,6 +134,26 @@ struct Finding {
 }
 
 impl Finding {
+    /// Are the solutions of two findings one? Surely so if that of one lies in the window of the
+    /// other's cover and can be no other solution there.
+    fn is_of_one_solution_with(&self, other: &Finding) -> bool {
+        self.lists_solution_of(other) || other.lists_solution_of(self)
+    }
+
+    fn lists_solution_of(&self, other: &Finding) -> bool {
+        let (Some(proof), Some(own), Some(others)) = (&self.proof, &self.solution, &other.solution)
+        else {
+            return false;
+        };
+
+        let window = &proof.certificate().window;
+        let begins_within = others.value.lo() >= window.min();
+        let ends_within = window.max().is_none_or(|max| others.value.hi() <= max);
+        let listed = proof.accepted().cover.iter().flat_map(|c| &c.solutions);
+        let possible: Vec<&AcceptedClaim> = listed.filter(|one| may_be_one(one, others)).collect();
+        begins_within && ends_within && possible == [own]
+    }
+
     /// What is no vector of the problem is no solution.
     fn no_vector(bad: &BadPoint) -> Finding {
         Finding {
@@ -183,18 +205,26 @@ impl Judged {
         refused.filter(|r| r.finding.verdict == verdict).count()
     }
 
-    /// Is this solution claimed already, or listed by a cover?
-    fn has(&self, solution: Option<&AcceptedClaim>) -> bool {
-        let Some(solution) = solution else {
+    /// Is the solution of a finding claimed, or listed by an earlier cover?
+    fn has(&self, finding: &Finding) -> bool {
+        let mut earlier = self.refused.iter();
+        self.is_claimed(finding) || earlier.any(|r| r.finding.is_of_one_solution_with(finding))
+    }
+
+    fn is_claimed(&self, finding: &Finding) -> bool {
+        let Some(solution) = &finding.solution else {
             return false;
         };
 
-        let is_claimed = self.claims.iter().any(|claim| is_about(claim, solution));
-        let mut listed = self
-            .refused
-            .iter()
-            .filter_map(|r| r.finding.solution.as_ref());
-        is_claimed || listed.any(|other| is_one(other, solution))
+        let mut claims = self.claims.iter().zip(&self.verdicts);
+        claims.any(|(claim, verdict)| is_about(verdict, exact_value(claim), solution))
+    }
+
+    /// Takes out what a cover lists of a solution that a later point of the report has claimed.
+    fn leave_out_claimed(&mut self) {
+        let refused = std::mem::take(&mut self.refused);
+        let rest = refused.into_iter().filter(|r| !self.is_claimed(&r.finding));
+        self.refused = rest.collect();
     }
 
     /// Says what became of so many reported solutions, of which `claimed` have claims of their own.
@@ -271,19 +301,8 @@ impl Judged {
     }
 }
 
-/// Is an exact claim about a solution of a cover? A box that was accepted is its own proof, and no
-/// cover is asked for the same point.
-fn is_about(claim: &Claim, solution: &AcceptedClaim) -> bool {
-    let has_its_value = exact_value(claim).is_some_and(|mut value| {
-        let is_above = value.cmp_rational(solution.value.lo()).is_ge();
-        let is_below = value.cmp_rational(solution.value.hi()).is_le();
-        is_above && is_below
-    });
-    has_its_value && support(claim) == solution.support
-}
-
-/// Are two solutions of covers one? Each is the only one of its support in its interval.
-fn is_one(first: &AcceptedClaim, second: &AcceptedClaim) -> bool {
+/// Do the values and the supports of two solutions leave room for one?
+fn may_be_one(first: &AcceptedClaim, second: &AcceptedClaim) -> bool {
     let is_apart = first.value.hi() < second.value.lo() || second.value.hi() < first.value.lo();
     first.support == second.support && !is_apart
 }
@@ -329,15 +348,18 @@ impl Certifying<'_> {
             };
 
             let value = candidate.value;
-            match certifier.certify(candidate) {
-                Ok(claim) if judged.claims.iter().any(|c| same_x(c, &claim)) => {
+            match certifier.certify_with_verdict(candidate) {
+                Ok((claim, _)) if judged.claims.iter().any(|c| same_x(c, &claim)) => {
                     self.job
                         .note(&format!("solution {index} (value {value}): listed before"));
                 }
-                Ok(claim) => judged.claims.push(claim),
+                Ok((claim, verdict)) => {
+                    judged.claims.push(claim);
+                    judged.verdicts.push(verdict);
+                }
                 Err(reason) => {
                     let finding = self.look_nearby(candidate, &reason);
-                    if judged.has(finding.solution.as_ref()) {
+                    if judged.has(&finding) {
                         self.job
                             .note(&format!("solution {index} (value {value}): listed before"));
                         continue;
@@ -351,6 +373,7 @@ impl Certifying<'_> {
             }
         }
 
+        judged.leave_out_claimed();
         judged
     }
 
@@ -401,10 +424,15 @@ impl Certifying<'_> {
             Ok(Near::Open(searched)) => Finding {
                 verdict: Verdict::Undecided,
                 text: format!(
-                    "undecided: {reason}; {} regions stay open and {} families of solutions lie {}",
+                    "undecided: {reason}; {} regions stay open and {} families of solutions lie {}{}",
                     searched.cover.open.len(),
                     searched.cover.families.len(),
-                    interval(problem, &searched)
+                    interval(problem, &searched),
+                    if searched.has_every_x() {
+                        ""
+                    } else {
+                        ", and solutions whose x is not known"
+                    }
                 ),
                 proof: None,
                 solution: None,

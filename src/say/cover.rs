@@ -151,9 +151,7 @@ fn verdict_at_infinity(cover: &AcceptedCover) -> String {
     } else if count == 0 {
         "COMPLETE: nothing at infinity".into()
     } else {
-        format!(
-            "COMPLETE: {count} at infinity (what limits of x can be, no value of the window), and no \
-             other"
-        )
+        let what = "what limits of x can be, no value of the window";
+        format!("COMPLETE: {count} at infinity ({what}), and no other")
     }
 }

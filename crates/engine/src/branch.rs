@@ -145,8 +145,11 @@ pub(crate) trait BranchPencils {
             // The method is quadratic: the next step would be the square of this one.
             let least = NEWTON_CONVERGED.sqrt();
             let is_small = largest(dx) <= least * largest(&x) && change.abs() <= least * unit;
+            if is_small && mu > 0.0 {
+                return point(&slice, [t, mu], x, support);
+            }
             if is_small {
-                return (mu > 0.0).then(|| point(&slice, [t, mu], x, support))?;
+                return None;
             }
         }
 

@@ -167,7 +167,8 @@ pub const BRACKET_START_BITS: u32 = 32;
 pub const FLUTTER_ANGLE: f64 = 1e-4;
 
 /// Change of a matrix in doubles that counts as rounding where complex lambda^2 are told from real
-/// ones. Unit: share of its largest entry, times its order and the condition of M*. Basis: a
+/// ones. Unit: share of its largest entry, times its order and, where it is not too large for it,
+/// the condition of M*. Basis: a
 /// hundred times what solving with M* and the iteration for eigenvalues leave. Reason: a pair that
 /// such a change can make real is not called flutter.
 pub const FLUTTER_ROUNDING: f64 = 1e-14;

@@ -182,14 +182,14 @@ fn complex_eigenvalues(stiffness: &[Vec<f64>], mass: &[Vec<f64>]) -> Option<Vec<
     }
 
     let matrix = transposed(&solve(mass, &columns)?);
+    let order = matrix.len() as f64;
     if matrix.len() > LARGEST_ORDER_OF_ONSET {
         let mut complex = eigenvalues(&matrix)?;
-        let rounding = FLUTTER_ROUNDING * largest_entry(&matrix);
+        let rounding = FLUTTER_ROUNDING * order * largest_entry(&matrix);
         complex.retain(|(re, im)| *im > rounding && *im > FLUTTER_ANGLE * re.hypot(*im));
         return Some(complex);
     }
 
-    let order = matrix.len() as f64;
     let rounding = FLUTTER_ROUNDING * order * condition(mass)? * largest_entry(&matrix);
     let mut complex = conditioned_eigenvalues(&matrix)?;
     complex.retain(|z| z.im > rounding * z.condition);

@@ -5,6 +5,7 @@
 
 use crate::candidate::Candidate;
 use crate::tolerance::SAME_POINT;
+use mceip_check::AcceptedClaim;
 use mceip_check::certificate::{Claim, EnclosedSolution, ExactSolution};
 use mceip_exact::{Algebraic, Integer, Interval, Poly, common_denominator};
 use mceip_model::file::Number;
@@ -78,6 +79,18 @@ pub fn same_x(a: &Claim, b: &Claim) -> bool {
         _ => true,
     };
     has_same_x && same(a, b)
+}
+
+/// Is a claim about this solution of a cover, the only one with its support in its enclosure?
+/// Surely so if the claim's value lies within it. Where they only overlap, the claim could be about
+/// another solution near by. `exact` is the value of an exact claim.
+pub fn is_about(verdict: &AcceptedClaim, exact: Option<Algebraic>, proved: &AcceptedClaim) -> bool {
+    let [lo, hi] = [proved.value.lo(), proved.value.hi()];
+    let lies_within = match exact {
+        Some(mut value) => value.cmp_rational(lo).is_ge() && value.cmp_rational(hi).is_le(),
+        None => verdict.value.lo() >= lo && verdict.value.hi() <= hi,
+    };
+    verdict.support == proved.support && lies_within
 }
 
 /// Does the box of `a` hold the centre of `b`?

@@ -8,7 +8,7 @@
 use crate::candidate::Candidate;
 use crate::certify::rows::active;
 use crate::certify::{Certifier, flattened};
-use crate::multistart::{exact_value, integer_x};
+use crate::multistart::{exact_value, integer_x, is_about};
 use crate::search::complete::Completed;
 use mceip_check::AcceptedClaim;
 use mceip_check::certificate::{Claim, EnclosedSolution, ExactSolution};
@@ -252,18 +252,6 @@ impl ProvedList<'_> {
         let made = made.map(|(claim, _)| claim);
         made.or_else(|| claim.cloned())
     }
-}
-
-/// Is a claim about this solution of a cover, the only one with its support in its enclosure?
-/// Surely so if the claim's value lies within it. Where they only overlap, the claim could be about
-/// another solution near by. `exact` is the value of an exact claim.
-fn is_about(verdict: &AcceptedClaim, exact: Option<Algebraic>, proved: &AcceptedClaim) -> bool {
-    let [lo, hi] = [proved.value.lo(), proved.value.hi()];
-    let lies_within = match exact {
-        Some(mut value) => value.cmp_rational(lo).is_ge() && value.cmp_rational(hi).is_le(),
-        None => verdict.value.lo() >= lo && verdict.value.hi() <= hi,
-    };
-    verdict.support == proved.support && lies_within
 }
 
 /// A solution or cone of the enumerator with the keys of its place in the list.

@@ -31,7 +31,7 @@ pub enum Near {
     /// The candidate's x belongs to one of the solutions there, this one.
     Present(Completed, AcceptedClaim),
     /// Regions stay open in the smallest window tried, or families of solutions lie in it, to which
-    /// the candidate may belong.
+    /// the candidate may belong; or it may be a solution there whose x is not known.
     Open(Completed),
 }
 
@@ -155,7 +155,7 @@ fn judge(completed: Completed, candidate: &Candidate) -> Near {
     if let Some((_, solution)) = close {
         let solution = solution.clone();
         Near::Present(completed, solution)
-    } else if !completed.cover.is_plain_list() {
+    } else if !completed.cover.is_plain_list() || !completed.has_every_x() {
         Near::Open(completed)
     } else if completed.cover.proves_absence() {
         Near::Absent(completed)
@@ -243,5 +243,21 @@ mod tests {
         assert!(found.cover.solutions.is_empty());
         assert!(!found.cover.families.is_empty());
         assert!(!found.cover.proves_absence());
+    }
+
+    /// A solution whose x is not known may be the candidate's: nothing is refuted.
+    #[test]
+    fn an_unknown_x_refutes_nothing() {
+        let all = fold(Window::all());
+        let Near::Others(mut one) = ask(&all, 2.0, &[0.5, 0.5], None) else {
+            panic!("another x")
+        };
+
+        one.x[0].fill(f64::NAN);
+        let candidate = Candidate {
+            value: 2.0,
+            x: vec![0.5, 0.5],
+        };
+        assert!(matches!(judge(one, &candidate), Near::Open(_)));
     }
 }

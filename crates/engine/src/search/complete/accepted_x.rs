@@ -243,7 +243,7 @@ fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim
     // Another root of the support may be nearer to the start than the value is.
     let found = found.filter(|null| {
         let is_at_the_value = (null.value - t).abs() <= width + SAME_VALUE * size;
-        is_at_the_value && null.is_positive()
+        is_at_the_value && null.has_one_sign()
     });
     let x = match found {
         Some(null) => null.spread(states.len()),

@@ -116,6 +116,11 @@ impl Completed {
         accepted_x::biactive(&self.proved, &pencil, solution)
     }
 
+    /// Is the x of every solution known?
+    pub fn has_every_x(&self) -> bool {
+        self.x.iter().flatten().all(|x_i| x_i.is_finite())
+    }
+
     /// The solutions with their x.
     pub fn solutions(&self) -> impl Iterator<Item = (&AcceptedClaim, &[f64])> {
         self.cover

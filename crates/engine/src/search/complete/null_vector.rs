@@ -72,7 +72,7 @@ pub(crate) fn existing_null_vector(
 
 impl NullVector {
     /// Have all components on the support one sign?
-    pub(crate) fn is_positive(&self) -> bool {
+    pub(crate) fn has_one_sign(&self) -> bool {
         let mut components = self.right.iter();
         components.all(|v| *v > 0.0) || self.right.iter().all(|v| *v < 0.0)
     }
