@@ -55,8 +55,8 @@
 //!
 //! The parts are crates: `mceip_exact` numbers, `mceip_model` problems and files, `mceip_check`,
 //! `mceip_oracle` the plain enumerator, `mceip_mcp` the solver, `mceip_engine` searches,
-//! `mceip_paper` the paper's examples, `mceip_testkit` what compares them all. Whoever needs their
-//! insides uses them directly.
+//! `mceip_path` equilibria along a loading path, `mceip_paper` the paper's examples,
+//! `mceip_testkit` what compares them all. Whoever needs their insides uses them directly.
 
 // `println!` and `eprintln!` panic where nothing can be written: `cli::common` prints.
 #![warn(clippy::print_stdout, clippy::print_stderr)]

@@ -11,7 +11,7 @@ use super::marker::Mark;
 use super::markup::Element;
 use super::scale::Spread;
 use mceip_exact::to_f64;
-use mceip_paper::path::{Equilibrium, LoadingPath};
+use mceip_path::{Equilibrium, LoadingPath};
 
 const WIDTH: f64 = 860.0;
 
@@ -53,14 +53,14 @@ pub fn path_picture(title: &str, path: &LoadingPath) -> Picture {
 fn ends(path: &LoadingPath) -> Vec<f64> {
     let mut ends = Vec::new();
     for interval in &path.intervals {
-        ends.push(to_f64(interval.start.motion()));
+        ends.push(to_f64(interval.start.amount()));
     }
 
     let last = path.intervals.last();
     let stop = last.and_then(|interval| interval.stop.as_ref());
     let last_start = ends.last().copied().unwrap_or(0.0);
     match stop {
-        Some(stop) => ends.push(to_f64(stop.motion())),
+        Some(stop) => ends.push(to_f64(stop.amount())),
         None => ends.push(last_start * 1.1),
     }
 
@@ -93,7 +93,7 @@ fn resultants(path: &LoadingPath, ends: &[f64]) -> Vec<Resultants> {
     let mut all = Vec::new();
     for interval in &path.intervals {
         let start = &interval.start;
-        all.push(Resultants::of(start, to_f64(start.motion())));
+        all.push(Resultants::of(start, to_f64(start.amount())));
     }
 
     if let (Some(last), Some(end)) = (path.intervals.last(), ends.last()) {
@@ -149,7 +149,7 @@ impl Curve {
 
 /// Draws the chart of the resultants.
 fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> Chart {
-    let mu = to_f64(&path.loading.friction);
+    let mu = to_f64(&path.steps.friction);
     let resultants = resultants(path, ends);
     let mut highest: f64 = 0.0;
     for r in &resultants {

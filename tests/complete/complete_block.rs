@@ -16,8 +16,9 @@ use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
 use mceip_paper::PublishedState::{FifteenSlip, SeventeenSlip};
-use mceip_paper::path::{Contact, Interval, Loading, LoadingPath};
+use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState};
+use mceip_path::Interval;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -267,9 +268,11 @@ fn both_states_are_closed_near_their_thresholds() {
 
 /// The intervals of the loading path of the paper in which at least one node slips.
 fn slipping_intervals(block: &Block) -> Vec<Interval> {
-    let contact = Contact::of(block).unwrap();
+    let contact = block.contact_side().unwrap();
     let loading = Loading::of_the_paper();
-    let path = LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap();
+    let path = BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
+        .unwrap()
+        .motion;
 
     let mut intervals = path.intervals;
     intervals.retain(|interval| count_of_slip_nodes(interval) > 0);
@@ -309,7 +312,7 @@ fn every_state_of_the_loading_path_is_closed() {
     let mut states = Vec::new();
 
     for interval in slipping_intervals(&block) {
-        let found = search(&interval.problem(&block, None).unwrap());
+        let found = search(&block.problem(&interval.states, None).unwrap());
         assert!(found.is_complete());
 
         let modes: Vec<Mode> = found.cover.solutions.iter().map(Mode::of).collect();

@@ -111,7 +111,7 @@ fn is_for_tests(path: &Path) -> bool {
 
 /// Each crate with all that its manifest may name. Cargo refuses any use of a crate not named
 /// there.
-const MAY_DEPEND: [(&str, &[&str]); 9] = [
+const MAY_DEPEND: [(&str, &[&str]); 10] = [
     (
         "exact",
         &[
@@ -182,7 +182,6 @@ const MAY_DEPEND: [(&str, &[&str]); 9] = [
             "thiserror",
         ],
     ),
-    // mcp: the loading path proposes its events in doubles and verifies them exactly.
     (
         "paper",
         &[
@@ -190,13 +189,25 @@ const MAY_DEPEND: [(&str, &[&str]); 9] = [
             "mceip-mcp",
             "mceip-model",
             "mceip-oracle",
+            "mceip-path",
+            "num-traits",
+            "thiserror",
+        ],
+    ),
+    // Independent of all that it is held against: no solver, no search, no oracle.
+    // mcp: the states after an event are proposed in doubles and verified exactly.
+    (
+        "path",
+        &[
+            "mceip-exact",
+            "mceip-mcp",
+            "mceip-model",
             "nalgebra",
             "num-integer",
             "num-traits",
             "thiserror",
         ],
     ),
-    // Independent of all that it is held against: no solver, no search, no oracle.
     (
         "motion",
         &[

@@ -10,8 +10,9 @@ use mceip_engine::search::complete::{Options, complete};
 use mceip_engine::search::levels::Levels;
 use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::{Body, ContactState, Pencil, Problem, Unknown, Window};
-use mceip_paper::path::{Contact, Interval, Loading, LoadingPath, PathEnd};
+use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel, MassKind, MeshKind, Plane};
+use mceip_path::{Interval, PathEnd};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -80,10 +81,11 @@ impl State {
 impl Observed {
     fn of(model: &BlockModel) -> Observed {
         let block = Block::new(model).unwrap();
-        let contact = Contact::of(&block).unwrap();
+        let contact = block.contact_side().unwrap();
         let loading = Loading::of_the_paper();
-        let path =
-            LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap();
+        let path = BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
+            .unwrap()
+            .motion;
 
         // The path may end with every node stuck: then the last state with slip nodes counts.
         let mut pencils = contact.pencils();

@@ -1,8 +1,9 @@
 //! The block of the paper and its loading path, computed once for all tests of this program.
 #![cfg(feature = "solver")]
 
-use mceip_paper::path::{Contact, Interval, Loading, LoadingPath};
+use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel};
+use mceip_path::{Contact, Interval, LoadingPath};
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
@@ -14,9 +15,11 @@ pub(crate) struct PaperPath {
 
 pub(crate) static PAPER_PATH: LazyLock<PaperPath> = LazyLock::new(|| {
     let block = Block::new(&BlockModel::of_the_paper()).unwrap();
-    let contact = Contact::of(&block).unwrap();
+    let contact = block.contact_side().unwrap();
     let loading = Loading::of_the_paper();
-    let path = LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap();
+    let path = BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
+        .unwrap()
+        .motion;
 
     PaperPath {
         block,

@@ -7,23 +7,25 @@
 #![cfg(feature = "solver")]
 
 use crate::paper_path::{PAPER_PATH, PaperPath};
+use mceip_engine::reduction::condense;
 use mceip_exact::{Rational, rational, to_f64, whole};
-use mceip_model::{ContactState, Particle, Reaction, System, Unknown};
-use mceip_paper::path::{
-    Bound, Comparison, Contact, Equilibrium, Finder, Interval, Loading, LoadingPath, PathEnd,
-    PathError, step_path,
+use mceip_model::reduction::reduce;
+use mceip_model::{
+    Admissible, ContactState, ModelError, Particle, Pencil, Reaction, System, Unknown,
 };
+use mceip_paper::path::{BlockPath, BlockPathError, Comparison, Loading, step_path};
 use mceip_paper::{Block, BlockModel, MeshKind, Plane, PublishedState};
+use mceip_path::{Bound, Contact, Equilibrium, Finder, Interval, PathEnd, PathError};
 use std::ops::ControlFlow;
 
-fn follow(block: &Block, loading: &Loading) -> LoadingPath {
-    let contact = Contact::of(block).unwrap();
+fn follow(block: &Block, loading: &Loading) -> BlockPath {
+    let contact = block.contact_side().unwrap();
     follow_contact(&contact, loading).unwrap()
 }
 
 /// The path of a condensed block, never interrupted.
-fn follow_contact(contact: &Contact, loading: &Loading) -> Result<LoadingPath, PathError> {
-    LoadingPath::follow(contact, loading, &|_, _| ControlFlow::Continue(()))
+fn follow_contact(contact: &Contact, loading: &Loading) -> Result<BlockPath, BlockPathError> {
+    BlockPath::follow(contact, loading, &|_, _| ControlFlow::Continue(()))
 }
 
 /// Progress of stepping that never interrupts.
@@ -79,7 +81,7 @@ fn contact_displacements(
     let mut given: Vec<Option<Rational>> = vec![None; block.stiffness.rows()];
     for (k, &node) in block.contact.iter().enumerate() {
         let (tangential, normal) = at.displacement(k);
-        given[2 * node] = Some(tangential + at.motion());
+        given[2 * node] = Some(tangential + at.amount());
         given[2 * node + 1] = Some(depth - normal);
     }
     given
@@ -139,11 +141,11 @@ fn equilibria_are_those_of_the_uncondensed_block() {
 
     for mu in [rational(11, 10), rational(3, 10)] {
         let path = follow(&block, &paper(mu));
-        let count = path.intervals.len();
-        assert!(path.slides(), "{count}");
+        let count = path.motion.intervals.len();
+        assert!(path.motion.slides(), "{count}");
         assert!(count >= 4, "{count}");
 
-        for interval in &path.intervals {
+        for interval in &path.motion.intervals {
             equilibrium_of_the_whole_block(&block, interval, &path.depth);
         }
 
@@ -172,7 +174,7 @@ fn system_in_the_middle(
     mu: &Rational,
     interval: &Interval,
     states: &[ContactState],
-) -> Result<System, mceip_model::ModelError> {
+) -> Result<System, ModelError> {
     let mut particles = Vec::new();
     for (k, &state) in states.iter().enumerate() {
         let tangential = 2 * block.contact[k];
@@ -195,7 +197,7 @@ fn states_and_reactions_satisfy_7_in_the_middle_of_each_stretch() {
     let mut left = 0;
     let mut right = 0;
 
-    for interval in path.intervals.iter().filter(|i| i.stop.is_some()) {
+    for interval in path.motion.intervals.iter().filter(|i| i.stop.is_some()) {
         assert!(system_in_the_middle(&block, &mu, interval, &interval.states).is_ok());
 
         for (k, state) in interval.states.iter().enumerate() {
@@ -240,15 +242,15 @@ fn events_are_located_exactly() {
     let mut by_pressure = 0;
     let mut by_another_bound = 0;
 
-    for pair in path.intervals.windows(2) {
+    for pair in path.motion.intervals.windows(2) {
         let [before, after] = pair else {
             unreachable!()
         };
         let stop = before.stop.as_ref().unwrap();
         let start = &after.start;
 
-        assert_eq!(stop.motion(), start.motion());
-        assert!(before.start.motion() < stop.motion());
+        assert_eq!(stop.amount(), start.amount());
+        assert!(before.start.amount() < stop.amount());
 
         for k in 0..7 {
             assert!(stop.reaction(k) == start.reaction(k));
@@ -268,9 +270,9 @@ fn events_are_located_exactly() {
             assert!(at_the_start > whole(0));
         }
 
-        let mut intervals = path.intervals.iter();
-        let index = intervals.position(|i| i.start.motion() == before.start.motion());
-        assert_eq!(path.ending(index.unwrap()), Some(&after.begin));
+        let mut intervals = path.motion.intervals.iter();
+        let index = intervals.position(|i| i.start.amount() == before.start.amount());
+        assert_eq!(path.motion.ending(index.unwrap()), Some(&after.begin));
         assert!(!after.begin.changes.is_empty());
         assert_eq!(after.begin.finder, Finder::ActiveSet);
     }
@@ -278,29 +280,31 @@ fn events_are_located_exactly() {
     assert!(by_another_bound > 4, "{by_another_bound}");
     assert!(by_pressure > 1, "{by_pressure}");
     assert!(
-        path.intervals[0].counts()[2] > 0,
+        path.motion.intervals[0].counts()[2] > 0,
         "pressing an oblique mesh makes the corner slip to the right"
     );
 }
 
 /// Compares a path with stepping in `count` steps of length `step`.
 fn compare(
-    path: &LoadingPath,
+    path: &BlockPath,
     contact: &Contact,
     loading: &Loading,
     step: &Rational,
     count: usize,
 ) -> Comparison {
     let steps = step_path(contact, loading, step, count, &go_on).unwrap();
-    Comparison::of(path, &steps)
+    Comparison::of(&path.motion, &steps)
 }
 
 #[test]
 fn stepping_finds_the_same_path_but_for_short_stretches() {
-    let contact = Contact::of(&block(8, 4, MeshKind::Crossed, Plane::Stress)).unwrap();
+    let contact = block(8, 4, MeshKind::Crossed, Plane::Stress)
+        .contact_side()
+        .unwrap();
     let loading = Loading::of_the_paper();
     let path = follow_contact(&contact, &loading).unwrap();
-    let last = to_f64(path.intervals.last().unwrap().start.motion());
+    let last = to_f64(path.motion.intervals.last().unwrap().start.amount());
 
     let small = rational(1, 1000);
     let small_steps = (last / to_f64(&small)) as usize + 10;
@@ -330,7 +334,9 @@ fn stepping_finds_the_same_path_but_for_short_stretches() {
 
 #[test]
 fn a_range_an_interrupt_and_refusals() {
-    let contact = Contact::of(&block(2, 1, MeshKind::Slash, Plane::Stress)).unwrap();
+    let contact = block(2, 1, MeshKind::Slash, Plane::Stress)
+        .contact_side()
+        .unwrap();
     let standard = Loading::of_the_paper();
 
     let until = rational(1, 10);
@@ -339,24 +345,34 @@ fn a_range_an_interrupt_and_refusals() {
         ..Loading::of_the_paper()
     };
     let short = follow_contact(&contact, &limited).unwrap();
-    let last_stop = short.intervals.last().unwrap().stop.as_ref().unwrap();
+    let last_stop = short
+        .motion
+        .intervals
+        .last()
+        .unwrap()
+        .stop
+        .as_ref()
+        .unwrap();
 
-    assert_eq!(short.end, PathEnd::Range);
-    assert_eq!(last_stop.motion(), &until);
+    assert_eq!(short.motion.end, PathEnd::AllApplied);
+    assert_eq!(last_stop.amount(), &until);
 
-    let stopped = LoadingPath::follow(&contact, &standard, &|k, _| stop_at(1, k)).unwrap();
-    assert_eq!(stopped.end, PathEnd::Interrupted);
-    assert_eq!(stopped.intervals.len(), 1);
+    let stopped = BlockPath::follow(&contact, &standard, &|k, _| stop_at(1, k)).unwrap();
+    assert_eq!(stopped.motion.end, PathEnd::Interrupted);
+    assert_eq!(stopped.motion.intervals.len(), 1);
 
     let whole_path = follow_contact(&contact, &standard).unwrap();
-    assert!(whole_path.intervals.len() > 1);
-    assert!(!stopped.slides());
-    assert!(whole_path.slides());
+    assert!(whole_path.motion.intervals.len() > 1);
+    assert!(!stopped.motion.slides());
+    assert!(whole_path.motion.slides());
 
     for (loading, word) in not_positive() {
         let error = follow_contact(&contact, &loading).unwrap_err();
         assert!(
-            matches!(&error, PathError::NotPositive { what, .. } if what.contains(word)),
+            matches!(
+                &error,
+                BlockPathError::Path(PathError::NotPositive { what, .. }) if what.contains(word)
+            ),
             "{error}"
         );
 
@@ -404,15 +420,17 @@ fn not_positive() -> [(Loading, &'static str); 3] {
 fn a_jammed_block_does_not_slide() {
     let block = block(6, 3, MeshKind::Crossed, Plane::Stress);
     let path = follow(&block, &paper(whole(10)));
-    assert_eq!(path.end, PathEnd::NoFurtherEvent);
-    assert!(!path.slides());
+    assert_eq!(path.motion.end, PathEnd::NoFurtherEvent);
+    assert!(!path.motion.slides());
 
-    let last = path.intervals.last().unwrap();
+    let last = path.motion.intervals.last().unwrap();
     assert!(last.stop.is_none());
     assert!(last.states.contains(&ContactState::Stick));
 
     let [_, left, _, _] = last.counts();
-    let unknown = last.problem(&block, None).map(|problem| problem.unknown());
+    let unknown = block
+        .problem(&last.states, None)
+        .map(|problem| problem.unknown());
     assert_eq!(unknown.ok(), (left > 0).then_some(Unknown::Mu));
 }
 
@@ -422,17 +440,17 @@ fn a_jammed_block_does_not_slide() {
 fn a_path_may_end_without_continuation() {
     let block = block(8, 4, MeshKind::Crossed, Plane::Strain);
     let path = follow(&block, &paper(whole(5)));
-    assert_eq!(path.intervals.len(), 1);
-    assert!(!path.slides());
+    assert_eq!(path.motion.intervals.len(), 1);
+    assert!(!path.motion.slides());
 
-    let PathEnd::NoContinuation { causes, proved, .. } = &path.end else {
-        panic!("{:?}", path.end)
+    let PathEnd::NoContinuation { causes, proved, .. } = &path.motion.end else {
+        panic!("{:?}", path.motion.end)
     };
 
     assert_eq!(causes, &[Bound::Cone { node: 8, sign: -1 }]);
     assert!(*proved);
 
-    let stop = path.intervals[0].stop.as_ref().unwrap();
+    let stop = path.motion.intervals[0].stop.as_ref().unwrap();
     let (tangential, normal) = stop.reaction(8);
     assert_eq!(
         -tangential,
@@ -443,7 +461,7 @@ fn a_path_may_end_without_continuation() {
     // The condensed slip equation of that node has the wrong sign: S_TT - mu S_NT < 0.
     let mut states = vec![ContactState::Stick; 9];
     states[8] = ContactState::Slip { sign: -1 };
-    let contact = Contact::of(&block).unwrap();
+    let contact = block.contact_side().unwrap();
     let pencil = contact.pencils().of(&states).unwrap();
     let slip_stiffness = pencil.a().get(0, 0) + whole(5) * pencil.b().get(0, 0);
 
@@ -464,13 +482,14 @@ fn a_gap_that_closes_is_passed_too() {
     let path = follow(&block, &loading);
 
     let closing: Vec<&Interval> = path
+        .motion
         .intervals
         .iter()
         .filter(|interval| interval.begin.causes == [Bound::Gap { node: 4 }])
         .collect();
 
     assert_eq!(closing.len(), 1);
-    assert_eq!(path.end, PathEnd::Range);
+    assert_eq!(path.motion.end, PathEnd::AllApplied);
 
     let closing = closing[0];
     assert_eq!(closing.begin.finder, Finder::Enumeration);
@@ -480,6 +499,45 @@ fn a_gap_that_closes_is_passed_too() {
 
     let (_, normal_at_the_end) = closing.stop.as_ref().unwrap().reaction(4);
     assert!(normal_at_the_end < whole(0));
+}
+
+const SLIPS_LEFT: ContactState = ContactState::Slip { sign: 1 };
+const SLIPS_RIGHT: ContactState = ContactState::Slip { sign: -1 };
+
+/// Through (10)-(16) and the uncondensed K.
+fn condensed_by_reduction(block: &Block, states: &[ContactState]) -> Pencil {
+    let problem = block.problem(states, None).unwrap();
+    let reduced = reduce(&problem).unwrap().pencil;
+    condense(&Admissible::new(&reduced, Unknown::Mu).unwrap()).unwrap()
+}
+
+/// Two ways to the same exact matrices: through (10)-(16) and the uncondensed K, and from C.
+#[test]
+fn pencils_are_those_of_the_reduction() {
+    let stick = ContactState::Stick;
+    let free = ContactState::Free;
+    let states = [
+        vec![stick, SLIPS_LEFT, SLIPS_LEFT, SLIPS_LEFT, free],
+        vec![free, SLIPS_LEFT, SLIPS_RIGHT, stick, SLIPS_RIGHT],
+        vec![SLIPS_LEFT; 5],
+    ];
+    let block = block(4, 2, MeshKind::UnionJack, Plane::Strain);
+    let contact = block.contact_side().unwrap();
+    let mut pencils = contact.pencils();
+
+    for states in &states {
+        let expected = condensed_by_reduction(&block, states);
+        assert_eq!(pencils.of(states).unwrap(), expected);
+    }
+
+    assert!(matches!(
+        pencils.of(&states[0][1..]),
+        Err(PathError::Model(ModelError::Shape { .. }))
+    ));
+    assert!(matches!(
+        pencils.of(&[stick; 5]),
+        Err(PathError::Model(ModelError::NothingSlips))
+    ));
 }
 
 /// 800 elements. The path is computed, and only then compared with the paper.
@@ -505,7 +563,7 @@ fn both_published_states_lie_on_the_path() {
     let short = &path.intervals[1];
     assert_eq!(short.states[20], ContactState::Slip { sign: -1 });
 
-    let length = short.stop.as_ref().unwrap().motion() - short.start.motion();
+    let length = short.stop.as_ref().unwrap().amount() - short.start.amount();
     assert!(length < rational(1, 100));
 
     // "11 or more nodes": the number of slip nodes takes every value on the way.
@@ -528,7 +586,9 @@ fn both_published_states_lie_on_the_path() {
         assert_eq!(slipping.count(), slips[k], "stretch {k}");
     }
 
-    let on_the_path = path.intervals[fifteen[0]].problem(block, None).unwrap();
+    let on_the_path = block
+        .problem(&path.intervals[fifteen[0]].states, None)
+        .unwrap();
     let published = PublishedState::FifteenSlip.problem(block).unwrap();
     assert_eq!(on_the_path.sha256(), published.sha256());
 }
@@ -550,7 +610,7 @@ fn path_and_every_pencil_take_under_five_seconds() {
 
     let block = Block::new(&BlockModel::of_the_paper()).unwrap();
     let start = Instant::now();
-    let contact = Contact::of(&block).unwrap();
+    let contact = block.contact_side().unwrap();
     let condensed = start.elapsed();
 
     let start = Instant::now();
@@ -560,7 +620,7 @@ fn path_and_every_pencil_take_under_five_seconds() {
     let mut pencils = contact.pencils();
     let mut orders = Vec::new();
 
-    for interval in &path.intervals {
+    for interval in &path.motion.intervals {
         let [_, left, right, _] = interval.counts();
         if left + right > 0 {
             orders.push(pencils.of(&interval.states).unwrap().order());
@@ -574,8 +634,8 @@ fn path_and_every_pencil_take_under_five_seconds() {
     );
 
     let mut event_bits = Vec::new();
-    for interval in &path.intervals {
-        let motion = interval.start.motion();
+    for interval in &path.motion.intervals {
+        let motion = interval.start.amount();
         event_bits.push((motion.numer().bits(), motion.denom().bits()));
     }
 

@@ -12,7 +12,7 @@ use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::to_f64;
 use mceip_model::Problem;
 use mceip_model::reduction::reduce;
-use mceip_paper::path::{Contact, Loading, LoadingPath};
+use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel, MassKind};
 use std::ops::ControlFlow;
 
@@ -31,9 +31,11 @@ struct Tally {
 }
 
 fn search_the_path(block: &Block, how: &Search) -> Tally {
-    let contact = Contact::of(block).unwrap();
+    let contact = block.contact_side().unwrap();
     let loading = Loading::of_the_paper();
-    let path = LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap();
+    let path = BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
+        .unwrap()
+        .motion;
 
     let mut tally = Tally::default();
     for interval in &path.intervals {
@@ -42,7 +44,7 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
             continue;
         }
 
-        let problem = interval.problem(block, None).unwrap();
+        let problem = block.problem(&interval.states, None).unwrap();
         let truth = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
         assert!(truth.is_complete());
 

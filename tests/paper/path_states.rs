@@ -27,7 +27,7 @@ use mceip_exact::{Rational, rational, to_f64};
 use mceip_model::file::Number;
 use mceip_model::reduction::mu_family;
 use mceip_model::{Body, ContactState, Pencil, Problem, Unknown, Window};
-use mceip_paper::path::Bound;
+use mceip_path::Bound;
 
 /// The friction of the loading.
 fn measured_friction() -> Rational {
@@ -144,7 +144,7 @@ fn the_state_with_ten_slip_nodes_is_short() {
     assert_eq!(ten.len(), 1);
 
     let stop = ten[0].stop.as_ref().unwrap();
-    let width = to_f64(&(stop.motion() - ten[0].start.motion()));
+    let width = to_f64(&(stop.amount() - ten[0].start.amount()));
     assert_eq!(format!("{width:.4}"), "0.0135");
 
     let body = Body::Pencil(pencil(&ten[0].states));
@@ -164,7 +164,7 @@ fn the_state_with_ten_slip_nodes_is_short() {
 #[ignore = "minutes in the dev profile"]
 fn the_necessary_condition_holds_from_a_fifth_of_the_motion_on() {
     let mu = measured_friction();
-    let sliding = PAPER_PATH.path.intervals.last().unwrap().start.motion();
+    let sliding = PAPER_PATH.path.intervals.last().unwrap().start.amount();
     let share = |begin: &Rational| format!("{:.3}", to_f64(&(begin / sliding)));
 
     let with_slip = PAPER_PATH.path.intervals.iter();
@@ -177,7 +177,7 @@ fn the_necessary_condition_holds_from_a_fifth_of_the_motion_on() {
         if excluded_at(&mu_family(&system).unwrap(), &mu).unwrap() {
             excluded.push(slip_nodes(interval));
         } else {
-            held_from.push(share(interval.start.motion()));
+            held_from.push(share(interval.start.amount()));
         }
     }
 

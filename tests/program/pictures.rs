@@ -16,8 +16,9 @@ use mceip::picture::{
 use mceip_exact::to_f64;
 use mceip_model::file::read_problem;
 use mceip_model::{Body, ContactState, Problem};
-use mceip_paper::path::{Contact, Loading, LoadingPath};
+use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel, Triangulation};
+use mceip_path::LoadingPath;
 use roxmltree::{Document, Node};
 use serde_json::Value;
 use std::ops::ControlFlow;
@@ -28,10 +29,12 @@ fn small() -> BlockModel {
 
 fn path() -> LoadingPath {
     let block = Block::new(&small()).unwrap();
-    let contact = Contact::of(&block).unwrap();
+    let contact = block.contact_side().unwrap();
     let loading = Loading::of_the_paper();
 
-    LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap()
+    BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
+        .unwrap()
+        .motion
 }
 
 /// The elements that have this class, perhaps among others.
@@ -333,7 +336,7 @@ fn the_path_is_drawn_as_it_is() {
 
     for interval in &path.intervals {
         let (tangential, _) = interval.start.resultants();
-        motions.push(to_f64(interval.start.motion()));
+        motions.push(to_f64(interval.start.amount()));
         tangential_forces.push(to_f64(&tangential));
     }
 

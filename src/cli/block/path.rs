@@ -2,7 +2,7 @@
 //!
 //! The block is pressed until its normal force is N and then moved to the left. The path is
 //! piecewise linear in the motion; each event, where a contact node changes its state, is located
-//! exactly by `mceip_paper::path`. On request: what is proved of the state of each stretch
+//! exactly by `mceip_path`. On request: what is proved of the state of each stretch
 //! ([`states`]), pictures and a report ([`pages`]), and a comparison with ordinary stepping.
 
 mod pages;
@@ -18,11 +18,9 @@ use mceip_engine::report::Table;
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{Integer, Rational, to_f64};
 use mceip_model::ContactState;
-use mceip_paper::path::{
-    Bound, Comparison, Contact, Equilibrium, Event, Finder, Interval, Loading, LoadingPath,
-    PathEnd, step_path,
-};
+use mceip_paper::path::{BlockPath, Comparison, Loading, step_path};
 use mceip_paper::{Block, BlockModel, MeshKind, Plane};
+use mceip_path::{Bound, Contact, Equilibrium, Event, Finder, Interval, LoadingPath, PathEnd};
 use num_traits::ToPrimitive;
 use pages::Shown;
 use serde_json::{Value, json};
@@ -70,7 +68,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let followed = Followed {
         block: &block,
         contact: &contact,
-        path: &path,
+        path: &path.motion,
     };
     let states = if args.complete || is_shown {
         Some(states::of(&followed, &wanted, &watch)?)
@@ -81,7 +79,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(states) = &states
         && is_shown
     {
-        let branches = pages::branches(&block, &path, states, &watch)?;
+        let branches = pages::branches(&block, &path.motion, states, &watch)?;
         let shown = Shown {
             model: &model,
             block: &block,
@@ -118,7 +116,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 struct Outcome {
     model: BlockModel,
     block: Block,
-    path: LoadingPath,
+    path: BlockPath,
     /// The comparison with stepping, if asked for.
     steps: Option<Comparison>,
     /// What is proved of the states, if asked for.
@@ -133,7 +131,7 @@ impl Outcome {
             out += &comparison_text(steps);
         }
         if let Some(states) = &self.states {
-            out += &states::text_of(states, &self.path);
+            out += &states::text_of(states, &self.path.motion);
         }
         out
     }
@@ -142,7 +140,7 @@ impl Outcome {
     fn json(&self, with_nodes: bool) -> Value {
         let mut out = json_of(&self.model, &self.path, self.steps.as_ref());
         if let Some(states) = &self.states {
-            out["complete_sets"] = states::json_of(states, &self.path);
+            out["complete_sets"] = states::json_of(states, &self.path.motion);
         }
         if with_nodes {
             out["nodes_mm"] = nodes_json(&self.block);
@@ -151,7 +149,10 @@ impl Outcome {
     }
 
     fn exit_code(&self, is_interrupted: bool) -> u8 {
-        let is_unproved = matches!(self.path.end, PathEnd::NoContinuation { proved: false, .. });
+        let is_unproved = matches!(
+            self.path.motion.end,
+            PathEnd::NoContinuation { proved: false, .. }
+        );
         let mut states = self.states.iter().flatten();
         let is_open = states.any(ProvedState::is_open);
 
@@ -196,7 +197,7 @@ fn write_pages(
 /// `None` if it was.
 fn condense(block: Block, cancel: &Cancel) -> Result<Option<Contact>, CliError> {
     let (send, receive) = mpsc::channel();
-    std::thread::spawn(move || send.send(Contact::of(&block)));
+    std::thread::spawn(move || send.send(block.contact_side()));
 
     loop {
         match receive.recv_timeout(Duration::from_millis(50)) {
@@ -208,8 +209,8 @@ fn condense(block: Block, cancel: &Cancel) -> Result<Option<Contact>, CliError> 
     }
 }
 
-fn follow(contact: &Contact, loading: &Loading, job: &Job) -> Result<LoadingPath, CliError> {
-    let path = LoadingPath::follow(contact, loading, &|stretch, motion| {
+fn follow(contact: &Contact, loading: &Loading, job: &Job) -> Result<BlockPath, CliError> {
+    let path = BlockPath::follow(contact, loading, &|stretch, motion| {
         let motion = to_f64(motion);
         job.say(format!("stretch {stretch}, motion {motion:.4} mm"));
         job.flow()
@@ -221,12 +222,12 @@ fn follow(contact: &Contact, loading: &Loading, job: &Job) -> Result<LoadingPath
 /// Steps to a little beyond the last event, or to the end of the range.
 fn compare(
     contact: &Contact,
-    path: &LoadingPath,
+    path: &BlockPath,
     step: &Rational,
     job: &Job,
 ) -> Result<Comparison, CliError> {
-    let length = match path.intervals.last() {
-        Some(last) => last.stop.as_ref().unwrap_or(&last.start).motion().clone(),
+    let length = match path.motion.intervals.last() {
+        Some(last) => last.stop.as_ref().unwrap_or(&last.start).amount().clone(),
         None => Rational::default(),
     };
     let count: Integer = (length / step).ceil().to_integer() + 1;
@@ -239,7 +240,7 @@ fn compare(
         job.flow()
     })?;
 
-    Ok(Comparison::of(path, &steps))
+    Ok(Comparison::of(&path.motion, &steps))
 }
 
 /// The block that the options describe.
@@ -290,15 +291,15 @@ fn loading(args: &Args) -> Result<Loading, CliError> {
     })
 }
 
-fn text_of(model: &BlockModel, path: &LoadingPath) -> String {
+fn text_of(model: &BlockModel, path: &BlockPath) -> String {
     let (nx, ny) = model.cells;
     let mesh = model.mesh.word();
     let plane = model.plane.word();
     let mu = to_f64(&path.loading.friction);
     let force = to_f64(&path.loading.force);
     let depth = to_f64(&path.depth);
-    let table = table_of(path);
-    let end = end_text(path);
+    let table = table_of(&path.motion);
+    let end = end_text(&path.motion);
 
     format!(
         "{nx} x {ny} cells, {mesh}, plane {plane}; mu = {mu}; pressed {depth:.6} mm to {force} N, \
@@ -382,8 +383,8 @@ fn listed(numbers: &[usize]) -> String {
     }
 }
 
-fn json_of(model: &BlockModel, path: &LoadingPath, steps: Option<&Comparison>) -> Value {
-    let intervals: Vec<Value> = path.intervals.iter().map(interval_json).collect();
+fn json_of(model: &BlockModel, path: &BlockPath, steps: Option<&Comparison>) -> Value {
+    let intervals: Vec<Value> = path.motion.intervals.iter().map(interval_json).collect();
     json!({
         "cells": [model.cells.0, model.cells.1],
         "mesh": model.mesh.word(),
@@ -395,8 +396,8 @@ fn json_of(model: &BlockModel, path: &LoadingPath, steps: Option<&Comparison>) -
         "depth_mm": to_f64(&path.depth),
         "pressing": states_json(&path.pressing),
         "intervals": intervals,
-        "end": end_text(path),
-        "slides": path.slides(),
+        "end": end_text(&path.motion),
+        "slides": path.motion.slides(),
         "stepping": steps.map(comparison_json),
     })
 }
@@ -415,8 +416,8 @@ fn interval_json(interval: &Interval) -> Value {
     let stop = interval.stop.as_ref();
 
     json!({
-        "from_mm": to_f64(interval.start.motion()),
-        "to_mm": stop.map(|stop| to_f64(stop.motion())),
+        "from_mm": to_f64(interval.start.amount()),
+        "to_mm": stop.map(|stop| to_f64(stop.amount())),
         "states": states_json(&interval.states),
         "stick": stick,
         "slip_left": left,
@@ -458,7 +459,7 @@ fn equilibrium_json(at: &Equilibrium) -> Value {
     }
 
     // The fraction of the exact motion fills pages: its size stands for it.
-    let bits = at.motion().numer().bits() + at.motion().denom().bits();
+    let bits = at.amount().numer().bits() + at.amount().denom().bits();
 
     json!({
         "motion_bits": bits,

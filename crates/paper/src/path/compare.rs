@@ -4,10 +4,9 @@
 //! the motion of each step by interpolation between the two ends. `mceip block --path` calls this.
 #![allow(clippy::float_arithmetic)]
 
-use super::loading_path::LoadingPath;
 use super::step::Step;
-use super::stretch::Interval;
 use mceip_exact::to_f64;
+use mceip_path::{Interval, LoadingPath};
 
 /// How a stepped path compares with the exact one.
 #[derive(Debug, Clone, PartialEq)]
@@ -104,7 +103,7 @@ impl ExactStretch {
 
         let stop = match &interval.stop {
             Some(stop) => Some(Stop {
-                to: to_f64(stop.motion()),
+                to: to_f64(stop.amount()),
                 reactions: stop.reactions_f64(),
             }),
             None if slides => Some(Stop {
@@ -115,7 +114,7 @@ impl ExactStretch {
         };
 
         ExactStretch {
-            from: to_f64(interval.start.motion()),
+            from: to_f64(interval.start.amount()),
             start,
             stop,
         }

@@ -1,9 +1,8 @@
 //! How the block is loaded: friction, normal force, range of the motion. Input of
-//! `LoadingPath::follow` and `step_path`, which refuse what is not positive.
+//! `BlockPath::follow` and `step_path`, which refuse what is not positive.
 
-use super::error::PathError;
 use mceip_exact::{Rational, rational, whole};
-use num_traits::Signed;
+use mceip_path::{PathError, require_positive};
 
 /// How the block is loaded.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,15 +35,4 @@ impl Loading {
 
         Ok(())
     }
-}
-
-fn require_positive(what: &'static str, value: &Rational) -> Result<(), PathError> {
-    if value.is_positive() {
-        return Ok(());
-    }
-
-    Err(PathError::NotPositive {
-        what,
-        got: value.clone(),
-    })
 }

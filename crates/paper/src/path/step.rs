@@ -1,21 +1,22 @@
 //! Ordinary incremental stepping in doubles, for comparison: equal steps of the motion, at each an
 //! active set from the step before. What happens within a step is lost.
 //!
-//! A step solves r = C (u - g) (C the condensed stiffness) for the displacements u at the new
-//! position g of the glued side, with these conditions by state: stick: u_T as before and u_N = 0;
-//! slip: u_N = 0, r_T + S mu r_N = 0, where S is the sign of r_T; free: r = 0. As in (1), u_N <= 0
-//! without penetration and r_N <= 0 is pressure. States that the solution contradicts are changed
-//! and the step is solved again (backward Euler in the friction law).
+//! A step solves r = C u - sum_l a_l h_l ([`Contact`]) for the displacements u at the new amounts
+//! a_l of the loads, the places of the glued side, with these conditions by state: stick: u_T as
+//! before and u_N = 0; slip: u_N = 0, r_T + S mu r_N = 0, where S is the sign of r_T; free: r = 0.
+//! As in (1), u_N <= 0 without penetration and r_N <= 0 is pressure. States that the solution
+//! contradicts are changed and the step is solved again (backward Euler in the friction law).
 //! `mceip block --path` sets the result beside the exact path.
 #![allow(clippy::float_arithmetic)]
 
-use super::contact::Contact;
-use super::error::PathError;
+use super::block_path::{MOVE, PRESS};
+use super::error::BlockPathError;
 use super::loading::Loading;
 use crate::tolerance::STEP_SIGN;
 use mceip_exact::{Rational, to_f64};
 use mceip_mcp::linear::solve;
 use mceip_model::ContactState;
+use mceip_path::Contact;
 use std::ops::ControlFlow;
 
 /// Active-set iterations of one step. A step changes a few nodes, so that more iterations mean that
@@ -53,15 +54,15 @@ impl Step {
 /// step and may break off; the steps so far are kept.
 ///
 /// # Errors
-/// [`PathError::NotPositive`] for the loading or a step that is not positive;
-/// [`PathError::StepNotConverged`].
+/// [`mceip_path::PathError::NotPositive`] for the loading or a step that is not positive;
+/// [`BlockPathError::StepNotConverged`].
 pub fn step_path(
     contact: &Contact,
     loading: &Loading,
     h: &Rational,
     count: usize,
     progress: &dyn Fn(usize) -> ControlFlow<()>,
-) -> Result<Vec<Step>, PathError> {
+) -> Result<Vec<Step>, BlockPathError> {
     let stepped = Loading {
         until: Some(h.clone()),
         ..loading.clone()
@@ -99,13 +100,10 @@ struct GluedSide {
 }
 
 impl GluedSide {
-    /// What is added to component `i` of the displacements to have them relative to the glued side.
-    fn shift(self, i: usize) -> f64 {
-        if i.is_multiple_of(2) {
-            self.left
-        } else {
-            -self.press
-        }
+    /// The reaction that a row [C, -h_1, -h_2, 0] of the contact gives for displacements u.
+    fn reaction(self, row: &[f64], u: &[f64]) -> f64 {
+        let loads = &row[u.len()..];
+        dot(&row[..u.len()], u) + loads[PRESS] * self.press + loads[MOVE] * self.left
     }
 }
 
@@ -141,34 +139,23 @@ fn by_node(components: &[f64]) -> Vec<(f64, f64)> {
 
 /// The condensed block and its friction.
 struct CondensedBlock {
-    /// C, N/mm.
-    stiffness: Vec<Vec<f64>>,
+    /// [C, -h_1, -h_2, 0], N/mm.
+    rows: Vec<Vec<f64>>,
     mu: f64,
 }
 
 impl CondensedBlock {
     fn new(contact: &Contact, loading: &Loading) -> CondensedBlock {
-        let mut stiffness = Vec::with_capacity(contact.rows().len());
-        for exact in contact.rows() {
-            let mut row = Vec::with_capacity(exact.len());
-            for numerator in exact {
-                let denominator = contact.denominator().clone();
-                row.push(to_f64(&Rational::new_raw(numerator.clone(), denominator)));
-            }
-
-            stiffness.push(row);
-        }
-
         CondensedBlock {
-            stiffness,
+            rows: contact.rows_f64(),
             mu: to_f64(&loading.friction),
         }
     }
 
     /// The unloaded block pressed until the normal resultant is -force: proportional to the
     /// depth, so it is solved for 1 mm and scaled.
-    fn press(&self, force: f64) -> Result<SteppedEquilibrium, PathError> {
-        let components = self.stiffness.len();
+    fn press(&self, force: f64) -> Result<SteppedEquilibrium, BlockPathError> {
+        let components = self.rows.len();
         let unloaded = SteppedEquilibrium {
             glued: GluedSide {
                 press: 0.0,
@@ -202,9 +189,9 @@ impl CondensedBlock {
         from: &SteppedEquilibrium,
         glued: GluedSide,
         step: usize,
-    ) -> Result<SteppedEquilibrium, PathError> {
+    ) -> Result<SteppedEquilibrium, BlockPathError> {
         self.converge(from, glued)
-            .ok_or(PathError::StepNotConverged {
+            .ok_or(BlockPathError::StepNotConverged {
                 step,
                 motion: glued.left,
                 limit: ITERATIONS,
@@ -255,8 +242,7 @@ impl CondensedBlock {
         } = self.conditions(states, from);
 
         if !active.is_empty() {
-            let known = relative(&u, glued);
-            let right = rows.iter().map(|row| -dot(row, &known)).collect();
+            let right = rows.iter().map(|row| -glued.reaction(row, &u)).collect();
             let mut matrix = Vec::with_capacity(rows.len());
             for row in &rows {
                 let coefficients: Vec<f64> = active.iter().map(|&j| row[j]).collect();
@@ -269,12 +255,8 @@ impl CondensedBlock {
             }
         }
 
-        let displaced = relative(&u, glued);
-        let r = self
-            .stiffness
-            .iter()
-            .map(|row| dot(row, &displaced))
-            .collect();
+        let rows = self.rows.iter();
+        let r = rows.map(|row| glued.reaction(row, &u)).collect();
         Some(SteppedEquilibrium {
             glued,
             states: states.to_vec(),
@@ -286,7 +268,7 @@ impl CondensedBlock {
     /// What the states say of displacements and reactions.
     fn conditions(&self, states: &[ContactState], from: &SteppedEquilibrium) -> Conditions {
         let mut conditions = Conditions {
-            u: vec![0.0; self.stiffness.len()],
+            u: vec![0.0; self.rows.len()],
             active: Vec::new(),
             rows: Vec::new(),
         };
@@ -303,7 +285,7 @@ impl CondensedBlock {
                 ContactState::Free | ContactState::Zero => {
                     for component in [tangential, normal] {
                         conditions.active.push(component);
-                        conditions.rows.push(self.stiffness[component].clone());
+                        conditions.rows.push(self.rows[component].clone());
                     }
                 }
             }
@@ -315,8 +297,8 @@ impl CondensedBlock {
     /// The row of r_T + S mu r_N. // (7)
     fn slip_row(&self, node: usize, sign: i8) -> Vec<f64> {
         let factor = f64::from(sign) * self.mu;
-        let tangential = &self.stiffness[2 * node];
-        let normal = &self.stiffness[2 * node + 1];
+        let tangential = &self.rows[2 * node];
+        let normal = &self.rows[2 * node + 1];
 
         let entries = tangential.iter().zip(normal);
         entries.map(|(t, n)| t + factor * n).collect()
@@ -329,14 +311,8 @@ struct Conditions {
     u: Vec<f64>,
     /// The unknown components.
     active: Vec<usize>,
-    /// A combination of rows of C that vanishes, one for each unknown.
+    /// A combination of rows of the contact that vanishes, one for each unknown.
     rows: Vec<Vec<f64>>,
-}
-
-/// Displacements relative to the glued side.
-fn relative(u: &[f64], glued: GluedSide) -> Vec<f64> {
-    let components = u.iter().enumerate();
-    components.map(|(i, u)| u + glued.shift(i)).collect()
 }
 
 fn dot(row: &[f64], vector: &[f64]) -> f64 {

@@ -16,14 +16,15 @@ use crate::picture::{
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::Levels;
 use mceip_exact::{Rational, to_f64};
-use mceip_paper::path::LoadingPath;
+use mceip_paper::path::BlockPath;
 use mceip_paper::{Block, BlockModel, MassKind, SourceError, Triangulation};
+use mceip_path::LoadingPath;
 
 /// Everything there is to show.
 pub(super) struct Shown<'a> {
     pub(super) model: &'a BlockModel,
     pub(super) block: &'a Block,
-    pub(super) path: &'a LoadingPath,
+    pub(super) path: &'a BlockPath,
     pub(super) states: &'a [ProvedState],
     pub(super) branches: Option<StateBranches>,
     /// Were the MCEIP-mu sets checked on K itself?
@@ -147,7 +148,7 @@ impl Shown<'_> {
         let title = "Loading path: resultants, and the state of each contact node";
         Named {
             name: "path".into(),
-            picture: path_picture(title, self.path),
+            picture: path_picture(title, &self.path.motion),
             caption: PATH_CAPTION.into(),
         }
     }
@@ -212,7 +213,7 @@ impl Shown<'_> {
         let drawn = Mode {
             mesh,
             displacement: mode.displacement.as_ref()?,
-            marks: &state.marks(self.path, mode),
+            marks: &state.marks(&self.path.motion, mode),
         };
         let moving = mode.moving.len();
         let slip = state.slip;
@@ -344,13 +345,13 @@ impl Shown<'_> {
             "begins with",
         ];
         let mut rows = Vec::new();
-        for (k, interval) in self.path.intervals.iter().enumerate() {
+        for (k, interval) in self.path.motion.intervals.iter().enumerate() {
             let mut row = stretch_cells(k, interval);
             row.push(causes_text(&interval.begin.causes));
             rows.push(row);
         }
 
-        let end = end_text(self.path);
+        let end = end_text(&self.path.motion);
         let caption = format!(
             "Stretches of the path. Nodes from left to right: . stick, < slips to the left (S = \
              1), > slips to the right (S = -1), o free. How it ends: {end}."
@@ -388,7 +389,7 @@ impl Shown<'_> {
     }
 
     fn state_rows(&self, state: &ProvedState) -> Vec<Vec<String>> {
-        let interval = &self.path.intervals[state.stretch];
+        let interval = &self.path.motion.intervals[state.stretch];
         let from = motion(&interval.start);
         let to = match &interval.stop {
             Some(stop) => format!("{} mm", motion(stop)),

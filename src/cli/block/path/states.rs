@@ -18,7 +18,7 @@ use mceip_exact::{Rational, enclosing_decimals, to_f64};
 use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, Pencil, Problem, Unknown, Variable, Window};
 use mceip_paper::Block;
-use mceip_paper::path::{Contact, Equilibrium, Interval, LoadingPath};
+use mceip_path::{Contact, Equilibrium, Interval, LoadingPath};
 use serde_json::{Value, json};
 
 /// A path that was followed, and what it was followed on.
@@ -171,7 +171,7 @@ fn uncondensed_set(
     with_modes: bool,
     watch: &Watch<'_>,
 ) -> Result<ProvedSet, CliError> {
-    let problem = interval.problem(block, mu.cloned())?;
+    let problem = block.problem(&interval.states, mu.cloned())?;
     let found = complete(&problem, &Options::default(), watch)?;
 
     let variables = reduce(&problem)?.variables;
@@ -456,7 +456,7 @@ impl ProvedState {
 
 /// The motion of CD at an equilibrium, mm.
 fn motion(at: &Equilibrium) -> f64 {
-    to_f64(at.motion())
+    to_f64(at.amount())
 }
 
 /// The enclosure of the mu up to which a matrix is definite, if there is one.

@@ -1,11 +1,11 @@
 //! Motions, causes of events and ends of a loading path in words.
 
 use mceip_exact::to_f64;
-use mceip_paper::path::{Bound, Equilibrium, LoadingPath, PathEnd};
+use mceip_path::{Bound, Equilibrium, LoadingPath, PathEnd};
 
 /// The motion of CD at an equilibrium, mm.
 pub(super) fn motion(at: &Equilibrium) -> String {
-    format!("{:.9}", to_f64(at.motion()))
+    format!("{:.9}", to_f64(at.amount()))
 }
 
 /// Why the path ends.
@@ -15,7 +15,7 @@ pub(super) fn end_text(path: &LoadingPath) -> String {
             "the block slides: nothing changes any more".into()
         }
         PathEnd::NoFurtherEvent => "no further event: some nodes stick for ever".into(),
-        PathEnd::Range => "end of the range".into(),
+        PathEnd::AllApplied => "end of the range".into(),
         PathEnd::Interrupted => "INTERRUPTED".into(),
         PathEnd::NoContinuation {
             causes,

@@ -1,13 +1,13 @@
 //! The rate problem against plain enumeration: every set of states tried by elimination in
 //! fractions, the lines of (9) written out. For tests; shares nothing with the solver.
 
-use super::contact::{Contact, Friction, Load};
+use super::contact::{Contact, ContactSide, Friction, Load};
 use super::error::PathError;
 use super::line::Class;
 use super::linear::Images;
 use super::propose::propose;
 use super::rates::{Finder, Rates, Solved};
-use mceip_exact::{Rational, Sparse, whole};
+use mceip_exact::{Rational, whole};
 use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
 use std::collections::BTreeMap;
@@ -45,18 +45,24 @@ impl Instance {
         }
     }
 
+    /// The load moves every candidate along its tangent: h = -C e_T.
     fn contact(&self) -> Contact {
-        let order = self.stiffness.len();
-        let mut entries = Vec::new();
-        for i in 0..order {
-            for j in 0..order {
-                // The block's y points away from the obstacle.
-                let sign = if (i + j).is_multiple_of(2) { 1 } else { -1 };
-                entries.push((i, j, whole(sign * self.stiffness[i][j])));
-            }
+        let mut stiffness = Vec::new();
+        let mut load = Vec::new();
+        for row in &self.stiffness {
+            let tangential: i64 = row.iter().step_by(2).sum();
+            load.push(whole(-tangential));
+            stiffness.push(row.iter().map(|&entry| whole(entry)).collect());
         }
 
-        Contact::from_condensed(&Sparse::from_entries(order, order, entries))
+        let nodes = self.stiffness.len() / 2;
+        Contact::new(ContactSide {
+            stiffness,
+            loads: vec![load],
+            gaps: vec![whole(0); nodes],
+            friction_factors: vec![whole(1); nodes],
+        })
+        .unwrap()
     }
 }
 
@@ -313,7 +319,7 @@ fn rate_problems_agree_with_enumeration() {
         let mu = [whole(1) / whole(2), whole(1), whole(3)][round % 3].clone();
         let instance = Instance::random(&mut dice, nodes, mu);
         let contact = instance.contact();
-        let friction = Friction::new(&instance.mu);
+        let friction = Friction::new(&instance.mu, &contact);
         let classes = &instance.classes;
 
         let expected = enumerate(&instance);
@@ -321,8 +327,8 @@ fn rate_problems_agree_with_enumeration() {
             contact: &contact,
             friction: &friction,
             classes,
-            loads: &|_| vec![Load::Left],
-            moving: Load::Left,
+            loads: &|_| vec![Load::Step(0)],
+            growing: Load::Step(0),
         };
         let found = rates.solve(&mut Images::default(), &vec![ContactState::Stick; nodes]);
         let finder = compare(round, &found, &expected, classes);
@@ -331,7 +337,7 @@ fn rate_problems_agree_with_enumeration() {
         *met.entry(finder).or_default() += 1;
         *met.entry("several solutions").or_default() += usize::from(several);
         *met.entry("singular").or_default() += usize::from(expected.singular);
-        if let Some(states) = propose(&contact, &friction, classes, Load::Left) {
+        if let Some(states) = propose(&contact, &friction, classes, Load::Step(0)) {
             let rightly = expected.solutions.contains(&states);
             *met.entry("proposed").or_default() += 1;
             *met.entry("proposed rightly").or_default() += usize::from(rightly);

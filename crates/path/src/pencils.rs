@@ -3,13 +3,13 @@
 //!
 //! For v_T = 1 at one slip node, with the free nodes following, the condensed stiffness C gives the
 //! reactions at all slip nodes. Their tangential parts are a column of C_TT, their normal parts one
-//! of C_NT, where the free nodes are eliminated from both. With the diagonal matrix S of slip
-//! signs, A = S C_TT S and B = C_NT S. The reports of the loading path call this once for every
-//! stretch.
+//! of C_NT, where the free nodes are eliminated from both. With the diagonal matrices S of slip
+//! signs and c of friction factors, A = S C_TT S and B = c C_NT S. The reports of the loading path
+//! call this once for every stretch.
 
 use super::contact::{Contact, Load};
 use super::error::PathError;
-use super::linear::{ContactEquations, Images, RelativeDisplacements, no_reaction};
+use super::linear::{ContactEquations, Displacements, Images, no_reaction};
 use mceip_exact::{Integer, Rational, Sparse};
 use mceip_model::{ContactState, ModelError, Pencil};
 use num_integer::Integer as _;
@@ -28,7 +28,7 @@ struct SlipNode {
 }
 
 impl Contact {
-    /// A maker of condensed pencils for many states of this block.
+    /// A maker of condensed pencils for many states of this body.
     pub fn pencils(&self) -> Pencils<'_> {
         Pencils {
             contact: self,
@@ -41,9 +41,8 @@ impl Pencils<'_> {
     /// A + mu B of order n_s, exactly (16): variables x = -S v_T of the slip nodes, left to right.
     /// The same matrices as `mceip_engine::reduction::condense` of the state's MCEIP-mu problem.
     ///
-    /// # Errors
-    /// [`PathError::Model`] for a number of states other than that of contact nodes, or no slip
-    /// node.
+    /// # Errors [`PathError::Model`] for a number of states other than that of candidates, no slip
+    /// node, or a node in contact without a reaction.
     pub fn of(&mut self, states: &[ContactState]) -> Result<Pencil, PathError> {
         self.require_a_state_for_each_node(states)?;
         let slip = slip_nodes(states);
@@ -64,8 +63,9 @@ impl Pencils<'_> {
             for (j, moving) in slip.iter().enumerate() {
                 let tangential = &reactions[j][2 * at.node] * &at.sign * &moving.sign;
                 let normal = &reactions[j][2 * at.node + 1] * &moving.sign;
+                let factor = &self.contact.friction_factors()[at.node];
                 a.push((i, j, scale.value(&tangential)));
-                b.push((i, j, scale.value(&normal)));
+                b.push((i, j, scale.value(&normal) * factor));
             }
         }
 
@@ -78,18 +78,21 @@ impl Pencils<'_> {
 
     fn require_a_state_for_each_node(&self, states: &[ContactState]) -> Result<(), ModelError> {
         let nodes = self.contact.nodes();
-        if states.len() == nodes {
-            return Ok(());
+        if states.len() != nodes {
+            return Err(ModelError::Shape {
+                equation: "E9",
+                what: "contact states",
+                expected_rows: nodes,
+                expected_cols: 1,
+                rows: states.len(),
+                cols: 1,
+            });
         }
 
-        Err(ModelError::Shape {
-            equation: "E9",
-            what: "contact states",
-            expected_rows: nodes,
-            expected_cols: 1,
-            rows: states.len(),
-            cols: 1,
-        })
+        match states.iter().position(|state| *state == ContactState::Zero) {
+            Some(particle) => Err(ModelError::ZeroReaction { particle }),
+            None => Ok(()),
+        }
     }
 
     /// Displacements for v_T = 1 at each slip node in turn; free nodes follow without reactions.
@@ -97,7 +100,7 @@ impl Pencils<'_> {
         &mut self,
         slip: &[SlipNode],
         states: &[ContactState],
-    ) -> Result<RelativeDisplacements, PathError> {
+    ) -> Result<Displacements, PathError> {
         let mut active = Vec::new();
         for (node, state) in states.iter().enumerate() {
             if *state == ContactState::Free {
@@ -108,7 +111,7 @@ impl Pencils<'_> {
         let equations = active.iter().map(|&i| no_reaction(i)).collect();
         let imposed = slip
             .iter()
-            .map(|slip| self.contact.relative(Load::Held(slip.node)))
+            .map(|slip| self.contact.unit(Load::Held(slip.node)))
             .collect();
 
         let equations = ContactEquations {
@@ -160,58 +163,5 @@ impl Scale {
 
     fn value(&self, numerator: &Integer) -> Rational {
         Rational::new(numerator / &self.shared, self.denominator.clone())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Block, BlockModel, MeshKind, Plane};
-    use mceip_engine::reduction::condense;
-    use mceip_model::reduction::reduce;
-    use mceip_model::{Admissible, Unknown};
-
-    const LEFT: ContactState = ContactState::Slip { sign: 1 };
-    const RIGHT: ContactState = ContactState::Slip { sign: -1 };
-
-    /// Through (10)-(16) and the uncondensed K.
-    fn condensed_by_reduction(block: &Block, states: &[ContactState]) -> Pencil {
-        let problem = block.problem(states, None).unwrap();
-        let reduced = reduce(&problem).unwrap().pencil;
-        condense(&Admissible::new(&reduced, Unknown::Mu).unwrap()).unwrap()
-    }
-
-    /// Two ways to the same exact matrices: through (10)-(16) and the uncondensed K, and from C.
-    #[test]
-    fn pencils_are_those_of_the_reduction() {
-        let stick = ContactState::Stick;
-        let free = ContactState::Free;
-        let states = [
-            vec![stick, LEFT, LEFT, LEFT, free],
-            vec![free, LEFT, RIGHT, stick, RIGHT],
-            vec![LEFT; 5],
-        ];
-        let model = BlockModel {
-            mesh: MeshKind::UnionJack,
-            plane: Plane::Strain,
-            ..BlockModel::of_the_paper().with_cells(4, 2)
-        };
-        let block = Block::new(&model).unwrap();
-        let contact = Contact::of(&block).unwrap();
-        let mut pencils = contact.pencils();
-
-        for states in &states {
-            let expected = condensed_by_reduction(&block, states);
-            assert_eq!(pencils.of(states).unwrap(), expected);
-        }
-
-        assert!(matches!(
-            pencils.of(&states[0][1..]),
-            Err(PathError::Model(ModelError::Shape { .. }))
-        ));
-        assert!(matches!(
-            pencils.of(&[stick; 5]),
-            Err(PathError::Model(ModelError::NothingSlips))
-        ));
     }
 }

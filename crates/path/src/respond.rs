@@ -1,16 +1,15 @@
-//! What the contact nodes do in given states under imposed displacements: displacements and
-//! reactions by (5), solved exactly.
+//! What the contact candidates do in given states under given loads: displacements and reactions by
+//! (5), solved exactly.
 //!
-//! Each state gives two conditions: free r = 0; stick u = 0; slip u_N = 0, r_T + S mu r_N = 0,
-//! where S is the sign of r_T. The unknowns are therefore u_T and u_N of free nodes and u_T of slip
-//! nodes. Called by `rates`.
+//! Each state gives two conditions: free r = 0; stick w = 0; slip w_N = 0, r_T + S mu r_N = 0,
+//! where S is the sign of r_T. The unknowns are therefore w_T and w_N of free candidates and w_T of
+//! slip candidates. Called by `rates`.
 
 use super::contact::{Contact, Friction, Load, Response};
 use super::linear::{ContactEquations, Equation, Images, Term, no_reaction};
-use mceip_exact::Integer;
 use mceip_model::ContactState;
 
-/// Solves (5) with each node in its state, for each load alone.
+/// Solves (5) with each candidate in its state, for each load alone.
 ///
 /// `None` if these equations are singular (mu is an eigenvalue of the state's matrix).
 pub(super) fn respond(
@@ -38,7 +37,7 @@ pub(super) fn respond(
         }
     }
 
-    let imposed = loads.iter().map(|&load| contact.relative(load)).collect();
+    let imposed = loads.iter().map(|&load| contact.unit(load)).collect();
     let equations = ContactEquations {
         contact,
         active,
@@ -48,21 +47,16 @@ pub(super) fn respond(
     let solved = equations.solve(images)?;
 
     let r = solved.w.iter().map(|w| contact.times(w)).collect();
-    let mut u = Vec::with_capacity(loads.len());
-    for (relative, load) in solved.w.into_iter().zip(loads) {
-        u.push(absolute(relative, *load, &solved.denominator, contact));
-    }
-
     Some(Response {
         denominator: solved.denominator,
-        u,
+        w: solved.w,
         r,
     })
 }
 
 /// r_T + S mu r_N = 0. // (7)
 fn on_cone(node: usize, friction: &Friction, sign: i8) -> Equation {
-    let row = friction.on_cone(sign);
+    let row = friction.on_cone(node, sign);
     vec![
         Term {
             row: 2 * node,
@@ -73,25 +67,4 @@ fn on_cone(node: usize, friction: &Friction, sign: i8) -> Equation {
             coefficient: row.normal,
         },
     ]
-}
-
-/// Displacements u = w + g from those relative to the glued side. A held node displaces no glued
-/// side: there u = w.
-fn absolute(
-    relative: Vec<Integer>,
-    load: Load,
-    denominator: &Integer,
-    contact: &Contact,
-) -> Vec<Integer> {
-    if matches!(load, Load::Held(_)) {
-        return relative;
-    }
-
-    let imposed = contact.relative(load); // -g
-    let mut u = Vec::with_capacity(relative.len());
-    for (w, imposed) in relative.iter().zip(&imposed) {
-        u.push(w - imposed * denominator);
-    }
-
-    u
 }

@@ -1,13 +1,13 @@
-//! The laws at a point of the path, from their definitions: equilibrium (5) by multiplying out the
-//! condensed stiffness C, then contact (1), friction (2), the cone (7) and the state (9) node by
-//! node.
+//! The laws at a point of the path, from their definitions: the loads applied as they are asked
+//! for, equilibrium (5) by multiplying out the condensed stiffness C, then contact (1), friction
+//! (2), the cone (7) and the state (9) candidate by candidate.
 //!
 //! Shares nothing with the search for states but the numbers it checks. Called by `trace` at both
 //! ends of every stretch.
 
-use super::contact::{Contact, Friction, Load};
+use super::contact::{Contact, Friction};
 use super::error::LawFailure;
-use super::line::Line;
+use super::line::{Amount, AppliedLoad, Line};
 use mceip_exact::{Integer, Rational};
 use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
@@ -18,10 +18,10 @@ pub(super) struct PathPoint<'a> {
     pub(super) friction: &'a Friction,
     pub(super) states: &'a [ContactState],
     pub(super) line: &'a Line,
-    /// The motion, in units of the pressing.
-    pub(super) d: &'a Rational,
-    /// What grows.
-    pub(super) moving: Load,
+    /// How much of each load is applied.
+    pub(super) applied: &'a [AppliedLoad],
+    /// The amount of the load that grows.
+    pub(super) a: &'a Rational,
 }
 
 impl PathPoint<'_> {
@@ -30,15 +30,16 @@ impl PathPoint<'_> {
     /// # Errors
     /// The first law that fails: equilibrium first, then node by node.
     pub(super) fn check(&self) -> Result<(), LawFailure> {
-        let u = self.line.u.all_at(self.d);
-        let r = self.line.r.all_at(self.d);
-        self.check_equilibrium(&u, &r)?;
+        let w = self.line.w.all_at(self.a);
+        let r = self.line.r.all_at(self.a);
+        self.check_loads(&w)?;
+        self.check_equilibrium(&w, &r)?;
 
-        let velocities = self.line.rates(self.moving).u;
+        let velocities = self.line.rates().w;
         for (node, &state) in self.states.iter().enumerate() {
             let values = NodeValues {
-                friction: self.friction,
-                u_n: &u[2 * node + 1],
+                friction: self.friction.of(node),
+                w_n: &w[2 * node + 1],
                 r_t: &r[2 * node],
                 r_n: &r[2 * node + 1],
                 v_t: &velocities[2 * node],
@@ -51,19 +52,34 @@ impl PathPoint<'_> {
         Ok(())
     }
 
-    /// r = C (u - g), where g is the motion of the glued side. // (5)
-    fn check_equilibrium(&self, u: &[Integer], r: &[Integer]) -> Result<(), LawFailure> {
-        let press = self.contact.relative(Load::Press);
-        let left = self.contact.relative(Load::Left);
+    /// The amounts in w are those asked for; of a load that is not asked for there is none.
+    fn check_loads(&self, w: &[Integer]) -> Result<(), LawFailure> {
+        // With a = m / n, w is in units of 1 / (n times the denominator of the line).
+        let unit = Rational::from_integer(self.a.denom() * &self.line.denominator);
 
-        // With d = m / n, everything in units of 1 / (n times the denominator of the line).
-        let mut relative = Vec::with_capacity(u.len());
-        for i in 0..u.len() {
-            let imposed = &press[i] * self.d.denom() + &left[i] * self.d.numer();
-            relative.push(&u[i] + imposed * &self.line.denominator);
+        for component in self.contact.rows().len()..w.len() {
+            let mut applied = self.applied.iter();
+            let asked = match applied.find(|load| self.contact.component(load.load) == component) {
+                None => Rational::zero(),
+                Some(load) => match &load.amount {
+                    Amount::Fixed(amount) => amount.clone(),
+                    Amount::Growing => self.a.clone(),
+                },
+            };
+            if Rational::from_integer(w[component].clone()) != asked * &unit {
+                return Err(LawFailure {
+                    node: 0,
+                    equation: "E5",
+                });
+            }
         }
 
-        let expected = self.contact.times(&relative);
+        Ok(())
+    }
+
+    /// r = C u - sum a_l h_l, one product with w. // (5)
+    fn check_equilibrium(&self, w: &[Integer], r: &[Integer]) -> Result<(), LawFailure> {
+        let expected = self.contact.times(w);
         for i in 0..r.len() {
             if expected[i] != r[i] {
                 return Err(LawFailure {
@@ -77,10 +93,12 @@ impl PathPoint<'_> {
     }
 }
 
-/// Displacement, reaction and tangential velocity of one node, each up to a positive factor.
+/// Displacement, reaction and tangential velocity of one candidate, each up to a positive factor.
 struct NodeValues<'a> {
-    friction: &'a Friction,
-    u_n: &'a Integer,
+    /// mu of this candidate.
+    friction: &'a Rational,
+    /// u_N - gap.
+    w_n: &'a Integer,
     r_t: &'a Integer,
     r_n: &'a Integer,
     v_t: &'a Integer,
@@ -105,17 +123,17 @@ impl NodeValues<'_> {
         None
     }
 
-    /// u_N <= 0, r_N <= 0, u_N r_N = 0. // (1)
+    /// w_N <= 0, r_N <= 0, w_N r_N = 0 for w_N = u_N - gap. // (1)
     fn contact_holds(&self) -> bool {
-        let does_not_penetrate = !self.u_n.is_positive();
+        let does_not_penetrate = !self.w_n.is_positive();
         let pushes = !self.r_n.is_positive();
-        let one_is_zero = self.u_n.is_zero() || self.r_n.is_zero();
+        let one_is_zero = self.w_n.is_zero() || self.r_n.is_zero();
         does_not_penetrate && pushes && one_is_zero
     }
 
     /// |r_T| <= -mu r_N. // (7)
     fn is_in_cone(&self) -> bool {
-        let tangential = self.r_t.abs() * &self.friction.denominator;
+        let tangential = self.r_t.abs() * self.friction.denom();
         tangential <= -self.mu_r_n()
     }
 
@@ -123,7 +141,7 @@ impl NodeValues<'_> {
     /// motion.
     fn friction_holds(&self) -> bool {
         let speed_times_r_t = self.v_t.abs() * self.r_t;
-        let tangential = speed_times_r_t * &self.friction.denominator;
+        let tangential = speed_times_r_t * self.friction.denom();
         tangential == self.v_t * self.mu_r_n()
     }
 
@@ -131,55 +149,73 @@ impl NodeValues<'_> {
     fn is_in(&self, state: ContactState) -> bool {
         match state {
             ContactState::Free | ContactState::Zero => self.r_t.is_zero() && self.r_n.is_zero(),
-            ContactState::Stick => self.u_n.is_zero() && self.v_t.is_zero(),
+            ContactState::Stick => self.w_n.is_zero() && self.v_t.is_zero(),
             ContactState::Slip { sign } => {
                 let sign = Integer::from(sign);
-                let tangential = self.r_t * &self.friction.denominator;
+                let tangential = self.r_t * self.friction.denom();
                 let is_on_cone = tangential == -(self.mu_r_n() * &sign);
                 let slides_against = !(self.v_t * sign).is_positive();
-                self.u_n.is_zero() && is_on_cone && slides_against
+                self.w_n.is_zero() && is_on_cone && slides_against
             }
         }
     }
 
     /// mu r_N times the denominator of mu.
     fn mu_r_n(&self) -> Integer {
-        &self.friction.numerator * self.r_n
+        self.friction.numer() * self.r_n
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::contact::{ContactSide, Load};
     use super::super::line::Affine;
     use super::*;
-    use mceip_exact::{Sparse, rational, whole};
+    use mceip_exact::{rational, whole};
 
     const SLIP: ContactState = ContactState::Slip { sign: 1 };
 
-    fn affine(constant: [i64; 2], slope: [i64; 2]) -> Affine {
+    fn affine<const N: usize>(constant: [i64; N], slope: [i64; N]) -> Affine {
         Affine {
             constant: constant.map(Integer::from).to_vec(),
             slope: slope.map(Integer::from).to_vec(),
         }
     }
 
-    /// One node with stiffness 2 along and 3 across, pressed by 1 and moved by d with mu = 1: it
-    /// sticks with r = (2 d, -3) up to d = 3/2 and then slips with r = (3, -3), u_T = 3/2 - d.
+    /// One candidate with stiffness 2 along and 3 across, under the loads (0, 3) and a (-2, 0) with
+    /// mu = 1: it sticks with r = (2 a, -3) up to a = 3/2 and then slips with r = (3, -3),
+    /// u_T = 3/2 - a. Components of w: w_T, w_N, the amounts of the two loads and of the gap.
     fn check_at(
         state: ContactState,
-        d: Rational,
+        a: Rational,
         change: impl Fn(&mut Line),
     ) -> Result<(), LawFailure> {
-        let contact = Contact::from_condensed(&Sparse::from_ints(&[&[2, 0], &[0, 3]]));
+        let contact = Contact::new(ContactSide {
+            stiffness: vec![vec![whole(2), whole(0)], vec![whole(0), whole(3)]],
+            loads: vec![vec![whole(0), whole(3)], vec![whole(-2), whole(0)]],
+            gaps: vec![whole(0)],
+            friction_factors: vec![whole(1)],
+        })
+        .unwrap();
+        let applied = [
+            AppliedLoad {
+                load: Load::Step(0),
+                amount: Amount::Fixed(whole(1)),
+            },
+            AppliedLoad {
+                load: Load::Step(1),
+                amount: Amount::Growing,
+            },
+        ];
         let mut line = match state {
             ContactState::Stick => Line {
                 denominator: 1.into(),
-                u: affine([0, 0], [0, 0]),
+                w: affine([0, 0, 1, 0, 0], [0, 0, 0, 1, 0]),
                 r: affine([0, -3], [2, 0]),
             },
             _ => Line {
                 denominator: 2.into(),
-                u: affine([3, 0], [-2, 0]),
+                w: affine([3, 0, 2, 0, 0], [-2, 0, 0, 2, 0]),
                 r: affine([6, -6], [0, 0]),
             },
         };
@@ -187,11 +223,11 @@ mod tests {
 
         let point = PathPoint {
             contact: &contact,
-            friction: &Friction::new(&whole(1)),
+            friction: &Friction::new(&whole(1), &contact),
             states: &[state],
             line: &line,
-            d: &d,
-            moving: Load::Left,
+            applied: &applied,
+            a: &a,
         };
         point.check()
     }
@@ -205,14 +241,20 @@ mod tests {
 
     /// In equilibrium, but the node stands in the obstacle, which pulls: u_N = 2, r_N = 3.
     fn obstacle_pulls(line: &mut Line) {
-        line.u.constant[1] = 2.into();
+        line.w.constant[1] = 2.into();
         line.r.constant[1] = 3.into();
     }
 
-    /// Equilibrium with r = (3, -3) at d = 2, but sliding to the right, where r_T > 0 drives:
-    /// u_T = d - 5/2.
+    /// Half as much again of the second load as asked for, with its reaction.
+    fn load_differs(line: &mut Line) {
+        line.w.slope[3] = 3.into();
+        line.r.slope[0] = 3.into();
+    }
+
+    /// Equilibrium with r = (3, -3) at a = 2, but sliding to the right, where r_T > 0 drives:
+    /// u_T = a - 5/2.
     fn slides_backwards(line: &mut Line) {
-        line.u = affine([-5, 0], [2, 0]);
+        line.w = affine([-5, 0, 2, 0, 0], [2, 0, 0, 2, 0]);
         line.r = affine([-10, -6], [8, 0]);
     }
 
@@ -229,6 +271,7 @@ mod tests {
 
         assert_eq!(check_at(stick, rational(8, 5), unchanged), fails("E7"));
         assert_eq!(check_at(stick, whole(1), reaction_differs), fails("E5"));
+        assert_eq!(check_at(stick, whole(1), load_differs), fails("E5"));
         assert_eq!(check_at(stick, whole(1), obstacle_pulls), fails("E1"));
         assert_eq!(check_at(SLIP, whole(2), slides_backwards), fails("E2"));
 

@@ -1,10 +1,10 @@
-//! A stretch of the path on which everything is affine in the motion, and the conditions that
-//! end it.
+//! A stretch of the path on which everything is affine in the amount of the load, and the
+//! conditions that end it.
 //!
-//! While the states of the nodes do not change, u(d) = u0 + d u1 and r(d) = r0 + d r1, where d is
-//! the motion of the glued side in units of the pressing. So each quantity that contact and
-//! friction bound ([`Bound`]) is affine as well, and the stretch ends at the smallest d at which
-//! one of them falls to zero ([`next_event`]). There [`classify`] says what each node may do next.
+//! While the states of the candidates do not change, w(a) = w0 + a w1 and r(a) = r0 + a r1, where a
+//! is the amount of the load that grows. So each quantity that contact and friction bound
+//! ([`Bound`]) is affine as well, and the stretch ends at the smallest a at which one of them falls
+//! to zero ([`next_event`]). There [`classify`] says what each candidate may do next.
 //!
 //! All numbers are integers over common denominators: only signs and zeros are asked for. Input is
 //! the [`Response`] to each load in the states of the stretch. Called by `trace`, which follows the
@@ -14,10 +14,10 @@ use super::contact::{Contact, Friction, Load, NodalValues, Response};
 use super::error::LawFailure;
 use mceip_exact::{Integer, Rational, common_denominator, to_f64};
 use mceip_model::ContactState;
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 use std::cmp::Ordering;
 
-/// A vector that is affine in the motion d: constant + d slope.
+/// A vector that is affine in the amount a of the growing load: constant + a slope.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Affine {
     pub(super) constant: Vec<Integer>,
@@ -32,21 +32,21 @@ impl Affine {
         }
     }
 
-    /// Component `i` at d = m / n, times n.
-    pub(super) fn at(&self, i: usize, d: &Rational) -> Integer {
-        let constant = &self.constant[i] * d.denom();
-        let growth = &self.slope[i] * d.numer();
+    /// Component `i` at a = m / n, times n.
+    pub(super) fn at(&self, i: usize, a: &Rational) -> Integer {
+        let constant = &self.constant[i] * a.denom();
+        let growth = &self.slope[i] * a.numer();
         constant + growth
     }
 
-    /// Every component at d = m / n, times n.
-    pub(super) fn all_at(&self, d: &Rational) -> Vec<Integer> {
-        (0..self.constant.len()).map(|i| self.at(i, d)).collect()
+    /// Every component at a = m / n, times n.
+    pub(super) fn all_at(&self, a: &Rational) -> Vec<Integer> {
+        (0..self.constant.len()).map(|i| self.at(i, a)).collect()
     }
 
-    /// Adds factor * vector to the slope if `moving`, else to the constant.
-    fn add(&mut self, moving: bool, factor: &Integer, vector: &[Integer]) {
-        let target = if moving {
+    /// Adds factor * vector to the slope if it `grows`, else to the constant.
+    fn add(&mut self, grows: bool, factor: &Integer, vector: &[Integer]) {
+        let target = if grows {
             &mut self.slope
         } else {
             &mut self.constant
@@ -57,102 +57,121 @@ impl Affine {
     }
 }
 
-/// A load, and how much of it is applied (mm per mm of pressing).
+/// A load, and how much of it is applied.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct AppliedLoad {
     pub(super) load: Load,
-    pub(super) amount: Rational,
+    pub(super) amount: Amount,
 }
 
-/// Displacements and reactions u(d) = (u0 + d u1) / denominator, r(d) = (r0 + d r1) / (denominator
-/// times that of the contact), per unit of pressing; d is the motion in units of the pressing.
+/// How much of a load is applied along a stretch.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Amount {
+    /// The same all along.
+    Fixed(Rational),
+    /// a itself: the load that grows.
+    Growing,
+}
+
+/// Displacements and reactions w(a) = (w0 + a w1) / denominator, r(a) = (r0 + a r1) / (denominator
+/// times that of the contact).
 pub(super) struct Line {
     pub(super) denominator: Integer,
-    pub(super) u: Affine,
+    pub(super) w: Affine,
     pub(super) r: Affine,
 }
 
 impl Line {
-    /// Pressing + d times the motion + every held node at its place. `loads` belong to `response`.
-    pub(super) fn new(response: &Response, loads: &[AppliedLoad]) -> Line {
-        let clear = common_denominator(loads.iter().map(|applied| &applied.amount));
-        let components = response.u.first().map_or(0, Vec::len);
+    /// The sum of all loads as they are applied. `loads` belong to `response`.
+    pub(super) fn new(response: &Response, loads: &[AppliedLoad], contact: &Contact) -> Line {
+        let fixed = loads.iter().filter_map(|applied| match &applied.amount {
+            Amount::Fixed(amount) => Some(amount),
+            Amount::Growing => None,
+        });
+        let clear = common_denominator(fixed);
 
-        let mut u = Affine::zeros(components);
-        let mut r = Affine::zeros(components);
+        let mut w = Affine::zeros(contact.columns());
+        let mut r = Affine::zeros(contact.rows().len());
         for (k, applied) in loads.iter().enumerate() {
-            let factor = applied.amount.numer() * (&clear / applied.amount.denom());
-            let moving = applied.load == Load::Left;
-            u.add(moving, &factor, &response.u[k]);
-            r.add(moving, &factor, &response.r[k]);
+            let (grows, factor) = match &applied.amount {
+                Amount::Fixed(amount) => (false, amount.numer() * (&clear / amount.denom())),
+                Amount::Growing => (true, clear.clone()),
+            };
+            w.add(grows, &factor, &response.w[k]);
+            r.add(grows, &factor, &response.r[k]);
         }
 
         Line {
             denominator: &response.denominator * clear,
-            u,
+            w,
             r,
         }
     }
 
-    /// Component `i` of u at d = m / n, times `denominator` n.
-    pub(super) fn u_at(&self, i: usize, d: &Rational) -> Integer {
-        self.u.at(i, d)
+    /// The unloaded body: every candidate at its gap, no reaction.
+    pub(super) fn unloaded(contact: &Contact) -> Line {
+        let denominator = common_denominator(contact.gaps());
+        let mut w = Affine::zeros(contact.columns());
+        for (node, gap) in contact.gaps().iter().enumerate() {
+            w.constant[2 * node + 1] = -(gap.numer() * (&denominator / gap.denom()));
+        }
+        w.constant[contact.component(Load::Gaps)] = denominator.clone();
+
+        Line {
+            denominator,
+            w,
+            r: Affine::zeros(contact.rows().len()),
+        }
     }
 
-    /// Displacements and reactions at d = 0.
+    /// Component `i` of w at a = m / n, times `denominator` n.
+    pub(super) fn w_at(&self, i: usize, a: &Rational) -> Integer {
+        self.w.at(i, a)
+    }
+
+    /// Displacements and reactions at a = 0.
     fn constants(&self) -> NodalValues<'_> {
         NodalValues {
-            u: &self.u.constant,
+            w: &self.w.constant,
             r: &self.r.constant,
         }
     }
 
-    /// Their growth with d.
-    fn slopes(&self) -> NodalValues<'_> {
+    /// The rates of w and r: their growth with a.
+    pub(super) fn rates(&self) -> NodalValues<'_> {
         NodalValues {
-            u: &self.u.slope,
+            w: &self.w.slope,
             r: &self.r.slope,
         }
     }
 
-    /// The rates of u and r. During the pressing u and r are proportional to it: the constants are
-    /// their rates.
-    pub(super) fn rates(&self, moving: Load) -> NodalValues<'_> {
-        if moving == Load::Left {
-            self.slopes()
-        } else {
-            self.constants()
-        }
+    /// Is it at `a` the same state as `other` at `b`, reaction for reaction and displacement for
+    /// displacement?
+    pub(super) fn meets(&self, a: &Rational, other: &Line, b: &Rational) -> bool {
+        let here = &self.denominator * a.denom();
+        let there = &other.denominator * b.denom();
+        let nodes = self.r.constant.len();
+
+        (0..nodes).all(|i| {
+            self.w.at(i, a) * &there == other.w.at(i, b) * &here
+                && self.r.at(i, a) * &there == other.r.at(i, b) * &here
+        })
     }
 
-    /// Is it the same state as `other` at d, displacement for displacement?
-    pub(super) fn meets(&self, other: &Line, d: &Rational) -> bool {
-        for i in 0..self.u.constant.len() {
-            let here = self.u_at(i, d) * &other.denominator;
-            let there = other.u_at(i, d) * &self.denominator;
-            if here != there {
-                return false;
-            }
-        }
-
-        true
-    }
-
-    /// The equilibrium at d, in mm and N for a pressing of `depth` mm.
-    pub(super) fn equilibrium(
-        &self,
-        d: &Rational,
-        depth: &Rational,
-        contact: &Contact,
-    ) -> Equilibrium {
-        let unit = depth.denom() * d.denom() * &self.denominator;
+    /// The equilibrium at the amount `a`.
+    pub(super) fn equilibrium(&self, a: &Rational, contact: &Contact) -> Equilibrium {
+        let unit = a.denom() * &self.denominator;
         let r_denominator = &unit * contact.denominator();
+        let mut w = self.w.all_at(a);
+        w.truncate(contact.rows().len());
 
         Equilibrium {
-            motion: d * depth,
-            u: self.u.all_at(d),
-            u_unit: Rational::new_raw(depth.numer().clone(), unit),
-            r: self.r.all_at(d),
-            r_unit: Rational::new_raw(depth.numer().clone(), r_denominator),
+            amount: a.clone(),
+            gaps: contact.gaps().to_vec(),
+            w,
+            w_unit: Rational::new_raw(Integer::one(), unit),
+            r: self.r.all_at(a),
+            r_unit: Rational::new_raw(Integer::one(), r_denominator),
         }
     }
 }
@@ -160,19 +179,19 @@ impl Line {
 /// A quantity that contact and friction keep from being negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bound {
-    /// The gap of a free node, -u_N. // (1)
+    /// The gap of a free candidate, gap - u_N. // (1)
     Gap {
-        /// The node, from 0 at the left.
+        /// The candidate, from 0.
         node: usize,
     },
-    /// The pressure of a node in contact, -r_N. // (1)
+    /// The pressure of a candidate in contact, -r_N. // (1)
     Pressure {
-        /// The node, from 0 at the left.
+        /// The candidate, from 0.
         node: usize,
     },
     /// The distance from the friction cone, -mu r_N - sign r_T. // (7)
     Cone {
-        /// The node, from 0 at the left.
+        /// The candidate, from 0.
         node: usize,
         /// Side of the cone: the sign of r_T there.
         sign: i8,
@@ -180,7 +199,7 @@ pub enum Bound {
 }
 
 impl Bound {
-    /// The node it belongs to.
+    /// The candidate it belongs to.
     pub fn node(self) -> usize {
         match self {
             Bound::Gap { node } | Bound::Pressure { node } | Bound::Cone { node, .. } => node,
@@ -199,10 +218,10 @@ impl Bound {
     /// Its value for these displacements and reactions, up to a positive factor.
     pub(super) fn value(self, values: NodalValues<'_>, friction: &Friction) -> Integer {
         match self {
-            Bound::Gap { node } => -&values.u[2 * node + 1],
+            Bound::Gap { node } => -&values.w[2 * node + 1],
             Bound::Pressure { node } => -&values.r[2 * node + 1],
             Bound::Cone { node, sign } => {
-                let row = friction.on_cone(1);
+                let row = friction.on_cone(node, 1);
                 let tangential = &values.r[2 * node] * row.tangential * Integer::from(sign);
                 let normal = &values.r[2 * node + 1] * row.normal;
                 -(tangential + normal)
@@ -232,13 +251,13 @@ impl Bound {
 /// Where a stretch ends by itself.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct NextEvent {
-    /// The motion, in units of the pressing.
-    pub(super) d: Rational,
+    /// The amount of the growing load.
+    pub(super) a: Rational,
     /// Every bound that becomes zero there on its way down.
     pub(super) causes: Vec<Bound>,
 }
 
-/// The first motion at which a bound of these states becomes zero on its way down, and every bound
+/// The first amount at which a bound of these states becomes zero on its way down, and every bound
 /// that does so there; `None` if none ever does.
 pub(super) fn next_event(
     line: &Line,
@@ -249,12 +268,12 @@ pub(super) fn next_event(
 
     for (node, &state) in states.iter().enumerate() {
         for bound in Bound::of(node, state) {
-            let slope = bound.value(line.slopes(), friction);
+            let slope = bound.value(line.rates(), friction);
             if !slope.is_negative() {
                 continue;
             }
 
-            // constant + d slope = 0 at d = constant / fall.
+            // constant + a slope = 0 at a = constant / fall.
             let constant = bound.value(line.constants(), friction);
             let fall = -slope;
             match compare_with_first(first.as_ref(), &constant, &fall) {
@@ -266,7 +285,7 @@ pub(super) fn next_event(
                 }
                 Ordering::Less => {
                     first = Some(NextEvent {
-                        d: Rational::new_raw(constant, fall),
+                        a: Rational::new_raw(constant, fall),
                         causes: vec![bound],
                     });
                 }
@@ -276,7 +295,7 @@ pub(super) fn next_event(
 
     // Only the fraction of the first event is reduced.
     first.map(|event| NextEvent {
-        d: event.d.reduced(),
+        a: event.a.reduced(),
         causes: event.causes,
     })
 }
@@ -285,47 +304,46 @@ pub(super) fn next_event(
 /// none.
 fn compare_with_first(first: Option<&NextEvent>, constant: &Integer, fall: &Integer) -> Ordering {
     match first {
-        Some(event) => (constant * event.d.denom()).cmp(&(event.d.numer() * fall)),
+        Some(event) => (constant * event.a.denom()).cmp(&(event.a.numer() * fall)),
         None => Ordering::Less,
     }
 }
 
-/// An equilibrium (5) on the path: exact displacements and reactions of the contact nodes.
+/// An equilibrium (5) on the path: exact displacements and reactions of the contact candidates.
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
-    /// mm.
-    motion: Rational,
-    /// Displacements, in units of `u_unit`.
-    u: Vec<Integer>,
-    /// mm.
-    u_unit: Rational,
+    amount: Rational,
+    /// Distance of each candidate from the obstacle in the unloaded body.
+    gaps: Vec<Rational>,
+    /// u_T and u_N - gap, in units of `w_unit`.
+    w: Vec<Integer>,
+    w_unit: Rational,
     /// Reactions, in units of `r_unit`.
     r: Vec<Integer>,
-    /// N.
     r_unit: Rational,
 }
 
 impl Equilibrium {
-    /// Motion of the glued side to the left, mm.
-    pub fn motion(&self) -> &Rational {
-        &self.motion
+    /// The amount of the load that grows.
+    pub fn amount(&self) -> &Rational {
+        &self.amount
     }
 
-    /// (u_T, u_N) of a node (from 0 at the left), mm: to the right, and into the obstacle.
+    /// (u_T, u_N) of a candidate (from 0): along its tangent, and into the obstacle.
     pub fn displacement(&self, node: usize) -> (Rational, Rational) {
-        let tangential = times_unit(&self.u[2 * node], &self.u_unit);
-        let normal = times_unit(&self.u[2 * node + 1], &self.u_unit);
-        (tangential, normal)
+        let tangential = times_unit(&self.w[2 * node], &self.w_unit);
+        let beyond_gap = times_unit(&self.w[2 * node + 1], &self.w_unit);
+        (tangential, beyond_gap + &self.gaps[node])
     }
 
-    /// (r_T, r_N) of a node (from 0 at the left), N: r_N <= 0 in contact.
+    /// (r_T, r_N) of a candidate (from 0): r_N <= 0 in contact.
     pub fn reaction(&self, node: usize) -> (Rational, Rational) {
         let tangential = times_unit(&self.r[2 * node], &self.r_unit);
         let normal = times_unit(&self.r[2 * node + 1], &self.r_unit);
         (tangential, normal)
     }
 
-    /// Sums of r_T and of r_N over the contact nodes, N.
+    /// Sums of r_T and of r_N over the candidates.
     pub fn resultants(&self) -> (Rational, Rational) {
         let mut tangential = Integer::zero();
         let mut normal = Integer::zero();
@@ -340,7 +358,7 @@ impl Equilibrium {
         )
     }
 
-    /// (r_T, r_N) of every node, each correctly rounded to a double, N.
+    /// (r_T, r_N) of every candidate, each correctly rounded to a double.
     pub fn reactions_f64(&self) -> Vec<(f64, f64)> {
         let mut reactions = Vec::with_capacity(self.r.len() / 2);
         for reaction in self.r.chunks(2) {
@@ -350,6 +368,25 @@ impl Equilibrium {
         }
 
         reactions
+    }
+
+    /// The equilibrium of the same body with all gaps and loads times `factor` > 0: contact and
+    /// friction (1), (2) know no unit of length or force.
+    #[must_use]
+    pub fn scaled(&self, factor: &Rational) -> Equilibrium {
+        let scaled = |unit: &Rational| {
+            let numer = unit.numer() * factor.numer();
+            Rational::new_raw(numer, unit.denom() * factor.denom())
+        };
+
+        Equilibrium {
+            amount: &self.amount * factor,
+            gaps: self.gaps.iter().map(|gap| gap * factor).collect(),
+            w: self.w.clone(),
+            w_unit: scaled(&self.w_unit),
+            r: self.r.clone(),
+            r_unit: scaled(&self.r_unit),
+        }
     }
 }
 
@@ -363,7 +400,7 @@ fn times_unit_raw(value: &Integer, unit: &Rational) -> Rational {
     Rational::new_raw(value * unit.numer(), unit.denom().clone())
 }
 
-/// What (1), (2) and (7) say of a node at an equilibrium: its class in the list after (9).
+/// What (1), (2) and (7) say of a candidate at an equilibrium: its class in the list after (9).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Class {
     /// Open.
@@ -376,20 +413,32 @@ pub(super) enum Class {
     Cone(i8),
 }
 
-/// The class of each node at d.
+impl Class {
+    /// The contact state of an equilibrium, as section 2 defines it: by the reaction alone.
+    pub(super) fn contact_state(self) -> ContactState {
+        match self {
+            Class::Free => ContactState::Free,
+            Class::Zero => ContactState::Zero,
+            Class::Stick => ContactState::Stick,
+            Class::Cone(sign) => ContactState::Slip { sign },
+        }
+    }
+}
+
+/// The class of each candidate at the amount `a`.
 ///
 /// # Errors
-/// The first node at which (1) or (7) fails.
+/// The first candidate at which (1) or (7) fails.
 pub(super) fn classify(
     line: &Line,
-    d: &Rational,
+    a: &Rational,
     friction: &Friction,
 ) -> Result<Vec<Class>, LawFailure> {
-    let u = line.u.all_at(d);
-    let r = line.r.all_at(d);
-    let values = NodalValues { u: &u, r: &r };
+    let w = line.w.all_at(a);
+    let r = line.r.all_at(a);
+    let values = NodalValues { w: &w, r: &r };
 
-    let nodes = u.len() / 2;
+    let nodes = r.len() / 2;
     (0..nodes)
         .map(|node| class_of(node, values, friction))
         .collect()
@@ -434,6 +483,7 @@ fn class_of(
 
 #[cfg(test)]
 mod tests {
+    use super::super::contact::ContactSide;
     use super::*;
     use mceip_exact::{rational, whole};
 
@@ -448,28 +498,44 @@ mod tests {
         }
     }
 
-    fn line(u: Affine, r: Affine) -> Line {
+    fn line(w: Affine, r: Affine) -> Line {
         Line {
             denominator: 1.into(),
-            u,
+            w,
             r,
         }
     }
 
-    fn mu_two() -> Friction {
-        Friction::new(&whole(2))
+    /// So many candidates with unit stiffness and two loads; only their number plays a part.
+    fn candidates(nodes: usize) -> Contact {
+        let mut stiffness = vec![vec![whole(0); 2 * nodes]; 2 * nodes];
+        for (i, row) in stiffness.iter_mut().enumerate() {
+            row[i] = whole(1);
+        }
+
+        Contact::new(ContactSide {
+            stiffness,
+            loads: vec![vec![whole(0); 2 * nodes]; 2],
+            gaps: vec![whole(0); nodes],
+            friction_factors: vec![whole(1); nodes],
+        })
+        .unwrap()
     }
 
-    fn event(d: Rational, causes: Vec<Bound>) -> NextEvent {
-        NextEvent { d, causes }
+    fn mu_two() -> Friction {
+        Friction::new(&whole(2), &candidates(2))
+    }
+
+    fn event(a: Rational, causes: Vec<Bound>) -> NextEvent {
+        NextEvent { a, causes }
     }
 
     #[test]
     fn the_first_bound_on_its_way_down_ends_the_stretch() {
-        // Two nodes, in the order u_T, u_N.
+        // Two candidates, in the order w_T, w_N.
         let free_and_stick = [ContactState::Free, ContactState::Stick];
 
-        // Node 0 free, gap 3 - 2 d; node 1 sticks, r = (d, -1): cone 2 - d.
+        // Node 0 free, gap 3 - 2 a; node 1 sticks, r = (a, -1): cone 2 - a.
         let gap_first = line(
             affine(&[0, -3, 0, 0], &[0, 2, 0, 0]),
             affine(&[0, 0, 0, -1], &[0, 0, 1, 0]),
@@ -479,7 +545,7 @@ mod tests {
             Some(event(rational(3, 2), vec![Bound::Gap { node: 0 }]))
         );
 
-        // Slope 3/2 instead of 2 (twice everything): both at d = 2.
+        // Slope 3/2 instead of 2 (twice everything): both at a = 2.
         let both_at_once = line(
             affine(&[0, -6, 0, 0], &[0, 3, 0, 0]),
             affine(&[0, 0, 0, -2], &[0, 0, 2, 0]),
@@ -507,9 +573,9 @@ mod tests {
         assert_eq!(next_event(&growth, &mu_two(), &free_and_slip), None);
     }
 
-    /// The class of one node with u_T = 0, at any d.
-    fn class_with(u_n: i64, r: [i64; 2]) -> Result<Vec<Class>, LawFailure> {
-        let constant = line(affine(&[0, u_n], &[0, 0]), affine(&r, &[0, 0]));
+    /// The class of one candidate with w_T = 0, at any amount.
+    fn class_with(w_n: i64, r: [i64; 2]) -> Result<Vec<Class>, LawFailure> {
+        let constant = line(affine(&[0, w_n], &[0, 0]), affine(&r, &[0, 0]));
         classify(&constant, &whole(5), &mu_two())
     }
 
@@ -535,36 +601,58 @@ mod tests {
     fn held_nodes_enter_at_their_places() {
         let response = Response {
             denominator: 3.into(),
-            u: vec![integers(&[1, 0]), integers(&[5, 0]), integers(&[7, 0])],
+            w: vec![
+                integers(&[1, 0, 3, 0, 0]),
+                integers(&[5, 0, 0, 3, 0]),
+                integers(&[7, 0, 0, 0, 0]),
+            ],
             r: vec![integers(&[2, 0]), integers(&[4, 0]), integers(&[6, 0])],
         };
         let loads = [
             AppliedLoad {
-                load: Load::Press,
-                amount: whole(1),
+                load: Load::Step(0),
+                amount: Amount::Fixed(whole(1)),
             },
             AppliedLoad {
-                load: Load::Left,
-                amount: whole(1),
+                load: Load::Step(1),
+                amount: Amount::Growing,
             },
             AppliedLoad {
                 load: Load::Held(0),
-                amount: rational(-1, 2),
+                amount: Amount::Fixed(rational(-1, 2)),
             },
         ];
 
-        let sum = Line::new(&response, &loads);
+        let contact = candidates(1);
+        let sum = Line::new(&response, &loads, &contact);
 
         // Twice everything, over twice the denominator, because of the half.
         assert_eq!(sum.denominator, Integer::from(6));
-        assert_eq!(sum.u, affine(&[2 - 7, 0], &[10, 0]));
+        assert_eq!(sum.w, affine(&[2 - 7, 0, 6, 0, 0], &[10, 0, 0, 6, 0]));
         assert_eq!(sum.r, affine(&[4 - 6, 0], &[8, 0]));
 
         let other_slope = Line {
-            u: affine(&[-5, 0], &[11, 0]),
-            ..Line::new(&response, &loads)
+            w: affine(&[-5, 0, 6, 0, 0], &[11, 0, 0, 6, 0]),
+            ..Line::new(&response, &loads, &contact)
         };
-        assert!(sum.meets(&other_slope, &whole(0)));
-        assert!(!sum.meets(&other_slope, &whole(1)));
+        assert!(sum.meets(&whole(0), &other_slope, &whole(0)));
+        assert!(!sum.meets(&whole(1), &other_slope, &whole(1)));
+    }
+
+    /// The same body twice as large under twice the load: everything is twice as large.
+    #[test]
+    fn equilibria_scale_with_loads_and_gaps() {
+        let contact = candidates(1);
+        let one = line(
+            affine(&[1, -3, 1, 0, 0], &[2, 0, 0, 0, 0]),
+            affine(&[4, -5], &[0, 0]),
+        );
+        let at = one.equilibrium(&whole(3), &contact);
+        let twice = at.scaled(&whole(2));
+
+        assert_eq!(at.displacement(0), (whole(7), whole(-3)));
+        assert_eq!(twice.displacement(0), (whole(14), whole(-6)));
+        assert_eq!(twice.reaction(0), (whole(8), whole(-10)));
+        assert_eq!(twice.amount(), &whole(6));
     }
 }

@@ -1,4 +1,4 @@
-//! The rate problem: which nodes on their limits stick, slip, open or stay open in the next
+//! The rate problem: which candidates on their limits stick, slip, open or stay open in the next
 //! moment.
 //!
 //! The class of a node at an equilibrium ([`Class`]) says which of (9) it has to satisfy, with the
@@ -41,10 +41,10 @@ pub(super) struct Rates<'a> {
     pub(super) friction: &'a Friction,
     /// The class of each node at this moment.
     pub(super) classes: &'a [Class],
-    /// What is imposed on the block if the nodes are in given states.
+    /// What is imposed on the body if the candidates are in given states.
     pub(super) loads: &'a dyn Fn(&[ContactState]) -> Vec<Load>,
     /// The load that grows.
-    pub(super) moving: Load,
+    pub(super) growing: Load,
 }
 
 /// States that solve the rate problem, with the response to every load in them.
@@ -79,7 +79,7 @@ impl Rates<'_> {
             }
         }
 
-        let proposed = propose(self.contact, self.friction, self.classes, self.moving);
+        let proposed = propose(self.contact, self.friction, self.classes, self.growing);
         if let Some(states) = proposed
             && let Some(solved) = self.iterate(images, states, Finder::Pivoting, &mut tried)
         {
@@ -178,10 +178,10 @@ impl Rates<'_> {
         let loads = (self.loads)(states);
         let response = respond(self.contact, images, self.friction, states, &loads)?;
 
-        let moving = loads.iter().position(|&load| load == self.moving)?;
+        let growing = loads.iter().position(|&load| load == self.growing)?;
         let rates = NodalValues {
-            u: &response.u[moving],
-            r: &response.r[moving],
+            w: &response.w[growing],
+            r: &response.r[growing],
         };
         let mut corrections = Vec::new();
         for (node, &state) in states.iter().enumerate() {
@@ -322,7 +322,7 @@ fn better_without_reaction(
 
 /// S v_T > 0: the node would slide the way friction pushes it, where S v_T <= 0 is wanted.
 fn slides_with_friction(sign: i8, node: usize, rates: NodalValues<'_>) -> bool {
-    let v_t = &rates.u[2 * node];
+    let v_t = &rates.w[2 * node];
     let along = v_t * Integer::from(sign);
     along.is_positive()
 }
@@ -350,7 +350,7 @@ pub(super) fn admissible(
         return false;
     }
 
-    state != ContactState::Stick || rates.u[2 * node].is_zero()
+    state != ContactState::Stick || rates.w[2 * node].is_zero()
 }
 
 /// States as small numbers, for the set of those seen.

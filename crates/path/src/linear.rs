@@ -1,11 +1,11 @@
 //! Exact solution of the contact equations: modulo primes until the reconstructed fractions
 //! satisfy the equations, which is checked in integers. No bound is trusted, none is needed.
 //!
-//! For each imposed vector g of relative displacements, w = z + g is wanted, where z is zero
-//! outside the active components and each equation, a combination of rows of C w (C the condensed
-//! stiffness), is zero. The steps are: Gauss-Jordan elimination modulo a prime; the Chinese
-//! remainder theorem over all primes so far ([`Residues`]); rational reconstruction; insertion into
-//! the equations. Called by `respond` and `pencils`.
+//! For each imposed vector g, w = z + g is wanted, where z is zero outside the active components
+//! and each equation, a combination of the rows of r = [C, -h_1, ...] w ([`Contact`]), is zero. The
+//! steps are: Gauss-Jordan elimination modulo a prime; the Chinese remainder theorem over all
+//! primes so far ([`Residues`]); rational reconstruction; insertion into the equations. Called by
+//! `respond` and `pencils`.
 //!
 //! The numerators have the size of a minor of K (thousands of bits); elimination in fractions
 //! on the condensed matrix would pass through numbers forty times as long.
@@ -21,13 +21,13 @@ const MAX_SINGULAR: usize = 8;
 /// Bits of the modulus at which the first reconstruction is attempted, if nothing is known.
 const FIRST_ATTEMPT_BITS: u64 = 128;
 
-/// One term of an equation: coefficient times a row of the contact matrix.
+/// One term of an equation: coefficient times a component of r.
 pub(super) struct Term {
     pub(super) row: usize,
     pub(super) coefficient: Integer,
 }
 
-/// A combination of rows of the contact matrix that vanishes on w.
+/// A combination of the components of r that vanishes.
 pub(super) type Equation = Vec<Term>;
 
 /// The equation r_i = 0.
@@ -38,7 +38,7 @@ pub(super) fn no_reaction(component: usize) -> Equation {
     }]
 }
 
-/// Linear equations for the displacements of contact nodes relative to the glued side.
+/// Linear equations for the displacements w of the contact candidates.
 pub(super) struct ContactEquations<'a> {
     pub(super) contact: &'a Contact,
     /// Unknown components.
@@ -50,12 +50,12 @@ pub(super) struct ContactEquations<'a> {
 }
 
 /// The vectors w, one for each load, as integers over one positive denominator.
-pub(super) struct RelativeDisplacements {
+pub(super) struct Displacements {
     pub(super) denominator: Integer,
     pub(super) w: Vec<Vec<Integer>>,
 }
 
-/// The condensed stiffness modulo as many primes as were needed so far.
+/// The rows of the contact modulo as many primes as were needed so far.
 #[derive(Default)]
 pub(super) struct Images {
     of: Vec<Image>,
@@ -77,10 +77,11 @@ impl Images {
     }
 }
 
-/// The condensed stiffness modulo one prime, in Montgomery form.
+/// The rows of the contact modulo one prime, in Montgomery form.
 struct Image {
     field: Field,
-    order: usize,
+    /// Length of a row.
+    columns: usize,
     /// By rows.
     entries: Vec<u64>,
 }
@@ -92,20 +93,20 @@ impl Image {
         let entries = numerators.map(|value| enter(&field, value)).collect();
         Image {
             field,
-            order: contact.rows().len(),
+            columns: contact.columns(),
             entries,
         }
     }
 
     fn row(&self, i: usize) -> &[u64] {
-        let begin = i * self.order;
-        let end = begin + self.order;
+        let begin = i * self.columns;
+        let end = begin + self.columns;
         &self.entries[begin..end]
     }
 
     /// The row vector that the equation stands for.
     fn combination(&self, equation: &Equation) -> Vec<u64> {
-        let mut combined = vec![0u64; self.order];
+        let mut combined = vec![0u64; self.columns];
         for term in equation {
             let coefficient = enter(&self.field, &term.coefficient);
             for (sum, entry) in combined.iter_mut().zip(self.row(term.row)) {
@@ -144,13 +145,13 @@ fn enter(field: &Field, value: &Integer) -> u64 {
 
 impl ContactEquations<'_> {
     /// Solves them for every load; `None` if the equations are singular.
-    pub(super) fn solve(&self, images: &mut Images) -> Option<RelativeDisplacements> {
+    pub(super) fn solve(&self, images: &mut Images) -> Option<Displacements> {
         if self.active.is_empty() {
             let no_unknowns = CommonFractions {
                 denominator: Integer::one(),
                 numerators: Vec::new(),
             };
-            return Some(self.relative(no_unknowns));
+            return Some(self.displacements(no_unknowns));
         }
 
         let mut residues = Residues::new(self.active.len() * self.imposed.len());
@@ -185,8 +186,8 @@ impl ContactEquations<'_> {
     }
 
     /// The fractions that the residues stand for, if they satisfy the equations exactly.
-    fn reconstruct_and_verify(&self, residues: &Residues) -> Option<RelativeDisplacements> {
-        let solved = self.relative(reconstruct(residues)?);
+    fn reconstruct_and_verify(&self, residues: &Residues) -> Option<Displacements> {
+        let solved = self.displacements(reconstruct(residues)?);
         solved
             .w
             .iter()
@@ -195,7 +196,7 @@ impl ContactEquations<'_> {
     }
 
     /// w = g + z, where z lists unknown by unknown, load by load.
-    fn relative(&self, z: CommonFractions) -> RelativeDisplacements {
+    fn displacements(&self, z: CommonFractions) -> Displacements {
         let mut w = Vec::with_capacity(self.imposed.len());
         for g in &self.imposed {
             let scaled: Vec<Integer> = g.iter().map(|value| value * &z.denominator).collect();
@@ -208,7 +209,7 @@ impl ContactEquations<'_> {
             w[k % loads][component] += value;
         }
 
-        RelativeDisplacements {
+        Displacements {
             denominator: z.denominator,
             w,
         }
@@ -374,18 +375,29 @@ fn denominator_of(value: &Integer, modulus: &Integer, limit: u64) -> Option<Inte
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::{Rational, Sparse, whole};
+    use crate::contact::ContactSide;
+    use mceip_exact::{Rational, whole};
 
     fn integers(values: &[i64]) -> Vec<Integer> {
         values.iter().map(|&value| value.into()).collect()
     }
 
-    /// One node. In (x, y) with y away from the obstacle: the coupling changes its sign.
+    /// One candidate without loads or a gap: w has two components, and the amount of the gap.
+    fn one_candidate(stiffness: [[Rational; 2]; 2]) -> Contact {
+        Contact::new(ContactSide {
+            stiffness: stiffness.map(Vec::from).to_vec(),
+            loads: Vec::new(),
+            gaps: vec![whole(0)],
+            friction_factors: vec![whole(1)],
+        })
+        .unwrap()
+    }
+
     fn contact(tangential: i64, coupling: i64, normal: i64) -> Contact {
-        Contact::from_condensed(&Sparse::from_ints(&[
-            &[tangential, -coupling],
-            &[-coupling, normal],
-        ]))
+        one_candidate([
+            [whole(tangential), whole(coupling)],
+            [whole(coupling), whole(normal)],
+        ])
     }
 
     /// r_T + factor r_N = 0 of the one node.
@@ -409,13 +421,16 @@ mod tests {
             contact: &contact(2, 1, 3),
             active: vec![0],
             equations: vec![slip_equation(5)],
-            imposed: vec![integers(&[1, 2]), integers(&[0, 7])],
+            imposed: vec![integers(&[1, 2, 0]), integers(&[0, 7, 0])],
         };
 
         let solved = equations.solve(&mut Images::default()).unwrap();
 
         assert_eq!(solved.denominator, Integer::from(7));
-        assert_eq!(solved.w, vec![integers(&[-32, 14]), integers(&[-112, 49])]);
+        assert_eq!(
+            solved.w,
+            vec![integers(&[-32, 14, 0]), integers(&[-112, 49, 0])]
+        );
         assert!(solved.denominator.is_positive());
     }
 
@@ -423,21 +438,18 @@ mod tests {
     fn long_fractions_are_reconstructed() {
         let big: Integer = "170141183460469231731687303715884105727".parse().unwrap();
         let cube = &big * &big * &big;
-        let entries = [
-            (0, 0, Rational::from_integer(cube.clone())),
-            (1, 1, whole(1)),
-            (0, 1, whole(5)),
-            (1, 0, whole(5)),
+        let stiffness = [
+            [Rational::from_integer(cube.clone()), whole(-5)],
+            [whole(-5), whole(1)],
         ];
-        let stiffness = Sparse::from_entries(2, 2, entries);
         let equations = ContactEquations {
-            contact: &Contact::from_condensed(&stiffness),
+            contact: &one_candidate(stiffness),
             active: vec![0],
             equations: vec![vec![Term {
                 row: 0,
                 coefficient: 1.into(),
             }]],
-            imposed: vec![integers(&[0, 1])],
+            imposed: vec![integers(&[0, 1, 0])],
         };
 
         let solved = equations.solve(&mut Images::default()).unwrap();
@@ -453,7 +465,7 @@ mod tests {
             contact: &contact(1, -1, 3),
             active: vec![0],
             equations: vec![slip_equation(1)],
-            imposed: vec![integers(&[1, 2])],
+            imposed: vec![integers(&[1, 2, 0])],
         };
         assert!(equations.solve(&mut Images::default()).is_none());
     }
@@ -462,7 +474,7 @@ mod tests {
     fn wrong_numbers_do_not_satisfy_the_equations() {
         let contact = contact(2, 1, 3);
         let equations = [slip_equation(5)];
-        assert!(satisfied(&contact, &equations, &integers(&[-32, 14])));
-        assert!(!satisfied(&contact, &equations, &integers(&[-31, 14])));
+        assert!(satisfied(&contact, &equations, &integers(&[-32, 14, 0])));
+        assert!(!satisfied(&contact, &equations, &integers(&[-31, 14, 0])));
     }
 }

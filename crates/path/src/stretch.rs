@@ -3,14 +3,13 @@
 
 use super::line::{Bound, Equilibrium};
 use super::rates::Finder;
-use crate::block::Block;
 use mceip_exact::Rational;
-use mceip_model::{ContactState, ModelError, Problem};
+use mceip_model::ContactState;
 
 /// A node that goes from one state to another at an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Change {
-    /// Contact node, from 0 at the left.
+    /// Contact candidate, from 0.
     pub node: usize,
     /// State before.
     pub from: ContactState,
@@ -21,7 +20,7 @@ pub struct Change {
 /// What happens between two stretches of the path.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Event {
-    /// The bounds that became zero; none at the end of the pressing.
+    /// The bounds that became zero; none where a step begins.
     pub causes: Vec<Bound>,
     /// The nodes that change state.
     pub changes: Vec<Change>,
@@ -34,10 +33,16 @@ pub struct Event {
 /// A stretch of the path with constant states; (1), (2), (5), (7) were verified at both ends.
 #[derive(Debug, Clone)]
 pub struct Interval {
+    /// The step whose load grows, from 0.
+    pub step: usize,
     /// The event it begins with.
     pub begin: Event,
-    /// States of the contact nodes inside the stretch, left to right.
+    /// What each candidate does inside the stretch: the states of the rate problem.
     pub states: Vec<ContactState>,
+    /// The contact states of the equilibria inside the stretch, by their reactions alone: a
+    /// candidate that sticks on the friction cone is in impending slip, one without reaction is in
+    /// z.
+    pub equilibrium_states: Vec<ContactState>,
     /// The equilibrium at its beginning.
     pub start: Equilibrium,
     /// The equilibrium at its end, `None` if it never ends.
@@ -60,21 +65,18 @@ impl Interval {
         self.states.iter().filter(|s| **s == state).count()
     }
 
+    /// The stretch of the same body with all gaps and loads times `factor` > 0.
+    pub(super) fn scaled(&self, factor: &Rational) -> Interval {
+        Interval {
+            start: self.start.scaled(factor),
+            stop: self.stop.as_ref().map(|stop| stop.scaled(factor)),
+            ..self.clone()
+        }
+    }
+
     /// One letter for each node: `.` stick, `<` slip to the left, `>` to the right, `o` free.
     pub fn picture(&self) -> String {
         self.states.iter().map(|state| letter(*state)).collect()
-    }
-
-    /// The MCEIP-mu problem of its states, or MCEIP-lambda2 at a given mu.
-    ///
-    /// # Errors
-    /// [`ModelError`] if no node slips.
-    pub fn problem(
-        &self,
-        block: &Block,
-        friction: Option<Rational>,
-    ) -> Result<Problem, ModelError> {
-        block.problem(&self.states, friction)
     }
 }
 

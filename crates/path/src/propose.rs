@@ -1,8 +1,9 @@
 //! The rate problem as a linear complementarity problem in doubles, for when the active set comes
 //! back to states it has tried. It proposes states; exact signs decide about them.
 //!
-//! Rates v of the displacements and w = C (v - g) of the reactions, in units of the largest entry
-//! of the condensed stiffness C. Each node contributes unknowns and rows by its class
+//! Rates v of the displacements and w = C v - h of the reactions, in units of the largest entry of
+//! the condensed stiffness C; h is the load that grows. Each node contributes unknowns and rows by
+//! its class
 //! ([`RateUnknown`]); a row is F_i = 0 for an unknown without a sign and 0 <= z_i _|_ F_i >= 0 for
 //! one with a sign, F(z) = M z + q. Lemke's method of `mceip_mcp` solves it, and positive unknowns
 //! name the states. Called by `rates`.
@@ -10,7 +11,7 @@
 
 use super::contact::{Contact, Friction, Load};
 use super::line::Class;
-use mceip_exact::{Rational, to_f64};
+use mceip_exact::to_f64;
 use mceip_mcp::mcp::LinearMcp;
 use mceip_mcp::solver::{Options, solve_linear};
 use mceip_model::ContactState;
@@ -57,22 +58,23 @@ pub(super) fn propose(
     contact: &Contact,
     friction: &Friction,
     classes: &[Class],
-    moving: Load,
+    growing: Load,
 ) -> Option<Vec<ContactState>> {
     let mut unknowns = Vec::new();
     for (node, &class) in classes.iter().enumerate() {
         unknowns.extend(unknowns_of(node, class));
     }
 
-    let mut relative = Vec::new();
-    for value in contact.relative(moving) {
-        relative.push(to_f64(&Rational::from_integer(value)));
-    }
-
+    let scaled = scaled_rows(contact);
+    let growing = contact.component(growing);
+    let load = scaled.column(growing).iter().copied().collect();
+    let order = 2 * contact.nodes();
     let rows = RateRows {
-        stiffness: scaled_stiffness(contact),
-        relative,
-        mu: to_f64(&friction.coefficient()),
+        stiffness: scaled.columns(0, order).into_owned(),
+        load,
+        friction: (0..contact.nodes())
+            .map(|node| to_f64(friction.of(node)))
+            .collect(),
         matrix: DMatrix::zeros(unknowns.len(), unknowns.len()),
         constant: vec![0.0; unknowns.len()],
         unknowns: &unknowns,
@@ -86,19 +88,14 @@ pub(super) fn propose(
         .then(|| states_of(&unknowns, &outcome.point, classes))
 }
 
-/// The condensed stiffness in doubles, N/mm, divided by its largest entry.
-fn scaled_stiffness(contact: &Contact) -> DMatrix<f64> {
-    let order = contact.rows().len();
-    let mut stiffness = DMatrix::zeros(order, order);
-    for (i, row) in contact.rows().iter().enumerate() {
-        for (j, numerator) in row.iter().enumerate() {
-            let denominator = contact.denominator().clone();
-            stiffness[(i, j)] = to_f64(&Rational::new_raw(numerator.clone(), denominator));
-        }
-    }
+/// [C, -h_1, ...] in doubles, divided by the largest entry of C.
+fn scaled_rows(contact: &Contact) -> DMatrix<f64> {
+    let rows = contact.rows_f64();
+    let order = rows.len();
+    let matrix = DMatrix::from_fn(order, contact.columns(), |i, j| rows[i][j]);
 
-    let largest = stiffness.amax();
-    stiffness / largest
+    let largest = matrix.columns(0, order).amax();
+    matrix / largest
 }
 
 fn unknowns_of(node: usize, class: Class) -> Vec<RateUnknown> {
@@ -125,10 +122,10 @@ fn unknowns_of(node: usize, class: Class) -> Vec<RateUnknown> {
 struct RateRows<'a> {
     /// C, scaled.
     stiffness: DMatrix<f64>,
-    /// -g, relative to the glued side.
-    relative: Vec<f64>,
-    /// Coefficient of friction.
-    mu: f64,
+    /// -h, scaled alike.
+    load: Vec<f64>,
+    /// Coefficient of friction of each candidate.
+    friction: Vec<f64>,
     unknowns: &'a [RateUnknown],
     /// M.
     matrix: DMatrix<f64>,
@@ -144,7 +141,7 @@ impl RateRows<'_> {
                 RateUnknown::Component(i) => self.set_equilibrium(row, i),
                 RateUnknown::Slip { node, sign } => {
                     self.add_reaction(row, 2 * node, -sign);
-                    self.add_reaction(row, 2 * node + 1, -self.mu);
+                    self.add_reaction(row, 2 * node + 1, -self.friction[node]);
                 }
                 RateUnknown::Opening { node } => self.add_reaction(row, 2 * node + 1, -1.0),
                 RateUnknown::Part { node, sign } => self.set_cone(row, node, sign)?,
@@ -167,7 +164,7 @@ impl RateRows<'_> {
 
     /// -mu w_N - S w_T >= 0.
     fn set_cone(&mut self, row: usize, node: usize, sign: f64) -> Option<()> {
-        self.add_reaction(row, 2 * node + 1, -self.mu);
+        self.add_reaction(row, 2 * node + 1, -self.friction[node]);
         let shear = self.shear_of(2 * node)?;
         self.matrix[(row, shear)] -= sign;
         Some(())
@@ -189,7 +186,7 @@ impl RateRows<'_> {
         Some(())
     }
 
-    /// Adds factor * w_i, w_i = sum_j C_ij (v_j - g_j), to a row.
+    /// Adds factor * w_i, w_i = sum_j C_ij v_j - h_i, to a row.
     fn add_reaction(&mut self, row: usize, i: usize, factor: f64) {
         for (column, unknown) in self.unknowns.iter().enumerate() {
             if let Some((j, share)) = unknown.velocity() {
@@ -197,9 +194,7 @@ impl RateRows<'_> {
             }
         }
 
-        let products = self.relative.iter().enumerate();
-        let imposed: f64 = products.map(|(j, v)| self.stiffness[(i, j)] * v).sum();
-        self.constant[row] += factor * imposed;
+        self.constant[row] += factor * self.load[i];
     }
 
     /// Place of the unknown w_T of the node whose tangential component this is.

@@ -1,8 +1,8 @@
-//! A loading path as it was followed: the pressing, the stretches between events, and why it ends.
-//! `trace` makes it; reports, pictures and [`super::Comparison`] read it.
+//! A loading path as it was followed: the stretches between events, and why it ends. `trace` makes
+//! it; reports and pictures read it.
 
-use super::line::{Bound, Equilibrium};
-use super::loading::Loading;
+use super::line::Bound;
+use super::load_steps::LoadSteps;
 use super::stretch::{Event, Interval};
 use mceip_exact::Rational;
 use mceip_model::ContactState;
@@ -12,11 +12,11 @@ use mceip_model::ContactState;
 pub enum PathEnd {
     /// The last stretch never ends: as a rule all nodes in contact slide ([`LoadingPath::slides`]).
     NoFurtherEvent,
-    /// The range asked for is reached.
-    Range,
+    /// All loads are applied.
+    AllApplied,
     /// At the end of the last stretch no states satisfy the rate conditions: the quasi-static path
     /// stops here, and what follows is dynamic. Met with much friction (mu >= 1.7 on coarse
-    /// meshes).
+    /// meshes of the paper's block).
     NoContinuation {
         /// The bounds that became zero there.
         causes: Vec<Bound>,
@@ -29,18 +29,12 @@ pub enum PathEnd {
     Interrupted,
 }
 
-/// A loading path: pressing, then stretches between exactly located events.
+/// A loading path: stretches between exactly located events.
 #[derive(Debug, Clone)]
 pub struct LoadingPath {
-    /// How the block was loaded.
-    pub loading: Loading,
-    /// Depth of the pressing, mm.
-    pub depth: Rational,
-    /// States of the contact nodes during the pressing.
-    pub pressing: Vec<ContactState>,
-    /// The equilibrium at its end.
-    pub pressed: Equilibrium,
-    /// The stretches, in order of the motion.
+    /// How the body was loaded.
+    pub steps: LoadSteps,
+    /// The stretches, in order.
     pub intervals: Vec<Interval>,
     /// Why it ends.
     pub end: PathEnd,
@@ -70,5 +64,21 @@ impl LoadingPath {
         (0..self.intervals.len())
             .filter(|&i| self.intervals[i].states == states)
             .collect()
+    }
+
+    /// The path of the same body with all gaps and loads times `factor` > 0.
+    #[must_use]
+    pub fn scaled(&self, factor: &Rational) -> LoadingPath {
+        let amounts = self.steps.amounts.iter();
+        LoadingPath {
+            steps: LoadSteps {
+                friction: self.steps.friction.clone(),
+                amounts: amounts
+                    .map(|amount| amount.as_ref().map(|amount| amount * factor))
+                    .collect(),
+            },
+            intervals: self.intervals.iter().map(|i| i.scaled(factor)).collect(),
+            end: self.end.clone(),
+        }
     }
 }

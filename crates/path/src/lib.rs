@@ -1,0 +1,101 @@
+//! Quasi-static loading paths, event by event: a body with contact candidates under loads that are
+//! applied one after the other, with unilateral contact (1) and Coulomb friction (2).
+//!
+//! Sections 2 to 5 of the paper begin with an equilibrium and its contact states. This crate finds
+//! them from the loads. A path is piecewise linear in the amount of the load, so nothing is
+//! stepped: on each stretch everything is affine, and the amount at which the next candidate
+//! reaches a limit is a rational number. There the rate problem - which candidates stick, slip,
+//! open or close in the next moment - is solved by an active set from the states before, exactly;
+//! if that comes back to a set of states it has tried, Lemke's method proposes states in doubles,
+//! which are then verified exactly like the others.
+//!
+//! A rate problem may have several solutions (with much friction it often has, `rates_oracle`). The
+//! states nearest to those before are taken, and verified. At a point with a set of candidates on
+//! the friction cone its matrix is T(mu), the condensed pencil of these candidates: there is one
+//! solution for every load rate if and only if T(mu) is a P-matrix. In general that is not claimed.
+//!
+//! A user makes a [`Contact`] of a [`mceip_model::System`] and its loads ([`Contact::condense`]),
+//! follows a [`LoadingPath`] and takes from it the contact states whose eigenproblems are solved.
+//! The files, from the input on:
+//!
+//! | file | what |
+//! |---|---|
+//! | `condense` | from the body to its contact candidates, exactly |
+//! | `contact`, `load_steps` | the condensed stiffness C and loads; friction and amounts |
+//! | `trace` | the walk from event to event |
+//! | `rates`, `propose` | the states after an event; proposals by Lemke's method in doubles |
+//! | `respond`, `linear` | displacements and reactions in given states, by exact linear algebra |
+//! | `line` | w and r as functions of the load, the next event, the classes of candidates there |
+//! | `check` | the laws at a point of the path, from their definitions |
+//! | `loading_path`, `stretch` | the result |
+//! | `pencils` | the condensed pencil of a set of states |
+#![deny(clippy::float_arithmetic)]
+
+mod check;
+mod condense;
+mod contact;
+mod error;
+mod line;
+mod linear;
+mod load_steps;
+mod loading_path;
+mod pencils;
+mod propose;
+mod rates;
+#[cfg(test)]
+mod rates_oracle;
+mod respond;
+mod stretch;
+mod trace;
+
+pub use contact::{Contact, ContactSide};
+pub use error::PathError;
+pub use line::{Bound, Equilibrium};
+pub use load_steps::{LoadSteps, require_positive};
+pub use loading_path::{LoadingPath, PathEnd};
+pub use pencils::Pencils;
+pub use rates::Finder;
+pub use stretch::{Change, Event, Interval};
+pub use trace::PathProgress;
+
+use std::ops::ControlFlow;
+
+impl LoadingPath {
+    /// Follows the path of a body that is unloaded at its beginning; `progress` hears of each
+    /// stretch and may break off.
+    ///
+    /// # Errors
+    /// [`PathError`]: steps that do not fit the loads. A path that cannot go on is no error, but a
+    /// [`PathEnd`].
+    ///
+    /// ```
+    /// use mceip_exact::{Sparse, rational, whole};
+    /// use mceip_model::{ContactState, Particle, System};
+    /// use mceip_path::{Contact, LoadSteps, LoadingPath};
+    /// use std::ops::ControlFlow;
+    ///
+    /// // One particle on two springs, pressed by 3 and then pushed along with mu = 1/2.
+    /// let candidate = Particle::plain(0, 1, ContactState::Free);
+    /// let body = System::new(Sparse::from_ints(&[&[2, 0], &[0, 1]]), None, None, vec![candidate]);
+    /// let press = vec![whole(0), whole(3)];
+    /// let push = vec![whole(1), whole(0)];
+    /// let contact = Contact::condense(&body.unwrap(), &[whole(0)], &[press, push]).unwrap();
+    /// let steps = LoadSteps {
+    ///     friction: rational(1, 2),
+    ///     amounts: vec![Some(whole(1)), Some(whole(2))],
+    /// };
+    /// let path = LoadingPath::follow(&contact, &steps, &|_| ControlFlow::Continue(())).unwrap();
+    ///
+    /// // It sticks until the push reaches mu N = 3/2.
+    /// let last = path.intervals.last().unwrap();
+    /// assert_eq!(last.start.amount(), &rational(3, 2));
+    /// assert_eq!(last.states, [ContactState::Slip { sign: -1 }]);
+    /// ```
+    pub fn follow(
+        contact: &Contact,
+        steps: &LoadSteps,
+        progress: &dyn Fn(PathProgress<'_>) -> ControlFlow<()>,
+    ) -> Result<LoadingPath, PathError> {
+        trace::trace(contact, steps, progress)
+    }
+}
