@@ -44,6 +44,14 @@ pub enum ModelError {
         /// What was found.
         got: String,
     },
+    /// Loads, or contact candidates, that make no sense.
+    #[error("loads: expected {expected}, got {got}")]
+    Loads {
+        /// What was wanted.
+        expected: String,
+        /// What was found.
+        got: String,
+    },
     /// A pencil or system without a single variable.
     #[error("expected at least one variable in {what}, got none")]
     Empty {

@@ -5,6 +5,8 @@
 //! sought. [`mod@reduction`] makes a pencil of a system, [`mod@file`] reads and writes problems,
 //! and a problem's digest ([`Problem::sha256`]) binds certificates to it.
 //!
+//! A [`LoadedBody`] is a body whose contact states are not known: loads lead to them.
+//!
 //! A value that exists satisfies its preconditions: shapes, symmetry, definiteness and index sets
 //! are established at construction, and whatever fails is refused with a [`ModelError`].
 
@@ -12,6 +14,7 @@ mod canonical;
 mod coordinates;
 mod error;
 pub mod file;
+mod loaded;
 mod pencil;
 mod problem;
 mod reduced;
@@ -21,6 +24,7 @@ mod window;
 
 pub use coordinates::{Coordinates, Node};
 pub use error::{ErrorLocation, ModelError};
+pub use loaded::{Candidate, LoadStep, LoadedBody, LoadedParts};
 pub use pencil::{Admissible, Pencil, Unknown};
 pub use problem::{Body, Problem};
 pub use reduced::{MuFamily, Reduced, Variable, ZeroPart, ZeroVariables};

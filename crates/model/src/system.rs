@@ -196,6 +196,41 @@ impl System {
         })
     }
 
+    /// The same body with other contact states, without reactions, and this mu.
+    ///
+    /// # Errors
+    /// [`ModelError`] for a number of states other than that of particles, and as [`System::new`]:
+    /// other dofs are free.
+    pub fn with_states(
+        &self,
+        states: &[ContactState],
+        friction: Option<Rational>,
+    ) -> Result<System, ModelError> {
+        if states.len() != self.particles.len() {
+            return Err(ModelError::Shape {
+                equation: "E9",
+                what: "contact states",
+                expected_rows: self.particles.len(),
+                expected_cols: 1,
+                rows: states.len(),
+                cols: 1,
+            });
+        }
+
+        let mut particles = self.particles.clone();
+        for (particle, &state) in particles.iter_mut().zip(states) {
+            particle.state = state;
+            particle.reaction = None;
+        }
+
+        System::new(
+            self.stiffness.clone(),
+            self.mass.clone(),
+            friction,
+            particles,
+        )
+    }
+
     /// Refuses a system that lacks what `unknown` needs: M and mu for lambda^2.
     ///
     /// # Errors

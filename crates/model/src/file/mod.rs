@@ -1,4 +1,5 @@
-//! `mceip-problem/1`: reading and writing problem files, every number exactly as spelt.
+//! `mceip-problem/1`: reading and writing problem files, every number exactly as spelt; with the
+//! same pieces `mceip-loads/1`, bodies under loads (`loads`).
 //!
 //! A file is text of bounded size (`read_text`), JSON of a known format (`require_format`,
 //! `from_json`), a problem whose preconditions are established (`raw`). Each step refuses with a
@@ -6,6 +7,7 @@
 //!
 //! Other crates read their own formats with the same pieces: [`Number`], [`Object`], [`Word`].
 
+mod loads;
 mod market;
 mod matrix;
 mod number;
@@ -16,6 +18,7 @@ mod raw;
 mod unique;
 mod write;
 
+pub use loads::{LOADS_FORMAT, LoadsFile, read_loads};
 pub use market::read_matrix_market;
 pub use number::Number;
 pub use object::{Object, Word, word_or_kind};

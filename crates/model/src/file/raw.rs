@@ -59,7 +59,7 @@ struct RawSystem {
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RawCoordinates {
+pub(super) struct RawCoordinates {
     /// Degrees of freedom along x and y, then x and y.
     nodes: Vec<(Option<usize>, Option<usize>, Number, Number)>,
     #[serde(default)]
@@ -207,7 +207,25 @@ impl RawSystem {
 }
 
 impl RawCoordinates {
-    fn build(self, system: &System) -> Result<Coordinates, ModelError> {
+    /// With other numbers for the dofs, none for those that do not move.
+    ///
+    /// # Errors
+    /// [`ModelError::Coordinates`] for a dof without a number.
+    pub(super) fn with_dofs(mut self, places: &[Option<usize>]) -> Result<Self, ModelError> {
+        for (along_x, along_y, _, _) in &mut self.nodes {
+            for dof in [along_x, along_y] {
+                let Some(given) = *dof else { continue };
+                *dof = *places.get(given).ok_or_else(|| ModelError::Coordinates {
+                    expected: "degrees of freedom of the system",
+                    got: given.to_string(),
+                })?;
+            }
+        }
+
+        Ok(self)
+    }
+
+    pub(super) fn build(self, system: &System) -> Result<Coordinates, ModelError> {
         let mut nodes = Vec::with_capacity(self.nodes.len());
         for (along_x, along_y, x, y) in self.nodes {
             nodes.push(Node {
@@ -230,7 +248,42 @@ pub(super) fn particles(list: Vec<Object<RawParticle>>) -> Result<Vec<Particle>,
 }
 
 impl RawParticle {
-    fn build(self, index: usize) -> Result<Particle, ModelError> {
+    /// A particle that is not in contact, in the paper's own directions.
+    pub(super) fn open(tangential: usize, normal: usize) -> RawParticle {
+        RawParticle {
+            tangential,
+            normal,
+            state: Word(RawState::Free),
+            sign: None,
+            normal_direction: None,
+            frame: None,
+            friction_factor: None,
+            reaction: None,
+        }
+    }
+
+    /// In these directions.
+    pub(super) fn turned(
+        self,
+        normal_direction: Option<i64>,
+        frame: Option<[[Number; 2]; 2]>,
+    ) -> RawParticle {
+        RawParticle {
+            normal_direction,
+            frame,
+            ..self
+        }
+    }
+
+    /// With this friction factor.
+    pub(super) fn with_friction_factor(self, friction_factor: Option<Number>) -> RawParticle {
+        RawParticle {
+            friction_factor,
+            ..self
+        }
+    }
+
+    pub(super) fn build(self, index: usize) -> Result<Particle, ModelError> {
         let state = contact_state(index, self.state.0, self.sign)?;
 
         let frame: Option<[[Rational; 2]; 2]> = self
