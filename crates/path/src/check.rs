@@ -7,7 +7,7 @@
 
 use super::contact::{Contact, Friction};
 use super::error::LawFailure;
-use super::line::{Amount, AppliedLoad, Line};
+use super::line::{Amount, AppliedLoad, Class, Line};
 use mceip_exact::{Integer, Rational};
 use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
@@ -46,6 +46,31 @@ impl PathPoint<'_> {
             };
             if let Some(equation) = values.first_failure(state) {
                 return Err(LawFailure { node, equation });
+            }
+        }
+
+        Ok(())
+    }
+
+    /// Do the rates just after this point fit the classes of the candidates here? // (9)
+    ///
+    /// # Errors
+    /// The first candidate at which they do not.
+    pub(super) fn check_rates(&self, classes: &[Class]) -> Result<(), LawFailure> {
+        let rates = self.line.rates();
+        for (node, &class) in classes.iter().enumerate() {
+            let rates = NodeRates {
+                friction: self.friction.of(node),
+                v_t: &rates.w[2 * node],
+                v_n: &rates.w[2 * node + 1],
+                r_t: &rates.r[2 * node],
+                r_n: &rates.r[2 * node + 1],
+            };
+            if !rates.fit(class) {
+                return Err(LawFailure {
+                    node,
+                    equation: "E9",
+                });
             }
         }
 
@@ -163,6 +188,41 @@ impl NodeValues<'_> {
     /// mu r_N times the denominator of mu.
     fn mu_r_n(&self) -> Integer {
         self.friction.numer() * self.r_n
+    }
+}
+
+/// Rates of displacement and reaction of one candidate, each up to a positive factor.
+struct NodeRates<'a> {
+    /// mu of this candidate.
+    friction: &'a Rational,
+    v_t: &'a Integer,
+    v_n: &'a Integer,
+    r_t: &'a Integer,
+    r_n: &'a Integer,
+}
+
+impl NodeRates<'_> {
+    /// The line of (9) for this class, with rates.
+    fn fit(&self, class: Class) -> bool {
+        let mu_r_n = self.friction.numer() * self.r_n;
+        match class {
+            Class::Free => self.r_t.is_zero() && self.r_n.is_zero(),
+            Class::Stick => self.v_t.is_zero() && self.v_n.is_zero(),
+            Class::Cone(sign) => {
+                let sign = Integer::from(sign);
+                let x = -(&sign * self.v_t);
+                let y = -(&sign * self.r_t * self.friction.denom() + mu_r_n);
+                let are_signs = !x.is_negative() && !y.is_negative();
+                self.v_n.is_zero() && are_signs && (x.is_zero() || y.is_zero())
+            }
+            Class::Zero => {
+                let are_signs = !self.v_n.is_positive() && !self.r_n.is_positive();
+                let is_contact = are_signs && (self.v_n.is_zero() || self.r_n.is_zero());
+                let is_in_cone = self.r_t.abs() * self.friction.denom() <= -&mu_r_n;
+                let work = self.v_t.abs() * self.r_t * self.friction.denom();
+                is_contact && is_in_cone && work == self.v_t * mu_r_n
+            }
+        }
     }
 }
 

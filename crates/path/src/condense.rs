@@ -1,18 +1,21 @@
-//! From a body to its contact side: K and the loads condensed exactly, in the directions of each
-//! contact candidate.
+//! From a body to its contact side: K and the loads condensed, exactly or in doubles, in the
+//! directions of each contact candidate.
 //!
-//! One Schur complement gives both: with i the dofs of no candidate and c the others,
+//! With i the dofs of no candidate and c the others,
 //!
 //! ```text
 //! [C | h] = [K_cc | f_c] - K_ci K_ii^-1 [K_ic | f_i]
 //! ```
 //!
-//! Then the two dofs of each candidate are turned into its tangent and its normal. Input is a
-//! [`System`]; the states of its particles play no part.
+//! Then the two dofs of each candidate are turned into its tangent and its normal. Exactly it is
+//! one Schur complement, modulo primes. In doubles it is a sparse Cholesky factorisation, and the
+//! condensed body is taken as it comes out: another body than the one given, by rounding. Input is
+//! a [`System`]; the states of its particles play no part.
 
-use super::contact::{Contact, ContactSide};
+use super::contact::{Contact, ContactSide, require_length};
 use super::error::PathError;
-use mceip_exact::{Rational, Sparse, schur_complement};
+use mceip_exact::{Rational, Sparse, from_f64, schur_complement, to_f64};
+use mceip_mcp::linear::{Analysis, Symmetric};
 use mceip_model::{Direction, ModelError, Particle, System};
 use num_traits::{One, Zero};
 
@@ -28,54 +31,97 @@ impl Contact {
         gaps: &[Rational],
         loads: &[Vec<Rational>],
     ) -> Result<Contact, PathError> {
-        let dofs = system.dofs();
-        for load in loads {
-            require_length(load.len(), dofs)?;
-        }
-
-        let mut contact = Vec::new();
-        let mut is_inside = vec![true; dofs];
-        for particle in system.particles() {
-            for dof in [particle.tangential, particle.normal] {
-                contact.push(dof);
-                is_inside[dof] = false;
-            }
-        }
-
-        let inside: Vec<usize> = (0..dofs).filter(|&dof| is_inside[dof]).collect();
+        let contact = dofs_of_candidates(system, loads)?;
+        let inside = all_but(system.dofs(), &contact);
         let condensed = condensed(system.stiffness(), loads, &inside, &contact)?;
 
-        let turn = Turn::of(system.particles());
         let order = contact.len();
-        let stiffness = turn.rows_and_columns(&columns(&condensed, 0..order));
-        let loads = columns(&condensed, order..condensed.cols())
-            .iter()
-            .map(|load| turn.vector(load))
-            .collect();
-        let factors = system.particles().iter();
+        Contact::turned(
+            system.particles(),
+            gaps,
+            &columns(&condensed, 0..order),
+            &columns(&condensed, order..condensed.cols()),
+        )
+    }
 
+    /// [`Contact::condense`] in doubles, for bodies of any size: what comes out is exactly the
+    /// contact side of a body whose condensed stiffness and loads are those doubles.
+    ///
+    /// # Errors
+    /// As [`Contact::condense`]; [`PathError::NotDefinite`] for a body that is not held.
+    pub fn condense_in_doubles(
+        system: &System,
+        gaps: &[Rational],
+        loads: &[Vec<Rational>],
+    ) -> Result<Contact, PathError> {
+        let contact = dofs_of_candidates(system, loads)?;
+        let entries = system.stiffness().entries();
+        let entries = entries.map(|(i, j, entry)| (i, j, to_f64(entry)));
+        let stiffness = Symmetric::new(system.dofs(), entries)?;
+
+        let analysis = Analysis::new(&stiffness, &contact, &[], None);
+        let factor = analysis.factor(&stiffness).map_err(|e| {
+            let dof = e.index;
+            PathError::NotDefinite { dof }
+        })?;
+        let mut condensed_loads = Vec::with_capacity(loads.len());
+        for load in loads {
+            let load: Vec<f64> = load.iter().map(to_f64).collect();
+            condensed_loads.push(exactly(&factor.restrict(&load))?);
+        }
+        let rows = factor.schur().iter();
+        let stiffness = rows
+            .map(|row| exactly(row))
+            .collect::<Result<Vec<_>, _>>()?;
+
+        Contact::turned(system.particles(), gaps, &stiffness, &condensed_loads)
+    }
+
+    /// From C, given by its columns, and h, both along the dofs of the candidates.
+    fn turned(
+        particles: &[Particle],
+        gaps: &[Rational],
+        stiffness: &[Vec<Rational>],
+        loads: &[Vec<Rational>],
+    ) -> Result<Contact, PathError> {
+        let turn = Turn::of(particles);
         Contact::new(ContactSide {
-            stiffness,
-            loads,
+            stiffness: turn.rows_and_columns(stiffness),
+            loads: loads.iter().map(|load| turn.vector(load)).collect(),
             gaps: gaps.to_vec(),
-            friction_factors: factors.map(|p| p.friction_factor.clone()).collect(),
+            friction_factors: particles
+                .iter()
+                .map(|p| p.friction_factor.clone())
+                .collect(),
         })
     }
 }
 
-fn require_length(got: usize, dofs: usize) -> Result<(), ModelError> {
-    if got == dofs {
-        return Ok(());
+/// The two dofs of each candidate in turn.
+fn dofs_of_candidates(system: &System, loads: &[Vec<Rational>]) -> Result<Vec<usize>, ModelError> {
+    for load in loads {
+        require_length("load", load.len(), system.dofs())?;
     }
 
-    Err(ModelError::Shape {
-        equation: "E5",
-        what: "load",
-        expected_rows: dofs,
-        expected_cols: 1,
-        rows: got,
-        cols: 1,
-    })
+    let particles = system.particles().iter();
+    Ok(particles.flat_map(|p| [p.tangential, p.normal]).collect())
+}
+
+fn all_but(dofs: usize, taken: &[usize]) -> Vec<usize> {
+    let mut is_left = vec![true; dofs];
+    for &dof in taken {
+        is_left[dof] = false;
+    }
+
+    (0..dofs).filter(|&dof| is_left[dof]).collect()
+}
+
+/// The values of doubles.
+fn exactly(values: &[f64]) -> Result<Vec<Rational>, PathError> {
+    let values = values.iter();
+    Ok(values
+        .map(|value| from_f64(*value))
+        .collect::<Result<Vec<_>, _>>()?)
 }
 
 /// [C | h] over the dofs of the candidates.
@@ -227,6 +273,25 @@ mod tests {
                 vec![half(-1), half(7), half(13), 0.0],
             ]
         );
+    }
+
+    /// In doubles the same comes out where doubles are exact; a body that is not held is refused.
+    #[test]
+    fn doubles_condense_the_same() {
+        let stiffness = matrix(&[&[4, 2, -2], &[2, 3, 0], &[-2, 0, 4]]);
+        let particle = Particle::plain(1, 2, ContactState::Stick);
+        let system = System::new(stiffness, None, None, vec![particle.clone()]).unwrap();
+        let load = vec![whole(1), whole(5), whole(6)];
+        let (gaps, loads) = ([rational(1, 2)], [load]);
+
+        let exact = Contact::condense(&system, &gaps, &loads).unwrap();
+        let doubles = Contact::condense_in_doubles(&system, &gaps, &loads).unwrap();
+        assert_eq!(exact.rows_f64(), doubles.rows_f64());
+
+        let loose = matrix(&[&[0, 0, 0], &[0, 3, 0], &[0, 0, 4]]);
+        let loose = System::assuming_definite(loose, None, None, vec![particle]).unwrap();
+        let refused = Contact::condense_in_doubles(&loose, &gaps, &loads);
+        assert!(matches!(refused, Err(PathError::NotDefinite { dof: 0 })));
     }
 
     /// A candidate whose tangent is turned, without inner dofs: C' = D C D'.

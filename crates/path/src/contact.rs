@@ -12,6 +12,7 @@
 //! become one more load, of amount 1. All of `path` reads C and h from here.
 
 use super::error::PathError;
+use super::load_steps::require_positive;
 use mceip_exact::{Integer, Rational, common_denominator, to_f64};
 use mceip_model::ModelError;
 use num_traits::{One, Signed, Zero};
@@ -35,11 +36,11 @@ pub struct Contact {
 /// What a [`Contact`] is made of, in the directions (T, N) of each candidate.
 #[derive(Debug, Clone)]
 pub struct ContactSide {
-    /// C, N/mm: of order 2 n for n candidates.
+    /// C: of order 2 n for n candidates.
     pub stiffness: Vec<Vec<Rational>>,
-    /// h of each load, N: 2 n components.
+    /// h of each load: 2 n components.
     pub loads: Vec<Vec<Rational>>,
-    /// Distance of each candidate from the obstacle, >= 0, mm.
+    /// Distance of each candidate from the obstacle, >= 0.
     pub gaps: Vec<Rational>,
     /// Coefficient of friction of each candidate over mu, > 0.
     pub friction_factors: Vec<Rational>,
@@ -126,7 +127,7 @@ impl Contact {
         &self.rows
     }
 
-    /// \[C, -h_1, -h_2, ...\] in doubles, N/mm and N: as [`Contact`] has them.
+    /// \[C, -h_1, -h_2, ...\] in doubles: as [`Contact`] has them.
     pub fn rows_f64(&self) -> Vec<Vec<f64>> {
         let entry = |numerator: &Integer| {
             to_f64(&Rational::new_raw(
@@ -181,8 +182,16 @@ impl ContactSide {
         for (what, row) in rows.chain(loads) {
             require_length(what, row.len(), order)?;
         }
-        require_length("contact candidates", 2 * nodes, order)?;
+        if nodes == 0 {
+            let what = "contact candidates";
+            return Err(ModelError::Empty { what }.into());
+        }
+        require_length("gaps", 2 * nodes, order)?;
         require_length("friction factors", self.friction_factors.len(), nodes)?;
+
+        for factor in &self.friction_factors {
+            require_positive("friction factor", factor)?;
+        }
 
         match self.gaps.iter().position(Signed::is_negative) {
             None => Ok(()),
@@ -208,7 +217,11 @@ impl ContactSide {
     }
 }
 
-fn require_length(what: &'static str, got: usize, expected: usize) -> Result<(), ModelError> {
+pub(super) fn require_length(
+    what: &'static str,
+    got: usize,
+    expected: usize,
+) -> Result<(), ModelError> {
     if got == expected {
         return Ok(());
     }

@@ -1,7 +1,8 @@
 //! Why a loading path is not computed: what users read ([`PathError`]), and the law that fails at a
 //! node, as the parts of the path tell each other ([`LawFailure`]).
 
-use mceip_exact::{CondenseError, Rational};
+use mceip_exact::{CondenseError, NumberError, Rational};
+use mceip_mcp::linear::SymmetricError;
 use mceip_model::ModelError;
 
 /// A path that cannot be followed, or options that make no path.
@@ -11,6 +12,21 @@ pub enum PathError {
     /// The condensation to the contact nodes failed.
     #[error(transparent)]
     Condensation(#[from] CondenseError),
+    /// A stiffness that is not symmetric or finite in doubles.
+    #[error(transparent)]
+    Symmetric(#[from] SymmetricError),
+    /// A stiffness that is not positive definite in doubles.
+    #[error(
+        "condensation in doubles: expected a body that is held, got a stiffness that is not \
+         positive definite at degree of freedom {dof}"
+    )]
+    NotDefinite {
+        /// Where elimination ended.
+        dof: usize,
+    },
+    /// A condensed entry that overflows.
+    #[error("condensation in doubles: {0}")]
+    Number(#[from] NumberError),
     /// A contact state was refused.
     #[error(transparent)]
     Model(#[from] ModelError),

@@ -10,9 +10,10 @@
 //! which are then verified exactly like the others.
 //!
 //! A rate problem may have several solutions (with much friction it often has, `rates_oracle`). The
-//! states nearest to those before are taken, and verified. At a point with a set of candidates on
-//! the friction cone its matrix is T(mu), the condensed pencil of these candidates: there is one
-//! solution for every load rate if and only if T(mu) is a P-matrix. In general that is not claimed.
+//! first that the search meets, which begins with the states before, is taken and verified. At a
+//! point with a set of candidates on the friction cone its matrix is T(mu), the condensed pencil of
+//! these candidates: there is one solution for every load rate if and only if T(mu) is a P-matrix.
+//! In general that is not claimed.
 //!
 //! A user makes a [`Contact`] of a [`mceip_model::System`] and its loads ([`Contact::condense`]),
 //! follows a [`LoadingPath`] and takes from it the contact states whose eigenproblems are solved.

@@ -124,11 +124,6 @@ impl Line {
         }
     }
 
-    /// Component `i` of w at a = m / n, times `denominator` n.
-    pub(super) fn w_at(&self, i: usize, a: &Rational) -> Integer {
-        self.w.at(i, a)
-    }
-
     /// Displacements and reactions at a = 0.
     fn constants(&self) -> NodalValues<'_> {
         NodalValues {
@@ -150,9 +145,9 @@ impl Line {
     pub(super) fn meets(&self, a: &Rational, other: &Line, b: &Rational) -> bool {
         let here = &self.denominator * a.denom();
         let there = &other.denominator * b.denom();
-        let nodes = self.r.constant.len();
+        let components = self.r.constant.len();
 
-        (0..nodes).all(|i| {
+        (0..components).all(|i| {
             self.w.at(i, a) * &there == other.w.at(i, b) * &here
                 && self.r.at(i, a) * &there == other.r.at(i, b) * &here
         })
@@ -414,7 +409,7 @@ pub(super) enum Class {
 }
 
 impl Class {
-    /// The contact state of an equilibrium, as section 2 defines it: by the reaction alone.
+    /// The contact state of an equilibrium, as section 2 defines it: by gap and reaction alone.
     pub(super) fn contact_state(self) -> ContactState {
         match self {
             Class::Free => ContactState::Free,

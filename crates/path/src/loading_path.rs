@@ -10,7 +10,8 @@ use mceip_model::ContactState;
 /// Why a path ends.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum PathEnd {
-    /// The last stretch never ends: as a rule all nodes in contact slide ([`LoadingPath::slides`]).
+    /// The last stretch never ends: as a rule all candidates in contact slide
+    /// ([`LoadingPath::slides`]).
     NoFurtherEvent,
     /// All loads are applied.
     AllApplied,
@@ -41,16 +42,19 @@ pub struct LoadingPath {
 }
 
 impl LoadingPath {
-    /// Does the path end in sliding: no node sticks, and nothing changes any more?
+    /// Does the path end in sliding: some candidate slides for ever, and none sticks?
     pub fn slides(&self) -> bool {
-        if self.end != PathEnd::NoFurtherEvent {
+        let last = self.intervals.last();
+        let Some(last) = last.filter(|_| self.end == PathEnd::NoFurtherEvent) else {
             return false;
-        }
+        };
 
-        match self.intervals.last() {
-            Some(last) => !last.states.contains(&ContactState::Stick),
-            None => false,
-        }
+        let slides = |node: usize| {
+            let is_slip = matches!(last.states[node], ContactState::Slip { .. });
+            is_slip && last.start.displacement(node).0 != last.inside.displacement(node).0
+        };
+        let sticks = last.states.contains(&ContactState::Stick);
+        !sticks && (0..last.states.len()).any(slides)
     }
 
     /// The event that ends a stretch, `None` for the last one.

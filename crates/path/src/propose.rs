@@ -22,11 +22,12 @@ use nalgebra::DMatrix;
 enum RateUnknown {
     /// A component of the velocity, no sign.
     Component(usize),
-    /// x = -S v_T >= 0 of a node on the cone, against y = -(S w_T + mu w_N).
+    /// x = -S v_T >= 0 of a node on the cone, against y = -(S r_T' + mu r_N').
     Slip { node: usize, sign: f64 },
     /// -v_N >= 0 of a node with zero reaction, against -w_N.
     Opening { node: usize },
-    /// Parts of v_T >= 0 in the direction of S of a node with zero reaction: v_T = -sum S part.
+    /// Parts of v_T >= 0 against the direction of S of a node with zero reaction: v_T = -sum S
+    /// part.
     Part { node: usize, sign: f64 },
     /// w_T of that node, against the row that puts v_T together.
     Shear { node: usize },
@@ -67,11 +68,14 @@ pub(super) fn propose(
 
     let scaled = scaled_rows(contact);
     let growing = contact.component(growing);
-    let load = scaled.column(growing).iter().copied().collect();
+    // The problem is homogeneous in the load: its size plays no part, but for tolerances.
+    let load = scaled.column(growing);
+    let size = load.amax();
+    let load = load.iter().map(|h| if size > 0.0 { h / size } else { 0.0 });
     let order = 2 * contact.nodes();
     let rows = RateRows {
         stiffness: scaled.columns(0, order).into_owned(),
-        load,
+        load: load.collect(),
         friction: (0..contact.nodes())
             .map(|node| to_f64(friction.of(node)))
             .collect(),
@@ -122,7 +126,7 @@ fn unknowns_of(node: usize, class: Class) -> Vec<RateUnknown> {
 struct RateRows<'a> {
     /// C, scaled.
     stiffness: DMatrix<f64>,
-    /// -h, scaled alike.
+    /// -h, divided by its largest entry.
     load: Vec<f64>,
     /// Coefficient of friction of each candidate.
     friction: Vec<f64>,

@@ -16,7 +16,7 @@ use super::propose::propose;
 use super::respond::respond;
 use mceip_exact::Integer;
 use mceip_model::ContactState;
-use num_traits::{Signed, Zero};
+use num_traits::Signed;
 use std::collections::BTreeSet;
 
 /// How the states after an event were found (they were verified exactly in any case).
@@ -41,6 +41,8 @@ pub(super) struct Rates<'a> {
     pub(super) friction: &'a Friction,
     /// The class of each node at this moment.
     pub(super) classes: &'a [Class],
+    /// The bounds that candidates have just reached.
+    pub(super) causes: &'a [Bound],
     /// What is imposed on the body if the candidates are in given states.
     pub(super) loads: &'a dyn Fn(&[ContactState]) -> Vec<Load>,
     /// The load that grows.
@@ -68,8 +70,9 @@ impl Rates<'_> {
         before: &[ContactState],
     ) -> Result<Solved, PathError> {
         let mut start = Vec::with_capacity(before.len());
-        for (&class, &state) in self.classes.iter().zip(before) {
-            start.push(first_guess(class, state));
+        for (node, (&class, &state)) in self.classes.iter().zip(before).enumerate() {
+            let has_arrived = self.causes.iter().any(|cause| cause.node() == node);
+            start.push(first_guess(class, state, has_arrived));
         }
 
         let mut tried = 0;
@@ -229,7 +232,7 @@ fn choices(class: Class) -> Vec<ContactState> {
     match class {
         Class::Free => vec![ContactState::Free],
         Class::Stick => vec![ContactState::Stick],
-        Class::Cone(sign) => vec![ContactState::Slip { sign }, ContactState::Stick],
+        Class::Cone(sign) => vec![ContactState::Stick, ContactState::Slip { sign }],
         Class::Zero => vec![
             ContactState::Free,
             ContactState::Stick,
@@ -239,11 +242,13 @@ fn choices(class: Class) -> Vec<ContactState> {
     }
 }
 
-/// A node that has just arrived at a limit is taken to pass it.
-fn first_guess(class: Class, before: ContactState) -> ContactState {
+/// A candidate that has just arrived at a limit is taken to pass it; one that sticks on its cone
+/// already is taken to go on.
+fn first_guess(class: Class, before: ContactState, has_arrived: bool) -> ContactState {
     match (class, before) {
         (Class::Free, _) => ContactState::Free,
         (Class::Stick, _) => ContactState::Stick,
+        (Class::Cone(_), ContactState::Stick) if !has_arrived => ContactState::Stick,
         (Class::Cone(sign), _) => ContactState::Slip { sign },
         (Class::Zero, ContactState::Slip { .. }) => ContactState::Free,
         (Class::Zero, _) => ContactState::Stick,
@@ -266,7 +271,7 @@ fn better(
     }
 }
 
-/// On the cone 0 <= x _|_ y >= 0 with x = -S v_T, y = -(S w_T + mu w_N): slip has y = 0 and needs
+/// On the cone 0 <= x _|_ y >= 0 with x = -S v_T, y = -(S r_T' + mu r_N'): slip has y = 0 and needs
 /// x >= 0, stick has x = 0 and needs y >= 0.
 fn better_on_cone(
     node: usize,
@@ -325,32 +330,6 @@ fn slides_with_friction(sign: i8, node: usize, rates: NodalValues<'_>) -> bool {
     let v_t = &rates.w[2 * node];
     let along = v_t * Integer::from(sign);
     along.is_positive()
-}
-
-/// Do the rates fit class and state? The same lines as [`better`], read as (9): used to verify.
-pub(super) fn admissible(
-    node: usize,
-    class: Class,
-    state: ContactState,
-    rates: NodalValues<'_>,
-    friction: &Friction,
-) -> bool {
-    let possible = match (class, state) {
-        (Class::Free, ContactState::Free) => true,
-        (Class::Stick, ContactState::Stick) => true,
-        (Class::Cone(_), ContactState::Stick) => true,
-        (Class::Cone(side), ContactState::Slip { sign }) => side == sign,
-        (Class::Zero, _) => true,
-        _ => false,
-    };
-    if !possible {
-        return false;
-    }
-    if better(node, class, state, rates, friction).is_some() {
-        return false;
-    }
-
-    state != ContactState::Stick || rates.w[2 * node].is_zero()
 }
 
 /// States as small numbers, for the set of those seen.

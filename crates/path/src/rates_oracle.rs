@@ -327,6 +327,7 @@ fn rate_problems_agree_with_enumeration() {
             contact: &contact,
             friction: &friction,
             classes,
+            causes: &[],
             loads: &|_| vec![Load::Step(0)],
             growing: Load::Step(0),
         };

@@ -39,18 +39,21 @@ pub struct Interval {
     pub begin: Event,
     /// What each candidate does inside the stretch: the states of the rate problem.
     pub states: Vec<ContactState>,
-    /// The contact states of the equilibria inside the stretch, by their reactions alone: a
+    /// The contact states of the equilibria inside the stretch, by gap and reaction alone: a
     /// candidate that sticks on the friction cone is in impending slip, one without reaction is in
     /// z.
     pub equilibrium_states: Vec<ContactState>,
     /// The equilibrium at its beginning.
     pub start: Equilibrium,
+    /// An equilibrium inside: half way, or one unit of the load on where it never ends.
+    pub inside: Equilibrium,
     /// The equilibrium at its end, `None` if it never ends.
     pub stop: Option<Equilibrium>,
 }
 
 impl Interval {
-    /// Number of nodes that stick, slip to the left (S = 1), slip to the right (S = -1), are free.
+    /// Number of candidates that stick, are in impending slip against their tangent (S = 1) and
+    /// along it (S = -1), and are free, at the equilibria inside the stretch.
     pub fn counts(&self) -> [usize; 4] {
         [
             self.count(ContactState::Stick),
@@ -60,30 +63,34 @@ impl Interval {
         ]
     }
 
-    /// Number of nodes in this state.
-    fn count(&self, state: ContactState) -> usize {
-        self.states.iter().filter(|s| **s == state).count()
+    /// Number of candidates in this state at the equilibria inside the stretch.
+    pub fn count(&self, state: ContactState) -> usize {
+        let states = self.equilibrium_states.iter();
+        states.filter(|s| **s == state).count()
     }
 
     /// The stretch of the same body with all gaps and loads times `factor` > 0.
     pub(super) fn scaled(&self, factor: &Rational) -> Interval {
         Interval {
             start: self.start.scaled(factor),
+            inside: self.inside.scaled(factor),
             stop: self.stop.as_ref().map(|stop| stop.scaled(factor)),
             ..self.clone()
         }
     }
 
-    /// One letter for each node: `.` stick, `<` slip to the left, `>` to the right, `o` free.
+    /// One letter for each candidate at the equilibria inside the stretch: `.` stick, `<` impending
+    /// slip against the tangent, `>` along it, `o` free, `z` in contact without reaction.
     pub fn picture(&self) -> String {
-        self.states.iter().map(|state| letter(*state)).collect()
+        let states = self.equilibrium_states.iter();
+        states.map(|state| letter(*state)).collect()
     }
 }
 
-/// `.` stick, `<` slip to the left (S = 1), `>` slip to the right, `o` free.
 fn letter(state: ContactState) -> char {
     match state {
-        ContactState::Free | ContactState::Zero => 'o',
+        ContactState::Free => 'o',
+        ContactState::Zero => 'z',
         ContactState::Stick => '.',
         ContactState::Slip { sign } if sign > 0 => '<',
         ContactState::Slip { .. } => '>',

@@ -14,7 +14,7 @@ use super::line::{Amount, AppliedLoad, Bound, Class, Line, NextEvent, classify, 
 use super::linear::Images;
 use super::load_steps::LoadSteps;
 use super::loading_path::{LoadingPath, PathEnd};
-use super::rates::{Rates, Solved, admissible};
+use super::rates::{Rates, Solved};
 use super::stretch::{Change, Event, Interval};
 use mceip_exact::{Rational, to_f64, whole};
 use mceip_model::ContactState;
@@ -56,7 +56,7 @@ struct SolvedStretch {
 struct Position {
     /// The step whose load grows from here.
     step: usize,
-    /// The amount of that load.
+    /// The amount of that load: 0 where the step begins, else where the stretch before ends.
     a: Rational,
     /// What happens there: the bounds that became zero.
     causes: Vec<Bound>,
@@ -228,7 +228,7 @@ impl<'a> Tracer<'a> {
         let unit = &position.line.denominator * a.denom();
         for (node, state) in position.states.iter().enumerate() {
             if *state != ContactState::Stick {
-                let u_t = position.line.w_at(2 * node, a);
+                let u_t = position.line.w.at(2 * node, a);
                 self.held[node] = Rational::new(u_t, unit.clone());
             }
         }
@@ -242,6 +242,7 @@ impl<'a> Tracer<'a> {
             contact: self.contact,
             friction: &self.friction,
             classes,
+            causes: &position.causes,
             loads: &|states| loads(states, held, gaps, position.step),
             growing: Load::Step(position.step),
         };
@@ -266,19 +267,9 @@ impl<'a> Tracer<'a> {
         classes: &[Class],
         a: &Rational,
     ) -> Result<(), PathError> {
-        self.point(stretch, a).check()?;
-
-        let rates = stretch.line.rates();
-        for (node, &class) in classes.iter().enumerate() {
-            let state = stretch.solved.states[node];
-            if !admissible(node, class, state, rates, &self.friction) {
-                return Err(PathError::LawFails {
-                    equation: "E9",
-                    node,
-                });
-            }
-        }
-
+        let point = self.point(stretch, a);
+        point.check()?;
+        point.check_rates(classes)?;
         Ok(())
     }
 
@@ -320,6 +311,7 @@ impl<'a> Tracer<'a> {
             }
             None => &from.a + whole(1),
         };
+        self.point(stretch, &inside).check()?;
         let classes = classify(line, &inside, &self.friction)?;
 
         Ok(Interval {
@@ -333,6 +325,7 @@ impl<'a> Tracer<'a> {
             states: solved.states.clone(),
             equilibrium_states: classes.into_iter().map(Class::contact_state).collect(),
             start: line.equilibrium(&from.a, self.contact),
+            inside: line.equilibrium(&inside, self.contact),
             stop: end.amount().map(|a| line.equilibrium(a, self.contact)),
         })
     }
