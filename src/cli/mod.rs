@@ -17,6 +17,7 @@ mod job;
 mod manual;
 mod merge;
 mod output;
+mod path;
 mod question;
 mod reduce;
 mod simulate;
@@ -73,6 +74,8 @@ enum Command {
     Table1(table1::Args),
     /// The polyurethane block of section 5: its two published states.
     Block(block::Args),
+    /// From loads to contact states: the quasi-static path of any body, event by event.
+    Path(path::Args),
     /// Random problems of many families through all engines, for seconds or for days.
     Campaign(campaign::Args),
     /// The motion in time, beside what certified modes predict.
@@ -111,6 +114,7 @@ pub fn main() -> ExitCode {
         Command::Conform(a) => conform::run_command(&a),
         Command::Table1(a) => table1::run(&a),
         Command::Block(a) => block::run(&a),
+        Command::Path(a) => path::run(&a),
         Command::Campaign(a) => campaign::run(&a),
         Command::Simulate(a) => simulate::run(&a),
         Command::Reduce(a) => reduce::run(&a),

@@ -38,7 +38,7 @@ pub use marker::Mark;
 pub use markup::Element;
 pub use mode::{Mode, mode_picture};
 pub use motion::{MotionSeries, motion_picture};
-pub use path::path_picture;
+pub use path::{PathLabels, path_picture};
 #[cfg(feature = "png")]
 pub use png::PngError;
 pub use presence::{Presence, PresenceChart, PresenceRange, presence_picture};

@@ -1,8 +1,8 @@
 //! The loading path: resultants against the motion, and the state of every node on every stretch.
 //!
-//! Above stands a chart of T, N and mu N (N) against the motion of CD (mm). Below it stands a table
-//! of the contact states with a column for each stretch and a row for each node. All columns have
-//! one width; grey lines tie each to its part of the motion. Called by `mceip block --report`.
+//! Above stands a chart of T, N and mu N against the load. Below it stands a table of the contact
+//! states with a column for each stretch and a row for each candidate. All columns have one width;
+//! grey lines tie each to its part of the load. Called by `mceip path` and `mceip block --report`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, dot, line, text};
 use super::drawing::Picture;
@@ -11,7 +11,7 @@ use super::marker::Mark;
 use super::markup::Element;
 use super::scale::Spread;
 use mceip_exact::to_f64;
-use mceip_path::{Equilibrium, LoadingPath};
+use mceip_path::{Equilibrium, Interval, LoadingPath};
 
 const WIDTH: f64 = 860.0;
 
@@ -27,61 +27,99 @@ const AREA: Rectangle = Rectangle {
     bottom: 330.0,
 };
 
-/// Draws a path: above T, N and mu N against the motion with a dot at each event; below a column
-/// for each stretch, tied to its part of the motion, with the mark of each node.
-pub fn path_picture(title: &str, path: &LoadingPath) -> Picture {
-    let ends = ends(path);
+/// What the horizontal axis says, and the unit of forces.
+#[derive(Debug, Clone, Copy)]
+pub struct PathLabels {
+    /// Of the load.
+    pub load: &'static str,
+    /// Of the resultants.
+    pub resultants: &'static str,
+}
+
+/// Draws a path: above T, N and mu N against the load with a dot at each event; below a column for
+/// each stretch, tied to its part of the load, with the mark of each candidate. The load is counted
+/// from the beginning of the first stretch, step after step.
+pub fn path_picture(title: &str, path: &LoadingPath, labels: PathLabels) -> Picture {
+    let loads = Loads::of(path);
+    let ends = ends(path, &loads);
     let table = StateTable::of(path);
 
     let mut picture = Picture::new(title, WIDTH, table.bottom() + 78.0);
     picture.push_heading(LEFT, 24.0);
 
-    let chart = push_resultants(&mut picture, path, &ends);
+    let chart = push_resultants(&mut picture, path, &ends, labels);
     table.push_ties(&mut picture, &chart, &ends);
     picture.push(table.marks(path));
     table.push_labels(&mut picture);
 
-    let states = path.intervals.iter().flat_map(|i| &i.states);
+    let states = path.intervals.iter().flat_map(|i| &i.equilibrium_states);
     let marks: Vec<Mark> = states.map(|state| Mark::of(*state)).collect();
     picture.push(legend(&marks, LEFT, table.bottom() + 62.0));
 
     picture
 }
 
-/// Motions at which stretches begin, then where the last one ends; one without an end is drawn a
-/// tenth of the path long.
-fn ends(path: &LoadingPath) -> Vec<f64> {
-    let mut ends = Vec::new();
-    for interval in &path.intervals {
-        ends.push(to_f64(interval.start.amount()));
+/// The load before each step, counted from the first step that has a stretch.
+struct Loads {
+    before: Vec<f64>,
+}
+
+impl Loads {
+    fn of(path: &LoadingPath) -> Loads {
+        let first = path.intervals.first().map_or(0, |interval| interval.step);
+        let mut before = Vec::with_capacity(path.steps.amounts.len());
+        let mut sum = 0.0;
+        for (step, amount) in path.steps.amounts.iter().enumerate() {
+            before.push(sum);
+            if step >= first {
+                sum += amount.as_ref().map_or(0.0, to_f64);
+            }
+        }
+
+        Loads { before }
     }
 
-    let last = path.intervals.last();
-    let stop = last.and_then(|interval| interval.stop.as_ref());
-    let last_start = ends.last().copied().unwrap_or(0.0);
-    match stop {
-        Some(stop) => ends.push(to_f64(stop.amount())),
-        None => ends.push(last_start * 1.1),
+    fn at(&self, step: usize, at: &Equilibrium) -> f64 {
+        self.before[step] + to_f64(at.amount())
     }
+}
+
+/// Loads at which stretches begin, then where the last one ends; one without an end is drawn a
+/// tenth of the path long.
+fn ends(path: &LoadingPath, loads: &Loads) -> Vec<f64> {
+    let mut ends = Vec::new();
+    for interval in &path.intervals {
+        ends.push(loads.at(interval.step, &interval.start));
+    }
+
+    let last_start = ends.last().copied().unwrap_or(0.0);
+    let end = match path.intervals.last() {
+        Some(Interval {
+            step,
+            stop: Some(stop),
+            ..
+        }) => loads.at(*step, stop),
+        _ => last_start * 1.1,
+    };
+    ends.push(end);
 
     ends
 }
 
-/// Resultants of the reactions at a motion.
+/// Resultants of the reactions at a load.
 struct Resultants {
-    /// Motion of CD, mm.
-    motion: f64,
-    /// Sum of r_T, N.
+    load: f64,
+    /// Sum of r_T.
     tangential: f64,
-    /// Minus the sum of r_N, N: the force that presses.
+    /// Minus the sum of r_N: the force that presses.
     normal: f64,
 }
 
 impl Resultants {
-    fn of(at: &Equilibrium, motion: f64) -> Resultants {
+    fn of(at: &Equilibrium, load: f64) -> Resultants {
         let (tangential, normal) = at.resultants();
         Resultants {
-            motion,
+            load,
             tangential: to_f64(&tangential),
             normal: -to_f64(&normal),
         }
@@ -91,17 +129,33 @@ impl Resultants {
 /// The resultants where stretches begin, then those where the last one ends.
 fn resultants(path: &LoadingPath, ends: &[f64]) -> Vec<Resultants> {
     let mut all = Vec::new();
-    for interval in &path.intervals {
-        let start = &interval.start;
-        all.push(Resultants::of(start, to_f64(start.amount())));
+    for (interval, load) in path.intervals.iter().zip(ends) {
+        all.push(Resultants::of(&interval.start, *load));
     }
 
     if let (Some(last), Some(end)) = (path.intervals.last(), ends.last()) {
-        let stop = last.stop.as_ref().unwrap_or(&last.start);
-        all.push(Resultants::of(stop, *end));
+        all.push(match &last.stop {
+            Some(stop) => Resultants::of(stop, *end),
+            None => beyond(last, all.last(), *end),
+        });
     }
 
     all
+}
+
+/// The resultants of a stretch that never ends, at a load beyond its start: they grow as they do
+/// inside.
+fn beyond(last: &Interval, start: Option<&Resultants>, load: f64) -> Resultants {
+    let inside = Resultants::of(&last.inside, load);
+    let Some(start) = start else { return inside };
+
+    let length = to_f64(&(last.inside.amount() - last.start.amount()));
+    let share = (load - start.load) / length;
+    Resultants {
+        load,
+        tangential: start.tangential + share * (inside.tangential - start.tangential),
+        normal: start.normal + share * (inside.normal - start.normal),
+    }
 }
 
 /// One of the curves of the chart.
@@ -109,7 +163,7 @@ struct Curve {
     class: &'static str,
     word: &'static str,
     dash: &'static str,
-    /// Motion and force.
+    /// Load and force.
     points: Vec<(f64, f64)>,
 }
 
@@ -119,9 +173,9 @@ impl Curve {
         let mut normal = Vec::new();
         let mut limit = Vec::new();
         for r in resultants {
-            tangential.push((r.motion, r.tangential));
-            normal.push((r.motion, r.normal));
-            limit.push((r.motion, mu * r.normal));
+            tangential.push((r.load, r.tangential));
+            normal.push((r.load, r.normal));
+            limit.push((r.load, mu * r.normal));
         }
 
         [
@@ -148,7 +202,12 @@ impl Curve {
 }
 
 /// Draws the chart of the resultants.
-fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> Chart {
+fn push_resultants(
+    picture: &mut Picture,
+    path: &LoadingPath,
+    ends: &[f64],
+    labels: PathLabels,
+) -> Chart {
     let mu = to_f64(&path.steps.friction);
     let resultants = resultants(path, ends);
     let mut highest: f64 = 0.0;
@@ -159,13 +218,13 @@ fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> C
     }
 
     let x = Axis {
-        label: "motion of CD to the left (mm)",
+        label: labels.load,
         spread: Spread::Linear,
         values: (0.0, ends.last().copied().unwrap_or(1.0)),
         ticks: 9,
     };
     let y = Axis {
-        label: "resultants (N)",
+        label: labels.resultants,
         spread: Spread::Linear,
         values: (0.0, 1.08 * highest),
         ticks: 7,
@@ -181,10 +240,10 @@ fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> C
 
     let beginnings = resultants.iter().take(path.intervals.len());
     for (k, begin) in beginnings.enumerate() {
-        let motion = begin.motion;
+        let load = begin.load;
         let t = begin.tangential;
-        let tip = format!("stretch {k} begins at {motion:.6} mm, T = {t:.6} N");
-        let data = (motion, t);
+        let tip = format!("stretch {k} begins at {load:.6}, T = {t:.6}");
+        let data = (load, t);
         picture.push(dot(chart.point(data), 3.0, "#fff", data, tip));
     }
 
@@ -212,7 +271,10 @@ impl StateTable {
     const TOP: f64 = AREA.bottom + 100.0;
 
     fn of(path: &LoadingPath) -> StateTable {
-        let rows = path.intervals.first().map_or(0, |i| i.states.len());
+        let rows = path
+            .intervals
+            .first()
+            .map_or(0, |i| i.equilibrium_states.len());
         let columns = path.intervals.len().max(1);
 
         StateTable {
@@ -236,10 +298,10 @@ impl StateTable {
         LEFT + self.column_width * column as f64
     }
 
-    /// Lines between the columns, each tied to its motion on the chart.
+    /// Lines between the columns, each tied to its load on the chart.
     fn push_ties(&self, picture: &mut Picture, chart: &Chart, ends: &[f64]) {
-        for (k, motion) in ends.iter().enumerate().take(self.columns + 1) {
-            let below_chart = (chart.x.place(*motion), AREA.bottom + 50.0);
+        for (k, load) in ends.iter().enumerate().take(self.columns + 1) {
+            let below_chart = (chart.x.place(*load), AREA.bottom + 50.0);
             let top = (self.left_of(k), StateTable::TOP);
             let bottom = (self.left_of(k), self.bottom());
             picture.push(line(below_chart, top, "#999", 0.5));
@@ -253,7 +315,7 @@ impl StateTable {
 
         for (column, interval) in path.intervals.iter().enumerate() {
             let x = self.left_of(column) + self.column_width / 2.0;
-            for (node, state) in interval.states.iter().enumerate() {
+            for (node, state) in interval.equilibrium_states.iter().enumerate() {
                 let y = StateTable::TOP + self.row_height * (node as f64 + 0.5);
                 marks.push(Mark::of(*state).draw(x, y, radius));
             }
@@ -279,7 +341,7 @@ impl StateTable {
         let x = LEFT - 44.0;
         let y = StateTable::TOP + self.height() / 2.0;
         let turn = format!("rotate(-90 {x} {y})");
-        let nodes = text(x, y, "middle", "node, from the left");
+        let nodes = text(x, y, "middle", "node");
         picture.push(nodes.with("transform", turn));
 
         let middle = (LEFT + RIGHT) / 2.0;

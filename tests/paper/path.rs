@@ -682,11 +682,11 @@ mod cli {
 
         assert_eq!(intervals.len(), 7);
         assert_eq!(json["slides"], true);
-        assert_eq!(intervals[6]["to_mm"], Value::Null);
+        assert_eq!(intervals[6]["to"], Value::Null);
         assert_eq!(intervals[1]["event"]["causes"][0]["node"], 5);
-        assert_eq!(intervals[1]["states"][4], "slip left");
+        assert_eq!(intervals[1]["states"][4], "slip-");
 
-        let normal = intervals[0]["start"]["resultant_N_N"].as_f64().unwrap();
+        let normal = intervals[0]["start"]["resultant_N"].as_f64().unwrap();
         assert_eq!(normal, -55.0, "correctly rounded from the exact -55");
 
         let other_states = json["stepping"]["other_states"].as_array().unwrap();

@@ -9,9 +9,10 @@
 use crate::common::{exit_code, exits_with_json, read};
 use crate::program::{Folder, refused};
 use mceip::picture::{
-    BodyDrawing, BodyMode, BranchPoint, Branches, CostSeries, Mark, Mode, Picture, Presence,
-    PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture, branch_picture,
-    cost_picture, mode_picture, path_picture, presence_picture, table1_picture, threshold_picture,
+    BodyDrawing, BodyMode, BranchPoint, Branches, CostSeries, Mark, Mode, PathLabels, Picture,
+    Presence, PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture,
+    branch_picture, cost_picture, mode_picture, path_picture, presence_picture, table1_picture,
+    threshold_picture,
 };
 use mceip_exact::to_f64;
 use mceip_model::file::read_problem;
@@ -321,7 +322,11 @@ fn with_second_node_at(x: &str) -> Problem {
 #[test]
 fn the_path_is_drawn_as_it_is() {
     let path = path();
-    let text = sound(&path_picture("path", &path));
+    let labels = PathLabels {
+        load: "motion",
+        resultants: "resultants",
+    };
+    let text = sound(&path_picture("path", &path, labels));
     let tree = Document::parse(&text).unwrap();
 
     for mark in Mark::ALL {
@@ -645,7 +650,7 @@ fn every_state_is_listed_with_its_evidence() {
     let mut growing = 0;
     for (state, uncondensed) in states.iter().zip(same_states) {
         solutions_are_those_of_the_uncondensed_block(state, uncondensed, nodes);
-        assert!(state["from_mm"].is_number());
+        assert!(state["from"].is_number());
         assert_eq!(state["nodes"].as_str().unwrap().len(), 5);
 
         let levels = list(state, "lambda2");

@@ -13,7 +13,7 @@ use mceip_check::certificate::{Certificate, CriticalCertificate, PresenceCertifi
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport};
 use mceip_engine::lcp::{FileError, read_mcp, read_solution};
 use mceip_model::ModelError;
-use mceip_model::file::read_problem;
+use mceip_model::file::{read_loads, read_problem};
 use mceip_model::reduction::reduce;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -111,6 +111,40 @@ fn examples_and_written_files_are_valid() {
         valid(&problems, &reduced, &format!("reduce {file}"));
 
         what_is_written_for_a_problem_is_valid(&file);
+    }
+}
+
+/// Bodies under loads: what the reader takes the schema takes, and of damaged files neither.
+#[test]
+fn bodies_under_loads_are_valid() {
+    let loads = schema("mceip-loads-1");
+    let file = root("spec/examples/loads.json");
+    let text = std::fs::read_to_string(&file).unwrap();
+    valid(&loads, &read(&file), "loads.json");
+
+    for (from, to) in [
+        ("loads/1", "loads/2"),
+        ("\"gap\": 0.05", "\"gaps\": 0.05"),
+        ("\"gap\": 0.05", "\"state\": \"stick\""),
+        ("\"normal_direction\": -1", "\"normal_direction\": 2"),
+        ("[6, -1]", "[6]"),
+        ("[6, -1]", "[\"6\", -1]"),
+        ("[6, -1]", "[6, true]"),
+        ("\"steps\"", "\"loads\""),
+        ("\"candidates\"", "\"particles\""),
+        (
+            "\"displacements\": [[6, 0]",
+            "\"until\": 1, \"displacements\": [[6, 0]",
+        ),
+    ] {
+        let damaged = text.replace(from, to);
+        assert_ne!(damaged, text, "{from}");
+        let value: Value = serde_json::from_str(&damaged).unwrap();
+        assert!(!loads.is_valid(&value), "schema: {from} -> {to}");
+        assert!(
+            read_loads(&damaged, Path::new(".")).is_err(),
+            "reader: {from} -> {to}"
+        );
     }
 }
 

@@ -6,31 +6,30 @@
 //! ([`states`]), pictures and a report ([`pages`]), and a comparison with ordinary stepping.
 
 mod pages;
-mod states;
-mod words;
 
 use super::args::Args;
 use super::scale::cells_of;
 use crate::cli::common::{CliError, exit, number, positive, print};
 use crate::cli::job::Job;
 use crate::cli::output::{Folder, Output};
-use mceip_engine::report::Table;
-use mceip_engine::run::{Cancel, Progress, Watch};
+use crate::cli::path::states::{self, Followed, ProvedState, Wanted};
+use crate::cli::path::words::end_text;
+use crate::cli::path::{in_background, stretches};
+use mceip_engine::run::{Progress, Watch};
 use mceip_exact::{Integer, Rational, to_f64};
 use mceip_model::ContactState;
 use mceip_paper::path::{BlockPath, Comparison, Loading, step_path};
 use mceip_paper::{Block, BlockModel, MeshKind, Plane};
-use mceip_path::{Bound, Contact, Equilibrium, Event, Finder, Interval, LoadingPath, PathEnd};
+use mceip_path::{Contact, PathEnd};
 use num_traits::ToPrimitive;
 use pages::Shown;
 use serde_json::{Value, json};
-use states::{Followed, ProvedState, Wanted};
-use std::sync::mpsc::{self, RecvTimeoutError};
-use std::time::Duration;
-use words::{causes_text, end_text, motion};
 
 /// More steps than anybody waits for.
 const MAX_STEPS: usize = 1_000_000;
+
+/// The names of the two steps.
+const STEPS: &[&str] = &["pressing", "motion"];
 
 /// Follows the path and prints it.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
@@ -46,10 +45,13 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let folder = Folder::prepare_if("pictures", args.pictures.as_deref())?;
 
     let job = Job::begin("condensing exactly to the contact nodes");
-    let Some(contact) = condense(block.clone(), job.cancel())? else {
+    let condensing = block.clone();
+    let condensed = in_background(job.cancel(), move || condensing.contact_side());
+    let Some(contact) = condensed else {
         job.end();
         return Ok(exit::INTERRUPTED);
     };
+    let contact = contact?;
     let path = follow(&contact, &loading, &job)?;
     let steps = match &step {
         Some(step) => Some(compare(&contact, &path, step, &job)?),
@@ -65,8 +67,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     let say = |progress: &Progress<'_>| job.say(progress);
     let watch = Watch::new(job.cancel(), &say);
+    let stuck = vec![ContactState::Stick; block.contact.len()];
+    let body = block.system(&stuck, None)?;
     let followed = Followed {
-        block: &block,
+        body: &body,
         contact: &contact,
         path: &path.motion,
     };
@@ -193,22 +197,6 @@ fn write_pages(
     Ok(())
 }
 
-/// The condensation in a thread of its own: it cannot be broken off, but it can be left behind.
-/// `None` if it was.
-fn condense(block: Block, cancel: &Cancel) -> Result<Option<Contact>, CliError> {
-    let (send, receive) = mpsc::channel();
-    std::thread::spawn(move || send.send(block.contact_side()));
-
-    loop {
-        match receive.recv_timeout(Duration::from_millis(50)) {
-            Ok(contact) => return Ok(Some(contact?)),
-            Err(RecvTimeoutError::Timeout) if !cancel.is_requested() => {}
-            // Interrupted, or the thread has died and printed why.
-            Err(_) => return Ok(None),
-        }
-    }
-}
-
 fn follow(contact: &Contact, loading: &Loading, job: &Job) -> Result<BlockPath, CliError> {
     let path = BlockPath::follow(contact, loading, &|stretch, motion| {
         let motion = to_f64(motion);
@@ -298,70 +286,18 @@ fn text_of(model: &BlockModel, path: &BlockPath) -> String {
     let mu = to_f64(&path.loading.friction);
     let force = to_f64(&path.loading.force);
     let depth = to_f64(&path.depth);
-    let table = table_of(&path.motion);
+    let table = stretches::table_of(&path.motion, STEPS);
     let end = end_text(&path.motion);
+    let letters = stretches::LETTERS;
 
     format!(
         "{nx} x {ny} cells, {mesh}, plane {plane}; mu = {mu}; pressed {depth:.6} mm to {force} N, \
-         then moved to the left\n\
-         nodes from left to right: . stick, < slips to the left (S = 1), > slips to the right (S \
-          = -1), o free\n\
+         then moved to the left; the tangent points to the right\n\
+         {letters}\n\
          {table}\n\
          every event is an exact rational number; (1), (2), (5), (7) verified exactly at both \
          ends; {end}\n"
     )
-}
-
-fn table_of(path: &LoadingPath) -> Table {
-    let mut table = Table::new(&[
-        "#",
-        "from mm",
-        "to mm",
-        "nodes",
-        "stick",
-        "left",
-        "right",
-        "free",
-        "T at start N",
-        "event it begins with",
-    ]);
-    for (k, interval) in path.intervals.iter().enumerate() {
-        let mut row = stretch_cells(k, interval);
-        row.push(event_text(&interval.begin));
-        table.row(row);
-    }
-
-    table
-}
-
-/// The cells that describe stretch k, but for the event it begins with.
-fn stretch_cells(k: usize, interval: &Interval) -> Vec<String> {
-    let to = match &interval.stop {
-        Some(stop) => motion(stop),
-        None => "-".into(),
-    };
-    let mut cells = vec![
-        k.to_string(),
-        motion(&interval.start),
-        to,
-        interval.picture(),
-    ];
-    cells.extend(interval.counts().map(|count| count.to_string()));
-
-    let (tangential, _) = interval.start.resultants();
-    cells.push(format!("{:.6}", to_f64(&tangential)));
-    cells
-}
-
-/// Why the event happens, and how the states behind it were found.
-fn event_text(event: &Event) -> String {
-    let causes = causes_text(&event.causes);
-    match event.finder {
-        Finder::ActiveSet => causes,
-        Finder::OneByOne => format!("{causes} (states found one by one)"),
-        Finder::Pivoting => format!("{causes} (states found by pivoting)"),
-        Finder::Enumeration => format!("{causes} (states found by trying all)"),
-    }
 }
 
 fn comparison_text(comparison: &Comparison) -> String {
@@ -384,7 +320,7 @@ fn listed(numbers: &[usize]) -> String {
 }
 
 fn json_of(model: &BlockModel, path: &BlockPath, steps: Option<&Comparison>) -> Value {
-    let intervals: Vec<Value> = path.motion.intervals.iter().map(interval_json).collect();
+    let intervals = stretches::json_of(&path.motion, STEPS);
     json!({
         "cells": [model.cells.0, model.cells.1],
         "mesh": model.mesh.word(),
@@ -394,7 +330,7 @@ fn json_of(model: &BlockModel, path: &BlockPath, steps: Option<&Comparison>) -> 
         "mu": path.loading.friction.to_string(),
         "force_N": path.loading.force.to_string(),
         "depth_mm": to_f64(&path.depth),
-        "pressing": states_json(&path.pressing),
+        "pressing": stretches::states_json(&path.pressing),
         "intervals": intervals,
         "end": end_text(&path.motion),
         "slides": path.motion.slides(),
@@ -411,80 +347,8 @@ fn comparison_json(comparison: &Comparison) -> Value {
     })
 }
 
-fn interval_json(interval: &Interval) -> Value {
-    let [stick, left, right, free] = interval.counts();
-    let stop = interval.stop.as_ref();
-
-    json!({
-        "from_mm": to_f64(interval.start.amount()),
-        "to_mm": stop.map(|stop| to_f64(stop.amount())),
-        "states": states_json(&interval.states),
-        "stick": stick,
-        "slip_left": left,
-        "slip_right": right,
-        "free": free,
-        "start": equilibrium_json(&interval.start),
-        "stop": stop.map(equilibrium_json),
-        "event": event_json(&interval.begin),
-    })
-}
-
-fn event_json(event: &Event) -> Value {
-    let causes: Vec<Value> = event.causes.iter().map(cause_json).collect();
-    let mut changes = Vec::new();
-    for change in &event.changes {
-        changes.push(json!({
-            "node": change.node + 1,
-            "from": state_word(change.from),
-            "to": state_word(change.to),
-        }));
-    }
-
-    json!({
-        "causes": causes,
-        "changes": changes,
-        "tried": event.tried,
-    })
-}
-
-fn cause_json(bound: &Bound) -> Value {
-    json!({ "node": bound.node() + 1, "what": bound.word() })
-}
-
-fn equilibrium_json(at: &Equilibrium) -> Value {
-    let (tangential, normal) = at.resultants();
-    let mut reactions = Vec::new();
-    for (r_t, r_n) in at.reactions_f64() {
-        reactions.push(json!([r_t, r_n]));
-    }
-
-    // The fraction of the exact motion fills pages: its size stands for it.
-    let bits = at.amount().numer().bits() + at.amount().denom().bits();
-
-    json!({
-        "motion_bits": bits,
-        "resultant_T_N": to_f64(&tangential),
-        "resultant_N_N": to_f64(&normal),
-        "reactions_T_N": reactions,
-    })
-}
-
 /// Positions of the nodes, mm.
 fn nodes_json(block: &Block) -> Value {
     let nodes = block.nodes.iter();
     nodes.map(|(x, y)| json!([to_f64(x), to_f64(y)])).collect()
-}
-
-fn states_json(states: &[ContactState]) -> Vec<&'static str> {
-    states.iter().map(|s| state_word(*s)).collect()
-}
-
-fn state_word(state: ContactState) -> &'static str {
-    match state {
-        ContactState::Free => "free",
-        ContactState::Zero => "zero",
-        ContactState::Stick => "stick",
-        ContactState::Slip { sign } if sign > 0 => "slip left",
-        ContactState::Slip { .. } => "slip right",
-    }
 }

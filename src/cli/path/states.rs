@@ -16,91 +16,93 @@ use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_engine::search::levels::Levels;
 use mceip_exact::{Rational, enclosing_decimals, to_f64};
 use mceip_model::reduction::{mu_family, reduce};
-use mceip_model::{Body, Pencil, Problem, Unknown, Variable, Window};
-use mceip_paper::Block;
+use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Variable, Window};
 use mceip_path::{Contact, Equilibrium, Interval, LoadingPath};
 use serde_json::{Value, json};
 
 /// A path that was followed, and what it was followed on.
-pub(super) struct Followed<'a> {
-    pub(super) block: &'a Block,
-    pub(super) contact: &'a Contact,
-    pub(super) path: &'a LoadingPath,
+pub(in crate::cli) struct Followed<'a> {
+    /// The body; the contact states of its particles play no part.
+    pub(in crate::cli) body: &'a System,
+    pub(in crate::cli) contact: &'a Contact,
+    pub(in crate::cli) path: &'a LoadingPath,
 }
 
 /// What is asked of the states.
-pub(super) struct Wanted<'a> {
+pub(in crate::cli) struct Wanted<'a> {
     /// Check each MCEIP-mu set on K itself instead of the exactly condensed pencil.
-    pub(super) uncondensed: bool,
+    pub(in crate::cli) uncondensed: bool,
     /// Conditions (19), (20).
-    pub(super) conditions: bool,
+    pub(in crate::cli) conditions: bool,
     /// Coefficients of friction at which MCEIP-lambda2 is solved.
-    pub(super) at_mu: &'a [Rational],
+    pub(in crate::cli) at_mu: &'a [Rational],
     /// Modes over all degrees of freedom.
-    pub(super) modes: bool,
+    pub(in crate::cli) modes: bool,
 }
 
 /// A stretch and what was proved of its contact state.
-pub(super) struct ProvedState {
+pub(in crate::cli) struct ProvedState {
     /// Number of the stretch on the path.
-    pub(super) stretch: usize,
+    pub(in crate::cli) stretch: usize,
     /// Number of nodes in impending slip.
-    pub(super) slip: usize,
+    pub(in crate::cli) slip: usize,
     /// MCEIP-mu over [0, infinity).
-    pub(super) thresholds: ProvedSet,
+    pub(in crate::cli) thresholds: ProvedSet,
     /// The necessary condition, if asked for.
-    pub(super) necessary: Option<Necessary>,
+    pub(in crate::cli) necessary: Option<Necessary>,
     /// MCEIP-lambda2 over [0, infinity), for each mu asked for.
-    pub(super) growing: Vec<Growing>,
+    pub(in crate::cli) growing: Vec<Growing>,
 }
 
 /// MCEIP-lambda2 at a coefficient of friction.
-pub(super) struct Growing {
-    pub(super) mu: Rational,
-    pub(super) set: ProvedSet,
+pub(in crate::cli) struct Growing {
+    pub(in crate::cli) mu: Rational,
+    pub(in crate::cli) set: ProvedSet,
 }
 
 /// A set of solutions with what stays open beside it.
-pub(super) struct ProvedSet {
-    pub(super) solutions: Vec<ProvedMode>,
+pub(in crate::cli) struct ProvedSet {
+    pub(in crate::cli) solutions: Vec<ProvedMode>,
     /// Number of open regions and of families.
-    pub(super) open: usize,
-    pub(super) leaves: usize,
+    pub(in crate::cli) open: usize,
+    pub(in crate::cli) leaves: usize,
 }
 
 /// A certified solution.
-pub(super) struct ProvedMode {
-    pub(super) claim: AcceptedClaim,
+pub(in crate::cli) struct ProvedMode {
+    pub(in crate::cli) claim: AcceptedClaim,
     /// mu, or lambda^2 in 1/s^2.
-    pub(super) value: f64,
+    pub(in crate::cli) value: f64,
     /// Slip nodes that move, counted from 0 among the slip nodes.
-    pub(super) moving: Vec<usize>,
+    pub(in crate::cli) moving: Vec<usize>,
     /// v over all degrees of freedom, if asked for.
-    pub(super) displacement: Option<Vec<f64>>,
+    pub(in crate::cli) displacement: Option<Vec<f64>>,
 }
 
 /// The states in which a node slips, until the work is cancelled.
-pub(super) fn of(
+pub(in crate::cli) fn of(
     followed: &Followed<'_>,
     wanted: &Wanted<'_>,
     watch: &Watch<'_>,
 ) -> Result<Vec<ProvedState>, CliError> {
-    let block = followed.block;
+    let body = followed.body;
     let mut pencils = followed.contact.pencils();
     let mut states = Vec::new();
     for (stretch, interval) in followed.path.intervals.iter().enumerate() {
-        let [_, left, right, _] = interval.counts();
-        let slip = left + right;
+        let states_here = &interval.equilibrium_states;
+        let slip = states_here.iter().filter(|state| is_slip(state)).count();
         if slip == 0 || watch.is_cancelled() {
             continue;
         }
 
         say(watch, stretch, "all solutions");
-        let thresholds = if wanted.uncondensed {
-            uncondensed_set(block, interval, None, wanted.modes, &watch.quiet())?
+        // The condensed pencil of candidates without reaction is not one of MCEIP-mu.
+        let has_zero = states_here.contains(&ContactState::Zero);
+        let thresholds = if wanted.uncondensed || has_zero {
+            uncondensed_set(body, states_here, None, wanted.modes, &watch.quiet())?
         } else {
-            let pencil = pencils.of(&interval.states)?;
-            condensed_set(block, interval, pencil, wanted.modes, &watch.quiet())?
+            let pencil = pencils.of(states_here)?;
+            condensed_set(body, states_here, pencil, wanted.modes, &watch.quiet())?
         };
 
         let mut state = ProvedState {
@@ -113,7 +115,7 @@ pub(super) fn of(
 
         if wanted.conditions && !watch.is_cancelled() {
             say(watch, stretch, "necessary condition");
-            let system = block.system(&interval.states, None)?;
+            let system = body.with_states(states_here, None)?;
             state.necessary = Some(Necessary::of(&mu_family(&system)?)?);
         }
 
@@ -124,7 +126,7 @@ pub(super) fn of(
 
             let what = format!("growth rates at mu = {}", to_f64(mu));
             say(watch, stretch, &what);
-            let set = uncondensed_set(block, interval, Some(mu), wanted.modes, &watch.quiet())?;
+            let set = uncondensed_set(body, states_here, Some(mu), wanted.modes, &watch.quiet())?;
             let mu = mu.clone();
             state.growing.push(Growing { mu, set });
         }
@@ -135,6 +137,11 @@ pub(super) fn of(
     Ok(states)
 }
 
+/// Is it impending slip?
+pub(in crate::cli) fn is_slip(state: &ContactState) -> bool {
+    matches!(state, ContactState::Slip { .. })
+}
+
 fn say(watch: &Watch<'_>, stretch: usize, what: &str) {
     let text = format!("stretch {stretch}: {what}");
     watch.report(&Progress::stage(&text));
@@ -142,18 +149,18 @@ fn say(watch: &Watch<'_>, stretch: usize, what: &str) {
 
 /// The MCEIP-mu set of the exactly condensed pencil, which is that of the state's problem. // (16)
 fn condensed_set(
-    block: &Block,
-    interval: &Interval,
+    body: &System,
+    states: &[ContactState],
     pencil: Pencil,
     with_modes: bool,
     watch: &Watch<'_>,
 ) -> Result<ProvedSet, CliError> {
     let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
     let found = complete(&problem, &Options::default(), watch)?;
-    let mut set = ProvedSet::of(&found, 0);
+    let mut set = ProvedSet::of(&found, 0..states.len());
 
     if with_modes && !set.solutions.is_empty() {
-        let levels = Levels::new(&block.system(&interval.states, None)?)?;
+        let levels = Levels::new(&body.with_states(states, None)?)?;
         let static_level = levels.at(0.0)?;
         for (solution, (_, x)) in set.solutions.iter_mut().zip(found.solutions()) {
             solution.displacement = Some(levels.mode(&static_level, x));
@@ -165,13 +172,19 @@ fn condensed_set(
 
 /// The set of the state's problem as it is: MCEIP-mu, or MCEIP-lambda2 at a given mu.
 fn uncondensed_set(
-    block: &Block,
-    interval: &Interval,
+    body: &System,
+    states: &[ContactState],
     mu: Option<&Rational>,
     with_modes: bool,
     watch: &Watch<'_>,
 ) -> Result<ProvedSet, CliError> {
-    let problem = block.problem(&interval.states, mu.cloned())?;
+    let unknown = if mu.is_some() {
+        Unknown::Lambda2
+    } else {
+        Unknown::Mu
+    };
+    let system = body.with_states(states, mu.cloned())?;
+    let problem = Problem::new(Body::System(system), unknown, Window::all())?;
     let found = complete(&problem, &Options::default(), watch)?;
 
     let variables = reduce(&problem)?.variables;
@@ -179,10 +192,11 @@ fn uncondensed_set(
         .iter()
         .filter(|v| matches!(v, Variable::Free { .. }))
         .count();
-    let mut set = ProvedSet::of(&found, free);
+    let slip = states.iter().filter(|state| is_slip(state)).count();
+    let mut set = ProvedSet::of(&found, free..free + slip);
 
     if with_modes {
-        let dofs = block.stiffness.rows();
+        let dofs = body.dofs();
         for (solution, (_, x)) in set.solutions.iter_mut().zip(found.solutions()) {
             solution.displacement = Some(mode(&variables, x, dofs));
         }
@@ -192,16 +206,16 @@ fn uncondensed_set(
 }
 
 impl ProvedSet {
-    /// The set that a search has found, without displacements. Of its variables the first `free`
-    /// are free, the others belong to the slip nodes.
-    fn of(found: &Completed, free: usize) -> ProvedSet {
+    /// The set that a search has found, without displacements. `slip` are the variables of the slip
+    /// nodes: behind those that are free, before those of candidates without reaction.
+    fn of(found: &Completed, slip: std::ops::Range<usize>) -> ProvedSet {
         let mut solutions = Vec::new();
         for (claim, _) in found.solutions() {
-            let moving = claim.support.iter().filter_map(|i| i.checked_sub(free));
+            let moving = claim.support.iter().filter(|i| slip.contains(i));
             solutions.push(ProvedMode {
                 claim: claim.clone(),
                 value: to_f64(&claim.value.mid()),
-                moving: moving.collect(),
+                moving: moving.map(|i| i - slip.start).collect(),
                 displacement: None,
             });
         }
@@ -214,7 +228,7 @@ impl ProvedSet {
     }
 
     /// The solutions in words, each enclosed to this many digits.
-    pub(super) fn values(&self, name: &str, digits: usize) -> String {
+    pub(in crate::cli) fn values(&self, name: &str, digits: usize) -> String {
         if self.solutions.is_empty() {
             return "none".into();
         }
@@ -230,7 +244,7 @@ impl ProvedSet {
     }
 
     /// What is proved of it.
-    pub(super) fn verdict(&self) -> String {
+    pub(in crate::cli) fn verdict(&self) -> String {
         if self.open == 0 {
             "complete, proved".into()
         } else {
@@ -242,7 +256,7 @@ impl ProvedSet {
 impl ProvedState {
     /// mu from which on the necessary condition holds: the upper end of its enclosure, which is the
     /// accurate one. `None` if not asked for, or if it never holds.
-    pub(super) fn necessary_from(&self) -> Option<f64> {
+    pub(in crate::cli) fn necessary_from(&self) -> Option<f64> {
         let necessary = self.necessary.as_ref()?;
         let stiffness = necessary.stiffness.end();
         let mass = necessary.mass.as_ref().and_then(DefiniteUntil::end);
@@ -252,7 +266,7 @@ impl ProvedState {
     }
 
     /// The equation that says so: (20) for a mass matrix M* that does not depend on mu.
-    pub(super) fn necessary_equation(&self) -> &'static str {
+    pub(in crate::cli) fn necessary_equation(&self) -> &'static str {
         match &self.necessary {
             Some(necessary) if necessary.mass_is_constant => "(20)",
             _ => "(19)",
@@ -260,29 +274,32 @@ impl ProvedState {
     }
 
     /// Do all slip nodes slip in this mode: does it satisfy (17)-(18)?
-    pub(super) fn is_all_slip(&self, mode: &ProvedMode) -> bool {
+    pub(in crate::cli) fn is_all_slip(&self, mode: &ProvedMode) -> bool {
         mode.moving.len() == self.slip
     }
 
     /// Does a solution of this set, one of the state's, satisfy (17)-(18)?
-    pub(super) fn has_all_slip(&self, set: &ProvedSet) -> bool {
+    pub(in crate::cli) fn has_all_slip(&self, set: &ProvedSet) -> bool {
         set.solutions.iter().any(|mode| self.is_all_slip(mode))
     }
 
     /// Is anything left open?
-    pub(super) fn is_open(&self) -> bool {
+    pub(in crate::cli) fn is_open(&self) -> bool {
         self.thresholds.open > 0 || self.growing.iter().any(|g| g.set.open > 0)
     }
 
     /// The marks of a mode.
-    pub(super) fn marks(&self, path: &LoadingPath, mode: &ProvedMode) -> Vec<Mark> {
-        Mark::of_mode(&path.intervals[self.stretch].states, &mode.moving)
+    pub(in crate::cli) fn marks(&self, path: &LoadingPath, mode: &ProvedMode) -> Vec<Mark> {
+        Mark::of_mode(
+            &path.intervals[self.stretch].equilibrium_states,
+            &mode.moving,
+        )
     }
 }
 
 impl ProvedMode {
     /// The value, enclosed to this many digits.
-    pub(super) fn enclosure(&self, digits: usize) -> String {
+    pub(in crate::cli) fn enclosure(&self, digits: usize) -> String {
         let (lo, hi) = enclosing_decimals(&self.claim.value, digits);
         if lo == hi {
             lo
@@ -292,13 +309,13 @@ impl ProvedMode {
     }
 
     /// lambda, 1/s, of a solution of MCEIP-lambda2.
-    pub(super) fn growth_rate(&self) -> f64 {
+    pub(in crate::cli) fn growth_rate(&self) -> f64 {
         self.value.max(0.0).sqrt()
     }
 }
 
 /// The answers as tables for people.
-pub(super) fn text_of(states: &[ProvedState], path: &LoadingPath) -> String {
+pub(in crate::cli) fn text_of(states: &[ProvedState], path: &LoadingPath) -> String {
     let mut out = format!("\n{}\n", thresholds_table(states, path));
     if states.iter().any(|state| !state.growing.is_empty()) {
         out += &format!("{}\n", growing_table(states));
@@ -378,7 +395,7 @@ fn growing_table(states: &[ProvedState]) -> Table {
 }
 
 /// The answers for programs.
-pub(super) fn json_of(states: &[ProvedState], path: &LoadingPath) -> Value {
+pub(in crate::cli) fn json_of(states: &[ProvedState], path: &LoadingPath) -> Value {
     let mut out = Vec::new();
     for state in states {
         out.push(state.json(&path.intervals[state.stretch]));
@@ -398,8 +415,8 @@ impl ProvedState {
             "stretch": self.stretch,
             "slip": self.slip,
             "nodes": interval.picture(),
-            "from_mm": motion(&interval.start),
-            "to_mm": interval.stop.as_ref().map(motion),
+            "from": amount(&interval.start),
+            "to": interval.stop.as_ref().map(amount),
             "solutions": solutions,
             "complete": set.open == 0,
             "leaves": set.leaves,
@@ -454,8 +471,8 @@ impl ProvedState {
     }
 }
 
-/// The motion of CD at an equilibrium, mm.
-fn motion(at: &Equilibrium) -> f64 {
+/// The amount of the growing load at an equilibrium.
+fn amount(at: &Equilibrium) -> f64 {
     to_f64(at.amount())
 }
 

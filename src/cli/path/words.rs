@@ -1,21 +1,31 @@
-//! Motions, causes of events and ends of a loading path in words.
+//! Amounts of loads, states, causes of events and ends of a loading path in words.
 
 use mceip_exact::to_f64;
+use mceip_model::ContactState;
 use mceip_path::{Bound, Equilibrium, LoadingPath, PathEnd};
 
-/// The motion of CD at an equilibrium, mm.
-pub(super) fn motion(at: &Equilibrium) -> String {
+/// The amount of the growing load at an equilibrium.
+pub(in crate::cli) fn amount(at: &Equilibrium) -> String {
     format!("{:.9}", to_f64(at.amount()))
 }
 
+/// A contact state, with the direction in which a candidate slips along its tangent.
+pub(super) fn state_word(state: ContactState) -> &'static str {
+    match state {
+        ContactState::Slip { sign } if sign > 0 => "slip-",
+        ContactState::Slip { .. } => "slip+",
+        other => other.word(),
+    }
+}
+
 /// Why the path ends.
-pub(super) fn end_text(path: &LoadingPath) -> String {
+pub(in crate::cli) fn end_text(path: &LoadingPath) -> String {
     match &path.end {
         PathEnd::NoFurtherEvent if path.slides() => {
-            "the block slides: nothing changes any more".into()
+            "the body slides: no state changes any more".into()
         }
-        PathEnd::NoFurtherEvent => "no further event: some nodes stick for ever".into(),
-        PathEnd::AllApplied => "end of the range".into(),
+        PathEnd::NoFurtherEvent => "no further event: no state changes any more".into(),
+        PathEnd::AllApplied => "all loads are applied".into(),
         PathEnd::Interrupted => "INTERRUPTED".into(),
         PathEnd::NoContinuation {
             causes,
@@ -35,10 +45,10 @@ pub(super) fn end_text(path: &LoadingPath) -> String {
     }
 }
 
-/// The bounds that are reached at an event, node by node (from 1 at the left).
-pub(super) fn causes_text(causes: &[Bound]) -> String {
+/// The bounds that are reached at an event, candidate by candidate (from 1).
+pub(in crate::cli) fn causes_text(causes: &[Bound]) -> String {
     if causes.is_empty() {
-        return "motion begins".into();
+        return "the step begins".into();
     }
 
     let mut reached = Vec::new();

@@ -5,13 +5,13 @@
 //! tables for `--report`. Numbers in captions and tables are exact or certified; charts draw them
 //! in doubles.
 
-use super::states::{Growing, ProvedMode, ProvedSet, ProvedState};
-use super::stretch_cells;
-use super::words::{causes_text, end_text, motion};
 use crate::cli::common::CliError;
+use crate::cli::path::states::{Growing, ProvedMode, ProvedSet, ProvedState};
+use crate::cli::path::stretches::stretch_cells;
+use crate::cli::path::words::{amount, causes_text, end_text};
 use crate::picture::{
-    BranchPoint, Branches, Content, Mode, Picture, Report, Section, Threshold, ThresholdColumn,
-    branch_picture, mode_picture, path_picture, threshold_picture,
+    BranchPoint, Branches, Content, Mode, PathLabels, Picture, Report, Section, Threshold,
+    ThresholdColumn, branch_picture, mode_picture, path_picture, threshold_picture,
 };
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::Levels;
@@ -52,6 +52,12 @@ impl Named {
         }
     }
 }
+
+/// What the axes of the path's picture say.
+const LABELS: PathLabels = PathLabels {
+    load: "motion of CD to the left (mm)",
+    resultants: "resultants (N)",
+};
 
 /// Levels of lambda^2: the lowest natural frequency squared times 1.5^k, for k in this range.
 const LEVELS: std::ops::Range<i32> = -10..14;
@@ -148,7 +154,7 @@ impl Shown<'_> {
         let title = "Loading path: resultants, and the state of each contact node";
         Named {
             name: "path".into(),
-            picture: path_picture(title, &self.path.motion),
+            picture: path_picture(title, &self.path.motion, LABELS),
             caption: PATH_CAPTION.into(),
         }
     }
@@ -390,9 +396,9 @@ impl Shown<'_> {
 
     fn state_rows(&self, state: &ProvedState) -> Vec<Vec<String>> {
         let interval = &self.path.motion.intervals[state.stretch];
-        let from = motion(&interval.start);
+        let from = amount(&interval.start);
         let to = match &interval.stop {
-            Some(stop) => format!("{} mm", motion(stop)),
+            Some(stop) => format!("{} mm", amount(stop)),
             None => "the end".into(),
         };
         let picture = interval.picture();

@@ -1,0 +1,316 @@
+//! `mceip path`: the contact states that loads lead to, event by event.
+//!
+//! A body with contact candidates is loaded step by step (`mceip-loads/1`). The path is piecewise
+//! linear in the load; each event, where a candidate changes its state, is located exactly by
+//! `mceip_path`. Each stretch between two events gives contact states, as a problem file on request
+//! ([`StateFiles`]) and with what is proved of them ([`states`]).
+
+pub(in crate::cli) mod states;
+pub(in crate::cli) mod stretches;
+pub(in crate::cli) mod words;
+
+use super::common::{CliError, exit, positive, print, text};
+use super::job::Job;
+use super::output::{Folder, Output};
+use crate::picture::{PathLabels, path_picture};
+use mceip_engine::run::{Cancel, Progress, Watch};
+use mceip_exact::{Rational, to_f64};
+use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
+use mceip_model::{LoadedBody, System};
+use mceip_path::{Contact, LoadSteps, LoadingPath, PathEnd, PathError};
+use serde_json::{Value, json};
+use states::{Followed, ProvedState, Wanted};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use words::end_text;
+
+/// Arguments of `path`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The body and its loads (`mceip-loads/1`; `-` for stdin).
+    file: PathBuf,
+    /// Another coefficient of friction than that of the file.
+    #[arg(long, allow_hyphen_values = true)]
+    mu: Option<String>,
+    /// Condense in doubles instead of exactly: fast for large bodies and for matrices in doubles.
+    /// The path is then, exactly, that of a body which differs from the given one by rounding.
+    #[arg(long)]
+    doubles: bool,
+    /// Write the problem of each stretch with impending slip into this folder: input of `analyze`.
+    #[arg(long, value_name = "FOLDER")]
+    states: Option<PathBuf>,
+    /// For each state with impending slip the complete set of MCEIP-mu, proved.
+    #[arg(long)]
+    complete: bool,
+    /// With --complete: check these sets on K itself instead of the exactly condensed pencil
+    /// (slower).
+    #[arg(long, requires = "complete")]
+    uncondensed: bool,
+    /// With --complete: from which mu the necessary condition (19) or (20) holds.
+    #[arg(long, requires = "complete")]
+    conditions: bool,
+    /// With --complete: at these mu (one or more, by commas) the complete set of MCEIP-lambda2,
+    /// with growth rates.
+    #[arg(
+        long,
+        requires = "complete",
+        value_name = "MU",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    at_mu: Vec<String>,
+    /// Draw resultants and states along the path, as SVG.
+    #[arg(long, value_name = "OUT.svg")]
+    picture: Option<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What the axes of the picture say: units are those of the file.
+const LABELS: PathLabels = PathLabels {
+    load: "load: 1 at the end of the first step, 2 of the second",
+    resultants: "resultants",
+};
+
+/// Follows the path and prints it.
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let input: &[&Path] = &[&args.file];
+    let file = read(&args.file)?;
+    let friction = friction(&file.body, args.mu.as_deref())?;
+    let at_mu = args.at_mu.iter().map(|mu| positive("at-mu", mu));
+    let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
+    let picture = Output::prepare_if("picture", args.picture.as_deref(), input)?;
+    let folder = Folder::prepare_if("states", args.states.as_deref())?;
+
+    let (how, condense): (_, Condense) = if args.doubles {
+        ("in doubles", Contact::condense_in_doubles)
+    } else {
+        ("exactly", Contact::condense)
+    };
+    let job = Job::begin(&format!("condensing {how} to the contact candidates"));
+    let body = file.body.clone();
+    let condensed = in_background(job.cancel(), move || {
+        condense(body.system(), body.gaps(), body.loads())
+    });
+    let Some(contact) = condensed else {
+        job.end();
+        return Ok(exit::INTERRUPTED);
+    };
+    let contact = contact?;
+
+    let steps = steps(&file.body, &friction);
+    let names: Vec<String> = file.body.steps().iter().map(|s| s.name.clone()).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let path = LoadingPath::follow(&contact, &steps, &|at| {
+        let amount = to_f64(at.amount);
+        let step = names[at.step];
+        job.say(format!("stretch {}: {step}, {amount:.4} of it", at.stretch));
+        job.flow()
+    })?;
+
+    let proved = if args.complete {
+        let wanted = Wanted {
+            // Nothing is proved of the given body on matrices that were rounded.
+            uncondensed: args.uncondensed || args.doubles,
+            conditions: args.conditions,
+            at_mu: &at_mu,
+            modes: false,
+        };
+        let say = |progress: &Progress<'_>| job.say(progress);
+        let watch = Watch::new(job.cancel(), &say);
+        let followed = Followed {
+            body: file.body.system(),
+            contact: &contact,
+            path: &path,
+        };
+        Some(states::of(&followed, &wanted, &watch)?)
+    } else {
+        None
+    };
+    job.end();
+
+    let outcome = Outcome {
+        file,
+        names: &names,
+        path,
+        in_doubles: args.doubles,
+        proved,
+        is_interrupted: job.is_cancelled(),
+    };
+    if let Some(folder) = folder {
+        outcome.write_states(&folder)?;
+    }
+    if let Some(picture) = picture {
+        let title = "Loading path: resultants, and the state of each contact candidate";
+        picture.write(&path_picture(title, &outcome.path, LABELS).to_svg())?;
+    }
+
+    print(&if args.json {
+        format!("{}\n", outcome.json())
+    } else {
+        outcome.text()
+    })?;
+    Ok(outcome.exit_code())
+}
+
+/// A way to condense a body under loads.
+type Condense = fn(&System, &[Rational], &[Vec<Rational>]) -> Result<Contact, PathError>;
+
+fn read(path: &Path) -> Result<LoadsFile, CliError> {
+    let text = text("the loads", path)?;
+    let folder = if path == Path::new("-") {
+        Path::new(".")
+    } else {
+        folder_of(path)
+    };
+    read_loads(&text, folder).map_err(|source| CliError::file(path, source))
+}
+
+/// mu of the command line, else of the file.
+fn friction(body: &LoadedBody, given: Option<&str>) -> Result<Rational, CliError> {
+    match (given, body.system().friction()) {
+        (Some(mu), _) => positive("mu", mu),
+        (None, Some(mu)) => Ok(mu.clone()),
+        (None, None) => Err(CliError::option(
+            "mu",
+            "a coefficient of friction here or in the file",
+            "none",
+        )),
+    }
+}
+
+/// Each load once, the last one without end where the file says so.
+fn steps(body: &LoadedBody, friction: &Rational) -> LoadSteps {
+    let one = Rational::from_integer(1.into());
+    let steps = body.steps().iter();
+    LoadSteps {
+        friction: friction.clone(),
+        amounts: steps
+            .map(|step| (!step.is_endless).then(|| one.clone()))
+            .collect(),
+    }
+}
+
+/// Work in a thread of its own: it cannot be broken off, but it can be left behind. `None` if it
+/// was.
+pub(super) fn in_background<T: Send + 'static>(
+    cancel: &Cancel,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Option<T> {
+    let worker = std::thread::spawn(work);
+    while !worker.is_finished() {
+        if cancel.is_requested() {
+            return None;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+
+    match worker.join() {
+        Ok(done) => Some(done),
+        Err(panic) => std::panic::resume_unwind(panic),
+    }
+}
+
+/// What came out.
+struct Outcome<'a> {
+    file: LoadsFile,
+    /// Names of the steps.
+    names: &'a [&'a str],
+    path: LoadingPath,
+    /// Was the body condensed in doubles?
+    in_doubles: bool,
+    /// What is proved of the states, if asked for.
+    proved: Option<Vec<ProvedState>>,
+    is_interrupted: bool,
+}
+
+impl Outcome<'_> {
+    /// The path and the states, for people.
+    fn text(&self) -> String {
+        let name = self.file.name.as_deref().unwrap_or("a body under loads");
+        let mu = to_f64(&self.path.steps.friction);
+        let letters = stretches::LETTERS;
+        let table = stretches::table_of(&self.path, self.names);
+        let end = end_text(&self.path);
+        let of_what = if self.in_doubles {
+            "of the body condensed in doubles every event is"
+        } else {
+            "every event is"
+        };
+        let mut out = format!(
+            "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
+             {letters}\n\
+             {table}\n\
+             {of_what} an exact rational number; (1), (2), (5), (7) verified exactly at both \
+             ends of each stretch; {end}\n"
+        );
+        match self.proved.as_deref() {
+            None => {}
+            Some([]) => out += "\nno candidate is in impending slip: no state to examine\n",
+            Some(proved) => out += &states::text_of(proved, &self.path),
+        }
+        if self.is_interrupted {
+            out += "INTERRUPTED: what is not listed was not examined\n";
+        }
+
+        out
+    }
+
+    /// The same for programs.
+    fn json(&self) -> Value {
+        let mut out = json!({
+            "name": self.file.name,
+            "mu": self.path.steps.friction.to_string(),
+            "condensed": if self.in_doubles { "in doubles" } else { "exactly" },
+            "steps": self.names,
+            "intervals": stretches::json_of(&self.path, self.names),
+            "end": end_text(&self.path),
+            "slides": self.path.slides(),
+            "interrupted": self.is_interrupted,
+        });
+        if let Some(proved) = &self.proved {
+            out["complete_sets"] = states::json_of(proved, &self.path);
+        }
+
+        out
+    }
+
+    /// The problem of each stretch with impending slip.
+    fn write_states(&self, folder: &Folder) -> Result<(), CliError> {
+        for (k, interval) in self.path.intervals.iter().enumerate() {
+            let states = &interval.equilibrium_states;
+            if !states.iter().any(states::is_slip) {
+                continue;
+            }
+
+            let friction = &self.path.steps.friction;
+            let mut problem = self.file.body.problem(states, friction)?;
+            let name = self.file.name.as_deref().unwrap_or("loading path");
+            problem.name = Some(format!(
+                "{name}, stretch {k} ({})",
+                self.names[interval.step]
+            ));
+            problem.coordinates = self.file.coordinates.clone();
+
+            let file = format!("stretch-{k:03}.json");
+            folder.write(&file, write_problem(&problem).as_bytes())?;
+        }
+
+        Ok(())
+    }
+
+    fn exit_code(&self) -> u8 {
+        let is_unproved = matches!(self.path.end, PathEnd::NoContinuation { proved: false, .. });
+        let mut states = self.proved.iter().flatten();
+        let is_open = states.any(ProvedState::is_open);
+
+        if self.is_interrupted {
+            exit::INTERRUPTED
+        } else if is_unproved || is_open {
+            exit::UNDECIDED
+        } else {
+            exit::DONE
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! The stretches of a loading path as a table for people and as JSON for programs: `mceip path` and
+//! `mceip block --path` print them.
+
+use super::words::{amount, causes_text, state_word};
+use mceip_engine::report::Table;
+use mceip_exact::to_f64;
+use mceip_model::ContactState;
+use mceip_path::{Bound, Equilibrium, Event, Finder, Interval, LoadingPath};
+use serde_json::{Value, json};
+
+/// What the letters of the column "nodes" mean.
+pub(in crate::cli) const LETTERS: &str = "nodes in order: . stick, < impending slip against its \
+    tangent (S = 1), > along it (S = -1), o free, z in contact without reaction";
+
+/// The table of the stretches; `steps` are the names of the steps, shown where there are several.
+pub(in crate::cli) fn table_of(path: &LoadingPath, steps: &[&str]) -> Table {
+    let first = path.intervals.first().map(|interval| interval.step);
+    let has_steps = path
+        .intervals
+        .iter()
+        .any(|interval| Some(interval.step) != first);
+    let mut header = vec![
+        "#",
+        "from",
+        "to",
+        "nodes",
+        "stick",
+        "slip-",
+        "slip+",
+        "free",
+        "T at start",
+        "event it begins with",
+    ];
+    let has_zero = path.intervals.iter().any(|interval| zeros(interval) > 0);
+    if has_zero {
+        header.insert(8, "zero");
+    }
+    if has_steps {
+        header.insert(1, "step");
+    }
+
+    let mut table = Table::new(&header);
+    for (k, interval) in path.intervals.iter().enumerate() {
+        let mut row = stretch_cells(k, interval);
+        if has_zero {
+            row.insert(8, zeros(interval).to_string());
+        }
+        if has_steps {
+            row.insert(1, steps[interval.step].to_string());
+        }
+        row.push(event_text(&interval.begin));
+        table.row(row);
+    }
+
+    table
+}
+
+/// Candidates in contact without reaction.
+fn zeros(interval: &Interval) -> usize {
+    interval.count(ContactState::Zero)
+}
+
+/// The cells that describe stretch k, but for its step and the event it begins with.
+pub(in crate::cli) fn stretch_cells(k: usize, interval: &Interval) -> Vec<String> {
+    let to = match &interval.stop {
+        Some(stop) => amount(stop),
+        None => "-".into(),
+    };
+    let mut cells = vec![
+        k.to_string(),
+        amount(&interval.start),
+        to,
+        interval.picture(),
+    ];
+    cells.extend(interval.counts().map(|count| count.to_string()));
+
+    let (tangential, _) = interval.start.resultants();
+    cells.push(format!("{:.6}", to_f64(&tangential)));
+    cells
+}
+
+/// Why the event happens, and how the states behind it were found.
+fn event_text(event: &Event) -> String {
+    let causes = causes_text(&event.causes);
+    match event.finder {
+        Finder::ActiveSet => causes,
+        Finder::OneByOne => format!("{causes} (states found one by one)"),
+        Finder::Pivoting => format!("{causes} (states found by pivoting)"),
+        Finder::Enumeration => format!("{causes} (states found by trying all)"),
+    }
+}
+
+/// The stretches for programs.
+pub(in crate::cli) fn json_of(path: &LoadingPath, steps: &[&str]) -> Vec<Value> {
+    let intervals = path.intervals.iter();
+    intervals
+        .map(|interval| interval_json(interval, steps[interval.step]))
+        .collect()
+}
+
+fn interval_json(interval: &Interval, step: &str) -> Value {
+    let [stick, against, along, free] = interval.counts();
+    let stop = interval.stop.as_ref();
+
+    json!({
+        "step": step,
+        "from": to_f64(interval.start.amount()),
+        "to": stop.map(|stop| to_f64(stop.amount())),
+        "states": states_json(&interval.states),
+        "equilibrium_states": states_json(&interval.equilibrium_states),
+        "stick": stick,
+        "slip-": against,
+        "slip+": along,
+        "free": free,
+        "zero": zeros(interval),
+        "start": equilibrium_json(&interval.start),
+        "stop": stop.map(equilibrium_json),
+        "event": event_json(&interval.begin),
+    })
+}
+
+fn event_json(event: &Event) -> Value {
+    let causes: Vec<Value> = event.causes.iter().map(cause_json).collect();
+    let mut changes = Vec::new();
+    for change in &event.changes {
+        changes.push(json!({
+            "node": change.node + 1,
+            "from": state_word(change.from),
+            "to": state_word(change.to),
+        }));
+    }
+
+    json!({
+        "causes": causes,
+        "changes": changes,
+        "tried": event.tried,
+    })
+}
+
+fn cause_json(bound: &Bound) -> Value {
+    json!({ "node": bound.node() + 1, "what": bound.word() })
+}
+
+fn equilibrium_json(at: &Equilibrium) -> Value {
+    let (tangential, normal) = at.resultants();
+    let mut reactions = Vec::new();
+    for (r_t, r_n) in at.reactions_f64() {
+        reactions.push(json!([r_t, r_n]));
+    }
+
+    // The fraction of the exact amount fills pages: its size stands for it.
+    let bits = at.amount().numer().bits() + at.amount().denom().bits();
+
+    json!({
+        "amount_bits": bits,
+        "resultant_T": to_f64(&tangential),
+        "resultant_N": to_f64(&normal),
+        "reactions_T_N": reactions,
+    })
+}
+
+/// The states in words.
+pub(in crate::cli) fn states_json(states: &[ContactState]) -> Vec<&'static str> {
+    states.iter().map(|state| state_word(*state)).collect()
+}
