@@ -8,6 +8,7 @@ mod interrupt;
 
 mod block;
 mod block_observations;
+mod loads;
 mod paper_path;
 mod path;
 mod path_found;
