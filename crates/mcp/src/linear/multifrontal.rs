@@ -235,6 +235,12 @@ impl<'m> Elimination<'m> {
     }
 }
 
+/// The columns of a front's panel; none of a front in which nothing is eliminated, which may have
+/// no rows either.
+fn columns<'a>(front: &Front, panel: &'a [f64]) -> std::slice::ChunksExact<'a, f64> {
+    panel.chunks_exact(front.order().max(1))
+}
+
 impl SchurFactor<'_> {
     /// The Schur complement, symmetric, by rows, in the order of the kept unknowns.
     pub fn schur(&self) -> &[Vec<f64>] {
@@ -286,7 +292,7 @@ impl SchurFactor<'_> {
     /// ones.
     fn forward(&self, x: &mut [f64]) {
         for (front, panel) in self.analysis.fronts.iter().zip(&self.panels) {
-            for (c, column) in panel.chunks_exact(front.order()).enumerate() {
+            for (c, column) in columns(front, panel).enumerate() {
                 let pivot = front.begin + c;
                 let value = x[pivot] / column[c];
                 x[pivot] = value;
@@ -307,7 +313,7 @@ impl SchurFactor<'_> {
     /// ones.
     fn backward(&self, x: &mut [f64]) {
         for (front, panel) in self.analysis.fronts.iter().zip(&self.panels).rev() {
-            for (c, column) in panel.chunks_exact(front.order()).enumerate().rev() {
+            for (c, column) in columns(front, panel).enumerate().rev() {
                 let pivot = front.begin + c;
                 let (own, border) = column.split_at(front.own());
 
@@ -362,6 +368,24 @@ mod tests {
     fn positions(n: usize) -> Vec<[f64; 2]> {
         let nodes = 0..n * n;
         nodes.map(|k| [(k / n) as f64, (k % n) as f64]).collect()
+    }
+
+    /// Uncoupled unknowns make fronts in which nothing is eliminated and nothing touches anything.
+    #[test]
+    fn uncoupled_unknowns_are_eliminated_too() {
+        let n = 60;
+        let mut entries: Vec<(usize, usize, f64)> = (0..n).map(|i| (i, i, 4.0)).collect();
+        entries.extend([(0, n - 1, 2.0), (n - 1, 0, 2.0)]);
+        let matrix = Symmetric::new(n, entries).unwrap();
+        let analysis = Analysis::new(&matrix, &[n - 1], &[], None);
+        let factor = analysis.factor(&matrix).unwrap();
+
+        assert_eq!(factor.schur(), [vec![3.0]]);
+        let extended = factor.extend(&[1.0]);
+        assert_eq!((extended[0], extended[1]), (-0.5, 0.0));
+        let ones = vec![1.0; n];
+        assert_eq!(factor.restrict(&ones), [0.5]);
+        assert_eq!(factor.solve(&ones)[1], 0.25);
     }
 
     /// Rows and columns of a matrix as a dense one.
