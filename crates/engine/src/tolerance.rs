@@ -13,6 +13,12 @@ use std::ops::RangeInclusive;
 /// campaign).
 pub const SUPPORT_GUESSES: [f64; 6] = [1e-9, 1e-6, 1e-4, 1e-12, 1e-3, 0.0];
 
+/// A claim whose value is so near to that of a candidate, relative to it, is of the solution that
+/// is meant; else another support is tried too. Unit: none. Basis: candidates that have converged
+/// have nine digits and more, and of reports with fewer digits the best guess of the support is
+/// taken.
+pub(crate) const MEANT_VALUE: f64 = 1e-9;
+
 /// A reported solution that is certified by nothing is inaccurate, and not wrong, where one of the
 /// complete answer is within this many times [`VALUE_RADIUS`] and [`X_RADIUS`]. Unit: none. Basis:
 /// a digit is missing; at two digits the pack's own wrong answers (one per cent off) begin.
@@ -167,10 +173,10 @@ pub const BRACKET_START_BITS: u32 = 32;
 pub const FLUTTER_ANGLE: f64 = 1e-4;
 
 /// Change of a matrix in doubles that counts as rounding where complex lambda^2 are told from real
-/// ones. Unit: share of its largest entry, times its order and, where it is not too large for it,
-/// the condition of M*. Basis: a
-/// hundred times what solving with M* and the iteration for eigenvalues leave. Reason: a pair that
-/// such a change can make real is not called flutter.
+/// ones. Unit: share of what solving with M* adds up in each entry, |M*^-1| |M*| |A|, times the
+/// order; of a large matrix share of its largest entry. Basis: some fifty times what solving with
+/// M* and the iteration for eigenvalues leave. Reason: a pair that such a change can make real is
+/// not called flutter.
 pub const FLUTTER_ROUNDING: f64 = 1e-14;
 
 /// Sizes of numbers that a sentence prints with six decimals; others get six digits and an

@@ -21,8 +21,7 @@ mod symmetric;
 
 pub use analysis::Analysis;
 pub use dense::{
-    Eigenvalue, SparseLu, conditioned_eigenvalues, definite_eigenvalues, eigenvalues, inverse,
-    solve,
+    Eigenvalue, SparseLu, definite_eigenvalues, eigenvalues, inverse, sensitive_eigenvalues, solve,
 };
 pub use multifrontal::{NotDefinite, SchurFactor};
 pub use symmetric::{Symmetric, SymmetricError};

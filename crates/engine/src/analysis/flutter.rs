@@ -15,7 +15,7 @@ use super::families::Families;
 use crate::dense::{rounded, transposed};
 use crate::tolerance::{FLUTTER_ANGLE, FLUTTER_ROUNDING};
 use mceip_exact::{Rational, whole};
-use mceip_mcp::linear::{conditioned_eigenvalues, eigenvalues, inverse, solve};
+use mceip_mcp::linear::{eigenvalues, inverse, sensitive_eigenvalues, solve};
 use mceip_model::{MuFamily, Pencil};
 use std::cmp::Ordering;
 
@@ -170,9 +170,10 @@ fn complex_at(family: &MuFamily, mu: &Rational) -> Option<Vec<(f64, f64)>> {
 ///
 /// A real eigenvalue of multiplicity m becomes m eigenvalues around it in doubles, complex ones
 /// among them, at a distance of the m-th root of rounding; so no angle tells them from flutter.
-/// What tells is the condition: a change of A by its rounding moves each of them to the real axis.
-/// That rounding is what solving with M leaves, by its condition | |M^-1| |M| |, which the units of
-/// rows do not change. For a large matrix, whose eigenvectors take long, the angle has to do.
+/// What tells is the sensitivity: a change of A by its rounding moves each of them to the real
+/// axis. That rounding is what solving with M leaves in each entry, a share of |M^-1| |M| |A|; no
+/// change of units of the dofs has a part in it, and none in rows that do not touch the
+/// eigenvector. For a large matrix, whose eigenvectors take long, the angle has to do.
 fn complex_eigenvalues(stiffness: &[Vec<f64>], mass: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
     let mut columns = transposed(stiffness);
     for column in &mut columns {
@@ -190,26 +191,40 @@ fn complex_eigenvalues(stiffness: &[Vec<f64>], mass: &[Vec<f64>]) -> Option<Vec<
         return Some(complex);
     }
 
-    let rounding = FLUTTER_ROUNDING * order * condition(mass)? * largest_entry(&matrix);
-    let mut complex = conditioned_eigenvalues(&matrix)?;
-    complex.retain(|z| z.im > rounding * z.condition);
+    let share = FLUTTER_ROUNDING * order;
+    let mut changes = product(
+        &product(&absolute(&inverse(mass)?), &absolute(mass)),
+        &absolute(&matrix),
+    );
+    for change in changes.iter_mut().flatten() {
+        *change *= share;
+    }
+
+    let mut complex = sensitive_eigenvalues(&matrix, &changes)?;
+    let residuals = FLUTTER_ROUNDING / f64::EPSILON;
+    complex.retain(|z| z.im > z.sensitivity + residuals * z.residual);
     Some(complex.iter().map(|z| (z.re, z.im)).collect())
 }
 
-/// The largest row sum of |M^-1| |M|.
-fn condition(mass: &[Vec<f64>]) -> Option<f64> {
-    let row_sums: Vec<f64> = mass
-        .iter()
-        .map(|row| row.iter().map(|v| v.abs()).sum())
-        .collect();
+/// The entries without their signs.
+fn absolute(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let rows = rows.iter();
+    rows.map(|row| row.iter().map(|v| v.abs()).collect())
+        .collect()
+}
 
-    let mut largest: f64 = 0.0;
-    for row in inverse(mass)? {
-        let products = row.iter().zip(&row_sums);
-        largest = largest.max(products.map(|(v, sum)| v.abs() * sum).sum());
+/// The product of two square matrices.
+fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut product = vec![vec![0.0; b.len()]; a.len()];
+    for (i, row) in a.iter().enumerate() {
+        for (k, factor) in row.iter().enumerate() {
+            for (sum, entry) in product[i].iter_mut().zip(&b[k]) {
+                *sum += factor * entry;
+            }
+        }
     }
 
-    Some(largest)
+    product
 }
 
 fn largest_entry(rows: &[Vec<f64>]) -> f64 {
@@ -349,6 +364,28 @@ mod tests {
             }
         }
         assert!(split > 10, "{split} eigenvalues were split");
+    }
+
+    /// K = [[2, 1], [-1, 2]] with the unit of one dof changed, or with a very stiff spring beside
+    /// it.
+    #[test]
+    fn units_and_stiff_springs_elsewhere_have_no_part_in_it() {
+        for unit in [1e-12, 1e-7, 1e7, 1e12] {
+            let stiffness = [vec![2.0, unit], vec![-unit, 2.0 * unit * unit]];
+            let mass = [vec![1.0, 0.0], vec![0.0, unit * unit]];
+            let found = complex_eigenvalues(&stiffness, &mass).unwrap();
+            assert_eq!(found.len(), 1, "{unit}");
+        }
+
+        for spring in [1e14, 1e20] {
+            let stiffness = [
+                vec![2.0, 1.0, 0.0],
+                vec![-1.0, 2.0, 0.0],
+                vec![0.0, 0.0, spring],
+            ];
+            let found = complex_eigenvalues(&stiffness, &identity(3)).unwrap();
+            assert_eq!(found.len(), 1, "{spring}");
+        }
     }
 
     #[test]

@@ -8,8 +8,10 @@ use super::proposals::{Preference, Proposal, proposals};
 use super::rows::IntegralRows;
 use crate::candidate::Candidate;
 use crate::reduction::zero_of;
+use crate::tolerance::MEANT_VALUE;
 use mceip_check::certificate::Claim;
 use mceip_check::{AcceptedClaim, ClaimChecker, Reason};
+use mceip_exact::to_f64;
 use mceip_model::{Pencil, Problem, ZeroVariables};
 
 /// Makes claims about one problem and has each of them checked.
@@ -64,23 +66,49 @@ impl<'a> Certifier<'a> {
         let window = self.problem.window();
         let candidate = candidate.one_sided(&self.zero);
         let proposals = proposals(self.pencil, &self.rows, window, &candidate, self.preference)?;
-        self.first_accepted(proposals)
+        self.first_accepted(proposals, candidate.value)
     }
 
-    /// The first proposal that the checker accepts.
+    /// The first proposal that the checker accepts with the value of the candidate, else the first
+    /// one that it accepts: a component that looks like rounding may part two solutions of near
+    /// values.
     fn first_accepted(
         &self,
         proposals: impl Iterator<Item = Proposal>,
+        value: f64,
     ) -> Result<(Claim, AcceptedClaim), NotCertified> {
         let mut attempts = Vec::new();
+        let mut first = None;
         for Proposal { support, claim } in proposals {
             match claim.and_then(|claim| self.examined(claim)) {
-                Ok(accepted) => return Ok(accepted),
+                Ok(accepted) if is_value(&accepted.1, value) => return Ok(accepted),
+                Ok(accepted) => {
+                    first.get_or_insert(accepted);
+                }
                 Err(failure) => attempts.push(Attempt { support, failure }),
             }
         }
 
-        Err(NotCertified { attempts })
+        first.ok_or(NotCertified { attempts })
+    }
+
+    /// Every claim that the candidate suggests and the checker accepts, best first.
+    pub(crate) fn every_accepted(&self, candidate: &Candidate) -> Vec<Claim> {
+        let window = self.problem.window();
+        let candidate = candidate.one_sided(&self.zero);
+        let Ok(proposals) = proposals(self.pencil, &self.rows, window, &candidate, self.preference)
+        else {
+            return Vec::new();
+        };
+
+        let mut accepted = Vec::new();
+        for proposal in proposals {
+            if let Ok((claim, _)) = proposal.claim.and_then(|claim| self.examined(claim)) {
+                accepted.push(claim);
+            }
+        }
+
+        accepted
     }
 
     /// The claim and the verdict, if the checker accepts it.
@@ -92,6 +120,16 @@ impl<'a> Certifier<'a> {
             }),
         }
     }
+}
+
+/// Is the value of an accepted claim the one that a candidate has, up to [`MEANT_VALUE`]?
+#[allow(
+    clippy::float_arithmetic,
+    reason = "which claim is meant, not whether it holds"
+)]
+fn is_value(accepted: &AcceptedClaim, value: f64) -> bool {
+    let claimed = to_f64(&accepted.value.mid());
+    (claimed - value).abs() <= MEANT_VALUE * value.abs()
 }
 
 /// A claim that the candidate suggests and the checker accepts; for several candidates a
@@ -196,7 +234,7 @@ mod tests {
         let problem = problem();
         let certifier = Certifier::new(&problem, pencil(&problem));
 
-        let alone = certifier.first_accepted([proposal(forged(&problem))].into_iter());
+        let alone = certifier.first_accepted([proposal(forged(&problem))].into_iter(), 2.0);
 
         let Err(refused) = alone else {
             panic!("a forged claim was accepted")
@@ -211,7 +249,7 @@ mod tests {
         assert!(told.contains("the checker refuses the claim"), "{told}");
 
         let both = [proposal(forged(&problem)), proposal(good(&problem))];
-        let (accepted, _) = certifier.first_accepted(both.into_iter()).unwrap();
+        let (accepted, _) = certifier.first_accepted(both.into_iter(), 2.0).unwrap();
         assert_eq!(accepted, good(&problem));
     }
 

@@ -10,7 +10,7 @@ use super::agreement::{Agreement, agreement};
 use super::refute::{Effort, Enumerated, refute};
 use super::report::Reported;
 use crate::candidate::{BACKWARD_ERROR_DIGITS, Candidate};
-use crate::certify::certify;
+use crate::certify::{Certifier, certify};
 use crate::multistart::{exact_value, support};
 use mceip_check::certificate::{Claim, EnclosedSolution};
 use mceip_exact::{Algebraic, Interval, Poly};
@@ -121,12 +121,18 @@ pub fn judge(
         return Verdict::Accepted(Box::new(proved));
     }
 
-    // Noise in components that are zero may have led to another solution near by.
+    // Noise in components that are zero, and true components that look like noise, may have led to
+    // another solution near by.
     let cleaned = without_noise(candidate, tolerance);
-    if let Ok(again) = prove(problem, reduced, reported, &cleaned)
-        && again.agreement.is_within(tolerance)
-    {
-        return Verdict::Accepted(Box::new(again));
+    let certifier = Certifier::new(problem, &reduced.pencil);
+    for meant in [candidate, &cleaned] {
+        for claim in certifier.every_accepted(meant) {
+            if let Some(agreement) = agreement(problem, reduced, &claim, reported)
+                && agreement.is_within(tolerance)
+            {
+                return Verdict::Accepted(Box::new(Confirmed { claim, agreement }));
+            }
+        }
     }
 
     Verdict::Inaccurate {

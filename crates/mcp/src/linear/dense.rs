@@ -1,6 +1,6 @@
 //! Dense factorisations in doubles, and sparse LU. The only file that names faer.
 //!
-//! Public: [`inverse`], [`solve`], [`eigenvalues`], [`conditioned_eigenvalues`],
+//! Public: [`inverse`], [`solve`], [`eigenvalues`], [`sensitive_eigenvalues`],
 //! [`definite_eigenvalues`] of dense matrices, and [`SparseLu`]. `eliminate_front` is the kernel of
 //! the sparse Cholesky factors of `multifrontal`.
 //!
@@ -133,47 +133,107 @@ pub fn eigenvalues(rows: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
     Some(values.iter().map(|z| (z.re, z.im)).collect())
 }
 
-/// An eigenvalue re + i im of a square matrix.
+/// An eigenvalue re + i im of a square matrix, and how far changes of the matrix move it, to first
+/// order. Infinite where doubles find no left eigenvector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Eigenvalue {
     /// Real part.
     pub re: f64,
     /// Imaginary part.
     pub im: f64,
-    /// |u| |v| / |u'v| for the left and right eigenvectors u, v: a change of the matrix by e moves
-    /// the eigenvalue by this times e at most, to first order. Infinite where doubles find no u.
-    pub condition: f64,
+    /// |u|' E |v| / |u'v| for the left and right eigenvectors u, v: what a change of each entry by
+    /// that of E at most does. No change of units of the unknowns changes it.
+    pub sensitivity: f64,
+    /// |u'(A v - t v)| / |u'v|: what the iteration has left.
+    pub residual: f64,
 }
 
-/// The eigenvalues of a square matrix given by rows with their condition, in no particular order.
+/// The eigenvalues of a square matrix A given by rows with their sensitivity to changes E >= 0 of
+/// its entries, in no particular order.
 ///
-/// The left eigenvectors are the rows of V^-1, V the matrix of right ones. `None` if an entry is
-/// not finite or the iteration does not converge.
-pub fn conditioned_eigenvalues(rows: &[Vec<f64>]) -> Option<Vec<Eigenvalue>> {
+/// The matrix is balanced first: units of the unknowns are changed by powers of two until rows and
+/// columns have like sums. The left eigenvectors are the rows of V^-1, V the matrix of right ones.
+/// `None` if an entry is not finite or the iteration does not converge.
+pub fn sensitive_eigenvalues(rows: &[Vec<f64>], changes: &[Vec<f64>]) -> Option<Vec<Eigenvalue>> {
     if !are_finite(rows) {
         return None;
     }
 
-    let eigen = square(rows).eigen().ok()?;
+    let order = rows.len();
+    let units = balancing_units(rows);
+    let in_units = |rows: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        let entry = |i: usize, j: usize| rows[i][j] * units[j] / units[i];
+        (0..order)
+            .map(|i| (0..order).map(|j| entry(i, j)).collect())
+            .collect()
+    };
+    let rows = in_units(rows);
+    let changes = in_units(changes);
+
+    let eigen = square(&rows).eigen().ok()?;
     let right = eigen.U();
     let left = right.partial_piv_lu().inverse();
 
     let values = eigen.S().column_vector();
-    let mut eigenvalues = Vec::with_capacity(rows.len());
-    for k in 0..rows.len() {
-        let condition = left.row(k).norm_l2() * right.col(k).norm_l2();
+    let mut eigenvalues = Vec::with_capacity(order);
+    for k in 0..order {
+        let mut sensitivity = 0.0;
+        let mut residual = values[k] * 0.0;
+        for i in 0..order {
+            let mut row = right[(i, k)] * -values[k];
+            let mut change = 0.0;
+            for j in 0..order {
+                row += right[(j, k)] * rows[i][j];
+                change += changes[i][j] * right[(j, k)].norm();
+            }
+            residual += left[(k, i)] * row;
+            sensitivity += left[(k, i)].norm() * change;
+        }
+
+        let finite = |v: f64| if v.is_finite() { v } else { f64::INFINITY };
         eigenvalues.push(Eigenvalue {
             re: values[k].re,
             im: values[k].im,
-            condition: if condition.is_finite() {
-                condition
-            } else {
-                f64::INFINITY
-            },
+            sensitivity: finite(sensitivity),
+            residual: finite(residual.norm()),
         });
     }
 
     Some(eigenvalues)
+}
+
+/// Sweeps of balancing, at most; a few settle it.
+const BALANCING_SWEEPS: usize = 20;
+
+/// Powers of two d such that in D^-1 A D the sums of a row and of its column, the diagonal left
+/// out, differ by a factor of about four at most (Osborne 1960). A row or column of zeros keeps its
+/// unit.
+fn balancing_units(rows: &[Vec<f64>]) -> Vec<f64> {
+    let order = rows.len();
+    let mut units = vec![1.0; order];
+    for _ in 0..BALANCING_SWEEPS {
+        let mut has_changed = false;
+        for i in 0..order {
+            let others = (0..order).filter(|&j| j != i);
+            let mut row = 0.0;
+            let mut column = 0.0;
+            for j in others {
+                row += (rows[i][j] * units[j] / units[i]).abs();
+                column += (rows[j][i] * units[i] / units[j]).abs();
+            }
+
+            let exponent = (0.5 * (row / column).log2()).round();
+            if exponent.is_finite() && exponent != 0.0 {
+                units[i] *= exponent.exp2();
+                has_changed = true;
+            }
+        }
+        if !has_changed {
+            break;
+        }
+    }
+
+    units
 }
 
 /// The eigenvalues t of B v = t A v for symmetric B and symmetric positive definite A, ascending.
@@ -282,11 +342,20 @@ mod tests {
 
         // (1, 0) and (1, d) are the right eigenvectors of [1 1; 0 1 + d], at an angle of d.
         let nearly_double = [vec![1.0, 1.0], vec![0.0, 1.0 + 1e-6]];
-        let values = conditioned_eigenvalues(&nearly_double).unwrap();
-        approx::assert_relative_eq!(values[0].condition, 1e6, max_relative = 1e-6);
-        let values = conditioned_eigenvalues(&rotation).unwrap();
+        let ones = [vec![1.0, 1.0], vec![1.0, 1.0]];
+        let values = sensitive_eigenvalues(&nearly_double, &ones).unwrap();
+        approx::assert_relative_eq!(values[0].sensitivity, 1e6, max_relative = 1e-5);
+        let values = sensitive_eigenvalues(&rotation, &ones).unwrap();
         approx::assert_relative_eq!(values[0].im.abs(), 2.0, epsilon = 1e-12);
-        approx::assert_relative_eq!(values[1].condition, 1.0, epsilon = 1e-12);
+        approx::assert_relative_eq!(values[1].sensitivity, 2.0, epsilon = 1e-12);
+        assert!(values[1].residual < 1e-14);
+
+        // The same in other units: nothing changes but the entries.
+        let units = 2f64.powi(40);
+        let turned = [vec![0.0, -2.0 * units], vec![2.0 / units, 0.0]];
+        let changes = [vec![1.0, units], vec![1.0 / units, 1.0]];
+        let values = sensitive_eigenvalues(&turned, &changes).unwrap();
+        approx::assert_relative_eq!(values[1].sensitivity, 2.0, epsilon = 1e-12);
 
         // det(B - t A) = 3 t^2 - 4 t - 3 for these two.
         let b = vec![vec![3.0, 0.0], vec![0.0, -1.0]];
