@@ -9,7 +9,7 @@ mod report;
 use super::common::{CliError, exit, load, positive, print, require_count, require_threads};
 use super::job::Job;
 use super::output::Output;
-use crate::SolutionSet;
+use crate::{Solution, SolutionSet};
 use mceip_exact::to_f64;
 use mceip_model::{Body, ModelError, Particle, Problem, System, Unknown, Window};
 use mceip_motion::{
@@ -86,6 +86,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         slip_particles: equations.slip_particles().to_vec(),
         is_complete: set.is_complete(),
         families: set.families().len(),
+        unknown: set.solutions().iter().filter(|s| is_unknown(s)).count(),
         modes: Vec::new(),
         impulses: Vec::new(),
         is_interrupted: false,
@@ -136,7 +137,12 @@ fn require_counts(args: &Args) -> Result<(), CliError> {
     require_count("impulses", args.impulses as u64, 0..=MAX_IMPULSES)
 }
 
-/// A run along each certified mode.
+/// Is the displacement of this solution not known to doubles?
+fn is_unknown(solution: &Solution) -> bool {
+    solution.v.as_ref().is_none_or(Vec::is_empty)
+}
+
+/// A run along each certified mode whose displacement is known.
 fn along_modes(
     args: &Args,
     duration: Option<f64>,
@@ -147,7 +153,7 @@ fn along_modes(
     let unit = equations.longest_period()?;
 
     let mut modes = Vec::new();
-    for solution in set.solutions() {
+    for solution in set.solutions().iter().filter(|s| !is_unknown(s)) {
         if job.is_cancelled() {
             break;
         }
@@ -209,6 +215,7 @@ fn exit_code(simulation: &Simulation) -> u8 {
     let agreements: Vec<Agreement> = agreements.collect();
     let is_open = simulation.solutions_of_a_step != StepSolutions::One
         || !simulation.is_complete
+        || simulation.unknown > 0
         || agreements.contains(&Agreement::TooShort);
 
     if simulation.is_interrupted {

@@ -249,7 +249,11 @@ impl Equations {
 
         let mass = shape.dot(&(&self.energy_mass * &shape));
         let stiffness = shape.dot(&(&self.energy_stiffness * &shape));
-        let rounding = f64::EPSILON * self.order() as f64 * self.energy_stiffness.amax();
+        // What rounding may leave of e'Ke where it is zero: the terms that cancel, whatever their
+        // units.
+        let shape = shape.abs();
+        let terms = shape.dot(&(self.energy_stiffness.abs() * &shape));
+        let rounding = f64::EPSILON * self.order() as f64 * terms;
         if stiffness <= rounding {
             return Err(MotionError::Doubles {
                 what: "a K that is singular on the motions that the contacts leave: one of them \

@@ -10,11 +10,11 @@ use crate::picture::Mark;
 use mceip_check::AcceptedClaim;
 use mceip_engine::analysis::conditions::{DefiniteUntil, Necessary};
 use mceip_engine::reduction::mode;
-use mceip_engine::report::Table;
+use mceip_engine::report::{Table, fixed_decimals, six_digits};
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_engine::search::levels::Levels;
-use mceip_exact::{Rational, enclosing_decimals, to_f64};
+use mceip_exact::{Rational, enclosing_decimals, from_f64, to_f64};
 use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Variable, Window};
 use mceip_path::{Contact, Equilibrium, Interval, LoadingPath};
@@ -339,7 +339,8 @@ fn thresholds_table(states: &[ProvedState], path: &LoadingPath) -> Table {
             (None, _) => "".into(),
             (Some(_), None) => "never holds".into(),
             (Some(_), Some(mu)) => {
-                format!("{} from mu = {mu:.9} on", state.necessary_equation())
+                let mu = fixed_decimals(&from_f64(mu).unwrap_or_default(), 9);
+                format!("{} from mu = {mu} on", state.necessary_equation())
             }
         };
 
@@ -378,7 +379,7 @@ fn growing_table(states: &[ProvedState]) -> Table {
                     stretch.clone(),
                     mu.clone(),
                     solution.enclosure(10),
-                    format!("{:.6}", solution.growth_rate()),
+                    six_digits(solution.growth_rate()),
                     format!("{} of {}", solution.moving.len(), state.slip),
                     verdict.clone(),
                 ]);

@@ -2,7 +2,7 @@
 //! `mceip block --path` print them.
 
 use super::words::{amount, causes_text, state_word};
-use mceip_engine::report::Table;
+use mceip_engine::report::{Table, fixed_decimals};
 use mceip_exact::to_f64;
 use mceip_model::ContactState;
 use mceip_path::{Bound, Equilibrium, Event, Finder, Interval, LoadingPath};
@@ -75,7 +75,7 @@ pub(in crate::cli) fn stretch_cells(k: usize, interval: &Interval) -> Vec<String
     cells.extend(interval.counts().map(|count| count.to_string()));
 
     let (tangential, _) = interval.start.resultants();
-    cells.push(format!("{:.6}", to_f64(&tangential)));
+    cells.push(fixed_decimals(&tangential, 6));
     cells
 }
 

@@ -1,12 +1,12 @@
 //! Amounts of loads, states, causes of events and ends of a loading path in words.
 
-use mceip_exact::to_f64;
+use mceip_engine::report::fixed_decimals;
 use mceip_model::ContactState;
 use mceip_path::{Bound, Equilibrium, LoadingPath, PathEnd};
 
 /// The amount of the growing load at an equilibrium.
 pub(in crate::cli) fn amount(at: &Equilibrium) -> String {
-    format!("{:.9}", to_f64(at.amount()))
+    fixed_decimals(at.amount(), 9)
 }
 
 /// A contact state, with the direction in which a candidate slips along its tangent.

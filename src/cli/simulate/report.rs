@@ -1,7 +1,7 @@
 //! What `mceip simulate` says: sentences, `mceip-motion/1`, and the picture.
 
 use crate::picture::{MotionSeries, Picture, Spread, motion_picture};
-use mceip_engine::report::Table;
+use mceip_engine::report::{Table, six_digits};
 use mceip_exact::{Interval, enclosing_decimals};
 use mceip_motion::{
     AfterImpulse, Agreement, Growth, GrowthPoint, MotionClass, Range, StepSolutions, Trajectory,
@@ -20,6 +20,8 @@ pub(super) struct Simulation {
     pub(super) is_complete: bool,
     /// Continua of solutions, which are not followed.
     pub(super) families: usize,
+    /// Certified solutions whose displacement is not known to doubles, which are not followed.
+    pub(super) unknown: usize,
     pub(super) modes: Vec<SimulatedMode>,
     pub(super) impulses: Vec<SimulatedImpulse>,
     pub(super) is_interrupted: bool,
@@ -48,7 +50,8 @@ const ROWS: usize = 8;
 impl Simulation {
     /// Has the checker accepted that no solution exists?
     pub(super) fn is_proved_absent(&self) -> bool {
-        self.is_complete && self.modes.is_empty() && self.families == 0
+        let has_none = self.modes.is_empty() && self.families == 0 && self.unknown == 0;
+        self.is_complete && has_none
     }
 }
 
@@ -75,6 +78,14 @@ pub(super) fn text(simulation: &Simulation) -> String {
     if simulation.families > 0 {
         let families = simulation.families;
         out += &format!("{families} families of modes exist beside them and are not followed.\n");
+    }
+
+    if simulation.unknown > 0 {
+        out += &format!(
+            "UNDECIDED: certified modes that are not followed, for their displacements are not known \
+             to doubles: {}.\n",
+            simulation.unknown
+        );
     }
 
     for impulse in &simulation.impulses {
@@ -113,14 +124,15 @@ fn mode_text(number: usize, mode: &SimulatedMode) -> String {
     let (lo, hi) = enclosing_decimals(&mode.lambda2, 12);
     let support = &mode.support;
     let mut out = format!(
-        "Mode {number} (certified): lambda2 in [{lo}, {hi}], lambda = {:.6}, slip {support:?}\n",
-        mode.rate
+        "Mode {number} (certified): lambda2 in [{lo}, {hi}], lambda = {}, slip {support:?}\n",
+        six_digits(mode.rate)
     );
 
     let mut table = Table::new(&["  time", "alpha, predicted", "steps h", "steps h/2"]);
     let every = growth.points.len().div_ceil(ROWS).max(1);
+    let duration = growth.points.last().map_or(0.0, |point| point.time);
     for point in growth.points.iter().step_by(every) {
-        table.row(cells(point));
+        table.row(cells(point, duration));
     }
     out += &table.to_string();
 
@@ -134,10 +146,11 @@ fn mode_text(number: usize, mode: &SimulatedMode) -> String {
         growth.error, growth.stated_error
     );
     if let Some(time) = growth.overtaken {
-        out += &format!("  from {time:.6} on a motion that grows faster has taken over\n");
+        let time = time_text(time, duration);
+        out += &format!("  from {time} on a motion that grows faster has taken over\n");
     }
 
-    out + &range_text(growth.trajectory.range.as_ref())
+    out + &range_text(growth.trajectory.range.as_ref(), duration)
 }
 
 /// The verdict of a comparison.
@@ -149,27 +162,39 @@ fn agreement_word(growth: &Growth) -> &'static str {
     }
 }
 
-fn cells(point: &GrowthPoint) -> Vec<String> {
+/// Durations in whose unit six decimals tell the rows of a table apart.
+const SIX_DECIMALS_FROM: f64 = 0.1;
+
+/// A time within a run of this duration: six decimals where they suffice for the run.
+fn time_text(time: f64, duration: f64) -> String {
+    if duration >= SIX_DECIMALS_FROM {
+        format!("{time:.6}")
+    } else {
+        format!("{time:.6e}")
+    }
+}
+
+fn cells(point: &GrowthPoint, duration: f64) -> Vec<String> {
     vec![
-        format!("  {:.6}", point.time),
+        format!("  {}", time_text(point.time, duration)),
         format!("{:.9}", point.predicted),
         format!("{:.9}", point.coarse),
         format!("{:.9}", point.fine),
     ]
 }
 
-fn range_text(range: Option<&Range>) -> String {
+fn range_text(range: Option<&Range>, duration: f64) -> String {
     let Some(range) = range else {
         return String::new();
     };
 
     format!(
         "  with the file's reactions: a motion of (1)-(3) to the end for amplitudes up to {:.6e}; \
-         then particle {} {} at {:.6}\n",
+         then particle {} {} at {}\n",
         range.amplitude,
         range.particle,
         range.limit.word(),
-        range.time
+        time_text(range.time, duration)
     )
 }
 
@@ -191,7 +216,7 @@ fn class_text(trajectory: &Trajectory) -> String {
     let class = trajectory.class.word();
     match trajectory.class {
         MotionClass::NoGrowth => class.into(),
-        _ => format!("{class}, mean rate {:.6}", trajectory.rate),
+        _ => format!("{class}, mean rate {}", six_digits(trajectory.rate)),
     }
 }
 
@@ -213,6 +238,7 @@ pub(super) fn json(simulation: &Simulation) -> Value {
         "minor": minor,
         "complete": simulation.is_complete,
         "families": simulation.families,
+        "unknown": simulation.unknown,
         "modes": modes,
         "impulses": impulses,
         "interrupted": simulation.is_interrupted,
@@ -296,7 +322,7 @@ fn mode_series(mode: &SimulatedMode) -> [MotionSeries; 2] {
     let step = mode.growth.step / 2.0;
     [
         MotionSeries {
-            name: format!("predicted by (8), lambda = {:.6}", mode.rate),
+            name: format!("predicted by (8), lambda = {}", six_digits(mode.rate)),
             points: points.iter().map(|p| (p.time, p.predicted)).collect(),
             is_dotted: false,
         },

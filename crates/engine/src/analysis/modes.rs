@@ -5,8 +5,8 @@
 //! where v = x on the free dofs and v_T = -S x on the slip particles (10). Input: an accepted
 //! solution with its x in doubles. Output: [`Mode`]. Called by `divergence`.
 
-use super::sentences::{short, short_is_plain};
 use crate::reduction::mode;
+use crate::report::{short, short_is_plain};
 use mceip_check::AcceptedClaim;
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
 use mceip_model::reduction::zero_variables;

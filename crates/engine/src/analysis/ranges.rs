@@ -26,7 +26,7 @@ use crate::search::complete::Completed;
 use crate::tolerance::ABOVE_CRITICAL;
 use mceip_check::certificate::PresenceCertificate;
 use mceip_check::{AcceptedPresence, Proved};
-use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
+use mceip_exact::{Interval, Rational, from_f64, parse, rational, to_f64, upper_decimal, whole};
 use mceip_model::Problem;
 use num_traits::Zero;
 
@@ -484,8 +484,12 @@ impl Sampler<'_> {
     }
 }
 
-/// A number of six decimals at or just above this one.
+/// A short number at or just above this one: of six decimals, below 0.01 of six digits.
 fn rounded_up(mu: Rational) -> Rational {
+    if mu < rational(1, 100) {
+        return parse(&upper_decimal(&mu, 6)).unwrap_or(mu);
+    }
+
     let six_decimals = (to_f64(&mu) * 1e6).ceil() / 1e6;
     match from_f64(six_decimals) {
         Ok(short) if short >= mu => short,

@@ -14,7 +14,7 @@ use super::flutter::Flutter;
 use super::modes::{Mode, ZeroMode};
 use super::ranges::Range;
 use super::threshold::StaticThreshold;
-use crate::tolerance::WITH_SIX_DECIMALS;
+use crate::report::{short, six_digits};
 use mceip_check::{OpenRegion, SolutionFamily};
 use mceip_exact::{
     Interval, Rational, enclosing_decimals, from_f64, nearest_decimal, to_f64, upper_decimal,
@@ -56,17 +56,6 @@ pub(super) fn up(v: &Rational) -> String {
     upper_decimal(v, 9)
 }
 
-/// Six decimals without trailing zeros; beyond [`WITH_SIX_DECIMALS`] six digits and an exponent.
-pub(super) fn short(v: &Rational) -> String {
-    let value = to_f64(v);
-    if !v.is_zero() && !short_is_plain(value) {
-        return nearest_decimal(v, 6);
-    }
-
-    let text = format!("{value:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_string()
-}
-
 /// The number itself: a decimal where twelve digits spell it, or else a fraction beside the rounded
 /// decimal where it is short; about 17 digits of any other.
 pub(super) fn exactly(v: &Rational) -> String {
@@ -85,11 +74,6 @@ pub(super) fn exactly(v: &Rational) -> String {
 
 /// Characters of a fraction that a sentence shows.
 const LONGEST_FRACTION: usize = 24;
-
-/// Is a number of this size printed with six decimals?
-pub(super) fn short_is_plain(value: f64) -> bool {
-    WITH_SIX_DECIMALS.contains(&value.abs())
-}
 
 /// Regions or values named in a sentence; the others are counted.
 const NAMED: usize = 3;
@@ -216,14 +200,8 @@ const GAP: &str = "neither a curve that was followed nor a cover that was found 
 /// Pairs of complex lambda^2 named in a sentence; the others are counted.
 const NAMED_PAIRS: usize = 3;
 
-/// Six decimals, or six digits and an exponent where these have too few digits.
-fn six_digits(value: f64) -> String {
-    if short_is_plain(value) {
-        format!("{value:.6}")
-    } else {
-        short(&from_f64(value).unwrap_or_default())
-    }
-}
+/// Digits that tell the two ends of the onset of flutter apart: they differ by 2^-15 of themselves.
+const ONSET_DIGITS: usize = 6;
 
 fn flutter_text(flutter: &Flutter) -> String {
     let pairs = flutter.pairs();
@@ -247,8 +225,8 @@ fn flutter_text(flutter: &Flutter) -> String {
         format!(
             " Of the values of mu that were tried, {} is the smallest with such a pair, and {} the \
              next one below it, without.",
-            short(&onset.some_at),
-            short(&onset.none_at)
+            nearest_decimal(&onset.some_at, ONSET_DIGITS),
+            nearest_decimal(&onset.none_at, ONSET_DIGITS)
         )
     });
 
@@ -486,7 +464,10 @@ impl Analysis {
         }
 
         let place = match tried.place {
-            Some([lambda2, mu]) => format!(", first at lambda^2 = {lambda2:.6e}, mu = {mu:.9}"),
+            Some([lambda2, mu]) => {
+                let mu = short(&from_f64(mu).unwrap_or_default());
+                format!(", first at lambda^2 = {lambda2:.6e}, mu = {mu}")
+            }
             None => String::new(),
         };
 

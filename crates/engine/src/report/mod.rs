@@ -1,12 +1,15 @@
 //! What people and programs read: `mceip-solutions/1` and plain tables.
 //!
-//! `listed` turns a solution into decimals, `solutions` writes a list of solutions with what stands
-//! behind it, `table` aligns columns.
+//! `digits` writes measured numbers, `listed` turns a solution into decimals, `solutions` writes a
+//! list of solutions with what stands behind it, `table` aligns columns.
 
+mod digits;
 mod listed;
 mod solutions;
 mod table;
 
+pub use digits::{fixed_decimals, six_digits};
+pub(crate) use digits::{short, short_is_plain};
 pub use listed::{Listed, ListedCone};
 pub use solutions::{Claimed, Report, solutions_json, solutions_text};
 pub use table::Table;

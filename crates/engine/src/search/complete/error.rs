@@ -27,7 +27,11 @@ pub enum CompleteError {
         index: usize,
     },
     /// The free variables can be eliminated in doubles and not provably so.
-    #[error("P1, P2: expected {expected}, got row {row} of the free block that breaks it")]
+    #[error(
+        "condensation: expected {expected}, for a bound from doubles, got row {row} of the free \
+         block that breaks it: rounding hides whether the block is definite, as with units that \
+         differ very much; `enumerate` and `solve` do not need that bound"
+    )]
     Hypothesis {
         /// What the checker demands.
         expected: &'static str,

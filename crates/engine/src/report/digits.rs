@@ -1,0 +1,52 @@
+//! Measured numbers for people: six decimals, or six digits where these have too few.
+
+use crate::tolerance::WITH_SIX_DECIMALS;
+use mceip_exact::{Rational, from_f64, nearest_decimal, to_f64};
+use num_traits::Zero;
+
+/// Six decimals without trailing zeros; beyond [`WITH_SIX_DECIMALS`] six digits and an exponent.
+pub(crate) fn short(v: &Rational) -> String {
+    let value = to_f64(v);
+    if !v.is_zero() && !short_is_plain(value) {
+        return nearest_decimal(v, 6);
+    }
+
+    let text = format!("{value:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_string()
+}
+
+/// Is a number of this size printed with six decimals?
+pub(crate) fn short_is_plain(value: f64) -> bool {
+    WITH_SIX_DECIMALS.contains(&value.abs())
+}
+
+/// Six decimals, or six digits and an exponent where these have too few digits.
+///
+/// ```
+/// use mceip_engine::report::six_digits;
+/// assert_eq!([0.5, 2e-9].map(six_digits), ["0.500000", "2e-9"]);
+/// ```
+pub fn six_digits(value: f64) -> String {
+    if value == 0.0 || short_is_plain(value) {
+        format!("{value:.6}")
+    } else {
+        short(&from_f64(value).unwrap_or_default())
+    }
+}
+
+/// So many decimals, or so many digits and an exponent where the decimals say too little.
+///
+/// ```
+/// use mceip_engine::report::fixed_decimals;
+/// use mceip_exact::rational;
+/// assert_eq!(fixed_decimals(&rational(1, 4), 9), "0.250000000");
+/// assert_eq!(fixed_decimals(&rational(1, 3_000_000_000), 3), "3.33e-10");
+/// ```
+pub fn fixed_decimals(v: &Rational, decimals: usize) -> String {
+    let value = to_f64(v);
+    if v.is_zero() || short_is_plain(value) {
+        format!("{value:.decimals$}")
+    } else {
+        nearest_decimal(v, decimals)
+    }
+}
