@@ -9,7 +9,7 @@
 #![allow(clippy::float_arithmetic)]
 
 use crate::doubles::DoubleMatrix;
-use crate::tolerance::{RITZ_CHANGE, RITZ_STEPS};
+use crate::tolerance::{RITZ_CHANGE, RITZ_ROUNDING, RITZ_STEPS};
 use mceip_mcp::linear::{SparseLu, definite_eigenvalues};
 
 /// How many frequencies are looked for.
@@ -21,8 +21,8 @@ const SPARE: usize = 5;
 
 /// At most three frequencies, ascending, in cycles per unit of time.
 ///
-/// `None` where K has no LU factors in doubles, M is not positive definite there, or the iteration
-/// does not settle.
+/// `None` where K has no LU factors in doubles, M is not positive definite there, the iteration
+/// does not settle, or rounding hides the lowest one.
 pub(crate) fn lowest_frequencies(
     stiffness: &DoubleMatrix,
     mass: &DoubleMatrix,
@@ -41,6 +41,13 @@ pub(crate) fn lowest_frequencies(
 
         let ritz = ritz_values(stiffness, &basis)?;
         if has_settled(&previous, &ritz) {
+            let rounding = rounding(stiffness, &basis);
+            if ritz
+                .first()
+                .is_some_and(|lowest| rounding > RITZ_ROUNDING * lowest)
+            {
+                return None;
+            }
             return Some(ritz[..wanted].iter().map(|t| frequency(*t)).collect());
         }
         previous = ritz[..wanted].to_vec();
@@ -135,6 +142,18 @@ fn ritz_values(stiffness: &DoubleMatrix, basis: &[Vec<f64>]) -> Option<Vec<f64>>
     definite_eigenvalues(&projected, &identity)
 }
 
+/// What rounding may leave in an entry of X' K X: its terms without their signs.
+fn rounding(stiffness: &DoubleMatrix, basis: &[Vec<f64>]) -> f64 {
+    let mut largest: f64 = 0.0;
+    for x in basis {
+        let entries = stiffness.entries.iter();
+        let terms: f64 = entries.map(|&(i, j, k)| (x[i] * k * x[j]).abs()).sum();
+        largest = largest.max(terms);
+    }
+
+    f64::EPSILON * largest
+}
+
 /// Have the values wanted changed by rounding only?
 fn has_settled(previous: &[f64], ritz: &[f64]) -> bool {
     let pairs = previous.iter().zip(ritz);
@@ -179,6 +198,24 @@ mod tests {
                 assert!(error.abs() < 1e-6, "n = {n}, {k}: {error}");
             }
         }
+    }
+
+    /// Two unit masses, each on a unit spring, tied by a stiff one: omega = 1 where doubles see it.
+    #[test]
+    fn digits_that_rounding_hides_are_not_given() {
+        let tied = |spring: f64| {
+            let entries = vec![
+                (0, 0, 1.0 + spring),
+                (0, 1, -spring),
+                (1, 0, -spring),
+                (1, 1, 1.0 + spring),
+            ];
+            lowest_frequencies(&DoubleMatrix { order: 2, entries }, &unit_masses(2))
+        };
+
+        let found = tied(1e6).unwrap();
+        assert!((found[0] * std::f64::consts::TAU - 1.0).abs() < 1e-6);
+        assert_eq!(tied(1e14), None);
     }
 
     #[test]

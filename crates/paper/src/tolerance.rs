@@ -33,6 +33,11 @@ pub(crate) const ROUNDED_SYMMETRY: (i64, i64) = (1, 1_000_000_000_000);
 /// where the iteration converges at all.
 pub(crate) const RITZ_CHANGE: f64 = 1e-9;
 
+/// Rounding of the projected stiffness, relative to the lowest eigenvalue, above which its digits
+/// are not printed. Unit: none. Basis: five digits are printed. Reason: springs of 1e15 beside
+/// those of 1 leave one digit of the lowest frequency.
+pub(crate) const RITZ_ROUNDING: f64 = 1e-5;
+
 /// Steps of subspace iteration before it is given up. Basis: eight columns for three frequencies
 /// settle in 10 to 40 steps on the meshes of this repository.
 pub(crate) const RITZ_STEPS: usize = 500;
