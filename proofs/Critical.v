@@ -1,8 +1,9 @@
 (* No solution below a friction.
 
-   For a mechanical system, t = lambda^2 and mu >= 0 the rows (11) of the slip particles are affine
-   in mu: with w = (K + t M) v they are q (-S t'w) + m (-n'w), up to the positive factor q, for
-   mu = m/q.  [pencil_at] is the pencil for (m, q); its values at (0, 1) and (1, 0) are the *parts*.
+   For a mechanical system, t = lambda^2 and mu >= 0 the rows of the complementarity variables are
+   affine in mu: with w = (K + t M) v they are q (plain) + m (friction) for mu = m/q, up to the
+   positive factor q.  The values at (0, 1) and (1, 0) are the *parts* (ZeroPencil.v).  The system
+   may have particles in contact with zero reaction (z); a system without them has an empty list.
 
    The checker gets a system, two bounds, a witness for the elimination of the free variables, and a
    tree of boxes (Boxes.v).  Both parts are condensed with the same approximation W and with the
@@ -12,20 +13,29 @@
      BoxDefinite sign f f' a form has one sign on the box, by the condensed parts;
      BoxRegular w          the matrix of a decided box has no null vector, by the condensed parts
                            (Regular.v);
-     BoxWhole w w'         a form has one sign, for the whole pencils at both ends of the interval of mu.
+     BoxWhole w w'         a form has one sign, for the whole pencils at both ends of the interval
+                           of mu;
+     BoxHalves             right and left of a z particle both move, so no motion is in the box.
 
-   Without the witness there may be leaves BoxWhole only.
+   Without the witness there may be leaves BoxWhole and BoxHalves only.
 
-   Theorem [critical_absent]: if the check succeeds, then for every mu in [from, bound] and every
-   t >= 0 no motion satisfies the conditions (9) with lambda^2 = t and mu.
+   The pencils of a leaf BoxWhole are those of the system in which z particles are free
+   ([freed]).  There a motion with (9) has x'y <= 0, because no power comes from a z particle
+   (ZeroPower.v), so a form of the sign + excludes it.  In the split form no symmetric part is
+   definite while right and left may both move.
 
-   Page: spec/certificates.md, 5.18.
+   Theorem [zero_critical_absent]: if the check succeeds, then for every mu in [from, bound] and
+   every t >= 0 no motion satisfies the conditions (9) with lambda^2 = t and mu.
+   [critical_absent]: the same without z particles.
+
+   Pages: spec/certificates.md, 5.18; spec/zero-reaction.md, Z.3 (frictions) and Z.4.
    Rust: crates/check/src/critical.rs, cover/critical.rs. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Cover Condensation.
-From Mceip Require Import Pencil Whole Complete System Boxes Regular.
+From Mceip Require Import Pencil Whole Complete System ZeroReaction ZeroEnclosed ZeroPencil.
+From Mceip Require Import ZeroPower Boxes Regular.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -40,16 +50,61 @@ Inductive critical_leaf :=
   | BoxFarkas of seq Z
   | BoxDefinite of bool & factor * factor & factor * factor
   | BoxRegular of regular
-  | BoxWhole of whole & whole.
+  | BoxWhole of whole & whole
+  | BoxHalves.
+
+(* Evidence about enclosures of both parts. *)
+Definition check_parts (P P' : enclosed) (r : region) (low high : point) (l : critical_leaf) :=
+  match l with
+  | BoxFarkas v => box_farkas (mixed low P P') (mixed high P P') r v
+  | BoxDefinite negative f f' =>
+      box_definite (mixed low P P') (mixed high P P') r negative f f'
+  | BoxRegular v => box_regular (mixed low P P') (mixed high P P') r v
+  | BoxWhole _ _ | BoxHalves => false
+  end.
+
+(* The system in which the z particles are free. *)
+Definition freed z := let s := without_zero z in
+  ZeroSystem (System (dofs s) (stiffness s) (mass s)
+    [seq d <- iota 0 (dofs s) | d \in free_dofs s ++ zero_dofs z] (particles s) (unit_length s))
+    [::].
 
 Section Checker.
 
-Variable s : system.
+Variable z : zero_system.
 
-Definition pencil_at (e : point) := pencil_of s (Lambda2 e.1 e.2).
+Notation s := (without_zero z).
+Notation nz := (size (zero_particles z)).
 
-Definition part_plain := pencil_at (0, 1)%Z.
-Definition part_friction := pencil_at (1, 0)%Z.
+(* The whole pencil at a friction, z particles free. *)
+Definition pencil_at (e : point) := zero_pencil (freed z) (Lambda2 e.1 e.2).
+
+(* Weights of slip rows are the same at both ends; those of free rows need not be. *)
+Definition same_weights (a b : whole) :=
+  (whole_negative a == whole_negative b) &&
+  all (fun i => nth 1 (whole_weights a) i =? nth 1 (whole_weights b) i)%Z
+    (iota (free_number (without_zero (freed z))) (size (particles s))).
+
+(* The weight of the row of a freed degree of freedom. *)
+Definition freed_weight (a : whole) d :=
+  nth 1%Z (whole_weights a) (index d (free_dofs (without_zero (freed z)))).
+
+(* With z particles the sign is +, and both rows of a particle have one weight. *)
+Definition zero_weights (a : whole) :=
+  (nilp (zero_particles z) || ~~ whole_negative a) &&
+  all (fun p => (0 <=? freed_weight a (first_dof p)) &&
+                (freed_weight a (first_dof p) =? freed_weight a (second_dof p)))%Z
+    (zero_particles z).
+
+(* Evidence that needs no enclosures. *)
+Definition check_whole_leaf (r : region) (low high : point) (l : critical_leaf) :=
+  match l with
+  | BoxWhole a b =>
+      [&& same_weights a b, zero_weights a, zero_weights b, check_whole (pencil_at low) r a &
+          check_whole (pencil_at high) r b]
+  | BoxHalves => both_halves z r
+  | _ => false
+  end.
 
 (* The witness for the other part: the same W, another V. *)
 Definition with_left (w : elimination) (other : matrix * matrix) : elimination :=
@@ -59,152 +114,246 @@ Definition with_left (w : elimination) (other : matrix * matrix) : elimination :
 Variable w : option (elimination * (matrix * matrix)).
 
 Definition condensed_parts : option (enclosed * enclosed) :=
-  omap (fun wl => (condensed (blocks_of part_plain) wl.1,
-                   condensed (blocks_of part_friction) (with_left wl.1 wl.2))) w.
+  omap (fun wl => (condensed (blocks_of (part_plain z)) wl.1,
+                   condensed (blocks_of (part_friction z)) (with_left wl.1 wl.2))) w.
 
 Definition parts_eliminated :=
   if w is Some (w0, other) then
-    [&& free_rows_constant part_plain, free_rows_constant part_friction,
-        check_elimination (blocks_of part_plain) w0 &
-        check_elimination (blocks_of part_friction) (with_left w0 other)]
+    [&& free_rows_constant (part_plain z), free_rows_constant (part_friction z),
+        check_elimination (blocks_of (part_plain z)) w0 &
+        check_elimination (blocks_of (part_friction z)) (with_left w0 other)]
   else true.
-
-(* Weights of slip rows are the same in both; those of free rows need not be. *)
-Definition same_weights (a b : whole) :=
-  (whole_negative a == whole_negative b) &&
-  all (fun i => nth 1 (whole_weights a) i =? nth 1 (whole_weights b) i)%Z (slip part_plain).
 
 Definition check_critical_leaf (parts : option (enclosed * enclosed)) (r : region)
     (low high : point) (l : critical_leaf) :=
-  match l, parts with
-  | BoxFarkas v, Some (P0, P1) => box_farkas (mixed low P0 P1) (mixed high P0 P1) r v
-  | BoxDefinite negative f f', Some (P0, P1) =>
-      box_definite (mixed low P0 P1) (mixed high P0 P1) r negative f f'
-  | BoxRegular v, Some (P0, P1) => box_regular (mixed low P0 P1) (mixed high P0 P1) r v
-  | BoxWhole a b, _ =>
-      [&& same_weights a b, check_whole (pencil_at low) r a & check_whole (pencil_at high) r b]
-  | _, None => false
-  end.
+  (if parts is Some (P0, P1) then check_parts P0 P1 r low high l else false)
+  || check_whole_leaf r low high l.
 
 Definition check_critical (tr : box_tree critical_leaf) (from bound : point) :=
   let parts := condensed_parts in
-  [&& system_wellformed s (Lambda2 0 1), parts_eliminated &
-      check_boxes (size (slip part_plain)) (check_critical_leaf parts) tr (window zero infinity)
+  [&& zero_wellformed z (Lambda2 0 1), parts_eliminated &
+      check_boxes (slip_number z) (check_critical_leaf parts) tr (window zero infinity)
         from bound].
 
 End Checker.
 
+(* Both parts. *)
+Section Parts.
+
+Variables (R : rcfType) (P P' : enclosed) (A B A' B' : nat -> nat -> R).
+Hypotheses (E : encloses P A B) (E' : encloses P' A' B') (same : size_of P' = size_of P).
+Variables (r : region) (low high : point) (t mu : R) (xs factor row row' : nat -> R).
+Hypotheses (O : ordered (lower r) (upper r)) (Om : ordered low high).
+Hypotheses (bt : between t (lower r) (upper r)) (bm : between mu low high).
+Hypothesis ag : agrees (size_of P) r xs.
+Hypothesis factor0 : forall i, i \in indices P -> 0 < factor i.
+Hypothesis imageE : forall i, i \in indices P -> image P A B t xs i = factor i * row i.
+Hypothesis imageE' : forall i, i \in indices P -> image P' A' B' t xs i = factor i * row' i.
+Hypothesis nonzero : exists2 i, i \in indices P & xs i != 0.
+Hypothesis signs : forall i, i \in indices P ->
+  let y := row i + mu * row' i in [/\ 0 <= xs i, 0 <= y & xs i * y = 0].
+
+Notation Ae e := (fun i j => toR e.2 * A i j + toR e.1 * A' i j).
+Notation Be e := (fun i j => toR e.2 * B i j + toR e.1 * B' i j).
+
+Lemma image_mixed e i : image (mixed e P P') (Ae e) (Be e) t xs i =
+  toR e.2 * image P A B t xs i + toR e.1 * image P' A' B' t xs i.
+Proof.
+have same_ix : indices P' = indices P by rewrite /indices same.
+rewrite /image same_ix !mulr_sumr -[in RHS]big_split; apply: eq_bigr => j _ /=.
+by rewrite /T; move: (A i j) (A' i j) (B i j) (B' i j) (xs j) (toR e.1) (toR e.2) => *; ring.
+Qed.
+
+Theorem parts_absent l : check_parts P P' r low high l -> False.
+Proof.
+have [f [g [f0 g0 [one val] [fg _]]]] := weights_of_ends Om bm.
+have [l1 l2 h1 h2] := ordered_ge0 R Om.
+have El := mixed_encloses E E' same l1 l2; have Eh := mixed_encloses E E' same h1 h2.
+have sol : box_solution (mixed low P P') (mixed high P P') (Ae low) (Be low) (Ae high) (Be high)
+    t f g xs.
+  split=> // i Hi; have [x0 y0 xy] := signs Hi; have c0 := factor0 Hi.
+  have -> : box_image (mixed low P P') (mixed high P P') (Ae low) (Be low) (Ae high) (Be high)
+      t f g xs i = factor i * (row i + mu * row' i).
+    rewrite /box_image !image_mixed imageE // imageE' //.
+    rewrite -[X in X + mu * _]mul1r -one -val.
+    by move: (row i) (row' i) (factor i) => *; ring.
+  by split; [exact: x0 | rewrite mulr_ge0 // ltW | rewrite mulrCA xy mulr0].
+case: l => [v|negative k k'|v|//|//] /= ok.
+- exact: (box_farkas_sound El Eh _ O bt ag f0 g0 fg sol ok).
+- exact: (box_definite_sound El Eh _ O bt ag f0 g0 fg sol ok).
+exact: (box_regular_sound El Eh _ O bt ag f0 g0 fg sol ok).
+Qed.
+
+End Parts.
+
 Section Sound.
 
-Lemma pencil_wellformed s e : wellformed (pencil_at s e).
-Proof.
-rewrite /wellformed /= iota_uniq; apply/allP => i; rewrite mem_iota add0n => lt_i.
-exact: leq_trans lt_i (leq_addr _ _).
-Qed.
+Variables (R : rcfType) (z : zero_system).
+Hypothesis wf : zero_wellformed z (Lambda2 0 1).
 
-Variables (R : rcfType) (s : system).
-Hypothesis wf : system_wellformed s (Lambda2 0 1).
-
+Notation s := (without_zero z).
 Notation nf := (free_number s).
 Notation ns := (size (particles s)).
-Notation Q0 := (part_plain s).
-Notation Q1 := (part_friction s).
+Notation nz := (size (zero_particles z)).
+Notation all_dofs := (iota 0 (dofs s)).
+Notation L := (toR (unit_length s) : R).
+Notation Q0 := (part_plain z).
+Notation Q1 := (part_friction z).
+Notation nobody := (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z.
 
-(* The kinematics of a motion do not depend on K and M: those of the system without them. *)
-Definition without_forces :=
-  System (dofs s) [::] [::] (free_dofs s) (particles s) (unit_length s).
+Let wf_s : system_wellformed s (Lambda2 0 1) := wf_system wf.
 
-Lemma motion_of_variables (t mu : R) v : conditions_9 s t mu v ->
-  forall d, d \in iota 0 (dofs s) -> motion s (variables_of s v) d = v d.
+(* The freed system. *)
+Notation s' := (without_zero (freed z)).
+Notation nf' := (free_number s').
+
+Lemma freed_dof d : (d \in free_dofs s') = (d \in free_dofs s ++ zero_dofs z).
 Proof.
-case=> nonzero at_rest _ slips.
-have wf0 : system_wellformed without_forces Mu.
-  by case/and5P: wf => u1 r1 p1 _ /andP[l1 _]; apply/and5P; split=> //; rewrite andbT.
-have no_force d : force without_forces 0 v d = 0.
-  rewrite /force sum_zero // => j _.
-  by rewrite /k_entry /m_entry /k_row /m_row /= !nth_nil /= toR0 mulr0 addr0 mul0r.
-apply: (system_onto (s := without_forces) (t := 0) wf0); split=> //; split=> // j lt_j p.
-have [n0 rate _ _] := slips j lt_j.
-by split=> //; rewrite /cone /along !no_force !mulr0 addr0 !mulr0 ?addr0 ?mul0r.
+rewrite mem_filter andb_idr // mem_cat => /orP[d_in|].
+  by apply: (moving_dof_in wf_s); rewrite mem_cat d_in.
+rewrite mem_cat => /orP[]/(nthP 0%N)[j]; rewrite size_map => lt_j <-.
+  by rewrite -zero_first //; case: (zero_particle_dofs wf lt_j).
+by rewrite -zero_second //; case: (zero_particle_dofs wf lt_j).
 Qed.
 
-Lemma conditions_9_ext (t mu : R) v v' : (forall d, d \in iota 0 (dofs s) -> v d = v' d) ->
-  conditions_9 s t mu v -> conditions_9 s t mu v'.
+Lemma freed_moving d : (d \in moving_dofs s') = (d \in moving_with_zero z).
 Proof.
-move=> same [[d Hd vd] at_rest rows_f rows_s].
-have forceE' d' : force s t v d' = force s t v' d' by apply: sum_eq => j Hj; rewrite same.
-split; first by exists d; rewrite -?same.
-- by move=> d' Hd' out; rewrite -same // at_rest.
-- by move=> d' /rows_f; rewrite forceE'.
-move=> j lt_j; have := rows_s _ lt_j.
-by rewrite /= /cone /slip_rate /along !forceE' !same ?(first_dof_in wf) ?(second_dof_in wf).
+rewrite !mem_cat freed_dof !mem_cat; case: (d \in free_dofs s) => //=.
+by rewrite orbC -!orbA.
 Qed.
 
+Lemma uniq_freed :
+  [/\ uniq (free_dofs s ++ zero_dofs z), uniq (free_dofs s') &
+      perm_eq (free_dofs s') (free_dofs s ++ zero_dofs z)].
+Proof.
+have /and4P[_ um _ _] := wf.
+have u1 : uniq (free_dofs s ++ zero_dofs z).
+  move: um; rewrite /moving_with_zero !cat_uniq => /and3P[/andP[-> _] /hasPn out ->].
+  rewrite andbT /=; apply/hasPn => d /out; apply: contraNN.
+  by rewrite /= mem_cat => ->.
+have u2 : uniq (free_dofs s') by rewrite filter_uniq ?iota_uniq.
+by split=> //; apply: uniq_perm => // d; apply: freed_dof.
+Qed.
+
+Lemma freed_wellformed : zero_wellformed (freed z) (Lambda2 0 1).
+Proof.
+have /and4P[_ um _ _] := wf; have /and5P[_ _ particles rows rest] := wf_s.
+have [_ u2 _] := uniq_freed.
+have um' : uniq (moving_dofs s').
+  rewrite cat_uniq u2; move: um; rewrite /moving_with_zero /moving_dofs !cat_uniq.
+  case/and3P=> /and3P[_ /hasPn out ->] /hasPn out' _; rewrite andbT /=.
+  apply/hasPn => d d_in; rewrite /= freed_dof mem_cat negb_or out //=.
+  by apply: contraL d_in => /out'; rewrite /= mem_cat negb_or => /andP[].
+apply/and4P; split=> //; last by rewrite /moving_with_zero cats0.
+apply/and5P; split=> //; apply/allP => d; rewrite freed_moving mem_cat => /orP[|d_in].
+  by move/(moving_dof_in wf_s); rewrite mem_iota.
+have : d \in free_dofs s' by rewrite freed_dof mem_cat d_in orbT.
+by rewrite mem_filter mem_iota => /andP[].
+Qed.
+
+(* A motion with (9) and its variables. *)
 Section Motion.
 
-Variables (t mu : R) (x : nat -> R).
-Hypothesis t0 : 0 <= t.
-Hypothesis sat : conditions_9 s t mu (motion s x).
+Variables (t mu : R) (v : nat -> R).
+Hypotheses (t0 : 0 <= t) (mu0 : 0 <= mu) (sat : conditions_9z z t mu v).
 
-(* The two parts of a slip row, and y = plain + mu friction. *)
-Definition plain_row j : R :=
-  - (toR (sign_of (particle s j)) *
-     along (tangent (particle s j)) (particle s j) (force s t (motion s x))).
-Definition friction_row j : R :=
-  - along (normal (particle s j)) (particle s j) (force s t (motion s x)).
-Definition slip_reaction_at j := plain_row j + mu * friction_row j.
+Notation x := (zero_variables_of z v).
+Notation w := (force s t v).
 
-Lemma free_row_at e k : (k < nf)%N -> reaction (pencil_at s e) t x k = 0.
-Proof.
-move=> lt_k; have [_ _ rows_f _] := sat.
-rewrite -(rows_f (nth 0%N (free_dofs s) k)) ?mem_nth // reactionE forceE.
-rewrite /row_a /row_b /= !nth_cat !size_map lt_k !(nth_map 0%N) //.
-by rewrite (k_product_columns wf) (m_product_columns wf).
-Qed.
+Lemma motion_split : split z x.
+Proof. exact: split_variables. Qed.
 
-Lemma slip_row_at e j : (j < ns)%N ->
-  reaction (pencil_at s e) t x (nf + j)%N = toR e.2 * plain_row j + toR e.1 * friction_row j.
-Proof.
-move=> lt_j; rewrite reactionE /plain_row /friction_row /along !forceE /row_a /row_b /=.
-rewrite !nth_cat !size_map ltnNge leq_addr /= addKn.
-rewrite !(nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) // -/(particle s j).
-set p := particle s j; rewrite !sum_rows_along.
-have [-> ->] := directionE R (- (e.2 * sign_of p)) (- e.1) p.
-rewrite !(k_product_columns wf) !(m_product_columns wf) !toRN !toRM.
-move: (k_product _ _ _) (k_product _ _ _) (m_product _ _ _) (m_product _ _ _) => k1 k2 m1 m2.
-move: (toR (sign_of p)) (toR (tangent p).1) (toR (tangent p).2) => sg t1 t2.
-move: (toR (normal p).1) (toR (normal p).2) (toR e.1) (toR e.2) => n1 n2 m q.
-by ring.
-Qed.
+Lemma motion_variables : exists2 i, i \in iota 0 (order Q0) & x i != 0.
+Proof. by have [] := zero_parts_solution wf sat. Qed.
 
-(* The rows of the parts give those of every pencil. *)
-Lemma row_at e i : i \in slip Q0 ->
-  reaction (pencil_at s e) t x i = toR e.2 * reaction Q0 t x i + toR e.1 * reaction Q1 t x i.
-Proof.
-case/slip_variable=> j lt_j ->; rewrite !slip_row_at //= toR0 toR1.
-by move: (plain_row j) (friction_row j) (toR e.1) (toR e.2) => *; ring.
-Qed.
+Lemma free_row_at e i : i \in free Q0 -> reaction (zero_pencil z (Lambda2 e.1 e.2)) t x i = 0.
+Proof. by have [_ rows _] := zero_parts_solution wf sat => /rows. Qed.
 
 Lemma slip_conditions i : i \in slip Q0 ->
   let y := reaction Q0 t x i + mu * reaction Q1 t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0].
+Proof. by have [_ _ rows] := zero_parts_solution wf sat => /rows. Qed.
+
+(* The freed system has the same motion. *)
+Notation x' := (zero_variables_of (freed z) v).
+
+Lemma freed_motion d : d \in all_dofs -> zero_motion (freed z) x' d = v d.
 Proof.
-case/slip_variable=> j lt_j -> y; have [_ _ _ /(_ j lt_j)] := sat.
-set p := particle s j => -[_ rate c0 product].
-have l2 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 _ wf).
-have yE : y = - cone s t mu (motion s x) p.
-  rewrite /y !slip_row_at //= toR0 toR1 /cone -/p /plain_row /friction_row -/p.
-  by move: (along _ _ _) (along _ _ _) (toR (sign_of p)) => *; ring.
-move: rate product; rewrite (slip_motion wf) // oppr_le0 pmulr_rge0 // => x0 product.
-split=> //; first by rewrite yE oppr_ge0.
-apply: (mulfI (lt0r_neq0 l2)); rewrite mulr0 -product yE.
-by move: (cone _ _ _ _ _) (x _) (toR _) => *; ring.
+have [_ at_rest _ slips _] := sat; apply: (motion_of_zero_variables freed_wellformed).
+  by move=> d' d'_in; rewrite /moving_with_zero cats0 freed_moving; apply: at_rest.
+by move=> j lt_j; have [] := slips j lt_j.
 Qed.
 
-Lemma motion_variables : exists2 i, i \in iota 0 (order Q0) & x i != 0.
-Proof. by have [nonzero _ _ _] := sat; apply/(motion_nonzero wf). Qed.
+Lemma freed_force d : force s' t (zero_motion (freed z) x') d = w d.
+Proof. by apply: sum_eq => j Hj; rewrite freed_motion. Qed.
 
-Lemma free_index i : i \in free Q0 -> (i < nf)%N.
-Proof. by rewrite mem_iota. Qed.
+(* y_i of the freed system: a force at free degrees of freedom, both parts at slip particles. *)
+Lemma freed_free_row e k : (k < nf')%N ->
+  reaction (pencil_at z e) t x' k = w (nth 0%N (free_dofs s') k).
+Proof.
+by move=> lt_k; rewrite (zero_free_reaction freed_wellformed) //= freed_force.
+Qed.
+
+Lemma freed_free_variable k : (k < nf')%N -> x' k = v (nth 0%N (free_dofs s') k) / L.
+Proof. by move=> lt_k; rewrite /zero_variables_of ltn_addr // /variables_of lt_k. Qed.
+
+Definition plain_row p := toR (sign_of p) * along (tangent p) p w.
+Definition friction_row p := along (normal p) p w.
+
+Lemma freed_slip_row e j : (j < ns)%N -> let p := particle s j in
+  reaction (pencil_at z e) t x' (nf' + j)%N =
+  - (toR e.2 * plain_row p + toR e.1 * friction_row p).
+Proof.
+by move=> lt_j p; rewrite (slip_part freed_wellformed) //= /along !freed_force.
+Qed.
+
+Lemma freed_slip_variable j : (j < ns)%N ->
+  x' (nf' + j)%N = - (slip_rate v (particle s j) / L ^+ 2).
+Proof.
+by move=> lt_j; rewrite /zero_variables_of ltn_add2l lt_j /variables_of ltnNge leq_addr /= addKn.
+Qed.
+
+Lemma freed_variables : exists2 i, i \in iota 0 (order (pencil_at z (0, 1)%Z)) & x' i != 0.
+Proof.
+have [[d d_in vd] _ _ _ _] := sat.
+apply/hasP; apply: contraNT vd => /hasPn none; rewrite -freed_motion //.
+rewrite /zero_motion nth_table // /row_value big_seq big1 // => c c_in.
+have small := columns_small c_in.
+by have := none c.1; rewrite mem_iota small negbK => /(_ isT)/eqP->; rewrite mulr0.
+Qed.
+
+(* The weighted power of the free degrees of freedom of the freed system. *)
+Definition freed_power (a : whole) :=
+  \sum_(k <- iota 0 nf') weight_of R (whole_weights a) k *
+    (v (nth 0%N (free_dofs s') k) / L * w (nth 0%N (free_dofs s') k)).
+
+Lemma freed_powerE a : freed_power a =
+  L^-1 * \sum_(p <- zero_particles z)
+    (toR (freed_weight z a (first_dof p)) * (v (first_dof p) * w (first_dof p)) +
+     toR (freed_weight z a (second_dof p)) * (v (second_dof p) * w (second_dof p))).
+Proof.
+have [_ _ rows_f _ _] := sat; have [_ u2 perm] := uniq_freed.
+pose f d := toR (freed_weight z a d) * (v d * w d).
+transitivity (L^-1 * \sum_(d <- free_dofs s') f d).
+  rewrite mulr_sumr sum_positions; apply: sum_eq => k; rewrite mem_iota add0n /= => lt_k.
+  rewrite /f /freed_weight index_uniq // /weight_of.
+  by move: (toR _) (v _) (w _) (L^-1) => *; ring.
+congr (_ * _); rewrite (perm_big _ perm) /= big_cat /= sum_zero ?add0r; last first.
+  by move=> d /rows_f wd; rewrite /f wd !mulr0.
+by rewrite /zero_dofs big_cat !big_map -big_split.
+Qed.
+
+Lemma freed_power_le0 a : zero_weights z a ->
+  (nilp (zero_particles z) -> freed_power a = 0) /\ freed_power a <= 0.
+Proof.
+case/andP=> _ weights; rewrite freed_powerE; split.
+  by case: (zero_particles z) => // _; rewrite big_nil mulr0.
+have L0 : 0 < L := unit_length_gt0 R wf_s.
+apply: mulr_ge0_le0; first by rewrite invr_ge0 ltW.
+rewrite (big_nth nobody) big_nat -oppr_ge0 -sumrN; apply: sumr_ge0 => j /= lt_j.
+have /andP[w0 /Z.eqb_spec <-] := all_nthP nobody weights j lt_j.
+rewrite -mulrDr oppr_ge0 mulr_ge0_le0 ?toR_ge0 //.
+exact: (zero_power_le0 wf sat mu0 lt_j).
+Qed.
 
 (* A box of t and mu that holds the motion. *)
 Section Box.
@@ -212,69 +361,108 @@ Section Box.
 Variables (r : region) (low high : point).
 Hypotheses (O : ordered (lower r) (upper r)) (Om : ordered low high).
 Hypotheses (bt : between t (lower r) (upper r)) (bm : between mu low high).
-Hypothesis ag : agrees (size (slip Q0)) r (slip_of Q0 x).
-Notation wfQ := (pencil_wellformed s (0, 1)%Z).
+Hypothesis ag : agrees (slip_number z) r (slip_of Q0 x).
 
-Lemma whole_box_absent a b : same_weights s a b -> check_whole (pencil_at s low) r a ->
-  check_whole (pencil_at s high) r b -> False.
+Lemma freed_agrees : agrees (size (slip (pencil_at z low))) r (slip_of (pencil_at z low) x').
 Proof.
-case/andP=> /eqP signs /allP weights checked_a checked_b.
+move=> j; rewrite size_slips {1}/slip_number /= addn0 => lt_j.
+have lt_j' : (j < slip_number z)%N by rewrite ltn_addr.
+have := ag lt_j'; rewrite /slip_of !zero_slips !nth_iota //; last by rewrite /slip_number ltn_addr.
+rewrite freed_slip_variable // /zero_variables_of ltn_add2l lt_j.
+by rewrite /variables_of ltnNge leq_addr /= addKn.
+Qed.
+
+(* The same of the slip particles, at a friction. *)
+Definition slip_power (a : whole) (e : point) :=
+  \sum_(j <- iota 0 ns) weight_of R (whole_weights a) (nf' + j) *
+    (slip_rate v (particle s j) / L ^+ 2 *
+     (toR e.2 * plain_row (particle s j) + toR e.1 * friction_row (particle s j))).
+
+Lemma whole_power a e :
+  \sum_(i <- iota 0 (order (pencil_at z e)))
+    weight_of R (whole_weights a) i * (x' i * reaction (pencil_at z e) t x' i) =
+  freed_power a + slip_power a e.
+Proof.
+rewrite /= muln0 addn0 iotaD big_cat /=; congr (_ + _).
+  apply: sum_eq => k; rewrite mem_iota add0n /= => lt_k.
+  by rewrite freed_free_row // freed_free_variable.
+rewrite add0n -[X in iota X](addn0 nf') iotaDl big_map /slip_power; apply: sum_eq => j.
+rewrite mem_iota add0n /= => lt_j.
+by rewrite freed_slip_row // freed_slip_variable // mulrNN.
+Qed.
+
+(* In the box the slip particles have none. *)
+Lemma slip_power_zero f g a b : same_weights z a b ->
+  f * toR low.2 + g * toR high.2 = 1 -> f * toR low.1 + g * toR high.1 = mu ->
+  f * slip_power a low + g * slip_power b high = 0.
+Proof.
+case/andP=> _ /allP weights one val; rewrite !mulr_sumr -big_split sum_zero // => j.
+rewrite mem_iota add0n => lt_j.
+have /Z.eqb_spec same : (nth 1 (whole_weights a) (nf' + j) =? nth 1 (whole_weights b) (nf' + j))%Z.
+  by apply: weights; rewrite mem_iota leq_addr ltn_add2l.
+have [_ _ _ /(_ j lt_j)[_ _ _ product] _] := sat.
+transitivity (weight_of R (whole_weights a) (nf' + j) / L ^+ 2 *
+  (((f * toR low.2 + g * toR high.2) * plain_row (particle s j) +
+    (f * toR low.1 + g * toR high.1) * friction_row (particle s j)) *
+   slip_rate v (particle s j))).
+  rewrite /weight_of -same /=.
+  move: (toR (nth _ _ _)) (slip_rate _ _) (plain_row _) (friction_row _) (L ^+ 2)^-1 => *.
+  by ring.
+by rewrite one val mul1r product mulr0.
+Qed.
+
+Lemma whole_absent a b :
+  [&& same_weights z a b, zero_weights z a, zero_weights z b, check_whole (pencil_at z low) r a &
+      check_whole (pencil_at z high) r b] -> False.
+Proof.
+case/and5P=> same zero_a zero_b checked_a checked_b; have /andP[/eqP signs _] := same.
 have [f [g [f0 g0 [one val] [fg _]]]] := weights_of_ends Om bm.
-have la := whole_image (Q := pencil_at s low) wfQ O checked_a bt ag motion_variables.
-have hb := whole_image (Q := pencil_at s high) wfQ O checked_b bt ag motion_variables.
-rewrite -signs in hb; have pos := combination_gt0 f0 g0 fg la hb; move: pos.
-rewrite !(mulrCA _ (sign R _)) -mulrDr !mulr_sumr -big_split /= sum_zero ?mulr0 ?ltxx // => i Hi.
-have [i_free|i_slip] := orP (free_or_slip (Q := Q0) Hi).
-  by rewrite !free_row_at ?mulr0 ?addr0 //; apply: free_index.
-have /Z.eqb_spec same := weights i i_slip.
-have [_ _ xy] := slip_conditions i_slip.
-rewrite (row_at low i_slip) (row_at high i_slip) /weight_of -same.
-transitivity (toR (nth 1%Z (whole_weights a) i) *
-  (x i * ((f * toR low.2 + g * toR high.2) * reaction Q0 t x i +
-          (f * toR low.1 + g * toR high.1) * reaction Q1 t x i))).
-  by move: (toR (nth _ _ _)) (x i) (reaction Q0 t x i) (reaction Q1 t x i) => *; ring.
-by rewrite one val mul1r xy mulr0.
+have wfQ e : wellformed (pencil_at z e) := zero_pencil_wellformed _ _.
+have la := whole_image (Q := pencil_at z low) (wfQ _) O checked_a bt freed_agrees freed_variables.
+have hb := whole_image (Q := pencil_at z high) (wfQ _) O checked_b bt freed_agrees freed_variables.
+rewrite -signs in hb; have := combination_gt0 f0 g0 fg la hb; rewrite !whole_power.
+set sgn := sign R _; have zero := slip_power_zero same one val.
+have -> : f * (sgn * (freed_power a + slip_power a low)) +
+    g * (sgn * (freed_power b + slip_power b high)) =
+    sgn * (f * freed_power a + g * freed_power b).
+  rewrite -[RHS]addr0 -(mulr0 sgn) -zero.
+  by move: (freed_power a) (freed_power b) (slip_power a _) (slip_power b _) => *; ring.
+have [za a0] := freed_power_le0 zero_a; have [zb b0] := freed_power_le0 zero_b.
+case/andP: zero_a => /orP[none|positive] _; first by rewrite za ?zb // !mulr0 addr0 mulr0 ltxx.
+rewrite /sgn /sign (negbTE positive) mul1r ltNge -oppr_ge0 opprD -!mulrN.
+by rewrite addr_ge0 // mulr_ge0 // oppr_ge0.
+Qed.
+
+Lemma whole_leaf_absent l : check_whole_leaf z r low high l -> False.
+Proof.
+case: l => [v'|negative f f'|v'|a b|] //=; first exact: whole_absent.
+move=> both; have ag' : agrees (size (slip Q0)) r (slip_of Q0 x) by rewrite size_slips.
+exact: both_not_split ag' both motion_split.
 Qed.
 
 Section Condensed.
 
-Variables (w : elimination) (other : matrix * matrix).
-Hypothesis eliminated : parts_eliminated s (Some (w, other)).
+Variables (e : elimination) (other : matrix * matrix).
+Hypothesis eliminated : parts_eliminated z (Some (e, other)).
 
-Notation w' := (with_left w other).
+Notation e' := (with_left e other).
 Notation D0 := (blocks_of Q0).
 Notation D1 := (blocks_of Q1).
-Notation P0 := (condensed D0 w).
-Notation P1 := (condensed D1 w').
-Notation A0 := (A_condensed R D0 w).
-Notation B0 := (B_condensed R D0 w).
-Notation A1 := (A_condensed R D1 w').
-Notation B1 := (B_condensed R D1 w').
+Notation P0 := (condensed D0 e).
+Notation P1 := (condensed D1 e').
 Notation xs := (slip_of Q0 x).
+Notation wfQ := (zero_pencil_wellformed z (Lambda2 0 1)).
 
 Lemma eliminated_parts :
   [/\ free_rows_constant Q0 /\ free_rows_constant Q1,
-      stiffness_positive D0 w /\ shapes D0 w & stiffness_positive D1 w' /\ shapes D1 w'].
+      stiffness_positive D0 e /\ shapes D0 e & stiffness_positive D1 e' /\ shapes D1 e'].
 Proof. by case/and4P: eliminated => c0 c1 /andP[? ?] /andP[? ?]. Qed.
-
-Lemma scale_ok i : i \in indices P0 -> 0 < scale_of R w i * toR (unit_of w) ^+ 2.
-Proof.
-have [_ [_ sh] _] := eliminated_parts => Hi.
-by rewrite mulr_gt0 ?exprn_gt0 ?(scale_gt0 _ sh) ?(unit_gt0 _ sh).
-Qed.
-
-Lemma free_row_vanishes e k : k \in iota 0 (size (free Q0)) ->
-  reaction (pencil_at s e) t x (nth 0%N (free Q0) k) = 0.
-Proof.
-rewrite mem_iota add0n /= => lt_k; apply: free_row_at.
-by apply: free_index; apply: mem_nth.
-Qed.
 
 Lemma plain_free k : k \in iota 0 (size (free Q0)) -> free_of Q0 x k = free_part D0 xs k.
 Proof.
 have [[c0 _] [pos _] _] := eliminated_parts.
 apply/(free_rows_vanish pos) : k => k Hk; rewrite -(reaction_free wfQ c0 t).
-  exact: free_row_vanishes.
+  by apply: (free_row_at (0, 1)%Z); apply: mem_nth; rewrite mem_iota in Hk.
 by rewrite mem_iota in Hk.
 Qed.
 
@@ -282,23 +470,8 @@ Lemma friction_free k : k \in iota 0 (size (free Q1)) -> free_of Q1 x k = free_p
 Proof.
 have [[_ c1] _ [pos _]] := eliminated_parts.
 apply/(free_rows_vanish pos) : k => k Hk; rewrite -(reaction_free (Q := Q1) wfQ c1 t).
-  exact: free_row_vanishes.
+  by apply: (free_row_at (1, 0)%Z); apply: mem_nth; rewrite mem_iota in Hk.
 by rewrite mem_iota in Hk.
-Qed.
-
-Lemma plain_image i : i \in indices P0 -> image P0 A0 B0 t xs i =
-  scale_of R w i * toR (unit_of w) ^+ 2 * reaction Q0 t x (nth 0%N (slip Q0) i).
-Proof.
-move=> Hi; rewrite (condensed_image (D := D0) w t plain_free) // -(reaction_slip wfQ) //.
-by rewrite mem_iota in Hi.
-Qed.
-
-Lemma friction_image i : i \in indices P0 -> image P1 A1 B1 t xs i =
-  scale_of R w i * toR (unit_of w) ^+ 2 * reaction Q1 t x (nth 0%N (slip Q0) i).
-Proof.
-move=> Hi; rewrite (condensed_image (D := D1) w' t friction_free) //.
-rewrite -(reaction_slip (Q := Q1) wfQ) //.
-by rewrite mem_iota in Hi.
 Qed.
 
 Lemma slip_nonzero : exists2 i, i \in indices P0 & xs i != 0.
@@ -313,89 +486,68 @@ rewrite -[LHS]/(free_of Q0 x k) plain_free ?mem_iota // /free_part sum_zero ?opp
 by rewrite zero // mulr0.
 Qed.
 
-Notation A e := (fun i j => toR e.2 * A0 i j + toR e.1 * A1 i j).
-Notation B e := (fun i j => toR e.2 * B0 i j + toR e.1 * B1 i j).
-
-Lemma mixed_image e i : image (mixed e P0 P1) (A e) (B e) t xs i =
-  toR e.2 * image P0 A0 B0 t xs i + toR e.1 * image P1 A1 B1 t xs i.
+Lemma condensed_absent l : check_parts P0 P1 r low high l -> False.
 Proof.
-rewrite /image !mulr_sumr -[in RHS]big_split; apply: eq_bigr => j _ /=.
-by rewrite /T; move: (A0 i j) (A1 i j) (B0 i j) (B1 i j) (xs j) (toR e.1) (toR e.2) => *; ring.
-Qed.
-
-Lemma encloses_mixed e : 0 <= toR e.1 :> R -> 0 <= toR e.2 :> R ->
-  encloses (mixed e P0 P1) (A e) (B e).
-Proof.
-have [_ [p0 s0] [p1 s1]] := eliminated_parts => e1 e2.
-by apply: mixed_encloses => //; apply: condensation_encloses.
-Qed.
-
-Lemma box_parts : exists a b, [/\ 0 <= a, 0 <= b, 0 < a \/ 0 < b &
-  box_solution (mixed low P0 P1) (mixed high P0 P1) (A low) (B low) (A high) (B high) t a b xs].
-Proof.
-have [f [g [f0 g0 [one val] [fg _]]]] := weights_of_ends Om bm.
-exists f, g; split=> //; split; first exact: slip_nonzero.
-move=> i Hi; have lt_i : (i < size (slip Q0))%N by rewrite mem_iota in Hi.
-have [x0 y0 xy] := slip_conditions (mem_nth 0%N lt_i); have c0 := scale_ok Hi.
-suff -> : box_image (mixed low P0 P1) (mixed high P0 P1) (A low) (B low) (A high) (B high) t f g
-            xs i = scale_of R w i * toR (unit_of w) ^+ 2 *
-            (reaction Q0 t x (nth 0%N (slip Q0) i) + mu * reaction Q1 t x (nth 0%N (slip Q0) i)).
-  split; [exact: x0 | by rewrite mulr_ge0 // ltW |].
-  by rewrite mulrCA -[X in _ * (X * _)]/(x (nth 0%N (slip Q0) i)) xy mulr0.
-rewrite /box_image !mixed_image plain_image // friction_image //.
-rewrite -[X in X + mu * _]mul1r -one -val.
-move: (reaction Q0 t x _) (reaction Q1 t x _) (scale_of R w i) (toR (unit_of w)) => *.
-by ring.
-Qed.
-
-Lemma farkas_box_absent v : box_farkas (mixed low P0 P1) (mixed high P0 P1) r v -> False.
-Proof.
-have [a [b [a0 b0 ab sol]]] := box_parts; have [l1 l2 h1 h2] := ordered_ge0 R Om.
-exact: (box_farkas_sound (encloses_mixed l1 l2) (encloses_mixed h1 h2) _ O bt ag a0 b0 ab sol).
-Qed.
-
-Lemma definite_box_absent negative f f' :
-  box_definite (mixed low P0 P1) (mixed high P0 P1) r negative f f' -> False.
-Proof.
-have [a [b [a0 b0 ab sol]]] := box_parts; have [l1 l2 h1 h2] := ordered_ge0 R Om.
-exact: (box_definite_sound (encloses_mixed l1 l2) (encloses_mixed h1 h2) _ O bt ag a0 b0 ab sol).
-Qed.
-
-Lemma regular_box_absent v : box_regular (mixed low P0 P1) (mixed high P0 P1) r v -> False.
-Proof.
-have [a [b [a0 b0 ab sol]]] := box_parts; have [l1 l2 h1 h2] := ordered_ge0 R Om.
-exact: (box_regular_sound (encloses_mixed l1 l2) (encloses_mixed h1 h2) _ O bt ag a0 b0 ab sol).
+have [[c0 c1] [p0 s0] [p1 s1]] := eliminated_parts.
+have lt_slip i : i \in indices P0 -> (i < size (slip Q0))%N by rewrite mem_iota.
+apply: (parts_absent (condensation_encloses R p0 s0) (condensation_encloses R p1 s1) (erefl _)
+  O Om bt bm (xs := xs) (factor := fun i => scale_of R e i * toR (unit_of e) ^+ 2)
+  (row := fun i => reaction Q0 t x (nth 0%N (slip Q0) i))
+  (row' := fun i => reaction Q1 t x (nth 0%N (slip Q0) i))).
+- by move: ag; rewrite -(size_slips z (Lambda2 0 1)).
+- by move=> i Hi; rewrite mulr_gt0 ?exprn_gt0 ?(scale_gt0 _ s0) ?(unit_gt0 _ s0).
+- move=> i Hi; rewrite (condensed_image (D := D0) e t plain_free) // -(reaction_slip wfQ) //.
+  exact: lt_slip.
+- move=> i Hi; rewrite (condensed_image (D := D1) e' t friction_free) //.
+  by rewrite -(reaction_slip (Q := Q1) wfQ) //; apply: lt_slip.
+- exact: slip_nonzero.
+by move=> i /lt_slip lt_i; apply: slip_conditions; apply: mem_nth.
 Qed.
 
 End Condensed.
 
-Lemma critical_leaf_absent w l : parts_eliminated s w ->
-  check_critical_leaf s (condensed_parts s w) r low high l -> False.
+Lemma critical_leaf_absent e l : parts_eliminated z e ->
+  check_critical_leaf z (condensed_parts z e) r low high l -> False.
 Proof.
-case: l => [v|negative f f'|v|a b] /=; last by move=> _ /and3P[]; apply: whole_box_absent.
-- by case: w => [[w other]|] //= eliminated; apply: farkas_box_absent.
-- by case: w => [[w other]|] //= eliminated; apply: definite_box_absent.
-by case: w => [[w other]|] //= eliminated; apply: regular_box_absent.
+move=> eliminated /orP[|]; last exact: whole_leaf_absent.
+by case: e eliminated => [[e other]|] //= eliminated; apply: condensed_absent.
 Qed.
 
 End Box.
+
+(* Where the search for a leaf begins. *)
+Lemma motion_start : (forall j, (j < slip_number z)%N -> 0 <= slip_of Q0 x j) /\
+  in_region (slip_number z) t (slip_of Q0 x) (window zero infinity).
+Proof.
+split=> [j|].
+  by rewrite -(size_slips z (Lambda2 0 1)) => lt_j; have [] := slip_conditions (mem_nth 0%N lt_j).
+split; last by move=> i _; rewrite /state_of nth_nil.
+by rewrite /between /= toR0 toR1 mulr1 mulr0 ler01.
+Qed.
 
 End Motion.
 
 End Sound.
 
-Theorem critical_absent (R : rcfType) s w tr from bound : check_critical s w tr from bound ->
+Lemma between_ge0 (R : realFieldType) low high (mu : R) :
+  ordered low high -> between mu low high -> 0 <= mu.
+Proof.
+case/and5P=> n0 d0 _ _ _ [le _]; have d1 : 0 < toR low.2 :> R by rewrite toR_gt0.
+by rewrite -(pmulr_lge0 _ d1); apply: le_trans le; rewrite toR_ge0.
+Qed.
+
+Theorem zero_critical_absent (R : rcfType) z w tr from bound : check_critical z w tr from bound ->
+  forall (t mu : R) v, 0 <= t -> between mu from bound -> conditions_9z z t mu v -> False.
+Proof.
+case/and3P=> wf eliminated boxes t mu v t0 bm sat.
+have [x0 start] := motion_start wf t0 sat.
+have [r [low [high [l [[bt ag] bm' O Om ok]]]]] := box_reaches_a_leaf boxes x0 start bm.
+exact: (critical_leaf_absent wf (between_ge0 Om bm') sat O Om bt bm' ag eliminated ok).
+Qed.
+
+Corollary critical_absent (R : rcfType) s w tr from bound :
+  check_critical (ZeroSystem s [::]) w tr from bound ->
   forall (t mu : R) v, 0 <= t -> between mu from bound -> conditions_9 s t mu v -> False.
 Proof.
-case/and3P=> wf eliminated boxes t mu v t0 bm sat; pose x := variables_of s v.
-have {}sat : conditions_9 s t mu (motion s x).
-  by apply: (conditions_9_ext wf) (sat) => d Hd; rewrite (motion_of_variables wf sat).
-have x0 j : (j < size (slip (part_plain s)))%N -> 0 <= slip_of (part_plain s) x j.
-  by move=> lt_j; have [] := slip_conditions wf sat (mem_nth 0%N lt_j).
-have start : in_region (size (slip (part_plain s))) t (slip_of (part_plain s) x)
-    (window zero infinity).
-  split; last by move=> i _; rewrite /state_of nth_nil.
-  by rewrite /between /= toR0 toR1 mulr1 mulr0 ler01.
-have [r [low [high [l [[bt ag] bm' O Om ok]]]]] := box_reaches_a_leaf boxes x0 start bm.
-exact: (critical_leaf_absent wf sat O Om bt bm' ag eliminated ok).
+by move=> checked t mu v t0 bm /no_zero_particles; apply: (zero_critical_absent checked t0 bm).
 Qed.

@@ -6,13 +6,14 @@
      AboutAnchor n g tr  evidence of Critical.v for both parts, condensed about anchor n with the
                          grain g over the interval of the box; in the tree tr the position u in
                          this interval stands in place of t;
-     AboutWhole a b      evidence about the whole pencils at both ends of the interval of mu.
+     WithoutAnchor l     a leaf of Critical.v that needs no enclosures.
 
    Over the box both local pencils are near lines, and their rows have one positive factor, so the
    local pencil at mu is a combination of those at both ends of the interval of mu.
 
-   Theorem [anchored_critical_absent]: if the check succeeds, then for every mu in [from, bound] and
-   every t >= 0 no motion satisfies the conditions (9) with lambda^2 = t and mu.
+   Theorem [zero_anchored_critical_absent]: if the check succeeds, then for every mu in
+   [from, bound] and every t >= 0 no motion satisfies the conditions (9) with lambda^2 = t and mu.
+   [anchored_critical_absent]: the same without particles in contact with zero reaction.
 
    Page: spec/certificates.md, 5.18, with 5.14.
    Rust: crates/check/src/cover/critical.rs, condensed.rs, expanded.rs. *)
@@ -21,7 +22,8 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Pinned Cover.
 From Mceip Require Import Condensation Pencil Whole Complete System Norms Elimination Curved.
-From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Regular Critical.
+From Mceip Require Import Series Anchor AnchorLeaf Varying ZeroReaction ZeroPencil Boxes Regular.
+From Mceip Require Import Critical.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -44,15 +46,15 @@ Record box_anchoring := BoxAnchoring {
 
 Inductive anchored_box_leaf :=
   | AboutAnchor of nat & Z & box_tree critical_leaf
-  | AboutWhole of whole & whole.
+  | WithoutAnchor of critical_leaf.
 
 Section Checker.
 
-Variable s : system.
+Variable z : zero_system.
 
-Notation Q0 := (part_plain s).
-Notation Q1 := (part_friction s).
-Notation ns := (size (particles s)).
+Notation Q0 := (part_plain z).
+Notation Q1 := (part_friction z).
+Notation ns := (slip_number z).
 
 Definition friction_anchor a (other : seq matrix) : anchor :=
   Anchor (anchor_center a) (anchor_unit a) (anchor_right a) other (anchor_scale a).
@@ -67,15 +69,11 @@ Definition expand_box (b : box_anchor) : option (anchor_family * anchor_family) 
     else None
   else None.
 
-(* Evidence about enclosures of both parts. *)
-Definition check_parts (P P' : enclosed) (r : region) (low high : point) (l : critical_leaf) :=
-  match l with
-  | BoxFarkas v => box_farkas (mixed low P P') (mixed high P P') r v
-  | BoxDefinite negative f f' =>
-      box_definite (mixed low P P') (mixed high P P') r negative f f'
-  | BoxRegular v => box_regular (mixed low P P') (mixed high P P') r v
-  | BoxWhole _ _ => false
-  end.
+(* A leaf about the enclosures P, P' of both parts; [halves] says that right and left of a particle
+   both move. *)
+Definition check_local_leaf (halves : region -> bool) (P P' : enclosed) (r : region)
+    (low high : point) (l : critical_leaf) :=
+  if l is BoxHalves then halves r else check_parts P P' r low high l.
 
 (* The local pencil of a part over [lo, hi]. *)
 Definition local_part low_a low_b a fam lo hi grain :=
@@ -87,7 +85,8 @@ Definition check_about low_a low_b (b : box_anchor) (fams : anchor_family * anch
   let a' := friction_anchor a (friction_left b) in
   [&& proper_interval a low_a low_b (lower r) (upper r), (0 <? grain)%Z,
       size (series_z fams.1) == size (series_z fams.2) &
-      check_boxes ns (check_parts (local_part low_a low_b a fams.1 (lower r) (upper r) grain)
+      check_boxes ns (check_local_leaf (both_halves z)
+          (local_part low_a low_b a fams.1 (lower r) (upper r) grain)
           (local_part low_a low_b a' fams.2 (lower r) (upper r) grain))
         tr (local_region r) low high].
 
@@ -108,9 +107,7 @@ Definition check_anchored_box (families : seq (option (anchor_family * anchor_fa
           check_about (mass_below w) (stiffness_below w) b fams grain (swap_region r) low high tr'
         else check_about (stiffness_below w) (mass_below w) b fams grain r low high tr'
       else false
-  | AboutWhole a b =>
-      [&& same_weights s a b, check_whole (pencil_at s low) r a &
-          check_whole (pencil_at s high) r b]
+  | WithoutAnchor l => check_whole_leaf z r low high l
   end.
 
 Definition both_bounded :=
@@ -121,7 +118,7 @@ Definition both_bounded :=
 
 Definition check_anchored_critical (tr : box_tree anchored_box_leaf) (from bound : point) :=
   let families := box_expansions in
-  [&& system_wellformed s (Lambda2 0 1), nilp (box_anchors w) || both_bounded &
+  [&& zero_wellformed z (Lambda2 0 1), nilp (box_anchors w) || both_bounded &
       check_boxes ns (check_anchored_box families) tr (window zero infinity) from bound].
 
 End Checker.
@@ -180,55 +177,6 @@ Qed.
 
 End Part.
 
-(* Both parts. *)
-Section Parts.
-
-Variables (R : rcfType) (P P' : enclosed) (A B A' B' : nat -> nat -> R).
-Hypotheses (E : encloses P A B) (E' : encloses P' A' B') (same : size_of P' = size_of P).
-Variables (r : region) (low high : point) (t mu : R) (xs factor row row' : nat -> R).
-Hypotheses (O : ordered (lower r) (upper r)) (Om : ordered low high).
-Hypotheses (bt : between t (lower r) (upper r)) (bm : between mu low high).
-Hypothesis ag : agrees (size_of P) r xs.
-Hypothesis factor0 : forall i, i \in indices P -> 0 < factor i.
-Hypothesis imageE : forall i, i \in indices P -> image P A B t xs i = factor i * row i.
-Hypothesis imageE' : forall i, i \in indices P -> image P' A' B' t xs i = factor i * row' i.
-Hypothesis nonzero : exists2 i, i \in indices P & xs i != 0.
-Hypothesis signs : forall i, i \in indices P ->
-  let y := row i + mu * row' i in [/\ 0 <= xs i, 0 <= y & xs i * y = 0].
-
-Notation Ae e := (fun i j => toR e.2 * A i j + toR e.1 * A' i j).
-Notation Be e := (fun i j => toR e.2 * B i j + toR e.1 * B' i j).
-
-Lemma image_mixed e i : image (mixed e P P') (Ae e) (Be e) t xs i =
-  toR e.2 * image P A B t xs i + toR e.1 * image P' A' B' t xs i.
-Proof.
-have same_ix : indices P' = indices P by rewrite /indices same.
-rewrite /image same_ix !mulr_sumr -[in RHS]big_split; apply: eq_bigr => j _ /=.
-by rewrite /T; move: (A i j) (A' i j) (B i j) (B' i j) (xs j) (toR e.1) (toR e.2) => *; ring.
-Qed.
-
-Theorem parts_absent l : check_parts P P' r low high l -> False.
-Proof.
-have [f [g [f0 g0 [one val] [fg _]]]] := weights_of_ends Om bm.
-have [l1 l2 h1 h2] := ordered_ge0 R Om.
-have El := mixed_encloses E E' same l1 l2; have Eh := mixed_encloses E E' same h1 h2.
-have sol : box_solution (mixed low P P') (mixed high P P') (Ae low) (Be low) (Ae high) (Be high)
-    t f g xs.
-  split=> // i Hi; have [x0 y0 xy] := signs Hi; have c0 := factor0 Hi.
-  have -> : box_image (mixed low P P') (mixed high P P') (Ae low) (Be low) (Ae high) (Be high)
-      t f g xs i = factor i * (row i + mu * row' i).
-    rewrite /box_image !image_mixed imageE // imageE' //.
-    rewrite -[X in X + mu * _]mul1r -one -val.
-    by move: (row i) (row' i) (factor i) => *; ring.
-  by split; [exact: x0 | rewrite mulr_ge0 // ltW | rewrite mulrCA xy mulr0].
-case: l => [v|negative k k'|v|//] /= ok.
-- exact: (box_farkas_sound El Eh _ O bt ag f0 g0 fg sol ok).
-- exact: (box_definite_sound El Eh _ O bt ag f0 g0 fg sol ok).
-exact: (box_regular_sound El Eh _ O bt ag f0 g0 fg sol ok).
-Qed.
-
-End Parts.
-
 (* A box with an anchor, for two pencils that differ in their slip rows. *)
 Section About.
 
@@ -254,6 +202,9 @@ Hypothesis rows_f : forall i, i \in fr -> reaction Q t x i = 0.
 Hypothesis rows_f' : forall i, i \in fr -> reaction Q' t x i = 0.
 Hypothesis signs : forall i, i \in slip Q ->
   let y := reaction Q t x i + mu * reaction Q' t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0].
+Variable halves : region -> bool.
+Hypothesis halves_absent : forall r',
+  halves r' -> agrees (size (slip Q)) r' (slip_of Q x) -> False.
 
 Notation lo := (lower r).
 Notation hi := (upper r).
@@ -268,7 +219,7 @@ by apply: substituted_power_size; rewrite !size_map same_size.
 Qed.
 
 Theorem about_absent tr :
-  check_boxes (size (slip Q)) (check_parts P P') tr (local_region r) low high -> False.
+  check_boxes (size (slip Q)) (check_local_leaf halves P P') tr (local_region r) low high -> False.
 Proof.
 have [u0 u1] := u_of_between proper bt.
 have lt_ns i : i \in indices P -> (i < size (slip Q))%N by rewrite mem_iota.
@@ -276,7 +227,9 @@ have x0 i : (i < size (slip Q))%N -> 0 <= slip_of Q x i.
   by move=> lt_i; have [] := signs (mem_nth 0%N lt_i).
 have start : in_region (size (slip Q)) (u_of lo hi t) (slip_of Q x) (local_region r).
   by split=> //; rewrite /between /= toR0 toR1 !mulr1.
-move=> /box_reaches_a_leaf/(_ x0 start bm)[r1 [low1 [high1 [l [[bu ag1] bm1 O1 Om1 ok]]]]].
+move=> /box_reaches_a_leaf/(_ x0 start bm)[r1 [low1 [high1 [l [[bu ag1] bm1 O1 Om1 leaf_ok]]]]].
+have {leaf_ok} ok : check_parts P P' r1 low1 high1 l.
+  by case: l leaf_ok => //= both; have := halves_absent both ag1.
 have [A [B [E imageE]]] :=
   part_line wf expanded bounded_a bounded_b proper grain0 bt rows_f.
 have [A' [B' [E' imageE']]] :=
@@ -296,7 +249,8 @@ End About.
 
 (* The same in 1/t. *)
 Theorem about_reversed_absent (R : rcfType) n fr ra rb ra' rb' a other fam fam' low_a low_b grain
-    r low high (t mu : R) x tr (Q := Pencil n ra rb fr) (Q' := Pencil n ra' rb' fr) :
+    r low high (t mu : R) x (halves : region -> bool) tr
+    (Q := Pencil n ra rb fr) (Q' := Pencil n ra' rb' fr) :
   wellformed Q -> expand (swap_pencil Q) a = Some fam ->
   expand (swap_pencil Q') (friction_anchor a other) = Some fam' ->
   bounded_rows (size fr) (ff_block Q (row_a Q)) low_a ->
@@ -311,16 +265,18 @@ Theorem about_reversed_absent (R : rcfType) n fr ra rb ra' rb' a other fam fam' 
   (forall i, i \in fr -> reaction Q' t x i = 0) ->
   (forall i, i \in slip Q -> let y := reaction Q t x i + mu * reaction Q' t x i in
      [/\ 0 <= x i, 0 <= y & x i * y = 0]) ->
-  check_boxes (size (slip Q)) (check_parts
+  (forall r', halves r' -> agrees (size (slip Q)) r' (slip_of Q x) -> False) ->
+  check_boxes (size (slip Q)) (check_local_leaf halves
       (local_pencil (size (slip Q)) a low_b low_a fam (swap (upper r)) (swap (lower r)) false grain)
       (local_pencil (size (slip Q)) (friction_anchor a other) low_b low_a fam' (swap (upper r))
          (swap (lower r)) false grain)) tr (local_region r) low high -> False.
 Proof.
 move=> wf ex0 ex1 ba bb ba' bb' proper grain0 same_size bm t_gt0 bt ag nonzero rows rows' signs.
+move=> apart.
 have tn0 := lt0r_neq0 t_gt0; have ti : 0 < t^-1 by rewrite invr_gt0.
 apply: (@about_absent R n fr rb ra rb' ra' a other fam fam' low_b low_a grain (swap_region r)
   low high t^-1 mu x wf ex0 ex1 bb ba bb' ba' proper grain0 same_size bm (swap_between t_gt0 bt)
-  ag nonzero).
+  ag nonzero _ _ _ halves apart).
 - by move=> i Hi; rewrite (swap_reaction Q) // rows // mulr0.
 - by move=> i Hi; rewrite (swap_reaction Q') // rows' // mulr0.
 move=> i Hi y; have [x0 y0 xy] := signs i Hi.
@@ -330,79 +286,70 @@ have yE : y = t^-1 * (reaction Q t x i + mu * reaction Q' t x i).
 by rewrite yE; split=> //; [rewrite pmulr_rge0 | rewrite mulrCA xy mulr0].
 Qed.
 
-Lemma slip_particles s : slip (part_plain s) = iota (free_number s) (size (particles s)).
-Proof.
-rewrite /slip /= iotaD filter_cat add0n.
-rewrite (eq_in_filter (a2 := pred0)) ?filter_pred0; last by move=> i /= ->.
-rewrite (eq_in_filter (a2 := predT)) ?filter_predT // => i; rewrite !mem_iota => /andP[ge _].
-by rewrite add0n /= -leqNgt.
-Qed.
-
-Lemma size_slip s : size (slip (part_plain s)) = size (particles s).
-Proof. by rewrite slip_particles size_iota. Qed.
-
 Section Sound.
 
-Variables (R : rcfType) (s : system) (w : box_anchoring).
-Notation Q0 := (part_plain s).
-Notation Q1 := (part_friction s).
-Notation ns := (size (slip Q0)).
+Variables (R : rcfType) (z : zero_system) (w : box_anchoring).
+Notation Q0 := (part_plain z).
+Notation Q1 := (part_friction z).
 
-Hypothesis wf : system_wellformed s (Lambda2 0 1).
-Notation wfQ := (pencil_wellformed s (0, 1)%Z).
-Hypothesis bounds : nilp (box_anchors w) || both_bounded s w.
+Hypothesis wf : zero_wellformed z (Lambda2 0 1).
+Notation wfQ := (zero_pencil_wellformed z (Lambda2 0 1)).
+Hypothesis bounds : nilp (box_anchors w) || both_bounded z w.
 
-Variables (t mu : R) (x : nat -> R).
-Hypothesis sat : conditions_9 s t mu (motion s x).
+Variables (t mu : R) (v : nat -> R).
+Hypotheses (mu0 : 0 <= mu) (sat : conditions_9z z t mu v).
+Notation x := (zero_variables_of z v).
 Variables (r : region) (low high : point).
 Hypotheses (O : ordered (lower r) (upper r)) (Om : ordered low high).
 Hypotheses (bt : between t (lower r) (upper r)) (bm : between mu low high).
-Hypothesis ag : agrees ns r (slip_of Q0 x).
+Hypothesis ag : agrees (slip_number z) r (slip_of Q0 x).
 
-Lemma free_rows_at e i : i \in free Q0 -> reaction (pencil_at s e) t x i = 0.
-Proof. by move=> Hi; apply: (free_row_at wf sat); apply: free_index Hi. Qed.
+Lemma both_absent r' : both_halves z r' -> agrees (size (slip Q0)) r' (slip_of Q0 x) -> False.
+Proof. by move=> both ag'; apply: both_not_split ag' both (split_variables _). Qed.
 
 Lemma anchored_box_absent l :
-  check_anchored_box s w (box_expansions s w) r low high l -> False.
+  check_anchored_box z w (box_expansions z w) r low high l -> False.
 Proof.
-case: l => [n grain e|a b] /=; last first.
-  by case/and3P; apply: (whole_box_absent wf sat O Om bt bm ag).
-case fams_n: (nth None (box_expansions s w) n) => [fams|//].
+case: l => [n grain e|l] /=; last by apply: (whole_leaf_absent wf mu0 sat O Om bt bm ag).
+case fams_n: (nth None (box_expansions z w) n) => [fams|//].
 have lt_n : (n < size (box_anchors w))%N.
   by rewrite ltnNge; apply/negP => l; rewrite nth_default ?size_map in fams_n.
-have /and4P[ba0 bb0 ba1 bb1] : both_bounded s w.
+have /and4P[ba0 bb0 ba1 bb1] : both_bounded z w.
   by case/orP: bounds => // /nilP none; rewrite none in lt_n.
 move: fams_n; rewrite (nth_map no_box_anchor) //.
 case: (nth no_box_anchor (box_anchors w) n) => reverse a other; rewrite /expand_box /=.
 case ex0: (expand_part Q0 reverse a) => [fam|//].
 case ex1: (expand_part Q1 reverse (friction_anchor a other)) => [fam'|//] [<-].
 have nonzero := motion_variables wf sat.
+have rows0 := free_row_at wf sat (0, 1)%Z; have rows1 := free_row_at wf sat (1, 0)%Z.
+have signs := slip_conditions wf sat.
+have ag' : agrees (size (slip Q0)) r (slip_of Q0 x) by rewrite size_slips.
 case: reverse ex0 ex1 => ex0 ex1; last first.
-  rewrite /check_about /local_part -size_slip => /and4P[/= proper grain0 /eqP same_size ok].
-  exact: (about_absent wfQ ex0 ex1 ba0 bb0 ba1 bb1 proper grain0 same_size bm bt ag nonzero
-    (@free_rows_at _) (@free_rows_at _) (slip_conditions wf sat) ok).
-rewrite /check_about /local_part -size_slip => /andP[lo0].
+  rewrite /check_about /local_part -(size_slips z (Lambda2 0 1)).
+  case/and4P=> /= proper grain0 /eqP same_size ok.
+  exact: (about_absent wfQ ex0 ex1 ba0 bb0 ba1 bb1 proper grain0 same_size bm bt ag' nonzero
+    rows0 rows1 signs both_absent ok).
+rewrite /check_about /local_part -(size_slips z (Lambda2 0 1)) => /andP[lo0].
 case/and4P=> /= proper grain0 /eqP same_size ok.
 exact: (about_reversed_absent wfQ ex0 ex1 ba0 bb0 ba1 bb1 proper grain0 same_size bm
-  (value_gt0 O lo0 bt) bt ag nonzero (@free_rows_at _) (@free_rows_at _) (slip_conditions wf sat)
-  ok).
+  (value_gt0 O lo0 bt) bt ag' nonzero rows0 rows1 signs both_absent ok).
 Qed.
 
 End Sound.
 
-Theorem anchored_critical_absent (R : rcfType) s w tr from bound :
-  check_anchored_critical s w tr from bound ->
+Theorem zero_anchored_critical_absent (R : rcfType) z w tr from bound :
+  check_anchored_critical z w tr from bound ->
+  forall (t mu : R) v, 0 <= t -> between mu from bound -> conditions_9z z t mu v -> False.
+Proof.
+case/and3P=> wf bounds boxes t mu v t0 bm sat; have [x0 start] := motion_start wf t0 sat.
+have [r [low [high [l [[bt ag] bm' O Om ok]]]]] := box_reaches_a_leaf boxes x0 start bm.
+exact: (anchored_box_absent wf bounds (between_ge0 Om bm') sat O Om bt bm' ag ok).
+Qed.
+
+Corollary anchored_critical_absent (R : rcfType) s w tr from bound :
+  check_anchored_critical (ZeroSystem s [::]) w tr from bound ->
   forall (t mu : R) v, 0 <= t -> between mu from bound -> conditions_9 s t mu v -> False.
 Proof.
-case/and3P=> wf bounds; rewrite -size_slip => boxes t mu v t0 bm sat; pose x := variables_of s v.
-have {}sat : conditions_9 s t mu (motion s x).
-  by apply: (conditions_9_ext wf) (sat) => d Hd; rewrite (motion_of_variables wf sat).
-have x0 j : (j < size (slip (part_plain s)))%N -> 0 <= slip_of (part_plain s) x j.
-  by move=> lt_j; have [] := slip_conditions wf sat (mem_nth 0%N lt_j).
-have start : in_region (size (slip (part_plain s))) t (slip_of (part_plain s) x)
-    (window zero infinity).
-  split; last by move=> i _; rewrite /state_of nth_nil.
-  by rewrite /between /= toR0 toR1 mulr1 mulr0 ler01.
-have [r [low [high [l [[bt ag] bm' O Om ok]]]]] := box_reaches_a_leaf boxes x0 start bm.
-exact: (anchored_box_absent wf bounds sat O Om bt bm' ag ok).
+move=> checked t mu v t0 bm /no_zero_particles.
+exact: (zero_anchored_critical_absent checked t0 bm).
 Qed.

@@ -48,7 +48,7 @@ Extraction "kernel.ml"
   varying_still_open check_local expansions expand_anchor local_pencil local_point local_known
   local_region proper_interval bounded_rows ff_block swap_pencil
   check_critical condensed_parts part_plain part_friction pencil_at mixed
-  check_anchored_critical box_expansions friction_anchor check_parts
+  check_anchored_critical box_expansions friction_anchor check_parts freed
   box_regular regular_order restricted combine_rows
   check_presence check_piece check_presence_piece presence_edge rest_row rows_at sign_at
   corner_center corner_radius

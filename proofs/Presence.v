@@ -11,7 +11,7 @@
      finish  the same at t = t1, with the other sign.
 
    Theorem [piece_exists]: if the check succeeds, then for each mu in [low, high] there is a t in
-   [t0, t1] with a solution.
+   [t0, t1] with a solution in the region.
 
    For each t the row k of the x with x_k = V_k whose other rows vanish is phi(t).  A multiple of T
    has polynomials as entries, so phi has a root between two values where its signs are opposite
@@ -292,7 +292,7 @@ by rewrite mulrCA pmulr_rgt0 // toR_gt0.
 Qed.
 
 Theorem piece_exists : exists t x, [/\ between t (lower r) (upper r),
-  exists2 i, i \in indices P & x i != 0 &
+  exists2 i, i \in indices P & x i != 0, agrees (size_of P) r x &
   forall i, i \in indices P -> let y := \sum_(j <- indices P) F t i j * x j in
     [/\ 0 <= x i, 0 <= y & x i * y = 0]].
 Proof.
@@ -343,7 +343,11 @@ have s_row i : \sum_(j <- indices P) F t i j * s j = family_row t x i.
     by rewrite /s mem_filter (negbTE still).
   by apply: sum_eq => j jJ; rewrite /s jJ.
 exists t, s; split=> //.
-  by exists k; [exact: moving_index pivot_moving | rewrite /s pivot_moving xk gt_eqF].
+- by exists k; [exact: moving_index pivot_moving | rewrite /s pivot_moving xk gt_eqF].
+- move=> j lt_j; have j_in : j \in indices P by rewrite mem_iota.
+  rewrite /s mem_filter j_in andbT.
+  case state_j: (state_of r j) => //=; apply: positive; rewrite mem_filter j_in andbT.
+  by rewrite state_j.
 move=> i Hi y; rewrite /y s_row /s; have [iJ|iJ] := boolP (i \in J).
   by rewrite null // mulr0 lexx ltW // positive.
 rewrite mul0r lexx; split=> //.

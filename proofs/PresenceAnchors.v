@@ -3,11 +3,13 @@
    The checker gets a system, an interval [from, bound] of mu, the bounds and anchors of
    CriticalAnchors.v, and a list of pieces.  The first piece begins at from, each later one where
    the one before ends, and the last one ends at bound or beyond.  A piece has an interval of t, the
-   number of an anchor, the grain of the local pencils, a state for each slip particle and a witness
-   of Presence.v for both ends of its interval of mu.
+   number of an anchor, the grain of the local pencils, a state for each complementarity variable
+   and a witness of Presence.v for both ends of its interval of mu.  Of right and left of a particle
+   in contact with zero reaction at least one is at rest, so the solutions of the pencil are motions.
 
-   Theorem [presence_sound]: if the check succeeds, then for every mu in [from, bound] there are a
-   t >= 0 and a motion that satisfies the conditions (9) with lambda^2 = t and mu.
+   Theorem [zero_presence_sound]: if the check succeeds, then for every mu in [from, bound] there
+   are a t >= 0 and a motion that satisfies the conditions (9) with lambda^2 = t and mu.
+   [presence_sound]: the same without particles in contact with zero reaction.
 
    The condensed matrix of both parts is T0(u) + mu T1(u), where u is the position in the interval
    of t; det F times it has polynomials in u as entries (AnchorLeaf.v).  Without free variables F is
@@ -19,8 +21,8 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Pinned Cover.
 From Mceip Require Import Condensation Pencil Whole Complete System Norms Elimination Curved.
-From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Regular Critical CriticalAnchors.
-From Mceip Require Import Presence.
+From Mceip Require Import Series Anchor AnchorLeaf Varying ZeroReaction ZeroPencil Boxes Regular.
+From Mceip Require Import Critical CriticalAnchors Presence.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -40,16 +42,14 @@ Record presence_piece := PresencePiece {
 
 Section Checker.
 
-Variables (s : system) (w : box_anchoring).
-
-Notation ns := (size (particles s)).
+Variables (z : zero_system) (w : box_anchoring).
 
 Definition check_present low_a low_b (b : box_anchor) (fams : anchor_family * anchor_family) grain
     (r : region) (low high : point) (v : presence) :=
   let a := plain_anchor b in
   let a' := friction_anchor a (friction_left b) in
-  let P := local_part s low_a low_b a fams.1 (lower r) (upper r) grain in
-  let P' := local_part s low_a low_b a' fams.2 (lower r) (upper r) grain in
+  let P := local_part z low_a low_b a fams.1 (lower r) (upper r) grain in
+  let P' := local_part z low_a low_b a' fams.2 (lower r) (upper r) grain in
   [&& proper_interval a low_a low_b (lower r) (upper r), (0 <? grain)%Z,
       size (series_z fams.1) == size (series_z fams.2) &
       check_presence_piece (mixed low P P') (mixed high P P') (local_region r) v].
@@ -58,7 +58,7 @@ Definition check_piece (families : seq (option (anchor_family * anchor_family)))
     (p : presence_piece) :=
   let b := nth no_box_anchor (box_anchors w) (piece_anchor p) in
   let r := piece_region p in
-  ordered low (piece_end p) &&
+  ordered low (piece_end p) && halves_apart z r &&
   if nth None families (piece_anchor p) is Some fams then
     if reversed_anchor b then
       (0 <? (upper r).2)%Z &&
@@ -77,8 +77,8 @@ Fixpoint check_pieces families (low : point) (pieces : seq presence_piece) (boun
   end.
 
 Definition check_presence (pieces : seq presence_piece) (from bound : point) :=
-  let families := box_expansions s w in
-  [&& system_wellformed s (Lambda2 0 1), both_bounded s w, (0 <? bound.2)%Z &
+  let families := box_expansions z w in
+  [&& zero_wellformed z (Lambda2 0 1), both_bounded z w, (0 <? bound.2)%Z &
       check_pieces families from pieces bound].
 
 End Checker.
@@ -151,8 +151,8 @@ Proof. exact: proper. Qed.
 
 Theorem piece_present v :
   check_presence_piece (mixed low P P') (mixed high P P') (local_region r) v ->
-  exists t x, [/\ between t lo hi, exists2 i, i \in iota 0 n & x i != 0,
-    forall i, i \in fr -> reaction Q t x i = 0 &
+  exists t x, [/\ between t lo hi /\ agrees ns r (slip_of Q x),
+    exists2 i, i \in iota 0 n & x i != 0, forall i, i \in fr -> reaction Q t x i = 0 &
     forall i, i \in slip Q ->
       let y := reaction Q t x i + mu * reaction Q' t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]].
 Proof.
@@ -190,7 +190,7 @@ have family_d (u : R) i j : between u (lower (local_region r)) (upper (local_reg
   rewrite (family_polyE grain wf expanded bounded_a bounded_b proper) //.
   rewrite (family_polyE (Q := Q') grain wf expanded' bounded_a' bounded_b' proper') //.
   by move: (d0.[u]) (d1.[u]) (T0 u i j) (T1 u i j) => *; ring.
-have [u [xs [bu [i0 Hi0 xi0] signs]]] :=
+have [u [xs [bu [i0 Hi0 xi0] ag signs]]] :=
   piece_exists (P := mixed low P P') (P' := mixed high P P') (F := fun u => F u) (erefl _) Or
   f0 g0 fg near
   (N := fun i j => N0 i j * d1 + mu *: (N1 i j * d0)) regular_d family_d ok.
@@ -208,7 +208,8 @@ have rows' : forall i, i \in free Q' -> reaction Q' t x i = 0.
   by move=> i Hi; rewrite same_rows // rows.
 have part' := (free_part_rows (Q := Q') x wf expanded' bounded_a' bounded_b' proper' u0).2 rows'.
 exists t, x; split=> //.
-- exact: (between_t proper).
+- split; first exact: (between_t proper).
+  by move=> j lt_j; rewrite slipE //; apply: ag.
 - have lt0 : (i0 < ns)%N by rewrite mem_iota in Hi0.
   exists (nth 0%N (slip Q) i0); first exact/(slip_indices (Q := Q))/mem_nth.
   by rewrite -[x _]/(slip_of Q x i0) slipE.
@@ -253,13 +254,14 @@ Theorem piece_present_reversed (R : rcfType) n fr ra rb ra' rb' a other fam fam'
       (local_pencil (size (slip Q)) a low_b low_a fam (swap (upper r)) (swap (lower r)) false grain)
       (local_pencil (size (slip Q)) (friction_anchor a other) low_b low_a fam' (swap (upper r))
          (swap (lower r)) false grain)) (local_region r) v ->
-  exists t x, [/\ 0 < t, exists2 i, i \in iota 0 n & x i != 0,
+  exists t x, [/\ 0 < t /\ agrees (size (slip Q)) r (slip_of Q x),
+    exists2 i, i \in iota 0 n & x i != 0,
     forall i, i \in fr -> reaction Q t x i = 0 &
     forall i, i \in slip Q ->
       let y := reaction Q t x i + mu * reaction Q' t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]].
 Proof.
 move=> wf ex0 ex1 ba bb ba' bb' proper grain0 same_size Om bm same_swapped hi2 ok.
-have [t [x [[lo_t _] nonzero rows signs]]] :=
+have [t [x [[[lo_t _] ag] nonzero rows signs]]] :=
   @piece_present R n fr rb ra rb' ra' a other fam fam' low_b low_a grain (swap_region r) low high
     mu wf ex0 ex1 bb ba bb' ba' proper grain0 same_size Om bm same_swapped v ok.
 have [_ l2 _ _ _] := proper_parts R proper.
@@ -269,7 +271,7 @@ have t_gt0 : 0 < t.
 have tn0 := lt0r_neq0 t_gt0; have ti : t^-1 != 0 by rewrite invr_eq0.
 have back (S : pencil) i : reaction (swap_pencil S) t x i = t * reaction S t^-1 x i.
   by rewrite -[in LHS](invrK t) swap_reaction // invrK.
-exists t^-1, x; split=> //; first by rewrite invr_gt0.
+exists t^-1, x; split=> //; first by rewrite invr_gt0; split.
   move=> i Hi; have := rows i Hi; rewrite (back Q) => /eqP.
   by rewrite mulf_eq0 (negbTE tn0) => /eqP.
 move=> i Hi y; have [x0 y0 xy] := signs i Hi.
@@ -282,80 +284,54 @@ Qed.
 
 Section Sound.
 
-Variables (R : rcfType) (s : system).
-Hypothesis wf : system_wellformed s (Lambda2 0 1).
-Notation nf := (free_number s).
-Notation Q0 := (part_plain s).
-Notation Q1 := (part_friction s).
+Variables (R : rcfType) (z : zero_system).
+Hypothesis wf : zero_wellformed z (Lambda2 0 1).
+Notation Q0 := (part_plain z).
+Notation Q1 := (part_friction z).
+Notation wfQ := (zero_pencil_wellformed z (Lambda2 0 1)).
 
-Lemma free_reaction_at e t (x : nat -> R) k : (k < nf)%N ->
-  reaction (pencil_at s e) t x k = force s t (motion s x) (nth 0%N (free_dofs s) k).
+(* The rows of the free variables are the same in both parts. *)
+Lemma same_free_rows i : i \in free Q0 -> row_a Q1 i = row_a Q0 i /\ row_b Q1 i = row_b Q0 i.
 Proof.
-move=> lt_k; rewrite reactionE forceE.
-rewrite /row_a /row_b /= !nth_cat !size_map lt_k !(nth_map 0%N) //.
-by rewrite (k_product_columns wf) (m_product_columns wf).
-Qed.
-
-Lemma free_variable_at i : (i \in free Q0) = (i < nf)%N.
-Proof. by rewrite mem_iota. Qed.
-
-Lemma motion_of_pencil t mu (x : nat -> R) :
-  (exists2 i, i \in iota 0 (order Q0) & x i != 0) ->
-  (forall i, i \in free Q0 -> reaction Q0 t x i = 0) ->
-  (forall i, i \in slip Q0 ->
-     let y := reaction Q0 t x i + mu * reaction Q1 t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]) ->
-  conditions_9 s t mu (motion s x).
-Proof.
-move=> nonzero rows signs.
-have l2 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 _ wf).
-split; first exact/(motion_nonzero wf).
-- by move=> d _; apply: motion_zero.
-- move=> d /(nthP 0%N)[k lt_k <-]; rewrite -(free_reaction_at (0, 1)%Z) //.
-  by apply: rows; rewrite free_variable_at.
-move=> j lt_j p; have [x0 + +] := signs _ (slip_variable_in (Lambda2 0 1) lt_j).
-have -> : reaction Q0 t x (nf + j)%N + mu * reaction Q1 t x (nf + j)%N =
-    - cone s t mu (motion s x) p.
-  rewrite !(slip_row_at wf) //= toR0 toR1 /cone -/p /plain_row /friction_row -/p.
-  by move: (along _ _ _) (along _ _ _) (toR (sign_of p)) => *; ring.
-rewrite oppr_ge0 => y0 xy; split=> //.
-- exact: (normal_motion wf).
-- by rewrite (slip_motion wf) // oppr_le0 pmulr_rge0.
-rewrite (slip_motion wf) //; apply/eqP; rewrite -oppr_eq0; apply/eqP.
-rewrite -(mulr0 (- toR (unit_length s) ^+ 2)) -xy.
-by move: (cone _ _ _ _ _) (x _) (toR _) => *; ring.
-Qed.
-
-Lemma same_free_rows i : (i < nf)%N ->
-  row_a Q1 i = row_a Q0 i /\ row_b Q1 i = row_b Q0 i.
-Proof.
-by move=> lt_i; rewrite /row_a /row_b /= !nth_cat !size_map lt_i.
+rewrite mem_iota add0n /= => lt_i; rewrite /row_a /row_b /= /variable_forms !map_cat.
+by rewrite !nth_cat !size_map lt_i.
 Qed.
 
 Lemma same_free_reactions t (x : nat -> R) i : i \in free Q0 ->
   reaction Q1 t x i = reaction Q0 t x i.
 Proof.
-rewrite free_variable_at => lt_i; have [ea eb] := same_free_rows lt_i.
+move/same_free_rows=> [ea eb].
 by rewrite /reaction; apply: sum_eq => j _; rewrite /a_entry /b_entry ea eb.
 Qed.
 
 Lemma same_swapped_reactions t (x : nat -> R) i : i \in free Q0 ->
   reaction (swap_pencil Q1) t x i = reaction (swap_pencil Q0) t x i.
 Proof.
-rewrite free_variable_at => lt_i; have [ea eb] := same_free_rows lt_i.
-rewrite /row_a /row_b in ea eb.
+move/same_free_rows=> [ea eb]; rewrite /row_a /row_b in ea eb.
 by rewrite /reaction; apply: sum_eq => j _; rewrite /a_entry /b_entry /row_a /row_b /= ea eb.
 Qed.
 
-Variable w : box_anchoring.
-Hypothesis bounds : both_bounded s w.
-
-Notation wfQ := (pencil_wellformed s (0, 1)%Z).
-
-Lemma piece_motion low (mu : R) p : check_piece s w (box_expansions s w) low p ->
-  between mu low (piece_end p) -> exists t v, 0 <= t /\ conditions_9 s t mu v.
+(* A solution in a region where right and left are apart. *)
+Lemma motion_of_pencil r t mu (x : nat -> R) : halves_apart z r ->
+  agrees (size (slip Q0)) r (slip_of Q0 x) ->
+  (exists2 i, i \in iota 0 (order Q0) & x i != 0) ->
+  (forall i, i \in free Q0 -> reaction Q0 t x i = 0) ->
+  (forall i, i \in slip Q0 ->
+     let y := reaction Q0 t x i + mu * reaction Q1 t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]) ->
+  conditions_9z z t mu (zero_motion z x).
 Proof.
-case/andP=> Om + bm; have /and4P[ba0 bb0 ba1 bb1] := bounds.
-case fams_n: (nth None (box_expansions s w) (piece_anchor p)) => [fams|//].
+move=> apart ag nonzero rows signs; apply: (zero_parts_motion wf) => //.
+by apply: (apart_split ag apart) => i /signs[].
+Qed.
+
+Variable w : box_anchoring.
+Hypothesis bounds : both_bounded z w.
+
+Lemma piece_motion low (mu : R) p : check_piece z w (box_expansions z w) low p ->
+  between mu low (piece_end p) -> exists t v, 0 <= t /\ conditions_9z z t mu v.
+Proof.
+case/andP=> /andP[Om apart] + bm; have /and4P[ba0 bb0 ba1 bb1] := bounds.
+case fams_n: (nth None (box_expansions z w) (piece_anchor p)) => [fams|//].
 have lt_n : (piece_anchor p < size (box_anchors w))%N.
   by rewrite ltnNge; apply/negP => l; rewrite nth_default ?size_map in fams_n.
 move: fams_n; rewrite (nth_map no_box_anchor) //.
@@ -364,35 +340,37 @@ rewrite /expand_box /=.
 case ex0: (expand_part Q0 reverse a) => [fam|//].
 case ex1: (expand_part Q1 reverse (friction_anchor a other)) => [fam'|//] [<-].
 case: reverse ex0 ex1 => ex0 ex1; last first.
-  rewrite /check_present /local_part -size_slip => /and4P[/= proper grain0 /eqP same_size ok].
-  have [t [x [[lo_t _] nonzero rows signs]]] := piece_present wfQ ex0 ex1 ba0 bb0 ba1 bb1 proper
-    grain0 same_size Om bm same_free_reactions ok.
-  exists t, (motion s x); split; last exact: motion_of_pencil.
+  rewrite /check_present /local_part -(size_slips z (Lambda2 0 1)).
+  case/and4P=> /= proper grain0 /eqP same_size ok.
+  have [t [x [[[lo_t _] ag] nonzero rows signs]]] := piece_present wfQ ex0 ex1 ba0 bb0 ba1 bb1
+    proper grain0 same_size Om bm same_free_reactions ok.
+  exists t, (zero_motion z x); split; last exact: motion_of_pencil apart ag nonzero rows signs.
   have [l1 l2 _ _ _] := proper_parts R proper.
   by rewrite -(pmulr_lge0 _ l2); apply: le_trans lo_t.
-rewrite /check_present /local_part -size_slip => /andP[hi2].
+rewrite /check_present /local_part -(size_slips z (Lambda2 0 1)) => /andP[hi2].
 case/and4P=> /= proper grain0 /eqP same_size ok.
-have [t [x [t_gt0 nonzero rows signs]]] := piece_present_reversed wfQ ex0 ex1 ba0 bb0 ba1 bb1
+have [t [x [[t_gt0 ag] nonzero rows signs]]] := piece_present_reversed wfQ ex0 ex1 ba0 bb0 ba1 bb1
   proper grain0 same_size Om bm same_swapped_reactions hi2 ok.
-by exists t, (motion s x); split; [exact: ltW | exact: motion_of_pencil].
+exists t, (zero_motion z x); split; first exact: ltW.
+exact: motion_of_pencil apart ag nonzero rows signs.
 Qed.
 
 Lemma pieces_motion pieces low bound (mu : R) : (0 <? bound.2)%Z ->
-  check_pieces s w (box_expansions s w) low pieces bound -> between mu low bound ->
-  exists t v, 0 <= t /\ conditions_9 s t mu v.
+  check_pieces z w (box_expansions z w) low pieces bound -> between mu low bound ->
+  exists t v, 0 <= t /\ conditions_9z z t mu v.
 Proof.
 move=> b2; have {}b2 : 0 < toR bound.2 :> R by rewrite toR_gt0.
 elim: pieces low => [//|p rest IH] low ok [low_mu mu_bound].
-have [checked|rest_ok] : check_piece s w (box_expansions s w) low p /\
+have [checked|rest_ok] : check_piece z w (box_expansions z w) low p /\
     (mu * toR (piece_end p).2 <= toR (piece_end p).1) \/
-    check_pieces s w (box_expansions s w) (piece_end p) rest bound /\
+    check_pieces z w (box_expansions z w) (piece_end p) rest bound /\
     toR (piece_end p).1 <= mu * toR (piece_end p).2.
 - move: ok; case: rest {IH} => [/andP[one le]|q rest /andP[one others]]; last first.
     by case: (lerP (mu * toR (piece_end p).2) (toR (piece_end p).1)) => le; [left | right];
        split=> //; apply: ltW.
   left; split=> //; rewrite -(ler_pmul2r b2) mulrAC.
   have e2 : 0 <= toR (piece_end p).2 :> R.
-    by case/andP: one => o _; have [] := ordered_ge0 R o.
+    by case/andP: one => /andP[o _] _; have [] := ordered_ge0 R o.
   apply: (@le_trans _ _ (toR bound.1 * toR (piece_end p).2)); first exact: ler_wpmul2r.
   by rewrite -!toRM toR_le.
 - by have [one le] := checked; apply: (piece_motion one).
@@ -401,7 +379,15 @@ Qed.
 
 End Sound.
 
-Theorem presence_sound (R : rcfType) s w pieces from bound :
-  check_presence s w pieces from bound ->
-  forall mu : R, between mu from bound -> exists t v, 0 <= t /\ conditions_9 s t mu v.
+Theorem zero_presence_sound (R : rcfType) z w pieces from bound :
+  check_presence z w pieces from bound ->
+  forall mu : R, between mu from bound -> exists t v, 0 <= t /\ conditions_9z z t mu v.
 Proof. by case/and4P=> wf bounds b2 ok mu; apply: pieces_motion ok. Qed.
+
+Corollary presence_sound (R : rcfType) s w pieces from bound :
+  check_presence (ZeroSystem s [::]) w pieces from bound ->
+  forall mu : R, between mu from bound -> exists t v, 0 <= t /\ conditions_9 s t mu v.
+Proof.
+move=> checked mu bm; have [t [v [t0 /no_zero_particles sat]]] := zero_presence_sound checked bm.
+by exists t, v.
+Qed.

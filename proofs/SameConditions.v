@@ -11,7 +11,7 @@
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree System Critical.
+From Mceip Require Import Integers Sums Tree System.
 From Mceip Require Reduction.
 
 Set Implicit Arguments.

@@ -584,12 +584,12 @@ transitivity ((t1 ^+ 2 + t2 ^+ 2) * v2 + t1 * (v1 * t2 - v2 * t1)); first by rin
 by rewrite cross mulr0 addr0.
 Qed.
 
-Theorem system_onto t v : satisfies_9 t v ->
+Lemma motion_of_variables lambda2 mu v : conditions_9 lambda2 mu v ->
   forall d, d \in all_dofs -> motion (variables_of v) d = v d.
 Proof.
 have l0 := lt0r_neq0 unit_length_gt0.
 have l2 : toR (unit_length s) ^+ 2 != 0 :> R by rewrite expf_neq0.
-rewrite satisfies_9E => -[_ [_ at_rest _ slips]] d Hd.
+case=> _ at_rest _ slips d Hd.
 have [d_in|d_out] := boolP (d \in moving_dofs s); last by rewrite motion_zero // at_rest.
 
 have at_particle j : (j < ns)%N -> let p := particle s j in
@@ -612,6 +612,10 @@ case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -second_particle // => <-
 by case: (at_particle _ lt_j).
 Qed.
 
+Theorem system_onto t v : satisfies_9 t v ->
+  forall d, d \in all_dofs -> motion (variables_of v) d = v d.
+Proof. by rewrite satisfies_9E => -[_ /motion_of_variables]. Qed.
+
 (* The signs of x and y give the support of the motion. *)
 Lemma motion_support support biactive t x :
   (forall i, i \in slip Q ->
@@ -631,17 +635,23 @@ by rewrite yE oppr_gt0 pmulr_rlt0.
 Qed.
 
 (* (9) speaks of degrees of freedom only. *)
-Lemma satisfies_9_ext t v v' : (forall d, d \in all_dofs -> v d = v' d) ->
-  satisfies_9 t v -> satisfies_9 t v'.
+Lemma conditions_9_ext lambda2 mu v v' : (forall d, d \in all_dofs -> v d = v' d) ->
+  conditions_9 lambda2 mu v -> conditions_9 lambda2 mu v'.
 Proof.
-move=> same; rewrite !satisfies_9E => -[t0 [[d Hd vd] at_rest rows_f rows_s]].
+move=> same [[d Hd vd] at_rest rows_f rows_s].
 have forceE' l d' : force l v d' = force l v' d'.
   by apply: sum_eq => j Hj; rewrite same.
-split=> //; split; first by exists d; rewrite -?same.
+split; first by exists d; rewrite -?same.
 - by move=> d' Hd' out; rewrite -same // at_rest.
 - by move=> d' /rows_f; rewrite forceE'.
 move=> j lt_j; have := rows_s _ lt_j.
 by rewrite /= /cone /slip_rate /along !forceE' !same ?first_dof_in ?second_dof_in.
+Qed.
+
+Lemma satisfies_9_ext t v v' : (forall d, d \in all_dofs -> v d = v' d) ->
+  satisfies_9 t v -> satisfies_9 t v'.
+Proof.
+by move=> same; rewrite !satisfies_9E => -[t0 sat]; split=> //; apply: conditions_9_ext sat.
 Qed.
 
 Lemma solution_of_motion t v : satisfies_9 t v -> solution Q t (variables_of v).

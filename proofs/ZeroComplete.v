@@ -58,14 +58,6 @@ Notation Q := (zero_pencil z u).
 Notation ns := (size (slip Q)).
 Notation nz := (size (zero_particles z)).
 
-Definition half_state (r : region) i := state_of r (index i (slip Q)).
-
-Definition halves_apart r := all (fun j =>
-  is_resting (half_state r (right z j)) || is_resting (half_state r (left z j))) (iota 0 nz).
-
-Definition both_halves r := has (fun j =>
-  is_moving (half_state r (right z j)) && is_moving (half_state r (left z j))) (iota 0 nz).
-
 (* The solution of an enclosed claim. *)
 Definition known_box (b : pinned_box) :=
   Known (box_from (box_claim b)) (box_to (box_claim b)) (positions Q (box_names b)) [::].
@@ -108,14 +100,14 @@ End Beside.
 Definition zero_distinct lo hi (yields : seq yield) (rs : seq region)
     (ls : seq (option support_leaf)) :=
   let families := families_of rs ls in
-  if all halves_apart [seq f.1 | f <- families] then
+  if all (halves_apart z) [seq f.1 | f <- families] then
     if distinct_yields ns lo hi
          [seq y <- yields ++ isolated_of rs ls | ~~ has (belongs ns y) families] is Some ys
-    then if all halves_apart [seq yield_region y | y <- ys] then Some ys else None
+    then if all (halves_apart z) [seq yield_region y | y <- ys] then Some ys else None
     else None
   else None.
 
-Definition zero_open rs ls := [seq r <- open_of rs ls | ~~ both_halves r].
+Definition zero_open rs ls := [seq r <- open_of rs ls | ~~ both_halves z r].
 
 Section Constant.
 
@@ -179,50 +171,9 @@ Definition zero_motion_in (r : region) t v := lies_in Q r t (zero_variables_of z
 Definition zero_motion_in_family (f : family) t v :=
   zero_motion_in f.1 t v /\ in_place (held_place f.2) t.
 
-Lemma half_index j i : (j < nz)%N -> i = right z j \/ i = left z j ->
-  (index i (slip Q) < ns)%N /\ nth 0%N (slip Q) (index i (slip Q)) = i.
+Lemma apart_split r t x : halves_apart z r -> solution Q t x -> lies_in Q r t x -> split z x.
 Proof.
-move=> lt_j half; have i_in : i \in slip Q.
-  case: half => ->.
-    by have := three_in_zero_pencil u lt_j (isT : (1 < 3)%N); rewrite addn1.
-  by have := three_in_zero_pencil u lt_j (isT : (2 < 3)%N); rewrite addn2.
-by rewrite index_mem nth_index.
-Qed.
-
-Lemma half_agrees r t x j i : (j < nz)%N -> i = right z j \/ i = left z j -> lies_in Q r t x ->
-  match half_state z u r i with Open => True | Resting => x i = 0 | Moving => 0 < x i end.
-Proof.
-move=> lt_j half [_ ag]; have [lt_i nth_i] := half_index lt_j half.
-by have := ag _ lt_i; rewrite /slip_of nth_i.
-Qed.
-
-Lemma apart_split r t x : halves_apart z u r -> solution Q t x -> lies_in Q r t x -> split z x.
-Proof.
-move=> /allP apart [_ _ _ rows] reg j lt_j.
-have j_in : j \in iota 0 nz by rewrite mem_iota.
-have slip_half i : i = right z j \/ i = left z j -> 0 <= x i.
-  move=> half; have [lt_i nth_i] := half_index lt_j half.
-  by have [] := rows _ (mem_nth 0%N lt_i); rewrite nth_i.
-split; [by apply: slip_half; left | by apply: slip_half; right |].
-have right_state := half_agrees lt_j (or_introl erefl) reg.
-have left_state := half_agrees lt_j (or_intror erefl) reg.
-move: (apart _ j_in) right_state left_state.
-case: (half_state z u r (right z j)) => /= [||].
-- by case: (half_state z u r (left z j)) => //= _ _ ->; rewrite mulr0.
-- by move=> _ -> _; rewrite mul0r.
-by case: (half_state z u r (left z j)) => //= _ _ ->; rewrite mulr0.
-Qed.
-
-Lemma both_not_split r t x : both_halves z u r -> split z x -> lies_in Q r t x -> False.
-Proof.
-case/hasP=> j; rewrite mem_iota add0n /= => lt_j /andP[moving_right moving_left] splits reg.
-have right_state := half_agrees lt_j (or_introl erefl) reg.
-have left_state := half_agrees lt_j (or_intror erefl) reg.
-move: moving_right moving_left right_state left_state.
-case: (half_state z u r (right z j)) => // _; case: (half_state z u r (left z j)) => // _.
-have [_ _ /eqP] := splits j lt_j; rewrite mulf_eq0 => /orP[]/eqP-> right_pos left_pos.
-  by rewrite ltxx in right_pos.
-by rewrite ltxx in left_pos.
+by move=> apart [_ _ _ rows] [_ ag]; apply: ZeroPencil.apart_split ag apart _ => i /rows[].
 Qed.
 
 Lemma order_indices i : (i \in iota 0 (order Q)) = (i < total)%N.
@@ -274,7 +225,7 @@ Theorem zero_cover_number ys : zero_distinct z u lo hi yields rs ls = Some ys ->
         forall t v, satisfies_9z z u t v -> between t lo hi ->
           [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
               exists2 f, List.In f families & zero_motion_in_family f t v |
-              exists2 r, List.In r (zero_open z u rs ls) & zero_motion_in r t v]].
+              exists2 r, List.In r (zero_open z rs ls) & zero_motion_in r t v]].
 Proof.
 rewrite /zero_distinct; case: ifP => // _; case dist: (distinct_yields _ _ _ _) => [ys'|] //.
 case: ifP => // apart [eq_ys]; move: dist apart; rewrite {ys'}eq_ys => dist apart.
@@ -303,7 +254,7 @@ have [[m m_in [-> prop]]|[f f_in [reg at_t]]|[r r_in reg]] := all_found t _ sol 
   by exists f => // d d_in; rewrite -scaled // same.
 - by apply: Or32; exists f.
 apply: Or33; exists r => //; apply/in_filter; split=> //.
-by apply/negP => both; apply: both_not_split split_v reg.
+by apply/negP => both; case: reg => _ ag; apply: both_not_split ag both split_v.
 Qed.
 
 Theorem zero_cover_hold ys : zero_distinct z u lo hi yields rs ls = Some ys ->
@@ -316,7 +267,7 @@ Theorem zero_cover_hold ys : zero_distinct z u lo hi yields rs ls = Some ys ->
 Proof.
 rewrite /zero_distinct; case: ifP => // apart _ f f_in.
 have [is_pl each_value] := supports_families R supports f_in; split=> // t at_t.
-have f_apart : halves_apart z u f.1 by apply: (Support.all_In apart); apply: List.in_map.
+have f_apart : halves_apart z f.1 by apply: (Support.all_In apart); apply: List.in_map.
 have [[x [sol reg]] alone] := each_value t at_t; split.
   have splits := apart_split f_apart sol reg.
   exists (zero_motion z x); split; first exact: zero_pencil_motion sol splits.
@@ -469,7 +420,7 @@ Theorem zero_complete_number ys : zero_solutions z u tr lo hi bs ls = Some ys ->
           [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
               exists2 f, List.In f (zero_families tr lo hi bs ls) &
                 zero_motion_in_family z u f t v |
-              exists2 r, List.In r (zero_still_open z u tr lo hi bs ls) &
+              exists2 r, List.In r (zero_still_open z tr lo hi bs ls) &
                 zero_motion_in z u r t v]].
 Proof.
 have [wf complete beside supports] := zero_complete_parts.
@@ -479,7 +430,7 @@ exact: (zero_cover_number wf supports (beside_every beside every)
 Qed.
 
 Corollary zero_none : zero_solutions z u tr lo hi bs ls = Some [::] ->
-  zero_families tr lo hi bs ls = [::] -> zero_still_open z u tr lo hi bs ls = [::] ->
+  zero_families tr lo hi bs ls = [::] -> zero_still_open z tr lo hi bs ls = [::] ->
   forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
 Proof.
 move=> /zero_complete_number[l [/size0nil-> _ _ _ every]] no_family closed t v sat bt.
@@ -530,7 +481,7 @@ Theorem zero_varying_number ys : zero_varying_solutions z u tr lo hi bs ls = Som
           [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
               exists2 f, List.In f (zero_varying_families tr lo hi bs ls) &
                 zero_motion_in_family z u f t v |
-              exists2 r, List.In r (zero_varying_open z u tr lo hi bs ls) &
+              exists2 r, List.In r (zero_varying_open z tr lo hi bs ls) &
                 zero_motion_in z u r t v]].
 Proof.
 have [wf varying beside supports] := zero_varying_parts.
@@ -541,7 +492,7 @@ exact: (claim_yields varying O ok known sup).
 Qed.
 
 Corollary zero_varying_none : zero_varying_solutions z u tr lo hi bs ls = Some [::] ->
-  zero_varying_families tr lo hi bs ls = [::] -> zero_varying_open z u tr lo hi bs ls = [::] ->
+  zero_varying_families tr lo hi bs ls = [::] -> zero_varying_open z tr lo hi bs ls = [::] ->
   forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
 Proof.
 move=> /zero_varying_number[l [/size0nil-> _ _ _ every]] no_family closed t v sat bt.

@@ -241,32 +241,41 @@ have [k m] := rows_in_range wf d.
 by rewrite forceE /k_product /m_product /k_entry /m_entry !sum_lookup.
 Qed.
 
-Lemma value_force d t x : form_value (force_form z u d) t x = force s (lambda2_of u t) x d.
+Lemma value_force u' d t x : form_value (force_form z u' d) t x = force s (lambda2_of u' t) x d.
 Proof.
-rewrite force_rows /form_value /force_form /lambda2_of; case: (u) => [|m q] //=.
+rewrite force_rows /form_value /force_form /lambda2_of; case: u' => [|m q] //=.
 by rewrite row_value_nil mulr0 mul0r.
 Qed.
 
-Lemma value_pressing e p t x :
-  form_value (pressing_form z u e p) t x = along e p (force s (lambda2_of u t) x).
+Lemma value_pressing u' e p t x :
+  form_value (pressing_form z u' e p) t x = along e p (force s (lambda2_of u' t) x).
 Proof.
-rewrite /along !force_rows /form_value /pressing_form /lambda2_of; case: (u) => [|m q] /=.
+rewrite /along !force_rows /form_value /pressing_form /lambda2_of; case: u' => [|m q] /=.
   by rewrite row_value_nil row_value_both /along mulr0 !mul0r !addr0.
 rewrite !row_value_both /along.
 by move: (toR _) (toR _) (row_value _ _) (row_value _ _) => *; ring.
 Qed.
 
+(* q S t'w + m n'w *)
+Lemma value_cone_parts m q p t x : form_value (cone_form z (Lambda2 m q) p) t x =
+  toR q * (toR (sign_of p) * along (tangent p) p (force s t x)) +
+  toR m * along (normal p) p (force s t x).
+Proof.
+rewrite /along !force_rows /form_value /= !row_value_both /along /direction !toRD !toRM /=.
+move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
+by move: (toR _) (toR _) (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
+Qed.
+
 Lemma value_cone p t x : form_value (cone_form z u p) t x =
   row_factor R u * cone s (lambda2_of u t) (mu_of u t) x p.
 Proof.
-have f0 := row_factor_gt0 R wf; move: f0.
-rewrite /cone /along !force_rows /form_value /cone_form /row_factor /lambda2_of /mu_of.
-case: (u) => [|m q] f0 /=; rewrite !row_value_both /along /direction !toRD !toRM.
-  rewrite toR0 toR1 /=; move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
-  by move: (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
-have q0 : toR q != 0 :> R by rewrite gt_eqF.
-rewrite /=; move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
-by field.
+have := row_factor_gt0 R wf; rewrite /row_factor /cone /lambda2_of /mu_of.
+case: (u) => [|m q] f0; last first.
+  have q0 : toR q != 0 :> R by rewrite gt_eqF.
+  by rewrite value_cone_parts; move: (along _ _ _) (along _ _ _) => *; field.
+rewrite mul1r /along !force_rows /form_value /= !row_value_both /along /direction !toRD !toRM.
+rewrite toR0 toR1 /=; move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
+by move: (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
 Qed.
 
 End Values.
@@ -513,9 +522,9 @@ Lemma along_force_same e p lambda2 :
   along e p (force s lambda2 v) = along e p (force s lambda2 v').
 Proof. by rewrite /along !force_same. Qed.
 
-Lemma satisfies_9z_same t : satisfies_9z z u t v -> satisfies_9z z u t v'.
+Lemma conditions_9z_same lambda2 mu : conditions_9z z lambda2 mu v -> conditions_9z z lambda2 mu v'.
 Proof.
-case=> t0 [[d d_in vd] at_rest free slip zero]; split=> //; split.
+case=> [[d d_in vd] at_rest free slip zero]; split.
 - by exists d; rewrite -?same.
 - by move=> d' d'_in out; rewrite -same // at_rest.
 - by move=> d' /free; rewrite force_same.
@@ -524,6 +533,9 @@ case=> t0 [[d d_in vd] at_rest free slip zero]; split=> //; split.
 move=> j lt_j; have [first second] := zero_particle_dofs lt_j; have := zero _ lt_j.
 by rewrite /= !along_force_same !(along_same _ first second).
 Qed.
+
+Lemma satisfies_9z_same t : satisfies_9z z u t v -> satisfies_9z z u t v'.
+Proof. by case=> t0 /conditions_9z_same. Qed.
 
 Lemma moves_on_same : moves_on z support v -> moves_on z support v'.
 Proof.

@@ -14,8 +14,18 @@
    Right and left may be raised by a common constant, so x is not determined by the motion.  x is
    *split* if of right and left of each particle at least one is 0.
 
-   Theorem [zero_pencil_solution]: the split variables of a motion with (9), [zero_variables_of],
-   solve the pencil, and the motion of these variables is that motion ([zero_motion_of_variables]).
+   For lambda^2 as the unknown the rows are affine in mu: with the pencils for mu = 0/1 and "1/0" as
+   *parts*, they are plain + mu friction ([split_row]).
+
+   A region in which right and left of one particle both move holds no split x ([both_halves]); one
+   in which at least one of them is at rest holds split solutions only ([halves_apart]).
+
+   Theorem [zero_parts_solution]: the split variables of a motion with (9), [zero_variables_of],
+   satisfy the complementarity conditions with these rows, for every real mu.
+   Theorem [zero_parts_motion]: split variables that do so give a motion with (9).
+
+   Theorem [zero_pencil_solution]: the split variables of a motion with (9) solve the pencil, and
+   the motion of these variables is that motion ([zero_motion_of_variables]).
    Theorem [zero_pencil_motion]: the motion of a split solution satisfies (9), and its split
    variables are the solution ([zero_variables_of_motion]).
 
@@ -100,6 +110,43 @@ Definition zero_pencil := pencil_by_table zero_table.
 
 End Checker.
 
+Definition part_plain z := zero_pencil z (Lambda2 0 1).
+Definition part_friction z := zero_pencil z (Lambda2 1 0).
+
+Section Halves.
+
+Variable z : zero_system.
+Notation nz := (size (zero_particles z)).
+
+Definition slip_number := (size (particles (without_zero z)) + 3 * nz)%N.
+
+Definition half_state (r : region) i := state_of r (i - free_number (without_zero z)).
+
+Definition halves_apart r := all (fun j =>
+  is_resting (half_state r (right z j)) || is_resting (half_state r (left z j))) (iota 0 nz).
+
+Definition both_halves r := has (fun j =>
+  is_moving (half_state r (right z j)) && is_moving (half_state r (left z j))) (iota 0 nz).
+
+End Halves.
+
+Lemma zero_pencil_wellformed z u : wellformed (zero_pencil z u).
+Proof.
+rewrite /wellformed /= iota_uniq; apply/allP => i; rewrite mem_iota add0n -addnA => lt_i.
+exact: leq_trans lt_i (leq_addr _ _).
+Qed.
+
+Lemma zero_slips z u : slip (zero_pencil z u) = iota (free_number (without_zero z)) (slip_number z).
+Proof.
+rewrite /slip /= -addnA iotaD filter_cat add0n.
+rewrite (eq_in_filter (a2 := pred0)) ?filter_pred0; last by move=> i /= ->.
+rewrite (eq_in_filter (a2 := predT)) ?filter_predT // => i; rewrite !mem_iota => /andP[ge _].
+by rewrite add0n /= -leqNgt.
+Qed.
+
+Lemma size_slips z u : size (slip (zero_pencil z u)) = slip_number z.
+Proof. by rewrite zero_slips size_iota. Qed.
+
 Lemma nth_triples T (x : T) (f : nat -> seq T) n m j k :
   (forall i, size (f i) = 3%N) -> (k < 3)%N -> (j < n)%N ->
   nth x (flatten [seq f i | i <- iota m n]) (3 * j + k)%N = nth x (f (m + j)%N) k.
@@ -122,7 +169,6 @@ Notation ns := (size (particles s)).
 Notation nz := (size (zero_particles z)).
 Notation all_dofs := (iota 0 (dofs s)).
 Notation Q := (zero_pencil z u).
-Notation forms := (variable_forms z u).
 Notation L := (toR (unit_length s) : R).
 
 Let wf_s : system_wellformed s u := wf_system wf.
@@ -139,7 +185,7 @@ rewrite /row_value big_map /zero_motion /row_value mulr_sumr; apply: eq_bigr => 
 by rewrite toRM; move: (toR _) (toR _) (x _) => *; ring.
 Qed.
 
-Lemma size_forms : size forms = (nf + ns + 3 * nz)%N.
+Lemma size_forms u' : size (variable_forms z u') = (nf + ns + 3 * nz)%N.
 Proof.
 rewrite !size_cat !size_map size_flatten /shape -map_comp addnA; congr (_ + _)%N.
 rewrite (eq_map (f2 := fun=> 3%N)) // -[in RHS](size_iota 0 nz).
@@ -210,17 +256,19 @@ by rewrite nth_default // size_map size_iota leqNgt; move: d_out; rewrite mem_io
 Qed.
 
 (* The rows of the pencil are the forms at the motion of x. *)
-Lemma zero_reaction_form t x i : (i < nf + ns + 3 * nz)%N ->
-  reaction Q t x i = form_value (nth no_form forms i) t (zero_motion x).
+Lemma zero_reaction_form u' t x i : (i < nf + ns + 3 * nz)%N ->
+  reaction (zero_pencil z u') t x i =
+  form_value (nth no_form (variable_forms z u') i) t (zero_motion x).
 Proof.
-move=> lt_i; have lt_f : (i < size forms)%N by rewrite size_forms.
-transitivity (\sum_(j <- iota 0 (order Q)) toR (lookup (row_a Q i) j) * x j +
-              t * \sum_(j <- iota 0 (order Q)) toR (lookup (row_b Q i) j) * x j).
+set Q' := zero_pencil z u'; set forms := variable_forms z u' => lt_i.
+have lt_f : (i < size forms)%N by rewrite size_forms.
+transitivity (\sum_(j <- iota 0 (order Q')) toR (lookup (row_a Q' i) j) * x j +
+              t * \sum_(j <- iota 0 (order Q')) toR (lookup (row_b Q' i) j) * x j).
   rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
   by rewrite /a_entry /b_entry mulrDl mulrA.
-have ra : row_a Q i = zero_row (zero_table z) (nth no_form forms i).1.
+have ra : row_a Q' i = zero_row (zero_table z) (nth no_form forms i).1.
   by rewrite /row_a /= (nth_map no_form).
-have rb : row_b Q i = zero_row (zero_table z) (nth no_form forms i).2.
+have rb : row_b Q' i = zero_row (zero_table z) (nth no_form forms i).2.
   by rewrite /row_b /= (nth_map no_form).
 by rewrite ra rb !sum_lookup ?zero_row_range // -!/(row_value _ _) !row_value_zero_row.
 Qed.
@@ -350,26 +398,64 @@ Lemma zero_slip_rate x j : (j < ns)%N ->
   slip_rate (zero_motion x) (particle s j) = - (L ^+ 2 * x (nf + j)%N).
 Proof. by move=> lt_j; rewrite -(slip_motion wf_s) // /slip_rate along_moving. Qed.
 
+Lemma zero_slip_cases i : i \in slip Q ->
+  (exists2 j, (j < ns)%N & i = (nf + j)%N) \/
+  (exists2 j, (j < nz)%N & [\/ i = gap z j, i = right z j | i = left z j]).
+Proof.
+rewrite mem_filter !mem_iota !add0n /= -leqNgt => /andP[ge_i lt_i].
+have [lt_s|ge_s] := ltnP i (nf + ns).
+  by left; exists (i - nf)%N; [rewrite ltn_subLR | rewrite subnKC].
+right; have lt_j : ((i - (nf + ns)) %/ 3 < nz)%N by rewrite ltn_divLR // mulnC ltn_subLR.
+exists ((i - (nf + ns)) %/ 3)%N => //.
+have := divn_eq (i - (nf + ns)) 3; have : ((i - (nf + ns)) %% 3 < 3)%N by rewrite ltn_mod.
+move: (_ %/ 3)%N (_ %% 3)%N ge_s => q r ge_s lt_r eq.
+have i_eq : i = (gap z q + r)%N.
+  by rewrite /gap [(3 * q)%N]mulnC -addnA -eq subnKC.
+case: r lt_r {eq} i_eq => [|[|[|]]] // _ ->.
+- by apply: Or31; rewrite addn0.
+- by apply: Or32; rewrite addn1.
+by apply: Or33; rewrite addn2.
+Qed.
+
 (* The rows of the pencil. *)
 Notation w t x := (force s (lambda2_of u t) (zero_motion x)).
+Notation w2 lambda2 x := (force s lambda2 (zero_motion x)).
 
-Lemma zero_free_reaction t x k : (k < nf)%N ->
-  reaction Q t x k = w t x (nth 0%N (free_dofs s) k).
+Lemma zero_free_reaction u' t x k : (k < nf)%N -> reaction (zero_pencil z u') t x k =
+  w2 (lambda2_of u' t) x (nth 0%N (free_dofs s) k).
 Proof.
 move=> lt_k; rewrite zero_reaction_form; last by rewrite -addnA ltn_addr.
 by rewrite nth_cat size_map lt_k (nth_map 0%N) // (value_force wf_s).
 Qed.
 
+Lemma nth_slip_form u' j : (j < ns)%N ->
+  nth no_form (variable_forms z u') (nf + j) = negative (cone_form z u' (particle s j)).
+Proof.
+move=> lt_j; rewrite nth_cat size_map ltnNge leq_addr /= addKn nth_cat size_map lt_j.
+by rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z).
+Qed.
+
+Lemma slip_small j : (j < ns)%N -> (nf + j < nf + ns + 3 * nz)%N.
+Proof. by move=> lt_j; rewrite ltn_addr // ltn_add2l. Qed.
+
 Lemma zero_slip_reaction t x j : (j < ns)%N -> reaction Q t x (nf + j)%N =
   - (row_factor R u * cone s (lambda2_of u t) (mu_of u t) (zero_motion x) (particle s j)).
 Proof.
-move=> lt_j; rewrite zero_reaction_form; last by rewrite ltn_addr // ltn_add2l.
-rewrite nth_cat size_map ltnNge leq_addr /= addKn nth_cat size_map lt_j.
-by rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) // value_negative (value_cone wf_s).
+move=> lt_j; rewrite zero_reaction_form ?slip_small // nth_slip_form //.
+by rewrite value_negative (value_cone wf_s).
 Qed.
 
-Lemma nth_zero_form j k : (j < nz)%N -> (k < 3)%N ->
-  nth no_form forms (gap z j + k) = nth no_form (zero_forms z u j) k.
+Lemma slip_part m q lambda2 x j : (j < ns)%N ->
+  reaction (zero_pencil z (Lambda2 m q)) lambda2 x (nf + j)%N = let p := particle s j in
+  - (toR q * (toR (sign_of p) * along (tangent p) p (w2 lambda2 x)) +
+     toR m * along (normal p) p (w2 lambda2 x)).
+Proof.
+move=> lt_j; rewrite zero_reaction_form ?slip_small // nth_slip_form //.
+by rewrite value_negative (value_cone_parts wf_s).
+Qed.
+
+Lemma nth_zero_form u' j k : (j < nz)%N -> (k < 3)%N ->
+  nth no_form (variable_forms z u') (gap z j + k) = nth no_form (zero_forms z u' j) k.
 Proof.
 move=> lt_j lt_k; rewrite nth_cat size_map -/(free_number s).
 have -> : (gap z j + k < nf)%N = false.
@@ -382,6 +468,11 @@ Qed.
 Lemma gap_small j k : (j < nz)%N -> (k < 3)%N -> (gap z j + k < nf + ns + 3 * nz)%N.
 Proof. by rewrite /gap => lt_j lt_k; move: lt_j lt_k; clear; lia. Qed.
 
+Lemma zero_row_form u' t x j k : (j < nz)%N -> (k < 3)%N ->
+  reaction (zero_pencil z u') t x (gap z j + k)%N =
+  form_value (nth no_form (zero_forms z u' j) k) t (zero_motion x).
+Proof. by move=> lt_j lt_k; rewrite zero_reaction_form ?gap_small // nth_zero_form. Qed.
+
 Lemma zero_reactions t x j : (j < nz)%N -> let p := zero_particle z j in
   let w_T := along (tangent p) p (w t x) in let w_N := along (normal p) p (w t x) in
   [/\ reaction Q t x (gap z j) = - (row_factor R u * along (unit_normal p) p (w t x)),
@@ -389,18 +480,80 @@ Lemma zero_reactions t x j : (j < nz)%N -> let p := zero_particle z j in
       reaction Q t x (left z j) = row_factor R u * (- w_T - mu_of u t * w_N)].
 Proof.
 move=> lt_j p w_T w_N.
-have row k : (k < 3)%N -> reaction Q t x (gap z j + k)%N =
-    form_value (nth no_form (zero_forms z u j) k) t (zero_motion x).
-  by move=> lt_k; rewrite zero_reaction_form ?gap_small // nth_zero_form.
 split.
-- rewrite -[gap z j]addn0 row //= value_negative (value_pressing wf_s) /along !toRM.
+- rewrite -[gap z j]addn0 zero_row_form //= value_negative (value_pressing wf_s) /along !toRM.
   have -> : toR (row_multiple u) = row_factor R u.
     by rewrite /row_multiple /row_factor; case: (u) => *; rewrite ?toR1.
   by rewrite -/p; move: (toR _) (toR _) (row_factor _ _) (w t x _) (w t x _) => *; ring.
-- rewrite -[right z j]addn1 row //= value_negative (value_right wf) -/p -/w_T -/w_N.
+- rewrite -[right z j]addn1 zero_row_form //= value_negative (value_right wf) -/p -/w_T -/w_N.
   by ring.
 have -> : left z j = (gap z j + 2)%N by rewrite addn2.
-by rewrite row //= value_negative (value_left wf) -/p -/w_T -/w_N; ring.
+by rewrite zero_row_form //= value_negative (value_left wf) -/p -/w_T -/w_N; ring.
+Qed.
+
+Lemma zero_parts m q lambda2 x j : (j < nz)%N -> let p := zero_particle z j in
+  let w_T := along (tangent p) p (w2 lambda2 x) in
+  let w_N := along (normal p) p (w2 lambda2 x) in
+  let Q' := zero_pencil z (Lambda2 m q) in
+  [/\ reaction Q' lambda2 x (gap z j) = - (toR q * along (unit_normal p) p (w2 lambda2 x)),
+      reaction Q' lambda2 x (right z j) = toR q * w_T - toR m * w_N &
+      reaction Q' lambda2 x (left z j) = - (toR q * w_T) - toR m * w_N].
+Proof.
+move=> lt_j p w_T w_N Q'.
+have half S : form_value (cone_form z (Lambda2 m q) (with_sign S p)) lambda2 (zero_motion x) =
+    toR q * (toR S * w_T) + toR m * w_N by exact: (value_cone_parts wf_s).
+split.
+- rewrite -[gap z j]addn0 zero_row_form //= value_negative (value_pressing wf_s) /along !toRM.
+  by rewrite -/p; move: (toR _) (toR _) (toR _) (w2 lambda2 x _) (w2 lambda2 x _) => *; ring.
+- rewrite -[right z j]addn1 zero_row_form //= value_negative half -[(-1)%Z]/(Z.opp 1) toRN toR1.
+  by ring.
+have -> : left z j = (gap z j + 2)%N by rewrite addn2.
+by rewrite zero_row_form //= value_negative half toR1; ring.
+Qed.
+
+(* The rows at lambda^2 and mu; for the values of the unknown those of the pencil. *)
+Definition split_row lambda2 mu x i :=
+  reaction (part_plain z) lambda2 x i + mu * reaction (part_friction z) lambda2 x i.
+
+Lemma slip_split_row lambda2 mu x j : (j < ns)%N ->
+  split_row lambda2 mu x (nf + j)%N = - cone s lambda2 mu (zero_motion x) (particle s j).
+Proof.
+move=> lt_j; rewrite /split_row !slip_part //= toR0 toR1 /cone.
+by move: (along _ _ _) (along _ _ _) => *; ring.
+Qed.
+
+Lemma zero_split_rows lambda2 mu x j : (j < nz)%N -> let p := zero_particle z j in
+  let w_T := along (tangent p) p (w2 lambda2 x) in
+  let w_N := along (normal p) p (w2 lambda2 x) in
+  [/\ split_row lambda2 mu x (gap z j) = - along (unit_normal p) p (w2 lambda2 x),
+      split_row lambda2 mu x (right z j) = w_T - mu * w_N &
+      split_row lambda2 mu x (left z j) = - w_T - mu * w_N].
+Proof.
+move=> lt_j p w_T w_N; rewrite /split_row /part_plain /part_friction.
+have [-> -> ->] := zero_parts 0 1 lambda2 x lt_j.
+have [-> -> ->] := zero_parts 1 0 lambda2 x lt_j.
+by rewrite -/p -/w_T -/w_N toR0 toR1; split; ring.
+Qed.
+
+Lemma reaction_split_row m q lambda2 x i : i \in slip Q ->
+  reaction (zero_pencil z (Lambda2 m q)) lambda2 x i =
+  toR q * reaction (part_plain z) lambda2 x i + toR m * reaction (part_friction z) lambda2 x i.
+Proof.
+rewrite /part_plain /part_friction => /zero_slip_cases[[j lt_j ->]|[j lt_j cases]].
+  by rewrite !slip_part //= toR0 toR1; move: (along _ _ _) (along _ _ _) => *; ring.
+have [g0 r0 l0] := zero_parts 0 1 lambda2 x lt_j; have [g1 r1 l1] := zero_parts 1 0 lambda2 x lt_j.
+have [g r l] := zero_parts m q lambda2 x lt_j.
+by case: cases => ->; rewrite ?g ?g0 ?g1 ?r ?r0 ?r1 ?l ?l0 ?l1 toR0 toR1; ring.
+Qed.
+
+Lemma reaction_at_unknown t x i : i \in slip Q ->
+  reaction Q t x i = row_factor R u * split_row (lambda2_of u t) (mu_of u t) x i.
+Proof.
+case/zero_slip_cases=> [[j lt_j ->]|[j lt_j cases]].
+  by rewrite zero_slip_reaction // slip_split_row // mulrN.
+have [g r l] := zero_reactions t x lt_j.
+have [g' r' l'] := zero_split_rows (lambda2_of u t) (mu_of u t) x lt_j.
+by case: cases => ->; rewrite ?g ?g' ?r ?r' ?l ?l' ?mulrN.
 Qed.
 
 (* The variables of a motion; of right and left at most one is not 0. *)
@@ -483,10 +636,12 @@ Lemma difference_of_parts (a : R) :
   (if 0 < a then a else 0) - (if a < 0 then - a else 0) = a.
 Proof. by case: (ltrgtP a 0) => [| |->]; rewrite ?subr0 ?sub0r ?opprK. Qed.
 
-Lemma zero_motion_of_variables t v : satisfies_9z z u t v ->
+Lemma motion_of_zero_variables v :
+  (forall d, d \in all_dofs -> d \notin moving_with_zero z -> v d = 0) ->
+  (forall j, (j < ns)%N -> along (normal (particle s j)) (particle s j) v = 0) ->
   forall d, d \in all_dofs -> zero_motion (zero_variables_of v) d = v d.
 Proof.
-case=> _ [_ at_rest _ slips _] d d_in.
+move=> at_rest slips d d_in.
 have L0 : 0 < L := unit_length_gt0 R wf_s; have l2 := lt0r_neq0 L2_gt0.
 have [d_zero|d_other] := boolP (d \in zero_dofs z).
   have at_particle j : (j < nz)%N -> let p := zero_particle z j in
@@ -519,7 +674,7 @@ transitivity (motion s (variables_of s v) d).
 have at_particle j : (j < ns)%N -> let p := particle s j in
     motion s (variables_of s v) (first_dof p) = v (first_dof p) /\
     motion s (variables_of s v) (second_dof p) = v (second_dof p).
-  move=> lt_j p; have [nv _ _ _] := slips _ lt_j.
+  move=> lt_j p; have nv := slips _ lt_j.
   have [sq tt nn tn] := particle_parts R wf_s lt_j.
   have [v1 v2] := along_tangent tt nn tn nv.
   rewrite /motion (column_first wf_s) // (column_second wf_s) // /variables_of.
@@ -536,6 +691,14 @@ move: d_moving; rewrite !mem_cat => /or3P[/(nthP 0%N)[k lt_k <-]||].
 case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -second_particle // => <-.
 by case: (at_particle _ lt_j).
 Qed.
+
+Lemma variables_of_conditions lambda2 mu v : conditions_9z z lambda2 mu v ->
+  forall d, d \in all_dofs -> zero_motion (zero_variables_of v) d = v d.
+Proof. by case=> [_ at_rest _ slips _]; apply: motion_of_zero_variables => // j /slips[]. Qed.
+
+Lemma zero_motion_of_variables t v : satisfies_9z z u t v ->
+  forall d, d \in all_dofs -> zero_motion (zero_variables_of v) d = v d.
+Proof. by case=> _ /variables_of_conditions. Qed.
 
 (* A motion in three pairs, and back. *)
 Lemma split_pairs (mu v_N r l w_N w_T : R) : 0 <= r -> 0 <= l -> r * l = 0 ->
@@ -569,25 +732,6 @@ move=> a0; rewrite /pair pmulr_rge0 // mulrCA; split=> -[x0 y0 xy]; split=> //.
 by rewrite xy mulr0.
 Qed.
 
-Lemma zero_slip_cases i : i \in slip Q ->
-  (exists2 j, (j < ns)%N & i = (nf + j)%N) \/
-  (exists2 j, (j < nz)%N & [\/ i = gap z j, i = right z j | i = left z j]).
-Proof.
-rewrite mem_filter !mem_iota !add0n /= -leqNgt => /andP[ge_i lt_i].
-have [lt_s|ge_s] := ltnP i (nf + ns).
-  by left; exists (i - nf)%N; [rewrite ltn_subLR | rewrite subnKC].
-right; have lt_j : ((i - (nf + ns)) %/ 3 < nz)%N by rewrite ltn_divLR // mulnC ltn_subLR.
-exists ((i - (nf + ns)) %/ 3)%N => //.
-have := divn_eq (i - (nf + ns)) 3; have : ((i - (nf + ns)) %% 3 < 3)%N by rewrite ltn_mod.
-move: (_ %/ 3)%N (_ %% 3)%N ge_s => q r ge_s lt_r eq.
-have i_eq : i = (gap z q + r)%N.
-  by rewrite /gap [(3 * q)%N]mulnC -addnA -eq subnKC.
-case: r lt_r {eq} i_eq => [|[|[|]]] // _ ->.
-- by apply: Or31; rewrite addn0.
-- by apply: Or32; rewrite addn1.
-by apply: Or33; rewrite addn2.
-Qed.
-
 Lemma slip_in_zero_pencil j : (j < ns)%N -> (nf + j)%N \in slip Q.
 Proof.
 move=> lt_j; rewrite mem_filter !mem_iota !add0n /= -leqNgt leq_addr /=.
@@ -600,37 +744,37 @@ move=> lt_j lt_k; rewrite mem_filter !mem_iota !add0n /= gap_small // andbT -leq
 by rewrite /gap -!addnA leq_addr.
 Qed.
 
-(* The pairs of a z particle in the pencil are those of (9). *)
-Lemma zero_pairs t x j : (j < nz)%N -> let p := zero_particle z j in
-  let w_T := along (tangent p) p (w t x) in let w_N := along (normal p) p (w t x) in
-  [/\ pair (x (gap z j)) (reaction Q t x (gap z j)) <->
+(* The pairs of a z particle are those of (9). *)
+Lemma zero_pairs lambda2 mu x j : (j < nz)%N -> let p := zero_particle z j in
+  let w_T := along (tangent p) p (w2 lambda2 x) in
+  let w_N := along (normal p) p (w2 lambda2 x) in
+  [/\ pair (x (gap z j)) (split_row lambda2 mu x (gap z j)) <->
         pair (- along (normal p) p (zero_motion x)) (- w_N),
-      pair (x (right z j)) (reaction Q t x (right z j)) <->
-        pair (L ^+ 2 * x (right z j)) (w_T - mu_of u t * w_N) &
-      pair (x (left z j)) (reaction Q t x (left z j)) <->
-        pair (L ^+ 2 * x (left z j)) (- w_T - mu_of u t * w_N)].
+      pair (x (right z j)) (split_row lambda2 mu x (right z j)) <->
+        pair (L ^+ 2 * x (right z j)) (w_T - mu * w_N) &
+      pair (x (left z j)) (split_row lambda2 mu x (left z j)) <->
+        pair (L ^+ 2 * x (left z j)) (- w_T - mu * w_N)].
 Proof.
-move=> lt_j p w_T w_N; have [-> -> ->] := zero_reactions t x lt_j.
-have f0 := row_factor_gt0 R wf_s; have l2 := L2_gt0.
-have half a b : pair a (row_factor R u * b) <-> pair (L ^+ 2 * a) b.
-  exact: iff_trans (pair_right _ _ f0) (iff_sym (pair_left _ _ l2)).
+move=> lt_j p w_T w_N; have [-> -> ->] := zero_split_rows lambda2 mu x lt_j.
+have half a b : pair a b <-> pair (L ^+ 2 * a) b := iff_sym (pair_left _ _ L2_gt0).
 split; [|exact: half|exact: half].
 have [c c0 ->] := along_normal (zero_motion x) lt_j; rewrite -/p gap_rate //.
-have [c' c0' wN] := along_normal (w t x) lt_j; rewrite /w_N -/p wN.
-rewrite mulrN opprK -!mulrN mulrA.
-apply: iff_trans (pair_right _ _ f0) (iff_sym _).
-exact: iff_trans (pair_left _ _ (mulr_gt0 c0 l2)) (pair_right _ _ c0').
+have [c' c0' wN] := along_normal (w2 lambda2 x) lt_j; rewrite /w_N -/p wN.
+rewrite mulrN opprK -[- (c' * _)]mulrN mulrA; apply: iff_sym.
+exact: iff_trans (pair_left _ _ (mulr_gt0 c0 L2_gt0)) (pair_right _ _ c0').
 Qed.
 
-Theorem zero_pencil_solution t v : satisfies_9z z u t v ->
-  solution Q t (zero_variables_of v).
+Theorem zero_parts_solution lambda2 mu v (x := zero_variables_of v) :
+  conditions_9z z lambda2 mu v ->
+  [/\ exists2 i, i \in iota 0 (order Q) & x i != 0,
+      forall m q i, i \in free Q -> reaction (zero_pencil z (Lambda2 m q)) lambda2 x i = 0 &
+      forall i, i \in slip Q -> pair (x i) (split_row lambda2 mu x i)].
 Proof.
-move=> sat; have same := zero_motion_of_variables sat.
-set x := zero_variables_of v; have splits : split x := split_variables v.
-have sat_x : satisfies_9z z u t (zero_motion x).
-  by apply: (satisfies_9z_same wf _ sat) => d d_in; rewrite same.
-have l2 := L2_gt0; have f0 := row_factor_gt0 R wf_s.
-have [t0 [[d d_in vd] _ free slips zeros]] := sat_x; split=> //.
+move=> sat; have same := variables_of_conditions sat.
+have splits : split x := split_variables v.
+have sat_x : conditions_9z z lambda2 mu (zero_motion x).
+  by apply: (conditions_9z_same wf _ sat) => d d_in; rewrite same.
+have l2 := L2_gt0; have [[d d_in vd] _ free slips zeros] := sat_x; split.
 - have : has (fun i => x i != 0) (iota 0 (order Q)).
     apply: contraNT vd => /hasPn none; rewrite /zero_motion nth_table //.
     rewrite /row_value big_seq big1 // => c c_in.
@@ -638,15 +782,15 @@ have [t0 [[d d_in vd] _ free slips zeros]] := sat_x; split=> //.
     move=> small; have := none c.1; rewrite mem_iota small negbK => /(_ isT)/eqP->.
     by rewrite mulr0.
   by case/hasP=> i i_in xi; exists i.
-- move=> i; rewrite mem_iota add0n /= => lt_i; rewrite zero_free_reaction // free //.
+- move=> m q i; rewrite mem_iota add0n /= => lt_i; rewrite zero_free_reaction // free //.
   exact: mem_nth.
 move=> i /zero_slip_cases[[j lt_j ->]|[j lt_j cases]].
-  have [_ + + xy] := slips _ lt_j; rewrite zero_slip_reaction // => rate cone_le.
+  have [_ + + xy] := slips _ lt_j; rewrite slip_split_row // => rate cone_le.
   move: rate xy; rewrite zero_slip_rate // oppr_le0 pmulr_rge0 // => x0 xy.
-  rewrite oppr_ge0 pmulr_rle0 //; split=> //.
-  apply: (mulfI (lt0r_neq0 l2)); rewrite mulr0 -(mulr0 (row_factor R u)) -xy.
-  by move: (cone _ _ _ _ _) (x _) (row_factor _ _) => *; ring.
-have [gap_pair right_pair left_pair] := zero_pairs t x lt_j.
+  split=> //; first by rewrite oppr_ge0.
+  apply: (mulfI (lt0r_neq0 l2)); rewrite mulr0 -xy.
+  by move: (cone _ _ _ _ _) (x _) => *; ring.
+have [gap_pair right_pair left_pair] := zero_pairs lambda2 mu x lt_j.
 have [r0 l0 rl] := splits j lt_j; have line := zeros _ lt_j.
 have [vN wN vw _ _] := line; move: line; rewrite /= half_rates // => line.
 have [||| first second] := split_pairs _ _ _ line.
@@ -655,6 +799,16 @@ have [||| first second] := split_pairs _ _ _ line.
 - by rewrite mulrACA rl mulr0.
 case: cases => ->; [apply/gap_pair | exact/right_pair | exact/left_pair].
 by split; rewrite ?oppr_ge0 // mulrNN.
+Qed.
+
+Theorem zero_pencil_solution t v : satisfies_9z z u t v ->
+  solution Q t (zero_variables_of v).
+Proof.
+case=> t0 /zero_parts_solution[nonzero rows_f rows_s]; split=> //.
+  move=> i i_free; move: (i_free); rewrite mem_iota => lt_i.
+  by rewrite zero_free_reaction // -(rows_f 0%Z 1%Z i i_free) zero_free_reaction.
+move=> i i_slip; rewrite reaction_at_unknown //.
+exact/(pair_right _ _ (row_factor_gt0 R wf_s))/rows_s.
 Qed.
 
 Lemma no_variables v : (forall d, d \in all_dofs -> v d = 0) ->
@@ -705,32 +859,81 @@ move/eqP: rl; rewrite mulf_eq0 => /orP[]/eqP zero; last by rewrite zero.
 by apply/eqP; rewrite eq_sym eq_le l0 andbT -[X in _ <= X]zero.
 Qed.
 
-Theorem zero_pencil_motion t x : solution Q t x -> split x -> satisfies_9z z u t (zero_motion x).
+Theorem zero_parts_motion lambda2 mu x :
+  (exists2 i, i \in iota 0 (order Q) & x i != 0) ->
+  (forall i, i \in free Q -> reaction (part_plain z) lambda2 x i = 0) ->
+  (forall i, i \in slip Q -> pair (x i) (split_row lambda2 mu x i)) ->
+  split x -> conditions_9z z lambda2 mu (zero_motion x).
 Proof.
-case=> t0 [i0 i0_in xi0] rows_f rows_s splits.
-have l2 := L2_gt0; have f0 := row_factor_gt0 R wf_s.
-split=> //; split.
+case=> i0 i0_in xi0 rows_f rows_s splits; have l2 := L2_gt0.
+split.
 - suff : has (fun d => zero_motion x d != 0) all_dofs by case/hasP=> d d_in vd; exists d.
   apply: contraNT xi0 => /hasPn none; rewrite -(zero_variables_of_motion splits); last first.
     by move: i0_in; rewrite mem_iota.
   apply/eqP/no_variables; last by move: i0_in; rewrite mem_iota.
   by move=> d /none; rewrite negbK => /eqP.
 - exact: zero_motion_rest.
-- move=> d /(nthP 0%N)[k lt_k <-]; rewrite -zero_free_reaction // rows_f //.
+- move=> d /(nthP 0%N)[k lt_k <-]; rewrite -(zero_free_reaction (Lambda2 0 1)) // rows_f //.
   by rewrite mem_iota.
 - move=> j lt_j p; have [x0 + +] := rows_s _ (slip_in_zero_pencil lt_j).
-  rewrite zero_slip_reaction // -/p zero_slip_rate // !oppr_le0 oppr_ge0 => y0 xy.
+  rewrite slip_split_row // -/p zero_slip_rate // oppr_le0 oppr_ge0 => y0 xy.
   rewrite along_moving // (normal_motion wf_s) // pmulr_rge0 //; split=> //.
-    by rewrite -(pmulr_rle0 _ f0).
-  apply: (mulfI (lt0r_neq0 f0)); rewrite mulr0 -(mulr0 (L ^+ 2)) -xy.
-  by move: (cone _ _ _ _ _) (x _) (row_factor _ _) => *; ring.
-move=> j lt_j p w'; have [gap_pair right_pair left_pair] := zero_pairs t x lt_j.
+  rewrite -[RHS](mulr0 (L ^+ 2)) -xy.
+  by move: (cone _ _ _ _ _) (x _) => *; ring.
+move=> j lt_j p w'; have [gap_pair right_pair left_pair] := zero_pairs lambda2 mu x lt_j.
 apply/zero_split; exists (L ^+ 2 * x (right z j)), (L ^+ 2 * x (left z j)).
 split; first exact: half_rates.
 - apply/gap_pair; apply: rows_s; rewrite -[gap z j]addn0; exact: three_in_zero_pencil.
 - apply/right_pair; apply: rows_s; rewrite -[right z j]addn1; exact: three_in_zero_pencil.
 by apply/left_pair; apply: rows_s; rewrite -[left z j]addn2; exact: three_in_zero_pencil.
 Qed.
+
+Theorem zero_pencil_motion t x : solution Q t x -> split x -> satisfies_9z z u t (zero_motion x).
+Proof.
+case=> t0 nonzero rows_f rows_s splits; split=> //; apply: zero_parts_motion => // i.
+  move=> i_free; rewrite -(rows_f i i_free); move: i_free; rewrite mem_iota => lt_i.
+  by rewrite !zero_free_reaction.
+move=> i_slip; have := rows_s i i_slip; rewrite reaction_at_unknown //.
+by move/(pair_right _ _ (row_factor_gt0 R wf_s)).
+Qed.
+
+(* Regions and the halves. *)
+Section Regions.
+
+Variables (r : region) (x : nat -> R).
+Hypothesis ag : agrees (size (slip Q)) r (slip_of Q x).
+
+Lemma half_agrees j i : (j < nz)%N -> i = right z j \/ i = left z j ->
+  match half_state z r i with Open => True | Resting => x i = 0 | Moving => 0 < x i end.
+Proof.
+move=> lt_j half; have [ge_i lt_i] : (nf <= i)%N /\ (i - nf < slip_number z)%N.
+  by case: half => ->; rewrite /slip_number /right /left /gap; move: lt_j; clear; lia.
+have := @ag (i - nf)%N; rewrite size_slips => /(_ lt_i).
+by rewrite /slip_of zero_slips nth_iota // subnKC.
+Qed.
+
+Lemma apart_split : halves_apart z r -> (forall i, i \in slip Q -> 0 <= x i) -> split x.
+Proof.
+move=> /allP apart x0 j lt_j; split.
+- by apply: x0; rewrite -[right z j]addn1; apply: three_in_zero_pencil.
+- by apply: x0; rewrite -[left z j]addn2; apply: three_in_zero_pencil.
+have j_in : j \in iota 0 nz by rewrite mem_iota.
+move: (apart j j_in) (half_agrees lt_j (or_introl erefl)) (half_agrees lt_j (or_intror erefl)).
+case: (half_state z r (right z j)) => /= [||]; last 1 first.
+- by case: (half_state z r (left z j)) => //= _ _ ->; rewrite mulr0.
+- by case: (half_state z r (left z j)) => //= _ _ ->; rewrite mulr0.
+by move=> _ -> _; rewrite mul0r.
+Qed.
+
+Lemma both_not_split : both_halves z r -> split x -> False.
+Proof.
+case/hasP=> j; rewrite mem_iota add0n /= => lt_j moving splits.
+move: moving (half_agrees lt_j (or_introl erefl)) (half_agrees lt_j (or_intror erefl)).
+case: (half_state z r (right z j)) => //; case: (half_state z r (left z j)) => // _ pos pos'.
+by have [_ _ /eqP] := splits j lt_j; rewrite mulf_eq0 !gt_eqF.
+Qed.
+
+End Regions.
 
 (* Multiples. *)
 Lemma zero_variables_scaled v v' f i : 0 < f ->

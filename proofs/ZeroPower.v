@@ -94,27 +94,13 @@ by rewrite add0r -!big_split.
 Qed.
 
 (* Tangents are unit_length times unit vectors, normals this times the friction factor. *)
-Theorem power_identity lambda2 mu v : conditions_9z z lambda2 mu v ->
-  let w := force s lambda2 v in
-  toR (unit_length s) ^+ 2 * power lambda2 v =
-  mu * (\sum_(p <- particles s) - slip_rate v p * along (normal p) p w +
-        \sum_(p <- zero_particles z) `|along (tangent p) p v| * along (normal p) p w).
+Lemma zero_power lambda2 mu v j : conditions_9z z lambda2 mu v -> (j < nz)%N ->
+  let p := zero_particle z j in let w := force s lambda2 v in
+  toR (unit_length s) ^+ 2 * power_at v w p =
+  mu * (`|along (tangent p) p v| * along (normal p) p w).
 Proof.
-move=> cond w; have [_ _ _ slips zeros] := cond; have [wfs _ _ frames] := and4P wf.
+case=> _ _ _ _ zeros lt_j p w; have [wfs _ _ frames] := and4P wf.
 have l0 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 R wfs).
-rewrite (power_particles cond) -/w !mulrDr !mulr_sumr; congr (_ + _).
-  rewrite !(big_nth nobody) !big_nat; apply: eq_bigr => j /= lt_j.
-  rewrite -!/(particle s j); set p := particle s j.
-  have [nv _ _ product] := slips j lt_j; have [sq tt nn tn] := particle_parts R wfs lt_j.
-  rewrite -/p in nv product sq tt nn tn.
-  rewrite /power_at (perpendicular tt l0 nn tn); last first.
-    by move: nv; rewrite /along => ->; rewrite mul0r.
-  rewrite -/(along (tangent p) p v) -/(along (tangent p) p w) -[LHS]mul1r -sq.
-  rewrite -[RHS](addr0) -product /cone /slip_rate -/w.
-  by move: (along _ _ _) (along _ _ _) (along _ _ _) (toR _) => *; ring.
-
-rewrite !(big_nth nobody) !big_nat; apply: eq_bigr => j /= lt_j.
-rewrite -!/(zero_particle z j); set p := zero_particle z j.
 have [_ _ vw _ slip] := zeros j lt_j; rewrite -/p -/w in vw slip.
 have /(all_nthP nobody)/(_ j lt_j) := frames; rewrite -/(zero_particle z j) -/p.
 case/and3P=> /Z.eqb_spec tt nn /Z.eqb_spec tn.
@@ -131,6 +117,40 @@ move=> v_T w_T w_N.
 case: (ltrgtP v_T 0) => [vT|vT|->]; last by rewrite normr0 !mul0r mulr0.
   by rewrite ltr0_norm // => slip; rewrite -[LHS]opprK -mulNr slip mulNr mulrN mulrA.
 by rewrite gtr0_norm // mulrA.
+Qed.
+
+(* No power comes from a z particle. *)
+Lemma zero_power_le0 lambda2 mu v j : conditions_9z z lambda2 mu v -> 0 <= mu -> (j < nz)%N ->
+  power_at v (force s lambda2 v) (zero_particle z j) <= 0.
+Proof.
+move=> cond mu0 lt_j; have [_ _ _ _ /(_ j lt_j)[_ wN _ _ _]] := cond.
+have [wfs _ _ _] := and4P wf.
+have l0 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 R wfs).
+rewrite -(pmulr_rle0 _ l0) (zero_power cond lt_j).
+by rewrite mulr_ge0_le0 // mulr_ge0_le0.
+Qed.
+
+Theorem power_identity lambda2 mu v : conditions_9z z lambda2 mu v ->
+  let w := force s lambda2 v in
+  toR (unit_length s) ^+ 2 * power lambda2 v =
+  mu * (\sum_(p <- particles s) - slip_rate v p * along (normal p) p w +
+        \sum_(p <- zero_particles z) `|along (tangent p) p v| * along (normal p) p w).
+Proof.
+move=> cond w; have [_ _ _ slips _] := cond; have [wfs _ _ _] := and4P wf.
+have l0 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 R wfs).
+rewrite (power_particles cond) -/w !mulrDr !mulr_sumr; congr (_ + _).
+  rewrite !(big_nth nobody) !big_nat; apply: eq_bigr => j /= lt_j.
+  rewrite -!/(particle s j); set p := particle s j.
+  have [nv _ _ product] := slips j lt_j; have [sq tt nn tn] := particle_parts R wfs lt_j.
+  rewrite -/p in nv product sq tt nn tn.
+  rewrite /power_at (perpendicular tt l0 nn tn); last first.
+    by move: nv; rewrite /along => ->; rewrite mul0r.
+  rewrite -/(along (tangent p) p v) -/(along (tangent p) p w) -[LHS]mul1r -sq.
+  rewrite -[RHS](addr0) -product /cone /slip_rate -/w.
+  by move: (along _ _ _) (along _ _ _) (along _ _ _) (toR _) => *; ring.
+
+rewrite !(big_nth nobody) !big_nat; apply: eq_bigr => j /= lt_j.
+exact: zero_power.
 Qed.
 
 (* v'w > 0 holds for every v != 0 if K + lambda^2 M is positive definite. *)

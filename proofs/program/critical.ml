@@ -11,7 +11,7 @@ open Elaborate
 type box = { region : Kernel.region; low : Kernel.point; high : Kernel.point }
 
 type context = {
-  system : Kernel.system;
+  zero : Kernel.zero_system;  (* without particles of zero reaction: an empty list of them *)
   slip : int array;
   free_factor : Z.t;  (* of the free rows *)
   slip_factor : Z.t;  (* of the slip rows of both parts *)
@@ -33,9 +33,9 @@ let trivial_elimination plain friction slip factor =
     left_va = none; left_vb = none; bound_c = Z.one; bound_d = Z.one; factor_scale = Z.zero;
     stiffness_factor = [] }, (none, none)
 
-(* The pencil at a friction with the weights of its rows. *)
+(* The pencil at a friction, z particles free, with the weights of its rows. *)
 let whole_pencil c e =
-  let pencil = Kernel.pencil_at c.system e in
+  let pencil = Kernel.pencil_at c.zero e in
   pencil, row_weights pencil c.free_factor (Z.mul c.slip_factor (snd e))
 
 let by_whole c negative box =
@@ -43,9 +43,10 @@ let by_whole c negative box =
     let pencil, weights = whole_pencil c e in
     spend pencil.order;
     signed_whole_leaf pencil weights negative box.region in
-  match at box.low with
-  | None -> None
-  | Some a -> Option.map (fun b -> Kernel.BoxWhole (a, b)) (at box.high)
+  if negative && c.zero.zero_particles <> [] then None
+  else match at box.low with
+    | None -> None
+    | Some a -> Option.map (fun b -> Kernel.BoxWhole (a, b)) (at box.high)
 
 (* What the matrices at the corners of a box cost: entries and words. *)
 let spend_box ns box =
@@ -251,7 +252,7 @@ let anchored_of c plain friction slip (condensation : critical_condensation) use
       mass_below = form_bound nf c.free_factor given.mass_sigma given.mass_factor;
       box_anchors = List.map (fun (a, l) -> box_anchor c plain friction slip a l) chosen } in
   { plain_pencil = plain; anchoring;
-    families = Array.of_list (Kernel.box_expansions c.system anchoring);
+    families = Array.of_list (Kernel.box_expansions c.zero anchoring);
     numbers = List.mapi (fun i k -> (k, i)) used }
 
 let anchors_of_boxes pieces =
@@ -312,7 +313,7 @@ let about c v n box make =
     | _ -> None
 
 let as_whole = function
-  | Some (Kernel.BoxWhole (a, b)) -> Some (Kernel.AboutWhole (a, b))
+  | Some (Kernel.BoxWhole _ as l) -> Some (Kernel.WithoutAnchor l)
   | _ -> None
 
 type direction = Along_value | Along_friction
@@ -398,12 +399,16 @@ let leaf_of_parts c parts _ box node =
 
 (* ---------- trees *)
 
-(* Leaves of one interval about one anchor become one leaf: its local pencils are made once. *)
+(* Leaves of one interval about one anchor become one leaf: its local pencils are made once.  A
+   region in which both halves move needs none. *)
 let rec join tree =
   let both inside around first second = match join first, join second with
     | Kernel.BoxLeaf (Kernel.AboutAnchor (n, grain, t)),
       Kernel.BoxLeaf (Kernel.AboutAnchor (n', grain', t')) when n = n' && Z.equal grain grain' ->
       Kernel.BoxLeaf (Kernel.AboutAnchor (n, grain, inside t t'))
+    | Kernel.BoxLeaf (Kernel.AboutAnchor (n, grain, t)),
+      Kernel.BoxLeaf (Kernel.WithoutAnchor Kernel.BoxHalves) ->
+      Kernel.BoxLeaf (Kernel.AboutAnchor (n, grain, inside t (Kernel.BoxLeaf Kernel.BoxHalves)))
     | first, second -> around first second in
   match tree with
   | Kernel.CutFriction (m, first, second) ->
@@ -415,8 +420,16 @@ let rec join tree =
   | CutValue (t, first, second) -> Kernel.CutValue (t, join first, join second)
   | BoxLeaf _ -> tree
 
-(* The nodes of a piece in preorder. *)
-let build_piece c leaf nodes box =
+(* The other half of v_T at the particle of the k-th complementarity variable, if that is a half and
+   the other one is not at rest in the region. *)
+let other_half c k region =
+  let i = c.slip.(k) - Kernel.gap c.zero 0 in
+  let other = if i < 0 then k else match i mod 3 with 1 -> k + 1 | 2 -> k - 1 | _ -> k in
+  if other = k || Kernel.state_of region other = Kernel.Resting then None else Some other
+
+(* The nodes of a piece in preorder.  Where a half moves the other one is at rest; [halves] closes
+   the region in which both move. *)
+let build_piece c leaf halves nodes box =
   let rec build depth box nodes =
     if depth > 2_000 then no_witness "a tree of more than 2,000 levels";
     let region = box.region in
@@ -438,16 +451,25 @@ let build_piece c leaf nodes box =
       Kernel.CutFriction (m, first, second), rest
     | Decide i :: rest ->
       let i = position c.slip i in
-      let decided state = { box with region = Kernel.decide i state region } in
-      let first, second, rest = both (decided Kernel.Resting) (decided Kernel.Moving) rest in
-      Kernel.Decide (i, first, second), rest
+      let decided states =
+        let decide region (j, state) = Kernel.decide j state region in
+        { box with region = List.fold_left decide region states } in
+      (match other_half c i region with
+       | None ->
+         let first, second, rest =
+           both (decided [i, Kernel.Resting]) (decided [i, Kernel.Moving]) rest in
+         Kernel.Decide (i, first, second), rest
+       | Some other ->
+         let first, second, rest = both (decided [i, Kernel.Resting])
+             (decided [i, Kernel.Moving; other, Kernel.Resting]) rest in
+         Kernel.Decide (i, first, Kernel.Decide (other, second, Kernel.BoxLeaf halves)), rest)
     | node :: rest -> leaf box node, rest in
   match build 0 box nodes with
   | tree, [] -> tree
   | _ -> no_witness "a tree has a node too many"
 
 (* The pieces of [0, infinity) as one tree. *)
-let build c leaf pieces =
+let build c leaf halves pieces =
   if List.length pieces > 10_000 then no_witness "more than 10,000 pieces";
   let rec join lower = function
     | [] -> no_witness "pieces that end before infinity"
@@ -456,6 +478,6 @@ let build c leaf pieces =
       let upper = upper_point piece.box_max in
       let region = { Kernel.lower; upper; states = [] } in
       let box = { region; low = c.mu_low; high = c.mu_high } in
-      let tree = build_piece c (leaf piece) piece.box_tree box in
+      let tree = build_piece c (leaf piece) halves piece.box_tree box in
       if rest = [] then tree else Kernel.CutValue (upper, tree, join upper rest) in
   join Kernel.zero pieces

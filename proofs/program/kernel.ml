@@ -5442,397 +5442,6 @@ let box_regular p p' r w =
         (all (fun c -> (&&) (rows_at p p' r l w c) (sign_at0 p p' r l w c))
           four_corners)))
 
-type critical_leaf =
-| BoxFarkas of Big_int_Z.big_int list
-| BoxDefinite of bool * (factor * factor) * (factor * factor)
-| BoxRegular of regular
-| BoxWhole of whole * whole
-
-(** val pencil_at : system -> point -> pencil **)
-
-let pencil_at s e =
-  pencil_of s (Lambda2 ((fst e), (snd e)))
-
-(** val part_plain : system -> pencil **)
-
-let part_plain s =
-  pencil_at s (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)
-
-(** val part_friction : system -> pencil **)
-
-let part_friction s =
-  pencil_at s (Big_int_Z.unit_big_int, Big_int_Z.zero_big_int)
-
-(** val with_left : elimination -> (matrix * matrix) -> elimination **)
-
-let with_left w other =
-  { row_scale = w.row_scale; unit_of = w.unit_of; right_w = w.right_w;
-    left_va = (fst other); left_vb = (snd other); bound_c = w.bound_c;
-    bound_d = w.bound_d; factor_scale = w.factor_scale; stiffness_factor =
-    w.stiffness_factor }
-
-(** val condensed_parts :
-    system -> (elimination * (matrix * matrix)) option ->
-    (enclosed * enclosed) option **)
-
-let condensed_parts s w =
-  Option.map (fun wl -> ((condensed (blocks_of (part_plain s)) (fst wl)),
-    (condensed (blocks_of (part_friction s)) (with_left (fst wl) (snd wl)))))
-    w
-
-(** val parts_eliminated :
-    system -> (elimination * (matrix * matrix)) option -> bool **)
-
-let parts_eliminated s = function
-| Some p ->
-  let (w0, other) = p in
-  (&&) (free_rows_constant (part_plain s))
-    ((&&) (free_rows_constant (part_friction s))
-      ((&&) (check_elimination (blocks_of (part_plain s)) w0)
-        (check_elimination (blocks_of (part_friction s)) (with_left w0 other))))
-| None -> true
-
-(** val same_weights : system -> whole -> whole -> bool **)
-
-let same_weights s a b =
-  (&&)
-    (eq_op bool_eqType (Obj.magic a.whole_negative)
-      (Obj.magic b.whole_negative))
-    (all (fun i ->
-      Z.eqb (nth Big_int_Z.unit_big_int a.whole_weights i)
-        (nth Big_int_Z.unit_big_int b.whole_weights i)) (slip (part_plain s)))
-
-(** val check_critical_leaf :
-    system -> (enclosed * enclosed) option -> region -> point -> point ->
-    critical_leaf -> bool **)
-
-let check_critical_leaf s parts r low high = function
-| BoxFarkas v ->
-  (match parts with
-   | Some p ->
-     let (p0, p1) = p in box_farkas (mixed low p0 p1) (mixed high p0 p1) r v
-   | None -> false)
-| BoxDefinite (negative0, f, f') ->
-  (match parts with
-   | Some p ->
-     let (p0, p1) = p in
-     box_definite (mixed low p0 p1) (mixed high p0 p1) r negative0 f f'
-   | None -> false)
-| BoxRegular v ->
-  (match parts with
-   | Some p ->
-     let (p0, p1) = p in box_regular (mixed low p0 p1) (mixed high p0 p1) r v
-   | None -> false)
-| BoxWhole (a, b) ->
-  (&&) (same_weights s a b)
-    ((&&) (check_whole (pencil_at s low) r a)
-      (check_whole (pencil_at s high) r b))
-
-(** val check_critical :
-    system -> (elimination * (matrix * matrix)) option -> critical_leaf
-    box_tree -> point -> point -> bool **)
-
-let check_critical s w tr from bound1 =
-  let parts = condensed_parts s w in
-  (&&)
-    (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
-      Big_int_Z.unit_big_int)))
-    ((&&) (parts_eliminated s w)
-      (check_boxes (size (slip (part_plain s))) (check_critical_leaf s parts)
-        tr (window zero infinity) from bound1))
-
-type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
-                    friction_left : matrix list }
-
-type box_anchoring = { stiffness_below : form_bound; mass_below : form_bound;
-                       box_anchors : box_anchor list }
-
-type anchored_box_leaf =
-| AboutAnchor of int * Big_int_Z.big_int * critical_leaf box_tree
-| AboutWhole of whole * whole
-
-(** val friction_anchor : anchor -> matrix list -> anchor **)
-
-let friction_anchor a other =
-  { anchor_center = a.anchor_center; anchor_unit = a.anchor_unit;
-    anchor_right = a.anchor_right; anchor_left = other; anchor_scale =
-    a.anchor_scale }
-
-(** val expand_part : pencil -> bool -> anchor -> anchor_family option **)
-
-let expand_part q reverse a =
-  if reverse then expand (swap_pencil q) a else expand q a
-
-(** val expand_box :
-    system -> box_anchor -> (anchor_family * anchor_family) option **)
-
-let expand_box s b =
-  match expand_part (part_plain s) b.reversed_anchor b.plain_anchor with
-  | Some fam ->
-    (match expand_part (part_friction s) b.reversed_anchor
-             (friction_anchor b.plain_anchor b.friction_left) with
-     | Some fam' -> Some (fam, fam')
-     | None -> None)
-  | None -> None
-
-(** val check_parts :
-    enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool **)
-
-let check_parts p p' r low high = function
-| BoxFarkas v -> box_farkas (mixed low p p') (mixed high p p') r v
-| BoxDefinite (negative0, f, f') ->
-  box_definite (mixed low p p') (mixed high p p') r negative0 f f'
-| BoxRegular v -> box_regular (mixed low p p') (mixed high p p') r v
-| BoxWhole (_, _) -> false
-
-(** val local_part :
-    system -> form_bound -> form_bound -> anchor -> anchor_family -> point ->
-    point -> Big_int_Z.big_int -> enclosed **)
-
-let local_part s low_a low_b a fam lo hi grain =
-  local_pencil (size s.particles) a low_a low_b fam lo hi false grain
-
-(** val check_about :
-    system -> form_bound -> form_bound -> box_anchor ->
-    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
-    -> point -> critical_leaf box_tree -> bool **)
-
-let check_about s low_a low_b b fams grain r low high tr =
-  let a = b.plain_anchor in
-  let a' = friction_anchor a b.friction_left in
-  (&&) (proper_interval a low_a low_b r.lower r.upper)
-    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
-      ((&&)
-        (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
-          (Obj.magic size (snd fams).series_z))
-        (check_boxes (size s.particles)
-          (check_parts
-            (local_part s low_a low_b a (fst fams) r.lower r.upper grain)
-            (local_part s low_a low_b a' (snd fams) r.lower r.upper grain))
-          tr (local_region r) low high)))
-
-(** val no_box_anchor : box_anchor **)
-
-let no_box_anchor =
-  { reversed_anchor = false; plain_anchor = { anchor_center = zero;
-    anchor_unit = Big_int_Z.zero_big_int; anchor_right = []; anchor_left =
-    []; anchor_scale = [] }; friction_left = [] }
-
-(** val box_expansions :
-    system -> box_anchoring -> (anchor_family * anchor_family) option list **)
-
-let box_expansions s w =
-  map0 (fun b -> expand_box s b) w.box_anchors
-
-(** val check_anchored_box :
-    system -> box_anchoring -> (anchor_family * anchor_family) option list ->
-    region -> point -> point -> anchored_box_leaf -> bool **)
-
-let check_anchored_box s w families0 r low high = function
-| AboutAnchor (n, grain, tr') ->
-  let b = nth no_box_anchor w.box_anchors n in
-  (match nth None families0 n with
-   | Some fams ->
-     if b.reversed_anchor
-     then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
-            (check_about s w.mass_below w.stiffness_below b fams grain
-              (swap_region r) low high tr')
-     else check_about s w.stiffness_below w.mass_below b fams grain r low
-            high tr'
-   | None -> false)
-| AboutWhole (a, b) ->
-  (&&) (same_weights s a b)
-    ((&&) (check_whole (pencil_at s low) r a)
-      (check_whole (pencil_at s high) r b))
-
-(** val both_bounded : system -> box_anchoring -> bool **)
-
-let both_bounded s w =
-  (&&)
-    (bounded_rows (Obj.magic size (part_plain s).free)
-      (ff_block (part_plain s) (row_a (part_plain s))) w.stiffness_below)
-    ((&&)
-      (bounded_rows (Obj.magic size (part_plain s).free)
-        (ff_block (part_plain s) (row_b (part_plain s))) w.mass_below)
-      ((&&)
-        (bounded_rows (Obj.magic size (part_friction s).free)
-          (ff_block (part_friction s) (row_a (part_friction s)))
-          w.stiffness_below)
-        (bounded_rows (Obj.magic size (part_friction s).free)
-          (ff_block (part_friction s) (row_b (part_friction s))) w.mass_below)))
-
-(** val check_anchored_critical :
-    system -> box_anchoring -> anchored_box_leaf box_tree -> point -> point
-    -> bool **)
-
-let check_anchored_critical s w tr from bound1 =
-  let families0 = box_expansions s w in
-  (&&)
-    (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
-      Big_int_Z.unit_big_int)))
-    ((&&) ((||) (nilp w.box_anchors) (both_bounded s w))
-      (check_boxes (size s.particles) (check_anchored_box s w families0) tr
-        (window zero infinity) from bound1))
-
-type presence = { presence_box : regular; presence_start : regular;
-                  presence_finish : regular }
-
-(** val rest_row :
-    enclosed -> enclosed -> region -> presence -> regular -> int -> int ->
-    bool **)
-
-let rest_row p p' r w v i c =
-  let p0 =
-    map0 (fun j -> center (corner_pencil p p' c) (corner_end r c) i j)
-      (regular_order p r (Obj.magic w.presence_box.regular_pivot))
-  in
-  let q =
-    map0 (fun j -> radius (corner_pencil p p' c) (corner_end r c) i j)
-      (regular_order p r (Obj.magic w.presence_box.regular_pivot))
-  in
-  Z.leb
-    (row_slack
-      (pred
-        (size (regular_order p r (Obj.magic w.presence_box.regular_pivot))))
-      v p0 q)
-    (against_right
-      (pred
-        (size (regular_order p r (Obj.magic w.presence_box.regular_pivot))))
-      v p0)
-
-(** val positive_vector : regular -> bool **)
-
-let positive_vector v =
-  Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v.regular_right 0)
-
-(** val presence_edge :
-    enclosed -> enclosed -> region -> presence -> regular -> int list -> bool **)
-
-let presence_edge p p' r w e cs =
-  (&&) (positive_vector e)
-    ((&&)
-      (Z.ltb Big_int_Z.zero_big_int
-        (nth Big_int_Z.zero_big_int e.regular_left 0))
-      (all (fun c ->
-        (&&)
-          (rows_at p p' r
-            (regular_order p r (Obj.magic w.presence_box.regular_pivot)) e c)
-          (sign_at0 p p' r
-            (regular_order p r (Obj.magic w.presence_box.regular_pivot)) e c))
-        cs))
-
-(** val check_presence_piece :
-    enclosed -> enclosed -> region -> presence -> bool **)
-
-let check_presence_piece p p' r w =
-  (&&) (decided p r)
-    ((&&)
-      (in_mem (Obj.magic w.presence_box.regular_pivot)
-        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
-      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
-        ((&&) (positive_vector w.presence_box)
-          ((&&)
-            (all
-              (rows_at p p' r
-                (regular_order p r (Obj.magic w.presence_box.regular_pivot))
-                w.presence_box) four_corners)
-            ((&&)
-              (all (fun j ->
-                Z.ltb
-                  (nth Big_int_Z.zero_big_int w.presence_box.regular_widths j)
-                  (nth Big_int_Z.zero_big_int w.presence_box.regular_right
-                    (Natural.succ j)))
-                (iota 0
-                  (pred
-                    (size
-                      (regular_order p r
-                        (Obj.magic w.presence_box.regular_pivot))))))
-              ((&&)
-                (all (fun i ->
-                  (||) (is_moving (state_of r i))
-                    (all (rest_row p p' r w w.presence_box i) four_corners))
-                  (indices p))
-                ((&&)
-                  (presence_edge p p' r w w.presence_start
-                    (0 :: ((Natural.succ (Natural.succ 0)) :: [])))
-                  ((&&)
-                    (presence_edge p p' r w w.presence_finish ((Natural.succ
-                      0) :: ((Natural.succ (Natural.succ (Natural.succ
-                      0))) :: [])))
-                    (negb
-                      (eq_op bool_eqType
-                        (Obj.magic w.presence_start.regular_minus)
-                        (Obj.magic w.presence_finish.regular_minus)))))))))))
-
-type presence_piece = { piece_end : point; piece_region : region;
-                        piece_anchor : int; piece_grain : Big_int_Z.big_int;
-                        piece_witness : presence }
-
-(** val check_present :
-    system -> form_bound -> form_bound -> box_anchor ->
-    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
-    -> point -> presence -> bool **)
-
-let check_present s low_a low_b b fams grain r low high v =
-  let a = b.plain_anchor in
-  let a' = friction_anchor a b.friction_left in
-  let p = local_part s low_a low_b a (fst fams) r.lower r.upper grain in
-  let p' = local_part s low_a low_b a' (snd fams) r.lower r.upper grain in
-  (&&) (proper_interval a low_a low_b r.lower r.upper)
-    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
-      ((&&)
-        (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
-          (Obj.magic size (snd fams).series_z))
-        (check_presence_piece (mixed low p p') (mixed high p p')
-          (local_region r) v)))
-
-(** val check_piece :
-    system -> box_anchoring -> (anchor_family * anchor_family) option list ->
-    point -> presence_piece -> bool **)
-
-let check_piece s w families0 low p =
-  let b = nth no_box_anchor w.box_anchors p.piece_anchor in
-  let r = p.piece_region in
-  (&&) (ordered low p.piece_end)
-    (match nth None families0 p.piece_anchor with
-     | Some fams ->
-       if b.reversed_anchor
-       then (&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
-              (check_present s w.mass_below w.stiffness_below b fams
-                p.piece_grain (swap_region r) low p.piece_end p.piece_witness)
-       else check_present s w.stiffness_below w.mass_below b fams
-              p.piece_grain r low p.piece_end p.piece_witness
-     | None -> false)
-
-(** val check_pieces :
-    system -> box_anchoring -> (anchor_family * anchor_family) option list ->
-    point -> presence_piece list -> point -> bool **)
-
-let rec check_pieces s w families0 low pieces bound1 =
-  match pieces with
-  | [] -> false
-  | p :: rest0 ->
-    (match rest0 with
-     | [] ->
-       (&&) (check_piece s w families0 low p)
-         (Z.leb (Z.mul (fst bound1) (snd p.piece_end))
-           (Z.mul (fst p.piece_end) (snd bound1)))
-     | _ :: _ ->
-       (&&) (check_piece s w families0 low p)
-         (check_pieces s w families0 p.piece_end rest0 bound1))
-
-(** val check_presence :
-    system -> box_anchoring -> presence_piece list -> point -> point -> bool **)
-
-let check_presence s w pieces from bound1 =
-  let families0 = box_expansions s w in
-  (&&)
-    (system_wellformed s (Lambda2 (Big_int_Z.zero_big_int,
-      Big_int_Z.unit_big_int)))
-    ((&&) (both_bounded s w)
-      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd bound1))
-        (check_pieces s w families0 from pieces bound1)))
-
 (** val zero_firsts : zero_system -> int list **)
 
 let zero_firsts z0 =
@@ -5941,31 +5550,468 @@ let pencil_by_table z0 u table0 =
 let zero_pencil z0 u =
   pencil_by_table z0 u (zero_table z0)
 
+(** val part_plain : zero_system -> pencil **)
+
+let part_plain z0 =
+  zero_pencil z0 (Lambda2 (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int))
+
+(** val part_friction : zero_system -> pencil **)
+
+let part_friction z0 =
+  zero_pencil z0 (Lambda2 (Big_int_Z.unit_big_int, Big_int_Z.zero_big_int))
+
+(** val slip_number : zero_system -> int **)
+
+let slip_number z0 =
+  addn (size z0.without_zero.particles)
+    (muln (Natural.succ (Natural.succ (Natural.succ 0)))
+      (size z0.zero_particles))
+
+(** val half_state : zero_system -> region -> int -> state **)
+
+let half_state z0 r i =
+  state_of r (subn i (free_number z0.without_zero))
+
+(** val halves_apart : zero_system -> region -> bool **)
+
+let halves_apart z0 r =
+  all (fun j ->
+    (||) (is_resting (half_state z0 r (right z0 j)))
+      (is_resting (half_state z0 r (left z0 j))))
+    (iota 0 (size z0.zero_particles))
+
+(** val both_halves : zero_system -> region -> bool **)
+
+let both_halves z0 r =
+  has (fun j ->
+    (&&) (is_moving (half_state z0 r (right z0 j)))
+      (is_moving (half_state z0 r (left z0 j))))
+    (iota 0 (size z0.zero_particles))
+
+type critical_leaf =
+| BoxFarkas of Big_int_Z.big_int list
+| BoxDefinite of bool * (factor * factor) * (factor * factor)
+| BoxRegular of regular
+| BoxWhole of whole * whole
+| BoxHalves
+
+(** val check_parts :
+    enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool **)
+
+let check_parts p p' r low high = function
+| BoxFarkas v -> box_farkas (mixed low p p') (mixed high p p') r v
+| BoxDefinite (negative0, f, f') ->
+  box_definite (mixed low p p') (mixed high p p') r negative0 f f'
+| BoxRegular v -> box_regular (mixed low p p') (mixed high p p') r v
+| _ -> false
+
+(** val freed : zero_system -> zero_system **)
+
+let freed z0 =
+  let s = z0.without_zero in
+  { without_zero = { dofs = s.dofs; stiffness = s.stiffness; mass = s.mass;
+  free_dofs =
+  (filter (fun d ->
+    in_mem (Obj.magic d)
+      (mem (seq_predType nat_eqType)
+        (Obj.magic cat s.free_dofs (zero_dofs z0)))) (iota 0 s.dofs));
+  particles = s.particles; unit_length = s.unit_length }; zero_particles =
+  [] }
+
+(** val pencil_at : zero_system -> point -> pencil **)
+
+let pencil_at z0 e =
+  zero_pencil (freed z0) (Lambda2 ((fst e), (snd e)))
+
+(** val same_weights : zero_system -> whole -> whole -> bool **)
+
+let same_weights z0 a b =
+  (&&)
+    (eq_op bool_eqType (Obj.magic a.whole_negative)
+      (Obj.magic b.whole_negative))
+    (all (fun i ->
+      Z.eqb (nth Big_int_Z.unit_big_int a.whole_weights i)
+        (nth Big_int_Z.unit_big_int b.whole_weights i))
+      (iota (free_number (freed z0).without_zero)
+        (size z0.without_zero.particles)))
+
+(** val freed_weight :
+    zero_system -> whole -> Equality.sort -> Big_int_Z.big_int **)
+
+let freed_weight z0 a d =
+  nth Big_int_Z.unit_big_int a.whole_weights
+    (index nat_eqType d (Obj.magic (freed z0).without_zero.free_dofs))
+
+(** val zero_weights : zero_system -> whole -> bool **)
+
+let zero_weights z0 a =
+  (&&) ((||) (nilp z0.zero_particles) (negb a.whole_negative))
+    (all (fun p ->
+      (&&)
+        (Z.leb Big_int_Z.zero_big_int
+          (freed_weight z0 a (Obj.magic p.first_dof)))
+        (Z.eqb (freed_weight z0 a (Obj.magic p.first_dof))
+          (freed_weight z0 a (Obj.magic p.second_dof)))) z0.zero_particles)
+
+(** val check_whole_leaf :
+    zero_system -> region -> point -> point -> critical_leaf -> bool **)
+
+let check_whole_leaf z0 r low high = function
+| BoxWhole (a, b) ->
+  (&&) (same_weights z0 a b)
+    ((&&) (zero_weights z0 a)
+      ((&&) (zero_weights z0 b)
+        ((&&) (check_whole (pencil_at z0 low) r a)
+          (check_whole (pencil_at z0 high) r b))))
+| BoxHalves -> both_halves z0 r
+| _ -> false
+
+(** val with_left : elimination -> (matrix * matrix) -> elimination **)
+
+let with_left w other =
+  { row_scale = w.row_scale; unit_of = w.unit_of; right_w = w.right_w;
+    left_va = (fst other); left_vb = (snd other); bound_c = w.bound_c;
+    bound_d = w.bound_d; factor_scale = w.factor_scale; stiffness_factor =
+    w.stiffness_factor }
+
+(** val condensed_parts :
+    zero_system -> (elimination * (matrix * matrix)) option ->
+    (enclosed * enclosed) option **)
+
+let condensed_parts z0 w =
+  Option.map (fun wl -> ((condensed (blocks_of (part_plain z0)) (fst wl)),
+    (condensed (blocks_of (part_friction z0)) (with_left (fst wl) (snd wl)))))
+    w
+
+(** val parts_eliminated :
+    zero_system -> (elimination * (matrix * matrix)) option -> bool **)
+
+let parts_eliminated z0 = function
+| Some p ->
+  let (w0, other) = p in
+  (&&) (free_rows_constant (part_plain z0))
+    ((&&) (free_rows_constant (part_friction z0))
+      ((&&) (check_elimination (blocks_of (part_plain z0)) w0)
+        (check_elimination (blocks_of (part_friction z0))
+          (with_left w0 other))))
+| None -> true
+
+(** val check_critical_leaf :
+    zero_system -> (enclosed * enclosed) option -> region -> point -> point
+    -> critical_leaf -> bool **)
+
+let check_critical_leaf z0 parts r low high l =
+  (||)
+    (match parts with
+     | Some p -> let (p0, p1) = p in check_parts p0 p1 r low high l
+     | None -> false) (check_whole_leaf z0 r low high l)
+
+(** val check_critical :
+    zero_system -> (elimination * (matrix * matrix)) option -> critical_leaf
+    box_tree -> point -> point -> bool **)
+
+let check_critical z0 w tr from bound1 =
+  let parts = condensed_parts z0 w in
+  (&&)
+    (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int,
+      Big_int_Z.unit_big_int)))
+    ((&&) (parts_eliminated z0 w)
+      (check_boxes (slip_number z0) (check_critical_leaf z0 parts) tr
+        (window zero infinity) from bound1))
+
+type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
+                    friction_left : matrix list }
+
+type box_anchoring = { stiffness_below : form_bound; mass_below : form_bound;
+                       box_anchors : box_anchor list }
+
+type anchored_box_leaf =
+| AboutAnchor of int * Big_int_Z.big_int * critical_leaf box_tree
+| WithoutAnchor of critical_leaf
+
+(** val friction_anchor : anchor -> matrix list -> anchor **)
+
+let friction_anchor a other =
+  { anchor_center = a.anchor_center; anchor_unit = a.anchor_unit;
+    anchor_right = a.anchor_right; anchor_left = other; anchor_scale =
+    a.anchor_scale }
+
+(** val expand_part : pencil -> bool -> anchor -> anchor_family option **)
+
+let expand_part q reverse a =
+  if reverse then expand (swap_pencil q) a else expand q a
+
+(** val expand_box :
+    zero_system -> box_anchor -> (anchor_family * anchor_family) option **)
+
+let expand_box z0 b =
+  match expand_part (part_plain z0) b.reversed_anchor b.plain_anchor with
+  | Some fam ->
+    (match expand_part (part_friction z0) b.reversed_anchor
+             (friction_anchor b.plain_anchor b.friction_left) with
+     | Some fam' -> Some (fam, fam')
+     | None -> None)
+  | None -> None
+
+(** val check_local_leaf :
+    (region -> bool) -> enclosed -> enclosed -> region -> point -> point ->
+    critical_leaf -> bool **)
+
+let check_local_leaf halves p p' r low high l = match l with
+| BoxHalves -> halves r
+| _ -> check_parts p p' r low high l
+
+(** val local_part :
+    zero_system -> form_bound -> form_bound -> anchor -> anchor_family ->
+    point -> point -> Big_int_Z.big_int -> enclosed **)
+
+let local_part z0 low_a low_b a fam lo hi grain =
+  local_pencil (slip_number z0) a low_a low_b fam lo hi false grain
+
+(** val check_about :
+    zero_system -> form_bound -> form_bound -> box_anchor ->
+    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
+    -> point -> critical_leaf box_tree -> bool **)
+
+let check_about z0 low_a low_b b fams grain r low high tr =
+  let a = b.plain_anchor in
+  let a' = friction_anchor a b.friction_left in
+  (&&) (proper_interval a low_a low_b r.lower r.upper)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
+      ((&&)
+        (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
+          (Obj.magic size (snd fams).series_z))
+        (check_boxes (slip_number z0)
+          (check_local_leaf (both_halves z0)
+            (local_part z0 low_a low_b a (fst fams) r.lower r.upper grain)
+            (local_part z0 low_a low_b a' (snd fams) r.lower r.upper grain))
+          tr (local_region r) low high)))
+
+(** val no_box_anchor : box_anchor **)
+
+let no_box_anchor =
+  { reversed_anchor = false; plain_anchor = { anchor_center = zero;
+    anchor_unit = Big_int_Z.zero_big_int; anchor_right = []; anchor_left =
+    []; anchor_scale = [] }; friction_left = [] }
+
+(** val box_expansions :
+    zero_system -> box_anchoring -> (anchor_family * anchor_family) option
+    list **)
+
+let box_expansions z0 w =
+  map0 (fun b -> expand_box z0 b) w.box_anchors
+
+(** val check_anchored_box :
+    zero_system -> box_anchoring -> (anchor_family * anchor_family) option
+    list -> region -> point -> point -> anchored_box_leaf -> bool **)
+
+let check_anchored_box z0 w families0 r low high = function
+| AboutAnchor (n, grain, tr') ->
+  let b = nth no_box_anchor w.box_anchors n in
+  (match nth None families0 n with
+   | Some fams ->
+     if b.reversed_anchor
+     then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
+            (check_about z0 w.mass_below w.stiffness_below b fams grain
+              (swap_region r) low high tr')
+     else check_about z0 w.stiffness_below w.mass_below b fams grain r low
+            high tr'
+   | None -> false)
+| WithoutAnchor l0 -> check_whole_leaf z0 r low high l0
+
+(** val both_bounded : zero_system -> box_anchoring -> bool **)
+
+let both_bounded z0 w =
+  (&&)
+    (bounded_rows (Obj.magic size (part_plain z0).free)
+      (ff_block (part_plain z0) (row_a (part_plain z0))) w.stiffness_below)
+    ((&&)
+      (bounded_rows (Obj.magic size (part_plain z0).free)
+        (ff_block (part_plain z0) (row_b (part_plain z0))) w.mass_below)
+      ((&&)
+        (bounded_rows (Obj.magic size (part_friction z0).free)
+          (ff_block (part_friction z0) (row_a (part_friction z0)))
+          w.stiffness_below)
+        (bounded_rows (Obj.magic size (part_friction z0).free)
+          (ff_block (part_friction z0) (row_b (part_friction z0)))
+          w.mass_below)))
+
+(** val check_anchored_critical :
+    zero_system -> box_anchoring -> anchored_box_leaf box_tree -> point ->
+    point -> bool **)
+
+let check_anchored_critical z0 w tr from bound1 =
+  let families0 = box_expansions z0 w in
+  (&&)
+    (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int,
+      Big_int_Z.unit_big_int)))
+    ((&&) ((||) (nilp w.box_anchors) (both_bounded z0 w))
+      (check_boxes (slip_number z0) (check_anchored_box z0 w families0) tr
+        (window zero infinity) from bound1))
+
+type presence = { presence_box : regular; presence_start : regular;
+                  presence_finish : regular }
+
+(** val rest_row :
+    enclosed -> enclosed -> region -> presence -> regular -> int -> int ->
+    bool **)
+
+let rest_row p p' r w v i c =
+  let p0 =
+    map0 (fun j -> center (corner_pencil p p' c) (corner_end r c) i j)
+      (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+  in
+  let q =
+    map0 (fun j -> radius (corner_pencil p p' c) (corner_end r c) i j)
+      (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+  in
+  Z.leb
+    (row_slack
+      (pred
+        (size (regular_order p r (Obj.magic w.presence_box.regular_pivot))))
+      v p0 q)
+    (against_right
+      (pred
+        (size (regular_order p r (Obj.magic w.presence_box.regular_pivot))))
+      v p0)
+
+(** val positive_vector : regular -> bool **)
+
+let positive_vector v =
+  Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v.regular_right 0)
+
+(** val presence_edge :
+    enclosed -> enclosed -> region -> presence -> regular -> int list -> bool **)
+
+let presence_edge p p' r w e cs =
+  (&&) (positive_vector e)
+    ((&&)
+      (Z.ltb Big_int_Z.zero_big_int
+        (nth Big_int_Z.zero_big_int e.regular_left 0))
+      (all (fun c ->
+        (&&)
+          (rows_at p p' r
+            (regular_order p r (Obj.magic w.presence_box.regular_pivot)) e c)
+          (sign_at0 p p' r
+            (regular_order p r (Obj.magic w.presence_box.regular_pivot)) e c))
+        cs))
+
+(** val check_presence_piece :
+    enclosed -> enclosed -> region -> presence -> bool **)
+
+let check_presence_piece p p' r w =
+  (&&) (decided p r)
+    ((&&)
+      (in_mem (Obj.magic w.presence_box.regular_pivot)
+        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+        ((&&) (positive_vector w.presence_box)
+          ((&&)
+            (all
+              (rows_at p p' r
+                (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+                w.presence_box) four_corners)
+            ((&&)
+              (all (fun j ->
+                Z.ltb
+                  (nth Big_int_Z.zero_big_int w.presence_box.regular_widths j)
+                  (nth Big_int_Z.zero_big_int w.presence_box.regular_right
+                    (Natural.succ j)))
+                (iota 0
+                  (pred
+                    (size
+                      (regular_order p r
+                        (Obj.magic w.presence_box.regular_pivot))))))
+              ((&&)
+                (all (fun i ->
+                  (||) (is_moving (state_of r i))
+                    (all (rest_row p p' r w w.presence_box i) four_corners))
+                  (indices p))
+                ((&&)
+                  (presence_edge p p' r w w.presence_start
+                    (0 :: ((Natural.succ (Natural.succ 0)) :: [])))
+                  ((&&)
+                    (presence_edge p p' r w w.presence_finish ((Natural.succ
+                      0) :: ((Natural.succ (Natural.succ (Natural.succ
+                      0))) :: [])))
+                    (negb
+                      (eq_op bool_eqType
+                        (Obj.magic w.presence_start.regular_minus)
+                        (Obj.magic w.presence_finish.regular_minus)))))))))))
+
+type presence_piece = { piece_end : point; piece_region : region;
+                        piece_anchor : int; piece_grain : Big_int_Z.big_int;
+                        piece_witness : presence }
+
+(** val check_present :
+    zero_system -> form_bound -> form_bound -> box_anchor ->
+    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
+    -> point -> presence -> bool **)
+
+let check_present z0 low_a low_b b fams grain r low high v =
+  let a = b.plain_anchor in
+  let a' = friction_anchor a b.friction_left in
+  let p = local_part z0 low_a low_b a (fst fams) r.lower r.upper grain in
+  let p' = local_part z0 low_a low_b a' (snd fams) r.lower r.upper grain in
+  (&&) (proper_interval a low_a low_b r.lower r.upper)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
+      ((&&)
+        (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
+          (Obj.magic size (snd fams).series_z))
+        (check_presence_piece (mixed low p p') (mixed high p p')
+          (local_region r) v)))
+
+(** val check_piece :
+    zero_system -> box_anchoring -> (anchor_family * anchor_family) option
+    list -> point -> presence_piece -> bool **)
+
+let check_piece z0 w families0 low p =
+  let b = nth no_box_anchor w.box_anchors p.piece_anchor in
+  let r = p.piece_region in
+  (&&) ((&&) (ordered low p.piece_end) (halves_apart z0 r))
+    (match nth None families0 p.piece_anchor with
+     | Some fams ->
+       if b.reversed_anchor
+       then (&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+              (check_present z0 w.mass_below w.stiffness_below b fams
+                p.piece_grain (swap_region r) low p.piece_end p.piece_witness)
+       else check_present z0 w.stiffness_below w.mass_below b fams
+              p.piece_grain r low p.piece_end p.piece_witness
+     | None -> false)
+
+(** val check_pieces :
+    zero_system -> box_anchoring -> (anchor_family * anchor_family) option
+    list -> point -> presence_piece list -> point -> bool **)
+
+let rec check_pieces z0 w families0 low pieces bound1 =
+  match pieces with
+  | [] -> false
+  | p :: rest0 ->
+    (match rest0 with
+     | [] ->
+       (&&) (check_piece z0 w families0 low p)
+         (Z.leb (Z.mul (fst bound1) (snd p.piece_end))
+           (Z.mul (fst p.piece_end) (snd bound1)))
+     | _ :: _ ->
+       (&&) (check_piece z0 w families0 low p)
+         (check_pieces z0 w families0 p.piece_end rest0 bound1))
+
+(** val check_presence :
+    zero_system -> box_anchoring -> presence_piece list -> point -> point ->
+    bool **)
+
+let check_presence z0 w pieces from bound1 =
+  let families0 = box_expansions z0 w in
+  (&&)
+    (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int,
+      Big_int_Z.unit_big_int)))
+    ((&&) (both_bounded z0 w)
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd bound1))
+        (check_pieces z0 w families0 from pieces bound1)))
+
 type pinned_box = { box_interval : interval; near_anchor : int;
                     near_grain : Big_int_Z.big_int; box_pinning : pinning;
                     box_names : int list; box_claim : enclosed_claim }
-
-(** val half_state :
-    zero_system -> unknown -> region -> Equality.sort -> state **)
-
-let half_state z0 u r i =
-  state_of r (index nat_eqType i (Obj.magic slip (zero_pencil z0 u)))
-
-(** val halves_apart : zero_system -> unknown -> region -> bool **)
-
-let halves_apart z0 u r =
-  all (fun j ->
-    (||) (is_resting (half_state z0 u r (Obj.magic right z0 j)))
-      (is_resting (half_state z0 u r (Obj.magic left z0 j))))
-    (iota 0 (size z0.zero_particles))
-
-(** val both_halves : zero_system -> unknown -> region -> bool **)
-
-let both_halves z0 u r =
-  has (fun j ->
-    (&&) (is_moving (half_state z0 u r (Obj.magic right z0 j)))
-      (is_moving (half_state z0 u r (Obj.magic left z0 j))))
-    (iota 0 (size z0.zero_particles))
 
 (** val known_box : zero_system -> unknown -> pinned_box -> known **)
 
@@ -6039,25 +6085,24 @@ let check_beside z0 u rs bs alone =
 
 let zero_distinct z0 u lo hi yields0 rs ls =
   let families0 = families_of rs ls in
-  if all (halves_apart z0 u) (map0 fst families0)
+  if all (halves_apart z0) (map0 fst families0)
   then (match distinct_yields (size (slip (zero_pencil z0 u))) lo hi
                 (filter (fun y ->
                   negb
                     (has (belongs (size (slip (zero_pencil z0 u))) y)
                       families0)) (cat yields0 (isolated_of rs ls))) with
         | Some ys ->
-          if all (halves_apart z0 u) (map0 (fun y -> y.yield_region) ys)
+          if all (halves_apart z0) (map0 (fun y -> y.yield_region) ys)
           then Some ys
           else None
         | None -> None)
   else None
 
 (** val zero_open :
-    zero_system -> unknown -> region list -> support_leaf option list ->
-    region list **)
+    zero_system -> region list -> support_leaf option list -> region list **)
 
-let zero_open z0 u rs ls =
-  filter (fun r -> negb (both_halves z0 u r)) (open_of rs ls)
+let zero_open z0 rs ls =
+  filter (fun r -> negb (both_halves z0 r)) (open_of rs ls)
 
 (** val zero_undecided :
     whole leaf tree -> point -> point -> pinned_box option list -> region list **)
@@ -6094,11 +6139,11 @@ let zero_families tr lo hi bs ls =
   families_of (zero_undecided tr lo hi bs) ls
 
 (** val zero_still_open :
-    zero_system -> unknown -> whole leaf tree -> point -> point -> pinned_box
-    option list -> support_leaf option list -> region list **)
+    zero_system -> whole leaf tree -> point -> point -> pinned_box option
+    list -> support_leaf option list -> region list **)
 
-let zero_still_open z0 u tr lo hi bs ls =
-  zero_open z0 u (zero_undecided tr lo hi bs) ls
+let zero_still_open z0 tr lo hi bs ls =
+  zero_open z0 (zero_undecided tr lo hi bs) ls
 
 (** val check_zero_varying :
     zero_system -> unknown -> anchoring -> varying_leaf tree -> point ->
@@ -6131,8 +6176,8 @@ let zero_varying_families tr lo hi bs ls =
   families_of (not_pinned (varying_open tr lo hi) bs) ls
 
 (** val zero_varying_open :
-    zero_system -> unknown -> varying_leaf tree -> point -> point ->
-    pinned_box option list -> support_leaf option list -> region list **)
+    zero_system -> varying_leaf tree -> point -> point -> pinned_box option
+    list -> support_leaf option list -> region list **)
 
-let zero_varying_open z0 u tr lo hi bs ls =
-  zero_open z0 u (not_pinned (varying_open tr lo hi) bs) ls
+let zero_varying_open z0 tr lo hi bs ls =
+  zero_open z0 (not_pinned (varying_open tr lo hi) bs) ls

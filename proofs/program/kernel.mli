@@ -1761,114 +1761,6 @@ val four_corners : int list
 
 val box_regular : enclosed -> enclosed -> region -> regular -> bool
 
-type critical_leaf =
-| BoxFarkas of Big_int_Z.big_int list
-| BoxDefinite of bool * (factor * factor) * (factor * factor)
-| BoxRegular of regular
-| BoxWhole of whole * whole
-
-val pencil_at : system -> point -> pencil
-
-val part_plain : system -> pencil
-
-val part_friction : system -> pencil
-
-val with_left : elimination -> (matrix * matrix) -> elimination
-
-val condensed_parts :
-  system -> (elimination * (matrix * matrix)) option -> (enclosed * enclosed)
-  option
-
-val parts_eliminated :
-  system -> (elimination * (matrix * matrix)) option -> bool
-
-val same_weights : system -> whole -> whole -> bool
-
-val check_critical_leaf :
-  system -> (enclosed * enclosed) option -> region -> point -> point ->
-  critical_leaf -> bool
-
-val check_critical :
-  system -> (elimination * (matrix * matrix)) option -> critical_leaf
-  box_tree -> point -> point -> bool
-
-type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
-                    friction_left : matrix list }
-
-type box_anchoring = { stiffness_below : form_bound; mass_below : form_bound;
-                       box_anchors : box_anchor list }
-
-type anchored_box_leaf =
-| AboutAnchor of int * Big_int_Z.big_int * critical_leaf box_tree
-| AboutWhole of whole * whole
-
-val friction_anchor : anchor -> matrix list -> anchor
-
-val expand_part : pencil -> bool -> anchor -> anchor_family option
-
-val expand_box :
-  system -> box_anchor -> (anchor_family * anchor_family) option
-
-val check_parts :
-  enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool
-
-val local_part :
-  system -> form_bound -> form_bound -> anchor -> anchor_family -> point ->
-  point -> Big_int_Z.big_int -> enclosed
-
-val check_about :
-  system -> form_bound -> form_bound -> box_anchor ->
-  (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point ->
-  point -> critical_leaf box_tree -> bool
-
-val no_box_anchor : box_anchor
-
-val box_expansions :
-  system -> box_anchoring -> (anchor_family * anchor_family) option list
-
-val check_anchored_box :
-  system -> box_anchoring -> (anchor_family * anchor_family) option list ->
-  region -> point -> point -> anchored_box_leaf -> bool
-
-val both_bounded : system -> box_anchoring -> bool
-
-val check_anchored_critical :
-  system -> box_anchoring -> anchored_box_leaf box_tree -> point -> point ->
-  bool
-
-type presence = { presence_box : regular; presence_start : regular;
-                  presence_finish : regular }
-
-val rest_row :
-  enclosed -> enclosed -> region -> presence -> regular -> int -> int -> bool
-
-val positive_vector : regular -> bool
-
-val presence_edge :
-  enclosed -> enclosed -> region -> presence -> regular -> int list -> bool
-
-val check_presence_piece : enclosed -> enclosed -> region -> presence -> bool
-
-type presence_piece = { piece_end : point; piece_region : region;
-                        piece_anchor : int; piece_grain : Big_int_Z.big_int;
-                        piece_witness : presence }
-
-val check_present :
-  system -> form_bound -> form_bound -> box_anchor ->
-  (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point ->
-  point -> presence -> bool
-
-val check_piece :
-  system -> box_anchoring -> (anchor_family * anchor_family) option list ->
-  point -> presence_piece -> bool
-
-val check_pieces :
-  system -> box_anchoring -> (anchor_family * anchor_family) option list ->
-  point -> presence_piece list -> point -> bool
-
-val check_presence :
-  system -> box_anchoring -> presence_piece list -> point -> point -> bool
-
 val zero_firsts : zero_system -> int list
 
 val zero_seconds : zero_system -> int list
@@ -1898,15 +1790,140 @@ val pencil_by_table : zero_system -> unknown -> sparse_row list -> pencil
 
 val zero_pencil : zero_system -> unknown -> pencil
 
+val part_plain : zero_system -> pencil
+
+val part_friction : zero_system -> pencil
+
+val slip_number : zero_system -> int
+
+val half_state : zero_system -> region -> int -> state
+
+val halves_apart : zero_system -> region -> bool
+
+val both_halves : zero_system -> region -> bool
+
+type critical_leaf =
+| BoxFarkas of Big_int_Z.big_int list
+| BoxDefinite of bool * (factor * factor) * (factor * factor)
+| BoxRegular of regular
+| BoxWhole of whole * whole
+| BoxHalves
+
+val check_parts :
+  enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool
+
+val freed : zero_system -> zero_system
+
+val pencil_at : zero_system -> point -> pencil
+
+val same_weights : zero_system -> whole -> whole -> bool
+
+val freed_weight : zero_system -> whole -> Equality.sort -> Big_int_Z.big_int
+
+val zero_weights : zero_system -> whole -> bool
+
+val check_whole_leaf :
+  zero_system -> region -> point -> point -> critical_leaf -> bool
+
+val with_left : elimination -> (matrix * matrix) -> elimination
+
+val condensed_parts :
+  zero_system -> (elimination * (matrix * matrix)) option ->
+  (enclosed * enclosed) option
+
+val parts_eliminated :
+  zero_system -> (elimination * (matrix * matrix)) option -> bool
+
+val check_critical_leaf :
+  zero_system -> (enclosed * enclosed) option -> region -> point -> point ->
+  critical_leaf -> bool
+
+val check_critical :
+  zero_system -> (elimination * (matrix * matrix)) option -> critical_leaf
+  box_tree -> point -> point -> bool
+
+type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
+                    friction_left : matrix list }
+
+type box_anchoring = { stiffness_below : form_bound; mass_below : form_bound;
+                       box_anchors : box_anchor list }
+
+type anchored_box_leaf =
+| AboutAnchor of int * Big_int_Z.big_int * critical_leaf box_tree
+| WithoutAnchor of critical_leaf
+
+val friction_anchor : anchor -> matrix list -> anchor
+
+val expand_part : pencil -> bool -> anchor -> anchor_family option
+
+val expand_box :
+  zero_system -> box_anchor -> (anchor_family * anchor_family) option
+
+val check_local_leaf :
+  (region -> bool) -> enclosed -> enclosed -> region -> point -> point ->
+  critical_leaf -> bool
+
+val local_part :
+  zero_system -> form_bound -> form_bound -> anchor -> anchor_family -> point
+  -> point -> Big_int_Z.big_int -> enclosed
+
+val check_about :
+  zero_system -> form_bound -> form_bound -> box_anchor ->
+  (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point ->
+  point -> critical_leaf box_tree -> bool
+
+val no_box_anchor : box_anchor
+
+val box_expansions :
+  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
+
+val check_anchored_box :
+  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
+  -> region -> point -> point -> anchored_box_leaf -> bool
+
+val both_bounded : zero_system -> box_anchoring -> bool
+
+val check_anchored_critical :
+  zero_system -> box_anchoring -> anchored_box_leaf box_tree -> point ->
+  point -> bool
+
+type presence = { presence_box : regular; presence_start : regular;
+                  presence_finish : regular }
+
+val rest_row :
+  enclosed -> enclosed -> region -> presence -> regular -> int -> int -> bool
+
+val positive_vector : regular -> bool
+
+val presence_edge :
+  enclosed -> enclosed -> region -> presence -> regular -> int list -> bool
+
+val check_presence_piece : enclosed -> enclosed -> region -> presence -> bool
+
+type presence_piece = { piece_end : point; piece_region : region;
+                        piece_anchor : int; piece_grain : Big_int_Z.big_int;
+                        piece_witness : presence }
+
+val check_present :
+  zero_system -> form_bound -> form_bound -> box_anchor ->
+  (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point ->
+  point -> presence -> bool
+
+val check_piece :
+  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
+  -> point -> presence_piece -> bool
+
+val check_pieces :
+  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
+  -> point -> presence_piece list -> point -> bool
+
+val check_presence :
+  zero_system -> box_anchoring -> presence_piece list -> point -> point ->
+  bool
+
 type pinned_box = { box_interval : interval; near_anchor : int;
                     near_grain : Big_int_Z.big_int; box_pinning : pinning;
                     box_names : int list; box_claim : enclosed_claim }
-
-val half_state : zero_system -> unknown -> region -> Equality.sort -> state
-
-val halves_apart : zero_system -> unknown -> region -> bool
-
-val both_halves : zero_system -> unknown -> region -> bool
 
 val known_box : zero_system -> unknown -> pinned_box -> known
 
@@ -1936,8 +1953,7 @@ val zero_distinct :
   support_leaf option list -> yield list option
 
 val zero_open :
-  zero_system -> unknown -> region list -> support_leaf option list -> region
-  list
+  zero_system -> region list -> support_leaf option list -> region list
 
 val zero_undecided :
   whole leaf tree -> point -> point -> pinned_box option list -> region list
@@ -1955,8 +1971,8 @@ val zero_families :
   option list -> family list
 
 val zero_still_open :
-  zero_system -> unknown -> whole leaf tree -> point -> point -> pinned_box
-  option list -> support_leaf option list -> region list
+  zero_system -> whole leaf tree -> point -> point -> pinned_box option list
+  -> support_leaf option list -> region list
 
 val check_zero_varying :
   zero_system -> unknown -> anchoring -> varying_leaf tree -> point -> point
@@ -1971,5 +1987,5 @@ val zero_varying_families :
   support_leaf option list -> family list
 
 val zero_varying_open :
-  zero_system -> unknown -> varying_leaf tree -> point -> point -> pinned_box
-  option list -> support_leaf option list -> region list
+  zero_system -> varying_leaf tree -> point -> point -> pinned_box option
+  list -> support_leaf option list -> region list

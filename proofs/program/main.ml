@@ -427,7 +427,7 @@ let verify_zero_constant q zero unknown =
   { zero_yielded = Kernel.found q.pencil [] tree q.lo q.hi;
     zero_found = lazy (Kernel.zero_solutions zero unknown tree q.lo q.hi boxes supports);
     zero_families = Kernel.zero_families tree q.lo q.hi boxes supports;
-    zero_open = Kernel.zero_still_open zero unknown tree q.lo q.hi boxes supports }
+    zero_open = Kernel.zero_still_open zero tree q.lo q.hi boxes supports }
 
 let verify_zero_varying q zero unknown =
   let certificate = q.certificate and problem = q.problem in
@@ -447,7 +447,7 @@ let verify_zero_varying q zero unknown =
   { zero_yielded = Kernel.varying_found q.pencil [] tree q.lo q.hi;
     zero_found = lazy (Kernel.zero_varying_solutions zero unknown tree q.lo q.hi boxes supports);
     zero_families = Kernel.zero_varying_families tree q.lo q.hi boxes supports;
-    zero_open = Kernel.zero_varying_open zero unknown tree q.lo q.hi boxes supports }
+    zero_open = Kernel.zero_varying_open zero tree q.lo q.hi boxes supports }
 
 let depends_on_value pencil (certificate : Certificate.t) =
   not (Kernel.free_rows_constant pencil)
@@ -494,56 +494,58 @@ let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kern
   end
 
 (* The context of a statement about an interval of mu; rejects a problem that has none. *)
-let context_of_friction (problem : Problem.t) what digest condensation (low, high) tail =
+let context_of_friction (problem : Problem.t) digest condensation (low, high) tail =
   if digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
-  let system = match problem.question with
+  let zero = match problem.question with
     | Raw _ -> raise (Rejected "a mechanical system was expected")
-    | Zero_reaction _ -> Problem.not_verified "%s with zero reaction" what
-    | Mechanical _ when problem.unknown <> "lambda2" ->
+    | (Mechanical _ | Zero_reaction _) when problem.unknown <> "lambda2" ->
       raise (Rejected "the unknown is not the problem's")
-    | Mechanical (system, _) -> system in
+    | Zero_reaction (zero, _) -> zero
+    | Mechanical (without_zero, _) -> { Kernel.without_zero; zero_particles = [] } in
+  let system = zero.without_zero in
   if Q.sign high <= 0 then raise (Rejected "the interval of friction ends at zero or below");
   if Q.sign low < 0 || Q.geq low high then
     raise (Rejected "the interval of friction is empty, a point, or begins below zero");
   if (condensation <> None) <> (system.free_dofs <> []) then
     raise (Rejected "a condensation is given exactly if there are free variables");
 
-  let slip_list = Kernel.slip (Kernel.part_plain system) in
+  let slip_list = Kernel.slip (Kernel.part_plain zero) in
   if List.length slip_list > 300 then
     Problem.not_verified "more than 300 complementarity variables";
   let slip_factor = Z.mul problem.common system.unit_length in
   let context =
-    { Critical.system; slip = Array.of_list slip_list; free_factor = problem.common; slip_factor;
+    { Critical.zero; slip = Array.of_list slip_list; free_factor = problem.common; slip_factor;
       tail; mu_low = Problem.point_of low; mu_high = Problem.point_of high } in
   context, slip_list
 
 (* No solution of a system for mu in [from, below] and lambda^2 >= 0. *)
 let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
   let condensation = certificate.critical_condensation in
-  let context, slip_list = context_of_friction problem "absence below a friction"
-      certificate.critical_digest condensation (certificate.at_least, certificate.below)
+  let context, slip_list = context_of_friction problem certificate.critical_digest condensation
+      (certificate.at_least, certificate.below)
       (Option.bind condensation (fun c -> c.friction_tail)) in
-  let system = context.system in
-  let plain = Kernel.part_plain system and friction = Kernel.part_friction system in
+  let zero = context.zero in
+  let plain = Kernel.part_plain zero and friction = Kernel.part_friction zero in
   let pieces = certificate.critical_pieces in
   let without_free_variables () =
     let elimination =
       Some (Critical.trivial_elimination plain friction slip_list context.slip_factor) in
-    let parts = timed "condensation" (fun () -> Kernel.condensed_parts system elimination) in
+    let parts = timed "condensation" (fun () -> Kernel.condensed_parts zero elimination) in
     let tree = timed "elaboration" (fun () ->
-        Critical.build context (Critical.leaf_of_parts context parts) pieces) in
+        Critical.build context (Critical.leaf_of_parts context parts) Kernel.BoxHalves pieces) in
     timed "kernel" (fun () ->
-        Kernel.check_critical system elimination tree context.mu_low context.mu_high) in
+        Kernel.check_critical zero elimination tree context.mu_low context.mu_high) in
   let about_anchors condensation =
     let anchored = timed "condensation" (fun () ->
         Critical.anchored_of context plain friction slip_list condensation
           (Critical.anchors_of_boxes pieces)) in
     let tree = timed "elaboration" (fun () ->
         Critical.join
-          (Critical.build context (Critical.anchored_leaf context anchored) pieces)) in
+          (Critical.build context (Critical.anchored_leaf context anchored)
+             (Kernel.WithoutAnchor Kernel.BoxHalves) pieces)) in
     timed "kernel" (fun () ->
-        Kernel.check_anchored_critical system anchored.anchoring tree context.mu_low
+        Kernel.check_anchored_critical zero anchored.anchoring tree context.mu_low
           context.mu_high) in
   refuse_tree_unless (match condensation with
       | None -> without_free_variables ()
@@ -553,11 +555,10 @@ let verify_critical (problem : Problem.t) (certificate : Certificate.critical) =
 
 (* A solution of a system with some lambda^2 >= 0 for each mu in [from, to]. *)
 let verify_presence (problem : Problem.t) (certificate : Certificate.presence) =
-  let context, slip_list = context_of_friction problem "presence on an interval of friction"
-      certificate.presence_digest certificate.presence_condensation
-      (certificate.presence_from, certificate.presence_to) None in
-  let system = context.system in
-  let plain = Kernel.part_plain system and friction = Kernel.part_friction system in
+  let context, slip_list = context_of_friction problem certificate.presence_digest
+      certificate.presence_condensation (certificate.presence_from, certificate.presence_to) None in
+  let zero = context.zero in
+  let plain = Kernel.part_plain zero and friction = Kernel.part_friction zero in
   let pieces = certificate.presence_pieces in
   let anchored = timed "condensation" (fun () -> match certificate.presence_condensation with
       | None -> Presence.anchored_without_free context plain friction slip_list
@@ -566,7 +567,7 @@ let verify_presence (problem : Problem.t) (certificate : Certificate.presence) =
           (Presence.anchors_of_pieces pieces)) in
   let kernel_pieces = timed "elaboration" (fun () -> Presence.build context anchored pieces) in
   refuse_tree_unless (timed "kernel" (fun () ->
-      Kernel.check_presence system anchored.anchoring kernel_pieces context.mu_low
+      Kernel.check_presence zero anchored.anchoring kernel_pieces context.mu_low
         context.mu_high));
   Sentences.present problem context.mu_low context.mu_high;
   0

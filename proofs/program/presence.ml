@@ -20,7 +20,7 @@ let anchored_without_free c (plain : Kernel.pencil) friction slip =
   let anchoring =
     { Kernel.stiffness_below = bound; mass_below = bound; box_anchors = [anchor] } in
   { plain_pencil = plain; anchoring;
-    families = Array.of_list (Kernel.box_expansions c.system anchoring); numbers = [] }
+    families = Array.of_list (Kernel.box_expansions c.zero anchoring); numbers = [] }
 
 let anchors_of_pieces pieces =
   List.sort_uniq compare (List.map (fun piece -> piece.piece_anchor) pieces)

@@ -183,8 +183,8 @@ fn wrong_range(certificate: &str, names: [&str; 2], range: &Interval) -> Option<
     (!is_same).then(|| format!("about {range:?} in place of {from:?} to {to:?}"))
 }
 
-/// Is there a solution at a value of mu?
-fn has_solution_at(system: &System, mu: &Rational) -> bool {
+/// Is there a solution at a value of mu? `None` where the enumerator leaves it open.
+fn has_solution_at(system: &System, mu: &Rational) -> Option<bool> {
     let stiffness = system.stiffness().clone();
     let mass = system.mass().cloned();
     let particles = without_reactions(system);
@@ -218,13 +218,13 @@ fn absence_falsehoods(problem: &Problem, certificate: &str, range: &Interval) ->
         let stiffness = system.stiffness().add_scaled(&level, mass);
         let at_level = System::new(stiffness, None, None, without_reactions(system)).unwrap();
         let window = Window::new(range.lo().clone(), Some(range.hi().clone())).unwrap();
-        if has_solution(at_level, Unknown::Mu, window) {
+        if has_solution(at_level, Unknown::Mu, window) == Some(true) {
             wrong.push(format!("there is a solution at lambda^2 = {level}"));
         }
     }
 
     for mu in samples(range) {
-        if has_solution_at(system, &mu) {
+        if has_solution_at(system, &mu) == Some(true) {
             wrong.push(format!("there is a solution at mu = {mu}"));
         }
     }
@@ -243,7 +243,7 @@ fn presence_falsehoods(problem: &Problem, certificate: &str, range: &Interval) -
 
     let mut wrong = Vec::new();
     for mu in samples(range) {
-        if !has_solution_at(system, &mu) {
+        if has_solution_at(system, &mu) == Some(false) {
             wrong.push(format!("there is no solution at mu = {mu}"));
         }
     }
@@ -260,11 +260,20 @@ fn without_reactions(system: &System) -> Vec<Particle> {
     particles
 }
 
-fn has_solution(system: System, unknown: Unknown, window: Window) -> bool {
+/// Is there a solution? `None` where the enumerator of modes leaves something undescribed.
+fn has_solution(system: System, unknown: Unknown, window: Window) -> Option<bool> {
     let problem = Problem::new(Body::System(system), unknown, window.clone()).unwrap();
-    let pencil = reduce(&problem).unwrap().pencil;
-    let found = enumerate(&pencil, &window).unwrap();
-    !(found.solutions.is_empty() && found.cones.is_empty() && found.ranges.is_empty())
+    let reduced = reduce(&problem).unwrap();
+    if reduced.zero.is_empty() {
+        let found = enumerate(&reduced.pencil, &window).unwrap();
+        let is_empty =
+            found.solutions.is_empty() && found.cones.is_empty() && found.ranges.is_empty();
+        return Some(!is_empty);
+    }
+
+    let found = enumerate_modes(&reduced, &window);
+    let has_some = !found.solutions.is_empty();
+    (has_some || found.is_complete_list()).then_some(has_some)
 }
 
 /// The window in the text of a certificate.
