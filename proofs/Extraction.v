@@ -6,7 +6,7 @@
    These three mappings are part of the trusted base (README.md).  Everything else is Coq's
    extraction of the functions whose soundness System.v, Complete.v, Families.v, Varying.v, Claim.v,
    Lifted.v, EnclosedClaim.v, PlainMcp.v, ZeroReaction.v, ZeroEnclosed.v, ZeroComplete.v,
-   Critical.v, CriticalAnchors.v and PresenceAnchors.v prove. *)
+   Critical.v, CriticalAnchors.v, PresenceAnchors.v and Points.v prove. *)
 
 From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt.
@@ -17,7 +17,7 @@ From Mceip Require Import ZeroEnclosed.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Regular.
 From Mceip Require Import Critical CriticalAnchors Presence PresenceAnchors.
-From Mceip Require Import ZeroPencil ZeroComplete.
+From Mceip Require Import ZeroPencil ZeroComplete Points.
 
 Extract Inductive nat => int [ "0" "Natural.succ" ]
   "(fun zero next n -> if n = 0 then zero () else next (Natural.before n))".
@@ -53,4 +53,5 @@ Extraction "kernel.ml"
   check_presence check_piece check_presence_piece presence_edge rest_row rows_at sign_at
   corner_center corner_radius
   zero_pencil check_zero_complete zero_solutions zero_families zero_still_open
-  check_zero_varying zero_varying_solutions zero_varying_families zero_varying_open both_halves.
+  check_zero_varying zero_varying_solutions zero_varying_families zero_varying_open both_halves
+  point_pencil check_at_value check_system_at_value reverse_pencil check_infinity.

@@ -508,23 +508,31 @@ have [[p p_in [-> prop]]|[f f_in [reg at_t]]|[r r_in reg]] := every t _ sol bt.
 by apply: Or33; exists r.
 Qed.
 
+Lemma motions_hold_at r (alone : bool) (t : R) :
+  (exists x, solution Q t x /\ lies_in Q r t x) /\
+  (alone -> forall x x', solution Q t x /\ lies_in Q r t x -> solution Q t x' /\ lies_in Q r t x' ->
+     proportional Q x x') ->
+  (exists v, satisfies_9 s u t v /\ motion_in s u r t v) /\
+  (alone -> forall v v', satisfies_9 s u t v -> motion_in s u r t v ->
+     satisfies_9 s u t v' -> motion_in s u r t v' -> same_motion s v v').
+Proof.
+case=> [[x [sol reg]] is_alone]; split.
+  exists (motion s x); split; first exact/(system_pencil wf).
+  exact: (lies_in_motion wf).
+move=> al v v' sat reg_v sat' reg_v'.
+have prop : proportional Q (variables_of s v) (variables_of s v').
+  by apply: (is_alone al); split=> //; apply: solution_of_motion.
+have [c c0 scaled] := motion_proportional prop.
+by exists c => // d Hd; rewrite -(system_onto wf sat') // scaled (system_onto wf sat).
+Qed.
+
 Lemma motions_hold f : family_holds R Q f ->
   is_place R (held_place f.2) /\
   forall t : R, in_place (held_place f.2) t ->
     (exists v, satisfies_9 s u t v /\ motion_in s u f.1 t v) /\
     (held_alone f.2 -> forall v v', satisfies_9 s u t v -> motion_in s u f.1 t v ->
        satisfies_9 s u t v' -> motion_in s u f.1 t v' -> same_motion s v v').
-Proof.
-case=> is_pl each; split=> // t at_t.
-have [[x [sol reg]] alone] := each t at_t; split.
-  exists (motion s x); split; first exact/(system_pencil wf).
-  exact: (lies_in_motion wf).
-move=> al v v' sat reg_v sat' reg_v'.
-have prop : proportional Q (variables_of s v) (variables_of s v').
-  by apply: (alone al); split=> //; apply: solution_of_motion.
-have [c c0 scaled] := motion_proportional prop.
-by exists c => // d Hd; rewrite -(system_onto wf sat') // scaled (system_onto wf sat).
-Qed.
+Proof. by case=> is_pl each; split=> // t /each/motions_hold_at. Qed.
 
 End Motions.
 

@@ -15,6 +15,7 @@ From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp.real_closed Require Import realalg.
 From Mceip Require Import Claim EnclosedClaim System Lifted ZeroReaction ZeroEnclosed PlainMcp.
 From Mceip Require Import Families Varying ZeroComplete Critical CriticalAnchors PresenceAnchors.
+From Mceip Require Import Points.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -176,6 +177,12 @@ Definition zero_critical_absent_R := @zero_critical_absent reals.
 Definition zero_anchored_critical_absent_R := @zero_anchored_critical_absent reals.
 Definition presence_sound_R := @presence_sound reals.
 Definition zero_presence_sound_R := @zero_presence_sound reals.
+Definition point_number_R := @point_number reals.
+Definition point_hold_R := @point_hold reals.
+Definition system_point_number_R := @system_point_number reals.
+Definition system_point_hold_R := @system_point_hold reals.
+Definition infinity_number_R := @infinity_number reals.
+Definition infinity_hold_R := @infinity_hold reals.
 Definition plain_mcp_sound_R := @plain_mcp_sound reals.
 
 Definition families_number_realalg := @families_number realalg_rcfType.
@@ -203,4 +210,10 @@ Definition zero_critical_absent_realalg := @zero_critical_absent realalg_rcfType
 Definition zero_anchored_critical_absent_realalg := @zero_anchored_critical_absent realalg_rcfType.
 Definition presence_sound_realalg := @presence_sound realalg_rcfType.
 Definition zero_presence_sound_realalg := @zero_presence_sound realalg_rcfType.
+Definition point_number_realalg := @point_number realalg_rcfType.
+Definition point_hold_realalg := @point_hold realalg_rcfType.
+Definition system_point_number_realalg := @system_point_number realalg_rcfType.
+Definition system_point_hold_realalg := @system_point_hold realalg_rcfType.
+Definition infinity_number_realalg := @infinity_number realalg_rcfType.
+Definition infinity_hold_realalg := @infinity_hold realalg_rcfType.
 Definition plain_mcp_sound_realalg := @plain_mcp_sound realalg_rcfType.

@@ -705,6 +705,55 @@ let elimination (pencil : Kernel.pencil) slip common slip_common
         factor_scale = Z.mul common (Q.den c.sigma);
         stiffness_factor = rows_from c.factor }
 
+(* The sum of (t - center)^k M_k, in units of 2^-60. *)
+let matrix_at t center matrices =
+  let step = Q.sub t center in
+  let exact (k, rows) =
+    List.map (List.map (fun z -> Q.make z (two_to k))) rows in
+  let rounded v = Z.fdiv (Z.shift_left (Q.num v) 60) (Q.den v) in
+  match List.rev_map exact matrices with
+  | [] -> []
+  | last :: others ->
+    let add = List.map2 (List.map2 (fun sum v -> Q.add (Q.mul step sum) v)) in
+    [60, List.map (List.map rounded) (List.fold_left add last others)]
+
+(* The elimination for the pencil at the value t (Points.v); the factors of its rows are [common]
+   and [slip_common].  The rows are scaled as those of the given pencil.  At 0 the factor of the
+   certificate serves. *)
+let elimination_at t given (pencil : Kernel.pencil) slip common slip_common condensation number =
+  let at_value (a : anchor) =
+    let there = matrix_at t a.center in
+    { a with center = t; right = there a.right; left = there a.left } in
+  let moved (c : condensation) = match List.nth_opt c.anchors number with
+    | Some a when not a.reversed -> require_shape (List.length pencil.free) (List.length slip) a;
+      { c with anchors = [at_value a] }
+    | _ -> no_witness "an anchor of a linear family" in
+  let e = elimination pencil slip common slip_common (Option.map moved condensation) 0 in
+  let e = { e with row_scale = row_scales given slip (Z.divexact slip_common (Q.den t)) } in
+  if Q.sign t = 0 || pencil.free = [] then e
+  else begin
+    let frees = Array.of_list pencil.free in
+    let rows = Array.of_list pencil.rows_a in
+    let c = two_to 112 in
+    let entry i j = Z.mul c (Kernel.lookup rows.(i) j) in
+    let form = Array.map (fun i -> Array.map (entry i) frees) frees in
+    let diagonal = Array.to_list (Array.mapi (fun i row -> row.(i)) form) in
+    let least = List.fold_left Z.min (List.hd diagonal) diagonal in
+    (* The largest of these bounds below which the form is. *)
+    let rec bounded k =
+      if k > 60 then no_witness "a factor of the free rows";
+      spend (Array.length frees);
+      let d = Z.shift_right least k in
+      let lowered = Array.mapi (fun i row ->
+          Array.mapi (fun j v -> if i = j then Z.sub v d else v) row) form in
+      match factor_rows true lowered with
+      | Some factor when Z.sign d > 0 -> d, factor
+      | _ -> bounded (k + 1) in
+    let bound_d, factor = bounded 1 in
+    { e with bound_c = c; bound_d; factor_scale = Z.one;
+             stiffness_factor = Array.to_list (Array.map late_row factor) }
+  end
+
 (* ---------- condensation about anchors *)
 
 type varying = {

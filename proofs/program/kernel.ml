@@ -616,6 +616,11 @@ let idP = function
 | true -> ReflectT
 | false -> ReflectF
 
+(** val andP : bool -> bool -> reflect **)
+
+let andP b1 b2 =
+  if b1 then if b2 then ReflectT else ReflectF else ReflectF
+
 type 't pred0 = 't -> bool
 
 type 't predType =
@@ -730,6 +735,43 @@ let bool_eqType =
 let pred1 t a1 =
   simplPred (fun x -> eq_op t x a1)
 
+(** val pair_eq :
+    Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
+    rel **)
+
+let pair_eq t1 t2 u v =
+  (&&) (eq_op t1 (fst u) (fst v)) (eq_op t2 (snd u) (snd v))
+
+(** val pair_eqP :
+    Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
+    Equality.axiom **)
+
+let pair_eqP t1 t2 __top_assumption_ =
+  let _evar_0_ = fun x1 x2 __top_assumption_0 ->
+    let _evar_0_ = fun y1 y2 ->
+      iffP
+        ((&&) (eq_op t1 (fst (x1, x2)) (fst (y1, y2)))
+          (eq_op t2 (snd (x1, x2)) (snd (y1, y2))))
+        (andP (eq_op t1 (fst (x1, x2)) (fst (y1, y2)))
+          (eq_op t2 (snd (x1, x2)) (snd (y1, y2))))
+    in
+    let (a, b) = __top_assumption_0 in _evar_0_ a b
+  in
+  let (a, b) = __top_assumption_ in _evar_0_ a b
+
+(** val prod_eqMixin :
+    Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
+    Equality.mixin_of **)
+
+let prod_eqMixin t1 t2 =
+  { Equality.op = (pair_eq t1 t2); Equality.mixin_of__1 = (pair_eqP t1 t2) }
+
+(** val prod_eqType :
+    Equality.coq_type -> Equality.coq_type -> Equality.coq_type **)
+
+let prod_eqType t1 t2 =
+  Obj.magic prod_eqMixin t1 t2
+
 (** val eqnP : int Equality.axiom **)
 
 let eqnP n m =
@@ -825,6 +867,11 @@ let behead = function
 
 let ncons n x =
   iter n (fun x0 -> x :: x0)
+
+(** val nseq : int -> 'a1 -> 'a1 list **)
+
+let nseq n x =
+  ncons n x []
 
 (** val cat : 'a1 list -> 'a1 list -> 'a1 list **)
 
@@ -1014,6 +1061,20 @@ let rec zip s t =
 
 let flatten s =
   foldr cat [] s
+
+module ZInstances =
+ struct
+  (** val eqZP : Big_int_Z.big_int Equality.axiom **)
+
+  let eqZP x y =
+    iffP (Z.eqb x y) (idP (Z.eqb x y))
+
+  (** val coq_Z_eqType : Equality.coq_type **)
+
+  let coq_Z_eqType =
+    { Equality.op = (Obj.magic Z.eqb); Equality.mixin_of__1 =
+      (Obj.magic eqZP) }
+ end
 
 type matrix = Big_int_Z.big_int list list
 
@@ -6181,3 +6242,61 @@ let zero_varying_families tr lo hi bs ls =
 
 let zero_varying_open z0 tr lo hi bs ls =
   zero_open z0 (not_pinned (varying_open tr lo hi) bs) ls
+
+(** val row_at : pencil -> point -> int -> sparse_row **)
+
+let row_at q e i =
+  cat (multiple (snd e) (row_a q i)) (multiple (fst e) (row_b q i))
+
+(** val point_pencil : pencil -> point -> pencil **)
+
+let point_pencil q e =
+  { order = q.order; rows_a =
+    (map0 (fun i -> row_at q e i) (iota 0 q.order)); rows_b =
+    (nseq q.order []); free = q.free }
+
+(** val check_at_value :
+    pencil -> point -> solution_claim list -> elimination -> whole leaf tree
+    -> support_leaf option list -> bool **)
+
+let check_at_value q e claims w tr ls =
+  (&&) (Z.ltb Big_int_Z.zero_big_int (snd e))
+    ((&&) (check_families (point_pencil q e) claims tr e e ls w)
+      (all (fun f ->
+        (&&)
+          (eq_op
+            (prod_eqType ZInstances.coq_Z_eqType ZInstances.coq_Z_eqType)
+            (Obj.magic (fst f).lower) (Obj.magic e))
+          (eq_op
+            (prod_eqType ZInstances.coq_Z_eqType ZInstances.coq_Z_eqType)
+            (Obj.magic (fst f).upper) (Obj.magic e))) (families tr e e ls)))
+
+(** val zero_row0 : sparse_row -> bool **)
+
+let zero_row0 row =
+  all (fun c -> Z.eqb (lookup row (fst c)) Big_int_Z.zero_big_int) row
+
+(** val reverse_pencil : pencil -> pencil **)
+
+let reverse_pencil q =
+  let constant = fun i -> zero_row0 (row_b q i) in
+  { order = q.order; rows_a =
+  (map0 (fun i -> if constant i then row_a q i else row_b q i)
+    (iota 0 q.order)); rows_b =
+  (map0 (fun i -> if constant i then [] else row_a q i) (iota 0 q.order));
+  free = q.free }
+
+(** val check_system_at_value :
+    system -> unknown -> point -> solution_claim list -> elimination -> whole
+    leaf tree -> support_leaf option list -> bool **)
+
+let check_system_at_value s u e claims w tr ls =
+  (&&) (system_wellformed s u)
+    (check_at_value (pencil_of s u) e claims w tr ls)
+
+(** val check_infinity :
+    pencil -> solution_claim list -> elimination -> whole leaf tree ->
+    support_leaf option list -> bool **)
+
+let check_infinity q claims w tr ls =
+  check_at_value (reverse_pencil q) zero claims w tr ls

@@ -148,6 +148,8 @@ val iffP : bool -> reflect -> reflect
 
 val idP : bool -> reflect
 
+val andP : bool -> bool -> reflect
+
 type 't pred0 = 't -> bool
 
 type 't predType =
@@ -208,6 +210,20 @@ val bool_eqType : Equality.coq_type
 
 val pred1 : Equality.coq_type -> Equality.sort -> Equality.sort simpl_pred
 
+val pair_eq :
+  Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
+  rel
+
+val pair_eqP :
+  Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
+  Equality.axiom
+
+val prod_eqMixin :
+  Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
+  Equality.mixin_of
+
+val prod_eqType : Equality.coq_type -> Equality.coq_type -> Equality.coq_type
+
 val eqnP : int Equality.axiom
 
 val nat_eqMixin : int Equality.mixin_of
@@ -241,6 +257,8 @@ val head : 'a1 -> 'a1 list -> 'a1
 val behead : 'a1 list -> 'a1 list
 
 val ncons : int -> 'a1 -> 'a1 list -> 'a1 list
+
+val nseq : int -> 'a1 -> 'a1 list
 
 val cat : 'a1 list -> 'a1 list -> 'a1 list
 
@@ -290,6 +308,13 @@ val foldr : ('a1 -> 'a2 -> 'a2) -> 'a2 -> 'a1 list -> 'a2
 val zip : 'a1 list -> 'a2 list -> ('a1 * 'a2) list
 
 val flatten : 'a1 list list -> 'a1 list
+
+module ZInstances :
+ sig
+  val eqZP : Big_int_Z.big_int Equality.axiom
+
+  val coq_Z_eqType : Equality.coq_type
+ end
 
 type matrix = Big_int_Z.big_int list list
 
@@ -1989,3 +2014,23 @@ val zero_varying_families :
 val zero_varying_open :
   zero_system -> varying_leaf tree -> point -> point -> pinned_box option
   list -> support_leaf option list -> region list
+
+val row_at : pencil -> point -> int -> sparse_row
+
+val point_pencil : pencil -> point -> pencil
+
+val check_at_value :
+  pencil -> point -> solution_claim list -> elimination -> whole leaf tree ->
+  support_leaf option list -> bool
+
+val zero_row0 : sparse_row -> bool
+
+val reverse_pencil : pencil -> pencil
+
+val check_system_at_value :
+  system -> unknown -> point -> solution_claim list -> elimination -> whole
+  leaf tree -> support_leaf option list -> bool
+
+val check_infinity :
+  pencil -> solution_claim list -> elimination -> whole leaf tree ->
+  support_leaf option list -> bool

@@ -1,4 +1,4 @@
-(* mceip-verified PROBLEM CERTIFICATE [--window a,b]
+(* mceip-verified PROBLEM CERTIFICATE [--window a,b | --infinity]
 
    Exit codes: 0 accepted, 1 rejected, 2 malformed, 3 undecided: the verified statement leaves
    regions open, 4 not verified: the certificate has evidence that the kernel has no theorem for,
@@ -259,15 +259,16 @@ let elaborate q ~leaf ~left_open ~nothing =
       Elaborate.build_pieces q.slip leaf q.certificate.window q.certificate.pieces) in
   tree, List.rev !supports
 
-let refuse_tree_unless accepted =
-  if not accepted then raise (Rejected "the kernel refuses the tree")
+let tree_refused = Rejected "the kernel refuses the tree"
+let refuse_tree_unless accepted = if not accepted then raise tree_refused
 
-(* Free rows that do not depend on the unknown: any anchor serves for all pieces. *)
-let verify_constant q =
+(* Free rows that do not depend on the unknown: any anchor serves for all pieces. [check] gives the
+   claims, the elimination, the tree and the support leaves to the kernel. *)
+let constant_cover q eliminate check refuse =
   let certificate = q.certificate and problem = q.problem in
   let anchor = match certificate.pieces with p :: _ -> p.anchor | [] -> 0 in
   let elimination, enclosed = timed "condensation" (fun () ->
-      let e = Elaborate.elimination q.pencil q.slip_list problem.common problem.slip_common
+      let e = eliminate q.pencil q.slip_list problem.common problem.slip_common
           certificate.condensation anchor in
       e, Kernel.condensed (Kernel.blocks_of q.pencil) e) in
   let context =
@@ -277,17 +278,43 @@ let verify_constant q =
   let tree, supports =
     elaborate q ~leaf:(fun _ -> Elaborate.build_leaf context) ~left_open:Kernel.Undecided
       ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
-  refuse_tree_unless (timed "kernel" (fun () -> match problem.question with
-      | Raw pencil ->
-        Kernel.check_families pencil q.known_claims tree q.lo q.hi supports elimination
-      | Mechanical (system, unknown) ->
-        Kernel.check_system_families system unknown q.known_claims elimination tree q.lo q.hi
-          supports));
+  if not (timed "kernel" (fun () -> check q.known_claims elimination tree supports)) then
+    raise refuse;
   { yielded = Kernel.found q.pencil q.known_claims tree q.lo q.hi;
     families = Kernel.families tree q.lo q.hi supports;
     still_open = Kernel.still_open tree q.lo q.hi supports;
     solutions = lazy (Kernel.all_solutions q.pencil q.known_claims tree q.lo q.hi supports);
     print_coq = print_coq problem elimination tree q.lo q.hi }
+
+let verify_constant q =
+  constant_cover q Elaborate.elimination (fun claims elimination tree supports ->
+      match q.problem.question with
+      | Raw pencil -> Kernel.check_families pencil claims tree q.lo q.hi supports elimination
+      | Mechanical (system, unknown) ->
+        Kernel.check_system_families system unknown claims elimination tree q.lo q.hi supports)
+    tree_refused
+
+(* A window that is one value: the pencil there.  Claims that the tree refers to are to hold of
+   it. *)
+let verify_point check q =
+  let pencil = Kernel.point_pencil q.pencil q.lo in
+  let times = Z.mul (snd q.lo) in
+  let problem =
+    { q.problem with question = Raw pencil; common = times q.problem.common;
+                     slip_common = times q.problem.slip_common } in
+  let refuse = Elaborate.No_witness "a window that is one value" in
+  let known claim =
+    try Lazy.force (fst (verify_claim problem pencil q.certificate claim))
+    with Rejected _ -> raise refuse in
+  let known_claims = if q.known_claims = [] then [] else List.map known q.certificate.claims in
+  constant_cover { q with problem; pencil; known_claims }
+    (Elaborate.elimination_at (Problem.value_of q.lo) q.pencil) check refuse
+
+let verify_value q =
+  verify_point (fun claims elimination tree supports -> match q.problem.question with
+      | Raw pencil -> Kernel.check_at_value pencil q.lo claims elimination tree supports
+      | Mechanical (system, unknown) ->
+        Kernel.check_system_at_value system unknown q.lo claims elimination tree supports) q
 
 (* Condensation about anchors, or leaves that speak of the whole pencil only. *)
 let verify_varying q =
@@ -572,25 +599,13 @@ let verify_presence (problem : Problem.t) (certificate : Certificate.presence) =
   Sentences.present problem context.mu_low context.mu_high;
   0
 
-let verify_complete demanded (problem : Problem.t) (certificate : Certificate.t) =
-  if certificate.digest <> problem.digest then
-    raise (Rejected ("the digest of the problem is " ^ problem.digest));
-  if certificate.unknown <> problem.unknown then
-    raise (Rejected "the unknown is not the problem's");
-  if certificate.pieces = [] && certificate.claims = [] then raise (Rejected "no claim");
-  (match demanded with
-   | Some window when not (Sentences.covers certificate.window window) ->
-     raise (Rejected (Printf.sprintf "window: expected one that covers %s, got %s"
-                        (Sentences.show_window window) (Sentences.show_window certificate.window)))
-   | _ -> ());
+let pencil_of (problem : Problem.t) = timed "pencil" (fun () -> match problem.question with
+    | Raw pencil -> pencil
+    | Mechanical (system, unknown) -> Kernel.pencil_of system unknown
+    | Zero_reaction _ -> Problem.not_verified "infinity with zero reaction")
 
-  match problem.question with
-  | Zero_reaction (system, unknown) -> verify_zero problem certificate system unknown
-  | Raw _ | Mechanical _ ->
-  let pencil = timed "pencil" (fun () -> match problem.question with
-      | Raw pencil -> pencil
-      | Mechanical (system, unknown) -> Kernel.pencil_of system unknown
-      | Zero_reaction _ -> invalid_arg "zero reaction") in
+(* Claims and a complete set of a problem with this pencil. *)
+let verify_pencil (problem : Problem.t) pencil (certificate : Certificate.t) cover_of say =
   let slip_list = Kernel.slip pencil in
   let slip = Array.of_list slip_list in
   if certificate.pieces <> [] && Array.length slip > 300 then
@@ -615,8 +630,7 @@ let verify_complete demanded (problem : Problem.t) (certificate : Certificate.t)
     let known_claims =
       if needed then List.map (fun (claim, _) -> Lazy.force claim) claims else [] in
     let question = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims } in
-    let varying = depends_on_value pencil certificate in
-    let cover = if varying then verify_varying question else verify_constant question in
+    let cover = cover_of question in
     limit_yields cover.yielded cover.families;
     match Lazy.force cover.solutions with
     | None ->
@@ -624,10 +638,51 @@ let verify_complete demanded (problem : Problem.t) (certificate : Certificate.t)
     | Some found when !as_coq -> cover.print_coq found; 0
     | Some found ->
       let families = cover.families and left_open = cover.still_open in
-      Sentences.cover problem certificate.window slip (List.rev found) families left_open;
-      report_claims ();
+      say slip (List.rev found) families left_open report_claims;
       exit_code left_open
   end
+
+let require_question (problem : Problem.t) (certificate : Certificate.t) =
+  if certificate.digest <> problem.digest then
+    raise (Rejected ("the digest of the problem is " ^ problem.digest));
+  if certificate.unknown <> problem.unknown then
+    raise (Rejected "the unknown is not the problem's")
+
+let require_window holds wanted (certificate : Certificate.t) =
+  if not holds then
+    raise (Rejected (Printf.sprintf "window: expected %s, got %s" wanted
+                       (Sentences.show_window certificate.window)))
+
+let verify_complete demanded (problem : Problem.t) (certificate : Certificate.t) =
+  require_question problem certificate;
+  if certificate.pieces = [] && certificate.claims = [] then raise (Rejected "no claim");
+  Option.iter (fun window ->
+      require_window (Sentences.covers certificate.window window)
+        ("one that covers " ^ Sentences.show_window window) certificate) demanded;
+  match problem.question with
+  | Zero_reaction (system, unknown) -> verify_zero problem certificate system unknown
+  | Raw _ | Mechanical _ ->
+    let cover_of q =
+      if not (depends_on_value q.pencil certificate) then verify_constant q
+      else if q.lo = q.hi then verify_value q
+      else verify_varying q in
+    verify_pencil problem (pencil_of problem) certificate cover_of
+      (fun slip found families left_open report_claims ->
+         Sentences.cover problem certificate.window slip found families left_open;
+         report_claims ())
+
+(* All solutions at infinity: the certificate is one of the reversed problem, over [0, 0].  The
+   kernel forms the reverse of the pencil. *)
+let verify_infinity (problem : Problem.t) (certificate : Certificate.t) =
+  let pencil = pencil_of problem in
+  let reversed = Problem.reversed problem pencil in
+  require_question reversed certificate;
+  if certificate.pieces = [] then raise (Rejected "no complete set");
+  require_window (certificate.window = reversed.window) "[0, 0]" certificate;
+  let cover_of = verify_point (Kernel.check_infinity pencil) in
+  verify_pencil reversed (pencil_of reversed) certificate cover_of
+    (fun slip found families left_open _ ->
+       Sentences.at_infinity problem slip found families left_open)
 
 (* a,b with 0 <= a <= b; b may be inf or empty. *)
 let window_of text =
@@ -640,14 +695,25 @@ let window_of text =
     lo, hi
   | _ -> bad ()
 
+(* What is asked of the certificate, beside its problem. *)
+type demand = Anything | Window of (Q.t * Q.t option) | Infinity
+
 let refuse_window demanded kind =
-  if demanded <> None then
-    Json.malformed "--window: expected it with mceip-certificate/1 only, got %s" kind
+  let option = match demanded with
+    | Anything -> None
+    | Window _ -> Some "--window"
+    | Infinity -> Some "--infinity" in
+  Option.iter (fun option ->
+      Json.malformed "%s: expected it with mceip-certificate/1 only, got %s" option kind) option
 
 let verify_eigenproblem demanded document problem_path certificate_path =
   let problem = timed "problem" (fun () -> Problem.read problem_path document) in
   match timed "certificate" (fun () -> Certificate.read certificate_path) with
-  | Complete certificate -> verify_complete demanded problem certificate
+  | Complete certificate ->
+    (match demanded with
+     | Infinity -> verify_infinity problem certificate
+     | Window window -> verify_complete (Some window) problem certificate
+     | Anything -> verify_complete None problem certificate)
   | Critical certificate ->
     refuse_window demanded "mceip-critical/1";
     verify_critical problem certificate
@@ -655,11 +721,11 @@ let verify_eigenproblem demanded document problem_path certificate_path =
     refuse_window demanded "mceip-presence/1";
     verify_presence problem certificate
 
-let verify window problem_path certificate_path =
+let verify demanded problem_path certificate_path =
   Elaborate.start_anew ();
   Supports.work := 0;
   Critical.kept := [];
-  let demanded = Option.map window_of window in
+  let demanded = demanded () in
   let document = Json.read problem_path in
   if Plain.is_plain document then begin
     refuse_window demanded "a plain problem";
@@ -667,12 +733,11 @@ let verify window problem_path certificate_path =
   end
   else verify_eigenproblem demanded document problem_path certificate_path
 
-(* The exit code for a problem and a certificate, after the verdict has been printed.  [window]: the
-   text of the window that the certificate has to cover. *)
-let answer ?window problem certificate =
+(* The exit code for a problem and a certificate, after the verdict has been printed. *)
+let answer ?(demanded = fun () -> Anything) problem certificate =
   let say code text = print_endline text; code in
   let not_verified what = say 4 ("NOT VERIFIED: " ^ what) in
-  try verify window problem certificate with
+  try verify demanded problem certificate with
   | Rejected reason -> say 1 ("REJECTED: " ^ reason)
   | Json.Malformed reason -> say 2 ("MALFORMED: " ^ reason)
   | Sys_error reason -> say 2 ("MALFORMED: " ^ reason)
@@ -699,6 +764,8 @@ let () =
   | [| _; "--coq"; problem; certificate |] -> as_coq := true; exit (answer problem certificate)
   | [| _; problem; certificate |] -> exit (answer problem certificate)
   | [| _; problem; certificate; "--window"; window |] ->
-    exit (answer ~window problem certificate)
+    exit (answer ~demanded:(fun () -> Window (window_of window)) problem certificate)
+  | [| _; problem; certificate; "--infinity" |] ->
+    exit (answer ~demanded:(fun () -> Infinity) problem certificate)
   | _ ->
-    prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE [--window a,b]"; exit 2
+    prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE [--window a,b | --infinity]"; exit 2

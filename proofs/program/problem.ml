@@ -124,6 +124,14 @@ let canonical_matrix name m =
       (Array.to_list m.entries)) in
   [String.concat "\n" (Printf.sprintf "%s %d %d" name m.rows m.cols :: entries)]
 
+let digest_of lines = Sha256.hex (String.concat "" (List.map (fun line -> line ^ "\n") lines))
+
+let canonical unknown lines = ["mceip-canonical/1"; "unknown " ^ unknown] @ lines
+
+let pencil_lines free a b =
+  ["pencil"; String.concat " " ("free" :: List.map string_of_int free)]
+  @ canonical_matrix "a" a @ canonical_matrix "b" b
+
 let common_denominator matrices =
   List.fold_left (fun d m ->
       Array.fold_left (fun d row ->
@@ -145,8 +153,7 @@ let read_pencil folder item =
   let sorted = List.sort_uniq compare free in
   if List.length sorted < List.length free then malformed "an index of free twice";
   let common = common_denominator [a; b] in
-  let text = ["pencil"; String.concat " " ("free" :: List.map string_of_int sorted)]
-             @ canonical_matrix "a" a @ canonical_matrix "b" b in
+  let text = pencil_lines sorted a b in
   let pencil = { Kernel.order = n; rows_a = integer_rows common a;
                  rows_b = integer_rows common b; free = sorted } in
   text, Raw pencil, None, common, common
@@ -297,6 +304,21 @@ let read_system folder unknown item =
   let friction_given = if unknown = "lambda2" then mu else None in
   text, question, friction_given, free_common, Z.mul free_common (Z.mul unit_length friction)
 
+(* The reversed problem (certificates.md, 5.15, Infinity) of one with this pencil. *)
+let reversed problem (pencil : Kernel.pencil) =
+  let reverse = Kernel.reverse_pencil pencil in
+  let matrix rows =
+    let table = Array.init pencil.order (fun _ -> Hashtbl.create 16) in
+    List.iteri (fun i row ->
+        let factor = if List.mem i pencil.free then problem.common else problem.slip_common in
+        List.iter (fun (j, v) ->
+            let sum = Option.value (Hashtbl.find_opt table.(i) j) ~default:Q.zero in
+            Hashtbl.replace table.(i) j (Q.add sum (Q.make v factor))) row) rows;
+    matrix_of_table pencil.order pencil.order table in
+  let lines = pencil_lines pencil.free (matrix reverse.rows_a) (matrix reverse.rows_b) in
+  { problem with digest = digest_of (canonical problem.unknown lines); question = Raw reverse;
+                 friction = None; window = Q.zero, Some Q.zero }
+
 let read path document =
   (match document with
    | Object members ->
@@ -317,6 +339,5 @@ let read path document =
     | pencil, Null when pencil <> Null -> read_pencil folder pencil
     | Null, system when system <> Null -> read_system folder unknown system
     | _ -> malformed "exactly one of pencil and system" in
-  let lines = ["mceip-canonical/1"; "unknown " ^ unknown] @ lines in
-  let digest = Sha256.hex (String.concat "" (List.map (fun line -> line ^ "\n") lines)) in
+  let digest = digest_of (canonical unknown lines) in
   { unknown; friction; window; digest; question; common; slip_common }

@@ -24,13 +24,16 @@ let covers (lo, hi) (lo', hi') =
 
 let verdict word statement named = Printf.printf "%s, VERIFIED: %s (%s)" word statement named
 
-(* The verdict on a statement about solutions in a window of the problem. *)
-let verdict_in_window (problem : Problem.t) window word statement =
+(* The name of a question about one friction. *)
+let name_of (problem : Problem.t) =
   let friction = match problem.friction with
     | None -> ""
     | Some mu -> Printf.sprintf "friction %s, " (Q.to_string mu) in
-  verdict word statement
-    (Printf.sprintf "%s, %sproblem %s" problem.unknown friction problem.digest);
+  Printf.sprintf "%s, %sproblem %s" problem.unknown friction problem.digest
+
+(* The verdict on a statement about solutions in a window of the problem. *)
+let verdict_in_window (problem : Problem.t) window word statement =
+  verdict word statement (name_of problem);
   if not (covers window problem.window) then
     Printf.printf "; NOT the whole window %s of the problem" (show_window problem.window);
   print_newline ()
@@ -110,7 +113,7 @@ let shown_regions = 20
 
 (* How many solutions, whether there are families, and where every other solution is.  The families
    are not counted: one may be cut into several by the leaves of the tree. *)
-let count_and_others window found families left_open =
+let count_and_others place found families left_open =
   let none = found = [] && families = [] in
   let count = match List.length found with
     | 0 when none -> "no solution"
@@ -122,15 +125,17 @@ let count_and_others window found families left_open =
     | 0 -> ""
     | 1 -> " outside 1 open region"
     | n -> Printf.sprintf " outside %d open regions" n in
-  Printf.sprintf "%s%s in %s%s%s" count families_too window others outside
+  Printf.sprintf "%s%s %s%s%s" count families_too place others outside
+
+let word_of left_open = if left_open = [] then "ACCEPTED" else "UNDECIDED"
 
 (* What the theorems [system_families_number] and [system_families_hold] say of the solutions
    found, the families and the regions left open. *)
 let cover (problem : Problem.t) window slip found families left_open =
   let unknown = problem.unknown in
   let names positions = show_list (List.map (fun i -> slip.(i)) positions) in
-  verdict_in_window problem window (if left_open = [] then "ACCEPTED" else "UNDECIDED")
-    (count_and_others (show_window window) found families left_open);
+  verdict_in_window problem window (word_of left_open)
+    (count_and_others ("in " ^ show_window window) found families left_open);
 
   List.iter (fun (y : Kernel.yield) ->
       Printf.printf "solution: %s in [%s, %s], slip %s\n" unknown
@@ -151,3 +156,16 @@ let cover (problem : Problem.t) window slip found families left_open =
           (show_interval r.lower r.upper) (names (moving r)) (names (undecided r))) left_open;
   let more = List.length left_open - shown_regions in
   if more > 0 then Printf.printf "open: %d more regions (see the certificate)\n" more
+
+(* What the theorems [infinity_number] and [infinity_hold] say of solutions at infinity. *)
+let at_infinity (problem : Problem.t) slip found families left_open =
+  let names positions = show_list (List.map (fun i -> slip.(i)) positions) in
+  verdict (word_of left_open) (count_and_others "at infinity" found families left_open)
+    (name_of problem);
+  print_newline ();
+  List.iter (fun (y : Kernel.yield) ->
+      Printf.printf "solution: at infinity, slip %s\n" (names (moving y.yield_region))) found;
+  List.iter (fun (region, (h : Kernel.holding)) ->
+      Printf.printf "family: at infinity, slip %s, %s\n" (names (moving region))
+        (if h.held_alone then "one solution" else "a solution")) (listed_once families);
+  List.iter (fun r -> Printf.printf "open: at infinity, moving %s\n" (names (moving r))) left_open
