@@ -50,7 +50,7 @@ Extraction "kernel.ml"
   check_critical condensed_parts part_plain part_friction pencil_at mixed
   check_anchored_critical box_expansions friction_anchor check_parts freed
   box_regular regular_order restricted combine_rows
-  check_presence check_piece check_presence_piece presence_edge rest_row rows_at sign_at
+  check_presence check_piece check_presence_piece presence_inside presence_edge rest_row rows_at sign_at
   corner_center corner_radius
   zero_pencil check_zero_complete zero_solutions zero_families zero_still_open
   check_zero_varying zero_varying_solutions zero_varying_families zero_varying_open both_halves

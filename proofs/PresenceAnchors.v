@@ -4,7 +4,8 @@
    CriticalAnchors.v, and a list of pieces.  The first piece begins at from, each later one where
    the one before ends, and the last one ends at bound or beyond.  A piece has an interval of t, the
    number of an anchor, the grain of the local pencils, a state for each complementarity variable
-   and a witness of Presence.v for both ends of its interval of mu.  Of right and left of a particle
+   and a witness of Presence.v for both ends of its interval of mu.  Its edges are enclosed over
+   intervals of their own, [t0, after] and [before, t1].  Of right and left of a particle
    in contact with zero reaction at least one is at rest, so the solutions of the pencil are motions.
 
    Theorem [zero_presence_sound]: if the check succeeds, then for every mu in [from, bound] there
@@ -38,21 +39,30 @@ Record presence_piece := PresencePiece {
   piece_region : region;
   piece_anchor : nat;
   piece_grain : Z;
+  piece_after : point;   (* in the variable of the anchor: t, or 1/t for a reversed one *)
+  piece_before : point;
   piece_witness : presence }.
 
 Section Checker.
 
 Variables (z : zero_system) (w : box_anchoring).
 
-Definition check_present low_a low_b (b : box_anchor) (fams : anchor_family * anchor_family) grain
-    (r : region) (low high : point) (v : presence) :=
+(* The pencils at both ends of the interval of mu, over an interval of t. *)
+Definition ends_over low_a low_b (b : box_anchor) (fams : anchor_family * anchor_family) grain
+    (low high lo hi : point) : enclosed * enclosed :=
   let a := plain_anchor b in
-  let a' := friction_anchor a (friction_left b) in
-  let P := local_part z low_a low_b a fams.1 (lower r) (upper r) grain in
-  let P' := local_part z low_a low_b a' fams.2 (lower r) (upper r) grain in
-  [&& proper_interval a low_a low_b (lower r) (upper r), (0 <? grain)%Z,
-      size (series_z fams.1) == size (series_z fams.2) &
-      check_presence_piece (mixed low P P') (mixed high P P') (local_region r) v].
+  let P := local_part z low_a low_b a fams.1 lo hi grain in
+  let P' := local_part z low_a low_b (friction_anchor a (friction_left b)) fams.2 lo hi grain in
+  (mixed low P P', mixed high P P').
+
+Definition check_present low_a low_b (b : box_anchor) (fams : anchor_family * anchor_family) grain
+    (r : region) (low high after before : point) (v : presence) :=
+  let over := ends_over low_a low_b b fams grain low high in
+  let proper := proper_interval (plain_anchor b) low_a low_b in
+  [&& proper (lower r) (upper r), proper (lower r) after && proper before (upper r),
+      (0 <? grain)%Z, size (series_z fams.1) == size (series_z fams.2) &
+      check_presence_piece (over (lower r) (upper r)) (over (lower r) after)
+        (over before (upper r)) (local_region r) v].
 
 Definition check_piece (families : seq (option (anchor_family * anchor_family))) (low : point)
     (p : presence_piece) :=
@@ -63,9 +73,9 @@ Definition check_piece (families : seq (option (anchor_family * anchor_family)))
     if reversed_anchor b then
       (0 <? (upper r).2)%Z &&
       check_present (mass_below w) (stiffness_below w) b fams (piece_grain p) (swap_region r) low
-        (piece_end p) (piece_witness p)
+        (piece_end p) (piece_after p) (piece_before p) (piece_witness p)
     else check_present (stiffness_below w) (mass_below w) b fams (piece_grain p) r low
-           (piece_end p) (piece_witness p)
+           (piece_end p) (piece_after p) (piece_before p) (piece_witness p)
   else false.
 
 Fixpoint check_pieces families (low : point) (pieces : seq presence_piece) (bound : point) :=
@@ -113,6 +123,46 @@ Qed.
 
 End Joined.
 
+(* Over two intervals the matrix at one value differs by a positive factor. *)
+Section Intervals.
+
+Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : anchor_family) (low_a low_b : form_bound).
+Variables (lo hi lo' hi' : point) (grain : Z) (u u' : R).
+Hypotheses (expanded : expand Q a = Some fam).
+Hypothesis proper : proper_interval a low_a low_b lo hi.
+Hypothesis proper' : proper_interval a low_a low_b lo' hi'.
+Hypothesis same_value : t_of lo hi u = t_of lo' hi' u'.
+
+Definition power_ratio : R :=
+  toR (power_z a fam lo' hi') / toR (power_z a fam lo hi).
+
+Lemma power_ratio_gt0 : 0 < power_ratio.
+Proof. by rewrite divr_gt0 ?(power_gt0 R expanded proper) ?(power_gt0 R expanded proper'). Qed.
+
+Lemma family_of_interval i j : local_family Q a fam lo' hi' grain u' i j =
+  power_ratio * local_family Q a fam lo hi grain u i j.
+Proof.
+have q0 := q_gt0 R expanded; have p0 := power_gt0 R expanded proper.
+have same_d : d_of a lo' hi' u' = d_of a lo hi u.
+  apply: (mulfI (lt0r_neq0 q0)); apply: (addrI (toR (anchor_center a).1)).
+  by rewrite -(t_ofE expanded proper) -(t_ofE expanded proper') same_value.
+rewrite /local_family /raw same_d /power_ratio.
+move: (scale_at _ _ _ _) (condensed_family _ _ _ _ _) (toR (power_z a fam lo' hi')) => s c p.
+move: (toR (power_z a fam lo hi)) p0 (toR (anchor_unit a)) => p1 p1_gt0 v.
+by field; apply: lt0r_neq0.
+Qed.
+
+End Intervals.
+
+Lemma t_of_ends (R : rcfType) a low_a low_b p q : proper_interval a low_a low_b p q ->
+  t_of p q 0 = toR p.1 / toR p.2 :> R /\ t_of p q 1 = toR q.1 / toR q.2 :> R.
+Proof.
+move=> proper; have [_ p2 q2 _ _] := proper_parts R proper.
+have [p0 q0] := (lt0r_neq0 p2, lt0r_neq0 q2).
+rewrite /t_of /interval_width mul0r mul1r addr0 toRB !toRM.
+by split; last rewrite addrCA subrr addr0; field; rewrite ?p0 ?q0.
+Qed.
+
 Section Present.
 
 Variables (R : rcfType) (n : nat) (fr : seq nat) (ra rb ra' rb' : seq sparse_row).
@@ -128,6 +178,9 @@ Hypothesis bounded_b : bounded_rows (size fr) (ff_block Q (row_b Q)) low_b.
 Hypothesis bounded_a' : bounded_rows (size fr) (ff_block Q' (row_a Q')) low_a.
 Hypothesis bounded_b' : bounded_rows (size fr) (ff_block Q' (row_b Q')) low_b.
 Hypothesis proper : proper_interval a low_a low_b (lower r) (upper r).
+Variables after before : point.
+Hypothesis proper_s : proper_interval a low_a low_b (lower r) after.
+Hypothesis proper_f : proper_interval a low_a low_b before (upper r).
 Hypotheses (grain0 : (0 <? grain)%Z) (same_size : size (series_z fam) = size (series_z fam')).
 Hypotheses (Om : ordered low high) (bm : between mu low high).
 Hypothesis same_rows : forall t (x : nat -> R) i, i \in fr ->
@@ -136,8 +189,12 @@ Hypothesis same_rows : forall t (x : nat -> R) i, i \in fr ->
 Notation lo := (lower r).
 Notation hi := (upper r).
 Notation ns := (size (slip Q)).
-Notation P := (local_pencil ns a low_a low_b fam lo hi false grain).
-Notation P' := (local_pencil ns a' low_a low_b fam' lo hi false grain).
+Notation part lo hi := (local_pencil ns a low_a low_b fam lo hi false grain).
+Notation part' lo hi := (local_pencil ns a' low_a low_b fam' lo hi false grain).
+Notation over lo hi :=
+  (mixed low (part lo hi) (part' lo hi), mixed high (part lo hi) (part' lo hi)).
+Notation P := (part lo hi).
+Notation P' := (part' lo hi).
 Notation T0 := (local_family Q a fam lo hi grain).
 Notation T1 := (local_family Q' a' fam' lo hi grain).
 Notation F u := (fun i j => T0 u i j + mu * T1 u i j).
@@ -146,54 +203,99 @@ Notation d1 := (free_det (size (free Q')) (F_poly R Q' a' lo hi)).
 Notation N0 := (family_poly R Q a fam lo hi grain).
 Notation N1 := (family_poly R Q' a' fam' lo hi grain).
 
-Lemma proper' : proper_interval a' low_a low_b lo hi.
-Proof. exact: proper. Qed.
+(* The matrix at mu over an interval, at the position u in it. *)
+Definition family_over p q (u : R) i j :=
+  local_family Q a fam p q grain u i j + mu * local_family Q' a' fam' p q grain u i j.
+
+Lemma over_lines p q (u f g : R) : proper_interval a low_a low_b p q -> 0 <= u -> u <= 1 ->
+  f * toR low.2 + g * toR high.2 = 1 -> f * toR low.1 + g * toR high.1 = mu ->
+  exists A B A' B', [/\ encloses (over p q).1 A B, encloses (over p q).2 A' B' &
+    forall i j, i \in iota 0 ns -> j \in iota 0 ns ->
+      family_over p q u i j = mixed_at A B A' B' u f g i j].
+Proof.
+move=> proper_pq u0 u1 one val; have [l1 l2 h1 h2] := ordered_ge0 R Om.
+have [A [B [E on]]] := local_line wf expanded bounded_a bounded_b proper_pq grain0 false u0 u1.
+have [A' [B' [E' on']]] :=
+  local_line (Q := Q') (a := a') wf expanded' bounded_a' bounded_b' proper_pq grain0 false u0 u1.
+exists (fun i j => toR low.2 * A i j + toR low.1 * A' i j),
+  (fun i j => toR low.2 * B i j + toR low.1 * B' i j),
+  (fun i j => toR high.2 * A i j + toR high.1 * A' i j),
+  (fun i j => toR high.2 * B i j + toR high.1 * B' i j).
+split; [exact: mixed_encloses | exact: mixed_encloses |].
+move=> i j Hi Hj; rewrite /family_over on // on' // /mixed_at /T.
+rewrite -[A i j + u * B i j]mul1r -one -val.
+by move: (A i j) (B i j) (A' i j) (B' i j) => *; ring.
+Qed.
+
+Lemma over_rows p q (u u' : R) : proper_interval a low_a low_b p q ->
+  t_of lo hi u = t_of p q u' -> exists2 rho : nat -> R, forall i, i \in iota 0 ns -> 0 < rho i &
+    forall i j, i \in iota 0 ns -> j \in iota 0 ns ->
+      family_over p q u' i j = rho i * family_over lo hi u i j.
+Proof.
+move=> proper_pq same_value; exists (fun=> power_ratio R a fam lo hi p q).
+  by move=> i _; apply: (power_ratio_gt0 R expanded proper proper_pq).
+move=> i j _ _; rewrite /family_over (family_of_interval grain expanded proper proper_pq same_value).
+have proper_a' : proper_interval a' low_a low_b lo hi by [].
+have proper_b' : proper_interval a' low_a low_b p q by [].
+rewrite (family_of_interval (Q := Q') grain expanded' proper_a' proper_b' same_value).
+have -> : power_ratio R a' fam' lo hi p q = power_ratio R a fam lo hi p q.
+  by rewrite /power_ratio /power_z; congr (toR _ / toR _); apply: substituted_power_size;
+     rewrite !size_map same_size.
+by move: (power_ratio _ _ _ _ _ _ _) (local_family _ _ _ _ _ _ _ _ _) => *; ring.
+Qed.
 
 Theorem piece_present v :
-  check_presence_piece (mixed low P P') (mixed high P P') (local_region r) v ->
+  check_presence_piece (over lo hi) (over lo after) (over before hi) (local_region r) v ->
   exists t x, [/\ between t lo hi /\ agrees ns r (slip_of Q x),
     exists2 i, i \in iota 0 n & x i != 0, forall i, i \in fr -> reaction Q t x i = 0 &
     forall i, i \in slip Q ->
       let y := reaction Q t x i + mu * reaction Q' t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]].
 Proof.
 move=> ok; have [f [g [f0 g0 [one val] [fg _]]]] := weights_of_ends Om bm.
-have [l1 l2 h1 h2] := ordered_ge0 R Om.
+have proper' : proper_interval a' low_a low_b lo hi by [].
 have unit_u (u : R) : between u (lower (local_region r)) (upper (local_region r)) ->
     0 <= u /\ u <= 1 by rewrite /between /= toR0 toR1 !mulr1.
 have Or : ordered (lower (local_region r)) (upper (local_region r)) by [].
-have near (u : R) : between u (lower (local_region r)) (upper (local_region r)) ->
-    exists A B A' B', [/\ encloses (mixed low P P') A B, encloses (mixed high P P') A' B' &
-      forall i j, i \in indices (mixed low P P') -> j \in indices (mixed low P P') ->
-      F u i j = mixed_at A B A' B' u f g i j].
-  move=> /unit_u[u0 u1].
-  have [A [B [E on]]] := local_line wf expanded bounded_a bounded_b proper grain0 false u0 u1.
-  have [A' [B' [E' on']]] :=
-    local_line (Q := Q') wf expanded' bounded_a' bounded_b' proper' grain0 false u0 u1.
-  exists (fun i j => toR low.2 * A i j + toR low.1 * A' i j),
-    (fun i j => toR low.2 * B i j + toR low.1 * B' i j),
-    (fun i j => toR high.2 * A i j + toR high.1 * A' i j),
-    (fun i j => toR high.2 * B i j + toR high.1 * B' i j).
-  split; [exact: mixed_encloses | exact: mixed_encloses |].
-  move=> i j Hi Hj; rewrite on // on' // /mixed_at /T.
-  rewrite -[A i j + u * B i j]mul1r -one -val.
-  by move: (A i j) (B i j) (A' i j) (B' i j) => *; ring.
+have start0 : toR (lower (local_region r)).1 / toR (lower (local_region r)).2 = 0 :> R.
+  by rewrite /= toR0 mul0r.
+have finish1 : toR (upper (local_region r)).1 / toR (upper (local_region r)).2 = 1 :> R.
+  by rewrite /= toR1 divr1.
 have regular_d (u : R) : between u (lower (local_region r)) (upper (local_region r)) ->
     (d0 * d1).[u] != 0.
   move=> /unit_u[u0 u1]; rewrite hornerM mulf_neq0 //.
     exact: (free_det_neq0 wf expanded bounded_a bounded_b proper).
   exact: (free_det_neq0 (Q := Q') wf expanded' bounded_a' bounded_b' proper').
 have family_d (u : R) i j : between u (lower (local_region r)) (upper (local_region r)) ->
-    i \in indices (mixed low P P') -> j \in indices (mixed low P P') ->
+    i \in indices (over lo hi).1 -> j \in indices (over lo hi).1 ->
     (N0 i j * d1 + mu *: (N1 i j * d0)).[u] = (d0 * d1).[u] * F u i j.
   move=> /unit_u[u0 u1] _ _; rewrite hornerD hornerZ.
   rewrite [(N0 i j * d1).[u]]hornerM [(N1 i j * d0).[u]]hornerM [(d0 * d1).[u]]hornerM.
   rewrite (family_polyE grain wf expanded bounded_a bounded_b proper) //.
   rewrite (family_polyE (Q := Q') grain wf expanded' bounded_a' bounded_b' proper') //.
   by move: (d0.[u]) (d1.[u]) (T0 u i j) (T1 u i j) => *; ring.
+have lines p q (u : R) : proper_interval a low_a low_b p q -> 0 <= u -> u <= 1 ->
+    on_lines (over lo hi).1 f g (over p q).1 (over p q).2 u (family_over p q u).
+  by move=> proper_pq u0 u1; apply: over_lines.
+have near (u : R) : between u (lower (local_region r)) (upper (local_region r)) ->
+    on_lines (over lo hi).1 f g (over lo hi).1 (over lo hi).2 u (family_over lo hi u).
+  by case/unit_u; apply: lines.
+have near_s : on_lines (over lo hi).1 f g (over lo after).1 (over lo after).2
+    (toR (lower (local_region r)).1 / toR (lower (local_region r)).2) (family_over lo after 0).
+  by rewrite start0; apply: lines; rewrite ?ler01 ?lexx.
+have near_f : on_lines (over lo hi).1 f g (over before hi).1 (over before hi).2
+    (toR (upper (local_region r)).1 / toR (upper (local_region r)).2) (family_over before hi 1).
+  by rewrite finish1; apply: lines; rewrite ?ler01 ?lexx.
+have rows_s : multiple_rows (over lo hi).1 (family_over lo hi)
+    (toR (lower (local_region r)).1 / toR (lower (local_region r)).2) (family_over lo after 0).
+  by rewrite start0; apply: over_rows; rewrite ?(t_of_ends R proper).1 ?(t_of_ends R proper_s).1.
+have rows_f : multiple_rows (over lo hi).1 (family_over lo hi)
+    (toR (upper (local_region r)).1 / toR (upper (local_region r)).2) (family_over before hi 1).
+  by rewrite finish1; apply: over_rows; rewrite ?(t_of_ends R proper).2 ?(t_of_ends R proper_f).2.
 have [u [xs [bu [i0 Hi0 xi0] ag signs]]] :=
-  piece_exists (P := mixed low P P') (P' := mixed high P P') (F := fun u => F u) (erefl _) Or
-  f0 g0 fg near
-  (N := fun i j => N0 i j * d1 + mu *: (N1 i j * d0)) regular_d family_d ok.
+  piece_exists (P := (over lo hi).1) (P' := (over lo hi).2) (Ps := (over lo after).1)
+    (Ps' := (over lo after).2) (Pf := (over before hi).1) (Pf' := (over before hi).2)
+    erefl erefl erefl erefl erefl Or f0 g0 fg near near_s near_f rows_s rows_f
+    (N := fun i j => N0 i j * d1 + mu *: (N1 i j * d0)) regular_d family_d ok.
 have [u0 u1] := unit_u u bu.
 
 pose t := t_of lo hi u; pose x := join Q (free_values Q a lo hi u xs) xs.
@@ -214,11 +316,11 @@ exists t, x; split=> //.
   exists (nth 0%N (slip Q) i0); first exact/(slip_indices (Q := Q))/mem_nth.
   by rewrite -[x _]/(slip_of Q x i0) slipE.
 move=> i /(nthP 0%N)[k lt_k <-] y.
-have Hk : k \in indices (mixed low P P') by rewrite mem_iota.
+have Hk : k \in indices (over lo hi).1 by rewrite mem_iota.
 have [x0 y0 xy] := signs k Hk; have c0 := row_factor_gt0_ R expanded proper grain0 lt_k.
 have image0 := local_image grain wf expanded proper false u0 lt_k part.
 have image1 := local_image (Q := Q') grain wf expanded' proper' false u0 lt_k part'.
-have yE : \sum_(j <- indices (mixed low P P')) F u k j * xs j =
+have yE : \sum_(j <- indices (over lo hi).1) F u k j * xs j =
     row_factor_at R a fam lo hi grain k * y.
   rewrite /y mulrDr mulrCA -{2}(same_factor R a other grain r same_size) -image0 -image1.
   rewrite /family_image mulr_sumr -big_split /=; apply: sum_eq => j.
@@ -233,37 +335,39 @@ End Present.
 
 (* The same in 1/t. *)
 Theorem piece_present_reversed (R : rcfType) n fr ra rb ra' rb' a other fam fam' low_a low_b grain
-    r low high (mu : R) v (Q := Pencil n ra rb fr) (Q' := Pencil n ra' rb' fr) :
+    r low high after before (mu : R) v (Q := Pencil n ra rb fr) (Q' := Pencil n ra' rb' fr)
+    (part := fun lo hi => local_pencil (size (slip Q)) a low_b low_a fam lo hi false grain)
+    (part' := fun lo hi =>
+       local_pencil (size (slip Q)) (friction_anchor a other) low_b low_a fam' lo hi false grain)
+    (over := fun lo hi =>
+       (mixed low (part lo hi) (part' lo hi), mixed high (part lo hi) (part' lo hi))) :
   wellformed Q -> expand (swap_pencil Q) a = Some fam ->
   expand (swap_pencil Q') (friction_anchor a other) = Some fam' ->
   bounded_rows (size fr) (ff_block Q (row_a Q)) low_a ->
   bounded_rows (size fr) (ff_block Q (row_b Q)) low_b ->
   bounded_rows (size fr) (ff_block Q' (row_a Q')) low_a ->
   bounded_rows (size fr) (ff_block Q' (row_b Q')) low_b ->
-  proper_interval a low_b low_a (swap (upper r)) (swap (lower r)) -> (0 <? grain)%Z ->
+  proper_interval a low_b low_a (swap (upper r)) (swap (lower r)) ->
+  proper_interval a low_b low_a (swap (upper r)) after ->
+  proper_interval a low_b low_a before (swap (lower r)) -> (0 <? grain)%Z ->
   size (series_z fam) = size (series_z fam') -> ordered low high -> between mu low high ->
   (forall t (x : nat -> R) i, i \in fr ->
      reaction (swap_pencil Q') t x i = reaction (swap_pencil Q) t x i) ->
   (0 <? (upper r).2)%Z ->
-  check_presence_piece
-    (mixed low
-      (local_pencil (size (slip Q)) a low_b low_a fam (swap (upper r)) (swap (lower r)) false grain)
-      (local_pencil (size (slip Q)) (friction_anchor a other) low_b low_a fam' (swap (upper r))
-         (swap (lower r)) false grain))
-    (mixed high
-      (local_pencil (size (slip Q)) a low_b low_a fam (swap (upper r)) (swap (lower r)) false grain)
-      (local_pencil (size (slip Q)) (friction_anchor a other) low_b low_a fam' (swap (upper r))
-         (swap (lower r)) false grain)) (local_region r) v ->
+  check_presence_piece (over (swap (upper r)) (swap (lower r))) (over (swap (upper r)) after)
+    (over before (swap (lower r))) (local_region r) v ->
   exists t x, [/\ 0 < t /\ agrees (size (slip Q)) r (slip_of Q x),
     exists2 i, i \in iota 0 n & x i != 0,
     forall i, i \in fr -> reaction Q t x i = 0 &
     forall i, i \in slip Q ->
       let y := reaction Q t x i + mu * reaction Q' t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]].
 Proof.
-move=> wf ex0 ex1 ba bb ba' bb' proper grain0 same_size Om bm same_swapped hi2 ok.
+move=> wf ex0 ex1 ba bb ba' bb' proper proper_s proper_f grain0 same_size Om bm same_swapped hi2.
+move=> ok.
 have [t [x [[[lo_t _] ag] nonzero rows signs]]] :=
   @piece_present R n fr rb ra rb' ra' a other fam fam' low_b low_a grain (swap_region r) low high
-    mu wf ex0 ex1 bb ba bb' ba' proper grain0 same_size Om bm same_swapped v ok.
+    mu wf ex0 ex1 bb ba bb' ba' proper after before proper_s proper_f grain0 same_size Om bm
+    same_swapped v ok.
 have [_ l2 _ _ _] := proper_parts R proper.
 have t_gt0 : 0 < t.
   have h2 : 0 < toR (upper r).2 :> R by rewrite toR_gt0.
@@ -340,17 +444,17 @@ rewrite /expand_box /=.
 case ex0: (expand_part Q0 reverse a) => [fam|//].
 case ex1: (expand_part Q1 reverse (friction_anchor a other)) => [fam'|//] [<-].
 case: reverse ex0 ex1 => ex0 ex1; last first.
-  rewrite /check_present /local_part -(size_slips z (Lambda2 0 1)).
-  case/and4P=> /= proper grain0 /eqP same_size ok.
+  rewrite /check_present /ends_over /local_part -(size_slips z (Lambda2 0 1)).
+  case/and5P=> /= proper /andP[proper_s proper_f] grain0 /eqP same_size ok.
   have [t [x [[[lo_t _] ag] nonzero rows signs]]] := piece_present wfQ ex0 ex1 ba0 bb0 ba1 bb1
-    proper grain0 same_size Om bm same_free_reactions ok.
+    proper proper_s proper_f grain0 same_size Om bm same_free_reactions ok.
   exists t, (zero_motion z x); split; last exact: motion_of_pencil apart ag nonzero rows signs.
   have [l1 l2 _ _ _] := proper_parts R proper.
   by rewrite -(pmulr_lge0 _ l2); apply: le_trans lo_t.
-rewrite /check_present /local_part -(size_slips z (Lambda2 0 1)) => /andP[hi2].
-case/and4P=> /= proper grain0 /eqP same_size ok.
+rewrite /check_present /ends_over /local_part -(size_slips z (Lambda2 0 1)) => /andP[hi2].
+case/and5P=> /= proper /andP[proper_s proper_f] grain0 /eqP same_size ok.
 have [t [x [[t_gt0 ag] nonzero rows signs]]] := piece_present_reversed wfQ ex0 ex1 ba0 bb0 ba1 bb1
-  proper grain0 same_size Om bm same_swapped_reactions hi2 ok.
+  proper proper_s proper_f grain0 same_size Om bm same_swapped_reactions hi2 ok.
 exists t, (zero_motion z x); split; first exact: ltW.
 exact: motion_of_pencil apart ag nonzero rows signs.
 Qed.

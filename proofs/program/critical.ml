@@ -260,7 +260,7 @@ let anchors_of_boxes pieces =
       if needs_anchor piece then Some piece.box_anchor else None) pieces)
 
 (* The local pencils of both parts over the interval of a region, and their grain. *)
-let new_local_parts c v n (region : Kernel.region) =
+let new_local_parts ?grain c v n (region : Kernel.region) =
   match v.families.(n) with
   | None -> None
   | Some (family, family') ->
@@ -280,11 +280,13 @@ let new_local_parts c v n (region : Kernel.region) =
       let make grain =
         Kernel.local_pencil ns a low_a low_b family lo hi false grain,
         Kernel.local_pencil ns a' low_a low_b family' lo hi false grain in
-      let plain, friction = make Z.one in
-      let largest (p : Kernel.enclosed) =
-        List.fold_left (List.fold_left (fun m z -> max m (bits z))) 0
-          (p.center_a @ p.center_b) in
-      let grain = two_to (max 0 (max (largest plain) (largest friction) - 160)) in
+      let chosen () =
+        let plain, friction = make Z.one in
+        let largest (p : Kernel.enclosed) =
+          List.fold_left (List.fold_left (fun m z -> max m (bits z))) 0
+            (p.center_a @ p.center_b) in
+        two_to (max 0 (max (largest plain) (largest friction) - 160)) in
+      let grain = match grain with Some g -> g | None -> chosen () in
       Some (make grain, grain)
     end
 

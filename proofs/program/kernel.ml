@@ -5914,27 +5914,19 @@ type presence = { presence_box : regular; presence_start : regular;
                   presence_finish : regular }
 
 (** val rest_row :
-    enclosed -> enclosed -> region -> presence -> regular -> int -> int ->
-    bool **)
+    enclosed -> enclosed -> region -> int -> regular -> int -> int -> bool **)
 
-let rest_row p p' r w v i c =
+let rest_row p p' r k v i c =
   let p0 =
     map0 (fun j -> center (corner_pencil p p' c) (corner_end r c) i j)
-      (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+      (regular_order p r (Obj.magic k))
   in
   let q =
     map0 (fun j -> radius (corner_pencil p p' c) (corner_end r c) i j)
-      (regular_order p r (Obj.magic w.presence_box.regular_pivot))
+      (regular_order p r (Obj.magic k))
   in
-  Z.leb
-    (row_slack
-      (pred
-        (size (regular_order p r (Obj.magic w.presence_box.regular_pivot))))
-      v p0 q)
-    (against_right
-      (pred
-        (size (regular_order p r (Obj.magic w.presence_box.regular_pivot))))
-      v p0)
+  Z.leb (row_slack (pred (size (regular_order p r (Obj.magic k)))) v p0 q)
+    (against_right (pred (size (regular_order p r (Obj.magic k)))) v p0)
 
 (** val positive_vector : regular -> bool **)
 
@@ -5942,85 +5934,92 @@ let positive_vector v =
   Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v.regular_right 0)
 
 (** val presence_edge :
-    enclosed -> enclosed -> region -> presence -> regular -> int list -> bool **)
+    enclosed -> enclosed -> region -> int -> regular -> int list -> bool **)
 
-let presence_edge p p' r w e cs =
+let presence_edge p p' r k e cs =
   (&&) (positive_vector e)
     ((&&)
       (Z.ltb Big_int_Z.zero_big_int
         (nth Big_int_Z.zero_big_int e.regular_left 0))
       (all (fun c ->
-        (&&)
-          (rows_at p p' r
-            (regular_order p r (Obj.magic w.presence_box.regular_pivot)) e c)
-          (sign_at0 p p' r
-            (regular_order p r (Obj.magic w.presence_box.regular_pivot)) e c))
-        cs))
+        (&&) (rows_at p p' r (regular_order p r (Obj.magic k)) e c)
+          (sign_at0 p p' r (regular_order p r (Obj.magic k)) e c)) cs))
+
+(** val presence_inside :
+    enclosed -> enclosed -> region -> int -> regular -> bool **)
+
+let presence_inside p p' r k v =
+  (&&)
+    (all (rows_at p p' r (regular_order p r (Obj.magic k)) v) four_corners)
+    ((&&)
+      (all (fun j ->
+        Z.ltb (nth Big_int_Z.zero_big_int v.regular_widths j)
+          (nth Big_int_Z.zero_big_int v.regular_right (Natural.succ j)))
+        (iota 0 (pred (size (regular_order p r (Obj.magic k))))))
+      (all (fun i ->
+        (||) (is_moving (state_of r i))
+          (all (rest_row p p' r k v i) four_corners)) (indices p)))
 
 (** val check_presence_piece :
-    enclosed -> enclosed -> region -> presence -> bool **)
+    (enclosed * enclosed) -> (enclosed * enclosed) -> (enclosed * enclosed)
+    -> region -> presence -> bool **)
 
-let check_presence_piece p p' r w =
-  (&&) (decided p r)
+let check_presence_piece inside0 start finish r w =
+  let k = w.presence_box.regular_pivot in
+  (&&)
+    ((&&) (decided (fst inside0) r)
+      ((&&)
+        (in_mem (Obj.magic k)
+          (mem (seq_predType nat_eqType) (Obj.magic moving (fst inside0) r)))
+        ((&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
+          ((&&) (positive_vector w.presence_box)
+            (presence_inside (fst inside0) (snd inside0) r k w.presence_box)))))
     ((&&)
-      (in_mem (Obj.magic w.presence_box.regular_pivot)
-        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
-      ((&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
-        ((&&) (positive_vector w.presence_box)
-          ((&&)
-            (all
-              (rows_at p p' r
-                (regular_order p r (Obj.magic w.presence_box.regular_pivot))
-                w.presence_box) four_corners)
-            ((&&)
-              (all (fun j ->
-                Z.ltb
-                  (nth Big_int_Z.zero_big_int w.presence_box.regular_widths j)
-                  (nth Big_int_Z.zero_big_int w.presence_box.regular_right
-                    (Natural.succ j)))
-                (iota 0
-                  (pred
-                    (size
-                      (regular_order p r
-                        (Obj.magic w.presence_box.regular_pivot))))))
-              ((&&)
-                (all (fun i ->
-                  (||) (is_moving (state_of r i))
-                    (all (rest_row p p' r w w.presence_box i) four_corners))
-                  (indices p))
-                ((&&)
-                  (presence_edge p p' r w w.presence_start
-                    (0 :: ((Natural.succ (Natural.succ 0)) :: [])))
-                  ((&&)
-                    (presence_edge p p' r w w.presence_finish ((Natural.succ
-                      0) :: ((Natural.succ (Natural.succ (Natural.succ
-                      0))) :: [])))
-                    (negb
-                      (eq_op bool_eqType
-                        (Obj.magic w.presence_start.regular_minus)
-                        (Obj.magic w.presence_finish.regular_minus)))))))))))
+      (presence_edge (fst start) (snd start) r k w.presence_start
+        (0 :: ((Natural.succ (Natural.succ 0)) :: [])))
+      ((&&)
+        (presence_edge (fst finish) (snd finish) r k w.presence_finish
+          ((Natural.succ 0) :: ((Natural.succ (Natural.succ (Natural.succ
+          0))) :: [])))
+        (negb
+          (eq_op bool_eqType (Obj.magic w.presence_start.regular_minus)
+            (Obj.magic w.presence_finish.regular_minus)))))
 
 type presence_piece = { piece_end : point; piece_region : region;
                         piece_anchor : int; piece_grain : Big_int_Z.big_int;
+                        piece_after : point; piece_before : point;
                         piece_witness : presence }
+
+(** val ends_over :
+    zero_system -> form_bound -> form_bound -> box_anchor ->
+    (anchor_family * anchor_family) -> Big_int_Z.big_int -> point -> point ->
+    point -> point -> enclosed * enclosed **)
+
+let ends_over z0 low_a low_b b fams grain low high lo hi =
+  let a = b.plain_anchor in
+  let p = local_part z0 low_a low_b a (fst fams) lo hi grain in
+  let p' =
+    local_part z0 low_a low_b (friction_anchor a b.friction_left) (snd fams)
+      lo hi grain
+  in
+  ((mixed low p p'), (mixed high p p'))
 
 (** val check_present :
     zero_system -> form_bound -> form_bound -> box_anchor ->
     (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
-    -> point -> presence -> bool **)
+    -> point -> point -> point -> presence -> bool **)
 
-let check_present z0 low_a low_b b fams grain r low high v =
-  let a = b.plain_anchor in
-  let a' = friction_anchor a b.friction_left in
-  let p = local_part z0 low_a low_b a (fst fams) r.lower r.upper grain in
-  let p' = local_part z0 low_a low_b a' (snd fams) r.lower r.upper grain in
-  (&&) (proper_interval a low_a low_b r.lower r.upper)
-    ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
-      ((&&)
-        (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
-          (Obj.magic size (snd fams).series_z))
-        (check_presence_piece (mixed low p p') (mixed high p p')
-          (local_region r) v)))
+let check_present z0 low_a low_b b fams grain r low high after before v =
+  let over = ends_over z0 low_a low_b b fams grain low high in
+  let proper = proper_interval b.plain_anchor low_a low_b in
+  (&&) (proper r.lower r.upper)
+    ((&&) ((&&) (proper r.lower after) (proper before r.upper))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
+        ((&&)
+          (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
+            (Obj.magic size (snd fams).series_z))
+          (check_presence_piece (over r.lower r.upper) (over r.lower after)
+            (over before r.upper) (local_region r) v))))
 
 (** val check_piece :
     zero_system -> box_anchoring -> (anchor_family * anchor_family) option
@@ -6035,9 +6034,11 @@ let check_piece z0 w families0 low p =
        if b.reversed_anchor
        then (&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
               (check_present z0 w.mass_below w.stiffness_below b fams
-                p.piece_grain (swap_region r) low p.piece_end p.piece_witness)
+                p.piece_grain (swap_region r) low p.piece_end p.piece_after
+                p.piece_before p.piece_witness)
        else check_present z0 w.stiffness_below w.mass_below b fams
-              p.piece_grain r low p.piece_end p.piece_witness
+              p.piece_grain r low p.piece_end p.piece_after p.piece_before
+              p.piece_witness
      | None -> false)
 
 (** val check_pieces :

@@ -1916,23 +1916,33 @@ type presence = { presence_box : regular; presence_start : regular;
                   presence_finish : regular }
 
 val rest_row :
-  enclosed -> enclosed -> region -> presence -> regular -> int -> int -> bool
+  enclosed -> enclosed -> region -> int -> regular -> int -> int -> bool
 
 val positive_vector : regular -> bool
 
 val presence_edge :
-  enclosed -> enclosed -> region -> presence -> regular -> int list -> bool
+  enclosed -> enclosed -> region -> int -> regular -> int list -> bool
 
-val check_presence_piece : enclosed -> enclosed -> region -> presence -> bool
+val presence_inside : enclosed -> enclosed -> region -> int -> regular -> bool
+
+val check_presence_piece :
+  (enclosed * enclosed) -> (enclosed * enclosed) -> (enclosed * enclosed) ->
+  region -> presence -> bool
 
 type presence_piece = { piece_end : point; piece_region : region;
                         piece_anchor : int; piece_grain : Big_int_Z.big_int;
+                        piece_after : point; piece_before : point;
                         piece_witness : presence }
+
+val ends_over :
+  zero_system -> form_bound -> form_bound -> box_anchor ->
+  (anchor_family * anchor_family) -> Big_int_Z.big_int -> point -> point ->
+  point -> point -> enclosed * enclosed
 
 val check_present :
   zero_system -> form_bound -> form_bound -> box_anchor ->
   (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point ->
-  point -> presence -> bool
+  point -> point -> point -> presence -> bool
 
 val check_piece :
   zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
