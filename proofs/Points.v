@@ -170,7 +170,8 @@ have [[x [sol reg]] alone] := each t at_t.
 have bt : between t e e.
   have /and3P[_ _ inside] := checked; have /andP[/eqP lo /eqP hi] := Support.all_In inside f_in.
   by case: reg; rewrite lo hi.
-have same y := point_solution finite y wf bt; split=> //; split; first by exists x; split=> //; apply/same.
+have same y := point_solution finite y wf bt; split=> //.
+split; first by exists x; split=> //; apply/same.
 by move=> al y y' /same sol_y reg_y /same sol_y' reg_y'; apply: (alone al).
 Qed.
 

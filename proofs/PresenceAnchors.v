@@ -6,7 +6,7 @@
    number of an anchor, the grain of the local pencils, a state for each complementarity variable
    and a witness of Presence.v for both ends of its interval of mu.  Its edges are enclosed over
    intervals of their own, [t0, after] and [before, t1].  Of right and left of a particle
-   in contact with zero reaction at least one is at rest, so the solutions of the pencil are motions.
+   in contact with zero reaction at least one is at rest, so solutions of the pencil are motions.
 
    Theorem [zero_presence_sound]: if the check succeeds, then for every mu in [from, bound] there
    are a t >= 0 and a motion that satisfies the conditions (9) with lambda^2 = t and mu.
@@ -234,7 +234,8 @@ Lemma over_rows p q (u u' : R) : proper_interval a low_a low_b p q ->
 Proof.
 move=> proper_pq same_value; exists (fun=> power_ratio R a fam lo hi p q).
   by move=> i _; apply: (power_ratio_gt0 R expanded proper proper_pq).
-move=> i j _ _; rewrite /family_over (family_of_interval grain expanded proper proper_pq same_value).
+move=> i j _ _.
+rewrite /family_over (family_of_interval grain expanded proper proper_pq same_value).
 have proper_a' : proper_interval a' low_a low_b lo hi by [].
 have proper_b' : proper_interval a' low_a low_b p q by [].
 rewrite (family_of_interval (Q := Q') grain expanded' proper_a' proper_b' same_value).

@@ -81,7 +81,14 @@ Definition cross_series n (X Y : seq matrix) : seq matrix :=
 
 Definition squares (x : seq Z) : Z := foldr (fun a s => a * a + s) 0 x.
 
-Definition norm2 x := Z.sqrt_up (squares x).
+(* A number whose square is at least x >= 0: the root, or the root of the leading 128 bits.  Coq's
+   root takes time like the cube of the length. *)
+Definition root_up (x : Z) : Z :=
+  let k := Z.log2 x / 2 - 64 in
+  if k <=? 0 then Z.sqrt_up x
+  else let unit := 2 ^ k in Z.sqrt_up (x / (unit * unit) + 1) * unit.
+
+Definition norm2 x := root_up (squares x).
 
 Definition norms (L : seq matrix) j : polynomial := [seq norm2 (column_of M j) | M <- L].
 
@@ -231,13 +238,33 @@ Qed.
 Lemma squares_nonneg x : (0 <= squares x)%Z.
 Proof. by elim: x => //= a x; clear; nia. Qed.
 
-Lemma norm2_bound x : (0 <= norm2 x)%Z /\ (squares x <= norm2 x * norm2 x)%Z.
+Lemma sqrt_up_bound x : (0 <= x)%Z -> (x <= Z.sqrt_up x * Z.sqrt_up x)%Z.
 Proof.
-have s0 := @squares_nonneg x; rewrite /norm2; split; first exact: Z.sqrt_up_nonneg.
-have [pos|<-] : (0 < squares x \/ 0 = squares x)%Z by move: s0; clear; lia.
+move=> x0; have [pos|<-] : (0 < x \/ 0 = x)%Z by move: x0; clear; lia.
   by have [_] := Z.sqrt_up_spec _ pos.
 by [].
 Qed.
+
+Lemma root_up_bound x : (0 <= x)%Z -> (0 <= root_up x)%Z /\ (x <= root_up x * root_up x)%Z.
+Proof.
+move=> x0; rewrite /root_up; case: ifP => [_|k0].
+  by split; [apply: Z.sqrt_up_nonneg | apply: sqrt_up_bound].
+set unit := (2 ^ _)%Z; have unit0 : (0 < unit)%Z.
+  by apply: Z.pow_pos_nonneg; move: k0 => /Z.leb_gt; clear; lia.
+have square0 : (0 < unit * unit)%Z by move: unit0; clear; nia.
+have lead := Z.mul_succ_div_gt x (unit * unit) square0.
+have div0 : (0 <= x / (unit * unit))%Z by apply: Z.div_pos.
+set q := (x / (unit * unit))%Z in lead div0 *; set s := Z.sqrt_up (q + 1).
+have s0 : (0 <= s)%Z := Z.sqrt_up_nonneg _.
+have root : (q + 1 <= s * s)%Z by apply: sqrt_up_bound; move: div0; clear; lia.
+split; first by apply: Z.mul_nonneg_nonneg => //; apply: Z.lt_le_incl.
+have : (unit * unit * (q + 1) <= unit * unit * (s * s))%Z.
+  by apply: Z.mul_le_mono_nonneg_l => //; apply: Z.lt_le_incl.
+by move: lead; rewrite -Z.add_1_r; move: (unit) (q) (s); clear; nia.
+Qed.
+
+Lemma norm2_bound x : (0 <= norm2 x)%Z /\ (squares x <= norm2 x * norm2 x)%Z.
+Proof. exact/root_up_bound/squares_nonneg. Qed.
 
 Lemma column_norm n (M : matrix) j : (size M <= n)%N ->
   norm_le (iota 0 n) (fun k => toR (entry M k j)) (toR (norm2 (column_of M j)) : R).

@@ -808,8 +808,7 @@ let without_anchors pencil slip_list free_factor slip_factor tail =
     numbers = [] }
 
 (* What expansions about anchors may cost.  The ten anchors of the block, with six matrices of 786 x
-   17 entries each, count 111 million.  The kernel's square roots take the cube of the length: the anchors
-   of the block, for both parts of mceip-critical/1, count 2^35. *)
+   17 entries each, count 111 million.  The kernel's square roots take the square of the length. *)
 let limit_anchors nf ns anchors =
   if nf > 2_000 then Problem.not_verified "more than 2,000 free variables that depend on the value";
   let work, roots = List.fold_left (fun (work, roots) (a : anchor) ->
@@ -821,8 +820,8 @@ let limit_anchors nf ns anchors =
       if center > 2_048 then Problem.not_verified "a center of more than 2,048 bits";
       let length = 64 + exponent + center in
       work + matrices * matrices * nf * ns * ns * (1 + exponent / 256),
-      roots + matrices * ns * length * length * length) (0, 0) anchors in
-  if work > 400_000_000 || roots > 1 lsl 37 then
+      roots + matrices * ns * length * length) (0, 0) anchors in
+  if work > 400_000_000 || roots > 1 lsl 33 then
     Problem.not_verified "anchors beyond the limits of this program"
 
 let with_anchors (pencil : Kernel.pencil) slip_list free_factor slip_factor claims

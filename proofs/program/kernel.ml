@@ -227,6 +227,30 @@ module Coq_Pos =
 
   let rec mul = Big_int_Z.mult_big_int
 
+  (** val iter : ('a1 -> 'a1) -> 'a1 -> Big_int_Z.big_int -> 'a1 **)
+
+  let rec iter f x n =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun n' -> f (iter f (iter f x n') n'))
+      (fun n' -> iter f (iter f x n') n')
+      (fun _ -> f x)
+      n
+
+  (** val size : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let rec size p =
+    (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+      (fun p0 -> succ (size p0))
+      (fun p0 -> succ (size p0))
+      (fun _ -> Big_int_Z.unit_big_int)
+      p
+
   (** val compare_cont :
       comparison -> Big_int_Z.big_int -> Big_int_Z.big_int -> comparison **)
 
@@ -456,6 +480,24 @@ module Z =
 
   let mul = Big_int_Z.mult_big_int
 
+  (** val pow_pos :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let pow_pos z0 =
+    Coq_Pos.iter (mul z0) Big_int_Z.unit_big_int
+
+  (** val pow :
+      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let pow x y =
+    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
+  if s = 0 then fO () else if s > 0 then fp z
+  else fn (Big_int_Z.minus_big_int z))
+      (fun _ -> Big_int_Z.unit_big_int)
+      (fun p -> pow_pos x p)
+      (fun _ -> Big_int_Z.zero_big_int)
+      y
+
   (** val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison **)
 
   let compare = (fun x y -> let s = Big_int_Z.compare_big_int x y in
@@ -541,6 +583,25 @@ module Z =
   | 0 -> zero_big_int
   | 1 -> div_big_int x y
   | _ -> add_int_big_int (-1) (div_big_int (add_int_big_int (-1) x) y))
+
+  (** val log2 : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+  let log2 z0 =
+    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
+  if s = 0 then fO () else if s > 0 then fp z
+  else fn (Big_int_Z.minus_big_int z))
+      (fun _ -> Big_int_Z.zero_big_int)
+      (fun p0 ->
+      (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+        (fun p -> (Coq_Pos.size p))
+        (fun p -> (Coq_Pos.size p))
+        (fun _ -> Big_int_Z.zero_big_int)
+        p0)
+      (fun _ -> Big_int_Z.zero_big_int)
+      z0
 
   (** val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int **)
 
@@ -814,12 +875,12 @@ let subn =
 let leq m n =
   eq_op nat_eqType (Obj.magic subn m n) (Obj.magic 0)
 
-(** val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1 **)
+(** val iter0 : int -> ('a1 -> 'a1) -> 'a1 -> 'a1 **)
 
-let rec iter n f x =
+let rec iter0 n f x =
   (fun zero next n -> if n = 0 then zero () else next (Natural.before n))
     (fun _ -> x)
-    (fun i -> f (iter i f x))
+    (fun i -> f (iter0 i f x))
     n
 
 (** val muln_rec : int -> int -> int **)
@@ -840,16 +901,16 @@ let rec odd n =
     (fun n' -> negb (odd n'))
     n
 
-(** val size : 'a1 list -> int **)
+(** val size0 : 'a1 list -> int **)
 
-let rec size = function
+let rec size0 = function
 | [] -> 0
-| _ :: s' -> Natural.succ (size s')
+| _ :: s' -> Natural.succ (size0 s')
 
 (** val nilp : 'a1 list -> bool **)
 
 let nilp s =
-  eq_op nat_eqType (Obj.magic size s) (Obj.magic 0)
+  eq_op nat_eqType (Obj.magic size0 s) (Obj.magic 0)
 
 (** val head : 'a1 -> 'a1 list -> 'a1 **)
 
@@ -866,7 +927,7 @@ let behead = function
 (** val ncons : int -> 'a1 -> 'a1 list -> 'a1 list **)
 
 let ncons n x =
-  iter n (fun x0 -> x :: x0)
+  iter0 n (fun x0 -> x :: x0)
 
 (** val nseq : int -> 'a1 -> 'a1 list **)
 
@@ -1363,8 +1424,8 @@ let symmetric_part p negative0 e i j =
 let definite_end p negative0 strict e r f =
   (&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
     ((&&)
-      (eq_op nat_eqType (Obj.magic size f.factor_rows)
-        (Obj.magic size (active p r)))
+      (eq_op nat_eqType (Obj.magic size0 f.factor_rows)
+        (Obj.magic size0 (active p r)))
       (covered (symmetric_part p negative0 e) (weighted_dot f.weights) strict
         (zip (active p r) f.factor_rows)))
 
@@ -1914,7 +1975,7 @@ let check_leaf p solutions check_whole0 check_limit0 r = function
 | Root (h, c, o) -> (&&) (reaches r h) (check_root p (extended r h) c o)
 | Claimed (h, c, n) ->
   (&&) (reaches r h)
-    ((&&) (leq (Natural.succ n) (size solutions))
+    ((&&) (leq (Natural.succ n) (size0 solutions))
       (check_claimed p (extended r h) c (known_at solutions n)))
 | Infinite (h, c, x) ->
   (&&) (reaches r h)
@@ -2089,8 +2150,8 @@ let bounded_rows n rows b =
   (&&) (Z.ltb Big_int_Z.zero_big_int b.bound_times)
     ((&&) (Z.leb Big_int_Z.zero_big_int b.bound_at)
       ((&&) (Z.leb Big_int_Z.zero_big_int b.gram_times)
-        ((&&) (eq_op nat_eqType (Obj.magic size rows) n)
-          ((&&) (eq_op nat_eqType (Obj.magic size b.gram_rows) n)
+        ((&&) (eq_op nat_eqType (Obj.magic size0 rows) n)
+          ((&&) (eq_op nat_eqType (Obj.magic size0 b.gram_rows) n)
             ((&&) (symmetric_rows_sparse rows)
               (all_from
                 (row_bounded b.bound_times b.bound_at b.gram_times
@@ -2208,7 +2269,7 @@ let shapes d w =
         Z.ltb Big_int_Z.zero_big_int
           (nth Big_int_Z.zero_big_int w.row_scale i)) (iota 0 d.slip_count))
       (all (fun i ->
-        all (fun m -> leq (size (row_of m i)) d.free_count)
+        all (fun m -> leq (size0 (row_of m i)) d.free_count)
           (d.fs :: (d.sf_a :: (d.sf_b :: (w.right_w :: (w.left_va :: (w.left_vb :: [])))))))
         (iota 0 d.slip_count)))
 
@@ -2274,7 +2335,7 @@ let restrict place0 row =
 
 let blocks_by q place0 columns0 =
   let lookups = fun row l -> map0 (fun j -> lookup row j) l in
-  { free_count = (size q.free); slip_count = (size columns0); ff =
+  { free_count = (size0 q.free); slip_count = (size0 columns0); ff =
   (map0 (fun i -> restrict place0 (row_a q i)) q.free); fs =
   (map0 (fun j -> map0 (fun i -> lookup (row_a q i) j) q.free) columns0);
   sf_a = (map0 (fun i -> lookups (row_a q i) q.free) columns0); sf_b =
@@ -2312,7 +2373,7 @@ let may_move q r =
   cat q.free
     (map0 (fun j -> nth 0 columns0 j)
       (filter (fun j -> negb (is_resting (state_of r j)))
-        (iota 0 (size columns0))))
+        (iota 0 (size0 columns0))))
 
 (** val members :
     pencil -> Big_int_Z.big_int list -> region -> member list **)
@@ -2347,15 +2408,15 @@ let check_end q weight strict negative0 e r w =
      | Dense (weights0, rows) ->
        (&&) (all (fun u -> Z.leb Big_int_Z.zero_big_int u) weights0)
          ((&&)
-           (eq_op nat_eqType (Obj.magic size rows)
-             (Obj.magic size (members q weight r)))
+           (eq_op nat_eqType (Obj.magic size0 rows)
+             (Obj.magic size0 (members q weight r)))
            (covered (member_form negative0 w.end_scale e)
              (weighted_dot weights0) strict (zip (members q weight r) rows)))
      | Late (m, rows) ->
        (&&) (Z.leb Big_int_Z.zero_big_int m)
          ((&&)
-           (eq_op nat_eqType (Obj.magic size rows)
-             (Obj.magic size (members q weight r)))
+           (eq_op nat_eqType (Obj.magic size0 rows)
+             (Obj.magic size0 (members q weight r)))
            (covered (member_form negative0 w.end_scale e) (fun a b ->
              Z.mul m (late_dot a b)) strict (zip (members q weight r) rows))))
 
@@ -2931,7 +2992,7 @@ let check_limit q r k x =
   let at_slip = fun j -> nth Big_int_Z.zero_big_int x (nth 0 (slip q) j) in
   (&&) (columns_in_order q)
     ((&&) (negb (Z.eqb (at_slip k) Big_int_Z.zero_big_int))
-      ((&&) (leq (Natural.succ k) (size (slip q)))
+      ((&&) (leq (Natural.succ k) (size0 (slip q)))
         ((&&)
           (all (fun i ->
             Z.eqb (sparse_dot (row_a q i) x) Big_int_Z.zero_big_int) q.free)
@@ -2940,7 +3001,7 @@ let check_limit q r k x =
             then Z.eqb (sparse_dot (row_b q (nth 0 (slip q) j)) x)
                    Big_int_Z.zero_big_int
             else Z.eqb (at_slip j) Big_int_Z.zero_big_int)
-            (iota 0 (size (slip q)))))))
+            (iota 0 (size0 (slip q)))))))
 
 (** val check_blocks :
     pencil -> solution_claim list -> elimination -> whole leaf tree -> point
@@ -2966,7 +3027,7 @@ let check_complete q claims w tr lo hi =
     yield list **)
 
 let found q claims tr lo hi =
-  yields (enclosed_order (size (slip q))) (known_solutions q claims) tr
+  yields (enclosed_order (size0 (slip q))) (known_solutions q claims) tr
     (window lo hi)
 
 (** val left_open : whole leaf tree -> point -> point -> region list **)
@@ -2979,7 +3040,7 @@ let left_open tr lo hi =
     yield list option **)
 
 let solutions_found q claims tr lo hi =
-  distinct_yields (size (slip q)) lo hi (found q claims tr lo hi)
+  distinct_yields (size0 (slip q)) lo hi (found q claims tr lo hi)
 
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
@@ -2998,7 +3059,7 @@ type unknown =
 (** val free_number : system -> int **)
 
 let free_number s =
-  size s.free_dofs
+  size0 s.free_dofs
 
 (** val first_dofs : system -> int list **)
 
@@ -3130,7 +3191,7 @@ let slip_row_b s u table0 p =
     system -> unknown -> (int * Big_int_Z.big_int) option list -> pencil **)
 
 let pencil_by s u table0 =
-  { order = (addn (free_number s) (size s.particles)); rows_a =
+  { order = (addn (free_number s) (size0 s.particles)); rows_a =
     (cat (map0 (fun d -> columns table0 (k_row s d)) s.free_dofs)
       (map0 (fun p -> slip_row_a s u table0 p) s.particles)); rows_b =
     (cat (map0 (fun d -> free_row_b s u table0 d) s.free_dofs)
@@ -3320,7 +3381,7 @@ let particle_states s u l j =
 let slip_variables s =
   all (fun i ->
     (&&) (leq (free_number s) i)
-      (leq (Natural.succ i) (addn (free_number s) (size s.particles))))
+      (leq (Natural.succ i) (addn (free_number s) (size0 s.particles))))
 
 (** val check_lifted : system -> unknown -> lifted -> bool **)
 
@@ -3338,8 +3399,9 @@ let check_lifted s u l =
                   (in_mem (Obj.magic d)
                     (mem (seq_predType nat_eqType) (Obj.magic moving_dofs s)))
                   (at_rest l d)) (iota 0 s.dofs))
-              ((&&) (all (particle_states s u l) (iota 0 (size s.particles)))
-                ((||) (has (in_support s l) (iota 0 (size s.particles)))
+              ((&&)
+                (all (particle_states s u l) (iota 0 (size0 s.particles)))
+                ((||) (has (in_support s l) (iota 0 (size0 s.particles)))
                   (has (dof_moves l) s.free_dofs))))))))
 
 type zero_system = { without_zero : system;
@@ -3374,7 +3436,7 @@ let moving_with_zero z0 =
 (** val gap : zero_system -> int -> int **)
 
 let gap z0 j =
-  addn (addn (free_number z0.without_zero) (size z0.without_zero.particles))
+  addn (addn (free_number z0.without_zero) (size0 z0.without_zero.particles))
     (muln (Natural.succ (Natural.succ (Natural.succ 0))) j)
 
 (** val right : zero_system -> int -> int **)
@@ -3501,9 +3563,9 @@ let zero_variables z0 =
       (leq (Natural.succ i)
         (addn
           (addn (free_number z0.without_zero)
-            (size z0.without_zero.particles))
+            (size0 z0.without_zero.particles))
           (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-            (size z0.zero_particles)))))
+            (size0 z0.zero_particles)))))
 
 (** val check_zero : zero_system -> unknown -> zero_claim -> bool **)
 
@@ -3527,12 +3589,13 @@ let check_zero z0 u c =
                   (at_rest c.lifted_part d)) (iota 0 z0.without_zero.dofs))
               ((&&)
                 (all (particle_states z0.without_zero u c.lifted_part)
-                  (iota 0 (size z0.without_zero.particles)))
+                  (iota 0 (size0 z0.without_zero.particles)))
                 ((&&)
-                  (all (zero_states z0 u c) (iota 0 (size z0.zero_particles)))
+                  (all (zero_states z0 u c)
+                    (iota 0 (size0 z0.zero_particles)))
                   ((||)
                     (has (in_support z0.without_zero c.lifted_part)
-                      (iota 0 (size z0.without_zero.particles)))
+                      (iota 0 (size0 z0.without_zero.particles)))
                     (has (dof_moves c.lifted_part)
                       (iota 0 z0.without_zero.dofs))))))))))
 
@@ -3642,11 +3705,11 @@ let all_equations z0 u support0 =
     (cat
       (flatten
         (map0 (fun j -> slip_equations z0 support0 j)
-          (iota 0 (size z0.without_zero.particles))))
+          (iota 0 (size0 z0.without_zero.particles))))
       (cat
         (flatten
           (map0 (fun j -> zero_equations z0 u support0 j)
-            (iota 0 (size z0.zero_particles))))
+            (iota 0 (size0 z0.zero_particles))))
         (map0 (fun d -> (((d, Big_int_Z.unit_big_int) :: []), []))
           (filter (fun d ->
             negb
@@ -3691,7 +3754,7 @@ let zero_inequalities z0 u support0 j =
 let all_inequalities z0 u support0 =
   flatten
     (map0 (fun j -> zero_inequalities z0 u support0 j)
-      (iota 0 (size z0.zero_particles)))
+      (iota 0 (size0 z0.zero_particles)))
 
 (** val all_forms : zero_system -> unknown -> int list -> form list **)
 
@@ -3699,13 +3762,13 @@ let all_forms z0 u support0 =
   cat (all_equations z0 u support0)
     (cat
       (map0 (fun j -> slip_line z0 u j)
-        (iota 0 (size z0.without_zero.particles)))
+        (iota 0 (size0 z0.without_zero.particles)))
       (all_inequalities z0 u support0))
 
 (** val pencil_of_forms : zero_system -> form list -> pencil **)
 
 let pencil_of_forms z0 forms =
-  { order = (size forms); rows_a = (map0 fst forms); rows_b =
+  { order = (size0 forms); rows_a = (map0 fst forms); rows_b =
     (map0 snd forms); free = (iota 0 z0.without_zero.dofs) }
 
 (** val support_pencil : zero_system -> unknown -> int list -> pencil **)
@@ -3718,7 +3781,7 @@ let support_pencil z0 u support0 =
 let slipping_variables z0 support0 =
   map0 (fun j -> addn z0.without_zero.dofs j)
     (filter (fun j -> slides z0 support0 j)
-      (iota 0 (size z0.without_zero.particles)))
+      (iota 0 (size0 z0.without_zero.particles)))
 
 (** val one_half : zero_system -> int list -> int -> bool **)
 
@@ -3745,9 +3808,9 @@ let one_half z0 support0 j =
 let check_zero_enclosed z0 u support0 c =
   (&&) (zero_wellformed z0 u)
     ((&&) (zero_variables z0 support0)
-      ((&&) (all (one_half z0 support0) (iota 0 (size z0.zero_particles)))
+      ((&&) (all (one_half z0 support0) (iota 0 (size0 z0.zero_particles)))
         ((&&)
-          (eq_op nat_eqType (Obj.magic size (all_equations z0 u support0))
+          (eq_op nat_eqType (Obj.magic size0 (all_equations z0 u support0))
             (Obj.magic z0.without_zero.dofs))
           ((&&)
             (eq_op (seq_eqType nat_eqType) (Obj.magic c.box_support)
@@ -3784,7 +3847,7 @@ let bound_wellformed = function
 (** val row_wellformed : mcp -> mcp_row -> bool **)
 
 let row_wellformed p r =
-  (&&) (all (fun e -> leq (Natural.succ (fst e)) (size p)) r.row_m)
+  (&&) (all (fun e -> leq (Natural.succ (fst e)) (size0 p)) r.row_m)
     ((&&) (bound_wellformed r.lower_bound) (bound_wellformed r.upper_bound))
 
 (** val coordinate : mcp_point -> int -> Big_int_Z.big_int **)
@@ -3837,8 +3900,8 @@ let row_holds p z0 i =
 let check_point p z0 =
   (&&) (Z.ltb Big_int_Z.zero_big_int z0.denominator)
     ((&&)
-      (eq_op nat_eqType (Obj.magic size z0.numerators) (Obj.magic size p))
-      (all (row_holds p z0) (iota 0 (size p))))
+      (eq_op nat_eqType (Obj.magic size0 z0.numerators) (Obj.magic size0 p))
+      (all (row_holds p z0) (iota 0 (size0 p))))
 
 (** val mcp_wellformed : mcp -> bool **)
 
@@ -3946,7 +4009,7 @@ let reduces_by p g w =
 (** val power_poly : polynomial -> int -> polynomial **)
 
 let power_poly p i =
-  iter i (mul_poly p) (Big_int_Z.unit_big_int :: [])
+  iter0 i (mul_poly p) (Big_int_Z.unit_big_int :: [])
 
 (** val factors : polynomial -> polynomial -> near -> bool **)
 
@@ -4427,7 +4490,7 @@ let pairs =
     pencil -> region list -> support_leaf option list -> bool **)
 
 let check_supports q rs ls =
-  (&&) (eq_op nat_eqType (Obj.magic size rs) (Obj.magic size ls))
+  (&&) (eq_op nat_eqType (Obj.magic size0 rs) (Obj.magic size0 ls))
     (all (fun rl ->
       match snd rl with
       | Some l ->
@@ -4494,9 +4557,9 @@ let all_yields q claims tr lo hi ls =
     support_leaf option list -> yield list option **)
 
 let all_solutions q claims tr lo hi ls =
-  distinct_yields (size (slip q)) lo hi
+  distinct_yields (size0 (slip q)) lo hi
     (filter (fun y ->
-      negb (has (belongs (size (slip q)) y) (families tr lo hi ls)))
+      negb (has (belongs (size0 (slip q)) y) (families tr lo hi ls)))
       (all_yields q claims tr lo hi ls))
 
 (** val still_open :
@@ -4591,10 +4654,30 @@ let cross_series n x y =
 let squares x =
   foldr (fun a s -> Z.add (Z.mul a a) s) Big_int_Z.zero_big_int x
 
+(** val root_up : Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+let root_up x =
+  let k =
+    Z.sub
+      (Z.div (Z.log2 x) (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))
+      (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+      (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+      (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+      Big_int_Z.unit_big_int))))))
+  in
+  if Z.leb k Big_int_Z.zero_big_int
+  then Z.sqrt_up x
+  else let unit0 =
+         Z.pow (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) k
+       in
+       Z.mul
+         (Z.sqrt_up
+           (Z.add (Z.div x (Z.mul unit0 unit0)) Big_int_Z.unit_big_int)) unit0
+
 (** val norm2 : Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let norm2 x =
-  Z.sqrt_up (squares x)
+  root_up (squares x)
 
 (** val norms0 : matrix list -> int -> polynomial **)
 
@@ -4739,9 +4822,9 @@ let center_series q a r =
     (scale_series (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
       (add_series
         (scale_series u
-          (cross_series (size (slip q))
+          (cross_series (size0 (slip q))
             ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
-            a.anchor_right)) (cross_series (size (slip q)) a.anchor_left r)))
+            a.anchor_right)) (cross_series (size0 (slip q)) a.anchor_left r)))
 
 (** val row_sum : sparse_row -> Big_int_Z.big_int **)
 
@@ -4754,14 +4837,14 @@ let row_sum row =
 
 let expand_from q a f1 l r =
   { series_z = (center_series q a r); left_norms =
-    (map0 (fun i -> norms0 l i) (iota 0 (size (slip q)))); right_norms =
-    (map0 (fun j -> norms0 r j) (iota 0 (size (slip q)))); drift =
+    (map0 (fun i -> norms0 l i) (iota 0 (size0 (slip q)))); right_norms =
+    (map0 (fun j -> norms0 r j) (iota 0 (size0 (slip q)))); drift =
     (foldr Z.max Big_int_Z.zero_big_int (map0 row_sum f1)) }
 
 (** val small : pencil -> matrix list -> bool **)
 
 let small q l =
-  all (fun m -> leq (size m) (size q.free)) l
+  all (fun m -> leq (size0 m) (size0 q.free)) l
 
 (** val expand : pencil -> anchor -> anchor_family option **)
 
@@ -4784,7 +4867,7 @@ let expand q a =
            (all (fun i ->
              Z.ltb Big_int_Z.zero_big_int
                (nth Big_int_Z.zero_big_int a.anchor_scale i))
-             (iota 0 (size (slip q))))
+             (iota 0 (size0 (slip q))))
            ((&&) (small q a.anchor_left) ((&&) (small q l) (small q r)))))
   then Some (expand_from q a f1 l r)
   else None
@@ -5112,7 +5195,7 @@ let check_direction q r k x =
           then Z.eqb (sparse_dot (row_b q (nth 0 (slip q) j)) x)
                  Big_int_Z.zero_big_int
           else Z.eqb (at_slip j) Big_int_Z.zero_big_int)
-          (iota 0 (size (slip q))))))
+          (iota 0 (size0 (slip q))))))
 
 (** val at_anchor :
     anchoring -> anchor_family option list -> int -> region -> (bool ->
@@ -5135,8 +5218,8 @@ let at_anchor w families0 n r check =
 
 let leaf_at q grain e reverse a low_a low_b fam r =
   (&&) ((||) (negb reverse) (finite_root e))
-    (check_anchored (size (slip q)) a low_a low_b fam r.lower r.upper r grain
-      (if reverse then swap_leaf e else e))
+    (check_anchored (size0 (slip q)) a low_a low_b fam r.lower r.upper r
+      grain (if reverse then swap_leaf e else e))
 
 (** val claim_at :
     pencil -> Big_int_Z.big_int -> pinning -> known -> bool -> anchor ->
@@ -5145,8 +5228,8 @@ let leaf_at q grain e reverse a low_a low_b fam r =
 let claim_at q grain c q0 reverse a low_a low_b fam r =
   (&&)
     ((||) (negb reverse) (Z.ltb Big_int_Z.zero_big_int (fst q0.known_from)))
-    (check_anchored_claim (size (slip q)) a low_a low_b fam r.lower r.upper r
-      grain c (if reverse then swap_known q0 else q0))
+    (check_anchored_claim (size0 (slip q)) a low_a low_b fam r.lower r.upper
+      r grain c (if reverse then swap_known q0 else q0))
 
 (** val limit_at :
     pencil -> Big_int_Z.big_int -> pinning -> Big_int_Z.big_int list -> bool
@@ -5156,7 +5239,7 @@ let limit_at q grain c x reverse a low_a low_b fam r =
   (&&) reverse
     ((&&) (Z.eqb (fst r.lower) Big_int_Z.zero_big_int)
       ((&&) (check_direction q r c.pin_pivot x)
-        (check_anchored_limit (size (slip q)) a low_a low_b fam r.lower
+        (check_anchored_limit (size0 (slip q)) a low_a low_b fam r.lower
           r.upper r grain c)))
 
 (** val check_varying_leaf :
@@ -5169,7 +5252,7 @@ let check_varying_leaf q w families0 solutions r = function
     (at_anchor w families0 n (extended r h) (leaf_at q grain e))
 | OfClaim (n, grain, h, c, k) ->
   (&&) (reaches r h)
-    ((&&) (leq (Natural.succ k) (size solutions))
+    ((&&) (leq (Natural.succ k) (size0 solutions))
       (at_anchor w families0 n (extended r h)
         (claim_at q grain c (known_at solutions k))))
 | OfLimit (n, grain, h, c, x) ->
@@ -5182,9 +5265,10 @@ let check_varying_leaf q w families0 solutions r = function
 
 let bounds_hold q w =
   (&&)
-    (bounded_rows (Obj.magic size q.free) (ff_block q (row_a q))
+    (bounded_rows (Obj.magic size0 q.free) (ff_block q (row_a q))
       w.stiffness_bound)
-    (bounded_rows (Obj.magic size q.free) (ff_block q (row_b q)) w.mass_bound)
+    (bounded_rows (Obj.magic size0 q.free) (ff_block q (row_b q))
+      w.mass_bound)
 
 (** val check_varying :
     pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point
@@ -5196,13 +5280,13 @@ let check_varying q claims w tr lo hi =
   (&&) (wellformed q)
     ((&&) ((||) (nilp w.anchors) (bounds_hold q w))
       ((&&) (all (check_solution_claim q) claims)
-        (check_tree (size (slip q))
+        (check_tree (size0 (slip q))
           (check_varying_leaf q w families0 solutions) tr (window lo hi))))
 
 (** val claim_yield : pencil -> region -> known -> yield option **)
 
 let claim_yield q r q0 =
-  if supports_region (enclosed_order (size (slip q))) r q0
+  if supports_region (enclosed_order (size0 (slip q))) r q0
   then Some { yield_region = r; yield_from = q0.known_from; yield_to =
          q0.known_to }
   else None
@@ -5259,9 +5343,9 @@ let varying_still_open tr lo hi ls =
     support_leaf option list -> yield list option **)
 
 let varying_solutions q claims tr lo hi ls =
-  distinct_yields (size (slip q)) lo hi
+  distinct_yields (size0 (slip q)) lo hi
     (filter (fun y ->
-      negb (has (belongs (size (slip q)) y) (varying_families tr lo hi ls)))
+      negb (has (belongs (size0 (slip q)) y) (varying_families tr lo hi ls)))
       (cat (varying_found q claims tr lo hi)
         (isolated_of (varying_open tr lo hi) ls)))
 
@@ -5473,14 +5557,14 @@ let corner_radius p p' r l c =
     enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
 
 let rows_at p p' r l w c =
-  regular_rows (pred (size l)) w (corner_center p p' r l c)
+  regular_rows (pred (size0 l)) w (corner_center p p' r l c)
     (corner_radius p p' r l c) (nth Big_int_Z.zero_big_int w.regular_units c)
 
 (** val sign_at0 :
     enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
 
 let sign_at0 p p' r l w c =
-  regular_sign (pred (size l)) w (corner_center p p' r l c)
+  regular_sign (pred (size0 l)) w (corner_center p p' r l c)
     (corner_radius p p' r l c)
 
 (** val four_corners : int list **)
@@ -5591,7 +5675,7 @@ let variable_forms z0 u =
     (cat
       (map0 (fun p -> negative (cone_form z0 u p)) z0.without_zero.particles)
       (flatten
-        (map0 (fun j -> zero_forms z0 u j) (iota 0 (size z0.zero_particles)))))
+        (map0 (fun j -> zero_forms z0 u j) (iota 0 (size0 z0.zero_particles)))))
 
 (** val pencil_by_table :
     zero_system -> unknown -> sparse_row list -> pencil **)
@@ -5599,9 +5683,9 @@ let variable_forms z0 u =
 let pencil_by_table z0 u table0 =
   { order =
     (addn
-      (addn (free_number z0.without_zero) (size z0.without_zero.particles))
+      (addn (free_number z0.without_zero) (size0 z0.without_zero.particles))
       (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-        (size z0.zero_particles))); rows_a =
+        (size0 z0.zero_particles))); rows_a =
     (map0 (fun f -> zero_row table0 (fst f)) (variable_forms z0 u)); rows_b =
     (map0 (fun f -> zero_row table0 (snd f)) (variable_forms z0 u)); free =
     (iota 0 (free_number z0.without_zero)) }
@@ -5624,9 +5708,9 @@ let part_friction z0 =
 (** val slip_number : zero_system -> int **)
 
 let slip_number z0 =
-  addn (size z0.without_zero.particles)
+  addn (size0 z0.without_zero.particles)
     (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-      (size z0.zero_particles))
+      (size0 z0.zero_particles))
 
 (** val half_state : zero_system -> region -> int -> state **)
 
@@ -5639,7 +5723,7 @@ let halves_apart z0 r =
   all (fun j ->
     (||) (is_resting (half_state z0 r (right z0 j)))
       (is_resting (half_state z0 r (left z0 j))))
-    (iota 0 (size z0.zero_particles))
+    (iota 0 (size0 z0.zero_particles))
 
 (** val both_halves : zero_system -> region -> bool **)
 
@@ -5647,7 +5731,7 @@ let both_halves z0 r =
   has (fun j ->
     (&&) (is_moving (half_state z0 r (right z0 j)))
       (is_moving (half_state z0 r (left z0 j))))
-    (iota 0 (size z0.zero_particles))
+    (iota 0 (size0 z0.zero_particles))
 
 type critical_leaf =
 | BoxFarkas of Big_int_Z.big_int list
@@ -5694,7 +5778,7 @@ let same_weights z0 a b =
       Z.eqb (nth Big_int_Z.unit_big_int a.whole_weights i)
         (nth Big_int_Z.unit_big_int b.whole_weights i))
       (iota (free_number (freed z0).without_zero)
-        (size z0.without_zero.particles)))
+        (size0 z0.without_zero.particles)))
 
 (** val freed_weight :
     zero_system -> whole -> Equality.sort -> Big_int_Z.big_int **)
@@ -5840,8 +5924,8 @@ let check_about z0 low_a low_b b fams grain r low high tr =
   (&&) (proper_interval a low_a low_b r.lower r.upper)
     ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
       ((&&)
-        (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
-          (Obj.magic size (snd fams).series_z))
+        (eq_op nat_eqType (Obj.magic size0 (fst fams).series_z)
+          (Obj.magic size0 (snd fams).series_z))
         (check_boxes (slip_number z0)
           (check_local_leaf (both_halves z0)
             (local_part z0 low_a low_b a (fst fams) r.lower r.upper grain)
@@ -5884,16 +5968,16 @@ let check_anchored_box z0 w families0 r low high = function
 
 let both_bounded z0 w =
   (&&)
-    (bounded_rows (Obj.magic size (part_plain z0).free)
+    (bounded_rows (Obj.magic size0 (part_plain z0).free)
       (ff_block (part_plain z0) (row_a (part_plain z0))) w.stiffness_below)
     ((&&)
-      (bounded_rows (Obj.magic size (part_plain z0).free)
+      (bounded_rows (Obj.magic size0 (part_plain z0).free)
         (ff_block (part_plain z0) (row_b (part_plain z0))) w.mass_below)
       ((&&)
-        (bounded_rows (Obj.magic size (part_friction z0).free)
+        (bounded_rows (Obj.magic size0 (part_friction z0).free)
           (ff_block (part_friction z0) (row_a (part_friction z0)))
           w.stiffness_below)
-        (bounded_rows (Obj.magic size (part_friction z0).free)
+        (bounded_rows (Obj.magic size0 (part_friction z0).free)
           (ff_block (part_friction z0) (row_b (part_friction z0)))
           w.mass_below)))
 
@@ -5925,8 +6009,8 @@ let rest_row p p' r k v i c =
     map0 (fun j -> radius (corner_pencil p p' c) (corner_end r c) i j)
       (regular_order p r (Obj.magic k))
   in
-  Z.leb (row_slack (pred (size (regular_order p r (Obj.magic k)))) v p0 q)
-    (against_right (pred (size (regular_order p r (Obj.magic k)))) v p0)
+  Z.leb (row_slack (pred (size0 (regular_order p r (Obj.magic k)))) v p0 q)
+    (against_right (pred (size0 (regular_order p r (Obj.magic k)))) v p0)
 
 (** val positive_vector : regular -> bool **)
 
@@ -5955,7 +6039,7 @@ let presence_inside p p' r k v =
       (all (fun j ->
         Z.ltb (nth Big_int_Z.zero_big_int v.regular_widths j)
           (nth Big_int_Z.zero_big_int v.regular_right (Natural.succ j)))
-        (iota 0 (pred (size (regular_order p r (Obj.magic k))))))
+        (iota 0 (pred (size0 (regular_order p r (Obj.magic k))))))
       (all (fun i ->
         (||) (is_moving (state_of r i))
           (all (rest_row p p' r k v i) four_corners)) (indices p)))
@@ -6016,8 +6100,8 @@ let check_present z0 low_a low_b b fams grain r low high after before v =
     ((&&) ((&&) (proper r.lower after) (proper before r.upper))
       ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
         ((&&)
-          (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
-            (Obj.magic size (snd fams).series_z))
+          (eq_op nat_eqType (Obj.magic size0 (fst fams).series_z)
+            (Obj.magic size0 (snd fams).series_z))
           (check_presence_piece (over r.lower r.upper) (over r.lower after)
             (over before r.upper) (local_region r) v))))
 
@@ -6113,7 +6197,7 @@ let check_pinned z0 u alone r b =
     ((&&) (reaches r b.box_interval)
       ((&&) (alone r' b)
         ((&&)
-          (supports_region (enclosed_order (size (slip (zero_pencil z0 u))))
+          (supports_region (enclosed_order (size0 (slip (zero_pencil z0 u))))
             r' (known_box z0 u b))
           (check_zero_enclosed z0 u b.box_names b.box_claim))))
 
@@ -6135,7 +6219,7 @@ let not_pinned rs bs =
     (region -> pinned_box -> bool) -> bool **)
 
 let check_beside z0 u rs bs alone =
-  (&&) (eq_op nat_eqType (Obj.magic size rs) (Obj.magic size bs))
+  (&&) (eq_op nat_eqType (Obj.magic size0 rs) (Obj.magic size0 bs))
     (all (fun rb ->
       match snd rb with
       | Some b -> check_pinned z0 u alone (fst rb) b
@@ -6148,10 +6232,10 @@ let check_beside z0 u rs bs alone =
 let zero_distinct z0 u lo hi yields0 rs ls =
   let families0 = families_of rs ls in
   if all (halves_apart z0) (map0 fst families0)
-  then (match distinct_yields (size (slip (zero_pencil z0 u))) lo hi
+  then (match distinct_yields (size0 (slip (zero_pencil z0 u))) lo hi
                 (filter (fun y ->
                   negb
-                    (has (belongs (size (slip (zero_pencil z0 u))) y)
+                    (has (belongs (size0 (slip (zero_pencil z0 u))) y)
                       families0)) (cat yields0 (isolated_of rs ls))) with
         | Some ys ->
           if all (halves_apart z0) (map0 (fun y -> y.yield_region) ys)

@@ -57,6 +57,10 @@ module Coq_Pos :
 
   val mul : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
+  val iter : ('a1 -> 'a1) -> 'a1 -> Big_int_Z.big_int -> 'a1
+
+  val size : Big_int_Z.big_int -> Big_int_Z.big_int
+
   val compare_cont :
     comparison -> Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
 
@@ -98,6 +102,10 @@ module Z :
 
   val mul : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
+  val pow_pos : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val pow : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
   val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
 
   val leb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
@@ -119,6 +127,8 @@ module Z :
     Big_int_Z.big_int * Big_int_Z.big_int
 
   val div : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+  val log2 : Big_int_Z.big_int -> Big_int_Z.big_int
 
   val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int
 
@@ -240,7 +250,7 @@ val subn : int -> int -> int
 
 val leq : int -> int -> bool
 
-val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1
+val iter0 : int -> ('a1 -> 'a1) -> 'a1 -> 'a1
 
 val muln_rec : int -> int -> int
 
@@ -248,7 +258,7 @@ val muln : int -> int -> int
 
 val odd : int -> bool
 
-val size : 'a1 list -> int
+val size0 : 'a1 list -> int
 
 val nilp : 'a1 list -> bool
 
@@ -1469,6 +1479,8 @@ val cross : matrix -> matrix -> matrix
 val cross_series : int -> matrix list -> matrix list -> matrix list
 
 val squares : Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val root_up : Big_int_Z.big_int -> Big_int_Z.big_int
 
 val norm2 : Big_int_Z.big_int list -> Big_int_Z.big_int
 

@@ -66,9 +66,9 @@ let moving_of box =
   let numbered = List.mapi (fun j state -> j, state) box.region.Kernel.states in
   List.filter_map (fun (j, state) -> if state = Kernel.Moving then Some j else None) numbered
 
-(* The value of t on the branch at a friction, in doubles.  The local pencil of an interval is a line,
-   so the place that it gives holds only if the sign changes about it for the pencil there as well;
-   else a part of the interval is looked for in which the sign changes. *)
+(* The value of t on the branch at a friction, in doubles.  The local pencil of an interval is a
+   line, so the place that it gives holds only if the sign changes about it for the pencil there as
+   well; else a part of the interval is looked for in which the sign changes. *)
 let branch_at c v n order e (region : Kernel.region) =
   let reversed = (List.nth v.anchoring.Kernel.box_anchors n).reversed_anchor in
   let turn q = if reversed then Q.inv q else q in
