@@ -26,11 +26,12 @@ let common_scales (plain : Kernel.pencil) (friction : Kernel.pencil) slip factor
   row_scales { plain with Kernel.rows_a = both plain.rows_a friction.rows_a;
                           rows_b = both plain.rows_b friction.rows_b } slip factor
 
-(* Without free variables nothing is eliminated: the parts are the given pencils with rows scaled. *)
+(* Without free variables nothing is eliminated: the parts are the given pencils with rows scaled,
+   in a unit that leaves the rounding of factors small. *)
 let trivial_elimination plain friction slip factor =
   let none = List.map (fun _ -> []) slip in
-  { Kernel.row_scale = common_scales plain friction slip factor; unit_of = Z.one; right_w = none;
-    left_va = none; left_vb = none; bound_c = Z.one; bound_d = Z.one; factor_scale = Z.zero;
+  { Kernel.row_scale = common_scales plain friction slip factor; unit_of = two_to 56;
+    right_w = none; left_va = none; left_vb = none; bound_c = Z.one; bound_d = Z.one; factor_scale = Z.zero;
     stiffness_factor = [] }, (none, none)
 
 (* The pencil at a friction, z particles free, with the weights of its rows. *)
