@@ -35,7 +35,7 @@ Set Extraction AccessOpaque.
 Extraction "kernel.ml"
   check_zero check_zero_enclosed support_pencil slipping_variables
   sliding_poly pressure_poly right_poly left_poly
-  check_complete check_system check_claim check_system_claim
+  check_complete check_solution_claim check_system check_claim check_system_claim
   check_lifted check_enclosed_claim check_system_enclosed check_mcp
   reaction_poly found left_open solutions_found pencil_of blocks_of
   condensed slip zero infinity window check_leaf check_tree check_whole check_end

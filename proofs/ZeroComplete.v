@@ -11,6 +11,8 @@
    (Pinned.v): [pinned_box].  All other undecided regions have a support leaf or are open, as in
    Families.v.
 
+   A root leaf may refer to a claim about the pencil, as in Complete.v.
+
    Of the regions with a solution and of the families it is demanded that of right and left of each
    particle one is at rest ([halves_apart]).
 
@@ -111,18 +113,18 @@ Definition zero_open rs ls := [seq r <- open_of rs ls | ~~ both_halves z r].
 
 Section Constant.
 
-Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
+Variables (claims : seq solution_claim) (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
 Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
 
 Definition zero_undecided := not_pinned (left_open tr lo hi) bs.
 
 Definition check_zero_complete :=
-  [&& zero_wellformed z u, check_complete Q [::] w tr lo hi,
+  [&& zero_wellformed z u, check_complete Q claims w tr lo hi,
       check_beside (left_open tr lo hi) bs (pinned_alone (condensed (blocks_of Q) w)) &
       check_supports Q zero_undecided ls].
 
 Definition zero_solutions :=
-  zero_distinct lo hi (found Q [::] tr lo hi ++ pinned_yields (left_open tr lo hi) bs)
+  zero_distinct lo hi (found Q claims tr lo hi ++ pinned_yields (left_open tr lo hi) bs)
     zero_undecided ls.
 
 Definition zero_families := families_of zero_undecided ls.
@@ -132,19 +134,19 @@ End Constant.
 
 Section Varying.
 
-Variables (w : anchoring) (tr : tree varying_leaf) (lo hi : point).
+Variables (claims : seq solution_claim) (w : anchoring) (tr : tree varying_leaf) (lo hi : point).
 Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
 
 Notation undecided := (not_pinned (varying_open tr lo hi) bs).
 
 Definition check_zero_varying :=
-  [&& zero_wellformed z u, check_varying Q [::] w tr lo hi,
+  [&& zero_wellformed z u, check_varying Q claims w tr lo hi,
       check_beside (varying_open tr lo hi) bs (pinned_about w (expansions Q w)) &
       check_supports Q undecided ls].
 
 Definition zero_varying_solutions :=
   zero_distinct lo hi
-    (varying_found Q [::] tr lo hi ++ pinned_yields (varying_open tr lo hi) bs) undecided ls.
+    (varying_found Q claims tr lo hi ++ pinned_yields (varying_open tr lo hi) bs) undecided ls.
 
 Definition zero_varying_families := families_of undecided ls.
 Definition zero_varying_open := zero_open undecided ls.
@@ -369,10 +371,11 @@ End Beside.
 (* Free rows that do not depend on the unknown. *)
 Section Constant.
 
-Variables (R : rcfType) (z : zero_system) (u : unknown) (w : elimination).
+Variables (R : rcfType) (z : zero_system) (u : unknown).
+Variables (claims : seq solution_claim) (w : elimination).
 Variables (tr : tree (leaf whole)) (lo hi : point).
 Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
-Hypothesis checked : check_zero_complete z u w tr lo hi bs ls.
+Hypothesis checked : check_zero_complete z u claims w tr lo hi bs ls.
 
 Notation s := (without_zero z).
 Notation Q := (zero_pencil z u).
@@ -383,7 +386,7 @@ Notation rs := (left_open tr lo hi).
 Notation undecided := (zero_undecided tr lo hi bs).
 
 Lemma zero_complete_parts :
-  [/\ zero_wellformed z u, check_complete Q [::] w tr lo hi,
+  [/\ zero_wellformed z u, check_complete Q claims w tr lo hi,
       check_beside z u rs bs (pinned_alone z u P) & check_supports Q undecided ls].
 Proof. by case/and4P: checked. Qed.
 
@@ -409,7 +412,7 @@ rewrite -[LHS]/(slip_of Q x' k) -[X in _ = f * X]/(slip_of Q x k).
 by apply: scaled; rewrite mem_iota.
 Qed.
 
-Theorem zero_complete_number ys : zero_solutions z u tr lo hi bs ls = Some ys ->
+Theorem zero_complete_number ys : zero_solutions z u claims tr lo hi bs ls = Some ys ->
   exists l : seq (R * (nat -> R)),
     [/\ size l = size ys,
         forall m, List.In m l -> satisfies_9z z u m.1 m.2 /\ between m.1 lo hi,
@@ -429,7 +432,7 @@ exact: (zero_cover_number wf supports (beside_every beside every)
   (beside_each wf beside each alone_constant)).
 Qed.
 
-Corollary zero_none : zero_solutions z u tr lo hi bs ls = Some [::] ->
+Corollary zero_none : zero_solutions z u claims tr lo hi bs ls = Some [::] ->
   zero_families tr lo hi bs ls = [::] -> zero_still_open z tr lo hi bs ls = [::] ->
   forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
 Proof.
@@ -437,7 +440,7 @@ move=> /zero_complete_number[l [/size0nil-> _ _ _ every]] no_family closed t v s
 by have [[m]|[f]|[r]] := every t v sat bt; rewrite ?no_family ?closed.
 Qed.
 
-Theorem zero_complete_hold ys : zero_solutions z u tr lo hi bs ls = Some ys ->
+Theorem zero_complete_hold ys : zero_solutions z u claims tr lo hi bs ls = Some ys ->
   forall f, List.In f (zero_families tr lo hi bs ls) ->
   is_place R (held_place f.2) /\
   forall t : R, in_place (held_place f.2) t ->
@@ -454,10 +457,11 @@ End Constant.
 (* Free rows that depend on the unknown. *)
 Section Varying.
 
-Variables (R : rcfType) (z : zero_system) (u : unknown) (w : anchoring).
+Variables (R : rcfType) (z : zero_system) (u : unknown).
+Variables (claims : seq solution_claim) (w : anchoring).
 Variables (tr : tree varying_leaf) (lo hi : point).
 Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
-Hypothesis checked : check_zero_varying z u w tr lo hi bs ls.
+Hypothesis checked : check_zero_varying z u claims w tr lo hi bs ls.
 
 Notation s := (without_zero z).
 Notation Q := (zero_pencil z u).
@@ -465,12 +469,12 @@ Notation Q := (zero_pencil z u).
 Notation rs := (varying_open tr lo hi).
 
 Lemma zero_varying_parts :
-  [/\ zero_wellformed z u, check_varying Q [::] w tr lo hi,
+  [/\ zero_wellformed z u, check_varying Q claims w tr lo hi,
       check_beside z u rs bs (pinned_about z u w (expansions Q w)) &
       check_supports Q (not_pinned rs bs) ls].
 Proof. by case/and4P: checked. Qed.
 
-Theorem zero_varying_number ys : zero_varying_solutions z u tr lo hi bs ls = Some ys ->
+Theorem zero_varying_number ys : zero_varying_solutions z u claims tr lo hi bs ls = Some ys ->
   exists l : seq (R * (nat -> R)),
     [/\ size l = size ys,
         forall m, List.In m l -> satisfies_9z z u m.1 m.2 /\ between m.1 lo hi,
@@ -491,7 +495,7 @@ apply: (beside_each wf beside each) => r b O ok known sup.
 exact: (claim_yields varying O ok known sup).
 Qed.
 
-Corollary zero_varying_none : zero_varying_solutions z u tr lo hi bs ls = Some [::] ->
+Corollary zero_varying_none : zero_varying_solutions z u claims tr lo hi bs ls = Some [::] ->
   zero_varying_families tr lo hi bs ls = [::] -> zero_varying_open z tr lo hi bs ls = [::] ->
   forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
 Proof.
@@ -499,7 +503,7 @@ move=> /zero_varying_number[l [/size0nil-> _ _ _ every]] no_family closed t v sa
 by have [[m]|[f]|[r]] := every t v sat bt; rewrite ?no_family ?closed.
 Qed.
 
-Theorem zero_varying_hold ys : zero_varying_solutions z u tr lo hi bs ls = Some ys ->
+Theorem zero_varying_hold ys : zero_varying_solutions z u claims tr lo hi bs ls = Some ys ->
   forall f, List.In f (zero_varying_families tr lo hi bs ls) ->
   is_place R (held_place f.2) /\
   forall t : R, in_place (held_place f.2) t ->

@@ -6257,24 +6257,26 @@ let zero_undecided tr lo hi bs =
   not_pinned (left_open tr lo hi) bs
 
 (** val check_zero_complete :
-    zero_system -> unknown -> elimination -> whole leaf tree -> point ->
-    point -> pinned_box option list -> support_leaf option list -> bool **)
+    zero_system -> unknown -> solution_claim list -> elimination -> whole
+    leaf tree -> point -> point -> pinned_box option list -> support_leaf
+    option list -> bool **)
 
-let check_zero_complete z0 u w tr lo hi bs ls =
+let check_zero_complete z0 u claims w tr lo hi bs ls =
   (&&) (zero_wellformed z0 u)
-    ((&&) (check_complete (zero_pencil z0 u) [] w tr lo hi)
+    ((&&) (check_complete (zero_pencil z0 u) claims w tr lo hi)
       ((&&)
         (check_beside z0 u (left_open tr lo hi) bs
           (pinned_alone z0 u (condensed (blocks_of (zero_pencil z0 u)) w)))
         (check_supports (zero_pencil z0 u) (zero_undecided tr lo hi bs) ls)))
 
 (** val zero_solutions :
-    zero_system -> unknown -> whole leaf tree -> point -> point -> pinned_box
-    option list -> support_leaf option list -> yield list option **)
+    zero_system -> unknown -> solution_claim list -> whole leaf tree -> point
+    -> point -> pinned_box option list -> support_leaf option list -> yield
+    list option **)
 
-let zero_solutions z0 u tr lo hi bs ls =
+let zero_solutions z0 u claims tr lo hi bs ls =
   zero_distinct z0 u lo hi
-    (cat (found (zero_pencil z0 u) [] tr lo hi)
+    (cat (found (zero_pencil z0 u) claims tr lo hi)
       (pinned_yields (left_open tr lo hi) bs)) (zero_undecided tr lo hi bs) ls
 
 (** val zero_families :
@@ -6292,12 +6294,13 @@ let zero_still_open z0 tr lo hi bs ls =
   zero_open z0 (zero_undecided tr lo hi bs) ls
 
 (** val check_zero_varying :
-    zero_system -> unknown -> anchoring -> varying_leaf tree -> point ->
-    point -> pinned_box option list -> support_leaf option list -> bool **)
+    zero_system -> unknown -> solution_claim list -> anchoring ->
+    varying_leaf tree -> point -> point -> pinned_box option list ->
+    support_leaf option list -> bool **)
 
-let check_zero_varying z0 u w tr lo hi bs ls =
+let check_zero_varying z0 u claims w tr lo hi bs ls =
   (&&) (zero_wellformed z0 u)
-    ((&&) (check_varying (zero_pencil z0 u) [] w tr lo hi)
+    ((&&) (check_varying (zero_pencil z0 u) claims w tr lo hi)
       ((&&)
         (check_beside z0 u (varying_open tr lo hi) bs
           (pinned_about z0 u w (expansions (zero_pencil z0 u) w)))
@@ -6305,12 +6308,13 @@ let check_zero_varying z0 u w tr lo hi bs ls =
           (not_pinned (varying_open tr lo hi) bs) ls)))
 
 (** val zero_varying_solutions :
-    zero_system -> unknown -> varying_leaf tree -> point -> point ->
-    pinned_box option list -> support_leaf option list -> yield list option **)
+    zero_system -> unknown -> solution_claim list -> varying_leaf tree ->
+    point -> point -> pinned_box option list -> support_leaf option list ->
+    yield list option **)
 
-let zero_varying_solutions z0 u tr lo hi bs ls =
+let zero_varying_solutions z0 u claims tr lo hi bs ls =
   zero_distinct z0 u lo hi
-    (cat (varying_found (zero_pencil z0 u) [] tr lo hi)
+    (cat (varying_found (zero_pencil z0 u) claims tr lo hi)
       (pinned_yields (varying_open tr lo hi) bs))
     (not_pinned (varying_open tr lo hi) bs) ls
 

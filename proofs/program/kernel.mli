@@ -2006,12 +2006,14 @@ val zero_undecided :
   whole leaf tree -> point -> point -> pinned_box option list -> region list
 
 val check_zero_complete :
-  zero_system -> unknown -> elimination -> whole leaf tree -> point -> point
-  -> pinned_box option list -> support_leaf option list -> bool
+  zero_system -> unknown -> solution_claim list -> elimination -> whole leaf
+  tree -> point -> point -> pinned_box option list -> support_leaf option
+  list -> bool
 
 val zero_solutions :
-  zero_system -> unknown -> whole leaf tree -> point -> point -> pinned_box
-  option list -> support_leaf option list -> yield list option
+  zero_system -> unknown -> solution_claim list -> whole leaf tree -> point
+  -> point -> pinned_box option list -> support_leaf option list -> yield
+  list option
 
 val zero_families :
   whole leaf tree -> point -> point -> pinned_box option list -> support_leaf
@@ -2022,12 +2024,14 @@ val zero_still_open :
   -> support_leaf option list -> region list
 
 val check_zero_varying :
-  zero_system -> unknown -> anchoring -> varying_leaf tree -> point -> point
-  -> pinned_box option list -> support_leaf option list -> bool
+  zero_system -> unknown -> solution_claim list -> anchoring -> varying_leaf
+  tree -> point -> point -> pinned_box option list -> support_leaf option
+  list -> bool
 
 val zero_varying_solutions :
-  zero_system -> unknown -> varying_leaf tree -> point -> point -> pinned_box
-  option list -> support_leaf option list -> yield list option
+  zero_system -> unknown -> solution_claim list -> varying_leaf tree -> point
+  -> point -> pinned_box option list -> support_leaf option list -> yield
+  list option
 
 val zero_varying_families :
   varying_leaf tree -> point -> point -> pinned_box option list ->

@@ -219,6 +219,12 @@ let print_coq (problem : Problem.t) elimination tree lo hi found =
   | Mechanical (system, unknown) ->
     Coq.print system unknown elimination tree lo hi (List.length found)
 
+(* Does the tree refer to claims? *)
+let needs_claims (certificate : Certificate.t) =
+  List.exists (fun (p : Certificate.piece) -> List.exists (function
+      | Certificate.Root { outcome = Claim _; _ } -> true
+      | _ -> false) p.tree) certificate.pieces
+
 (* What is to be verified of a complete set. *)
 type question = {
   problem : Problem.t;
@@ -400,8 +406,6 @@ let elaborate_zero q (zero : Kernel.zero_system) unknown ~leaf ~left_open ~nothi
       (match Supports.support_leaf q.pencil factor region s with
        | Some l -> undecided (None, Some l)
        | None -> nothing region)
-    | Root { outcome = Claim _; _ } ->
-      Problem.not_verified "a root leaf that refers to a claim, with zero reaction"
     | node -> leaf ~put_box:(fun box -> put (Some box, None)) piece region node in
   let tree = timed "elaboration" (fun () ->
       Elaborate.build_pieces ~other_half q.slip leaf q.certificate.window q.certificate.pieces) in
@@ -439,7 +443,7 @@ let verify_zero_constant q zero unknown =
       e, Kernel.condensed (Kernel.blocks_of q.pencil) e) in
   let context =
     { Elaborate.pencil = q.pencil; slip = q.slip; enclosed;
-      doubles = Elaborate.doubles_of enclosed; known = [||];
+      doubles = Elaborate.doubles_of enclosed; known = known q;
       weights = Elaborate.row_weights q.pencil problem.common problem.slip_common } in
   let leaf ~put_box _ region = function
     | Certificate.Root ({ outcome = Solution; _ } as r) when opens q zero region ->
@@ -450,16 +454,17 @@ let verify_zero_constant q zero unknown =
       ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
   let boxes, supports = boxes_and_supports beside in
   refuse_tree_unless (timed "kernel" (fun () ->
-      Kernel.check_zero_complete zero unknown elimination tree q.lo q.hi boxes supports));
-  { zero_yielded = Kernel.found q.pencil [] tree q.lo q.hi;
-    zero_found = lazy (Kernel.zero_solutions zero unknown tree q.lo q.hi boxes supports);
+      Kernel.check_zero_complete zero unknown q.known_claims elimination tree q.lo q.hi boxes supports));
+  { zero_yielded = Kernel.found q.pencil q.known_claims tree q.lo q.hi;
+    zero_found =
+      lazy (Kernel.zero_solutions zero unknown q.known_claims tree q.lo q.hi boxes supports);
     zero_families = Kernel.zero_families tree q.lo q.hi boxes supports;
     zero_open = Kernel.zero_still_open zero tree q.lo q.hi boxes supports }
 
 let verify_zero_varying q zero unknown =
   let certificate = q.certificate and problem = q.problem in
   let varying = timed "condensation" (fun () ->
-      Elaborate.varying_of q.pencil q.slip_list problem.common problem.slip_common [||]
+      Elaborate.varying_of q.pencil q.slip_list problem.common problem.slip_common (known q)
         certificate.condensation certificate.pieces) in
   let leaf ~put_box piece region = function
     | Certificate.Root ({ outcome = Solution; _ } as r) when opens q zero region ->
@@ -470,11 +475,26 @@ let verify_zero_varying q zero unknown =
       ~nothing:(Elaborate.whole_of varying "support") in
   let boxes, supports = boxes_and_supports beside in
   refuse_tree_unless (timed "kernel" (fun () ->
-      Kernel.check_zero_varying zero unknown varying.anchoring tree q.lo q.hi boxes supports));
-  { zero_yielded = Kernel.varying_found q.pencil [] tree q.lo q.hi;
-    zero_found = lazy (Kernel.zero_varying_solutions zero unknown tree q.lo q.hi boxes supports);
+      Kernel.check_zero_varying zero unknown q.known_claims varying.anchoring tree q.lo q.hi boxes
+        supports));
+  { zero_yielded = Kernel.varying_found q.pencil q.known_claims tree q.lo q.hi;
+    zero_found =
+      lazy (Kernel.zero_varying_solutions zero unknown q.known_claims tree q.lo q.hi boxes
+              supports);
     zero_families = Kernel.zero_varying_families tree q.lo q.hi boxes supports;
     zero_open = Kernel.zero_varying_open zero tree q.lo q.hi boxes supports }
+
+(* A claim as one of the split pencil, for the root leaves that refer to it. *)
+let zero_claim pencil claim =
+  let known = match claim with
+    | Certificate.Exact e -> Some (Kernel.ExactClaim (Elaborate.claim_of pencil e))
+    | Enclosed e ->
+      Option.map (fun c -> Kernel.BoxClaim c) (Elaborate.enclosed_claim_of pencil e)
+    | Lifted _ ->
+      Problem.not_verified "a root leaf beside a lifted claim, with zero reaction" in
+  match known with
+  | Some known when Kernel.check_solution_claim pencil known -> known
+  | _ -> raise (Elaborate.No_witness "a claim of a root, with zero reaction")
 
 let depends_on_value pencil (certificate : Certificate.t) =
   not (Kernel.free_rows_constant pencil)
@@ -505,7 +525,9 @@ let verify_zero (problem : Problem.t) (certificate : Certificate.t) (zero : Kern
       Problem.not_verified "more than 300 complementarity variables";
     let lo = Problem.point_of (fst certificate.window) in
     let hi = Problem.upper_point (snd certificate.window) in
-    let q = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims = [] } in
+    let known_claims =
+      if needs_claims certificate then List.map (zero_claim pencil) certificate.claims else [] in
+    let q = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims } in
     let cover =
       if depends_on_value pencil certificate then verify_zero_varying q zero unknown
       else verify_zero_constant q zero unknown in
@@ -624,11 +646,9 @@ let verify_pencil (problem : Problem.t) pencil (certificate : Certificate.t) cov
   end
   else begin
     (* The kernel is given the claims that the tree refers to, in their places. *)
-    let needed = List.exists (fun (p : Certificate.piece) -> List.exists (function
-        | Certificate.Root { outcome = Claim _; _ } -> true
-        | _ -> false) p.tree) certificate.pieces in
     let known_claims =
-      if needed then List.map (fun (claim, _) -> Lazy.force claim) claims else [] in
+      if needs_claims certificate then List.map (fun (claim, _) -> Lazy.force claim) claims
+      else [] in
     let question = { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims } in
     let cover = cover_of question in
     limit_yields cover.yielded cover.families;
