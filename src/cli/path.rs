@@ -2,8 +2,8 @@
 //!
 //! A body with contact candidates is loaded step by step (`mceip-loads/1`). The path is piecewise
 //! linear in the load; each event, where a candidate changes its state, is located exactly by
-//! `mceip_path`. Each stretch between two events gives contact states, as a problem file on request
-//! ([`StateFiles`]) and with what is proved of them ([`states`]).
+//! `mceip_path`. Each stretch between two events gives contact states: on request as a problem
+//! file, and with what is proved of them ([`states`]).
 
 pub(in crate::cli) mod states;
 pub(in crate::cli) mod stretches;

@@ -27,7 +27,7 @@ pub enum PathError {
     /// A condensed entry that overflows.
     #[error("condensation in doubles: {0}")]
     Number(#[from] NumberError),
-    /// A contact state was refused.
+    /// Parts of a body, or contact states, that do not fit together.
     #[error(transparent)]
     Model(#[from] ModelError),
     /// The free nodes have a singular stiffness: never for a body that is held.
@@ -38,7 +38,7 @@ pub enum PathError {
     /// A coefficient of friction, an amount, a force, a range or a step that is zero or negative.
     #[error("loading path: expected {what} > 0, got {got}")]
     NotPositive {
-        /// Which quantity, with its unit.
+        /// Which quantity.
         what: &'static str,
         /// Its value.
         got: Rational,
@@ -51,7 +51,7 @@ pub enum PathError {
         /// Its gap.
         got: Rational,
     },
-    /// Other steps than the body has loads for, or a last step in the middle.
+    /// Other steps than the body has loads for, or an endless step before another.
     #[error("load steps: expected {expected}, got {got}")]
     Steps {
         /// What is wanted.
@@ -59,7 +59,7 @@ pub enum PathError {
         /// What was found.
         got: String,
     },
-    /// No states satisfy the rate conditions of the pressing. (A path ends instead of failing:
+    /// No states satisfy the rate conditions. (A path ends instead of failing:
     /// [`super::PathEnd::NoContinuation`].)
     #[error(
         "rate problem: no admissible states among {tried} sets tried{}",
@@ -92,7 +92,7 @@ pub enum PathError {
         node: usize,
     },
     /// Two stretches of the path do not meet: a bug, reported rather than hidden.
-    #[error("the displacements before and after differ")]
+    #[error("displacements or reactions before and after differ")]
     Discontinuous,
     /// More events than any path that was met.
     #[error("loading path: expected at most {limit} events, got more")]

@@ -5,9 +5,10 @@
 //! them from the loads. A path is piecewise linear in the amount of the load, so nothing is
 //! stepped: on each stretch everything is affine, and the amount at which the next candidate
 //! reaches a limit is a rational number. There the rate problem - which candidates stick, slip,
-//! open or close in the next moment - is solved by an active set from the states before, exactly;
-//! if that comes back to a set of states it has tried, Lemke's method proposes states in doubles,
-//! which are then verified exactly like the others.
+//! open or close in the next moment - is solved exactly: by an active set from the states before,
+//! all violated candidates at once and then one at a time; where that comes back to a set of states
+//! it has tried, or meets a singular one, from states that Lemke's method proposes in doubles; at
+//! last by trying every set.
 //!
 //! A rate problem may have several solutions (with much friction it often has, `rates_oracle`). The
 //! first that the search meets, which begins with the states before, is taken and verified. At a
@@ -21,7 +22,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `condense` | from the body to its contact candidates, exactly |
+//! | `condense` | from the body to its contact candidates, exactly or in doubles |
 //! | `contact`, `load_steps` | the condensed stiffness C and loads; friction and amounts |
 //! | `trace` | the walk from event to event |
 //! | `rates`, `propose` | the states after an event; proposals by Lemke's method in doubles |

@@ -30,7 +30,8 @@ pub struct Event {
     pub tried: usize,
 }
 
-/// A stretch of the path with constant states; (1), (2), (5), (7) were verified at both ends.
+/// A stretch of the path with constant states; (1), (2), (5), (7) were verified at both ends and
+/// inside.
 #[derive(Debug, Clone)]
 pub struct Interval {
     /// The step whose load grows, from 0.

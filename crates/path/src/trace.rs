@@ -3,9 +3,9 @@
 //! The path begins with the unloaded body. Each round of [`trace`] starts at an event or at the
 //! beginning of a step: the classes of the candidates there give a rate problem (`rates`), its
 //! solution the states of the next stretch and the line on which w and r lie (`line`). The stretch
-//! must begin where the last one ended, satisfy the laws at both ends (`check`), and ends at its
-//! next event or with its step. Input is the condensed body and the steps; `LoadingPath::follow`
-//! calls it.
+//! must begin where the last one ended, satisfy the laws at both ends and inside (`check`), and
+//! ends at its next event or with its step. Input is the condensed body and the steps;
+//! `LoadingPath::follow` calls it.
 
 use super::check::PathPoint;
 use super::contact::{Contact, Friction, Load};
@@ -295,7 +295,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// The stretch as users see it, from a position to its end, where the laws hold too.
+    /// The stretch as users see it, from a position to its end; the laws hold there and inside too.
     fn interval(
         &self,
         from: &Position,

@@ -14,7 +14,7 @@ use mceip_engine::report::{Table, fixed_decimals, six_digits};
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_engine::search::levels::Levels;
-use mceip_exact::{Rational, enclosing_decimals, from_f64, to_f64};
+use mceip_exact::{Rational, enclosing_decimals, to_f64};
 use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Variable, Window};
 use mceip_path::{Contact, Equilibrium, Interval, LoadingPath};
@@ -257,12 +257,16 @@ impl ProvedState {
     /// mu from which on the necessary condition holds: the upper end of its enclosure, which is the
     /// accurate one. `None` if not asked for, or if it never holds.
     pub(in crate::cli) fn necessary_from(&self) -> Option<f64> {
+        self.necessary_end().map(|end| to_f64(&end))
+    }
+
+    fn necessary_end(&self) -> Option<Rational> {
         let necessary = self.necessary.as_ref()?;
         let stiffness = necessary.stiffness.end();
         let mass = necessary.mass.as_ref().and_then(DefiniteUntil::end);
 
         let ends = [stiffness, mass].into_iter().flatten();
-        ends.map(|end| to_f64(end.hi())).min_by(f64::total_cmp)
+        ends.map(|end| end.hi().clone()).min()
     }
 
     /// The equation that says so: (20) for a mass matrix M* that does not depend on mu.
@@ -335,11 +339,11 @@ fn thresholds_table(states: &[ProvedState], path: &LoadingPath) -> Table {
         "necessary condition",
     ]);
     for state in states {
-        let necessary = match (&state.necessary, state.necessary_from()) {
+        let necessary = match (&state.necessary, state.necessary_end()) {
             (None, _) => "".into(),
             (Some(_), None) => "never holds".into(),
             (Some(_), Some(mu)) => {
-                let mu = fixed_decimals(&from_f64(mu).unwrap_or_default(), 9);
+                let mu = fixed_decimals(&mu, 9);
                 format!("{} from mu = {mu} on", state.necessary_equation())
             }
         };

@@ -24,10 +24,10 @@ pub(crate) fn short_is_plain(value: f64) -> bool {
 ///
 /// ```
 /// use mceip_engine::report::six_digits;
-/// assert_eq!([0.5, 2e-9].map(six_digits), ["0.500000", "2e-9"]);
+/// assert_eq!([0.5, 2e-9, f64::INFINITY].map(six_digits), ["0.500000", "2e-9", "inf"]);
 /// ```
 pub fn six_digits(value: f64) -> String {
-    if value == 0.0 || short_is_plain(value) {
+    if value == 0.0 || short_is_plain(value) || !value.is_finite() {
         format!("{value:.6}")
     } else {
         short(&from_f64(value).unwrap_or_default())
