@@ -278,8 +278,8 @@ impl Outcome<'_> {
 
     /// The problem of each stretch with impending slip.
     fn write_states(&self, folder: &Folder) -> Result<(), CliError> {
-        for (k, interval) in self.path.intervals.iter().enumerate() {
-            let states = &interval.equilibrium_states;
+        for (k, stretch) in self.path.stretches.iter().enumerate() {
+            let states = &stretch.equilibrium_states;
             if !states.iter().any(states::is_slip) {
                 continue;
             }
@@ -289,7 +289,7 @@ impl Outcome<'_> {
             let name = self.file.name.as_deref().unwrap_or("loading path");
             problem.name = Some(format!(
                 "{name}, stretch {k} ({})",
-                self.names[interval.step]
+                self.names[stretch.step]
             ));
             problem.coordinates = self.file.coordinates.clone();
 

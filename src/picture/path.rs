@@ -11,7 +11,7 @@ use super::marker::Mark;
 use super::markup::Element;
 use super::scale::Spread;
 use mceip_exact::to_f64;
-use mceip_path::{Equilibrium, Interval, LoadingPath};
+use mceip_path::{Equilibrium, LoadingPath, Stretch};
 
 const WIDTH: f64 = 860.0;
 
@@ -52,7 +52,7 @@ pub fn path_picture(title: &str, path: &LoadingPath, labels: PathLabels) -> Pict
     picture.push(table.marks(path));
     table.push_labels(&mut picture);
 
-    let states = path.intervals.iter().flat_map(|i| &i.equilibrium_states);
+    let states = path.stretches.iter().flat_map(|i| &i.equilibrium_states);
     let marks: Vec<Mark> = states.map(|state| Mark::of(*state)).collect();
     picture.push(legend(&marks, LEFT, table.bottom() + 62.0));
 
@@ -66,7 +66,7 @@ struct Loads {
 
 impl Loads {
     fn of(path: &LoadingPath) -> Loads {
-        let first = path.intervals.first().map_or(0, |interval| interval.step);
+        let first = path.stretches.first().map_or(0, |stretch| stretch.step);
         let mut before = Vec::with_capacity(path.steps.amounts.len());
         let mut sum = 0.0;
         for (step, amount) in path.steps.amounts.iter().enumerate() {
@@ -88,13 +88,13 @@ impl Loads {
 /// tenth of the path long.
 fn ends(path: &LoadingPath, loads: &Loads) -> Vec<f64> {
     let mut ends = Vec::new();
-    for interval in &path.intervals {
-        ends.push(loads.at(interval.step, &interval.start));
+    for stretch in &path.stretches {
+        ends.push(loads.at(stretch.step, &stretch.start));
     }
 
     let last_start = ends.last().copied().unwrap_or(0.0);
-    let end = match path.intervals.last() {
-        Some(Interval {
+    let end = match path.stretches.last() {
+        Some(Stretch {
             step,
             stop: Some(stop),
             ..
@@ -129,11 +129,11 @@ impl Resultants {
 /// The resultants where stretches begin, then those where the last one ends.
 fn resultants(path: &LoadingPath, ends: &[f64]) -> Vec<Resultants> {
     let mut all = Vec::new();
-    for (interval, load) in path.intervals.iter().zip(ends) {
-        all.push(Resultants::of(&interval.start, *load));
+    for (stretch, load) in path.stretches.iter().zip(ends) {
+        all.push(Resultants::of(&stretch.start, *load));
     }
 
-    if let (Some(last), Some(end)) = (path.intervals.last(), ends.last()) {
+    if let (Some(last), Some(end)) = (path.stretches.last(), ends.last()) {
         all.push(match &last.stop {
             Some(stop) => Resultants::of(stop, *end),
             None => beyond(last, all.last(), *end),
@@ -145,7 +145,7 @@ fn resultants(path: &LoadingPath, ends: &[f64]) -> Vec<Resultants> {
 
 /// The resultants of a stretch that never ends, at a load beyond its start: they grow as they do
 /// inside.
-fn beyond(last: &Interval, start: Option<&Resultants>, load: f64) -> Resultants {
+fn beyond(last: &Stretch, start: Option<&Resultants>, load: f64) -> Resultants {
     let inside = Resultants::of(&last.inside, load);
     let Some(start) = start else { return inside };
 
@@ -238,7 +238,7 @@ fn push_resultants(
         push_key(picture, k, curve);
     }
 
-    let beginnings = resultants.iter().take(path.intervals.len());
+    let beginnings = resultants.iter().take(path.stretches.len());
     for (k, begin) in beginnings.enumerate() {
         let load = begin.load;
         let t = begin.tangential;
@@ -272,10 +272,10 @@ impl StateTable {
 
     fn of(path: &LoadingPath) -> StateTable {
         let rows = path
-            .intervals
+            .stretches
             .first()
             .map_or(0, |i| i.equilibrium_states.len());
-        let columns = path.intervals.len().max(1);
+        let columns = path.stretches.len().max(1);
 
         StateTable {
             columns,
@@ -313,9 +313,9 @@ impl StateTable {
         let radius = 0.42 * self.row_height.min(self.column_width);
         let mut marks = Element::new("g").with("class", "marks");
 
-        for (column, interval) in path.intervals.iter().enumerate() {
+        for (column, stretch) in path.stretches.iter().enumerate() {
             let x = self.left_of(column) + self.column_width / 2.0;
-            for (node, state) in interval.equilibrium_states.iter().enumerate() {
+            for (node, state) in stretch.equilibrium_states.iter().enumerate() {
                 let y = StateTable::TOP + self.row_height * (node as f64 + 0.5);
                 marks.push(Mark::of(*state).draw(x, y, radius));
             }

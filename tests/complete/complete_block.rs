@@ -18,7 +18,7 @@ use mceip_oracle::enumerate;
 use mceip_paper::PublishedState::{FifteenSlip, SeventeenSlip};
 use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState};
-use mceip_path::Interval;
+use mceip_path::Stretch;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -267,19 +267,19 @@ fn both_states_are_closed_near_their_thresholds() {
 }
 
 /// The intervals of the loading path of the paper in which at least one node slips.
-fn slipping_intervals(block: &Block) -> Vec<Interval> {
+fn slipping_intervals(block: &Block) -> Vec<Stretch> {
     let contact = block.contact_side().unwrap();
     let loading = Loading::of_the_paper();
     let path = BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
         .unwrap()
         .motion;
 
-    let mut intervals = path.intervals;
+    let mut intervals = path.stretches;
     intervals.retain(|interval| count_of_slip_nodes(interval) > 0);
     intervals
 }
 
-fn count_of_slip_nodes(interval: &Interval) -> usize {
+fn count_of_slip_nodes(interval: &Stretch) -> usize {
     let [_, left, right, _] = interval.counts();
     left + right
 }

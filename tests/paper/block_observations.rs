@@ -12,7 +12,7 @@ use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::{Body, ContactState, Pencil, Problem, Unknown, Window};
 use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel, MassKind, MeshKind, Plane};
-use mceip_path::{Interval, PathEnd};
+use mceip_path::{PathEnd, Stretch};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -46,13 +46,13 @@ struct Observed {
 }
 
 /// How many nodes slip, to either side.
-fn slip_nodes(interval: &Interval) -> usize {
-    let [_, left, right, _] = interval.counts();
+fn slip_nodes(stretch: &Stretch) -> usize {
+    let [_, left, right, _] = stretch.counts();
     left + right
 }
 
 impl State {
-    fn of(interval: &Interval, pencil: Pencil) -> State {
+    fn of(stretch: &Stretch, pencil: Pencil) -> State {
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all()).unwrap();
         let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
 
@@ -64,9 +64,9 @@ impl State {
             });
         }
 
-        let [_, _, right, _] = interval.counts();
+        let [_, _, right, _] = stretch.counts();
         State {
-            slip: slip_nodes(interval),
+            slip: slip_nodes(stretch),
             all_left: right == 0,
             set,
             complete: found.is_complete(),
@@ -92,12 +92,12 @@ impl Observed {
         let mut states = Vec::new();
         let mut above = Vec::new();
 
-        for interval in path.intervals.iter().filter(|i| slip_nodes(i) > 0) {
-            let pencil = pencils.of(&interval.states).unwrap();
-            states.push(State::of(interval, pencil));
+        for stretch in path.stretches.iter().filter(|i| slip_nodes(i) > 0) {
+            let pencil = pencils.of(&stretch.states).unwrap();
+            states.push(State::of(stretch, pencil));
         }
 
-        if let Some(last) = path.intervals.iter().rfind(|i| slip_nodes(i) > 0) {
+        if let Some(last) = path.stretches.iter().rfind(|i| slip_nodes(i) > 0) {
             above = all_slip_above(&block, &last.states);
         }
 

@@ -7,6 +7,7 @@
 //! `mceip_path` nothing but the body and the equilibria that it gives.
 #![cfg(feature = "solver")]
 
+use crate::elimination::solve;
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{Candidate, ContactState, LoadStep, LoadedBody, LoadedParts, Particle};
 use mceip_path::{Bound, Contact, Equilibrium, LoadSteps, LoadingPath, PathEnd};
@@ -333,29 +334,6 @@ fn rates(instance: &Instance, states: &[ContactState], load: &[Rational]) -> Opt
     Some(rates)
 }
 
-/// Gauss-Jordan elimination of rows with their right side at the end; `None` if singular.
-fn solve(mut rows: Vec<Vec<Rational>>) -> Option<Vec<Rational>> {
-    let order = rows.len();
-    for k in 0..order {
-        let pivot = (k..order).find(|&i| !rows[i][k].is_zero())?;
-        rows.swap(k, pivot);
-
-        let pivot_row = rows[k].clone();
-        for i in (0..order).filter(|&i| i != k) {
-            let factor = &rows[i][k] / &pivot_row[k];
-            if factor.is_zero() {
-                continue;
-            }
-
-            for j in k..=order {
-                rows[i][j] -= &factor * &pivot_row[j];
-            }
-        }
-    }
-
-    Some((0..order).map(|i| &rows[i][order] / &rows[i][i]).collect())
-}
-
 /// The lines of (9) with rates.
 fn holds(class: Class, [v_t, v_n, w_t, w_n]: &[Rational; 4], mu: &Rational) -> bool {
     match class {
@@ -402,10 +380,10 @@ fn compare(seed: u64, met: &mut BTreeMap<&'static str, usize>) {
     let instance = Instance::random(&mut rng);
     let path = instance.follow();
 
-    for (number, interval) in path.intervals.iter().enumerate() {
+    for (number, stretch) in path.stretches.iter().enumerate() {
         let place = format!("seed {seed}, stretch {number}");
-        let classes = [0, 1].map(|k| class(&instance, &interval.start, k));
-        let load = &instance.body.loads()[interval.step];
+        let classes = [0, 1].map(|k| class(&instance, &stretch.start, k));
+        let load = &instance.body.loads()[stretch.step];
         let (found, is_singular) = solutions(&instance, &classes, load);
         if found.len() > 1 {
             count("several solutions");
@@ -414,30 +392,30 @@ fn compare(seed: u64, met: &mut BTreeMap<&'static str, usize>) {
             count("singular states");
         }
 
-        if let Some(stop) = &interval.stop {
-            let rates = rates_between(&interval.start, stop);
+        if let Some(stop) = &stretch.stop {
+            let rates = rates_between(&stretch.start, stop);
             assert!(
                 found.contains(&rates),
                 "{place}: {rates:?} is none of {found:?}"
             );
         }
-        for cause in &interval.begin.causes {
+        for cause in &stretch.begin.causes {
             count(match cause {
                 Bound::Gap { .. } => "gap closes",
                 Bound::Pressure { .. } => "pressure vanishes",
                 Bound::Cone { .. } => "cone reached",
             });
         }
-        if interval.begin.causes.len() > 1 {
+        if stretch.begin.causes.len() > 1 {
             count("two events at once");
         }
-        for state in &interval.equilibrium_states {
+        for state in &stretch.equilibrium_states {
             count(state.word());
         }
     }
 
     if let PathEnd::NoContinuation { proved, .. } = &path.end {
-        let last = path.intervals.last();
+        let last = path.stretches.last();
         let (step, at) = match last {
             Some(last) => (last.step, last.stop.as_ref()),
             None => (0, None),

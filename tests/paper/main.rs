@@ -8,6 +8,7 @@ mod interrupt;
 
 mod block;
 mod block_observations;
+mod elimination;
 mod loads;
 mod paper_path;
 mod path;

@@ -3,7 +3,7 @@
 
 use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel};
-use mceip_path::{Contact, Interval, LoadingPath};
+use mceip_path::{Contact, LoadingPath, Stretch};
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
@@ -29,7 +29,7 @@ pub(crate) static PAPER_PATH: LazyLock<PaperPath> = LazyLock::new(|| {
 });
 
 /// How many nodes slip, to either side.
-pub(crate) fn slip_nodes(interval: &Interval) -> usize {
-    let [_, left, right, _] = interval.counts();
+pub(crate) fn slip_nodes(stretch: &Stretch) -> usize {
+    let [_, left, right, _] = stretch.counts();
     left + right
 }

@@ -6,6 +6,7 @@
 //! the paper prints. A wrong condensation, a wrong sign or a missed event contradicts one of them.
 #![cfg(feature = "solver")]
 
+use crate::elimination::solve;
 use crate::paper_path::{PAPER_PATH, PaperPath};
 use mceip_engine::reduction::condense;
 use mceip_exact::{Rational, rational, to_f64, whole};
@@ -15,7 +16,7 @@ use mceip_model::{
 };
 use mceip_paper::path::{BlockPath, BlockPathError, Comparison, Loading, step_path};
 use mceip_paper::{Block, BlockModel, MeshKind, Plane, PublishedState};
-use mceip_path::{Bound, Contact, Equilibrium, Finder, Interval, PathEnd, PathError};
+use mceip_path::{Bound, Contact, Equilibrium, Finder, PathEnd, PathError, Stretch};
 use std::ops::ControlFlow;
 
 fn follow(block: &Block, loading: &Loading) -> BlockPath {
@@ -54,8 +55,8 @@ fn paper(mu: Rational) -> Loading {
 
 /// The whole block under the contact displacements of an equilibrium, by plain elimination in
 /// fractions on the uncondensed K: forces vanish inside, and are the reactions on the contact side.
-fn equilibrium_of_the_whole_block(block: &Block, interval: &Interval, depth: &Rational) {
-    let at = &interval.start;
+fn equilibrium_of_the_whole_block(block: &Block, stretch: &Stretch, depth: &Rational) {
+    let at = &stretch.start;
     let given = contact_displacements(block, at, depth);
     let inside: Vec<usize> = (0..given.len()).filter(|&i| given[i].is_none()).collect();
     let displacement = complete_displacement(block, &given, &inside);
@@ -87,8 +88,7 @@ fn contact_displacements(
     given
 }
 
-/// Solves K_ii w_i = -K_ic w_c for the degrees of freedom inside, by Gauss-Jordan elimination
-/// without pivoting: K_ii is positive definite.
+/// Solves K_ii w_i = -K_ic w_c for the degrees of freedom inside, by elimination.
 fn complete_displacement(
     block: &Block,
     given: &[Option<Rational>],
@@ -113,24 +113,10 @@ fn complete_displacement(
         rows.push(row);
     }
 
-    for k in 0..rows.len() {
-        for i in 0..rows.len() {
-            if i == k {
-                continue;
-            }
-
-            let factor = &rows[i][k] / &rows[k][k];
-            for j in k..=inside.len() {
-                let update = &factor * &rows[k][j];
-                rows[i][j] -= update;
-            }
-        }
-    }
-
+    let inner = solve(rows).unwrap();
     let mut displacement: Vec<Option<Rational>> = given.to_vec();
-    for (k, &i) in inside.iter().enumerate() {
-        let right_side = rows[k].last().unwrap();
-        displacement[i] = Some(right_side / &rows[k][k]);
+    for (&i, w) in inside.iter().zip(inner) {
+        displacement[i] = Some(w);
     }
     displacement.into_iter().flatten().collect()
 }
@@ -141,12 +127,12 @@ fn equilibria_are_those_of_the_uncondensed_block() {
 
     for mu in [rational(11, 10), rational(3, 10)] {
         let path = follow(&block, &paper(mu));
-        let count = path.motion.intervals.len();
+        let count = path.motion.stretches.len();
         assert!(path.motion.slides(), "{count}");
         assert!(count >= 4, "{count}");
 
-        for interval in &path.motion.intervals {
-            equilibrium_of_the_whole_block(&block, interval, &path.depth);
+        for stretch in &path.motion.stretches {
+            equilibrium_of_the_whole_block(&block, stretch, &path.depth);
         }
 
         assert_eq!(
@@ -158,9 +144,9 @@ fn equilibria_are_those_of_the_uncondensed_block() {
 }
 
 /// The mean of the reactions at both ends of a stretch.
-fn middle_reaction(interval: &Interval, k: usize) -> Reaction {
-    let (start_tangential, start_normal) = interval.start.reaction(k);
-    let (stop_tangential, stop_normal) = interval.stop.as_ref().unwrap().reaction(k);
+fn middle_reaction(stretch: &Stretch, k: usize) -> Reaction {
+    let (start_tangential, start_normal) = stretch.start.reaction(k);
+    let (stop_tangential, stop_normal) = stretch.stop.as_ref().unwrap().reaction(k);
     Reaction {
         tangential: (start_tangential + stop_tangential) / whole(2),
         normal: (start_normal + stop_normal) / whole(2),
@@ -172,7 +158,7 @@ fn middle_reaction(interval: &Interval, k: usize) -> Reaction {
 fn system_in_the_middle(
     block: &Block,
     mu: &Rational,
-    interval: &Interval,
+    stretch: &Stretch,
     states: &[ContactState],
 ) -> Result<System, ModelError> {
     let mut particles = Vec::new();
@@ -180,7 +166,7 @@ fn system_in_the_middle(
         let tangential = 2 * block.contact[k];
         particles.push(Particle {
             normal_direction: -1,
-            reaction: Some(middle_reaction(interval, k)),
+            reaction: Some(middle_reaction(stretch, k)),
             ..Particle::plain(tangential, tangential + 1, state)
         });
     }
@@ -197,10 +183,10 @@ fn states_and_reactions_satisfy_7_in_the_middle_of_each_stretch() {
     let mut left = 0;
     let mut right = 0;
 
-    for interval in path.motion.intervals.iter().filter(|i| i.stop.is_some()) {
-        assert!(system_in_the_middle(&block, &mu, interval, &interval.states).is_ok());
+    for stretch in path.motion.stretches.iter().filter(|i| i.stop.is_some()) {
+        assert!(system_in_the_middle(&block, &mu, stretch, &stretch.states).is_ok());
 
-        for (k, state) in interval.states.iter().enumerate() {
+        for (k, state) in stretch.states.iter().enumerate() {
             let ContactState::Slip { sign } = *state else {
                 continue;
             };
@@ -211,9 +197,9 @@ fn states_and_reactions_satisfy_7_in_the_middle_of_each_stretch() {
             }
 
             for wrong in [ContactState::Slip { sign: -sign }, ContactState::Stick] {
-                let mut states = interval.states.clone();
+                let mut states = stretch.states.clone();
                 states[k] = wrong;
-                assert!(system_in_the_middle(&block, &mu, interval, &states).is_err());
+                assert!(system_in_the_middle(&block, &mu, stretch, &states).is_err());
             }
         }
     }
@@ -242,7 +228,7 @@ fn events_are_located_exactly() {
     let mut by_pressure = 0;
     let mut by_another_bound = 0;
 
-    for pair in path.motion.intervals.windows(2) {
+    for pair in path.motion.stretches.windows(2) {
         let [before, after] = pair else {
             unreachable!()
         };
@@ -270,8 +256,8 @@ fn events_are_located_exactly() {
             assert!(at_the_start > whole(0));
         }
 
-        let mut intervals = path.motion.intervals.iter();
-        let index = intervals.position(|i| i.start.amount() == before.start.amount());
+        let mut stretches = path.motion.stretches.iter();
+        let index = stretches.position(|i| i.start.amount() == before.start.amount());
         assert_eq!(path.motion.ending(index.unwrap()), Some(&after.begin));
         assert!(!after.begin.changes.is_empty());
         assert_eq!(after.begin.finder, Finder::ActiveSet);
@@ -280,7 +266,7 @@ fn events_are_located_exactly() {
     assert!(by_another_bound > 4, "{by_another_bound}");
     assert!(by_pressure > 1, "{by_pressure}");
     assert!(
-        path.motion.intervals[0].counts()[2] > 0,
+        path.motion.stretches[0].counts()[2] > 0,
         "pressing an oblique mesh makes the corner slip to the right"
     );
 }
@@ -304,7 +290,7 @@ fn stepping_finds_the_same_path_but_for_short_stretches() {
         .unwrap();
     let loading = Loading::of_the_paper();
     let path = follow_contact(&contact, &loading).unwrap();
-    let last = to_f64(path.motion.intervals.last().unwrap().start.amount());
+    let last = to_f64(path.motion.stretches.last().unwrap().start.amount());
 
     let small = rational(1, 1000);
     let small_steps = (last / to_f64(&small)) as usize + 10;
@@ -347,7 +333,7 @@ fn a_range_an_interrupt_and_refusals() {
     let short = follow_contact(&contact, &limited).unwrap();
     let last_stop = short
         .motion
-        .intervals
+        .stretches
         .last()
         .unwrap()
         .stop
@@ -359,10 +345,10 @@ fn a_range_an_interrupt_and_refusals() {
 
     let stopped = BlockPath::follow(&contact, &standard, &|k, _| stop_at(1, k)).unwrap();
     assert_eq!(stopped.motion.end, PathEnd::Interrupted);
-    assert_eq!(stopped.motion.intervals.len(), 1);
+    assert_eq!(stopped.motion.stretches.len(), 1);
 
     let whole_path = follow_contact(&contact, &standard).unwrap();
-    assert!(whole_path.motion.intervals.len() > 1);
+    assert!(whole_path.motion.stretches.len() > 1);
     assert!(!stopped.motion.slides());
     assert!(whole_path.motion.slides());
 
@@ -423,7 +409,7 @@ fn a_jammed_block_does_not_slide() {
     assert_eq!(path.motion.end, PathEnd::NoFurtherEvent);
     assert!(!path.motion.slides());
 
-    let last = path.motion.intervals.last().unwrap();
+    let last = path.motion.stretches.last().unwrap();
     assert!(last.stop.is_none());
     assert!(last.states.contains(&ContactState::Stick));
 
@@ -440,7 +426,7 @@ fn a_jammed_block_does_not_slide() {
 fn a_path_may_end_without_continuation() {
     let block = block(8, 4, MeshKind::Crossed, Plane::Strain);
     let path = follow(&block, &paper(whole(5)));
-    assert_eq!(path.motion.intervals.len(), 1);
+    assert_eq!(path.motion.stretches.len(), 1);
     assert!(!path.motion.slides());
 
     let PathEnd::NoContinuation { causes, proved, .. } = &path.motion.end else {
@@ -450,7 +436,7 @@ fn a_path_may_end_without_continuation() {
     assert_eq!(causes, &[Bound::Cone { node: 8, sign: -1 }]);
     assert!(*proved);
 
-    let stop = path.motion.intervals[0].stop.as_ref().unwrap();
+    let stop = path.motion.stretches[0].stop.as_ref().unwrap();
     let (tangential, normal) = stop.reaction(8);
     assert_eq!(
         -tangential,
@@ -481,11 +467,11 @@ fn a_gap_that_closes_is_passed_too() {
 
     let path = follow(&block, &loading);
 
-    let closing: Vec<&Interval> = path
+    let closing: Vec<&Stretch> = path
         .motion
-        .intervals
+        .stretches
         .iter()
-        .filter(|interval| interval.begin.causes == [Bound::Gap { node: 4 }])
+        .filter(|stretch| stretch.begin.causes == [Bound::Gap { node: 4 }])
         .collect();
 
     assert_eq!(closing.len(), 1);
@@ -548,34 +534,34 @@ fn both_published_states_lie_on_the_path() {
 
     let seventeen = path.stretches_with(&PublishedState::SeventeenSlip.states());
     let fifteen = path.stretches_with(&PublishedState::FifteenSlip.states());
-    let final_stretch = path.intervals.len() - 1;
+    let final_stretch = path.stretches.len() - 1;
 
     assert_eq!(seventeen, vec![final_stretch], "the final state");
     assert_eq!(fifteen.len(), 1);
 
     // The corner node slips to the right in one short stretch, which steps of 0.01 mm may miss.
-    let right: Vec<usize> = (0..path.intervals.len())
-        .filter(|&k| path.intervals[k].counts()[2] > 0)
+    let right: Vec<usize> = (0..path.stretches.len())
+        .filter(|&k| path.stretches[k].counts()[2] > 0)
         .collect();
 
     assert_eq!(right, vec![1]);
 
-    let short = &path.intervals[1];
+    let short = &path.stretches[1];
     assert_eq!(short.states[20], ContactState::Slip { sign: -1 });
 
     let length = short.stop.as_ref().unwrap().amount() - short.start.amount();
     assert!(length < rational(1, 100));
 
     // "11 or more nodes": the number of slip nodes takes every value on the way.
-    let slips: Vec<usize> = path.intervals.iter().map(|i| i.counts()[1]).collect();
+    let slips: Vec<usize> = path.stretches.iter().map(|i| i.counts()[1]).collect();
     assert!((2..=17).all(|n| slips.contains(&n)), "{slips:?}");
 
     // "Spreading from right to left": stick on the left, then slip to the left, then free, and
     // the stick nodes become fewer.
-    for k in 2..path.intervals.len() {
-        let states = &path.intervals[k].states;
+    for k in 2..path.stretches.len() {
+        let states = &path.stretches[k].states;
         let stuck = leading_stick_nodes(states);
-        let stuck_before = leading_stick_nodes(&path.intervals[k - 1].states);
+        let stuck_before = leading_stick_nodes(&path.stretches[k - 1].states);
 
         assert!(stuck <= stuck_before, "stretch {k}");
 
@@ -587,7 +573,7 @@ fn both_published_states_lie_on_the_path() {
     }
 
     let on_the_path = block
-        .problem(&path.intervals[fifteen[0]].states, None)
+        .problem(&path.stretches[fifteen[0]].states, None)
         .unwrap();
     let published = PublishedState::FifteenSlip.problem(block).unwrap();
     assert_eq!(on_the_path.sha256(), published.sha256());
@@ -620,10 +606,10 @@ fn path_and_every_pencil_take_under_five_seconds() {
     let mut pencils = contact.pencils();
     let mut orders = Vec::new();
 
-    for interval in &path.motion.intervals {
-        let [_, left, right, _] = interval.counts();
+    for stretch in &path.motion.stretches {
+        let [_, left, right, _] = stretch.counts();
         if left + right > 0 {
-            orders.push(pencils.of(&interval.states).unwrap().order());
+            orders.push(pencils.of(&stretch.states).unwrap().order());
         }
     }
 
@@ -634,8 +620,8 @@ fn path_and_every_pencil_take_under_five_seconds() {
     );
 
     let mut event_bits = Vec::new();
-    for interval in &path.motion.intervals {
-        let motion = interval.start.amount();
+    for stretch in &path.motion.stretches {
+        let motion = stretch.start.amount();
         event_bits.push((motion.numer().bits(), motion.denom().bits()));
     }
 

@@ -38,13 +38,13 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
         .motion;
 
     let mut tally = Tally::default();
-    for interval in &path.intervals {
-        let [_, left, right, _] = interval.counts();
+    for stretch in &path.stretches {
+        let [_, left, right, _] = stretch.counts();
         if left + right == 0 {
             continue;
         }
 
-        let problem = block.problem(&interval.states, None).unwrap();
+        let problem = block.problem(&stretch.states, None).unwrap();
         let truth = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
         assert!(truth.is_complete());
 
@@ -61,7 +61,7 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
 
             println!(
                 "{}: mu = {}, run {} ({:?})",
-                interval.picture(),
+                stretch.picture(),
                 certified.candidate.value,
                 certified.run,
                 certified.origin
@@ -74,9 +74,9 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
         }
 
         // Nothing false: each claim is one of the complete set.
-        assert_eq!(found.certified.len(), seen, "{}", interval.picture());
+        assert_eq!(found.certified.len(), seen, "{}", stretch.picture());
         if seen < solutions.len() {
-            let picture = interval.picture();
+            let picture = stretch.picture();
             println!("{picture}: {seen} of {} found", solutions.len());
         }
 

@@ -72,13 +72,13 @@ fn the_rates_are_unique_in_every_state_of_the_path() {
     let mu = measured_friction();
     let mut states_with_slip = 0;
 
-    for interval in &PAPER_PATH.path.intervals {
-        if slip_nodes(interval) == 0 {
+    for stretch in &PAPER_PATH.path.stretches {
+        if slip_nodes(stretch) == 0 {
             continue;
         }
 
-        let verdict = definite_at(pencil(&interval.states), &mu);
-        let accepted = verdict.unwrap_or_else(|e| panic!("{}: {e}", interval.picture()));
+        let verdict = definite_at(pencil(&stretch.states), &mu);
+        let accepted = verdict.unwrap_or_else(|e| panic!("{}: {e}", stretch.picture()));
         assert!(accepted.cover.unwrap().open.is_empty());
         states_with_slip += 1;
     }
@@ -86,7 +86,7 @@ fn the_rates_are_unique_in_every_state_of_the_path() {
     assert_eq!(states_with_slip, 23);
 
     // The last state at mu = 1.7, below its smallest value of MCEIP-mu: not definite.
-    let last = PAPER_PATH.path.intervals.last().unwrap();
+    let last = PAPER_PATH.path.stretches.last().unwrap();
     let refused = definite_at(pencil(&last.states), &rational(17, 10)).unwrap_err();
     assert_eq!(refused.reason.name(), "Cover.NotDefinite");
 }
@@ -100,7 +100,7 @@ fn the_rates_are_unique_at_every_event_of_the_path() {
     let mu = measured_friction();
     let mut openings = 0;
 
-    for pair in PAPER_PATH.path.intervals.windows(2) {
+    for pair in PAPER_PATH.path.stretches.windows(2) {
         let [before, after] = pair else {
             unreachable!()
         };
@@ -137,9 +137,9 @@ fn the_rates_are_unique_at_every_event_of_the_path() {
 fn the_state_with_ten_slip_nodes_is_short() {
     let path = &PAPER_PATH.path;
     let ten: Vec<_> = path
-        .intervals
+        .stretches
         .iter()
-        .filter(|interval| interval.counts()[1] == 10)
+        .filter(|stretch| stretch.counts()[1] == 10)
         .collect();
     assert_eq!(ten.len(), 1);
 
@@ -164,20 +164,20 @@ fn the_state_with_ten_slip_nodes_is_short() {
 #[ignore = "minutes in the dev profile"]
 fn the_necessary_condition_holds_from_a_fifth_of_the_motion_on() {
     let mu = measured_friction();
-    let sliding = PAPER_PATH.path.intervals.last().unwrap().start.amount();
+    let sliding = PAPER_PATH.path.stretches.last().unwrap().start.amount();
     let share = |begin: &Rational| format!("{:.3}", to_f64(&(begin / sliding)));
 
-    let with_slip = PAPER_PATH.path.intervals.iter();
-    let with_slip = with_slip.filter(|interval| slip_nodes(interval) > 0);
+    let with_slip = PAPER_PATH.path.stretches.iter();
+    let with_slip = with_slip.filter(|stretch| slip_nodes(stretch) > 0);
     let mut excluded = Vec::new();
     let mut held_from = Vec::new();
 
-    for interval in with_slip.take(8) {
-        let system = PAPER_PATH.block.system(&interval.states, None).unwrap();
+    for stretch in with_slip.take(8) {
+        let system = PAPER_PATH.block.system(&stretch.states, None).unwrap();
         if excluded_at(&mu_family(&system).unwrap(), &mu).unwrap() {
-            excluded.push(slip_nodes(interval));
+            excluded.push(slip_nodes(stretch));
         } else {
-            held_from.push(share(interval.start.amount()));
+            held_from.push(share(stretch.start.amount()));
         }
     }
 

@@ -330,7 +330,7 @@ fn the_path_is_drawn_as_it_is() {
     let tree = Document::parse(&text).unwrap();
 
     for mark in Mark::ALL {
-        let states = path.intervals.iter().flat_map(|interval| &interval.states);
+        let states = path.stretches.iter().flat_map(|stretch| &stretch.states);
         let expected = states.filter(|state| Mark::of(**state) == mark).count();
         assert_eq!(count(&tree, mark.class()), expected, "{mark:?}");
     }
@@ -339,9 +339,9 @@ fn the_path_is_drawn_as_it_is() {
     let mut motions = Vec::new();
     let mut tangential_forces = Vec::new();
 
-    for interval in &path.intervals {
-        let (tangential, _) = interval.start.resultants();
-        motions.push(to_f64(interval.start.amount()));
+    for stretch in &path.stretches {
+        let (tangential, _) = stretch.start.resultants();
+        motions.push(to_f64(stretch.start.amount()));
         tangential_forces.push(to_f64(&tangential));
     }
 

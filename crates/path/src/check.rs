@@ -228,7 +228,7 @@ impl NodeRates<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::contact::{ContactSide, Load};
+    use super::super::contact::Load;
     use super::super::line::Affine;
     use super::*;
     use mceip_exact::{rational, whole};
@@ -250,13 +250,10 @@ mod tests {
         a: Rational,
         change: impl Fn(&mut Line),
     ) -> Result<(), LawFailure> {
-        let contact = Contact::new(ContactSide {
-            stiffness: vec![vec![whole(2), whole(0)], vec![whole(0), whole(3)]],
-            loads: vec![vec![whole(0), whole(3)], vec![whole(-2), whole(0)]],
-            gaps: vec![whole(0)],
-            friction_factors: vec![whole(1)],
-        })
-        .unwrap();
+        let contact = Contact::plain(
+            vec![vec![whole(2), whole(0)], vec![whole(0), whole(3)]],
+            vec![vec![whole(0), whole(3)], vec![whole(-2), whole(0)]],
+        );
         let applied = [
             AppliedLoad {
                 load: Load::Step(0),
@@ -342,5 +339,50 @@ mod tests {
             check_at(ContactState::Free, whole(2), unchanged),
             fails("E9")
         );
+    }
+
+    /// Do rates (v_T, v_N), (r_T', r_N') fit a class, with mu = 1/2?
+    fn fit(class: Class, v: [i64; 2], r: [i64; 2]) -> bool {
+        let [v_t, v_n, r_t, r_n] = [v[0], v[1], r[0], r[1]].map(Integer::from);
+        let rates = NodeRates {
+            friction: &rational(1, 2),
+            v_t: &v_t,
+            v_n: &v_n,
+            r_t: &r_t,
+            r_n: &r_n,
+        };
+        rates.fit(class)
+    }
+
+    /// Each line of (9) for rates, and a near miss beside each.
+    #[test]
+    fn rates_fit_their_class_alone() {
+        assert!(fit(Class::Free, [5, -7], [0, 0]));
+        assert!(!fit(Class::Free, [5, -7], [0, -1]));
+        assert!(!fit(Class::Free, [5, -7], [1, 0]));
+
+        assert!(fit(Class::Stick, [0, 0], [9, 9]));
+        assert!(!fit(Class::Stick, [1, 0], [9, 9]));
+        assert!(!fit(Class::Stick, [0, -1], [9, 9]));
+
+        // y = -(2 r_T' + r_N') / 2 and x = -v_T at S = 1.
+        let cone = Class::Cone(1);
+        assert!(fit(cone, [-3, 0], [1, -2]), "slips, y = 0");
+        assert!(fit(cone, [0, 0], [-1, -2]), "sticks, y > 0");
+        assert!(!fit(cone, [-3, 0], [-1, -2]), "x y > 0");
+        assert!(!fit(cone, [3, 0], [1, -2]), "slides with friction");
+        assert!(!fit(cone, [0, 0], [2, -2]), "leaves the cone");
+        assert!(!fit(cone, [-3, -1], [1, -2]), "opens with a reaction");
+        assert!(fit(Class::Cone(-1), [3, 0], [-1, -2]));
+
+        assert!(fit(Class::Zero, [4, -1], [0, 0]), "opens");
+        assert!(fit(Class::Zero, [0, 0], [1, -4]), "sticks");
+        assert!(fit(Class::Zero, [-3, 0], [2, -4]), "slips");
+        assert!(!fit(Class::Zero, [0, 1], [0, 0]), "penetrates");
+        assert!(!fit(Class::Zero, [0, 0], [0, 1]), "is pulled");
+        assert!(!fit(Class::Zero, [0, -1], [0, -1]), "pressed at a distance");
+        assert!(!fit(Class::Zero, [0, 0], [3, -4]), "outside the cone");
+        assert!(!fit(Class::Zero, [-3, 0], [1, -4]), "slips inside the cone");
+        assert!(!fit(Class::Zero, [3, 0], [2, -4]), "slides with friction");
     }
 }

@@ -173,6 +173,21 @@ impl Contact {
     }
 }
 
+#[cfg(test)]
+impl Contact {
+    /// Without gaps, all friction factors 1: what the tests of this crate begin with.
+    pub(super) fn plain(stiffness: Vec<Vec<Rational>>, loads: Vec<Vec<Rational>>) -> Contact {
+        let nodes = stiffness.len() / 2;
+        Contact::new(ContactSide {
+            stiffness,
+            loads,
+            gaps: vec![Rational::zero(); nodes],
+            friction_factors: vec![Rational::one(); nodes],
+        })
+        .unwrap()
+    }
+}
+
 impl ContactSide {
     fn require_fitting_shapes(&self) -> Result<(), PathError> {
         let order = self.stiffness.len();

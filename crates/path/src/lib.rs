@@ -57,7 +57,7 @@ pub use load_steps::{LoadSteps, require_positive};
 pub use loading_path::{LoadingPath, PathEnd};
 pub use pencils::Pencils;
 pub use rates::Finder;
-pub use stretch::{Change, Event, Interval};
+pub use stretch::{Change, Event, Stretch};
 pub use trace::PathProgress;
 
 use std::ops::ControlFlow;
@@ -89,7 +89,7 @@ impl LoadingPath {
     /// let path = LoadingPath::follow(&contact, &steps, &|_| ControlFlow::Continue(())).unwrap();
     ///
     /// // It sticks until the push reaches mu N = 3/2.
-    /// let last = path.intervals.last().unwrap();
+    /// let last = path.stretches.last().unwrap();
     /// assert_eq!(last.start.amount(), &rational(3, 2));
     /// assert_eq!(last.states, [ContactState::Slip { sign: -1 }]);
     /// ```

@@ -478,7 +478,6 @@ fn class_of(
 
 #[cfg(test)]
 mod tests {
-    use super::super::contact::ContactSide;
     use super::*;
     use mceip_exact::{rational, whole};
 
@@ -508,13 +507,7 @@ mod tests {
             row[i] = whole(1);
         }
 
-        Contact::new(ContactSide {
-            stiffness,
-            loads: vec![vec![whole(0); 2 * nodes]; 2],
-            gaps: vec![whole(0); nodes],
-            friction_factors: vec![whole(1); nodes],
-        })
-        .unwrap()
+        Contact::plain(stiffness, vec![vec![whole(0); 2 * nodes]; 2])
     }
 
     fn mu_two() -> Friction {

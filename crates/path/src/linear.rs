@@ -375,7 +375,6 @@ fn denominator_of(value: &Integer, modulus: &Integer, limit: u64) -> Option<Inte
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::ContactSide;
     use mceip_exact::{Rational, whole};
 
     fn integers(values: &[i64]) -> Vec<Integer> {
@@ -384,13 +383,7 @@ mod tests {
 
     /// One candidate without loads or a gap: w has two components, and the amount of the gap.
     fn one_candidate(stiffness: [[Rational; 2]; 2]) -> Contact {
-        Contact::new(ContactSide {
-            stiffness: stiffness.map(Vec::from).to_vec(),
-            loads: Vec::new(),
-            gaps: vec![whole(0)],
-            friction_factors: vec![whole(1)],
-        })
-        .unwrap()
+        Contact::plain(stiffness.map(Vec::from).to_vec(), Vec::new())
     }
 
     fn contact(tangential: i64, coupling: i64, normal: i64) -> Contact {

@@ -3,7 +3,7 @@
 
 use super::line::Bound;
 use super::load_steps::LoadSteps;
-use super::stretch::{Event, Interval};
+use super::stretch::{Event, Stretch};
 use mceip_exact::Rational;
 use mceip_model::ContactState;
 
@@ -36,7 +36,7 @@ pub struct LoadingPath {
     /// How the body was loaded.
     pub steps: LoadSteps,
     /// The stretches, in order.
-    pub intervals: Vec<Interval>,
+    pub stretches: Vec<Stretch>,
     /// Why it ends.
     pub end: PathEnd,
 }
@@ -44,7 +44,7 @@ pub struct LoadingPath {
 impl LoadingPath {
     /// Does the path end in sliding: some candidate slides for ever, and none sticks?
     pub fn slides(&self) -> bool {
-        let last = self.intervals.last();
+        let last = self.stretches.last();
         let Some(last) = last.filter(|_| self.end == PathEnd::NoFurtherEvent) else {
             return false;
         };
@@ -59,14 +59,14 @@ impl LoadingPath {
 
     /// The event that ends a stretch, `None` for the last one.
     pub fn ending(&self, stretch: usize) -> Option<&Event> {
-        let next = self.intervals.get(stretch + 1)?;
+        let next = self.stretches.get(stretch + 1)?;
         Some(&next.begin)
     }
 
     /// The stretches with exactly these states, in order.
     pub fn stretches_with(&self, states: &[ContactState]) -> Vec<usize> {
-        (0..self.intervals.len())
-            .filter(|&i| self.intervals[i].states == states)
+        (0..self.stretches.len())
+            .filter(|&i| self.stretches[i].states == states)
             .collect()
     }
 
@@ -81,7 +81,7 @@ impl LoadingPath {
                     .map(|amount| amount.as_ref().map(|amount| amount * factor))
                     .collect(),
             },
-            intervals: self.intervals.iter().map(|i| i.scaled(factor)).collect(),
+            stretches: self.stretches.iter().map(|i| i.scaled(factor)).collect(),
             end: self.end.clone(),
         }
     }

@@ -1,7 +1,7 @@
 //! The rate problem against plain enumeration: every set of states tried by elimination in
 //! fractions, the lines of (9) written out. For tests; shares nothing with the solver.
 
-use super::contact::{Contact, ContactSide, Friction, Load};
+use super::contact::{Contact, Friction, Load};
 use super::error::PathError;
 use super::line::Class;
 use super::linear::Images;
@@ -55,14 +55,7 @@ impl Instance {
             stiffness.push(row.iter().map(|&entry| whole(entry)).collect());
         }
 
-        let nodes = self.stiffness.len() / 2;
-        Contact::new(ContactSide {
-            stiffness,
-            loads: vec![load],
-            gaps: vec![whole(0); nodes],
-            friction_factors: vec![whole(1); nodes],
-        })
-        .unwrap()
+        Contact::plain(stiffness, vec![load])
     }
 }
 

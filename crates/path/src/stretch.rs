@@ -33,7 +33,7 @@ pub struct Event {
 /// A stretch of the path with constant states; (1), (2), (5), (7) were verified at both ends and
 /// inside.
 #[derive(Debug, Clone)]
-pub struct Interval {
+pub struct Stretch {
     /// The step whose load grows, from 0.
     pub step: usize,
     /// The event it begins with.
@@ -52,7 +52,7 @@ pub struct Interval {
     pub stop: Option<Equilibrium>,
 }
 
-impl Interval {
+impl Stretch {
     /// Number of candidates that stick, are in impending slip against their tangent (S = 1) and
     /// along it (S = -1), and are free, at the equilibria inside the stretch.
     pub fn counts(&self) -> [usize; 4] {
@@ -71,8 +71,8 @@ impl Interval {
     }
 
     /// The stretch of the same body with all gaps and loads times `factor` > 0.
-    pub(super) fn scaled(&self, factor: &Rational) -> Interval {
-        Interval {
+    pub(super) fn scaled(&self, factor: &Rational) -> Stretch {
+        Stretch {
             start: self.start.scaled(factor),
             inside: self.inside.scaled(factor),
             stop: self.stop.as_ref().map(|stop| stop.scaled(factor)),

@@ -15,7 +15,7 @@ use super::linear::Images;
 use super::load_steps::LoadSteps;
 use super::loading_path::{LoadingPath, PathEnd};
 use super::rates::{Rates, Solved};
-use super::stretch::{Change, Event, Interval};
+use super::stretch::{Change, Event, Stretch};
 use mceip_exact::{Rational, to_f64, whole};
 use mceip_model::ContactState;
 use num_traits::Zero;
@@ -97,10 +97,10 @@ pub(super) fn trace(
 
     let mut tracer = Tracer::new(contact, steps);
     let mut position = tracer.unloaded();
-    let mut intervals = Vec::new();
+    let mut stretches = Vec::new();
     let end = loop {
         let here = PathProgress {
-            stretch: intervals.len(),
+            stretch: stretches.len(),
             step: position.step,
             amount: &position.a,
         };
@@ -108,7 +108,7 @@ pub(super) fn trace(
             break PathEnd::Interrupted;
         }
 
-        if intervals.len() > events_allowed {
+        if stretches.len() > events_allowed {
             return Err(PathError::TooManyEvents {
                 limit: events_allowed,
             });
@@ -127,10 +127,10 @@ pub(super) fn trace(
         };
 
         let stretch_end = tracer.end_of(&stretch, position.step);
-        let interval = tracer
-            .interval(&position, &stretch, &stretch_end)
+        let finished = tracer
+            .finished(&position, &stretch, &stretch_end)
             .map_err(|error| at(error, here))?;
-        intervals.push(interval);
+        stretches.push(finished);
 
         position = match stretch_end {
             StretchEnd::Never => break PathEnd::NoFurtherEvent,
@@ -158,7 +158,7 @@ pub(super) fn trace(
 
     Ok(LoadingPath {
         steps: steps.clone(),
-        intervals,
+        stretches,
         end,
     })
 }
@@ -296,12 +296,12 @@ impl<'a> Tracer<'a> {
     }
 
     /// The stretch as users see it, from a position to its end; the laws hold there and inside too.
-    fn interval(
+    fn finished(
         &self,
         from: &Position,
         stretch: &SolvedStretch,
         end: &StretchEnd,
-    ) -> Result<Interval, PathError> {
+    ) -> Result<Stretch, PathError> {
         let line = &stretch.line;
         let solved = &stretch.solved;
         let inside = match end.amount() {
@@ -314,7 +314,7 @@ impl<'a> Tracer<'a> {
         self.point(stretch, &inside).check()?;
         let classes = classify(line, &inside, &self.friction)?;
 
-        Ok(Interval {
+        Ok(Stretch {
             step: from.step,
             begin: Event {
                 causes: from.causes.clone(),

@@ -214,7 +214,7 @@ fn compare(
     step: &Rational,
     job: &Job,
 ) -> Result<Comparison, CliError> {
-    let length = match path.motion.intervals.last() {
+    let length = match path.motion.stretches.last() {
         Some(last) => last.stop.as_ref().unwrap_or(&last.start).amount().clone(),
         None => Rational::default(),
     };

@@ -17,7 +17,7 @@ use mceip_engine::search::levels::Levels;
 use mceip_exact::{Rational, enclosing_decimals, to_f64};
 use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Variable, Window};
-use mceip_path::{Contact, Equilibrium, Interval, LoadingPath};
+use mceip_path::{Contact, Equilibrium, LoadingPath, Stretch};
 use serde_json::{Value, json};
 
 /// A path that was followed, and what it was followed on.
@@ -88,7 +88,7 @@ pub(in crate::cli) fn of(
     let body = followed.body;
     let mut pencils = followed.contact.pencils();
     let mut states = Vec::new();
-    for (stretch, interval) in followed.path.intervals.iter().enumerate() {
+    for (stretch, interval) in followed.path.stretches.iter().enumerate() {
         let states_here = &interval.equilibrium_states;
         let slip = states_here.iter().filter(|state| is_slip(state)).count();
         if slip == 0 || watch.is_cancelled() {
@@ -295,7 +295,7 @@ impl ProvedState {
     /// The marks of a mode.
     pub(in crate::cli) fn marks(&self, path: &LoadingPath, mode: &ProvedMode) -> Vec<Mark> {
         Mark::of_mode(
-            &path.intervals[self.stretch].equilibrium_states,
+            &path.stretches[self.stretch].equilibrium_states,
             &mode.moving,
         )
     }
@@ -351,7 +351,7 @@ fn thresholds_table(states: &[ProvedState], path: &LoadingPath) -> Table {
         let set = &state.thresholds;
         table.row(vec![
             state.stretch.to_string(),
-            path.intervals[state.stretch].picture(),
+            path.stretches[state.stretch].picture(),
             state.slip.to_string(),
             set.values("mu", 10),
             set.leaves.to_string(),
@@ -403,14 +403,14 @@ fn growing_table(states: &[ProvedState]) -> Table {
 pub(in crate::cli) fn json_of(states: &[ProvedState], path: &LoadingPath) -> Value {
     let mut out = Vec::new();
     for state in states {
-        out.push(state.json(&path.intervals[state.stretch]));
+        out.push(state.json(&path.stretches[state.stretch]));
     }
 
     Value::Array(out)
 }
 
 impl ProvedState {
-    fn json(&self, interval: &Interval) -> Value {
+    fn json(&self, stretch: &Stretch) -> Value {
         let set = &self.thresholds;
         let solutions = set.solutions.iter();
         let solutions: Vec<Value> = solutions.map(|m| self.mode_json(m, "mu")).collect();
@@ -419,9 +419,9 @@ impl ProvedState {
         let mut out = json!({
             "stretch": self.stretch,
             "slip": self.slip,
-            "nodes": interval.picture(),
-            "from": amount(&interval.start),
-            "to": interval.stop.as_ref().map(amount),
+            "nodes": stretch.picture(),
+            "from": amount(&stretch.start),
+            "to": stretch.stop.as_ref().map(amount),
             "solutions": solutions,
             "complete": set.open == 0,
             "leaves": set.leaves,

@@ -5,7 +5,7 @@ use super::words::{amount, causes_text, state_word};
 use mceip_engine::report::{Table, fixed_decimals};
 use mceip_exact::to_f64;
 use mceip_model::ContactState;
-use mceip_path::{Bound, Equilibrium, Event, Finder, Interval, LoadingPath};
+use mceip_path::{Bound, Equilibrium, Event, Finder, LoadingPath, Stretch};
 use serde_json::{Value, json};
 
 /// What the letters of the column "nodes" mean.
@@ -14,11 +14,11 @@ pub(in crate::cli) const LETTERS: &str = "nodes in order: . stick, < impending s
 
 /// The table of the stretches; `steps` are the names of the steps, shown where there are several.
 pub(in crate::cli) fn table_of(path: &LoadingPath, steps: &[&str]) -> Table {
-    let first = path.intervals.first().map(|interval| interval.step);
+    let first = path.stretches.first().map(|stretch| stretch.step);
     let has_steps = path
-        .intervals
+        .stretches
         .iter()
-        .any(|interval| Some(interval.step) != first);
+        .any(|stretch| Some(stretch.step) != first);
     let mut header = vec![
         "#",
         "from",
@@ -31,7 +31,7 @@ pub(in crate::cli) fn table_of(path: &LoadingPath, steps: &[&str]) -> Table {
         "T at start",
         "event it begins with",
     ];
-    let has_zero = path.intervals.iter().any(|interval| zeros(interval) > 0);
+    let has_zero = path.stretches.iter().any(|stretch| zeros(stretch) > 0);
     if has_zero {
         header.insert(8, "zero");
     }
@@ -40,15 +40,15 @@ pub(in crate::cli) fn table_of(path: &LoadingPath, steps: &[&str]) -> Table {
     }
 
     let mut table = Table::new(&header);
-    for (k, interval) in path.intervals.iter().enumerate() {
-        let mut row = stretch_cells(k, interval);
+    for (k, stretch) in path.stretches.iter().enumerate() {
+        let mut row = stretch_cells(k, stretch);
         if has_zero {
-            row.insert(8, zeros(interval).to_string());
+            row.insert(8, zeros(stretch).to_string());
         }
         if has_steps {
-            row.insert(1, steps[interval.step].to_string());
+            row.insert(1, steps[stretch.step].to_string());
         }
-        row.push(event_text(&interval.begin));
+        row.push(event_text(&stretch.begin));
         table.row(row);
     }
 
@@ -56,25 +56,20 @@ pub(in crate::cli) fn table_of(path: &LoadingPath, steps: &[&str]) -> Table {
 }
 
 /// Candidates in contact without reaction.
-fn zeros(interval: &Interval) -> usize {
-    interval.count(ContactState::Zero)
+fn zeros(stretch: &Stretch) -> usize {
+    stretch.count(ContactState::Zero)
 }
 
 /// The cells that describe stretch k, but for its step and the event it begins with.
-pub(in crate::cli) fn stretch_cells(k: usize, interval: &Interval) -> Vec<String> {
-    let to = match &interval.stop {
+pub(in crate::cli) fn stretch_cells(k: usize, stretch: &Stretch) -> Vec<String> {
+    let to = match &stretch.stop {
         Some(stop) => amount(stop),
         None => "-".into(),
     };
-    let mut cells = vec![
-        k.to_string(),
-        amount(&interval.start),
-        to,
-        interval.picture(),
-    ];
-    cells.extend(interval.counts().map(|count| count.to_string()));
+    let mut cells = vec![k.to_string(), amount(&stretch.start), to, stretch.picture()];
+    cells.extend(stretch.counts().map(|count| count.to_string()));
 
-    let (tangential, _) = interval.start.resultants();
+    let (tangential, _) = stretch.start.resultants();
     cells.push(fixed_decimals(&tangential, 6));
     cells
 }
@@ -92,30 +87,30 @@ fn event_text(event: &Event) -> String {
 
 /// The stretches for programs.
 pub(in crate::cli) fn json_of(path: &LoadingPath, steps: &[&str]) -> Vec<Value> {
-    let intervals = path.intervals.iter();
-    intervals
-        .map(|interval| interval_json(interval, steps[interval.step]))
+    let stretches = path.stretches.iter();
+    stretches
+        .map(|stretch| stretch_json(stretch, steps[stretch.step]))
         .collect()
 }
 
-fn interval_json(interval: &Interval, step: &str) -> Value {
-    let [stick, against, along, free] = interval.counts();
-    let stop = interval.stop.as_ref();
+fn stretch_json(stretch: &Stretch, step: &str) -> Value {
+    let [stick, against, along, free] = stretch.counts();
+    let stop = stretch.stop.as_ref();
 
     json!({
         "step": step,
-        "from": to_f64(interval.start.amount()),
+        "from": to_f64(stretch.start.amount()),
         "to": stop.map(|stop| to_f64(stop.amount())),
-        "states": states_json(&interval.states),
-        "equilibrium_states": states_json(&interval.equilibrium_states),
+        "states": states_json(&stretch.states),
+        "equilibrium_states": states_json(&stretch.equilibrium_states),
         "stick": stick,
         "slip-": against,
         "slip+": along,
         "free": free,
-        "zero": zeros(interval),
-        "start": equilibrium_json(&interval.start),
+        "zero": zeros(stretch),
+        "start": equilibrium_json(&stretch.start),
         "stop": stop.map(equilibrium_json),
-        "event": event_json(&interval.begin),
+        "event": event_json(&stretch.begin),
     })
 }
 

@@ -103,7 +103,7 @@ impl BlockPath {
         })?;
 
         let mut path = path.scaled(&depth);
-        path.intervals.retain(|interval| interval.step == MOVE);
+        path.stretches.retain(|stretch| stretch.step == MOVE);
         Ok(BlockPath {
             loading: loading.clone(),
             depth: depth.clone(),
@@ -132,7 +132,7 @@ fn press(contact: &Contact, friction: &Rational) -> Result<Pressing, BlockPathEr
         return Err(PathError::NoContinuation { tried, all: proved }.into());
     }
 
-    let stretch = path.intervals.into_iter().next();
+    let stretch = path.stretches.into_iter().next();
     let Some((states, Some(pressed))) = stretch.map(|stretch| (stretch.states, stretch.stop))
     else {
         return Err(BlockPathError::NoPressure);

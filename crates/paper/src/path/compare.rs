@@ -6,7 +6,7 @@
 
 use super::step::Step;
 use mceip_exact::to_f64;
-use mceip_path::{Interval, LoadingPath};
+use mceip_path::{LoadingPath, Stretch};
 
 /// How a stepped path compares with the exact one.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,9 +28,9 @@ impl Comparison {
     pub fn of(path: &LoadingPath, steps: &[Step]) -> Comparison {
         let slides = path.slides();
         let stretches: Vec<ExactStretch> = path
-            .intervals
+            .stretches
             .iter()
-            .map(|interval| ExactStretch::of(interval, slides))
+            .map(|stretch| ExactStretch::of(stretch, slides))
             .collect();
 
         let mut result = Comparison {
@@ -53,7 +53,7 @@ impl Comparison {
             visited[at] = true;
 
             let began_here = stretch_at(&stretches, steps[number - 1].motion) == at;
-            if began_here && step.states != path.intervals[at].states {
+            if began_here && step.states != path.stretches[at].states {
                 result.other_states.push(number);
             }
 
@@ -98,10 +98,10 @@ struct Stop {
 }
 
 impl ExactStretch {
-    fn of(interval: &Interval, slides: bool) -> ExactStretch {
-        let start = interval.start.reactions_f64();
+    fn of(stretch: &Stretch, slides: bool) -> ExactStretch {
+        let start = stretch.start.reactions_f64();
 
-        let stop = match &interval.stop {
+        let stop = match &stretch.stop {
             Some(stop) => Some(Stop {
                 to: to_f64(stop.amount()),
                 reactions: stop.reactions_f64(),
@@ -114,7 +114,7 @@ impl ExactStretch {
         };
 
         ExactStretch {
-            from: to_f64(interval.start.amount()),
+            from: to_f64(stretch.start.amount()),
             start,
             stop,
         }

@@ -86,7 +86,7 @@ pub(super) fn branches(
     }
 
     let mut levels = vec![static_points(&state.thresholds)];
-    let contact_states = &path.intervals[state.stretch].states;
+    let contact_states = &path.stretches[state.stretch].states;
     let system = Levels::new(&block.system(contact_states, None)?)?;
     let unit = system.lowest_frequency2().unwrap_or(1.0);
     for (k, exponent) in LEVELS.enumerate() {
@@ -351,9 +351,9 @@ impl Shown<'_> {
             "begins with",
         ];
         let mut rows = Vec::new();
-        for (k, interval) in self.path.motion.intervals.iter().enumerate() {
-            let mut row = stretch_cells(k, interval);
-            row.push(causes_text(&interval.begin.causes));
+        for (k, stretch) in self.path.motion.stretches.iter().enumerate() {
+            let mut row = stretch_cells(k, stretch);
+            row.push(causes_text(&stretch.begin.causes));
             rows.push(row);
         }
 
@@ -395,14 +395,14 @@ impl Shown<'_> {
     }
 
     fn state_rows(&self, state: &ProvedState) -> Vec<Vec<String>> {
-        let interval = &self.path.motion.intervals[state.stretch];
-        let from = amount(&interval.start);
-        let to = match &interval.stop {
+        let stretch = &self.path.motion.stretches[state.stretch];
+        let from = amount(&stretch.start);
+        let to = match &stretch.stop {
             Some(stop) => format!("{} mm", amount(stop)),
             None => "the end".into(),
         };
-        let picture = interval.picture();
-        let [stick, left, right, free] = interval.counts();
+        let picture = stretch.picture();
+        let [stick, left, right, free] = stretch.counts();
 
         let set = &state.thresholds;
         let values = set.values("\u{3bc}", 12);
