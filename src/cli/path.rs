@@ -151,7 +151,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         outcome.text()
     })?;
-    Ok(outcome.exit_code())
+    Ok(exit_code(
+        &outcome.path,
+        outcome.proved.as_deref(),
+        outcome.is_interrupted,
+    ))
 }
 
 /// A way to condense a body under loads.
@@ -251,7 +255,7 @@ impl Outcome<'_> {
             Some(proved) => out += &states::text_of(proved, &self.path),
         }
         if self.is_interrupted {
-            out += "INTERRUPTED: what is not listed was not examined\n";
+            out += INTERRUPTED;
         }
 
         out
@@ -299,18 +303,25 @@ impl Outcome<'_> {
 
         Ok(())
     }
+}
 
-    fn exit_code(&self) -> u8 {
-        let is_unproved = matches!(self.path.end, PathEnd::NoContinuation { proved: false, .. });
-        let mut states = self.proved.iter().flatten();
-        let is_open = states.any(ProvedState::is_open);
+/// What the text of an interrupted run ends with.
+pub(super) const INTERRUPTED: &str = "INTERRUPTED: what is not listed was not examined\n";
 
-        if self.is_interrupted {
-            exit::INTERRUPTED
-        } else if is_unproved || is_open {
-            exit::UNDECIDED
-        } else {
-            exit::DONE
-        }
+/// Undecided is a path that may go on, and a state with open regions.
+pub(super) fn exit_code(
+    path: &LoadingPath,
+    states: Option<&[ProvedState]>,
+    is_interrupted: bool,
+) -> u8 {
+    let is_unproved = matches!(path.end, PathEnd::NoContinuation { proved: false, .. });
+    let is_open = states.is_some_and(|states| states.iter().any(ProvedState::is_open));
+
+    if is_interrupted {
+        exit::INTERRUPTED
+    } else if is_unproved || is_open {
+        exit::UNDECIDED
+    } else {
+        exit::DONE
     }
 }

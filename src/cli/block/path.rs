@@ -14,13 +14,13 @@ use crate::cli::job::Job;
 use crate::cli::output::{Folder, Output};
 use crate::cli::path::states::{self, Followed, ProvedState, Wanted};
 use crate::cli::path::words::end_text;
-use crate::cli::path::{in_background, stretches};
+use crate::cli::path::{INTERRUPTED, exit_code, in_background, stretches};
 use mceip_engine::run::{Progress, Watch};
 use mceip_exact::{Integer, Rational, to_f64};
 use mceip_model::ContactState;
 use mceip_paper::path::{BlockPath, Comparison, Loading, step_path};
 use mceip_paper::{Block, BlockModel, MeshKind, Plane};
-use mceip_path::{Contact, PathEnd};
+use mceip_path::Contact;
 use num_traits::ToPrimitive;
 use pages::Shown;
 use serde_json::{Value, json};
@@ -106,6 +106,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         path,
         steps,
         states,
+        is_interrupted: job.is_cancelled(),
     };
     let text = if args.json {
         format!("{}\n", outcome.json(args.modes))
@@ -113,7 +114,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         outcome.text()
     };
     print(&text)?;
-    Ok(outcome.exit_code(job.is_cancelled()))
+    Ok(exit_code(
+        &outcome.path.motion,
+        outcome.states.as_deref(),
+        outcome.is_interrupted,
+    ))
 }
 
 /// What came out.
@@ -125,6 +130,7 @@ struct Outcome {
     steps: Option<Comparison>,
     /// What is proved of the states, if asked for.
     states: Option<Vec<ProvedState>>,
+    is_interrupted: bool,
 }
 
 impl Outcome {
@@ -137,12 +143,16 @@ impl Outcome {
         if let Some(states) = &self.states {
             out += &states::text_of(states, &self.path.motion);
         }
+        if self.is_interrupted {
+            out += INTERRUPTED;
+        }
         out
     }
 
     /// The same for programs, on request with the positions of the nodes.
     fn json(&self, with_nodes: bool) -> Value {
         let mut out = json_of(&self.model, &self.path, self.steps.as_ref());
+        out["interrupted"] = json!(self.is_interrupted);
         if let Some(states) = &self.states {
             out["complete_sets"] = states::json_of(states, &self.path.motion);
         }
@@ -150,23 +160,6 @@ impl Outcome {
             out["nodes_mm"] = nodes_json(&self.block);
         }
         out
-    }
-
-    fn exit_code(&self, is_interrupted: bool) -> u8 {
-        let is_unproved = matches!(
-            self.path.motion.end,
-            PathEnd::NoContinuation { proved: false, .. }
-        );
-        let mut states = self.states.iter().flatten();
-        let is_open = states.any(ProvedState::is_open);
-
-        if is_interrupted {
-            exit::INTERRUPTED
-        } else if is_unproved || is_open {
-            exit::UNDECIDED
-        } else {
-            exit::DONE
-        }
     }
 }
 
