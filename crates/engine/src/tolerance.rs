@@ -14,10 +14,15 @@ use std::ops::RangeInclusive;
 pub const SUPPORT_GUESSES: [f64; 6] = [1e-9, 1e-6, 1e-4, 1e-12, 1e-3, 0.0];
 
 /// A claim whose value is so near to that of a candidate, relative to it, is of the solution that
-/// is meant; else another support is tried too. Unit: none. Basis: candidates that have converged
-/// have nine digits and more, and of reports with fewer digits the best guess of the support is
-/// taken.
+/// is meant, where it has every positive component of the candidate; else other supports are tried
+/// too, and the nearest value is taken. Unit: none. Basis: candidates that have converged have nine
+/// digits and more.
 pub(crate) const MEANT_VALUE: f64 = 1e-9;
+
+/// The same where small components of the candidate were left out: the value as given. Unit: none.
+/// Basis: four units in the last place, two for the candidate's rounding and two for the middle of
+/// the claim's enclosure; values 1e-14 apart are told apart.
+pub(crate) const GIVEN_VALUE: f64 = 4.0 * f64::EPSILON;
 
 /// A reported solution that is certified by nothing is inaccurate, and not wrong, where one of the
 /// complete answer is within this many times [`VALUE_RADIUS`] and [`X_RADIUS`]. Unit: none. Basis:

@@ -8,7 +8,7 @@ use super::proposals::{Preference, Proposal, proposals};
 use super::rows::IntegralRows;
 use crate::candidate::Candidate;
 use crate::reduction::zero_of;
-use crate::tolerance::MEANT_VALUE;
+use crate::tolerance::{GIVEN_VALUE, MEANT_VALUE};
 use mceip_check::certificate::Claim;
 use mceip_check::{AcceptedClaim, ClaimChecker, Reason};
 use mceip_exact::to_f64;
@@ -66,30 +66,50 @@ impl<'a> Certifier<'a> {
         let window = self.problem.window();
         let candidate = candidate.one_sided(&self.zero);
         let proposals = proposals(self.pencil, &self.rows, window, &candidate, self.preference)?;
-        self.first_accepted(proposals, candidate.value)
+        self.first_accepted(proposals, &candidate)
     }
 
-    /// The first proposal that the checker accepts with the value of the candidate, else the first
-    /// one that it accepts: a component that looks like rounding may part two solutions of near
-    /// values.
+    /// The first accepted proposal that is taken for the one meant ([`is_meant`]), else the
+    /// accepted one of the nearest value: a component that looks like rounding may part two
+    /// solutions, so the first accepted one need not be it.
     fn first_accepted(
         &self,
         proposals: impl Iterator<Item = Proposal>,
-        value: f64,
+        candidate: &Candidate,
     ) -> Result<(Claim, AcceptedClaim), NotCertified> {
+        let every_component = self.positive(candidate);
         let mut attempts = Vec::new();
-        let mut first = None;
+        let mut nearest: Option<(f64, (Claim, AcceptedClaim))> = None;
         for Proposal { support, claim } in proposals {
-            match claim.and_then(|claim| self.examined(claim)) {
-                Ok(accepted) if is_value(&accepted.1, value) => return Ok(accepted),
-                Ok(accepted) => {
-                    first.get_or_insert(accepted);
+            let accepted = match claim.and_then(|claim| self.examined(claim)) {
+                Ok(accepted) => accepted,
+                Err(failure) => {
+                    attempts.push(Attempt { support, failure });
+                    continue;
                 }
-                Err(failure) => attempts.push(Attempt { support, failure }),
+            };
+
+            let distance = distance_of_values(&accepted.1, candidate.value);
+            if is_meant(distance, support == every_component) {
+                return Ok(accepted);
+            }
+            if nearest.as_ref().is_none_or(|(least, _)| distance < *least) {
+                nearest = Some((distance, accepted));
             }
         }
 
-        first.ok_or(NotCertified { attempts })
+        match nearest {
+            Some((_, accepted)) => Ok(accepted),
+            None => Err(NotCertified { attempts }),
+        }
+    }
+
+    /// The slip variables whose component of the candidate is positive, however small.
+    fn positive(&self, candidate: &Candidate) -> Vec<usize> {
+        let mut positive = self.pencil.slip();
+        positive.retain(|&i| candidate.x[i] > 0.0);
+
+        positive
     }
 
     /// Every claim that the candidate suggests and the checker accepts, best first.
@@ -122,14 +142,34 @@ impl<'a> Certifier<'a> {
     }
 }
 
-/// Is the value of an accepted claim the one that a candidate has, up to [`MEANT_VALUE`]?
+/// Is an accepted claim at this distance of values taken for the one that the candidate means?
+///
+/// Where the support has every positive component of the candidate, a near value is enough. Where
+/// small components were left out, another solution may have them, and its value may be as near as
+/// they are small: only the value as given is enough.
+fn is_meant(distance: f64, has_every_component: bool) -> bool {
+    let limit = if has_every_component {
+        MEANT_VALUE
+    } else {
+        GIVEN_VALUE
+    };
+
+    distance <= limit
+}
+
+/// Distance of the value of an accepted claim from a value, relative to it; infinite at 0, unless
+/// they are equal.
 #[allow(
     clippy::float_arithmetic,
     reason = "which claim is meant, not whether it holds"
 )]
-fn is_value(accepted: &AcceptedClaim, value: f64) -> bool {
-    let claimed = to_f64(&accepted.value.mid());
-    (claimed - value).abs() <= MEANT_VALUE * value.abs()
+fn distance_of_values(accepted: &AcceptedClaim, value: f64) -> f64 {
+    let difference = (to_f64(&accepted.value.mid()) - value).abs();
+    if difference == 0.0 {
+        return 0.0;
+    }
+
+    difference / value.abs()
 }
 
 /// A claim that the candidate suggests and the checker accepts; for several candidates a
@@ -173,7 +213,7 @@ mod tests {
     use super::*;
     use crate::certify::propose;
     use mceip_check::certificate::ExactSolution;
-    use mceip_exact::{Sparse, whole};
+    use mceip_exact::{Sparse, parse, whole};
     use mceip_model::file::Number;
     use mceip_model::{Body, Unknown, Window};
 
@@ -192,11 +232,15 @@ mod tests {
     }
 
     fn good(problem: &Problem) -> Claim {
-        let candidate = Candidate {
+        propose(pencil(problem), problem.window(), &candidate()).unwrap()
+    }
+
+    /// The first solution, to six digits.
+    fn candidate() -> Candidate {
+        Candidate {
             value: 2.0,
             x: vec![0.666667, 0.333333],
-        };
-        propose(pencil(problem), problem.window(), &candidate).unwrap()
+        }
     }
 
     /// The claim with an x that solves nothing.
@@ -234,7 +278,8 @@ mod tests {
         let problem = problem();
         let certifier = Certifier::new(&problem, pencil(&problem));
 
-        let alone = certifier.first_accepted([proposal(forged(&problem))].into_iter(), 2.0);
+        let candidate = candidate();
+        let alone = certifier.first_accepted([proposal(forged(&problem))].into_iter(), &candidate);
 
         let Err(refused) = alone else {
             panic!("a forged claim was accepted")
@@ -249,8 +294,40 @@ mod tests {
         assert!(told.contains("the checker refuses the claim"), "{told}");
 
         let both = [proposal(forged(&problem)), proposal(good(&problem))];
-        let (accepted, _) = certifier.first_accepted(both.into_iter(), 2.0).unwrap();
+        let (accepted, _) = certifier
+            .first_accepted(both.into_iter(), &candidate)
+            .unwrap();
         assert_eq!(accepted, good(&problem));
+    }
+
+    /// [[-2.5, 0], [1, -2.5 - d]] + t I has at t = 2.5 also the solution x = (d, 1), and at
+    /// t = 2.5 + d the solution x = (0, 1): values and vectors are d apart, and the component d
+    /// looks like rounding.
+    #[test]
+    fn of_two_solutions_as_near_as_rounding_the_one_that_is_meant_is_certified() {
+        for (d, diagonal) in [(1e-9, "-2.500000001"), (1e-12, "-2.500000000001")] {
+            let number = |text| parse(text).unwrap();
+            let entries = [
+                (0, 0, number("-2.5")),
+                (1, 0, number("1")),
+                (1, 1, number(diagonal)),
+            ];
+            let a = Sparse::from_entries(2, 2, entries);
+            let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+            let body = Body::Pencil(pencil.clone());
+            let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
+            let certifier = Certifier::new(&problem, &pencil);
+
+            for (value, x, expected) in [
+                (2.5, vec![d, 1.0], vec![0, 1]),
+                (2.5 + d, vec![0.0, 1.0], vec![1]),
+                (2.5, vec![1.0, 0.0], vec![0]),
+            ] {
+                let candidate = Candidate { value, x };
+                let (_, accepted) = certifier.certify_with_verdict(&candidate).unwrap();
+                assert_eq!(accepted.support, expected, "{candidate:?}");
+            }
+        }
     }
 
     #[test]
