@@ -8,7 +8,7 @@
 use crate::common::{example, exits, exits_with_json, read, repository};
 use crate::program::Folder;
 use roxmltree::Document;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 fn simulate(code: i32, args: &[&str]) -> String {
     exits(code, &[&["simulate"][..], args].concat())
@@ -43,6 +43,25 @@ fn certified_modes_grow_as_predicted() {
     for impulse in motion["impulses"].as_array().unwrap() {
         assert_eq!(impulse["class"], "growth along a constant direction");
         assert_eq!(impulse["resolved"], true);
+    }
+}
+
+/// A mass of 1e-170 in its unit: lambda is 1e85 times as large, and nothing else differs.
+#[test]
+fn the_unit_of_mass_does_not_matter() {
+    let folder = Folder::new();
+    let mut problem: Value = serde_json::from_str(&read(&example("point"))).unwrap();
+    problem["system"]["mass"] = json!([["1e-170", 0], [0, "1e-170"]]);
+    let light = folder.write("light.json", &problem.to_string());
+
+    for (file, rate) in [(example("point"), 0.5), (light, 0.5e85)] {
+        let motion = simulate_json(0, &[&file]);
+        let mode = &motion["modes"][0];
+        assert_eq!(mode["agreement"], "AGREES", "{file}");
+        let points = mode["points"].as_array().unwrap();
+        let end = points.last().unwrap();
+        let [time, predicted] = [0, 1].map(|k| end[k].as_f64().unwrap());
+        assert!((predicted / (rate * time).cosh() - 1.0).abs() < 1e-9);
     }
 }
 

@@ -244,7 +244,9 @@ impl Equations {
 
         let mut shape = DVector::from_element(self.order(), 1.0);
         for _ in 0..ITERATIONS {
-            shape = factor.solve(&(&self.energy_mass * shape)).normalize();
+            shape = factor.solve(&(&self.energy_mass * shape));
+            // Not the l2 norm: the squares of a mass in other units may be 0 in doubles.
+            shape /= shape.amax();
         }
 
         let mass = shape.dot(&(&self.energy_mass * &shape));
