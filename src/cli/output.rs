@@ -261,6 +261,24 @@ impl Folder {
         let output = Output::prepare(self.option, &path, &[])?;
         output.write_bytes(bytes)
     }
+
+    /// Removes the files `stem-NUMBER.json` but for these numbers: those of an earlier run.
+    pub(super) fn keep_numbered(&self, stem: &str, kept: &[usize]) -> Result<(), CliError> {
+        let failed = |error: &std::io::Error| CliError::write(self.path.display(), error);
+        for entry in std::fs::read_dir(&self.path).map_err(|e| failed(&e))? {
+            let entry = entry.map_err(|e| failed(&e))?;
+            let name = entry.file_name();
+            let name = name.to_str().unwrap_or_default();
+            let numbered = name.strip_prefix(stem).and_then(|n| n.strip_prefix('-'));
+            let number = numbered.and_then(|n| n.strip_suffix(".json"));
+            let number = number.and_then(|n| n.parse::<usize>().ok());
+            if number.is_some_and(|number| !kept.contains(&number)) {
+                std::fs::remove_file(entry.path()).map_err(|e| failed(&e))?;
+            }
+        }
+
+        Ok(())
+    }
 }
 
 /// Makes the folder if it is not there.

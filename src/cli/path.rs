@@ -36,7 +36,9 @@ pub(super) struct Args {
     /// The path is then, exactly, that of a body which differs from the given one by rounding.
     #[arg(long)]
     doubles: bool,
-    /// Write the problem of each stretch with impending slip into this folder: input of `analyze`.
+    /// Write the problem of each stretch with impending slip into this folder, as
+    /// `stretch-NUMBER.json`: input of `analyze`. Files of that name from an earlier path are
+    /// removed.
     #[arg(long, value_name = "FOLDER")]
     states: Option<PathBuf>,
     /// For each state with impending slip the complete set of MCEIP-mu, proved.
@@ -280,8 +282,9 @@ impl Outcome<'_> {
         out
     }
 
-    /// The problem of each stretch with impending slip.
+    /// The problem of each stretch with impending slip; those of an earlier path go.
     fn write_states(&self, folder: &Folder) -> Result<(), CliError> {
+        let mut written = Vec::new();
         for (k, stretch) in self.path.stretches.iter().enumerate() {
             let states = &stretch.equilibrium_states;
             if !states.iter().any(states::is_slip) {
@@ -299,9 +302,10 @@ impl Outcome<'_> {
 
             let file = format!("stretch-{k:03}.json");
             folder.write(&file, write_problem(&problem).as_bytes())?;
+            written.push(k);
         }
 
-        Ok(())
+        folder.keep_numbered("stretch", &written)
     }
 }
 
@@ -314,7 +318,8 @@ pub(super) fn exit_code(
     states: Option<&[ProvedState]>,
     is_interrupted: bool,
 ) -> u8 {
-    let is_unproved = matches!(path.end, PathEnd::NoContinuation { proved: false, .. });
+    let is_unproved =
+        matches!(&path.end, PathEnd::NoContinuation { search, .. } if !search.is_proved());
     let is_open = states.is_some_and(|states| states.iter().any(ProvedState::is_open));
 
     if is_interrupted {

@@ -104,7 +104,9 @@ impl Observed {
         let end = match &path.end {
             PathEnd::NoFurtherEvent if path.slides() => "slides",
             PathEnd::NoFurtherEvent => "some stick for ever",
-            PathEnd::NoContinuation { proved: true, .. } => "no continuation (proved)",
+            PathEnd::NoContinuation { search, .. } if search.is_proved() => {
+                "no continuation (proved)"
+            }
             PathEnd::NoContinuation { .. } => "no continuation (undecided)",
             _ => "other",
         };

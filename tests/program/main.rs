@@ -31,6 +31,7 @@ mod launcher;
 mod limits;
 mod manual;
 mod names;
+mod path;
 mod pictures;
 mod plausibility;
 mod presence;

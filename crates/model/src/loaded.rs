@@ -11,7 +11,7 @@
 
 use super::{ContactState, ModelError, Particle, Problem, System, Unknown, Window};
 use crate::problem::Body;
-use mceip_exact::{Rational, Sparse};
+use mceip_exact::{Rational, Sparse, to_f64};
 use num_traits::{Signed, Zero};
 
 /// A contact candidate: a particle whose state is not known yet.
@@ -94,10 +94,12 @@ impl LoadedBody {
             return Err(refused("at least one contact candidate", "none"));
         }
 
-        let loads = parts.steps.iter();
-        let loads = loads
-            .map(|step| load(step, &parts.stiffness, &kept))
-            .collect();
+        let mut loads = Vec::with_capacity(parts.steps.len());
+        for step in &parts.steps {
+            let load = load(step, &parts.stiffness, &kept);
+            require_doubles(&load, &step.name)?;
+            loads.push(load);
+        }
         let mass = parts.mass.as_ref().map(|mass| mass.submatrix(&kept, &kept));
         let stiffness = parts.stiffness.submatrix(&kept, &kept);
 
@@ -155,6 +157,18 @@ impl LoadedBody {
 fn require_matrices(parts: &LoadedParts) -> Result<(), ModelError> {
     let stiffness = parts.stiffness.clone();
     System::assuming_definite(stiffness, parts.mass.clone(), None, Vec::new())?;
+    Ok(())
+}
+
+/// Refuses loads beyond the range of doubles, in which displacements and reactions are printed.
+fn require_doubles(load: &[Rational], step: &str) -> Result<(), ModelError> {
+    for value in load {
+        if !to_f64(value).is_finite() {
+            let expected = format!("loads of step {step:?} that doubles can hold, below 1.8e308");
+            return Err(refused(&expected, "a larger one"));
+        }
+    }
+
     Ok(())
 }
 
@@ -261,6 +275,10 @@ fn gap(index: usize, candidate: &Candidate) -> Result<Rational, ModelError> {
         let got = format!("candidate {index}, gap {}", candidate.gap);
         return Err(refused("gaps >= 0", &got));
     }
+    if !to_f64(&candidate.gap).is_finite() {
+        let got = format!("candidate {index}, a larger one");
+        return Err(refused("gaps that doubles can hold, below 1.8e308", &got));
+    }
 
     Ok(candidate.gap.clone())
 }
@@ -290,7 +308,7 @@ fn refused(expected: &str, got: &str) -> ModelError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::{rational, whole};
+    use mceip_exact::{parse, rational, whole};
 
     /// A chain of three springs of stiffness 1 between four points, all along; the point at the end
     /// touches, with a normal dof on a spring of its own.
@@ -324,6 +342,10 @@ mod tests {
         let mut parts = chain();
         change(&mut parts);
         LoadedBody::new(parts).unwrap_err().to_string()
+    }
+
+    fn beyond_doubles() -> Rational {
+        parse("1e400").unwrap()
     }
 
     #[test]
@@ -376,6 +398,11 @@ mod tests {
                 "0 twice",
             ),
             (refusal(|p| p.candidates[0].gap = whole(-1)), "gap -1"),
+            (refusal(|p| p.candidates[0].gap = beyond_doubles()), "gaps"),
+            (
+                refusal(|p| p.steps[0].forces[0].1 = beyond_doubles()),
+                "loads of step \"pull\" that doubles can hold",
+            ),
             (refusal(|p| p.candidates.clear()), "candidate, got none"),
             (refusal(|p| p.steps.clear()), "step, got none"),
             (

@@ -1,6 +1,7 @@
 //! Why a loading path is not computed: what users read ([`PathError`]), and the law that fails at a
 //! node, as the parts of the path tell each other ([`LawFailure`]).
 
+use super::rates::Search;
 use mceip_exact::{CondenseError, NumberError, Rational};
 use mceip_mcp::linear::SymmetricError;
 use mceip_model::ModelError;
@@ -61,16 +62,8 @@ pub enum PathError {
     },
     /// No states satisfy the rate conditions. (A path ends instead of failing:
     /// [`super::PathEnd::NoContinuation`].)
-    #[error(
-        "rate problem: no admissible states among {tried} sets tried{}",
-        if *.all { " (every set there is)" } else { "" }
-    )]
-    NoContinuation {
-        /// Sets of states tried (some of them more than once).
-        tried: usize,
-        /// Every set was tried, and none was singular: there is no continuation.
-        all: bool,
-    },
+    #[error("rate problem: {0}")]
+    NoContinuation(Search),
     /// What fails on the way.
     #[error("loading path: stretch {stretch}, step {step} at {amount} of its load: {source}")]
     At {

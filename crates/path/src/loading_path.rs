@@ -3,6 +3,7 @@
 
 use super::line::Bound;
 use super::load_steps::LoadSteps;
+use super::rates::Search;
 use super::stretch::{Event, Stretch};
 use mceip_exact::Rational;
 use mceip_model::ContactState;
@@ -21,10 +22,8 @@ pub enum PathEnd {
     NoContinuation {
         /// The bounds that became zero there.
         causes: Vec<Bound>,
-        /// Sets of states tried (some of them more than once).
-        tried: usize,
-        /// Every set was tried and none was singular: it is proved that there is no continuation.
-        proved: bool,
+        /// How the search for states ended.
+        search: Search,
     },
     /// Whoever watched the progress stopped it; what was found is kept.
     Interrupted,

@@ -32,6 +32,54 @@ pub enum Finder {
     Enumeration,
 }
 
+/// How a search for states that solve a rate problem ended without any.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Search {
+    /// Every set was tried and none was singular: there is no continuation, proved.
+    NoneExists,
+    /// Every set was tried, and some have no unique rates: the body can move in a way that needs
+    /// no force.
+    Singular {
+        /// Number of sets of states.
+        all: usize,
+        /// Those that have no unique rates.
+        singular: usize,
+    },
+    /// There are more than 1,024 sets, too many to try all.
+    Stopped {
+        /// Sets tried (some of them more than once).
+        tried: usize,
+    },
+}
+
+impl Search {
+    /// Is it proved that there is no continuation?
+    pub fn is_proved(self) -> bool {
+        self == Search::NoneExists
+    }
+}
+
+impl std::fmt::Display for Search {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Search::NoneExists => {
+                f.write_str("no states satisfy the rate conditions, every set was tried")
+            }
+            Search::Singular { all: 1, .. } => f.write_str(
+                "the body can move in a way that needs no force, so its rates are not unique",
+            ),
+            Search::Singular { all, singular } => write!(
+                f,
+                "no admissible states; in {singular} of all {all} sets of states the body can move \
+                 in a way that needs no force, so its rates are not unique"
+            ),
+            Search::Stopped { tried } => {
+                write!(f, "no admissible states among {tried} sets tried")
+            }
+        }
+    }
+}
+
 /// Most sets of states that are tried in turn when nothing else helps.
 const ENUMERATED: usize = 1024;
 
@@ -126,17 +174,15 @@ impl Rates<'_> {
     /// proves that the quasi-static path has no continuation.
     fn enumerate(&self, images: &mut Images, tried: &mut usize) -> Result<Solved, PathError> {
         let Some(sets) = self.sets_of_states() else {
-            return Err(PathError::NoContinuation {
-                tried: *tried,
-                all: false,
-            });
+            return Err(PathError::NoContinuation(Search::Stopped { tried: *tried }));
         };
 
-        let mut singular = false;
+        let all = sets.len();
+        let mut singular = 0;
         for states in sets {
             *tried += 1;
             match self.attempt(images, &states) {
-                None => singular = true,
+                None => singular += 1,
                 Some(attempt) if attempt.corrections.is_empty() => {
                     return Ok(attempt.solved(states, Finder::Enumeration, *tried));
                 }
@@ -144,10 +190,10 @@ impl Rates<'_> {
             }
         }
 
-        Err(PathError::NoContinuation {
-            tried: *tried,
-            all: !singular,
-        })
+        Err(PathError::NoContinuation(match singular {
+            0 => Search::NoneExists,
+            _ => Search::Singular { all, singular },
+        }))
     }
 
     /// Every choice of a state for each node, the last node varying fastest; `None` if there are

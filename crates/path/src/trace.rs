@@ -116,11 +116,10 @@ pub(super) fn trace(
 
         let stretch = match tracer.pass(&position) {
             Ok(stretch) => stretch,
-            Err(PathError::NoContinuation { tried, all }) => {
+            Err(PathError::NoContinuation(search)) => {
                 break PathEnd::NoContinuation {
                     causes: position.causes,
-                    tried,
-                    proved: all,
+                    search,
                 };
             }
             Err(error) => return Err(at(error, here)),

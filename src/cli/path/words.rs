@@ -27,19 +27,12 @@ pub(in crate::cli) fn end_text(path: &LoadingPath) -> String {
         PathEnd::NoFurtherEvent => "no further event: no state changes any more".into(),
         PathEnd::AllApplied => "all loads are applied".into(),
         PathEnd::Interrupted => "INTERRUPTED".into(),
-        PathEnd::NoContinuation {
-            causes,
-            tried,
-            proved,
-        } => {
+        PathEnd::NoContinuation { causes, search } => {
             let causes = causes_text(causes);
-            if *proved {
-                format!(
-                    "the quasi-static path ends ({causes}): no states satisfy the rate conditions, \
-                     every set was tried"
-                )
+            if search.is_proved() {
+                format!("the quasi-static path ends ({causes}): {search}")
             } else {
-                format!("UNDECIDED ({causes}): no admissible states among {tried} sets tried")
+                format!("UNDECIDED ({causes}): {search}")
             }
         }
     }
