@@ -245,7 +245,7 @@ impl BodyDrawing<'_> {
                 Mark::Caught
             }
             // Turned into the direction in which it is about to slip.
-            (ContactState::Slip { .. }, _) => Mark::SlipRight,
+            (ContactState::Slip { .. }, _) => Mark::SlipAlong,
             (state, _) => Mark::of(*state),
         }
     }
@@ -259,7 +259,7 @@ impl BodyDrawing<'_> {
             };
             let (x, y) = on_paper[node];
             let mut mark = self.mark(index).draw(x, y, RADIUS);
-            if self.mark(index) == Mark::SlipRight {
+            if self.mark(index) == Mark::SlipAlong {
                 let degrees = short(self.slip_angle(particle, node));
                 let turn = format!("rotate({degrees} {} {})", short(x), short(y));
                 mark = mark.with("transform", turn);
@@ -322,8 +322,8 @@ impl BodyDrawing<'_> {
         let mut left = x;
         for mark in Mark::ALL.into_iter().filter(|mark| used.contains(mark)) {
             let word = match (mark, &self.mode) {
-                (Mark::SlipRight, None) => "impending slip, the way it points",
-                (Mark::SlipRight, Some(_)) => "slips, the way it points",
+                (Mark::SlipAlong, None) => "impending slip, the way it points",
+                (Mark::SlipAlong, Some(_)) => "slips, the way it points",
                 _ => mark.word(),
             };
             group.push(mark.draw(left + 6.0, y - 4.5, RADIUS).unclassed());

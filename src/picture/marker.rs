@@ -8,10 +8,10 @@ use mceip_model::ContactState;
 pub enum Mark {
     /// Sticks (d): a black square.
     Stick,
-    /// Slips to the left, S = 1: a grey triangle pointing left.
-    SlipLeft,
-    /// Slips to the right, S = -1: a grey triangle pointing right.
-    SlipRight,
+    /// Slips against its tangent, S = 1: a grey triangle pointing left.
+    SlipAgainst,
+    /// Slips along its tangent, S = -1: a grey triangle pointing right.
+    SlipAlong,
     /// In impending slip, and gets stuck in the mode (x = 0): a white square with a cross.
     Caught,
     /// Open (f): a white circle.
@@ -24,8 +24,8 @@ impl Mark {
     /// Every mark, in the order of legends.
     pub const ALL: [Mark; 6] = [
         Mark::Stick,
-        Mark::SlipLeft,
-        Mark::SlipRight,
+        Mark::SlipAgainst,
+        Mark::SlipAlong,
         Mark::Caught,
         Mark::Free,
         Mark::Zero,
@@ -35,8 +35,8 @@ impl Mark {
     pub fn of(state: ContactState) -> Mark {
         match state {
             ContactState::Stick => Mark::Stick,
-            ContactState::Slip { sign } if sign > 0 => Mark::SlipLeft,
-            ContactState::Slip { .. } => Mark::SlipRight,
+            ContactState::Slip { sign } if sign > 0 => Mark::SlipAgainst,
+            ContactState::Slip { .. } => Mark::SlipAlong,
             ContactState::Free => Mark::Free,
             ContactState::Zero => Mark::Zero,
         }
@@ -64,13 +64,14 @@ impl Mark {
         marks
     }
 
-    /// The words of legends.
+    /// The words of legends, short: all of them stand in one row. A node slips along its tangent or
+    /// against it.
     pub fn word(self) -> &'static str {
         match self {
             Mark::Stick => "stick",
-            Mark::SlipLeft => "slip left",
-            Mark::SlipRight => "slip right",
-            Mark::Caught => "impending slip, gets stuck",
+            Mark::SlipAgainst => "against tangent",
+            Mark::SlipAlong => "along tangent",
+            Mark::Caught => "gets stuck",
             Mark::Free => "free",
             Mark::Zero => "zero reaction",
         }
@@ -80,8 +81,8 @@ impl Mark {
     pub fn class(self) -> &'static str {
         match self {
             Mark::Stick => "stick",
-            Mark::SlipLeft => "slip-left",
-            Mark::SlipRight => "slip-right",
+            Mark::SlipAgainst => "slip-left",
+            Mark::SlipAlong => "slip-right",
             Mark::Caught => "caught",
             Mark::Free => "free",
             Mark::Zero => "zero",
@@ -108,8 +109,8 @@ impl Mark {
     fn shape(self, x: f64, y: f64, r: f64) -> Element {
         match self {
             Mark::Stick => polygon(x, y, r, &square(0.8)).with("fill", "#000"),
-            Mark::SlipLeft => polygon(x, y, r, &POINTS_LEFT).with("fill", "#b0b0b0"),
-            Mark::SlipRight => polygon(x, y, r, &POINTS_RIGHT).with("fill", "#b0b0b0"),
+            Mark::SlipAgainst => polygon(x, y, r, &POINTS_LEFT).with("fill", "#b0b0b0"),
+            Mark::SlipAlong => polygon(x, y, r, &POINTS_RIGHT).with("fill", "#b0b0b0"),
             Mark::Caught => polygon(x, y, r, &square(0.85)).with("fill", "#fff"),
             Mark::Free => Element::new("circle")
                 .at("cx", x)
@@ -177,9 +178,9 @@ mod tests {
 
         let expected = [
             Mark::Stick,
-            Mark::SlipLeft,
+            Mark::SlipAgainst,
             Mark::Caught,
-            Mark::SlipRight,
+            Mark::SlipAlong,
             Mark::Caught,
             Mark::Free,
             Mark::Zero,
