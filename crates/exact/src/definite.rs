@@ -22,6 +22,7 @@
 //! the paper is established: K_ff and M in `model`, K* and its like in `engine`.
 
 use super::definite_short::certainly_definite;
+use super::dominance::Dominance;
 use super::{Integer, Rational, Sparse, common_denominator};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
@@ -81,9 +82,8 @@ pub fn positive_definite(m: &Sparse) -> Result<(), DefiniteError> {
     }
 }
 
-/// Are all leading minors positive (Sylvester's criterion)? Elimination without fractions
-/// (Bareiss), each row multiplied by a positive integer first, so that no number is longer than a
-/// minor; the upper triangle is enough.
+/// Are all leading minors positive (Sylvester's criterion)? Each row is multiplied by a positive
+/// integer first.
 fn leading_minors(m: &Sparse) -> Result<(), DefiniteError> {
     let n = m.rows();
     let factors: Vec<Integer> = (0..n)
@@ -96,28 +96,59 @@ fn leading_minors(m: &Sparse) -> Result<(), DefiniteError> {
         }
     }
 
-    let mut previous = Integer::one();
-    for k in 0..n {
-        let minor = s[k][k].clone();
-        if !minor.is_positive() {
+    match first_minor_not_positive(s) {
+        None => Ok(()),
+        Some(Minor {
+            index,
+            value,
+            previous,
+        }) => {
             // The pivot of LDL' is the quotient of two minors; the row's factor is in the first of
             // them only.
-            let pivot = Rational::new(minor, &previous * &factors[k]);
-            return Err(DefiniteError::Not(NotDefinite { index: k, pivot }));
+            let pivot = Rational::new(value, previous * &factors[index]);
+            Err(DefiniteError::Not(NotDefinite { index, pivot }))
+        }
+    }
+}
+
+/// A leading minor of an integral matrix.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Minor {
+    /// Its last row.
+    pub index: usize,
+    /// The minor.
+    pub value: Integer,
+    /// The minor of one row less; 1 for the first row.
+    pub previous: Integer,
+}
+
+/// The first leading minor that is not positive; `None` proves a symmetric matrix positive definite
+/// (Sylvester's criterion), also if its rows were multiplied by positive numbers. Elimination
+/// without fractions (Bareiss): no number is longer than a minor.
+pub fn first_minor_not_positive(mut s: Vec<Vec<Integer>>) -> Option<Minor> {
+    let n = s.len();
+    let mut previous = Integer::one();
+    for k in 0..n {
+        let value = s[k][k].clone();
+        if !value.is_positive() {
+            return Some(Minor {
+                index: k,
+                value,
+                previous,
+            });
         }
 
         for i in k + 1..n {
-            // Each number is a minor times the factors of its rows, so the lower triangle follows
-            // from the upper one.
-            let s_ik = &s[k][i] * &factors[i] / &factors[k];
-            for j in i..n {
-                s[i][j] = (&minor * &s[i][j] - &s_ik * &s[k][j]) / &previous; // exact
+            for j in k + 1..n {
+                // The division is exact.
+                s[i][j] = (&value * &s[i][j] - &s[i][k] * &s[k][j]) / &previous;
             }
         }
-        previous = minor;
+
+        previous = value;
     }
 
-    Ok(())
+    None
 }
 
 fn rounded_ldl(m: &Sparse) -> Result<(), DefiniteError> {
@@ -238,8 +269,7 @@ impl RoundedLdl {
         let two_roundings = Rational::from_integer(Integer::one() << (2 * FRACTION_BITS));
         let unit = fixed.unit() / two_roundings; // of the products l_ik d_k l_jk
 
-        let mut diagonal = vec![Rational::zero(); n];
-        let mut off_diagonal = vec![Rational::zero(); n]; // row sums of absolute values
+        let mut residuals = Dominance::zero(n);
         for i in 0..n {
             let mut scaled = LowerRow::new(); // row i of L D
             for (k, l_ik) in self.row_with_diagonal(i, &one) {
@@ -257,17 +287,11 @@ impl RoundedLdl {
                     }
                 }
                 let residual = m.get(i, j) - &unit * Rational::from_integer(product);
-
-                if i == j {
-                    diagonal[i] = residual;
-                } else {
-                    off_diagonal[i] += residual.abs();
-                    off_diagonal[j] += residual.abs();
-                }
+                residuals.add(i, j, residual);
             }
         }
 
-        (0..n).find(|&i| diagonal[i] <= off_diagonal[i])
+        residuals.first_undominated(true)
     }
 
     /// Row i of L with its diagonal entry, by column.
@@ -352,6 +376,24 @@ mod tests {
         ];
 
         Sparse::from_entries(3, 3, entries)
+    }
+
+    /// By hand the minors are 6, 27 and 27 corner - 54: the last is zero at corner 2.
+    #[test]
+    fn pivots_of_the_elimination_are_the_minors() {
+        let of = |corner: i64| {
+            let rows = [[6, -3, 0], [-3, 6, -3], [0, -3, corner]];
+            first_minor_not_positive(rows.map(|row| row.map(Integer::from).to_vec()).to_vec())
+        };
+        let last = |value: i64| {
+            Some(Minor {
+                index: 2,
+                value: value.into(),
+                previous: 27.into(),
+            })
+        };
+        assert_eq!([of(6), of(3)], [None, None]);
+        assert_eq!([of(2), of(1)], [last(0), last(-27)]);
     }
 
     fn refused_at_2(pivot: Rational) -> Result<(), DefiniteError> {

@@ -20,6 +20,7 @@ mod decimal;
 mod definite;
 mod definite_short;
 mod dense;
+mod dominance;
 mod double;
 mod interval;
 mod kernel;
@@ -39,8 +40,11 @@ pub use cone::{Generators, cone_generators, dot};
 pub use decimal::{
     enclosing_decimals, nearest_decimal, ratio_to_decimal, to_decimal, upper_decimal,
 };
-pub use definite::{DefiniteError, NotDefinite, positive_definite};
+pub use definite::{
+    DefiniteError, Minor, NotDefinite, first_minor_not_positive, positive_definite,
+};
 pub use dense::Dense;
+pub use dominance::{Dominance, MACHINE_BITS, MachineRow, machine_definite};
 pub use double::{from_f64, to_f64, truncated};
 pub use interval::Interval;
 pub use kernel::{determinant, generic_kernel, kernel_at, minors, row_echelon_at};

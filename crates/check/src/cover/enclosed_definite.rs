@@ -5,13 +5,8 @@
 //! family is S + C with |C|_ii + sum_(j not i) |C_ij| <= c_i, so it is definite if S - diag(c) is
 //! (Gershgorin).
 //!
-//! In machine integers: an LDL' of S - diag(c) - s I is computed with rounding, for a small shift
-//! s. Then E = S - diag(c) - LDL' is computed exactly. If D > 0 and E is strictly diagonally
-//! dominant with a positive diagonal, S - diag(c) = LDL' + E is definite. The shift makes room for
-//! E; the factors may be anything, because only the exact residual decides.
-//!
-//! A small matrix that is too close to a singular one for that is decided by elimination in long
-//! integers without a margin.
+//! That is decided in machine integers (`mceip_exact::machine_definite`). A small matrix that is
+//! too close to a singular one for that is decided by its leading minors, without a margin.
 //!
 //! Called by `definite`: `positive_definite` with short numbers, `long_definite` with the long
 //! ones.
@@ -19,23 +14,14 @@
 use super::ball::BallMatrix;
 use super::ends::{Matrix, largest_bits};
 use super::short::Short;
-use mceip_exact::Integer;
+use mceip_exact::{Integer, MachineRow, first_minor_not_positive, machine_definite};
 use num_integer::Integer as _;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
 /// Bits kept of S.
 const BITS: u32 = 40;
-/// Fraction bits of L.
-const UNIT: u32 = 34;
-/// l_ik d_k is multiplied in two halves, the lower one of so many bits.
-const HALF: u32 = 32;
 /// The shift in units of the cut S, per row: above the rounding of L times the largest pivot.
-const SHIFT: i128 = 1 << 8;
-/// Bits of what is multiplied. Of a definite matrix nothing is longer: |l_ij|^2 d_j <= S_ii < 2^40
-/// and d_j >= 1, so |l_ij| <= 2^20 and |l_ij d_j| <= 2^40.
-const FACTOR_BITS: u32 = 57;
-/// Order at which sums of products of such factors could leave 128 bits.
-const MAX_ORDER: usize = 4096;
+const SHIFT: i64 = 1 << 8;
 
 /// Up to this order, and with entries of so many bits, a matrix is decided without a margin.
 const MAX_EXACT_ORDER: usize = 12;
@@ -66,7 +52,10 @@ pub(super) fn long_definite(
     if largest_bits(least.iter().flatten()) > MAX_EXACT_BITS {
         verdict
     } else {
-        eliminate(least)
+        match first_minor_not_positive(least) {
+            None => Ok(()),
+            Some(minor) => Err(minor.index),
+        }
     }
 }
 
@@ -106,49 +95,17 @@ fn primitive(mut s: Matrix) -> Matrix {
     s
 }
 
-/// Elimination without fractions (Bareiss): the pivots are the leading minors. `Err(k)`: minor k is
-/// not positive.
-fn eliminate(mut s: Matrix) -> Result<(), usize> {
-    let n = s.len();
-    let mut previous = Integer::one();
-
-    for k in 0..n {
-        let pivot = s[k][k].clone();
-        if !pivot.is_positive() {
-            return Err(k);
-        }
-
-        for i in k + 1..n {
-            for j in k + 1..n {
-                // The division is exact.
-                s[i][j] = (&pivot * &s[i][j] - &s[i][k] * &s[k][j]) / &previous;
-            }
-        }
-
-        previous = pivot;
-    }
-
-    Ok(())
-}
-
 /// The same as [`long_definite`] for short numbers.
 ///
 /// `Err(k)`: the k-th of the variables breaks it, or the matrix is too close to a singular one to
 /// say.
 pub(super) fn positive_definite(t: &Short, variables: &[usize], sign: i8) -> Result<(), usize> {
-    let order = variables.len();
-    if order > MAX_ORDER {
-        return Err(0);
-    }
-
-    let lower = least_lower_triangle(t, variables, sign);
-    let shift = SHIFT * order as i128;
-    let ldl = Ldl::of(&lower, shift)?;
-    ldl.check_residual(&lower)
+    let shift = SHIFT * variables.len() as i64;
+    machine_definite(&least_lower_triangle(t, variables, sign), shift)
 }
 
 /// The lower triangle of S - diag(c), cut to `BITS` bits and a sign.
-fn least_lower_triangle(t: &Short, variables: &[usize], sign: i8) -> Vec<Vec<i128>> {
+fn least_lower_triangle(t: &Short, variables: &[usize], sign: i8) -> Vec<MachineRow> {
     let mut largest: u64 = 0;
     for &i in variables {
         for &j in variables {
@@ -164,176 +121,30 @@ fn least_lower_triangle(t: &Short, variables: &[usize], sign: i8) -> Vec<Vec<i12
         let mut row = Vec::with_capacity(position + 1);
         for &j in &variables[..=position] {
             let twice = i128::from(t.entries.m[i][j]) + i128::from(t.entries.m[j][i]);
-            row.push((twice * i128::from(sign)) >> cut);
+            // Of BITS bits, whatever is cut.
+            row.push(((twice * i128::from(sign)) >> cut) as i64);
         }
 
         row[position] -= slack(t, variables, i, cut);
-        lower.push(row);
+        let first = row.iter().position(|entry| *entry != 0).unwrap_or(position);
+        let entries = row.split_off(first);
+        lower.push(MachineRow { first, entries });
     }
 
     lower
 }
 
 /// c_i: the radius of row i, cut and rounded up, and one unit for every entry that was cut.
-fn slack(t: &Short, variables: &[usize], i: usize, cut: u32) -> i128 {
+fn slack(t: &Short, variables: &[usize], i: usize, cut: u32) -> i64 {
     let mut radius: i128 = 0;
     for &j in variables {
         radius += i128::from(t.entries.r[i][j]) + i128::from(t.entries.r[j][i]);
     }
 
     let rounded_up = (radius >> cut) + i128::from(radius > 0 && cut > 0);
-    let lost = if cut > 0 { variables.len() as i128 } else { 0 };
+    let lost = if cut > 0 { variables.len() as i64 } else { 0 };
     // A radius of 2^60 is far more than S itself: nothing is definite then.
-    rounded_up.min(1 << 60) + lost
-}
-
-/// Rounded factors L D L'. Products are of two machine words, and their sums fit into two.
-struct Ldl {
-    rows: Vec<FactorRow>,
-    d: Vec<i64>,
-}
-
-/// A row of L.
-struct FactorRow {
-    /// The column of the first entry that is not zero.
-    first: usize,
-    /// Up to the diagonal, in units of 2^-UNIT.
-    entries: Vec<i64>,
-}
-
-impl Ldl {
-    /// Factors the matrix less the shift. `Err(i)`: row i has no positive pivot.
-    ///
-    /// A factor of more than [`FACTOR_BITS`] bits means that the matrix is not definite, or hardly.
-    fn of(lower: &[Vec<i128>], shift: i128) -> Result<Ldl, usize> {
-        let mut ldl = Ldl {
-            rows: Vec::with_capacity(lower.len()),
-            d: Vec::with_capacity(lower.len()),
-        };
-        for (i, given) in lower.iter().enumerate() {
-            ldl.push_row(given, shift).ok_or(i)?;
-        }
-
-        Ok(ldl)
-    }
-
-    /// Appends a row of L and its pivot; `None` if that is not positive or a factor is too long.
-    fn push_row(&mut self, given: &[i128], shift: i128) -> Option<()> {
-        let i = given.len() - 1;
-        let first = given.iter().position(|entry| *entry != 0).unwrap_or(i);
-        let mut entries: Vec<i64> = Vec::with_capacity(i + 1);
-        let mut scaled: Vec<i64> = Vec::with_capacity(i); // l_ik d_k in units of 1
-
-        for (j, row) in self.rows.iter().enumerate() {
-            let from = first.max(row.first).min(j);
-            let rest = (given[j] << UNIT) - dot(&scaled[from..], &row.entries[from..j]);
-            entries.push(factor(rest / i128::from(self.d[j]))?);
-            scaled.push(factor(rest >> UNIT)?);
-        }
-
-        let rest = ((given[i] - shift) << UNIT) - dot(&scaled, &entries);
-        let pivot = factor(rest >> UNIT)?;
-        if pivot <= 0 {
-            return None;
-        }
-
-        entries.push(1 << UNIT);
-        self.rows.push(FactorRow { first, entries });
-        self.d.push(pivot);
-        Some(())
-    }
-
-    /// Demands that the matrix less L D L', computed without rounding, is strictly diagonally
-    /// dominant with a positive diagonal. `Err(i)`: row i is not, or overflows.
-    fn check_residual(&self, lower: &[Vec<i128>]) -> Result<(), usize> {
-        let n = lower.len();
-        let mut diagonal = vec![0i128; n];
-        let mut off_diagonal = vec![0i128; n];
-
-        for i in 0..n {
-            let scaled = self.scaled_row(i).ok_or(i)?;
-            for j in 0..=i {
-                let residual = self.residual(lower[i][j], &scaled, j).ok_or(i)?;
-
-                if i == j {
-                    diagonal[i] = residual;
-                } else {
-                    off_diagonal[i] = off_diagonal[i].saturating_add(residual.abs());
-                    off_diagonal[j] = off_diagonal[j].saturating_add(residual.abs());
-                }
-            }
-        }
-
-        for i in 0..n {
-            if diagonal[i] <= off_diagonal[i] {
-                return Err(i);
-            }
-        }
-
-        Ok(())
-    }
-
-    /// Row i of L D; `None` if an entry is too long.
-    fn scaled_row(&self, i: usize) -> Option<ScaledRow> {
-        let row = &self.rows[i];
-        let mut scaled = ScaledRow {
-            first: row.first,
-            high: Vec::with_capacity(i + 1),
-            low: Vec::with_capacity(i + 1),
-        };
-
-        for (&entry, &pivot) in row.entries.iter().zip(&self.d) {
-            let value = product(entry, pivot);
-            scaled.high.push(factor(value >> HALF)?);
-            scaled.low.push(factor(value & ((1 << HALF) - 1))?);
-        }
-
-        Some(scaled)
-    }
-
-    /// given - (L D L')_ij for j <= i, in units of 2^-(2 UNIT); `scaled` is row i of L D.
-    fn residual(&self, given: i128, scaled: &ScaledRow, j: usize) -> Option<i128> {
-        let row = &self.rows[j];
-        let from = scaled.first.max(row.first).min(j);
-        let entries = &row.entries[from..];
-        let high = dot(&scaled.high[from..=j], entries);
-        let low = dot(&scaled.low[from..=j], entries);
-
-        let sum = high.checked_mul(1 << HALF)?.checked_add(low)?;
-        given.checked_mul(1 << (2 * UNIT))?.checked_sub(sum)
-    }
-}
-
-/// A row of L D in units of 2^-UNIT, exact: high 2^HALF + low, with 0 <= low < 2^HALF.
-struct ScaledRow {
-    /// The column of the first entry that is not zero.
-    first: usize,
-    high: Vec<i64>,
-    low: Vec<i64>,
-}
-
-/// The sum of products of factors, of [`MAX_ORDER`] at most.
-fn dot(a: &[i64], b: &[i64]) -> i128 {
-    let mut sum: i128 = 0;
-    for (&a, &b) in a.iter().zip(b) {
-        sum += product(a, b);
-    }
-
-    sum
-}
-
-/// A factor of at most [`FACTOR_BITS`] bits.
-fn factor(value: i128) -> Option<i64> {
-    if value.unsigned_abs() >> FACTOR_BITS > 0 {
-        return None;
-    }
-
-    i64::try_from(value).ok()
-}
-
-/// The product of two machine words.
-fn product(a: i64, b: i64) -> i128 {
-    i128::from(a) * i128::from(b)
+    rounded_up.min(1 << 60) as i64 + lost
 }
 
 #[cfg(test)]
@@ -484,15 +295,12 @@ mod tests {
     /// tells.
     #[test]
     fn factors_that_do_not_multiply_out_prove_nothing() {
-        let lower: [&[i128]; 4] = [
+        let lower: [&[i64]; 4] = [
             &[1028],
             &[2, 1028],
             &[6160, 4662, 12_653_620],
             &[84_137, 63_657, 172_869_770, 4_528_399_482],
         ];
-        let lower: Vec<Vec<i128>> = lower.iter().map(|row| row.to_vec()).collect();
-        let factors = Ldl::of(&lower, SHIFT * 4);
-        assert_eq!(factors.and_then(|ldl| ldl.check_residual(&lower)), Err(3));
         // S = 2 sym(m)
         let entry = |i: usize, j: usize| match i.cmp(&j) {
             std::cmp::Ordering::Less => 0,
@@ -573,36 +381,6 @@ mod tests {
         assert_eq!(
             [decide(12, 1023), decide(12, 1024), decide(13, 90)],
             [Ok(()), Err(1), Err(1)]
-        );
-    }
-
-    /// By hand the minors are 6, 27 and 27 corner - 54: the last is zero at corner 2.
-    #[test]
-    fn pivots_of_the_elimination_are_the_minors() {
-        let of = |corner: i64| {
-            let rows = [[6, -3, 0], [-3, 6, -3], [0, -3, corner]];
-            rows.map(|row| row.map(Integer::from).to_vec()).to_vec()
-        };
-        assert_eq!(
-            [
-                eliminate(of(6)),
-                eliminate(of(3)),
-                eliminate(of(2)),
-                eliminate(of(1))
-            ],
-            [Ok(()), Ok(()), Err(2), Err(2)]
-        );
-    }
-
-    #[test]
-    fn the_largest_order_is_still_decided() {
-        // One variable many times over is singular: row 1 says so, and row 0 beyond the largest
-        // order.
-        let one = Short::of(&matrix(&[&[1]]), &zero(1), &[0]).unwrap();
-        assert_eq!(super::positive_definite(&one, &[0; MAX_ORDER], 1), Err(1));
-        assert_eq!(
-            super::positive_definite(&one, &[0; MAX_ORDER + 1], 1),
-            Err(0)
         );
     }
 }

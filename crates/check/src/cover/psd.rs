@@ -10,7 +10,7 @@
 
 use super::fault::CoverFault;
 use crate::certificate::Factor;
-use mceip_exact::Integer;
+use mceip_exact::{Dominance, Integer};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 
@@ -33,8 +33,7 @@ pub(super) fn semidefinite(
         None => (0..s.len()).find(|&i| !is_diagonal_row(s, i, strictly)),
         Some(factor) => {
             shape(factor, s.len())?;
-            let residual = RowSums::of_residual(s, scale, factor);
-            (0..s.len()).find(|&i| !residual.is_dominant(i, strictly))
+            residual(s, scale, factor).first_undominated(strictly)
         }
     };
 
@@ -63,54 +62,24 @@ fn is_diagonal_row(s: &Symmetric, i: usize, strictly: bool) -> bool {
     !strictly || s[i].get(&i).is_some_and(Signed::is_positive)
 }
 
-/// Of each row the diagonal entry and the sum of the absolute values of the others.
-struct RowSums {
-    diagonal: Vec<Integer>,
-    off_diagonal: Vec<Integer>,
-}
+/// The rows of E = S - L L', in units of 1 / (scale 4^exponent).
+fn residual(s: &Symmetric, scale: &Integer, factor: &Factor) -> Dominance<Integer> {
+    let lift = Integer::one() << (2 * factor.exponent);
+    let mut rows = Dominance::zero(s.len());
 
-impl RowSums {
-    /// The row sums of E = S - L L', in units of 1 / (scale 4^exponent).
-    fn of_residual(s: &Symmetric, scale: &Integer, factor: &Factor) -> RowSums {
-        let n = s.len();
-        let lift = Integer::one() << (2 * factor.exponent);
-        let mut sums = RowSums {
-            diagonal: vec![Integer::zero(); n],
-            off_diagonal: vec![Integer::zero(); n],
-        };
-
-        for i in 0..n {
-            let first_of_s = s[i].keys().next().copied().unwrap_or(i);
-            for j in factor.first[i].min(first_of_s)..=i {
-                let mut residual = -product(factor, i, j) * scale;
-                if let Some(given) = s[i].get(&j) {
-                    residual += given * &lift;
-                }
-
-                sums.add(i, j, residual);
+    for (i, row) in s.iter().enumerate() {
+        let first_of_s = row.keys().next().copied().unwrap_or(i);
+        for j in factor.first[i].min(first_of_s)..=i {
+            let mut residual = -product(factor, i, j) * scale;
+            if let Some(given) = row.get(&j) {
+                residual += given * &lift;
             }
-        }
 
-        sums
-    }
-
-    /// Counts entry (i, j) of the lower triangle, and its mirror.
-    fn add(&mut self, i: usize, j: usize, entry: Integer) {
-        if i == j {
-            self.diagonal[i] = entry;
-        } else {
-            self.off_diagonal[i] += entry.abs();
-            self.off_diagonal[j] += entry.abs();
+            rows.add(i, j, residual);
         }
     }
 
-    fn is_dominant(&self, i: usize, strictly: bool) -> bool {
-        if strictly {
-            self.diagonal[i] > self.off_diagonal[i]
-        } else {
-            self.diagonal[i] >= self.off_diagonal[i]
-        }
-    }
+    rows
 }
 
 /// (L L')_ij for j <= i: the sum over the columns that both rows hold, up to j, where row j ends.
