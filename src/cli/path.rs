@@ -5,19 +5,22 @@
 //! `mceip_path`. Each stretch between two events gives contact states: on request as a problem
 //! file, and with what is proved of them ([`states`]).
 
+mod own;
 pub(in crate::cli) mod states;
 pub(in crate::cli) mod stretches;
 pub(in crate::cli) mod words;
 
-use super::common::{CliError, exit, positive, print, text};
+use super::common::{CliError, exit, positive, print, require_count, text};
 use super::job::Job;
 use super::output::{Folder, Output};
 use crate::picture::{PathLabels, path_picture};
+use mceip_engine::analysis::AnalysisError;
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
 use mceip_model::{LoadedBody, System};
 use mceip_path::{Contact, LoadSteps, LoadingPath, PathEnd, PathError};
+use own::{Asked, Loaded, OwnCritical};
 use serde_json::{Value, json};
 use states::{Followed, ProvedState, Wanted};
 use std::path::{Path, PathBuf};
@@ -61,6 +64,36 @@ pub(super) struct Args {
         allow_hyphen_values = true
     )]
     at_mu: Vec<String>,
+    /// The own critical friction: for each mu between these (and between neighbours with different
+    /// answers) the path at this mu, and whether the equilibrium at its end can diverge, proved.
+    #[arg(
+        long,
+        value_name = "MIN,MAX",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    own_critical: Vec<String>,
+    /// With --own-critical: parts of the grid from MIN to MAX.
+    #[arg(
+        long,
+        requires = "own_critical",
+        value_name = "N",
+        default_value_t = 10
+    )]
+    grid: usize,
+    /// With --own-critical: how near neighbours with different answers have to be, relative to mu.
+    #[arg(
+        long,
+        requires = "own_critical",
+        value_name = "WIDTH",
+        default_value = "0.01",
+        allow_hyphen_values = true
+    )]
+    width: String,
+    /// With --own-critical: write the problem and the certificate of each answer into this folder,
+    /// for `mceip check`.
+    #[arg(long, requires = "own_critical", value_name = "FOLDER")]
+    certificates: Option<PathBuf>,
     /// Draw resultants and states along the path, as SVG.
     #[arg(long, value_name = "OUT.svg")]
     picture: Option<PathBuf>,
@@ -84,6 +117,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
     let picture = Output::prepare_if("picture", args.picture.as_deref(), input)?;
     let folder = Folder::prepare_if("states", args.states.as_deref())?;
+    let proofs = Folder::prepare_if("certificates", args.certificates.as_deref())?;
+    require_count("grid", args.grid as u64, 1..=MAX_GRID)?;
+    let own_asked = match args.own_critical.as_slice() {
+        [] => None,
+        ends => Some(Asked::of(ends, args.grid, &args.width)?),
+    };
+    if own_asked.is_some() && file.body.system().mass().is_none() {
+        return Err(AnalysisError::NoMass.into());
+    }
 
     let (how, condense): (_, Condense) = if args.doubles {
         ("in doubles", Contact::condense_in_doubles)
@@ -130,6 +172,18 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         None
     };
+    let own = match &own_asked {
+        None => None,
+        Some(asked) => {
+            let loaded = Loaded {
+                body: file.body.system(),
+                contact: &contact,
+                steps: &steps,
+                names: &names,
+            };
+            Some(job.watched(|watch| OwnCritical::find(&loaded, asked, watch))?)
+        }
+    };
     job.end();
 
     let outcome = Outcome {
@@ -138,8 +192,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         path,
         in_doubles: args.doubles,
         proved,
+        own,
         is_interrupted: job.is_cancelled(),
     };
+    if let (Some(folder), Some(own)) = (&proofs, &outcome.own) {
+        own.write(folder)?;
+    }
     if let Some(folder) = folder {
         outcome.write_states(&folder)?;
     }
@@ -153,12 +211,21 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         outcome.text()
     })?;
-    Ok(exit_code(
+    let code = exit_code(
         &outcome.path,
         outcome.proved.as_deref(),
         outcome.is_interrupted,
-    ))
+    );
+    let is_own_undecided = outcome.own.is_some_and(|own| own.is_undecided());
+    Ok(if code == exit::DONE && is_own_undecided {
+        exit::UNDECIDED
+    } else {
+        code
+    })
 }
+
+/// More parts than any picture has use for.
+const MAX_GRID: u64 = 10_000;
 
 /// A way to condense a body under loads.
 type Condense = fn(&System, &[Rational], &[Vec<Rational>]) -> Result<Contact, PathError>;
@@ -228,6 +295,8 @@ struct Outcome<'a> {
     in_doubles: bool,
     /// What is proved of the states, if asked for.
     proved: Option<Vec<ProvedState>>,
+    /// The own critical friction, if asked for.
+    own: Option<OwnCritical>,
     is_interrupted: bool,
 }
 
@@ -244,7 +313,9 @@ impl Outcome<'_> {
         } else {
             "every event is"
         };
-        let mut out = format!(
+        let own = self.own.as_ref().map(|own| own.text(self.in_doubles));
+        let mut out = own.map_or_else(String::new, |own| format!("{own}\n"));
+        out += &format!(
             "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
              {letters}\n\
              {table}\n\
@@ -277,6 +348,9 @@ impl Outcome<'_> {
         });
         if let Some(proved) = &self.proved {
             out["complete_sets"] = states::json_of(proved, &self.path);
+        }
+        if let Some(own) = &self.own {
+            out["own_critical"] = own.json();
         }
 
         out

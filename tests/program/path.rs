@@ -1,8 +1,10 @@
-//! `mceip path` from outside: the problem files of its states (texts are in `tests/transcripts`).
+//! `mceip path` from outside: the problem files of its states, and the own critical friction (texts
+//! are in `tests/transcripts`).
 #![cfg(feature = "cli")]
 
-use crate::common::{exits, repository};
-use crate::program::Folder;
+use crate::common::{example, exits, exits_with_json, repository};
+use crate::program::{Folder, refused};
+use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// The names of the files in a folder.
@@ -31,4 +33,145 @@ fn states_of_an_earlier_path_are_removed_and_nothing_else() {
     let mut kept = first;
     kept.extend(["stretch-x.json", "notes.txt"].map(String::from));
     assert_eq!(names(&states), kept);
+}
+
+/// A point between a floor and two oblique springs, K* = 2 - 3/2 mu where it slips along its
+/// tangent: it is pressed down, and then pulled off.
+fn pulled_point(friction: &str) -> Value {
+    json!({
+        "format": "mceip-loads/1",
+        "system": {
+            "stiffness": [["2", "1.5"], ["1.5", "2"]],
+            "mass": [[1, 0], [0, 1]],
+            "friction": friction,
+            "candidates": [{"tangential": 0, "normal": 1}],
+        },
+        "steps": [
+            {"name": "press", "forces": [[1, 4]]},
+            {"name": "pull", "forces": [[0, 8]]},
+        ],
+    })
+}
+
+/// The divergence and the states at each mu, by `path` at this mu alone and by hand: below 4/3 the
+/// point slips off the floor, above it the path ends where the cone is reached.
+#[test]
+fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
+    let folder = Folder::new();
+    let file = folder.write("point.json", &pulled_point("1").to_string());
+    let proofs = folder.path("proofs");
+    let range = ["--own-critical", "0.5,4", "--width", "1e-6"];
+    let more = ["--json", "--certificates", &proofs];
+
+    let answer = exits_with_json(0, &[&["path", &file], &range[..], &more[..]].concat());
+
+    let bracket = &answer["own_critical"]["bracket"];
+    let [lo, hi] = ["absent", "critical"].map(|k| number(&bracket[k]));
+    assert!(lo < 4.0 / 3.0 && 4.0 / 3.0 < hi, "{bracket}");
+    assert!((hi - lo) / hi <= 1e-6, "{bracket}");
+    // Nothing slips in the state it ends in: no certificate, and no frozen critical friction.
+    assert!(answer["own_critical"]["frozen"]["absent_below"].is_null());
+    assert!(names(&proofs).is_empty());
+
+    let mut ends = 0;
+    for point in answer["own_critical"]["points"].as_array().unwrap() {
+        let mu = point["mu"].as_str().unwrap();
+        let alone = exits_with_json(0, &["path", &file, "--mu", mu, "--json"]);
+        if number(&point["mu"]) < 4.0 / 3.0 {
+            assert_eq!(point["states"], json!(["free"]));
+        }
+
+        if alone["end"] == "all loads are applied" {
+            let last = alone["intervals"].as_array().unwrap().last().unwrap();
+            assert_eq!(point["states"], last["equilibrium_states"]);
+            assert_eq!(point["divergence"], "absent");
+        } else {
+            let end = alone["end"].as_str().unwrap();
+            assert!(end.contains("the quasi-static path ends"), "{end}");
+            assert_eq!(point["no_path"]["why"], end);
+            assert_eq!(point["no_path"]["proved"], true);
+            ends += 1;
+        }
+    }
+    assert!(ends > 3, "{ends}");
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_str().unwrap().parse().unwrap()
+}
+
+/// Every answer with a certificate is accepted by `check` as it stands on the disk, and `analyze`
+/// says the same of the state that `path` finds at this mu alone.
+#[test]
+fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
+    let folder = Folder::new();
+    let file = example("own-critical");
+    let proofs = folder.path("proofs");
+    let range = [
+        "--own-critical",
+        "0.5,4",
+        "--json",
+        "--certificates",
+        &proofs,
+    ];
+
+    let answer = exits_with_json(0, &[&["path", &file], &range[..]].concat());
+
+    let own = &answer["own_critical"];
+    assert_eq!(
+        own["bracket"],
+        json!({"absent": "1.78", "critical": "1.79"})
+    );
+    let frozen = own["frozen"]["absent_below"].as_f64().unwrap();
+    assert!((frozen - 2.1753).abs() < 1e-3, "{frozen}");
+
+    let mut seen = [0, 0];
+    for point in own["points"].as_array().unwrap() {
+        let mu = point["mu"].as_str().unwrap();
+        let [problem, certificate] =
+            ["problem", "certificate"].map(|kind| format!("{proofs}/mu-{mu}.{kind}.json"));
+        if !std::path::Path::new(&problem).exists() {
+            assert_eq!(point["states"], json!(["stick", "stick"]), "a theorem");
+            continue;
+        }
+
+        let said = exits(0, &["check", &problem, &certificate]);
+        let is_absent = said.contains("ABSENT in [0, infinity)");
+        assert!(is_absent || said.contains("and no other"), "{said}");
+        assert_eq!(point["divergence"] == "absent", is_absent, "{said}");
+        assert_eq!(point["lambda2"] == json!([]), is_absent, "{said}");
+        seen[usize::from(is_absent)] += 1;
+
+        let states = folder.path(&format!("states-{mu}"));
+        exits(0, &["path", &file, "--mu", mu, "--states", &states]);
+        let state = format!("{states}/{}", names(&states).pop_last().unwrap());
+        let analysis = exits_with_json(0, &["analyze", &state, "--samples", "0", "--json"]);
+        assert_eq!(analysis["divergence"]["verdict"], point["divergence"]);
+    }
+    assert!(seen[0] >= 10 && seen[1] >= 10, "{seen:?}");
+}
+
+#[test]
+fn a_range_that_makes_no_sense_or_a_body_without_mass_is_refused() {
+    let folder = Folder::new();
+    let file = folder.write("point.json", &pulled_point("1").to_string());
+    for (options, word) in [
+        (["--own-critical", "1"], "MIN,MAX"),
+        (["--own-critical", "2,1"], "MIN below MAX"),
+        (["--own-critical", "0,1"], "> 0"),
+        (["--own-critical", "x,1"], "x"),
+        (["--grid", "3"], "--own-critical"),
+    ] {
+        refused(&[&["path", &file], &options[..]].concat(), &[word]);
+    }
+    let wide = ["path", &file, "--own-critical", "1,2", "--grid", "0"];
+    refused(&wide, &["--grid"]);
+
+    let mut without_mass = pulled_point("1");
+    without_mass["system"]
+        .as_object_mut()
+        .unwrap()
+        .remove("mass");
+    let file = folder.write("massless.json", &without_mass.to_string());
+    refused(&["path", &file, "--own-critical", "1,2"], &["mass"]);
 }

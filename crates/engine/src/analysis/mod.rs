@@ -151,6 +151,36 @@ pub fn analyse(
     })
 }
 
+/// The first answer of [`analyse`] alone: divergence at a mu, with the certificate where a search
+/// decided it.
+///
+/// # Errors
+/// As [`analyse`].
+pub fn divergence_at(
+    system: &System,
+    friction: &Rational,
+    options: &Options,
+    watch: &Watch<'_>,
+) -> Result<(Divergence, Option<Proof>), AnalysisError> {
+    error::require_question(system, friction)?;
+    if system.slip_particles().is_empty() {
+        let by_theorem = by_theorem::nothing_slips(None, system, friction);
+        return Ok((by_theorem.divergence, None));
+    }
+
+    error::require_doubles(system)?;
+    let model = Model {
+        system,
+        options,
+        watch: *watch,
+    };
+    let families = Families::of(system)?;
+    let necessary = Necessary::of(families.of_condition())?;
+    let at_friction = AtFriction::decide(&model, &families, &necessary, friction)?;
+
+    Ok((at_friction.divergence, at_friction.proof))
+}
+
 /// What is known at the mu of the analysis.
 struct AtFriction {
     /// MCEIP-lambda2 at this mu; for mu = 0, of which there is none, at mu = 1.

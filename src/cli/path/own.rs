@@ -1,0 +1,574 @@
+//! The own critical friction of a body under loads.
+//!
+//! The critical friction of a state is *frozen*: the contact states of one equilibrium are held,
+//! and mu varies. But at another mu the same loads lead to another equilibrium. Here, for each mu
+//! of a grid, the loading path is followed at this mu, and the equilibrium it ends in is asked
+//! whether it can diverge in the form (8). Between neighbours with different answers mu is halved
+//! until they are as near as asked for. Each answer is proved; between two mu nothing is claimed,
+//! and the answers need not be monotone.
+//!
+//! The path is that of `mceip_path`; whether its last state diverges is decided by
+//! [`divergence_at`], with a certificate that the checker has accepted.
+
+use super::words::{amount, end_text};
+use crate::cli::common::{CliError, positive};
+use crate::cli::output::Folder;
+use mceip_engine::analysis::{
+    Analysis, Divergence, Options, Proof, Verdict, analyse, divergence_at,
+};
+use mceip_engine::report::{Table, six_digits};
+use mceip_engine::run::{Progress, Watch};
+use mceip_exact::{
+    Integer, Interval, Rational, enclosing_decimals, nearest_decimal, parse, to_f64,
+};
+use mceip_model::file::write_problem;
+use mceip_model::{ContactState, ModelError, System};
+use mceip_path::{Contact, LoadSteps, LoadingPath, PathEnd, Stretch};
+use num_traits::One;
+use serde_json::{Value, json};
+use std::ops::ControlFlow;
+
+/// The mu that are asked for.
+pub(super) struct Asked {
+    least: Rational,
+    greatest: Rational,
+    /// Number of equal parts between them.
+    parts: usize,
+    /// How near two neighbours with different answers have to be, relative to the greater one.
+    width: Rational,
+}
+
+impl Asked {
+    /// From the options of the command line.
+    pub(super) fn of(ends: &[String], parts: usize, width: &str) -> Result<Asked, CliError> {
+        let got = ends.join(",");
+        let refused = |expected| CliError::option("own-critical", expected, &got);
+        let [least, greatest] = ends else {
+            return Err(refused("two coefficients of friction, MIN,MAX"));
+        };
+        let least = positive("own-critical", least)?;
+        let greatest = positive("own-critical", greatest)?;
+        if least >= greatest {
+            return Err(refused("MIN below MAX"));
+        }
+
+        let relative = positive("width", width)?;
+        if relative < whole(LEAST_WIDTH).recip() {
+            return Err(CliError::option("width", "at least 1/10^9", width));
+        }
+
+        Ok(Asked {
+            least,
+            greatest,
+            parts,
+            width: relative,
+        })
+    }
+
+    /// The ends, and short decimals near the equal parts between them.
+    fn grid(&self) -> Vec<Rational> {
+        let part = (&self.greatest - &self.least) / whole(self.parts);
+        let mut grid = vec![self.least.clone()];
+        for k in 1..self.parts {
+            let near = &self.least + &part * whole(k);
+            let quarter = &part / whole(4);
+            grid.push(short_decimal(&(&near - &quarter), &(near + quarter)));
+        }
+
+        grid.push(self.greatest.clone());
+        grid
+    }
+}
+
+/// One over the least width: nearer neighbours are hardly told apart in print.
+const LEAST_WIDTH: usize = 1_000_000_000;
+
+/// The body, condensed to its contact candidates, and its loads.
+pub(super) struct Loaded<'a> {
+    pub(super) body: &'a System,
+    pub(super) contact: &'a Contact,
+    /// The amounts of the loads; their mu plays no part.
+    pub(super) steps: &'a LoadSteps,
+    /// Names of the steps.
+    pub(super) names: &'a [&'a str],
+}
+
+/// What the loads lead to at a mu.
+struct Point {
+    mu: Rational,
+    reached: Reached,
+}
+
+enum Reached {
+    /// The loads are applied: the equilibrium they lead to.
+    Equilibrium(Box<Examined>),
+    /// The path ends before.
+    NoPath(EarlyEnd),
+}
+
+/// Where a path ends before its loads are applied.
+struct EarlyEnd {
+    /// The step and the amount of its load.
+    place: String,
+    /// Why.
+    reason: String,
+    /// Is it proved that it does not go on?
+    is_proved: bool,
+}
+
+/// The equilibrium at the end of the path.
+struct Examined {
+    stretch: Stretch,
+    divergence: Divergence,
+    proof: Option<Proof>,
+}
+
+/// The answers at all mu that were examined, ascending, and the frozen critical friction beside
+/// them.
+pub(super) struct OwnCritical {
+    points: Vec<Point>,
+    /// The analysis of the state at the lower end of the bracket.
+    frozen: Option<Analysis>,
+}
+
+/// What is found at a mu, as far as neighbours are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Answer {
+    Equilibrium(Verdict),
+    NoPath { is_proved: bool },
+}
+
+impl OwnCritical {
+    /// Examines the grid, then halves; what is examined when the work is cancelled stays.
+    pub(super) fn find(
+        loaded: &Loaded<'_>,
+        asked: &Asked,
+        watch: &Watch<'_>,
+    ) -> Result<OwnCritical, CliError> {
+        let mut points = Vec::new();
+        for mu in asked.grid() {
+            match loaded.examine(mu, watch)? {
+                Some(point) => points.push(point),
+                None => break,
+            }
+        }
+
+        while let Some(k) = widest_change(&points, &asked.width) {
+            let [lo, hi] = [&points[k].mu, &points[k + 1].mu];
+            let quarter = (hi - lo) / whole(4);
+            let mu = short_decimal(&(lo + &quarter), &(hi - &quarter));
+            match loaded.examine(mu, watch)? {
+                Some(point) => points.insert(k + 1, point),
+                None => break,
+            }
+        }
+
+        let mut own = OwnCritical {
+            points,
+            frozen: None,
+        };
+        if let Some((absent, _)) = own.bracket()
+            && let Reached::Equilibrium(examined) = &absent.reached
+            && !watch.is_cancelled()
+        {
+            own.frozen = Some(loaded.frozen(&examined.stretch, &absent.mu, watch)?);
+        }
+
+        Ok(own)
+    }
+
+    /// The first mu that is proved to be critical, and before it the last one that is proved not to
+    /// be: what lies between them is undecided.
+    fn bracket(&self) -> Option<(&Point, &Point)> {
+        let is_critical = |point: &Point| point.answer().is_critical();
+        let critical = self.points.iter().position(is_critical)?;
+        let mut below = self.points[..critical].iter().rev();
+        let absent = below.find(|point| point.answer() == ABSENT)?;
+
+        Some((absent, &self.points[critical]))
+    }
+
+    /// Is there no bracket because an answer is missing?
+    pub(super) fn is_undecided(&self) -> bool {
+        let mut answers = self.points.iter().map(Point::answer);
+        self.bracket().is_none() && answers.any(Answer::is_undecided)
+    }
+}
+
+/// No divergence, proved.
+const ABSENT: Answer = Answer::Equilibrium(Verdict::Absent);
+
+impl Answer {
+    /// Is it proved that the loads do not lead to an equilibrium that cannot diverge?
+    fn is_critical(self) -> bool {
+        let no_path = Answer::NoPath { is_proved: true };
+        self == no_path || self == Answer::Equilibrium(Verdict::Present)
+    }
+
+    fn is_undecided(self) -> bool {
+        self != ABSENT && !self.is_critical()
+    }
+}
+
+/// Two neighbours with different answers that are further apart than asked for.
+fn widest_change(points: &[Point], width: &Rational) -> Option<usize> {
+    (1..points.len()).map(|k| k - 1).find(|&k| {
+        let [lo, hi] = [&points[k], &points[k + 1]];
+        lo.answer() != hi.answer() && &hi.mu - &lo.mu > width * &hi.mu
+    })
+}
+
+impl Loaded<'_> {
+    /// Follows the path at this mu and decides whether its end diverges; `None` if cancelled.
+    fn examine(&self, mu: Rational, watch: &Watch<'_>) -> Result<Option<Point>, CliError> {
+        let stage = format!("mu = {}: path and divergence at its end", spelt(&mu));
+        watch.report(&Progress::stage(&stage));
+        let steps = LoadSteps {
+            friction: mu.clone(),
+            ..self.steps.clone()
+        };
+        let path = LoadingPath::follow(self.contact, &steps, &|_| {
+            if watch.is_cancelled() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })?;
+
+        let reached = match &path.end {
+            PathEnd::Interrupted => return Ok(None),
+            PathEnd::NoContinuation { search, .. } => Reached::NoPath(EarlyEnd {
+                place: self.last_place(&path),
+                reason: end_text(&path),
+                is_proved: search.is_proved(),
+            }),
+            PathEnd::AllApplied | PathEnd::NoFurtherEvent => {
+                let Some(stretch) = path.stretches.last() else {
+                    return Ok(None);
+                };
+                let system = self.state(stretch, &mu)?;
+                let options = Options::default();
+                let (divergence, proof) = divergence_at(&system, &mu, &options, &watch.quiet())?;
+                if watch.is_cancelled() {
+                    return Ok(None);
+                }
+                Reached::Equilibrium(Box::new(Examined {
+                    stretch: stretch.clone(),
+                    divergence,
+                    proof,
+                }))
+            }
+        };
+
+        Ok(Some(Point { mu, reached }))
+    }
+
+    /// The body in the contact states of a stretch.
+    fn state(&self, stretch: &Stretch, mu: &Rational) -> Result<System, ModelError> {
+        let states: &[ContactState] = &stretch.equilibrium_states;
+        self.body.with_states(states, Some(mu.clone()))
+    }
+
+    /// How much of which load is applied at the end of a path.
+    fn last_place(&self, path: &LoadingPath) -> String {
+        let last = path.stretches.last();
+        let Some((stretch, stop)) = last.and_then(|s| Some((s, s.stop.as_ref()?))) else {
+            return "at the beginning".into();
+        };
+
+        format!("{}, {} of it", self.names[stretch.step], amount(stop))
+    }
+
+    /// The analysis of a state at this mu, its contact states held.
+    fn frozen(
+        &self,
+        stretch: &Stretch,
+        mu: &Rational,
+        watch: &Watch<'_>,
+    ) -> Result<Analysis, CliError> {
+        watch.report(&Progress::stage("critical mu of the held contact states"));
+        let system = self.state(stretch, mu)?;
+        let options = Options {
+            samples: 0,
+            ..Options::default()
+        };
+
+        Ok(analyse(None, &system, mu, &options, &watch.quiet())?)
+    }
+}
+
+impl Point {
+    fn answer(&self) -> Answer {
+        match &self.reached {
+            Reached::Equilibrium(examined) => Answer::Equilibrium(examined.divergence.verdict),
+            Reached::NoPath(end) => Answer::NoPath {
+                is_proved: end.is_proved,
+            },
+        }
+    }
+}
+
+impl OwnCritical {
+    /// For people: the bracket first, then the frozen one, then what was examined.
+    pub(super) fn text(&self, in_doubles: bool) -> String {
+        let mut out = format!("{}\n", self.bracket_text());
+        if let Some(frozen) = &self.frozen {
+            out += &format!("{}\n", frozen_text(frozen));
+        }
+
+        let header = ["mu", "contact states", "divergence", "largest growth rate"];
+        let mut table = Table::new(&header);
+        for point in &self.points {
+            table.row(point.cells());
+        }
+
+        let rounded = if in_doubles {
+            " Contact states are those of the body condensed in doubles, which differs from the \
+             given one by rounding; divergence in these states is that of the given body."
+        } else {
+            ""
+        };
+
+        format!(
+            "{out}\n{table}\n\
+             Examined is the equilibrium at the end of the loads, on the path that is followed at \
+             each mu; the states before it are not.{rounded}\n"
+        )
+    }
+
+    fn bracket_text(&self) -> String {
+        let Some((absent, critical)) = self.bracket() else {
+            return self.no_bracket_text();
+        };
+        let [lo, hi] = [spelt(&absent.mu), spelt(&critical.mu)];
+        let at_hi = match &critical.reached {
+            Reached::Equilibrium(_) => "the one they lead to there can".to_owned(),
+            Reached::NoPath(end) => format!(
+                "they lead to none: the quasi-static path ends ({}), and what follows is dynamic",
+                end.place
+            ),
+        };
+        format!(
+            "OWN CRITICAL FRICTION: between {lo} and {hi}. At mu = {lo} the equilibrium that these \
+             loads lead to cannot diverge in the form (8), at mu = {hi} {at_hi}; both are proved, \
+             and nothing is claimed between them."
+        )
+    }
+
+    /// Why no neighbours bracket a critical friction.
+    fn no_bracket_text(&self) -> String {
+        let (Some(first), Some(last)) = (self.points.first(), self.points.last()) else {
+            return "No own critical friction: nothing was examined.".into();
+        };
+        let [lo, hi] = [spelt(&first.mu), spelt(&last.mu)];
+        if first.answer().is_critical() {
+            return format!(
+                "OWN CRITICAL FRICTION: not above {lo}, the smallest mu examined: these loads do \
+                 not lead to an equilibrium there that cannot diverge in the form (8), proved."
+            );
+        }
+        if self.points.iter().any(|point| point.answer() != ABSENT) {
+            return format!("No own critical friction was bracketed from {lo} to {hi}: see below.");
+        }
+
+        format!(
+            "No own critical friction from {lo} to {hi}: at none of the mu examined can the \
+             equilibrium that these loads lead to diverge in the form (8), proved at each of them."
+        )
+    }
+
+    /// For programs.
+    pub(super) fn json(&self) -> Value {
+        let bracket = self.bracket().map(|(absent, critical)| {
+            json!({ "absent": spelt(&absent.mu), "critical": spelt(&critical.mu) })
+        });
+        let points: Vec<Value> = self.points.iter().map(Point::json).collect();
+        let frozen = self.frozen.as_ref().map(|analysis| {
+            let solution = analysis.critical.solution.as_ref();
+            json!({
+                "states_of": spelt(&analysis.friction),
+                "absent_below": analysis.critical.absent_below.as_ref().map(to_f64),
+                "present_at": solution.map(|s| {
+                    let (lo, hi) = enclosing_decimals(&s.mu, DIGITS);
+                    [lo, hi]
+                }),
+            })
+        });
+
+        json!({ "bracket": bracket, "frozen": frozen, "points": points })
+    }
+
+    /// Writes the problem and the certificate of each answer: `mu-VALUE.problem.json`,
+    /// `mu-VALUE.certificate.json`.
+    pub(super) fn write(&self, folder: &Folder) -> Result<(), CliError> {
+        for point in &self.points {
+            let Reached::Equilibrium(examined) = &point.reached else {
+                continue;
+            };
+            let Some(proof) = &examined.proof else {
+                continue; // a theorem: nothing slips
+            };
+
+            let name = spelt(&point.mu).replace('/', "over");
+            let problem = write_problem(&proof.problem);
+            folder.write(&format!("mu-{name}.problem.json"), problem.as_bytes())?;
+            let certificate = proof.certificate.file()?;
+            folder.write(
+                &format!("mu-{name}.certificate.json"),
+                certificate.as_bytes(),
+            )?;
+        }
+
+        Ok(())
+    }
+}
+
+/// The frozen critical friction, and why it is another number.
+fn frozen_text(frozen: &Analysis) -> String {
+    let mu = spelt(&frozen.friction);
+    let critical = &frozen.critical;
+    let bracket = match (&critical.absent_below, &critical.solution) {
+        (None, _) => "at no mu".into(),
+        (Some(below), None) => format!("not below {}", rounded_down(below)),
+        (Some(below), Some(solution)) => {
+            let above = enclosing_decimals(&solution.mu, DIGITS).1;
+            format!("between {} and {above}", rounded_down(below))
+        }
+    };
+
+    format!(
+        "FROZEN CRITICAL FRICTION: {bracket}, with the contact states held that these loads lead \
+         to at mu = {mu}. That is a statement about these states at every mu; but with another \
+         friction the same loads lead to other states, of which the own one tells."
+    )
+}
+
+/// Digits of printed values.
+const DIGITS: usize = 6;
+
+/// A lower bound in decimals.
+fn rounded_down(mu: &Rational) -> String {
+    enclosing_decimals(&Interval::point(mu.clone()), DIGITS).0
+}
+
+impl Point {
+    fn cells(&self) -> Vec<String> {
+        let mu = spelt(&self.mu);
+        match &self.reached {
+            Reached::NoPath(end) => {
+                let word = if end.is_proved {
+                    "no path"
+                } else {
+                    "undecided: the path stops"
+                };
+                vec![
+                    mu,
+                    "-".into(),
+                    format!("{word} ({})", end.place),
+                    "-".into(),
+                ]
+            }
+            Reached::Equilibrium(examined) => {
+                let divergence = &examined.divergence;
+                let verdict = match divergence.verdict {
+                    Verdict::Undecided => "undecided".into(),
+                    decided => format!("{}, proved", decided.word()),
+                };
+                let rate = divergence.modes.last();
+                let rate = rate.map_or_else(|| "-".into(), |mode| six_digits(mode.growth_rate));
+                vec![mu, examined.stretch.picture(), verdict, rate]
+            }
+        }
+    }
+
+    fn json(&self) -> Value {
+        match &self.reached {
+            Reached::NoPath(end) => json!({
+                "mu": spelt(&self.mu),
+                "no_path": { "at": end.place, "why": end.reason, "proved": end.is_proved },
+            }),
+            Reached::Equilibrium(examined) => {
+                let modes = examined.divergence.modes.iter();
+                let lambda2 = modes.map(|mode| {
+                    let (lo, hi) = enclosing_decimals(&mode.lambda2, 2 * DIGITS);
+                    [lo, hi]
+                });
+                json!({
+                    "mu": spelt(&self.mu),
+                    "states": super::stretches::states_json(&examined.stretch.equilibrium_states),
+                    "divergence": examined.divergence.verdict.word(),
+                    "lambda2": lambda2.collect::<Vec<_>>(),
+                })
+            }
+        }
+    }
+}
+
+/// A mu as a decimal where it is a short one, else as a fraction.
+fn spelt(mu: &Rational) -> String {
+    let decimal = nearest_decimal(mu, 15);
+    if parse(&decimal).is_ok_and(|value| value == *mu) {
+        decimal
+    } else {
+        mu.to_string()
+    }
+}
+
+/// The decimal of fewest digits between two numbers, the ends included.
+fn short_decimal(lo: &Rational, hi: &Rational) -> Rational {
+    let ten = Integer::from(10);
+    let mut scale = Integer::one();
+    loop {
+        let scaled = lo * Rational::from_integer(scale.clone());
+        let candidate = Rational::new(scaled.ceil().to_integer(), scale.clone());
+        if candidate <= *hi {
+            return candidate;
+        }
+        scale *= &ten;
+    }
+}
+
+fn whole(n: usize) -> Rational {
+    Rational::from_integer(Integer::from(n))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::rational;
+
+    #[test]
+    fn the_shortest_decimal_between() {
+        let shortest = |lo, hi| short_decimal(&lo, &hi);
+        assert_eq!(shortest(rational(1, 3), rational(2, 3)), rational(2, 5));
+        assert_eq!(shortest(rational(1, 3), rational(4, 3)), rational(1, 1));
+        assert_eq!(
+            shortest(rational(711, 1000), rational(714, 1000)),
+            rational(711, 1000)
+        );
+        assert_eq!(spelt(&rational(711, 1000)), "0.711");
+        assert_eq!(spelt(&rational(1, 3)), "1/3");
+    }
+
+    #[test]
+    fn a_grid_has_its_ends_and_short_numbers_between() {
+        let asked = Asked::of(&["0.1".into(), "1/3".into()], 3, "0.01").unwrap();
+        let grid: Vec<String> = asked.grid().iter().map(spelt).collect();
+        assert_eq!(grid, ["0.1", "0.16", "0.24", "1/3"]);
+    }
+
+    #[test]
+    fn ranges_that_make_no_sense_are_refused() {
+        for (ends, width) in [
+            (vec!["1"], "0.01"),
+            (vec!["1", "1"], "0.01"),
+            (vec!["0", "1"], "0.01"),
+            (vec!["1", "2", "3"], "0.01"),
+            (vec!["1", "2"], "1e-12"),
+            (vec!["1", "2"], "0"),
+        ] {
+            let ends: Vec<String> = ends.into_iter().map(String::from).collect();
+            assert!(Asked::of(&ends, 10, width).is_err(), "{ends:?} {width}");
+        }
+    }
+}
