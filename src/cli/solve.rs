@@ -16,13 +16,12 @@ use super::output::Output;
 use super::question::{Question, load_question, without_solutions};
 use crate::{Error, Found, Problem};
 use mceip_engine::lcp::MCP_FORMAT;
-use mceip_engine::multistart::{self, MAX_STARTS, SearchError, support, trace_outcome};
+use mceip_engine::multistart::{MAX_STARTS, SearchError, trace_outcome};
 use mceip_engine::report::Claimed;
+use mceip_model::Unknown;
 use mceip_model::file::require_format;
 use mceip_model::reduction::reduce;
-use mceip_model::{Pencil, Unknown};
 use search::search_of;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Solves the problem, or repeats a trace.
@@ -160,7 +159,7 @@ fn print_asides(args: &Args, problem: &Problem, found: &Found) -> Result<(), Cli
         aside(&format!("uncertified: {word} = {value}: {}", point.reason));
     }
 
-    for support in singular_supports(&pencil, run) {
+    for support in run.singular_supports(pencil.free().len()) {
         aside(&format!(
             "singular pencil: support {support:?} has more values than its order: every value is \
              an eigenvalue, those listed are examples"
@@ -174,25 +173,4 @@ fn print_asides(args: &Args, problem: &Problem, found: &Found) -> Result<(), Cli
     }
 
     Ok(())
-}
-
-/// Supports with more certified values than a determinant of their order has roots: it vanishes
-/// identically.
-fn singular_supports(pencil: &Pencil, found: &multistart::Found) -> Vec<Vec<usize>> {
-    let mut counts: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
-    for certified in &found.certified {
-        let support = support(&certified.claim).to_vec();
-        *counts.entry(support).or_default() += 1;
-    }
-
-    let free = pencil.free().len();
-    let mut singular = Vec::new();
-    for (support, count) in counts {
-        let order = support.len() + free;
-        if count > order {
-            singular.push(support);
-        }
-    }
-
-    singular
 }

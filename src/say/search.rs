@@ -10,9 +10,15 @@ pub(crate) fn evidence(found: &Found, seed: u64) -> String {
         ""
     };
 
+    let continua = if found.on_continua > 0 {
+        format!("{} more points of continua, ", found.on_continua)
+    } else {
+        String::new()
+    };
+
     format!(
         "{} certified found in {search}{} runs (seed {seed}, {} pivots, {} factorisations, \
-         {} repeats, {} outside the window, endings {:?}); completeness unknown",
+         {} repeats, {continua}{} outside the window, endings {:?}); completeness unknown",
         found.certified.len(),
         found.runs,
         found.pivots,

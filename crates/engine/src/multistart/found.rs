@@ -4,12 +4,13 @@
 //! Filled by [`Hunt`](super::hunt::Hunt) while a search goes on, and returned to the caller of
 //! [`multistart`](super::multistart).
 
-use super::same::{repeats, same};
+use super::same::{repeats, same, support};
 use crate::candidate::Candidate;
 use crate::certify::NotCertified;
+use crate::tolerance::WINDOW_GAP;
 use mceip_check::certificate::Claim;
 use mceip_mcp::solver::{CurveEnd, Outcome, Termination};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A point whose residuals were small but which could not be certified.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +57,9 @@ pub struct Found {
     /// Candidates equal to an earlier one within rounding
     /// ([`SAME_POINT`](crate::tolerance::SAME_POINT)).
     pub repeated: usize,
+    /// Certified points on supports that are singular at all values: counted, not listed, once as
+    /// many values are listed as prove that.
+    pub on_continua: usize,
     /// Points of curves that are a known solution within rounding: not polished again.
     pub met_again: usize,
     /// How often each reason ended a run of the solver, also those that polish a point of a curve.
@@ -85,6 +89,30 @@ impl Found {
         let uncertified = self.uncertified.iter().map(|entry| &entry.candidate);
         let mut known = certified.chain(uncertified);
         known.any(|known| repeats(known, candidate))
+    }
+
+    /// The supports of which more values are certified than a determinant of their order has roots,
+    /// as far as doubles tell the values apart: it vanishes identically, and every value is an
+    /// eigenvalue. `free` is the number of free variables.
+    pub fn singular_supports(&self, free: usize) -> Vec<Vec<usize>> {
+        let supports = self.certified.iter().map(|entry| support(&entry.claim));
+        let supports: BTreeSet<&[usize]> = supports.collect();
+        let singular = supports.into_iter().filter(|s| self.is_singular(s, free));
+        singular.map(<[usize]>::to_vec).collect()
+    }
+
+    /// Is this one of them? Values within [`WINDOW_GAP`] count as one.
+    pub(super) fn is_singular(&self, support: &[usize], free: usize) -> bool {
+        let mut values: Vec<f64> = Vec::new();
+        for entry in &self.certified {
+            let value = entry.candidate.value;
+            let is_near = |v: &f64| (v - value).abs() <= WINDOW_GAP * (1.0 + value.abs());
+            if super::support(&entry.claim) == support && !values.iter().any(is_near) {
+                values.push(value);
+            }
+        }
+
+        values.len() > support.len() + free
     }
 
     /// Lists a candidate with its claim, unless the same solution is listed, or with the reason why

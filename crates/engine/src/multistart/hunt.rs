@@ -11,6 +11,7 @@
 
 use super::found::{Found, Origin};
 use super::ground::Ground;
+use super::same::support;
 use super::search::{Certifier, Search};
 use super::trace::trace_outcome;
 use crate::candidate::Candidate;
@@ -207,6 +208,14 @@ impl Hunt<'_> {
         }
 
         let claim = (self.certifier)(&candidate);
+        let free = self.admissible.pencil().free().len();
+        if let Ok(claim) = &claim
+            && self.found.is_singular(support(claim), free)
+        {
+            // Each point of a continuum would be searched around, without end.
+            self.found.on_continua += 1;
+            return;
+        }
         self.found.file(candidate, claim, run, origin);
     }
 

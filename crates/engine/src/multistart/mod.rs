@@ -229,6 +229,29 @@ mod tests {
         ));
     }
 
+    /// Columns 1 and 2 of A + tB are opposite, so x = (0, 1, 1) solves for every t >= 0. Each value
+    /// is a new solution, around which more would be looked for, without end.
+    #[test]
+    fn a_search_on_a_continuum_ends_and_lists_examples() {
+        let a = Sparse::from_ints(&[&[-1, 1, -1], &[-1, 1, -1], &[-2, 1, -1]]);
+        let b = Sparse::from_ints(&[&[-2, 1, -1], &[2, 0, 0], &[-1, 0, 0]]);
+        let pencil = Pencil::new(a, b, vec![]).unwrap();
+        let search = Search {
+            starts: 8,
+            ..Search::default()
+        };
+
+        let problem = problem_of(&pencil);
+        let reduced = reduce(&problem).unwrap();
+        let found = multistart(&problem, &reduced, &search, &Watch::nobody()).unwrap();
+
+        // A determinant of order 2 that vanishes at three values vanishes at all.
+        assert_eq!(found.certified.len(), 3);
+        assert_eq!(found.singular_supports(0), [[1, 2]]);
+        assert!(found.on_continua > 10, "{}", found.on_continua);
+        assert!(found.runs < 1000, "{}", found.runs);
+    }
+
     /// A certifier that makes a wrong claim of everything above 5/2: with the checker behind it
     /// such points stay uncertified.
     #[test]
