@@ -427,6 +427,7 @@ fn absence_above_mu_zero_does_not_hold_there() {
     assert_eq!(first["verdict"], "absent");
     assert_eq!(first["from"], "0");
     assert_eq!(first["from_included"], false);
+    assert_eq!(first["to_included"], false);
     assert_eq!(json["ranges"][1]["from_included"], true);
 }
 

@@ -197,6 +197,7 @@ impl Analysis {
             "from": range.from.to_string(),
             "from_included": self.is_from_included(range),
             "to": range.to.as_ref().map(ToString::to_string),
+            "to_included": range.is_to_included(),
             "proved": !matches!(range.evidence, Evidence::Measured(_)),
             "evidence": self.evidence_json(&range.evidence, paths),
         })

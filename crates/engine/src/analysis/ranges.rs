@@ -59,8 +59,19 @@ impl Analysis {
     /// Does what is said of a range hold at its lower end? Absence from 0 on is that for mu > 0
     /// where mu = 0, at which slip particles may slide either way, is not proved to have none.
     pub fn is_from_included(&self, range: &Range) -> bool {
-        let is_absence_from_zero = range.verdict == Verdict::Absent && range.from.is_zero();
-        !is_absence_from_zero || self.without_friction == Verdict::Absent
+        !range.is_absence_from_zero() || self.without_friction == Verdict::Absent
+    }
+}
+
+impl Range {
+    /// Does what is said of the range hold at its upper end? Absence from 0 on is that below the
+    /// bound, which may be a critical mu itself.
+    pub fn is_to_included(&self) -> bool {
+        self.to.is_some() && !self.is_absence_from_zero()
+    }
+
+    fn is_absence_from_zero(&self) -> bool {
+        self.verdict == Verdict::Absent && self.from.is_zero()
     }
 }
 
