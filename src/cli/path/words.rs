@@ -46,7 +46,11 @@ pub(in crate::cli) fn causes_text(causes: &[Bound]) -> String {
 
     let mut reached = Vec::new();
     for bound in causes {
-        reached.push(format!("node {}: {}", bound.node() + 1, bound.word()));
+        let text = format!("node {}: {}", bound.node() + 1, bound.word());
+        // At the tip of the cone both its sides are reached.
+        if !reached.contains(&text) {
+            reached.push(text);
+        }
     }
 
     reached.join(", ")
