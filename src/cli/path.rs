@@ -64,8 +64,8 @@ pub(super) struct Args {
         allow_hyphen_values = true
     )]
     at_mu: Vec<String>,
-    /// The own critical friction: for each mu between these (and between neighbours with different
-    /// answers) the path at this mu, and whether the equilibrium at its end can diverge, proved.
+    /// The own critical friction: at mu between these the path at this mu, and whether the
+    /// equilibrium at its end can diverge; at a grid, and between neighbours that differ.
     #[arg(
         long,
         value_name = "MIN,MAX",
@@ -90,8 +90,8 @@ pub(super) struct Args {
         allow_hyphen_values = true
     )]
     width: String,
-    /// With --own-critical: write the problem and the certificate of each answer into this folder,
-    /// for `mceip check`.
+    /// With --own-critical: write problem and certificate of each end state in which something
+    /// slips into this folder, for `mceip check`.
     #[arg(long, requires = "own_critical", value_name = "FOLDER")]
     certificates: Option<PathBuf>,
     /// Draw resultants and states along the path, as SVG.
@@ -360,7 +360,7 @@ impl Outcome<'_> {
     fn write_states(&self, folder: &Folder) -> Result<(), CliError> {
         let mut written = Vec::new();
         for (k, stretch) in self.path.stretches.iter().enumerate() {
-            let states = &stretch.equilibrium_states;
+            let states = stretch.equilibrium_states();
             if !states.iter().any(states::is_slip) {
                 continue;
             }

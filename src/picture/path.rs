@@ -52,7 +52,7 @@ pub fn path_picture(title: &str, path: &LoadingPath, labels: PathLabels) -> Pict
     picture.push(table.marks(path));
     table.push_labels(&mut picture);
 
-    let states = path.stretches.iter().flat_map(|i| &i.equilibrium_states);
+    let states = path.stretches.iter().flat_map(|i| i.equilibrium_states());
     let marks: Vec<Mark> = states.map(|state| Mark::of(*state)).collect();
     picture.push(legend(&marks, LEFT, table.bottom() + 62.0));
 
@@ -274,7 +274,7 @@ impl StateTable {
         let rows = path
             .stretches
             .first()
-            .map_or(0, |i| i.equilibrium_states.len());
+            .map_or(0, |i| i.equilibrium_states().len());
         let columns = path.stretches.len().max(1);
 
         StateTable {
@@ -315,7 +315,7 @@ impl StateTable {
 
         for (column, stretch) in path.stretches.iter().enumerate() {
             let x = self.left_of(column) + self.column_width / 2.0;
-            for (node, state) in stretch.equilibrium_states.iter().enumerate() {
+            for (node, state) in stretch.equilibrium_states().iter().enumerate() {
                 let y = StateTable::TOP + self.row_height * (node as f64 + 0.5);
                 marks.push(Mark::of(*state).draw(x, y, radius));
             }

@@ -409,7 +409,7 @@ fn compare(seed: u64, met: &mut BTreeMap<&'static str, usize>) {
         if stretch.begin.causes.len() > 1 {
             count("two events at once");
         }
-        for state in &stretch.equilibrium_states {
+        for state in stretch.equilibrium_states() {
             count(state.word());
         }
     }

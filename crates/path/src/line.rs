@@ -154,20 +154,30 @@ impl Line {
     }
 
     /// The equilibrium at the amount `a`.
-    pub(super) fn equilibrium(&self, a: &Rational, contact: &Contact) -> Equilibrium {
+    ///
+    /// # Errors
+    /// The first candidate at which (1) or (7) fails.
+    pub(super) fn equilibrium(
+        &self,
+        a: &Rational,
+        contact: &Contact,
+        friction: &Friction,
+    ) -> Result<Equilibrium, LawFailure> {
+        let classes = classify(self, a, friction)?;
         let unit = a.denom() * &self.denominator;
         let r_denominator = &unit * contact.denominator();
         let mut w = self.w.all_at(a);
         w.truncate(contact.rows().len());
 
-        Equilibrium {
+        Ok(Equilibrium {
             amount: a.clone(),
+            states: classes.into_iter().map(Class::contact_state).collect(),
             gaps: contact.gaps().to_vec(),
             w,
             w_unit: Rational::new_raw(Integer::one(), unit),
             r: self.r.all_at(a),
             r_unit: Rational::new_raw(Integer::one(), r_denominator),
-        }
+        })
     }
 }
 
@@ -308,6 +318,7 @@ fn compare_with_first(first: Option<&NextEvent>, constant: &Integer, fall: &Inte
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
     amount: Rational,
+    states: Vec<ContactState>,
     /// Distance of each candidate from the obstacle in the unloaded body.
     gaps: Vec<Rational>,
     /// u_T and u_N - gap, in units of `w_unit`.
@@ -322,6 +333,18 @@ impl Equilibrium {
     /// The amount of the load that grows.
     pub fn amount(&self) -> &Rational {
         &self.amount
+    }
+
+    /// The contact states, by gap and reaction alone: a candidate that sticks on the friction cone
+    /// is in impending slip, one without reaction is in z.
+    pub fn contact_states(&self) -> &[ContactState] {
+        &self.states
+    }
+
+    /// One letter for each candidate: `.` stick, `<` impending slip against the tangent, `>` along
+    /// it, `o` free, `z` in contact without reaction.
+    pub fn picture(&self) -> String {
+        self.states.iter().map(|state| letter(*state)).collect()
     }
 
     /// (u_T, u_N) of a candidate (from 0): along its tangent, and into the obstacle.
@@ -376,6 +399,7 @@ impl Equilibrium {
 
         Equilibrium {
             amount: &self.amount * factor,
+            states: self.states.clone(),
             gaps: self.gaps.iter().map(|gap| gap * factor).collect(),
             w: self.w.clone(),
             w_unit: scaled(&self.w_unit),
@@ -393,6 +417,16 @@ fn times_unit(value: &Integer, unit: &Rational) -> Rational {
 /// value * unit, not in lowest terms: enough for rounding.
 fn times_unit_raw(value: &Integer, unit: &Rational) -> Rational {
     Rational::new_raw(value * unit.numer(), unit.denom().clone())
+}
+
+fn letter(state: ContactState) -> char {
+    match state {
+        ContactState::Free => 'o',
+        ContactState::Zero => 'z',
+        ContactState::Stick => '.',
+        ContactState::Slip { sign } if sign > 0 => '<',
+        ContactState::Slip { .. } => '>',
+    }
 }
 
 /// What (1), (2) and (7) say of a candidate at an equilibrium: its class in the list after (9).
@@ -632,15 +666,17 @@ mod tests {
     fn equilibria_scale_with_loads_and_gaps() {
         let contact = candidates(1);
         let one = line(
-            affine(&[1, -3, 1, 0, 0], &[2, 0, 0, 0, 0]),
-            affine(&[4, -5], &[0, 0]),
+            affine(&[1, 0, 1, 0, 0], &[2, 0, 0, 0, 0]),
+            affine(&[4, -2], &[0, 0]),
         );
-        let at = one.equilibrium(&whole(3), &contact);
+        let at = one.equilibrium(&whole(3), &contact, &mu_two()).unwrap();
         let twice = at.scaled(&whole(2));
 
-        assert_eq!(at.displacement(0), (whole(7), whole(-3)));
-        assert_eq!(twice.displacement(0), (whole(14), whole(-6)));
-        assert_eq!(twice.reaction(0), (whole(8), whole(-10)));
+        assert_eq!(at.displacement(0), (whole(7), whole(0)));
+        assert_eq!(twice.displacement(0), (whole(14), whole(0)));
+        assert_eq!(twice.reaction(0), (whole(8), whole(-4)));
         assert_eq!(twice.amount(), &whole(6));
+        assert_eq!(twice.contact_states(), [ContactState::Slip { sign: 1 }]);
+        assert_eq!(twice.picture(), "<");
     }
 }

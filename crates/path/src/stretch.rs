@@ -40,10 +40,6 @@ pub struct Stretch {
     pub begin: Event,
     /// What each candidate does inside the stretch: the states of the rate problem.
     pub states: Vec<ContactState>,
-    /// The contact states of the equilibria inside the stretch, by gap and reaction alone: a
-    /// candidate that sticks on the friction cone is in impending slip, one without reaction is in
-    /// z.
-    pub equilibrium_states: Vec<ContactState>,
     /// The equilibrium at its beginning.
     pub start: Equilibrium,
     /// An equilibrium inside: half way, or one unit of the load on where it never ends.
@@ -53,6 +49,16 @@ pub struct Stretch {
 }
 
 impl Stretch {
+    /// The contact states of the equilibria inside the stretch.
+    pub fn equilibrium_states(&self) -> &[ContactState] {
+        self.inside.contact_states()
+    }
+
+    /// The last equilibrium: at its end, or inside where it never ends.
+    pub fn last(&self) -> &Equilibrium {
+        self.stop.as_ref().unwrap_or(&self.inside)
+    }
+
     /// Number of candidates that stick, are in impending slip against their tangent (S = 1) and
     /// along it (S = -1), and are free, at the equilibria inside the stretch.
     pub fn counts(&self) -> [usize; 4] {
@@ -66,7 +72,7 @@ impl Stretch {
 
     /// Number of candidates in this state at the equilibria inside the stretch.
     pub fn count(&self, state: ContactState) -> usize {
-        let states = self.equilibrium_states.iter();
+        let states = self.equilibrium_states().iter();
         states.filter(|s| **s == state).count()
     }
 
@@ -80,20 +86,8 @@ impl Stretch {
         }
     }
 
-    /// One letter for each candidate at the equilibria inside the stretch: `.` stick, `<` impending
-    /// slip against the tangent, `>` along it, `o` free, `z` in contact without reaction.
+    /// [`Equilibrium::picture`] of the equilibria inside the stretch.
     pub fn picture(&self) -> String {
-        let states = self.equilibrium_states.iter();
-        states.map(|state| letter(*state)).collect()
-    }
-}
-
-fn letter(state: ContactState) -> char {
-    match state {
-        ContactState::Free => 'o',
-        ContactState::Zero => 'z',
-        ContactState::Stick => '.',
-        ContactState::Slip { sign } if sign > 0 => '<',
-        ContactState::Slip { .. } => '>',
+        self.inside.picture()
     }
 }

@@ -311,7 +311,7 @@ impl<'a> Tracer<'a> {
             None => &from.a + whole(1),
         };
         self.point(stretch, &inside).check()?;
-        let classes = classify(line, &inside, &self.friction)?;
+        let equilibrium = |a: &Rational| line.equilibrium(a, self.contact, &self.friction);
 
         Ok(Stretch {
             step: from.step,
@@ -322,10 +322,9 @@ impl<'a> Tracer<'a> {
                 tried: solved.tried,
             },
             states: solved.states.clone(),
-            equilibrium_states: classes.into_iter().map(Class::contact_state).collect(),
-            start: line.equilibrium(&from.a, self.contact),
-            inside: line.equilibrium(&inside, self.contact),
-            stop: end.amount().map(|a| line.equilibrium(a, self.contact)),
+            start: equilibrium(&from.a)?,
+            inside: equilibrium(&inside)?,
+            stop: end.amount().map(equilibrium).transpose()?,
         })
     }
 }

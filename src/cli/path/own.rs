@@ -1,14 +1,17 @@
 //! The own critical friction of a body under loads.
 //!
 //! The critical friction of a state is *frozen*: the contact states of one equilibrium are held,
-//! and mu varies. But at another mu the same loads lead to another equilibrium. Here, for each mu
-//! of a grid, the loading path is followed at this mu, and the equilibrium it ends in is asked
-//! whether it can diverge in the form (8). Between neighbours with different answers mu is halved
-//! until they are as near as asked for. Each answer is proved; between two mu nothing is claimed,
-//! and the answers need not be monotone.
+//! and mu varies. But at another mu the same loads may lead to another equilibrium. Here, for each
+//! mu of a grid, the loading path is followed at this mu, and the equilibrium it ends in is asked
+//! whether it can diverge in the form (8). Between neighbours with different answers more mu are
+//! examined until they are as near as asked for.
 //!
-//! The path is that of `mceip_path`; whether its last state diverges is decided by
-//! [`divergence_at`], with a certificate that the checker has accepted.
+//! The *critical friction found* is the first change among the mu examined from proved absence to
+//! proved divergence, or to a path that is proved to end. The path is the one that `mceip_path`
+//! follows; that it is the only one is not claimed, and between two mu nothing is.
+//!
+//! Whether an end state diverges is decided by [`divergence_at`]: by a certificate that the checker
+//! has accepted, or by the theorem for states in which nothing slips.
 
 use super::words::{amount, end_text};
 use crate::cli::common::{CliError, positive};
@@ -18,12 +21,10 @@ use mceip_engine::analysis::{
 };
 use mceip_engine::report::{Table, six_digits};
 use mceip_engine::run::{Progress, Watch};
-use mceip_exact::{
-    Integer, Interval, Rational, enclosing_decimals, nearest_decimal, parse, to_f64,
-};
+use mceip_exact::{Integer, Interval, Rational, enclosing_decimals, nearest_decimal, parse};
 use mceip_model::file::write_problem;
-use mceip_model::{ContactState, ModelError, System};
-use mceip_path::{Contact, LoadSteps, LoadingPath, PathEnd, Stretch};
+use mceip_model::{ModelError, System};
+use mceip_path::{Contact, Equilibrium, LoadSteps, LoadingPath, PathEnd};
 use num_traits::One;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -53,7 +54,7 @@ impl Asked {
         }
 
         let relative = positive("width", width)?;
-        if relative < whole(LEAST_WIDTH).recip() {
+        if relative < whole(MOST_PARTS).recip() {
             return Err(CliError::option("width", "at least 1/10^9", width));
         }
 
@@ -81,7 +82,7 @@ impl Asked {
 }
 
 /// One over the least width: nearer neighbours are hardly told apart in print.
-const LEAST_WIDTH: usize = 1_000_000_000;
+const MOST_PARTS: usize = 1_000_000_000;
 
 /// The body, condensed to its contact candidates, and its loads.
 pub(super) struct Loaded<'a> {
@@ -118,7 +119,7 @@ struct EarlyEnd {
 
 /// The equilibrium at the end of the path.
 struct Examined {
-    stretch: Stretch,
+    equilibrium: Equilibrium,
     divergence: Divergence,
     proof: Option<Proof>,
 }
@@ -139,7 +140,7 @@ enum Answer {
 }
 
 impl OwnCritical {
-    /// Examines the grid, then halves; what is examined when the work is cancelled stays.
+    /// Examines the grid, then mu between; what is examined when the work is cancelled stays.
     pub(super) fn find(
         loaded: &Loaded<'_>,
         asked: &Asked,
@@ -153,7 +154,7 @@ impl OwnCritical {
             }
         }
 
-        while let Some(k) = widest_change(&points, &asked.width) {
+        while let Some(k) = first_wide_change(&points, &asked.width) {
             let [lo, hi] = [&points[k].mu, &points[k + 1].mu];
             let quarter = (hi - lo) / whole(4);
             let mu = short_decimal(&(lo + &quarter), &(hi - &quarter));
@@ -167,31 +168,65 @@ impl OwnCritical {
             points,
             frozen: None,
         };
-        if let Some((absent, _)) = own.bracket()
+        if let Finding::Between(absent, _) = own.finding()
             && let Reached::Equilibrium(examined) = &absent.reached
             && !watch.is_cancelled()
         {
-            own.frozen = Some(loaded.frozen(&examined.stretch, &absent.mu, watch)?);
+            own.frozen = Some(loaded.frozen(&examined.equilibrium, &absent.mu, watch)?);
         }
 
         Ok(own)
     }
 
-    /// The first mu that is proved to be critical, and before it the last one that is proved not to
-    /// be: what lies between them is undecided.
-    fn bracket(&self) -> Option<(&Point, &Point)> {
+    /// What the answers say of the critical friction.
+    fn finding(&self) -> Finding<'_> {
         let is_critical = |point: &Point| point.answer().is_critical();
-        let critical = self.points.iter().position(is_critical)?;
-        let mut below = self.points[..critical].iter().rev();
-        let absent = below.find(|point| point.answer() == ABSENT)?;
+        let Some(critical) = self.points.iter().position(is_critical) else {
+            let mut answers = self.points.iter().map(Point::answer);
+            return if answers.any(Answer::is_undecided) {
+                Finding::Undecided
+            } else {
+                Finding::None
+            };
+        };
 
-        Some((absent, &self.points[critical]))
+        let mut below = self.points[..critical].iter().rev();
+        let absent = below.find(|point| point.answer() == ABSENT);
+        match (absent, &self.points[critical]) {
+            (Some(absent), critical) => Finding::Between(absent, critical),
+            (None, first) if critical == 0 => Finding::AtMost(first),
+            (None, _) => Finding::Undecided,
+        }
     }
 
-    /// Is there no bracket because an answer is missing?
+    /// Is nothing found because an answer is missing?
     pub(super) fn is_undecided(&self) -> bool {
-        let mut answers = self.points.iter().map(Point::answer);
-        self.bracket().is_none() && answers.any(Answer::is_undecided)
+        matches!(self.finding(), Finding::Undecided)
+    }
+}
+
+/// What the answers say of the critical friction.
+enum Finding<'a> {
+    /// The first mu that is proved to be critical, and before it the last one that is proved not to
+    /// be: what lies between them is undecided.
+    Between(&'a Point, &'a Point),
+    /// The first mu examined is critical.
+    AtMost(&'a Point),
+    /// An answer is missing.
+    Undecided,
+    /// No mu examined is critical.
+    None,
+}
+
+impl Finding<'_> {
+    /// The word of files.
+    fn word(&self) -> &'static str {
+        match self {
+            Finding::Between(..) => "between",
+            Finding::AtMost(_) => "at_most",
+            Finding::Undecided => "undecided",
+            Finding::None => "none",
+        }
     }
 }
 
@@ -211,7 +246,7 @@ impl Answer {
 }
 
 /// Two neighbours with different answers that are further apart than asked for.
-fn widest_change(points: &[Point], width: &Rational) -> Option<usize> {
+fn first_wide_change(points: &[Point], width: &Rational) -> Option<usize> {
     (1..points.len()).map(|k| k - 1).find(|&k| {
         let [lo, hi] = [&points[k], &points[k + 1]];
         lo.answer() != hi.answer() && &hi.mu - &lo.mu > width * &hi.mu
@@ -246,14 +281,15 @@ impl Loaded<'_> {
                 let Some(stretch) = path.stretches.last() else {
                     return Ok(None);
                 };
-                let system = self.state(stretch, &mu)?;
+                let equilibrium = stretch.last();
+                let system = self.state(equilibrium, &mu)?;
                 let options = Options::default();
                 let (divergence, proof) = divergence_at(&system, &mu, &options, &watch.quiet())?;
                 if watch.is_cancelled() {
                     return Ok(None);
                 }
                 Reached::Equilibrium(Box::new(Examined {
-                    stretch: stretch.clone(),
+                    equilibrium: equilibrium.clone(),
                     divergence,
                     proof,
                 }))
@@ -263,9 +299,9 @@ impl Loaded<'_> {
         Ok(Some(Point { mu, reached }))
     }
 
-    /// The body in the contact states of a stretch.
-    fn state(&self, stretch: &Stretch, mu: &Rational) -> Result<System, ModelError> {
-        let states: &[ContactState] = &stretch.equilibrium_states;
+    /// The body in the contact states of an equilibrium.
+    fn state(&self, equilibrium: &Equilibrium, mu: &Rational) -> Result<System, ModelError> {
+        let states = equilibrium.contact_states();
         self.body.with_states(states, Some(mu.clone()))
     }
 
@@ -282,12 +318,12 @@ impl Loaded<'_> {
     /// The analysis of a state at this mu, its contact states held.
     fn frozen(
         &self,
-        stretch: &Stretch,
+        equilibrium: &Equilibrium,
         mu: &Rational,
         watch: &Watch<'_>,
     ) -> Result<Analysis, CliError> {
         watch.report(&Progress::stage("critical mu of the held contact states"));
-        let system = self.state(stretch, mu)?;
+        let system = self.state(equilibrium, mu)?;
         let options = Options {
             samples: 0,
             ..Options::default()
@@ -298,6 +334,17 @@ impl Loaded<'_> {
 }
 
 impl Point {
+    /// Why this mu is critical, as what follows "at mu = ...".
+    fn critical_text(&self) -> String {
+        match &self.reached {
+            Reached::Equilibrium(_) => "the equilibrium in which the path ends can, proved".into(),
+            Reached::NoPath(end) => format!(
+                "the path ends before ({}), which is proved, and what follows is dynamic",
+                end.place
+            ),
+        }
+    }
+
     fn answer(&self) -> Answer {
         match &self.reached {
             Reached::Equilibrium(examined) => Answer::Equilibrium(examined.divergence.verdict),
@@ -316,7 +363,12 @@ impl OwnCritical {
             out += &format!("{}\n", frozen_text(frozen));
         }
 
-        let header = ["mu", "contact states", "divergence", "largest growth rate"];
+        let header = [
+            "mu",
+            "contact states",
+            "divergence",
+            "largest growth rate proved",
+        ];
         let mut table = Table::new(&header);
         for point in &self.points {
             table.row(point.cells());
@@ -331,63 +383,70 @@ impl OwnCritical {
 
         format!(
             "{out}\n{table}\n\
-             Examined is the equilibrium at the end of the loads, on the path that is followed at \
-             each mu; the states before it are not.{rounded}\n"
+             Examined is the equilibrium at the end of the loads (in the last stretch, where a load \
+             grows for ever) on the path that is followed at each mu. That this path is the only \
+             one is not claimed; states before its end, and other mu, are not examined.{rounded}\n"
         )
     }
 
     fn bracket_text(&self) -> String {
-        let Some((absent, critical)) = self.bracket() else {
-            return self.no_bracket_text();
-        };
-        let [lo, hi] = [spelt(&absent.mu), spelt(&critical.mu)];
-        let at_hi = match &critical.reached {
-            Reached::Equilibrium(_) => "the one they lead to there can".to_owned(),
-            Reached::NoPath(end) => format!(
-                "they lead to none: the quasi-static path ends ({}), and what follows is dynamic",
-                end.place
+        match self.finding() {
+            Finding::Between(absent, critical) => {
+                let [lo, hi] = [spelt(&absent.mu), spelt(&critical.mu)];
+                format!(
+                    "OWN CRITICAL FRICTION: between {lo} and {hi}, the first change among the mu \
+                     examined. At mu = {lo} the equilibrium in which the path of these loads ends \
+                     cannot diverge in the form (8), proved; at mu = {hi} {}.{}",
+                    critical.critical_text(),
+                    self.undecided_text(critical)
+                )
+            }
+            Finding::AtMost(first) => format!(
+                "OWN CRITICAL FRICTION: not above {}, the smallest mu examined. There {}.",
+                spelt(&first.mu),
+                first.critical_text()
             ),
-        };
-        format!(
-            "OWN CRITICAL FRICTION: between {lo} and {hi}. At mu = {lo} the equilibrium that these \
-             loads lead to cannot diverge in the form (8), at mu = {hi} {at_hi}; both are proved, \
-             and nothing is claimed between them."
-        )
+            Finding::Undecided => format!(
+                "No own critical friction was found at the {} mu examined; some are undecided.",
+                self.points.len()
+            ),
+            Finding::None => format!(
+                "No own critical friction was found at the {} mu examined: at each of them the \
+                 equilibrium in which the path of these loads ends cannot diverge in the form (8), \
+                 proved.",
+                self.points.len()
+            ),
+        }
     }
 
-    /// Why no neighbours bracket a critical friction.
-    fn no_bracket_text(&self) -> String {
-        let (Some(first), Some(last)) = (self.points.first(), self.points.last()) else {
-            return "No own critical friction: nothing was examined.".into();
-        };
-        let [lo, hi] = [spelt(&first.mu), spelt(&last.mu)];
-        if first.answer().is_critical() {
-            return format!(
-                "OWN CRITICAL FRICTION: not above {lo}, the smallest mu examined: these loads do \
-                 not lead to an equilibrium there that cannot diverge in the form (8), proved."
-            );
-        }
-        if self.points.iter().any(|point| point.answer() != ABSENT) {
-            return format!("No own critical friction was bracketed from {lo} to {hi}: see below.");
+    /// The mu before a critical one that are undecided.
+    fn undecided_text(&self, critical: &Point) -> String {
+        let before = self.points.iter().filter(|point| point.mu < critical.mu);
+        let undecided = before.filter(|point| point.answer().is_undecided());
+        let undecided: Vec<String> = undecided.map(|point| spelt(&point.mu)).collect();
+        if undecided.is_empty() {
+            return String::new();
         }
 
-        format!(
-            "No own critical friction from {lo} to {hi}: at none of the mu examined can the \
-             equilibrium that these loads lead to diverge in the form (8), proved at each of them."
-        )
+        format!(" Undecided below it: {}.", undecided.join(", "))
     }
 
     /// For programs.
     pub(super) fn json(&self) -> Value {
-        let bracket = self.bracket().map(|(absent, critical)| {
-            json!({ "absent": spelt(&absent.mu), "critical": spelt(&critical.mu) })
-        });
+        let finding = self.finding();
+        let bracket = match finding {
+            Finding::Between(absent, critical) => {
+                json!({ "absent": spelt(&absent.mu), "critical": spelt(&critical.mu) })
+            }
+            Finding::AtMost(first) => json!({ "absent": null, "critical": spelt(&first.mu) }),
+            Finding::Undecided | Finding::None => Value::Null,
+        };
         let points: Vec<Value> = self.points.iter().map(Point::json).collect();
         let frozen = self.frozen.as_ref().map(|analysis| {
             let solution = analysis.critical.solution.as_ref();
             json!({
                 "states_of": spelt(&analysis.friction),
-                "absent_below": analysis.critical.absent_below.as_ref().map(to_f64),
+                "absent_below": analysis.critical.absent_below.as_ref().map(rounded_down),
                 "present_at": solution.map(|s| {
                     let (lo, hi) = enclosing_decimals(&s.mu, DIGITS);
                     [lo, hi]
@@ -395,7 +454,12 @@ impl OwnCritical {
             })
         });
 
-        json!({ "bracket": bracket, "frozen": frozen, "points": points })
+        json!({
+            "found": finding.word(),
+            "bracket": bracket,
+            "frozen": frozen,
+            "points": points,
+        })
     }
 
     /// Writes the problem and the certificate of each answer: `mu-VALUE.problem.json`,
@@ -439,7 +503,7 @@ fn frozen_text(frozen: &Analysis) -> String {
     format!(
         "FROZEN CRITICAL FRICTION: {bracket}, with the contact states held that these loads lead \
          to at mu = {mu}. That is a statement about these states at every mu; but with another \
-         friction the same loads lead to other states, of which the own one tells."
+         friction the same loads may lead to other states, of which the own one tells."
     )
 }
 
@@ -476,7 +540,7 @@ impl Point {
                 };
                 let rate = divergence.modes.last();
                 let rate = rate.map_or_else(|| "-".into(), |mode| six_digits(mode.growth_rate));
-                vec![mu, examined.stretch.picture(), verdict, rate]
+                vec![mu, examined.equilibrium.picture(), verdict, rate]
             }
         }
     }
@@ -495,8 +559,9 @@ impl Point {
                 });
                 json!({
                     "mu": spelt(&self.mu),
-                    "states": super::stretches::states_json(&examined.stretch.equilibrium_states),
+                    "states": super::stretches::states_json(examined.equilibrium.contact_states()),
                     "divergence": examined.divergence.verdict.word(),
+                    "families": examined.divergence.families,
                     "lambda2": lambda2.collect::<Vec<_>>(),
                 })
             }
@@ -514,7 +579,7 @@ fn spelt(mu: &Rational) -> String {
     }
 }
 
-/// The decimal of fewest digits between two numbers, the ends included.
+/// The least decimal of fewest decimals between two numbers, the ends included.
 fn short_decimal(lo: &Rational, hi: &Rational) -> Rational {
     let ten = Integer::from(10);
     let mut scale = Integer::one();

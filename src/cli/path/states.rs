@@ -89,7 +89,7 @@ pub(in crate::cli) fn of(
     let mut pencils = followed.contact.pencils();
     let mut states = Vec::new();
     for (stretch, interval) in followed.path.stretches.iter().enumerate() {
-        let states_here = &interval.equilibrium_states;
+        let states_here = interval.equilibrium_states();
         let slip = states_here.iter().filter(|state| is_slip(state)).count();
         if slip == 0 || watch.is_cancelled() {
             continue;
@@ -295,7 +295,7 @@ impl ProvedState {
     /// The marks of a mode.
     pub(in crate::cli) fn marks(&self, path: &LoadingPath, mode: &ProvedMode) -> Vec<Mark> {
         Mark::of_mode(
-            &path.stretches[self.stretch].equilibrium_states,
+            path.stretches[self.stretch].equilibrium_states(),
             &mode.moving,
         )
     }

@@ -102,7 +102,7 @@ fn stretch_json(stretch: &Stretch, step: &str) -> Value {
         "from": to_f64(stretch.start.amount()),
         "to": stop.map(|stop| to_f64(stop.amount())),
         "states": states_json(&stretch.states),
-        "equilibrium_states": states_json(&stretch.equilibrium_states),
+        "equilibrium_states": states_json(stretch.equilibrium_states()),
         "stick": stick,
         "slip-": against,
         "slip+": along,
@@ -148,6 +148,7 @@ fn equilibrium_json(at: &Equilibrium) -> Value {
 
     json!({
         "amount_bits": bits,
+        "states": states_json(at.contact_states()),
         "resultant_T": to_f64(&tangential),
         "resultant_N": to_f64(&normal),
         "reactions_T_N": reactions,
