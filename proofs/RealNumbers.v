@@ -3,8 +3,8 @@
    The theorems are proved over every real closed field.  Here Coq's real numbers R are one, with
    their own order ([reals_le]), sum, product and unit ([reals_ring]); roots of polynomials come
    from the intermediate value theorem of Coq's library.  The real algebraic numbers of mathcomp
-   are another, without axioms.  Each theorem behind a printed sentence (README.md, "Sentences")
-   follows for both.
+   are another, without axioms.  [answer_sound], the theorem of every verdict, and those behind it
+   (README.md, "Sentences") follow for both.
 
    What is said about R rests on the axioms of Coq's real numbers (sig_forall_dec, sig_not_dec,
    functional_extensionality_dep) and on epsilon_statement, by which mathcomp chooses among real
@@ -15,7 +15,7 @@ From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp.real_closed Require Import realalg.
 From Mceip Require Import Claim EnclosedClaim System Lifted ZeroReaction ZeroEnclosed PlainMcp.
 From Mceip Require Import Families Varying ZeroComplete Critical CriticalAnchors PresenceAnchors.
-From Mceip Require Import Points.
+From Mceip Require Import Points Verdict.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -152,6 +152,7 @@ Lemma reals_meaning (x y : reals) :
       Order.le x y <-> Rle x y].
 Proof. by split=> //; split=> /leP. Qed.
 
+Definition answer_sound_R := @answer_sound reals.
 Definition families_number_R := @families_number reals.
 Definition families_hold_R := @families_hold reals.
 Definition system_families_number_R := @system_families_number reals.
@@ -185,6 +186,7 @@ Definition infinity_number_R := @infinity_number reals.
 Definition infinity_hold_R := @infinity_hold reals.
 Definition plain_mcp_sound_R := @plain_mcp_sound reals.
 
+Definition answer_sound_realalg := @answer_sound realalg_rcfType.
 Definition families_number_realalg := @families_number realalg_rcfType.
 Definition families_hold_realalg := @families_hold realalg_rcfType.
 Definition system_families_number_realalg := @system_families_number realalg_rcfType.

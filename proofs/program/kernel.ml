@@ -13,6 +13,10 @@ let negb = function
 | true -> false
 | false -> true
 
+type ('a, 'b) sum =
+| Inl of 'a
+| Inr of 'b
+
 (** val fst : ('a1 * 'a2) -> 'a1 **)
 
 let fst = function
@@ -1218,18 +1222,18 @@ type 'leaf tree =
 (** val check_tree :
     int -> (region -> 'a1 -> bool) -> 'a1 tree -> region -> bool **)
 
-let rec check_tree n evidence tr r =
+let rec check_tree n evidence0 tr r =
   match tr with
   | Split (t, tr1, tr2) ->
     (&&) (ordered r.lower t)
       ((&&) (ordered t r.upper)
-        ((&&) (check_tree n evidence tr1 (below t r))
-          (check_tree n evidence tr2 (above t r))))
+        ((&&) (check_tree n evidence0 tr1 (below t r))
+          (check_tree n evidence0 tr2 (above t r))))
   | Branch (i, tr1, tr2) ->
     (&&) (leq (Natural.succ i) n)
-      ((&&) (check_tree n evidence tr1 (decide i Resting r))
-        (check_tree n evidence tr2 (decide i Moving r)))
-  | Leaf l -> (&&) (ordered r.lower r.upper) (evidence r l)
+      ((&&) (check_tree n evidence0 tr1 (decide i Resting r))
+        (check_tree n evidence0 tr2 (decide i Moving r)))
+  | Leaf l -> (&&) (ordered r.lower r.upper) (evidence0 r l)
 
 (** val leaves : 'a1 tree -> region -> (region * 'a1) list **)
 
@@ -2092,10 +2096,10 @@ type sparse_row = (int * Big_int_Z.big_int) list
 (** val lookup : sparse_row -> int -> Big_int_Z.big_int **)
 
 let lookup row j =
-  foldr (fun entry0 sum ->
+  foldr (fun entry0 sum0 ->
     if eq_op nat_eqType (fst (Obj.magic entry0)) (Obj.magic j)
-    then Z.add (snd entry0) sum
-    else sum) Big_int_Z.zero_big_int row
+    then Z.add (snd entry0) sum0
+    else sum0) Big_int_Z.zero_big_int row
 
 type form_bound = { bound_times : Big_int_Z.big_int;
                     bound_at : Big_int_Z.big_int;
@@ -2173,14 +2177,14 @@ type elimination = { row_scale : Big_int_Z.big_int list;
     sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let sparse_dot row x =
-  foldr (fun entry0 sum ->
-    Z.add (Z.mul (snd entry0) (nth Big_int_Z.zero_big_int x (fst entry0))) sum)
-    Big_int_Z.zero_big_int row
+  foldr (fun entry0 sum0 ->
+    Z.add (Z.mul (snd entry0) (nth Big_int_Z.zero_big_int x (fst entry0)))
+      sum0) Big_int_Z.zero_big_int row
 
 (** val norm1 : Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let norm1 l =
-  foldr (fun x sum -> Z.add (Z.abs x) sum) Big_int_Z.zero_big_int l
+  foldr (fun x sum0 -> Z.add (Z.abs x) sum0) Big_int_Z.zero_big_int l
 
 (** val row_of : matrix -> int -> Big_int_Z.big_int list **)
 
@@ -2560,8 +2564,8 @@ let component k i =
 (** val combine_row : claim -> sparse_row -> polynomial **)
 
 let combine_row k row =
-  foldr (fun e sum ->
-    add_poly (scale_poly (snd e) (component k (fst e))) sum) [] row
+  foldr (fun e sum0 ->
+    add_poly (scale_poly (snd e) (component k (fst e))) sum0) [] row
 
 (** val reaction_poly : pencil -> claim -> int -> polynomial **)
 
@@ -2681,8 +2685,8 @@ let scatter c row y =
     sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let absolute_dot row w =
-  foldr (fun e sum ->
-    Z.add (Z.mul (Z.abs (snd e)) (nth Big_int_Z.zero_big_int w (fst e))) sum)
+  foldr (fun e sum0 ->
+    Z.add (Z.mul (Z.abs (snd e)) (nth Big_int_Z.zero_big_int w (fst e))) sum0)
     Big_int_Z.zero_big_int row
 
 (** val at_end :
@@ -2738,8 +2742,8 @@ let vanishes_elsewhere q c =
     enclosed_claim -> sparse_row -> Big_int_Z.big_int list **)
 
 let times_inverse c row =
-  foldr (fun e sum ->
-    add_multiple (snd e) (nth [] c.right_inverse (fst e)) sum) [] row
+  foldr (fun e sum0 ->
+    add_multiple (snd e) (nth [] c.right_inverse (fst e)) sum0) [] row
 
 (** val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int **)
 
@@ -2797,9 +2801,9 @@ let widths c =
     pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int list **)
 
 let left_times q c rows =
-  foldr (fun i sum ->
+  foldr (fun i sum0 ->
     scatter (nth Big_int_Z.zero_big_int c.left_null (Obj.magic i))
-      (Obj.magic rows i) sum) [] (active_list q c)
+      (Obj.magic rows i) sum0) [] (active_list q c)
 
 (** val left_value :
     pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int **)
@@ -3035,13 +3039,6 @@ let found q claims tr lo hi =
 let left_open tr lo hi =
   undecided tr (window lo hi)
 
-(** val solutions_found :
-    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
-    yield list option **)
-
-let solutions_found q claims tr lo hi =
-  distinct_yields (size0 (slip q)) lo hi (found q claims tr lo hi)
-
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
 type slip_particle = { first_dof : int; second_dof : int; tangent : planar;
@@ -3234,25 +3231,6 @@ let system_wellformed s u =
             (match u with
              | Mu -> true
              | Lambda2 (_, q) -> Z.ltb Big_int_Z.zero_big_int q)))))
-
-(** val check_system :
-    system -> unknown -> solution_claim list -> elimination -> whole leaf
-    tree -> point -> point -> bool **)
-
-let check_system s u claims w tr lo hi =
-  (&&) (system_wellformed s u)
-    (check_complete (pencil_of s u) claims w tr lo hi)
-
-(** val check_system_claim : system -> unknown -> claim -> bool **)
-
-let check_system_claim s u k =
-  (&&) (system_wellformed s u) (check_claim (pencil_of s u) k)
-
-(** val check_system_enclosed :
-    system -> unknown -> enclosed_claim -> bool **)
-
-let check_system_enclosed s u k =
-  (&&) (system_wellformed s u) (check_enclosed_claim (pencil_of s u) k)
 
 type lifted = { motion_claim : claim; forces : polynomial list;
                 force_reductions : reduction list;
@@ -3802,6 +3780,27 @@ let one_half z0 support0 j =
         (in_mem (Obj.magic left z0 j)
           (mem (seq_predType nat_eqType) (Obj.magic support0)))))
 
+(** val resting_halves : zero_system -> int list -> int list **)
+
+let resting_halves z0 support0 =
+  cat
+    (map0 (fun j -> left z0 j)
+      (filter (fun j ->
+        (&&)
+          (in_mem (Obj.magic gap z0 j)
+            (mem (seq_predType nat_eqType) (Obj.magic support0)))
+          (in_mem (Obj.magic right z0 j)
+            (mem (seq_predType nat_eqType) (Obj.magic support0))))
+        (iota 0 (size0 z0.zero_particles))))
+    (map0 (fun j -> right z0 j)
+      (filter (fun j ->
+        (&&)
+          (in_mem (Obj.magic gap z0 j)
+            (mem (seq_predType nat_eqType) (Obj.magic support0)))
+          (in_mem (Obj.magic left z0 j)
+            (mem (seq_predType nat_eqType) (Obj.magic support0))))
+        (iota 0 (size0 z0.zero_particles))))
+
 (** val check_zero_enclosed :
     zero_system -> unknown -> int list -> enclosed_claim -> bool **)
 
@@ -4233,17 +4232,17 @@ let times_entry q i j p =
 (** val column_poly : pencil -> poly_vector -> int -> polynomial **)
 
 let column_poly q w j =
-  foldr (fun i sum ->
+  foldr (fun i sum0 ->
     match component_of w i with
-    | [] -> sum
-    | _ :: _ -> add_poly (times_entry q i j (component_of w i)) sum) []
+    | [] -> sum0
+    | _ :: _ -> add_poly (times_entry q i j (component_of w i)) sum0) []
     (iota 0 q.order)
 
 (** val product_with : poly_vector -> sparse_row -> polynomial **)
 
 let product_with x row =
-  foldr (fun e sum ->
-    add_poly (scale_poly (snd e) (component_of x (fst e))) sum) [] row
+  foldr (fun e sum0 ->
+    add_poly (scale_poly (snd e) (component_of x (fst e))) sum0) [] row
 
 (** val row_poly : pencil -> poly_vector -> int -> polynomial **)
 
@@ -4576,14 +4575,6 @@ let still_open tr lo hi ls =
 let check_families q claims tr lo hi ls w =
   (&&) (check_complete q claims w tr lo hi)
     (check_supports q (left_open tr lo hi) ls)
-
-(** val check_system_families :
-    system -> unknown -> solution_claim list -> elimination -> whole leaf
-    tree -> point -> point -> support_leaf option list -> bool **)
-
-let check_system_families s u claims w tr lo hi ls =
-  (&&) (check_system s u claims w tr lo hi)
-    (check_supports (pencil_of s u) (left_open tr lo hi) ls)
 
 (** val add_lists :
     ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list **)
@@ -5357,14 +5348,6 @@ let check_varying_families q claims w tr lo hi ls =
   (&&) (check_varying q claims w tr lo hi)
     (check_supports q (varying_open tr lo hi) ls)
 
-(** val check_system_varying :
-    system -> unknown -> solution_claim list -> anchoring -> varying_leaf
-    tree -> point -> point -> support_leaf option list -> bool **)
-
-let check_system_varying s u claims w tr lo hi ls =
-  (&&) (system_wellformed s u)
-    (check_varying_families (pencil_of s u) claims w tr lo hi ls)
-
 type 'leaf box_tree =
 | CutValue of point * 'leaf box_tree * 'leaf box_tree
 | CutFriction of point * 'leaf box_tree * 'leaf box_tree
@@ -5375,25 +5358,25 @@ type 'leaf box_tree =
     int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 box_tree ->
     region -> point -> point -> bool **)
 
-let rec check_boxes n evidence tr r low high =
+let rec check_boxes n evidence0 tr r low high =
   match tr with
   | CutValue (t, tr1, tr2) ->
     (&&) (ordered r.lower t)
       ((&&) (ordered t r.upper)
-        ((&&) (check_boxes n evidence tr1 (below t r) low high)
-          (check_boxes n evidence tr2 (above t r) low high)))
+        ((&&) (check_boxes n evidence0 tr1 (below t r) low high)
+          (check_boxes n evidence0 tr2 (above t r) low high)))
   | CutFriction (m, tr1, tr2) ->
     (&&) (ordered low m)
       ((&&) (ordered m high)
-        ((&&) (check_boxes n evidence tr1 r low m)
-          (check_boxes n evidence tr2 r m high)))
+        ((&&) (check_boxes n evidence0 tr1 r low m)
+          (check_boxes n evidence0 tr2 r m high)))
   | Decide (i, tr1, tr2) ->
     (&&) (leq (Natural.succ i) n)
-      ((&&) (check_boxes n evidence tr1 (decide i Resting r) low high)
-        (check_boxes n evidence tr2 (decide i Moving r) low high))
+      ((&&) (check_boxes n evidence0 tr1 (decide i Resting r) low high)
+        (check_boxes n evidence0 tr2 (decide i Moving r) low high))
   | BoxLeaf l ->
     (&&) (ordered r.lower r.upper)
-      ((&&) (ordered low high) (evidence r low high l))
+      ((&&) (ordered low high) (evidence0 r low high l))
 
 (** val strict_in_both :
     enclosed -> enclosed -> region -> Big_int_Z.big_int list -> int -> bool **)
@@ -5449,7 +5432,7 @@ type regular = { regular_pivot : int; regular_inverse : matrix;
     Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int list **)
 
 let combine_rows c rows =
-  foldr (fun e sum -> add_poly (scale_poly (fst e) (snd e)) sum) []
+  foldr (fun e sum0 -> add_poly (scale_poly (fst e) (snd e)) sum0) []
     (zip c rows)
 
 (** val against_right :
@@ -6375,17 +6358,295 @@ let reverse_pencil q =
   (map0 (fun i -> if constant i then [] else row_a q i) (iota 0 q.order));
   free = q.free }
 
-(** val check_system_at_value :
-    system -> unknown -> point -> solution_claim list -> elimination -> whole
-    leaf tree -> support_leaf option list -> bool **)
-
-let check_system_at_value s u e claims w tr ls =
-  (&&) (system_wellformed s u)
-    (check_at_value (pencil_of s u) e claims w tr ls)
-
 (** val check_infinity :
     pencil -> solution_claim list -> elimination -> whole leaf tree ->
     support_leaf option list -> bool **)
 
 let check_infinity q claims w tr ls =
   check_at_value (reverse_pencil q) zero claims w tr ls
+
+type problem =
+| PencilProblem of pencil
+| SystemProblem of system * unknown
+| ZeroProblem of zero_system * unknown
+| PlainProblem of mcp
+
+type solution_set = { solutions_in : yield list;
+                      families_of_set : family list;
+                      open_regions : region list }
+
+type asserted = { asserted_from : point; asserted_to : point;
+                  asserted_support : int list; asserted_biactive : int list }
+
+type statement =
+| EachExists of point * point * asserted list
+| AllInWindow of point * point * solution_set
+| AllAtInfinity of solution_set
+| NoneForFriction of point * point
+| OneForEachFriction of point * point
+| PointsSolve of mcp_point list
+
+(** val without_zero_particles : system -> zero_system **)
+
+let without_zero_particles s =
+  { without_zero = s; zero_particles = [] }
+
+(** val pencil_of_problem : problem -> pencil **)
+
+let pencil_of_problem = function
+| PencilProblem q -> q
+| SystemProblem (s, u) -> pencil_of s u
+| ZeroProblem (z0, u) -> zero_pencil z0 u
+| PlainProblem _ -> { order = 0; rows_a = []; rows_b = []; free = [] }
+
+(** val complementarity : problem -> int list **)
+
+let complementarity = function
+| PencilProblem q -> slip q
+| SystemProblem (s, _) -> iota (free_number s) (size0 s.particles)
+| ZeroProblem (z0, _) -> iota (free_number z0.without_zero) (slip_number z0)
+| PlainProblem _ -> []
+
+type claim_evidence =
+| OfPencil of solution_claim
+| OfMotion of lifted
+| OfZeroMotion of zero_claim
+| OfZeroBox of int list * enclosed_claim
+
+type cover_evidence =
+| ConstantCover of solution_claim list * elimination * whole leaf tree
+   * pinned_box option list * support_leaf option list
+| CoverAtValue of solution_claim list * elimination * whole leaf tree
+   * support_leaf option list
+| VaryingCover of solution_claim list * anchoring * varying_leaf tree
+   * pinned_box option list * support_leaf option list
+
+type absence_evidence =
+| ByElimination of (elimination * (matrix * matrix)) option
+   * critical_leaf box_tree
+| ByAnchors of box_anchoring * anchored_box_leaf box_tree
+
+type evidence =
+| ClaimsIn of point * point * claim_evidence list
+| CoverOf of point * point * cover_evidence
+| CoverAtInfinity of solution_claim list * elimination * whole leaf tree
+   * support_leaf option list
+| Absence of point * point * absence_evidence
+| Presence of point * point * box_anchoring * presence_piece list
+| Points of mcp_point list
+
+type answered =
+| Proved of statement
+| ClaimRefused of int
+| EvidenceRefused
+| NotToldApart
+
+(** val asserted_of : solution_claim -> asserted **)
+
+let asserted_of k =
+  { asserted_from = (claimed_from k); asserted_to = (claimed_to k);
+    asserted_support = (claimed_support k); asserted_biactive =
+    (claimed_biactive k) }
+
+(** val asserted_motion : claim -> asserted **)
+
+let asserted_motion k =
+  { asserted_from = (k.claim_from, k.claim_denominator); asserted_to =
+    (k.claim_to, k.claim_denominator); asserted_support = k.support;
+    asserted_biactive = k.biactive }
+
+(** val claim_answer :
+    problem -> pencil -> claim_evidence -> asserted option **)
+
+let claim_answer p q c =
+  match p with
+  | PencilProblem _ ->
+    (match c with
+     | OfPencil k ->
+       if check_solution_claim q k then Some (asserted_of k) else None
+     | _ -> None)
+  | SystemProblem (s, u) ->
+    (match c with
+     | OfPencil k ->
+       if check_solution_claim q k then Some (asserted_of k) else None
+     | OfMotion l ->
+       if check_lifted s u l
+       then Some (asserted_motion l.motion_claim)
+       else None
+     | _ -> None)
+  | ZeroProblem (z0, u) ->
+    (match c with
+     | OfZeroMotion c0 ->
+       if check_zero z0 u c0
+       then Some (asserted_motion c0.lifted_part.motion_claim)
+       else None
+     | OfZeroBox (support0, c0) ->
+       if check_zero_enclosed z0 u support0 c0
+       then Some { asserted_from = c0.box_from; asserted_to = c0.box_to;
+              asserted_support = support0; asserted_biactive =
+              (resting_halves z0 support0) }
+       else None
+     | _ -> None)
+  | PlainProblem _ -> None
+
+(** val in_window : point -> point -> asserted -> bool **)
+
+let in_window lo hi a =
+  within (a.asserted_from, a.asserted_to) (lo, hi)
+
+(** val all_asserted :
+    problem -> pencil -> point -> point -> int -> claim_evidence list ->
+    (asserted list, int) sum **)
+
+let rec all_asserted p q lo hi k = function
+| [] -> Inl []
+| c :: l' ->
+  (match claim_answer p q c with
+   | Some a ->
+     if in_window lo hi a
+     then (match all_asserted p q lo hi (Natural.succ k) l' with
+           | Inl said -> Inl (a :: said)
+           | Inr refused -> Inr refused)
+     else Inr k
+   | None -> Inr k)
+
+(** val claims_answer :
+    problem -> pencil -> point -> point -> claim_evidence list -> answered **)
+
+let claims_answer p q lo hi l =
+  match all_asserted p q lo hi 0 l with
+  | Inl said -> Proved (EachExists (lo, hi, said))
+  | Inr refused -> ClaimRefused refused
+
+(** val answer_claims :
+    problem -> point -> point -> claim_evidence list -> answered **)
+
+let answer_claims p lo hi l =
+  match p with
+  | PencilProblem q -> claims_answer p q lo hi l
+  | SystemProblem (s, u) ->
+    if system_wellformed s u
+    then claims_answer p (pencil_of s u) lo hi l
+    else EvidenceRefused
+  | ZeroProblem (_, _) ->
+    claims_answer p { order = 0; rows_a = []; rows_b = []; free = [] } lo hi l
+  | PlainProblem _ -> EvidenceRefused
+
+(** val told : yield list option -> (yield list -> statement) -> answered **)
+
+let told solutions make =
+  match solutions with
+  | Some ys -> Proved (make ys)
+  | None -> NotToldApart
+
+(** val answer_cover :
+    pencil -> point -> point -> cover_evidence -> answered **)
+
+let answer_cover q lo hi = function
+| ConstantCover (claims, w, tr, _, ls) ->
+  if check_families q claims tr lo hi ls w
+  then told (all_solutions q claims tr lo hi ls) (fun ys -> AllInWindow (lo,
+         hi, { solutions_in = ys; families_of_set = (families tr lo hi ls);
+         open_regions = (still_open tr lo hi ls) }))
+  else EvidenceRefused
+| CoverAtValue (claims, w, tr, ls) ->
+  if (&&)
+       (eq_op (prod_eqType ZInstances.coq_Z_eqType ZInstances.coq_Z_eqType)
+         (Obj.magic lo) (Obj.magic hi)) (check_at_value q lo claims w tr ls)
+  then told (all_solutions (point_pencil q lo) claims tr lo lo ls) (fun ys ->
+         AllInWindow (lo, lo, { solutions_in = ys; families_of_set =
+         (families tr lo lo ls); open_regions = (still_open tr lo lo ls) }))
+  else EvidenceRefused
+| VaryingCover (claims, w, tr, _, ls) ->
+  if check_varying_families q claims w tr lo hi ls
+  then told (varying_solutions q claims tr lo hi ls) (fun ys -> AllInWindow
+         (lo, hi, { solutions_in = ys; families_of_set =
+         (varying_families tr lo hi ls); open_regions =
+         (varying_still_open tr lo hi ls) }))
+  else EvidenceRefused
+
+(** val answer_zero_cover :
+    zero_system -> unknown -> point -> point -> cover_evidence -> answered **)
+
+let answer_zero_cover z0 u lo hi = function
+| ConstantCover (claims, w, tr, bs, ls) ->
+  if check_zero_complete z0 u claims w tr lo hi bs ls
+  then told (zero_solutions z0 u claims tr lo hi bs ls) (fun ys ->
+         AllInWindow (lo, hi, { solutions_in = ys; families_of_set =
+         (zero_families tr lo hi bs ls); open_regions =
+         (zero_still_open z0 tr lo hi bs ls) }))
+  else EvidenceRefused
+| CoverAtValue (_, _, _, _) -> EvidenceRefused
+| VaryingCover (claims, w, tr, bs, ls) ->
+  if check_zero_varying z0 u claims w tr lo hi bs ls
+  then told (zero_varying_solutions z0 u claims tr lo hi bs ls) (fun ys ->
+         AllInWindow (lo, hi, { solutions_in = ys; families_of_set =
+         (zero_varying_families tr lo hi bs ls); open_regions =
+         (zero_varying_open z0 tr lo hi bs ls) }))
+  else EvidenceRefused
+
+(** val answer_infinity :
+    pencil -> solution_claim list -> elimination -> whole leaf tree ->
+    support_leaf option list -> answered **)
+
+let answer_infinity q claims w tr ls =
+  if check_infinity q claims w tr ls
+  then told
+         (all_solutions (point_pencil (reverse_pencil q) zero) claims tr zero
+           zero ls) (fun ys -> AllAtInfinity { solutions_in = ys;
+         families_of_set = (families tr zero zero ls); open_regions =
+         (still_open tr zero zero ls) })
+  else EvidenceRefused
+
+(** val check_absence :
+    zero_system -> point -> point -> absence_evidence -> bool **)
+
+let check_absence z0 from bound1 = function
+| ByElimination (w, tr) -> check_critical z0 w tr from bound1
+| ByAnchors (w, tr) -> check_anchored_critical z0 w tr from bound1
+
+(** val zero_system_of : problem -> zero_system option **)
+
+let zero_system_of = function
+| SystemProblem (s, _) -> Some (without_zero_particles s)
+| ZeroProblem (z0, _) -> Some z0
+| _ -> None
+
+(** val proved_if : bool -> statement -> answered **)
+
+let proved_if checked s =
+  if checked then Proved s else EvidenceRefused
+
+(** val answer : problem -> evidence -> answered **)
+
+let answer p = function
+| ClaimsIn (lo, hi, l) -> answer_claims p lo hi l
+| CoverOf (lo, hi, c) ->
+  (match p with
+   | PencilProblem q -> answer_cover q lo hi c
+   | SystemProblem (s, u) ->
+     if system_wellformed s u
+     then answer_cover (pencil_of s u) lo hi c
+     else EvidenceRefused
+   | ZeroProblem (z0, u) -> answer_zero_cover z0 u lo hi c
+   | PlainProblem _ -> EvidenceRefused)
+| CoverAtInfinity (claims, w, tr, ls) ->
+  (match p with
+   | PlainProblem _ -> EvidenceRefused
+   | _ -> answer_infinity (pencil_of_problem p) claims w tr ls)
+| Absence (from, bound1, a) ->
+  (match zero_system_of p with
+   | Some z0 ->
+     proved_if (check_absence z0 from bound1 a) (NoneForFriction (from,
+       bound1))
+   | None -> EvidenceRefused)
+| Presence (from, bound1, w, pieces) ->
+  (match zero_system_of p with
+   | Some z0 ->
+     proved_if (check_presence z0 w pieces from bound1) (OneForEachFriction
+       (from, bound1))
+   | None -> EvidenceRefused)
+| Points points ->
+  (match p with
+   | PlainProblem m -> proved_if (check_mcp m points) (PointsSolve points)
+   | _ -> EvidenceRefused)

@@ -5,6 +5,10 @@ val implb : bool -> bool -> bool
 
 val negb : bool -> bool
 
+type ('a, 'b) sum =
+| Inl of 'a
+| Inr of 'b
+
 val fst : ('a1 * 'a2) -> 'a1
 
 val snd : ('a1 * 'a2) -> 'a2
@@ -1002,10 +1006,6 @@ val found :
 
 val left_open : whole leaf tree -> point -> point -> region list
 
-val solutions_found :
-  pencil -> solution_claim list -> whole leaf tree -> point -> point -> yield
-  list option
-
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
 type slip_particle = { first_dof : int; second_dof : int; tangent : planar;
@@ -1074,14 +1074,6 @@ val inner : planar -> planar -> Big_int_Z.big_int
 val particle_wellformed : system -> slip_particle -> bool
 
 val system_wellformed : system -> unknown -> bool
-
-val check_system :
-  system -> unknown -> solution_claim list -> elimination -> whole leaf tree
-  -> point -> point -> bool
-
-val check_system_claim : system -> unknown -> claim -> bool
-
-val check_system_enclosed : system -> unknown -> enclosed_claim -> bool
 
 type lifted = { motion_claim : claim; forces : polynomial list;
                 force_reductions : reduction list;
@@ -1211,6 +1203,8 @@ val support_pencil : zero_system -> unknown -> int list -> pencil
 val slipping_variables : zero_system -> int list -> int list
 
 val one_half : zero_system -> int list -> int -> bool
+
+val resting_halves : zero_system -> int list -> int list
 
 val check_zero_enclosed :
   zero_system -> unknown -> int list -> enclosed_claim -> bool
@@ -1451,10 +1445,6 @@ val still_open :
 val check_families :
   pencil -> solution_claim list -> whole leaf tree -> point -> point ->
   support_leaf option list -> elimination -> bool
-
-val check_system_families :
-  system -> unknown -> solution_claim list -> elimination -> whole leaf tree
-  -> point -> point -> support_leaf option list -> bool
 
 val add_lists : ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list
 
@@ -1714,10 +1704,6 @@ val varying_solutions :
 val check_varying_families :
   pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point ->
   point -> support_leaf option list -> bool
-
-val check_system_varying :
-  system -> unknown -> solution_claim list -> anchoring -> varying_leaf tree
-  -> point -> point -> support_leaf option list -> bool
 
 type 'leaf box_tree =
 | CutValue of point * 'leaf box_tree * 'leaf box_tree
@@ -2053,10 +2039,104 @@ val zero_row0 : sparse_row -> bool
 
 val reverse_pencil : pencil -> pencil
 
-val check_system_at_value :
-  system -> unknown -> point -> solution_claim list -> elimination -> whole
-  leaf tree -> support_leaf option list -> bool
-
 val check_infinity :
   pencil -> solution_claim list -> elimination -> whole leaf tree ->
   support_leaf option list -> bool
+
+type problem =
+| PencilProblem of pencil
+| SystemProblem of system * unknown
+| ZeroProblem of zero_system * unknown
+| PlainProblem of mcp
+
+type solution_set = { solutions_in : yield list;
+                      families_of_set : family list;
+                      open_regions : region list }
+
+type asserted = { asserted_from : point; asserted_to : point;
+                  asserted_support : int list; asserted_biactive : int list }
+
+type statement =
+| EachExists of point * point * asserted list
+| AllInWindow of point * point * solution_set
+| AllAtInfinity of solution_set
+| NoneForFriction of point * point
+| OneForEachFriction of point * point
+| PointsSolve of mcp_point list
+
+val without_zero_particles : system -> zero_system
+
+val pencil_of_problem : problem -> pencil
+
+val complementarity : problem -> int list
+
+type claim_evidence =
+| OfPencil of solution_claim
+| OfMotion of lifted
+| OfZeroMotion of zero_claim
+| OfZeroBox of int list * enclosed_claim
+
+type cover_evidence =
+| ConstantCover of solution_claim list * elimination * whole leaf tree
+   * pinned_box option list * support_leaf option list
+| CoverAtValue of solution_claim list * elimination * whole leaf tree
+   * support_leaf option list
+| VaryingCover of solution_claim list * anchoring * varying_leaf tree
+   * pinned_box option list * support_leaf option list
+
+type absence_evidence =
+| ByElimination of (elimination * (matrix * matrix)) option
+   * critical_leaf box_tree
+| ByAnchors of box_anchoring * anchored_box_leaf box_tree
+
+type evidence =
+| ClaimsIn of point * point * claim_evidence list
+| CoverOf of point * point * cover_evidence
+| CoverAtInfinity of solution_claim list * elimination * whole leaf tree
+   * support_leaf option list
+| Absence of point * point * absence_evidence
+| Presence of point * point * box_anchoring * presence_piece list
+| Points of mcp_point list
+
+type answered =
+| Proved of statement
+| ClaimRefused of int
+| EvidenceRefused
+| NotToldApart
+
+val asserted_of : solution_claim -> asserted
+
+val asserted_motion : claim -> asserted
+
+val claim_answer : problem -> pencil -> claim_evidence -> asserted option
+
+val in_window : point -> point -> asserted -> bool
+
+val all_asserted :
+  problem -> pencil -> point -> point -> int -> claim_evidence list ->
+  (asserted list, int) sum
+
+val claims_answer :
+  problem -> pencil -> point -> point -> claim_evidence list -> answered
+
+val answer_claims :
+  problem -> point -> point -> claim_evidence list -> answered
+
+val told : yield list option -> (yield list -> statement) -> answered
+
+val answer_cover : pencil -> point -> point -> cover_evidence -> answered
+
+val answer_zero_cover :
+  zero_system -> unknown -> point -> point -> cover_evidence -> answered
+
+val answer_infinity :
+  pencil -> solution_claim list -> elimination -> whole leaf tree ->
+  support_leaf option list -> answered
+
+val check_absence : zero_system -> point -> point -> absence_evidence -> bool
+
+val zero_system_of : problem -> zero_system option
+
+val proved_if : bool -> statement -> answered
+
+val answer : problem -> evidence -> answered

@@ -12,17 +12,12 @@ let not_verified fmt = Printf.ksprintf (fun text -> raise (Not_verified text)) f
 
 type matrix = { rows : int; cols : int; entries : (int * Q.t) list array }
 
-type question =
-  | Raw of Kernel.pencil
-  | Mechanical of Kernel.system * Kernel.unknown
-  | Zero_reaction of Kernel.zero_system * Kernel.unknown
-
 type t = {
   unknown : string;
   friction : Q.t option;  (* where the unknown is lambda2 and the problem is a system *)
   window : Q.t * Q.t option;
   digest : string;
-  question : question;
+  question : Kernel.problem;
   common : Z.t;  (* the factor of the entries; for a system, of those of the free rows *)
   slip_common : Z.t }  (* the factor of the entries of the complementarity rows *)
 
@@ -156,7 +151,7 @@ let read_pencil folder item =
   let text = pencil_lines sorted a b in
   let pencil = { Kernel.order = n; rows_a = integer_rows common a;
                  rows_b = integer_rows common b; free = sorted } in
-  text, Raw pencil, None, common, common
+  text, Kernel.PencilProblem pencil, None, common, common
 
 let symmetric m =
   m.rows = m.cols &&
@@ -298,8 +293,8 @@ let read_system folder unknown item =
     | _ -> Kernel.Mu, Z.one in
   let free_common = Z.mul common unit_length in
   let question =
-    if zeros = [] then Mechanical (system, kind)
-    else Zero_reaction ({ Kernel.without_zero = system;
+    if zeros = [] then Kernel.SystemProblem (system, kind)
+    else ZeroProblem ({ Kernel.without_zero = system;
                           zero_particles = List.map kernel_particle zeros }, kind) in
   let friction_given = if unknown = "lambda2" then mu else None in
   text, question, friction_given, free_common, Z.mul free_common (Z.mul unit_length friction)
@@ -316,7 +311,7 @@ let reversed problem (pencil : Kernel.pencil) =
             Hashtbl.replace table.(i) j (Q.add sum (Q.make v factor))) row) rows;
     matrix_of_table pencil.order pencil.order table in
   let lines = pencil_lines pencil.free (matrix reverse.rows_a) (matrix reverse.rows_b) in
-  { problem with digest = digest_of (canonical problem.unknown lines); question = Raw reverse;
+  { problem with digest = digest_of (canonical problem.unknown lines); question = PencilProblem reverse;
                  friction = None; window = Q.zero, Some Q.zero }
 
 let read path document =

@@ -15,6 +15,9 @@ let show_window (lo, hi) = show_interval (Problem.point_of lo) (Problem.upper_po
 
 let show_list indices = "[" ^ String.concat ", " (List.map string_of_int indices) ^ "]"
 
+let window_of lo hi =
+  Problem.value_of lo, if Z.sign (snd hi) = 0 then None else Some (Problem.value_of hi)
+
 (* Does the first window contain the second? *)
 let covers (lo, hi) (lo', hi') =
   Q.leq lo lo' && (match hi, hi' with
@@ -32,9 +35,9 @@ let name_of (problem : Problem.t) =
   Printf.sprintf "%s, %sproblem %s" problem.unknown friction problem.digest
 
 (* The verdict on a statement about solutions in a window of the problem. *)
-let verdict_in_window (problem : Problem.t) window word statement =
+let verdict_in_window (problem : Problem.t) lo hi word statement =
   verdict word statement (name_of problem);
-  if not (covers window problem.window) then
+  if not (covers (window_of lo hi) problem.window) then
     Printf.printf "; NOT the whole window %s of the problem" (show_window problem.window);
   print_newline ()
 
@@ -58,19 +61,20 @@ let present problem low high =
     (Printf.sprintf "a solution with lambda2 >= 0 for every friction in %s"
        (show_interval low high))
 
-let claims_only problem window =
-  verdict_in_window problem window "ACCEPTED"
+let claims_only problem lo hi =
+  verdict_in_window problem lo hi "ACCEPTED"
     (Printf.sprintf "claims, each has a solution in %s; nothing said about others"
-       (show_window window))
+       (show_interval lo hi))
 
 let points digest =
   verdict "ACCEPTED" "points, each solves the problem; nothing said about others"
     ("problem " ^ digest);
   print_newline ()
 
-let claim (problem : Problem.t) ((a, b), support) =
-  Printf.printf "claim: %s in [%s, %s], slip %s\n" problem.unknown (Q.to_string a) (Q.to_string b)
-    (show_list support)
+let claim (problem : Problem.t) (claim : Kernel.asserted) =
+  let show point = Q.to_string (Problem.value_of point) in
+  Printf.printf "claim: %s in [%s, %s], slip %s\n" problem.unknown (show claim.asserted_from)
+    (show claim.asserted_to) (show_list claim.asserted_support)
 
 (* The variables of a region in this state, as positions among the complementarity variables. *)
 let in_state state (region : Kernel.region) =
@@ -113,15 +117,15 @@ let shown_regions = 20
 
 (* How many solutions, whether there are families, and where every other solution is.  The families
    are not counted: one may be cut into several by the leaves of the tree. *)
-let count_and_others place found families left_open =
-  let none = found = [] && families = [] in
-  let count = match List.length found with
+let count_and_others place (all : Kernel.solution_set) =
+  let none = all.solutions_in = [] && all.families_of_set = [] in
+  let count = match List.length all.solutions_in with
     | 0 when none -> "no solution"
     | 1 -> "1 solution"
     | n -> Printf.sprintf "%d solutions" n in
-  let families_too = if families = [] then "" else " and families of them" in
+  let families_too = if all.families_of_set = [] then "" else " and families of them" in
   let others = if none then "" else ", and no other" in
-  let outside = match List.length left_open with
+  let outside = match List.length all.open_regions with
     | 0 -> ""
     | 1 -> " outside 1 open region"
     | n -> Printf.sprintf " outside %d open regions" n in
@@ -129,23 +133,23 @@ let count_and_others place found families left_open =
 
 let word_of left_open = if left_open = [] then "ACCEPTED" else "UNDECIDED"
 
-(* What the theorems [system_families_number] and [system_families_hold] say of the solutions
-   found, the families and the regions left open. *)
-let cover (problem : Problem.t) window slip found families left_open =
+let names slip positions = show_list (List.map (fun i -> slip.(i)) positions)
+
+let cover (problem : Problem.t) slip lo hi (all : Kernel.solution_set) =
   let unknown = problem.unknown in
-  let names positions = show_list (List.map (fun i -> slip.(i)) positions) in
-  verdict_in_window problem window (word_of left_open)
-    (count_and_others ("in " ^ show_window window) found families left_open);
+  verdict_in_window problem lo hi (word_of all.open_regions)
+    (count_and_others ("in " ^ show_interval lo hi) all);
 
   List.iter (fun (y : Kernel.yield) ->
       Printf.printf "solution: %s in [%s, %s], slip %s\n" unknown
         (Decimal.lower (Problem.value_of y.yield_from))
         (Decimal.upper (Problem.value_of y.yield_to))
-        (names (moving y.yield_region))) found;
+        (names slip (moving y.yield_region))) (List.rev all.solutions_in);
   List.iter (fun (region, (h : Kernel.holding)) ->
       Printf.printf "family: %s, slip %s, %s at each\n" (show_place unknown h.held_place)
-        (names (moving region))
-        (if h.held_alone then "one solution" else "a solution")) (listed_once families);
+        (names slip (moving region))
+        (if h.held_alone then "one solution" else "a solution"))
+    (listed_once all.families_of_set);
 
   let undecided region =
     let decided = moving region @ resting region in
@@ -153,19 +157,39 @@ let cover (problem : Problem.t) window slip found families left_open =
   List.iteri (fun k (r : Kernel.region) ->
       if k < shown_regions then
         Printf.printf "open: %s in %s, moving %s, undecided %s\n" unknown
-          (show_interval r.lower r.upper) (names (moving r)) (names (undecided r))) left_open;
-  let more = List.length left_open - shown_regions in
+          (show_interval r.lower r.upper) (names slip (moving r)) (names slip (undecided r)))
+    all.open_regions;
+  let more = List.length all.open_regions - shown_regions in
   if more > 0 then Printf.printf "open: %d more regions (see the certificate)\n" more
 
-(* What the theorems [infinity_number] and [infinity_hold] say of solutions at infinity. *)
-let at_infinity (problem : Problem.t) slip found families left_open =
-  let names positions = show_list (List.map (fun i -> slip.(i)) positions) in
-  verdict (word_of left_open) (count_and_others "at infinity" found families left_open)
-    (name_of problem);
+let at_infinity (problem : Problem.t) slip (all : Kernel.solution_set) =
+  verdict (word_of all.open_regions) (count_and_others "at infinity" all) (name_of problem);
   print_newline ();
   List.iter (fun (y : Kernel.yield) ->
-      Printf.printf "solution: at infinity, slip %s\n" (names (moving y.yield_region))) found;
+      Printf.printf "solution: at infinity, slip %s\n" (names slip (moving y.yield_region)))
+    (List.rev all.solutions_in);
   List.iter (fun (region, (h : Kernel.holding)) ->
-      Printf.printf "family: at infinity, slip %s, %s\n" (names (moving region))
-        (if h.held_alone then "one solution" else "a solution")) (listed_once families);
-  List.iter (fun r -> Printf.printf "open: at infinity, moving %s\n" (names (moving r))) left_open
+      Printf.printf "family: at infinity, slip %s, %s\n" (names slip (moving region))
+        (if h.held_alone then "one solution" else "a solution"))
+    (listed_once all.families_of_set);
+  List.iter (fun r -> Printf.printf "open: at infinity, moving %s\n" (names slip (moving r)))
+    all.open_regions
+
+(* Every other solution may lie in a region that is left open. *)
+let exit_code (all : Kernel.solution_set) = if all.open_regions = [] then 0 else 3
+
+(* Prints statements that are true: claims, and one of another kind.  The exit code. *)
+let say (problem : Problem.t) statements =
+  let slip = Array.of_list (Kernel.complementarity problem.question) in
+  let claims = List.concat_map (function
+      | Kernel.EachExists (_, _, claims) -> claims
+      | _ -> []) statements in
+  let code = match List.rev statements with
+    | EachExists (lo, hi, _) :: _ -> claims_only problem lo hi; 0
+    | AllInWindow (lo, hi, all) :: _ -> cover problem slip lo hi all; exit_code all
+    | AllAtInfinity all :: _ -> at_infinity problem slip all; exit_code all
+    | NoneForFriction (low, high) :: _ -> absent problem low high; 0
+    | OneForEachFriction (low, high) :: _ -> present problem low high; 0
+    | PointsSolve _ :: _ | [] -> invalid_arg "a statement about a plain problem" in
+  List.iter (claim problem) claims;
+  code

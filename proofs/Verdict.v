@@ -1,0 +1,497 @@
+(* From a problem and evidence to a statement that is true.
+
+   [answer] chooses the check for a kind of evidence and puts together what it proves.
+
+   Theorem [answer_sound]: if [answer] gives a statement, then it holds in every real closed field,
+   in the sense of [meaning] (Statement.v).
+
+   Evidence is what the program's elaborator makes of a certificate; nothing is assumed of it.
+   A refusal says which part of the evidence failed.
+
+   Pages: spec/certificates.md, 5.15 to 5.17.  Called by program/main.ml. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Definite Cover Number Condensation Pencil.
+From Mceip Require Import Whole Claim EnclosedClaim Complete System Signs Support Families.
+From Mceip Require Import Lifted ZeroReaction ZeroEnclosed PlainMcp Varying ZeroPencil.
+From Mceip Require Import ZeroComplete Boxes Critical CriticalAnchors Presence PresenceAnchors.
+From Mceip Require Import Points Statement.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+(* A claim about the pencil; a motion with its forces; the same with particles of zero reaction; a
+   box around a motion with such particles. *)
+Inductive claim_evidence :=
+  | OfPencil of solution_claim
+  | OfMotion of lifted
+  | OfZeroMotion of zero_claim
+  | OfZeroBox of seq nat & enclosed_claim.
+
+(* Claims that root leaves refer to; the elimination of the free variables; the tree; and beside
+   each region that it leaves undecided a box with zero reaction, a support leaf, or nothing. *)
+Inductive cover_evidence :=
+  (* Free rows that do not depend on the unknown. *)
+  | ConstantCover of seq solution_claim & elimination & tree (leaf whole) &
+      seq (option pinned_box) & seq (option support_leaf)
+  (* The window is one value. *)
+  | CoverAtValue of seq solution_claim & elimination & tree (leaf whole) &
+      seq (option support_leaf)
+  (* Free rows that do. *)
+  | VaryingCover of seq solution_claim & anchoring & tree varying_leaf &
+      seq (option pinned_box) & seq (option support_leaf).
+
+Inductive absence_evidence :=
+  | ByElimination of option (elimination * (matrix * matrix)) & box_tree critical_leaf
+  | ByAnchors of box_anchoring & box_tree anchored_box_leaf.
+
+Inductive evidence :=
+  | ClaimsIn of point & point & seq claim_evidence
+  | CoverOf of point & point & cover_evidence
+  | CoverAtInfinity of seq solution_claim & elimination & tree (leaf whole) &
+      seq (option support_leaf)
+  | Absence of point & point & absence_evidence
+  | Presence of point & point & box_anchoring & seq presence_piece
+  | Points of seq mcp_point.
+
+Inductive answered :=
+  | Proved of statement
+  (* The first claim that its check refuses, by its place. *)
+  | ClaimRefused of nat
+  | EvidenceRefused
+  (* Regions that may hold the same solution, or a value that may lie beside the window. *)
+  | NotToldApart.
+
+Section Claims.
+
+Variable p : problem.
+
+Definition asserted_of k :=
+  Asserted (claimed_from k) (claimed_to k) (claimed_support k) (claimed_biactive k).
+
+Definition asserted_motion (k : claim) := Asserted (claim_from k, claim_denominator k)
+  (claim_to k, claim_denominator k) (support k) (biactive k).
+
+(* What a claim asserts, if its check accepts it; Q is the pencil of a problem without particles of
+   zero reaction. *)
+Definition claim_answer (Q : pencil) (c : claim_evidence) : option asserted :=
+  match p, c with
+  | PencilProblem _, OfPencil k | SystemProblem _ _, OfPencil k =>
+      if check_solution_claim Q k then Some (asserted_of k) else None
+  | SystemProblem s u, OfMotion l =>
+      if check_lifted s u l then Some (asserted_motion (motion_claim l)) else None
+  | ZeroProblem z u, OfZeroMotion c =>
+      if check_zero z u c then Some (asserted_motion (motion_claim (lifted_part c))) else None
+  | ZeroProblem z u, OfZeroBox support c =>
+      if check_zero_enclosed z u support c
+      then Some (Asserted (box_from c) (box_to c) support (resting_halves z support)) else None
+  | _, _ => None
+  end.
+
+Definition in_window lo hi a := within (asserted_from a, asserted_to a) (lo, hi).
+
+(* What the k-th claim and those behind it assert, or the place of one that is refused. *)
+Fixpoint all_asserted Q lo hi k (l : seq claim_evidence) : seq asserted + nat :=
+  match l with
+  | [::] => inl [::]
+  | c :: l' =>
+      if claim_answer Q c is Some a
+      then if in_window lo hi a
+           then match all_asserted Q lo hi k.+1 l' with
+                | inl said => inl (a :: said)
+                | inr refused => inr refused
+                end
+           else inr k
+      else inr k
+  end.
+
+Definition claims_answer Q lo hi l :=
+  match all_asserted Q lo hi 0 l with
+  | inl said => Proved (EachExists lo hi said)
+  | inr refused => ClaimRefused refused
+  end.
+
+(* Their checks do not look at the shape of a system, nor at the pencil for z particles. *)
+Definition answer_claims lo hi l :=
+  match p with
+  | PencilProblem Q => claims_answer Q lo hi l
+  | SystemProblem s u =>
+      if system_wellformed s u then claims_answer (pencil_of s u) lo hi l
+      else EvidenceRefused
+  | ZeroProblem _ _ => claims_answer (Pencil 0 [::] [::] [::]) lo hi l
+  | PlainProblem _ => EvidenceRefused
+  end.
+
+End Claims.
+
+Definition told (solutions : option (seq yield)) (make : seq yield -> statement) :=
+  if solutions is Some ys then Proved (make ys) else NotToldApart.
+
+(* A cover of the pencil Q, without particles of zero reaction. *)
+Definition answer_cover Q lo hi (c : cover_evidence) : answered :=
+  match c with
+  | ConstantCover claims w tr _ ls =>
+      if check_families Q claims tr lo hi ls w
+      then told (all_solutions Q claims tr lo hi ls)
+             (fun ys => AllInWindow lo hi
+               (SolutionSet ys (families tr lo hi ls) (still_open tr lo hi ls)))
+      else EvidenceRefused
+  | CoverAtValue claims w tr ls =>
+      if (lo == hi) && check_at_value Q lo claims w tr ls
+      then told (all_solutions (point_pencil Q lo) claims tr lo lo ls)
+             (fun ys => AllInWindow lo lo
+               (SolutionSet ys (families tr lo lo ls) (still_open tr lo lo ls)))
+      else EvidenceRefused
+  | VaryingCover claims w tr _ ls =>
+      if check_varying_families Q claims w tr lo hi ls
+      then told (varying_solutions Q claims tr lo hi ls)
+             (fun ys => AllInWindow lo hi
+               (SolutionSet ys (varying_families tr lo hi ls) (varying_still_open tr lo hi ls)))
+      else EvidenceRefused
+  end.
+
+Definition answer_zero_cover z u lo hi (c : cover_evidence) : answered :=
+  match c with
+  | ConstantCover claims w tr bs ls =>
+      if check_zero_complete z u claims w tr lo hi bs ls
+      then told (zero_solutions z u claims tr lo hi bs ls)
+             (fun ys => AllInWindow lo hi (SolutionSet ys
+               (zero_families tr lo hi bs ls) (zero_still_open z tr lo hi bs ls)))
+      else EvidenceRefused
+  | VaryingCover claims w tr bs ls =>
+      if check_zero_varying z u claims w tr lo hi bs ls
+      then told (zero_varying_solutions z u claims tr lo hi bs ls)
+             (fun ys => AllInWindow lo hi (SolutionSet ys
+               (zero_varying_families tr lo hi bs ls) (zero_varying_open z tr lo hi bs ls)))
+      else EvidenceRefused
+  | CoverAtValue _ _ _ _ => EvidenceRefused
+  end.
+
+Definition answer_infinity Q claims w tr ls : answered :=
+  if check_infinity Q claims w tr ls
+  then told (all_solutions (point_pencil (reverse_pencil Q) zero) claims tr zero zero ls)
+         (fun ys => AllAtInfinity
+           (SolutionSet ys (families tr zero zero ls) (still_open tr zero zero ls)))
+  else EvidenceRefused.
+
+Definition check_absence z from bound (e : absence_evidence) :=
+  match e with
+  | ByElimination w tr => check_critical z w tr from bound
+  | ByAnchors w tr => check_anchored_critical z w tr from bound
+  end.
+
+Definition zero_system_of p : option zero_system :=
+  match p with
+  | SystemProblem s _ => Some (without_zero_particles s)
+  | ZeroProblem z _ => Some z
+  | _ => None
+  end.
+
+Definition proved_if checked s := if checked then Proved s else EvidenceRefused.
+
+Definition answer p (e : evidence) : answered :=
+  match e, p with
+  | ClaimsIn lo hi l, _ => answer_claims p lo hi l
+  | CoverOf lo hi c, PencilProblem Q => answer_cover Q lo hi c
+  | CoverOf lo hi c, SystemProblem s u =>
+      if system_wellformed s u then answer_cover (pencil_of s u) lo hi c else EvidenceRefused
+  | CoverOf lo hi c, ZeroProblem z u => answer_zero_cover z u lo hi c
+  | CoverAtInfinity _ _ _ _, PlainProblem _ => EvidenceRefused
+  | CoverAtInfinity claims w tr ls, _ => answer_infinity (pencil_of_problem p) claims w tr ls
+  | Absence from bound a, _ =>
+      if zero_system_of p is Some z
+      then proved_if (check_absence z from bound a) (NoneForFriction from bound)
+      else EvidenceRefused
+  | Presence from bound w pieces, _ =>
+      if zero_system_of p is Some z
+      then proved_if (check_presence z w pieces from bound) (OneForEachFriction from bound)
+      else EvidenceRefused
+  | Points points, PlainProblem m => proved_if (check_mcp m points) (PointsSolve points)
+  | _, _ => EvidenceRefused
+  end.
+
+Section Sound.
+
+Variable R : rcfType.
+Implicit Types (t : R) (v : nat -> R).
+
+(* The claims and covers of the kernel number the variables by the pencil. *)
+Notation sem p := (semantics_by R (slip (pencil_of_problem p)) p).
+
+Lemma system_slips s u : slip (pencil_of s u) = iota (free_number s) (size (particles s)).
+Proof.
+rewrite /slip /= iotaD filter_cat add0n.
+rewrite (eq_in_filter (a2 := pred0)) ?filter_pred0; last by move=> i /= ->.
+rewrite (eq_in_filter (a2 := predT)) ?filter_predT // => i; rewrite !mem_iota => /andP[ge _].
+by rewrite add0n /= -leqNgt.
+Qed.
+
+Lemma numbers_are p : semantics_of R p = sem p.
+Proof.
+by case: p => //= *; rewrite /semantics_of /= ?system_slips ?zero_slips.
+Qed.
+
+(* Claims. *)
+
+Lemma slip_signs s u sup bi t v j : system_wellformed s u -> (j < size (particles s))%N ->
+  has_support s u sup bi t v -> let i := (free_number s + j)%N in
+  [/\ i \in sup -> 0 < variables_of s v i, i \notin sup -> variables_of s v i = 0,
+      i \notin sup -> i \in bi -> slip_row s u t v j = 0 &
+      i \notin sup -> i \notin bi -> 0 < slip_row s u t v j].
+Proof.
+move=> wf lt_j sup_v; have [neg zero bia cone_neg] := sup_v _ lt_j.
+have l2 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 R wf).
+rewrite /= /variables_of ltnNge leq_addr /= addKn; split.
+- by move/neg => rate_neg; rewrite oppr_gt0 pmulr_llt0 ?invr_gt0.
+- by move/zero ->; rewrite mul0r oppr0.
+- by move=> out in_bi; rewrite /slip_row bia // oppr0.
+by move=> out out_bi; rewrite /slip_row oppr_gt0 cone_neg.
+Qed.
+
+Lemma system_signs s u sup bi t v : system_wellformed s u -> has_support s u sup bi t v ->
+  has_signs (sem (SystemProblem s u)) sup bi t v.
+Proof.
+move=> wf sup_v j; rewrite /= system_slips size_iota => lt_j; rewrite nth_iota //.
+exact: slip_signs.
+Qed.
+
+Lemma zero_signs z u sup bi t v : zero_wellformed z u ->
+  has_support (without_zero z) u sup bi t v -> has_zero_support z u sup bi t v ->
+  has_signs (sem (ZeroProblem z u)) sup bi t v.
+Proof.
+move=> wf sup_v sup_z j; rewrite /= size_slips => lt_j; rewrite zero_slips nth_iota //.
+have wf_s : system_wellformed (without_zero z) u by case/and4P: wf.
+set s := without_zero z in sup_v wf_s *; set ns := size (particles s).
+have [lt_s|ge_s] := ltnP j ns.
+  rewrite /zero_variables_of /z_row ltn_add2l -/s -/ns lt_s.
+  exact: slip_signs.
+pose q := ((j - ns) %/ 3)%N; pose m := ((j - ns) %% 3)%N.
+have lt_q : (q < size (zero_particles z))%N.
+  by rewrite /q ltn_divLR // mulnC ltn_subLR.
+have j_eq : (free_number s + j = gap z q + m)%N.
+  rewrite /gap -/s -/ns -addnA [(3 * q)%N]mulnC -[(q * 3 + m)%N]divn_eq -addnA subnKC //.
+have [gapE rightE leftE] := variables_at v lt_q.
+have [opening pressure sliding right_row left_row] := sup_z _ lt_q.
+have l2 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 R wf_s).
+have [c c0 normalE] := along_normal wf v lt_q; rewrite normalE in opening.
+rewrite /z_row -/s -/ns ltnNge ge_s /= -/q -/m j_eq.
+have : (m < 3)%N by rewrite ltn_mod.
+case: m {j_eq} => [|[|[|]]] // _ /=.
+- rewrite addn0 gapE; split.
+  + move=> in_s; move: opening; rewrite in_s /= pmulr_rlt0 // => neg.
+    by rewrite oppr_gt0 pmulr_llt0 ?invr_gt0.
+  + move=> out; move: opening; rewrite out => /eqP; rewrite mulf_eq0 gt_eqF //= => /eqP ->.
+    by rewrite mul0r oppr0.
+  + by move=> _ in_bi; move: pressure; rewrite /row_sign in_bi orbT => ->; rewrite oppr0.
+  by move=> out out_bi; move: pressure; rewrite /row_sign (negbTE out) (negbTE out_bi) oppr_gt0.
+- rewrite addn1 -[(gap z q).+1]/(right z q) rightE pmulr_lgt0 ?invr_gt0 //; split.
+  + by move=> in_s; move: sliding; rewrite in_s => -[_ pos]; rewrite pos divr_gt0.
+  + move=> out; move: sliding; rewrite (negbTE out).
+    by case: ifP => _ => [->|neg]; [rewrite ltxx | rewrite (lt_gtF neg)].
+  + move=> _ in_bi; move: right_row; rewrite /row_sign in_bi orbT => /eqP.
+    by rewrite addr_eq0 => /eqP/oppr_inj->; rewrite subrr.
+  move=> out out_bi; move: right_row; rewrite /row_sign (negbTE out) (negbTE out_bi) => neg.
+  by rewrite -oppr_lt0 opprB addrC.
+rewrite addn2 -[(gap z q).+2]/(left z q) leftE pmulr_llt0 ?invr_gt0 //; split.
++ move=> in_s; move: sliding; rewrite in_s /=; case: ifP => _ [] //.
+  by move=> neg; rewrite neg oppr_gt0 pmulr_llt0 ?invr_gt0.
++ move=> out; move: sliding; rewrite out; case: ifP => _.
+    by case=> _ pos; rewrite (lt_gtF pos).
+  by move=> ->; rewrite ltxx.
++ move=> _ in_bi; move: left_row; rewrite /row_sign in_bi orbT => /eqP.
+  by rewrite addr_eq0 => /eqP->; rewrite opprK subrr.
+move=> out out_bi; move: left_row; rewrite /row_sign (negbTE out) (negbTE out_bi) => neg.
+by rewrite -oppr_lt0 opprD !opprK.
+Qed.
+
+Lemma pencil_claim Q k lo hi : check_solution_claim Q k -> in_window lo hi (asserted_of k) ->
+  asserted_holds (sem (PencilProblem Q)) lo hi (asserted_of k).
+Proof.
+move=> ok inside; case: k ok inside => [k|c] /= ok inside.
+  have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
+  have bt : between t (claim_from k, claim_denominator k) (claim_to k, claim_denominator k).
+    by rewrite /between /= ![t * _]mulrC.
+  exists t, x; split=> //; first exact: (within_between inside bt).
+  by move=> j lt_j; apply: signs; apply: mem_nth.
+have [t [x [bt sol pos zero _]]] := enclosed_claim_sound R ok.
+exists t, x; split=> //; first exact: (within_between inside bt).
+move=> j lt_j; have i_in := mem_nth 0%N lt_j; split=> //= [|out|out _].
+- exact: pos.
+- by have [] := zero _ i_in out.
+by have [] := zero _ i_in out.
+Qed.
+
+Lemma system_claim_holds s u k lo hi : system_wellformed s u ->
+  check_solution_claim (pencil_of s u) k -> in_window lo hi (asserted_of k) ->
+  asserted_holds (sem (SystemProblem s u)) lo hi (asserted_of k).
+Proof.
+move=> wf; case: k => [k|c] /= ok inside.
+  have [|t [v [from_t t_to sat sup]]] := @system_claim R s u k; first exact/andP.
+  have bt : between t (claim_from k, claim_denominator k) (claim_to k, claim_denominator k).
+    by rewrite /between /= ![t * _]mulrC.
+  exists t, v; split=> //; first exact: (within_between inside bt).
+  exact: system_signs.
+have [|t [v [bt sat sup]]] := @system_enclosed R s u c; first exact/andP.
+exists t, v; split=> //; first exact: (within_between inside bt).
+exact: system_signs.
+Qed.
+
+Definition needs_wellformed p :=
+  if p is SystemProblem s u then is_true (system_wellformed s u) else True.
+
+Definition pencil_for_claims p :=
+  match p with
+  | PencilProblem _ | SystemProblem _ _ => pencil_of_problem p
+  | _ => Pencil 0 [::] [::] [::]
+  end.
+
+Lemma claim_answer_sound p c a lo hi : needs_wellformed p ->
+  claim_answer p (pencil_for_claims p) c = Some a -> in_window lo hi a ->
+  asserted_holds (sem p) lo hi a.
+Proof.
+case: p => [Q|s u|z u|m] /= wf; case: c => [k|l|c|support c] //=; case: ifP => // ok [<-] inside.
+- exact: pencil_claim.
+- exact: system_claim_holds.
+- have [t [[from_t t_to] sat _ sup]] := lifted_sound R ok.
+  have bt : between t (asserted_from (asserted_motion (motion_claim l)))
+              (asserted_to (asserted_motion (motion_claim l))).
+    by rewrite /between /= ![t * _]mulrC.
+  exists t; eexists; split; [exact: sat | exact: (within_between inside bt) | exact: bt |].
+  exact: system_signs.
+- have wf_z : zero_wellformed z u by case/and5P: ok.
+  have [t [[from_t t_to] sat _ sup sup_z]] := zero_sound R ok.
+  have bt : between t (asserted_from (asserted_motion (motion_claim (lifted_part c))))
+              (asserted_to (asserted_motion (motion_claim (lifted_part c)))).
+    by rewrite /between /= ![t * _]mulrC.
+  exists t; eexists; split; [exact: sat | exact: (within_between inside bt) | exact: bt |].
+  exact: zero_signs.
+have wf_z : zero_wellformed z u by case/and5P: ok.
+have [t [v [bt sat sup sup_z _]]] := zero_enclosed_sound R ok.
+exists t, v; split=> //; first exact: (within_between inside bt).
+exact: zero_signs.
+Qed.
+
+Lemma claims_sound p lo hi l s : needs_wellformed p ->
+  claims_answer p (pencil_for_claims p) lo hi l = Proved s -> meaning R p s.
+Proof.
+move=> wf; rewrite /claims_answer; case eq: (all_asserted _ _ _ _ _ _) => [said|//] [<-].
+rewrite /meaning numbers_are.
+elim: l 0%N said eq => [|c l IH] k said /=; first by case=> <-.
+case eq_a: (claim_answer _ _ _) => [a|//]; case: ifP => // inside.
+case eq_l: (all_asserted _ _ _ _ _ _) => [said'|//] [<-]; constructor; last exact: IH eq_l.
+exact: claim_answer_sound eq_a inside.
+Qed.
+
+Lemma answer_claims_sound p lo hi l s : answer_claims p lo hi l = Proved s -> meaning R p s.
+Proof.
+case: p => [Q|sys u|z u|m] //=; first exact: (@claims_sound (PencilProblem Q)).
+  by case: ifP => // wf; apply: (@claims_sound (SystemProblem sys u)).
+exact: (@claims_sound (ZeroProblem z u)).
+Qed.
+
+(* Covers. *)
+
+Lemma families_exist Q (fs : seq family) : (forall f, List.In f fs -> family_holds R Q f) ->
+  forall f, List.In f fs -> family_exists (sem (PencilProblem Q)) f.
+Proof.
+move=> each f /each[is_pl at_place]; split=> // t /at_place[[x sol] alone]; split.
+  by exists x.
+by move=> al x1 x2 sol1 reg1 sol2 reg2; apply: (alone al).
+Qed.
+
+Lemma answer_cover_sound Q lo hi c s : answer_cover Q lo hi c = Proved s ->
+  meaning R (PencilProblem Q) s.
+Proof.
+case: c => [claims w tr _ ls|claims w tr ls|claims w tr _ ls] /=.
+- case: ifP => // ok; rewrite /told; case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
+  split; first exact: (families_number R ok eq).
+  by apply: families_exist => f; apply: (families_hold R ok).
+- case: ifP => // /andP[_ ok]; rewrite /told.
+  case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
+  split; first exact: (point_number R ok eq).
+  move=> f f_in; have [is_pl each] := point_hold R ok f_in; split=> // t /each[_ [some alone]].
+  by split.
+case: ifP => // ok; rewrite /told; case eq: (varying_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
+split; first exact: (varying_number R ok eq).
+by apply: families_exist => f; apply: (varying_hold R ok).
+Qed.
+
+(* The motions of a system with this pencil. *)
+Lemma system_cover_sound sys u lo hi c s : system_wellformed sys u ->
+  answer_cover (pencil_of sys u) lo hi c = Proved s -> meaning R (SystemProblem sys u) s.
+Proof.
+move=> wf is_s; have := answer_cover_sound is_s.
+have [lo' [hi' [set ->]]] : exists lo' hi' set, s = AllInWindow lo' hi' set.
+  case: c is_s => [claims w tr _ ls|claims w tr ls|claims w tr _ ls] /=; case: ifP => // _;
+    rewrite /told; case: (X in if X is Some _ then _ else _) => [ys|//] [<-]; do 3 eexists;
+    reflexivity.
+rewrite /meaning !numbers_are; case=> number each; split; first exact: (motions_number wf number).
+move=> f f_in; apply: (motions_hold wf); have [is_pl at_place] := each f f_in.
+split=> // t /at_place[[x [sol reg]] alone]; split; first by exists x.
+by move=> al x1 x2 [sol1 reg1] [sol2 reg2]; apply: (alone al).
+Qed.
+
+Lemma zero_cover_sound z u lo hi c s : answer_zero_cover z u lo hi c = Proved s ->
+  meaning R (ZeroProblem z u) s.
+Proof.
+case: c => [claims w tr bs ls|//|claims w tr bs ls] /=; case: ifP => // ok; rewrite /told.
+  case eq: (zero_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /meaning numbers_are.
+  split; first exact: (zero_complete_number R ok eq).
+  exact: (zero_complete_hold R ok eq).
+case eq: (zero_varying_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /meaning numbers_are.
+split; first exact: (zero_varying_number R ok eq).
+exact: (zero_varying_hold R ok eq).
+Qed.
+
+Lemma infinity_sound Q claims w tr ls s p : pencil_of_problem p = Q ->
+  answer_infinity Q claims w tr ls = Proved s -> meaning R p s.
+Proof.
+move=> eq_Q; rewrite /answer_infinity; case: ifP => // ok; rewrite /told.
+case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=; rewrite eq_Q.
+split; first exact: (infinity_number R ok eq).
+by move=> f; apply: (infinity_hold R ok).
+Qed.
+
+(* Intervals of friction. *)
+
+Lemma absence_sound z from bound a : check_absence z from bound a ->
+  forall (mu : R) t v, between mu from bound -> 0 <= t -> conditions_9z z t mu v -> False.
+Proof.
+by case: a => w tr /= ok mu t v bm t0; [apply: (zero_critical_absent ok t0 bm) |
+  apply: (zero_anchored_critical_absent ok t0 bm)].
+Qed.
+
+Lemma has_motion_zero p z t (mu : R) v : zero_system_of p = Some z ->
+  has_motion p t mu v <-> 0 <= t /\ conditions_9z z t mu v.
+Proof.
+case: p => //= [s _|z' _] [<-] //.
+by split=> -[t0 /no_zero_particles].
+Qed.
+
+Theorem answer_sound p e s : answer p e = Proved s -> meaning R p s.
+Proof.
+case: e => [lo hi l|lo hi c|claims w tr ls|from bound a|from bound w pieces|points] /=.
+- exact: answer_claims_sound.
+- case: p => [Q|sys u|z u|m] //=; first exact: answer_cover_sound.
+    by case: ifP => // wf; apply: system_cover_sound.
+  exact: zero_cover_sound.
+- by case: p => [Q|sys u|z u|m] //; apply: infinity_sound.
+- case eq: (zero_system_of p) => [z|] //; rewrite /proved_if; case: ifP => // ok [<-].
+  split; first by case: p eq.
+  move=> mu t v bm /(has_motion_zero _ _ _ eq)[t0]; exact: (absence_sound ok).
+- case eq: (zero_system_of p) => [z|] //; rewrite /proved_if; case: ifP => // ok [<-] mu bm.
+  have [t [v sat]] := zero_presence_sound ok bm.
+  by exists t, v; apply/(has_motion_zero _ _ _ eq).
+case: p => // m; rewrite /proved_if; case: ifP => // ok [<-] /=.
+split; last exact: plain_mcp_sound.
+by case/and3P: ok => _ some _ none; rewrite none in some.
+Qed.
+
+End Sound.
