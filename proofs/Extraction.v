@@ -16,7 +16,8 @@ From Mceip Require Import ZeroEnclosed.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Regular.
 From Mceip Require Import Critical CriticalAnchors Presence PresenceAnchors.
-From Mceip Require Import ZeroPencil ZeroComplete Points Statement Verdict.
+From Mceip Require Import ZeroPencil ZeroComplete Points Rational Statement
+  Integral Verdict.
 
 Extract Inductive nat => int [ "0" "Natural.succ" ]
   "(fun zero next n -> if n = 0 then zero () else next (Natural.before n))".
@@ -32,7 +33,8 @@ Extraction Inline Condensation.stiffness_bound.
 Set Extraction AccessOpaque.
 
 Extraction "kernel.ml"
-  answer complementarity zero_system_of pencil_of_problem support_pencil slipping_variables
+  answer integral_answer scaled slips slipping with_zero long_normal complementarity zero_system_of
+  pencil_of_integral support_pencil slipping_variables
   sliding_poly pressure_poly right_poly left_poly check_solution_claim reaction_poly found
   left_open pencil_of blocks_of condensed slip zero infinity window check_whole check_end
   free_rows_constant symmetric_part definite_end farkas check_absent check_root pinned

@@ -1,23 +1,33 @@
 (* Statements about a problem, and what they mean.
 
    The program prints a statement only if [answer] of Verdict.v gives it, and then it is true
-   ([answer_sound]).  Whoever reads this file and the definitions that it names knows what has been
-   proved.
+   ([answer_sound]).  Whoever reads this file knows what has been proved; it uses the problem as it
+   is written (Rational.v), regions and places of values (Tree.v, Signs.v), and at infinity the
+   pencil of a system (Points.v).
 
-   A problem is a pencil, a mechanical system without or with particles of zero reaction, or a plain
-   mixed complementarity problem.  Of the first three there are *solutions*: a value t >= 0 and a
-   vector, which is x for a pencil and a motion v with (9) for a system.  Vectors that are positive
-   multiples of each other are one solution.  Each complementarity variable has a *rate* (x_i; how
-   fast a particle slips or opens) and a *row* (y_i), of which one is 0.
+   A problem is a pencil, a mechanical system or a plain mixed complementarity problem.  The first
+   two have *solutions*: a value t >= 0 and a vector, x of a pencil or a motion v of a system.  The
+   motion satisfies the conditions (9), for values of lambda^2 and mu:
 
-   [meaning] says for each kind of statement what it means in a real closed field.
+       w = (K + lambda^2 M) v,    v != 0,    v = 0 at particles that stick,
+       w = 0 at degrees of freedom of no particle in contact,
+
+   for each slip particle, with its friction factor c and its sign S,
+
+       n'v = 0,    S t'v <= 0,    S t'w + c mu n'w <= 0,    (S t'w + c mu n'w) (S t'v) = 0,
+
+   and for each particle with zero reaction the lines of [zero_reaction] (ZeroReaction.v).
+
+   Vectors that are positive multiples of each other are one solution.  Each complementarity
+   variable has a *rate* (x_i; how fast a particle slips or opens) and a *row* (y_i), of which one
+   is 0.  [meaning] says for each kind of statement what it means in a real closed field.
 
    Pages: spec/certificates.md, 5.1, 5.15; spec/zero-reaction.md, Z.1. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
-From Mceip Require Import Integers Tree Cover Pencil System Signs Support Families ZeroReaction.
-From Mceip Require Import ZeroPencil PlainMcp Points.
+From Mceip Require Import Integers Sums Tree Cover Pencil System Signs Support Families.
+From Mceip Require Import ZeroReaction PlainMcp Points Rational.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -25,12 +35,6 @@ Unset Printing Implicit Defensive.
 
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
-
-Inductive problem :=
-  | PencilProblem of pencil
-  | SystemProblem of system & unknown
-  | ZeroProblem of zero_system & unknown
-  | PlainProblem of mcp.
 
 (* Each solution listed lies in the region that is yielded for it.  Every other one belongs to a
    family or lies in an open region. *)
@@ -61,73 +65,145 @@ Inductive statement :=
   (* Each of these points solves the plain problem. *)
   | PointsSolve of seq mcp_point.
 
-Definition without_zero_particles s := ZeroSystem s [::].
-
-(* The pencil of a problem, by (12)-(14) for a system. *)
-Definition pencil_of_problem p : pencil :=
-  match p with
-  | PencilProblem Q => Q
-  | SystemProblem s u => pencil_of s u
-  | ZeroProblem z u => zero_pencil z u
-  | PlainProblem _ => Pencil 0 [::] [::] [::]
-  end.
-
-(* Its complementarity variables, by their numbers in this pencil: one for each slip particle, then
-   gap, right and left of each z particle. *)
-Definition complementarity p : seq nat :=
-  match p with
-  | PencilProblem Q => slip Q
-  | SystemProblem s _ => iota (free_number s) (size (particles s))
-  | ZeroProblem z _ => iota (free_number (without_zero z)) (slip_number z)
-  | PlainProblem _ => [::]
-  end.
-
 Section Meaning.
 
 Variable R : rcfType.
-Implicit Types (t : R) (v : nat -> R).
+Implicit Types (t mu : R) (v : nat -> R).
 
-(* What a problem asks for.  Complementarity variables have numbers; rates are given by their
-   positions among them. *)
+(* What a problem asks for.  Complementarity variables have numbers; rates and rows are given by
+   their positions among them. *)
 Record semantics := Semantics {
   variables : seq nat;
   solves : R -> (nat -> R) -> Prop;
   same : (nat -> R) -> (nat -> R) -> Prop;
   rate : (nat -> R) -> nat -> R;
-  row : R -> (nat -> R) -> nat -> R }.
+  row : R -> (nat -> R) -> nat -> R;
+  (* Of a system whose unknown is lambda^2: the motion satisfies (9) at lambda^2 and mu. *)
+  moves_at : option (R -> R -> (nat -> R) -> Prop);
+  (* Pencils of which the solutions at infinity are those of the problem. *)
+  has_pencil : pencil -> Prop;
+  (* Of a plain problem. *)
+  solved_by : option ((nat -> R) -> Prop) }.
 
-(* -(S t'w + mu n'w) at a slip particle. *)
-Definition slip_row s u t v j := - cone s (lambda2_of u t) (mu_of u t) v (particle s j).
+(* v' is a positive multiple of v, in its first n components. *)
+Definition multiples n v v' := exists2 f, 0 < f & forall i, i \in iota 0 n -> v' i = f * v i.
 
-(* Behind the slip particles, the rows of gap, right and left of each z particle. *)
-Definition z_row z u t v i :=
-  let s := without_zero z in
-  let k := (i - size (particles s))%N in
-  let p := zero_particle z (k %/ 3) in
-  let w := force s (lambda2_of u t) v in
-  let pressure := mu_of u t * along (normal p) p w in
-  if (i < size (particles s))%N then slip_row s u t v i
-  else nth 0 [:: - along (normal p) p w; along (tangent p) p w - pressure;
-                 - along (tangent p) p w - pressure] (k %% 3).
+Definition fraction (q : rational) : R := toR q.1 / toR q.2.
 
-Definition semantics_by (numbers : seq nat) p :=
+(* An entry of a matrix. *)
+Definition given_entry (rows : seq rational_row) i j : R :=
+  \sum_(e <- nth [::] rows i) (if e.1 == j then fraction e.2 else 0).
+
+(* Row i of (A + t B) x. *)
+Definition product n (a b : seq rational_row) t v i : R :=
+  \sum_(j <- iota 0 n) (given_entry a i j + t * given_entry b i j) * v j.
+
+Section Pencil.
+
+Variable Q : rational_pencil.
+
+Notation y t x i := (product (given_order Q) (given_a Q) (given_b Q) t x i).
+Notation numbers := (complementarity (GivenPencil Q)).
+
+Definition pencil_solves t x :=
+  [/\ 0 <= t, exists2 i, i \in iota 0 (given_order Q) & x i != 0,
+      forall i, i \in given_free Q -> y t x i = 0 &
+      forall i, i \in numbers -> [/\ 0 <= x i, 0 <= y t x i & x i * y t x i = 0]].
+
+Definition pencil_semantics := Semantics numbers pencil_solves (multiples (given_order Q))
+  (fun x j => x (nth 0%N numbers j)) (fun t x j => y t x (nth 0%N numbers j)) None
+  (fun Q' => exists c, scaled c (GivenPencil Q) = Some (PencilProblem Q')) None.
+
+End Pencil.
+
+Section System.
+
+Variables (B : rational_system) (u : unknown).
+
+(* w_d *)
+Definition force_of lambda2 v d :=
+  product (degrees B) (given_stiffness B) (given_mass B) lambda2 v d.
+
+(* t'f and n'f at a particle; the normal has length 1. *)
+Definition tangential p (f : nat -> R) :=
+  fraction (frame_tangent p).1 * f (first_of p) + fraction (frame_tangent p).2 * f (second_of p).
+
+Definition normal_to p (f : nat -> R) := toR (into_obstacle p) *
+  (fraction (frame_normal p).1 * f (first_of p) + fraction (frame_normal p).2 * f (second_of p)).
+
+(* S t'w + c mu n'w *)
+Definition cone_of lambda2 mu v p := let w := force_of lambda2 v in
+  toR (sign p) * tangential p w + fraction (factor_of p) * mu * normal_to p w.
+
+Notation nobody := (GivenParticle 0 0 NotInContact ((0, 1), (0, 1)) ((0, 1), (0, 1)) 0 (0, 1))%Z.
+
+Definition slip_at j := nth nobody (slipping B) j.
+Definition zero_at j := nth nobody (with_zero B) j.
+
+(* (9) *)
+Definition motion_conditions lambda2 mu v :=
+  let w := force_of lambda2 v in
+  [/\ exists2 d, d \in iota 0 (degrees B) & v d != 0,
+      forall d, d \in iota 0 (degrees B) ->
+        d \in dofs_of [seq p <- given_particles B | sticks p] -> v d = 0,
+      forall d, d \in iota 0 (degrees B) -> d \notin held B -> w d = 0,
+      forall j, (j < size (slipping B))%N -> let p := slip_at j in
+        [/\ normal_to p v = 0, toR (sign p) * tangential p v <= 0, cone_of lambda2 mu v p <= 0 &
+            cone_of lambda2 mu v p * (toR (sign p) * tangential p v) = 0] &
+      forall j, (j < size (with_zero B))%N -> let p := zero_at j in
+        zero_reaction (fraction (factor_of p) * mu) (normal_to p v) (tangential p v)
+                      (normal_to p w) (tangential p w)].
+
+Definition lambda2_at t := if u is Lambda2 _ _ then t else 0.
+Definition friction_at t := if u is Lambda2 m q then fraction (m, q) else t.
+
+Definition system_solves t v := 0 <= t /\ motion_conditions (lambda2_at t) (friction_at t) v.
+
+(* -S t'v of the slip particles; behind them gap -n'v, and of t'v the positive and the negative
+   part. *)
+Definition rate_of v j :=
+  let k := (j - size (slipping B))%N in
+  let p := zero_at (k %/ 3) in
+  let slide := tangential p v in
+  if (j < size (slipping B))%N then - (toR (sign (slip_at j)) * tangential (slip_at j) v)
+  else nth 0 [:: - normal_to p v; if 0 < slide then slide else 0;
+                 if slide < 0 then - slide else 0] (k %% 3).
+
+(* -(S t'w + c mu n'w); -n'w, t'w - c mu n'w, -t'w - c mu n'w *)
+Definition row_of t v j :=
+  let k := (j - size (slipping B))%N in
+  let p := zero_at (k %/ 3) in
+  let w := force_of (lambda2_at t) v in
+  let friction := fraction (factor_of p) * friction_at t * normal_to p w in
+  if (j < size (slipping B))%N then - cone_of (lambda2_at t) (friction_at t) v (slip_at j)
+  else nth 0 [:: - normal_to p w; tangential p w - friction; - tangential p w - friction]
+         (k %% 3).
+
+Definition system_semantics := Semantics (complementarity (GivenSystem B u)) system_solves
+  (multiples (degrees B)) rate_of row_of
+  (if u is Lambda2 _ _ then Some motion_conditions else None)
+  (fun Q => exists c q, scaled c (GivenSystem B u) = Some q /\ pencil_of_integral q = Q) None.
+
+End System.
+
+(* z solves a plain problem with F = M z + q. *)
+Definition solves_given (rows : seq rational_mcp_row) (z : nat -> R) :=
+  forall i, (i < size rows)%N ->
+  let r := nth (RationalMcpRow [::] (0, 1)%Z None None) rows i in
+  let F := \sum_(j <- iota 0 (size rows))
+             given_entry [seq given_m r | r <- rows] i j * z j + fraction (given_q r) in
+  [/\ above (given_lower r) (z i), below (given_upper r) (z i),
+      ~ meets (given_upper r) (z i) -> 0 <= F & ~ meets (given_lower r) (z i) -> F <= 0].
+
+Definition semantics_of p :=
   match p with
-  | PencilProblem Q =>
-      Semantics numbers (solution Q) (proportional Q) (fun x j => x (nth 0%N numbers j))
-        (fun t x j => reaction Q t x (nth 0%N numbers j))
-  | SystemProblem s u =>
-      Semantics numbers (satisfies_9 s u) (same_motion s)
-        (fun v j => variables_of s v (nth 0%N numbers j)) (slip_row s u)
-  | ZeroProblem z u =>
-      Semantics numbers (satisfies_9z z u) (same_motion (without_zero z))
-        (fun v j => zero_variables_of z v (nth 0%N numbers j)) (z_row z u)
-  | PlainProblem _ =>
-      Semantics numbers (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0) (fun _ _ _ => 0)
+  | GivenPencil Q => pencil_semantics Q
+  | GivenSystem B u => system_semantics B u
+  | GivenPlain rows => Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0)
+      (fun _ _ _ => 0) None (fun _ => False) (Some (solves_given rows))
   end.
 
-Definition semantics_of p := semantics_by (complementarity p) p.
-
-Section Solutions.
+Section Statements.
 
 Variable P : semantics.
 
@@ -169,54 +245,48 @@ Definition family_exists (f : family) :=
     (held_alone f.2 -> forall v v', solves P t v -> lies_in_region f.1 t v ->
        solves P t v' -> lies_in_region f.1 t v' -> same P v v').
 
-End Solutions.
+End Statements.
 
-(* Solutions at infinity of a pencil (Points.v); their value is 0 in the regions. *)
-Definition infinite_solutions_are Q (c : solution_set) :=
-  (exists l : seq (nat -> R),
+(* Solutions at infinity of a pencil (Points.v); in regions and families their value is 0. *)
+Section Infinity.
+
+Variable Q : pencil.
+
+Definition infinite_in r x := in_region (size (slip Q)) 0 (slip_of Q x : nat -> R) r.
+
+Definition infinite_solutions_are (c : solution_set) :=
+  exists l : seq (nat -> R),
     [/\ size l = size (solutions_in c), forall x, List.In x l -> at_infinity Q x,
-        List.Forall2 (fun y x => lies_in_region (semantics_of (PencilProblem Q)) (yield_region y) 0 x)
-          (solutions_in c) l,
+        List.Forall2 (fun y x => infinite_in (yield_region y) x) (solutions_in c) l,
         List.ForallOrdPairs (fun x x' => ~ proportional Q x x') l &
-        forall x : nat -> R, at_infinity Q x ->
+        forall x, at_infinity Q x ->
           [\/ exists2 x', List.In x' l & proportional Q x' x,
               exists2 f, List.In f (families_of_set c) &
-                belongs_to (semantics_of (PencilProblem Q)) f 0 x |
-              exists2 r, List.In r (open_regions c) &
-                lies_in_region (semantics_of (PencilProblem Q)) r 0 x]]) /\
-  forall f, List.In f (families_of_set c) ->
-    (exists x : nat -> R,
-       at_infinity Q x /\ lies_in_region (semantics_of (PencilProblem Q)) f.1 0 x) /\
-    (held_alone f.2 -> forall x x' : nat -> R,
-       at_infinity Q x -> lies_in_region (semantics_of (PencilProblem Q)) f.1 0 x ->
-       at_infinity Q x' -> lies_in_region (semantics_of (PencilProblem Q)) f.1 0 x' ->
-       proportional Q x x').
+                infinite_in f.1 x /\ in_place (held_place f.2) (0 : R) |
+              exists2 r, List.In r (open_regions c) & infinite_in r x]].
 
-Definition has_motion p t (mu : R) v :=
-  match p with
-  | SystemProblem s _ => 0 <= t /\ conditions_9 s t mu v
-  | ZeroProblem z _ => 0 <= t /\ conditions_9z z t mu v
-  | _ => False
-  end.
+Definition infinite_family_exists (f : family) :=
+  (exists x, at_infinity Q x /\ infinite_in f.1 x) /\
+  (held_alone f.2 -> forall x x', at_infinity Q x -> infinite_in f.1 x ->
+     at_infinity Q x' -> infinite_in f.1 x' -> proportional Q x x').
 
-Definition is_system p :=
-  match p with SystemProblem _ _ | ZeroProblem _ _ => True | _ => False end.
+End Infinity.
 
-Definition meaning p s :=
+Definition meaning_in (P : semantics) s :=
   match s with
-  | EachExists lo hi l => List.Forall (asserted_holds (semantics_of p) lo hi) l
-  | AllInWindow lo hi c =>
-      all_solutions_are (semantics_of p) lo hi c /\
-      forall f, List.In f (families_of_set c) -> family_exists (semantics_of p) f
-  | AllAtInfinity c => infinite_solutions_are (pencil_of_problem p) c
-  | NoneForFriction from bound => is_system p /\
-      forall (mu : R) t v, between mu from bound -> has_motion p t mu v -> False
-  | OneForEachFriction from bound =>
-      forall mu : R, between mu from bound -> exists t v, has_motion p t mu v
-  | PointsSolve points =>
-      if p is PlainProblem m then
-        points <> [::] /\ forall z, List.In z points -> solves_plain m (point_value R z)
-      else False
+  | EachExists lo hi l => List.Forall (asserted_holds P lo hi) l
+  | AllInWindow lo hi c => all_solutions_are P lo hi c /\
+      forall f, List.In f (families_of_set c) -> family_exists P f
+  | AllAtInfinity c => exists Q, [/\ has_pencil P Q, infinite_solutions_are Q c &
+      forall f, List.In f (families_of_set c) -> infinite_family_exists Q f]
+  | NoneForFriction from bound => if moves_at P is Some moves then
+      forall mu t v, between mu from bound -> 0 <= t -> moves t mu v -> False else False
+  | OneForEachFriction from bound => if moves_at P is Some moves then
+      forall mu, between mu from bound -> exists t v, 0 <= t /\ moves t mu v else False
+  | PointsSolve points => if solved_by P is Some solved then
+      points <> [::] /\ forall z, List.In z points -> solved (point_value R z) else False
   end.
+
+Definition meaning p s := meaning_in (semantics_of p) s.
 
 End Meaning.

@@ -1,6 +1,7 @@
 (* From a problem and evidence to a statement that is true.
 
-   [answer] chooses the check for a kind of evidence and puts together what it proves.
+   [answer] makes the problem integral (Rational.v), chooses the check for a kind of evidence and
+   puts together what it proves.
 
    Theorem [answer_sound]: if [answer] gives a statement, then it holds in every real closed field,
    in the sense of [meaning] (Statement.v).
@@ -16,7 +17,7 @@ From Mceip Require Import Integers Sums Tree Enclosed Definite Cover Number Cond
 From Mceip Require Import Whole Claim EnclosedClaim Complete System Signs Support Families.
 From Mceip Require Import Lifted ZeroReaction ZeroEnclosed PlainMcp Varying ZeroPencil.
 From Mceip Require Import ZeroComplete Boxes Critical CriticalAnchors Presence PresenceAnchors.
-From Mceip Require Import Points Statement.
+From Mceip Require Import Points Rational Statement Integral.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -71,7 +72,7 @@ Inductive answered :=
 
 Section Claims.
 
-Variable p : problem.
+Variable p : integral.
 
 Definition asserted_of k :=
   Asserted (claimed_from k) (claimed_to k) (claimed_support k) (claimed_biactive k).
@@ -187,16 +188,17 @@ Definition check_absence z from bound (e : absence_evidence) :=
   | ByAnchors w tr => check_anchored_critical z w tr from bound
   end.
 
+(* A system whose unknown is lambda^2. *)
 Definition zero_system_of p : option zero_system :=
   match p with
-  | SystemProblem s _ => Some (without_zero_particles s)
-  | ZeroProblem z _ => Some z
+  | SystemProblem s (Lambda2 _ _) => Some (ZeroSystem s [::])
+  | ZeroProblem z (Lambda2 _ _) => Some z
   | _ => None
   end.
 
 Definition proved_if checked s := if checked then Proved s else EvidenceRefused.
 
-Definition answer p (e : evidence) : answered :=
+Definition integral_answer p (e : evidence) : answered :=
   match e, p with
   | ClaimsIn lo hi l, _ => answer_claims p lo hi l
   | CoverOf lo hi c, PencilProblem Q => answer_cover Q lo hi c
@@ -204,7 +206,7 @@ Definition answer p (e : evidence) : answered :=
       if system_wellformed s u then answer_cover (pencil_of s u) lo hi c else EvidenceRefused
   | CoverOf lo hi c, ZeroProblem z u => answer_zero_cover z u lo hi c
   | CoverAtInfinity _ _ _ _, PlainProblem _ => EvidenceRefused
-  | CoverAtInfinity claims w tr ls, _ => answer_infinity (pencil_of_problem p) claims w tr ls
+  | CoverAtInfinity claims w tr ls, _ => answer_infinity (pencil_of_integral p) claims w tr ls
   | Absence from bound a, _ =>
       if zero_system_of p is Some z
       then proved_if (check_absence z from bound a) (NoneForFriction from bound)
@@ -217,26 +219,19 @@ Definition answer p (e : evidence) : answered :=
   | _, _ => EvidenceRefused
   end.
 
+(* The factors [c] are part of the evidence: any serve that make the problem integral. *)
+Definition answer p c (e : evidence) : answered :=
+  if scaled c p is Some q
+  then if integral_wellformed q then integral_answer q e else EvidenceRefused
+  else EvidenceRefused.
+
 Section Sound.
 
 Variable R : rcfType.
 Implicit Types (t : R) (v : nat -> R).
 
-(* The claims and covers of the kernel number the variables by the pencil. *)
-Notation sem p := (semantics_by R (slip (pencil_of_problem p)) p).
-
-Lemma system_slips s u : slip (pencil_of s u) = iota (free_number s) (size (particles s)).
-Proof.
-rewrite /slip /= iotaD filter_cat add0n.
-rewrite (eq_in_filter (a2 := pred0)) ?filter_pred0; last by move=> i /= ->.
-rewrite (eq_in_filter (a2 := predT)) ?filter_predT // => i; rewrite !mem_iota => /andP[ge _].
-by rewrite add0n /= -leqNgt.
-Qed.
-
-Lemma numbers_are p : semantics_of R p = sem p.
-Proof.
-by case: p => //= *; rewrite /semantics_of /= ?system_slips ?zero_slips.
-Qed.
+Notation sem q := (integral_semantics R q).
+Notation holds_of q s := (meaning_in (sem q) s).
 
 (* Claims. *)
 
@@ -348,7 +343,7 @@ Definition needs_wellformed p :=
 
 Definition pencil_for_claims p :=
   match p with
-  | PencilProblem _ | SystemProblem _ _ => pencil_of_problem p
+  | PencilProblem _ | SystemProblem _ _ => pencil_of_integral p
   | _ => Pencil 0 [::] [::] [::]
   end.
 
@@ -379,17 +374,17 @@ exact: zero_signs.
 Qed.
 
 Lemma claims_sound p lo hi l s : needs_wellformed p ->
-  claims_answer p (pencil_for_claims p) lo hi l = Proved s -> meaning R p s.
+  claims_answer p (pencil_for_claims p) lo hi l = Proved s -> holds_of p s.
 Proof.
 move=> wf; rewrite /claims_answer; case eq: (all_asserted _ _ _ _ _ _) => [said|//] [<-].
-rewrite /meaning numbers_are.
+rewrite /=.
 elim: l 0%N said eq => [|c l IH] k said /=; first by case=> <-.
 case eq_a: (claim_answer _ _ _) => [a|//]; case: ifP => // inside.
 case eq_l: (all_asserted _ _ _ _ _ _) => [said'|//] [<-]; constructor; last exact: IH eq_l.
 exact: claim_answer_sound eq_a inside.
 Qed.
 
-Lemma answer_claims_sound p lo hi l s : answer_claims p lo hi l = Proved s -> meaning R p s.
+Lemma answer_claims_sound p lo hi l s : answer_claims p lo hi l = Proved s -> holds_of p s.
 Proof.
 case: p => [Q|sys u|z u|m] //=; first exact: (@claims_sound (PencilProblem Q)).
   by case: ifP => // wf; apply: (@claims_sound (SystemProblem sys u)).
@@ -407,7 +402,7 @@ by move=> al x1 x2 sol1 reg1 sol2 reg2; apply: (alone al).
 Qed.
 
 Lemma answer_cover_sound Q lo hi c s : answer_cover Q lo hi c = Proved s ->
-  meaning R (PencilProblem Q) s.
+  holds_of (PencilProblem Q) s.
 Proof.
 case: c => [claims w tr _ ls|claims w tr ls|claims w tr _ ls] /=.
 - case: ifP => // ok; rewrite /told; case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
@@ -425,37 +420,38 @@ Qed.
 
 (* The motions of a system with this pencil. *)
 Lemma system_cover_sound sys u lo hi c s : system_wellformed sys u ->
-  answer_cover (pencil_of sys u) lo hi c = Proved s -> meaning R (SystemProblem sys u) s.
+  answer_cover (pencil_of sys u) lo hi c = Proved s -> holds_of (SystemProblem sys u) s.
 Proof.
 move=> wf is_s; have := answer_cover_sound is_s.
 have [lo' [hi' [set ->]]] : exists lo' hi' set, s = AllInWindow lo' hi' set.
   case: c is_s => [claims w tr _ ls|claims w tr ls|claims w tr _ ls] /=; case: ifP => // _;
     rewrite /told; case: (X in if X is Some _ then _ else _) => [ys|//] [<-]; do 3 eexists;
     reflexivity.
-rewrite /meaning !numbers_are; case=> number each; split; first exact: (motions_number wf number).
+case=> number each; split; first exact: (motions_number wf number).
 move=> f f_in; apply: (motions_hold wf); have [is_pl at_place] := each f f_in.
 split=> // t /at_place[[x [sol reg]] alone]; split; first by exists x.
 by move=> al x1 x2 [sol1 reg1] [sol2 reg2]; apply: (alone al).
 Qed.
 
 Lemma zero_cover_sound z u lo hi c s : answer_zero_cover z u lo hi c = Proved s ->
-  meaning R (ZeroProblem z u) s.
+  holds_of (ZeroProblem z u) s.
 Proof.
 case: c => [claims w tr bs ls|//|claims w tr bs ls] /=; case: ifP => // ok; rewrite /told.
-  case eq: (zero_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /meaning numbers_are.
+  case eq: (zero_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /=.
   split; first exact: (zero_complete_number R ok eq).
   exact: (zero_complete_hold R ok eq).
-case eq: (zero_varying_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /meaning numbers_are.
+case eq: (zero_varying_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /=.
 split; first exact: (zero_varying_number R ok eq).
 exact: (zero_varying_hold R ok eq).
 Qed.
 
-Lemma infinity_sound Q claims w tr ls s p : pencil_of_problem p = Q ->
-  answer_infinity Q claims w tr ls = Proved s -> meaning R p s.
+Lemma infinity_sound p claims w tr ls s : (if p is PlainProblem _ then False else True) ->
+  answer_infinity (pencil_of_integral p) claims w tr ls = Proved s -> holds_of p s.
 Proof.
-move=> eq_Q; rewrite /answer_infinity; case: ifP => // ok; rewrite /told.
-case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=; rewrite eq_Q.
-split; first exact: (infinity_number R ok eq).
+move=> is_pencil; rewrite /answer_infinity; case: ifP => // ok; rewrite /told.
+case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=; exists (pencil_of_integral p); split.
+- by case: p is_pencil {ok eq}.
+- exact: (infinity_number R ok eq).
 by move=> f; apply: (infinity_hold R ok).
 Qed.
 
@@ -468,30 +464,39 @@ by case: a => w tr /= ok mu t v bm t0; [apply: (zero_critical_absent ok t0 bm) |
   apply: (zero_anchored_critical_absent ok t0 bm)].
 Qed.
 
-Lemma has_motion_zero p z t (mu : R) v : zero_system_of p = Some z ->
-  has_motion p t mu v <-> 0 <= t /\ conditions_9z z t mu v.
+Lemma moves_of_system p z : zero_system_of p = Some z ->
+  exists2 moves, moves_at (sem p) = Some moves &
+    forall t mu v, moves t mu v <-> conditions_9z z t mu v.
 Proof.
-case: p => //= [s _|z' _] [<-] //.
-by split=> -[t0 /no_zero_particles].
+case: p => //= [s [|? ?]|z' [|? ?]] // [<-]; first exists (conditions_9 (R := R) s) => // *.
+  by split=> /no_zero_particles.
+by exists (conditions_9z (R := R) z').
 Qed.
 
-Theorem answer_sound p e s : answer p e = Proved s -> meaning R p s.
+Lemma integral_sound p e s : integral_answer p e = Proved s -> holds_of p s.
 Proof.
-case: e => [lo hi l|lo hi c|claims w tr ls|from bound a|from bound w pieces|points] /=.
+case: e => [lo hi l|lo hi c|claims w tr ls|from bound a|from bound w pieces|points].
 - exact: answer_claims_sound.
 - case: p => [Q|sys u|z u|m] //=; first exact: answer_cover_sound.
     by case: ifP => // wf; apply: system_cover_sound.
   exact: zero_cover_sound.
 - by case: p => [Q|sys u|z u|m] //; apply: infinity_sound.
-- case eq: (zero_system_of p) => [z|] //; rewrite /proved_if; case: ifP => // ok [<-].
-  split; first by case: p eq.
-  move=> mu t v bm /(has_motion_zero _ _ _ eq)[t0]; exact: (absence_sound ok).
-- case eq: (zero_system_of p) => [z|] //; rewrite /proved_if; case: ifP => // ok [<-] mu bm.
-  have [t [v sat]] := zero_presence_sound ok bm.
-  by exists t, v; apply/(has_motion_zero _ _ _ eq).
-case: p => // m; rewrite /proved_if; case: ifP => // ok [<-] /=.
+- rewrite /= /proved_if; case eq: (zero_system_of p) => [z|] //; case: ifP => // ok [<-] /=.
+  have [moves -> iff] := moves_of_system eq.
+  by move=> mu t v bm t0 /iff; apply: (absence_sound ok).
+- rewrite /= /proved_if; case eq: (zero_system_of p) => [z|] //; case: ifP => // ok [<-] /=.
+  have [moves -> iff] := moves_of_system eq => mu bm.
+  have [t [v [t0 sat]]] := zero_presence_sound ok bm.
+  by exists t, v; split=> //; apply/iff.
+case: p => // m; rewrite /= /proved_if; case: ifP => // ok [<-] /=.
 split; last exact: plain_mcp_sound.
 by case/and3P: ok => _ some _ none; rewrite none in some.
+Qed.
+
+Theorem answer_sound p c e s : answer p c e = Proved s -> meaning R p s.
+Proof.
+rewrite /answer; case is_q: (scaled c p) => [q|] //; case: ifP => // wf /integral_sound.
+exact: scaled_meaning is_q wf.
 Qed.
 
 End Sound.

@@ -59,7 +59,7 @@ let zero_box_work (zero : Kernel.zero_system) (e : Certificate.enclosed) =
   let entries = 4 * (entries system.stiffness + entries system.mass + system.dofs) in
   (1 + system.dofs + entries + m * m / 8) * m * 128
 
-let limit_work (problem : Problem.t) pencil claims =
+let limit_work (problem : Scaling.t) pencil claims =
   let n = pencil.Kernel.order in
   let size = match problem.question with
     | Kernel.SystemProblem (system, _) when
@@ -114,7 +114,7 @@ let not_twice (l : Certificate.lifted) =
   if List.exists (fun i -> List.mem i l.motion.support) l.motion.biactive then
     raise (Rejected "a biactive variable of the support")
 
-let lifted_evidence (problem : Problem.t) pencil (l : Certificate.lifted) =
+let lifted_evidence (problem : Scaling.t) pencil (l : Certificate.lifted) =
   match problem.question with
   | Kernel.SystemProblem (system, unknown) ->
     fits_motion system.dofs l;
@@ -191,16 +191,47 @@ let zero_box (certificate : Certificate.t) (zero : Kernel.zero_system) unknown
   in_window certificate value;
   Kernel.OfZeroBox (e.box_support, box_of value (Elaborate.zero_enclosed_of zero unknown e))
 
+(* The points of an mceip-mcp-solution/1 (spec/certificates.md, 5.17). *)
+let read_points path =
+  let open Json in
+  let document = Json.read path in
+  (match document with
+   | Object members when List.assoc_opt "format" members = Some (String "mceip-mcp-solution/1") ->
+     ()
+   | _ -> malformed "format: mceip-mcp-solution/1 was expected");
+  let field = fields ["format"; "problem_sha256"; "z"] [] document in
+  let digest = text (field "problem_sha256") in
+  digest, List.map (fun point -> List.map rational (list point)) (list (field "z"))
+
+(* A point with one denominator, within the limits of 5.17. *)
+let point_of n z =
+  let limit = min (1 lsl 19) ((1 lsl 24) / max n 1) in
+  let common = List.fold_left (fun c v ->
+      if Z.numbits c > limit then c else Z.lcm c (Q.den v)) Z.one z in
+  if Z.numbits common > limit then Problem.not_verified "a point beyond the limits";
+  let numerators = List.map (fun v -> Z.mul (Q.num v) (Z.divexact common (Q.den v))) z in
+  let longest = List.fold_left (fun m v -> max m (Z.numbits v)) 0 numerators in
+  if Z.numbits common + longest > limit then Problem.not_verified "a point beyond the limits";
+  { Kernel.numerators; denominator = common }
+
+(* The kernel finds an entry of z in as many steps as its index. *)
+let limit_points problem points =
+  let n = List.length problem in
+  let entries = List.fold_left (fun e (r : Kernel.rational_mcp_row) -> e + List.length r.given_m) n
+      problem in
+  if List.length points * entries * n > 1 lsl 30 then
+    Problem.not_verified "a plain problem beyond the limits of this program"
+
 let plain (problem : Plain.t) certificate_path =
-  let digest, points = Plain.read_points certificate_path in
+  let digest, points = read_points certificate_path in
   if digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
   if points = [] then raise (Rejected "no point");
   let n = List.length problem.rows in
   if List.exists (fun z -> List.length z <> n) points then
     raise (Rejected "a point of the wrong length");
-  Plain.limit_work problem points;
-  Kernel.Points (List.map (Plain.point_of n) points)
+  limit_points problem.rows points;
+  Kernel.Points (List.map (point_of n) points)
 
 (* A claim as one of this pencil. *)
 let known_claim pencil = function
@@ -217,7 +248,7 @@ let needs_claims (certificate : Certificate.t) =
 
 (* What is to be verified of a complete set. *)
 type question = {
-  problem : Problem.t;
+  problem : Scaling.t;
   pencil : Kernel.pencil;
   certificate : Certificate.t;
   slip : int array;
@@ -253,7 +284,7 @@ let elaborate q ~leaf ~left_open ~nothing =
   tree, List.rev !supports
 
 (* Free rows that do not depend on the unknown: any anchor serves for all pieces. *)
-let constant_cover q eliminate =
+let condense q eliminate =
   let certificate = q.certificate and problem = q.problem in
   let anchor = match certificate.pieces with p :: _ -> p.anchor | [] -> 0 in
   let elimination, enclosed = timed "condensation" (fun () ->
@@ -264,6 +295,10 @@ let constant_cover q eliminate =
     { Elaborate.pencil = q.pencil; slip = q.slip; enclosed;
       doubles = Elaborate.doubles_of enclosed; known = known q;
       weights = Elaborate.row_weights q.pencil problem.common problem.slip_common } in
+  elimination, context
+
+let constant_cover q eliminate =
+  let elimination, context = condense q eliminate in
   let tree, supports =
     elaborate q ~leaf:(fun _ -> Elaborate.build_leaf context) ~left_open:Kernel.Undecided
       ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
@@ -299,11 +334,14 @@ let of_value q =
   Kernel.CoverOf (q.lo, q.hi, CoverAtValue (claims, elimination, tree, supports))
 
 (* Condensation about anchors, or leaves that speak of the whole pencil only. *)
-let of_varying q =
+let condense_about q =
   let certificate = q.certificate and problem = q.problem in
-  let varying = timed "condensation" (fun () ->
+  timed "condensation" (fun () ->
       Elaborate.varying_of q.pencil q.slip_list problem.common problem.slip_common (known q)
-        certificate.condensation certificate.pieces) in
+        certificate.condensation certificate.pieces)
+
+let of_varying q =
+  let varying = condense_about q in
   let tree, supports =
     elaborate q ~leaf:(Elaborate.varying_leaf varying) ~left_open:Kernel.LeftOpen
       ~nothing:(Elaborate.whole_of varying "support") in
@@ -314,7 +352,7 @@ let of_varying q =
 
 (* Claims about a system with particles in contact with zero reaction.  Of an exact or lifted claim
    the kernel checks the motion and its forces. *)
-let zero_claims (problem : Problem.t) (certificate : Certificate.t) (zero : Kernel.zero_system)
+let zero_claims (problem : Scaling.t) (certificate : Certificate.t) (zero : Kernel.zero_system)
     unknown =
   let system = zero.without_zero in
   let variables = List.length system.free_dofs + List.length system.particles
@@ -391,16 +429,7 @@ let boxes_and_supports beside =
   List.filter_map (function None, s -> Some s | Some _, _ -> None) beside
 
 let of_zero_constant q zero unknown =
-  let certificate = q.certificate and problem = q.problem in
-  let anchor = match certificate.pieces with p :: _ -> p.anchor | [] -> 0 in
-  let elimination, enclosed = timed "condensation" (fun () ->
-      let e = Elaborate.elimination q.pencil q.slip_list problem.common problem.slip_common
-          certificate.condensation anchor in
-      e, Kernel.condensed (Kernel.blocks_of q.pencil) e) in
-  let context =
-    { Elaborate.pencil = q.pencil; slip = q.slip; enclosed;
-      doubles = Elaborate.doubles_of enclosed; known = known q;
-      weights = Elaborate.row_weights q.pencil problem.common problem.slip_common } in
+  let elimination, context = condense q Elaborate.elimination in
   let leaf ~put_box _ region = function
     | Certificate.Root ({ outcome = Solution; _ } as r) when opens q zero region ->
       Elaborate.pinned_box_tree context zero unknown region r put_box
@@ -415,10 +444,7 @@ let of_zero_constant q zero unknown =
     (q.lo, q.hi, ConstantCover (q.known_claims, elimination, tree, boxes, supports))
 
 let of_zero_varying q zero unknown =
-  let certificate = q.certificate and problem = q.problem in
-  let varying = timed "condensation" (fun () ->
-      Elaborate.varying_of q.pencil q.slip_list problem.common problem.slip_common (known q)
-        certificate.condensation certificate.pieces) in
+  let varying = condense_about q in
   let leaf ~put_box piece region = function
     | Certificate.Root ({ outcome = Solution; _ } as r) when opens q zero region ->
       Elaborate.pinned_about_tree varying piece zero unknown region r put_box
@@ -462,7 +488,7 @@ let parts (certificate : Certificate.t) claims cover =
   (if certificate.claims = [] then [] else [claims])
   @ (if certificate.pieces = [] then [] else [cover])
 
-let zero_parts (problem : Problem.t) (certificate : Certificate.t) zero unknown =
+let zero_parts (problem : Scaling.t) (certificate : Certificate.t) zero unknown =
   let cover () =
     let pencil = timed "pencil" (fun () -> Kernel.zero_pencil zero unknown) in
     let q = question_of problem pencil certificate
@@ -473,13 +499,14 @@ let zero_parts (problem : Problem.t) (certificate : Certificate.t) zero unknown 
   parts certificate (fun () -> zero_claims problem certificate zero unknown) cover
 
 (* The context of a statement about an interval of mu; rejects a problem that has none. *)
-let context_of_friction (problem : Problem.t) digest condensation (low, high) tail =
+let context_of_friction (problem : Scaling.t) digest condensation (low, high) tail =
   if digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
-  let zero = match Kernel.zero_system_of problem.question with
-    | None -> raise (Rejected "a mechanical system was expected")
-    | Some zero -> zero in
-  if problem.unknown <> "lambda2" then raise (Rejected "the unknown is not the problem's");
+  let zero = match problem.question, Kernel.zero_system_of problem.question with
+    | _, Some zero -> zero
+    | (SystemProblem _ | ZeroProblem _), None ->
+      raise (Rejected "the unknown is not the problem's")
+    | _ -> raise (Rejected "a mechanical system was expected") in
   let system = zero.without_zero in
   if Q.sign high <= 0 then raise (Rejected "the interval of friction ends at zero or below");
   if Q.sign low < 0 || Q.geq low high then
@@ -497,7 +524,7 @@ let context_of_friction (problem : Problem.t) digest condensation (low, high) ta
   context, slip_list
 
 (* No solution of a system for mu in [from, below] and lambda^2 >= 0. *)
-let absence (problem : Problem.t) (certificate : Certificate.critical) () =
+let absence (problem : Scaling.t) (certificate : Certificate.critical) () =
   let condensation = certificate.critical_condensation in
   let context, slip_list = context_of_friction problem certificate.critical_digest condensation
       (certificate.at_least, certificate.below)
@@ -526,7 +553,7 @@ let absence (problem : Problem.t) (certificate : Certificate.critical) () =
     | Some condensation -> about_anchors condensation)
 
 (* A solution of a system with some lambda^2 >= 0 for each mu in [from, to]. *)
-let presence (problem : Problem.t) (certificate : Certificate.presence) () =
+let presence (problem : Scaling.t) (certificate : Certificate.presence) () =
   let context, slip_list = context_of_friction problem certificate.presence_digest
       certificate.presence_condensation (certificate.presence_from, certificate.presence_to) None in
   let zero = context.zero in
@@ -540,11 +567,11 @@ let presence (problem : Problem.t) (certificate : Certificate.presence) () =
   let kernel_pieces = timed "elaboration" (fun () -> Presence.build context anchored pieces) in
   Kernel.Presence (context.mu_low, context.mu_high, anchored.anchoring, kernel_pieces)
 
-let pencil_of (problem : Problem.t) =
-  timed "pencil" (fun () -> Kernel.pencil_of_problem problem.question)
+let pencil_of (problem : Scaling.t) =
+  timed "pencil" (fun () -> Kernel.pencil_of_integral problem.question)
 
 (* The claims and the cover of a problem without particles of zero reaction. *)
-let pencil_parts (problem : Problem.t) (certificate : Certificate.t) cover_of =
+let pencil_parts (problem : Scaling.t) (certificate : Certificate.t) cover_of =
   let pencil = pencil_of problem in
   if certificate.pieces <> [] && List.length (Kernel.slip pencil) > 300 then
     Problem.not_verified "more than 300 complementarity variables";
@@ -559,7 +586,7 @@ let pencil_parts (problem : Problem.t) (certificate : Certificate.t) cover_of =
                  else [])) in
   parts certificate (fun () -> List.map fst (Lazy.force claims)) cover
 
-let require_question (problem : Problem.t) (certificate : Certificate.t) =
+let require_question (problem : Scaling.t) (certificate : Certificate.t) =
   if certificate.digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
   if certificate.unknown <> problem.unknown then
@@ -571,7 +598,7 @@ let require_window holds wanted (certificate : Certificate.t) =
                        (Sentences.show_window certificate.window)))
 
 (* The parts of the evidence, each as a function that makes it. *)
-let complete (problem : Problem.t) (certificate : Certificate.t) =
+let complete (problem : Scaling.t) (certificate : Certificate.t) =
   require_question problem certificate;
   if certificate.pieces = [] && certificate.claims = [] then raise (Rejected "no claim");
   let cover_of q =
@@ -584,11 +611,11 @@ let complete (problem : Problem.t) (certificate : Certificate.t) =
 
 (* All solutions at infinity: the certificate is one of the reversed problem, over [0, 0].  Claims
    are about this problem. *)
-let infinity (problem : Problem.t) (certificate : Certificate.t) =
+let infinity (problem : Scaling.t) (certificate : Certificate.t) =
   (match problem.question with
    | ZeroProblem _ -> Problem.not_verified "infinity with zero reaction"
    | _ -> ());
-  let reversed = Problem.reversed problem (pencil_of problem) in
+  let reversed = Scaling.reversed problem (pencil_of problem) in
   require_question reversed certificate;
   if certificate.pieces = [] then raise (Rejected "no complete set");
   require_window (certificate.window = reversed.window) "[0, 0]" certificate;
@@ -597,7 +624,7 @@ let infinity (problem : Problem.t) (certificate : Certificate.t) =
     Kernel.CoverAtInfinity (claims, elimination, tree, supports) in
   let prove_claims make =
     let evidence = make () in
-    match Kernel.answer reversed.question evidence with
+    match Kernel.integral_answer reversed.question evidence with
     | Proved _ -> ()
     | answer -> raise (refusal evidence answer) in
   match pencil_parts reversed certificate cover_of with

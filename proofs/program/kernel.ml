@@ -897,6 +897,12 @@ let muln_rec =
 let muln =
   muln_rec
 
+(** val nat_of_bool : bool -> int **)
+
+let nat_of_bool = function
+| true -> Natural.succ 0
+| false -> 0
+
 (** val odd : int -> bool **)
 
 let rec odd n =
@@ -978,6 +984,12 @@ let rec find a = function
 let rec filter a = function
 | [] -> []
 | x :: s' -> if a x then x :: (filter a s') else filter a s'
+
+(** val count : 'a1 pred0 -> 'a1 list -> int **)
+
+let rec count a = function
+| [] -> 0
+| x :: s' -> addn (nat_of_bool (a x)) (count a s')
 
 (** val has : 'a1 pred0 -> 'a1 list -> bool **)
 
@@ -3449,9 +3461,9 @@ let zero_wellformed z0 u =
 
 (** val with_sign : Big_int_Z.big_int -> slip_particle -> slip_particle **)
 
-let with_sign sign p =
+let with_sign sign0 p =
   { first_dof = p.first_dof; second_dof = p.second_dof; tangent = p.tangent;
-    normal = p.normal; sign_of = sign }
+    normal = p.normal; sign_of = sign0 }
 
 (** val sliding_poly : zero_claim -> slip_particle -> polynomial **)
 
@@ -6365,11 +6377,261 @@ let reverse_pencil q =
 let check_infinity q claims w tr ls =
   check_at_value (reverse_pencil q) zero claims w tr ls
 
+type rational0 = Big_int_Z.big_int * Big_int_Z.big_int
+
+type rational_row = (int * rational0) list
+
+type rational_pencil = { given_order : int; given_a : rational_row list;
+                         given_b : rational_row list; given_free : int list }
+
+type contact =
+| NotInContact
+| Sticking
+| Slipping of Big_int_Z.big_int
+| ZeroInContact
+
+type given_particle = { first_of : int; second_of : int;
+                        contact_of : contact;
+                        frame_tangent : (rational0 * rational0);
+                        frame_normal : (rational0 * rational0);
+                        into_obstacle : Big_int_Z.big_int;
+                        factor_of : rational0 }
+
+type rational_system = { degrees : int; given_stiffness : rational_row list;
+                         given_mass : rational_row list;
+                         given_particles : given_particle list }
+
+type rational_mcp_row = { given_m : rational_row; given_q : rational0;
+                          given_lower : rational0 option;
+                          given_upper : rational0 option }
+
 type problem =
+| GivenPencil of rational_pencil
+| GivenSystem of rational_system * unknown
+| GivenPlain of rational_mcp_row list
+
+type integral =
 | PencilProblem of pencil
 | SystemProblem of system * unknown
 | ZeroProblem of zero_system * unknown
 | PlainProblem of mcp
+
+type scales = { entry_scale : Big_int_Z.big_int;
+                length_scale : Big_int_Z.big_int }
+
+(** val slips : given_particle -> bool **)
+
+let slips p =
+  match p.contact_of with
+  | Slipping _ -> true
+  | _ -> false
+
+(** val zeroes : given_particle -> bool **)
+
+let zeroes p =
+  match p.contact_of with
+  | ZeroInContact -> true
+  | _ -> false
+
+(** val in_contact : given_particle -> bool **)
+
+let in_contact p =
+  match p.contact_of with
+  | NotInContact -> false
+  | _ -> true
+
+(** val sign : given_particle -> Big_int_Z.big_int **)
+
+let sign p =
+  match p.contact_of with
+  | Slipping s -> s
+  | _ -> Big_int_Z.zero_big_int
+
+(** val slipping : rational_system -> given_particle list **)
+
+let slipping b =
+  filter slips b.given_particles
+
+(** val with_zero : rational_system -> given_particle list **)
+
+let with_zero b =
+  filter zeroes b.given_particles
+
+(** val dofs_of : given_particle list -> int list **)
+
+let dofs_of l =
+  cat (map0 (fun p -> p.first_of) l) (map0 (fun p -> p.second_of) l)
+
+(** val held : rational_system -> int list **)
+
+let held b =
+  dofs_of (filter in_contact b.given_particles)
+
+(** val scaled_entry : Big_int_Z.big_int -> rational0 -> Big_int_Z.big_int **)
+
+let scaled_entry m q =
+  Z.div (Z.mul m (fst q)) (snd q)
+
+(** val exact : Big_int_Z.big_int -> rational0 -> bool **)
+
+let exact m q =
+  (&&) (Z.ltb Big_int_Z.zero_big_int (snd q))
+    (Z.eqb (Z.mul (snd q) (scaled_entry m q)) (Z.mul m (fst q)))
+
+(** val scaled_row :
+    Big_int_Z.big_int -> rational_row -> (int * Big_int_Z.big_int) list **)
+
+let scaled_row m row =
+  map0 (fun e -> ((fst e), (scaled_entry m (snd e)))) row
+
+(** val exact_rows : Big_int_Z.big_int -> rational_row list -> bool **)
+
+let exact_rows m rows =
+  all (all (fun e -> exact m (snd e))) rows
+
+(** val long_normal : given_particle -> rational0 * rational0 **)
+
+let long_normal p =
+  let component0 = fun n ->
+    ((Z.mul p.into_obstacle (Z.mul (fst p.factor_of) (fst n))),
+    (Z.mul (snd p.factor_of) (snd n)))
+  in
+  ((component0 (fst p.frame_normal)), (component0 (snd p.frame_normal)))
+
+(** val scaled_planar : scales -> (rational0 * rational0) -> planar **)
+
+let scaled_planar c e =
+  ((scaled_entry c.length_scale (fst e)),
+    (scaled_entry c.length_scale (snd e)))
+
+(** val exact_planar : scales -> (rational0 * rational0) -> bool **)
+
+let exact_planar c e =
+  (&&) (exact c.length_scale (fst e)) (exact c.length_scale (snd e))
+
+(** val exact_particle : scales -> given_particle -> bool **)
+
+let exact_particle c p =
+  (&&) (exact_planar c p.frame_tangent)
+    ((&&) (exact_planar c (long_normal p))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (fst p.factor_of))
+        ((&&) (Z.ltb Big_int_Z.zero_big_int (snd p.factor_of))
+          ((&&) (Z.ltb Big_int_Z.zero_big_int (snd (fst p.frame_normal)))
+            (Z.ltb Big_int_Z.zero_big_int (snd (snd p.frame_normal)))))))
+
+(** val scaled_particle : scales -> given_particle -> slip_particle **)
+
+let scaled_particle c p =
+  { first_dof = p.first_of; second_dof = p.second_of; tangent =
+    (scaled_planar c p.frame_tangent); normal =
+    (scaled_planar c (long_normal p)); sign_of = (sign p) }
+
+(** val scaled_system : scales -> rational_system -> system **)
+
+let scaled_system c b =
+  { dofs = b.degrees; stiffness =
+    (map0 (fun row -> scaled_row c.entry_scale row) b.given_stiffness);
+    mass = (map0 (fun row -> scaled_row c.entry_scale row) b.given_mass);
+    free_dofs =
+    (filter (fun d ->
+      negb
+        (in_mem (Obj.magic d)
+          (mem (seq_predType nat_eqType) (Obj.magic held b))))
+      (iota 0 b.degrees)); particles =
+    (map0 (fun p -> scaled_particle c p) (slipping b)); unit_length =
+    c.length_scale }
+
+(** val scaled_zero_system : scales -> rational_system -> zero_system **)
+
+let scaled_zero_system c b =
+  { without_zero = (scaled_system c b); zero_particles =
+    (map0 (fun p -> scaled_particle c p) (with_zero b)) }
+
+(** val exact_system : scales -> rational_system -> bool **)
+
+let exact_system c b =
+  (&&) (Z.ltb Big_int_Z.zero_big_int c.entry_scale)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int c.length_scale)
+      ((&&) (exact_rows c.entry_scale b.given_stiffness)
+        ((&&) (exact_rows c.entry_scale b.given_mass)
+          ((&&) (uniq nat_eqType (Obj.magic dofs_of b.given_particles))
+            ((&&) (all (exact_particle c) (slipping b))
+              (all (exact_particle c) (with_zero b)))))))
+
+(** val scaled_pencil : scales -> rational_pencil -> pencil **)
+
+let scaled_pencil c q =
+  { order = q.given_order; rows_a =
+    (map0 (fun row -> scaled_row c.entry_scale row) q.given_a); rows_b =
+    (map0 (fun row -> scaled_row c.entry_scale row) q.given_b); free =
+    q.given_free }
+
+(** val exact_pencil : scales -> rational_pencil -> bool **)
+
+let exact_pencil c q =
+  (&&) (Z.ltb Big_int_Z.zero_big_int c.entry_scale)
+    ((&&) (exact_rows c.entry_scale q.given_a)
+      (exact_rows c.entry_scale q.given_b))
+
+(** val scaled_mcp_row : scales -> rational_mcp_row -> mcp_row **)
+
+let scaled_mcp_row c r =
+  { row_m = (scaled_row c.entry_scale r.given_m); row_q =
+    (scaled_entry c.entry_scale r.given_q); lower_bound = r.given_lower;
+    upper_bound = r.given_upper }
+
+(** val exact_mcp_row : scales -> rational_mcp_row -> bool **)
+
+let exact_mcp_row c r =
+  (&&) (exact c.entry_scale r.given_q)
+    (all (fun e -> exact c.entry_scale (snd e)) r.given_m)
+
+(** val scaled : scales -> problem -> integral option **)
+
+let scaled c = function
+| GivenPencil q ->
+  if exact_pencil c q then Some (PencilProblem (scaled_pencil c q)) else None
+| GivenSystem (b, u) ->
+  if exact_system c b
+  then Some
+         (if nilp (with_zero b)
+          then SystemProblem ((scaled_system c b), u)
+          else ZeroProblem ((scaled_zero_system c b), u))
+  else None
+| GivenPlain rows ->
+  if (&&) (Z.ltb Big_int_Z.zero_big_int c.entry_scale)
+       (all (exact_mcp_row c) rows)
+  then Some (PlainProblem (map0 (fun r -> scaled_mcp_row c r) rows))
+  else None
+
+(** val pencil_of_integral : integral -> pencil **)
+
+let pencil_of_integral = function
+| PencilProblem q0 -> q0
+| SystemProblem (s, u) -> pencil_of s u
+| ZeroProblem (z0, u) -> zero_pencil z0 u
+| PlainProblem _ -> { order = 0; rows_a = []; rows_b = []; free = [] }
+
+(** val complementarity : problem -> int list **)
+
+let complementarity = function
+| GivenPencil q ->
+  filter (fun i ->
+    negb
+      (in_mem (Obj.magic i)
+        (mem (seq_predType nat_eqType) (Obj.magic q.given_free))))
+    (iota 0 q.given_order)
+| GivenSystem (b, _) ->
+  iota
+    (count (fun d ->
+      negb
+        (in_mem (Obj.magic d)
+          (mem (seq_predType nat_eqType) (Obj.magic held b))))
+      (iota 0 b.degrees))
+    (addn (size0 (slipping b))
+      (muln (Natural.succ (Natural.succ (Natural.succ 0)))
+        (size0 (with_zero b))))
+| GivenPlain _ -> []
 
 type solution_set = { solutions_in : yield list;
                       families_of_set : family list;
@@ -6386,26 +6648,12 @@ type statement =
 | OneForEachFriction of point * point
 | PointsSolve of mcp_point list
 
-(** val without_zero_particles : system -> zero_system **)
+(** val integral_wellformed : integral -> bool **)
 
-let without_zero_particles s =
-  { without_zero = s; zero_particles = [] }
-
-(** val pencil_of_problem : problem -> pencil **)
-
-let pencil_of_problem = function
-| PencilProblem q -> q
-| SystemProblem (s, u) -> pencil_of s u
-| ZeroProblem (z0, u) -> zero_pencil z0 u
-| PlainProblem _ -> { order = 0; rows_a = []; rows_b = []; free = [] }
-
-(** val complementarity : problem -> int list **)
-
-let complementarity = function
-| PencilProblem q -> slip q
-| SystemProblem (s, _) -> iota (free_number s) (size0 s.particles)
-| ZeroProblem (z0, _) -> iota (free_number z0.without_zero) (slip_number z0)
-| PlainProblem _ -> []
+let integral_wellformed = function
+| SystemProblem (s, u) -> system_wellformed s u
+| ZeroProblem (z0, u) -> zero_wellformed z0 u
+| _ -> true
 
 type claim_evidence =
 | OfPencil of solution_claim
@@ -6456,7 +6704,7 @@ let asserted_motion k =
     asserted_biactive = k.biactive }
 
 (** val claim_answer :
-    problem -> pencil -> claim_evidence -> asserted option **)
+    integral -> pencil -> claim_evidence -> asserted option **)
 
 let claim_answer p q c =
   match p with
@@ -6495,7 +6743,7 @@ let in_window lo hi a =
   within (a.asserted_from, a.asserted_to) (lo, hi)
 
 (** val all_asserted :
-    problem -> pencil -> point -> point -> int -> claim_evidence list ->
+    integral -> pencil -> point -> point -> int -> claim_evidence list ->
     (asserted list, int) sum **)
 
 let rec all_asserted p q lo hi k = function
@@ -6511,7 +6759,7 @@ let rec all_asserted p q lo hi k = function
    | None -> Inr k)
 
 (** val claims_answer :
-    problem -> pencil -> point -> point -> claim_evidence list -> answered **)
+    integral -> pencil -> point -> point -> claim_evidence list -> answered **)
 
 let claims_answer p q lo hi l =
   match all_asserted p q lo hi 0 l with
@@ -6519,7 +6767,7 @@ let claims_answer p q lo hi l =
   | Inr refused -> ClaimRefused refused
 
 (** val answer_claims :
-    problem -> point -> point -> claim_evidence list -> answered **)
+    integral -> point -> point -> claim_evidence list -> answered **)
 
 let answer_claims p lo hi l =
   match p with
@@ -6605,11 +6853,16 @@ let check_absence z0 from bound1 = function
 | ByElimination (w, tr) -> check_critical z0 w tr from bound1
 | ByAnchors (w, tr) -> check_anchored_critical z0 w tr from bound1
 
-(** val zero_system_of : problem -> zero_system option **)
+(** val zero_system_of : integral -> zero_system option **)
 
 let zero_system_of = function
-| SystemProblem (s, _) -> Some (without_zero_particles s)
-| ZeroProblem (z0, _) -> Some z0
+| SystemProblem (s, u) ->
+  (match u with
+   | Mu -> None
+   | Lambda2 (_, _) -> Some { without_zero = s; zero_particles = [] })
+| ZeroProblem (z0, u) -> (match u with
+                          | Mu -> None
+                          | Lambda2 (_, _) -> Some z0)
 | _ -> None
 
 (** val proved_if : bool -> statement -> answered **)
@@ -6617,9 +6870,9 @@ let zero_system_of = function
 let proved_if checked s =
   if checked then Proved s else EvidenceRefused
 
-(** val answer : problem -> evidence -> answered **)
+(** val integral_answer : integral -> evidence -> answered **)
 
-let answer p = function
+let integral_answer p = function
 | ClaimsIn (lo, hi, l) -> answer_claims p lo hi l
 | CoverOf (lo, hi, c) ->
   (match p with
@@ -6633,7 +6886,7 @@ let answer p = function
 | CoverAtInfinity (claims, w, tr, ls) ->
   (match p with
    | PlainProblem _ -> EvidenceRefused
-   | _ -> answer_infinity (pencil_of_problem p) claims w tr ls)
+   | _ -> answer_infinity (pencil_of_integral p) claims w tr ls)
 | Absence (from, bound1, a) ->
   (match zero_system_of p with
    | Some z0 ->
@@ -6650,3 +6903,11 @@ let answer p = function
   (match p with
    | PlainProblem m -> proved_if (check_mcp m points) (PointsSolve points)
    | _ -> EvidenceRefused)
+
+(** val answer : problem -> scales -> evidence -> answered **)
+
+let answer p c e =
+  match scaled c p with
+  | Some q ->
+    if integral_wellformed q then integral_answer q e else EvidenceRefused
+  | None -> EvidenceRefused

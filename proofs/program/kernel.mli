@@ -260,6 +260,8 @@ val muln_rec : int -> int -> int
 
 val muln : int -> int -> int
 
+val nat_of_bool : bool -> int
+
 val odd : int -> bool
 
 val size0 : 'a1 list -> int
@@ -283,6 +285,8 @@ val set_nth : 'a1 -> 'a1 list -> int -> 'a1 -> 'a1 list
 val find : 'a1 pred0 -> 'a1 list -> int
 
 val filter : 'a1 pred0 -> 'a1 list -> 'a1 list
+
+val count : 'a1 pred0 -> 'a1 list -> int
 
 val has : 'a1 pred0 -> 'a1 list -> bool
 
@@ -2043,11 +2047,102 @@ val check_infinity :
   pencil -> solution_claim list -> elimination -> whole leaf tree ->
   support_leaf option list -> bool
 
+type rational0 = Big_int_Z.big_int * Big_int_Z.big_int
+
+type rational_row = (int * rational0) list
+
+type rational_pencil = { given_order : int; given_a : rational_row list;
+                         given_b : rational_row list; given_free : int list }
+
+type contact =
+| NotInContact
+| Sticking
+| Slipping of Big_int_Z.big_int
+| ZeroInContact
+
+type given_particle = { first_of : int; second_of : int;
+                        contact_of : contact;
+                        frame_tangent : (rational0 * rational0);
+                        frame_normal : (rational0 * rational0);
+                        into_obstacle : Big_int_Z.big_int;
+                        factor_of : rational0 }
+
+type rational_system = { degrees : int; given_stiffness : rational_row list;
+                         given_mass : rational_row list;
+                         given_particles : given_particle list }
+
+type rational_mcp_row = { given_m : rational_row; given_q : rational0;
+                          given_lower : rational0 option;
+                          given_upper : rational0 option }
+
 type problem =
+| GivenPencil of rational_pencil
+| GivenSystem of rational_system * unknown
+| GivenPlain of rational_mcp_row list
+
+type integral =
 | PencilProblem of pencil
 | SystemProblem of system * unknown
 | ZeroProblem of zero_system * unknown
 | PlainProblem of mcp
+
+type scales = { entry_scale : Big_int_Z.big_int;
+                length_scale : Big_int_Z.big_int }
+
+val slips : given_particle -> bool
+
+val zeroes : given_particle -> bool
+
+val in_contact : given_particle -> bool
+
+val sign : given_particle -> Big_int_Z.big_int
+
+val slipping : rational_system -> given_particle list
+
+val with_zero : rational_system -> given_particle list
+
+val dofs_of : given_particle list -> int list
+
+val held : rational_system -> int list
+
+val scaled_entry : Big_int_Z.big_int -> rational0 -> Big_int_Z.big_int
+
+val exact : Big_int_Z.big_int -> rational0 -> bool
+
+val scaled_row :
+  Big_int_Z.big_int -> rational_row -> (int * Big_int_Z.big_int) list
+
+val exact_rows : Big_int_Z.big_int -> rational_row list -> bool
+
+val long_normal : given_particle -> rational0 * rational0
+
+val scaled_planar : scales -> (rational0 * rational0) -> planar
+
+val exact_planar : scales -> (rational0 * rational0) -> bool
+
+val exact_particle : scales -> given_particle -> bool
+
+val scaled_particle : scales -> given_particle -> slip_particle
+
+val scaled_system : scales -> rational_system -> system
+
+val scaled_zero_system : scales -> rational_system -> zero_system
+
+val exact_system : scales -> rational_system -> bool
+
+val scaled_pencil : scales -> rational_pencil -> pencil
+
+val exact_pencil : scales -> rational_pencil -> bool
+
+val scaled_mcp_row : scales -> rational_mcp_row -> mcp_row
+
+val exact_mcp_row : scales -> rational_mcp_row -> bool
+
+val scaled : scales -> problem -> integral option
+
+val pencil_of_integral : integral -> pencil
+
+val complementarity : problem -> int list
 
 type solution_set = { solutions_in : yield list;
                       families_of_set : family list;
@@ -2064,11 +2159,7 @@ type statement =
 | OneForEachFriction of point * point
 | PointsSolve of mcp_point list
 
-val without_zero_particles : system -> zero_system
-
-val pencil_of_problem : problem -> pencil
-
-val complementarity : problem -> int list
+val integral_wellformed : integral -> bool
 
 type claim_evidence =
 | OfPencil of solution_claim
@@ -2108,19 +2199,19 @@ val asserted_of : solution_claim -> asserted
 
 val asserted_motion : claim -> asserted
 
-val claim_answer : problem -> pencil -> claim_evidence -> asserted option
+val claim_answer : integral -> pencil -> claim_evidence -> asserted option
 
 val in_window : point -> point -> asserted -> bool
 
 val all_asserted :
-  problem -> pencil -> point -> point -> int -> claim_evidence list ->
+  integral -> pencil -> point -> point -> int -> claim_evidence list ->
   (asserted list, int) sum
 
 val claims_answer :
-  problem -> pencil -> point -> point -> claim_evidence list -> answered
+  integral -> pencil -> point -> point -> claim_evidence list -> answered
 
 val answer_claims :
-  problem -> point -> point -> claim_evidence list -> answered
+  integral -> point -> point -> claim_evidence list -> answered
 
 val told : yield list option -> (yield list -> statement) -> answered
 
@@ -2135,8 +2226,10 @@ val answer_infinity :
 
 val check_absence : zero_system -> point -> point -> absence_evidence -> bool
 
-val zero_system_of : problem -> zero_system option
+val zero_system_of : integral -> zero_system option
 
 val proved_if : bool -> statement -> answered
 
-val answer : problem -> evidence -> answered
+val integral_answer : integral -> evidence -> answered
+
+val answer : problem -> scales -> evidence -> answered

@@ -10,28 +10,30 @@
 (* What is asked of the certificate, beside its problem. *)
 type demand = Anything | Window of (Q.t * Q.t option) | Infinity
 
-let prove question make =
+let prove given scales make =
   let evidence = make () in
-  match Evidence.timed "kernel" (fun () -> Kernel.answer question evidence) with
+  match Evidence.timed "kernel" (fun () -> Kernel.answer given scales evidence) with
   | Proved statement -> evidence, statement
   | refused -> raise (Evidence.refusal evidence refused)
 
 (* Print the accepted question and its witness as a Coq file instead of the verdict. *)
 let as_coq = ref false
 
-let print_coq question (evidence : Kernel.evidence) (statement : Kernel.statement) =
-  match question, evidence, statement with
-  | Kernel.SystemProblem (system, unknown),
-    CoverOf (lo, hi, ConstantCover (_, elimination, tree, _, _)), AllInWindow (_, _, all) ->
-    Coq.print system unknown elimination tree lo hi (List.length all.solutions_in)
-  | SystemProblem _, _, _ -> Problem.not_verified "as a Coq file: condensation about anchors"
-  | _ -> Problem.not_verified "Coq files are made for mechanical systems"
+let answers demanded (statement : Kernel.statement) =
+  match demanded, statement with
+  | Anything, _ | Infinity, AllAtInfinity _ -> true
+  | Window window, (EachExists (lo, hi, _) | AllInWindow (lo, hi, _)) ->
+    Sentences.(covers (window_of lo hi) window)
+  | _ -> false
 
 (* Proves all parts, then prints.  The exit code. *)
-let verify_parts (problem : Problem.t) parts =
-  let proved = List.map (prove problem.question) parts in
+let verify_parts demanded (problem : Problem.t) (integers : Scaling.t) parts =
+  let proved = List.map (prove problem.given integers.scales) parts in
+  if not (List.for_all (fun (_, statement) -> answers demanded statement) proved) then
+    raise (Evidence.Rejected "the statement does not answer what is demanded");
   match List.rev proved with
-  | (evidence, statement) :: _ when !as_coq -> print_coq problem.question evidence statement; 0
+  | (evidence, statement) :: _ when !as_coq ->
+    Coq.print_answer integers.question evidence statement; 0
   | _ -> Sentences.say problem (List.map snd proved)
 
 let refuse_window demanded kind =
@@ -46,23 +48,24 @@ let verify_eigenproblem demanded document problem_path certificate_path =
   let problem = Evidence.timed "problem" (fun () -> Problem.read problem_path document) in
   let certificate =
     Evidence.timed "certificate" (fun () -> Certificate.read certificate_path) in
-  verify_parts problem (match certificate, demanded with
-      | Complete certificate, Infinity -> Evidence.infinity problem certificate
+  let integers = Scaling.of_problem problem in
+  verify_parts demanded problem integers (match certificate, demanded with
+      | Complete certificate, Infinity -> Evidence.infinity integers certificate
       | Complete certificate, Window window ->
         Evidence.require_window (Sentences.covers certificate.window window)
           ("one that covers " ^ Sentences.show_window window) certificate;
-        Evidence.complete problem certificate
-      | Complete certificate, Anything -> Evidence.complete problem certificate
+        Evidence.complete integers certificate
+      | Complete certificate, Anything -> Evidence.complete integers certificate
       | Critical certificate, _ ->
         refuse_window demanded "mceip-critical/1";
-        [Evidence.absence problem certificate]
+        [Evidence.absence integers certificate]
       | Presence certificate, _ ->
         refuse_window demanded "mceip-presence/1";
-        [Evidence.presence problem certificate])
+        [Evidence.presence integers certificate])
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in
-  let _ = prove (Kernel.PlainProblem problem.rows)
+  let _ = prove (Kernel.GivenPlain problem.rows) (Scaling.of_plain problem.rows)
       (fun () -> Evidence.plain problem certificate_path) in
   Sentences.points problem.digest;
   0

@@ -1,12 +1,8 @@
-(* Plain mixed complementarity problems, mceip-mcp/1, and the points of an mceip-mcp-solution/1
-   (spec/certificates.md, 5.17; spec/formats.md). Trusted.
-
-   The kernel gets M and q multiplied by one positive integer, and each point with one common
-   denominator. *)
+(* Plain mixed complementarity problems, mceip-mcp/1 (spec/formats.md). Trusted. *)
 
 open Json
 
-type t = { digest : string; rows : Kernel.mcp }
+type t = { digest : string; rows : Kernel.rational_mcp_row list }
 
 let is_plain = function
   | Object members -> List.assoc_opt "format" members = Some (String "mceip-mcp/1")
@@ -45,42 +41,11 @@ let read document =
   let lines = "mceip-mcp-canonical/1" :: string_of_int n :: List.map line rows in
   let digest = Sha256.hex (String.concat "" (List.map (fun line -> line ^ "\n") lines)) in
 
-  let common_of = List.fold_left (fun c v -> Z.lcm c (Q.den v)) in
-  let common = List.fold_left common_of Z.one (q :: m) in
-  let integer v = Q.num (Q.mul v (Q.of_bigint common)) in
-  let bound = Option.map (fun v -> Q.num v, Q.den v) in
+  let bound = Option.map Problem.point_of in
   let sparse row =
-    List.filter (fun (_, v) -> Z.sign v <> 0) (List.mapi (fun j v -> j, integer v) row) in
+    List.filter (fun (_, (p, _)) -> Z.sign p <> 0)
+      (List.mapi (fun j v -> j, Problem.point_of v) row) in
   { digest;
     rows = List.map (fun (m, q, l, u) ->
-        { Kernel.row_m = sparse m; row_q = integer q; lower_bound = bound l;
-          upper_bound = bound u }) rows }
-
-let read_points path =
-  let document = Json.read path in
-  (match document with
-   | Object members when List.assoc_opt "format" members = Some (String "mceip-mcp-solution/1") ->
-     ()
-   | _ -> malformed "format: mceip-mcp-solution/1 was expected");
-  let field = fields ["format"; "problem_sha256"; "z"] [] document in
-  let digest = text (field "problem_sha256") in
-  digest, List.map (fun point -> List.map rational (list point)) (list (field "z"))
-
-(* A point with one denominator, within the limits of 5.17. *)
-let point_of n z =
-  let limit = min (1 lsl 19) ((1 lsl 24) / max n 1) in
-  let common = List.fold_left (fun c v ->
-      if Z.numbits c > limit then c else Z.lcm c (Q.den v)) Z.one z in
-  if Z.numbits common > limit then Problem.not_verified "a point beyond the limits";
-  let numerators = List.map (fun v -> Z.mul (Q.num v) (Z.divexact common (Q.den v))) z in
-  let longest = List.fold_left (fun m v -> max m (Z.numbits v)) 0 numerators in
-  if Z.numbits common + longest > limit then Problem.not_verified "a point beyond the limits";
-  { Kernel.numerators; denominator = common }
-
-(* The kernel finds an entry of z in as many steps as its index. *)
-let limit_work problem points =
-  let n = List.length problem.rows in
-  let entries = List.fold_left (fun e (r : Kernel.mcp_row) -> e + List.length r.row_m) n
-      problem.rows in
-  if List.length points * entries * n > 1 lsl 30 then
-    Problem.not_verified "a plain problem beyond the limits of this program"
+        { Kernel.given_m = sparse m; given_q = Problem.point_of q; given_lower = bound l;
+          given_upper = bound u }) rows }

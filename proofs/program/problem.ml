@@ -1,7 +1,5 @@
-(* Problems: the file mceip-problem/1, its digest, and the integers given to the kernel. Trusted.
-
-   A pencil is given to the kernel with all entries multiplied by one positive integer; a system
-   with K and M multiplied by one positive integer.  Solutions do not change. *)
+(* Problems: the file mceip-problem/1, its digest, and the rational problem that the kernel is given
+   (Rational.v). Trusted. *)
 
 open Json
 
@@ -17,9 +15,7 @@ type t = {
   friction : Q.t option;  (* where the unknown is lambda2 and the problem is a system *)
   window : Q.t * Q.t option;
   digest : string;
-  question : Kernel.problem;
-  common : Z.t;  (* the factor of the entries; for a system, of those of the free rows *)
-  slip_common : Z.t }  (* the factor of the entries of the complementarity rows *)
+  given : Kernel.problem }
 
 let matrix_of_table rows cols table =
   { rows; cols;
@@ -127,14 +123,8 @@ let pencil_lines free a b =
   ["pencil"; String.concat " " ("free" :: List.map string_of_int free)]
   @ canonical_matrix "a" a @ canonical_matrix "b" b
 
-let common_denominator matrices =
-  List.fold_left (fun d m ->
-      Array.fold_left (fun d row ->
-          List.fold_left (fun d (_, v) -> Z.lcm d (Q.den v)) d row) d m.entries) Z.one matrices
-
-let integer_rows common m =
-  List.map (List.map (fun (j, v) -> (j, Q.num (Q.mul v (Q.of_bigint common)))))
-    (Array.to_list m.entries)
+let rational_rows m =
+  List.map (List.map (fun (j, v) -> j, point_of v)) (Array.to_list m.entries)
 
 let read_pencil folder item =
   let field = fields ["a"; "b"] ["free"] item in
@@ -147,33 +137,9 @@ let read_pencil folder item =
     | Some items -> List.map (index n) (list items) in
   let sorted = List.sort_uniq compare free in
   if List.length sorted < List.length free then malformed "an index of free twice";
-  let common = common_denominator [a; b] in
-  let text = pencil_lines sorted a b in
-  let pencil = { Kernel.order = n; rows_a = integer_rows common a;
-                 rows_b = integer_rows common b; free = sorted } in
-  text, Kernel.PencilProblem pencil, None, common, common
-
-let symmetric m =
-  m.rows = m.cols &&
-  (let table = Array.map (fun row -> Hashtbl.of_seq (List.to_seq row)) m.entries in
-   let same = ref true in
-   Array.iteri (fun i row ->
-       List.iter (fun (j, v) ->
-           match Hashtbl.find_opt table.(j) i with
-           | Some w when Q.equal v w -> ()
-           | _ -> same := false) row) m.entries;
-   !same)
-
-(* The tangent and the normal into the obstacle over the degrees of freedom t and n. *)
-type particle = {
-  t : int;
-  n : int;
-  state : string;
-  sign : int;
-  tangent : Q.t * Q.t;
-  normal : Q.t * Q.t;
-  framed : bool;
-  friction_factor : Q.t }
+  let pencil = { Kernel.given_order = n; given_a = rational_rows a; given_b = rational_rows b;
+                 given_free = sorted } in
+  pencil_lines sorted a b, Kernel.GivenPencil pencil, None
 
 let plain_frame = (Q.one, Q.zero), (Q.zero, Q.one)
 
@@ -186,18 +152,9 @@ let read_frame item =
     (a, b), (c, d)
   | _ -> malformed "a frame has two rows of two numbers"
 
-(* Reactions, where given, must agree with (7), the state and the sign. *)
-let check_reaction mu state sign item =
-  let field = fields ["normal"; "tangential"] [] item in
-  let rn = rational (field "normal") and rt = rational (field "tangential") in
-  let bound = Option.map (fun mu -> Q.neg (Q.mul mu rn)) mu in
-  let bad = match state with
-    | "free" | "zero" -> Q.sign rn <> 0 || Q.sign rt <> 0
-    | "slip" -> Q.sign rn >= 0 || Q.sign rt * sign <= 0 ||
-                (match bound with Some b -> not (Q.equal (Q.abs rt) b) | None -> false)
-    | _ -> Q.sign rn >= 0 || (match bound with Some b -> Q.geq (Q.abs rt) b | None -> false) in
-  if bad then malformed "a reaction against (7), the state or the sign"
+let planar (a, b) = point_of a, point_of b
 
+(* With the word whether it has a frame, which the digest shows. *)
 let read_particle order mu item =
   let field = fields ["tangential"; "normal"; "state"]
       ["sign"; "normal_direction"; "frame"; "friction_factor"; "reaction"] item in
@@ -219,21 +176,33 @@ let read_particle order mu item =
   let sign = Option.value sign ~default:0 in
   let into = Option.value (unit_of "normal_direction" (field "normal_direction")) ~default:1 in
   let framed = field "frame" <> Null in
-  let tangent, (first, second) = if framed then read_frame (field "frame") else plain_frame in
-  (match field "reaction" with Null -> () | v -> check_reaction mu state sign v);
-  let normal = Q.mul (Q.of_int into) first, Q.mul (Q.of_int into) second in
-  { t; n; state; sign; tangent; normal; framed; friction_factor }
+  let tangent, normal = if framed then read_frame (field "frame") else plain_frame in
+  (match field "reaction" with Null -> () | v -> Demands.check_reaction mu state sign v);
+  let contact = match state with
+    | "free" -> Kernel.NotInContact
+    | "stick" -> Sticking
+    | "slip" -> Slipping (Z.of_int sign)
+    | _ -> ZeroInContact in
+  framed, { Kernel.first_of = t; second_of = n; contact_of = contact;
+            frame_tangent = planar tangent; frame_normal = planar normal;
+            into_obstacle = Z.of_int into; factor_of = point_of friction_factor }
 
-let describe_particle p =
-  let components (a, b) =
+let describe_particle (framed, (p : Kernel.given_particle)) =
+  let components sign (a, b) =
     List.map (fun (d, c) -> Printf.sprintf " %d %s" d (Q.to_string c))
-      (List.filter (fun (_, c) -> p.framed || Q.sign c <> 0) [p.t, a; p.n, b]) in
-  [ Printf.sprintf "particle %d %d %s%s" p.t p.n p.state
-      (if p.state = "slip" then " " ^ string_of_int p.sign else "");
-    String.concat "" ("tangent" :: components p.tangent);
-    String.concat "" ("normal" :: components p.normal) ]
-  @ (if Q.equal p.friction_factor Q.one then []
-     else ["friction_factor " ^ Q.to_string p.friction_factor])
+      (List.filter (fun (_, c) -> framed || Q.sign c <> 0)
+         (List.map (fun (d, c) -> d, Q.mul (Q.of_bigint sign) (value_of c))
+            [p.first_of, a; p.second_of, b])) in
+  let state = match p.contact_of with
+    | NotInContact -> "free"
+    | Sticking -> "stick"
+    | Slipping sign -> "slip " ^ Z.to_string sign
+    | ZeroInContact -> "zero" in
+  let factor = value_of p.factor_of in
+  [ Printf.sprintf "particle %d %d %s" p.first_of p.second_of state;
+    String.concat "" ("tangent" :: components Z.one p.frame_tangent);
+    String.concat "" ("normal" :: components p.into_obstacle p.frame_normal) ]
+  @ (if Q.equal factor Q.one then [] else ["friction_factor " ^ Q.to_string factor])
 
 let read_system folder unknown item =
   let field = fields ["stiffness"; "particles"] ["mass"; "friction"] item in
@@ -243,76 +212,29 @@ let read_system folder unknown item =
   (match mu with Some q when Q.sign q <= 0 -> malformed "friction must be positive" | _ -> ());
   let matrices = k :: Option.to_list m in
   List.iter (fun x ->
-      if x.rows <> k.rows || not (symmetric x) then
+      if x.rows <> k.rows || not (Demands.symmetric x.rows x.cols x.entries) then
         malformed "stiffness and mass must be symmetric, of one order") matrices;
   if unknown = "lambda2" && (m = None || mu = None) then
     malformed "lambda2 needs mass and friction";
 
   let particles = List.map (read_particle k.rows mu) (list (field "particles")) in
-  let dofs = List.concat_map (fun p -> [p.t; p.n]) particles in
-  if List.length (List.sort_uniq compare dofs) < List.length dofs then
-    malformed "a degree of freedom in two particles";
-  let slips = List.filter (fun p -> p.state = "slip") particles in
-  let zeros = List.filter (fun p -> p.state = "zero") particles in
-  if slips = [] then malformed "no slip particle";
-  let held = Hashtbl.create 64 in
-  List.iter (fun p ->
-      if p.state <> "free" then begin
-        Hashtbl.replace held p.t ();
-        Hashtbl.replace held p.n ()
-      end) particles;
-  let free = List.filter (fun d -> not (Hashtbl.mem held d)) (List.init k.rows Fun.id) in
+  let given_particles = List.map snd particles in
+  Demands.apart (List.concat_map (fun (p : Kernel.given_particle) -> [p.first_of; p.second_of])
+                   given_particles);
+  if not (List.exists Kernel.slips given_particles) then malformed "no slip particle";
 
   let text =
     ["system"] @ (match mu with Some q -> ["friction " ^ Q.to_string q] | None -> [])
     @ List.concat_map describe_particle particles @ canonical_matrix "stiffness" k
     @ (match m with Some m -> canonical_matrix "mass" m | None -> []) in
 
-  let common = common_denominator matrices in
-  let friction_normal p = Q.mul p.friction_factor (fst p.normal),
-                          Q.mul p.friction_factor (snd p.normal) in
-  let unit_length = List.fold_left (fun l p ->
-      let normal = friction_normal p in
-      List.fold_left (fun l c -> Z.lcm l (Q.den c)) l
-        [fst p.tangent; snd p.tangent; fst normal; snd normal]) Z.one (slips @ zeros) in
-  let planar (a, b) =
-    let integer c = Q.num (Q.mul c (Q.of_bigint unit_length)) in
-    integer a, integer b in
-  let kernel_particle p =
-    { Kernel.first_dof = p.t; second_dof = p.n; tangent = planar p.tangent;
-      normal = planar (friction_normal p); sign_of = Z.of_int p.sign } in
-  let system = {
-    Kernel.dofs = k.rows;
-    stiffness = integer_rows common k;
-    mass = (match m with Some m -> integer_rows common m | None -> []);
-    free_dofs = free;
-    particles = List.map kernel_particle slips;
-    unit_length } in
-  let kind, friction = match unknown, mu with
-    | "lambda2", Some q -> Kernel.Lambda2 (Q.num q, Q.den q), Q.den q
-    | _ -> Kernel.Mu, Z.one in
-  let free_common = Z.mul common unit_length in
-  let question =
-    if zeros = [] then Kernel.SystemProblem (system, kind)
-    else ZeroProblem ({ Kernel.without_zero = system;
-                          zero_particles = List.map kernel_particle zeros }, kind) in
-  let friction_given = if unknown = "lambda2" then mu else None in
-  text, question, friction_given, free_common, Z.mul free_common (Z.mul unit_length friction)
-
-(* The reversed problem (certificates.md, 5.15, Infinity) of one with this pencil. *)
-let reversed problem (pencil : Kernel.pencil) =
-  let reverse = Kernel.reverse_pencil pencil in
-  let matrix rows =
-    let table = Array.init pencil.order (fun _ -> Hashtbl.create 16) in
-    List.iteri (fun i row ->
-        let factor = if List.mem i pencil.free then problem.common else problem.slip_common in
-        List.iter (fun (j, v) ->
-            let sum = Option.value (Hashtbl.find_opt table.(i) j) ~default:Q.zero in
-            Hashtbl.replace table.(i) j (Q.add sum (Q.make v factor))) row) rows;
-    matrix_of_table pencil.order pencil.order table in
-  let lines = pencil_lines pencil.free (matrix reverse.rows_a) (matrix reverse.rows_b) in
-  { problem with digest = digest_of (canonical problem.unknown lines); question = PencilProblem reverse;
-                 friction = None; window = Q.zero, Some Q.zero }
+  let system =
+    { Kernel.degrees = k.rows; given_stiffness = rational_rows k;
+      given_mass = (match m with Some m -> rational_rows m | None -> []);
+      given_particles } in
+  match unknown, mu with
+  | "lambda2", Some q -> text, Kernel.GivenSystem (system, Lambda2 (Q.num q, Q.den q)), mu
+  | _ -> text, GivenSystem (system, Mu), None
 
 let read path document =
   (match document with
@@ -330,9 +252,9 @@ let read path document =
   if unknown <> "lambda2" && unknown <> "mu" then malformed "unknown is lambda2 or mu";
   let window = read_window (field "window") in
   let folder = Filename.dirname path in
-  let lines, question, friction, common, slip_common = match field "pencil", field "system" with
+  let lines, given, friction = match field "pencil", field "system" with
     | pencil, Null when pencil <> Null -> read_pencil folder pencil
     | Null, system when system <> Null -> read_system folder unknown system
     | _ -> malformed "exactly one of pencil and system" in
   let digest = digest_of (canonical unknown lines) in
-  { unknown; friction; window; digest; question; common; slip_common }
+  { unknown; friction; window; digest; given }

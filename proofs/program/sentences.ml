@@ -1,9 +1,9 @@
-(* What the program says after the kernel has accepted: the verdict line and the sentences under it,
+(* What the program says of statements that are true: the verdict line and the sentences under it,
    in the words of `mceip check`.  Trusted.
 
    The verdict line names the question: the window, the unknown, the friction of a problem whose
    unknown is lambda2, and the digest; and it says where the window is not all of the problem's.
-   Everything is printed from the arguments and the result of a function of the kernel. *)
+   Everything else is printed from statements that the kernel's [answer] gave. *)
 
 let show_point (p, q) = if Z.sign q = 0 then "infinity" else Q.to_string (Q.make p q)
 
@@ -178,18 +178,19 @@ let at_infinity (problem : Problem.t) slip (all : Kernel.solution_set) =
 (* Every other solution may lie in a region that is left open. *)
 let exit_code (all : Kernel.solution_set) = if all.open_regions = [] then 0 else 3
 
-(* Prints statements that are true: claims, and one of another kind.  The exit code. *)
+(* Prints statements that are true: claims, one of another kind, or both.  The exit code. *)
 let say (problem : Problem.t) statements =
-  let slip = Array.of_list (Kernel.complementarity problem.question) in
-  let claims = List.concat_map (function
-      | Kernel.EachExists (_, _, claims) -> claims
-      | _ -> []) statements in
-  let code = match List.rev statements with
-    | EachExists (lo, hi, _) :: _ -> claims_only problem lo hi; 0
-    | AllInWindow (lo, hi, all) :: _ -> cover problem slip lo hi all; exit_code all
-    | AllAtInfinity all :: _ -> at_infinity problem slip all; exit_code all
-    | NoneForFriction (low, high) :: _ -> absent problem low high; 0
-    | OneForEachFriction (low, high) :: _ -> present problem low high; 0
-    | PointsSolve _ :: _ | [] -> invalid_arg "a statement about a plain problem" in
+  let slip = Array.of_list (Kernel.complementarity problem.given) in
+  let beside, statement = match statements with
+    | [Kernel.EachExists (_, _, claims); statement] -> claims, statement
+    | [statement] -> [], statement
+    | _ -> invalid_arg "statements of one certificate" in
+  let claims, code = match statement with
+    | EachExists (lo, hi, claims) when beside = [] -> claims_only problem lo hi; claims, 0
+    | AllInWindow (lo, hi, all) -> cover problem slip lo hi all; beside, exit_code all
+    | AllAtInfinity all -> at_infinity problem slip all; beside, exit_code all
+    | NoneForFriction (low, high) -> absent problem low high; beside, 0
+    | OneForEachFriction (low, high) -> present problem low high; beside, 0
+    | EachExists _ | PointsSolve _ -> invalid_arg "statements of one certificate" in
   List.iter (claim problem) claims;
   code

@@ -1,0 +1,192 @@
+(* Problems as they are written, with rational numbers, and the integers that the kernel computes
+   with.
+
+   A pencil is multiplied by one positive integer; the stiffness and the mass of a system by one,
+   its tangents and normals by another.  Any such integers serve by which all entries become
+   integers ([scaled_entry], [exact]).  Free are the degrees of freedom of no particle that is in
+   contact.  The tangent and the normal of a particle are the rows of its frame; the normal points
+   into the obstacle, and its length is the friction factor.
+
+   Integral.v proves that the integral problem means the same.
+
+   Pages: spec/formats.md (mceip-problem/1, mceip-mcp/1); spec/certificates.md, 5.1. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect.
+From Mceip Require Import Integers Bounded Pencil System ZeroReaction ZeroPencil PlainMcp.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Delimit Scope Z_scope with Z.
+
+(* Numerator and denominator. *)
+Definition rational := (Z * Z)%type.
+
+(* Columns and entries; the entries at one column are added. *)
+Definition rational_row := seq (nat * rational).
+
+Record rational_pencil := RationalPencil {
+  given_order : nat;
+  given_a : seq rational_row;
+  given_b : seq rational_row;
+  given_free : seq nat }.
+
+(* The state before the event; a particle that slips has the sign S of its tangential reaction. *)
+Inductive contact := NotInContact | Sticking | Slipping of Z | ZeroInContact.
+
+Record given_particle := GivenParticle {
+  first_of : nat;
+  second_of : nat;
+  contact_of : contact;
+  frame_tangent : rational * rational;
+  frame_normal : rational * rational;
+  into_obstacle : Z;  (* 1 or -1 *)
+  factor_of : rational }.
+
+Record rational_system := RationalSystem {
+  degrees : nat;
+  given_stiffness : seq rational_row;
+  given_mass : seq rational_row;
+  given_particles : seq given_particle }.
+
+(* A row (M_i, q_i) with its bounds. *)
+Record rational_mcp_row := RationalMcpRow {
+  given_m : rational_row;
+  given_q : rational;
+  given_lower : option rational;
+  given_upper : option rational }.
+
+Inductive problem :=
+  | GivenPencil of rational_pencil
+  | GivenSystem of rational_system & unknown
+  | GivenPlain of seq rational_mcp_row.
+
+(* The same with integers, as the kernel has it. *)
+Inductive integral :=
+  | PencilProblem of pencil
+  | SystemProblem of system & unknown
+  | ZeroProblem of zero_system & unknown
+  | PlainProblem of mcp.
+
+(* Factors of the matrices, and of tangents and normals. *)
+Record scales := Scales { entry_scale : Z; length_scale : Z }.
+
+Section Particles.
+
+Variable B : rational_system.
+
+Definition sticks p := if contact_of p is Sticking then true else false.
+Definition slips p := if contact_of p is Slipping _ then true else false.
+Definition zeroes p := if contact_of p is ZeroInContact then true else false.
+Definition in_contact p := if contact_of p is NotInContact then false else true.
+
+Definition sign p := if contact_of p is Slipping s then s else 0%Z.
+
+Definition slipping := [seq p <- given_particles B | slips p].
+Definition with_zero := [seq p <- given_particles B | zeroes p].
+
+Definition dofs_of (l : seq given_particle) :=
+  [seq first_of p | p <- l] ++ [seq second_of p | p <- l].
+
+Definition held := dofs_of [seq p <- given_particles B | in_contact p].
+
+End Particles.
+
+Section Scaling.
+
+Local Open Scope Z_scope.
+
+Variable c : scales.
+
+Definition scaled_entry (m : Z) (q : rational) : Z := m * q.1 / q.2.
+
+Definition exact m (q : rational) := (0 <? q.2) && (q.2 * scaled_entry m q =? m * q.1).
+
+Definition scaled_row m (row : rational_row) := [seq (e.1, scaled_entry m e.2) | e <- row].
+Definition exact_rows m (rows : seq rational_row) := all (all (fun e => exact m e.2)) rows.
+
+(* The normal into the obstacle, with the friction factor as its length. *)
+Definition long_normal p : rational * rational :=
+  let component (n : rational) :=
+    (into_obstacle p * ((factor_of p).1 * n.1), (factor_of p).2 * n.2) in
+  (component (frame_normal p).1, component (frame_normal p).2).
+
+Definition scaled_planar (e : rational * rational) : planar :=
+  (scaled_entry (length_scale c) e.1, scaled_entry (length_scale c) e.2).
+
+Definition exact_planar (e : rational * rational) :=
+  exact (length_scale c) e.1 && exact (length_scale c) e.2.
+
+Definition exact_particle p :=
+  [&& exact_planar (frame_tangent p), exact_planar (long_normal p), 0 <? (factor_of p).1,
+      0 <? (factor_of p).2, 0 <? (frame_normal p).1.2 & 0 <? (frame_normal p).2.2].
+
+Definition scaled_particle p := SlipParticle (first_of p) (second_of p)
+  (scaled_planar (frame_tangent p)) (scaled_planar (long_normal p)) (sign p).
+
+Definition scaled_system B := System (degrees B)
+  [seq scaled_row (entry_scale c) row | row <- given_stiffness B]
+  [seq scaled_row (entry_scale c) row | row <- given_mass B]
+  [seq d <- iota 0 (degrees B) | d \notin held B]
+  [seq scaled_particle p | p <- slipping B] (length_scale c).
+
+Definition scaled_zero_system B :=
+  ZeroSystem (scaled_system B) [seq scaled_particle p | p <- with_zero B].
+
+(* No degree of freedom of two particles. *)
+Definition exact_system B :=
+  [&& 0 <? entry_scale c, 0 <? length_scale c, exact_rows (entry_scale c) (given_stiffness B),
+      exact_rows (entry_scale c) (given_mass B), uniq (dofs_of (given_particles B)) &
+      all exact_particle (slipping B) && all exact_particle (with_zero B)].
+
+Definition scaled_pencil Q := Pencil (given_order Q)
+  [seq scaled_row (entry_scale c) row | row <- given_a Q]
+  [seq scaled_row (entry_scale c) row | row <- given_b Q] (given_free Q).
+
+Definition exact_pencil Q :=
+  [&& 0 <? entry_scale c, exact_rows (entry_scale c) (given_a Q) &
+      exact_rows (entry_scale c) (given_b Q)].
+
+Definition scaled_mcp_row r := McpRow (scaled_row (entry_scale c) (given_m r))
+  (scaled_entry (entry_scale c) (given_q r)) (given_lower r) (given_upper r).
+
+Definition exact_mcp_row r :=
+  exact (entry_scale c) (given_q r) && all (fun e => exact (entry_scale c) e.2) (given_m r).
+
+(* The integral problem, if these factors make it one. *)
+Definition scaled p : option integral :=
+  match p with
+  | GivenPencil Q => if exact_pencil Q then Some (PencilProblem (scaled_pencil Q)) else None
+  | GivenSystem B u =>
+      if exact_system B
+      then Some (if nilp (with_zero B) then SystemProblem (scaled_system B) u
+                 else ZeroProblem (scaled_zero_system B) u)
+      else None
+  | GivenPlain rows =>
+      if (0 <? entry_scale c) && all exact_mcp_row rows
+      then Some (PlainProblem [seq scaled_mcp_row r | r <- rows]) else None
+  end.
+
+End Scaling.
+
+(* The pencil of an integral problem, by (12)-(14) for a system. *)
+Definition pencil_of_integral q : pencil :=
+  match q with
+  | PencilProblem Q => Q
+  | SystemProblem s u => pencil_of s u
+  | ZeroProblem z u => zero_pencil z u
+  | PlainProblem _ => Pencil 0 [::] [::] [::]
+  end.
+
+(* The complementarity variables of a problem, by their numbers in this pencil: one for each slip
+   particle, then gap, right and left of each z particle. *)
+Definition complementarity p : seq nat :=
+  match p with
+  | GivenPencil Q => [seq i <- iota 0 (given_order Q) | i \notin given_free Q]
+  | GivenSystem B _ =>
+      iota (count (fun d => d \notin held B) (iota 0 (degrees B)))
+        (size (slipping B) + 3 * size (with_zero B))
+  | GivenPlain _ => [::]
+  end.

@@ -1,0 +1,62 @@
+(* The positive integers that make a problem integral, and the integral problem that the kernel
+   forms with them (Rational.v).
+
+   A wrong choice is refused by the kernel, so this file is not trusted. *)
+
+type t = {
+  unknown : string;
+  digest : string;
+  window : Q.t * Q.t option;
+  scales : Kernel.scales;
+  question : Kernel.integral;
+  common : Z.t;  (* the factor of the entries; for a system, of those of the free rows *)
+  slip_common : Z.t }  (* the factor of the entries of the complementarity rows *)
+
+let denominator = List.fold_left (fun common q -> Z.lcm common (Q.den (Problem.value_of q)))
+
+let of_rows = List.fold_left (fun common row -> denominator common (List.map snd row))
+
+let scaled scales given =
+  match Kernel.scaled scales given with
+  | Some question -> question
+  | None -> invalid_arg "factors that do not make the problem integral"
+
+let of_problem (problem : Problem.t) =
+  let scales, friction = match problem.given with
+    | GivenPencil p ->
+      { Kernel.entry_scale = of_rows (of_rows Z.one p.given_a) p.given_b;
+        length_scale = Z.one }, Z.one
+    | GivenSystem (s, unknown) ->
+      let planar common (a, b) = denominator common [a; b] in
+      let length common (p : Kernel.given_particle) =
+        planar (planar common p.frame_tangent) (Kernel.long_normal p) in
+      { entry_scale = of_rows (of_rows Z.one s.given_stiffness) s.given_mass;
+        length_scale = List.fold_left length Z.one (Kernel.slipping s @ Kernel.with_zero s) },
+      (match unknown with Mu -> Z.one | Lambda2 (_, q) -> q)
+    | GivenPlain _ -> invalid_arg "a plain problem" in
+  let length = scales.length_scale in
+  let common = Z.mul scales.entry_scale length in
+  { unknown = problem.unknown; digest = problem.digest; window = problem.window; scales;
+    question = scaled scales problem.given; common;
+    slip_common = Z.mul common (Z.mul length friction) }
+
+let of_plain rows =
+  let row common (r : Kernel.rational_mcp_row) =
+    denominator common (r.given_q :: List.map snd r.given_m) in
+  { Kernel.entry_scale = List.fold_left row Z.one rows; length_scale = Z.one }
+
+(* The reversed problem (certificates.md, 5.15, Infinity) of one with this pencil. *)
+let reversed problem (pencil : Kernel.pencil) =
+  let reverse = Kernel.reverse_pencil pencil in
+  let matrix rows =
+    let table = Array.init pencil.order (fun _ -> Hashtbl.create 16) in
+    List.iteri (fun i row ->
+        let factor = if List.mem i pencil.free then problem.common else problem.slip_common in
+        List.iter (fun (j, v) ->
+            let sum = Option.value (Hashtbl.find_opt table.(i) j) ~default:Q.zero in
+            Hashtbl.replace table.(i) j (Q.add sum (Q.make v factor))) row) rows;
+    Problem.matrix_of_table pencil.order pencil.order table in
+  let lines =
+    Problem.pencil_lines pencil.free (matrix reverse.rows_a) (matrix reverse.rows_b) in
+  { problem with digest = Problem.(digest_of (canonical problem.unknown lines));
+                 question = PencilProblem reverse; window = Q.zero, Some Q.zero }
