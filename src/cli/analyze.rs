@@ -9,7 +9,7 @@ mod page;
 
 use super::common::{CliError, exit, number, print, require_count, require_threads};
 use super::job::{CHECKPOINT, Job};
-use super::output::{Output, folder_of, make_writable};
+use super::output::{Folder, Output, folder_of};
 use super::question::load_system;
 use crate::Analyze;
 use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, Options};
@@ -17,7 +17,7 @@ use mceip_engine::run::Kept;
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
 use mceip_model::System;
-use mceip_model::file::{SystemFile, write_problem};
+use mceip_model::file::SystemFile;
 use num_traits::Signed;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -181,39 +181,24 @@ fn exit_code(analysis: &Analysis) -> u8 {
 
 /// The folder of the certificates. Each one is written as soon as it is accepted, and what a long
 /// search has proved every minute.
-struct Proofs<'a> {
-    folder: &'a Path,
-    input: &'a Path,
+struct Proofs {
+    folder: Folder,
     /// The names of the proofs written so far.
     written: Mutex<BTreeSet<String>>,
 }
 
-impl Proofs<'_> {
+impl Proofs {
     /// Makes the folder if it is not there; refuses one in which no file can be made.
-    fn prepare<'a>(folder: &'a Path, input: &'a Path) -> Result<Proofs<'a>, CliError> {
-        make_writable(folder)?;
+    fn prepare(folder: &Path, input: &Path) -> Result<Proofs, CliError> {
         Ok(Proofs {
-            folder,
-            input,
+            folder: Folder::prepare("certificates", folder, &[input])?,
             written: Mutex::default(),
         })
     }
 
-    /// Where a file of a proof is.
-    fn path(&self, name: &str, kind: &str) -> PathBuf {
-        self.folder.join(format!("{name}.{kind}.json"))
-    }
-
-    /// Writes NAME.problem.json and NAME.certificate.json, the problem first.
     fn keep(&self, kept: &Kept<'_>) -> Result<(), CliError> {
-        let problem = self.path(kept.name, "problem");
-        let certificate = self.path(kept.name, "certificate");
-        let problem = Output::prepare("certificates", &problem, &[self.input])?;
-        let certificate = Output::prepare("certificates", &certificate, &[self.input])?;
-
         self.written().insert(kept.name.to_owned());
-        problem.write(&write_problem(kept.problem))?;
-        certificate.write(kept.certificate)
+        self.folder.write_proof(kept)
     }
 
     /// Writes all proofs of the analysis, and removes those that others have taken the place of;
@@ -228,15 +213,12 @@ impl Proofs<'_> {
                 certificate: &proof.certificate.file()?,
             })?;
             superseded.remove(&proof.name);
-            let path = self.path(&proof.name, "certificate");
+            let path = self.folder.certificate_path(&proof.name);
             paths.push(path.display().to_string());
         }
 
         for name in superseded {
-            for kind in ["certificate", "problem"] {
-                // One that stays is a proof all the same.
-                let _ = std::fs::remove_file(self.path(&name, kind));
-            }
+            self.folder.remove_proof(&name);
         }
 
         Ok(paths)

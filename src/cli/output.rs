@@ -3,6 +3,8 @@
 
 use super::common::{CliError, aside, text};
 use mceip_check::{Provable, Proved};
+use mceip_engine::run::Kept;
+use mceip_model::file::write_problem;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io::Write as _;
@@ -232,15 +234,22 @@ fn flush_names(folder: &Path) {
 pub(super) struct Folder {
     option: &'static str,
     path: PathBuf,
+    /// The files that the run reads, which nothing may replace.
+    inputs: Vec<PathBuf>,
 }
 
 impl Folder {
     /// Makes the folder if it is not there; refuses one in which no file can be made.
-    pub(super) fn prepare(option: &'static str, path: &Path) -> Result<Folder, CliError> {
+    pub(super) fn prepare(
+        option: &'static str,
+        path: &Path,
+        inputs: &[&Path],
+    ) -> Result<Folder, CliError> {
         make_writable(path)?;
         Ok(Folder {
             option,
             path: path.to_path_buf(),
+            inputs: inputs.iter().map(|input| input.to_path_buf()).collect(),
         })
     }
 
@@ -248,18 +257,45 @@ impl Folder {
     pub(super) fn prepare_if(
         option: &'static str,
         path: Option<&Path>,
+        inputs: &[&Path],
     ) -> Result<Option<Folder>, CliError> {
         match path {
             None => Ok(None),
-            Some(path) => Ok(Some(Folder::prepare(option, path)?)),
+            Some(path) => Ok(Some(Folder::prepare(option, path, inputs)?)),
         }
     }
 
     /// Writes a file, whole.
     pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), CliError> {
-        let path = self.path.join(name);
-        let output = Output::prepare(self.option, &path, &[])?;
-        output.write_bytes(bytes)
+        self.output(name)?.write_bytes(bytes)
+    }
+
+    fn output(&self, name: &str) -> Result<Output, CliError> {
+        let inputs: Vec<&Path> = self.inputs.iter().map(PathBuf::as_path).collect();
+        Output::prepare(self.option, &self.path.join(name), &inputs)
+    }
+
+    /// Writes a proof as NAME.problem.json and NAME.certificate.json, the problem first.
+    pub(super) fn write_proof(&self, proof: &Kept<'_>) -> Result<(), CliError> {
+        let [problem, certificate] = proof_files(proof.name);
+        let [problem, certificate] = [self.output(&problem)?, self.output(&certificate)?];
+
+        problem.write(&write_problem(proof.problem))?;
+        certificate.write(proof.certificate)
+    }
+
+    /// Where the certificate of a proof is.
+    pub(super) fn certificate_path(&self, name: &str) -> PathBuf {
+        let [_, certificate] = proof_files(name);
+        self.path.join(certificate)
+    }
+
+    /// Removes a proof that another one has taken the place of. One that stays is a proof all the
+    /// same.
+    pub(super) fn remove_proof(&self, name: &str) {
+        for file in proof_files(name) {
+            let _ = std::fs::remove_file(self.path.join(file));
+        }
     }
 
     /// Removes the files `stem-NUMBER.json` but for these numbers: those of an earlier run.
@@ -279,6 +315,11 @@ impl Folder {
 
         Ok(())
     }
+}
+
+/// The files of a proof: its problem, its certificate.
+fn proof_files(name: &str) -> [String; 2] {
+    ["problem", "certificate"].map(|kind| format!("{name}.{kind}.json"))
 }
 
 /// Makes the folder if it is not there.

@@ -91,7 +91,7 @@ pub(super) struct Args {
     )]
     width: String,
     /// With --own-critical: write problem and certificate of each end state in which something
-    /// slips into this folder, for `mceip check`.
+    /// slips, and those of the frozen critical friction, into this folder, for `mceip check`.
     #[arg(long, requires = "own_critical", value_name = "FOLDER")]
     certificates: Option<PathBuf>,
     /// Draw resultants and states along the path, as SVG.
@@ -116,8 +116,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let at_mu = args.at_mu.iter().map(|mu| positive("at-mu", mu));
     let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
     let picture = Output::prepare_if("picture", args.picture.as_deref(), input)?;
-    let folder = Folder::prepare_if("states", args.states.as_deref())?;
-    let proofs = Folder::prepare_if("certificates", args.certificates.as_deref())?;
+    let folder = Folder::prepare_if("states", args.states.as_deref(), input)?;
+    let proofs = Folder::prepare_if("certificates", args.certificates.as_deref(), input)?;
     require_count("grid", args.grid as u64, 1..=MAX_GRID)?;
     let own_asked = match args.own_critical.as_slice() {
         [] => None,
@@ -181,7 +181,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
                 steps: &steps,
                 names: &names,
             };
-            Some(job.watched(|watch| OwnCritical::find(&loaded, asked, watch))?)
+            Some(job.watched(|watch| OwnCritical::find(&loaded, asked, proofs.as_ref(), watch))?)
         }
     };
     job.end();
@@ -195,9 +195,6 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         own,
         is_interrupted: job.is_cancelled(),
     };
-    if let (Some(folder), Some(own)) = (&proofs, &outcome.own) {
-        own.write(folder)?;
-    }
     if let Some(folder) = folder {
         outcome.write_states(&folder)?;
     }
@@ -216,12 +213,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         outcome.proved.as_deref(),
         outcome.is_interrupted,
     );
-    let is_own_undecided = outcome.own.is_some_and(|own| own.is_undecided());
-    Ok(if code == exit::DONE && is_own_undecided {
-        exit::UNDECIDED
-    } else {
-        code
-    })
+    match outcome.own {
+        Some(own) if code == exit::DONE && own.is_undecided() => Ok(exit::UNDECIDED),
+        _ => Ok(code),
+    }
 }
 
 /// More parts than any picture has use for.
@@ -392,8 +387,7 @@ pub(super) fn exit_code(
     states: Option<&[ProvedState]>,
     is_interrupted: bool,
 ) -> u8 {
-    let is_unproved =
-        matches!(&path.end, PathEnd::NoContinuation { search, .. } if !search.is_proved());
+    let is_unproved = matches!(&path.end, PathEnd::NoContinuation { why, .. } if !why.is_proved());
     let is_open = states.is_some_and(|states| states.iter().any(ProvedState::is_open));
 
     if is_interrupted {

@@ -81,8 +81,8 @@ impl Mark {
     pub fn class(self) -> &'static str {
         match self {
             Mark::Stick => "stick",
-            Mark::SlipAgainst => "slip-left",
-            Mark::SlipAlong => "slip-right",
+            Mark::SlipAgainst => "slip-against",
+            Mark::SlipAlong => "slip-along",
             Mark::Caught => "caught",
             Mark::Free => "free",
             Mark::Zero => "zero",

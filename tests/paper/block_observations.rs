@@ -104,9 +104,7 @@ impl Observed {
         let end = match &path.end {
             PathEnd::NoFurtherEvent if path.slides() => "slides",
             PathEnd::NoFurtherEvent => "some stick for ever",
-            PathEnd::NoContinuation { search, .. } if search.is_proved() => {
-                "no continuation (proved)"
-            }
+            PathEnd::NoContinuation { why, .. } if why.is_proved() => "no continuation (proved)",
             PathEnd::NoContinuation { .. } => "no continuation (undecided)",
             _ => "other",
         };

@@ -414,7 +414,7 @@ fn compare(seed: u64, met: &mut BTreeMap<&'static str, usize>) {
         }
     }
 
-    if let PathEnd::NoContinuation { search, .. } = &path.end {
+    if let PathEnd::NoContinuation { why, .. } = &path.end {
         let last = path.stretches.last();
         let (step, at) = match last {
             Some(last) => (last.step, last.stop.as_ref()),
@@ -427,7 +427,7 @@ fn compare(seed: u64, met: &mut BTreeMap<&'static str, usize>) {
             let classes = [0, 1].map(|k| class(&instance, at, k));
             let (found, is_singular) = solutions(&instance, &classes, &instance.body.loads()[step]);
             assert!(found.is_empty(), "seed {seed}: {found:?} are overlooked");
-            assert_eq!(search.is_proved(), !is_singular, "seed {seed}");
+            assert_eq!(why.is_proved(), !is_singular, "seed {seed}");
         }
     }
     count(match path.end {

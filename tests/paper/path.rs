@@ -429,12 +429,12 @@ fn a_path_may_end_without_continuation() {
     assert_eq!(path.motion.stretches.len(), 1);
     assert!(!path.motion.slides());
 
-    let PathEnd::NoContinuation { causes, search } = &path.motion.end else {
+    let PathEnd::NoContinuation { causes, why } = &path.motion.end else {
         panic!("{:?}", path.motion.end)
     };
 
     assert_eq!(causes, &[Bound::Cone { node: 8, sign: -1 }]);
-    assert!(search.is_proved());
+    assert!(why.is_proved());
 
     let stop = path.motion.stretches[0].stop.as_ref().unwrap();
     let (tangential, normal) = stop.reaction(8);

@@ -89,7 +89,7 @@ fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
             let end = alone["end"].as_str().unwrap();
             assert!(end.contains("the quasi-static path ends"), "{end}");
             assert_eq!(point["no_path"]["why"], end);
-            assert_eq!(point["no_path"]["proved"], true);
+            assert_eq!(point["no_path"]["all_tried"], true);
             ends += 1;
         }
     }
@@ -142,6 +142,18 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
     assert_eq!(own["found"], "between");
     let frozen = number(&own["frozen"]["absent_below"]);
     assert!((frozen - 2.1753).abs() < 1e-3, "{frozen}");
+
+    let problems = names(&proofs);
+    let of_frozen = problems.iter().filter(|name| name.starts_with("frozen-"));
+    let of_frozen: Vec<&str> = of_frozen
+        .filter_map(|name| name.strip_suffix(".problem.json"))
+        .collect();
+    assert!(of_frozen.len() >= 2, "{problems:?}");
+    for name in of_frozen {
+        let [problem, certificate] =
+            ["problem", "certificate"].map(|kind| format!("{proofs}/{name}.{kind}.json"));
+        exits(0, &["check", &problem, &certificate]);
+    }
 
     let mut seen = [0, 0];
     for point in own["points"].as_array().unwrap() {

@@ -233,7 +233,7 @@ fn a_body_has_its_nodes_states_and_arrows() {
     // S = 1: the first particle is about to slip against its tangent, which points to the upper
     // right at 36.87 degrees; clockwise from the right that is 143.13. The second one slips to the
     // right.
-    let turned = of_class(&tree, "slip-right");
+    let turned = of_class(&tree, "slip-along");
     let angle = |node: &Node<'_, '_>| {
         let turn = node.attribute("transform").unwrap();
         let degrees = turn.trim_start_matches("rotate(").split(' ').next();

@@ -83,6 +83,26 @@ mod tests {
         Sparse::from_entries(n, n, (0..n).map(|i| (i, i, &d * factor)).chain(off))
     }
 
+    /// u = 2^-46: the diagonal 2 is 2^47 units, less one for each of the two entries of its row, of
+    /// which the rounding of 1/3 took a part.
+    #[test]
+    fn the_diagonal_loses_what_rounding_took() {
+        let third = rational(1, 3);
+        let entries = [
+            (0, 0, whole(2)),
+            (0, 1, third.clone()),
+            (1, 0, third),
+            (1, 1, whole(2)),
+        ];
+        let lower = least_lower_triangle(&Sparse::from_entries(2, 2, entries)).unwrap();
+
+        let [first, second] = &lower[..] else {
+            panic!("two rows")
+        };
+        assert_eq!(first.entries, [(1 << 47) - 2]);
+        assert_eq!(second.entries, [(1 << 46) / 3, (1 << 47) - 2]);
+    }
+
     #[test]
     fn definite_chains_are_seen_at_every_scale() {
         for factor in [

@@ -1,9 +1,9 @@
 //! Definiteness of a symmetric matrix by factors that may be wrong: the exact residual decides.
 //!
-//! If S = L D L' + E with D > 0, and E is strictly diagonally dominant with a positive diagonal,
-//! E_ii > sum_(j not i) |E_ij|, then E is positive definite (Gershgorin), and so is S. The factors
-//! may be anything, because E is computed without rounding. If E_ii >= sum |E_ij| only, S is
-//! positive semidefinite.
+//! Let S = F D F' + E with D >= 0. If E is strictly diagonally dominant with a positive diagonal,
+//! E_ii > sum_(j not i) |E_ij|, then E is positive definite (Gershgorin), and so is S; if
+//! E_ii >= sum |E_ij| only, both are positive semidefinite. The factors may be anything, because E
+//! is computed without rounding.
 //!
 //! [`Dominance`] collects the rows of E in any numbers. [`machine_definite`] makes the factors as
 //! well, in machine integers: L and D of S - s I with rounding, for a small shift s that makes room
@@ -17,7 +17,7 @@ use num_traits::Signed;
 use std::ops::AddAssign;
 
 /// Bits of an entry of S at most.
-pub const MACHINE_BITS: u32 = 48;
+pub(super) const MACHINE_BITS: u32 = 48;
 /// Fraction bits of L.
 const LOWER: u32 = 36;
 /// Largest entry of L: of a definite matrix |l_ij|^2 d_j <= S_ii, so it is 2^14 at most unless a

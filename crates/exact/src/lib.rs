@@ -44,7 +44,7 @@ pub use definite::{
     DefiniteError, Minor, NotDefinite, first_minor_not_positive, positive_definite,
 };
 pub use dense::Dense;
-pub use dominance::{Dominance, MACHINE_BITS, MachineRow, machine_definite};
+pub use dominance::{Dominance, MachineRow, machine_definite};
 pub use double::{from_f64, to_f64, truncated};
 pub use interval::Interval;
 pub use kernel::{determinant, generic_kernel, kernel_at, minors, row_echelon_at};

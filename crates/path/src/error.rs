@@ -1,7 +1,7 @@
 //! Why a loading path is not computed: what users read ([`PathError`]), and the law that fails at a
 //! node, as the parts of the path tell each other ([`LawFailure`]).
 
-use super::rates::Search;
+use super::rates::Unsolved;
 use mceip_exact::{CondenseError, NumberError, Rational};
 use mceip_mcp::linear::SymmetricError;
 use mceip_model::ModelError;
@@ -63,7 +63,7 @@ pub enum PathError {
     /// No states satisfy the rate conditions. (A path ends instead of failing:
     /// [`super::PathEnd::NoContinuation`].)
     #[error("rate problem: {0}")]
-    NoContinuation(Search),
+    NoContinuation(Unsolved),
     /// What fails on the way.
     #[error("loading path: stretch {stretch}, step {step} at {amount} of its load: {source}")]
     At {

@@ -56,7 +56,7 @@ pub use line::{Bound, Equilibrium};
 pub use load_steps::{LoadSteps, require_positive};
 pub use loading_path::{LoadingPath, PathEnd};
 pub use pencils::Pencils;
-pub use rates::{Finder, Search};
+pub use rates::{Finder, Unsolved};
 pub use stretch::{Change, Event, Stretch};
 pub use trace::PathProgress;
 

@@ -3,7 +3,7 @@
 
 use super::line::Bound;
 use super::load_steps::LoadSteps;
-use super::rates::Search;
+use super::rates::Unsolved;
 use super::stretch::{Event, Stretch};
 use mceip_exact::Rational;
 use mceip_model::ContactState;
@@ -22,8 +22,8 @@ pub enum PathEnd {
     NoContinuation {
         /// The bounds that became zero there.
         causes: Vec<Bound>,
-        /// How the search for states ended.
-        search: Search,
+        /// Why none were found.
+        why: Unsolved,
     },
     /// Whoever watched the progress stopped it; what was found is kept.
     Interrupted,

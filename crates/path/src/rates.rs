@@ -32,9 +32,9 @@ pub enum Finder {
     Enumeration,
 }
 
-/// How a search for states that solve a rate problem ended without any.
+/// Why no states were found that solve a rate problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Search {
+pub enum Unsolved {
     /// Every set was tried and none was singular: there is no continuation, proved.
     NoneExists,
     /// Every set was tried, and some have no unique rates: the body can move in a way that needs
@@ -52,28 +52,28 @@ pub enum Search {
     },
 }
 
-impl Search {
+impl Unsolved {
     /// Is it proved that there is no continuation?
     pub fn is_proved(self) -> bool {
-        self == Search::NoneExists
+        self == Unsolved::NoneExists
     }
 }
 
-impl std::fmt::Display for Search {
+impl std::fmt::Display for Unsolved {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Search::NoneExists => {
+            Unsolved::NoneExists => {
                 f.write_str("no states satisfy the rate conditions, every set was tried")
             }
-            Search::Singular { all: 1, .. } => f.write_str(
+            Unsolved::Singular { all: 1, .. } => f.write_str(
                 "the body can move in a way that needs no force, so its rates are not unique",
             ),
-            Search::Singular { all, singular } => write!(
+            Unsolved::Singular { all, singular } => write!(
                 f,
                 "no admissible states; in {singular} of all {all} sets of states the body can move \
                  in a way that needs no force, so its rates are not unique"
             ),
-            Search::Stopped { tried } => {
+            Unsolved::Stopped { tried } => {
                 write!(f, "no admissible states among {tried} sets tried")
             }
         }
@@ -174,7 +174,9 @@ impl Rates<'_> {
     /// proves that the quasi-static path has no continuation.
     fn enumerate(&self, images: &mut Images, tried: &mut usize) -> Result<Solved, PathError> {
         let Some(sets) = self.sets_of_states() else {
-            return Err(PathError::NoContinuation(Search::Stopped { tried: *tried }));
+            return Err(PathError::NoContinuation(Unsolved::Stopped {
+                tried: *tried,
+            }));
         };
 
         let all = sets.len();
@@ -191,8 +193,8 @@ impl Rates<'_> {
         }
 
         Err(PathError::NoContinuation(match singular {
-            0 => Search::NoneExists,
-            _ => Search::Singular { all, singular },
+            0 => Unsolved::NoneExists,
+            _ => Unsolved::Singular { all, singular },
         }))
     }
 

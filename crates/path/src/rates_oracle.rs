@@ -288,12 +288,12 @@ fn compare(
                 Finder::Enumeration => "enumeration",
             }
         }
-        Err(PathError::NoContinuation(search)) => {
+        Err(PathError::NoContinuation(why)) => {
             assert!(
                 solutions.is_empty(),
                 "round {round}: {classes:?} has {solutions:?}"
             );
-            assert_eq!(search.is_proved(), !expected.singular, "round {round}");
+            assert_eq!(why.is_proved(), !expected.singular, "round {round}");
             "none exists"
         }
         Err(error) => panic!("{error}"),

@@ -116,10 +116,10 @@ pub(super) fn trace(
 
         let stretch = match tracer.pass(&position) {
             Ok(stretch) => stretch,
-            Err(PathError::NoContinuation(search)) => {
+            Err(PathError::NoContinuation(why)) => {
                 break PathEnd::NoContinuation {
                     causes: position.causes,
-                    search,
+                    why,
                 };
             }
             Err(error) => return Err(at(error, here)),

@@ -42,7 +42,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let block = Block::new(&model)?;
 
     let report = Output::prepare_if("report", args.report.as_deref(), &[])?;
-    let folder = Folder::prepare_if("pictures", args.pictures.as_deref())?;
+    let folder = Folder::prepare_if("pictures", args.pictures.as_deref(), &[])?;
 
     let job = Job::begin("condensing exactly to the contact nodes");
     let condensing = block.clone();

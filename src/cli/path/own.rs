@@ -7,8 +7,9 @@
 //! examined until they are as near as asked for.
 //!
 //! The *critical friction found* is the first change among the mu examined from proved absence to
-//! proved divergence, or to a path that is proved to end. The path is the one that `mceip_path`
-//! follows; that it is the only one is not claimed, and between two mu nothing is.
+//! proved divergence, or to a path that ends although every set of contact states was tried. The
+//! path is the one that `mceip_path` follows, exact but without a certificate; that it is the only
+//! one is not claimed, and between two mu nothing is.
 //!
 //! Whether an end state diverges is decided by [`divergence_at`]: by a certificate that the checker
 //! has accepted, or by the theorem for states in which nothing slips.
@@ -20,9 +21,10 @@ use mceip_engine::analysis::{
     Analysis, Divergence, Options, Proof, Verdict, analyse, divergence_at,
 };
 use mceip_engine::report::{Table, six_digits};
-use mceip_engine::run::{Progress, Watch};
-use mceip_exact::{Integer, Interval, Rational, enclosing_decimals, nearest_decimal, parse};
-use mceip_model::file::write_problem;
+use mceip_engine::run::{Kept, Progress, Watch};
+use mceip_exact::{
+    Integer, Interval, Rational, enclosing_decimals, nearest_decimal, parse, rational, whole,
+};
 use mceip_model::{ModelError, System};
 use mceip_path::{Contact, Equilibrium, LoadSteps, LoadingPath, PathEnd};
 use num_traits::One;
@@ -54,7 +56,7 @@ impl Asked {
         }
 
         let relative = positive("width", width)?;
-        if relative < whole(MOST_PARTS).recip() {
+        if relative < rational(1, MOST_PARTS) {
             return Err(CliError::option("width", "at least 1/10^9", width));
         }
 
@@ -68,10 +70,10 @@ impl Asked {
 
     /// The ends, and short decimals near the equal parts between them.
     fn grid(&self) -> Vec<Rational> {
-        let part = (&self.greatest - &self.least) / whole(self.parts);
+        let part = (&self.greatest - &self.least) / whole(self.parts as i64);
         let mut grid = vec![self.least.clone()];
         for k in 1..self.parts {
-            let near = &self.least + &part * whole(k);
+            let near = &self.least + &part * whole(k as i64);
             let quarter = &part / whole(4);
             grid.push(short_decimal(&(&near - &quarter), &(near + quarter)));
         }
@@ -82,7 +84,7 @@ impl Asked {
 }
 
 /// One over the least width: nearer neighbours are hardly told apart in print.
-const MOST_PARTS: usize = 1_000_000_000;
+const MOST_PARTS: i64 = 1_000_000_000;
 
 /// The body, condensed to its contact candidates, and its loads.
 pub(super) struct Loaded<'a> {
@@ -113,8 +115,8 @@ struct EarlyEnd {
     place: String,
     /// Why.
     reason: String,
-    /// Is it proved that it does not go on?
-    is_proved: bool,
+    /// Was every set of contact states tried?
+    is_certain: bool,
 }
 
 /// The equilibrium at the end of the path.
@@ -134,21 +136,35 @@ pub(super) struct OwnCritical {
 
 /// What is found at a mu, as far as neighbours are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Answer {
+enum AtMu {
     Equilibrium(Verdict),
-    NoPath { is_proved: bool },
+    NoPath { is_certain: bool },
 }
 
 impl OwnCritical {
     /// Examines the grid, then mu between; what is examined when the work is cancelled stays.
+    /// `proofs` gets each proof as soon as it is found.
     pub(super) fn find(
         loaded: &Loaded<'_>,
         asked: &Asked,
+        proofs: Option<&Folder>,
         watch: &Watch<'_>,
     ) -> Result<OwnCritical, CliError> {
-        let mut points = Vec::new();
+        let mut points: Vec<Point> = Vec::new();
+        let examine = |mu: Rational, count: usize| -> Result<Option<Point>, CliError> {
+            let stage = format!("path at mu = {}, and divergence at its end", spelt(&mu));
+            let mut progress = Progress::stage(&stage);
+            progress.done = count as u64;
+            watch.report(&progress);
+            let point = loaded.examine(mu, watch)?;
+            if let (Some(folder), Some(point)) = (proofs, &point) {
+                point.write(folder)?;
+            }
+            Ok(point)
+        };
+
         for mu in asked.grid() {
-            match loaded.examine(mu, watch)? {
+            match examine(mu, points.len())? {
                 Some(point) => points.push(point),
                 None => break,
             }
@@ -158,7 +174,7 @@ impl OwnCritical {
             let [lo, hi] = [&points[k].mu, &points[k + 1].mu];
             let quarter = (hi - lo) / whole(4);
             let mu = short_decimal(&(lo + &quarter), &(hi - &quarter));
-            match loaded.examine(mu, watch)? {
+            match examine(mu, points.len())? {
                 Some(point) => points.insert(k + 1, point),
                 None => break,
             }
@@ -168,76 +184,81 @@ impl OwnCritical {
             points,
             frozen: None,
         };
-        if let Finding::Between(absent, _) = own.finding()
+        if let Bracket::Between(absent, _) = own.bracket()
             && let Reached::Equilibrium(examined) = &absent.reached
             && !watch.is_cancelled()
         {
-            own.frozen = Some(loaded.frozen(&examined.equilibrium, &absent.mu, watch)?);
+            let frozen = loaded.frozen(&examined.equilibrium, &absent.mu, watch)?;
+            if let Some(folder) = proofs {
+                for proof in &frozen.proofs {
+                    write_proof(folder, &format!("frozen-{}", proof.name), proof)?;
+                }
+            }
+            own.frozen = Some(frozen);
         }
 
         Ok(own)
     }
 
     /// What the answers say of the critical friction.
-    fn finding(&self) -> Finding<'_> {
-        let is_critical = |point: &Point| point.answer().is_critical();
+    fn bracket(&self) -> Bracket<'_> {
+        let is_critical = |point: &Point| point.at_mu().is_critical();
         let Some(critical) = self.points.iter().position(is_critical) else {
-            let mut answers = self.points.iter().map(Point::answer);
-            return if answers.any(Answer::is_undecided) {
-                Finding::Undecided
+            let mut answers = self.points.iter().map(Point::at_mu);
+            return if answers.any(AtMu::is_undecided) {
+                Bracket::Undecided
             } else {
-                Finding::None
+                Bracket::None
             };
         };
 
         let mut below = self.points[..critical].iter().rev();
-        let absent = below.find(|point| point.answer() == ABSENT);
-        match (absent, &self.points[critical]) {
-            (Some(absent), critical) => Finding::Between(absent, critical),
-            (None, first) if critical == 0 => Finding::AtMost(first),
-            (None, _) => Finding::Undecided,
+        let absent = below.find(|point| point.at_mu() == ABSENT);
+        match absent {
+            Some(absent) => Bracket::Between(absent, &self.points[critical]),
+            None => Bracket::AtMost(&self.points[critical]),
         }
     }
 
     /// Is nothing found because an answer is missing?
     pub(super) fn is_undecided(&self) -> bool {
-        matches!(self.finding(), Finding::Undecided)
+        matches!(self.bracket(), Bracket::Undecided)
     }
 }
 
 /// What the answers say of the critical friction.
-enum Finding<'a> {
+enum Bracket<'a> {
     /// The first mu that is proved to be critical, and before it the last one that is proved not to
     /// be: what lies between them is undecided.
     Between(&'a Point, &'a Point),
-    /// The first mu examined is critical.
+    /// The first mu that is critical; none before it is proved not to be.
     AtMost(&'a Point),
-    /// An answer is missing.
+    /// No mu examined is known to be critical, and an answer is missing.
     Undecided,
     /// No mu examined is critical.
     None,
 }
 
-impl Finding<'_> {
+impl Bracket<'_> {
     /// The word of files.
     fn word(&self) -> &'static str {
         match self {
-            Finding::Between(..) => "between",
-            Finding::AtMost(_) => "at_most",
-            Finding::Undecided => "undecided",
-            Finding::None => "none",
+            Bracket::Between(..) => "between",
+            Bracket::AtMost(_) => "at_most",
+            Bracket::Undecided => "undecided",
+            Bracket::None => "none",
         }
     }
 }
 
 /// No divergence, proved.
-const ABSENT: Answer = Answer::Equilibrium(Verdict::Absent);
+const ABSENT: AtMu = AtMu::Equilibrium(Verdict::Absent);
 
-impl Answer {
-    /// Is it proved that the loads do not lead to an equilibrium that cannot diverge?
+impl AtMu {
+    /// Divergence, proved, or a path that ends, every set of contact states tried.
     fn is_critical(self) -> bool {
-        let no_path = Answer::NoPath { is_proved: true };
-        self == no_path || self == Answer::Equilibrium(Verdict::Present)
+        let no_path = AtMu::NoPath { is_certain: true };
+        self == no_path || self == AtMu::Equilibrium(Verdict::Present)
     }
 
     fn is_undecided(self) -> bool {
@@ -249,15 +270,13 @@ impl Answer {
 fn first_wide_change(points: &[Point], width: &Rational) -> Option<usize> {
     (1..points.len()).map(|k| k - 1).find(|&k| {
         let [lo, hi] = [&points[k], &points[k + 1]];
-        lo.answer() != hi.answer() && &hi.mu - &lo.mu > width * &hi.mu
+        lo.at_mu() != hi.at_mu() && &hi.mu - &lo.mu > width * &hi.mu
     })
 }
 
 impl Loaded<'_> {
     /// Follows the path at this mu and decides whether its end diverges; `None` if cancelled.
     fn examine(&self, mu: Rational, watch: &Watch<'_>) -> Result<Option<Point>, CliError> {
-        let stage = format!("mu = {}: path and divergence at its end", spelt(&mu));
-        watch.report(&Progress::stage(&stage));
         let steps = LoadSteps {
             friction: mu.clone(),
             ..self.steps.clone()
@@ -272,10 +291,10 @@ impl Loaded<'_> {
 
         let reached = match &path.end {
             PathEnd::Interrupted => return Ok(None),
-            PathEnd::NoContinuation { search, .. } => Reached::NoPath(EarlyEnd {
+            PathEnd::NoContinuation { why, .. } => Reached::NoPath(EarlyEnd {
                 place: self.last_place(&path),
                 reason: end_text(&path),
-                is_proved: search.is_proved(),
+                is_certain: why.is_proved(),
             }),
             PathEnd::AllApplied | PathEnd::NoFurtherEvent => {
                 let Some(stretch) = path.stretches.last() else {
@@ -334,22 +353,39 @@ impl Loaded<'_> {
 }
 
 impl Point {
+    /// Writes the proof, where there is one, as `mu-VALUE.problem.json` and
+    /// `mu-VALUE.certificate.json`.
+    fn write(&self, folder: &Folder) -> Result<(), CliError> {
+        let Reached::Equilibrium(examined) = &self.reached else {
+            return Ok(());
+        };
+        let Some(proof) = &examined.proof else {
+            return Ok(()); // a theorem: nothing slips
+        };
+
+        let mu = spelt(&self.mu).replace('/', "over");
+        write_proof(folder, &format!("mu-{mu}"), proof)
+    }
+
     /// Why this mu is critical, as what follows "at mu = ...".
     fn critical_text(&self) -> String {
         match &self.reached {
-            Reached::Equilibrium(_) => "the equilibrium in which the path ends can, proved".into(),
+            Reached::Equilibrium(_) => {
+                "the equilibrium in which the path ends can diverge, proved".into()
+            }
             Reached::NoPath(end) => format!(
-                "the path ends before ({}), which is proved, and what follows is dynamic",
+                "the path ends before ({}): no contact states go on from there, every set was \
+                 tried, and what follows is dynamic",
                 end.place
             ),
         }
     }
 
-    fn answer(&self) -> Answer {
+    fn at_mu(&self) -> AtMu {
         match &self.reached {
-            Reached::Equilibrium(examined) => Answer::Equilibrium(examined.divergence.verdict),
-            Reached::NoPath(end) => Answer::NoPath {
-                is_proved: end.is_proved,
+            Reached::Equilibrium(examined) => AtMu::Equilibrium(examined.divergence.verdict),
+            Reached::NoPath(end) => AtMu::NoPath {
+                is_certain: end.is_certain,
             },
         }
     }
@@ -358,7 +394,7 @@ impl Point {
 impl OwnCritical {
     /// For people: the bracket first, then the frozen one, then what was examined.
     pub(super) fn text(&self, in_doubles: bool) -> String {
-        let mut out = format!("{}\n", self.bracket_text());
+        let mut out = format!("{}\n", self.headline());
         if let Some(frozen) = &self.frozen {
             out += &format!("{}\n", frozen_text(frozen));
         }
@@ -383,15 +419,21 @@ impl OwnCritical {
 
         format!(
             "{out}\n{table}\n\
-             Examined is the equilibrium at the end of the loads (in the last stretch, where a load \
-             grows for ever) on the path that is followed at each mu. That this path is the only \
-             one is not claimed; states before its end, and other mu, are not examined.{rounded}\n"
+             Examined is the equilibrium at the end of the loads (in the last stretch, where one \
+             grows for ever) on the path that is followed at each mu. The path is exact, but has \
+             no certificate, and may be one of several; \"proved\" is said of divergence in the \
+             contact states in which it ends. States before its end, and other mu, are not \
+             examined.{rounded}\n"
         )
     }
 
-    fn bracket_text(&self) -> String {
-        match self.finding() {
-            Finding::Between(absent, critical) => {
+    fn headline(&self) -> String {
+        if self.points.is_empty() {
+            return "No own critical friction was found: nothing was examined.".into();
+        }
+
+        match self.bracket() {
+            Bracket::Between(absent, critical) => {
                 let [lo, hi] = [spelt(&absent.mu), spelt(&critical.mu)];
                 format!(
                     "OWN CRITICAL FRICTION: between {lo} and {hi}, the first change among the mu \
@@ -401,16 +443,17 @@ impl OwnCritical {
                     self.undecided_text(critical)
                 )
             }
-            Finding::AtMost(first) => format!(
-                "OWN CRITICAL FRICTION: not above {}, the smallest mu examined. There {}.",
+            Bracket::AtMost(first) => format!(
+                "OWN CRITICAL FRICTION: not above {}: at this mu {}.{}",
                 spelt(&first.mu),
-                first.critical_text()
+                first.critical_text(),
+                self.undecided_text(first)
             ),
-            Finding::Undecided => format!(
+            Bracket::Undecided => format!(
                 "No own critical friction was found at the {} mu examined; some are undecided.",
                 self.points.len()
             ),
-            Finding::None => format!(
+            Bracket::None => format!(
                 "No own critical friction was found at the {} mu examined: at each of them the \
                  equilibrium in which the path of these loads ends cannot diverge in the form (8), \
                  proved.",
@@ -422,7 +465,7 @@ impl OwnCritical {
     /// The mu before a critical one that are undecided.
     fn undecided_text(&self, critical: &Point) -> String {
         let before = self.points.iter().filter(|point| point.mu < critical.mu);
-        let undecided = before.filter(|point| point.answer().is_undecided());
+        let undecided = before.filter(|point| point.at_mu().is_undecided());
         let undecided: Vec<String> = undecided.map(|point| spelt(&point.mu)).collect();
         if undecided.is_empty() {
             return String::new();
@@ -433,13 +476,13 @@ impl OwnCritical {
 
     /// For programs.
     pub(super) fn json(&self) -> Value {
-        let finding = self.finding();
-        let bracket = match finding {
-            Finding::Between(absent, critical) => {
+        let bracket = self.bracket();
+        let ends = match bracket {
+            Bracket::Between(absent, critical) => {
                 json!({ "absent": spelt(&absent.mu), "critical": spelt(&critical.mu) })
             }
-            Finding::AtMost(first) => json!({ "absent": null, "critical": spelt(&first.mu) }),
-            Finding::Undecided | Finding::None => Value::Null,
+            Bracket::AtMost(first) => json!({ "absent": null, "critical": spelt(&first.mu) }),
+            Bracket::Undecided | Bracket::None => Value::Null,
         };
         let points: Vec<Value> = self.points.iter().map(Point::json).collect();
         let frozen = self.frozen.as_ref().map(|analysis| {
@@ -455,36 +498,20 @@ impl OwnCritical {
         });
 
         json!({
-            "found": finding.word(),
-            "bracket": bracket,
+            "found": bracket.word(),
+            "bracket": ends,
             "frozen": frozen,
             "points": points,
         })
     }
+}
 
-    /// Writes the problem and the certificate of each answer: `mu-VALUE.problem.json`,
-    /// `mu-VALUE.certificate.json`.
-    pub(super) fn write(&self, folder: &Folder) -> Result<(), CliError> {
-        for point in &self.points {
-            let Reached::Equilibrium(examined) = &point.reached else {
-                continue;
-            };
-            let Some(proof) = &examined.proof else {
-                continue; // a theorem: nothing slips
-            };
-
-            let name = spelt(&point.mu).replace('/', "over");
-            let problem = write_problem(&proof.problem);
-            folder.write(&format!("mu-{name}.problem.json"), problem.as_bytes())?;
-            let certificate = proof.certificate.file()?;
-            folder.write(
-                &format!("mu-{name}.certificate.json"),
-                certificate.as_bytes(),
-            )?;
-        }
-
-        Ok(())
-    }
+fn write_proof(folder: &Folder, name: &str, proof: &Proof) -> Result<(), CliError> {
+    folder.write_proof(&Kept {
+        name,
+        problem: &proof.problem,
+        certificate: &proof.certificate.file()?,
+    })
 }
 
 /// The frozen critical friction, and why it is another number.
@@ -520,7 +547,7 @@ impl Point {
         let mu = spelt(&self.mu);
         match &self.reached {
             Reached::NoPath(end) => {
-                let word = if end.is_proved {
+                let word = if end.is_certain {
                     "no path"
                 } else {
                     "undecided: the path stops"
@@ -549,7 +576,7 @@ impl Point {
         match &self.reached {
             Reached::NoPath(end) => json!({
                 "mu": spelt(&self.mu),
-                "no_path": { "at": end.place, "why": end.reason, "proved": end.is_proved },
+                "no_path": { "at": end.place, "why": end.reason, "all_tried": end.is_certain },
             }),
             Reached::Equilibrium(examined) => {
                 let modes = examined.divergence.modes.iter();
@@ -593,14 +620,9 @@ fn short_decimal(lo: &Rational, hi: &Rational) -> Rational {
     }
 }
 
-fn whole(n: usize) -> Rational {
-    Rational::from_integer(Integer::from(n))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::rational;
 
     #[test]
     fn the_shortest_decimal_between() {

@@ -27,12 +27,12 @@ pub(in crate::cli) fn end_text(path: &LoadingPath) -> String {
         PathEnd::NoFurtherEvent => "no further event: no state changes any more".into(),
         PathEnd::AllApplied => "all loads are applied".into(),
         PathEnd::Interrupted => "INTERRUPTED".into(),
-        PathEnd::NoContinuation { causes, search } => {
+        PathEnd::NoContinuation { causes, why } => {
             let causes = causes_text(causes);
-            if search.is_proved() {
-                format!("the quasi-static path ends ({causes}): {search}")
+            if why.is_proved() {
+                format!("the quasi-static path ends ({causes}): {why}")
             } else {
-                format!("UNDECIDED ({causes}): {search}")
+                format!("UNDECIDED ({causes}): {why}")
             }
         }
     }

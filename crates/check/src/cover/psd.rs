@@ -1,9 +1,8 @@
 //! Is a large symmetric matrix positive semidefinite?
 //!
-//! The certificate brings a rounded Cholesky factor L. The residual E = S - L L' is computed
-//! exactly; if it is diagonally dominant, E_ii >= sum_(j not i) |E_ij|, it is positive semidefinite
-//! (Gershgorin), and so is S = L L' + E. If it is strictly dominant, S is definite. Without a
-//! factor S has to be a non-negative diagonal.
+//! The certificate brings a rounded Cholesky factor L, and the exact residual S - L L' has to be
+//! diagonally dominant, strictly for a definite S (`mceip_exact::Dominance`). Without a factor S
+//! has to be a non-negative diagonal.
 //!
 //! Only the lower triangle is looked at, so S must be symmetric. Called by
 //! `condensed` for its hypotheses.

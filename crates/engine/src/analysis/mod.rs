@@ -77,17 +77,12 @@ pub fn analyse(
         return Ok(by_theorem::nothing_slips(name, system, friction));
     }
 
-    error::require_doubles(system)?;
     let model = Model {
         system,
         options,
         watch: *watch,
     };
-
-    let families = Families::of(system)?;
-
-    watch.report(&Progress::stage("conditions (19), (20)"));
-    let necessary = Necessary::of(families.of_condition())?;
+    let (families, necessary) = families_and_condition(&model)?;
     let condensed = families.condensed(&necessary);
 
     let at_friction = AtFriction::decide(&model, &families, &necessary, friction)?;
@@ -168,17 +163,28 @@ pub fn divergence_at(
         return Ok((by_theorem.divergence, None));
     }
 
-    error::require_doubles(system)?;
     let model = Model {
         system,
         options,
         watch: *watch,
     };
-    let families = Families::of(system)?;
-    let necessary = Necessary::of(families.of_condition())?;
+    let (families, necessary) = families_and_condition(&model)?;
     let at_friction = AtFriction::decide(&model, &families, &necessary, friction)?;
 
     Ok((at_friction.divergence, at_friction.proof))
+}
+
+/// What every search of a system in which something slips begins with.
+fn families_and_condition(model: &Model<'_>) -> Result<(Families, Necessary), AnalysisError> {
+    error::require_doubles(model.system)?;
+    let families = Families::of(model.system)?;
+
+    model
+        .watch
+        .report(&Progress::stage("conditions (19), (20)"));
+    let necessary = Necessary::of(families.of_condition())?;
+
+    Ok((families, necessary))
 }
 
 /// What is known at the mu of the analysis.

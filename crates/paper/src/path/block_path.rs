@@ -128,8 +128,8 @@ fn press(contact: &Contact, friction: &Rational) -> Result<Pressing, BlockPathEr
         amounts: vec![Some(whole(1))],
     };
     let path = LoadingPath::follow(contact, &steps, &|_| ControlFlow::Continue(()))?;
-    if let PathEnd::NoContinuation { search, .. } = path.end {
-        return Err(PathError::NoContinuation(search).into());
+    if let PathEnd::NoContinuation { why, .. } = path.end {
+        return Err(PathError::NoContinuation(why).into());
     }
 
     let stretch = path.stretches.into_iter().next();
