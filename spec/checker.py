@@ -1997,7 +1997,9 @@ def check_critical(p, doc):
                 definite(corners(), state, 1 if kind[0] == "p" else -1)
         demand(not boxes, "a tree that ends early")
         start = end
-    return 0, f"ACCEPTED: no solution for friction in [{lowest}, {below}] and lambda2 in [0, infinity), {leaves} leaves"
+    # At friction 0 a particle may slide both ways, of which (9) has one: the sentence leaves 0 out.
+    bracket = "[" if lowest > 0 else "("
+    return 0, f"ACCEPTED: no solution for friction in {bracket}{lowest}, {below}] and lambda2 in [0, infinity), {leaves} leaves"
 
 
 # ---------------------------------------------------------------- presence on an interval of friction

@@ -8,6 +8,7 @@
 
 use super::common::{CliError, exit, positive, print, text};
 use super::output::Output;
+use crate::say::counted;
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::{read_matrix_market, read_particles, write_problem};
 use mceip_model::{Body, Coordinates, Particle, Problem, System, Unknown, Window};
@@ -123,8 +124,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     output.write(&format!("{}\n", write_problem(&problem)))?;
     let place = args.out.display();
+    let particles = counted(slip, "particle");
     print(&format!(
-        "{place}: {dofs} degrees of freedom, {slip} particles in impending slip\n"
+        "{place}: {dofs} degrees of freedom, {particles} in impending slip\n"
     ))?;
     for change in &changes {
         print(&format!("{change}\n"))?;
@@ -142,7 +144,7 @@ fn print_plausibility(plausibility: &Plausibility, are_accepted: bool) -> Result
         print(&format!("WARNING: {warning}.\n"))?;
     }
 
-    let count = counted_warnings(plausibility.warnings.len());
+    let count = counted(plausibility.warnings.len(), "warning");
     if are_accepted {
         print(&format!("{count} accepted; not in the file.\n"))?;
     } else if !plausibility.warnings.is_empty() {
@@ -152,11 +154,6 @@ fn print_plausibility(plausibility: &Plausibility, are_accepted: bool) -> Result
         ))?;
     }
     Ok(())
-}
-
-fn counted_warnings(count: usize) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} warning{plural}")
 }
 
 /// The matrix, or where it is symmetric up to rounding and `symmetrize` is given, its symmetric

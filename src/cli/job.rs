@@ -7,7 +7,8 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// A switch that Ctrl-C sets; a second Ctrl-C ends the process.
+/// A switch that Ctrl-C sets; a second Ctrl-C ends the process. Says so: the step that is under way
+/// may be long.
 pub(super) fn interrupt() -> Cancel {
     let cancel = Cancel::new();
     let shared = cancel.clone();
@@ -18,6 +19,7 @@ pub(super) fn interrupt() -> Cancel {
         if was_requested {
             std::process::exit(i32::from(exit::INTERRUPTED));
         }
+        aside("mceip: stopping, what is found is kept; a second interrupt ends at once");
     });
 
     cancel

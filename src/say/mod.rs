@@ -6,3 +6,9 @@
 pub(crate) mod cover;
 pub(crate) mod enumeration;
 pub(crate) mod search;
+
+/// "1 warning", "2 warnings".
+pub(crate) fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
+}

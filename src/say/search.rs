@@ -1,5 +1,6 @@
 //! What a search from many starts was, in words.
 
+use super::counted;
 use mceip_engine::multistart::Found;
 
 /// What the search was and how it went.
@@ -17,10 +18,10 @@ pub(crate) fn evidence(found: &Found, seed: u64) -> String {
     };
 
     format!(
-        "{} certified found in {search}{} runs (seed {seed}, {} pivots, {} factorisations, \
+        "{} certified found in {search}{} (seed {seed}, {} pivots, {} factorisations, \
          {} repeats, {continua}{} outside the window, endings {:?}); completeness unknown",
         found.certified.len(),
-        found.runs,
+        counted(found.runs, "run"),
         found.pivots,
         found.factorisations,
         found.repeated,

@@ -7,6 +7,7 @@ use super::super::output::Output;
 use super::args::Args;
 use super::search::plain_search_of;
 use super::trace;
+use crate::say::counted;
 use mceip_engine::lcp::{ExactMcp, Found, read_mcp, search, write_solution};
 use mceip_engine::multistart::{SearchError, trace_outcome};
 use mceip_exact::{Rational, to_f64};
@@ -71,11 +72,16 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
 /// What the search was and how it went.
 fn evidence(found: &Found) -> String {
     let (pivots, factorisations) = found.counters;
+    let runs = counted(found.runs, "run");
+    let curves = match found.curves {
+        0 => String::new(),
+        curves => format!(" and along {}", counted(curves, "curve")),
+    };
+
     format!(
-        "{} certified found in {} runs ({pivots} pivots, {factorisations} factorisations, endings \
-         {:?}); completeness unknown",
+        "{} certified found in {runs}{curves} ({pivots} pivots, {factorisations} factorisations, \
+         endings of the runs {:?}); completeness unknown",
         found.certified.len(),
-        found.runs,
         found.terminations
     )
 }

@@ -466,7 +466,12 @@ impl Analysis {
         let place = match tried.place {
             Some([lambda2, mu]) => {
                 let mu = short(&from_f64(mu).unwrap_or_default());
-                format!(", first at lambda^2 = {lambda2:.6e}, mu = {mu}")
+                let where_in_lambda2 = if lambda2.is_finite() {
+                    format!("at lambda^2 = {lambda2:.6e}")
+                } else {
+                    "as lambda^2 tends to infinity".to_string()
+                };
+                format!(", first {where_in_lambda2}, mu = {mu}")
             }
             None => String::new(),
         };

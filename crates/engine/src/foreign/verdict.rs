@@ -238,10 +238,15 @@ fn inaccurate_text(problem: &Problem, given: f64, proved: &Confirmed, tolerance:
             worst.vector, worst.index, worst.proven, worst.reported, worst.error
         )
     };
+    // Infinite where the value is 0 and no row of the support sets a scale of values.
+    let value_text = if agreement.value.is_finite() {
+        format!("error of the value {:.1e}", agreement.value)
+    } else {
+        "the value must be 0 itself, since no row of the support sets a scale".to_string()
+    };
     format!(
-        "INACCURATE: {word} = {given}: {exists}, x = ({x}); error of the value {:.1e}; \
-         {worst_text} (largest |x_i| = 1; allowed {tolerance:e})",
-        agreement.value
+        "INACCURATE: {word} = {given}: {exists}, x = ({x}); {value_text}; {worst_text} \
+         (largest |x_i| = 1; allowed {tolerance:e})"
     )
 }
 

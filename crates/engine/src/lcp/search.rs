@@ -29,8 +29,10 @@ pub struct Found {
     pub uncertified: Vec<(Vec<f64>, Uncertifiable)>,
     /// How often each reason ended a run.
     pub terminations: BTreeMap<Termination, usize>,
-    /// Runs and curves made.
+    /// Runs of the solver.
     pub runs: usize,
+    /// Curves followed.
+    pub curves: usize,
     /// Pivots and factorisations made.
     pub counters: (usize, usize),
     /// Outcome of the first run (Lemke's method).
@@ -132,6 +134,7 @@ impl Hunt<'_> {
     fn follow_curve(&mut self, start: &[f64], sense: Sense) -> Result<(), SolverError> {
         let options = &self.how.options;
         let curve = continuation(&self.doubles, start, sense, CURVE_SOLUTIONS, options)?;
+        self.found.curves += 1;
         self.count(&curve.counters);
         if self.how.trace {
             self.found.trace.push(format!(
@@ -154,13 +157,13 @@ impl Hunt<'_> {
     }
 
     fn count(&mut self, counters: &Counters) {
-        self.found.runs += 1;
         self.found.counters.0 += counters.pivots;
         self.found.counters.1 += counters.factorisations;
     }
 
     /// Counts a run, and certifies its point if it is within the tolerance.
     fn record_run(&mut self, outcome: Outcome, start: &[f64]) {
+        self.found.runs += 1;
         self.count(&outcome.counters);
         if self.how.trace {
             let log = trace_outcome(&outcome);
