@@ -1,4 +1,4 @@
-//! The canonical form of a problem and its digest.
+//! The canonical form of a problem, and of a body under loads, and its digest.
 //!
 //! Mathematical fields only, matrices inlined, entries sorted, rationals in lowest terms; no name,
 //! comment, warning or window, and no reaction (it is checked when read, and changes nothing after
@@ -8,9 +8,9 @@
 //! anybody can do, the same mathematical problem; so a certificate that names the digest is bound
 //! to its matrices. `spec/formats.md` specifies the text, so that other programs can write it.
 
-use super::{Body, ContactState, Direction, Particle, Pencil, Problem, System};
+use super::{Body, ContactState, Direction, LoadedBody, Particle, Pencil, Problem, System};
 use mceip_exact::Sparse;
-use num_traits::One as _;
+use num_traits::{One as _, Zero as _};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
@@ -28,9 +28,31 @@ pub(super) fn text(problem: &Problem) -> String {
     out
 }
 
-/// SHA-256 of the canonical text in lower-case hexadecimal.
-pub(super) fn sha256(problem: &Problem) -> String {
-    let digest = Sha256::digest(text(problem).as_bytes());
+/// The canonical text of a body under loads: the system without its held dofs, all candidates
+/// stuck, then their gaps and the loads. Names, and what the loads are called, play no part.
+pub(super) fn loads_text(body: &LoadedBody) -> String {
+    let mut out = String::new();
+    line(&mut out, "mceip-canonical-loads/1");
+    write_system(&mut out, body.system());
+
+    for gap in body.gaps() {
+        line(&mut out, &format!("gap {gap}"));
+    }
+    for load in body.loads() {
+        line(&mut out, "load");
+        for (dof, value) in load.iter().enumerate() {
+            if !value.is_zero() {
+                line(&mut out, &format!("{dof} {value}"));
+            }
+        }
+    }
+
+    out
+}
+
+/// SHA-256 of a canonical text in lower-case hexadecimal.
+pub(super) fn sha256(text: &str) -> String {
+    let digest = Sha256::digest(text.as_bytes());
 
     let mut hexadecimal = String::with_capacity(64);
 

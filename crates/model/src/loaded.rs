@@ -9,6 +9,7 @@
 //! M_kk. Input: matrices over all dofs and the loads as (dof, value) pairs. [`LoadedBody`] is what
 //! a file `mceip-loads/1` holds and `mceip_path` follows.
 
+use super::canonical;
 use super::{ContactState, ModelError, Particle, Problem, System, Unknown, Window};
 use crate::problem::Body;
 use mceip_exact::{Rational, Sparse, to_f64};
@@ -137,18 +138,24 @@ impl LoadedBody {
         &self.places
     }
 
-    /// The MCEIP-mu problem of an equilibrium with these contact states; mu stays that of the
-    /// loads.
+    /// SHA-256 of the canonical form (`spec/formats.md`) in lower-case hexadecimal.
+    pub fn sha256(&self) -> String {
+        canonical::sha256(&canonical::loads_text(self))
+    }
+
+    /// The problem of an equilibrium with these contact states; mu stays that of the loads.
     ///
     /// # Errors
-    /// [`ModelError`] for a number of states other than that of candidates, or no slip.
+    /// [`ModelError`] for a number of states other than that of candidates, no slip, or what the
+    /// unknown needs.
     pub fn problem(
         &self,
         states: &[ContactState],
         friction: &Rational,
+        unknown: Unknown,
     ) -> Result<Problem, ModelError> {
         let system = self.system.with_states(states, Some(friction.clone()))?;
-        Problem::new(Body::System(system), Unknown::Mu, Window::all())
+        Problem::new(Body::System(system), unknown, Window::all())
     }
 }
 
@@ -372,15 +379,18 @@ mod tests {
     fn the_problem_of_a_state_has_the_states_and_friction() {
         let body = LoadedBody::new(chain()).unwrap();
         let slips = [ContactState::Slip { sign: 1 }];
-        let problem = body.problem(&slips, &rational(1, 3)).unwrap();
+        let problem = body.problem(&slips, &rational(1, 3), Unknown::Mu).unwrap();
 
         let Body::System(system) = problem.body() else {
             panic!("a system")
         };
         assert_eq!(system.particles()[0].state, slips[0]);
         assert_eq!(system.friction(), Some(&rational(1, 3)));
-        assert!(body.problem(&[], &whole(1)).is_err());
-        assert!(body.problem(&[ContactState::Stick], &whole(1)).is_err());
+        assert!(body.problem(&[], &whole(1), Unknown::Mu).is_err());
+        assert!(
+            body.problem(&[ContactState::Stick], &whole(1), Unknown::Mu)
+                .is_err()
+        );
     }
 
     #[test]

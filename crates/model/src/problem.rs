@@ -89,7 +89,7 @@ impl Problem {
     /// SHA-256 of [`Problem::canonical_text`], in lower-case hexadecimal: what certificates and
     /// reports name, so that they are bound to these matrices.
     pub fn sha256(&self) -> String {
-        canonical::sha256(self)
+        canonical::sha256(&canonical::text(self))
     }
 }
 

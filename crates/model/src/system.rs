@@ -43,6 +43,18 @@ impl ContactState {
             ContactState::Zero => "zero",
         }
     }
+
+    /// The letter used in pictures of many candidates: `<` impending slip against the tangent
+    /// (S = 1), `>` along it.
+    pub fn letter(self) -> char {
+        match self {
+            ContactState::Free => 'o',
+            ContactState::Zero => 'z',
+            ContactState::Stick => '.',
+            ContactState::Slip { sign } if sign > 0 => '<',
+            ContactState::Slip { .. } => '>',
+        }
+    }
 }
 
 /// The reaction at equilibrium, in the paper's directions (r_N <= 0 in contact).
