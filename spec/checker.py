@@ -439,11 +439,7 @@ class Problem:
             if taken & {t, n} or t == n:
                 raise Unreadable("a dof in two particles")
             taken |= {t, n}
-            text += [f"particle {t} {n} {state}" + (f" {sign}" if state == "slip" else "")]
-            for name, vector in (("tangent", tangent), ("normal", normal)):
-                text.append(" ".join([name] + [f"{d} {vector[d]}" for d in vector]))
-            if factor != 1:
-                text.append(f"friction_factor {factor}")
+            text += particle_lines(t, n, state, sign, tangent, normal, factor)
             friction = {d: factor * c for d, c in normal.items()}
             if state != "free":
                 held |= {t, n}
@@ -473,11 +469,7 @@ class Problem:
         self.n, self.free = len(trial), list(range(len(free)))
         if not slips:
             raise Unreadable("particles: expected one in impending slip")
-        for name, x in (("stiffness", k), ("mass", m)):
-            if x is not None:
-                e = x.entries()
-                text += [f"{name} {e[0]}", *e[1:]]
-        return text
+        return text + matrix_lines(k, m)
 
     @staticmethod
     def read_particle(obj, order, mu):
@@ -507,6 +499,24 @@ class Problem:
         if frame is None:
             return t, n, state, {t: Q(1)}, {n: Q(direction)}, sign, factor
         return t, n, state, {t: c[0][0], n: c[0][1]}, {t: direction * c[1][0], n: direction * c[1][1]}, sign, factor
+
+
+def particle_lines(t, n, state, sign, tangent, normal, factor):
+    """A particle in the text of a digest."""
+    text = [f"particle {t} {n} {state}" + (f" {sign}" if state == "slip" else "")]
+    for name, vector in (("tangent", tangent), ("normal", normal)):
+        text.append(" ".join([name] + [f"{d} {vector[d]}" for d in vector]))
+    return text + ([f"friction_factor {factor}"] if factor != 1 else [])
+
+
+def matrix_lines(k, m):
+    """Stiffness and mass in the text of a digest."""
+    text = []
+    for name, x in (("stiffness", k), ("mass", m)):
+        if x is not None:
+            e = x.entries()
+            text += [f"{name} {e[0]}", *e[1:]]
+    return text
 
 
 def project(test, k, trial):
@@ -2187,10 +2197,197 @@ def check_mcp(doc, certificate_path):
     return 0, f"ACCEPTED: {len(points)} solution(s)"
 
 
+# ---------------------------------------------------------------- contact states under loads
+
+class Loads:
+    """A body under loads: K, M, candidates and loads without the held dofs, and the digest."""
+
+    def __init__(self, doc, folder):
+        _, system, steps, _, *words = fields(doc, "format system steps", "coordinates name comment")
+        for word in words:
+            Maybe(text_of)(word)
+        k, candidates, m, mu, held = fields(system, "stiffness candidates", "mass friction held")
+        k = read_matrix(k, folder, "stiffness")
+        m = None if m is None else read_matrix(m, folder, "mass")
+        mu = None if mu is None else number(mu)
+        if mu is not None and mu <= 0:
+            raise Unreadable("friction must be positive (X8)")
+        order = len(k.rows)
+        for x in (k,) if m is None else (k, m):
+            if (len(x.rows), x.cols) != (order, order) or any(x.rows[j].get(i) != v for i, r in enumerate(x.rows) for j, v in r.items()):
+                raise Unreadable("stiffness and mass must be symmetric, of one order")
+        held = {index(d, order) for d in sequence([] if held is None else held)}
+        given = []  # of each step: forces, displacements
+        for step in sequence(steps):
+            name, endless, *values = fields(step, "", "name endless forces displacements")
+            Maybe(text_of)(name)
+            Maybe(flag)(endless)
+            if endless and step is not steps[-1]:
+                raise Unreadable("an endless step before another")
+            given.append([self.values(pairs, order) for pairs in values])
+        if not given:
+            raise Unreadable("steps: expected one")
+        for _, displacements in given:
+            held |= set(displacements)
+        kept = [d for d in range(order) if d not in held]
+        new = {d: i for i, d in enumerate(kept)}
+        self.loads = []
+        for forces, displacements in given:
+            if held & set(forces):
+                raise Unreadable("a force on a held dof")
+            load = {new[d]: v for d, v in forces.items()}
+            for d, v in displacements.items():
+                for e, entry in k.rows[d].items():
+                    if e in new:
+                        load[new[e]] = load.get(new[e], 0) - entry * v
+            self.loads.append({d: v for d, v in load.items() if v})
+        self.k, m = self.without(k, new), None if m is None else self.without(m, new)
+        self.order, self.candidates, self.gaps = len(kept), [], []
+        text = ["mceip-canonical-loads/1", "system"] + ([] if mu is None else [f"friction {mu}"])
+        for obj in sequence(candidates):
+            if not isinstance(obj, dict) or "state" in obj:
+                raise Unreadable("a candidate has no state")
+            obj, gap = {key: v for key, v in obj.items() if key != "gap"}, obj.get("gap")
+            gap = Q(0) if gap is None else number(gap)
+            obj = {**obj, "state": "stick"}
+            t, n, _, tangent, normal, _, factor = Problem.read_particle(obj, order, None)
+            if gap < 0 or t not in new or n not in new or t == n:
+                raise Unreadable("a candidate on a held dof, or with a negative gap")
+            tangent, normal = ({new[d]: c for d, c in v.items()} for v in (tangent, normal))
+            text += particle_lines(new[t], new[n], "stick", None, tangent, normal, factor)
+            self.candidates.append((new[t], new[n], tangent, normal, factor))
+            self.gaps.append(gap)
+        dofs = [d for t, n, *_ in self.candidates for d in (t, n)]
+        if not dofs or len(set(dofs)) < len(dofs):
+            raise Unreadable("expected candidates, each dof in one of them")
+        text += matrix_lines(self.k, m) + [f"gap {gap}" for gap in self.gaps]
+        for load in self.loads:
+            text += ["load"] + [f"{d} {load[d]}" for d in sorted(load)]
+        self.digest = hashlib.sha256("".join(line + "\n" for line in text).encode()).hexdigest()
+
+    @staticmethod
+    def values(pairs, order):
+        out = {}
+        for pair in sequence([] if pairs is None else pairs):
+            if len(sequence(pair)) != 2 or (d := index(pair[0], order)) in out:
+                raise Unreadable("a value is [dof, number], each dof once")
+            out[d] = number(pair[1])
+        return out
+
+    @staticmethod
+    def without(matrix, new):
+        out = Matrix(len(new), len(new), "a matrix")
+        for d, i in new.items():
+            out.rows[i] = {new[e]: v for e, v in matrix.rows[d].items() if e in new}
+        return out
+
+
+class Equilibrium:
+    """The pencil of which the stated equilibrium is a solution, with the variables in turn: the
+    dofs of no candidate in contact, u_T in slip and zero, s, one for each inequality (C)."""
+
+    def __init__(self, loads, mu, amounts, states):
+        force = {}
+        for load, amount in zip(loads.loads, amounts):
+            for d, v in load.items():
+                force[d] = force.get(d, 0) + amount * v
+        contact = {d for (t, n, *_), (state, _) in zip(loads.candidates, states) if state != "free" for d in (t, n)}
+        trial = [{d: Q(1)} for d in range(loads.order) if d not in contact]
+        equations, given, inequalities, zeros = list(trial), {}, [], []
+        minus = lambda v: {d: -c for d, c in v.items()}
+        plus = lambda v, w: {d: v.get(d, 0) + w.get(d, 0) for d in {*v, *w}}
+        for (_, _, tangent, normal, factor), gap, (state, value) in zip(loads.candidates, loads.gaps, states):
+            friction = {d: mu * factor * c for d, c in normal.items()}
+            if state == "free":
+                inequalities.append((normal, gap))
+                continue
+            given = plus(given, {d: gap * c for d, c in normal.items()})
+            if state == "zero":
+                zeros.append(len(inequalities))
+            inequalities.append((minus(normal), None))
+            if state == "stick":
+                given = plus(given, {d: value * c for d, c in tangent.items()})
+                inequalities += [(minus(plus(friction, v)), None) for v in (tangent, minus(tangent))]
+            else:
+                side = {d: value * c for d, c in tangent.items()}
+                trial.append(tangent)
+                equations.append(plus(side, friction) if state == "slip" else tangent)
+        self.load = len(trial)
+        trial.append(given)
+        self.a = []
+        for row, p in zip(project(equations, loads.k.rows, trial), equations):
+            self.a.append(self.with_load(row, -self.along(p, force)))
+        self.a.append({self.load: Q(-1)})
+        for vector, gap in inequalities:
+            if gap is None:
+                row, = project([vector], loads.k.rows, trial)
+                self.a.append(self.with_load(row, -self.along(vector, force)))
+            else:
+                row = {j: -sum(vector.get(d, 0) * c for d, c in column.items()) for j, column in enumerate(trial)}
+                self.a.append(self.with_load({j: v for j, v in row.items() if v}, gap))
+        self.n = len(self.a)
+        self.b = [{self.load: Q(1)} if i == self.load else {} for i in range(self.n)]
+        self.free, self.s = list(range(self.load)), list(range(self.load, self.n))
+        self.zeros = [self.load + 1 + i for i in zeros]
+        self.halves, self.system = [], None
+
+    @staticmethod
+    def along(vector, force):
+        return sum((c * force.get(d, 0) for d, c in vector.items()), Q(0))
+
+    def with_load(self, row, value):
+        row = {**row, self.load: row.get(self.load, 0) + value}
+        return {j: v for j, v in row.items() if v}
+
+
+def stated_state(obj):
+    """(state, sign or u_T)."""
+    if not isinstance(obj, dict) or obj.get("state") not in ("free", "stick", "slip", "zero"):
+        raise Unreadable("a candidate has a state")
+    state = obj["state"]
+    if state == "stick":
+        return state, number(fields(obj, "state tangential")[1])
+    if state == "slip":
+        sign = counter(fields(obj, "state sign")[1], -1, 1)
+        if sign == 0:
+            raise Unreadable("sign is 1 or -1")
+        return state, sign
+    fields(obj, "state")
+    return state, 0
+
+
+EQUILIBRIUM = record(format=text_of, loads_sha256=text_of, friction=number, amounts=list_of(number), candidates=list_of(stated_state), claim=CLAIM)
+
+
+def check_equilibrium(loads, doc):
+    if not isinstance(doc, dict) or doc.get("format") != "mceip-equilibrium/1":
+        raise Unreadable("format: mceip-equilibrium/1 was expected")
+    EQUILIBRIUM(doc)
+    _, digest, mu, amounts, states, claim = fields(doc, "format loads_sha256 friction amounts candidates claim")
+    mu, amounts, states = number(mu), [number(a) for a in amounts], [stated_state(c) for c in states]
+    demand(digest == loads.digest, f"the digest of the loads is {loads.digest}")
+    demand(mu > 0, "friction")
+    demand(len(amounts) == len(loads.loads), "amounts: one for each load")
+    demand(len(states) == len(loads.gaps), "candidates: one state for each")
+    p = Equilibrium(loads, mu, amounts, states)
+    Budget.claims = 2**43 + 2**34
+    (kind, body), = claim.items()
+    support, biactive, *_ = CLAIMS[kind](p, integral_rows(p), (Q(0), None), body)
+    demand(support == [p.load], "the support is not the load alone")
+    demand(sorted(biactive) == p.zeros, "the rows that vanish are not those of the candidates in state zero")
+    return 0, "ACCEPTED: an equilibrium in these contact states"
+
+
+CLAIMS = {"exact_solution": exact_solution, "enclosed_solution": enclosed_solution, "lifted_solution": lifted_solution}
+
+
 def check(problem_path, certificate_path):
     plain = read_json(problem_path)
     if isinstance(plain, dict) and plain.get("format") == "mceip-mcp/1":
         return check_mcp(plain, certificate_path)
+    if isinstance(plain, dict) and plain.get("format") == "mceip-loads/1":
+        loads = Loads(plain, os.path.dirname(os.path.abspath(problem_path)))
+        return check_equilibrium(loads, read_json(certificate_path))
     p = Problem(problem_path)
     doc = read_json(certificate_path)
     if isinstance(doc, dict) and doc.get("format") == "mceip-critical/1":
@@ -2211,10 +2408,9 @@ def check(problem_path, certificate_path):
         if not isinstance(c, dict) or len(c) != 1:
             raise Unreadable("a claim is an object with one key")
         (kind, body), = c.items()
-        kinds = {"exact_solution": exact_solution, "enclosed_solution": enclosed_solution, "lifted_solution": lifted_solution}
-        if kind not in kinds:
+        if kind not in CLAIMS:
             raise Unreadable(f"unknown claim {kind[:40]!r}")
-        claims.append(kinds[kind](p, rows, window, body))
+        claims.append(CLAIMS[kind](p, rows, window, body))
     text = f"{len(claims)} claim(s)"
     if complete is None:
         return 0, f"ACCEPTED: {text}"

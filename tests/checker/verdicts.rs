@@ -7,15 +7,16 @@
 
 use crate::corpus_reader::{Entry, MALFORMED, entries};
 use mceip_check::certificate::{
-    CRITICAL_FORMAT, Certificate, CriticalCertificate, PRESENCE_FORMAT, PresenceCertificate,
+    CRITICAL_FORMAT, Certificate, CriticalCertificate, EquilibriumCertificate, PRESENCE_FORMAT,
+    PresenceCertificate,
 };
 use mceip_check::{
     Accepted, AcceptedAbsence, AcceptedCover, AcceptedPresence, Rejected, SolutionFamily, audit,
-    audit_critical, check, check_critical, check_presence,
+    audit_critical, check, check_critical, check_equilibrium, check_presence,
 };
 use mceip_exact::Interval;
-use mceip_model::Problem;
-use mceip_model::file::{read_problem, require_format};
+use mceip_model::file::{read_loads, read_problem, require_format};
+use mceip_model::{LoadedBody, Problem};
 use num_traits::Zero;
 use snapbox::{Assert, Data};
 use std::fmt::Write as _;
@@ -24,15 +25,15 @@ use std::path::Path;
 /// A file of the corpus whose certificate can be read.
 struct Case {
     name: String,
-    problem: Problem,
-    certificate: Read,
+    read: Read,
 }
 
-/// A certificate of one of the formats.
+/// A certificate of one of the formats, with what it is about.
 enum Read {
-    Certificate(Certificate),
-    Critical(CriticalCertificate),
-    Presence(PresenceCertificate),
+    Certificate(Problem, Certificate),
+    Critical(Problem, CriticalCertificate),
+    Presence(Problem, PresenceCertificate),
+    Equilibrium(Box<LoadedBody>, EquilibriumCertificate),
 }
 
 /// The files whose certificates can be read, by name; those that repeat a unit and those about
@@ -49,18 +50,22 @@ fn cases() -> Vec<Case> {
 
 fn read_case(entry: &Entry) -> Case {
     let text = &entry.certificate;
-    let certificate = if require_format(text, CRITICAL_FORMAT).is_ok() {
-        Read::Critical(CriticalCertificate::from_json(text).unwrap())
+    let problem = || read_problem(&entry.problem, Path::new("/")).unwrap();
+    let read = if entry.is_loads() {
+        let file = read_loads(&entry.problem, Path::new("/")).unwrap();
+        let certificate = EquilibriumCertificate::from_json(text).unwrap();
+        Read::Equilibrium(Box::new(file.body), certificate)
+    } else if require_format(text, CRITICAL_FORMAT).is_ok() {
+        Read::Critical(problem(), CriticalCertificate::from_json(text).unwrap())
     } else if require_format(text, PRESENCE_FORMAT).is_ok() {
-        Read::Presence(PresenceCertificate::from_json(text).unwrap())
+        Read::Presence(problem(), PresenceCertificate::from_json(text).unwrap())
     } else {
-        Read::Certificate(Certificate::from_json(text).unwrap())
+        Read::Certificate(problem(), Certificate::from_json(text).unwrap())
     };
 
     Case {
         name: entry.name.clone(),
-        problem: read_problem(&entry.problem, Path::new("/")).unwrap(),
-        certificate,
+        read,
     }
 }
 
@@ -68,10 +73,12 @@ fn read_case(entry: &Entry) -> Case {
 fn verdicts() -> String {
     let mut text = String::new();
     for case in cases() {
-        let lines = match &case.certificate {
-            Read::Certificate(certificate) => lines_of(&case, certificate),
-            Read::Critical(certificate) => critical_lines(&case, certificate),
-            Read::Presence(certificate) => presence_lines(&case, certificate),
+        let name = &case.name;
+        let lines = match &case.read {
+            Read::Certificate(problem, certificate) => lines_of(name, problem, certificate),
+            Read::Critical(problem, certificate) => critical_lines(name, problem, certificate),
+            Read::Presence(problem, certificate) => presence_lines(problem, certificate),
+            Read::Equilibrium(body, certificate) => equilibrium_lines(body, certificate),
         };
         for line in lines {
             writeln!(text, "{}: {line}", case.name).unwrap();
@@ -80,21 +87,21 @@ fn verdicts() -> String {
     text
 }
 
-fn lines_of(case: &Case, certificate: &Certificate) -> Vec<String> {
-    match check(&case.problem, certificate) {
+fn lines_of(name: &str, problem: &Problem, certificate: &Certificate) -> Vec<String> {
+    match check(problem, certificate) {
         Ok(accepted) => accepted_lines(&accepted),
-        Err(rejected) => rejected_lines(case, certificate, &rejected),
+        Err(rejected) => rejected_lines(name, problem, certificate, &rejected),
     }
 }
 
-fn critical_lines(case: &Case, certificate: &CriticalCertificate) -> Vec<String> {
-    let audited = audit_critical(&case.problem, certificate, &|| true);
+fn critical_lines(name: &str, problem: &Problem, certificate: &CriticalCertificate) -> Vec<String> {
+    let audited = audit_critical(problem, certificate, &|| true);
     let audited = audited.map(|audited| audited.unwrap().1);
     let refused = |list| format!("audit: leaves refused (piece, node): {list:?}");
 
-    match (check_critical(&case.problem, certificate), audited) {
+    match (check_critical(problem, certificate), audited) {
         (Ok(accepted), Ok(list)) => {
-            assert!(list.is_empty(), "{}", case.name);
+            assert!(list.is_empty(), "{name}");
             let AcceptedAbsence {
                 from,
                 below,
@@ -114,17 +121,29 @@ fn critical_lines(case: &Case, certificate: &CriticalCertificate) -> Vec<String>
             ]
         }
         (Err(rejected), Err(again)) => {
-            assert_eq!(again, rejected, "{}", case.name);
+            assert_eq!(again, rejected, "{name}");
             vec![format!("{}: {rejected}", rejected.reason.name())]
         }
-        (Ok(_), Err(rejected)) => panic!("{}: {rejected}", case.name),
+        (Ok(_), Err(rejected)) => panic!("{name}: {rejected}"),
     }
 }
 
-fn presence_lines(case: &Case, certificate: &PresenceCertificate) -> Vec<String> {
-    let line = match check_presence(&case.problem, certificate) {
+fn presence_lines(problem: &Problem, certificate: &PresenceCertificate) -> Vec<String> {
+    let line = match check_presence(problem, certificate) {
         Ok(AcceptedPresence { from, to, pieces }) => {
             format!("presence from {from} to {to}, pieces: {pieces}")
+        }
+        Err(rejected) => format!("{}: {rejected}", rejected.reason.name()),
+    };
+    vec![line]
+}
+
+fn equilibrium_lines(body: &LoadedBody, certificate: &EquilibriumCertificate) -> Vec<String> {
+    let line = match check_equilibrium(body, certificate) {
+        Ok(accepted) => {
+            let states = accepted.states.iter().map(|state| state.letter());
+            let states: String = states.collect();
+            format!("equilibrium in the states {states}")
         }
         Err(rejected) => format!("{}: {rejected}", rejected.reason.name()),
     };
@@ -189,11 +208,16 @@ fn spelt(interval: &Interval) -> String {
 }
 
 /// The reason, and for a cover the leaves that an audit refuses.
-fn rejected_lines(case: &Case, certificate: &Certificate, rejected: &Rejected) -> Vec<String> {
+fn rejected_lines(
+    name: &str,
+    problem: &Problem,
+    certificate: &Certificate,
+    rejected: &Rejected,
+) -> Vec<String> {
     let mut lines = vec![format!("{}: {rejected}", rejected.reason.name())];
-    match audit(&case.problem, certificate) {
+    match audit(problem, certificate) {
         Ok((_, refused)) => lines.push(format!("audit: leaves refused (piece, node): {refused:?}")),
-        Err(again) => assert_eq!(again, *rejected, "{}", case.name),
+        Err(again) => assert_eq!(again, *rejected, "{name}"),
     }
     lines
 }

@@ -3,13 +3,13 @@
 
 use crate::support::{ACCEPTED, Entry, MALFORMED, REJECTED, UNDECIDED, entries};
 use libtest_mimic::{Failed, Trial};
+use mceip_check::Provable;
 use mceip_check::certificate::{
-    CRITICAL_FORMAT, Certificate, CriticalCertificate, PRESENCE_FORMAT, PresenceCertificate,
+    CRITICAL_FORMAT, Certificate, CriticalCertificate, EquilibriumCertificate, PRESENCE_FORMAT,
+    PresenceCertificate,
 };
-use mceip_check::{check, check_critical, check_presence};
 use mceip_engine::lcp;
-use mceip_model::Problem;
-use mceip_model::file::{read_problem, require_format};
+use mceip_model::file::{read_loads, read_problem, require_format};
 use std::path::Path;
 use std::time::Duration;
 
@@ -67,53 +67,41 @@ impl Judgement {
 
 /// Our checker in this process.
 fn judge(entry: &Entry) -> Judgement {
+    let text = &entry.certificate;
     if entry.is_plain() {
         return judge_plain(entry);
     }
+    if entry.is_loads() {
+        let file = read_loads(&entry.problem, Path::new("/")).unwrap();
+        return judged::<EquilibriumCertificate>(&file.body, text).0;
+    }
 
     let problem = read_problem(&entry.problem, Path::new("/")).unwrap();
-    let is_of_format = |format| require_format(&entry.certificate, format).is_ok();
+    let is_of_format = |format| require_format(text, format).is_ok();
     if is_of_format(CRITICAL_FORMAT) {
-        return judge_critical(entry, &problem);
+        return judged::<CriticalCertificate>(&problem, text).0;
     }
     if is_of_format(PRESENCE_FORMAT) {
-        return judge_presence(entry, &problem);
+        return judged::<PresenceCertificate>(&problem, text).0;
     }
 
-    let Ok(certificate) = Certificate::from_json(&entry.certificate) else {
-        return Judgement::without_reason(MALFORMED);
-    };
-
-    match check(&problem, &certificate) {
-        Ok(accepted) => {
-            let is_open = accepted.cover.is_some_and(|cover| !cover.open.is_empty());
-            Judgement::without_reason(if is_open { UNDECIDED } else { ACCEPTED })
-        }
-        Err(rejected) => Judgement::rejected(rejected.reason.name()),
+    let (judgement, accepted) = judged::<Certificate>(&problem, text);
+    let cover = accepted.and_then(|accepted| accepted.cover);
+    if cover.is_some_and(|cover| !cover.open.is_empty()) {
+        return Judgement::without_reason(UNDECIDED);
     }
+    judgement
 }
 
-/// The same for absence below a friction.
-fn judge_critical(entry: &Entry, problem: &Problem) -> Judgement {
-    let Ok(certificate) = CriticalCertificate::from_json(&entry.certificate) else {
-        return Judgement::without_reason(MALFORMED);
+/// The judgement on a certificate of one kind, and what an accepted one has proved.
+fn judged<C: Provable>(subject: &C::Subject, text: &str) -> (Judgement, Option<C::Accepted>) {
+    let Ok(certificate) = C::read(text) else {
+        return (Judgement::without_reason(MALFORMED), None);
     };
 
-    match check_critical(problem, &certificate) {
-        Ok(_) => Judgement::without_reason(ACCEPTED),
-        Err(rejected) => Judgement::rejected(rejected.reason.name()),
-    }
-}
-
-/// The same for presence on an interval of friction.
-fn judge_presence(entry: &Entry, problem: &Problem) -> Judgement {
-    let Ok(certificate) = PresenceCertificate::from_json(&entry.certificate) else {
-        return Judgement::without_reason(MALFORMED);
-    };
-
-    match check_presence(problem, &certificate) {
-        Ok(_) => Judgement::without_reason(ACCEPTED),
-        Err(rejected) => Judgement::rejected(rejected.reason.name()),
+    match certificate.check(subject) {
+        Ok(accepted) => (Judgement::without_reason(ACCEPTED), Some(accepted)),
+        Err(rejected) => (Judgement::rejected(rejected.reason.name()), None),
     }
 }
 

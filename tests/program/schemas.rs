@@ -9,7 +9,9 @@ use crate::common::{example, exits, pencil_problem, run};
 use crate::corpus_reader::{Entry, MALFORMED, entries, entry};
 use crate::program::Folder;
 use jsonschema::Validator;
-use mceip_check::certificate::{Certificate, CriticalCertificate, PresenceCertificate};
+use mceip_check::certificate::{
+    Certificate, CriticalCertificate, EquilibriumCertificate, PresenceCertificate,
+};
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport};
 use mceip_engine::lcp::{FileError, read_mcp, read_solution};
 use mceip_model::ModelError;
@@ -467,6 +469,8 @@ fn the_corpus_is_valid() {
     let certificates = schema("mceip-certificate-1");
     let critical = schema("mceip-critical-1");
     let presence = schema("mceip-presence-1");
+    let equilibrium = schema("mceip-equilibrium-1");
+    let loads = schema("mceip-loads-1");
     let mcp = schema("mceip-mcp-1");
     let mcp_solution = schema("mceip-mcp-solution-1");
 
@@ -486,6 +490,10 @@ fn the_corpus_is_valid() {
         }
 
         let is_plain = file["problem"]["format"] == "mceip-mcp/1";
+        let is_loads = file["problem"]["format"] == "mceip-loads/1";
+        if is_loads {
+            valid(&loads, &file["problem"], &name);
+        }
         if is_plain {
             valid(&mcp, &file["problem"], &name);
             plain += 1;
@@ -498,6 +506,8 @@ fn the_corpus_is_valid() {
             &critical
         } else if format == "mceip-presence/1" {
             &presence
+        } else if is_loads {
+            &equilibrium
         } else {
             &certificates
         };
@@ -548,6 +558,7 @@ fn the_readers_of_reports_and_certificates_agree_with_the_schemas() {
     damaged_certificates_agree(&mut tally);
     damaged_absences_agree(&mut tally);
     damaged_presences_agree(&mut tally);
+    damaged_equilibria_agree(&mut tally);
 
     assert!(tally.invalid > 50, "{tally:?}");
     assert!(tally.valid > 5, "{tally:?}");
@@ -651,6 +662,29 @@ fn damaged_presences_agree(tally: &mut Tally) {
         for copy in damaged(&read(&root(&path))) {
             let is_valid = schema.is_valid(&copy);
             let read = PresenceCertificate::from_json(&copy.to_string());
+
+            // That -1/2 is no integer follows from its meaning: a schema cannot divide.
+            let of_meaning = match &read {
+                Ok(_) => false,
+                Err(e) => e.to_string().contains("expected an integer"),
+            };
+            assert_eq!(is_valid, read.is_ok() || of_meaning, "{copy}: {read:?}");
+            tally.count(is_valid);
+        }
+    }
+}
+
+/// Contact states under loads.
+fn damaged_equilibria_agree(tally: &mut Tally) {
+    let schema = schema("mceip-equilibrium-1");
+
+    for name in ["stick", "slip-box", "zero", "free"] {
+        let file = read(&root(&format!(
+            "spec/corpus/accept/equilibrium-{name}.json"
+        )));
+        for copy in damaged(&file["certificate"]) {
+            let is_valid = schema.is_valid(&copy);
+            let read = EquilibriumCertificate::from_json(&copy.to_string());
 
             // That -1/2 is no integer follows from its meaning: a schema cannot divide.
             let of_meaning = match &read {

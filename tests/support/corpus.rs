@@ -40,6 +40,11 @@ impl Entry {
         self.file["problem"]["format"] == "mceip-mcp/1"
     }
 
+    /// About a body under loads and its contact states.
+    pub fn is_loads(&self) -> bool {
+        self.file["problem"]["format"] == "mceip-loads/1"
+    }
+
     /// A long text that is spelt short.
     pub fn is_repeated(&self) -> bool {
         self.file.get("repeat").is_some()

@@ -18,7 +18,9 @@
 //!
 //! A file of its own kind states absence for a range of friction (`critical`): there is no solution
 //! with mu in [0, `below`] and lambda^2 >= 0. Its evidence is a partition as well. Another one
-//! states presence (`presence`): there is a solution for every mu in [`from`, `to`].
+//! states presence (`presence`): there is a solution for every mu in [`from`, `to`]. A third one
+//! states the contact states of an equilibrium under loads (`equilibrium`); its evidence is one
+//! solution of a pencil made of the loads and the states.
 //!
 //! The checker multiplies and compares integers and fractions. It has no floating point number, it
 //! solves no linear system and finds no root, and it shares no algorithm with the code that finds
@@ -36,6 +38,7 @@ pub mod certificate;
 mod cover;
 mod critical;
 mod enclosed;
+mod equilibrium;
 mod exact_solution;
 mod lifted_solution;
 mod pencil;
@@ -46,6 +49,7 @@ mod reason;
 pub use backward_error::backward_error;
 pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, Place, SolutionFamily};
 pub use critical::{AcceptedAbsence, audit_critical, check_critical};
+pub use equilibrium::{AcceptedEquilibrium, EquilibriumPencil, check_equilibrium};
 pub use presence::{AcceptedPresence, check_presence};
 pub use proved::{NotAccepted, Provable, Proved};
 pub use reason::{Reason, Rejected};

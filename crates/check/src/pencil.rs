@@ -43,7 +43,7 @@ use std::collections::BTreeMap;
 pub(super) type Row = Vec<(usize, Integer, Integer)>;
 
 /// One row of A or of B before that: (column, value).
-type RationalRow = Vec<(usize, Rational)>;
+pub(super) type RationalRow = Vec<(usize, Rational)>;
 
 /// The two variables that v_T of a particle with zero reaction is split into, and its gap.
 #[derive(Clone, Copy)]
@@ -344,8 +344,8 @@ struct Variables {
     friction: Vec<Direction>,
     /// One entry for each particle with zero reaction.
     halves: Vec<Halves>,
-    /// T by rows: for each degree of freedom, the variables that move it and by how much.
-    moved_by: Vec<RationalRow>,
+    /// T by rows.
+    trial: Trial,
 }
 
 impl Variables {
@@ -394,25 +394,42 @@ impl Variables {
             }
         }
 
-        let mut moved_by: Vec<RationalRow> = vec![Vec::new(); system.dofs()];
+        Variables {
+            free: free_dofs.len(),
+            trial: Trial::of(&columns, system.dofs()),
+            columns,
+            rows,
+            friction,
+            halves,
+        }
+    }
+
+    /// The row p' M T.
+    fn reduced(&self, p: &Direction, matrix: &Sparse) -> RationalRow {
+        self.trial.reduced(p, matrix)
+    }
+}
+
+/// T by rows: for each degree of freedom, the variables that move it and by how much.
+pub(super) struct Trial {
+    moved_by: Vec<RationalRow>,
+}
+
+impl Trial {
+    /// From the columns of T, directions over so many degrees of freedom.
+    pub(super) fn of(columns: &[Direction], dofs: usize) -> Trial {
+        let mut moved_by: Vec<RationalRow> = vec![Vec::new(); dofs];
         for (j, column) in columns.iter().enumerate() {
             for (dof, c) in column {
                 moved_by[*dof].push((j, c.clone()));
             }
         }
 
-        Variables {
-            free: free_dofs.len(),
-            columns,
-            rows,
-            friction,
-            halves,
-            moved_by,
-        }
+        Trial { moved_by }
     }
 
     /// The row p' M T.
-    fn reduced(&self, p: &Direction, matrix: &Sparse) -> RationalRow {
+    pub(super) fn reduced(&self, p: &Direction, matrix: &Sparse) -> RationalRow {
         let mut row: BTreeMap<usize, Rational> = BTreeMap::new();
         for (d, p_d) in p {
             for (e, m_de) in matrix.row(*d) {
@@ -426,7 +443,8 @@ impl Variables {
     }
 }
 
-fn scale(direction: &Direction, factor: &Rational) -> Direction {
+/// The direction times a number.
+pub(super) fn scale(direction: &Direction, factor: &Rational) -> Direction {
     direction
         .iter()
         .map(|(dof, c)| (*dof, c * factor))

@@ -5,11 +5,15 @@
 //! very certificate. Claims that cost more together than one file may are shared out over several
 //! files ([`Proved::claims`]).
 
-use crate::certificate::{Certificate, Claim, CriticalCertificate, Node, PresenceCertificate};
-use crate::{Accepted, AcceptedAbsence, AcceptedPresence, LeafPlace, Rejected};
+use crate::certificate::{
+    Certificate, Claim, CriticalCertificate, EquilibriumCertificate, Node, PresenceCertificate,
+};
+use crate::{
+    Accepted, AcceptedAbsence, AcceptedEquilibrium, AcceptedPresence, LeafPlace, Rejected,
+};
 use crate::{allowed_work, audit, audit_critical, work_of};
-use crate::{check, check_critical, check_presence};
-use mceip_model::{ModelError, Problem};
+use crate::{check, check_critical, check_equilibrium, check_presence};
+use mceip_model::{LoadedBody, ModelError, Problem};
 
 /// The kinds are those of this crate: nobody else says what is accepted.
 mod sealed {
@@ -19,17 +23,20 @@ mod sealed {
 impl sealed::Kind for Certificate {}
 impl sealed::Kind for CriticalCertificate {}
 impl sealed::Kind for PresenceCertificate {}
+impl sealed::Kind for EquilibriumCertificate {}
 
 /// A kind of certificate: its verdict and its file.
 pub trait Provable: Sized + PartialEq + sealed::Kind {
+    /// What it is about.
+    type Subject;
     /// What an accepted one has proved.
     type Accepted;
 
-    /// Checks the certificate against a problem.
+    /// Checks the certificate against what it is about.
     ///
     /// # Errors
     /// [`Rejected`] with the first obligation that fails.
-    fn check(&self, problem: &Problem) -> Result<Self::Accepted, Rejected>;
+    fn check(&self, subject: &Self::Subject) -> Result<Self::Accepted, Rejected>;
 
     /// The text of its file.
     fn text(&self) -> String;
@@ -42,6 +49,7 @@ pub trait Provable: Sized + PartialEq + sealed::Kind {
 }
 
 impl Provable for Certificate {
+    type Subject = Problem;
     type Accepted = Accepted;
 
     fn check(&self, problem: &Problem) -> Result<Accepted, Rejected> {
@@ -58,6 +66,7 @@ impl Provable for Certificate {
 }
 
 impl Provable for CriticalCertificate {
+    type Subject = Problem;
     type Accepted = AcceptedAbsence;
 
     fn check(&self, problem: &Problem) -> Result<AcceptedAbsence, Rejected> {
@@ -74,6 +83,7 @@ impl Provable for CriticalCertificate {
 }
 
 impl Provable for PresenceCertificate {
+    type Subject = Problem;
     type Accepted = AcceptedPresence;
 
     fn check(&self, problem: &Problem) -> Result<AcceptedPresence, Rejected> {
@@ -89,6 +99,23 @@ impl Provable for PresenceCertificate {
     }
 }
 
+impl Provable for EquilibriumCertificate {
+    type Subject = LoadedBody;
+    type Accepted = AcceptedEquilibrium;
+
+    fn check(&self, body: &LoadedBody) -> Result<AcceptedEquilibrium, Rejected> {
+        check_equilibrium(body, self)
+    }
+
+    fn text(&self) -> String {
+        self.to_json()
+    }
+
+    fn read(text: &str) -> Result<EquilibriumCertificate, ModelError> {
+        EquilibriumCertificate::from_json(text)
+    }
+}
+
 /// A certificate that is accepted as a whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Proved<C: Provable> {
@@ -97,12 +124,12 @@ pub struct Proved<C: Provable> {
 }
 
 impl<C: Provable> Proved<C> {
-    /// The certificate, if it is accepted for this problem.
+    /// The certificate, if it is accepted for this problem or body.
     ///
     /// # Errors
     /// [`Rejected`] with the first obligation that fails.
-    pub fn new(problem: &Problem, certificate: C) -> Result<Proved<C>, Rejected> {
-        let accepted = certificate.check(problem)?;
+    pub fn new(subject: &C::Subject, certificate: C) -> Result<Proved<C>, Rejected> {
+        let accepted = certificate.check(subject)?;
         Ok(Proved {
             certificate,
             accepted,

@@ -363,6 +363,26 @@ pub enum Reason {
         /// Upper end.
         b: Rational,
     },
+    /// The friction of an equilibrium is not positive.
+    #[error("friction: expected > 0, got {got}")]
+    FrictionNotPositive {
+        /// What the certificate states.
+        got: Rational,
+    },
+    /// The solution of the pencil of an equilibrium has no load.
+    #[error("support: expected [{expected}], the load alone, got {got:?}")]
+    NotTheLoad {
+        /// The variable s.
+        expected: usize,
+        /// The support of the claim.
+        got: Vec<usize>,
+    },
+    /// The pencil of an equilibrium cannot be formed.
+    #[error("equilibrium: {what}")]
+    NoPencil {
+        /// What the model refuses.
+        what: String,
+    },
     /// A friction below which absence is claimed is not positive.
     #[error("below: expected > 0, got {got}")]
     Below {

@@ -1,5 +1,5 @@
 //! `mceip-certificate/1`: what a certificate says, and its file form. (`critical` does the same for
-//! `mceip-critical/1`, `presence` for `mceip-presence/1`.)
+//! `mceip-critical/1`, `presence` for `mceip-presence/1`, `equilibrium` for `mceip-equilibrium/1`.)
 //!
 //! This module holds data and reads and writes it; it decides nothing. A certificate names its
 //! problem by digest, states a window of values and makes claims: solutions ([`Claim`]), and
@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 mod cover;
 mod critical;
+mod equilibrium;
 mod presence;
 mod row;
 pub use cover::{
@@ -27,6 +28,7 @@ pub use critical::{
     CRITICAL_FORMAT, CriticalAnchor, CriticalCertificate, CriticalCondensation, CriticalTail,
     Regular,
 };
+pub use equilibrium::{EQUILIBRIUM_FORMAT, EquilibriumCertificate, StatedEquilibrium, StatedState};
 pub use presence::{PRESENCE_FORMAT, PresenceCertificate, PresencePiece};
 pub use row::IntegerRow;
 
