@@ -18,15 +18,15 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 /// A body with two candidates (dofs 0 to 3) and up to two more dofs, one of which may be held.
-struct Instance {
-    body: LoadedBody,
-    friction: Rational,
+pub(crate) struct Instance {
+    pub(crate) body: LoadedBody,
+    pub(crate) friction: Rational,
 }
 
 impl Instance {
     /// Most bodies are coupled; some are twice the same candidate, where everything happens twice
     /// at once, and of some the second candidate touches and is never loaded.
-    fn random(rng: &mut ChaCha8Rng) -> Instance {
+    pub(crate) fn random(rng: &mut ChaCha8Rng) -> Instance {
         match rng.random_range(0..10) {
             0 => Instance::of_two(rng, true),
             1 => Instance::of_two(rng, false),
@@ -118,7 +118,7 @@ impl Instance {
         }
     }
 
-    fn follow(&self) -> LoadingPath {
+    pub(crate) fn follow(&self) -> LoadingPath {
         let body = &self.body;
         let contact = Contact::condense(body.system(), body.gaps(), body.loads()).unwrap();
         let endless = body.steps().iter().map(|step| step.is_endless);
@@ -132,7 +132,7 @@ impl Instance {
     }
 
     /// The candidate's own coefficient of friction.
-    fn mu(&self, candidate: usize) -> Rational {
+    pub(crate) fn mu(&self, candidate: usize) -> Rational {
         &self.friction * &self.body.system().particles()[candidate].friction_factor
     }
 }
@@ -238,8 +238,8 @@ fn choices(class: Class) -> Vec<ContactState> {
     }
 }
 
-/// Rates (v_T, v_N, w_T, w_N) of each candidate.
-type Rates = Vec<[Rational; 4]>;
+/// Rates (v_T, v_N, w_T, w_N) of each candidate, or what they are rates of.
+pub(crate) type Rates = Vec<[Rational; 4]>;
 
 /// All solutions of the rate problem for the load that grows, and whether some choice of states is
 /// singular.
@@ -264,9 +264,21 @@ fn solutions(instance: &Instance, classes: &[Class], load: &[Rational]) -> (Vec<
     (found, is_singular)
 }
 
-/// The rates in given states by elimination in fractions: K v - D' w = f for all dofs, and two
-/// conditions for each candidate; unknowns are v and w.
+/// The rates in given states: those of candidates in contact stay there.
 fn rates(instance: &Instance, states: &[ContactState], load: &[Rational]) -> Option<Rates> {
+    let rest = [whole(0), whole(0)];
+    in_states(instance, states, load, &[rest.clone(), rest])
+}
+
+/// v and w in given states by elimination in fractions: K v - D' w = f for all dofs, and two
+/// conditions for each candidate, with (v_T, v_N) where it sticks and v_N where it slips as given.
+/// In state zero v_N is as given and w_T = 0; whether w_N vanishes is left to see.
+pub(crate) fn in_states(
+    instance: &Instance,
+    states: &[ContactState],
+    load: &[Rational],
+    given: &[[Rational; 2]],
+) -> Option<Rates> {
     let system = instance.body.system();
     let dofs = system.dofs();
     let order = dofs + 2 * states.len();
@@ -291,8 +303,9 @@ fn rates(instance: &Instance, states: &[ContactState], load: &[Rational]) -> Opt
 
         // Two conditions in the rows of the candidate's own.
         let (first, second) = (w_t, w_n);
+        let [v_t, v_n] = &given[k];
         match states[k] {
-            ContactState::Free | ContactState::Zero => {
+            ContactState::Free => {
                 rows[first][w_t] = whole(1);
                 rows[second][w_n] = whole(1);
             }
@@ -303,13 +316,18 @@ fn rates(instance: &Instance, states: &[ContactState], load: &[Rational]) -> Opt
                 for (dof, coefficient) in particle.into_obstacle() {
                     rows[second][dof] += coefficient;
                 }
+                rows[first][order] = v_t.clone();
+                rows[second][order] = v_n.clone();
             }
-            ContactState::Slip { sign } => {
+            ContactState::Slip { .. } | ContactState::Zero => {
                 for (dof, coefficient) in particle.into_obstacle() {
                     rows[first][dof] += coefficient;
                 }
+                rows[first][order] = v_n.clone();
                 rows[second][w_t] = whole(1);
-                rows[second][w_n] = instance.mu(k) * whole(sign.into());
+                if let ContactState::Slip { sign } = states[k] {
+                    rows[second][w_n] = instance.mu(k) * whole(sign.into());
+                }
             }
         }
     }

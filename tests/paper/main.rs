@@ -9,6 +9,7 @@ mod interrupt;
 mod block;
 mod block_observations;
 mod elimination;
+mod equilibria;
 mod loads;
 mod paper_path;
 mod path;

@@ -16,6 +16,7 @@
 //! | [`certify`] | from a candidate to a claim that the checker has accepted |
 //! | [`search`] | complete sets: branch and prune, with a certificate |
 //! | [`analysis`] | the engineer's answer: divergence, flutter, ranges of friction |
+//! | [`equilibrium`] | contact states that loads lead to, certified |
 //! | [`foreign`] | somebody's solutions, judged |
 //! | [`report`] | `mceip-solutions/1`, and tables |
 //! | [`lcp`] | plain LCP and MCP files |
@@ -28,6 +29,7 @@ mod branch;
 pub mod candidate;
 pub mod certify;
 mod dense;
+pub mod equilibrium;
 pub mod foreign;
 pub mod lcp;
 pub mod multistart;

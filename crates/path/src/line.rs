@@ -344,7 +344,7 @@ impl Equilibrium {
     /// One letter for each candidate: `.` stick, `<` impending slip against the tangent, `>` along
     /// it, `o` free, `z` in contact without reaction.
     pub fn picture(&self) -> String {
-        self.states.iter().map(|state| letter(*state)).collect()
+        self.states.iter().map(|state| state.letter()).collect()
     }
 
     /// (u_T, u_N) of a candidate (from 0): along its tangent, and into the obstacle.
@@ -417,16 +417,6 @@ fn times_unit(value: &Integer, unit: &Rational) -> Rational {
 /// value * unit, not in lowest terms: enough for rounding.
 fn times_unit_raw(value: &Integer, unit: &Rational) -> Rational {
     Rational::new_raw(value * unit.numer(), unit.denom().clone())
-}
-
-fn letter(state: ContactState) -> char {
-    match state {
-        ContactState::Free => 'o',
-        ContactState::Zero => 'z',
-        ContactState::Stick => '.',
-        ContactState::Slip { sign } if sign > 0 => '<',
-        ContactState::Slip { .. } => '>',
-    }
 }
 
 /// What (1), (2) and (7) say of a candidate at an equilibrium: its class in the list after (9).

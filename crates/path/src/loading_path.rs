@@ -1,12 +1,13 @@
 //! A loading path as it was followed: the stretches between events, and why it ends. `trace` makes
 //! it; reports and pictures read it.
 
-use super::line::Bound;
+use super::line::{Bound, Equilibrium};
 use super::load_steps::LoadSteps;
 use super::rates::Unsolved;
 use super::stretch::{Event, Stretch};
 use mceip_exact::Rational;
 use mceip_model::ContactState;
+use std::cmp::Ordering;
 
 /// Why a path ends.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,6 +55,18 @@ impl LoadingPath {
         };
         let sticks = last.states.contains(&ContactState::Stick);
         !sticks && (0..last.states.len()).any(slides)
+    }
+
+    /// How much of each load is applied at an equilibrium of a stretch: all of the steps before,
+    /// nothing of those after it.
+    pub fn applied_at(&self, stretch: &Stretch, equilibrium: &Equilibrium) -> Vec<Rational> {
+        let steps = self.steps.amounts.iter().enumerate();
+        let applied = steps.map(|(step, whole)| match step.cmp(&stretch.step) {
+            Ordering::Less => whole.clone().unwrap_or_default(),
+            Ordering::Equal => equilibrium.amount().clone(),
+            Ordering::Greater => Rational::default(),
+        });
+        applied.collect()
     }
 
     /// The event that ends a stretch, `None` for the last one.
