@@ -1,22 +1,25 @@
 //! `mceip check`: a certificate or somebody's solutions against a problem, one verdict.
 //!
 //! The formats of the files decide what is done. A certificate, of solutions and complete sets, of
-//! absence below a friction or of presence in an interval of friction, goes to the checker, which
-//! accepts or rejects it. Somebody's solutions are certified and checked one by one, or refuted
-//! ([`foreign`]). A solution file of a plain LCP or MCP is evaluated exactly ([`plain`]).
+//! absence below a friction, of presence in an interval of friction or of contact states, goes to
+//! the checker, which accepts or rejects it. Somebody's solutions are certified and checked one by
+//! one, or refuted ([`foreign`]). A solution file of a plain LCP or MCP is evaluated exactly
+//! ([`plain`]).
 
 pub(super) mod plain;
 
 use super::common::{CliError, exit, load, parse_window, print, text};
 use super::job::{Job, decided};
+use super::path::read_body;
+use super::path::stretches::LETTERS;
 use crate::say;
 use mceip_check::certificate::{
-    CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, PRESENCE_FORMAT,
-    PresenceCertificate,
+    CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, EQUILIBRIUM_FORMAT,
+    EquilibriumCertificate, PRESENCE_FORMAT, PresenceCertificate,
 };
 use mceip_check::{
-    Accepted, AcceptedAbsence, AcceptedClaim, AcceptedCover, AcceptedPresence, Place, check,
-    check_critical, check_presence,
+    Accepted, AcceptedAbsence, AcceptedClaim, AcceptedCover, AcceptedEquilibrium, AcceptedPresence,
+    Place, check, check_critical, check_equilibrium, check_presence,
 };
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, Verdict, judge};
@@ -24,20 +27,22 @@ use mceip_engine::lcp::MCP_FORMAT;
 use mceip_engine::run::Progress;
 use mceip_engine::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALUE_RADIUS};
 use mceip_exact::{enclosing_decimals, parse, to_f64};
-use mceip_model::file::require_format;
+use mceip_model::file::{LOADS_FORMAT, require_format};
 use mceip_model::reduction::reduce;
-use mceip_model::{Problem, Window};
+use mceip_model::{LoadedBody, Problem, Unknown, Window};
 use num_traits::Zero;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `check`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Problem file (mceip-problem/1), or a plain LCP or MCP (mceip-mcp/1).
+    /// Problem file (mceip-problem/1), a body under loads (mceip-loads/1), or a plain LCP or MCP
+    /// (mceip-mcp/1).
     file: PathBuf,
-    /// Certificate (mceip-certificate/1, mceip-critical/1, mceip-presence/1), or somebody's
-    /// solutions (mceip-solutions/1): each of those is certified and checked, or refuted. Of a
-    /// plain problem: its solution file (mceip-mcp-solution/1).
+    /// Certificate (mceip-certificate/1, mceip-critical/1, mceip-presence/1; of a body under loads
+    /// mceip-equilibrium/1), or somebody's solutions (mceip-solutions/1): each of those is
+    /// certified and checked, or refuted. Of a plain problem: its solution file
+    /// (mceip-mcp-solution/1).
     certificate: PathBuf,
     /// Demand a certificate whose window covers the closed window a,b (b empty or inf: no upper
     /// end); one that does not is rejected.
@@ -65,6 +70,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         refuse_window(args, "a plain problem")?;
         refuse_tolerance(args, "a plain problem")?;
         return plain::verdict(&args.file, &problem, &args.certificate);
+    }
+
+    if require_format(&problem, LOADS_FORMAT).is_ok() {
+        refuse_window(args, EQUILIBRIUM_FORMAT)?;
+        refuse_tolerance(args, EQUILIBRIUM_FORMAT)?;
+        return equilibrium(args, &problem);
     }
 
     let problem = load(&args.file, None)?;
@@ -123,6 +134,47 @@ fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
 
     print(&text)?;
     Ok(code)
+}
+
+/// The verdict on a certificate of contact states; `loads` is the text of the first file.
+fn equilibrium(args: &Args, loads: &str) -> Result<u8, CliError> {
+    let body = read_body(loads, &args.file)?.body;
+    let source = text("the certificate", &args.certificate)?;
+    let read = EquilibriumCertificate::from_json(&source);
+    let certificate = read.map_err(|e| CliError::file(&args.certificate, e))?;
+
+    let (text, code) = match decided(|| check_equilibrium(&body, &certificate)) {
+        Ok(accepted) => (equilibrium_text(&body, &accepted), exit::DONE),
+        Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
+    };
+
+    print(&text)?;
+    Ok(code)
+}
+
+/// What is proved, and the digests of the eigenproblems that certificates about these states name.
+fn equilibrium_text(body: &LoadedBody, accepted: &AcceptedEquilibrium) -> String {
+    let AcceptedEquilibrium {
+        friction,
+        amounts,
+        states,
+    } = accepted;
+    let letters: String = states.iter().map(|state| state.letter()).collect();
+    let amounts: Vec<String> = amounts.iter().map(ToString::to_string).collect();
+
+    let mut digests = format!("loads {}", body.sha256());
+    for unknown in [Unknown::Mu, Unknown::Lambda2] {
+        // None where nothing slips, or without a mass.
+        if let Ok(problem) = body.problem(states, friction, unknown) {
+            digests += &format!("; its {} problem {}", unknown.word(), problem.sha256());
+        }
+    }
+
+    format!(
+        "EQUILIBRIUM: under the loads times {}, with friction {friction}, there is one in the \
+         contact states {letters} ({LETTERS}; {digests})\n",
+        amounts.join(", ")
+    )
 }
 
 /// The verdict on a certificate of presence in an interval of friction.

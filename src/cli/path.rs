@@ -5,6 +5,7 @@
 //! `mceip_path`. Each stretch between two events gives contact states: on request as a problem
 //! file, and with what is proved of them ([`states`]).
 
+mod certified;
 mod own;
 pub(in crate::cli) mod states;
 pub(in crate::cli) mod stretches;
@@ -14,11 +15,14 @@ use super::common::{CliError, exit, positive, print, require_count, text};
 use super::job::Job;
 use super::output::{Folder, Output};
 use crate::picture::{PathLabels, path_picture};
+use crate::say::counted;
+use certified::certify;
 use mceip_engine::analysis::AnalysisError;
+use mceip_engine::equilibrium::Uncertified;
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
-use mceip_model::{LoadedBody, System};
+use mceip_model::{LoadedBody, System, Unknown};
 use mceip_path::{Contact, LoadSteps, LoadingPath, PathEnd, PathError};
 use own::{Asked, Loaded, OwnCritical};
 use serde_json::{Value, json};
@@ -90,9 +94,10 @@ pub(super) struct Args {
         allow_hyphen_values = true
     )]
     width: String,
-    /// With --own-critical: write problem and certificate of each end state in which something
-    /// slips, and those of the frozen critical friction, into this folder, for `mceip check`.
-    #[arg(long, requires = "own_critical", value_name = "FOLDER")]
+    /// Certify the contact states inside each stretch, into this folder, as
+    /// `equilibrium-NUMBER.json` for `mceip check FILE`. With --own-critical those at the end of
+    /// each path, and problem and certificate of what is said of divergence.
+    #[arg(long, value_name = "FOLDER")]
     certificates: Option<PathBuf>,
     /// Draw resultants and states along the path, as SVG.
     #[arg(long, value_name = "OUT.svg")]
@@ -111,7 +116,7 @@ const LABELS: PathLabels = PathLabels {
 /// Follows the path and prints it.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let input: &[&Path] = &[&args.file];
-    let file = read(&args.file)?;
+    let file = read_body(&text("the loads", &args.file)?, &args.file)?;
     let friction = friction(&file.body, args.mu.as_deref())?;
     let at_mu = args.at_mu.iter().map(|mu| positive("at-mu", mu));
     let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
@@ -176,13 +181,17 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         None => None,
         Some(asked) => {
             let loaded = Loaded {
-                body: file.body.system(),
+                body: &file.body,
                 contact: &contact,
                 steps: &steps,
                 names: &names,
             };
             Some(job.watched(|watch| OwnCritical::find(&loaded, asked, proofs.as_ref(), watch))?)
         }
+    };
+    let certified = match (&proofs, &own) {
+        (Some(folder), None) => Some(certify_stretches(&file.body, &path, folder, &job)?),
+        _ => None,
     };
     job.end();
 
@@ -193,6 +202,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         in_doubles: args.doubles,
         proved,
         own,
+        certified,
         is_interrupted: job.is_cancelled(),
     };
     if let Some(folder) = folder {
@@ -225,14 +235,14 @@ const MAX_GRID: u64 = 10_000;
 /// A way to condense a body under loads.
 type Condense = fn(&System, &[Rational], &[Vec<Rational>]) -> Result<Contact, PathError>;
 
-fn read(path: &Path) -> Result<LoadsFile, CliError> {
-    let text = text("the loads", path)?;
+/// Reads the text of a file of a body under loads; stdin has its matrices in this folder.
+pub(super) fn read_body(text: &str, path: &Path) -> Result<LoadsFile, CliError> {
     let folder = if path == Path::new("-") {
         Path::new(".")
     } else {
         folder_of(path)
     };
-    read_loads(&text, folder).map_err(|source| CliError::file(path, source))
+    read_loads(text, folder).map_err(|source| CliError::file(path, source))
 }
 
 /// mu of the command line, else of the file.
@@ -292,6 +302,8 @@ struct Outcome<'a> {
     proved: Option<Vec<ProvedState>>,
     /// The own critical friction, if asked for.
     own: Option<OwnCritical>,
+    /// Whether the contact states inside each stretch are certified, if asked for.
+    certified: Option<Vec<Result<(), Uncertified>>>,
     is_interrupted: bool,
 }
 
@@ -317,6 +329,9 @@ impl Outcome<'_> {
              {of_what} an exact rational number; (1), (2), (5), (7) verified exactly at both \
              ends of each stretch; {end}\n"
         );
+        if let Some(certified) = &self.certified {
+            out += &certified_text(certified);
+        }
         match self.proved.as_deref() {
             None => {}
             Some([]) => out += "\nno candidate is in impending slip: no state to examine\n",
@@ -341,6 +356,10 @@ impl Outcome<'_> {
             "slides": self.path.slides(),
             "interrupted": self.is_interrupted,
         });
+        if let Some(certified) = &self.certified {
+            let certified: Vec<bool> = certified.iter().map(Result::is_ok).collect();
+            out["states_certified"] = json!(certified);
+        }
         if let Some(proved) = &self.proved {
             out["complete_sets"] = states::json_of(proved, &self.path);
         }
@@ -361,7 +380,7 @@ impl Outcome<'_> {
             }
 
             let friction = &self.path.steps.friction;
-            let mut problem = self.file.body.problem(states, friction)?;
+            let mut problem = self.file.body.problem(states, friction, Unknown::Mu)?;
             let name = self.file.name.as_deref().unwrap_or("loading path");
             problem.name = Some(format!(
                 "{name}, stretch {k} ({})",
@@ -376,6 +395,57 @@ impl Outcome<'_> {
 
         folder.keep_numbered("stretch", &written)
     }
+}
+
+/// Certifies the contact states inside each stretch and writes what is accepted; those that an
+/// interrupt leaves are not in the list.
+fn certify_stretches(
+    body: &LoadedBody,
+    path: &LoadingPath,
+    folder: &Folder,
+    job: &Job,
+) -> Result<Vec<Result<(), Uncertified>>, CliError> {
+    let mut certified = Vec::new();
+    let mut written = Vec::new();
+    let count = path.stretches.len();
+    for (k, stretch) in path.stretches.iter().enumerate() {
+        if job.is_cancelled() {
+            break;
+        }
+
+        job.say(format!(
+            "certifying the contact states of stretch {k} of {count}"
+        ));
+        certified.push(match certify(body, path, stretch, &stretch.inside) {
+            Ok(proved) => {
+                let text = proved.file()?;
+                folder.write(&format!("equilibrium-{k:03}.json"), text.as_bytes())?;
+                written.push(k);
+                Ok(())
+            }
+            Err(why) => Err(why),
+        });
+    }
+
+    folder.keep_numbered("equilibrium", &written)?;
+    Ok(certified)
+}
+
+/// Of how many stretches the contact states are certified, and why others are not.
+fn certified_text(certified: &[Result<(), Uncertified>]) -> String {
+    let proved = certified.iter().filter(|state| state.is_ok()).count();
+    let stretches = counted(certified.len(), "stretch");
+    let mut out = format!(
+        "the contact states inside {proved} of {stretches} are certified to be those of an \
+         equilibrium; that it is the only one is not\n"
+    );
+    for (k, state) in certified.iter().enumerate() {
+        if let Err(why) = state {
+            out += &format!("  stretch {k} is not: {why}\n");
+        }
+    }
+
+    out
 }
 
 /// What the text of an interrupted run ends with.

@@ -7,8 +7,12 @@ pub(crate) mod cover;
 pub(crate) mod enumeration;
 pub(crate) mod search;
 
-/// "1 warning", "2 warnings".
+/// "1 warning", "2 warnings", "2 stretches".
 pub(crate) fn counted(count: usize, noun: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
+    let plural = match noun {
+        _ if count == 1 => "",
+        noun if noun.ends_with("ch") => "es",
+        _ => "s",
+    };
     format!("{count} {noun}{plural}")
 }

@@ -69,9 +69,16 @@ fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
     let [lo, hi] = ["absent", "critical"].map(|k| number(&bracket[k]));
     assert!(lo < 4.0 / 3.0 && 4.0 / 3.0 < hi, "{bracket}");
     assert!((hi - lo) / hi <= 1e-6, "{bracket}");
-    // Nothing slips in the state it ends in: no certificate, and no frozen critical friction.
+    // Nothing slips in the state it ends in: no certificate of divergence, and no frozen critical
+    // friction.
     assert!(answer["own_critical"]["frozen"]["absent_below"].is_null());
-    assert!(names(&proofs).is_empty());
+    let written = names(&proofs);
+    assert!(
+        written
+            .iter()
+            .all(|name| name.ends_with(".equilibrium.json"))
+    );
+    assert!(written.len() > 10, "{written:?}");
 
     let mut ends = 0;
     for point in answer["own_critical"]["points"].as_array().unwrap() {
@@ -84,7 +91,10 @@ fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
         if alone["end"] == "all loads are applied" {
             let last = alone["intervals"].as_array().unwrap().last().unwrap();
             assert_eq!(point["states"], last["stop"]["states"]);
+            assert_eq!(point["states_certified"], true);
             assert_eq!(point["divergence"], "absent");
+            let certificate = format!("{proofs}/mu-{}.equilibrium.json", mu.replace('/', "over"));
+            exits(0, &["check", &file, &certificate]);
         } else {
             let end = alone["end"].as_str().unwrap();
             assert!(end.contains("the quasi-static path ends"), "{end}");
@@ -171,6 +181,13 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
         assert_eq!(point["divergence"] == "absent", is_absent, "{said}");
         assert_eq!(point["lambda2"] == json!([]), is_absent, "{said}");
         seen[usize::from(is_absent)] += 1;
+
+        // The states are those of an equilibrium, and the certificate is about these states.
+        let equilibrium = format!("{proofs}/mu-{mu}.equilibrium.json");
+        let equilibrium = exits(0, &["check", &file, &equilibrium]);
+        let (_, digest) = equilibrium.split_once("lambda2 problem ").unwrap();
+        let digest = &digest[..64];
+        assert!(said.contains(digest), "{equilibrium} {said}");
 
         let states = folder.path(&format!("states-{mu}"));
         exits(0, &["path", &file, "--mu", mu, "--states", &states]);

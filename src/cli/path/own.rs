@@ -14,6 +14,7 @@
 //! Whether an end state diverges is decided by [`divergence_at`]: by a certificate that the checker
 //! has accepted, or by the theorem for states in which nothing slips.
 
+use super::certified::{Certified, certify};
 use super::words::{amount, end_text};
 use crate::cli::common::{CliError, positive};
 use crate::cli::output::Folder;
@@ -25,7 +26,7 @@ use mceip_engine::run::{Kept, Progress, Watch};
 use mceip_exact::{
     Integer, Interval, Rational, enclosing_decimals, nearest_decimal, parse, rational, whole,
 };
-use mceip_model::{ModelError, System};
+use mceip_model::{LoadedBody, ModelError, System};
 use mceip_path::{Contact, Equilibrium, LoadSteps, LoadingPath, PathEnd};
 use num_traits::One;
 use serde_json::{Value, json};
@@ -88,7 +89,7 @@ const MOST_PARTS: i64 = 1_000_000_000;
 
 /// The body, condensed to its contact candidates, and its loads.
 pub(super) struct Loaded<'a> {
-    pub(super) body: &'a System,
+    pub(super) body: &'a LoadedBody,
     pub(super) contact: &'a Contact,
     /// The amounts of the loads; their mu plays no part.
     pub(super) steps: &'a LoadSteps,
@@ -122,6 +123,8 @@ struct EarlyEnd {
 /// The equilibrium at the end of the path.
 struct Examined {
     equilibrium: Equilibrium,
+    /// Are its contact states proved?
+    states: Certified,
     divergence: Divergence,
     proof: Option<Proof>,
 }
@@ -309,6 +312,7 @@ impl Loaded<'_> {
                 }
                 Reached::Equilibrium(Box::new(Examined {
                     equilibrium: equilibrium.clone(),
+                    states: certify(self.body, &path, stretch, equilibrium),
                     divergence,
                     proof,
                 }))
@@ -321,7 +325,8 @@ impl Loaded<'_> {
     /// The body in the contact states of an equilibrium.
     fn state(&self, equilibrium: &Equilibrium, mu: &Rational) -> Result<System, ModelError> {
         let states = equilibrium.contact_states();
-        self.body.with_states(states, Some(mu.clone()))
+        let body = self.body.system();
+        body.with_states(states, Some(mu.clone()))
     }
 
     /// How much of which load is applied at the end of a path.
@@ -353,18 +358,23 @@ impl Loaded<'_> {
 }
 
 impl Point {
-    /// Writes the proof, where there is one, as `mu-VALUE.problem.json` and
+    /// Writes the certificate of the contact states as `mu-VALUE.equilibrium.json`, and the proof
+    /// about divergence, where there is one, as `mu-VALUE.problem.json` and
     /// `mu-VALUE.certificate.json`.
     fn write(&self, folder: &Folder) -> Result<(), CliError> {
         let Reached::Equilibrium(examined) = &self.reached else {
             return Ok(());
         };
-        let Some(proof) = &examined.proof else {
-            return Ok(()); // a theorem: nothing slips
-        };
 
         let mu = spelt(&self.mu).replace('/', "over");
-        write_proof(folder, &format!("mu-{mu}"), proof)
+        if let Ok(states) = &examined.states {
+            let text = states.file()?;
+            folder.write(&format!("mu-{mu}.equilibrium.json"), text.as_bytes())?;
+        }
+        match &examined.proof {
+            Some(proof) => write_proof(folder, &format!("mu-{mu}"), proof),
+            None => Ok(()), // a theorem: nothing slips
+        }
     }
 
     /// Why this mu is critical, as what follows "at mu = ...".
@@ -402,7 +412,8 @@ impl OwnCritical {
         let header = [
             "mu",
             "contact states",
-            "divergence",
+            "of an equilibrium",
+            "divergence in them",
             "largest growth rate proved",
         ];
         let mut table = Table::new(&header);
@@ -411,8 +422,8 @@ impl OwnCritical {
         }
 
         let rounded = if in_doubles {
-            " Contact states are those of the body condensed in doubles, which differs from the \
-             given one by rounding; divergence in these states is that of the given body."
+            " The path is that of the body condensed in doubles, which differs from the given one \
+             by rounding; what is proved is proved of the given body."
         } else {
             ""
         };
@@ -421,8 +432,9 @@ impl OwnCritical {
             "{out}\n{table}\n\
              Examined is the equilibrium at the end of the loads (in the last stretch, where one \
              grows for ever) on the path that is followed at each mu. The path is exact, but has \
-             no certificate, and may be one of several; \"proved\" is said of divergence in the \
-             contact states in which it ends. States before its end, and other mu, are not \
+             no certificate, and may be one of several. \"Proved\" rests on a certificate or a \
+             theorem: that under these loads there is an equilibrium in these contact states, and \
+             whether it can diverge. States before the end, and other mu, are not \
              examined.{rounded}\n"
         )
     }
@@ -555,6 +567,7 @@ impl Point {
                 vec![
                     mu,
                     "-".into(),
+                    "-".into(),
                     format!("{word} ({})", end.place),
                     "-".into(),
                 ]
@@ -567,7 +580,11 @@ impl Point {
                 };
                 let rate = divergence.modes.last();
                 let rate = rate.map_or_else(|| "-".into(), |mode| six_digits(mode.growth_rate));
-                vec![mu, examined.equilibrium.picture(), verdict, rate]
+                let states = match &examined.states {
+                    Ok(_) => "proved".into(),
+                    Err(_) => "not certified".into(),
+                };
+                vec![mu, examined.equilibrium.picture(), states, verdict, rate]
             }
         }
     }
@@ -587,6 +604,7 @@ impl Point {
                 json!({
                     "mu": spelt(&self.mu),
                     "states": super::stretches::states_json(examined.equilibrium.contact_states()),
+                    "states_certified": examined.states.is_ok(),
                     "divergence": examined.divergence.verdict.word(),
                     "families": examined.divergence.families,
                     "lambda2": lambda2.collect::<Vec<_>>(),
