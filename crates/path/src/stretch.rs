@@ -42,7 +42,8 @@ pub struct Stretch {
     pub states: Vec<ContactState>,
     /// The equilibrium at its beginning.
     pub start: Equilibrium,
-    /// An equilibrium inside: half way, or one unit of the load on where it never ends.
+    /// An equilibrium inside: in the middle half, or one to two units of the load on where it never
+    /// ends, where the amount is the shortest fraction.
     pub inside: Equilibrium,
     /// The equilibrium at its end, `None` if it never ends.
     pub stop: Option<Equilibrium>,

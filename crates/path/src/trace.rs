@@ -16,7 +16,7 @@ use super::load_steps::LoadSteps;
 use super::loading_path::{LoadingPath, PathEnd};
 use super::rates::{Rates, Solved};
 use super::stretch::{Change, Event, Stretch};
-use mceip_exact::{Rational, to_f64, whole};
+use mceip_exact::{Rational, simplest_between, to_f64, whole};
 use mceip_model::ContactState;
 use num_traits::Zero;
 use std::ops::ControlFlow;
@@ -306,9 +306,10 @@ impl<'a> Tracer<'a> {
         let inside = match end.amount() {
             Some(end) => {
                 self.point(stretch, end).check()?;
-                (&from.a + end) / whole(2)
+                let quarter = (end - &from.a) / whole(4);
+                simplest_between(&(&from.a + &quarter), &(end - quarter))
             }
-            None => &from.a + whole(1),
+            None => simplest_between(&(&from.a + whole(1)), &(&from.a + whole(2))),
         };
         self.point(stretch, &inside).check()?;
         let equilibrium = |a: &Rational| line.equilibrium(a, self.contact, &self.friction);
