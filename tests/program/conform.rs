@@ -454,6 +454,33 @@ fn programs_may_answer_line_by_line() {
     }
 }
 
+/// What a program prints beyond its answer, or that it ends after it, is not charged to the next
+/// case, however quick the machine is.
+#[cfg(unix)]
+#[test]
+fn what_a_case_has_left_behind_is_no_answer_to_the_next() {
+    let judged = |script: &str| {
+        let options = [
+            "--only",
+            "window_end",
+            "--json",
+            "--lines",
+            "--threads",
+            "1",
+        ];
+        conform(&options, &["sh", "-c", script]).report()["labels"].clone()
+    };
+
+    let right = judged(&format!("while read -r p; do {NOTHING_FOUND}; done"));
+    for script in [
+        format!("while read -r p; do {NOTHING_FOUND}; echo more; done"),
+        format!("while read -r p; do {NOTHING_FOUND}; sleep 0.05; {OTHER_PROBLEM}; done"),
+        format!("read -r p; {NOTHING_FOUND}; exit 7"),
+    ] {
+        assert_eq!(judged(&script), right, "{script}");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn threads_do_not_change_the_output() {

@@ -2,8 +2,10 @@
 //!
 //! For programs that take long to start. The time limit holds for each answer, the first one from
 //! the start of the program. A program that hangs or prints too much is killed. One that has ended,
-//! or has printed more than the line it was asked for, is started anew for the next case. Called by
-//! `run` with `--lines`.
+//! or has printed more than the line it was asked for, is started anew for the next case. Whether
+//! that is noticed in time depends on the machine; so an answer of a program that has answered
+//! before may be what another case has left behind ([`LineProgram::has_answered_before`]), and
+//! `run` takes it for the answer only if it is right.
 
 use super::process::{Ending, GRACE, Limits, Reader, SLICE, kill, spawn, telling_line};
 use crate::error::TestkitError;
@@ -21,6 +23,7 @@ pub(super) struct LineProgram<'a> {
     command: &'a [String],
     limits: Limits,
     running: Option<Running>,
+    has_answered_before: bool,
 }
 
 /// A program that has been started, with a thread for each of its streams.
@@ -45,6 +48,19 @@ impl<'a> LineProgram<'a> {
             command,
             limits,
             running: None,
+            has_answered_before: false,
+        }
+    }
+
+    /// Was the last question asked of a program that had answered others?
+    pub(super) fn has_answered_before(&self) -> bool {
+        self.has_answered_before
+    }
+
+    /// Ends the program: the next question goes to a new one.
+    pub(super) fn renew(&mut self) {
+        if let Some(running) = self.running.take() {
+            running.stop();
         }
     }
 
@@ -79,20 +95,20 @@ impl<'a> LineProgram<'a> {
         if let Some(mut running) = self.running.take() {
             let is_silent = matches!(running.answers.try_recv(), Err(TryRecvError::Empty));
             if is_silent && !running.has_ended() {
+                self.has_answered_before = true;
                 return Ok(running);
             }
             running.stop();
         }
 
+        self.has_answered_before = false;
         Running::start(self.command, self.limits.output)
     }
 }
 
 impl Drop for LineProgram<'_> {
     fn drop(&mut self) {
-        if let Some(running) = self.running.take() {
-            running.stop();
-        }
+        self.renew();
     }
 }
 

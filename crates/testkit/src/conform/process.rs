@@ -8,9 +8,9 @@ use crate::error::TestkitError;
 use mceip_engine::run::Watch;
 use std::io::{Read, Write as _};
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use wait_timeout::ChildExt as _;
 
@@ -123,7 +123,13 @@ pub(super) fn spawn(command: &[String]) -> Result<Child, TestkitError> {
 }
 
 /// A pipe that a thread reads to its end.
-pub(super) struct Reader(Option<Receiver<Vec<u8>>>);
+pub(super) struct Reader(Option<Drain>);
+
+/// What a thread has read of a pipe, and the word that it is done.
+struct Drain {
+    kept: Arc<Mutex<Vec<u8>>>,
+    done: Receiver<()>,
+}
 
 impl Reader {
     /// Of what a program complains.
@@ -132,10 +138,15 @@ impl Reader {
         Reader(pipe.map(|pipe| drain(pipe, COMPLAINT, None)))
     }
 
-    /// What was read; nothing if the pipe is still open after the time of grace.
+    /// What was read; of a pipe that something left behind holds open, what came in the time of
+    /// grace.
     pub(super) fn received(self) -> Vec<u8> {
-        let bytes = self.0.and_then(|bytes| bytes.recv_timeout(GRACE).ok());
-        bytes.unwrap_or_default()
+        let Some(Drain { kept, done }) = self.0 else {
+            return Vec::new();
+        };
+        // An error: the thread is gone, or the time is over.
+        let _ = done.recv_timeout(GRACE);
+        std::mem::take(&mut kept.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }
 
@@ -159,31 +170,39 @@ fn drain(
     mut pipe: impl Read + Send + 'static,
     limit: u64,
     too_long: Option<Arc<AtomicBool>>,
-) -> Receiver<Vec<u8>> {
-    let (send, receive) = channel();
+) -> Drain {
+    let (send, done) = channel();
+    let kept = Arc::new(Mutex::new(Vec::new()));
+    let shared = kept.clone();
     std::thread::spawn(move || {
-        let mut kept = Vec::new();
-
-        // What was read until an error is kept.
-        let _ = pipe.by_ref().take(limit).read_to_end(&mut kept);
+        let mut left = limit;
         let mut buffer = [0u8; 1 << 14];
 
-        while let Ok(more) = pipe.read(&mut buffer) {
-            if more == 0 {
+        // What was read until an error is kept.
+        while let Ok(count) = pipe.read(&mut buffer) {
+            if count == 0 {
                 break;
             }
 
-            if let Some(flag) = &too_long {
+            let taken = count.min(usize::try_from(left).unwrap_or(usize::MAX));
+            left -= taken as u64;
+            let mut kept = shared.lock().unwrap_or_else(PoisonError::into_inner);
+            kept.extend_from_slice(&buffer[..taken]);
+            drop(kept);
+
+            if let Some(flag) = &too_long
+                && taken < count
+            {
                 flag.store(true, Ordering::Relaxed);
                 break;
             }
         }
 
-        // It is dropped if the time of grace is over.
-        let _ = send.send(kept);
+        // Nobody listens if the time of grace is over.
+        let _ = send.send(());
     });
 
-    receive
+    Drain { kept, done }
 }
 
 /// Waits until the program ends, its time is over, it prints too much, or the run is interrupted.
@@ -300,6 +319,14 @@ mod tests {
         let parent = run_script("sleep 100 & echo done", &long);
         let Ending::Ended { code, stdout, .. } = parent else {
             panic!("{parent:?}")
+        };
+        assert_eq!(code, Some(0));
+        assert_eq!(stdout, b"done\n");
+
+        // One that has left the process group, which is not killed.
+        let daemon = run_script("setsid sleep 5 & echo done", &long);
+        let Ending::Ended { code, stdout, .. } = daemon else {
+            panic!("{daemon:?}")
         };
         assert_eq!(code, Some(0));
         assert_eq!(stdout, b"done\n");

@@ -136,28 +136,46 @@ impl Run<'_> {
         Case::answer(&draft, self.plan.as_pencil)
     }
 
-    /// Sends a problem to the program: to one that waits for it, or to one started for it.
-    fn ending(&self, input: &str) -> Result<Ending, TestkitError> {
-        let limits = self.plan.limits;
-        if !self.plan.by_lines {
-            return run_once(self.command, input, &limits, self.watch);
-        }
-
-        let waiting = lock(&self.idle).pop();
-        let mut program = waiting.unwrap_or_else(|| LineProgram::new(self.command, limits));
-        let ending = program.ask(input, self.watch)?;
-        lock(&self.idle).push(program);
-
-        Ok(ending)
-    }
-
     /// Sends the case to the program and judges how it ends. `None` if it was interrupted.
     fn judgement(&self, case: &Case) -> Result<Option<Judgement>, TestkitError> {
+        let input = write_problem(&case.problem);
+        if self.plan.by_lines {
+            return self.judgement_by_lines(case, &input);
+        }
+
+        let ending = run_once(self.command, &input, &self.plan.limits, self.watch)?;
+        Ok(self.judged(case, ending))
+    }
+
+    /// The same with a program that answers line by line: one that waits, or one started for the
+    /// case. What is not right of one that waited may be left of the case before it, so the case is
+    /// asked of a new program, whose answer counts.
+    fn judgement_by_lines(
+        &self,
+        case: &Case,
+        input: &str,
+    ) -> Result<Option<Judgement>, TestkitError> {
+        let waiting = lock(&self.idle).pop();
+        let mut program =
+            waiting.unwrap_or_else(|| LineProgram::new(self.command, self.plan.limits));
+
+        let mut judgement = self.judged(case, program.ask(input, self.watch)?);
+        let is_right = |judgement: &Judgement| judgement.label == Label::Correct;
+        if program.has_answered_before() && !judgement.as_ref().is_some_and(is_right) {
+            program.renew();
+            judgement = self.judged(case, program.ask(input, self.watch)?);
+        }
+        lock(&self.idle).push(program);
+
+        Ok(judgement)
+    }
+
+    /// The judgement on how the program ended. `None` if it was interrupted.
+    fn judged(&self, case: &Case, ending: Ending) -> Option<Judgement> {
         let limits = &self.plan.limits;
         let watch = self.watch;
-        let input = write_problem(&case.problem);
-        let judgement = match self.ending(&input)? {
-            Ending::Interrupted => return Ok(None),
+        let judgement = match ending {
+            Ending::Interrupted => return None,
             Ending::TimedOut => {
                 let seconds = limits.time.as_secs_f64();
                 Judgement::new(Label::TimedOut, format!("still running after {seconds} s"))
@@ -188,7 +206,7 @@ impl Run<'_> {
 
         // What an interrupt has cut short says nothing about the program.
         let is_cut_short = judgement.label == Label::Undecided && watch.is_cancelled();
-        Ok((!is_cut_short).then_some(judgement))
+        (!is_cut_short).then_some(judgement)
     }
 }
 
