@@ -65,13 +65,17 @@ Contacts = Union[
 def spelt(number: Any) -> str:
     """A number as text that spells it exactly."""
     if isinstance(number, str):
+        if not number.isascii():
+            raise MceipError("expected a number, got text with other characters")
         return number
     if isinstance(number, np.generic):
         number = number.item()
     try:
         return str(Fraction(number))
     except (TypeError, ValueError, OverflowError):
-        raise MceipError(f"expected a finite number, got {number!r}") from None
+        # Not the number itself: Python refuses to spell a long one.
+        kind = type(number).__name__
+        raise MceipError(f"expected a finite number of at most 4300 digits, got {kind}") from None
 
 
 def triplets(name: str, matrix: Any, order: int | None = None) -> tuple[int, Triplets]:
@@ -97,6 +101,8 @@ def triplets(name: str, matrix: Any, order: int | None = None) -> tuple[int, Tri
 
 def as_array(name: str, matrix: Any) -> npt.NDArray[Any]:
     """A dense matrix as an array."""
+    if np.ma.is_masked(matrix):
+        raise MceipError(f"{name}: expected a matrix without masked entries")
     try:
         return np.asarray(matrix)
     except ValueError:

@@ -254,3 +254,24 @@ def test_warnings_name_particles_as_the_table_does():
 
     with pytest.warns(mceip.ModelWarning, match="particle toe sticks"):
         mceip.Problem.from_matrices(np.eye(4), np.eye(4), "1.5", rows)
+
+
+def test_orders_that_no_machine_holds_are_refused():
+    for order in (10**12, 2**62):
+        empty = scipy.sparse.coo_array((order, order))
+        with pytest.raises(mceip.MceipError, match="1000000"):
+            mceip.Problem.from_pencil(empty, empty)
+
+
+def test_samples_beyond_any_plot_are_refused(example):
+    with pytest.raises(mceip.MceipError, match="10000"):
+        example("point").analyze(samples=10**9)
+
+
+def test_masked_entries_and_numbers_beyond_text_are_refused(point):
+    masked = np.ma.masked_array(STIFFNESS, mask=[[False, True], [True, False]])
+    with pytest.raises(mceip.MceipError, match="masked"):
+        point(masked)
+    for friction in (10**5000, "\ud800"):
+        with pytest.raises(mceip.MceipError):
+            point(friction=friction)

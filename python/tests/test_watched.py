@@ -94,3 +94,22 @@ def test_progress_is_a_bar_of_tqdm_or_lines(slow, capsys, monkeypatch):
     pytest.importorskip("tqdm")
     slow.solve(starts=8, all=True, progress=True)
     assert slow.solve(progress=False).runs == slow.solve().runs
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+def test_a_process_that_is_forked_after_a_search_can_search(example):
+    problem = example("two-particles")
+    problem.complete()
+
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if problem.complete().is_complete else 1)
+
+    deadline = time.monotonic() + 60
+    ended = (0, 0)
+    while ended[0] == 0 and time.monotonic() < deadline:
+        ended = os.waitpid(child, os.WNOHANG)
+        time.sleep(0.01)
+    if ended[0] == 0:
+        os.kill(child, signal.SIGKILL)
+    assert ended == (child, 0)

@@ -12,7 +12,7 @@ use super::job::{CHECKPOINT, Job};
 use super::output::{Folder, Output, folder_of};
 use super::question::load_system;
 use crate::Analyze;
-use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, Options};
+use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, MAX_SAMPLES, Options};
 use mceip_engine::run::Kept;
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
@@ -57,9 +57,6 @@ pub(super) struct Args {
     json: bool,
 }
 
-/// More samples than any plot has use for.
-const MAX_SAMPLES: u64 = 10_000;
-
 /// More boxes than any machine has room for.
 const MAX_BOXES: u64 = 1_000_000_000;
 
@@ -103,26 +100,26 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let analysis = question.run()?;
     job.end();
 
-    let paths = match &keeping {
-        Some(proofs) => proofs.write_all(&analysis)?,
-        None => Vec::new(),
-    };
-    if let Some(output) = report {
+    // What cannot be written takes nothing else along.
+    let written = keeping.map_or(Ok(Vec::new()), |proofs| proofs.write_all(&analysis));
+    let paths = written.as_deref().unwrap_or_default();
+    let page = report.map_or(Ok(()), |output| {
         let drawn = page::Drawn {
             system,
             coordinates: file.coordinates.as_ref(),
-            paths: &paths,
+            paths,
             date: SystemTime::now(),
         };
-        output.write(&page::page(&analysis, &drawn))?;
-    }
+        output.write(&page::page(&analysis, &drawn))
+    });
 
     let text = if args.json {
-        format!("{}\n", analysis.to_json(&paths))
+        format!("{}\n", analysis.to_json(paths))
     } else {
-        text_of(&analysis, &paths, args)
+        text_of(&analysis, paths, args)
     };
     print(&text)?;
+    written.and(page)?;
 
     Ok(exit_code(&analysis))
 }
@@ -165,7 +162,7 @@ fn samples(args: &Args, system: &System) -> Result<usize, CliError> {
     };
 
     let samples = args.samples.unwrap_or(usual);
-    require_count("samples", samples as u64, 0..=MAX_SAMPLES)?;
+    require_count("samples", samples as u64, 0..=MAX_SAMPLES as u64)?;
     Ok(samples)
 }
 

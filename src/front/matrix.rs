@@ -3,7 +3,7 @@
 use super::error::Error;
 use mceip_exact::{NumberError, Rational, Sparse, from_f64, parse};
 use mceip_model::ModelError;
-use mceip_model::file::{read_matrix_market, read_text};
+use mceip_model::file::{read_matrix_market, read_text, require_order};
 use std::path::Path;
 
 /// A matrix of exact numbers.
@@ -18,6 +18,7 @@ use std::path::Path;
 /// let entries = [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 2.0)];
 /// assert_eq!(rows, Matrix::from_triplets(2, 2, entries)?);
 /// assert!(Matrix::from_rows(&[[f64::NAN]]).is_err());
+/// assert!(Matrix::from_triplets(usize::MAX, usize::MAX, []).is_err());
 /// # Ok::<(), mceip::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,12 +48,13 @@ impl Matrix {
     ///
     /// # Errors
     /// [`Error::Outside`] for an entry outside the matrix, [`Error::Model`] for a number that is
-    /// not finite.
+    /// not finite and an order beyond that of files.
     pub fn from_triplets(
         rows: usize,
         columns: usize,
         entries: impl IntoIterator<Item = (usize, usize, f64)>,
     ) -> Result<Matrix, Error> {
+        require_order("the matrix", rows.max(columns))?;
         let mut exact = Vec::new();
         for (row, column, value) in entries {
             if row >= rows || column >= columns {

@@ -43,17 +43,23 @@ impl Cancel {
 /// The most threads that a run may have. More than any machine has use for.
 pub const MAX_THREADS: usize = 1024;
 
-/// Runs in a pool of the wanted size, at most [`MAX_THREADS`]; in the default pool if none is
-/// wanted or it cannot be started. The same work is done in any of them.
+/// Runs in a pool of the wanted size, at most [`MAX_THREADS`], or of the default size if none is
+/// wanted; in the pool at hand where none is wanted inside one, or it cannot be started. The same
+/// work is done in any of them.
+///
+/// The pool is made for the work: the one that all would share has no threads in a process that was
+/// forked after it began, and work would wait for them for ever.
 pub fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
-    let Some(wanted) = threads else {
+    let is_in_pool = rayon::current_thread_index().is_some();
+    if threads.is_none() && is_in_pool {
         return work();
-    };
+    }
 
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(wanted.min(MAX_THREADS))
-        .build();
-    match pool {
+    let mut pool = rayon::ThreadPoolBuilder::new();
+    if let Some(wanted) = threads {
+        pool = pool.num_threads(wanted.min(MAX_THREADS));
+    }
+    match pool.build() {
         Ok(pool) => pool.install(work),
         Err(_) => work(),
     }

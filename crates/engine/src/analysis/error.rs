@@ -1,5 +1,6 @@
 //! Why a system is not analysed, and the check that doubles can carry its numbers.
 
+use super::model::MAX_SAMPLES;
 use crate::multistart::decimal_order;
 use crate::search::complete::CompleteError;
 use mceip_exact::{Rational, Sparse, to_f64};
@@ -30,6 +31,9 @@ pub enum AnalysisError {
     /// A coefficient of friction below zero.
     #[error("analyze: expected friction >= 0, got {0}")]
     FrictionNegative(Rational),
+    /// More samples than any plot has use for.
+    #[error("samples: expected at most {MAX_SAMPLES}, got {0}")]
+    TooManySamples(usize),
     /// The system cannot be condensed in doubles.
     #[error("condensation in doubles: {0}")]
     NotCondensed(String),

@@ -40,7 +40,7 @@ pub use error::AnalysisError;
 pub use evidence::{Evidence, Proof, ProofCertificate};
 pub use flutter::{Flutter, Onset, Oscillation};
 pub use json::ANALYSIS_FORMAT;
-pub use model::Options;
+pub use model::{MAX_SAMPLES, Options};
 pub use modes::{Mode, ZeroMode};
 pub use ranges::{Range, Sample};
 pub use sentences::Sentence;
@@ -73,6 +73,9 @@ pub fn analyse(
     watch: &Watch<'_>,
 ) -> Result<Analysis, AnalysisError> {
     error::require_question(system, friction)?;
+    if options.samples > MAX_SAMPLES {
+        return Err(AnalysisError::TooManySamples(options.samples));
+    }
     if system.slip_particles().is_empty() {
         return Ok(by_theorem::nothing_slips(name, system, friction));
     }
@@ -158,6 +161,9 @@ pub fn divergence_at(
     watch: &Watch<'_>,
 ) -> Result<(Divergence, Option<Proof>), AnalysisError> {
     error::require_question(system, friction)?;
+    if options.samples > MAX_SAMPLES {
+        return Err(AnalysisError::TooManySamples(options.samples));
+    }
     if system.slip_particles().is_empty() {
         let by_theorem = by_theorem::nothing_slips(None, system, friction);
         return Ok((by_theorem.divergence, None));

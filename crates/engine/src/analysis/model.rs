@@ -12,10 +12,14 @@ use crate::search::complete::{self, Completed, complete};
 use mceip_exact::{Rational, Sparse};
 use mceip_model::{Body, Problem, System, Unknown, Window};
 
+/// The most values of mu that may be asked for: more than any plot has use for.
+pub const MAX_SAMPLES: usize = 10_000;
+
 /// How much work an analysis may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
-    /// Values of mu at which divergence is decided, to find the ranges in which it exists; 0: none.
+    /// Values of mu at which divergence is decided, to find the ranges in which it exists; 0: none, at most
+    /// [`MAX_SAMPLES`].
     pub samples: usize,
     /// Threads, all cores if not given. The answer does not depend on it.
     pub threads: Option<usize>,

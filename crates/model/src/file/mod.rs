@@ -22,7 +22,7 @@ pub use loads::{LOADS_FORMAT, LoadsFile, read_loads};
 pub use market::read_matrix_market;
 pub use number::Number;
 pub use object::{Object, Word, word_or_kind};
-pub use order::MAX_ORDER;
+pub use order::{MAX_ORDER, require_order};
 pub use write::{write_problem, write_sparse};
 
 use super::{Coordinates, ErrorLocation, ModelError, Problem, System, Unknown};

@@ -1,4 +1,4 @@
-//! The largest order of a matrix in a file.
+//! The largest order of a matrix, in a file or from a caller.
 
 use crate::ModelError;
 
@@ -6,7 +6,10 @@ use crate::ModelError;
 pub const MAX_ORDER: usize = 1_000_000;
 
 /// Refuses absurd sizes before anything is allocated for them.
-pub(super) fn require_order(what: &'static str, order: usize) -> Result<(), ModelError> {
+///
+/// # Errors
+/// [`ModelError::TooLarge`].
+pub fn require_order(what: &'static str, order: usize) -> Result<(), ModelError> {
     if order > MAX_ORDER {
         return Err(ModelError::TooLarge {
             what,
