@@ -17,7 +17,7 @@ pub(super) use args::Args;
 
 use super::common::{CliError, aside, exit, print};
 use super::job::Job;
-use super::output::Output;
+use super::output::Folder;
 use args::published;
 use mceip_check::Proved;
 use mceip_engine::report::Table;
@@ -26,7 +26,6 @@ use mceip_model::file::write_problem;
 use mceip_paper::{Block, PublishedState};
 use mceip_testkit::{BlockReport, block_state};
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// Runs the command; the options decide which of its four jobs.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
@@ -48,14 +47,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 /// Treats the published states and prints what came out.
 fn published_states(args: &Args) -> Result<u8, CliError> {
     let states = published(args.state)?;
+    let folder = Folder::prepare_if("write", args.write.as_deref(), &[])?;
     let block = Block::of_the_paper(args.mass());
 
     let job = Job::begin("block");
-    let reports = treat(&block, &states, args.write.as_deref(), &job)?;
+    let reports = treat(&block, &states, &job)?;
     job.end();
 
     for report in &reports {
-        if let Some(folder) = &args.write {
+        if let Some(folder) = &folder {
             write_files(&block, report, folder)?;
         }
 
@@ -77,16 +77,10 @@ fn published_states(args: &Args) -> Result<u8, CliError> {
 fn treat(
     block: &Block,
     states: &[PublishedState],
-    folder: Option<&Path>,
     job: &Job,
 ) -> Result<Vec<BlockReport>, CliError> {
     let mut reports = Vec::new();
     for &state in states {
-        // The folder is known to be writable before the work starts.
-        if let Some(folder) = folder {
-            Output::prepare("write", &folder.join("block.json"), &[])?;
-        }
-
         let show = |progress: &Progress<'_>| job.say(format!("{}: {progress}", state.name()));
         let watch = Watch::new(job.cancel(), &show);
         match block_state(block, state, &watch)? {
@@ -128,19 +122,17 @@ fn exit_code(reports: &[BlockReport], is_interrupted: bool) -> u8 {
 }
 
 /// Writes the problem of a state, and its certificate if there is one.
-fn write_files(block: &Block, report: &BlockReport, folder: &Path) -> Result<(), CliError> {
+fn write_files(block: &Block, report: &BlockReport, folder: &Folder) -> Result<(), CliError> {
     let name = match report.state {
         PublishedState::FifteenSlip => "block-15-slip",
         PublishedState::SeventeenSlip => "block-17-slip",
     };
 
-    let path = folder.join(format!("{name}.json"));
-    let problem = report.state.problem(block)?;
-    Output::prepare("write", &path, &[])?.write(&write_problem(&problem))?;
-
+    let problem = write_problem(&report.state.problem(block)?);
+    folder.write(&format!("{name}.json"), problem.as_bytes())?;
     if let Some(proved) = &report.certificate {
-        let path = folder.join(format!("{name}.certificate.json"));
-        Output::prepare("write", &path, &[])?.write(&proved.file()?)?;
+        let name = format!("{name}.certificate.json");
+        folder.write(&name, proved.file()?.as_bytes())?;
     }
 
     Ok(())

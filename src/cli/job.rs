@@ -4,25 +4,36 @@ use super::common::{CliError, aside, exit, print};
 use indicatif::ProgressBar;
 use mceip_engine::run::{Cancel, Progress, Watch};
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// A switch that Ctrl-C sets; a second Ctrl-C ends the process. Says so: the step that is under way
-/// may be long.
-pub(super) fn interrupt() -> Cancel {
-    let cancel = Cancel::new();
-    let shared = cancel.clone();
+/// The switch of the run under way, if it has something to keep before it ends.
+static RUN: OnceLock<Cancel> = OnceLock::new();
 
+/// Takes over interrupts and requests to end. A run that has something to keep is asked to stop, and
+/// says so: the step that is under way may be long. Where there is none, and the second time, the
+/// process ends.
+pub(super) fn hear_interrupts() {
     // Fails only if a handler exists already: then the default behaviour stays.
-    let _ = ctrlc::set_handler(move || {
-        let was_requested = shared.request();
-        if was_requested {
-            std::process::exit(i32::from(exit::INTERRUPTED));
+    let _ = ctrlc::set_handler(|| {
+        match RUN.get() {
+            Some(run) if !run.request() => {
+                aside("mceip: stopping, what is found is kept; a second interrupt ends at once");
+                return;
+            }
+            Some(_) => {}
+            None => aside("mceip: interrupted before it was done"),
         }
-        aside("mceip: stopping, what is found is kept; a second interrupt ends at once");
+        std::process::exit(i32::from(exit::INTERRUPTED));
     });
+}
 
-    cancel
+/// The switch that an interrupt sets.
+pub(super) fn interrupt() -> Cancel {
+    let run = RUN.get_or_init(Cancel::new).clone();
+    hear_interrupts();
+    run
 }
 
 /// Time between two writes of what a long search has proved.
@@ -41,15 +52,6 @@ pub(super) fn is_quiet() -> bool {
     IS_QUIET.load(Ordering::Relaxed)
 }
 
-/// Lets the first Ctrl-C end the process: for work that has nothing to keep before it is done.
-fn end_at_interrupt() {
-    // As in `interrupt`: fails only if a handler exists already.
-    let _ = ctrlc::set_handler(|| {
-        aside("mceip: interrupted before it was decided");
-        std::process::exit(i32::from(exit::INTERRUPTED));
-    });
-}
-
 /// A run that Ctrl-C ends, with what has been found kept.
 pub(super) struct Job {
     cancel: Cancel,
@@ -62,10 +64,10 @@ impl Job {
         Job::with_line(what, interrupt())
     }
 
-    /// Begins work that has nothing to keep before it is done, such as a check: it does not ask for
-    /// an interrupt, which ends the process.
+    /// Begins work that has nothing to keep before it is done, such as a check: an interrupt ends the
+    /// process.
     pub(super) fn begin_with_nothing_to_keep(what: &str) -> Job {
-        end_at_interrupt();
+        hear_interrupts();
         Job::with_line(what, Cancel::new())
     }
 

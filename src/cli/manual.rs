@@ -5,9 +5,10 @@
 
 use super::Cli;
 use super::common::{CliError, exit, print};
+use super::output::Folder;
 use clap::CommandFactory as _;
 use clap_complete::Shell;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(clap::Args)]
 pub(super) struct CompletionsArgs {
@@ -32,31 +33,29 @@ pub(super) fn completions(args: &CompletionsArgs) -> Result<u8, CliError> {
 
 /// Writes the manual pages.
 pub(super) fn man(args: &ManArgs) -> Result<u8, CliError> {
-    let folder = &args.folder;
-    std::fs::create_dir_all(folder).map_err(|e| CliError::write(folder.display(), &e))?;
+    let folder = Folder::prepare("man", &args.folder, &[])?;
 
     // A page names its own options with those of the whole program.
     let mut program = Cli::command().disable_help_subcommand(true);
     program.build();
 
-    write_page(&program, "mceip", folder)?;
+    write_page(&program, "mceip", &folder)?;
     for command in program.get_subcommands() {
-        write_page(command, &format!("mceip-{}", command.get_name()), folder)?;
+        write_page(command, &format!("mceip-{}", command.get_name()), &folder)?;
     }
 
     Ok(exit::DONE)
 }
 
 /// Writes the page of a command as `name`.1.
-fn write_page(command: &clap::Command, name: &str, folder: &Path) -> Result<(), CliError> {
-    let path = folder.join(format!("{name}.1"));
-    let refused = |e: std::io::Error| CliError::write(path.display(), &e);
-
+fn write_page(command: &clap::Command, name: &str, folder: &Folder) -> Result<(), CliError> {
     // The title is the name of the file, so that `man mceip-solve` says which page it shows.
     let title = name.to_uppercase();
     let page = clap_mangen::Man::new(command.clone()).title(title);
 
     let mut text = Vec::new();
-    page.render(&mut text).map_err(refused)?;
-    std::fs::write(&path, text).map_err(refused)
+    let name = format!("{name}.1");
+    page.render(&mut text)
+        .map_err(|e| CliError::write(&name, &e))?;
+    folder.write(&name, &text)
 }

@@ -90,6 +90,33 @@ enum Command {
     Man(manual::ManArgs),
 }
 
+impl Command {
+    /// Does an interrupt end it at once? The others hear one from when they have something to keep.
+    fn has_nothing_to_keep(&self) -> bool {
+        match self {
+            Command::Merge(_)
+            | Command::Convert(_)
+            | Command::Check(_)
+            | Command::Table1(_)
+            | Command::Reduce(_)
+            | Command::Explain(_)
+            | Command::Completions(_)
+            | Command::Man(_) => true,
+            Command::Verify(_)
+            | Command::Enumerate(_)
+            | Command::Solve(_)
+            | Command::Complete(_)
+            | Command::Analyze(_)
+            | Command::Certify(_)
+            | Command::Conform(_)
+            | Command::Block(_)
+            | Command::Path(_)
+            | Command::Campaign(_)
+            | Command::Simulate(_) => false,
+        }
+    }
+}
+
 /// Runs the program on the process's arguments.
 pub fn main() -> ExitCode {
     look_at_stdout();
@@ -99,6 +126,9 @@ pub fn main() -> ExitCode {
     };
     if cli.quiet {
         job::be_quiet();
+    }
+    if cli.command.has_nothing_to_keep() {
+        job::hear_interrupts();
     }
 
     let result = match cli.command {

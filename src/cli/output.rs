@@ -89,6 +89,25 @@ impl Output {
         Ok(())
     }
 
+    /// Is it a file with this text?
+    fn holds(&self, text: &str) -> bool {
+        !self.is_device && std::fs::read(&self.path).is_ok_and(|there| there == text.as_bytes())
+    }
+
+    /// Removes what is there, if anything is.
+    fn remove(&self) -> Result<(), CliError> {
+        if self.is_device {
+            return Ok(());
+        }
+
+        match std::fs::remove_file(&self.path) {
+            Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
+                Err(CliError::write(self.path.display(), &e))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Is it a device or a pipe, which keeps what was written first?
     pub(super) fn is_device(&self) -> bool {
         self.is_device
@@ -236,6 +255,8 @@ pub(super) struct Folder {
     path: PathBuf,
     /// The files that the run reads, which nothing may replace.
     inputs: Vec<PathBuf>,
+    /// The first file that was to be kept and could not be written.
+    failed: Mutex<Option<CliError>>,
 }
 
 impl Folder {
@@ -250,6 +271,7 @@ impl Folder {
             option,
             path: path.to_path_buf(),
             inputs: inputs.iter().map(|input| input.to_path_buf()).collect(),
+            failed: Mutex::default(),
         })
     }
 
@@ -270,17 +292,49 @@ impl Folder {
         self.output(name)?.write_bytes(bytes)
     }
 
+    /// Writes a file that is to be kept while the run goes on; whether it could be written, the run
+    /// asks at its end ([`Folder::first_failure`]).
+    pub(super) fn keep(&self, name: &str, text: &str) {
+        self.note(self.write(name, text.as_bytes()));
+    }
+
+    /// The same for a proof.
+    pub(super) fn keep_proof(&self, proof: &Kept<'_>) {
+        self.note(self.write_proof(proof));
+    }
+
+    fn note(&self, written: Result<(), CliError>) {
+        if let Err(e) = written {
+            let mut failed = self.failed.lock().unwrap_or_else(PoisonError::into_inner);
+            failed.get_or_insert(e);
+        }
+    }
+
+    /// The first file that was to be kept and could not be written.
+    pub(super) fn first_failure(self) -> Result<(), CliError> {
+        let failed = self.failed.into_inner();
+        failed
+            .unwrap_or_else(PoisonError::into_inner)
+            .map_or(Ok(()), Err)
+    }
+
     fn output(&self, name: &str) -> Result<Output, CliError> {
         let inputs: Vec<&Path> = self.inputs.iter().map(PathBuf::as_path).collect();
         Output::prepare(self.option, &self.path.join(name), &inputs)
     }
 
-    /// Writes a proof as NAME.problem.json and NAME.certificate.json, the problem first.
+    /// Writes a proof as NAME.problem.json and NAME.certificate.json, the problem first. A
+    /// certificate of an earlier run goes before its problem is replaced: a run that is killed
+    /// between the two leaves no pair that does not belong together.
     pub(super) fn write_proof(&self, proof: &Kept<'_>) -> Result<(), CliError> {
         let [problem, certificate] = proof_files(proof.name);
         let [problem, certificate] = [self.output(&problem)?, self.output(&certificate)?];
 
-        problem.write(&write_problem(proof.problem))?;
+        let text = write_problem(proof.problem);
+        if !problem.holds(&text) {
+            certificate.remove()?;
+            problem.write(&text)?;
+        }
         certificate.write(proof.certificate)
     }
 

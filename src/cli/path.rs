@@ -205,19 +205,20 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         certified,
         is_interrupted: job.is_cancelled(),
     };
-    if let Some(folder) = folder {
-        outcome.write_states(&folder)?;
-    }
-    if let Some(picture) = picture {
+    // What cannot be written takes nothing else along.
+    let states = folder.map_or(Ok(()), |folder| outcome.write_states(&folder));
+    let picture = picture.map_or(Ok(()), |picture| {
         let title = "Loading path: resultants, and the state of each contact candidate";
-        picture.write(&path_picture(title, &outcome.path, LABELS).to_svg())?;
-    }
+        picture.write(&path_picture(title, &outcome.path, LABELS).to_svg())
+    });
 
     print(&if args.json {
         format!("{}\n", outcome.json())
     } else {
         outcome.text()
     })?;
+    proofs.map_or(Ok(()), Folder::first_failure)?;
+    states.and(picture)?;
     let code = exit_code(
         &outcome.path,
         outcome.proved.as_deref(),
@@ -418,8 +419,7 @@ fn certify_stretches(
         ));
         certified.push(match certify(body, path, stretch, &stretch.inside) {
             Ok(proved) => {
-                let text = proved.file()?;
-                folder.write(&format!("equilibrium-{k:03}.json"), text.as_bytes())?;
+                folder.keep(&format!("equilibrium-{k:03}.json"), &proved.file()?);
                 written.push(k);
                 Ok(())
             }

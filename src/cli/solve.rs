@@ -106,18 +106,18 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
         searched => searched?,
     };
 
-    if let Some(output) = trace_output
-        && !found.is_cancelled
-    {
-        output.write(&trace::text_of(&problem, &found, args.all))?;
-    }
-
+    // Proofs first; what cannot be written takes nothing else along.
     let is_found = !found.solutions.is_empty();
-    if let Some(output) = output
-        && is_found
-    {
-        output.write_proved(found.certificates())?;
-    }
+    let proofs = match output {
+        Some(output) if is_found => output.write_proved(found.certificates()),
+        _ => Ok(()),
+    };
+    let log = match trace_output {
+        Some(output) if !found.is_cancelled => {
+            output.write(&trace::text_of(&problem, &found, args.all))
+        }
+        _ => Ok(()),
+    };
 
     let text = if args.json {
         format!("{}\n", found.to_json())
@@ -126,6 +126,7 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     };
     print_asides(args, &problem, &found)?;
     print(&text)?;
+    proofs.and(log)?;
 
     Ok(if found.is_cancelled {
         exit::INTERRUPTED

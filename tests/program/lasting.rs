@@ -361,3 +361,32 @@ fn a_check_answers_an_interrupt() {
     let said = std::fs::read_to_string(folder.path("said")).unwrap();
     assert_eq!(said.is_empty(), is_undecided, "{said}");
 }
+
+/// So do commands that wait for their input.
+#[test]
+fn a_command_without_anything_to_keep_answers_an_interrupt() {
+    for command in [&["reduce", "-"][..], &["check", "-", "c.json"]] {
+        let mut waiting = program(command);
+        let mut child = waiting
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        interrupt(&child, Duration::ZERO);
+        assert_eq!(child.wait().unwrap().code(), Some(130), "{command:?}");
+    }
+}
+
+/// A trace that cannot be written takes neither the certificate nor the answer along.
+#[test]
+fn what_cannot_be_written_takes_nothing_else_along() {
+    let folder = Folder::new();
+    let certificate = folder.path("c.json");
+    let problem = example("fold");
+    let full = ["--trace", "/dev/full", "--certificate", &certificate];
+    let run = run(&[&["solve", &problem][..], &full].concat());
+    assert_eq!(run.code, Some(2), "{run:?}");
+    assert!(run.stdout.contains("certified"), "{run:?}");
+    exits(0, &["check", &problem, &certificate]);
+}

@@ -7,7 +7,7 @@
 use super::scale_error::ScaleError;
 use crate::cli::common::{CliError, exit, print};
 use crate::cli::job::Job;
-use crate::cli::output::Output;
+use crate::cli::output::{Output, make_writable};
 use mceip_engine::multistart::{AllSlip, all_slip};
 use mceip_engine::reduction::{CondensationResidual, SparseCondensation, SparseCondensed};
 use mceip_engine::report::Table;
@@ -55,6 +55,9 @@ struct Seconds {
 pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result<u8, CliError> {
     let models = scales.iter().map(|text| model(text));
     let models = models.collect::<Result<Vec<_>, _>>()?;
+    if let Some(folder) = write {
+        make_writable(folder)?;
+    }
     let mut outputs = Vec::new();
     for model in &models {
         let (nx, ny) = model.cells;

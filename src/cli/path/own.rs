@@ -368,8 +368,7 @@ impl Point {
 
         let mu = spelt(&self.mu).replace('/', "over");
         if let Ok(states) = &examined.states {
-            let text = states.file()?;
-            folder.write(&format!("mu-{mu}.equilibrium.json"), text.as_bytes())?;
+            folder.keep(&format!("mu-{mu}.equilibrium.json"), &states.file()?);
         }
         match &examined.proof {
             Some(proof) => write_proof(folder, &format!("mu-{mu}"), proof),
@@ -519,11 +518,12 @@ impl OwnCritical {
 }
 
 fn write_proof(folder: &Folder, name: &str, proof: &Proof) -> Result<(), CliError> {
-    folder.write_proof(&Kept {
+    folder.keep_proof(&Kept {
         name,
         problem: &proof.problem,
         certificate: &proof.certificate.file()?,
-    })
+    });
+    Ok(())
 }
 
 /// The frozen critical friction, and why it is another number.

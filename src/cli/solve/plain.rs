@@ -29,19 +29,19 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
     let found = searched.map_err(SearchError::from)?;
     job.end();
 
-    if let Some(output) = trace_output
-        && !found.interrupted
-    {
-        let header = trace::Header::plain(&problem, &how);
-        output.write(&trace::render_plain(&header, &found))?;
-    }
-
+    // Solutions first; what cannot be written takes nothing else along.
     let is_found = !found.certified.is_empty();
-    if let Some(output) = output
-        && is_found
-    {
-        output.write(&write_solution(&problem, &found.certified))?;
-    }
+    let solutions = match output {
+        Some(output) if is_found => output.write(&write_solution(&problem, &found.certified)),
+        _ => Ok(()),
+    };
+    let log = match trace_output {
+        Some(output) if !found.interrupted => {
+            let header = trace::Header::plain(&problem, &how);
+            output.write(&trace::render_plain(&header, &found))
+        }
+        _ => Ok(()),
+    };
 
     for (point, reason) in &found.uncertified {
         aside(&format!("uncertified: z = {point:?}: {reason}"));
@@ -59,6 +59,7 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
         listing(&problem, &found)
     };
     print(&text)?;
+    solutions.and(log)?;
 
     Ok(if found.interrupted {
         exit::INTERRUPTED
