@@ -36,6 +36,7 @@
 //! | find all solutions, or prove that there are none | [`Problem::complete`] |
 //! | list all solutions of a small problem by plain enumeration | [`Problem::enumerate`] |
 //! | know whether an equilibrium can diverge, and from which friction on | [`Problem::analyze`] |
+//! | find the contact states that loads lead to | [`Loads::path`] |
 //! | prove a solution that you have computed | [`Problem::certify`] |
 //! | check a certificate | [`check`](check()) |
 //!

@@ -41,6 +41,7 @@ from .answers import (
 )
 from .drawing import Drawing, draw_mode
 from .inputs import Contact, Number
+from .loading import Body, Candidate, LoadPath, Step, Stretch
 from .problem import ModelWarning, Problem, check
 from .progress import Listener
 
@@ -48,6 +49,8 @@ __all__ = [
     "Absence",
     "Accepted",
     "Analysis",
+    "Body",
+    "Candidate",
     "Certificate",
     "Certified",
     "Claim",
@@ -59,6 +62,7 @@ __all__ = [
     "Found",
     "Interval",
     "Listener",
+    "LoadPath",
     "MceipError",
     "Mode",
     "ModelWarning",
@@ -71,6 +75,8 @@ __all__ = [
     "RejectedError",
     "Solution",
     "SolutionSet",
+    "Step",
+    "Stretch",
     "Uncertified",
     "check",
     "draw_mode",

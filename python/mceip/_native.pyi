@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from .inputs import Contact, Triplets
+from .loading import PlainStep
 from .progress import Listener
 
 class MceipError(ValueError):
@@ -56,3 +57,24 @@ class NativeProblem:
     def check(self, text: str) -> str: ...
     def check_absence(self, text: str) -> tuple[str, str, int]: ...
     def check_presence(self, text: str) -> tuple[str, str, int]: ...
+
+class NativeLoads:
+    @staticmethod
+    def made(
+        dofs: int,
+        stiffness: Triplets,
+        mass: Triplets | None,
+        candidates: Sequence[Contact],
+        gaps: Sequence[str],
+        held: Sequence[int],
+        steps: Sequence[PlainStep],
+    ) -> NativeLoads: ...
+    def path(
+        self, friction: str, in_doubles: bool, progress: Listener | None
+    ) -> NativeLoadPath | None: ...
+
+class NativeLoadPath:
+    def stretches(self) -> str: ...
+    def end(self) -> str: ...
+    def problem(self, stretch: int) -> NativeProblem | None: ...
+    def certify(self, stretch: int) -> str: ...

@@ -2,11 +2,13 @@
 //! `mceip/` stand.
 //!
 //! A problem comes from a file or from triplets of doubles; answers go back as JSON text, which
-//! Python turns into dataclasses. `contact` reads contacts, `answers` writes that text, `watched`
-//! runs long work on a thread of its own, so that Ctrl-C and progress are attended to.
+//! Python turns into dataclasses. `contact` reads contacts, `loads` bodies under loads, `answers`
+//! writes that text, `watched` runs long work on a thread of its own, so that Ctrl-C and progress
+//! are attended to.
 
 mod answers;
 mod contact;
+mod loads;
 mod watched;
 
 use contact::Contacts;
@@ -326,6 +328,8 @@ fn rejection(rejected: &Rejected) -> PyErr {
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     module.add_class::<NativeProblem>()?;
+    module.add_class::<loads::NativeLoads>()?;
+    module.add_class::<loads::NativeLoadPath>()?;
     module.add("MceipError", py.get_type::<MceipError>())?;
     module.add("RejectedError", py.get_type::<RejectedError>())?;
     module.add("NotCertifiedError", py.get_type::<NotCertifiedError>())

@@ -10,7 +10,7 @@ pub(super) mod plain;
 
 use super::common::{CliError, exit, load, parse_window, print, text};
 use super::job::{Job, decided};
-use super::path::read_body;
+use super::path::read_loads_of;
 use super::path::stretches::LETTERS;
 use crate::say;
 use mceip_check::certificate::{
@@ -138,13 +138,14 @@ fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
 
 /// The verdict on a certificate of contact states; `loads` is the text of the first file.
 fn equilibrium(args: &Args, loads: &str) -> Result<u8, CliError> {
-    let body = read_body(loads, &args.file)?.body;
+    let loads = read_loads_of(loads, &args.file)?;
+    let body = loads.body();
     let source = text("the certificate", &args.certificate)?;
     let read = EquilibriumCertificate::from_json(&source);
     let certificate = read.map_err(|e| CliError::file(&args.certificate, e))?;
 
-    let (text, code) = match decided(|| check_equilibrium(&body, &certificate)) {
-        Ok(accepted) => (equilibrium_text(&body, &accepted), exit::DONE),
+    let (text, code) = match decided(|| check_equilibrium(body, &certificate)) {
+        Ok(accepted) => (equilibrium_text(body, &accepted), exit::DONE),
         Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
     };
 

@@ -11,9 +11,9 @@ use std::time::Duration;
 /// The switch of the run under way, if it has something to keep before it ends.
 static RUN: OnceLock<Cancel> = OnceLock::new();
 
-/// Takes over interrupts and requests to end. A run that has something to keep is asked to stop, and
-/// says so: the step that is under way may be long. Where there is none, and the second time, the
-/// process ends.
+/// Takes over interrupts and requests to end. A run that has something to keep is asked to stop,
+/// and says so: the step that is under way may be long. Where there is none, and the second time,
+/// the process ends.
 pub(super) fn hear_interrupts() {
     // Fails only if a handler exists already: then the default behaviour stays.
     let _ = ctrlc::set_handler(|| {
@@ -64,8 +64,8 @@ impl Job {
         Job::with_line(what, interrupt())
     }
 
-    /// Begins work that has nothing to keep before it is done, such as a check: an interrupt ends the
-    /// process.
+    /// Begins work that has nothing to keep before it is done, such as a check: an interrupt ends
+    /// the process.
     pub(super) fn begin_with_nothing_to_keep(what: &str) -> Job {
         hear_interrupts();
         Job::with_line(what, Cancel::new())

@@ -5,31 +5,28 @@
 //! `mceip_path`. Each stretch between two events gives contact states: on request as a problem
 //! file, and with what is proved of them ([`states`]).
 
-mod certified;
 mod own;
 pub(in crate::cli) mod states;
 pub(in crate::cli) mod stretches;
-pub(in crate::cli) mod words;
 
 use super::common::{CliError, exit, positive, print, require_count, text};
 use super::job::Job;
 use super::output::{Folder, Output};
 use crate::picture::{PathLabels, path_picture};
 use crate::say::counted;
-use certified::certify;
+use crate::say::path::end_text;
+use crate::{LoadPath, Loads};
 use mceip_engine::analysis::AnalysisError;
-use mceip_engine::equilibrium::Uncertified;
-use mceip_engine::run::{Cancel, Progress, Watch};
-use mceip_exact::{Rational, to_f64};
+use mceip_engine::equilibrium::StatesNotCertified;
+use mceip_engine::run::{Progress, Watch};
+use mceip_exact::to_f64;
+use mceip_model::Unknown;
 use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
-use mceip_model::{LoadedBody, System, Unknown};
-use mceip_path::{Contact, LoadSteps, LoadingPath, PathEnd, PathError};
+use mceip_path::{LoadingPath, PathEnd};
 use own::{Asked, Loaded, OwnCritical};
 use serde_json::{Value, json};
 use states::{Followed, ProvedState, Wanted};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
-use words::end_text;
 
 /// Arguments of `path`.
 #[derive(clap::Args)]
@@ -116,8 +113,7 @@ const LABELS: PathLabels = PathLabels {
 /// Follows the path and prints it.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let input: &[&Path] = &[&args.file];
-    let file = read_body(&text("the loads", &args.file)?, &args.file)?;
-    let friction = friction(&file.body, args.mu.as_deref())?;
+    let loads = read_loads_of(&text("the loads", &args.file)?, &args.file)?;
     let at_mu = args.at_mu.iter().map(|mu| positive("at-mu", mu));
     let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
     let picture = Output::prepare_if("picture", args.picture.as_deref(), input)?;
@@ -128,35 +124,27 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         [] => None,
         ends => Some(Asked::of(ends, args.grid, &args.width)?),
     };
-    if own_asked.is_some() && file.body.system().mass().is_none() {
+    if own_asked.is_some() && loads.body().system().mass().is_none() {
         return Err(AnalysisError::NoMass.into());
     }
 
-    let (how, condense): (_, Condense) = if args.doubles {
-        ("in doubles", Contact::condense_in_doubles)
-    } else {
-        ("exactly", Contact::condense)
-    };
-    let job = Job::begin(&format!("condensing {how} to the contact candidates"));
-    let body = file.body.clone();
-    let condensed = in_background(job.cancel(), move || {
-        condense(body.system(), body.gaps(), body.loads())
-    });
-    let Some(contact) = condensed else {
+    let job = Job::begin("reading");
+    let mut question = loads.path().in_doubles(args.doubles).cancel(job.cancel());
+    match args.mu.as_deref() {
+        Some(mu) => question = question.friction(positive("mu", mu)?),
+        None if loads.body().system().friction().is_some() => {}
+        None => {
+            let expected = "a coefficient of friction here or in the file";
+            return Err(CliError::option("mu", expected, "none"));
+        }
+    }
+    let question = question.on_progress(|progress| job.say(progress));
+    let Some(followed) = question.run()? else {
         job.end();
         return Ok(exit::INTERRUPTED);
     };
-    let contact = contact?;
-
-    let steps = steps(&file.body, &friction);
-    let names: Vec<String> = file.body.steps().iter().map(|s| s.name.clone()).collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let path = LoadingPath::follow(&contact, &steps, &|at| {
-        let amount = to_f64(at.amount);
-        let step = names[at.step];
-        job.say(format!("stretch {}: {step}, {amount:.4} of it", at.stretch));
-        job.flow()
-    })?;
+    let path = followed.as_path();
+    let names = loads.step_names();
 
     let proved = if args.complete {
         let wanted = Wanted {
@@ -169,9 +157,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         let say = |progress: &Progress<'_>| job.say(progress);
         let watch = Watch::new(job.cancel(), &say);
         let followed = Followed {
-            body: file.body.system(),
-            contact: &contact,
-            path: &path,
+            body: loads.body().system(),
+            contact: followed.contact(),
+            path,
         };
         Some(states::of(&followed, &wanted, &watch)?)
     } else {
@@ -181,24 +169,23 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         None => None,
         Some(asked) => {
             let loaded = Loaded {
-                body: &file.body,
-                contact: &contact,
-                steps: &steps,
+                body: loads.body(),
+                contact: followed.contact(),
+                steps: &path.steps,
                 names: &names,
             };
             Some(job.watched(|watch| OwnCritical::find(&loaded, asked, proofs.as_ref(), watch))?)
         }
     };
     let certified = match (&proofs, &own) {
-        (Some(folder), None) => Some(certify_stretches(&file.body, &path, folder, &job)?),
+        (Some(folder), None) => Some(certify_stretches(&followed, folder, &job)?),
         _ => None,
     };
     job.end();
 
     let outcome = Outcome {
-        file,
+        followed: &followed,
         names: &names,
-        path,
         in_doubles: args.doubles,
         proved,
         own,
@@ -209,7 +196,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let states = folder.map_or(Ok(()), |folder| outcome.write_states(&folder));
     let picture = picture.map_or(Ok(()), |picture| {
         let title = "Loading path: resultants, and the state of each contact candidate";
-        picture.write(&path_picture(title, &outcome.path, LABELS).to_svg())
+        picture.write(&path_picture(title, path, LABELS).to_svg())
     });
 
     print(&if args.json {
@@ -219,11 +206,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     })?;
     proofs.map_or(Ok(()), Folder::first_failure)?;
     states.and(picture)?;
-    let code = exit_code(
-        &outcome.path,
-        outcome.proved.as_deref(),
-        outcome.is_interrupted,
-    );
+    let code = exit_code(path, outcome.proved.as_deref(), outcome.is_interrupted);
     match outcome.own {
         Some(own) if code == exit::DONE && own.is_undecided() => Ok(exit::UNDECIDED),
         _ => Ok(code),
@@ -233,70 +216,22 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 /// More parts than any picture has use for.
 const MAX_GRID: u64 = 10_000;
 
-/// A way to condense a body under loads.
-type Condense = fn(&System, &[Rational], &[Vec<Rational>]) -> Result<Contact, PathError>;
-
 /// Reads the text of a file of a body under loads; stdin has its matrices in this folder.
-pub(super) fn read_body(text: &str, path: &Path) -> Result<LoadsFile, CliError> {
+pub(super) fn read_loads_of(text: &str, path: &Path) -> Result<Loads, CliError> {
     let folder = if path == Path::new("-") {
         Path::new(".")
     } else {
         folder_of(path)
     };
-    read_loads(text, folder).map_err(|source| CliError::file(path, source))
-}
-
-/// mu of the command line, else of the file.
-fn friction(body: &LoadedBody, given: Option<&str>) -> Result<Rational, CliError> {
-    match (given, body.system().friction()) {
-        (Some(mu), _) => positive("mu", mu),
-        (None, Some(mu)) => Ok(mu.clone()),
-        (None, None) => Err(CliError::option(
-            "mu",
-            "a coefficient of friction here or in the file",
-            "none",
-        )),
-    }
-}
-
-/// Each load once, the last one without end where the file says so.
-fn steps(body: &LoadedBody, friction: &Rational) -> LoadSteps {
-    let one = Rational::from_integer(1.into());
-    let steps = body.steps().iter();
-    LoadSteps {
-        friction: friction.clone(),
-        amounts: steps
-            .map(|step| (!step.is_endless).then(|| one.clone()))
-            .collect(),
-    }
-}
-
-/// Work in a thread of its own: it cannot be broken off, but it can be left behind. `None` if it
-/// was.
-pub(super) fn in_background<T: Send + 'static>(
-    cancel: &Cancel,
-    work: impl FnOnce() -> T + Send + 'static,
-) -> Option<T> {
-    let worker = std::thread::spawn(work);
-    while !worker.is_finished() {
-        if cancel.is_requested() {
-            return None;
-        }
-        std::thread::sleep(Duration::from_millis(2));
-    }
-
-    match worker.join() {
-        Ok(done) => Some(done),
-        Err(panic) => std::panic::resume_unwind(panic),
-    }
+    let file = read_loads(text, folder).map_err(|source| CliError::file(path, source))?;
+    Ok(Loads::from(file))
 }
 
 /// What came out.
 struct Outcome<'a> {
-    file: LoadsFile,
+    followed: &'a LoadPath,
     /// Names of the steps.
     names: &'a [&'a str],
-    path: LoadingPath,
     /// Was the body condensed in doubles?
     in_doubles: bool,
     /// What is proved of the states, if asked for.
@@ -304,18 +239,26 @@ struct Outcome<'a> {
     /// The own critical friction, if asked for.
     own: Option<OwnCritical>,
     /// Whether the contact states inside each stretch are certified, if asked for.
-    certified: Option<Vec<Result<(), Uncertified>>>,
+    certified: Option<Vec<Result<(), StatesNotCertified>>>,
     is_interrupted: bool,
 }
 
 impl Outcome<'_> {
+    fn file(&self) -> &LoadsFile {
+        self.followed.loads().as_file()
+    }
+
+    fn path(&self) -> &LoadingPath {
+        self.followed.as_path()
+    }
+
     /// The path and the states, for people.
     fn text(&self) -> String {
-        let name = self.file.name.as_deref().unwrap_or("a body under loads");
-        let mu = to_f64(&self.path.steps.friction);
+        let name = self.file().name.as_deref().unwrap_or("a body under loads");
+        let mu = to_f64(&self.path().steps.friction);
         let letters = stretches::LETTERS;
-        let table = stretches::table_of(&self.path, self.names);
-        let end = end_text(&self.path);
+        let table = stretches::table_of(self.path(), self.names);
+        let end = end_text(self.path());
         let of_what = if self.in_doubles {
             "of the body condensed in doubles every event is"
         } else {
@@ -336,7 +279,7 @@ impl Outcome<'_> {
         match self.proved.as_deref() {
             None => {}
             Some([]) => out += "\nno candidate is in impending slip: no state to examine\n",
-            Some(proved) => out += &states::text_of(proved, &self.path),
+            Some(proved) => out += &states::text_of(proved, self.path()),
         }
         if self.is_interrupted {
             out += INTERRUPTED;
@@ -348,13 +291,13 @@ impl Outcome<'_> {
     /// The same for programs.
     fn json(&self) -> Value {
         let mut out = json!({
-            "name": self.file.name,
-            "mu": self.path.steps.friction.to_string(),
+            "name": self.file().name,
+            "mu": self.path().steps.friction.to_string(),
             "condensed": if self.in_doubles { "in doubles" } else { "exactly" },
             "steps": self.names,
-            "intervals": stretches::json_of(&self.path, self.names),
-            "end": end_text(&self.path),
-            "slides": self.path.slides(),
+            "intervals": self.followed.to_json(),
+            "end": end_text(self.path()),
+            "slides": self.path().slides(),
             "interrupted": self.is_interrupted,
         });
         if let Some(certified) = &self.certified {
@@ -362,7 +305,7 @@ impl Outcome<'_> {
             out["states_certified"] = json!(certified);
         }
         if let Some(proved) = &self.proved {
-            out["complete_sets"] = states::json_of(proved, &self.path);
+            out["complete_sets"] = states::json_of(proved, self.path());
         }
         if let Some(own) = &self.own {
             out["own_critical"] = own.json();
@@ -374,20 +317,20 @@ impl Outcome<'_> {
     /// The problem of each stretch with impending slip; those of an earlier path go.
     fn write_states(&self, folder: &Folder) -> Result<(), CliError> {
         let mut written = Vec::new();
-        for (k, stretch) in self.path.stretches.iter().enumerate() {
+        for (k, stretch) in self.path().stretches.iter().enumerate() {
             let states = stretch.equilibrium_states();
             if !states.iter().any(states::is_slip) {
                 continue;
             }
 
-            let friction = &self.path.steps.friction;
-            let mut problem = self.file.body.problem(states, friction, Unknown::Mu)?;
-            let name = self.file.name.as_deref().unwrap_or("loading path");
+            let friction = &self.path().steps.friction;
+            let mut problem = self.file().body.problem(states, friction, Unknown::Mu)?;
+            let name = self.file().name.as_deref().unwrap_or("loading path");
             problem.name = Some(format!(
                 "{name}, stretch {k} ({})",
                 self.names[stretch.step]
             ));
-            problem.coordinates = self.file.coordinates.clone();
+            problem.coordinates = self.file().coordinates.clone();
 
             let file = format!("stretch-{k:03}.json");
             folder.write(&file, write_problem(&problem).as_bytes())?;
@@ -401,15 +344,14 @@ impl Outcome<'_> {
 /// Certifies the contact states inside each stretch and writes what is accepted; those that an
 /// interrupt leaves are not in the list.
 fn certify_stretches(
-    body: &LoadedBody,
-    path: &LoadingPath,
+    followed: &LoadPath,
     folder: &Folder,
     job: &Job,
-) -> Result<Vec<Result<(), Uncertified>>, CliError> {
+) -> Result<Vec<Result<(), StatesNotCertified>>, CliError> {
     let mut certified = Vec::new();
     let mut written = Vec::new();
-    let count = path.stretches.len();
-    for (k, stretch) in path.stretches.iter().enumerate() {
+    let count = followed.as_path().stretches.len();
+    for k in 0..count {
         if job.is_cancelled() {
             break;
         }
@@ -417,7 +359,7 @@ fn certify_stretches(
         job.say(format!(
             "certifying the contact states of stretch {k} of {count}"
         ));
-        certified.push(match certify(body, path, stretch, &stretch.inside) {
+        certified.push(match followed.certify(k) {
             Ok(proved) => {
                 folder.keep(&format!("equilibrium-{k:03}.json"), &proved.file()?);
                 written.push(k);
@@ -432,7 +374,7 @@ fn certify_stretches(
 }
 
 /// Of how many stretches the contact states are certified, and why others are not.
-fn certified_text(certified: &[Result<(), Uncertified>]) -> String {
+fn certified_text(certified: &[Result<(), StatesNotCertified>]) -> String {
     let proved = certified.iter().filter(|state| state.is_ok()).count();
     let stretches = counted(certified.len(), "stretch");
     let mut out = format!(

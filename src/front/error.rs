@@ -10,6 +10,8 @@ use mceip_engine::multistart::SearchError;
 use mceip_engine::search::complete::CompleteError;
 #[cfg(feature = "solver")]
 use mceip_oracle::OracleError;
+#[cfg(feature = "solver")]
+use mceip_path::PathError;
 
 use mceip_check::Rejected;
 use mceip_model::ModelError;
@@ -66,13 +68,17 @@ pub enum Error {
     #[cfg(feature = "solver")]
     #[error(transparent)]
     NotCertified(#[from] NotCertified),
+    /// The loading path cannot be followed.
+    #[cfg(feature = "solver")]
+    #[error(transparent)]
+    Path(#[from] PathError),
     /// Only a mechanical system can be analysed.
     #[cfg(feature = "solver")]
     #[error("analyze: expected a mechanical system, got a pencil")]
     NotASystem,
     /// The analysis needs a friction coefficient.
     #[cfg(feature = "solver")]
-    #[error("analyze: expected a friction coefficient, in the system or as an option, got none")]
+    #[error("expected a friction coefficient, in the file or as an option, got none")]
     NoFriction,
 }
 

@@ -9,6 +9,8 @@ mod complete;
 #[cfg(feature = "solver")]
 mod enumerate;
 mod error;
+#[cfg(feature = "solver")]
+mod loads;
 mod matrix;
 mod problem;
 #[cfg(feature = "solver")]
@@ -27,6 +29,10 @@ pub use complete::{Complete, SolutionSet};
 #[cfg(feature = "solver")]
 pub use enumerate::{Enumerate, Enumerated};
 pub use error::Error;
+#[cfg(feature = "solver")]
+pub use loads::{FollowPath, LoadPath, Loads, ProvedStates};
+#[cfg(feature = "cli")]
+pub(crate) use loads::{certify_states, left_behind_if};
 pub use matrix::Matrix;
 pub use problem::{Problem, check};
 #[cfg(feature = "solver")]

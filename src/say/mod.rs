@@ -5,6 +5,7 @@
 
 pub(crate) mod cover;
 pub(crate) mod enumeration;
+pub(crate) mod path;
 pub(crate) mod search;
 
 /// "1 warning", "2 warnings", "2 stretches".

@@ -19,7 +19,7 @@ pub const CERTIFIED_DOFS: usize = 1500;
 
 /// Why contact states were not certified. None of these says that they are wrong.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Uncertified {
+pub enum StatesNotCertified {
     /// The body is too large.
     #[error("expected at most {CERTIFIED_DOFS} degrees of freedom, got {dofs}")]
     TooLarge {
@@ -46,14 +46,14 @@ pub enum Uncertified {
 /// Certifies that the body has this equilibrium.
 ///
 /// # Errors
-/// [`Uncertified`]: a body that is too large, a statement that no claim proves.
+/// [`StatesNotCertified`]: a body that is too large, a statement that no claim proves.
 pub fn certify_equilibrium(
     body: &LoadedBody,
     stated: StatedEquilibrium,
-) -> Result<Proved<EquilibriumCertificate>, Uncertified> {
+) -> Result<Proved<EquilibriumCertificate>, StatesNotCertified> {
     let dofs = body.system().dofs();
     if dofs > CERTIFIED_DOFS {
-        return Err(Uncertified::TooLarge { dofs });
+        return Err(StatesNotCertified::TooLarge { dofs });
     }
 
     let pencil = EquilibriumPencil::of(body, &stated)?;
@@ -67,13 +67,13 @@ pub fn certify_equilibrium(
 }
 
 /// A claim about the solution with t = s = 1.
-fn claim(equilibrium: &EquilibriumPencil) -> Result<Claim, Uncertified> {
+fn claim(equilibrium: &EquilibriumPencil) -> Result<Claim, StatesNotCertified> {
     let problem = &equilibrium.problem;
     let reduced = mceip_model::reduction::reduce(problem)?;
     let a = reduced.pencil.a();
     let load = equilibrium.load;
 
-    let mut x = free_part(a, load).ok_or(Uncertified::Singular)?;
+    let mut x = free_part(a, load).ok_or(StatesNotCertified::Singular)?;
     x.resize(a.rows(), 0.0);
     x[load] = 1.0;
     let candidate = Candidate { value: 1.0, x };

@@ -13,8 +13,10 @@ use crate::cli::common::{CliError, exit, number, positive, print};
 use crate::cli::job::Job;
 use crate::cli::output::{Folder, Output};
 use crate::cli::path::states::{self, Followed, ProvedState, Wanted};
-use crate::cli::path::words::end_text;
-use crate::cli::path::{INTERRUPTED, exit_code, in_background, stretches};
+use crate::cli::path::{INTERRUPTED, exit_code, stretches};
+use crate::front::left_behind_if;
+use crate::say;
+use crate::say::path::{end_text, states_json};
 use mceip_engine::run::{Progress, Watch};
 use mceip_exact::{Integer, Rational, to_f64};
 use mceip_model::ContactState;
@@ -46,7 +48,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     let job = Job::begin("condensing exactly to the contact nodes");
     let condensing = block.clone();
-    let condensed = in_background(job.cancel(), move || condensing.contact_side());
+    let condensed = left_behind_if(&|| job.is_cancelled(), move || condensing.contact_side());
     let Some(contact) = condensed else {
         job.end();
         return Ok(exit::INTERRUPTED);
@@ -313,7 +315,7 @@ fn listed(numbers: &[usize]) -> String {
 }
 
 fn json_of(model: &BlockModel, path: &BlockPath, steps: Option<&Comparison>) -> Value {
-    let intervals = stretches::json_of(&path.motion, STEPS);
+    let intervals = say::path::json_of(&path.motion, STEPS);
     json!({
         "cells": [model.cells.0, model.cells.1],
         "mesh": model.mesh.word(),
@@ -323,7 +325,7 @@ fn json_of(model: &BlockModel, path: &BlockPath, steps: Option<&Comparison>) -> 
         "mu": path.loading.friction.to_string(),
         "force_N": path.loading.force.to_string(),
         "depth_mm": to_f64(&path.depth),
-        "pressing": stretches::states_json(&path.pressing),
+        "pressing": states_json(&path.pressing),
         "intervals": intervals,
         "end": end_text(&path.motion),
         "slides": path.motion.slides(),

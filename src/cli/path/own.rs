@@ -14,10 +14,12 @@
 //! Whether an end state diverges is decided by [`divergence_at`]: by a certificate that the checker
 //! has accepted, or by the theorem for states in which nothing slips.
 
-use super::certified::{Certified, certify};
-use super::words::{amount, end_text};
+use super::stretches::amount;
+use crate::ProvedStates;
 use crate::cli::common::{CliError, positive};
 use crate::cli::output::Folder;
+use crate::front::certify_states;
+use crate::say::path::{end_text, states_json};
 use mceip_engine::analysis::{
     Analysis, Divergence, Options, Proof, Verdict, analyse, divergence_at,
 };
@@ -124,7 +126,7 @@ struct EarlyEnd {
 struct Examined {
     equilibrium: Equilibrium,
     /// Are its contact states proved?
-    states: Certified,
+    states: ProvedStates,
     divergence: Divergence,
     proof: Option<Proof>,
 }
@@ -312,7 +314,7 @@ impl Loaded<'_> {
                 }
                 Reached::Equilibrium(Box::new(Examined {
                     equilibrium: equilibrium.clone(),
-                    states: certify(self.body, &path, stretch, equilibrium),
+                    states: certify_states(self.body, &path, stretch, equilibrium),
                     divergence,
                     proof,
                 }))
@@ -603,7 +605,7 @@ impl Point {
                 });
                 json!({
                     "mu": spelt(&self.mu),
-                    "states": super::stretches::states_json(examined.equilibrium.contact_states()),
+                    "states": states_json(examined.equilibrium.contact_states()),
                     "states_certified": examined.states.is_ok(),
                     "divergence": examined.divergence.verdict.word(),
                     "families": examined.divergence.families,

@@ -1,12 +1,10 @@
-//! The stretches of a loading path as a table for people and as JSON for programs: `mceip path` and
-//! `mceip block --path` print them.
+//! The stretches of a loading path as a table for people: `mceip path` and `mceip block --path`
+//! print it.
 
-use super::words::{amount, causes_text, state_word};
+use crate::say::path::causes_text;
 use mceip_engine::report::{Table, fixed_decimals};
-use mceip_exact::to_f64;
 use mceip_model::ContactState;
-use mceip_path::{Bound, Equilibrium, Event, Finder, LoadingPath, Stretch};
-use serde_json::{Value, json};
+use mceip_path::{Equilibrium, Event, Finder, LoadingPath, Stretch};
 
 /// What the letters of the column "nodes" mean.
 pub(in crate::cli) const LETTERS: &str = "nodes in order: . stick, < impending slip against its \
@@ -85,77 +83,7 @@ fn event_text(event: &Event) -> String {
     }
 }
 
-/// The stretches for programs.
-pub(in crate::cli) fn json_of(path: &LoadingPath, steps: &[&str]) -> Vec<Value> {
-    let stretches = path.stretches.iter();
-    stretches
-        .map(|stretch| stretch_json(stretch, steps[stretch.step]))
-        .collect()
-}
-
-fn stretch_json(stretch: &Stretch, step: &str) -> Value {
-    let [stick, against, along, free] = stretch.counts();
-    let stop = stretch.stop.as_ref();
-
-    json!({
-        "step": step,
-        "from": to_f64(stretch.start.amount()),
-        "to": stop.map(|stop| to_f64(stop.amount())),
-        "states": states_json(&stretch.states),
-        "equilibrium_states": states_json(stretch.equilibrium_states()),
-        "stick": stick,
-        "slip-": against,
-        "slip+": along,
-        "free": free,
-        "zero": zeros(stretch),
-        "start": equilibrium_json(&stretch.start),
-        "stop": stop.map(equilibrium_json),
-        "event": event_json(&stretch.begin),
-    })
-}
-
-fn event_json(event: &Event) -> Value {
-    let causes: Vec<Value> = event.causes.iter().map(cause_json).collect();
-    let mut changes = Vec::new();
-    for change in &event.changes {
-        changes.push(json!({
-            "node": change.node + 1,
-            "from": state_word(change.from),
-            "to": state_word(change.to),
-        }));
-    }
-
-    json!({
-        "causes": causes,
-        "changes": changes,
-        "tried": event.tried,
-    })
-}
-
-fn cause_json(bound: &Bound) -> Value {
-    json!({ "node": bound.node() + 1, "what": bound.word() })
-}
-
-fn equilibrium_json(at: &Equilibrium) -> Value {
-    let (tangential, normal) = at.resultants();
-    let mut reactions = Vec::new();
-    for (r_t, r_n) in at.reactions_f64() {
-        reactions.push(json!([r_t, r_n]));
-    }
-
-    // The fraction of the exact amount fills pages: its size stands for it.
-    let bits = at.amount().numer().bits() + at.amount().denom().bits();
-
-    json!({
-        "amount_bits": bits,
-        "states": states_json(at.contact_states()),
-        "resultant_T": to_f64(&tangential),
-        "resultant_N": to_f64(&normal),
-        "reactions_T_N": reactions,
-    })
-}
-
-/// The states in words.
-pub(in crate::cli) fn states_json(states: &[ContactState]) -> Vec<&'static str> {
-    states.iter().map(|state| state_word(*state)).collect()
+/// The amount of the growing load at an equilibrium.
+pub(in crate::cli) fn amount(at: &Equilibrium) -> String {
+    fixed_decimals(at.amount(), 9)
 }

@@ -18,8 +18,8 @@ pub const MAX_SAMPLES: usize = 10_000;
 /// How much work an analysis may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
-    /// Values of mu at which divergence is decided, to find the ranges in which it exists; 0: none, at most
-    /// [`MAX_SAMPLES`].
+    /// Values of mu at which divergence is decided, to find the ranges in which it exists; 0: none,
+    /// at most [`MAX_SAMPLES`].
     pub samples: usize,
     /// Threads, all cores if not given. The answer does not depend on it.
     pub threads: Option<usize>,

@@ -7,12 +7,12 @@
 
 use crate::cli::common::CliError;
 use crate::cli::path::states::{Growing, ProvedMode, ProvedSet, ProvedState};
-use crate::cli::path::stretches::stretch_cells;
-use crate::cli::path::words::{amount, causes_text, end_text};
+use crate::cli::path::stretches::{amount, stretch_cells};
 use crate::picture::{
     BranchPoint, Branches, Content, Mode, PathLabels, Picture, Report, Section, Threshold,
     ThresholdColumn, branch_picture, mode_picture, path_picture, threshold_picture,
 };
+use crate::say::path::{causes_text, end_text};
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::Levels;
 use mceip_exact::{Rational, to_f64};

@@ -1,0 +1,227 @@
+"""From loads to contact states: the quasi-static path of a body.
+
+A body may touch an obstacle, and is loaded step by step. The path finds which candidates stick,
+slip and open, exactly; each of its stretches has the problem in its contact states, for `analyze`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._native import MceipError, NativeLoadPath, NativeLoads
+from .answers import Analysis
+from .inputs import Contact, Number, Triplets, count, plain_contact, spelt, triplets
+from .problem import Problem
+from .progress import Progress, listening
+
+#: One value for each degree of freedom, or values by degree of freedom.
+Load = Union[Sequence[Number], npt.NDArray[Any], Mapping[int, Number]]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """What may come into contact.
+
+    Attributes:
+        tangential: degree of freedom along the obstacle, counted from 0.
+        normal: degree of freedom normal to the obstacle.
+        gap: distance from the obstacle in the unloaded body, >= 0.
+        normal_direction: 1 where the normal degree of freedom is positive into the obstacle, -1
+            where it is positive away from it.
+        frame: of an oblique contact, as in `Contact`.
+        friction_factor: the coefficient of friction of this candidate over the common one, > 0.
+    """
+
+    tangential: int
+    normal: int
+    gap: Number = 0
+    normal_direction: int = 1
+    frame: Sequence[Sequence[Number]] | None = None
+    friction_factor: Number = 1
+
+
+@dataclass(frozen=True)
+class Step:
+    """A load that grows from nothing to these values, and stays while the next one grows.
+
+    Attributes:
+        name: for people.
+        forces: at degrees of freedom.
+        displacements: of degrees of freedom, which are held from the beginning.
+        endless: of the last step: it grows until nothing more happens.
+    """
+
+    name: str
+    forces: Load = field(default_factory=dict)
+    displacements: Load = field(default_factory=dict)
+    endless: bool = False
+
+
+class Body:
+    """An elastic body that may touch an obstacle.
+
+    Args:
+        stiffness: K, N x N, symmetric to the last bit, of numpy or scipy.sparse.
+        mass: M, of the same kind; without it there are no growth rates.
+        candidates: what may come into contact.
+        held: degrees of freedom that do not move.
+    """
+
+    def __init__(
+        self,
+        stiffness: Any,
+        mass: Any = None,
+        *,
+        candidates: Sequence[Candidate],
+        held: Sequence[int] = (),
+    ) -> None:
+        self._dofs, self._stiffness = triplets("stiffness", stiffness)
+        self._mass: Triplets | None = None
+        if mass is not None:
+            _, self._mass = triplets("mass", mass, self._dofs)
+        self._candidates = [contact_of(k, candidate) for k, candidate in enumerate(candidates)]
+        self._gaps = [spelt(candidate.gap) for candidate in candidates]
+        self._held = [count("held", dof) for dof in held]
+
+    def path(
+        self,
+        steps: Sequence[Step],
+        friction: Number,
+        *,
+        in_doubles: bool = False,
+        progress: Progress = None,
+    ) -> LoadPath:
+        """The path of the body, unloaded at its beginning, under these loads.
+
+        Args:
+            steps: the loads, applied one after the other.
+            friction: the coefficient mu.
+            in_doubles: condenses in doubles instead of exactly; the path is then, exactly, that of
+                a body which differs from this one by rounding. For more than some hundred degrees
+                of freedom.
+            progress: as in `Problem`.
+        """
+        loads = NativeLoads.made(
+            self._dofs,
+            self._stiffness,
+            self._mass,
+            self._candidates,
+            self._gaps,
+            self._held,
+            [plain_step(k, step) for k, step in enumerate(steps)],
+        )
+        with listening(progress) as listener:
+            path = loads.path(spelt(friction), in_doubles, listener)
+        if path is None:
+            raise MceipError("the path was interrupted")
+        return LoadPath(path)
+
+
+class LoadPath:
+    """The path of a body under loads.
+
+    Attributes:
+        stretches: between two events, in order.
+        end: why it ends.
+    """
+
+    def __init__(self, native: NativeLoadPath) -> None:
+        stretches = json.loads(native.stretches())
+        self.stretches = [Stretch(native, k, stretch) for k, stretch in enumerate(stretches)]
+        self.end = native.end()
+
+    def __repr__(self) -> str:
+        return f"<mceip.LoadPath {len(self.stretches)} stretches, {self.end}>"
+
+
+class Stretch:
+    """A stretch of a path, on which no contact state changes.
+
+    Attributes:
+        step: the name of the load that grows.
+        start: how much of it is applied at the beginning.
+        stop: the same at the end; None where the stretch never ends.
+        states: of the equilibria inside, one for each candidate: "free", "stick", "slip+",
+            "slip-", "zero".
+        reactions: (r_T, r_N) of each candidate at the beginning.
+    """
+
+    def __init__(self, native: NativeLoadPath, number: int, stretch: Mapping[str, Any]) -> None:
+        self._native = native
+        self._number = number
+        self.step: str = stretch["step"]
+        self.start: float = stretch["from"]
+        self.stop: float | None = stretch["to"]
+        self.states: npt.NDArray[np.str_] = np.array(stretch["equilibrium_states"])
+        self.reactions: npt.NDArray[np.float64] = np.array(stretch["start"]["reactions_T_N"])
+
+    @property
+    def problem(self) -> Problem | None:
+        """The problem in these contact states; None where nothing slips."""
+        native = self._native.problem(self._number)
+        return None if native is None else Problem(native)
+
+    def analyze(self, **options: Any) -> Analysis | None:
+        """`Problem.analyze` in these contact states, held; None where nothing slips."""
+        problem = self.problem
+        return None if problem is None else problem.analyze(**options)
+
+    def certify(self) -> str:
+        """A certificate that there is an equilibrium in these contact states, as the text of
+        `mceip-equilibrium/1`. Raises `NotCertifiedError` where none is found."""
+        return self._native.certify(self._number)
+
+    def __repr__(self) -> str:
+        stop = "" if self.stop is None else f"{self.stop:.6g}"
+        states = " ".join(self.states.tolist())
+        return f"<mceip.Stretch {self.step} {self.start:.6g} to {stop}: {states}>"
+
+
+def contact_of(place: int, candidate: Candidate) -> Contact:
+    """The candidate as a contact without a state."""
+    if not isinstance(candidate, Candidate):
+        raise MceipError(f"candidates: expected mceip.Candidate, got {candidate!r}")
+    contact = Contact(
+        tangential=candidate.tangential,
+        normal=candidate.normal,
+        state="free",
+        normal_direction=candidate.normal_direction,
+        frame=candidate.frame,
+        friction_factor=candidate.friction_factor,
+    )
+    return plain_contact(f"candidate {place}", contact)
+
+
+@dataclass(frozen=True)
+class PlainStep:
+    """A step as the Rust part takes it."""
+
+    name: str
+    forces: list[tuple[int, str]]
+    displacements: list[tuple[int, str]]
+    endless: bool
+
+
+def plain_step(place: int, step: Step) -> PlainStep:
+    """The step with its values by degree of freedom, as text."""
+    if not isinstance(step, Step):
+        raise MceipError(f"step {place}: expected mceip.Step, got {step!r}")
+    return PlainStep(
+        name=str(step.name),
+        forces=values(f"step {place}: forces", step.forces),
+        displacements=values(f"step {place}: displacements", step.displacements),
+        endless=bool(step.endless),
+    )
+
+
+def values(name: str, load: Load) -> list[tuple[int, str]]:
+    """The values that are given: of a mapping all, of a list those that are not zero."""
+    if isinstance(load, Mapping):
+        return [(count(name, dof), spelt(value)) for dof, value in load.items()]
+    return [(dof, spelt(value)) for dof, value in enumerate(load) if value != 0]

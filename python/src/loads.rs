@@ -1,0 +1,136 @@
+//! Bodies under loads, and the paths that the loads lead them along.
+
+use crate::contact::Contacts;
+use crate::watched::watched;
+use crate::{MceipError, NativeProblem, NotCertifiedError, Triplets};
+use crate::{matrix, number, refused};
+use mceip::{Error, LoadPath, Loads, Rational};
+use mceip_model::file::LoadsFile;
+use mceip_model::{Candidate, LoadStep, LoadedBody, LoadedParts};
+use pyo3::prelude::*;
+
+/// Values at degrees of freedom, as text.
+type Values = Vec<(usize, String)>;
+
+/// What is read of a `mceip.Step`.
+#[derive(FromPyObject)]
+pub(crate) struct Step {
+    name: String,
+    forces: Values,
+    displacements: Values,
+    endless: bool,
+}
+
+/// A body under loads.
+#[pyclass(frozen, module = "mceip._native")]
+pub(crate) struct NativeLoads(Loads);
+
+#[pymethods]
+impl NativeLoads {
+    /// A body with `dofs` degrees of freedom, its candidates with their gaps, and the steps.
+    #[staticmethod]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "the fields of a file, one by one"
+    )]
+    fn made(
+        dofs: usize,
+        stiffness: Triplets,
+        mass: Option<Triplets>,
+        candidates: Contacts,
+        gaps: Vec<String>,
+        held: Vec<usize>,
+        steps: Vec<Step>,
+    ) -> PyResult<NativeLoads> {
+        let mass = mass.map(|mass| matrix(dofs, mass)).transpose()?;
+        let particles = candidates.table(dofs, None)?.particles;
+        let gaps = gaps.iter().map(|gap| number("gap", gap));
+        let gaps: Vec<Rational> = gaps.collect::<PyResult<_>>()?;
+        let candidates = particles.into_iter().zip(gaps);
+        let steps = steps.into_iter().map(step).collect::<PyResult<_>>()?;
+
+        let body = LoadedBody::new(LoadedParts {
+            stiffness: matrix(dofs, stiffness)?.into_exact(),
+            mass: mass.map(mceip::Matrix::into_exact),
+            friction: None,
+            candidates: candidates
+                .map(|(particle, gap)| Candidate { particle, gap })
+                .collect(),
+            held,
+            steps,
+        });
+        let body = body.map_err(|e| refused(e.into()))?;
+        Ok(NativeLoads(Loads::from(LoadsFile {
+            name: None,
+            body,
+            coordinates: None,
+        })))
+    }
+
+    /// The path at this friction; `None` if it was interrupted before it begins.
+    fn path(
+        &self,
+        py: Python<'_>,
+        friction: &str,
+        in_doubles: bool,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Option<NativeLoadPath>> {
+        let friction = number("friction", friction)?;
+        let path = watched(py, progress.as_ref(), |cancel, hear| {
+            let question = self.0.path().friction(friction).in_doubles(in_doubles);
+            question.cancel(cancel).on_progress(hear).run()
+        })?;
+        Ok(path.map_err(refused)?.map(NativeLoadPath))
+    }
+}
+
+fn step(step: Step) -> PyResult<LoadStep> {
+    let values = |values: Values| -> PyResult<Vec<(usize, Rational)>> {
+        let values = values.into_iter();
+        values
+            .map(|(dof, value)| Ok((dof, number("step", &value)?)))
+            .collect()
+    };
+
+    Ok(LoadStep {
+        name: step.name,
+        forces: values(step.forces)?,
+        displacements: values(step.displacements)?,
+        is_endless: step.endless,
+    })
+}
+
+/// A path that was followed.
+#[pyclass(frozen, module = "mceip._native")]
+pub(crate) struct NativeLoadPath(LoadPath);
+
+#[pymethods]
+impl NativeLoadPath {
+    /// The stretches, those of `mceip path --json`, as JSON text.
+    fn stretches(&self) -> String {
+        serde_json::Value::from(self.0.to_json()).to_string()
+    }
+
+    /// Why it ends.
+    fn end(&self) -> String {
+        self.0.end_text()
+    }
+
+    /// The problem in the contact states inside a stretch; `None` where nothing slips.
+    fn problem(&self, stretch: usize) -> PyResult<Option<NativeProblem>> {
+        match self.0.problem(stretch) {
+            Ok(problem) => Ok(Some(NativeProblem(problem))),
+            Err(Error::Model(mceip::ModelError::NothingSlips)) => Ok(None),
+            Err(error) => Err(refused(error)),
+        }
+    }
+
+    /// The certificate of the contact states inside a stretch, `mceip-equilibrium/1`.
+    fn certify(&self, py: Python<'_>, stretch: usize) -> PyResult<String> {
+        let certified = py.detach(|| self.0.certify(stretch));
+        let proved = certified.map_err(|why| NotCertifiedError::new_err(why.to_string()))?;
+        proved
+            .file()
+            .map_err(|e| MceipError::new_err(e.to_string()))
+    }
+}

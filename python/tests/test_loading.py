@@ -1,0 +1,115 @@
+"""Paths of bodies under loads: against the command line's example, and what is refused."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import scipy.sparse
+
+import mceip
+
+EXAMPLES = os.path.join(os.path.dirname(__file__), "..", "..", "spec", "examples")
+
+
+def example_body():
+    """The body and the steps of spec/examples/loads.json."""
+    with open(os.path.join(EXAMPLES, "loads.json"), encoding="utf-8") as file:
+        given = json.load(file)
+    system = given["system"]
+    lower = [(i, j, float(v)) for i, j, v in system["stiffness"]["entries"]]
+    stiffness = np.zeros((8, 8))
+    for i, j, value in lower:
+        stiffness[i, j] = stiffness[j, i] = value
+    candidates = []
+    for candidate in system["candidates"]:
+        gap = str(candidate.get("gap", 0))
+        candidates.append(mceip.Candidate(**{**candidate, "gap": gap}))
+    body = mceip.Body(stiffness, np.array(system["mass"], dtype=float), candidates=candidates)
+    steps = []
+    for step in given["steps"]:
+        displacements = {dof: str(value) for dof, value in step["displacements"]}
+        steps.append(mceip.Step(step["name"], displacements=displacements))
+    return body, steps, str(system["friction"])
+
+
+def test_the_path_of_the_example_is_that_of_the_book():
+    body, steps, friction = example_body()
+
+    path = body.path(steps, friction)
+
+    assert path.end == "all loads are applied"
+    states = ["".join({"free": "o", "stick": "."}.get(s, s[-1]) for s in stretch.states)
+              for stretch in path.stretches]
+    assert states == ["..o", "...", "...", "..-", ".--", "---", "--o", "o-o"]
+    assert path.stretches[0].stop == pytest.approx(0.46625)
+    assert path.stretches[5].reactions.shape == (3, 2)
+    assert path.stretches[0].problem is None and path.stretches[0].analyze() is None
+    analysis = path.stretches[5].analyze(samples=0)
+    assert analysis.critical_friction is not None
+
+
+def test_states_are_certified_and_anybody_can_check_them(tmp_path):
+    body, steps, friction = example_body()
+    path = body.path(steps, friction)
+    certificate = tmp_path / "certificate.json"
+
+    for stretch in path.stretches:
+        text = stretch.certify()
+        assert json.loads(text)["format"] == "mceip-equilibrium/1"
+    certificate.write_text(text)
+
+    # The friction is no part of the body here, as it is in the file: another digest.
+    with open(os.path.join(EXAMPLES, "loads.json"), encoding="utf-8") as file:
+        given = json.load(file)
+    del given["system"]["friction"]
+    loads = tmp_path / "loads.json"
+    loads.write_text(json.dumps(given))
+    checker = os.path.join(EXAMPLES, "..", "checker.py")
+    run = subprocess.run([sys.executable, checker, loads, certificate], capture_output=True)
+    assert run.returncode == 0, run
+
+
+def test_loads_are_lists_or_mappings_and_matrices_of_any_kind():
+    stiffness = scipy.sparse.csr_matrix([[2.0, 0.0], [0.0, 1.0]])
+    body = mceip.Body(stiffness, candidates=[mceip.Candidate(0, 1)])
+    press = mceip.Step("press", forces={1: 3})
+    paths = [
+        body.path([press, mceip.Step("push", forces=push)], "1/2")
+        for push in ([2.0, 0.0], np.array([2.0, 0.0]), {0: "2"})
+    ]
+
+    # It sticks until the push reaches mu N = 3/2.
+    for path in paths:
+        last = path.stretches[-1]
+        assert (last.start, last.states.tolist()) == (0.75, ["slip+"])
+        assert last.problem.unknown == "mu"
+
+
+@pytest.mark.parametrize(
+    "change, word",
+    [
+        ({"candidates": []}, "candidate"),
+        ({"candidates": [mceip.Candidate(0, 1, gap=-1)]}, "gap"),
+        ({"candidates": [mceip.Candidate(0, 7)]}, "7"),
+        ({"candidates": [(0, 1)]}, "mceip.Candidate"),
+        ({"held": [1]}, "held"),
+        ({"held": [9]}, "9"),
+    ],
+)
+def test_bodies_that_make_no_sense_are_refused(change, word):
+    arguments = {"candidates": [mceip.Candidate(0, 1)], **change}
+    with pytest.raises(mceip.MceipError, match=word):
+        body = mceip.Body(np.eye(2), **arguments)
+        body.path([mceip.Step("push", forces={0: 1})], 1)
+
+
+@pytest.mark.parametrize("steps", [[], [{"name": "push"}], [mceip.Step("a", forces={5: 1})]])
+def test_steps_that_make_no_sense_are_refused(steps):
+    body = mceip.Body(np.eye(2), candidates=[mceip.Candidate(0, 1)])
+    with pytest.raises(mceip.MceipError):
+        body.path(steps, 1)
+    with pytest.raises(mceip.MceipError):
+        body.path([mceip.Step("push", forces={0: 1})], 0)
