@@ -256,10 +256,9 @@ fn run_solver(
     for (starts, solver, search) in runs {
         match solver(problem, reduced, &search, &Watch::nobody()) {
             Ok(found) => compare_found(&answered, starts, found, report),
-            Err(e) => report.disagreements.push(Disagreement::Refused {
-                engine: "solver",
-                reason: e.to_string(),
-            }),
+            Err(e) => report
+                .disagreements
+                .push(Disagreement::refused("solver", &e)),
         }
     }
 }
@@ -267,16 +266,10 @@ fn run_solver(
 /// The reduction and the enumerator's answer.
 pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disagreement> {
     let reduced = reduce(problem).and_then(Reduced::without_zero);
-    let reduced = reduced.map_err(|e| Disagreement::Refused {
-        engine: "reduction",
-        reason: e.to_string(),
-    })?;
+    let reduced = reduced.map_err(|e| Disagreement::refused("reduction", &e))?;
 
     let oracle = enumerate(&reduced.pencil, problem.window());
-    let oracle = oracle.map_err(|e| Disagreement::Refused {
-        engine: "enumerator",
-        reason: e.to_string(),
-    })?;
+    let oracle = oracle.map_err(|e| Disagreement::refused("enumerator", &e))?;
 
     Ok((reduced, oracle))
 }
@@ -383,7 +376,7 @@ fn check_lifts(
 
 /// The candidate that a solver in doubles would report for this solution: value and x by way of
 /// 17-digit decimals.
-pub(super) fn in_doubles(solution: &Solution, slip: &[usize]) -> Candidate {
+pub fn in_doubles(solution: &Solution, slip: &[usize]) -> Candidate {
     let x = solution.x_decimals(slip, 17);
     Candidate {
         value: double(&solution.decimal(17)),

@@ -49,12 +49,7 @@ pub(super) fn compare_within(
             | CompleteError::Hypothesis { .. }
             | CompleteError::NothingSlips,
         ) => return Ok(None),
-        Err(e) => {
-            return Err(Disagreement::Refused {
-                engine: "complete search",
-                reason: e.to_string(),
-            });
-        }
+        Err(e) => return Err(Disagreement::refused("complete search", &e)),
     };
 
     let cover = &completed.cover;

@@ -107,6 +107,11 @@ pub enum Disagreement {
 }
 
 impl Disagreement {
+    pub(crate) fn refused(engine: &'static str, reason: &dyn std::fmt::Display) -> Disagreement {
+        let reason = reason.to_string();
+        Disagreement::Refused { engine, reason }
+    }
+
     /// What kind it is, in a word that a shrunk instance must keep.
     pub fn kind(&self) -> &'static str {
         match self {

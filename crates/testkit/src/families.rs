@@ -5,6 +5,7 @@
 //! GG' + I with small integers G, so that all hypotheses of Propositions 1 and 2 hold. Called by
 //! `verify`, by the campaign, by the conformance pack and by many tests.
 
+use crate::generators::{gram, sparse, unknown};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{
     Body, ContactState, ModelError, Particle, Pencil, Problem, System, Unknown, Window,
@@ -209,7 +210,7 @@ pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError>
     let n = n_s + n_f;
 
     // The free variables come first; their rows of K1 vanish (16).
-    let k0 = gram(&mut rng, n);
+    let k0 = sparse(&gram(&mut rng, n, 1));
     let mut friction_entries = Vec::new();
     for i in n_f..n {
         for j in 0..n {
@@ -218,13 +219,13 @@ pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError>
     }
     let k1 = Sparse::from_entries(n, n, friction_entries);
 
-    let unknown = unknown(k);
+    let unknown = unknown(k as u64);
     let free = (0..n_f).collect();
     let pencil = match unknown {
         Unknown::Mu => Pencil::new(k0, k1, free)?,
         Unknown::Lambda2 => {
             let friction = rational(rng.random_range(1..=6), 2);
-            let mass = gram(&mut rng, n);
+            let mass = sparse(&gram(&mut rng, n, 1));
             Pencil::new(k0.add_scaled(&friction, &k1), mass, free)?
         }
     };
@@ -244,32 +245,6 @@ pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError>
         closed_form: None,
         corners,
     })
-}
-
-/// lambda^2 for even numbers, mu for odd ones.
-fn unknown(k: usize) -> Unknown {
-    if k.is_multiple_of(2) {
-        Unknown::Lambda2
-    } else {
-        Unknown::Mu
-    }
-}
-
-/// GG' + I with small integer G: symmetric positive definite.
-pub(super) fn gram(rng: &mut ChaCha8Rng, n: usize) -> Sparse {
-    let mut g = vec![vec![0i64; n]; n];
-    for entry in g.iter_mut().flatten() {
-        *entry = rng.random_range(-2..=2);
-    }
-
-    let mut entries = Vec::new();
-    for i in 0..n {
-        for j in 0..n {
-            let product: i64 = (0..n).map(|k| g[i][k] * g[j][k]).sum();
-            entries.push((i, j, whole(product + i64::from(i == j))));
-        }
-    }
-    Sparse::from_entries(n, n, entries)
 }
 
 /// Random mechanical systems with every mixture of free, stick and slip particles, oblique frames,
@@ -299,12 +274,12 @@ pub(super) fn mechanical_system(k: usize, seed: u64) -> Result<Instance, ModelEr
         Sparse::zeros(n, n).add_scaled(&whole(2), &Sparse::identity(n))
     } else {
         corners.push(Corner::CoupledMass);
-        gram(&mut rng, n)
+        sparse(&gram(&mut rng, n, 1))
     };
 
-    let unknown = unknown(k);
+    let unknown = unknown(k as u64);
     let friction = rational(rng.random_range(4..=60), 4);
-    let stiffness = gram(&mut rng, n);
+    let stiffness = sparse(&gram(&mut rng, n, 1));
     let system = System::new(stiffness, Some(mass), Some(friction), particles)?;
 
     let word = unknown.word();
@@ -350,130 +325,72 @@ fn random_particle(rng: &mut ChaCha8Rng, index: usize, corners: &mut Vec<Corner>
 ///
 /// # Errors
 /// [`ModelError`]; none for the data as given.
+#[rustfmt::skip]
 pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
-    let identity: &[&[i64]] = &[&[1, 0], &[0, 1]];
-    let cases = [
-        Degenerate {
-            name: "one by one",
-            a: &[&[-2]],
-            b: &[&[1]],
-            free: &[],
-            unknown: Unknown::Lambda2,
-            corner: Corner::OneByOne,
-        },
-        Degenerate {
-            name: "one by one without solution",
-            a: &[&[2]],
-            b: &[&[1]],
-            free: &[],
-            unknown: Unknown::Lambda2,
-            corner: Corner::OneByOne,
-        },
-        Degenerate {
-            name: "biactive edge",
-            a: &[&[-1, 5], &[0, 7]],
-            b: identity,
-            free: &[],
-            unknown: Unknown::Lambda2,
-            corner: Corner::Biactive,
-        },
-        Degenerate {
-            name: "Jordan block",
-            a: &[&[-1, -1], &[0, -1]],
-            b: identity,
-            free: &[],
-            unknown: Unknown::Lambda2,
-            corner: Corner::Biactive,
-        },
-        Degenerate {
-            name: "double root on the full support",
-            a: &[&[1, -4], &[1, -3]],
-            b: identity,
-            free: &[],
-            unknown: Unknown::Lambda2,
-            corner: Corner::Repeated,
-        },
-        Degenerate {
-            name: "double root with a free variable",
-            a: &[&[2, 1], &[-1, 0]],
-            b: &[&[1, 0], &[0, -1]],
-            free: &[0],
-            unknown: Unknown::Lambda2,
-            corner: Corner::Repeated,
-        },
-        Degenerate {
-            name: "scalar matrix",
-            a: &[&[-1, 0], &[0, -1]],
-            b: identity,
-            free: &[],
-            unknown: Unknown::Lambda2,
-            corner: Corner::WideKernel,
-        },
-        Degenerate {
-            name: "zero eigenvalue",
-            a: &[&[1, -1], &[-1, 1]],
-            b: identity,
-            free: &[],
-            unknown: Unknown::Lambda2,
-            corner: Corner::ZeroValue,
-        },
-        Degenerate {
-            name: "singular for every mu",
-            a: &[&[1, -1], &[-1, 1]],
-            b: &[&[0, 0], &[0, 0]],
-            free: &[],
-            unknown: Unknown::Mu,
-            corner: Corner::Singular,
-        },
-        Degenerate {
-            name: "singular free block beside",
-            a: &[&[1, 0, 0], &[0, 0, 0], &[0, 0, -1]],
-            b: &[&[0, 0, 0], &[0, 0, 0], &[0, 0, 1]],
-            free: &[],
-            unknown: Unknown::Mu,
-            corner: Corner::Singular,
-        },
-        Degenerate {
-            name: "fold without a static threshold",
-            a: &[&[1, -6], &[2, -6]],
-            b: identity,
-            free: &[],
-            unknown: Unknown::Lambda2,
-            corner: Corner::Repeated,
-        },
-        Degenerate {
-            name: "three equal particles",
-            a: &[&[-1, 1, 1], &[1, -1, 1], &[1, 1, -1]],
-            b: &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]],
-            free: &[],
-            unknown: Unknown::Lambda2,
-            corner: Corner::Repeated,
-        },
+    use Corner::{Biactive, OneByOne, Repeated, Singular, WideKernel, ZeroValue};
+    use Unknown::{Lambda2, Mu};
+
+    // Name, A, B, free variables, unknown, corner.
+    let cases: [Degenerate<'_>; 12] = [
+        ("one by one", &[&[-2]], &[&[1]], &[], Lambda2, OneByOne),
+        ("one by one without solution", &[&[2]], &[&[1]], &[], Lambda2, OneByOne),
+        ("biactive edge", &[&[-1, 5], &[0, 7]], I2, &[], Lambda2, Biactive),
+        ("Jordan block", &[&[-1, -1], &[0, -1]], I2, &[], Lambda2, Biactive),
+        ("double root on the full support", &[&[1, -4], &[1, -3]], I2, &[], Lambda2, Repeated),
+        ("double root with a free variable",
+            &[&[2, 1], &[-1, 0]], &[&[1, 0], &[0, -1]], &[0], Lambda2, Repeated),
+        ("scalar matrix", &[&[-1, 0], &[0, -1]], I2, &[], Lambda2, WideKernel),
+        ("zero eigenvalue", &[&[1, -1], &[-1, 1]], I2, &[], Lambda2, ZeroValue),
+        ("singular for every mu", &[&[1, -1], &[-1, 1]], &[&[0, 0], &[0, 0]], &[], Mu, Singular),
+        ("singular free block beside", &[&[1, 0, 0], &[0, 0, 0], &[0, 0, -1]],
+            &[&[0, 0, 0], &[0, 0, 0], &[0, 0, 1]], &[], Mu, Singular),
+        ("fold without a static threshold", &[&[1, -6], &[2, -6]], I2, &[], Lambda2, Repeated),
+        ("three equal particles", &[&[-1, 1, 1], &[1, -1, 1], &[1, 1, -1]], I3, &[], Lambda2,
+            Repeated),
     ];
 
-    cases.iter().map(Degenerate::instance).collect()
+    cases.into_iter().map(degenerate_instance).collect()
 }
 
-/// A degenerate pencil of small integers.
-struct Degenerate<'a> {
-    name: &'a str,
-    a: &'a [&'a [i64]],
-    b: &'a [&'a [i64]],
-    free: &'a [usize],
+/// A matrix of small integers by rows.
+pub(crate) type Rows<'a> = &'a [&'a [i64]];
+
+/// Identity matrices.
+pub(crate) const I2: Rows<'_> = &[&[1, 0], &[0, 1]];
+pub(crate) const I3: Rows<'_> = &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]];
+
+/// The pencil of small integers A and B over [0, infinity).
+pub(crate) fn small_problem(
+    a: Rows<'_>,
+    b: Rows<'_>,
+    free: &[usize],
     unknown: Unknown,
-    corner: Corner,
+) -> Result<Problem, ModelError> {
+    let pencil = Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec())?;
+    Problem::new(Body::Pencil(pencil), unknown, Window::all())
 }
 
-impl Degenerate<'_> {
-    fn instance(&self) -> Result<Instance, ModelError> {
-        let a = Sparse::from_ints(self.a);
-        let b = Sparse::from_ints(self.b);
-        let pencil = Pencil::new(a, b, self.free.to_vec())?;
-        Ok(Instance {
-            label: format!("degenerate: {}", self.name),
-            problem: Problem::new(Body::Pencil(pencil), self.unknown, Window::all())?,
-            closed_form: None,
-            corners: vec![self.corner],
-        })
+/// A degenerate pencil of small integers: name, A, B, free variables, unknown, corner.
+type Degenerate<'a> = (&'a str, Rows<'a>, Rows<'a>, &'a [usize], Unknown, Corner);
+
+fn degenerate_instance(
+    (name, a, b, free, unknown, corner): Degenerate<'_>,
+) -> Result<Instance, ModelError> {
+    Ok(Instance {
+        label: format!("degenerate: {name}"),
+        problem: small_problem(a, b, free, unknown)?,
+        closed_form: None,
+        corners: vec![corner],
+    })
+}
+
+/// The system of a problem that has one.
+///
+/// # Panics
+/// Where the body is a pencil.
+pub fn system_of(problem: &Problem) -> &System {
+    match problem.body() {
+        Body::System(system) => system,
+        Body::Pencil(_) => panic!("a pencil in place of a system"),
     }
 }

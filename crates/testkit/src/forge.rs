@@ -13,7 +13,7 @@ use mceip_check::Reason;
 use mceip_check::certificate::{
     Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution,
 };
-use mceip_exact::{Integer, Rational, rational, whole};
+use mceip_exact::{Integer, Poly, Rational, rational, whole};
 use mceip_model::file::Number;
 use mceip_model::{Unknown, Window};
 
@@ -37,64 +37,60 @@ struct Change<T> {
     expected: fn(&Reason) -> bool,
 }
 
+impl<T: Clone> Change<T> {
+    /// The change of an accepted `T`, of which `wrap` makes a certificate.
+    fn forged(&self, good: &T, wrap: impl Fn(T) -> Certificate) -> Forgery {
+        let mut forged = good.clone();
+        (self.apply)(&mut forged);
+        Forgery {
+            name: self.name,
+            certificate: wrap(forged),
+            expected: self.expected,
+        }
+    }
+}
+
+/// A table of changes: name, change, reason.
+macro_rules! changes {
+    ($($name:literal: $apply:expr => $($reason:pat_param)|+,)+) => {
+        &[$(Change { name: $name, apply: $apply, expected: |r| matches!(r, $($reason)|+) }),+]
+    };
+}
+
 /// Forgeries of a certificate: of its frame once, of each claim as far as they apply to it.
 /// Each breaks an obligation, whatever the problem, given that `certificate` is accepted.
 pub fn forgeries(certificate: &Certificate) -> Vec<Forgery> {
-    let mut out = Vec::new();
-    for change in &OF_THE_FRAME {
-        let mut forged = certificate.clone();
-        (change.apply)(&mut forged);
-        out.push(Forgery {
-            name: change.name,
-            certificate: forged,
-            expected: change.expected,
-        });
-    }
+    let of_the_frame = OF_THE_FRAME
+        .iter()
+        .map(|change| change.forged(certificate, |c| c));
+    let mut out: Vec<Forgery> = of_the_frame.collect();
     out.extend(window_above_all_claims(certificate));
 
+    let alone = |claim| Certificate {
+        claims: vec![claim],
+        ..certificate.clone()
+    };
     for claim in &certificate.claims {
         match claim {
             Claim::ExactSolution(c) => {
                 for change in changes_of_exact(c) {
-                    let forged = Claim::ExactSolution(changed(c, change));
-                    out.push(forgery(certificate, change, forged));
+                    out.push(change.forged(c, |c| alone(Claim::ExactSolution(c))));
                 }
             }
             Claim::LiftedSolution(c) => {
                 for change in changes_of_lifted(c) {
-                    let forged = Claim::LiftedSolution(changed(c, change));
-                    out.push(forgery(certificate, change, forged));
+                    out.push(change.forged(c, |c| alone(Claim::LiftedSolution(c))));
                 }
             }
             Claim::EnclosedSolution(c) => {
-                for change in &OF_ENCLOSED {
-                    let forged = Claim::EnclosedSolution(changed(c, change));
-                    out.push(forgery(certificate, change, forged));
+                for change in OF_ENCLOSED {
+                    out.push(change.forged(c, |c| alone(Claim::EnclosedSolution(c))));
                 }
             }
         }
     }
 
     out
-}
-
-/// The claim with the change.
-fn changed<T: Clone>(claim: &T, change: &Change<T>) -> T {
-    let mut forged = claim.clone();
-    (change.apply)(&mut forged);
-    forged
-}
-
-/// The certificate with the forged claim as its only one.
-fn forgery<T>(certificate: &Certificate, change: &Change<T>, claim: Claim) -> Forgery {
-    Forgery {
-        name: change.name,
-        certificate: Certificate {
-            claims: vec![claim],
-            ..certificate.clone()
-        },
-        expected: change.expected,
-    }
 }
 
 /// A window above every claimed value. `None` for a certificate without claims.
@@ -126,273 +122,138 @@ fn upper_bound(claim: &Claim) -> Rational {
 }
 
 /// Changes of what stands around the claims.
-static OF_THE_FRAME: [Change<Certificate>; 3] = [
-    Change {
-        name: "another problem's digest",
-        apply: |c| c.problem_sha256 = c.problem_sha256.chars().rev().collect(),
-        expected: |r| matches!(r, Reason::Digest { .. }),
-    },
-    Change {
-        name: "the other unknown",
-        apply: |c| {
-            c.unknown = match c.unknown {
-                Unknown::Mu => Unknown::Lambda2,
-                Unknown::Lambda2 => Unknown::Mu,
-            }
-        },
-        expected: |r| matches!(r, Reason::Unknown { .. }),
-    },
-    Change {
-        name: "nothing claimed",
-        apply: |c| c.claims = Vec::new(),
-        expected: |r| matches!(r, Reason::NoClaims),
-    },
-];
+static OF_THE_FRAME: &[Change<Certificate>] = changes! {
+    "another problem's digest":
+        |c| c.problem_sha256 = c.problem_sha256.chars().rev().collect() => Reason::Digest { .. },
+    "the other unknown": |c| c.unknown = other(c.unknown) => Reason::Unknown { .. },
+    "nothing claimed": |c| c.claims = Vec::new() => Reason::NoClaims,
+};
+
+fn other(unknown: Unknown) -> Unknown {
+    match unknown {
+        Unknown::Mu => Unknown::Lambda2,
+        Unknown::Lambda2 => Unknown::Mu,
+    }
+}
 
 /// The changes that apply to an exact claim.
 fn changes_of_exact(claim: &ExactSolution) -> Vec<&'static Change<ExactSolution>> {
     let mut out: Vec<&Change<ExactSolution>> = OF_EXACT.iter().collect();
     if !claim.support.is_empty() {
-        out.extend(&OF_EXACT_WITH_A_SUPPORT);
+        out.extend(OF_EXACT_WITH_A_SUPPORT);
     }
 
     if !claim.biactive.is_empty() {
-        out.extend(&OF_EXACT_WITH_BIACTIVE);
+        out.extend(OF_EXACT_WITH_BIACTIVE);
     }
 
     let is_irrational_or_wide = claim.interval[0] != claim.interval[1];
     if is_irrational_or_wide {
-        out.extend(&OF_EXACT_WITH_AN_INTERVAL);
+        out.extend(OF_EXACT_WITH_AN_INTERVAL);
     }
 
     out
 }
 
-/// Changes of any exact claim.
-static OF_EXACT: [Change<ExactSolution>; 5] = [
-    Change {
-        name: "constant polynomial",
-        apply: |c| c.polynomial.truncate(1),
-        expected: |r| matches!(r, Reason::ConstantPolynomial { .. }),
-    },
-    Change {
-        name: "x one variable short",
-        apply: |c| drop(c.x.pop()),
-        expected: |r| matches!(r, Reason::Length { what: "x", .. }),
-    },
-    Change {
-        name: "x = 0",
-        apply: |c| c.x.iter_mut().for_each(Vec::clear),
-        expected: |r| matches!(r, Reason::XNotPositive { .. } | Reason::XZero),
-    },
-    Change {
-        name: "support out of range",
-        apply: |c| c.support.push(c.x.len()),
-        expected: |r| matches!(r, Reason::IndexSet { set: "support", .. }),
-    },
-    // The polynomial 1 + t^2, which has no real root.
-    Change {
-        name: "point that is no root",
-        apply: |c| {
+/// Changes of any exact claim. The point that is no root is one of 1 + t^2, which has none.
+static OF_EXACT: &[Change<ExactSolution>] = changes! {
+    "constant polynomial": |c| c.polynomial.truncate(1) => Reason::ConstantPolynomial { .. },
+    "x one variable short": |c| drop(c.x.pop()) => Reason::Length { what: "x", .. },
+    "x = 0": |c| c.x.iter_mut().for_each(Vec::clear) => Reason::XNotPositive { .. } | Reason::XZero,
+    "support out of range":
+        |c| c.support.push(c.x.len()) => Reason::IndexSet { set: "support", .. },
+    "point that is no root":
+        |c| {
             let beside = &c.interval[1].0 + whole(1);
-            c.polynomial = vec![Integer::from(1), Integer::from(0), Integer::from(1)];
+            c.polynomial = [1, 0, 1].map(Integer::from).to_vec();
             c.interval = [Number(beside.clone()), Number(beside)];
-        },
-        expected: |r| matches!(r, Reason::NotARoot { .. }),
-    },
-];
+        } => Reason::NotARoot { .. },
+};
 
 /// Changes of an exact claim whose support is not empty.
-static OF_EXACT_WITH_A_SUPPORT: [Change<ExactSolution>; 4] = [
-    Change {
-        name: "x negative",
-        apply: |c| c.x.iter_mut().flatten().for_each(|v| v.0 = -v.0.clone()),
-        expected: |r| matches!(r, Reason::XNotPositive { .. }),
-    },
-    Change {
-        name: "support one short",
-        apply: |c| c.support.truncate(c.support.len() - 1),
-        expected: |r| matches!(r, Reason::XOffSupport { .. }),
-    },
-    Change {
-        name: "support listed twice",
-        apply: |c| c.support.push(c.support[0]),
-        expected: |r| matches!(r, Reason::IndexSet { set: "support", .. }),
-    },
-    Change {
-        name: "slipping variable called biactive",
-        apply: |c| {
+static OF_EXACT_WITH_A_SUPPORT: &[Change<ExactSolution>] = changes! {
+    "x negative":
+        |c| c.x.iter_mut().flatten().for_each(|v| v.0 = -v.0.clone())
+            => Reason::XNotPositive { .. },
+    "support one short": |c| c.support.truncate(c.support.len() - 1) => Reason::XOffSupport { .. },
+    "support listed twice":
+        |c| c.support.push(c.support[0]) => Reason::IndexSet { set: "support", .. },
+    "slipping variable called biactive":
+        |c| {
             c.biactive.push(c.support[0]);
             c.biactive.sort_unstable();
-        },
-        expected: |r| {
-            matches!(
-                r,
-                Reason::Biactive {
-                    expected: false,
-                    ..
-                }
-            )
-        },
-    },
-];
+        } => Reason::Biactive { expected: false, .. },
+};
 
 /// Changes of an exact claim with biactive indices.
-static OF_EXACT_WITH_BIACTIVE: [Change<ExactSolution>; 1] = [Change {
-    name: "biactive index hidden",
-    apply: |c| c.biactive.truncate(c.biactive.len() - 1),
-    expected: |r| matches!(r, Reason::Biactive { expected: true, .. }),
-}];
+static OF_EXACT_WITH_BIACTIVE: &[Change<ExactSolution>] = changes! {
+    "biactive index hidden":
+        |c| c.biactive.truncate(c.biactive.len() - 1) => Reason::Biactive { expected: true, .. },
+};
 
 /// Changes of an exact claim whose value is enclosed by an interval of positive width.
-static OF_EXACT_WITH_AN_INTERVAL: [Change<ExactSolution>; 4] = [
-    Change {
-        name: "interval reversed",
-        apply: |c| c.interval.swap(0, 1),
-        expected: |r| matches!(r, Reason::ReversedInterval { .. }),
-    },
-    Change {
-        name: "end of the interval as the value",
-        apply: |c| c.interval[1] = c.interval[0].clone(),
-        expected: |r| matches!(r, Reason::NotARoot { .. }),
-    },
-    Change {
-        name: "polynomial squared",
-        apply: |c| c.polynomial = product(&c.polynomial, &c.polynomial),
-        expected: |r| matches!(r, Reason::NoSignChange { .. }),
-    },
-    Change {
-        name: "polynomial cubed",
-        apply: |c| {
-            let square = product(&c.polynomial, &c.polynomial);
-            c.polynomial = product(&square, &c.polynomial);
-        },
-        expected: |r| matches!(r, Reason::NotIsolated { .. }),
-    },
-];
+static OF_EXACT_WITH_AN_INTERVAL: &[Change<ExactSolution>] = changes! {
+    "interval reversed": |c| c.interval.swap(0, 1) => Reason::ReversedInterval { .. },
+    "end of the interval as the value":
+        |c| c.interval[1] = c.interval[0].clone() => Reason::NotARoot { .. },
+    "polynomial squared":
+        |c| c.polynomial = power(&c.polynomial, 2) => Reason::NoSignChange { .. },
+    "polynomial cubed": |c| c.polynomial = power(&c.polynomial, 3) => Reason::NotIsolated { .. },
+};
 
-/// The product of two polynomials that are not zero, coefficients from the constant term up.
-fn product(p: &[Integer], q: &[Integer]) -> Vec<Integer> {
-    let mut out = vec![Integer::default(); p.len() + q.len() - 1];
-    for (i, a) in p.iter().enumerate() {
-        for (j, b) in q.iter().enumerate() {
-            out[i + j] += a * b;
-        }
-    }
-    out
+/// A power of a polynomial, coefficients from the constant term up.
+fn power(p: &[Integer], exponent: u32) -> Vec<Integer> {
+    let p = Poly::new(p.to_vec());
+    let one = Poly::from_ints(&[1]);
+    let power = (0..exponent).fold(one, |product, _| &product * &p);
+    power.coeffs().to_vec()
 }
 
 /// The changes that apply to a lifted claim.
 fn changes_of_lifted(claim: &LiftedSolution) -> Vec<&'static Change<LiftedSolution>> {
     let mut out: Vec<&Change<LiftedSolution>> = OF_LIFTED.iter().collect();
     if !claim.support.is_empty() {
-        out.extend(&OF_LIFTED_WITH_A_SUPPORT);
+        out.extend(OF_LIFTED_WITH_A_SUPPORT);
     }
     out
 }
 
 /// Changes of any lifted claim.
-static OF_LIFTED: [Change<LiftedSolution>; 4] = [
-    Change {
-        name: "v = w = 0",
-        apply: |c| c.v.iter_mut().chain(&mut c.w).for_each(Vec::clear),
-        expected: |r| matches!(r, Reason::Line { .. } | Reason::XZero),
-    },
-    Change {
-        name: "v one dof short",
-        apply: |c| drop(c.v.pop()),
-        expected: |r| matches!(r, Reason::Length { what: "v", .. }),
-    },
-    Change {
-        name: "w one dof long",
-        apply: |c| c.w.push(Vec::new()),
-        expected: |r| matches!(r, Reason::Length { what: "w", .. }),
-    },
-    Change {
-        name: "w off by a billionth at one dof",
-        apply: |c| match c.w[0].first_mut() {
+static OF_LIFTED: &[Change<LiftedSolution>] = changes! {
+    "v = w = 0":
+        |c| c.v.iter_mut().chain(&mut c.w).for_each(Vec::clear)
+            => Reason::Line { .. } | Reason::XZero,
+    "v one dof short": |c| drop(c.v.pop()) => Reason::Length { what: "v", .. },
+    "w one dof long": |c| c.w.push(Vec::new()) => Reason::Length { what: "w", .. },
+    "w off by a billionth at one dof":
+        |c| match c.w[0].first_mut() {
             Some(n) => n.0 += rational(1, 1_000_000_000),
             None => c.w[0].push(Number(rational(1, 1_000_000_000))),
-        },
-        expected: |r| {
-            matches!(
-                r,
-                Reason::Line {
-                    line: "(lambda^2 M + K) v = w",
-                    index: 0,
-                    ..
-                }
-            )
-        },
-    },
-];
+        } => Reason::Line { line: "(lambda^2 M + K) v = w", index: 0, .. },
+};
 
 /// Changes of a lifted claim whose support is not empty.
-static OF_LIFTED_WITH_A_SUPPORT: [Change<LiftedSolution>; 2] = [
-    Change {
-        name: "everything moves backwards",
-        apply: |c| {
+static OF_LIFTED_WITH_A_SUPPORT: &[Change<LiftedSolution>] = changes! {
+    "everything moves backwards":
+        |c| {
             let components = c.v.iter_mut().chain(&mut c.w);
             components.flatten().for_each(|n| n.0 = -n.0.clone());
-        },
-        expected: |r| {
-            matches!(
-                r,
-                Reason::Line {
-                    place: "particle",
-                    ..
-                }
-            )
-        },
-    },
-    Change {
-        name: "support one short",
-        apply: |c| c.support.truncate(c.support.len() - 1),
-        expected: |r| {
-            matches!(
-                r,
-                Reason::Line {
-                    line: "S v_T = 0 off the support",
-                    ..
-                }
-            )
-        },
-    },
-];
+        } => Reason::Line { place: "particle", .. },
+    "support one short":
+        |c| c.support.truncate(c.support.len() - 1)
+            => Reason::Line { line: "S v_T = 0 off the support", .. },
+};
 
-/// Changes of an enclosed claim: its box, its centre, its preconditioner Y.
-static OF_ENCLOSED: [Change<EnclosedSolution>; 5] = [
-    Change {
-        name: "zero row in the preconditioner",
-        apply: |c| c.preconditioner[0].fill(Integer::default()),
-        expected: |r| matches!(r, Reason::NotContracting { .. }),
-    },
-    Change {
-        name: "box without width",
-        apply: |c| c.radius[0] = Number(whole(0)),
-        expected: |r| matches!(r, Reason::Radius { .. }),
-    },
-    Change {
-        name: "one unknown missing",
-        apply: |c| drop(c.center.pop()),
-        expected: |r| matches!(r, Reason::Length { what: "center", .. }),
-    },
-    Change {
-        name: "centre beside the solution",
-        apply: |c| {
-            let shift = &c.radius[0].0 * whole(4);
-            c.center[0].0 += shift;
-        },
-        expected: |r| matches!(r, Reason::NotContracting { .. }),
-    },
-    // Half of Y would still contract; four times Y makes I - YJ about -3I, which does not.
-    Change {
-        name: "preconditioner of four times the size",
-        apply: |c| {
-            for entry in c.preconditioner.iter_mut().flatten() {
-                *entry *= 4;
-            }
-        },
-        expected: |r| matches!(r, Reason::NotContracting { .. }),
-    },
-];
+/// Changes of an enclosed claim: its box, its centre, its preconditioner Y. Half of Y would still
+/// contract; four times Y makes I - YJ about -3I, which does not.
+static OF_ENCLOSED: &[Change<EnclosedSolution>] = changes! {
+    "zero row in the preconditioner":
+        |c| c.preconditioner[0].fill(Integer::default()) => Reason::NotContracting { .. },
+    "box without width": |c| c.radius[0] = Number(whole(0)) => Reason::Radius { .. },
+    "one unknown missing": |c| drop(c.center.pop()) => Reason::Length { what: "center", .. },
+    "centre beside the solution":
+        |c| c.center[0].0 += &c.radius[0].0 * whole(4) => Reason::NotContracting { .. },
+    "preconditioner of four times the size":
+        |c| c.preconditioner.iter_mut().flatten().for_each(|entry| *entry *= 4)
+            => Reason::NotContracting { .. },
+};

@@ -41,11 +41,15 @@ pub mod verified;
 mod verify;
 
 pub use block::{AcceptedState, BLOCK_STARTS, BlockReport, block_state};
-pub use compare::{InstanceReport, Reached, Solver, Treatment, compare, compare_by, coverage_of};
+pub use compare::{
+    InstanceReport, Reached, Solver, Treatment, compare, compare_by, coverage_of, in_doubles,
+};
 pub use completed::compare_complete;
 pub use disagreement::Disagreement;
 pub use error::TestkitError;
-pub use families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
+pub use families::{
+    Corner, Instance, degenerate, mechanical, random_pencils, system_of, table1_grid,
+};
 pub use forge::{Forgery, forgeries};
 pub use interior::{
     INTERIOR_STARTS, InteriorStart, from_interior, interior_starts, path_coverage, path_options,

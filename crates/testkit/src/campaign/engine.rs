@@ -54,10 +54,10 @@ impl<F: Fn(&Pencil, &Window) -> Result<Option<Enumeration>, String> + Sync> Engi
                 enumerated: truth.enumeration.solutions.len(),
             }),
             Ok(None) => {}
-            Err(reason) => report.disagreements.push(Disagreement::Refused {
-                engine: self.name,
-                reason,
-            }),
+            Err(reason) => {
+                let refused = Disagreement::refused(self.name, &reason);
+                report.disagreements.push(refused);
+            }
         }
     }
 }

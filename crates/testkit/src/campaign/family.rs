@@ -52,95 +52,38 @@ pub fn family_error(name: &str) -> TestkitError {
 pub(super) type Make = fn(&Seed) -> Result<Made, ModelError>;
 
 /// Name, what it holds, and how an instance is made.
+#[rustfmt::skip]
 pub const FAMILIES: [(&str, &str, Make); 20] = [
-    (
-        "table1",
-        "the two particles of Fig. 1 at random rational angles, with the closed form",
-        named::table1,
-    ),
-    (
-        "table1-near",
+    ("table1", "the two particles of Fig. 1 at random rational angles, with the closed form",
+        named::table1),
+    ("table1-near",
         "the same with mu at a relative distance of 0 or 10^-3 to 10^-15 from a threshold",
-        named::table1_near,
-    ),
-    (
-        "elements",
-        "random pencils as finite elements have them, free variables, windows",
-        named::elements,
-    ),
-    (
-        "states",
+        named::table1_near),
+    ("elements", "random pencils as finite elements have them, free variables, windows",
+        named::elements),
+    ("states",
         "mechanical systems with every mixture of free, stick and slip, oblique, both normals",
-        named::states,
-    ),
-    (
-        "systems",
-        "mechanical systems of up to four particles",
-        named::systems,
-    ),
+        named::states),
+    ("systems", "mechanical systems of up to four particles", named::systems),
     ("pencils", "the random pencils of verify", named::pencils),
     ("digits", "one-digit integers, raw", named::digits),
     ("integers", "six-digit integers, raw", named::integers),
-    (
-        "doubles",
-        "doubles of 53 bits over six decades, raw",
-        named::doubles,
-    ),
-    (
-        "zeros",
-        "three quarters zeros: singular supports, ties",
-        named::zeros,
-    ),
-    (
-        "identity",
-        "B = I, small integers: repeated and zero eigenvalues",
-        named::identity,
-    ),
-    (
-        "graph",
-        "adjacency matrices of random graphs: cones",
-        named::graph,
-    ),
-    (
-        "doubled",
-        "a particle that is another's double: wide kernels",
-        named::doubled,
-    ),
-    (
-        "free-anywhere",
-        "free variables anywhere: outside Propositions 1 and 2",
-        named::free_anywhere,
-    ),
-    (
-        "degenerate",
-        "hand-made corners under row scaling and permutation",
-        named::degenerate,
-    ),
-    (
-        "known",
-        "paths, cycles, stars, Jordan blocks, ...: the whole answer by theorem",
-        named::known,
-    ),
-    (
-        "pareto",
-        "Pareto matrices with a known number of solutions, raw and as systems",
-        named::pareto,
-    ),
-    (
-        "planted",
-        "a rational solution planted, biactive indices, windows that end beside it",
-        named::planted,
-    ),
-    (
-        "near",
-        "planted biactive and repeated roots, moved by 10^-3 to 10^-15",
-        named::near,
-    ),
-    (
-        "scales",
-        "Hilbert sections, bad scaling, 10^12 to 10^60 and their inverses",
-        named::scales,
-    ),
+    ("doubles", "doubles of 53 bits over six decades, raw", named::doubles),
+    ("zeros", "three quarters zeros: singular supports, ties", named::zeros),
+    ("identity", "B = I, small integers: repeated and zero eigenvalues", named::identity),
+    ("graph", "adjacency matrices of random graphs: cones", named::graph),
+    ("doubled", "a particle that is another's double: wide kernels", named::doubled),
+    ("free-anywhere", "free variables anywhere: outside Propositions 1 and 2",
+        named::free_anywhere),
+    ("degenerate", "hand-made corners under row scaling and permutation", named::degenerate),
+    ("known", "paths, cycles, stars, Jordan blocks, ...: the whole answer by theorem",
+        named::known),
+    ("pareto", "Pareto matrices with a known number of solutions, raw and as systems",
+        named::pareto),
+    ("planted", "a rational solution planted, biactive indices, windows that end beside it",
+        named::planted),
+    ("near", "planted biactive and repeated roots, moved by 10^-3 to 10^-15", named::near),
+    ("scales", "Hilbert sections, bad scaling, 10^12 to 10^60 and their inverses", named::scales),
 ];
 
 /// The instance with this name.

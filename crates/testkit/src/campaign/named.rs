@@ -11,7 +11,7 @@ use crate::families::Corner;
 use crate::generators::near::NearTheEnd;
 use crate::generators::scales::Exponents;
 use crate::generators::{
-    Seed, near, permuted, raw, scales, states as mixtures, window, with_scaled_rows,
+    Seed, near, permuted, raw, scales, states as mixtures, unknown, window, with_scaled_rows,
 };
 use crate::pareto::pareto_matrices;
 use crate::{families, known as theorems};
@@ -296,14 +296,6 @@ fn in_a_window(rng: &mut ChaCha8Rng, pencil: Pencil, unknown: Unknown) -> Result
 
     let problem = Problem::new(Body::Pencil(pencil), unknown, window)?;
     Ok(Made::new(problem, corners))
-}
-
-fn unknown(index: u64) -> Unknown {
-    if index.is_multiple_of(2) {
-        Unknown::Lambda2
-    } else {
-        Unknown::Mu
-    }
 }
 
 /// Half of the instances have no free variables, the others up to three.

@@ -91,8 +91,8 @@ impl Campaign<'_> {
                     judgement,
                 }
             }
-            Ok(Err(e)) => Judged::refused(e.to_string()),
-            Err(e) => Judged::refused(e.to_string()),
+            Ok(Err(e)) => Judged::refused(&e),
+            Err(e) => Judged::refused(&e),
         }
     }
 
@@ -126,13 +126,10 @@ struct Judged {
 
 impl Judged {
     /// An instance that the generator refused to make: a disagreement.
-    fn refused(reason: String) -> Judged {
+    fn refused(reason: &dyn std::fmt::Display) -> Judged {
         let finding = Finding {
             engine: "generator".into(),
-            disagreement: Disagreement::Refused {
-                engine: "generator",
-                reason,
-            },
+            disagreement: Disagreement::refused("generator", reason),
         };
 
         Judged {

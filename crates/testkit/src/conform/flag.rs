@@ -10,32 +10,11 @@ use mceip_oracle::{Enumeration, Solution};
 use num_traits::{Signed, Zero};
 use std::collections::BTreeSet;
 
-macro_rules! flags {
-    ($($name:ident $word:literal $note:literal,)+) => {
-        /// What a case is about. All but [`Flag::Threshold`], [`Flag::NearThreshold`],
-        /// [`Flag::Fold`] and [`Flag::Random`] are read off the problem and its exact answer.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        #[allow(missing_docs, reason = "the note of each flag is its documentation")]
-        pub enum Flag { $($name,)+ }
-
-        impl Flag {
-            /// All flags, in the order of tables.
-            pub const ALL: &'static [Flag] = &[$(Flag::$name,)+];
-
-            /// The flag as it stands in files.
-            pub fn word(self) -> &'static str {
-                match self { $(Flag::$name => $word,)+ }
-            }
-
-            /// The class of bugs that cases with this flag catch.
-            pub fn note(self) -> &'static str {
-                match self { $(Flag::$name => $note,)+ }
-            }
-        }
-    };
-}
-
-flags! {
+worded! {
+    /// What a case is about. All but [`Flag::Threshold`], [`Flag::NearThreshold`],
+    /// [`Flag::Fold`] and [`Flag::Random`] are read off the problem and its exact answer. The note
+    /// of a flag is the class of bugs that its cases catch.
+    Flag:
     Lambda2 "lambda2" "A + tB built from K*, M* with the friction given; wrong sign of K1 or M1.",
     Mu "mu" "A + tB built from K0, K1; the friction coefficient of the file used although mu is \
              sought.",

@@ -7,7 +7,7 @@
 use super::case::{Draft, Group};
 use super::flag::Flag;
 use crate::error::TestkitError;
-use crate::families::{Instance, mechanical, random_pencils};
+use crate::families::{I2, I3, Instance, Rows, mechanical, random_pencils, small_problem};
 use crate::{known, pareto};
 use mceip_engine::reduction::condense;
 use mceip_exact::{Rational, Sparse, rational, whole};
@@ -225,26 +225,8 @@ fn static_thresholds() -> Result<Group, ModelError> {
     ))
 }
 
-/// A matrix of small integers by rows.
-type Rows<'a> = &'a [&'a [i64]];
-
 /// Comment, A, B and the free variables of a pencil of small integers.
 type SmallPencil<'a> = (&'a str, Rows<'a>, Rows<'a>, &'a [usize]);
-
-/// The pencil of small integers A and B over [0, infinity).
-fn problem(
-    a: Rows<'_>,
-    b: Rows<'_>,
-    free: &[usize],
-    unknown: Unknown,
-) -> Result<Problem, ModelError> {
-    let pencil = Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec())?;
-    Problem::new(Body::Pencil(pencil), unknown, Window::all())
-}
-
-/// Identity matrices.
-const I2: Rows<'_> = &[&[1, 0], &[0, 1]];
-const I3: Rows<'_> = &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]];
 
 /// The corners of `testkit`, and more: order 1, repeated roots, biactive indices, zero values, wide
 /// kernels.
@@ -255,68 +237,28 @@ fn degenerate() -> Result<Group, ModelError> {
         drafts.push(draft(id, instance.label, &[], instance.problem));
     }
 
+    #[rustfmt::skip]
     let cases: [SmallPencil<'_>; 17] = [
         ("order 1, t = 0", &[&[0]], &[&[1]], &[]),
         ("order 1, free only", &[&[-3]], &[&[2]], &[0]),
         ("order 1, value 1/3", &[&[-1]], &[&[3]], &[]),
-        (
-            "triple root, Jordan block of order 3",
-            &[&[-2, -1, 0], &[0, -2, -1], &[0, 0, -2]],
-            I3,
-            &[],
-        ),
-        (
-            "scalar matrix of order 3: a cone of dimension 3",
-            &[&[-2, 0, 0], &[0, -2, 0], &[0, 0, -2]],
-            I3,
-            &[],
-        ),
-        (
-            "two equal entries: a cone of dimension 2 beside a solution",
-            &[&[-2, 0, 0], &[0, -1, 0], &[0, 0, -2]],
-            I3,
-            &[],
-        ),
-        (
-            "wide kernel with a single ray",
-            &[&[-1, 1, 1], &[1, -1, 1], &[0, 0, -1]],
-            I3,
-            &[],
-        ),
+        ("triple root, Jordan block of order 3",
+            &[&[-2, -1, 0], &[0, -2, -1], &[0, 0, -2]], I3, &[]),
+        ("scalar matrix of order 3: a cone of dimension 3",
+            &[&[-2, 0, 0], &[0, -2, 0], &[0, 0, -2]], I3, &[]),
+        ("two equal entries: a cone of dimension 2 beside a solution",
+            &[&[-2, 0, 0], &[0, -1, 0], &[0, 0, -2]], I3, &[]),
+        ("wide kernel with a single ray", &[&[-1, 1, 1], &[1, -1, 1], &[0, 0, -1]], I3, &[]),
         ("value 0 on every support", &[&[0, 0], &[0, 0]], I2, &[]),
-        (
-            "two biactive indices",
-            &[&[-1, 0, 0], &[0, 5, 0], &[0, 0, 7]],
-            I3,
-            &[],
-        ),
-        (
-            "biactive at one of two equal values",
-            &[&[-1, 1], &[0, -1]],
-            I2,
-            &[],
-        ),
+        ("two biactive indices", &[&[-1, 0, 0], &[0, 5, 0], &[0, 0, 7]], I3, &[]),
+        ("biactive at one of two equal values", &[&[-1, 1], &[0, -1]], I2, &[]),
         ("double root 2 on (1, 1)", &[&[-1, -1], &[1, -3]], I2, &[]),
         ("double root 6 on (3, 1)", &[&[-3, -9], &[1, -9]], I2, &[]),
-        (
-            "triple root 2 on (1, 1, 1)",
-            &[&[-1, -1, 0], &[2, -3, -1], &[1, -1, -2]],
-            I3,
-            &[],
-        ),
-        (
-            "double root 2 on (1, 1) beside two single ones",
-            &[&[-1, -1, 0], &[1, -3, 0], &[0, 0, -5]],
-            I3,
-            &[],
-        ),
+        ("triple root 2 on (1, 1, 1)", &[&[-1, -1, 0], &[2, -3, -1], &[1, -1, -2]], I3, &[]),
+        ("double root 2 on (1, 1) beside two single ones",
+            &[&[-1, -1, 0], &[1, -3, 0], &[0, 0, -5]], I3, &[]),
         ("positive definite: nothing", &[&[2, 1], &[1, 2]], I2, &[]),
-        (
-            "free variable with a zero pivot",
-            &[&[0, 1], &[-1, 1]],
-            &[&[1, 0], &[0, 1]],
-            &[0],
-        ),
+        ("free variable with a zero pivot", &[&[0, 1], &[-1, 1]], I2, &[0]),
         ("complex eigenvalues only", &[&[1, 3], &[-3, 1]], I2, &[]),
     ];
 
@@ -325,7 +267,7 @@ fn degenerate() -> Result<Group, ModelError> {
             format!("corner-{k:02}"),
             comment,
             &[],
-            problem(a, b, free, Unknown::Lambda2)?,
+            small_problem(a, b, free, Unknown::Lambda2)?,
         ));
     }
 
@@ -338,44 +280,17 @@ fn degenerate() -> Result<Group, ModelError> {
 
 /// Pencils with det(A + tB) = 0 for all t on some support: continua, whole and in parts.
 fn singular() -> Result<Group, ModelError> {
+    #[rustfmt::skip]
     let cases: [SmallPencil<'_>; 7] = [
         ("every value from 0", &[&[0]], &[&[0]], &[]),
-        (
-            "from 0 to 3: y = 3 - t beside it",
-            &[&[0, 0], &[3, 1]],
-            &[&[0, 0], &[-1, 0]],
-            &[],
-        ),
-        (
-            "from 2 on: y = t - 2 beside it",
-            &[&[0, 0], &[-2, 1]],
-            &[&[0, 0], &[1, 0]],
-            &[],
-        ),
-        (
-            "one value only: two rows against each other",
-            &[&[0, 0, 0], &[-2, 1, 0], &[2, 0, 1]],
-            &[&[0, 0, 0], &[1, 0, 0], &[-1, 0, 0]],
-            &[],
-        ),
-        (
-            "between 1 and 2",
-            &[&[0, 0, 0], &[-1, 1, 0], &[2, 0, 1]],
-            &[&[0, 0, 0], &[1, 0, 0], &[-1, 0, 0]],
-            &[],
-        ),
-        (
-            "the kernel turns with t",
-            &[&[-1, 0], &[-1, 0]],
-            &[&[0, 1], &[0, 1]],
-            &[],
-        ),
-        (
-            "a singular free block",
-            &[&[0, 0], &[0, -1]],
-            &[&[0, 0], &[0, 1]],
-            &[0],
-        ),
+        ("from 0 to 3: y = 3 - t beside it", &[&[0, 0], &[3, 1]], &[&[0, 0], &[-1, 0]], &[]),
+        ("from 2 on: y = t - 2 beside it", &[&[0, 0], &[-2, 1]], &[&[0, 0], &[1, 0]], &[]),
+        ("one value only: two rows against each other",
+            &[&[0, 0, 0], &[-2, 1, 0], &[2, 0, 1]], &[&[0, 0, 0], &[1, 0, 0], &[-1, 0, 0]], &[]),
+        ("between 1 and 2",
+            &[&[0, 0, 0], &[-1, 1, 0], &[2, 0, 1]], &[&[0, 0, 0], &[1, 0, 0], &[-1, 0, 0]], &[]),
+        ("the kernel turns with t", &[&[-1, 0], &[-1, 0]], &[&[0, 1], &[0, 1]], &[]),
+        ("a singular free block", &[&[0, 0], &[0, -1]], &[&[0, 0], &[0, 1]], &[0]),
     ];
 
     let mut drafts = Vec::new();
@@ -384,7 +299,7 @@ fn singular() -> Result<Group, ModelError> {
             format!("singular-{k:02}"),
             comment,
             &[],
-            problem(a, b, free, Unknown::Mu)?,
+            small_problem(a, b, free, Unknown::Mu)?,
         ));
     }
 
@@ -409,46 +324,22 @@ fn singular() -> Result<Group, ModelError> {
 
 /// The fold 2 and 3 and the path graph in windows that cut, touch and miss their values.
 fn windows() -> Result<Group, ModelError> {
-    let fold = problem(FOLD, I2, &[], Unknown::Lambda2)?;
+    let fold = small_problem(FOLD, I2, &[], Unknown::Lambda2)?;
     let path = known::path(4)?.problem;
     let tiny = rational(1, 1_000_000);
 
     // Comment, problem, lower and upper end of the window.
-    let list: Vec<(&str, &Problem, Rational, Option<Rational>)> = vec![
+    #[rustfmt::skip]
+    let list = [
         ("both ends are values", &fold, whole(2), Some(whole(3))),
         ("a point that is a value", &fold, whole(2), Some(whole(2))),
-        (
-            "a point that is none",
-            &fold,
-            rational(5, 2),
-            Some(rational(5, 2)),
-        ),
-        (
-            "between the values",
-            &fold,
-            rational(21, 10),
-            Some(rational(29, 10)),
-        ),
-        (
-            "just without both",
-            &fold,
-            whole(2) + &tiny,
-            Some(whole(3) - &tiny),
-        ),
-        (
-            "just with both",
-            &fold,
-            whole(2) - &tiny,
-            Some(whole(3) + &tiny),
-        ),
+        ("a point that is none", &fold, rational(5, 2), Some(rational(5, 2))),
+        ("between the values", &fold, rational(21, 10), Some(rational(29, 10))),
+        ("just without both", &fold, whole(2) + &tiny, Some(whole(3) - &tiny)),
+        ("just with both", &fold, whole(2) - &tiny, Some(whole(3) + &tiny)),
         ("from 3 on", &fold, whole(3), None),
         ("above everything", &fold, whole(4), None),
-        (
-            "up to 1, with cones at 0 and 1",
-            &path,
-            whole(0),
-            Some(whole(1)),
-        ),
+        ("up to 1, with cones at 0 and 1", &path, whole(0), Some(whole(1))),
         ("irrational values only", &path, rational(11, 10), None),
         ("the point 1", &path, whole(1), Some(whole(1))),
     ];

@@ -25,57 +25,25 @@ use mceip_exact::{Algebraic, Poly, Rational, from_f64, to_decimal};
 use mceip_oracle::{End, Solution, SupportRange};
 use num_traits::{One, Signed};
 
-/// What a program did with a case.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Label {
-    /// The whole answer and nothing else.
-    Correct,
-    /// Nothing false, something missing.
-    Incomplete,
-    /// Nothing false, but a solution has too few digits: one of the answer is near.
-    Inaccurate,
-    /// Something false is reported.
-    Wrong,
-    /// The program ended by a signal or with an exit code other than 0 and 3 (undecided).
-    Crashed,
-    /// It was still running at the end of its time.
-    TimedOut,
-    /// What it printed is no report, or too long.
-    Malformed,
-    /// Judging its report takes longer than its time.
-    Undecided,
+worded! {
+    /// What a program did with a case.
+    Label:
+    Correct "correct" "The whole answer and nothing else.",
+    Incomplete "incomplete" "Nothing false, something missing.",
+    Inaccurate "inaccurate"
+        "Nothing false, but a solution has too few digits: one of the answer is near.",
+    Wrong "wrong" "Something false is reported.",
+    Crashed "crashed"
+        "The program ended by a signal or with an exit code other than 0 and 3 (undecided).",
+    TimedOut "timed out" "It was still running at the end of its time.",
+    Malformed "malformed" "What it printed is no report, or too long.",
+    Undecided "undecided" "Judging its report takes longer than its time.",
 }
 
 impl Label {
-    /// All labels, in the order of tables.
-    pub const ALL: [Label; 8] = [
-        Label::Correct,
-        Label::Incomplete,
-        Label::Inaccurate,
-        Label::Wrong,
-        Label::Crashed,
-        Label::TimedOut,
-        Label::Malformed,
-        Label::Undecided,
-    ];
-
     /// Did the program do what the case asks for?
     pub fn is_correct(self) -> bool {
         self == Label::Correct
-    }
-
-    /// The label in words.
-    pub fn word(self) -> &'static str {
-        match self {
-            Label::Correct => "correct",
-            Label::Incomplete => "incomplete",
-            Label::Inaccurate => "inaccurate",
-            Label::Wrong => "wrong",
-            Label::Crashed => "crashed",
-            Label::TimedOut => "timed out",
-            Label::Malformed => "malformed",
-            Label::Undecided => "undecided",
-        }
     }
 }
 

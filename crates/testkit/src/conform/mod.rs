@@ -12,6 +12,31 @@
 //! The pack in `spec/conformance-pack/` is what [`pack_files`] writes, byte for byte;
 //! `mceip conform` needs no files. The pages: `spec/conform.md`.
 
+/// An enumeration whose variants have a word for files and a note for people.
+macro_rules! worded {
+    ($(#[$doc:meta])* $name:ident: $($variant:ident $word:literal $note:literal,)+) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[allow(missing_docs, reason = "the note of each is its documentation")]
+        pub enum $name { $($variant,)+ }
+
+        impl $name {
+            /// All of them, in the order of tables.
+            pub const ALL: &'static [$name] = &[$($name::$variant,)+];
+
+            /// As it stands in files.
+            pub fn word(self) -> &'static str {
+                match self { $($name::$variant => $word,)+ }
+            }
+
+            /// What it means, in a sentence for people.
+            pub fn note(self) -> &'static str {
+                match self { $($name::$variant => $note,)+ }
+            }
+        }
+    };
+}
+
 mod case;
 mod flag;
 mod groups;

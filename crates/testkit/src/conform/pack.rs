@@ -93,7 +93,7 @@ impl Counts {
             let entry = json!({
                 "count": count,
                 "label": bug.expected().word(),
-                "reason": bug.reason(),
+                "reason": bug.note(),
             });
             bugs.insert(bug.word().into(), entry);
         }
@@ -147,7 +147,7 @@ impl CaseLine {
             wrong.push(json!({
                 "bug": answer.bug.word(),
                 "label": answer.bug.expected().word(),
-                "reason": answer.bug.reason(),
+                "reason": answer.bug.note(),
                 "report": answer.report,
             }));
         }

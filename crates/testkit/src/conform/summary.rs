@@ -71,18 +71,17 @@ impl Summary {
 
     /// How many cases got which label, in one line.
     fn verdict(&self) -> String {
-        let mut parts = Vec::new();
-        for label in Label::ALL {
-            let count = self.labels.get(&label).copied().unwrap_or(0);
-            parts.push(format!("{count} {}", label.word()));
-        }
+        let count = |label| self.labels.get(label).copied().unwrap_or(0);
+        let parts = Label::ALL.iter();
+        let parts = parts.map(|label| format!("{} {}", count(label), label.word()));
+        let parts: Vec<String> = parts.collect();
         format!("{} cases: {}", self.cases, parts.join(", "))
     }
 
     /// A table for people, the first failures, one line of verdict.
     pub fn text(&self) -> String {
         let mut header = vec!["flag", "cases"];
-        header.extend(Label::ALL.map(Label::word));
+        header.extend(Label::ALL.iter().map(|label| label.word()));
         let mut table = Table::new(&header);
         for row in self.rows() {
             table.row(row);
@@ -115,7 +114,8 @@ impl Summary {
             "# mceip conform\n\nCommand: `{command}`\n\nSettings: {settings}\n\n{verdict}\n\n"
         );
 
-        let labels = Label::ALL.map(Label::word).join(" | ");
+        let labels: Vec<&str> = Label::ALL.iter().map(|label| label.word()).collect();
+        let labels = labels.join(" | ");
         let rule = "---|".repeat(Label::ALL.len() + 3);
         out += &format!("| flag | cases | {labels} | what it catches |\n|{rule}\n");
         for row in self.rows() {
@@ -158,7 +158,7 @@ fn row(name: &str, counts: &BTreeMap<Label, usize>) -> Vec<String> {
     let total: usize = counts.values().sum();
     let mut out = vec![name.to_string(), total.to_string()];
     for label in Label::ALL {
-        let number = counts.get(&label).map(ToString::to_string);
+        let number = counts.get(label).map(ToString::to_string);
         out.push(number.unwrap_or_else(|| ".".into()));
     }
     out

@@ -14,72 +14,27 @@ use mceip_oracle::{Solution, enumerate};
 use num_traits::{Signed, Zero};
 use serde_json::{Value, json};
 
-/// The mistake behind a wrong answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Bug {
-    /// Every x negated.
-    SignFlipped,
-    /// A value off by one per cent.
-    ShiftedValue,
-    /// An eigenvector with components of both signs.
-    MixedSigns,
-    /// A positive eigenvector with y < 0 off its support.
-    ComplementIgnored,
-    /// An eigenpair with t < 0.
-    NegativeValue,
-    /// The same with -1e-6 < t < 0, reported as 0.
-    RoundedToZero,
-    /// A solution outside the window.
-    OutsideWindow,
-    /// x = 0.
-    ZeroVector,
-    /// A continuum for all values where it ends.
-    EndlessContinuum,
-    /// The last part of the answer left out.
-    Dropped,
-    /// One of two solutions with one value left out.
-    MergedByValue,
+worded! {
+    /// The mistake behind a wrong answer. Its note says why the answer is wrong.
+    Bug:
+    SignFlipped "sign_flipped"
+        "x < 0 where x >= 0 is asked for: S, or the normal, has the wrong sign",
+    ShiftedValue "shifted_value" "no solution has this value: it is 1 per cent off",
+    MixedSigns "mixed_signs" "an eigenvector of a support whose components have both signs",
+    ComplementIgnored "complement_ignored"
+        "a positive eigenvector of a support with y < 0 elsewhere",
+    NegativeValue "negative_value" "t < 0: not an answer to (12) or (21)",
+    RoundedToZero "rounded_to_zero"
+        "its value is negative and was rounded to 0: below the threshold nothing exists",
+    OutsideWindow "outside_window" "a solution outside the window asked for",
+    ZeroVector "zero_vector" "x = 0 solves every line but x != 0",
+    EndlessContinuum "endless_continuum"
+        "the support has solutions on part of these values only",
+    Dropped "dropped" "the last part of the answer is missing",
+    MergedByValue "merged_by_value" "two solutions share this value and one is missing",
 }
 
 impl Bug {
-    /// The bug as it stands in files.
-    pub fn word(self) -> &'static str {
-        match self {
-            Bug::SignFlipped => "sign_flipped",
-            Bug::ShiftedValue => "shifted_value",
-            Bug::MixedSigns => "mixed_signs",
-            Bug::ComplementIgnored => "complement_ignored",
-            Bug::NegativeValue => "negative_value",
-            Bug::RoundedToZero => "rounded_to_zero",
-            Bug::OutsideWindow => "outside_window",
-            Bug::ZeroVector => "zero_vector",
-            Bug::EndlessContinuum => "endless_continuum",
-            Bug::Dropped => "dropped",
-            Bug::MergedByValue => "merged_by_value",
-        }
-    }
-
-    /// Why it is wrong.
-    pub fn reason(self) -> &'static str {
-        match self {
-            Bug::SignFlipped => {
-                "x < 0 where x >= 0 is asked for: S, or the normal, has the wrong sign"
-            }
-            Bug::ShiftedValue => "no solution has this value: it is 1 per cent off",
-            Bug::MixedSigns => "an eigenvector of a support whose components have both signs",
-            Bug::ComplementIgnored => "a positive eigenvector of a support with y < 0 elsewhere",
-            Bug::NegativeValue => "t < 0: not an answer to (12) or (21)",
-            Bug::RoundedToZero => {
-                "its value is negative and was rounded to 0: below the threshold nothing exists"
-            }
-            Bug::OutsideWindow => "a solution outside the window asked for",
-            Bug::ZeroVector => "x = 0 solves every line but x != 0",
-            Bug::EndlessContinuum => "the support has solutions on part of these values only",
-            Bug::Dropped => "the last part of the answer is missing",
-            Bug::MergedByValue => "two solutions share this value and one is missing",
-        }
-    }
-
     /// The label that a report with it must get.
     pub fn expected(self) -> Label {
         match self {

@@ -12,7 +12,7 @@ pub mod states;
 pub mod tails;
 
 use mceip_exact::{Rational, Sparse, rational, whole};
-use mceip_model::{Pencil, Window};
+use mceip_model::{Pencil, Unknown, Window};
 use num_traits::One;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -40,6 +40,26 @@ impl Seed {
     }
 }
 
+/// The source of numbers for an instance of a family of random problems that only tests have.
+pub fn rng(family: u64, index: u64) -> ChaCha8Rng {
+    let seed = 1;
+    Seed {
+        family,
+        seed,
+        index,
+    }
+    .rng()
+}
+
+/// lambda^2 for even numbers, mu for odd ones.
+pub fn unknown(index: u64) -> Unknown {
+    if index.is_multiple_of(2) {
+        Unknown::Lambda2
+    } else {
+        Unknown::Mu
+    }
+}
+
 /// A matrix of order n by its rows; its entries are drawn row by row.
 fn drawn(n: usize, mut entry: impl FnMut() -> i64) -> Vec<Vec<i64>> {
     let mut rows = vec![vec![0; n]; n];
@@ -63,8 +83,13 @@ fn matrix(n: usize, mut entry: impl FnMut(usize, usize) -> Rational) -> Sparse {
 /// GG' + identity * I with G of entries from -2 to 2: positive definite for identity > 0.
 pub fn gram(rng: &mut ChaCha8Rng, n: usize, identity: i64) -> Vec<Vec<i64>> {
     let g = drawn(n, || rng.random_range(-2..=2));
-    let mut product = vec![vec![0; n]; n];
+    gram_of(&g, identity)
+}
 
+/// The same of a given G.
+pub(crate) fn gram_of(g: &[Vec<i64>], identity: i64) -> Vec<Vec<i64>> {
+    let n = g.len();
+    let mut product = vec![vec![0; n]; n];
     for i in 0..n {
         for j in 0..n {
             for k in 0..n {

@@ -55,7 +55,7 @@ fn is_slip(state: &ContactState) -> bool {
 
 /// One to `most_slip` particles that slip, one or two with zero reaction, and one that sticks and
 /// one that is free, each in one of `rarity` mixtures.
-pub fn mixture_with_zero(rng: &mut ChaCha8Rng, most_slip: usize, rarity: u32) -> Vec<ContactState> {
+fn mixture_with_zero(rng: &mut ChaCha8Rng, most_slip: usize, rarity: u32) -> Vec<ContactState> {
     let mut states = Vec::new();
     for _ in 0..rng.random_range(1..=most_slip) {
         let sign = if rng.random_range(0..2) == 0 { 1 } else { -1 };
@@ -70,6 +70,19 @@ pub fn mixture_with_zero(rng: &mut ChaCha8Rng, most_slip: usize, rarity: u32) ->
     }
 
     states
+}
+
+/// A random system of `mixture_with_zero`.
+///
+/// # Errors
+/// [`ModelError`]; none.
+pub fn system_with_zero(
+    rng: &mut ChaCha8Rng,
+    most_slip: usize,
+    rarity: u32,
+) -> Result<System, ModelError> {
+    let states = mixture_with_zero(rng, most_slip, rarity);
+    system(rng, &states, &mut Vec::new())
 }
 
 /// How often particles with zero reaction do each thing that they can.

@@ -8,6 +8,7 @@
 use super::coverage::Counter;
 use crate::compare::{Treatment, compare_by};
 use crate::families::Instance;
+use crate::generators::{gram_of, sparse};
 use mceip_check::check;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
@@ -234,22 +235,11 @@ fn on_the_circle(byte: u8) -> (Rational, Rational) {
 
 /// GG' + I with entries of G from -2 to 2: symmetric and positive definite.
 fn definite(bytes: &mut Bytes<'_>, n: usize) -> Sparse {
-    let mut g = vec![vec![0i64; n]; n];
-    for row in &mut g {
-        for entry in row {
-            *entry = i64::from(bytes.below(5)) - 2;
-        }
+    let mut g = vec![vec![0; n]; n];
+    for entry in g.iter_mut().flatten() {
+        *entry = i64::from(bytes.below(5)) - 2;
     }
-
-    let mut entries = Vec::new();
-    for i in 0..n {
-        for j in 0..n {
-            let product: i64 = (0..n).map(|k| g[i][k] * g[j][k]).sum();
-            entries.push((i, j, whole(product + i64::from(i == j))));
-        }
-    }
-
-    Sparse::from_entries(n, n, entries)
+    sparse(&gram_of(&g, 1))
 }
 
 /// c and s of a Pythagorean angle with c, s >= 0, axes included; k, m, mu positive; mu now and then
