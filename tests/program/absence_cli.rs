@@ -12,8 +12,8 @@ fn report(folder: &Folder, solutions: &str) -> String {
 
 /// What `certify` writes to stderr, when it ends with this exit code.
 #[track_caller]
-fn certify(code: i32, args: &[&str]) -> String {
-    let run = run(&[&["certify"][..], args].concat());
+fn certify(code: i32, args: &str) -> String {
+    let run = run(&format!("certify {args}"));
     assert_eq!(run.code, Some(code), "{}", run.stderr);
     run.stderr
 }
@@ -36,7 +36,7 @@ fn numbers_of_every_magnitude_stay_undecided_at_once() {
     let report = report(&folder, r#"[{"value": 0, "x": [1, 1, 2, 0]}]"#);
 
     let started = Instant::now();
-    let said = certify(3, &[&problem, &report]);
+    let said = certify(3, &format!("{problem} {report}"));
     let elapsed = started.elapsed();
 
     assert!(said.contains("regions stay open"), "{said}");

@@ -6,9 +6,11 @@
 //! checker.
 #![cfg(feature = "cli")]
 
-use crate::common::{contains_all, example, exits, exits_with_json, read, run};
-use crate::fold::fold_body;
-use crate::program::{Folder, refused};
+use crate::common::{
+    contains_all, example, exits, exits_with_json, read, refused, run, two_particles_with,
+};
+use crate::fold::{enumerate_at, fold_body};
+use crate::program::Folder;
 use mceip_check::{check, check_critical, check_presence};
 use mceip_engine::analysis::conditions::{Necessary, condensed};
 use mceip_engine::analysis::{
@@ -19,10 +21,11 @@ use mceip_exact::{
     Interval, Rational, Sparse, enclosing_decimals, from_f64, rational, to_f64, whole,
 };
 use mceip_model::file::read_problem_file;
-use mceip_model::reduction::{mu_family, reduce};
-use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
-use mceip_oracle::{Enumeration, TwoParticles, enumerate, table1, thresholds};
+use mceip_model::reduction::mu_family;
+use mceip_model::{ContactState, Particle, System, Window};
+use mceip_oracle::{TwoParticles, table1, thresholds};
 use mceip_paper::{Block, BlockModel, MassKind, PublishedState, two_particles};
+use mceip_testkit::system_of;
 use num_traits::Signed as _;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -53,18 +56,6 @@ fn answer(system: &System, mu: &Rational, samples: usize) -> Analysis {
         }
     }
     analysis
-}
-
-/// Two particles with c = 3/5, s = 4/5, k = 5, m = 1/7.
-fn two_particles_with(signs: (i8, i8), mu: Rational) -> TwoParticles {
-    TwoParticles {
-        c: rational(3, 5),
-        s: rational(4, 5),
-        k: whole(5),
-        m: rational(1, 7),
-        mu,
-        signs,
-    }
 }
 
 /// All answers for the two particles, against Table 1 in closed form.
@@ -257,9 +248,7 @@ fn mode_is_a_motion(mode: &Mode, system: &System, data: &TwoParticles, met: &mut
 #[track_caller]
 fn free_dofs_carry_no_reaction() {
     let problem = read_problem_file(Path::new(&example("oblique"))).unwrap();
-    let Body::System(system) = problem.body() else {
-        panic!("a system")
-    };
+    let system = system_of(&problem);
     let mode = answer(system, &whole(9), 0).divergence.modes.remove(0);
     let lambda2 = from_f64(mode.growth_rate * mode.growth_rate).unwrap();
     let dynamic_stiffness = system
@@ -270,18 +259,6 @@ fn free_dofs_carry_no_reaction() {
         let w = row_times(&dynamic_stiffness, i, &mode.v);
         assert!(w.abs() < 1e-12, "w[{i}] = {w}");
     }
-}
-
-/// The MCEIP-mu of a system at a fixed lambda^2, by the enumerator.
-fn enumerate_at(system: &System, lambda2: &Rational, window: &Window) -> Enumeration {
-    let stiffness = system
-        .stiffness()
-        .add_scaled(lambda2, system.mass().unwrap());
-    let particles = system.particles().to_vec();
-    let at_lambda2 = System::new(stiffness, None, None, particles).unwrap();
-    let problem = Problem::new(Body::System(at_lambda2), Unknown::Mu, Window::all()).unwrap();
-
-    enumerate(&reduce(&problem).unwrap().pencil, window).unwrap()
 }
 
 #[test]
@@ -684,9 +661,7 @@ fn no_empty_range_is_called_proved() {
     // The same with a particle of zero reaction, of which the condition on K* says nothing.
     let file = Path::new("tests/program/edges/zero-reaction-without-friction.json");
     let problem = read_problem_file(file).unwrap();
-    let Body::System(system) = problem.body() else {
-        panic!("a system")
-    };
+    let system = system_of(&problem);
     let analysis = answer(system, &rational(1, 4), 4);
     assert_eq!(analysis.without_friction, Verdict::Undecided);
     nothing_is_vacuous(&analysis);
@@ -756,39 +731,39 @@ fn files_that_a_theorem_answers_are_no_bad_input() {
     let smooth = crate::common::repository("tests/malformed/friction-zero.json");
 
     for file in [&stick, &free, &zero, &of_mu, &smooth] {
-        let text = exits(0, &["analyze", file, "--samples", "0"]);
+        let text = exits(0, &format!("analyze {file} --samples 0"));
         contains_all(
             &text,
             &["ABSENT", "With these contact states held", "theorem"],
         );
-        let json = exits_with_json(0, &["analyze", file, "--json", "--samples", "0"]);
+        let json = exits_with_json(0, &format!("analyze {file} --json --samples 0"));
         assert_eq!(json["divergence"]["verdict"], "absent");
         assert!(json["problem_sha256"].is_null());
 
         for command in ["solve", "complete", "enumerate"] {
-            let text = exits(0, &[command, file]);
+            let text = exits(0, &format!("{command} {file}"));
             contains_all(&text, &["COMPLETE: no solution, by theorem", "Z.2"]);
-            let json = exits_with_json(0, &[command, file, "--json"]);
+            let json = exits_with_json(0, &format!("{command} {file} --json"));
             assert_eq!(json["claim"], "complete");
             assert_eq!(json["solutions"], json!([]));
         }
 
-        refused(&["reduce", file], &["expected"]);
-        refused(&["check", file, file], &["expected"]);
+        refused(&format!("reduce {file}"), &["expected"]);
+        refused(&format!("check {file} {file}"), &["expected"]);
     }
 
     // Nothing proves these: no mass of a dynamic question, K not definite on free motions, and
     // without friction on tangential ones.
     let massless = stuck.replace(r#""mass":[[1,0,0],[0,1,0],[0,0,1]],"#, "");
     let massless = folder.write("massless.json", &massless);
-    refused(&["complete", &massless], &["E12", "mass"]);
+    refused(&format!("complete {massless}"), &["E12", "mass"]);
     let loose = stuck.replace("[0,0,1]],\"mass\"", "[0,0,0]],\"mass\"");
     let loose = folder.write("loose.json", &loose);
-    refused(&["complete", &loose], &["K_ff"]);
+    refused(&format!("complete {loose}"), &["K_ff"]);
     let falling = stuck.replace("[[2,1,0]", "[[-2,1,0]").replace("1/2", "0");
     let falling = falling.replace("\"stick\"", "\"slip\",\"sign\":1");
     let falling = folder.write("falling.json", &falling);
-    refused(&["complete", &falling], &["E7", "friction > 0"]);
+    refused(&format!("complete {falling}"), &["E7", "friction > 0"]);
 }
 
 /// A friction beyond doubles is printed as a decimal with an exponent.
@@ -796,8 +771,10 @@ fn files_that_a_theorem_answers_are_no_bad_input() {
 fn a_friction_beyond_doubles_is_printed() {
     for (given, printed) in [("1e400", "mu = 1e400"), ("1e-400", "mu = 1e-400")] {
         let problem = example("point");
-        let args = ["analyze", &problem, "--friction", given, "--samples", "0"];
-        let text = exits(0, &args);
+        let text = exits(
+            0,
+            &format!("analyze {problem} --friction {given} --samples 0"),
+        );
         contains_all(&text, &[printed]);
         assert!(!text.contains("inf ") && !text.contains("NaN"), "{text}");
     }
@@ -854,9 +831,7 @@ fn a_small_block_with_free_variables() {
 fn critical_mu_of_the_l_body() {
     let file = Path::new("tests/program/l-body-172.json");
     let problem = read_problem_file(file).unwrap();
-    let Body::System(system) = problem.body() else {
-        panic!("a system")
-    };
+    let system = system_of(&problem);
 
     let analysis = answer(system, &rational(8, 10), 0);
 
@@ -891,9 +866,7 @@ fn critical_mu_of_the_block() {
         (PublishedState::FifteenSlip, 60.806),
     ] {
         let problem = state.problem(&block).unwrap();
-        let Body::System(system) = problem.body() else {
-            panic!("a system")
-        };
+        let system = system_of(&problem);
 
         let analysis = answer(system, &rational(11, 10), 0);
 
@@ -916,9 +889,7 @@ fn the_condensed_condition_of_the_block() {
         (PublishedState::FifteenSlip, 0.3242, 8.715),
     ] {
         let problem = state.problem(&block).unwrap();
-        let Body::System(system) = problem.body() else {
-            panic!("a system")
-        };
+        let system = system_of(&problem);
         let family = mu_family(system).unwrap();
 
         let of_k = Necessary::of(&family).unwrap().stiffness;
@@ -946,8 +917,8 @@ fn certificates_are_written_and_accepted() {
     let proofs = folder.path("proofs");
     let problem = example("oblique");
 
-    let args = ["analyze", &problem, "--json", "--samples", "4"];
-    let report = exits_with_json(0, &[&args[..], &["--certificates", &proofs]].concat());
+    let command = format!("analyze {problem} --json --samples 4 --certificates {proofs}");
+    let report = exits_with_json(0, &command);
     assert_eq!(report["format"], "mceip-analysis/1");
     assert_eq!(report["divergence"]["verdict"], "present");
 
@@ -959,7 +930,7 @@ fn certificates_are_written_and_accepted() {
 
         if let Some(certificate) = evidence["path"].as_str() {
             let problem = certificate.replace(".certificate.json", ".problem.json");
-            exits(0, &["check", &problem, certificate]);
+            exits(0, &format!("check {problem} {certificate}"));
             checked += 1;
         }
     }
@@ -969,9 +940,9 @@ fn certificates_are_written_and_accepted() {
     // A certificate of another question is refused.
     let mu_problem = folder.path("proofs/mu.problem.json");
     let lambda2_certificate = folder.path("proofs/lambda2.certificate.json");
-    exits(1, &["check", &mu_problem, &lambda2_certificate]);
+    exits(1, &format!("check {mu_problem} {lambda2_certificate}"));
 
-    let words = run(&["analyze", &problem, "--samples", "0"]).stdout;
+    let words = run(&format!("analyze {problem} --samples 0")).stdout;
     assert!(
         words.contains(
             "taken as impending slip at mu = 9, divergence instability of the form (8) is PRESENT"
@@ -987,10 +958,7 @@ fn the_report_says_what_the_text_says() {
     let problem = example("two-particles");
     let page = folder.path("out.html");
 
-    let text = exits(
-        0,
-        &["analyze", &problem, "--report", &page, "--samples", "0"],
-    );
+    let text = exits(0, &format!("analyze {problem} --report {page} --samples 0"));
 
     let html = read(&page);
     assert!(html.starts_with("<!DOCTYPE html>"));
@@ -1017,13 +985,13 @@ fn the_report_says_what_the_text_says() {
 
     let nowhere = folder.path("none/out.html");
     refused(
-        &["analyze", &problem, "--report", &nowhere],
+        &format!("analyze {problem} --report {nowhere}"),
         &["cannot write"],
     );
 
     let of_a_pencil = folder.path("fold.html");
     refused(
-        &["analyze", &example("fold"), "--report", &of_a_pencil],
+        &format!("analyze {} --report {of_a_pencil}", example("fold")),
         &["mechanical system"],
     );
     assert!(!Path::new(&of_a_pencil).exists());
@@ -1042,9 +1010,8 @@ fn the_report_draws_a_body_with_coordinates() {
         "particles": ["left foot", "<right>"],
     });
     let drawn = folder.write("drawn.json", &problem.to_string());
-    let on_page = ["--report", &page, "--samples", "0"];
 
-    let text = exits(0, &[&["analyze", &drawn][..], &on_page].concat());
+    let text = exits(0, &format!("analyze {drawn} --report {page} --samples 0"));
 
     let html = read(&page);
     let tree = html.strip_prefix("<!DOCTYPE html>\n").unwrap();
@@ -1060,7 +1027,7 @@ fn the_report_draws_a_body_with_coordinates() {
     );
 
     let plain = example("two-particles");
-    let without = exits(0, &[&["analyze", &plain][..], &on_page].concat());
+    let without = exits(0, &format!("analyze {plain} --report {page} --samples 0"));
     let html = read(&page);
     assert_eq!(without.replace(&plain, &drawn), text);
     assert_eq!(html.matches("<svg").count(), 1);
@@ -1119,8 +1086,8 @@ fn a_check_of_absence_can_be_interrupted() {
 fn the_answer_does_not_depend_on_threads() {
     let problem = example("two-particles");
 
-    let by_one = run(&["analyze", &problem, "--json", "--threads", "1"]);
-    let by_three = run(&["analyze", &problem, "--json", "--threads", "3"]);
+    let by_one = run(&format!("analyze {problem} --json --threads 1"));
+    let by_three = run(&format!("analyze {problem} --json --threads 3"));
 
     assert!(!by_one.stdout.is_empty());
     assert_eq!(by_one.stdout, by_three.stdout);

@@ -4,19 +4,15 @@
 
 use crate::common::{exits, exits_with_json};
 
-/// `block --lambda2 2` by one start on a mesh.
-fn one_start(cells: &str) -> Vec<&str> {
-    let options = ["block", "--lambda2", "2", "--starts", "1", "--scale", cells];
-    options.to_vec()
-}
+/// By one start on a mesh.
+const ONE_START: &str = "block --lambda2 2 --starts 1 --scale";
 
 #[test]
 fn a_mesh_too_large_to_certify_has_a_backward_error() {
-    let text = exits(3, &one_start("40x20"));
+    let text = exits(3, &format!("{ONE_START} 40x20"));
     assert!(text.contains("UNCERTIFIED: more than 3000 dofs; backward error "));
 
-    let json = [one_start("40x20"), vec!["--json"]].concat();
-    let listed = exits_with_json(3, &json);
+    let listed = exits_with_json(3, &format!("{ONE_START} 40x20 --json"));
     let solution = &listed["lambda2"][0]["solutions"][0];
     assert_eq!(solution["certified"], false);
     assert_eq!(solution["reason"], "more than 3000 dofs");
@@ -27,8 +23,7 @@ fn a_mesh_too_large_to_certify_has_a_backward_error() {
 
 #[test]
 fn a_certified_solution_has_none() {
-    let json = [one_start("6x3"), vec!["--json"]].concat();
-    let listed = exits_with_json(0, &json);
+    let listed = exits_with_json(0, &format!("{ONE_START} 6x3 --json"));
 
     let solution = &listed["lambda2"][0]["solutions"][0];
     assert_eq!(solution["certified"], true);

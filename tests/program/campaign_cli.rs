@@ -11,22 +11,10 @@ use std::path::Path;
 fn a_short_campaign_is_clean_and_the_same_on_any_number_of_threads() {
     let folder = Folder::new();
     let replays = folder.path("replays");
-    let args = [
-        "campaign",
-        "--count",
-        "3",
-        "--family",
-        "table1",
-        "degenerate",
-        "--seed",
-        "5",
-        "--replays",
-        &replays,
-    ];
-    let on_one_thread = [&args[..], &["--threads", "1"]].concat();
-    let on_two_threads = [&args[..], &["--threads", "2"]].concat();
+    let command =
+        format!("campaign --count 3 --family table1 degenerate --seed 5 --replays {replays}");
 
-    let text = exits(0, &on_one_thread);
+    let text = exits(0, &format!("{command} --threads 1"));
     contains_all(
         &text,
         &[
@@ -35,10 +23,10 @@ fn a_short_campaign_is_clean_and_the_same_on_any_number_of_threads() {
         ],
     );
 
-    assert_eq!(text, exits(0, &on_two_threads));
+    assert_eq!(text, exits(0, &format!("{command} --threads 2")));
     assert!(!Path::new(&replays).exists());
 
-    let report = exits_with_json(0, &[&on_two_threads[..], &["--json"]].concat());
+    let report = exits_with_json(0, &format!("{command} --threads 2 --json"));
     assert_eq!(report["instances"], 6);
     assert_eq!(report["families"][1]["name"], "degenerate");
 }

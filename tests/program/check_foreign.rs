@@ -34,7 +34,7 @@ impl Checked {
 fn check(problem: &str, solutions: &str) -> Checked {
     let folder = Folder::new();
     let report = folder.write("r.json", &solutions_text(solutions));
-    let run = run(&["check", problem, &report]);
+    let run = run(&format!("check {problem} {report}"));
 
     Checked {
         code: run.code.unwrap(),

@@ -22,7 +22,7 @@ fn a_report_with_families_claims_them() {
         (&cone, "complete_with_families", true),
         (&list, "complete", false),
     ] {
-        let text = exits(0, &["complete", problem, "--json"]);
+        let text = exits(0, &format!("complete {problem} --json"));
         let report: Value = serde_json::from_str(&text).unwrap();
         let families = report["families"].as_array().unwrap();
         assert_eq!(report["claim"], claim, "{text}");

@@ -4,27 +4,25 @@
 //! agreement of the commands: what one writes the next must take, and what was changed it must not.
 #![cfg(feature = "cli")]
 
-use crate::common::{contains_all, exits, exits_with_json, read, repository, run};
+use crate::common::{
+    contains_all, exits, exits_with_json, read, refused, repository, run, started,
+};
 use crate::corpus_reader::entry;
+#[cfg(unix)]
+use crate::interrupt::interrupt;
 use crate::program::Folder;
-use serde_json::Value;
-use std::process::{Command, Stdio};
+use serde_json::{Value, json};
 use std::time::Duration;
 
-/// Exit 2, nothing on stdout, one line on stderr of at most 600 bytes that has each of `words`.
-#[track_caller]
-fn refused(args: &[&str], words: &[&str]) {
-    let run = run(args);
-    let message = &run.stderr;
-    assert_eq!(run.code, Some(2), "{message}");
-    assert!(run.stdout.is_empty(), "{run:?}");
-    assert_eq!(message.lines().count(), 1, "{message}");
-    assert!(message.len() < 600, "{message}");
-
-    for word in words {
-        assert!(message.contains(word), "{word:?} not in: {message}");
-    }
-}
+/// A problem of each mode of a particle in contact with zero reaction, of which t = 2 is the only
+/// value.
+const MODES: [&str; 5] = [
+    "zero-open",
+    "zero-stick",
+    "zero-right",
+    "zero-left",
+    "zero-open-mu",
+];
 
 #[test]
 fn malformed_problems_are_refused_in_one_line() {
@@ -73,7 +71,7 @@ fn malformed_problems_are_refused_in_one_line() {
             _ => &["enumerate", "solve", "reduce"],
         };
         for command in commands {
-            refused(&[command, &file], words);
+            refused(&format!("{command} {file}"), words);
         }
     }
 }
@@ -99,30 +97,28 @@ fn reports_with_zero_reaction_are_checked_and_certified() {
     let folder = Folder::new();
     let certificate = folder.path("certificate.json");
 
-    for name in [
-        "zero-open",
-        "zero-stick",
-        "zero-right",
-        "zero-left",
-        "zero-open-mu",
-    ] {
-        let case = tempfile::tempdir().unwrap();
-        let problem = zero_reaction_problem(case.path(), name);
-        let mut report = exits_with_json(0, &["solve", &problem, "--json"]);
+    for name in MODES {
+        let problem = zero_reaction_problem(&folder, name);
+        let mut report = exits_with_json(0, &format!("solve {problem} --json"));
         let by_x = folder.write("x.json", &report.to_string());
         remove_x(&mut report);
         let by_v = folder.write("v.json", &report.to_string());
 
         for report in [&by_x, &by_v] {
-            let verdict = exits(0, &["check", &problem, report]);
+            let verdict = exits(0, &format!("check {problem} {report}"));
             contains_all(&verdict, &["ACCEPTED", "= 2 exists"]);
 
-            exits(0, &["certify", &problem, report, "--out", &certificate]);
-            exits(0, &["check", &problem, &certificate]);
-            let args = ["certify", &problem, report, "--lifted", "--out"];
-            exits(0, &[&args[..], &[certificate.as_str()]].concat());
+            exits(
+                0,
+                &format!("certify {problem} {report} --out {certificate}"),
+            );
+            exits(0, &format!("check {problem} {certificate}"));
+            exits(
+                0,
+                &format!("certify {problem} {report} --lifted --out {certificate}"),
+            );
             contains_all(&read(&certificate), &["lifted_solution"]);
-            exits(0, &["check", &problem, &certificate]);
+            exits(0, &format!("check {problem} {certificate}"));
         }
     }
 }
@@ -138,37 +134,28 @@ fn remove_x(report: &mut Value) {
 /// the solution, `check` accepts their certificates, and not for the problem of another mode.
 #[test]
 fn zero_reaction_is_solved_and_checked() {
-    let folder = tempfile::tempdir().unwrap();
-    let foreign_folder = tempfile::tempdir().unwrap();
-    let foreign = zero_reaction_problem(foreign_folder.path(), "zero-factor");
-    let certificate = folder.path().join("certificate.json");
-    let certificate = certificate.to_str().unwrap();
+    let folder = Folder::new();
+    let foreign = zero_reaction_problem(&folder, "zero-factor");
+    let certificate = folder.path("certificate.json");
 
-    for name in [
-        "zero-open",
-        "zero-stick",
-        "zero-right",
-        "zero-left",
-        "zero-open-mu",
-    ] {
-        let problem = zero_reaction_problem(folder.path(), name);
-        let args = ["solve", &problem, "--json", "--certificate", certificate];
+    for name in MODES {
+        let problem = zero_reaction_problem(&folder, name);
+        let written = format!("{problem} --json --certificate {certificate}");
 
-        let report = exits_with_json(0, &args);
+        let report = exits_with_json(0, &format!("solve {written}"));
 
         assert_eq!(report["solutions"].as_array().unwrap().len(), 1, "{name}");
         assert_eq!(report["solutions"][0]["value"], "2", "{name}");
-        exits(0, &["check", &problem, certificate]);
-        exits(1, &["check", &foreign, certificate]);
+        exits(0, &format!("check {problem} {certificate}"));
+        exits(1, &format!("check {foreign} {certificate}"));
 
-        let args = ["complete", &problem, "--json", "--certificate", certificate];
-        let all = exits_with_json(0, &args);
+        let all = exits_with_json(0, &format!("complete {written}"));
         assert_eq!(all["solutions"].as_array().unwrap().len(), 1, "{name}");
         assert_eq!(all["solutions"][0]["slip"], report["solutions"][0]["slip"]);
-        exits(0, &["check", &problem, certificate]);
-        exits(1, &["check", &foreign, certificate]);
+        exits(0, &format!("check {problem} {certificate}"));
+        exits(1, &format!("check {foreign} {certificate}"));
 
-        let listed = exits_with_json(0, &["enumerate", &problem, "--json"]);
+        let listed = exits_with_json(0, &format!("enumerate {problem} --json"));
         assert_eq!(listed["claim"], "complete", "{name}");
         assert_eq!(
             listed["evidence"],
@@ -180,7 +167,10 @@ fn zero_reaction_is_solved_and_checked() {
             assert_eq!(by_modes, by_solver, "{name}: {key}");
         }
 
-        contains_all(&exits(0, &["solve", &problem]), &["right of particle 1"]);
+        contains_all(
+            &exits(0, &format!("solve {problem}")),
+            &["right of particle 1"],
+        );
     }
 }
 
@@ -189,22 +179,15 @@ fn zero_reaction_is_solved_and_checked() {
 /// accepted.
 #[test]
 fn zero_reaction_is_analysed() {
-    let folder = tempfile::tempdir().unwrap();
-    let problem = zero_reaction_problem(folder.path(), "critical-zero");
-    let proofs = folder.path().join("proofs");
-    let report = folder.path().join("report.html");
+    let folder = Folder::new();
+    let problem = zero_reaction_problem(&folder, "critical-zero");
+    let [proofs, report] = ["proofs", "report.html"].map(|name| folder.path(name));
 
-    let arguments = [
-        "analyze",
-        &problem,
-        "--friction",
-        "1",
-        "--certificates",
-        proofs.to_str().unwrap(),
-        "--report",
-        report.to_str().unwrap(),
-    ];
-    let text = exits(0, &arguments);
+    let command = format!("analyze {problem} --friction 1");
+    let text = exits(
+        0,
+        &format!("{command} --certificates {proofs} --report {report}"),
+    );
     contains_all(
         &text,
         &[
@@ -218,42 +201,31 @@ fn zero_reaction_is_analysed() {
         ],
     );
 
-    let [proved, certificate] =
-        ["problem", "certificate"].map(|what| proofs.join(format!("absence.{what}.json")));
-    let arguments = [
-        "check",
-        proved.to_str().unwrap(),
-        certificate.to_str().unwrap(),
-    ];
-    contains_all(&exits(0, &arguments), &["ABSENT for friction"]);
+    let files = format!("{proofs}/absence.problem.json {proofs}/absence.certificate.json");
+    let verdict = exits(0, &format!("check {files}"));
+    contains_all(&verdict, &["ABSENT for friction"]);
 
-    let page = std::fs::read_to_string(&report).unwrap();
-    contains_all(&page, &["particles with zero reaction", "1 right"]);
+    contains_all(&read(&report), &["particles with zero reaction", "1 right"]);
 
-    let json = exits(0, &["analyze", &problem, "--friction", "1", "--json"]);
-    let answer: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let answer = exits_with_json(0, &format!("{command} --json"));
     assert_eq!(answer["sizes"]["zero_particles"], 1);
     let zero = &answer["divergence"]["modes"][0]["zero"][0];
-    assert_eq!(*zero, serde_json::json!({"particle": 1, "mode": "right"}));
+    assert_eq!(*zero, json!({"particle": 1, "mode": "right"}));
     assert!(answer["sufficient"].is_null() && answer["flutter"].is_null());
 }
 
 /// The problem of a file of `spec/corpus/accept`, as a file of its own.
-fn zero_reaction_problem(folder: &std::path::Path, name: &str) -> String {
-    let problem = folder.join("problem.json");
-    std::fs::write(&problem, entry(&format!("accept/{name}")).problem).unwrap();
-    problem.to_str().unwrap().into()
+fn zero_reaction_problem(folder: &Folder, name: &str) -> String {
+    let problem = entry(&format!("accept/{name}")).problem;
+    folder.write(&format!("{name}.json"), &problem)
 }
 
 #[test]
 fn table1_agrees_with_its_closed_form() {
-    let table = exits(0, &["table1"]);
-    assert!(
-        table.contains("closed form = enumerator = certified"),
-        "{table}"
-    );
+    let table = exits(0, "table1");
+    contains_all(&table, &["closed form = enumerator = certified"]);
 
-    let table = run(&["table1", "--c", "0", "--s", "1"]).stdout;
+    let table = run("table1 --c 0 --s 1").stdout;
     let all_slip = table.lines().filter(|line| line.contains("[0, 1]"));
     assert_eq!(all_slip.count(), 2, "{table}");
 }
@@ -262,7 +234,7 @@ fn table1_agrees_with_its_closed_form() {
 #[test]
 #[ignore = "a minute"]
 fn verify_ends_with_a_verdict() {
-    let report = exits_with_json(0, &["verify", "--random", "4", "--json"]);
+    let report = exits_with_json(0, "verify --random 4 --json");
     let verdict = report["verdict"].as_str().unwrap();
     assert_eq!(report["disagreements"], 0);
     assert!(verdict.starts_with("VERIFIED"), "{verdict}");
@@ -271,18 +243,8 @@ fn verify_ends_with_a_verdict() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_keeps_what_was_found() {
-    let child = Command::new(env!("CARGO_BIN_EXE_mceip"))
-        .arg("verify")
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(Duration::from_secs(3));
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-
-    assert!(kill.success());
+    let child = started("verify");
+    interrupt(&child, Duration::from_secs(3));
 
     let output = child.wait_with_output().unwrap();
 

@@ -2,14 +2,13 @@
 //! complete. Limits: `tests/transcripts/enumerate.md`.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits_with_json, pencil_problem};
+use crate::common::{example, exits_with_json, pencil_problem, started};
 #[cfg(unix)]
 use crate::interrupt::interrupt;
 use crate::program::Folder;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
-use std::process::{Command, Stdio};
 use std::time::Duration;
 
 /// Writes a problem with unknown mu.
@@ -29,7 +28,7 @@ fn random_digits(rng: &mut ChaCha8Rng, order: usize) -> Vec<Vec<i64>> {
 #[test]
 fn the_enumerator_lists_the_examples_and_names_its_evidence() {
     for name in ["fold", "two-particles", "two-particles-mu", "oblique"] {
-        let report = exits_with_json(0, &["enumerate", &example(name), "--json"]);
+        let report = exits_with_json(0, &format!("enumerate {} --json", example(name)));
 
         let evidence = report["evidence"].as_str().unwrap();
         assert!(!report["solutions"].as_array().unwrap().is_empty());
@@ -50,7 +49,7 @@ fn families_have_one_shape_in_both_writers() {
     for (name, pencil, one_value) in [("cone.json", cone, true), ("range.json", range, false)] {
         let problem = write_problem(&folder, name, pencil);
         for command in ["enumerate", "complete"] {
-            let report = exits_with_json(0, &[command, &problem, "--json"]);
+            let report = exits_with_json(0, &format!("{command} {problem} --json"));
             assert_eq!(report["claim"], "complete_with_families", "{command}");
 
             let families = report["families"].as_array().unwrap();
@@ -78,12 +77,7 @@ fn an_interrupted_enumeration_prints_what_it_found() {
         json!({ "a": a, "b": b, "free": [] }),
     );
 
-    let child = Command::new(env!("CARGO_BIN_EXE_mceip"))
-        .args(["enumerate", &problem, "--json"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let child = started(&format!("enumerate {problem} --json"));
     interrupt(&child, Duration::from_millis(300));
 
     let interrupted = child.wait_with_output().unwrap();

@@ -3,9 +3,11 @@
 #![cfg(feature = "cli")]
 
 use crate::program::mceip;
-use mceip_exact::Sparse;
+use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{Body, Problem};
+use mceip_oracle::TwoParticles;
 use serde_json::{Value, json};
+use std::process::{Child, Command, Stdio};
 
 /// A file or folder of the repository.
 pub(crate) fn repository(path: &str) -> String {
@@ -29,7 +31,12 @@ pub(crate) struct Run {
     pub(crate) stderr: String,
 }
 
-pub(crate) fn run(args: &[&str]) -> Run {
+/// Runs a command line, which is split at blanks: no path of a test has one.
+pub(crate) fn run(command: &str) -> Run {
+    run_words(&command.split(' ').collect::<Vec<_>>())
+}
+
+pub(crate) fn run_words(args: &[&str]) -> Run {
     let output = mceip(args);
     Run {
         code: output.status.code(),
@@ -38,22 +45,42 @@ pub(crate) fn run(args: &[&str]) -> Run {
     }
 }
 
-pub(crate) fn exit_code(args: &[&str]) -> Option<i32> {
-    run(args).code
+/// A run that has begun, with pipes for its output.
+pub(crate) fn started(command: &str) -> Child {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_mceip"));
+    program.args(command.split(' ')).stdin(Stdio::null());
+    let piped = program.stdout(Stdio::piped()).stderr(Stdio::piped());
+    piped.spawn().unwrap()
+}
+
+pub(crate) fn exit_code(command: &str) -> Option<i32> {
+    run(command).code
 }
 
 /// What a run prints that must end with this exit code.
 #[track_caller]
-pub(crate) fn exits(code: i32, args: &[&str]) -> String {
-    let run = run(args);
-    assert_eq!(run.code, Some(code), "{args:?}: {}", run.stderr);
+pub(crate) fn exits(code: i32, command: &str) -> String {
+    let run = run(command);
+    assert_eq!(run.code, Some(code), "{command}: {}", run.stderr);
     run.stdout
 }
 
 /// The same, read as JSON.
 #[track_caller]
-pub(crate) fn exits_with_json(code: i32, args: &[&str]) -> Value {
-    serde_json::from_str(&exits(code, args)).unwrap()
+pub(crate) fn exits_with_json(code: i32, command: &str) -> Value {
+    serde_json::from_str(&exits(code, command)).unwrap()
+}
+
+/// Exit 2, nothing on stdout, one line on stderr of at most 600 bytes that has each of `words`.
+#[track_caller]
+pub(crate) fn refused(command: &str, words: &[&str]) {
+    let run = run(command);
+    let message = &run.stderr;
+    assert_eq!(run.code, Some(2), "{command}: {message}");
+    assert!(run.stdout.is_empty(), "{run:?}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    assert!(message.len() < 600, "{message}");
+    contains_all(message, words);
 }
 
 /// The text has each of these words.
@@ -61,6 +88,18 @@ pub(crate) fn exits_with_json(code: i32, args: &[&str]) -> Value {
 pub(crate) fn contains_all(text: &str, words: &[&str]) {
     for word in words {
         assert!(text.contains(word), "{word:?} not in: {text}");
+    }
+}
+
+/// Two particles with c = 3/5, s = 4/5, k = 5, m = 1/7.
+pub(crate) fn two_particles_with(signs: (i8, i8), mu: Rational) -> TwoParticles {
+    TwoParticles {
+        c: rational(3, 5),
+        s: rational(4, 5),
+        k: whole(5),
+        m: rational(1, 7),
+        mu,
+        signs,
     }
 }
 

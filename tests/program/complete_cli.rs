@@ -5,14 +5,15 @@
 //! `tests/transcripts/complete.md`.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits, exits_with_json, problem_text, read, repository, run};
+use crate::common::{
+    example, exits, exits_with_json, problem_text, read, repository, run, started,
+};
 #[cfg(unix)]
 use crate::interrupt::interrupt;
 use crate::program::Folder;
 use mceip_model::{Problem, Unknown};
 use mceip_testkit::{known, mechanical_pencil};
 use serde_json::Value;
-use std::process::{Command, Stdio};
 use std::time::Duration;
 
 /// A folder with the problems of these tests.
@@ -49,7 +50,9 @@ impl Bench {
     /// Runs `complete --shard i/n` into a file and gives its path.
     fn shard(&self, problem: &str, shard: &str) -> String {
         let out = self.path(&format!("shard-{}.json", shard.replace('/', "-")));
-        let ended = run(&["complete", problem, "--shard", shard, "--certificate", &out]);
+        let ended = run(&format!(
+            "complete {problem} --shard {shard} --certificate {out}"
+        ));
         assert_eq!(
             ended.code,
             Some(3),
@@ -93,9 +96,9 @@ fn number(value: &Value) -> f64 {
 fn complete_and_enumerate_write_the_same_solutions() {
     for name in ["fold", "two-particles", "two-particles-mu", "oblique"] {
         let file = example(name);
-        let searched = exits_with_json(0, &["complete", &file, "--json"]);
+        let searched = exits_with_json(0, &format!("complete {file} --json"));
         let searched = searched["solutions"].as_array().unwrap();
-        let enumerated = exits_with_json(0, &["enumerate", &file, "--json"]);
+        let enumerated = exits_with_json(0, &format!("enumerate {file} --json"));
         let enumerated = enumerated["solutions"].as_array().unwrap();
 
         assert!(!enumerated.is_empty(), "{name}");
@@ -125,14 +128,7 @@ fn one_certificate_for_any_number_of_threads() {
             let out = bench.path(&format!("threads-{threads}.json"));
             exits(
                 0,
-                &[
-                    "complete",
-                    &problem,
-                    "--threads",
-                    threads,
-                    "--certificate",
-                    &out,
-                ],
+                &format!("complete {problem} --threads {threads} --certificate {out}"),
             );
 
             read(&out)
@@ -141,7 +137,10 @@ fn one_certificate_for_any_number_of_threads() {
         assert!(certificates[0] == certificates[1], "{problem}");
         assert!(certificates[0] == certificates[2], "{problem}");
 
-        let checked = exits(0, &["check", &problem, &bench.path("threads-1.json")]);
+        let checked = exits(
+            0,
+            &format!("check {problem} {}", bench.path("threads-1.json")),
+        );
         assert!(checked.contains("ACCEPTED"), "{checked}");
     }
 }
@@ -154,26 +153,18 @@ fn shards_merged_are_the_single_run() {
         let single = bench.path("single.json");
         let whole = exits_with_json(
             0,
-            &["complete", &problem, "--json", "--certificate", &single],
+            &format!("complete {problem} --json --certificate {single}"),
         );
         let [first, second, third] = bench.three_shards(&problem);
         let merged = bench.path("merged.json");
 
         // In any order.
-        let args = [
-            "merge",
-            "--problem",
-            &problem,
-            &third,
-            &first,
-            &second,
-            "--certificate",
-            &merged,
-        ];
+        let parts = format!("{third} {first} {second}");
+        let merge = format!("merge --problem {problem} {parts} --certificate {merged}");
 
-        assert!(exits(0, &args).contains("COMPLETE"));
+        assert!(exits(0, &merge).contains("COMPLETE"));
 
-        let report = exits_with_json(0, &[&args[..], &["--json"]].concat());
+        let report = exits_with_json(0, &format!("{merge} --json"));
 
         let solutions = solutions_of(&whole);
         assert!(!solutions.is_empty());
@@ -185,7 +176,7 @@ fn shards_merged_are_the_single_run() {
             merged_certificate["complete_set"],
             single_certificate["complete_set"]
         );
-        exits(0, &["check", &problem, &merged]);
+        exits(0, &format!("check {problem} {merged}"));
     }
 }
 
@@ -197,32 +188,22 @@ fn an_interrupt_leaves_a_certificate_to_go_on_with() {
     let problem = bench.graph(9);
     let part = bench.path("part.json");
 
-    let mut child = Command::new(env!("CARGO_BIN_EXE_mceip"))
-        .args([
-            "complete",
-            &problem,
-            "--threads",
-            "1",
-            "--certificate",
-            &part,
-        ])
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    interrupt(&child, Duration::from_millis(100));
-    let code = child.wait().unwrap().code();
+    let search = started(&format!(
+        "complete {problem} --threads 1 --certificate {part}"
+    ));
+    interrupt(&search, Duration::from_millis(100));
+    let code = search.wait_with_output().unwrap().status.code();
 
     // A machine may be quick enough to finish within that time: then it says so.
     assert!(code == Some(130) || code == Some(0), "{code:?}");
 
     // Accepted as what it is: done, or (3) undecided.
-    let checked = run(&["check", &problem, &part]);
+    let checked = run(&format!("check {problem} {part}"));
     assert!(checked.stdout.contains("ACCEPTED"), "{checked:?}");
     assert!(matches!(checked.code, Some(0 | 3)), "{checked:?}");
 
-    let resumed = exits_with_json(0, &["complete", &problem, "--resume", &part, "--json"]);
-    let at_once = exits_with_json(0, &["complete", &problem, "--json"]);
+    let resumed = exits_with_json(0, &format!("complete {problem} --resume {part} --json"));
+    let at_once = exits_with_json(0, &format!("complete {problem} --json"));
     let solutions = solutions_of(&resumed);
 
     assert_eq!(solutions.len(), 511);
@@ -240,16 +221,9 @@ fn a_shard_is_resumed_to_the_whole() {
 
     exits(
         0,
-        &[
-            "complete",
-            &problem,
-            "--resume",
-            &part,
-            "--certificate",
-            &whole,
-        ],
+        &format!("complete {problem} --resume {part} --certificate {whole}"),
     );
-    exits(0, &["complete", &problem, "--certificate", &single]);
+    exits(0, &format!("complete {problem} --certificate {single}"));
 
     assert_eq!(read(&whole), read(&single));
 }
@@ -268,7 +242,7 @@ fn odd_certificates_are_gone_on_with_or_refused() {
         let problem = folder.write("problem.json", &case["problem"].to_string());
         let certificate = folder.write("certificate.json", &case["certificate"].to_string());
 
-        let ended = run(&["complete", &problem, "--resume", &certificate]);
+        let ended = run(&format!("complete {problem} --resume {certificate}"));
 
         assert!(matches!(ended.code, Some(0 | 2 | 3)), "{path}: {ended:?}");
         count += 1;

@@ -7,8 +7,8 @@
 //! enumerator refute it by their own means.
 #![cfg(feature = "cli")]
 
-use crate::common::{exits, exits_with_json, read, repository, run};
-use crate::program::{Folder, refused};
+use crate::common::{exits, exits_with_json, read, refused, repository, run_words};
+use crate::program::Folder;
 use mceip_engine::foreign::{Effort, ForeignReport, Verdict, judge};
 use mceip_model::file::read_problem;
 use mceip_testkit::conform::{Bug, Case, Flag, Label, groups};
@@ -44,7 +44,7 @@ fn files_below(folder: &Path) -> BTreeMap<String, String> {
 #[test]
 fn the_committed_pack_is_the_regenerated_one() {
     let folder = Folder::new();
-    exits(0, &["conform", "--write", &folder.path("pack")]);
+    exits(0, &format!("conform --write {}", folder.path("pack")));
 
     let committed = files_below(Path::new(&repository("spec/conformance-pack")));
     let regenerated = files_below(Path::new(&folder.path("pack")));
@@ -321,7 +321,7 @@ impl Conformed {
 }
 
 fn conform(options: &[&str], command: &[&str]) -> Conformed {
-    let run = run(&[&["conform"][..], options, &["--"], command].concat());
+    let run = run_words(&[&["conform"][..], options, &["--"], command].concat());
     Conformed {
         code: run.code,
         text: run.stdout,
@@ -571,7 +571,7 @@ impl Pack {
     #[track_caller]
     fn is_refused(&self, words: &[&str]) {
         let path = self.0.path("");
-        refused(&["conform", "--pack", &path, "--", "true"], words);
+        refused(&format!("conform --pack {path} -- true"), words);
     }
 }
 
@@ -579,7 +579,7 @@ impl Pack {
 #[test]
 fn the_page_lists_every_flag_as_the_terminal_does() {
     let page = read(&repository("spec/conform.md"));
-    let printed = exits(0, &["conform", "--flags"]);
+    let printed = exits(0, "conform --flags");
 
     assert_eq!(printed.lines().count(), Flag::ALL.len());
     for flag in Flag::ALL {
@@ -591,19 +591,19 @@ fn the_page_lists_every_flag_as_the_terminal_does() {
 
 #[test]
 fn cases_are_listed_printed_and_run_one_by_one() {
-    let list = exits(0, &["conform", "--list", "--only", "fold"]);
+    let list = exits(0, "conform --list --only fold");
     assert!(!list.is_empty());
     assert!(list.lines().all(|line| line.contains(" fold")), "{list}");
 
     let id = list.split_whitespace().next().unwrap();
     let case = cases().into_iter().find(|case| case.id == id).unwrap();
-    let problem = exits(0, &["conform", "--print", id]);
+    let problem = exits(0, &format!("conform --print {id}"));
     let problem = read_problem(&problem, Path::new("."));
     assert_eq!(problem.unwrap().sha256(), case.problem.sha256());
 
-    let whole = exits_with_json(0, &["conform", "--print", id, "--json"]);
+    let whole = exits_with_json(0, &format!("conform --print {id} --json"));
     assert_eq!(whole["answer"], case.answer_json());
 
-    let one = exits_with_json(1, &["conform", "--case", id, "--json", "--", "true"]);
+    let one = exits_with_json(1, &format!("conform --case {id} --json -- true"));
     assert_eq!(one["cases"], 1, "{one}");
 }

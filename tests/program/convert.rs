@@ -5,11 +5,12 @@
 //! one fault, whose place the refusal must name.
 #![cfg(feature = "cli")]
 
-use crate::common::{exits, read, run};
-use crate::program::{Folder, refused};
+use crate::common::{exits, read, refused, run};
+use crate::program::Folder;
 use mceip_exact::rational;
+use mceip_model::ContactState;
 use mceip_model::file::read_problem_file;
-use mceip_model::{Body, ContactState};
+use mceip_testkit::system_of;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -135,30 +136,21 @@ fn calculix<'a>(stiffness: &'a str, contacts: &'a str) -> Conversion<'a> {
 }
 
 impl Conversion<'_> {
-    fn args(&self, bench: &Bench, out: &str) -> Vec<String> {
-        let mut args = vec!["convert".to_string()];
-        for (option, file) in [
-            ("--stiffness", self.stiffness),
-            ("--mass", self.mass),
-            ("--contacts", self.contacts),
-            ("--out", out),
-        ] {
-            args.extend([option.to_string(), bench.path(file)]);
-        }
-
-        args.extend(["--friction".to_string(), "0.5".to_string()]);
-        if let Some(dof) = self.dof {
-            args.extend(["--dof".to_string(), bench.path(dof)]);
-        }
-        args
+    fn command(&self, bench: &Bench, out: &str) -> String {
+        let files = [self.stiffness, self.mass, self.contacts, out];
+        let [stiffness, mass, contacts, out] = files.map(|file| bench.path(file));
+        let dof = self.dof.map(|dof| format!(" --dof {}", bench.path(dof)));
+        let matrices = format!(
+            "--stiffness {stiffness} --mass {mass}{}",
+            dof.unwrap_or_default()
+        );
+        format!("convert {matrices} --contacts {contacts} --friction 0.5 --out {out}")
     }
 
     /// The digest of the problem that is written.
     #[track_caller]
     fn digest(&self, bench: &Bench) -> String {
-        let args = self.args(bench, "out.json");
-        let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        exits(0, &args);
+        exits(0, &self.command(bench, "out.json"));
 
         let problem = read_problem_file(Path::new(&bench.path("out.json")));
         problem.unwrap().sha256()
@@ -166,9 +158,7 @@ impl Conversion<'_> {
 
     #[track_caller]
     fn is_refused(&self, bench: &Bench, words: &[&str]) {
-        let args = self.args(bench, "never.json");
-        let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        refused(&args, words);
+        refused(&self.command(bench, "never.json"), words);
 
         let is_written = Path::new(&bench.path("never.json")).exists();
         assert!(!is_written, "a half-written problem");
@@ -185,7 +175,10 @@ fn every_route_makes_the_same_problem() {
 
     assert_eq!(general, symmetric);
     assert_eq!(from_calculix, symmetric);
-    exits(0, &["analyze", &bench.path("out.json"), "--samples", "0"]);
+    exits(
+        0,
+        &format!("analyze {} --samples 0", bench.path("out.json")),
+    );
 }
 
 /// Coordinates and labels are kept where coordinates are given, and change no digest; tables that
@@ -196,13 +189,12 @@ fn coordinates_are_kept() {
     let conversion = matrix_market("K.mtx", "M.mtx", "c.csv");
     let digest = conversion.digest(&bench);
     let nodes = bench.path("nodes.csv");
-    let mut args = conversion.args(&bench, "drawn.json");
-    args.extend(["--coordinates".to_string(), nodes.clone()]);
-    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let command = conversion.command(&bench, "drawn.json");
+    let command = format!("{command} --coordinates {nodes}");
 
     let table = "node,x,y,dof_x,dof_y,edges_to\na,0,0.5,2,3,b\nb,1,0.5,0,1,\nglued,0,1,,,a b\n";
     bench.0.write("nodes.csv", table);
-    exits(0, &args);
+    exits(0, &command);
 
     let path = bench.path("drawn.json");
     let problem = read_problem_file(Path::new(&path)).unwrap();
@@ -229,7 +221,7 @@ fn coordinates_are_kept() {
         ("dof_x", "dof", &["expected the columns", "dof_x"]),
     ] {
         bench.0.write("nodes.csv", &table.replace(from, to));
-        refused(&args, words);
+        refused(&command, words);
     }
     assert!(!Path::new(&path).exists());
 }
@@ -258,7 +250,10 @@ fn oblique_obstacles_become_rational_rotations() {
     let file = read(&bench.path("out.json"));
     let sentence = "Tangent of particles 0: turned by 36.8698976458 degrees, (4/5, 3/5).";
     assert!(file.contains(sentence), "{file}");
-    exits(0, &["analyze", &bench.path("out.json"), "--samples", "0"]);
+    exits(
+        0,
+        &format!("analyze {} --samples 0", bench.path("out.json")),
+    );
 }
 
 #[test]
@@ -269,10 +264,8 @@ fn rounded_matrices_are_made_symmetric_on_request_only() {
 
     rounded.is_refused(&bench, &["E3", "K symmetric", "--symmetrize"]);
 
-    let mut args = rounded.args(&bench, "out.json");
-    args.push("--symmetrize".to_string());
-    let args: Vec<&str> = args.iter().map(String::as_str).collect();
-    exits(0, &args);
+    let command = rounded.command(&bench, "out.json");
+    exits(0, &format!("{command} --symmetrize"));
     let file = read(&bench.path("out.json"));
     assert!(file.contains("K is the mean of the given matrix and its transpose."));
     assert!(file.contains("-2000000000001/2000000000000"), "{file}");
@@ -288,9 +281,7 @@ fn zero_reaction_and_friction_factors_are_written() {
     matrix_market("K.mtx", "M.mtx", "zero.csv").digest(&bench);
 
     let problem = read_problem_file(Path::new(&bench.path("out.json"))).unwrap();
-    let Body::System(system) = problem.body() else {
-        panic!("a system")
-    };
+    let system = system_of(&problem);
     assert_eq!(system.particles()[0].friction_factor, rational(3, 2));
     assert_eq!(system.particles()[1].state, ContactState::Zero);
 }
@@ -301,20 +292,18 @@ fn zero_reaction_and_friction_factors_are_written() {
 fn warnings_travel_with_the_file_until_they_are_accepted() {
     let bench = Bench::new();
     bench.changed("M.mtx", "heavy.mtx", "e-9", "e9");
-    let heavy = matrix_market("K.mtx", "heavy.mtx", "c.csv").args(&bench, "out.json");
-    let accepted = [&heavy[..], &["--accept-warnings".to_string()]].concat();
-    let convert = |args: &[String]| {
-        let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        let text = exits(0, &args);
+    let heavy = matrix_market("K.mtx", "heavy.mtx", "c.csv").command(&bench, "out.json");
+    let accepted = format!("{heavy} --accept-warnings");
+    let convert = |command: &str| {
+        let text = exits(0, command);
         let problem = read_problem_file(Path::new(&bench.path("out.json"))).unwrap();
         (text, problem)
     };
 
     let page = bench.path("page.html");
     let out = bench.path("out.json");
-    let analyze = ["analyze", &out, "--samples", "0", "--boxes", "100"];
-    let to_page = [&analyze[..], &["--report", &page]].concat();
-    let as_json = [&analyze[..], &["--json"]].concat();
+    let analyze = format!("analyze {out} --samples 0 --boxes 100");
+    let to_page = format!("{analyze} --report {page}");
 
     let (text, problem) = convert(&heavy);
     let [warning] = &problem.warnings[..] else {
@@ -327,7 +316,7 @@ fn warnings_travel_with_the_file_until_they_are_accepted() {
     );
 
     let answer = run(&to_page);
-    let json = run(&as_json);
+    let json = run(&format!("{analyze} --json"));
     let json: Value = serde_json::from_str(&json.stdout).unwrap();
     assert!(
         answer

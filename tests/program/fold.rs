@@ -17,12 +17,12 @@
 use crate::common::{example, exits_with_json, read};
 use crate::program::Folder;
 use mceip::picture::{BranchPoint, Branches, Picture, branch_picture};
-use mceip_exact::{from_f64, rational, to_f64, whole};
+use mceip_exact::{Rational, from_f64, rational, to_f64, whole};
 use mceip_model::file::read_problem_file;
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Problem, System, Unknown, Window};
-use mceip_oracle::enumerate;
-use serde_json::Value;
+use mceip_oracle::{Enumeration, enumerate};
+use mceip_testkit::system_of;
 use std::path::Path;
 
 const PAGE: &str = "spec/fold.md";
@@ -80,10 +80,7 @@ fn picture() -> Picture {
 /// The body of the page.
 pub(crate) fn fold_body() -> System {
     let problem = read_problem_file(Path::new(&example("fold-body"))).unwrap();
-    let Body::System(system) = problem.body() else {
-        panic!("a system")
-    };
-    system.clone()
+    system_of(&problem).clone()
 }
 
 #[test]
@@ -96,20 +93,24 @@ fn the_figure_is_the_closed_form() {
     assert_eq!(read(FIGURE), drawn);
 }
 
+/// The MCEIP-mu of a system at a fixed lambda^2, by the enumerator.
+pub(crate) fn enumerate_at(system: &System, lambda2: &Rational, window: &Window) -> Enumeration {
+    let mass = system.mass().unwrap();
+    let stiffness = system.stiffness().add_scaled(lambda2, mass);
+    let particles = system.particles().to_vec();
+    let at_lambda2 = System::new(stiffness, None, None, particles).unwrap();
+    let problem = Problem::new(Body::System(at_lambda2), Unknown::Mu, Window::all()).unwrap();
+
+    enumerate(&reduce(&problem).unwrap().pencil, window).unwrap()
+}
+
 /// MCEIP-mu of K + lambda^2 M: two solutions from lambda^2 = 2 on, none below.
 #[test]
 fn the_enumerator_confirms_the_closed_form() {
     let system = fold_body();
     for k in 0..10 {
         let lambda2 = rational(2 * k + 1, 4);
-        let mass = system.mass().unwrap();
-        let stiffness = system.stiffness().add_scaled(&lambda2, mass);
-        let particles = system.particles().to_vec();
-        let at_lambda2 = System::new(stiffness, None, None, particles).unwrap();
-        let problem = Problem::new(Body::System(at_lambda2), Unknown::Mu, Window::all()).unwrap();
-        let pencil = reduce(&problem).unwrap().pencil;
-
-        let found = enumerate(&pencil, &Window::all()).unwrap();
+        let found = enumerate_at(&system, &lambda2, &Window::all());
 
         if lambda2 < whole(2) {
             assert!(found.solutions.is_empty(), "{lambda2}");
@@ -133,8 +134,8 @@ fn the_page_prints_what_the_program_says() {
     let folder = Folder::new();
     let proofs = folder.path("proofs");
 
-    let args = ["analyze", &problem, "--json", "--samples", "4"];
-    let report = exits_with_json(0, &[&args[..], &["--certificates", &proofs]].concat());
+    let command = format!("analyze {problem} --json --samples 4 --certificates {proofs}");
+    let report = exits_with_json(0, &command);
 
     let summary = report["summary"].as_str().unwrap();
     let quoted: Vec<&str> = page.lines().filter_map(|l| l.strip_prefix("> ")).collect();
@@ -153,19 +154,15 @@ fn the_page_prints_what_the_program_says() {
     const { assert!((SOLUTION - ABSENT_BELOW) / SOLUTION <= 1e-6) };
 }
 
-/// What `analyze` says of an example, with its certificates in this folder.
-fn analysis(name: &str, proofs: &str, options: &[&str]) -> Value {
-    let problem = example(name);
-    let args = ["analyze", &problem, "--json", "--certificates", proofs];
-    exits_with_json(0, &[&args[..], options].concat())
-}
-
 /// The range below the bound is proved, so is presence where a certificate says so; what is only
 /// sampled says so.
 #[test]
 fn ranges_say_what_is_proved_and_what_is_sampled() {
     let folder = Folder::new();
-    let report = analysis("two-particles", &folder.path("proofs"), &["--samples", "5"]);
+    let proofs = folder.path("proofs");
+    let problem = example("two-particles");
+    let command = format!("analyze {problem} --json --samples 5 --certificates {proofs}");
+    let report = exits_with_json(0, &command);
 
     let ranges = report["ranges"].as_array().unwrap();
     assert_eq!(ranges[0]["verdict"], "absent");

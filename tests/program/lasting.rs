@@ -5,24 +5,24 @@
 //! certificate is what `mceip check` accepts; that nothing was lost is told by its parts.
 #![cfg(all(feature = "cli", unix))]
 
-use crate::common::{Run, example, exits, problem_text, repository, run};
+use crate::common::{example, exits, problem_text, read, repository, run, started};
 use crate::interrupt::interrupt;
 use crate::program::Folder;
 use mceip_testkit::known;
-use std::fs::{File, OpenOptions};
+use std::fs::OpenOptions;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 fn edge(name: &str) -> String {
     repository(&format!("tests/edges/{name}"))
 }
 
-/// The program, to be run with these arguments.
-fn program(args: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mceip"));
-    command.args(args).stdin(Stdio::null());
-    command
+/// The program, to be run with this command line.
+fn program(command: &str) -> Command {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_mceip"));
+    program.args(command.split(' ')).stdin(Stdio::null());
+    program
 }
 
 /// A device that is always full.
@@ -40,102 +40,88 @@ fn closed_pipe() -> Stdio {
 
 /// The exit code of a run whose stdout and stderr go there, and what it says on a stderr that can
 /// be read.
-fn code(args: &[&str], stdout: Stdio, stderr: Stdio) -> (Option<i32>, String) {
-    let mut command = program(args);
-    let output = command.stdout(stdout).stderr(stderr).output().unwrap();
+fn code(command: &str, stdout: Stdio, stderr: Stdio) -> (Option<i32>, String) {
+    let mut program = program(command);
+    let output = program.stdout(stdout).stderr(stderr).output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     (output.status.code(), said)
 }
 
-/// Runs that write a file and print: arguments without the file, its option, their exit code.
-fn writers(folder: &Folder) -> Vec<(Vec<String>, &'static str, i32)> {
+/// Runs that write a file, FILE, and print, with their exit codes.
+fn writers(folder: &Folder) -> Vec<(String, i32)> {
     let fold = example("fold");
     let report = folder.path("report.json");
-    std::fs::write(&report, exits(0, &["enumerate", &fold, "--json"])).unwrap();
+    std::fs::write(&report, exits(0, &format!("enumerate {fold} --json"))).unwrap();
     let part = folder.path("part.json");
-    exits(0, &["complete", &fold, "--certificate", &part]);
+    exits(0, &format!("complete {fold} --certificate {part}"));
     let lcp = folder.write(
         "lcp.json",
         r#"{"format":"mceip-mcp/1","m":[["2","1"],["1","2"]],"q":["-5","-6"]}"#,
     );
-    let conform = "conform --case table1-000 --time-limit 5 --markdown";
 
-    let words = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
-    let mut conform = words(conform);
-    conform.pop();
+    let conform = "conform --case table1-000 --time-limit 5 --markdown FILE -- true";
     vec![
-        (words(&format!("complete {fold}")), "--certificate", 0),
-        (words(&format!("solve {fold}")), "--certificate", 0),
-        (words(&format!("solve {fold}")), "--trace", 0),
-        (words(&format!("solve {lcp}")), "--certificate", 0),
-        (words(&format!("certify {fold} {report}")), "--out", 0),
+        (format!("complete {fold} --certificate FILE"), 0),
+        (format!("solve {fold} --certificate FILE"), 0),
+        (format!("solve {fold} --trace FILE"), 0),
+        (format!("solve {lcp} --certificate FILE"), 0),
+        (format!("certify {fold} {report} --out FILE"), 0),
         (
-            words(&format!("merge --problem {fold} {part}")),
-            "--certificate",
+            format!("merge --problem {fold} {part} --certificate FILE"),
             0,
         ),
-        (conform, "--markdown", 1),
+        (conform.to_owned(), 1),
     ]
-}
-
-/// The arguments of a run that writes this file.
-fn with_file(args: &[String], option: &str, file: &str) -> Vec<String> {
-    let mut all = args.to_vec();
-    all.extend([option.to_owned(), file.to_owned()]);
-    if args[0] == "conform" {
-        all.extend(["--".to_owned(), "true".to_owned()]);
-    }
-    all
 }
 
 /// `complete g20.json --certificate c > /dev/full` ended with exit 2 and without a certificate.
 #[test]
 fn files_are_written_where_nothing_can_be_printed() {
     let folder = Folder::new();
-    for (k, (args, option, expected)) in writers(&folder).into_iter().enumerate() {
+    for (k, (command, expected)) in writers(&folder).into_iter().enumerate() {
         let files =
             ["plain", "full", "closed", "mute"].map(|name| folder.path(&format!("{name}-{k}")));
-        let runs = files.each_ref().map(|file| with_file(&args, option, file));
-        let runs = runs
-            .each_ref()
-            .map(|args| args.iter().map(String::as_str).collect::<Vec<_>>());
+        let runs = files.each_ref().map(|file| command.replace("FILE", file));
 
         let plain = code(&runs[0], Stdio::null(), Stdio::piped());
-        assert_eq!(plain.0, Some(expected), "{args:?}: {}", plain.1);
+        assert_eq!(plain.0, Some(expected), "{command}: {}", plain.1);
         let written = std::fs::read_to_string(&files[0]).unwrap();
 
         // A full disk is an error, but for `certify --out`, which prints nothing.
-        let on_full = if option == "--out" { expected } else { 2 };
+        let on_full = if command.starts_with("certify") {
+            expected
+        } else {
+            2
+        };
         let (got, said) = code(&runs[1], full(), Stdio::piped());
-        assert_eq!(got, Some(on_full), "{args:?}: {said}");
+        assert_eq!(got, Some(on_full), "{command}: {said}");
         assert_eq!(said.contains("cannot write stdout"), on_full == 2, "{said}");
 
         // A reader that has gone away is none.
         let (got, said) = code(&runs[2], closed_pipe(), Stdio::piped());
-        assert_eq!(got, Some(expected), "{args:?}: {said}");
+        assert_eq!(got, Some(expected), "{command}: {said}");
         let (got, _) = code(&runs[3], closed_pipe(), closed_pipe());
-        assert_eq!(got, Some(expected), "{args:?}");
+        assert_eq!(got, Some(expected), "{command}");
 
         for file in &files[1..] {
             let again = std::fs::read_to_string(file).unwrap();
-            assert_eq!(again, written, "{args:?} {file}");
+            assert_eq!(again, written, "{command} {file}");
         }
     }
 }
 
 #[test]
 fn errors_that_nobody_reads_are_exit_2_all_the_same() {
-    let bad = ["complete", "/nowhere/problem.json"];
-    let unknown = ["solve", "--no-such-option"];
-    for args in [&bad[..], &unknown[..]] {
-        assert_eq!(code(args, Stdio::null(), closed_pipe()).0, Some(2));
-        assert_eq!(code(args, closed_pipe(), full()).0, Some(2));
+    for command in ["complete /nowhere/problem.json", "solve --no-such-option"] {
+        assert_eq!(code(command, Stdio::null(), closed_pipe()).0, Some(2));
+        assert_eq!(code(command, closed_pipe(), full()).0, Some(2));
     }
 
     // Points without a certificate are named on stderr.
-    let certify = ["certify", &example("fold"), &example("fold")];
+    let fold = example("fold");
+    let certify = format!("certify {fold} {fold}");
     assert_eq!(code(&certify, closed_pipe(), closed_pipe()).0, Some(2));
-    assert_eq!(code(&["--help"], full(), full()).0, Some(2));
+    assert_eq!(code("--help", full(), full()).0, Some(2));
 }
 
 /// A terminal that was closed: the run ended with exit 101, by a panic, and without a certificate.
@@ -144,17 +130,10 @@ fn a_terminal_that_is_closed_takes_nothing_with_it() {
     let folder = Folder::new();
     let problem = folder.write("graph.json", &graph_text(9));
     let certificate = folder.path("c.json");
-    let args = [
-        "complete",
-        &problem,
-        "--threads",
-        "1",
-        "--certificate",
-        &certificate,
-    ];
+    let command = format!("complete {problem} --threads 1 --certificate {certificate}");
     let output = Command::new("python3")
         .args([&edge("hangup.py"), env!("CARGO_BIN_EXE_mceip")])
-        .args(args)
+        .args(command.split(' '))
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
@@ -171,24 +150,20 @@ fn graph_text(vertices: usize) -> String {
 
 /// The checker accepts it, as complete or as undecided.
 #[track_caller]
-fn assert_accepted(problem: &str, certificate: &str) -> Run {
-    let checked = run(&["check", problem, certificate]);
+fn assert_accepted(problem: &str, certificate: &str) {
+    let checked = run(&format!("check {problem} {certificate}"));
     assert!(checked.stdout.contains("ACCEPTED"), "{checked:?}");
     assert!(matches!(checked.code, Some(0 | 3)), "{checked:?}");
-    checked
 }
 
-/// A run that is killed after this time, or has ended before.
-fn killed_after(args: &[&str], time: Duration) -> Option<i32> {
-    let mut command = program(args);
-    let mut child: Child = command
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(time);
+/// A run that is killed after so many milliseconds, or has ended before.
+fn killed_after(command: &str, milliseconds: u64) {
+    let mut program = program(command);
+    program.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = program.spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(milliseconds));
     child.kill().unwrap();
-    child.wait().unwrap().code()
+    child.wait().unwrap();
 }
 
 /// Files that are no certificate, no problem, and not left behind under the name of a part.
@@ -210,24 +185,14 @@ fn complete_is_killed(vertices: usize, moments: &[u64]) -> usize {
     let folder = Folder::new();
     let problem = folder.write("problem.json", &graph_text(vertices));
     let certificate = folder.path("c.json");
+    let begin =
+        format!("complete {problem} --threads 2 --checkpoint 0.02 --certificate {certificate}");
+    let go_on = format!("{begin} --resume {certificate}");
     let mut kept = 0;
 
     for &moment in moments {
-        let mut args = vec![
-            "complete",
-            &problem,
-            "--threads",
-            "2",
-            "--checkpoint",
-            "0.02",
-        ];
-        args.extend(["--certificate", &certificate]);
-        let goes_on = Path::new(&certificate).exists();
-        if goes_on {
-            args.extend(["--resume", &certificate]);
-        }
-
-        killed_after(&args, Duration::from_millis(moment));
+        let exists = Path::new(&certificate).exists();
+        killed_after(if exists { &go_on } else { &begin }, moment);
         if Path::new(&certificate).exists() {
             assert_accepted(&problem, &certificate);
             kept += 1;
@@ -245,8 +210,10 @@ fn analyze_is_killed(problem: &str, moments: &[u64]) -> usize {
     for &moment in moments {
         let folder = Folder::new();
         let proofs = folder.path("proofs");
-        let args = ["analyze", problem, "--certificates", &proofs];
-        killed_after(&args, Duration::from_millis(moment));
+        killed_after(
+            &format!("analyze {problem} --certificates {proofs}"),
+            moment,
+        );
         if !Path::new(&proofs).exists() {
             continue;
         }
@@ -256,7 +223,7 @@ fn analyze_is_killed(problem: &str, moments: &[u64]) -> usize {
             let certificate = entry.unwrap().path().display().to_string();
             if certificate.ends_with(".certificate.json") {
                 let problem = certificate.replace(".certificate.", ".problem.");
-                let checked = run(&["check", &problem, &certificate]);
+                let checked = run(&format!("check {problem} {certificate}"));
                 assert!(matches!(checked.code, Some(0 | 3)), "{checked:?}");
                 kept += 1;
             }
@@ -270,14 +237,10 @@ fn analyze_is_killed(problem: &str, moments: &[u64]) -> usize {
 fn campaign_is_killed(moments: &[u64]) {
     let folder = Folder::new();
     let state = folder.path("state.json");
-    let args = |count| {
-        [
-            "campaign", "--count", count, "--family", "planted", "--state", &state,
-        ]
-    };
+    let campaign = format!("campaign --family planted --state {state} --count");
     for &moment in moments {
-        killed_after(&args("1000000"), Duration::from_millis(moment));
-        exits(0, &args("1"));
+        killed_after(&format!("{campaign} 1000000"), moment);
+        exits(0, &format!("{campaign} 1"));
     }
 }
 
@@ -307,19 +270,12 @@ fn checkpoints_change_nothing_of_the_certificate() {
     let folder = Folder::new();
     let problem = folder.write("problem.json", &graph_text(8));
     let [rare, often] = ["rare.json", "often.json"].map(|name| folder.path(name));
-    exits(0, &["complete", &problem, "--certificate", &rare]);
-    let often_args = [
-        "complete",
-        &problem,
-        "--certificate",
-        &often,
-        "--checkpoint",
-        "0.001",
-    ];
-    let run = run(&often_args);
+    exits(0, &format!("complete {problem} --certificate {rare}"));
+    let run = run(&format!(
+        "complete {problem} --certificate {often} --checkpoint 0.001"
+    ));
 
     assert_eq!(run.code, Some(0), "{run:?}");
-    let read = |path: &str| std::fs::read_to_string(path).unwrap();
     assert_eq!(read(&rare), read(&often));
 
     // A search that is over within a millisecond has not said anything.
@@ -341,25 +297,15 @@ fn a_check_answers_an_interrupt() {
     // Half of the work is enough to check.
     exits(
         3,
-        &[
-            "complete",
-            &problem,
-            "--shard",
-            "1/2",
-            "--certificate",
-            &certificate,
-        ],
+        &format!("complete {problem} --shard 1/2 --certificate {certificate}"),
     );
 
-    let mut check = program(&["check", &problem, &certificate]);
-    let stdout = File::create(folder.path("said")).unwrap();
-    let mut child = check.stdout(stdout).stderr(Stdio::null()).spawn().unwrap();
-    interrupt(&child, Duration::ZERO);
-    let code = child.wait().unwrap().code();
-    assert!(matches!(code, Some(130 | 3)), "{code:?}");
-    let is_undecided = code == Some(130);
-    let said = std::fs::read_to_string(folder.path("said")).unwrap();
-    assert_eq!(said.is_empty(), is_undecided, "{said}");
+    let check = started(&format!("check {problem} {certificate}"));
+    interrupt(&check, Duration::ZERO);
+    let output = check.wait_with_output().unwrap();
+    let code = output.status.code();
+    assert!(matches!(code, Some(130 | 3)), "{output:?}");
+    assert_eq!(output.stdout.is_empty(), code == Some(130), "{output:?}");
 }
 
 /// So do commands that wait for their input.

@@ -1,8 +1,8 @@
 //! Reports that take long to judge, and states that say something else than what was done.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits, exits_with_json, repository, run};
-use crate::program::{Folder, refused};
+use crate::common::{example, exits, exits_with_json, refused, repository, run};
+use crate::program::Folder;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
@@ -26,7 +26,7 @@ fn a_report_of_endless_digits_is_refused_at_once() {
     let begun = Instant::now();
     for command in ["check", "certify"] {
         refused(
-            &[command, &example("fold"), &report],
+            &format!("{command} {} {report}", example("fold")),
             &["report.json", "fewer digits"],
         );
     }
@@ -37,7 +37,7 @@ fn a_report_of_endless_digits_is_refused_at_once() {
     let solutions = json!([{ "value": two, "x": [two, 1] }]);
     let report = json!({ "format": "mceip-solutions/1", "solutions": solutions });
     let report = folder.write("long.json", &report.to_string());
-    exits(0, &["check", &example("fold"), &report]);
+    exits(0, &format!("check {} {report}", example("fold")));
 }
 
 /// The judging of such reports had no end: it is bounded like the program.
@@ -46,50 +46,35 @@ fn a_report_of_endless_digits_is_refused_at_once() {
 fn a_hostile_report_leaves_its_case_undecided() {
     let begun = Instant::now();
     let hostile = edge("hostile.py");
-    let conform = [
-        "conform",
-        "--case",
-        "fold-00",
-        "--time-limit",
-        "5",
-        "--json",
-        "--",
-    ];
-    let summary = exits_with_json(1, &[&conform[..], &["python3", &hostile]].concat());
+    let command = format!("conform --case fold-00 --time-limit 5 --json -- python3 {hostile}");
+    let summary = exits_with_json(1, &command);
     assert_eq!(summary["labels"]["undecided"], 1);
     let why = summary["failures"][0]["detail"].as_str().unwrap();
     assert!(why.contains("fewer digits"), "{why}");
     assert!(begun.elapsed() < Duration::from_secs(20));
 }
 
-/// Goes on from this state.
-fn campaign_with(state: &str) -> [&str; 5] {
-    ["campaign", "--count", "1", "--state", state]
-}
-
 /// An edited state made "10^9 instances CLEAN".
 #[test]
 fn an_edited_state_of_a_campaign_is_refused() {
-    refused(
-        &campaign_with(&edge("state-inst.json")),
-        &[
+    for (state, words) in [
+        (
             "state-inst.json",
-            "instances of table1",
-            "expected 1",
-            "1000000000",
-        ],
-    );
-    refused(
-        &campaign_with(&edge("state-done.json")),
-        &["state-done.json", "instances done", "1000000000000000"],
-    );
+            ["instances of table1", "expected 1", "1000000000"],
+        ),
+        (
+            "state-done.json",
+            ["instances done", "expected at most", "1000000000000000"],
+        ),
+    ] {
+        let command = format!("campaign --count 1 --state {}", edge(state));
+        refused(&command, &[&[state][..], &words].concat());
+    }
 
     let folder = Folder::new();
     let state = folder.path("state.json");
-    let planted = [
-        "campaign", "--family", "planted", "--state", &state, "--count",
-    ];
-    exits(0, &[&planted[..], &["2"]].concat());
+    let planted = format!("campaign --family planted --state {state} --count");
+    exits(0, &format!("{planted} 2"));
     let text = std::fs::read_to_string(&state).unwrap();
     let whole: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(whole["sha256"].as_str().unwrap().len(), 64);
@@ -100,12 +85,12 @@ fn an_edited_state_of_a_campaign_is_refused() {
         let count = edited.pointer_mut(pointer).unwrap();
         *count = json!(count.as_u64().unwrap() + 1);
         std::fs::write(&state, edited.to_string()).unwrap();
-        refused(&[&planted[..], &["2"]].concat(), &["state.json", "sha256"]);
+        refused(&format!("{planted} 2"), &["state.json", "sha256"]);
     }
 
     // Another layout of the same content is the same state.
     std::fs::write(&state, whole.to_string()).unwrap();
-    let again = run(&[&planted[..], &["3"]].concat());
+    let again = run(&format!("{planted} 3"));
     assert_eq!((again.code, again.stderr.as_str()), (Some(0), ""));
     assert!(again.stdout.contains("3 instances"), "{}", again.stdout);
 
@@ -113,7 +98,7 @@ fn an_edited_state_of_a_campaign_is_refused() {
     let mut old = whole;
     old.as_object_mut().unwrap().remove("sha256");
     std::fs::write(&state, old.to_string()).unwrap();
-    let again = run(&[&planted[..], &["3"]].concat());
+    let again = run(&format!("{planted} 3"));
     assert_eq!(again.code, Some(0), "{again:?}");
     assert!(again.stderr.contains("not bound"), "{again:?}");
 }

@@ -8,7 +8,7 @@ use crate::common::{example, exits, read, run};
 
 /// The names of the commands, from the help.
 fn commands() -> Vec<String> {
-    let help = exits(0, &["--help"]);
+    let help = exits(0, "--help");
     let section = help.split("Commands:").nth(1).unwrap();
     let list = section.split("Options:").next().unwrap();
 
@@ -29,7 +29,7 @@ fn completions_know_every_command_and_option() {
     assert!(commands().len() > 14);
 
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let script = exits(0, &["completions", shell]);
+        let script = exits(0, &format!("completions {shell}"));
 
         for command in commands() {
             assert!(script.contains(&command), "{shell}: {command}");
@@ -42,7 +42,7 @@ fn completions_know_every_command_and_option() {
 fn there_is_a_manual_page_for_every_command() {
     let scratch = tempfile::tempdir().unwrap();
     let folder = scratch.path().join("new/man1");
-    exits(0, &["man", folder.to_str().unwrap()]);
+    exits(0, &format!("man {}", folder.to_str().unwrap()));
     let page = |name: &str| read(folder.join(format!("{name}.1")).to_str().unwrap());
 
     let program = page("mceip");
@@ -64,12 +64,12 @@ fn there_is_a_manual_page_for_every_command() {
 
 #[test]
 fn an_unknown_shell_and_a_file_in_the_place_of_the_folder_are_refused() {
-    let unknown = run(&["completions", "cmd"]);
+    let unknown = run("completions cmd");
     assert_eq!(unknown.code, Some(2));
     assert!(unknown.stderr.contains("cmd"));
 
     let file = tempfile::NamedTempFile::new().unwrap();
-    let refused = run(&["man", file.path().to_str().unwrap()]);
+    let refused = run(&format!("man {}", file.path().to_str().unwrap()));
     assert_eq!(refused.code, Some(2));
     assert!(refused.stderr.starts_with("mceip: cannot write"));
 }
@@ -115,7 +115,7 @@ fn verdicts_are_in_colour_where_it_is_wanted() {
 #[test]
 fn quiet_is_an_option_of_every_command() {
     let fold = example("fold");
-    let plain = exits(0, &["complete", &fold]);
-    assert_eq!(exits(0, &["--quiet", "complete", &fold]), plain);
-    assert_eq!(exits(0, &["complete", &fold, "--quiet"]), plain);
+    let plain = exits(0, &format!("complete {fold}"));
+    assert_eq!(exits(0, &format!("--quiet complete {fold}")), plain);
+    assert_eq!(exits(0, &format!("complete {fold} --quiet")), plain);
 }

@@ -1,8 +1,8 @@
 //! Names that act on a terminal, errors without end, and keys that stand twice.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits_with_json, repository, run};
-use crate::program::{Folder, refused};
+use crate::common::{example, exits_with_json, refused, repository, run, run_words};
+use crate::program::Folder;
 use serde_json::Value;
 
 fn edge(name: &str) -> String {
@@ -28,12 +28,12 @@ fn a_name_does_not_act_on_the_terminal() {
         "solve",
         "reduce",
     ] {
-        let run = run(&[command, &problem]);
+        let run = run(&format!("{command} {problem}"));
         assert_ne!(run.code, Some(2), "{run:?}");
         assert_harmless(&run.stdout);
         assert_harmless(&run.stderr);
     }
-    let analysis = run(&["analyze", &problem]);
+    let analysis = run(&format!("analyze {problem}"));
     assert!(
         analysis.stdout.contains("evil\\u001b[31m\\u0007"),
         "{analysis:?}"
@@ -44,11 +44,11 @@ fn a_name_does_not_act_on_the_terminal() {
     let text = std::fs::read_to_string(&problem).unwrap();
     let expected = name(&serde_json::from_str(&text).unwrap());
     assert!(expected.contains('\u{1b}'));
-    let report = exits_with_json(0, &["analyze", &problem, "--json"]);
+    let report = exits_with_json(0, &format!("analyze {problem} --json"));
     assert_eq!(name(&report), expected);
 
     refused(
-        &["complete", "no\u{1b}[31m\u{7}.json"],
+        "complete no\u{1b}[31m\u{7}.json",
         &["no\\u001b[31m\\u0007.json"],
     );
 }
@@ -57,7 +57,7 @@ fn a_name_does_not_act_on_the_terminal() {
 fn an_error_is_one_line_of_bounded_length() {
     let long = format!("/nowhere/{}\nfile.json", "x".repeat(5000));
     for args in [["check", &long, &long], ["explain", &long, "--quiet"]] {
-        let run = run(&args);
+        let run = run_words(&args);
         assert_eq!(run.code, Some(2), "{run:?}");
         assert_eq!(run.stderr.lines().count(), 1, "{run:?}");
         assert!(run.stderr.chars().count() <= 301, "{}", run.stderr.len());
@@ -69,7 +69,7 @@ fn an_error_is_one_line_of_bounded_length() {
 #[test]
 fn a_key_that_stands_twice_is_refused() {
     refused(
-        &["campaign", "--replay", &edge("key-twice-replay.json")],
+        &format!("campaign --replay {}", edge("key-twice-replay.json")),
         &["key-twice-replay.json", "duplicate field `pencil`"],
     );
 
@@ -79,13 +79,11 @@ fn a_key_that_stands_twice_is_refused() {
     let report = folder.write("report.json", report);
     for command in ["check", "certify"] {
         let words = ["report.json", "duplicate field `by`", "line 2"];
-        refused(&[command, &example("fold"), &report], &words);
+        refused(&format!("{command} {} {report}", example("fold")), &words);
     }
 
     let state = folder.path("state.json");
-    let planted = [
-        "campaign", "--count", "1", "--family", "planted", "--state", &state,
-    ];
+    let planted = format!("campaign --count 1 --family planted --state {state}");
     assert_eq!(run(&planted).code, Some(0));
     let text = std::fs::read_to_string(&state).unwrap();
     let twice = text.replacen(

@@ -2,8 +2,8 @@
 //! are in `tests/transcripts`).
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits, exits_with_json, repository};
-use crate::program::{Folder, refused};
+use crate::common::{example, exits, exits_with_json, refused, repository};
+use crate::program::Folder;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -21,14 +21,14 @@ fn states_of_an_earlier_path_are_removed_and_nothing_else() {
     let loads = repository("spec/examples/loads.json");
     let folder = Folder::new();
     let states = folder.path("states");
-    exits(0, &["path", &loads, "--states", &states]);
+    exits(0, &format!("path {loads} --states {states}"));
     let first = names(&states);
     assert!(!first.is_empty());
 
     for name in ["stretch-777.json", "stretch-x.json", "notes.txt"] {
         folder.write(&format!("states/{name}"), "of an earlier path");
     }
-    exits(0, &["path", &loads, "--states", &states]);
+    exits(0, &format!("path {loads} --states {states}"));
 
     let mut kept = first;
     kept.extend(["stretch-x.json", "notes.txt"].map(String::from));
@@ -60,10 +60,10 @@ fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
     let folder = Folder::new();
     let file = folder.write("point.json", &pulled_point("1").to_string());
     let proofs = folder.path("proofs");
-    let range = ["--own-critical", "0.5,4", "--width", "1e-6"];
-    let more = ["--json", "--certificates", &proofs];
+    let range = "--own-critical 0.5,4 --width 1e-6";
 
-    let answer = exits_with_json(0, &[&["path", &file], &range[..], &more[..]].concat());
+    let command = format!("path {file} {range} --json --certificates {proofs}");
+    let answer = exits_with_json(0, &command);
 
     let bracket = &answer["own_critical"]["bracket"];
     let [lo, hi] = ["absent", "critical"].map(|k| number(&bracket[k]));
@@ -83,7 +83,7 @@ fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
     let mut ends = 0;
     for point in answer["own_critical"]["points"].as_array().unwrap() {
         let mu = point["mu"].as_str().unwrap();
-        let alone = exits_with_json(0, &["path", &file, "--mu", mu, "--json"]);
+        let alone = exits_with_json(0, &format!("path {file} --mu {mu} --json"));
         if number(&point["mu"]) < 4.0 / 3.0 {
             assert_eq!(point["states"], json!(["free"]));
         }
@@ -115,8 +115,8 @@ fn the_equilibrium_asked_about_is_that_at_the_very_end_of_the_loads() {
     loads["steps"][1]["forces"] = json!([[0, 3]]);
     let file = folder.write("point.json", &loads.to_string());
 
-    let range = ["--own-critical", "0.75,0.8", "--grid", "1", "--json"];
-    let answer = exits_with_json(0, &[&["path", &file], &range[..]].concat());
+    let range = "--own-critical 0.75,0.8 --grid 1";
+    let answer = exits_with_json(0, &format!("path {file} {range} --json"));
 
     let points = answer["own_critical"]["points"].as_array().unwrap();
     assert_eq!(points[0]["states"], json!(["slip+"]));
@@ -134,15 +134,9 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
     let folder = Folder::new();
     let file = example("own-critical");
     let proofs = folder.path("proofs");
-    let range = [
-        "--own-critical",
-        "0.5,3.9",
-        "--json",
-        "--certificates",
-        &proofs,
-    ];
 
-    let answer = exits_with_json(0, &[&["path", &file], &range[..]].concat());
+    let options = format!("--own-critical 0.5,3.9 --json --certificates {proofs}");
+    let answer = exits_with_json(0, &format!("path {file} {options}"));
 
     let own = &answer["own_critical"];
     assert_eq!(
@@ -162,7 +156,7 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
     for name in of_frozen {
         let [problem, certificate] =
             ["problem", "certificate"].map(|kind| format!("{proofs}/{name}.{kind}.json"));
-        exits(0, &["check", &problem, &certificate]);
+        exits(0, &format!("check {problem} {certificate}"));
     }
 
     let mut seen = [0, 0];
@@ -175,7 +169,7 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
             continue;
         }
 
-        let said = exits(0, &["check", &problem, &certificate]);
+        let said = exits(0, &format!("check {problem} {certificate}"));
         let is_absent = said.contains("ABSENT in [0, infinity)");
         assert!(is_absent || said.contains("and no other"), "{said}");
         assert_eq!(point["divergence"] == "absent", is_absent, "{said}");
@@ -190,9 +184,9 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
         assert!(said.contains(digest), "{equilibrium} {said}");
 
         let states = folder.path(&format!("states-{mu}"));
-        exits(0, &["path", &file, "--mu", mu, "--states", &states]);
+        exits(0, &format!("path {file} --mu {mu} --states {states}"));
         let state = format!("{states}/{}", names(&states).pop_last().unwrap());
-        let analysis = exits_with_json(0, &["analyze", &state, "--samples", "0", "--json"]);
+        let analysis = exits_with_json(0, &format!("analyze {state} --samples 0 --json"));
         assert_eq!(analysis["divergence"]["verdict"], point["divergence"]);
     }
     assert!(seen[0] >= 10 && seen[1] >= 10, "{seen:?}");
@@ -203,16 +197,15 @@ fn a_range_that_makes_no_sense_or_a_body_without_mass_is_refused() {
     let folder = Folder::new();
     let file = folder.write("point.json", &pulled_point("1").to_string());
     for (options, word) in [
-        (["--own-critical", "1"], "MIN,MAX"),
-        (["--own-critical", "2,1"], "MIN below MAX"),
-        (["--own-critical", "0,1"], "> 0"),
-        (["--own-critical", "x,1"], "x"),
-        (["--grid", "3"], "--own-critical"),
+        ("--own-critical 1", "MIN,MAX"),
+        ("--own-critical 2,1", "MIN below MAX"),
+        ("--own-critical 0,1", "> 0"),
+        ("--own-critical x,1", "x"),
+        ("--grid 3", "--own-critical"),
+        ("--own-critical 1,2 --grid 0", "--grid"),
     ] {
-        refused(&[&["path", &file], &options[..]].concat(), &[word]);
+        refused(&format!("path {file} {options}"), &[word]);
     }
-    let wide = ["path", &file, "--own-critical", "1,2", "--grid", "0"];
-    refused(&wide, &["--grid"]);
 
     let mut without_mass = pulled_point("1");
     without_mass["system"]
@@ -220,5 +213,5 @@ fn a_range_that_makes_no_sense_or_a_body_without_mass_is_refused() {
         .unwrap()
         .remove("mass");
     let file = folder.write("massless.json", &without_mass.to_string());
-    refused(&["path", &file, "--own-critical", "1,2"], &["mass"]);
+    refused(&format!("path {file} --own-critical 1,2"), &["mass"]);
 }

@@ -6,8 +6,8 @@
 //! fails.
 #![cfg(feature = "cli")]
 
-use crate::common::{exit_code, exits_with_json, read};
-use crate::program::{Folder, refused};
+use crate::common::{exit_code, exits_with_json, read, refused};
+use crate::program::Folder;
 use mceip::picture::{
     BodyDrawing, BodyMode, BranchPoint, Branches, CostSeries, Mark, Mode, PathLabels, Picture,
     Presence, PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture,
@@ -16,10 +16,11 @@ use mceip::picture::{
 };
 use mceip_exact::to_f64;
 use mceip_model::file::read_problem;
-use mceip_model::{Body, ContactState, Problem};
+use mceip_model::{ContactState, Problem};
 use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel, Triangulation};
 use mceip_path::LoadingPath;
+use mceip_testkit::system_of;
 use roxmltree::{Document, Node};
 use serde_json::Value;
 use std::ops::ControlFlow;
@@ -211,9 +212,7 @@ fn picture_of_one_moved_node(mesh: &Triangulation, marks: &[Mark], motion: f64) 
 #[test]
 fn a_body_has_its_nodes_states_and_arrows() {
     let problem = body_on_a_wedge();
-    let Body::System(system) = problem.body() else {
-        panic!("a system")
-    };
+    let system = system_of(&problem);
     let mut drawing = BodyDrawing {
         coordinates: problem.coordinates.as_ref().unwrap(),
         particles: system.particles(),
@@ -575,18 +574,7 @@ fn a_report_is_one_page_that_needs_nothing_else() {
 
     let json = exits_with_json(
         0,
-        &[
-            "block",
-            "--cells",
-            "6x3",
-            "--at-mu",
-            "3",
-            "--report",
-            &page,
-            "--pictures",
-            &pictures,
-            "--json",
-        ],
+        &format!("block --cells 6x3 --at-mu 3 --report {page} --pictures {pictures} --json"),
     );
 
     assert_eq!(names(&folder.path("")), ["out.html", "pictures"]);
@@ -636,10 +624,9 @@ fn count_tags(tree: &Document<'_>, tag: &str) -> usize {
 
 #[test]
 fn every_state_is_listed_with_its_evidence() {
-    let base = ["block", "--path", "--complete", "--cells", "4x2", "--json"];
-    let options = ["--conditions", "--modes", "--at-mu", "2,3"];
-    let condensed = exits_with_json(0, &[&base[..], &options].concat());
-    let whole = exits_with_json(0, &[&base[..], &["--uncondensed"]].concat());
+    let base = "block --path --complete --cells 4x2 --json";
+    let condensed = exits_with_json(0, &format!("{base} --conditions --modes --at-mu 2,3"));
+    let whole = exits_with_json(0, &format!("{base} --uncondensed"));
 
     let states = list(&condensed, "complete_sets");
     let same_states = list(&whole, "complete_sets");
@@ -702,28 +689,29 @@ fn refusals_leave_nothing_behind() {
     let pdf = folder.path("chart.pdf");
     let the_folder = folder.path("").trim_end_matches('/').to_string();
 
-    let cases: [(&[&str], &str); 9] = [
-        (&["block", "--report", &missing_page], "missing/out.html"),
-        (&["block", "--report", &the_folder], "cannot write"),
-        (&["block", "--pictures", &taken], "taken"),
-        (&["block", "--report", &page, "--at-mu", "2,-1"], "--at-mu"),
-        (&["block", "--report", &page, "--at-mu", "nan"], "--at-mu"),
-        (&["block", "--report", &page, "--cells", "0x3"], "cells"),
-        (&["block", "--state", "15", "--report", &page], "--state"),
-        (&["table1", "--chart", &pdf], "a name ending in .svg"),
-        (&["table1", "--chart", &missing_chart], "missing/chart.svg"),
-    ];
-
-    for (args, word) in cases {
-        refused(args, &[word]);
-        assert_eq!(names(&the_folder), ["taken"], "{args:?}");
+    for (command, word) in [
+        (format!("block --report {missing_page}"), "missing/out.html"),
+        (format!("block --report {the_folder}"), "cannot write"),
+        (format!("block --pictures {taken}"), "taken"),
+        (format!("block --report {page} --at-mu 2,-1"), "--at-mu"),
+        (format!("block --report {page} --at-mu nan"), "--at-mu"),
+        (format!("block --report {page} --cells 0x3"), "cells"),
+        (format!("block --state 15 --report {page}"), "--state"),
+        (format!("table1 --chart {pdf}"), "a name ending in .svg"),
+        (
+            format!("table1 --chart {missing_chart}"),
+            "missing/chart.svg",
+        ),
+    ] {
+        refused(&command, &[word]);
+        assert_eq!(names(&the_folder), ["taken"], "{command}");
     }
 
     assert_eq!(read(&taken), "x");
 
     for (name, is_drawn) in [("chart.svg", true), ("chart.png", cfg!(feature = "png"))] {
         let chart = folder.path(name);
-        let code = exit_code(&["table1", "--chart", &chart]);
+        let code = exit_code(&format!("table1 --chart {chart}"));
         assert_eq!(code, Some(if is_drawn { 0 } else { 2 }));
 
         let length = std::fs::metadata(&chart).map_or(0, |data| data.len());

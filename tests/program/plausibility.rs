@@ -5,8 +5,8 @@
 //! that K u is the reaction at every contact. Each spoilt copy has one fault.
 #![cfg(feature = "cli")]
 
-use crate::common::exits;
-use crate::program::{Folder, refused};
+use crate::common::{exits, refused};
+use crate::program::Folder;
 use mceip_mcp::linear::SparseLu;
 use mceip_paper::{BlockModel, DoubleBlock, DoubleMatrix};
 use std::fmt::Write;
@@ -113,38 +113,33 @@ impl Model {
 
     /// What a conversion of these files prints.
     #[track_caller]
-    fn convert(&self, [stiffness, mass, contacts]: [&str; 3], displacements: &str) -> String {
-        let args = self.args([stiffness, mass, contacts], displacements);
-        let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        exits(0, &args)
+    fn convert(&self, files: [&str; 3], displacements: &str) -> String {
+        exits(0, &self.command(files, displacements))
     }
 
     /// The same with the places of the nodes.
     #[track_caller]
     fn convert_with_places(&self, files: [&str; 3], displacements: &str) -> String {
         let nodes = self.folder.write("nodes.csv", &self.nodes());
-        let mut args = self.args(files, displacements);
-        args.extend(["--coordinates".to_owned(), nodes]);
-        let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        exits(0, &args)
+        let command = self.command(files, displacements);
+        exits(0, &format!("{command} --coordinates {nodes}"))
     }
 
-    fn args(&self, [stiffness, mass, contacts]: [&str; 3], displacements: &str) -> Vec<String> {
-        let mut args = vec!["convert".to_owned(), "--friction".into(), MU.to_string()];
-        for (option, file) in [
-            ("--stiffness", stiffness),
-            ("--mass", mass),
-            ("--contacts", contacts),
-            ("--displacements", displacements),
-            ("--out", "out.json"),
-        ] {
-            if !file.is_empty() {
-                args.extend([option.to_owned(), self.folder.path(file)]);
-            }
+    fn command(&self, files: [&str; 3], displacements: &str) -> String {
+        let command = convert(&self.folder, files);
+        match displacements {
+            "" => command,
+            file => format!("{command} --displacements {}", self.folder.path(file)),
         }
-
-        args
     }
+}
+
+/// The conversion of these files: stiffness, mass, contacts.
+fn convert(folder: &Folder, files: [&str; 3]) -> String {
+    let [stiffness, mass, contacts] = files.map(|file| folder.path(file));
+    let matrices = format!("--stiffness {stiffness} --mass {mass}");
+    let out = folder.path("out.json");
+    format!("convert --friction {MU} {matrices} --contacts {contacts} --out {out}")
 }
 
 const FILES: [&str; 3] = ["K.mtx", "M.mtx", "contacts.csv"];
@@ -277,18 +272,7 @@ fn rotations_are_not_taken_for_exchanged_files() {
     folder.write("M.mtx", &beam(&of_mass));
     folder.write("contacts.csv", "tangential,normal,state\n7,6,slip-\n");
 
-    let mut args = vec!["convert".to_owned(), "--friction".into(), "0.5".into()];
-    for (option, file) in [
-        ("--stiffness", "K.mtx"),
-        ("--mass", "M.mtx"),
-        ("--contacts", "contacts.csv"),
-        ("--out", "out.json"),
-    ] {
-        args.extend([option.to_owned(), folder.path(file)]);
-    }
-    let args: Vec<&str> = args.iter().map(String::as_str).collect();
-
-    let text = exits(0, &args);
+    let text = exits(0, &convert(&folder, FILES));
     assert!(!text.contains("exchanged"), "{text}");
 }
 
@@ -412,9 +396,7 @@ fn displacements_of_another_body_are_refused() {
         ("huge.txt", ["huge.txt", "got \"1e999\""]),
         ("wide.mtx", ["wide.mtx", "got a matrix with 2 columns"]),
     ] {
-        let args = model.args(FILES, file);
-        let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        refused(&args, &words);
+        refused(&model.command(FILES, file), &words);
     }
 }
 

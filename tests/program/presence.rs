@@ -6,7 +6,7 @@
 //! proved intervals. A certificate with a piece taken out, or with a wider interval, is refused.
 #![cfg(all(feature = "cli", feature = "testkit"))]
 
-use crate::common::{example, exits, exits_with_json};
+use crate::common::{example, exits, exits_with_json, two_particles_with};
 use crate::corpus_reader::entry;
 use crate::fold::fold_body;
 use crate::program::Folder;
@@ -20,15 +20,15 @@ use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::file::Number;
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, ContactState, Problem, System, Unknown, Window};
-use mceip_oracle::{TwoParticles, enumerate, table1};
+use mceip_oracle::{enumerate, table1};
 use mceip_paper::two_particles;
-use mceip_testkit::generators::{Seed, states};
+use mceip_testkit::generators::{rng, states};
 use num_traits::Zero as _;
 use rand::RngExt;
 use serde_json::json;
 use std::path::Path;
 
-/// Number of this family of random systems, for [`Seed`].
+/// Number of this family of random systems.
 const FAMILY: u64 = 97;
 
 /// Random systems.
@@ -78,18 +78,6 @@ fn begins_at(certificate: &PresenceCertificate, critical: f64) {
     assert!(from > critical, "{from}");
     assert!(from < critical * (1.0 + NEAR_START), "{from}");
     assert!(to_f64(&certificate.to) >= 2.0 * critical);
-}
-
-/// Two particles with c = 3/5, s = 4/5, k = 5, m = 1/7.
-fn two_particles_with(signs: (i8, i8), mu: Rational) -> TwoParticles {
-    TwoParticles {
-        c: rational(3, 5),
-        s: rational(4, 5),
-        k: whole(5),
-        m: rational(1, 7),
-        mu,
-        signs,
-    }
 }
 
 /// From the thresholds of Table 1 on there is a solution for every mu, and every box of a piece
@@ -195,12 +183,7 @@ fn is_present(system: &System, mu: &Rational) -> bool {
 }
 
 fn random_system(index: u64) -> System {
-    let seed = Seed {
-        family: FAMILY,
-        seed: 1,
-        index,
-    };
-    let mut rng = seed.rng();
+    let mut rng = rng(FAMILY, index);
     let mut list = Vec::new();
     for _ in 0..rng.random_range(2..=4) {
         let sign = if rng.random_range(0..4) == 0 { -1 } else { 1 };
@@ -361,15 +344,10 @@ fn the_program_says_what_is_proved_and_writes_it() {
     let proofs = folder.path("proofs");
     let report = exits_with_json(
         0,
-        &[
-            "analyze",
-            &example("fold-body"),
-            "--json",
-            "--samples",
-            "3",
-            "--certificates",
-            &proofs,
-        ],
+        &format!(
+            "analyze {} --json --samples 3 --certificates {proofs}",
+            example("fold-body")
+        ),
     );
 
     let ranges = report["ranges"].as_array().unwrap();
@@ -395,7 +373,10 @@ fn the_program_says_what_is_proved_and_writes_it() {
     let certificate = present["evidence"]["path"].as_str().unwrap();
     assert!(certificate.ends_with("presence-1.certificate.json"));
     let problem = Path::new(&proofs).join("presence-1.problem.json");
-    let text = exits(0, &["check", problem.to_str().unwrap(), certificate]);
+    let text = exits(
+        0,
+        &format!("check {} {certificate}", problem.to_str().unwrap()),
+    );
     assert!(text.starts_with("PRESENT for every friction"), "{text}");
 }
 
@@ -441,16 +422,8 @@ fn absence_is_said_where_presence_is_sampled() {
     let folder = Folder::new();
     let file = folder.write("problem.json", &problem.to_string());
     let proofs = folder.path("proofs");
-    let args = [
-        "analyze",
-        &file,
-        "--json",
-        "--samples",
-        "4",
-        "--certificates",
-        &proofs,
-    ];
-    let report = exits_with_json(0, &args);
+    let command = format!("analyze {file} --json --samples 4 --certificates {proofs}");
+    let report = exits_with_json(0, &command);
 
     let bound = "There is none below mu = 0.1291712,";
     let summary = report["summary"].as_str().unwrap();
@@ -472,6 +445,6 @@ fn absence_is_said_where_presence_is_sampled() {
     let certificate = said("absence")["evidence"]["path"].as_str().unwrap();
     assert!(certificate.ends_with("absent-range-1.certificate.json"));
     let problem = certificate.replace(".certificate.json", ".problem.json");
-    let text = exits(0, &["check", &problem, certificate]);
+    let text = exits(0, &format!("check {problem} {certificate}"));
     assert!(text.starts_with("ABSENT for friction in ["), "{text}");
 }

@@ -109,7 +109,7 @@ fn examples_and_written_files_are_valid() {
 
         valid(&problems, &example, &file);
 
-        let reduced = serde_json::from_str(&run(&["reduce", &file]).stdout).unwrap();
+        let reduced = serde_json::from_str(&run(&format!("reduce {file}")).stdout).unwrap();
         valid(&problems, &reduced, &format!("reduce {file}"));
 
         what_is_written_for_a_problem_is_valid(&file);
@@ -155,7 +155,7 @@ fn what_is_written_for_a_problem_is_valid(problem: &str) {
     let solutions = schema("mceip-solutions-1");
     let certificates = schema("mceip-certificate-1");
 
-    let listed = run(&["enumerate", problem, "--json"]).stdout;
+    let listed = run(&format!("enumerate {problem} --json")).stdout;
     let listed = serde_json::from_str(&listed).unwrap();
     valid(&solutions, &listed, &format!("enumerate {problem}"));
 
@@ -164,8 +164,8 @@ fn what_is_written_for_a_problem_is_valid(problem: &str) {
         let certificate = folder.path("c.json");
         let what = format!("{command} {problem}");
 
-        let args = [command, problem, "--json", "--certificate", &certificate];
-        let found = serde_json::from_str(&run(&args).stdout).unwrap();
+        let found = run(&format!("{what} --json --certificate {certificate}"));
+        let found = serde_json::from_str(&found.stdout).unwrap();
         valid(&solutions, &found, &what);
         valid(&certificates, &read(Path::new(&certificate)), &what);
     }
@@ -185,7 +185,7 @@ fn trace_is_valid(trace: &str) {
 fn traces_and_plain_problems_are_valid() {
     let folder = Folder::new();
     let trace = folder.path("trace.txt");
-    exits(0, &["solve", &example("fold"), "--trace", &trace]);
+    exits(0, &format!("solve {} --trace {trace}", example("fold")));
 
     trace_is_valid(&trace);
 
@@ -203,7 +203,7 @@ fn traces_and_plain_problems_are_valid() {
     let problem = folder.write("mcp.json", &plain.to_string());
 
     let solution = folder.path("z.json");
-    exits(0, &["solve", &problem, "--certificate", &solution]);
+    exits(0, &format!("solve {problem} --certificate {solution}"));
 
     let solution = read(Path::new(&solution));
     valid(
@@ -212,7 +212,7 @@ fn traces_and_plain_problems_are_valid() {
         "solution of an mcp",
     );
 
-    let listed = run(&["solve", &problem, "--all", "--json", "--trace", &trace]);
+    let listed = run(&format!("solve {problem} --all --json --trace {trace}"));
     let listed = serde_json::from_str(&listed.stdout).unwrap();
     valid(
         &schema("mceip-mcp-solutions-1"),
@@ -608,7 +608,7 @@ fn damaged_certificates_agree(tally: &mut Tally) {
 
     exits(
         0,
-        &["complete", &example("fold"), "--certificate", &written],
+        &format!("complete {} --certificate {written}", example("fold")),
     );
 
     let mut certificates = vec![read(Path::new(&written))];

@@ -10,17 +10,17 @@ use crate::program::Folder;
 use roxmltree::Document;
 use serde_json::{Value, json};
 
-fn simulate(code: i32, args: &[&str]) -> String {
-    exits(code, &[&["simulate"][..], args].concat())
+fn simulate(code: i32, args: &str) -> String {
+    exits(code, &format!("simulate {args}"))
 }
 
-fn simulate_json(code: i32, args: &[&str]) -> Value {
-    exits_with_json(code, &[&["simulate", "--json"][..], args].concat())
+fn simulate_json(code: i32, args: &str) -> Value {
+    exits_with_json(code, &format!("simulate --json {args}"))
 }
 
 #[test]
 fn certified_modes_grow_as_predicted() {
-    let motion = simulate_json(0, &[&example("two-particles")]);
+    let motion = simulate_json(0, &format!("{}", example("two-particles")));
 
     assert_eq!(motion["format"], "mceip-motion/1");
     let modes = motion["modes"].as_array().unwrap();
@@ -55,7 +55,7 @@ fn the_unit_of_mass_does_not_matter() {
     let light = folder.write("light.json", &problem.to_string());
 
     for (file, rate) in [(example("point"), 0.5), (light, 0.5e85)] {
-        let motion = simulate_json(0, &[&file]);
+        let motion = simulate_json(0, &format!("{file}"));
         let mode = &motion["modes"][0];
         assert_eq!(mode["agreement"], "AGREES", "{file}");
         let points = mode["points"].as_array().unwrap();
@@ -68,7 +68,7 @@ fn the_unit_of_mass_does_not_matter() {
 /// K* = 0 at mu = 4/3: alpha is linear.
 #[test]
 fn at_the_threshold_the_departure_is_linear() {
-    let motion = simulate_json(0, &[&example("point"), "--friction", "4/3"]);
+    let motion = simulate_json(0, &format!("{} --friction 4/3", example("point")));
 
     let mode = &motion["modes"][0];
     assert_eq!(mode["agreement"], "AGREES");
@@ -111,8 +111,8 @@ fn pictures_show_what_was_integrated() {
     let of_mode = folder.path("mode.svg");
     let of_impulses = folder.path("impulses.svg");
 
-    simulate(0, &[&point, "--picture", &of_mode]);
-    simulate(0, &[&point, "--friction", "1", "--picture", &of_impulses]);
+    simulate(0, &format!("{point} --picture {of_mode}"));
+    simulate(0, &format!("{point} --friction 1 --picture {of_impulses}"));
 
     // mu = 3/2: lambda^2 = 1/4.
     dots_lie_on_cosh(&read(&of_mode), 0.5);

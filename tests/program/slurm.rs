@@ -186,7 +186,7 @@ impl Cluster {
     fn check(&self, job: &str, certificate: &str) -> Option<i32> {
         let problem = self.file(&format!("{job}/problem.json"));
         let certificate = self.file(&format!("{job}/{certificate}"));
-        exit_code(&["check", &problem, &certificate])
+        exit_code(&format!("check {problem} {certificate}"))
     }
 }
 

@@ -4,13 +4,13 @@
 //! a trace must be repeated to the letter. Forged certificates and changed traces must be noticed.
 #![cfg(feature = "cli")]
 
-use crate::common::{contains_all, example, exits, read, repository, run};
-use crate::program::{Folder, refused};
+use crate::common::{contains_all, example, exits, read, refused, repository, run};
+use crate::program::Folder;
 
 /// The run of `args` ends with this exit code and a text that begins with these words.
 #[track_caller]
-fn says(args: &[&str], code: i32, start: &str) {
-    let text = exits(code, args);
+fn says(command: &str, code: i32, start: &str) {
+    let text = exits(code, command);
     assert!(text.starts_with(start), "{start}: {text}");
 }
 
@@ -28,15 +28,17 @@ fn a_plain_trace_replays_and_a_changed_one_does_not() {
     let folder = Folder::new();
     let problem = example("bounded-mcp");
     let trace = folder.path("t.txt");
-    let options = ["--all", "--starts", "6", "--seed", "3", "--trace", &trace];
 
-    exits(0, &[&["solve", &problem][..], &options].concat());
+    exits(
+        0,
+        &format!("solve {problem} --all --starts 6 --seed 3 --trace {trace}"),
+    );
 
     contains_all(
         &read(&trace),
         &["run from", "curve from", "certified: 5/6 1/2 1 2"],
     );
-    says(&["solve", "--replay", &trace], 0, "IDENTICAL");
+    says(&format!("solve --replay {trace}"), 0, "IDENTICAL");
 
     for (from, to) in [
         ("certified: 5/6", "certified: 6/6"),
@@ -44,7 +46,7 @@ fn a_plain_trace_replays_and_a_changed_one_does_not() {
         ("1/3", "1/2"),
     ] {
         let changed = changed_trace(&folder, &trace, from, to);
-        says(&["solve", "--replay", &changed], 1, "DIFFERENT");
+        says(&format!("solve --replay {changed}"), 1, "DIFFERENT");
     }
 
     for (from, to) in [
@@ -53,7 +55,7 @@ fn a_plain_trace_replays_and_a_changed_one_does_not() {
         ("mceip-trace/1", "mceip-trace/2"),
     ] {
         let bad = changed_trace(&folder, &trace, from, to);
-        refused(&["solve", "--replay", &bad], &[]);
+        refused(&format!("solve --replay {bad}"), &[]);
     }
 }
 
@@ -62,19 +64,21 @@ fn a_trace_replays_and_a_changed_one_does_not() {
     let folder = Folder::new();
     let problem = example("fold");
     let trace = folder.path("t.txt");
-    let options = ["--all", "--starts", "4", "--seed", "7", "--trace", &trace];
 
-    exits(0, &[&["solve", &problem][..], &options].concat());
+    exits(
+        0,
+        &format!("solve {problem} --all --starts 4 --seed 7 --trace {trace}"),
+    );
 
     contains_all(&read(&trace), &["leaves", "curve", "certified in run"]);
-    says(&["solve", "--replay", &trace], 0, "IDENTICAL");
+    says(&format!("solve --replay {trace}"), 0, "IDENTICAL");
 
     let changed = changed_trace(&folder, &trace, "Exchange", "Flip");
-    says(&["solve", "--replay", &changed], 1, "DIFFERENT");
+    says(&format!("solve --replay {changed}"), 1, "DIFFERENT");
     let other_seed = changed_trace(&folder, &trace, "\"seed\":7", "\"seed\":8");
 
-    exits(1, &["solve", "--replay", &other_seed]);
-    assert_eq!(run(&["solve", "--replay", &problem]).code, Some(2));
+    exits(1, &format!("solve --replay {other_seed}"));
+    assert_eq!(run(&format!("solve --replay {problem}")).code, Some(2));
 }
 
 /// Written before the crash could be chosen: its options do not name it, and it was projected
@@ -88,7 +92,7 @@ fn a_trace_from_before_the_choice_of_a_crash_replays() {
     assert!(!text.contains("crash_method"));
     assert!(text.contains("Crash"));
 
-    says(&["solve", "--replay", &old], 0, "IDENTICAL");
+    says(&format!("solve --replay {old}"), 0, "IDENTICAL");
 
     let with_another_crash = changed_trace(
         &folder,
@@ -96,7 +100,7 @@ fn a_trace_from_before_the_choice_of_a_crash_replays() {
         "crash_iteration_limit: 50",
         "crash_method: FischerNewton, crash_iteration_limit: 50",
     );
-    let text = exits(1, &["solve", "--replay", &with_another_crash]);
+    let text = exits(1, &format!("solve --replay {with_another_crash}"));
 
     assert!(text.contains("line 1"), "{text}");
 }

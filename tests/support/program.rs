@@ -57,21 +57,6 @@ fn certificate_asked_for<'a>(args: &[&'a str]) -> Option<[&'a str; 2]> {
     Some([problem?, certificate])
 }
 
-/// Exit 2, nothing on stdout, one line on stderr that mentions each of `words`.
-#[track_caller]
-pub fn refused(args: &[&str], words: &[&str]) {
-    let output = mceip(args);
-    let err = String::from_utf8_lossy(&output.stderr);
-
-    assert_eq!(output.status.code(), Some(2), "{args:?}: {err}");
-    assert!(output.stdout.is_empty(), "{err}");
-    assert_eq!(err.lines().count(), 1, "{err}");
-    assert!(err.len() < 800, "{err}");
-
-    let has_all = words.iter().all(|word| err.contains(word));
-    assert!(has_all, "{words:?} not in: {err}");
-}
-
 /// A folder of problem files and whatever the program writes.
 pub struct Folder(tempfile::TempDir);
 
