@@ -14,9 +14,9 @@ use mceip_exact::{Rational, rational, whole};
 use mceip_model::reduction::reduce_system;
 use mceip_model::{System, Unknown, Window};
 use mceip_oracle::{Solution, enumerate_modes};
-use mceip_testkit::generators::{Seed, states};
+use mceip_testkit::generators::{rng, states};
 
-/// Number of this family of random systems, for [`Seed`].
+/// Number of this family of random systems.
 const FAMILY: u64 = 95;
 
 /// Systems of the plain run and of the opt-in run.
@@ -53,14 +53,7 @@ struct Met {
 }
 
 fn random_system(index: u64) -> System {
-    let seed = Seed {
-        family: FAMILY,
-        seed: 1,
-        index,
-    };
-    let mut rng = seed.rng();
-    let list = states::mixture_with_zero(&mut rng, 2, 3);
-    states::system(&mut rng, &list, &mut Vec::new()).unwrap()
+    states::system_with_zero(&mut rng(FAMILY, index), 2, 3).unwrap()
 }
 
 /// All solutions at a friction; `None` where the list is degenerate.

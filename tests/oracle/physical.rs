@@ -18,21 +18,13 @@ use mceip_oracle::{
     enumerate_motions,
 };
 use mceip_paper::{pythagorean_angles, two_particles};
-use mceip_testkit::generators::{Seed, states};
+use mceip_testkit::generators::{rng, states};
 use rand::RngExt;
 
 pub(crate) const UNKNOWNS: [Unknown; 2] = [Unknown::Lambda2, Unknown::Mu];
 
-/// Number of this family of random systems, for [`Seed`].
+/// Number of this family of random systems.
 const FAMILY: u64 = 90;
-
-fn seed(index: u64) -> Seed {
-    Seed {
-        family: FAMILY,
-        seed: 1,
-        index,
-    }
-}
 
 /// The reduced route: what the enumerator of the pencil finds, and the problem.
 struct Reduced {
@@ -113,7 +105,7 @@ fn motions_are_the_solutions_of_the_reduced_pencil() {
     let mut degenerate = 0;
 
     for number in 0..2 * states::MIXTURES {
-        let mut rng = seed(number).rng();
+        let mut rng = rng(FAMILY, number);
         let mixture = states::mixture(number);
         let system = states::system(&mut rng, &mixture, &mut Vec::new()).unwrap();
 
@@ -163,7 +155,7 @@ fn friction_factors_count_in_both_routes() {
     let mut changed = 0;
 
     for number in 0..states::MIXTURES {
-        let mut rng = seed(2000 + number).rng();
+        let mut rng = rng(FAMILY, 2000 + number);
         let mixture = states::mixture(number);
         let plain = states::system(&mut rng, &mixture, &mut Vec::new()).unwrap();
         let system = with_factors(&plain, &mut rng);
@@ -206,7 +198,7 @@ struct WithZero {
 impl WithZero {
     /// A random system of two or three particles, of which the first slips and the last is z.
     fn random(index: u64) -> WithZero {
-        let mut rng = seed(1000 + index).rng();
+        let mut rng = rng(FAMILY, 1000 + index);
         let count = 2 + (index % 2) as usize;
         let mut states = vec![ContactState::Slip { sign: 1 }];
         if index / 2 % 2 == 1 {

@@ -14,19 +14,14 @@ use mceip_exact::{
 use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution, enumerate, is_rational_solution};
-use mceip_testkit::generators::{Seed, gram, permuted, raw, sparse, states, with_scaled_rows};
+use mceip_testkit::generators::{self, gram, permuted, raw, sparse, states, with_scaled_rows};
 use num_traits::Zero;
 use proptest::prelude::*;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 fn rng(index: u64) -> ChaCha8Rng {
-    let seed = Seed {
-        family: 1000,
-        seed: 1,
-        index,
-    };
-    seed.rng()
+    generators::rng(1000, index)
 }
 
 /// A random system whose particles have the states of this number.

@@ -19,11 +19,11 @@ use mceip_oracle::{
     enumerate_motions,
 };
 use mceip_testkit::generators::states::ZeroModes;
-use mceip_testkit::generators::{Seed, states};
+use mceip_testkit::generators::{rng, states};
 use rand::RngExt;
 use std::ops::ControlFlow;
 
-/// Number of this family of random systems, for [`Seed`].
+/// Number of this family of random systems.
 const FAMILY: u64 = 91;
 
 /// Systems of the opt-in run, and those of the plain one.
@@ -108,12 +108,7 @@ impl Corners {
 }
 
 fn random_system(index: u64, mixture: Mixture) -> System {
-    let seed = Seed {
-        family: FAMILY,
-        seed: 1,
-        index,
-    };
-    let mut rng = seed.rng();
+    let mut rng = rng(FAMILY, index);
     let signs = rng.random_range(0..64);
     let system = states::system(&mut rng, &mixture.states(signs), &mut Vec::new()).unwrap();
     if index.is_multiple_of(3) {

@@ -15,7 +15,7 @@ use mceip_mcp::solver::{Options, Residuals, solve};
 use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Pencil, Unknown, Window};
 use mceip_oracle::{Solution, enumerate};
-use mceip_testkit::{Instance, mechanical, random_pencils};
+use mceip_testkit::{Instance, in_doubles, mechanical, random_pencils};
 
 fn instances() -> Vec<Instance> {
     let mut instances = random_pencils(40, 11).unwrap();
@@ -37,17 +37,10 @@ fn solutions(pencil: &Pencil) -> Vec<Solution> {
     enumerate(pencil, &Window::all()).unwrap().solutions
 }
 
-fn value_as_double(solution: &Solution) -> f64 {
-    solution.decimal(17).parse().unwrap()
-}
-
 /// The point of the embedding that stands for a solution.
 fn point_of(embedding: &Embedding, pencil: &Pencil, solution: &Solution) -> Vec<f64> {
-    let mut x = Vec::new();
-    for decimal in solution.x_decimals(&pencil.slip(), 17) {
-        x.push(decimal.parse().unwrap());
-    }
-    embedding.point(value_as_double(solution), &x)
+    let Candidate { value, x } = in_doubles(solution, &pencil.slip());
+    embedding.point(value, &x)
 }
 
 /// "Only if": every solution of the eigenproblem, normalised, solves the MCP with gamma = 0.

@@ -9,14 +9,7 @@ use mceip_exact::{Algebraic, Poly, Rational, Sparse, to_f64, whole};
 use mceip_model::reduction::{Lifted, Line, check_lines, lift, reduce};
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::{Solution, enumerate};
-use mceip_testkit::mechanical;
-
-fn system_of(problem: &Problem) -> &System {
-    match problem.body() {
-        Body::System(system) => system,
-        Body::Pencil(_) => panic!("a system"),
-    }
-}
+use mceip_testkit::{mechanical, system_of};
 
 /// A solution that the enumerator lists, and its motion and force.
 struct LiftedAnswer {

@@ -5,7 +5,7 @@
 //! Table 1 in exact numbers, for all sign patterns that have thresholds, with relative gaps from
 //! 1e-3 to 1e-15; peers' solvers report success on both sides. Of the search itself no uncertified
 //! point may stand among its solutions.
-#![cfg(feature = "solver")]
+#![cfg(feature = "testkit")]
 
 use mceip_check::{AcceptedClaim, check};
 use mceip_engine::candidate::Candidate;
@@ -18,6 +18,7 @@ use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_oracle::{Solution, TwoParticles, enumerate, table1};
 use mceip_paper::{pythagorean_angles, two_particles};
+use mceip_testkit::in_doubles;
 
 const GAPS: [&str; 13] = [
     "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-12", "1e-13",
@@ -157,18 +158,6 @@ fn below_the_threshold_absence_is_proved() {
     assert_eq!(absent, ANGLES * 3 * GAPS.len() * 3);
 }
 
-/// A solution of the enumerator to 17 digits, as a candidate.
-fn candidate_of(solution: &Solution, pencil: &Pencil) -> Candidate {
-    let mut x = Vec::new();
-    for decimal in solution.x_decimals(&pencil.slip(), 17) {
-        x.push(decimal.parse().unwrap());
-    }
-    Candidate {
-        value: solution.decimal(17).parse().unwrap(),
-        x,
-    }
-}
-
 #[test]
 fn above_the_threshold_everything_is_certified() {
     let mut accepted = 0;
@@ -182,7 +171,7 @@ fn above_the_threshold_everything_is_certified() {
             assert_eq!(truth.len(), table1(&data).len());
 
             for solution in truth {
-                let candidate = candidate_of(&solution, &pencil);
+                let candidate = in_doubles(&solution, &pencil.slip());
                 let claim = propose(&pencil, problem.window(), &candidate).unwrap();
                 let certificate = certificate(&problem, vec![claim]);
                 let claims = check(&problem, &certificate).unwrap().claims;

@@ -15,16 +15,16 @@ use mceip_engine::reduction::{Embedding, Side};
 use mceip_engine::run::Watch;
 use mceip_mcp::mcp::Mcp;
 use mceip_model::reduction::{reduce, reduce_system};
-use mceip_model::{Admissible, Body, ContactState, Problem, Reduced, System, Unknown, Window};
+use mceip_model::{Admissible, Body, ContactState, Problem, Reduced, Window};
 use mceip_oracle::{Solution, enumerate_modes};
 use mceip_testkit::floors::{Coverage, Starts, floor, shortfalls};
 use mceip_testkit::generators::states::ZeroModes;
-use mceip_testkit::generators::{Seed, states};
+use mceip_testkit::generators::{rng, states, unknown};
+use mceip_testkit::{in_doubles, system_of};
 use nalgebra::DMatrix;
 use rand::RngExt;
 
-/// Number of this family of random systems, for [`Seed`], and of those with many free degrees of
-/// freedom.
+/// Number of this family of random systems, and of those with many free degrees of freedom.
 const FAMILY: u64 = 92;
 const LARGE_FAMILY: u64 = 93;
 
@@ -51,23 +51,8 @@ struct Met {
 }
 
 fn random_problem(index: u64) -> Problem {
-    let seed = Seed {
-        family: FAMILY,
-        seed: 1,
-        index,
-    };
-    let mut rng = seed.rng();
-    let states = states::mixture_with_zero(&mut rng, 3, 2);
-    let system = states::system(&mut rng, &states, &mut Vec::new()).unwrap();
-    let unknown = [Unknown::Lambda2, Unknown::Mu][(index % 2) as usize];
-    Problem::new(Body::System(system), unknown, Window::all()).unwrap()
-}
-
-fn system(problem: &Problem) -> &System {
-    let Body::System(system) = problem.body() else {
-        panic!("a system")
-    };
-    system
+    let system = states::system_with_zero(&mut rng(FAMILY, index), 3, 2).unwrap();
+    Problem::new(Body::System(system), unknown(index), Window::all()).unwrap()
 }
 
 fn search(problem: &Problem) -> Found {
@@ -90,7 +75,7 @@ fn is_listed_as(certified: &Certified, solution: &Solution) -> bool {
 /// Solves a problem and compares with the list of all solutions.
 fn compare(index: u64, met: &mut Met) {
     let problem = random_problem(index);
-    let split = reduce_system(system(&problem), problem.unknown()).unwrap();
+    let split = reduce_system(system_of(&problem), problem.unknown()).unwrap();
     let all = enumerate_modes(&split, &Window::all());
     if !all.degenerate.is_empty() {
         met.degenerate += 1;
@@ -124,12 +109,7 @@ fn compare(index: u64, met: &mut Met) {
 
 /// A system of the large family: one or two s particles, one or two z particles, free ones.
 fn large_problem(index: u64) -> Problem {
-    let seed = Seed {
-        family: LARGE_FAMILY,
-        seed: 1,
-        index,
-    };
-    let mut rng = seed.rng();
+    let mut rng = rng(LARGE_FAMILY, index);
     let sign = if index % 4 < 2 { 1 } else { -1 };
     let mut states = vec![ContactState::Slip { sign }];
     if rng.random_range(0..2) == 0 {
@@ -139,8 +119,7 @@ fn large_problem(index: u64) -> Problem {
     states.extend(vec![ContactState::Free; MANY_FREE]);
 
     let system = states::system(&mut rng, &states, &mut Vec::new()).unwrap();
-    let unknown = [Unknown::Lambda2, Unknown::Mu][(index % 2) as usize];
-    Problem::new(Body::System(system), unknown, Window::all()).unwrap()
+    Problem::new(Body::System(system), unknown(index), Window::all()).unwrap()
 }
 
 /// Is the solution of the list in the box?
@@ -160,7 +139,7 @@ fn large_systems_are_certified_by_boxes() {
     let mut met = Met::default();
     for index in 0..LARGE_SYSTEMS {
         let problem = large_problem(index);
-        let split = reduce_system(system(&problem), problem.unknown()).unwrap();
+        let split = reduce_system(system_of(&problem), problem.unknown()).unwrap();
         let all = enumerate_modes(&split, &Window::all());
         assert!(all.degenerate.is_empty(), "system {index}");
 
@@ -273,16 +252,15 @@ fn every_solution_solves_the_mcp() {
     let mut solutions = 0;
     for index in 0..FEW {
         let problem = random_problem(index);
-        let split = reduce_system(system(&problem), problem.unknown()).unwrap();
+        let split = reduce_system(system_of(&problem), problem.unknown()).unwrap();
         let admissible = Admissible::new(&split.pencil, problem.unknown()).unwrap();
         let embedding = Embedding::with_zero(&admissible, &split.zero, Side::Above(0.0));
 
         for solution in &enumerate_modes(&split, &Window::all()).solutions {
-            let value: f64 = solution.decimal(17).parse().unwrap();
-            let decimals = solution.x_decimals(&split.normalised(), 17);
-            let x: Vec<f64> = decimals.iter().map(|d| d.parse().unwrap()).collect();
+            let candidate = in_doubles(solution, &split.normalised());
+            let x = candidate.x;
 
-            let z = embedding.point(value, &x);
+            let z = embedding.point(candidate.value, &x);
 
             assert!(residual(&embedding, &z) < 1e-6, "system {index}: {z:?}");
             let back = embedding.candidate(&z);
@@ -316,7 +294,7 @@ fn residual(embedding: &Embedding, z: &[f64]) -> f64 {
 fn the_jacobian_is_the_derivative() {
     for index in 0..20 {
         let problem = random_problem(index);
-        let split = reduce_system(system(&problem), problem.unknown()).unwrap();
+        let split = reduce_system(system_of(&problem), problem.unknown()).unwrap();
         let admissible = Admissible::new(&split.pencil, problem.unknown()).unwrap();
         let embedding = Embedding::with_zero(&admissible, &split.zero, Side::Above(0.0));
         let n = embedding.dimension();
