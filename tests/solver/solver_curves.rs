@@ -6,6 +6,7 @@
 #![cfg(feature = "testkit")]
 
 use crate::families::{Case, random_case, table1_cases};
+use crate::support::{Smooth, smooth};
 use mceip_engine::multistart::{Found, Search, multistart, support};
 use mceip_engine::reduction::{Embedding, Side};
 use mceip_engine::run::Watch;
@@ -19,51 +20,6 @@ use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Pencil, Unknown, Window};
 use mceip_oracle::enumerate;
 use nalgebra::{DMatrix, dmatrix};
-
-/// A smooth MCP in one or more unknowns z >= 0, the Jacobian by hand.
-struct Smooth<F, J> {
-    n: usize,
-    f: F,
-    j: J,
-    lower: Vec<f64>,
-    upper: Vec<f64>,
-}
-
-impl<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>)> Mcp for Smooth<F, J> {
-    fn dimension(&self) -> usize {
-        self.n
-    }
-
-    fn lower(&self) -> &[f64] {
-        &self.lower
-    }
-
-    fn upper(&self) -> &[f64] {
-        &self.upper
-    }
-
-    fn function(&self, z: &[f64], f: &mut [f64]) {
-        (self.f)(z, f);
-    }
-
-    fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
-        (self.j)(z, j);
-    }
-}
-
-fn smooth<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>)>(
-    n: usize,
-    f: F,
-    j: J,
-) -> Smooth<F, J> {
-    Smooth {
-        n,
-        f,
-        j,
-        lower: vec![0.0; n],
-        upper: vec![f64::INFINITY; n],
-    }
-}
 
 /// Solves within the tolerance from a start whose components are all equal.
 fn solve_from(problem: &impl Mcp, component: f64) -> Outcome {
@@ -158,16 +114,10 @@ fn nash_cournot() {
 ///
 /// Our own data, made from a solution; the model is that of MCPLIB's `hanskoop`, whose data we did
 /// not have.
-struct CapitalStock {
-    /// Marginal utility of activity k is a_k - x_k.
-    a: [f64; 4],
-    /// The labour that there is.
-    supply: f64,
-    lower: [f64; 7],
-    upper: [f64; 7],
-}
+mod capital_stock {
+    use crate::support::smooth;
+    use mceip_mcp::mcp::Mcp;
 
-impl CapitalStock {
     const ALPHA: f64 = 0.7;
 
     /// What an activity takes and gives of the two goods, and the labour it needs.
@@ -176,101 +126,66 @@ impl CapitalStock {
     const LABOUR: [f64; 4] = [1.0, 2.0, 1.5, 1.0];
 
     /// The solution that the data are made from; the slack is that of the rows of the activities.
-    const X: [f64; 4] = [2.0, 0.0, 1.0, 0.0];
+    pub(super) const X: [f64; 4] = [2.0, 0.0, 1.0, 0.0];
     const Y: [f64; 2] = [3.0, 1.0];
     const U: f64 = 2.0;
     const SLACK: [f64; 4] = [0.0, 0.4, 0.0, 0.9];
 
-    fn new() -> CapitalStock {
-        let mut a = [0.0; 4];
-        let mut supply = 0.0;
-        for k in 0..4 {
-            a[k] = Self::X[k] + Self::cost(k, &Self::Y, Self::U) - Self::SLACK[k];
-            supply += Self::LABOUR[k] * Self::X[k];
-        }
-        CapitalStock {
-            a,
-            supply,
-            lower: [0.0; 7],
-            upper: [f64::INFINITY; 7],
-        }
-    }
-
     /// What a unit of activity k takes of a good, less ALPHA times what it gives.
     fn discounted_loss(good: usize, k: usize) -> f64 {
-        let taken = Self::INPUTS[good][k];
-        let given = Self::OUTPUTS[good][k];
-        taken - Self::ALPHA * given
+        INPUTS[good][k] - ALPHA * OUTPUTS[good][k]
     }
 
     /// What a unit of activity k adds to the stock of a good.
     fn gain(good: usize, k: usize) -> f64 {
-        Self::OUTPUTS[good][k] - Self::INPUTS[good][k]
+        OUTPUTS[good][k] - INPUTS[good][k]
     }
 
     /// The cost of a unit of activity k at these prices.
     fn cost(k: usize, y: &[f64], u: f64) -> f64 {
-        let mut cost_of_goods = 0.0;
-        for good in 0..2 {
-            cost_of_goods += Self::discounted_loss(good, k) * y[good];
-        }
-        cost_of_goods + Self::LABOUR[k] * u
-    }
-}
-
-impl Mcp for CapitalStock {
-    fn dimension(&self) -> usize {
-        7
+        discounted_loss(0, k) * y[0] + discounted_loss(1, k) * y[1] + LABOUR[k] * u
     }
 
-    fn lower(&self) -> &[f64] {
-        &self.lower
-    }
+    /// The marginal utility of activity k is a_k - x_k; the labour that there is, is taken.
+    pub(super) fn problem() -> impl Mcp {
+        let a: [f64; 4] = std::array::from_fn(|k| X[k] + cost(k, &Y, U) - SLACK[k]);
+        let supply: f64 = (0..4).map(|k| LABOUR[k] * X[k]).sum();
 
-    fn upper(&self) -> &[f64] {
-        &self.upper
-    }
-
-    fn function(&self, z: &[f64], f: &mut [f64]) {
-        let y = &z[4..6];
-        let u = z[6];
-
-        let mut labour = 0.0;
-        for k in 0..4 {
-            f[k] = z[k] - self.a[k] + Self::cost(k, y, u);
-            labour += Self::LABOUR[k] * z[k];
-        }
-        for good in 0..2 {
-            f[4 + good] = 0.0;
-            for k in 0..4 {
-                f[4 + good] += Self::gain(good, k) * z[k];
-            }
-        }
-        f[6] = self.supply - labour;
-    }
-
-    fn jacobian(&self, _z: &[f64], j: &mut DMatrix<f64>) {
-        j.fill(0.0);
-        for k in 0..4 {
-            j[(k, k)] = 1.0;
-            for good in 0..2 {
-                j[(k, 4 + good)] = Self::discounted_loss(good, k);
-                j[(4 + good, k)] = Self::gain(good, k);
-            }
-            j[(k, 6)] = Self::LABOUR[k];
-            j[(6, k)] = -Self::LABOUR[k];
-        }
+        smooth(
+            7,
+            move |z, f| {
+                for k in 0..4 {
+                    f[k] = z[k] - a[k] + cost(k, &z[4..6], z[6]);
+                }
+                for good in 0..2 {
+                    f[4 + good] = (0..4).map(|k| gain(good, k) * z[k]).sum();
+                }
+                f[6] = supply - (0..4).map(|k| LABOUR[k] * z[k]).sum::<f64>();
+            },
+            |_, j| {
+                j.fill(0.0);
+                for k in 0..4 {
+                    j[(k, k)] = 1.0;
+                    for good in 0..2 {
+                        j[(k, 4 + good)] = discounted_loss(good, k);
+                        j[(4 + good, k)] = gain(good, k);
+                    }
+                    j[(k, 6)] = LABOUR[k];
+                    j[(6, k)] = -LABOUR[k];
+                }
+            },
+        )
     }
 }
 
 /// Utility is strictly concave: x is unique, prices are not (three rows bind, two activities run).
 #[test]
 fn hansen_and_koopmans() {
-    let problem = CapitalStock::new();
+    let problem = capital_stock::problem();
 
     for start in [0.0, 1.0, 10.0] {
         let point = solve_from(&problem, start).point;
-        for (found, expected) in point.iter().zip(CapitalStock::X) {
+        for (found, expected) in point.iter().zip(capital_stock::X) {
             assert!((found - expected).abs() < 1e-8, "{point:?}");
         }
     }

@@ -5,6 +5,7 @@
 //! step leads; random ones with the largest and smallest doubles must not make it panic.
 #![cfg(feature = "solver")]
 
+use crate::support::{Smooth, murty, smooth};
 use mceip_mcp::mcp::{LinearMcp, Mcp};
 use mceip_mcp::solver::{
     NonFinite, Options, Outcome, SolverError, Termination, solve, solve_linear,
@@ -14,60 +15,13 @@ use proptest::prelude::*;
 
 const INF: f64 = f64::INFINITY;
 
-/// One unknown, x >= 0, with F and F' from closures.
-struct OneUnknown<F, J> {
-    function: F,
-    derivative: J,
-}
-
-impl<F: Fn(f64) -> f64, J: Fn(f64) -> f64> Mcp for OneUnknown<F, J> {
-    fn dimension(&self) -> usize {
-        1
-    }
-
-    fn lower(&self) -> &[f64] {
-        &[0.0]
-    }
-
-    fn upper(&self) -> &[f64] {
-        &[INF]
-    }
-
-    fn function(&self, z: &[f64], f: &mut [f64]) {
-        f[0] = (self.function)(z[0]);
-    }
-
-    fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
-        j[(0, 0)] = (self.derivative)(z[0]);
-    }
-}
-
-/// Two unknowns with bounds as given, F = z.
-struct WithBounds {
-    lower: Vec<f64>,
-    upper: Vec<f64>,
-}
-
-impl Mcp for WithBounds {
-    fn dimension(&self) -> usize {
-        2
-    }
-
-    fn lower(&self) -> &[f64] {
-        &self.lower
-    }
-
-    fn upper(&self) -> &[f64] {
-        &self.upper
-    }
-
-    fn function(&self, z: &[f64], f: &mut [f64]) {
-        f.copy_from_slice(z);
-    }
-
-    fn jacobian(&self, _z: &[f64], j: &mut DMatrix<f64>) {
-        j.fill_with_identity();
-    }
+/// One unknown, x >= 0.
+fn one_unknown(function: impl Fn(f64) -> f64, derivative: impl Fn(f64) -> f64) -> impl Mcp {
+    smooth(
+        1,
+        move |z, f| f[0] = function(z[0]),
+        move |z, j| j[(0, 0)] = derivative(z[0]),
+    )
 }
 
 /// Solves F(x) complementary to x >= 0 in one unknown.
@@ -76,10 +30,7 @@ fn solve_one(
     derivative: impl Fn(f64) -> f64,
     start: f64,
 ) -> Outcome {
-    let problem = OneUnknown {
-        function,
-        derivative,
-    };
+    let problem = one_unknown(function, derivative);
     solve(&problem, &[start], &Options::default()).unwrap()
 }
 
@@ -89,11 +40,16 @@ fn refusal(problem: &impl Mcp, start: &[f64]) -> String {
     error.to_string()
 }
 
-/// What is said of a problem with these bounds.
+/// What is said of F = z in two unknowns with these bounds.
 fn refusal_of_bounds(lower: &[f64], upper: &[f64]) -> String {
-    let problem = WithBounds {
+    let problem = Smooth {
         lower: lower.to_vec(),
         upper: upper.to_vec(),
+        ..smooth(
+            2,
+            |z, f| f.copy_from_slice(z),
+            |_, j| j.fill_with_identity(),
+        )
     };
     refusal(&problem, &[0.0; 2])
 }
@@ -179,35 +135,12 @@ fn a_wrong_jacobian_is_survived() {
 }
 
 /// F = z - 1 in two unknowns, with a Jacobian that is resized to this order.
-struct Resizing {
-    order: usize,
-}
-
-impl Mcp for Resizing {
-    fn dimension(&self) -> usize {
-        2
-    }
-
-    fn lower(&self) -> &[f64] {
-        &[0.0; 2]
-    }
-
-    fn upper(&self) -> &[f64] {
-        &[INF; 2]
-    }
-
-    fn function(&self, z: &[f64], f: &mut [f64]) {
-        f[0] = z[0] - 1.0;
-        f[1] = z[1] - 1.0;
-    }
-
-    fn jacobian(&self, _z: &[f64], j: &mut DMatrix<f64>) {
-        *j = DMatrix::identity(self.order, self.order);
-    }
-}
-
 fn solve_resizing(order: usize) -> Outcome {
-    let problem = Resizing { order };
+    let problem = smooth(
+        2,
+        |z, f| f.copy_from_slice(&[z[0] - 1.0, z[1] - 1.0]),
+        |_, j| *j = DMatrix::identity(order, order),
+    );
     solve(&problem, &[3.0, 3.0], &Options::default()).unwrap()
 }
 
@@ -274,10 +207,7 @@ fn rays_and_limits_keep_the_best_point() {
 
     // x^3 = 1 from far away: each step takes a third off, and fewer than it takes leave the point
     // nearer than the start.
-    let cubic = OneUnknown {
-        function: |x: f64| x * x * x - 1.0,
-        derivative: |x: f64| 3.0 * x * x,
-    };
+    let cubic = one_unknown(|x| x * x * x - 1.0, |x| 3.0 * x * x);
     let three_majors = Options {
         crash_iteration_limit: 0,
         major_iteration_limit: 3,
@@ -298,23 +228,12 @@ fn rays_and_limits_keep_the_best_point() {
     assert!(outcome.point[0] < 1000.0, "{outcome:?}");
 }
 
-/// Murty's matrix: 1 on the diagonal, 2 above it.
-fn murty(order: usize) -> DMatrix<f64> {
-    let mut m = DMatrix::identity(order, order);
-    for i in 0..order {
-        for j in i + 1..order {
-            m[(i, j)] = 2.0;
-        }
-    }
-    m
-}
-
 #[test]
 fn every_limit_is_kept() {
-    let hard = OneUnknown {
-        function: |x: f64| (x - 2.0) * (x - 2.0) + 0.01 - 0.001 * x.sin(),
-        derivative: |x: f64| 2.0 * (x - 2.0) - 0.001 * x.cos(),
-    };
+    let hard = one_unknown(
+        |x| (x - 2.0) * (x - 2.0) + 0.01 - 0.001 * x.sin(),
+        |x| 2.0 * (x - 2.0) - 0.001 * x.cos(),
+    );
     let lcp = LinearMcp::lcp(murty(6), vec![-1.0; 6]).unwrap();
 
     for limit in [1, 2, 7] {

@@ -5,6 +5,7 @@
 //! rules of the ratio test; all must end at the same point.
 #![cfg(feature = "solver")]
 
+use crate::support::{Smooth, smooth};
 use mceip_mcp::mcp::{LinearMcp, Mcp};
 use mceip_mcp::solver::{
     Options, Outcome, PathEnd, PivotKind, RatioTest, Termination, solve, solve_linear,
@@ -103,21 +104,10 @@ fn a_degenerate_lcp_ends_at_its_solution() {
     assert_all_methods_solve(&second_zero, &[1.0, 0.0]);
 }
 
-/// Murty's matrix: 1 on the diagonal, 2 above it.
-fn murty_matrix(order: usize) -> DMatrix<f64> {
-    let mut m = DMatrix::identity(order, order);
-    for i in 0..order {
-        for j in i + 1..order {
-            m[(i, j)] = 2.0;
-        }
-    }
-    m
-}
-
 #[test]
 fn murty() {
     for n in 4..=6 {
-        let problem = lcp(murty_matrix(n), &vec![-1.0; n]);
+        let problem = lcp(crate::support::murty(n), &vec![-1.0; n]);
         let mut expected = vec![0.0; n];
         expected[n - 1] = 1.0;
 
@@ -215,31 +205,6 @@ fn an_infeasible_lcp_ends_on_a_ray() {
     assert!(!outcome.residuals.within(1e-3));
 }
 
-/// z^2 - 1 = 0 for a free z.
-struct Square;
-
-impl Mcp for Square {
-    fn dimension(&self) -> usize {
-        1
-    }
-
-    fn lower(&self) -> &[f64] {
-        &[-INF]
-    }
-
-    fn upper(&self) -> &[f64] {
-        &[INF]
-    }
-
-    fn function(&self, z: &[f64], f: &mut [f64]) {
-        f[0] = z[0] * z[0] - 1.0;
-    }
-
-    fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
-        j[(0, 0)] = 2.0 * z[0];
-    }
-}
-
 /// Is the point 1 or -1?
 fn assert_solves_square(outcome: &Outcome) {
     let magnitude = outcome.point[0].abs();
@@ -261,80 +226,50 @@ fn singular_starts() {
     let mut pivots = outcome.trace();
     assert!(pivots.any(|pivot| pivot.kind == PivotKind::ArtificialLeaves));
 
-    // x^2 = 1 from x = 0: stationary for every merit, and F' is zero; the point along the ray
-    // leaves it.
-    let outcome = solve(&Square, &[0.0], &Options::default()).unwrap();
+    // x^2 = 1 for a free x, from x = 0: stationary for every merit, and F' is zero; the point along
+    // the ray leaves it.
+    let square = Smooth {
+        lower: vec![-INF],
+        ..smooth(
+            1,
+            |z, f| f[0] = z[0] * z[0] - 1.0,
+            |z, j| j[(0, 0)] = 2.0 * z[0],
+        )
+    };
+    let outcome = solve(&square, &[0.0], &Options::default()).unwrap();
     assert_solves_square(&outcome);
-    let outcome = solve(&Square, &[0.0], &without_crash).unwrap();
+    let outcome = solve(&square, &[0.0], &without_crash).unwrap();
     assert_solves_square(&outcome);
     assert_eq!(outcome.log[0].paths[0].end, PathEnd::Ray);
 }
 
-/// The problem of Kojima and Shindo 1986; with other coefficients, that of Josephy 1979.
-struct FourByFour {
-    /// The coefficient of z_3 in F_2.
-    z3_in_f2: f64,
-    /// The coefficient of z_4 in F_3.
-    z4_in_f3: f64,
-    /// What is subtracted in F_3.
-    constant_of_f3: f64,
-}
-
-impl FourByFour {
-    fn josephy() -> FourByFour {
-        FourByFour {
-            z3_in_f2: 3.0,
-            z4_in_f3: 3.0,
-            constant_of_f3: 1.0,
-        }
-    }
-
-    fn kojima_and_shindo() -> FourByFour {
-        FourByFour {
-            z3_in_f2: 10.0,
-            z4_in_f3: 9.0,
-            constant_of_f3: 9.0,
-        }
-    }
-}
-
-impl Mcp for FourByFour {
-    fn dimension(&self) -> usize {
-        4
-    }
-
-    fn lower(&self) -> &[f64] {
-        &[0.0; 4]
-    }
-
-    fn upper(&self) -> &[f64] {
-        &[INF; 4]
-    }
-
-    fn function(&self, z: &[f64], f: &mut [f64]) {
+/// The problem of Kojima and Shindo 1986; with other coefficients, that of Josephy 1979: those of
+/// z_3 in F_2 and of z_4 in F_3, and what is subtracted in F_3.
+fn four_by_four(c_in_f2: f64, d_in_f3: f64, constant: f64) -> impl Mcp {
+    let function = move |z: &[f64], f: &mut [f64]| {
         let &[a, b, c, d] = z else {
             panic!("four unknowns")
         };
-        let c_in_f2 = self.z3_in_f2;
-        let d_in_f3 = self.z4_in_f3;
-        let constant = self.constant_of_f3;
-
         f[0] = 3.0 * a * a + 2.0 * a * b + 2.0 * b * b + c + 3.0 * d - 6.0;
         f[1] = 2.0 * a * a + a + b * b + c_in_f2 * c + 2.0 * d - 2.0;
         f[2] = 3.0 * a * a + a * b + 2.0 * b * b + 2.0 * c + d_in_f3 * d - constant;
         f[3] = a * a + 3.0 * b * b + 2.0 * c + 3.0 * d - 3.0;
-    }
-
-    fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
+    };
+    let jacobian = move |z: &[f64], j: &mut DMatrix<f64>| {
         let a = z[0];
         let b = z[1];
         j.copy_from(&dmatrix![
             6.0 * a + 2.0 * b, 2.0 * a + 4.0 * b, 1.0, 3.0;
-            4.0 * a + 1.0, 2.0 * b, self.z3_in_f2, 2.0;
-            6.0 * a + b, a + 4.0 * b, 2.0, self.z4_in_f3;
+            4.0 * a + 1.0, 2.0 * b, c_in_f2, 2.0;
+            6.0 * a + b, a + 4.0 * b, 2.0, d_in_f3;
             2.0 * a, 6.0 * b, 2.0, 3.0
         ]);
-    }
+    };
+    smooth(4, function, jacobian)
+}
+
+fn josephy_problem() -> impl Mcp {
+    four_by_four(3.0, 3.0, 1.0)
 }
 
 fn starts_of_four() -> Vec<Vec<f64>> {
@@ -350,7 +285,7 @@ fn starts_of_four() -> Vec<Vec<f64>> {
 
 #[test]
 fn josephy() {
-    let problem = FourByFour::josephy();
+    let problem = josephy_problem();
     let expected = [1.5f64.sqrt(), 0.0, 0.0, 0.5];
 
     for start in starts_of_four() {
@@ -366,7 +301,7 @@ fn is_near(point: &[f64], solution: &[f64; 4]) -> bool {
 
 #[test]
 fn kojima_and_shindo_has_two_solutions_one_of_them_degenerate() {
-    let problem = FourByFour::kojima_and_shindo();
+    let problem = four_by_four(10.0, 9.0, 9.0);
     let degenerate = [1.5f64.sqrt(), 0.0, 0.0, 0.5];
     let regular = [1.0, 0.0, 3.0, 0.0];
     let mut degenerate_is_seen = false;
@@ -389,7 +324,7 @@ fn kojima_and_shindo_has_two_solutions_one_of_them_degenerate() {
 
 #[test]
 fn the_log_tells_the_whole_run() {
-    let problem = FourByFour::josephy();
+    let problem = josephy_problem();
 
     let start = [0.0, 5.0, 0.0, 5.0];
 

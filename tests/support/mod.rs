@@ -9,6 +9,7 @@ use mceip_mcp::mcp::Mcp;
 use nalgebra::{DMatrix, DVector, Schur};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use std::cmp::Ordering;
 
 /// ((A + t B) x, e'x_s - c) on x_f free, x_s >= 0, t >= 0.
 pub struct Embedded {
@@ -138,6 +139,61 @@ impl Mcp for Embedded {
             j[(n, i)] = 1.0;
         }
     }
+}
+
+/// A smooth MCP with F and its Jacobian from closures.
+pub struct Smooth<F, J> {
+    pub n: usize,
+    pub f: F,
+    pub j: J,
+    pub lower: Vec<f64>,
+    pub upper: Vec<f64>,
+}
+
+/// In n unknowns z >= 0.
+pub fn smooth<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>)>(
+    n: usize,
+    f: F,
+    j: J,
+) -> Smooth<F, J> {
+    Smooth {
+        n,
+        f,
+        j,
+        lower: vec![0.0; n],
+        upper: vec![f64::INFINITY; n],
+    }
+}
+
+impl<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>)> Mcp for Smooth<F, J> {
+    fn dimension(&self) -> usize {
+        self.n
+    }
+
+    fn lower(&self) -> &[f64] {
+        &self.lower
+    }
+
+    fn upper(&self) -> &[f64] {
+        &self.upper
+    }
+
+    fn function(&self, z: &[f64], f: &mut [f64]) {
+        (self.f)(z, f);
+    }
+
+    fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
+        (self.j)(z, j);
+    }
+}
+
+/// Murty's matrix: 1 on the diagonal, 2 above it.
+pub fn murty(order: usize) -> DMatrix<f64> {
+    DMatrix::from_fn(order, order, |i, j| match i.cmp(&j) {
+        Ordering::Less => 2.0,
+        Ordering::Equal => 1.0,
+        Ordering::Greater => 0.0,
+    })
 }
 
 /// A solution (t, x), with e'x_s = 1.
