@@ -5,6 +5,7 @@
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
 use mceip::picture::{CostSeries, Picture, cost_picture};
+use std::str::{FromStr, Split};
 
 pub const CSV: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
@@ -33,50 +34,34 @@ pub struct Run {
 
 impl Run {
     pub fn line(&self) -> String {
-        let Run {
-            case,
-            slip,
-            free,
-            complete,
-            check,
-            leaves,
-            solutions,
-            open,
-            kilobytes,
-        } = self;
+        let sizes = format!("{},{},{}", self.case, self.slip, self.free);
+        let seconds = format!("{:.3},{:.3}", self.complete, self.check);
+        let counts = [self.leaves, self.solutions, self.open, self.kilobytes];
         format!(
-            "{case},{slip},{free},{complete:.3},{check:.3},{leaves},{solutions},{open},{kilobytes}"
+            "{sizes},{seconds},{}",
+            counts.map(|n| n.to_string()).join(",")
         )
     }
 
     fn read(line: &str) -> Option<Run> {
-        let fields: Vec<&str> = line.split(',').collect();
-        let [
-            case,
-            slip,
-            free,
-            complete,
-            check,
-            leaves,
-            solutions,
-            open,
-            kilobytes,
-        ] = fields[..]
-        else {
-            return None;
+        let mut fields = line.split(',');
+        let run = Run {
+            case: next(&mut fields)?,
+            slip: next(&mut fields)?,
+            free: next(&mut fields)?,
+            complete: next(&mut fields)?,
+            check: next(&mut fields)?,
+            leaves: next(&mut fields)?,
+            solutions: next(&mut fields)?,
+            open: next(&mut fields)?,
+            kilobytes: next(&mut fields)?,
         };
-        Some(Run {
-            case: case.into(),
-            slip: slip.parse().ok()?,
-            free: free.parse().ok()?,
-            complete: complete.parse().ok()?,
-            check: check.parse().ok()?,
-            leaves: leaves.parse().ok()?,
-            solutions: solutions.parse().ok()?,
-            open: open.parse().ok()?,
-            kilobytes: kilobytes.parse().ok()?,
-        })
+        fields.next().is_none().then_some(run)
     }
+}
+
+fn next<T: FromStr>(fields: &mut Split<'_, char>) -> Option<T> {
+    fields.next()?.parse().ok()
 }
 
 /// The runs of a table; lines with a # are comments.
