@@ -6,25 +6,25 @@
 //! no obligation with the checker.
 #![cfg(feature = "testkit")]
 
+use crate::corpus_reader::entry;
 use mceip_check::certificate::{
     Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution,
 };
 use mceip_check::check;
-use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, flattened, lifted, propose};
 use mceip_exact::{
-    Algebraic, Integer, Interval, Poly, Rational, Sign, Sparse, common_denominator, rational,
-    roots_in, whole,
+    Algebraic, Integer, Interval, Poly, Rational, Sign, common_denominator, roots_in,
 };
-use mceip_model::file::Number;
+use mceip_model::file::{Number, read_problem};
 use mceip_model::reduction::{lift, reduce};
-use mceip_model::{Body, Pencil, Problem, Reduced, Unknown, Window};
+use mceip_model::{Body, Problem, Reduced};
 use mceip_oracle::{Enumeration, enumerate, is_solution};
-use mceip_testkit::{degenerate, mechanical, mutate, random_pencils};
+use mceip_testkit::{degenerate, in_doubles, mechanical, random_pencils};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
+use std::path::Path;
 
 /// A problem, its true certificates and the oracle's answer.
 struct Subject {
@@ -42,11 +42,7 @@ impl Subject {
         let mut certificates = Vec::new();
 
         for solution in &truth.solutions {
-            let decimals = solution.x_decimals(&slip, 17);
-            let candidate = Candidate {
-                value: solution.decimal(17).parse().unwrap(),
-                x: decimals.iter().map(|text| text.parse().unwrap()).collect(),
-            };
+            let candidate = in_doubles(solution, &slip);
             let claim = propose(&reduced.pencil, problem.window(), &candidate).unwrap();
 
             if let (Body::System(system), Claim::ExactSolution(exact)) = (problem.body(), &claim) {
@@ -170,27 +166,13 @@ fn polynomials(list: &[Vec<Number>]) -> Vec<Poly> {
 
 /// t = 3 with x = (1/2, 1/2), in a box.
 fn boxed() -> Subject {
-    let a = Sparse::from_ints(&[&[-1, -2], &[-2, -1]]);
-    let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
-    let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
-
-    let sixteen_times_inverse = [[2, -2, 8], [-2, 2, 8], [16, 16, 0]];
-    let claim = EnclosedSolution {
-        support: vec![0, 1],
-        center: [rational(1, 2), rational(1, 2), whole(3)]
-            .map(Number)
-            .to_vec(),
-        radius: vec![Number(rational(1, 1 << 20)); 3],
-        preconditioner: sixteen_times_inverse
-            .map(|row| row.map(Integer::from).to_vec())
-            .to_vec(),
-        exponent: 4,
-    };
-
-    let mut subject = Subject::of(problem);
-    let enclosed = certificate(&subject.problem, vec![Claim::EnclosedSolution(claim)]);
-    subject.certificates = vec![enclosed];
-    subject
+    let entry = entry("accept/enclosed");
+    let problem = read_problem(&entry.problem, Path::new("/")).unwrap();
+    let enclosed = Certificate::from_json(&entry.certificate).unwrap();
+    Subject {
+        certificates: vec![enclosed],
+        ..Subject::of(problem)
+    }
 }
 
 /// Degenerate pencils, random pencils and random systems that have a solution, and `boxed`.
@@ -199,14 +181,9 @@ fn subjects() -> Vec<Subject> {
     instances.extend(random_pencils(25, 11).unwrap());
     instances.extend(mechanical(25, 12).unwrap());
 
-    let mut subjects = Vec::new();
-    for instance in instances {
-        let subject = Subject::of(instance.problem);
-        if !subject.certificates.is_empty() {
-            subjects.push(subject);
-        }
-    }
-
+    let all = instances.into_iter().map(|i| Subject::of(i.problem));
+    let mut subjects: Vec<Subject> = all.collect();
+    subjects.retain(|subject| !subject.certificates.is_empty());
     subjects.push(boxed());
     subjects
 }
@@ -231,10 +208,11 @@ fn forgeries(count: usize, seed: u64) {
         let subject = &subjects[rng.random_range(0..subjects.len())];
         let original = &subject.certificates[rng.random_range(0..subject.certificates.len())];
 
-        let mut forged = original.clone();
-        for _ in 0..rng.random_range(1..=3) {
-            mutate(&mut forged, &mut rng);
-        }
+        let mut text = serde_json::from_str(&original.to_json()).unwrap();
+        crate::structural::mutate(&mut text, &[], &mut rng);
+        let Ok(forged) = Certificate::from_json(&text.to_string()) else {
+            continue;
+        };
         if forged != *original {
             judge(subject, &forged, &mut judged);
         }

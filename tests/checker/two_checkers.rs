@@ -16,7 +16,6 @@ use crate::verified_checker::verdicts_on;
 use crate::{python_checker, verified_checker};
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{Accepted, check};
-use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, certify, lifted};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
@@ -26,7 +25,7 @@ use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
 use mceip_testkit::verified::VerifiedVerdict;
-use mceip_testkit::{known, mechanical_pencil, random_pencils};
+use mceip_testkit::{in_doubles, known, mechanical_pencil, random_pencils};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
@@ -349,15 +348,9 @@ fn claimed(problem: &Problem) -> Option<Forgery> {
     let slip = pencil.slip();
     let truth = enumerate(&pencil, problem.window()).unwrap();
 
-    let mut claims = Vec::new();
-    for solution in &truth.solutions {
-        let decimals = solution.x_decimals(&slip, 17);
-        let candidate = Candidate {
-            value: solution.decimal(17).parse().unwrap(),
-            x: decimals.iter().map(|text| text.parse().unwrap()).collect(),
-        };
-        claims.extend(certify(problem, &pencil, &candidate).ok());
-    }
+    let candidates = truth.solutions.iter().map(|s| in_doubles(s, &slip));
+    let claims = candidates.filter_map(|candidate| certify(problem, &pencil, &candidate).ok());
+    let claims: Vec<Claim> = claims.collect();
 
     if claims.is_empty() {
         return None;

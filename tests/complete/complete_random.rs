@@ -468,6 +468,29 @@ fn twenty_thousand_small_pencils_agree_families_included() {
     assert!(met.complete >= 19_000, "complete: {}", met.complete);
 }
 
+/// (t^2 - 2)^2 on one variable: an irrational double root, single and alone; its neighbourhood
+/// cannot be passed over.
+#[test]
+fn an_irrational_double_root_is_isolated() {
+    let a = Sparse::from_ints(&[
+        &[0, -2, 1, 0],
+        &[-1, 0, 0, 1],
+        &[0, 0, 0, -2],
+        &[0, 0, -1, 0],
+    ]);
+    let pencil = Pencil::new(a, Sparse::identity(4), vec![]).unwrap();
+    let window = Window::new(whole(0), Some(whole(4))).unwrap();
+    let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap();
+
+    let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+
+    assert!(found.is_complete());
+    assert!(!found.cover.solutions.is_empty());
+    let mut wrong = disagreements(&found.cover, &truth(&problem));
+    wrong.extend(family_disagreements(&problem, &found.cover));
+    assert_eq!(wrong, [""; 0]);
+}
+
 #[test]
 fn families_with_known_answers_agree() {
     let cases = cases_of_the_testkit(12);

@@ -112,13 +112,15 @@ fn change_rational(certificate: &mut Value, rng: &mut ChaCha8Rng) {
     let Some(old) = as_number(value) else { return };
     let is_integer = old.is_integer();
 
-    let new = match rng.random_range(0..7) {
+    let new = match rng.random_range(0..8) {
         0 => -old,
         1 => lent.as_ref().and_then(as_number).unwrap_or(old),
         2 => old + rational(1, 1),
         3 => old * rational(1000, 1),
         4 => old * rational(1, 1000),
         5 => draw_rational(rng),
+        // So little that doubles do not see it.
+        6 => old + rational(1, 10).pow(rng.random_range(0..=30)),
         _ => old * rational(rng.random_range(1..=9), rng.random_range(1..=9)),
     };
     // Most integers of a file have to stay some, or it cannot be read.
@@ -229,7 +231,8 @@ fn exchange_node(certificate: &mut Value, pool: &[Value], rng: &mut ChaCha8Rng) 
         0 => own,
         1 => json!("open"),
         2 => json!(["positive_definite", "negative_definite", "tail"][rng.random_range(0..3)]),
-        _ => pool[rng.random_range(0..pool.len())].clone(),
+        _ if !pool.is_empty() => pool[rng.random_range(0..pool.len())].clone(),
+        _ => return,
     };
     tree[at] = node;
 }

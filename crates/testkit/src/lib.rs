@@ -14,7 +14,6 @@
 //! conform                                        the pack for other programs: `mceip conform`
 //! floors                                         how often the solver has to find what exists
 //! verified                                       the checker of `proofs/`, as a process
-//! mutate                                         random changes of certificates, for tests
 //! ```
 //!
 //! Everything is compared with the plain enumerator of `mceip-oracle`; a difference is a
@@ -34,7 +33,6 @@ pub mod generators;
 mod interior;
 pub mod known;
 mod large;
-mod mutate;
 pub mod pareto;
 pub mod targets;
 pub mod verified;
@@ -55,5 +53,4 @@ pub use interior::{
     INTERIOR_STARTS, InteriorStart, from_interior, interior_starts, path_coverage, path_options,
 };
 pub use large::{backslash_block, condensed_in_doubles, mechanical_pencil, refined_block};
-pub use mutate::mutate;
 pub use verify::{FamilyReport, Verification, verify, verify_family};
