@@ -32,7 +32,25 @@ pub(crate) fn tests() -> Vec<Trial> {
     }
 
     assert!(!tests.is_empty());
+    tests.push(Trial::test(
+        "transcripts::name_every_malformed_file",
+        || {
+            every_malformed_file_is_read();
+            Ok(())
+        },
+    ));
     tests
+}
+
+fn every_malformed_file_is_read() {
+    let page = std::fs::read_to_string(Path::new(ROOT).join("tests/transcripts/malformed.md"));
+    let page = page.unwrap();
+
+    for file in std::fs::read_dir(Path::new(ROOT).join("tests/malformed")).unwrap() {
+        let name = file.unwrap().file_name();
+        let path = format!("[ROOT]/tests/malformed/{}\n", name.display());
+        assert!(page.contains(&path), "{path}");
+    }
 }
 
 fn is_what_comes_out(path: &Path) -> Result<(), Failed> {

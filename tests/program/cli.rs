@@ -1,12 +1,11 @@
-//! The program from outside: malformed input, the chain of commands, exit codes.
+//! The program from outside: particles in contact with zero reaction through the chain of commands,
+//! and `verify`.
 //!
-//! The truth is the list of expected words below, the number of solutions of each example, and the
-//! agreement of the commands: what one writes the next must take, and what was changed it must not.
+//! The truth is the solution of each problem and the agreement of the commands: what one writes the
+//! next must take, and for another problem it must not.
 #![cfg(feature = "cli")]
 
-use crate::common::{
-    contains_all, exits, exits_with_json, read, refused, repository, run, started,
-};
+use crate::common::{contains_all, exits, exits_with_json, read, started};
 use crate::corpus_reader::entry;
 #[cfg(unix)]
 use crate::interrupt::interrupt;
@@ -23,71 +22,6 @@ const MODES: [&str; 5] = [
     "zero-left",
     "zero-open-mu",
 ];
-
-#[test]
-fn malformed_problems_are_refused_in_one_line() {
-    let expected: [(&str, &[&str]); 27] = [
-        ("empty", &["line 1"]),
-        ("truncated", &["EOF"]),
-        ("not-json", &["line 1", "expected"]),
-        ("nan", &["expected value"]),
-        ("deep", &["line 1"]),
-        ("duplicate-key", &["duplicate field"]),
-        ("wrong-version", &["mceip-problem/1", "mceip-problem/9"]),
-        ("unknown-field", &["colour"]),
-        ("ragged", &["K", "row 1", "4", "3"]),
-        ("non-symmetric", &["E3", "K[0][1] = 0", "-12/25"]),
-        ("nan-string", &["NaN"]),
-        ("index-out-of-range", &["normal", "9", "4"]),
-        ("particle-twice", &["particles 0 and 2", "0"]),
-        ("sign-zero", &["particle 0", "sign", "0"]),
-        ("absurd-size", &["1000000", "1000000000000000"]),
-        ("absurd-exponent", &["exponent"]),
-        ("friction-zero", &["friction > 0", "particle 0"]),
-        (
-            "friction-factor-zero",
-            &["particle 1", "friction_factor > 0"],
-        ),
-        ("friction-factor-word", &["rough"]),
-        ("mass-not-definite", &["E3", "M positive definite", "-1"]),
-        ("both-bodies", &["exactly one"]),
-        ("window-reversed", &["min = 3", "max = 2"]),
-        ("window-negative", &["min = -1"]),
-        ("missing-market-file", &["nowhere.mtx"]),
-        ("negative-index", &["line"]),
-        ("reaction-outside-cone", &["E7", "particle 0", "-mu r_N"]),
-        ("not-square", &["E3", "K"]),
-    ];
-    let mut listed: Vec<&str> = expected.iter().map(|(name, _)| *name).collect();
-    listed.sort();
-
-    assert_eq!(malformed_files(), listed, "every malformed file is tested");
-
-    for (name, words) in expected {
-        let file = repository(&format!("tests/malformed/{name}.json"));
-        // What only answers takes mu = 0 for a question, which a theorem answers.
-        let commands: &[&str] = match name {
-            "friction-zero" => &["reduce", "simulate"],
-            _ => &["enumerate", "solve", "reduce"],
-        };
-        for command in commands {
-            refused(&format!("{command} {file}"), words);
-        }
-    }
-}
-
-/// The names of the files of `tests/malformed`, sorted.
-fn malformed_files() -> Vec<String> {
-    let mut names = Vec::new();
-    for entry in std::fs::read_dir(repository("tests/malformed")).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_stem().unwrap().to_string_lossy();
-        names.push(name.into_owned());
-    }
-
-    names.sort();
-    names
-}
 
 /// Reports on a problem with a particle in contact with zero reaction, by x and by v: each mode is
 /// accepted and certified, what is no solution is refuted by `check` and stays without a
@@ -218,16 +152,6 @@ fn zero_reaction_is_analysed() {
 fn zero_reaction_problem(folder: &Folder, name: &str) -> String {
     let problem = entry(&format!("accept/{name}")).problem;
     folder.write(&format!("{name}.json"), &problem)
-}
-
-#[test]
-fn table1_agrees_with_its_closed_form() {
-    let table = exits(0, "table1");
-    contains_all(&table, &["closed form = enumerator = certified"]);
-
-    let table = run("table1 --c 0 --s 1").stdout;
-    let all_slip = table.lines().filter(|line| line.contains("[0, 1]"));
-    assert_eq!(all_slip.count(), 2, "{table}");
 }
 
 /// What it finds is `tests/campaign/verify.rs`.
