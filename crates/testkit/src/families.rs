@@ -97,6 +97,18 @@ pub struct Instance {
     pub corners: Vec<Corner>,
 }
 
+impl Instance {
+    /// A problem without a closed form.
+    pub fn new(label: String, problem: Problem, corners: Vec<Corner>) -> Instance {
+        Instance {
+            label,
+            problem,
+            closed_form: None,
+            corners,
+        }
+    }
+}
+
 /// The two particles of Fig. 1: all sign patterns, Pythagorean angles, rational k, m and mu, with
 /// mu on, just below and just above each rational threshold.
 ///
@@ -239,12 +251,9 @@ pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError>
     }
 
     let word = unknown.word();
-    Ok(Instance {
-        label: format!("random pencil {k} (seed {seed}) n_s={n_s} n_f={n_f} {word}"),
-        problem: Problem::new(Body::Pencil(pencil), unknown, Window::all())?,
-        closed_form: None,
-        corners,
-    })
+    let label = format!("random pencil {k} (seed {seed}) n_s={n_s} n_f={n_f} {word}");
+    let problem = Problem::new(Body::Pencil(pencil), unknown, Window::all())?;
+    Ok(Instance::new(label, problem, corners))
 }
 
 /// Random mechanical systems with every mixture of free, stick and slip particles, oblique frames,
@@ -283,14 +292,10 @@ pub(super) fn mechanical_system(k: usize, seed: u64) -> Result<Instance, ModelEr
     let system = System::new(stiffness, Some(mass), Some(friction), particles)?;
 
     let word = unknown.word();
-    Ok(Instance {
-        label: format!(
-            "mechanical system {k} (seed {seed}) particles={contact} inner={inner} {word}"
-        ),
-        problem: Problem::new(Body::System(system), unknown, Window::all())?,
-        closed_form: None,
-        corners,
-    })
+    let label =
+        format!("mechanical system {k} (seed {seed}) particles={contact} inner={inner} {word}");
+    let problem = Problem::new(Body::System(system), unknown, Window::all())?;
+    Ok(Instance::new(label, problem, corners))
 }
 
 /// The first particle always slips, so that there is a problem.
@@ -376,12 +381,12 @@ type Degenerate<'a> = (&'a str, Rows<'a>, Rows<'a>, &'a [usize], Unknown, Corner
 fn degenerate_instance(
     (name, a, b, free, unknown, corner): Degenerate<'_>,
 ) -> Result<Instance, ModelError> {
-    Ok(Instance {
-        label: format!("degenerate: {name}"),
-        problem: small_problem(a, b, free, unknown)?,
-        closed_form: None,
-        corners: vec![corner],
-    })
+    let problem = small_problem(a, b, free, unknown)?;
+    Ok(Instance::new(
+        format!("degenerate: {name}"),
+        problem,
+        vec![corner],
+    ))
 }
 
 /// The system of a problem that has one.

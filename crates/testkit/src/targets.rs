@@ -24,10 +24,11 @@ use super::compare::{Treatment, compare_by, in_doubles};
 use super::disagreement::Disagreement;
 use super::families::Instance;
 use super::forge::forgeries;
+use super::generators::matrix;
 use mceip_check::certificate::Certificate;
 use mceip_check::check;
 use mceip_engine::certify::{certificate, propose};
-use mceip_exact::{Sparse, whole};
+use mceip_exact::{Rational, Sparse, whole};
 use mceip_model::file::{read_problem, write_problem};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Reduced, Unknown, Window};
@@ -71,14 +72,13 @@ pub fn solver_against_oracle_by(data: &[u8], treatment: &Treatment, counter: &Co
         return;
     };
 
-    let instance = Instance {
-        label: format!("fuzz {data:?}"),
-        problem,
-        closed_form: None,
-        corners: Vec::new(),
-    };
+    let instance = Instance::new(format!("fuzz {data:?}"), problem, Vec::new());
+    engines_agree(&instance, treatment, counter);
+}
 
-    let report = compare_by(&instance, treatment);
+/// Every engine on an instance, and a count of what the solver found.
+fn engines_agree(instance: &Instance, treatment: &Treatment, counter: &Counter) {
+    let report = compare_by(instance, treatment);
     assert!(
         report.disagreements.is_empty(),
         "{}: {:?}\n{}",
@@ -156,23 +156,20 @@ fn small_problem(data: &[u8]) -> Option<Problem> {
         Unknown::Lambda2
     };
 
-    let a = digit_matrix(entries, n, 0);
-    let b = digit_matrix(entries, n, n * n);
+    let digit = |byte: u8| whole(i64::from(byte % 9) - 4);
+    let a = matrix_of(entries, n, 0, digit);
+    let b = matrix_of(entries, n, n * n, digit);
     let free = (0..n).filter(|i| mask >> i & 1 == 1).collect();
     let pencil = Pencil::new(a, b, free).ok()?;
     Problem::new(Body::Pencil(pencil), unknown, Window::all()).ok()
 }
 
 /// The matrix of order n whose first entry is made of the byte at `offset`, row by row.
-fn digit_matrix(data: &[u8], n: usize, offset: usize) -> Sparse {
-    let mut entries = Vec::new();
-    for i in 0..n {
-        for j in 0..n {
-            let byte = data.get(offset + i * n + j).copied().unwrap_or(0);
-            entries.push((i, j, whole(i64::from(byte % 9) - 4)));
-        }
-    }
-    Sparse::from_entries(n, n, entries)
+fn matrix_of(data: &[u8], n: usize, offset: usize, number: impl Fn(u8) -> Rational) -> Sparse {
+    matrix(n, |i, j| {
+        let byte = data.get(offset + i * n + j);
+        number(byte.copied().unwrap_or(0))
+    })
 }
 
 /// A target's name and body.

@@ -29,12 +29,7 @@ impl Made {
     /// An instance of whose answer nothing is known.
     pub(super) fn new(problem: Problem, corners: Vec<Corner>) -> Made {
         Made {
-            instance: Instance {
-                label: String::new(),
-                problem,
-                closed_form: None,
-                corners,
-            },
+            instance: Instance::new(String::new(), problem, corners),
             expected: Expected::default(),
         }
     }

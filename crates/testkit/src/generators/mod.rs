@@ -70,7 +70,7 @@ fn drawn(n: usize, mut entry: impl FnMut() -> i64) -> Vec<Vec<i64>> {
 }
 
 /// A matrix of order n whose entries are functions of row and column, formed row by row.
-fn matrix(n: usize, mut entry: impl FnMut(usize, usize) -> Rational) -> Sparse {
+pub(crate) fn matrix(n: usize, mut entry: impl FnMut(usize, usize) -> Rational) -> Sparse {
     let mut entries = Vec::new();
     for i in 0..n {
         for j in 0..n {
@@ -87,7 +87,7 @@ pub fn gram(rng: &mut ChaCha8Rng, n: usize, identity: i64) -> Vec<Vec<i64>> {
 }
 
 /// The same of a given G.
-pub(crate) fn gram_of(g: &[Vec<i64>], identity: i64) -> Vec<Vec<i64>> {
+pub fn gram_of(g: &[Vec<i64>], identity: i64) -> Vec<Vec<i64>> {
     let n = g.len();
     let mut product = vec![vec![0; n]; n];
     for i in 0..n {

@@ -33,13 +33,23 @@ pub fn elements(
     }
     let k1 = sparse(&k1);
 
+    of_elements(unknown, n_f, [k0, k1, mass], || {
+        rational(rng.random_range(1..=9), 3)
+    })
+}
+
+/// K0 + mu K1 of MCEIP-mu, or K0 + mu K1 and M of MCEIP-lambda2 under a friction that is drawn
+/// last. The free variables come first.
+pub(super) fn of_elements(
+    unknown: Unknown,
+    n_f: usize,
+    [k0, k1, mass]: [Sparse; 3],
+    friction: impl FnOnce() -> Rational,
+) -> Result<Pencil, ModelError> {
     let free = (0..n_f).collect();
     match unknown {
         Unknown::Mu => Pencil::new(k0, k1, free),
-        Unknown::Lambda2 => {
-            let friction = rational(rng.random_range(1..=9), 3);
-            Pencil::new(k0.add_scaled(&friction, &k1), mass, free)
-        }
+        Unknown::Lambda2 => Pencil::new(k0.add_scaled(&friction(), &k1), mass, free),
     }
 }
 

@@ -4,7 +4,7 @@
 //! whose condition number is large, or whose entries differ in size by many decades. Called by the
 //! campaign's families `scales`, `integers` and `doubles`.
 
-use super::raw::elements;
+use super::raw::{elements, of_elements};
 use super::{matrix, power_of_ten, rebuilt};
 use mceip_exact::{Rational, Sparse, from_f64, rational, whole};
 use mceip_model::{ModelError, Pencil, Unknown};
@@ -35,14 +35,9 @@ pub fn hilbert(
     }
     let k1 = Sparse::from_entries(n, n, entries);
 
-    let free = (0..n_f).collect();
-    match unknown {
-        Unknown::Mu => Pencil::new(k0, k1, free),
-        Unknown::Lambda2 => {
-            let friction = rational(rng.random_range(1..=20), 10);
-            Pencil::new(k0.add_scaled(&friction, &k1), mass, free)
-        }
-    }
+    of_elements(unknown, n_f, [k0, k1, mass], || {
+        rational(rng.random_range(1..=20), 10)
+    })
 }
 
 /// The matrix of all 1 / (i + j + from).

@@ -3,6 +3,7 @@
 //! Input: bytes of a fuzzer, which make a small pencil and a window. A disagreement is a panic.
 //! Called by the fuzz target `complete_against_plain`.
 
+use super::matrix_of;
 use crate::completed::compare_within;
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::file::write_problem;
@@ -46,9 +47,9 @@ fn windowed(data: &[u8]) -> Option<Problem> {
         Unknown::Lambda2
     };
 
-    let a = matrix(entries, head, n, 0);
+    let a = matrix_of(entries, n, 0, |byte| number(head, byte));
     let b = if head & 0x20 == 0 {
-        matrix(entries, head, n, n * n)
+        matrix_of(entries, n, n * n, |byte| number(head, byte))
     } else {
         Sparse::identity(n)
     };
@@ -69,18 +70,6 @@ fn window(view: u8) -> Option<Window> {
         _ => Ok(Window::all()),
     };
     window.ok()
-}
-
-/// The matrix of order n whose first entry is made of the byte at `offset`, row by row.
-fn matrix(data: &[u8], head: u8, n: usize, offset: usize) -> Sparse {
-    let mut entries = Vec::new();
-    for i in 0..n {
-        for j in 0..n {
-            let byte = data.get(offset + i * n + j).copied().unwrap_or(0);
-            entries.push((i, j, number(head, byte)));
-        }
-    }
-    Sparse::from_entries(n, n, entries)
 }
 
 /// Small integers, or numbers of very different size; `head` chooses which.
