@@ -39,32 +39,24 @@ fn drops_every_second(
     search: &Search,
     watch: &Watch<'_>,
 ) -> Result<Found, SearchError> {
-    let mut found = multistart(problem, reduced, search, watch)?;
-    let mut index = 0;
-    found.certified.retain(|_| {
-        index += 1;
-        index % 2 == 0
-    });
-
-    Ok(found)
+    let found = multistart(problem, reduced, search, watch)?;
+    Ok(every_second_from(1, found))
 }
 
-/// A solver that forgets every second solution, the second one first: an instance with one solution
-/// is not touched.
+/// The same with the second one first: an instance with one solution is not touched.
 fn keeps_every_first(
     problem: &Problem,
     reduced: &Reduced,
     search: &Search,
     watch: &Watch<'_>,
 ) -> Result<Found, SearchError> {
-    let mut found = multistart(problem, reduced, search, watch)?;
-    let mut index = 0;
-    found.certified.retain(|_| {
-        index += 1;
-        index % 2 == 1
-    });
+    let found = multistart(problem, reduced, search, watch)?;
+    Ok(every_second_from(0, found))
+}
 
-    Ok(found)
+fn every_second_from(first: usize, mut found: Found) -> Found {
+    found.certified = found.certified.into_iter().skip(first).step_by(2).collect();
+    found
 }
 
 /// The solvers with a fault.

@@ -18,6 +18,7 @@ use mceip_model::ModelError;
 use mceip_model::file::{read_loads, read_problem};
 use mceip_model::reduction::reduce;
 use serde_json::{Value, json};
+use std::fmt::{Debug, Display};
 use std::path::{Path, PathBuf};
 
 fn root(path: &str) -> PathBuf {
@@ -547,6 +548,31 @@ impl Tally {
             self.invalid += 1;
         }
     }
+
+    /// Of each damaged copy the schema says what it has to; `expected`: whether it has to take the
+    /// text, and what the reader answers.
+    fn agree(
+        &mut self,
+        schema: &Validator,
+        files: &[Value],
+        expected: impl Fn(&str) -> (bool, String),
+    ) {
+        for copy in files.iter().flat_map(damaged) {
+            let is_valid = schema.is_valid(&copy);
+            let (expected, read) = expected(&copy.to_string());
+            assert_eq!(is_valid, expected, "{copy}: {read}");
+            self.count(is_valid);
+        }
+    }
+}
+
+/// A schema has to take what is read, and what is refused for its meaning alone.
+fn taken_unless<T: Debug, E: Debug>(
+    read: Result<T, E>,
+    is_of_meaning: impl Fn(&E) -> bool,
+) -> (bool, String) {
+    let is_taken = read.as_ref().err().is_none_or(is_of_meaning);
+    (is_taken, format!("{read:?}"))
 }
 
 /// The same for foreign reports and certificates, whose readers check shapes only.
@@ -556,8 +582,7 @@ fn the_readers_of_reports_and_certificates_agree_with_the_schemas() {
 
     damaged_reports_agree(&mut tally);
     damaged_certificates_agree(&mut tally);
-    damaged_absences_agree(&mut tally);
-    damaged_presences_agree(&mut tally);
+    damaged_frictions_agree(&mut tally);
     damaged_equilibria_agree(&mut tally);
 
     assert!(tally.invalid > 50, "{tally:?}");
@@ -578,10 +603,8 @@ fn damaged_reports_agree(tally: &mut Tally) {
         "continua": [{ "slip": [0], "intervals": [interval] }],
     });
 
-    for copy in damaged(&report) {
-        let is_valid = solutions.is_valid(&copy);
-        let read = ForeignReport::read(&copy.to_string(), &problem, &reduced);
-
+    tally.agree(&solutions, &[report], |text| {
+        let read = ForeignReport::read(text, &problem, &reduced);
         let expected = match &read {
             // A solution without x is judged by itself; the schema wants one in each.
             Ok(report) => !has_a_solution_without_vector(report),
@@ -590,10 +613,8 @@ fn damaged_reports_agree(tally: &mut Tally) {
             Err(ForeignError::Digest { .. }) => true,
             Err(_) => false,
         };
-
-        assert_eq!(is_valid, expected, "{copy}: {read:?}");
-        tally.count(is_valid);
-    }
+        (expected, format!("{read:?}"))
+    });
 }
 
 fn has_a_solution_without_vector(report: &ForeignReport) -> bool {
@@ -632,69 +653,35 @@ fn damaged_certificates_agree(tally: &mut Tally) {
     }
 }
 
-/// Absence below a friction: the schema lists every kind of node.
-fn damaged_absences_agree(tally: &mut Tally) {
-    let schema = schema("mceip-critical-1");
+/// Absence below a friction and presence on an interval: the schemas list every kind of node.
+fn damaged_frictions_agree(tally: &mut Tally) {
+    // That -1/2 is no integer follows from its meaning: a schema cannot divide.
+    let is_of_meaning = |e: &dyn Display| e.to_string().contains("expected an integer");
+    let example = |name: &str| read(&root(&format!("spec/examples/certificates/{name}.json")));
 
-    for name in ["critical", "critical-free"] {
-        let path = format!("spec/examples/certificates/{name}.json");
-        for copy in damaged(&read(&root(&path))) {
-            let is_valid = schema.is_valid(&copy);
-            let read = CriticalCertificate::from_json(&copy.to_string());
+    let absences = ["critical", "critical-free"].map(example);
+    tally.agree(&schema("mceip-critical-1"), &absences, |text| {
+        taken_unless(CriticalCertificate::from_json(text), |e| is_of_meaning(e))
+    });
 
-            // That -1/2 is no integer follows from its meaning: a schema cannot divide.
-            let of_meaning = match &read {
-                Ok(_) => false,
-                Err(e) => e.to_string().contains("expected an integer"),
-            };
-            assert_eq!(is_valid, read.is_ok() || of_meaning, "{copy}: {read:?}");
-            tally.count(is_valid);
-        }
-    }
-}
-
-/// Presence on an interval of friction.
-fn damaged_presences_agree(tally: &mut Tally) {
-    let schema = schema("mceip-presence-1");
-
-    for name in ["presence", "presence-fold", "presence-free"] {
-        let path = format!("spec/examples/certificates/{name}.json");
-        for copy in damaged(&read(&root(&path))) {
-            let is_valid = schema.is_valid(&copy);
-            let read = PresenceCertificate::from_json(&copy.to_string());
-
-            // That -1/2 is no integer follows from its meaning: a schema cannot divide.
-            let of_meaning = match &read {
-                Ok(_) => false,
-                Err(e) => e.to_string().contains("expected an integer"),
-            };
-            assert_eq!(is_valid, read.is_ok() || of_meaning, "{copy}: {read:?}");
-            tally.count(is_valid);
-        }
-    }
+    let presences = ["presence", "presence-fold", "presence-free"].map(example);
+    tally.agree(&schema("mceip-presence-1"), &presences, |text| {
+        taken_unless(PresenceCertificate::from_json(text), |e| is_of_meaning(e))
+    });
 }
 
 /// Contact states under loads.
 fn damaged_equilibria_agree(tally: &mut Tally) {
-    let schema = schema("mceip-equilibrium-1");
+    let is_of_meaning = |e: &dyn Display| e.to_string().contains("expected an integer");
+    let accepted = |name: &str| {
+        let file = read(&root(&format!("spec/corpus/accept/equilibrium-{name}.json")));
+        file["certificate"].clone()
+    };
 
-    for name in ["stick", "slip-box", "zero", "free"] {
-        let file = read(&root(&format!(
-            "spec/corpus/accept/equilibrium-{name}.json"
-        )));
-        for copy in damaged(&file["certificate"]) {
-            let is_valid = schema.is_valid(&copy);
-            let read = EquilibriumCertificate::from_json(&copy.to_string());
-
-            // That -1/2 is no integer follows from its meaning: a schema cannot divide.
-            let of_meaning = match &read {
-                Ok(_) => false,
-                Err(e) => e.to_string().contains("expected an integer"),
-            };
-            assert_eq!(is_valid, read.is_ok() || of_meaning, "{copy}: {read:?}");
-            tally.count(is_valid);
-        }
-    }
+    let certificates = ["stick", "slip-box", "zero", "free"].map(accepted);
+    tally.agree(&schema("mceip-equilibrium-1"), &certificates, |text| {
+        taken_unless(EquilibriumCertificate::from_json(text), |e| is_of_meaning(e))
+    });
 }
 
 /// Plain problems and their solution files.
@@ -702,32 +689,20 @@ fn damaged_equilibria_agree(tally: &mut Tally) {
 fn the_readers_of_plain_problems_agree_with_the_schemas() {
     let mut tally = Tally::default();
 
-    let problems = schema("mceip-mcp-1");
+    // Lengths that do not fit and crossed bounds are of the meaning.
     let problem = read(&root("spec/examples/bounded-mcp.json"));
+    tally.agree(&schema("mceip-mcp-1"), &[problem], |text| {
+        taken_unless(read_mcp(text), |e| matches!(e, FileError::Mcp(_)))
+    });
 
-    for copy in damaged(&problem) {
-        let is_valid = problems.is_valid(&copy);
-        let read = read_mcp(&copy.to_string());
-
-        // Lengths that do not fit and crossed bounds are of the meaning.
-        let of_meaning = matches!(read, Err(FileError::Mcp(_)));
-        assert_eq!(is_valid, read.is_ok() || of_meaning, "{copy}: {read:?}");
-        tally.count(is_valid);
-    }
-
-    let solutions = schema("mceip-mcp-solution-1");
     let solution = json!({
         "format": "mceip-mcp-solution/1",
         "problem_sha256": "ab",
         "z": [["4/3", 2], [1, "-0.5"]],
     });
-
-    for copy in damaged(&solution) {
-        let is_valid = solutions.is_valid(&copy);
-        let read = read_solution(&copy.to_string());
-        assert_eq!(is_valid, read.is_ok(), "{copy}: {read:?}");
-        tally.count(is_valid);
-    }
+    tally.agree(&schema("mceip-mcp-solution-1"), &[solution], |text| {
+        taken_unless(read_solution(text), |_| false)
+    });
 
     assert!(tally.invalid > 50, "{tally:?}");
     assert!(tally.valid > 20, "{tally:?}");
