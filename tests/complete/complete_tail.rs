@@ -12,6 +12,7 @@ use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Completed, Options, complete};
 use mceip_exact::{Sparse, whole};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_testkit::generators::sparse;
 use mceip_testkit::generators::tails::{Mass, tails};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -198,11 +199,6 @@ fn random_rows(rng: &mut ChaCha8Rng, n: usize) -> Vec<Vec<i64>> {
         }
     }
     rows
-}
-
-fn sparse(rows: &[Vec<i64>]) -> Sparse {
-    let rows: Vec<&[i64]> = rows.iter().map(Vec::as_slice).collect();
-    Sparse::from_ints(&rows)
 }
 
 /// A random pencil with B x = y for x = 1 on the moving variables: y = 0 on these and 5 on the

@@ -6,7 +6,8 @@
 //! Answers are compared exactly, and near misses must differ.
 #![cfg(feature = "testkit")]
 
-use mceip_exact::{Algebraic, Integer, Poly, Rational, common_denominator, parse, rational, whole};
+use crate::small::cleared;
+use mceip_exact::{Algebraic, Integer, Poly, Rational, parse, rational, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Body, Pencil, Problem};
 use mceip_oracle::{Enumeration, Solution, enumerate, is_rational_solution};
@@ -206,17 +207,6 @@ fn pareto_matrices_in_mechanical_systems() {
     for pareto in pareto_matrices() {
         assert_published_count(&pareto);
     }
-}
-
-/// The vector times its common denominator, as constant polynomials.
-fn cleared(x: &[Rational]) -> Vec<Poly> {
-    let denominator = common_denominator(x);
-    let mut constants = Vec::new();
-    for value in x {
-        let factor = &denominator / value.denom();
-        constants.push(Poly::constant(value.numer() * factor));
-    }
-    constants
 }
 
 #[test]

@@ -16,6 +16,7 @@ mod oracle_report;
 mod physical;
 mod problem_files;
 mod properties;
+mod small;
 mod stability;
 mod table1;
 mod third_opinion;

@@ -5,6 +5,7 @@
 //! listed twice, an end of a range open instead of closed, or a ray lost beside a line gives
 //! another list than the one written down.
 
+use crate::small::{constants, integer, pencil};
 use mceip_exact::{
     Algebraic, Poly, Rational, Sparse, nonnegative_roots, rational, to_decimal, whole,
 };
@@ -12,12 +13,6 @@ use mceip_model::{Pencil, Window};
 use mceip_oracle::{
     Cone, Enumeration, Piece, SupportRange, enumerate, is_rational_solution, is_solution,
 };
-
-fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
-    let a = Sparse::from_ints(a);
-    let b = Sparse::from_ints(b);
-    Pencil::new(a, b, free.to_vec()).unwrap()
-}
 
 /// (t - 1) I of order 3.
 fn shifted_identity(free: &[usize]) -> Pencil {
@@ -33,14 +28,6 @@ fn solve(pencil: &Pencil) -> Enumeration {
     let found = enumerate(pencil, &Window::all()).unwrap();
     assert!(found.is_complete_list());
     found
-}
-
-fn integer(value: i64) -> Algebraic {
-    Algebraic::rational(whole(value))
-}
-
-fn constants<const N: usize>(values: [i64; N]) -> [Poly; N] {
-    values.map(|c| Poly::from_ints(&[c]))
 }
 
 fn decimal(value: &Algebraic, digits: usize) -> String {
@@ -119,10 +106,10 @@ fn a_cone_is_listed_once_and_its_faces_are_not() {
     assert_eq!(cone.rays, found.solutions);
 
     let one = integer(1);
-    assert!(found.contains(&pencil, &one, &constants([3, 0, 5])));
-    assert!(found.contains(&pencil, &one, &constants([0, 7, 0])));
-    assert!(!found.contains(&pencil, &one, &constants([3, -1, 5])));
-    assert!(!found.contains(&pencil, &one, &constants([0, 0, 0])));
+    assert!(found.contains(&pencil, &one, &constants(&[3, 0, 5])));
+    assert!(found.contains(&pencil, &one, &constants(&[0, 7, 0])));
+    assert!(!found.contains(&pencil, &one, &constants(&[3, -1, 5])));
+    assert!(!found.contains(&pencil, &one, &constants(&[0, 0, 0])));
 
     let all = [0, 1, 2];
     let center = cone.center(&all).x_decimals(&all, 5);
@@ -179,7 +166,7 @@ fn an_irrational_cone() {
 
     // (1, sqrt 2, 1, 0, 2, 2 sqrt 2, 2) is inside; with 3 sqrt 2 it is not even a solution.
     let root_2 = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
-    let mut x = constants([1, 0, 1, 0, 2, 0, 2]);
+    let mut x = constants(&[1, 0, 1, 0, 2, 0, 2]);
     x[1] = times_value(1);
     x[5] = times_value(2);
     assert!(is_solution(&pencil, &root_2, &x));
@@ -332,12 +319,12 @@ fn a_singular_support_of_higher_dimension() {
     assert!(found.solutions.is_empty());
 
     let two = integer(2);
-    assert!(found.contains(&pencil, &two, &constants([3, 2, 0])));
-    assert!(!found.contains(&pencil, &two, &constants([2, 3, 0])));
+    assert!(found.contains(&pencil, &two, &constants(&[3, 2, 0])));
+    assert!(!found.contains(&pencil, &two, &constants(&[2, 3, 0])));
 
     let one = integer(1);
-    assert!(found.contains(&pencil, &one, &constants([1, 0, 0])));
-    assert!(!found.contains(&pencil, &one, &constants([1, 1, 0])));
+    assert!(found.contains(&pencil, &one, &constants(&[1, 0, 0])));
+    assert!(!found.contains(&pencil, &one, &constants(&[1, 1, 0])));
 }
 
 /// Nothing but zeros: every support at every value.

@@ -5,6 +5,7 @@
 //! five. Each wrong vector, value or answer differs from a right one in one part, or in two that
 //! could cancel, so that each line fails for one reason only.
 
+use crate::small::{constants, integer, pencil, sparse};
 use mceip_exact::{Algebraic, Poly, Rational, Sparse, parse, rational, whole};
 use mceip_model::{Pencil, Window};
 use mceip_oracle::{
@@ -13,29 +14,6 @@ use mceip_oracle::{
     is_solution,
 };
 use std::ops::ControlFlow;
-
-fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
-    let a = Sparse::from_ints(a);
-    let b = Sparse::from_ints(b);
-    Pencil::new(a, b, free.to_vec()).unwrap()
-}
-
-fn sparse(rows: &[Vec<i64>]) -> Sparse {
-    let rows: Vec<&[i64]> = rows.iter().map(Vec::as_slice).collect();
-    Sparse::from_ints(&rows)
-}
-
-fn integer(value: i64) -> Algebraic {
-    Algebraic::rational(whole(value))
-}
-
-fn constants(values: &[i64]) -> Vec<Poly> {
-    let mut polynomials = Vec::new();
-    for &value in values {
-        polynomials.push(Poly::from_ints(&[value]));
-    }
-    polynomials
-}
 
 /// Every x >= 0 solves it at every t.
 fn zero_pencil() -> Pencil {

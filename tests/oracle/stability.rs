@@ -6,6 +6,7 @@
 //! numbering. Each test also counts how often its law had something to say.
 #![cfg(feature = "testkit")]
 
+use crate::small::cleared;
 use mceip_engine::analysis::conditions::{DefiniteUntil, condensed};
 use mceip_exact::{
     Algebraic, Integer, Interval, Poly, Rational, Sparse, common_denominator, determinant,
@@ -89,17 +90,6 @@ fn is_scaled_solution(factor: &Rational, first: &Solution, second: &Solution) ->
     let same_biactive = first.biactive == second.biactive;
     let same_value = times(factor, &first.value).equals(&mut second.value.clone());
     same_slip && same_biactive && same_value
-}
-
-/// The vector times its common denominator, as constant polynomials.
-fn cleared(x: &[Rational]) -> Vec<Poly> {
-    let denominator = common_denominator(x);
-    let mut constants = Vec::new();
-    for value in x {
-        let factor = &denominator / value.denom();
-        constants.push(Poly::constant(value.numer() * factor));
-    }
-    constants
 }
 
 /// GG' + I for index = 1 modulo 3, otherwise GG' - 2 I, which may be indefinite; with a random skew

@@ -6,12 +6,13 @@
 //! these ranges. Each side must confirm what the other lists, so a solution too many is noticed as
 //! well as one too few.
 
+use crate::small::sparse;
 use crate::third::field::Alpha;
 use crate::third::poly::{Bracket, Polynomial};
 use crate::third::{Ray, Third, rational_value, same_ray};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use mceip_exact::{Algebraic, Poly, Rational, Sparse, rational};
+use mceip_exact::{Algebraic, Poly, Rational, rational};
 use mceip_model::{Pencil, Window};
 use mceip_oracle::{Cone, End, Enumeration, Piece, Solution, SupportRange, enumerate};
 use num_bigint::BigInt;
@@ -176,11 +177,6 @@ fn compare(a: Vec<Vec<i64>>, b: Vec<Vec<i64>>, free: Vec<usize>, seen: &mut Seen
     comparison.compare_ranges();
     comparison.compare_ends();
     seen.count(&ours);
-}
-
-fn sparse(rows: &[Vec<i64>]) -> Sparse {
-    let rows: Vec<&[i64]> = rows.iter().map(Vec::as_slice).collect();
-    Sparse::from_ints(&rows)
 }
 
 fn sorted(supports: &[Vec<usize>]) -> Vec<Vec<usize>> {

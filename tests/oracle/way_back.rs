@@ -6,6 +6,7 @@
 //! has a denominator and a forgotten scale shows.
 #![cfg(feature = "solver")]
 
+use crate::small::constants;
 use mceip_engine::reduction::{Projected, condense, project};
 use mceip_exact::{Algebraic, Integer, Poly, Rational, Sparse, rational, whole};
 use mceip_model::reduction::{Lifted, Line, check_lines, lift, reduce};
@@ -95,19 +96,15 @@ fn a_lifted_vector_is_v_and_w_over_its_scales() {
 /// The first line of (9) that v and w break, if any, for the particle that slips with this sign.
 fn broken_line(sign: i8, v: [i64; 3], w: [i64; 3]) -> Option<Line> {
     let lifted = Lifted {
-        v: constants(v),
+        v: constants(&v),
         v_scale: 1.into(),
-        w: constants(w),
+        w: constants(&w),
         w_scale: 1.into(),
     };
     let mut value = Algebraic::rational(whole(1));
 
     let checked = check_lines(&system(sign), Unknown::Lambda2, &lifted, &mut value);
     checked.err().map(|error| error.line)
-}
-
-fn constants(values: [i64; 3]) -> Vec<Poly> {
-    values.map(|c| Poly::from_ints(&[c])).to_vec()
 }
 
 /// v_T = -5, v_N = 0; w_T = -5, w_N = 25: S w_T + w_N / 5 = 0 for S = 1.

@@ -4,12 +4,9 @@
 //! The truth is the list of files and the source of the checker. A page without an entry, a link to
 //! a file that is gone or a new reason without a row fails here.
 
+use crate::root;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
-}
 
 fn read(path: &Path) -> String {
     std::fs::read_to_string(path).unwrap()

@@ -4,11 +4,8 @@
 //! The truth is the tables of this file. A new dependency, a float in a part that decides, a second
 //! elimination or a test file that no binary names differs from its table and fails here.
 
+use crate::root;
 use std::path::{Path, PathBuf};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
-}
 
 /// The parts that are crates of their own.
 const CRATES: [&str; 9] = [

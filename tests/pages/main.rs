@@ -8,3 +8,10 @@ mod laws;
 mod mutants;
 mod planted;
 mod traceability;
+
+use std::path::{Path, PathBuf};
+
+/// The repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+}

@@ -4,11 +4,7 @@
 //! The truth is the source files. An entry whose function or operator is gone, or a score below the
 //! least one, fails here.
 
-use std::path::{Path, PathBuf};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
-}
+use crate::root;
 
 fn read(name: &str) -> String {
     std::fs::read_to_string(root().join("spec/mutants").join(name)).unwrap()

@@ -5,6 +5,7 @@
 //! The truth is the source files. A bug whose place has changed, whose test is gone, or that the
 //! report does not mention fails here.
 
+use crate::root;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -25,10 +26,6 @@ struct Hunk {
     before: String,
     /// The text that takes its place.
     after: String,
-}
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
 }
 
 fn read(path: &Path) -> Bug {

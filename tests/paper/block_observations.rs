@@ -5,15 +5,14 @@
 //! the questions can be answered with no is shown on made-up data.
 #![cfg(feature = "testkit")]
 
+use crate::paper_path::{path_of, slip_nodes};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
 use mceip_engine::search::levels::Levels;
 use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::{Body, ContactState, Pencil, Problem, Unknown, Window};
-use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel, MassKind, MeshKind, Plane};
 use mceip_path::{PathEnd, Stretch};
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// A solution of MCEIP-mu.
@@ -43,12 +42,6 @@ struct Observed {
     states: Vec<State>,
     /// The all-slip mu of the last state on rising levels of lambda^2.
     above: Vec<Option<f64>>,
-}
-
-/// How many nodes slip, to either side.
-fn slip_nodes(stretch: &Stretch) -> usize {
-    let [_, left, right, _] = stretch.counts();
-    left + right
 }
 
 impl State {
@@ -82,10 +75,7 @@ impl Observed {
     fn of(model: &BlockModel) -> Observed {
         let block = Block::new(model).unwrap();
         let contact = block.contact_side().unwrap();
-        let loading = Loading::of_the_paper();
-        let path = BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
-            .unwrap()
-            .motion;
+        let path = path_of(&contact);
 
         // The path may end with every node stuck: then the last state with slip nodes counts.
         let mut pencils = contact.pencils();

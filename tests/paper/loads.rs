@@ -63,11 +63,21 @@ impl Instance {
             particle: Particle::plain(2 * k, 2 * k + 1, ContactState::Free),
             gap: whole(0),
         });
+        let stiffness = Sparse::from_entries(4, 4, entries);
+        Instance::of(stiffness, friction, candidates.to_vec(), steps)
+    }
+
+    fn of(
+        stiffness: Sparse,
+        friction: Rational,
+        candidates: Vec<Candidate>,
+        steps: Vec<LoadStep>,
+    ) -> Instance {
         let body = LoadedBody::new(LoadedParts {
-            stiffness: Sparse::from_entries(4, 4, entries),
+            stiffness,
             mass: None,
             friction: Some(friction.clone()),
-            candidates: candidates.to_vec(),
+            candidates,
             held: Vec::new(),
             steps,
         });
@@ -103,19 +113,7 @@ impl Instance {
         let mu = rng.random_range(1..9);
         let friction = rational(mu, 3);
         let candidates = (0..2).map(|k| candidate(rng, k)).collect();
-        let body = LoadedBody::new(LoadedParts {
-            stiffness: stiffness(rng, dofs),
-            mass: None,
-            friction: Some(friction.clone()),
-            candidates,
-            held: Vec::new(),
-            steps,
-        });
-
-        Instance {
-            body: body.unwrap(),
-            friction,
-        }
+        Instance::of(stiffness(rng, dofs), friction, candidates, steps)
     }
 
     pub(crate) fn follow(&self) -> LoadingPath {

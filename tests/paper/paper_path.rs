@@ -16,17 +16,21 @@ pub(crate) struct PaperPath {
 pub(crate) static PAPER_PATH: LazyLock<PaperPath> = LazyLock::new(|| {
     let block = Block::new(&BlockModel::of_the_paper()).unwrap();
     let contact = block.contact_side().unwrap();
-    let loading = Loading::of_the_paper();
-    let path = BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
-        .unwrap()
-        .motion;
-
+    let path = path_of(&contact);
     PaperPath {
         block,
         contact,
         path,
     }
 });
+
+/// The motion of a condensed block under the loading of the paper.
+pub(crate) fn path_of(contact: &Contact) -> LoadingPath {
+    let loading = Loading::of_the_paper();
+    BlockPath::follow(contact, &loading, &|_, _| ControlFlow::Continue(()))
+        .unwrap()
+        .motion
+}
 
 /// How many nodes slip, to either side.
 pub(crate) fn slip_nodes(stretch: &Stretch) -> usize {

@@ -5,6 +5,7 @@
 //! found; a claim that no solution of the complete set confirms fails at once.
 #![cfg(feature = "testkit")]
 
+use crate::paper_path::{path_of, slip_nodes};
 use mceip_check::certificate::Claim;
 use mceip_engine::multistart::{Certified, Found, Search, exact_value, multistart, support};
 use mceip_engine::run::Watch;
@@ -12,9 +13,7 @@ use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::to_f64;
 use mceip_model::Problem;
 use mceip_model::reduction::reduce;
-use mceip_paper::path::{BlockPath, Loading};
 use mceip_paper::{Block, BlockModel, MassKind};
-use std::ops::ControlFlow;
 
 /// Counts over all states with slip nodes.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -32,15 +31,11 @@ struct Tally {
 
 fn search_the_path(block: &Block, how: &Search) -> Tally {
     let contact = block.contact_side().unwrap();
-    let loading = Loading::of_the_paper();
-    let path = BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
-        .unwrap()
-        .motion;
+    let path = path_of(&contact);
 
     let mut tally = Tally::default();
     for stretch in &path.stretches {
-        let [_, left, right, _] = stretch.counts();
-        if left + right == 0 {
+        if slip_nodes(stretch) == 0 {
             continue;
         }
 

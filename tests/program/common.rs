@@ -14,6 +14,11 @@ pub(crate) fn repository(path: &str) -> String {
     format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))
 }
 
+/// A file of `tests/edges`.
+pub(crate) fn edge(name: &str) -> String {
+    repository(&format!("tests/edges/{name}"))
+}
+
 /// A problem of `spec/examples`.
 pub(crate) fn example(name: &str) -> String {
     repository(&format!("spec/examples/{name}.json"))

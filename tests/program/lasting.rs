@@ -5,7 +5,7 @@
 //! certificate is what `mceip check` accepts; that nothing was lost is told by its parts.
 #![cfg(all(feature = "cli", unix))]
 
-use crate::common::{example, exits, problem_text, read, repository, run, started};
+use crate::common::{edge, example, exits, problem_text, read, repository, run, started};
 use crate::interrupt::interrupt;
 use crate::program::Folder;
 use mceip_testkit::known;
@@ -13,10 +13,6 @@ use std::fs::OpenOptions;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
-
-fn edge(name: &str) -> String {
-    repository(&format!("tests/edges/{name}"))
-}
 
 /// The program, to be run with this command line.
 fn program(command: &str) -> Command {

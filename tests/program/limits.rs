@@ -1,14 +1,10 @@
 //! Reports that take long to judge, and states that say something else than what was done.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits, exits_with_json, refused, repository, run};
+use crate::common::{edge, example, exits, exits_with_json, refused, run};
 use crate::program::Folder;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
-
-fn edge(name: &str) -> String {
-    repository(&format!("tests/edges/{name}"))
-}
 
 /// Fifty solutions with numbers of 99,000 digits took 18 seconds to be read.
 fn report_with_long_numbers() -> String {

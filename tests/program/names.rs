@@ -1,13 +1,9 @@
 //! Names that act on a terminal, errors without end, and keys that stand twice.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits_with_json, refused, repository, run, run_words};
+use crate::common::{edge, example, exits_with_json, refused, run, run_words};
 use crate::program::Folder;
 use serde_json::Value;
-
-fn edge(name: &str) -> String {
-    repository(&format!("tests/edges/{name}"))
-}
 
 /// No character of the text acts on a terminal.
 #[track_caller]

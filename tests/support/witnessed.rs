@@ -7,9 +7,10 @@
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
 use mceip_check::certificate::{Certificate, CompleteSet, Node, Piece, Root, RootOutcome};
-use mceip_exact::{Integer, Poly, Rational, Sparse, determinant, rational, roots_in, whole};
+use mceip_exact::{Integer, Poly, Rational, determinant, rational, roots_in, whole};
 use mceip_model::file::Number;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_testkit::generators::sparse;
 use num_traits::{One, Zero};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -122,11 +123,6 @@ fn draw_rows(rng: &mut ChaCha8Rng, order: usize, largest: i64) -> Vec<Vec<i64>> 
         *entry = rng.random_range(-largest..=largest);
     }
     rows
-}
-
-fn sparse(rows: &[Vec<i64>]) -> Sparse {
-    let rows: Vec<&[i64]> = rows.iter().map(|row| &row[..]).collect();
-    Sparse::from_ints(&rows)
 }
 
 /// The rows and columns of a support.
