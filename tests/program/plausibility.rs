@@ -47,16 +47,14 @@ impl Model {
             block,
         };
 
-        model
-            .folder
-            .write("K.mtx", &matrix_market(&model.block.stiffness, 17));
-        model
-            .folder
-            .write("M.mtx", &matrix_market(&model.block.mass, 17));
-        model
-            .folder
-            .write("contacts.csv", &model.contacts(0, PRESSURE));
-        model.folder.write("u.txt", &model.displacements());
+        for (name, text) in [
+            ("K.mtx", matrix_market(&model.block.stiffness, 17)),
+            ("M.mtx", matrix_market(&model.block.mass, 17)),
+            ("contacts.csv", model.contacts(0, PRESSURE)),
+            ("u.txt", model.displacements()),
+        ] {
+            model.folder.write(name, &text);
+        }
         model
     }
 
@@ -233,39 +231,8 @@ fn the_lowest_frequency_and_the_mass_are_those_of_the_block() {
 /// in their places all the same. Four elements of length 100, the contact below the free end.
 #[test]
 fn rotations_are_not_taken_for_exchanged_files() {
-    let length = 100.0_f64;
-    let of_bending = [
-        [12.0, 6.0 * length, -12.0, 6.0 * length],
-        [
-            6.0 * length,
-            4.0 * length * length,
-            -6.0 * length,
-            2.0 * length * length,
-        ],
-        [-12.0, -6.0 * length, 12.0, -6.0 * length],
-        [
-            6.0 * length,
-            2.0 * length * length,
-            -6.0 * length,
-            4.0 * length * length,
-        ],
-    ];
-    let of_mass = [
-        [156.0, 22.0 * length, 54.0, -13.0 * length],
-        [
-            22.0 * length,
-            4.0 * length * length,
-            13.0 * length,
-            -3.0 * length * length,
-        ],
-        [54.0, 13.0 * length, 156.0, -22.0 * length],
-        [
-            -13.0 * length,
-            -3.0 * length * length,
-            -22.0 * length,
-            4.0 * length * length,
-        ],
-    ];
+    let of_bending = element([12.0, 6.0, -12.0, 6.0, 4.0, -6.0, 2.0, 12.0, -6.0, 4.0]);
+    let of_mass = element([156.0, 22.0, 54.0, -13.0, 4.0, 13.0, -3.0, 156.0, -22.0, 4.0]);
 
     let folder = Folder::new();
     folder.write("K.mtx", &beam(&of_bending));
@@ -274,6 +241,19 @@ fn rotations_are_not_taken_for_exchanged_files() {
 
     let text = exits(0, &convert(&folder, FILES));
     assert!(!text.contains("exchanged"), "{text}");
+}
+
+/// The symmetric matrix of an element of length 100 with these entries on the diagonal and to the
+/// right of it; entries at rotations, 1 and 3, are lengths or squares of them.
+fn element(upper: [f64; 10]) -> [[f64; 4]; 4] {
+    let mut matrix = [[0.0; 4]; 4];
+    let places = (0..4).flat_map(|i| (i..4).map(move |j| (i, j)));
+    for ((i, j), value) in places.zip(upper) {
+        let rotations = i % 2 + j % 2;
+        matrix[i][j] = value * 100.0_f64.powi(rotations as i32);
+        matrix[j][i] = matrix[i][j];
+    }
+    matrix
 }
 
 /// The matrix of four elements in a row, the first node held.
@@ -296,50 +276,48 @@ fn beam(element: &[[f64; 4]; 4]) -> String {
     matrix_market(&DoubleMatrix { order: 8, entries }, 17)
 }
 
+/// One fault in each model.
 #[test]
-fn exchanged_matrices_are_named() {
+fn each_fault_is_named() {
     let model = Model::new();
-    let text = model.convert(["M.mtx", "K.mtx", "contacts.csv"], "");
-    warns_only_of(&text, "exchanged");
-}
+    let mut without_reactions = String::from("tangential,normal,normal_direction,state\n");
+    for node in &model.block.contact {
+        writeln!(without_reactions, "{},{},-1,slip-", 2 * node, 2 * node + 1).unwrap();
+    }
+    for (name, text) in [
+        ("short.mtx", matrix_market(&model.block.stiffness, 4)),
+        ("from-1.csv", model.contacts(1, PRESSURE)),
+        ("later.csv", model.contacts(0, 1.25 * PRESSURE)),
+        ("bare.csv", without_reactions),
+    ] {
+        model.folder.write(name, &text);
+    }
 
-#[test]
-fn few_digits_are_named() {
-    let model = Model::new();
-    model
-        .folder
-        .write("short.mtx", &matrix_market(&model.block.stiffness, 4));
-
-    let text = model.convert(["short.mtx", "M.mtx", "contacts.csv"], "");
-    warns_only_of(&text, "few digits");
-}
-
-/// By the masses alone, and by the reactions where displacements are given.
-#[test]
-fn numbers_from_one_are_named() {
-    let model = Model::new();
-    model
-        .folder
-        .write("from-1.csv", &model.contacts(1, PRESSURE));
-
-    let text = model.convert(["K.mtx", "M.mtx", "from-1.csv"], "");
-    warns_only_of(&text, "different masses");
-
-    let text = model.convert(["K.mtx", "M.mtx", "from-1.csv"], "u.txt");
-    assert!(
-        text.contains("WARNING: the reactions are those of K u where every number is one less")
-    );
-}
-
-#[test]
-fn reactions_of_another_step_are_named() {
-    let model = Model::new();
-    model
-        .folder
-        .write("later.csv", &model.contacts(0, 1.25 * PRESSURE));
-
-    let text = model.convert(["K.mtx", "M.mtx", "later.csv"], "u.txt");
-    warns_only_of(&text, "differ from K u by 2e-1 of the largest");
+    let of_k_u = "the reactions are those of K u where every number is one less";
+    for (files, displacements, warnings) in [
+        (["M.mtx", "K.mtx", "contacts.csv"], "", &["exchanged"][..]),
+        (["short.mtx", "M.mtx", "contacts.csv"], "", &["few digits"]),
+        // By the masses alone, and by the reactions where displacements are given.
+        (["K.mtx", "M.mtx", "from-1.csv"], "", &["different masses"]),
+        (
+            ["K.mtx", "M.mtx", "from-1.csv"],
+            "u.txt",
+            &["different masses", of_k_u],
+        ),
+        (
+            ["K.mtx", "M.mtx", "later.csv"],
+            "u.txt",
+            &["differ from K u by 2e-1 of the largest"],
+        ),
+        // Displacements show a wrong state only beside reactions.
+        (
+            ["K.mtx", "M.mtx", "bare.csv"],
+            "u.txt",
+            &["not compared with K u"],
+        ),
+    ] {
+        warns_of(&model.convert(files, displacements), warnings);
+    }
 }
 
 /// A node on its friction cone is about to slip, whatever its state in the table.
@@ -362,20 +340,6 @@ fn sticking_on_the_friction_cone_is_named() {
             assert!(!text.contains("WARNING"), "{text}");
         }
     }
-}
-
-/// Displacements show a wrong state only beside reactions.
-#[test]
-fn displacements_without_reactions_are_named() {
-    let model = Model::new();
-    let mut table = String::from("tangential,normal,normal_direction,state\n");
-    for node in &model.block.contact {
-        writeln!(table, "{},{},-1,slip-", 2 * node, 2 * node + 1).unwrap();
-    }
-    model.folder.write("bare.csv", &table);
-
-    let text = model.convert(["K.mtx", "M.mtx", "bare.csv"], "u.txt");
-    warns_only_of(&text, "not compared with K u");
 }
 
 #[test]
