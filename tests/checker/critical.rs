@@ -14,6 +14,8 @@ use mceip_model::file::Number;
 #[cfg(feature = "cli")]
 use mceip_model::file::write_problem;
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use std::cell::Cell;
 #[cfg(feature = "cli")]
 use std::process::Command;
@@ -23,17 +25,14 @@ const LAST: i64 = 16;
 
 /// The dofs are (T1, T2, N1, N2); both particles slip with S = 1.
 fn fold() -> Problem {
-    let stiffness = [[1, 0, 0, 1], [0, 2, -3, -4], [0, -3, 14, 0], [1, -4, 0, 14]];
-    let mut entries = Vec::new();
-    for (i, row) in stiffness.iter().enumerate() {
-        for (j, &entry) in row.iter().enumerate() {
-            entries.push((i, j, whole(entry)));
-        }
-    }
-
+    let stiffness = Sparse::from_ints(&[
+        &[1, 0, 0, 1],
+        &[0, 2, -3, -4],
+        &[0, -3, 14, 0],
+        &[1, -4, 0, 14],
+    ]);
     let slip = ContactState::Slip { sign: 1 };
     let particles = vec![Particle::plain(0, 2, slip), Particle::plain(1, 3, slip)];
-    let stiffness = Sparse::from_entries(4, 4, entries);
     let mass = Some(Sparse::identity(4));
     let system = System::new(stiffness, mass, Some(whole(2)), particles).unwrap();
     Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
@@ -86,21 +85,42 @@ impl Rectangle {
     /// Cuts the side that is longer in comparison with [0, LAST] x [0, 2].
     fn halves(&self) -> (Node, [Rectangle; 2]) {
         let width = |[lo, hi]: &[Rational; 2]| to_f64(&(hi - lo));
-        let mut lower = self.clone();
-        let mut upper = self.clone();
+        let is_long = width(&self.t) / LAST as f64 > width(&self.mu) / 2.0;
+        let side = if is_long { Side::T } else { Side::Mu };
+        self.cut(side, middle(self.side(side)))
+    }
 
-        if width(&self.t) / LAST as f64 > width(&self.mu) / 2.0 {
-            let at = middle(&self.t);
-            lower.t[1] = at.clone();
-            upper.t[0] = at.clone();
-            (Node::Split(Number(at)), [lower, upper])
-        } else {
-            let at = middle(&self.mu);
-            lower.mu[1] = at.clone();
-            upper.mu[0] = at.clone();
-            (Node::Friction(Number(at)), [lower, upper])
+    fn side(&self, side: Side) -> &[Rational; 2] {
+        match side {
+            Side::T => &self.t,
+            Side::Mu => &self.mu,
         }
     }
+
+    fn cut(&self, side: Side, at: Rational) -> (Node, [Rectangle; 2]) {
+        let mut lower = self.clone();
+        let mut upper = self.clone();
+        let number = Number(at.clone());
+
+        match side {
+            Side::T => {
+                lower.t[1] = at.clone();
+                upper.t[0] = at;
+                (Node::Split(number), [lower, upper])
+            }
+            Side::Mu => {
+                lower.mu[1] = at.clone();
+                upper.mu[0] = at;
+                (Node::Friction(number), [lower, upper])
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Side {
+    T,
+    Mu,
 }
 
 fn middle([lo, hi]: &[Rational; 2]) -> Rational {
@@ -246,71 +266,46 @@ fn a_certificate_is_not_accepted_for_a_larger_friction() {
     }
 }
 
-/// Numbers of a linear congruential generator (Knuth's constants).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, limit: u64) -> u64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % limit
-    }
-
-    fn between(&mut self, [lo, hi]: &[Rational; 2]) -> Rational {
-        let share = rational(i64::try_from(self.below(62)).unwrap() + 1, 64);
-        lo + (hi - lo) * share
-    }
-}
-
 /// A random tree of a box: cuts, branches, and leaves that are good guesses or none.
 fn random_tree(
-    random: &mut Random,
+    rng: &mut ChaCha8Rng,
     rectangle: &Rectangle,
     open: &[usize],
     depth: usize,
     tree: &mut Vec<Node>,
 ) {
-    let choice = if depth == 0 { 3 } else { random.below(4) };
+    let choice = if depth == 0 {
+        3
+    } else {
+        rng.random_range(0..4)
+    };
     let depth = depth.saturating_sub(1);
 
     match choice {
-        0 => {
-            let at = random.between(&rectangle.t);
-            let mut halves = [rectangle.clone(), rectangle.clone()];
-            halves[0].t[1] = at.clone();
-            halves[1].t[0] = at.clone();
-            tree.push(Node::Split(Number(at)));
+        0 | 1 => {
+            let side = if choice == 0 { Side::T } else { Side::Mu };
+            let [lo, hi] = rectangle.side(side);
+            let share = rational(rng.random_range(1..63), 64);
+            let (cut, halves) = rectangle.cut(side, lo + (hi - lo) * share);
+            tree.push(cut);
             for half in &halves {
-                random_tree(random, half, open, depth, tree);
-            }
-        }
-        1 => {
-            let at = random.between(&rectangle.mu);
-            let mut halves = [rectangle.clone(), rectangle.clone()];
-            halves[0].mu[1] = at.clone();
-            halves[1].mu[0] = at.clone();
-            tree.push(Node::Friction(Number(at)));
-            for half in &halves {
-                random_tree(random, half, open, depth, tree);
+                random_tree(rng, half, open, depth, tree);
             }
         }
         2 if !open.is_empty() => {
             tree.push(Node::Branch(open[0]));
             for _ in 0..2 {
-                random_tree(random, rectangle, &open[1..], depth, tree);
+                random_tree(rng, rectangle, &open[1..], depth, tree);
             }
         }
-        _ => tree.push(random_leaf(random, rectangle)),
+        _ => tree.push(random_leaf(rng, rectangle)),
     }
 }
 
-fn random_leaf(random: &mut Random, rectangle: &Rectangle) -> Node {
-    let mut weight = || i64::try_from(random.below(9)).unwrap() - 4;
-    let weights = vec![weight(), weight()];
+fn random_leaf(rng: &mut ChaCha8Rng, rectangle: &Rectangle) -> Node {
+    let weights = vec![rng.random_range(-4..=4), rng.random_range(-4..=4)];
 
-    match random.below(4) {
+    match rng.random_range(0..4) {
         0 => Node::PositiveDefinite,
         1 => Node::NegativeDefinite,
         2 => Node::Farkas(weights),
@@ -323,7 +318,7 @@ fn random_leaf(random: &mut Random, rectangle: &Rectangle) -> Node {
 #[test]
 fn no_random_tree_is_accepted_above_the_fold() {
     let problem = fold();
-    let mut random = Random(19);
+    let mut rng = ChaCha8Rng::seed_from_u64(19);
     let mut refused_by_a_leaf = 0;
 
     for round in 0..3000u64 {
@@ -333,8 +328,8 @@ fn no_random_tree_is_accepted_above_the_fold() {
             mu: [whole(0), below.clone()],
         };
         let mut tree = Vec::new();
-        let depth = usize::try_from(random.below(9)).unwrap();
-        random_tree(&mut random, &rectangle, &[0, 1], depth, &mut tree);
+        let depth = rng.random_range(0..9);
+        random_tree(&mut rng, &rectangle, &[0, 1], depth, &mut tree);
 
         let forged = certificate(&problem, &below, tree);
         assert!(

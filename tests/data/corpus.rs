@@ -3,11 +3,11 @@
 
 use crate::support::{ACCEPTED, Entry, MALFORMED, REJECTED, UNDECIDED, entries};
 use libtest_mimic::{Failed, Trial};
-use mceip_check::Provable;
 use mceip_check::certificate::{
     CRITICAL_FORMAT, Certificate, CriticalCertificate, EquilibriumCertificate, PRESENCE_FORMAT,
     PresenceCertificate,
 };
+use mceip_check::{Provable, check};
 use mceip_engine::lcp;
 use mceip_model::file::{read_loads, read_problem, require_format};
 use std::path::Path;
@@ -29,10 +29,7 @@ fn verdict_and_reason(entry: &Entry) -> Result<(), Failed> {
     let got = judge(entry);
     let elapsed = time_of_this_thread() - start;
 
-    let expected = Judgement {
-        code: entry.code,
-        reason: entry.reason.clone(),
-    };
+    let expected = (entry.code, entry.reason.clone());
     if got != expected {
         return Err(format!("expected {expected:?}, got {got:?}").into());
     }
@@ -42,79 +39,55 @@ fn verdict_and_reason(entry: &Entry) -> Result<(), Failed> {
     Ok(())
 }
 
-/// The exit code, and for a rejection the obligation's name.
-#[derive(Debug, PartialEq, Eq)]
-struct Judgement {
-    code: i32,
-    reason: String,
-}
-
-impl Judgement {
-    fn without_reason(code: i32) -> Self {
-        Judgement {
-            code,
-            reason: String::new(),
-        }
-    }
-
-    fn rejected(reason: String) -> Self {
-        Judgement {
-            code: REJECTED,
-            reason,
-        }
-    }
-}
-
-/// Our checker in this process.
-fn judge(entry: &Entry) -> Judgement {
-    let text = &entry.certificate;
+/// Our checker in this process: the exit code, and for a rejection the obligation's name.
+fn judge(entry: &Entry) -> (i32, String) {
+    let certificate = entry.certificate.as_str();
     if entry.is_plain() {
-        return judge_plain(entry);
+        let problem = lcp::read_mcp(&entry.problem).unwrap();
+        return judge_by(lcp::read_solution(certificate), |solution| {
+            let judged = lcp::judge(&problem, solution);
+            judged.map(|_| ACCEPTED).map_err(|refused| refused.name())
+        });
     }
+
+    let folder = Path::new("/");
     if entry.is_loads() {
-        let file = read_loads(&entry.problem, Path::new("/")).unwrap();
-        return judged::<EquilibriumCertificate>(&file.body, text).0;
+        let file = read_loads(&entry.problem, folder).unwrap();
+        return judge_kind::<EquilibriumCertificate>(&file.body, certificate);
     }
 
-    let problem = read_problem(&entry.problem, Path::new("/")).unwrap();
-    let is_of_format = |format| require_format(text, format).is_ok();
+    let problem = read_problem(&entry.problem, folder).unwrap();
+    let is_of_format = |format| require_format(certificate, format).is_ok();
     if is_of_format(CRITICAL_FORMAT) {
-        return judged::<CriticalCertificate>(&problem, text).0;
-    }
-    if is_of_format(PRESENCE_FORMAT) {
-        return judged::<PresenceCertificate>(&problem, text).0;
-    }
-
-    let (judgement, accepted) = judged::<Certificate>(&problem, text);
-    let cover = accepted.and_then(|accepted| accepted.cover);
-    if cover.is_some_and(|cover| !cover.open.is_empty()) {
-        return Judgement::without_reason(UNDECIDED);
-    }
-    judgement
-}
-
-/// The judgement on a certificate of one kind, and what an accepted one has proved.
-fn judged<C: Provable>(subject: &C::Subject, text: &str) -> (Judgement, Option<C::Accepted>) {
-    let Ok(certificate) = C::read(text) else {
-        return (Judgement::without_reason(MALFORMED), None);
-    };
-
-    match certificate.check(subject) {
-        Ok(accepted) => (Judgement::without_reason(ACCEPTED), Some(accepted)),
-        Err(rejected) => (Judgement::rejected(rejected.reason.name()), None),
+        judge_kind::<CriticalCertificate>(&problem, certificate)
+    } else if is_of_format(PRESENCE_FORMAT) {
+        judge_kind::<PresenceCertificate>(&problem, certificate)
+    } else {
+        judge_by(Certificate::from_json(certificate), |certificate| {
+            let accepted = check(&problem, certificate).map_err(|e| e.reason.name())?;
+            let is_open = accepted.cover.is_some_and(|cover| !cover.open.is_empty());
+            Ok(if is_open { UNDECIDED } else { ACCEPTED })
+        })
     }
 }
 
-/// The same for a plain LCP or MCP.
-fn judge_plain(entry: &Entry) -> Judgement {
-    let problem = lcp::read_mcp(&entry.problem).unwrap();
-    let Ok(certificate) = lcp::read_solution(&entry.certificate) else {
-        return Judgement::without_reason(MALFORMED);
-    };
+/// The verdict on a certificate of a kind that leaves nothing open.
+fn judge_kind<C: Provable>(subject: &C::Subject, text: &str) -> (i32, String) {
+    judge_by(C::read(text), |certificate| {
+        let checked = certificate.check(subject);
+        checked.map(|_| ACCEPTED).map_err(|e| e.reason.name())
+    })
+}
 
-    match lcp::judge(&problem, &certificate) {
-        Ok(_) => Judgement::without_reason(ACCEPTED),
-        Err(rejected) => Judgement::rejected(rejected.name()),
+/// The verdict on what was read; the check gives an exit code or the reason of the rejection.
+fn judge_by<C, E>(
+    read: Result<C, E>,
+    check: impl FnOnce(&C) -> Result<i32, String>,
+) -> (i32, String) {
+    match read.ok().map(|certificate| check(&certificate)) {
+        None => (MALFORMED, String::new()),
+        Some(Ok(code)) => (code, String::new()),
+        Some(Err(reason)) => (REJECTED, reason),
     }
 }
 
