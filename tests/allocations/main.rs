@@ -5,9 +5,6 @@
 #[cfg(feature = "testkit")]
 #[path = "../families/mod.rs"]
 mod families;
-#[cfg(feature = "testkit")]
-#[path = "../support/mod.rs"]
-mod support;
 
 mod checker_memory;
 mod solver_allocations;

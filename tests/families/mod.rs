@@ -5,12 +5,15 @@
 //! allocations.
 #![allow(dead_code, missing_docs, unreachable_pub, clippy::unwrap_used)]
 
-use crate::support::{random_pencil, table1};
+#[path = "../support/mod.rs"]
+pub mod support;
+
 use mceip_exact::{Sparse, from_f64};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use support::{random_pencil, table1};
 
 pub struct Case {
     pub label: String,

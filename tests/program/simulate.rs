@@ -20,7 +20,7 @@ fn simulate_json(code: i32, args: &str) -> Value {
 
 #[test]
 fn certified_modes_grow_as_predicted() {
-    let motion = simulate_json(0, &format!("{}", example("two-particles")));
+    let motion = simulate_json(0, &example("two-particles"));
 
     assert_eq!(motion["format"], "mceip-motion/1");
     let modes = motion["modes"].as_array().unwrap();
@@ -55,7 +55,7 @@ fn the_unit_of_mass_does_not_matter() {
     let light = folder.write("light.json", &problem.to_string());
 
     for (file, rate) in [(example("point"), 0.5), (light, 0.5e85)] {
-        let motion = simulate_json(0, &format!("{file}"));
+        let motion = simulate_json(0, &file);
         let mode = &motion["modes"][0];
         assert_eq!(mode["agreement"], "AGREES", "{file}");
         let points = mode["points"].as_array().unwrap();

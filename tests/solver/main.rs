@@ -5,12 +5,9 @@
 //! checker and listed by the exact enumerator.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-#[cfg(feature = "testkit")]
+#[cfg(feature = "solver")]
 #[path = "../families/mod.rs"]
 mod families;
-#[cfg(feature = "solver")]
-#[path = "../support/mod.rs"]
-mod support;
 
 mod certify;
 mod embedding;
@@ -26,3 +23,6 @@ mod solver_paths;
 mod solver_properties;
 mod solver_textbook;
 mod zero_reaction;
+
+#[cfg(feature = "solver")]
+use families::support;
