@@ -1,9 +1,9 @@
 //! The checker: verdicts, forgeries, the corpus, and the second checker beside it.
 //!
-//! `checker`, `covers` and the `*_forged` files break one obligation at a time; `complete_mutants`,
-//! `mutated_claims` and `two_checkers` change certificates at random and ask the exact enumerator;
-//! `corpus` and `verdicts` read the files of `spec/corpus`; `verified` runs the checker
-//! of `proofs/` beside ours.
+//! `corpus` and `verdicts` read the files of `spec/corpus`, which break one obligation each; the
+//! `*_forged` files change real covers in one place; `complete_mutants`, `mutated_claims` and
+//! `two_checkers` change certificates at random and ask the exact enumerator; `verified` runs the
+//! checker of `proofs/` beside ours.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[path = "../support/corpus.rs"]

@@ -71,7 +71,11 @@ fn verdict(forgery: &Forgery, reached: &mut Reached) -> i32 {
 }
 
 /// What an accepted certificate says and the enumerator does not.
-fn falsehoods(problem: &Problem, certificate: &Certificate, accepted: &Accepted) -> Vec<String> {
+pub(crate) fn falsehoods(
+    problem: &Problem,
+    certificate: &Certificate,
+    accepted: &Accepted,
+) -> Vec<String> {
     let problem = problem.clone().with_window(certificate.window.clone());
     let pencil = reduce(&problem).unwrap().pencil;
     let truth = enumerate(&pencil, problem.window()).unwrap();
@@ -266,7 +270,7 @@ fn structural_mutants(count: usize, seed: u64) -> Vec<Forgery> {
 }
 
 /// All nodes of all trees of a certificate.
-fn nodes(certificate: &Value) -> Vec<Value> {
+pub(crate) fn nodes(certificate: &Value) -> Vec<Value> {
     let pieces = certificate.pointer("/complete_set/pieces");
     let Some(Value::Array(pieces)) = pieces else {
         return Vec::new();

@@ -196,13 +196,17 @@ fn change_outcome(certificate: &mut Value, rng: &mut ChaCha8Rng) {
     };
 
     let index = rng.random_range(0..4);
-    match rng.random_range(0..7) {
+    match rng.random_range(0..8) {
         0 => root["outcome"] = json!("solution"),
         1 => root["outcome"] = json!("absent"),
         2 => root["outcome"] = json!({ "negative_x": index }),
         3 => root["outcome"] = json!({ "negative_y": index }),
         4 => root["outcome"] = json!({ "claim": index }),
-        5 => set_end(root, 0, window["min"].clone()),
+        5 => {
+            let x = (0..rng.random_range(1..=5)).map(|_| rng.random_range(-1..=2).to_string());
+            root["outcome"] = json!({ "infinity": x.collect::<Vec<String>>() });
+        }
+        6 => set_end(root, 0, window["min"].clone()),
         _ if window["max"].is_null() => set_end(root, 1, json!(draw_rational(rng).to_string())),
         _ => set_end(root, 1, window["max"].clone()),
     }
@@ -215,7 +219,8 @@ fn set_end(leaf: &mut Value, end: usize, to: Value) {
     }
 }
 
-/// A node of a tree by another one, of this or of another cover.
+/// A node of a tree by another one, of this or of another cover; every fourth time the nodes behind
+/// it go too, and what follows them is closed by what is left over.
 fn exchange_node(certificate: &mut Value, pool: &[Value], rng: &mut ChaCha8Rng) {
     let trees = places(certificate, &|v| v.get("tree").is_some());
     let Some(piece) = draw(&trees, rng).and_then(|at| certificate.pointer_mut(at)) else {
@@ -234,5 +239,9 @@ fn exchange_node(certificate: &mut Value, pool: &[Value], rng: &mut ChaCha8Rng) 
         _ if !pool.is_empty() => pool[rng.random_range(0..pool.len())].clone(),
         _ => return,
     };
-    tree[at] = node;
+
+    let is_cut = rng.random_range(0..4) == 0;
+    let count = if is_cut { rng.random_range(1..=4) } else { 1 };
+    let end = (at + count).min(tree.len());
+    tree.splice(at..end, [node]);
 }
