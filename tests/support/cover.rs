@@ -7,7 +7,7 @@
 //! that there are none and print those that there are.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
-use mceip_check::certificate::{Certificate, CompleteSet, Node};
+use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily, check};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
@@ -15,7 +15,7 @@ use mceip_exact::{Algebraic, Interval, Rational, Sparse, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_oracle::{End, Enumeration, Piece, Solution, SupportRange, enumerate, examine_support};
-use mceip_testkit::{mechanical_pencil, random_pencils};
+use mceip_testkit::random_pencils;
 use std::cmp::Ordering;
 
 /// What the enumerator finds in the window of a problem.
@@ -357,13 +357,6 @@ pub fn proved(problem: &Problem) -> Certificate {
     certificate
 }
 
-/// MCEIP-mu without free variables, several solutions.
-pub fn plain() -> (Problem, Certificate) {
-    let problem = mechanical_pencil(6, Unknown::Mu, 4).unwrap();
-    let certificate = proved(&problem);
-    (problem, certificate)
-}
-
 /// MCEIP-mu with free variables: a condensation in the certificate.
 pub fn condensed() -> (Problem, Certificate) {
     let instances = random_pencils(60, 3).unwrap();
@@ -389,33 +382,4 @@ pub fn fold(window: Window) -> Problem {
     let pencil = Pencil::new(a, b, vec![]).unwrap();
 
     Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
-}
-
-pub fn set(certificate: &mut Certificate) -> &mut CompleteSet {
-    certificate.complete_set.as_mut().unwrap()
-}
-
-/// A node of a certificate.
-pub fn node_at(certificate: &mut Certificate, place: NodePlace) -> &mut Node {
-    &mut set(certificate).pieces[place.piece].tree[place.node]
-}
-
-/// Where a node of a certificate is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NodePlace {
-    pub piece: usize,
-    pub node: usize,
-}
-
-/// All nodes of all pieces, with their places.
-pub fn trees(certificate: &Certificate) -> Vec<(NodePlace, &Node)> {
-    let pieces = &certificate.complete_set.as_ref().unwrap().pieces;
-
-    let mut nodes = Vec::new();
-    for (piece, part) in pieces.iter().enumerate() {
-        for (node, content) in part.tree.iter().enumerate() {
-            nodes.push((NodePlace { piece, node }, content));
-        }
-    }
-    nodes
 }
