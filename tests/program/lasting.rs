@@ -307,7 +307,7 @@ fn a_check_answers_an_interrupt() {
 /// So do commands that wait for their input.
 #[test]
 fn a_command_without_anything_to_keep_answers_an_interrupt() {
-    for command in [&["reduce", "-"][..], &["check", "-", "c.json"]] {
+    for command in ["reduce -", "check - c.json"] {
         let mut waiting = program(command);
         let mut child = waiting
             .stdin(Stdio::piped())
@@ -315,8 +315,11 @@ fn a_command_without_anything_to_keep_answers_an_interrupt() {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
+        // Open until it has ended: it waits for more.
+        let stdin = child.stdin.take();
         interrupt(&child, Duration::ZERO);
-        assert_eq!(child.wait().unwrap().code(), Some(130), "{command:?}");
+        assert_eq!(child.wait().unwrap().code(), Some(130), "{command}");
+        drop(stdin);
     }
 }
 
@@ -326,9 +329,9 @@ fn what_cannot_be_written_takes_nothing_else_along() {
     let folder = Folder::new();
     let certificate = folder.path("c.json");
     let problem = example("fold");
-    let full = ["--trace", "/dev/full", "--certificate", &certificate];
-    let run = run(&[&["solve", &problem][..], &full].concat());
+    let command = format!("solve {problem} --trace /dev/full --certificate {certificate}");
+    let run = run(&command);
     assert_eq!(run.code, Some(2), "{run:?}");
     assert!(run.stdout.contains("certified"), "{run:?}");
-    exits(0, &["check", &problem, &certificate]);
+    exits(0, &format!("check {problem} {certificate}"));
 }

@@ -94,7 +94,7 @@ fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
             assert_eq!(point["states_certified"], true);
             assert_eq!(point["divergence"], "absent");
             let certificate = format!("{proofs}/mu-{}.equilibrium.json", mu.replace('/', "over"));
-            exits(0, &["check", &file, &certificate]);
+            exits(0, &format!("check {file} {certificate}"));
         } else {
             let end = alone["end"].as_str().unwrap();
             assert!(end.contains("the quasi-static path ends"), "{end}");
@@ -178,7 +178,7 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
 
         // The states are those of an equilibrium, and the certificate is about these states.
         let equilibrium = format!("{proofs}/mu-{mu}.equilibrium.json");
-        let equilibrium = exits(0, &["check", &file, &equilibrium]);
+        let equilibrium = exits(0, &format!("check {file} {equilibrium}"));
         let (_, digest) = equilibrium.split_once("lambda2 problem ").unwrap();
         let digest = &digest[..64];
         assert!(said.contains(digest), "{equilibrium} {said}");

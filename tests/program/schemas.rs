@@ -674,13 +674,17 @@ fn damaged_frictions_agree(tally: &mut Tally) {
 fn damaged_equilibria_agree(tally: &mut Tally) {
     let is_of_meaning = |e: &dyn Display| e.to_string().contains("expected an integer");
     let accepted = |name: &str| {
-        let file = read(&root(&format!("spec/corpus/accept/equilibrium-{name}.json")));
+        let file = read(&root(&format!(
+            "spec/corpus/accept/equilibrium-{name}.json"
+        )));
         file["certificate"].clone()
     };
 
     let certificates = ["stick", "slip-box", "zero", "free"].map(accepted);
     tally.agree(&schema("mceip-equilibrium-1"), &certificates, |text| {
-        taken_unless(EquilibriumCertificate::from_json(text), |e| is_of_meaning(e))
+        taken_unless(EquilibriumCertificate::from_json(text), |e| {
+            is_of_meaning(e)
+        })
     });
 }
 
