@@ -48,6 +48,8 @@ pub(in crate::cli) struct ProvedState {
     pub(in crate::cli) slip: usize,
     /// MCEIP-mu over [0, infinity).
     pub(in crate::cli) thresholds: ProvedSet,
+    /// Is a candidate in contact without reaction?
+    has_zero: bool,
     /// The necessary condition, if asked for.
     pub(in crate::cli) necessary: Option<Necessary>,
     /// MCEIP-lambda2 over [0, infinity), for each mu asked for.
@@ -108,6 +110,7 @@ pub(in crate::cli) fn of(
         let mut state = ProvedState {
             stretch,
             slip,
+            has_zero,
             thresholds,
             necessary: None,
             growing: Vec::new(),
@@ -115,7 +118,8 @@ pub(in crate::cli) fn of(
 
         if wanted.conditions && !watch.is_cancelled() {
             say(watch, stretch, "necessary condition");
-            let system = body.with_states(states_here, None)?;
+            // Z.4: with the candidates without reaction free.
+            let system = body.with_states(states_here, None)?.with_zero_free();
             state.necessary = Some(Necessary::of(&mu_family(&system)?)?);
         }
 
@@ -269,11 +273,32 @@ impl ProvedState {
         ends.map(|end| end.hi().clone()).min()
     }
 
-    /// The equation that says so: (20) for a mass matrix M* that does not depend on mu.
+    /// The equation that says so: (20) for a mass matrix M* that does not depend on mu, with z
+    /// where candidates without reaction are free in it.
     pub(in crate::cli) fn necessary_equation(&self) -> &'static str {
-        match &self.necessary {
-            Some(necessary) if necessary.mass_is_constant => "(20)",
-            _ => "(19)",
+        let is_constant = |necessary: &Necessary| necessary.mass_is_constant;
+        match (
+            self.necessary.as_ref().is_some_and(is_constant),
+            self.has_zero,
+        ) {
+            (true, false) => "(20)",
+            (true, true) => "(20z)",
+            (false, false) => "(19)",
+            (false, true) => "(19z)",
+        }
+    }
+
+    /// From which mu on the necessary condition holds, in words.
+    fn necessary_text(&self) -> String {
+        let Some(necessary) = &self.necessary else {
+            return String::new();
+        };
+
+        let equation = self.necessary_equation();
+        match (self.necessary_end(), &necessary.stiffness) {
+            (_, DefiniteUntil::NotAtZero(_)) => format!("{equation} at mu = 0"),
+            (None, _) => "never holds".into(),
+            (Some(mu), _) => format!("{equation} from mu = {} on", fixed_decimals(&mu, 9)),
         }
     }
 
@@ -339,15 +364,6 @@ fn thresholds_table(states: &[ProvedState], path: &LoadingPath) -> Table {
         "necessary condition",
     ]);
     for state in states {
-        let necessary = match (&state.necessary, state.necessary_end()) {
-            (None, _) => "".into(),
-            (Some(_), None) => "never holds".into(),
-            (Some(_), Some(mu)) => {
-                let mu = fixed_decimals(&mu, 9);
-                format!("{} from mu = {mu} on", state.necessary_equation())
-            }
-        };
-
         let set = &state.thresholds;
         table.row(vec![
             state.stretch.to_string(),
@@ -356,7 +372,7 @@ fn thresholds_table(states: &[ProvedState], path: &LoadingPath) -> Table {
             set.values("mu", 10),
             set.leaves.to_string(),
             set.verdict(),
-            necessary,
+            state.necessary_text(),
         ]);
     }
 
@@ -432,6 +448,7 @@ impl ProvedState {
         if let Some(necessary) = &self.necessary {
             out["necessary"] = json!({
                 "equation": self.necessary_equation(),
+                "holds_at_zero": matches!(necessary.stiffness, DefiniteUntil::NotAtZero(_)),
                 "holds_from": self.necessary_from(),
                 "stiffness_definite_until": end_json(&necessary.stiffness),
                 "mass_semidefinite_until": necessary.mass.as_ref().and_then(end_json),
