@@ -123,7 +123,8 @@ impl Limit {
     }
 }
 
-/// The largest factor of a start for which its run is a motion of (1)-(3) to the end.
+/// The largest factor of a start for which (1)-(3) hold in the middle of every step of its run. A
+/// motion that still grows leaves them within the half step after its last middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     /// The factor.

@@ -189,8 +189,8 @@ fn range_text(range: Option<&Range>, duration: f64) -> String {
     };
 
     format!(
-        "  with the file's reactions: a motion of (1)-(3) to the end for amplitudes up to {:.6e}; \
-         then particle {} {} at {}\n",
+        "  with the file's reactions: (1)-(3) in the middle of every step for amplitudes up to \
+         {:.3e}; beyond that particle {} {} at {}\n",
         range.amplitude,
         range.particle,
         range.limit.word(),
