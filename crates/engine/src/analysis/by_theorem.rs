@@ -131,7 +131,7 @@ pub(super) fn nothing_slips(
             mass_is_constant: true,
         },
         condensed: None,
-        sufficient: Some(false),
+        sufficient: system.zero_particles().is_empty().then_some(false),
         flutter: None,
         proofs: Vec::new(),
         interrupted: false,

@@ -216,10 +216,11 @@ impl AtFriction {
         if friction.is_zero() {
             let divergence = by_theorem::without_friction(necessary, families.zero.len());
             let is_absent = divergence.verdict == Verdict::Absent;
+            let is_defined = families.zero.is_empty(); // else (17)-(18) say nothing
             return Ok(AtFriction {
                 problem: model.problem(Some(&whole(1)))?,
                 divergence,
-                sufficient: is_absent.then_some(false),
+                sufficient: (is_absent && is_defined).then_some(false),
                 starts: Vec::new(),
                 proof: None,
             });
