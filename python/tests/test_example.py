@@ -1,4 +1,4 @@
-"""The example of the README, where scikit-fem is installed."""
+"""The examples of the README, where scikit-fem is installed."""
 
 import runpy
 from fractions import Fraction
@@ -7,14 +7,14 @@ from xml.etree import ElementTree
 
 import pytest
 
-EXAMPLE = Path(__file__).parent.parent / "examples" / "block.py"
+EXAMPLES = Path(__file__).parent.parent / "examples"
 
 
 def test_the_block_has_a_certified_critical_friction_and_a_drawing(tmp_path, monkeypatch, capsys):
     pytest.importorskip("skfem")
     monkeypatch.chdir(tmp_path)
 
-    answer = runpy.run_path(str(EXAMPLE))["answer"]
+    answer = runpy.run_path(str(EXAMPLES / "block.py"))["answer"]
 
     lower, upper = answer.critical_friction
     assert Fraction("1.97649") < lower < upper < Fraction("1.97651")
@@ -26,3 +26,20 @@ def test_the_block_has_a_certified_critical_friction_and_a_drawing(tmp_path, mon
     assert "PRESENT" in capsys.readouterr().out
     root = ElementTree.parse(tmp_path / "block.svg").getroot()
     assert len(root.findall("{http://www.w3.org/2000/svg}circle")) == 5
+
+
+def test_the_pad_slips_as_a_whole_in_the_end_and_has_a_critical_friction(capsys):
+    pytest.importorskip("skfem")
+
+    variables = runpy.run_path(str(EXAMPLES / "pad.py"))
+
+    path, answer = variables["path"], variables["answer"]
+    assert path.end == "all loads are applied"
+    assert set(path.stretches[0].states) == {"stick"}
+    assert set(path.stretches[-1].states) == {"slip-"}
+    # The disc drags against the slip, with mu N in the end.
+    tangential, normal = path.stretches[-1].reactions.T
+    assert tangential == pytest.approx(-0.5 * normal)
+    lower, upper = answer.critical_friction
+    assert Fraction("2.6482") < lower < upper < Fraction("2.6483")
+    assert "ABSENT" in capsys.readouterr().out
