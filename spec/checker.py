@@ -2243,7 +2243,7 @@ class Loads:
             self.loads.append({d: v for d, v in load.items() if v})
         self.k, m = self.without(k, new), None if m is None else self.without(m, new)
         self.order, self.candidates, self.gaps = len(kept), [], []
-        text = ["mceip-canonical-loads/1", "system"] + ([] if mu is None else [f"friction {mu}"])
+        text = ["mceip-canonical-loads/1"]
         for obj in sequence(candidates):
             if not isinstance(obj, dict) or "state" in obj:
                 raise Unreadable("a candidate has no state")

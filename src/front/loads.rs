@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::run::Watched;
 use crate::say;
 use mceip_check::Proved;
-use mceip_check::certificate::{EquilibriumCertificate, StatedEquilibrium, StatedState};
+use mceip_check::certificate::{EquilibriumCertificate, SlipSign, StatedEquilibrium, StatedState};
 use mceip_engine::equilibrium::{StatesNotCertified, certify_equilibrium};
 use mceip_engine::run::{Cancel, Progress};
 use mceip_exact::{Rational, from_f64, to_f64};
@@ -253,7 +253,8 @@ impl LoadPath {
             .into())
     }
 
-    /// Certifies that the body has an equilibrium in the contact states inside a stretch (from 0).
+    /// Certifies that the body has an equilibrium in the contact states inside a stretch (from 0):
+    /// that of one amount of the load, in the middle half of the stretch.
     ///
     /// # Errors
     /// [`StatesNotCertified`]: why no certificate was accepted.
@@ -299,7 +300,9 @@ fn stated(path: &LoadingPath, stretch: &Stretch, equilibrium: &Equilibrium) -> S
         candidates.push(match *state {
             ContactState::Free => StatedState::Free {},
             ContactState::Zero => StatedState::Zero {},
-            ContactState::Slip { sign } => StatedState::Slip { sign },
+            ContactState::Slip { sign } => StatedState::Slip {
+                sign: SlipSign::of(sign),
+            },
             ContactState::Stick => {
                 let (tangential, _) = equilibrium.displacement(node);
                 let tangential = if is_degenerate {

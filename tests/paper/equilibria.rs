@@ -6,7 +6,7 @@
 #![cfg(feature = "solver")]
 
 use crate::loads::{Instance, Rates, in_states};
-use mceip_check::certificate::{StatedEquilibrium, StatedState};
+use mceip_check::certificate::{SlipSign, StatedEquilibrium, StatedState};
 use mceip_engine::equilibrium::certify_equilibrium;
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::ContactState;
@@ -57,7 +57,9 @@ fn stated(
     let state = |k: usize| match states[k] {
         ContactState::Free => StatedState::Free {},
         ContactState::Zero => StatedState::Zero {},
-        ContactState::Slip { sign } => StatedState::Slip { sign },
+        ContactState::Slip { sign } => StatedState::Slip {
+            sign: SlipSign::of(sign),
+        },
         ContactState::Stick => StatedState::Stick {
             tangential: Number(places[k].clone()),
         },

@@ -8,7 +8,7 @@
 //! ```text
 //!     free:    u_N < g,                     r = 0                                       // (1)
 //!     stick:   u_N = g,  u_T as stated,     r_N < 0,  |r_T| < -mu c r_N                 // (7)
-//!     slip S:  u_N = g,                     r_N < 0,  S r_T + mu c r_N = 0              // (9)
+//!     slip S:  u_N = g,                     r_N < 0,  S r_T + mu c r_N = 0              // (7)
 //!     zero:    u_N = g,                     r_N = 0,  r_T = 0
 //! ```
 //!
@@ -83,7 +83,8 @@ fn verdict(
     let claim = &certificate.claim;
     let accepted = ClaimChecker::new(problem).verdict(problem.window(), claim)?;
 
-    // Without s > 0 the solution is none of the body under its loads.
+    // Soundness hangs on "alone": the column of an inequality is zero, so that its variable could
+    // be in the support as well, and its row would vanish there where it has to be positive.
     if accepted.support != [pencil.load] {
         return Err(Reason::NotTheLoad {
             expected: pencil.load,
@@ -278,7 +279,7 @@ impl Conditions {
                 self.inequalities.extend(inside);
             }
             StatedState::Slip { sign } => {
-                let sign = Rational::from_integer((*sign).into());
+                let sign = Rational::from_integer(i8::from(*sign).into());
                 let on_cone = sum(&scale(&tangent, &sign), &friction); // S r_T + mu c r_N
                 self.leave_open(tangent, on_cone);
                 self.inequalities.push(pressure);
@@ -321,6 +322,7 @@ fn sum(a: &Direction, b: &Direction) -> Direction {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::certificate::SlipSign;
     use mceip_exact::{rational, whole};
     use mceip_model::file::Number;
     use mceip_model::{Candidate, LoadStep, LoadedParts};
@@ -408,11 +410,15 @@ mod tests {
 
         // u_0, u_T, s: -(2 u_T - u_0) + (5 - 6) s = 0 for S = -1.
         assert_eq!(
-            rows(StatedState::Slip { sign: -1 }),
+            rows(StatedState::Slip {
+                sign: SlipSign::Minus
+            }),
             expected(&[&[2, -1, -7], &[1, -2, -1], &[0, 0, -1], &[0, 0, 1]])
         );
         assert_eq!(
-            rows(StatedState::Slip { sign: 1 }),
+            rows(StatedState::Slip {
+                sign: SlipSign::Plus
+            }),
             expected(&[&[2, -1, -7], &[-1, 2, -1], &[0, 0, -1], &[0, 0, 1]])
         );
 

@@ -4,6 +4,9 @@
 //! The statement makes a pencil ([`EquilibriumPencil`]) with a solution at t = 1 whose support is
 //! the load alone. Its free rows (A x)_f = 0 at s = 1 are solved in doubles, and the candidate is
 //! certified as any other: a box, or exact numbers on short systems.
+//!
+//! The pencil is the checker's own. That it is the right one is held by `spec/checker.py`, which
+//! forms it anew, and by plain elimination on the uncondensed body (`tests/paper/equilibria.rs`).
 
 use crate::candidate::Candidate;
 use crate::certify::{Certifier, NotCertified, Preference};

@@ -28,12 +28,13 @@ pub(super) fn text(problem: &Problem) -> String {
     out
 }
 
-/// The canonical text of a body under loads: the system without its held dofs, all candidates
-/// stuck, then their gaps and the loads. Names, and what the loads are called, play no part.
+/// The canonical text of a body under loads: the system without its held dofs and without mu, all
+/// candidates stuck, then their gaps and the loads. Names, and what the loads are called, play no
+/// part; mu is stated with what is proved of the body.
 pub(super) fn loads_text(body: &LoadedBody) -> String {
     let mut out = String::new();
     line(&mut out, "mceip-canonical-loads/1");
-    write_system(&mut out, body.system());
+    write_body(&mut out, body.system());
 
     for gap in body.gaps() {
         line(&mut out, &format!("gap {gap}"));
@@ -83,6 +84,11 @@ fn write_system(out: &mut String, system: &System) {
         line(out, &format!("friction {mu}"));
     }
 
+    write_body(out, system);
+}
+
+/// All of a system but mu.
+fn write_body(out: &mut String, system: &System) {
     for particle in system.particles() {
         write_particle(out, particle);
     }

@@ -12,8 +12,7 @@ use super::{Claim, Number, object};
 use mceip_exact::Rational;
 use mceip_model::file::{from_json, require_format};
 use mceip_model::{ContactState, ModelError};
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 /// The format of certified contact states.
 pub const EQUILIBRIUM_FORMAT: &str = "mceip-equilibrium/1";
@@ -53,9 +52,8 @@ pub enum StatedState {
     },
     /// In impending slip with sign S: on the side of the cone where S r_T > 0.
     Slip {
-        /// S = 1 or -1.
-        #[serde(deserialize_with = "sign")]
-        sign: i8,
+        /// S.
+        sign: SlipSign,
     },
     /// In contact without reaction.
     Zero {},
@@ -67,16 +65,53 @@ impl StatedState {
         match self {
             StatedState::Free {} => ContactState::Free,
             StatedState::Stick { .. } => ContactState::Stick,
-            StatedState::Slip { sign } => ContactState::Slip { sign: *sign },
+            StatedState::Slip { sign } => ContactState::Slip {
+                sign: i8::from(*sign),
+            },
             StatedState::Zero {} => ContactState::Zero,
         }
     }
 }
 
-fn sign<'de, D: Deserializer<'de>>(d: D) -> Result<i8, D::Error> {
-    match i8::deserialize(d)? {
-        sign @ (1 | -1) => Ok(sign),
-        other => Err(D::Error::custom(format!("expected 1 or -1, got {other}"))),
+/// S = 1 or -1, and nothing else: another number would be another law of friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "i8", into = "i8")]
+pub enum SlipSign {
+    /// S = 1.
+    Plus,
+    /// S = -1.
+    Minus,
+}
+
+impl SlipSign {
+    /// The sign of a number that is 1 or -1.
+    pub fn of(sign: i8) -> SlipSign {
+        if sign > 0 {
+            SlipSign::Plus
+        } else {
+            SlipSign::Minus
+        }
+    }
+}
+
+impl From<SlipSign> for i8 {
+    fn from(sign: SlipSign) -> i8 {
+        match sign {
+            SlipSign::Plus => 1,
+            SlipSign::Minus => -1,
+        }
+    }
+}
+
+impl TryFrom<i8> for SlipSign {
+    type Error = String;
+
+    fn try_from(number: i8) -> Result<SlipSign, String> {
+        match number {
+            1 => Ok(SlipSign::Plus),
+            -1 => Ok(SlipSign::Minus),
+            other => Err(format!("expected 1 or -1, got {other}")),
+        }
     }
 }
 

@@ -28,7 +28,9 @@ pub use critical::{
     CRITICAL_FORMAT, CriticalAnchor, CriticalCertificate, CriticalCondensation, CriticalTail,
     Regular,
 };
-pub use equilibrium::{EQUILIBRIUM_FORMAT, EquilibriumCertificate, StatedEquilibrium, StatedState};
+pub use equilibrium::{
+    EQUILIBRIUM_FORMAT, EquilibriumCertificate, SlipSign, StatedEquilibrium, StatedState,
+};
 pub use presence::{PRESENCE_FORMAT, PresenceCertificate, PresencePiece};
 pub use row::IntegerRow;
 
