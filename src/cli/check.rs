@@ -144,8 +144,9 @@ fn equilibrium(args: &Args, loads: &str) -> Result<u8, CliError> {
     let read = EquilibriumCertificate::from_json(&source);
     let certificate = read.map_err(|e| CliError::file(&args.certificate, e))?;
 
-    let (text, code) = match decided(|| check_equilibrium(body, &certificate)) {
-        Ok(accepted) => (equilibrium_text(body, &accepted), exit::DONE),
+    let verdict = || check_equilibrium(body, &certificate).map(|a| equilibrium_text(body, &a));
+    let (text, code) = match decided(verdict) {
+        Ok(text) => (text, exit::DONE),
         Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
     };
 

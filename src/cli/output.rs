@@ -292,10 +292,18 @@ impl Folder {
         self.output(name)?.write_bytes(bytes)
     }
 
-    /// Writes a file that is to be kept while the run goes on; whether it could be written, the run
-    /// asks at its end ([`Folder::first_failure`]).
-    pub(super) fn keep(&self, name: &str, text: &str) {
-        self.note(self.write(name, text.as_bytes()));
+    /// Writes a file that is to be kept while the run goes on. Whether it could be written is told,
+    /// and the run asks again at its end ([`Folder::first_failure`]).
+    pub(super) fn keep(&self, name: &str, text: &str) -> bool {
+        let written = self.write(name, text.as_bytes());
+        let is_there = written.is_ok();
+        self.note(written);
+        is_there
+    }
+
+    /// Removes a file of an earlier run that nothing takes the place of.
+    pub(super) fn drop_earlier(&self, name: &str) {
+        self.note(self.output(name).and_then(|output| output.remove()));
     }
 
     /// The same for a proof.
@@ -362,7 +370,9 @@ impl Folder {
             let numbered = name.strip_prefix(stem).and_then(|n| n.strip_prefix('-'));
             let number = numbered.and_then(|n| n.strip_suffix(".json"));
             let number = number.and_then(|n| n.parse::<usize>().ok());
-            if number.is_some_and(|number| !kept.contains(&number)) {
+            let is_input = |input: &PathBuf| is_file_at(input, &entry.path());
+            let is_earlier = number.is_some_and(|number| !kept.contains(&number));
+            if is_earlier && !self.inputs.iter().any(is_input) {
                 std::fs::remove_file(entry.path()).map_err(|e| failed(&e))?;
             }
         }

@@ -91,9 +91,10 @@ pub(super) struct Args {
         allow_hyphen_values = true
     )]
     width: String,
-    /// Certify the contact states inside each stretch, into this folder, as
-    /// `equilibrium-NUMBER.json` for `mceip check FILE`. With --own-critical those at the end of
-    /// each path, and problem and certificate of what is said of divergence.
+    /// Certify the contact states at one amount inside each stretch, into this folder, as
+    /// `equilibrium-NUMBER.json` for `mceip check FILE`; files of that name from an earlier path
+    /// are removed. With --own-critical those at the end of each path, and problem and certificate
+    /// of what is said of divergence.
     #[arg(long, value_name = "FOLDER")]
     certificates: Option<PathBuf>,
     /// Draw resultants and states along the path, as SVG.
@@ -207,6 +208,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     proofs.map_or(Ok(()), Folder::first_failure)?;
     states.and(picture)?;
     let code = exit_code(path, outcome.proved.as_deref(), outcome.is_interrupted);
+    let is_certified = outcome.certified.iter().flatten().all(Result::is_ok);
+    if code == exit::DONE && !is_certified {
+        return Ok(exit::UNDECIDED);
+    }
     match outcome.own {
         Some(own) if code == exit::DONE && own.is_undecided() => Ok(exit::UNDECIDED),
         _ => Ok(code),
@@ -361,8 +366,9 @@ fn certify_stretches(
         ));
         certified.push(match followed.certify(k) {
             Ok(proved) => {
-                folder.keep(&format!("equilibrium-{k:03}.json"), &proved.file()?);
-                written.push(k);
+                if folder.keep(&format!("equilibrium-{k:03}.json"), &proved.file()?) {
+                    written.push(k);
+                }
                 Ok(())
             }
             Err(why) => Err(why),
@@ -378,8 +384,8 @@ fn certified_text(certified: &[Result<(), StatesNotCertified>]) -> String {
     let proved = certified.iter().filter(|state| state.is_ok()).count();
     let stretches = counted(certified.len(), "stretch");
     let mut out = format!(
-        "the contact states inside {proved} of {stretches} are certified to be those of an \
-         equilibrium; that it is the only one is not\n"
+        "the contact states at one amount inside {proved} of {stretches} are certified to be \
+         those of an equilibrium; that it is the only one is not\n"
     );
     for (k, state) in certified.iter().enumerate() {
         if let Err(why) = state {

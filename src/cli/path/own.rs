@@ -369,8 +369,12 @@ impl Point {
         };
 
         let mu = spelt(&self.mu).replace('/', "over");
-        if let Ok(states) = &examined.states {
-            folder.keep(&format!("mu-{mu}.equilibrium.json"), &states.file()?);
+        let name = format!("mu-{mu}.equilibrium.json");
+        match &examined.states {
+            Ok(states) => {
+                folder.keep(&name, &states.file()?);
+            }
+            Err(_) => folder.drop_earlier(&name),
         }
         match &examined.proof {
             Some(proof) => write_proof(folder, &format!("mu-{mu}"), proof),
