@@ -6,7 +6,7 @@
 
 use crate::error::TestkitError;
 use mceip_engine::run::Watch;
-use std::io::{Read, Write as _};
+use std::io::{ErrorKind, Read, Write as _};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
@@ -179,10 +179,12 @@ fn drain(
         let mut buffer = [0u8; 1 << 14];
 
         // What was read until an error is kept.
-        while let Ok(count) = pipe.read(&mut buffer) {
-            if count == 0 {
-                break;
-            }
+        loop {
+            let count = match pipe.read(&mut buffer) {
+                Err(e) if e.kind() == ErrorKind::Interrupted => continue,
+                Err(_) | Ok(0) => break,
+                Ok(count) => count,
+            };
 
             let taken = count.min(usize::try_from(left).unwrap_or(usize::MAX));
             left -= taken as u64;

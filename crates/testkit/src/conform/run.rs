@@ -160,8 +160,8 @@ impl Run<'_> {
             waiting.unwrap_or_else(|| LineProgram::new(self.command, self.plan.limits));
 
         let mut judgement = self.judged(case, program.ask(input, self.watch)?);
-        let is_right = |judgement: &Judgement| judgement.label == Label::Correct;
-        if program.has_answered_before() && !judgement.as_ref().is_some_and(is_right) {
+        let is_wrong = |judgement: &Judgement| judgement.label != Label::Correct;
+        if program.has_answered_before() && judgement.as_ref().is_some_and(is_wrong) {
             program.renew();
             judgement = self.judged(case, program.ask(input, self.watch)?);
         }
