@@ -20,7 +20,7 @@ from .inputs import Contact, Number, Triplets, count, plain_contact, spelt, trip
 from .problem import Problem
 from .progress import Progress, listening
 
-#: One value for each degree of freedom, or values by degree of freedom.
+#: One force for each degree of freedom, or forces by degree of freedom.
 Load = Union[Sequence[Number], npt.NDArray[Any], Mapping[int, Number]]
 
 
@@ -52,14 +52,14 @@ class Step:
 
     Attributes:
         name: for people.
-        forces: at degrees of freedom.
-        displacements: of degrees of freedom, which are held from the beginning.
+        forces: by degree of freedom, or one for each.
+        displacements: by degree of freedom; these are held from the beginning, also at 0.
         endless: of the last step: it grows until nothing more happens.
     """
 
     name: str
     forces: Load = field(default_factory=dict)
-    displacements: Load = field(default_factory=dict)
+    displacements: Mapping[int, Number] = field(default_factory=dict)
     endless: bool = False
 
 
@@ -114,7 +114,7 @@ class Body:
             self._candidates,
             self._gaps,
             self._held,
-            [plain_step(k, step) for k, step in enumerate(steps)],
+            [plain_step(k, step, self._dofs) for k, step in enumerate(steps)],
         )
         with listening(progress) as listener:
             path = loads.path(spelt(friction), in_doubles, listener)
@@ -147,8 +147,8 @@ class Stretch:
         step: the name of the load that grows.
         start: how much of it is applied at the beginning.
         stop: the same at the end; None where the stretch never ends.
-        states: of the equilibria inside, one for each candidate: "free", "stick", "slip+",
-            "slip-", "zero".
+        states: of the equilibria inside, one for each candidate: "free", "stick", "slip+" and
+            "slip-" (impending slip along the tangent and against it, as in `Contact`), "zero".
         reactions: (r_T, r_N) of each candidate at the beginning.
     """
 
@@ -173,8 +173,9 @@ class Stretch:
         return None if problem is None else problem.analyze(**options)
 
     def certify(self) -> str:
-        """A certificate that there is an equilibrium in these contact states, as the text of
-        `mceip-equilibrium/1`. Raises `NotCertifiedError` where none is found."""
+        """A certificate that there is an equilibrium in these contact states, at one amount of the
+        load inside the stretch, as the text of `mceip-equilibrium/1`. Raises `NotCertifiedError`
+        where none is found."""
         return self._native.certify(self._number)
 
     def __repr__(self) -> str:
@@ -208,20 +209,31 @@ class PlainStep:
     endless: bool
 
 
-def plain_step(place: int, step: Step) -> PlainStep:
+def plain_step(place: int, step: Step, dofs: int) -> PlainStep:
     """The step with its values by degree of freedom, as text."""
     if not isinstance(step, Step):
         raise MceipError(f"step {place}: expected mceip.Step, got {step!r}")
     return PlainStep(
         name=str(step.name),
-        forces=values(f"step {place}: forces", step.forces),
-        displacements=values(f"step {place}: displacements", step.displacements),
+        forces=forces(f"step {place}: forces", step.forces, dofs),
+        displacements=by_dof(f"step {place}: displacements", step.displacements),
         endless=bool(step.endless),
     )
 
 
-def values(name: str, load: Load) -> list[tuple[int, str]]:
-    """The values that are given: of a mapping all, of a list those that are not zero."""
+def forces(name: str, load: Load, dofs: int) -> list[tuple[int, str]]:
+    """The forces that are given: of a mapping all, of a list those that are not zero."""
     if isinstance(load, Mapping):
-        return [(count(name, dof), spelt(value)) for dof, value in load.items()]
-    return [(dof, spelt(value)) for dof, value in enumerate(load) if value != 0]
+        return by_dof(name, load)
+    numbers = np.asarray(load, dtype=object)
+    if numbers.shape != (dofs,):
+        shape = numbers.shape
+        raise MceipError(f"{name}: expected {dofs} numbers or a mapping, got shape {shape}")
+    return [(dof, spelt(value)) for dof, value in enumerate(numbers.tolist()) if value != 0]
+
+
+def by_dof(name: str, given: Mapping[int, Number]) -> list[tuple[int, str]]:
+    """Values by degree of freedom."""
+    if not isinstance(given, Mapping):
+        raise MceipError(f"{name}: expected a mapping from degrees of freedom, got {given!r}")
+    return [(count(name, dof), spelt(value)) for dof, value in given.items()]
