@@ -161,9 +161,6 @@ pub fn divergence_at(
     watch: &Watch<'_>,
 ) -> Result<(Divergence, Option<Proof>), AnalysisError> {
     error::require_question(system, friction)?;
-    if options.samples > MAX_SAMPLES {
-        return Err(AnalysisError::TooManySamples(options.samples));
-    }
     if system.slip_particles().is_empty() {
         let by_theorem = by_theorem::nothing_slips(None, system, friction);
         return Ok((by_theorem.divergence, None));

@@ -160,8 +160,8 @@ impl Run<'_> {
             waiting.unwrap_or_else(|| LineProgram::new(self.command, self.plan.limits));
 
         let mut judgement = self.judged(case, program.ask(input, self.watch)?);
-        let is_wrong = |judgement: &Judgement| judgement.label != Label::Correct;
-        if program.has_answered_before() && judgement.as_ref().is_some_and(is_wrong) {
+        let falls_short = |judgement: &Judgement| judgement.label != Label::Correct;
+        if program.has_answered_before() && judgement.as_ref().is_some_and(falls_short) {
             program.renew();
             judgement = self.judged(case, program.ask(input, self.watch)?);
         }
