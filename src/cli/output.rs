@@ -301,6 +301,11 @@ impl Folder {
         is_there
     }
 
+    /// [`Folder::keep_numbered`], with a failure told at the end of the run.
+    pub(super) fn keep_only(&self, stem: &str, kept: &[usize]) {
+        self.note(self.keep_numbered(stem, kept));
+    }
+
     /// Removes a file of an earlier run that nothing takes the place of.
     pub(super) fn drop_earlier(&self, name: &str) {
         self.note(self.output(name).and_then(|output| output.remove()));

@@ -363,23 +363,29 @@ impl Point {
     /// Writes the certificate of the contact states as `mu-VALUE.equilibrium.json`, and the proof
     /// about divergence, where there is one, as `mu-VALUE.problem.json` and
     /// `mu-VALUE.certificate.json`.
+    /// Files of an earlier run that nothing takes the place of go.
     fn write(&self, folder: &Folder) -> Result<(), CliError> {
-        let Reached::Equilibrium(examined) = &self.reached else {
-            return Ok(());
+        let name = format!("mu-{}", spelt(&self.mu).replace('/', "over"));
+        let (states, proof) = match &self.reached {
+            Reached::Equilibrium(examined) => {
+                (examined.states.as_ref().ok(), examined.proof.as_ref())
+            }
+            Reached::NoPath(_) => (None, None),
         };
 
-        let mu = spelt(&self.mu).replace('/', "over");
-        let name = format!("mu-{mu}.equilibrium.json");
-        match &examined.states {
-            Ok(states) => {
-                folder.keep(&name, &states.file()?);
+        let equilibrium = format!("{name}.equilibrium.json");
+        match states {
+            Some(states) => {
+                folder.keep(&equilibrium, &states.file()?);
             }
-            Err(_) => folder.drop_earlier(&name),
+            None => folder.drop_earlier(&equilibrium),
         }
-        match &examined.proof {
-            Some(proof) => write_proof(folder, &format!("mu-{mu}"), proof),
-            None => Ok(()), // a theorem: nothing slips
+        match proof {
+            Some(proof) => write_proof(folder, &name, proof)?,
+            None => folder.remove_proof(&name), // no path, or a theorem: nothing slips
         }
+
+        Ok(())
     }
 
     /// Why this mu is critical, as what follows "at mu = ...".
@@ -455,15 +461,17 @@ impl OwnCritical {
                 format!(
                     "OWN CRITICAL FRICTION: between {lo} and {hi}, the first change among the mu \
                      examined. At mu = {lo} the equilibrium in which the path of these loads ends \
-                     cannot diverge in the form (8), proved; at mu = {hi} {}.{}",
+                     cannot diverge in the form (8), proved; at mu = {hi} {}.{}{}",
                     critical.critical_text(),
+                    uncertified_text(&[absent, critical]),
                     self.undecided_text(critical)
                 )
             }
             Bracket::AtMost(first) => format!(
-                "OWN CRITICAL FRICTION: not above {}: at this mu {}.{}",
+                "OWN CRITICAL FRICTION: not above {}: at this mu {}.{}{}",
                 spelt(&first.mu),
                 first.critical_text(),
+                uncertified_text(&[first]),
                 self.undecided_text(first)
             ),
             Bracket::Undecided => format!(
@@ -473,8 +481,9 @@ impl OwnCritical {
             Bracket::None => format!(
                 "No own critical friction was found at the {} mu examined: at each of them the \
                  equilibrium in which the path of these loads ends cannot diverge in the form (8), \
-                 proved.",
-                self.points.len()
+                 proved.{}",
+                self.points.len(),
+                uncertified_text(&self.points.iter().collect::<Vec<_>>())
             ),
         }
     }
@@ -520,6 +529,21 @@ impl OwnCritical {
             "frozen": frozen,
             "points": points,
         })
+    }
+}
+
+/// That what is said of these points rests on contact states without a certificate, where it does.
+fn uncertified_text(points: &[&Point]) -> &'static str {
+    let is_uncertified = |point: &&Point| match &point.reached {
+        Reached::Equilibrium(examined) => examined.states.is_err(),
+        Reached::NoPath(_) => false,
+    };
+
+    if points.iter().any(is_uncertified) {
+        " What is proved is divergence or its absence in the contact states of the path; that an \
+         equilibrium has them is not certified at each of these mu."
+    } else {
+        ""
     }
 }
 
