@@ -115,9 +115,10 @@ class Body:
             self._gaps,
             self._held,
             [plain_step(k, step, self._dofs) for k, step in enumerate(steps)],
+            spelt(friction),
         )
         with listening(progress) as listener:
-            path = loads.path(spelt(friction), in_doubles, listener)
+            path = loads.path(in_doubles, listener)
         if path is None:
             raise MceipError("the path was interrupted")
         return LoadPath(path)
@@ -132,9 +133,15 @@ class LoadPath:
     """
 
     def __init__(self, native: NativeLoadPath) -> None:
+        self._native = native
         stretches = json.loads(native.stretches())
         self.stretches = [Stretch(native, k, stretch) for k, stretch in enumerate(stretches)]
         self.end = native.end()
+
+    def loads(self) -> str:
+        """The body and its loads as the text of a file, `mceip-loads/1`: what certificates of its
+        contact states are checked against. Held degrees of freedom are eliminated."""
+        return self._native.loads()
 
     def __repr__(self) -> str:
         return f"<mceip.LoadPath {len(self.stretches)} stretches, {self.end}>"

@@ -41,6 +41,7 @@ impl NativeLoads {
         gaps: Vec<String>,
         held: Vec<usize>,
         steps: Vec<Step>,
+        friction: &str,
     ) -> PyResult<NativeLoads> {
         let mass = mass.map(|mass| matrix(dofs, mass)).transpose()?;
         let particles = candidates.table(dofs, None)?.particles;
@@ -52,7 +53,7 @@ impl NativeLoads {
         let body = LoadedBody::new(LoadedParts {
             stiffness: matrix(dofs, stiffness)?.into_exact(),
             mass: mass.map(mceip::Matrix::into_exact),
-            friction: None,
+            friction: Some(number("friction", friction)?),
             candidates: candidates
                 .map(|(particle, gap)| Candidate { particle, gap })
                 .collect(),
@@ -62,22 +63,21 @@ impl NativeLoads {
         let body = body.map_err(|e| refused(e.into()))?;
         Ok(NativeLoads(Loads::from(LoadsFile {
             name: None,
+            comment: None,
             body,
             coordinates: None,
         })))
     }
 
-    /// The path at this friction; `None` if it was interrupted before it begins.
+    /// The path; `None` if it was interrupted before it begins.
     fn path(
         &self,
         py: Python<'_>,
-        friction: &str,
         in_doubles: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Option<NativeLoadPath>> {
-        let friction = number("friction", friction)?;
         let path = watched(py, progress.as_ref(), |cancel, hear| {
-            let question = self.0.path().friction(friction).in_doubles(in_doubles);
+            let question = self.0.path().in_doubles(in_doubles);
             question.cancel(cancel).on_progress(hear).run()
         })?;
         Ok(path.map_err(refused)?.map(NativeLoadPath))
@@ -106,6 +106,11 @@ pub(crate) struct NativeLoadPath(LoadPath);
 
 #[pymethods]
 impl NativeLoadPath {
+    /// The body and its loads as the text of a file, `mceip-loads/1`.
+    fn loads(&self) -> String {
+        self.0.loads().to_json()
+    }
+
     /// The stretches, those of `mceip path --json`, as JSON text.
     fn stretches(&self) -> String {
         serde_json::Value::from(self.0.to_json()).to_string()

@@ -9,7 +9,7 @@ use mceip_check::certificate::{EquilibriumCertificate, SlipSign, StatedEquilibri
 use mceip_engine::equilibrium::{StatesNotCertified, certify_equilibrium};
 use mceip_engine::run::{Cancel, Progress};
 use mceip_exact::{Rational, from_f64, to_f64};
-use mceip_model::file::{LoadsFile, Number, folder_of, read_loads, read_text};
+use mceip_model::file::{LoadsFile, Number, folder_of, read_loads, read_text, write_loads};
 use mceip_model::{ContactState, LoadedBody, Unknown};
 use mceip_path::{Contact, Equilibrium, LoadSteps, LoadingPath, Stretch};
 use serde_json::Value;
@@ -45,6 +45,12 @@ impl Loads {
 
     fn from_text(text: &str, folder: &Path) -> Result<Loads, Error> {
         Ok(Loads::from(read_loads(text, folder)?))
+    }
+
+    /// The text of a file of it, `mceip-loads/1`: the body without its held degrees of freedom, what
+    /// they exert written as forces.
+    pub fn to_json(&self) -> String {
+        write_loads(&self.0)
     }
 
     /// The file.

@@ -18,6 +18,8 @@ pub const LOADS_FORMAT: &str = "mceip-loads/1";
 pub struct LoadsFile {
     /// A name for people.
     pub name: Option<String>,
+    /// A remark for people.
+    pub comment: Option<String>,
     /// The body and its loads.
     pub body: LoadedBody,
     /// Where its nodes are.
@@ -30,8 +32,7 @@ struct RawLoads {
     #[serde(rename = "format")]
     _format: String, // checked before
     name: Option<String>,
-    #[serde(rename = "comment")]
-    _comment: Option<String>,
+    comment: Option<String>,
     system: Object<RawBody>,
     steps: Vec<Object<RawStep>>,
     coordinates: Option<Object<RawCoordinates>>,
@@ -101,6 +102,7 @@ impl RawLoads {
 
         Ok(LoadsFile {
             name: self.name,
+            comment: self.comment,
             body,
             coordinates,
         })
@@ -164,6 +166,7 @@ impl RawStep {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::file::write_loads;
     use mceip_exact::rational;
 
     const FILE: &str = r#"{
@@ -201,6 +204,20 @@ mod tests {
         // The held dof moves no node.
         let coordinates = file.coordinates.unwrap();
         assert_eq!(coordinates.nodes()[1].dofs, [None, None]);
+    }
+
+    #[test]
+    fn a_file_that_is_written_is_the_body_without_its_held_dofs() {
+        let file = read(FILE).unwrap();
+        let again = read(&write_loads(&file)).unwrap();
+
+        assert_eq!(again.name, file.name);
+        assert_eq!(again.coordinates, file.coordinates);
+        assert_eq!(again.body.system(), file.body.system());
+        assert_eq!(again.body.gaps(), file.body.gaps());
+        assert_eq!(again.body.loads(), file.body.loads());
+        assert_eq!(again.body.sha256(), file.body.sha256());
+        assert!(again.body.steps()[1].is_endless);
     }
 
     #[test]

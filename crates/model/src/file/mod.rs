@@ -23,7 +23,7 @@ pub use market::read_matrix_market;
 pub use number::Number;
 pub use object::{Object, Word, word_or_kind};
 pub use order::{MAX_ORDER, require_order};
-pub use write::{write_problem, write_sparse};
+pub use write::{write_loads, write_problem, write_sparse};
 
 use super::{Coordinates, ErrorLocation, ModelError, Problem, System, Unknown};
 use mceip_exact::Rational;

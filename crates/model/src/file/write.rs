@@ -1,12 +1,14 @@
-//! Writing a problem file: what `reduce`, `block` and the generators hand to other programs.
+//! Writing a problem file, and a file of a body under loads: what `reduce`, `convert`, `block` and
+//! the generators hand to other programs.
 //!
 //! Every number is written as an exact string, matrices as sparse entries, so that reading the file
-//! gives an equal problem with the same digest.
+//! gives an equal problem or body with the same digest.
 
-use super::{Number, PROBLEM_FORMAT};
+use super::{LOADS_FORMAT, LoadsFile, Number, PROBLEM_FORMAT};
+use crate::LoadedBody;
 use crate::{Body, ContactState, Coordinates, Particle, Pencil, Problem, System, Window};
 use mceip_exact::{Rational, Sparse};
-use num_traits::One as _;
+use num_traits::{One as _, Zero as _};
 use serde_json::{Map, Value, json};
 
 /// The problem as `mceip-problem/1`, matrices inlined as sparse entries.
@@ -38,6 +40,62 @@ pub fn write_problem(problem: &Problem) -> String {
     };
 
     Value::Object(out).to_string()
+}
+
+/// The body and its loads as `mceip-loads/1`. The held dofs are eliminated: what they exert is
+/// written as forces.
+pub fn write_loads(file: &LoadsFile) -> String {
+    let mut out = Map::new();
+    out.insert("format".into(), json!(LOADS_FORMAT));
+    if let Some(name) = &file.name {
+        out.insert("name".into(), json!(name));
+    }
+
+    if let Some(comment) = &file.comment {
+        out.insert("comment".into(), json!(comment));
+    }
+
+    if let Some(coordinates) = &file.coordinates {
+        out.insert("coordinates".into(), write_coordinates(coordinates));
+    }
+
+    let mut system = write_matrices(file.body.system());
+    system.insert("candidates".into(), write_candidates(&file.body));
+    out.insert("system".into(), Value::Object(system));
+    out.insert("steps".into(), write_steps(&file.body));
+
+    Value::Object(out).to_string()
+}
+
+fn write_candidates(body: &LoadedBody) -> Value {
+    let particles = body.system().particles().iter();
+    let mut candidates = Vec::new();
+    for (particle, gap) in particles.zip(body.gaps()) {
+        let mut candidate = write_directions(particle);
+        candidate.insert("gap".into(), json!(gap.to_string()));
+        candidates.push(Value::Object(candidate));
+    }
+
+    Value::Array(candidates)
+}
+
+fn write_steps(body: &LoadedBody) -> Value {
+    let mut steps = Vec::new();
+    for (step, load) in body.steps().iter().zip(body.loads()) {
+        let mut forces = Vec::new();
+        for (dof, force) in load.iter().enumerate() {
+            if !force.is_zero() {
+                forces.push(json!([dof, Number(force.clone())]));
+            }
+        }
+        steps.push(json!({
+            "name": step.name,
+            "forces": forces,
+            "endless": step.is_endless,
+        }));
+    }
+
+    Value::Array(steps)
 }
 
 /// A matrix as `{rows, cols, entries}` with exact entries.
@@ -83,6 +141,15 @@ fn write_pencil(pencil: &Pencil) -> Value {
 }
 
 fn write_system(system: &System) -> Value {
+    let mut out = write_matrices(system);
+    let particles = system.particles().iter().map(write_particle).collect();
+    out.insert("particles".into(), particles);
+
+    Value::Object(out)
+}
+
+/// K, M and mu.
+fn write_matrices(system: &System) -> Map<String, Value> {
     let mut out = Map::new();
     out.insert("stiffness".into(), write_sparse(system.stiffness()));
     if let Some(mass) = system.mass() {
@@ -93,21 +160,32 @@ fn write_system(system: &System) -> Value {
         out.insert("friction".into(), json!(mu.to_string()));
     }
 
-    let particles = system.particles().iter().map(write_particle).collect();
-    out.insert("particles".into(), particles);
-
-    Value::Object(out)
+    out
 }
 
 fn write_particle(particle: &Particle) -> Value {
-    let mut out = Map::new();
-    out.insert("tangential".into(), json!(particle.tangential));
-    out.insert("normal".into(), json!(particle.normal));
+    let mut out = write_directions(particle);
     out.insert("state".into(), json!(particle.state.word()));
     if let ContactState::Slip { sign } = particle.state {
         out.insert("sign".into(), json!(sign));
     }
 
+    if let Some(reaction) = &particle.reaction {
+        let numbers = json!({
+            "normal": reaction.normal.to_string(),
+            "tangential": reaction.tangential.to_string(),
+        });
+        out.insert("reaction".into(), numbers);
+    }
+
+    Value::Object(out)
+}
+
+/// Dofs, directions and friction factor: what a particle has in common with a candidate.
+fn write_directions(particle: &Particle) -> Map<String, Value> {
+    let mut out = Map::new();
+    out.insert("tangential".into(), json!(particle.tangential));
+    out.insert("normal".into(), json!(particle.normal));
     out.insert("normal_direction".into(), json!(particle.normal_direction));
 
     if let Some(frame) = &particle.frame {
@@ -122,13 +200,5 @@ fn write_particle(particle: &Particle) -> Value {
         out.insert("friction_factor".into(), json!(factor));
     }
 
-    if let Some(reaction) = &particle.reaction {
-        let numbers = json!({
-            "normal": reaction.normal.to_string(),
-            "tangential": reaction.tangential.to_string(),
-        });
-        out.insert("reaction".into(), numbers);
-    }
-
-    Value::Object(out)
+    out
 }
