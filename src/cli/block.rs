@@ -1,15 +1,15 @@
-//! `mceip block`: the two published states of the polyurethane block, or its whole loading path
-//! with pictures and a report.
+//! `mceip block`: the two published states of the polyurethane block, or the block with its loading
+//! as a file.
 //!
 //! Without other options each published state is searched for its solution of MCEIP-mu, which is
-//! certified on K itself and compared with the paper's number; then for all solutions. `--path`
-//! follows the loading path ([`path`]), `--scale` refines the mesh ([`scale`]), `--lambda2` looks
-//! for growth rates ([`lambda2`]).
+//! certified on K itself and compared with the paper's number; then for all solutions. `--loads`
+//! writes the block and its loads for `mceip path` ([`loads`]), `--scale` refines the mesh
+//! ([`scale`]), `--lambda2` looks for growth rates ([`lambda2`]).
 
 mod args;
 mod doubles;
 mod lambda2;
-mod path;
+mod loads;
 mod scale;
 pub(super) mod scale_error;
 
@@ -29,8 +29,8 @@ use serde_json::{Value, json};
 
 /// Runs the command; the options decide which of its four jobs.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    if args.path || args.report.is_some() || args.pictures.is_some() {
-        return path::run(args);
+    if let Some(file) = &args.loads {
+        return loads::run(args, file);
     }
 
     if !args.lambda2.is_empty() {

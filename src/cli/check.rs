@@ -11,8 +11,8 @@ pub(super) mod plain;
 use super::common::{CliError, exit, load, parse_window, print, text};
 use super::job::{Job, decided};
 use super::path::read_loads_of;
-use super::path::stretches::LETTERS;
 use crate::say;
+use crate::say::path::LETTERS;
 use mceip_check::certificate::{
     CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, EQUILIBRIUM_FORMAT,
     EquilibriumCertificate, PRESENCE_FORMAT, PresenceCertificate,

@@ -150,9 +150,6 @@ pub(super) enum CliError {
     /// A model of the block was refused.
     #[error("{0}")]
     Source(#[from] mceip_paper::SourceError),
-    /// The block's loading path was not followed.
-    #[error(transparent)]
-    BlockPath(#[from] mceip_paper::path::BlockPathError),
     /// A loading path was not followed.
     #[error(transparent)]
     Path(#[from] mceip_path::PathError),

@@ -3,7 +3,6 @@
 use super::common::{CliError, aside, exit, print};
 use indicatif::ProgressBar;
 use mceip_engine::run::{Cancel, Progress, Watch};
-use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -91,15 +90,6 @@ impl Job {
     /// Has the user asked the run to end?
     pub(super) fn is_cancelled(&self) -> bool {
         self.cancel.is_requested()
-    }
-
-    /// The same for callbacks that break off.
-    pub(super) fn flow(&self) -> ControlFlow<()> {
-        if self.is_cancelled() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
     }
 
     /// Writes what is being done.

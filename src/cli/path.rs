@@ -3,18 +3,19 @@
 //! A body with contact candidates is loaded step by step (`mceip-loads/1`). The path is piecewise
 //! linear in the load; each event, where a candidate changes its state, is located exactly by
 //! `mceip_path`. Each stretch between two events gives contact states: on request as a problem
-//! file, and with what is proved of them ([`states`]).
+//! file, and with what is proved of them ([`states`]), as pictures and as a report ([`pages`]).
 
 mod own;
-pub(in crate::cli) mod states;
-pub(in crate::cli) mod stretches;
+mod pages;
+mod states;
+mod stretches;
 
 use super::common::{CliError, exit, positive, print, require_count, text};
 use super::job::Job;
 use super::output::{Folder, Output};
-use crate::picture::{PathLabels, path_picture};
+use crate::picture::path_picture;
 use crate::say::counted;
-use crate::say::path::end_text;
+use crate::say::path::{LETTERS, end_text};
 use crate::{LoadPath, Loads};
 use mceip_engine::analysis::AnalysisError;
 use mceip_engine::equilibrium::StatesNotCertified;
@@ -24,12 +25,18 @@ use mceip_model::Unknown;
 use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
 use mceip_path::{LoadingPath, PathEnd};
 use own::{Asked, Loaded, OwnCritical};
+use pages::{CheckedOn, Shown};
 use serde_json::{Value, json};
-use states::{Followed, ProvedState, Wanted};
+use states::{ProvedState, Wanted};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `path`.
 #[derive(clap::Args)]
+#[command(
+    group = clap::ArgGroup::new("examined")
+        .args(["complete", "report", "pictures"])
+        .multiple(true)
+)]
 pub(super) struct Args {
     /// The body and its loads (`mceip-loads/1`; `-` for stdin).
     file: PathBuf,
@@ -50,21 +57,24 @@ pub(super) struct Args {
     complete: bool,
     /// With --complete: check these sets on K itself instead of the exactly condensed pencil
     /// (slower).
-    #[arg(long, requires = "complete")]
+    #[arg(long, requires = "examined")]
     uncondensed: bool,
     /// With --complete: from which mu the necessary condition (19) or (20) holds.
-    #[arg(long, requires = "complete")]
+    #[arg(long, requires = "examined")]
     conditions: bool,
     /// With --complete: at these mu (one or more, by commas) the complete set of MCEIP-lambda2,
     /// with growth rates.
     #[arg(
         long,
-        requires = "complete",
+        requires = "examined",
         value_name = "MU",
         value_delimiter = ',',
         allow_hyphen_values = true
     )]
     at_mu: Vec<String>,
+    /// With --complete --json: the mode of each solution over all degrees of freedom.
+    #[arg(long, requires = "examined")]
+    modes: bool,
     /// The own critical friction: at mu between these the path at this mu, and whether the
     /// equilibrium at its end can diverge; at a grid, and between neighbours that differ.
     #[arg(
@@ -100,16 +110,18 @@ pub(super) struct Args {
     /// Draw resultants and states along the path, as SVG.
     #[arg(long, value_name = "OUT.svg")]
     picture: Option<PathBuf>,
+    /// The path, every state's answers and pictures as one HTML file (implies --complete
+    /// --conditions); modes are drawn where the file has coordinates.
+    #[arg(long, value_name = "OUT.html")]
+    report: Option<PathBuf>,
+    /// All pictures of the report as SVG files in this folder, as PNG too in a build with the
+    /// feature png (implies --complete --conditions).
+    #[arg(long, value_name = "FOLDER")]
+    pictures: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     json: bool,
 }
-
-/// What the axes of the picture say: units are those of the file.
-const LABELS: PathLabels = PathLabels {
-    load: "load: 1 at the end of the first step, 2 of the second",
-    resultants: "resultants",
-};
 
 /// Follows the path and prints it.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
@@ -118,6 +130,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let at_mu = args.at_mu.iter().map(|mu| positive("at-mu", mu));
     let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
     let picture = Output::prepare_if("picture", args.picture.as_deref(), input)?;
+    let report = Output::prepare_if("report", args.report.as_deref(), input)?;
+    let pictures = Folder::prepare_if("pictures", args.pictures.as_deref(), input)?;
     let folder = Folder::prepare_if("states", args.states.as_deref(), input)?;
     let proofs = Folder::prepare_if("certificates", args.certificates.as_deref(), input)?;
     require_count("grid", args.grid as u64, 1..=MAX_GRID)?;
@@ -147,25 +161,39 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let path = followed.as_path();
     let names = loads.step_names();
 
-    let proved = if args.complete {
+    let say = |progress: &Progress<'_>| job.say(progress);
+    let watch = Watch::new(job.cancel(), &say);
+    let is_shown = report.is_some() || pictures.is_some();
+    // Nothing is proved of the given body on matrices that were rounded.
+    let uncondensed = args.uncondensed || args.doubles;
+    let proved = if args.complete || is_shown {
         let wanted = Wanted {
-            // Nothing is proved of the given body on matrices that were rounded.
-            uncondensed: args.uncondensed || args.doubles,
-            conditions: args.conditions,
+            uncondensed,
+            conditions: args.conditions || is_shown,
             at_mu: &at_mu,
-            modes: false,
-        };
-        let say = |progress: &Progress<'_>| job.say(progress);
-        let watch = Watch::new(job.cancel(), &say);
-        let followed = Followed {
-            body: loads.body().system(),
-            contact: followed.contact(),
-            path,
+            modes: args.modes || is_shown,
         };
         Some(states::of(&followed, &wanted, &watch)?)
     } else {
         None
     };
+    let shown = match &proved {
+        Some(states) if is_shown => Some(Shown {
+            followed: &followed,
+            names: &names,
+            states,
+            branches: pages::branches(loads.body().system(), path, states, &watch)?,
+            checked_on: if uncondensed {
+                CheckedOn::Given
+            } else {
+                CheckedOn::Condensed
+            },
+        }),
+        _ => None,
+    };
+    // An interrupted run leaves no pictures.
+    let shown = shown.filter(|_| !job.is_cancelled());
+    let pages = shown.map_or(Ok(()), |shown| write_pages(&shown, report, pictures));
     let own = match &own_asked {
         None => None,
         Some(asked) => {
@@ -197,7 +225,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let states = folder.map_or(Ok(()), |folder| outcome.write_states(&folder));
     let picture = picture.map_or(Ok(()), |picture| {
         let title = "Loading path: resultants, and the state of each contact candidate";
-        picture.write(&path_picture(title, path, LABELS).to_svg())
+        picture.write(&path_picture(title, path).to_svg())
     });
 
     print(&if args.json {
@@ -206,7 +234,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         outcome.text()
     })?;
     proofs.map_or(Ok(()), Folder::first_failure)?;
-    states.and(picture)?;
+    states.and(picture).and(pages)?;
     let code = exit_code(path, outcome.proved.as_deref(), outcome.is_interrupted);
     let is_certified = outcome.certified.iter().flatten().all(Result::is_ok);
     if code == exit::DONE && !is_certified {
@@ -216,6 +244,33 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Some(own) if code == exit::DONE && own.is_undecided() => Ok(exit::UNDECIDED),
         _ => Ok(code),
     }
+}
+
+/// Pixels of a PNG for each px of the SVG.
+#[cfg(feature = "png")]
+const ZOOM: f32 = 2.0;
+
+/// Writes the report and the pictures, each file whole.
+fn write_pages(
+    shown: &Shown<'_>,
+    report: Option<Output>,
+    folder: Option<Folder>,
+) -> Result<(), CliError> {
+    if let Some(file) = report {
+        file.write(&shown.report()?.to_html())?;
+    }
+
+    let Some(folder) = folder else {
+        return Ok(());
+    };
+    for named in shown.pictures()? {
+        let svg = named.picture.to_svg();
+        folder.write(&format!("{}.svg", named.name), svg.as_bytes())?;
+        #[cfg(feature = "png")]
+        folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
+    }
+
+    Ok(())
 }
 
 /// More parts than any picture has use for.
@@ -261,7 +316,7 @@ impl Outcome<'_> {
     fn text(&self) -> String {
         let name = self.file().name.as_deref().unwrap_or("a body under loads");
         let mu = to_f64(&self.path().steps.friction);
-        let letters = stretches::LETTERS;
+        let letters = LETTERS;
         let table = stretches::table_of(self.path(), self.names);
         let end = end_text(self.path());
         let of_what = if self.in_doubles {
@@ -310,7 +365,8 @@ impl Outcome<'_> {
             out["states_certified"] = json!(certified);
         }
         if let Some(proved) = &self.proved {
-            out["complete_sets"] = states::json_of(proved, self.path());
+            let places = self.file().body.places();
+            out["complete_sets"] = states::json_of(proved, self.path(), places);
         }
         if let Some(own) = &self.own {
             out["own_critical"] = own.json();
@@ -400,14 +456,10 @@ fn certified_text(certified: &[Result<(), StatesNotCertified>]) -> String {
 }
 
 /// What the text of an interrupted run ends with.
-pub(super) const INTERRUPTED: &str = "INTERRUPTED: what is not listed was not examined\n";
+const INTERRUPTED: &str = "INTERRUPTED: what is not listed was not examined\n";
 
 /// Undecided is a path that may go on, and a state with open regions.
-pub(super) fn exit_code(
-    path: &LoadingPath,
-    states: Option<&[ProvedState]>,
-    is_interrupted: bool,
-) -> u8 {
+fn exit_code(path: &LoadingPath, states: Option<&[ProvedState]>, is_interrupted: bool) -> u8 {
     let is_unproved = matches!(&path.end, PathEnd::NoContinuation { why, .. } if !why.is_proved());
     let is_open = states.is_some_and(|states| states.iter().any(ProvedState::is_open));
 

@@ -1,14 +1,18 @@
-//! A body of one's own at the places that its problem file gives: nodes and edges at rest, the
-//! obstacle and the state of each particle, and a mode as arrows.
+//! A body at the places that its file gives: nodes and edges at rest, the obstacle and the state of
+//! each particle, and a mode as the deformed mesh (Figs. 2 and 3 of the paper), with arrows where
+//! the nodes are few.
 //!
 //! The obstacle of a particle is a line across its normal, with hatching on the side into which the
-//! normal points: a wrong angle or normal direction is seen at once.
+//! normal points: a wrong angle or normal direction is seen at once. Nodes that are held are
+//! squares.
 //!
-//! A node moves by (v_i, v_j), i and j its degrees of freedom along x and y; an arrow is that times
-//! one factor for all nodes, which the picture states. A mode has no size of its own.
+//! A node moves by (v_i, v_j), i and j its degrees of freedom along x and y; it is drawn moved by
+//! that times one factor for all nodes, which the picture states. A mode has no size of its own;
+//! the factor makes it visible and keeps neighbours apart.
 
-use super::chart::{TEXT, line, text};
+use super::chart::{line, text};
 use super::drawing::Picture;
+use super::legend::legend;
 use super::marker::Mark;
 use super::markup::{Element, point_list, segment, short};
 use super::scale::label;
@@ -38,11 +42,20 @@ pub struct BodyMode<'a> {
 /// Size of the body on paper, px, at most.
 const FITS: (f64, f64) = (680.0, 400.0);
 
-/// Room about the body, px: an arrow leaves no paper.
+/// Room about the body, px: nothing that moves leaves the paper.
 const MARGIN: f64 = 80.0;
 
-/// Length of the longest arrow, px.
+/// The largest displacement, px, at most.
 const LONGEST: f64 = 60.0;
+
+/// The largest displacement of a mesh, as a part of the smaller side of the body.
+const AMPLITUDE: f64 = 0.12;
+
+/// How much closer the ends of an edge may be drawn, as a part of its length.
+const APPROACH: f64 = 0.5;
+
+/// Nodes up to which each is a dot, and its displacement an arrow.
+const FEW: usize = 40;
 
 /// Arrows that are shorter are left out, px.
 const SHORTEST: f64 = 1.0;
@@ -50,8 +63,11 @@ const SHORTEST: f64 = 1.0;
 /// Length of the head of an arrow, px, at most.
 const HEAD: f64 = 7.0;
 
-/// Radius of the markers of particles, px.
+/// Radius of the markers of particles, px, at most and at least; between these a part of the
+/// distance of neighbours.
 const RADIUS: f64 = 7.0;
+const SMALLEST: f64 = 2.0;
+const OF_DISTANCE: f64 = 0.3;
 
 /// Length of the line of an obstacle, px, and its distance from the middle of the marker.
 const OBSTACLE: f64 = 26.0;
@@ -133,31 +149,39 @@ pub fn body_picture(title: &str, body: &BodyDrawing<'_>) -> Picture {
     let below = placement.bottom() + MARGIN;
     let mut picture = Picture::new(title, FITS.0 + 2.0 * MARGIN, below + 46.0);
     picture.push_heading(MARGIN / 2.0, 28.0);
-    picture.push(body.edges(&on_paper));
-    picture.push(nodes(&on_paper));
+    let radius = body.radius(&on_paper);
+    let Some(mode) = &body.mode else {
+        picture.push(body.edges(&on_paper).with("class", "edges"));
+        picture.push(body.nodes(&on_paper));
+        picture.push(body.obstacles(&on_paper));
+        picture.push(body.marks(&on_paper, radius));
+        picture.push(body.legend(MARGIN / 2.0, below + 8.0));
+        return picture;
+    };
+
+    let largest = body.largest(mode);
+    let factor = body.factor(mode, largest, &placement, &on_paper);
+    let moved = body.moved(mode, factor, &on_paper);
+    picture.push(at_rest(body.edges(&on_paper)));
+    picture.push(body.nodes(&on_paper));
     picture.push(body.obstacles(&on_paper));
-    picture.push(body.marks(&on_paper));
-
-    if let Some(mode) = &body.mode {
-        let largest = body.largest(mode);
-        picture.push(body.arrows(mode, largest, &on_paper));
-
-        // An arrow of a unit of v is this long in the body's unit of length.
-        let factor = LONGEST / placement.unit / largest;
-        let note = if largest > 0.0 {
-            format!(
-                "Arrows: the mode times {}, in the units of the coordinates; the longest is \
-                 |v| = {}.",
-                label(factor),
-                label(largest)
-            )
-        } else {
-            "No node moves in this mode.".into()
-        };
-        picture.push(text(MARGIN / 2.0, below + 30.0, "start", note).with("class", "scale"));
+    picture.push(body.edges(&moved).with("class", "deformed"));
+    if moved.len() <= FEW {
+        picture.push(arrows(&on_paper, &moved));
     }
-
+    picture.push(body.marks(&moved, radius));
     picture.push(body.legend(MARGIN / 2.0, below + 8.0));
+
+    let note = if largest > 0.0 {
+        format!(
+            "Drawn: the mode times {}, in the units of the coordinates; the largest |v| is {}.",
+            label(factor / placement.unit),
+            label(largest)
+        )
+    } else {
+        "No node moves in this mode.".into()
+    };
+    picture.push(text(MARGIN / 2.0, below + 30.0, "start", note).with("class", "scale"));
     picture
 }
 
@@ -187,6 +211,75 @@ impl BodyDrawing<'_> {
         largest
     }
 
+    /// px for a unit of v: the largest displacement is visible, and the ends of an edge do not run
+    /// into each other.
+    fn factor(
+        &self,
+        mode: &BodyMode<'_>,
+        largest: f64,
+        placement: &Placement,
+        on_paper: &[(f64, f64)],
+    ) -> f64 {
+        if largest <= 0.0 {
+            return 0.0;
+        }
+        if self.coordinates.edges().is_empty() {
+            return LONGEST / largest;
+        }
+
+        let smaller_side = placement.size.0.min(placement.size.1);
+        let visible = if smaller_side > 0.0 {
+            LONGEST.min(AMPLITUDE * smaller_side)
+        } else {
+            LONGEST
+        };
+        let mut factor = visible / largest;
+        for &[from, to] in self.coordinates.edges() {
+            let (along_x, along_y) = difference(on_paper[to], on_paper[from]);
+            let (v_x, v_y) = difference(self.displacement(to, mode), self.displacement(from, mode));
+            let length = along_x.hypot(along_y);
+            // On paper y points down.
+            let approach = (v_y * along_y - v_x * along_x) / length;
+            if approach > 0.0 {
+                factor = factor.min(APPROACH * length / approach);
+            }
+        }
+
+        factor
+    }
+
+    /// Where each node goes, on paper.
+    fn moved(&self, mode: &BodyMode<'_>, factor: f64, on_paper: &[(f64, f64)]) -> Vec<(f64, f64)> {
+        let mut moved = Vec::with_capacity(on_paper.len());
+        for (node, (x, y)) in on_paper.iter().enumerate() {
+            let (right, up) = self.displacement(node, mode);
+            moved.push((x + factor * right, y - factor * up));
+        }
+
+        moved
+    }
+
+    /// Radius of the markers: neighbours do not cover each other.
+    fn radius(&self, on_paper: &[(f64, f64)]) -> f64 {
+        let mut places = Vec::new();
+        for particle in self.particles {
+            places.extend(self.coordinates.node_of(particle.tangential));
+        }
+
+        let mut nearest = f64::INFINITY;
+        for (k, &one) in places.iter().enumerate() {
+            for &other in &places[..k] {
+                let (x, y) = difference(on_paper[one], on_paper[other]);
+                let distance = x.hypot(y);
+                if distance > 0.0 {
+                    nearest = nearest.min(distance);
+                }
+            }
+        }
+
+        (OF_DISTANCE * nearest).clamp(SMALLEST, RADIUS)
+    }
+
     fn edges(&self, on_paper: &[(f64, f64)]) -> Element {
         let mut d = String::new();
         for &[from, to] in self.coordinates.edges() {
@@ -194,11 +287,34 @@ impl BodyDrawing<'_> {
         }
 
         Element::new("path")
-            .with("class", "edges")
             .with("d", d)
             .with("fill", "none")
-            .with("stroke", "#999")
-            .with("stroke-width", "0.8")
+            .with("stroke", "#444")
+            .with("stroke-width", "0.7")
+    }
+
+    /// The nodes: dots, those that are held squares; of a fine mesh these only.
+    fn nodes(&self, on_paper: &[(f64, f64)]) -> Element {
+        let is_fine = on_paper.len() > FEW && !self.coordinates.edges().is_empty();
+        let mut group = Element::new("g").with("class", "nodes");
+        for (node, &(x, y)) in self.coordinates.nodes().iter().zip(on_paper) {
+            let is_held = node.dofs == [None, None];
+            if is_fine && !is_held {
+                continue;
+            }
+
+            let drawn = if is_held {
+                let square = [(-3.0, -3.0), (3.0, -3.0), (3.0, 3.0), (-3.0, 3.0)];
+                let corners = square.map(|(right, down)| (x + right, y + down));
+                Element::new("polygon").with("points", point_list(&corners))
+            } else {
+                Element::new("circle").at("cx", x).at("cy", y).at("r", 1.5)
+            };
+            let class = if is_held { "node held" } else { "node" };
+            group.push(drawn.with("class", class).with("fill", "#666"));
+        }
+
+        group
     }
 
     /// The obstacle of each particle, where its normal can be drawn.
@@ -251,14 +367,14 @@ impl BodyDrawing<'_> {
     }
 
     /// The markers of the particles, those of the slip particles turned, with their names.
-    fn marks(&self, on_paper: &[(f64, f64)]) -> Element {
+    fn marks(&self, on_paper: &[(f64, f64)], radius: f64) -> Element {
         let mut marks = Element::new("g").with("class", "marks");
         for (index, particle) in self.particles.iter().enumerate() {
             let Some(node) = self.coordinates.node_of(particle.tangential) else {
                 continue;
             };
             let (x, y) = on_paper[node];
-            let mut mark = self.mark(index).draw(x, y, RADIUS);
+            let mut mark = self.mark(index).draw(x, y, radius);
             if self.mark(index) == Mark::SlipAlong {
                 let degrees = short(self.slip_angle(particle, node));
                 let turn = format!("rotate({degrees} {} {})", short(x), short(y));
@@ -297,20 +413,6 @@ impl BodyDrawing<'_> {
         }
     }
 
-    fn arrows(&self, mode: &BodyMode<'_>, largest: f64, on_paper: &[(f64, f64)]) -> Element {
-        let mut arrows = Element::new("g").with("class", "arrows");
-        for (node, &from) in on_paper.iter().enumerate() {
-            let (v_x, v_y) = self.displacement(node, mode);
-            let right = v_x / largest * LONGEST;
-            let up = v_y / largest * LONGEST;
-            if right.hypot(up) >= SHORTEST {
-                arrows.push(arrow(from, (right, -up)));
-            }
-        }
-
-        arrows
-    }
-
     /// The markers that occur with their words, from (x, y) on.
     fn legend(&self, x: f64, y: f64) -> Element {
         let mut used = Vec::new();
@@ -318,21 +420,37 @@ impl BodyDrawing<'_> {
             used.push(self.mark(particle));
         }
 
-        let mut group = Element::new("g").with("class", "legend");
-        let mut left = x;
-        for mark in Mark::ALL.into_iter().filter(|mark| used.contains(mark)) {
-            let word = match (mark, &self.mode) {
-                (Mark::SlipAlong, None) => "impending slip, the way it points",
-                (Mark::SlipAlong, Some(_)) => "slips, the way it points",
-                _ => mark.word(),
-            };
-            group.push(mark.draw(left + 6.0, y - 4.5, RADIUS).unclassed());
-            group.push(text(left + 18.0, y, "start", word));
-            left += 36.0 + 0.6 * TEXT * word.chars().count() as f64;
-        }
-
-        group
+        legend(&used, x, y, |mark| match (mark, &self.mode) {
+            (Mark::SlipAlong, None) => "impending slip, the way it points",
+            (Mark::SlipAlong, Some(_)) => "slips, the way it points",
+            _ => mark.word(),
+        })
     }
+}
+
+/// The edges of a body that is drawn deformed too.
+fn at_rest(edges: Element) -> Element {
+    edges
+        .with("class", "edges")
+        .with("stroke-dasharray", "3 3")
+        .with("opacity", "0.35")
+}
+
+/// The displacements of the nodes.
+fn arrows(from: &[(f64, f64)], to: &[(f64, f64)]) -> Element {
+    let mut arrows = Element::new("g").with("class", "arrows");
+    for (&from, &to) in from.iter().zip(to) {
+        let (right, down) = difference(to, from);
+        if right.hypot(down) >= SHORTEST {
+            arrows.push(arrow(from, (right, down)));
+        }
+    }
+
+    arrows
+}
+
+fn difference(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    (a.0 - b.0, a.1 - b.1)
 }
 
 /// A line across the normal in front of a place, and strokes on the side to which it points.
@@ -351,17 +469,6 @@ fn obstacle(place: (f64, f64), normal: (f64, f64)) -> Element {
         let t = -half + OBSTACLE * (k as f64 + 0.8) / STROKES as f64;
         let stroke = line(at(t, GAP), at(t - DEPTH, GAP + DEPTH), "#000", 0.7);
         group.push(stroke);
-    }
-
-    group
-}
-
-/// The nodes as dots.
-fn nodes(on_paper: &[(f64, f64)]) -> Element {
-    let mut group = Element::new("g").with("class", "nodes");
-    for &(x, y) in on_paper {
-        let dot = Element::new("circle").at("cx", x).at("cy", y).at("r", 1.5);
-        group.push(dot.with("class", "node").with("fill", "#666"));
     }
 
     group

@@ -2,7 +2,7 @@
 //!
 //! Input: all solutions of MCEIP-lambda2 at some levels of lambda^2, each as a point (mu, lambda^2)
 //! with its support, and certified solutions at chosen mu. The lambda^2 axis is logarithmic with a
-//! zero. Called by `mceip block --report`.
+//! zero. Called by `mceip path --report`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, dot, line, text};
 use super::drawing::Picture;

@@ -42,28 +42,6 @@ impl Mark {
         }
     }
 
-    /// The marks of a mode: slip nodes that are not in `moving` get stuck. `moving` counts the
-    /// nodes in impending slip from 0 at the left.
-    pub fn of_mode(states: &[ContactState], moving: &[usize]) -> Vec<Mark> {
-        let mut marks = Vec::new();
-        let mut slip_nodes = 0;
-        for state in states {
-            let mut mark = Mark::of(*state);
-
-            if matches!(state, ContactState::Slip { .. }) {
-                if !moving.contains(&slip_nodes) {
-                    mark = Mark::Caught;
-                }
-
-                slip_nodes += 1;
-            }
-
-            marks.push(mark);
-        }
-
-        marks
-    }
-
     /// The words of legends, short: all of them stand in one row. A node slips along its tangent or
     /// against it.
     pub fn word(self) -> &'static str {
@@ -159,34 +137,6 @@ fn cross(x: f64, y: f64, a: f64) -> Element {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn slip_nodes_that_do_not_move_are_caught() {
-        let left = ContactState::Slip { sign: 1 };
-        let right = ContactState::Slip { sign: -1 };
-        let states = [
-            ContactState::Stick,
-            left,
-            left,
-            right,
-            left,
-            ContactState::Free,
-            ContactState::Zero,
-        ];
-
-        let marks = Mark::of_mode(&states, &[0, 2]);
-
-        let expected = [
-            Mark::Stick,
-            Mark::SlipAgainst,
-            Mark::Caught,
-            Mark::SlipAlong,
-            Mark::Caught,
-            Mark::Free,
-            Mark::Zero,
-        ];
-        assert_eq!(marks, expected);
-    }
 
     /// The coordinates in the SVG of a mark, without class and shade.
     fn shape_of(mark: Mark) -> String {

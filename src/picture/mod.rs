@@ -6,8 +6,8 @@
 //! numbers beside them.
 //!
 //! `markup` a tree of elements, `drawing` the picture made of them, `scale` and `chart` axes,
-//! `marker` and `legend` the contact states; then a file for each picture: [`mode_picture`],
-//! [`body_picture`], [`path_picture`], [`threshold_picture`], [`branch_picture`],
+//! `marker` and `legend` the contact states; then a file for each picture: [`body_picture`],
+//! [`path_picture`], [`threshold_picture`], [`branch_picture`],
 //! [`presence_picture`], [`table1_picture`], [`cost_picture`], [`motion_picture`]; [`Report`] puts
 //! them into a page.
 
@@ -19,7 +19,6 @@ mod drawing;
 mod legend;
 mod marker;
 mod markup;
-mod mode;
 mod motion;
 mod path;
 #[cfg(feature = "png")]
@@ -36,9 +35,8 @@ pub use cost::{CostSeries, cost_picture};
 pub use drawing::Picture;
 pub use marker::Mark;
 pub use markup::Element;
-pub use mode::{Mode, mode_picture};
 pub use motion::{MotionSeries, motion_picture};
-pub use path::{PathLabels, path_picture};
+pub use path::path_picture;
 #[cfg(feature = "png")]
 pub use png::PngError;
 pub use presence::{Presence, PresenceChart, PresenceRange, presence_picture};

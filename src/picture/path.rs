@@ -2,7 +2,7 @@
 //!
 //! Above stands a chart of T, N and mu N against the load. Below it stands a table of the contact
 //! states with a column for each stretch and a row for each candidate. All columns have one width;
-//! grey lines tie each to its part of the load. Called by `mceip path` and `mceip block --report`.
+//! grey lines tie each to its part of the load. Called by `mceip path`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, dot, line, text};
 use super::drawing::Picture;
@@ -27,19 +27,14 @@ const AREA: Rectangle = Rectangle {
     bottom: 330.0,
 };
 
-/// What the horizontal axis says, and the unit of forces.
-#[derive(Debug, Clone, Copy)]
-pub struct PathLabels {
-    /// Of the load.
-    pub load: &'static str,
-    /// Of the resultants.
-    pub resultants: &'static str,
-}
+/// What the axes say: units are those of the file.
+const LOAD: &str = "load: the amounts of the steps, one after the other";
+const RESULTANTS: &str = "resultants";
 
 /// Draws a path: above T, N and mu N against the load with a dot at each event; below a column for
 /// each stretch, tied to its part of the load, with the mark of each candidate. The load is counted
 /// from the beginning of the first stretch, step after step.
-pub fn path_picture(title: &str, path: &LoadingPath, labels: PathLabels) -> Picture {
+pub fn path_picture(title: &str, path: &LoadingPath) -> Picture {
     let loads = Loads::of(path);
     let ends = ends(path, &loads);
     let table = StateTable::of(path);
@@ -47,14 +42,14 @@ pub fn path_picture(title: &str, path: &LoadingPath, labels: PathLabels) -> Pict
     let mut picture = Picture::new(title, WIDTH, table.bottom() + 78.0);
     picture.push_heading(LEFT, 24.0);
 
-    let chart = push_resultants(&mut picture, path, &ends, labels);
+    let chart = push_resultants(&mut picture, path, &ends);
     table.push_ties(&mut picture, &chart, &ends);
     picture.push(table.marks(path));
     table.push_labels(&mut picture);
 
     let states = path.stretches.iter().flat_map(|i| i.equilibrium_states());
     let marks: Vec<Mark> = states.map(|state| Mark::of(*state)).collect();
-    picture.push(legend(&marks, LEFT, table.bottom() + 62.0));
+    picture.push(legend(&marks, LEFT, table.bottom() + 62.0, Mark::word));
 
     picture
 }
@@ -202,12 +197,7 @@ impl Curve {
 }
 
 /// Draws the chart of the resultants.
-fn push_resultants(
-    picture: &mut Picture,
-    path: &LoadingPath,
-    ends: &[f64],
-    labels: PathLabels,
-) -> Chart {
+fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> Chart {
     let mu = to_f64(&path.steps.friction);
     let resultants = resultants(path, ends);
     let mut highest: f64 = 0.0;
@@ -218,13 +208,13 @@ fn push_resultants(
     }
 
     let x = Axis {
-        label: labels.load,
+        label: LOAD,
         spread: Spread::Linear,
         values: (0.0, ends.last().copied().unwrap_or(1.0)),
         ticks: 9,
     };
     let y = Axis {
-        label: labels.resultants,
+        label: RESULTANTS,
         spread: Spread::Linear,
         values: (0.0, 1.08 * highest),
         ticks: 7,

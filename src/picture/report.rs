@@ -1,6 +1,6 @@
 //! A report as one HTML file: text, tables and pictures, nothing from outside, no scripts.
 //!
-//! `mceip block --report` and `mceip analyze --report` fill a [`Report`] with their answers.
+//! `mceip path --report` and `mceip analyze --report` fill a [`Report`] with their answers.
 
 use super::drawing::Picture;
 use super::markup::Element;

@@ -1,7 +1,7 @@
 //! The static thresholds along the loading path: MCEIP-mu of each state, on a logarithmic axis.
 //!
 //! Input: for each stretch of the path with slip, all solutions of MCEIP-mu of its state and the mu
-//! from which on the necessary condition (19) or (20) holds. Called by `mceip block --report`.
+//! from which on the necessary condition (19) or (20) holds. Called by `mceip path --report`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, line, text};
 use super::drawing::Picture;

@@ -6,6 +6,10 @@ use mceip_model::ContactState;
 use mceip_path::{Bound, Equilibrium, Event, LoadingPath, PathEnd, Stretch};
 use serde_json::{Value, json};
 
+/// What the letters mean by which contact states are shown.
+pub(crate) const LETTERS: &str = "nodes in order: . stick, < impending slip against its tangent (S \
+    = 1), > along it (S = -1), o free, z in contact without reaction";
+
 /// A contact state, with the direction in which a candidate slips along its tangent.
 pub(crate) fn state_word(state: ContactState) -> &'static str {
     match state {

@@ -16,9 +16,8 @@ use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
 use mceip_paper::PublishedState::{FifteenSlip, SeventeenSlip};
-use mceip_paper::path::{BlockPath, Loading};
-use mceip_paper::{Block, BlockModel, MassKind, PublishedState};
-use mceip_path::Stretch;
+use mceip_paper::{Block, BlockModel, Loading, MassKind, PublishedState};
+use mceip_path::{LoadingPath, Stretch};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -269,10 +268,8 @@ fn both_states_are_closed_near_their_thresholds() {
 /// The intervals of the loading path of the paper in which at least one node slips.
 fn slipping_intervals(block: &Block) -> Vec<Stretch> {
     let contact = block.contact_side().unwrap();
-    let loading = Loading::of_the_paper();
-    let path = BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
-        .unwrap()
-        .motion;
+    let steps = Loading::of_the_paper().steps(&contact).unwrap();
+    let path = LoadingPath::follow(&contact, &steps, &|_| ControlFlow::Continue(())).unwrap();
 
     let mut intervals = path.stretches;
     intervals.retain(|interval| count_of_slip_nodes(interval) > 0);

@@ -1,9 +1,9 @@
 //! The block of the paper and its loading path, computed once for all tests of this program.
 #![cfg(feature = "solver")]
 
-use mceip_paper::path::{BlockPath, Loading};
-use mceip_paper::{Block, BlockModel};
-use mceip_path::{Contact, LoadingPath, Stretch};
+use mceip_exact::Rational;
+use mceip_paper::{Block, BlockModel, Loading};
+use mceip_path::{Contact, Equilibrium, LoadingPath, PathError, Stretch};
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
@@ -24,12 +24,33 @@ pub(crate) static PAPER_PATH: LazyLock<PaperPath> = LazyLock::new(|| {
     }
 });
 
+/// The path of a block: the pressing, then the motion to the left, mm and N.
+pub(crate) struct BlockPath {
+    /// Depth of the pressing.
+    pub(crate) depth: Rational,
+    /// The equilibrium at its end.
+    pub(crate) pressed: Equilibrium,
+    pub(crate) motion: LoadingPath,
+}
+
+/// Follows a condensed block, never interrupted.
+pub(crate) fn follow_contact(contact: &Contact, loading: &Loading) -> Result<BlockPath, PathError> {
+    let steps = loading.steps(contact)?;
+    let mut path = LoadingPath::follow(contact, &steps, &|_| ControlFlow::Continue(()))?;
+    let pressing = path.stretches.remove(0);
+    assert!(path.stretches.iter().all(|stretch| stretch.step == 1));
+
+    Ok(BlockPath {
+        depth: steps.amounts[0].clone().unwrap(),
+        pressed: pressing.stop.unwrap(),
+        motion: path,
+    })
+}
+
 /// The motion of a condensed block under the loading of the paper.
 pub(crate) fn path_of(contact: &Contact) -> LoadingPath {
-    let loading = Loading::of_the_paper();
-    BlockPath::follow(contact, &loading, &|_, _| ControlFlow::Continue(()))
-        .unwrap()
-        .motion
+    let path = follow_contact(contact, &Loading::of_the_paper());
+    path.unwrap().motion
 }
 
 /// How many nodes slip, to either side.

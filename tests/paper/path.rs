@@ -1,37 +1,28 @@
-//! The loading path of the block: its laws against the uncondensed K, its events against stepping,
-//! its states against the paper.
+//! The loading path of the block: its laws against the uncondensed K, its states against the paper.
 //!
 //! The path is computed on the condensed contact side. The truth is elimination in fractions on the
-//! whole K, the model's own check of (7), backward Euler in small steps, and the two states that
-//! the paper prints. A wrong condensation, a wrong sign or a missed event contradicts one of them.
+//! whole K, the model's own check of (7), and the two states that the paper prints. A wrong
+//! condensation, a wrong sign or a missed event contradicts one of them.
 #![cfg(feature = "solver")]
 
 use crate::elimination::solve;
-use crate::paper_path::{PAPER_PATH, PaperPath};
+use crate::paper_path::{BlockPath, PAPER_PATH, PaperPath, follow_contact};
 use mceip_engine::reduction::condense;
-use mceip_exact::{Rational, rational, to_f64, whole};
+use mceip_exact::{Rational, rational, whole};
+use mceip_model::file::{read_loads, write_loads};
 use mceip_model::reduction::reduce;
 use mceip_model::{
     Admissible, ContactState, ModelError, Particle, Pencil, Reaction, System, Unknown,
 };
-use mceip_paper::path::{BlockPath, BlockPathError, Comparison, Loading, step_path};
-use mceip_paper::{Block, BlockModel, MeshKind, Plane, PublishedState};
-use mceip_path::{Bound, Contact, Equilibrium, Finder, PathEnd, PathError, Stretch};
+use mceip_paper::{Block, BlockModel, Loading, MeshKind, Plane, PublishedState};
+use mceip_path::{
+    Bound, Contact, Equilibrium, Finder, LoadSteps, LoadingPath, PathEnd, PathError, Stretch,
+};
 use std::ops::ControlFlow;
 
 fn follow(block: &Block, loading: &Loading) -> BlockPath {
     let contact = block.contact_side().unwrap();
     follow_contact(&contact, loading).unwrap()
-}
-
-/// The path of a condensed block, never interrupted.
-fn follow_contact(contact: &Contact, loading: &Loading) -> Result<BlockPath, BlockPathError> {
-    BlockPath::follow(contact, loading, &|_, _| ControlFlow::Continue(()))
-}
-
-/// Progress of stepping that never interrupts.
-fn go_on(_: usize) -> ControlFlow<()> {
-    ControlFlow::Continue(())
 }
 
 fn block(nx: usize, ny: usize, mesh: MeshKind, plane: Plane) -> Block {
@@ -271,53 +262,6 @@ fn events_are_located_exactly() {
     );
 }
 
-/// Compares a path with stepping in `count` steps of length `step`.
-fn compare(
-    path: &BlockPath,
-    contact: &Contact,
-    loading: &Loading,
-    step: &Rational,
-    count: usize,
-) -> Comparison {
-    let steps = step_path(contact, loading, step, count, &go_on).unwrap();
-    Comparison::of(&path.motion, &steps)
-}
-
-#[test]
-fn stepping_finds_the_same_path_but_for_short_stretches() {
-    let contact = block(8, 4, MeshKind::Crossed, Plane::Stress)
-        .contact_side()
-        .unwrap();
-    let loading = Loading::of_the_paper();
-    let path = follow_contact(&contact, &loading).unwrap();
-    let last = to_f64(path.motion.stretches.last().unwrap().start.amount());
-
-    let small = rational(1, 1000);
-    let small_steps = (last / to_f64(&small)) as usize + 10;
-    let fine = compare(&path, &contact, &loading, &small, small_steps);
-
-    assert!(fine.skipped.is_empty(), "{:?}", fine.skipped);
-    assert!(fine.other_states.is_empty(), "{:?}", fine.other_states);
-
-    // In N, of 55 N. No node turns round within a step here, and then backward Euler is exact at
-    // the end of the step, over events too: what is left is rounding (seen: 1e-13).
-    assert!(fine.reaction < 1e-9, "{}", fine.reaction);
-
-    let large = rational(1, 10);
-    let large_steps = (last / to_f64(&large)) as usize + 10;
-    let coarse = compare(&path, &contact, &loading, &large, large_steps);
-
-    assert!(!coarse.skipped.is_empty(), "short stretches are skipped");
-
-    let other_friction = paper(rational(12, 10));
-    let other = compare(&path, &contact, &other_friction, &rational(1, 100), 300);
-    assert!(
-        other.reaction > 0.1,
-        "another friction is another path: {}",
-        other.reaction
-    );
-}
-
 #[test]
 fn a_range_an_interrupt_and_refusals() {
     let contact = block(2, 1, MeshKind::Slash, Plane::Stress)
@@ -330,47 +274,67 @@ fn a_range_an_interrupt_and_refusals() {
         until: Some(until.clone()),
         ..Loading::of_the_paper()
     };
-    let short = follow_contact(&contact, &limited).unwrap();
-    let last_stop = short
-        .motion
-        .stretches
-        .last()
-        .unwrap()
-        .stop
-        .as_ref()
-        .unwrap();
+    let short = follow_contact(&contact, &limited).unwrap().motion;
+    let last_stop = short.stretches.last().unwrap().stop.as_ref().unwrap();
 
-    assert_eq!(short.motion.end, PathEnd::AllApplied);
+    assert_eq!(short.end, PathEnd::AllApplied);
     assert_eq!(last_stop.amount(), &until);
 
-    let stopped = BlockPath::follow(&contact, &standard, &|k, _| stop_at(1, k)).unwrap();
-    assert_eq!(stopped.motion.end, PathEnd::Interrupted);
-    assert_eq!(stopped.motion.stretches.len(), 1);
+    let steps = standard.steps(&contact).unwrap();
+    let stopped = LoadingPath::follow(&contact, &steps, &|at| stop_at(1, at.stretch)).unwrap();
+    assert_eq!(stopped.end, PathEnd::Interrupted);
+    assert_eq!(stopped.stretches.len(), 1);
 
     let whole_path = follow_contact(&contact, &standard).unwrap();
     assert!(whole_path.motion.stretches.len() > 1);
-    assert!(!stopped.motion.slides());
+    assert!(!stopped.slides());
     assert!(whole_path.motion.slides());
 
     for (loading, word) in not_positive() {
-        let error = follow_contact(&contact, &loading).unwrap_err();
+        let error = loading.steps(&contact).unwrap_err();
         assert!(
-            matches!(
-                &error,
-                BlockPathError::Path(PathError::NotPositive { what, .. }) if what.contains(word)
-            ),
+            matches!(&error, PathError::NotPositive { what, .. } if what.contains(word)),
             "{error}"
         );
-
-        // Stepping has a range of its own.
-        let stepped = step_path(&contact, &loading, &whole(1), 1, &go_on);
-        assert!(stepped.is_err() || word == "range");
     }
+}
 
-    assert!(step_path(&contact, &standard, &whole(0), 1, &go_on).is_err());
+/// The file of the block is the block: the path of what is read is that in mm and N, with the
+/// pressing and the motion as its two steps.
+#[test]
+fn the_block_as_a_file_has_the_same_path() {
+    let model = BlockModel::of_the_paper().with_cells(4, 2);
+    let loading = Loading::of_the_paper();
+    let expected = follow(&Block::new(&model).unwrap(), &loading);
 
-    let steps = step_path(&contact, &standard, &until, 9, &|step| stop_at(3, step)).unwrap();
-    assert_eq!(steps.len(), 3, "pressing and two steps");
+    let written = write_loads(&model.loads(&loading).unwrap());
+    let file = read_loads(&written, std::path::Path::new(".")).unwrap();
+    let body = file.body;
+    assert_eq!(body.system().friction(), Some(&loading.friction));
+    assert_eq!(file.coordinates.unwrap().nodes().len(), 15 + 8);
+
+    let contact = Contact::condense(body.system(), body.gaps(), body.loads()).unwrap();
+    let steps = LoadSteps {
+        friction: loading.friction,
+        amounts: vec![Some(whole(1)), None],
+    };
+    let path = LoadingPath::follow(&contact, &steps, &|_| ControlFlow::Continue(())).unwrap();
+
+    let (press, motion) = path.stretches.split_first().unwrap();
+    let pressed = press.stop.as_ref().unwrap();
+    assert_eq!(pressed.resultants(), (whole(0), whole(-55)));
+    assert_eq!(motion.len(), expected.motion.stretches.len());
+    for (stretch, expected) in motion.iter().zip(&expected.motion.stretches) {
+        assert_eq!(stretch.states, expected.states);
+        assert_eq!(stretch.start.amount(), expected.start.amount());
+        for node in 0..contact.nodes() {
+            assert_eq!(stretch.start.reaction(node), expected.start.reaction(node));
+            assert_eq!(
+                stretch.start.displacement(node),
+                expected.start.displacement(node)
+            );
+        }
+    }
 }
 
 /// Progress that interrupts when `last` is reached.
@@ -635,7 +599,7 @@ fn path_and_every_pencil_take_under_five_seconds() {
 fn an_interrupt_ends_the_condensation() {
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_mceip"));
     let child = command
-        .args(["block", "--path", "--cells", "40x20"])
+        .args(["block", "--loads", "/dev/null", "--cells", "40x20"])
         .stdout(std::process::Stdio::piped())
         .spawn()
         .unwrap();

@@ -1023,7 +1023,7 @@ fn the_report_draws_a_body_with_coordinates() {
     assert_eq!(pictures.count(), body_and_presence + modes);
     contains_all(
         &html,
-        &["left foot", "&lt;right&gt;", "Arrows: the mode times"],
+        &["left foot", "&lt;right&gt;", "Drawn: the mode times"],
     );
 
     let plain = example("two-particles");

@@ -6,19 +6,17 @@
 //! fails.
 #![cfg(feature = "cli")]
 
-use crate::common::{exit_code, exits_with_json, read, refused};
+use crate::common::{exit_code, exits, exits_with_json, read, refused};
 use crate::program::Folder;
 use mceip::picture::{
-    BodyDrawing, BodyMode, BranchPoint, Branches, CostSeries, Mark, Mode, PathLabels, Picture,
-    Presence, PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture,
-    branch_picture, cost_picture, mode_picture, path_picture, presence_picture, table1_picture,
-    threshold_picture,
+    BodyDrawing, BodyMode, BranchPoint, Branches, CostSeries, Mark, Picture, Presence,
+    PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture, branch_picture,
+    cost_picture, path_picture, presence_picture, table1_picture, threshold_picture,
 };
 use mceip_exact::to_f64;
 use mceip_model::file::read_problem;
 use mceip_model::{ContactState, Problem};
-use mceip_paper::path::{BlockPath, Loading};
-use mceip_paper::{Block, BlockModel, Triangulation};
+use mceip_paper::{Block, BlockModel, Loading};
 use mceip_path::LoadingPath;
 use mceip_testkit::system_of;
 use roxmltree::{Document, Node};
@@ -32,11 +30,9 @@ fn small() -> BlockModel {
 fn path() -> LoadingPath {
     let block = Block::new(&small()).unwrap();
     let contact = block.contact_side().unwrap();
-    let loading = Loading::of_the_paper();
+    let steps = Loading::of_the_paper().steps(&contact).unwrap();
 
-    BlockPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(()))
-        .unwrap()
-        .motion
+    LoadingPath::follow(&contact, &steps, &|_| ControlFlow::Continue(())).unwrap()
 }
 
 /// The elements that have this class, perhaps among others.
@@ -148,8 +144,8 @@ fn assert_png_of_twice_the_size(picture: &Picture) {
 }
 
 #[test]
-fn a_mode_has_the_mark_of_every_node_and_every_edge() {
-    let mesh = small().triangulation().unwrap();
+fn a_mesh_is_drawn_deformed_with_the_mark_of_every_candidate() {
+    let loads = small().loads(&Loading::of_the_paper()).unwrap();
     let slip = ContactState::Slip { sign: 1 };
     let states = [
         ContactState::Stick,
@@ -160,51 +156,56 @@ fn a_mode_has_the_mark_of_every_node_and_every_edge() {
         ContactState::Free,
         ContactState::Zero,
     ];
-    let marks = Mark::of_mode(&states, &[0, 2, 3]);
+    let system = loads.body.system().with_states(&states, None).unwrap();
+    let coordinates = loads.coordinates.as_ref().unwrap();
 
-    let text = sound(&picture_of_one_moved_node(&mesh, &marks, -1.0));
+    let moved = system.particles()[4].tangential;
+    let picture = |motion: f64| {
+        let mut v = vec![0.0; system.dofs()];
+        v[moved] = motion;
+        body_picture(
+            "a < b & c",
+            &BodyDrawing {
+                coordinates,
+                particles: system.particles(),
+                mode: Some(BodyMode {
+                    v: &v,
+                    slipping: &[1, 3, 4],
+                }),
+            },
+        )
+    };
+    let text = sound(&picture(-1.0));
 
+    // Those that slip are turned into their direction.
     let tree = Document::parse(&text).unwrap();
     let counts = Mark::ALL.map(|mark| count(&tree, mark.class()));
     assert_eq!(
         counts,
-        [1, 2, 1, 1, 1, 1],
-        "stick, left, right, caught, free, zero"
+        [1, 0, 3, 1, 1, 1],
+        "stick, against, along, caught, free, zero"
     );
     assert_eq!(count(&tree, "mark"), states.len());
+    assert_eq!(count(&tree, "held"), 7, "the glued side");
 
-    // Euler: points + triangles - 1 edges, each once.
-    let deformed = of_class(&tree, "deformed")[0];
-    let edges = deformed.attribute("d").unwrap().matches('M').count();
-    assert_eq!(edges, mesh.points.len() + mesh.triangles.len() - 1);
+    for class in ["deformed", "edges"] {
+        let edges = of_class(&tree, class)[0].attribute("d").unwrap();
+        assert_eq!(edges.matches('M').count(), coordinates.edges().len());
+    }
     assert!(text.contains("a &lt; b &amp; c"));
+    assert_eq!(count(&tree, "arrow"), 0, "46 nodes are too many for arrows");
 
     // A mode turned round is drawn on the other side; one that is zero or not finite is drawn at
     // rest.
-    let longer = picture_of_one_moved_node(&mesh, &marks, -2.0).to_svg();
-    let turned = picture_of_one_moved_node(&mesh, &marks, 1.0).to_svg();
-    let at_rest = picture_of_one_moved_node(&mesh, &marks, 0.0).to_svg();
-    let not_finite = picture_of_one_moved_node(&mesh, &marks, f64::NAN).to_svg();
-
-    assert_eq!(longer, text, "only the direction matters");
-    assert_ne!(turned, text);
-    assert_eq!(not_finite, at_rest);
-}
-
-/// A mode in which one contact node moves along the obstacle.
-fn picture_of_one_moved_node(mesh: &Triangulation, marks: &[Mark], motion: f64) -> Picture {
-    let nodes = mesh.nodes.iter().flatten().count();
-    let moved = mesh.nodes[mesh.contact[4]].unwrap();
-    let mut displacement = vec![0.0; 2 * nodes];
-    displacement[2 * moved] = motion;
-
-    let mode = Mode {
-        mesh,
-        displacement: &displacement,
-        marks,
+    let deformed = |motion: f64| {
+        let svg = picture(motion).to_svg();
+        let tree = Document::parse(&svg).unwrap();
+        let deformed = of_class(&tree, "deformed")[0];
+        deformed.attribute("d").unwrap().to_string()
     };
-
-    mode_picture("a < b & c", &mode)
+    assert_eq!(deformed(-2.0), deformed(-1.0), "only the direction matters");
+    assert_ne!(deformed(1.0), deformed(-1.0));
+    assert_eq!(deformed(f64::NAN), deformed(0.0));
 }
 
 /// Two particles on a wedge and a node above them: the markers point where the
@@ -277,7 +278,7 @@ fn a_body_has_its_nodes_states_and_arrows() {
     assert!(along("x1", "x2") > 0.0);
     assert!((along("y1", "y2") / along("x1", "x2") - 0.5).abs() < 0.01);
     let scale = of_class(&tree, "scale")[0].text().unwrap();
-    assert!(scale.contains("the longest is |v| = 0.559."), "{scale}");
+    assert!(scale.contains("the largest |v| is 0.559."), "{scale}");
 
     // Nothing moves, all nodes at one place, places at the end of what is read.
     drawing.mode = Some(BodyMode {
@@ -321,11 +322,7 @@ fn with_second_node_at(x: &str) -> Problem {
 #[test]
 fn the_path_is_drawn_as_it_is() {
     let path = path();
-    let labels = PathLabels {
-        load: "motion",
-        resultants: "resultants",
-    };
-    let text = sound(&path_picture("path", &path, labels));
+    let text = sound(&path_picture("path", &path));
     let tree = Document::parse(&text).unwrap();
 
     for mark in Mark::ALL {
@@ -335,16 +332,22 @@ fn the_path_is_drawn_as_it_is() {
     }
 
     let points = of_class(&tree, "point");
-    let mut motions = Vec::new();
+    let depth = path.steps.amounts[0].as_ref().unwrap();
+    let mut loads = Vec::new();
     let mut tangential_forces = Vec::new();
 
     for stretch in &path.stretches {
         let (tangential, _) = stretch.start.resultants();
-        motions.push(to_f64(stretch.start.amount()));
+        let before = if stretch.step == 0 {
+            0.0
+        } else {
+            to_f64(depth)
+        };
+        loads.push(before + to_f64(stretch.start.amount()));
         tangential_forces.push(to_f64(&tangential));
     }
 
-    assert_eq!(data(&points, "data-x"), motions);
+    assert_eq!(data(&points, "data-x"), loads);
     assert_eq!(data(&points, "data-y"), tangential_forces);
 
     let places = data(&points, "cx");
@@ -566,18 +569,29 @@ fn list<'a>(value: &'a Value, field: &str) -> &'a [Value] {
     value[field].as_array().unwrap()
 }
 
+/// A small block and its loading as a file.
+fn block_of(folder: &Folder, cells: &str) -> String {
+    let file = folder.path("block.json");
+    exits(0, &format!("block --loads {file} --cells {cells}"));
+    file
+}
+
 #[test]
 fn a_report_is_one_page_that_needs_nothing_else() {
     let folder = Folder::new();
+    let block = block_of(&folder, "6x3");
     let page = folder.path("out.html");
     let pictures = folder.path("pictures");
 
     let json = exits_with_json(
         0,
-        &format!("block --cells 6x3 --at-mu 3 --report {page} --pictures {pictures} --json"),
+        &format!("path {block} --at-mu 3 --report {page} --pictures {pictures} --json"),
     );
 
-    assert_eq!(names(&folder.path("")), ["out.html", "pictures"]);
+    assert_eq!(
+        names(&folder.path("")),
+        ["block.json", "out.html", "pictures"]
+    );
 
     let text = read(&page);
     for outside in ["http:", "https:", "src="] {
@@ -624,19 +638,21 @@ fn count_tags(tree: &Document<'_>, tag: &str) -> usize {
 
 #[test]
 fn every_state_is_listed_with_its_evidence() {
-    let base = "block --path --complete --cells 4x2 --json";
+    let folder = Folder::new();
+    let block = block_of(&folder, "4x2");
+    let base = format!("path {block} --complete --json");
     let condensed = exits_with_json(0, &format!("{base} --conditions --modes --at-mu 2,3"));
     let whole = exits_with_json(0, &format!("{base} --uncondensed"));
 
     let states = list(&condensed, "complete_sets");
     let same_states = list(&whole, "complete_sets");
-    let nodes = list(&condensed, "nodes_mm").len();
+    let dofs = 36; // of 18 nodes that are not glued
 
     assert_eq!(states.len(), same_states.len());
 
     let mut growing = 0;
     for (state, uncondensed) in states.iter().zip(same_states) {
-        solutions_are_those_of_the_uncondensed_block(state, uncondensed, nodes);
+        solutions_are_those_of_the_uncondensed_block(state, uncondensed, dofs);
         assert!(state["from"].is_number());
         assert_eq!(state["nodes"].as_str().unwrap().len(), 5);
 
@@ -656,10 +672,10 @@ fn every_state_is_listed_with_its_evidence() {
     assert!(growing > 0);
 }
 
-/// The solutions of a state, with modes over so many nodes, against those of the uncondensed block,
+/// The solutions of a state, with modes over so many dofs, against those of the uncondensed block,
 /// which has no modes and no conditions.
 #[track_caller]
-fn solutions_are_those_of_the_uncondensed_block(state: &Value, uncondensed: &Value, nodes: usize) {
+fn solutions_are_those_of_the_uncondensed_block(state: &Value, uncondensed: &Value, dofs: usize) {
     let solutions = list(state, "solutions");
     let same_solutions = list(uncondensed, "solutions");
     assert_eq!(solutions.len(), same_solutions.len());
@@ -670,7 +686,7 @@ fn solutions_are_those_of_the_uncondensed_block(state: &Value, uncondensed: &Val
         let same_mu = same["mu"].as_f64().unwrap();
         approx::assert_relative_eq!(mu, same_mu, max_relative = 1e-6);
         assert_eq!(solution["moving"], same["moving"]);
-        assert_eq!(list(solution, "mode").len(), 2 * nodes);
+        assert_eq!(list(solution, "mode").len(), dofs);
         assert!(same.get("mode").is_none());
 
         // The necessary condition (19) comes no later than any solution.
@@ -688,15 +704,19 @@ fn refusals_leave_nothing_behind() {
     let missing_chart = folder.path("missing/chart.svg");
     let pdf = folder.path("chart.pdf");
     let the_folder = folder.path("").trim_end_matches('/').to_string();
+    let path = "path spec/examples/loads.json";
 
     for (command, word) in [
-        (format!("block --report {missing_page}"), "missing/out.html"),
-        (format!("block --report {the_folder}"), "cannot write"),
-        (format!("block --pictures {taken}"), "taken"),
-        (format!("block --report {page} --at-mu 2,-1"), "--at-mu"),
-        (format!("block --report {page} --at-mu nan"), "--at-mu"),
-        (format!("block --report {page} --cells 0x3"), "cells"),
-        (format!("block --state 15 --report {page}"), "--state"),
+        (
+            format!("{path} --report {missing_page}"),
+            "missing/out.html",
+        ),
+        (format!("{path} --report {the_folder}"), "cannot write"),
+        (format!("{path} --pictures {taken}"), "taken"),
+        (format!("{path} --report {page} --at-mu 2,-1"), "--at-mu"),
+        (format!("{path} --report {page} --at-mu nan"), "--at-mu"),
+        (format!("block --loads {page} --cells 0x3"), "cells"),
+        (format!("block --state 15 --loads {page}"), "--state"),
         (format!("table1 --chart {pdf}"), "a name ending in .svg"),
         (
             format!("table1 --chart {missing_chart}"),

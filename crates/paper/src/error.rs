@@ -1,11 +1,13 @@
 //! Why a model of the block is refused: what [`super::Block`], [`super::DoubleBlock`] and
-//! [`super::Triangulation`] return for bad data.
+//! [`super::BlockModel::loads`] return for bad data.
 
 use super::plane::Plane;
 use mceip_exact::Rational;
+use mceip_model::ModelError;
+use mceip_path::PathError;
 
 /// A block that cannot be built, or a contact state that does not fit it.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SourceError {
     /// A mesh without a cell.
@@ -59,6 +61,12 @@ pub enum SourceError {
         /// Slip nodes asked for.
         slip: usize,
     },
+    /// A loading that cannot be followed.
+    #[error(transparent)]
+    Loading(#[from] PathError),
+    /// What no model can be made of.
+    #[error(transparent)]
+    Model(#[from] ModelError),
     /// An entry of the assembly in doubles is too large for a double.
     #[error(
         "block in doubles: expected finite {what}, got {got} (units that make numbers overflow)"

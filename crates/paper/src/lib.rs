@@ -11,7 +11,7 @@
 //! | [`two_particles()`] | Fig. 1 as a mechanical system |
 //! | [`BlockModel`], [`Block`] | the block: its data, and K and M assembled exactly |
 //! | [`DoubleBlock`] | the same in doubles, for large meshes |
-//! | [`path`] | the loading that leads to the contact states of section 5 |
+//! | [`Loading`] | the loading that leads to the contact states of section 5 |
 //! | [`PublishedState`] | the two states whose value of mu the paper prints |
 //! | [`calculix`], [`read_contacts`] | matrices and contact states of a model of one's own |
 //! | [`read_nodes`] | where its nodes are, for pictures |
@@ -22,21 +22,21 @@ mod block;
 mod block_model;
 pub mod calculix;
 mod contacts;
+mod coordinates;
 mod directions;
 mod doubles;
 mod element;
 mod error;
 mod frequencies;
+mod loading;
 mod mesh;
 mod nodes;
-pub mod path;
 mod plane;
 mod plausibility;
 mod published;
 mod rotation;
 mod symmetry;
 mod tolerance;
-mod triangulation;
 mod two_particles;
 
 pub use block::Block;
@@ -45,6 +45,7 @@ pub use contacts::{ContactTable, ContactsError, TableReaction, read_contacts};
 pub use doubles::{DoubleBlock, DoubleMatrix};
 pub use element::{MassKind, Material, Point};
 pub use error::SourceError;
+pub use loading::Loading;
 pub use mesh::{MAX_CELLS, MeshKind};
 pub use nodes::{NodeTable, NodesError, read_nodes};
 pub use plane::Plane;
@@ -52,5 +53,4 @@ pub use plausibility::{Plausibility, PlausibilityInput};
 pub use published::PublishedState;
 pub use rotation::{Frame, angle_in_degrees, make_frames_exact};
 pub use symmetry::{Asymmetry, asymmetry, symmetric_part};
-pub use triangulation::Triangulation;
 pub use two_particles::{pythagorean_angles, two_particles};

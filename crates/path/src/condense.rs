@@ -7,16 +7,20 @@
 //! [C | h] = [K_cc | f_c] - K_ci K_ii^-1 [K_ic | f_i]
 //! ```
 //!
-//! Then the two dofs of each candidate are turned into its tangent and its normal. Exactly it is
-//! one Schur complement, modulo primes. In doubles it is a sparse Cholesky factorisation, and the
-//! condensed body is taken as it comes out: another body than the one given, by rounding. Input is
-//! a [`System`]; the states of its particles play no part.
+//! where each load is divided by its content. Then the two dofs of each candidate are turned into
+//! its tangent and its normal. Exactly it is one Schur complement, modulo primes. In doubles it is
+//! a sparse Cholesky factorisation, and the condensed body is taken as it comes out: another body
+//! than the one given, by rounding. Input is a [`System`]; the states of its particles play no
+//! part.
 
 use super::contact::{Contact, ContactSide, require_length};
 use super::error::PathError;
-use mceip_exact::{Rational, Sparse, from_f64, schur_complement, to_f64};
+use mceip_exact::{
+    Integer, Rational, Sparse, common_denominator, from_f64, schur_complement, to_f64,
+};
 use mceip_mcp::linear::{Analysis, Symmetric};
 use mceip_model::{Direction, ModelError, Particle, System};
+use num_integer::Integer as _;
 use num_traits::{One, Zero};
 
 impl Contact {
@@ -33,14 +37,18 @@ impl Contact {
     ) -> Result<Contact, PathError> {
         let contact = dofs_of_candidates(system, loads)?;
         let inside = all_but(system.dofs(), &contact);
-        let condensed = condensed(system.stiffness(), loads, &inside, &contact)?;
+        let contents: Vec<Rational> = loads.iter().map(|load| content(load)).collect();
+        let short = loads.iter().zip(&contents);
+        let short: Vec<Vec<Rational>> = short.map(|(load, content)| over(load, content)).collect();
+        let condensed = condensed(system.stiffness(), &short, &inside, &contact)?;
 
         let order = contact.len();
         Contact::turned(
-            system.particles(),
+            system,
             gaps,
             &columns(&condensed, 0..order),
             &columns(&condensed, order..condensed.cols()),
+            contents,
         )
     }
 
@@ -74,20 +82,24 @@ impl Contact {
             .map(|row| exactly(row))
             .collect::<Result<Vec<_>, _>>()?;
 
-        Contact::turned(system.particles(), gaps, &stiffness, &condensed_loads)
+        let contents = vec![Rational::one(); loads.len()];
+        Contact::turned(system, gaps, &stiffness, &condensed_loads, contents)
     }
 
     /// From C, given by its columns, and h, both along the dofs of the candidates.
     fn turned(
-        particles: &[Particle],
+        system: &System,
         gaps: &[Rational],
         stiffness: &[Vec<Rational>],
         loads: &[Vec<Rational>],
+        contents: Vec<Rational>,
     ) -> Result<Contact, PathError> {
+        let particles = system.particles();
         let turn = Turn::of(particles);
         Contact::new(ContactSide {
             stiffness: turn.rows_and_columns(stiffness),
             loads: loads.iter().map(|load| turn.vector(load)).collect(),
+            contents,
             gaps: gaps.to_vec(),
             friction_factors: particles
                 .iter()
@@ -105,6 +117,26 @@ fn dofs_of_candidates(system: &System, loads: &[Vec<Rational>]) -> Result<Vec<us
 
     let particles = system.particles().iter();
     Ok(particles.flat_map(|p| [p.tangential, p.normal]).collect())
+}
+
+/// The largest c > 0 for which load / c is in integers; 1 of a load that is zero.
+fn content(load: &[Rational]) -> Rational {
+    let denominator = common_denominator(load);
+    let mut common = Integer::zero();
+    for force in load {
+        common = common.gcd(&(force.numer() * (&denominator / force.denom())));
+    }
+
+    if common.is_zero() {
+        Rational::one()
+    } else {
+        Rational::new(common, denominator)
+    }
+}
+
+/// load / content, integers.
+fn over(load: &[Rational], content: &Rational) -> Vec<Rational> {
+    load.iter().map(|force| force / content).collect()
 }
 
 fn all_but(dofs: usize, taken: &[usize]) -> Vec<usize> {
@@ -294,7 +326,8 @@ mod tests {
         assert!(matches!(refused, Err(PathError::NotDefinite { dof: 0 })));
     }
 
-    /// A candidate whose tangent is turned, without inner dofs: C' = D C D'.
+    /// A candidate whose tangent is turned, without inner dofs: C' = D C D'. The load is five times
+    /// (1, 2).
     #[test]
     fn oblique_candidates_are_turned() {
         let stiffness = matrix(&[&[2, 0], &[0, 7]]);
@@ -312,10 +345,11 @@ mod tests {
         assert_eq!(
             contact.rows_f64(),
             vec![
-                vec![fifths(130), fifths(60), -11.0, fifths(60)],
-                vec![fifths(60), fifths(95), -2.0, fifths(95)],
+                vec![fifths(130), fifths(60), -2.2, fifths(60)],
+                vec![fifths(60), fifths(95), -0.4, fifths(95)],
             ]
         );
+        assert_eq!(contact.content(0), &whole(5));
         assert!(Contact::condense(&system, &[whole(-1)], &[]).is_err());
         assert!(Contact::condense(&system, &[whole(0)], &[vec![whole(1)]]).is_err());
     }

@@ -10,6 +10,10 @@
 //! for the amounts a_l of the loads f_l. Displacements are counted from where a candidate touches
 //! the obstacle, w_N = u_N - gap, so that (1) reads w_N <= 0 for every candidate; the gaps thereby
 //! become one more load, of amount 1. All of `path` reads C and h from here.
+//!
+//! A load with long numbers in common (a depth of pressing with 800 bits) would make every other
+//! number long. So h is that of the load divided by its content, and the amounts in w count these:
+//! [`Contact::content`] of them are one load.
 
 use super::error::PathError;
 use super::load_steps::require_positive;
@@ -27,6 +31,8 @@ pub struct Contact {
     /// \[C, -h_1, -h_2, ...\]: a row for each component of r, a column for each of w.
     rows: Vec<Vec<Integer>>,
     denominator: Integer,
+    /// Of each load: how many of the h in `rows` it is.
+    contents: Vec<Rational>,
     /// Distance of each candidate from the obstacle in the unloaded body, >= 0.
     gaps: Vec<Rational>,
     /// Coefficient of friction of each candidate over mu, > 0.
@@ -38,8 +44,10 @@ pub struct Contact {
 pub struct ContactSide {
     /// C: of order 2 n for n candidates.
     pub stiffness: Vec<Vec<Rational>>,
-    /// h of each load: 2 n components.
+    /// h of each load over its content: 2 n components.
     pub loads: Vec<Vec<Rational>>,
+    /// The content of each load, > 0.
+    pub contents: Vec<Rational>,
     /// Distance of each candidate from the obstacle, >= 0.
     pub gaps: Vec<Rational>,
     /// Coefficient of friction of each candidate over mu, > 0.
@@ -82,6 +90,7 @@ impl Contact {
         Ok(Contact {
             rows,
             denominator,
+            contents: side.contents,
             gaps: side.gaps,
             friction_factors: side.friction_factors,
         })
@@ -95,6 +104,11 @@ impl Contact {
     /// Number of loads.
     pub fn loads(&self) -> usize {
         self.columns() - self.rows.len() - 1
+    }
+
+    /// How many of the h of a load are one of it.
+    pub(super) fn content(&self, load: usize) -> &Rational {
+        &self.contents[load]
     }
 
     /// Bits of the common denominator of the condensed stiffness.
@@ -180,6 +194,7 @@ impl Contact {
         let nodes = stiffness.len() / 2;
         Contact::new(ContactSide {
             stiffness,
+            contents: vec![Rational::one(); loads.len()],
             loads,
             gaps: vec![Rational::zero(); nodes],
             friction_factors: vec![Rational::one(); nodes],
@@ -201,11 +216,15 @@ impl ContactSide {
             let what = "contact candidates";
             return Err(ModelError::Empty { what }.into());
         }
+        require_length("contents of loads", self.contents.len(), self.loads.len())?;
         require_length("gaps", 2 * nodes, order)?;
         require_length("friction factors", self.friction_factors.len(), nodes)?;
 
         for factor in &self.friction_factors {
             require_positive("friction factor", factor)?;
+        }
+        for content in &self.contents {
+            require_positive("content of a load", content)?;
         }
 
         match self.gaps.iter().position(Signed::is_negative) {

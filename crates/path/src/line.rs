@@ -153,7 +153,7 @@ impl Line {
         })
     }
 
-    /// The equilibrium at the amount `a`.
+    /// The equilibrium where `a` of the h of the growing load is applied, which is its amount.
     ///
     /// # Errors
     /// The first candidate at which (1) or (7) fails.
@@ -330,6 +330,22 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
+    /// The equilibrium of the body without gaps under `factor` > 0 times these loads; what its
+    /// amount is called.
+    pub(super) fn times(self, factor: &Rational, amount: Rational) -> Equilibrium {
+        let scaled = |unit: &Rational| {
+            let numer = unit.numer() * factor.numer();
+            Rational::new_raw(numer, unit.denom() * factor.denom())
+        };
+
+        Equilibrium {
+            amount,
+            w_unit: scaled(&self.w_unit),
+            r_unit: scaled(&self.r_unit),
+            ..self
+        }
+    }
+
     /// The amount of the load that grows.
     pub fn amount(&self) -> &Rational {
         &self.amount
@@ -386,26 +402,6 @@ impl Equilibrium {
         }
 
         reactions
-    }
-
-    /// The equilibrium of the same body with all gaps and loads times `factor` > 0: contact and
-    /// friction (1), (2) know no unit of length or force.
-    #[must_use]
-    pub fn scaled(&self, factor: &Rational) -> Equilibrium {
-        let scaled = |unit: &Rational| {
-            let numer = unit.numer() * factor.numer();
-            Rational::new_raw(numer, unit.denom() * factor.denom())
-        };
-
-        Equilibrium {
-            amount: &self.amount * factor,
-            states: self.states.clone(),
-            gaps: self.gaps.iter().map(|gap| gap * factor).collect(),
-            w: self.w.clone(),
-            w_unit: scaled(&self.w_unit),
-            r: self.r.clone(),
-            r_unit: scaled(&self.r_unit),
-        }
     }
 }
 
@@ -651,22 +647,25 @@ mod tests {
         assert!(!sum.meets(&whole(1), &other_slope, &whole(1)));
     }
 
-    /// The same body twice as large under twice the load: everything is twice as large.
     #[test]
-    fn equilibria_scale_with_loads_and_gaps() {
+    fn an_equilibrium_has_displacements_reactions_and_states() {
         let contact = candidates(1);
         let one = line(
             affine(&[1, 0, 1, 0, 0], &[2, 0, 0, 0, 0]),
             affine(&[4, -2], &[0, 0]),
         );
         let at = one.equilibrium(&whole(3), &contact, &mu_two()).unwrap();
-        let twice = at.scaled(&whole(2));
 
         assert_eq!(at.displacement(0), (whole(7), whole(0)));
+        assert_eq!(at.reaction(0), (whole(4), whole(-2)));
+        assert_eq!(at.amount(), &whole(3));
+        assert_eq!(at.contact_states(), [ContactState::Slip { sign: 1 }]);
+        assert_eq!(at.picture(), "<");
+
+        let twice = at.times(&whole(2), whole(6));
         assert_eq!(twice.displacement(0), (whole(14), whole(0)));
         assert_eq!(twice.reaction(0), (whole(8), whole(-4)));
         assert_eq!(twice.amount(), &whole(6));
         assert_eq!(twice.contact_states(), [ContactState::Slip { sign: 1 }]);
-        assert_eq!(twice.picture(), "<");
     }
 }

@@ -81,20 +81,4 @@ impl LoadingPath {
             .filter(|&i| self.stretches[i].states == states)
             .collect()
     }
-
-    /// The path of the same body with all gaps and loads times `factor` > 0.
-    #[must_use]
-    pub fn scaled(&self, factor: &Rational) -> LoadingPath {
-        let amounts = self.steps.amounts.iter();
-        LoadingPath {
-            steps: LoadSteps {
-                friction: self.steps.friction.clone(),
-                amounts: amounts
-                    .map(|amount| amount.as_ref().map(|amount| amount * factor))
-                    .collect(),
-            },
-            stretches: self.stretches.iter().map(|i| i.scaled(factor)).collect(),
-            end: self.end.clone(),
-        }
-    }
 }

@@ -3,7 +3,6 @@
 
 use super::line::{Bound, Equilibrium};
 use super::rates::Finder;
-use mceip_exact::Rational;
 use mceip_model::ContactState;
 
 /// A node that goes from one state to another at an event.
@@ -75,16 +74,6 @@ impl Stretch {
     pub fn count(&self, state: ContactState) -> usize {
         let states = self.equilibrium_states().iter();
         states.filter(|s| **s == state).count()
-    }
-
-    /// The stretch of the same body with all gaps and loads times `factor` > 0.
-    pub(super) fn scaled(&self, factor: &Rational) -> Stretch {
-        Stretch {
-            start: self.start.scaled(factor),
-            inside: self.inside.scaled(factor),
-            stop: self.stop.as_ref().map(|stop| stop.scaled(factor)),
-            ..self.clone()
-        }
     }
 
     /// [`Equilibrium::picture`] of the equilibria inside the stretch.

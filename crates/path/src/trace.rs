@@ -6,6 +6,10 @@
 //! must begin where the last one ended, satisfy the laws at both ends and inside (`check`), and
 //! ends at its next event or with its step. Input is the condensed body and the steps;
 //! `LoadingPath::follow` calls it.
+//!
+//! Contact and friction (1), (2) know no unit of length or force. Without gaps the path is followed
+//! with all loads over that of the first step, whose numbers may be long, and comes out in the
+//! loads that were given ([`Scale`]).
 
 use super::check::PathPoint;
 use super::contact::{Contact, Friction, Load};
@@ -39,7 +43,9 @@ pub struct PathProgress<'a> {
 struct Tracer<'a> {
     contact: &'a Contact,
     friction: Friction,
-    steps: &'a LoadSteps,
+    scale: Scale,
+    /// How much of h each load becomes, on this scale.
+    amounts: Vec<Option<Rational>>,
     images: Images,
     /// u_T at which each candidate stuck when it last began to.
     held: Vec<Rational>,
@@ -56,7 +62,8 @@ struct SolvedStretch {
 struct Position {
     /// The step whose load grows from here.
     step: usize,
-    /// The amount of that load: 0 where the step begins, else where the stretch before ends.
+    /// How much of h of that load is applied: 0 where the step begins, else where the stretch
+    /// before ends.
     a: Rational,
     /// What happens there: the bounds that became zero.
     causes: Vec<Bound>,
@@ -99,10 +106,11 @@ pub(super) fn trace(
     let mut position = tracer.unloaded();
     let mut stretches = Vec::new();
     let end = loop {
+        let amount = &position.a / tracer.scale.of(position.step);
         let here = PathProgress {
             stretch: stretches.len(),
             step: position.step,
-            amount: &position.a,
+            amount: &amount,
         };
         if progress(here).is_break() {
             break PathEnd::Interrupted;
@@ -163,11 +171,18 @@ pub(super) fn trace(
 }
 
 impl<'a> Tracer<'a> {
-    fn new(contact: &'a Contact, steps: &'a LoadSteps) -> Tracer<'a> {
+    fn new(contact: &'a Contact, steps: &LoadSteps) -> Tracer<'a> {
+        let scale = Scale::new(contact, steps);
+        let mut amounts = Vec::with_capacity(steps.amounts.len());
+        for (load, amount) in steps.amounts.iter().enumerate() {
+            amounts.push(amount.as_ref().map(|amount| amount * scale.of(load)));
+        }
+
         Tracer {
             contact,
             friction: Friction::new(&steps.friction, contact),
-            steps,
+            scale,
+            amounts,
             images: Images::default(),
             held: vec![Rational::zero(); contact.nodes()],
         }
@@ -255,7 +270,7 @@ impl<'a> Tracer<'a> {
             Load::Held(node) => Amount::Fixed(self.held[node].clone()),
             Load::Step(of) if of == step => Amount::Growing,
             // A step that is over has an end.
-            Load::Step(of) => Amount::Fixed(self.steps.amounts[of].clone().unwrap_or_default()),
+            Load::Step(of) => Amount::Fixed(self.amounts[of].clone().unwrap_or_default()),
         }
     }
 
@@ -286,7 +301,7 @@ impl<'a> Tracer<'a> {
     /// The next event, or the end of the step if that comes first.
     fn end_of(&self, stretch: &SolvedStretch, step: usize) -> StretchEnd {
         let event = next_event(&stretch.line, &self.friction, &stretch.solved.states);
-        match (event, &self.steps.amounts[step]) {
+        match (event, &self.amounts[step]) {
             (Some(event), None) => StretchEnd::Event(event),
             (Some(event), Some(end)) if event.a < *end => StretchEnd::Event(event),
             (_, Some(end)) => StretchEnd::Step(end.clone()),
@@ -303,16 +318,23 @@ impl<'a> Tracer<'a> {
     ) -> Result<Stretch, PathError> {
         let line = &stretch.line;
         let solved = &stretch.solved;
+        let one = self.scale.of(from.step);
+        let start = &from.a / one;
         let inside = match end.amount() {
             Some(end) => {
                 self.point(stretch, end).check()?;
-                let quarter = (end - &from.a) / whole(4);
-                simplest_between(&(&from.a + &quarter), &(end - quarter))
+                let end = end / one;
+                let quarter = (&end - &start) / whole(4);
+                simplest_between(&(&start + &quarter), &(end - quarter))
             }
-            None => simplest_between(&(&from.a + whole(1)), &(&from.a + whole(2))),
+            None => simplest_between(&(&start + whole(1)), &(&start + whole(2))),
         };
+        let inside = inside * one;
         self.point(stretch, &inside).check()?;
-        let equilibrium = |a: &Rational| line.equilibrium(a, self.contact, &self.friction);
+        let equilibrium = |a: &Rational| {
+            let found = line.equilibrium(a, self.contact, &self.friction)?;
+            Ok::<_, PathError>(found.times(&self.scale.factor, a / one))
+        };
 
         Ok(Stretch {
             step: from.step,
@@ -327,6 +349,33 @@ impl<'a> Tracer<'a> {
             inside: equilibrium(&inside)?,
             stop: end.amount().map(equilibrium).transpose()?,
         })
+    }
+}
+
+/// In which multiples loads and gaps are applied while a path is followed.
+struct Scale {
+    /// What is applied, times this, is what was asked for. 1 where there are gaps.
+    factor: Rational,
+    /// How much of h one of each load is on this scale.
+    ones: Vec<Rational>,
+}
+
+impl Scale {
+    fn new(contact: &Contact, steps: &LoadSteps) -> Scale {
+        let has_gaps = contact.gaps().iter().any(|gap| !gap.is_zero());
+        let factor = match &steps.amounts[0] {
+            Some(first) if !has_gaps => first * contact.content(0),
+            _ => whole(1),
+        };
+
+        let loads = 0..steps.amounts.len();
+        let ones = loads.map(|load| contact.content(load) / &factor).collect();
+        Scale { factor, ones }
+    }
+
+    /// How much of h one of a load is.
+    fn of(&self, load: usize) -> &Rational {
+        &self.ones[load]
     }
 }
 

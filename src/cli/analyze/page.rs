@@ -35,7 +35,7 @@ impl Drawn<'_> {
 
         let caption = match mode {
             None => "The body and the states of its particles, as the problem file gives them.",
-            Some(_) => "The direction in which the body departs; the arrows have one scale.",
+            Some(_) => "The direction in which the body departs; displacements have one scale.",
         };
         Some(Content::Figure {
             picture: body_picture(title, &drawing),

@@ -5,8 +5,8 @@
 //! pencil condensed exactly to the contact nodes, or on request on K itself. The checker has
 //! accepted the certificate of every set that is called proved.
 
+use crate::LoadPath;
 use crate::cli::common::CliError;
-use crate::picture::Mark;
 use mceip_check::AcceptedClaim;
 use mceip_engine::analysis::conditions::{DefiniteUntil, Necessary};
 use mceip_engine::reduction::mode;
@@ -17,80 +17,72 @@ use mceip_engine::search::levels::Levels;
 use mceip_exact::{Rational, enclosing_decimals, to_f64};
 use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Variable, Window};
-use mceip_path::{Contact, Equilibrium, LoadingPath, Stretch};
+use mceip_path::{Equilibrium, LoadingPath, Stretch};
 use serde_json::{Value, json};
 
-/// A path that was followed, and what it was followed on.
-pub(in crate::cli) struct Followed<'a> {
-    /// The body; the contact states of its particles play no part.
-    pub(in crate::cli) body: &'a System,
-    pub(in crate::cli) contact: &'a Contact,
-    pub(in crate::cli) path: &'a LoadingPath,
-}
-
 /// What is asked of the states.
-pub(in crate::cli) struct Wanted<'a> {
+pub(super) struct Wanted<'a> {
     /// Check each MCEIP-mu set on K itself instead of the exactly condensed pencil.
-    pub(in crate::cli) uncondensed: bool,
+    pub(super) uncondensed: bool,
     /// Conditions (19), (20).
-    pub(in crate::cli) conditions: bool,
+    pub(super) conditions: bool,
     /// Coefficients of friction at which MCEIP-lambda2 is solved.
-    pub(in crate::cli) at_mu: &'a [Rational],
+    pub(super) at_mu: &'a [Rational],
     /// Modes over all degrees of freedom.
-    pub(in crate::cli) modes: bool,
+    pub(super) modes: bool,
 }
 
 /// A stretch and what was proved of its contact state.
-pub(in crate::cli) struct ProvedState {
+pub(super) struct ProvedState {
     /// Number of the stretch on the path.
-    pub(in crate::cli) stretch: usize,
+    pub(super) stretch: usize,
     /// Number of nodes in impending slip.
-    pub(in crate::cli) slip: usize,
+    pub(super) slip: usize,
     /// MCEIP-mu over [0, infinity).
-    pub(in crate::cli) thresholds: ProvedSet,
+    pub(super) thresholds: ProvedSet,
     /// Is a candidate in contact without reaction?
     has_zero: bool,
     /// The necessary condition, if asked for.
-    pub(in crate::cli) necessary: Option<Necessary>,
+    pub(super) necessary: Option<Necessary>,
     /// MCEIP-lambda2 over [0, infinity), for each mu asked for.
-    pub(in crate::cli) growing: Vec<Growing>,
+    pub(super) growing: Vec<Growing>,
 }
 
 /// MCEIP-lambda2 at a coefficient of friction.
-pub(in crate::cli) struct Growing {
-    pub(in crate::cli) mu: Rational,
-    pub(in crate::cli) set: ProvedSet,
+pub(super) struct Growing {
+    pub(super) mu: Rational,
+    pub(super) set: ProvedSet,
 }
 
 /// A set of solutions with what stays open beside it.
-pub(in crate::cli) struct ProvedSet {
-    pub(in crate::cli) solutions: Vec<ProvedMode>,
+pub(super) struct ProvedSet {
+    pub(super) solutions: Vec<ProvedMode>,
     /// Number of open regions and of families.
-    pub(in crate::cli) open: usize,
-    pub(in crate::cli) leaves: usize,
+    pub(super) open: usize,
+    pub(super) leaves: usize,
 }
 
 /// A certified solution.
-pub(in crate::cli) struct ProvedMode {
-    pub(in crate::cli) claim: AcceptedClaim,
+pub(super) struct ProvedMode {
+    pub(super) claim: AcceptedClaim,
     /// mu, or lambda^2 in 1/s^2.
-    pub(in crate::cli) value: f64,
+    pub(super) value: f64,
     /// Slip nodes that move, counted from 0 among the slip nodes.
-    pub(in crate::cli) moving: Vec<usize>,
+    pub(super) moving: Vec<usize>,
     /// v over all degrees of freedom, if asked for.
-    pub(in crate::cli) displacement: Option<Vec<f64>>,
+    pub(super) displacement: Option<Vec<f64>>,
 }
 
 /// The states in which a node slips, until the work is cancelled.
-pub(in crate::cli) fn of(
-    followed: &Followed<'_>,
+pub(super) fn of(
+    followed: &LoadPath,
     wanted: &Wanted<'_>,
     watch: &Watch<'_>,
 ) -> Result<Vec<ProvedState>, CliError> {
-    let body = followed.body;
-    let mut pencils = followed.contact.pencils();
+    let body = followed.loads().body().system();
+    let mut pencils = followed.contact().pencils();
     let mut states = Vec::new();
-    for (stretch, interval) in followed.path.stretches.iter().enumerate() {
+    for (stretch, interval) in followed.as_path().stretches.iter().enumerate() {
         let states_here = interval.equilibrium_states();
         let slip = states_here.iter().filter(|state| is_slip(state)).count();
         if slip == 0 || watch.is_cancelled() {
@@ -142,7 +134,7 @@ pub(in crate::cli) fn of(
 }
 
 /// Is it impending slip?
-pub(in crate::cli) fn is_slip(state: &ContactState) -> bool {
+pub(super) fn is_slip(state: &ContactState) -> bool {
     matches!(state, ContactState::Slip { .. })
 }
 
@@ -232,7 +224,7 @@ impl ProvedSet {
     }
 
     /// The solutions in words, each enclosed to this many digits.
-    pub(in crate::cli) fn values(&self, name: &str, digits: usize) -> String {
+    pub(super) fn values(&self, name: &str, digits: usize) -> String {
         if self.solutions.is_empty() {
             return "none".into();
         }
@@ -248,7 +240,7 @@ impl ProvedSet {
     }
 
     /// What is proved of it.
-    pub(in crate::cli) fn verdict(&self) -> String {
+    pub(super) fn verdict(&self) -> String {
         if self.open == 0 {
             "complete, proved".into()
         } else {
@@ -260,7 +252,7 @@ impl ProvedSet {
 impl ProvedState {
     /// mu from which on the necessary condition holds: the upper end of its enclosure, which is the
     /// accurate one. `None` if not asked for, or if it never holds.
-    pub(in crate::cli) fn necessary_from(&self) -> Option<f64> {
+    pub(super) fn necessary_from(&self) -> Option<f64> {
         self.necessary_end().map(|end| to_f64(&end))
     }
 
@@ -275,7 +267,7 @@ impl ProvedState {
 
     /// The equation that says so: (20) for a mass matrix M* that does not depend on mu, with z
     /// where candidates without reaction are free in it.
-    pub(in crate::cli) fn necessary_equation(&self) -> &'static str {
+    pub(super) fn necessary_equation(&self) -> &'static str {
         let is_constant = |necessary: &Necessary| necessary.mass_is_constant;
         match (
             self.necessary.as_ref().is_some_and(is_constant),
@@ -303,32 +295,24 @@ impl ProvedState {
     }
 
     /// Do all slip nodes slip in this mode: does it satisfy (17)-(18)?
-    pub(in crate::cli) fn is_all_slip(&self, mode: &ProvedMode) -> bool {
+    pub(super) fn is_all_slip(&self, mode: &ProvedMode) -> bool {
         mode.moving.len() == self.slip
     }
 
     /// Does a solution of this set, one of the state's, satisfy (17)-(18)?
-    pub(in crate::cli) fn has_all_slip(&self, set: &ProvedSet) -> bool {
+    pub(super) fn has_all_slip(&self, set: &ProvedSet) -> bool {
         set.solutions.iter().any(|mode| self.is_all_slip(mode))
     }
 
     /// Is anything left open?
-    pub(in crate::cli) fn is_open(&self) -> bool {
+    pub(super) fn is_open(&self) -> bool {
         self.thresholds.open > 0 || self.growing.iter().any(|g| g.set.open > 0)
-    }
-
-    /// The marks of a mode.
-    pub(in crate::cli) fn marks(&self, path: &LoadingPath, mode: &ProvedMode) -> Vec<Mark> {
-        Mark::of_mode(
-            path.stretches[self.stretch].equilibrium_states(),
-            &mode.moving,
-        )
     }
 }
 
 impl ProvedMode {
     /// The value, enclosed to this many digits.
-    pub(in crate::cli) fn enclosure(&self, digits: usize) -> String {
+    pub(super) fn enclosure(&self, digits: usize) -> String {
         let (lo, hi) = enclosing_decimals(&self.claim.value, digits);
         if lo == hi {
             lo
@@ -338,13 +322,13 @@ impl ProvedMode {
     }
 
     /// lambda, 1/s, of a solution of MCEIP-lambda2.
-    pub(in crate::cli) fn growth_rate(&self) -> f64 {
+    pub(super) fn growth_rate(&self) -> f64 {
         self.value.max(0.0).sqrt()
     }
 }
 
 /// The answers as tables for people.
-pub(in crate::cli) fn text_of(states: &[ProvedState], path: &LoadingPath) -> String {
+pub(super) fn text_of(states: &[ProvedState], path: &LoadingPath) -> String {
     let mut out = format!("\n{}\n", thresholds_table(states, path));
     if states.iter().any(|state| !state.growing.is_empty()) {
         out += &format!("{}\n", growing_table(states));
@@ -415,22 +399,30 @@ fn growing_table(states: &[ProvedState]) -> Table {
     table
 }
 
-/// The answers for programs.
-pub(in crate::cli) fn json_of(states: &[ProvedState], path: &LoadingPath) -> Value {
+/// The answers for programs. `places` are the dofs of the system that those of the file are: modes
+/// are over those of the file.
+pub(super) fn json_of(
+    states: &[ProvedState],
+    path: &LoadingPath,
+    places: &[Option<usize>],
+) -> Value {
     let mut out = Vec::new();
     for state in states {
-        out.push(state.json(&path.stretches[state.stretch]));
+        out.push(state.json(&path.stretches[state.stretch], places));
     }
 
     Value::Array(out)
 }
 
 impl ProvedState {
-    fn json(&self, stretch: &Stretch) -> Value {
+    fn json(&self, stretch: &Stretch, places: &[Option<usize>]) -> Value {
         let set = &self.thresholds;
         let solutions = set.solutions.iter();
-        let solutions: Vec<Value> = solutions.map(|m| self.mode_json(m, "mu")).collect();
-        let growing: Vec<Value> = self.growing.iter().map(|g| self.growing_json(g)).collect();
+        let solutions: Vec<Value> = solutions
+            .map(|mode| self.mode_json(mode, "mu", places))
+            .collect();
+        let growing = self.growing.iter();
+        let growing: Vec<Value> = growing.map(|g| self.growing_json(g, places)).collect();
 
         let mut out = json!({
             "stretch": self.stretch,
@@ -458,10 +450,10 @@ impl ProvedState {
         out
     }
 
-    fn growing_json(&self, growing: &Growing) -> Value {
+    fn growing_json(&self, growing: &Growing, places: &[Option<usize>]) -> Value {
         let mut solutions = Vec::new();
         for solution in &growing.set.solutions {
-            let mut out = self.mode_json(solution, "lambda2");
+            let mut out = self.mode_json(solution, "lambda2", places);
             out["growth_rate_per_s"] = json!(solution.growth_rate());
             solutions.push(out);
         }
@@ -476,7 +468,7 @@ impl ProvedState {
     }
 
     /// A solution; `name` is that of its value.
-    fn mode_json(&self, mode: &ProvedMode, name: &str) -> Value {
+    fn mode_json(&self, mode: &ProvedMode, name: &str, places: &[Option<usize>]) -> Value {
         let (lo, hi) = enclosing_decimals(&mode.claim.value, 15);
         let mut out = json!({
             name: mode.value,
@@ -485,8 +477,13 @@ impl ProvedState {
             "moving": mode.moving,
             "all_slip": self.is_all_slip(mode),
         });
-        if let Some(displacement) = &mode.displacement {
-            out["mode"] = json!(displacement);
+        if let Some(v) = &mode.displacement {
+            // A held dof does not move.
+            let places = places.iter();
+            let v: Vec<f64> = places
+                .map(|place| place.map_or(0.0, |dof| v[dof]))
+                .collect();
+            out["mode"] = json!(v);
         }
 
         out

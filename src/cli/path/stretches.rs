@@ -1,17 +1,12 @@
-//! The stretches of a loading path as a table for people: `mceip path` and `mceip block --path`
-//! print it.
+//! The stretches of a loading path as a table for people.
 
 use crate::say::path::causes_text;
 use mceip_engine::report::{Table, fixed_decimals};
 use mceip_model::ContactState;
 use mceip_path::{Equilibrium, Event, Finder, LoadingPath, Stretch};
 
-/// What the letters of the column "nodes" mean.
-pub(in crate::cli) const LETTERS: &str = "nodes in order: . stick, < impending slip against its \
-    tangent (S = 1), > along it (S = -1), o free, z in contact without reaction";
-
 /// The table of the stretches; `steps` are the names of the steps, shown where there are several.
-pub(in crate::cli) fn table_of(path: &LoadingPath, steps: &[&str]) -> Table {
+pub(super) fn table_of(path: &LoadingPath, steps: &[&str]) -> Table {
     let first = path.stretches.first().map(|stretch| stretch.step);
     let has_steps = path
         .stretches
@@ -59,7 +54,7 @@ fn zeros(stretch: &Stretch) -> usize {
 }
 
 /// The cells that describe stretch k, but for its step and the event it begins with.
-pub(in crate::cli) fn stretch_cells(k: usize, stretch: &Stretch) -> Vec<String> {
+pub(super) fn stretch_cells(k: usize, stretch: &Stretch) -> Vec<String> {
     let to = match &stretch.stop {
         Some(stop) => amount(stop),
         None => "-".into(),
@@ -84,6 +79,6 @@ fn event_text(event: &Event) -> String {
 }
 
 /// The amount of the growing load at an equilibrium.
-pub(in crate::cli) fn amount(at: &Equilibrium) -> String {
+pub(super) fn amount(at: &Equilibrium) -> String {
     fixed_decimals(at.amount(), 9)
 }

@@ -1,34 +1,44 @@
-//! Pictures and the report of the loading path.
+//! Pictures and the report of a loading path.
 //!
 //! Input: the path, what was proved of its states, and how lambda^2 depends on mu for one of them.
 //! Output: the pictures with captions for `--pictures`, and a page that holds all of them with
 //! tables for `--report`. Numbers in captions and tables are exact or certified; charts draw them
-//! in doubles.
+//! in doubles. Modes are drawn where the file says where its nodes are.
 
+use super::states::{Growing, ProvedMode, ProvedSet, ProvedState, is_slip};
+use super::stretches::{amount, stretch_cells};
+use crate::LoadPath;
 use crate::cli::common::CliError;
-use crate::cli::path::states::{Growing, ProvedMode, ProvedSet, ProvedState};
-use crate::cli::path::stretches::{amount, stretch_cells};
 use crate::picture::{
-    BranchPoint, Branches, Content, Mode, PathLabels, Picture, Report, Section, Threshold,
-    ThresholdColumn, branch_picture, mode_picture, path_picture, threshold_picture,
+    BodyDrawing, BodyMode, BranchPoint, Branches, Content, Picture, Report, Section, Threshold,
+    ThresholdColumn, body_picture, branch_picture, path_picture, threshold_picture,
 };
-use crate::say::path::{causes_text, end_text};
+use crate::say::path::{LETTERS, causes_text, end_text};
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::Levels;
-use mceip_exact::{Rational, to_f64};
-use mceip_paper::path::BlockPath;
-use mceip_paper::{Block, BlockModel, MassKind, SourceError, Triangulation};
+use mceip_exact::to_f64;
+use mceip_model::{Coordinates, ModelError, System};
 use mceip_path::LoadingPath;
+use num_traits::Zero;
 
 /// Everything there is to show.
 pub(super) struct Shown<'a> {
-    pub(super) model: &'a BlockModel,
-    pub(super) block: &'a Block,
-    pub(super) path: &'a BlockPath,
+    pub(super) followed: &'a LoadPath,
+    /// Names of the steps.
+    pub(super) names: &'a [&'a str],
     pub(super) states: &'a [ProvedState],
     pub(super) branches: Option<StateBranches>,
-    /// Were the MCEIP-mu sets checked on K itself?
-    pub(super) uncondensed: bool,
+    /// On which matrices the MCEIP-mu sets were checked.
+    pub(super) checked_on: CheckedOn,
+}
+
+/// The matrices on which a set was checked.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum CheckedOn {
+    /// K and M.
+    Given,
+    /// The exactly condensed pencil of each state.
+    Condensed,
 }
 
 /// lambda^2 against mu for the state of one stretch.
@@ -53,22 +63,20 @@ impl Named {
     }
 }
 
-/// What the axes of the path's picture say.
-const LABELS: PathLabels = PathLabels {
-    load: "motion of CD to the left (mm)",
-    resultants: "resultants (N)",
-};
-
 /// Levels of lambda^2: the lowest natural frequency squared times 1.5^k, for k in this range.
 const LEVELS: std::ops::Range<i32> = -10..14;
 
-/// The solutions of the last state with a solution, level by level; `None` without one.
+/// The solutions of the last state with a solution, level by level; `None` without one, or without
+/// a mass.
 pub(super) fn branches(
-    block: &Block,
+    body: &System,
     path: &LoadingPath,
     states: &[ProvedState],
     watch: &Watch<'_>,
 ) -> Result<Option<StateBranches>, CliError> {
+    if body.mass().is_none() {
+        return Ok(None);
+    }
     let mut backwards = states.iter().rev();
     let Some(state) = backwards.find(|s| !s.thresholds.solutions.is_empty()) else {
         return Ok(None);
@@ -86,8 +94,8 @@ pub(super) fn branches(
     }
 
     let mut levels = vec![static_points(&state.thresholds)];
-    let contact_states = &path.stretches[state.stretch].states;
-    let system = Levels::new(&block.system(contact_states, None)?)?;
+    let contact_states = path.stretches[state.stretch].equilibrium_states();
+    let system = Levels::new(&body.with_states(contact_states, None)?)?;
     let unit = system.lowest_frequency2().unwrap_or(1.0);
     for (k, exponent) in LEVELS.enumerate() {
         if watch.is_cancelled() {
@@ -137,31 +145,38 @@ fn static_points(thresholds: &ProvedSet) -> Vec<BranchPoint> {
 }
 
 impl Shown<'_> {
+    fn path(&self) -> &LoadingPath {
+        self.followed.as_path()
+    }
+
+    fn body(&self) -> &System {
+        self.followed.loads().body().system()
+    }
+
     /// Every picture: the path, the thresholds, lambda^2 against mu, a mode for each certified
     /// solution.
-    pub(super) fn pictures(&self) -> Result<Vec<Named>, SourceError> {
-        let mesh = self.model.triangulation()?;
+    pub(super) fn pictures(&self) -> Result<Vec<Named>, ModelError> {
         let mut all = vec![self.path_chart(), self.threshold_chart()];
         all.extend(self.branch_chart());
         for state in self.states {
-            all.extend(self.modes(&mesh, state));
+            all.extend(self.modes(state)?);
         }
 
         Ok(all)
     }
 
     fn path_chart(&self) -> Named {
-        let title = "Loading path: resultants, and the state of each contact node";
+        let title = "Loading path: resultants, and the state of each contact candidate";
         Named {
             name: "path".into(),
-            picture: path_picture(title, &self.path.motion, LABELS),
+            picture: path_picture(title, self.path()),
             caption: PATH_CAPTION.into(),
         }
     }
 
     fn threshold_chart(&self) -> Named {
         let columns: Vec<ThresholdColumn> = self.states.iter().map(threshold_column).collect();
-        let mu = to_f64(&self.path.loading.friction);
+        let mu = to_f64(&self.path().steps.friction);
         let title = "MCEIP-\u{3bc} along the loading path";
 
         Named {
@@ -182,15 +197,25 @@ impl Shown<'_> {
         })
     }
 
-    /// A picture for each solution of a state whose displacement is known.
-    fn modes(&self, mesh: &Triangulation, state: &ProvedState) -> Vec<Named> {
-        let stretch = state.stretch;
+    /// A picture for each solution of a state; none where the places of the nodes are not known.
+    fn modes(&self, state: &ProvedState) -> Result<Vec<Named>, ModelError> {
         let mut all = Vec::new();
+        let Some(coordinates) = &self.followed.loads().as_file().coordinates else {
+            return Ok(all);
+        };
+
+        let stretch = state.stretch;
+        let states = self.path().stretches[stretch].equilibrium_states();
+        let drawn = DrawnState {
+            state,
+            system: self.body().with_states(states, None)?,
+            coordinates,
+        };
         for (k, mode) in state.thresholds.solutions.iter().enumerate() {
             let mu = mode.value;
             let title = format!("Stretch {stretch}: mode at \u{3bc} = {mu:.6}, \u{3bb} = 0");
             let name = format!("mode-stretch-{stretch:02}-mu-{}", k + 1);
-            all.extend(self.mode(mesh, state, mode, &title, name));
+            all.extend(drawn.mode(mode, &title, name));
         }
 
         for Growing { mu, set } in &state.growing {
@@ -200,40 +225,15 @@ impl Shown<'_> {
                 let title =
                     format!("Stretch {stretch}: mode at \u{3bc} = {mu}, growth rate {rate:.4} 1/s");
                 let name = format!("mode-stretch-{stretch:02}-at-{mu}-{}", k + 1);
-                all.extend(self.mode(mesh, state, mode, &title, name));
+                all.extend(drawn.mode(mode, &title, name));
             }
         }
 
-        all
-    }
-
-    /// The picture of a mode; `None` if its displacement is not known.
-    fn mode(
-        &self,
-        mesh: &Triangulation,
-        state: &ProvedState,
-        mode: &ProvedMode,
-        title: &str,
-        name: String,
-    ) -> Option<Named> {
-        let drawn = Mode {
-            mesh,
-            displacement: mode.displacement.as_ref()?,
-            marks: &state.marks(&self.path.motion, mode),
-        };
-        let moving = mode.moving.len();
-        let slip = state.slip;
-
-        Some(Named {
-            name,
-            picture: mode_picture(title, &drawn),
-            caption: format!("{moving} of {slip} slip nodes slip, the others get stuck."),
-        })
+        Ok(all)
     }
 
     /// The report.
-    pub(super) fn report(&self) -> Result<Report, SourceError> {
-        let mesh = self.model.triangulation()?;
+    pub(super) fn report(&self) -> Result<Report, ModelError> {
         let path = Section {
             title: "Loading path".into(),
             content: vec![self.path_chart().into_figure(), self.path_table()],
@@ -249,90 +249,67 @@ impl Shown<'_> {
             content: thresholds,
         };
 
-        let mut sections = vec![self.model_section(&mesh), path, thresholds];
+        let mut sections = vec![self.model_section(), path, thresholds];
         for state in self.states {
-            let modes = self.modes(&mesh, state);
+            let modes = self.modes(state)?;
             let figures = modes.into_iter().map(Named::into_figure);
             sections.push(self.state_section(state, figures.collect()));
         }
 
-        let (nx, ny) = self.model.cells;
-        let mu = to_f64(&self.path.loading.friction);
-        let title =
-            format!("Elastic block in frictional contact: {nx} x {ny} cells, \u{3bc} = {mu}");
+        let name = self.followed.loads().as_file().name.as_deref();
+        let name = name.unwrap_or("A body under loads");
+        let mu = to_f64(&self.path().steps.friction);
+        let title = format!("{name}: elastic body in frictional contact, \u{3bc} = {mu}");
 
         Ok(Report { title, sections })
     }
 
     /// What a solution means, and what was checked.
     fn meaning(&self) -> String {
-        if self.uncondensed {
-            format!("{MEANING} {UNCONDENSED_PROOF}")
-        } else {
-            format!("{MEANING} {CONDENSED_PROOF}")
+        match self.checked_on {
+            CheckedOn::Given => format!("{MEANING} {UNCONDENSED_PROOF}"),
+            CheckedOn::Condensed => format!("{MEANING} {CONDENSED_PROOF}"),
         }
     }
 
-    /// The data of the block as a table.
-    fn model_section(&self, mesh: &Triangulation) -> Section {
-        let model = self.model;
-        let material = &model.material;
-        let loading = &self.path.loading;
-
-        let length = model.length();
-        let height = model.height();
-        let thickness = number(&material.thickness);
-        let (nx, ny) = model.cells;
-        let kind = model.mesh.word();
-        let triangles = mesh.triangles.len();
-        let nodes = mesh.contact.len();
-        let dofs = self.block.stiffness.rows();
-        let mass = match model.mass {
-            MassKind::Lumped => "lumped",
-            MassKind::Consistent => "consistent",
+    /// The data of the body as a table.
+    fn model_section(&self) -> Section {
+        let file = self.followed.loads().as_file();
+        let body = self.body();
+        let open = file.body.gaps().iter().filter(|gap| !gap.is_zero()).count();
+        let candidates = body.particles().len();
+        let mass = if body.mass().is_some() {
+            "given"
+        } else {
+            "none: no growth rates"
         };
-        let force = number(&loading.force);
-        let depth = to_f64(&self.path.depth);
 
         let rows = vec![
             row(
-                "Length L, height H, thickness (mm)",
-                format!("{length}, {height}, {thickness}"),
+                "Degrees of freedom that are not held",
+                body.dofs().to_string(),
             ),
             row(
-                "Modulus of elasticity E (N/mm\u{b2})",
-                number(&material.young),
-            ),
-            row("Poisson's ratio", number(&material.poisson)),
-            row("Density (t/mm\u{b3})", number(&material.density)),
-            row("Plane", format!("plane {}", model.plane.word())),
-            row(
-                "Mesh",
-                format!("{nx} x {ny} cells, {kind}, {triangles} P1 triangles"),
-            ),
-            row(
-                "Contact nodes, degrees of freedom",
-                format!("{nodes}, {dofs}"),
+                "Contact candidates",
+                format!("{candidates}, {open} with a gap"),
             ),
             row("Mass", mass.into()),
             row(
                 "Coefficient of friction of the path",
-                number(&loading.friction),
+                to_f64(&self.path().steps.friction).to_string(),
             ),
-            row(
-                "Pressing force N (N), its depth (mm)",
-                format!("{force}, {depth:.9}"),
-            ),
+            row("Steps of the load", self.names.join(", ")),
         ];
         let table = Content::Table {
-            caption: "Units: mm, N, t, s.".into(),
+            caption: "Units are those of the file.".into(),
             header: vec!["quantity".into(), "value".into()],
             rows,
         };
 
+        let comment = file.comment.iter().cloned().map(Content::Paragraph);
         Section {
             title: "Model".into(),
-            content: vec![table],
+            content: comment.chain([table]).collect(),
         }
     }
 
@@ -340,27 +317,29 @@ impl Shown<'_> {
     fn path_table(&self) -> Content {
         let header = [
             "#",
-            "from (mm)",
-            "to (mm)",
-            "nodes",
+            "step",
+            "from",
+            "to",
+            "candidates",
             "stick",
-            "left",
-            "right",
+            "slip-",
+            "slip+",
             "free",
-            "T at start (N)",
+            "T at start",
             "begins with",
         ];
         let mut rows = Vec::new();
-        for (k, stretch) in self.path.motion.stretches.iter().enumerate() {
+        for (k, stretch) in self.path().stretches.iter().enumerate() {
             let mut row = stretch_cells(k, stretch);
+            row.insert(1, self.names[stretch.step].into());
             row.push(causes_text(&stretch.begin.causes));
             rows.push(row);
         }
 
-        let end = end_text(&self.path.motion);
+        let end = end_text(self.path());
         let caption = format!(
-            "Stretches of the path. Nodes from left to right: . stick, < slips to the left (S = \
-             1), > slips to the right (S = -1), o free. How it ends: {end}."
+            "Stretches of the path; from and to are parts of the load of the step. {LETTERS}. How \
+             it ends: {end}."
         );
 
         Content::Table {
@@ -395,10 +374,10 @@ impl Shown<'_> {
     }
 
     fn state_rows(&self, state: &ProvedState) -> Vec<Vec<String>> {
-        let stretch = &self.path.motion.stretches[state.stretch];
+        let stretch = &self.path().stretches[state.stretch];
         let from = amount(&stretch.start);
         let to = match &stretch.stop {
-            Some(stop) => format!("{} mm", amount(stop)),
+            Some(stop) => amount(stop),
             None => "the end".into(),
         };
         let picture = stretch.picture();
@@ -409,12 +388,13 @@ impl Shown<'_> {
         let verdict = set.verdict();
         let leaves = set.leaves;
         let mut rows = vec![
-            row("Motion", format!("from {from} mm to {to}")),
+            row(
+                "Load",
+                format!("{}: from {from} to {to}", self.names[stretch.step]),
+            ),
             row(
                 "States",
-                format!(
-                    "{picture} ({stick} stick, {left} slip left, {right} slip right, {free} free)"
-                ),
+                format!("{picture} ({stick} stick, {left} slip-, {right} slip+, {free} free)"),
             ),
             row(
                 "MCEIP-\u{3bc} in [0, \u{221e})",
@@ -445,6 +425,43 @@ impl Shown<'_> {
         }
 
         rows
+    }
+}
+
+/// A state whose modes are drawn.
+struct DrawnState<'a> {
+    state: &'a ProvedState,
+    /// The body in it.
+    system: System,
+    coordinates: &'a Coordinates,
+}
+
+impl DrawnState<'_> {
+    /// The picture of a mode; `None` if its displacement is not known.
+    fn mode(&self, mode: &ProvedMode, title: &str, name: String) -> Option<Named> {
+        let particles = self.system.particles();
+        let slip = particles
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| is_slip(&p.state));
+        let slip: Vec<usize> = slip.map(|(index, _)| index).collect();
+        let slipping: Vec<usize> = mode.moving.iter().map(|&k| slip[k]).collect();
+        let drawn = BodyDrawing {
+            coordinates: self.coordinates,
+            particles,
+            mode: Some(BodyMode {
+                v: mode.displacement.as_ref()?,
+                slipping: &slipping,
+            }),
+        };
+        let moving = slipping.len();
+        let slip = self.state.slip;
+
+        Some(Named {
+            name,
+            picture: body_picture(title, &drawn),
+            caption: format!("{moving} of {slip} slip nodes slip, the others get stuck."),
+        })
     }
 }
 
@@ -500,10 +517,6 @@ fn growing_text(state: &ProvedState, growing: &Growing) -> String {
 /// A row of two cells.
 fn row(what: &str, answer: String) -> Vec<String> {
     vec![what.into(), answer]
-}
-
-fn number(exact: &Rational) -> String {
-    to_f64(exact).to_string()
 }
 
 /// What to read off the picture of the path.
