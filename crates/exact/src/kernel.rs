@@ -111,8 +111,18 @@ pub(super) fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
 /// divisions are exact whatever columns were passed over. What is left below the pivots vanishes
 /// at alpha, so the rank there is the number of pivots.
 pub fn kernel_at(m: Vec<Vec<Poly>>, alpha: &mut Algebraic) -> Vec<Vec<Poly>> {
+    let (kernel, _) = kernel_and_free_columns_at(m, alpha);
+    kernel
+}
+
+/// [`kernel_at`] with the columns without a pivot: the k-th vector is at the k-th of them what the
+/// others are at theirs, and zero at theirs.
+pub fn kernel_and_free_columns_at(
+    m: Vec<Vec<Poly>>,
+    alpha: &mut Algebraic,
+) -> (Vec<Vec<Poly>>, Vec<usize>) {
     let echelon = Echelon::of(m, |entry| alpha.sign_of(entry) != Sign::Zero);
-    echelon.kernel()
+    (echelon.kernel(), echelon.free_columns())
 }
 
 /// A basis over Q(t) of the kernel of a matrix over `Z[t]`, the columns of the pivots, and the last
@@ -231,9 +241,14 @@ impl Echelon {
 
     /// One vector for each column without a pivot.
     fn kernel(&self) -> Vec<Vec<Poly>> {
+        let free = self.free_columns().into_iter();
+        free.map(|column| self.kernel_vector(column)).collect()
+    }
+
+    /// The columns without a pivot.
+    fn free_columns(&self) -> Vec<usize> {
         (0..self.columns)
             .filter(|column| !self.pivots.contains(column))
-            .map(|column| self.kernel_vector(column))
             .collect()
     }
 

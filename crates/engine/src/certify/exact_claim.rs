@@ -18,7 +18,7 @@ use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 use mceip_check::certificate::ExactSolution;
 use mceip_exact::{
     Algebraic, Integer, Interval, Poly, Rational, Sign, common_denominator, determinant, from_f64,
-    generic_kernel, kernel_at, roots_in, to_f64,
+    generic_kernel, kernel_and_free_columns_at, roots_in, to_f64,
 };
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
@@ -338,14 +338,14 @@ impl Support<'_> {
         faces: &[usize],
         value: &mut Algebraic,
     ) -> Result<Vec<Poly>, AttemptFailure> {
-        let basis = kernel_at(self.block(faces), value);
+        let (basis, free) = kernel_and_free_columns_at(self.block(faces), value);
         if basis.is_empty() {
             // Only faces leave nothing: without them every value that is tried is a root.
             return Err(no_root(self.candidate, self.window));
         }
 
         // Each basis vector is the same polynomial at its own free coordinate, zero at the others'.
-        let weights = self.weights(&basis, value)?;
+        let weights = self.weights(&free)?;
         let denominator = common_denominator(&weights);
         let mut x = vec![Poly::default(); self.pencil.order()];
         for (vector, weight) in basis.iter().zip(&weights) {
@@ -364,24 +364,13 @@ impl Support<'_> {
 
     /// The weight of each basis vector: 1 for one that is alone, else the candidate's component at
     /// its free coordinate.
-    fn weights(
-        &self,
-        basis: &[Vec<Poly>],
-        value: &mut Algebraic,
-    ) -> Result<Vec<Rational>, AttemptFailure> {
-        if basis.len() == 1 {
+    fn weights(&self, free: &[usize]) -> Result<Vec<Rational>, AttemptFailure> {
+        if free.len() == 1 {
             return Ok(vec![Rational::from_integer(1.into())]);
         }
 
-        let mut weights = Vec::new();
-        for k in 0..basis.len() {
-            let free_coordinate =
-                (0..self.active.len()).find(|&c| is_free_coordinate(c, k, basis, value));
-            let weight = free_coordinate.map_or(0.0, |c| self.candidate.x[self.active[c]]);
-            weights.push(finite(weight)?);
-        }
-
-        Ok(weights)
+        let components = free.iter().map(|&c| self.candidate.x[self.active[c]]);
+        components.map(finite).collect()
     }
 
     /// Is -x the direction that is meant? The first slip variable that moves decides, which must
@@ -396,24 +385,6 @@ impl Support<'_> {
 
         has_negative_product(x, self.candidate, value)
     }
-}
-
-/// Is `coordinate` one at which, of all basis vectors, exactly the k-th is not zero at the value?
-fn is_free_coordinate(
-    coordinate: usize,
-    k: usize,
-    basis: &[Vec<Poly>],
-    value: &mut Algebraic,
-) -> bool {
-    for (other, vector) in basis.iter().enumerate() {
-        let is_zero = value.sign_of(&vector[coordinate]) == Sign::Zero;
-        let is_expected = is_zero != (other == k);
-        if !is_expected {
-            return false;
-        }
-    }
-
-    true
 }
 
 /// Is the inner product of x and the candidate's negative? In doubles, x at the middle of the

@@ -57,6 +57,18 @@ fn the_kernel_vector_is_the_candidates() {
     assert_eq!(on_face.biactive, [2]);
 }
 
+/// The kernel of (0, 1, -4) at t = 1: the last coordinate of its second vector (0, 4, 1) counts, not
+/// the first one at which the other vector vanishes.
+#[test]
+fn components_count_at_free_coordinates() {
+    let a = Sparse::from_ints(&[&[-1, 1, -4], &[0, -1, 0], &[0, 0, -1]]);
+    let p = Pencil::new(a, Sparse::identity(3), vec![]).unwrap();
+
+    let claim = claim_of(&p, 1.0, &[1.0 / 131_072.0, 1.0, 0.25]);
+
+    assert_eq!(constants(&claim), [1, 131_072, 32_768].map(whole));
+}
+
 /// Without a slip variable that moves x has no sign of its own: it points where the candidate does.
 #[test]
 fn a_free_solution_points_where_the_candidate_does() {
