@@ -951,7 +951,7 @@ def root_up(num, den, fine):
     return (isqrt(num << 2 * fine) + 1) // den + 1
 
 
-FINE = 256  # at least; a center of b bits before the point is raised to powers, each of which takes b bits more
+FINE = 64  # bits below the units of all matrices; a center of b bits is raised to powers, each of which takes b bits more
 
 
 class CondensedPencil:
@@ -1070,7 +1070,7 @@ class CondensedPencil:
         while len(z) > 1 and not any(map(any, z[-1])):
             z.pop()
         unit = den << (ew + ev)
-        fine = FINE + (len(z) - 1) * abs(int(center)).bit_length()
+        fine = FINE + max(192, unit.bit_length()) + (len(z) - 1) * abs(int(center)).bit_length()
         fixed = [[[(x * s.numerator << fine) // (s.denominator * unit) for x in row] for row, s in zip(m, scale)] for m in z]
 
         def norms(coefficients, d):
