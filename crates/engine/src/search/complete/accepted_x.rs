@@ -24,15 +24,29 @@ use num_traits::{One, Signed, Zero};
 /// Bits to which a value is refined beyond those of the coefficients that it is put into.
 const DIGITS_BEYOND: u64 = 128;
 
-/// x of an accepted solution of the certificate; NaN where no null vector is found.
+/// The support leaves of a certificate's cover.
+pub(super) fn support_leaves(certificate: &Certificate) -> Vec<&Support> {
+    let pieces = certificate.complete_set.iter().flat_map(|set| &set.pieces);
+    let nodes = pieces.flat_map(|piece| &piece.tree);
+    nodes
+        .filter_map(|node| match node {
+            Node::Support(leaf) => Some(leaf.as_ref()),
+            _ => None,
+        })
+        .collect()
+}
+
+/// x of an accepted solution of the certificate, whose support leaves are given; NaN where no null
+/// vector is found.
 pub(super) fn accepted_x(
     proved: &Proved<Certificate>,
+    leaves: &[&Support],
     prepared: &Prepared,
     pencil: &Pencil,
     solution: &AcceptedClaim,
 ) -> Vec<f64> {
     by_claim(proved, pencil, solution)
-        .or_else(|| by_support_leaf(proved.certificate(), pencil, solution))
+        .or_else(|| by_support_leaf(leaves, pencil, solution))
         .and_then(|x| scaled(&x, &solution.support))
         .unwrap_or_else(|| by_null_vector(prepared, pencil, solution))
 }
@@ -90,7 +104,7 @@ pub(super) fn biactive(
         None => {}
     }
 
-    match of_support_leaf(proved.certificate(), pencil, solution) {
+    match of_support_leaf(&support_leaves(proved.certificate()), pencil, solution) {
         Some((x, value)) => vanishing_y(pencil, solution, &x, &value),
         None => Some(Vec::new()),
     }
@@ -152,26 +166,23 @@ fn scaled(x: &[Rational], support: &[usize]) -> Option<Vec<f64>> {
 
 /// x of a solution that a support leaf of the certificate yields.
 fn by_support_leaf(
-    certificate: &Certificate,
+    leaves: &[&Support],
     pencil: &Pencil,
     solution: &AcceptedClaim,
 ) -> Option<Vec<Rational>> {
-    let (x, value) = of_support_leaf(certificate, pencil, solution)?;
+    let (x, value) = of_support_leaf(leaves, pencil, solution)?;
     Some(at_root(&x, value))
 }
 
 /// The same as polynomials in the value.
 fn of_support_leaf(
-    certificate: &Certificate,
+    leaves: &[&Support],
     pencil: &Pencil,
     solution: &AcceptedClaim,
 ) -> Option<(Vec<Poly>, Algebraic)> {
-    let set = certificate.complete_set.as_ref()?;
-    let mut nodes = set.pieces.iter().flat_map(|piece| &piece.tree);
-    nodes.find_map(|node| match node {
-        Node::Support(leaf) => yielded(leaf, pencil, solution),
-        _ => None,
-    })
+    leaves
+        .iter()
+        .find_map(|leaf| yielded(leaf, pencil, solution))
 }
 
 /// x at the point of a leaf that is this solution.

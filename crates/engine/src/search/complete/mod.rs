@@ -56,7 +56,7 @@ pub use options::{Options, Shard};
 
 use crate::certify::certificate;
 use crate::run::Watch;
-use accepted_x::{accepted_x, claim_about};
+use accepted_x::{accepted_x, claim_about, support_leaves};
 use audited::{Audited, audited};
 use given::Given;
 use mceip_check::certificate::{Certificate, Claim, CompleteSet, Piece};
@@ -89,9 +89,10 @@ impl Completed {
         let cover = proved.accepted().cover.clone();
         let mut cover = cover.ok_or(CompleteError::NoCompleteSet)?;
         cover.families = continua::joined(&cover.families);
+        let leaves = support_leaves(proved.certificate());
         let mut x = Vec::with_capacity(cover.solutions.len());
         for solution in &cover.solutions {
-            x.push(accepted_x(&proved, prepared, pencil, solution));
+            x.push(accepted_x(&proved, &leaves, prepared, pencil, solution));
         }
 
         Ok(Completed { proved, cover, x })

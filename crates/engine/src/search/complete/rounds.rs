@@ -70,6 +70,8 @@ impl Rounds<'_> {
             audited = self.with_long_numbers(audited);
         }
 
+        // What is read off it for reports may take long too.
+        self.keep(&audited, watch, begun);
         Ok(audited)
     }
 
