@@ -7,7 +7,7 @@
 
 mod page;
 
-use super::common::{CliError, exit, number, print, require_count, require_threads};
+use super::common::{CliError, exit, number, print, require_count, require_threads, shell_word};
 use super::job::{CHECKPOINT, Job};
 use super::output::{Folder, Output, folder_of};
 use super::question::load_system;
@@ -229,7 +229,7 @@ impl Proofs {
 
 /// What to run next.
 fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
-    let file = args.file.display();
+    let file = shell_word(&args.file);
     if analysis.interrupted {
         return "Next: run it again, it was interrupted.".into();
     }
@@ -253,6 +253,8 @@ fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
     match paths.get(bound) {
         Some(certificate) => {
             let problem = certificate.replace(".certificate.json", ".problem.json");
+            let [problem, certificate] =
+                [&problem, certificate].map(|path| shell_word(Path::new(path)));
             format!("Next: `mceip check {problem} {certificate}`.")
         }
         None => format!(

@@ -446,6 +446,17 @@ pub(super) fn print(text: &str) -> Result<(), CliError> {
     }
 }
 
+/// A path as a shell reads it back, in a command that is to be copied.
+pub(super) fn shell_word(path: &Path) -> String {
+    let word = path.display().to_string();
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=:@%,".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word;
+    }
+
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
 /// Prints a line on stderr, control characters escaped. No answer goes there, so that a stderr that
 /// takes nothing (a closed pipe or terminal, a full disk) is no error.
 pub(super) fn aside(line: &str) {
@@ -506,6 +517,18 @@ mod tests {
 
         let plain = "µ = 2,\tλ² = 3\n\\u001b";
         assert_eq!(escaped(plain), plain);
+    }
+
+    #[test]
+    fn a_shell_reads_a_path_back() {
+        for (path, word) in [
+            ("models/a-1.json", "models/a-1.json"),
+            ("a b$(x)", "'a b$(x)'"),
+            ("it's", r"'it'\''s'"),
+            ("", "''"),
+        ] {
+            assert_eq!(shell_word(Path::new(path)), word);
+        }
     }
 
     #[test]

@@ -3,7 +3,9 @@
 //! The certificate can be searched in parts (`--shard`, joined by `mceip merge`) and gone on with
 //! (`--resume`). What is printed is what the checker has proved of it.
 
-use super::common::{CliError, exit, part, print, require_count, require_threads, seconds, text};
+use super::common::{
+    CliError, exit, part, print, require_count, require_threads, seconds, shell_word, text,
+};
 use super::infinity::{AtInfinity, Files, Limit};
 use super::job::{CHECKPOINT, Job, is_quiet};
 use super::output::Output;
@@ -112,14 +114,18 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let at_infinity = limit.map(|limit| limit.search(args.threads, job.cancel()));
     job.end();
 
-    // What is proved is in its files before anything is printed.
-    if let Some(output) = &output {
-        output.write(&set.proved().file()?)?;
-    }
-    if let (Some(at_infinity), Some(files)) = (&at_infinity, files_at_infinity) {
-        at_infinity.write(files)?;
-    }
+    // What is proved is in its files before anything is printed; what cannot be written does not
+    // take the answer along.
+    let written = match &output {
+        Some(output) => output.write(&set.proved().file()?),
+        None => Ok(()),
+    };
+    let written_at_infinity = match (&at_infinity, files_at_infinity) {
+        (Some(at_infinity), Some(files)) => at_infinity.write(files),
+        _ => Ok(()),
+    };
     print(&answer(args, &set, at_infinity.as_ref()))?;
+    written.and(written_at_infinity)?;
 
     let is_complete_there = at_infinity.is_none_or(|there| there.is_complete());
     Ok(if set.is_complete() && is_complete_there {
@@ -137,9 +143,9 @@ fn say_checkpoint(job: &Job, written: &Result<(), CliError>, args: &Args, has_sa
         Err(e) => job.note(&format!("mceip: {e}; the search goes on")),
         Ok(()) if has_said || is_quiet() => {}
         Ok(()) => {
-            let file = args.file.display();
+            let file = shell_word(&args.file);
             let certificate = args.certificate.as_deref().unwrap_or(Path::new("OUT"));
-            let certificate = certificate.display();
+            let certificate = shell_word(certificate);
             let seconds = args.checkpoint;
             job.note(&format!(
                 "what is proved so far is in {certificate}, written anew every {seconds} s, or \

@@ -77,12 +77,12 @@ fn count_text(cover: &AcceptedCover) -> String {
 
 fn open_text(word: &str, region: &OpenRegion) -> String {
     let max = match &region.max {
-        Some(max) => max.to_string(),
-        None => "infinity".into(),
+        Some(max) => format!("{max}]"),
+        None => "infinity)".into(),
     };
 
     format!(
-        "{word} in [{}, {max}], moving {:?}, undecided {:?}",
+        "{word} in [{}, {max}, moving {:?}, undecided {:?}",
         region.min, region.moving, region.undecided
     )
 }

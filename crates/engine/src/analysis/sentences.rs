@@ -355,10 +355,10 @@ impl Analysis {
         };
 
         let slipping = &mode.slipping;
-        let resting = if mode.sticking.is_empty() {
-            "none stays at rest".to_owned()
-        } else {
-            format!("{:?} stay at rest", mode.sticking)
+        let resting = match mode.sticking[..] {
+            [] => "none stays at rest".to_owned(),
+            [one] => format!("{one} stays at rest"),
+            _ => format!("{:?} stay at rest", mode.sticking),
         };
 
         let zero = zero_text(mode);

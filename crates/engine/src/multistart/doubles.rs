@@ -51,5 +51,5 @@ fn furthest_entry(name: &str, matrix: &Sparse) -> Option<(String, i64)> {
 /// The decimal order of magnitude of a number other than 0.
 pub(crate) fn decimal_order(value: &Rational) -> i64 {
     let bits = value.numer().bits() as i64 - value.denom().bits() as i64;
-    bits * 301 / 1000 // log10(2) = 0.301
+    (bits * 30_103 + 50_000).div_euclid(100_000) // log10(2) = 0.30103, to the nearest
 }
