@@ -157,6 +157,10 @@ class Stretch:
         states: of the equilibria inside, one for each candidate: "free", "stick", "slip+" and
             "slip-" (impending slip along the tangent and against it, as in `Contact`), "zero".
         reactions: (r_T, r_N) of each candidate at the beginning.
+        continuations: the ways in which the path can go on at the beginning, each as the states of
+            its candidates; None where there is one whatever load grows, or where not all were
+            tried.
+        is_only_one: there is one way to go on, proved. None where that is not known.
     """
 
     def __init__(self, native: NativeLoadPath, number: int, stretch: Mapping[str, Any]) -> None:
@@ -167,6 +171,14 @@ class Stretch:
         self.stop: float | None = stretch["to"]
         self.states: npt.NDArray[np.str_] = np.array(stretch["equilibrium_states"])
         self.reactions: npt.NDArray[np.float64] = np.array(stretch["start"]["reactions_T_N"])
+        ways = stretch["continuations"] or {}
+        self.continuations: list[list[str]] | None = ways.get("states")
+        self.is_only_one: bool | None = None
+        if ways.get("one_for_every_load"):
+            self.is_only_one = True
+        elif self.continuations is not None:
+            several = len(self.continuations) > 1
+            self.is_only_one = None if ways["singular_sets"] and not several else not several
 
     @property
     def problem(self) -> Problem | None:

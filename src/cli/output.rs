@@ -365,7 +365,8 @@ impl Folder {
         }
     }
 
-    /// Removes the files `stem-NUMBER.json` but for these numbers: those of an earlier run.
+    /// Removes the files `stem-NUMBER.json`, and of a proof both, but for these numbers: those of
+    /// an earlier run.
     pub(super) fn keep_numbered(&self, stem: &str, kept: &[usize]) -> Result<(), CliError> {
         let failed = |error: &std::io::Error| CliError::write(self.path.display(), error);
         for entry in std::fs::read_dir(&self.path).map_err(|e| failed(&e))? {
@@ -374,6 +375,12 @@ impl Folder {
             let name = name.to_str().unwrap_or_default();
             let numbered = name.strip_prefix(stem).and_then(|n| n.strip_prefix('-'));
             let number = numbered.and_then(|n| n.strip_suffix(".json"));
+            let number = number.map(|n| {
+                let of_proof = n
+                    .strip_suffix(".problem")
+                    .or(n.strip_suffix(".certificate"));
+                of_proof.unwrap_or(n)
+            });
             let number = number.and_then(|n| n.parse::<usize>().ok());
             let is_input = |input: &PathBuf| is_file_at(input, &entry.path());
             let is_earlier = number.is_some_and(|number| !kept.contains(&number));

@@ -15,11 +15,11 @@ use super::job::Job;
 use super::output::{Folder, Output};
 use crate::picture::path_picture;
 use crate::say::counted;
-use crate::say::path::{LETTERS, end_text};
+use crate::say::path::{LETTERS, continuations_text, end_text};
 use crate::{LoadPath, Loads};
 use mceip_engine::analysis::AnalysisError;
 use mceip_engine::equilibrium::StatesNotCertified;
-use mceip_engine::run::{Progress, Watch};
+use mceip_engine::run::{Kept, Progress, Watch};
 use mceip_exact::to_f64;
 use mceip_model::Unknown;
 use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
@@ -28,6 +28,7 @@ use own::{Asked, Loaded, OwnCritical};
 use pages::{CheckedOn, Shown};
 use serde_json::{Value, json};
 use states::{ProvedState, Wanted};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `path`.
@@ -47,6 +48,15 @@ pub(super) struct Args {
     /// The path is then, exactly, that of a body which differs from the given one by rounding.
     #[arg(long)]
     doubles: bool,
+    /// At the beginning of a stretch go on in another way than the first that is met: STRETCH=K,
+    /// the K-th of those that are listed, from 0 (several with commas).
+    #[arg(
+        long,
+        value_name = "STRETCH=K",
+        value_delimiter = ',',
+        conflicts_with = "own_critical"
+    )]
+    take: Vec<String>,
     /// Write the problem of each stretch with impending slip into this folder, as
     /// `stretch-NUMBER.json`: input of `analyze`. Files of that name from an earlier path are
     /// removed.
@@ -102,9 +112,10 @@ pub(super) struct Args {
     )]
     width: String,
     /// Certify the contact states at one amount inside each stretch, into this folder, as
-    /// `equilibrium-NUMBER.json` for `mceip check FILE`; files of that name from an earlier path
-    /// are removed. With --own-critical those at the end of each path, and problem and certificate
-    /// of what is said of divergence.
+    /// `equilibrium-NUMBER.json` for `mceip check FILE`, and where T(mu) is positive definite in
+    /// them that the rates are the only ones, as `unique-NUMBER.certificate.json` with its problem;
+    /// files of these names from an earlier path are removed. With --own-critical those at the end
+    /// of each path, and problem and certificate of what is said of divergence.
     #[arg(long, value_name = "FOLDER")]
     certificates: Option<PathBuf>,
     /// Draw resultants and states along the path, as SVG.
@@ -152,6 +163,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             let expected = "a coefficient of friction here or in the file";
             return Err(CliError::option("mu", expected, "none"));
         }
+    }
+    let mut taken = BTreeSet::new();
+    for choice in &args.take {
+        let (stretch, continuation) = choice_of(choice)?;
+        if !taken.insert(stretch) {
+            return Err(CliError::option("take", "each stretch once", choice));
+        }
+        question = question.take(stretch, continuation);
     }
     let question = question.on_progress(|progress| job.say(progress));
     let Some(followed) = question.run()? else {
@@ -236,7 +255,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     proofs.map_or(Ok(()), Folder::first_failure)?;
     states.and(picture).and(pages)?;
     let code = exit_code(path, outcome.proved.as_deref(), outcome.is_interrupted);
-    let is_certified = outcome.certified.iter().flatten().all(Result::is_ok);
+    let mut certified = outcome.certified.iter().flatten();
+    let is_certified = certified.all(|stretch| stretch.states.is_ok());
     if code == exit::DONE && !is_certified {
         return Ok(exit::UNDECIDED);
     }
@@ -244,6 +264,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Some(own) if code == exit::DONE && own.is_undecided() => Ok(exit::UNDECIDED),
         _ => Ok(code),
     }
+}
+
+/// `STRETCH=K` of `--take`.
+fn choice_of(text: &str) -> Result<(usize, usize), CliError> {
+    let both = text.split_once('=');
+    let both = both.and_then(|(stretch, k)| Some((stretch.parse().ok()?, k.parse().ok()?)));
+    let expected = "STRETCH=K, two numbers from 0";
+    both.ok_or_else(|| CliError::option("take", expected, text))
 }
 
 /// Pixels of a PNG for each px of the SVG.
@@ -299,7 +327,7 @@ struct Outcome<'a> {
     /// The own critical friction, if asked for.
     own: Option<OwnCritical>,
     /// Whether the contact states inside each stretch are certified, if asked for.
-    certified: Option<Vec<Result<(), StatesNotCertified>>>,
+    certified: Option<Vec<Certified>>,
     is_interrupted: bool,
 }
 
@@ -333,6 +361,7 @@ impl Outcome<'_> {
              {of_what} an exact rational number; (1), (2), (5), (7) verified exactly at both \
              ends of each stretch; {end}\n"
         );
+        out += &continuations_text(self.followed.continuations());
         if let Some(certified) = &self.certified {
             out += &certified_text(certified);
         }
@@ -361,8 +390,10 @@ impl Outcome<'_> {
             "interrupted": self.is_interrupted,
         });
         if let Some(certified) = &self.certified {
-            let certified: Vec<bool> = certified.iter().map(Result::is_ok).collect();
-            out["states_certified"] = json!(certified);
+            let states = certified.iter().map(|stretch| stretch.states.is_ok());
+            out["states_certified"] = json!(states.collect::<Vec<_>>());
+            let unique = certified.iter().map(|stretch| stretch.is_unique);
+            out["rates_certified_unique"] = json!(unique.collect::<Vec<_>>());
         }
         if let Some(proved) = &self.proved {
             let places = self.file().body.places();
@@ -402,15 +433,25 @@ impl Outcome<'_> {
     }
 }
 
-/// Certifies the contact states inside each stretch and writes what is accepted; those that an
-/// interrupt leaves are not in the list.
+/// What is certified of a stretch.
+struct Certified {
+    /// The contact states inside it, or why not.
+    states: Result<(), StatesNotCertified>,
+    /// That the rates in these states are the only ones.
+    is_unique: bool,
+}
+
+/// Certifies the contact states inside each stretch, and that the rates in them are the only ones
+/// where T(mu) is positive definite, and writes what is accepted; those that an interrupt leaves
+/// are not in the list.
 fn certify_stretches(
     followed: &LoadPath,
     folder: &Folder,
     job: &Job,
-) -> Result<Vec<Result<(), StatesNotCertified>>, CliError> {
+) -> Result<Vec<Certified>, CliError> {
     let mut certified = Vec::new();
     let mut written = Vec::new();
+    let mut unique = Vec::new();
     let count = followed.as_path().stretches.len();
     for k in 0..count {
         if job.is_cancelled() {
@@ -420,7 +461,7 @@ fn certify_stretches(
         job.say(format!(
             "certifying the contact states of stretch {k} of {count}"
         ));
-        certified.push(match followed.certify(k) {
+        let states = match followed.certify(k) {
             Ok(proved) => {
                 if folder.keep(&format!("equilibrium-{k:03}.json"), &proved.file()?) {
                     written.push(k);
@@ -428,26 +469,46 @@ fn certify_stretches(
                 Ok(())
             }
             Err(why) => Err(why),
+        };
+
+        let rates = followed.certify_unique(k)?;
+        if let Some(rates) = &rates {
+            folder.keep_proof(&Kept {
+                name: &format!("unique-{k:03}"),
+                problem: rates.problem(),
+                certificate: &rates.proved().file()?,
+            });
+            unique.push(k);
+        }
+        certified.push(Certified {
+            states,
+            is_unique: rates.is_some(),
         });
     }
 
     // What an interrupt leaves unexamined may be proved by an earlier run.
     if !job.is_cancelled() {
         folder.keep_only("equilibrium", &written);
+        folder.keep_only("unique", &unique);
     }
     Ok(certified)
 }
 
 /// Of how many stretches the contact states are certified, and why others are not.
-fn certified_text(certified: &[Result<(), StatesNotCertified>]) -> String {
-    let proved = certified.iter().filter(|state| state.is_ok()).count();
+fn certified_text(certified: &[Certified]) -> String {
+    let proved = certified
+        .iter()
+        .filter(|stretch| stretch.states.is_ok())
+        .count();
+    let unique = certified.iter().filter(|stretch| stretch.is_unique).count();
     let stretches = counted(certified.len(), "stretch");
     let mut out = format!(
         "the contact states at one amount inside {proved} of {stretches} are certified to be \
-         those of an equilibrium; that it is the only one is not\n"
+         those of an equilibrium; that it is the only one is not\n\
+         the rates inside {unique} of them are certified to be the only ones, whatever load grows\n"
     );
-    for (k, state) in certified.iter().enumerate() {
-        if let Err(why) = state {
+    for (k, stretch) in certified.iter().enumerate() {
+        if let Err(why) = &stretch.states {
             out += &format!("  stretch {k} is not: {why}\n");
         }
     }

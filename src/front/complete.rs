@@ -40,6 +40,11 @@ pub struct SolutionSet {
 }
 
 impl SolutionSet {
+    /// The problem that was searched.
+    pub fn problem(&self) -> &mceip_model::Problem {
+        &self.problem
+    }
+
     fn new(problem: &mceip_model::Problem, completed: Completed) -> Result<SolutionSet, Error> {
         Ok(SolutionSet {
             reduced: reduce(problem)?,

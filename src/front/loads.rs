@@ -1,18 +1,22 @@
 //! A body under loads, and the contact states that the loads lead to.
 
+use super::complete::SolutionSet;
 use super::error::Error;
 use super::problem::Problem;
 use super::run::Watched;
 use crate::say;
 use mceip_check::Proved;
-use mceip_check::certificate::{EquilibriumCertificate, SlipSign, StatedEquilibrium, StatedState};
+use mceip_check::certificate::{
+    CompleteSet, EquilibriumCertificate, SlipSign, StatedEquilibrium, StatedState,
+};
 use mceip_engine::equilibrium::{StatesNotCertified, certify_equilibrium};
 use mceip_engine::run::{Cancel, Progress};
 use mceip_exact::{Rational, from_f64, to_f64};
 use mceip_model::file::{LoadsFile, Number, folder_of, read_loads, read_text, write_loads};
-use mceip_model::{ContactState, LoadedBody, Unknown};
-use mceip_path::{Contact, Equilibrium, LoadSteps, LoadingPath, Stretch};
+use mceip_model::{ContactState, LoadedBody, Unknown, Window};
+use mceip_path::{Contact, Equilibrium, LoadSteps, LoadingPath, RateSolutions, Stretch};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
@@ -47,8 +51,8 @@ impl Loads {
         Ok(Loads::from(read_loads(text, folder)?))
     }
 
-    /// The text of a file of it, `mceip-loads/1`: the body without its held degrees of freedom, what
-    /// they exert written as forces.
+    /// The text of a file of it, `mceip-loads/1`: the body without its held degrees of freedom,
+    /// what they exert written as forces.
     pub fn to_json(&self) -> String {
         write_loads(&self.0)
     }
@@ -85,6 +89,7 @@ impl Loads {
             loads: self.clone(),
             friction: None,
             is_in_doubles: false,
+            taken: BTreeMap::new(),
             watched: Watched::default(),
         }
     }
@@ -101,6 +106,7 @@ pub struct FollowPath<'a> {
     loads: Loads,
     friction: Option<Rational>,
     is_in_doubles: bool,
+    taken: BTreeMap<usize, usize>,
     watched: Watched<'a>,
 }
 
@@ -115,6 +121,13 @@ impl<'a> FollowPath<'a> {
     /// that of a body which differs from the given one by rounding.
     pub fn in_doubles(mut self, is_in_doubles: bool) -> Self {
         self.is_in_doubles = is_in_doubles;
+        self
+    }
+
+    /// At the beginning of a stretch takes this one of [`LoadPath::continuations`] (both from 0),
+    /// instead of the first that is met.
+    pub fn take(mut self, stretch: usize, continuation: usize) -> Self {
+        self.taken.insert(stretch, continuation);
         self
     }
 
@@ -161,10 +174,8 @@ impl<'a> FollowPath<'a> {
             return Ok(None);
         };
 
-        let steps = LoadSteps {
-            friction,
-            amounts: amounts(body),
-        };
+        let mut steps = LoadSteps::new(friction, amounts(body));
+        steps.taken = self.taken;
         let names = self.loads.step_names();
         let path = LoadingPath::follow(&contact, &steps, &|at| {
             let amount = to_f64(at.amount);
@@ -178,10 +189,23 @@ impl<'a> FollowPath<'a> {
             }
         })?;
 
+        let mut pencils = contact.pencils();
+        let mut continuations = Vec::with_capacity(path.stretches.len());
+        for stretch in 0..path.stretches.len() {
+            let stage = format!("stretch {stretch}: whether the path is the only one");
+            watch.report(&Progress::stage(&stage));
+            continuations.push(if watch.is_cancelled() {
+                RateSolutions::NotExamined
+            } else {
+                path.rate_solutions(&mut pencils, stretch)?
+            });
+        }
+
         Ok(Some(LoadPath {
             loads: self.loads.clone(),
             contact,
             path,
+            continuations,
         }))
     }
 }
@@ -221,6 +245,7 @@ pub struct LoadPath {
     loads: Loads,
     contact: Contact,
     path: LoadingPath,
+    continuations: Vec<RateSolutions>,
 }
 
 impl LoadPath {
@@ -259,6 +284,12 @@ impl LoadPath {
             .into())
     }
 
+    /// How the path can go on at the beginning of each stretch: in one way whatever load grows, or
+    /// in these ways under the load that grows.
+    pub fn continuations(&self) -> &[RateSolutions] {
+        &self.continuations
+    }
+
     /// Certifies that the body has an equilibrium in the contact states inside a stretch (from 0):
     /// that of one amount of the load, in the middle half of the stretch.
     ///
@@ -272,6 +303,37 @@ impl LoadPath {
         certify_states(self.loads.body(), &self.path, stretch, &stretch.inside)
     }
 
+    /// Certifies that in the contact states inside a stretch (from 0) the rates are the only ones,
+    /// whatever load grows: that T(mu) is positive definite at the friction of the path. `None`
+    /// where nothing slips, a candidate is without reaction, T(mu) is not positive definite, or the
+    /// search does not close the window by one such leaf.
+    ///
+    /// # Errors
+    /// [`Error::Complete`], [`Error::Path`].
+    ///
+    /// # Panics
+    /// For a stretch that there is not.
+    pub fn certify_unique(&self, stretch: usize) -> Result<Option<SolutionSet>, Error> {
+        let states = self.path.stretches[stretch].equilibrium_states();
+        let slips = |state: &ContactState| matches!(state, ContactState::Slip { .. });
+        let has_zero = states.contains(&ContactState::Zero);
+        if has_zero || !states.iter().any(slips) {
+            return Ok(None);
+        }
+
+        let mu = &self.path.steps.friction;
+        if !self.contact.pencils().is_definite_at(mu, states)? {
+            return Ok(None);
+        }
+
+        let here = Window::new(mu.clone(), Some(mu.clone()))?;
+        let problem = self.loads.body().problem(states, mu, Unknown::Mu)?;
+        let found = Problem::from(problem.with_window(here)).complete().run()?;
+        let complete_set = found.certificate().complete_set.as_ref();
+        let is_definite = complete_set.is_some_and(CompleteSet::is_positive_definite);
+        Ok((found.is_empty() && is_definite).then_some(found))
+    }
+
     /// Why it ends, in words.
     pub fn end_text(&self) -> String {
         say::path::end_text(&self.path)
@@ -279,7 +341,7 @@ impl LoadPath {
 
     /// The stretches for programs: those of `mceip path --json`.
     pub fn to_json(&self) -> Vec<Value> {
-        say::path::json_of(&self.path, &self.loads.step_names())
+        say::path::json_of(&self.path, &self.loads.step_names(), &self.continuations)
     }
 }
 

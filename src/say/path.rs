@@ -1,9 +1,10 @@
 //! Loading paths in words and as JSON: amounts of loads, states, causes of events and ends, and the
 //! stretches for programs.
 
+use super::counted;
 use mceip_exact::to_f64;
 use mceip_model::ContactState;
-use mceip_path::{Bound, Equilibrium, Event, LoadingPath, PathEnd, Stretch};
+use mceip_path::{Bound, Equilibrium, Event, LoadingPath, PathEnd, RateSolutions, Stretch};
 use serde_json::{Value, json};
 
 /// What the letters mean by which contact states are shown.
@@ -58,14 +59,20 @@ pub(crate) fn causes_text(causes: &[Bound]) -> String {
 }
 
 /// The stretches for programs.
-pub(crate) fn json_of(path: &LoadingPath, steps: &[&str]) -> Vec<Value> {
-    let stretches = path.stretches.iter();
-    stretches
-        .map(|stretch| stretch_json(stretch, steps[stretch.step]))
-        .collect()
+pub(crate) fn json_of(
+    path: &LoadingPath,
+    steps: &[&str],
+    continuations: &[RateSolutions],
+) -> Vec<Value> {
+    let mut out = Vec::with_capacity(path.stretches.len());
+    for (stretch, continuations) in path.stretches.iter().zip(continuations) {
+        out.push(stretch_json(stretch, steps[stretch.step], continuations));
+    }
+
+    out
 }
 
-fn stretch_json(stretch: &Stretch, step: &str) -> Value {
+fn stretch_json(stretch: &Stretch, step: &str, continuations: &RateSolutions) -> Value {
     let [stick, against, along, free] = stretch.counts();
     let stop = stretch.stop.as_ref();
 
@@ -83,7 +90,115 @@ fn stretch_json(stretch: &Stretch, step: &str) -> Value {
         "start": equilibrium_json(&stretch.start),
         "stop": stop.map(equilibrium_json),
         "event": event_json(&stretch.begin),
+        "continuations": continuations_json(continuations),
     })
+}
+
+/// `null` where not every set of states was tried.
+fn continuations_json(continuations: &RateSolutions) -> Value {
+    match continuations {
+        RateSolutions::NotTried | RateSolutions::NotExamined => Value::Null,
+        RateSolutions::OneForEveryLoad => json!({ "one_for_every_load": true }),
+        RateSolutions::Listed { states, singular } => {
+            let states: Vec<_> = states.iter().map(|states| states_json(states)).collect();
+            json!({
+                "one_for_every_load": false,
+                "states": states,
+                "singular_sets": singular,
+            })
+        }
+    }
+}
+
+/// Of which body a path is.
+pub(crate) fn of_which_body(is_in_doubles: bool) -> &'static str {
+    if is_in_doubles {
+        "all of this is said of the body condensed in doubles, which differs from the given one by \
+         rounding"
+    } else {
+        "all of this is said of the body as it is given, condensed exactly"
+    }
+}
+
+/// Whether the path is the only one, in words.
+pub(crate) fn continuations_text(all: &[RateSolutions]) -> String {
+    let numbered = |is_it: &dyn Fn(&RateSolutions) -> bool| -> Vec<usize> {
+        (0..all.len()).filter(|&k| is_it(&all[k])).collect()
+    };
+    let every = numbered(&|one| *one == RateSolutions::OneForEveryLoad);
+    let here = numbered(&|one| *one != RateSolutions::OneForEveryLoad && one.is_one());
+
+    let mut out = String::new();
+    if !every.is_empty() {
+        out += &format!(
+            "one way to go on, whatever load grows, at the beginning of stretch {}: all \
+             determinants of the rate problem are positive there\n",
+            runs(&every)
+        );
+    }
+    if !here.is_empty() {
+        let stretches = runs(&here);
+        out += &format!(
+            "one way to go on under these loads at the beginning of stretch {stretches}\n"
+        );
+    }
+    for (k, one) in all.iter().enumerate().filter(|(_, one)| !one.is_one()) {
+        out += &format!("{}\n", several_text(k, one));
+    }
+
+    out
+}
+
+/// Where there is not one continuation, or where that is not known.
+fn several_text(stretch: usize, continuations: &RateSolutions) -> String {
+    let not_known = "NOT KNOWN whether there is another way to go on at the beginning of stretch";
+    let (states, singular) = match continuations {
+        RateSolutions::OneForEveryLoad => return String::new(), // told with the others
+        RateSolutions::Listed { states, singular } => (states, singular),
+        RateSolutions::NotTried => {
+            return format!("{not_known} {stretch}: too many sets of states to try all");
+        }
+        RateSolutions::NotExamined => return format!("{not_known} {stretch}: not examined"),
+    };
+
+    let mut ways = Vec::with_capacity(states.len());
+    for (k, states) in states.iter().enumerate() {
+        let letters: String = states.iter().map(|state| state.letter()).collect();
+        ways.push(format!("{k}: {letters}"));
+    }
+    let ways = ways.join(", ");
+    let count = counted(states.len(), "way");
+    let another = match states.len() {
+        0 | 1 => String::new(),
+        _ => format!("; --take {stretch}=K takes another"),
+    };
+    let several =
+        format!("{count} to go on at the beginning of stretch {stretch} ({ways}{another})");
+    match singular {
+        0 => several,
+        _ => format!(
+            "{several}; more are NOT EXCLUDED: in {} of states the body can move without force",
+            counted(*singular, "set")
+        ),
+    }
+}
+
+/// Numbers as runs: 0 to 3, 5.
+fn runs(numbers: &[usize]) -> String {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for &number in numbers {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == number => *last = number,
+            _ => runs.push((number, number)),
+        }
+    }
+
+    let words = runs.iter().map(|(first, last)| match last - first {
+        0 => first.to_string(),
+        1 => format!("{first}, {last}"),
+        _ => format!("{first} to {last}"),
+    });
+    words.collect::<Vec<_>>().join(", ")
 }
 
 fn event_json(event: &Event) -> Value {

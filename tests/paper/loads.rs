@@ -10,7 +10,7 @@
 use crate::elimination::solve;
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{Candidate, ContactState, LoadStep, LoadedBody, LoadedParts, Particle};
-use mceip_path::{Bound, Contact, Equilibrium, LoadSteps, LoadingPath, PathEnd};
+use mceip_path::{Bound, Contact, Equilibrium, LoadSteps, LoadingPath, PathEnd, RateSolutions};
 use num_traits::{Signed, Zero};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -117,16 +117,21 @@ impl Instance {
     }
 
     pub(crate) fn follow(&self) -> LoadingPath {
+        self.follow_taking(&self.condensed(), None)
+    }
+
+    fn condensed(&self) -> Contact {
         let body = &self.body;
-        let contact = Contact::condense(body.system(), body.gaps(), body.loads()).unwrap();
-        let endless = body.steps().iter().map(|step| step.is_endless);
-        let steps = LoadSteps {
-            friction: self.friction.clone(),
-            amounts: endless
-                .map(|is_endless| (!is_endless).then(|| whole(1)))
-                .collect(),
-        };
-        LoadingPath::follow(&contact, &steps, &|_| ControlFlow::Continue(())).unwrap()
+        Contact::condense(body.system(), body.gaps(), body.loads()).unwrap()
+    }
+
+    /// The path that takes this continuation (stretch, number), if any.
+    fn follow_taking(&self, contact: &Contact, taken: Option<(usize, usize)>) -> LoadingPath {
+        let endless = self.body.steps().iter().map(|step| step.is_endless);
+        let amounts = endless.map(|is_endless| (!is_endless).then(|| whole(1)));
+        let mut steps = LoadSteps::new(self.friction.clone(), amounts.collect());
+        steps.taken.extend(taken);
+        LoadingPath::follow(contact, &steps, &|_| ControlFlow::Continue(())).unwrap()
     }
 
     /// The candidate's own coefficient of friction.
@@ -394,7 +399,9 @@ fn compare(seed: u64, met: &mut BTreeMap<&'static str, usize>) {
     let mut count = |what| *met.entry(what).or_default() += 1;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let instance = Instance::random(&mut rng);
-    let path = instance.follow();
+    let contact = instance.condensed();
+    let path = instance.follow_taking(&contact, None);
+    let mut pencils = contact.pencils();
 
     for (number, stretch) in path.stretches.iter().enumerate() {
         let place = format!("seed {seed}, stretch {number}");
@@ -403,6 +410,32 @@ fn compare(seed: u64, met: &mut BTreeMap<&'static str, usize>) {
         let (found, is_singular) = solutions(&instance, &classes, load);
         if found.len() > 1 {
             count("several solutions");
+        }
+        match path.rate_solutions(&mut pencils, number).unwrap() {
+            RateSolutions::OneForEveryLoad => {
+                count("one for every load");
+                assert!(found.len() == 1 && !is_singular, "{place}: {found:?}");
+            }
+            RateSolutions::Listed { states, singular } => {
+                count("listed");
+                assert_eq!(states.len(), found.len(), "{place}");
+                assert_eq!(singular > 0, is_singular, "{place}");
+                for (k, states) in states.iter().enumerate().skip(1) {
+                    let taken = instance.follow_taking(&contact, Some((number, k)));
+                    assert_eq!(&taken.stretches[number].states, states, "{place}, way {k}");
+                    let rates = taken.stretches[number].stop.as_ref();
+                    let rates =
+                        rates.map(|stop| rates_between(&taken.stretches[number].start, stop));
+                    assert!(
+                        rates.is_none_or(|rates| found.contains(&rates)),
+                        "{place}, way {k}"
+                    );
+                    count("another way");
+                }
+            }
+            RateSolutions::NotTried | RateSolutions::NotExamined => {
+                panic!("{place}: two candidates have few states")
+            }
         }
         if is_singular {
             count("singular states");
@@ -462,6 +495,9 @@ fn compare_many(seeds: std::ops::Range<u64>) {
     println!("{met:?}");
     for what in [
         "several solutions",
+        "one for every load",
+        "listed",
+        "another way",
         "singular states",
         "gap closes",
         "pressure vanishes",

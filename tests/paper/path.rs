@@ -314,10 +314,7 @@ fn the_block_as_a_file_has_the_same_path() {
     assert_eq!(file.coordinates.unwrap().nodes().len(), 15 + 8);
 
     let contact = Contact::condense(body.system(), body.gaps(), body.loads()).unwrap();
-    let steps = LoadSteps {
-        friction: loading.friction,
-        amounts: vec![Some(whole(1)), None],
-    };
+    let steps = LoadSteps::new(loading.friction, vec![Some(whole(1)), None]);
     let path = LoadingPath::follow(&contact, &steps, &|_| ControlFlow::Continue(())).unwrap();
 
     let (press, motion) = path.stretches.split_first().unwrap();

@@ -68,19 +68,14 @@ impl Loading {
         }
 
         let per_mm = normal_force_per_mm(contact, &self.friction)?;
-        Ok(LoadSteps {
-            friction: self.friction.clone(),
-            amounts: vec![Some(&self.force / per_mm), self.until.clone()],
-        })
+        let amounts = vec![Some(&self.force / per_mm), self.until.clone()];
+        Ok(LoadSteps::new(self.friction.clone(), amounts))
     }
 }
 
 /// The normal force (N) of a pressing by 1 mm, which is one stretch.
 fn normal_force_per_mm(contact: &Contact, friction: &Rational) -> Result<Rational, PathError> {
-    let steps = LoadSteps {
-        friction: friction.clone(),
-        amounts: vec![Some(whole(1))],
-    };
+    let steps = LoadSteps::new(friction.clone(), vec![Some(whole(1))]);
     let path = LoadingPath::follow(contact, &steps, &|_| ControlFlow::Continue(()))?;
     if let PathEnd::NoContinuation { why, .. } = path.end {
         return Err(PathError::NoContinuation(why));

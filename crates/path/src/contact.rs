@@ -31,7 +31,7 @@ pub struct Contact {
     /// \[C, -h_1, -h_2, ...\]: a row for each component of r, a column for each of w.
     rows: Vec<Vec<Integer>>,
     denominator: Integer,
-    /// Of each load: how many of the h in `rows` it is.
+    /// The content c of each load: the load is c times the h in `rows`.
     contents: Vec<Rational>,
     /// Distance of each candidate from the obstacle in the unloaded body, >= 0.
     gaps: Vec<Rational>,
@@ -106,12 +106,12 @@ impl Contact {
         self.columns() - self.rows.len() - 1
     }
 
-    /// How many of the h of a load are one of it.
+    /// The content of a load.
     pub(super) fn content(&self, load: usize) -> &Rational {
         &self.contents[load]
     }
 
-    /// Bits of the common denominator of the condensed stiffness.
+    /// Bits of the common denominator of the condensed stiffness and loads.
     pub fn bits(&self) -> u64 {
         self.denominator.bits()
     }

@@ -11,10 +11,9 @@
 //! last by trying every set.
 //!
 //! A rate problem may have several solutions (with much friction it often has, `rates_oracle`). The
-//! first that the search meets, which begins with the states before, is taken and verified. At a
-//! point with a set of candidates on the friction cone its matrix is T(mu), the condensed pencil of
-//! these candidates: there is one solution for every load rate if and only if T(mu) is a P-matrix.
-//! In general that is not claimed.
+//! first that the search meets, which begins with the states before, is taken and verified, unless
+//! another one is asked for ([`LoadSteps::taken`]). [`LoadingPath::rate_solutions`] lists them, or
+//! says that there is one, whatever load grows.
 //!
 //! A user makes a [`Contact`] of a [`mceip_model::System`] and its loads ([`Contact::condense`]),
 //! follows a [`LoadingPath`] and takes from it the contact states whose eigenproblems are solved.
@@ -31,6 +30,7 @@
 //! | `check` | the laws at a point of the path, from their definitions |
 //! | `loading_path`, `stretch` | the result |
 //! | `pencils` | the condensed pencil of a set of states |
+//! | `unique` | is the path the only one? |
 #![deny(clippy::float_arithmetic)]
 
 mod check;
@@ -49,6 +49,7 @@ mod rates_oracle;
 mod respond;
 mod stretch;
 mod trace;
+mod unique;
 
 pub use contact::{Contact, ContactSide};
 pub use error::PathError;
@@ -59,6 +60,7 @@ pub use pencils::Pencils;
 pub use rates::{Finder, Unsolved};
 pub use stretch::{Change, Event, Stretch};
 pub use trace::PathProgress;
+pub use unique::RateSolutions;
 
 use std::ops::ControlFlow;
 
@@ -82,10 +84,7 @@ impl LoadingPath {
     /// let press = vec![whole(0), whole(3)];
     /// let push = vec![whole(1), whole(0)];
     /// let contact = Contact::condense(&body.unwrap(), &[whole(0)], &[press, push]).unwrap();
-    /// let steps = LoadSteps {
-    ///     friction: rational(1, 2),
-    ///     amounts: vec![Some(whole(1)), Some(whole(2))],
-    /// };
+    /// let steps = LoadSteps::new(rational(1, 2), vec![Some(whole(1)), Some(whole(2))]);
     /// let path = LoadingPath::follow(&contact, &steps, &|_| ControlFlow::Continue(())).unwrap();
     ///
     /// // It sticks until the push reaches mu N = 3/2.

@@ -429,6 +429,16 @@ pub(super) enum Class {
 }
 
 impl Class {
+    /// The class of a contact state at an equilibrium.
+    pub(super) fn of(state: ContactState) -> Class {
+        match state {
+            ContactState::Free => Class::Free,
+            ContactState::Zero => Class::Zero,
+            ContactState::Stick => Class::Stick,
+            ContactState::Slip { sign } => Class::Cone(sign),
+        }
+    }
+
     /// The contact state of an equilibrium, as section 2 defines it: by gap and reaction alone.
     pub(super) fn contact_state(self) -> ContactState {
         match self {

@@ -5,6 +5,7 @@ use super::contact::Contact;
 use super::error::PathError;
 use mceip_exact::Rational;
 use num_traits::Signed;
+use std::collections::BTreeMap;
 
 /// How a body is loaded: load k of a [`Contact`] grows from 0 to `amounts[k]` and stays there while
 /// the next one grows.
@@ -15,9 +16,21 @@ pub struct LoadSteps {
     /// How much of each load is applied, > 0; `None` for a last one that grows until nothing more
     /// happens. Loads beyond the list are not applied.
     pub amounts: Vec<Option<Rational>>,
+    /// At the beginning of a stretch (from 0) which of all solutions of the rate problem is taken,
+    /// as `LoadingPath::rate_solutions` lists them; elsewhere the first that the search meets.
+    pub taken: BTreeMap<usize, usize>,
 }
 
 impl LoadSteps {
+    /// These amounts of the loads, and everywhere the first solution that is met.
+    pub fn new(friction: Rational, amounts: Vec<Option<Rational>>) -> LoadSteps {
+        LoadSteps {
+            friction,
+            amounts,
+            taken: BTreeMap::new(),
+        }
+    }
+
     /// Refuses what is not positive, steps without a load, and an endless step before another.
     pub(super) fn validate(&self, contact: &Contact) -> Result<(), PathError> {
         require_positive("friction", &self.friction)?;

@@ -97,6 +97,14 @@ pub(super) struct Rates<'a> {
     pub(super) growing: Load,
 }
 
+/// Every solution of a rate problem.
+pub(super) struct AllRates {
+    /// Those with the same rates once.
+    pub(super) solved: Vec<Solved>,
+    /// Sets of states that have no unique rates.
+    pub(super) singular: usize,
+}
+
 /// States that solve the rate problem, with the response to every load in them.
 pub(super) struct Solved {
     pub(super) states: Vec<ContactState>,
@@ -105,6 +113,14 @@ pub(super) struct Solved {
     pub(super) finder: Finder,
     /// Sets of states tried, this one included.
     pub(super) tried: usize,
+}
+
+impl Solved {
+    /// The rates of w for a load, times the denominator of the response.
+    fn rates(&self, growing: Load) -> Option<&[Integer]> {
+        let load = self.loads.iter().position(|&load| load == growing)?;
+        Some(&self.response.w[load])
+    }
 }
 
 impl Rates<'_> {
@@ -196,6 +212,42 @@ impl Rates<'_> {
             0 => Unsolved::NoneExists,
             _ => Unsolved::Singular { all, singular },
         }))
+    }
+
+    /// Every solution there is; `None` if there are too many sets of states.
+    pub(super) fn all(&self, images: &mut Images) -> Option<AllRates> {
+        let mut all = AllRates {
+            solved: Vec::new(),
+            singular: 0,
+        };
+        for (k, states) in self.sets_of_states()?.into_iter().enumerate() {
+            match self.attempt(images, &states) {
+                None => all.singular += 1,
+                Some(attempt) if attempt.corrections.is_empty() => {
+                    let solved = attempt.solved(states, Finder::Enumeration, k + 1);
+                    if !all
+                        .solved
+                        .iter()
+                        .any(|other| self.same_rates(other, &solved))
+                    {
+                        all.solved.push(solved);
+                    }
+                }
+                Some(_) => {}
+            }
+        }
+
+        Some(all)
+    }
+
+    /// Do two solutions have the same rates? Then they lie where two pieces meet.
+    fn same_rates(&self, one: &Solved, other: &Solved) -> bool {
+        let (Some(v), Some(w)) = (one.rates(self.growing), other.rates(self.growing)) else {
+            return false;
+        };
+
+        let (v_unit, w_unit) = (&one.response.denominator, &other.response.denominator);
+        v.iter().zip(w).all(|(v, w)| v * w_unit == w * v_unit)
     }
 
     /// Every choice of a state for each node, the last node varying fastest; `None` if there are

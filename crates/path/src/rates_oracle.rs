@@ -7,6 +7,7 @@ use super::line::Class;
 use super::linear::Images;
 use super::propose::propose;
 use super::rates::{Finder, Rates, Solved};
+use super::unique::is_one_for_every_load;
 use mceip_exact::{Rational, whole};
 use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
@@ -35,8 +36,10 @@ struct Instance {
 }
 
 impl Instance {
+    /// Every fifth body can move without force where its candidates are open.
     fn random(dice: &mut Dice, nodes: usize, mu: Rational) -> Instance {
-        let stiffness = random_stiffness(dice, 2 * nodes);
+        let is_singular = dice.roll(2) == 2;
+        let stiffness = random_stiffness(dice, 2 * nodes, is_singular);
         let classes = (0..nodes).map(|_| random_class(dice)).collect();
         Instance {
             stiffness,
@@ -59,9 +62,11 @@ impl Instance {
     }
 }
 
-/// B'B + I in (T, N) of each node: symmetric positive definite, with strong coupling of T and N.
-fn random_stiffness(dice: &mut Dice, order: usize) -> Vec<Vec<i64>> {
-    let mut factor = vec![vec![0; order]; order];
+/// B'B + I in (T, N) of each node: symmetric positive definite, with strong coupling of T and N; or
+/// B'B with one row less.
+fn random_stiffness(dice: &mut Dice, order: usize, is_singular: bool) -> Vec<Vec<i64>> {
+    let rows = order - usize::from(is_singular);
+    let mut factor = vec![vec![0; order]; rows];
     for row in &mut factor {
         for entry in row {
             *entry = dice.roll(4);
@@ -70,7 +75,7 @@ fn random_stiffness(dice: &mut Dice, order: usize) -> Vec<Vec<i64>> {
 
     let mut stiffness = vec![vec![0; order]; order];
     for i in 0..order {
-        stiffness[i][i] = 1;
+        stiffness[i][i] = i64::from(!is_singular);
         for j in 0..order {
             for row in &factor {
                 stiffness[i][j] += row[i] * row[j];
@@ -106,6 +111,7 @@ fn choices(class: Class) -> Vec<ContactState> {
 }
 
 /// Rates of displacements and reactions.
+#[derive(PartialEq)]
 struct VelocityAndReaction {
     v: Vec<Rational>,
     w: Vec<Rational>,
@@ -222,6 +228,8 @@ fn holds(class: Class, v: &[Rational], w: &[Rational], mu: &Rational) -> bool {
 struct Enumerated {
     /// Every set of states that solves the rate problem.
     solutions: Vec<Vec<ContactState>>,
+    /// Their rates, the same ones once.
+    distinct: Vec<VelocityAndReaction>,
     /// The equations of some set are singular.
     singular: bool,
 }
@@ -242,17 +250,24 @@ fn enumerate(instance: &Instance) -> Enumerated {
     }
 
     let mut solutions = Vec::new();
+    let mut distinct: Vec<VelocityAndReaction> = Vec::new();
     let mut singular = false;
     for states in sets {
         match rates(instance, &states) {
             None => singular = true,
-            Some(rates) if all_hold(instance, &rates) => solutions.push(states),
+            Some(rates) if all_hold(instance, &rates) => {
+                solutions.push(states);
+                if !distinct.contains(&rates) {
+                    distinct.push(rates);
+                }
+            }
             Some(_) => {}
         }
     }
 
     Enumerated {
         solutions,
+        distinct,
         singular,
     }
 }
@@ -327,7 +342,23 @@ fn rate_problems_agree_with_enumeration() {
         let found = rates.solve(&mut Images::default(), &vec![ContactState::Stick; nodes]);
         let finder = compare(round, &found, &expected, classes);
 
-        let several = expected.solutions.len() > 1;
+        let all = rates.all(&mut Images::default()).unwrap();
+        assert_eq!(all.solved.len(), expected.distinct.len(), "round {round}");
+        assert_eq!(all.singular > 0, expected.singular, "round {round}");
+        for solved in &all.solved {
+            assert!(expected.solutions.contains(&solved.states), "round {round}");
+        }
+
+        let states: Vec<_> = classes.iter().map(|class| class.contact_state()).collect();
+        let is_one = is_one_for_every_load(&mut contact.pencils(), &instance.mu, &states).unwrap();
+        let is_here = expected.distinct.len() == 1 && !expected.singular;
+        assert!(!is_one || is_here, "round {round}: {classes:?}");
+        *met.entry("one for every load").or_default() += usize::from(is_one);
+        let can_float = expected.singular && expected.distinct.len() == 1;
+        *met.entry("one here, and singular").or_default() += usize::from(can_float);
+        *met.entry("one for this load only").or_default() += usize::from(is_here && !is_one);
+
+        let several = expected.distinct.len() > 1;
         *met.entry(finder).or_default() += 1;
         *met.entry("several solutions").or_default() += usize::from(several);
         *met.entry("singular").or_default() += usize::from(expected.singular);
@@ -346,6 +377,9 @@ fn rate_problems_agree_with_enumeration() {
         "none exists",
         "several solutions",
         "singular",
+        "one for every load",
+        "one for this load only",
+        "one here, and singular",
     ] {
         let times = met.get(word).copied().unwrap_or_default();
         assert!(times > 0, "{word} never met: {met:?}");

@@ -9,7 +9,7 @@
 //!
 //! Contact and friction (1), (2) know no unit of length or force. Without gaps the path is followed
 //! with all loads over that of the first step, whose numbers may be long, and comes out in the
-//! loads that were given ([`Scale`]).
+//! loads that were given ([`LoadUnits`]).
 
 use super::check::PathPoint;
 use super::contact::{Contact, Friction, Load};
@@ -18,11 +18,12 @@ use super::line::{Amount, AppliedLoad, Bound, Class, Line, NextEvent, classify, 
 use super::linear::Images;
 use super::load_steps::LoadSteps;
 use super::loading_path::{LoadingPath, PathEnd};
-use super::rates::{Rates, Solved};
+use super::rates::{AllRates, Rates, Solved};
 use super::stretch::{Change, Event, Stretch};
 use mceip_exact::{Rational, simplest_between, to_f64, whole};
 use mceip_model::ContactState;
 use num_traits::Zero;
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 /// Events per candidate and step after which a path is given up. Paths met so far have about two.
@@ -43,9 +44,10 @@ pub struct PathProgress<'a> {
 struct Tracer<'a> {
     contact: &'a Contact,
     friction: Friction,
-    scale: Scale,
+    units: LoadUnits,
     /// How much of h each load becomes, on this scale.
     amounts: Vec<Option<Rational>>,
+    taken: &'a BTreeMap<usize, usize>,
     images: Images,
     /// u_T at which each candidate stuck when it last began to.
     held: Vec<Rational>,
@@ -106,7 +108,7 @@ pub(super) fn trace(
     let mut position = tracer.unloaded();
     let mut stretches = Vec::new();
     let end = loop {
-        let amount = &position.a / tracer.scale.of(position.step);
+        let amount = &position.a / tracer.units.of(position.step);
         let here = PathProgress {
             stretch: stretches.len(),
             step: position.step,
@@ -122,7 +124,7 @@ pub(super) fn trace(
             });
         }
 
-        let stretch = match tracer.pass(&position) {
+        let stretch = match tracer.pass(&position, stretches.len()) {
             Ok(stretch) => stretch,
             Err(PathError::NoContinuation(why)) => {
                 break PathEnd::NoContinuation {
@@ -163,6 +165,19 @@ pub(super) fn trace(
         };
     };
 
+    let mut asked = steps.taken.keys();
+    if let Some(stretch) = asked.find(|&&stretch| stretch >= stretches.len())
+        && end != PathEnd::Interrupted
+    {
+        return Err(PathError::Steps {
+            expected: format!(
+                "continuations of the {} stretches of this path, from 0",
+                stretches.len()
+            ),
+            got: format!("one of stretch {stretch}"),
+        });
+    }
+
     Ok(LoadingPath {
         steps: steps.clone(),
         stretches,
@@ -171,18 +186,19 @@ pub(super) fn trace(
 }
 
 impl<'a> Tracer<'a> {
-    fn new(contact: &'a Contact, steps: &LoadSteps) -> Tracer<'a> {
-        let scale = Scale::new(contact, steps);
+    fn new(contact: &'a Contact, steps: &'a LoadSteps) -> Tracer<'a> {
+        let units = LoadUnits::new(contact, steps);
         let mut amounts = Vec::with_capacity(steps.amounts.len());
         for (load, amount) in steps.amounts.iter().enumerate() {
-            amounts.push(amount.as_ref().map(|amount| amount * scale.of(load)));
+            amounts.push(amount.as_ref().map(|amount| amount * units.of(load)));
         }
 
         Tracer {
             contact,
             friction: Friction::new(&steps.friction, contact),
-            scale,
+            units,
             amounts,
+            taken: &steps.taken,
             images: Images::default(),
             held: vec![Rational::zero(); contact.nodes()],
         }
@@ -209,12 +225,12 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// The states after the event at a position, and the stretch that begins there.
-    fn pass(&mut self, position: &Position) -> Result<SolvedStretch, PathError> {
+    /// The states after the event at a position, and the stretch that begins there; its number.
+    fn pass(&mut self, position: &Position, number: usize) -> Result<SolvedStretch, PathError> {
         let classes = classify(&position.line, &position.end_of_line, &self.friction)?;
         self.note_where_nodes_would_stick(position);
 
-        let solved = self.rates(&classes, position)?;
+        let solved = self.rates(&classes, position, number)?;
         let mut applied = Vec::with_capacity(solved.loads.len());
         for &load in &solved.loads {
             let amount = self.amount_of(load, position.step);
@@ -248,8 +264,13 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Solves the rate problem at a position.
-    fn rates(&mut self, classes: &[Class], position: &Position) -> Result<Solved, PathError> {
+    /// Solves the rate problem at a position, where a stretch begins.
+    fn rates(
+        &mut self,
+        classes: &[Class],
+        position: &Position,
+        stretch: usize,
+    ) -> Result<Solved, PathError> {
         let held = &self.held;
         let gaps = self.contact.gaps();
         let problem = Rates {
@@ -260,7 +281,10 @@ impl<'a> Tracer<'a> {
             loads: &|states| loads(states, held, gaps, position.step),
             growing: Load::Step(position.step),
         };
-        problem.solve(&mut self.images, &position.states)
+        match self.taken.get(&stretch) {
+            None => problem.solve(&mut self.images, &position.states),
+            Some(&number) => taken(problem.all(&mut self.images), stretch, number),
+        }
     }
 
     /// How much of a load is applied while that of `step` grows.
@@ -318,7 +342,7 @@ impl<'a> Tracer<'a> {
     ) -> Result<Stretch, PathError> {
         let line = &stretch.line;
         let solved = &stretch.solved;
-        let one = self.scale.of(from.step);
+        let one = self.units.of(from.step);
         let start = &from.a / one;
         let inside = match end.amount() {
             Some(end) => {
@@ -333,7 +357,7 @@ impl<'a> Tracer<'a> {
         self.point(stretch, &inside).check()?;
         let equilibrium = |a: &Rational| {
             let found = line.equilibrium(a, self.contact, &self.friction)?;
-            Ok::<_, PathError>(found.times(&self.scale.factor, a / one))
+            Ok::<_, PathError>(found.times(&self.units.factor, a / one))
         };
 
         Ok(Stretch {
@@ -352,16 +376,36 @@ impl<'a> Tracer<'a> {
     }
 }
 
+/// The solution of the rate problem at the beginning of a stretch that was asked for.
+fn taken(all: Option<AllRates>, stretch: usize, number: usize) -> Result<Solved, PathError> {
+    let mut solved = all.map_or_else(Vec::new, |all| all.solved);
+    if number < solved.len() {
+        return Ok(solved.swap_remove(number));
+    }
+
+    Err(PathError::Steps {
+        expected: match solved.len() {
+            0 => format!("no continuation to be taken at stretch {stretch}: none is listed"),
+            count => format!(
+                "a continuation of stretch {stretch} from 0 to {}",
+                count - 1
+            ),
+        },
+        got: number.to_string(),
+    })
+}
+
 /// In which multiples loads and gaps are applied while a path is followed.
-struct Scale {
-    /// What is applied, times this, is what was asked for. 1 where there are gaps.
+struct LoadUnits {
+    /// What is applied, times this, is what was asked for. 1 where there are gaps, and where the
+    /// first load has no end.
     factor: Rational,
     /// How much of h one of each load is on this scale.
     ones: Vec<Rational>,
 }
 
-impl Scale {
-    fn new(contact: &Contact, steps: &LoadSteps) -> Scale {
+impl LoadUnits {
+    fn new(contact: &Contact, steps: &LoadSteps) -> LoadUnits {
         let has_gaps = contact.gaps().iter().any(|gap| !gap.is_zero());
         let factor = match &steps.amounts[0] {
             Some(first) if !has_gaps => first * contact.content(0),
@@ -370,7 +414,7 @@ impl Scale {
 
         let loads = 0..steps.amounts.len();
         let ones = loads.map(|load| contact.content(load) / &factor).collect();
-        Scale { factor, ones }
+        LoadUnits { factor, ones }
     }
 
     /// How much of h one of a load is.

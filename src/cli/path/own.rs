@@ -282,10 +282,7 @@ fn first_wide_change(points: &[Point], width: &Rational) -> Option<usize> {
 impl Loaded<'_> {
     /// Follows the path at this mu and decides whether its end diverges; `None` if cancelled.
     fn examine(&self, mu: Rational, watch: &Watch<'_>) -> Result<Option<Point>, CliError> {
-        let steps = LoadSteps {
-            friction: mu.clone(),
-            ..self.steps.clone()
-        };
+        let steps = LoadSteps::new(mu.clone(), self.steps.amounts.clone());
         let path = LoadingPath::follow(self.contact, &steps, &|_| {
             if watch.is_cancelled() {
                 ControlFlow::Break(())

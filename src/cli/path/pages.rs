@@ -13,7 +13,7 @@ use crate::picture::{
     BodyDrawing, BodyMode, BranchPoint, Branches, Content, Picture, Report, Section, Threshold,
     ThresholdColumn, body_picture, branch_picture, path_picture, threshold_picture,
 };
-use crate::say::path::{LETTERS, causes_text, end_text};
+use crate::say::path::{LETTERS, causes_text, continuations_text, end_text};
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::Levels;
 use mceip_exact::to_f64;
@@ -236,7 +236,11 @@ impl Shown<'_> {
     pub(super) fn report(&self) -> Result<Report, ModelError> {
         let path = Section {
             title: "Loading path".into(),
-            content: vec![self.path_chart().into_figure(), self.path_table()],
+            content: vec![
+                self.path_chart().into_figure(),
+                self.path_table(),
+                Content::Paragraph(continuations_text(self.followed.continuations())),
+            ],
         };
 
         let mut thresholds = vec![
@@ -460,7 +464,11 @@ impl DrawnState<'_> {
         Some(Named {
             name,
             picture: body_picture(title, &drawn),
-            caption: format!("{moving} of {slip} slip nodes slip, the others get stuck."),
+            caption: if moving == slip {
+                "All nodes in impending slip slip.".into()
+            } else {
+                format!("{moving} of {slip} nodes in impending slip slip, the others get stuck.")
+            },
         })
     }
 }

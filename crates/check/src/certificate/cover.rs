@@ -13,6 +13,7 @@
 
 use super::{Integer, IntegerRow, Number, Regular, integer_rows, integers, object};
 use mceip_model::file::word_or_kind;
+use num_traits::Signed as _;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -30,6 +31,20 @@ pub struct CompleteSet {
     /// Consecutive intervals from the lower to the upper end of the window.
     #[serde(deserialize_with = "pieces_over_values")]
     pub pieces: Vec<Piece>,
+}
+
+impl CompleteSet {
+    /// Is each piece closed by one leaf that says that the symmetric part of the matrix, its rows
+    /// scaled, is positive definite? Then, once accepted, the matrix is a P-matrix in the window.
+    pub fn is_positive_definite(&self) -> bool {
+        let is_closed = |piece: &Piece| match &piece.tree[..] {
+            [Node::PositiveDefinite] => true,
+            // Negative factors are an absence as well, and no P-matrix.
+            [Node::Ldl(ldl)] => ldl.is_positive(),
+            _ => false,
+        };
+        !self.pieces.is_empty() && self.pieces.iter().all(is_closed)
+    }
 }
 
 /// One interval of the unknown and the tree that covers it; in `mceip-critical/1` the tree covers
@@ -297,6 +312,15 @@ pub struct Ldl {
     /// At the upper end.
     #[serde(deserialize_with = "object::one")]
     pub upper: LdlFactor,
+}
+
+impl Ldl {
+    /// Are these factors of a positive definite matrix? The signs of an accepted leaf are the same
+    /// at both ends.
+    fn is_positive(&self) -> bool {
+        let first = self.lower.diagonal.first();
+        first.is_some_and(|d| d.0.is_positive())
+    }
 }
 
 /// L D L' with a unit lower triangular L.

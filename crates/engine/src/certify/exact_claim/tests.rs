@@ -57,8 +57,8 @@ fn the_kernel_vector_is_the_candidates() {
     assert_eq!(on_face.biactive, [2]);
 }
 
-/// The kernel of (0, 1, -4) at t = 1: the last coordinate of its second vector (0, 4, 1) counts, not
-/// the first one at which the other vector vanishes.
+/// The kernel of (0, 1, -4) at t = 1: the last coordinate of its second vector (0, 4, 1) counts,
+/// not the first one at which the other vector vanishes.
 #[test]
 fn components_count_at_free_coordinates() {
     let a = Sparse::from_ints(&[&[-1, 1, -4], &[0, -1, 0], &[0, 0, -1]]);
