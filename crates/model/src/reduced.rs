@@ -90,6 +90,11 @@ impl ZeroVariables {
 }
 
 impl Variable {
+    /// Is it v+ or v- of a z particle, of which one is 0 in every motion?
+    pub fn is_half(&self) -> bool {
+        matches!(self, Variable::Zero { part, .. } if *part != ZeroPart::Gap)
+    }
+
     /// The motion v that belongs to x = 1. // (10)
     pub fn column(&self) -> Direction {
         match self {

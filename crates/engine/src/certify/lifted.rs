@@ -15,9 +15,9 @@
 use mceip_check::certificate::{ExactSolution, LiftedSolution};
 use mceip_exact::{Rational, Sparse};
 use mceip_model::file::Number;
-use mceip_model::reduction::zero_variables;
-use mceip_model::{Direction, Particle, System, Unknown, ZeroVariables};
-use num_traits::{One, Zero};
+use mceip_model::reduction::variables;
+use mceip_model::{Direction, System, Unknown};
+use num_traits::Zero;
 
 /// A polynomial in the value, the constant coefficient first.
 type Coefficients = Vec<Rational>;
@@ -25,31 +25,11 @@ type Coefficients = Vec<Rational>;
 /// Lifts x to v (E10: v_T = -S x, nothing else moves but the free dofs) and w = (t M + K) v, both
 /// reduced modulo the claim's polynomial.
 pub fn lifted(system: &System, unknown: Unknown, claim: &ExactSolution) -> LiftedSolution {
-    let free = system.free_dofs();
     let mut v: Vec<Coefficients> = vec![Vec::new(); system.dofs()];
-    for (&dof, x) in free.iter().zip(&claim.x) {
-        v[dof] = rationals(x);
-    }
-
-    let slip_x = claim.x.iter().skip(free.len());
-    for ((particle, sign), x) in system.slip_particles().into_iter().zip(slip_x) {
+    for (variable, x) in variables(system).iter().zip(&claim.x) {
         let x = rationals(x);
-        let minus_s = Rational::from_integer((-sign).into());
-        for (dof, c) in particle.tangent() {
-            add(&mut v[dof], &(c * &minus_s), &x, 0);
-        }
-    }
-
-    for (particle, places) in zero_particles(system) {
-        let opening = component(&claim.x, places.gap);
-        let right = component(&claim.x, places.right);
-        let left = component(&claim.x, places.left);
-        for (dof, c) in particle.into_obstacle() {
-            add(&mut v[dof], &-c, &opening, 0);
-        }
-        for (dof, c) in particle.tangent() {
-            add(&mut v[dof], &c, &right, 0);
-            add(&mut v[dof], &-c, &left, 0);
+        for (dof, c) in variable.column() {
+            add(&mut v[dof], &c, &x, 0);
         }
     }
 
@@ -75,27 +55,14 @@ pub fn lifted(system: &System, unknown: Unknown, claim: &ExactSolution) -> Lifte
 /// as continued with zeros.
 pub fn flattened(system: &System, claim: &LiftedSolution) -> ExactSolution {
     let mut x: Vec<Coefficients> = Vec::new();
-    for dof in system.free_dofs() {
-        x.push(component(&claim.v, dof));
-    }
-
-    for (particle, sign) in system.slip_particles() {
-        let minus_s = Rational::from_integer((-sign).into());
-        x.push(along(&particle.tangent(), &minus_s, &claim.v));
-    }
-
-    let one = Rational::one();
-    for (particle, places) in zero_particles(system) {
-        x.push(along(&particle.into_obstacle(), &-&one, &claim.v));
-
+    for (index, variable) in variables(system).iter().enumerate() {
         // v_T > 0 is said by the support.
-        for (half, sign) in [(places.right, one.clone()), (places.left, -&one)] {
-            if claim.support.contains(&half) {
-                x.push(along(&particle.tangent(), &sign, &claim.v));
-            } else {
-                x.push(Vec::new());
-            }
-        }
+        let is_at_rest = variable.is_half() && !claim.support.contains(&index);
+        x.push(if is_at_rest {
+            Vec::new()
+        } else {
+            along(&variable.column(), &claim.v)
+        });
     }
 
     ExactSolution {
@@ -107,17 +74,11 @@ pub fn flattened(system: &System, claim: &LiftedSolution) -> ExactSolution {
     }
 }
 
-/// The particles in contact with zero reaction with the places of their variables.
-fn zero_particles(system: &System) -> impl Iterator<Item = (&Particle, ZeroVariables)> {
-    let particles = system.zero_particles().into_iter();
-    particles.zip(zero_variables(system))
-}
-
-/// `factor` times the component of v along a direction.
-fn along(direction: &Direction, factor: &Rational, v: &[Vec<Number>]) -> Coefficients {
+/// The component of v along a direction.
+fn along(direction: &Direction, v: &[Vec<Number>]) -> Coefficients {
     let mut sum = Vec::new();
     for (dof, c) in direction {
-        add(&mut sum, &(c * factor), &component(v, *dof), 0);
+        add(&mut sum, c, &component(v, *dof), 0);
     }
 
     sum

@@ -8,7 +8,7 @@
 //! which reads modes that other programs report.
 
 use mceip_exact::Rational;
-use mceip_model::{Variable, ZeroPart};
+use mceip_model::Variable;
 use num_traits::{Signed, Zero};
 use std::cmp::Reverse;
 
@@ -46,40 +46,20 @@ pub fn project(variables: &[Variable], v: &[Rational]) -> Projected {
     let mut unexplained = v.to_vec();
     let mut x = Vec::with_capacity(variables.len());
     for variable in variables {
-        match variable {
-            Variable::Free { dof } => {
-                if let Some(rest) = unexplained.get_mut(*dof) {
-                    *rest = Rational::zero();
-                }
-                x.push(component(v, *dof));
-            }
-            Variable::Slip { sign, tangent, .. } => {
-                let terms = tangent.iter().map(|(dof, c)| c * component(v, *dof));
-                let v_t: Rational = terms.sum();
-                for (dof, c) in tangent {
-                    if let Some(rest) = unexplained.get_mut(*dof) {
-                        *rest -= c * &v_t;
-                    }
-                }
-                x.push(v_t * Rational::from_integer((-*sign).into()));
-            }
-            Variable::Zero { part, column, .. } => {
-                let terms = column.iter().map(|(dof, c)| c * component(v, *dof));
-                let along: Rational = terms.sum();
-                let is_of_other_half = *part != ZeroPart::Gap && along < Rational::zero();
-                if is_of_other_half {
-                    x.push(Rational::zero());
-                    continue;
-                }
+        let column = variable.column();
+        let terms = column.iter().map(|(dof, c)| c * component(v, *dof));
+        let along: Rational = terms.sum();
+        if variable.is_half() && along.is_negative() {
+            x.push(Rational::zero()); // v_T is that of the other half
+            continue;
+        }
 
-                for (dof, c) in column {
-                    if let Some(rest) = unexplained.get_mut(*dof) {
-                        *rest -= c * &along;
-                    }
-                }
-                x.push(along);
+        for (dof, c) in &column {
+            if let Some(rest) = unexplained.get_mut(*dof) {
+                *rest -= c * &along;
             }
         }
+        x.push(along);
     }
 
     Projected {

@@ -100,6 +100,11 @@ pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
     })
 }
 
+/// What each variable of a system's pencil stands for.
+pub fn variables(system: &System) -> Vec<Variable> {
+    Changes::of(system).variables
+}
+
 /// The places of the variables of a system's z particles, in file order: they come after those of f
 /// and of s.
 pub fn zero_variables(system: &System) -> Vec<ZeroVariables> {
