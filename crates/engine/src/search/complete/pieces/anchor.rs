@@ -19,8 +19,9 @@ use super::matrix::{Matrix, zeros};
 use super::skyline::{Skyline, dot};
 use super::view::row_factor;
 use crate::search::complete::dyadic::multiple_near;
+use crate::search::complete::rounding::integer;
 use mceip_check::certificate::{Anchor, IntegerMatrix, IntegerRow};
-use mceip_exact::{Rational, to_f64, truncated};
+use mceip_exact::{Rational, to_f64};
 use mceip_model::Pencil;
 use mceip_model::file::Number;
 
@@ -189,26 +190,26 @@ pub(crate) type Columns = Vec<Vec<f64>>;
 /// The elimination of the free variables of one pencil.
 pub(crate) struct Elimination<'a> {
     pub(crate) pencil: &'a Pencil,
-    pub(crate) blocks: &'a Blocks,
+    pub(crate) blocks: Blocks,
     pub(crate) bounds: FreeBounds,
 }
 
-impl Elimination<'_> {
+impl<'a> Elimination<'a> {
+    pub(crate) fn new(pencil: &'a Pencil, bounds: FreeBounds) -> Elimination<'a> {
+        Elimination {
+            pencil,
+            blocks: Blocks::of(pencil),
+            bounds,
+        }
+    }
+
     /// The Taylor polynomials about a centre, rounded, and the condensed pencil they give; `None`
     /// where F is not definite in doubles.
     pub(crate) fn expand(&self, center: &Rational, precision: Precision) -> Option<Expanded> {
         let at = to_f64(center);
-        let factor = self.blocks.factor_at(at)?;
-        let solution = Solution {
-            blocks: self.blocks,
-            factor: &factor,
-            center: at,
-        };
-
-        let degree = self.degree(&self.blocks.fs, precision);
-        let right = solution.taylor(&self.blocks.fs, degree, precision.right_bits);
-        let degree = self.degree(&self.blocks.sf, precision);
-        let left = solution.taylor(&self.blocks.sf, degree, precision.left_bits);
+        let solution = Solution::about(&self.blocks, at)?;
+        let right = solution.taylor(&self.blocks.fs, precision.degree, precision.right_bits);
+        let left = solution.taylor(&self.blocks.sf, precision.degree, precision.left_bits);
 
         let expansion = self.expansion(at, &right.rounded, &left.rounded);
         let anchor = Anchor {
@@ -226,20 +227,10 @@ impl Elimination<'_> {
     /// not definite in doubles.
     pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[Columns]) -> Option<Beside> {
         let at = to_f64(&anchor.center.0);
-        let factor = self.blocks.factor_at(at)?;
-        let solution = Solution {
-            blocks: self.blocks,
-            factor: &factor,
-            center: at,
-        };
-
-        let precision = Precision {
-            degree: right.len().saturating_sub(1),
-            right_bits: 0,
-            left_bits: bits_of(&anchor.left).max(OF_FAMILY.coarse.left_bits),
-        };
-        let degree = self.degree(&self.blocks.sf, precision);
-        let left = solution.taylor(&self.blocks.sf, degree, precision.left_bits);
+        let solution = Solution::about(&self.blocks, at)?;
+        let degree = right.len().saturating_sub(1);
+        let bits = bits_of(&anchor.left).max(OF_FAMILY.coarse.left_bits);
+        let left = solution.taylor(&self.blocks.sf, degree, bits);
         let expansion = self.expansion(at, right, &left.rounded);
         Some(Beside {
             left: left.integers,
@@ -247,21 +238,10 @@ impl Elimination<'_> {
         })
     }
 
-    /// Degree of the solution for a right-hand side.
-    fn degree(&self, given: &LinearColumns, precision: Precision) -> usize {
-        if !self.blocks.mass_is_zero {
-            precision.degree
-        } else if given.is_constant() {
-            0
-        } else {
-            1
-        }
-    }
-
     /// The condensed pencil about a centre and the norms of the residuals, as the checker will
     /// compute them. `right` and `left` are the coefficients of W and V.
     pub(crate) fn expansion(&self, center: f64, right: &[Columns], left: &[Columns]) -> Expansion {
-        let blocks = self.blocks;
+        let blocks = &self.blocks;
         let order = blocks.slip.len();
         let right_residual = residual(blocks, &blocks.fs, center, right);
         let left_residual = residual(blocks, &blocks.sf, center, left);
@@ -316,7 +296,7 @@ fn bits_of(coefficients: &[IntegerMatrix]) -> i32 {
 /// Solutions with F(center), which is given by its Cholesky factor.
 struct Solution<'a> {
     blocks: &'a Blocks,
-    factor: &'a Skyline,
+    factor: Skyline,
     center: f64,
 }
 
@@ -327,9 +307,27 @@ struct Taylor {
     rounded: Vec<Columns>,
 }
 
-impl Solution<'_> {
-    /// The Taylor coefficients of F^-1 (C + tD) up to a degree. `bits` are those of the first one.
+impl<'a> Solution<'a> {
+    /// `None` where F is not definite in doubles.
+    fn about(blocks: &'a Blocks, center: f64) -> Option<Solution<'a>> {
+        Some(Solution {
+            factor: blocks.factor_at(center)?,
+            blocks,
+            center,
+        })
+    }
+
+    /// The Taylor coefficients of F^-1 (C + tD) up to a degree, or up to its own where F is
+    /// constant. `bits` are those of the first one.
     fn taylor(&self, given: &LinearColumns, degree: usize, bits: i32) -> Taylor {
+        let degree = if !self.blocks.mass_is_zero {
+            degree
+        } else if given.is_constant() {
+            0
+        } else {
+            1
+        };
+
         let mut taylor = Taylor::default();
         for k in 0..=degree {
             let mut columns = self.right_hand_sides(given, k, taylor.rounded.last());
@@ -510,9 +508,7 @@ impl Rounded {
         let row_count = columns.first().map_or(0, Vec::len);
         let mut rows = Vec::with_capacity(row_count);
         for i in 0..row_count {
-            let integers = rounded
-                .iter()
-                .map(|column| truncated((column[i] * unit).round()).unwrap_or_default());
+            let integers = rounded.iter().map(|column| integer(column[i] * unit));
             rows.push(integers.collect());
         }
 

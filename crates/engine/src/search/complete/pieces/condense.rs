@@ -79,12 +79,13 @@ pub(crate) fn condense(
     })?;
     let elimination = Elimination {
         pencil,
-        blocks: &blocks,
+        blocks,
         bounds: FreeBounds {
             sigma: to_f64(&stiffness.sigma),
             tau: to_f64(&mass.tau),
         },
     };
+    let blocks = &elimination.blocks;
 
     // What stands above the anchors, and where it begins.
     let above = if window.max().is_none() && !blocks.mass_is_zero {
@@ -169,7 +170,7 @@ pub(crate) fn condense(
     let view = View {
         scale: scale_of(&anchors.expansions[0].coefficients),
         expansions: anchors.expansions,
-        index: blocks.slip,
+        index: elimination.blocks.slip,
         zero: Vec::new(),
     };
 
@@ -315,13 +316,7 @@ pub(crate) fn refine(
     values: &[f64],
     fine: Precision,
 ) {
-    let blocks = Blocks::of(pencil);
-    let elimination = Elimination {
-        pencil,
-        blocks: &blocks,
-        bounds: bounds_of(condensation),
-    };
-
+    let elimination = Elimination::new(pencil, bounds_of(condensation));
     for value in values {
         let Some(center) = fine_center(*value) else {
             continue;
@@ -346,29 +341,25 @@ fn fine_center(value: f64) -> Option<Rational> {
 /// The view that a certificate's condensation gives.
 pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     let bounds = bounds_of(condensation);
-    let blocks = Blocks::of(pencil);
+    let elimination = Elimination::new(pencil, bounds);
     let exchanged = exchanged(pencil);
-    let elimination = Elimination {
-        pencil,
-        blocks: &blocks,
-        bounds,
-    };
+    let reversed = exchanged
+        .as_ref()
+        .map(|exchanged| Elimination::new(exchanged, bounds.exchanged()));
 
     let mut expansions = Vec::new();
     for anchor in &condensation.anchors {
-        let expansion = match &exchanged {
-            Some(exchanged) if anchor.reversed => reversed_expansion(exchanged, anchor, bounds),
+        expansions.push(match &reversed {
+            Some(reversed) if anchor.reversed => expansion_of(reversed, anchor),
             _ => expansion_of(&elimination, anchor),
-        };
-
-        expansions.push(expansion);
+        });
     }
 
     let scale = expansions
         .first()
         .map_or(1.0, |e| scale_of(&e.coefficients));
     View {
-        index: blocks.slip,
+        index: elimination.blocks.slip,
         scale,
         expansions,
         zero: Vec::new(),
@@ -380,21 +371,20 @@ pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
 pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec<Beside>> {
     let bounds = bounds_of(condensation);
     let exchanged = exchanged(pencil)?;
+    let elimination = Elimination::new(pencil, bounds);
+    let reversed = Elimination::new(&exchanged, bounds.exchanged());
+    let width = pencil.slip().len();
+
     let mut all = Vec::with_capacity(condensation.anchors.len());
     for anchor in &condensation.anchors {
-        let (pencil, bounds) = if anchor.reversed {
-            (&exchanged, bounds.exchanged())
+        let elimination = if anchor.reversed {
+            &reversed
         } else {
-            (pencil, bounds)
+            &elimination
         };
 
-        let elimination = Elimination {
-            pencil,
-            blocks: &Blocks::of(pencil),
-            bounds,
-        };
-
-        let mut beside = elimination.expand_beside(anchor, &right_columns(anchor, pencil))?;
+        let right = columns_of_all(&anchor.right, width);
+        let mut beside = elimination.expand_beside(anchor, &right)?;
         beside.expansion.reversed = anchor.reversed;
         all.push(beside);
     }
@@ -402,42 +392,24 @@ pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec
     Some(all)
 }
 
-/// The coefficients of W of an anchor, in doubles.
-fn right_columns(anchor: &Anchor, pencil: &Pencil) -> Vec<Columns> {
-    let width = pencil.slip().len();
-    let mut right = Vec::with_capacity(anchor.right.len());
-    for coefficient in &anchor.right {
-        right.push(columns_of(coefficient, width));
-    }
-
-    right
-}
-
-/// The expansion that a reversed anchor gives. `bounds` are those of the pencil as given.
-fn reversed_expansion(exchanged: &Pencil, anchor: &Anchor, bounds: FreeBounds) -> Expansion {
-    let elimination = Elimination {
-        pencil: exchanged,
-        blocks: &Blocks::of(exchanged),
-        bounds: bounds.exchanged(),
-    };
-
-    Expansion {
-        reversed: true,
-        ..expansion_of(&elimination, anchor)
-    }
-}
-
 /// The expansion that an anchor of a certificate gives for the pencil that is eliminated.
 fn expansion_of(elimination: &Elimination<'_>, anchor: &Anchor) -> Expansion {
     let width = elimination.blocks.slip.len();
     let center = to_f64(&anchor.center.0);
-    let right = right_columns(anchor, elimination.pencil);
-    let mut left = Vec::with_capacity(anchor.left.len());
-    for coefficient in &anchor.left {
-        left.push(columns_of(coefficient, width));
+    let right = columns_of_all(&anchor.right, width);
+    let left = columns_of_all(&anchor.left, width);
+    Expansion {
+        reversed: anchor.reversed,
+        ..elimination.expansion(center, &right, &left)
     }
+}
 
-    elimination.expansion(center, &right, &left)
+/// The coefficients of W or V, in doubles.
+fn columns_of_all(coefficients: &[IntegerMatrix], width: usize) -> Vec<Columns> {
+    let coefficients = coefficients.iter();
+    coefficients
+        .map(|matrix| columns_of(matrix, width))
+        .collect()
 }
 
 /// The columns of a rounded matrix, in doubles.

@@ -7,7 +7,6 @@
 //! doubles.
 
 use super::anchor::{Elimination, FINE};
-use super::blocks::Blocks;
 use super::condense::bounds_of;
 use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix, IntegerRow};
 use mceip_exact::{Integer, Rational, common_denominator, from_f64, to_f64};
@@ -29,15 +28,9 @@ pub(crate) fn precise_anchor(
     value: &Rational,
 ) -> Option<Anchor> {
     let center = from_f64(to_f64(value)).ok()?;
-    let blocks = Blocks::of(pencil);
-    let elimination = Elimination {
-        pencil,
-        blocks: &blocks,
-        bounds: bounds_of(condensation),
-    };
-
+    let elimination = Elimination::new(pencil, bounds_of(condensation));
     let mut anchor = elimination.expand(&center, FINE)?.anchor;
-    let factor = blocks.factor_at(to_f64(&center))?;
+    let factor = elimination.blocks.factor_at(to_f64(&center))?;
 
     let rows = free_rows(pencil, &center);
     for k in 0..anchor.right.len() {

@@ -5,7 +5,6 @@
 //! tau > 0. Called by `condense`.
 
 use super::anchor::{COARSE, Elimination, Expanded, FreeBounds, centers};
-use super::blocks::Blocks;
 use super::expansion::Expansion;
 use crate::search::complete::dyadic::short_near;
 use mceip_check::certificate::Anchor;
@@ -31,17 +30,12 @@ pub(crate) fn beyond(pencil: &Pencil, bounds: FreeBounds) -> Option<Beyond> {
     }
 
     let exchanged = exchanged(pencil)?;
-    let blocks = Blocks::of(&exchanged);
+    let elimination = Elimination::new(&exchanged, bounds.exchanged());
+    let blocks = &elimination.blocks;
     let lowest = blocks.lowest_frequency(&blocks.stiffness.cholesky()?);
     let only_first = centers(lowest, 0.0, f64::MIN_POSITIVE);
     let center = only_first.first()?;
     let from = short_near(1.0 / center.end, 0.05 / center.end)?;
-
-    let elimination = Elimination {
-        pencil: &exchanged,
-        blocks: &blocks,
-        bounds: bounds.exchanged(),
-    };
 
     let expanded = elimination.expand(&center.at, COARSE)?;
     Some(Beyond {

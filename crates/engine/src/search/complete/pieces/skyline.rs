@@ -4,8 +4,9 @@
 //! the factor L with L L' = S has the same profile. Rounded to integers, L is the certificate's
 //! evidence that S is positive (semi)definite (`check::cover::psd`).
 
+use crate::search::complete::rounding::integer;
 use mceip_check::certificate::Factor;
-use mceip_exact::{Sparse, to_f64, truncated};
+use mceip_exact::{Sparse, to_f64};
 
 /// Right-hand sides solved for in one pass over L.
 const TOGETHER: usize = 8;
@@ -296,9 +297,7 @@ impl Skyline {
 
         let mut rows = Vec::with_capacity(self.rows.len());
         for row in &self.rows {
-            let integers = row
-                .iter()
-                .map(|v| truncated((v * unit).round()).unwrap_or_default());
+            let integers = row.iter().map(|v| integer(v * unit));
             rows.push(integers.collect());
         }
 

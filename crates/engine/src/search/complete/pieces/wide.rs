@@ -11,7 +11,6 @@
 //! Called by `condense`.
 
 use super::anchor::{Center, Elimination, Expanded, Precision, center_below};
-use super::blocks::Blocks;
 use super::expansion::Expansion;
 use crate::search::complete::leaf::definite::holds_at_both_ends;
 use crate::search::complete::region::State;
@@ -69,12 +68,7 @@ impl Definite<'_> {
         }
 
         let is_own = std::ptr::eq(pencil, self.elimination.pencil);
-        let other_blocks = (!is_own).then(|| Blocks::of(pencil));
-        let other = other_blocks.as_ref().map(|blocks| Elimination {
-            pencil,
-            blocks,
-            bounds: self.elimination.bounds,
-        });
+        let other = (!is_own).then(|| Elimination::new(pencil, self.elimination.bounds));
 
         let mut wide = WideAnchors::none(top);
         while wide.from > low && wide.anchors.len() < MOST {
@@ -146,14 +140,11 @@ mod tests {
     fn wide(entry: i64, low: f64, top: f64) -> WideAnchors {
         let a = Sparse::from_ints(&[&[1, 1], &[1, entry]]);
         let pencil = Pencil::new(a, Sparse::identity(2), vec![0]).unwrap();
-        let elimination = Elimination {
-            pencil: &pencil,
-            blocks: &Blocks::of(&pencil),
-            bounds: FreeBounds {
-                sigma: 1.0,
-                tau: 1.0,
-            },
+        let bounds = FreeBounds {
+            sigma: 1.0,
+            tau: 1.0,
         };
+        let elimination = Elimination::new(&pencil, bounds);
         let definite = Definite {
             elimination: &elimination,
             lowest_frequency: 1.0,
