@@ -238,14 +238,7 @@ impl Family {
             None => None,
         };
 
-        Some(CriticalCondensation {
-            sigma: condensation.sigma.clone(),
-            stiffness_factor: condensation.stiffness_factor.clone(),
-            mass_sigma: condensation.mass_sigma.clone(),
-            mass_factor: condensation.mass_factor.clone(),
-            anchors: self.left_friction.clone(),
-            tail,
-        })
+        self.condensation_with(self.left_friction.clone(), tail)
     }
 
     /// The condensation of a certificate that names these anchors only, without a tail.
@@ -253,17 +246,23 @@ impl Family {
         &self,
         anchors: &[usize],
     ) -> Option<CriticalCondensation> {
+        let anchors = anchors.iter().map(|&k| self.left_friction[k].clone());
+        self.condensation_with(anchors.collect(), None)
+    }
+
+    fn condensation_with(
+        &self,
+        anchors: Vec<CriticalAnchor>,
+        tail: Option<CriticalTail>,
+    ) -> Option<CriticalCondensation> {
         let condensation = self.prepared.condensation.as_ref()?;
         Some(CriticalCondensation {
             sigma: condensation.sigma.clone(),
             stiffness_factor: condensation.stiffness_factor.clone(),
             mass_sigma: condensation.mass_sigma.clone(),
             mass_factor: condensation.mass_factor.clone(),
-            anchors: anchors
-                .iter()
-                .map(|&k| self.left_friction[k].clone())
-                .collect(),
-            tail: None,
+            anchors,
+            tail,
         })
     }
 
