@@ -157,17 +157,7 @@ pub(super) fn is_open_below(
 ) -> bool {
     let lower_pieces = 0..prepared.count_of_lower_pieces(given.window());
     let chosen = Chosen::Again(lower_pieces.clone().map(|piece| (piece, 0)).collect());
-    let pass = Pass {
-        given,
-        prepared,
-        set: &prepared.open_set(),
-        options,
-        chosen: &chosen,
-        shares: &Shares::new(watch.quiet()),
-        snapshots: None,
-    };
-
-    let found = in_threads(options.threads, || pass.run());
+    let found = first_look(given, options, prepared, &chosen, watch);
     found[lower_pieces].iter().any(SearchedPiece::is_open)
 }
 
@@ -178,19 +168,29 @@ pub(super) fn values_met(
     prepared: &Prepared,
     watch: &Watch<'_>,
 ) -> Vec<f64> {
+    let found = first_look(given, options, prepared, &Chosen::All, watch);
+    let mut values: Vec<f64> = found.into_iter().flat_map(|piece| piece.met).collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// Searches an open cover, and tells nobody.
+fn first_look(
+    given: &Given<'_>,
+    options: &Options,
+    prepared: &Prepared,
+    chosen: &Chosen,
+    watch: &Watch<'_>,
+) -> Vec<SearchedPiece> {
     let pass = Pass {
         given,
         prepared,
         set: &prepared.open_set(),
         options,
-        chosen: &Chosen::All,
+        chosen,
         shares: &Shares::new(watch.quiet()),
         snapshots: None,
     };
 
-    let found = in_threads(options.threads, || pass.run());
-
-    let mut values: Vec<f64> = found.into_iter().flat_map(|piece| piece.met).collect();
-    values.sort_by(f64::total_cmp);
-    values
+    in_threads(options.threads, || pass.run())
 }
