@@ -4,6 +4,7 @@
 //! a row changes neither the zeros nor the signs of y = (A + tB) x. Called by the makers of exact
 //! and of enclosed claims.
 
+use mceip_check::certificate::EnclosedSolution;
 use mceip_exact::{Integer, Rational, common_denominator};
 use mceip_model::{Pencil, ZeroVariables};
 use num_traits::Zero;
@@ -111,4 +112,17 @@ pub(crate) fn active(pencil: &Pencil, support: &[usize]) -> Vec<usize> {
     let mut list: Vec<usize> = pencil.free().iter().chain(support).copied().collect();
     list.sort_unstable();
     list
+}
+
+/// x over all variables at the centre of a box.
+pub(crate) fn center_of(pencil: &Pencil, claim: &EnclosedSolution) -> Vec<Rational> {
+    let mut x = vec![Rational::zero(); pencil.order()];
+    for (i, center) in active(pencil, &claim.support)
+        .into_iter()
+        .zip(&claim.center)
+    {
+        x[i] = center.0.clone();
+    }
+
+    x
 }

@@ -29,6 +29,7 @@ pub use condensed::{CondensedFound, CondensedSearch, CondensedSolution, search_c
 pub(crate) use doubles::decimal_order;
 pub use error::SearchError;
 pub use found::{Certified, Found, Origin, Uncertified};
+pub(crate) use same::claimed_root;
 pub use same::{exact_value, integer_x, is_about, same, same_x, support};
 pub(crate) use search::require_starts;
 pub use search::{MAX_STARTS, Search};

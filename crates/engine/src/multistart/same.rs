@@ -22,8 +22,8 @@ pub fn support(claim: &Claim) -> &[usize] {
 /// The exact value of an exact claim.
 pub fn exact_value(claim: &Claim) -> Option<Algebraic> {
     match claim {
-        Claim::ExactSolution(c) => root(&c.polynomial, &c.interval),
-        Claim::LiftedSolution(c) => root(&c.polynomial, &c.interval),
+        Claim::ExactSolution(c) => claimed_root(&c.polynomial, &c.interval),
+        Claim::LiftedSolution(c) => claimed_root(&c.polynomial, &c.interval),
         Claim::EnclosedSolution(_) => None,
     }
 }
@@ -47,8 +47,8 @@ pub fn integer_x(claim: &ExactSolution) -> Vec<Poly> {
     x
 }
 
-/// The root of a polynomial in an isolating interval.
-fn root(polynomial: &[Integer], interval: &[Number; 2]) -> Option<Algebraic> {
+/// The root of a polynomial in an isolating interval, as a claim says it.
+pub(crate) fn claimed_root(polynomial: &[Integer], interval: &[Number; 2]) -> Option<Algebraic> {
     let [lo, hi] = interval;
     let interval = Interval::new(lo.0.clone(), hi.0.clone())?;
     let polynomial = Poly::new(polynomial.to_vec());

@@ -6,8 +6,8 @@
 //!
 //! Input: the full pencil, and candidates of the pencil that `condense` made of it. Output:
 //! candidates over all variables; exact arithmetic decides about them later. Called by
-//! `multistart`. At a single value, for B of any form, [`free_variables`] does the same by sparse
-//! factors; called for the x of complete sets.
+//! `multistart`. At a single value, for B of any form, [`with_free_variables`] does the same by
+//! sparse factors; called for the x of complete sets.
 //!
 //! A variable stands for a motion d_j of the body ([`Variable::column`]), so v = sum_j x_j d_j. It
 //! is for pictures and text; [`lift`](super::lift) does the same exactly.
@@ -64,10 +64,27 @@ impl Expansion {
     }
 }
 
+/// x over all variables of the pencil at a value t, from its slip components; x_f stays 0 where it
+/// is not to be had.
+pub(crate) fn with_free_variables(pencil: &Pencil, t: f64, x_slip: &[f64]) -> Vec<f64> {
+    let mut x = vec![0.0; pencil.order()];
+    for (&i, x_i) in pencil.slip().iter().zip(x_slip) {
+        x[i] = *x_i;
+    }
+
+    if let Some(free) = free_variables(pencil, t, &x) {
+        for (&i, x_i) in pencil.free().iter().zip(free) {
+            x[i] = x_i;
+        }
+    }
+
+    x
+}
+
 /// x_f of x_s at a value t: (A + tB)_ff x_f = -(A + tB)_fs x_s, in doubles. `x` is over all
 /// variables; its free ones are not read. `None` where elimination finds no pivot, or a number is
 /// not finite.
-pub(crate) fn free_variables(pencil: &Pencil, t: f64, x: &[f64]) -> Option<Vec<f64>> {
+fn free_variables(pencil: &Pencil, t: f64, x: &[f64]) -> Option<Vec<f64>> {
     let free = pencil.free();
     let mut block = Vec::new();
     let mut right = vec![0.0; free.len()];

@@ -31,7 +31,7 @@ pub use condense_sparse::{CondensationResidual, SparseCondensation, SparseConden
 pub use condensed_mcp::CondensedEmbedding;
 pub use embed::{Embedding, Side};
 pub use error::CondensationError;
-pub(crate) use expand::free_variables;
+pub(crate) use expand::with_free_variables;
 pub use expand::{Expansion, mode};
 pub use project::{Projected, project};
 pub use reversed::reversed;

@@ -6,7 +6,7 @@
 //! `enumerate` and `complete`, by the front door, and by `solutions.rs` beside this file.
 
 use crate::candidate::Candidate;
-use crate::certify::rows::active;
+use crate::certify::rows::{active, center_of};
 use crate::certify::{Certifier, flattened};
 use crate::multistart::{exact_value, integer_x, is_about};
 use crate::search::complete::Completed;
@@ -299,13 +299,7 @@ impl Digits {
 /// The centre of the box of an enclosed solution: x over the free variables and the support, then
 /// the value.
 fn of_enclosed(problem: &Problem, reduced: &Reduced, enclosed: &EnclosedSolution) -> Listed {
-    let pencil = &reduced.pencil;
-    let mut x = vec![Rational::default(); pencil.order()];
-    let active = active(pencil, &enclosed.support);
-    for (i, number) in active.into_iter().zip(&enclosed.center) {
-        x[i] = number.0.clone();
-    }
-
+    let x = center_of(&reduced.pencil, enclosed);
     let value = match enclosed.center.last() {
         Some(number) => number.0.clone(),
         None => Rational::default(),

@@ -11,15 +11,15 @@ use super::pieces::expansion::Expansion;
 use super::pieces::matrix::{largest_entry, principal_block};
 use super::pieces::prepared::Prepared;
 use super::region::{State, support};
-use crate::certify::rows::active;
-use crate::multistart::{exact_value, integer_x};
-use crate::reduction::free_variables;
+use crate::certify::rows::center_of;
+use crate::multistart::{claimed_root, exact_value, integer_x};
+use crate::reduction::with_free_variables;
 use crate::tolerance::{SAME_ROOT, SAME_VALUE};
-use mceip_check::certificate::{Certificate, Claim, Exact, Node, Polynomials, Support};
+use mceip_check::certificate::{Certificate, Claim, Exact, Node, Point, Polynomials, Support};
 use mceip_check::{AcceptedClaim, Proved};
-use mceip_exact::{Algebraic, Integer, Interval, Poly, Rational, common_denominator, to_f64};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, common_denominator, to_f64};
 use mceip_model::Pencil;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed};
 
 /// Bits to which a value is refined beyond those of the coefficients that it is put into.
 const DIGITS_BEYOND: u64 = 128;
@@ -75,14 +75,7 @@ fn by_claim(
     let claim = claim_about(proved, solution)?;
     match claim {
         Claim::ExactSolution(exact) => Some(at_root(&integer_x(exact), exact_value(claim)?)),
-        Claim::EnclosedSolution(enclosed) => {
-            let mut x = vec![Rational::zero(); pencil.order()];
-            let variables = active(pencil, &enclosed.support);
-            for (i, center) in variables.into_iter().zip(&enclosed.center) {
-                x[i] = center.0.clone();
-            }
-            Some(x)
-        }
+        Claim::EnclosedSolution(enclosed) => Some(center_of(pencil, enclosed)),
         Claim::LiftedSolution(_) => None,
     }
 }
@@ -195,13 +188,23 @@ fn yielded(
         let [lo, hi] = &point.interval;
         lo.0 == *solution.value.lo() && hi.0 == *solution.value.hi()
     })?;
+    at_point(leaf, point, pencil, &solution.support)
+}
+
+/// x and the value at a point of a leaf, if it is a solution with this support.
+fn at_point(
+    leaf: &Support,
+    point: &Point,
+    pencil: &Pencil,
+    support: &[usize],
+) -> Option<(Vec<Poly>, Algebraic)> {
     let Exact::Some(member) = leaf.reasons.get(point.reason)? else {
         return None;
     };
 
     let x = polynomials(&member.x);
-    let value = Algebraic::from_claim(Poly::new(point.polynomial.clone()), solution.value.clone());
-    has_support(&x, pencil, &solution.support).then_some((x, value))
+    let value = claimed_root(&point.polynomial, &point.interval)?;
+    has_support(&x, pencil, support).then_some((x, value))
 }
 
 fn polynomials(x: &Polynomials) -> Vec<Poly> {
@@ -220,17 +223,8 @@ fn by_exact_support(pencil: &Pencil, solution: &AcceptedClaim) -> Option<Vec<Rat
     let support = &solution.support;
     let leaf = support_leaf(pencil, support, value.lo(), Some(value.hi()), &|| false)?;
     let mut points = leaf.points.iter();
-    points.find_map(|point| {
-        let Exact::Some(member) = leaf.reasons.get(point.reason)? else {
-            return None;
-        };
-
-        let x = polynomials(&member.x);
-        let [lo, hi] = &point.interval;
-        let interval = Interval::new(lo.0.clone(), hi.0.clone())?;
-        let value = Algebraic::from_claim(Poly::new(point.polynomial.clone()), interval);
-        has_support(&x, pencil, support).then(|| at_root(&x, value))
-    })
+    let found = points.find_map(|point| at_point(&leaf, point, pencil, support));
+    found.map(|(x, value)| at_root(&x, value))
 }
 
 /// x of a solution by its null vector in doubles, or by exact arithmetic where that of another
@@ -266,18 +260,8 @@ fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim
     };
 
     let sum: f64 = x.iter().sum();
-    let mut all = vec![0.0; pencil.order()];
-    for (&i, v) in prepared.view.index.iter().zip(&x) {
-        all[i] = v / sum;
-    }
-
-    if let Some(free) = free_variables(pencil, t, &all) {
-        for (&i, v) in pencil.free().iter().zip(free) {
-            all[i] = v;
-        }
-    }
-
-    all
+    let x: Vec<f64> = x.iter().map(|v| v / sum).collect();
+    with_free_variables(pencil, t, &x)
 }
 
 /// The change of t that changes T(t) on the support by its own size: the measure of nearness where

@@ -10,7 +10,7 @@
 
 use super::given::Given;
 use super::leaf::root::Unique;
-use super::null_vector::{NullVector, null_vector};
+use super::null_vector::null_vector;
 use super::pieces::expansion::Expansion;
 use super::pieces::precise_anchor::precise_anchor;
 use super::pieces::prepared::Prepared;
@@ -18,7 +18,7 @@ use super::pieces::view::View;
 use super::region::{Region, State, support};
 use crate::candidate::Candidate;
 use crate::certify::{ENCLOSED_ORDER, precise_null};
-use crate::reduction::free_variables;
+use crate::reduction::with_free_variables;
 use mceip_check::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
 use mceip_exact::{Integer, Rational, to_f64};
 use num_traits::{One, Signed, Zero};
@@ -184,7 +184,10 @@ fn root(given: &Given<'_>, view: &View, expansion: &Expansion, region: &Region) 
         return None;
     }
 
-    let candidate = over_all_variables(given, &view.index, &null);
+    let candidate = Candidate {
+        value: null.value,
+        x: with_free_variables(given.pencil, null.value, &null.spread(view.order())),
+    };
     let precise = precise_null(given.pencil, &support, &candidate, VECTOR_BITS)?;
 
     let half = half_width(&precise.value, view.scale)?;
@@ -224,25 +227,6 @@ fn write_signs(root: &mut Root, x: &[Component], y: &[Component]) -> Option<()> 
     root.exponent = VECTOR_BITS;
     root.outcome = outcome(&x, &y);
     Some(())
-}
-
-/// The null vector in doubles over the variables of the pencil.
-fn over_all_variables(given: &Given<'_>, index: &[usize], null: &NullVector) -> Candidate {
-    let on_positions = null.spread(index.len());
-    let mut x = vec![0.0; given.pencil.order()];
-    for (&i, v) in index.iter().zip(&on_positions) {
-        x[i] = *v;
-    }
-
-    let free = free_variables(given.pencil, null.value, &x).unwrap_or_default();
-    for (&i, v) in given.pencil.free().iter().zip(free) {
-        x[i] = v;
-    }
-
-    Candidate {
-        value: null.value,
-        x,
-    }
 }
 
 fn divided(list: &[Component], scale: &Rational) -> Vec<Component> {
