@@ -69,18 +69,25 @@ pub fn distance(x: &[f64], other: &[f64]) -> f64 {
 }
 
 impl Candidate {
-    /// Are these the positive components among the slip variables, by one of the guesses of what
-    /// counts as positive ([`SUPPORT_GUESSES`])?
-    pub fn has_support(&self, slip: &[usize], support: &[usize]) -> bool {
-        let mut largest: f64 = 0.0;
-        for &i in slip {
-            largest = largest.max(self.x[i]);
-        }
+    /// The largest component among the slip variables, at least 0.
+    pub(crate) fn largest_slip(&self, slip: &[usize]) -> f64 {
+        slip.iter().map(|&i| self.x[i]).fold(0.0, f64::max)
+    }
 
-        SUPPORT_GUESSES.iter().any(|part| {
-            let positive = slip.iter().filter(|&&i| self.x[i] > part * largest);
-            positive.eq(support)
+    /// The positive components among the slip variables, by each of the guesses of what counts as
+    /// positive ([`SUPPORT_GUESSES`]).
+    pub(crate) fn supports(&self, slip: &[usize]) -> impl Iterator<Item = Vec<usize>> {
+        let largest = self.largest_slip(slip);
+        SUPPORT_GUESSES.iter().map(move |share| {
+            let mut support = slip.to_vec();
+            support.retain(|&i| self.x[i] > share * largest);
+            support
         })
+    }
+
+    /// Are these the positive components among the slip variables, by one of the guesses?
+    pub fn has_support(&self, slip: &[usize], support: &[usize]) -> bool {
+        self.supports(slip).any(|guess| guess == support)
     }
 
     /// The backward error of these numbers, found by the checker: [`mceip_check::backward_error`].

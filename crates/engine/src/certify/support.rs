@@ -7,7 +7,7 @@
 //! decide.
 
 use super::failure::AttemptFailure;
-use super::rows::active;
+use super::rows::center_of;
 use crate::candidate::Candidate;
 use crate::tolerance::SUPPORT_GUESSES;
 use mceip_check::certificate::EnclosedSolution;
@@ -27,16 +27,8 @@ pub(super) fn guesses(
 ) -> Result<Vec<Vec<usize>>, AttemptFailure> {
     require_usable(pencil, candidate)?;
 
-    let slip = pencil.slip();
-    let largest = largest_slip(pencil, candidate);
     let mut supports: Vec<Vec<usize>> = Vec::new();
-    for threshold in SUPPORT_GUESSES {
-        let mut support = Vec::new();
-        for &i in &slip {
-            if candidate.x[i] > threshold * largest {
-                support.push(i);
-            }
-        }
+    for support in candidate.supports(&pencil.slip()) {
         if !supports.contains(&support) {
             supports.push(support);
         }
@@ -63,16 +55,6 @@ fn require_usable(pencil: &Pencil, candidate: &Candidate) -> Result<(), AttemptF
     Ok(())
 }
 
-/// max x_s of a candidate, at least 0.
-fn largest_slip(pencil: &Pencil, candidate: &Candidate) -> f64 {
-    let mut largest: f64 = 0.0;
-    for &i in &pencil.slip() {
-        largest = largest.max(candidate.x[i]);
-    }
-
-    largest
-}
-
 /// The support with the component changed whose sign is wrong: without it where x is not positive,
 /// with it where y is negative. `None` where nothing of that kind failed, or the candidate's
 /// component is too large for a matter of rounding.
@@ -87,7 +69,7 @@ pub(super) fn repaired(
         AttemptFailure::YNegative { index } => (*index, true),
         _ => return None,
     };
-    let largest = largest_slip(pencil, candidate);
+    let largest = candidate.largest_slip(&pencil.slip());
     if candidate.x[index].abs() > ROUNDING_SHARE * largest {
         return None;
     }
@@ -112,11 +94,12 @@ pub(super) fn require_within_rounding(
     candidate: &Candidate,
     claim: &EnclosedSolution,
 ) -> Result<(), AttemptFailure> {
-    let largest = largest_slip(pencil, candidate);
-    let claimed = support_components(pencil, claim);
-    let largest_claimed = claimed.iter().map(|c| c.x).fold(0.0, f64::max);
+    let largest = candidate.largest_slip(&pencil.slip());
+    let center = center_of(pencil, claim);
+    let claimed = claim.support.iter().map(|&i| to_f64(&center[i]));
+    let largest_claimed = claimed.clone().fold(0.0, f64::max);
 
-    for Component { index, x } in claimed {
+    for (&index, x) in claim.support.iter().zip(claimed) {
         let is_zero_in_doubles = candidate.x[index].abs() <= ROUNDING_SHARE * largest;
         if is_zero_in_doubles && x > ROUNDING_SHARE * largest_claimed {
             return Err(AttemptFailure::TooFar {
@@ -127,26 +110,6 @@ pub(super) fn require_within_rounding(
     }
 
     Ok(())
-}
-
-/// A component of x.
-struct Component {
-    index: usize,
-    x: f64,
-}
-
-/// The centers of the components of the support, as doubles.
-fn support_components(pencil: &Pencil, claim: &EnclosedSolution) -> Vec<Component> {
-    let active = active(pencil, &claim.support);
-    let mut components = Vec::new();
-    for (index, center) in active.into_iter().zip(&claim.center) {
-        if claim.support.contains(&index) {
-            let x = to_f64(&center.0);
-            components.push(Component { index, x });
-        }
-    }
-
-    components
 }
 
 #[cfg(test)]
