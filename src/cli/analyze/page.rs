@@ -163,7 +163,7 @@ fn presence(analysis: &Analysis) -> PresenceChart {
             from: to_f64(&range.from),
             is_from_included: analysis.is_from_included(range),
             to: range.to.as_ref().map(to_f64),
-            is_proved: !matches!(range.evidence, Evidence::Measured(_)),
+            is_proved: !range.evidence.is_measured(),
         });
     }
 

@@ -40,11 +40,9 @@ pub(super) fn prove<'a>(
         };
         if let Some(certificate) = cover(model, known, ends) {
             count += 1;
-            let proof = Proof {
-                name: format!("absent-range-{count}"),
-                problem: known.problem.clone(),
-                certificate: ProofCertificate::Absence(certificate),
-            };
+            let certificate = ProofCertificate::Absence(certificate);
+            let name = format!("absent-range-{count}");
+            let proof = Proof::new(name, known.problem.clone(), certificate);
             model.keep(&proof.name, &proof.problem, &proof.certificate);
             range.evidence = Evidence::Certificate(proofs.len());
             proofs.push(proof);
@@ -55,9 +53,8 @@ pub(super) fn prove<'a>(
 /// The ends of a range of more than one mu that is absent at samples.
 fn sampled_absence(range: &Range) -> Option<[&Rational; 2]> {
     let to = range.to.as_ref()?;
-    let is_sampled = matches!(range.evidence, Evidence::Measured(_));
     let is_absent = range.verdict == Verdict::Absent;
-    (is_sampled && is_absent && range.from < *to).then_some([&range.from, to])
+    (range.evidence.is_measured() && is_absent && range.from < *to).then_some([&range.from, to])
 }
 
 /// A certificate of absence for every mu between two values, if one is found. What cannot be

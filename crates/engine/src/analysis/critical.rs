@@ -367,11 +367,8 @@ impl Bounds {
 
         let absent_below = proved.accepted().below.clone();
         let boxes = proved.accepted().leaves;
-        proofs.push(Proof {
-            name: "absence".into(),
-            problem: known.problem.clone(),
-            certificate: ProofCertificate::Absence(proved),
-        });
+        let certificate = ProofCertificate::Absence(proved);
+        proofs.push(Proof::new("absence", known.problem.clone(), certificate));
 
         Critical {
             absent_below: Some(absent_below),
@@ -474,11 +471,7 @@ impl CriticalSearch<'_> {
         });
         let certificate = ProofCertificate::Solutions(found.proved);
         self.model.keep("critical", &problem, &certificate);
-        bounds.of_solution = Some(Proof {
-            name: "critical".into(),
-            problem,
-            certificate,
-        });
+        bounds.of_solution = Some(Proof::new("critical", problem, certificate));
         Ok(true)
     }
 

@@ -17,6 +17,13 @@ pub enum Evidence {
     Measured(&'static str),
 }
 
+impl Evidence {
+    /// Is it no proof?
+    pub fn is_measured(&self) -> bool {
+        matches!(self, Evidence::Measured(_))
+    }
+}
+
 /// A problem and a certificate for it that the checker has accepted.
 #[derive(Debug, Clone)]
 pub struct Proof {
@@ -26,6 +33,20 @@ pub struct Proof {
     pub problem: Problem,
     /// The certificate.
     pub certificate: ProofCertificate,
+}
+
+impl Proof {
+    pub(super) fn new(
+        name: impl Into<String>,
+        problem: Problem,
+        certificate: ProofCertificate,
+    ) -> Proof {
+        Proof {
+            name: name.into(),
+            problem,
+            certificate,
+        }
+    }
 }
 
 /// The certificate of a proof.

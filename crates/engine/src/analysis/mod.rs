@@ -245,11 +245,7 @@ impl AtFriction {
 fn proof(model: &Model<'_>, name: &str, problem: Problem, found: Completed) -> Proof {
     let certificate = ProofCertificate::Solutions(found.proved);
     model.keep(name, &problem, &certificate);
-    Proof {
-        name: name.into(),
-        problem,
-        certificate,
-    }
+    Proof::new(name, problem, certificate)
 }
 
 /// The solutions of a complete search in doubles; `place` gives lambda^2 and mu of a value.

@@ -162,11 +162,12 @@ pub(super) fn ranges(
     let is_new = critical.solution.is_none();
     let sampled = sampler.smallest.filter(|_| is_new).and_then(solution_of);
     for (k, certificate) in proved.iter().enumerate() {
-        proofs.push(Proof {
-            name: presence_name(k),
-            problem: known.problem.clone(),
-            certificate: ProofCertificate::Presence(certificate.clone()),
-        });
+        let certificate = ProofCertificate::Presence(certificate.clone());
+        proofs.push(Proof::new(
+            presence_name(k),
+            known.problem.clone(),
+            certificate,
+        ));
     }
 
     if let Some((solution, proof)) = sampled {
@@ -359,12 +360,8 @@ fn solution_of(met: Met) -> Option<(CertifiedSolution, Proof)> {
         lambda2,
         evidence: AT_SAMPLES,
     };
-    let proof = Proof {
-        name: "critical".into(),
-        problem: met.problem,
-        certificate: ProofCertificate::Solutions(met.found.proved),
-    };
-    Some((solution, proof))
+    let certificate = ProofCertificate::Solutions(met.found.proved);
+    Some((solution, Proof::new("critical", met.problem, certificate)))
 }
 
 /// A sample with solutions.

@@ -568,7 +568,7 @@ impl Analysis {
 
     /// The ranges that are known at samples only.
     fn say_ranges(&self) -> Option<Sentence> {
-        let is_sampled = |range: &&Range| matches!(range.evidence, Evidence::Measured(_));
+        let is_sampled = |range: &&Range| range.evidence.is_measured();
         let sampled: Vec<&Range> = self.ranges.iter().filter(is_sampled).collect();
         let evidence = sampled.first()?.evidence.clone();
 

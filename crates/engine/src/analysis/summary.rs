@@ -157,7 +157,7 @@ impl Analysis {
             return None;
         }
 
-        let is_sampled = |range: &Range| matches!(range.evidence, Evidence::Measured(_));
+        let is_sampled = |range: &Range| range.evidence.is_measured();
         let elsewhere = if self.ranges.iter().any(is_sampled) {
             "; elsewhere above the critical mu only samples are decided"
         } else {
