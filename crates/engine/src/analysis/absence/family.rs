@@ -299,21 +299,15 @@ pub(in crate::analysis) fn unit_of_lambda2(family: &MuFamily) -> Result<f64, Com
     Ok(blocks.lowest_frequency(&factor))
 }
 
-/// [`parts`] of a family, which must have a mass.
-fn parts_of(family: &MuFamily) -> Result<[Pencil; 2], CompleteError> {
-    match &family.mass {
-        Some(mass) => parts(&family.stiffness, mass),
-        None => Err(CompleteError::Model(ModelError::Missing {
-            equation: "E12",
-            what: "mass",
-            unknown: Unknown::Lambda2.word(),
-        })),
-    }
-}
-
 /// The pencils in t of mu = 0 and of the coefficients of mu; the second one has the free rows of
 /// the first.
-fn parts(stiffness: &Pencil, mass: &Pencil) -> Result<[Pencil; 2], CompleteError> {
+fn parts_of(family: &MuFamily) -> Result<[Pencil; 2], CompleteError> {
+    let stiffness = &family.stiffness;
+    let mass = family.mass.as_ref().ok_or(ModelError::Missing {
+        equation: "E12",
+        what: "mass",
+        unknown: Unknown::Lambda2.word(),
+    })?;
     let free = stiffness.free().to_vec();
     let constant = Pencil::new(stiffness.a().clone(), mass.a().clone(), free.clone())?;
 
