@@ -32,6 +32,7 @@ mod dense;
 pub mod equilibrium;
 pub mod foreign;
 pub mod lcp;
+mod magnitude;
 pub mod multistart;
 pub mod reduction;
 pub mod report;

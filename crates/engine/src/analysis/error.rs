@@ -1,7 +1,7 @@
 //! Why a system is not analysed, and the check that doubles can carry its numbers.
 
 use super::model::MAX_SAMPLES;
-use crate::multistart::decimal_order;
+use crate::magnitude::decimal_order;
 use crate::search::complete::CompleteError;
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::{ModelError, System};

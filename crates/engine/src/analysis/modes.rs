@@ -5,6 +5,7 @@
 //! where v = x on the free dofs and v_T = -S x on the slip particles (10). Input: an accepted
 //! solution with its x in doubles. Output: [`Mode`]. Called by `divergence`.
 
+use crate::magnitude::decimal_order;
 use crate::reduction::mode;
 use crate::report::{short, short_is_plain};
 use mceip_check::AcceptedClaim;
@@ -36,8 +37,7 @@ pub struct Mode {
 /// exponent.
 fn root_text(lambda2: &Rational) -> String {
     // sqrt(m 10^2k) = sqrt(m) 10^k, with m between 10^-2 and 10^2 or so.
-    let bits = lambda2.numer().bits() as i64 - lambda2.denom().bits() as i64;
-    let half_exponent = bits * 301 / 2000; // log10(2) = 0.301
+    let half_exponent = decimal_order(lambda2) / 2;
     let ten_to_half = whole(10).pow(half_exponent as i32);
     let m = lambda2 / (&ten_to_half * &ten_to_half);
 

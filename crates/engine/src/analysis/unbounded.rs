@@ -27,6 +27,7 @@ use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
 use super::model::Model;
 use super::threshold::StaticThreshold;
+use crate::magnitude::{binary_order, two_to};
 use crate::search::complete::Completed;
 use mceip_check::SolutionFamily;
 use mceip_exact::{Interval, Rational, Sparse, whole};
@@ -57,7 +58,7 @@ pub struct LargeGrowth {
 }
 
 /// The large lambda^2 is 2^this times that at which K and lambda^2 M are of one size.
-const LARGE_EXPONENT: u32 = 24;
+const LARGE_EXPONENT: i64 = 24;
 
 /// Within this share of mu a solution of large lambda^2 lies beside it.
 const BESIDE: i64 = 64;
@@ -112,11 +113,8 @@ pub(super) fn unbounded(
         let Some((beside, large)) = beside(model, &support, &mu)? else {
             return Ok(None);
         };
-        proofs.push(Proof {
-            name: "mass".into(),
-            problem,
-            certificate: ProofCertificate::Solutions(found.proved),
-        });
+        let certificate = ProofCertificate::Solutions(found.proved);
+        proofs.push(Proof::new("mass", problem, certificate));
         proofs.push(large);
 
         let below = critical.absent_below.as_ref();
@@ -176,12 +174,8 @@ fn beside(
         lambda2,
         mu: solution.value.clone(),
     };
-    let proof = Proof {
-        name: "large".into(),
-        problem,
-        certificate: ProofCertificate::Solutions(found.proved),
-    };
-    Ok(Some((large, proof)))
+    let certificate = ProofCertificate::Solutions(found.proved);
+    Ok(Some((large, Proof::new("large", problem, certificate))))
 }
 
 /// A power of two times 2^[`LARGE_EXPONENT`], at which lambda^2 M outweighs K.
@@ -193,9 +187,7 @@ fn large_lambda2(system: &System) -> Rational {
         return whole(1);
     };
 
-    let ratio = stiffness / mass;
-    let bits = ratio.numer().bits() as i32 - ratio.denom().bits() as i32;
-    whole(2).pow(bits + LARGE_EXPONENT as i32)
+    two_to(binary_order(&(stiffness / mass)) + LARGE_EXPONENT)
 }
 
 /// Where the mu is looked for: at the end of definiteness of M* first, if that is known exactly.

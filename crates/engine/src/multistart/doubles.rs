@@ -5,8 +5,9 @@
 //! searches before their first run.
 
 use super::error::SearchError;
+use crate::magnitude::decimal_order;
 use crate::reduction::{Embedding, Side};
-use mceip_exact::{Rational, Sparse, to_f64};
+use mceip_exact::{Sparse, to_f64};
 use mceip_model::{Admissible, Window, ZeroVariables};
 
 /// Refuses a pencil or a window with numbers that doubles cannot carry.
@@ -46,10 +47,4 @@ fn furthest_entry(name: &str, matrix: &Sparse) -> Option<(String, i64)> {
     let entries = matrix.entries();
     let orders = entries.map(|(row, col, v)| (format!("{name}[{row}][{col}]"), decimal_order(v)));
     orders.max_by_key(|(_, exponent)| exponent.abs())
-}
-
-/// The decimal order of magnitude of a number other than 0.
-pub(crate) fn decimal_order(value: &Rational) -> i64 {
-    let bits = value.numer().bits() as i64 - value.denom().bits() as i64;
-    (bits * 30_103 + 50_000).div_euclid(100_000) // log10(2) = 0.30103, to the nearest
 }

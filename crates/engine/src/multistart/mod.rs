@@ -26,7 +26,6 @@ mod trace;
 
 pub use all_slip::{AllSlip, all_slip};
 pub use condensed::{CondensedFound, CondensedSearch, CondensedSolution, search_condensed};
-pub(crate) use doubles::decimal_order;
 pub use error::SearchError;
 pub use found::{Certified, Found, Origin, Uncertified};
 pub(crate) use same::claimed_root;

@@ -22,7 +22,8 @@
 mod ratios;
 
 use crate::candidate::Candidate;
-use mceip_exact::{Integer, Rational, Sparse, to_f64};
+use crate::magnitude::{binary_order, two_to};
+use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_mcp::mcp::Mcp;
 use mceip_model::{Admissible, Pencil, ZeroVariables};
 use nalgebra::DMatrix;
@@ -338,17 +339,14 @@ const MODEST: i64 = 500;
 /// doubles; `None` where they need none. It is another unit of y, and leaves t and x alone.
 fn common_scale(pencil: &Pencil) -> Option<Rational> {
     let entries = pencil.a().entries().chain(pencil.b().entries());
-    let orders = entries.map(|(_, _, v)| v.numer().bits() as i64 - v.denom().bits() as i64);
-    let orders: Vec<i64> = orders.collect();
+    let orders: Vec<i64> = entries.map(|(_, _, v)| binary_order(v)).collect();
     let least = *orders.iter().min()?;
     let most = *orders.iter().max()?;
     if least >= -MODEST && most <= MODEST {
         return None;
     }
 
-    let middle = (least + most) / 2;
-    let power = Rational::from_integer(Integer::from(1) << middle.unsigned_abs());
-    Some(if middle > 0 { power.recip() } else { power })
+    Some(two_to(-(least + most) / 2))
 }
 
 /// A matrix of rationals, multiplied by the scale, each entry rounded to the nearest double.

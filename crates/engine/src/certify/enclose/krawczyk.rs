@@ -15,12 +15,12 @@
 //! passes is decided by the checker. Called by `enclose`.
 
 use super::super::failure::AttemptFailure;
-use super::newton::{Modulus, Newton, Point, Slope};
+use super::newton::{Modulus, Newton, Point, Slope, scaled};
+use crate::magnitude::in_units;
 use crate::tolerance::{
     KRAWCZYK_MARGIN, KRAWCZYK_NOISE, PRECONDITIONER_BITS, PRECONDITIONER_LOSS_BITS,
 };
-use mceip_exact::{Integer, Rational, from_f64, to_f64};
-use num_traits::One;
+use mceip_exact::{Integer, from_f64};
 
 /// Largest binary exponent of a preconditioner that the checker takes
 /// (`spec/certificates.md`, 5.5).
@@ -268,20 +268,14 @@ fn round(y: &[Vec<f64>], scales: &[u64], exponent: u32) -> Vec<Vec<Integer>> {
         let mut row = Vec::new();
         for (entry, scale) in y_row.iter().zip(scales) {
             let bits = u64::from(exponent) - scale;
-            row.push(integer_units(*entry, bits));
+            // `Newton::inverse` returns finite entries only.
+            let exact = from_f64(*entry).unwrap_or_default();
+            row.push(in_units(&exact, bits as i64));
         }
         rows.push(row);
     }
 
     rows
-}
-
-/// A double in units of 2^-bits, rounded.
-fn integer_units(v: f64, bits: u64) -> Integer {
-    // `Newton::inverse` returns finite entries only.
-    let exact = from_f64(v).unwrap_or_default();
-    let units = exact * Rational::from_integer(Integer::one() << bits);
-    units.round().to_integer()
 }
 
 /// A rounded preconditioner in doubles, for rows that are divided by 2^scale.
@@ -291,17 +285,12 @@ fn rounded(preconditioner: &[Vec<Integer>], scales: &[u64], exponent: u32) -> Ve
         let mut row = Vec::new();
         for (units, scale) in integers.iter().zip(scales) {
             let bits = u64::from(exponent) - scale;
-            row.push(double(units, bits));
+            row.push(scaled(units, bits));
         }
         rows.push(row);
     }
 
     rows
-}
-
-/// An integer in units of 2^-bits as a double.
-fn double(units: &Integer, bits: u64) -> f64 {
-    to_f64(&Rational::new_raw(units.clone(), Integer::one() << bits))
 }
 
 #[cfg(test)]

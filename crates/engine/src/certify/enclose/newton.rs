@@ -15,6 +15,7 @@
 use super::super::failure::AttemptFailure;
 use super::super::rows::{IntegralRows, PencilEntry, active};
 use crate::candidate::Candidate;
+use crate::magnitude::in_units;
 use mceip_exact::{Integer, Rational, from_f64, to_f64};
 use mceip_mcp::linear::inverse;
 use mceip_model::Pencil;
@@ -416,26 +417,17 @@ impl ScaledResidual {
     /// number.
     fn step(&self, row: &[f64], bits: u64) -> Integer {
         let product: f64 = row.iter().zip(&self.f).map(|(y, f)| y * f).sum();
-        let Ok(exact) = from_f64(product) else {
-            return Integer::zero();
-        };
-
-        let shift = self.exponent + bits as i64;
-        let power = Rational::from_integer(Integer::one() << shift.unsigned_abs());
-        let units = if shift < 0 {
-            exact / power
-        } else {
-            exact * power
-        };
-        units.round().to_integer()
+        match from_f64(product) {
+            Ok(exact) => in_units(&exact, self.exponent + bits as i64),
+            Err(_) => Integer::zero(),
+        }
     }
 }
 
 /// A double in units of 2^-bits, rounded.
 fn on_grid(v: f64, bits: u64) -> Result<Integer, AttemptFailure> {
     let exact = from_f64(v).map_err(|_| AttemptFailure::NotFinite)?;
-    let units = exact * Rational::from_integer(Integer::one() << bits);
-    Ok(units.round().to_integer())
+    Ok(in_units(&exact, bits as i64))
 }
 
 /// Bits of the longest number.
@@ -454,7 +446,7 @@ fn times_power(v: &Integer, power: i64) -> Rational {
 }
 
 /// v 2^-scale.
-fn scaled(v: &Integer, scale: u64) -> f64 {
+pub(super) fn scaled(v: &Integer, scale: u64) -> f64 {
     to_f64(&times_power(v, -(scale as i64)))
 }
 

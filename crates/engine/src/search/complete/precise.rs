@@ -18,10 +18,11 @@ use super::pieces::view::View;
 use super::region::{Region, State, support};
 use crate::candidate::Candidate;
 use crate::certify::{ENCLOSED_ORDER, precise_null};
+use crate::magnitude::{binary_order, in_units, two_to};
 use crate::reduction::with_free_variables;
 use mceip_check::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
-use mceip_exact::{Integer, Rational, to_f64};
-use num_traits::{One, Signed, Zero};
+use mceip_exact::{Rational, to_f64};
+use num_traits::{Signed, Zero};
 
 /// Open regions that are looked at, at most: each costs a dense inverse.
 const MAX_REGIONS: usize = 64;
@@ -222,7 +223,7 @@ fn write_signs(root: &mut Root, x: &[Component], y: &[Component]) -> Option<()> 
     root.right = x
         .iter()
         .filter(|(i, _)| *i != root.pivot)
-        .map(|(_, v)| fixed(v))
+        .map(|(_, v)| in_units(v, VECTOR_BITS.into()))
         .collect();
     root.exponent = VECTOR_BITS;
     root.outcome = outcome(&x, &y);
@@ -256,12 +257,6 @@ fn most_negative(list: &[Component]) -> Option<usize> {
         .map(|(i, _)| *i)
 }
 
-/// v in units of 2^-[`VECTOR_BITS`].
-fn fixed(v: &Rational) -> Integer {
-    let unit = Rational::from_integer(Integer::one() << VECTOR_BITS);
-    (v * unit).round().to_integer()
-}
-
 /// 2^-[`INTERVAL_BITS`] of a power of two near a positive value, or near the least one that the
 /// scale of values allows.
 fn half_width(value: &Rational, scale: f64) -> Option<Rational> {
@@ -270,10 +265,8 @@ fn half_width(value: &Rational, scale: f64) -> Option<Rational> {
     }
 
     let least_magnitude = scale.log2().floor() as i64 - i64::from(LEAST_VALUE_BITS);
-    let magnitude = value.numer().bits() as i64 - value.denom().bits() as i64;
-    let exponent = magnitude.max(least_magnitude) - i64::from(INTERVAL_BITS);
-    let power = Rational::from_integer(Integer::one() << exponent.unsigned_abs());
-    Some(if exponent < 0 { power.recip() } else { power })
+    let magnitude = binary_order(value).max(least_magnitude);
+    Some(two_to(magnitude - i64::from(INTERVAL_BITS)))
 }
 
 #[cfg(test)]
@@ -298,7 +291,7 @@ mod tests {
 
     #[test]
     fn half_widths_are_relative() {
-        let unit = Rational::from_integer(Integer::one() << INTERVAL_BITS);
+        let unit = two_to(INTERVAL_BITS.into());
         for value in [rational(1, 1000), whole(1), whole(4_000_000_000)] {
             let ratio = half_width(&value, 1.0).unwrap() * &unit / &value;
             assert!(ratio > rational(1, 4) && ratio <= whole(2), "{value}");
@@ -309,9 +302,9 @@ mod tests {
 
     #[test]
     fn values_near_zero_have_the_width_of_the_least_one() {
-        let unit = Rational::from_integer(Integer::one() << INTERVAL_BITS);
+        let unit = two_to(INTERVAL_BITS.into());
         let scale = 2.0f64.powi(30);
-        let least = Rational::from_integer(Integer::one() << 20);
+        let least = two_to(20);
 
         for value in [rational(1, 1000), whole(361), least.clone()] {
             let half = half_width(&value, scale).unwrap();
