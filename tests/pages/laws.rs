@@ -117,14 +117,14 @@ const MAY_DEPEND: [(&str, &str); 10] = [
     // Nothing of friction, nothing exact: useful to anybody with a mixed complementarity problem.
     ("mcp", "faer nalgebra num-traits rand rand_chacha thiserror"),
     ("engine", "mceip-check mceip-exact mceip-mcp mceip-model mceip-oracle nalgebra num-bigint \
-                num-integer num-traits rand rand_chacha rayon serde serde_json sha2 thiserror"),
+                num-integer num-traits rand rand_chacha rayon serde serde_json thiserror"),
     ("paper", "mceip-exact mceip-mcp mceip-model mceip-oracle mceip-path num-traits thiserror"),
     // Independent of all that it is held against: no solver, no search, no oracle.
     // mcp: the states after an event are proposed in doubles and verified exactly.
     ("path", "mceip-exact mceip-mcp mceip-model nalgebra num-integer num-traits thiserror"),
     ("motion", "mceip-exact mceip-model nalgebra rand rand_chacha thiserror"),
     ("testkit", "mceip-check mceip-engine mceip-exact mceip-mcp mceip-model mceip-oracle \
-                 mceip-paper num-bigint num-traits rand rand_chacha rayon serde serde_json sha2 \
+                 mceip-paper num-bigint num-traits rand rand_chacha rayon serde serde_json \
                  tempfile thiserror wait-timeout rustix"),
 ];
 

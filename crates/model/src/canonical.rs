@@ -51,8 +51,8 @@ pub(super) fn loads_text(body: &LoadedBody) -> String {
     out
 }
 
-/// SHA-256 of a canonical text in lower-case hexadecimal.
-pub(super) fn sha256(text: &str) -> String {
+/// SHA-256 of a text in lower-case hexadecimal.
+pub fn sha256(text: &str) -> String {
     let digest = Sha256::digest(text.as_bytes());
 
     let mut hexadecimal = String::with_capacity(64);

@@ -22,6 +22,7 @@ pub mod reduction;
 mod system;
 mod window;
 
+pub use canonical::sha256;
 pub use coordinates::{Coordinates, Node};
 pub use error::{ErrorLocation, ModelError};
 pub use loaded::{Candidate, LoadStep, LoadedBody, LoadedParts};

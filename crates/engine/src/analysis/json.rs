@@ -13,11 +13,11 @@ use super::flutter::{Flutter, Onset, Oscillation};
 use super::modes::Mode;
 use super::ranges::{Range, Sample};
 use super::sentences::Sentence;
+use crate::report::{coefficients, region_json};
 use mceip_check::{OpenRegion, SolutionFamily};
-use mceip_exact::{Algebraic, Interval, enclosing_decimals, to_f64};
+use mceip_exact::{Interval, enclosing_decimals, to_f64};
+use mceip_model::sha256;
 use serde_json::{Value, json};
-use sha2::{Digest as _, Sha256};
-use std::fmt::Write as _;
 
 /// The format of [`Analysis::to_json`].
 pub const ANALYSIS_FORMAT: &str = "mceip-analysis/1";
@@ -33,16 +33,7 @@ fn enclosures(values: &[Interval]) -> Vec<Value> {
 }
 
 fn regions(regions: &[OpenRegion]) -> Vec<Value> {
-    regions.iter().map(region).collect()
-}
-
-fn region(region: &OpenRegion) -> Value {
-    json!({
-        "min": region.min.to_string(),
-        "max": region.max.as_ref().map(ToString::to_string),
-        "moving": region.moving,
-        "undecided": region.undecided,
-    })
+    regions.iter().map(region_json).collect()
 }
 
 /// Intervals of values, each between enclosures of its ends.
@@ -61,19 +52,9 @@ fn definite_until(until: &DefiniteUntil) -> Value {
         DefiniteUntil::End { end, exact } => json!({
             "definite": "below",
             "end": enclosure(end),
-            "polynomial": exact.as_deref().map(coefficients),
+            "polynomial": exact.as_deref().map(|end| coefficients(end.poly().coeffs())),
         }),
     }
-}
-
-/// The coefficients of the polynomial of an algebraic number, constant first.
-fn coefficients(number: &Algebraic) -> Vec<String> {
-    let polynomial = number.poly();
-    polynomial
-        .coeffs()
-        .iter()
-        .map(ToString::to_string)
-        .collect()
 }
 
 fn mode(mode: &Mode) -> Value {
@@ -131,12 +112,7 @@ impl Analysis {
     /// SHA-256 of a proof's certificate as it is written to a file.
     pub fn certificate_sha256(&self, proof: usize) -> Option<String> {
         let text = self.proofs.get(proof)?.certificate.file().ok()?;
-        let mut hex = String::new();
-        for byte in Sha256::digest(text.as_bytes()) {
-            let _ = write!(hex, "{byte:02x}"); // a String takes everything
-        }
-
-        Some(hex)
+        Some(sha256(&text))
     }
 
     /// The evidence in words; `paths[i]` is where the certificate of proof i has been written.
@@ -198,7 +174,7 @@ impl Analysis {
             "from_included": self.is_from_included(range),
             "to": range.to.as_ref().map(ToString::to_string),
             "to_included": range.is_to_included(),
-            "proved": !matches!(range.evidence, Evidence::Measured(_)),
+            "proved": !range.evidence.is_measured(),
             "evidence": self.evidence_json(&range.evidence, paths),
         })
     }

@@ -4,9 +4,9 @@
 
 use mceip_exact::{Rational, to_f64};
 use mceip_mcp::mcp::{LinearMcp, McpError};
+use mceip_model::sha256;
 use nalgebra::DMatrix;
 use num_traits::Zero;
-use sha2::{Digest as _, Sha256};
 
 /// A linear MCP over Q; `None` is an absent bound.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -144,8 +144,7 @@ impl ExactMcp {
             text += &format!("{row} {q} {lower} {upper}\n");
         }
 
-        let digest = Sha256::digest(text.as_bytes());
-        digest.iter().map(|byte| format!("{byte:02x}")).collect()
+        sha256(&text)
     }
 }
 

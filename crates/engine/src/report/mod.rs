@@ -12,4 +12,5 @@ pub use digits::{fixed_decimals, six_digits};
 pub(crate) use digits::{short, short_is_plain};
 pub use listed::{Listed, ListedCone};
 pub use solutions::{Claimed, Report, solutions_json, solutions_text};
+pub(crate) use solutions::{coefficients, region_json};
 pub use table::Table;

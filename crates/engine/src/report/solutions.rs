@@ -132,7 +132,7 @@ pub fn solutions_json(report: &Report<'_>) -> Value {
 
     if let Some(cover) = report.cover {
         out["families"] = cover.families.iter().map(family).collect();
-        out["open"] = cover.open.iter().map(region).collect();
+        out["open"] = cover.open.iter().map(region_json).collect();
     }
 
     if let Body::System(_) = report.problem.body() {
@@ -196,7 +196,7 @@ fn enclosure(value: &Interval) -> [String; 2] {
 }
 
 /// A region that a cover leaves open.
-fn region(region: &OpenRegion) -> Value {
+pub(crate) fn region_json(region: &OpenRegion) -> Value {
     let max = region.max.as_ref().map(ToString::to_string);
     json!({
         "min": region.min.to_string(),
@@ -242,7 +242,8 @@ fn decimal(end: &End) -> String {
     to_decimal(&mut end.value.clone(), &t, DIGITS)
 }
 
-fn coefficients(list: &[Integer]) -> Vec<String> {
+/// The coefficients of a polynomial, constant first.
+pub(crate) fn coefficients(list: &[Integer]) -> Vec<String> {
     list.iter().map(ToString::to_string).collect()
 }
 

@@ -6,10 +6,10 @@
 
 use super::engine::Judgement;
 use super::family::Id;
-use crate::conform::sha256_of;
 use crate::error::TestkitError;
 use crate::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
 use mceip_model::file::{from_json_with_unique_keys, require_format};
+use mceip_model::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -195,7 +195,7 @@ impl State {
             sha256: None,
             ..self.clone()
         };
-        sha256_of(&serde_json::to_string(&plain).unwrap_or_default())
+        sha256(&serde_json::to_string(&plain).unwrap_or_default())
     }
 
     /// Was it read with a digest that binds it to its run?

@@ -54,7 +54,6 @@ pub use case::{Case, Draft, Group};
 pub use flag::Flag;
 pub use groups::{groups, random_draft};
 pub use judge::{Judgement, Label, judge_report};
-pub(crate) use pack::sha256_of;
 pub use pack::{INDEX_FORMAT, PACK_FORMAT, pack_files, read_pack};
 pub use process::{Ending, Limits, run_once};
 pub use run::{Outcome, Plan, run};

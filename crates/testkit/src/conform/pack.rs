@@ -9,12 +9,11 @@ use super::case::{Case, Draft, Group};
 use super::flag::Flag;
 use super::wrong::Bug;
 use crate::error::TestkitError;
-use mceip_model::ModelError;
 use mceip_model::file::{from_json, read_problem, read_text, require_format};
+use mceip_model::{ModelError, sha256};
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -47,7 +46,7 @@ pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, TestkitErro
             "comment": group.comment,
             "cases": cases.len(),
             "wrong": lines.iter().map(|line| line.bugs.len()).sum::<usize>(),
-            "sha256": sha256_of(&text),
+            "sha256": sha256(&text),
         }));
         files.push((file, text));
     }
@@ -107,14 +106,6 @@ impl Counts {
         });
         format!("{index:#}\n")
     }
-}
-
-/// SHA-256 of the text, in hexadecimal digits.
-pub(crate) fn sha256_of(text: &str) -> String {
-    Sha256::digest(text.as_bytes())
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
 }
 
 /// One case per line, so that differences can be read.
@@ -236,7 +227,7 @@ fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, TestkitError> {
     let text = read_group_text(folder, &entry.file);
     let text = text.map_err(|e| TestkitError::problem(&entry.file, e))?;
 
-    let got = sha256_of(&text);
+    let got = sha256(&text);
     if got != entry.sha256 {
         return Err(TestkitError::Digest {
             file: entry.file.clone(),
