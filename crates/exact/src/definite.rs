@@ -23,7 +23,7 @@
 
 use super::definite_short::certainly_definite;
 use super::dominance::Dominance;
-use super::{Integer, Rational, Sparse, common_denominator};
+use super::{Integer, Rational, Sparse, cleared, common_denominator};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 
@@ -92,7 +92,7 @@ fn leading_minors(m: &Sparse) -> Result<(), DefiniteError> {
     let mut s = vec![vec![Integer::zero(); n]; n];
     for (i, factor) in factors.iter().enumerate() {
         for (j, entry) in m.row(i) {
-            s[i][*j] = entry.numer() * (factor / entry.denom());
+            s[i][*j] = cleared(entry, factor);
         }
     }
 

@@ -3,7 +3,7 @@
 //! Elimination itself runs on integers: [`Dense::clear_rows`] makes the rows of two matrices
 //! integral together. Called by the oracle and by whoever condenses small pencils.
 
-use super::{Integer, Rational, common_denominator};
+use super::{Integer, Rational, cleared, common_denominator};
 use num_traits::Zero;
 use std::ops::{Index, IndexMut};
 
@@ -60,8 +60,8 @@ impl Dense {
 
         for i in 0..self.rows() {
             let clear = common_denominator(self.row(i).iter().chain(other.row(i)));
-            own_rows.push(cleared(self.row(i), &clear));
-            other_rows.push(cleared(other.row(i), &clear));
+            own_rows.push(integral(self.row(i), &clear));
+            other_rows.push(integral(other.row(i), &clear));
         }
 
         (own_rows, other_rows)
@@ -69,10 +69,8 @@ impl Dense {
 }
 
 /// clear * row, integers because `clear` is a multiple of every denominator.
-fn cleared(row: &[Rational], clear: &Integer) -> Vec<Integer> {
-    row.iter()
-        .map(|entry| entry.numer() * (clear / entry.denom()))
-        .collect()
+fn integral(row: &[Rational], clear: &Integer) -> Vec<Integer> {
+    row.iter().map(|entry| cleared(entry, clear)).collect()
 }
 
 impl Index<(usize, usize)> for Dense {

@@ -56,7 +56,8 @@ pub use prime::{Field, primes};
 pub use quadratic::Quadratic;
 pub use ratio::Rational;
 pub use rational::{
-    Integer, MAX_EXPONENT, MAX_SPELLING, NumberError, common_denominator, parse, rational, whole,
+    Integer, MAX_EXPONENT, MAX_SPELLING, NumberError, cleared, common_denominator, parse, rational,
+    whole,
 };
 pub use roots::{nonnegative_roots, roots_in};
 pub use sparse::Sparse;

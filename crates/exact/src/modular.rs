@@ -15,7 +15,7 @@
 //! which condense the stiffness of a finite-element mesh to its contact nodes.
 
 use super::prime::{Field, primes};
-use super::{Integer, Rational, Sparse, common_denominator};
+use super::{Integer, Rational, Sparse, cleared, common_denominator};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
@@ -291,11 +291,6 @@ fn side_by_side(
         row.push((j + n, entry.clone()));
     }
     row
-}
-
-/// clear * value, an integer because `clear` is a multiple of the denominator.
-fn cleared(value: &Rational, clear: &Integer) -> Integer {
-    value.numer() * (clear / value.denom())
 }
 
 /// Bits of the square of a row's Euclidean norm.

@@ -6,7 +6,7 @@
 //!
 //! Called by everything in this crate that has an unknown t in it.
 
-use super::{Integer, Rational, common_denominator};
+use super::{Integer, Rational, cleared, common_denominator};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
@@ -49,12 +49,7 @@ impl Poly {
     /// The least positive integer multiple of a rational polynomial that is integral.
     pub fn from_rationals(coeffs: &[Rational]) -> Self {
         let clear = common_denominator(coeffs);
-        let integers = coeffs
-            .iter()
-            .map(|c| c.numer() * (&clear / c.denom()))
-            .collect();
-
-        Poly::new(integers)
+        Poly::new(coeffs.iter().map(|c| cleared(c, &clear)).collect())
     }
 
     /// The constant polynomial `c`.

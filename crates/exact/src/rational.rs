@@ -126,6 +126,11 @@ pub fn common_denominator<'a>(values: impl IntoIterator<Item = &'a Rational>) ->
     multiple
 }
 
+/// multiple * value, an integer because `multiple` is one of the denominator.
+pub fn cleared(value: &Rational, multiple: &Integer) -> Integer {
+    value.numer() * (multiple / value.denom())
+}
+
 fn malformed(text: &str) -> NumberError {
     NumberError::Malformed { text: head(text) }
 }

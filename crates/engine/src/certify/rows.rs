@@ -5,7 +5,7 @@
 //! and of enclosed claims.
 
 use mceip_check::certificate::EnclosedSolution;
-use mceip_exact::{Integer, Rational, common_denominator};
+use mceip_exact::{Integer, Rational, cleared, common_denominator};
 use mceip_model::{Pencil, ZeroVariables};
 use num_traits::Zero;
 use std::collections::BTreeMap;
@@ -100,11 +100,6 @@ fn integral_row(a: &[(usize, Rational)], b: &[(usize, Rational)]) -> Vec<PencilE
     }
 
     entries.into_values().collect()
-}
-
-/// The integer `value * denominator`, for a multiple of the value's denominator.
-fn cleared(value: &Rational, denominator: &Integer) -> Integer {
-    value.numer() * (denominator / value.denom())
 }
 
 /// The active variables: free ones and those of the support, ascending.

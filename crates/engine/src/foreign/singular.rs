@@ -8,7 +8,7 @@
 //! Called by [`refute`](super::refute), because the enumerator has to describe what such supports
 //! hold by all their minors.
 
-use mceip_exact::{Field, Integer, Rational, common_denominator, primes};
+use mceip_exact::{Field, Integer, Rational, cleared, common_denominator, primes};
 use mceip_model::Pencil;
 use num_traits::{Signed, ToPrimitive};
 
@@ -65,7 +65,7 @@ fn at_sample(field: &Field, pencil: &Pencil) -> Vec<Vec<u64>> {
 /// The integer `factor * value` modulo the prime, in Montgomery form; `factor` is a multiple of the
 /// denominator.
 fn residue(field: &Field, value: &Rational, factor: &Integer) -> u64 {
-    let integer = value.numer() * (factor / value.denom());
+    let integer = cleared(value, factor);
     let remainder = integer.magnitude() % field.prime();
     let magnitude = field.enter(remainder.to_u64().unwrap_or(0)); // below the prime: it fits
 

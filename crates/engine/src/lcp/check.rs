@@ -6,7 +6,7 @@
 //! by `verdict` for the points of a file.
 
 use super::exact::ExactMcp;
-use mceip_exact::{Integer, Rational, common_denominator};
+use mceip_exact::{Integer, Rational, cleared, common_denominator};
 use num_traits::{Signed, Zero};
 
 /// (Unknowns) x (bits of a point over its common denominator) at most, so that a small file cannot
@@ -118,7 +118,7 @@ impl IntegerPoint {
             require_bits(denominator.bits(), allowed)?;
         }
 
-        let numerators = z.iter().map(|v| v.numer() * (&denominator / v.denom()));
+        let numerators = z.iter().map(|v| cleared(v, &denominator));
         let numerators: Vec<Integer> = numerators.collect();
         let longest = numerators.iter().map(Integer::bits).max().unwrap_or(0);
         require_bits(denominator.bits() + longest, allowed)?;
@@ -152,10 +152,10 @@ impl ScaledRow {
         let (row, q) = problem.row(i);
         let scale = common_denominator(row.iter().chain([q]));
 
-        let mut multiple = times(q, &scale) * &z.denominator;
+        let mut multiple = cleared(q, &scale) * &z.denominator;
         for (m, z_j) in row.iter().zip(&z.numerators) {
             if !m.is_zero() {
-                multiple += times(m, &scale) * z_j;
+                multiple += cleared(m, &scale) * z_j;
             }
         }
 
@@ -164,11 +164,6 @@ impl ScaledRow {
             factor: scale * &z.denominator,
         }
     }
-}
-
-/// `scale * v`, where the scale is a multiple of the denominator of v.
-fn times(v: &Rational, scale: &Integer) -> Integer {
-    v.numer() * (scale / v.denom())
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use crate::search::complete::Completed;
 use mceip_check::AcceptedClaim;
 use mceip_check::certificate::{Claim, EnclosedSolution, ExactSolution};
 use mceip_exact::{
-    Algebraic, Integer, Poly, Rational, common_denominator, enclosing_decimals, from_f64,
+    Algebraic, Integer, Poly, Rational, cleared, common_denominator, enclosing_decimals, from_f64,
     ratio_to_decimal, to_decimal, to_f64,
 };
 use mceip_model::reduction::lift;
@@ -335,7 +335,7 @@ fn of_point(
     x: &[Rational],
 ) -> Listed {
     let denominator = common_denominator(x);
-    let integers = x.iter().map(|v| v.numer() * (&denominator / v.denom()));
+    let integers = x.iter().map(|v| cleared(v, &denominator));
     let solution = Solution {
         value: Algebraic::rational(value),
         multiplicity: 1,
@@ -387,20 +387,18 @@ fn of_exact(problem: &Problem, reduced: &Reduced, claim: &Claim, exact: &ExactSo
 }
 
 /// Row i of (A + tB) x as an integer polynomial and the positive integer it was multiplied by.
-fn row_times(pencil: &Pencil, i: usize, x: &[Poly]) -> (Poly, Integer) {
+pub(crate) fn row_times(pencil: &Pencil, i: usize, x: &[Poly]) -> (Poly, Integer) {
     let a = pencil.a().row(i);
     let b = pencil.b().row(i);
     let scale = common_denominator(a.iter().chain(b).map(|(_, v)| v));
 
     let mut sum = Poly::default();
     for (j, v) in a {
-        let coefficient = v.numer() * (&scale / v.denom());
-        sum = &sum + &x[*j].scale(&coefficient);
+        sum += &x[*j].scale(&cleared(v, &scale));
     }
 
     for (j, v) in b {
-        let coefficient = v.numer() * (&scale / v.denom());
-        sum = &sum + &x[*j].scale(&coefficient).shift(1);
+        sum += &x[*j].scale(&cleared(v, &scale)).shift(1);
     }
 
     (sum, scale)

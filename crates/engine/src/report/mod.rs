@@ -10,6 +10,7 @@ mod table;
 
 pub use digits::{fixed_decimals, six_digits};
 pub(crate) use digits::{short, short_is_plain};
+pub(crate) use listed::row_times;
 pub use listed::{Listed, ListedCone};
 pub use solutions::{Claimed, Report, solutions_json, solutions_text};
 pub(crate) use solutions::{coefficients, region_json};

@@ -9,7 +9,7 @@
 //! Called by `engine` for reports; [`super::check_lines`] holds the result against (9).
 
 use crate::{System, Unknown, Variable};
-use mceip_exact::{Integer, Poly, Rational, Sparse, common_denominator};
+use mceip_exact::{Integer, Poly, Rational, Sparse, cleared, common_denominator};
 use num_traits::Zero;
 
 /// Polynomials in t, to be evaluated at the solution's value; index = degree of freedom.
@@ -84,11 +84,8 @@ impl RationalVector {
         let mut entries = Vec::with_capacity(self.0.len());
 
         for coefficients in &self.0 {
-            let integers = coefficients
-                .iter()
-                .map(|c| c.numer() * (&scale / c.denom()))
-                .collect();
-            entries.push(Poly::new(integers));
+            let integers = coefficients.iter().map(|c| cleared(c, &scale));
+            entries.push(Poly::new(integers.collect()));
         }
 
         ClearedVector { entries, scale }

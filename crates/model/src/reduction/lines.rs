@@ -16,7 +16,7 @@
 
 use super::Lifted;
 use crate::{ContactState, Direction, Particle, System, Unknown};
-use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, cleared, common_denominator};
 use num_traits::One;
 
 /// The lines of (9).
@@ -273,7 +273,7 @@ fn times(direction: &Direction, factor: &Rational) -> Direction {
 fn integral_inner_product(direction: &Direction, clear: &Integer, p: &[Poly]) -> Poly {
     let mut sum = Poly::default();
     for (dof, coefficient) in direction {
-        let integer = coefficient.numer() * (clear / coefficient.denom());
+        let integer = cleared(coefficient, clear);
         sum += &p[*dof].scale(&integer);
     }
 

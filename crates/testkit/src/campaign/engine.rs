@@ -9,7 +9,7 @@ use crate::compare::{InstanceReport, Treatment, compare_with, engines, observed}
 use crate::disagreement::Disagreement;
 use crate::families::Corner;
 use mceip_engine::multistart::Search;
-use mceip_exact::{Algebraic, Poly, Rational, common_denominator};
+use mceip_exact::{Algebraic, Poly, Rational, cleared, common_denominator};
 use mceip_model::{Pencil, Reduced, Window};
 use mceip_oracle::Enumeration;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -137,8 +137,7 @@ fn holds(truth: &Truth, value: &Rational, x: &[Rational]) -> bool {
     let denominator = common_denominator(x);
     let mut integral_x = Vec::new();
     for v in x {
-        let numerator = v.numer() * (&denominator / v.denom());
-        integral_x.push(Poly::constant(numerator));
+        integral_x.push(Poly::constant(cleared(v, &denominator)));
     }
 
     let value = Algebraic::rational(value.clone());

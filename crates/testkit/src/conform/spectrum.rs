@@ -190,7 +190,7 @@ impl IntegralPencil<'_> {
 fn cleared(row: &[(usize, Rational)], factor: &Integer, n: usize) -> Vec<Integer> {
     let mut out = vec![Integer::default(); n];
     for (j, v) in row {
-        out[*j] = v.numer() * (factor / v.denom());
+        out[*j] = mceip_exact::cleared(v, factor);
     }
     out
 }

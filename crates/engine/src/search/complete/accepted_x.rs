@@ -14,10 +14,11 @@ use super::region::{State, support};
 use crate::certify::rows::center_of;
 use crate::multistart::{claimed_root, exact_value, integer_x};
 use crate::reduction::with_free_variables;
+use crate::report::row_times;
 use crate::tolerance::{SAME_ROOT, SAME_VALUE};
 use mceip_check::certificate::{Certificate, Claim, Exact, Node, Point, Polynomials, Support};
 use mceip_check::{AcceptedClaim, Proved};
-use mceip_exact::{Algebraic, Integer, Poly, Rational, common_denominator, to_f64};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, to_f64};
 use mceip_model::Pencil;
 use num_traits::{One, Signed};
 
@@ -117,17 +118,7 @@ fn vanishing_y(
             continue;
         }
 
-        let entries = || pencil.a().row(i).iter().chain(pencil.b().row(i));
-        let unit = common_denominator(entries().map(|(_, v)| v));
-        let integral = |v: &Rational| v.numer() * (&unit / v.denom());
-        let mut y = Poly::default();
-        for (j, a) in pencil.a().row(i) {
-            y += &x[*j].scale(&integral(a));
-        }
-        for (j, b) in pencil.b().row(i) {
-            y += &x[*j].scale(&integral(b)).shift(1);
-        }
-
+        let (y, _) = row_times(pencil, i, x);
         let rest = y.pseudo_rem(value.poly());
         if rest.is_zero() {
             vanishing.push(i);

@@ -7,7 +7,7 @@
 use super::expansion::Expansion;
 use super::matrix::{Matrix, largest_entry, zeros};
 use crate::search::complete::region::{Region, State, support};
-use mceip_exact::{Integer, Rational, common_denominator, to_f64};
+use mceip_exact::{Integer, Rational, cleared, common_denominator, to_f64};
 use mceip_model::{Pencil, ZeroVariables};
 use num_traits::One;
 
@@ -156,8 +156,7 @@ pub(crate) fn common_row_factor(pencils: &[&Pencil], i: usize) -> Rational {
 
     let mut bits = 1;
     for (_, v) in of_a {
-        let cleared = v.numer() * (&clear / v.denom());
-        bits = cleared.bits().max(bits);
+        bits = cleared(v, &clear).bits().max(bits);
     }
 
     Rational::new(clear, Integer::one() << bits)

@@ -5,7 +5,7 @@
 //! carried over to polynomials that hold around the value. Called by `reasons` and `alone`.
 
 use mceip_exact::{
-    Algebraic, Integer, Poly, Rational, Sign, common_denominator, cone_generators, dot,
+    Algebraic, Integer, Poly, Rational, Sign, cleared, common_denominator, cone_generators, dot,
     generic_kernel,
 };
 use num_traits::Signed;
@@ -51,7 +51,7 @@ pub(super) fn constants(row: &[Poly], t: &Rational) -> Vec<Poly> {
     let clear = common_denominator(&values);
     values
         .iter()
-        .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))
+        .map(|v| Poly::constant(cleared(v, &clear)))
         .collect()
 }
 
