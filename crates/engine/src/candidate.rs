@@ -1,9 +1,9 @@
 //! A claimed solution in doubles, untrusted: what solvers and reports hand to `certify`.
 
-use crate::tolerance::SUPPORT_GUESSES;
+use crate::tolerance::{SUPPORT_GUESSES, VALUE_RADIUS};
 use mceip_check::backward_error;
 use mceip_exact::{Rational, from_f64, to_f64};
-use mceip_model::{Problem, ZeroVariables};
+use mceip_model::{Problem, Window, ZeroVariables};
 use num_traits::{Signed as _, Zero as _};
 
 /// The format of solution reports.
@@ -88,6 +88,24 @@ impl Candidate {
     /// Are these the positive components among the slip variables, by one of the guesses?
     pub fn has_support(&self, slip: &[usize], support: &[usize]) -> bool {
         self.supports(slip).any(|guess| guess == support)
+    }
+
+    /// The ends of the interval of values near this one, within [`VALUE_RADIUS`].
+    pub(crate) fn near(&self) -> [f64; 2] {
+        let radius = VALUE_RADIUS * (1.0 + self.value.abs());
+        [self.value - radius, self.value + radius]
+    }
+
+    /// The ends of those values in a window; the lower one is above the upper one where there are
+    /// none. `None` for a value that is no finite number.
+    pub(crate) fn values_near(&self, window: &Window) -> Option<[Rational; 2]> {
+        let [lo, hi] = self.near().map(from_f64);
+        let lo = lo.ok()?.max(window.min().clone());
+        let hi = hi.ok()?;
+        Some(match window.max() {
+            Some(max) => [lo, hi.min(max.clone())],
+            None => [lo, hi],
+        })
     }
 
     /// The backward error of these numbers, found by the checker: [`mceip_check::backward_error`].

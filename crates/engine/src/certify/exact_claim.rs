@@ -7,18 +7,18 @@
 //! in t.
 //!
 //! Input: a candidate in doubles and a support. Output: a claim (`spec/certificates.md`, 5.3) whose
-//! value is within [`VALUE_RADIUS`] and whose x is within [`X_RADIUS`] of the candidate. Called by
-//! `proposals`, for supports that are small and pencils whose numbers are short.
+//! value is near the candidate's ([`Candidate::near`]) and whose x is within [`X_RADIUS`] of its x.
+//! Called by `proposals`, for supports that are small and pencils whose numbers are short.
 
 use super::failure::AttemptFailure;
 use super::lifted;
 use super::rows::{IntegralRows, PencilEntry, active};
 use crate::candidate::{Candidate, distance, scaled_exactly};
-use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
+use crate::tolerance::X_RADIUS;
 use mceip_check::certificate::ExactSolution;
 use mceip_exact::{
-    Algebraic, Integer, Interval, Poly, Rational, Sign, common_denominator, determinant, from_f64,
-    generic_kernel, kernel_and_free_columns_at, roots_in, to_f64,
+    Algebraic, Integer, Interval, Poly, Rational, Sign, cleared, common_denominator, determinant,
+    from_f64, generic_kernel, kernel_and_free_columns_at, roots_in, to_f64,
 };
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
@@ -61,7 +61,7 @@ pub(super) fn make(
 
 /// There is no value near the candidate's in the window.
 fn no_root(candidate: &Candidate, window: &Window) -> AttemptFailure {
-    let (lo, hi) = around(candidate);
+    let [lo, hi] = candidate.near();
     let min = to_f64(window.min());
     let max = window.max().map_or(f64::INFINITY, to_f64);
     let is_outside = hi < min || lo > max;
@@ -76,12 +76,6 @@ fn no_root(candidate: &Candidate, window: &Window) -> AttemptFailure {
         lo: lo.to_string(),
         hi: hi.to_string(),
     }
-}
-
-/// The ends of the interval in which values are near the candidate's.
-fn around(candidate: &Candidate) -> (f64, f64) {
-    let radius = VALUE_RADIUS * (1.0 + candidate.value.abs());
-    (candidate.value - radius, candidate.value + radius)
 }
 
 /// A double as a rational.
@@ -155,12 +149,8 @@ impl Support<'_> {
     /// The roots of some polynomials near the candidate's value and in the window, nearest first.
     fn roots_near(&self, polynomials: &[Poly]) -> Result<Vec<Algebraic>, AttemptFailure> {
         let center = finite(self.candidate.value)?;
-        let (lo, hi) = around(self.candidate);
-        let lo = finite(lo)?.max(self.window.min().clone());
-        let mut hi = finite(hi)?;
-        if let Some(max) = self.window.max() {
-            hi = hi.min(max.clone());
-        }
+        let near = self.candidate.values_near(self.window);
+        let [lo, hi] = near.ok_or(AttemptFailure::NotFinite)?;
         if lo > hi {
             return Err(no_root(self.candidate, self.window));
         }
@@ -349,7 +339,7 @@ impl Support<'_> {
         let denominator = common_denominator(&weights);
         let mut x = vec![Poly::default(); self.pencil.order()];
         for (vector, weight) in basis.iter().zip(&weights) {
-            let factor = weight.numer() * (&denominator / weight.denom());
+            let factor = cleared(weight, &denominator);
             for (&i, component) in self.active.iter().zip(vector) {
                 x[i] = &x[i] + &component.scale(&factor);
             }
@@ -529,8 +519,7 @@ fn primitive(x: Vec<Vec<Rational>>) -> Vec<Vec<Number>> {
     let denominator = common_denominator(x.iter().flatten());
     let mut divisor = Integer::zero();
     for coefficient in x.iter().flatten() {
-        let integer = coefficient.numer() * (&denominator / coefficient.denom());
-        divisor = divisor.gcd(&integer);
+        divisor = divisor.gcd(&cleared(coefficient, &denominator));
     }
 
     let factor = if divisor.is_zero() {

@@ -1,17 +1,17 @@
 //! The proof that no solution is near a reported one, or the one that is, by exact enumeration.
 //!
-//! All solutions with a value within [`VALUE_RADIUS`] of the reported one are enumerated (24)-(26)
+//! All solutions with a value near the reported one ([`Candidate::near`]) are enumerated (24)-(26)
 //! over all supports. If none has x within [`X_RADIUS`] at largest |x_i| = 1 ([`distance`]), the
-//! report is refuted. The cost grows as
-//! 2^n, so only small pencils are treated, and a report as a whole has a limited [`Effort`].
+//! report is refuted. The cost grows as 2^n, so only small pencils are treated, and a report as a
+//! whole has a limited [`Effort`].
 //!
 //! Called by [`judge`](super::judge) for a point that could not be certified.
 
 use super::singular::has_singular_support;
 use super::verdict::Refutation;
 use crate::candidate::{Candidate, distance, scaled};
-use crate::tolerance::{DISTANCE_ROUNDING, VALUE_RADIUS, X_RADIUS};
-use mceip_exact::{Rational, from_f64, to_f64};
+use crate::tolerance::{DISTANCE_ROUNDING, X_RADIUS};
+use mceip_exact::to_f64;
 use mceip_model::reduction::reduce_system;
 use mceip_model::{Body, Pencil, Problem, Reduced, Window};
 use mceip_oracle::{
@@ -111,7 +111,8 @@ pub(super) fn refute(
     candidate: &Candidate,
     effort: &mut Effort,
 ) -> Result<Enumerated, String> {
-    let (lo, hi) = values_near(problem.window(), candidate.value)?;
+    let near = candidate.values_near(problem.window());
+    let [lo, hi] = near.ok_or("its value is no finite number")?;
     let Ok(near) = Window::new(lo.clone(), Some(hi.clone())) else {
         return Ok(Enumerated::Refuted(Refutation::OutsideWindow {
             value: candidate.value,
@@ -259,21 +260,4 @@ fn is_allowed(candidate: &Candidate, slip: &[usize], support: &[usize]) -> bool 
             x[*i].abs() <= X_RADIUS
         }
     })
-}
-
-/// The ends of the values near a reported one that lie in the window; the lower end is above the
-/// upper one where there are none.
-fn values_near(window: &Window, value: f64) -> Result<(Rational, Rational), String> {
-    let radius = VALUE_RADIUS * (1.0 + value.abs());
-    let lo = exact(value - radius)?.max(window.min().clone());
-    let mut hi = exact(value + radius)?;
-    if let Some(max) = window.max() {
-        hi = hi.min(max.clone());
-    }
-
-    Ok((lo, hi))
-}
-
-fn exact(v: f64) -> Result<Rational, String> {
-    from_f64(v).map_err(|_| "its value is no finite number".to_string())
 }

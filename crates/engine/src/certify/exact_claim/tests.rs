@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::certify::propose;
+use crate::tolerance::VALUE_RADIUS;
 use mceip_check::certificate::Claim;
 use mceip_exact::{Sparse, nonnegative_roots, rational, whole};
 
@@ -275,8 +276,8 @@ fn ten_thousandths(numerator: i64) -> Poly {
 #[test]
 fn roots_are_taken_near_the_candidate_nearest_first() {
     assert_eq!(
-        around(&candidate(-3.0, &[1.0])),
-        (-3.0 - 4.0 * VALUE_RADIUS, -3.0 + 4.0 * VALUE_RADIUS)
+        candidate(-3.0, &[1.0]).near(),
+        [-3.0 - 4.0 * VALUE_RADIUS, -3.0 + 4.0 * VALUE_RADIUS]
     );
 
     let p = identity(1, vec![]);
