@@ -13,6 +13,7 @@
 
 use super::families::Families;
 use crate::dense::{rounded, transposed};
+use crate::search::complete::pieces::matrix::{absolute, largest_entry};
 use crate::tolerance::{FLUTTER_ANGLE, FLUTTER_ROUNDING};
 use mceip_exact::{Rational, whole};
 use mceip_mcp::linear::{eigenvalues, inverse, sensitive_eigenvalues, solve};
@@ -206,13 +207,6 @@ fn complex_eigenvalues(stiffness: &[Vec<f64>], mass: &[Vec<f64>]) -> Option<Vec<
     Some(complex.iter().map(|z| (z.re, z.im)).collect())
 }
 
-/// The entries without their signs.
-fn absolute(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let rows = rows.iter();
-    rows.map(|row| row.iter().map(|v| v.abs()).collect())
-        .collect()
-}
-
 /// The product of two square matrices.
 fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut product = vec![vec![0.0; b.len()]; a.len()];
@@ -225,12 +219,6 @@ fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
     }
 
     product
-}
-
-fn largest_entry(rows: &[Vec<f64>]) -> f64 {
-    rows.iter()
-        .flatten()
-        .fold(0.0, |largest, entry| f64::max(largest, entry.abs()))
 }
 
 /// A + mu B by rows, each entry rounded to the nearest double.

@@ -19,7 +19,7 @@
 use crate::bordered::{Ball, Corner, NullVectors, largest};
 use crate::branch::BranchPoint;
 use crate::search::complete::pieces::expansion::{Ends, Expansion};
-use crate::search::complete::pieces::matrix::{Matrix, principal_block, times};
+use crate::search::complete::pieces::matrix::{Matrix, absolute, principal_block, times};
 use crate::tolerance::PRESENCE_MARGIN;
 use mceip_check::certificate::PresencePiece;
 use mceip_exact::{Rational, from_f64};
@@ -132,12 +132,8 @@ impl PresenceWitness {
         let NullVectors { rest, right, .. } = &self.0;
         let smallest = right.iter().fold(1.0f64, |s, v| s.min(*v));
         let matrix = &place.edge(expansions, place.t[0])[0].m[0];
-        let block = principal_block(matrix, rest);
-        let absolute: Matrix = block
-            .iter()
-            .map(|row| row.iter().map(|v| v.abs()).collect())
-            .collect();
-        let reach: f64 = times(&absolute, right).iter().sum();
+        let block = absolute(&principal_block(matrix, rest));
+        let reach: f64 = times(&block, right).iter().sum();
 
         let of_inverse = f64::from(bits) + (reach / smallest).max(1.0).log2();
         let of_vectors = f64::from(bits) - smallest.log2();

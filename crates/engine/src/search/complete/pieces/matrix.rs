@@ -43,6 +43,14 @@ pub(crate) fn scaled(matrix: &[Vec<f64>], factor: f64) -> Matrix {
         .collect()
 }
 
+/// The entries without their signs.
+pub(crate) fn absolute(matrix: &[Vec<f64>]) -> Matrix {
+    matrix
+        .iter()
+        .map(|row| row.iter().map(|v| v.abs()).collect())
+        .collect()
+}
+
 /// u' matrix v
 pub(crate) fn bilinear(u: &[f64], matrix: &[Vec<f64>], v: &[f64]) -> f64 {
     let product = times(matrix, v);
