@@ -155,7 +155,8 @@ pub fn minors(m: &[Vec<Poly>], columns: &[usize]) -> Vec<Poly> {
     }
 }
 
-fn submatrix(m: &[Vec<Poly>], rows: &[usize], columns: &[usize]) -> Vec<Vec<Poly>> {
+/// The entries of a matrix by rows in these rows and columns.
+pub fn submatrix<T: Clone>(m: &[Vec<T>], rows: &[usize], columns: &[usize]) -> Vec<Vec<T>> {
     rows.iter()
         .map(|&i| columns.iter().map(|&j| m[i][j].clone()).collect())
         .collect()

@@ -49,6 +49,7 @@ pub use double::{from_f64, to_f64, truncated};
 pub use interval::Interval;
 pub use kernel::{
     determinant, generic_kernel, kernel_and_free_columns_at, kernel_at, minors, row_echelon_at,
+    submatrix,
 };
 pub use modular::{CondenseError, Residues, schur_complement};
 pub use poly::Poly;

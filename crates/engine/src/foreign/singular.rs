@@ -8,7 +8,7 @@
 //! Called by [`refute`](super::refute), because the enumerator has to describe what such supports
 //! hold by all their minors.
 
-use mceip_exact::{Field, Integer, Rational, cleared, common_denominator, primes};
+use mceip_exact::{Field, Integer, Rational, cleared, common_denominator, primes, submatrix};
 use mceip_model::Pencil;
 use num_traits::{Signed, ToPrimitive};
 
@@ -33,7 +33,7 @@ pub(super) fn has_singular_support(pencil: &Pencil, slip: &[usize]) -> bool {
             }
         }
 
-        is_singular(&field, principal_block(&matrix, &active))
+        is_singular(&field, submatrix(&matrix, &active, &active))
     })
 }
 
@@ -74,16 +74,6 @@ fn residue(field: &Field, value: &Rational, factor: &Integer) -> u64 {
     } else {
         magnitude
     }
-}
-
-/// The rows and columns of these indices.
-fn principal_block(matrix: &[Vec<u64>], indices: &[usize]) -> Vec<Vec<u64>> {
-    let mut block = Vec::with_capacity(indices.len());
-    for &i in indices {
-        block.push(indices.iter().map(|&j| matrix[i][j]).collect());
-    }
-
-    block
 }
 
 /// Does Gaussian elimination run out of pivots?

@@ -7,7 +7,7 @@
 //! answers of them.
 
 use mceip_exact::{
-    Algebraic, Integer, Poly, Rational, Sign, common_denominator, determinant, kernel_at, roots_in,
+    Algebraic, Integer, Poly, Rational, Sign, determinant, kernel_at, roots_in, submatrix,
 };
 use mceip_model::Pencil;
 use mceip_oracle::Solution;
@@ -56,16 +56,7 @@ struct IntegralPencil<'a> {
 
 impl IntegralPencil<'_> {
     fn of(pencil: &Pencil) -> IntegralPencil<'_> {
-        let mut a = Vec::new();
-        let mut b = Vec::new();
-        for i in 0..pencil.order() {
-            let row_of_a = pencil.a().row(i);
-            let row_of_b = pencil.b().row(i);
-            let factor = common_denominator(row_of_a.iter().chain(row_of_b).map(|e| &e.1));
-            a.push(cleared(row_of_a, &factor, pencil.order()));
-            b.push(cleared(row_of_b, &factor, pencil.order()));
-        }
-
+        let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
         IntegralPencil {
             free: pencil.free(),
             a,
@@ -92,8 +83,7 @@ impl IntegralPencil<'_> {
         let mut active: Vec<usize> = self.free.iter().chain(support).copied().collect();
         active.sort_unstable();
 
-        let a = block(&self.a, &active);
-        let b = block(&self.b, &active);
+        let [a, b] = [&self.a, &self.b].map(|rows| submatrix(rows, &active, &active));
         let determinant = determinant(&a, &b);
         if determinant.is_zero() {
             return Vec::new();
@@ -184,21 +174,4 @@ impl IntegralPencil<'_> {
         }
         sum
     }
-}
-
-/// A row of n entries times `factor`, which clears its denominators.
-fn cleared(row: &[(usize, Rational)], factor: &Integer, n: usize) -> Vec<Integer> {
-    let mut out = vec![Integer::default(); n];
-    for (j, v) in row {
-        out[*j] = mceip_exact::cleared(v, factor);
-    }
-    out
-}
-
-/// The entries in these rows and columns.
-fn block(rows: &[Vec<Integer>], indices: &[usize]) -> Vec<Vec<Integer>> {
-    indices
-        .iter()
-        .map(|&i| indices.iter().map(|&j| rows[i][j].clone()).collect())
-        .collect()
 }

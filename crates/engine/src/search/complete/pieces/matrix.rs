@@ -2,6 +2,8 @@
 //!
 //! The order of every sum is fixed: results are compared digit by digit between runs.
 
+use mceip_exact::submatrix;
+
 /// A dense square matrix by rows.
 pub(crate) type Matrix = Vec<Vec<f64>>;
 
@@ -19,12 +21,7 @@ pub(crate) fn largest_entry(matrix: &[Vec<f64>]) -> f64 {
 
 /// The block on these rows and columns.
 pub(crate) fn principal_block(matrix: &[Vec<f64>], indices: &[usize]) -> Matrix {
-    let mut block = Vec::with_capacity(indices.len());
-    for &i in indices {
-        block.push(indices.iter().map(|&j| matrix[i][j]).collect());
-    }
-
-    block
+    submatrix(matrix, indices, indices)
 }
 
 /// The product `matrix * x`.

@@ -17,7 +17,7 @@ use super::circuit::{
 use mceip_check::certificate::{Alone, Exact, Member, Polynomials};
 use mceip_exact::{
     Algebraic, Generators, Integer, Poly, Rational, Sign, cone_generators, determinant,
-    first_row_cofactors, generic_kernel, kernel_at,
+    first_row_cofactors, generic_kernel, kernel_at, submatrix,
 };
 use mceip_model::Pencil;
 
@@ -450,8 +450,8 @@ impl Supported {
 
     fn minor(&self, rows: &[usize], columns: &[usize]) -> Poly {
         determinant(
-            &block(&self.a, rows, columns),
-            &block(&self.b, rows, columns),
+            &submatrix(&self.a, rows, columns),
+            &submatrix(&self.b, rows, columns),
         )
     }
 
@@ -484,12 +484,6 @@ fn without(list: &[usize], left_out: usize) -> Vec<usize> {
     let mut kept = list.to_vec();
     kept.retain(|&i| i != left_out);
     kept
-}
-
-fn block(m: &[Vec<Integer>], rows: &[usize], columns: &[usize]) -> Vec<Vec<Integer>> {
-    rows.iter()
-        .map(|&i| columns.iter().map(|&j| m[i][j].clone()).collect())
-        .collect()
 }
 
 fn transposed_block(m: &[Vec<Integer>], rows: &[usize], columns: &[usize]) -> Vec<Vec<Integer>> {
