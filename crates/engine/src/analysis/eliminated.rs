@@ -106,10 +106,8 @@ impl Eliminated {
 
     /// `true` proves that A + mu B is positive definite; `false` says nothing.
     pub(super) fn is_definite_at(&self, mu: &Rational) -> bool {
-        let [constant, linear, quadratic] = &self.z;
-        let z = constant
-            .add_scaled(mu, linear)
-            .add_scaled(&(mu * mu), quadratic);
+        let [.., quadratic] = &self.z;
+        let z = self.condensed_at(mu).add_scaled(&(mu * mu), quadratic);
         let less = self.beside(&z, &-self.residual_at(mu));
 
         positive_definite(&less).is_ok()
@@ -118,18 +116,14 @@ impl Eliminated {
     /// `true` proves that the condensed matrix sym T is positive definite at this mu; `false` says
     /// nothing.
     pub(super) fn is_condensed_definite_at(&self, mu: &Rational) -> bool {
-        let [constant, linear] = self.condensed();
-        let z = constant.add_scaled(mu, linear);
-        let less = self.beside(&z, &-self.residual_at(mu));
+        let less = self.beside(&self.condensed_at(mu), &-self.residual_at(mu));
 
         positive_definite(&less).is_ok()
     }
 
     /// `true` proves that sym T is not positive definite at this mu; `false` says nothing.
     pub(super) fn is_condensed_refuted_at(&self, mu: &Rational) -> bool {
-        let [constant, linear] = self.condensed();
-        let z = constant.add_scaled(mu, linear);
-        let more = self.beside(&z, &self.residual_at(mu));
+        let more = self.beside(&self.condensed_at(mu), &self.residual_at(mu));
 
         matches!(positive_definite(&more), Err(DefiniteError::Not(_)))
     }
@@ -138,6 +132,12 @@ impl Eliminated {
     pub(super) fn condensed(&self) -> [&Sparse; 2] {
         let [constant, linear, _] = &self.z;
         [constant, linear]
+    }
+
+    /// Sym T at mu, but for the same part.
+    fn condensed_at(&self, mu: &Rational) -> Sparse {
+        let [constant, linear] = self.condensed();
+        constant.add_scaled(mu, linear)
     }
 
     /// A bound of |R|^2 at mu, in the units of sigma Z.

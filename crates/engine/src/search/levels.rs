@@ -11,6 +11,7 @@
 //! The pencil of a level is condensed in doubles; its complete set is that of the rounded pencil.
 //! For pictures, and for starts of what is certified elsewhere. Called by `mceip block`.
 
+use super::complete::pieces::matrix::combined;
 use super::complete::{CompleteError, Options, complete};
 use crate::dense::rounded;
 use crate::reduction::mode;
@@ -95,8 +96,8 @@ impl Levels {
     /// [`CompleteError::SingularLevel`].
     pub fn at(&self, lambda2: f64) -> Result<Level, CompleteError> {
         let n = self.k0.len();
-        let star0 = sum(&self.k0, lambda2, &self.m0);
-        let star1 = sum(&self.k1, lambda2, &self.m1);
+        let star0 = combined(&self.k0, lambda2, &self.m0);
+        let star1 = combined(&self.k1, lambda2, &self.m1);
         let follow = if self.free == 0 {
             vec![Vec::new(); n]
         } else {
@@ -122,18 +123,6 @@ impl Levels {
         all.extend_from_slice(x);
         mode(&self.variables, &all, self.dofs)
     }
-}
-
-/// K + lambda^2 M.
-fn sum(k: &[Vec<f64>], lambda2: f64, m: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let mut rows = k.to_vec();
-    for (row, mass_row) in rows.iter_mut().zip(m) {
-        for (entry, mass) in row.iter_mut().zip(mass_row) {
-            *entry += lambda2 * mass;
-        }
-    }
-
-    rows
 }
 
 /// -F^-1 C by columns, F and C being the free rows over the first `free` and the other columns;
