@@ -36,35 +36,25 @@ pub(super) struct Places(pub(super) Vec<Place>);
 impl Places {
     /// At a bound if z is exactly there.
     pub(super) fn at_bounds<P: Mcp + ?Sized>(problem: &P, z: &DVector<f64>) -> Places {
-        let mut places = Vec::with_capacity(z.len());
-        for (i, &value) in z.iter().enumerate() {
-            let lower = problem.lower()[i];
-            let upper = problem.upper()[i];
-            places.push(if lower == upper {
-                Place::Fixed
-            } else if value <= lower {
-                Place::Lower
-            } else if value >= upper {
-                Place::Upper
-            } else {
-                Place::Inside
-            });
-        }
-
-        Places(places)
+        Places::of(problem, z, |_| 0.0)
     }
 
     /// At a bound if z is nearer to it than F to zero: right where complementarity is strict.
     pub(super) fn at_solution<P: Mcp + ?Sized>(problem: &P, point: &Point) -> Places {
-        let mut places = Vec::with_capacity(point.z.len());
-        for (i, (&z, &f)) in point.z.iter().zip(point.f.iter()).enumerate() {
+        Places::of(problem, &point.z, |i| point.f[i])
+    }
+
+    /// At the lower bound if z is as near to it as `f`, at the upper one if as near as -f.
+    fn of<P: Mcp + ?Sized>(problem: &P, z: &DVector<f64>, f: impl Fn(usize) -> f64) -> Places {
+        let mut places = Vec::with_capacity(z.len());
+        for (i, &z) in z.iter().enumerate() {
             let lower = problem.lower()[i];
             let upper = problem.upper()[i];
             places.push(if lower == upper {
                 Place::Fixed
-            } else if z - lower <= f {
+            } else if z - lower <= f(i) {
                 Place::Lower
-            } else if upper - z <= -f {
+            } else if upper - z <= -f(i) {
                 Place::Upper
             } else {
                 Place::Inside
