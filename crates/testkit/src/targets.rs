@@ -149,19 +149,30 @@ fn small_problem(data: &[u8]) -> Option<Problem> {
     let mask = *data.get(1)?;
     let entries = &data[2..];
 
-    let n = usize::from(head % 4) + 1;
+    let n = order(head);
+    let digit = |byte: u8| whole(i64::from(byte % 9) - 4);
+    let a = matrix_of(entries, n, 0, digit);
+    let b = matrix_of(entries, n, n * n, digit);
+    problem_of([a, b], head, mask, Window::all())
+}
+
+/// The order of the matrices, 1 to 4, by the first byte.
+fn order(head: u8) -> usize {
+    usize::from(head % 4) + 1
+}
+
+/// The problem of a pencil: its unknown is a bit of the first byte, its free variables are those of
+/// a bit mask.
+fn problem_of([a, b]: [Sparse; 2], head: u8, mask: u8, window: Window) -> Option<Problem> {
     let unknown = if head & 0x10 == 0 {
         Unknown::Mu
     } else {
         Unknown::Lambda2
     };
 
-    let digit = |byte: u8| whole(i64::from(byte % 9) - 4);
-    let a = matrix_of(entries, n, 0, digit);
-    let b = matrix_of(entries, n, n * n, digit);
-    let free = (0..n).filter(|i| mask >> i & 1 == 1).collect();
+    let free = (0..a.rows()).filter(|i| mask >> i & 1 == 1).collect();
     let pencil = Pencil::new(a, b, free).ok()?;
-    Problem::new(Body::Pencil(pencil), unknown, Window::all()).ok()
+    Problem::new(Body::Pencil(pencil), unknown, window).ok()
 }
 
 /// The matrix of order n whose first entry is made of the byte at `offset`, row by row.

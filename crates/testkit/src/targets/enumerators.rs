@@ -3,11 +3,11 @@
 //! Input: bytes of a fuzzer, which make a small pencil and a window. A disagreement is a panic.
 //! Called by the fuzz target `complete_against_plain`.
 
-use super::matrix_of;
+use super::{matrix_of, order, problem_of};
 use crate::completed::compare_within;
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::file::write_problem;
-use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_model::{Body, Problem, Window};
 use mceip_oracle::enumerate;
 
 /// The complete search, cut short after few nodes, says nothing that the plain enumerator does not;
@@ -40,13 +40,7 @@ fn windowed(data: &[u8]) -> Option<Problem> {
     let view = *data.get(2)?;
     let entries = &data[3..];
 
-    let n = usize::from(head % 4) + 1;
-    let unknown = if head & 0x10 == 0 {
-        Unknown::Mu
-    } else {
-        Unknown::Lambda2
-    };
-
+    let n = order(head);
     let a = matrix_of(entries, n, 0, |byte| number(head, byte));
     let b = if head & 0x20 == 0 {
         matrix_of(entries, n, n * n, |byte| number(head, byte))
@@ -54,9 +48,7 @@ fn windowed(data: &[u8]) -> Option<Problem> {
         Sparse::identity(n)
     };
 
-    let free = (0..n).filter(|i| mask >> i & 1 == 1).collect();
-    let pencil = Pencil::new(a, b, free).ok()?;
-    Problem::new(Body::Pencil(pencil), unknown, window(view)?).ok()
+    problem_of([a, b], head, mask, window(view)?)
 }
 
 /// The lowest three bits are the lower end, the next three the width, both in halves; the highest
