@@ -63,10 +63,8 @@ impl Output {
         path: Option<&Path>,
         inputs: &[&Path],
     ) -> Result<Option<Output>, CliError> {
-        match path {
-            None => Ok(None),
-            Some(path) => Ok(Some(Output::prepare(option, path, inputs)?)),
-        }
+        path.map(|path| Output::prepare(option, path, inputs))
+            .transpose()
     }
 
     /// Writes what the checker has accepted, as it was accepted: the first certificate to the path
@@ -281,10 +279,8 @@ impl Folder {
         path: Option<&Path>,
         inputs: &[&Path],
     ) -> Result<Option<Folder>, CliError> {
-        match path {
-            None => Ok(None),
-            Some(path) => Ok(Some(Folder::prepare(option, path, inputs)?)),
-        }
+        path.map(|path| Folder::prepare(option, path, inputs))
+            .transpose()
     }
 
     /// Writes a file, whole.

@@ -1,18 +1,5 @@
 //! What can go wrong when the library is used.
 
-#[cfg(feature = "solver")]
-use mceip_engine::analysis::AnalysisError;
-#[cfg(feature = "solver")]
-use mceip_engine::certify::NotCertified;
-#[cfg(feature = "solver")]
-use mceip_engine::multistart::SearchError;
-#[cfg(feature = "solver")]
-use mceip_engine::search::complete::CompleteError;
-#[cfg(feature = "solver")]
-use mceip_oracle::OracleError;
-#[cfg(feature = "solver")]
-use mceip_path::PathError;
-
 use mceip_check::Rejected;
 use mceip_model::ModelError;
 
@@ -51,27 +38,27 @@ pub enum Error {
     /// The solver refuses the problem.
     #[cfg(feature = "solver")]
     #[error(transparent)]
-    Solve(#[from] SearchError),
+    Solve(#[from] mceip_engine::multistart::SearchError),
     /// The enumerator refuses the problem.
     #[cfg(feature = "solver")]
     #[error(transparent)]
-    Enumerate(#[from] OracleError),
+    Enumerate(#[from] mceip_oracle::OracleError),
     /// The complete search refuses the problem.
     #[cfg(feature = "solver")]
     #[error(transparent)]
-    Complete(#[from] CompleteError),
+    Complete(#[from] mceip_engine::search::complete::CompleteError),
     /// The analysis refuses the system.
     #[cfg(feature = "solver")]
     #[error(transparent)]
-    Analyze(#[from] AnalysisError),
+    Analyze(#[from] mceip_engine::analysis::AnalysisError),
     /// No certificate was found for a point.
     #[cfg(feature = "solver")]
     #[error(transparent)]
-    NotCertified(#[from] NotCertified),
+    NotCertified(#[from] mceip_engine::certify::NotCertified),
     /// The loading path cannot be followed.
     #[cfg(feature = "solver")]
     #[error(transparent)]
-    Path(#[from] PathError),
+    Path(#[from] mceip_path::PathError),
     /// Only a mechanical system can be analysed.
     #[cfg(feature = "solver")]
     #[error("analyze: expected a mechanical system, got a pencil")]
