@@ -22,7 +22,7 @@ use mceip_check::{
     Place, check, check_critical, check_equilibrium, check_presence,
 };
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
-use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, Verdict, judge};
+use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, ForeignVerdict, judge};
 use mceip_engine::lcp::MCP_FORMAT;
 use mceip_engine::run::Progress;
 use mceip_engine::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALUE_RADIUS};
@@ -380,8 +380,11 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
         let line = match reported {
             Ok(reported) => {
                 let verdict = judge(problem, &reduced, reported, tolerance, &mut effort);
-                is_undecided |= matches!(verdict, Verdict::Undecided { .. });
-                is_rejected |= matches!(verdict, Verdict::Rejected(_) | Verdict::Inaccurate { .. });
+                is_undecided |= matches!(verdict, ForeignVerdict::Undecided { .. });
+                is_rejected |= matches!(
+                    verdict,
+                    ForeignVerdict::Rejected(_) | ForeignVerdict::Inaccurate { .. }
+                );
                 verdict.line(problem, reported.candidate.value)
             }
             Err(bad) => {

@@ -9,7 +9,7 @@
 
 use crate::common::{exits, exits_with_json, read, refused, repository, run_words};
 use crate::program::Folder;
-use mceip_engine::foreign::{Effort, ForeignReport, Verdict, judge};
+use mceip_engine::foreign::{Effort, ForeignReport, ForeignVerdict, judge};
 use mceip_model::file::read_problem;
 use mceip_testkit::conform::{Bug, Case, Flag, Label, groups};
 use rayon::prelude::*;
@@ -297,8 +297,8 @@ fn first_solution_is_refuted(case: &Case, bug: Bug, report: &ForeignReport) {
     // (1, 0) at t = 1 + 1e-5 is wrong, and as near to the solution (1, 1e-5) at t = 1 as its
     // rounding would be.
     let is_refuted = match verdict {
-        Verdict::Rejected(_) | Verdict::Inaccurate { .. } => true,
-        Verdict::Undecided { .. } => case.flags.contains(&Flag::TinyComponent),
+        ForeignVerdict::Rejected(_) | ForeignVerdict::Inaccurate { .. } => true,
+        ForeignVerdict::Undecided { .. } => case.flags.contains(&Flag::TinyComponent),
         _ => false,
     };
 

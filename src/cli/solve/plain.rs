@@ -8,7 +8,7 @@ use super::args::Args;
 use super::search::plain_search_of;
 use super::trace;
 use crate::say::counted;
-use mceip_engine::lcp::{ExactMcp, Found, read_mcp, search, write_solution};
+use mceip_engine::lcp::{ExactMcp, PlainFound, read_mcp, search, write_solution};
 use mceip_engine::multistart::{SearchError, trace_outcome};
 use mceip_exact::{Rational, to_f64};
 use serde_json::json;
@@ -71,7 +71,7 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
 }
 
 /// What the search was and how it went.
-fn evidence(found: &Found) -> String {
+fn evidence(found: &PlainFound) -> String {
     let (pivots, factorisations) = found.counters;
     let runs = counted(found.runs, "run");
     let curves = match found.curves {
@@ -88,7 +88,7 @@ fn evidence(found: &Found) -> String {
 }
 
 /// Each solution z with F(z), for people.
-fn listing(problem: &ExactMcp, found: &Found) -> String {
+fn listing(problem: &ExactMcp, found: &PlainFound) -> String {
     let mut out = String::new();
     for z in &found.certified {
         out += "certified solution\n";
@@ -105,7 +105,7 @@ fn listing(problem: &ExactMcp, found: &Found) -> String {
 }
 
 /// The same as `mceip-mcp-solutions/1`.
-fn json(problem: &ExactMcp, found: &Found) -> String {
+fn json(problem: &ExactMcp, found: &PlainFound) -> String {
     let mut solutions = Vec::new();
     for z in &found.certified {
         solutions.push(json!({ "z": texts(z), "f": texts(&problem.function(z)) }));

@@ -11,8 +11,13 @@ pub(super) fn search_of(problem: &Problem, starts: usize, seed: u64, all: bool) 
 }
 
 /// The same of a plain problem.
-pub(super) fn plain_search_of(starts: usize, seed: u64, all: bool, trace: bool) -> lcp::Search {
-    lcp::Search {
+pub(super) fn plain_search_of(
+    starts: usize,
+    seed: u64,
+    all: bool,
+    trace: bool,
+) -> lcp::PlainSearch {
+    lcp::PlainSearch {
         starts,
         all,
         seed,

@@ -45,7 +45,7 @@ impl Header {
     }
 
     /// Of a plain problem.
-    pub(super) fn plain(problem: &lcp::ExactMcp, search: &lcp::Search) -> Header {
+    pub(super) fn plain(problem: &lcp::ExactMcp, search: &lcp::PlainSearch) -> Header {
         Header {
             format: TRACE_FORMAT.into(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -100,7 +100,7 @@ fn render(header: &Header, found: &multistart::Found) -> String {
 }
 
 /// The whole trace of a plain problem.
-pub(super) fn render_plain(header: &Header, found: &lcp::Found) -> String {
+pub(super) fn render_plain(header: &Header, found: &lcp::PlainFound) -> String {
     let mut out = first_line(header);
     out.extend(found.trace.iter().map(String::as_str));
     for z in &found.certified {

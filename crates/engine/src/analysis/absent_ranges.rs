@@ -8,7 +8,7 @@
 //! Input: a system and its ranges. Output: the evidence of ranges, and the proofs named
 //! `absent-range`. Called by `ranges`.
 
-use super::absence::{Blocked, Bound, Cause, LastFamily, Outcome, Place, unit_of_lambda2};
+use super::absence::{Blocked, Bound, Cause, CoverOutcome, LastFamily, Place, unit_of_lambda2};
 use super::critical::Known;
 use super::divergence::Verdict;
 use super::evidence::{Evidence, Proof, ProofCertificate};
@@ -79,14 +79,16 @@ fn cover<'a>(
             places: &places,
         };
         match quadrant.cover(&bound, &mut LastFamily::default()).ok()? {
-            Outcome::Absent(proved) => return Some(*proved),
-            Outcome::Blocked(boxes) if boxes.iter().all(is_imprecise) => {
+            CoverOutcome::Absent(proved) => return Some(*proved),
+            CoverOutcome::Blocked(boxes) if boxes.iter().all(is_imprecise) => {
                 for blocked in &boxes {
                     let [lambda2, _] = blocked.middle;
                     places.push(Place::sharper(&places, lambda2, scale));
                 }
             }
-            Outcome::Blocked(_) | Outcome::Refused | Outcome::Stopped => return None,
+            CoverOutcome::Blocked(_) | CoverOutcome::Refused | CoverOutcome::Stopped => {
+                return None;
+            }
         }
     }
 

@@ -11,7 +11,7 @@
 //! the proofs named `critical` (the solution) and `absence` (the bound).
 
 use super::absence::{
-    Blocked, Bound, Cause, Family, LastFamily, Outcome, Place, Quadrant, unit_of_lambda2,
+    Blocked, Bound, Cause, CoverOutcome, Family, LastFamily, Place, Quadrant, unit_of_lambda2,
 };
 use super::conditions::Necessary;
 use super::divergence::Divergence;
@@ -630,22 +630,22 @@ impl CriticalSearch<'_> {
             places: &bounds.places,
         };
         match quadrant.cover(&bound, &mut bounds.last)? {
-            Outcome::Absent(proved) => {
+            CoverOutcome::Absent(proved) => {
                 bounds.unproved = bounds.unproved.take().filter(|tried| tried.below > *below);
                 let proof = ProofCertificate::Absence(*proved.clone());
                 self.model.keep("absence", self.problem, &proof);
                 bounds.absence = Some(*proved);
                 Ok(None)
             }
-            Outcome::Refused => {
+            CoverOutcome::Refused => {
                 bounds.not_proved(below, Obstacle::Refused, None);
                 Ok(Some(Next::Wider))
             }
-            Outcome::Stopped => {
+            CoverOutcome::Stopped => {
                 bounds.not_proved(below, Obstacle::Interrupted, None);
                 Ok(Some(Next::Wider))
             }
-            Outcome::Blocked(obstacles) => {
+            CoverOutcome::Blocked(obstacles) => {
                 let first = obstacles.first();
                 let reason = first.map_or(Obstacle::Refused, |box_| self.obstacle(box_.cause));
                 bounds.not_proved(below, reason, first.map(|box_| box_.middle));

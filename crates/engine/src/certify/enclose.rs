@@ -153,7 +153,7 @@ impl Undecided {
 }
 
 /// A number known up to its radius, both in one unit.
-struct Ball {
+struct IntegerBall {
     center: Integer,
     radius: Integer,
 }
@@ -167,7 +167,7 @@ enum CommonSign {
     Undecided,
 }
 
-impl Ball {
+impl IntegerBall {
     fn sign(&self) -> CommonSign {
         if self.center > self.radius {
             CommonSign::Positive
@@ -232,7 +232,7 @@ impl Enclosure<'_> {
                 continue;
             }
 
-            let x = Ball {
+            let x = IntegerBall {
                 center: self.point.x[k].clone(),
                 radius: self.radius[k].clone(),
             };
@@ -265,9 +265,9 @@ impl Enclosure<'_> {
     }
 
     /// y_i = sum_j (a_ij + t b_ij) x_j over the box, in units of the grid of x times that of t.
-    fn y(&self, index: usize) -> Ball {
+    fn y(&self, index: usize) -> IntegerBall {
         let radius_of_t = &self.radius[self.point.x.len()];
-        let mut y = Ball {
+        let mut y = IntegerBall {
             center: Integer::default(),
             radius: Integer::default(),
         };

@@ -58,14 +58,14 @@ impl Agreement {
 
 /// A proven number: center and half width of an interval that holds it.
 #[derive(Clone, Copy)]
-struct Ball {
+struct ProvenNumber {
     center: f64,
     radius: f64,
 }
 
-impl Ball {
-    fn exact(center: f64) -> Ball {
-        Ball {
+impl ProvenNumber {
+    fn exact(center: f64) -> ProvenNumber {
+        ProvenNumber {
             center,
             radius: 0.0,
         }
@@ -74,9 +74,9 @@ impl Ball {
 
 /// What a claim proves, in doubles.
 struct Proven {
-    value: Ball,
+    value: ProvenNumber,
     /// x over all variables of the pencil, in the claim's own scale.
-    x: Vec<Ball>,
+    x: Vec<ProvenNumber>,
 }
 
 impl Proven {
@@ -84,11 +84,11 @@ impl Proven {
     fn of(problem: &Problem, reduced: &Reduced, claim: &Claim) -> Option<Proven> {
         let listed = Listed::of_claim(problem, reduced, claim);
         let mut proven = Proven {
-            value: Ball::exact(finite(&listed.value)?),
+            value: ProvenNumber::exact(finite(&listed.value)?),
             x: Vec::new(),
         };
         for decimal in &listed.x {
-            proven.x.push(Ball::exact(finite(decimal)?));
+            proven.x.push(ProvenNumber::exact(finite(decimal)?));
         }
 
         if let Claim::EnclosedSolution(claim) = claim {
@@ -139,7 +139,7 @@ pub(super) fn agreement(
 }
 
 /// |reported - proven| / max(|proven|, floor), with the radius added to the difference.
-fn value_error(reported: f64, proven: Ball, floor: f64) -> f64 {
+fn value_error(reported: f64, proven: ProvenNumber, floor: f64) -> f64 {
     let difference = (reported - proven.center).abs() + proven.radius;
     if difference == 0.0 {
         0.0
@@ -150,7 +150,7 @@ fn value_error(reported: f64, proven: Ball, floor: f64) -> f64 {
 
 /// VALUE_FLOOR min_i (|A||x|)_i / (|B||x|)_i over the active rows with (|B||x|)_i > 0; 0 where
 /// there are none, since then there is no scale of values.
-fn value_floor(pencil: &Pencil, support: &[usize], x: &[Ball]) -> f64 {
+fn value_floor(pencil: &Pencil, support: &[usize], x: &[ProvenNumber]) -> f64 {
     let mut moduli = Vec::new();
     for ball in x {
         moduli.push(from_f64(ball.center.abs()).unwrap_or_default());
@@ -183,7 +183,7 @@ fn weighted(row: &[(usize, Rational)], moduli: &[Rational]) -> Rational {
 }
 
 /// The component that differs most, and the proven x scaled to largest |x_i| = 1.
-fn worst_component(reported: &[f64], proven: &[Ball]) -> Option<(Component, Vec<f64>)> {
+fn worst_component(reported: &[f64], proven: &[ProvenNumber]) -> Option<(Component, Vec<f64>)> {
     let reported = scaled(reported)?;
     let largest_proven = proven
         .iter()
@@ -226,12 +226,12 @@ mod tests {
 
     #[test]
     fn errors_of_values_are_relative_down_to_the_floor() {
-        assert_eq!(value_error(2.5, Ball::exact(2.0), 0.5), 0.25);
-        assert_eq!(value_error(2.5, Ball::exact(2.0), 4.0), 0.125);
-        assert_eq!(value_error(0.5, Ball::exact(0.0), 2.0), 0.25);
-        assert_eq!(value_error(0.0, Ball::exact(0.0), 0.0), 0.0);
+        assert_eq!(value_error(2.5, ProvenNumber::exact(2.0), 0.5), 0.25);
+        assert_eq!(value_error(2.5, ProvenNumber::exact(2.0), 4.0), 0.125);
+        assert_eq!(value_error(0.5, ProvenNumber::exact(0.0), 2.0), 0.25);
+        assert_eq!(value_error(0.0, ProvenNumber::exact(0.0), 0.0), 0.0);
 
-        let wide = Ball {
+        let wide = ProvenNumber {
             center: 2.0,
             radius: 0.5,
         };
@@ -244,8 +244,8 @@ mod tests {
         Pencil::new(a, b, free.to_vec()).unwrap()
     }
 
-    fn exact(x: &[f64]) -> Vec<Ball> {
-        x.iter().map(|v| Ball::exact(*v)).collect()
+    fn exact(x: &[f64]) -> Vec<ProvenNumber> {
+        x.iter().map(|v| ProvenNumber::exact(*v)).collect()
     }
 
     /// The floor of a pencil with entries of these sizes.
@@ -294,11 +294,11 @@ mod tests {
         };
         assert_eq!(worst, expected);
 
-        let wide = Ball {
+        let wide = ProvenNumber {
             center: 4.0,
             radius: 1.0,
         };
-        let (worst, _) = worst_component(&[8.0, 2.0], &[wide, Ball::exact(1.0)]).unwrap();
+        let (worst, _) = worst_component(&[8.0, 2.0], &[wide, ProvenNumber::exact(1.0)]).unwrap();
         assert_eq!((worst.index, worst.error), (0, 0.5));
 
         assert!(worst_component(&[0.0], &exact(&[1.0])).is_none());

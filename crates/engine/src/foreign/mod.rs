@@ -22,4 +22,4 @@ pub use report::{
     BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignInterval, ForeignReport, Off,
     Reported,
 };
-pub use verdict::{Confirmed, Refutation, Verdict, judge};
+pub use verdict::{Confirmed, ForeignVerdict, Refutation, judge};

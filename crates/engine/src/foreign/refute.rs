@@ -131,12 +131,12 @@ pub(super) fn refute(
         effort.spend(&reduced.pencil)?;
         let found = enumerate(&reduced.pencil, &near).map_err(|e| e.to_string())?;
         let supports = found.supports_total;
-        (Found::Supports(found), supports)
+        (Enumerations::Supports(found), supports)
     } else {
         effort.spend_on_modes(&reduced.pencil)?;
         let found = modes(problem, &near)?;
         let choices = found.choices;
-        (Found::Modes(found), choices)
+        (Enumerations::Modes(found), choices)
     };
 
     if let Some((solution, nearest)) = nearest(found.solutions(), &normalised, candidate) {
@@ -161,7 +161,7 @@ pub(super) fn refute(
 }
 
 /// All that an enumeration finds in a window.
-enum Found {
+enum Enumerations {
     /// By supports (24)-(26).
     Supports(Enumeration),
     /// By modes, for a system with particles in contact with zero reaction
@@ -176,11 +176,11 @@ const OTHER_SUPPORT: &str = "a solution is near, with other positive components"
 /// There are solutions that the candidate could stand for.
 const NOT_TOLD_APART: &str = "a cone of solutions is near, of which the report may be one";
 
-impl Found {
+impl Enumerations {
     fn solutions(&self) -> &[Solution] {
         match self {
-            Found::Supports(found) => &found.solutions,
-            Found::Modes(found) => &found.solutions,
+            Enumerations::Supports(found) => &found.solutions,
+            Enumerations::Modes(found) => &found.solutions,
         }
     }
 
@@ -188,10 +188,10 @@ impl Found {
     /// candidate.
     fn others(&self, candidate: &Candidate, slip: &[usize]) -> Result<usize, String> {
         let found = match self {
-            Found::Modes(found) if found.degenerate.is_empty() => {
+            Enumerations::Modes(found) if found.degenerate.is_empty() => {
                 return Ok(found.solutions.len());
             }
-            Found::Supports(found) if found.is_complete_list() => found,
+            Enumerations::Supports(found) if found.is_complete_list() => found,
             _ => return Err(NOT_DESCRIBED.into()),
         };
 

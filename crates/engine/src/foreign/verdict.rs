@@ -4,7 +4,7 @@
 //! `certify` looks for a solution near the reported one and `check` decides whether it is one. If
 //! so, the report is compared with it ([`agreement`]); if not, `refute` tries to prove that nothing
 //! is near. Input: a problem, its reduction, and a point of a report. Called by the command `check`
-//! and by the conformance runner; [`Verdict::line`] is what they print.
+//! and by the conformance runner; [`ForeignVerdict::line`] is what they print.
 
 use super::agreement::{Agreement, agreement};
 use super::refute::{Effort, Enumerated, refute};
@@ -28,7 +28,7 @@ const VALUE_DIGITS: usize = 17;
 
 /// What became of a foreign solution.
 #[derive(Debug, Clone)]
-pub enum Verdict {
+pub enum ForeignVerdict {
     /// It exists: `certify` made the claim, which the checker has accepted, and the report agrees
     /// with it to the tolerance.
     Accepted(Box<Confirmed>),
@@ -100,16 +100,16 @@ pub fn judge(
     reported: &Reported,
     tolerance: f64,
     effort: &mut Effort,
-) -> Verdict {
+) -> ForeignVerdict {
     let candidate = &reported.candidate;
     if candidate.x.iter().all(|v| *v == 0.0) {
-        return Verdict::Rejected(Refutation::ZeroX);
+        return ForeignVerdict::Rejected(Refutation::ZeroX);
     }
 
     let proved = match prove(problem, reduced, reported, candidate) {
         Ok(proved) => proved,
         Err(reason) => match refute(problem, reduced, candidate, effort) {
-            Ok(Enumerated::Refuted(refutation)) => return Verdict::Rejected(refutation),
+            Ok(Enumerated::Refuted(refutation)) => return ForeignVerdict::Rejected(refutation),
             Ok(Enumerated::Near(nearest)) => match prove(problem, reduced, reported, &nearest) {
                 Ok(proved) => proved,
                 Err(why) => return undecided(problem, candidate, &reason, &why),
@@ -118,7 +118,7 @@ pub fn judge(
         },
     };
     if proved.agreement.is_within(tolerance) {
-        return Verdict::Accepted(Box::new(proved));
+        return ForeignVerdict::Accepted(Box::new(proved));
     }
 
     // Noise in components that are zero, and true components that look like noise, may have led to
@@ -130,21 +130,21 @@ pub fn judge(
             if let Some(agreement) = agreement(problem, reduced, &claim, reported)
                 && agreement.is_within(tolerance)
             {
-                return Verdict::Accepted(Box::new(Confirmed { claim, agreement }));
+                return ForeignVerdict::Accepted(Box::new(Confirmed { claim, agreement }));
             }
         }
     }
 
-    Verdict::Inaccurate {
+    ForeignVerdict::Inaccurate {
         proved: Box::new(proved),
         tolerance,
     }
 }
 
 /// The verdict where a proof of presence and one of absence failed for these reasons.
-fn undecided(problem: &Problem, candidate: &Candidate, reason: &str, why: &str) -> Verdict {
+fn undecided(problem: &Problem, candidate: &Candidate, reason: &str, why: &str) -> ForeignVerdict {
     let backward_error = backward_error_text(problem, candidate);
-    Verdict::Undecided {
+    ForeignVerdict::Undecided {
         reason: format!("{reason}; {why}{backward_error}"),
     }
 }
@@ -192,22 +192,24 @@ fn without_noise(candidate: &Candidate, tolerance: f64) -> Candidate {
     cleaned
 }
 
-impl Verdict {
+impl ForeignVerdict {
     /// One line for people; `given` is the value as reported.
     pub fn line(&self, problem: &Problem, given: f64) -> String {
         let word = problem.unknown().word();
         match self {
-            Verdict::Accepted(proved) => {
+            ForeignVerdict::Accepted(proved) => {
                 let exists = existing(problem, &proved.claim);
                 let value = digits_text(proved.agreement.value);
                 let x = digits_text(proved.agreement.worst.error);
                 format!("ACCEPTED: {exists}; proved; its value agrees to {value}, x to {x}")
             }
-            Verdict::Inaccurate { proved, tolerance } => {
+            ForeignVerdict::Inaccurate { proved, tolerance } => {
                 inaccurate_text(problem, given, proved, *tolerance)
             }
-            Verdict::Rejected(why) => format!("REJECTED: {word} = {given}: {why}"),
-            Verdict::Undecided { reason } => format!("UNDECIDED: {word} = {given}: {reason}"),
+            ForeignVerdict::Rejected(why) => format!("REJECTED: {word} = {given}: {why}"),
+            ForeignVerdict::Undecided { reason } => {
+                format!("UNDECIDED: {word} = {given}: {reason}")
+            }
         }
     }
 }

@@ -19,5 +19,5 @@ pub use file::{
     FileError, MCP_FORMAT, McpCertificate, SOLUTION_FORMAT, read_mcp, read_solution, write_mcp,
     write_solution,
 };
-pub use search::{Found, Search, search};
+pub use search::{PlainFound, PlainSearch, search};
 pub use verdict::{McpRejected, judge};

@@ -1,8 +1,8 @@
 //! Many starts on a plain problem: Lemke's ray first, then the solver and curves from seeded
 //! points.
 //!
-//! Input: an exact problem and how much to search ([`Search`]). Output: what was found and
-//! certified ([`Found`]). Called by `mceip solve` for plain problems.
+//! Input: an exact problem and how much to search ([`PlainSearch`]). Output: what was found and
+//! certified ([`PlainFound`]). Called by `mceip solve` for plain problems.
 #![allow(clippy::float_arithmetic)]
 
 use super::certify::Uncertifiable;
@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 
 /// What a search of a plain problem found.
 #[derive(Debug, Clone, Default)]
-pub struct Found {
+pub struct PlainFound {
     /// Distinct exact solutions, in the order of discovery.
     pub certified: Vec<Vec<Rational>>,
     /// Points within the tolerance that are no certified solution, with the reason.
@@ -45,7 +45,7 @@ pub struct Found {
 
 /// How to search.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Search {
+pub struct PlainSearch {
     /// Starts.
     pub starts: usize,
     /// Go on after the first certified solution, and follow curves?
@@ -66,13 +66,17 @@ pub struct Search {
 ///
 /// # Errors
 /// [`SolverError`] for options and numbers that make no sense.
-pub fn search(problem: &ExactMcp, how: &Search, watch: &Watch<'_>) -> Result<Found, SolverError> {
+pub fn search(
+    problem: &ExactMcp,
+    how: &PlainSearch,
+    watch: &Watch<'_>,
+) -> Result<PlainFound, SolverError> {
     require_starts(how.starts, problem.dimension())?;
-    let mut hunt = Hunt {
+    let mut hunt = PlainHunt {
         problem,
         doubles: problem.to_f64()?,
         how,
-        found: Found::default(),
+        found: PlainFound::default(),
     };
 
     let mut rng = ChaCha8Rng::seed_from_u64(how.seed);
@@ -122,14 +126,14 @@ fn random_start(dimension: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
 }
 
 /// A search under way.
-struct Hunt<'a> {
+struct PlainHunt<'a> {
     problem: &'a ExactMcp,
     doubles: LinearMcp,
-    how: &'a Search,
-    found: Found,
+    how: &'a PlainSearch,
+    found: PlainFound,
 }
 
-impl Hunt<'_> {
+impl PlainHunt<'_> {
     /// Follows the curve through a point, and solves from every solution it meets.
     fn follow_curve(&mut self, start: &[f64], sense: Sense) -> Result<(), SolverError> {
         let options = &self.how.options;

@@ -12,7 +12,7 @@
 use super::found::{Found, Origin};
 use super::ground::Ground;
 use super::same::support;
-use super::search::{Certifier, Search};
+use super::search::{Certify, Search};
 use super::trace::trace_outcome;
 use crate::candidate::Candidate;
 use crate::reduction::{Embedding, Side};
@@ -36,7 +36,7 @@ pub(super) struct Hunt<'a> {
     pub(super) zero: &'a [ZeroVariables],
     pub(super) window: &'a Window,
     pub(super) search: &'a Search,
-    pub(super) certifier: &'a Certifier<'a>,
+    pub(super) certifier: &'a Certify<'a>,
     pub(super) watch: Watch<'a>,
     pub(super) found: Found,
 }

@@ -35,7 +35,7 @@ pub use search::{MAX_STARTS, Search};
 pub use trace::trace_outcome;
 
 use crate::certify;
-use crate::reduction::{Expansion, Side, condense};
+use crate::reduction::{FreeExpansion, Side, condense};
 use crate::run::Watch;
 use crate::tolerance::WINDOW_GAP;
 use doubles::require_doubles;
@@ -72,7 +72,7 @@ pub fn multistart(
     let has_many_free = pencil.free().len() >= CONDENSE_FROM;
     if reduced.zero.is_empty() && problem.unknown() == Unknown::Mu && has_many_free {
         let condensed = condense(&admissible)?;
-        let expansion = Expansion::new(pencil).ok_or(SearchError::SingularInDoubles)?;
+        let expansion = FreeExpansion::new(pencil).ok_or(SearchError::SingularInDoubles)?;
         return search_with(Hunt {
             admissible: &Admissible::new(&condensed, Unknown::Mu)?,
             zero: &[],

@@ -85,4 +85,4 @@ impl Default for Search {
 
 /// What turns a candidate into a claim that the checker has accepted: any function, so that a
 /// condensed pencil can be searched and the claim made about the full one.
-pub(super) type Certifier<'a> = dyn Fn(&Candidate) -> Result<Claim, NotCertified> + 'a;
+pub(super) type Certify<'a> = dyn Fn(&Candidate) -> Result<Claim, NotCertified> + 'a;

@@ -20,7 +20,7 @@ use mceip_mcp::linear::{SparseLu, solve};
 use mceip_model::{Pencil, Variable};
 
 /// From a candidate of the condensed pencil to one of the full pencil: x_f = -A_ff^-1 A_fs x_s.
-pub struct Expansion {
+pub struct FreeExpansion {
     order: usize,
     free: Vec<usize>,
     slip: Vec<usize>,
@@ -28,9 +28,9 @@ pub struct Expansion {
     columns: Vec<Vec<f64>>,
 }
 
-impl Expansion {
+impl FreeExpansion {
     /// Factors A_ff in doubles; `None` if it is numerically singular.
-    pub fn new(pencil: &Pencil) -> Option<Expansion> {
+    pub fn new(pencil: &Pencil) -> Option<FreeExpansion> {
         let free = pencil.free().to_vec();
         let slip = pencil.slip();
         let a_ff = pencil.a().submatrix(&free, &free);
@@ -39,7 +39,7 @@ impl Expansion {
         // The right-hand sides are the columns of A_fs.
         let columns = solve(&rounded(&a_ff), &rounded(&a_fs.transpose()))?;
 
-        Some(Expansion {
+        Some(FreeExpansion {
             order: pencil.order(),
             free,
             slip,
@@ -136,7 +136,7 @@ mod tests {
             x: vec![1.0, 3.0],
         };
 
-        let full = Expansion::new(&pencil).unwrap().expand(&condensed);
+        let full = FreeExpansion::new(&pencil).unwrap().expand(&condensed);
 
         // 4 x_0 + 1 - 2 * 3 = 0.
         let expected = Candidate {

@@ -32,7 +32,7 @@ pub use condensed_mcp::CondensedEmbedding;
 pub use embed::{Embedding, Side};
 pub use error::CondensationError;
 pub(crate) use expand::with_free_variables;
-pub use expand::{Expansion, mode};
+pub use expand::{FreeExpansion, mode};
 pub use project::{Projected, project};
 pub use reversed::reversed;
 

@@ -111,7 +111,7 @@ impl Listed {
                 kernel_dimension: Some(found.kernel_dimension(solution)),
                 ..Listed::of_solution(problem, reduced, solution)
             };
-            entries.push(Entry {
+            entries.push(ListEntry {
                 value: &solution.value,
                 slip: &solution.slip,
                 listed,
@@ -119,14 +119,14 @@ impl Listed {
         }
 
         for cone in &found.cones {
-            entries.push(Entry {
+            entries.push(ListEntry {
                 value: &cone.value,
                 slip: &cone.slip,
                 listed: Listed::of_cone(problem, reduced, cone),
             });
         }
 
-        entries.sort_by(Entry::by_value_and_slip);
+        entries.sort_by(ListEntry::by_value_and_slip);
         entries.into_iter().map(|entry| entry.listed).collect()
     }
 
@@ -255,14 +255,14 @@ impl ProvedList<'_> {
 }
 
 /// A solution or cone of the enumerator with the keys of its place in the list.
-struct Entry<'a> {
+struct ListEntry<'a> {
     value: &'a Algebraic,
     slip: &'a [usize],
     listed: Listed,
 }
 
-impl Entry<'_> {
-    fn by_value_and_slip(&self, other: &Entry<'_>) -> Ordering {
+impl ListEntry<'_> {
+    fn by_value_and_slip(&self, other: &ListEntry<'_>) -> Ordering {
         let mut value = self.value.clone();
         let by_value = value.cmp_exact(&mut other.value.clone());
         by_value.then_with(|| self.slip.cmp(other.slip))

@@ -13,7 +13,7 @@ use crate::search::complete::leaf::farkas::{Columns, MiddleTest};
 use crate::search::complete::leaf::regular::RegularWitness;
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::region::{Item, Region};
-use crate::search::complete::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, Search};
+use crate::search::complete::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
 use crate::tolerance::THIN_MARGIN;
 use mceip_check::certificate::Node;
 use mceip_exact::{Rational, to_f64};
@@ -66,7 +66,7 @@ impl Aim for Absence {
     }
 
     /// A leaf `regular`, or both halves.
-    fn decided(search: &mut Search<'_, Self>, here: &Here<'_>, share: f64) {
+    fn decided(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64) {
         let witness = if search.may_be_regular(here) {
             RegularWitness::of(&here.middle.matrix, &here.region.states)
         } else {
@@ -85,21 +85,21 @@ impl Aim for Absence {
         }
     }
 
-    fn is_worth_cutting(_search: &Search<'_, Self>, here: &Here<'_>) -> bool {
+    fn is_worth_cutting(_search: &TreeSearch<'_, Self>, here: &Here<'_>) -> bool {
         here.region.cuts < MAX_CUTS && cuts_needed(here) <= MAX_CUTS_NEEDED
     }
 
-    fn cut(search: &mut Search<'_, Self>, here: &Here<'_>, share: f64) {
+    fn cut(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64) {
         search.halve(here, None, share);
     }
 
-    fn leave(search: &mut Search<'_, Self>, region: &Region, _share: f64) {
+    fn leave(search: &mut TreeSearch<'_, Self>, region: &Region, _share: f64) {
         let middle = search.middle_test(region);
         search.block(Cause::Budget, region, &middle);
     }
 }
 
-impl Search<'_, Absence> {
+impl TreeSearch<'_, Absence> {
     fn block(&mut self, cause: Cause, region: &Region, middle: &MiddleTest) {
         self.aim.blocked = Some(Blocked {
             cause,

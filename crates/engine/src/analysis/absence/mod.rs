@@ -8,8 +8,8 @@
 //!
 //! With particles of zero reaction T is that of the split form, and supports are those of its
 //! variables. Doubles propose the cover, and nothing is returned as proved before the checker has
-//! accepted it. Input: a system and the interval. Output: `Outcome`. Called by `critical`, which
-//! chooses bounds for intervals from 0 on, and by `absent_ranges`.
+//! accepted it. Input: a system and the interval. Output: `CoverOutcome`. Called by `critical`,
+//! which chooses bounds for intervals from 0 on, and by `absent_ranges`.
 
 mod boxes;
 mod family;
@@ -20,7 +20,7 @@ use crate::search::complete::CompleteError;
 use crate::search::complete::region::Region;
 use crate::search::complete::shares::Shares;
 use crate::search::complete::splice::numbered;
-use crate::search::complete::tree::Search;
+use crate::search::complete::tree::TreeSearch;
 use boxes::Absence;
 pub(super) use boxes::{Blocked, Cause};
 use family::PieceOfHalfLine;
@@ -64,7 +64,7 @@ const CAUTION: f64 = 8.0;
 const CAUTIOUS_ROUNDS: usize = 2;
 
 /// What a search ends with.
-pub(super) enum Outcome {
+pub(super) enum CoverOutcome {
     /// The checker has accepted it.
     Absent(Box<Proved<CriticalCertificate>>),
     /// Of each piece that was not emptied the first box that could not be.
@@ -179,12 +179,12 @@ impl<'a> Quadrant<'a> {
         &self,
         bound: &Bound<'_>,
         last: &mut LastFamily,
-    ) -> Result<Outcome, CompleteError> {
+    ) -> Result<CoverOutcome, CompleteError> {
         let family = self.family(bound, last)?;
         for _ in 0..=CAUTIOUS_ROUNDS {
             let certificate = match self.proposed(family, bound) {
                 Ok(certificate) => certificate,
-                Err(blocked) => return Ok(Outcome::Blocked(blocked)),
+                Err(blocked) => return Ok(CoverOutcome::Blocked(blocked)),
             };
 
             self.watch.report(&Progress {
@@ -193,8 +193,8 @@ impl<'a> Quadrant<'a> {
             });
             let go_on = || !self.watch.is_cancelled();
             match Proved::unless_stopped(self.problem, certificate, &go_on) {
-                Ok(Some(proved)) => return Ok(Outcome::Absent(Box::new(proved))),
-                Ok(None) => return Ok(Outcome::Stopped),
+                Ok(Some(proved)) => return Ok(CoverOutcome::Absent(Box::new(proved))),
+                Ok(None) => return Ok(CoverOutcome::Stopped),
                 Err(_) => {}
             }
 
@@ -202,7 +202,7 @@ impl<'a> Quadrant<'a> {
         }
 
         *last = LastFamily::default();
-        Ok(Outcome::Refused)
+        Ok(CoverOutcome::Refused)
     }
 
     /// The cover that doubles propose.
@@ -259,7 +259,7 @@ impl<'a> Quadrant<'a> {
             return Ok(covered);
         }
 
-        let mut search = Search {
+        let mut search = TreeSearch {
             view: family.view(),
             expansions: family.expansions(piece.anchor),
             shares,
@@ -298,11 +298,16 @@ mod tests {
     use mceip_paper::{Block, BlockModel, two_particles};
 
     /// Covers [0, infinity) x [0, below] for a system with mass and friction.
-    fn cover(system: &System, below: f64, places: &[Place]) -> Outcome {
+    fn cover(system: &System, below: f64, places: &[Place]) -> CoverOutcome {
         watched_cover(system, below, places, Watch::nobody())
     }
 
-    fn watched_cover(system: &System, below: f64, places: &[Place], watch: Watch<'_>) -> Outcome {
+    fn watched_cover(
+        system: &System,
+        below: f64,
+        places: &[Place],
+        watch: Watch<'_>,
+    ) -> CoverOutcome {
         let families = Families::of(system).unwrap();
         let body = Body::System(system.clone());
         let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
@@ -336,7 +341,7 @@ mod tests {
             signs: (1, 1),
         };
         let system = two_particles(&data).unwrap();
-        assert!(matches!(cover(&system, 1.5, &[]), Outcome::Absent(_)));
+        assert!(matches!(cover(&system, 1.5, &[]), CoverOutcome::Absent(_)));
 
         let cancel = Cancel::new();
         let cancel_at_check = |progress: &Progress<'_>| {
@@ -346,7 +351,7 @@ mod tests {
         };
         let watch = Watch::new(&cancel, &cancel_at_check);
         let outcome = watched_cover(&system, 1.5, &[], watch);
-        assert!(matches!(outcome, Outcome::Stopped));
+        assert!(matches!(outcome, CoverOutcome::Stopped));
         assert!(cancel.is_requested());
     }
 
@@ -393,10 +398,10 @@ mod tests {
             near: 0.03,
         };
         let below = cover(system, critical * (1.0 - 1e-6), &[place]);
-        assert!(matches!(below, Outcome::Absent(_)), "{critical}");
+        assert!(matches!(below, CoverOutcome::Absent(_)), "{critical}");
 
         let above = cover(system, critical * (1.0 + 1e-6), &[place]);
-        let Outcome::Blocked(blocked) = above else {
+        let CoverOutcome::Blocked(blocked) = above else {
             panic!("a solution at {critical} was not met")
         };
         blocked
@@ -427,7 +432,7 @@ mod tests {
                     let blocked = absent_just_below_and_not_above(&system, threshold, 0.0);
                     assert!(blocked.iter().any(|b| b.cause == Cause::Solution));
                 }
-                None => assert!(matches!(cover(&system, 1e6, &[]), Outcome::Absent(_))),
+                None => assert!(matches!(cover(&system, 1e6, &[]), CoverOutcome::Absent(_))),
             }
         }
     }

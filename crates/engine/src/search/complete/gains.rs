@@ -15,7 +15,7 @@ use super::leaf::farkas::Columns;
 use super::pieces::expansion::Ends;
 use super::region::{self, Region, State};
 use super::solutions::Solutions;
-use super::tree::{Aim, MAX_CUTS, SLACK_OF_HALF, Search};
+use super::tree::{Aim, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
 use crate::tolerance::{LEAST_GAIN, NARROW, WITNESS_MARGIN};
 use mceip_check::certificate::Node;
 use mceip_exact::{Rational, to_f64};
@@ -66,7 +66,7 @@ fn gain(value: f64, part: &EndsGame) -> f64 {
     gain.max(LEAST_GAIN)
 }
 
-impl Search<'_, Solutions<'_>> {
+impl TreeSearch<'_, Solutions<'_>> {
     /// Are games kept over such an interval? T has to be linear there.
     pub(super) fn keeps_games(&self, ends: &Ends) -> bool {
         self.view.order() >= KEPT_FROM && ends.r.is_none() && !ends.is_half_line()

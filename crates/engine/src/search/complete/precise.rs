@@ -51,7 +51,7 @@ struct PlacedRoot {
 }
 
 /// A component of a vector by its variable.
-type Component = (usize, Rational);
+type IndexedNumber = (usize, Rational);
 
 /// The certificate with the open regions that long numbers decide closed, for the checker to judge;
 /// `None` if there are none.
@@ -209,7 +209,7 @@ fn root(given: &Given<'_>, view: &View, expansion: &Expansion, region: &Region) 
 
 /// Puts the long null vector x, scaled to 1 at the pivot, and what its signs and those of y say
 /// into a root; `None` where x is zero at the pivot.
-fn write_signs(root: &mut Root, x: &[Component], y: &[Component]) -> Option<()> {
+fn write_signs(root: &mut Root, x: &[IndexedNumber], y: &[IndexedNumber]) -> Option<()> {
     let at_pivot = x.iter().find(|(i, _)| *i == root.pivot);
     let scale = at_pivot.map(|(_, x)| x).filter(|x| !x.is_zero())?;
     let x = divided(x, scale);
@@ -230,7 +230,7 @@ fn write_signs(root: &mut Root, x: &[Component], y: &[Component]) -> Option<()> 
     Some(())
 }
 
-fn divided(list: &[Component], scale: &Rational) -> Vec<Component> {
+fn divided(list: &[IndexedNumber], scale: &Rational) -> Vec<IndexedNumber> {
     let mut quotients = Vec::with_capacity(list.len());
     for (i, v) in list {
         quotients.push((*i, v / scale));
@@ -240,7 +240,7 @@ fn divided(list: &[Component], scale: &Rational) -> Vec<Component> {
 }
 
 /// What the signs of x, scaled to 1 at the pivot, and of y say.
-fn outcome(x: &[Component], y: &[Component]) -> RootOutcome {
+fn outcome(x: &[IndexedNumber], y: &[IndexedNumber]) -> RootOutcome {
     if let Some(i) = most_negative(x) {
         RootOutcome::NegativeX(i)
     } else if let Some(i) = most_negative(y) {
@@ -250,7 +250,7 @@ fn outcome(x: &[Component], y: &[Component]) -> RootOutcome {
     }
 }
 
-fn most_negative(list: &[Component]) -> Option<usize> {
+fn most_negative(list: &[IndexedNumber]) -> Option<usize> {
     list.iter()
         .filter(|(_, v)| v.is_negative())
         .min_by(|p, q| p.1.cmp(&q.1))

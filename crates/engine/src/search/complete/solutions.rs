@@ -16,7 +16,7 @@ use super::leaf::root::{PartLeaf, RootSearch, Searched, part_around};
 use super::leaf::{definite, infinity, ldl, support};
 use super::pieces::expansion::{Ends, Expansion};
 use super::region::{self, Item, Region, State};
-use super::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, Search};
+use super::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
 use crate::tolerance::{DEGENERATE_PART, NARROW};
 use mceip_check::certificate::Node;
 use mceip_exact::Rational;
@@ -64,7 +64,7 @@ impl Aim for Solutions<'_> {
     }
 
     fn by_gains(
-        search: &mut Search<'_, Self>,
+        search: &mut TreeSearch<'_, Self>,
         region: &Region,
         ends: &Rc<[Ends]>,
         kept: Option<KeptGame>,
@@ -73,7 +73,11 @@ impl Aim for Solutions<'_> {
         search.by_gains(region, ends, kept, share)
     }
 
-    fn definite_leaf(search: &Search<'_, Self>, region: &Region, corners: &[Ends]) -> Option<Node> {
+    fn definite_leaf(
+        search: &TreeSearch<'_, Self>,
+        region: &Region,
+        corners: &[Ends],
+    ) -> Option<Node> {
         let by_doubles = definite::leaf(corners, &region.states);
         if by_doubles.is_some() || search.expansion().reversed {
             return by_doubles;
@@ -83,7 +87,7 @@ impl Aim for Solutions<'_> {
     }
 
     /// By its null vector, by exact arithmetic, or by further cuts.
-    fn decided(search: &mut Search<'_, Self>, here: &Here<'_>, share: f64) {
+    fn decided(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64) {
         let region = here.region;
         let ends = &here.ends[0];
         let is_closed = search.null_vector_leaf(region, ends, share);
@@ -102,7 +106,7 @@ impl Aim for Solutions<'_> {
         Self::cut(search, here, share);
     }
 
-    fn is_worth_cutting(search: &Search<'_, Self>, here: &Here<'_>) -> bool {
+    fn is_worth_cutting(search: &TreeSearch<'_, Self>, here: &Here<'_>) -> bool {
         let ends = &here.ends[0];
         let max_cuts = if ends.is_half_line() {
             MAX_CUTS_TO_INFINITY
@@ -114,7 +118,7 @@ impl Aim for Solutions<'_> {
     }
 
     /// Cuts out the part on which the middle's witness works, or halves.
-    fn cut(search: &mut Search<'_, Self>, here: &Here<'_>, share: f64) {
+    fn cut(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64) {
         let region = here.region;
         let mut cuts = proposed_cuts(&here.ends[0], &here.columns, &here.middle);
         cuts.retain(|cut| region.has_inside(cut));
@@ -136,12 +140,12 @@ impl Aim for Solutions<'_> {
         search.region(&rest, part);
     }
 
-    fn leave(search: &mut Search<'_, Self>, _region: &Region, share: f64) {
+    fn leave(search: &mut TreeSearch<'_, Self>, _region: &Region, share: f64) {
         search.leaf(Node::Open, share);
     }
 }
 
-impl Search<'_, Solutions<'_>> {
+impl TreeSearch<'_, Solutions<'_>> {
     /// T over the interval of a region.
     pub(super) fn expansion(&self) -> &Expansion {
         &self.expansions[0]

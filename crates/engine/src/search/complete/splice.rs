@@ -14,7 +14,7 @@ use super::pieces::prepared::Prepared;
 use super::region::{Item, Region};
 use super::shares::Shares;
 use super::solutions::Solutions;
-use super::tree::Search;
+use super::tree::TreeSearch;
 use mceip_check::LeafPlace;
 use mceip_check::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
 use mceip_exact::Rational;
@@ -110,7 +110,7 @@ impl Pass<'_> {
         }
 
         let expansion = self.prepared.view.expansion(piece.anchor);
-        let mut search = Search {
+        let mut search = TreeSearch {
             view: &self.prepared.view,
             expansions: std::slice::from_ref(expansion),
             shares: self.shares,
@@ -147,7 +147,7 @@ impl Pass<'_> {
 
     /// Copies the tree of a piece in preorder; a chosen open leaf is replaced by what the search of
     /// its region finds.
-    fn splice(&self, search: &mut Search<'_, Solutions<'_>>, k: usize) {
+    fn splice(&self, search: &mut TreeSearch<'_, Solutions<'_>>, k: usize) {
         let piece = &self.set.pieces[k];
         let hi = piece.max.as_ref().map(|number| number.0.clone());
         let mut waiting = vec![Waiting {
@@ -177,7 +177,12 @@ impl Pass<'_> {
     }
 
     /// Searches the region of an open leaf.
-    fn search_leaf(&self, search: &mut Search<'_, Solutions<'_>>, leaf: &Waiting, piece: &Piece) {
+    fn search_leaf(
+        &self,
+        search: &mut TreeSearch<'_, Solutions<'_>>,
+        leaf: &Waiting,
+        piece: &Piece,
+    ) {
         // A piece beyond the anchors has no matrices to search with.
         let is_enclosed = piece.anchor.is_some() || search.expansion().is_everywhere();
         let is_exact = matches!(self.chosen, Chosen::Exactly(_));
@@ -188,7 +193,7 @@ impl Pass<'_> {
         }
     }
 
-    fn copy_leaf(&self, search: &mut Search<'_, Solutions<'_>>, leaf: &Waiting, node: &Node) {
+    fn copy_leaf(&self, search: &mut TreeSearch<'_, Solutions<'_>>, leaf: &Waiting, node: &Node) {
         search.items.push(Item::Node(node.clone()));
         if *node != Node::Open {
             self.shares.closed(leaf.share, false);

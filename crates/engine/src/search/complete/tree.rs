@@ -36,7 +36,7 @@ pub(crate) const MAX_CUTS: usize = 24;
 pub(crate) const SLACK_OF_HALF: f64 = 0.1;
 
 /// One piece's search.
-pub(crate) struct Search<'a, A> {
+pub(crate) struct TreeSearch<'a, A> {
     pub(crate) view: &'a View,
     /// T over an interval of t; T0 and T1 where it depends on mu.
     pub(crate) expansions: &'a [Expansion],
@@ -72,7 +72,7 @@ pub(crate) trait Aim: Sized {
     /// Covers a region by means of a game that is kept from region to region. Returns false, and
     /// covers nothing, where that cannot be done.
     fn by_gains(
-        _search: &mut Search<'_, Self>,
+        _search: &mut TreeSearch<'_, Self>,
         _region: &Region,
         _ends: &Rc<[Ends]>,
         _kept: Option<KeptGame>,
@@ -83,7 +83,7 @@ pub(crate) trait Aim: Sized {
 
     /// A leaf by a definite symmetric part.
     fn definite_leaf(
-        _search: &Search<'_, Self>,
+        _search: &TreeSearch<'_, Self>,
         region: &Region,
         corners: &[Ends],
     ) -> Option<Node> {
@@ -91,19 +91,19 @@ pub(crate) trait Aim: Sized {
     }
 
     /// Covers a region in which every variable is decided.
-    fn decided(search: &mut Search<'_, Self>, here: &Here<'_>, share: f64);
+    fn decided(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64);
 
     /// Does a cut of a region that is not decided lead further than a branch?
-    fn is_worth_cutting(search: &Search<'_, Self>, here: &Here<'_>) -> bool;
+    fn is_worth_cutting(search: &TreeSearch<'_, Self>, here: &Here<'_>) -> bool;
 
     /// Cuts an interval of a region, and covers the parts.
-    fn cut(search: &mut Search<'_, Self>, here: &Here<'_>, share: f64);
+    fn cut(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64);
 
     /// Leaves a region for which no budget is left.
-    fn leave(search: &mut Search<'_, Self>, region: &Region, share: f64);
+    fn leave(search: &mut TreeSearch<'_, Self>, region: &Region, share: f64);
 }
 
-impl<A: Aim> Search<'_, A> {
+impl<A: Aim> TreeSearch<'_, A> {
     /// Covers a region; what it finds is appended to the items. `share` is its part of the whole
     /// search.
     pub(crate) fn region(&mut self, region: &Region, share: f64) {

@@ -257,10 +257,10 @@ impl Columns {
     }
 
     /// The part of [0, 1] around `from` on which w still works on the chord between the ends.
-    pub(crate) fn range(&self, w: &[f64], from: f64) -> Option<Range> {
+    pub(crate) fn range(&self, w: &[f64], from: f64) -> Option<UnitRange> {
         let size: f64 = w.iter().map(|v| v.abs()).sum();
         let (at_lower, at_upper) = self.list.split_at(self.list.len() / 2);
-        let mut range = Range {
+        let mut range = UnitRange {
             begin: 0.0,
             end: 1.0,
         };
@@ -286,7 +286,7 @@ impl Columns {
 }
 
 /// A part of the unit interval.
-pub(crate) struct Range {
+pub(crate) struct UnitRange {
     pub(crate) begin: f64,
     pub(crate) end: f64,
 }

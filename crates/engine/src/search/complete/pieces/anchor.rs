@@ -185,7 +185,7 @@ pub(crate) struct Beside {
 }
 
 /// A matrix by columns: one per complementarity variable, over the free variables.
-pub(crate) type Columns = Vec<Vec<f64>>;
+pub(crate) type SlipColumns = Vec<Vec<f64>>;
 
 /// The elimination of the free variables of one pencil.
 pub(crate) struct Elimination<'a> {
@@ -225,7 +225,7 @@ impl<'a> Elimination<'a> {
     /// V alone about the centre of an anchor of a pencil with the same free rows, whose W is
     /// `right`: of the degree of W, with as many bits as the V of that anchor. `None` where F is
     /// not definite in doubles.
-    pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[Columns]) -> Option<Beside> {
+    pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[SlipColumns]) -> Option<Beside> {
         let at = to_f64(&anchor.center.0);
         let solution = Solution::about(&self.blocks, at)?;
         let degree = right.len().saturating_sub(1);
@@ -240,7 +240,12 @@ impl<'a> Elimination<'a> {
 
     /// The condensed pencil about a centre and the norms of the residuals, as the checker will
     /// compute them. `right` and `left` are the coefficients of W and V.
-    pub(crate) fn expansion(&self, center: f64, right: &[Columns], left: &[Columns]) -> Expansion {
+    pub(crate) fn expansion(
+        &self,
+        center: f64,
+        right: &[SlipColumns],
+        left: &[SlipColumns],
+    ) -> Expansion {
         let blocks = &self.blocks;
         let order = blocks.slip.len();
         let right_residual = residual(blocks, &blocks.fs, center, right);
@@ -251,7 +256,7 @@ impl<'a> Elimination<'a> {
             .map(|&i| to_f64(&row_factor(self.pencil, i)))
             .collect();
 
-        let condensed = Condensed {
+        let condensed = CondensedPolynomial {
             pencil: self.pencil,
             blocks,
             center,
@@ -304,7 +309,7 @@ struct Solution<'a> {
 #[derive(Default)]
 struct Taylor {
     integers: Vec<IntegerMatrix>,
-    rounded: Vec<Columns>,
+    rounded: Vec<SlipColumns>,
 }
 
 impl<'a> Solution<'a> {
@@ -346,9 +351,9 @@ impl<'a> Solution<'a> {
         &self,
         given: &LinearColumns,
         k: usize,
-        before: Option<&Columns>,
-    ) -> Columns {
-        let mut columns = Columns::new();
+        before: Option<&SlipColumns>,
+    ) -> SlipColumns {
+        let mut columns = SlipColumns::new();
         for j in 0..self.blocks.slip.len() {
             let mut column = match k {
                 0 => given.at(j, self.center),
@@ -375,10 +380,10 @@ fn residual(
     blocks: &Blocks,
     given: &LinearColumns,
     center: f64,
-    solution: &[Columns],
-) -> Vec<Columns> {
+    solution: &[SlipColumns],
+) -> Vec<SlipColumns> {
     let order = blocks.slip.len();
-    let zero: Columns = vec![vec![0.0; blocks.free.len()]; order];
+    let zero: SlipColumns = vec![vec![0.0; blocks.free.len()]; order];
     let mut residual = vec![zero; (solution.len() + 1).max(2)];
 
     for j in 0..order {
@@ -402,16 +407,16 @@ fn residual(
 }
 
 /// The polynomial part of the condensed pencil, T_ss - T_sf W - V'r, in powers of d.
-struct Condensed<'a> {
+struct CondensedPolynomial<'a> {
     pencil: &'a Pencil,
     blocks: &'a Blocks,
     center: f64,
-    right: &'a [Columns],
-    left: &'a [Columns],
-    right_residual: &'a [Columns],
+    right: &'a [SlipColumns],
+    left: &'a [SlipColumns],
+    right_residual: &'a [SlipColumns],
 }
 
-impl Condensed<'_> {
+impl CondensedPolynomial<'_> {
     /// The coefficients, each row times its factor.
     fn coefficients(&self, row_factors: &[f64]) -> Vec<Matrix> {
         let order = self.blocks.slip.len();
@@ -470,7 +475,7 @@ impl Condensed<'_> {
 }
 
 /// Euclidean norms of the columns of each coefficient, column j times factors[j].
-fn column_norms(coefficients: &[Columns], factors: &[f64]) -> ColumnNorms {
+fn column_norms(coefficients: &[SlipColumns], factors: &[f64]) -> ColumnNorms {
     let mut norms = ColumnNorms::new();
     for coefficient in coefficients {
         let of_columns = coefficient
@@ -487,12 +492,12 @@ fn column_norms(coefficients: &[Columns], factors: &[f64]) -> ColumnNorms {
 /// columns in doubles.
 struct Rounded {
     integers: IntegerMatrix,
-    columns: Columns,
+    columns: SlipColumns,
 }
 
 impl Rounded {
     /// Rounds columns so that the largest entry has about this many bits.
-    fn of(columns: &Columns, bits: i32) -> Rounded {
+    fn of(columns: &SlipColumns, bits: i32) -> Rounded {
         let largest = columns
             .iter()
             .flatten()
@@ -500,7 +505,7 @@ impl Rounded {
         let exponent = (bits - largest.log2().ceil() as i32).clamp(0, MAX_EXPONENT);
         let unit = f64::from(exponent).exp2();
 
-        let mut rounded = Columns::new();
+        let mut rounded = SlipColumns::new();
         for column in columns {
             rounded.push(column.iter().map(|v| (v * unit).round() / unit).collect());
         }

@@ -9,7 +9,7 @@
 //! semidefinite. Called by `prepared`. The checker's side is `check::cover::condensed`.
 
 use super::anchor::{
-    Beside, CONSTANT, Columns, Elimination, Expanded, FreeBounds, Precision, centers,
+    Beside, CONSTANT, Elimination, Expanded, FreeBounds, Precision, SlipColumns, centers,
 };
 use super::blocks::Blocks;
 use super::expansion::Expansion;
@@ -405,7 +405,7 @@ fn expansion_of(elimination: &Elimination<'_>, anchor: &Anchor) -> Expansion {
 }
 
 /// The coefficients of W or V, in doubles.
-fn columns_of_all(coefficients: &[IntegerMatrix], width: usize) -> Vec<Columns> {
+fn columns_of_all(coefficients: &[IntegerMatrix], width: usize) -> Vec<SlipColumns> {
     let coefficients = coefficients.iter();
     coefficients
         .map(|matrix| columns_of(matrix, width))
@@ -413,7 +413,7 @@ fn columns_of_all(coefficients: &[IntegerMatrix], width: usize) -> Vec<Columns> 
 }
 
 /// The columns of a rounded matrix, in doubles.
-fn columns_of(matrix: &IntegerMatrix, width: usize) -> Columns {
+fn columns_of(matrix: &IntegerMatrix, width: usize) -> SlipColumns {
     let mut columns = vec![Vec::with_capacity(matrix.rows.len()); width];
     for row in &matrix.rows {
         for (column, entry) in columns.iter_mut().zip(row.iter()) {

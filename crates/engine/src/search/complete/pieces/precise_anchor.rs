@@ -53,7 +53,7 @@ pub(crate) fn precise_anchor(
 
 /// An entry of a free row: position among the free or the complementarity variables, F_c or A + cB,
 /// and B, both times the row's multiple.
-struct Entry {
+struct RowEntry {
     position: usize,
     at_center: Integer,
     slope: Integer,
@@ -62,25 +62,25 @@ struct Entry {
 /// A free row of A + tB about a centre, its denominators cleared.
 struct FreeRow {
     multiple: Integer,
-    free: Vec<Entry>,
-    slip: Vec<Entry>,
+    free: Vec<RowEntry>,
+    slip: Vec<RowEntry>,
 }
 
 /// Where a variable of the pencil stands.
 #[derive(Clone, Copy)]
-enum Place {
+enum VariablePlace {
     Free(usize),
     Slip(usize),
 }
 
-fn places(pencil: &Pencil) -> Vec<Place> {
-    let mut places = vec![Place::Slip(0); pencil.order()];
+fn places(pencil: &Pencil) -> Vec<VariablePlace> {
+    let mut places = vec![VariablePlace::Slip(0); pencil.order()];
     for (position, &i) in pencil.free().iter().enumerate() {
-        places[i] = Place::Free(position);
+        places[i] = VariablePlace::Free(position);
     }
 
     for (position, &i) in pencil.slip().iter().enumerate() {
-        places[i] = Place::Slip(position);
+        places[i] = VariablePlace::Slip(position);
     }
 
     places
@@ -95,7 +95,7 @@ fn free_rows(pencil: &Pencil, center: &Rational) -> Vec<FreeRow> {
         .collect()
 }
 
-fn free_row(pencil: &Pencil, center: &Rational, places: &[Place], i: usize) -> FreeRow {
+fn free_row(pencil: &Pencil, center: &Rational, places: &[VariablePlace], i: usize) -> FreeRow {
     let a = pencil.a().row(i);
     let b = pencil.b().row(i);
     let clear = common_denominator(a.iter().chain(b).map(|e| &e.1));
@@ -118,11 +118,11 @@ fn free_row(pencil: &Pencil, center: &Rational, places: &[Place], i: usize) -> F
         let slope = (b * &multiple).to_integer();
 
         let (list, position) = match places[column] {
-            Place::Free(position) => (&mut row.free, position),
-            Place::Slip(position) => (&mut row.slip, position),
+            VariablePlace::Free(position) => (&mut row.free, position),
+            VariablePlace::Slip(position) => (&mut row.slip, position),
         };
 
-        list.push(Entry {
+        list.push(RowEntry {
             position,
             at_center,
             slope,

@@ -139,7 +139,7 @@ impl Prepared {
         count: usize,
         precisions: Precisions,
     ) -> Prepared {
-        let division = Division {
+        let division = WindowDivision {
             condensed: &condensed,
             window,
             per_anchor: count.div_ceil(condensed.ends.len()).max(MIN_PIECES),
@@ -397,14 +397,14 @@ impl Prepared {
 }
 
 /// The division of a window among the anchors of a condensation.
-struct Division<'a> {
+struct WindowDivision<'a> {
     condensed: &'a Condensed,
     window: &'a Window,
     /// Pieces of each anchor.
     per_anchor: usize,
 }
 
-impl Division<'_> {
+impl WindowDivision<'_> {
     fn intervals(&self) -> Vec<AnchoredInterval> {
         let view = &self.condensed.view;
         let anchors = self.condensed.ends.len();

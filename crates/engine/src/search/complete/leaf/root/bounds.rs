@@ -54,8 +54,8 @@ fn one_sided(corners: [Corner<'_>; 2]) -> Option<f64> {
 /// Step 3: has phi' one sign over the interval?
 pub(super) fn is_monotone(vectors: &NullVectors, ends: &Ends, errors: &Errors) -> bool {
     let support = vectors.support();
-    let left = Component::list(&vectors.left, errors.left);
-    let right = Component::list(&vectors.right, errors.right);
+    let left = VectorComponent::list(&vectors.left, errors.left);
+    let right = VectorComponent::list(&vectors.right, errors.right);
     let mut slope = 0.0;
     let mut around = 0.0;
 
@@ -91,20 +91,20 @@ fn schur_sign(corner: &Corner<'_>, errors: &Errors) -> i8 {
 }
 
 /// A component of a null vector and how far it may be off.
-struct Component {
+struct VectorComponent {
     value: f64,
     error: f64,
 }
 
-impl Component {
+impl VectorComponent {
     /// The components on `rest`, then the pivot's, which is exactly 1.
-    fn list(on_rest: &[f64], error: f64) -> Vec<Component> {
+    fn list(on_rest: &[f64], error: f64) -> Vec<VectorComponent> {
         let mut list = Vec::with_capacity(on_rest.len() + 1);
         for &value in on_rest {
-            list.push(Component { value, error });
+            list.push(VectorComponent { value, error });
         }
 
-        list.push(Component {
+        list.push(VectorComponent {
             value: 1.0,
             error: 0.0,
         });
@@ -112,7 +112,7 @@ impl Component {
     }
 
     /// Bound of the error of a product of two components.
-    fn product_error(&self, other: &Component) -> f64 {
+    fn product_error(&self, other: &VectorComponent) -> f64 {
         let by_first = self.error * other.value.abs();
         let by_second = self.value.abs() * other.error;
         by_first + by_second + self.error * other.error

@@ -7,7 +7,7 @@
 //! j the checker sees that (`certificate::Alone`). Called by `reasons`.
 
 use super::circuit::{circuit_at, coefficients, constants, generic_circuit, negated, unit};
-use super::reasons::{Kernel, Place, Supported};
+use super::reasons::{Kernel, Supported, Where};
 use mceip_check::certificate::{Alone, Polynomials};
 use mceip_exact::{Algebraic, Poly, Rational, Sign, cone_generators, dot};
 
@@ -74,7 +74,7 @@ impl Supported {
             let given = (&tight[..], of_tight_rows);
             let mu = self.multipliers(x, direction, &factor[0], given);
 
-            let place = Place::At(value);
+            let place = Where::At(value);
             let l = self.weights(mu.split_at(self.active.len()), &place)?;
             let l = value.reduce(&l);
             let variable = self.active[direction.place];
@@ -107,7 +107,7 @@ impl Supported {
             let given = (&tight[..], of_tight_rows);
             let mu = self.multipliers(x, direction, &factor[0], given);
 
-            let l = self.weights(mu.split_at(self.active.len()), &Place::Around(t))?;
+            let l = self.weights(mu.split_at(self.active.len()), &Where::Around(t))?;
             let variable = self.active[direction.place];
             signs.extend(self.inactive.iter().map(|&i| l[i].clone()));
             signs.push(self.column(&l, variable));

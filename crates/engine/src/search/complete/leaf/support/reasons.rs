@@ -60,31 +60,31 @@ pub(super) struct Kernel {
 
 /// Where polynomials are looked at: at an algebraic number, or at a rational number that stands for
 /// all values around it.
-pub(super) enum Place<'a> {
+pub(super) enum Where<'a> {
     At(&'a Algebraic),
     Around(&'a Rational),
 }
 
-impl Place<'_> {
+impl Where<'_> {
     pub(super) fn sign(&self, p: &Poly) -> Sign {
         match self {
-            Place::At(value) => (*value).clone().sign_of(p),
-            Place::Around(t) => Sign::from(p.sign_at(t)),
+            Where::At(value) => (*value).clone().sign_of(p),
+            Where::Around(t) => Sign::from(p.sign_at(t)),
         }
     }
 
     fn kernel(&self, matrix: Vec<Vec<Poly>>) -> Vec<Vec<Poly>> {
         match self {
-            Place::At(value) => kernel_at(matrix, &mut (*value).clone()),
-            Place::Around(_) => generic_kernel(matrix).0,
+            Where::At(value) => kernel_at(matrix, &mut (*value).clone()),
+            Where::Around(_) => generic_kernel(matrix).0,
         }
     }
 
     /// The same numbers by polynomials of lower degree, where there are such.
     fn reduced(&self, v: &[Poly]) -> Vec<Poly> {
         match self {
-            Place::At(value) => value.reduce(v),
-            Place::Around(_) => v.to_vec(),
+            Where::At(value) => value.reduce(v),
+            Where::Around(_) => v.to_vec(),
         }
     }
 }
@@ -153,7 +153,7 @@ impl Supported {
         let cone = cone_generators(&kernel.rows, kernel.basis.len(), value);
 
         let x = sum(cone.rays.iter().map(|z| combined(&kernel.basis, z)));
-        match x.filter(|x| self.is_positive(x, &Place::At(value))) {
+        match x.filter(|x| self.is_positive(x, &Where::At(value))) {
             Some(x) => self.member_at(&x, &kernel, &cone, value),
             None => self.weights_at(&kernel, value),
         }
@@ -169,7 +169,7 @@ impl Supported {
     ) -> Option<Exact> {
         let is_one_ray = cone.rays.len() == 1 && cone.lineality.is_empty();
         let alone = if kernel.basis.len() == 1 {
-            Some(self.alone(&Place::At(value))?.proof)
+            Some(self.alone(&Where::At(value))?.proof)
         } else if is_one_ray {
             let reduced = value.reduce(x);
             Some(self.alone_in_wide(&reduced, kernel, &cone.rays[0], value)?)
@@ -185,7 +185,7 @@ impl Supported {
         let strict = self.support.len();
         let mu = circuit_at(&kernel.rows, strict, kernel.basis.len(), value)?;
 
-        let place = Place::At(value);
+        let place = Where::At(value);
         let weights = self.weights(mu.split_at(strict), &place)?;
         let reduced = place.reduced(&weights);
         Some(Exact::None(Polynomials(coefficients(&reduced))))
@@ -221,7 +221,7 @@ impl Supported {
         }
 
         let x = sum(rays.iter().map(|z| combined(&kernel.basis, z)));
-        if let Some(x) = x.filter(|x| self.is_positive(x, &Place::Around(t))) {
+        if let Some(x) = x.filter(|x| self.is_positive(x, &Where::Around(t))) {
             let only_ray = match &rays[..] {
                 [z] if cone.lineality.is_empty() => Some(&z[..]),
                 _ => None,
@@ -239,7 +239,7 @@ impl Supported {
     /// The Farkas vector that a circuit gives, and the polynomials whose signs it needs.
     fn weights_around(&self, mu: &[Poly], t: &Rational) -> Option<Around> {
         let on_support_and_inactive = mu.split_at(self.support.len());
-        let mut w = primitive(self.weights(on_support_and_inactive, &Place::Around(t))?);
+        let mut w = primitive(self.weights(on_support_and_inactive, &Where::Around(t))?);
         let products = self.products(&w);
         let strict = products.iter().find(|p| p.sign_at(t) != 0)?;
         if strict.sign_at(t) > 0 {
@@ -275,7 +275,7 @@ impl Supported {
 
         let mut alone = None;
         if kernel.basis.len() == 1 {
-            let found = self.alone(&Place::Around(t))?;
+            let found = self.alone(&Where::Around(t))?;
             critical.extend(found.lead);
             alone = Some(found.proof);
         } else if let Some(z) = only_ray {
@@ -292,7 +292,7 @@ impl Supported {
     }
 
     /// Is x positive on the support?
-    fn is_positive(&self, x: &[Poly], place: &Place<'_>) -> bool {
+    fn is_positive(&self, x: &[Poly], place: &Where<'_>) -> bool {
         let on_support = &x[..self.support.len()];
         for component in on_support {
             if place.sign(component) != Sign::Positive {
@@ -313,7 +313,7 @@ impl Supported {
     /// The proof that x is the only one of a kernel of dimension one: weights on all rows but one,
     /// for each active column but the first. They are the inverse of a regular minor, up to its
     /// determinant.
-    fn alone(&self, place: &Place<'_>) -> Option<AloneOnLine> {
+    fn alone(&self, place: &Where<'_>) -> Option<AloneOnLine> {
         let pivot = self.support[0];
         let mut columns = without(&self.active, pivot);
         columns.sort_unstable();
@@ -349,7 +349,7 @@ impl Supported {
 
     /// w with w_R = mu_R and w'T = -mu on the active columns, up to a positive factor. `mu` is that
     /// of the first active variables (the others have 0) and that of the inactive ones.
-    pub(super) fn weights(&self, mu: (&[Poly], &[Poly]), place: &Place<'_>) -> Option<Vec<Poly>> {
+    pub(super) fn weights(&self, mu: (&[Poly], &[Poly]), place: &Where<'_>) -> Option<Vec<Poly>> {
         let (on_active, on_inactive) = mu;
         // The unknowns are w on the active rows and a common factor of mu.
         let mut equations = Vec::with_capacity(self.active.len());
