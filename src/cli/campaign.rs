@@ -148,10 +148,7 @@ fn start(args: &Args) -> Result<State, CliError> {
         Some(path) if path.exists() => {
             let earlier = text("the campaign's state", path)?;
             let resumed = new.resumed(&earlier);
-            let state = resumed.map_err(|source| CliError::TestkitFile {
-                path: path.display().to_string(),
-                source,
-            })?;
+            let state = resumed.map_err(|e| CliError::other_file(path, e))?;
 
             if !state.is_bound() {
                 let path = path.display();
@@ -188,8 +185,8 @@ fn families(args: &Args) -> Result<Vec<String>, CliError> {
 /// Judges a replay file: exit 1 if anything disagrees still.
 fn replay(args: &Args, path: &Path) -> Result<u8, CliError> {
     let source = text("the replay file", path)?;
-    let replay = Replay::from_json(&source).map_err(|e| bad_replay(path, e))?;
-    let case = replay.case().map_err(|e| bad_replay(path, e))?;
+    let replay = Replay::from_json(&source).map_err(|e| CliError::other_file(path, e))?;
+    let case = replay.case().map_err(|e| CliError::other_file(path, e))?;
     let judged = judge(&case, &standard(replay.seed));
 
     let text = if args.json {
@@ -204,13 +201,6 @@ fn replay(args: &Args, path: &Path) -> Result<u8, CliError> {
     } else {
         exit::REJECTED
     })
-}
-
-fn bad_replay(path: &Path, source: mceip_testkit::TestkitError) -> CliError {
-    CliError::TestkitFile {
-        path: path.display().to_string(),
-        source,
-    }
 }
 
 /// Writes the state now and then and at the end, and replays at once.

@@ -56,12 +56,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             aside(&format!("rejected: {e}"));
             return Ok(exit::REJECTED);
         }
-        Err(source) => {
-            return Err(CliError::Foreign {
-                path: args.report.display().to_string(),
-                source,
-            });
-        }
+        Err(e) => return Err(CliError::other_file(&args.report, e)),
     };
 
     let points = report.solutions;

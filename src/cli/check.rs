@@ -363,12 +363,7 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
             print(&format!("REJECTED: {e}\n"))?;
             return Ok(exit::REJECTED);
         }
-        Err(source) => {
-            return Err(CliError::Foreign {
-                path: args.certificate.display().to_string(),
-                source,
-            });
-        }
+        Err(e) => return Err(CliError::other_file(&args.certificate, e)),
     };
 
     let job = Job::begin_with_nothing_to_keep("judging");

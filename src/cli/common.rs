@@ -40,13 +40,13 @@ pub(super) enum CliError {
         /// What is wrong with it.
         source: ModelError,
     },
-    /// A plain problem or its solution.
+    /// A file of another kind than those of the model.
     #[error("{path}: {source}")]
-    Plain {
+    OtherFile {
         /// Its path.
         path: String,
         /// What is wrong with it.
-        source: mceip_engine::lcp::FileError,
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A matrix that is symmetric up to rounding only.
     #[error(
@@ -91,22 +91,6 @@ pub(super) enum CliError {
     /// A pencil has no motion.
     #[error("simulate: expected a mechanical system (stiffness, mass, friction), got a pencil")]
     SimulatedPencil,
-    /// A table of contact states.
-    #[error("{path}: {source}")]
-    Contacts {
-        /// Its path.
-        path: String,
-        /// What is wrong with it.
-        source: mceip_paper::ContactsError,
-    },
-    /// A table of nodes.
-    #[error("{path}: {source}")]
-    Nodes {
-        /// Its path.
-        path: String,
-        /// What is wrong with it.
-        source: mceip_paper::NodesError,
-    },
     /// Displacements that are none, or of another body.
     #[error("{path}: expected {expected} numbers, one for each degree of freedom, got {got}")]
     Displacements {
@@ -117,36 +101,12 @@ pub(super) enum CliError {
         /// How many numbers, or what is none.
         got: String,
     },
-    /// A file of CalculiX.
-    #[error("{path}: {source}")]
-    Calculix {
-        /// Its path.
-        path: String,
-        /// What is wrong with it.
-        source: mceip_paper::calculix::CalculixError,
-    },
-    /// A certificate among several.
-    #[error("{path}: {source}")]
-    Part {
-        /// Its path.
-        path: String,
-        /// What is wrong with it.
-        source: mceip_engine::search::complete::CompleteError,
-    },
     /// The checker refuses as a whole what it has accepted claim by claim.
     #[error("the certificate is refused: {0}")]
     Refused(#[from] mceip_check::Rejected),
     /// The test kit refuses a run.
     #[error(transparent)]
     Testkit(#[from] TestkitError),
-    /// The test kit refuses a file: a campaign's state or a replay file.
-    #[error("{path}: {source}")]
-    TestkitFile {
-        /// Its path.
-        path: String,
-        /// What is wrong with it.
-        source: TestkitError,
-    },
     /// A model of the block was refused.
     #[error("{0}")]
     Source(#[from] mceip_paper::SourceError),
@@ -214,14 +174,6 @@ pub(super) enum CliError {
         /// The file.
         path: String,
     },
-    /// Somebody's report.
-    #[error("{path}: {source}")]
-    Foreign {
-        /// Its path.
-        path: String,
-        /// What is wrong with it.
-        source: mceip_engine::foreign::ForeignError,
-    },
     /// A word that no page of the book explains.
     #[error("no page explains {term:?}; {near}")]
     Term {
@@ -262,11 +214,14 @@ impl CliError {
         }
     }
 
-    /// A file of a plain problem, or of its solution, that is not what it should be.
-    pub(super) fn plain(path: &Path, source: mceip_engine::lcp::FileError) -> CliError {
-        CliError::Plain {
+    /// A file of another kind that is not what it should be.
+    pub(super) fn other_file<E>(path: &Path, source: E) -> CliError
+    where
+        E: std::error::Error + Send + Sync + 'static,
+    {
+        CliError::OtherFile {
             path: path.display().to_string(),
-            source,
+            source: Box::new(source),
         }
     }
 

@@ -12,7 +12,7 @@ use crate::say::counted;
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::{read_matrix_market, read_particles, write_problem};
 use mceip_model::{Body, Coordinates, Particle, Problem, System, Unknown, Window};
-use mceip_paper::calculix::{CalculixError, read_dofs, read_triangle};
+use mceip_paper::calculix::{read_dofs, read_triangle};
 use mceip_paper::{
     Asymmetry, ContactTable, Frame, Plausibility, PlausibilityInput, angle_in_degrees, asymmetry,
     make_frames_exact, read_contacts, read_nodes, symmetric_part,
@@ -247,10 +247,7 @@ fn read_states(
     }
 
     let read = read_contacts(&contacts, friction, &|name| indices.index(name));
-    read.map_err(|source| CliError::Contacts {
-        path: path.display().to_string(),
-        source,
-    })
+    read.map_err(|e| CliError::other_file(path, e))
 }
 
 /// The nodes of a table, and the names of the particles if at least one has a name.
@@ -262,10 +259,7 @@ fn read_coordinates(
 ) -> Result<Coordinates, CliError> {
     let source = text("the coordinates", path)?;
     let table = read_nodes(&source, &|name| indices.index(name));
-    let table = table.map_err(|source| CliError::Nodes {
-        path: path.display().to_string(),
-        source,
-    })?;
+    let table = table.map_err(|e| CliError::other_file(path, e))?;
 
     let has_names = names.iter().any(|name| !name.is_empty());
     let names = if has_names { names } else { &[] };
@@ -320,14 +314,7 @@ fn plain_numbers(text: &str) -> Result<Vec<f64>, String> {
 
 fn read_dof_names(path: &Path) -> Result<DofNames, CliError> {
     let source = text("the degrees of freedom", path)?;
-    read_dofs(&source).map_err(|source| calculix(path, source))
-}
-
-fn calculix(path: &Path, source: CalculixError) -> CliError {
-    CliError::Calculix {
-        path: path.display().to_string(),
-        source,
-    }
+    read_dofs(&source).map_err(|e| CliError::other_file(path, e))
 }
 
 /// A Matrix Market file by its banner; else a triangle of CalculiX, whose order .dof knows.
@@ -339,7 +326,7 @@ fn read_matrix(
     let source = text(what, path)?;
     match dofs {
         Some(names) if !source.starts_with("%%") => {
-            read_triangle(&source, names.len()).map_err(|e| calculix(path, e))
+            read_triangle(&source, names.len()).map_err(|e| CliError::other_file(path, e))
         }
         _ => read_matrix_market(what, &source).map_err(|e| CliError::file(path, e)),
     }

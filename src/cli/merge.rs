@@ -82,10 +82,7 @@ fn blame(problem: &Problem, paths: &[PathBuf], parts: &[Certificate], e: Error) 
     };
 
     match at_fault.and_then(|k| paths.get(k)) {
-        Some(path) => CliError::Part {
-            path: path.display().to_string(),
-            source: e,
-        },
+        Some(path) => CliError::other_file(path, e),
         None => CliError::Complete(e),
     }
 }

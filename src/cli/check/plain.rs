@@ -11,9 +11,9 @@ pub(in super::super) fn verdict(
     source: &str,
     certificate: &Path,
 ) -> Result<u8, CliError> {
-    let problem = read_mcp(source).map_err(|e| CliError::plain(path, e))?;
+    let problem = read_mcp(source).map_err(|e| CliError::other_file(path, e))?;
     let claimed = text("the certificate", certificate)?;
-    let claimed = read_solution(&claimed).map_err(|e| CliError::plain(certificate, e))?;
+    let claimed = read_solution(&claimed).map_err(|e| CliError::other_file(certificate, e))?;
 
     match decided(|| judge(&problem, &claimed)) {
         Ok(count) => {

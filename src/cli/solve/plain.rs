@@ -20,7 +20,7 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
         return verdict(path, source, solution);
     }
 
-    let problem = read_mcp(source).map_err(|e| CliError::plain(path, e))?;
+    let problem = read_mcp(source).map_err(|e| CliError::other_file(path, e))?;
     let output = Output::prepare_if("certificate", args.certificate.as_deref(), &[path])?;
     let trace_output = Output::prepare_if("trace", args.trace.as_deref(), &[path])?;
     let how = plain_search_of(args.starts, args.seed, args.all, args.trace.is_some());

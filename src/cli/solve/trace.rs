@@ -183,7 +183,7 @@ fn repeat(header: &Header, path: &Path, job: &Job) -> Result<Repeated, CliError>
 
 /// Makes the trace of a header's plain problem again.
 fn repeat_plain(header: &Header, path: &Path, watch: &Watch<'_>) -> Result<Repeated, CliError> {
-    let problem = lcp::read_mcp(&header.problem).map_err(|e| CliError::plain(path, e))?;
+    let problem = lcp::read_mcp(&header.problem).map_err(|e| CliError::other_file(path, e))?;
     let search = plain_search_of(header.starts, header.seed, header.all, true);
     let found = lcp::search(&problem, &search, watch).map_err(SearchError::from)?;
 
