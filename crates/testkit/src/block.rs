@@ -5,7 +5,7 @@
 //! and accepted, and everything that contradicts the complete set. Called by `verify` and by
 //! `mceip block`.
 
-use super::floors::{Coverage, Shortfall, Starts, shortfalls};
+use super::floors::Coverage;
 use super::forge::forgeries;
 use super::interior::path_coverage;
 use super::verified::{VerifiedChecker, VerifiedCounts};
@@ -79,11 +79,6 @@ pub struct BlockReport {
 pub const BLOCK_STARTS: usize = 100;
 
 impl BlockReport {
-    /// Rates of PATH's own sequence below their floors.
-    pub fn shortfalls(&self) -> Vec<Shortfall> {
-        shortfalls(self.state.name(), Starts::Path, &self.path)
-    }
-
     /// Gives both certificates to the verified checker.
     ///
     /// # Errors

@@ -136,6 +136,11 @@ pub struct Covered {
 }
 
 impl Covered {
+    /// The rates that are below their floors by more than chance explains.
+    pub fn shortfalls(&self) -> Vec<Shortfall> {
+        shortfalls(&self.family, self.starts, &self.coverage)
+    }
+
     /// Found by the first start and its floor, as `97/100 (floor 94.6 %)`.
     pub fn first_text(&self) -> String {
         self.text(self.coverage.first, |f| f.first)

@@ -10,7 +10,7 @@ use super::compare::{InstanceReport, Treatment, compare_by};
 use super::disagreement::Disagreement;
 use super::error::TestkitError;
 use super::families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
-use super::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
+use super::floors::{Coverage, Covered, Shortfall, Starts};
 use super::verified::{VerifiedChecker, VerifiedCounts};
 use mceip_engine::multistart::Search;
 use mceip_engine::run::{Progress, Watch};
@@ -92,14 +92,6 @@ impl FamilyReport {
             *self.corners.entry(corner).or_default() += 1;
         }
     }
-
-    /// Rates that are below their floors by more than chance explains.
-    pub fn shortfalls(&self) -> Vec<Shortfall> {
-        self.coverage
-            .iter()
-            .flat_map(|(starts, coverage)| shortfalls(self.name, *starts, coverage))
-            .collect()
-    }
 }
 
 /// The whole run.
@@ -168,9 +160,10 @@ impl Verification {
 
     /// Every rate that is below its floor by more than chance explains.
     pub fn shortfalls(&self) -> Vec<Shortfall> {
-        let of_families = self.families.iter().flat_map(FamilyReport::shortfalls);
-        let of_the_block = self.block.iter().flat_map(BlockReport::shortfalls);
-        of_families.chain(of_the_block).collect()
+        self.covered()
+            .iter()
+            .flat_map(Covered::shortfalls)
+            .collect()
     }
 }
 

@@ -7,7 +7,7 @@
 use super::engine::Judgement;
 use super::family::Id;
 use crate::error::TestkitError;
-use crate::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
+use crate::floors::{Coverage, Covered, Shortfall, Starts};
 use mceip_model::file::{from_json_with_unique_keys, require_format};
 use mceip_model::sha256;
 use serde::{Deserialize, Serialize};
@@ -165,12 +165,10 @@ impl State {
     /// Rates that are below their floors by more than chance explains: findings of a family, not of
     /// an instance.
     pub fn shortfalls(&self) -> Vec<Shortfall> {
-        let mut out = Vec::new();
-        for covered in self.covered() {
-            let low = shortfalls(&covered.family, covered.starts, &covered.coverage);
-            out.extend(low);
-        }
-        out
+        self.covered()
+            .iter()
+            .flat_map(Covered::shortfalls)
+            .collect()
     }
 
     /// Instances judged in all families.
