@@ -1,21 +1,28 @@
 //! `mceip convert`: a problem file from a model of one's own.
 //!
 //! Input: K and M (Matrix Market, or CalculiX), a table of contact states and mu. Output: the
-//! MCEIP-lambda2 problem as `mceip-problem/1`. What is changed on the way (directions in doubles
-//! become rational rotations, rounded matrices symmetric) is printed and stands in the comment of
-//! the file. Figures of the model follow, with warnings of what looks wrong (`Plausibility`); the
-//! file keeps the warnings, so that `analyze` repeats them, until they are accepted.
+//! MCEIP-lambda2 problem as `mceip-problem/1`; with loads in place of states, a body under loads as
+//! `mceip-loads/1`, whose states `mceip path` finds. What is changed on the way (directions in
+//! doubles become rational rotations, rounded matrices symmetric) is printed and stands in the
+//! comment of the file. Figures of the model follow, with warnings of what looks wrong
+//! (`Plausibility`); a problem file keeps the warnings, so that `analyze` repeats them, until they
+//! are accepted.
 
 use super::common::{CliError, exit, positive, print, text};
 use super::output::Output;
 use crate::say::counted;
 use mceip_exact::{Rational, Sparse, to_f64};
-use mceip_model::file::{read_matrix_market, read_particles, write_problem};
-use mceip_model::{Body, Coordinates, Particle, Problem, System, Unknown, Window};
+use mceip_model::file::{
+    LoadsFile, read_matrix_market, read_particles, write_loads, write_problem,
+};
+use mceip_model::{
+    Body, Coordinates, LoadedBody, LoadedParts, Particle, Problem, System, Unknown, Window,
+};
 use mceip_paper::calculix::{read_dofs, read_triangle};
 use mceip_paper::{
-    Asymmetry, ContactTable, Frame, Plausibility, PlausibilityInput, angle_in_degrees, asymmetry,
-    make_frames_exact, read_contacts, read_nodes, symmetric_part,
+    Asymmetry, ContactTable, Frame, NodeTable, Plausibility, PlausibilityInput, angle_in_degrees,
+    asymmetry, make_frames_exact, read_candidates, read_contacts, read_nodes, read_steps,
+    symmetric_part,
 };
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -26,19 +33,31 @@ pub(super) struct Args {
     /// K: Matrix Market, or the .sti file of CalculiX (then --dof too).
     #[arg(long, value_name = "FILE")]
     stiffness: PathBuf,
-    /// M: Matrix Market, or the .mas file of CalculiX.
-    #[arg(long, value_name = "FILE")]
-    mass: PathBuf,
+    /// M: Matrix Market, or the .mas file of CalculiX. With --loads it may be left out.
+    #[arg(long, value_name = "FILE", required_unless_present = "loads")]
+    mass: Option<PathBuf>,
     /// The .dof file of CalculiX: contacts then name dofs as node.direction.
     #[arg(long, value_name = "FILE")]
     dof: Option<PathBuf>,
     /// Contact states: CSV (columns in spec/tutorial.md), or a JSON list of particles as in
-    /// mceip-problem/1.
+    /// mceip-problem/1. With --loads: CSV of the contact candidates, without states, with gaps.
     #[arg(long, value_name = "FILE")]
     contacts: PathBuf,
-    /// Coefficient of friction.
-    #[arg(long, value_name = "MU", allow_hyphen_values = true)]
-    friction: String,
+    /// Loads in place of contact states: CSV (columns in spec/loads.md), or an input file of
+    /// CalculiX with *CLOAD. Writes a body under loads, for `mceip path`.
+    #[arg(long, value_name = "FILE", conflicts_with = "displacements")]
+    loads: Option<PathBuf>,
+    /// With --loads: the last step grows until nothing more happens.
+    #[arg(long, requires = "loads")]
+    endless: bool,
+    /// Coefficient of friction. With --loads it may be left out.
+    #[arg(
+        long,
+        value_name = "MU",
+        allow_hyphen_values = true,
+        required_unless_present = "loads"
+    )]
+    friction: Option<String>,
     /// Displacements of the equilibrium, to hold K u against the reactions of the table: a number
     /// for each row of K, one a line, or a Matrix Market file with one column.
     #[arg(long, value_name = "FILE")]
@@ -52,7 +71,7 @@ pub(super) struct Args {
     #[arg(long)]
     symmetrize: bool,
     /// Leave the warnings out of the file: they have been looked at, and the model is meant so.
-    #[arg(long, conflicts_with = "strict")]
+    #[arg(long, conflicts_with_all = ["strict", "loads"])]
     accept_warnings: bool,
     /// Refuse a model with a warning: no file, exit code 2.
     #[arg(long)]
@@ -65,25 +84,83 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-/// Reads the model and writes the problem.
+/// Reads the model and writes the problem, or the body under loads.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    let friction = positive("friction", &args.friction)?;
-    let mut inputs: Vec<&Path> = vec![&args.stiffness, &args.mass, &args.contacts];
+    let friction = args.friction.as_deref();
+    let friction = friction.map(|mu| positive("friction", mu)).transpose()?;
+    let mut inputs: Vec<&Path> = vec![&args.stiffness, &args.contacts];
+    inputs.extend(args.mass.as_deref());
+    inputs.extend(args.loads.as_deref());
     inputs.extend(args.dof.as_deref());
     inputs.extend(args.displacements.as_deref());
     inputs.extend(args.coordinates.as_deref());
     let output = Output::prepare("out", &args.out, &inputs)?;
 
-    let dofs = args.dof.as_deref().map(read_dof_names).transpose()?;
-    let stiffness = read_matrix("K", &args.stiffness, dofs.as_ref())?;
-    let mass = read_matrix("M", &args.mass, dofs.as_ref())?;
-    let mut changes = Vec::new();
-    let stiffness = symmetric("K", stiffness, args.symmetrize, &mut changes)?;
-    let mass = symmetric("M", mass, args.symmetrize, &mut changes)?;
-    let indices = DofIndices {
-        names: dofs,
-        order: stiffness.rows(),
-    };
+    let model = Model::read(args)?;
+    match (&args.loads, friction) {
+        (Some(loads), friction) => write_body(args, model, loads, friction, &output),
+        (None, Some(friction)) => write_states(args, model, friction, &output),
+        (None, None) => {
+            let expected = "a coefficient of friction, or --loads";
+            Err(CliError::option("friction", expected, "none"))
+        }
+    }
+}
+
+/// The matrices of the model.
+struct Model {
+    stiffness: Sparse,
+    mass: Option<Sparse>,
+    indices: DofIndices,
+    /// What is not as it was given.
+    changes: Vec<String>,
+}
+
+impl Model {
+    fn read(args: &Args) -> Result<Model, CliError> {
+        let names = args.dof.as_deref().map(read_dof_names).transpose()?;
+        let mut changes = Vec::new();
+        let stiffness = read_matrix("K", &args.stiffness, names.as_ref())?;
+        let mass = args.mass.as_deref();
+        let mass = mass.map(|mass| read_matrix("M", mass, names.as_ref()));
+        let mass = mass.transpose()?;
+
+        let stiffness = symmetric("K", stiffness, args.symmetrize, &mut changes)?;
+        let mass = match mass {
+            Some(mass) => Some(symmetric("M", mass, args.symmetrize, &mut changes)?),
+            None => None,
+        };
+        if let Some(names) = &names
+            && names.len() != stiffness.rows()
+        {
+            let expected = "a line for each row of K";
+            return Err(CliError::option("dof", expected, &names.len().to_string()));
+        }
+        Ok(Model {
+            indices: DofIndices {
+                names,
+                order: stiffness.rows(),
+            },
+            stiffness,
+            mass,
+            changes,
+        })
+    }
+}
+
+/// Writes the problem of given contact states.
+fn write_states(
+    args: &Args,
+    model: Model,
+    friction: Rational,
+    output: &Output,
+) -> Result<u8, CliError> {
+    let Model {
+        stiffness,
+        mass,
+        indices,
+        mut changes,
+    } = model;
     let contacts = read_states(&args.contacts, &friction, &indices)?;
     changes.extend(directions(&contacts.particles));
     let displacements = match &args.displacements {
@@ -91,9 +168,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         None => None,
     };
 
-    let system = System::new(stiffness, Some(mass), Some(friction), contacts.particles)?;
+    let system = System::new(stiffness, mass, Some(friction), contacts.particles)?;
     let coordinates = match &args.coordinates {
-        Some(path) => Some(read_coordinates(path, &indices, &contacts.names, &system)?),
+        Some(path) => {
+            let table = read_node_table(path, &indices)?;
+            Some(coordinates(path, table, &contacts.names, &system)?)
+        }
         None => None,
     };
     let slip = system.slip_particles().len();
@@ -106,21 +186,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         coordinates: coordinates.as_ref(),
         dof_names: indices.names.as_ref(),
     });
-    let warnings = &plausibility.warnings;
-    if args.strict && !warnings.is_empty() {
-        let warnings = warnings.clone();
-        return Err(CliError::Strict { warnings });
-    }
+    refuse_if_strict(args, &plausibility)?;
 
     let mut problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
     problem.name = args.name.clone();
     problem.coordinates = coordinates;
     if !args.accept_warnings {
-        problem.warnings.clone_from(warnings);
+        problem.warnings.clone_from(&plausibility.warnings);
     }
-    if !changes.is_empty() {
-        problem.comment = Some(changes.join(" "));
-    }
+    problem.comment = comment(&changes);
 
     output.write(&format!("{}\n", write_problem(&problem)))?;
     let place = args.out.display();
@@ -132,26 +206,124 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         print(&format!("{change}\n"))?;
     }
 
-    print_plausibility(&plausibility, args.accept_warnings)?;
-    Ok(exit::DONE)
-}
-
-fn print_plausibility(plausibility: &Plausibility, are_accepted: bool) -> Result<(), CliError> {
-    for (name, found) in &plausibility.table {
-        print(&format!("    {name}: {found}\n"))?;
-    }
-    for warning in &plausibility.warnings {
-        print(&format!("WARNING: {warning}.\n"))?;
-    }
-
+    print_plausibility(&plausibility)?;
     let count = counted(plausibility.warnings.len(), "warning");
-    if are_accepted {
+    if args.accept_warnings {
         print(&format!("{count} accepted; not in the file.\n"))?;
     } else if !plausibility.warnings.is_empty() {
         print(&format!(
             "{count} written into the file: `mceip analyze` repeats what --accept-warnings would \
              leave out.\n"
         ))?;
+    }
+    Ok(exit::DONE)
+}
+
+/// Writes a body under loads.
+fn write_body(
+    args: &Args,
+    model: Model,
+    loads: &Path,
+    friction: Option<Rational>,
+    output: &Output,
+) -> Result<u8, CliError> {
+    let Model {
+        stiffness,
+        mass,
+        indices,
+        mut changes,
+    } = model;
+    let contacts = text("the contact candidates", &args.contacts)?;
+    if contacts.trim_start().starts_with('[') {
+        let expected = "a CSV table of candidates with --loads";
+        return Err(CliError::option("contacts", expected, "JSON"));
+    }
+    let contacts = read_candidates(&contacts, &|name| indices.index(name));
+    let contacts = contacts.map_err(|e| CliError::other_file(&args.contacts, e))?;
+    let steps = text("the loads", loads)?;
+    let steps = read_steps(&steps, &|name| indices.index(name));
+    let mut steps = steps.map_err(|e| CliError::other_file(loads, e))?;
+    if let Some(last) = steps.last_mut() {
+        last.is_endless = args.endless;
+    }
+
+    let particles: Vec<Particle> = contacts
+        .candidates
+        .iter()
+        .map(|c| c.particle.clone())
+        .collect();
+    changes.extend(directions(&particles));
+    let body = LoadedBody::new(LoadedParts {
+        stiffness,
+        mass,
+        friction,
+        candidates: contacts.candidates,
+        held: Vec::new(),
+        steps,
+    })?;
+    let coordinates = match &args.coordinates {
+        Some(path) => {
+            let mut table = read_node_table(path, &indices)?;
+            for dof in table.nodes.iter_mut().flat_map(|node| &mut node.dofs) {
+                *dof = dof.and_then(|given| body.places()[given]);
+            }
+            Some(coordinates(path, table, &contacts.names, body.system())?)
+        }
+        None => None,
+    };
+
+    let is_held = body.places().contains(&None);
+    let plausibility = Plausibility::new(&PlausibilityInput {
+        system: body.system(),
+        names: &contacts.names,
+        reactions: &vec![None; particles.len()],
+        displacements: None,
+        coordinates: coordinates.as_ref(),
+        // Names are those of the given degrees of freedom.
+        dof_names: indices.names.as_ref().filter(|_| !is_held),
+    });
+    refuse_if_strict(args, &plausibility)?;
+
+    let file = LoadsFile {
+        name: args.name.clone(),
+        comment: comment(&changes),
+        body,
+        coordinates,
+    };
+    output.write(&format!("{}\n", write_loads(&file)))?;
+    let place = args.out.display();
+    let dofs = file.body.system().dofs();
+    let candidates = counted(particles.len(), "contact candidate");
+    let steps = counted(file.body.steps().len(), "load step");
+    print(&format!(
+        "{place}: {dofs} degrees of freedom that are not held, {candidates}, {steps}\n"
+    ))?;
+    for change in &changes {
+        print(&format!("{change}\n"))?;
+    }
+
+    print_plausibility(&plausibility)?;
+    Ok(exit::DONE)
+}
+
+fn comment(changes: &[String]) -> Option<String> {
+    (!changes.is_empty()).then(|| changes.join(" "))
+}
+
+fn refuse_if_strict(args: &Args, plausibility: &Plausibility) -> Result<(), CliError> {
+    if args.strict && !plausibility.warnings.is_empty() {
+        let warnings = plausibility.warnings.clone();
+        return Err(CliError::Strict { warnings });
+    }
+    Ok(())
+}
+
+fn print_plausibility(plausibility: &Plausibility) -> Result<(), CliError> {
+    for (name, found) in &plausibility.table {
+        print(&format!("    {name}: {found}\n"))?;
+    }
+    for warning in &plausibility.warnings {
+        print(&format!("WARNING: {warning}.\n"))?;
     }
     Ok(())
 }
@@ -250,17 +422,19 @@ fn read_states(
     read.map_err(|e| CliError::other_file(path, e))
 }
 
+fn read_node_table(path: &Path, indices: &DofIndices) -> Result<NodeTable, CliError> {
+    let source = text("the coordinates", path)?;
+    let table = read_nodes(&source, &|name| indices.index(name));
+    table.map_err(|e| CliError::other_file(path, e))
+}
+
 /// The nodes of a table, and the names of the particles if at least one has a name.
-fn read_coordinates(
+fn coordinates(
     path: &Path,
-    indices: &DofIndices,
+    table: NodeTable,
     names: &[String],
     system: &System,
 ) -> Result<Coordinates, CliError> {
-    let source = text("the coordinates", path)?;
-    let table = read_nodes(&source, &|name| indices.index(name));
-    let table = table.map_err(|e| CliError::other_file(path, e))?;
-
     let has_names = names.iter().any(|name| !name.is_empty());
     let names = if has_names { names } else { &[] };
     let coordinates = Coordinates::new(table.nodes, table.edges, names.to_vec(), system);

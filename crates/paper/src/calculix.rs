@@ -4,6 +4,7 @@
 //! has a line `node.direction` for each row. Degrees of freedom that `*BOUNDARY` fixes do not
 //! appear. `mceip convert` reads K, M and the names of dofs from here.
 
+use crate::contacts::shown;
 use mceip_exact::{Rational, Sparse, parse};
 use std::collections::{BTreeMap, HashMap};
 
@@ -19,6 +20,17 @@ pub struct CalculixError {
     pub got: String,
 }
 
+impl CalculixError {
+    /// What was expected in a line, and what stands there.
+    pub(crate) fn at(line: usize, expected: &'static str, text: &str) -> CalculixError {
+        CalculixError {
+            line,
+            expected,
+            got: shown(text),
+        }
+    }
+}
+
 /// A line of the file that is not empty.
 struct TextLine<'a> {
     /// From 1.
@@ -29,12 +41,7 @@ struct TextLine<'a> {
 
 impl TextLine<'_> {
     fn refuse(&self, expected: &'static str) -> CalculixError {
-        let shown = self.text.chars().filter(|c| !c.is_control()).take(60);
-        CalculixError {
-            line: self.number,
-            expected,
-            got: shown.collect(),
-        }
+        CalculixError::at(self.number, expected, self.text)
     }
 }
 

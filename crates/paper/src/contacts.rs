@@ -16,6 +16,10 @@
 //! * `reaction_tangential`, `reaction_normal`: the reaction on the body along these dofs, as the
 //!   finite-element program gives it.
 //!
+//! Of contact candidates under loads ([`read_candidates`]) states and reactions are not known:
+//! there are no such columns, and `gap` may hold the distance from the obstacle in the unloaded
+//! body.
+//!
 //! Lines that begin with # are comments; a cell may be empty where it is optional.
 //!
 //! The particles go into a `System`. A reaction guards against a wrong sign or another mu: it has
@@ -26,7 +30,7 @@ use crate::plausibility::with_five_digits;
 use crate::rotation::{Frame, rotation_along, rotation_by_degrees};
 use crate::tolerance::CONE_SLACK;
 use mceip_exact::{Rational, parse, rational, to_f64, whole};
-use mceip_model::{ContactState, Particle, Reaction};
+use mceip_model::{Candidate, ContactState, Particle, Reaction};
 use num_traits::{One, Signed, Zero};
 
 /// Why a table of contacts is refused.
@@ -137,6 +141,14 @@ pub enum ContactsError {
     /// No particle.
     #[error("contacts: expected at least one particle, got none")]
     Empty,
+    /// A column of the other kind of table.
+    #[error("contacts: expected no column {column:?}: {why}")]
+    OfOtherTable {
+        /// Its name.
+        column: &'static str,
+        /// Why it plays no part.
+        why: &'static str,
+    },
 }
 
 /// A column of the table.
@@ -153,11 +165,12 @@ enum Column {
     FrictionFactor,
     ReactionTangential,
     ReactionNormal,
+    Gap,
 }
 
 impl Column {
     /// Every column, in the order of the variants.
-    const ALL: [Column; 11] = [
+    const ALL: [Column; 12] = [
         Column::Particle,
         Column::Tangential,
         Column::Normal,
@@ -169,10 +182,8 @@ impl Column {
         Column::FrictionFactor,
         Column::ReactionTangential,
         Column::ReactionNormal,
+        Column::Gap,
     ];
-
-    /// Those without which there is no table.
-    const NEEDED: [Column; 3] = [Column::Tangential, Column::Normal, Column::State];
 
     fn name(self) -> &'static str {
         match self {
@@ -187,6 +198,7 @@ impl Column {
             Column::FrictionFactor => "friction_factor",
             Column::ReactionTangential => "reaction_tangential",
             Column::ReactionNormal => "reaction_normal",
+            Column::Gap => "gap",
         }
     }
 
@@ -230,7 +242,7 @@ pub fn read_contacts(
 ) -> Result<ContactTable, ContactsError> {
     let mut lines = lines_with_content(text).into_iter();
     let header = lines.next().map_or("", |line| line.text);
-    let table = Table::new(header)?;
+    let table = Table::new(header, &CONTACTS)?;
 
     let mut particles = Vec::new();
     let mut names = Vec::new();
@@ -252,6 +264,48 @@ pub fn read_contacts(
         names,
         reactions,
     })
+}
+
+/// A table of contact candidates, read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CandidateTable {
+    /// One for each line.
+    pub candidates: Vec<Candidate>,
+    /// For each candidate, its label; empty where it has none.
+    pub names: Vec<String>,
+}
+
+/// Reads a table of contact candidates, whose states follow from loads; see [`read_contacts`].
+///
+/// # Errors
+/// [`ContactsError`] with line and column.
+pub fn read_candidates(
+    text: &str,
+    dof: &dyn Fn(&str) -> Option<usize>,
+) -> Result<CandidateTable, ContactsError> {
+    let mut lines = lines_with_content(text).into_iter();
+    let header = lines.next().map_or("", |line| line.text);
+    let table = Table::new(header, &CANDIDATES)?;
+
+    let mut candidates = Vec::new();
+    let mut names = Vec::new();
+    for line in lines {
+        let row = table.row(line)?;
+        names.push(row.cell(Column::Particle).unwrap_or("").to_string());
+        let gap = row.number(Column::Gap)?.unwrap_or_default();
+        if gap.is_negative() {
+            return Err(row.unexpected(Column::Gap, "a number >= 0"));
+        }
+        candidates.push(Candidate {
+            particle: row.without_reaction(ContactState::Free, dof)?,
+            gap,
+        });
+    }
+
+    if candidates.is_empty() {
+        return Err(ContactsError::Empty);
+    }
+    Ok(CandidateTable { candidates, names })
 }
 
 /// A line of the file.
@@ -280,13 +334,38 @@ pub(crate) fn lines_with_content(text: &str) -> Vec<TextLine<'_>> {
 /// What the header says.
 struct Table {
     /// Place of each column, in the order of [`Column::ALL`].
-    place: [Option<usize>; 11],
+    place: [Option<usize>; 12],
     /// Number of cells.
     width: usize,
 }
 
+/// The columns of a kind of table.
+struct Columns {
+    /// Those without which there is no table.
+    needed: &'static [Column],
+    /// Those that it does not have, and why.
+    foreign: &'static [Column],
+    why: &'static str,
+}
+
+const CONTACTS: Columns = Columns {
+    needed: &[Column::Tangential, Column::Normal, Column::State],
+    foreign: &[Column::Gap],
+    why: "a contact state says whether a gap is open; gaps belong to a body under loads (--loads)",
+};
+
+const CANDIDATES: Columns = Columns {
+    needed: &[Column::Tangential, Column::Normal],
+    foreign: &[
+        Column::State,
+        Column::ReactionTangential,
+        Column::ReactionNormal,
+    ],
+    why: "with --loads the states and reactions follow from the loads",
+};
+
 impl Table {
-    fn new(header: &str) -> Result<Table, ContactsError> {
+    fn new(header: &str, columns: &Columns) -> Result<Table, ContactsError> {
         if !header.contains(',')
             && let Some(got) = header.chars().find(|c| matches!(c, ';' | '\t'))
         {
@@ -295,13 +374,13 @@ impl Table {
 
         if header.trim().is_empty() {
             return Err(ContactsError::MissingColumn {
-                column: Column::NEEDED[0].name(),
+                column: columns.needed[0].name(),
                 got: String::new(),
             });
         }
 
         let names: Vec<&str> = header.split(',').map(str::trim).collect();
-        let mut place = [None; 11];
+        let mut place = [None; 12];
         for (k, name) in names.iter().enumerate() {
             match Column::named(name) {
                 Some(column) if place[column as usize].is_none() => {
@@ -311,11 +390,19 @@ impl Table {
             }
         }
 
-        for column in Column::NEEDED {
-            if place[column as usize].is_none() {
+        for column in columns.needed {
+            if place[*column as usize].is_none() {
                 return Err(ContactsError::MissingColumn {
                     column: column.name(),
                     got: shown(header),
+                });
+            }
+        }
+        for column in columns.foreign {
+            if place[*column as usize].is_some() {
+                return Err(ContactsError::OfOtherTable {
+                    column: column.name(),
+                    why: columns.why,
                 });
             }
         }
@@ -360,9 +447,9 @@ impl Row<'_> {
         dof: &dyn Fn(&str) -> Option<usize>,
     ) -> Result<(Particle, Option<TableReaction>), ContactsError> {
         let state = self.state()?;
+        let particle = self.without_reaction(state, dof)?;
         let directions = self.directions()?;
-        let friction_factor = self.friction_factor()?;
-        let own_friction = friction * &friction_factor;
+        let own_friction = friction * &particle.friction_factor;
 
         let mut in_particle = None;
         let mut in_table = None;
@@ -380,17 +467,28 @@ impl Row<'_> {
             });
         }
 
+        let particle = Particle {
+            reaction: in_particle,
+            ..particle
+        };
+        Ok((particle, in_table))
+    }
+
+    /// The particle in a state, whatever its reaction.
+    fn without_reaction(
+        &self,
+        state: ContactState,
+        dof: &dyn Fn(&str) -> Option<usize>,
+    ) -> Result<Particle, ContactsError> {
+        let directions = self.directions()?;
         let tangential = self.dof(Column::Tangential, dof)?;
         let normal = self.dof(Column::Normal, dof)?;
-        let particle = Particle {
+        Ok(Particle {
             normal_direction: directions.normal_direction,
             frame: directions.frame,
-            friction_factor,
-            reaction: in_particle,
+            friction_factor: self.friction_factor()?,
             ..Particle::plain(tangential, normal, state)
-        };
-
-        Ok((particle, in_table))
+        })
     }
 
     /// What stands in a column, if it is there and not empty.

@@ -14,6 +14,7 @@
 //! | [`Loading`] | the loading that leads to the contact states of section 5 |
 //! | [`PublishedState`] | the two states whose value of mu the paper prints |
 //! | [`calculix`], [`read_contacts`] | matrices and contact states of a model of one's own |
+//! | [`read_candidates`], [`read_steps`] | contact candidates and loads of such a model |
 //! | [`read_nodes`] | where its nodes are, for pictures |
 //! | [`Plausibility`] | figures of such a model that show a wrong unit, file or numbering |
 #![deny(clippy::float_arithmetic)]
@@ -35,22 +36,28 @@ mod plane;
 mod plausibility;
 mod published;
 mod rotation;
+mod steps;
 mod symmetry;
+mod table;
 mod tolerance;
 mod two_particles;
 
 pub use block::Block;
 pub use block_model::BlockModel;
-pub use contacts::{ContactTable, ContactsError, TableReaction, read_contacts};
+pub use contacts::{
+    CandidateTable, ContactTable, ContactsError, TableReaction, read_candidates, read_contacts,
+};
 pub use doubles::{DoubleBlock, DoubleMatrix};
 pub use element::{MassKind, Material, Point};
 pub use error::SourceError;
 pub use loading::Loading;
 pub use mesh::{MAX_CELLS, MeshKind};
-pub use nodes::{NodeTable, NodesError, read_nodes};
+pub use nodes::{NodeTable, read_nodes};
 pub use plane::Plane;
 pub use plausibility::{Plausibility, PlausibilityInput};
 pub use published::PublishedState;
 pub use rotation::{Frame, angle_in_degrees, make_frames_exact};
+pub use steps::{StepsError, read_steps};
 pub use symmetry::{Asymmetry, asymmetry, symmetric_part};
+pub use table::TableError;
 pub use two_particles::{pythagorean_angles, two_particles};

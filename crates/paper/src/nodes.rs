@@ -10,47 +10,9 @@
 //!
 //! Lines that begin with # are comments.
 
-use crate::contacts::{TextLine, lines_with_content, shown};
-use mceip_exact::{Rational, parse};
+use crate::table::{Layout, TableError};
 use mceip_model::Node;
 use std::collections::HashMap;
-
-/// Why a table of nodes is refused.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NodesError {
-    /// A needed column is missing, one means nothing, or one is named twice.
-    #[error(
-        "coordinates: expected the columns x, y, dof_x, dof_y, and perhaps node and edges_to, each \
-         once and with commas between, in the header; got {got:?}"
-    )]
-    Header {
-        /// The header.
-        got: String,
-    },
-    /// A line has another number of cells than the header.
-    #[error("coordinates line {line}: expected {expected} cells, got {got}")]
-    Cells {
-        /// Line of the file, from 1.
-        line: usize,
-        /// Cells of the header.
-        expected: usize,
-        /// Cells of the line.
-        got: usize,
-    },
-    /// A cell cannot be read.
-    #[error("coordinates line {line}, column {column}: expected {expected}, got {got:?}")]
-    Cell {
-        /// Line of the file, from 1.
-        line: usize,
-        /// Name of the column.
-        column: &'static str,
-        /// What belongs there.
-        expected: &'static str,
-        /// What stands there.
-        got: String,
-    },
-}
 
 /// A table of nodes, read.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -61,9 +23,12 @@ pub struct NodeTable {
     pub edges: Vec<[usize; 2]>,
 }
 
-/// The columns, the needed ones first.
-const COLUMNS: [&str; 6] = ["x", "y", "dof_x", "dof_y", "node", "edges_to"];
-const NEEDED: usize = 4;
+const LAYOUT: Layout<6> = Layout {
+    table: "coordinates",
+    columns: ["x", "y", "dof_x", "dof_y", "node", "edges_to"],
+    needed: 4,
+    in_words: "x, y, dof_x, dof_y, and perhaps node and edges_to",
+};
 const X: usize = 0;
 const Y: usize = 1;
 const DOF_X: usize = 2;
@@ -71,29 +36,26 @@ const DOF_Y: usize = 3;
 const NODE: usize = 4;
 const EDGES_TO: usize = 5;
 
+/// What belongs into the columns of degrees of freedom.
+const DOF: &str =
+    "a degree of freedom of the model, numbered from 0, or nothing where it is prescribed";
+
 /// Reads the table. `dof` finds the 0-based degree of freedom that a cell names.
 ///
 /// # Errors
-/// [`NodesError`] with line and column.
+/// [`TableError`] with line and column.
 pub fn read_nodes(
     text: &str,
     dof: &dyn Fn(&str) -> Option<usize>,
-) -> Result<NodeTable, NodesError> {
-    let mut lines = lines_with_content(text).into_iter();
-    let header = lines.next().map_or("", |line| line.text);
-    let places = places_of_columns(header)?;
-    let width = header.split(',').count();
-
-    let mut rows = Vec::new();
-    for line in lines {
-        rows.push(Row::new(&line, &places, width)?);
-    }
+) -> Result<NodeTable, TableError> {
+    let table = LAYOUT.read(text)?;
+    let rows = &table.rows;
 
     let mut index_of: HashMap<String, usize> = HashMap::new();
     let mut nodes = Vec::new();
     for (index, row) in rows.iter().enumerate() {
         let name = match row.cells[NODE] {
-            "" if places[NODE].is_none() => index.to_string(),
+            "" if !table.has[NODE] => index.to_string(),
             name => name.to_string(),
         };
         if name.is_empty() || index_of.insert(name, index).is_some() {
@@ -101,7 +63,7 @@ pub fn read_nodes(
         }
 
         nodes.push(Node {
-            dofs: [row.dof(DOF_X, dof)?, row.dof(DOF_Y, dof)?],
+            dofs: [row.dof(DOF_X, DOF, dof)?, row.dof(DOF_Y, DOF, dof)?],
             place: [row.number(X)?, row.number(Y)?],
         });
     }
@@ -121,92 +83,12 @@ pub fn read_nodes(
     Ok(NodeTable { nodes, edges })
 }
 
-/// Where each of [`COLUMNS`] stands in the header.
-fn places_of_columns(header: &str) -> Result<[Option<usize>; 6], NodesError> {
-    let mut places = [None; 6];
-    for (place, name) in header.split(',').map(str::trim).enumerate() {
-        let known = COLUMNS.iter().position(|column| *column == name);
-        match known {
-            Some(column) if places[column].is_none() => places[column] = Some(place),
-            _ => return Err(NodesError::Header { got: shown(header) }),
-        }
-    }
-
-    if places[..NEEDED].contains(&None) {
-        return Err(NodesError::Header { got: shown(header) });
-    }
-    Ok(places)
-}
-
-/// A line of the table.
-struct Row<'a> {
-    /// Line of the file, from 1.
-    line: usize,
-    /// What stands in each of [`COLUMNS`]; empty where the table has no such column.
-    cells: [&'a str; 6],
-}
-
-impl<'a> Row<'a> {
-    fn new(
-        line: &TextLine<'a>,
-        places: &[Option<usize>; 6],
-        width: usize,
-    ) -> Result<Row<'a>, NodesError> {
-        let given: Vec<&str> = line.text.split(',').map(str::trim).collect();
-        if given.len() != width {
-            return Err(NodesError::Cells {
-                line: line.number,
-                expected: width,
-                got: given.len(),
-            });
-        }
-
-        let cells = places.map(|place| place.map_or("", |place| given[place]));
-        Ok(Row {
-            line: line.number,
-            cells,
-        })
-    }
-
-    /// The error that something else was expected in a column.
-    fn unexpected(&self, column: usize, expected: &'static str) -> NodesError {
-        NodesError::Cell {
-            line: self.line,
-            column: COLUMNS[column],
-            expected,
-            got: shown(self.cells[column]),
-        }
-    }
-
-    /// A degree of freedom; none where the cell is empty.
-    fn dof(
-        &self,
-        column: usize,
-        dof: &dyn Fn(&str) -> Option<usize>,
-    ) -> Result<Option<usize>, NodesError> {
-        let name = self.cells[column];
-        if name.is_empty() {
-            return Ok(None);
-        }
-
-        let expected =
-            "a degree of freedom of the model, numbered from 0, or nothing where it is prescribed";
-        match dof(name) {
-            Some(index) => Ok(Some(index)),
-            None => Err(self.unexpected(column, expected)),
-        }
-    }
-
-    fn number(&self, column: usize) -> Result<Rational, NodesError> {
-        parse(self.cells[column]).map_err(|_| self.unexpected(column, "a number"))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use mceip_exact::parse;
 
-    fn read(text: &str) -> Result<NodeTable, NodesError> {
+    fn read(text: &str) -> Result<NodeTable, TableError> {
         read_nodes(text, &|name| name.parse().ok().filter(|dof| *dof < 4))
     }
 
@@ -237,13 +119,13 @@ mod tests {
         ] {
             let refused = read(&format!("{header}\n0,0,0,1\n"));
             assert!(
-                matches!(refused, Err(NodesError::Header { .. })),
+                matches!(refused, Err(TableError::Header { .. })),
                 "{header}"
             );
         }
 
         let refused = read("x,y,dof_x,dof_y\n0,0,0\n");
-        assert!(matches!(refused, Err(NodesError::Cells { line: 2, .. })));
+        assert!(matches!(refused, Err(TableError::Cells { line: 2, .. })));
 
         for (row, wrong) in [
             ("a,zero,0,0,1,", "x"),
@@ -255,7 +137,7 @@ mod tests {
             ("a,0,0,0,1,a", "edges_to"),
         ] {
             let refused = read(&format!("node,x,y,dof_x,dof_y,edges_to\n{row}\n"));
-            let Err(NodesError::Cell {
+            let Err(TableError::Cell {
                 line: 2, column, ..
             }) = refused
             else {
