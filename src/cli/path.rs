@@ -15,7 +15,7 @@ use super::job::Job;
 use super::output::{Folder, Output};
 use crate::picture::path_picture;
 use crate::say::counted;
-use crate::say::path::{LETTERS, continuations_text, end_text};
+use crate::say::path::{LETTERS, continuations_text, end_text, of_which_body};
 use crate::{LoadPath, Loads};
 use mceip_engine::analysis::AnalysisError;
 use mceip_engine::equilibrium::StatesNotCertified;
@@ -202,6 +202,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             names: &names,
             states,
             branches: pages::branches(loads.body().system(), path, states, &watch)?,
+            in_doubles: args.doubles,
             checked_on: if uncondensed {
                 CheckedOn::Given
             } else {
@@ -347,21 +348,19 @@ impl Outcome<'_> {
         let letters = LETTERS;
         let table = stretches::table_of(self.path(), self.names);
         let end = end_text(self.path());
-        let of_what = if self.in_doubles {
-            "of the body condensed in doubles every event is"
-        } else {
-            "every event is"
-        };
         let own = self.own.as_ref().map(|own| own.text(self.in_doubles));
         let mut out = own.map_or_else(String::new, |own| format!("{own}\n"));
         out += &format!(
             "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
              {letters}\n\
              {table}\n\
-             {of_what} an exact rational number; (1), (2), (5), (7) verified exactly at both \
+             every event is an exact rational number; (1), (2), (5), (7) verified exactly at both \
              ends of each stretch; {end}\n"
         );
         out += &continuations_text(self.followed.continuations());
+        if self.in_doubles {
+            out += &format!("{}\n", of_which_body(true));
+        }
         if let Some(certified) = &self.certified {
             out += &certified_text(certified);
         }
@@ -471,7 +470,8 @@ fn certify_stretches(
             Err(why) => Err(why),
         };
 
-        let rates = followed.certify_unique(k)?;
+        // What fails here takes nothing else along: these rates are not certified.
+        let rates = followed.certify_unique(k).ok().flatten();
         if let Some(rates) = &rates {
             folder.keep_proof(&Kept {
                 name: &format!("unique-{k:03}"),
@@ -504,8 +504,9 @@ fn certified_text(certified: &[Certified]) -> String {
     let stretches = counted(certified.len(), "stretch");
     let mut out = format!(
         "the contact states at one amount inside {proved} of {stretches} are certified to be \
-         those of an equilibrium; that it is the only one is not\n\
-         the rates inside {unique} of them are certified to be the only ones, whatever load grows\n"
+         those of an equilibrium; other equilibria are not excluded\n\
+         in the states of {unique} of {stretches} the rates are certified to be unique, whatever \
+         load grows\n"
     );
     for (k, stretch) in certified.iter().enumerate() {
         if let Err(why) = &stretch.states {

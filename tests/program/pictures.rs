@@ -630,6 +630,25 @@ fn a_report_is_one_page_that_needs_nothing_else() {
     }
 }
 
+/// Without stiffness along the obstacle K* is singular at mu = 0, so that the necessary condition
+/// excludes nothing; a cold reading found that the report said the opposite.
+#[test]
+fn a_condition_that_holds_at_zero_excludes_nothing() {
+    let folder = Folder::new();
+    let body = r#"{"format": "mceip-loads/1", "system": {"stiffness": [[0, 0], [0, 1]],
+                   "mass": [[1, 0], [0, 1]], "friction": "1/2",
+                   "candidates": [{"tangential": 0, "normal": 1}]},
+                   "steps": [{"forces": [[0, 1], [1, 2]]}]}"#;
+    let body = folder.write("body.json", body);
+    let page = folder.path("out.html");
+
+    assert_eq!(exit_code(&format!("path {body} --report {page}")), Some(3));
+    let text = read(&page);
+    assert!(text.contains("holds from \u{3bc} = 0 on: it excludes nothing"));
+    assert!(!text.contains("divergence is excluded for every"));
+    assert!(text.contains("no all-slip mode found"));
+}
+
 /// How many elements have this tag.
 fn count_tags(tree: &Document<'_>, tag: &str) -> usize {
     let all = tree.descendants();

@@ -133,7 +133,7 @@ impl Block {
 
 impl BlockModel {
     /// The block as a body under loads: step 1 presses until the normal force is reached, step 2
-    /// moves to the left, without an end by mm, else as far as it goes.
+    /// moves to the left by `until`; without it 1 mm is the unit of a step that has no end.
     ///
     /// # Errors
     /// [`SourceError`]: as [`Block::new`] and [`Loading::steps`].

@@ -5,7 +5,7 @@
 //! tables for `--report`. Numbers in captions and tables are exact or certified; charts draw them
 //! in doubles. Modes are drawn where the file says where its nodes are.
 
-use super::states::{Growing, ProvedMode, ProvedSet, ProvedState, is_slip};
+use super::states::{Growing, Holds, ProvedMode, ProvedSet, ProvedState, is_slip};
 use super::stretches::{amount, stretch_cells};
 use crate::LoadPath;
 use crate::cli::common::CliError;
@@ -13,7 +13,8 @@ use crate::picture::{
     BodyDrawing, BodyMode, BranchPoint, Branches, Content, Picture, Report, Section, Threshold,
     ThresholdColumn, body_picture, branch_picture, path_picture, threshold_picture,
 };
-use crate::say::path::{LETTERS, causes_text, continuations_text, end_text};
+use crate::say::path::{LETTERS, causes_text, continuations_text, end_text, of_which_body};
+use mceip_engine::report::fixed_decimals;
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::Levels;
 use mceip_exact::to_f64;
@@ -28,6 +29,8 @@ pub(super) struct Shown<'a> {
     pub(super) names: &'a [&'a str],
     pub(super) states: &'a [ProvedState],
     pub(super) branches: Option<StateBranches>,
+    /// Was the body condensed in doubles?
+    pub(super) in_doubles: bool,
     /// On which matrices the MCEIP-mu sets were checked.
     pub(super) checked_on: CheckedOn,
 }
@@ -240,6 +243,7 @@ impl Shown<'_> {
                 self.path_chart().into_figure(),
                 self.path_table(),
                 Content::Paragraph(continuations_text(self.followed.continuations())),
+                Content::Paragraph(of_which_body(self.in_doubles).into()),
             ],
         };
 
@@ -410,13 +414,15 @@ impl Shown<'_> {
             ),
         ];
 
-        if state.necessary.is_some() {
+        if let Some(holds) = state.necessary_holds() {
             let what = format!("Necessary condition {}", state.necessary_equation());
-            let answer = match state.necessary_from() {
-                Some(mu) => {
-                    format!("holds from \u{3bc} = {mu:.9} on; below it divergence is excluded")
+            let answer = match holds {
+                Holds::Always => "holds from \u{3bc} = 0 on: it excludes nothing".into(),
+                Holds::From(mu) => {
+                    let mu = fixed_decimals(&mu, 9);
+                    format!("holds from \u{3bc} = {mu} on; below it divergence is excluded")
                 }
-                None => "never holds: divergence is excluded for every \u{3bc}".into(),
+                Holds::Never => "never holds: divergence is excluded for every \u{3bc}".into(),
             };
 
             rows.push(row(&what, answer));
@@ -465,9 +471,9 @@ impl DrawnState<'_> {
             name,
             picture: body_picture(title, &drawn),
             caption: if moving == slip {
-                "All nodes in impending slip slip.".into()
+                "All candidates in impending slip move.".into()
             } else {
-                format!("{moving} of {slip} nodes in impending slip slip, the others get stuck.")
+                format!("{moving} of {slip} candidates in impending slip move, the others stick.")
             },
         })
     }
@@ -492,10 +498,10 @@ fn threshold_column(state: &ProvedState) -> ThresholdColumn {
 }
 
 fn all_slip_text(state: &ProvedState, set: &ProvedSet) -> &'static str {
-    if state.has_all_slip(set) {
-        "an all-slip mode exists"
-    } else {
-        "no all-slip mode"
+    match (state.has_all_slip(set), set.open) {
+        (true, _) => "an all-slip mode exists",
+        (false, 0) => "no all-slip mode",
+        (false, _) => "no all-slip mode found",
     }
 }
 
@@ -511,10 +517,10 @@ fn growing_text(state: &ProvedState, growing: &Growing) -> String {
         ));
     }
 
-    let list = if rates.is_empty() {
-        "no divergence instability of the form (8)".into()
-    } else {
-        rates.join("; ")
+    let list = match (rates.is_empty(), growing.set.open) {
+        (true, 0) => "no divergence instability of the form (8)".into(),
+        (true, _) => "none found".into(),
+        (false, _) => rates.join("; "),
     };
 
     let verdict = growing.set.verdict();
@@ -533,11 +539,13 @@ const PATH_CAPTION: &str = "Each event is an exact rational number; (1), (2), (5
 
 /// What to read off the picture of the thresholds.
 const THRESHOLDS_CAPTION: &str = "The complete set of MCEIP-\u{3bc} for each state with slip, \
-     each set certified. A state in whose column no solution stands has none. \u{3bb} = 0 is the \
-     static threshold; divergence may begin at a lower \u{3bc} with \u{3bb}\u{b2} > 0.";
+     each set certified. A state in whose column no solution stands has none, unless regions of \
+     it are open (in its table). \u{3bb} = 0 is the static threshold; divergence may begin at a \
+     lower \u{3bc} with \u{3bb}\u{b2} > 0. A necessary condition that holds from \u{3bc} = 0 on is \
+     not drawn.";
 
 /// What to read off the picture of lambda^2 against mu.
-const BRANCHES_CAPTION: &str = "Points: every solution at that \u{3bb}\u{b2}, from the pencil \
+const BRANCHES_CAPTION: &str = "Points: every solution found at that \u{3bb}\u{b2}, from the pencil \
      condensed in doubles (measured, not certified). The threshold and the squares are certified.";
 
 /// Stands above a state of which something is open.

@@ -48,6 +48,16 @@ pub(super) struct ProvedState {
     pub(super) growing: Vec<Growing>,
 }
 
+/// Where the necessary condition (19) or (20) holds.
+pub(super) enum Holds {
+    /// From mu = 0 on.
+    Always,
+    /// From this mu on: the upper end of its enclosure, which is the accurate one.
+    From(Rational),
+    /// For no mu.
+    Never,
+}
+
 /// MCEIP-lambda2 at a coefficient of friction.
 pub(super) struct Growing {
     pub(super) mu: Rational,
@@ -250,19 +260,29 @@ impl ProvedSet {
 }
 
 impl ProvedState {
-    /// mu from which on the necessary condition holds: the upper end of its enclosure, which is the
-    /// accurate one. `None` if not asked for, or if it never holds.
-    pub(super) fn necessary_from(&self) -> Option<f64> {
-        self.necessary_end().map(|end| to_f64(&end))
+    /// Where the necessary condition holds; `None` if not asked for.
+    pub(super) fn necessary_holds(&self) -> Option<Holds> {
+        let necessary = self.necessary.as_ref()?;
+        let matrices = [Some(&necessary.stiffness), necessary.mass.as_ref()];
+        let matrices = matrices.into_iter().flatten();
+        let is_at_zero = |until: &&DefiniteUntil| matches!(until, DefiniteUntil::NotAtZero(_));
+        if matrices.clone().any(|until| is_at_zero(&until)) {
+            return Some(Holds::Always);
+        }
+
+        let ends = matrices.filter_map(DefiniteUntil::end);
+        Some(match ends.map(|end| end.hi().clone()).min() {
+            Some(mu) => Holds::From(mu),
+            None => Holds::Never,
+        })
     }
 
-    fn necessary_end(&self) -> Option<Rational> {
-        let necessary = self.necessary.as_ref()?;
-        let stiffness = necessary.stiffness.end();
-        let mass = necessary.mass.as_ref().and_then(DefiniteUntil::end);
-
-        let ends = [stiffness, mass].into_iter().flatten();
-        ends.map(|end| end.hi().clone()).min()
+    /// mu > 0 from which on the necessary condition holds.
+    pub(super) fn necessary_from(&self) -> Option<f64> {
+        match self.necessary_holds()? {
+            Holds::From(mu) => Some(to_f64(&mu)),
+            Holds::Always | Holds::Never => None,
+        }
     }
 
     /// The equation that says so: (20) for a mass matrix M* that does not depend on mu, with z
@@ -282,15 +302,12 @@ impl ProvedState {
 
     /// From which mu on the necessary condition holds, in words.
     fn necessary_text(&self) -> String {
-        let Some(necessary) = &self.necessary else {
-            return String::new();
-        };
-
         let equation = self.necessary_equation();
-        match (self.necessary_end(), &necessary.stiffness) {
-            (_, DefiniteUntil::NotAtZero(_)) => format!("{equation} at mu = 0"),
-            (None, _) => "never holds".into(),
-            (Some(mu), _) => format!("{equation} from mu = {} on", fixed_decimals(&mu, 9)),
+        match self.necessary_holds() {
+            None => String::new(),
+            Some(Holds::Always) => format!("{equation} at mu = 0"),
+            Some(Holds::Never) => "never holds".into(),
+            Some(Holds::From(mu)) => format!("{equation} from mu = {} on", fixed_decimals(&mu, 9)),
         }
     }
 
