@@ -211,6 +211,9 @@ fn uncondensed_set(
     Ok(set)
 }
 
+/// Solutions of a state that its line in a table lists.
+const LISTED: usize = 20;
+
 impl ProvedSet {
     /// The set that a search has found, without displacements. `slip` are the variables of the slip
     /// nodes: behind those that are free, before those of candidates without reaction.
@@ -240,10 +243,14 @@ impl ProvedSet {
         }
 
         let mut all = Vec::new();
-        for solution in &self.solutions {
+        for solution in self.solutions.iter().take(LISTED) {
             let enclosure = solution.enclosure(digits);
             let slipping = solution.moving.len();
             all.push(format!("{name} in {enclosure}, {slipping} slipping"));
+        }
+        let more = self.solutions.len().saturating_sub(LISTED);
+        if more > 0 {
+            all.push(format!("{more} more (--json lists them)"));
         }
 
         all.join("; ")
