@@ -2203,7 +2203,7 @@ class Loads:
     """A body under loads: K, M, candidates and loads without the held dofs, and the digest."""
 
     def __init__(self, doc, folder):
-        _, system, steps, _, *words = fields(doc, "format system steps", "coordinates name comment")
+        _, system, steps, _, _, *words = fields(doc, "format system steps", "coordinates warnings name comment")
         for word in words:
             Maybe(text_of)(word)
         k, candidates, m, mu, held = fields(system, "stiffness candidates", "mass friction held")

@@ -64,6 +64,7 @@ impl NativeLoads {
         Ok(NativeLoads(Loads::from(LoadsFile {
             name: None,
             comment: None,
+            warnings: Vec::new(),
             body,
             coordinates: None,
         })))

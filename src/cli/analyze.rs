@@ -12,6 +12,7 @@ use super::job::{CHECKPOINT, Job};
 use super::output::{Folder, Output, folder_of};
 use super::question::load_system;
 use crate::Analyze;
+use crate::say::warnings_text;
 use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, MAX_SAMPLES, Options};
 use mceip_engine::run::Kept;
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
@@ -282,10 +283,7 @@ fn text_of(analysis: &Analysis, paths: &[String], args: &Args) -> String {
         }
     );
 
-    for warning in &analysis.warnings {
-        let printable = warning.replace(char::is_control, " ");
-        out += &format!("WARNING of convert: {printable}.\n");
-    }
+    out += &warnings_text(&analysis.warnings);
 
     let next = next_step(analysis, paths, args);
     out += &format!("\n{} {next}\n\n", analysis.summary());

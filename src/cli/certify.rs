@@ -419,7 +419,8 @@ impl Certifying<'_> {
             Ok(Near::Open(searched)) => Finding {
                 verdict: Verdict::Undecided,
                 text: format!(
-                    "undecided: {reason}; {} regions stay open and {} families of solutions lie {}{}",
+                    "undecided: {reason}; {} regions stay open and {} families of solutions lie \
+                     {}{}",
                     searched.cover.open.len(),
                     searched.cover.families.len(),
                     interval(problem, &searched),

@@ -14,8 +14,8 @@ use super::path::read_loads_of;
 use crate::say;
 use crate::say::path::LETTERS;
 use mceip_check::certificate::{
-    CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CompleteSet, CriticalCertificate,
-    EQUILIBRIUM_FORMAT, EquilibriumCertificate, PRESENCE_FORMAT, PresenceCertificate,
+    CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, EQUILIBRIUM_FORMAT,
+    EquilibriumCertificate, PRESENCE_FORMAT, PresenceCertificate,
 };
 use mceip_check::{
     Accepted, AcceptedAbsence, AcceptedClaim, AcceptedCover, AcceptedEquilibrium, AcceptedPresence,
@@ -29,7 +29,7 @@ use mceip_engine::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALU
 use mceip_exact::{enclosing_decimals, parse, to_f64};
 use mceip_model::file::{LOADS_FORMAT, require_format};
 use mceip_model::reduction::reduce;
-use mceip_model::{Body, ContactState, LoadedBody, Problem, Unknown, Window};
+use mceip_model::{LoadedBody, Problem, Unknown, Window};
 use num_traits::Zero;
 use std::path::{Path, PathBuf};
 
@@ -253,7 +253,9 @@ fn say_accepted(
         None => out += &claims_verdict(problem, window, accepted.claims.len()),
         Some(cover) if cover.proves_absence() => {
             out += &absence_verdict(problem, window, cover);
-            out += unique_rates(problem, certificate);
+            if accepted.has_unique_rates {
+                out += UNIQUE;
+            }
         }
         Some(cover) => {
             out += &cover_verdict(problem, window, cover);
@@ -292,26 +294,9 @@ fn absence_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) ->
     format!("ABSENT in {window}: no solution ({evidence}){smaller}\n")
 }
 
-/// What a cover by `positive_definite` alone says of the rates.
-fn unique_rates(problem: &Problem, certificate: &Certificate) -> &'static str {
-    let complete_set = certificate.complete_set.as_ref();
-    let is_definite = complete_set.is_some_and(CompleteSet::is_positive_definite);
-    let Body::System(system) = problem.body() else {
-        return "";
-    };
-
-    let has_zero = system
-        .particles()
-        .iter()
-        .any(|p| p.state == ContactState::Zero);
-    // Without friction a slip particle may slide both ways.
-    let has_friction = !certificate.window.min().is_zero();
-    if !is_definite || has_zero || !has_friction || problem.unknown() != Unknown::Mu {
-        return "";
-    }
-    "UNIQUE: T(mu) is a P-matrix there, so in these contact states the rates are the only ones, \
-     whatever load grows\n"
-}
+/// What is said where the rates are proved to be the only ones.
+const UNIQUE: &str = "UNIQUE: T(mu) is a P-matrix there, so in these contact states the rates are \
+    the only ones, whatever load grows\n";
 
 /// What a cover holds, and the verdict on it.
 fn cover_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) -> String {

@@ -71,7 +71,7 @@ pub(super) struct Args {
     #[arg(long)]
     symmetrize: bool,
     /// Leave the warnings out of the file: they have been looked at, and the model is meant so.
-    #[arg(long, conflicts_with_all = ["strict", "loads"])]
+    #[arg(long, conflicts_with = "strict")]
     accept_warnings: bool,
     /// Refuse a model with a warning: no file, exit code 2.
     #[arg(long)]
@@ -186,37 +186,17 @@ fn write_states(
         coordinates: coordinates.as_ref(),
         dof_names: indices.names.as_ref(),
     });
-    refuse_if_strict(args, &plausibility)?;
 
     let mut problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
     problem.name = args.name.clone();
     problem.coordinates = coordinates;
-    if !args.accept_warnings {
-        problem.warnings.clone_from(&plausibility.warnings);
-    }
+    problem.warnings = kept_warnings(args, &plausibility)?;
     problem.comment = comment(&changes);
 
     output.write(&format!("{}\n", write_problem(&problem)))?;
-    let place = args.out.display();
     let particles = counted(slip, "particle");
-    print(&format!(
-        "{place}: {dofs} degrees of freedom, {particles} in impending slip\n"
-    ))?;
-    for change in &changes {
-        print(&format!("{change}\n"))?;
-    }
-
-    print_plausibility(&plausibility)?;
-    let count = counted(plausibility.warnings.len(), "warning");
-    if args.accept_warnings {
-        print(&format!("{count} accepted; not in the file.\n"))?;
-    } else if !plausibility.warnings.is_empty() {
-        print(&format!(
-            "{count} written into the file: `mceip analyze` repeats what --accept-warnings would \
-             leave out.\n"
-        ))?;
-    }
-    Ok(exit::DONE)
+    let what = format!("{dofs} degrees of freedom, {particles} in impending slip");
+    say_written(args, &what, &changes, &plausibility)
 }
 
 /// Writes a body under loads.
@@ -247,12 +227,6 @@ fn write_body(
         last.is_endless = args.endless;
     }
 
-    let particles: Vec<Particle> = contacts
-        .candidates
-        .iter()
-        .map(|c| c.particle.clone())
-        .collect();
-    changes.extend(directions(&particles));
     let body = LoadedBody::new(LoadedParts {
         stiffness,
         mass,
@@ -261,6 +235,7 @@ fn write_body(
         held: Vec::new(),
         steps,
     })?;
+    changes.extend(directions(body.system().particles()));
     let coordinates = match &args.coordinates {
         Some(path) => {
             let mut table = read_node_table(path, &indices)?;
@@ -272,60 +247,89 @@ fn write_body(
         None => None,
     };
 
-    let is_held = body.places().contains(&None);
+    let dof_names = indices.names.map(|names| not_held(names, body.places()));
     let plausibility = Plausibility::new(&PlausibilityInput {
         system: body.system(),
         names: &contacts.names,
-        reactions: &vec![None; particles.len()],
+        reactions: &vec![None; body.gaps().len()],
         displacements: None,
         coordinates: coordinates.as_ref(),
-        // Names are those of the given degrees of freedom.
-        dof_names: indices.names.as_ref().filter(|_| !is_held),
+        dof_names: dof_names.as_ref(),
     });
-    refuse_if_strict(args, &plausibility)?;
 
     let file = LoadsFile {
         name: args.name.clone(),
         comment: comment(&changes),
+        warnings: kept_warnings(args, &plausibility)?,
         body,
         coordinates,
     };
     output.write(&format!("{}\n", write_loads(&file)))?;
-    let place = args.out.display();
     let dofs = file.body.system().dofs();
-    let candidates = counted(particles.len(), "contact candidate");
+    let candidates = counted(file.body.gaps().len(), "contact candidate");
     let steps = counted(file.body.steps().len(), "load step");
-    print(&format!(
-        "{place}: {dofs} degrees of freedom that are not held, {candidates}, {steps}\n"
-    ))?;
-    for change in &changes {
-        print(&format!("{change}\n"))?;
-    }
+    let what = format!("{dofs} degrees of freedom that are not held, {candidates}, {steps}");
+    say_written(args, &what, &changes, &plausibility)
+}
 
-    print_plausibility(&plausibility)?;
-    Ok(exit::DONE)
+/// The names of the degrees of freedom that are not held, in the order without the others.
+fn not_held(names: DofNames, places: &[Option<usize>]) -> DofNames {
+    let names = names.into_iter();
+    names
+        .filter_map(|(name, given)| Some((name, places[given]?)))
+        .collect()
 }
 
 fn comment(changes: &[String]) -> Option<String> {
     (!changes.is_empty()).then(|| changes.join(" "))
 }
 
-fn refuse_if_strict(args: &Args, plausibility: &Plausibility) -> Result<(), CliError> {
-    if args.strict && !plausibility.warnings.is_empty() {
-        let warnings = plausibility.warnings.clone();
-        return Err(CliError::Strict { warnings });
+/// The warnings that go into the file.
+///
+/// # Errors
+/// [`CliError::Strict`]: there is one, and none is to be.
+fn kept_warnings(args: &Args, plausibility: &Plausibility) -> Result<Vec<String>, CliError> {
+    let warnings = plausibility.warnings.clone();
+    match (args.strict, args.accept_warnings) {
+        (true, _) if !warnings.is_empty() => Err(CliError::Strict { warnings }),
+        (_, true) => Ok(Vec::new()),
+        _ => Ok(warnings),
     }
-    Ok(())
 }
 
-fn print_plausibility(plausibility: &Plausibility) -> Result<(), CliError> {
+/// Says what was written, what was changed on the way, and what looks wrong.
+fn say_written(
+    args: &Args,
+    what: &str,
+    changes: &[String],
+    plausibility: &Plausibility,
+) -> Result<u8, CliError> {
+    let place = args.out.display();
+    print(&format!("{place}: {what}\n"))?;
+    for change in changes {
+        print(&format!("{change}\n"))?;
+    }
     for (name, found) in &plausibility.table {
         print(&format!("    {name}: {found}\n"))?;
     }
     for warning in &plausibility.warnings {
         print(&format!("WARNING: {warning}.\n"))?;
     }
-    Ok(())
+
+    let count = counted(plausibility.warnings.len(), "warning");
+    let repeats = match args.loads {
+        None => "analyze",
+        Some(_) => "path",
+    };
+    if args.accept_warnings {
+        print(&format!("{count} accepted; not in the file.\n"))?;
+    } else if !plausibility.warnings.is_empty() {
+        print(&format!(
+            "{count} written into the file: `mceip {repeats}` repeats what --accept-warnings would \
+             leave out.\n"
+        ))?;
+    }
+    Ok(exit::DONE)
 }
 
 /// The matrix, or where it is symmetric up to rounding and `symmetrize` is given, its symmetric

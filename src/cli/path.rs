@@ -14,8 +14,8 @@ use super::common::{CliError, exit, positive, print, require_count, text};
 use super::job::Job;
 use super::output::{Folder, Output};
 use crate::picture::path_picture;
-use crate::say::counted;
 use crate::say::path::{LETTERS, continuations_text, end_text, of_which_body};
+use crate::say::{counted, warnings_text};
 use crate::{LoadPath, Loads};
 use mceip_engine::analysis::AnalysisError;
 use mceip_engine::equilibrium::StatesNotCertified;
@@ -348,11 +348,12 @@ impl Outcome<'_> {
         let letters = LETTERS;
         let table = stretches::table_of(self.path(), self.names);
         let end = end_text(self.path());
+        let warnings = warnings_text(&self.file().warnings);
         let own = self.own.as_ref().map(|own| own.text(self.in_doubles));
         let mut out = own.map_or_else(String::new, |own| format!("{own}\n"));
         out += &format!(
             "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
-             {letters}\n\
+             {warnings}{letters}\n\
              {table}\n\
              every event is an exact rational number; (1), (2), (5), (7) verified exactly at both \
              ends of each stretch; {end}\n"
@@ -380,6 +381,7 @@ impl Outcome<'_> {
     fn json(&self) -> Value {
         let mut out = json!({
             "name": self.file().name,
+            "warnings": self.file().warnings,
             "mu": self.path().steps.friction.to_string(),
             "condensed": if self.in_doubles { "in doubles" } else { "exactly" },
             "steps": self.names,
@@ -414,15 +416,7 @@ impl Outcome<'_> {
                 continue;
             }
 
-            let friction = &self.path().steps.friction;
-            let mut problem = self.file().body.problem(states, friction, Unknown::Mu)?;
-            let name = self.file().name.as_deref().unwrap_or("loading path");
-            problem.name = Some(format!(
-                "{name}, stretch {k} ({})",
-                self.names[stretch.step]
-            ));
-            problem.coordinates = self.file().coordinates.clone();
-
+            let problem = self.followed.problem_in(k, Unknown::Mu)?;
             let file = format!("stretch-{k:03}.json");
             folder.write(&file, write_problem(&problem).as_bytes())?;
             written.push(k);

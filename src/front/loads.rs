@@ -6,9 +6,7 @@ use super::problem::Problem;
 use super::run::Watched;
 use crate::say;
 use mceip_check::Proved;
-use mceip_check::certificate::{
-    CompleteSet, EquilibriumCertificate, SlipSign, StatedEquilibrium, StatedState,
-};
+use mceip_check::certificate::{EquilibriumCertificate, SlipSign, StatedEquilibrium, StatedState};
 use mceip_engine::equilibrium::{StatesNotCertified, certify_equilibrium};
 use mceip_engine::run::{Cancel, Progress};
 use mceip_exact::{Rational, from_f64, to_f64};
@@ -278,10 +276,29 @@ impl LoadPath {
             Some(_) => Unknown::Lambda2,
             None => Unknown::Mu,
         };
-        let states = self.path.stretches[stretch].equilibrium_states();
-        Ok(body
-            .problem(states, &self.path.steps.friction, unknown)?
-            .into())
+        Ok(self.problem_in(stretch, unknown)?.into())
+    }
+
+    /// The problem in the contact states inside a stretch; names, coordinates and warnings are
+    /// those of the file.
+    pub(crate) fn problem_in(
+        &self,
+        stretch: usize,
+        unknown: Unknown,
+    ) -> Result<mceip_model::Problem, mceip_model::ModelError> {
+        let file = self.loads.as_file();
+        let at = &self.path.stretches[stretch];
+        let friction = &self.path.steps.friction;
+        let mut problem = file
+            .body
+            .problem(at.equilibrium_states(), friction, unknown)?;
+
+        let name = file.name.as_deref().unwrap_or("loading path");
+        let step = &file.body.steps()[at.step].name;
+        problem.name = Some(format!("{name}, stretch {stretch} ({step})"));
+        problem.coordinates.clone_from(&file.coordinates);
+        problem.warnings.clone_from(&file.warnings);
+        Ok(problem)
     }
 
     /// How the path can go on at the beginning of each stretch: in one way whatever load grows, or
@@ -327,11 +344,10 @@ impl LoadPath {
         }
 
         let here = Window::new(mu.clone(), Some(mu.clone()))?;
-        let problem = self.loads.body().problem(states, mu, Unknown::Mu)?;
+        let problem = self.problem_in(stretch, Unknown::Mu)?;
         let found = Problem::from(problem.with_window(here)).complete().run()?;
-        let complete_set = found.certificate().complete_set.as_ref();
-        let is_definite = complete_set.is_some_and(CompleteSet::is_positive_definite);
-        Ok((found.is_empty() && is_definite).then_some(found))
+        let is_unique = found.proved().accepted().has_unique_rates;
+        Ok(is_unique.then_some(found))
     }
 
     /// Why it ends, in words.

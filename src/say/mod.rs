@@ -8,6 +8,17 @@ pub(crate) mod enumeration;
 pub(crate) mod path;
 pub(crate) mod search;
 
+/// What looked wrong when a file was made, a line each.
+pub(crate) fn warnings_text(warnings: &[String]) -> String {
+    let mut out = String::new();
+    for warning in warnings {
+        let printable = warning.replace(char::is_control, " ");
+        out += &format!("WARNING of convert: {printable}.\n");
+    }
+
+    out
+}
+
 /// "1 warning", "2 warnings", "2 stretches".
 pub(crate) fn counted(count: usize, noun: &str) -> String {
     let plural = match noun {

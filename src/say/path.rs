@@ -113,10 +113,10 @@ fn continuations_json(continuations: &RateSolutions) -> Value {
 /// Of which body a path is.
 pub(crate) fn of_which_body(is_in_doubles: bool) -> &'static str {
     if is_in_doubles {
-        "all of this is said of the body condensed in doubles, which differs from the given one by \
+        "the path is that of the body condensed in doubles, which differs from the given one by \
          rounding"
     } else {
-        "all of this is said of the body as it is given, condensed exactly"
+        "the path is that of the body as it is given, condensed exactly"
     }
 }
 

@@ -59,7 +59,8 @@ use cover::AcceptedSolution;
 use cover::walk::Audit;
 use exact_solution::{ClaimSize, MAX_WORK};
 use mceip_exact::Interval;
-use mceip_model::{Problem, Window};
+use mceip_model::{Body, ContactState, Problem, Unknown, Window};
+use num_traits::Signed as _;
 use pencil::Rows;
 
 /// What the exact and lifted claims of a file may cost together: without any claim, and for each.
@@ -76,6 +77,10 @@ pub struct Accepted {
     pub claims: Vec<AcceptedClaim>,
     /// What the claim of a complete set has proved, if the certificate makes one.
     pub cover: Option<AcceptedCover>,
+    /// Is T(mu) a P-matrix in the whole window, so that in these contact states the rates of the
+    /// quasi-static problem are the only ones, whatever load grows (`spec/certificates.md`, 5.9)?
+    /// `false` where the cover does not tell.
+    pub has_unique_rates: bool,
 }
 
 /// A proved claim: the problem has a solution with this support and a value in this interval.
@@ -212,7 +217,38 @@ fn verdict(
         beside_the_cover(&claims, cover)?;
     }
 
-    Ok(Accepted { claims, cover })
+    Ok(Accepted {
+        has_unique_rates: has_unique_rates(problem, certificate, cover.as_ref()),
+        claims,
+        cover,
+    })
+}
+
+/// Does an accepted cover say that T(mu) of the contact states of a body is a P-matrix?
+fn has_unique_rates(
+    problem: &Problem,
+    certificate: &Certificate,
+    cover: Option<&AcceptedCover>,
+) -> bool {
+    let (Some(set), Some(cover), Body::System(system)) =
+        (&certificate.complete_set, cover, problem.body())
+    else {
+        return false;
+    };
+
+    // A candidate without reaction has rates that T(mu) does not know.
+    let has_zero = system
+        .particles()
+        .iter()
+        .any(|p| p.state == ContactState::Zero);
+    // Without friction a slip particle may slide both ways.
+    let has_friction = certificate.window.min().is_positive();
+    problem.unknown() == Unknown::Mu
+        && has_friction
+        && !has_zero
+        // An audit may have opened the leaf that says so.
+        && cover.proves_absence()
+        && set.is_positive_definite()
 }
 
 /// Demands that the certificate belongs to this problem and claims something.
@@ -301,6 +337,47 @@ mod tests {
             support: vec![support],
             value: Interval::point(whole(value)),
         }
+    }
+
+    /// Are the rates said to be unique, by this tree over [min, max], where T(mu) = 1 - 3 mu?
+    fn is_said_unique(unknown: &str, [min, max]: [&str; 2], tree: &str) -> bool {
+        let file = format!(
+            r#"{{"format": "mceip-problem/1", "unknown": "{unknown}",
+                "system": {{"stiffness": [[1, -3], [-3, 10]], "mass": [[1, 0], [0, 1]],
+                           "friction": "1/4",
+                           "particles": [{{"tangential": 0, "normal": 1, "state": "slip",
+                                          "sign": 1}}]}}}}"#
+        );
+        let problem = mceip_model::file::read_problem(&file, std::path::Path::new(".")).unwrap();
+        let certificate = format!(
+            r#"{{"format": "mceip-certificate/1", "problem_sha256": "{}", "unknown": "{unknown}",
+                "window": {{"min": "{min}", "max": "{max}"}}, "claims": [],
+                "complete_set": {{"pieces": [{{"max": "{max}", "tree": [{tree}]}}]}}}}"#,
+            problem.sha256()
+        );
+        let certificate = Certificate::from_json(&certificate).unwrap();
+        check(&problem, &certificate).unwrap().has_unique_rates
+    }
+
+    /// Only what a positive definite T(mu) says, at mu > 0, of particles with a reaction.
+    #[test]
+    fn rates_are_unique_where_one_leaf_says_that_the_pencil_is_definite() {
+        let definite = r#""positive_definite""#;
+        let ldl = |d: &str| {
+            let factor = format!(r#"{{"rows": [[]], "diagonal": ["{d}"]}}"#);
+            format!(r#"{{"ldl": {{"lower": {factor}, "upper": {factor}}}}}"#)
+        };
+        let quarter = ["1/4", "1/4"];
+
+        assert!(is_said_unique("mu", quarter, definite));
+        assert!(is_said_unique("mu", quarter, &ldl("1/4")));
+
+        assert!(!is_said_unique("mu", ["1", "1"], &ldl("-2")));
+        assert!(!is_said_unique("mu", ["1", "1"], r#""negative_definite""#));
+        assert!(!is_said_unique("mu", ["0", "1/4"], definite));
+        assert!(!is_said_unique("lambda2", quarter, definite));
+        let open = r#"{"branch": 0}, "positive_definite", "open""#;
+        assert!(!is_said_unique("mu", quarter, open));
     }
 
     /// No file reaches this rejection as long as the checker accepts true claims and true covers

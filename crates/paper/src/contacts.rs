@@ -240,24 +240,8 @@ pub fn read_contacts(
     friction: &Rational,
     dof: &dyn Fn(&str) -> Option<usize>,
 ) -> Result<ContactTable, ContactsError> {
-    let mut lines = lines_with_content(text).into_iter();
-    let header = lines.next().map_or("", |line| line.text);
-    let table = Table::new(header, &CONTACTS)?;
-
-    let mut particles = Vec::new();
-    let mut names = Vec::new();
-    let mut reactions = Vec::new();
-    for line in lines {
-        let row = table.row(line)?;
-        names.push(row.cell(Column::Particle).unwrap_or("").to_string());
-        let (particle, reaction) = row.particle(friction, dof)?;
-        particles.push(particle);
-        reactions.push(reaction);
-    }
-
-    if particles.is_empty() {
-        return Err(ContactsError::Empty);
-    }
+    let (rows, names) = read_rows(text, &CONTACTS, &|row| row.particle(friction, dof))?;
+    let (particles, reactions) = rows.into_iter().unzip();
 
     Ok(ContactTable {
         particles,
@@ -283,29 +267,32 @@ pub fn read_candidates(
     text: &str,
     dof: &dyn Fn(&str) -> Option<usize>,
 ) -> Result<CandidateTable, ContactsError> {
+    let (candidates, names) = read_rows(text, &CANDIDATES, &|row| row.candidate(dof))?;
+    Ok(CandidateTable { candidates, names })
+}
+
+/// What each line of a table says, and its label.
+fn read_rows<T>(
+    text: &str,
+    columns: &Columns,
+    read: &dyn Fn(&Row<'_>) -> Result<T, ContactsError>,
+) -> Result<(Vec<T>, Vec<String>), ContactsError> {
     let mut lines = lines_with_content(text).into_iter();
     let header = lines.next().map_or("", |line| line.text);
-    let table = Table::new(header, &CANDIDATES)?;
+    let table = Table::new(header, columns)?;
 
-    let mut candidates = Vec::new();
+    let mut rows = Vec::new();
     let mut names = Vec::new();
     for line in lines {
         let row = table.row(line)?;
         names.push(row.cell(Column::Particle).unwrap_or("").to_string());
-        let gap = row.number(Column::Gap)?.unwrap_or_default();
-        if gap.is_negative() {
-            return Err(row.unexpected(Column::Gap, "a number >= 0"));
-        }
-        candidates.push(Candidate {
-            particle: row.without_reaction(ContactState::Free, dof)?,
-            gap,
-        });
+        rows.push(read(&row)?);
     }
 
-    if candidates.is_empty() {
+    if rows.is_empty() {
         return Err(ContactsError::Empty);
     }
-    Ok(CandidateTable { candidates, names })
+    Ok((rows, names))
 }
 
 /// A line of the file.
@@ -472,6 +459,17 @@ impl Row<'_> {
             ..particle
         };
         Ok((particle, in_table))
+    }
+
+    /// A candidate, whose state and reaction are not known.
+    fn candidate(&self, dof: &dyn Fn(&str) -> Option<usize>) -> Result<Candidate, ContactsError> {
+        let gap = self.number(Column::Gap)?.unwrap_or_default();
+        if gap.is_negative() {
+            return Err(self.unexpected(Column::Gap, "a number >= 0"));
+        }
+
+        let particle = self.without_reaction(ContactState::Free, dof)?;
+        Ok(Candidate { particle, gap })
     }
 
     /// The particle in a state, whatever its reaction.

@@ -180,6 +180,7 @@ impl BlockModel {
                 "Units: mm, N, t, s. The glued side is pressed down until the normal force is \
                  {force} N, then moved to the left."
             )),
+            warnings: Vec::new(),
             body,
             coordinates: Some(coordinates),
         })

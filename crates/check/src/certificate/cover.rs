@@ -36,7 +36,7 @@ pub struct CompleteSet {
 impl CompleteSet {
     /// Is each piece closed by one leaf that says that the symmetric part of the matrix, its rows
     /// scaled, is positive definite? Then, once accepted, the matrix is a P-matrix in the window.
-    pub fn is_positive_definite(&self) -> bool {
+    pub(crate) fn is_positive_definite(&self) -> bool {
         let is_closed = |piece: &Piece| match &piece.tree[..] {
             [Node::PositiveDefinite] => true,
             // Negative factors are an absence as well, and no P-matrix.

@@ -20,6 +20,8 @@ pub struct LoadsFile {
     pub name: Option<String>,
     /// A remark for people.
     pub comment: Option<String>,
+    /// What looked wrong when the file was made.
+    pub warnings: Vec<String>,
     /// The body and its loads.
     pub body: LoadedBody,
     /// Where its nodes are.
@@ -33,6 +35,8 @@ struct RawLoads {
     _format: String, // checked before
     name: Option<String>,
     comment: Option<String>,
+    #[serde(default)]
+    warnings: Vec<String>,
     system: Object<RawBody>,
     steps: Vec<Object<RawStep>>,
     coordinates: Option<Object<RawCoordinates>>,
@@ -103,6 +107,7 @@ impl RawLoads {
         Ok(LoadsFile {
             name: self.name,
             comment: self.comment,
+            warnings: self.warnings,
             body,
             coordinates,
         })
@@ -172,6 +177,7 @@ mod tests {
     const FILE: &str = r#"{
         "format": "mceip-loads/1",
         "name": "one particle",
+        "warnings": ["soft"],
         "system": {
             "stiffness": [[2, 0, -1], [0, 1, 0], [-1, 0, 2]],
             "friction": 0.5,
@@ -212,6 +218,7 @@ mod tests {
         let again = read(&write_loads(&file)).unwrap();
 
         assert_eq!(again.name, file.name);
+        assert_eq!(again.warnings, ["soft"]);
         assert_eq!(again.coordinates, file.coordinates);
         assert_eq!(again.body.system(), file.body.system());
         assert_eq!(again.body.gaps(), file.body.gaps());

@@ -13,24 +13,13 @@ use serde_json::{Map, Value, json};
 
 /// The problem as `mceip-problem/1`, matrices inlined as sparse entries.
 pub fn write_problem(problem: &Problem) -> String {
-    let mut out = Map::new();
-    out.insert("format".into(), json!(PROBLEM_FORMAT));
-    if let Some(name) = &problem.name {
-        out.insert("name".into(), json!(name));
-    }
-
-    if let Some(comment) = &problem.comment {
-        out.insert("comment".into(), json!(comment));
-    }
-
-    if !problem.warnings.is_empty() {
-        out.insert("warnings".into(), json!(problem.warnings));
-    }
-
-    if let Some(coordinates) = &problem.coordinates {
-        out.insert("coordinates".into(), write_coordinates(coordinates));
-    }
-
+    let mut out = write_head(&Head {
+        format: PROBLEM_FORMAT,
+        name: problem.name.as_deref(),
+        comment: problem.comment.as_deref(),
+        warnings: &problem.warnings,
+        coordinates: problem.coordinates.as_ref(),
+    });
     out.insert("unknown".into(), json!(problem.unknown().word()));
     out.insert("window".into(), write_window(problem.window()));
 
@@ -45,26 +34,50 @@ pub fn write_problem(problem: &Problem) -> String {
 /// The body and its loads as `mceip-loads/1`. The held dofs are eliminated: what they exert is
 /// written as forces.
 pub fn write_loads(file: &LoadsFile) -> String {
-    let mut out = Map::new();
-    out.insert("format".into(), json!(LOADS_FORMAT));
-    if let Some(name) = &file.name {
-        out.insert("name".into(), json!(name));
-    }
-
-    if let Some(comment) = &file.comment {
-        out.insert("comment".into(), json!(comment));
-    }
-
-    if let Some(coordinates) = &file.coordinates {
-        out.insert("coordinates".into(), write_coordinates(coordinates));
-    }
-
+    let mut out = write_head(&Head {
+        format: LOADS_FORMAT,
+        name: file.name.as_deref(),
+        comment: file.comment.as_deref(),
+        warnings: &file.warnings,
+        coordinates: file.coordinates.as_ref(),
+    });
     let mut system = write_matrices(file.body.system());
     system.insert("candidates".into(), write_candidates(&file.body));
     out.insert("system".into(), Value::Object(system));
     out.insert("steps".into(), write_steps(&file.body));
 
     Value::Object(out).to_string()
+}
+
+/// What both kinds of files begin with.
+struct Head<'a> {
+    format: &'static str,
+    name: Option<&'a str>,
+    comment: Option<&'a str>,
+    warnings: &'a [String],
+    coordinates: Option<&'a Coordinates>,
+}
+
+fn write_head(head: &Head<'_>) -> Map<String, Value> {
+    let mut out = Map::new();
+    out.insert("format".into(), json!(head.format));
+    if let Some(name) = head.name {
+        out.insert("name".into(), json!(name));
+    }
+
+    if let Some(comment) = head.comment {
+        out.insert("comment".into(), json!(comment));
+    }
+
+    if !head.warnings.is_empty() {
+        out.insert("warnings".into(), json!(head.warnings));
+    }
+
+    if let Some(coordinates) = head.coordinates {
+        out.insert("coordinates".into(), write_coordinates(coordinates));
+    }
+
+    out
 }
 
 fn write_candidates(body: &LoadedBody) -> Value {
