@@ -7,7 +7,7 @@
 
 mod page;
 
-use super::common::{CliError, exit, number, print, require_count, require_threads, shell_word};
+use super::common::{CliError, aside, exit, number, print, require_count, require_threads, shell_word};
 use super::job::{CHECKPOINT, Job};
 use super::output::{Folder, Output, folder_of};
 use super::question::load_system;
@@ -17,8 +17,8 @@ use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, MAX_SAMPLES, Opt
 use mceip_engine::run::Kept;
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
-use mceip_model::System;
 use mceip_model::file::SystemFile;
+use mceip_model::{System, Window};
 use num_traits::Signed;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -70,6 +70,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         return Err(AnalysisError::NotASystem.into());
     };
     let system = &file.system;
+    if file.window != Window::all() {
+        aside(&format!(
+            "mceip: the window {} of the file is not used: all values are looked at",
+            file.window
+        ));
+    }
     let friction = friction(args, &file)?;
     require_threads(args.threads)?;
     require_count("boxes", args.boxes as u64, 0..=MAX_BOXES)?;

@@ -9,6 +9,7 @@ use crate::front::left_behind_if;
 use mceip_exact::Rational;
 use mceip_model::file::write_loads;
 use mceip_paper::{BlockModel, Loading, MeshKind, Plane};
+use num_traits::Signed as _;
 use std::path::Path;
 
 /// Writes the file.
@@ -61,6 +62,9 @@ fn model(args: &Args) -> Result<BlockModel, CliError> {
     let cells = cells.ok_or_else(|| CliError::option("cells", expected, &args.cells))?;
 
     let height = number("height", &args.height)?;
+    if !height.is_positive() {
+        return Err(CliError::option("height", "a number > 0", &args.height));
+    }
     let cell_length = part(&paper.length(), cells.0);
     let cell_height = part(&height, cells.1);
 

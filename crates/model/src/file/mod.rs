@@ -25,7 +25,7 @@ pub use object::{Object, Word, word_or_kind};
 pub use order::{MAX_ORDER, require_order};
 pub use write::{write_loads, write_problem, write_sparse};
 
-use super::{Coordinates, ErrorLocation, ModelError, Problem, System, Unknown};
+use super::{Coordinates, ErrorLocation, ModelError, Problem, System, Unknown, Window};
 use mceip_exact::Rational;
 use std::io::Read as _;
 use std::path::{Component, Path};
@@ -75,6 +75,8 @@ pub struct SystemFile {
     pub coordinates: Option<Coordinates>,
     /// What the file seeks.
     pub unknown: Unknown,
+    /// Where the file seeks it.
+    pub window: Window,
     /// The system; without friction where `friction` is 0, which a [`System`] with slip particles
     /// cannot have.
     pub system: System,

@@ -131,7 +131,7 @@ impl RawProblem {
 
     /// Builds the system alone, without friction where that is 0; `None` for a pencil.
     pub(super) fn build_system(self, folder: &Path) -> Result<Option<SystemFile>, ModelError> {
-        RawWindow::build_given(self.window)?;
+        let window = RawWindow::build_given(self.window)?;
         let mut raw = match (self.pencil, self.system) {
             (None, Some(Object(raw))) => raw,
             (Some(_), None) => return Ok(None),
@@ -155,6 +155,7 @@ impl RawProblem {
             warnings: self.warnings,
             coordinates,
             unknown: self.unknown.0,
+            window,
             system,
             friction,
         }))
