@@ -41,7 +41,7 @@ from .answers import (
 )
 from .drawing import Drawing, draw_mode
 from .inputs import Contact, Number
-from .loading import Body, Candidate, LoadPath, Step, Stretch
+from .loading import Body, Candidate, LoadPath, OwnCritical, Step, Stretch
 from .problem import ModelWarning, Problem, check
 from .progress import Listener
 
@@ -69,6 +69,7 @@ __all__ = [
     "NotCertifiedError",
     "Number",
     "OpenRegion",
+    "OwnCritical",
     "Presence",
     "Problem",
     "Proof",

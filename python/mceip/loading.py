@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any, Union
 
 import numpy as np
@@ -143,8 +144,69 @@ class LoadPath:
         contact states are checked against. Held degrees of freedom are eliminated."""
         return self._native.loads()
 
+    def own_critical(
+        self,
+        least: Number,
+        greatest: Number,
+        *,
+        parts: int = 10,
+        width: Number = "0.01",
+        progress: Progress = None,
+    ) -> OwnCritical:
+        """From which friction on do these loads lead to an equilibrium that can diverge?
+
+        At each mu of a grid the path is followed at this mu, and the equilibrium at its end is
+        examined; between neighbours with different answers more mu are.
+
+        Args:
+            least: the smallest mu.
+            greatest: the largest mu.
+            parts: parts of the grid.
+            width: how near neighbours with different answers are brought, relative to mu.
+            progress: as in `Problem`.
+        """
+        ends = (spelt(least), spelt(greatest))
+        with listening(progress) as listener:
+            found, text = self._native.own_critical(
+                ends, count("parts", parts, 1), spelt(width), listener
+            )
+        return OwnCritical(json.loads(found), text)
+
     def __repr__(self) -> str:
         return f"<mceip.LoadPath {len(self.stretches)} stretches, {self.end}>"
+
+
+class OwnCritical:
+    """The critical friction of the equilibria that loads lead to. Nothing is claimed between two mu.
+
+    Attributes:
+        found: "between", "at_most" (none below is decided), "none" or "undecided".
+        absent: the mu before the critical one at which divergence is proved absent, if there is one.
+        critical: the first mu at which divergence is proved, or the path ends.
+        points: what is found at each mu, as in `mceip path --own-critical --json`.
+        frozen: the critical friction of the contact states at `absent`, held; see `points`.
+    """
+
+    def __init__(self, found: Mapping[str, Any], text: str) -> None:
+        bracket: Mapping[str, str | None] = found["bracket"] or {}
+        self.found: str = found["found"]
+        self.absent: Fraction | None = exact(bracket.get("absent"))
+        self.critical: Fraction | None = exact(bracket.get("critical"))
+        self.points: list[dict[str, Any]] = found["points"]
+        self.frozen: dict[str, Any] | None = found["frozen"]
+        self._text = text
+
+    def __str__(self) -> str:
+        return self._text
+
+    def __repr__(self) -> str:
+        ends = f"{self.absent} to {self.critical}"
+        return f"<mceip.OwnCritical {self.found} {ends}, {len(self.points)} mu examined>"
+
+
+def exact(text: str | None) -> Fraction | None:
+    """The number that is spelt, if one is."""
+    return None if text is None else Fraction(text)
 
 
 class Stretch:

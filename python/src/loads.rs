@@ -4,7 +4,7 @@ use crate::contact::Contacts;
 use crate::watched::watched;
 use crate::{MceipError, NativeProblem, NotCertifiedError, Triplets};
 use crate::{matrix, number, refused};
-use mceip::{Error, LoadPath, Loads, Rational};
+use mceip::{Error, FrictionGrid, FrictionGridError, LoadPath, Loads, Rational};
 use mceip_model::file::LoadsFile;
 use mceip_model::{Candidate, LoadStep, LoadedBody, LoadedParts};
 use pyo3::prelude::*;
@@ -129,6 +129,30 @@ impl NativeLoadPath {
             Err(Error::Model(mceip::ModelError::NothingSlips)) => Ok(None),
             Err(error) => Err(refused(error)),
         }
+    }
+
+    /// The own critical friction of its loads, as that of `mceip path --own-critical --json` and in
+    /// words; the range is that of mu.
+    fn own_critical(
+        &self,
+        py: Python<'_>,
+        range: (String, String),
+        parts: usize,
+        width: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(String, String)> {
+        let [least, greatest] = [&range.0, &range.1].map(|end| number("own_critical", end));
+        let told = |e: FrictionGridError| MceipError::new_err(e.to_string());
+        let grid = FrictionGrid::new(least?, greatest?).and_then(|grid| grid.with_parts(parts));
+        let width = number("width", width)?;
+        let grid = grid.and_then(|grid| grid.with_width(width)).map_err(told)?;
+
+        let own = watched(py, progress.as_ref(), |cancel, hear| {
+            let question = self.0.own_critical(grid);
+            question.cancel(cancel).on_progress(hear).run()
+        })?;
+        let own = own.map_err(refused)?;
+        Ok((own.to_json().to_string(), own.text()))
     }
 
     /// The certificate of the contact states inside a stretch, `mceip-equilibrium/1`.

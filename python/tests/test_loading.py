@@ -2,8 +2,10 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -67,6 +69,30 @@ def test_states_are_certified_and_anybody_can_check_them(tmp_path):
     for loads in [os.path.join(EXAMPLES, "loads.json"), own]:
         run = subprocess.run([sys.executable, checker, loads, certificate], capture_output=True)
         assert run.returncode == 0, run
+
+
+def test_the_own_critical_friction_is_that_of_the_book():
+    with open(os.path.join(EXAMPLES, "own-critical.json"), encoding="utf-8") as file:
+        given = json.load(file)
+    system = given["system"]
+    candidates = [mceip.Candidate(**candidate) for candidate in system["candidates"]]
+    body = mceip.Body(system["stiffness"], system["mass"], candidates=candidates)
+    steps = [mceip.Step(step["name"], forces=dict(step["forces"])) for step in given["steps"]]
+    path = body.path(steps, str(system["friction"]))
+
+    own = path.own_critical("1.7", "1.8", parts=2)
+
+    assert (own.found, own.absent, own.critical) == ("between", Fraction("1.78"), Fraction("1.79"))
+    assert [point["states_certified"] for point in own.points] == [True] * len(own.points)
+    assert str(own).startswith("OWN CRITICAL FRICTION: between 1.78 and 1.79")
+    assert "between 89/50 to 179/100" in repr(own)
+    for ends, options, word in [
+        ((2, 1), {}, "0 < MIN < MAX"),
+        ((1, 2), {"parts": 0}, "parts"),
+        ((1, 2), {"width": 0}, "at least 1/10^9"),
+    ]:
+        with pytest.raises(mceip.MceipError, match=re.escape(word)):
+            path.own_critical(*ends, **options)
 
 
 def test_loads_are_lists_or_mappings_and_matrices_of_any_kind():

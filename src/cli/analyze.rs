@@ -7,7 +7,9 @@
 
 mod page;
 
-use super::common::{CliError, aside, exit, number, print, require_count, require_threads, shell_word};
+use super::common::{
+    CliError, aside, exit, number, print, require_count, require_threads, shell_word,
+};
 use super::job::{CHECKPOINT, Job};
 use super::output::{Folder, Output, folder_of};
 use super::question::load_system;

@@ -312,6 +312,11 @@ impl Folder {
         self.note(self.write_proof(proof));
     }
 
+    /// What was made; a failure is told at the end of the run.
+    pub(super) fn made<T>(&self, made: Result<T, impl Into<CliError>>) -> Option<T> {
+        made.map_err(|e| self.note(Err(e.into()))).ok()
+    }
+
     fn note(&self, written: Result<(), CliError>) {
         if let Err(e) = written {
             let mut failed = self.failed.lock().unwrap_or_else(PoisonError::into_inner);

@@ -10,21 +10,19 @@ mod pages;
 mod states;
 mod stretches;
 
-use super::common::{CliError, exit, positive, print, require_count, text};
+use super::common::{CliError, exit, positive, print, text};
 use super::job::Job;
 use super::output::{Folder, Output};
 use crate::picture::path_picture;
 use crate::say::path::{LETTERS, continuations_text, end_text, of_which_body};
 use crate::say::{counted, warnings_text};
-use crate::{LoadPath, Loads};
-use mceip_engine::analysis::AnalysisError;
+use crate::{FrictionGrid, LoadPath, Loads, OwnCritical};
 use mceip_engine::equilibrium::StatesNotCertified;
 use mceip_engine::run::{Kept, Progress, Watch};
 use mceip_exact::to_f64;
 use mceip_model::Unknown;
 use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
 use mceip_path::{LoadingPath, PathEnd};
-use own::{Asked, Loaded, OwnCritical};
 use pages::{CheckedOn, Shown};
 use serde_json::{Value, json};
 use states::{ProvedState, Wanted};
@@ -118,6 +116,10 @@ pub(super) struct Args {
     /// of each path, and problem and certificate of what is said of divergence.
     #[arg(long, value_name = "FOLDER")]
     certificates: Option<PathBuf>,
+    /// With --own-critical --certificates: go on from the proofs about divergence that an earlier
+    /// run has left in the folder, each checked again.
+    #[arg(long, requires_all = ["own_critical", "certificates"])]
+    resume: bool,
     /// Draw resultants and states along the path, as SVG.
     #[arg(long, value_name = "OUT.svg")]
     picture: Option<PathBuf>,
@@ -145,14 +147,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let pictures = Folder::prepare_if("pictures", args.pictures.as_deref(), input)?;
     let folder = Folder::prepare_if("states", args.states.as_deref(), input)?;
     let proofs = Folder::prepare_if("certificates", args.certificates.as_deref(), input)?;
-    require_count("grid", args.grid as u64, 1..=MAX_GRID)?;
     let own_asked = match args.own_critical.as_slice() {
         [] => None,
-        ends => Some(Asked::of(ends, args.grid, &args.width)?),
+        ends => Some(own::grid_of(ends, args.grid, &args.width)?),
     };
-    if own_asked.is_some() && loads.body().system().mass().is_none() {
-        return Err(AnalysisError::NoMass.into());
-    }
 
     let job = Job::begin("reading");
     let mut question = loads.path().in_doubles(args.doubles).cancel(job.cancel());
@@ -202,7 +200,6 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             names: &names,
             states,
             branches: pages::branches(loads.body().system(), path, states, &watch)?,
-            in_doubles: args.doubles,
             checked_on: if uncondensed {
                 CheckedOn::Given
             } else {
@@ -214,18 +211,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     // An interrupted run leaves no pictures.
     let shown = shown.filter(|_| !job.is_cancelled());
     let pages = shown.map_or(Ok(()), |shown| write_pages(&shown, report, pictures));
-    let own = match &own_asked {
-        None => None,
-        Some(asked) => {
-            let loaded = Loaded {
-                body: loads.body(),
-                contact: followed.contact(),
-                steps: &path.steps,
-                names: &names,
-            };
-            Some(job.watched(|watch| OwnCritical::find(&loaded, asked, proofs.as_ref(), watch))?)
-        }
-    };
+    let own = own_asked.map(|grid| own_critical(&followed, grid, proofs.as_ref(), args, &job));
+    let own = own.transpose()?;
     let certified = match (&proofs, &own) {
         (Some(folder), None) => Some(certify_stretches(&followed, folder, &job)?),
         _ => None,
@@ -235,7 +222,6 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let outcome = Outcome {
         followed: &followed,
         names: &names,
-        in_doubles: args.doubles,
         proved,
         own,
         certified,
@@ -265,6 +251,30 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Some(own) if code == exit::DONE && own.is_undecided() => Ok(exit::UNDECIDED),
         _ => Ok(code),
     }
+}
+
+/// The own critical friction, each answer kept in the folder as soon as it is found.
+fn own_critical(
+    followed: &LoadPath,
+    grid: FrictionGrid,
+    folder: Option<&Folder>,
+    args: &Args,
+    job: &Job,
+) -> Result<OwnCritical, CliError> {
+    let mut question = followed.own_critical(grid).cancel(job.cancel());
+    question = question.on_progress(|progress| job.say(progress));
+    if let Some(folder) = folder {
+        question = question.on_point(|point| own::keep_point(folder, point));
+    }
+    if let Some(folder) = folder.filter(|_| args.resume) {
+        question = question.resume(|mu| own::earlier(folder, mu));
+    }
+
+    let found = question.run()?;
+    if let Some(folder) = folder {
+        own::keep_frozen(folder, &found);
+    }
+    Ok(found)
 }
 
 /// `STRETCH=K` of `--take`.
@@ -302,9 +312,6 @@ fn write_pages(
     Ok(())
 }
 
-/// More parts than any picture has use for.
-const MAX_GRID: u64 = 10_000;
-
 /// Reads the text of a file of a body under loads; stdin has its matrices in this folder.
 pub(super) fn read_loads_of(text: &str, path: &Path) -> Result<Loads, CliError> {
     let folder = if path == Path::new("-") {
@@ -321,8 +328,6 @@ struct Outcome<'a> {
     followed: &'a LoadPath,
     /// Names of the steps.
     names: &'a [&'a str],
-    /// Was the body condensed in doubles?
-    in_doubles: bool,
     /// What is proved of the states, if asked for.
     proved: Option<Vec<ProvedState>>,
     /// The own critical friction, if asked for.
@@ -349,7 +354,7 @@ impl Outcome<'_> {
         let table = stretches::table_of(self.path(), self.names);
         let end = end_text(self.path());
         let warnings = warnings_text(&self.file().warnings);
-        let own = self.own.as_ref().map(|own| own.text(self.in_doubles));
+        let own = self.own.as_ref().map(OwnCritical::text);
         let mut out = own.map_or_else(String::new, |own| format!("{own}\n"));
         out += &format!(
             "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
@@ -359,7 +364,7 @@ impl Outcome<'_> {
              ends of each stretch; {end}\n"
         );
         out += &continuations_text(self.followed.continuations());
-        if self.in_doubles {
+        if self.followed.is_in_doubles() {
             out += &format!("{}\n", of_which_body(true));
         }
         if let Some(certified) = &self.certified {
@@ -383,7 +388,7 @@ impl Outcome<'_> {
             "name": self.file().name,
             "warnings": self.file().warnings,
             "mu": self.path().steps.friction.to_string(),
-            "condensed": if self.in_doubles { "in doubles" } else { "exactly" },
+            "condensed": if self.followed.is_in_doubles() { "in doubles" } else { "exactly" },
             "steps": self.names,
             "intervals": self.followed.to_json(),
             "end": end_text(self.path()),
@@ -401,7 +406,7 @@ impl Outcome<'_> {
             out["complete_sets"] = states::json_of(proved, self.path(), places);
         }
         if let Some(own) = &self.own {
-            out["own_critical"] = own.json();
+            out["own_critical"] = own.to_json();
         }
 
         out

@@ -201,6 +201,7 @@ impl<'a> FollowPath<'a> {
 
         Ok(Some(LoadPath {
             loads: self.loads.clone(),
+            is_in_doubles: self.is_in_doubles,
             contact,
             path,
             continuations,
@@ -241,6 +242,7 @@ pub(crate) fn left_behind_if<T: Send + 'static>(
 #[derive(Debug, Clone)]
 pub struct LoadPath {
     loads: Loads,
+    is_in_doubles: bool,
     contact: Contact,
     path: LoadingPath,
     continuations: Vec<RateSolutions>,
@@ -255,6 +257,12 @@ impl LoadPath {
     /// The body condensed to its candidates.
     pub fn contact(&self) -> &Contact {
         &self.contact
+    }
+
+    /// Was the body condensed in doubles? Then the path is that of a body which differs from the
+    /// given one by rounding.
+    pub fn is_in_doubles(&self) -> bool {
+        self.is_in_doubles
     }
 
     /// The body and its loads.
@@ -365,7 +373,7 @@ impl LoadPath {
 pub type ProvedStates = Result<Proved<EquilibriumCertificate>, StatesNotCertified>;
 
 /// Certifies the contact states of an equilibrium of a stretch.
-pub(crate) fn certify_states(
+pub(super) fn certify_states(
     body: &LoadedBody,
     path: &LoadingPath,
     stretch: &Stretch,

@@ -12,6 +12,8 @@ mod error;
 #[cfg(feature = "solver")]
 mod loads;
 mod matrix;
+#[cfg(feature = "solver")]
+mod own_critical;
 mod problem;
 #[cfg(feature = "solver")]
 mod run;
@@ -29,11 +31,16 @@ pub use complete::{Complete, SolutionSet};
 #[cfg(feature = "solver")]
 pub use enumerate::{Enumerate, Enumerated};
 pub use error::Error;
+#[cfg(feature = "cli")]
+pub(crate) use loads::left_behind_if;
 #[cfg(feature = "solver")]
 pub use loads::{FollowPath, LoadPath, Loads, ProvedStates};
-#[cfg(feature = "cli")]
-pub(crate) use loads::{certify_states, left_behind_if};
 pub use matrix::Matrix;
+#[cfg(feature = "solver")]
+pub use own_critical::{
+    Bracket, EndState, FindOwnCritical, FrictionAnswer, FrictionGrid, FrictionGridError,
+    FrictionPoint, OwnCritical,
+};
 pub use problem::{Problem, check};
 #[cfg(feature = "solver")]
 pub use solution::Solution;

@@ -5,8 +5,11 @@
 
 pub(crate) mod cover;
 pub(crate) mod enumeration;
+pub(crate) mod own_critical;
 pub(crate) mod path;
 pub(crate) mod search;
+
+use mceip_exact::{Rational, nearest_decimal, parse};
 
 /// What looked wrong when a file was made, a line each.
 pub(crate) fn warnings_text(warnings: &[String]) -> String {
@@ -17,6 +20,16 @@ pub(crate) fn warnings_text(warnings: &[String]) -> String {
     }
 
     out
+}
+
+/// A mu as a decimal where it is a short one, else as a fraction.
+pub(crate) fn mu_text(mu: &Rational) -> String {
+    let decimal = nearest_decimal(mu, 15);
+    if parse(&decimal).is_ok_and(|value| value == *mu) {
+        decimal
+    } else {
+        mu.to_string()
+    }
 }
 
 /// "1 warning", "2 warnings", "2 stretches".

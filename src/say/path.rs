@@ -2,6 +2,7 @@
 //! stretches for programs.
 
 use super::counted;
+use mceip_engine::report::fixed_decimals;
 use mceip_exact::to_f64;
 use mceip_model::ContactState;
 use mceip_path::{Bound, Equilibrium, Event, LoadingPath, PathEnd, RateSolutions, Stretch};
@@ -240,6 +241,11 @@ fn equilibrium_json(at: &Equilibrium) -> Value {
         "resultant_N": to_f64(&normal),
         "reactions_T_N": reactions,
     })
+}
+
+/// The amount of the growing load at an equilibrium.
+pub(crate) fn amount_text(at: &Equilibrium) -> String {
+    fixed_decimals(at.amount(), 9)
 }
 
 /// The states in words.

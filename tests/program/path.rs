@@ -15,6 +15,10 @@ fn names(folder: &str) -> BTreeSet<String> {
         .collect()
 }
 
+fn read_json(path: &str) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
 /// Files of an earlier path would be taken for states of this one; what has another name stays.
 #[test]
 fn states_of_an_earlier_path_are_removed_and_nothing_else() {
@@ -204,13 +208,61 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
     assert!(seen[0] >= 10 && seen[1] >= 10, "{seen:?}");
 }
 
+/// With `--resume` a proof in the folder is taken, checked again, in place of a search; one of
+/// another problem, or a broken one, is not.
+#[test]
+fn the_own_critical_friction_goes_on_from_the_proofs_of_an_earlier_run() {
+    let folder = Folder::new();
+    let file = example("own-critical");
+    let proofs = folder.path("proofs");
+    let of = |name: &str, kind: &str| format!("{proofs}/{name}.{kind}.json");
+    let own =
+        format!("path {file} --own-critical 1.77,1.8 --grid 3 --json --certificates {proofs}");
+    let first = exits_with_json(0, &own);
+
+    // A claim beside the complete set shows whose file it is.
+    let [problem, certificate] = ["problem", "certificate"].map(|kind| of("mu-1.79", kind));
+    let claimed = folder.path("claimed.json");
+    exits(0, &format!("solve {problem} --certificate {claimed}"));
+    let mut with_claim = read_json(&certificate);
+    with_claim["claims"] = read_json(&claimed)["claims"].clone();
+    exits(
+        0,
+        &format!(
+            "check {problem} {}",
+            folder.write("with.json", &with_claim.to_string())
+        ),
+    );
+
+    let is_kept = || read_json(&certificate)["claims"] == with_claim["claims"];
+    folder.write("proofs/mu-1.79.certificate.json", &with_claim.to_string());
+    assert_eq!(exits_with_json(0, &format!("{own} --resume")), first);
+    assert!(is_kept(), "searched again");
+
+    std::fs::copy(of("mu-1.79", "certificate"), of("mu-1.78", "certificate")).unwrap();
+    folder.write("proofs/mu-1.77.certificate.json", "{}");
+    assert_eq!(exits_with_json(0, &format!("{own} --resume")), first);
+    exits(
+        0,
+        &format!(
+            "check {} {}",
+            of("mu-1.78", "problem"),
+            of("mu-1.78", "certificate")
+        ),
+    );
+
+    assert_eq!(exits_with_json(0, &own), first);
+    assert!(!is_kept(), "taken although --resume is not given");
+    refused(&format!("path {file} --resume"), &["--own-critical"]);
+}
+
 #[test]
 fn a_range_that_makes_no_sense_or_a_body_without_mass_is_refused() {
     let folder = Folder::new();
     let file = folder.write("point.json", &pulled_point("1").to_string());
     for (options, word) in [
         ("--own-critical 1", "MIN,MAX"),
-        ("--own-critical 2,1", "MIN below MAX"),
+        ("--own-critical 2,1", "0 < MIN < MAX"),
         ("--own-critical 0,1", "> 0"),
         ("--own-critical x,1", "x"),
         ("--grid 3", "--own-critical"),

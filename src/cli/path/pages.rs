@@ -6,14 +6,16 @@
 //! in doubles. Modes are drawn where the file says where its nodes are.
 
 use super::states::{Growing, Holds, ProvedMode, ProvedSet, ProvedState, is_slip};
-use super::stretches::{amount, stretch_cells};
+use super::stretches::stretch_cells;
 use crate::LoadPath;
 use crate::cli::common::CliError;
 use crate::picture::{
     BodyDrawing, BodyMode, BranchPoint, Branches, Content, Picture, Report, Section, Threshold,
     ThresholdColumn, body_picture, branch_picture, path_picture, threshold_picture,
 };
-use crate::say::path::{LETTERS, causes_text, continuations_text, end_text, of_which_body};
+use crate::say::path::{
+    LETTERS, amount_text, causes_text, continuations_text, end_text, of_which_body,
+};
 use mceip_engine::report::fixed_decimals;
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::Levels;
@@ -29,8 +31,6 @@ pub(super) struct Shown<'a> {
     pub(super) names: &'a [&'a str],
     pub(super) states: &'a [ProvedState],
     pub(super) branches: Option<StateBranches>,
-    /// Was the body condensed in doubles?
-    pub(super) in_doubles: bool,
     /// On which matrices the MCEIP-mu sets were checked.
     pub(super) checked_on: CheckedOn,
 }
@@ -243,7 +243,7 @@ impl Shown<'_> {
                 self.path_chart().into_figure(),
                 self.path_table(),
                 Content::Paragraph(continuations_text(self.followed.continuations())),
-                Content::Paragraph(of_which_body(self.in_doubles).into()),
+                Content::Paragraph(of_which_body(self.followed.is_in_doubles()).into()),
             ],
         };
 
@@ -383,9 +383,9 @@ impl Shown<'_> {
 
     fn state_rows(&self, state: &ProvedState) -> Vec<Vec<String>> {
         let stretch = &self.path().stretches[state.stretch];
-        let from = amount(&stretch.start);
+        let from = amount_text(&stretch.start);
         let to = match &stretch.stop {
-            Some(stop) => amount(stop),
+            Some(stop) => amount_text(stop),
             None => "the end".into(),
         };
         let picture = stretch.picture();

@@ -1,9 +1,9 @@
 //! The stretches of a loading path as a table for people.
 
-use crate::say::path::causes_text;
+use crate::say::path::{amount_text, causes_text};
 use mceip_engine::report::{Table, fixed_decimals};
 use mceip_model::ContactState;
-use mceip_path::{Equilibrium, Event, Finder, LoadingPath, Stretch};
+use mceip_path::{Event, Finder, LoadingPath, Stretch};
 
 /// The table of the stretches; `steps` are the names of the steps, shown where there are several.
 pub(super) fn table_of(path: &LoadingPath, steps: &[&str]) -> Table {
@@ -56,10 +56,15 @@ fn zeros(stretch: &Stretch) -> usize {
 /// The cells that describe stretch k, but for its step and the event it begins with.
 pub(super) fn stretch_cells(k: usize, stretch: &Stretch) -> Vec<String> {
     let to = match &stretch.stop {
-        Some(stop) => amount(stop),
+        Some(stop) => amount_text(stop),
         None => "-".into(),
     };
-    let mut cells = vec![k.to_string(), amount(&stretch.start), to, stretch.picture()];
+    let mut cells = vec![
+        k.to_string(),
+        amount_text(&stretch.start),
+        to,
+        stretch.picture(),
+    ];
     cells.extend(stretch.counts().map(|count| count.to_string()));
 
     let (tangential, _) = stretch.start.resultants();
@@ -76,9 +81,4 @@ fn event_text(event: &Event) -> String {
         Finder::Pivoting => format!("{causes} (states found by pivoting)"),
         Finder::Enumeration => format!("{causes} (states found by trying all)"),
     }
-}
-
-/// The amount of the growing load at an equilibrium.
-pub(super) fn amount(at: &Equilibrium) -> String {
-    fixed_decimals(at.amount(), 9)
 }

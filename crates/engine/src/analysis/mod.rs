@@ -53,6 +53,7 @@ use conditions::{Necessary, is_all_slip};
 use critical::{Known, Start};
 use divergence::divergence;
 use families::Families;
+use mceip_check::certificate::Certificate;
 use mceip_exact::{Rational, to_f64, whole};
 use mceip_model::{ContactState, Problem, System};
 use model::Model;
@@ -83,6 +84,7 @@ pub fn analyse(
     let model = Model {
         system,
         options,
+        earlier: None,
         watch: *watch,
     };
     let (families, necessary) = families_and_condition(&model)?;
@@ -150,13 +152,15 @@ pub fn analyse(
 }
 
 /// The first answer of [`analyse`] alone: divergence at a mu, with the certificate where a search
-/// decided it.
+/// decided it. If `earlier` is a certificate of this system at this mu, and the checker accepts it,
+/// only what it leaves open is searched.
 ///
 /// # Errors
 /// As [`analyse`].
 pub fn divergence_at(
     system: &System,
     friction: &Rational,
+    earlier: Option<&Certificate>,
     options: &Options,
     watch: &Watch<'_>,
 ) -> Result<(Divergence, Option<Proof>), AnalysisError> {
@@ -169,6 +173,7 @@ pub fn divergence_at(
     let model = Model {
         system,
         options,
+        earlier,
         watch: *watch,
     };
     let (families, necessary) = families_and_condition(&model)?;

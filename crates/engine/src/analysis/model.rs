@@ -8,7 +8,8 @@ use super::absence::Limits;
 use super::error::AnalysisError;
 use super::evidence::ProofCertificate;
 use crate::run::{Keeper, Kept, Progress, Watch};
-use crate::search::complete::{self, Completed, complete};
+use crate::search::complete::{self, Completed, complete, resume};
+use mceip_check::certificate::Certificate;
 use mceip_exact::{Rational, Sparse};
 use mceip_model::{Body, Problem, System, Unknown, Window};
 
@@ -41,6 +42,8 @@ impl Default for Options {
 pub(super) struct Model<'a> {
     pub(super) system: &'a System,
     pub(super) options: &'a Options,
+    /// What an earlier run has proved of one of the problems.
+    pub(super) earlier: Option<&'a Certificate>,
     pub(super) watch: Watch<'a>,
 }
 
@@ -109,6 +112,11 @@ impl Model<'_> {
         };
 
         let watch = self.watch.heard_by(&relay).kept_by(keeper);
+        if let Some(earlier) = self.earlier
+            && let Ok(found) = resume(problem, earlier, &options, &watch)
+        {
+            return Ok(found);
+        }
         Ok(complete(problem, &options, &watch)?)
     }
 

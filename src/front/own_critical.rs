@@ -1,0 +1,517 @@
+//! The own critical friction of a body under loads.
+//!
+//! The critical friction of a state is *frozen*: the contact states of one equilibrium are held,
+//! and mu varies. But at another mu the same loads may lead to another equilibrium. Here, for each
+//! mu of a grid, the loading path is followed at this mu, and the equilibrium it ends in is asked
+//! whether it can diverge in the form (8). Between neighbours with different answers more mu are
+//! examined until they are as near as asked for.
+//!
+//! The *critical friction found* is the first change among the mu examined from proved absence to
+//! proved divergence, or to a path that ends although every set of contact states was tried. The
+//! path is the one that `mceip_path` follows, exact but without a certificate; that it is the only
+//! one is not claimed, and between two mu nothing is.
+//!
+//! Whether an end state diverges is decided by [`divergence_at`]: by a certificate that the checker
+//! has accepted, or by the theorem for states in which nothing slips.
+
+use super::error::Error;
+use super::loads::{LoadPath, Loads, ProvedStates, certify_states};
+use super::run::Watched;
+use crate::say::{self, mu_text};
+use mceip_check::certificate::Certificate;
+use mceip_engine::analysis::{
+    Analysis, AnalysisError, Divergence, Options, Proof, Verdict, analyse, divergence_at,
+};
+use mceip_engine::run::{Cancel, Progress, Watch};
+use mceip_exact::{Integer, Rational, rational, whole};
+use mceip_model::{ModelError, System};
+use mceip_path::{Equilibrium, LoadSteps, LoadingPath, PathEnd};
+use num_traits::{One, Signed};
+use serde_json::Value;
+use std::ops::ControlFlow;
+
+/// The mu at which the own critical friction is looked for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FrictionGrid {
+    least: Rational,
+    greatest: Rational,
+    /// Number of equal parts between them.
+    parts: usize,
+    /// How near two neighbours with different answers have to be, relative to the greater one.
+    width: Rational,
+}
+
+/// A grid that makes no sense.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("own critical friction, {what}: expected {expected}, got {got}")]
+pub struct FrictionGridError {
+    /// "range", "grid" or "width".
+    pub what: &'static str,
+    /// What was expected.
+    pub expected: &'static str,
+    /// What was found.
+    pub got: String,
+}
+
+/// More parts than any picture has use for.
+const MOST_PARTS: usize = 10_000;
+
+/// One over the least width: nearer neighbours are hardly told apart in print.
+const MOST_WIDTHS: i64 = 1_000_000_000;
+
+impl FrictionGrid {
+    /// The range [least, greatest] in ten parts; neighbours with different answers are brought to
+    /// within one per cent.
+    ///
+    /// # Errors
+    /// [`FrictionGridError`] unless 0 < least < greatest.
+    pub fn new(least: Rational, greatest: Rational) -> Result<FrictionGrid, FrictionGridError> {
+        if !(least.is_positive() && least < greatest) {
+            return Err(FrictionGridError {
+                what: "range",
+                expected: "0 < MIN < MAX",
+                got: format!("{least}, {greatest}"),
+            });
+        }
+
+        Ok(FrictionGrid {
+            least,
+            greatest,
+            parts: 10,
+            width: rational(1, 100),
+        })
+    }
+
+    /// In this many parts.
+    ///
+    /// # Errors
+    /// [`FrictionGridError`] unless there are 1 to 10,000.
+    pub fn with_parts(self, parts: usize) -> Result<FrictionGrid, FrictionGridError> {
+        if !(1..=MOST_PARTS).contains(&parts) {
+            return Err(FrictionGridError {
+                what: "grid",
+                expected: "1 to 10000",
+                got: parts.to_string(),
+            });
+        }
+
+        Ok(FrictionGrid { parts, ..self })
+    }
+
+    /// Neighbours with different answers are brought as near as this, relative to the greater one.
+    ///
+    /// # Errors
+    /// [`FrictionGridError`] below 1e-9.
+    pub fn with_width(self, width: Rational) -> Result<FrictionGrid, FrictionGridError> {
+        if width < rational(1, MOST_WIDTHS) {
+            return Err(FrictionGridError {
+                what: "width",
+                expected: "at least 1/10^9",
+                got: width.to_string(),
+            });
+        }
+
+        Ok(FrictionGrid { width, ..self })
+    }
+
+    /// The ends, and short decimals near the equal parts between them.
+    fn values(&self) -> Vec<Rational> {
+        let part = (&self.greatest - &self.least) / whole(self.parts as i64);
+        let mut values = vec![self.least.clone()];
+        for k in 1..self.parts {
+            let near = &self.least + &part * whole(k as i64);
+            let quarter = &part / whole(4);
+            values.push(short_decimal(&(&near - &quarter), &(near + quarter)));
+        }
+
+        values.push(self.greatest.clone());
+        values
+    }
+
+    /// Two neighbours with different answers that are further apart than asked for.
+    fn first_wide_change(&self, points: &[FrictionPoint]) -> Option<usize> {
+        (1..points.len()).map(|k| k - 1).find(|&k| {
+            let [lo, hi] = [&points[k], &points[k + 1]];
+            let distance = hi.friction() - lo.friction();
+            lo.answer() != hi.answer() && distance > &self.width * hi.friction()
+        })
+    }
+}
+
+/// The least decimal of fewest decimals between two numbers, the ends included.
+fn short_decimal(lo: &Rational, hi: &Rational) -> Rational {
+    let ten = Integer::from(10);
+    let mut scale = Integer::one();
+    loop {
+        let scaled = lo * Rational::from_integer(scale.clone());
+        let candidate = Rational::new(scaled.ceil().to_integer(), scale.clone());
+        if candidate <= *hi {
+            return candidate;
+        }
+        scale *= &ten;
+    }
+}
+
+/// The answers at all mu that were examined, and the frozen critical friction beside them.
+#[derive(Debug, Clone)]
+pub struct OwnCritical {
+    loads: Loads,
+    is_in_doubles: bool,
+    /// What the loads lead to at each mu, ascending.
+    pub points: Vec<FrictionPoint>,
+    /// The analysis of the state at the lower end of the bracket, its contact states held.
+    pub frozen: Option<Analysis>,
+}
+
+/// What the loads lead to at a mu.
+#[derive(Debug, Clone)]
+pub struct FrictionPoint {
+    /// The path at this mu.
+    pub path: LoadingPath,
+    /// The equilibrium in which it ends; `None` if it ends before the loads are applied.
+    pub end_state: Option<EndState>,
+}
+
+/// What is known of the equilibrium in which a path ends.
+#[derive(Debug, Clone)]
+pub struct EndState {
+    /// The equilibrium.
+    pub equilibrium: Equilibrium,
+    /// Are its contact states proved?
+    pub states: ProvedStates,
+    /// Can it diverge in the form (8)?
+    pub divergence: Divergence,
+    /// The certificate of that; `None` where a theorem answers.
+    pub proof: Option<Proof>,
+}
+
+/// What is found at a mu, as far as neighbours are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FrictionAnswer {
+    /// The equilibrium in which the path ends can diverge, cannot, or that is not known.
+    Equilibrium(Verdict),
+    /// The path ends before the loads are applied.
+    NoPath {
+        /// Was every set of contact states tried?
+        is_certain: bool,
+    },
+}
+
+impl FrictionAnswer {
+    /// No divergence, proved.
+    const ABSENT: FrictionAnswer = FrictionAnswer::Equilibrium(Verdict::Absent);
+
+    /// Divergence, proved, or a path that ends, every set of contact states tried.
+    pub fn is_critical(self) -> bool {
+        let no_path = FrictionAnswer::NoPath { is_certain: true };
+        self == no_path || self == FrictionAnswer::Equilibrium(Verdict::Present)
+    }
+
+    /// Neither critical nor proved not to be.
+    pub fn is_undecided(self) -> bool {
+        self != Self::ABSENT && !self.is_critical()
+    }
+}
+
+impl FrictionPoint {
+    /// The mu.
+    pub fn friction(&self) -> &Rational {
+        &self.path.steps.friction
+    }
+
+    /// What is found at it.
+    pub fn answer(&self) -> FrictionAnswer {
+        match (&self.end_state, &self.path.end) {
+            (Some(end), _) => FrictionAnswer::Equilibrium(end.divergence.verdict),
+            (None, PathEnd::NoContinuation { why, .. }) => FrictionAnswer::NoPath {
+                is_certain: why.is_proved(),
+            },
+            (None, _) => FrictionAnswer::NoPath { is_certain: false },
+        }
+    }
+}
+
+/// What the answers say of the critical friction.
+#[derive(Debug, Clone, Copy)]
+pub enum Bracket<'a> {
+    /// The first mu that is proved to be critical, and before it the last one that is proved not to
+    /// be: what lies between them is undecided.
+    Between(&'a FrictionPoint, &'a FrictionPoint),
+    /// The first mu that is critical; none before it is proved not to be.
+    AtMost(&'a FrictionPoint),
+    /// No mu examined is known to be critical, and an answer is missing.
+    Undecided,
+    /// No mu examined is critical.
+    None,
+}
+
+impl OwnCritical {
+    /// What the answers say of the critical friction.
+    pub fn bracket(&self) -> Bracket<'_> {
+        let is_critical = |point: &FrictionPoint| point.answer().is_critical();
+        let Some(critical) = self.points.iter().position(is_critical) else {
+            let mut answers = self.points.iter().map(FrictionPoint::answer);
+            return if answers.any(FrictionAnswer::is_undecided) {
+                Bracket::Undecided
+            } else {
+                Bracket::None
+            };
+        };
+
+        let mut below = self.points[..critical].iter().rev();
+        let absent = below.find(|point| point.answer() == FrictionAnswer::ABSENT);
+        match absent {
+            Some(absent) => Bracket::Between(absent, &self.points[critical]),
+            None => Bracket::AtMost(&self.points[critical]),
+        }
+    }
+
+    /// Is nothing found because an answer is missing?
+    pub fn is_undecided(&self) -> bool {
+        matches!(self.bracket(), Bracket::Undecided)
+    }
+
+    /// The body and its loads.
+    pub fn loads(&self) -> &Loads {
+        &self.loads
+    }
+
+    /// Was the body condensed in doubles?
+    pub fn is_in_doubles(&self) -> bool {
+        self.is_in_doubles
+    }
+
+    /// In words, with a table: what `mceip path --own-critical` prints first.
+    pub fn text(&self) -> String {
+        say::own_critical::text_of(self)
+    }
+
+    /// For programs: `own_critical` of `mceip path --json`.
+    pub fn to_json(&self) -> Value {
+        say::own_critical::json_of(self)
+    }
+}
+
+/// The certificate about divergence that an earlier run has made at a mu.
+type Earlier<'a> = dyn Fn(&Rational) -> Option<Certificate> + 'a;
+
+/// A search for the own critical friction; see [`LoadPath::own_critical`].
+pub struct FindOwnCritical<'a> {
+    load_path: &'a LoadPath,
+    grid: FrictionGrid,
+    earlier: Box<Earlier<'a>>,
+    on_point: Box<dyn Fn(&FrictionPoint) + 'a>,
+    watched: Watched<'a>,
+}
+
+impl LoadPath {
+    /// From which friction on do these loads lead to an equilibrium that can diverge in the form
+    /// (8)?
+    ///
+    /// ```
+    /// use mceip::{Bracket, FrictionGrid, Loads};
+    /// let loads = Loads::read("spec/examples/own-critical.json")?;
+    /// let path = loads.path().run()?.expect("nobody has cancelled it");
+    /// let grid = FrictionGrid::new("1.7".parse()?, "1.8".parse()?)?;
+    /// let own = path.own_critical(grid).run()?;
+    /// assert!(matches!(own.bracket(), Bracket::Between(..)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn own_critical(&self, grid: FrictionGrid) -> FindOwnCritical<'_> {
+        FindOwnCritical {
+            load_path: self,
+            grid,
+            earlier: Box::new(|_| None),
+            on_point: Box::new(|_| {}),
+            watched: Watched::default(),
+        }
+    }
+}
+
+impl<'a> FindOwnCritical<'a> {
+    /// Gives the certificate about divergence that an earlier run has made at a mu: if it is one of
+    /// the problem met there, only what it leaves open is searched.
+    pub fn resume(mut self, earlier: impl Fn(&Rational) -> Option<Certificate> + 'a) -> Self {
+        self.earlier = Box::new(earlier);
+        self
+    }
+
+    /// Hears what is found at each mu, as soon as it is found.
+    pub fn on_point(mut self, hear: impl Fn(&FrictionPoint) + 'a) -> Self {
+        self.on_point = Box::new(hear);
+        self
+    }
+
+    /// The switch that ends the work early; what is examined is kept.
+    pub fn cancel(mut self, cancel: &Cancel) -> Self {
+        self.watched.cancel(cancel);
+        self
+    }
+
+    /// Hears what is being done.
+    pub fn on_progress(mut self, hear: impl Fn(&Progress<'_>) + Sync + 'a) -> Self {
+        self.watched.on_progress(hear);
+        self
+    }
+
+    /// Examines the grid, then mu between; what is examined when the work is cancelled stays.
+    ///
+    /// # Errors
+    /// [`Error::Analyze`] for a body without mass, [`Error::Path`], [`Error::Model`].
+    pub fn run(self) -> Result<OwnCritical, Error> {
+        if self.body().mass().is_none() {
+            return Err(AnalysisError::NoMass.into());
+        }
+
+        let watch = self.watched.watch();
+        let mut points: Vec<FrictionPoint> = Vec::new();
+        for mu in self.grid.values() {
+            match self.examine(mu, points.len(), &watch)? {
+                Some(point) => points.push(point),
+                None => break,
+            }
+        }
+
+        while let Some(k) = self.grid.first_wide_change(&points) {
+            let [lo, hi] = [points[k].friction(), points[k + 1].friction()];
+            let quarter = (hi - lo) / whole(4);
+            let mu = short_decimal(&(lo + &quarter), &(hi - &quarter));
+            match self.examine(mu, points.len(), &watch)? {
+                Some(point) => points.insert(k + 1, point),
+                None => break,
+            }
+        }
+
+        let mut own = OwnCritical {
+            loads: self.load_path.loads().clone(),
+            is_in_doubles: self.load_path.is_in_doubles(),
+            points,
+            frozen: None,
+        };
+        if let Bracket::Between(absent, _) = own.bracket()
+            && let Some(end) = &absent.end_state
+            && !watch.is_cancelled()
+        {
+            let frozen = self.frozen(&end.equilibrium, absent.friction(), &watch)?;
+            own.frozen = Some(frozen);
+        }
+
+        Ok(own)
+    }
+
+    fn body(&self) -> &System {
+        self.load_path.loads().body().system()
+    }
+
+    /// Follows the path at this mu and decides whether its end diverges; `None` if cancelled.
+    fn examine(
+        &self,
+        mu: Rational,
+        count: usize,
+        watch: &Watch<'_>,
+    ) -> Result<Option<FrictionPoint>, Error> {
+        let stage = format!("path at mu = {}, and divergence at its end", mu_text(&mu));
+        let mut progress = Progress::stage(&stage);
+        progress.done = count as u64;
+        watch.report(&progress);
+
+        let amounts = self.load_path.as_path().steps.amounts.clone();
+        let steps = LoadSteps::new(mu.clone(), amounts);
+        let contact = self.load_path.contact();
+        let path = LoadingPath::follow(contact, &steps, &|_| {
+            if watch.is_cancelled() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })?;
+
+        let end_state = match (&path.end, path.stretches.last()) {
+            (PathEnd::Interrupted, _) => return Ok(None),
+            (PathEnd::NoContinuation { .. }, _) => None,
+            (PathEnd::AllApplied | PathEnd::NoFurtherEvent, None) => return Ok(None),
+            (PathEnd::AllApplied | PathEnd::NoFurtherEvent, Some(stretch)) => {
+                let equilibrium = stretch.last().clone();
+                let system = self.state(&equilibrium, &mu)?;
+                let options = Options::default();
+                let earlier = (self.earlier)(&mu);
+                let (divergence, proof) =
+                    divergence_at(&system, &mu, earlier.as_ref(), &options, &watch.quiet())?;
+                if watch.is_cancelled() {
+                    return Ok(None);
+                }
+                let body = self.load_path.loads().body();
+                Some(EndState {
+                    states: certify_states(body, &path, stretch, &equilibrium),
+                    equilibrium,
+                    divergence,
+                    proof,
+                })
+            }
+        };
+
+        let point = FrictionPoint { path, end_state };
+        (self.on_point)(&point);
+        Ok(Some(point))
+    }
+
+    /// The body in the contact states of an equilibrium.
+    fn state(&self, equilibrium: &Equilibrium, mu: &Rational) -> Result<System, ModelError> {
+        let states = equilibrium.contact_states();
+        self.body().with_states(states, Some(mu.clone()))
+    }
+
+    /// The analysis of a state at this mu, its contact states held.
+    fn frozen(
+        &self,
+        equilibrium: &Equilibrium,
+        mu: &Rational,
+        watch: &Watch<'_>,
+    ) -> Result<Analysis, Error> {
+        watch.report(&Progress::stage("critical mu of the held contact states"));
+        let system = self.state(equilibrium, mu)?;
+        let options = Options {
+            samples: 0,
+            ..Options::default()
+        };
+
+        Ok(analyse(None, &system, mu, &options, &watch.quiet())?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shortest_decimal_between() {
+        let shortest = |lo, hi| short_decimal(&lo, &hi);
+        assert_eq!(shortest(rational(1, 3), rational(2, 3)), rational(2, 5));
+        assert_eq!(shortest(rational(1, 3), rational(4, 3)), rational(1, 1));
+        assert_eq!(
+            shortest(rational(711, 1000), rational(714, 1000)),
+            rational(711, 1000)
+        );
+    }
+
+    #[test]
+    fn a_grid_has_its_ends_and_short_numbers_between() {
+        let grid = FrictionGrid::new(rational(1, 10), rational(1, 3)).unwrap();
+        let grid = grid.with_parts(3).unwrap();
+        let values: Vec<String> = grid.values().iter().map(mu_text).collect();
+        assert_eq!(values, ["0.1", "0.16", "0.24", "1/3"]);
+    }
+
+    #[test]
+    fn grids_that_make_no_sense_are_refused() {
+        for (least, greatest) in [(1, 1), (2, 1), (0, 1), (-1, 1)] {
+            assert!(FrictionGrid::new(whole(least), whole(greatest)).is_err());
+        }
+
+        let grid = FrictionGrid::new(whole(1), whole(2)).unwrap();
+        assert!(grid.clone().with_parts(0).is_err());
+        assert!(grid.clone().with_parts(MOST_PARTS + 1).is_err());
+        assert!(grid.clone().with_width(whole(0)).is_err());
+        assert!(grid.with_width(rational(1, MOST_WIDTHS + 1)).is_err());
+    }
+}

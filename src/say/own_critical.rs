@@ -1,0 +1,254 @@
+//! The own critical friction of a body under loads in words, as a table and as JSON.
+
+use super::mu_text;
+use super::path::{amount_text, end_text, states_json};
+use crate::front::{Bracket, EndState, FrictionPoint, OwnCritical};
+use mceip_engine::analysis::{Analysis, Verdict};
+use mceip_engine::report::{Table, six_digits};
+use mceip_exact::{Interval, Rational, enclosing_decimals};
+use mceip_path::LoadingPath;
+use serde_json::{Value, json};
+
+/// For people: the bracket first, then the frozen one, then what was examined.
+pub(crate) fn text_of(own: &OwnCritical) -> String {
+    let names = own.loads().step_names();
+    let mut out = format!("{}\n", headline(own, &names));
+    if let Some(frozen) = &own.frozen {
+        out += &format!("{}\n", frozen_text(frozen));
+    }
+
+    let header = [
+        "mu",
+        "contact states",
+        "of an equilibrium",
+        "divergence in them",
+        "largest growth rate proved",
+    ];
+    let mut table = Table::new(&header);
+    for point in &own.points {
+        table.row(cells(point, &names));
+    }
+
+    let rounded = if own.is_in_doubles() {
+        " The path is that of the body condensed in doubles, which differs from the given one \
+         by rounding; what is proved is proved of the given body."
+    } else {
+        ""
+    };
+
+    format!(
+        "{out}\n{table}\n\
+         Examined is the equilibrium at the end of the loads (in the last stretch, where one \
+         grows for ever) on the path that is followed at each mu. The path is exact, but has \
+         no certificate, and may be one of several. \"Proved\" rests on a certificate or a \
+         theorem: that under these loads there is an equilibrium in these contact states, and \
+         whether it can diverge. States before the end, and other mu, are not \
+         examined.{rounded}\n"
+    )
+}
+
+fn headline(own: &OwnCritical, names: &[&str]) -> String {
+    let count = own.points.len();
+    if count == 0 {
+        return "No own critical friction was found: nothing was examined.".into();
+    }
+
+    match own.bracket() {
+        Bracket::Between(absent, critical) => {
+            let [lo, hi] = [absent, critical].map(|point| mu_text(point.friction()));
+            format!(
+                "OWN CRITICAL FRICTION: between {lo} and {hi}, the first change among the mu \
+                 examined. At mu = {lo} the equilibrium in which the path of these loads ends \
+                 cannot diverge in the form (8), proved; at mu = {hi} {}.{}{}",
+                critical_text(critical, names),
+                uncertified_text(&[absent, critical]),
+                undecided_text(own, critical)
+            )
+        }
+        Bracket::AtMost(first) => format!(
+            "OWN CRITICAL FRICTION: not above {}: at this mu {}.{}{}",
+            mu_text(first.friction()),
+            critical_text(first, names),
+            uncertified_text(&[first]),
+            undecided_text(own, first)
+        ),
+        Bracket::Undecided => format!(
+            "No own critical friction was found at the {count} mu examined; some are undecided."
+        ),
+        Bracket::None => format!(
+            "No own critical friction was found at the {count} mu examined: at each of them the \
+             equilibrium in which the path of these loads ends cannot diverge in the form (8), \
+             proved.{}",
+            uncertified_text(&own.points.iter().collect::<Vec<_>>())
+        ),
+    }
+}
+
+/// Why this mu is critical, as what follows "at mu = ...".
+fn critical_text(point: &FrictionPoint, names: &[&str]) -> String {
+    if point.end_state.is_some() {
+        return "the equilibrium in which the path ends can diverge, proved".into();
+    }
+
+    format!(
+        "the path ends before ({}): no contact states go on from there, every set was tried, and \
+         what follows is dynamic",
+        last_place(&point.path, names)
+    )
+}
+
+/// How much of which load is applied at the end of a path.
+fn last_place(path: &LoadingPath, names: &[&str]) -> String {
+    let last = path.stretches.last();
+    match last.and_then(|stretch| Some((stretch, stretch.stop.as_ref()?))) {
+        None => "at the beginning".into(),
+        Some((stretch, stop)) => format!("{}, {} of it", names[stretch.step], amount_text(stop)),
+    }
+}
+
+/// The mu before a critical one that are undecided.
+fn undecided_text(own: &OwnCritical, critical: &FrictionPoint) -> String {
+    let before = own.points.iter();
+    let before = before.filter(|point| point.friction() < critical.friction());
+    let undecided = before.filter(|point| point.answer().is_undecided());
+    let undecided: Vec<String> = undecided.map(|point| mu_text(point.friction())).collect();
+    if undecided.is_empty() {
+        return String::new();
+    }
+
+    format!(" Undecided below it: {}.", undecided.join(", "))
+}
+
+/// That what is said of these points rests on contact states without a certificate, where it does.
+fn uncertified_text(points: &[&FrictionPoint]) -> &'static str {
+    let ends = points.iter().filter_map(|point| point.end_state.as_ref());
+    if ends.into_iter().any(|end| end.states.is_err()) {
+        " What is proved is divergence or its absence in the contact states of the path; that an \
+         equilibrium has them is not certified at each of these mu."
+    } else {
+        ""
+    }
+}
+
+/// The frozen critical friction, and why it is another number.
+fn frozen_text(frozen: &Analysis) -> String {
+    let mu = mu_text(&frozen.friction);
+    let critical = &frozen.critical;
+    let bracket = match (&critical.absent_below, &critical.solution) {
+        (None, _) => "at no mu".into(),
+        (Some(below), None) => format!("not below {}", rounded_down(below)),
+        (Some(below), Some(solution)) => {
+            let above = enclosing_decimals(&solution.mu, DIGITS).1;
+            format!("between {} and {above}", rounded_down(below))
+        }
+    };
+
+    format!(
+        "FROZEN CRITICAL FRICTION: {bracket}, with the contact states held that these loads lead \
+         to at mu = {mu}. That is a statement about these states at every mu; but with another \
+         friction the same loads may lead to other states, of which the own one tells."
+    )
+}
+
+/// Digits of printed values.
+const DIGITS: usize = 6;
+
+/// A lower bound in decimals.
+fn rounded_down(mu: &Rational) -> String {
+    enclosing_decimals(&Interval::point(mu.clone()), DIGITS).0
+}
+
+fn cells(point: &FrictionPoint, names: &[&str]) -> Vec<String> {
+    let mu = mu_text(point.friction());
+    let Some(end) = &point.end_state else {
+        let word = if point.answer().is_critical() {
+            "no path"
+        } else {
+            "undecided: the path stops"
+        };
+        let place = last_place(&point.path, names);
+        let none = || String::from("-");
+        return vec![mu, none(), none(), format!("{word} ({place})"), none()];
+    };
+
+    let verdict = match end.divergence.verdict {
+        Verdict::Undecided => "undecided".into(),
+        decided => format!("{}, proved", decided.word()),
+    };
+    let rate = end.divergence.modes.last();
+    let rate = rate.map_or_else(|| "-".into(), |mode| six_digits(mode.growth_rate));
+    let states = match &end.states {
+        Ok(_) => "proved".into(),
+        Err(_) => "not certified".into(),
+    };
+    vec![mu, end.equilibrium.picture(), states, verdict, rate]
+}
+
+/// For programs.
+pub(crate) fn json_of(own: &OwnCritical) -> Value {
+    let names = own.loads().step_names();
+    let (word, ends) = match own.bracket() {
+        Bracket::Between(absent, critical) => {
+            let [absent, critical] = [absent, critical].map(|point| mu_text(point.friction()));
+            ("between", json!({ "absent": absent, "critical": critical }))
+        }
+        Bracket::AtMost(first) => {
+            let critical = mu_text(first.friction());
+            ("at_most", json!({ "absent": null, "critical": critical }))
+        }
+        Bracket::Undecided => ("undecided", Value::Null),
+        Bracket::None => ("none", Value::Null),
+    };
+    let points = own.points.iter().map(|point| point_json(point, &names));
+
+    json!({
+        "found": word,
+        "bracket": ends,
+        "frozen": own.frozen.as_ref().map(frozen_json),
+        "points": points.collect::<Vec<_>>(),
+    })
+}
+
+fn frozen_json(frozen: &Analysis) -> Value {
+    let solution = frozen.critical.solution.as_ref();
+    json!({
+        "states_of": mu_text(&frozen.friction),
+        "absent_below": frozen.critical.absent_below.as_ref().map(rounded_down),
+        "present_at": solution.map(|s| {
+            let (lo, hi) = enclosing_decimals(&s.mu, DIGITS);
+            [lo, hi]
+        }),
+    })
+}
+
+fn point_json(point: &FrictionPoint, names: &[&str]) -> Value {
+    let mu = mu_text(point.friction());
+    match &point.end_state {
+        Some(end) => end_json(&mu, end),
+        None => json!({
+            "mu": mu,
+            "no_path": {
+                "at": last_place(&point.path, names),
+                "why": end_text(&point.path),
+                "all_tried": point.answer().is_critical(),
+            },
+        }),
+    }
+}
+
+fn end_json(mu: &str, end: &EndState) -> Value {
+    let modes = end.divergence.modes.iter();
+    let lambda2 = modes.map(|mode| {
+        let (lo, hi) = enclosing_decimals(&mode.lambda2, 2 * DIGITS);
+        [lo, hi]
+    });
+
+    json!({
+        "mu": mu,
+        "states": states_json(end.equilibrium.contact_states()),
+        "states_certified": end.states.is_ok(),
+        "divergence": end.divergence.verdict.word(),
+        "families": end.divergence.families,
+        "lambda2": lambda2.collect::<Vec<_>>(),
+    })
+}
