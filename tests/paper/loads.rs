@@ -120,7 +120,7 @@ impl Instance {
         self.follow_taking(&self.condensed(), None)
     }
 
-    fn condensed(&self) -> Contact {
+    pub(crate) fn condensed(&self) -> Contact {
         let body = &self.body;
         Contact::condense(body.system(), body.gaps(), body.loads()).unwrap()
     }

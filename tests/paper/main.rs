@@ -17,3 +17,4 @@ mod path_found;
 mod path_states;
 mod rounded;
 mod scale;
+mod slow_loads;
