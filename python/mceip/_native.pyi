@@ -69,7 +69,9 @@ class NativeLoads:
         held: Sequence[int],
         steps: Sequence[PlainStep],
         friction: str,
+        accept_warnings: bool,
     ) -> NativeLoads: ...
+    def warnings(self) -> list[str]: ...
     def path(self, in_doubles: bool, progress: Listener | None) -> NativeLoadPath | None: ...
 
 class NativeLoadPath:

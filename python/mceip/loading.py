@@ -18,7 +18,7 @@ import numpy.typing as npt
 from ._native import MceipError, NativeLoadPath, NativeLoads
 from .answers import Analysis
 from .inputs import Contact, Number, Triplets, count, plain_contact, spelt, triplets
-from .problem import Problem
+from .problem import Problem, warn_of
 from .progress import Progress, listening
 
 #: One force for each degree of freedom, or forces by degree of freedom.
@@ -96,9 +96,12 @@ class Body:
         friction: Number,
         *,
         in_doubles: bool = False,
+        accept_warnings: bool = False,
         progress: Progress = None,
     ) -> LoadPath:
         """The path of the body, unloaded at its beginning, under these loads.
+
+        What looks wrong in the body is said as `ModelWarning`; its problems repeat it.
 
         Args:
             steps: the loads, applied one after the other.
@@ -106,6 +109,7 @@ class Body:
             in_doubles: condenses in doubles instead of exactly; the path is then, exactly, that of
                 a body which differs from this one by rounding. For more than some hundred degrees
                 of freedom.
+            accept_warnings: neither says nor keeps what looks wrong.
             progress: as in `Problem`.
         """
         loads = NativeLoads.made(
@@ -117,7 +121,9 @@ class Body:
             self._held,
             [plain_step(k, step, self._dofs) for k, step in enumerate(steps)],
             spelt(friction),
+            accept_warnings,
         )
+        warn_of(loads.warnings())
         with listening(progress) as listener:
             path = loads.path(in_doubles, listener)
         if path is None:

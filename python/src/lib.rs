@@ -15,10 +15,11 @@ use contact::Contacts;
 use mceip::{Certificate, Error, Matrix, Problem, Rational, Rejected, Unknown, check};
 use mceip_check::certificate::{CriticalCertificate, PresenceCertificate};
 use mceip_check::{check_critical, check_presence};
-use mceip_model::Body;
+use mceip_model::{Body, System};
 use mceip_paper::{ContactTable, Plausibility, PlausibilityInput};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::collections::HashMap;
 use std::path::PathBuf;
 use watched::watched;
 
@@ -80,7 +81,10 @@ impl NativeProblem {
         made(py.detach(|| {
             let particles = table.particles.clone();
             let problem = Problem::from_matrices(stiffness, mass, friction, particles)?;
-            let warnings = warnings(&problem, &table);
+            let Body::System(system) = problem.as_model().body() else {
+                return Ok(problem);
+            };
+            let warnings = warnings(system, &table, None);
             Ok(problem.with_warnings(warnings))
         }))
     }
@@ -270,18 +274,18 @@ impl NativeProblem {
 }
 
 /// What `mceip convert` warns of in such a model.
-fn warnings(problem: &Problem, table: &ContactTable) -> Vec<String> {
-    let Body::System(system) = problem.as_model().body() else {
-        return Vec::new();
-    };
-
+pub(crate) fn warnings(
+    system: &System,
+    table: &ContactTable,
+    dof_names: Option<&HashMap<String, usize>>,
+) -> Vec<String> {
     let plausibility = Plausibility::new(&PlausibilityInput {
         system,
         names: &table.names,
         reactions: &table.reactions,
         displacements: None,
         coordinates: None,
-        dof_names: None,
+        dof_names,
     });
     plausibility.warnings
 }

@@ -3,7 +3,7 @@
 use crate::contact::Contacts;
 use crate::watched::watched;
 use crate::{MceipError, NativeProblem, NotCertifiedError, Triplets};
-use crate::{matrix, number, refused};
+use crate::{matrix, number, refused, warnings};
 use mceip::{Error, FrictionGrid, FrictionGridError, LoadPath, Loads, Rational};
 use mceip_model::file::LoadsFile;
 use mceip_model::{Candidate, LoadStep, LoadedBody, LoadedParts};
@@ -42,12 +42,13 @@ impl NativeLoads {
         held: Vec<usize>,
         steps: Vec<Step>,
         friction: &str,
+        accept_warnings: bool,
     ) -> PyResult<NativeLoads> {
         let mass = mass.map(|mass| matrix(dofs, mass)).transpose()?;
-        let particles = candidates.table(dofs, None)?.particles;
+        let table = candidates.table(dofs, None)?;
         let gaps = gaps.iter().map(|gap| number("gap", gap));
         let gaps: Vec<Rational> = gaps.collect::<PyResult<_>>()?;
-        let candidates = particles.into_iter().zip(gaps);
+        let candidates = table.particles.iter().cloned().zip(gaps);
         let steps = steps.into_iter().map(step).collect::<PyResult<_>>()?;
 
         let body = LoadedBody::new(LoadedParts {
@@ -61,13 +62,27 @@ impl NativeLoads {
             steps,
         });
         let body = body.map_err(|e| refused(e.into()))?;
+
+        // The degrees of freedom have the numbers of the given matrices, held ones included.
+        let places = body.places().iter().enumerate();
+        let places = places.filter_map(|(given, place)| Some((given.to_string(), (*place)?)));
+        let warnings = if accept_warnings {
+            Vec::new()
+        } else {
+            warnings(body.system(), &table, Some(&places.collect()))
+        };
         Ok(NativeLoads(Loads::from(LoadsFile {
             name: None,
             comment: None,
-            warnings: Vec::new(),
+            warnings,
             body,
             coordinates: None,
         })))
+    }
+
+    /// What looks wrong in the body.
+    fn warnings(&self) -> Vec<String> {
+        self.0.as_file().warnings.clone()
     }
 
     /// The path; `None` if it was interrupted before it begins.

@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import warnings
 from fractions import Fraction
 
 import numpy as np
@@ -93,6 +94,21 @@ def test_the_own_critical_friction_is_that_of_the_book():
     ]:
         with pytest.raises(mceip.MceipError, match=re.escape(word)):
             path.own_critical(*ends, **options)
+
+
+def test_what_looks_wrong_is_said_and_repeated_unless_it_is_accepted():
+    mass = 1e9 * np.eye(3)
+    heavy = mceip.Body(2 * np.eye(3), mass, candidates=[mceip.Candidate(0, 1)])
+    push = [mceip.Step("push", forces={0: 3, 1: 2})]
+
+    with pytest.warns(mceip.ModelWarning, match="the lowest frequency is .* below 1e-2") as said:
+        path = heavy.path(push, 1)
+    assert said[0].filename == __file__
+    assert path.stretches[-1].problem.warnings == [str(said[0].message)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        path = heavy.path(push, 1, accept_warnings=True)
+    assert path.stretches[-1].problem.warnings == []
 
 
 def test_loads_are_lists_or_mappings_and_matrices_of_any_kind():
