@@ -150,6 +150,9 @@ class LoadPath:
         contact states are checked against. Held degrees of freedom are eliminated."""
         return self._native.loads()
 
+    def __str__(self) -> str:
+        return self._native.text()
+
     def own_critical(
         self,
         least: Number,

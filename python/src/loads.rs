@@ -132,6 +132,11 @@ impl NativeLoadPath {
         serde_json::Value::from(self.0.to_json()).to_string()
     }
 
+    /// In words, with a table.
+    fn text(&self) -> String {
+        self.0.text()
+    }
+
     /// Why it ends.
     fn end(&self) -> String {
         self.0.end_text()

@@ -44,6 +44,7 @@ def test_the_path_of_the_example_is_that_of_the_book():
     path = body.path(steps, friction)
 
     assert path.end == "all loads are applied"
+    assert "event it begins with" in str(path)
     states = ["".join({"free": "o", "stick": "."}.get(s, s[-1]) for s in stretch.states)
               for stretch in path.stretches]
     assert states == ["..o", "...", "...", "..-", ".--", "---", "--o", "o-o"]

@@ -8,18 +8,16 @@
 mod own;
 mod pages;
 mod states;
-mod stretches;
 
 use super::common::{CliError, exit, positive, print, text};
 use super::job::Job;
 use super::output::{Folder, Output};
 use crate::picture::path_picture;
-use crate::say::path::{LETTERS, continuations_text, end_text, of_which_body};
-use crate::say::{counted, warnings_text};
+use crate::say::counted;
+use crate::say::path::end_text;
 use crate::{FrictionGrid, LoadPath, Loads, OwnCritical};
 use mceip_engine::equilibrium::StatesNotCertified;
 use mceip_engine::run::{Kept, Progress, Watch};
-use mceip_exact::to_f64;
 use mceip_model::Unknown;
 use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
 use mceip_path::{LoadingPath, PathEnd};
@@ -348,25 +346,9 @@ impl Outcome<'_> {
 
     /// The path and the states, for people.
     fn text(&self) -> String {
-        let name = self.file().name.as_deref().unwrap_or("a body under loads");
-        let mu = to_f64(&self.path().steps.friction);
-        let letters = LETTERS;
-        let table = stretches::table_of(self.path(), self.names);
-        let end = end_text(self.path());
-        let warnings = warnings_text(&self.file().warnings);
         let own = self.own.as_ref().map(OwnCritical::text);
         let mut out = own.map_or_else(String::new, |own| format!("{own}\n"));
-        out += &format!(
-            "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
-             {warnings}{letters}\n\
-             {table}\n\
-             every event is an exact rational number; (1), (2), (5), (7) verified exactly at both \
-             ends of each stretch; {end}\n"
-        );
-        out += &continuations_text(self.followed.continuations());
-        if self.followed.is_in_doubles() {
-            out += &format!("{}\n", of_which_body(true));
-        }
+        out += &self.followed.text();
         if let Some(certified) = &self.certified {
             out += &certified_text(certified);
         }

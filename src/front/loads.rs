@@ -358,6 +358,12 @@ impl LoadPath {
         Ok(is_unique.then_some(found))
     }
 
+    /// In words: a table of its stretches, why it ends, whether it is the only one. What
+    /// `mceip path` prints.
+    pub fn text(&self) -> String {
+        say::path::text_of(self)
+    }
+
     /// Why it ends, in words.
     pub fn end_text(&self) -> String {
         say::path::end_text(&self.path)

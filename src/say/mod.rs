@@ -8,6 +8,7 @@ pub(crate) mod enumeration;
 pub(crate) mod own_critical;
 pub(crate) mod path;
 pub(crate) mod search;
+pub(crate) mod stretches;
 
 use mceip_exact::{Rational, nearest_decimal, parse};
 

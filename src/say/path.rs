@@ -1,12 +1,39 @@
 //! Loading paths in words and as JSON: amounts of loads, states, causes of events and ends, and the
 //! stretches for programs.
 
-use super::counted;
+use super::stretches::table_of;
+use super::{counted, warnings_text};
+use crate::front::LoadPath;
 use mceip_engine::report::fixed_decimals;
 use mceip_exact::to_f64;
 use mceip_model::ContactState;
 use mceip_path::{Bound, Equilibrium, Event, LoadingPath, PathEnd, RateSolutions, Stretch};
 use serde_json::{Value, json};
+
+/// The path: its stretches as a table, why it ends, whether it is the only one.
+pub(crate) fn text_of(followed: &LoadPath) -> String {
+    let path = followed.as_path();
+    let file = followed.loads().as_file();
+    let name = file.name.as_deref().unwrap_or("a body under loads");
+    let mu = to_f64(&path.steps.friction);
+    let warnings = warnings_text(&file.warnings);
+    let table = table_of(path, &followed.loads().step_names());
+    let end = end_text(path);
+
+    let mut out = format!(
+        "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
+         {warnings}{LETTERS}\n\
+         {table}\n\
+         every event is an exact rational number; (1), (2), (5), (7) verified exactly at both \
+         ends of each stretch; {end}\n"
+    );
+    out += &continuations_text(followed.continuations());
+    if followed.is_in_doubles() {
+        out += &format!("{}\n", of_which_body(true));
+    }
+
+    out
+}
 
 /// What the letters mean by which contact states are shown.
 pub(crate) const LETTERS: &str = "nodes in order: . stick, < impending slip against its tangent (S \

@@ -6,7 +6,6 @@
 //! in doubles. Modes are drawn where the file says where its nodes are.
 
 use super::states::{Growing, Holds, ProvedMode, ProvedSet, ProvedState, is_slip};
-use super::stretches::stretch_cells;
 use crate::LoadPath;
 use crate::cli::common::CliError;
 use crate::picture::{
@@ -16,6 +15,7 @@ use crate::picture::{
 use crate::say::path::{
     LETTERS, amount_text, causes_text, continuations_text, end_text, of_which_body,
 };
+use crate::say::stretches::stretch_cells;
 use mceip_engine::report::fixed_decimals;
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::Levels;

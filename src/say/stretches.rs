@@ -1,6 +1,6 @@
 //! The stretches of a loading path as a table for people.
 
-use crate::say::path::{amount_text, causes_text};
+use super::path::{amount_text, causes_text};
 use mceip_engine::report::{Table, fixed_decimals};
 use mceip_model::ContactState;
 use mceip_path::{Event, Finder, LoadingPath, Stretch};
@@ -54,7 +54,7 @@ fn zeros(stretch: &Stretch) -> usize {
 }
 
 /// The cells that describe stretch k, but for its step and the event it begins with.
-pub(super) fn stretch_cells(k: usize, stretch: &Stretch) -> Vec<String> {
+pub(crate) fn stretch_cells(k: usize, stretch: &Stretch) -> Vec<String> {
     let to = match &stretch.stop {
         Some(stop) => amount_text(stop),
         None => "-".into(),
