@@ -452,7 +452,7 @@ fn certify_stretches(
         };
 
         // What fails here takes nothing else along: these rates are not certified.
-        let rates = followed.certify_unique(k).ok().flatten();
+        let rates = followed.certify_unique(k, job.cancel()).ok().flatten();
         if let Some(rates) = &rates {
             folder.keep_proof(&Kept {
                 name: &format!("unique-{k:03}"),

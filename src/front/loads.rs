@@ -330,15 +330,19 @@ impl LoadPath {
 
     /// Certifies that in the contact states inside a stretch (from 0) the rates are the only ones,
     /// whatever load grows: that T(mu) is positive definite at the friction of the path. `None`
-    /// where nothing slips, a candidate is without reaction, T(mu) is not positive definite, or the
-    /// search does not close the window by one such leaf.
+    /// where nothing slips, a candidate is without reaction, T(mu) is not positive definite, the
+    /// search does not close the window by one such leaf, or it is cancelled.
     ///
     /// # Errors
     /// [`Error::Complete`], [`Error::Path`].
     ///
     /// # Panics
     /// For a stretch that there is not.
-    pub fn certify_unique(&self, stretch: usize) -> Result<Option<SolutionSet>, Error> {
+    pub fn certify_unique(
+        &self,
+        stretch: usize,
+        cancel: &Cancel,
+    ) -> Result<Option<SolutionSet>, Error> {
         let states = self.path.stretches[stretch].equilibrium_states();
         let slips = |state: &ContactState| matches!(state, ContactState::Slip { .. });
         let has_zero = states.contains(&ContactState::Zero);
@@ -353,7 +357,8 @@ impl LoadPath {
 
         let here = Window::new(mu.clone(), Some(mu.clone()))?;
         let problem = self.problem_in(stretch, Unknown::Mu)?;
-        let found = Problem::from(problem.with_window(here)).complete().run()?;
+        let problem = Problem::from(problem.with_window(here));
+        let found = problem.complete().cancel(cancel).run()?;
         let is_unique = found.proved().accepted().has_unique_rates;
         Ok(is_unique.then_some(found))
     }
