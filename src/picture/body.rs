@@ -3,8 +3,9 @@
 //! the nodes are few.
 //!
 //! The obstacle of a particle is a line across its normal, with hatching on the side into which the
-//! normal points: a wrong angle or normal direction is seen at once. Nodes that are held are
-//! squares.
+//! normal points: a wrong angle or normal direction is seen at once; a particle that is out of
+//! contact has none. Nodes that are held are squares. A bar shows the unit of length. Names that
+//! would cover each other are left out.
 //!
 //! A node moves by (v_i, v_j), i and j its degrees of freedom along x and y; it is drawn moved by
 //! that times one factor for all nodes, which the picture states. A mode has no size of its own;
@@ -77,8 +78,12 @@ const GAP: f64 = RADIUS + 1.5;
 const STROKES: usize = 4;
 const DEPTH: f64 = 6.0;
 
-/// Particles up to which each of them has its name beside it.
-const NAMED: usize = 25;
+/// Size of the letters of names, px, and the room that a letter takes of it.
+const NAME_SIZE: f64 = 10.0;
+const NAME_LETTER: f64 = 0.65;
+
+/// Length of the bar that shows the unit of length, px, at most.
+const BAR: f64 = 120.0;
 
 /// Letters of a name that are shown.
 const LETTERS: usize = 10;
@@ -126,10 +131,36 @@ impl Placement {
         (self.left + right, MARGIN + down)
     }
 
+    /// A bar of a round length, at the right, with its words at the height y.
+    fn bar(&self, y: f64) -> Element {
+        let length = round_below(BAR / self.unit);
+        let right = FITS.0 + 1.5 * MARGIN;
+        let left = right - length * self.unit;
+        let ends = [left, right].map(|x| line((x, y - 3.0), (x, y + 3.0), "#000", 1.2));
+        Element::new("g")
+            .with("class", "bar")
+            .child(line((left, y), (right, y), "#000", 1.2))
+            .children(ends)
+            .child(text(left - 8.0, y + 4.5, "end", label(length)))
+    }
+
     /// Lower end of the body on paper, px.
     fn bottom(&self) -> f64 {
         MARGIN + self.size.1
     }
+}
+
+/// The largest of 1, 2, 5 times a power of ten that is not above a length.
+fn round_below(length: f64) -> f64 {
+    let power = 10f64.powf(length.log10().floor());
+    let mut round = power;
+    for digit in [2.0, 5.0] {
+        if digit * power <= length {
+            round = digit * power;
+        }
+    }
+
+    round
 }
 
 /// Draws a body.
@@ -155,7 +186,9 @@ pub fn body_picture(title: &str, body: &BodyDrawing<'_>) -> Picture {
         picture.push(body.nodes(&on_paper));
         picture.push(body.obstacles(&on_paper));
         picture.push(body.marks(&on_paper, radius));
+        picture.push(body.names(&on_paper));
         picture.push(body.legend(MARGIN / 2.0, below + 8.0));
+        picture.push(placement.bar(below + 30.0));
         return picture;
     };
 
@@ -170,7 +203,9 @@ pub fn body_picture(title: &str, body: &BodyDrawing<'_>) -> Picture {
         picture.push(arrows(&on_paper, &moved));
     }
     picture.push(body.marks(&moved, radius));
+    picture.push(body.names(&moved));
     picture.push(body.legend(MARGIN / 2.0, below + 8.0));
+    picture.push(placement.bar(below + 30.0));
 
     let note = if largest > 0.0 {
         format!(
@@ -320,7 +355,8 @@ impl BodyDrawing<'_> {
     /// The obstacle of each particle, where its normal can be drawn.
     fn obstacles(&self, on_paper: &[(f64, f64)]) -> Element {
         let mut group = Element::new("g").with("class", "obstacles");
-        for particle in self.particles {
+        let in_contact = self.particles.iter();
+        for particle in in_contact.filter(|p| p.state != ContactState::Free) {
             let Some(node) = self.coordinates.node_of(particle.normal) else {
                 continue;
             };
@@ -366,7 +402,38 @@ impl BodyDrawing<'_> {
         }
     }
 
-    /// The markers of the particles, those of the slip particles turned, with their names.
+    /// The names of the particles, each below its marker, but for those that would cover another
+    /// one.
+    fn names(&self, on_paper: &[(f64, f64)]) -> Element {
+        let mut names = Element::new("g").with("class", "names");
+        let mut taken: Vec<[f64; 3]> = Vec::new(); // left, right, y
+        for (index, particle) in self.particles.iter().enumerate() {
+            let Some(node) = self.coordinates.node_of(particle.tangential) else {
+                continue;
+            };
+
+            let name = self.name(index);
+            let half = 0.5 * NAME_LETTER * NAME_SIZE * name.chars().count() as f64;
+            let (x, y) = (on_paper[node].0, on_paper[node].1 + RADIUS + 20.0);
+            let [left, right] = [x - half, x + half];
+            let covers = |[from, to, at]: &[f64; 3]| {
+                (at - y).abs() < NAME_SIZE
+                    && left < to + NAME_SIZE / 2.0
+                    && from - NAME_SIZE / 2.0 < right
+            };
+            if taken.iter().any(covers) {
+                continue;
+            }
+
+            taken.push([left, right, y]);
+            let word = text(x, y, "middle", name).at("font-size", NAME_SIZE);
+            names.push(word.with("class", "name"));
+        }
+
+        names
+    }
+
+    /// The markers of the particles, those of the slip particles turned.
     fn marks(&self, on_paper: &[(f64, f64)], radius: f64) -> Element {
         let mut marks = Element::new("g").with("class", "marks");
         for (index, particle) in self.particles.iter().enumerate() {
@@ -381,12 +448,6 @@ impl BodyDrawing<'_> {
                 mark = mark.with("transform", turn);
             }
             marks.push(mark);
-
-            if self.particles.len() <= NAMED {
-                let name = self.name(index);
-                let word = text(x, y + RADIUS + 20.0, "middle", name).with("font-size", "10");
-                marks.push(word.with("class", "name"));
-            }
         }
 
         marks
@@ -433,7 +494,7 @@ fn at_rest(edges: Element) -> Element {
     edges
         .with("class", "edges")
         .with("stroke-dasharray", "3 3")
-        .with("opacity", "0.35")
+        .with("opacity", "0.6")
 }
 
 /// The displacements of the nodes.

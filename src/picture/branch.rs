@@ -1,8 +1,8 @@
-//! lambda^2 against mu for one state: where it can diverge, and how fast.
+//! The growth rate lambda against mu for one state: where it can diverge, and how fast.
 //!
 //! Input: all solutions of MCEIP-lambda2 at some levels of lambda^2, each as a point (mu, lambda^2)
-//! with its support, and certified solutions at chosen mu. The lambda^2 axis is logarithmic with a
-//! zero. Called by `mceip path --report`.
+//! with its support, and certified solutions at chosen mu. The axis of lambda is logarithmic with a
+//! zero. Called by `mceip path` and `mceip analyze`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, dot, line, text};
 use super::drawing::Picture;
@@ -10,7 +10,7 @@ use super::markup;
 use super::markup::Element;
 use super::scale::{Extent, Spread};
 
-/// A solution of MCEIP-lambda2 as a point of the (mu, lambda^2) plane.
+/// A solution of MCEIP-lambda2 as a point of the (mu, lambda) plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BranchPoint {
     /// Coefficient of friction.
@@ -61,7 +61,12 @@ const KEY_DISTANCE: f64 = TEXT + 3.0;
 
 impl BranchPoint {
     fn place(&self) -> (f64, f64) {
-        (self.mu, self.lambda2)
+        (self.mu, self.growth_rate())
+    }
+
+    /// lambda, 1/s.
+    fn growth_rate(&self) -> f64 {
+        self.lambda2.sqrt()
     }
 }
 
@@ -97,10 +102,11 @@ impl Branches {
         }
     }
 
-    /// The lambda^2 axis: even below the smallest positive value, logarithmic above it.
-    fn lambda2_axis(&self) -> Axis<'static> {
-        let all = Extent::of(self.points().map(|p| p.lambda2));
-        let positive = Extent::of(self.points().map(|p| p.lambda2).filter(|v| *v > 0.0));
+    /// The axis of lambda: even below the smallest positive value, logarithmic above it.
+    fn rate_axis(&self) -> Axis<'static> {
+        let rates = || self.points().map(BranchPoint::growth_rate);
+        let all = Extent::of(rates());
+        let positive = Extent::of(rates().filter(|rate| *rate > 0.0));
         let unit = if positive.low.is_finite() {
             positive.low
         } else {
@@ -108,9 +114,9 @@ impl Branches {
         };
 
         Axis {
-            label: "\u{3bb}\u{b2} (1/s\u{b2})",
+            label: "growth rate \u{3bb} (1/s)",
             spread: Spread::LogWithZero { unit },
-            values: (0.0, all.high * 1.5),
+            values: (0.0, all.high * 1.25),
             ticks: 7,
         }
     }
@@ -122,7 +128,7 @@ impl Branches {
 /// point that is left over, a dotted line joins these two: there the support changes.
 pub fn branch_picture(title: &str, branches: &Branches) -> Picture {
     let x = branches.mu_axis();
-    let y = branches.lambda2_axis();
+    let y = branches.rate_axis();
     let chart = Chart::new(AREA, &x, &y);
 
     let mut picture = Picture::new(title, WIDTH, AREA.bottom + 62.0);
@@ -162,7 +168,7 @@ fn push_bound(picture: &mut Picture, chart: &Chart, mu: f64) {
             .with("data-x", mu),
     );
 
-    let words = "proved: nothing to the left, for any \u{3bb}\u{b2}";
+    let words = "proved: nothing to the left, for any \u{3bb}";
     picture.push(text(x + 8.0, AREA.bottom - 10.0, "start", words));
 }
 
@@ -177,9 +183,9 @@ fn solution_dot(chart: &Chart, level: usize, point: &BranchPoint) -> Element {
     let fill = if is_threshold { "#000" } else { "#fff" };
 
     let tip = format!(
-        "mu = {:.9}, lambda^2 = {:.6e}, {} slip",
+        "mu = {:.9}, lambda = {:.6e} 1/s, {} slip",
         point.mu,
-        point.lambda2,
+        point.growth_rate(),
         point.support.len()
     );
 
@@ -221,13 +227,13 @@ fn certified_square(chart: &Chart, point: &BranchPoint) -> Element {
         "certified: mu = {}, lambda^2 = {:.9e}, lambda = {:.6} 1/s",
         point.mu,
         point.lambda2,
-        point.lambda2.sqrt()
+        point.growth_rate()
     );
 
     square((x, y))
         .with("class", "certified")
         .with("data-x", point.mu)
-        .with("data-y", point.lambda2)
+        .with("data-y", point.growth_rate())
         .child(Element::new("title").text(tip))
 }
 
@@ -255,7 +261,7 @@ fn push_keys(picture: &mut Picture, branches: &Branches, supports_change: bool) 
     let levels = markup::short(branches.levels.len() as f64);
     let mut points = vec![Key {
         sign: level_sign,
-        meaning: format!("at {levels} levels of \u{3bb}\u{b2}"),
+        meaning: format!("at {levels} levels of \u{3bb}"),
     }];
     if branches.has_threshold() {
         points.push(Key {

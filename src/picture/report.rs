@@ -67,7 +67,7 @@ const STYLE: &str = concat!(
     "td{font-family:DejaVu Sans Mono,Consolas,monospace;font-size:.92em}",
     "figure{margin:1.5em 0;break-inside:avoid}",
     "figcaption{font-size:.9em}",
-    "svg{max-width:100%;height:auto}",
+    "svg{width:100%;height:auto}",
     "summary{cursor:pointer;font-style:italic;font-size:.85em;margin:1em 0}",
 );
 

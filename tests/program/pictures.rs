@@ -187,6 +187,10 @@ fn a_mesh_is_drawn_deformed_with_the_mark_of_every_candidate() {
     );
     assert_eq!(count(&tree, "mark"), states.len());
     assert_eq!(count(&tree, "held"), 7, "the glued side");
+    assert_eq!(count(&tree, "obstacle"), 6, "of all but the free one");
+    let bar = of_class(&tree, "bar")[0];
+    let words = bar.descendants().find_map(|node| node.text());
+    assert_eq!(words, Some("10"), "mm, of the 80 of the block");
 
     for class in ["deformed", "edges"] {
         let edges = of_class(&tree, class)[0].attribute("d").unwrap();
@@ -227,8 +231,11 @@ fn a_body_has_its_nodes_states_and_arrows() {
     assert_eq!(count(&tree, "arrow"), 0);
     let edges = of_class(&tree, "edges")[0].attribute("d").unwrap();
     assert_eq!(edges.matches('M').count(), 2);
-    let names = of_class(&tree, "name").into_iter().map(|n| n.text());
-    assert_eq!(names.collect::<Vec<_>>(), [Some("foot"), Some("1")]);
+    let names = |tree: &Document<'_>| -> Vec<String> {
+        let names = of_class(tree, "name").into_iter();
+        names.filter_map(|n| Some(n.text()?.into())).collect()
+    };
+    assert_eq!(names(&tree), ["foot", "1"]);
 
     // S = 1: the first particle is about to slip against its tangent, which points to the upper
     // right at 36.87 degrees; clockwise from the right that is 143.13. The second one slips to the
@@ -286,6 +293,14 @@ fn a_body_has_its_nodes_states_and_arrows() {
         slipping: &[],
     });
     assert!(sound(&body_picture("rest", &drawing)).contains("No node moves"));
+    let close = with_second_node_at("0");
+    drawing.coordinates = close.coordinates.as_ref().unwrap();
+    let text = body_picture("at one place", &drawing).to_svg();
+    assert_eq!(
+        names(&Document::parse(&text).unwrap()),
+        ["foot"],
+        "the other would cover it"
+    );
     for place in ["0", "1e-300", "1e154"] {
         let problem = with_second_node_at(place);
         let elsewhere = BodyDrawing {
