@@ -12,6 +12,7 @@ use super::common::{
 };
 use super::job::{CHECKPOINT, Job};
 use super::output::{Folder, Output, folder_of};
+use super::pictures;
 use super::question::load_system;
 use crate::Analyze;
 use crate::say::warnings_text;
@@ -52,6 +53,10 @@ pub(super) struct Args {
     /// with pictures of the body where the problem file has coordinates.
     #[arg(long, value_name = "OUT")]
     report: Option<PathBuf>,
+    /// Write the pictures of the report as SVG files into this folder, as PNG too in a build with
+    /// the feature png.
+    #[arg(long, value_name = "DIR", visible_alias = "figures")]
+    pictures: Option<PathBuf>,
     /// Threads (default: all cores). The answer does not depend on it.
     #[arg(long)]
     threads: Option<usize>,
@@ -88,6 +93,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         None => None,
     };
     let report = Output::prepare_if("report", args.report.as_deref(), &[&args.file])?;
+    let pictures = Folder::prepare_if("pictures", args.pictures.as_deref(), &[&args.file])?;
     if let (Some(report), Some(folder)) = (&args.report, &args.certificates) {
         refuse_among_proofs(report, folder)?;
     }
@@ -107,19 +113,29 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         });
     }
     let analysis = question.run()?;
+    let is_drawn = report.is_some() || pictures.is_some();
+    let branches = if is_drawn {
+        job.watched(|watch| page::branches(&analysis, system, watch))?
+    } else {
+        None
+    };
     job.end();
 
     // What cannot be written takes nothing else along.
     let written = keeping.map_or(Ok(Vec::new()), |proofs| proofs.write_all(&analysis));
     let paths = written.as_deref().unwrap_or_default();
+    let drawn = page::Drawn {
+        system,
+        coordinates: file.coordinates.as_ref(),
+        branches,
+        paths,
+        date: SystemTime::now(),
+    };
     let page = report.map_or(Ok(()), |output| {
-        let drawn = page::Drawn {
-            system,
-            coordinates: file.coordinates.as_ref(),
-            paths,
-            date: SystemTime::now(),
-        };
         output.write(&page::page(&analysis, &drawn))
+    });
+    let pictures = pictures.map_or(Ok(()), |folder| {
+        pictures::write_all(&folder, &drawn.pictures(&analysis))
     });
 
     let text = if args.json {
@@ -128,7 +144,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         text_of(&analysis, paths, args)
     };
     print(&text)?;
-    written.and(page)?;
+    written.and(page).and(pictures)?;
 
     Ok(exit_code(&analysis))
 }

@@ -18,6 +18,7 @@ mod manual;
 mod merge;
 mod output;
 mod path;
+mod pictures;
 mod question;
 mod reduce;
 mod simulate;

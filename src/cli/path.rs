@@ -12,6 +12,7 @@ mod states;
 use super::common::{CliError, exit, positive, print, text};
 use super::job::Job;
 use super::output::{Folder, Output};
+use super::pictures;
 use crate::picture::path_picture;
 use crate::say::counted;
 use crate::say::path::end_text;
@@ -283,10 +284,6 @@ fn choice_of(text: &str) -> Result<(usize, usize), CliError> {
     both.ok_or_else(|| CliError::option("take", expected, text))
 }
 
-/// Pixels of a PNG for each px of the SVG.
-#[cfg(feature = "png")]
-const ZOOM: f32 = 2.0;
-
 /// Writes the report and the pictures, each file whole.
 fn write_pages(
     shown: &Shown<'_>,
@@ -297,17 +294,10 @@ fn write_pages(
         file.write(&shown.report()?.to_html())?;
     }
 
-    let Some(folder) = folder else {
-        return Ok(());
-    };
-    for named in shown.pictures()? {
-        let svg = named.picture.to_svg();
-        folder.write(&format!("{}.svg", named.name), svg.as_bytes())?;
-        #[cfg(feature = "png")]
-        folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
+    match folder {
+        Some(folder) => pictures::write_all(&folder, &shown.pictures()?),
+        None => Ok(()),
     }
-
-    Ok(())
 }
 
 /// Reads the text of a file of a body under loads; stdin has its matrices in this folder.

@@ -6,9 +6,10 @@
 #![cfg(feature = "testkit")]
 
 use crate::paper_path::{path_of, slip_nodes};
+use mceip_engine::reduction::SparseCondensation;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Options, complete};
-use mceip_engine::search::levels::Levels;
+use mceip_engine::search::levels::level_solutions;
 use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::{Body, ContactState, Pencil, Problem, Unknown, Window};
 use mceip_paper::{Block, BlockModel, MassKind, MeshKind, Plane};
@@ -204,12 +205,13 @@ struct Onset {
 fn all_slip_above(block: &Block, states: &[ContactState]) -> Vec<Option<f64>> {
     let is_slip = |state: &&ContactState| matches!(state, ContactState::Slip { .. });
     let slip = states.iter().filter(is_slip).count();
-    let levels = Levels::new(&block.system(states, None).unwrap()).unwrap();
+    let system = block.system(states, None).unwrap();
+    let condensation = SparseCondensation::of_system(&system).unwrap();
 
     let mut smallest = Vec::new();
     for lambda2 in [1e4, 1e5, 1e6] {
-        let level = levels.at(lambda2).unwrap();
-        let (found, _) = level.solutions(&Watch::nobody()).unwrap();
+        let level = condensation.at(lambda2).unwrap();
+        let (found, _) = level_solutions(&level, &Watch::nobody()).unwrap();
         let all_slip = found.iter().filter(|s| s.support.len() == slip);
         smallest.push(all_slip.map(|s| s.mu).min_by(f64::total_cmp));
     }

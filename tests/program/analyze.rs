@@ -1011,7 +1011,9 @@ fn the_report_draws_a_body_with_coordinates() {
     });
     let drawn = folder.write("drawn.json", &problem.to_string());
 
-    let text = exits(0, &format!("analyze {drawn} --report {page} --samples 0"));
+    let figures = folder.path("figures");
+    let options = format!("--report {page} --pictures {figures} --samples 0");
+    let text = exits(0, &format!("analyze {drawn} {options}"));
 
     let html = read(&page);
     let tree = html.strip_prefix("<!DOCTYPE html>\n").unwrap();
@@ -1019,8 +1021,16 @@ fn the_report_draws_a_body_with_coordinates() {
     let pictures = tree.descendants().filter(|n| n.has_tag_name("svg"));
     let modes = text.matches("\nMode ").count();
     assert!(modes > 0, "{text}");
-    let body_and_presence = 2;
-    assert_eq!(pictures.count(), body_and_presence + modes);
+    let body_and_charts = 3;
+    assert_eq!(pictures.count(), body_and_charts + modes);
+    for name in ["body", "presence", "lambda", "mode-01"] {
+        let figure = read(&format!("{figures}/{name}.svg"));
+        let (_, drawn) = figure.split_once('>').unwrap();
+        assert!(
+            html.contains(drawn.trim_end()),
+            "{name} is that of the page"
+        );
+    }
     contains_all(
         &html,
         &["left foot", "&lt;right&gt;", "Drawn: the mode times"],
@@ -1030,7 +1040,7 @@ fn the_report_draws_a_body_with_coordinates() {
     let without = exits(0, &format!("analyze {plain} --report {page} --samples 0"));
     let html = read(&page);
     assert_eq!(without.replace(&plain, &drawn), text);
-    assert_eq!(html.matches("<svg").count(), 1);
+    assert_eq!(html.matches("<svg").count(), 2);
     contains_all(&html, &["SHA-256", "Made on 2", "range absent proved"]);
 }
 

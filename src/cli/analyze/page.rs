@@ -1,10 +1,13 @@
 //! `mceip analyze --report`: the answers, their evidence and the modes on one page.
 
+use crate::cli::common::CliError;
+use crate::cli::pictures::{LEVELS_CAPTION, Named, levels_of};
 use crate::picture::{
-    BodyDrawing, BodyMode, Content, Presence, PresenceChart, PresenceRange, Report, Section,
-    body_picture, presence_picture,
+    BodyDrawing, BodyMode, BranchPoint, Branches, Content, Presence, PresenceChart, PresenceRange,
+    Report, Section, body_picture, branch_picture, presence_picture,
 };
 use mceip_engine::analysis::{Analysis, Evidence, Mode, Verdict};
+use mceip_engine::run::Watch;
 use mceip_exact::to_f64;
 use mceip_model::{Coordinates, System};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -15,6 +18,8 @@ pub(super) struct Drawn<'a> {
     pub(super) system: &'a System,
     /// Where its nodes are, if the problem file says so.
     pub(super) coordinates: Option<&'a Coordinates>,
+    /// lambda against mu, where that was looked at.
+    pub(super) branches: Option<Branches>,
     /// Paths of the certificates as they were written.
     pub(super) paths: &'a [String],
     /// When the page is made.
@@ -23,7 +28,7 @@ pub(super) struct Drawn<'a> {
 
 impl Drawn<'_> {
     /// The body, with a mode or as it is at equilibrium; nothing without coordinates.
-    fn body(&self, title: &str, mode: Option<&Mode>) -> Option<Content> {
+    fn body(&self, name: String, title: &str, mode: Option<&Mode>) -> Option<Named> {
         let drawing = BodyDrawing {
             coordinates: self.coordinates?,
             particles: self.system.particles(),
@@ -37,10 +42,48 @@ impl Drawn<'_> {
             None => "The body and the states of its particles, as the problem file gives them.",
             Some(_) => "The direction in which the body departs; displacements have one scale.",
         };
-        Some(Content::Figure {
+        Some(Named {
+            name,
             picture: body_picture(title, &drawing),
             caption: caption.into(),
         })
+    }
+
+    /// The body at equilibrium.
+    fn at_rest(&self) -> Option<Named> {
+        self.body("body".into(), "The body", None)
+    }
+
+    /// The k-th mode, from 0.
+    fn mode(&self, k: usize, mode: &Mode) -> Option<Named> {
+        let number = k + 1;
+        let rate = with_digits(mode.growth_rate, 7);
+        let title = format!("Mode {number}: grows with {rate} 1/s, without oscillation");
+        self.body(format!("mode-{number:02}"), &title, Some(mode))
+    }
+
+    fn branch_chart(&self) -> Option<Named> {
+        let branches = self.branches.as_ref()?;
+        Some(Named {
+            name: "lambda".into(),
+            picture: branch_picture("Growth rate \u{3bb} against \u{3bc}", branches),
+            caption: format!(
+                "{LEVELS_CAPTION} The squares are certified. Where a curve turns back, two motions \
+                 grow at the same \u{3bc}."
+            ),
+        })
+    }
+
+    /// Every picture of the page.
+    pub(super) fn pictures(&self, analysis: &Analysis) -> Vec<Named> {
+        let mut all = Vec::from_iter(self.at_rest());
+        all.push(presence_chart(analysis));
+        all.extend(self.branch_chart());
+        for (k, mode) in analysis.divergence.modes.iter().enumerate() {
+            all.extend(self.mode(k, mode));
+        }
+
+        all
     }
 
     /// Particles by their names in the problem file, or by their numbers.
@@ -66,7 +109,7 @@ pub(super) fn page(analysis: &Analysis, drawn: &Drawn<'_>) -> String {
         title: format!("Divergence of {name}"),
         sections: vec![
             system(analysis, drawn),
-            answers(analysis, drawn.paths),
+            answers(analysis, drawn),
             modes(analysis, drawn),
             proofs(analysis, drawn),
         ],
@@ -103,7 +146,7 @@ fn system(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     for warning in &analysis.warnings {
         content.push(Content::Warning(format!("Warning of convert: {warning}.")));
     }
-    content.extend(drawn.body("The body", None));
+    content.extend(drawn.at_rest().map(Named::into_figure));
 
     Section {
         title: "System".into(),
@@ -112,7 +155,7 @@ fn system(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
 }
 
 /// Every sentence with what stands behind it; what is only measured is said to be so.
-fn answers(analysis: &Analysis, paths: &[String]) -> Section {
+fn answers(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     let mut content = vec![Content::Paragraph(analysis.summary())];
     if analysis.interrupted {
         let warning = "Interrupted: what was not done is undecided.";
@@ -127,7 +170,7 @@ fn answers(analysis: &Analysis, paths: &[String]) -> Section {
             Evidence::Measured(_) => "measured",
         };
 
-        let evidence = analysis.evidence_text(&sentence.evidence, paths);
+        let evidence = analysis.evidence_text(&sentence.evidence, drawn.paths);
         rows.push(row([standing, &sentence.text, &evidence]));
     }
 
@@ -136,21 +179,65 @@ fn answers(analysis: &Analysis, paths: &[String]) -> Section {
         header: row(["standing", "answer", "evidence"]),
         rows,
     });
-    content.push(Content::Figure {
-        picture: presence_picture(
-            "Divergence against the coefficient of friction",
-            &presence(analysis),
-        ),
-        caption: "Where in \u{3bc} divergence of the form (8) exists, with these contact states. \
-                  Dots are single values, each decided by a complete search; in a dashed box \
-                  nothing is proved between them. Where there is no box, nothing was examined."
-            .into(),
-    });
+    content.push(presence_chart(analysis).into_figure());
+    content.extend(drawn.branch_chart().map(Named::into_figure));
 
     Section {
         title: "Answers".into(),
         content,
     }
+}
+
+fn presence_chart(analysis: &Analysis) -> Named {
+    let title = "Divergence against the coefficient of friction";
+    Named {
+        name: "presence".into(),
+        picture: presence_picture(title, &presence(analysis)),
+        caption: "Where in \u{3bc} divergence of the form (8) exists, with these contact states. \
+                  Dots are single values, each decided by a complete search; in a dashed box \
+                  nothing is proved between them. Where there is no box, nothing was examined."
+            .into(),
+    }
+}
+
+/// Particles in impending slip up to which lambda^2 is drawn against mu: each level is a complete
+/// search.
+const MOST_SLIP: usize = 25;
+
+/// lambda against mu; `None` for systems that are too large, or have particles with zero reaction.
+pub(super) fn branches(
+    analysis: &Analysis,
+    system: &System,
+    watch: &Watch<'_>,
+) -> Result<Option<Branches>, CliError> {
+    let [_, _, slip, _] = analysis.sizes;
+    if analysis.zero > 0 || slip == 0 || slip > MOST_SLIP || system.mass().is_none() {
+        return Ok(None);
+    }
+
+    let modes = analysis.divergence.modes.iter();
+    let certified = modes.map(|mode| BranchPoint {
+        mu: to_f64(&analysis.friction),
+        lambda2: to_f64(&mode.lambda2.mid()),
+        support: mode.slipping.clone(),
+    });
+    // Far above what was asked for, curves of other motions begin, which are not looked at here.
+    let critical = analysis.critical.solution.as_ref();
+    let known = critical.map_or(0.0, |solution| to_f64(solution.mu.hi()));
+    let top = 2.0 * known.max(to_f64(&analysis.friction));
+    let mut levels = levels_of(system, watch)?;
+    for level in &mut levels {
+        level.retain(|point| point.mu <= top);
+    }
+
+    let branches = Branches {
+        levels,
+        certified: certified.collect(),
+        absent_below: analysis.critical.absent_below.as_ref().map(to_f64),
+    };
+
+    let has_points = branches.levels.iter().any(|level| !level.is_empty());
+    Ok((has_points && !watch.is_cancelled()).then_some(branches))
 }
 
 /// The ranges of mu, the mu asked for and the samples, and the smallest mu with a certified
@@ -205,7 +292,7 @@ fn modes(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     }
 
     for (k, mode) in modes.iter().enumerate() {
-        content.extend(drawn.body(&format!("Mode {}", k + 1), Some(mode)));
+        content.extend(drawn.mode(k, mode).map(Named::into_figure));
         content.push(shape(k + 1, mode));
     }
 

@@ -8,8 +8,9 @@
 use super::states::{Growing, Holds, ProvedMode, ProvedSet, ProvedState, is_slip};
 use crate::LoadPath;
 use crate::cli::common::CliError;
+use crate::cli::pictures::{LEVELS_CAPTION, Named, levels_of};
 use crate::picture::{
-    BodyDrawing, BodyMode, BranchPoint, Branches, Content, Picture, Report, Section, Threshold,
+    BodyDrawing, BodyMode, BranchPoint, Branches, Content, Report, Section, Threshold,
     ThresholdColumn, body_picture, branch_picture, path_picture, threshold_picture,
 };
 use crate::say::path::{
@@ -17,8 +18,7 @@ use crate::say::path::{
 };
 use crate::say::stretches::stretch_cells;
 use mceip_engine::report::fixed_decimals;
-use mceip_engine::run::{Progress, Watch};
-use mceip_engine::search::levels::Levels;
+use mceip_engine::run::Watch;
 use mceip_exact::to_f64;
 use mceip_model::{Coordinates, ModelError, System};
 use mceip_path::LoadingPath;
@@ -44,30 +44,11 @@ pub(super) enum CheckedOn {
     Condensed,
 }
 
-/// lambda^2 against mu for the state of one stretch.
+/// lambda against mu for the state of one stretch.
 pub(super) struct StateBranches {
     stretch: usize,
     branches: Branches,
 }
-
-/// A picture with the name of its file and what to read off it.
-pub(super) struct Named {
-    pub(super) name: String,
-    pub(super) picture: Picture,
-    caption: String,
-}
-
-impl Named {
-    fn into_figure(self) -> Content {
-        Content::Figure {
-            picture: self.picture,
-            caption: self.caption,
-        }
-    }
-}
-
-/// Levels of lambda^2: the lowest natural frequency squared times 1.5^k, for k in this range.
-const LEVELS: std::ops::Range<i32> = -10..14;
 
 /// The solutions of the last state with a solution, level by level; `None` without one, or without
 /// a mass.
@@ -96,32 +77,9 @@ pub(super) fn branches(
         }
     }
 
-    let mut levels = vec![static_points(&state.thresholds)];
     let contact_states = path.stretches[state.stretch].equilibrium_states();
-    let system = Levels::new(&body.with_states(contact_states, None)?)?;
-    let unit = system.lowest_frequency2().unwrap_or(1.0);
-    for (k, exponent) in LEVELS.enumerate() {
-        if watch.is_cancelled() {
-            break;
-        }
-
-        let number = k + 1;
-        let stage = format!("lambda^2 against mu: level {number} of {}", LEVELS.len());
-        watch.report(&Progress::stage(&stage));
-
-        let lambda2 = unit * 1.5f64.powi(exponent);
-        let (found, _) = system.at(lambda2)?.solutions(&watch.quiet())?;
-        let mut points = Vec::new();
-        for solution in &found {
-            points.push(BranchPoint {
-                mu: solution.mu,
-                lambda2,
-                support: solution.support.to_vec(),
-            });
-        }
-
-        levels.push(points);
-    }
+    let mut levels = vec![static_points(&state.thresholds)];
+    levels.extend(levels_of(&body.with_states(contact_states, None)?, watch)?);
 
     Ok(Some(StateBranches {
         stretch: state.stretch,
@@ -156,7 +114,7 @@ impl Shown<'_> {
         self.followed.loads().body().system()
     }
 
-    /// Every picture: the path, the thresholds, lambda^2 against mu, a mode for each certified
+    /// Every picture: the path, the thresholds, lambda against mu, a mode for each certified
     /// solution.
     pub(super) fn pictures(&self) -> Result<Vec<Named>, ModelError> {
         let mut all = vec![self.path_chart(), self.threshold_chart()];
@@ -191,12 +149,13 @@ impl Shown<'_> {
 
     fn branch_chart(&self) -> Option<Named> {
         let StateBranches { stretch, branches } = self.branches.as_ref()?;
-        let title = format!("\u{3bb}\u{b2} against \u{3bc} for the state of stretch {stretch}");
+        let title =
+            format!("Growth rate \u{3bb} against \u{3bc} for the state of stretch {stretch}");
 
         Some(Named {
-            name: format!("lambda2-stretch-{stretch:02}"),
+            name: format!("lambda-stretch-{stretch:02}"),
             picture: branch_picture(&title, branches),
-            caption: BRANCHES_CAPTION.into(),
+            caption: format!("{LEVELS_CAPTION} The threshold and the squares are certified."),
         })
     }
 
@@ -543,10 +502,6 @@ const THRESHOLDS_CAPTION: &str = "The complete set of MCEIP-\u{3bc} for each sta
      it are open (in its table). \u{3bb} = 0 is the static threshold; divergence may begin at a \
      lower \u{3bc} with \u{3bb}\u{b2} > 0. A necessary condition that holds from \u{3bc} = 0 on is \
      not drawn.";
-
-/// What to read off the picture of lambda^2 against mu.
-const BRANCHES_CAPTION: &str = "Points: every solution found at that \u{3bb}\u{b2}, from the pencil \
-     condensed in doubles (measured, not certified). The threshold and the squares are certified.";
 
 /// Stands above a state of which something is open.
 const OPEN_WARNING: &str = "Not everything is decided: regions are left open, and may hold more \

@@ -9,11 +9,10 @@ use crate::LoadPath;
 use crate::cli::common::CliError;
 use mceip_check::AcceptedClaim;
 use mceip_engine::analysis::conditions::{DefiniteUntil, Necessary};
-use mceip_engine::reduction::mode;
+use mceip_engine::reduction::{SparseCondensation, mode};
 use mceip_engine::report::{Table, fixed_decimals, six_digits};
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::complete::{Completed, Options, complete};
-use mceip_engine::search::levels::Levels;
 use mceip_exact::{Rational, enclosing_decimals, to_f64};
 use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Variable, Window};
@@ -166,10 +165,10 @@ fn condensed_set(
     let mut set = ProvedSet::of(&found, 0..states.len());
 
     if with_modes && !set.solutions.is_empty() {
-        let levels = Levels::new(&body.with_states(states, None)?)?;
-        let static_level = levels.at(0.0)?;
+        let condensation = SparseCondensation::of_system(&body.with_states(states, None)?)?;
+        let at_rest = condensation.at(0.0)?;
         for (solution, (_, x)) in set.solutions.iter_mut().zip(found.solutions()) {
-            solution.displacement = Some(levels.mode(&static_level, x));
+            solution.displacement = Some(at_rest.lift(x));
         }
     }
 

@@ -16,8 +16,7 @@ use crate::reduction::{SparseCondensation, SparseCondensed};
 use crate::search::complete::dyadic::short_near;
 use crate::search::complete::pieces::matrix::Matrix;
 use crate::tolerance::{BRANCH_STEP, FOLD_WIDTH, KINK_SIDE, SHORT_VALUE};
-use mceip_exact::{Rational, Sparse, to_f64};
-use mceip_mcp::linear::Symmetric;
+use mceip_exact::{Rational, to_f64};
 use mceip_model::System;
 use mceip_model::reduction::zero_variables;
 
@@ -76,13 +75,7 @@ impl Branches {
     /// # Errors
     /// [`AnalysisError::NotCondensed`].
     pub(super) fn new(system: &System, scale: f64) -> Result<Branches, AnalysisError> {
-        let stiffness = symmetric(system.stiffness())?;
-        let mass = match system.mass() {
-            Some(mass) => Some(symmetric(mass)?),
-            None => None,
-        };
-
-        let condensation = SparseCondensation::with_zero(stiffness, mass, system.particles(), None)
+        let condensation = SparseCondensation::of_system(system)
             .map_err(|source| AnalysisError::NotCondensed(source.to_string()))?;
 
         let free = system.free_dofs().len();
@@ -268,10 +261,4 @@ impl End {
             direction: 1.0,
         }
     }
-}
-
-fn symmetric(matrix: &Sparse) -> Result<Symmetric, AnalysisError> {
-    let entries = matrix.entries().map(|(i, j, v)| (i, j, to_f64(v)));
-    Symmetric::new(matrix.rows(), entries)
-        .map_err(|source| AnalysisError::NotCondensed(source.to_string()))
 }

@@ -24,9 +24,9 @@
 
 use super::CondensationError;
 use crate::search::complete::pieces::matrix::combined;
-use mceip_exact::to_f64;
+use mceip_exact::{Sparse, to_f64};
 use mceip_mcp::linear::{Analysis, SchurFactor, Symmetric};
-use mceip_model::{ContactState, Direction, Particle};
+use mceip_model::{ContactState, Direction, Particle, System};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
@@ -251,6 +251,20 @@ impl SparseCondensation {
             variables: [roles.slip, roles.zero].concat(),
             free: (0..dofs).filter(|&dof| roles.is_free[dof]).collect(),
         })
+    }
+
+    /// A system rounded to doubles, as [`SparseCondensation::with_zero`] takes it.
+    ///
+    /// # Errors
+    /// As [`SparseCondensation::new`], and for entries beyond doubles.
+    pub fn of_system(system: &System) -> Result<SparseCondensation, CondensationError> {
+        let rounded = |matrix: &Sparse| {
+            let entries = matrix.entries().map(|(i, j, v)| (i, j, to_f64(v)));
+            Symmetric::new(matrix.rows(), entries)
+        };
+        let stiffness = rounded(system.stiffness())?;
+        let mass = system.mass().map(rounded).transpose()?;
+        SparseCondensation::with_zero(stiffness, mass, system.particles(), None)
     }
 
     /// n_s, the number of slip particles, or of variables where there is zero reaction.

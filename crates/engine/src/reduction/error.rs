@@ -1,7 +1,7 @@
 //! Why a system or a pencil is not condensed: equation, index, expected, got.
 
 use mceip_exact::CondenseError;
-use mceip_mcp::linear::NotDefinite;
+use mceip_mcp::linear::{NotDefinite, SymmetricError};
 use mceip_model::ModelError;
 
 /// Why a system or a pencil is not condensed to its slip variables.
@@ -69,6 +69,9 @@ pub enum CondensationError {
         /// Index of the particle.
         particle: usize,
     },
+    /// A matrix that doubles cannot hold, or that is not symmetric.
+    #[error(transparent)]
+    Symmetric(#[from] SymmetricError),
     /// Nothing slips.
     #[error("E10: expected at least one particle in impending slip, got none")]
     NoSlip,
