@@ -82,6 +82,10 @@ Fixpoint add_multiple (c : Z) (x y : seq Z) : seq Z :=
 Definition scatter (c : Z) (row : sparse_row) (y : seq Z) : seq Z :=
   foldr (fun e y => set_nth 0 y e.1 (c * e.2 + nth 0 y e.1)) y row.
 
+(* A sparse row times the matrix Y. *)
+Definition row_times (Y : matrix) (row : sparse_row) : seq Z :=
+  foldr (fun e sum => add_multiple e.2 (nth [::] Y e.1) sum) [::] row.
+
 (* The sum of |entry| w_j over a row. *)
 Definition absolute_dot (row : sparse_row) (w : seq Z) : Z :=
   foldr (fun e sum => Z.abs e.2 * nth 0 w e.1 + sum) 0 row.
@@ -110,9 +114,7 @@ Definition vanishes_elsewhere :=
   all (fun j => box_active j || (nth 0 V j =? 0)) (iota 0 (order Q)) &&
   inverse_vanishes_off pivot_removed.
 
-(* A sparse row times Y. *)
-Definition times_inverse (row : sparse_row) : seq Z :=
-  foldr (fun e sum => add_multiple e.2 (nth [::] Y e.1) sum) [::] row.
+Notation times_inverse := (row_times Y).
 
 Definition margin (g : seq Z) p := 2 * nth 0 g p - norm1 g.
 
@@ -254,6 +256,13 @@ rewrite nth_set_nth /= eq_sym; case: eqP => [->|_]; rewrite IH //.
 by move: (nth _ _ _) (lookup _ _) => n l; ring.
 Qed.
 
+Lemma nth_row_times Y row p :
+  Rz (nth 0%Z (row_times Y row) p) = \sum_(e <- row) toR e.2 * toR (nth 0%Z (nth [::] Y e.1) p).
+Proof.
+elim: row => [|e row IH] /=; first by rewrite big_nil nth_nil.
+by rewrite nth_add_multiple toRD toRM big_cons IH.
+Qed.
+
 Lemma toR_at_end e a b : Rz (at_end e a b) = toR e.2 * toR a + toR e.1 * toR b.
 Proof. by rewrite toRD !toRM. Qed.
 
@@ -271,14 +280,21 @@ Lemma toR_sparse_sum n row (x : seq Z) : all (fun e => e.1 < n)%N row ->
   Rz (sparse_dot row x) = \sum_(j <- iota 0 n) toR (lookup row j) * toR (nth 0%Z x j).
 Proof. exact: toR_sparse_dot. Qed.
 
+Lemma absolute_sum_ge row (w : seq Z) (d : nat -> R) :
+  all (fun e => `|d e.1| <= toR (nth 0%Z w e.1)) row ->
+  `|\sum_(e <- row) toR e.2 * d e.1| <= Rz (absolute_dot row w).
+Proof.
+elim: row => [|e row IH] /= => [_|/andP[small rest]]; first by rewrite big_nil normr0 toR0.
+rewrite big_cons toRD toRM toR_abs (le_trans (ler_norm_add _ _)) // ler_add ?IH // normrM.
+by rewrite ler_wpmul2l.
+Qed.
+
 Lemma absolute_dot_ge n row (w : seq Z) (d : nat -> R) : all (fun e => e.1 < n)%N row ->
   (forall j, j \in iota 0 n -> `|d j| <= toR (nth 0%Z w j)) ->
   `|\sum_(j <- iota 0 n) toR (lookup row j) * d j| <= Rz (absolute_dot row w).
 Proof.
-move=> range small; rewrite sum_lookup //; elim: row range => [|e row IH] /= => [_|/andP[lt range]].
-  by rewrite big_nil normr0 toR0.
-rewrite big_cons toRD toRM toR_abs (le_trans (ler_norm_add _ _)) // ler_add ?IH // normrM.
-by rewrite ler_wpmul2l // small // mem_iota.
+move=> range small; rewrite sum_lookup //; apply: absolute_sum_ge; apply: sub_all range => e lt_e.
+by rewrite small // mem_iota.
 Qed.
 
 End Lists.
@@ -292,6 +308,7 @@ Notation variables := (iota 0 (order Q)).
 Notation J := (active_list Q c).
 Notation K := (pivot_removed Q c).
 Notation k := (box_pivot c).
+Notation times_inverse := (row_times (right_inverse c)).
 Notation V j := (toR (nth 0%Z (box_center c) j) : R).
 Notation Y j p := (toR (nth 0%Z (nth [::] (right_inverse c) j) p) : R).
 Notation W := (toR (box_width c) : R).
@@ -439,15 +456,14 @@ by rewrite /Enclosed.T_end mulrDl !mulrA.
 Qed.
 
 Lemma times_inverseE row p : all (fun e => e.1 < order Q)%N row ->
-  toR (nth 0%Z (times_inverse c row) p) = \sum_(j <- K) toR (lookup row j) * Y j p.
+  toR (nth 0%Z (times_inverse row) p) = \sum_(j <- K) toR (lookup row j) * Y j p.
 Proof.
 move=> range; rewrite -sum_over_K => [|j Hj out]; last by rewrite inverse_elsewhere ?mulr0.
-rewrite sum_lookup //; elim: row {range} => [|e row IH] /=; first by rewrite big_nil nth_nil.
-by rewrite nth_add_multiple toRD toRM big_cons IH.
+by rewrite sum_lookup // nth_row_times.
 Qed.
 
 Definition product_row e i :=
-  row_at_end e (times_inverse c (row_a Q i)) (times_inverse c (row_b Q i)).
+  row_at_end e (times_inverse (row_a Q i)) (times_inverse (row_b Q i)).
 
 Lemma product_rowE e i p :
   toR (nth 0%Z (product_row e i) p) = \sum_(j <- K) T_end e i j * Y j p.

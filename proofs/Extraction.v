@@ -17,7 +17,7 @@ From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Regular.
 From Mceip Require Import Critical CriticalAnchors Presence PresenceAnchors.
 From Mceip Require Import ZeroPencil ZeroComplete Points Rational Statement
-  Integral Verdict.
+  Integral Equilibrium Verdict.
 
 Extract Inductive nat => int [ "0" "Natural.succ" ]
   "(fun zero next n -> if n = 0 then zero () else next (Natural.before n))".
@@ -44,4 +44,5 @@ Extraction "kernel.ml"
   local_point proper_interval swap_pencil condensed_parts part_plain part_friction pencil_at
   mixed box_expansions friction_anchor check_parts box_regular restricted combine_rows
   check_presence_piece presence_inside presence_edge zero_pencil zero_families
-  zero_varying_families point_pencil reverse_pencil.
+  zero_varying_families point_pencil reverse_pencil is_held is_apart applied_row equations
+  inequalities scaled_row.

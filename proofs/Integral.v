@@ -222,7 +222,7 @@ Qed.
 
 Lemma equivalent_meaning s : meaning_in P' s -> meaning_in P s.
 Proof.
-case: s => [lo hi l|lo hi c|c|from bound|from bound|points] /=.
+case: s => [lo hi l|lo hi c|c|from bound|from bound|points|//] /=.
 - by move=> hold; apply: List.Forall_impl hold => a; apply: equivalent_asserted.
 - by case=> all each; split=> [|f /each]; [apply: equivalent_solutions|apply: equivalent_family].
 - by case=> Q [is_Q all each]; exists Q; split=> //; apply: (same_pencils E).
@@ -628,7 +628,7 @@ Definition integral_wellformed q :=
 Theorem scaled_equivalent (R : rcfType) c p q : scaled c p = Some q -> integral_wellformed q ->
   equivalent (semantics_of R p) (integral_semantics R q).
 Proof.
-case: p => [Q|B u|rows] /=; case: ifP => // ex [<-].
+case: p => [Q|B u|rows|//] /=; case: ifP => // ex [<-].
 - by move=> _; apply: pencil_equivalent.
 - case: ifP => [/nilP none|some] wf; first exact: system_equivalent.
   by apply: zero_equivalent; rewrite ?some.
@@ -637,4 +637,8 @@ Qed.
 
 Theorem scaled_meaning (R : rcfType) c p q s : scaled c p = Some q -> integral_wellformed q ->
   meaning_in (integral_semantics R q) s -> meaning R p s.
-Proof. by move=> is_q wf; apply: equivalent_meaning; apply: scaled_equivalent is_q wf. Qed.
+Proof.
+move=> is_q wf holds; have : meaning_in (semantics_of R p) s.
+  by apply: equivalent_meaning holds; apply: scaled_equivalent is_q wf.
+by case: p is_q.
+Qed.

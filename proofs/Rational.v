@@ -9,7 +9,11 @@
 
    Integral.v proves that the integral problem means the same.
 
-   Pages: spec/formats.md (mceip-problem/1, mceip-mcp/1); spec/certificates.md, 5.1. *)
+   A body under loads has candidates for contact in place of particles; its degrees of freedom are
+   those of the file, the held ones among them.
+
+   Pages: spec/formats.md (mceip-problem/1, mceip-mcp/1, mceip-loads/1); spec/certificates.md,
+   5.1. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect.
@@ -58,10 +62,26 @@ Record rational_mcp_row := RationalMcpRow {
   given_lower : option rational;
   given_upper : option rational }.
 
+(* What may come into contact, and its distance from the obstacle in the unloaded body.  A particle
+   of this kind has no state of its own: nothing looks at [contact_of]. *)
+Record candidate := Candidate { particle_of : given_particle; gap_of : rational }.
+
+(* Forces, and displacements of degrees of freedom that are held. *)
+Record load := Load { forces_of : rational_row; displacements_of : rational_row }.
+
+(* Held are the degrees of freedom of the list and those that a load displaces. *)
+Record rational_body := RationalBody {
+  body_degrees : nat;
+  body_stiffness : seq rational_row;
+  candidates : seq candidate;
+  held_still : seq nat;
+  loads : seq load }.
+
 Inductive problem :=
   | GivenPencil of rational_pencil
   | GivenSystem of rational_system & unknown
-  | GivenPlain of seq rational_mcp_row.
+  | GivenPlain of seq rational_mcp_row
+  | GivenLoads of rational_body.
 
 (* The same with integers, as the kernel has it. *)
 Inductive integral :=
@@ -155,7 +175,8 @@ Definition scaled_mcp_row r := McpRow (scaled_row (entry_scale c) (given_m r))
 Definition exact_mcp_row r :=
   exact (entry_scale c) (given_q r) && all (fun e => exact (entry_scale c) e.2) (given_m r).
 
-(* The integral problem, if these factors make it one. *)
+(* The integral problem, if these factors make it one.  Equilibrium.v makes integers of a body under
+   loads. *)
 Definition scaled p : option integral :=
   match p with
   | GivenPencil Q => if exact_pencil Q then Some (PencilProblem (scaled_pencil Q)) else None
@@ -167,6 +188,7 @@ Definition scaled p : option integral :=
   | GivenPlain rows =>
       if (0 <? entry_scale c) && all exact_mcp_row rows
       then Some (PlainProblem [seq scaled_mcp_row r | r <- rows]) else None
+  | GivenLoads _ => None
   end.
 
 End Scaling.
@@ -188,5 +210,5 @@ Definition complementarity p : seq nat :=
   | GivenSystem B _ =>
       iota (count (fun d => d \notin held B) (iota 0 (degrees B)))
         (size (slipping B) + 3 * size (with_zero B))
-  | GivenPlain _ => [::]
+  | GivenPlain _ | GivenLoads _ => [::]
   end.

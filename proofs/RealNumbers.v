@@ -15,7 +15,7 @@ From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp.real_closed Require Import realalg.
 From Mceip Require Import Claim EnclosedClaim System Lifted ZeroReaction ZeroEnclosed PlainMcp.
 From Mceip Require Import Families Varying ZeroComplete Critical CriticalAnchors PresenceAnchors.
-From Mceip Require Import Points Verdict.
+From Mceip Require Import Points Equilibrium Verdict.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -185,6 +185,7 @@ Definition system_point_hold_R := @system_point_hold reals.
 Definition infinity_number_R := @infinity_number reals.
 Definition infinity_hold_R := @infinity_hold reals.
 Definition plain_mcp_sound_R := @plain_mcp_sound reals.
+Definition equilibrium_sound_R := @equilibrium_sound reals.
 
 Definition answer_sound_realalg := @answer_sound realalg_rcfType.
 Definition families_number_realalg := @families_number realalg_rcfType.
@@ -219,3 +220,4 @@ Definition system_point_hold_realalg := @system_point_hold realalg_rcfType.
 Definition infinity_number_realalg := @infinity_number realalg_rcfType.
 Definition infinity_hold_realalg := @infinity_hold realalg_rcfType.
 Definition plain_mcp_sound_realalg := @plain_mcp_sound realalg_rcfType.
+Definition equilibrium_sound_realalg := @equilibrium_sound realalg_rcfType.

@@ -5,9 +5,9 @@
    is written (Rational.v), regions and places of values (Tree.v, Signs.v), and at infinity the
    pencil of a system (Points.v).
 
-   A problem is a pencil, a mechanical system or a plain mixed complementarity problem.  The first
-   two have *solutions*: a value t >= 0 and a vector, x of a pencil or a motion v of a system.  The
-   motion satisfies the conditions (9), for values of lambda^2 and mu:
+   A problem is a pencil, a mechanical system, a plain mixed complementarity problem or a body under
+   loads.  The first two have *solutions*: a value t >= 0 and a vector, x of a pencil or a motion v
+   of a system.  The motion satisfies the conditions (9), for values of lambda^2 and mu:
 
        w = (K + lambda^2 M) v,    v != 0,    v = 0 at particles that stick,
        w = 0 at degrees of freedom of no particle in contact,
@@ -18,11 +18,14 @@
 
    and for each particle with zero reaction the lines of [zero_reaction] (ZeroReaction.v).
 
+   A body under loads has *equilibria*: displacements u with reactions that satisfy (1), (5) and (7)
+   ([in_equilibrium]).
+
    Vectors that are positive multiples of each other are one solution.  Each complementarity
    variable has a *rate* (x_i; how fast a particle slips or opens) and a *row* (y_i), of which one
    is 0.  [meaning] says for each kind of statement what it means in a real closed field.
 
-   Pages: spec/certificates.md, 5.1, 5.15; spec/zero-reaction.md, Z.1. *)
+   Pages: spec/certificates.md, 5.1, 5.15, 5.20; spec/zero-reaction.md, Z.1. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
@@ -51,6 +54,11 @@ Record asserted := Asserted {
   asserted_support : seq nat;
   asserted_biactive : seq nat }.
 
+(* The contact state of a candidate at an equilibrium: not in contact; it sticks, at this tangential
+   displacement; in impending slip, S the sign of its tangential reaction; in contact without
+   reaction. *)
+Inductive stated := Apart | SticksAt of rational | SlipsWith of Z | WithoutReaction.
+
 Inductive statement :=
   (* Each of these solutions exists, with its value in the window. *)
   | EachExists of point & point & seq asserted
@@ -63,7 +71,10 @@ Inductive statement :=
   (* A solution with some lambda^2 >= 0 for each friction between these two. *)
   | OneForEachFriction of point & point
   (* Each of these points solves the plain problem. *)
-  | PointsSolve of seq mcp_point.
+  | PointsSolve of seq mcp_point
+  (* With this friction, and so much of each load, an equilibrium with the candidates in these
+     states. *)
+  | InEquilibrium of rational & seq rational & seq stated.
 
 Section Meaning.
 
@@ -116,6 +127,8 @@ Definition pencil_semantics := Semantics numbers pencil_solves (multiples (given
 
 End Pencil.
 
+Notation nobody := (GivenParticle 0 0 NotInContact ((0, 1), (0, 1)) ((0, 1), (0, 1)) 0 (0, 1))%Z.
+
 Section System.
 
 Variables (B : rational_system) (u : unknown).
@@ -134,8 +147,6 @@ Definition normal_to p (f : nat -> R) := toR (into_obstacle p) *
 (* S t'w + c mu n'w *)
 Definition cone_of lambda2 mu v p := let w := force_of lambda2 v in
   toR (sign p) * tangential p w + fraction (factor_of p) * mu * normal_to p w.
-
-Notation nobody := (GivenParticle 0 0 NotInContact ((0, 1), (0, 1)) ((0, 1), (0, 1)) 0 (0, 1))%Z.
 
 Definition slip_at j := nth nobody (slipping B) j.
 Definition zero_at j := nth nobody (with_zero B) j.
@@ -195,12 +206,73 @@ Definition solves_given (rows : seq rational_mcp_row) (z : nat -> R) :=
   [/\ above (given_lower r) (z i), below (given_upper r) (z i),
       ~ meets (given_upper r) (z i) -> 0 <= F & ~ meets (given_lower r) (z i) -> F <= 0].
 
+Section Loads.
+
+Variables (B : rational_body) (mu : rational) (amounts : seq rational) (states : seq stated).
+Implicit Types u r : nat -> R.
+
+(* The sum of the amounts of all loads, at a degree of freedom. *)
+Definition applied (part : load -> rational_row) (d : nat) : R :=
+  \sum_(l <- iota 0 (size (loads B)))
+    fraction (nth (0, 1)%Z amounts l) * given_entry [seq part l | l <- loads B] l d.
+
+Definition is_held (d : nat) :=
+  (d \in held_still B) || has (fun l => d \in [seq e.1 | e <- displacements_of l]) (loads B).
+
+Definition displaced u :=
+  forall d, d \in iota 0 (body_degrees B) -> is_held d -> u d = applied displacements_of d.
+
+(* r = K u - f *)
+Definition reaction_of u d : R :=
+  \sum_(j <- iota 0 (body_degrees B)) given_entry (body_stiffness B) d j * u j
+  - applied forces_of d.
+
+Definition state_at j := nth Apart states j.
+Definition candidate_at j := nth (Candidate nobody (0, 1)%Z) (candidates B) j.
+Definition is_apart s := if s is Apart then true else false.
+
+(* Is this a degree of freedom of a candidate in contact? *)
+Definition touched (d : nat) :=
+  has (fun c => ~~ is_apart c.2 && (d \in dofs_of [:: particle_of c.1]))
+    (zip (candidates B) states).
+
+(* (5) where nothing touches *)
+Definition balanced r :=
+  forall d, d \in iota 0 (body_degrees B) -> ~~ is_held d -> ~~ touched d -> r d = 0.
+
+(* (1), (7) *)
+Definition in_state (c : candidate) s u r : Prop :=
+  let p := particle_of c in
+  let gap := fraction (gap_of c) in
+  let pressure := - normal_to p r in
+  let bound := fraction mu * fraction (factor_of p) * pressure in
+  match s with
+  | Apart => normal_to p u < gap
+  | SticksAt place => [/\ normal_to p u = gap, tangential p u = fraction place, 0 < pressure &
+                          `|tangential p r| < bound]
+  | SlipsWith sign => [/\ normal_to p u = gap, 0 < pressure, `|tangential p r| = bound &
+                          0 < toR sign * tangential p r]
+  | WithoutReaction => [/\ normal_to p u = gap, normal_to p r = 0 & tangential p r = 0]
+  end.
+
+Definition in_equilibrium u := let r := reaction_of u in
+  [/\ displaced u, balanced r & forall j, (j < size (candidates B))%N ->
+      in_state (candidate_at j) (state_at j) u r].
+
+Definition has_equilibrium :=
+  [/\ 0 < fraction mu, size amounts = size (loads B), size states = size (candidates B) &
+      exists u, in_equilibrium u].
+
+End Loads.
+
 Definition semantics_of p :=
   match p with
   | GivenPencil Q => pencil_semantics Q
   | GivenSystem B u => system_semantics B u
   | GivenPlain rows => Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0)
       (fun _ _ _ => 0) None (fun _ => False) (Some (solves_given rows))
+  | GivenLoads _ => Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0)
+      (fun _ _ _ => 0) None (fun _ => False) None
   end.
 
 Section Statements.
@@ -285,8 +357,13 @@ Definition meaning_in (P : semantics) s :=
       forall mu, between mu from bound -> exists t v, 0 <= t /\ moves t mu v else False
   | PointsSolve points => if solved_by P is Some solved then
       points <> [::] /\ forall z, List.In z points -> solved (point_value R z) else False
+  | InEquilibrium _ _ _ => False
   end.
 
-Definition meaning p s := meaning_in (semantics_of p) s.
+Definition meaning p s :=
+  match p, s with
+  | GivenLoads B, InEquilibrium mu amounts states => has_equilibrium B mu amounts states
+  | _, _ => meaning_in (semantics_of p) s
+  end.
 
 End Meaning.

@@ -1,7 +1,7 @@
 (* From a problem and evidence to a statement that is true.
 
    [answer] makes the problem integral (Rational.v), chooses the check for a kind of evidence and
-   puts together what it proves.
+   puts together what it proves.  The check of an equilibrium makes its own integers.
 
    Theorem [answer_sound]: if [answer] gives a statement, then it holds in every real closed field,
    in the sense of [meaning] (Statement.v).
@@ -9,7 +9,7 @@
    Evidence is what the program's elaborator makes of a certificate; nothing is assumed of it.
    A refusal says which part of the evidence failed.
 
-   Pages: spec/certificates.md, 5.15 to 5.17.  Called by program/main.ml. *)
+   Pages: spec/certificates.md, 5.15 to 5.20.  Called by program/main.ml. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
@@ -17,7 +17,7 @@ From Mceip Require Import Integers Sums Tree Enclosed Definite Cover Number Cond
 From Mceip Require Import Whole Claim EnclosedClaim Complete System Signs Support Families.
 From Mceip Require Import Lifted ZeroReaction ZeroEnclosed PlainMcp Varying ZeroPencil.
 From Mceip Require Import ZeroComplete Boxes Critical CriticalAnchors Presence PresenceAnchors.
-From Mceip Require Import Points Rational Statement Integral.
+From Mceip Require Import Points Rational Statement Integral Equilibrium.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -60,7 +60,9 @@ Inductive evidence :=
       seq (option support_leaf)
   | Absence of point & point & absence_evidence
   | Presence of point & point & box_anchoring & seq presence_piece
-  | Points of seq mcp_point.
+  | Points of seq mcp_point
+  (* Friction, amounts and states, and what shows that there is an equilibrium in them. *)
+  | Equilibrium of rational & seq rational & seq stated & equilibrium_evidence.
 
 Inductive answered :=
   | Proved of statement
@@ -221,9 +223,15 @@ Definition integral_answer p (e : evidence) : answered :=
 
 (* The factors [c] are part of the evidence: any serve that make the problem integral. *)
 Definition answer p c (e : evidence) : answered :=
-  if scaled c p is Some q
-  then if integral_wellformed q then integral_answer q e else EvidenceRefused
-  else EvidenceRefused.
+  match p, e with
+  | GivenLoads B, Equilibrium mu amounts states w =>
+      proved_if (check_equilibrium B mu amounts states (entry_scale c) w)
+        (InEquilibrium mu amounts states)
+  | _, _ =>
+      if scaled c p is Some q
+      then if integral_wellformed q then integral_answer q e else EvidenceRefused
+      else EvidenceRefused
+  end.
 
 Section Sound.
 
@@ -475,7 +483,7 @@ Qed.
 
 Lemma integral_sound p e s : integral_answer p e = Proved s -> holds_of p s.
 Proof.
-case: e => [lo hi l|lo hi c|claims w tr ls|from bound a|from bound w pieces|points].
+case: e => [lo hi l|lo hi c|claims w tr ls|from bound a|from bound w pieces|points|mu a s' w].
 - exact: answer_claims_sound.
 - case: p => [Q|sys u|z u|m] //=; first exact: answer_cover_sound.
     by case: ifP => // wf; apply: system_cover_sound.
@@ -488,15 +496,19 @@ case: e => [lo hi l|lo hi c|claims w tr ls|from bound a|from bound w pieces|poin
   have [moves -> iff] := moves_of_system eq => mu bm.
   have [t [v [t0 sat]]] := zero_presence_sound ok bm.
   by exists t, v; split=> //; apply/iff.
-case: p => // m; rewrite /= /proved_if; case: ifP => // ok [<-] /=.
-split; last exact: plain_mcp_sound.
-by case/and3P: ok => _ some _ none; rewrite none in some.
+- case: p => // m; rewrite /= /proved_if; case: ifP => // ok [<-] /=.
+  split; last exact: plain_mcp_sound.
+  by case/and3P: ok => _ some _ none; rewrite none in some.
+by case: p.
 Qed.
 
 Theorem answer_sound p c e s : answer p c e = Proved s -> meaning R p s.
 Proof.
-rewrite /answer; case is_q: (scaled c p) => [q|] //; case: ifP => // wf /integral_sound.
-exact: scaled_meaning is_q wf.
+case: p => [Q|B u|rows|B]; last first.
+  case: e => //= mu amounts states w; rewrite /proved_if; case: ifP => // ok [<-].
+  exact: equilibrium_sound ok.
+all: rewrite /answer; case is_q: (scaled c _) => [q|] //; case: ifP => // wf /integral_sound.
+all: exact: scaled_meaning is_q wf.
 Qed.
 
 End Sound.

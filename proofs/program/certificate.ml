@@ -131,7 +131,15 @@ type presence = {
   presence_condensation : critical_condensation option;
   presence_pieces : presence_piece list }
 
-type file = Complete of t | Critical of critical | Presence of presence
+(* A file mceip-equilibrium/1, about a body under loads. *)
+type equilibrium = {
+  loads_digest : string;
+  mu : Q.t;
+  amounts : Q.t list;
+  stated : Kernel.stated list;
+  equilibrium_claim : claim }
+
+type file = Complete of t | Critical of critical | Presence of presence | Equilibrium of equilibrium
 
 (* An index that may name nothing.  A negative one is malformed: the kernel has none. *)
 let place item =
@@ -392,6 +400,29 @@ let read_presence document =
     presence_to = rational (field "to"); presence_condensation;
     presence_pieces = List.map read_presence_piece (list (field "pieces")) }
 
+let read_state item =
+  let state = match item with
+    | Object members -> Option.value (List.assoc_opt "state" members) ~default:Null
+    | _ -> malformed "a state is an object" in
+  let field key = fields ["state"; key] [] item key in
+  match state with
+  | String "stick" -> Kernel.SticksAt (Problem.point_of (rational (field "tangential")))
+  | String "slip" ->
+    (match Problem.unit_of "sign" (field "sign") with
+     | Some sign -> SlipsWith (Z.of_int sign)
+     | None -> malformed "sign is 1 or -1")
+  | String "free" -> ignore (fields ["state"] [] item); Apart
+  | String "zero" -> ignore (fields ["state"] [] item); WithoutReaction
+  | _ -> malformed "a state of a candidate"
+
+let read_equilibrium document =
+  let field = fields ["format"; "loads_sha256"; "friction"; "amounts"; "candidates"; "claim"] []
+      document in
+  { loads_digest = text (field "loads_sha256"); mu = rational (field "friction");
+    amounts = List.map rational (list (field "amounts"));
+    stated = List.map read_state (list (field "candidates"));
+    equilibrium_claim = read_claim (field "claim") }
+
 let read path =
   let document = Json.read path in
   let format = match document with
@@ -401,4 +432,5 @@ let read path =
   | Some (String "mceip-certificate/1") -> Complete (read_complete document)
   | Some (String "mceip-critical/1") -> Critical (read_critical document)
   | Some (String "mceip-presence/1") -> Presence (read_presence document)
-  | _ -> malformed "format: mceip-certificate/1, mceip-critical/1 or mceip-presence/1 was expected"
+  | Some (String "mceip-equilibrium/1") -> Equilibrium (read_equilibrium document)
+  | _ -> malformed "a format of a certificate was expected"

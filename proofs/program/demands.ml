@@ -1,5 +1,5 @@
-(* What the format of problems demands of a system and no statement needs: symmetric matrices,
-   reactions that agree with the states, particles apart (spec/formats.md, mceip-problem/1).
+(* What the formats demand of a system or a body and no statement needs: symmetric matrices,
+   reactions that agree with the states, particles apart (spec/formats.md).
 
    Not trusted: these functions refuse, and do nothing else. *)
 
@@ -32,3 +32,30 @@ let check_reaction mu state sign item =
 let apart dofs =
   if List.length (List.sort_uniq compare dofs) < List.length dofs then
     malformed "a degree of freedom in two particles"
+
+let beyond_doubles v = not (Float.is_finite (Q.to_float v))
+
+(* Of a body under loads: candidates and steps, of which only the last may be endless; each dof once
+   in a list, no force on a held one; gaps and eliminated loads that doubles hold. *)
+let check_loads (body : Kernel.rational_body) gaps steps endless loads =
+  let once pairs =
+    let dofs = List.map fst pairs in
+    if List.length (List.sort_uniq compare dofs) < List.length dofs then
+      malformed "a degree of freedom twice in a step" in
+  let not_held d =
+    if Kernel.is_held body d then malformed "a candidate or a force on a held degree of freedom" in
+  let dofs = List.concat_map (fun (c : Kernel.candidate) ->
+      [c.particle_of.first_of; c.particle_of.second_of]) body.candidates in
+  if dofs = [] || steps = [] then malformed "a candidate and a step were expected";
+  apart dofs;
+  List.iter not_held dofs;
+  List.iter (fun (forces, displacements) ->
+      once forces;
+      once displacements;
+      List.iter (fun (d, _) -> not_held d) forces) steps;
+  if List.exists Fun.id (List.tl (List.rev endless)) then
+    malformed "an endless step before another";
+  if List.exists (fun gap -> Q.sign gap < 0) gaps then malformed "a negative gap";
+  if List.exists beyond_doubles gaps
+  || List.exists (List.exists (fun (_, v) -> beyond_doubles v)) loads then
+    malformed "gaps and loads that doubles hold"

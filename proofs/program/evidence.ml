@@ -93,6 +93,8 @@ let refusal (evidence : Kernel.evidence) (answer : Kernel.answered) =
     no_witness "a window that is one value"
   | ClaimsIn _, _ -> Rejected "the kernel refuses a claim"
   | Points _, _ -> Rejected "the kernel refuses a point"
+  | Equilibrium (_, _, _, BoxAround _), _ -> no_witness "an equilibrium in a box"
+  | Equilibrium _, _ -> Rejected "the kernel refuses the equilibrium"
   | _ -> Rejected "the kernel refuses the tree"
 
 let window_of (certificate : Certificate.t) =

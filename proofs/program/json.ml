@@ -179,7 +179,17 @@ let fields required optional = function
     fun key -> (try List.assoc key members with Not_found -> Null)
   | _ -> malformed "an object was expected"
 
+let has_format name = function
+  | Object members -> List.assoc_opt "format" members = Some (String name)
+  | _ -> false
+
 let list = function List items -> items | _ -> malformed "a list was expected"
+
+(* A list that may be left out; null is no list. *)
+let list_or_none key = function
+  | Object members -> Option.fold ~none:[] ~some:list (List.assoc_opt key members)
+  | _ -> []
+
 let text = function String s -> s | _ -> malformed "a string was expected"
 
 (* A rational: p/q or a decimal, with the limits of the specification. *)

@@ -2492,12 +2492,12 @@ let rec horner_interval a b d = function
 | c :: p' ->
   let (p0, power) = horner_interval a b d p' in
   let (lo, hi) = p0 in
-  let constant = Z.mul c (Z.mul power d) in
+  let constant0 = Z.mul c (Z.mul power d) in
   (((Z.add
       (if Z.leb Big_int_Z.zero_big_int lo then Z.mul a lo else Z.mul b lo)
-      constant),
+      constant0),
   (Z.add (if Z.leb Big_int_Z.zero_big_int hi then Z.mul b hi else Z.mul a hi)
-    constant)), (Z.mul power d))
+    constant0)), (Z.mul power d))
 
 (** val lower_value :
     claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
@@ -2693,6 +2693,11 @@ let scatter c row y =
     set_nth Big_int_Z.zero_big_int y0 (fst e)
       (Z.add (Z.mul c (snd e)) (nth Big_int_Z.zero_big_int y0 (fst e)))) y row
 
+(** val row_times : matrix -> sparse_row -> Big_int_Z.big_int list **)
+
+let row_times y row =
+  foldr (fun e sum0 -> add_multiple (snd e) (nth [] y (fst e)) sum0) [] row
+
 (** val absolute_dot :
     sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
@@ -2750,13 +2755,6 @@ let vanishes_elsewhere q c =
           Big_int_Z.zero_big_int)) (iota 0 q.order))
     (inverse_vanishes_off q c (Obj.magic pivot_removed q c))
 
-(** val times_inverse :
-    enclosed_claim -> sparse_row -> Big_int_Z.big_int list **)
-
-let times_inverse c row =
-  foldr (fun e sum0 ->
-    add_multiple (snd e) (nth [] c.right_inverse (fst e)) sum0) [] row
-
 (** val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int **)
 
 let margin g p =
@@ -2793,8 +2791,9 @@ let dominated_ends c p ga gb ra rb rate0 =
     pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool **)
 
 let regular_row q c eps p i =
-  dominated_ends c p (times_inverse c (row_a q i))
-    (times_inverse c (row_b q i)) (sparse_dot (row_a q i) c.box_center)
+  dominated_ends c p (row_times c.right_inverse (row_a q i))
+    (row_times c.right_inverse (row_b q i))
+    (sparse_dot (row_a q i) c.box_center)
     (sparse_dot (row_b q i) c.box_center)
     (Z.add (Z.abs (sparse_dot (row_b q i) c.box_center))
       (absolute_dot (row_b q i) eps))
@@ -3968,12 +3967,12 @@ let rec slope_interval a b d = function
   let (p0, slope) = slope_interval a b d p' in
   let (p1, power) = p0 in
   let (lo, hi) = p1 in
-  let constant = Z.mul c (Z.mul power d) in
+  let constant0 = Z.mul c (Z.mul power d) in
   ((((Z.add
        (if Z.leb Big_int_Z.zero_big_int lo then Z.mul a lo else Z.mul b lo)
-       constant),
+       constant0),
   (Z.add (if Z.leb Big_int_Z.zero_big_int hi then Z.mul b hi else Z.mul a hi)
-    constant)), (Z.mul power d)),
+    constant0)), (Z.mul power d)),
   (Z.add (Z.mul d lo)
     (if Z.leb Big_int_Z.zero_big_int slope
      then Z.mul a slope
@@ -6363,11 +6362,11 @@ let zero_row0 row =
 (** val reverse_pencil : pencil -> pencil **)
 
 let reverse_pencil q =
-  let constant = fun i -> zero_row0 (row_b q i) in
+  let constant0 = fun i -> zero_row0 (row_b q i) in
   { order = q.order; rows_a =
-  (map0 (fun i -> if constant i then row_a q i else row_b q i)
+  (map0 (fun i -> if constant0 i then row_a q i else row_b q i)
     (iota 0 q.order)); rows_b =
-  (map0 (fun i -> if constant i then [] else row_a q i) (iota 0 q.order));
+  (map0 (fun i -> if constant0 i then [] else row_a q i) (iota 0 q.order));
   free = q.free }
 
 (** val check_infinity :
@@ -6405,10 +6404,20 @@ type rational_mcp_row = { given_m : rational_row; given_q : rational0;
                           given_lower : rational0 option;
                           given_upper : rational0 option }
 
+type candidate = { particle_of : given_particle; gap_of : rational0 }
+
+type load = { forces_of : rational_row; displacements_of : rational_row }
+
+type rational_body = { body_degrees : int;
+                       body_stiffness : rational_row list;
+                       candidates : candidate list; held_still : int list;
+                       loads : load list }
+
 type problem =
 | GivenPencil of rational_pencil
 | GivenSystem of rational_system * unknown
 | GivenPlain of rational_mcp_row list
+| GivenLoads of rational_body
 
 type integral =
 | PencilProblem of pencil
@@ -6603,6 +6612,7 @@ let scaled c = function
        (all (exact_mcp_row c) rows)
   then Some (PlainProblem (map0 (fun r -> scaled_mcp_row c r) rows))
   else None
+| GivenLoads _ -> None
 
 (** val pencil_of_integral : integral -> pencil **)
 
@@ -6631,7 +6641,7 @@ let complementarity = function
     (addn (size0 (slipping b))
       (muln (Natural.succ (Natural.succ (Natural.succ 0)))
         (size0 (with_zero b))))
-| GivenPlain _ -> []
+| _ -> []
 
 type solution_set = { solutions_in : yield list;
                       families_of_set : family list;
@@ -6640,6 +6650,12 @@ type solution_set = { solutions_in : yield list;
 type asserted = { asserted_from : point; asserted_to : point;
                   asserted_support : int list; asserted_biactive : int list }
 
+type stated =
+| Apart
+| SticksAt of rational0
+| SlipsWith of Big_int_Z.big_int
+| WithoutReaction
+
 type statement =
 | EachExists of point * point * asserted list
 | AllInWindow of point * point * solution_set
@@ -6647,6 +6663,34 @@ type statement =
 | NoneForFriction of point * point
 | OneForEachFriction of point * point
 | PointsSolve of mcp_point list
+| InEquilibrium of rational0 * rational0 list * stated list
+
+(** val is_held : rational_body -> int -> bool **)
+
+let is_held b d =
+  (||)
+    (in_mem (Obj.magic d)
+      (mem (seq_predType nat_eqType) (Obj.magic b.held_still)))
+    (has (fun l ->
+      in_mem (Obj.magic d)
+        (mem (seq_predType nat_eqType)
+          (Obj.magic map0 fst l.displacements_of))) b.loads)
+
+(** val is_apart : stated -> bool **)
+
+let is_apart = function
+| Apart -> true
+| _ -> false
+
+(** val touched : rational_body -> stated list -> int -> bool **)
+
+let touched b states0 d =
+  has (fun c ->
+    (&&) (negb (is_apart (snd c)))
+      (in_mem (Obj.magic d)
+        (mem (seq_predType nat_eqType)
+          (Obj.magic dofs_of ((fst c).particle_of :: [])))))
+    (zip b.candidates states0)
 
 (** val integral_wellformed : integral -> bool **)
 
@@ -6654,6 +6698,229 @@ let integral_wellformed = function
 | SystemProblem (s, u) -> system_wellformed s u
 | ZeroProblem (z0, u) -> zero_wellformed z0 u
 | _ -> true
+
+type equilibrium_evidence =
+| ExactAt of Big_int_Z.big_int list
+| BoxAround of Big_int_Z.big_int list * matrix * Big_int_Z.big_int
+
+(** val dominated_row :
+    matrix -> Big_int_Z.big_int list -> Big_int_Z.big_int -> int ->
+    sparse_row -> bool **)
+
+let dominated_row y v w i row =
+  let g = row_times y row in
+  (&&) (Z.ltb Big_int_Z.zero_big_int (margin g i))
+    (Z.leb (Z.abs (sparse_dot row v)) (Z.mul (margin g i) w))
+
+(** val check_rows :
+    int -> sparse_row list -> sparse_row list -> equilibrium_evidence -> bool **)
+
+let check_rows n eqs ineqs = function
+| ExactAt v ->
+  (&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v n))
+    ((&&)
+      (all (fun row -> Z.eqb (sparse_dot row v) Big_int_Z.zero_big_int) eqs)
+      (all (fun row -> Z.ltb Big_int_Z.zero_big_int (sparse_dot row v)) ineqs))
+| BoxAround (v, y, w0) ->
+  let eps = map0 (fun row -> Z.mul (norm1 row) w0) y in
+  (&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v n))
+    ((&&) (leq (size0 y) n)
+      ((&&) (Z.leb Big_int_Z.zero_big_int w0)
+        ((&&) (all_from (dominated_row y v w0) 0 eqs)
+          (all (fun row -> Z.ltb (absolute_dot row eps) (sparse_dot row v))
+            ineqs))))
+
+(** val times_rational : rational0 -> rational0 -> rational0 **)
+
+let times_rational a b =
+  ((Z.mul (fst a) (fst b)), (Z.mul (snd a) (snd b)))
+
+(** val scaled_by : rational0 -> rational_row -> rational_row **)
+
+let scaled_by a row =
+  map0 (fun e -> ((fst e), (times_rational a (snd e)))) row
+
+(** val negated : rational_row -> rational_row **)
+
+let negated =
+  scaled_by ((Big_int_Z.minus_big_int Big_int_Z.unit_big_int),
+    Big_int_Z.unit_big_int)
+
+(** val constant : rational_body -> rational0 -> rational_row **)
+
+let constant b q =
+  (b.body_degrees, q) :: []
+
+(** val applied_row :
+    rational_body -> rational0 list -> (load -> rational_row) -> int ->
+    rational_row **)
+
+let applied_row b amounts part d =
+  flatten
+    (map0 (fun la ->
+      map0 (fun e -> (b.body_degrees, (times_rational (snd la) (snd e))))
+        (filter (fun e -> eq_op nat_eqType (fst (Obj.magic e)) (Obj.magic d))
+          (part (fst la)))) (zip b.loads amounts))
+
+(** val displacement_row : int -> rational_row **)
+
+let displacement_row d =
+  (d, (Big_int_Z.unit_big_int, Big_int_Z.unit_big_int)) :: []
+
+(** val reaction_row :
+    rational_body -> rational0 list -> int -> (int * rational0) list **)
+
+let reaction_row b amounts d =
+  cat (nth [] b.body_stiffness d)
+    (negated (applied_row b amounts (fun l -> l.forces_of) d))
+
+(** val tangential_row :
+    given_particle -> (int -> rational_row) -> (int * rational0) list **)
+
+let tangential_row p f =
+  cat (scaled_by (fst p.frame_tangent) (f p.first_of))
+    (scaled_by (snd p.frame_tangent) (f p.second_of))
+
+(** val normal_row :
+    given_particle -> (int -> rational_row) -> rational_row **)
+
+let normal_row p f =
+  scaled_by (p.into_obstacle, Big_int_Z.unit_big_int)
+    (cat (scaled_by (fst p.frame_normal) (f p.first_of))
+      (scaled_by (snd p.frame_normal) (f p.second_of)))
+
+(** val pressure_row :
+    rational_body -> rational0 list -> given_particle -> rational_row **)
+
+let pressure_row b amounts p =
+  negated (normal_row p (reaction_row b amounts))
+
+(** val bound_row :
+    rational_body -> rational0 -> rational0 list -> given_particle ->
+    rational_row **)
+
+let bound_row b mu amounts p =
+  scaled_by mu (scaled_by p.factor_of (pressure_row b amounts p))
+
+(** val equations_at :
+    rational_body -> rational0 list -> stated list -> int ->
+    (int * rational0) list list **)
+
+let equations_at b amounts states0 d =
+  if is_held b d
+  then (cat (displacement_row d)
+         (negated (applied_row b amounts (fun l -> l.displacements_of) d))) :: []
+  else if touched b states0 d then [] else (reaction_row b amounts d) :: []
+
+(** val state_equations :
+    rational_body -> rational0 -> rational0 list -> candidate -> stated ->
+    (int * rational0) list list **)
+
+let state_equations b mu amounts c s =
+  let p = c.particle_of in
+  let touching =
+    cat (normal_row p displacement_row) (negated (constant b c.gap_of))
+  in
+  let tangential = tangential_row p (reaction_row b amounts) in
+  (match s with
+   | Apart -> []
+   | SticksAt place0 ->
+     touching :: ((cat (tangential_row p displacement_row)
+                    (negated (constant b place0))) :: [])
+   | SlipsWith sign0 ->
+     touching :: ((cat (scaled_by (sign0, Big_int_Z.unit_big_int) tangential)
+                    (negated (bound_row b mu amounts p))) :: [])
+   | WithoutReaction ->
+     touching :: ((normal_row p (reaction_row b amounts)) :: (tangential :: [])))
+
+(** val state_inequalities :
+    rational_body -> rational0 -> rational0 list -> candidate -> stated ->
+    (int * rational0) list list **)
+
+let state_inequalities b mu amounts c s =
+  let p = c.particle_of in
+  let tangential = tangential_row p (reaction_row b amounts) in
+  (match s with
+   | Apart ->
+     (cat (constant b c.gap_of) (negated (normal_row p displacement_row))) :: []
+   | SticksAt _ ->
+     (pressure_row b amounts p) :: ((cat (bound_row b mu amounts p)
+                                      (negated tangential)) :: ((cat
+                                                                  (bound_row
+                                                                    b mu
+                                                                    amounts p)
+                                                                  tangential) :: []))
+   | SlipsWith _ -> (pressure_row b amounts p) :: []
+   | WithoutReaction -> [])
+
+(** val of_candidates :
+    rational_body -> stated list -> (candidate -> stated -> rational_row
+    list) -> rational_row list **)
+
+let of_candidates b states0 rows =
+  flatten (map0 (fun c -> rows (fst c) (snd c)) (zip b.candidates states0))
+
+(** val equations :
+    rational_body -> rational0 -> rational0 list -> stated list ->
+    (int * rational0) list list **)
+
+let equations b mu amounts states0 =
+  cat
+    (flatten
+      (map0 (fun d -> equations_at b amounts states0 d)
+        (iota 0 b.body_degrees)))
+    (of_candidates b states0 (state_equations b mu amounts))
+
+(** val inequalities :
+    rational_body -> rational0 -> rational0 list -> stated list ->
+    rational_row list **)
+
+let inequalities b mu amounts states0 =
+  of_candidates b states0 (state_inequalities b mu amounts)
+
+(** val positive_rational : rational0 -> bool **)
+
+let positive_rational q =
+  (&&) (Z.ltb Big_int_Z.zero_big_int (fst q))
+    (Z.ltb Big_int_Z.zero_big_int (snd q))
+
+(** val lawful : (candidate * stated) -> bool **)
+
+let lawful c =
+  (&&) (positive_rational (fst c).particle_of.factor_of)
+    (match snd c with
+     | SlipsWith sign0 ->
+       (||) (Z.eqb sign0 Big_int_Z.unit_big_int)
+         (Z.eqb sign0 (Big_int_Z.minus_big_int Big_int_Z.unit_big_int))
+     | _ -> true)
+
+(** val well_stated :
+    rational_body -> rational0 -> rational0 list -> stated list -> bool **)
+
+let well_stated b mu amounts states0 =
+  (&&) (positive_rational mu)
+    ((&&)
+      (eq_op nat_eqType (Obj.magic size0 amounts) (Obj.magic size0 b.loads))
+      ((&&)
+        (eq_op nat_eqType (Obj.magic size0 states0)
+          (Obj.magic size0 b.candidates))
+        ((&&)
+          (all (all (fun e -> leq (Natural.succ (fst e)) b.body_degrees))
+            b.body_stiffness) (all lawful (zip b.candidates states0)))))
+
+(** val check_equilibrium :
+    rational_body -> rational0 -> rational0 list -> stated list ->
+    Big_int_Z.big_int -> equilibrium_evidence -> bool **)
+
+let check_equilibrium b mu amounts states0 m w =
+  let eqs = equations b mu amounts states0 in
+  let ineqs = inequalities b mu amounts states0 in
+  (&&) (well_stated b mu amounts states0)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int m)
+      ((&&) (exact_rows m eqs)
+        ((&&) (exact_rows m ineqs)
+          (check_rows b.body_degrees (map0 (fun row -> scaled_row m row) eqs)
+            (map0 (fun row -> scaled_row m row) ineqs) w))))
 
 type claim_evidence =
 | OfPencil of solution_claim
@@ -6682,6 +6949,8 @@ type evidence =
 | Absence of point * point * absence_evidence
 | Presence of point * point * box_anchoring * presence_piece list
 | Points of mcp_point list
+| Equilibrium of rational0 * rational0 list * stated list
+   * equilibrium_evidence
 
 type answered =
 | Proved of statement
@@ -6903,11 +7172,26 @@ let integral_answer p = function
   (match p with
    | PlainProblem m -> proved_if (check_mcp m points) (PointsSolve points)
    | _ -> EvidenceRefused)
+| Equilibrium (_, _, _, _) -> EvidenceRefused
 
 (** val answer : problem -> scales -> evidence -> answered **)
 
 let answer p c e =
-  match scaled c p with
-  | Some q ->
-    if integral_wellformed q then integral_answer q e else EvidenceRefused
-  | None -> EvidenceRefused
+  match p with
+  | GivenLoads b ->
+    (match e with
+     | Equilibrium (mu, amounts, states0, w) ->
+       proved_if (check_equilibrium b mu amounts states0 c.entry_scale w)
+         (InEquilibrium (mu, amounts, states0))
+     | _ ->
+       (match scaled c p with
+        | Some q ->
+          if integral_wellformed q
+          then integral_answer q e
+          else EvidenceRefused
+        | None -> EvidenceRefused))
+  | _ ->
+    (match scaled c p with
+     | Some q ->
+       if integral_wellformed q then integral_answer q e else EvidenceRefused
+     | None -> EvidenceRefused)

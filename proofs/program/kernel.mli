@@ -886,6 +886,8 @@ val scatter :
   Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list ->
   Big_int_Z.big_int list
 
+val row_times : matrix -> sparse_row -> Big_int_Z.big_int list
+
 val absolute_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int
 
 val at_end :
@@ -904,8 +906,6 @@ val pivot_removed : pencil -> enclosed_claim -> Equality.sort list
 val inverse_vanishes_off : pencil -> enclosed_claim -> int list -> bool
 
 val vanishes_elsewhere : pencil -> enclosed_claim -> bool
-
-val times_inverse : enclosed_claim -> sparse_row -> Big_int_Z.big_int list
 
 val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int
 
@@ -2075,10 +2075,20 @@ type rational_mcp_row = { given_m : rational_row; given_q : rational0;
                           given_lower : rational0 option;
                           given_upper : rational0 option }
 
+type candidate = { particle_of : given_particle; gap_of : rational0 }
+
+type load = { forces_of : rational_row; displacements_of : rational_row }
+
+type rational_body = { body_degrees : int;
+                       body_stiffness : rational_row list;
+                       candidates : candidate list; held_still : int list;
+                       loads : load list }
+
 type problem =
 | GivenPencil of rational_pencil
 | GivenSystem of rational_system * unknown
 | GivenPlain of rational_mcp_row list
+| GivenLoads of rational_body
 
 type integral =
 | PencilProblem of pencil
@@ -2151,6 +2161,12 @@ type solution_set = { solutions_in : yield list;
 type asserted = { asserted_from : point; asserted_to : point;
                   asserted_support : int list; asserted_biactive : int list }
 
+type stated =
+| Apart
+| SticksAt of rational0
+| SlipsWith of Big_int_Z.big_int
+| WithoutReaction
+
 type statement =
 | EachExists of point * point * asserted list
 | AllInWindow of point * point * solution_set
@@ -2158,8 +2174,90 @@ type statement =
 | NoneForFriction of point * point
 | OneForEachFriction of point * point
 | PointsSolve of mcp_point list
+| InEquilibrium of rational0 * rational0 list * stated list
+
+val is_held : rational_body -> int -> bool
+
+val is_apart : stated -> bool
+
+val touched : rational_body -> stated list -> int -> bool
 
 val integral_wellformed : integral -> bool
+
+type equilibrium_evidence =
+| ExactAt of Big_int_Z.big_int list
+| BoxAround of Big_int_Z.big_int list * matrix * Big_int_Z.big_int
+
+val dominated_row :
+  matrix -> Big_int_Z.big_int list -> Big_int_Z.big_int -> int -> sparse_row
+  -> bool
+
+val check_rows :
+  int -> sparse_row list -> sparse_row list -> equilibrium_evidence -> bool
+
+val times_rational : rational0 -> rational0 -> rational0
+
+val scaled_by : rational0 -> rational_row -> rational_row
+
+val negated : rational_row -> rational_row
+
+val constant : rational_body -> rational0 -> rational_row
+
+val applied_row :
+  rational_body -> rational0 list -> (load -> rational_row) -> int ->
+  rational_row
+
+val displacement_row : int -> rational_row
+
+val reaction_row :
+  rational_body -> rational0 list -> int -> (int * rational0) list
+
+val tangential_row :
+  given_particle -> (int -> rational_row) -> (int * rational0) list
+
+val normal_row : given_particle -> (int -> rational_row) -> rational_row
+
+val pressure_row :
+  rational_body -> rational0 list -> given_particle -> rational_row
+
+val bound_row :
+  rational_body -> rational0 -> rational0 list -> given_particle ->
+  rational_row
+
+val equations_at :
+  rational_body -> rational0 list -> stated list -> int -> (int * rational0)
+  list list
+
+val state_equations :
+  rational_body -> rational0 -> rational0 list -> candidate -> stated ->
+  (int * rational0) list list
+
+val state_inequalities :
+  rational_body -> rational0 -> rational0 list -> candidate -> stated ->
+  (int * rational0) list list
+
+val of_candidates :
+  rational_body -> stated list -> (candidate -> stated -> rational_row list)
+  -> rational_row list
+
+val equations :
+  rational_body -> rational0 -> rational0 list -> stated list ->
+  (int * rational0) list list
+
+val inequalities :
+  rational_body -> rational0 -> rational0 list -> stated list -> rational_row
+  list
+
+val positive_rational : rational0 -> bool
+
+val lawful : (candidate * stated) -> bool
+
+val well_stated :
+  rational_body -> rational0 -> rational0 list -> stated list -> bool
+
+val check_equilibrium :
+  rational_body -> rational0 -> rational0 list -> stated list ->
+  Big_int_Z.big_int -> equilibrium_evidence -> bool
 
 type claim_evidence =
 | OfPencil of solution_claim
@@ -2188,6 +2286,8 @@ type evidence =
 | Absence of point * point * absence_evidence
 | Presence of point * point * box_anchoring * presence_piece list
 | Points of mcp_point list
+| Equilibrium of rational0 * rational0 list * stated list
+   * equilibrium_evidence
 
 type answered =
 | Proved of statement

@@ -61,7 +61,9 @@ let verify_eigenproblem demanded document problem_path certificate_path =
         [Evidence.absence integers certificate]
       | Presence certificate, _ ->
         refuse_window demanded "mceip-presence/1";
-        [Evidence.presence integers certificate])
+        [Evidence.presence integers certificate]
+      | Equilibrium _, _ ->
+        Json.malformed "format: mceip-equilibrium/1 is about a body under loads, mceip-loads/1")
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in
@@ -69,6 +71,17 @@ let verify_plain document certificate_path =
       (fun () -> Evidence.plain problem certificate_path) in
   Sentences.points problem.digest;
   0
+
+let verify_loads problem_path document certificate_path =
+  let problem = Loads.read problem_path document in
+  match Certificate.read certificate_path with
+  | Equilibrium certificate ->
+    let scales, evidence = Equilibria.evidence problem certificate in
+    (match prove (Kernel.GivenLoads problem.body) scales (fun () -> evidence) with
+     | _, InEquilibrium (mu, amounts, states) ->
+       Sentences.equilibrium problem.digest (mu, amounts, states); 0
+     | _ -> invalid_arg "a statement of another kind")
+  | _ -> Json.malformed "format: mceip-equilibrium/1 was expected"
 
 (* a,b with 0 <= a <= b; b may be inf or empty. *)
 let window_of text =
@@ -85,9 +98,13 @@ let verify demanded problem_path certificate_path =
   Evidence.start_anew ();
   let demanded = demanded () in
   let document = Json.read problem_path in
-  if Plain.is_plain document then begin
+  if Json.has_format "mceip-mcp/1" document then begin
     refuse_window demanded "a plain problem";
     verify_plain document certificate_path
+  end
+  else if Json.has_format "mceip-loads/1" document then begin
+    refuse_window demanded "a body under loads";
+    verify_loads problem_path document certificate_path
   end
   else verify_eigenproblem demanded document problem_path certificate_path
 

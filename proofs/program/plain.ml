@@ -4,10 +4,6 @@ open Json
 
 type t = { digest : string; rows : Kernel.rational_mcp_row list }
 
-let is_plain = function
-  | Object members -> List.assoc_opt "format" members = Some (String "mceip-mcp/1")
-  | _ -> false
-
 (* n bounds, null for an absent one; a list that is left out means [absent] for each. *)
 let read_bounds n absent = function
   | Null -> List.init n (fun _ -> absent)

@@ -132,9 +132,7 @@ let read_pencil folder item =
   let n = a.rows in
   if n = 0 || a.cols <> n || b.rows <> n || b.cols <> n then
     malformed "a and b must be square, of one order";
-  let free = match List.assoc_opt "free" (match item with Object m -> m | _ -> []) with
-    | None -> []
-    | Some items -> List.map (index n) (list items) in
+  let free = List.map (index n) (list_or_none "free" item) in
   let sorted = List.sort_uniq compare free in
   if List.length sorted < List.length free then malformed "an index of free twice";
   let pencil = { Kernel.given_order = n; given_a = rational_rows a; given_b = rational_rows b;
@@ -154,38 +152,45 @@ let read_frame item =
 
 let planar (a, b) = point_of a, point_of b
 
-(* With the word whether it has a frame, which the digest shows. *)
-let read_particle order mu item =
-  let field = fields ["tangential"; "normal"; "state"]
-      ["sign"; "normal_direction"; "frame"; "friction_factor"; "reaction"] item in
+let unit_of what = function
+  | Null -> None
+  | v ->
+    (match counter v with
+     | 1 -> Some 1
+     | -1 -> Some (-1)
+     | _ -> malformed "%s is 1 or -1" what)
+
+let directions = ["normal_direction"; "frame"; "friction_factor"]
+
+(* A particle in this state, with the word whether it has a frame, which the digest shows. *)
+let read_directions order field contact_of =
   let friction_factor = match field "friction_factor" with Null -> Q.one | v -> rational v in
   if Q.sign friction_factor <= 0 then malformed "friction_factor must be positive";
-  let mu = Option.map (Q.mul friction_factor) mu in
   let t = index order (field "tangential") and n = index order (field "normal") in
-  let state = text (field "state") in
-  if not (List.mem state ["free"; "stick"; "slip"; "zero"]) then malformed "the state %S" state;
-  let unit_of what = function
-    | Null -> None
-    | v ->
-      (match counter v with
-       | 1 -> Some 1
-       | -1 -> Some (-1)
-       | _ -> malformed "%s is 1 or -1" what) in
-  let sign = unit_of "sign" (field "sign") in
-  if (sign <> None) <> (state = "slip") then malformed "sign: exactly for slip";
-  let sign = Option.value sign ~default:0 in
   let into = Option.value (unit_of "normal_direction" (field "normal_direction")) ~default:1 in
   let framed = field "frame" <> Null in
   let tangent, normal = if framed then read_frame (field "frame") else plain_frame in
-  (match field "reaction" with Null -> () | v -> Demands.check_reaction mu state sign v);
+  framed, { Kernel.first_of = t; second_of = n; contact_of; frame_tangent = planar tangent;
+            frame_normal = planar normal; into_obstacle = Z.of_int into;
+            factor_of = point_of friction_factor }
+
+let read_particle order mu item =
+  let field =
+    fields ["tangential"; "normal"; "state"] ("sign" :: "reaction" :: directions) item in
+  let state = text (field "state") in
+  let sign = unit_of "sign" (field "sign") in
+  if (sign <> None) <> (state = "slip") then malformed "sign: exactly for slip";
+  let sign = Option.value sign ~default:0 in
   let contact = match state with
     | "free" -> Kernel.NotInContact
     | "stick" -> Sticking
     | "slip" -> Slipping (Z.of_int sign)
-    | _ -> ZeroInContact in
-  framed, { Kernel.first_of = t; second_of = n; contact_of = contact;
-            frame_tangent = planar tangent; frame_normal = planar normal;
-            into_obstacle = Z.of_int into; factor_of = point_of friction_factor }
+    | "zero" -> ZeroInContact
+    | _ -> malformed "the state %S" state in
+  let framed, particle = read_directions order field contact in
+  let mu = Option.map (Q.mul (value_of particle.factor_of)) mu in
+  (match field "reaction" with Null -> () | v -> Demands.check_reaction mu state sign v);
+  framed, particle
 
 let describe_particle (framed, (p : Kernel.given_particle)) =
   let components sign (a, b) =
@@ -204,16 +209,24 @@ let describe_particle (framed, (p : Kernel.given_particle)) =
     String.concat "" ("normal" :: components p.into_obstacle p.frame_normal) ]
   @ (if Q.equal factor Q.one then [] else ["friction_factor " ^ Q.to_string factor])
 
-let read_system folder unknown item =
-  let field = fields ["stiffness"; "particles"] ["mass"; "friction"] item in
+(* Stiffness, mass and friction. *)
+let read_body folder field =
   let k = read_matrix folder (field "stiffness") in
   let m = match field "mass" with Null -> None | v -> Some (read_matrix folder v) in
   let mu = match field "friction" with Null -> None | v -> Some (rational v) in
   (match mu with Some q when Q.sign q <= 0 -> malformed "friction must be positive" | _ -> ());
-  let matrices = k :: Option.to_list m in
   List.iter (fun x ->
       if x.rows <> k.rows || not (Demands.symmetric x.rows x.cols x.entries) then
-        malformed "stiffness and mass must be symmetric, of one order") matrices;
+        malformed "stiffness and mass must be symmetric, of one order") (k :: Option.to_list m);
+  k, m, mu
+
+let body_lines particles k m =
+  List.concat_map describe_particle particles @ canonical_matrix "stiffness" k
+  @ (match m with Some m -> canonical_matrix "mass" m | None -> [])
+
+let read_system folder unknown item =
+  let field = fields ["stiffness"; "particles"] ["mass"; "friction"] item in
+  let k, m, mu = read_body folder field in
   if unknown = "lambda2" && (m = None || mu = None) then
     malformed "lambda2 needs mass and friction";
 
@@ -225,8 +238,7 @@ let read_system folder unknown item =
 
   let text =
     ["system"] @ (match mu with Some q -> ["friction " ^ Q.to_string q] | None -> [])
-    @ List.concat_map describe_particle particles @ canonical_matrix "stiffness" k
-    @ (match m with Some m -> canonical_matrix "mass" m | None -> []) in
+    @ body_lines particles k m in
 
   let system =
     { Kernel.degrees = k.rows; given_stiffness = rational_rows k;
@@ -237,12 +249,8 @@ let read_system folder unknown item =
   | _ -> text, GivenSystem (system, Mu), None
 
 let read path document =
-  (match document with
-   | Object members ->
-     (match List.assoc_opt "format" members with
-      | Some (String "mceip-problem/1") -> ()
-      | _ -> malformed "format: mceip-problem/1 was expected")
-   | _ -> malformed "an object was expected");
+  if not (has_format "mceip-problem/1" document) then
+    malformed "format: mceip-problem/1 was expected";
   let field = fields ["format"; "unknown"]
       ["window"; "pencil"; "system"; "name"; "comment"; "coordinates"; "warnings"]
       document in

@@ -33,7 +33,7 @@ let of_problem (problem : Problem.t) =
       { entry_scale = of_rows (of_rows Z.one s.given_stiffness) s.given_mass;
         length_scale = List.fold_left length Z.one (Kernel.slipping s @ Kernel.with_zero s) },
       (match unknown with Mu -> Z.one | Lambda2 (_, q) -> q)
-    | GivenPlain _ -> invalid_arg "a plain problem" in
+    | GivenPlain _ | GivenLoads _ -> invalid_arg "no eigenproblem" in
   let length = scales.length_scale in
   let common = Z.mul scales.entry_scale length in
   { unknown = problem.unknown; digest = problem.digest; window = problem.window; scales;

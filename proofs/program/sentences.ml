@@ -71,6 +71,22 @@ let points digest =
     ("problem " ^ digest);
   print_newline ()
 
+(* The contact states of the candidates, in their order. *)
+let equilibrium digest (mu, amounts, states) =
+  let mark = function
+    | Kernel.SticksAt _ -> "."
+    | SlipsWith sign -> if Z.sign sign > 0 then "<" else ">"
+    | Apart -> "o"
+    | WithoutReaction -> "z" in
+  verdict "ACCEPTED"
+    (Printf.sprintf "under the loads times %s, with friction %s, there is an equilibrium in the \
+                     contact states %s"
+       (String.concat ", " (List.map show_point amounts)) (show_point mu)
+       (String.concat "" (List.map mark states)))
+    ("candidates in order: . stick, < impending slip against its tangent (S = 1), > along it \
+      (S = -1), o free, z in contact without reaction; loads " ^ digest);
+  print_newline ()
+
 let claim (problem : Problem.t) (claim : Kernel.asserted) =
   let show point = Q.to_string (Problem.value_of point) in
   Printf.printf "claim: %s in [%s, %s], slip %s\n" problem.unknown (show claim.asserted_from)
@@ -191,6 +207,7 @@ let say (problem : Problem.t) statements =
     | AllAtInfinity all -> at_infinity problem slip all; beside, exit_code all
     | NoneForFriction (low, high) -> absent problem low high; beside, 0
     | OneForEachFriction (low, high) -> present problem low high; beside, 0
-    | EachExists _ | PointsSolve _ -> invalid_arg "statements of one certificate" in
+    | EachExists _ | PointsSolve _ | InEquilibrium _ ->
+      invalid_arg "statements of one certificate" in
   List.iter (claim problem) claims;
   code
