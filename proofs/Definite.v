@@ -180,33 +180,37 @@ Variable R : realFieldType.
 Variables (P : enclosed) (A B : nat -> nat -> R).
 Hypothesis E : encloses P A B.
 
+(* x'T(t)x is a combination of the forms at the ends. *)
+Lemma form_between sg lo hi t x : ordered lo hi -> between t lo hi ->
+  0 < sg * quadratic P A B x lo -> 0 <= sg * quadratic P A B x hi ->
+  ((0 <? hi.2)%Z -> 0 < sg * quadratic P A B x hi) ->
+  0 < sg * \sum_(i <- indices P) x i * image P A B t x i.
+Proof.
+move=> O W low high0 high1; have [a [b [a0 b0 Tab [ab a_gt0]]]] := T_between A B O W.
+have -> : sg * (\sum_(i <- indices P) x i * image P A B t x i) =
+    a * (sg * quadratic P A B x lo) + b * (sg * quadratic P A B x hi).
+  rewrite !(mulrCA _ sg) -mulrDr; congr (_ * _).
+  rewrite /quadratic !mulr_sumr -big_split; apply: eq_bigr => i _.
+  rewrite /image !mulr_sumr -big_split; apply: eq_bigr => j _ /=; rewrite Tab.
+  by move: (x i) (x j) (T_end _ _ _ _ _) (T_end _ _ _ _ _) => *; ring.
+case: ab => [a_pos|b_pos]; first by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0].
+have [infinite|finite] := eqVneq hi.2 0%Z.
+  by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0; first apply: a_gt0].
+have finite' := finite_end O (elimN eqP finite).
+by apply: ltr_paddl; [apply: mulr_ge0 => //; apply: ltW | apply: mulr_gt0 => //; apply: high1].
+Qed.
+
 Theorem definite_sound negative r low high t x :
   ordered (lower r) (upper r) -> definite P negative r low high -> in_region_of P t x r ->
   solves P A B t x -> False.
 Proof.
 move=> O /andP[L H] [W ag] [_ x_nonzero compl].
 have [p q p' q'] := ordered_ge0 R O.
-have [a [b [a0 b0 Tab [ab a_gt0]]]] := T_between A B O W.
 have x0 i : i \in indices P -> 0 <= x i by case/compl.
-have [low0 low1] := definite_end_sound E x0 ag p q L.
+have [_ low1] := definite_end_sound E x0 ag p q L.
 have [high0 high1] := definite_end_sound E x0 ag p' q' H.
-
-(* x' T(t) x = 0 is a combination of the forms at the ends. *)
-have zero : a * (sign R negative * quadratic P A B x (lower r)) +
-            b * (sign R negative * quadratic P A B x (upper r)) = 0.
-  transitivity (sign R negative * \sum_(i <- indices P) x i * image P A B t x i); last first.
-    by rewrite sum_zero ?mulr0 // => i /compl[].
-  rewrite !(mulrCA _ (sign R negative)) -mulrDr; congr (_ * _).
-  rewrite /quadratic !mulr_sumr -big_split; apply: eq_bigr => i _.
-  rewrite /image !mulr_sumr -big_split; apply: eq_bigr => j _ /=; rewrite Tab.
-  by move: (x i) (x j) (T_end _ _ _ _ _) (T_end _ _ _ _ _) => *; ring.
-
-move: zero; apply/eqP; rewrite gt_eqF //; case: ab => [a_pos|b_pos].
-  by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0 => //; apply: low1].
-have [infinite|finite] := eqVneq (upper r).2 0%Z.
-  by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0; [apply: a_gt0 | apply: low1]].
-have finite' := finite_end O (elimN eqP finite).
-by apply: ltr_paddl; [apply: mulr_ge0 | apply: mulr_gt0 => //; apply: high1].
+have := form_between O W (low1 isT x_nonzero) high0 (fun st => high1 st x_nonzero).
+by rewrite sum_zero ?mulr0 ?ltxx // => i /compl[].
 Qed.
 
 End Leaf.

@@ -17,7 +17,7 @@ From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Boxes Regular.
 From Mceip Require Import Critical CriticalAnchors Presence PresenceAnchors.
 From Mceip Require Import ZeroPencil ZeroComplete Points Rational Statement
-  Integral Equilibrium Verdict.
+  Integral Equilibrium Unique Verdict.
 
 Extract Inductive nat => int [ "0" "Natural.succ" ]
   "(fun zero next n -> if n = 0 then zero () else next (Natural.before n))".
@@ -45,4 +45,4 @@ Extraction "kernel.ml"
   mixed box_expansions friction_anchor check_parts box_regular restricted combine_rows
   check_presence_piece presence_inside presence_edge zero_pencil zero_families
   zero_varying_families point_pencil reverse_pencil is_held is_apart applied_row equations
-  inequalities scaled_row.
+  inequalities scaled_row signed_part check_given_rates.

@@ -222,7 +222,7 @@ Qed.
 
 Lemma equivalent_meaning s : meaning_in P' s -> meaning_in P s.
 Proof.
-case: s => [lo hi l|lo hi c|c|from bound|from bound|points|//] /=.
+case: s => [lo hi l|lo hi c|c|from bound|from bound|//|points|//] /=.
 - by move=> hold; apply: List.Forall_impl hold => a; apply: equivalent_asserted.
 - by case=> all each; split=> [|f /each]; [apply: equivalent_solutions|apply: equivalent_family].
 - by case=> Q [is_Q all each]; exists Q; split=> //; apply: (same_pencils E).
@@ -640,5 +640,5 @@ Theorem scaled_meaning (R : rcfType) c p q s : scaled c p = Some q -> integral_w
 Proof.
 move=> is_q wf holds; have : meaning_in (semantics_of R p) s.
   by apply: equivalent_meaning holds; apply: scaled_equivalent is_q wf.
-by case: p is_q.
+by case: p is_q => [Q|B u|rows|B] //; case: s {holds}.
 Qed.

@@ -15,7 +15,7 @@ From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp.real_closed Require Import realalg.
 From Mceip Require Import Claim EnclosedClaim System Lifted ZeroReaction ZeroEnclosed PlainMcp.
 From Mceip Require Import Families Varying ZeroComplete Critical CriticalAnchors PresenceAnchors.
-From Mceip Require Import Points Equilibrium Verdict.
+From Mceip Require Import Points Equilibrium Unique Verdict.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -186,6 +186,7 @@ Definition infinity_number_R := @infinity_number reals.
 Definition infinity_hold_R := @infinity_hold reals.
 Definition plain_mcp_sound_R := @plain_mcp_sound reals.
 Definition equilibrium_sound_R := @equilibrium_sound reals.
+Definition rates_sound_R := @rates_sound reals.
 
 Definition answer_sound_realalg := @answer_sound realalg_rcfType.
 Definition families_number_realalg := @families_number realalg_rcfType.
@@ -221,3 +222,4 @@ Definition infinity_number_realalg := @infinity_number realalg_rcfType.
 Definition infinity_hold_realalg := @infinity_hold realalg_rcfType.
 Definition plain_mcp_sound_realalg := @plain_mcp_sound realalg_rcfType.
 Definition equilibrium_sound_realalg := @equilibrium_sound realalg_rcfType.
+Definition rates_sound_realalg := @rates_sound realalg_rcfType.

@@ -19,7 +19,7 @@
    and for each particle with zero reaction the lines of [zero_reaction] (ZeroReaction.v).
 
    A body under loads has *equilibria*: displacements u with reactions that satisfy (1), (5) and (7)
-   ([in_equilibrium]).
+   ([in_equilibrium]).  While a load grows, a system moves at the rates of [rates_under].
 
    Vectors that are positive multiples of each other are one solution.  Each complementarity
    variable has a *rate* (x_i; how fast a particle slips or opens) and a *row* (y_i), of which one
@@ -70,6 +70,9 @@ Inductive statement :=
   | NoneForFriction of point & point
   (* A solution with some lambda^2 >= 0 for each friction between these two. *)
   | OneForEachFriction of point & point
+  (* In these contact states, for each friction between these two, at most one motion of the
+     quasi-static rate problem, whatever load grows. *)
+  | OneMotionOfRates of point & point
   (* Each of these points solves the plain problem. *)
   | PointsSolve of seq mcp_point
   (* With this friction, and so much of each load, an equilibrium with the candidates in these
@@ -164,6 +167,23 @@ Definition motion_conditions lambda2 mu v :=
       forall j, (j < size (with_zero B))%N -> let p := zero_at j in
         zero_reaction (fraction (factor_of p) * mu) (normal_to p v) (tangential p v)
                       (normal_to p w) (tangential p w)].
+
+(* The motion of the body, quasi-static and in these contact states, while a load grows at the rate
+   f: (9) with w = K v - f, without v != 0. *)
+Definition rates_under (f : nat -> R) mu v :=
+  let w d := force_of 0 v d - f d in
+  [/\ forall d, d \in iota 0 (degrees B) ->
+        d \in dofs_of [seq p <- given_particles B | sticks p] -> v d = 0,
+      forall d, d \in iota 0 (degrees B) -> d \notin held B -> w d = 0 &
+      forall j, (j < size (slipping B))%N -> let p := slip_at j in
+        let slide := toR (sign p) * tangential p v in
+        let cone := toR (sign p) * tangential p w + fraction (factor_of p) * mu * normal_to p w in
+        [/\ normal_to p v = 0, slide <= 0, cone <= 0 & cone * slide = 0]].
+
+(* Of a body without particles of zero reaction, with friction. *)
+Definition one_motion_of_rates mu := [/\ with_zero B = [::], 0 < mu &
+  forall f v v', rates_under f mu v -> rates_under f mu v' ->
+    forall d, d \in iota 0 (degrees B) -> v d = v' d].
 
 Definition lambda2_at t := if u is Lambda2 _ _ then t else 0.
 Definition friction_at t := if u is Lambda2 m q then fraction (m, q) else t.
@@ -357,11 +377,13 @@ Definition meaning_in (P : semantics) s :=
       forall mu, between mu from bound -> exists t v, 0 <= t /\ moves t mu v else False
   | PointsSolve points => if solved_by P is Some solved then
       points <> [::] /\ forall z, List.In z points -> solved (point_value R z) else False
-  | InEquilibrium _ _ _ => False
+  | OneMotionOfRates _ _ | InEquilibrium _ _ _ => False
   end.
 
 Definition meaning p s :=
   match p, s with
+  | GivenSystem B _, OneMotionOfRates from bound =>
+      forall mu, between mu from bound -> one_motion_of_rates B mu
   | GivenLoads B, InEquilibrium mu amounts states => has_equilibrium B mu amounts states
   | _, _ => meaning_in (semantics_of p) s
   end.

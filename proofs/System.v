@@ -584,18 +584,20 @@ transitivity ((t1 ^+ 2 + t2 ^+ 2) * v2 + t1 * (v1 * t2 - v2 * t1)); first by rin
 by rewrite cross mulr0 addr0.
 Qed.
 
-Lemma motion_of_variables lambda2 mu v : conditions_9 lambda2 mu v ->
+(* A motion along the tangents, and of free degrees of freedom. *)
+Lemma motion_restored v : (forall d, d \in all_dofs -> d \notin moving_dofs s -> v d = 0) ->
+  (forall j, (j < ns)%N -> along (normal (particle s j)) (particle s j) v = 0) ->
   forall d, d \in all_dofs -> motion (variables_of v) d = v d.
 Proof.
 have l0 := lt0r_neq0 unit_length_gt0.
 have l2 : toR (unit_length s) ^+ 2 != 0 :> R by rewrite expf_neq0.
-case=> _ at_rest _ slips d Hd.
+move=> at_rest tangents d Hd.
 have [d_in|d_out] := boolP (d \in moving_dofs s); last by rewrite motion_zero // at_rest.
 
 have at_particle j : (j < ns)%N -> let p := particle s j in
     motion (variables_of v) (first_dof p) = v (first_dof p) /\
     motion (variables_of v) (second_dof p) = v (second_dof p).
-  move=> lt_j p; have [nv _ _ _] := slips _ lt_j; have [sq tt nn tn] := particle_parts lt_j.
+  move=> lt_j p; have nv := tangents _ lt_j; have [sq tt nn tn] := particle_parts lt_j.
   have [v1 v2] := along_tangent tt nn tn nv.
   rewrite /motion column_first // column_second // /variables_of ltnNge leq_addr /= addKn -/p.
   have back c w : toR c * along (tangent p) p v = toR (unit_length s) ^+ 2 * w ->
@@ -611,6 +613,10 @@ move: d_in; rewrite !mem_cat => /or3P[/(nthP 0%N)[k lt_k <-]||].
 case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -second_particle // => <-.
 by case: (at_particle _ lt_j).
 Qed.
+
+Lemma motion_of_variables lambda2 mu v : conditions_9 lambda2 mu v ->
+  forall d, d \in all_dofs -> motion (variables_of v) d = v d.
+Proof. by case=> _ at_rest _ slips; apply: motion_restored => // j /slips[]. Qed.
 
 Theorem system_onto t v : satisfies_9 t v ->
   forall d, d \in all_dofs -> motion (variables_of v) d = v d.

@@ -17,7 +17,7 @@ From Mceip Require Import Integers Sums Tree Enclosed Definite Cover Number Cond
 From Mceip Require Import Whole Claim EnclosedClaim Complete System Signs Support Families.
 From Mceip Require Import Lifted ZeroReaction ZeroEnclosed PlainMcp Varying ZeroPencil.
 From Mceip Require Import ZeroComplete Boxes Critical CriticalAnchors Presence PresenceAnchors.
-From Mceip Require Import Points Rational Statement Integral Equilibrium.
+From Mceip Require Import Points Rational Statement Integral Equilibrium Unique.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -60,6 +60,8 @@ Inductive evidence :=
       seq (option support_leaf)
   | Absence of point & point & absence_evidence
   | Presence of point & point & box_anchoring & seq presence_piece
+  (* An interval of friction, the elimination, and a factor at each end. *)
+  | DefiniteRates of point & point & elimination & factor & factor
   | Points of seq mcp_point
   (* Friction, amounts and states, and what shows that there is an equilibrium in them. *)
   | Equilibrium of rational & seq rational & seq stated & equilibrium_evidence.
@@ -222,15 +224,19 @@ Definition integral_answer p (e : evidence) : answered :=
   end.
 
 (* The factors [c] are part of the evidence: any serve that make the problem integral. *)
+Definition scaled_answer p c (e : evidence) : answered :=
+  if scaled c p is Some q
+  then if integral_wellformed q then integral_answer q e else EvidenceRefused
+  else EvidenceRefused.
+
 Definition answer p c (e : evidence) : answered :=
   match p, e with
   | GivenLoads B, Equilibrium mu amounts states w =>
       proved_if (check_equilibrium B mu amounts states (entry_scale c) w)
         (InEquilibrium mu amounts states)
-  | _, _ =>
-      if scaled c p is Some q
-      then if integral_wellformed q then integral_answer q e else EvidenceRefused
-      else EvidenceRefused
+  | GivenSystem B _, DefiniteRates lo hi w low high =>
+      proved_if (check_given_rates c B lo hi w low high) (OneMotionOfRates lo hi)
+  | _, _ => scaled_answer p c e
   end.
 
 Section Sound.
@@ -483,7 +489,7 @@ Qed.
 
 Lemma integral_sound p e s : integral_answer p e = Proved s -> holds_of p s.
 Proof.
-case: e => [lo hi l|lo hi c|claims w tr ls|from bound a|from bound w pieces|points|mu a s' w].
+case: e => [lo hi l|lo hi c|claims w tr ls|from bound a|from bound w pieces|? ? ? ? ?|points|????].
 - exact: answer_claims_sound.
 - case: p => [Q|sys u|z u|m] //=; first exact: answer_cover_sound.
     by case: ifP => // wf; apply: system_cover_sound.
@@ -496,19 +502,26 @@ case: e => [lo hi l|lo hi c|claims w tr ls|from bound a|from bound w pieces|poin
   have [moves -> iff] := moves_of_system eq => mu bm.
   have [t [v [t0 sat]]] := zero_presence_sound ok bm.
   by exists t, v; split=> //; apply/iff.
+- by case: p.
 - case: p => // m; rewrite /= /proved_if; case: ifP => // ok [<-] /=.
   split; last exact: plain_mcp_sound.
   by case/and3P: ok => _ some _ none; rewrite none in some.
 by case: p.
 Qed.
 
+Lemma scaled_sound p c e s : scaled_answer p c e = Proved s -> meaning R p s.
+Proof.
+rewrite /scaled_answer; case is_q: (scaled c p) => [q|] //; case: ifP => // wf /integral_sound.
+exact: scaled_meaning is_q wf.
+Qed.
+
 Theorem answer_sound p c e s : answer p c e = Proved s -> meaning R p s.
 Proof.
-case: p => [Q|B u|rows|B]; last first.
-  case: e => //= mu amounts states w; rewrite /proved_if; case: ifP => // ok [<-].
-  exact: equilibrium_sound ok.
-all: rewrite /answer; case is_q: (scaled c _) => [q|] //; case: ifP => // wf /integral_sound.
-all: exact: scaled_meaning is_q wf.
+case: p => [Q|B u|rows|B]; try exact: scaled_sound.
+  case: e => [???|???|????|???|????|lo hi w low high|?|????]; try exact: scaled_sound.
+  by rewrite /= /proved_if; case: ifP => // ok [<-] mu; apply: (rates_sound ok).
+case: e => //= mu amounts states w; rewrite /proved_if; case: ifP => // ok [<-].
+exact: equilibrium_sound ok.
 Qed.
 
 End Sound.

@@ -204,6 +204,17 @@ let definite_leaf p negative (region : Kernel.region) =
   | Some low, Some high -> Some (Kernel.Definite (negative, low, high))
   | _ -> None
 
+(* Factors of the forms at both ends for vectors of any signs (Unique.v). *)
+let signed_factors (p : Kernel.enclosed) lo hi =
+  let factor strict e =
+    let s = Array.init p.size_of (fun i -> Array.init p.size_of (Kernel.signed_part p e i)) in
+    Option.map (fun rows ->
+        { Kernel.weights = List.init p.size_of (fun _ -> Z.one);
+          factor_rows = Array.to_list (Array.map Array.to_list rows) }) (factor_rows strict s) in
+  match factor true lo, factor (Z.sign (snd hi) > 0) hi with
+  | Some low, Some high -> Some (low, high)
+  | _ -> None
+
 (* T(t) in doubles, and B. *)
 type doubles = { a : float array array; b : float array array }
 

@@ -286,13 +286,18 @@ let elaborate q ~leaf ~left_open ~nothing =
   tree, List.rev !supports
 
 (* Free rows that do not depend on the unknown: any anchor serves for all pieces. *)
-let condense q eliminate =
+let eliminated q eliminate =
   let certificate = q.certificate and problem = q.problem in
   let anchor = match certificate.pieces with p :: _ -> p.anchor | [] -> 0 in
+  eliminate q.pencil q.slip_list problem.common problem.slip_common certificate.condensation anchor
+
+let enclosed_by q elimination = Kernel.condensed (Kernel.blocks_of q.pencil) elimination
+
+let condense q eliminate =
+  let problem = q.problem in
   let elimination, enclosed = timed "condensation" (fun () ->
-      let e = eliminate q.pencil q.slip_list problem.common problem.slip_common
-          certificate.condensation anchor in
-      e, Kernel.condensed (Kernel.blocks_of q.pencil) e) in
+      let e = eliminated q eliminate in
+      e, enclosed_by q e) in
   let context =
     { Elaborate.pencil = q.pencil; slip = q.slip; enclosed;
       doubles = Elaborate.doubles_of enclosed; known = known q;
@@ -610,6 +615,26 @@ let complete (problem : Scaling.t) (certificate : Certificate.t) =
   match problem.question with
   | ZeroProblem (zero, unknown) -> zero_parts problem certificate zero unknown
   | _ -> pencil_parts problem certificate cover_of
+
+(* Where the leaves of a cover say that T(mu) is positive definite, for a body with friction and
+   without particles of zero reaction: a factor at both ends of the window. *)
+let rates (problem : Scaling.t) (certificate : Certificate.t) =
+  let is_definite (p : Certificate.piece) = match p.tree with
+    | [Definite false] | [Ldl] -> true
+    | _ -> false in
+  match problem.question with
+  | SystemProblem (_, Mu) when certificate.pieces <> [] && Q.sign (fst certificate.window) > 0
+                               && List.for_all is_definite certificate.pieces ->
+    let q = question_of problem (pencil_of problem) certificate [] in
+    let by (elimination : Kernel.elimination) =
+      Option.map (fun (low, high) -> Kernel.DefiniteRates (q.lo, q.hi, elimination, low, high))
+        (Elaborate.signed_factors (enclosed_by q elimination) q.lo q.hi) in
+    let elimination = eliminated q Elaborate.elimination in
+    (* The rows of `ldl` are not scaled. *)
+    (match by elimination with
+     | None -> by { elimination with row_scale = List.map (fun _ -> Z.one) q.slip_list }
+     | found -> found)
+  | _ -> None
 
 (* All solutions at infinity: the certificate is one of the reversed problem, over [0, 0].  Claims
    are about this problem. *)

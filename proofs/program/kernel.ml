@@ -6662,6 +6662,7 @@ type statement =
 | AllAtInfinity of solution_set
 | NoneForFriction of point * point
 | OneForEachFriction of point * point
+| OneMotionOfRates of point * point
 | PointsSolve of mcp_point list
 | InEquilibrium of rational0 * rational0 list * stated list
 
@@ -6922,6 +6923,53 @@ let check_equilibrium b mu amounts states0 m w =
           (check_rows b.body_degrees (map0 (fun row -> scaled_row m row) eqs)
             (map0 (fun row -> scaled_row m row) ineqs) w))))
 
+(** val signed_part : enclosed -> point -> int -> int -> Big_int_Z.big_int **)
+
+let signed_part p e i j =
+  if eq_op nat_eqType (Obj.magic i) (Obj.magic j)
+  then Z.sub
+         (Z.mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+           (center p e i i))
+         (sumZ (indices p) (fun k -> Z.add (radius p e i k) (radius p e k i)))
+  else Z.add (center p e i j) (center p e j i)
+
+(** val signed_end : enclosed -> bool -> point -> factor -> bool **)
+
+let signed_end p strict e f =
+  (&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
+    ((&&)
+      (eq_op nat_eqType (Obj.magic size0 f.factor_rows) (Obj.magic p.size_of))
+      (covered (signed_part p e) (weighted_dot f.weights) strict
+        (zip (indices p) f.factor_rows)))
+
+(** val check_rates :
+    system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination
+    -> factor -> factor -> bool **)
+
+let check_rates s lo hi w low high =
+  let q = pencil_of s Mu in
+  let d = blocks_of q in
+  let p = condensed d w in
+  (&&) (system_wellformed s Mu)
+    ((&&) (wellformed q)
+      ((&&) (free_rows_constant q)
+        ((&&) (check_elimination d w)
+          ((&&) (Z.ltb Big_int_Z.zero_big_int (fst lo))
+            ((&&) (Z.ltb Big_int_Z.zero_big_int (snd lo))
+              ((&&) (ordered lo hi)
+                ((&&) (signed_end p true lo low)
+                  (signed_end p (Z.ltb Big_int_Z.zero_big_int (snd hi)) hi
+                    high))))))))
+
+(** val check_given_rates :
+    scales -> rational_system -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    point -> elimination -> factor -> factor -> bool **)
+
+let check_given_rates c b lo hi w low high =
+  (&&) (exact_system c b)
+    ((&&) (nilp (with_zero b))
+      (check_rates (scaled_system c b) lo hi w low high))
+
 type claim_evidence =
 | OfPencil of solution_claim
 | OfMotion of lifted
@@ -6948,6 +6996,7 @@ type evidence =
    * support_leaf option list
 | Absence of point * point * absence_evidence
 | Presence of point * point * box_anchoring * presence_piece list
+| DefiniteRates of point * point * elimination * factor * factor
 | Points of mcp_point list
 | Equilibrium of rational0 * rational0 list * stated list
    * equilibrium_evidence
@@ -7172,26 +7221,30 @@ let integral_answer p = function
   (match p with
    | PlainProblem m -> proved_if (check_mcp m points) (PointsSolve points)
    | _ -> EvidenceRefused)
-| Equilibrium (_, _, _, _) -> EvidenceRefused
+| _ -> EvidenceRefused
+
+(** val scaled_answer : problem -> scales -> evidence -> answered **)
+
+let scaled_answer p c e =
+  match scaled c p with
+  | Some q ->
+    if integral_wellformed q then integral_answer q e else EvidenceRefused
+  | None -> EvidenceRefused
 
 (** val answer : problem -> scales -> evidence -> answered **)
 
 let answer p c e =
   match p with
+  | GivenSystem (b, _) ->
+    (match e with
+     | DefiniteRates (lo, hi, w, low, high) ->
+       proved_if (check_given_rates c b lo hi w low high) (OneMotionOfRates
+         (lo, hi))
+     | _ -> scaled_answer p c e)
   | GivenLoads b ->
     (match e with
      | Equilibrium (mu, amounts, states0, w) ->
        proved_if (check_equilibrium b mu amounts states0 c.entry_scale w)
          (InEquilibrium (mu, amounts, states0))
-     | _ ->
-       (match scaled c p with
-        | Some q ->
-          if integral_wellformed q
-          then integral_answer q e
-          else EvidenceRefused
-        | None -> EvidenceRefused))
-  | _ ->
-    (match scaled c p with
-     | Some q ->
-       if integral_wellformed q then integral_answer q e else EvidenceRefused
-     | None -> EvidenceRefused)
+     | _ -> scaled_answer p c e)
+  | _ -> scaled_answer p c e

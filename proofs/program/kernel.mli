@@ -2173,6 +2173,7 @@ type statement =
 | AllAtInfinity of solution_set
 | NoneForFriction of point * point
 | OneForEachFriction of point * point
+| OneMotionOfRates of point * point
 | PointsSolve of mcp_point list
 | InEquilibrium of rational0 * rational0 list * stated list
 
@@ -2259,6 +2260,18 @@ val check_equilibrium :
   rational_body -> rational0 -> rational0 list -> stated list ->
   Big_int_Z.big_int -> equilibrium_evidence -> bool
 
+val signed_part : enclosed -> point -> int -> int -> Big_int_Z.big_int
+
+val signed_end : enclosed -> bool -> point -> factor -> bool
+
+val check_rates :
+  system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination
+  -> factor -> factor -> bool
+
+val check_given_rates :
+  scales -> rational_system -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  point -> elimination -> factor -> factor -> bool
+
 type claim_evidence =
 | OfPencil of solution_claim
 | OfMotion of lifted
@@ -2285,6 +2298,7 @@ type evidence =
    * support_leaf option list
 | Absence of point * point * absence_evidence
 | Presence of point * point * box_anchoring * presence_piece list
+| DefiniteRates of point * point * elimination * factor * factor
 | Points of mcp_point list
 | Equilibrium of rational0 * rational0 list * stated list
    * equilibrium_evidence
@@ -2331,5 +2345,7 @@ val zero_system_of : integral -> zero_system option
 val proved_if : bool -> statement -> answered
 
 val integral_answer : integral -> evidence -> answered
+
+val scaled_answer : problem -> scales -> evidence -> answered
 
 val answer : problem -> scales -> evidence -> answered

@@ -36,6 +36,13 @@ let verify_parts demanded (problem : Problem.t) (integers : Scaling.t) parts =
     Coq.print_answer integers.question evidence statement; 0
   | _ -> Sentences.say problem (List.map snd proved)
 
+(* The rates of a body, beside the verdict on a cover, which nothing that happens here changes. *)
+let say_rates (problem : Problem.t) (integers : Scaling.t) certificate =
+  let prove evidence = Kernel.answer problem.given integers.scales evidence in
+  match Option.map prove (Evidence.rates integers certificate) with
+  | Some (Proved (OneMotionOfRates (lo, hi))) -> Sentences.one_motion_of_rates lo hi
+  | _ | exception _ -> ()
+
 let refuse_window demanded kind =
   let option = match demanded with
     | Anything -> None
@@ -49,7 +56,7 @@ let verify_eigenproblem demanded document problem_path certificate_path =
   let certificate =
     Evidence.timed "certificate" (fun () -> Certificate.read certificate_path) in
   let integers = Scaling.of_problem problem in
-  verify_parts demanded problem integers (match certificate, demanded with
+  let code = verify_parts demanded problem integers (match certificate, demanded with
       | Complete certificate, Infinity -> Evidence.infinity integers certificate
       | Complete certificate, Window window ->
         Evidence.require_window (Sentences.covers certificate.window window)
@@ -63,7 +70,12 @@ let verify_eigenproblem demanded document problem_path certificate_path =
         refuse_window demanded "mceip-presence/1";
         [Evidence.presence integers certificate]
       | Equilibrium _, _ ->
-        Json.malformed "format: mceip-equilibrium/1 is about a body under loads, mceip-loads/1")
+        Json.malformed "format: mceip-equilibrium/1 is about a body under loads, mceip-loads/1") in
+  (match certificate, demanded with
+   | Complete certificate, (Anything | Window _) when code = 0 && not !as_coq ->
+     say_rates problem integers certificate
+   | _ -> ());
+  code
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in

@@ -71,6 +71,13 @@ let points digest =
     ("problem " ^ digest);
   print_newline ()
 
+let one_motion_of_rates lo hi =
+  let frictions =
+    if Q.equal (Problem.value_of lo) (Problem.value_of hi) then "at mu = " ^ show_point lo
+    else "for every mu in " ^ show_interval lo hi in
+  Printf.printf "UNIQUE: %s the rates in these contact states are the only ones, whatever load \
+                 grows\n" frictions
+
 (* The contact states of the candidates, in their order. *)
 let equilibrium digest (mu, amounts, states) =
   let mark = function
@@ -207,7 +214,7 @@ let say (problem : Problem.t) statements =
     | AllAtInfinity all -> at_infinity problem slip all; beside, exit_code all
     | NoneForFriction (low, high) -> absent problem low high; beside, 0
     | OneForEachFriction (low, high) -> present problem low high; beside, 0
-    | EachExists _ | PointsSolve _ | InEquilibrium _ ->
+    | EachExists _ | PointsSolve _ | OneMotionOfRates _ | InEquilibrium _ ->
       invalid_arg "statements of one certificate" in
   List.iter (claim problem) claims;
   code

@@ -447,6 +447,8 @@ impl Listed {
                 self.leaves_out = true;
             }
             "open" => self.open.push(open_region(in_range?, slip)?),
+            // Of rates, which no enumeration of eigenvalues knows.
+            "UNIQUE" => {}
             _ => return None,
         }
         Some(())

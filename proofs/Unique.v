@@ -1,0 +1,300 @@
+(* One motion of the rate problem: T(mu) is definite.
+
+   With the contact states of a body held, a load that grows at the rate f moves it by rates v with
+
+       w = K v - f,   w = 0 at free dofs,   v = 0 at what sticks,   n'v = 0,
+       S t'v <= 0,    S t'w + mu n'w <= 0,   (S t'v) (S t'w + mu n'w) = 0.
+
+   For two such motions the difference d has (S t'd) (S t'Kd + mu n'Kd) <= 0 at each slip particle:
+   in the variables of the pencil x_i (T(mu) x)_i <= 0 for every complementarity variable, with
+   T(mu) x = 0 in the free rows.  Let S_e be the integer matrix
+
+       S_e,ij = center_e,ij + center_e,ji,     i != j,
+       S_e,ii = 2 center_e,ii - sum_j (radius_e,ij + radius_e,ji)
+
+   of the condensed pencil at an end e of an interval.  x'S_e x <= 2 x'T_e x for every vector x, of
+   any signs.  So if S_e is strictly covered (Covered.v) at both ends, T(mu) is a P-matrix for every
+   mu between them, and d = 0.
+
+   Theorem [rates_sound]: if the check succeeds, there is at most one such motion for each f and
+   each mu of the interval.
+
+   Page: spec/certificates.md, 5.9 ("What more it says").  Rust: crates/check/src/lib.rs,
+   [has_unique_rates]. *)
+
+From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Condensation Pencil System.
+From Mceip Require Import ZeroReaction ZeroPencil Rational Statement Integral.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+
+Import Order.Theory GRing.Theory Num.Theory.
+
+Delimit Scope Z_scope with Z.
+Local Open Scope ring_scope.
+
+Section Checker.
+
+Local Open Scope Z_scope.
+
+Definition signed_part (P : enclosed) e (i j : nat) :=
+  if i == j
+  then 2 * center P e i i - sumZ (indices P) (fun k => radius P e i k + radius P e k i)
+  else center P e i j + center P e j i.
+
+Definition signed_end P strict e f :=
+  [&& all (fun w => 0 <=? w) (weights f), size (factor_rows f) == size_of P &
+      covered (signed_part P e) (weighted_dot (weights f)) strict
+        (zip (indices P) (factor_rows f))].
+
+Definition check_rates (s : system) lo hi w low high :=
+  let Q := pencil_of s Mu in
+  let D := blocks_of Q in
+  let P := condensed D w in
+  [&& system_wellformed s Mu, wellformed Q, free_rows_constant Q, check_elimination D w &
+      [&& 0 <? lo.1, 0 <? lo.2, ordered lo hi, signed_end P true lo low &
+          signed_end P (0 <? hi.2) hi high]].
+
+(* The system without particles of zero reaction; the factors of Rational.v. *)
+Definition check_given_rates c B lo hi w low high :=
+  [&& exact_system c B, nilp (with_zero B) & check_rates (scaled_system c B) lo hi w low high].
+
+End Checker.
+
+Lemma signed_part_sym P e i j : signed_part P e i j = signed_part P e j i.
+Proof. by rewrite /signed_part eq_sym; case: eqP => [->|_] //; rewrite Z.add_comm. Qed.
+
+(* 2 a (t - c) b + r (a^2 + b^2) = ((t - c + r) (a + b)^2 + (c + r - t) (a - b)^2) / 2 *)
+Lemma near_product (R : realFieldType) (t c r a b : R) : c - r <= t -> t <= c + r ->
+  2%:R * (a * c * b) - r * (a ^+ 2 + b ^+ 2) <= 2%:R * (a * t * b).
+Proof.
+move=> lo hi; rewrite -subr_ge0 -(@pmulr_rge0 _ 2%:R) ?ltr0n //.
+have -> : 2%:R * (2%:R * (a * t * b) - (2%:R * (a * c * b) - r * (a ^+ 2 + b ^+ 2))) =
+    (t - (c - r)) * (a + b) ^+ 2 + (c + r - t) * (a - b) ^+ 2 by ring.
+by apply: addr_ge0; apply: mulr_ge0; rewrite ?subr_ge0 ?sqr_ge0.
+Qed.
+
+Section Form.
+
+Variable R : realFieldType.
+Variables (P : enclosed) (A B : nat -> nat -> R).
+Hypothesis E : encloses P A B.
+Variable x : nat -> R.
+
+Notation ix := (indices P).
+Notation center_of e i j := (toR (center P e i j) : R).
+Notation radius_of e i j := (toR (radius P e i j) : R).
+
+(* x'S_e x <= 2 x'T_e x *)
+Lemma signed_part_le e : 0 <= toR e.1 :> R -> 0 <= toR e.2 :> R ->
+  \sum_(i <- ix) \sum_(j <- ix) x i * toR (signed_part P e i j) * x j <=
+  2%:R * quadratic P A B x e.
+Proof.
+move=> p q.
+pose near i j := 2%:R * (x i * center_of e i j * x j) - radius_of e i j * (x i ^+ 2 + x j ^+ 2).
+have below : \sum_(i <- ix) \sum_(j <- ix) near i j <= 2%:R * quadratic P A B x e.
+  rewrite /quadratic mulr_sumr; apply: sum_le => i Hi; rewrite mulr_sumr; apply: sum_le => j Hj.
+  have := T_end_enclosed E Hi Hj p q; rewrite ler_distl => /andP[lo hi].
+  exact: near_product.
+apply: le_trans below; rewrite le_eqVlt; apply/orP; left; apply/eqP.
+pose twice i j := x i * (center_of e i j + center_of e j i) * x j.
+have radii : \sum_(i <- ix) \sum_(j <- ix) radius_of e i j * (x i ^+ 2 + x j ^+ 2) =
+    \sum_(i <- ix) x i ^+ 2 * \sum_(j <- ix) (radius_of e i j + radius_of e j i).
+  have -> : \sum_(i <- ix) \sum_(j <- ix) radius_of e i j * (x i ^+ 2 + x j ^+ 2) =
+      \sum_(i <- ix) \sum_(j <- ix) radius_of e i j * x i ^+ 2 +
+      \sum_(i <- ix) \sum_(j <- ix) radius_of e i j * x j ^+ 2.
+    rewrite -big_split; apply: eq_bigr => i _; rewrite -big_split; apply: eq_bigr => j _.
+    exact: mulrDr.
+  rewrite [X in _ + X = _]exchange_big -big_split; apply: eq_bigr => i _ /=.
+  rewrite -big_split mulr_sumr; apply: eq_bigr => j _ /=.
+  by rewrite mulrDr ![x i ^+ 2 * _]mulrC.
+have centers : \sum_(i <- ix) \sum_(j <- ix) 2%:R * (x i * center_of e i j * x j) =
+    \sum_(i <- ix) \sum_(j <- ix) twice i j.
+  have split_twice : \sum_(i <- ix) \sum_(j <- ix) twice i j =
+      \sum_(i <- ix) \sum_(j <- ix) x i * center_of e i j * x j +
+      \sum_(i <- ix) \sum_(j <- ix) x i * center_of e j i * x j.
+    rewrite -big_split; apply: eq_bigr => i _; rewrite -big_split; apply: eq_bigr => j _ /=.
+    by rewrite /twice mulrDr mulrDl.
+  rewrite split_twice [X in _ = _ + X]exchange_big -big_split; apply: eq_bigr => i _ /=.
+  rewrite -big_split; apply: eq_bigr => j _ /=.
+  by move: (x i) (x j) (center_of _ _ _) => *; ring.
+rewrite /near; under [RHS]eq_bigr do rewrite sumrB.
+rewrite sumrB centers radii -sumrB; apply: sum_eq => i Hi.
+rewrite (bigD1_seq i) ?iota_uniq //= [X in _ = X - _](bigD1_seq i) ?iota_uniq //=.
+rewrite addrAC; congr (_ + _); last first.
+  by apply: eq_bigr => j /negbTE ne; rewrite /signed_part eq_sym ne toRD.
+rewrite /signed_part eqxx toRB toRM toR_sum; under eq_bigr do rewrite toRD.
+rewrite /twice [toR 2%Z](_ : _ = 2%:R) //.
+by move: (\sum_(j <- ix) _) (x i) (center_of _ _ _) => *; ring.
+Qed.
+
+Lemma signed_end_sound strict e f : 0 <= toR e.1 :> R -> 0 <= toR e.2 :> R ->
+  signed_end P strict e f -> 0 <= 1 * quadratic P A B x e /\
+  (strict -> (exists2 i, i \in ix & x i != 0) -> 0 < 1 * quadratic P A B x e).
+Proof.
+move=> p q /and3P[w0 /eqP sz C]; rewrite mul1r.
+have szz : size (zip ix (factor_rows f)) = size_of P by rewrite size_zip sz size_iota minnn.
+have sym : symmetric_rows (0%N, [::]) (signed_part P e) (zip ix (factor_rows f)).
+  by move=> i j _ _; apply: signed_part_sym.
+have [form0 form1] := covered_form x (weighted_gram R (0%N, [::]) _ w0) sym C.
+have formE : form (0%N, [::]) (signed_part P e) (zip ix (factor_rows f)) x =
+    \sum_(i <- ix) \sum_(j <- ix) x i * toR (signed_part P e i j) * x j.
+  have at_row i : i \in ix -> (nth (0%N, [::]) (zip ix (factor_rows f)) i).1 = i.
+    rewrite mem_iota add0n => /= lt_i; rewrite nth_zip ?size_iota ?sz //=.
+    by rewrite nth_iota.
+  rewrite /form szz; apply: sum_eq => i Hi; apply: sum_eq => j Hj.
+  by rewrite !at_row.
+rewrite formE in form0 form1; have le := signed_part_le p q.
+split; first by rewrite -(@pmulr_rge0 _ 2%:R) ?ltr0n // (le_trans form0).
+move=> st [i Hi xi]; rewrite -(@pmulr_rgt0 _ 2%:R) ?ltr0n // (lt_le_trans _ le) //.
+by apply: form1 => //; exists i; rewrite // szz.
+Qed.
+
+(* Between definite ends the pencil has the property of a P-matrix. *)
+Lemma reversed_zero t lo hi low high : ordered lo hi -> between t lo hi ->
+  signed_end P true lo low -> signed_end P (0 <? hi.2)%Z hi high ->
+  (forall i, i \in ix -> x i * image P A B t x i <= 0) -> forall i, i \in ix -> x i = 0.
+Proof.
+move=> O W L H reversed i Hi; have [//|xi] := eqVneq (x i) 0.
+have nonzero : exists2 i, i \in ix & x i != 0 by exists i.
+have [p q p' q'] := ordered_ge0 R O.
+have [_ low1] := signed_end_sound p q L; have [high0 high1] := signed_end_sound p' q' H.
+have := form_between O W (low1 isT nonzero) high0 (fun st => high1 st nonzero).
+rewrite mul1r ltNge -oppr_ge0 -sumrN big_seq sumr_ge0 // => j Hj.
+by rewrite oppr_ge0 reversed.
+Qed.
+
+End Form.
+
+Section Pencil.
+
+Variables (R : rcfType) (Q : pencil) (w : elimination) (lo hi : point) (low high : factor).
+Notation D := (blocks_of Q).
+Hypotheses (wf : wellformed Q) (constant : free_rows_constant Q) (elim : check_elimination D w).
+Hypotheses (O : ordered lo hi) (L : signed_end (condensed D w) true lo low).
+Hypothesis H : signed_end (condensed D w) (0 <? hi.2)%Z hi high.
+
+Lemma pencil_reversed_zero (t : R) x : between t lo hi ->
+  (forall i, i \in free Q -> reaction Q t x i = 0) ->
+  (forall i, i \in slip Q -> x i * reaction Q t x i <= 0) ->
+  forall i, i \in iota 0 (order Q) -> x i = 0.
+Proof.
+move=> W rows_f rows_s; have /andP[positive shaped] := elim.
+have xfE : forall k, k \in iota 0 (free_count D) ->
+    free_of Q x k = free_part D (slip_of Q x) k.
+  apply: (free_rows_vanish positive (free_of Q x) (slip_of Q x)).1 => i.
+  rewrite mem_iota add0n => /= lt_i; rewrite -(reaction_free wf constant t) //.
+  by apply: rows_f; apply: mem_nth.
+have xs0 j : j \in iota 0 (slip_count D) -> slip_of Q x j = 0.
+  apply: (reversed_zero (condensation_encloses R positive shaped) O W L H) => i Hi.
+  rewrite (condensed_image w t xfE) //.
+  have lt_i : (i < size (slip Q))%N by move: Hi; rewrite mem_iota.
+  have scale0 : 0 < scale_of R w i * toR (unit_of w) ^+ 2.
+    by rewrite mulr_gt0 ?(scale_gt0 R shaped) // exprn_gt0 // (unit_gt0 R shaped).
+  rewrite mulrCA pmulr_rle0 // -(reaction_slip wf) //.
+  by apply: rows_s; apply: mem_nth.
+move=> i /free_or_slip/orP[] /(nthP 0%N)[k lt_k <-].
+  rewrite -/(free_of Q x k) xfE ?mem_iota // /free_part big_seq big1 ?oppr0 // => j /xs0->.
+  by rewrite mulr0.
+by rewrite -/(slip_of Q x k) xs0 // mem_iota.
+Qed.
+
+End Pencil.
+
+Section System.
+
+Variables (R : rcfType) (s : system) (lo hi : point) (w : elimination) (low high : factor).
+Hypothesis checked : check_rates s lo hi w low high.
+
+Notation all_dofs := (iota 0 (dofs s)).
+Notation ns := (size (particles s)).
+
+Lemma system_reversed_zero (mu : R) v : between mu lo hi ->
+  (forall d, d \in all_dofs -> d \notin moving_dofs s -> v d = 0) ->
+  (forall d, d \in free_dofs s -> force s 0 v d = 0) ->
+  (forall j, (j < ns)%N -> let p := particle s j in
+     along (normal p) p v = 0 /\ cone s 0 mu v p * slip_rate v p <= 0) ->
+  forall d, d \in all_dofs -> v d = 0.
+Proof.
+case/and5P: checked => wf wf_Q constant elim /and5P[_ _ O L H] W at_rest free_v slips.
+pose x := variables_of s v.
+have same : forall d, d \in all_dofs -> motion s x d = v d.
+  by apply: (motion_restored wf) => // j /slips[].
+have forceE d : force s 0 (motion s x) d = force s 0 v d.
+  by rewrite /force; apply: sum_eq => j Hj; rewrite same.
+have l0 := unit_length_gt0 R wf.
+have x0 := pencil_reversed_zero wf_Q constant elim O L H W (x := x).
+have zero : forall i, i \in iota 0 (order (pencil_of s Mu)) -> x i = 0.
+  apply: x0 => [i|i /slip_variable[j lt_j ->]].
+    rewrite free_variable => lt_i; rewrite (free_reaction wf) // forceE.
+    by apply: free_v; apply: mem_nth.
+  have [_ reversed] := slips _ lt_j.
+  have reactionE : reaction (pencil_of s Mu) mu x (free_number s + j)%N =
+      - cone s 0 mu v (particle s j).
+    by rewrite (slip_reaction wf) // /row_factor mul1r /cone /along !forceE.
+  have slideE : slip_rate v (particle s j) = - (toR (unit_length s) ^+ 2 * x (free_number s + j)%N).
+    rewrite -(slip_motion wf) // /slip_rate /along.
+    by rewrite (same _ (first_dof_in wf lt_j)) (same _ (second_dof_in wf lt_j)).
+  rewrite -(pmulr_rle0 _ (exprn_gt0 2 l0)) reactionE; move: reversed; rewrite slideE.
+  have -> // : forall a b c : R, a * (b * - c) = c * - (a * b) by move=> *; ring.
+move=> d Hd; rewrite -same // /motion; case col: (column s d) => [[j c]|] //.
+by rewrite zero ?mulr0 // mem_iota add0n; apply: column_in_range col.
+Qed.
+
+End System.
+
+Section Given.
+
+Variables (R : rcfType) (c : scales) (B : rational_system) (lo hi : point) (w : elimination).
+Variables low high : factor.
+Hypothesis checked : check_given_rates c B lo hi w low high.
+
+Notation s := (scaled_system c B).
+
+Theorem rates_sound (mu : R) : between mu lo hi -> one_motion_of_rates B mu.
+Proof.
+case/and3P: checked => ex /nilP no_zero ok W.
+have mu0 : 0 < mu.
+  case/and5P: ok => _ _ _ _ /and5P[p0 q0 _ _ _]; case: W => le_mu _.
+  have q0R : 0 < toR lo.2 :> R by rewrite toR_gt0.
+  by rewrite -(pmulr_lgt0 _ q0R); apply: lt_le_trans le_mu; rewrite toR_gt0.
+split=> // f v v' [stuck free slips] [stuck' free' slips'] d Hd.
+pose e i := v i - v' i.
+have forceE i : force_of B 0 e i = force_of B 0 v i - force_of B 0 v' i.
+  by rewrite /force_of /product -sumrB; apply: eq_bigr => k _; rewrite mulrBr.
+have [C0 L0] := scales_gt0 R ex.
+apply/eqP; rewrite -subr_eq0; apply/eqP; apply: (system_reversed_zero ok W (v := e)) => //.
+- move=> i Hi out; rewrite /e.
+  have stick : i \in dofs_of [seq p <- given_particles B | sticks p].
+    by rewrite -(stick_scaled ex Hi) (without_zero_scaled c no_zero) /moving_with_zero cats0.
+  by rewrite stuck // stuck' // subrr.
+- move=> i; rewrite mem_filter => /andP[out Hi]; rewrite (force_scaled ex) forceE.
+  have /eqP := free i Hi out; have /eqP := free' i Hi out; rewrite !subr_eq0 => /eqP-> /eqP->.
+  by rewrite subrr mulr0.
+move=> j; rewrite size_map => lt_j p; have [eq_k ex_p] := slip_scaled ex lt_j.
+have [n0 a0 b0 ab] := slips j lt_j; have [n1 a1 b1 ab1] := slips' j lt_j.
+pose q := slip_at B j.
+have tangentialE (g h : nat -> R) :
+    tangential q (fun i => g i - h i) = tangential q g - tangential q h.
+  by rewrite /tangential; move: (fraction _ _) (fraction _ _) => *; ring.
+have normalE (g h : nat -> R) : normal_to q (fun i => g i - h i) = normal_to q g - normal_to q h.
+  by rewrite /normal_to; move: (fraction _ _) (fraction _ _) (toR _) => *; ring.
+rewrite /p eq_k normal_scaled // normalE n0 n1 subrr mulr0; split=> //.
+rewrite (cone_scaled ex) // slip_rate_scaled // -/q tangentialE.
+pose cone g := toR (sign q) * tangential q g + fraction R (factor_of q) * mu * normal_to q g.
+have -> : cone_of B 0 mu e q =
+    cone (fun i => force_of B 0 v i - f i) - cone (fun i => force_of B 0 v' i - f i).
+  have -> : cone_of B 0 mu e q = cone (fun i => force_of B 0 v i - force_of B 0 v' i).
+    by rewrite /cone_of /cone /tangential /normal_to !forceE.
+  by rewrite /cone !tangentialE !normalE; move: (tangential _ _) => *; ring.
+rewrite -/(cone _) in b0 ab; rewrite -/(cone _) in b1 ab1.
+have split_product (a l x x' g y y' : R) : a * l * (x - x') * (l * (g * (y - y'))) =
+    a * l * l * (x * (g * y) + x' * (g * y') - (x * (g * y') + x' * (g * y))) by ring.
+rewrite split_product (pmulr_rle0 _ (mulr_gt0 (mulr_gt0 C0 L0) L0)) ab ab1 addr0 sub0r oppr_le0.
+by apply: addr_ge0; apply: mulr_le0.
+Qed.
+
+End Given.
