@@ -216,7 +216,8 @@ fn exit_code(simulation: &Simulation) -> u8 {
     let is_open = simulation.solutions_of_a_step != StepSolutions::One
         || !simulation.is_complete
         || simulation.unknown > 0
-        || agreements.contains(&Agreement::TooShort);
+        || agreements.contains(&Agreement::TooShort)
+        || agreements.contains(&Agreement::NotResolved);
 
     if simulation.is_interrupted {
         exit::INTERRUPTED

@@ -6,12 +6,13 @@
 //! order.
 //!
 //! What a run says of its own error comes from halving the step: for errors C h^2 two runs differ
-//! by 3 C h^2 / 4, so the finer one is wrong by a third of their difference. To this is added the
-//! rounding of the forces that cancel. The agreement is judged by that stated error.
+//! by 3 C h^2 / 4, so the finer one is wrong by a third of their difference. To this are added the
+//! rounding of every step, as the forces that cancel enlarge it, and what a motion beside v may
+//! change of alpha. The agreement is judged by that stated error, and not at all where it is large.
 
 use super::equations::{Equations, MotionError};
 use super::step::Instant;
-use super::tolerance::{BESIDE, ROUNDING};
+use super::tolerance::{BESIDE, OF_BESIDE, ROUNDING, UNRESOLVED};
 use super::trajectory::{Plan, Trajectory, run_every};
 use nalgebra::DVector;
 
@@ -37,7 +38,7 @@ pub struct Growth {
     pub coarse_error: f64,
     /// Largest relative error of alpha in steps of h/2.
     pub error: f64,
-    /// What that error should be by the two runs and the rounding.
+    /// What that error should be by the two runs, the rounding and the motion beside v.
     pub stated_error: f64,
     /// What rounding may add to it.
     pub rounding: f64,
@@ -73,6 +74,8 @@ pub enum Agreement {
     Disagrees,
     /// The run ends before alpha has grown by a tenth.
     TooShort,
+    /// The steps are too long for the run: the stated error is large, or alpha leaves the doubles.
+    NotResolved,
 }
 
 impl Growth {
@@ -80,9 +83,12 @@ impl Growth {
     pub fn agreement(&self) -> Agreement {
         let compared_to = self.points.last().map_or(0.0, |point| point.predicted);
         let has_grown = compared_to >= COMPARED_FROM;
+        let is_resolved = self.stated_error <= UNRESOLVED; // not so if it is not a number
         let is_accurate = self.error <= NEXT_TERMS * self.stated_error;
 
-        if is_accurate && has_grown {
+        if !is_resolved {
+            Agreement::NotResolved
+        } else if is_accurate && has_grown {
             Agreement::Agrees
         } else if is_accurate && self.overtaken.is_none() {
             Agreement::TooShort
@@ -131,13 +137,14 @@ impl Mode {
         Instant::start(equations, self.displacement.clone(), velocity)
     }
 
-    /// Rounding of alpha, relative: forces K v that cancel down to lambda^2 M v.
-    fn rounding(&self, equations: &Equations, duration: f64) -> f64 {
+    /// Rounding of alpha, relative: that of each step, for forces K v that cancel down to
+    /// lambda^2 M v.
+    fn rounding(&self, equations: &Equations, Plan { duration, steps }: Plan) -> f64 {
         let sizes = self.displacement.abs();
         let forces = (equations.stiffness.abs() * sizes).amax();
         let square = self.lambda2.max(1.0 / (duration * duration));
         let inertia = square * (&equations.mass * &self.displacement).amax();
-        ROUNDING * (1.0 + forces / inertia)
+        (ROUNDING + f64::EPSILON * steps as f64) * (1.0 + forces / inertia)
     }
 }
 
@@ -155,6 +162,7 @@ pub fn along_mode(equations: &Equations, mode: &Mode, plan: Plan) -> Result<Grow
     let mut coarse_error: f64 = 0.0;
     let mut error: f64 = 0.0;
     let mut difference: f64 = 0.0;
+    let mut beside: f64 = 0.0;
     let mut overtaken = None;
     for (coarse, fine) in coarse.samples.iter().zip(&fine.samples) {
         let along_coarse = Along::of(equations, mode, &coarse.at);
@@ -171,6 +179,13 @@ pub fn along_mode(equations: &Equations, mode: &Mode, plan: Plan) -> Result<Grow
             fine: along_fine.alpha,
         };
 
+        let all = [point.predicted, point.coarse, point.fine];
+        if !all.iter().all(|alpha| alpha.is_finite()) {
+            difference = f64::INFINITY;
+            break;
+        }
+
+        beside = beside.max(along_fine.beside);
         let scale = point.predicted;
         coarse_error = coarse_error.max((point.coarse - point.predicted).abs() / scale);
         error = error.max((point.fine - point.predicted).abs() / scale);
@@ -178,14 +193,14 @@ pub fn along_mode(equations: &Equations, mode: &Mode, plan: Plan) -> Result<Grow
         points.push(point);
     }
 
-    let rounding = mode.rounding(equations, plan.duration);
+    let rounding = mode.rounding(equations, plan.halved());
     Ok(Growth {
         step: plan.step()?,
         points,
         overtaken,
         coarse_error,
         error,
-        stated_error: difference / 3.0 + rounding,
+        stated_error: difference / 3.0 + rounding + OF_BESIDE * beside,
         rounding,
         trajectory: fine,
     })

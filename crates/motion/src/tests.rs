@@ -91,6 +91,26 @@ fn a_mode_that_is_none_does_not_agree() {
     }
 }
 
+/// A million roundings are part of the stated error; steps that are too long for the growth, or a
+/// growth beyond doubles, are neither agreement nor contradiction.
+#[test]
+fn long_runs_agree_and_long_steps_say_nothing() {
+    let equations = figure_1();
+    let mode = Mode {
+        lambda2: 37.0 / 25.0,
+        displacement: dvector![1.0, 1.0],
+    };
+    let judged = |duration: f64, steps: usize| {
+        let growth = along_mode(&equations, &mode, plan(duration, steps)).unwrap();
+        growth.agreement()
+    };
+
+    let usual = mode.usual_duration(1.0);
+    assert_eq!(judged(usual, 500_000), Agreement::Agrees);
+    assert_eq!(judged(30.0 * usual, 400), Agreement::NotResolved);
+    assert_eq!(judged(1e3, 4000), Agreement::NotResolved);
+}
+
 /// From -x the accelerations would be against the slip direction: the particles stay where they
 /// are.
 #[test]

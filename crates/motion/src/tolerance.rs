@@ -10,15 +10,25 @@ pub(crate) const STEP_SIGN: f64 = 1e-13;
 /// order one; the elimination of the free coordinates loses the digits of its condition, below 1e3.
 pub(crate) const MINOR: f64 = 1e-9;
 
-/// Rounding of one step, relative to the forces that cancel in it. Unit: none. Basis: some hundred
-/// roundings of 2^-53. Reason: with alpha'' = lambda^2 alpha the forces K v are larger than
-/// lambda^2 M v by the square of frequency over growth rate, and their rounding acts in every step.
+/// Rounding of a run, relative to the forces that cancel in it, before that of each step is added.
+/// Unit: none. Basis: some hundred roundings of 2^-53. Reason: with alpha'' = lambda^2 alpha the
+/// forces K v are larger than lambda^2 M v by the square of frequency over growth rate, and their
+/// rounding acts in every step.
 pub(crate) const ROUNDING: f64 = 1e-13;
 
 /// Share of a displacement beside v up to which a motion is along v. Unit: elastic norm. Basis: the
 /// discrete motion keeps v exactly, rounding apart; other motions that grow faster than the mode
 /// enlarge that rounding by exp of their rate times the time.
 pub(crate) const BESIDE: f64 = 1e-6;
+
+/// What a motion beside v may change of alpha, as a multiple of its share. Unit: none. Basis: alpha
+/// is read off along v; another motion at an angle of 6 degrees to v changes it by ten times what
+/// it has across v.
+pub(crate) const OF_BESIDE: f64 = 10.0;
+
+/// Stated error of alpha beyond which a run along a mode says nothing. Unit: share of alpha. Basis:
+/// the leading term (h lambda)^2 lambda t / 12 tells the error while it is small.
+pub(crate) const UNRESOLVED: f64 = 5e-2;
 
 /// Difference of the growth rates of a run in steps of h and of h/2 up to which the steps resolve
 /// it. Unit: share of the rate. Basis: the rate of a smooth growth has the relative error

@@ -159,6 +159,7 @@ fn agreement_word(growth: &Growth) -> &'static str {
         Agreement::Agrees => "AGREES",
         Agreement::Disagrees => "DISAGREES",
         Agreement::TooShort => "TOO SHORT",
+        Agreement::NotResolved => "NOT RESOLVED",
     }
 }
 
