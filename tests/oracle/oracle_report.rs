@@ -107,9 +107,7 @@ fn continua_are_written_with_their_ends() {
     assert_eq!(to["value"], json!("2"));
     assert_eq!(to["included"], json!(false));
 
-    output.assert_prints(
-        "continuum: slip [0, 1] has solutions for every value in [1.000000, 2.000000)",
-    );
+    output.assert_prints("continuum: slip [0, 1] has solutions for every value in [1, 2)");
 }
 
 /// (t - 1) I with a free variable: x_f, -x_f and the half-plane.

@@ -8,9 +8,13 @@ use super::listed::{DIGITS, Listed};
 use super::table::Table;
 use crate::candidate::SOLUTIONS_FORMAT;
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
-use mceip_exact::{Algebraic, Integer, Interval, Poly, Rational, enclosing_decimals, to_decimal};
+use mceip_exact::{
+    Algebraic, Integer, Interval, Poly, Rational, enclosing_decimals, nearest_decimal, parse,
+    to_decimal, whole,
+};
 use mceip_model::{Body, Problem, Reduced, Variable};
 use mceip_oracle::{Cone, End, Enumeration, Piece, SupportRange};
+use num_traits::Signed as _;
 use serde_json::{Value, json};
 
 /// Solutions with what stands behind them.
@@ -426,14 +430,39 @@ fn cone_text(report: &Report<'_>, cone: &Cone) -> String {
 
 fn interval_text(piece: &Piece) -> String {
     let bracket = if piece.from.included { "[" } else { "(" };
-    let from = short(&decimal(&piece.from));
+    let from = end_text(&piece.from);
     let Some(to) = &piece.to else {
         return format!("{bracket}{from}, infinity)");
     };
 
     let closing_bracket = if to.included { "]" } else { ")" };
-    let to = short(&decimal(to));
+    let to = end_text(to);
     format!("{bracket}{from}, {to}{closing_bracket}")
+}
+
+/// Digits of an end that is no short number.
+const END_DIGITS: usize = 12;
+
+/// Letters of an exact end, at most.
+const LONGEST_END: usize = 24;
+
+/// An end as it is where that is a short number, else where it lies: rounded it would be another.
+fn end_text(end: &End) -> String {
+    let mut value = end.value.clone();
+    value.try_rational();
+    if let Some(exact) = value.as_rational() {
+        let decimal = nearest_decimal(exact, END_DIGITS);
+        let is_exact = parse(&decimal).is_ok_and(|number| number == *exact);
+        let text = if is_exact { decimal } else { exact.to_string() };
+        if text.len() <= LONGEST_END {
+            return text;
+        }
+    }
+
+    let size = value.interval().hi().abs().min(whole(1));
+    value.refine_to(&(size / whole(10_i64.pow(END_DIGITS as u32 + 2))));
+    let (lo, hi) = enclosing_decimals(value.interval(), END_DIGITS);
+    format!("a value in [{lo}, {hi}]")
 }
 
 /// Largest order whose x is printed in full.
