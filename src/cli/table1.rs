@@ -14,7 +14,7 @@ use mceip_model::reduction::reduce;
 use mceip_model::{Body, Problem, Unknown, Window};
 use mceip_oracle::{TwoParticles, enumerate};
 use mceip_paper::two_particles;
-use mceip_testkit::{Instance, compare};
+use mceip_testkit::{Disagreement, Instance, compare};
 use num_traits::{One, Signed};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -169,14 +169,25 @@ fn pattern(data: TwoParticles) -> Result<Pattern, CliError> {
         aside(&format!("S = {signs:?}: uncertified: {reason}"));
     }
 
+    // Values beyond doubles are no contradiction: the solver does not begin, nothing is certified.
+    let is_missing = |disagreement: &&Disagreement| {
+        matches!(
+            disagreement,
+            Disagreement::Refused {
+                engine: "solver",
+                ..
+            } | Disagreement::OracleNotCertified { .. }
+        )
+    };
     for disagreement in &report.disagreements {
         aside(&format!("S = {signs:?}: {disagreement}"));
     }
+    let missing = report.disagreements.iter().filter(is_missing).count();
 
     Ok(Pattern {
         lines,
-        agrees: report.disagreements.is_empty(),
-        uncertified: report.uncertified.len(),
+        agrees: missing == report.disagreements.len(),
+        uncertified: report.uncertified.len() + missing,
     })
 }
 
