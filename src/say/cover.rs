@@ -88,20 +88,28 @@ fn open_text(word: &str, region: &OpenRegion) -> String {
 }
 
 fn family_text(word: &str, family: &SolutionFamily) -> String {
+    let values = family_values(word, family);
+    let how_many = family_size(family);
+    format!("{values}, slip {:?}, {how_many}", family.support)
+}
+
+/// Where the values of a family lie.
+pub(crate) fn family_values(word: &str, family: &SolutionFamily) -> String {
     let from = end_text(&family.from);
-    let values = match &family.to {
+    match &family.to {
         _ if family.is_point => format!("{word} = {from}"),
         None => format!("every {word} above {from}"),
         Some(to) => format!("every {word} between {from} and {}", end_text(to)),
-    };
+    }
+}
 
-    let how_many = if family.is_alone {
+/// How many solutions a family has at each of its values.
+pub(crate) fn family_size(family: &SolutionFamily) -> &'static str {
+    if family.is_alone {
         "one solution at each"
     } else {
         "a cone of solutions"
-    };
-
-    format!("{values}, slip {:?}, {how_many}", family.support)
+    }
 }
 
 /// An end of a family: the number, or where it lies.

@@ -7,7 +7,7 @@
 //!
 //! Called where solvers propose ([`from_f64`]) and where reports print or plot ([`to_f64`]).
 
-use super::{Integer, NumberError, Rational};
+use super::{Integer, Interval, NumberError, Rational};
 use num_integer::Integer as _;
 use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
@@ -114,6 +114,35 @@ impl Scaled {
 fn assemble(mantissa: u64, exponent: i64) -> f64 {
     let rank = ((exponent + 1074).min(2046) as u64) << 52;
     f64::from_bits((rank + mantissa).min(f64::INFINITY.to_bits()))
+}
+
+/// The nearest doubles that enclose an interval; beyond the range of doubles infinity.
+///
+/// ```
+/// use mceip_exact::{Interval, enclosing_doubles, from_f64, rational};
+/// let third = Interval::point(rational(1, 3));
+/// let [lo, hi] = enclosing_doubles(&third);
+/// assert!(from_f64(lo).unwrap() < rational(1, 3) && rational(1, 3) < from_f64(hi).unwrap());
+/// assert_eq!(enclosing_doubles(&Interval::point(rational(1, 4))), [0.25, 0.25]);
+/// ```
+pub fn enclosing_doubles(interval: &Interval) -> [f64; 2] {
+    let [lo, hi] = [interval.lo(), interval.hi()];
+    let [nearest_lo, nearest_hi] = [lo, hi].map(to_f64);
+    let is_above = from_f64(nearest_lo).is_ok_and(|value| value > *lo);
+    let is_below = from_f64(nearest_hi).is_ok_and(|value| value < *hi);
+
+    [
+        if is_above || nearest_lo == f64::INFINITY {
+            nearest_lo.next_down()
+        } else {
+            nearest_lo
+        },
+        if is_below || nearest_hi == f64::NEG_INFINITY {
+            nearest_hi.next_up()
+        } else {
+            nearest_hi
+        },
+    ]
 }
 
 #[cfg(test)]

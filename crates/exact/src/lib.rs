@@ -45,7 +45,7 @@ pub use definite::{
 };
 pub use dense::Dense;
 pub use dominance::{Dominance, MachineRow, machine_definite};
-pub use double::{from_f64, to_f64, truncated};
+pub use double::{enclosing_doubles, from_f64, to_f64, truncated};
 pub use interval::Interval;
 pub use kernel::{
     determinant, generic_kernel, kernel_and_free_columns_at, kernel_at, minors, row_echelon_at,

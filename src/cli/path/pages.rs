@@ -5,7 +5,7 @@
 //! tables for `--report`. Numbers in captions and tables are exact or certified; charts draw them
 //! in doubles. Modes are drawn where the file says where its nodes are.
 
-use super::states::{Growing, Holds, ProvedMode, ProvedSet, ProvedState, is_slip};
+use super::states::{Growing, Holds, IN_A_REPORT, ProvedMode, ProvedSet, ProvedState, is_slip};
 use crate::LoadPath;
 use crate::cli::common::CliError;
 use crate::cli::pictures::{LEVELS_CAPTION, Named, levels_of};
@@ -17,9 +17,8 @@ use crate::say::path::{
     LETTERS, amount_text, causes_text, continuations_text, end_text, of_which_body,
 };
 use crate::say::stretches::stretch_cells;
-use mceip_engine::report::fixed_decimals;
 use mceip_engine::run::Watch;
-use mceip_exact::to_f64;
+use mceip_exact::{Interval, enclosing_decimals, to_f64, upper_decimal};
 use mceip_model::{Coordinates, ModelError, System};
 use mceip_path::LoadingPath;
 use num_traits::Zero;
@@ -351,7 +350,7 @@ impl Shown<'_> {
         let [stick, left, right, free] = stretch.counts();
 
         let set = &state.thresholds;
-        let values = set.values("\u{3bc}", 12);
+        let values = set.values("\u{3bc}", 12, IN_A_REPORT);
         let verdict = set.verdict();
         let leaves = set.leaves;
         let mut rows = vec![
@@ -377,9 +376,13 @@ impl Shown<'_> {
             let what = format!("Necessary condition {}", state.necessary_equation());
             let answer = match holds {
                 Holds::Always => "holds from \u{3bc} = 0 on: it excludes nothing".into(),
-                Holds::From(mu) => {
-                    let mu = fixed_decimals(&mu, 9);
-                    format!("holds from \u{3bc} = {mu} on; below it divergence is excluded")
+                Holds::From { not_below, mu } => {
+                    let (below, _) = enclosing_decimals(&Interval::point(not_below), 9);
+                    let from = upper_decimal(&mu, 9);
+                    format!(
+                        "holds from \u{3bc} = {from} on; below \u{3bc} = {below} divergence is \
+                         excluded"
+                    )
                 }
                 Holds::Never => "never holds: divergence is excluded for every \u{3bc}".into(),
             };
@@ -457,10 +460,10 @@ fn threshold_column(state: &ProvedState) -> ThresholdColumn {
 }
 
 fn all_slip_text(state: &ProvedState, set: &ProvedSet) -> &'static str {
-    match (state.has_all_slip(set), set.open) {
-        (true, _) => "an all-slip mode exists",
-        (false, 0) => "no all-slip mode",
-        (false, _) => "no all-slip mode found",
+    match state.has_all_slip(set) {
+        Some(true) => "an all-slip mode exists",
+        Some(false) => "no all-slip mode",
+        None => "no all-slip mode found",
     }
 }
 
@@ -474,6 +477,10 @@ fn growing_text(state: &ProvedState, growing: &Growing) -> String {
         rates.push(format!(
             "\u{3bb}\u{b2} in {enclosure} 1/s\u{b2}, growth rate {rate:.6} 1/s, {slipping} slipping"
         ));
+    }
+
+    if !growing.set.families.is_empty() {
+        rates.push(growing.set.families_text("\u{3bb}\u{b2}", IN_A_REPORT));
     }
 
     let list = match (rates.is_empty(), growing.set.open) {
@@ -498,8 +505,8 @@ const PATH_CAPTION: &str = "Each event is an exact rational number; (1), (2), (5
 
 /// What to read off the picture of the thresholds.
 const THRESHOLDS_CAPTION: &str = "The complete set of MCEIP-\u{3bc} for each state with slip, \
-     each set certified. A state in whose column no solution stands has none, unless regions of \
-     it are open (in its table). \u{3bb} = 0 is the static threshold; divergence may begin at a \
+     each set certified. A state in whose column no solution stands has none, unless its \
+     table says that there are continua, or that regions are open. \u{3bb} = 0 is the static threshold; divergence may begin at a \
      lower \u{3bc} with \u{3bb}\u{b2} > 0. A necessary condition that holds from \u{3bc} = 0 on is \
      not drawn.";
 

@@ -7,13 +7,18 @@
 
 use crate::LoadPath;
 use crate::cli::common::CliError;
-use mceip_check::AcceptedClaim;
+use crate::say::counted;
+use crate::say::cover::{family_size, family_values};
+use mceip_check::{AcceptedClaim, SolutionFamily};
 use mceip_engine::analysis::conditions::{DefiniteUntil, Necessary};
 use mceip_engine::reduction::{SparseCondensation, mode};
-use mceip_engine::report::{Table, fixed_decimals, six_digits};
+use mceip_engine::report::{Table, six_digits};
 use mceip_engine::run::{Progress, Watch};
+use mceip_engine::search::complete::continua::joined;
 use mceip_engine::search::complete::{Completed, Options, complete};
-use mceip_exact::{Rational, enclosing_decimals, to_f64};
+use mceip_exact::{
+    Interval, Rational, enclosing_decimals, enclosing_doubles, to_f64, upper_decimal,
+};
 use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Variable, Window};
 use mceip_path::{Equilibrium, LoadingPath, Stretch};
@@ -51,8 +56,12 @@ pub(super) struct ProvedState {
 pub(super) enum Holds {
     /// From mu = 0 on.
     Always,
-    /// From this mu on: the upper end of its enclosure, which is the accurate one.
-    From(Rational),
+    /// From this mu on.
+    From {
+        /// Below this mu it does not hold.
+        not_below: Rational,
+        mu: Rational,
+    },
     /// For no mu.
     Never,
 }
@@ -66,9 +75,18 @@ pub(super) struct Growing {
 /// A set of solutions with what stays open beside it.
 pub(super) struct ProvedSet {
     pub(super) solutions: Vec<ProvedMode>,
-    /// Number of open regions and of families.
+    /// Solutions that no list holds.
+    pub(super) families: Vec<ProvedFamily>,
+    /// Number of open regions.
     pub(super) open: usize,
     pub(super) leaves: usize,
+}
+
+/// Solutions of one support, at one value or at an interval of values.
+pub(super) struct ProvedFamily {
+    family: SolutionFamily,
+    /// Slip nodes that move.
+    slipping: usize,
 }
 
 /// A certified solution.
@@ -210,8 +228,9 @@ fn uncondensed_set(
     Ok(set)
 }
 
-/// Solutions of a state that its line in a table lists.
-const LISTED: usize = 20;
+/// Solutions, and families, of a state that a line of a table lists; those of a report.
+const IN_A_LINE: usize = 3;
+pub(super) const IN_A_REPORT: usize = 20;
 
 impl ProvedSet {
     /// The set that a search has found, without displacements. `slip` are the variables of the slip
@@ -228,31 +247,69 @@ impl ProvedSet {
             });
         }
 
+        let families = joined(&found.cover.families).into_iter();
+        let families = families.map(|family| ProvedFamily {
+            slipping: family.support.iter().filter(|i| slip.contains(i)).count(),
+            family,
+        });
+
         ProvedSet {
             solutions,
-            open: found.cover.open.len() + found.cover.families.len(),
+            families: families.collect(),
+            open: found.cover.open.len(),
             leaves: found.cover.leaves,
         }
     }
 
-    /// The solutions in words, each enclosed to this many digits.
-    pub(super) fn values(&self, name: &str, digits: usize) -> String {
-        if self.solutions.is_empty() {
+    /// So many of the solutions in words, each enclosed to this many digits.
+    pub(super) fn values(&self, name: &str, digits: usize, listed: usize) -> String {
+        if self.is_empty() {
             return "none".into();
         }
 
         let mut all = Vec::new();
-        for solution in self.solutions.iter().take(LISTED) {
+        for solution in self.solutions.iter().take(listed) {
             let enclosure = solution.enclosure(digits);
             let slipping = solution.moving.len();
             all.push(format!("{name} in {enclosure}, {slipping} slipping"));
         }
-        let more = self.solutions.len().saturating_sub(LISTED);
+        let more = self.solutions.len().saturating_sub(listed);
         if more > 0 {
             all.push(format!("{more} more (--json lists them)"));
         }
+        if !self.families.is_empty() {
+            all.push(self.families_text(name, listed));
+        }
 
         all.join("; ")
+    }
+
+    /// So many of the families in words.
+    pub(super) fn families_text(&self, name: &str, listed: usize) -> String {
+        let mut all = Vec::new();
+        for ProvedFamily { family, slipping } in self.families.iter().take(listed) {
+            let values = family_values(name, family);
+            let size = family_size(family);
+            all.push(format!("{values}, {slipping} slipping, {size}"));
+        }
+        let more = self.families.len().saturating_sub(listed);
+        if more > 0 {
+            all.push(format!("{more} more families"));
+        }
+
+        all.join("; ")
+    }
+
+    /// Is no solution proved?
+    pub(super) fn is_empty(&self) -> bool {
+        self.solutions.is_empty() && self.families.is_empty()
+    }
+
+    /// The smallest value of a solution, or what it is not below.
+    fn smallest(&self) -> Option<f64> {
+        let families = self.families.iter().map(|f| to_f64(f.family.from.lo()));
+        let values = self.solutions.iter().map(|mode| mode.value);
+        values.chain(families).min_by(f64::total_cmp)
     }
 
     /// What is proved of it.
@@ -260,7 +317,7 @@ impl ProvedSet {
         if self.open == 0 {
             "complete, proved".into()
         } else {
-            format!("{} regions open", self.open)
+            format!("{} open", counted(self.open, "region"))
         }
     }
 }
@@ -276,9 +333,14 @@ impl ProvedState {
             return Some(Holds::Always);
         }
 
-        let ends = matrices.filter_map(DefiniteUntil::end);
-        Some(match ends.map(|end| end.hi().clone()).min() {
-            Some(mu) => Holds::From(mu),
+        let ends: Vec<&Interval> = matrices.filter_map(DefiniteUntil::end).collect();
+        let lowest = ends.iter().map(|end| end.lo()).min();
+        let first = ends.iter().map(|end| end.hi()).min();
+        Some(match lowest.zip(first) {
+            Some((lo, hi)) => Holds::From {
+                not_below: lo.clone(),
+                mu: hi.clone(),
+            },
             None => Holds::Never,
         })
     }
@@ -286,7 +348,7 @@ impl ProvedState {
     /// mu > 0 from which on the necessary condition holds.
     pub(super) fn necessary_from(&self) -> Option<f64> {
         match self.necessary_holds()? {
-            Holds::From(mu) => Some(to_f64(&mu)),
+            Holds::From { mu, .. } => Some(enclosing_doubles(&Interval::point(mu))[1]),
             Holds::Always | Holds::Never => None,
         }
     }
@@ -313,7 +375,10 @@ impl ProvedState {
             None => String::new(),
             Some(Holds::Always) => format!("{equation} at mu = 0"),
             Some(Holds::Never) => "never holds".into(),
-            Some(Holds::From(mu)) => format!("{equation} from mu = {} on", fixed_decimals(&mu, 9)),
+            Some(Holds::From { mu, .. }) => {
+                let from = upper_decimal(&mu, 9);
+                format!("{equation} from mu = {from} on")
+            }
         }
     }
 
@@ -322,9 +387,12 @@ impl ProvedState {
         mode.moving.len() == self.slip
     }
 
-    /// Does a solution of this set, one of the state's, satisfy (17)-(18)?
-    pub(super) fn has_all_slip(&self, set: &ProvedSet) -> bool {
-        set.solutions.iter().any(|mode| self.is_all_slip(mode))
+    /// Does a solution of this set, one of the state's, satisfy (17)-(18)? `None` where that is not
+    /// known.
+    pub(super) fn has_all_slip(&self, set: &ProvedSet) -> Option<bool> {
+        let has_one = set.solutions.iter().any(|mode| self.is_all_slip(mode))
+            || set.families.iter().any(|f| f.slipping == self.slip);
+        (has_one || set.open == 0).then_some(has_one)
     }
 
     /// Is anything left open?
@@ -376,7 +444,7 @@ fn thresholds_table(states: &[ProvedState], path: &LoadingPath) -> Table {
             state.stretch.to_string(),
             path.stretches[state.stretch].picture(),
             state.slip.to_string(),
-            set.values("mu", 10),
+            set.values("mu", 10, IN_A_LINE),
             set.leaves.to_string(),
             set.verdict(),
             state.necessary_text(),
@@ -412,7 +480,21 @@ fn growing_table(states: &[ProvedState]) -> Table {
                 ]);
             }
 
-            if growing.set.solutions.is_empty() {
+            for ProvedFamily { family, slipping } in &growing.set.families {
+                let values = family_values("lambda^2", family);
+                let slipping = format!("{slipping} of {}", state.slip);
+                let size = family_size(family).into();
+                let row = [
+                    stretch.clone(),
+                    mu.clone(),
+                    values,
+                    size,
+                    slipping,
+                    verdict.clone(),
+                ];
+                table.row(row.to_vec());
+            }
+            if growing.set.is_empty() {
                 let none = "none".into();
                 table.row(vec![stretch, mu, none, "".into(), "".into(), verdict]);
             }
@@ -456,7 +538,8 @@ impl ProvedState {
             "solutions": solutions,
             "complete": set.open == 0,
             "leaves": set.leaves,
-            "static_threshold": set.solutions.first().map(|m| m.value),
+            "families": families_json(set, "mu"),
+            "static_threshold": set.smallest(),
             "all_slip": self.has_all_slip(set), // (17)-(18) at lambda = 0 for some mu
             "lambda2": growing,
         });
@@ -484,6 +567,7 @@ impl ProvedState {
         json!({
             "mu": growing.mu.to_string(),
             "solutions": solutions,
+            "families": families_json(&growing.set, "lambda2"),
             "complete": growing.set.open == 0,
             "leaves": growing.set.leaves,
             "all_slip": self.has_all_slip(&growing.set),
@@ -520,6 +604,19 @@ fn amount(at: &Equilibrium) -> f64 {
 
 /// The enclosure of the mu up to which a matrix is definite, if there is one.
 fn end_json(until: &DefiniteUntil) -> Option<[f64; 2]> {
-    let end = until.end()?;
-    Some([to_f64(end.lo()), to_f64(end.hi())])
+    until.end().map(enclosing_doubles)
+}
+
+/// Families in words.
+fn families_json(set: &ProvedSet, name: &str) -> Vec<Value> {
+    let mut out = Vec::new();
+    for ProvedFamily { family, slipping } in &set.families {
+        out.push(json!({
+            "values": family_values(name, family),
+            "slipping": slipping,
+            "one_solution_each": family.is_alone,
+        }));
+    }
+
+    out
 }
