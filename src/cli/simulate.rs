@@ -170,10 +170,13 @@ fn along_modes(
         };
 
         let growth = along_mode(equations, &mode, plan)?;
+        let particles = equations.slip_particles();
+        let slipping = solution.support.iter();
         modes.push(SimulatedMode {
             lambda2: solution.enclosure.clone(),
             rate: mode.rate(),
             support: solution.support.clone(),
+            slipping: slipping.map(|&i| particles[i - equations.free()]).collect(),
             growth,
         });
     }

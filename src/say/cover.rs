@@ -1,5 +1,6 @@
 //! What an accepted cover has proved, in lines: solutions, families, open regions, and the verdict.
 
+use super::counted;
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_engine::search::complete::continua::joined;
 use mceip_exact::{Interval, enclosing_decimals};
@@ -47,7 +48,8 @@ fn verdict_text(problem: &Problem, cover: &AcceptedCover) -> String {
     let open = cover.open.len();
     let count = count_text(cover);
     if open > 0 {
-        return format!("UNDECIDED: {count} proved in {window}, {open} regions open\n");
+        let open = counted(open, "region");
+        return format!("UNDECIDED: {count} proved in {window}, {open} open\n");
     }
 
     let is_empty = cover.solutions.is_empty() && cover.families.is_empty();
@@ -155,7 +157,8 @@ fn verdict_at_infinity(cover: &AcceptedCover) -> String {
     let open = cover.open.len();
 
     if open > 0 {
-        format!("UNDECIDED at infinity: {count} proved, {open} regions open")
+        let open = counted(open, "region");
+        format!("UNDECIDED at infinity: {count} proved, {open} open")
     } else if count == 0 {
         "COMPLETE: nothing at infinity".into()
     } else {

@@ -160,6 +160,8 @@ struct Calculix {
     /// Number of the step that is read, from 1.
     number: usize,
     is_in_step: bool,
+    /// Has the step that is read begun with `*STATIC`?
+    is_static: bool,
     /// What acts at the end of the step before.
     before: BTreeMap<usize, Rational>,
     /// What the step that is read says.
@@ -220,7 +222,7 @@ impl Calculix {
         match keyword {
             "*INCLUDE" => return Err("one file, without *INCLUDE"),
             "*TRANSFORM" => return Err("forces along x, y and z, without *TRANSFORM"),
-            "*CLOAD" if !self.is_in_step => return Err("*CLOAD inside of a *STEP"),
+            "*CLOAD" if !self.is_static => return Err("*CLOAD in a *STEP, after *STATIC"),
             _ if self.is_in_step && !IN_STEP.contains(&keyword) => {
                 return Err("forces at nodes, *CLOAD, in steps of *STATIC, as the only loads");
             }
@@ -230,11 +232,17 @@ impl Calculix {
         Ok(match keyword {
             "*STEP" => {
                 self.is_in_step = true;
+                self.is_static = false;
                 self.number += 1;
+                CardBlock::Other
+            }
+            "*STATIC" => {
+                self.is_static = self.is_in_step;
                 CardBlock::Other
             }
             "*ENDSTEP" => {
                 self.is_in_step = false;
+                self.is_static = false;
                 self.end_step();
                 CardBlock::Other
             }
@@ -345,11 +353,15 @@ mod tests {
                 "nothing beside a force",
             ),
             ("step,dof,force\na,0,much\n", "a number"),
-            ("*STEP\n*CLOAD\nTOP,2,-1.\n", "line 3"),
-            ("*STEP\n*CLOAD\n4,2,x\n", "line 3"),
-            ("*STEP\n*CLOAD, OP = NEW\n", "OP=MOD"),
-            ("*STEP\n*CLOAD, AMPLITUDE=A1\n", "without parameters"),
-            ("*CLOAD\n4,2,1.\n", "inside of a *STEP"),
+            ("*STEP\n*STATIC\n*CLOAD\nTOP,2,-1.\n", "line 4"),
+            ("*STEP\n*FREQUENCY\n*CLOAD\n4,2,-1.\n", "after *STATIC"),
+            ("*STEP\n*STATIC\n*CLOAD\n4,2,x\n", "line 4"),
+            ("*STEP\n*STATIC\n*CLOAD, OP = NEW\n", "OP=MOD"),
+            (
+                "*STEP\n*STATIC\n*CLOAD, AMPLITUDE=A1\n",
+                "without parameters",
+            ),
+            ("*CLOAD\n4,2,1.\n", "in a *STEP, after *STATIC"),
             ("*STEP\n*STATIC\n*CLOAD\n4,2,1.\n", "*END STEP"),
             ("*STEP\n*DYNAMIC\n", "steps of *STATIC"),
             ("*INCLUDE, INPUT=x\n", "without *INCLUDE"),

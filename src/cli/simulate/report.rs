@@ -35,6 +35,8 @@ pub(super) struct SimulatedMode {
     pub(super) rate: f64,
     /// Complementarity variables with x_i > 0.
     pub(super) support: Vec<usize>,
+    /// The particles that slip.
+    pub(super) slipping: Vec<usize>,
     pub(super) growth: Growth,
 }
 
@@ -122,9 +124,9 @@ fn minor_particles(simulation: &Simulation, minor: &[usize]) -> Vec<usize> {
 fn mode_text(number: usize, mode: &SimulatedMode) -> String {
     let growth = &mode.growth;
     let (lo, hi) = enclosing_decimals(&mode.lambda2, 12);
-    let support = &mode.support;
+    let slipping = &mode.slipping;
     let mut out = format!(
-        "Mode {number} (certified): lambda2 in [{lo}, {hi}], lambda = {}, slip {support:?}\n",
+        "Mode {number} (certified): lambda2 in [{lo}, {hi}], lambda = {}, particles {slipping:?} slip\n",
         six_digits(mode.rate)
     );
 

@@ -90,9 +90,9 @@ fn named(all: &[String]) -> String {
 /// "mu in [..], mu in [..]", where `name` is mu.
 fn open_text(name: &str, open: &[OpenRegion]) -> String {
     let region = |region: &OpenRegion| {
-        let min = short(&region.min);
+        let min = down(&region.min);
         let max = match &region.max {
-            Some(max) => short(max),
+            Some(max) => up(max),
             None => "infinity".into(),
         };
         format!("{name} in [{min}, {max}]")
@@ -672,10 +672,17 @@ impl Analysis {
             None => "Sufficient condition (17)-(18): UNDECIDED at this mu.",
         };
 
+        let evidence = match &self.divergence.evidence {
+            Evidence::Certificate(_) if self.sufficient.is_none() && self.zero > 0 => {
+                Evidence::Exact("conditions (17)-(18)")
+            }
+            evidence => evidence.clone(),
+        };
+
         Sentence {
             topic: "sufficient",
             text: text.into(),
-            evidence: self.divergence.evidence.clone(),
+            evidence,
         }
     }
 
