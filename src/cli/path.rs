@@ -336,9 +336,11 @@ impl Outcome<'_> {
 
     /// The path and the states, for people.
     fn text(&self) -> String {
-        let own = self.own.as_ref().map(OwnCritical::text);
-        let mut out = own.map_or_else(String::new, |own| format!("{own}\n"));
-        out += &self.followed.text();
+        let mut out = match &self.own {
+            Some(own) if self.is_interrupted => format!("{OWN_INTERRUPTED}{}", own.text()),
+            Some(own) => own.text(),
+            None => self.followed.text(),
+        };
         if let Some(certified) = &self.certified {
             out += &certified_text(certified);
         }
@@ -487,6 +489,10 @@ fn certified_text(certified: &[Certified]) -> String {
 
     out
 }
+
+/// What the text of an interrupted search for the own critical friction begins with.
+const OWN_INTERRUPTED: &str = "INTERRUPTED: mu that are not listed were not examined. With \
+    --certificates, the same command with --resume goes on.\n";
 
 /// What the text of an interrupted run ends with.
 const INTERRUPTED: &str = "INTERRUPTED: what is not listed was not examined\n";

@@ -120,8 +120,7 @@ impl FrictionGrid {
         let mut values = vec![self.least.clone()];
         for k in 1..self.parts {
             let near = &self.least + &part * whole(k as i64);
-            let quarter = &part / whole(4);
-            values.push(short_decimal(&(&near - &quarter), &(near + quarter)));
+            values.push(short_decimal(&near, &(&part / whole(4))));
         }
 
         values.push(self.greatest.clone());
@@ -138,14 +137,14 @@ impl FrictionGrid {
     }
 }
 
-/// The least decimal of fewest decimals between two numbers, the ends included.
-fn short_decimal(lo: &Rational, hi: &Rational) -> Rational {
+/// Of the decimals with fewest decimals that are not further away than this the nearest.
+fn short_decimal(near: &Rational, distance: &Rational) -> Rational {
     let ten = Integer::from(10);
     let mut scale = Integer::one();
     loop {
-        let scaled = lo * Rational::from_integer(scale.clone());
-        let candidate = Rational::new(scaled.ceil().to_integer(), scale.clone());
-        if candidate <= *hi {
+        let scaled = near * Rational::from_integer(scale.clone());
+        let candidate = Rational::new(scaled.round().to_integer(), scale.clone());
+        if (&candidate - near).abs() <= *distance {
             return candidate;
         }
         scale *= &ten;
@@ -374,8 +373,8 @@ impl<'a> FindOwnCritical<'a> {
 
         while let Some(k) = self.grid.first_wide_change(&points) {
             let [lo, hi] = [points[k].friction(), points[k + 1].friction()];
-            let quarter = (hi - lo) / whole(4);
-            let mu = short_decimal(&(lo + &quarter), &(hi - &quarter));
+            let middle = (lo + hi) / whole(2);
+            let mu = short_decimal(&middle, &((hi - lo) / whole(4)));
             match self.examine(mu, points.len(), &watch)? {
                 Some(point) => points.insert(k + 1, point),
                 None => break,
@@ -484,13 +483,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_shortest_decimal_between() {
-        let shortest = |lo, hi| short_decimal(&lo, &hi);
-        assert_eq!(shortest(rational(1, 3), rational(2, 3)), rational(2, 5));
-        assert_eq!(shortest(rational(1, 3), rational(4, 3)), rational(1, 1));
+    fn the_shortest_decimal_near() {
+        let shortest = |near, distance| short_decimal(&near, &distance);
+        assert_eq!(shortest(rational(3, 2), rational(1, 4)), rational(3, 2));
+        assert_eq!(shortest(rational(3, 2), rational(1, 2)), whole(2));
+        assert_eq!(shortest(rational(1, 3), rational(1, 10)), rational(3, 10));
         assert_eq!(
-            shortest(rational(711, 1000), rational(714, 1000)),
-            rational(711, 1000)
+            shortest(rational(7125, 10_000), rational(1, 1000)),
+            rational(713, 1000)
         );
     }
 
@@ -499,7 +499,7 @@ mod tests {
         let grid = FrictionGrid::new(rational(1, 10), rational(1, 3)).unwrap();
         let grid = grid.with_parts(3).unwrap();
         let values: Vec<String> = grid.values().iter().map(mu_text).collect();
-        assert_eq!(values, ["0.1", "0.16", "0.24", "1/3"]);
+        assert_eq!(values, ["0.1", "0.18", "0.26", "1/3"]);
     }
 
     #[test]

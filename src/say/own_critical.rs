@@ -1,7 +1,7 @@
 //! The own critical friction of a body under loads in words, as a table and as JSON.
 
-use super::mu_text;
-use super::path::{amount_text, end_text, states_json};
+use super::path::{LETTERS, amount_text, end_text, states_json};
+use super::{mu_text, warnings_text};
 use crate::front::{Bracket, EndState, FrictionPoint, OwnCritical};
 use mceip_engine::analysis::{Analysis, Verdict};
 use mceip_engine::report::{Table, six_digits};
@@ -17,6 +17,7 @@ pub(crate) fn text_of(own: &OwnCritical) -> String {
         out += &format!("{}\n", frozen_text(frozen));
     }
 
+    let warnings = warnings_text(&own.loads().as_file().warnings);
     let header = [
         "mu",
         "contact states",
@@ -37,7 +38,7 @@ pub(crate) fn text_of(own: &OwnCritical) -> String {
     };
 
     format!(
-        "{out}\n{table}\n\
+        "{out}{warnings}\n{LETTERS}\n{table}\n\
          Examined is the equilibrium at the end of the loads (in the last stretch, where one \
          grows for ever) on the path that is followed at each mu. The path is exact, but has \
          no certificate, and may be one of several. \"Proved\" rests on a certificate or a \

@@ -118,7 +118,7 @@ fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
     assert!(
         answer["own_critical"]["points"]
             .to_string()
-            .contains("\"1.5\"")
+            .contains("\"1.2\"")
     );
 }
 
