@@ -123,12 +123,13 @@ pub(super) struct Args {
     #[arg(long, value_name = "OUT.svg")]
     picture: Option<PathBuf>,
     /// The path, every state's answers and pictures as one HTML file (implies --complete
-    /// --conditions); modes are drawn where the file has coordinates.
+    /// --conditions; with --own-critical that answer instead); modes are drawn where the file has
+    /// coordinates.
     #[arg(long, value_name = "OUT.html")]
     report: Option<PathBuf>,
     /// All pictures of the report as SVG files in this folder, as PNG too in a build with the
-    /// feature png (implies --complete --conditions).
-    #[arg(long, value_name = "FOLDER")]
+    /// feature png (implies --complete --conditions; with --own-critical that answer instead).
+    #[arg(long, value_name = "FOLDER", visible_alias = "figures")]
     pictures: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
@@ -182,7 +183,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let is_shown = report.is_some() || pictures.is_some();
     // Nothing is proved of the given body on matrices that were rounded.
     let uncondensed = args.uncondensed || args.doubles;
-    let proved = if args.complete || is_shown {
+    let own = own_asked.map(|grid| own_critical(&followed, grid, proofs.as_ref(), args, &job));
+    let own = own.transpose()?;
+    // The states of this path are not those that the own critical friction tells of.
+    let are_examined = args.complete || (is_shown && own.is_none());
+    let proved = if are_examined {
         let wanted = Wanted {
             uncondensed,
             conditions: args.conditions || is_shown,
@@ -193,25 +198,31 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         None
     };
-    let shown = match &proved {
-        Some(states) if is_shown => Some(Shown {
+    let shown = if is_shown {
+        let states = proved.as_deref();
+        Some(Shown {
             followed: &followed,
             names: &names,
             states,
-            branches: pages::branches(loads.body().system(), path, states, &watch)?,
+            own: own.as_ref(),
+            branches: pages::branches(
+                loads.body().system(),
+                path,
+                states.unwrap_or_default(),
+                &watch,
+            )?,
             checked_on: if uncondensed {
                 CheckedOn::Given
             } else {
                 CheckedOn::Condensed
             },
-        }),
-        _ => None,
+        })
+    } else {
+        None
     };
     // An interrupted run leaves no pictures.
     let shown = shown.filter(|_| !job.is_cancelled());
     let pages = shown.map_or(Ok(()), |shown| write_pages(&shown, report, pictures));
-    let own = own_asked.map(|grid| own_critical(&followed, grid, proofs.as_ref(), args, &job));
-    let own = own.transpose()?;
     let certified = match (&proofs, &own) {
         (Some(folder), None) => Some(certify_stretches(&followed, folder, &job)?),
         _ => None,

@@ -1,5 +1,5 @@
-//! Pictures with their captions, as figures of a page and as files in a folder; and the levels of
-//! the chart of lambda against mu.
+//! What the pages of `analyze` and `path` have in common: pictures with their captions, as figures
+//! and as files in a folder; the levels of the chart of lambda against mu; warnings of the model.
 
 use super::common::CliError;
 use super::output::Folder;
@@ -23,6 +23,12 @@ impl Named {
             caption: self.caption,
         }
     }
+}
+
+/// What looked wrong when the file was made.
+pub(super) fn warnings_of(warnings: &[String]) -> impl Iterator<Item = Content> {
+    let sentences = warnings.iter();
+    sentences.map(|warning| Content::Warning(format!("Warning of convert: {warning}.")))
 }
 
 /// Pixels of a PNG for each px of the SVG.

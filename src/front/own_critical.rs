@@ -156,6 +156,7 @@ fn short_decimal(near: &Rational, distance: &Rational) -> Rational {
 pub struct OwnCritical {
     loads: Loads,
     is_in_doubles: bool,
+    path_friction: Rational,
     /// What the loads lead to at each mu, ascending.
     pub points: Vec<FrictionPoint>,
     /// The analysis of the state at the lower end of the bracket, its contact states held.
@@ -275,6 +276,11 @@ impl OwnCritical {
         &self.loads
     }
 
+    /// The friction of the path from which the question was asked.
+    pub fn path_friction(&self) -> &Rational {
+        &self.path_friction
+    }
+
     /// Was the body condensed in doubles?
     pub fn is_in_doubles(&self) -> bool {
         self.is_in_doubles
@@ -384,6 +390,7 @@ impl<'a> FindOwnCritical<'a> {
         let mut own = OwnCritical {
             loads: self.load_path.loads().clone(),
             is_in_doubles: self.load_path.is_in_doubles(),
+            path_friction: self.load_path.as_path().steps.friction.clone(),
             points,
             frozen: None,
         };

@@ -258,11 +258,15 @@ struct Key {
 
 /// What each sign means, in two columns above the chart; only the signs that are drawn.
 fn push_keys(picture: &mut Picture, branches: &Branches, supports_change: bool) {
-    let levels = markup::short(branches.levels.len() as f64);
-    let mut points = vec![Key {
-        sign: level_sign,
-        meaning: format!("at {levels} levels of \u{3bb}"),
-    }];
+    let has_levels = !branches.levels.is_empty();
+    let mut points = Vec::new();
+    if has_levels {
+        let levels = markup::short(branches.levels.len() as f64);
+        points.push(Key {
+            sign: level_sign,
+            meaning: format!("at {levels} levels of \u{3bb}"),
+        });
+    }
     if branches.has_threshold() {
         points.push(Key {
             sign: threshold_sign,
@@ -276,10 +280,13 @@ fn push_keys(picture: &mut Picture, branches: &Branches, supports_change: bool) 
         });
     }
 
-    let mut lines = vec![Key {
-        sign: branch_sign,
-        meaning: "solutions with the same slip nodes".into(),
-    }];
+    let mut lines = Vec::new();
+    if has_levels {
+        lines.push(Key {
+            sign: branch_sign,
+            meaning: "solutions with the same slip nodes".into(),
+        });
+    }
     if supports_change {
         lines.push(Key {
             sign: change_sign,

@@ -3,7 +3,7 @@
 //! Input: ranges of mu with a verdict each, the sampled values of mu, and the values that a reader
 //! looks for. Boxes above the axis show the ranges: verdicts differ in shade and hatching, a full
 //! outline is a proof, a dashed one joins samples, and without a box nothing was examined. Called
-//! by `mceip analyze --report`.
+//! by `mceip analyze` and `mceip path`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, line, text};
 use super::drawing::Picture;
@@ -19,6 +19,8 @@ pub enum Presence {
     Present,
     /// Neither was proved.
     Undecided,
+    /// There is no equilibrium to ask: the loading path ends before.
+    NoPath,
 }
 
 /// An interval of mu with one verdict.
@@ -45,8 +47,10 @@ pub struct PresenceChart {
     pub samples: Vec<(f64, Presence)>,
     /// mu that was asked for.
     pub friction: f64,
-    /// The smallest mu with a certified solution.
+    /// The smallest mu with a certified solution, or the first that is critical.
     pub critical: Option<f64>,
+    /// What these two are called.
+    pub words: [&'static str; 2],
 }
 
 const WIDTH: f64 = 760.0;
@@ -78,7 +82,12 @@ const LETTER: f64 = 0.6;
 const POINTER: f64 = 5.0;
 
 impl Presence {
-    const ALL: [Presence; 3] = [Presence::Absent, Presence::Present, Presence::Undecided];
+    const ALL: [Presence; 4] = [
+        Presence::Absent,
+        Presence::Present,
+        Presence::Undecided,
+        Presence::NoPath,
+    ];
 
     /// The words of the keys.
     fn word(self) -> &'static str {
@@ -86,6 +95,7 @@ impl Presence {
             Presence::Absent => "no divergence",
             Presence::Present => "divergence",
             Presence::Undecided => "undecided",
+            Presence::NoPath => "no path",
         }
     }
 
@@ -94,6 +104,7 @@ impl Presence {
             Presence::Absent => "absent",
             Presence::Present => "present",
             Presence::Undecided => "undecided",
+            Presence::NoPath => "no-path",
         }
     }
 
@@ -101,6 +112,7 @@ impl Presence {
         match self {
             Presence::Absent | Presence::Undecided => "#fff",
             Presence::Present => "#b0b0b0",
+            Presence::NoPath => "#505050",
         }
     }
 }
@@ -279,12 +291,13 @@ fn push_keys(picture: &mut Picture, presence: &PresenceChart) {
     }
 
     let baseline = baseline + TEXT + 9.0;
-    let own = format!("\u{3bc} asked for: {}", label(presence.friction));
+    let [friction, critical] = presence.words;
+    let own = format!("{friction}: {}", label(presence.friction));
     picture.push(triangle(AREA.left + POINTER, baseline, "#fff"));
     picture.push(text(AREA.left + 16.0, baseline, "start", own));
 
     if let Some(mu) = presence.critical {
-        let words = format!("smallest \u{3bc} with a certified solution: {}", label(mu));
+        let words = format!("{critical}: {}", label(mu));
         picture.push(triangle(AREA.left + 290.0, baseline, "#000"));
         picture.push(text(AREA.left + 302.0, baseline, "start", words));
     }

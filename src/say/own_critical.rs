@@ -11,23 +11,12 @@ use serde_json::{Value, json};
 
 /// For people: the bracket first, then the frozen one, then what was examined.
 pub(crate) fn text_of(own: &OwnCritical) -> String {
-    let names = own.loads().step_names();
-    let mut out = format!("{}\n", headline(own, &names));
-    if let Some(frozen) = &own.frozen {
-        out += &format!("{}\n", frozen_text(frozen));
-    }
+    let out = headlines(own).join("\n");
 
     let warnings = warnings_text(&own.loads().as_file().warnings);
-    let header = [
-        "mu",
-        "contact states",
-        "of an equilibrium",
-        "divergence in them",
-        "largest growth rate proved",
-    ];
-    let mut table = Table::new(&header);
-    for point in &own.points {
-        table.row(cells(point, &names));
+    let mut table = Table::new(&HEADER);
+    for row in rows_of(own) {
+        table.row(row);
     }
 
     let rounded = if own.is_in_doubles() {
@@ -38,7 +27,7 @@ pub(crate) fn text_of(own: &OwnCritical) -> String {
     };
 
     format!(
-        "{out}{warnings}\n{LETTERS}\n{table}\n\
+        "{out}\n{warnings}\n{LETTERS}\n{table}\n\
          Examined is the equilibrium at the end of the loads (in the last stretch, where one \
          grows for ever) on the path that is followed at each mu. The path is exact, but has \
          no certificate, and may be one of several. \"Proved\" rests on a certificate or a \
@@ -46,6 +35,29 @@ pub(crate) fn text_of(own: &OwnCritical) -> String {
          whether it can diverge. States before the end, and other mu, are not \
          examined.{rounded}\n"
     )
+}
+
+/// The columns of the table of what was examined.
+pub(crate) const HEADER: [&str; 5] = [
+    "mu",
+    "contact states",
+    "of an equilibrium",
+    "divergence in them",
+    "largest growth rate proved",
+];
+
+/// What was examined, a row for each mu.
+pub(crate) fn rows_of(own: &OwnCritical) -> Vec<Vec<String>> {
+    let names = own.loads().step_names();
+    let rows = own.points.iter().map(|point| cells(point, &names));
+    rows.collect()
+}
+
+/// The bracket, then the frozen critical friction.
+pub(crate) fn headlines(own: &OwnCritical) -> Vec<String> {
+    let mut all = vec![headline(own, &own.loads().step_names())];
+    all.extend(own.frozen.as_ref().map(frozen_text));
+    all
 }
 
 fn headline(own: &OwnCritical, names: &[&str]) -> String {

@@ -175,6 +175,26 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
         exits(0, &format!("check {problem} {certificate}"));
     }
 
+    // With the same answers a page and pictures.
+    let [page, figures] = ["own.html", "figures"].map(|name| folder.path(name));
+    let drawn = format!("--own-critical 0.5,3.9 --report {page} --pictures {figures}");
+    let said = exits(0, &format!("path {file} {drawn}"));
+    let html = std::fs::read_to_string(&page).unwrap();
+    let headline = said.lines().next().unwrap();
+    assert!(html.contains(headline), "{headline}");
+    assert_eq!(html.matches("<svg").count(), 3);
+    for name in ["own-critical", "own-critical-growth", "path"] {
+        let figure = std::fs::read_to_string(format!("{figures}/{name}.svg")).unwrap();
+        let (_, drawn) = figure.split_once('>').unwrap();
+        assert!(
+            html.contains(drawn.trim_end()),
+            "{name} is that of the page"
+        );
+    }
+    let strip = std::fs::read_to_string(format!("{figures}/own-critical.svg")).unwrap();
+    let count = own["points"].as_array().unwrap().len();
+    assert_eq!(strip.matches("class=\"sample\"").count(), count);
+
     let mut seen = [0, 0];
     for point in own["points"].as_array().unwrap() {
         let mu = point["mu"].as_str().unwrap();

@@ -478,6 +478,7 @@ fn presence_of_every_kind() -> PresenceChart {
         ],
         friction: 3.0,
         critical: Some(1.0625),
+        words: ["asked for", "critical"],
     }
 }
 
@@ -536,6 +537,7 @@ fn presence_is_drawn_at_its_values_of_mu() {
         samples: Vec::new(),
         friction: 0.0,
         critical: None,
+        words: ["asked for", "critical"],
     };
     let text = sound(&presence_picture("nothing", &nothing));
     assert!(!text.contains("NaN") && !text.contains("inf"));

@@ -1,7 +1,7 @@
 //! `mceip analyze --report`: the answers, their evidence and the modes on one page.
 
 use crate::cli::common::CliError;
-use crate::cli::pictures::{LEVELS_CAPTION, Named, levels_of};
+use crate::cli::pictures::{LEVELS_CAPTION, Named, levels_of, warnings_of};
 use crate::picture::{
     BodyDrawing, BodyMode, BranchPoint, Branches, Content, Presence, PresenceChart, PresenceRange,
     Report, Section, body_picture, branch_picture, presence_picture,
@@ -143,9 +143,7 @@ fn system(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     };
 
     let mut content = vec![table];
-    for warning in &analysis.warnings {
-        content.push(Content::Warning(format!("Warning of convert: {warning}.")));
-    }
+    content.extend(warnings_of(&analysis.warnings));
     content.extend(drawn.at_rest().map(Named::into_figure));
 
     Section {
@@ -266,6 +264,10 @@ fn presence(analysis: &Analysis) -> PresenceChart {
         samples,
         friction: to_f64(&analysis.friction),
         critical: solution.map(|solution| to_f64(solution.mu.hi())),
+        words: [
+            "\u{3bc} asked for",
+            "smallest \u{3bc} with a certified solution",
+        ],
     }
 }
 

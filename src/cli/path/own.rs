@@ -1,12 +1,22 @@
-//! `mceip path --own-critical`: its options, and its certificates in a folder.
+//! `mceip path --own-critical`: its options, its certificates in a folder, its pictures.
 
 use crate::cli::common::{CliError, positive};
 use crate::cli::output::Folder;
+use crate::cli::pictures::Named;
+use crate::picture::{
+    BranchPoint, Branches, Content, Presence, PresenceChart, PresenceRange, Section,
+    branch_picture, presence_picture,
+};
 use crate::say::mu_text;
-use crate::{Certificate, FrictionGrid, FrictionGridError, FrictionPoint, OwnCritical};
-use mceip_engine::analysis::Proof;
+use crate::say::own_critical::{HEADER, headlines, rows_of};
+use crate::say::path::LETTERS;
+use crate::{
+    Bracket, Certificate, FrictionAnswer, FrictionGrid, FrictionGridError, FrictionPoint,
+    OwnCritical,
+};
+use mceip_engine::analysis::{Proof, Verdict};
 use mceip_engine::run::Kept;
-use mceip_exact::Rational;
+use mceip_exact::{Rational, to_f64};
 
 /// The mu that are asked for by the options of the command line.
 pub(super) fn grid_of(
@@ -84,4 +94,114 @@ fn keep_proof(folder: &Folder, name: &str, proof: &Proof) {
 /// The name of the files of a mu.
 fn name_of(mu: &Rational) -> String {
     format!("mu-{}", mu_text(mu).replace('/', "over"))
+}
+
+/// Where along mu the loads lead to what, and how fast it grows.
+pub(super) fn pictures(own: &OwnCritical) -> Vec<Named> {
+    if own.points.is_empty() {
+        return Vec::new();
+    }
+
+    let mut all = vec![strip(own)];
+    all.extend(growth(own));
+    all
+}
+
+/// The section of a report: the brackets, the pictures and what was examined.
+pub(super) fn section(own: &OwnCritical) -> Section {
+    let mut content: Vec<Content> = Vec::new();
+    for headline in headlines(own) {
+        content.push(Content::Paragraph(headline));
+    }
+    content.extend(pictures(own).into_iter().map(Named::into_figure));
+    content.push(Content::Table {
+        caption: format!("What was examined; {LETTERS}"),
+        header: HEADER.map(String::from).to_vec(),
+        rows: rows_of(own),
+    });
+
+    Section {
+        title: "Own critical friction".into(),
+        content,
+    }
+}
+
+fn strip(own: &OwnCritical) -> Named {
+    let mut samples = Vec::new();
+    let mut ranges: Vec<PresenceRange> = Vec::new();
+    for point in &own.points {
+        let mu = to_f64(point.friction());
+        let presence = drawn(point.answer());
+        samples.push((mu, presence));
+        match ranges.last_mut() {
+            Some(range) if range.presence == presence => range.to = Some(mu),
+            _ => ranges.push(PresenceRange {
+                presence,
+                from: mu,
+                is_from_included: true,
+                to: Some(mu),
+                is_proved: false,
+            }),
+        }
+    }
+
+    let critical = match own.bracket() {
+        Bracket::Between(_, point) | Bracket::AtMost(point) => Some(to_f64(point.friction())),
+        Bracket::Undecided | Bracket::None => None,
+    };
+    let chart = PresenceChart {
+        ranges,
+        samples,
+        friction: to_f64(own.path_friction()),
+        critical,
+        words: ["\u{3bc} of the path", "first critical \u{3bc} examined"],
+    };
+    let title = "Divergence of the equilibrium in which the loads end, against \u{3bc}";
+    Named {
+        name: "own-critical".into(),
+        picture: presence_picture(title, &chart),
+        caption: "Dots are the \u{3bc} examined: at each of them the loading path is followed. \
+                  Between them nothing is claimed; a box joins neighbours with the same answer."
+            .into(),
+    }
+}
+
+fn drawn(answer: FrictionAnswer) -> Presence {
+    match answer {
+        FrictionAnswer::Equilibrium(Verdict::Absent) => Presence::Absent,
+        FrictionAnswer::Equilibrium(Verdict::Present) => Presence::Present,
+        FrictionAnswer::NoPath { is_certain: true } => Presence::NoPath,
+        FrictionAnswer::Equilibrium(Verdict::Undecided)
+        | FrictionAnswer::NoPath { is_certain: false } => Presence::Undecided,
+    }
+}
+
+/// The certified growth rates against mu; `None` where there are none.
+fn growth(own: &OwnCritical) -> Option<Named> {
+    let mut certified = Vec::new();
+    for point in &own.points {
+        let modes = point.end_state.iter().flat_map(|end| &end.divergence.modes);
+        certified.extend(modes.map(|mode| BranchPoint {
+            mu: to_f64(point.friction()),
+            lambda2: to_f64(&mode.lambda2.mid()),
+            support: mode.slipping.clone(),
+        }));
+    }
+    if certified.is_empty() {
+        return None;
+    }
+
+    let branches = Branches {
+        levels: Vec::new(),
+        certified,
+        absent_below: None,
+    };
+    Some(Named {
+        name: "own-critical-growth".into(),
+        picture: branch_picture(
+            "Growth rates in these equilibria, against \u{3bc}",
+            &branches,
+        ),
+        caption: "Every motion that is proved to grow, at each \u{3bc} that was examined.".into(),
+    })
 }

@@ -5,10 +5,10 @@
 //! tables for `--report`. Numbers in captions and tables are exact or certified; charts draw them
 //! in doubles. Modes are drawn where the file says where its nodes are.
 
+use super::own;
 use super::states::{Growing, Holds, IN_A_REPORT, ProvedMode, ProvedSet, ProvedState, is_slip};
-use crate::LoadPath;
 use crate::cli::common::CliError;
-use crate::cli::pictures::{LEVELS_CAPTION, Named, levels_of};
+use crate::cli::pictures::{LEVELS_CAPTION, Named, levels_of, warnings_of};
 use crate::picture::{
     BodyDrawing, BodyMode, BranchPoint, Branches, Content, Report, Section, Threshold,
     ThresholdColumn, body_picture, branch_picture, path_picture, threshold_picture,
@@ -17,6 +17,7 @@ use crate::say::path::{
     LETTERS, amount_text, causes_text, continuations_text, end_text, of_which_body,
 };
 use crate::say::stretches::stretch_cells;
+use crate::{LoadPath, OwnCritical};
 use mceip_engine::run::Watch;
 use mceip_exact::{Interval, enclosing_decimals, to_f64, upper_decimal};
 use mceip_model::{Coordinates, ModelError, System};
@@ -28,7 +29,10 @@ pub(super) struct Shown<'a> {
     pub(super) followed: &'a LoadPath,
     /// Names of the steps.
     pub(super) names: &'a [&'a str],
-    pub(super) states: &'a [ProvedState],
+    /// What is proved of the states of the path, if that was asked for.
+    pub(super) states: Option<&'a [ProvedState]>,
+    /// The own critical friction, if that was asked for.
+    pub(super) own: Option<&'a OwnCritical>,
     pub(super) branches: Option<StateBranches>,
     /// On which matrices the MCEIP-mu sets were checked.
     pub(super) checked_on: CheckedOn,
@@ -116,10 +120,14 @@ impl Shown<'_> {
     /// Every picture: the path, the thresholds, lambda against mu, a mode for each certified
     /// solution.
     pub(super) fn pictures(&self) -> Result<Vec<Named>, ModelError> {
-        let mut all = vec![self.path_chart(), self.threshold_chart()];
-        all.extend(self.branch_chart());
-        for state in self.states {
-            all.extend(self.modes(state)?);
+        let mut all = vec![self.path_chart()];
+        all.extend(self.own.into_iter().flat_map(own::pictures));
+        if let Some(states) = self.states {
+            all.push(self.threshold_chart(states));
+            all.extend(self.branch_chart());
+            for state in states {
+                all.extend(self.modes(state)?);
+            }
         }
 
         Ok(all)
@@ -134,8 +142,8 @@ impl Shown<'_> {
         }
     }
 
-    fn threshold_chart(&self) -> Named {
-        let columns: Vec<ThresholdColumn> = self.states.iter().map(threshold_column).collect();
+    fn threshold_chart(&self, states: &[ProvedState]) -> Named {
+        let columns: Vec<ThresholdColumn> = states.iter().map(threshold_column).collect();
         let mu = to_f64(&self.path().steps.friction);
         let title = "MCEIP-\u{3bc} along the loading path";
 
@@ -205,21 +213,25 @@ impl Shown<'_> {
             ],
         };
 
-        let mut thresholds = vec![
-            Content::Paragraph(self.meaning()),
-            self.threshold_chart().into_figure(),
-        ];
-        thresholds.extend(self.branch_chart().map(Named::into_figure));
-        let thresholds = Section {
-            title: "Divergence instability along the path".into(),
-            content: thresholds,
-        };
+        let mut sections = vec![self.model_section()];
+        sections.extend(self.own.map(own::section));
+        sections.push(path);
+        if let Some(states) = self.states {
+            let mut thresholds = vec![
+                Content::Paragraph(self.meaning()),
+                self.threshold_chart(states).into_figure(),
+            ];
+            thresholds.extend(self.branch_chart().map(Named::into_figure));
+            sections.push(Section {
+                title: "Divergence instability along the path".into(),
+                content: thresholds,
+            });
 
-        let mut sections = vec![self.model_section(), path, thresholds];
-        for state in self.states {
-            let modes = self.modes(state)?;
-            let figures = modes.into_iter().map(Named::into_figure);
-            sections.push(self.state_section(state, figures.collect()));
+            for state in states {
+                let modes = self.modes(state)?;
+                let figures = modes.into_iter().map(Named::into_figure);
+                sections.push(self.state_section(state, figures.collect()));
+            }
         }
 
         let name = self.followed.loads().as_file().name.as_deref();
@@ -275,7 +287,10 @@ impl Shown<'_> {
         let comment = file.comment.iter().cloned().map(Content::Paragraph);
         Section {
             title: "Model".into(),
-            content: comment.chain([table]).collect(),
+            content: comment
+                .chain([table])
+                .chain(warnings_of(&file.warnings))
+                .collect(),
         }
     }
 
