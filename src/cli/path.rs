@@ -19,6 +19,7 @@ use crate::say::path::end_text;
 use crate::{FrictionGrid, LoadPath, Loads, OwnCritical};
 use mceip_engine::equilibrium::StatesNotCertified;
 use mceip_engine::run::{Kept, Progress, Watch};
+use mceip_exact::Rational;
 use mceip_model::Unknown;
 use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
 use mceip_path::{LoadingPath, PathEnd};
@@ -153,6 +154,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
 
     let job = Job::begin("reading");
+    if !args.doubles && is_slow(&loads) {
+        job.note(
+            "mceip: condensing this body exactly may take minutes; with --doubles it takes seconds",
+        );
+    }
     let mut question = loads.path().in_doubles(args.doubles).cancel(job.cancel());
     match args.mu.as_deref() {
         Some(mu) => question = question.friction(positive("mu", mu)?),
@@ -261,6 +267,17 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Some(own) if code == exit::DONE && own.is_undecided() => Ok(exit::UNDECIDED),
         _ => Ok(code),
     }
+}
+
+/// Degrees of freedom and bits of an entry from which on exact condensation takes long.
+const SLOW: (usize, u64) = (120, 40);
+
+fn is_slow(loads: &Loads) -> bool {
+    let (dofs, bits) = SLOW;
+    let system = loads.body().system();
+    let mut entries = system.stiffness().entries();
+    let is_long = |v: &Rational| v.numer().bits() + v.denom().bits() > bits;
+    system.dofs() > dofs && entries.any(|(_, _, v)| is_long(v))
 }
 
 /// The own critical friction, each answer kept in the folder as soon as it is found.
