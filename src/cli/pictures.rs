@@ -79,8 +79,15 @@ pub(super) fn levels_of(
     Ok(levels)
 }
 
+/// Leaves out what lies at larger mu: far above the mu that matter, curves of other motions begin.
+pub(super) fn keep_below(levels: &mut [Vec<BranchPoint>], top: f64) {
+    for level in levels {
+        level.retain(|point| point.mu <= top);
+    }
+}
+
 /// Every solution of MCEIP-lambda2 at this lambda^2, in doubles.
-pub(super) fn level_points(
+fn level_points(
     condensation: &SparseCondensation,
     lambda2: f64,
     watch: &Watch<'_>,

@@ -1,7 +1,7 @@
 //! `mceip analyze --report`: the answers, their evidence and the modes on one page.
 
 use crate::cli::common::CliError;
-use crate::cli::pictures::{LEVELS_CAPTION, Named, levels_of, warnings_of};
+use crate::cli::pictures::{LEVELS_CAPTION, Named, keep_below, levels_of, warnings_of};
 use crate::picture::{
     BodyDrawing, BodyMode, BranchPoint, Branches, Content, Presence, PresenceChart, PresenceRange,
     Report, Section, body_picture, branch_picture, presence_picture,
@@ -219,14 +219,11 @@ pub(super) fn branches(
         lambda2: to_f64(&mode.lambda2.mid()),
         support: mode.slipping.clone(),
     });
-    // Far above what was asked for, curves of other motions begin, which are not looked at here.
     let critical = analysis.critical.solution.as_ref();
     let known = critical.map_or(0.0, |solution| to_f64(solution.mu.hi()));
     let top = 2.0 * known.max(to_f64(&analysis.friction));
     let mut levels = levels_of(system, watch)?;
-    for level in &mut levels {
-        level.retain(|point| point.mu <= top);
-    }
+    keep_below(&mut levels, top);
 
     let branches = Branches {
         levels,

@@ -8,7 +8,7 @@
 use super::own;
 use super::states::{Growing, Holds, IN_A_REPORT, ProvedMode, ProvedSet, ProvedState, is_slip};
 use crate::cli::common::CliError;
-use crate::cli::pictures::{LEVELS_CAPTION, Named, levels_of, warnings_of};
+use crate::cli::pictures::{LEVELS_CAPTION, Named, keep_below, levels_of, warnings_of};
 use crate::picture::{
     BodyDrawing, BodyMode, BranchPoint, Branches, Content, Report, Section, Threshold,
     ThresholdColumn, body_picture, branch_picture, path_picture, threshold_picture,
@@ -83,6 +83,13 @@ pub(super) fn branches(
     let contact_states = path.stretches[state.stretch].equilibrium_states();
     let mut levels = vec![static_points(&state.thresholds)];
     levels.extend(levels_of(&body.with_states(contact_states, None)?, watch)?);
+    let threshold = levels[0]
+        .iter()
+        .map(|point| point.mu)
+        .min_by(f64::total_cmp);
+    let asked = certified.iter().map(|point| point.mu);
+    let known = asked.chain(threshold).chain([to_f64(&path.steps.friction)]);
+    keep_below(&mut levels, 2.0 * known.fold(0.0, f64::max));
 
     Ok(Some(StateBranches {
         stretch: state.stretch,
