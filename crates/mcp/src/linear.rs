@@ -1,9 +1,10 @@
 //! Dense and sparse factorisations in doubles.
 //!
-//! A sparse symmetric matrix [F B; B' C] is factored in three steps: `Analysis::new` finds an order
-//! of elimination from its pattern, `Analysis::factor` computes the Cholesky factor of F and the
-//! Schur complement C - B' F^-1 B, and the `SchurFactor` solves with both. The engine eliminates
-//! the unknowns of a body that are free of contact in this way. Nothing here is certified.
+//! A sparse symmetric matrix [F B; B' C] is factored in three steps: `SymbolicAnalysis::new` finds
+//! an order of elimination from its pattern, `SymbolicAnalysis::factor` computes the Cholesky
+//! factor of F and the Schur complement C - B' F^-1 B, and the `SchurFactor` solves with both. The
+//! engine eliminates the unknowns of a body that are free of contact in this way. Nothing here is
+//! certified.
 //!
 //! | file | what |
 //! |---|---|
@@ -19,9 +20,9 @@ mod dissection;
 mod multifrontal;
 mod symmetric;
 
-pub use analysis::Analysis;
+pub use analysis::SymbolicAnalysis;
 pub use dense::{
     Eigenvalue, SparseLu, definite_eigenvalues, eigenvalues, inverse, sensitive_eigenvalues, solve,
 };
-pub use multifrontal::{NotDefinite, SchurFactor};
+pub use multifrontal::{PivotNotPositive, SchurFactor};
 pub use symmetric::{Symmetric, SymmetricError};

@@ -18,7 +18,7 @@ use super::error::PathError;
 use mceip_exact::{
     Integer, Rational, Sparse, common_denominator, from_f64, schur_complement, to_f64,
 };
-use mceip_mcp::linear::{Analysis, Symmetric};
+use mceip_mcp::linear::{SymbolicAnalysis, Symmetric};
 use mceip_model::{Direction, ModelError, Particle, System};
 use num_integer::Integer as _;
 use num_traits::{One, Zero};
@@ -67,7 +67,7 @@ impl Contact {
         let entries = entries.map(|(i, j, entry)| (i, j, to_f64(entry)));
         let stiffness = Symmetric::new(system.dofs(), entries)?;
 
-        let analysis = Analysis::new(&stiffness, &contact, &[], None);
+        let analysis = SymbolicAnalysis::new(&stiffness, &contact, &[], None);
         let factor = analysis.factor(&stiffness).map_err(|e| {
             let dof = e.index;
             PathError::NotDefinite { dof }

@@ -25,7 +25,7 @@
 use super::CondensationError;
 use crate::search::complete::pieces::matrix::combined;
 use mceip_exact::{Sparse, to_f64};
-use mceip_mcp::linear::{Analysis, SchurFactor, Symmetric};
+use mceip_mcp::linear::{SchurFactor, SymbolicAnalysis, Symmetric};
 use mceip_model::{ContactState, Direction, Particle, System};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -35,7 +35,7 @@ use std::collections::BTreeSet;
 pub struct SparseCondensation {
     stiffness: Symmetric,
     mass: Option<Symmetric>,
-    analysis: Analysis,
+    analysis: SymbolicAnalysis,
     /// One for each slip particle, then three for each particle with zero reaction.
     variables: Vec<ContactVariable>,
     /// f, ascending.
@@ -241,7 +241,7 @@ impl SparseCondensation {
             None => Cow::Borrowed(&stiffness),
         };
 
-        let analysis = Analysis::new(&pattern, &roles.kept, &roles.held, points);
+        let analysis = SymbolicAnalysis::new(&pattern, &roles.kept, &roles.held, points);
         drop(pattern);
 
         Ok(SparseCondensation {
@@ -288,7 +288,7 @@ impl SparseCondensation {
     }
 
     /// The fronts of the factorisation.
-    pub fn analysis(&self) -> &Analysis {
+    pub fn analysis(&self) -> &SymbolicAnalysis {
         &self.analysis
     }
 

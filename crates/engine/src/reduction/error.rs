@@ -1,7 +1,7 @@
 //! Why a system or a pencil is not condensed: equation, index, expected, got.
 
 use mceip_exact::CondenseError;
-use mceip_mcp::linear::{NotDefinite, SymmetricError};
+use mceip_mcp::linear::{PivotNotPositive, SymmetricError};
 use mceip_model::ModelError;
 
 /// Why a system or a pencil is not condensed to its slip variables.
@@ -81,6 +81,6 @@ pub enum CondensationError {
         /// The value of t.
         at: f64,
         /// Where elimination ended.
-        source: NotDefinite,
+        source: PivotNotPositive,
     },
 }

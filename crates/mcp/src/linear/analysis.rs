@@ -8,10 +8,10 @@
 //! Each unknown is one of three: *eliminated*; *kept*, in which case it comes last and the
 //! factorisation ends with a Schur complement over these; or *held* at zero and left out.
 //!
-//! Input: a symmetric matrix, of which the values play no part. Output: [`Analysis`], which
+//! Input: a symmetric matrix, of which the values play no part. Output: [`SymbolicAnalysis`], which
 //! `multifrontal` factors matrices with.
 
-use super::dissection::{Part, dissect};
+use super::dissection::{DissectionNode, dissect};
 use super::symmetric::Symmetric;
 use std::mem::replace;
 
@@ -20,7 +20,7 @@ pub(super) const HELD: usize = usize::MAX;
 
 /// Which unknowns are eliminated in which front. Serves every matrix with this pattern, or less.
 #[derive(Debug, Clone)]
-pub struct Analysis {
+pub struct SymbolicAnalysis {
     /// Unknowns in the order of elimination, then those kept.
     pub(super) order: Vec<usize>,
     /// Place of each unknown in `order`; [`HELD`] for those held.
@@ -56,7 +56,7 @@ impl Front {
     }
 }
 
-impl Analysis {
+impl SymbolicAnalysis {
     /// Unknowns in `kept` come last, in that order, and are not eliminated; those in `held` are
     /// left out (zero). `points`: positions of all unknowns in the plane, where known, make the
     /// fronts smaller. Indices beyond the order, and those that `held` names again, are ignored.
@@ -65,7 +65,7 @@ impl Analysis {
         kept: &[usize],
         held: &[usize],
         points: Option<&[[f64; 2]]>,
-    ) -> Analysis {
+    ) -> SymbolicAnalysis {
         let n = matrix.order();
         let columns: Vec<&[usize]> = (0..n).map(|i| matrix.columns(i)).collect();
         let points = points.filter(|points| points.len() == n);
@@ -93,7 +93,7 @@ impl Analysis {
         }
 
         let fronts = fronts(matrix, &parts, &order, &place);
-        Analysis {
+        SymbolicAnalysis {
             order,
             place,
             eliminated,
@@ -141,7 +141,12 @@ fn kept_once(kept: &[usize], held: &[usize], n: usize) -> Vec<usize> {
 }
 
 /// The front of each part, whose places follow each other in the order of the parts.
-fn fronts(matrix: &Symmetric, parts: &[Part], order: &[usize], place: &[usize]) -> Vec<Front> {
+fn fronts(
+    matrix: &Symmetric,
+    parts: &[DissectionNode],
+    order: &[usize],
+    place: &[usize],
+) -> Vec<Front> {
     let mut fronts: Vec<Front> = Vec::with_capacity(parts.len());
 
     // The last front whose border a place was put on.
@@ -198,7 +203,7 @@ mod tests {
 
         let chain = Symmetric::new(7, chain).unwrap();
 
-        let analysis = Analysis::new(&chain, &[3, 99, 3], &[0], None);
+        let analysis = SymbolicAnalysis::new(&chain, &[3, 99, 3], &[0], None);
         assert_eq!(analysis.eliminated(), 5);
         assert_eq!(analysis.order.len(), 6);
         assert_eq!(analysis.order[5], 3);
@@ -208,7 +213,7 @@ mod tests {
         assert_eq!(analysis.factor_entries(), 30);
 
         let nothing = Symmetric::new(0, []).unwrap();
-        let analysis = Analysis::new(&nothing, &[], &[], None);
+        let analysis = SymbolicAnalysis::new(&nothing, &[], &[], None);
         assert_eq!(analysis.largest_front(), 0);
     }
 }

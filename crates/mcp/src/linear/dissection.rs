@@ -9,8 +9,8 @@
 //! their distance in the graph from a node at one end. Nodes with the same neighbours (the degrees
 //! of freedom of one mesh node) form a *group* and are never parted.
 //!
-//! Input: the columns of the entries of each row. Output: a tree of [`Part`]s, children first.
-//! Called by `Analysis::new`.
+//! Input: the columns of the entries of each row. Output: a tree of [`DissectionNode`]s, children
+//! first. Called by `SymbolicAnalysis::new`.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -32,7 +32,7 @@ const UNREACHED: u32 = u32::MAX - 1;
 
 /// A node of the tree of dissection: its own unknowns, eliminated after those of its children.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Part {
+pub(super) struct DissectionNode {
     /// Own unknowns.
     pub(super) own: Vec<usize>,
     /// Indices of the children in the list, all smaller than the part's own.
@@ -40,7 +40,7 @@ pub(super) struct Part {
 }
 
 /// The groups of unknowns, and which of them touch each other.
-struct Graph {
+struct GroupGraph {
     /// The unknowns of each group.
     members: Vec<Vec<usize>>,
     /// The groups that each group touches, ascending, without itself.
@@ -57,13 +57,13 @@ pub(super) fn dissect(
     columns: &[&[usize]],
     wanted: &[bool],
     points: Option<&[[f64; 2]]>,
-) -> Vec<Part> {
-    let graph = Graph::new(columns, wanted, points);
+) -> Vec<DissectionNode> {
+    let graph = GroupGraph::new(columns, wanted, points);
     let groups = graph.members.len();
 
     let mut dissection = Dissection {
         graph: &graph,
-        side: vec![Side::Elsewhere; groups],
+        side: vec![CutSide::Elsewhere; groups],
         distance: vec![OUTSIDE; groups],
         parts: vec![],
     };
@@ -72,9 +72,9 @@ pub(super) fn dissect(
     dissection.parts
 }
 
-impl Graph {
+impl GroupGraph {
     /// Groups the wanted unknowns by their lists of columns.
-    fn new(columns: &[&[usize]], wanted: &[bool], points: Option<&[[f64; 2]]>) -> Graph {
+    fn new(columns: &[&[usize]], wanted: &[bool], points: Option<&[[f64; 2]]>) -> GroupGraph {
         let mut group_of = vec![NO_GROUP; columns.len()];
         let mut group_of_columns: HashMap<&[usize], u32> = HashMap::new();
         let mut members: Vec<Vec<usize>> = Vec::new();
@@ -103,7 +103,7 @@ impl Graph {
             positions.push(points.map(|points| points[first]));
         }
 
-        Graph {
+        GroupGraph {
             members,
             neighbours,
             points: positions,
@@ -125,7 +125,7 @@ fn groups_touched(unknowns: &[usize], own: u32, group_of: &[u32]) -> Vec<u32> {
 
 /// Where a group lies during one cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
+enum CutSide {
     /// Below the cut.
     Below,
     /// In the separator of the cut.
@@ -151,10 +151,10 @@ struct Cut {
 
 /// A dissection under way.
 struct Dissection<'g> {
-    graph: &'g Graph,
-    side: Vec<Side>,
+    graph: &'g GroupGraph,
+    side: Vec<CutSide>,
     distance: Vec<u32>,
-    parts: Vec<Part>,
+    parts: Vec<DissectionNode>,
 }
 
 impl Dissection<'_> {
@@ -192,7 +192,7 @@ impl Dissection<'_> {
             own.extend_from_slice(&self.graph.members[group as usize]);
         }
 
-        self.parts.push(Part { own, children });
+        self.parts.push(DissectionNode { own, children });
         Some(self.parts.len() - 1)
     }
 
@@ -221,14 +221,14 @@ impl Dissection<'_> {
         let (below, above) = sorted.split_at(at);
 
         for entry in below {
-            self.side[entry.group as usize] = Side::Below;
+            self.side[entry.group as usize] = CutSide::Below;
         }
 
         let touching = above.iter().filter(|entry| self.touches_below(entry.group));
         let separator = touching.map(|entry| entry.group).collect();
 
         for entry in below {
-            self.side[entry.group as usize] = Side::Elsewhere;
+            self.side[entry.group as usize] = CutSide::Elsewhere;
         }
         separator
     }
@@ -236,7 +236,7 @@ impl Dissection<'_> {
     /// Does a neighbour of the group lie below the cut?
     fn touches_below(&self, group: u32) -> bool {
         for &neighbour in &self.graph.neighbours[group as usize] {
-            if self.side[neighbour as usize] == Side::Below {
+            if self.side[neighbour as usize] == CutSide::Below {
                 return true;
             }
         }
@@ -247,15 +247,15 @@ impl Dissection<'_> {
     /// The groups of a list that are not in the separator.
     fn without(&mut self, list: &[Keyed], separator: &[u32]) -> Vec<u32> {
         for &group in separator {
-            self.side[group as usize] = Side::Separator;
+            self.side[group as usize] = CutSide::Separator;
         }
 
         let all = list.iter().map(|entry| entry.group);
-        let rest = all.filter(|&group| self.side[group as usize] != Side::Separator);
+        let rest = all.filter(|&group| self.side[group as usize] != CutSide::Separator);
         let rest = rest.collect();
 
         for &group in separator {
-            self.side[group as usize] = Side::Elsewhere;
+            self.side[group as usize] = CutSide::Elsewhere;
         }
         rest
     }
@@ -371,7 +371,7 @@ mod tests {
 
     /// Every unknown once, children before parents, and what a subtree touches outside is in parts
     /// above it.
-    fn assert_dissection(touch: &[Vec<usize>], parts: &[Part]) {
+    fn assert_dissection(touch: &[Vec<usize>], parts: &[DissectionNode]) {
         let mut part_of = vec![usize::MAX; touch.len()];
         let mut parent = vec![usize::MAX; parts.len()];
 

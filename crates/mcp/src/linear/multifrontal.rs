@@ -6,11 +6,11 @@
 //! eliminates its own unknowns in a dense matrix, and passes the rest on to its parent. What is
 //! left at the end is the Schur complement Z = C - B' F^-1 B of the kept unknowns.
 //!
-//! Input: an [`Analysis`] of the pattern and a matrix. Output: a [`SchurFactor`], which solves,
-//! extends and restricts. `mceip-engine` eliminates the unknowns of a body with it that are free of
-//! contact.
+//! Input: a [`SymbolicAnalysis`] of the pattern and a matrix. Output: a [`SchurFactor`], which
+//! solves, extends and restricts. `mceip-engine` eliminates the unknowns of a body with it that are
+//! free of contact.
 
-use super::analysis::{Analysis, Front, HELD};
+use super::analysis::{Front, HELD, SymbolicAnalysis};
 use super::dense::eliminate_front;
 use super::symmetric::Symmetric;
 use crate::tolerance::SINGULAR_PIVOT;
@@ -22,7 +22,7 @@ use std::mem::take;
     "expected a positive definite matrix, got a pivot {pivot} at index {index} (diagonal entry \
      {diagonal})"
 )]
-pub struct NotDefinite {
+pub struct PivotNotPositive {
     /// Unknown at which elimination ended, or the first one of the front in which it did.
     pub index: usize,
     /// The square of the factor's diagonal; NaN where it has none.
@@ -35,20 +35,20 @@ pub struct NotDefinite {
 /// one.
 #[derive(Debug, Clone)]
 pub struct SchurFactor<'a> {
-    analysis: &'a Analysis,
+    analysis: &'a SymbolicAnalysis,
     /// For each front its columns of L (own + border rows), by columns.
     panels: Vec<Vec<f64>>,
     /// Z by rows.
     schur: Vec<Vec<f64>>,
 }
 
-impl Analysis {
+impl SymbolicAnalysis {
     /// Factors a matrix of the analysed pattern (or less).
     ///
     /// # Errors
-    /// [`NotDefinite`] if a pivot is not positive, or so small that only rounding makes it so.
-    pub fn factor(&self, matrix: &Symmetric) -> Result<SchurFactor<'_>, NotDefinite> {
-        let mut elimination = Elimination::new(self, matrix);
+    /// [`PivotNotPositive`] if a pivot is not positive, or so small that only rounding makes it so.
+    pub fn factor(&self, matrix: &Symmetric) -> Result<SchurFactor<'_>, PivotNotPositive> {
+        let mut elimination = FrontalElimination::new(self, matrix);
         let mut panels = Vec::with_capacity(self.fronts.len());
 
         for (k, front) in self.fronts.iter().enumerate() {
@@ -108,8 +108,8 @@ struct DenseFront {
 }
 
 /// A factorisation under way.
-struct Elimination<'m> {
-    analysis: &'m Analysis,
+struct FrontalElimination<'m> {
+    analysis: &'m SymbolicAnalysis,
     matrix: &'m Symmetric,
     /// What each eliminated front leaves of its border, until its parent takes it.
     updates: Vec<Vec<f64>>,
@@ -117,9 +117,9 @@ struct Elimination<'m> {
     local: Vec<usize>,
 }
 
-impl<'m> Elimination<'m> {
-    fn new(analysis: &'m Analysis, matrix: &'m Symmetric) -> Self {
-        Elimination {
+impl<'m> FrontalElimination<'m> {
+    fn new(analysis: &'m SymbolicAnalysis, matrix: &'m Symmetric) -> Self {
+        FrontalElimination {
             analysis,
             matrix,
             updates: vec![Vec::new(); analysis.fronts.len()],
@@ -128,7 +128,7 @@ impl<'m> Elimination<'m> {
     }
 
     /// The dense matrix of a front after its own unknowns were eliminated.
-    fn eliminate(&mut self, front: &Front) -> Result<DenseFront, NotDefinite> {
+    fn eliminate(&mut self, front: &Front) -> Result<DenseFront, PivotNotPositive> {
         let mut dense = self.gather(front);
         let order = front.order();
         let own = front.own();
@@ -149,7 +149,7 @@ impl<'m> Elimination<'m> {
     }
 
     /// Refuses a pivot that is too small beside the diagonal entry, or NaN after an overflow.
-    fn check_pivot(&self, place: usize, pivot: f64) -> Result<(), NotDefinite> {
+    fn check_pivot(&self, place: usize, pivot: f64) -> Result<(), PivotNotPositive> {
         let diagonal = self.matrix.diagonal(self.analysis.order[place]);
         let is_large = pivot > SINGULAR_PIVOT * diagonal.abs();
 
@@ -160,9 +160,9 @@ impl<'m> Elimination<'m> {
         }
     }
 
-    fn not_definite(&self, place: usize, pivot: f64) -> NotDefinite {
+    fn not_definite(&self, place: usize, pivot: f64) -> PivotNotPositive {
         let index = self.analysis.order[place];
-        NotDefinite {
+        PivotNotPositive {
             index,
             pivot,
             diagonal: self.matrix.diagonal(index),
@@ -377,7 +377,7 @@ mod tests {
         let mut entries: Vec<(usize, usize, f64)> = (0..n).map(|i| (i, i, 4.0)).collect();
         entries.extend([(0, n - 1, 2.0), (n - 1, 0, 2.0)]);
         let matrix = Symmetric::new(n, entries).unwrap();
-        let analysis = Analysis::new(&matrix, &[n - 1], &[], None);
+        let analysis = SymbolicAnalysis::new(&matrix, &[n - 1], &[], None);
         let factor = analysis.factor(&matrix).unwrap();
 
         assert_eq!(factor.schur(), [vec![3.0]]);
@@ -426,8 +426,8 @@ mod tests {
     }
 
     /// The Schur complement of the kept unknowns, without positions.
-    fn schur(m: &Symmetric, kept: &[usize]) -> Result<Vec<Vec<f64>>, NotDefinite> {
-        let analysis = Analysis::new(m, kept, &[], None);
+    fn schur(m: &Symmetric, kept: &[usize]) -> Result<Vec<Vec<f64>>, PivotNotPositive> {
+        let analysis = SymbolicAnalysis::new(m, kept, &[], None);
         let factor = analysis.factor(m)?;
         Ok(factor.schur().to_vec())
     }
@@ -441,7 +441,7 @@ mod tests {
         let expected = schur_by_lu(&m, &kept, &held);
 
         for points in [None, Some(points.as_slice())] {
-            let analysis = Analysis::new(&m, &kept, &held, points);
+            let analysis = SymbolicAnalysis::new(&m, &kept, &held, points);
             assert!(analysis.fronts.len() > 5);
 
             let factor = analysis.factor(&m).unwrap();
@@ -460,7 +460,7 @@ mod tests {
         let kept = [40, 3];
         let held = [11];
         let eliminated: Vec<usize> = (0..81).filter(|i| ![40, 3, 11].contains(i)).collect();
-        let analysis = Analysis::new(&m, &kept, &held, None);
+        let analysis = SymbolicAnalysis::new(&m, &kept, &held, None);
         let factor = analysis.factor(&m).unwrap();
 
         // An extension takes the values of the kept unknowns and loads no eliminated one.

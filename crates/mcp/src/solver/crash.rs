@@ -25,8 +25,8 @@ use step::{InsideSystem, search};
 
 /// What a crash works with, kept from one to the next.
 #[derive(Default)]
-pub(super) struct Storage {
-    pub(super) semismooth: semismooth::Storage,
+pub(super) struct CrashStorage {
+    pub(super) semismooth: semismooth::SemismoothStorage,
     /// Is the component active?
     active: Vec<bool>,
     /// The components that are not active.
@@ -47,7 +47,7 @@ pub(super) fn crash<P: Mcp + ?Sized>(
     problem: &mut Evaluated<'_, P>,
     start: Point,
     limit: usize,
-    storage: &mut Storage,
+    storage: &mut CrashStorage,
     log: &mut Log,
 ) -> Result<Point, Termination> {
     let mut point = start;
@@ -93,7 +93,7 @@ fn is_active<P: Mcp + ?Sized>(problem: &P, point: &Point, i: usize) -> bool {
     lower == upper || (z <= lower && f > 0.0) || (z >= upper && f < 0.0)
 }
 
-impl Storage {
+impl CrashStorage {
     /// Sets the active components to those at the point; returns how many have changed.
     fn update_active<P: Mcp + ?Sized>(&mut self, problem: &P, point: &Point) -> usize {
         let mut changes = 0;
@@ -168,7 +168,14 @@ mod tests {
         let mut problem = Evaluated::new(&lcp);
         let start = problem.point(&DVector::from_column_slice(start));
         let mut log = Log::default();
-        let point = crash(&mut problem, start, 50, &mut Storage::default(), &mut log).unwrap();
+        let point = crash(
+            &mut problem,
+            start,
+            50,
+            &mut CrashStorage::default(),
+            &mut log,
+        )
+        .unwrap();
         let steps = log.records().len();
 
         assert_eq!(steps, problem.counters.crash_steps);
@@ -197,9 +204,9 @@ mod tests {
     /// Where F' vanishes the proximal term is absolute.
     #[test]
     fn a_zero_jacobian_is_perturbed_too() {
-        let mut storage = Storage {
+        let mut storage = CrashStorage {
             active: vec![false],
-            ..Storage::default()
+            ..CrashStorage::default()
         };
         let point = Point {
             z: DVector::from_element(1, 3.0),
@@ -259,9 +266,9 @@ mod tests {
     fn the_proximal_term_vanishes_with_the_merit() {
         let singular = dmatrix![0.0, 0.0; 0.0, 8.0];
         let direction_at = |merit: f64| {
-            let mut storage = Storage {
+            let mut storage = CrashStorage {
                 active: vec![false; 2],
-                ..Storage::default()
+                ..CrashStorage::default()
             };
             let point = Point {
                 z: DVector::zeros(2),
@@ -333,7 +340,7 @@ mod tests {
             let problem = bounded(&lower, &[f64::INFINITY; 3], function, jacobian);
             let mut problem = Evaluated::new(&problem);
             let start = problem.point(&DVector::from_vec(vec![1e-3, 1e-3, 1.0]));
-            let mut storage = Storage::default();
+            let mut storage = CrashStorage::default();
             let mut log = Log::default();
 
             let once = crash(&mut problem, start.clone(), 1, &mut storage, &mut log).unwrap();

@@ -8,7 +8,7 @@
 //!
 //! Called by the crash (`crash/step.rs`), the factors of a basis and the start of a path.
 
-use super::number::Number;
+use super::number::PathNumber;
 use std::cmp::Ordering;
 
 /// P A = L U with row pivoting, column by column, so that dependent columns are found on the way.
@@ -34,7 +34,7 @@ impl<T> Default for Lu<T> {
     }
 }
 
-impl<T: Number> Lu<T> {
+impl<T: PathNumber> Lu<T> {
     /// Factors the matrix whose column j `gather(j, rows, out)` writes, in the order of `rows`. A
     /// column of which elimination leaves at most `least(j)` is dependent. True if there is none.
     pub(super) fn factor(
@@ -135,13 +135,13 @@ impl<T: Number> Lu<T> {
 }
 
 /// An entry of a column that may become the pivot.
-struct Candidate<T> {
+struct PivotCandidate<T> {
     place: usize,
     size: T,
 }
 
 /// Reduces a new column by the finished ones, each with its pivot on the diagonal.
-fn reduce<T: Number>(column: &mut [T], finished: &[T]) {
+fn reduce<T: PathNumber>(column: &mut [T], finished: &[T]) {
     for (s, l) in finished.chunks_exact(column.len()).enumerate() {
         let (above, below) = column.split_at_mut(s + 1);
         subtract(below, &above[s], &l[s + 1..]);
@@ -150,8 +150,8 @@ fn reduce<T: Number>(column: &mut [T], finished: &[T]) {
 
 /// The entry of largest magnitude from place `first` on, the first one of equal ones; place `first`
 /// with size 0 if no entry is greater than that.
-fn largest_from<T: Number>(column: &[T], first: usize) -> Candidate<T> {
-    let mut best = Candidate {
+fn largest_from<T: PathNumber>(column: &[T], first: usize) -> PivotCandidate<T> {
+    let mut best = PivotCandidate {
         place: first,
         size: T::zero(),
     };
@@ -159,14 +159,14 @@ fn largest_from<T: Number>(column: &[T], first: usize) -> Candidate<T> {
     for (place, entry) in column.iter().enumerate().skip(first) {
         let size = entry.magnitude();
         if size > best.size {
-            best = Candidate { place, size };
+            best = PivotCandidate { place, size };
         }
     }
     best
 }
 
 /// y -= factor x.
-pub(super) fn subtract<T: Number>(y: &mut [T], factor: &T, x: &[T]) {
+pub(super) fn subtract<T: PathNumber>(y: &mut [T], factor: &T, x: &[T]) {
     if factor.is_zero() {
         return;
     }
@@ -177,7 +177,7 @@ pub(super) fn subtract<T: Number>(y: &mut [T], factor: &T, x: &[T]) {
 }
 
 /// x'y.
-pub(super) fn dot<T: Number>(x: &[T], y: &[T]) -> T {
+pub(super) fn dot<T: PathNumber>(x: &[T], y: &[T]) -> T {
     let mut sum = T::zero();
     for (x, y) in x.iter().zip(y) {
         sum += x.clone() * y.clone();

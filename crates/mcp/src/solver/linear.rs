@@ -9,7 +9,7 @@ use super::error::SolverError;
 use super::evaluation::Evaluated;
 use super::options::Options;
 use super::outcome::{Counters, MajorRecord, Outcome, PathRecord, StepKind, Termination};
-use super::path::{Limits, Path, PathEnd, Start, Storage, Subproblem};
+use super::path::{Path, PathEnd, PathLimits, PathStorage, Start, Subproblem};
 use super::preprocess::Preprocessed;
 use super::residual::Residuals;
 use crate::mcp::{LinearMcp, Mcp};
@@ -88,7 +88,7 @@ fn lemke(problem: &LinearMcp, options: &Options) -> Path {
         upper: problem.upper(),
     };
 
-    let limits = Limits {
+    let limits = PathLimits {
         pivots: options.minor_iteration_limit,
         cycle_entries: options.cycle_entry_limit,
         rule: options.ratio_test,
@@ -96,7 +96,7 @@ fn lemke(problem: &LinearMcp, options: &Options) -> Path {
 
     let origin = vec![0.0; problem.dimension()];
     let mut path = Path::default();
-    Storage::default().follow(&subproblem, Start::Ray, &origin, limits, &mut path);
+    PathStorage::default().follow(&subproblem, Start::Ray, &origin, limits, &mut path);
 
     path
 }

@@ -19,10 +19,10 @@ use super::log::Log;
 use super::normal_map::linearise;
 use super::options::{CrashMethod, Options};
 use super::outcome::{Counters, StepKind, Termination};
-use super::path::{Limits, Path, PathEnd, Start, Subproblem};
+use super::path::{Path, PathEnd, PathLimits, Start, Subproblem};
 use super::residual::Residuals;
 use super::restart::Attempt;
-use super::search::Search;
+use super::search::NonMonotoneRule;
 use super::structure::unmatched;
 use super::tolerance::{CURVE_TRIALS, MERIT_SLACK};
 use super::{crash, path};
@@ -35,12 +35,12 @@ use std::mem::{replace, take};
 #[derive(Default)]
 pub(super) struct Workspace {
     pool: Pool,
-    crash: crash::Storage,
-    path: path::Storage,
+    crash: crash::CrashStorage,
+    path: path::PathStorage,
     /// Paths from one iterate: at most one of each start.
     paths: [Path; 2],
     q: Vec<f64>,
-    search: Search,
+    search: NonMonotoneRule,
     pub(super) log: Log,
     /// The point of least merit met.
     pub(super) point: Vec<f64>,
@@ -57,7 +57,7 @@ pub(super) struct Finished {
 }
 
 /// A run under way. Inputs are valid: lengths agree, bounds are consistent, the start is finite.
-pub(super) struct Run<'a, P: Mcp + ?Sized> {
+pub(super) struct NewtonRun<'a, P: Mcp + ?Sized> {
     problem: Evaluated<'a, P>,
     options: &'a Options,
     space: Workspace,
@@ -73,12 +73,12 @@ struct Work {
     pivots: usize,
 }
 
-impl<'a, P: Mcp + ?Sized> Run<'a, P> {
+impl<'a, P: Mcp + ?Sized> NewtonRun<'a, P> {
     pub(super) fn new(problem: &'a P, options: &'a Options, mut space: Workspace) -> Self {
         space.log.clear();
         let problem = Evaluated::with_pool(problem, take(&mut space.pool));
 
-        Run {
+        NewtonRun {
             problem,
             options,
             space,
@@ -229,7 +229,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
 
     /// The crash that the options ask for.
     fn crash(&mut self, start: Point) -> Result<Point, Termination> {
-        let Run {
+        let NewtonRun {
             problem,
             options,
             space,
@@ -264,7 +264,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         &mut self,
         point: &mut Point,
         attempt: Attempt,
-        search: &mut Search,
+        search: &mut NonMonotoneRule,
         best: &mut Point,
     ) -> Termination {
         let tolerance = self.options.convergence_tolerance;
@@ -328,7 +328,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         &mut self,
         point: &Point,
         attempt: Attempt,
-        search: &mut Search,
+        search: &mut NonMonotoneRule,
     ) -> Result<Point, Termination> {
         self.problem.counters.majors += 1;
         let mut m = self.problem.jacobian(point)?;
@@ -393,7 +393,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             .options
             .cumulative_iteration_limit
             .saturating_sub(counters.pivots);
-        let limits = Limits {
+        let limits = PathLimits {
             pivots: self.options.minor_iteration_limit.min(left),
             cycle_entries: self.options.cycle_entry_limit,
             rule: self.options.ratio_test,

@@ -1,8 +1,8 @@
 //! The numbers the path is pivoted in: doubles in the solver, exact rationals in the tests that
 //! hold Lemke's method to its finiteness theorem. One code for both.
 //!
-//! A tolerance guards against rounding: [`Number::tolerance`] keeps it in doubles and makes it zero
-//! in exact arithmetic.
+//! A tolerance guards against rounding: [`PathNumber::tolerance`] keeps it in doubles and makes it
+//! zero in exact arithmetic.
 
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar};
 use num_traits::{One, Zero};
@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use std::ops::Neg;
 
 /// A number of the path, with an infinity for absent bounds.
-pub(super) trait Number:
+pub(super) trait PathNumber:
     Scalar
     + Zero
     + One
@@ -62,7 +62,7 @@ pub(super) trait Number:
     }
 }
 
-impl Number for f64 {
+impl PathNumber for f64 {
     fn infinity() -> f64 {
         f64::INFINITY
     }

@@ -127,7 +127,7 @@ fn solve_alone(problem: &LinearMcp, decided: &[Option<f64>], i: usize) -> Option
 
 /// The values of a row over all bounds.
 #[derive(Debug, PartialEq)]
-struct Range {
+struct RowRange {
     least: f64,
     most: f64,
     /// |q_i| and the largest finite value of each term, added up.
@@ -135,9 +135,9 @@ struct Range {
 }
 
 /// Least and largest F_i over all bounds, and the size of its finite terms.
-fn range(problem: &LinearMcp, decided: &[Option<f64>], i: usize) -> Range {
+fn range(problem: &LinearMcp, decided: &[Option<f64>], i: usize) -> RowRange {
     let q = problem.vector()[i];
-    let mut range = Range {
+    let mut range = RowRange {
         least: q,
         most: q,
         size: q.abs(),
@@ -289,8 +289,8 @@ mod tests {
         assert_range(range(&unbounded, &nothing, 0), -INF, INF, 1.0 + 2.0);
     }
 
-    fn assert_range(got: Range, least: f64, most: f64, size: f64) {
-        assert_eq!(got, Range { least, most, size });
+    fn assert_range(got: RowRange, least: f64, most: f64, size: f64) {
+        assert_eq!(got, RowRange { least, most, size });
     }
 
     /// A sign is sure from SIGN_SURE of the row's terms on; zero has none, and a bound that is

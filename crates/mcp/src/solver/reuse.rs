@@ -2,7 +2,7 @@
 //! again (book, 3.8). The public form of `newton`.
 
 use super::error::SolverError;
-use super::newton::{Run, Workspace};
+use super::newton::{NewtonRun, Workspace};
 use super::options::Options;
 use super::outcome::{Counters, Outcome, Termination};
 use super::residual::Residuals;
@@ -69,7 +69,7 @@ impl Solver {
         validate(problem, start, options)?;
 
         let space = std::mem::take(&mut self.space);
-        let finished = Run::new(problem, options, space).run(start);
+        let finished = NewtonRun::new(problem, options, space).run(start);
         self.space = finished.space;
 
         Ok(Ended {

@@ -8,7 +8,7 @@
 //! *watchdog* returns to the *checkpoint*, the last point that was checked, and searches the path
 //! from there.
 //!
-//! One [`Search`] serves one attempt of a run. Called by `newton` and `newton/choose`.
+//! One [`NonMonotoneRule`] serves one attempt of a run. Called by `newton` and `newton/choose`.
 
 use super::evaluation::{Evaluated, Point};
 use super::options::Options;
@@ -20,7 +20,7 @@ use std::collections::VecDeque;
 
 /// State of the non-monotone rule in one attempt. Storage is kept from one to the next.
 #[derive(Default)]
-pub(super) struct Search {
+pub(super) struct NonMonotoneRule {
     /// The last merits, of which the largest is the reference.
     memory: VecDeque<f64>,
     memory_size: usize,
@@ -41,7 +41,7 @@ pub(super) struct Search {
     fraction: f64,
 }
 
-impl Search {
+impl NonMonotoneRule {
     /// At the first point of an attempt from `start`.
     pub(super) fn begin(
         &mut self,
@@ -161,7 +161,7 @@ impl Search {
         self.watchdogs <= self.maximum_watchdogs
     }
 
-    /// Like [`Search::along`], on the path of the checkpoint.
+    /// Like [`NonMonotoneRule::along`], on the path of the checkpoint.
     pub(super) fn along_checkpoint<P: Mcp + ?Sized>(
         &self,
         problem: &mut Evaluated<'_, P>,
@@ -244,9 +244,9 @@ mod tests {
         Path::default()
     }
 
-    fn search(k: usize, options: &Options) -> Search {
+    fn search(k: usize, options: &Options) -> NonMonotoneRule {
         let start = point(&[3.0, -4.0], 8.0);
-        let mut search = Search::default();
+        let mut search = NonMonotoneRule::default();
         search.begin(
             &start,
             &start,
@@ -335,7 +335,7 @@ mod tests {
 
         assert_eq!(s.radius, radius);
 
-        let allowed = |s: &Search, far: f64, merit: f64| {
+        let allowed = |s: &NonMonotoneRule, far: f64, merit: f64| {
             s.unchecked_allowed(&point(&[1.0, 0.0], 1.0), &point(&[1.0, far], merit))
         };
 
@@ -400,7 +400,7 @@ mod tests {
         let begun = |acceptance: Acceptance| {
             let start = point(&[3.0, -4.0], 8.0);
             let first = point(&[1.0, 0.0], 2.0);
-            let mut search = Search::default();
+            let mut search = NonMonotoneRule::default();
             search.begin(
                 &start,
                 &first,

@@ -7,8 +7,8 @@
 //! zero multiplier the unknown changes its place and the curve goes on along another piece; at
 //! s = 0 there is a solution, and the curve goes on as it came.
 //!
-//! Input: the equations of a `System` and a position on the curve. Output: the solutions met and a
-//! [`CurveEnd`]. Called by `continuation`.
+//! Input: the equations of a `HomotopySystem` and a position on the curve. Output: the solutions
+//! met and a [`CurveEnd`]. Called by `continuation`.
 
 use super::super::options::Options;
 use super::super::tolerance::{
@@ -16,16 +16,18 @@ use super::super::tolerance::{
     CURVE_SHORTEST,
 };
 use super::curve::{CurveEnd, Sense};
-use super::system::{Border, Corrected, Local, Place, Places, Position, Quantity, System};
+use super::system::{
+    ActiveBound, Border, Corrected, CurvePoint, HomotopySystem, Local, Places, Quantity,
+};
 use crate::mcp::Mcp;
 use nalgebra::DVector;
 use std::mem::replace;
 
 /// A curve under way.
 pub(super) struct Follower<'p, 'a, P: Mcp + ?Sized> {
-    system: System<'p, 'a, P>,
-    at: Position,
-    start: Position,
+    system: HomotopySystem<'p, 'a, P>,
+    at: CurvePoint,
+    start: CurvePoint,
     start_places: Places,
     /// Length of the next step.
     length: f64,
@@ -71,7 +73,7 @@ impl Guard {
 struct PlaceChange {
     index: usize,
     /// Its new place.
-    place: Place,
+    place: ActiveBound,
     /// What leaves zero after the event.
     leaving: Quantity,
     /// 1 if that grows, -1 if it falls.
@@ -81,8 +83,8 @@ struct PlaceChange {
 impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
     /// At the start of a curve.
     pub(super) fn new(
-        system: System<'p, 'a, P>,
-        at: Position,
+        system: HomotopySystem<'p, 'a, P>,
+        at: CurvePoint,
         options: &Options,
         enough: usize,
     ) -> Self {
@@ -185,7 +187,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
     }
 
     /// Has the step from `before` passed the start again?
-    fn is_back(&self, before: &Position) -> bool {
+    fn is_back(&self, before: &CurvePoint) -> bool {
         let above_before = before.s - self.start.s;
         let above_after = self.at.s - self.start.s;
         let passed = above_before * above_after < 0.0;
@@ -242,7 +244,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
             return Some(Landing { there, event: None });
         };
 
-        let near = Position {
+        let near = CurvePoint {
             z: self.at.z.lerp(&at.z, share),
             s: self.at.s + share * (at.s - self.at.s),
         };
@@ -251,7 +253,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
     }
 
     /// Newton to the event; refused if another quantity has crossed on the way or the way is long.
-    fn land_on(&mut self, event: Quantity, near: &Position, local: &Local) -> Option<Landing> {
+    fn land_on(&mut self, event: Quantity, near: &CurvePoint, local: &Local) -> Option<Landing> {
         let mut there = self.system.correct(near, &Border::Zero(event))?;
         let at = &mut there.at;
         let way = (&at.z - &self.at.z).norm() + (at.s - self.at.s).abs();
@@ -304,7 +306,11 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
 
         PlaceChange {
             index: i,
-            place: if is_lower { Place::Lower } else { Place::Upper },
+            place: if is_lower {
+                ActiveBound::Lower
+            } else {
+                ActiveBound::Upper
+            },
             leaving: Quantity::Multiplier(i),
             sign: if is_lower { 1.0 } else { -1.0 },
         }
@@ -312,10 +318,10 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
 
     /// The multiplier of z_i has vanished: z_i leaves its bound.
     fn change_to_inside(&self, i: usize) -> PlaceChange {
-        let was_lower = self.system.places.0[i] == Place::Lower;
+        let was_lower = self.system.places.0[i] == ActiveBound::Lower;
         PlaceChange {
             index: i,
-            place: Place::Inside,
+            place: ActiveBound::Inside,
             leaving: Quantity::Z(i, 0.0),
             sign: if was_lower { 1.0 } else { -1.0 },
         }
@@ -342,7 +348,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
 
         for (i, place) in self.system.places.0.iter().enumerate() {
             match place {
-                Place::Inside => {
+                ActiveBound::Inside => {
                     let lower = mcp.lower()[i];
                     if lower.is_finite() {
                         guards.push(Guard::positive(Quantity::Z(i, lower)));
@@ -352,9 +358,9 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
                         guards.push(Guard::negative(Quantity::Z(i, upper)));
                     }
                 }
-                Place::Lower => guards.push(Guard::positive(Quantity::Multiplier(i))),
-                Place::Upper => guards.push(Guard::negative(Quantity::Multiplier(i))),
-                Place::Fixed => {}
+                ActiveBound::Lower => guards.push(Guard::positive(Quantity::Multiplier(i))),
+                ActiveBound::Upper => guards.push(Guard::negative(Quantity::Multiplier(i))),
+                ActiveBound::Fixed => {}
             }
         }
 
@@ -392,7 +398,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
     fn first_crossing(
         &self,
         local: &Local,
-        to: &Position,
+        to: &CurvePoint,
         there: &Local,
     ) -> Option<(Quantity, f64)> {
         let tolerance = CURVE_FEASIBLE * (1.0 + to.s.abs());

@@ -26,7 +26,7 @@ use crate::mcp::Mcp;
 pub use curve::{Curve, CurveEnd, Sense};
 use follow::Follower;
 use nalgebra::DVector;
-use system::{Places, Position, System};
+use system::{CurvePoint, HomotopySystem, Places};
 
 /// Follows the curve from `start` (length n, projected onto the bounds), where s = 1, until
 /// `enough` points with s = 0 were met or the curve ends.
@@ -76,8 +76,8 @@ pub fn continuation_through<P: Mcp + ?Sized>(
     let point = evaluated.point(&DVector::from_column_slice(solution));
     let places = Places::at_solution(problem, &point);
     let r = DVector::from_column_slice(r);
-    let at = Position { z: point.z, s: 0.0 };
-    let system = System {
+    let at = CurvePoint { z: point.z, s: 0.0 };
+    let system = HomotopySystem {
         problem: &mut evaluated,
         r,
         places,
@@ -114,12 +114,12 @@ pub(super) fn from_point<P: Mcp + ?Sized>(
     let r = DVector::from_fn(start.z.len(), |i, _| {
         start.f[i] - places.lifted_multiplier(i, start.f[i], lift)
     });
-    let at = Position {
+    let at = CurvePoint {
         z: start.z.clone(),
         s: 1.0,
     };
 
-    let system = System { problem, r, places };
+    let system = HomotopySystem { problem, r, places };
     Follower::new(system, at, options, enough).run(sense)
 }
 

@@ -18,7 +18,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Where an unknown stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum ActiveBound {
     /// Between its bounds; its multiplier is zero.
     Inside,
     /// At its lower bound, multiplier >= 0.
@@ -31,7 +31,7 @@ pub(super) enum Place {
 
 /// The place of every unknown.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Places(pub(super) Vec<Place>);
+pub(super) struct Places(pub(super) Vec<ActiveBound>);
 
 impl Places {
     /// At a bound if z is exactly there.
@@ -51,13 +51,13 @@ impl Places {
             let lower = problem.lower()[i];
             let upper = problem.upper()[i];
             places.push(if lower == upper {
-                Place::Fixed
+                ActiveBound::Fixed
             } else if z - lower <= f(i) {
-                Place::Lower
+                ActiveBound::Lower
             } else if upper - z <= -f(i) {
-                Place::Upper
+                ActiveBound::Upper
             } else {
-                Place::Inside
+                ActiveBound::Inside
             });
         }
 
@@ -67,24 +67,24 @@ impl Places {
     /// The unknowns inside, ascending.
     pub(super) fn inside(&self) -> Vec<usize> {
         (0..self.0.len())
-            .filter(|&i| self.0[i] == Place::Inside)
+            .filter(|&i| self.0[i] == ActiveBound::Inside)
             .collect()
     }
 
     /// A multiplier strictly on the right side of zero.
     pub(super) fn lifted_multiplier(&self, i: usize, f: f64, lift: f64) -> f64 {
         match self.0[i] {
-            Place::Inside => 0.0,
-            Place::Lower => f.max(0.0) + lift,
-            Place::Upper => f.min(0.0) - lift,
-            Place::Fixed => f,
+            ActiveBound::Inside => 0.0,
+            ActiveBound::Lower => f.max(0.0) + lift,
+            ActiveBound::Upper => f.min(0.0) - lift,
+            ActiveBound::Fixed => f,
         }
     }
 }
 
 /// A point of the curve.
 #[derive(Debug, Clone)]
-pub(super) struct Position {
+pub(super) struct CurvePoint {
     pub(super) z: DVector<f64>,
     pub(super) s: f64,
 }
@@ -117,7 +117,7 @@ pub(super) enum Border<'a> {
 
 /// A position on the curve, with F and F' there.
 pub(super) struct Corrected {
-    pub(super) at: Position,
+    pub(super) at: CurvePoint,
     pub(super) local: Local,
     /// Newton steps taken.
     pub(super) steps: usize,
@@ -141,14 +141,14 @@ fn unit(factors: &Factors, k: usize, sign: f64) -> Option<DVector<f64>> {
 }
 
 /// The equations.
-pub(super) struct System<'p, 'a, P: Mcp + ?Sized> {
+pub(super) struct HomotopySystem<'p, 'a, P: Mcp + ?Sized> {
     pub(super) problem: &'p mut Evaluated<'a, P>,
     /// The residual at s = 1, over all unknowns.
     pub(super) r: DVector<f64>,
     pub(super) places: Places,
 }
 
-impl<P: Mcp + ?Sized> System<'_, '_, P> {
+impl<P: Mcp + ?Sized> HomotopySystem<'_, '_, P> {
     /// F and F' at z, or `None` if an entry is not finite.
     pub(super) fn local(&mut self, z: &DVector<f64>) -> Option<Local> {
         let point = self.problem.point(z);
@@ -164,7 +164,7 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
     }
 
     /// The value of a quantity.
-    pub(super) fn value(&self, quantity: Quantity, at: &Position, local: &Local) -> f64 {
+    pub(super) fn value(&self, quantity: Quantity, at: &CurvePoint, local: &Local) -> f64 {
         match quantity {
             Quantity::Z(i, bound) => at.z[i] - bound,
             Quantity::Multiplier(i) => local.f[i] - at.s * self.r[i],
@@ -231,7 +231,7 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
     /// while they gain enough (Shamanskii 1967), and at last the tangent.
     pub(super) fn correct(
         &mut self,
-        predicted: &Position,
+        predicted: &CurvePoint,
         border: &Border<'_>,
     ) -> Option<Corrected> {
         let inside = self.places.inside();
@@ -295,7 +295,7 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
     /// on: every step stays in it.
     fn negative_residual(
         &self,
-        at: &Position,
+        at: &CurvePoint,
         local: &Local,
         inside: &[usize],
         border: &Border<'_>,
@@ -319,7 +319,7 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
     /// Moves a position by `length` times a direction in (z_I, s).
     pub(super) fn shift(
         &self,
-        at: &mut Position,
+        at: &mut CurvePoint,
         inside: &[usize],
         direction: &DVector<f64>,
         length: f64,

@@ -25,7 +25,7 @@ use std::mem::replace;
 
 /// What the steps work with, kept from one crash to the next.
 #[derive(Default)]
-pub(in super::super) struct Storage {
+pub(in super::super) struct SemismoothStorage {
     /// Rows of the system: the components that do not go to a bound.
     inside: Vec<usize>,
     /// The term on the diagonal of each row.
@@ -41,7 +41,7 @@ pub(in super::super) struct Storage {
 
 /// The row that stands for a component.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Row {
+enum ComponentRow {
     /// The component goes this far, to its bound.
     Bound(f64),
     /// The row of F' with this on its diagonal, and this residual.
@@ -66,7 +66,7 @@ pub(in super::super) fn semismooth<P: Mcp + ?Sized, D: Fn(&Point) -> bool>(
     problem: &mut Evaluated<'_, P>,
     start: Point,
     ending: Ending<D>,
-    storage: &mut Storage,
+    storage: &mut SemismoothStorage,
     log: &mut Log,
 ) -> Result<(Point, bool), Termination> {
     let Ending { limit, done } = ending;
@@ -134,36 +134,36 @@ fn take_turns(near: &mut [f64; 2], length: Option<f64>) {
 
 /// The row for a component at z with F_i = f in [l, u]; the branches are told apart where one is
 /// `near` times as far away as the other.
-fn row(z: f64, f: f64, l: f64, u: f64, near: f64) -> Row {
+fn row(z: f64, f: f64, l: f64, u: f64, near: f64) -> ComponentRow {
     if l == u {
-        return Row::Bound(0.0);
+        return ComponentRow::Bound(0.0);
     }
 
     let below = z - l;
     let above = u - z;
     if f > 0.0 && below <= near * f {
-        return Row::Bound(-below);
+        return ComponentRow::Bound(-below);
     }
 
     if f < 0.0 && above <= -near * f {
-        return Row::Bound(above);
+        return ComponentRow::Bound(above);
     }
 
     if f.abs() <= near * below.min(above) {
-        return Row::Inside {
+        return ComponentRow::Inside {
             diagonal: 0.0,
             residual: f,
         };
     }
 
     let phi = fischer(z, f, l, u);
-    Row::Inside {
+    ComponentRow::Inside {
         diagonal: phi.by_z / phi.by_f,
         residual: phi.value / phi.by_f,
     }
 }
 
-impl Storage {
+impl SemismoothStorage {
     /// Newton's direction; says if there is one.
     fn newton_direction<P: Mcp + ?Sized>(
         &mut self,
@@ -204,8 +204,8 @@ impl Storage {
         let bounds = problem.lower().iter().zip(problem.upper());
         for (i, (&l, &u)) in bounds.enumerate() {
             let to_bound = match row(point.z[i], point.f[i], l, u, near) {
-                Row::Bound(distance) => distance,
-                Row::Inside { diagonal, residual } => {
+                ComponentRow::Bound(distance) => distance,
+                ComponentRow::Inside { diagonal, residual } => {
                     self.inside.push(i);
                     self.diagonal.push(diagonal);
                     self.residual.push(residual);
@@ -249,7 +249,7 @@ mod tests {
             done: |point: &Point| point.merit < 1e-24,
         };
 
-        let mut storage = Storage::default();
+        let mut storage = SemismoothStorage::default();
         let mut log = Log::default();
         let (point, ended) =
             semismooth(&mut problem, start, ending, &mut storage, &mut log).unwrap();
@@ -332,19 +332,19 @@ mod tests {
     /// parts.
     #[test]
     fn rows_are_those_of_the_generalised_jacobian() {
-        assert_eq!(row(2.0, 7.0, 2.0, 2.0, 0.5), Row::Bound(0.0));
-        assert_eq!(row(0.25, 1.0, 0.0, INF, 0.5), Row::Bound(-0.25));
-        assert_eq!(row(1.75, -1.0, 0.0, 2.0, 0.5), Row::Bound(0.25));
+        assert_eq!(row(2.0, 7.0, 2.0, 2.0, 0.5), ComponentRow::Bound(0.0));
+        assert_eq!(row(0.25, 1.0, 0.0, INF, 0.5), ComponentRow::Bound(-0.25));
+        assert_eq!(row(1.75, -1.0, 0.0, 2.0, 0.5), ComponentRow::Bound(0.25));
         assert_eq!(
             row(1.0, 0.25, 0.0, INF, 0.5),
-            Row::Inside {
+            ComponentRow::Inside {
                 diagonal: 0.0,
                 residual: 0.25
             }
         );
         assert_eq!(
             row(7.0, 9.0, -INF, INF, 0.5),
-            Row::Inside {
+            ComponentRow::Inside {
                 diagonal: 0.0,
                 residual: 9.0
             }
@@ -353,14 +353,14 @@ mod tests {
         // At a bound with F = 0: F may change sign, so that the row stays.
         assert_eq!(
             row(0.0, 0.0, 0.0, INF, 0.5),
-            Row::Inside {
+            ComponentRow::Inside {
                 diagonal: 0.0,
                 residual: 0.0
             }
         );
 
         // phi(3, 4) = -2, by_z = 3/5 - 1, by_f = 4/5 - 1.
-        let Row::Inside { diagonal, residual } = row(3.0, 4.0, 0.0, INF, 0.5) else {
+        let ComponentRow::Inside { diagonal, residual } = row(3.0, 4.0, 0.0, INF, 0.5) else {
             panic!()
         };
 
@@ -368,21 +368,31 @@ mod tests {
         assert!((residual - 10.0).abs() < 1e-13);
 
         // Pointing out of the bound: never to the bound.
-        assert!(matches!(row(0.0, -1.0, 0.0, INF, 1.0), Row::Inside { .. }));
-        assert!(matches!(row(2.0, 0.0, -INF, 2.0, 0.5), Row::Inside { .. }));
+        assert!(matches!(
+            row(0.0, -1.0, 0.0, INF, 1.0),
+            ComponentRow::Inside { .. }
+        ));
+        assert!(matches!(
+            row(2.0, 0.0, -INF, 2.0, 0.5),
+            ComponentRow::Inside { .. }
+        ));
     }
 
     /// `near` times the other one's distance, from both sides.
     #[test]
     fn branches_are_told_apart_by_near() {
-        let is_bound = |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Bound(_));
+        let is_bound = |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), ComponentRow::Bound(_));
         assert!(is_bound(0.5, 2.0));
         assert!(!is_bound(0.5, 1.9));
         assert!(is_bound(7.5, -2.0));
         assert!(!is_bound(7.5, -1.9));
 
-        let is_free =
-            |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Inside { diagonal: 0.0, .. });
+        let is_free = |z: f64, f: f64| {
+            matches!(
+                row(z, f, 0.0, 8.0, 0.25),
+                ComponentRow::Inside { diagonal: 0.0, .. }
+            )
+        };
         assert!(is_free(2.0, 0.5));
         assert!(!is_free(2.0, 0.6));
         assert!(is_free(6.0, -0.5));
@@ -441,7 +451,7 @@ mod tests {
             f: nalgebra::dvector![1.0, 9.0],
             merit: 1.0,
         };
-        let mut storage = Storage::default();
+        let mut storage = SemismoothStorage::default();
 
         assert!(storage.newton_direction(&p, &dmatrix![2.0, 1.0; 3.0, 4.0], &point, 0.5));
         assert_eq!(storage.direction, [-0.25, -8.25 / 4.0]);

@@ -8,11 +8,11 @@ use super::super::evaluation::Point;
 use super::super::gradient::gradient_step;
 use super::super::outcome::{StepKind, Termination};
 use super::super::path::{Path, PathEnd, Start};
-use super::super::search::Search;
-use super::{Run, Step};
+use super::super::search::NonMonotoneRule;
+use super::{NewtonRun, Step};
 use crate::mcp::Mcp;
 
-impl<P: Mcp + ?Sized> Run<'_, P> {
+impl<P: Mcp + ?Sized> NewtonRun<'_, P> {
     /// The Newton point if a path is complete and acceptable, else what the fallbacks give.
     ///
     /// # Errors
@@ -21,7 +21,7 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
         &mut self,
         point: &Point,
         paths: &[Path],
-        search: &mut Search,
+        search: &mut NonMonotoneRule,
     ) -> Result<Step, Termination> {
         self.problem.not_finite = None;
         if let Some(step) = self.path_end(point, paths, search) {
@@ -49,7 +49,7 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
         &mut self,
         point: &Point,
         paths: &[Path],
-        search: &mut Search,
+        search: &mut NonMonotoneRule,
     ) -> Option<Step> {
         let regular = paths.iter().find(|path| path.start == Start::Regular);
         let complete = paths.iter().find(|path| path.end == PathEnd::Complete);
@@ -102,7 +102,11 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
     }
 
     /// Back along the path of the checkpoint if steps were taken unchecked, else along this one's.
-    pub(super) fn back_along_paths(&mut self, paths: &[Path], search: &mut Search) -> Option<Step> {
+    pub(super) fn back_along_paths(
+        &mut self,
+        paths: &[Path],
+        search: &mut NonMonotoneRule,
+    ) -> Option<Step> {
         if search.watchdog() {
             self.problem.counters.watchdogs += 1;
             let (point, t) = search.along_checkpoint(&mut self.problem)?;
@@ -119,7 +123,10 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
     }
 
     /// A projected-gradient step from the best point, while the limit lasts.
-    pub(super) fn gradient(&mut self, search: &mut Search) -> Result<Option<Step>, Termination> {
+    pub(super) fn gradient(
+        &mut self,
+        search: &mut NonMonotoneRule,
+    ) -> Result<Option<Step>, Termination> {
         if !search.gradient_allowed() {
             return Ok(None);
         }

@@ -10,8 +10,8 @@ use nalgebra::{DVector, dmatrix, dvector};
 
 const INF: f64 = f64::INFINITY;
 
-fn run<'a, P: Mcp + ?Sized>(problem: &'a P, options: &'a Options) -> Run<'a, P> {
-    Run::new(problem, options, Workspace::default())
+fn run<'a, P: Mcp + ?Sized>(problem: &'a P, options: &'a Options) -> NewtonRun<'a, P> {
+    NewtonRun::new(problem, options, Workspace::default())
 }
 
 /// F = -1 - z on z >= 0: no solution.
@@ -31,13 +31,13 @@ fn path(m: DMatrix<f64>, q: &[f64], l: &[f64], u: &[f64], start: Start, current:
         lower: l,
         upper: u,
     };
-    let limits = Limits {
+    let limits = PathLimits {
         pivots: 50,
         cycle_entries: 5,
         rule: Options::default().ratio_test,
     };
     let mut path = Path::default();
-    path::Storage::default().follow(&sub, start, current, limits, &mut path);
+    path::PathStorage::default().follow(&sub, start, current, limits, &mut path);
     path
 }
 
@@ -262,7 +262,7 @@ fn the_proximal_term_of_a_restart_vanishes_with_the_merit() {
     let term = |attempt: Attempt, z: f64| {
         let mut run = run(&p, &options);
         let point = run.problem.point_with(|i| if i == 0 { z } else { 0.0 });
-        let mut search = Search::default();
+        let mut search = NonMonotoneRule::default();
         search.begin(&point, &point, &options, attempt);
         run.major(&point, attempt, &mut search).ok();
 
@@ -392,7 +392,7 @@ fn a_path_is_searched_back_to_a_point_that_passes() {
 
     let mut run = run(&p, &options);
     let point = run.problem.point_with(|_| 8.0);
-    let mut search = Search::default();
+    let mut search = NonMonotoneRule::default();
     search.begin(&point, &point, &options, attempt);
     let (next, kind) = run
         .back_along_paths(std::slice::from_ref(&overshoot), &mut search)
@@ -452,7 +452,7 @@ fn an_end_is_checked_or_taken_unchecked() {
         );
         let mut run = run(&p, &options);
         let point = run.problem.point_with(|_| 8.0);
-        let mut search = Search::default();
+        let mut search = NonMonotoneRule::default();
         search.begin(
             &point,
             &point,
@@ -499,7 +499,7 @@ fn a_complete_path_is_preferred() {
     for paths in [[partial(), complete()], [complete(), partial()]] {
         let mut run = run(&p, &options);
         let point = run.problem.point_with(|_| 8.0);
-        let mut search = Search::default();
+        let mut search = NonMonotoneRule::default();
         search.begin(&point, &point, &options, Attempt::number(1));
         let (next, _) = run.path_end(&point, &paths, &mut search).unwrap();
 
@@ -518,7 +518,7 @@ fn gradient_steps_leave_from_the_best_point() {
     let mut run = run(&p, &options);
     let start = run.problem.point_with(|_| 8.0);
     let better = run.problem.point_with(|_| 2.0);
-    let mut search = Search::default();
+    let mut search = NonMonotoneRule::default();
     search.begin(&start, &start, &options, Attempt::number(0));
     search.take_checked(&better);
     let (next, kind) = run.gradient(&mut search).unwrap().unwrap();
@@ -543,7 +543,7 @@ fn attempts_end_at_the_limits() {
         run.problem.counters = done;
         let mut point = run.problem.point(&dvector![1.0]);
         let mut best = run.problem.copy(&point);
-        let mut search = Search::default();
+        let mut search = NonMonotoneRule::default();
         search.begin(&point, &point, &options, Attempt::number(1));
         run.majors(&mut point, Attempt::number(1), &mut search, &mut best)
     };

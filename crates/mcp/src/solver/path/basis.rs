@@ -7,10 +7,10 @@
 //! and by the ratio test for the lexicographic rows.
 
 use super::super::dense::{dot, subtract};
-use super::super::number::Number;
+use super::super::number::PathNumber;
 use super::super::tolerance::REFACTOR_EVERY;
-use super::columns::Columns;
-use super::factor::{Factor, Repair};
+use super::columns::PathColumns;
+use super::factor::{BasisFactor, Repair};
 use super::variable::Variable;
 use std::mem::replace;
 
@@ -18,7 +18,7 @@ use std::mem::replace;
 pub(super) struct Basis<T> {
     /// The basic unknown in each place.
     pub(super) variables: Vec<Variable>,
-    factor: Factor<T>,
+    factor: BasisFactor<T>,
     /// Columns B^-1 a of the unknowns that came in, one after the other, each of length n.
     exchanged: Vec<T>,
     /// Their places.
@@ -36,7 +36,7 @@ impl<T> Default for Basis<T> {
     fn default() -> Self {
         Basis {
             variables: Vec::new(),
-            factor: Factor::default(),
+            factor: BasisFactor::default(),
             exchanged: Vec::new(),
             places: Vec::new(),
             first: Vec::new(),
@@ -47,10 +47,10 @@ impl<T> Default for Basis<T> {
     }
 }
 
-impl<T: Number> Basis<T> {
+impl<T: PathNumber> Basis<T> {
     /// Factors the unknowns in `variables` as the first basis of a path; false if it is numerically
     /// singular, and [`Basis::repairs`] says how to mend it.
-    pub(super) fn begin(&mut self, columns: &Columns<'_, T>) -> bool {
+    pub(super) fn begin(&mut self, columns: &PathColumns<'_, T>) -> bool {
         self.refreshed = 0;
         self.forget();
         self.first.clone_from(&self.variables);
@@ -77,7 +77,7 @@ impl<T: Number> Basis<T> {
     /// How the value in a place is perturbed: its row of B^-1 B_0, into `out`.
     pub(super) fn perturbation(
         &mut self,
-        columns: &Columns<'_, T>,
+        columns: &PathColumns<'_, T>,
         place: usize,
         out: &mut Vec<T>,
     ) {
@@ -111,7 +111,7 @@ impl<T: Number> Basis<T> {
     }
 
     /// The product of the row with the column of an unknown.
-    fn times_row(&self, columns: &Columns<'_, T>, variable: Variable) -> T {
+    fn times_row(&self, columns: &PathColumns<'_, T>, variable: Variable) -> T {
         match columns.unit(variable) {
             Some(unit) => unit.times(&self.row[unit.row]),
             None => dot(&self.row, columns.dense(variable)),
@@ -131,7 +131,7 @@ impl<T: Number> Basis<T> {
     }
 
     /// Factors the current basis from scratch; false if it is numerically singular.
-    pub(super) fn refactor(&mut self, columns: &Columns<'_, T>) -> bool {
+    pub(super) fn refactor(&mut self, columns: &PathColumns<'_, T>) -> bool {
         self.forget();
         self.refreshed += 1;
         self.factor.factor(columns, &self.variables)
@@ -145,7 +145,7 @@ impl<T: Number> Basis<T> {
 }
 
 /// x becomes E^-1 x, E the identity with `column` in `place`.
-fn exchange<T: Number>(x: &mut [T], place: usize, column: &[T]) {
+fn exchange<T: PathNumber>(x: &mut [T], place: usize, column: &[T]) {
     let value = x[place].clone() / column[place].clone();
     subtract(x, &value, column);
     x[place] = value;
@@ -154,7 +154,7 @@ fn exchange<T: Number>(x: &mut [T], place: usize, column: &[T]) {
 #[cfg(test)]
 mod tests {
     use super::super::Subproblem;
-    use super::super::columns::Frame;
+    use super::super::columns::PathFrame;
     use super::*;
     use nalgebra::dmatrix;
 
@@ -167,7 +167,7 @@ mod tests {
             lower: &[0.0; 2],
             upper: &[f64::INFINITY; 2],
         };
-        let mut frame = Frame::default();
+        let mut frame = PathFrame::default();
         frame.set(&sub, &[0.0, 0.0], &[2.0, 3.0]);
         let columns = frame.columns(&sub);
         let mut basis = Basis {
@@ -214,7 +214,7 @@ mod tests {
             lower: &[0.0; 2],
             upper: &[f64::INFINITY; 2],
         };
-        let mut frame = Frame::default();
+        let mut frame = PathFrame::default();
         frame.set(&sub, &[0.0, 0.0], &[2.0, 3.0]);
         let columns = frame.columns(&sub);
         let mut basis = Basis {

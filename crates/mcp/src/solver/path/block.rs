@@ -2,7 +2,7 @@
 
 /// What stops the moving unknown.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Block<T> {
+pub(super) struct BlockingVariable<T> {
     /// How far the moving unknown gets.
     pub(super) step: T,
     /// Place of the basic unknown that stops it; `None` if it reaches its own bound.

@@ -1,15 +1,15 @@
 //! The columns of M z - w + v + D a - t r = -(q + r): unit columns, those of M, and that of t.
 //!
-//! A [`Frame`] holds what belongs to one path: the column of t, the right-hand side, the rows of
-//! the artificials, and the sizes by which rounding is judged. [`Columns`] shows it together with
-//! the subproblem as one matrix. Read by `factor`, `basis` and `tableau`.
+//! A [`PathFrame`] holds what belongs to one path: the column of t, the right-hand side, the rows
+//! of the artificials, and the sizes by which rounding is judged. [`PathColumns`] shows it together
+//! with the subproblem as one matrix. Read by `factor`, `basis` and `tableau`.
 
-use super::super::number::Number;
+use super::super::number::PathNumber;
 use super::subproblem::Subproblem;
 use super::variable::Variable;
 
 /// What belongs to one path besides its subproblem. Storage is kept.
-pub(super) struct Frame<T> {
+pub(super) struct PathFrame<T> {
     /// -r, the column of t: the residual at the start.
     covering: Vec<T>,
     /// -(q + r).
@@ -22,9 +22,9 @@ pub(super) struct Frame<T> {
     scale: Option<T>,
 }
 
-impl<T> Default for Frame<T> {
+impl<T> Default for PathFrame<T> {
     fn default() -> Self {
-        Frame {
+        PathFrame {
             covering: Vec::new(),
             right: Vec::new(),
             artificial_row: Vec::new(),
@@ -35,22 +35,22 @@ impl<T> Default for Frame<T> {
 }
 
 /// The columns of one path.
-pub(super) struct Columns<'a, T: Number> {
+pub(super) struct PathColumns<'a, T: PathNumber> {
     pub(super) sub: &'a Subproblem<'a, T>,
-    frame: &'a Frame<T>,
+    frame: &'a PathFrame<T>,
 }
 
 /// A column with one entry, 1 or -1.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Unit {
+pub(super) struct SignedUnit {
     pub(super) row: usize,
     /// Is the entry 1?
     pub(super) is_positive: bool,
 }
 
-impl Unit {
+impl SignedUnit {
     /// The entry times a value.
-    pub(super) fn times<T: Number>(self, value: &T) -> T {
+    pub(super) fn times<T: PathNumber>(self, value: &T) -> T {
         if self.is_positive {
             value.clone()
         } else {
@@ -59,7 +59,7 @@ impl Unit {
     }
 }
 
-impl<T: Number> Frame<T> {
+impl<T: PathNumber> PathFrame<T> {
     /// A path of `sub` that begins at (z, multiplier), so that r = multiplier - M z - q; no
     /// artificials.
     pub(super) fn set(&mut self, sub: &Subproblem<'_, T>, z: &[T], multiplier: &[T]) {
@@ -94,24 +94,24 @@ impl<T: Number> Frame<T> {
     }
 
     /// All columns of the path of `sub`.
-    pub(super) fn columns<'a>(&'a self, sub: &'a Subproblem<'a, T>) -> Columns<'a, T> {
-        Columns { sub, frame: self }
+    pub(super) fn columns<'a>(&'a self, sub: &'a Subproblem<'a, T>) -> PathColumns<'a, T> {
+        PathColumns { sub, frame: self }
     }
 }
 
-impl<'a, T: Number> Columns<'a, T> {
+impl<'a, T: PathNumber> PathColumns<'a, T> {
     /// The unit column of a multiplier or an artificial; `None` for z and t.
-    pub(super) fn unit(&self, variable: Variable) -> Option<Unit> {
+    pub(super) fn unit(&self, variable: Variable) -> Option<SignedUnit> {
         match variable {
-            Variable::W(i) => Some(Unit {
+            Variable::W(i) => Some(SignedUnit {
                 row: i,
                 is_positive: false,
             }),
-            Variable::V(i) => Some(Unit {
+            Variable::V(i) => Some(SignedUnit {
                 row: i,
                 is_positive: true,
             }),
-            Variable::Artificial(i) => Some(Unit {
+            Variable::Artificial(i) => Some(SignedUnit {
                 row: self.frame.artificial_row[i].unwrap_or(i),
                 is_positive: true,
             }),
@@ -174,7 +174,7 @@ mod tests {
             lower: &[0.0; 2],
             upper: &[f64::INFINITY; 2],
         };
-        let mut frame = Frame::default();
+        let mut frame = PathFrame::default();
         frame.set(&sub, &[5.0, 1.0], &[6.0, 0.5]);
 
         // M z + q = (2, 12), so that r = (4, -11.5).

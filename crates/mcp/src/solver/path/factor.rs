@@ -9,16 +9,16 @@
 //! Called by `basis`.
 
 use super::super::dense::{Lu, dot, subtract};
-use super::super::number::Number;
+use super::super::number::PathNumber;
 use super::super::tolerance::DEPENDENT;
-use super::columns::{Columns, Unit};
+use super::columns::{PathColumns, SignedUnit};
 use super::variable::Variable;
 
 /// A unit column of the basis.
 #[derive(Debug, Clone, Copy)]
 struct UnitColumn {
     place: usize,
-    unit: Unit,
+    unit: SignedUnit,
 }
 
 /// A column that depends on others, and what may replace it.
@@ -31,7 +31,7 @@ pub(super) struct Repair {
 }
 
 /// B = [unit columns, other columns], ordered by places and rows kept here.
-pub(super) struct Factor<T> {
+pub(super) struct BasisFactor<T> {
     units: Vec<UnitColumn>,
     /// Places of the other columns.
     places: Vec<usize>,
@@ -46,9 +46,9 @@ pub(super) struct Factor<T> {
     repairs: Vec<Repair>,
 }
 
-impl<T> Default for Factor<T> {
+impl<T> Default for BasisFactor<T> {
     fn default() -> Self {
-        Factor {
+        BasisFactor {
             units: Vec::new(),
             places: Vec::new(),
             rows: Vec::new(),
@@ -60,9 +60,9 @@ impl<T> Default for Factor<T> {
     }
 }
 
-impl<T: Number> Factor<T> {
+impl<T: PathNumber> BasisFactor<T> {
     /// Factors the basis of these unknowns; false if it is numerically singular.
-    pub(super) fn factor(&mut self, columns: &Columns<'_, T>, variables: &[Variable]) -> bool {
+    pub(super) fn factor(&mut self, columns: &PathColumns<'_, T>, variables: &[Variable]) -> bool {
         self.part_columns(columns, variables);
         if self.rows.len() != self.places.len() {
             // Two unit columns share a row.
@@ -84,7 +84,7 @@ impl<T: Number> Factor<T> {
     }
 
     /// Tells unit columns from the others, and lists the rows that no unit column takes.
-    fn part_columns(&mut self, columns: &Columns<'_, T>, variables: &[Variable]) {
+    fn part_columns(&mut self, columns: &PathColumns<'_, T>, variables: &[Variable]) {
         self.units.clear();
         self.places.clear();
         self.repairs.clear();
@@ -110,7 +110,7 @@ impl<T: Number> Factor<T> {
     }
 
     /// Factors C; false if columns of it are dependent.
-    fn factor_core(&mut self, columns: &Columns<'_, T>, variables: &[Variable]) -> bool {
+    fn factor_core(&mut self, columns: &PathColumns<'_, T>, variables: &[Variable]) -> bool {
         let places = &self.places;
         let rows = &self.rows;
 
@@ -202,7 +202,7 @@ impl<T: Number> Factor<T> {
 #[cfg(test)]
 mod tests {
     use super::super::Subproblem;
-    use super::super::columns::Frame;
+    use super::super::columns::PathFrame;
     use super::*;
     use nalgebra::dmatrix;
 
@@ -222,7 +222,7 @@ mod tests {
             lower: &[0.0; 4],
             upper: &[9.0; 4],
         };
-        let mut frame = Frame::default();
+        let mut frame = PathFrame::default();
         frame.set(&sub, &[1.0, 0.0, 2.0, 0.0], &[0.0; 4]);
         frame.add_artificial(0, 3);
         let columns = frame.columns(&sub);
@@ -232,7 +232,7 @@ mod tests {
             Variable::W(2),
             Variable::T,
         ];
-        let mut factor = Factor::default();
+        let mut factor = BasisFactor::default();
 
         assert!(factor.factor(&columns, &variables));
 
@@ -270,9 +270,9 @@ mod tests {
             lower: &[-INF; 2],
             upper: &[INF; 2],
         };
-        let mut frame = Frame::default();
+        let mut frame = PathFrame::default();
         frame.set(&sub, &[0.0; 2], &[0.0; 2]);
-        let mut factor = Factor::default();
+        let mut factor = BasisFactor::default();
 
         assert!(!factor.factor(&frame.columns(&sub), &[Variable::Z(0), Variable::Z(1)]));
         assert_eq!(factor.repairs(), [Repair { place: 1, row: 1 }]);

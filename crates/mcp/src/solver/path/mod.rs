@@ -40,38 +40,38 @@ mod walk;
 pub use record::{PathEnd, Start};
 pub use variable::{Pivot, PivotKind, Variable};
 
-use super::number::Number;
+use super::number::PathNumber;
 use basis::Basis;
-use columns::Frame;
-pub(super) use record::{Limits, Path};
+use columns::PathFrame;
+pub(super) use record::{Path, PathLimits};
 use start::{FreeRows, start_point, starting_basis};
 pub(super) use subproblem::Subproblem;
-use tableau::{State, Tableau};
-use walk::{EntryCounts, Walk};
+use tableau::{PathState, PathTableau};
+use walk::{EntryCounts, PathWalk};
 
 /// What paths are followed with.
-pub(super) struct Storage<T = f64> {
-    frame: Frame<T>,
+pub(super) struct PathStorage<T = f64> {
+    frame: PathFrame<T>,
     basis: Basis<T>,
-    state: State<T>,
+    state: PathState<T>,
     /// Times each unknown has begun to move, for the guard against cycles.
     entries: Vec<EntryCounts>,
     free: FreeRows<T>,
 }
 
-impl<T> Default for Storage<T> {
+impl<T> Default for PathStorage<T> {
     fn default() -> Self {
-        Storage {
-            frame: Frame::default(),
+        PathStorage {
+            frame: PathFrame::default(),
             basis: Basis::default(),
-            state: State::default(),
+            state: PathState::default(),
             entries: Vec::new(),
             free: FreeRows::default(),
         }
     }
 }
 
-impl<T: Number> Storage<T> {
+impl<T: PathNumber> PathStorage<T> {
     /// Follows the path from a start into `path`; a regular one begins over `current`, within the
     /// bounds.
     pub(super) fn follow(
@@ -79,10 +79,10 @@ impl<T: Number> Storage<T> {
         sub: &Subproblem<'_, T>,
         start: Start,
         current: &[T],
-        limits: Limits,
+        limits: PathLimits,
         path: &mut Path<T>,
     ) {
-        let Storage {
+        let PathStorage {
             frame,
             basis,
             state,
@@ -96,8 +96,8 @@ impl<T: Number> Storage<T> {
         frame.set(sub, &state.z, &state.multiplier);
 
         if starting_basis(sub, frame, basis, state, path) {
-            let tableau = Tableau::new(frame.columns(sub), basis, state);
-            Walk::new(tableau, limits, entries, path).run();
+            let tableau = PathTableau::new(frame.columns(sub), basis, state);
+            PathWalk::new(tableau, limits, entries, path).run();
         }
     }
 }

@@ -6,13 +6,13 @@
 //! lexicographically, or, as in PATH itself, for the largest pivot within bounds that widen a
 //! little with every pivot.
 //!
-//! Input: a tableau whose rates are set. Output: a [`Block`]. Called by `walk`.
+//! Input: a tableau whose rates are set. Output: a [`BlockingVariable`]. Called by `walk`.
 
-use super::super::number::Number;
+use super::super::number::PathNumber;
 use super::super::options::RatioTest;
 use super::super::tolerance::{EXPAND_STEP, EXPAND_WIDTH, LEXICOGRAPHIC, PIVOT, TIE};
-use super::block::Block;
-use super::tableau::Tableau;
+use super::block::BlockingVariable;
+use super::tableau::PathTableau;
 use super::variable::Variable;
 use std::cmp::Ordering;
 use std::mem::{swap, take};
@@ -20,11 +20,11 @@ use std::mem::{swap, take};
 /// The first bound met when basic values change at the state's rates, or `None` on a ray; `pivots`
 /// were made before. Only places whose pivot is large enough can block. t reaching 1 goes before
 /// artificials, artificials before all others.
-pub(super) fn ratio_test<T: Number>(
-    tableau: &mut Tableau<'_, T>,
+pub(super) fn ratio_test<T: PathNumber>(
+    tableau: &mut PathTableau<'_, T>,
     rule: RatioTest,
     pivots: usize,
-) -> Option<Block<T>> {
+) -> Option<BlockingVariable<T>> {
     let mut blocks = take(&mut tableau.state.blocks);
     list_blocks(tableau, &mut blocks);
     let first = match rule {
@@ -38,10 +38,10 @@ pub(super) fn ratio_test<T: Number>(
 
 /// Among ties, the least in the lexicographic order of the perturbed steps (Dantzig, Orden and
 /// Wolfe).
-fn lexicographic_test<T: Number>(
-    tableau: &mut Tableau<'_, T>,
-    blocks: &[Block<T>],
-) -> Option<Block<T>> {
+fn lexicographic_test<T: PathNumber>(
+    tableau: &mut PathTableau<'_, T>,
+    blocks: &[BlockingVariable<T>],
+) -> Option<BlockingVariable<T>> {
     let least = blocks.iter().map(|b| b.step.clone()).reduce(T::smaller)?;
     let tie = least.clone() + T::tolerance(TIE) * (T::one() + least);
     let mut tied = blocks.iter().filter(|b| b.step <= tie);
@@ -80,11 +80,11 @@ fn lexicographic_test<T: Number>(
 /// EXPAND-like (Gill, Murray, Saunders and Wright 1989): of the bounds met before the first one
 /// widened, the one with the largest pivot, and always a step forward. Bounds widen with each pivot
 /// of the path, so that no step is undone by the next; the values are made consistent after it.
-fn expand_test<T: Number>(
-    tableau: &Tableau<'_, T>,
-    blocks: &[Block<T>],
+fn expand_test<T: PathNumber>(
+    tableau: &PathTableau<'_, T>,
+    blocks: &[BlockingVariable<T>],
     pivots: usize,
-) -> Option<Block<T>> {
+) -> Option<BlockingVariable<T>> {
     let width = T::tolerance(EXPAND_WIDTH + EXPAND_STEP * pivots as f64);
     let widened = blocks
         .iter()
@@ -107,7 +107,7 @@ fn expand_test<T: Number>(
 }
 
 /// How fast the unknown that blocks moves; 1 for the moving one itself.
-fn speed<T: Number>(tableau: &Tableau<'_, T>, block: &Block<T>) -> T {
+fn speed<T: PathNumber>(tableau: &PathTableau<'_, T>, block: &BlockingVariable<T>) -> T {
     match block.place {
         Some(place) => tableau.state.rates[place].magnitude(),
         None => T::one(),
@@ -115,7 +115,7 @@ fn speed<T: Number>(tableau: &Tableau<'_, T>, block: &Block<T>) -> T {
 }
 
 /// Lists the bounds that basic unknowns meet, and that of the moving one.
-fn list_blocks<T: Number>(tableau: &Tableau<'_, T>, blocks: &mut Vec<Block<T>>) {
+fn list_blocks<T: PathNumber>(tableau: &PathTableau<'_, T>, blocks: &mut Vec<BlockingVariable<T>>) {
     blocks.clear();
     let rates = &tableau.state.rates;
     let threshold = T::tolerance(PIVOT) * T::largest(rates).larger(T::one());
@@ -132,7 +132,7 @@ fn list_blocks<T: Number>(tableau: &Tableau<'_, T>, blocks: &mut Vec<Block<T>>) 
 
         if bound.is_finite() {
             let room = bound - tableau.state.values[place].clone();
-            blocks.push(Block {
+            blocks.push(BlockingVariable {
                 step: T::zero().larger(room / rate.clone()),
                 place: Some(place),
                 at_upper: rises,
@@ -142,7 +142,7 @@ fn list_blocks<T: Number>(tableau: &Tableau<'_, T>, blocks: &mut Vec<Block<T>>) 
 
     let step = tableau.own_room();
     if step.is_finite() {
-        blocks.push(Block {
+        blocks.push(BlockingVariable {
             step,
             place: None,
             at_upper: tableau.sign > T::zero(),
@@ -154,7 +154,7 @@ fn list_blocks<T: Number>(tableau: &Tableau<'_, T>, blocks: &mut Vec<Block<T>>) 
 const OTHER_RANK: u8 = 2;
 
 /// 0 if the path is complete, 1 for artificials, 2 for all others.
-fn rank<T: Number>(tableau: &Tableau<'_, T>, block: &Block<T>) -> u8 {
+fn rank<T: PathNumber>(tableau: &PathTableau<'_, T>, block: &BlockingVariable<T>) -> u8 {
     let blocking = match block.place {
         Some(place) => tableau.basis.variables[place],
         None => tableau.entering,
@@ -169,7 +169,11 @@ fn rank<T: Number>(tableau: &Tableau<'_, T>, block: &Block<T>) -> u8 {
 
 /// The perturbed step (bound - value - P eps) / rate as a row; the own bound of the moving unknown
 /// is not perturbed.
-fn perturbed_step<T: Number>(tableau: &mut Tableau<'_, T>, block: &Block<T>, row: &mut Vec<T>) {
+fn perturbed_step<T: PathNumber>(
+    tableau: &mut PathTableau<'_, T>,
+    block: &BlockingVariable<T>,
+    row: &mut Vec<T>,
+) {
     match block.place {
         Some(place) => {
             tableau.basis.perturbation(&tableau.columns, place, row);
@@ -186,7 +190,7 @@ fn perturbed_step<T: Number>(tableau: &mut Tableau<'_, T>, block: &Block<T>, row
 }
 
 /// The first component in which two rows differ decides; components within rounding are equal.
-fn lexicographic<T: Number>(a: &[T], b: &[T]) -> Ordering {
+fn lexicographic<T: PathNumber>(a: &[T], b: &[T]) -> Ordering {
     let scale = T::largest(a)
         .larger(T::largest(b))
         .larger(T::tolerance(f64::MIN_POSITIVE));

@@ -1,7 +1,7 @@
 //! What a path is followed with and what it leaves: the kind of its start, its limits, and the
 //! record of its knots and pivots, with the reason it ended.
 
-use super::super::number::Number;
+use super::super::number::PathNumber;
 use super::super::options::RatioTest;
 use super::knots::Knots;
 use super::variable::Pivot;
@@ -32,7 +32,7 @@ pub enum PathEnd {
 
 /// Limits on one path, and the rule of its ratio test.
 #[derive(Debug, Clone, Copy)]
-pub(in super::super) struct Limits {
+pub(in super::super) struct PathLimits {
     /// Pivots.
     pub(in super::super) pivots: usize,
     /// Times one unknown may begin to move without a new maximum of t.
@@ -65,7 +65,7 @@ impl<T> Default for Path<T> {
     }
 }
 
-impl<T: Number> Path<T> {
+impl<T: PathNumber> Path<T> {
     /// Forgets what was recorded: a path of `n` unknowns begins.
     pub(super) fn begin(&mut self, start: Start, n: usize) {
         self.knots.clear(n);

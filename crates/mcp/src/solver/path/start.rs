@@ -7,21 +7,21 @@
 //! and mends it where it is singular.
 
 use super::super::dense::Lu;
-use super::super::number::Number;
+use super::super::number::PathNumber;
 use super::basis::Basis;
-use super::columns::Frame;
+use super::columns::PathFrame;
 use super::record::{Path, Start};
 use super::subproblem::Subproblem;
-use super::tableau::State;
+use super::tableau::PathState;
 use super::variable::Variable;
 
 /// Sets z and the multipliers w - v of the state to the start of the given kind, a point of the
 /// normal map's domain; the regular one over `current`.
-pub(super) fn start_point<T: Number>(
+pub(super) fn start_point<T: PathNumber>(
     sub: &Subproblem<'_, T>,
     kind: Start,
     current: &[T],
-    state: &mut State<T>,
+    state: &mut PathState<T>,
     free: &mut FreeRows<T>,
 ) {
     match kind {
@@ -31,8 +31,8 @@ pub(super) fn start_point<T: Number>(
 }
 
 /// The normal-map point over the current z with the least residual.
-fn regular<T: Number>(sub: &Subproblem<'_, T>, current: &[T], state: &mut State<T>) {
-    let State { z, multiplier, .. } = state;
+fn regular<T: PathNumber>(sub: &Subproblem<'_, T>, current: &[T], state: &mut PathState<T>) {
+    let PathState { z, multiplier, .. } = state;
     z.clear();
     z.extend_from_slice(current);
 
@@ -44,7 +44,7 @@ fn regular<T: Number>(sub: &Subproblem<'_, T>, current: &[T], state: &mut State<
 
 /// The part of F_i that a bound absorbs: its positive part at a lower one, its negative part at an
 /// upper one, all of it where both hold. The residual F - m is the least over z.
-fn absorbed<T: Number>(z: &T, f: &T, lower: &T, upper: &T) -> T {
+fn absorbed<T: PathNumber>(z: &T, f: &T, lower: &T, upper: &T) -> T {
     let at_lower = if z <= lower {
         f.clone().larger(T::zero())
     } else {
@@ -62,8 +62,8 @@ fn absorbed<T: Number>(z: &T, f: &T, lower: &T, upper: &T) -> T {
 
 /// Lemke's ray: bounded z at a bound, free z solving their rows, and all multipliers lifted by the
 /// same amount until they are positive, so that t -> -inf is a ray of the path.
-fn ray<T: Number>(sub: &Subproblem<'_, T>, state: &mut State<T>, free: &mut FreeRows<T>) {
-    let State { z, multiplier, .. } = state;
+fn ray<T: PathNumber>(sub: &Subproblem<'_, T>, state: &mut PathState<T>, free: &mut FreeRows<T>) {
+    let PathState { z, multiplier, .. } = state;
     z.clear();
 
     for (lower, upper) in sub.lower.iter().zip(sub.upper) {
@@ -98,7 +98,7 @@ enum Side {
 }
 
 impl Side {
-    fn of<T: Number>(sub: &Subproblem<'_, T>, i: usize) -> Side {
+    fn of<T: PathNumber>(sub: &Subproblem<'_, T>, i: usize) -> Side {
         let lower = &sub.lower[i];
         let upper = &sub.upper[i];
 
@@ -116,7 +116,7 @@ impl Side {
 
 /// By how much multipliers have to be lifted to be positive on their sides: what the worst of them
 /// lacks, and the size of the largest besides (1 if all are zero).
-fn lift<T: Number>(sub: &Subproblem<'_, T>, multiplier: &[T]) -> T {
+fn lift<T: PathNumber>(sub: &Subproblem<'_, T>, multiplier: &[T]) -> T {
     let mut worst = T::zero();
     let mut size = T::zero();
 
@@ -136,7 +136,7 @@ fn lift<T: Number>(sub: &Subproblem<'_, T>, multiplier: &[T]) -> T {
 }
 
 /// The lower bound if it is finite, else the upper one if it is, else 0.
-fn bound_or_zero<T: Number>(lower: &T, upper: &T) -> T {
+fn bound_or_zero<T: PathNumber>(lower: &T, upper: &T) -> T {
     if lower.is_finite() {
         lower.clone()
     } else if upper.is_finite() {
@@ -164,7 +164,7 @@ impl<T> Default for FreeRows<T> {
     }
 }
 
-impl<T: Number> FreeRows<T> {
+impl<T: PathNumber> FreeRows<T> {
     /// Sets the free z so that their own rows vanish, if those rows are regular; else leaves them.
     fn solve(&mut self, sub: &Subproblem<'_, T>, z: &mut [T], value: &mut Vec<T>) {
         self.indices.clear();
@@ -213,11 +213,11 @@ impl<T: Number> FreeRows<T> {
 
 /// The basis of a start, repaired with artificials where it is singular: at a bound its multiplier
 /// is basic, strictly inside z is. False if even the repaired basis does not factorise.
-pub(super) fn starting_basis<T: Number>(
+pub(super) fn starting_basis<T: PathNumber>(
     sub: &Subproblem<'_, T>,
-    frame: &mut Frame<T>,
+    frame: &mut PathFrame<T>,
     basis: &mut Basis<T>,
-    state: &State<T>,
+    state: &PathState<T>,
     path: &mut Path<T>,
 ) -> bool {
     basis.variables.clear();
@@ -280,7 +280,7 @@ mod tests {
             lower: &[-INF, 0.0, -INF],
             upper: &[INF, INF, 1.0],
         };
-        let mut start = State::default();
+        let mut start = PathState::default();
         ray(&sub, &mut start, &mut FreeRows::default());
 
         assert_eq!(start.z, [2.0, 0.0, 1.0]);
@@ -301,7 +301,7 @@ mod tests {
             upper: &[INF; 2],
         };
         let (mut frame, mut basis, mut state) =
-            (Frame::default(), Basis::default(), State::default());
+            (PathFrame::default(), Basis::default(), PathState::default());
         regular(&sub, &[0.0, 0.0], &mut state);
         frame.set(&sub, &state.z, &state.multiplier);
         let mut path = Path::default();
@@ -327,7 +327,7 @@ mod tests {
             lower: &[0.0, 0.0, -INF, 5.0],
             upper: &[INF, 1.0, 0.0, 5.0],
         };
-        let mut state = State::default();
+        let mut state = PathState::default();
         ray(&sub, &mut state, &mut FreeRows::default());
 
         assert_eq!(state.z, vec![0.0, 0.0, 0.0, 5.0]);
@@ -339,7 +339,7 @@ mod tests {
             q: &[0.0; 4],
             ..sub
         };
-        let mut state = State::default();
+        let mut state = PathState::default();
         ray(&sub, &mut state, &mut FreeRows::default());
 
         assert_eq!(state.multiplier, [1.0, 1.0, -1.0, 0.0]);

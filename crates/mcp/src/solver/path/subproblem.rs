@@ -1,18 +1,18 @@
 //! The linear subproblem of a path: find z with M z + q complementary to the bounds on it.
 
 use super::super::dense::subtract;
-use super::super::number::Number;
+use super::super::number::PathNumber;
 use nalgebra::DMatrix;
 
 /// The linear MCP: M z + q on [lower, upper].
-pub(in super::super) struct Subproblem<'a, T: Number = f64> {
+pub(in super::super) struct Subproblem<'a, T: PathNumber = f64> {
     pub(in super::super) m: &'a DMatrix<T>,
     pub(in super::super) q: &'a [T],
     pub(in super::super) lower: &'a [T],
     pub(in super::super) upper: &'a [T],
 }
 
-impl<T: Number> Subproblem<'_, T> {
+impl<T: PathNumber> Subproblem<'_, T> {
     /// A column of M.
     pub(super) fn column(&self, j: usize) -> &[T] {
         let n = self.q.len();

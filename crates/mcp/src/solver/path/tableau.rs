@@ -7,15 +7,15 @@
 //! next; `flip` ends at the entering z_i's own other bound.
 
 use super::super::dense::subtract;
-use super::super::number::Number;
+use super::super::number::PathNumber;
 use super::super::tolerance::DRIFT;
 use super::basis::Basis;
-use super::block::Block;
-use super::columns::Columns;
+use super::block::BlockingVariable;
+use super::columns::PathColumns;
 use super::variable::Variable;
 
 /// Numbers of a path; all unknowns not named here are zero or at a bound. Storage is kept.
-pub(super) struct State<T> {
+pub(super) struct PathState<T> {
     /// Values of the basic unknowns, place by place.
     pub(super) values: Vec<T>,
     /// All z, also those not basic.
@@ -27,7 +27,7 @@ pub(super) struct State<T> {
     /// Change of the values per unit of its movement.
     pub(super) rates: Vec<T>,
     /// What can stop it.
-    pub(super) blocks: Vec<Block<T>>,
+    pub(super) blocks: Vec<BlockingVariable<T>>,
     /// Rows to compare in the ratio test.
     pub(super) rows: [Vec<T>; 2],
     /// Is z_i basic?
@@ -38,9 +38,9 @@ pub(super) struct State<T> {
     sum: Vec<T>,
 }
 
-impl<T> Default for State<T> {
+impl<T> Default for PathState<T> {
     fn default() -> Self {
-        State {
+        PathState {
             values: Vec::new(),
             z: Vec::new(),
             multiplier: Vec::new(),
@@ -56,10 +56,10 @@ impl<T> Default for State<T> {
 }
 
 /// A path under way.
-pub(super) struct Tableau<'a, T: Number> {
-    pub(super) columns: Columns<'a, T>,
+pub(super) struct PathTableau<'a, T: PathNumber> {
+    pub(super) columns: PathColumns<'a, T>,
     pub(super) basis: &'a mut Basis<T>,
-    pub(super) state: &'a mut State<T>,
+    pub(super) state: &'a mut PathState<T>,
     pub(super) t: T,
     /// The unknown that moves.
     pub(super) entering: Variable,
@@ -67,12 +67,12 @@ pub(super) struct Tableau<'a, T: Number> {
     pub(super) sign: T,
 }
 
-impl<'a, T: Number> Tableau<'a, T> {
+impl<'a, T: PathNumber> PathTableau<'a, T> {
     /// At t = 0, with t about to increase; z and multipliers of the state are those of the start.
     pub(super) fn new(
-        columns: Columns<'a, T>,
+        columns: PathColumns<'a, T>,
         basis: &'a mut Basis<T>,
-        state: &'a mut State<T>,
+        state: &'a mut PathState<T>,
     ) -> Self {
         let n = state.z.len();
         state.values.clear();
@@ -96,7 +96,7 @@ impl<'a, T: Number> Tableau<'a, T> {
         state.rates.resize(n, T::zero());
         state.sum.resize(n, T::zero());
 
-        Tableau {
+        PathTableau {
             columns,
             basis,
             state,
@@ -279,7 +279,7 @@ impl<'a, T: Number> Tableau<'a, T> {
     /// Error of the equations, relative to the size of their terms.
     fn drift(&mut self) -> T {
         self.set_right_hand_side();
-        let State { values, sum, .. } = &mut *self.state;
+        let PathState { values, sum, .. } = &mut *self.state;
         let mut size = self.columns.scale();
 
         for (&variable, value) in self.basis.variables.iter().zip(values.iter()) {
@@ -309,7 +309,7 @@ impl<'a, T: Number> Tableau<'a, T> {
 
     /// -(q + r) less the columns of the z that are not basic, into the state's sum.
     fn set_right_hand_side(&mut self) {
-        let State {
+        let PathState {
             z, sum, is_basic, ..
         } = &mut *self.state;
         sum.clone_from_slice(self.columns.right());

@@ -8,7 +8,7 @@ use super::*;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
 const INF: f64 = f64::INFINITY;
-const LIMITS: Limits = Limits {
+const LIMITS: PathLimits = PathLimits {
     pivots: 200,
     cycle_entries: 20,
     rule: RatioTest::Lexicographic,
@@ -16,13 +16,13 @@ const LIMITS: Limits = Limits {
 
 /// A breakpoint.
 #[derive(Debug)]
-struct Knot<T: Number> {
+struct Knot<T: PathNumber> {
     t: T,
     z: DVector<T>,
     multiplier: DVector<T>,
 }
 
-fn knots<T: Number>(path: &Path<T>) -> Vec<Knot<T>> {
+fn knots<T: PathNumber>(path: &Path<T>) -> Vec<Knot<T>> {
     let vector = DVector::from_column_slice;
     let knot = |k: usize| Knot {
         t: path.knots.t(k).clone(),
@@ -33,22 +33,22 @@ fn knots<T: Number>(path: &Path<T>) -> Vec<Knot<T>> {
 }
 
 /// Follows in storage that another path has left behind.
-fn walked<T: Number>(
+fn walked<T: PathNumber>(
     sub: &Subproblem<'_, T>,
     start: Start,
     current: &[T],
-    limits: Limits,
+    limits: PathLimits,
 ) -> Path<T> {
     let other = match start {
         Start::Ray => Start::Regular,
         Start::Regular => Start::Ray,
     };
-    let few_pivots = Limits {
+    let few_pivots = PathLimits {
         pivots: 3,
         ..limits
     };
 
-    let mut storage = Storage::default();
+    let mut storage = PathStorage::default();
     let mut path = Path::default();
     storage.follow(sub, other, current, few_pivots, &mut path);
     storage.follow(sub, start, current, limits, &mut path);
@@ -100,15 +100,15 @@ pub(super) fn at_start<R>(
     sub: &Subproblem<'_, f64>,
     start: Start,
     current: &[f64],
-    look: impl FnOnce(Tableau<'_, f64>) -> R,
+    look: impl FnOnce(PathTableau<'_, f64>) -> R,
 ) -> R {
-    let Storage {
+    let PathStorage {
         mut frame,
         mut basis,
         mut state,
         mut free,
         ..
-    } = Storage::default();
+    } = PathStorage::default();
     start_point(sub, start, current, &mut state, &mut free);
     frame.set(sub, &state.z, &state.multiplier);
 
@@ -120,7 +120,7 @@ pub(super) fn at_start<R>(
         &mut Path::default()
     ));
 
-    look(Tableau::new(frame.columns(sub), &mut basis, &mut state))
+    look(PathTableau::new(frame.columns(sub), &mut basis, &mut state))
 }
 
 #[test]

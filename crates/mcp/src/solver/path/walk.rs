@@ -9,13 +9,13 @@
 //! knot, and turns there: the path is complete, or the entering unknown flips, or it is exchanged
 //! for the one that has stopped it (`tableau`).
 
-use super::super::number::Number;
+use super::super::number::PathNumber;
 use super::super::options::RatioTest;
 use super::super::tolerance::{RAY_STEP, TIE};
-use super::block::Block;
+use super::block::BlockingVariable;
 use super::ratio::ratio_test;
-use super::record::{Limits, Path, PathEnd, Start};
-use super::tableau::Tableau;
+use super::record::{Path, PathEnd, PathLimits, Start};
+use super::tableau::PathTableau;
 use super::variable::{Pivot, PivotKind, Variable};
 
 /// How often the unknowns of one index have begun to move since the last new maximum of t.
@@ -27,26 +27,26 @@ pub(super) struct EntryCounts {
 }
 
 /// A path under way.
-pub(super) struct Walk<'a, T: Number> {
-    tableau: Tableau<'a, T>,
-    limits: Limits,
+pub(super) struct PathWalk<'a, T: PathNumber> {
+    tableau: PathTableau<'a, T>,
+    limits: PathLimits,
     path: &'a mut Path<T>,
     best_t: T,
     /// By index.
     entries: &'a mut Vec<EntryCounts>,
 }
 
-impl<'a, T: Number> Walk<'a, T> {
+impl<'a, T: PathNumber> PathWalk<'a, T> {
     /// At the start of the tableau, which becomes the first knot.
     pub(super) fn new(
-        tableau: Tableau<'a, T>,
-        limits: Limits,
+        tableau: PathTableau<'a, T>,
+        limits: PathLimits,
         entries: &'a mut Vec<EntryCounts>,
         path: &'a mut Path<T>,
     ) -> Self {
         entries.clear();
         entries.resize(tableau.state.z.len(), EntryCounts::default());
-        let mut walk = Walk {
+        let mut walk = PathWalk {
             tableau,
             limits,
             path,
@@ -85,7 +85,7 @@ impl<'a, T: Number> Walk<'a, T> {
     }
 
     /// At a breakpoint: complete, flip or exchange.
-    fn turn(&mut self, block: &Block<T>) -> Option<PathEnd> {
+    fn turn(&mut self, block: &BlockingVariable<T>) -> Option<PathEnd> {
         let kind = self.record_pivot(block);
         if kind == PivotKind::Complete {
             return Some(self.complete());
@@ -107,7 +107,7 @@ impl<'a, T: Number> Walk<'a, T> {
     }
 
     /// Records what the block leads to; returns its kind.
-    fn record_pivot(&mut self, block: &Block<T>) -> PivotKind {
+    fn record_pivot(&mut self, block: &BlockingVariable<T>) -> PivotKind {
         let entering = self.tableau.entering;
         let leaving = match block.place {
             Some(place) => self.tableau.basis.variables[place],
@@ -194,8 +194,8 @@ mod tests {
 
     const INF: f64 = f64::INFINITY;
 
-    fn limits(cycle_entries: usize) -> Limits {
-        Limits {
+    fn limits(cycle_entries: usize) -> PathLimits {
+        PathLimits {
             pivots: 100,
             cycle_entries,
             rule: RatioTest::Lexicographic,
@@ -229,7 +229,7 @@ mod tests {
             at_start(&sub, Start::Regular, &current, |tableau| {
                 let mut path = Path::default();
                 path.begin(Start::Regular, 2);
-                Walk::new(tableau, limits(9), &mut Vec::new(), &mut path).run();
+                PathWalk::new(tableau, limits(9), &mut Vec::new(), &mut path).run();
 
                 assert_eq!(path.end, PathEnd::Ray);
 
@@ -267,7 +267,7 @@ mod tests {
                 // Counts that another path has left behind.
                 let left = EntryCounts { z: 7, w: 7, v: 7 };
                 let mut entries = vec![left; 9];
-                let mut walk = Walk::new(tableau, limits(2), &mut entries, &mut path);
+                let mut walk = PathWalk::new(tableau, limits(2), &mut entries, &mut path);
                 let cycles = start == Start::Regular; // from a ray there is no guard
                 let mut at = |t: f64, entering: Variable| {
                     walk.tableau.t = t;
@@ -309,11 +309,11 @@ mod tests {
             at_start(&sub, Start::Ray, &[0.0; 2], |tableau| {
                 let mut path = Path::default();
                 path.begin(Start::Ray, 2);
-                let limits = Limits {
+                let limits = PathLimits {
                     pivots,
                     ..limits(9)
                 };
-                Walk::new(tableau, limits, &mut Vec::new(), &mut path).run();
+                PathWalk::new(tableau, limits, &mut Vec::new(), &mut path).run();
                 (path.end, path.pivots.len(), path.knots.len())
             })
         };

@@ -28,11 +28,11 @@ fn places_follow_the_bounds() {
     assert_eq!(
         at.0,
         [
-            Place::Lower,
-            Place::Upper,
-            Place::Inside,
-            Place::Fixed,
-            Place::Upper
+            ActiveBound::Lower,
+            ActiveBound::Upper,
+            ActiveBound::Inside,
+            ActiveBound::Fixed,
+            ActiveBound::Upper
         ]
     );
     assert_eq!(at.inside(), [2]);
@@ -54,14 +54,14 @@ fn places_of_a_solution_are_those_of_strict_complementarity() {
         .0[0]
     };
 
-    assert_eq!(place(1e-9, 1.0), Place::Lower);
-    assert_eq!(place(1.0, 1e-9), Place::Inside);
-    assert_eq!(place(0.0, 0.0), Place::Lower);
-    assert_eq!(place(1.0, 1.0), Place::Lower);
-    assert_eq!(place(4.0, -1.0), Place::Upper);
-    assert_eq!(place(3.0, -1e-9), Place::Inside);
-    assert_eq!(place(3.0, -1.0), Place::Upper);
-    assert_eq!(place(2.0, 0.0), Place::Inside);
+    assert_eq!(place(1e-9, 1.0), ActiveBound::Lower);
+    assert_eq!(place(1.0, 1e-9), ActiveBound::Inside);
+    assert_eq!(place(0.0, 0.0), ActiveBound::Lower);
+    assert_eq!(place(1.0, 1.0), ActiveBound::Lower);
+    assert_eq!(place(4.0, -1.0), ActiveBound::Upper);
+    assert_eq!(place(3.0, -1e-9), ActiveBound::Inside);
+    assert_eq!(place(3.0, -1.0), ActiveBound::Upper);
+    assert_eq!(place(2.0, 0.0), ActiveBound::Inside);
 
     let fixed = problem(1, &[4.0], &[4.0]);
     assert_eq!(
@@ -74,17 +74,17 @@ fn places_of_a_solution_are_those_of_strict_complementarity() {
             }
         )
         .0,
-        [Place::Fixed]
+        [ActiveBound::Fixed]
     );
 }
 
 #[test]
 fn lifted_multipliers_are_on_the_right_side() {
     let p = Places(vec![
-        Place::Inside,
-        Place::Lower,
-        Place::Upper,
-        Place::Fixed,
+        ActiveBound::Inside,
+        ActiveBound::Lower,
+        ActiveBound::Upper,
+        ActiveBound::Fixed,
     ]);
     let lift = |i: usize, f: f64| p.lifted_multiplier(i, f, 0.25);
 
@@ -101,8 +101,8 @@ fn lifted_multipliers_are_on_the_right_side() {
 fn rows_are_the_derivatives_of_the_quantities() {
     let p = problem(2, &[0.0; 2], &[4.0; 2]);
     let mut evaluated = Evaluated::new(&p);
-    let places = Places(vec![Place::Inside, Place::Lower]);
-    let system = System {
+    let places = Places(vec![ActiveBound::Inside, ActiveBound::Lower]);
+    let system = HomotopySystem {
         problem: &mut evaluated,
         r: dvector![5.0, 7.0],
         places,
@@ -111,7 +111,7 @@ fn rows_are_the_derivatives_of_the_quantities() {
         f: dvector![2.0, 3.0],
         jacobian: DMatrix::from_row_slice(2, 2, &[11.0, 13.0, 17.0, 19.0]),
     };
-    let at = Position {
+    let at = CurvePoint {
         z: dvector![0.5, 0.0],
         s: 0.125,
     };
@@ -151,12 +151,12 @@ fn a_correction_may_double_the_residual_and_no_more() {
         };
         let p = free(1, f, jacobian);
         let mut evaluated = Evaluated::new(&p);
-        let mut system = System {
+        let mut system = HomotopySystem {
             problem: &mut evaluated,
             r: dvector![0.0],
-            places: Places(vec![Place::Inside]),
+            places: Places(vec![ActiveBound::Inside]),
         };
-        let at = Position {
+        let at = CurvePoint {
             z: dvector![0.125],
             s: 0.0,
         };
@@ -177,13 +177,13 @@ fn a_residual_is_relative_to_the_right_hand_side() {
     for (s, r) in [(0.0, 3.0), (2.0, 3.0), (-2.0, -0.25)] {
         let steps = |share: f64| {
             let mut evaluated = Evaluated::new(&p);
-            let mut system = System {
+            let mut system = HomotopySystem {
                 problem: &mut evaluated,
                 r: dvector![r],
-                places: Places(vec![Place::Inside]),
+                places: Places(vec![ActiveBound::Inside]),
             };
             let size = 1.0 + f64::abs(s * r);
-            let at = Position {
+            let at = CurvePoint {
                 z: dvector![s * r + share * CURVE_RESIDUAL * size],
                 s,
             };
@@ -209,12 +209,12 @@ fn a_correction_has_a_number_of_steps() {
     );
     let steps = |residual: f64| {
         let mut evaluated = Evaluated::new(&p);
-        let mut system = System {
+        let mut system = HomotopySystem {
             problem: &mut evaluated,
             r: dvector![0.0],
-            places: Places(vec![Place::Inside]),
+            places: Places(vec![ActiveBound::Inside]),
         };
-        let at = Position {
+        let at = CurvePoint {
             z: dvector![residual.cbrt()],
             s: 0.0,
         };
@@ -240,10 +240,10 @@ fn outside_the_bounds_the_function_is_linear() {
         },
     );
     let mut evaluated = Evaluated::new(&p);
-    let mut system = System {
+    let mut system = HomotopySystem {
         problem: &mut evaluated,
         r: dvector![0.0, 0.0],
-        places: Places(vec![Place::Inside; 2]),
+        places: Places(vec![ActiveBound::Inside; 2]),
     };
 
     assert_eq!(
@@ -263,10 +263,10 @@ fn outside_the_bounds_the_function_is_linear() {
     for (value, slope) in [(f64::NAN, 1.0), (1.0, f64::INFINITY)] {
         let p = free(1, move |_, f| f[0] = value, move |_, j| j[(0, 0)] = slope);
         let mut evaluated = Evaluated::new(&p);
-        let mut system = System {
+        let mut system = HomotopySystem {
             problem: &mut evaluated,
             r: dvector![0.0],
-            places: Places(vec![Place::Inside]),
+            places: Places(vec![ActiveBound::Inside]),
         };
 
         assert!(system.local(&dvector![0.0]).is_none());
@@ -279,8 +279,12 @@ fn outside_the_bounds_the_function_is_linear() {
 fn tangents_satisfy_the_bordered_equations() {
     let p = problem(3, &[0.0; 3], &[4.0; 3]);
     let mut evaluated = Evaluated::new(&p);
-    let places = Places(vec![Place::Inside, Place::Lower, Place::Inside]);
-    let mut system = System {
+    let places = Places(vec![
+        ActiveBound::Inside,
+        ActiveBound::Lower,
+        ActiveBound::Inside,
+    ]);
+    let mut system = HomotopySystem {
         problem: &mut evaluated,
         r: dvector![5.0, 7.0, -2.0],
         places,
@@ -307,7 +311,7 @@ fn tangents_satisfy_the_bordered_equations() {
             .is_none()
     );
 
-    let mut at = Position {
+    let mut at = CurvePoint {
         z: dvector![1.0, 2.0, 3.0],
         s: 4.0,
     };
@@ -336,14 +340,14 @@ fn factors_are_kept_while_they_gain() {
     let p = free(1, |z, f| f[0] = z[0] * z[0], |z, j| j[(0, 0)] = 2.0 * z[0]);
     let corrected = |z: f64| {
         let mut evaluated = Evaluated::new(&p);
-        let mut system = System {
+        let mut system = HomotopySystem {
             problem: &mut evaluated,
             r: dvector![1.0],
-            places: Places(vec![Place::Inside]),
+            places: Places(vec![ActiveBound::Inside]),
         };
         let there = system
             .correct(
-                &Position {
+                &CurvePoint {
                     z: dvector![z],
                     s: 1.0,
                 },

@@ -41,7 +41,7 @@ fn components_are_compared_relative_to_the_larger_row() {
     assert_eq!(lexicographic(&[0.0; 2], &[0.0; 2]), Ordering::Equal);
 }
 
-fn with_two_rows<R>(look: impl FnOnce(Tableau<'_, f64>) -> R) -> R {
+fn with_two_rows<R>(look: impl FnOnce(PathTableau<'_, f64>) -> R) -> R {
     let m = DMatrix::from_element(2, 2, 1.0);
     let sub = Subproblem {
         m: &m,
@@ -52,8 +52,8 @@ fn with_two_rows<R>(look: impl FnOnce(Tableau<'_, f64>) -> R) -> R {
     at_start(&sub, Start::Ray, &[0.0; 2], look)
 }
 
-fn at(step: f64, place: Option<usize>) -> Block<f64> {
-    Block {
+fn at(step: f64, place: Option<usize>) -> BlockingVariable<f64> {
+    BlockingVariable {
         step,
         place,
         at_upper: false,
@@ -160,7 +160,7 @@ fn bounds_widen_with_every_pivot() {
 fn expand_steps_forward_unless_the_stop_is_exact() {
     with_two_rows(|mut tableau| {
         tableau.state.rates = vec![-4.0, -2.0];
-        let step = |tableau: &Tableau<'_, f64>, block: Block<f64>| {
+        let step = |tableau: &PathTableau<'_, f64>, block: BlockingVariable<f64>| {
             expand_test(tableau, &[block], 7).unwrap().step
         };
 
@@ -205,7 +205,7 @@ fn blocks_are_the_bounds_ahead_of_values_that_move() {
             list_blocks(&tableau, &mut list);
             list
         };
-        let block = |step, place, at_upper| Block {
+        let block = |step, place, at_upper| BlockingVariable {
             step,
             place,
             at_upper,

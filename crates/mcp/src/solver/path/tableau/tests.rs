@@ -11,7 +11,12 @@ const INF: f64 = f64::INFINITY;
 
 /// |M z - w + v - t r + q + r| over the largest of |q| + |r| and of the terms of the basic
 /// unknowns.
-fn drift_by_definition(tableau: &Tableau<'_, f64>, m: &DMatrix<f64>, q: &[f64], r: &[f64]) -> f64 {
+fn drift_by_definition(
+    tableau: &PathTableau<'_, f64>,
+    m: &DMatrix<f64>,
+    q: &[f64],
+    r: &[f64],
+) -> f64 {
     let n = q.len();
     let mut sum: Vec<f64> = (0..n).map(|i| q[i] + r[i]).collect();
     let mut size: f64 = largest(q) + largest(r);
@@ -160,7 +165,7 @@ fn rooms_are_up_to_the_bound_ahead() {
         upper: &[8.0, 3.0],
     };
     at_start(&sub, Start::Regular, &[2.0, 3.0], |mut tableau| {
-        let room = |tableau: &mut Tableau<'_, f64>, entering, sign| {
+        let room = |tableau: &mut PathTableau<'_, f64>, entering, sign| {
             tableau.entering = entering;
             tableau.sign = sign;
             tableau.own_room()

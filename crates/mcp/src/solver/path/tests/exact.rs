@@ -1,7 +1,7 @@
 //! Rationals with infinities, so that the very code of the path can be run without rounding.
 
 use super::super::super::dense::Lu;
-use super::super::super::number::Number;
+use super::super::super::number::PathNumber;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
@@ -112,7 +112,7 @@ impl One for Exact {
     }
 }
 
-impl Number for Exact {
+impl PathNumber for Exact {
     fn infinity() -> Exact {
         PlusInfinity
     }

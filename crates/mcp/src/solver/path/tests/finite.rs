@@ -3,7 +3,7 @@
 //! (Cottle, Pang and Stone 1992, section 4.9; Eaves 1971).
 
 use super::super::super::normal_map::least_residual;
-use super::super::super::number::Number;
+use super::super::super::number::PathNumber;
 use super::exact::Exact;
 use super::*;
 use num_traits::Zero;
@@ -19,7 +19,7 @@ struct Case {
     upper: Vec<Option<i64>>,
 }
 
-const LIMITS: Limits = Limits {
+const LIMITS: PathLimits = PathLimits {
     pivots: 5000,
     cycle_entries: usize::MAX,
     rule: RatioTest::Lexicographic,
@@ -104,7 +104,7 @@ impl Case {
             &sub,
             Start::Ray,
             &vec![0.0; q.len()],
-            Limits { rule, ..LIMITS },
+            PathLimits { rule, ..LIMITS },
         )
     }
 
