@@ -11,6 +11,7 @@
 //! |---|---|
 //! | `options`, `tolerance` | limits with PATH's names; every tolerance |
 //! | `validate`, `error` | refusals |
+//! | `active_bound` | which bound holds an unknown |
 //! | `number`, `dense` | the arithmetic, doubles or exact; dense factors in storage that is kept |
 //! | `evaluation`, `jacobian` | F and F', counted |
 //! | `fischer`, `normal_map`, `residual` | the merit, the normal map, the five residuals |
@@ -25,6 +26,7 @@
 //! | `reuse` | a solver that keeps its storage from run to run |
 //! | `outcome`, `log` | point, residuals, reason, log of every pivot |
 
+mod active_bound;
 mod continuation;
 mod crash;
 mod dense;

@@ -10,15 +10,14 @@
 //! Input: the equations of a `HomotopySystem` and a position on the curve. Output: the solutions
 //! met and a [`CurveEnd`]. Called by `continuation`.
 
+use super::super::active_bound::ActiveBound;
 use super::super::options::Options;
 use super::super::tolerance::{
     CURVE_ANGLE, CURVE_CLOSED, CURVE_FAR, CURVE_FEASIBLE, CURVE_FIRST, CURVE_GROWTH, CURVE_SAME,
     CURVE_SHORTEST,
 };
 use super::curve::{CurveEnd, Sense};
-use super::system::{
-    ActiveBound, Border, Corrected, CurvePoint, HomotopySystem, Local, Places, Quantity,
-};
+use super::system::{Border, Corrected, CurvePoint, HomotopySystem, Local, Places, Quantity};
 use crate::mcp::Mcp;
 use nalgebra::DVector;
 use std::mem::replace;
@@ -321,7 +320,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         let was_lower = self.system.places.0[i] == ActiveBound::Lower;
         PlaceChange {
             index: i,
-            place: ActiveBound::Inside,
+            place: ActiveBound::None,
             leaving: Quantity::Z(i, 0.0),
             sign: if was_lower { 1.0 } else { -1.0 },
         }
@@ -348,7 +347,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
 
         for (i, place) in self.system.places.0.iter().enumerate() {
             match place {
-                ActiveBound::Inside => {
+                ActiveBound::None => {
                     let lower = mcp.lower()[i];
                     if lower.is_finite() {
                         guards.push(Guard::positive(Quantity::Z(i, lower)));

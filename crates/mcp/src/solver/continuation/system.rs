@@ -10,26 +10,14 @@
 //! Vectors of length |I| + 1 hold z_I first, in ascending order of the indices, and s last. Called
 //! by `follow`.
 
+use super::super::active_bound::ActiveBound;
 use super::super::evaluation::{Evaluated, Point};
 use super::super::jacobian::jacobian_at;
 use super::super::tolerance::{CURVE_KEPT, CURVE_RESIDUAL, CURVE_STEPS};
 use crate::mcp::Mcp;
 use nalgebra::{DMatrix, DVector};
 
-/// Where an unknown stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum ActiveBound {
-    /// Between its bounds; its multiplier is zero.
-    Inside,
-    /// At its lower bound, multiplier >= 0.
-    Lower,
-    /// At its upper bound, multiplier <= 0.
-    Upper,
-    /// At equal bounds, multiplier free.
-    Fixed,
-}
-
-/// The place of every unknown.
+/// Which bound, if any, each unknown is at.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Places(pub(super) Vec<ActiveBound>);
 
@@ -57,7 +45,7 @@ impl Places {
             } else if upper - z <= -f(i) {
                 ActiveBound::Upper
             } else {
-                ActiveBound::Inside
+                ActiveBound::None
             });
         }
 
@@ -67,14 +55,14 @@ impl Places {
     /// The unknowns inside, ascending.
     pub(super) fn inside(&self) -> Vec<usize> {
         (0..self.0.len())
-            .filter(|&i| self.0[i] == ActiveBound::Inside)
+            .filter(|&i| self.0[i] == ActiveBound::None)
             .collect()
     }
 
     /// A multiplier strictly on the right side of zero.
     pub(super) fn lifted_multiplier(&self, i: usize, f: f64, lift: f64) -> f64 {
         match self.0[i] {
-            ActiveBound::Inside => 0.0,
+            ActiveBound::None => 0.0,
             ActiveBound::Lower => f.max(0.0) + lift,
             ActiveBound::Upper => f.min(0.0) - lift,
             ActiveBound::Fixed => f,

@@ -6,6 +6,7 @@
 //! are positive, so that the path comes from t = -inf. `starting_basis` makes the basis of a start,
 //! and mends it where it is singular.
 
+use super::super::active_bound::ActiveBound;
 use super::super::dense::Lu;
 use super::super::number::PathNumber;
 use super::basis::Basis;
@@ -75,42 +76,28 @@ fn ray<T: PathNumber>(sub: &Subproblem<'_, T>, state: &mut PathState<T>, free: &
 
     let lift = lift(sub, multiplier);
     for (i, m) in multiplier.iter_mut().enumerate() {
-        *m = match Side::of(sub, i) {
-            Side::Lower => m.clone() + lift.clone(),
-            Side::Upper => m.clone() - lift.clone(),
-            Side::None => T::zero(),
-            Side::Fixed => continue,
+        *m = match bound_of_ray(sub, i) {
+            ActiveBound::Lower => m.clone() + lift.clone(),
+            ActiveBound::Upper => m.clone() - lift.clone(),
+            ActiveBound::None => T::zero(),
+            ActiveBound::Fixed => continue,
         };
     }
 }
 
 /// The bound that the ray holds an unknown at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
-    /// The lower bound; its multiplier is positive.
-    Lower,
-    /// The upper bound; its multiplier is negative.
-    Upper,
-    /// Both bounds, which are equal; the multiplier has any sign.
-    Fixed,
-    /// No bound; the multiplier is zero.
-    None,
-}
+fn bound_of_ray<T: PathNumber>(sub: &Subproblem<'_, T>, i: usize) -> ActiveBound {
+    let lower = &sub.lower[i];
+    let upper = &sub.upper[i];
 
-impl Side {
-    fn of<T: PathNumber>(sub: &Subproblem<'_, T>, i: usize) -> Side {
-        let lower = &sub.lower[i];
-        let upper = &sub.upper[i];
-
-        if lower == upper {
-            Side::Fixed
-        } else if lower.is_finite() {
-            Side::Lower
-        } else if upper.is_finite() {
-            Side::Upper
-        } else {
-            Side::None
-        }
+    if lower == upper {
+        ActiveBound::Fixed
+    } else if lower.is_finite() {
+        ActiveBound::Lower
+    } else if upper.is_finite() {
+        ActiveBound::Upper
+    } else {
+        ActiveBound::None
     }
 }
 
@@ -121,10 +108,10 @@ fn lift<T: PathNumber>(sub: &Subproblem<'_, T>, multiplier: &[T]) -> T {
     let mut size = T::zero();
 
     for (i, m) in multiplier.iter().enumerate() {
-        let sided = match Side::of(sub, i) {
-            Side::Lower => m.clone(),
-            Side::Upper => -m.clone(),
-            Side::Fixed | Side::None => continue,
+        let sided = match bound_of_ray(sub, i) {
+            ActiveBound::Lower => m.clone(),
+            ActiveBound::Upper => -m.clone(),
+            ActiveBound::Fixed | ActiveBound::None => continue,
         };
 
         worst = worst.larger(-sided.clone());

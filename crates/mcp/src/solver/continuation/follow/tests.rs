@@ -75,7 +75,7 @@ fn a_curve_is_back_where_it_passes_its_start() {
     let mut follower = follower_at(
         &mut evaluated,
         dvector![1.0, 1.0],
-        &[ActiveBound::Inside; 2],
+        &[ActiveBound::None; 2],
         position(&[5.0, 0.0], 0.9),
     );
     let mut is_back = |off: [f64; 2], before: f64, now: f64| {
@@ -95,7 +95,7 @@ fn a_curve_is_back_where_it_passes_its_start() {
     assert!(!is_back([0.0; 2], 1.3, 1.1));
     assert!(!is_back([0.0; 2], 0.7, 0.9));
 
-    follower.system.places = Places(vec![ActiveBound::Inside, ActiveBound::Lower]);
+    follower.system.places = Places(vec![ActiveBound::None, ActiveBound::Lower]);
     follower.start = position(&[4.0, 0.0], 1.0);
     follower.at.s = 0.9;
     assert!(!follower.is_back(&position(&[1.0, 0.0], 1.3)));
@@ -116,7 +116,7 @@ fn the_next_event_is_the_nearest_ahead() {
     let mut follower = follower_at(
         &mut evaluated,
         dvector![0.0, 0.0, 3.0],
-        &[ActiveBound::Inside, ActiveBound::Inside, ActiveBound::Lower],
+        &[ActiveBound::None, ActiveBound::None, ActiveBound::Lower],
         position(&[2.0, 7.0, 0.0], 1.0),
     );
 
@@ -182,7 +182,7 @@ fn a_crossing_is_more_than_the_feasibility() {
     let mut follower = follower_at(
         &mut evaluated,
         dvector![1.0, 1.0],
-        &[ActiveBound::Inside; 2],
+        &[ActiveBound::None; 2],
         position(&[3.0, 0.0], 1.0),
     );
     let crossing = |follower: &mut Follower<'_, '_, Linear>, z: [f64; 2], s: f64| {
@@ -236,7 +236,7 @@ fn easy_steps_grow_and_events_do_not() {
     let mut follower = follower_at(
         &mut evaluated,
         dvector![-100.0],
-        &[ActiveBound::Inside],
+        &[ActiveBound::None],
         position(&[0.0], 1.0),
     );
     let tangent = dvector![100.0, -1.0].normalize();
@@ -264,7 +264,7 @@ fn easy_steps_grow_and_events_do_not() {
     assert_eq!(follower.system.places.0, [ActiveBound::Upper]);
 
     // Nothing shorter than the shortest step is tried.
-    follower.system.places = Places(vec![ActiveBound::Inside]);
+    follower.system.places = Places(vec![ActiveBound::None]);
     follower.length = 1.5 * CURVE_SHORTEST;
 
     assert!(step(&mut follower).is_some());
@@ -285,7 +285,7 @@ fn a_curve_that_leads_nowhere_is_left_at_the_shortest_step() {
     let mut follower = follower_at(
         &mut evaluated,
         dvector![1.0],
-        &[ActiveBound::Inside],
+        &[ActiveBound::None],
         position(&[0.0], 0.0),
     );
     let local = follower.system.local(&dvector![0.0]).unwrap();
@@ -308,7 +308,7 @@ fn an_event_that_is_far_is_refused() {
     let mut follower = follower_at(
         &mut evaluated,
         dvector![-10.0],
-        &[ActiveBound::Inside],
+        &[ActiveBound::None],
         position(&[5.0], 0.5),
     );
     let mut lands = |length: f64| {
@@ -339,7 +339,7 @@ fn an_event_beyond_another_one_is_refused() {
         let mut follower = follower_at(
             &mut evaluated,
             dvector![-1.0, 1.0],
-            &[ActiveBound::Inside; 2],
+            &[ActiveBound::None; 2],
             position(&[2.0, 1.0], 1.0),
         );
         follower.length = 2.0;
@@ -363,7 +363,7 @@ fn a_predicted_event_costs_one_correction() {
         let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0],
-            &[ActiveBound::Inside],
+            &[ActiveBound::None],
             position(&[1.0], 1.0),
         );
         follower.length = length;
@@ -392,7 +392,7 @@ fn a_tangent_from_the_correction_is_turned_forward() {
         let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0],
-            &[ActiveBound::Inside],
+            &[ActiveBound::None],
             position(&[0.0], 0.0),
         );
         let local = Local {
@@ -433,7 +433,7 @@ fn a_tangent_turns_by_no_more_than_the_angle() {
         let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0],
-            &[ActiveBound::Inside],
+            &[ActiveBound::None],
             position(&[0.0], 0.0),
         );
         let slope = (1.0 / f64::powi(cosine, 2) - 1.0).sqrt();
@@ -510,7 +510,7 @@ fn a_pair_changes_places_at_its_event() {
             (next.norm() - 1.0).abs() < 1e-12,
         )
     };
-    let inside = [ActiveBound::Inside; 2];
+    let inside = [ActiveBound::None; 2];
 
     assert_eq!(
         turned(inside, Quantity::Z(1, 4.0), dvector![0.0, 0.5, 0.5]),
@@ -533,19 +533,19 @@ fn a_pair_changes_places_at_its_event() {
     );
     assert_eq!(
         turned(
-            [ActiveBound::Inside, ActiveBound::Lower],
+            [ActiveBound::None, ActiveBound::Lower],
             Quantity::Multiplier(1),
             dvector![0.5, 0.5]
         ),
-        (ActiveBound::Inside, true, true)
+        (ActiveBound::None, true, true)
     );
     assert_eq!(
         turned(
-            [ActiveBound::Inside, ActiveBound::Upper],
+            [ActiveBound::None, ActiveBound::Upper],
             Quantity::Multiplier(1),
             dvector![0.5, 0.5]
         ),
-        (ActiveBound::Inside, false, true)
+        (ActiveBound::None, false, true)
     );
 }
 
@@ -560,7 +560,7 @@ fn a_curve_is_a_ray_when_far() {
         let mut follower = follower_at(
             &mut evaluated,
             dvector![slope],
-            &[ActiveBound::Inside],
+            &[ActiveBound::None],
             position(&[z], z / slope),
         );
         follower.start.z[0] = start;

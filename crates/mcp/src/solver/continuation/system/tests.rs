@@ -30,7 +30,7 @@ fn places_follow_the_bounds() {
         [
             ActiveBound::Lower,
             ActiveBound::Upper,
-            ActiveBound::Inside,
+            ActiveBound::None,
             ActiveBound::Fixed,
             ActiveBound::Upper
         ]
@@ -55,13 +55,13 @@ fn places_of_a_solution_are_those_of_strict_complementarity() {
     };
 
     assert_eq!(place(1e-9, 1.0), ActiveBound::Lower);
-    assert_eq!(place(1.0, 1e-9), ActiveBound::Inside);
+    assert_eq!(place(1.0, 1e-9), ActiveBound::None);
     assert_eq!(place(0.0, 0.0), ActiveBound::Lower);
     assert_eq!(place(1.0, 1.0), ActiveBound::Lower);
     assert_eq!(place(4.0, -1.0), ActiveBound::Upper);
-    assert_eq!(place(3.0, -1e-9), ActiveBound::Inside);
+    assert_eq!(place(3.0, -1e-9), ActiveBound::None);
     assert_eq!(place(3.0, -1.0), ActiveBound::Upper);
-    assert_eq!(place(2.0, 0.0), ActiveBound::Inside);
+    assert_eq!(place(2.0, 0.0), ActiveBound::None);
 
     let fixed = problem(1, &[4.0], &[4.0]);
     assert_eq!(
@@ -81,7 +81,7 @@ fn places_of_a_solution_are_those_of_strict_complementarity() {
 #[test]
 fn lifted_multipliers_are_on_the_right_side() {
     let p = Places(vec![
-        ActiveBound::Inside,
+        ActiveBound::None,
         ActiveBound::Lower,
         ActiveBound::Upper,
         ActiveBound::Fixed,
@@ -101,7 +101,7 @@ fn lifted_multipliers_are_on_the_right_side() {
 fn rows_are_the_derivatives_of_the_quantities() {
     let p = problem(2, &[0.0; 2], &[4.0; 2]);
     let mut evaluated = Evaluated::new(&p);
-    let places = Places(vec![ActiveBound::Inside, ActiveBound::Lower]);
+    let places = Places(vec![ActiveBound::None, ActiveBound::Lower]);
     let system = HomotopySystem {
         problem: &mut evaluated,
         r: dvector![5.0, 7.0],
@@ -154,7 +154,7 @@ fn a_correction_may_double_the_residual_and_no_more() {
         let mut system = HomotopySystem {
             problem: &mut evaluated,
             r: dvector![0.0],
-            places: Places(vec![ActiveBound::Inside]),
+            places: Places(vec![ActiveBound::None]),
         };
         let at = CurvePoint {
             z: dvector![0.125],
@@ -180,7 +180,7 @@ fn a_residual_is_relative_to_the_right_hand_side() {
             let mut system = HomotopySystem {
                 problem: &mut evaluated,
                 r: dvector![r],
-                places: Places(vec![ActiveBound::Inside]),
+                places: Places(vec![ActiveBound::None]),
             };
             let size = 1.0 + f64::abs(s * r);
             let at = CurvePoint {
@@ -212,7 +212,7 @@ fn a_correction_has_a_number_of_steps() {
         let mut system = HomotopySystem {
             problem: &mut evaluated,
             r: dvector![0.0],
-            places: Places(vec![ActiveBound::Inside]),
+            places: Places(vec![ActiveBound::None]),
         };
         let at = CurvePoint {
             z: dvector![residual.cbrt()],
@@ -243,7 +243,7 @@ fn outside_the_bounds_the_function_is_linear() {
     let mut system = HomotopySystem {
         problem: &mut evaluated,
         r: dvector![0.0, 0.0],
-        places: Places(vec![ActiveBound::Inside; 2]),
+        places: Places(vec![ActiveBound::None; 2]),
     };
 
     assert_eq!(
@@ -266,7 +266,7 @@ fn outside_the_bounds_the_function_is_linear() {
         let mut system = HomotopySystem {
             problem: &mut evaluated,
             r: dvector![0.0],
-            places: Places(vec![ActiveBound::Inside]),
+            places: Places(vec![ActiveBound::None]),
         };
 
         assert!(system.local(&dvector![0.0]).is_none());
@@ -280,9 +280,9 @@ fn tangents_satisfy_the_bordered_equations() {
     let p = problem(3, &[0.0; 3], &[4.0; 3]);
     let mut evaluated = Evaluated::new(&p);
     let places = Places(vec![
-        ActiveBound::Inside,
+        ActiveBound::None,
         ActiveBound::Lower,
-        ActiveBound::Inside,
+        ActiveBound::None,
     ]);
     let mut system = HomotopySystem {
         problem: &mut evaluated,
@@ -343,7 +343,7 @@ fn factors_are_kept_while_they_gain() {
         let mut system = HomotopySystem {
             problem: &mut evaluated,
             r: dvector![1.0],
-            places: Places(vec![ActiveBound::Inside]),
+            places: Places(vec![ActiveBound::None]),
         };
         let there = system
             .correct(
