@@ -77,7 +77,7 @@ pub(super) fn check(
 /// What a claim says of a complementarity pair, such as -S v_T and -(S w_T + mu w_N) of a slip
 /// particle.
 #[derive(Clone, Copy, PartialEq)]
-enum Claimed {
+enum ClaimedPair {
     /// x > 0, y = 0.
     InSupport,
     /// x = 0, y = 0.
@@ -173,14 +173,14 @@ impl Lines<'_> {
         index: usize,
         particle: &Particle,
         sign: i8,
-        slip: Claimed,
+        slip: ClaimedPair,
     ) -> Result<(), Reason> {
         let normal_rate = along(&particle.into_obstacle(), &self.v, &Rational::one());
         self.zero("v_N = 0", "particle", index, &normal_rate)?;
 
         let s = Rational::from_integer(sign.into());
         let slip_rate = along(&particle.tangent(), &self.v, &s);
-        if slip == Claimed::InSupport {
+        if slip == ClaimedPair::InSupport {
             self.negative("S v_T < 0 on the support", index, &slip_rate)?;
         } else {
             self.zero("S v_T = 0 off the support", "particle", index, &slip_rate)?;
@@ -195,13 +195,13 @@ impl Lines<'_> {
         index: usize,
         particle: &Particle,
         s: &Rational,
-        slip: Claimed,
+        slip: ClaimedPair,
     ) -> Result<(), Reason> {
         let cone = self.cone(particle, s);
         let line = match slip {
-            Claimed::InSupport => "(S w_T + mu w_N) (S v_T) = 0",
-            Claimed::Biactive => "S w_T + mu w_N = 0 where biactive",
-            Claimed::AtZero => {
+            ClaimedPair::InSupport => "(S w_T + mu w_N) (S v_T) = 0",
+            ClaimedPair::Biactive => "S w_T + mu w_N = 0 where biactive",
+            ClaimedPair::AtZero => {
                 return self.negative("S w_T + mu w_N < 0 where not biactive", index, &cone);
             }
         };
@@ -209,9 +209,9 @@ impl Lines<'_> {
     }
 
     /// The signs of v_N and w_N at a particle with zero reaction.
-    fn gap(&self, index: usize, particle: &Particle, gap: Claimed) -> Result<(), Reason> {
+    fn gap(&self, index: usize, particle: &Particle, gap: ClaimedPair) -> Result<(), Reason> {
         let normal_rate = along(&particle.into_obstacle(), &self.v, &Rational::one());
-        if gap == Claimed::InSupport {
+        if gap == ClaimedPair::InSupport {
             self.negative("v_N < 0 on the support", index, &normal_rate)?;
         } else {
             self.zero("v_N = 0 off the support", "particle", index, &normal_rate)?;
@@ -219,9 +219,11 @@ impl Lines<'_> {
 
         let reaction = along(&particle.into_obstacle(), &self.w, &Rational::one());
         match gap {
-            Claimed::InSupport => self.zero("v_N w_N = 0", "particle", index, &reaction),
-            Claimed::Biactive => self.zero("w_N = 0 where biactive", "particle", index, &reaction),
-            Claimed::AtZero => self.negative("w_N < 0 where not biactive", index, &reaction),
+            ClaimedPair::InSupport => self.zero("v_N w_N = 0", "particle", index, &reaction),
+            ClaimedPair::Biactive => {
+                self.zero("w_N = 0 where biactive", "particle", index, &reaction)
+            }
+            ClaimedPair::AtZero => self.negative("w_N < 0 where not biactive", index, &reaction),
         }
     }
 
@@ -231,18 +233,18 @@ impl Lines<'_> {
         &self,
         index: usize,
         particle: &Particle,
-        right: Claimed,
-        left: Claimed,
+        right: ClaimedPair,
+        left: ClaimedPair,
     ) -> Result<(), Reason> {
         let one = Rational::one();
         let minus_one = -&one;
 
-        if right == Claimed::InSupport {
+        if right == ClaimedPair::InSupport {
             let to_the_left = along(&particle.tangent(), &self.v, &minus_one);
             self.negative("v_T > 0 on the support", index, &to_the_left)?;
         } else {
             let to_the_right = along(&particle.tangent(), &self.v, &one);
-            if left == Claimed::InSupport {
+            if left == ClaimedPair::InSupport {
                 self.negative("v_T < 0 on the support", index, &to_the_right)?;
             } else {
                 self.zero("v_T = 0 off the support", "particle", index, &to_the_right)?;
@@ -330,7 +332,7 @@ impl Lines<'_> {
 }
 
 /// What the claim says of the pair with this variable. It cannot be in both sets.
-fn claimed(claim: &LiftedSolution, variable: usize) -> Result<Claimed, Reason> {
+fn claimed(claim: &LiftedSolution, variable: usize) -> Result<ClaimedPair, Reason> {
     let is_in_support = claim.support.binary_search(&variable).is_ok();
     let is_biactive = claim.biactive.binary_search(&variable).is_ok();
 
@@ -339,9 +341,9 @@ fn claimed(claim: &LiftedSolution, variable: usize) -> Result<Claimed, Reason> {
             index: variable,
             expected: false,
         }),
-        (true, false) => Ok(Claimed::InSupport),
-        (false, true) => Ok(Claimed::Biactive),
-        (false, false) => Ok(Claimed::AtZero),
+        (true, false) => Ok(ClaimedPair::InSupport),
+        (false, true) => Ok(ClaimedPair::Biactive),
+        (false, false) => Ok(ClaimedPair::AtZero),
     }
 }
 

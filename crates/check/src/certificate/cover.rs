@@ -236,7 +236,7 @@ pub struct Support {
     /// Ascending; the first is the lower end of the interval, the last the upper end unless that is
     /// infinite.
     #[serde(deserialize_with = "object::list")]
-    pub points: Vec<Point>,
+    pub points: Vec<SupportPoint>,
     /// The reason of each cell, a number in `reasons`.
     pub cells: Vec<usize>,
     /// Reasons; one may serve several points and cells.
@@ -246,7 +246,7 @@ pub struct Support {
 /// A real algebraic number and what there is at it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Point {
+pub struct SupportPoint {
     /// Integer polynomial that vanishes there, constant term first.
     #[serde(with = "integers")]
     pub polynomial: Vec<Integer>,

@@ -132,7 +132,7 @@ pub struct CriticalTail {
 /// The file form of a [`CriticalCertificate`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct CriticalFile {
     format: String,
     problem_sha256: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -151,7 +151,7 @@ struct File {
 impl CriticalCertificate {
     /// The certificate as JSON.
     pub fn to_json(&self) -> String {
-        let file = File {
+        let file = CriticalFile {
             format: CRITICAL_FORMAT.into(),
             problem_sha256: self.problem_sha256.clone(),
             from: (!self.from.is_zero()).then(|| Number(self.from.clone())),
@@ -171,7 +171,7 @@ impl CriticalCertificate {
     /// number that cannot be read.
     pub fn from_json(text: &str) -> Result<CriticalCertificate, ModelError> {
         require_format(text, CRITICAL_FORMAT)?;
-        let file: File = from_json(text)?;
+        let file: CriticalFile = from_json(text)?;
 
         Ok(CriticalCertificate {
             problem_sha256: file.problem_sha256,

@@ -118,7 +118,7 @@ impl TryFrom<i8> for SlipSign {
 /// The file form of an [`EquilibriumCertificate`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct EquilibriumFile {
     format: String,
     loads_sha256: String,
     friction: Number,
@@ -136,7 +136,7 @@ impl EquilibriumCertificate {
             amounts,
             candidates,
         } = &self.stated;
-        let file = File {
+        let file = EquilibriumFile {
             format: EQUILIBRIUM_FORMAT.into(),
             loads_sha256: self.loads_sha256.clone(),
             friction: Number(friction.clone()),
@@ -156,7 +156,7 @@ impl EquilibriumCertificate {
     /// number that cannot be read.
     pub fn from_json(text: &str) -> Result<EquilibriumCertificate, ModelError> {
         require_format(text, EQUILIBRIUM_FORMAT)?;
-        let file: File = from_json(text)?;
+        let file: EquilibriumFile = from_json(text)?;
 
         Ok(EquilibriumCertificate {
             loads_sha256: file.loads_sha256,

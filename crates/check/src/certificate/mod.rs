@@ -22,7 +22,7 @@ mod presence;
 mod row;
 pub use cover::{
     Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Ldl, LdlFactor, Member,
-    Node, Piece, Point, Polynomials, Root, RootOutcome, Support, Tail,
+    Node, Piece, Polynomials, Root, RootOutcome, Support, SupportPoint, Tail,
 };
 pub use critical::{
     CRITICAL_FORMAT, CriticalAnchor, CriticalCertificate, CriticalCondensation, CriticalTail,
@@ -130,7 +130,7 @@ pub struct EnclosedSolution {
 /// The file form of a [`Certificate`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct CertificateFile {
     format: String,
     problem_sha256: String,
     #[serde(deserialize_with = "object::word")]
@@ -161,7 +161,7 @@ impl Certificate {
             max: self.window.max().cloned().map(Number),
         };
 
-        let file = File {
+        let file = CertificateFile {
             format: CERTIFICATE_FORMAT.into(),
             problem_sha256: self.problem_sha256.clone(),
             unknown: self.unknown,
@@ -181,7 +181,7 @@ impl Certificate {
     /// number that cannot be read, an empty window.
     pub fn from_json(text: &str) -> Result<Certificate, ModelError> {
         require_format(text, CERTIFICATE_FORMAT)?;
-        let file: File = from_json(text)?;
+        let file: CertificateFile = from_json(text)?;
         let window = Window::new(file.window.min.0, file.window.max.map(|n| n.0))?;
 
         Ok(Certificate {

@@ -116,7 +116,7 @@ impl From<CriticalCondensation> for WithoutTail {
 /// The file form of a [`PresenceCertificate`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct PresenceFile {
     format: String,
     problem_sha256: String,
     from: Number,
@@ -134,7 +134,7 @@ struct File {
 impl PresenceCertificate {
     /// The certificate as JSON.
     pub fn to_json(&self) -> String {
-        let file = File {
+        let file = PresenceFile {
             format: PRESENCE_FORMAT.into(),
             problem_sha256: self.problem_sha256.clone(),
             from: Number(self.from.clone()),
@@ -154,7 +154,7 @@ impl PresenceCertificate {
     /// number that cannot be read.
     pub fn from_json(text: &str) -> Result<PresenceCertificate, ModelError> {
         require_format(text, PRESENCE_FORMAT)?;
-        let file: File = from_json(text)?;
+        let file: PresenceFile = from_json(text)?;
 
         Ok(PresenceCertificate {
             problem_sha256: file.problem_sha256,

@@ -25,7 +25,7 @@
 //! component and the largest row sum. Called by the leaves `root` and `regular` and by `presence`.
 
 use super::ball::{Ball, BallMatrix};
-use super::ends::{Matrix, largest_bits};
+use super::ends::{LongMatrix, largest_bits};
 use super::family::words;
 use super::fault::CoverFault;
 use super::region::Region;
@@ -40,7 +40,7 @@ const MAX_EXPONENT: u32 = 1 << 14;
 #[derive(Clone, Copy)]
 pub(super) struct NullWitness<'a> {
     pivot: usize,
-    inverse: &'a Matrix,
+    inverse: &'a LongMatrix,
     inverse_exponent: u32,
     /// u and v without the component 1 of the pivot.
     left: &'a [Integer],
@@ -113,7 +113,7 @@ pub(super) struct Bordered<'a> {
 }
 
 /// The entries of a matrix on the support, each with its radius, in units of 1 / `scale`.
-pub(super) struct Block<'a> {
+pub(super) struct SupportBlock<'a> {
     rows: Vec<Line<'a>>,
     scale: &'a Integer,
 }
@@ -121,11 +121,11 @@ pub(super) struct Block<'a> {
 /// Entries of a row or of a column, each with its radius.
 pub(super) type Line<'a> = Vec<(&'a Integer, &'a Integer)>;
 
-impl Block<'_> {
-    fn mirrored(&self) -> Block<'_> {
+impl SupportBlock<'_> {
+    fn mirrored(&self) -> SupportBlock<'_> {
         let column = |j: usize| self.rows.iter().map(|row| row[j]).collect();
 
-        Block {
+        SupportBlock {
             rows: (0..self.rows.len()).map(column).collect(),
             scale: self.scale,
         }
@@ -211,16 +211,16 @@ impl<'a> Bordered<'a> {
         &self,
         matrix: &'m BallMatrix<Integer>,
         scale: &'m Integer,
-    ) -> Block<'m> {
+    ) -> SupportBlock<'m> {
         let rows = self.support.iter();
-        Block {
+        SupportBlock {
             rows: rows.map(|&i| self.line(matrix, i)).collect(),
             scale,
         }
     }
 
     /// Row i of |I - Y T'|, in units of 1 / [`Bordered::deviation_unit`].
-    pub(super) fn deviation(&self, block: &Block<'_>, i: usize) -> Vec<Integer> {
+    pub(super) fn deviation(&self, block: &SupportBlock<'_>, i: usize) -> Vec<Integer> {
         let mut row = Vec::with_capacity(self.order());
         for j in 0..self.order() {
             let mut product = Ball::default();
@@ -239,12 +239,12 @@ impl<'a> Bordered<'a> {
     }
 
     /// 1 in the units of the product Y T'.
-    pub(super) fn deviation_unit(&self, block: &Block<'_>) -> Integer {
+    pub(super) fn deviation_unit(&self, block: &SupportBlock<'_>) -> Integer {
         &self.y_one * block.scale
     }
 
     /// rho: the norm of I - Y T' over all blocks. Demands that it is less than 1.
-    pub(super) fn norm(&self, blocks: &[Block<'_>]) -> Result<Rational, CoverFault> {
+    pub(super) fn norm(&self, blocks: &[SupportBlock<'_>]) -> Result<Rational, CoverFault> {
         let mut norm = Rational::zero();
         for block in blocks {
             let row_sum = |i| self.deviation(block, i).into_iter().sum::<Integer>();
@@ -261,7 +261,7 @@ impl<'a> Bordered<'a> {
 
     /// T v in units of 1 / ([`Bordered::one`] scale): the residual T_'k + T'v, and the row of the
     /// pivot.
-    pub(super) fn products(&self, block: &Block<'_>) -> Vec<Ball<Integer>> {
+    pub(super) fn products(&self, block: &SupportBlock<'_>) -> Vec<Ball<Integer>> {
         block.rows.iter().map(|line| self.times_v(line)).collect()
     }
 
@@ -271,7 +271,7 @@ impl<'a> Bordered<'a> {
     }
 
     /// u' T in the same units: the residual T_k' + u'T', and the column of the pivot.
-    pub(super) fn left_products(&self, block: &Block<'_>) -> Vec<Ball<Integer>> {
+    pub(super) fn left_products(&self, block: &SupportBlock<'_>) -> Vec<Ball<Integer>> {
         self.mirrored().products(&block.mirrored())
     }
 
@@ -287,7 +287,7 @@ impl<'a> Bordered<'a> {
     }
 
     /// The bound of |v_true - v| over all blocks, given the norm.
-    pub(super) fn error(&self, blocks: &[Block<'_>], norm: &Rational) -> Rational {
+    pub(super) fn error(&self, blocks: &[SupportBlock<'_>], norm: &Rational) -> Rational {
         let mut error = Rational::zero();
         for block in blocks {
             let corrections = self.corrections(&self.products(block));
@@ -301,9 +301,9 @@ impl<'a> Bordered<'a> {
 
     /// rho of the left side, |I - T'Y| in the norm of the largest column sum, and the bound of
     /// |u_true - u|.
-    pub(super) fn left_error(&self, blocks: &[Block<'_>]) -> Result<Rational, CoverFault> {
+    pub(super) fn left_error(&self, blocks: &[SupportBlock<'_>]) -> Result<Rational, CoverFault> {
         let mirrored = self.mirrored();
-        let blocks: Vec<Block<'_>> = blocks.iter().map(Block::mirrored).collect();
+        let blocks: Vec<SupportBlock<'_>> = blocks.iter().map(SupportBlock::mirrored).collect();
         let norm = mirrored.norm(&blocks)?;
         Ok(mirrored.error(&blocks, &norm))
     }
@@ -321,7 +321,7 @@ impl<'a> Bordered<'a> {
     /// `one`.
     pub(super) fn of_numbers(
         support: &[usize],
-        (y, y_one): (&'a Matrix, i64),
+        (y, y_one): (&'a LongMatrix, i64),
         [u, v]: [&[i64]; 2],
         one: i64,
     ) -> Bordered<'a> {

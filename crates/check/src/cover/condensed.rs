@@ -26,11 +26,13 @@
 //! takes is counted. Called by the checker of covers.
 
 use super::budget::WorkBudget;
-use super::ends::{Matrix, largest_bits, rational_bits, within_matrix_bits};
+use super::ends::{LongMatrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::{Expanded, Norms};
 use super::fault::CoverFault;
-use super::product::{Linear, NonzeroRows, Part, part_of, row_of, row_times, times, transposed};
-use super::psd::{Symmetric, semidefinite};
+use super::product::{
+    Linear, LinearPart, NonzeroRows, part_of, row_of, row_times, times, transposed,
+};
+use super::psd::{SymmetricRows, semidefinite};
 use crate::certificate::{Anchor, Condensation, CriticalAnchor, Factor, IntegerMatrix, IntegerRow};
 use crate::pencil::{Row, Rows};
 use mceip_exact::{Integer, Rational};
@@ -90,7 +92,7 @@ pub(super) struct Anchors<'a> {
 /// The anchors of one part, and what they are expanded with.
 struct AnchorsOfPart<'a> {
     expander: Expander<'a>,
-    anchors: Vec<Expansion<'a>>,
+    anchors: Vec<AnchorPolynomials<'a>>,
 }
 
 impl<'a> Anchors<'a> {
@@ -135,7 +137,7 @@ impl<'a> Anchors<'a> {
     }
 
     /// W and V about the anchor with this number, for each part.
-    fn eliminations(&self, number: usize) -> Result<Vec<Elimination<'_>>, CoverFault> {
+    fn eliminations(&self, number: usize) -> Result<Vec<AnchorElimination<'_>>, CoverFault> {
         let mut eliminations = Vec::with_capacity(self.parts.len());
         for part in &self.parts {
             let anchor = part.anchors.get(number).ok_or(CoverFault::Anchor {
@@ -160,7 +162,7 @@ struct FreeBounds<'a> {
 
 /// The polynomials W and V of an anchor.
 #[derive(Clone, Copy)]
-pub(super) struct Expansion<'a> {
+pub(super) struct AnchorPolynomials<'a> {
     center: &'a Rational,
     reversed: bool,
     right: &'a [IntegerMatrix],
@@ -171,12 +173,12 @@ pub(super) struct Expansion<'a> {
 /// An anchor as a file spells it.
 pub(super) trait AnchorOfParts {
     /// The polynomials W and V for a part of the pencil.
-    fn of_part(&self, part: usize) -> Expansion<'_>;
+    fn of_part(&self, part: usize) -> AnchorPolynomials<'_>;
 }
 
 impl AnchorOfParts for Anchor {
-    fn of_part(&self, _: usize) -> Expansion<'_> {
-        Expansion {
+    fn of_part(&self, _: usize) -> AnchorPolynomials<'_> {
+        AnchorPolynomials {
             center: &self.center.0,
             reversed: self.reversed,
             right: &self.right,
@@ -186,12 +188,12 @@ impl AnchorOfParts for Anchor {
 }
 
 impl AnchorOfParts for CriticalAnchor {
-    fn of_part(&self, part: usize) -> Expansion<'_> {
+    fn of_part(&self, part: usize) -> AnchorPolynomials<'_> {
         let left = match part {
             0 => self.left.as_deref(),
             _ => Some(self.left_friction.as_slice()),
         };
-        Expansion {
+        AnchorPolynomials {
             center: &self.center.0,
             reversed: self.reversed,
             right: &self.right,
@@ -203,9 +205,9 @@ impl AnchorOfParts for CriticalAnchor {
 /// Expands the condensed pencil about anchors, given its hypotheses.
 struct Expander<'a> {
     bounds: FreeBounds<'a>,
-    blocks: Blocks,
+    blocks: IntegralBlocks,
     /// The blocks of B + sA, where reversed anchors are and may be.
-    reversed: Option<Blocks>,
+    reversed: Option<IntegralBlocks>,
 }
 
 impl<'a> Expander<'a> {
@@ -214,13 +216,16 @@ impl<'a> Expander<'a> {
 
         Expander {
             bounds,
-            blocks: Blocks::of(rows),
-            reversed: may_be_reversed.then(|| Blocks::of(&rows.reversed())),
+            blocks: IntegralBlocks::of(rows),
+            reversed: may_be_reversed.then(|| IntegralBlocks::of(&rows.reversed())),
         }
     }
 
     /// The elimination about an anchor.
-    fn elimination<'b>(&'b self, anchor: Expansion<'b>) -> Result<Elimination<'b>, CoverFault> {
+    fn elimination<'b>(
+        &'b self,
+        anchor: AnchorPolynomials<'b>,
+    ) -> Result<AnchorElimination<'b>, CoverFault> {
         if !anchor.reversed {
             return self.blocks.elimination(anchor);
         }
@@ -232,7 +237,7 @@ impl<'a> Expander<'a> {
     }
 
     /// The condensed pencil about an anchor.
-    fn expand(&self, elimination: &Elimination<'_>, right: &Residual) -> Expanded {
+    fn expand(&self, elimination: &AnchorElimination<'_>, right: &Residual) -> Expanded {
         let sigma = self.bounds.sigma;
         let tau = self.bounds.tau;
         if elimination.anchor.reversed {
@@ -255,7 +260,7 @@ fn share_scaling(parts: &mut [Expander<'_>]) {
 }
 
 /// The largest bit length for each slip row.
-fn share_bits(mut parts: Vec<&mut Blocks>) {
+fn share_bits(mut parts: Vec<&mut IntegralBlocks>) {
     let mut largest: Vec<u64> = Vec::new();
     for blocks in &parts {
         largest.resize(blocks.bits.len(), 0);
@@ -270,7 +275,7 @@ fn share_bits(mut parts: Vec<&mut Blocks>) {
 }
 
 /// F is symmetric, A_ff - sigma I and B_ff - tau I are positive semidefinite, sigma > 0, tau >= 0.
-fn check_hypotheses(blocks: &Blocks, bounds: FreeBounds<'_>) -> Result<(), CoverFault> {
+fn check_hypotheses(blocks: &IntegralBlocks, bounds: FreeBounds<'_>) -> Result<(), CoverFault> {
     let sigma = bounds.sigma;
     let tau = bounds.tau;
     if !sigma.is_positive() {
@@ -333,8 +338,8 @@ pub(super) fn tail(
 }
 
 /// 2 sym(q A + p B) times `common`.
-fn twice_symmetric(rows: &Rows, common: &Integer, q: &Integer, p: &Integer) -> Symmetric {
-    let mut sum: Symmetric = vec![BTreeMap::new(); rows.order()];
+fn twice_symmetric(rows: &Rows, common: &Integer, q: &Integer, p: &Integer) -> SymmetricRows {
+    let mut sum: SymmetricRows = vec![BTreeMap::new(); rows.order()];
     for (i, row) in rows.rows.iter().enumerate() {
         let lift = common / &rows.factor[i];
         for (j, a, b) in row {
@@ -356,7 +361,7 @@ enum Which {
 
 /// The blocks of the pencil; free rows multiplied by one common integer, slip rows each by its own
 /// integer.
-struct Blocks {
+struct IntegralBlocks {
     free: usize,
     slip: usize,
     /// Bit length of the longest entry of the integral rows.
@@ -383,7 +388,7 @@ struct ShiftedBlocks {
 }
 
 /// W or V: a polynomial in d with matrices for coefficients, in units of 2^-`exponent`.
-struct Polynomial<'a> {
+struct MatrixPolynomial<'a> {
     coefficients: Vec<Coefficient<'a>>,
     exponent: u32,
     /// Bits of the longest entry in these units, as the certificate spells it: without the factors
@@ -398,12 +403,12 @@ struct Coefficient<'a> {
 }
 
 /// The elimination about one anchor: W and V, and the blocks about its center.
-struct Elimination<'a> {
-    blocks: &'a Blocks,
-    anchor: Expansion<'a>,
+struct AnchorElimination<'a> {
+    blocks: &'a IntegralBlocks,
+    anchor: AnchorPolynomials<'a>,
     about: ShiftedBlocks,
-    w: Polynomial<'a>,
-    v: Polynomial<'a>,
+    w: MatrixPolynomial<'a>,
+    v: MatrixPolynomial<'a>,
     /// Bits of a coefficient of an entry of Z, at most.
     entry_bits: u64,
     /// Is V = W and T_sf' = T_fs as given, so that l = r?
@@ -417,7 +422,7 @@ struct Residual {
     /// The sums of the squares of each column of each coefficient.
     squares: Vec<Vec<Integer>>,
     /// The coefficients beyond the degree of W, if they are asked for.
-    beyond: Vec<Matrix>,
+    beyond: Vec<LongMatrix>,
 }
 
 impl Residual {
@@ -429,9 +434,9 @@ impl Residual {
     }
 }
 
-impl Blocks {
-    fn of(rows: &Rows) -> Blocks {
-        let mut blocks = Blocks {
+impl IntegralBlocks {
+    fn of(rows: &Rows) -> IntegralBlocks {
+        let mut blocks = IntegralBlocks {
             free: 0,
             slip: 0,
             longest: largest_bits(rows.rows.iter().flatten().flat_map(|(_, a, b)| [a, b])),
@@ -537,10 +542,10 @@ impl Blocks {
     }
 
     /// A_ff - shift I or B_ff - shift I, in units of 1 / (D times the denominator of the shift).
-    fn shifted_free_block(&self, which: Which, shift: &Rational) -> Symmetric {
+    fn shifted_free_block(&self, which: Which, shift: &Rational) -> SymmetricRows {
         let diagonal_shift = &self.common * shift.numer();
 
-        let mut block = Symmetric::with_capacity(self.free);
+        let mut block = SymmetricRows::with_capacity(self.free);
         for (i, row) in self.ff.iter().enumerate() {
             let mut entries: BTreeMap<usize, Integer> = BTreeMap::new();
             for (j, a, b) in row {
@@ -559,14 +564,17 @@ impl Blocks {
     }
 
     /// Reads W and V, and demands that Z is small enough to be formed.
-    fn elimination<'a>(&'a self, anchor: Expansion<'a>) -> Result<Elimination<'a>, CoverFault> {
+    fn elimination<'a>(
+        &'a self,
+        anchor: AnchorPolynomials<'a>,
+    ) -> Result<AnchorElimination<'a>, CoverFault> {
         let w = self.polynomial(anchor.right, &ones(self.slip))?;
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
         let left = anchor.left.unwrap_or(anchor.right);
         let v = self.polynomial(left, &self.factor)?;
         let entry_bits = self.affordable(anchor.center, &w, &v)?;
 
-        Ok(Elimination {
+        Ok(AnchorElimination {
             blocks: self,
             about: self.about(anchor.center),
             is_mirrored: anchor.left.is_none() && self.has_mirrored_blocks(),
@@ -585,8 +593,8 @@ impl Blocks {
     fn affordable(
         &self,
         center: &Rational,
-        w: &Polynomial<'_>,
-        v: &Polynomial<'_>,
+        w: &MatrixPolynomial<'_>,
+        v: &MatrixPolynomial<'_>,
     ) -> Result<u64, CoverFault> {
         let mut bits = self.longest + self.common.bits() + rational_bits(center);
         bits += u64::from(w.exponent + v.exponent) + w.entry_bits + v.entry_bits;
@@ -601,7 +609,7 @@ impl Blocks {
         &self,
         list: &'a [IntegerMatrix],
         column_factors: &[Integer],
-    ) -> Result<Polynomial<'a>, CoverFault> {
+    ) -> Result<MatrixPolynomial<'a>, CoverFault> {
         let exponent = list.iter().map(|m| m.exponent).max().unwrap_or(0);
         CoverFault::at_most("degree", MAX_DEGREE as u64, list.len() as u64)?;
         CoverFault::at_most("exponent", MAX_EXPONENT.into(), exponent.into())?;
@@ -626,7 +634,7 @@ impl Blocks {
             });
         }
 
-        Ok(Polynomial {
+        Ok(MatrixPolynomial {
             coefficients,
             exponent,
             entry_bits,
@@ -657,7 +665,7 @@ impl Blocks {
     }
 }
 
-impl Elimination<'_> {
+impl AnchorElimination<'_> {
     /// How many integers W and V have.
     fn numbers(&self) -> u64 {
         let matrices = self.w.coefficients.len() + self.v.coefficients.len();
@@ -679,13 +687,13 @@ impl Elimination<'_> {
 
     /// r = T_fs - F W.
     fn right_residual(&self) -> Residual {
-        Equations {
+        ResidualEquations {
             f: &self.about.ff,
             c: &self.about.fs,
             w: &self.w,
             columns: self.blocks.slip,
         }
-        .residual(Beyond::Kept)
+        .residual(BeyondDegree::Kept)
     }
 
     /// Norms of the columns of l = T_sf' - F V, coefficient by coefficient, in units of
@@ -696,20 +704,20 @@ impl Elimination<'_> {
             return right.norms(&self.blocks.factor);
         }
 
-        let equations = Equations {
+        let equations = ResidualEquations {
             f: &self.about.ff,
             c: &transpose(&self.about.sf, self.blocks.free),
             w: &self.v,
             columns: slip,
         };
-        equations.residual(Beyond::Dropped).norms(&ones(slip))
+        equations.residual(BeyondDegree::Dropped).norms(&ones(slip))
     }
 
     /// The condensed pencil about the anchor; `right` is that of this anchor or of the other
     /// part's, whose free rows and W are the same. Given A_ff >= sigma I and B_ff >= tau I (for a
     /// reversed anchor the other way round).
     fn expand(&self, right: &Residual, sigma: &Rational, tau: &Rational) -> Expanded {
-        let Blocks { common, bits, .. } = self.blocks;
+        let IntegralBlocks { common, bits, .. } = self.blocks;
         let exponent = self.w.exponent + self.v.exponent;
 
         // Z is in units of 1 / (D q 2^(e_w + e_v)), the remainder in |l||r| / (D q sigma) of them.
@@ -754,8 +762,8 @@ impl Elimination<'_> {
 
     /// Z times D q: T_ss - T_sf W - V'r, coefficient by coefficient, where of r the coefficients
     /// beyond the degree of W are meant.
-    fn bracket(&self, r: &Residual) -> Vec<Matrix> {
-        let Elimination { about, w, v, .. } = self;
+    fn bracket(&self, r: &Residual) -> Vec<LongMatrix> {
+        let AnchorElimination { about, w, v, .. } = self;
         let slip = self.blocks.slip;
         let w_len = w.coefficients.len();
         let v_len = v.coefficients.len();
@@ -773,7 +781,7 @@ impl Elimination<'_> {
 
         // T_sf W.
         for (k, w_k) in w.coefficients.iter().enumerate() {
-            for (power, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
+            for (power, part) in [(k, LinearPart::Constant), (k + 1, LinearPart::Linear)] {
                 let product = w_k.times_from_left(&part_of(&about.sf, part));
                 let entries = z[power].iter_mut().flatten();
                 for (z_ij, entry) in entries.zip(product.into_iter().flatten()) {
@@ -800,7 +808,7 @@ impl Elimination<'_> {
 }
 
 /// How many coefficients W and V have, and one more.
-fn coefficients(w: &Polynomial<'_>, v: &Polynomial<'_>) -> usize {
+fn coefficients(w: &MatrixPolynomial<'_>, v: &MatrixPolynomial<'_>) -> usize {
     w.coefficients.len() + v.coefficients.len() + 1
 }
 
@@ -834,29 +842,31 @@ fn transpose(m: &Linear, cols: usize) -> Linear {
 }
 
 /// F(d) W(d) = C(d), which a polynomial W solves up to a residual.
-struct Equations<'a> {
+struct ResidualEquations<'a> {
     f: &'a Linear,
     c: &'a Linear,
-    w: &'a Polynomial<'a>,
+    w: &'a MatrixPolynomial<'a>,
     /// Columns of C and W.
     columns: usize,
 }
 
 /// Are the coefficients of a residual beyond the degree of W kept?
 #[derive(Clone, Copy, PartialEq)]
-enum Beyond {
+enum BeyondDegree {
     Kept,
     Dropped,
 }
 
-impl Equations<'_> {
+impl ResidualEquations<'_> {
     /// C(d) - F(d) W(d), in the units of W.
-    fn residual(&self, beyond: Beyond) -> Residual {
+    fn residual(&self, beyond: BeyondDegree) -> Residual {
         let within = self.w.coefficients.len();
         let mut squares = vec![vec![Integer::zero(); self.columns]; self.terms()];
         let mut kept = match beyond {
-            Beyond::Kept => vec![Matrix::with_capacity(self.f.len()); self.terms() - within],
-            Beyond::Dropped => Vec::new(),
+            BeyondDegree::Kept => {
+                vec![LongMatrix::with_capacity(self.f.len()); self.terms() - within]
+            }
+            BeyondDegree::Dropped => Vec::new(),
         };
 
         for i in 0..self.f.len() {
@@ -889,7 +899,7 @@ impl Equations<'_> {
             residual[1][*j] += linear << self.w.exponent;
         }
 
-        for (part, first_power) in [(Part::Constant, 0), (Part::Linear, 1)] {
+        for (part, first_power) in [(LinearPart::Constant, 0), (LinearPart::Linear, 1)] {
             let f = row_of(&self.f[i], part);
             for (power, w_k) in (first_power..).zip(&self.w.coefficients) {
                 w_k.subtract_row_product(&f, &mut residual[power]);
@@ -902,7 +912,7 @@ impl Equations<'_> {
 
 impl Coefficient<'_> {
     /// The product of `left` and this matrix.
-    fn times_from_left(&self, left: &NonzeroRows<'_>) -> Matrix {
+    fn times_from_left(&self, left: &NonzeroRows<'_>) -> LongMatrix {
         let mut product = times(left, self.matrix, self.column_factors.len());
         for row in &mut product {
             for (entry, factor) in row.iter_mut().zip(&self.column_factors) {
@@ -934,7 +944,7 @@ impl Coefficient<'_> {
 }
 
 /// Multiplies each row of every coefficient by its factor.
-fn raise_rows(mut z: Vec<Matrix>, factors: &[Integer]) -> Vec<Matrix> {
+fn raise_rows(mut z: Vec<LongMatrix>, factors: &[Integer]) -> Vec<LongMatrix> {
     for matrix in &mut z {
         for (row, factor) in matrix.iter_mut().zip(factors) {
             for entry in row {
@@ -946,7 +956,7 @@ fn raise_rows(mut z: Vec<Matrix>, factors: &[Integer]) -> Vec<Matrix> {
     z
 }
 
-fn zero(rows: usize, cols: usize) -> Matrix {
+fn zero(rows: usize, cols: usize) -> LongMatrix {
     vec![vec![Integer::zero(); cols]; rows]
 }
 

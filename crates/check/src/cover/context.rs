@@ -24,7 +24,7 @@
 
 use super::budget::{WorkBudget, entries_work};
 use super::condensed::Anchors;
-use super::ends::{Corner, Ends, FRACTION_BITS, rational_bits, within_matrix_bits};
+use super::ends::{EndMatrix, Ends, FRACTION_BITS, rational_bits, within_matrix_bits};
 use super::family::{Family, end_bits, words};
 use super::fault::CoverFault;
 use super::proved::AcceptedSolution;
@@ -218,7 +218,7 @@ pub(super) fn corner_bits(region: &Region) -> [u64; 2] {
 }
 
 /// The corners of a region with these ends; those at the lower friction come first.
-pub(super) fn corners(ends: &[Ends]) -> Vec<Corner<'_>> {
+pub(super) fn corners(ends: &[Ends]) -> Vec<EndMatrix<'_>> {
     let names: &[[&'static str; 2]] = match ends {
         [_] => &[ENDS],
         _ => &ENDS_OF_BOX,

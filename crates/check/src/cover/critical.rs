@@ -16,7 +16,7 @@
 use super::budget;
 use super::context::Context;
 use super::fault::CoverFault;
-use super::walk::{Audit, FaultAt, Walk};
+use super::walk::{Audit, CoverWalk, FaultAt};
 use super::{anchors, condensed};
 use crate::certificate::{CriticalCertificate, CriticalTail};
 use crate::pencil::FrictionParts;
@@ -64,7 +64,7 @@ fn check_boxes(
     let mut context = Context::new(&both, anchors.as_ref(), &window, nodes);
     context.tail = tail.map(|tail| &tail.from.0);
 
-    let mut walk = Walk::new(context, anchors);
+    let mut walk = CoverWalk::new(context, anchors);
     let friction = [&certificate.from, &certificate.below];
     walk.friction = Some(friction.map(|end| Rc::new(end.clone())));
     walk.audit = audit;

@@ -17,7 +17,7 @@
 use super::ball::BallMatrix;
 use super::context::{Context, corners};
 use super::enclosed_definite::{long_definite, positive_definite};
-use super::ends::Corner;
+use super::ends::EndMatrix;
 use super::fault::CoverFault;
 use super::leaf::{Leaf, Yield};
 use super::region::Region;
@@ -59,7 +59,7 @@ fn is_definite_at(region: &Region, corners: &[Short], sign: i8) -> bool {
 /// Demands the same at all corners of the region.
 fn check_corners(
     region: &Region,
-    corners: &[Corner<'_>],
+    corners: &[EndMatrix<'_>],
     index: &[usize],
     sign: i8,
 ) -> Result<(), CoverFault> {

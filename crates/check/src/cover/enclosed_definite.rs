@@ -12,7 +12,7 @@
 //! ones.
 
 use super::ball::BallMatrix;
-use super::ends::{Matrix, largest_bits};
+use super::ends::{LongMatrix, largest_bits};
 use super::short::Short;
 use mceip_exact::{Integer, MachineRow, first_minor_not_positive, machine_definite};
 use num_integer::Integer as _;
@@ -60,9 +60,9 @@ pub(super) fn long_definite(
 }
 
 /// 2 `sign` sym(M) on `variables`, less the row sums of twice the symmetric radius on its diagonal.
-fn least_member(matrix: &BallMatrix<Integer>, variables: &[usize], sign: i8) -> Matrix {
+fn least_member(matrix: &BallMatrix<Integer>, variables: &[usize], sign: i8) -> LongMatrix {
     let BallMatrix { m, r } = matrix;
-    let mut least = Matrix::with_capacity(variables.len());
+    let mut least = LongMatrix::with_capacity(variables.len());
 
     for (position, &i) in variables.iter().enumerate() {
         let mut row = Vec::with_capacity(variables.len());
@@ -80,7 +80,7 @@ fn least_member(matrix: &BallMatrix<Integer>, variables: &[usize], sign: i8) -> 
 }
 
 /// Divides by the common factor: the unit of the ends may be a small part of every entry.
-fn primitive(mut s: Matrix) -> Matrix {
+fn primitive(mut s: LongMatrix) -> LongMatrix {
     let mut factor = Integer::zero();
     for entry in s.iter().flatten() {
         factor = factor.gcd(entry);
@@ -152,22 +152,27 @@ mod tests {
     use super::*;
 
     /// As a leaf does it: cut to what may move.
-    fn positive_definite(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) -> Result<(), usize> {
+    fn positive_definite(
+        m: &LongMatrix,
+        r: &LongMatrix,
+        moving: &[usize],
+        sign: i8,
+    ) -> Result<(), usize> {
         let all: Vec<usize> = (0..moving.len()).collect();
         super::positive_definite(&Short::of(m, r, moving).ok_or(0usize)?, &all, sign)
     }
 
-    fn matrix(rows: &[&[i64]]) -> Matrix {
+    fn matrix(rows: &[&[i64]]) -> LongMatrix {
         rows.iter()
             .map(|r| r.iter().map(|&v| Integer::from(v) << 64).collect())
             .collect()
     }
 
-    fn of(m: &Matrix, r: Matrix) -> BallMatrix<Integer> {
+    fn of(m: &LongMatrix, r: LongMatrix) -> BallMatrix<Integer> {
         BallMatrix { m: m.clone(), r }
     }
 
-    fn zero(n: usize) -> Matrix {
+    fn zero(n: usize) -> LongMatrix {
         vec![vec![Integer::zero(); n]; n]
     }
 
@@ -307,7 +312,7 @@ mod tests {
             std::cmp::Ordering::Equal => lower[i][j] / 2,
             std::cmp::Ordering::Greater => lower[i][j],
         };
-        let m: Matrix = (0..4)
+        let m: LongMatrix = (0..4)
             .map(|i| (0..4).map(|j| Integer::from(entry(i, j))).collect())
             .collect();
         assert_eq!(positive_definite(&m, &zero(4), &[0, 1, 2, 3], 1), Err(3));
@@ -342,7 +347,7 @@ mod tests {
         assert_eq!(long_definite(&of(&m, radius(1)), &[0, 1], 1), Ok(()));
         assert_eq!(long_definite(&of(&m, radius(2)), &[0, 1], 1), Err(1));
 
-        let negative: Matrix = m
+        let negative: LongMatrix = m
             .iter()
             .map(|row| row.iter().map(|v| -v).collect())
             .collect();
@@ -358,7 +363,7 @@ mod tests {
     /// Beyond the largest order of elimination, or its longest entries, the margin is asked for.
     #[test]
     fn elimination_has_limits() {
-        let tight = |n: usize, bits: u64| -> Matrix {
+        let tight = |n: usize, bits: u64| -> LongMatrix {
             let one: Integer = Integer::one() << bits;
             let entry = |i: usize, j: usize| match (i, j) {
                 (0, 1) | (1, 0) => &one - 1,

@@ -8,7 +8,7 @@ use super::fault::CoverFault;
 use mceip_exact::{Integer, Rational};
 
 /// A dense square integer matrix, by rows.
-pub(super) type Matrix = Vec<Vec<Integer>>;
+pub(super) type LongMatrix = Vec<Vec<Integer>>;
 
 /// Fraction bits kept of each entry of a row scaled to below one.
 pub(super) const FRACTION_BITS: u64 = 128;
@@ -29,14 +29,14 @@ pub(super) struct Ends {
     pub(super) at: [BallMatrix<Integer>; 2],
     /// (t1 - t0) T'(t) lies within this of the difference of the centers. Only the hull of a root
     /// leaf has it.
-    pub(super) slope: Option<Matrix>,
+    pub(super) slope: Option<LongMatrix>,
     pub(super) scale: Integer,
     /// Is the upper end no value of the window, so that weak inequalities suffice there?
     pub(super) infinite: bool,
 }
 
 /// One end of a region: T is a convex combination of matrices of its ends.
-pub(super) struct Corner<'a> {
+pub(super) struct EndMatrix<'a> {
     pub(super) matrix: &'a BallMatrix<Integer>,
     pub(super) scale: &'a Integer,
     /// As messages name it.
@@ -47,8 +47,8 @@ pub(super) struct Corner<'a> {
 
 impl Ends {
     /// Both ends, with their names in messages.
-    pub(super) fn corners(&self, names: [&'static str; 2]) -> [Corner<'_>; 2] {
-        [0, 1].map(|end| Corner {
+    pub(super) fn corners(&self, names: [&'static str; 2]) -> [EndMatrix<'_>; 2] {
+        [0, 1].map(|end| EndMatrix {
             matrix: &self.at[end],
             scale: &self.scale,
             name: names[end],

@@ -24,7 +24,7 @@
 //! without reducing them, because a gcd costs more than all else here. Called by `family`.
 
 use super::ball::BallMatrix;
-use super::ends::{Ends, FRACTION_BITS, Matrix};
+use super::ends::{Ends, FRACTION_BITS, LongMatrix};
 use super::fault::CoverFault;
 use super::short::Short;
 use mceip_exact::{Integer, Rational};
@@ -40,7 +40,7 @@ pub(super) type Norms = Vec<Vec<Integer>>;
 pub(super) struct Expanded {
     pub(super) center: Rational,
     /// Coefficients of d^k, in units of 1 / `unit`.
-    pub(super) z: Vec<Matrix>,
+    pub(super) z: Vec<LongMatrix>,
     pub(super) unit: Integer,
     /// Bounds of |l_i| and |r_j|, coefficient by coefficient.
     pub(super) left: Norms,
@@ -65,7 +65,7 @@ pub(super) struct Expanded {
 
 /// The factors |l_i|, |r_j|, |v_i|, |q_j| of the remainders, in the fixed unit: their bounds, or
 /// bounds of their derivatives.
-struct Factors {
+struct RemainderFactors {
     left: Vec<Integer>,
     right: Vec<Integer>,
     v: Vec<Integer>,
@@ -160,7 +160,11 @@ impl Expanded {
     }
 
     /// Bound of how far (hi - lo) T' may be from the difference of the ends over [lo, hi].
-    pub(super) fn slope(&self, lo: &Rational, hi: Option<&Rational>) -> Result<Matrix, CoverFault> {
+    pub(super) fn slope(
+        &self,
+        lo: &Rational,
+        hi: Option<&Rational>,
+    ) -> Result<LongMatrix, CoverFault> {
         let (own_lo, own_hi) = self.own_interval(lo, hi)?;
         match own_hi {
             Some(own_hi) => Ok(self.slope_between(&own_lo, &own_hi)),
@@ -171,7 +175,7 @@ impl Expanded {
         }
     }
 
-    fn slope_between(&self, lo: &Rational, hi: &Rational) -> Matrix {
+    fn slope_between(&self, lo: &Rational, hi: &Rational) -> LongMatrix {
         let width = hi - lo;
         let reach = (lo - &self.center).abs().max((hi - &self.center).abs());
         let weight = self.weight_above(lo);
@@ -183,7 +187,7 @@ impl Expanded {
     }
 
     /// An eighth of the bend, rounded up, and the remainder.
-    fn radius(&self, bend: &Matrix, remainder: &Matrix) -> Matrix {
+    fn radius(&self, bend: &LongMatrix, remainder: &LongMatrix) -> LongMatrix {
         self.grid(|i, j| {
             let of_chord = &bend[i][j] / 8 + 1;
             of_chord + &remainder[i][j]
@@ -255,14 +259,14 @@ impl Expanded {
     }
 
     /// Z(d), rounded down to the fixed unit.
-    fn at(&self, d: &Rational) -> Matrix {
+    fn at(&self, d: &Rational) -> LongMatrix {
         let at_d = Functional::derivative(0, self.z.len(), d).in_fixed_unit();
         let unit = &self.unit * &at_d.denominator;
         self.grid(|i, j| at_d.numerator(self.entry(i, j)).div_floor(&unit))
     }
 
     /// Z_1, the coefficient of d, rounded down to the fixed unit.
-    fn direction(&self) -> Matrix {
+    fn direction(&self) -> LongMatrix {
         let z_1 = &self.z[1];
         self.grid(|i, j| (&z_1[i][j] << FRACTION_BITS).div_floor(&self.unit))
     }
@@ -273,7 +277,7 @@ impl Expanded {
     }
 
     /// Bound of |Z''| width^2 for |d| <= reach: the sum of k (k - 1) |Z_k| reach^(k - 2).
-    fn bend(&self, reach: &Rational, width: &Rational) -> Matrix {
+    fn bend(&self, reach: &Rational, width: &Rational) -> LongMatrix {
         let second = Functional::derivative(2, self.z.len(), reach).in_fixed_unit();
         let square_numerator = width.numer() * width.numer();
         let square_denominator = width.denom() * width.denom();
@@ -286,15 +290,15 @@ impl Expanded {
     }
 
     /// Bound of both remainders for |d| <= reach, and what rounding m down has cost.
-    fn remainder(&self, reach: &Rational, weight: &[Rational]) -> Matrix {
+    fn remainder(&self, reach: &Rational, weight: &[Rational]) -> LongMatrix {
         let factors = self.factors(0, reach);
         self.weighted(&factors, weight)
     }
 
     /// The remainder of the direction Z_1 of a pencil that is linear: l and V may be linear, r and
     /// q are constant.
-    fn remainder_direction(&self) -> Matrix {
-        let factors = Factors {
+    fn remainder_direction(&self) -> LongMatrix {
+        let factors = RemainderFactors {
             left: self.coefficient(&self.left, 1),
             right: self.coefficient(&self.right, 0),
             v: self.coefficient(&self.v, 1),
@@ -304,7 +308,7 @@ impl Expanded {
     }
 
     /// weight_i |l_i| |r_j| + rounding_weight_i |v_i| |q_j|, and one unit for a rounded entry.
-    fn weighted(&self, factors: &Factors, weight: &[Rational]) -> Matrix {
+    fn weighted(&self, factors: &RemainderFactors, weight: &[Rational]) -> LongMatrix {
         let remainder = weighted_products(&factors.left, &factors.right, weight);
         let rounding = weighted_products(&factors.v, &factors.rounding, &self.rounding_weight);
         self.grid(|i, j| &remainder[i][j] + &rounding[i][j] + 1)
@@ -312,7 +316,12 @@ impl Expanded {
 
     /// Bound of the remainders' derivatives times the width: l' F^-1 r and V'q differentiated
     /// factor by factor, where d/dt F^-1 contributes the drift.
-    fn remainder_slope(&self, reach: &Rational, width: &Rational, weight: &[Rational]) -> Matrix {
+    fn remainder_slope(
+        &self,
+        reach: &Rational,
+        width: &Rational,
+        weight: &[Rational],
+    ) -> LongMatrix {
         let bound = self.factors(0, reach);
         let slope = self.factors(1, reach);
 
@@ -332,7 +341,7 @@ impl Expanded {
 
     /// Bounds of the factors of the remainders for |d| <= reach (`order` 0), or of their
     /// derivatives (1).
-    fn factors(&self, order: usize, reach: &Rational) -> Factors {
+    fn factors(&self, order: usize, reach: &Rational) -> RemainderFactors {
         let bounds = |norms: &Norms| {
             let bound = Functional::derivative(order, norms.len(), reach).in_fixed_unit();
             let of_column = |i| {
@@ -342,7 +351,7 @@ impl Expanded {
             (0..self.order()).map(of_column).collect()
         };
 
-        Factors {
+        RemainderFactors {
             left: bounds(&self.left),
             right: bounds(&self.right),
             v: bounds(&self.v),
@@ -359,7 +368,7 @@ impl Expanded {
     }
 
     /// The matrix with these entries.
-    fn grid(&self, entry: impl Fn(usize, usize) -> Integer) -> Matrix {
+    fn grid(&self, entry: impl Fn(usize, usize) -> Integer) -> LongMatrix {
         let n = self.order();
         (0..n)
             .map(|i| (0..n).map(|j| entry(i, j)).collect())
@@ -429,8 +438,8 @@ fn times_up(value: &Integer, factor: &Rational) -> Integer {
 }
 
 /// left_i right_j weight_i, factors and products in the fixed unit, rounded up.
-fn weighted_products(left: &[Integer], right: &[Integer], weight: &[Rational]) -> Matrix {
-    let mut products = Matrix::with_capacity(left.len());
+fn weighted_products(left: &[Integer], right: &[Integer], weight: &[Rational]) -> LongMatrix {
+    let mut products = LongMatrix::with_capacity(left.len());
     for (left_i, weight_i) in left.iter().zip(weight) {
         let factor = left_i * weight_i.numer();
         let unit = weight_i.denom() << FRACTION_BITS;

@@ -1,7 +1,7 @@
 //! T(t) on the complementarity variables, enclosed over intervals.
 //!
-//! Without free variables T(t) = A + tB ([`Linear`]): the ends of [lo, hi] are T(lo) and T(hi), and
-//! those of a half line T(lo) and the direction B. With free variables T(t) is the Schur
+//! Without free variables T(t) = A + tB ([`LinearFamily`]): the ends of [lo, hi] are T(lo) and
+//! T(hi), and those of a half line T(lo) and the direction B. With free variables T(t) is the Schur
 //! complement, expanded about the anchors of the condensation ([`Expanded`]).
 //!
 //! Each row of A + tB is an integral row of the pencil divided by a power of two that makes its
@@ -15,7 +15,9 @@
 use super::ball::{BallMatrix, combination};
 use super::budget::entries_work;
 use super::condensed::Anchors;
-use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits, rational_bits, within_matrix_bits};
+use super::ends::{
+    Ends, FRACTION_BITS, LongMatrix, largest_bits, rational_bits, within_matrix_bits,
+};
 use super::expanded::{Expanded, ShortForm};
 use super::fault::CoverFault;
 use super::short::Short;
@@ -31,7 +33,7 @@ const MAX_VECTOR_WORK: u64 = 1 << 24;
 /// T(t) over the window.
 pub(super) enum Family {
     /// A + tB.
-    Linear(Linear),
+    Linear(LinearFamily),
     /// The condensed pencil about several anchors, those that pieces have named.
     Condensed(Vec<Option<AnchorExpansion>>),
 }
@@ -43,9 +45,9 @@ pub(super) struct AnchorExpansion {
 }
 
 /// A + tB with a radius per row for what was cut off.
-pub(super) struct Linear {
-    a: Matrix,
-    b: Matrix,
+pub(super) struct LinearFamily {
+    a: LongMatrix,
+    b: LongMatrix,
     radius: Vec<Integer>,
     /// A and B in short numbers.
     short: Option<[Short; 2]>,
@@ -64,7 +66,7 @@ impl Family {
 
         let of_part = |rows: &&Rows| match anchors {
             Some(anchors) => Family::Condensed((0..anchors.len()).map(|_| None).collect()),
-            None => Family::Linear(Linear::scaled(rows, &bits)),
+            None => Family::Linear(LinearFamily::scaled(rows, &bits)),
         };
         parts.iter().map(of_part).collect()
     }
@@ -106,7 +108,7 @@ impl Family {
         anchor: Option<usize>,
         lo: &Rational,
         hi: Option<&Rational>,
-    ) -> Result<Matrix, CoverFault> {
+    ) -> Result<LongMatrix, CoverFault> {
         match self {
             Family::Linear(linear) => Ok(linear.slope(lo, hi)),
             Family::Condensed(_) => self.expanded(anchor)?.slope(lo, hi),
@@ -241,11 +243,11 @@ impl MatrixWork {
     }
 }
 
-impl Linear {
+impl LinearFamily {
     /// The pencil of a problem without free variables, row i divided by 2^bits_i.
-    fn scaled(rows: &Rows, bits: &[u64]) -> Linear {
+    fn scaled(rows: &Rows, bits: &[u64]) -> LinearFamily {
         let n = rows.order();
-        let mut linear = Linear {
+        let mut linear = LinearFamily {
             a: Vec::with_capacity(n),
             b: Vec::with_capacity(n),
             radius: Vec::with_capacity(n),
@@ -284,7 +286,7 @@ impl Linear {
     }
 
     /// A factor times the radius, for every entry.
-    fn by_row(&self, factor: &Integer) -> Matrix {
+    fn by_row(&self, factor: &Integer) -> LongMatrix {
         let n = self.radius.len();
         self.radius.iter().map(|r| vec![factor * r; n]).collect()
     }
@@ -298,7 +300,7 @@ impl Linear {
     }
 
     /// factor B.
-    fn direction(&self, factor: &Integer) -> Matrix {
+    fn direction(&self, factor: &Integer) -> LongMatrix {
         combination(&self.b, factor, &self.b, &Integer::zero())
     }
 
@@ -332,7 +334,7 @@ impl Linear {
     }
 
     /// The radii of (hi - lo) B, in the unit of the ends; none over a half line.
-    fn slope(&self, lo: &Rational, hi: Option<&Rational>) -> Matrix {
+    fn slope(&self, lo: &Rational, hi: Option<&Rational>) -> LongMatrix {
         let width = hi.unwrap_or(lo) - lo;
         let common = lo.denom().lcm(hi.unwrap_or(lo).denom());
         self.by_row(&(width * common).to_integer())
@@ -411,7 +413,7 @@ mod tests {
     #[test]
     fn ends_are_exact_but_for_what_is_cut_off() {
         let rows = rows();
-        let linear = Linear::scaled(&rows, &row_bits(&rows));
+        let linear = LinearFamily::scaled(&rows, &row_bits(&rows));
         assert_eq!(linear.radius, [0, 0, 1].map(Integer::from));
         let (lo, hi) = (rational(2, 3), rational(7, 5));
         let ends = linear.ends(&lo, Some(&hi));
@@ -464,8 +466,8 @@ mod tests {
             rational(1, 1000),
             rational(1001, 7),
         ] {
-            let ends = Linear::scaled(&rows, &row_bits(&rows)).ends(&lo, None);
-            let slope = Linear::scaled(&rows, &row_bits(&rows)).slope(&lo, None);
+            let ends = LinearFamily::scaled(&rows, &row_bits(&rows)).ends(&lo, None);
+            let slope = LinearFamily::scaled(&rows, &row_bits(&rows)).slope(&lo, None);
             assert!(ends.infinite);
 
             for i in 0..3 {
@@ -490,7 +492,7 @@ mod tests {
             }
         }
         assert!(
-            Family::Linear(Linear::scaled(&rows, &row_bits(&rows)))
+            Family::Linear(LinearFamily::scaled(&rows, &row_bits(&rows)))
                 .ends(None, &whole(1), None)
                 .is_ok()
         );
@@ -618,7 +620,7 @@ mod tests {
     /// ones.
     #[test]
     fn ordinary_matrices_have_short_numbers() {
-        let linear = Linear::scaled(&rows(), &row_bits(&rows()));
+        let linear = LinearFamily::scaled(&rows(), &row_bits(&rows()));
         let (lo, hi) = (rational(2, 3), rational(7, 5));
         assert!(
             linear.ends(&lo, Some(&hi)).short().is_some()

@@ -18,7 +18,7 @@
 
 use super::ball::BallMatrix;
 use super::context::{Context, corners};
-use super::ends::Corner;
+use super::ends::EndMatrix;
 use super::fault::CoverFault;
 use super::leaf::{Leaf, Yield};
 use super::region::{Region, State};
@@ -64,7 +64,7 @@ fn check_weights(region: &Region, index: &[usize], w: &[i64]) -> Result<(), Cove
 /// for all variables that may be in the support, or for one that is.
 fn check_columns(
     region: &Region,
-    corners: &[Corner<'_>],
+    corners: &[EndMatrix<'_>],
     index: &[usize],
     w: &[i64],
 ) -> Result<(), CoverFault> {
@@ -117,7 +117,7 @@ fn is_negative(region: &Region, end: &Short, w: &[i64]) -> bool {
 }
 
 /// Upper bound of (w'T)_j at a corner: sum_i w_i M_ij + |w_i| R_ij.
-fn upper_bound(corner: &Corner<'_>, w: &[i64], j: usize) -> Integer {
+fn upper_bound(corner: &EndMatrix<'_>, w: &[i64], j: usize) -> Integer {
     let mut bound = Integer::zero();
     for (i, &weight) in w.iter().enumerate() {
         if weight == 0 {

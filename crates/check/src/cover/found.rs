@@ -10,7 +10,7 @@
 //! * else they could be one or two, and the cover is rejected.
 
 use super::fault::CoverFault;
-use super::proved::{Found, SolutionFamily};
+use super::proved::{LeafSolution, SolutionFamily};
 use crate::AcceptedClaim;
 use mceip_exact::{Interval, Rational};
 
@@ -62,7 +62,7 @@ impl SolutionFamily {
 /// A solution at the end of one leaf may be the first of a family in the next. Then it is no single
 /// solution: it is taken out of `found` and listed as a family of one point.
 pub(super) fn families(
-    found: &mut Vec<Found>,
+    found: &mut Vec<LeafSolution>,
     mut list: Vec<SolutionFamily>,
 ) -> Vec<SolutionFamily> {
     let mut of_families = Vec::new();
@@ -86,11 +86,11 @@ pub(super) fn families(
 ///
 /// A group holds intervals of one solution. In the order of lower ends, an interval that overlaps
 /// none of the group begins the next solution.
-pub(super) fn distinct(mut found: Vec<Found>) -> Result<Vec<AcceptedClaim>, CoverFault> {
+pub(super) fn distinct(mut found: Vec<LeafSolution>) -> Result<Vec<AcceptedClaim>, CoverFault> {
     found.sort_by(|p, q| by_support(&p.solution).cmp(&by_support(&q.solution)));
 
     let mut solutions: Vec<AcceptedClaim> = Vec::new();
-    let mut group: Vec<Found> = Vec::new();
+    let mut group: Vec<LeafSolution> = Vec::new();
     for next in found {
         if !group.iter().any(|f| overlaps(f, &next)) {
             solutions.extend(first_of(&mut group));
@@ -110,7 +110,7 @@ pub(super) fn distinct(mut found: Vec<Found>) -> Result<Vec<AcceptedClaim>, Cove
 }
 
 /// Empties a group; its solution, as the first of its members gives it.
-fn first_of(group: &mut Vec<Found>) -> Option<AcceptedClaim> {
+fn first_of(group: &mut Vec<LeafSolution>) -> Option<AcceptedClaim> {
     group.drain(..).next().map(|f| f.solution)
 }
 
@@ -123,14 +123,14 @@ fn by_value(s: &AcceptedClaim) -> (&Rational, &[usize]) {
 }
 
 /// Can both be one solution? `next` does not begin before `f`.
-fn overlaps(f: &Found, next: &Found) -> bool {
+fn overlaps(f: &LeafSolution, next: &LeafSolution) -> bool {
     let has_same_support = f.solution.support == next.solution.support;
     let reaches_next = f.solution.value.hi() >= next.solution.value.lo();
     has_same_support && reaches_next
 }
 
 /// Does one lie where the other is the only solution of the support?
-fn is_same(f: &Found, next: &Found) -> bool {
+fn is_same(f: &LeafSolution, next: &LeafSolution) -> bool {
     let next_lies_in_hull = lies_in(&next.solution.value, &f.hull);
     let lies_in_hull_of_next = lies_in(&f.solution.value, &next.hull);
     next_lies_in_hull || lies_in_hull_of_next
@@ -151,12 +151,12 @@ mod tests {
         Interval::new(whole(a), whole(b)).unwrap()
     }
 
-    fn found(support: usize, value: [i64; 2], hull: [i64; 2]) -> Found {
+    fn found(support: usize, value: [i64; 2], hull: [i64; 2]) -> LeafSolution {
         let solution = AcceptedClaim {
             support: vec![support],
             value: interval(value[0], value[1]),
         };
-        Found {
+        LeafSolution {
             solution,
             hull: interval(hull[0], hull[1]),
         }
@@ -232,7 +232,7 @@ mod tests {
 
     #[test]
     fn two_that_overlap_are_one_if_either_lies_where_the_other_is_unique() {
-        let count = |first: Found, second: Found| {
+        let count = |first: LeafSolution, second: LeafSolution| {
             let list = distinct(vec![first, second])?;
             Ok(list.len())
         };

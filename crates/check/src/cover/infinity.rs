@@ -131,7 +131,7 @@ fn fault(expected: &'static str, index: usize) -> CoverFault {
 #[cfg(test)]
 mod tests {
     use super::super::ball::BallMatrix;
-    use super::super::ends::Matrix;
+    use super::super::ends::LongMatrix;
     use super::*;
     use mceip_exact::{rational, whole};
     use num_traits::One;
@@ -199,7 +199,7 @@ mod tests {
         let chord = chord(&cone, &rational(3, 2));
 
         // T(lo) = 10/5 +- 2/5, B = 1/5 +- 3/5, lo = 3/2.
-        let number = |m: &Matrix| Rational::new(m[0][0].clone(), chord.scale.clone());
+        let number = |m: &LongMatrix| Rational::new(m[0][0].clone(), chord.scale.clone());
         assert_eq!(
             [number(&chord.at[0].m), number(&chord.at[1].m)],
             [whole(2), rational(3, 10)]

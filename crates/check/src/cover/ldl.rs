@@ -29,7 +29,7 @@ const MAX_ORDER: u64 = 128;
 const MAX_SIZE: u64 = 1 << 22;
 
 /// The matrix a A + b B at one end of the interval.
-struct End {
+struct LdlEnd {
     name: &'static str,
     a: Rational,
     b: Rational,
@@ -37,7 +37,7 @@ struct End {
     is_infinite: bool,
 }
 
-impl End {
+impl LdlEnd {
     /// What is expected of the entries of D here.
     fn expected_sign(&self, is_negative: bool) -> &'static str {
         match (is_negative, self.is_infinite) {
@@ -63,20 +63,20 @@ fn check(rows: &Rows, region: &Region, index: &[usize], ldl: &Ldl) -> Result<(),
         .filter(|i| at_zero.binary_search(i).is_err())
         .collect();
 
-    let lower = End {
+    let lower = LdlEnd {
         name: "lower",
         a: Rational::one(),
         b: Rational::clone(&region.lo),
         is_infinite: false,
     };
     let upper = match &region.hi {
-        Some(hi) => End {
+        Some(hi) => LdlEnd {
             name: "upper",
             a: Rational::one(),
             b: Rational::clone(hi),
             is_infinite: false,
         },
-        None => End {
+        None => LdlEnd {
             name: "upper",
             a: Rational::zero(),
             b: Rational::one(),
@@ -94,7 +94,7 @@ fn check(rows: &Rows, region: &Region, index: &[usize], ldl: &Ldl) -> Result<(),
 fn check_end(
     rows: &Rows,
     variables: &[usize],
-    end: &End,
+    end: &LdlEnd,
     factor: &LdlFactor,
     is_negative: bool,
 ) -> Result<(), CoverFault> {
@@ -172,7 +172,7 @@ fn product(factor: &LdlFactor, i: usize, j: usize) -> Rational {
 }
 
 /// sym(a A + b B) on these variables, lower triangle.
-fn symmetric_part(rows: &Rows, variables: &[usize], end: &End) -> Vec<Vec<Rational>> {
+fn symmetric_part(rows: &Rows, variables: &[usize], end: &LdlEnd) -> Vec<Vec<Rational>> {
     let mut sum: Vec<Vec<Rational>> = Vec::with_capacity(variables.len());
     for i in 0..variables.len() {
         sum.push(vec![Rational::zero(); i + 1]);

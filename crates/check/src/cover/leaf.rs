@@ -8,7 +8,7 @@ use super::context::Context;
 use super::definite::Definite;
 use super::farkas::Farkas;
 use super::fault::CoverFault;
-use super::proved::{Found, SolutionFamily};
+use super::proved::{LeafSolution, SolutionFamily};
 use super::region::Region;
 use crate::certificate::Node;
 
@@ -22,7 +22,7 @@ pub(super) trait Leaf {
 #[derive(Default)]
 pub(super) struct Yield {
     /// Isolated single solutions.
-    pub(super) found: Vec<Found>,
+    pub(super) found: Vec<LeafSolution>,
     pub(super) families: Vec<SolutionFamily>,
     /// Is nothing proved of it?
     pub(super) is_open: bool,
@@ -51,15 +51,15 @@ pub(super) fn check(node: &Node, at: &Region, context: &Context<'_>) -> Result<Y
         Node::Support(support) => support.check(at, context),
         Node::Root(root) => root.check(at, context),
         Node::Regular(witness) => witness.check(at, context),
-        Node::Tail => Tail.check(at, context),
+        Node::Tail => TailLeaf.check(at, context),
         Node::Open => Ok(OPEN),
     }
 }
 
 /// The condensation's tail begins at or below the region: there is no solution from there on.
-struct Tail;
+struct TailLeaf;
 
-impl Leaf for Tail {
+impl Leaf for TailLeaf {
     fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
         match context.tail {
             Some(from) if from <= at.lo.as_ref() => Ok(Yield::default()),

@@ -78,7 +78,7 @@ use condensed::{AnchorOfParts, Anchors};
 use context::Context;
 use mceip_exact::Rational;
 use mceip_model::Window;
-use walk::{Audit, FaultAt, Walk};
+use walk::{Audit, CoverWalk, FaultAt};
 
 /// Largest number of complementarity variables of a cover: a region has dense matrices of this
 /// order.
@@ -119,7 +119,7 @@ fn check_cover(
     context.claims = claims;
     context.tail = tail(rows, cover)?;
 
-    let mut walk = Walk::new(context, anchors);
+    let mut walk = CoverWalk::new(context, anchors);
     walk.audit = audit;
     walk.pieces(&cover.pieces)?;
 

@@ -1,7 +1,7 @@
 //! Regions and enclosures of order 2 for the unit tests of leaves.
 
 use super::ball::BallMatrix;
-use super::ends::{Ends, Matrix};
+use super::ends::{Ends, LongMatrix};
 use super::region::{Region, State};
 use super::short::Short;
 use mceip_exact::{Integer, Rational};
@@ -14,7 +14,7 @@ pub(super) const INDEX: [usize; 2] = [10, 11];
 pub(super) const ZERO: Square = [[0, 0], [0, 0]];
 pub(super) const UNDECIDED: [State; 2] = [State::Undecided; 2];
 
-fn matrix(m: Square) -> Matrix {
+fn matrix(m: Square) -> LongMatrix {
     m.map(|row| row.map(Integer::from).to_vec()).to_vec()
 }
 

@@ -22,11 +22,11 @@
 //! are part of them.
 
 use super::anchors;
-use super::bordered::{Block, Bordered, NullWitness};
+use super::bordered::{Bordered, NullWitness, SupportBlock};
 use super::budget::WorkBudget;
 use super::context::{Context, corner_bits, corners};
 use super::critical::of_boxes;
-use super::ends::{Corner, Ends};
+use super::ends::{EndMatrix, Ends};
 use super::fault::CoverFault;
 use super::region::Region;
 use super::root::sign_fault;
@@ -238,7 +238,7 @@ impl<'a> Witness<'a> {
     }
 
     /// d = v - max |I - Y T'| v over the corners, in units of v. Demands that it is positive.
-    fn margin(&self, corners: &[Block<'_>]) -> Result<Vec<Rational>, CoverFault> {
+    fn margin(&self, corners: &[SupportBlock<'_>]) -> Result<Vec<Rational>, CoverFault> {
         let mut margin = Vec::with_capacity(self.bordered.order());
         for i in 0..self.bordered.order() {
             let mut largest = Rational::zero();
@@ -264,7 +264,7 @@ impl<'a> Witness<'a> {
     }
 
     /// (|I - Y T'| v)_i at a corner, in units of v.
-    fn deviation(&self, corner: &Block<'_>, i: usize) -> Rational {
+    fn deviation(&self, corner: &SupportBlock<'_>, i: usize) -> Rational {
         let mut sum = Integer::zero();
         for (entry, v) in self
             .bordered
@@ -279,7 +279,11 @@ impl<'a> Witness<'a> {
     }
 
     /// theta over the corners. Demands that it is less than one: x is positive.
-    fn theta(&self, corners: &[Block<'_>], margin: &[Rational]) -> Result<Rational, CoverFault> {
+    fn theta(
+        &self,
+        corners: &[SupportBlock<'_>],
+        margin: &[Rational],
+    ) -> Result<Rational, CoverFault> {
         let mut theta = Rational::zero();
         for corner in corners {
             for (i, error) in self.errors(corner, margin).into_iter().enumerate() {
@@ -294,7 +298,7 @@ impl<'a> Witness<'a> {
     }
 
     /// |Y (T_'k + T'v)|_i / d_i at a corner.
-    fn errors(&self, corner: &Block<'_>, margin: &[Rational]) -> Vec<Rational> {
+    fn errors(&self, corner: &SupportBlock<'_>, margin: &[Rational]) -> Vec<Rational> {
         let products = self.bordered.products(corner);
         let unit = self.bordered.deviation_unit(corner);
 
@@ -307,7 +311,7 @@ impl<'a> Witness<'a> {
     }
 
     /// Demands (T v_true)_i >= 0 for every i off the support, at all corners.
-    fn check_rest(&self, corners: &[Corner<'_>], theta: &Rational) -> Result<(), CoverFault> {
+    fn check_rest(&self, corners: &[EndMatrix<'_>], theta: &Rational) -> Result<(), CoverFault> {
         let support = &self.bordered.support;
         for row in (0..self.slip.len()).filter(|row| !support.contains(row)) {
             for corner in corners {

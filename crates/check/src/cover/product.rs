@@ -12,7 +12,7 @@
 //! such products. Where an entry of the right factor is longer, or one of the left factor has many
 //! digits, the sums are formed in long integers; the result is the same. Called by `condensed`.
 
-use super::ends::{Matrix, largest_bits};
+use super::ends::{LongMatrix, largest_bits};
 use crate::certificate::IntegerRow;
 use crate::pencil::Row;
 use mceip_exact::Integer;
@@ -32,7 +32,7 @@ pub(super) type NonzeroRows<'a> = Vec<Vec<(usize, &'a Integer)>>;
 
 /// One of the two coefficients of a matrix linear in d.
 #[derive(Clone, Copy)]
-pub(super) enum Part {
+pub(super) enum LinearPart {
     /// At d = 0.
     Constant,
     /// Of d.
@@ -40,22 +40,22 @@ pub(super) enum Part {
 }
 
 /// One part of a matrix linear in d.
-pub(super) fn part_of(matrix: &Linear, part: Part) -> NonzeroRows<'_> {
+pub(super) fn part_of(matrix: &Linear, part: LinearPart) -> NonzeroRows<'_> {
     matrix.iter().map(|row| row_of(row, part)).collect()
 }
 
 /// One part of a row of such a matrix.
-pub(super) fn row_of(row: &Row, part: Part) -> Vec<(usize, &Integer)> {
+pub(super) fn row_of(row: &Row, part: LinearPart) -> Vec<(usize, &Integer)> {
     let entries = row.iter().map(|(column, constant, linear)| match part {
-        Part::Constant => (*column, constant),
-        Part::Linear => (*column, linear),
+        LinearPart::Constant => (*column, constant),
+        LinearPart::Linear => (*column, linear),
     });
 
     entries.filter(|(_, entry)| !entry.is_zero()).collect()
 }
 
 /// The transpose of a dense matrix with `columns` columns.
-pub(super) fn transposed(matrix: &Matrix, columns: usize) -> NonzeroRows<'_> {
+pub(super) fn transposed(matrix: &LongMatrix, columns: usize) -> NonzeroRows<'_> {
     let mut rows = vec![Vec::new(); columns];
     for (i, row) in matrix.iter().enumerate() {
         for (transposed_row, entry) in rows.iter_mut().zip(row) {
@@ -69,8 +69,8 @@ pub(super) fn transposed(matrix: &Matrix, columns: usize) -> NonzeroRows<'_> {
 }
 
 /// The product with a matrix that has `columns` columns.
-pub(super) fn times(left: &NonzeroRows<'_>, right: &[IntegerRow], columns: usize) -> Matrix {
-    let mut product = Matrix::with_capacity(left.len());
+pub(super) fn times(left: &NonzeroRows<'_>, right: &[IntegerRow], columns: usize) -> LongMatrix {
+    let mut product = LongMatrix::with_capacity(left.len());
     for row in left {
         product.push(row_times(row, right, columns));
     }
@@ -192,11 +192,14 @@ mod tests {
             let zero = vec![Integer::zero(); 2];
             let by_constant = vec![vec![&p * 3, -&p], zero.clone(), vec![-&p, p]];
             assert_eq!(
-                times(&part_of(&rows, Part::Constant), &right, 2),
+                times(&part_of(&rows, LinearPart::Constant), &right, 2),
                 by_constant
             );
             let by_linear = vec![zero.clone(), zero.clone(), zero];
-            assert_eq!(times(&part_of(&rows, Part::Linear), &right, 2), by_linear);
+            assert_eq!(
+                times(&part_of(&rows, LinearPart::Linear), &right, 2),
+                by_linear
+            );
         }
     }
 
@@ -231,7 +234,7 @@ mod tests {
     #[test]
     fn a_transpose_leaves_out_zeros() {
         let [one, two, zero] = [1, 2, 0].map(Integer::from);
-        let matrix: Matrix = vec![
+        let matrix: LongMatrix = vec![
             vec![one.clone(), zero.clone()],
             vec![two.clone(), one.clone()],
         ];

@@ -66,7 +66,7 @@ pub(crate) struct AcceptedSolution<'a> {
 }
 
 /// A solution in a leaf, the only one of its support with a value in `hull`.
-pub(super) struct Found {
+pub(super) struct LeafSolution {
     pub(super) solution: AcceptedClaim,
     pub(super) hull: Interval,
 }

@@ -17,12 +17,12 @@ use std::collections::BTreeMap;
 const MAX_EXPONENT: u32 = 1 << 12;
 
 /// A symmetric matrix by rows: column to entry.
-pub(super) type Symmetric = Vec<BTreeMap<usize, Integer>>;
+pub(super) type SymmetricRows = Vec<BTreeMap<usize, Integer>>;
 
 /// Demands that S is positive semidefinite (`strictly`: definite). S is in units of 1 / `scale`,
 /// the factor in its own. `what` names the hypothesis in the fault.
 pub(super) fn semidefinite(
-    s: &Symmetric,
+    s: &SymmetricRows,
     scale: &Integer,
     factor: Option<&Factor>,
     strictly: bool,
@@ -46,7 +46,7 @@ pub(super) fn semidefinite(
 }
 
 /// Is row i zero but for its diagonal entry, which is >= 0 (`strictly`: > 0)?
-fn is_diagonal_row(s: &Symmetric, i: usize, strictly: bool) -> bool {
+fn is_diagonal_row(s: &SymmetricRows, i: usize, strictly: bool) -> bool {
     for (j, entry) in &s[i] {
         let is_allowed = if *j == i {
             !entry.is_negative()
@@ -62,7 +62,7 @@ fn is_diagonal_row(s: &Symmetric, i: usize, strictly: bool) -> bool {
 }
 
 /// The rows of E = S - L L', in units of 1 / (scale 4^exponent).
-fn residual(s: &Symmetric, scale: &Integer, factor: &Factor) -> Dominance<Integer> {
+fn residual(s: &SymmetricRows, scale: &Integer, factor: &Factor) -> Dominance<Integer> {
     let lift = Integer::one() << (2 * factor.exponent);
     let mut rows = Dominance::zero(s.len());
 
@@ -119,7 +119,7 @@ fn shape(factor: &Factor, n: usize) -> Result<(), CoverFault> {
 mod tests {
     use super::*;
 
-    fn tridiagonal(n: usize, d: i64) -> Symmetric {
+    fn tridiagonal(n: usize, d: i64) -> SymmetricRows {
         let row = |i: usize| {
             let mut row = BTreeMap::from([(i, Integer::from(d))]);
             if i > 0 {
@@ -263,7 +263,7 @@ mod tests {
                 scale * (product[i][j] + if i == j { diagonal[i] } else { off[i][j] })
             };
             let row = |i: usize| (0..3).map(|j| (j, Integer::from(entry(i, j)))).collect();
-            let s: Symmetric = (0..3).map(row).collect();
+            let s: SymmetricRows = (0..3).map(row).collect();
             semidefinite(&s, &Integer::from(4 * scale), Some(&factor), strictly, "S")
         };
         let fault = |row| Err(CoverFault::Hypothesis { expected: "S", row });
@@ -309,7 +309,7 @@ mod tests {
                     .map(|j| (j, Integer::from(s[i][j])))
                     .collect()
             };
-            let s: Symmetric = (0..3).map(row).collect();
+            let s: SymmetricRows = (0..3).map(row).collect();
             semidefinite(&s, &Integer::one(), Some(&factor), false, "S").is_ok()
         };
         assert!(check([[4, 2, 0], [2, 10, 12], [0, 12, 41]]));

@@ -25,9 +25,9 @@
 //!
 //! Input: the corners, the witness on the support. Called by the walk through the trees.
 
-use super::bordered::{Block, Bordered, NullWitness};
+use super::bordered::{Bordered, NullWitness, SupportBlock};
 use super::context::{Context, corner_bits, corners};
-use super::ends::Corner;
+use super::ends::EndMatrix;
 use super::fault::CoverFault;
 use super::leaf::{Leaf, Yield};
 use super::region::Region;
@@ -56,8 +56,8 @@ impl Leaf for Regular {
 }
 
 /// Demands that T is regular on the support.
-fn check_corners(witness: &Bordered<'_>, corners: &[Corner<'_>]) -> Result<(), CoverFault> {
-    let mut blocks: Vec<Block<'_>> = Vec::with_capacity(corners.len());
+fn check_corners(witness: &Bordered<'_>, corners: &[EndMatrix<'_>]) -> Result<(), CoverFault> {
+    let mut blocks: Vec<SupportBlock<'_>> = Vec::with_capacity(corners.len());
     for corner in corners {
         blocks.push(witness.block(corner.matrix, corner.scale));
     }

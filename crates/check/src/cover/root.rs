@@ -21,13 +21,13 @@
 //! by the walk through the trees.
 
 use super::ball::Ball;
-use super::bordered::{Block, Bordered};
+use super::bordered::{Bordered, SupportBlock};
 use super::context::Context;
 use super::ends::Ends;
 use super::fault::CoverFault;
 use super::infinity;
 use super::leaf::{Leaf, Yield};
-use super::proved::Found;
+use super::proved::LeafSolution;
 use super::region::{Region, State};
 use crate::AcceptedClaim;
 use crate::certificate::{Root, RootOutcome};
@@ -79,7 +79,7 @@ impl Leaf for Root {
             }
         };
 
-        let found = solution.map(|solution| Found { solution, hull });
+        let found = solution.map(|solution| LeafSolution { solution, hull });
         Ok(Yield {
             found: found.into_iter().collect(),
             ..Yield::default()
@@ -207,7 +207,7 @@ fn check(
     }
 
     // rho bounds |I - Y T'(t)| for every t of the hull, so for those of [a, b].
-    let candidate = Candidate {
+    let candidate = NullVectorCandidate {
         error: witness.error(&narrow_blocks, &rho) * Rational::from_integer(witness.one.clone()),
         witness: &witness,
         ends: &narrow,
@@ -219,7 +219,7 @@ fn check(
 }
 
 /// T at both ends on the support.
-fn blocks<'a>(witness: &Bordered<'_>, ends: &'a Ends) -> [Block<'a>; 2] {
+fn blocks<'a>(witness: &Bordered<'_>, ends: &'a Ends) -> [SupportBlock<'a>; 2] {
     ends.at
         .each_ref()
         .map(|end| witness.block(end, &ends.scale))
@@ -262,12 +262,16 @@ fn is_monotone(witness: &Bordered<'_>, ends: &Ends, left: &Rational, right: &Rat
 }
 
 /// 1 if phi certainly has one sign at both ends, -1 if it certainly changes, else 0.
-fn schur_signs(witness: &Bordered<'_>, [lower, upper]: &[Block<'_>; 2], norm: &Rational) -> i8 {
+fn schur_signs(
+    witness: &Bordered<'_>,
+    [lower, upper]: &[SupportBlock<'_>; 2],
+    norm: &Rational,
+) -> i8 {
     schur_sign(witness, lower, norm) * schur_sign(witness, upper, norm)
 }
 
 /// Certain sign of phi at an end, 0 if none.
-fn schur_sign(witness: &Bordered<'_>, block: &Block<'_>, norm: &Rational) -> i8 {
+fn schur_sign(witness: &Bordered<'_>, block: &SupportBlock<'_>, norm: &Rational) -> i8 {
     let mut phi = witness.value(&witness.products(block));
 
     let mut left_residual = Integer::zero();
@@ -282,7 +286,7 @@ fn schur_sign(witness: &Bordered<'_>, block: &Block<'_>, norm: &Rational) -> i8 
 }
 
 /// The only null vector of the leaf: v_true, at a value of the narrow interval.
-struct Candidate<'a> {
+struct NullVectorCandidate<'a> {
     witness: &'a Bordered<'a>,
     /// Of the narrow interval.
     ends: &'a Ends,
@@ -293,7 +297,7 @@ struct Candidate<'a> {
     vanishing: &'a [usize],
 }
 
-impl Candidate<'_> {
+impl NullVectorCandidate<'_> {
     /// Demands the signs of x and y that the outcome states.
     fn check_outcome(&self, outcome: &RootOutcome) -> Result<(), CoverFault> {
         match *outcome {

@@ -14,7 +14,7 @@
 //! two have at most 124 bits and a sum of four of them fits into an `i128`.
 
 use super::ball::{Ball, BallMatrix};
-use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits};
+use super::ends::{Ends, FRACTION_BITS, LongMatrix, largest_bits};
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -50,7 +50,7 @@ impl Ends {
 
 impl Short {
     /// M +- R, the principal part on `keep`; `None` where the radius is far larger than the matrix.
-    pub(super) fn of(m: &Matrix, r: &Matrix, keep: &[usize]) -> Option<Short> {
+    pub(super) fn of(m: &LongMatrix, r: &LongMatrix, keep: &[usize]) -> Option<Short> {
         let kept = keep
             .iter()
             .flat_map(|&i| keep.iter().map(move |&j| &m[i][j]));
@@ -107,11 +107,11 @@ impl Short {
     ///
     /// The quotients are formed in units so small that the largest one has at least 62 bits, and
     /// rounded down: that costs less than one unit.
-    pub(super) fn quotient(m: &Matrix, divisor: &Integer) -> Option<Short> {
+    pub(super) fn quotient(m: &LongMatrix, divisor: &Integer) -> Option<Short> {
         let missing = (divisor.bits() + BITS + 1).saturating_sub(largest_bits(m.iter().flatten()));
 
-        let mut quotients = Matrix::with_capacity(m.len());
-        let mut radii = Matrix::with_capacity(m.len());
+        let mut quotients = LongMatrix::with_capacity(m.len());
+        let mut radii = LongMatrix::with_capacity(m.len());
         for row in m {
             let mut quotient_row = Vec::with_capacity(row.len());
             let mut radius_row = Vec::with_capacity(row.len());
@@ -358,7 +358,7 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
 
-    fn big(rows: &[&[i64]], bits: u32) -> Matrix {
+    fn big(rows: &[&[i64]], bits: u32) -> LongMatrix {
         rows.iter()
             .map(|r| {
                 r.iter()
@@ -369,7 +369,7 @@ mod tests {
     }
 
     /// Does the enclosure contain p A + q B, entry by entry, if one unit of it is `unit`?
-    fn contains(short: &Short, exact: &Matrix, unit: &Integer) -> bool {
+    fn contains(short: &Short, exact: &LongMatrix, unit: &Integer) -> bool {
         let holds = |i: usize, j: usize| {
             (&exact[i][j] - unit * short.entries.m[i][j]).abs() <= unit * short.entries.r[i][j]
         };
@@ -412,7 +412,7 @@ mod tests {
             let short = first.combine(&p, &second, &q).unwrap();
 
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                let exact = |m: &Matrix| Rational::from_integer(m[i][j].clone());
+                let exact = |m: &LongMatrix| Rational::from_integer(m[i][j].clone());
                 let middle = &p * exact(&a) + &q * exact(&b);
                 let reach = p.abs() * exact(&ra) + q.abs() * exact(&rb);
                 let [center, radius] = short.entry(i, j);

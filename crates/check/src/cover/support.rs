@@ -32,7 +32,7 @@
 use super::context::Context;
 use super::fault::CoverFault;
 use super::leaf::{Leaf, Yield};
-use super::proved::{Found, SolutionFamily};
+use super::proved::{LeafSolution, SolutionFamily};
 use super::region::Region;
 use super::rootless::{AlgebraicValue, sign_between};
 use super::sign_budget::{PolySize, SignBudget};
@@ -62,7 +62,7 @@ struct Held {
 
 /// What a place holds.
 #[derive(Clone, Copy, PartialEq)]
-enum Content {
+enum PlaceContent {
     Nothing,
     /// Solutions; are they alone, one up to its factor at each value?
     Solutions {
@@ -83,7 +83,7 @@ impl Leaf for Support {
                 Some(hull) if place.is_alone => {
                     let value = place.from;
                     let solution = AcceptedClaim { support, value };
-                    held_here.found.push(Found { solution, hull });
+                    held_here.found.push(LeafSolution { solution, hull });
                 }
                 _ => held_here.families.push(SolutionFamily {
                     support,
@@ -141,7 +141,7 @@ fn check_places(
     let mut at_points = Vec::new();
     for (k, root) in roots.iter().enumerate() {
         let reason = reason(leaf, leaf.points[k].reason)?;
-        let place = LeafPlace {
+        let place = PlaceInLeaf {
             number: 2 * k,
             location: Location::Point(root),
             budget,
@@ -152,7 +152,7 @@ fn check_places(
     let mut in_cells = Vec::new();
     for (k, &cell) in leaf.cells.iter().enumerate() {
         let reason = reason(leaf, cell)?;
-        let place = LeafPlace {
+        let place = PlaceInLeaf {
             number: 2 * k + 1,
             location: Location::Cell {
                 below: &roots[k],
@@ -174,12 +174,16 @@ fn reason(leaf: &Support, number: usize) -> Result<&Exact, CoverFault> {
 }
 
 /// The places that hold solutions, from below. Cell k lies above point k.
-fn collect(roots: &[AlgebraicValue], at_points: &[Content], in_cells: &[Content]) -> Vec<Held> {
-    let is_empty_cell = |k: usize| in_cells.get(k).is_none_or(|c| *c == Content::Nothing);
+fn collect(
+    roots: &[AlgebraicValue],
+    at_points: &[PlaceContent],
+    in_cells: &[PlaceContent],
+) -> Vec<Held> {
+    let is_empty_cell = |k: usize| in_cells.get(k).is_none_or(|c| *c == PlaceContent::Nothing);
     let mut held = Vec::new();
 
     for (k, root) in roots.iter().enumerate() {
-        if let Content::Solutions { is_alone } = at_points[k] {
+        if let PlaceContent::Solutions { is_alone } = at_points[k] {
             let is_isolated = (k == 0 || is_empty_cell(k - 1)) && is_empty_cell(k);
             held.push(Held {
                 from: root.value.clone(),
@@ -190,7 +194,7 @@ fn collect(roots: &[AlgebraicValue], at_points: &[Content], in_cells: &[Content]
             });
         }
 
-        if let Some(Content::Solutions { is_alone }) = in_cells.get(k) {
+        if let Some(PlaceContent::Solutions { is_alone }) = in_cells.get(k) {
             held.push(Held {
                 from: root.value.clone(),
                 to: roots.get(k + 1).map(|next| next.value.clone()),
@@ -321,7 +325,7 @@ fn polynomials(leaf: &Support) -> Vec<&Vec<Integer>> {
 }
 
 /// A place of the leaf, where signs of polynomials are asked for.
-struct LeafPlace<'a> {
+struct PlaceInLeaf<'a> {
     /// Twice the point's position, or one more for the cell above it.
     number: usize,
     location: Location<'a>,
@@ -337,7 +341,7 @@ enum Location<'a> {
     },
 }
 
-impl LeafPlace<'_> {
+impl PlaceInLeaf<'_> {
     /// The sign of g at every value of the place, if it can be told.
     fn sign(&self, g: &Poly) -> Option<i8> {
         match self.location {
@@ -401,12 +405,12 @@ impl<'a> SupportPencil<'a> {
     }
 
     /// Checks a reason at a place and returns what it proves.
-    fn content(&self, reason: &Exact, place: &LeafPlace<'_>) -> Result<Content, CoverFault> {
+    fn content(&self, reason: &Exact, place: &PlaceInLeaf<'_>) -> Result<PlaceContent, CoverFault> {
         match reason {
             Exact::None(w) => {
                 let w = self.vector("none", w)?;
                 self.check_nothing(&w, place)?;
-                Ok(Content::Nothing)
+                Ok(PlaceContent::Nothing)
             }
             Exact::Some(member) => {
                 let x = self.vector("x", &member.x)?;
@@ -416,7 +420,7 @@ impl<'a> SupportPencil<'a> {
                 }
 
                 let is_alone = member.alone.is_some();
-                Ok(Content::Solutions { is_alone })
+                Ok(PlaceContent::Solutions { is_alone })
             }
         }
     }
@@ -437,7 +441,7 @@ impl<'a> SupportPencil<'a> {
     }
 
     /// Demands that w is a Farkas vector.
-    fn check_nothing(&self, w: &[Poly], place: &LeafPlace<'_>) -> Result<(), CoverFault> {
+    fn check_nothing(&self, w: &[Poly], place: &PlaceInLeaf<'_>) -> Result<(), CoverFault> {
         // Is some weight of R certainly positive? Then w'y >= 0 is all that is known of w'y.
         let mut is_one_sided = false;
         for (i, w_i) in w.iter().enumerate() {
@@ -482,7 +486,7 @@ impl<'a> SupportPencil<'a> {
     fn check_solution(
         &self,
         x: &[Poly],
-        place: &LeafPlace<'_>,
+        place: &PlaceInLeaf<'_>,
     ) -> Result<Vec<Option<i8>>, CoverFault> {
         for (i, x_i) in x.iter().enumerate() {
             if self.rows.is_free[i] {
@@ -538,13 +542,13 @@ impl<'a> SupportPencil<'a> {
         &self,
         alone: &Alone,
         y: &[Option<i8>],
-        place: &LeafPlace<'_>,
+        place: &PlaceInLeaf<'_>,
     ) -> Result<(), CoverFault> {
         if !self.support.contains(&alone.pivot) {
             return Err(CoverFault::Pivot { index: alone.pivot });
         }
 
-        let mut bounds = vec![Bounds::default(); self.rows.order()];
+        let mut bounds = vec![ProvedSigns::default(); self.rows.order()];
         for (own, l) in &alone.rows {
             let own = *own;
             if own == alone.pivot || !self.is_active.get(own).is_some_and(|&active| active) {
@@ -589,7 +593,7 @@ impl<'a> SupportPencil<'a> {
         &self,
         l: &[Poly],
         y: &[Option<i8>],
-        place: &LeafPlace<'_>,
+        place: &PlaceInLeaf<'_>,
     ) -> Result<bool, CoverFault> {
         let mut is_equation = true;
         for (i, l_i) in l.iter().enumerate() {
@@ -634,7 +638,7 @@ fn add_product(
 /// Is c z_j + d z_k >= 0 proved for all solutions z, with equality for x: with c > 0 (`below`),
 /// with c < 0 (`above`)?
 #[derive(Clone, Copy, Default)]
-struct Bounds {
+struct ProvedSigns {
     below: bool,
     above: bool,
 }

@@ -16,7 +16,7 @@ use super::condensed::Anchors;
 use super::context::Context;
 use super::fault::CoverFault;
 use super::leaf;
-use super::proved::{Found, OpenRegion, SolutionFamily};
+use super::proved::{LeafSolution, OpenRegion, SolutionFamily};
 use super::region::{Region, State, end};
 use crate::LeafPlace;
 use crate::certificate::{Node, Piece};
@@ -26,14 +26,14 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 /// What a walk reads and what it has found.
-pub(super) struct Walk<'a> {
+pub(super) struct CoverWalk<'a> {
     pub(super) context: Context<'a>,
     /// Where there are free variables.
     pub(super) anchors: Option<Anchors<'a>>,
     /// The interval of mu of each tree, where the trees cover one.
     pub(super) friction: Option<[Rc<Rational>; 2]>,
     pub(super) audit: Option<&'a Audit<'a>>,
-    pub(super) found: Vec<Found>,
+    pub(super) found: Vec<LeafSolution>,
     pub(super) families: Vec<SolutionFamily>,
     pub(super) open: Vec<OpenRegion>,
     pub(super) leaves: usize,
@@ -100,9 +100,9 @@ impl FaultAt {
     }
 }
 
-impl<'a> Walk<'a> {
-    pub(super) fn new(context: Context<'a>, anchors: Option<Anchors<'a>>) -> Walk<'a> {
-        Walk {
+impl<'a> CoverWalk<'a> {
+    pub(super) fn new(context: Context<'a>, anchors: Option<Anchors<'a>>) -> CoverWalk<'a> {
+        CoverWalk {
             context,
             anchors,
             friction: None,
@@ -302,7 +302,7 @@ mod tests {
             &[&rows]
         };
         let window = Window::all();
-        let mut walk = Walk::new(Context::new(parts, None, &window, 1), None);
+        let mut walk = CoverWalk::new(Context::new(parts, None, &window, 1), None);
         walk.friction = has_friction.then(|| [whole(0), whole(1)].map(Rc::new));
 
         let piece = Piece {

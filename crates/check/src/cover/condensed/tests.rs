@@ -262,7 +262,7 @@ fn expansions_spend_a_budget_of_memory() {
     assert_eq!(before, (1 << 30) + (16 << 12));
 
     // Exponents 3 + 2, entries of 4 + 3 bits, a center of 2 + 3; the pencil and its free rows.
-    let blocks = Blocks::of(&rows);
+    let blocks = IntegralBlocks::of(&rows);
     let bits = 5 + 7 + 5 + blocks.longest + blocks.common.bits();
     let cost = 4 * 2 * (512 + bits);
     assert!(anchors.expand(1).is_ok());
@@ -357,7 +357,7 @@ fn a_free_block_that_is_not_symmetric_is_refused() {
             factor: vec![one(), one()],
             is_free: vec![true, true],
         };
-        Blocks::of(&rows).symmetric()
+        IntegralBlocks::of(&rows).symmetric()
     };
     let refused = |row| {
         Err(CoverFault::Hypothesis {
@@ -445,7 +445,7 @@ fn a_tail_begins_where_the_symmetric_part_is_definite() {
 fn an_expansion_has_a_largest_size() {
     let blocks = |longest: u64| {
         let one = Integer::from(1); // of one bit
-        Blocks {
+        IntegralBlocks {
             free: 1,
             slip: 1024,
             longest,
@@ -465,7 +465,7 @@ fn an_expansion_has_a_largest_size() {
         left: vec![],
     }; // 3 + 2 bits
     let size = |longest: u64, exponent: u32| {
-        let polynomial = |exponent: u32, entry_bits: u64| Polynomial {
+        let polynomial = |exponent: u32, entry_bits: u64| MatrixPolynomial {
             coefficients: vec![],
             exponent,
             entry_bits,

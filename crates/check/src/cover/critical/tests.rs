@@ -3,7 +3,7 @@
 
 use super::super::budget::WorkBudget;
 use super::super::context::corners;
-use super::super::ends::{Corner, Ends, FRACTION_BITS};
+use super::super::ends::{EndMatrix, Ends, FRACTION_BITS};
 use super::super::region::Region;
 use super::super::short::Short;
 use super::*;
@@ -188,7 +188,7 @@ fn boxed(t: [Rational; 2], friction: [Rational; 2]) -> Region {
 type Enclosure = [Dense; 2];
 
 fn long_corners(ends: &[Ends]) -> Vec<Enclosure> {
-    let of_corner = |corner: Corner<'_>| {
+    let of_corner = |corner: EndMatrix<'_>| {
         let in_units_of_one = |matrix: &Vec<Vec<Integer>>| -> Dense {
             let entry = |v: &Integer| Rational::new(v.clone(), corner.scale.clone());
             matrix

@@ -5,7 +5,7 @@ use super::super::family::{AnchorExpansion, Family};
 use super::*;
 use mceip_exact::{rational, whole};
 
-fn grid(n: usize, entry: impl Fn(usize, usize) -> Integer) -> Matrix {
+fn grid(n: usize, entry: impl Fn(usize, usize) -> Integer) -> LongMatrix {
     (0..n)
         .map(|i| (0..n).map(|j| entry(i, j)).collect())
         .collect()
@@ -22,7 +22,7 @@ fn int(list: &[i64]) -> Vec<Integer> {
     list.iter().map(|&v| v.into()).collect()
 }
 
-fn square(list: [[i64; 2]; 2]) -> Matrix {
+fn square(list: [[i64; 2]; 2]) -> LongMatrix {
     list.iter().map(|row| int(row)).collect()
 }
 
@@ -91,7 +91,7 @@ fn weigh(a: &Rational, b: &Rational, w: &Rational) -> Rational {
     ceil(a * b * w / unit())
 }
 
-fn at(e: &Expanded, d: &Rational) -> Matrix {
+fn at(e: &Expanded, d: &Rational) -> LongMatrix {
     let entry = |i: usize, j: usize| {
         let z: Rational =
             e.z.iter()
@@ -126,7 +126,7 @@ fn check_finite(e: &Expanded, is_linear: bool, lo: &Rational, hi: &Rational) {
     let reach = d[0].abs().max(d[1].abs());
     let weight = weights(e, lo);
     let bend = |i: usize, j: usize| {
-        let term = |(k, z): (usize, &Matrix)| {
+        let term = |(k, z): (usize, &LongMatrix)| {
             Rational::from_integer(z[i][j].abs() * k * (k - 1)) * power(&reach, k - 2)
         };
         let second: Rational = e.z.iter().enumerate().skip(2).map(term).sum();

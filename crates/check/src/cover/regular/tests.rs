@@ -50,9 +50,9 @@ fn verdict_on(
             r: integers(r),
         })
         .collect();
-    let corners: Vec<Corner<'_>> = matrices
+    let corners: Vec<EndMatrix<'_>> = matrices
         .iter()
-        .map(|matrix| Corner {
+        .map(|matrix| EndMatrix {
             matrix,
             scale: &scale,
             name: "lower",

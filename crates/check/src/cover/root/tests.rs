@@ -2,7 +2,7 @@
 //! radius; and each decision at the last number that is refused and the first that is accepted.
 
 use super::super::ball::BallMatrix;
-use super::super::ends::Matrix;
+use super::super::ends::LongMatrix;
 use super::*;
 use crate::certificate::Root;
 use mceip_exact::{rational, whole};
@@ -15,13 +15,13 @@ const Y_ONE: i64 = 32;
 const ONE: i64 = 2;
 const SCALE: i64 = 1000;
 
-fn matrix(list: [[i64; 4]; 4]) -> Matrix {
+fn matrix(list: [[i64; 4]; 4]) -> LongMatrix {
     list.iter()
         .map(|row| row.iter().map(|&v| v.into()).collect())
         .collect()
 }
 
-fn balls([m0, m1]: [Matrix; 2], [r0, r1]: [Matrix; 2]) -> [BallMatrix<Integer>; 2] {
+fn balls([m0, m1]: [LongMatrix; 2], [r0, r1]: [LongMatrix; 2]) -> [BallMatrix<Integer>; 2] {
     [BallMatrix { m: m0, r: r0 }, BallMatrix { m: m1, r: r1 }]
 }
 
@@ -58,7 +58,7 @@ fn ends() -> Ends {
     }
 }
 
-fn inverse() -> Matrix {
+fn inverse() -> LongMatrix {
     vec![
         vec![19.into(), Integer::from(-7)],
         vec![Integer::from(-6), 13.into()],
@@ -68,7 +68,7 @@ fn inverse() -> Matrix {
 /// u and v.
 const VECTORS: [&[i64]; 2] = [&[1, -3, ONE], &[-5, 3, ONE]];
 
-fn witness(y: &Matrix) -> Bordered<'_> {
+fn witness(y: &LongMatrix) -> Bordered<'_> {
     Bordered::of_numbers(&SUPPORT, (y, Y_ONE), VECTORS, ONE)
 }
 
@@ -78,7 +78,7 @@ fn rational_of(v: &Integer) -> Rational {
 
 /// An entry among the variables of the support and its radius, as real numbers.
 fn entry(e: &Ends, end: usize, i: usize, j: usize) -> (Rational, Rational) {
-    let of = |m: &Matrix| rational_of(&m[SUPPORT[i]][SUPPORT[j]]) / whole(SCALE);
+    let of = |m: &LongMatrix| rational_of(&m[SUPPORT[i]][SUPPORT[j]]) / whole(SCALE);
     (of(&e.at[end].m), of(&e.at[end].r))
 }
 
@@ -193,7 +193,7 @@ fn norms_and_errors_are_those_of_the_formulas() {
 /// The pivot alone: T' is empty, the norm and the errors are nothing.
 #[test]
 fn one_variable_needs_no_inverse() {
-    let none: Matrix = vec![];
+    let none: LongMatrix = vec![];
     let s = Bordered::of_numbers(&[1], (&none, 1), [&[ONE], &[ONE]], ONE);
     let e = ends();
     let blocks = blocks(&s, &e);
@@ -265,7 +265,7 @@ fn the_schur_complement_has_a_sign_beyond_its_radius_only() {
 #[test]
 fn at_its_radius_the_schur_complement_has_no_sign() {
     // No inverse is needed for one variable: phi = one^2 m, its radius one^2 r.
-    let none: Matrix = vec![];
+    let none: LongMatrix = vec![];
     let s = Bordered::of_numbers(&[1], (&none, 1), [&[1], &[1]], 1);
     let mut e = ends();
     let mut sign = |m: i64, r: i64| {
@@ -375,7 +375,7 @@ fn a_resting_row_has_a_sign_beyond_its_radius_only() {
             e.at[end].m[3][1] = (value - others).into();
             // The same at the other end: y has a sign if it is that of both.
             e.at[1 - end] = e.at[end].clone();
-            let candidate = Candidate {
+            let candidate = NullVectorCandidate {
                 witness: &s,
                 ends: &e,
                 error: whole(error),
@@ -418,7 +418,7 @@ fn region() -> Region {
 /// T = [[1, a, .], [0, t, .], [b, c, .]] with t from one value to another: x = (-a, 1), y_3 = c - a
 /// b.
 fn simple(t: [i64; 2], a: i64, b: i64, c: [i64; 2]) -> Ends {
-    let at_end = |k: usize| -> Matrix {
+    let at_end = |k: usize| -> LongMatrix {
         [[1, a, 0], [0, t[k], 0], [b, c[k], 0]]
             .iter()
             .map(|r| r.map(Integer::from).to_vec())
@@ -530,7 +530,7 @@ fn outcome(
     error: Rational,
     vanishing: &[usize],
 ) -> Result<(), CoverFault> {
-    let candidate = Candidate {
+    let candidate = NullVectorCandidate {
         witness,
         ends,
         error,
@@ -544,7 +544,7 @@ fn outcome(
 /// The error counts for every component but the pivot's, which is 1 and exact.
 #[test]
 fn components_are_positive_beyond_the_error_only() {
-    let y: Matrix = vec![vec![1.into()]];
+    let y: LongMatrix = vec![vec![1.into()]];
     let ends = simple([-1, 1], 0, 0, [100, 100]);
     let solution = |x: i64, one: i64, error: Rational| {
         let s = Bordered::of_numbers(&[0, 1], (&y, 1), [&[x, one]; 2], one);
@@ -589,7 +589,7 @@ fn a_moving_row_is_no_negative_y() {
 /// A solution needs no sign of a row that vanishes, and the sign of every other row at rest.
 #[test]
 fn a_row_that_vanishes_needs_no_sign() {
-    let y: Matrix = vec![vec![1.into()]];
+    let y: LongMatrix = vec![vec![1.into()]];
     let ends = simple([-1, 1], 0, 0, [0, 0]);
     let witness = Bordered::of_numbers(&[0, 1], (&y, 1), [&[1, 1]; 2], 1);
     let solution = |vanishing: &[usize]| outcome(&witness, &ends, rational(1, 2), vanishing);

@@ -3,7 +3,7 @@
 
 use super::super::region::State;
 use super::*;
-use crate::certificate::{Member, Point};
+use crate::certificate::{Member, SupportPoint};
 use mceip_exact::{Integer, rational, whole};
 use mceip_model::file::Number;
 
@@ -51,15 +51,15 @@ fn polynomials(list: &[&[i64]]) -> Polynomials {
 }
 
 /// The root of c[0] + c[1] t in an interval, or at a point.
-fn point(c: [i64; 2], interval: [Rational; 2], reason: usize) -> Point {
-    Point {
+fn point(c: [i64; 2], interval: [Rational; 2], reason: usize) -> SupportPoint {
+    SupportPoint {
         polynomial: c.map(Integer::from).to_vec(),
         interval: interval.map(Number),
         reason,
     }
 }
 
-fn at(value: i64, reason: usize) -> Point {
+fn at(value: i64, reason: usize) -> SupportPoint {
     point([-value, 1], [whole(value), whole(value)], reason)
 }
 

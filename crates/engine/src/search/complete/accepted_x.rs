@@ -16,7 +16,9 @@ use crate::multistart::{claimed_root, exact_value, integer_x};
 use crate::reduction::with_free_variables;
 use crate::report::row_times;
 use crate::tolerance::{SAME_ROOT, SAME_VALUE};
-use mceip_check::certificate::{Certificate, Claim, Exact, Node, Point, Polynomials, Support};
+use mceip_check::certificate::{
+    Certificate, Claim, Exact, Node, Polynomials, Support, SupportPoint,
+};
 use mceip_check::{AcceptedClaim, Proved};
 use mceip_exact::{Algebraic, Integer, Poly, Rational, to_f64};
 use mceip_model::Pencil;
@@ -185,7 +187,7 @@ fn yielded(
 /// x and the value at a point of a leaf, if it is a solution with this support.
 fn at_point(
     leaf: &Support,
-    point: &Point,
+    point: &SupportPoint,
     pencil: &Pencil,
     support: &[usize],
 ) -> Option<(Vec<Poly>, Algebraic)> {

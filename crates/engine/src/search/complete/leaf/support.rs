@@ -12,7 +12,7 @@ mod alone;
 mod circuit;
 mod reasons;
 
-use mceip_check::certificate::{Exact, Point, Polynomials, Support};
+use mceip_check::certificate::{Exact, Polynomials, Support, SupportPoint};
 use mceip_exact::{Algebraic, Integer, Poly, Rational, roots_in};
 use mceip_model::Pencil;
 use mceip_model::file::Number;
@@ -183,7 +183,7 @@ impl Sweep<'_> {
         for SweepPoint { value, reason } in self.points {
             let lo = value.interval().lo().clone();
             let hi = value.interval().hi().clone();
-            points.push(Point {
+            points.push(SupportPoint {
                 polynomial: value.poly().coeffs().to_vec(),
                 interval: [Number(lo), Number(hi)],
                 reason,
