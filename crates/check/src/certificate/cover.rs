@@ -67,6 +67,17 @@ fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::
     Option::deserialize(d)
 }
 
+/// What the branches of a tree say of a complementarity variable in a region.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VariableState {
+    /// Nothing: both x_i = 0 and x_i > 0 are in the region.
+    Undecided,
+    /// x_i = 0.
+    AtZero,
+    /// x_i > 0, y_i = 0.
+    InSupport,
+}
+
 /// A node of the tree, in preorder. Leaves prove that nothing lies in them, or exactly what.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]

@@ -22,7 +22,7 @@ mod presence;
 mod row;
 pub use cover::{
     Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Ldl, LdlFactor, Member,
-    Node, Piece, Polynomials, Root, RootOutcome, Support, SupportPoint, Tail,
+    Node, Piece, Polynomials, Root, RootOutcome, Support, SupportPoint, Tail, VariableState,
 };
 pub use critical::{
     CRITICAL_FORMAT, CriticalAnchor, CriticalCertificate, CriticalCondensation, CriticalTail,

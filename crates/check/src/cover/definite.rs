@@ -108,11 +108,11 @@ fn is_skew(matrix: &BallMatrix<Integer>, variables: &[usize]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::certificate::VariableState;
     use crate::cover::ends::Ends;
     use crate::cover::order_two::{INDEX, Square, UNDECIDED, ZERO, ends, region, short};
-    use crate::cover::region::State;
 
-    fn long_definite_leaf(states: [State; 2], ends: Ends) -> Result<(), CoverFault> {
+    fn long_definite_leaf(states: [VariableState; 2], ends: Ends) -> Result<(), CoverFault> {
         check_corners(&region(states), &corners(&[ends]), &INDEX, 1)
     }
 
@@ -161,7 +161,7 @@ mod tests {
         // Only entry (1, 1) counts, which is zero with its radius.
         let m = [eye, [[7, 9], [9, 0]]];
         let r = [ZERO, [[5, 5], [5, 0]]];
-        let first_at_zero = [State::AtZero, State::Undecided];
+        let first_at_zero = [VariableState::AtZero, VariableState::Undecided];
         assert_eq!(long_definite_leaf(first_at_zero, ends(m, r, true)), Ok(()));
     }
 

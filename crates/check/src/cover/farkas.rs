@@ -21,8 +21,9 @@ use super::context::{Context, corners};
 use super::ends::EndMatrix;
 use super::fault::CoverFault;
 use super::leaf::{Leaf, Yield};
-use super::region::{Region, State};
+use super::region::Region;
 use super::short::Short;
+use crate::certificate::VariableState;
 use mceip_exact::{Integer, Rational};
 use num_traits::{Signed, Zero};
 
@@ -49,7 +50,7 @@ impl Leaf for Farkas<'_> {
 fn check_weights(region: &Region, index: &[usize], w: &[i64]) -> Result<(), CoverFault> {
     CoverFault::length("farkas", index.len(), w.len())?;
     for (i, &weight) in w.iter().enumerate() {
-        if weight < 0 && region.states[i] != State::InSupport {
+        if weight < 0 && region.states[i] != VariableState::InSupport {
             return Err(CoverFault::NegativeWeight {
                 index: index[i],
                 got: weight,
@@ -87,7 +88,7 @@ fn check_columns(
         }
 
         strict_on_all &= strict;
-        strict_on_support |= strict && region.states[j] == State::InSupport;
+        strict_on_support |= strict && region.states[j] == VariableState::InSupport;
     }
 
     if strict_on_all || strict_on_support {
@@ -113,7 +114,7 @@ fn is_negative(region: &Region, end: &Short, w: &[i64]) -> bool {
     bounds
         .iter()
         .zip(&region.states)
-        .all(|(bound, state)| *bound < 0 || *state == State::AtZero)
+        .all(|(bound, state)| *bound < 0 || *state == VariableState::AtZero)
 }
 
 /// Upper bound of (w'T)_j at a corner: sum_i w_i M_ij + |w_i| R_ij.
@@ -143,7 +144,7 @@ mod tests {
     use crate::cover::order_two::{INDEX, UNDECIDED, ZERO, ends, region, short};
     use mceip_exact::whole;
 
-    fn long_farkas(states: [State; 2], ends: Ends, w: [i64; 2]) -> Result<(), CoverFault> {
+    fn long_farkas(states: [VariableState; 2], ends: Ends, w: [i64; 2]) -> Result<(), CoverFault> {
         check_columns(&region(states), &corners(&[ends]), &INDEX, &w)
     }
 
@@ -152,7 +153,7 @@ mod tests {
     fn radii_count_against_a_farkas_vector() {
         // (2, -3)'T = (-16, 10 - 3 c) with radii 2 * 3 + 3 * 2 = 12 and 2 * 1 + 3 * 4 = 14.
         let radius = [[3, 1], [2, 4]];
-        let states = [State::Undecided, State::InSupport];
+        let states = [VariableState::Undecided, VariableState::InSupport];
         let verdict = |lower: i64, upper: i64| {
             let m = [lower, upper].map(|c| [[-5, 5], [2, c]]);
             long_farkas(states, ends(m, [radius, radius], false), [2, -3])
@@ -187,7 +188,7 @@ mod tests {
         assert_eq!(verdict(UNDECIDED, [1, 0], [1, 1], false), weak);
         assert_eq!(verdict(UNDECIDED, [1, 1], [1, 0], false), weak);
 
-        let first_in_support = [State::InSupport, State::Undecided];
+        let first_in_support = [VariableState::InSupport, VariableState::Undecided];
         assert_eq!(verdict(first_in_support, [1, 0], [1, 0], false), Ok(()));
         assert_eq!(verdict(first_in_support, [0, 1], [1, 1], false), weak);
 
@@ -195,14 +196,14 @@ mod tests {
         assert_eq!(verdict(UNDECIDED, [1, 0], [1, 1], true), weak);
         assert_eq!(verdict(UNDECIDED, [1, 0], [0, 1], true), weak);
 
-        let second_at_zero = [State::Undecided, State::AtZero];
+        let second_at_zero = [VariableState::Undecided, VariableState::AtZero];
         assert_eq!(verdict(second_at_zero, [1, 0], [1, 0], false), Ok(()));
     }
 
     #[test]
     fn weights_off_the_support_are_not_negative() {
         let verdict = |states, w: &[i64]| check_weights(&region(states), &INDEX, w);
-        let second_in_support = [State::AtZero, State::InSupport];
+        let second_in_support = [VariableState::AtZero, VariableState::InSupport];
         assert_eq!(verdict(second_in_support, &[0, -1]), Ok(()));
 
         let negative = Err(CoverFault::NegativeWeight { index: 10, got: -1 });
@@ -224,7 +225,7 @@ mod tests {
         assert!(!verdict(UNDECIDED, &unclear));
 
         // w'T need not be negative on a variable at zero.
-        let second_at_zero = [State::Undecided, State::AtZero];
+        let second_at_zero = [VariableState::Undecided, VariableState::AtZero];
         assert!(verdict(second_at_zero, &unclear));
     }
 }

@@ -17,8 +17,8 @@
 use super::context::Context;
 use super::fault::CoverFault;
 use super::leaf::{Leaf, Yield};
-use super::region::{Region, State};
-use crate::certificate::{Ldl, LdlFactor};
+use super::region::Region;
+use crate::certificate::{Ldl, LdlFactor, VariableState};
 use crate::pencil::Rows;
 use mceip_exact::{Integer, Rational};
 use num_traits::{One, Signed, Zero};
@@ -57,7 +57,7 @@ impl Leaf for Ldl {
 }
 
 fn check(rows: &Rows, region: &Region, index: &[usize], ldl: &Ldl) -> Result<(), CoverFault> {
-    let at_zero = region.positions(|state| state == State::AtZero);
+    let at_zero = region.positions(|state| state == VariableState::AtZero);
     let at_zero: Vec<usize> = at_zero.into_iter().map(|p| index[p]).collect();
     let possible: Vec<usize> = (0..rows.order())
         .filter(|i| at_zero.binary_search(i).is_err())
@@ -230,7 +230,7 @@ mod tests {
             Pencil::new(sparse([[2, 3], [-1, 4]]), sparse([[1, 0], [0, 0]]), vec![]).unwrap();
         let rows =
             Rows::of(&Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap());
-        let states = vec![State::Undecided, State::InSupport];
+        let states = vec![VariableState::Undecided, VariableState::InSupport];
         let region = Region {
             states,
             ..Region::new(whole(1).into(), hi.map(|hi| whole(hi).into()), None, 0)

@@ -177,8 +177,9 @@ mod tests {
     use super::budget::WorkBudget;
     use super::definite::Definite;
     use super::leaf::Leaf;
-    use super::region::{Region, State};
+    use super::region::Region;
     use super::*;
+    use crate::certificate::VariableState;
     use crate::certificate::{Node, Piece, Root, RootOutcome};
     use mceip_exact::{Integer, rational, whole};
     use mceip_model::file::Number;
@@ -199,7 +200,7 @@ mod tests {
         }
     }
 
-    fn region(lo: Rational, hi: i64, states: Vec<State>) -> Region {
+    fn region(lo: Rational, hi: i64, states: Vec<VariableState>) -> Region {
         Region {
             states,
             ..Region::new(Rc::new(lo), Some(Rc::new(whole(hi))), None, 0)
@@ -219,10 +220,10 @@ mod tests {
         let mut context = context(&rows, &window);
         context.definite_budget = WorkBudget::definite_leaves(50);
         let states = vec![
-            State::Undecided,
-            State::InSupport,
-            State::Undecided,
-            State::AtZero,
+            VariableState::Undecided,
+            VariableState::InSupport,
+            VariableState::Undecided,
+            VariableState::AtZero,
         ];
         let region = region(whole(0), 1, states);
 
@@ -258,7 +259,7 @@ mod tests {
             let mut context = context(&rows, &window);
             context.matrix_budget = WorkBudget::matrices(1 << 20);
             let leaf = |context: &Context<'_>| {
-                let region = region(whole(0), 1, vec![State::Undecided; 2]);
+                let region = region(whole(0), 1, vec![VariableState::Undecided; 2]);
                 Definite { sign: 1 }.check(&region, context).map(drop)
             };
 
@@ -308,12 +309,12 @@ mod tests {
         let cost = 4 * (3 * (3 + 3) + 256);
         context.matrix_budget = WorkBudget::matrices(2 * cost - 1);
 
-        let shared = region(rational(1, 3), 2, vec![State::Undecided; 2]);
+        let shared = region(rational(1, 3), 2, vec![VariableState::Undecided; 2]);
         assert_eq!(context.affordable(&shared), Ok(()));
         assert_eq!(context.affordable(&shared), Ok(()));
         assert_eq!(context.matrix_budget.left(), cost - 1);
 
-        let other = region(rational(1, 3), 2, vec![State::Undecided; 2]);
+        let other = region(rational(1, 3), 2, vec![VariableState::Undecided; 2]);
         let too_large = CoverFault::TooLarge {
             what: MATRIX_BUDGET,
             limit: cost - 1,
@@ -329,7 +330,7 @@ mod tests {
         let rows = diagonal(1, -6);
         let window = Window::all();
         let mut context = context(&rows, &window);
-        let region = region(whole(5), 7, vec![State::InSupport]);
+        let region = region(whole(5), 7, vec![VariableState::InSupport]);
         let root = Root {
             pivot: 0,
             interval: [whole(5), whole(7)].map(Number),
@@ -365,7 +366,7 @@ mod tests {
         let rows = diagonal(2, 3);
         let window = Window::all();
         let context = context(&rows, &window);
-        let region = region(whole(0), 1, vec![State::Undecided; 2]);
+        let region = region(whole(0), 1, vec![VariableState::Undecided; 2]);
         let half = || Number(rational(1, 2));
 
         for node in [Node::Split(half()), Node::Friction(half()), Node::Branch(0)] {
@@ -383,7 +384,7 @@ mod tests {
         let window = Window::all();
         let context = context(&rows, &window);
 
-        let region = region(whole(0), 1, vec![State::Undecided; 2]);
+        let region = region(whole(0), 1, vec![VariableState::Undecided; 2]);
 
         assert!(context.short(&region).is_some());
     }

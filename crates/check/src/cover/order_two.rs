@@ -2,8 +2,9 @@
 
 use super::ball::BallMatrix;
 use super::ends::{Ends, LongMatrix};
-use super::region::{Region, State};
+use super::region::Region;
 use super::short::Short;
+use crate::certificate::VariableState;
 use mceip_exact::{Integer, Rational};
 use num_traits::{One, Zero};
 
@@ -12,7 +13,7 @@ pub(super) type Square = [[i64; 2]; 2];
 /// The variables' indices in the problem.
 pub(super) const INDEX: [usize; 2] = [10, 11];
 pub(super) const ZERO: Square = [[0, 0], [0, 0]];
-pub(super) const UNDECIDED: [State; 2] = [State::Undecided; 2];
+pub(super) const UNDECIDED: [VariableState; 2] = [VariableState::Undecided; 2];
 
 fn matrix(m: Square) -> LongMatrix {
     m.map(|row| row.map(Integer::from).to_vec()).to_vec()
@@ -22,7 +23,7 @@ pub(super) fn short(m: Square) -> Short {
     Short::of(&matrix(m), &matrix(ZERO), &[0, 1]).unwrap()
 }
 
-pub(super) fn region(states: [State; 2]) -> Region {
+pub(super) fn region(states: [VariableState; 2]) -> Region {
     Region {
         states: states.to_vec(),
         ..Region::new(

@@ -4,19 +4,10 @@ use super::budget::WorkBudget;
 use super::ends::Ends;
 use super::fault::CoverFault;
 use super::short::Short;
+use crate::certificate::VariableState;
 use mceip_exact::Rational;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
-
-/// What is known of a complementarity variable in a region.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum State {
-    Undecided,
-    /// x_i = 0.
-    AtZero,
-    /// x_i > 0, y_i = 0.
-    InSupport,
-}
 
 /// The part of (supports) x (window) that belongs to a node: values in [lo, hi], of a tree that
 /// covers frictions as well those in `friction`, and the supports that its states allow. `None` as
@@ -29,7 +20,7 @@ pub(super) struct Region {
     pub(super) hi: Option<Rc<Rational>>,
     pub(super) friction: Option<[Rc<Rational>; 2]>,
     /// One per complementarity variable, ascending.
-    pub(super) states: Vec<State>,
+    pub(super) states: Vec<VariableState>,
     /// The matrices over [lo, hi]: of T, or of T0 and of T1 where T = T0 + mu T1.
     pub(super) parts: Rc<[Matrices; 2]>,
     /// The matrices T0 + mu T1 at both ends of the interval of friction.
@@ -48,7 +39,7 @@ impl Region {
             lo,
             hi,
             friction,
-            states: vec![State::Undecided; variables],
+            states: vec![VariableState::Undecided; variables],
             parts: Rc::default(),
             boxed: Rc::default(),
         }
@@ -122,17 +113,17 @@ impl Region {
     ) -> Result<[Region; 2], CoverFault> {
         let position = indices.iter().position(|&i| i == index);
         let position = position
-            .filter(|&p| self.states[p] == State::Undecided)
+            .filter(|&p| self.states[p] == VariableState::Undecided)
             .ok_or(CoverFault::Branch { index })?;
 
         let mut at_zero = self.clone();
-        at_zero.states[position] = State::AtZero;
+        at_zero.states[position] = VariableState::AtZero;
         let mut in_support = self;
-        in_support.states[position] = State::InSupport;
+        in_support.states[position] = VariableState::InSupport;
 
         let other = indices.iter().position(|&i| Some(i) == other_half);
         if let Some(other) = other {
-            in_support.states[other] = State::AtZero;
+            in_support.states[other] = VariableState::AtZero;
         }
 
         Ok([at_zero, in_support])
@@ -140,19 +131,19 @@ impl Region {
 
     /// Positions of the variables that are in the support.
     pub(super) fn support(&self) -> Vec<usize> {
-        self.positions(|state| state == State::InSupport)
+        self.positions(|state| state == VariableState::InSupport)
     }
 
     /// Positions of the variables that are or may be in the support.
     pub(super) fn possible_support(&self) -> Vec<usize> {
-        self.positions(|state| state != State::AtZero)
+        self.positions(|state| state != VariableState::AtZero)
     }
 
     pub(super) fn is_decided(&self) -> bool {
-        !self.states.contains(&State::Undecided)
+        !self.states.contains(&VariableState::Undecided)
     }
 
-    pub(super) fn positions(&self, holds: impl Fn(State) -> bool) -> Vec<usize> {
+    pub(super) fn positions(&self, holds: impl Fn(VariableState) -> bool) -> Vec<usize> {
         (0..self.states.len())
             .filter(|&i| holds(self.states[i]))
             .collect()

@@ -28,9 +28,9 @@ use super::fault::CoverFault;
 use super::infinity;
 use super::leaf::{Leaf, Yield};
 use super::proved::LeafSolution;
-use super::region::{Region, State};
+use super::region::Region;
 use crate::AcceptedClaim;
-use crate::certificate::{Root, RootOutcome};
+use crate::certificate::{Root, RootOutcome, VariableState};
 use mceip_exact::{Integer, Interval, Rational};
 use mceip_model::Window;
 use num_traits::{Signed, Zero};
@@ -310,7 +310,7 @@ impl NullVectorCandidate<'_> {
                 }
             }
             RootOutcome::NegativeY(stated) => {
-                let is_at_zero = |i: &usize| self.region.states[*i] == State::AtZero;
+                let is_at_zero = |i: &usize| self.region.states[*i] == VariableState::AtZero;
                 let at_zero = self.index.iter().position(|&i| i == stated);
                 match at_zero.filter(is_at_zero) {
                     Some(i) if self.y_sign(i) == -1 => Ok(()),
@@ -330,7 +330,10 @@ impl NullVectorCandidate<'_> {
             }
         }
 
-        for i in self.region.positions(|state| state == State::AtZero) {
+        for i in self
+            .region
+            .positions(|state| state == VariableState::AtZero)
+        {
             let needs_sign = !self.vanishing.contains(&self.index[i]);
             if needs_sign && self.y_sign(i) != 1 {
                 return Err(sign_fault("y", self.index[i], "> 0"));

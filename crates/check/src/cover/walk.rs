@@ -17,9 +17,9 @@ use super::context::Context;
 use super::fault::CoverFault;
 use super::leaf;
 use super::proved::{LeafSolution, OpenRegion, SolutionFamily};
-use super::region::{Region, State, end};
+use super::region::{Region, end};
 use crate::LeafPlace;
-use crate::certificate::{Node, Piece};
+use crate::certificate::{Node, Piece, VariableState};
 use mceip_exact::Rational;
 use mceip_model::Window;
 use std::cell::{Cell, RefCell};
@@ -226,7 +226,7 @@ impl<'a> CoverWalk<'a> {
     }
 
     fn open_region(&self, region: &Region) -> OpenRegion {
-        let undecided = region.positions(|state| state == State::Undecided);
+        let undecided = region.positions(|state| state == VariableState::Undecided);
         OpenRegion {
             min: Rational::clone(&region.lo),
             max: region.hi.as_deref().cloned(),

@@ -2,7 +2,7 @@
 
 use super::super::ball::BallMatrix;
 use super::*;
-use crate::cover::region::State;
+use crate::certificate::VariableState;
 use mceip_exact::{Integer, rational, whole};
 use num_traits::Zero;
 
@@ -17,7 +17,7 @@ fn integers(m: &Small) -> Vec<Vec<Integer>> {
         .collect()
 }
 
-fn region(states: &[State]) -> Region {
+fn region(states: &[VariableState]) -> Region {
     let mut region = Region::new(whole(0).into(), Some(whole(1).into()), None, 0);
     region.states = states.to_vec();
     region
@@ -135,19 +135,31 @@ fn both_signs_will_do_but_not_together() {
 #[test]
 fn the_witness_belongs_to_the_variables_that_move() {
     let one = witness(&vec![vec![4]], &[0], &[0], 2);
-    let support = |states: [State; 3], witness: &Regular| {
+    let support = |states: [VariableState; 3], witness: &Regular| {
         let bordered = Bordered::of_leaf(&region(&states), &INDEX, witness.into());
         bordered.map(|bordered| bordered.support)
     };
-    let states = [State::InSupport, State::InSupport, State::AtZero];
+    let states = [
+        VariableState::InSupport,
+        VariableState::InSupport,
+        VariableState::AtZero,
+    ];
     assert_eq!(support(states, &one), Ok(vec![0, 1]));
 
-    let open = [State::InSupport, State::InSupport, State::Undecided];
+    let open = [
+        VariableState::InSupport,
+        VariableState::InSupport,
+        VariableState::Undecided,
+    ];
     let early = Err(CoverFault::RootTooEarly);
     assert_eq!(support(open, &one), early);
-    assert_eq!(support([State::AtZero; 3], &one), early);
+    assert_eq!(support([VariableState::AtZero; 3], &one), early);
 
-    let resting = [State::InSupport, State::AtZero, State::InSupport];
+    let resting = [
+        VariableState::InSupport,
+        VariableState::AtZero,
+        VariableState::InSupport,
+    ];
     let pivot = Err(CoverFault::Pivot { index: 11 });
     assert_eq!(support(resting, &one), pivot);
 

@@ -4,7 +4,7 @@
 use super::super::ball::BallMatrix;
 use super::super::ends::LongMatrix;
 use super::*;
-use crate::certificate::Root;
+use crate::certificate::{Root, VariableState};
 use mceip_exact::{rational, whole};
 use mceip_model::file::Number;
 use num_traits::ToPrimitive;
@@ -411,7 +411,11 @@ const INDEX: [usize; 3] = [10, 11, 12];
 
 fn region() -> Region {
     let mut region = Region::new(whole(0).into(), Some(whole(1).into()), None, 0);
-    region.states = vec![State::InSupport, State::InSupport, State::AtZero];
+    region.states = vec![
+        VariableState::InSupport,
+        VariableState::InSupport,
+        VariableState::AtZero,
+    ];
     region
 }
 

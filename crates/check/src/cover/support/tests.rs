@@ -1,8 +1,8 @@
 //! Where solutions of a support are single, where they are alone, and how far a leaf's word
 //! reaches.
 
-use super::super::region::State;
 use super::*;
+use crate::certificate::VariableState;
 use crate::certificate::{Member, SupportPoint};
 use mceip_exact::{Integer, rational, whole};
 use mceip_model::file::Number;
@@ -30,9 +30,9 @@ fn region(lo: i64, hi: Option<i64>, moving: &[usize], order: usize) -> Region {
     let states = (0..order)
         .map(|i| {
             if moving.contains(&i) {
-                State::InSupport
+                VariableState::InSupport
             } else {
-                State::AtZero
+                VariableState::AtZero
             }
         })
         .collect();

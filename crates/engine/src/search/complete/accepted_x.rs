@@ -10,14 +10,14 @@ use super::null_vector::existing_null_vector;
 use super::pieces::expansion::Expansion;
 use super::pieces::matrix::{largest_entry, principal_block};
 use super::pieces::prepared::Prepared;
-use super::region::{State, support};
+use super::region::support;
 use crate::certify::rows::center_of;
 use crate::multistart::{claimed_root, exact_value, integer_x};
 use crate::reduction::with_free_variables;
 use crate::report::row_times;
 use crate::tolerance::{SAME_ROOT, SAME_VALUE};
 use mceip_check::certificate::{
-    Certificate, Claim, Exact, Node, Polynomials, Support, SupportPoint,
+    Certificate, Claim, Exact, Node, Polynomials, Support, SupportPoint, VariableState,
 };
 use mceip_check::{AcceptedClaim, Proved};
 use mceip_exact::{Algebraic, Integer, Poly, Rational, to_f64};
@@ -226,9 +226,9 @@ fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim
     let mut states = Vec::with_capacity(prepared.view.order());
     for variable in &prepared.view.index {
         states.push(if solution.support.contains(variable) {
-            State::InSupport
+            VariableState::InSupport
         } else {
-            State::AtZero
+            VariableState::AtZero
         });
     }
 

@@ -12,9 +12,10 @@
 //! Called by `gains`.
 
 use super::pieces::expansion::Ends;
-use super::region::{State, possible_support};
+use super::region::possible_support;
 use super::tableau::{Strategy, Tableau, Variable};
 use crate::tolerance::{ENOUGH_MARGIN, GAME_SHIFT};
+use mceip_check::certificate::VariableState;
 
 /// Entries of the columns are at most one in modulus, so that this makes all payoffs positive by a
 /// tenth of their range.
@@ -30,7 +31,7 @@ pub(super) struct EndsGame {
 
 impl EndsGame {
     /// Solves the game of a region from nothing; `None` where doubles do not get there.
-    pub(super) fn new(ends: &Ends, states: &[State]) -> Option<EndsGame> {
+    pub(super) fn new(ends: &Ends, states: &[VariableState]) -> Option<EndsGame> {
         let order = states.len();
         let mut columns = Vec::new();
         let mut numbers = Vec::new();
@@ -59,7 +60,7 @@ impl EndsGame {
         }
 
         for (position, state) in states.iter().enumerate() {
-            if *state == State::InSupport {
+            if *state == VariableState::InSupport {
                 tableau.add_negative(position);
             }
         }
@@ -95,7 +96,11 @@ impl EndsGame {
     }
 
     /// The game of a region that differs in its states: variables decided since.
-    pub(super) fn decided(&self, before: &[State], after: &[State]) -> Option<EndsGame> {
+    pub(super) fn decided(
+        &self,
+        before: &[VariableState],
+        after: &[VariableState],
+    ) -> Option<EndsGame> {
         let mut part = self.clone();
         for (position, (old, state)) in before.iter().zip(after).enumerate() {
             if old == state {
@@ -103,15 +108,15 @@ impl EndsGame {
             }
 
             match state {
-                State::AtZero => {
+                VariableState::AtZero => {
                     let are_removed = part.tableau.remove(number(position, 0))
                         && part.tableau.remove(number(position, 1));
                     if !are_removed {
                         return None;
                     }
                 }
-                State::InSupport => part.tableau.add_negative(position),
-                State::Undecided => return None,
+                VariableState::InSupport => part.tableau.add_negative(position),
+                VariableState::Undecided => return None,
             }
         }
 
@@ -120,7 +125,12 @@ impl EndsGame {
 
     /// The game of the part of the interval beside a cut at `place` in (0, 1): the columns of the
     /// end `replaced` become those of the cut.
-    pub(super) fn cut(&self, replaced: usize, place: f64, states: &[State]) -> Option<EndsGame> {
+    pub(super) fn cut(
+        &self,
+        replaced: usize,
+        place: f64,
+        states: &[VariableState],
+    ) -> Option<EndsGame> {
         let mut part = self.clone();
         for position in possible_support(states) {
             let lower = (1.0 - place) * self.sizes[0][position];
@@ -166,7 +176,7 @@ mod tests {
         Expansion::linear(a, b)
     }
 
-    const OPEN: [State; 3] = [State::Undecided; 3];
+    const OPEN: [VariableState; 3] = [VariableState::Undecided; 3];
 
     /// Deciding a variable gives the game that one would solve from nothing.
     #[test]
@@ -175,7 +185,7 @@ mod tests {
         let whole = EndsGame::new(&ends, &OPEN).unwrap();
 
         for position in 0..3 {
-            for state in [State::AtZero, State::InSupport] {
+            for state in [VariableState::AtZero, VariableState::InSupport] {
                 let mut states = OPEN;
                 states[position] = state;
                 let from_nothing = EndsGame::new(&ends, &states).unwrap();
@@ -193,7 +203,7 @@ mod tests {
         let ends = expansion().ends(0.5, 1.0);
         let whole = EndsGame::new(&ends, &OPEN).unwrap();
 
-        let none = whole.decided(&OPEN, &[State::AtZero; 3]).unwrap();
+        let none = whole.decided(&OPEN, &[VariableState::AtZero; 3]).unwrap();
 
         assert_eq!(none.value(), f64::INFINITY);
         assert_eq!(none.weights(), [0.0; 3]);

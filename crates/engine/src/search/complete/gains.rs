@@ -13,11 +13,11 @@ use super::dyadic::short_near;
 use super::ends_game::EndsGame;
 use super::leaf::farkas::Columns;
 use super::pieces::expansion::Ends;
-use super::region::{self, Region, State};
+use super::region::{self, Region};
 use super::solutions::Solutions;
 use super::tree::{Aim, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
 use crate::tolerance::{LEAST_GAIN, NARROW, WITNESS_MARGIN};
-use mceip_check::certificate::Node;
+use mceip_check::certificate::{Node, VariableState};
 use mceip_exact::{Rational, to_f64};
 use std::rc::Rc;
 
@@ -172,8 +172,8 @@ impl TreeSearch<'_, Solutions<'_>> {
     }
 
     fn by_variable(&self, position: usize, region: &Region, game: &EndsGame) -> Option<Division> {
-        let at_zero = self.view.part(region, position, State::AtZero);
-        let in_support = self.view.part(region, position, State::InSupport);
+        let at_zero = self.view.part(region, position, VariableState::AtZero);
+        let in_support = self.view.part(region, position, VariableState::InSupport);
         let games = [
             game.decided(&region.states, &at_zero.states)?,
             game.decided(&region.states, &in_support.states)?,
@@ -217,15 +217,16 @@ impl TreeSearch<'_, Solutions<'_>> {
         share: f64,
     ) {
         self.branch_on(position);
-        for (state, game) in [State::AtZero, State::InSupport].into_iter().zip(games) {
+        for (state, game) in [VariableState::AtZero, VariableState::InSupport]
+            .into_iter()
+            .zip(games)
+        {
             let mut part = self.view.part(region, position, state);
             part.cuts = 0;
             // With x_i > 0 the same variables may move as before.
-            let has_same_block = part
-                .states
-                .iter()
-                .zip(&region.states)
-                .all(|(new, old)| (*new == State::AtZero) == (*old == State::AtZero));
+            let has_same_block = part.states.iter().zip(&region.states).all(|(new, old)| {
+                (*new == VariableState::AtZero) == (*old == VariableState::AtZero)
+            });
             let kept = KeptGame {
                 game,
                 is_indefinite: has_same_block,
@@ -256,7 +257,7 @@ impl TreeSearch<'_, Solutions<'_>> {
 }
 
 /// The undecided positions whose complementarity the mix of the game breaks most, worst first.
-fn most_violated(states: &[State], game: &EndsGame) -> Vec<usize> {
+fn most_violated(states: &[VariableState], game: &EndsGame) -> Vec<usize> {
     let mut violations = Vec::new();
     for position in region::undecided(states) {
         violations.push((game.violation(position), position));

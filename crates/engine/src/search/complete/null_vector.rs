@@ -12,9 +12,10 @@
 
 use super::pieces::expansion::Expansion;
 use super::pieces::matrix::{Matrix, bilinear, principal_block, times};
-use super::region::{State, support};
+use super::region::support;
 use crate::dense::transposed;
 use crate::tolerance::ROUNDING;
+use mceip_check::certificate::VariableState;
 use mceip_mcp::linear::solve;
 
 /// Newton steps at most.
@@ -46,7 +47,7 @@ pub(crate) struct NullVector {
 /// outside the interval enlarged by half on each side.
 pub(crate) fn null_vector(
     expansion: &Expansion,
-    states: &[State],
+    states: &[VariableState],
     lo: f64,
     hi: f64,
 ) -> Option<NullVector> {
@@ -57,7 +58,7 @@ pub(crate) fn null_vector(
 /// which the iteration does not leave; then it starts from vectors of no pattern.
 pub(crate) fn existing_null_vector(
     expansion: &Expansion,
-    states: &[State],
+    states: &[VariableState],
     lo: f64,
     hi: f64,
 ) -> Option<NullVector> {
@@ -99,7 +100,11 @@ struct Iteration<'a> {
 }
 
 impl<'a> Iteration<'a> {
-    fn new(expansion: &'a Expansion, states: &[State], [lo, hi]: [f64; 2]) -> Iteration<'a> {
+    fn new(
+        expansion: &'a Expansion,
+        states: &[VariableState],
+        [lo, hi]: [f64; 2],
+    ) -> Iteration<'a> {
         Iteration {
             expansion,
             support: support(states),
@@ -242,7 +247,7 @@ mod tests {
         assert!(iteration.run(0, Vectors::ones(2)).is_none());
         let found = null_vector(
             &view.expansions[0],
-            &[State::InSupport; 2],
+            &[VariableState::InSupport; 2],
             iteration.lo,
             iteration.hi,
         )

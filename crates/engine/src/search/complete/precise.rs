@@ -15,12 +15,12 @@ use super::pieces::expansion::Expansion;
 use super::pieces::precise_anchor::precise_anchor;
 use super::pieces::prepared::Prepared;
 use super::pieces::view::View;
-use super::region::{Region, State, support};
+use super::region::{Region, support};
 use crate::candidate::Candidate;
 use crate::certify::{ENCLOSED_ORDER, precise_null};
 use crate::magnitude::{binary_order, in_units, two_to};
 use crate::reduction::with_free_variables;
-use mceip_check::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
+use mceip_check::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome, VariableState};
 use mceip_exact::{Rational, to_f64};
 use num_traits::{Signed, Zero};
 
@@ -169,7 +169,7 @@ fn may_have_root(region: &Region) -> bool {
         return false;
     }
 
-    region.states.contains(&State::InSupport)
+    region.states.contains(&VariableState::InSupport)
 }
 
 /// The only null vector of a decided region, and what its signs say.

@@ -9,41 +9,31 @@
 //! numbers in the pencil.
 
 use super::pieces::view::View;
-use mceip_check::certificate::{Claim, Node, Root, RootOutcome};
+use mceip_check::certificate::{Claim, Node, Root, RootOutcome, VariableState};
 use mceip_exact::{Rational, to_f64};
 use num_traits::Zero;
 
-/// What is known of a complementarity variable in a region.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum State {
-    Undecided,
-    /// x_i = 0.
-    AtZero,
-    /// x_i > 0, y_i = 0.
-    InSupport,
-}
-
 /// Positions of the variables that are in the support.
-pub(crate) fn support(states: &[State]) -> Vec<usize> {
-    positions(states, |state| state == State::InSupport)
+pub(crate) fn support(states: &[VariableState]) -> Vec<usize> {
+    positions(states, |state| state == VariableState::InSupport)
 }
 
 /// Positions of the variables that are or may be in the support.
-pub(crate) fn possible_support(states: &[State]) -> Vec<usize> {
-    positions(states, |state| state != State::AtZero)
+pub(crate) fn possible_support(states: &[VariableState]) -> Vec<usize> {
+    positions(states, |state| state != VariableState::AtZero)
 }
 
 /// Positions of the variables with x_i = 0.
-pub(crate) fn at_zero(states: &[State]) -> Vec<usize> {
-    positions(states, |state| state == State::AtZero)
+pub(crate) fn at_zero(states: &[VariableState]) -> Vec<usize> {
+    positions(states, |state| state == VariableState::AtZero)
 }
 
 /// Positions of the variables that are not decided.
-pub(crate) fn undecided(states: &[State]) -> Vec<usize> {
-    positions(states, |state| state == State::Undecided)
+pub(crate) fn undecided(states: &[VariableState]) -> Vec<usize> {
+    positions(states, |state| state == VariableState::Undecided)
 }
 
-fn positions(states: &[State], holds: impl Fn(State) -> bool) -> Vec<usize> {
+fn positions(states: &[VariableState], holds: impl Fn(VariableState) -> bool) -> Vec<usize> {
     let mut positions = Vec::new();
     for (position, state) in states.iter().enumerate() {
         if holds(*state) {
@@ -63,7 +53,7 @@ pub(crate) struct Region {
     /// The interval of mu; [0, 0] where the pencil does not depend on it.
     pub(crate) mu: [Rational; 2],
     /// One per complementarity variable, by position.
-    pub(crate) states: Vec<State>,
+    pub(crate) states: Vec<VariableState>,
     /// Cuts since the last branch: towards a degenerate end cutting alone would not come to an end.
     pub(crate) cuts: usize,
     /// Has a null vector of this support already been met that is not provably the only one?
@@ -77,7 +67,7 @@ impl Region {
             lo,
             hi,
             mu: [Rational::zero(), Rational::zero()],
-            states: vec![State::Undecided; variables],
+            states: vec![VariableState::Undecided; variables],
             cuts: 0,
             is_suspect: false,
         }
@@ -120,8 +110,8 @@ impl Region {
             }
             Node::Branch(variable) => {
                 let position = view.position(*variable).unwrap_or(0);
-                let in_support = view.part(self, position, State::InSupport);
-                let at_zero = view.part(self, position, State::AtZero);
+                let in_support = view.part(self, position, VariableState::InSupport);
+                let at_zero = view.part(self, position, VariableState::AtZero);
                 Some([in_support, at_zero])
             }
             _ => None,
@@ -140,7 +130,7 @@ impl Region {
     }
 
     pub(crate) fn is_decided(&self) -> bool {
-        !self.states.contains(&State::Undecided)
+        !self.states.contains(&VariableState::Undecided)
     }
 
     /// Does the value lie strictly inside the interval?

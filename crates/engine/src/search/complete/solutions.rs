@@ -15,10 +15,10 @@ use super::leaf::farkas::{Columns, MiddleTest};
 use super::leaf::root::{PartLeaf, RootSearch, Searched, part_around};
 use super::leaf::{definite, infinity, ldl, support};
 use super::pieces::expansion::{Ends, Expansion};
-use super::region::{self, Item, Region, State};
+use super::region::{self, Item, Region};
 use super::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
 use crate::tolerance::{DEGENERATE_PART, NARROW};
-use mceip_check::certificate::Node;
+use mceip_check::certificate::{Node, VariableState};
 use mceip_exact::Rational;
 use std::rc::Rc;
 
@@ -295,7 +295,7 @@ impl TreeSearch<'_, Solutions<'_>> {
         self.aim.answer(&self.items);
         let undecided = region::undecided(&region.states);
         let Some(&position) = undecided.first() else {
-            if region.states.contains(&State::InSupport) {
+            if region.states.contains(&VariableState::InSupport) {
                 return self.give_up(region, share);
             }
 
@@ -308,7 +308,7 @@ impl TreeSearch<'_, Solutions<'_>> {
         }
 
         self.branch_on(position);
-        for state in [State::AtZero, State::InSupport] {
+        for state in [VariableState::AtZero, VariableState::InSupport] {
             let child = self.view.part(region, position, state);
             self.by_support(&child, 0.5 * share);
         }

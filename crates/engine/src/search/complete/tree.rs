@@ -22,9 +22,9 @@ use super::leaf::farkas::{self, Columns, MiddleTest};
 use super::pieces::expansion::{Ends, Expansion};
 use super::pieces::skyline::dot;
 use super::pieces::view::View;
-use super::region::{self, Item, Region, State};
+use super::region::{self, Item, Region};
 use super::shares::Shares;
-use mceip_check::certificate::{Node, RootOutcome};
+use mceip_check::certificate::{Node, RootOutcome, VariableState};
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::Number;
 use std::rc::Rc;
@@ -248,7 +248,7 @@ impl<A: Aim> TreeSearch<'_, A> {
     /// Decides the variable at this position.
     fn divide(&mut self, position: usize, region: &Region, ends: &Rc<[Ends]>, share: f64) {
         self.branch_on(position);
-        for state in [State::AtZero, State::InSupport] {
+        for state in [VariableState::AtZero, VariableState::InSupport] {
             let mut child = self.view.part(region, position, state);
             child.cuts = 0;
             self.node(&child, ends, None, 0.5 * share);

@@ -11,13 +11,13 @@
 use crate::dense::UpperTriangle;
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::pieces::matrix::Matrix;
-use crate::search::complete::region::{State, possible_support};
+use crate::search::complete::region::possible_support;
 use crate::tolerance::DEFINITE_PIVOT;
-use mceip_check::certificate::Node;
+use mceip_check::certificate::{Node, VariableState};
 
 /// The leaf of a region with these states, if its symmetric part is definite at all corners: the
 /// ends of its interval of t, at both ends of its interval of mu.
-pub(crate) fn leaf(corners: &[Ends], states: &[State]) -> Option<Node> {
+pub(crate) fn leaf(corners: &[Ends], states: &[VariableState]) -> Option<Node> {
     let is_definite = |sign| {
         let mut corners = corners.iter();
         corners.all(|ends| holds_at_both_ends(ends, states, sign))
@@ -33,7 +33,7 @@ pub(crate) fn leaf(corners: &[Ends], states: &[State]) -> Option<Node> {
 }
 
 /// Is `sign` sym(T) positive definite on what may be in the support, at both ends?
-pub(crate) fn holds_at_both_ends(ends: &Ends, states: &[State], sign: f64) -> bool {
+pub(crate) fn holds_at_both_ends(ends: &Ends, states: &[VariableState], sign: f64) -> bool {
     let radius = ends.r.as_ref();
     if !is_definite(&ends.m[0], radius, states, sign) {
         return false;
@@ -44,7 +44,7 @@ pub(crate) fn holds_at_both_ends(ends: &Ends, states: &[State], sign: f64) -> bo
 }
 
 /// Is the symmetric part exactly zero on what may be in the support? Enough at an infinite end.
-fn vanishes(m: &Matrix, states: &[State]) -> bool {
+fn vanishes(m: &Matrix, states: &[VariableState]) -> bool {
     let possible = possible_support(states);
     for &i in &possible {
         for &j in &possible {
@@ -62,7 +62,7 @@ fn vanishes(m: &Matrix, states: &[State]) -> bool {
 pub(crate) fn is_definite(
     m: &Matrix,
     radius: Option<&Matrix>,
-    states: &[State],
+    states: &[VariableState],
     sign: f64,
 ) -> bool {
     let possible = possible_support(states);

@@ -12,8 +12,9 @@ use crate::search::complete::game::{self, Game};
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::pieces::matrix::Matrix;
 use crate::search::complete::pieces::skyline::dot;
-use crate::search::complete::region::{State, possible_support};
+use crate::search::complete::region::possible_support;
 use crate::tolerance::{CONDENSED_MARGIN, THIN_MARGIN, WITNESS_MARGIN};
+use mceip_check::certificate::VariableState;
 
 /// Bits tried for the weights, shortest first.
 const WEIGHT_BITS: [i32; 5] = [8, 14, 20, 30, 44];
@@ -26,7 +27,7 @@ const KEPT_MARGIN: f64 = 0.1;
 pub(crate) fn weights(
     columns: &Columns,
     middle: &MiddleTest,
-    states: &[State],
+    states: &[VariableState],
 ) -> Option<Vec<i64>> {
     if middle.game.value <= 0.0 {
         return None;
@@ -42,7 +43,7 @@ pub(crate) fn weights(
 
     let game = columns.play(states);
     // Before a decided region is given to its null vectors a thin margin is worth trying.
-    let is_decided = !states.contains(&State::Undecided);
+    let is_decided = !states.contains(&VariableState::Undecided);
     let least = if is_decided {
         THIN_MARGIN
     } else {
@@ -69,7 +70,7 @@ pub(crate) struct MiddleTest {
 
 impl MiddleTest {
     /// Plays the game at the one value of `point`.
-    pub(crate) fn new(point: Ends, states: &[State]) -> MiddleTest {
+    pub(crate) fn new(point: Ends, states: &[VariableState]) -> MiddleTest {
         let columns = Columns::at_lower_end(&point, states);
         let game = columns.play(states);
         let is_prunable = columns.margin(&game) > WITNESS_MARGIN;
@@ -157,7 +158,7 @@ pub(crate) struct Columns {
 
 impl Columns {
     /// Of one value, given as an interval of width zero.
-    fn at_lower_end(point: &Ends, states: &[State]) -> Columns {
+    fn at_lower_end(point: &Ends, states: &[VariableState]) -> Columns {
         let mut columns = Columns { list: Vec::new() };
         columns.add(&point.m[0], point.r.as_ref(), states, false);
         columns
@@ -165,7 +166,7 @@ impl Columns {
 
     /// Of both ends of an interval, for each corner of mu: all columns of the lower, then all of
     /// the upper end.
-    pub(crate) fn of(corners: &[Ends], states: &[State]) -> Columns {
+    pub(crate) fn of(corners: &[Ends], states: &[VariableState]) -> Columns {
         let mut columns = Columns { list: Vec::new() };
         for ends in corners {
             columns.add(&ends.m[0], ends.r.as_ref(), states, false);
@@ -175,7 +176,13 @@ impl Columns {
         columns
     }
 
-    fn add(&mut self, m: &Matrix, radius: Option<&Matrix>, states: &[State], is_direction: bool) {
+    fn add(
+        &mut self,
+        m: &Matrix,
+        radius: Option<&Matrix>,
+        states: &[VariableState],
+        is_direction: bool,
+    ) {
         for variable in possible_support(states) {
             let column = Column::new(m, radius, variable, is_direction);
             self.list.push(column);
@@ -187,10 +194,10 @@ impl Columns {
     }
 
     /// The game on these columns.
-    fn play(&self, states: &[State]) -> Game {
+    fn play(&self, states: &[VariableState]) -> Game {
         let mut either_sign = Vec::with_capacity(states.len());
         for state in states {
-            either_sign.push(*state == State::InSupport);
+            either_sign.push(*state == VariableState::InSupport);
         }
 
         let mut columns = Vec::with_capacity(self.list.len());

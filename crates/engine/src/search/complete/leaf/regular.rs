@@ -18,10 +18,10 @@
 use crate::bordered::{NullVectors, largest};
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::pieces::matrix::{Matrix, principal_block};
-use crate::search::complete::region::{State, support};
+use crate::search::complete::region::support;
 use crate::search::complete::rounding::exponent;
 use crate::tolerance::REGULAR_MARGIN;
-use mceip_check::certificate::{Node, Regular};
+use mceip_check::certificate::{Node, Regular, VariableState};
 use mceip_mcp::linear::inverse;
 
 /// Bits tried for the largest number of Y, and of u and v.
@@ -82,7 +82,7 @@ impl Bounds {
 impl RegularWitness {
     /// The witness of the middle of a box, where T is `matrix`; `None` where nothing moves or T is
     /// singular to doubles.
-    pub(crate) fn of(matrix: &Matrix, states: &[State]) -> Option<RegularWitness> {
+    pub(crate) fn of(matrix: &Matrix, states: &[VariableState]) -> Option<RegularWitness> {
         let support = support(states);
         let whole = inverse(&principal_block(matrix, &support))?;
         let size = |place: usize| whole[place][place].abs();

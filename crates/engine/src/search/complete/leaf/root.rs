@@ -19,8 +19,8 @@ use crate::search::complete::given::Given;
 use crate::search::complete::null_vector::{NullVector, null_vector};
 use crate::search::complete::pieces::expansion::{Ends, Expansion};
 use crate::search::complete::pieces::view::View;
-use crate::search::complete::region::{Item, Region, State, support};
-use mceip_check::certificate::{Claim, Node, RootOutcome};
+use crate::search::complete::region::{Item, Region, support};
+use mceip_check::certificate::{Claim, Node, RootOutcome, VariableState};
 use mceip_exact::{Rational, from_f64, to_f64};
 use unique::Located;
 
@@ -145,7 +145,7 @@ impl RootSearch<'_> {
         &self,
         null: &NullVector,
         unique: &Unique,
-        states: &[State],
+        states: &[VariableState],
         ends: [f64; 4],
     ) -> Option<Item> {
         let index = &self.view.index;
@@ -175,7 +175,12 @@ impl RootSearch<'_> {
 
     /// Is the null vector of an exact solution that of the leaf? Its support lies in the leaf's,
     /// and y = 0 on all of the leaf's.
-    fn belongs_to(&self, solution_support: &[usize], biactive: &[usize], states: &[State]) -> bool {
+    fn belongs_to(
+        &self,
+        solution_support: &[usize],
+        biactive: &[usize],
+        states: &[VariableState],
+    ) -> bool {
         let leaf_support = self.view.variables(&support(states));
         let is_inside = solution_support.iter().all(|i| leaf_support.contains(i));
         let is_active = leaf_support

@@ -6,7 +6,8 @@
 
 use super::expansion::Expansion;
 use super::matrix::{Matrix, largest_entry, zeros};
-use crate::search::complete::region::{Region, State, support};
+use crate::search::complete::region::{Region, support};
+use mceip_check::certificate::VariableState;
 use mceip_exact::{Integer, Rational, cleared, common_denominator, to_f64};
 use mceip_model::{Pencil, ZeroVariables};
 use num_traits::One;
@@ -54,13 +55,13 @@ impl View {
 
     /// The part of a region in which the variable at this position has this state. Where it is a
     /// half of v_T of a particle with zero reaction and moves, the other half is at rest.
-    pub(crate) fn part(&self, region: &Region, position: usize, state: State) -> Region {
+    pub(crate) fn part(&self, region: &Region, position: usize, state: VariableState) -> Region {
         let mut part = region.clone();
         part.states[position] = state;
-        if state == State::InSupport
+        if state == VariableState::InSupport
             && let Some(other) = self.other_half(position)
         {
-            part.states[other] = State::AtZero;
+            part.states[other] = VariableState::AtZero;
         }
 
         part
@@ -84,17 +85,17 @@ impl View {
     /// A half of v_T that is undecided as the other one is. No leaf closes such a region: the
     /// vector that is 1 at both halves and 0 elsewhere solves at every value
     /// (`spec/zero-reaction.md`, Z.3).
-    pub(crate) fn undecided_half(&self, states: &[State]) -> Option<usize> {
+    pub(crate) fn undecided_half(&self, states: &[VariableState]) -> Option<usize> {
         self.zero.iter().find_map(|zero| {
             let right = self.position(zero.right)?;
             let left = self.position(zero.left)?;
-            let is_open = [right, left].map(|half| states[half] == State::Undecided);
+            let is_open = [right, left].map(|half| states[half] == VariableState::Undecided);
             (is_open == [true, true]).then_some(left)
         })
     }
 
     /// The variables at rest of which y = 0 follows from y = 0 on the support.
-    pub(crate) fn vanishing(&self, states: &[State]) -> Vec<usize> {
+    pub(crate) fn vanishing(&self, states: &[VariableState]) -> Vec<usize> {
         let support = self.variables(&support(states));
         let of_each = self.zero.iter().map(|zero| zero.vanishing(&support));
         of_each.flatten().collect()

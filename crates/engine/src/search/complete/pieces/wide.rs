@@ -13,7 +13,7 @@
 use super::anchor::{Center, Elimination, Expanded, Precision, center_below};
 use super::expansion::Expansion;
 use crate::search::complete::leaf::definite::holds_at_both_ends;
-use crate::search::complete::region::State;
+use mceip_check::certificate::VariableState;
 use mceip_exact::to_f64;
 use mceip_model::Pencil;
 
@@ -114,7 +114,7 @@ impl Definite<'_> {
 
     /// Is sym(T) positive definite over each part of [begin, end]?
     fn is_definite(&self, expansion: &Expansion, begin: f64, end: f64) -> bool {
-        let states = vec![State::Undecided; expansion.order()];
+        let states = vec![VariableState::Undecided; expansion.order()];
         let lowest = begin + self.lowest_frequency;
         let ratio = (end + self.lowest_frequency) / lowest;
         let cut = |part: usize| {

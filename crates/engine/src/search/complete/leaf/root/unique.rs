@@ -26,10 +26,10 @@ use crate::bordered::{Ball, Corner, NullVectors};
 use crate::search::complete::null_vector::NullVector;
 use crate::search::complete::pieces::expansion::{Ends, Expansion};
 use crate::search::complete::pieces::matrix::Matrix;
-use crate::search::complete::region::{State, at_zero};
+use crate::search::complete::region::at_zero;
 use crate::search::complete::rounding::{exponent, integer, integers, rounded};
 use crate::tolerance::{ROOT_HALF_WIDTHS, ROUNDING};
-use mceip_check::certificate::{Root, RootOutcome};
+use mceip_check::certificate::{Root, RootOutcome, VariableState};
 use mceip_exact::{Integer, Rational, from_f64, to_f64};
 use mceip_mcp::linear::inverse;
 use mceip_model::file::Number;
@@ -158,7 +158,7 @@ impl Unique {
         expansion: &Expansion,
         value: f64,
         ends: [f64; 4],
-        states: &[State],
+        states: &[VariableState],
         [index, vanishing]: [&[usize]; 2],
     ) -> Option<Located> {
         ROOT_HALF_WIDTHS.iter().find_map(|width| {
@@ -192,7 +192,7 @@ impl Unique {
         &self,
         narrow: &Ends,
         error: f64,
-        states: &[State],
+        states: &[VariableState],
         [index, vanishing]: [&[usize]; 2],
     ) -> Option<RootOutcome> {
         let error = 2.0 * error + ROUNDING;
@@ -302,7 +302,7 @@ mod tests {
         let b = Sparse::from_ints(&[&[4]]);
         let view = View::of(&Pencil::new(a, b, vec![]).unwrap());
         let expansion = &view.expansions[0];
-        let states = [State::InSupport];
+        let states = [VariableState::InSupport];
         let null = null_vector(expansion, &states, 2.0, 3.0).unwrap();
         let unique = Unique::of(&null, &expansion.ends(2.0, 3.0)).unwrap();
         let half = ROOT_HALF_WIDTHS[0] * 2.25;
