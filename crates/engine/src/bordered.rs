@@ -16,8 +16,8 @@
 //! `check::cover::bordered`.
 
 use crate::dense::transposed;
-use crate::search::complete::pieces::expansion::Ends;
-use crate::search::complete::pieces::matrix::{Matrix, principal_block};
+use crate::search::complete::pieces::expansion::ChordEnds;
+use crate::search::complete::pieces::matrix::{SquareMatrix, principal_block};
 use crate::search::complete::pieces::skyline::dot;
 use crate::search::complete::rounding::{integers, rounded};
 use crate::tolerance::ROUNDING;
@@ -30,7 +30,7 @@ pub(crate) struct NullVectors {
     /// The support without the pivot.
     pub(crate) rest: Vec<usize>,
     /// Y.
-    pub(crate) inverse: Matrix,
+    pub(crate) inverse: SquareMatrix,
     /// u and v on the rest.
     pub(crate) left: Vec<f64>,
     pub(crate) right: Vec<f64>,
@@ -46,12 +46,16 @@ pub(crate) struct IntegerVectors {
 impl NullVectors {
     /// Those of a matrix with the pivot at a place of the support; `None` where T' is singular to
     /// doubles, or there is no such place.
-    pub(crate) fn of(matrix: &Matrix, support: &[usize], place: usize) -> Option<NullVectors> {
+    pub(crate) fn of(
+        matrix: &SquareMatrix,
+        support: &[usize],
+        place: usize,
+    ) -> Option<NullVectors> {
         let pivot = *support.get(place)?;
         let mut rest = support.to_vec();
         rest.remove(place);
         let inverse = if rest.is_empty() {
-            Matrix::new()
+            SquareMatrix::new()
         } else {
             inverse(&principal_block(matrix, &rest))?
         };
@@ -118,22 +122,25 @@ impl NullVectors {
     }
 
     /// The corners at both ends of each interval.
-    pub(crate) fn corners<'a>(&'a self, ends: &'a [Ends]) -> impl Iterator<Item = Corner<'a>> {
+    pub(crate) fn corners<'a>(
+        &'a self,
+        ends: &'a [ChordEnds],
+    ) -> impl Iterator<Item = BoxCorner<'a>> {
         let both = ends.iter();
-        both.flat_map(move |ends| [0, 1].map(|end| Corner::of(ends, end, self)))
+        both.flat_map(move |ends| [0, 1].map(|end| BoxCorner::of(ends, end, self)))
     }
 }
 
 /// Every number within `radius` of `center`.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Ball {
+pub(crate) struct DoubleBall {
     pub(crate) center: f64,
     pub(crate) radius: f64,
 }
 
-impl Ball {
+impl DoubleBall {
     /// Adds factor * other, and what rounding may cost.
-    fn add(&mut self, factor: f64, other: Ball) {
+    fn add(&mut self, factor: f64, other: DoubleBall) {
         let product = factor * other.center;
         self.center += product;
         self.radius += factor.abs() * other.radius + ROUNDING * product.abs();
@@ -157,19 +164,19 @@ impl Ball {
 }
 
 /// One corner of a box: every matrix within `r` of `m`.
-pub(crate) struct Corner<'a> {
+pub(crate) struct BoxCorner<'a> {
     vectors: &'a NullVectors,
-    m: &'a Matrix,
+    m: &'a SquareMatrix,
     /// `None` where the matrix is known exactly.
-    r: Option<&'a Matrix>,
+    r: Option<&'a SquareMatrix>,
     /// Is the transpose meant?
     is_mirrored: bool,
 }
 
-impl<'a> Corner<'a> {
+impl<'a> BoxCorner<'a> {
     /// The corner at an end of an interval.
-    pub(crate) fn of(ends: &'a Ends, end: usize, vectors: &'a NullVectors) -> Corner<'a> {
-        Corner {
+    pub(crate) fn of(ends: &'a ChordEnds, end: usize, vectors: &'a NullVectors) -> BoxCorner<'a> {
+        BoxCorner {
             vectors,
             m: &ends.m[end],
             r: ends.r.as_ref(),
@@ -178,10 +185,14 @@ impl<'a> Corner<'a> {
     }
 
     /// The transpose at an end of an interval, with the witness for it.
-    pub(crate) fn mirrored(ends: &'a Ends, end: usize, vectors: &'a NullVectors) -> Corner<'a> {
-        Corner {
+    pub(crate) fn mirrored(
+        ends: &'a ChordEnds,
+        end: usize,
+        vectors: &'a NullVectors,
+    ) -> BoxCorner<'a> {
+        BoxCorner {
             is_mirrored: true,
-            ..Corner::of(ends, end, vectors)
+            ..BoxCorner::of(ends, end, vectors)
         }
     }
 
@@ -191,9 +202,9 @@ impl<'a> Corner<'a> {
     }
 
     /// An entry and its radius.
-    pub(crate) fn entry(&self, i: usize, j: usize) -> Ball {
+    pub(crate) fn entry(&self, i: usize, j: usize) -> DoubleBall {
         let [i, j] = if self.is_mirrored { [j, i] } else { [i, j] };
-        Ball {
+        DoubleBall {
             center: self.m[i][j],
             radius: self.r.map_or(0.0, |r| r[i][j]),
         }
@@ -204,7 +215,7 @@ impl<'a> Corner<'a> {
         let rest = &self.vectors.rest;
         let mut deviations = Vec::with_capacity(rest.len());
         for (i, row) in self.vectors.inverse.iter().enumerate() {
-            let mut products = vec![Ball::default(); rest.len()];
+            let mut products = vec![DoubleBall::default(); rest.len()];
             for (y, &k) in row.iter().zip(rest) {
                 for (product, &j) in products.iter_mut().zip(rest) {
                     product.add(*y, self.entry(k, j));
@@ -220,11 +231,11 @@ impl<'a> Corner<'a> {
     }
 
     /// (T v)_row.
-    pub(crate) fn row_times_v(&self, row: usize) -> Ball {
+    pub(crate) fn row_times_v(&self, row: usize) -> DoubleBall {
         let NullVectors {
             pivot, rest, right, ..
         } = self.vectors;
-        let mut sum = Ball::default();
+        let mut sum = DoubleBall::default();
         sum.add(1.0, self.entry(row, *pivot));
         for (v, &j) in right.iter().zip(rest) {
             sum.add(*v, self.entry(row, j));
@@ -234,16 +245,16 @@ impl<'a> Corner<'a> {
     }
 
     /// (T v)_i for each i of the support, the pivot last.
-    pub(crate) fn products(&self) -> Vec<Ball> {
+    pub(crate) fn products(&self) -> Vec<DoubleBall> {
         let rows = self.vectors.rest.iter().chain([&self.vectors.pivot]);
         rows.map(|&row| self.row_times_v(row)).collect()
     }
 
     /// |Y (T_'k + T'v)|: a bound for each component; `products` is T v.
-    pub(crate) fn errors(&self, products: &[Ball]) -> Vec<f64> {
+    pub(crate) fn errors(&self, products: &[DoubleBall]) -> Vec<f64> {
         let mut errors = Vec::with_capacity(self.vectors.rest.len());
         for row in &self.vectors.inverse {
-            let mut sum = Ball::default();
+            let mut sum = DoubleBall::default();
             for (y, product) in row.iter().zip(products) {
                 sum.add(*y, *product);
             }
@@ -260,7 +271,7 @@ impl<'a> Corner<'a> {
         } = self.vectors;
         let mut total = 0.0;
         for (weight, &j) in weights.iter().zip(rest) {
-            let mut sum = Ball::default();
+            let mut sum = DoubleBall::default();
             sum.add(1.0, self.entry(*pivot, j));
             for (u, &i) in left.iter().zip(rest) {
                 sum.add(*u, self.entry(i, j));
@@ -272,8 +283,8 @@ impl<'a> Corner<'a> {
     }
 
     /// u'Tv; `products` is T v.
-    pub(crate) fn value(&self, products: &[Ball]) -> Ball {
-        let mut sum = Ball::default();
+    pub(crate) fn value(&self, products: &[DoubleBall]) -> DoubleBall {
+        let mut sum = DoubleBall::default();
         for (u, product) in self.vectors.left.iter().chain([&1.0]).zip(products) {
             sum.add(*u, *product);
         }
@@ -310,7 +321,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     /// T = [[2, 1, 4], [1, 3, 5], [6, 7, 8]] on {0, 1, 2} with the pivot 2.
-    fn matrix() -> Matrix {
+    fn matrix() -> SquareMatrix {
         vec![
             vec![2.0, 1.0, 4.0],
             vec![1.0, 3.0, 5.0],
@@ -318,8 +329,8 @@ mod tests {
         ]
     }
 
-    fn exact_ends(matrix: &Matrix) -> Ends {
-        Ends {
+    fn exact_ends(matrix: &SquareMatrix) -> ChordEnds {
+        ChordEnds {
             lo: 0.0,
             hi: 1.0,
             m: [matrix.clone(), matrix.clone()],
@@ -337,7 +348,7 @@ mod tests {
         assert_relative_eq!(vectors.left[1], -8.0 / 5.0, max_relative = 1e-14);
 
         let ends = exact_ends(&matrix);
-        let corner = Corner::of(&ends, 0, &vectors);
+        let corner = BoxCorner::of(&ends, 0, &vectors);
         let products = corner.products();
         assert!(largest(corner.deviations(&[1.0, 1.0])) < 1e-13);
         assert!(largest(corner.errors(&products)) < 1e-13);
@@ -355,7 +366,7 @@ mod tests {
         let mut changed = matrix();
         changed[0][1] += 1.0;
         let mut ends = exact_ends(&changed);
-        let deviations = Corner::of(&ends, 1, &vectors).deviations(&[1.0, 10.0]);
+        let deviations = BoxCorner::of(&ends, 1, &vectors).deviations(&[1.0, 10.0]);
         // Y e_0 e_1' is (3, -1)' / 5 in column 1, of weight 10.
         assert_relative_eq!(deviations[0], 6.0, max_relative = 1e-12);
         assert_relative_eq!(deviations[1], 2.0, max_relative = 1e-12);
@@ -364,7 +375,7 @@ mod tests {
         radii[2][0] = 0.5;
         ends.m[0] = matrix();
         ends.r = Some(radii);
-        let corner = Corner::of(&ends, 0, &vectors);
+        let corner = BoxCorner::of(&ends, 0, &vectors);
         assert_relative_eq!(corner.left_residual(&[2.0, 1.0]), 1.0, max_relative = 1e-9);
         let radius = corner.row_times_v(2).radius;
         assert_relative_eq!(radius, 0.5 * 7.0 / 5.0, max_relative = 1e-9);

@@ -19,7 +19,7 @@
 //! depend on t. Nothing is proved here.
 
 use crate::dense::transposed;
-use crate::search::complete::pieces::matrix::{Matrix, principal_block, times};
+use crate::search::complete::pieces::matrix::{SquareMatrix, principal_block, times};
 use crate::search::complete::pieces::skyline::dot;
 use crate::tolerance::{NEWTON_CONVERGED, SIGN_NOISE};
 use mceip_mcp::linear::solve;
@@ -37,7 +37,7 @@ pub(crate) enum BranchUnknown {
 /// T0 and T1 at one value of t.
 pub(crate) trait Slice {
     /// T0 + mu T1.
-    fn matrix(&self, mu: f64) -> Matrix;
+    fn matrix(&self, mu: f64) -> SquareMatrix;
 
     /// T1.
     fn of_mu(&self) -> &[Vec<f64>];
@@ -233,7 +233,7 @@ fn point(
 }
 
 /// The step of (x, unknown) for T x = 0, e'x = 1, given the derivative of T x by the unknown.
-fn newton_step(matrix: &Matrix, derivative: &[f64], x: &[f64]) -> Option<Vec<f64>> {
+fn newton_step(matrix: &SquareMatrix, derivative: &[f64], x: &[f64]) -> Option<Vec<f64>> {
     let mut rows = Vec::with_capacity(x.len() + 1);
     let mut negative_residual = Vec::with_capacity(x.len() + 1);
     for (row, slope) in matrix.iter().zip(derivative) {
@@ -254,7 +254,7 @@ fn newton_step(matrix: &Matrix, derivative: &[f64], x: &[f64]) -> Option<Vec<f64
 }
 
 /// A left null vector of a matrix that is singular up to rounding, by inverse iteration.
-fn left_null_vector(matrix: &Matrix) -> Option<Vec<f64>> {
+fn left_null_vector(matrix: &SquareMatrix) -> Option<Vec<f64>> {
     let order = matrix.len();
     if order == 1 {
         return Some(vec![1.0]); // the only entry is rounding, and says nothing of scale
@@ -278,7 +278,7 @@ fn left_null_vector(matrix: &Matrix) -> Option<Vec<f64>> {
 }
 
 /// The position where x_i >= 0 on the support or y_i >= 0 off it is missed most.
-fn violated(matrix: &Matrix, x: &[f64], support: &[usize]) -> Option<usize> {
+fn violated(matrix: &SquareMatrix, x: &[f64], support: &[usize]) -> Option<usize> {
     let mut worst = -SIGN_NOISE;
     let mut position = None;
     for (i, row) in matrix.iter().enumerate() {

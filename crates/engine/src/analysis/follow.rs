@@ -14,7 +14,7 @@ use super::error::AnalysisError;
 use crate::branch::{BranchPencils, BranchPoint, BranchUnknown, Slice};
 use crate::reduction::{SparseCondensation, SparseCondensed};
 use crate::search::complete::dyadic::short_near;
-use crate::search::complete::pieces::matrix::Matrix;
+use crate::search::complete::pieces::matrix::SquareMatrix;
 use crate::tolerance::{BRANCH_STEP, FOLD_WIDTH, KINK_SIDE, SHORT_VALUE};
 use mceip_exact::{Rational, to_f64};
 use mceip_model::System;
@@ -57,7 +57,7 @@ impl BranchPencils for Branches {
 }
 
 impl Slice for SparseCondensed<'_> {
-    fn matrix(&self, mu: f64) -> Matrix {
+    fn matrix(&self, mu: f64) -> SquareMatrix {
         self.pencil(mu)
     }
 

@@ -5,7 +5,7 @@
 //! where it is positive. Called by the command `block` and by campaigns; nothing is certified here.
 
 use crate::branch::{BranchPencils, BranchUnknown, Slice};
-use crate::search::complete::pieces::matrix::{Matrix, combined};
+use crate::search::complete::pieces::matrix::{SquareMatrix, combined};
 use crate::tolerance::REAL_EIGENVALUE;
 use mceip_mcp::linear::{eigenvalues, solve};
 
@@ -90,7 +90,7 @@ impl BranchPencils for DensePencil<'_> {
 }
 
 impl Slice for &DensePencil<'_> {
-    fn matrix(&self, mu: f64) -> Matrix {
+    fn matrix(&self, mu: f64) -> SquareMatrix {
         combined(self.a, mu, self.b)
     }
 

@@ -9,10 +9,10 @@
 //! Called by `mod.rs`; the rest of the search is `search::complete::tree`.
 
 use crate::search::complete::dyadic::short_near;
-use crate::search::complete::leaf::farkas::{Columns, MiddleTest};
+use crate::search::complete::leaf::farkas::{FarkasColumns, MiddleTest};
 use crate::search::complete::leaf::regular::RegularWitness;
-use crate::search::complete::pieces::expansion::Ends;
-use crate::search::complete::region::{Item, Region};
+use crate::search::complete::pieces::expansion::ChordEnds;
+use crate::search::complete::region::{Item, SearchRegion};
 use crate::search::complete::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
 use crate::tolerance::THIN_MARGIN;
 use mceip_check::certificate::Node;
@@ -50,8 +50,8 @@ pub(in crate::analysis) struct Blocked {
 /// The lines through the middle of a box: a value of lambda^2 with all of mu, and a value of mu
 /// with all of lambda^2.
 struct Slices {
-    of_friction: [Ends; 2],
-    of_value: Ends,
+    of_friction: [ChordEnds; 2],
+    of_value: ChordEnds,
 }
 
 /// No solution: the search of a piece ends at the first box that it cannot empty.
@@ -93,14 +93,14 @@ impl Aim for Absence {
         search.halve(here, None, share);
     }
 
-    fn leave(search: &mut TreeSearch<'_, Self>, region: &Region, _share: f64) {
+    fn leave(search: &mut TreeSearch<'_, Self>, region: &SearchRegion, _share: f64) {
         let middle = search.middle_test(region);
         search.block(Cause::Budget, region, &middle);
     }
 }
 
 impl TreeSearch<'_, Absence> {
-    fn block(&mut self, cause: Cause, region: &Region, middle: &MiddleTest) {
+    fn block(&mut self, cause: Cause, region: &SearchRegion, middle: &MiddleTest) {
         self.aim.blocked = Some(Blocked {
             cause,
             middle: [middle.value, region.middle_friction()],
@@ -117,7 +117,8 @@ impl TreeSearch<'_, Absence> {
     fn slices(&self, here: &Here<'_>) -> Slices {
         let value = here.middle.value;
         let at_value = self.ends(value, value);
-        let at_friction = |parts: &[Ends], mu| Ends::at_friction([&parts[0], &parts[1]], mu);
+        let at_friction =
+            |parts: &[ChordEnds], mu| ChordEnds::at_friction([&parts[0], &parts[1]], mu);
 
         let frictions = here.region.mu.each_ref().map(to_f64);
         Slices {
@@ -162,13 +163,13 @@ impl TreeSearch<'_, Absence> {
 fn is_lost_along_friction(slices: &Slices, here: &Here<'_>) -> bool {
     let w = &here.middle.game.w;
     let states = &here.region.states;
-    let along_friction = Columns::of(&slices.of_friction, states).margin_of(w);
+    let along_friction = FarkasColumns::of(&slices.of_friction, states).margin_of(w);
     if slices.of_value.is_half_line() {
         return along_friction < 0.0; // a direction and a matrix have no common unit
     }
 
     let of_value = std::slice::from_ref(&slices.of_value);
-    let along_value = Columns::of(of_value, states).margin_of(w);
+    let along_value = FarkasColumns::of(of_value, states).margin_of(w);
     along_friction < along_value
 }
 
@@ -182,7 +183,7 @@ fn cuts_needed(here: &Here<'_>) -> f64 {
 }
 
 /// Is a decided box beyond hope, and why?
-fn hopeless(region: &Region, middle: &MiddleTest) -> Option<Cause> {
+fn hopeless(region: &SearchRegion, middle: &MiddleTest) -> Option<Cause> {
     if middle.game.value <= THIN_MARGIN || region.cuts >= MAX_CUTS_DECIDED {
         return Some(Cause::Solution);
     }

@@ -12,7 +12,7 @@
 use super::super::families::Families;
 use crate::search::complete::CompleteError;
 use crate::search::complete::leaf::tail::{definite_at, semidefinite};
-use crate::search::complete::pieces::blocks::Blocks;
+use crate::search::complete::pieces::blocks::PencilBlocks;
 use crate::search::complete::pieces::condense::beside;
 use crate::search::complete::pieces::expansion::Expansion;
 use crate::search::complete::pieces::prepared::Prepared;
@@ -289,7 +289,7 @@ pub(in crate::analysis) fn unit_of_lambda2(family: &MuFamily) -> Result<f64, Com
         return Ok(View::of(&constant).scale);
     }
 
-    let blocks = Blocks::of(&constant);
+    let blocks = PencilBlocks::of(&constant);
     let factor = blocks.stiffness.cholesky();
     let factor = factor.ok_or(CompleteError::NotDefinite {
         what: "A_ff",

@@ -17,7 +17,7 @@ mod family;
 use super::families::Families;
 use crate::run::{OnProgress, Progress, Watch, in_threads};
 use crate::search::complete::CompleteError;
-use crate::search::complete::region::Region;
+use crate::search::complete::region::SearchRegion;
 use crate::search::complete::shares::Shares;
 use crate::search::complete::splice::numbered;
 use crate::search::complete::tree::TreeSearch;
@@ -268,9 +268,9 @@ impl<'a> Quadrant<'a> {
             aim: Absence::default(),
         };
 
-        let region = Region {
+        let region = SearchRegion {
             mu: [bound.from.clone(), bound.below.clone()],
-            ..Region::whole(piece.lo.clone(), piece.hi.clone(), search.view.order())
+            ..SearchRegion::whole(piece.lo.clone(), piece.hi.clone(), search.view.order())
         };
         search.region(&region, share);
 

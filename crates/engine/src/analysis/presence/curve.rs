@@ -6,7 +6,7 @@
 use super::super::absence::Family;
 use crate::branch::{BranchPencils, BranchPoint, BranchUnknown, Slice};
 use crate::search::complete::pieces::expansion::Expansion;
-use crate::search::complete::pieces::matrix::{Matrix, combined, times};
+use crate::search::complete::pieces::matrix::{SquareMatrix, combined, times};
 use mceip_exact::to_f64;
 
 /// The curves of a system.
@@ -60,11 +60,11 @@ impl BranchPencils for Curves<'_> {
 pub(super) struct ExpansionsAt<'a> {
     t: f64,
     expansions: &'a [Expansion; 2],
-    parts: [Matrix; 2],
+    parts: [SquareMatrix; 2],
 }
 
 impl Slice for ExpansionsAt<'_> {
-    fn matrix(&self, mu: f64) -> Matrix {
+    fn matrix(&self, mu: f64) -> SquareMatrix {
         let [constant, slope] = &self.parts;
         combined(constant, mu, slope)
     }

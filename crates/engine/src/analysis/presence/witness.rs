@@ -16,10 +16,10 @@
 //! Doubles propose a witness that holds by a margin, with the fewest bits that still do. Called by
 //! `climb`; the checker's side is `check::cover::presence`.
 
-use crate::bordered::{Ball, Corner, NullVectors, largest};
+use crate::bordered::{BoxCorner, DoubleBall, NullVectors, largest};
 use crate::branch::BranchPoint;
-use crate::search::complete::pieces::expansion::{Ends, Expansion};
-use crate::search::complete::pieces::matrix::{Matrix, absolute, principal_block, times};
+use crate::search::complete::pieces::expansion::{ChordEnds, Expansion};
+use crate::search::complete::pieces::matrix::{SquareMatrix, absolute, principal_block, times};
 use crate::tolerance::PRESENCE_MARGIN;
 use mceip_check::certificate::PresencePiece;
 use mceip_exact::{Rational, from_f64};
@@ -38,16 +38,18 @@ pub(super) struct CurveBox {
 }
 
 impl CurveBox {
-    fn corners(&self, expansions: &[Expansion; 2]) -> [Ends; 2] {
+    fn corners(&self, expansions: &[Expansion; 2]) -> [ChordEnds; 2] {
         let [t0, t1] = self.t;
         let ends = expansions.each_ref().map(|part| part.ends(t0, t1));
-        self.mu.map(|mu| Ends::at_friction(ends.each_ref(), mu))
+        self.mu
+            .map(|mu| ChordEnds::at_friction(ends.each_ref(), mu))
     }
 
     /// The matrices at one value of lambda^2 at both ends of the interval of mu.
-    fn edge(&self, expansions: &[Expansion; 2], t: f64) -> [Ends; 2] {
+    fn edge(&self, expansions: &[Expansion; 2], t: f64) -> [ChordEnds; 2] {
         let ends = expansions.each_ref().map(|part| part.ends(t, t));
-        self.mu.map(|mu| Ends::at_friction(ends.each_ref(), mu))
+        self.mu
+            .map(|mu| ChordEnds::at_friction(ends.each_ref(), mu))
     }
 }
 
@@ -60,7 +62,7 @@ impl PresenceWitness {
     ///
     /// The pivot k has the largest u_k x_k, with null vectors u and x: det T' is proportional to
     /// it.
-    pub(super) fn of(matrix: &Matrix, point: &BranchPoint) -> Option<PresenceWitness> {
+    pub(super) fn of(matrix: &SquareMatrix, point: &BranchPoint) -> Option<PresenceWitness> {
         let support = &point.support;
         let share = |place: usize| (point.left[place] * point.x[support[place]]).abs();
         let place = (0..support.len()).max_by(|&i, &j| share(i).total_cmp(&share(j)))?;
@@ -165,7 +167,7 @@ impl PresenceWitness {
     }
 
     /// d; `None` where it is not positive.
-    fn margin(&self, corners: &[Ends; 2]) -> Option<Vec<f64>> {
+    fn margin(&self, corners: &[ChordEnds; 2]) -> Option<Vec<f64>> {
         let v = &self.0.right;
         let mut margin = v.clone();
         for corner in self.0.corners(corners) {
@@ -181,7 +183,7 @@ impl PresenceWitness {
     }
 
     /// T x >= 0 at rest for every x within theta v of v?
-    fn keeps_rest(&self, corners: &[Ends; 2], theta: f64) -> bool {
+    fn keeps_rest(&self, corners: &[ChordEnds; 2], theta: f64) -> bool {
         let NullVectors { pivot, rest, .. } = &self.0;
         let order = corners[0].m[0].len();
         let at_rest: Vec<usize> = (0..order)
@@ -199,9 +201,9 @@ impl PresenceWitness {
 
     /// The sign of phi on an edge, 0 if it is not certain. With l, p and theta at its ends: l
     /// exceeds p theta at both, and in the mixed term.
-    fn edge_sign(&self, ends: &[Ends; 2], margin: &[f64]) -> f64 {
+    fn edge_sign(&self, ends: &[ChordEnds; 2], margin: &[f64]) -> f64 {
         let at = ends.each_ref().map(|ends| {
-            let corner = Corner::of(ends, 0, &self.0);
+            let corner = BoxCorner::of(ends, 0, &self.0);
             EdgeEnd {
                 value: corner.value(&corner.products()),
                 residual: corner.left_residual(&self.0.right),
@@ -223,7 +225,7 @@ impl PresenceWitness {
 
 /// What is known at an end of an edge: u'Tv, p and theta.
 struct EdgeEnd {
-    value: Ball,
+    value: DoubleBall,
     residual: f64,
     error: f64,
 }
@@ -233,7 +235,7 @@ fn exact(v: f64) -> Option<Rational> {
 }
 
 /// The largest component of |Y (T_'k + T'v)| / d at a corner.
-fn error(corner: &Corner<'_>, margin: &[f64]) -> f64 {
+fn error(corner: &BoxCorner<'_>, margin: &[f64]) -> f64 {
     let errors = corner.errors(&corner.products());
     largest(errors.into_iter().zip(margin).map(|(error, d)| error / d))
 }

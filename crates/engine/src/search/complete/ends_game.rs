@@ -11,9 +11,9 @@
 //!
 //! Called by `gains`.
 
-use super::pieces::expansion::Ends;
+use super::pieces::expansion::ChordEnds;
 use super::region::possible_support;
-use super::tableau::{Strategy, Tableau, Variable};
+use super::tableau::{GameTableau, GameVariable, Strategy};
 use crate::tolerance::{ENOUGH_MARGIN, GAME_SHIFT};
 use mceip_check::certificate::VariableState;
 
@@ -24,14 +24,14 @@ const SHIFT: f64 = 1.2 + GAME_SHIFT;
 /// A game of both ends, solved.
 #[derive(Clone)]
 pub(super) struct EndsGame {
-    tableau: Tableau,
+    tableau: GameTableau,
     /// By end and position: what a column of T was divided by.
     sizes: [Vec<f64>; 2],
 }
 
 impl EndsGame {
     /// Solves the game of a region from nothing; `None` where doubles do not get there.
-    pub(super) fn new(ends: &Ends, states: &[VariableState]) -> Option<EndsGame> {
+    pub(super) fn new(ends: &ChordEnds, states: &[VariableState]) -> Option<EndsGame> {
         let order = states.len();
         let mut columns = Vec::new();
         let mut numbers = Vec::new();
@@ -54,7 +54,7 @@ impl EndsGame {
             });
         }
 
-        let mut tableau = Tableau::new(&strategies, &columns, &numbers, SHIFT);
+        let mut tableau = GameTableau::new(&strategies, &columns, &numbers, SHIFT);
         if !tableau.optimise() {
             return None;
         }
@@ -84,9 +84,9 @@ impl EndsGame {
     /// By how much the mix of the column player breaks the complementarity of a variable:
     /// min(x_i, y_i), in the units of the game.
     pub(super) fn violation(&self, position: usize) -> f64 {
-        let [lower, upper] = [0, 1].map(|end| Variable::Column(number(position, end)));
+        let [lower, upper] = [0, 1].map(|end| GameVariable::Column(number(position, end)));
         let x = self.tableau.value_of(lower) + self.tableau.value_of(upper);
-        let slack = self.tableau.value_of(Variable::Slack(Strategy {
+        let slack = self.tableau.value_of(GameVariable::Slack(Strategy {
             row: position,
             is_negative: false,
         }));
@@ -158,17 +158,17 @@ fn number(position: usize, end: usize) -> usize {
 mod tests {
     use super::*;
     use crate::search::complete::pieces::expansion::Expansion;
-    use crate::search::complete::pieces::matrix::Matrix;
+    use crate::search::complete::pieces::matrix::SquareMatrix;
     use approx::assert_relative_eq;
 
     /// A = I with some coupling, B with both signs: no entry is special.
     fn expansion() -> Expansion {
-        let a: Matrix = vec![
+        let a: SquareMatrix = vec![
             vec![1.0, 0.25, -0.5],
             vec![0.125, 1.0, 0.75],
             vec![-0.25, 0.5, 1.5],
         ];
-        let b: Matrix = vec![
+        let b: SquareMatrix = vec![
             vec![-1.0, 0.5, 0.25],
             vec![0.75, -0.5, -1.0],
             vec![0.5, -0.25, 0.125],

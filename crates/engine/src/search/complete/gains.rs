@@ -11,9 +11,9 @@
 
 use super::dyadic::short_near;
 use super::ends_game::EndsGame;
-use super::leaf::farkas::Columns;
-use super::pieces::expansion::Ends;
-use super::region::{self, Region};
+use super::leaf::farkas::FarkasColumns;
+use super::pieces::expansion::ChordEnds;
+use super::region::{self, SearchRegion};
 use super::solutions::Solutions;
 use super::tree::{Aim, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
 use crate::tolerance::{LEAST_GAIN, NARROW, WITNESS_MARGIN};
@@ -68,7 +68,7 @@ fn gain(value: f64, part: &EndsGame) -> f64 {
 
 impl TreeSearch<'_, Solutions<'_>> {
     /// Are games kept over such an interval? T has to be linear there.
-    pub(super) fn keeps_games(&self, ends: &Ends) -> bool {
+    pub(super) fn keeps_games(&self, ends: &ChordEnds) -> bool {
         self.view.order() >= KEPT_FROM && ends.r.is_none() && !ends.is_half_line()
     }
 
@@ -76,8 +76,8 @@ impl TreeSearch<'_, Solutions<'_>> {
     /// cannot be done.
     pub(super) fn by_gains(
         &mut self,
-        region: &Region,
-        parts: &Rc<[Ends]>,
+        region: &SearchRegion,
+        parts: &Rc<[ChordEnds]>,
         kept: Option<KeptGame>,
         share: f64,
     ) -> bool {
@@ -116,7 +116,7 @@ impl TreeSearch<'_, Solutions<'_>> {
         };
 
         if game.value() > WITNESS_MARGIN {
-            let columns = Columns::of(parts, &region.states);
+            let columns = FarkasColumns::of(parts, &region.states);
             return match columns.rounded(&game.weights()) {
                 Some(weights) => {
                     self.leaf(Node::Farkas(weights), share);
@@ -146,7 +146,12 @@ impl TreeSearch<'_, Solutions<'_>> {
     }
 
     /// The best division of a region that is not proved empty; `None` if there is none.
-    fn division(&self, region: &Region, ends: &Ends, game: &EndsGame) -> Option<Division> {
+    fn division(
+        &self,
+        region: &SearchRegion,
+        ends: &ChordEnds,
+        game: &EndsGame,
+    ) -> Option<Division> {
         let mut best: Option<Division> = None;
         let mut best_gain = 0.0;
         for position in most_violated(&region.states, game) {
@@ -171,7 +176,12 @@ impl TreeSearch<'_, Solutions<'_>> {
         }
     }
 
-    fn by_variable(&self, position: usize, region: &Region, game: &EndsGame) -> Option<Division> {
+    fn by_variable(
+        &self,
+        position: usize,
+        region: &SearchRegion,
+        game: &EndsGame,
+    ) -> Option<Division> {
         let at_zero = self.view.part(region, position, VariableState::AtZero);
         let in_support = self.view.part(region, position, VariableState::InSupport);
         let games = [
@@ -184,7 +194,7 @@ impl TreeSearch<'_, Solutions<'_>> {
         })
     }
 
-    fn by_cut(&self, region: &Region, ends: &Ends, game: &EndsGame) -> Option<Division> {
+    fn by_cut(&self, region: &SearchRegion, ends: &ChordEnds, game: &EndsGame) -> Option<Division> {
         if self.width(ends) < NARROW || region.cuts >= MAX_CUTS {
             return None;
         }
@@ -202,7 +212,7 @@ impl TreeSearch<'_, Solutions<'_>> {
     }
 
     /// A short number near the middle of an interval.
-    fn middle_cut(&self, region: &Region, ends: &Ends) -> Option<Rational> {
+    fn middle_cut(&self, region: &SearchRegion, ends: &ChordEnds) -> Option<Rational> {
         let slack = SLACK_OF_HALF * (ends.hi - ends.lo);
         let cut = short_near(self.middle(region), slack)?;
         region.has_inside(&cut).then_some(cut)
@@ -211,8 +221,8 @@ impl TreeSearch<'_, Solutions<'_>> {
     fn decide(
         &mut self,
         position: usize,
-        region: &Region,
-        ends: &Rc<[Ends]>,
+        region: &SearchRegion,
+        ends: &Rc<[ChordEnds]>,
         games: [EndsGame; 2],
         share: f64,
     ) {
@@ -238,7 +248,7 @@ impl TreeSearch<'_, Solutions<'_>> {
     fn divide_at(
         &mut self,
         cut: &Rational,
-        region: &Region,
+        region: &SearchRegion,
         games: [Option<EndsGame>; 2],
         share: f64,
     ) {

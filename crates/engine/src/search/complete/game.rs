@@ -12,7 +12,7 @@
 //! Called by the leaf `farkas` and by `analysis::absence`.
 
 use super::pieces::skyline::dot;
-use super::tableau::{Strategy, Tableau};
+use super::tableau::{GameTableau, Strategy};
 use crate::tolerance::GAME_SHIFT;
 
 /// A solved game.
@@ -45,7 +45,7 @@ pub(crate) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
 
     let shift = positive_shift(&strategies, columns);
     let numbers: Vec<usize> = (0..columns.len()).collect();
-    let mut tableau = Tableau::new(&strategies, columns, &numbers, shift);
+    let mut tableau = GameTableau::new(&strategies, columns, &numbers, shift);
 
     // Weights of a game that has stalled are worse, and their value says so.
     let _ = tableau.optimise();

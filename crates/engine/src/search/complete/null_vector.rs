@@ -11,7 +11,7 @@
 //! (`accepted_x`). Nothing is proved here.
 
 use super::pieces::expansion::Expansion;
-use super::pieces::matrix::{Matrix, bilinear, principal_block, times};
+use super::pieces::matrix::{SquareMatrix, bilinear, principal_block, times};
 use super::region::support;
 use crate::dense::transposed;
 use crate::tolerance::ROUNDING;
@@ -191,7 +191,7 @@ impl Vectors {
     }
 
     /// T^-1 T' v, and T^-T T'^T u from the left; `None` where T is singular in doubles.
-    fn solved(&self, matrix: &Matrix, derivative: &Matrix) -> Option<Vectors> {
+    fn solved(&self, matrix: &SquareMatrix, derivative: &SquareMatrix) -> Option<Vectors> {
         let right = times(derivative, &self.right);
         let left = times(&transposed(derivative), &self.left);
         Some(Vectors {
@@ -208,7 +208,7 @@ impl Vectors {
     }
 }
 
-fn solve_one(matrix: &Matrix, right_hand_side: Vec<f64>) -> Option<Vec<f64>> {
+fn solve_one(matrix: &SquareMatrix, right_hand_side: Vec<f64>) -> Option<Vec<f64>> {
     let mut columns = solve(matrix, &[right_hand_side])?;
     Some(columns.swap_remove(0))
 }

@@ -9,13 +9,13 @@
 //! leaves in their place, for the checker to judge. Called by `rounds` at the end of a search.
 
 use super::given::Given;
-use super::leaf::root::Unique;
+use super::leaf::root::UniquenessWitness;
 use super::null_vector::null_vector;
 use super::pieces::expansion::Expansion;
 use super::pieces::precise_anchor::precise_anchor;
 use super::pieces::prepared::Prepared;
 use super::pieces::view::View;
-use super::region::{Region, support};
+use super::region::{SearchRegion, support};
 use crate::candidate::Candidate;
 use crate::certify::{ENCLOSED_ORDER, precise_null};
 use crate::magnitude::{binary_order, in_units, two_to};
@@ -41,7 +41,7 @@ const LEAST_VALUE_BITS: u32 = 10;
 struct OpenLeaf {
     piece: usize,
     node: usize,
-    region: Region,
+    region: SearchRegion,
 }
 
 /// A root for the node of a piece.
@@ -143,7 +143,7 @@ fn open_leaves(given: &Given<'_>, prepared: &Prepared, set: &CompleteSet) -> Vec
         let has_anchor = piece.anchor.is_some() && !view.expansion(piece.anchor).reversed;
         let is_enclosed = set.condensation.is_none() || has_anchor;
 
-        let mut waiting = vec![Region::whole(lo.clone(), hi.clone(), view.order())];
+        let mut waiting = vec![SearchRegion::whole(lo.clone(), hi.clone(), view.order())];
         for (node, what) in piece.tree.iter().enumerate() {
             // The checker has accepted the tree, so it does not end early.
             let Some(region) = waiting.pop() else { break };
@@ -164,7 +164,7 @@ fn open_leaves(given: &Given<'_>, prepared: &Prepared, set: &CompleteSet) -> Vec
     leaves
 }
 
-fn may_have_root(region: &Region) -> bool {
+fn may_have_root(region: &SearchRegion) -> bool {
     if region.hi.is_none() || !region.is_decided() {
         return false;
     }
@@ -173,12 +173,17 @@ fn may_have_root(region: &Region) -> bool {
 }
 
 /// The only null vector of a decided region, and what its signs say.
-fn root(given: &Given<'_>, view: &View, expansion: &Expansion, region: &Region) -> Option<Root> {
+fn root(
+    given: &Given<'_>,
+    view: &View,
+    expansion: &Expansion,
+    region: &SearchRegion,
+) -> Option<Root> {
     let region_hi = region.hi.as_ref()?;
     let lo = to_f64(&region.lo);
     let hi = to_f64(region_hi);
     let null = null_vector(expansion, &region.states, lo, hi)?;
-    let unique = Unique::of(&null, &expansion.ends(lo, hi))?;
+    let unique = UniquenessWitness::of(&null, &expansion.ends(lo, hi))?;
 
     let support = view.variables(&support(&region.states));
     if given.pencil.free().len() + support.len() > ENCLOSED_ORDER {

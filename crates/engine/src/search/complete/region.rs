@@ -46,7 +46,7 @@ fn positions(states: &[VariableState], holds: impl Fn(VariableState) -> bool) ->
 
 /// The part of (supports) x (window) x (interval of mu) that belongs to a node of the tree.
 #[derive(Clone)]
-pub(crate) struct Region {
+pub(crate) struct SearchRegion {
     /// The interval [lo, hi] of the unknown; `None` stands for infinity.
     pub(crate) lo: Rational,
     pub(crate) hi: Option<Rational>,
@@ -60,10 +60,10 @@ pub(crate) struct Region {
     pub(crate) is_suspect: bool,
 }
 
-impl Region {
+impl SearchRegion {
     /// An interval of t with nothing decided.
-    pub(crate) fn whole(lo: Rational, hi: Option<Rational>, variables: usize) -> Region {
-        Region {
+    pub(crate) fn whole(lo: Rational, hi: Option<Rational>, variables: usize) -> SearchRegion {
+        SearchRegion {
             lo,
             hi,
             mu: [Rational::zero(), Rational::zero()],
@@ -74,25 +74,25 @@ impl Region {
     }
 
     /// The part below a cut.
-    pub(crate) fn below(&self, cut: &Rational) -> Region {
-        Region {
+    pub(crate) fn below(&self, cut: &Rational) -> SearchRegion {
+        SearchRegion {
             hi: Some(cut.clone()),
             ..self.clone()
         }
     }
 
     /// The part above a cut.
-    pub(crate) fn above(&self, cut: &Rational) -> Region {
-        Region {
+    pub(crate) fn above(&self, cut: &Rational) -> SearchRegion {
+        SearchRegion {
             lo: cut.clone(),
             ..self.clone()
         }
     }
 
     /// The parts below and above a cut of mu.
-    pub(crate) fn cut_in_mu(&self, cut: &Rational) -> [Region; 2] {
+    pub(crate) fn cut_in_mu(&self, cut: &Rational) -> [SearchRegion; 2] {
         let [from, to] = &self.mu;
-        let with_mu = |from: &Rational, to: &Rational| Region {
+        let with_mu = |from: &Rational, to: &Rational| SearchRegion {
             mu: [from.clone(), to.clone()],
             ..self.clone()
         };
@@ -101,7 +101,7 @@ impl Region {
 
     /// The two parts into which an inner node of a tree divides the region, the one that comes
     /// first in preorder last; `None` for a leaf.
-    pub(crate) fn parts(&self, node: &Node, view: &View) -> Option<[Region; 2]> {
+    pub(crate) fn parts(&self, node: &Node, view: &View) -> Option<[SearchRegion; 2]> {
         match node {
             Node::Split(cut) => Some([self.above(&cut.0), self.below(&cut.0)]),
             Node::Friction(cut) => {

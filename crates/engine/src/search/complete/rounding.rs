@@ -3,11 +3,11 @@
 //! Witnesses stand in certificates with as few bits as still prove. Called by the leaves `root` and
 //! `regular`.
 
-use super::pieces::matrix::{Matrix, largest_entry};
+use super::pieces::matrix::{SquareMatrix, largest_entry};
 use mceip_exact::{Integer, truncated};
 
 /// Binary exponent that gives the largest entry about this many bits.
-pub(crate) fn exponent(matrix: &Matrix, bits: i32) -> u32 {
+pub(crate) fn exponent(matrix: &SquareMatrix, bits: i32) -> u32 {
     // Where a pivot is the whole support nothing is left to invert, and an empty Y needs no units.
     if matrix.is_empty() {
         return 0;
@@ -18,7 +18,7 @@ pub(crate) fn exponent(matrix: &Matrix, bits: i32) -> u32 {
 }
 
 /// The entries rounded to multiples of 1 / `unit`.
-pub(crate) fn rounded(matrix: &Matrix, unit: f64) -> Matrix {
+pub(crate) fn rounded(matrix: &SquareMatrix, unit: f64) -> SquareMatrix {
     matrix
         .iter()
         .map(|row| row.iter().map(|v| (v * unit).round() / unit).collect())
@@ -26,7 +26,7 @@ pub(crate) fn rounded(matrix: &Matrix, unit: f64) -> Matrix {
 }
 
 /// The entries in units of 1 / `unit`.
-pub(crate) fn integers(matrix: &Matrix, unit: f64) -> Vec<Vec<Integer>> {
+pub(crate) fn integers(matrix: &SquareMatrix, unit: f64) -> Vec<Vec<Integer>> {
     matrix
         .iter()
         .map(|row| row.iter().map(|v| integer(v * unit)).collect())

@@ -11,11 +11,11 @@ use super::checkpoint::Copier;
 use super::dyadic::short_near;
 use super::gains::KeptGame;
 use super::given::Given;
-use super::leaf::farkas::{Columns, MiddleTest};
+use super::leaf::farkas::{FarkasColumns, MiddleTest};
 use super::leaf::root::{PartLeaf, RootSearch, Searched, part_around};
 use super::leaf::{definite, infinity, ldl, support};
-use super::pieces::expansion::{Ends, Expansion};
-use super::region::{self, Item, Region};
+use super::pieces::expansion::{ChordEnds, Expansion};
+use super::region::{self, Item, SearchRegion};
 use super::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
 use crate::tolerance::{DEGENERATE_PART, NARROW};
 use mceip_check::certificate::{Node, VariableState};
@@ -65,8 +65,8 @@ impl Aim for Solutions<'_> {
 
     fn by_gains(
         search: &mut TreeSearch<'_, Self>,
-        region: &Region,
-        ends: &Rc<[Ends]>,
+        region: &SearchRegion,
+        ends: &Rc<[ChordEnds]>,
         kept: Option<KeptGame>,
         share: f64,
     ) -> bool {
@@ -75,8 +75,8 @@ impl Aim for Solutions<'_> {
 
     fn definite_leaf(
         search: &TreeSearch<'_, Self>,
-        region: &Region,
-        corners: &[Ends],
+        region: &SearchRegion,
+        corners: &[ChordEnds],
     ) -> Option<Node> {
         let by_doubles = definite::leaf(corners, &region.states);
         if by_doubles.is_some() || search.expansion().reversed {
@@ -140,7 +140,7 @@ impl Aim for Solutions<'_> {
         search.region(&rest, part);
     }
 
-    fn leave(search: &mut TreeSearch<'_, Self>, _region: &Region, share: f64) {
+    fn leave(search: &mut TreeSearch<'_, Self>, _region: &SearchRegion, share: f64) {
         search.leaf(Node::Open, share);
     }
 }
@@ -151,18 +151,18 @@ impl TreeSearch<'_, Solutions<'_>> {
         &self.expansions[0]
     }
 
-    fn is_narrow(&self, ends: &Ends) -> bool {
+    fn is_narrow(&self, ends: &ChordEnds) -> bool {
         self.width(ends) < NARROW
     }
 
     /// The width of an interval in theta.
-    pub(super) fn width(&self, ends: &Ends) -> f64 {
+    pub(super) fn width(&self, ends: &ChordEnds) -> f64 {
         self.view.theta(ends.hi) - self.view.theta(ends.lo)
     }
 
     /// Covers a decided region by means of its null vector. Returns false, and covers nothing,
     /// where that cannot be done.
-    fn null_vector_leaf(&mut self, region: &Region, ends: &Ends, share: f64) -> bool {
+    fn null_vector_leaf(&mut self, region: &SearchRegion, ends: &ChordEnds, share: f64) -> bool {
         if !ends.is_half_line() {
             return self.roots(region, ends, share);
         }
@@ -180,7 +180,7 @@ impl TreeSearch<'_, Solutions<'_>> {
     /// Covers a decided region by its null vector: the widest part of the interval over which it is
     /// proved to be the only one, and what is left on both sides. Returns false, and covers
     /// nothing, where no null vector is found.
-    fn roots(&mut self, region: &Region, ends: &Ends, share: f64) -> bool {
+    fn roots(&mut self, region: &SearchRegion, ends: &ChordEnds, share: f64) -> bool {
         let search = RootSearch {
             given: self.aim.given,
             view: self.view,
@@ -214,7 +214,7 @@ impl TreeSearch<'_, Solutions<'_>> {
 
     /// A null vector that is not provably the only one (a double root, a wide kernel, a singular
     /// pencil): a neighbourhood of it stays open, or the whole region the second time.
-    fn degenerate(&mut self, region: &Region, ends: &Ends, value: f64, share: f64) {
+    fn degenerate(&mut self, region: &SearchRegion, ends: &ChordEnds, value: f64, share: f64) {
         let neighbourhood = part_around(region, ends, value, DEGENERATE_PART);
         let Some([lo, hi]) = neighbourhood.filter(|_| !region.is_suspect) else {
             return self.leaf(Node::Open, share);
@@ -234,7 +234,7 @@ impl TreeSearch<'_, Solutions<'_>> {
     }
 
     /// A leaf for a part of a region, and the rest of the region on both sides of it.
-    fn around(&mut self, region: &Region, found: PartLeaf, share: f64) {
+    fn around(&mut self, region: &SearchRegion, found: PartLeaf, share: f64) {
         let part = share / 3.0;
         let has_below = found.lo > region.lo;
         let has_above = region.hi.as_ref() != Some(&found.hi);
@@ -263,7 +263,7 @@ impl TreeSearch<'_, Solutions<'_>> {
     }
 
     /// Decides a decided region by exact arithmetic, if that can be done.
-    fn exact(&mut self, region: &Region, share: f64) -> bool {
+    fn exact(&mut self, region: &SearchRegion, share: f64) -> bool {
         let variables = self.view.variables(&region::support(&region.states));
         let shares = self.shares;
         let leaf = support::leaf(
@@ -283,7 +283,7 @@ impl TreeSearch<'_, Solutions<'_>> {
     }
 
     /// What doubles do not close: exact arithmetic decides a decided region, or it stays open.
-    fn give_up(&mut self, region: &Region, share: f64) {
+    fn give_up(&mut self, region: &SearchRegion, share: f64) {
         if !region.is_decided() || !self.exact(region, share) {
             self.leaf(Node::Open, share);
         }
@@ -291,7 +291,7 @@ impl TreeSearch<'_, Solutions<'_>> {
 
     /// Covers a region beyond the reach of the enclosures: a few undecided variables are decided
     /// one by one, and each support by exact arithmetic.
-    pub(super) fn by_support(&mut self, region: &Region, share: f64) {
+    pub(super) fn by_support(&mut self, region: &SearchRegion, share: f64) {
         self.aim.answer(&self.items);
         let undecided = region::undecided(&region.states);
         let Some(&position) = undecided.first() else {
@@ -316,7 +316,7 @@ impl TreeSearch<'_, Solutions<'_>> {
 }
 
 /// Are further cuts of a decided region in vain?
-fn is_hopeless(region: &Region, ends: &Ends, middle: &MiddleTest) -> bool {
+fn is_hopeless(region: &SearchRegion, ends: &ChordEnds, middle: &MiddleTest) -> bool {
     let max_cuts = if region.is_suspect {
         MAX_CUTS_SUSPECT
     } else {
@@ -331,7 +331,7 @@ fn is_hopeless(region: &Region, ends: &Ends, middle: &MiddleTest) -> bool {
 
 /// Both ends of the part on which the middle's witness works, if that is a good part of the
 /// interval; else the middle. Ends that coincide with the interval's are left out.
-fn proposed_cuts(ends: &Ends, columns: &Columns, middle: &MiddleTest) -> Vec<Rational> {
+fn proposed_cuts(ends: &ChordEnds, columns: &FarkasColumns, middle: &MiddleTest) -> Vec<Rational> {
     let width = ends.hi - ends.lo;
     if !width.is_finite() {
         let halved = short_near(middle.value, SLACK_OF_HALF * middle.value);

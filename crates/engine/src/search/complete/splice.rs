@@ -11,7 +11,7 @@ use super::checkpoint::{Copier, Snapshots};
 use super::given::Given;
 use super::options::Options;
 use super::pieces::prepared::Prepared;
-use super::region::{Item, Region};
+use super::region::{Item, SearchRegion};
 use super::shares::Shares;
 use super::solutions::Solutions;
 use super::tree::TreeSearch;
@@ -84,8 +84,8 @@ pub(super) struct Pass<'a> {
 }
 
 /// A region still to be copied or searched, and its part of the whole search.
-struct Waiting {
-    region: Region,
+struct WaitingRegion {
+    region: SearchRegion,
     share: f64,
 }
 
@@ -150,8 +150,8 @@ impl Pass<'_> {
     fn splice(&self, search: &mut TreeSearch<'_, Solutions<'_>>, k: usize) {
         let piece = &self.set.pieces[k];
         let hi = piece.max.as_ref().map(|number| number.0.clone());
-        let mut waiting = vec![Waiting {
-            region: Region::whole(self.begin(k), hi, search.view.order()),
+        let mut waiting = vec![WaitingRegion {
+            region: SearchRegion::whole(self.begin(k), hi, search.view.order()),
             share: 1.0 / self.set.pieces.len() as f64,
         }];
 
@@ -164,7 +164,7 @@ impl Pass<'_> {
             if let Some(parts) = here.region.parts(node, search.view) {
                 search.items.push(Item::Node(node.clone()));
                 let share = here.share / 2.0;
-                waiting.extend(parts.map(|region| Waiting { region, share }));
+                waiting.extend(parts.map(|region| WaitingRegion { region, share }));
             } else if *node == Node::Open && self.chosen.takes((k, place)) {
                 if let Some(copier) = &mut search.aim.copier {
                     copier.begin(place, &search.items);
@@ -180,7 +180,7 @@ impl Pass<'_> {
     fn search_leaf(
         &self,
         search: &mut TreeSearch<'_, Solutions<'_>>,
-        leaf: &Waiting,
+        leaf: &WaitingRegion,
         piece: &Piece,
     ) {
         // A piece beyond the anchors has no matrices to search with.
@@ -193,7 +193,12 @@ impl Pass<'_> {
         }
     }
 
-    fn copy_leaf(&self, search: &mut TreeSearch<'_, Solutions<'_>>, leaf: &Waiting, node: &Node) {
+    fn copy_leaf(
+        &self,
+        search: &mut TreeSearch<'_, Solutions<'_>>,
+        leaf: &WaitingRegion,
+        node: &Node,
+    ) {
         search.items.push(Item::Node(node.clone()));
         if *node != Node::Open {
             self.shares.closed(leaf.share, false);

@@ -18,7 +18,7 @@ const PIVOTS: usize = 20;
 
 /// A variable of the column player's problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Variable {
+pub(super) enum GameVariable {
     /// The weight of a column, by its number.
     Column(usize),
     /// The slack of a strategy.
@@ -44,7 +44,7 @@ impl Strategy {
 
 /// A tableau; its basis need not be optimal.
 #[derive(Clone)]
-pub(super) struct Tableau {
+pub(super) struct GameTableau {
     /// Length of a row in `entries`: its columns and room for one more, which `replace` needs.
     stride: usize,
     /// A row for each basic variable, a column for each nonbasic one.
@@ -55,19 +55,19 @@ pub(super) struct Tableau {
     costs: Vec<f64>,
     /// The sum of q, which is also the sum of the dual variables.
     total: f64,
-    nonbasic: Vec<Variable>,
-    basic: Vec<Variable>,
+    nonbasic: Vec<GameVariable>,
+    basic: Vec<GameVariable>,
     shift: f64,
 }
 
-impl Tableau {
+impl GameTableau {
     /// The tableau at q = 0. Column j has the number `numbers[j]`.
     pub(super) fn new(
         strategies: &[Strategy],
         columns: &[Vec<f64>],
         numbers: &[usize],
         shift: f64,
-    ) -> Tableau {
+    ) -> GameTableau {
         let rows = strategies.len();
         let cols = columns.len();
         let stride = cols + 1;
@@ -79,14 +79,18 @@ impl Tableau {
             }
         }
 
-        Tableau {
+        GameTableau {
             stride,
             entries,
             values: vec![1.0; rows],
             costs: vec![-1.0; cols],
             total: 0.0,
-            nonbasic: numbers.iter().copied().map(Variable::Column).collect(),
-            basic: strategies.iter().copied().map(Variable::Slack).collect(),
+            nonbasic: numbers.iter().copied().map(GameVariable::Column).collect(),
+            basic: strategies
+                .iter()
+                .copied()
+                .map(GameVariable::Slack)
+                .collect(),
             shift,
         }
     }
@@ -121,7 +125,7 @@ impl Tableau {
         let total = self.positive_total();
         let mut mix = vec![0.0; count];
         for (variable, value) in self.basic.iter().zip(&self.values) {
-            if let Variable::Column(number) = variable {
+            if let GameVariable::Column(number) = variable {
                 mix[*number] = value / total;
             }
         }
@@ -130,7 +134,7 @@ impl Tableau {
     }
 
     /// What a variable is in the solution of the basis.
-    pub(super) fn value_of(&self, variable: Variable) -> f64 {
+    pub(super) fn value_of(&self, variable: GameVariable) -> f64 {
         match position(&self.basic, variable) {
             Some(row) => self.values[row],
             None => 0.0,
@@ -142,7 +146,7 @@ impl Tableau {
         let total = self.positive_total();
         let mut weights = vec![0.0; order];
         for (variable, cost) in self.nonbasic.iter().zip(&self.costs) {
-            if let Variable::Slack(strategy) = variable {
+            if let GameVariable::Slack(strategy) = variable {
                 let weight = cost.max(0.0);
                 weights[strategy.row] += strategy.sign() * weight / total;
             }
@@ -229,7 +233,7 @@ impl Tableau {
         pivot_row[entering] = inverse;
 
         let width = pivot_row.len();
-        let step = Step {
+        let step = PivotStep {
             entering,
             row: pivot_row,
             value: self.values[leaving] * inverse,
@@ -254,7 +258,7 @@ impl Tableau {
     /// Takes a column from the column player; the reduced costs stay as they should be. Returns
     /// false where doubles find no pivot.
     pub(super) fn remove(&mut self, number: usize) -> bool {
-        let variable = Variable::Column(number);
+        let variable = GameVariable::Column(number);
         if let Some(place) = position(&self.nonbasic, variable) {
             self.delete_column(place);
             return true;
@@ -297,7 +301,7 @@ impl Tableau {
         }
 
         let mut value = 2.0 - twice * self.total;
-        let positive = Variable::Slack(Strategy {
+        let positive = GameVariable::Slack(Strategy {
             row,
             is_negative: false,
         });
@@ -312,7 +316,7 @@ impl Tableau {
 
         self.entries.extend(slack);
         self.values.push(value);
-        self.basic.push(Variable::Slack(Strategy {
+        self.basic.push(GameVariable::Slack(Strategy {
             row,
             is_negative: true,
         }));
@@ -334,7 +338,7 @@ impl Tableau {
 
         let mut variables = self.nonbasic.iter_mut().chain(&mut self.basic);
         if let Some(variable) = variables.find(|variable| **variable == INTERIM) {
-            *variable = Variable::Column(numbers[replaced]);
+            *variable = GameVariable::Column(numbers[replaced]);
         }
 
         true
@@ -350,7 +354,7 @@ impl Tableau {
         }
 
         for (number, share) in numbers.into_iter().zip(shares) {
-            let variable = Variable::Column(number);
+            let variable = GameVariable::Column(number);
             if let Some(place) = position(&self.nonbasic, variable) {
                 self.costs[appended] += share * self.costs[place];
                 for row in self.entries.chunks_exact_mut(self.stride) {
@@ -364,17 +368,17 @@ impl Tableau {
 }
 
 /// Until the column that it replaces has left, a mix has a number that no other column has.
-const INTERIM: Variable = Variable::Column(usize::MAX);
+const INTERIM: GameVariable = GameVariable::Column(usize::MAX);
 
 /// A pivot step: the pivot row divided by the pivot, with 1/pivot in the entering column, which
 /// belongs to the leaving variable from then on, and its right-hand side.
-struct Step {
+struct PivotStep {
     entering: usize,
     row: Vec<f64>,
     value: f64,
 }
 
-impl Step {
+impl PivotStep {
     /// Eliminates the entering variable from another row and its right-hand side.
     fn eliminate(&self, row: &mut [f64], value: &mut f64) {
         let factor = row[self.entering];
@@ -404,7 +408,7 @@ fn most_negative(numbers: &[f64]) -> Option<usize> {
     place
 }
 
-fn position(variables: &[Variable], variable: Variable) -> Option<usize> {
+fn position(variables: &[GameVariable], variable: GameVariable) -> Option<usize> {
     variables.iter().position(|v| *v == variable)
 }
 

@@ -18,11 +18,11 @@
 
 use super::gains::KeptGame;
 use super::leaf::definite;
-use super::leaf::farkas::{self, Columns, MiddleTest};
-use super::pieces::expansion::{Ends, Expansion};
+use super::leaf::farkas::{self, FarkasColumns, MiddleTest};
+use super::pieces::expansion::{ChordEnds, Expansion};
 use super::pieces::skyline::dot;
 use super::pieces::view::View;
-use super::region::{self, Item, Region};
+use super::region::{self, Item, SearchRegion};
 use super::shares::Shares;
 use mceip_check::certificate::{Node, RootOutcome, VariableState};
 use mceip_exact::{Rational, to_f64};
@@ -50,12 +50,12 @@ pub(crate) struct TreeSearch<'a, A> {
 
 /// A region that neither a definite part nor a Farkas vector closes.
 pub(crate) struct Here<'r> {
-    pub(crate) region: &'r Region,
+    pub(crate) region: &'r SearchRegion,
     /// The ends of each expansion.
-    pub(crate) ends: &'r Rc<[Ends]>,
+    pub(crate) ends: &'r Rc<[ChordEnds]>,
     /// T at both ends of the interval of t, for each end of the interval of mu.
-    pub(crate) corners: Rc<[Ends]>,
-    pub(crate) columns: Columns,
+    pub(crate) corners: Rc<[ChordEnds]>,
+    pub(crate) columns: FarkasColumns,
     pub(crate) middle: MiddleTest,
 }
 
@@ -73,8 +73,8 @@ pub(crate) trait Aim: Sized {
     /// covers nothing, where that cannot be done.
     fn by_gains(
         _search: &mut TreeSearch<'_, Self>,
-        _region: &Region,
-        _ends: &Rc<[Ends]>,
+        _region: &SearchRegion,
+        _ends: &Rc<[ChordEnds]>,
         _kept: Option<KeptGame>,
         _share: f64,
     ) -> bool {
@@ -84,8 +84,8 @@ pub(crate) trait Aim: Sized {
     /// A leaf by a definite symmetric part.
     fn definite_leaf(
         _search: &TreeSearch<'_, Self>,
-        region: &Region,
-        corners: &[Ends],
+        region: &SearchRegion,
+        corners: &[ChordEnds],
     ) -> Option<Node> {
         definite::leaf(corners, &region.states)
     }
@@ -100,13 +100,13 @@ pub(crate) trait Aim: Sized {
     fn cut(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64);
 
     /// Leaves a region for which no budget is left.
-    fn leave(search: &mut TreeSearch<'_, Self>, region: &Region, share: f64);
+    fn leave(search: &mut TreeSearch<'_, Self>, region: &SearchRegion, share: f64);
 }
 
 impl<A: Aim> TreeSearch<'_, A> {
     /// Covers a region; what it finds is appended to the items. `share` is its part of the whole
     /// search.
-    pub(crate) fn region(&mut self, region: &Region, share: f64) {
+    pub(crate) fn region(&mut self, region: &SearchRegion, share: f64) {
         let ends = self.ends_of(region);
         self.node(region, &ends, None, share);
     }
@@ -115,8 +115,8 @@ impl<A: Aim> TreeSearch<'_, A> {
     /// an interval, or by a branch.
     pub(crate) fn node(
         &mut self,
-        region: &Region,
-        ends: &Rc<[Ends]>,
+        region: &SearchRegion,
+        ends: &Rc<[ChordEnds]>,
         kept: Option<KeptGame>,
         share: f64,
     ) {
@@ -145,7 +145,7 @@ impl<A: Aim> TreeSearch<'_, A> {
 
         // A Farkas vector, from the game at the middle or from that of all corners.
         let middle = self.middle_test(region);
-        let columns = Columns::of(&corners, &region.states);
+        let columns = FarkasColumns::of(&corners, &region.states);
         if let Some(weights) = farkas::weights(&columns, &middle, &region.states) {
             return self.leaf(Node::Farkas(weights), share);
         }
@@ -167,24 +167,24 @@ impl<A: Aim> TreeSearch<'_, A> {
     }
 
     /// The ends of each expansion over the region's interval of t.
-    pub(crate) fn ends_of(&self, region: &Region) -> Rc<[Ends]> {
+    pub(crate) fn ends_of(&self, region: &SearchRegion) -> Rc<[ChordEnds]> {
         let [lo, hi] = region.interval();
         self.ends(lo, hi)
     }
 
     /// The ends of each expansion over an interval of t.
-    pub(crate) fn ends(&self, lo: f64, hi: f64) -> Rc<[Ends]> {
+    pub(crate) fn ends(&self, lo: f64, hi: f64) -> Rc<[ChordEnds]> {
         let parts = self.expansions.iter();
         parts.map(|part| part.ends(lo, hi)).collect()
     }
 
     /// The game in the middle of a region.
-    pub(crate) fn middle_test(&self, region: &Region) -> MiddleTest {
+    pub(crate) fn middle_test(&self, region: &SearchRegion) -> MiddleTest {
         let value = self.middle(region);
         let point = match self.expansions {
             [constant, slope] => {
                 let [constant, slope] = [constant, slope].map(|part| part.ends(value, value));
-                Ends::at_friction([&constant, &slope], region.middle_friction())
+                ChordEnds::at_friction([&constant, &slope], region.middle_friction())
             }
             others => others[0].ends(value, value),
         };
@@ -192,7 +192,7 @@ impl<A: Aim> TreeSearch<'_, A> {
     }
 
     /// A value in the middle of the interval of t, in theta.
-    pub(crate) fn middle(&self, region: &Region) -> f64 {
+    pub(crate) fn middle(&self, region: &SearchRegion) -> f64 {
         let [lo, hi] = region.interval();
         let theta = 0.5 * (self.view.theta(lo) + self.view.theta(hi));
         self.view.value(theta).clamp(lo, hi)
@@ -246,7 +246,13 @@ impl<A: Aim> TreeSearch<'_, A> {
     }
 
     /// Decides the variable at this position.
-    fn divide(&mut self, position: usize, region: &Region, ends: &Rc<[Ends]>, share: f64) {
+    fn divide(
+        &mut self,
+        position: usize,
+        region: &SearchRegion,
+        ends: &Rc<[ChordEnds]>,
+        share: f64,
+    ) {
         self.branch_on(position);
         for state in [VariableState::AtZero, VariableState::InSupport] {
             let mut child = self.view.part(region, position, state);
@@ -257,10 +263,10 @@ impl<A: Aim> TreeSearch<'_, A> {
 }
 
 /// T at both ends of the interval of t, for each end of the region's interval of mu.
-fn corners(ends: &Rc<[Ends]>, region: &Region) -> Rc<[Ends]> {
+fn corners(ends: &Rc<[ChordEnds]>, region: &SearchRegion) -> Rc<[ChordEnds]> {
     match &ends[..] {
         [constant, slope] => {
-            let at = |mu| Ends::at_friction([constant, slope], to_f64(mu));
+            let at = |mu| ChordEnds::at_friction([constant, slope], to_f64(mu));
             region.mu.iter().map(at).collect()
         }
         _ => Rc::clone(ends),

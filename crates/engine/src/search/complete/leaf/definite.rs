@@ -9,15 +9,15 @@
 //! `check::cover::definite`, with the test itself in `check::cover::enclosed_definite`.
 
 use crate::dense::UpperTriangle;
-use crate::search::complete::pieces::expansion::Ends;
-use crate::search::complete::pieces::matrix::Matrix;
+use crate::search::complete::pieces::expansion::ChordEnds;
+use crate::search::complete::pieces::matrix::SquareMatrix;
 use crate::search::complete::region::possible_support;
 use crate::tolerance::DEFINITE_PIVOT;
 use mceip_check::certificate::{Node, VariableState};
 
 /// The leaf of a region with these states, if its symmetric part is definite at all corners: the
 /// ends of its interval of t, at both ends of its interval of mu.
-pub(crate) fn leaf(corners: &[Ends], states: &[VariableState]) -> Option<Node> {
+pub(crate) fn leaf(corners: &[ChordEnds], states: &[VariableState]) -> Option<Node> {
     let is_definite = |sign| {
         let mut corners = corners.iter();
         corners.all(|ends| holds_at_both_ends(ends, states, sign))
@@ -33,7 +33,7 @@ pub(crate) fn leaf(corners: &[Ends], states: &[VariableState]) -> Option<Node> {
 }
 
 /// Is `sign` sym(T) positive definite on what may be in the support, at both ends?
-pub(crate) fn holds_at_both_ends(ends: &Ends, states: &[VariableState], sign: f64) -> bool {
+pub(crate) fn holds_at_both_ends(ends: &ChordEnds, states: &[VariableState], sign: f64) -> bool {
     let radius = ends.r.as_ref();
     if !is_definite(&ends.m[0], radius, states, sign) {
         return false;
@@ -44,7 +44,7 @@ pub(crate) fn holds_at_both_ends(ends: &Ends, states: &[VariableState], sign: f6
 }
 
 /// Is the symmetric part exactly zero on what may be in the support? Enough at an infinite end.
-fn vanishes(m: &Matrix, states: &[VariableState]) -> bool {
+fn vanishes(m: &SquareMatrix, states: &[VariableState]) -> bool {
     let possible = possible_support(states);
     for &i in &possible {
         for &j in &possible {
@@ -60,8 +60,8 @@ fn vanishes(m: &Matrix, states: &[VariableState]) -> bool {
 /// Is `sign` sym(M) positive definite on what may be in the support, for every M within `radius`
 /// of `m`, with a margin?
 pub(crate) fn is_definite(
-    m: &Matrix,
-    radius: Option<&Matrix>,
+    m: &SquareMatrix,
+    radius: Option<&SquareMatrix>,
     states: &[VariableState],
     sign: f64,
 ) -> bool {

@@ -9,8 +9,8 @@
 //! whether to cut or to branch. The checker's side is `check::cover::farkas`.
 
 use crate::search::complete::game::{self, Game};
-use crate::search::complete::pieces::expansion::Ends;
-use crate::search::complete::pieces::matrix::Matrix;
+use crate::search::complete::pieces::expansion::ChordEnds;
+use crate::search::complete::pieces::matrix::SquareMatrix;
 use crate::search::complete::pieces::skyline::dot;
 use crate::search::complete::region::possible_support;
 use crate::tolerance::{CONDENSED_MARGIN, THIN_MARGIN, WITNESS_MARGIN};
@@ -25,7 +25,7 @@ const KEPT_MARGIN: f64 = 0.1;
 /// The weights of a Farkas leaf for both ends of an interval, given the test at its middle. What
 /// works at both ends works at the middle: where nothing does, the larger game is not played.
 pub(crate) fn weights(
-    columns: &Columns,
+    columns: &FarkasColumns,
     middle: &MiddleTest,
     states: &[VariableState],
 ) -> Option<Vec<i64>> {
@@ -61,8 +61,8 @@ pub(crate) fn weights(
 pub(crate) struct MiddleTest {
     pub(crate) value: f64,
     /// T there.
-    pub(crate) matrix: Matrix,
-    pub(crate) columns: Columns,
+    pub(crate) matrix: SquareMatrix,
+    pub(crate) columns: FarkasColumns,
     pub(crate) game: Game,
     /// Do the weights of the game exclude solutions there by a margin?
     pub(crate) is_prunable: bool,
@@ -70,8 +70,8 @@ pub(crate) struct MiddleTest {
 
 impl MiddleTest {
     /// Plays the game at the one value of `point`.
-    pub(crate) fn new(point: Ends, states: &[VariableState]) -> MiddleTest {
-        let columns = Columns::at_lower_end(&point, states);
+    pub(crate) fn new(point: ChordEnds, states: &[VariableState]) -> MiddleTest {
+        let columns = FarkasColumns::at_lower_end(&point, states);
         let game = columns.play(states);
         let is_prunable = columns.margin(&game) > WITNESS_MARGIN;
         let [matrix, _] = point.m;
@@ -96,7 +96,7 @@ impl MiddleTest {
 }
 
 /// A column of T, divided by its largest entry.
-struct Column {
+struct FarkasColumn {
     entries: Vec<f64>,
     /// Position of its variable.
     variable: usize,
@@ -108,12 +108,17 @@ struct Column {
     is_direction: bool,
 }
 
-impl Column {
-    fn new(m: &Matrix, radius: Option<&Matrix>, variable: usize, is_direction: bool) -> Column {
+impl FarkasColumn {
+    fn new(
+        m: &SquareMatrix,
+        radius: Option<&SquareMatrix>,
+        variable: usize,
+        is_direction: bool,
+    ) -> FarkasColumn {
         let entries: Vec<f64> = m.iter().map(|row| row[variable]).collect();
         let largest = entries.iter().fold(0.0f64, |s, v| s.max(v.abs()));
         let unit = if largest > 0.0 { 1.0 / largest } else { 1.0 };
-        Column {
+        FarkasColumn {
             entries: entries.into_iter().map(|v| v * unit).collect(),
             variable,
             radius: radius.map(|r| r.iter().map(|row| row[variable] * unit).collect()),
@@ -152,22 +157,22 @@ impl Column {
 }
 
 /// The columns of T that may be in the support, at one or both ends.
-pub(crate) struct Columns {
-    list: Vec<Column>,
+pub(crate) struct FarkasColumns {
+    list: Vec<FarkasColumn>,
 }
 
-impl Columns {
+impl FarkasColumns {
     /// Of one value, given as an interval of width zero.
-    fn at_lower_end(point: &Ends, states: &[VariableState]) -> Columns {
-        let mut columns = Columns { list: Vec::new() };
+    fn at_lower_end(point: &ChordEnds, states: &[VariableState]) -> FarkasColumns {
+        let mut columns = FarkasColumns { list: Vec::new() };
         columns.add(&point.m[0], point.r.as_ref(), states, false);
         columns
     }
 
     /// Of both ends of an interval, for each corner of mu: all columns of the lower, then all of
     /// the upper end.
-    pub(crate) fn of(corners: &[Ends], states: &[VariableState]) -> Columns {
-        let mut columns = Columns { list: Vec::new() };
+    pub(crate) fn of(corners: &[ChordEnds], states: &[VariableState]) -> FarkasColumns {
+        let mut columns = FarkasColumns { list: Vec::new() };
         for ends in corners {
             columns.add(&ends.m[0], ends.r.as_ref(), states, false);
             columns.add(&ends.m[1], ends.r.as_ref(), states, ends.is_half_line());
@@ -178,13 +183,13 @@ impl Columns {
 
     fn add(
         &mut self,
-        m: &Matrix,
-        radius: Option<&Matrix>,
+        m: &SquareMatrix,
+        radius: Option<&SquareMatrix>,
         states: &[VariableState],
         is_direction: bool,
     ) {
         for variable in possible_support(states) {
-            let column = Column::new(m, radius, variable, is_direction);
+            let column = FarkasColumn::new(m, radius, variable, is_direction);
             self.list.push(column);
         }
     }
@@ -299,7 +304,7 @@ pub(crate) struct UnitRange {
 }
 
 /// The upper bound of w'T in a column plus the margin, in the scale that both ends share.
-fn value_with_margin(column: &Column, w: &[f64], size: f64) -> f64 {
+fn value_with_margin(column: &FarkasColumn, w: &[f64], size: f64) -> f64 {
     let margin = WITNESS_MARGIN * size;
     let value = dot(&column.entries, w) + column.around(w) + margin;
     // The columns of both ends are divided by their own largest entries: that is undone.

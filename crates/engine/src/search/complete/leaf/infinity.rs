@@ -9,12 +9,12 @@
 //! Called by `tree` for decided regions without an upper end. The checker's side is
 //! `check::cover::infinity`.
 
-use super::root::Unique;
+use super::root::UniquenessWitness;
 use crate::search::complete::null_vector::null_vector;
-use crate::search::complete::pieces::expansion::{Ends, Expansion};
+use crate::search::complete::pieces::expansion::{ChordEnds, Expansion};
 use crate::search::complete::pieces::matrix::scaled;
 use crate::search::complete::pieces::view::View;
-use crate::search::complete::region::{Region, support};
+use crate::search::complete::region::{SearchRegion, support};
 use crate::tolerance::AT_INFINITY;
 use mceip_check::certificate::{Node, RootOutcome};
 use mceip_exact::{Integer, Poly, generic_kernel};
@@ -30,8 +30,8 @@ pub(crate) fn leaf(
     pencil: &Pencil,
     view: &View,
     expansion: &Expansion,
-    region: &Region,
-    ends: &Ends,
+    region: &SearchRegion,
+    ends: &ChordEnds,
 ) -> Option<Node> {
     // Cuts close in on a limit as well, at the price of more leaves: the way where the checker has
     // refused this one.
@@ -41,7 +41,7 @@ pub(crate) fn leaf(
 
     let chord = chord(expansion, ends);
     let null = null_vector(&Expansion::line(&chord.m), &region.states, 0.0, 1.0)?;
-    let unique = Unique::of(&null, &chord)?;
+    let unique = UniquenessWitness::of(&null, &chord)?;
 
     // Exact arithmetic is asked first: in doubles the sign of a Schur complement that vanishes is
     // rounding.
@@ -65,9 +65,9 @@ pub(crate) fn leaf(
 }
 
 /// The ends of lo T(t) / t over [lo, infinity), as the checker forms them.
-fn chord(expansion: &Expansion, ends: &Ends) -> Ends {
+fn chord(expansion: &Expansion, ends: &ChordEnds) -> ChordEnds {
     if expansion.reversed {
-        return Ends {
+        return ChordEnds {
             m: ends.m.clone(),
             r: ends.r.clone(),
             slope: ends.slope.clone(),
@@ -82,7 +82,7 @@ fn chord(expansion: &Expansion, ends: &Ends) -> Ends {
         .r
         .map(|radius| scaled(&radius, 2.0));
     let slope = radius.as_ref().map(|radius| scaled(radius, 2.0));
-    Ends {
+    ChordEnds {
         lo: ends.lo,
         hi: ends.hi,
         m: [ends.m[0].clone(), scaled(&ends.m[1], ends.lo)],

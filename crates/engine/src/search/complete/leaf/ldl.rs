@@ -11,10 +11,10 @@
 use super::definite::is_definite;
 use crate::dense::eliminate_below;
 use crate::search::complete::given::Given;
-use crate::search::complete::pieces::expansion::Ends;
-use crate::search::complete::pieces::matrix::{Matrix, largest_entry};
+use crate::search::complete::pieces::expansion::ChordEnds;
+use crate::search::complete::pieces::matrix::{SquareMatrix, largest_entry};
 use crate::search::complete::pieces::view::View;
-use crate::search::complete::region::{Region, at_zero};
+use crate::search::complete::region::{SearchRegion, at_zero};
 use crate::tolerance::{DEFINITE_PIVOT, SEMIDEFINITE_PIVOT};
 use mceip_check::certificate::{Ldl, LdlFactor, Node};
 use mceip_exact::{Dense, Rational, rational, to_f64};
@@ -60,8 +60,8 @@ pub(crate) fn window_leaf(pencil: &Pencil, window: &Window) -> Option<Node> {
 pub(crate) fn half_line_leaf(
     given: &Given<'_>,
     view: &View,
-    region: &Region,
-    ends: &Ends,
+    region: &SearchRegion,
+    ends: &ChordEnds,
 ) -> Option<Node> {
     let states = &region.states;
     if !ends.is_half_line() || !is_definite(&ends.m[0], ends.r.as_ref(), states, 1.0) {
@@ -78,7 +78,7 @@ pub(crate) fn half_line_leaf(
 }
 
 /// The direction with so much added to its diagonal that a semidefinite one passes for definite.
-fn lifted_direction(direction: &Matrix) -> Matrix {
+fn lifted_direction(direction: &SquareMatrix) -> SquareMatrix {
     let largest = largest_entry(direction).max(f64::MIN_POSITIVE);
     let mut lifted = direction.clone();
     for (i, row) in lifted.iter_mut().enumerate() {
@@ -121,7 +121,7 @@ fn symmetric(m: &Dense) -> Vec<Vec<Rational>> {
 /// Is a pivot of S clearly negative in doubles? Never for a semidefinite S: there rounding stays
 /// below the margin, and what a row with a tiny pivot leaves behind is semidefinite as well.
 fn is_indefinite(s: &[Vec<Rational>]) -> bool {
-    let mut s: Matrix = s
+    let mut s: SquareMatrix = s
         .iter()
         .map(|row| row.iter().map(to_f64).collect())
         .collect();

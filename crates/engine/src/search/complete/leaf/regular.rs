@@ -16,8 +16,8 @@
 //! for decided boxes with finite ends. The checker's side is `check::cover::regular`.
 
 use crate::bordered::{NullVectors, largest};
-use crate::search::complete::pieces::expansion::Ends;
-use crate::search::complete::pieces::matrix::{Matrix, principal_block};
+use crate::search::complete::pieces::expansion::ChordEnds;
+use crate::search::complete::pieces::matrix::{SquareMatrix, principal_block};
 use crate::search::complete::region::support;
 use crate::search::complete::rounding::exponent;
 use crate::tolerance::REGULAR_MARGIN;
@@ -31,7 +31,7 @@ const BITS: [i32; 3] = [12, 22, 40];
 pub(crate) struct RegularWitness(NullVectors);
 
 /// What the corners of a box make of a witness.
-struct Bounds {
+struct WitnessBounds {
     /// rho.
     norm: f64,
     /// P epsilon.
@@ -40,9 +40,9 @@ struct Bounds {
     distance: f64,
 }
 
-impl Bounds {
+impl WitnessBounds {
     /// Of these vectors, over both ends of each interval.
-    fn of(vectors: &NullVectors, corners: &[Ends]) -> Bounds {
+    fn of(vectors: &NullVectors, corners: &[ChordEnds]) -> WitnessBounds {
         let ones = vec![1.0; vectors.rest.len()];
         let mut norm: f64 = 0.0;
         let mut error: f64 = 0.0;
@@ -61,7 +61,7 @@ impl Bounds {
             below = below.min(-value.center - value.radius);
         }
 
-        Bounds {
+        WitnessBounds {
             norm,
             product: residual * error / (1.0 - norm).max(f64::MIN_POSITIVE),
             distance: above.max(below),
@@ -82,7 +82,7 @@ impl Bounds {
 impl RegularWitness {
     /// The witness of the middle of a box, where T is `matrix`; `None` where nothing moves or T is
     /// singular to doubles.
-    pub(crate) fn of(matrix: &Matrix, states: &[VariableState]) -> Option<RegularWitness> {
+    pub(crate) fn of(matrix: &SquareMatrix, states: &[VariableState]) -> Option<RegularWitness> {
         let support = support(states);
         let whole = inverse(&principal_block(matrix, &support))?;
         let size = |place: usize| whole[place][place].abs();
@@ -92,8 +92,8 @@ impl RegularWitness {
     }
 
     /// The leaf, if it holds at these corners; `index` gives the problem's numbers of positions.
-    pub(crate) fn leaf(&self, corners: &[Ends], index: &[usize]) -> Option<Node> {
-        if !Bounds::of(&self.0, corners).hold() {
+    pub(crate) fn leaf(&self, corners: &[ChordEnds], index: &[usize]) -> Option<Node> {
+        if !WitnessBounds::of(&self.0, corners).hold() {
             return None;
         }
 
@@ -102,8 +102,8 @@ impl RegularWitness {
     }
 
     /// How far the leaf is from holding at these corners; infinite where T' may be singular.
-    pub(crate) fn excess(&self, corners: &[Ends]) -> f64 {
-        let bounds = Bounds::of(&self.0, corners);
+    pub(crate) fn excess(&self, corners: &[ChordEnds]) -> f64 {
+        let bounds = WitnessBounds::of(&self.0, corners);
         if bounds.norm < 1.0 {
             bounds.excess()
         } else {
@@ -112,7 +112,7 @@ impl RegularWitness {
     }
 
     /// The leaf with numbers of so many bits, if it still holds.
-    fn rounded_leaf(&self, bits: i32, corners: &[Ends], index: &[usize]) -> Option<Node> {
+    fn rounded_leaf(&self, bits: i32, corners: &[ChordEnds], index: &[usize]) -> Option<Node> {
         let NullVectors {
             inverse,
             left,
@@ -126,7 +126,7 @@ impl RegularWitness {
         let [inverse_unit, unit] = [inverse_exponent, exponent].map(|e| f64::from(e).exp2());
 
         let short = self.0.rounded(inverse_unit, unit);
-        if !Bounds::of(&short, corners).hold() {
+        if !WitnessBounds::of(&short, corners).hold() {
             return None;
         }
 

@@ -12,14 +12,14 @@
 mod bounds;
 mod unique;
 
-pub(crate) use unique::Unique;
+pub(crate) use unique::UniquenessWitness;
 
 use crate::search::complete::dyadic::short_near;
 use crate::search::complete::given::Given;
 use crate::search::complete::null_vector::{NullVector, null_vector};
-use crate::search::complete::pieces::expansion::{Ends, Expansion};
+use crate::search::complete::pieces::expansion::{ChordEnds, Expansion};
 use crate::search::complete::pieces::view::View;
-use crate::search::complete::region::{Item, Region, support};
+use crate::search::complete::region::{Item, SearchRegion, support};
 use mceip_check::certificate::{Claim, Node, RootOutcome, VariableState};
 use mceip_exact::{Rational, from_f64, to_f64};
 use unique::Located;
@@ -60,7 +60,7 @@ pub(crate) struct PartLeaf {
 
 impl RootSearch<'_> {
     /// The root leaf of a region in which every variable is decided.
-    pub(crate) fn leaf(&self, region: &Region, ends: &Ends) -> Searched {
+    pub(crate) fn leaf(&self, region: &SearchRegion, ends: &ChordEnds) -> Searched {
         let Some(null) = null_vector(self.expansion, &region.states, ends.lo, ends.hi) else {
             return Searched::Nothing;
         };
@@ -83,8 +83,8 @@ impl RootSearch<'_> {
     /// The leaf of one part of the interval, if its null vector is provably the only one there.
     fn part_leaf(
         &self,
-        region: &Region,
-        ends: &Ends,
+        region: &SearchRegion,
+        ends: &ChordEnds,
         null: &NullVector,
         part: [Rational; 2],
     ) -> Option<PartLeaf> {
@@ -108,7 +108,7 @@ impl RootSearch<'_> {
             self.expansion.ends(lo, hi)
         };
 
-        let unique = Unique::of(null, &wide)?;
+        let unique = UniquenessWitness::of(null, &wide)?;
         let region_and_leaf_ends = [ends.lo, ends.hi, lo, hi];
         let leaf = self.root_leaf(null, &unique, &region.states, region_and_leaf_ends)?;
 
@@ -131,7 +131,7 @@ impl RootSearch<'_> {
         hi: f64,
     ) -> Option<Item> {
         let ends = self.expansion.ends(lo, hi);
-        let unique = Unique::of(null, &ends)?;
+        let unique = UniquenessWitness::of(null, &ends)?;
         if !unique.is_absent(&ends) {
             return None;
         }
@@ -144,7 +144,7 @@ impl RootSearch<'_> {
     fn root_leaf(
         &self,
         null: &NullVector,
-        unique: &Unique,
+        unique: &UniquenessWitness,
         states: &[VariableState],
         ends: [f64; 4],
     ) -> Option<Item> {
@@ -193,8 +193,8 @@ impl RootSearch<'_> {
 /// The region's interval, each end moved to `factor` of its distance from the value. An end on the
 /// far side of the value stays. `None` where that is no interval inside the region's.
 pub(crate) fn part_around(
-    region: &Region,
-    ends: &Ends,
+    region: &SearchRegion,
+    ends: &ChordEnds,
     value: f64,
     factor: f64,
 ) -> Option<[Rational; 2]> {

@@ -13,9 +13,9 @@
 //!
 //! F has to be symmetric positive definite. Called by `condense`, `reverse` and `precise_anchor`.
 
-use super::blocks::{Blocks, LinearColumns};
+use super::blocks::{LinearColumns, PencilBlocks};
 use super::expansion::{ColumnNorms, Expansion};
-use super::matrix::{Matrix, zeros};
+use super::matrix::{SquareMatrix, zeros};
 use super::skyline::{Skyline, dot};
 use super::view::row_factor;
 use crate::search::complete::dyadic::multiple_near;
@@ -157,15 +157,15 @@ fn short_center(center: f64, reach: f64) -> Rational {
 
 /// A_ff >= sigma I and B_ff >= tau I, as the certificate proves it.
 #[derive(Clone, Copy)]
-pub(crate) struct FreeBounds {
+pub(crate) struct SpectrumBounds {
     pub(crate) sigma: f64,
     pub(crate) tau: f64,
 }
 
-impl FreeBounds {
+impl SpectrumBounds {
     /// Those of the pencil with its matrices exchanged.
-    pub(crate) fn exchanged(self) -> FreeBounds {
-        FreeBounds {
+    pub(crate) fn exchanged(self) -> SpectrumBounds {
+        SpectrumBounds {
             sigma: self.tau,
             tau: self.sigma,
         }
@@ -173,7 +173,7 @@ impl FreeBounds {
 }
 
 /// An anchor of the certificate, and the condensed pencil in doubles that it gives.
-pub(crate) struct Expanded {
+pub(crate) struct ExpandedAnchor {
     pub(crate) anchor: Anchor,
     pub(crate) expansion: Expansion,
 }
@@ -188,26 +188,26 @@ pub(crate) struct Beside {
 pub(crate) type SlipColumns = Vec<Vec<f64>>;
 
 /// The elimination of the free variables of one pencil.
-pub(crate) struct Elimination<'a> {
+pub(crate) struct FreeElimination<'a> {
     pub(crate) pencil: &'a Pencil,
-    pub(crate) blocks: Blocks,
-    pub(crate) bounds: FreeBounds,
+    pub(crate) blocks: PencilBlocks,
+    pub(crate) bounds: SpectrumBounds,
 }
 
-impl<'a> Elimination<'a> {
-    pub(crate) fn new(pencil: &'a Pencil, bounds: FreeBounds) -> Elimination<'a> {
-        Elimination {
+impl<'a> FreeElimination<'a> {
+    pub(crate) fn new(pencil: &'a Pencil, bounds: SpectrumBounds) -> FreeElimination<'a> {
+        FreeElimination {
             pencil,
-            blocks: Blocks::of(pencil),
+            blocks: PencilBlocks::of(pencil),
             bounds,
         }
     }
 
     /// The Taylor polynomials about a centre, rounded, and the condensed pencil they give; `None`
     /// where F is not definite in doubles.
-    pub(crate) fn expand(&self, center: &Rational, precision: Precision) -> Option<Expanded> {
+    pub(crate) fn expand(&self, center: &Rational, precision: Precision) -> Option<ExpandedAnchor> {
         let at = to_f64(center);
-        let solution = Solution::about(&self.blocks, at)?;
+        let solution = CenterSolver::about(&self.blocks, at)?;
         let right = solution.taylor(&self.blocks.fs, precision.degree, precision.right_bits);
         let left = solution.taylor(&self.blocks.sf, precision.degree, precision.left_bits);
 
@@ -219,7 +219,7 @@ impl<'a> Elimination<'a> {
             left: left.integers,
         };
 
-        Some(Expanded { anchor, expansion })
+        Some(ExpandedAnchor { anchor, expansion })
     }
 
     /// V alone about the centre of an anchor of a pencil with the same free rows, whose W is
@@ -227,7 +227,7 @@ impl<'a> Elimination<'a> {
     /// not definite in doubles.
     pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[SlipColumns]) -> Option<Beside> {
         let at = to_f64(&anchor.center.0);
-        let solution = Solution::about(&self.blocks, at)?;
+        let solution = CenterSolver::about(&self.blocks, at)?;
         let degree = right.len().saturating_sub(1);
         let bits = bits_of(&anchor.left).max(OF_FAMILY.coarse.left_bits);
         let left = solution.taylor(&self.blocks.sf, degree, bits);
@@ -299,8 +299,8 @@ fn bits_of(coefficients: &[IntegerMatrix]) -> i32 {
 }
 
 /// Solutions with F(center), which is given by its Cholesky factor.
-struct Solution<'a> {
-    blocks: &'a Blocks,
+struct CenterSolver<'a> {
+    blocks: &'a PencilBlocks,
     factor: Skyline,
     center: f64,
 }
@@ -312,10 +312,10 @@ struct Taylor {
     rounded: Vec<SlipColumns>,
 }
 
-impl<'a> Solution<'a> {
+impl<'a> CenterSolver<'a> {
     /// `None` where F is not definite in doubles.
-    fn about(blocks: &'a Blocks, center: f64) -> Option<Solution<'a>> {
-        Some(Solution {
+    fn about(blocks: &'a PencilBlocks, center: f64) -> Option<CenterSolver<'a>> {
+        Some(CenterSolver {
             factor: blocks.factor_at(center)?,
             blocks,
             center,
@@ -377,7 +377,7 @@ impl<'a> Solution<'a> {
 
 /// The coefficients of C + tD - F(t) W in powers of d = t - center.
 fn residual(
-    blocks: &Blocks,
+    blocks: &PencilBlocks,
     given: &LinearColumns,
     center: f64,
     solution: &[SlipColumns],
@@ -409,7 +409,7 @@ fn residual(
 /// The polynomial part of the condensed pencil, T_ss - T_sf W - V'r, in powers of d.
 struct CondensedPolynomial<'a> {
     pencil: &'a Pencil,
-    blocks: &'a Blocks,
+    blocks: &'a PencilBlocks,
     center: f64,
     right: &'a [SlipColumns],
     left: &'a [SlipColumns],
@@ -418,7 +418,7 @@ struct CondensedPolynomial<'a> {
 
 impl CondensedPolynomial<'_> {
     /// The coefficients, each row times its factor.
-    fn coefficients(&self, row_factors: &[f64]) -> Vec<Matrix> {
+    fn coefficients(&self, row_factors: &[f64]) -> Vec<SquareMatrix> {
         let order = self.blocks.slip.len();
         let mut coefficients = vec![zeros(order); self.degree() + 1];
 

@@ -61,7 +61,7 @@ impl LinearColumns {
 }
 
 /// The blocks of a pencil.
-pub(crate) struct Blocks {
+pub(crate) struct PencilBlocks {
     /// Free variables, then complementarity variables.
     pub(crate) free: Vec<usize>,
     pub(crate) slip: Vec<usize>,
@@ -80,8 +80,8 @@ pub(crate) struct Blocks {
     pub(crate) sf: LinearColumns,
 }
 
-impl Blocks {
-    pub(crate) fn of(pencil: &Pencil) -> Blocks {
+impl PencilBlocks {
+    pub(crate) fn of(pencil: &Pencil) -> PencilBlocks {
         let free = pencil.free().to_vec();
         let slip = pencil.slip();
         let a_ff = pencil.a().submatrix(&free, &free);
@@ -97,7 +97,7 @@ impl Blocks {
             slope: columns(&pencil.b().submatrix(&slip, &free).transpose()),
         };
 
-        Blocks {
+        PencilBlocks {
             free,
             slip,
             stiffness: Skyline::symmetric(&a_ff),

@@ -9,15 +9,16 @@
 //! semidefinite. Called by `prepared`. The checker's side is `check::cover::condensed`.
 
 use super::anchor::{
-    Beside, CONSTANT, Elimination, Expanded, FreeBounds, Precision, SlipColumns, centers,
+    Beside, CONSTANT, ExpandedAnchor, FreeElimination, Precision, SlipColumns, SpectrumBounds,
+    centers,
 };
-use super::blocks::Blocks;
+use super::blocks::PencilBlocks;
 use super::expansion::Expansion;
 use super::massless;
-use super::reverse::{Beyond, beyond, exchanged};
+use super::reverse::{ReversedAnchor, beyond, exchanged};
 use super::skyline::Skyline;
 use super::view::{View, scale_of};
-use super::wide::{Definite, WideAnchors};
+use super::wide::{DefiniteAnchors, WideAnchors};
 use crate::search::complete::dyadic::{multiple_near, short_below};
 use crate::search::complete::error::CompleteError;
 use crate::search::complete::leaf::tail::tail;
@@ -63,7 +64,7 @@ pub(crate) fn condense(
     definite_above: &Pencil,
     coarse: Precision,
 ) -> Result<Condensed, CompleteError> {
-    let blocks = Blocks::of(pencil);
+    let blocks = PencilBlocks::of(pencil);
     demand_symmetry(&blocks)?;
 
     // The bounds of A_ff and B_ff.
@@ -77,10 +78,10 @@ pub(crate) fn condense(
         what: "B_ff",
         index: first_free,
     })?;
-    let elimination = Elimination {
+    let elimination = FreeElimination {
         pencil,
         blocks,
-        bounds: FreeBounds {
+        bounds: SpectrumBounds {
             sigma: to_f64(&stiffness.sigma),
             tau: to_f64(&mass.tau),
         },
@@ -114,7 +115,7 @@ pub(crate) fn condense(
 
     let low = to_f64(window.min());
     let wide = if lowest_frequency > 0.0 && top.is_finite() {
-        let definite = Definite {
+        let definite = DefiniteAnchors {
             elimination: &elimination,
             lowest_frequency,
             precision,
@@ -124,7 +125,7 @@ pub(crate) fn condense(
         WideAnchors::none(top)
     };
 
-    let mut anchors = Anchors::default();
+    let mut anchors = ExpandedAnchors::default();
     let mut ends = Vec::new();
     if wide.anchors.is_empty() || wide.from > low {
         for center in centers(lowest_frequency, low, wide.from) {
@@ -185,13 +186,13 @@ pub(crate) fn condense(
 
 /// The anchors of a condensation and what they expand to, in the same order.
 #[derive(Default)]
-struct Anchors {
+struct ExpandedAnchors {
     certificate: Vec<Anchor>,
     expansions: Vec<Expansion>,
 }
 
-impl Anchors {
-    fn push(&mut self, expanded: Expanded) {
+impl ExpandedAnchors {
+    fn push(&mut self, expanded: ExpandedAnchor) {
         self.certificate.push(expanded.anchor);
         self.expansions.push(expanded.expansion);
     }
@@ -201,12 +202,12 @@ impl Anchors {
 enum Above {
     Nothing,
     Tail(Tail),
-    Reversed(Box<Beyond>),
+    Reversed(Box<ReversedAnchor>),
 }
 
 impl Above {
     /// The tail, or the reversed anchor where that begins lower.
-    fn of(pencil: &Pencil, definite_above: &Pencil, bounds: FreeBounds) -> Above {
+    fn of(pencil: &Pencil, definite_above: &Pencil, bounds: SpectrumBounds) -> Above {
         let tail = tail(definite_above);
         let beyond = beyond(pencil, bounds);
         match (tail, beyond) {
@@ -228,7 +229,7 @@ impl Above {
     }
 }
 
-fn demand_symmetry(blocks: &Blocks) -> Result<(), CompleteError> {
+fn demand_symmetry(blocks: &PencilBlocks) -> Result<(), CompleteError> {
     let rows = [
         ("A_ff", blocks.stiffness_asymmetry),
         ("B_ff", blocks.mass_asymmetry),
@@ -251,7 +252,7 @@ struct StiffnessBound {
     plain_factor: Skyline,
 }
 
-fn stiffness_bound(blocks: &Blocks) -> Option<StiffnessBound> {
+fn stiffness_bound(blocks: &PencilBlocks) -> Option<StiffnessBound> {
     let plain_factor = blocks.stiffness.cholesky()?;
     let bound = blocks.stiffness.below_spectrum()?;
     let sigma = short_below(CLAIMED * bound)?;
@@ -300,8 +301,8 @@ fn factor_above(s: &Skyline, bound: &Rational, slack: f64) -> Option<Factor> {
 }
 
 /// The bounds that a condensation proves, in doubles.
-pub(crate) fn bounds_of(condensation: &Condensation) -> FreeBounds {
-    FreeBounds {
+pub(crate) fn bounds_of(condensation: &Condensation) -> SpectrumBounds {
+    SpectrumBounds {
         sigma: to_f64(&condensation.sigma.0),
         tau: to_f64(&condensation.mass_sigma.0),
     }
@@ -316,7 +317,7 @@ pub(crate) fn refine(
     values: &[f64],
     fine: Precision,
 ) {
-    let elimination = Elimination::new(pencil, bounds_of(condensation));
+    let elimination = FreeElimination::new(pencil, bounds_of(condensation));
     for value in values {
         let Some(center) = fine_center(*value) else {
             continue;
@@ -341,11 +342,11 @@ fn fine_center(value: f64) -> Option<Rational> {
 /// The view that a certificate's condensation gives.
 pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     let bounds = bounds_of(condensation);
-    let elimination = Elimination::new(pencil, bounds);
+    let elimination = FreeElimination::new(pencil, bounds);
     let exchanged = exchanged(pencil);
     let reversed = exchanged
         .as_ref()
-        .map(|exchanged| Elimination::new(exchanged, bounds.exchanged()));
+        .map(|exchanged| FreeElimination::new(exchanged, bounds.exchanged()));
 
     let mut expansions = Vec::new();
     for anchor in &condensation.anchors {
@@ -371,8 +372,8 @@ pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
 pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec<Beside>> {
     let bounds = bounds_of(condensation);
     let exchanged = exchanged(pencil)?;
-    let elimination = Elimination::new(pencil, bounds);
-    let reversed = Elimination::new(&exchanged, bounds.exchanged());
+    let elimination = FreeElimination::new(pencil, bounds);
+    let reversed = FreeElimination::new(&exchanged, bounds.exchanged());
     let width = pencil.slip().len();
 
     let mut all = Vec::with_capacity(condensation.anchors.len());
@@ -393,7 +394,7 @@ pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec
 }
 
 /// The expansion that an anchor of a certificate gives for the pencil that is eliminated.
-fn expansion_of(elimination: &Elimination<'_>, anchor: &Anchor) -> Expansion {
+fn expansion_of(elimination: &FreeElimination<'_>, anchor: &Anchor) -> Expansion {
     let width = elimination.blocks.slip.len();
     let center = to_f64(&anchor.center.0);
     let right = columns_of_all(&anchor.right, width);

@@ -13,7 +13,7 @@
 //! Made by `view` (no free variables) and `anchor` (about the anchors of a condensation); read by
 //! every leaf.
 
-use super::matrix::{Matrix, combined, zeros};
+use super::matrix::{SquareMatrix, combined, zeros};
 use crate::tolerance::CONDENSATION_NOISE;
 
 /// Norms of the columns of a matrix polynomial: `[k][j]` is that of column j of coefficient k.
@@ -24,7 +24,7 @@ pub(crate) type ColumnNorms = Vec<Vec<f64>>;
 pub(crate) struct Expansion {
     pub(crate) center: f64,
     /// z_k, the coefficients of the powers of d; two of them at least.
-    pub(crate) coefficients: Vec<Matrix>,
+    pub(crate) coefficients: Vec<SquareMatrix>,
     /// |l_i|, the residuals of V, and |r_j|, those of W.
     pub(crate) left_residual: ColumnNorms,
     pub(crate) right_residual: ColumnNorms,
@@ -44,21 +44,21 @@ pub(crate) struct Expansion {
 }
 
 /// T over an interval: the matrices at both ends, and the radius around the chord between them.
-pub(crate) struct Ends {
+pub(crate) struct ChordEnds {
     pub(crate) lo: f64,
     /// Infinite for an unbounded interval, whose `m[1]` is the direction B.
     pub(crate) hi: f64,
-    pub(crate) m: [Matrix; 2],
+    pub(crate) m: [SquareMatrix; 2],
     /// Radius of each entry; `None` where the chord is exact.
-    pub(crate) r: Option<Matrix>,
+    pub(crate) r: Option<SquareMatrix>,
     /// (hi - lo) T' lies within this of m[1] - m[0]; `None` likewise.
-    pub(crate) slope: Option<Matrix>,
+    pub(crate) slope: Option<SquareMatrix>,
 }
 
-impl Ends {
+impl ChordEnds {
     /// Two matrices with an exact chord.
-    fn exact(lo: f64, hi: f64, m: [Matrix; 2]) -> Ends {
-        Ends {
+    fn exact(lo: f64, hi: f64, m: [SquareMatrix; 2]) -> ChordEnds {
+        ChordEnds {
             lo,
             hi,
             m,
@@ -68,14 +68,14 @@ impl Ends {
     }
 
     /// The ends of T0 + mu T1, given those of T0 and T1 over one interval of t.
-    pub(crate) fn at_friction([constant, slope]: [&Ends; 2], friction: f64) -> Ends {
+    pub(crate) fn at_friction([constant, slope]: [&ChordEnds; 2], friction: f64) -> ChordEnds {
         let m = [0, 1].map(|end| combined(&constant.m[end], friction, &slope.m[end]));
         let r = match (&constant.r, &slope.r) {
             (Some(r), Some(r_slope)) => Some(combined(r, friction, r_slope)),
             (r, r_slope) => r.clone().or(r_slope.clone()),
         };
 
-        Ends {
+        ChordEnds {
             lo: constant.lo,
             hi: constant.hi,
             m,
@@ -120,7 +120,7 @@ impl Remainder {
 
 impl Expansion {
     /// A + tB itself.
-    pub(crate) fn linear(a: Matrix, b: Matrix) -> Expansion {
+    pub(crate) fn linear(a: SquareMatrix, b: SquareMatrix) -> Expansion {
         Expansion {
             center: 0.0,
             coefficients: vec![a, b],
@@ -137,7 +137,7 @@ impl Expansion {
     }
 
     /// The chord between two matrices, from 0 to 1.
-    pub(crate) fn line(ends: &[Matrix; 2]) -> Expansion {
+    pub(crate) fn line(ends: &[SquareMatrix; 2]) -> Expansion {
         let mut slope = ends[1].clone();
         for (row, first_row) in slope.iter_mut().zip(&ends[0]) {
             for (last, first) in row.iter_mut().zip(first_row) {
@@ -196,12 +196,12 @@ impl Expansion {
     }
 
     /// T(t), the remainder left out.
-    pub(crate) fn at(&self, t: f64) -> Matrix {
+    pub(crate) fn at(&self, t: f64) -> SquareMatrix {
         self.polynomial(self.argument(t))
     }
 
     /// Z at an argument, by Horner's rule.
-    fn polynomial(&self, argument: f64) -> Matrix {
+    fn polynomial(&self, argument: f64) -> SquareMatrix {
         let d = argument - self.center;
         let mut sum = zeros(self.order());
 
@@ -216,7 +216,7 @@ impl Expansion {
     }
 
     /// dT/dt, the remainder left out.
-    pub(crate) fn derivative(&self, t: f64) -> Matrix {
+    pub(crate) fn derivative(&self, t: f64) -> SquareMatrix {
         let d = self.argument(t) - self.center;
         let mut sum = zeros(self.order());
 
@@ -234,14 +234,14 @@ impl Expansion {
     }
 
     /// The ends over [lo, hi] as the checker will see them.
-    pub(crate) fn ends(&self, lo: f64, hi: f64) -> Ends {
+    pub(crate) fn ends(&self, lo: f64, hi: f64) -> ChordEnds {
         if !self.reversed {
             return self.between(lo, hi);
         }
 
         let ends = self.between(1.0 / hi, 1.0 / lo);
         let [at_hi, at_lo] = ends.m;
-        Ends {
+        ChordEnds {
             lo,
             hi,
             m: [at_lo, at_hi],
@@ -250,10 +250,10 @@ impl Expansion {
     }
 
     /// The ends over an interval of the argument.
-    fn between(&self, lo: f64, hi: f64) -> Ends {
+    fn between(&self, lo: f64, hi: f64) -> ChordEnds {
         let lower = self.polynomial(lo);
         if hi.is_infinite() {
-            return Ends::exact(lo, hi, [lower, self.coefficients[1].clone()]);
+            return ChordEnds::exact(lo, hi, [lower, self.coefficients[1].clone()]);
         }
 
         let upper = if lo == hi {
@@ -264,7 +264,7 @@ impl Expansion {
 
         let m = [lower, upper];
         if self.is_linear() && self.weight.is_empty() {
-            return Ends::exact(lo, hi, m);
+            return ChordEnds::exact(lo, hi, m);
         }
 
         let bend = self.bend(lo, hi);
@@ -280,7 +280,7 @@ impl Expansion {
             }
         }
 
-        Ends {
+        ChordEnds {
             lo,
             hi,
             m,
@@ -297,7 +297,7 @@ impl Expansion {
     }
 
     /// Upper bounds of (hi - lo)^2 |Z''|. The chord differs from Z by an eighth of it at most.
-    fn bend(&self, lo: f64, hi: f64) -> Matrix {
+    fn bend(&self, lo: f64, hi: f64) -> SquareMatrix {
         let reach = self.reach(lo, hi);
         let width = hi - lo;
         let mut bound = zeros(self.order());
@@ -313,7 +313,7 @@ impl Expansion {
         bound
     }
 
-    fn remainder(&self, lo: f64, hi: f64, m: &[Matrix; 2]) -> Remainder {
+    fn remainder(&self, lo: f64, hi: f64, m: &[SquareMatrix; 2]) -> Remainder {
         let reach = self.reach(lo, hi);
         let positions = 0..self.order();
         let size: f64 = m

@@ -5,9 +5,9 @@
 use mceip_exact::submatrix;
 
 /// A dense square matrix by rows.
-pub(crate) type Matrix = Vec<Vec<f64>>;
+pub(crate) type SquareMatrix = Vec<Vec<f64>>;
 
-pub(crate) fn zeros(order: usize) -> Matrix {
+pub(crate) fn zeros(order: usize) -> SquareMatrix {
     vec![vec![0.0; order]; order]
 }
 
@@ -20,7 +20,7 @@ pub(crate) fn largest_entry(matrix: &[Vec<f64>]) -> f64 {
 }
 
 /// The block on these rows and columns.
-pub(crate) fn principal_block(matrix: &[Vec<f64>], indices: &[usize]) -> Matrix {
+pub(crate) fn principal_block(matrix: &[Vec<f64>], indices: &[usize]) -> SquareMatrix {
     submatrix(matrix, indices, indices)
 }
 
@@ -33,7 +33,7 @@ pub(crate) fn times(matrix: &[Vec<f64>], x: &[f64]) -> Vec<f64> {
 }
 
 /// The multiple `factor * matrix`.
-pub(crate) fn scaled(matrix: &[Vec<f64>], factor: f64) -> Matrix {
+pub(crate) fn scaled(matrix: &[Vec<f64>], factor: f64) -> SquareMatrix {
     matrix
         .iter()
         .map(|row| row.iter().map(|v| factor * v).collect())
@@ -41,7 +41,7 @@ pub(crate) fn scaled(matrix: &[Vec<f64>], factor: f64) -> Matrix {
 }
 
 /// The entries without their signs.
-pub(crate) fn absolute(matrix: &[Vec<f64>]) -> Matrix {
+pub(crate) fn absolute(matrix: &[Vec<f64>]) -> SquareMatrix {
     matrix
         .iter()
         .map(|row| row.iter().map(|v| v.abs()).collect())
@@ -55,7 +55,7 @@ pub(crate) fn bilinear(u: &[f64], matrix: &[Vec<f64>], v: &[f64]) -> f64 {
 }
 
 /// a + factor b.
-pub(crate) fn combined(a: &[Vec<f64>], factor: f64, b: &[Vec<f64>]) -> Matrix {
+pub(crate) fn combined(a: &[Vec<f64>], factor: f64, b: &[Vec<f64>]) -> SquareMatrix {
     let mut sum = a.to_vec();
     for (row, b_row) in sum.iter_mut().zip(b) {
         for (entry, b) in row.iter_mut().zip(b_row) {

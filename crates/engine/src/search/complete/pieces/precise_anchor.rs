@@ -6,7 +6,7 @@
 //! that the factor is good for. Called by `complete::precise` for regions whose signs are beyond
 //! doubles.
 
-use super::anchor::{Elimination, FINE};
+use super::anchor::{FINE, FreeElimination};
 use super::condense::bounds_of;
 use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix, IntegerRow};
 use mceip_exact::{Integer, Rational, common_denominator, from_f64, to_f64};
@@ -28,7 +28,7 @@ pub(crate) fn precise_anchor(
     value: &Rational,
 ) -> Option<Anchor> {
     let center = from_f64(to_f64(value)).ok()?;
-    let elimination = Elimination::new(pencil, bounds_of(condensation));
+    let elimination = FreeElimination::new(pencil, bounds_of(condensation));
     let mut anchor = elimination.expand(&center, FINE)?.anchor;
     let factor = elimination.blocks.factor_at(to_f64(&center))?;
 
@@ -39,7 +39,7 @@ pub(crate) fn precise_anchor(
 
         for _ in 0..ROUNDS {
             let before = k.checked_sub(1).map(|p| &anchor.right[p]);
-            let equation = Equation::new(k, &anchor.right[k], before);
+            let equation = CoefficientEquation::new(k, &anchor.right[k], before);
             let mut columns = equation.residual(&rows);
             factor.solve_all(&mut columns);
             if add(&mut anchor.right[k], &columns)? {
@@ -148,7 +148,7 @@ fn widen(matrix: &mut IntegerMatrix, bits: u32) {
 }
 
 /// The equation of one coefficient W_k, with what is known of its solution.
-struct Equation<'a> {
+struct CoefficientEquation<'a> {
     k: usize,
     w: &'a IntegerMatrix,
     /// W_(k-1).
@@ -157,10 +157,14 @@ struct Equation<'a> {
     exponent: u32,
 }
 
-impl Equation<'_> {
-    fn new<'a>(k: usize, w: &'a IntegerMatrix, before: Option<&'a IntegerMatrix>) -> Equation<'a> {
+impl CoefficientEquation<'_> {
+    fn new<'a>(
+        k: usize,
+        w: &'a IntegerMatrix,
+        before: Option<&'a IntegerMatrix>,
+    ) -> CoefficientEquation<'a> {
         let exponent_before = before.map_or(0, |m| m.exponent);
-        Equation {
+        CoefficientEquation {
             k,
             w,
             before,

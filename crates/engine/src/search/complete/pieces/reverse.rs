@@ -4,7 +4,7 @@
 //! where expansions in t would have to follow one another for ever. It needs B_ff >= tau I with
 //! tau > 0. Called by `condense`.
 
-use super::anchor::{COARSE, Elimination, Expanded, FreeBounds, centers};
+use super::anchor::{COARSE, ExpandedAnchor, FreeElimination, SpectrumBounds, centers};
 use super::expansion::Expansion;
 use crate::search::complete::dyadic::short_near;
 use mceip_check::certificate::Anchor;
@@ -12,8 +12,8 @@ use mceip_exact::Rational;
 use mceip_model::Pencil;
 
 /// A reversed anchor and the value from which it is used.
-pub(crate) struct Beyond {
-    pub(crate) expanded: Expanded,
+pub(crate) struct ReversedAnchor {
+    pub(crate) expanded: ExpandedAnchor,
     pub(crate) from: Rational,
 }
 
@@ -24,13 +24,13 @@ pub(crate) fn exchanged(pencil: &Pencil) -> Option<Pencil> {
 }
 
 /// The reversed anchor of a pencil; `None` unless B_ff is positive definite.
-pub(crate) fn beyond(pencil: &Pencil, bounds: FreeBounds) -> Option<Beyond> {
+pub(crate) fn beyond(pencil: &Pencil, bounds: SpectrumBounds) -> Option<ReversedAnchor> {
     if bounds.tau <= 0.0 {
         return None;
     }
 
     let exchanged = exchanged(pencil)?;
-    let elimination = Elimination::new(&exchanged, bounds.exchanged());
+    let elimination = FreeElimination::new(&exchanged, bounds.exchanged());
     let blocks = &elimination.blocks;
     let lowest = blocks.lowest_frequency(&blocks.stiffness.cholesky()?);
     let only_first = centers(lowest, 0.0, f64::MIN_POSITIVE);
@@ -38,8 +38,8 @@ pub(crate) fn beyond(pencil: &Pencil, bounds: FreeBounds) -> Option<Beyond> {
     let from = short_near(1.0 / center.end, 0.05 / center.end)?;
 
     let expanded = elimination.expand(&center.at, COARSE)?;
-    Some(Beyond {
-        expanded: Expanded {
+    Some(ReversedAnchor {
+        expanded: ExpandedAnchor {
             anchor: Anchor {
                 reversed: true,
                 ..expanded.anchor

@@ -5,8 +5,8 @@
 //! intervals by theta = t / (scale + t), which maps [0, infinity] to [0, 1].
 
 use super::expansion::Expansion;
-use super::matrix::{Matrix, largest_entry, zeros};
-use crate::search::complete::region::{Region, support};
+use super::matrix::{SquareMatrix, largest_entry, zeros};
+use crate::search::complete::region::{SearchRegion, support};
 use mceip_check::certificate::VariableState;
 use mceip_exact::{Integer, Rational, cleared, common_denominator, to_f64};
 use mceip_model::{Pencil, ZeroVariables};
@@ -55,7 +55,12 @@ impl View {
 
     /// The part of a region in which the variable at this position has this state. Where it is a
     /// half of v_T of a particle with zero reaction and moves, the other half is at rest.
-    pub(crate) fn part(&self, region: &Region, position: usize, state: VariableState) -> Region {
+    pub(crate) fn part(
+        &self,
+        region: &SearchRegion,
+        position: usize,
+        state: VariableState,
+    ) -> SearchRegion {
         let mut part = region.clone();
         part.states[position] = state;
         if state == VariableState::InSupport
@@ -164,7 +169,7 @@ pub(crate) fn common_row_factor(pencils: &[&Pencil], i: usize) -> Rational {
 }
 
 /// Ratio of the largest entries of the first two coefficients, 1 where that says nothing.
-pub(crate) fn scale_of(coefficients: &[Matrix]) -> f64 {
+pub(crate) fn scale_of(coefficients: &[SquareMatrix]) -> f64 {
     let a = largest_entry(&coefficients[0]);
     let b = largest_entry(&coefficients[1]);
     if a > 0.0 && b > 0.0 && (a / b).is_finite() {

@@ -10,7 +10,7 @@
 //!
 //! Called by `condense`.
 
-use super::anchor::{Center, Elimination, Expanded, Precision, center_below};
+use super::anchor::{Center, ExpandedAnchor, FreeElimination, Precision, center_below};
 use super::expansion::Expansion;
 use crate::search::complete::leaf::definite::holds_at_both_ends;
 use mceip_check::certificate::VariableState;
@@ -33,7 +33,7 @@ const MOST: usize = 32;
 /// Anchors next to the upper end of a window.
 pub(crate) struct WideAnchors {
     /// By ascending centres, each with the upper end of its interval.
-    pub(crate) anchors: Vec<(Expanded, f64)>,
+    pub(crate) anchors: Vec<(ExpandedAnchor, f64)>,
     /// Where the interval of the lowest one begins; the upper end of the window where there is
     /// none.
     pub(crate) from: f64,
@@ -50,13 +50,13 @@ impl WideAnchors {
 }
 
 /// The search for such anchors.
-pub(crate) struct Definite<'a> {
-    pub(crate) elimination: &'a Elimination<'a>,
+pub(crate) struct DefiniteAnchors<'a> {
+    pub(crate) elimination: &'a FreeElimination<'a>,
     pub(crate) lowest_frequency: f64,
     pub(crate) precision: Precision,
 }
 
-impl Definite<'_> {
+impl DefiniteAnchors<'_> {
     /// Anchors of wide reach that cover an interval below `top`, down to `low` at most. There
     /// sym(T) is definite for `pencil`, one of the same family as the one that is expanded.
     ///
@@ -68,7 +68,7 @@ impl Definite<'_> {
         }
 
         let is_own = std::ptr::eq(pencil, self.elimination.pencil);
-        let other = (!is_own).then(|| Elimination::new(pencil, self.elimination.bounds));
+        let other = (!is_own).then(|| FreeElimination::new(pencil, self.elimination.bounds));
 
         let mut wide = WideAnchors::none(top);
         while wide.from > low && wide.anchors.len() < MOST {
@@ -97,8 +97,8 @@ impl Definite<'_> {
         &self,
         center: &Center,
         begin: f64,
-        other: Option<&Elimination<'_>>,
-    ) -> Option<Expanded> {
+        other: Option<&FreeElimination<'_>>,
+    ) -> Option<ExpandedAnchor> {
         let expanded = self.elimination.expand(&center.at, self.precision)?;
         let is_definite = match other {
             None => self.is_definite(&expanded.expansion, begin, center.end),
@@ -132,7 +132,7 @@ impl Definite<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::anchor::{COARSE, FreeBounds};
+    use super::super::anchor::{COARSE, SpectrumBounds};
     use super::*;
     use mceip_exact::Sparse;
 
@@ -140,12 +140,12 @@ mod tests {
     fn wide(entry: i64, low: f64, top: f64) -> WideAnchors {
         let a = Sparse::from_ints(&[&[1, 1], &[1, entry]]);
         let pencil = Pencil::new(a, Sparse::identity(2), vec![0]).unwrap();
-        let bounds = FreeBounds {
+        let bounds = SpectrumBounds {
             sigma: 1.0,
             tau: 1.0,
         };
-        let elimination = Elimination::new(&pencil, bounds);
-        let definite = Definite {
+        let elimination = FreeElimination::new(&pencil, bounds);
+        let definite = DefiniteAnchors {
             elimination: &elimination,
             lowest_frequency: 1.0,
             precision: COARSE,

@@ -9,8 +9,8 @@
 //!
 //! The checker decides with exact numbers; margins here make it agree.
 
-use crate::bordered::{Corner, NullVectors, largest};
-use crate::search::complete::pieces::expansion::Ends;
+use crate::bordered::{BoxCorner, NullVectors, largest};
+use crate::search::complete::pieces::expansion::ChordEnds;
 
 /// rho and eta up to which a witness is offered: less than 1 by a margin.
 const MAX_IDENTITY_ERROR: f64 = 0.9;
@@ -29,17 +29,17 @@ pub(super) struct Errors {
 
 impl Errors {
     /// Steps 1 and 2; `None` where the inverse is not good enough.
-    pub(super) fn of(vectors: &NullVectors, ends: &Ends) -> Option<Errors> {
+    pub(super) fn of(vectors: &NullVectors, ends: &ChordEnds) -> Option<Errors> {
         let mirrored = vectors.mirrored();
         Some(Errors {
-            right: one_sided([0, 1].map(|end| Corner::of(ends, end, vectors)))?,
-            left: one_sided([0, 1].map(|end| Corner::mirrored(ends, end, &mirrored)))?,
+            right: one_sided([0, 1].map(|end| BoxCorner::of(ends, end, vectors)))?,
+            left: one_sided([0, 1].map(|end| BoxCorner::mirrored(ends, end, &mirrored)))?,
         })
     }
 }
 
 /// The bound of |v_true - v| over both ends.
-fn one_sided(corners: [Corner<'_>; 2]) -> Option<f64> {
+fn one_sided(corners: [BoxCorner<'_>; 2]) -> Option<f64> {
     let mut norm: f64 = 0.0;
     let mut residual: f64 = 0.0;
     for corner in corners {
@@ -52,7 +52,7 @@ fn one_sided(corners: [Corner<'_>; 2]) -> Option<f64> {
 }
 
 /// Step 3: has phi' one sign over the interval?
-pub(super) fn is_monotone(vectors: &NullVectors, ends: &Ends, errors: &Errors) -> bool {
+pub(super) fn is_monotone(vectors: &NullVectors, ends: &ChordEnds, errors: &Errors) -> bool {
     let support = vectors.support();
     let left = VectorComponent::list(&vectors.left, errors.left);
     let right = VectorComponent::list(&vectors.right, errors.right);
@@ -77,13 +77,13 @@ pub(super) fn is_monotone(vectors: &NullVectors, ends: &Ends, errors: &Errors) -
 }
 
 /// Step 4: the product of the signs of phi at both ends, 0 where one of them is not certain.
-pub(super) fn sign_product(vectors: &NullVectors, ends: &Ends, errors: &Errors) -> i8 {
-    let [lower, upper] = [0, 1].map(|end| schur_sign(&Corner::of(ends, end, vectors), errors));
+pub(super) fn sign_product(vectors: &NullVectors, ends: &ChordEnds, errors: &Errors) -> i8 {
+    let [lower, upper] = [0, 1].map(|end| schur_sign(&BoxCorner::of(ends, end, vectors), errors));
     lower * upper
 }
 
 /// The sign of phi = u'Tv - (residual of u)' T'^-1 (residual of v) at an end, 0 if not certain.
-fn schur_sign(corner: &Corner<'_>, errors: &Errors) -> i8 {
+fn schur_sign(corner: &BoxCorner<'_>, errors: &Errors) -> i8 {
     let ones = vec![1.0; corner.order()];
     let mut phi = corner.value(&corner.products());
     phi.radius += RESIDUAL_MARGIN * corner.left_residual(&ones) * errors.right;

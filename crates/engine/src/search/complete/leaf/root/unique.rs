@@ -22,10 +22,10 @@
 //! Called by the leaves `root` and `infinity` and by `precise`.
 
 use super::bounds::{Errors, is_monotone, sign_product};
-use crate::bordered::{Ball, Corner, NullVectors};
+use crate::bordered::{BoxCorner, DoubleBall, NullVectors};
 use crate::search::complete::null_vector::NullVector;
-use crate::search::complete::pieces::expansion::{Ends, Expansion};
-use crate::search::complete::pieces::matrix::Matrix;
+use crate::search::complete::pieces::expansion::{ChordEnds, Expansion};
+use crate::search::complete::pieces::matrix::SquareMatrix;
 use crate::search::complete::region::at_zero;
 use crate::search::complete::rounding::{exponent, integer, integers, rounded};
 use crate::tolerance::{ROOT_HALF_WIDTHS, ROUNDING};
@@ -43,7 +43,7 @@ const INVERSE_BITS: [i32; 4] = [12, 20, 30, 44];
 const PIVOTS: usize = 3;
 
 /// A pivot with Y, u and v that prove uniqueness over an interval.
-pub(crate) struct Unique {
+pub(crate) struct UniquenessWitness {
     vectors: NullVectors,
     /// Y in units of 2^-`inverse_bits`.
     inverse: Vec<Vec<Integer>>,
@@ -56,13 +56,13 @@ pub(crate) struct Located {
     pub(crate) outcome: RootOutcome,
 }
 
-impl Unique {
+impl UniquenessWitness {
     /// The witness that this is the only null vector over `wide`, which contains the leaf; `None`
     /// where it is not to be had.
     ///
     /// The minor of T_JJ without row and column p is proportional to u_p v_p where T_JJ is
     /// singular, so that pivots with a large product come first.
-    pub(crate) fn of(null: &NullVector, wide: &Ends) -> Option<Unique> {
+    pub(crate) fn of(null: &NullVector, wide: &ChordEnds) -> Option<UniquenessWitness> {
         let weights: Vec<f64> = null
             .left
             .iter()
@@ -73,7 +73,7 @@ impl Unique {
         order.sort_by(|p, q| weights[*q].total_cmp(&weights[*p]));
 
         for place in order.into_iter().take(PIVOTS) {
-            let unique = Unique::with_pivot(null, place, wide);
+            let unique = UniquenessWitness::with_pivot(null, place, wide);
             if unique.is_some() {
                 return unique;
             }
@@ -83,7 +83,7 @@ impl Unique {
     }
 
     /// The same with the pivot at this place of the support.
-    fn with_pivot(null: &NullVector, place: usize, wide: &Ends) -> Option<Unique> {
+    fn with_pivot(null: &NullVector, place: usize, wide: &ChordEnds) -> Option<UniquenessWitness> {
         let pivot = null.support[place];
         let mut rest = null.support.clone();
         rest.remove(place);
@@ -111,7 +111,7 @@ impl Unique {
             if is_proof {
                 let inverse = integers(&vectors.inverse, unit);
                 vectors.inverse = doubles(&inverse, inverse_bits);
-                return Some(Unique {
+                return Some(UniquenessWitness {
                     vectors,
                     inverse,
                     inverse_bits,
@@ -179,8 +179,9 @@ impl Unique {
 
     /// Has the Schur complement one sign over the interval, so that there is no null vector in it?
     ///
-    /// `wide` lies where [`Unique::of`] has shown it monotone, so equal signs at both ends suffice.
-    pub(crate) fn is_absent(&self, wide: &Ends) -> bool {
+    /// `wide` lies where [`UniquenessWitness::of`] has shown it monotone, so equal signs at both
+    /// ends suffice.
+    pub(crate) fn is_absent(&self, wide: &ChordEnds) -> bool {
         let errors = Errors::of(&self.vectors, wide);
         errors.is_some_and(|errors| sign_product(&self.vectors, wide, &errors) == 1)
     }
@@ -190,7 +191,7 @@ impl Unique {
     /// bound, from rounded numbers, may be larger.
     fn signs(
         &self,
-        narrow: &Ends,
+        narrow: &ChordEnds,
         error: f64,
         states: &[VariableState],
         [index, vanishing]: [&[usize]; 2],
@@ -222,8 +223,8 @@ impl Unique {
     }
 
     /// Row i of T x at an end, for every x within `error` of the right vector.
-    fn reaction(&self, narrow: &Ends, end: usize, i: usize, error: f64) -> Ball {
-        let corner = Corner::of(narrow, end, &self.vectors);
+    fn reaction(&self, narrow: &ChordEnds, end: usize, i: usize, error: f64) -> DoubleBall {
+        let corner = BoxCorner::of(narrow, end, &self.vectors);
         let mut y = corner.row_times_v(i);
         for &j in &self.vectors.support() {
             y.radius += error * corner.entry(i, j).magnitude();
@@ -243,8 +244,8 @@ fn nearest_end(value: f64, ends: [f64; 4], distance: f64) -> f64 {
 }
 
 /// The block of the matrix in the middle of the ends.
-fn middle_block(wide: &Ends, indices: &[usize]) -> Matrix {
-    let mut block = Matrix::new();
+fn middle_block(wide: &ChordEnds, indices: &[usize]) -> SquareMatrix {
+    let mut block = SquareMatrix::new();
     for &i in indices {
         let row = indices
             .iter()
@@ -267,9 +268,9 @@ fn scaled_without(list: &[f64], place: usize) -> Vec<f64> {
     scaled
 }
 
-fn doubles(matrix: &[Vec<Integer>], bits: u32) -> Matrix {
+fn doubles(matrix: &[Vec<Integer>], bits: u32) -> SquareMatrix {
     let unit = Integer::one() << bits;
-    let mut doubles = Matrix::new();
+    let mut doubles = SquareMatrix::new();
     for row in matrix {
         let entries = row
             .iter()
@@ -304,7 +305,7 @@ mod tests {
         let expansion = &view.expansions[0];
         let states = [VariableState::InSupport];
         let null = null_vector(expansion, &states, 2.0, 3.0).unwrap();
-        let unique = Unique::of(&null, &expansion.ends(2.0, 3.0)).unwrap();
+        let unique = UniquenessWitness::of(&null, &expansion.ends(2.0, 3.0)).unwrap();
         let half = ROOT_HALF_WIDTHS[0] * 2.25;
 
         // Value, ends of the leaf and of the region, expected centre.

@@ -19,19 +19,19 @@ pub(super) struct AloneAround {
 
 /// The direction x_k e_p - x_p e_k or its negative, k being the first active variable.
 #[derive(Clone, Copy)]
-struct Direction {
+struct SignedDirection {
     /// Place of p among the active variables.
     place: usize,
     is_negative: bool,
 }
 
-impl Direction {
+impl SignedDirection {
     /// Both directions for every active variable but the first.
-    fn all(active: usize) -> Vec<Direction> {
+    fn all(active: usize) -> Vec<SignedDirection> {
         let mut directions = Vec::new();
         for place in 1..active {
             for is_negative in [false, true] {
-                directions.push(Direction { place, is_negative });
+                directions.push(SignedDirection { place, is_negative });
             }
         }
 
@@ -68,7 +68,7 @@ impl Supported {
         }
 
         let mut weights = Vec::new();
-        for direction in Direction::all(self.active.len()) {
+        for direction in SignedDirection::all(self.active.len()) {
             let ray = combination_at(x, kernel, &tight, direction, value)?;
             let (of_tight_rows, factor) = ray.split_at(tight.len());
             let given = (&tight[..], of_tight_rows);
@@ -101,7 +101,7 @@ impl Supported {
 
         let mut weights = Vec::new();
         let mut signs = Vec::new();
-        for direction in Direction::all(self.active.len()) {
+        for direction in SignedDirection::all(self.active.len()) {
             let circuit = combination_around(x, kernel, &tight, direction, t)?;
             let (factor, of_tight_rows) = circuit.split_at(1);
             let given = (&tight[..], of_tight_rows);
@@ -128,7 +128,7 @@ impl Supported {
     fn multipliers(
         &self,
         x: &[Poly],
-        direction: Direction,
+        direction: SignedDirection,
         factor: &Poly,
         tight: (&[usize], &[Poly]),
     ) -> Vec<Poly> {
@@ -157,7 +157,7 @@ fn combination_at(
     x: &[Poly],
     kernel: &Kernel,
     tight: &[usize],
-    direction: Direction,
+    direction: SignedDirection,
     value: &mut Algebraic,
 ) -> Option<Vec<Poly>> {
     let unknowns = tight.len() + 1;
@@ -184,7 +184,7 @@ fn combination_around(
     x: &[Poly],
     kernel: &Kernel,
     tight: &[usize],
-    direction: Direction,
+    direction: SignedDirection,
     t: &Rational,
 ) -> Option<Vec<Poly>> {
     // Rows with mu'rows = 0, mu >= 0: minus the direction first, then what vanishes at x.

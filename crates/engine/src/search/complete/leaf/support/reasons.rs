@@ -35,11 +35,11 @@ pub(super) struct Supported {
     /// Those of the support, then the free ones.
     pub(super) active: Vec<usize>,
     pub(super) inactive: Vec<usize>,
-    regular: Option<Regular>,
+    regular: Option<RegularExclusion>,
 }
 
 /// Of a regular pencil: weights that exclude every solution but at the roots of a polynomial.
-struct Regular {
+struct RegularExclusion {
     weights: Exact,
     critical: Poly,
 }
@@ -116,7 +116,7 @@ impl Supported {
     }
 
     /// The weights of a regular pencil: w'T = det e_1 on the active columns, nothing elsewhere.
-    fn regular(&self) -> Option<Regular> {
+    fn regular(&self) -> Option<RegularExclusion> {
         let determinant = self.minor(&self.active, &self.active);
         if determinant.is_zero() {
             return None;
@@ -127,7 +127,7 @@ impl Supported {
             more: determinant,
         }
         .primitive();
-        Some(Regular {
+        Some(RegularExclusion {
             weights: Exact::None(self.over_all(&self.active, &divided.vector)),
             critical: divided.more,
         })
