@@ -8,11 +8,13 @@
 //! Input: a system and its ranges. Output: the evidence of ranges, and the proofs named
 //! `absent-range`. Called by `ranges`.
 
-use super::absence::{Blocked, Bound, Cause, CoverOutcome, LastFamily, Place, unit_of_lambda2};
-use super::critical::Known;
+use super::absence::{
+    AbsenceBound, Blocked, Cause, CoverOutcome, LastFamily, PrecisePlace, unit_of_lambda2,
+};
+use super::critical::KnownOfSystem;
 use super::divergence::Verdict;
 use super::evidence::{Evidence, Proof, ProofCertificate};
-use super::model::Model;
+use super::model::AnalysisModel;
 use super::ranges::Range;
 use crate::run::Progress;
 use mceip_check::Proved;
@@ -24,8 +26,8 @@ const PRECISE_ROUNDS: usize = 3;
 
 /// Proves what it can of the ranges that are absent at samples.
 pub(super) fn prove<'a>(
-    model: &Model<'a>,
-    known: &Known<'a>,
+    model: &AnalysisModel<'a>,
+    known: &KnownOfSystem<'a>,
     ranges: &mut [Range],
     proofs: &mut Vec<Proof>,
 ) {
@@ -60,8 +62,8 @@ fn sampled_absence(range: &Range) -> Option<[&Rational; 2]> {
 /// A certificate of absence for every mu between two values, if one is found. What cannot be
 /// condensed is not proved either.
 fn cover<'a>(
-    model: &Model<'a>,
-    known: &Known<'a>,
+    model: &AnalysisModel<'a>,
+    known: &KnownOfSystem<'a>,
     [from, below]: [&Rational; 2],
 ) -> Option<Proved<CriticalCertificate>> {
     let stage = "ranges of mu: proving absence";
@@ -72,7 +74,7 @@ fn cover<'a>(
 
     let mut places = Vec::new();
     for _ in 0..=PRECISE_ROUNDS {
-        let bound = Bound {
+        let bound = AbsenceBound {
             from,
             below,
             at_most: below,
@@ -83,7 +85,7 @@ fn cover<'a>(
             CoverOutcome::Blocked(boxes) if boxes.iter().all(is_imprecise) => {
                 for blocked in &boxes {
                     let [lambda2, _] = blocked.middle;
-                    places.push(Place::sharper(&places, lambda2, scale));
+                    places.push(PrecisePlace::sharper(&places, lambda2, scale));
                 }
             }
             CoverOutcome::Blocked(_) | CoverOutcome::Refused | CoverOutcome::Stopped => {

@@ -7,19 +7,20 @@
 //! bounds ever closer to the solution. A box that cannot be emptied points to a smaller solution,
 //! or the bound is lowered.
 //!
-//! Input: what [`analyse`](super::analyse) has found so far ([`Known`]). Output: [`Critical`], and
-//! the proofs named `critical` (the solution) and `absence` (the bound).
+//! Input: what [`analyse`](super::analyse) has found so far ([`KnownOfSystem`]). Output:
+//! [`Critical`], and the proofs named `critical` (the solution) and `absence` (the bound).
 
 use super::absence::{
-    Blocked, Bound, Cause, CoverOutcome, Family, LastFamily, Place, Quadrant, unit_of_lambda2,
+    AbsenceBound, Blocked, Cause, CoverOutcome, HalfLineFamily, LastFamily, PrecisePlace, Quadrant,
+    unit_of_lambda2,
 };
 use super::conditions::Necessary;
 use super::divergence::Divergence;
 use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
 use super::families::Families;
-use super::follow::{Branches, Minimum};
-use super::model::Model;
+use super::follow::{BranchFollower, Minimum};
+use super::model::AnalysisModel;
 use super::threshold::StaticThreshold;
 use crate::run::Progress;
 use crate::search::complete::Completed;
@@ -125,7 +126,7 @@ fn by_condition(families: &Families, excluded: Option<&Rational>) -> Evidence {
 
 /// A solution in doubles from which branches are followed: x over the complementarity variables.
 #[derive(Debug, Clone)]
-pub(super) struct Start {
+pub(super) struct BranchStart {
     pub(super) lambda2: f64,
     pub(super) mu: f64,
     pub(super) x: Vec<f64>,
@@ -135,15 +136,15 @@ pub(super) struct Start {
 pub(super) struct CriticalFound {
     pub(super) critical: Critical,
     /// The solution of smallest mu in doubles.
-    pub(super) start: Option<Start>,
+    pub(super) start: Option<BranchStart>,
     /// The condensation of the last cover, if there was one.
-    pub(super) family: Option<Family>,
+    pub(super) family: Option<HalfLineFamily>,
     /// Where condensation is to be precise.
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<PrecisePlace>,
 }
 
 /// What is known about a system before its critical mu is sought.
-pub(super) struct Known<'a> {
+pub(super) struct KnownOfSystem<'a> {
     pub(super) families: &'a Families,
     pub(super) necessary: &'a Necessary,
     /// The mu of the analysis, and MCEIP-lambda2 there.
@@ -153,12 +154,12 @@ pub(super) struct Known<'a> {
     pub(super) divergence: &'a Divergence,
     pub(super) threshold: &'a StaticThreshold,
     /// The solutions of both in doubles.
-    pub(super) starts: Vec<Start>,
+    pub(super) starts: Vec<BranchStart>,
 }
 
-impl<'a> Known<'a> {
+impl<'a> KnownOfSystem<'a> {
     /// Where covers are sought.
-    pub(super) fn quadrant(&self, model: &Model<'a>) -> Quadrant<'a> {
+    pub(super) fn quadrant(&self, model: &AnalysisModel<'a>) -> Quadrant<'a> {
         Quadrant {
             families: self.families,
             problem: self.problem,
@@ -191,10 +192,11 @@ impl<'a> Known<'a> {
     }
 
     /// The known solution in doubles that is nearest to a certified one.
-    fn start_of(&self, solution: &CertifiedSolution) -> Option<Start> {
+    fn start_of(&self, solution: &CertifiedSolution) -> Option<BranchStart> {
         let mu = to_f64(&solution.mu.mid());
         let lambda2 = to_f64(&solution.lambda2.mid());
-        let distance = |start: &&Start| [(start.mu - mu).abs(), (start.lambda2 - lambda2).abs()];
+        let distance =
+            |start: &&BranchStart| [(start.mu - mu).abs(), (start.lambda2 - lambda2).abs()];
         let nearest = self.starts.iter().min_by(|p, q| {
             let [p, q] = [distance(p), distance(q)];
             p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
@@ -219,8 +221,8 @@ const BOUNDS_WITHOUT_SOLUTION: [i64; 3] = [16, 1 << 10, 1 << 24];
 
 /// Bounds the infimum from both sides.
 pub(super) fn critical(
-    model: &Model<'_>,
-    known: &Known<'_>,
+    model: &AnalysisModel<'_>,
+    known: &KnownOfSystem<'_>,
     proofs: &mut Vec<Proof>,
 ) -> Result<CriticalFound, AnalysisError> {
     let solution = known.smallest_solution();
@@ -240,7 +242,7 @@ pub(super) fn critical(
         });
     };
 
-    let mut bounds = Bounds {
+    let mut bounds = CriticalBounds {
         start: solution.as_ref().and_then(|found| known.start_of(found)),
         solution,
         of_solution: None,
@@ -254,7 +256,7 @@ pub(super) fn critical(
         let scale = unit_of_lambda2(&known.families.own)?;
         let search = CriticalSearch {
             model,
-            branches: Branches::new(model.system, scale)?,
+            branches: BranchFollower::new(model.system, scale)?,
             scale,
             quadrant: known.quadrant(model),
             problem: known.problem,
@@ -277,21 +279,21 @@ pub(super) fn critical(
 }
 
 /// What is proved so far.
-struct Bounds {
+struct CriticalBounds {
     solution: Option<CertifiedSolution>,
     /// The same in doubles.
-    start: Option<Start>,
+    start: Option<BranchStart>,
     /// The proof of that solution, if it is none of those known before.
     of_solution: Option<Proof>,
     absence: Option<Proved<CriticalCertificate>>,
     /// The bound tried last in vain.
     unproved: Option<Unproved>,
     /// Where condensation is to be precise.
-    places: Vec<Place>,
+    places: Vec<PrecisePlace>,
     last: LastFamily,
 }
 
-impl Bounds {
+impl CriticalBounds {
     /// The mu of the known solution, at least a bound below it.
     fn at_most(&self, below: &Rational) -> Rational {
         let known = self.solution.iter().map(|solution| solution.mu.hi());
@@ -317,7 +319,7 @@ impl Bounds {
     /// Makes condensation more precise at a value of lambda^2; false where that is no longer worth
     /// trying.
     fn sharpen(&mut self, lambda2: f64, scale: f64) -> bool {
-        let place = Place::sharper(&self.places, lambda2, scale);
+        let place = PrecisePlace::sharper(&self.places, lambda2, scale);
         self.places.push(place);
         place.near >= LEAST_NEAR
     }
@@ -334,7 +336,7 @@ impl Bounds {
     fn into_critical(
         self,
         excluded: Rational,
-        known: &Known<'_>,
+        known: &KnownOfSystem<'_>,
         proofs: &mut Vec<Proof>,
     ) -> Critical {
         let solution = match (self.solution, self.of_solution) {
@@ -390,8 +392,8 @@ enum Next {
 
 /// The search for both bounds.
 struct CriticalSearch<'a> {
-    model: &'a Model<'a>,
-    branches: Branches,
+    model: &'a AnalysisModel<'a>,
+    branches: BranchFollower,
     /// The unit of lambda^2.
     scale: f64,
     quadrant: Quadrant<'a>,
@@ -403,8 +405,12 @@ struct CriticalSearch<'a> {
 
 impl CriticalSearch<'_> {
     /// Follows the known solutions to their minima and certifies the smallest.
-    fn follow(&self, starts: &[Start], bounds: &mut Bounds) -> Result<(), AnalysisError> {
-        let mut starts: Vec<&Start> = starts.iter().collect();
+    fn follow(
+        &self,
+        starts: &[BranchStart],
+        bounds: &mut CriticalBounds,
+    ) -> Result<(), AnalysisError> {
+        let mut starts: Vec<&BranchStart> = starts.iter().collect();
         starts.sort_by(|p, q| p.mu.total_cmp(&q.mu));
         starts.truncate(MAX_STARTS);
 
@@ -432,7 +438,7 @@ impl CriticalSearch<'_> {
 
         if let Some(solution) = &bounds.solution {
             let lambda2 = to_f64(&solution.lambda2.mid());
-            bounds.places.push(Place {
+            bounds.places.push(PrecisePlace {
                 lambda2,
                 near: FIRST_NEAR,
             });
@@ -443,7 +449,11 @@ impl CriticalSearch<'_> {
 
     /// Certifies a solution in doubles, if its mu is smaller than that of the known one; is it
     /// known afterwards?
-    fn certify(&self, minimum: &Minimum, bounds: &mut Bounds) -> Result<bool, AnalysisError> {
+    fn certify(
+        &self,
+        minimum: &Minimum,
+        bounds: &mut CriticalBounds,
+    ) -> Result<bool, AnalysisError> {
         if self.model.stopped() || !bounds.is_smaller(minimum.point.mu) {
             return Ok(false);
         }
@@ -459,7 +469,7 @@ impl CriticalSearch<'_> {
 
         let moved_to = to_f64(&lambda2);
 
-        bounds.start = Some(Start {
+        bounds.start = Some(BranchStart {
             lambda2: moved_to,
             mu: moved.mu,
             x: moved.x,
@@ -508,7 +518,7 @@ impl CriticalSearch<'_> {
     fn close_from_below(
         &self,
         excluded: &Rational,
-        bounds: &mut Bounds,
+        bounds: &mut CriticalBounds,
     ) -> Result<(), AnalysisError> {
         if bounds.solution.is_none() {
             self.far_bounds(excluded, bounds)?;
@@ -534,7 +544,11 @@ impl CriticalSearch<'_> {
     }
 
     /// Proves absence far beyond the condition, where no solution is known; or finds one.
-    fn far_bounds(&self, excluded: &Rational, bounds: &mut Bounds) -> Result<(), AnalysisError> {
+    fn far_bounds(
+        &self,
+        excluded: &Rational,
+        bounds: &mut CriticalBounds,
+    ) -> Result<(), AnalysisError> {
         let units = [to_f64(excluded), to_f64(self.friction)];
         let unit = units.into_iter().find(|mu| *mu > 0.0).unwrap_or(1.0);
         for factor in BOUNDS_WITHOUT_SOLUTION {
@@ -555,7 +569,11 @@ impl CriticalSearch<'_> {
     }
 
     /// Looks for solutions well below the known one, without a proof.
-    fn find_smaller(&self, excluded: &Rational, bounds: &mut Bounds) -> Result<(), AnalysisError> {
+    fn find_smaller(
+        &self,
+        excluded: &Rational,
+        bounds: &mut CriticalBounds,
+    ) -> Result<(), AnalysisError> {
         for _ in 0..ROUNDS_PER_GAP {
             let Some(below) = bounds
                 .short_bound(FIRST_GAP)
@@ -567,7 +585,7 @@ impl CriticalSearch<'_> {
             let stage = "critical mu: looking for smaller solutions";
             let relay = |progress: &Progress<'_>| self.model.relay(stage, progress);
             let quadrant = self.quadrant.heard_by(&relay);
-            let bound = Bound {
+            let bound = AbsenceBound {
                 from: &Rational::zero(),
                 below: &below,
                 at_most: &bounds.at_most(&below),
@@ -588,7 +606,7 @@ impl CriticalSearch<'_> {
         &self,
         gap: f64,
         excluded: &Rational,
-        bounds: &mut Bounds,
+        bounds: &mut CriticalBounds,
     ) -> Result<bool, AnalysisError> {
         for _ in 0..ROUNDS_PER_GAP {
             let Some(below) = bounds.short_bound(gap) else {
@@ -613,7 +631,7 @@ impl CriticalSearch<'_> {
     fn attempt(
         &self,
         below: &Rational,
-        bounds: &mut Bounds,
+        bounds: &mut CriticalBounds,
     ) -> Result<Option<Next>, AnalysisError> {
         if self.model.stopped() {
             bounds.not_proved(below, Obstacle::Interrupted, None);
@@ -623,7 +641,7 @@ impl CriticalSearch<'_> {
         let stage = format!("critical mu: proving absence below {:.7}", to_f64(below));
         let relay = |progress: &Progress<'_>| self.model.relay(&stage, progress);
         let quadrant = self.quadrant.heard_by(&relay);
-        let bound = Bound {
+        let bound = AbsenceBound {
             from: &Rational::zero(),
             below,
             at_most: &bounds.at_most(below),
@@ -669,7 +687,7 @@ impl CriticalSearch<'_> {
     fn learn_from(
         &self,
         obstacles: &[Blocked],
-        bounds: &mut Bounds,
+        bounds: &mut CriticalBounds,
     ) -> Result<Next, AnalysisError> {
         for blocked in obstacles {
             let [lambda2, mu] = blocked.middle;
@@ -677,7 +695,7 @@ impl CriticalSearch<'_> {
             if let Some(minimum) = minimum
                 && self.certify(&minimum, bounds)?
             {
-                bounds.places.push(Place {
+                bounds.places.push(PrecisePlace {
                     lambda2: minimum.point.t,
                     near: FIRST_NEAR,
                 });

@@ -87,8 +87,8 @@ impl Eliminated {
         let [coupling_a, coupling_b] =
             [a, b].map(|m| integral(&m.submatrix(kept, &eliminated), &scale));
         let parts = [
-            Part::of(&block, coupling_a, of_a, unit)?,
-            Part::of(&block, coupling_b, of_b, unit)?,
+            EliminatedPart::of(&block, coupling_a, of_a, unit)?,
+            EliminatedPart::of(&block, coupling_b, of_b, unit)?,
         ];
 
         // D in the units of Z.
@@ -99,7 +99,7 @@ impl Eliminated {
 
         Some(Eliminated {
             z: schur(&parts, &diagonal, unit),
-            residual: parts.each_ref().map(Part::residual_bound),
+            residual: parts.each_ref().map(EliminatedPart::residual_bound),
             sigma: sigma * scale,
         })
     }
@@ -156,7 +156,7 @@ impl Eliminated {
 }
 
 /// What belongs to A or to B: columns over the eliminated variables, one for each kept variable.
-struct Part {
+struct EliminatedPart {
     /// The columns of C.
     coupling: Vec<SparseLine>,
     /// W in units of 2^-e.
@@ -165,14 +165,14 @@ struct Part {
     residual: Vec<Vec<Integer>>,
 }
 
-impl Part {
+impl EliminatedPart {
     /// `block` holds the rows of F. `None` where a number of W is not finite.
     fn of(
         block: &[SparseLine],
         coupling: Vec<SparseLine>,
         solutions: &[Vec<f64>],
         unit: i32,
-    ) -> Option<Part> {
+    ) -> Option<EliminatedPart> {
         let in_units = |v: &f64| truncated((v * f64::from(unit).exp2()).round());
 
         let mut w = Vec::with_capacity(coupling.len());
@@ -192,7 +192,7 @@ impl Part {
             residual.push(r);
         }
 
-        Some(Part {
+        Some(EliminatedPart {
             coupling,
             w,
             residual,
@@ -206,7 +206,7 @@ impl Part {
     }
 
     /// (C'W + W'R)_ij with W and R of the other part, in units of 2^-2e.
-    fn product(&self, other: &Part, i: usize, j: usize, unit: i32) -> Integer {
+    fn product(&self, other: &EliminatedPart, i: usize, j: usize, unit: i32) -> Integer {
         let of_coupling = sparse_dot(&self.coupling[i], &other.w[j]);
         let mut sum = shifted(&of_coupling, unit);
         for (w, r) in self.w[i].iter().zip(&other.residual[j]) {
@@ -218,7 +218,7 @@ impl Part {
 }
 
 /// The coefficients of Z(mu) in units of 2^-2e, from those of D in the same units.
-fn schur([of_a, of_b]: &[Part; 2], [d_a, d_b]: &[Sparse; 2], unit: i32) -> [Sparse; 3] {
+fn schur([of_a, of_b]: &[EliminatedPart; 2], [d_a, d_b]: &[Sparse; 2], unit: i32) -> [Sparse; 3] {
     let order = of_a.w.len();
     let constant = |i, j| of_a.product(of_a, i, j, unit);
     let linear = |i, j| of_a.product(of_b, i, j, unit) + of_b.product(of_a, i, j, unit);
@@ -359,12 +359,12 @@ mod tests {
         let coupling = [&a, &b].map(|m| integral(&m.submatrix(&kept, &rest), &whole(30)));
         let zero = vec![vec![0.0; 58]; 2];
 
-        let parts = coupling.map(|c| Part::of(&block, c, &zero, 0).unwrap());
+        let parts = coupling.map(|c| EliminatedPart::of(&block, c, &zero, 0).unwrap());
         let none = Sparse::zeros(2, 2);
         let diagonal = [&a, &b].map(|m| none.add_scaled(&whole(30), &m.submatrix(&kept, &kept)));
         let eliminated = Eliminated {
             z: schur(&parts, &diagonal, 0),
-            residual: parts.each_ref().map(Part::residual_bound),
+            residual: parts.each_ref().map(EliminatedPart::residual_bound),
             sigma: whole(3), // below the least eigenvalue of 30 F, which is 30 (0.1 + 0.003)
         };
 

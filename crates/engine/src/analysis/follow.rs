@@ -36,7 +36,7 @@ pub(super) struct Minimum {
 }
 
 /// The system condensed in doubles.
-pub(super) struct Branches {
+pub(super) struct BranchFollower {
     condensation: SparseCondensation,
     /// Positions of right and left of each particle with zero reaction.
     halves: Vec<[usize; 2]>,
@@ -44,7 +44,7 @@ pub(super) struct Branches {
     scale: f64,
 }
 
-impl BranchPencils for Branches {
+impl BranchPencils for BranchFollower {
     type Slice<'a> = SparseCondensed<'a>;
 
     fn at(&self, t: f64) -> Option<SparseCondensed<'_>> {
@@ -71,16 +71,16 @@ impl Slice for SparseCondensed<'_> {
     }
 }
 
-impl Branches {
+impl BranchFollower {
     /// # Errors
     /// [`AnalysisError::NotCondensed`].
-    pub(super) fn new(system: &System, scale: f64) -> Result<Branches, AnalysisError> {
+    pub(super) fn new(system: &System, scale: f64) -> Result<BranchFollower, AnalysisError> {
         let condensation = SparseCondensation::of_system(system)
             .map_err(|source| AnalysisError::NotCondensed(source.to_string()))?;
 
         let free = system.free_dofs().len();
         let zero = zero_variables(system).into_iter();
-        Ok(Branches {
+        Ok(BranchFollower {
             condensation,
             halves: zero.map(|z| [z.right - free, z.left - free]).collect(),
             scale,
@@ -131,7 +131,7 @@ impl Branches {
     }
 
     /// Follows a support downhill as far as it goes.
-    fn downhill(&self, start: BranchPoint) -> End {
+    fn downhill(&self, start: BranchPoint) -> BranchEnd {
         let direction = if start.slope_of_mu() > 0.0 { -1.0 } else { 1.0 };
         let mut here = start;
         let mut step = BRANCH_STEP * (here.t + self.scale);
@@ -158,7 +158,7 @@ impl Branches {
             }
 
             if next.slope_of_mu() * direction > 0.0 {
-                return End::fold(self.fold(here, next));
+                return BranchEnd::fold(self.fold(here, next));
             }
 
             if next.mu >= here.mu {
@@ -171,7 +171,7 @@ impl Branches {
             step *= 2.0;
         }
 
-        End {
+        BranchEnd {
             last: here,
             kink,
             direction,
@@ -210,7 +210,7 @@ impl Branches {
     }
 
     /// The first point of the neighbouring support beyond a kink, if mu falls there.
-    fn beyond_the_kink(&self, end: &End) -> Option<BranchPoint> {
+    fn beyond_the_kink(&self, end: &BranchEnd) -> Option<BranchPoint> {
         let position = end.kink?;
         let last = &end.last;
         let aside = KINK_SIDE * (last.t + self.scale);
@@ -232,7 +232,7 @@ impl Branches {
 }
 
 /// Where a support has been followed to.
-struct End {
+struct BranchEnd {
     last: BranchPoint,
     /// The position that changes its sign beyond the last point.
     kink: Option<usize>,
@@ -240,7 +240,7 @@ struct End {
     direction: f64,
 }
 
-impl End {
+impl BranchEnd {
     fn minimum(self) -> Minimum {
         let side = if self.kink.is_some() {
             -self.direction
@@ -254,8 +254,8 @@ impl End {
         }
     }
 
-    fn fold(last: BranchPoint) -> End {
-        End {
+    fn fold(last: BranchPoint) -> BranchEnd {
+        BranchEnd {
             last,
             kink: None,
             direction: 1.0,

@@ -50,13 +50,13 @@ pub use unbounded::UnboundedGrowth;
 use crate::run::{Progress, Watch};
 use crate::search::complete::Completed;
 use conditions::{Necessary, is_all_slip};
-use critical::{Known, Start};
+use critical::{BranchStart, KnownOfSystem};
 use divergence::divergence;
 use families::Families;
 use mceip_check::certificate::Certificate;
 use mceip_exact::{Rational, to_f64, whole};
 use mceip_model::{ContactState, Problem, System};
-use model::Model;
+use model::AnalysisModel;
 use num_traits::{Signed, Zero};
 
 /// Analyses a mechanical system at a mu.
@@ -81,7 +81,7 @@ pub fn analyse(
         return Ok(by_theorem::nothing_slips(name, system, friction));
     }
 
-    let model = Model {
+    let model = AnalysisModel {
         system,
         options,
         earlier: None,
@@ -104,7 +104,7 @@ pub fn analyse(
     watch.report(&Progress::stage(
         "critical mu: all lambda^2 >= 0 and all smaller mu",
     ));
-    let known = Known {
+    let known = KnownOfSystem {
         families: &families,
         necessary: &necessary,
         friction,
@@ -170,7 +170,7 @@ pub fn divergence_at(
         return Ok((by_theorem.divergence, None));
     }
 
-    let model = Model {
+    let model = AnalysisModel {
         system,
         options,
         earlier,
@@ -183,7 +183,9 @@ pub fn divergence_at(
 }
 
 /// What every search of a system in which something slips begins with.
-fn families_and_condition(model: &Model<'_>) -> Result<(Families, Necessary), AnalysisError> {
+fn families_and_condition(
+    model: &AnalysisModel<'_>,
+) -> Result<(Families, Necessary), AnalysisError> {
     error::require_doubles(model.system)?;
     let families = Families::of(model.system)?;
 
@@ -202,7 +204,7 @@ struct AtFriction {
     divergence: Divergence,
     sufficient: Option<bool>,
     /// The solutions in doubles.
-    starts: Vec<Start>,
+    starts: Vec<BranchStart>,
     /// The certificate of a search.
     proof: Option<Proof>,
 }
@@ -210,7 +212,7 @@ struct AtFriction {
 impl AtFriction {
     /// By a complete search, or for mu = 0 by a theorem.
     fn decide(
-        model: &Model<'_>,
+        model: &AnalysisModel<'_>,
         families: &Families,
         necessary: &Necessary,
         friction: &Rational,
@@ -247,20 +249,20 @@ impl AtFriction {
 
 /// A problem with the certificate that a complete search made for it, handed over to the keeper of
 /// the run.
-fn proof(model: &Model<'_>, name: &str, problem: Problem, found: Completed) -> Proof {
+fn proof(model: &AnalysisModel<'_>, name: &str, problem: Problem, found: Completed) -> Proof {
     let certificate = ProofCertificate::Solutions(found.proved);
     model.keep(name, &problem, &certificate);
     Proof::new(name, problem, certificate)
 }
 
 /// The solutions of a complete search in doubles; `place` gives lambda^2 and mu of a value.
-fn starts(found: &Completed, slip: &[usize], place: impl Fn(f64) -> [f64; 2]) -> Vec<Start> {
+fn starts(found: &Completed, slip: &[usize], place: impl Fn(f64) -> [f64; 2]) -> Vec<BranchStart> {
     let mut starts = Vec::new();
     for (solution, x) in found.solutions() {
         let [lambda2, mu] = place(to_f64(&solution.value.mid()));
         let x: Vec<f64> = slip.iter().map(|&i| x[i]).collect();
         if x.iter().all(|v| v.is_finite()) {
-            starts.push(Start { lambda2, mu, x });
+            starts.push(BranchStart { lambda2, mu, x });
         }
     }
 

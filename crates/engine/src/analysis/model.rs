@@ -39,7 +39,7 @@ impl Default for Options {
 }
 
 /// The system and how to search it.
-pub(super) struct Model<'a> {
+pub(super) struct AnalysisModel<'a> {
     pub(super) system: &'a System,
     pub(super) options: &'a Options,
     /// What an earlier run has proved of one of the problems.
@@ -47,7 +47,7 @@ pub(super) struct Model<'a> {
     pub(super) watch: Watch<'a>,
 }
 
-impl Model<'_> {
+impl AnalysisModel<'_> {
     /// MCEIP-lambda2 at a mu, or MCEIP-mu, for the contact states of the system.
     pub(super) fn problem(&self, friction: Option<&Rational>) -> Result<Problem, AnalysisError> {
         let mass = self.system.mass().ok_or(AnalysisError::NoMass)?;

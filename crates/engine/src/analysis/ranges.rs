@@ -11,14 +11,14 @@
 //! Input: what is known of the system, and its critical mu. Output: [`Ranges`]. Called by
 //! [`analyse`](super::analyse).
 
-use super::absence::{Family, Place};
+use super::absence::{HalfLineFamily, PrecisePlace};
 use super::absent_ranges;
 use super::answer::Analysis;
-use super::critical::{CertifiedSolution, Critical, CriticalFound, Known, Start};
+use super::critical::{BranchStart, CertifiedSolution, Critical, CriticalFound, KnownOfSystem};
 use super::divergence::{Verdict, verdict};
 use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
-use super::model::Model;
+use super::model::AnalysisModel;
 use super::presence::{PresenceGround, Prover};
 use super::starts;
 use crate::run::Progress;
@@ -102,8 +102,8 @@ pub(super) struct Ranges {
 /// The proved range below the bound, and from it to twice the largest mu of interest what is proved
 /// present, and samples of the rest.
 pub(super) fn ranges(
-    model: &Model<'_>,
-    known: &Known<'_>,
+    model: &AnalysisModel<'_>,
+    known: &KnownOfSystem<'_>,
     found: CriticalFound,
     proofs: &mut Vec<Proof>,
 ) -> Result<Ranges, AnalysisError> {
@@ -194,7 +194,11 @@ pub(super) fn ranges(
 }
 
 /// Keeps the proofs of presence found so far.
-fn keep_presence(model: &Model<'_>, known: &Known<'_>, proved: &[Proved<PresenceCertificate>]) {
+fn keep_presence(
+    model: &AnalysisModel<'_>,
+    known: &KnownOfSystem<'_>,
+    proved: &[Proved<PresenceCertificate>],
+) {
     for (k, certificate) in proved.iter().enumerate() {
         let certificate = ProofCertificate::Presence(certificate.clone());
         model.keep(&presence_name(k), known.problem, &certificate);
@@ -223,7 +227,7 @@ fn below_bound(critical: &Critical) -> Option<Range> {
 
 /// The largest of the mu that was asked for, the thresholds, and the critical mu; 1 where all of
 /// them are 0.
-fn largest_of_interest(known: &Known<'_>, critical: &Critical) -> Rational {
+fn largest_of_interest(known: &KnownOfSystem<'_>, critical: &Critical) -> Rational {
     let mut largest = known.friction;
     let of_solution = critical.solution.iter().map(|s| s.mu.hi());
     for mu in known
@@ -244,9 +248,9 @@ fn largest_of_interest(known: &Known<'_>, critical: &Critical) -> Rational {
 
 /// Where presence is to be proved: for mu in [bottom, top], from known solutions.
 struct PresenceTask<'a, 'b> {
-    model: &'b Model<'a>,
-    known: &'b Known<'a>,
-    smallest: &'b Start,
+    model: &'b AnalysisModel<'a>,
+    known: &'b KnownOfSystem<'a>,
+    smallest: &'b BranchStart,
     bottom: f64,
     top: &'b Rational,
 }
@@ -267,7 +271,7 @@ impl<'a> PresenceTask<'a, '_> {
     /// A second prover, condensed also about the values of lambda^2 at which `prover` failed.
     ///
     /// `None` where it proves no more to doubles, cannot be condensed, or takes long.
-    fn proved_precisely(&self, prover: &Prover<'a>, places: &[Place]) -> Option<Prover<'a>> {
+    fn proved_precisely(&self, prover: &Prover<'a>, places: &[PrecisePlace]) -> Option<Prover<'a>> {
         let families = self.known.families;
         let stiffness = &families.own.stiffness;
         let is_cheap = stiffness.order() <= LARGEST_ORDER_CONDENSED_TWICE;
@@ -278,7 +282,7 @@ impl<'a> PresenceTask<'a, '_> {
         }
 
         let all_places = [places, &imprecise].concat();
-        let family = Family::new(families, self.top, &all_places).ok()?;
+        let family = HalfLineFamily::new(families, self.top, &all_places).ok()?;
 
         let mut precise = Prover::new(prover.ground(), family);
         self.prove(&mut precise);
@@ -292,10 +296,10 @@ impl<'a> PresenceTask<'a, '_> {
 /// What proves presence; `None` for particles with zero reaction, of which the certificates do not
 /// speak, and where the work was cancelled.
 fn prover<'a>(
-    model: &Model<'a>,
-    known: &Known<'a>,
-    family: Option<Family>,
-    places: &[Place],
+    model: &AnalysisModel<'a>,
+    known: &KnownOfSystem<'a>,
+    family: Option<HalfLineFamily>,
+    places: &[PrecisePlace],
     top: &Rational,
 ) -> Result<Option<Prover<'a>>, AnalysisError> {
     if model.stopped() || !known.families.zero.is_empty() || known.families.own.mass.is_none() {
@@ -308,7 +312,7 @@ fn prover<'a>(
     };
     let family = match family {
         Some(family) => family,
-        None => Family::new(known.families, top, places)?,
+        None => HalfLineFamily::new(known.families, top, places)?,
     };
     Ok(Some(Prover::new(ground, family)))
 }
@@ -353,7 +357,7 @@ fn first_sample(critical: &Critical, below: &Rational, top: &Rational) -> Ration
 }
 
 /// The solution of smallest lambda^2 that was met at a sample, with its proof.
-fn solution_of(met: Met) -> Option<(CertifiedSolution, Proof)> {
+fn solution_of(met: SampleWithSolutions) -> Option<(CertifiedSolution, Proof)> {
     let lambda2 = met.found.cover.solutions.first()?.value.clone();
     let solution = CertifiedSolution {
         mu: Interval::point(met.mu),
@@ -365,7 +369,7 @@ fn solution_of(met: Met) -> Option<(CertifiedSolution, Proof)> {
 }
 
 /// A sample with solutions.
-struct Met {
+struct SampleWithSolutions {
     mu: Rational,
     problem: Problem,
     found: Completed,
@@ -373,15 +377,15 @@ struct Met {
 
 /// Decides divergence at values of mu.
 struct Sampler<'a> {
-    model: &'a Model<'a>,
+    model: &'a AnalysisModel<'a>,
     /// The slip variables of the pencil.
     slip: Vec<usize>,
     /// Where presence is proved, ascending.
     proved: Vec<Proved<PresenceCertificate>>,
     /// The solutions met, in doubles.
-    starts: Vec<Start>,
+    starts: Vec<BranchStart>,
     /// The sample of smallest mu with a solution.
-    smallest: Option<Met>,
+    smallest: Option<SampleWithSolutions>,
 }
 
 impl Sampler<'_> {
@@ -481,7 +485,7 @@ impl Sampler<'_> {
         self.starts.extend(met);
         let is_smallest = self.smallest.as_ref().is_none_or(|met| mu < met.mu);
         if verdict == Verdict::Present && is_smallest {
-            self.smallest = Some(Met {
+            self.smallest = Some(SampleWithSolutions {
                 mu: mu.clone(),
                 problem,
                 found,

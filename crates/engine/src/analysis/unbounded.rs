@@ -25,7 +25,7 @@ use super::conditions::{DefiniteUntil, Necessary};
 use super::critical::Critical;
 use super::error::AnalysisError;
 use super::evidence::{Evidence, Proof, ProofCertificate};
-use super::model::Model;
+use super::model::AnalysisModel;
 use super::threshold::StaticThreshold;
 use crate::magnitude::{binary_order, two_to};
 use crate::search::complete::Completed;
@@ -76,7 +76,7 @@ impl UnboundedGrowth {
 
 /// Looks for it where the condition on M* leaves a solution of smallest mu at infinity possible.
 pub(super) fn unbounded(
-    model: &Model<'_>,
+    model: &AnalysisModel<'_>,
     necessary: &Necessary,
     critical: &Critical,
     proofs: &mut Vec<Proof>,
@@ -150,7 +150,7 @@ fn regular_support(found: &Completed, problem: &Problem, mu: &Interval) -> Optio
 /// A solution of large lambda^2 with this support, whose mu lies beside this one and is certainly
 /// another, and its proof.
 fn beside(
-    model: &Model<'_>,
+    model: &AnalysisModel<'_>,
     support: &[usize],
     mu: &Interval,
 ) -> Result<Option<(LargeGrowth, Proof)>, AnalysisError> {

@@ -32,7 +32,7 @@ const NEAR_ZERO: f64 = 0.02;
 const PIECES: usize = 16;
 
 /// T0 and T1 over [0, infinity).
-pub(in crate::analysis) struct Family {
+pub(in crate::analysis) struct HalfLineFamily {
     /// P0 and P1.
     pencils: [Pencil; 2],
     /// The same of the system in which particles with zero reaction are free, if there are such.
@@ -48,16 +48,20 @@ pub(in crate::analysis) struct Family {
 
 /// A value of lambda^2 about which condensation is to be precise.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::analysis) struct Place {
+pub(in crate::analysis) struct PrecisePlace {
     pub(in crate::analysis) lambda2: f64,
     /// Its anchor is used within this share of lambda^2 + the lowest frequency.
     pub(in crate::analysis) near: f64,
 }
 
-impl Place {
+impl PrecisePlace {
     /// The place about a value at which condensation was not precise enough with these places:
     /// nearer than each of them that reaches it. `scale` is [`unit_of_lambda2`].
-    pub(in crate::analysis) fn sharper(places: &[Place], lambda2: f64, scale: f64) -> Place {
+    pub(in crate::analysis) fn sharper(
+        places: &[PrecisePlace],
+        lambda2: f64,
+        scale: f64,
+    ) -> PrecisePlace {
         let mut near = FIRST_NEAR;
         for place in places {
             if (place.lambda2 - lambda2).abs() <= place.near * (lambda2 + scale) {
@@ -65,7 +69,7 @@ impl Place {
             }
         }
 
-        Place { lambda2, near }
+        PrecisePlace { lambda2, near }
     }
 }
 
@@ -77,7 +81,7 @@ pub(in crate::analysis) struct PieceOfHalfLine {
     pub(in crate::analysis) anchor: Option<usize>,
 }
 
-impl Family {
+impl HalfLineFamily {
     /// Condenses both parts. `places` are values of lambda^2 about which the enclosure is to be
     /// tight; `friction` is at least the friction below which absence is to be proved.
     ///
@@ -86,8 +90,8 @@ impl Family {
     pub(in crate::analysis) fn new(
         families: &Families,
         friction: &Rational,
-        places: &[Place],
-    ) -> Result<Family, CompleteError> {
+        places: &[PrecisePlace],
+    ) -> Result<HalfLineFamily, CompleteError> {
         let pencils = parts_of(&families.own)?;
         let [without_friction, of_friction] = &pencils;
         let tail_pencils = if families.zero.is_empty() {
@@ -114,7 +118,8 @@ impl Family {
             }
 
             // Those that reach far first: the others are cut out of their pieces.
-            let mut others: Vec<&Place> = places.iter().filter(|p| p.lambda2 > near_zero).collect();
+            let mut others: Vec<&PrecisePlace> =
+                places.iter().filter(|p| p.lambda2 > near_zero).collect();
             others.sort_by(|p, q| q.near.total_cmp(&p.near));
             for place in others {
                 let values = [place.lambda2];
@@ -163,7 +168,7 @@ impl Family {
             .collect();
 
         let pieces = pieces_of(&prepared);
-        Ok(Family {
+        Ok(HalfLineFamily {
             pencils,
             tail_pencils,
             prepared,

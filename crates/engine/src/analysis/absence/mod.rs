@@ -24,7 +24,7 @@ use crate::search::complete::tree::TreeSearch;
 use boxes::Absence;
 pub(super) use boxes::{Blocked, Cause};
 use family::PieceOfHalfLine;
-pub(super) use family::{Family, Place, unit_of_lambda2};
+pub(super) use family::{HalfLineFamily, PrecisePlace, unit_of_lambda2};
 use mceip_check::Proved;
 use mceip_check::certificate::{CriticalCertificate, Node, Piece};
 use mceip_exact::Rational;
@@ -82,8 +82,8 @@ pub(super) struct LastFamily(Option<KeptFamily>);
 struct KeptFamily {
     /// It serves absence below any friction up to this one.
     friction: Rational,
-    places: Vec<Place>,
-    family: Family,
+    places: Vec<PrecisePlace>,
+    family: HalfLineFamily,
 }
 
 impl LastFamily {
@@ -92,8 +92,8 @@ impl LastFamily {
         &mut self,
         families: &Families,
         friction: &Rational,
-        places: &[Place],
-    ) -> Result<&mut Family, CompleteError> {
+        places: &[PrecisePlace],
+    ) -> Result<&mut HalfLineFamily, CompleteError> {
         let serves = |last: &KeptFamily| last.places == places && *friction <= last.friction;
         let last = self.0.take().filter(serves);
         let last = match last {
@@ -101,21 +101,21 @@ impl LastFamily {
             None => KeptFamily {
                 friction: friction.clone(),
                 places: places.to_vec(),
-                family: Family::new(families, friction, places)?,
+                family: HalfLineFamily::new(families, friction, places)?,
             },
         };
 
         Ok(&mut self.0.insert(last).family)
     }
 
-    pub(super) fn into_family(self) -> Option<Family> {
+    pub(super) fn into_family(self) -> Option<HalfLineFamily> {
         self.0.map(|last| last.family)
     }
 }
 
 /// What is to be proved.
 #[derive(Clone, Copy)]
-pub(super) struct Bound<'a> {
+pub(super) struct AbsenceBound<'a> {
     /// Lower end of the interval of mu, included.
     pub(super) from: &'a Rational,
     /// Upper end, included.
@@ -123,7 +123,7 @@ pub(super) struct Bound<'a> {
     /// The condensation is made for mu up to here.
     pub(super) at_most: &'a Rational,
     /// Where condensation is to be precise.
-    pub(super) places: &'a [Place],
+    pub(super) places: &'a [PrecisePlace],
 }
 
 /// A system whose covers are sought.
@@ -155,7 +155,7 @@ impl<'a> Quadrant<'a> {
     /// As [`Quadrant::cover`].
     pub(super) fn obstacles(
         &self,
-        bound: &Bound<'_>,
+        bound: &AbsenceBound<'_>,
         last: &mut LastFamily,
     ) -> Result<Vec<Blocked>, CompleteError> {
         let proposed = self.proposed(self.family(bound, last)?, bound);
@@ -164,9 +164,9 @@ impl<'a> Quadrant<'a> {
 
     fn family<'b>(
         &self,
-        bound: &Bound<'_>,
+        bound: &AbsenceBound<'_>,
         last: &'b mut LastFamily,
-    ) -> Result<&'b mut Family, CompleteError> {
+    ) -> Result<&'b mut HalfLineFamily, CompleteError> {
         self.watch.report(&Progress::stage("condensing"));
         last.of(self.families, bound.at_most, bound.places)
     }
@@ -177,7 +177,7 @@ impl<'a> Quadrant<'a> {
     /// [`CompleteError`]: free variables that cannot be eliminated, too many slip variables.
     pub(super) fn cover(
         &self,
-        bound: &Bound<'_>,
+        bound: &AbsenceBound<'_>,
         last: &mut LastFamily,
     ) -> Result<CoverOutcome, CompleteError> {
         let family = self.family(bound, last)?;
@@ -208,8 +208,8 @@ impl<'a> Quadrant<'a> {
     /// The cover that doubles propose.
     fn proposed(
         &self,
-        family: &Family,
-        bound: &Bound<'_>,
+        family: &HalfLineFamily,
+        bound: &AbsenceBound<'_>,
     ) -> Result<CriticalCertificate, Vec<Blocked>> {
         let shares = Shares::new(self.watch);
         let share = 1.0 / family.pieces.len() as f64;
@@ -243,9 +243,9 @@ impl<'a> Quadrant<'a> {
     /// One piece, covered.
     fn piece(
         &self,
-        family: &Family,
+        family: &HalfLineFamily,
         piece: &PieceOfHalfLine,
-        bound: &Bound<'_>,
+        bound: &AbsenceBound<'_>,
         shares: &Shares<'_>,
         share: f64,
     ) -> Result<Piece, Blocked> {
@@ -298,14 +298,14 @@ mod tests {
     use mceip_paper::{Block, BlockModel, two_particles};
 
     /// Covers [0, infinity) x [0, below] for a system with mass and friction.
-    fn cover(system: &System, below: f64, places: &[Place]) -> CoverOutcome {
+    fn cover(system: &System, below: f64, places: &[PrecisePlace]) -> CoverOutcome {
         watched_cover(system, below, places, Watch::nobody())
     }
 
     fn watched_cover(
         system: &System,
         below: f64,
-        places: &[Place],
+        places: &[PrecisePlace],
         watch: Watch<'_>,
     ) -> CoverOutcome {
         let families = Families::of(system).unwrap();
@@ -320,7 +320,7 @@ mod tests {
         };
 
         let below = from_f64(below).unwrap();
-        let bound = Bound {
+        let bound = AbsenceBound {
             from: &whole(0),
             below: &below,
             at_most: &below,
@@ -367,13 +367,13 @@ mod tests {
             signs: (1, 1),
         };
         let families = Families::of(&two_particles(&data).unwrap()).unwrap();
-        let place = Place {
+        let place = PrecisePlace {
             lambda2: 1.0,
             near: 0.1,
         };
 
         let mut last = LastFamily::default();
-        let mut made_for = |friction: i64, places: &[Place]| {
+        let mut made_for = |friction: i64, places: &[PrecisePlace]| {
             last.of(&families, &whole(friction), places).unwrap();
             last.0.as_ref().unwrap().friction.clone()
         };
@@ -393,7 +393,7 @@ mod tests {
         critical: f64,
         lambda2: f64,
     ) -> Vec<Blocked> {
-        let place = Place {
+        let place = PrecisePlace {
             lambda2,
             near: 0.03,
         };
@@ -472,7 +472,7 @@ mod tests {
         let system = block.system(&states, Some(whole(1))).unwrap();
         let families = Families::of(&system).unwrap();
 
-        let family = Family::new(&families, &whole(2), &[]).unwrap();
+        let family = HalfLineFamily::new(&families, &whole(2), &[]).unwrap();
 
         assert!(family.pieces.len() > 1);
         let mut lo = Rational::default();

@@ -43,7 +43,7 @@ const UNIT_OF_WIDTH: f64 = 0.1;
 
 /// An interval of mu with the piece that proves it.
 #[derive(Debug, Clone)]
-pub(super) struct Stretch {
+pub(super) struct PresenceStretch {
     pub(super) low: f64,
     pub(super) high: f64,
     pub(super) piece: PresencePiece,
@@ -60,17 +60,17 @@ pub(super) struct Climb<'a> {
 #[derive(Debug, Default)]
 pub(super) struct Followed {
     /// In the order followed.
-    pub(super) stretches: Vec<Stretch>,
+    pub(super) stretches: Vec<PresenceStretch>,
     /// Values of lambda^2 at which a piece fails although the support does not change: probably
     /// because condensation is not precise enough there.
     pub(super) imprecise: Vec<f64>,
 }
 
 /// The next point of a curve.
-struct Reached {
+struct ClimbedPoint {
     point: BranchPoint,
     /// The proof on the way there, if one was asked for.
-    stretch: Option<Stretch>,
+    stretch: Option<PresenceStretch>,
 }
 
 impl Climb<'_> {
@@ -148,7 +148,7 @@ impl Climb<'_> {
     }
 
     /// The curve from a point to a mu; `None` where that is not reached, or not proved.
-    fn attempt(&self, here: &BranchPoint, mu: f64, is_proving: bool) -> Option<Reached> {
+    fn attempt(&self, here: &BranchPoint, mu: f64, is_proving: bool) -> Option<ClimbedPoint> {
         let is_regular = |point: &BranchPoint| point.violated.is_none();
         let point = self.curves.at_friction(mu, here).filter(is_regular)?;
 
@@ -157,7 +157,7 @@ impl Climb<'_> {
         } else {
             None
         };
-        Some(Reached { point, stretch })
+        Some(ClimbedPoint { point, stretch })
     }
 
     /// A point beyond a place that is left out, on this support or another.
@@ -177,7 +177,7 @@ impl Climb<'_> {
     }
 
     /// The proof between two points of a curve.
-    fn stretch(&self, one: &BranchPoint, other: &BranchPoint) -> Option<Stretch> {
+    fn stretch(&self, one: &BranchPoint, other: &BranchPoint) -> Option<PresenceStretch> {
         let [below, above] = if one.mu < other.mu {
             [one, other]
         } else {
@@ -205,7 +205,7 @@ impl Climb<'_> {
 
             let mu = [below.mu, above.mu];
             if let Some(piece) = witness.piece(&CurveBox { t, mu }, expansions, index) {
-                return Some(Stretch {
+                return Some(PresenceStretch {
                     low: below.mu,
                     high: above.mu,
                     piece: PresencePiece { anchor, ..piece },

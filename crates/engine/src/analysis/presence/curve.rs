@@ -3,7 +3,7 @@
 //! T comes from the expansions that the certificate will rest on, remainders left out; the rest is
 //! `branch`. Called by `climb`.
 
-use super::super::absence::Family;
+use super::super::absence::HalfLineFamily;
 use crate::branch::{BranchPencils, BranchPoint, BranchUnknown, Slice};
 use crate::search::complete::pieces::expansion::Expansion;
 use crate::search::complete::pieces::matrix::{SquareMatrix, combined, times};
@@ -12,7 +12,7 @@ use mceip_exact::to_f64;
 /// The curves of a system.
 #[derive(Clone, Copy)]
 pub(super) struct Curves<'a> {
-    pub(super) family: &'a Family,
+    pub(super) family: &'a HalfLineFamily,
 }
 
 impl<'a> Curves<'a> {

@@ -4,20 +4,20 @@
 //! inequalities are convex in mu. So from each mu the stretch that reaches furthest is taken, from
 //! where the one before ends. Called by `mod.rs`.
 
-use super::climb::Stretch;
+use super::climb::PresenceStretch;
 
 /// Consecutive stretches. Each one counts from where the one before it ends.
-pub(super) type Chain = Vec<Stretch>;
+pub(super) type Chain = Vec<PresenceStretch>;
 
 /// The maximal intervals that stretches cover, ascending.
-pub(super) fn chains(stretches: &[Stretch]) -> Vec<Chain> {
-    let mut ascending: Vec<&Stretch> = stretches.iter().collect();
+pub(super) fn chains(stretches: &[PresenceStretch]) -> Vec<Chain> {
+    let mut ascending: Vec<&PresenceStretch> = stretches.iter().collect();
     ascending.sort_by(|p, q| p.low.total_cmp(&q.low));
 
     let mut chains: Vec<Chain> = Vec::new();
     let mut end = f64::NEG_INFINITY;
     let mut next = 0;
-    let mut furthest: Option<&Stretch> = None;
+    let mut furthest: Option<&PresenceStretch> = None;
     loop {
         while next < ascending.len() && ascending[next].low <= end {
             let stretch = ascending[next];
@@ -53,7 +53,7 @@ pub(super) fn extent(chain: &Chain) -> Option<[f64; 2]> {
 }
 
 /// The parts of [from, to] that no stretch covers.
-pub(super) fn gaps(stretches: &[Stretch], from: f64, to: f64) -> Vec<[f64; 2]> {
+pub(super) fn gaps(stretches: &[PresenceStretch], from: f64, to: f64) -> Vec<[f64; 2]> {
     let mut gaps = Vec::new();
     let mut reached = from;
     for [low, high] in chains(stretches).iter().filter_map(extent) {

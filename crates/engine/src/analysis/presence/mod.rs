@@ -22,12 +22,12 @@ mod curve;
 mod intervals;
 mod witness;
 
-use super::absence::{Family, Place};
-use super::critical::Start;
+use super::absence::{HalfLineFamily, PrecisePlace};
+use super::critical::BranchStart;
 use crate::branch::{BranchPencils, BranchPoint, BranchUnknown};
 use crate::run::{Progress, Watch};
 use crate::tolerance::{LEAST_INTERVAL, PRESENCE_NEAR, PRESENCE_START};
-use climb::{Climb, Followed, Stretch, short_multiple};
+use climb::{Climb, Followed, PresenceStretch, short_multiple};
 use curve::Curves;
 use intervals::{Chain, chains, extent, gaps};
 use mceip_check::certificate::PresenceCertificate;
@@ -58,16 +58,16 @@ pub(super) struct PresenceGround<'a> {
 /// The search for intervals with a solution.
 pub(super) struct Prover<'a> {
     ground: PresenceGround<'a>,
-    family: Family,
+    family: HalfLineFamily,
     /// What doubles hold for proved.
-    stretches: Vec<Stretch>,
+    stretches: Vec<PresenceStretch>,
     /// Values of lambda^2 at which condensation was probably not precise enough.
     imprecise: Vec<f64>,
 }
 
 impl<'a> Prover<'a> {
     /// With the condensation that is to stand in the certificates.
-    pub(super) fn new(ground: PresenceGround<'a>, family: Family) -> Prover<'a> {
+    pub(super) fn new(ground: PresenceGround<'a>, family: HalfLineFamily) -> Prover<'a> {
         Prover {
             ground,
             family,
@@ -82,17 +82,17 @@ impl<'a> Prover<'a> {
     }
 
     /// Places about which a more precise condensation may prove more, [`APART`] at least.
-    pub(super) fn imprecise_places(&self) -> Vec<Place> {
+    pub(super) fn imprecise_places(&self) -> Vec<PrecisePlace> {
         let mut values = self.imprecise.clone();
         values.sort_by(f64::total_cmp);
 
         let scale = self.family.view().scale;
-        let mut places: Vec<Place> = Vec::new();
+        let mut places: Vec<PrecisePlace> = Vec::new();
         for lambda2 in values {
             let reach = PRESENCE_NEAR * (lambda2 + scale);
-            let is_apart = |last: &Place| lambda2 - last.lambda2 > APART * reach;
+            let is_apart = |last: &PrecisePlace| lambda2 - last.lambda2 > APART * reach;
             if places.last().is_none_or(is_apart) {
-                places.push(Place {
+                places.push(PrecisePlace {
                     lambda2,
                     near: PRESENCE_NEAR,
                 });
@@ -110,7 +110,7 @@ impl<'a> Prover<'a> {
 
     /// Follows the solution of smallest mu upwards, on the sides of larger and of smaller lambda^2
     /// until one of them reaches the end.
-    pub(super) fn climb_from(&mut self, smallest: &Start, to: f64) {
+    pub(super) fn climb_from(&mut self, smallest: &BranchStart, to: f64) {
         let from = smallest.mu * (1.0 + PRESENCE_START);
         let from = short_multiple(from, 0.5 * PRESENCE_START * smallest.mu);
         for side in [1.0, -1.0] {
@@ -127,7 +127,7 @@ impl<'a> Prover<'a> {
     }
 
     /// Closes what gaps it can in [from, to] from these solutions.
-    pub(super) fn close(&mut self, from: f64, to: f64, starts: &[Start]) -> bool {
+    pub(super) fn close(&mut self, from: f64, to: f64, starts: &[BranchStart]) -> bool {
         let before = self.stretches.len();
         for gap in gaps(&self.stretches, from, to) {
             self.close_gap(gap, starts);
@@ -153,7 +153,7 @@ impl<'a> Prover<'a> {
 
     /// The point of a curve at a mu, just above that of its solution of smallest mu, where the
     /// curve may be vertical: it is met at larger and larger distances in lambda^2.
-    fn beside(&self, smallest: &Start, side: f64, mu: f64) -> Option<BranchPoint> {
+    fn beside(&self, smallest: &BranchStart, side: f64, mu: f64) -> Option<BranchPoint> {
         let curves = self.climb().curves;
         let unit = smallest.lambda2 + curves.unit();
         let mut guess = smallest.x.clone();
@@ -178,9 +178,9 @@ impl<'a> Prover<'a> {
         None
     }
 
-    fn close_gap(&mut self, [low, high]: [f64; 2], starts: &[Start]) {
-        let distance = |start: &&Start| (low - start.mu).max(start.mu - high).max(0.0);
-        let mut nearest: Vec<&Start> = starts.iter().collect();
+    fn close_gap(&mut self, [low, high]: [f64; 2], starts: &[BranchStart]) {
+        let distance = |start: &&BranchStart| (low - start.mu).max(start.mu - high).max(0.0);
+        let mut nearest: Vec<&BranchStart> = starts.iter().collect();
         nearest.sort_by(|p, q| distance(p).total_cmp(&distance(q)));
 
         for start in nearest.into_iter().take(STARTS_PER_GAP) {
@@ -200,7 +200,7 @@ impl<'a> Prover<'a> {
     }
 
     /// What is proved of the curve of a solution in [low, high].
-    fn across(&self, [low, high]: [f64; 2], start: &Start) -> Vec<Followed> {
+    fn across(&self, [low, high]: [f64; 2], start: &BranchStart) -> Vec<Followed> {
         let climb = self.climb();
         let place = [start.lambda2, start.mu];
         let Some(point) = climb.curves.near(BranchUnknown::Lambda2, place, &start.x) else {

@@ -204,7 +204,7 @@ impl PresenceWitness {
     fn edge_sign(&self, ends: &[ChordEnds; 2], margin: &[f64]) -> f64 {
         let at = ends.each_ref().map(|ends| {
             let corner = BoxCorner::of(ends, 0, &self.0);
-            EdgeEnd {
+            EdgeEstimate {
                 value: corner.value(&corner.products()),
                 residual: corner.left_residual(&self.0.right),
                 error: error(&corner, margin),
@@ -224,7 +224,7 @@ impl PresenceWitness {
 }
 
 /// What is known at an end of an edge: u'Tv, p and theta.
-struct EdgeEnd {
+struct EdgeEstimate {
     value: DoubleBall,
     residual: f64,
     error: f64,
