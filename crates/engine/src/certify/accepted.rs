@@ -3,7 +3,7 @@
 //! Each proposal for a candidate is handed to the checker; the first one it accepts is returned.
 //! Called by searches, the command `certify`, and `judge` for reported solutions.
 
-use super::failure::{Attempt, AttemptFailure, NotCertified};
+use super::failure::{AttemptFailure, NotCertified, SupportAttempt};
 use super::proposals::{Preference, Proposal, proposals};
 use super::rows::IntegralRows;
 use crate::candidate::Candidate;
@@ -84,7 +84,7 @@ impl<'a> Certifier<'a> {
             let accepted = match claim.and_then(|claim| self.examined(claim)) {
                 Ok(accepted) => accepted,
                 Err(failure) => {
-                    attempts.push(Attempt { support, failure });
+                    attempts.push(SupportAttempt { support, failure });
                     continue;
                 }
             };

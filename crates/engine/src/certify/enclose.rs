@@ -15,12 +15,12 @@ use super::failure::AttemptFailure;
 use super::rows::IntegralRows;
 use crate::candidate::{Candidate, distance, scaled_exactly};
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
-use krawczyk::Krawczyk;
+use krawczyk::GridKrawczyk;
 use mceip_check::certificate::EnclosedSolution;
 use mceip_exact::{Integer, Rational, to_f64};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
-use newton::{Newton, Point};
+use newton::{Newton, NewtonPoint};
 use num_traits::{Signed, Zero as _};
 
 /// Bits of the centre's largest component of x, and of its value, that are tried first. Basis: a
@@ -55,7 +55,7 @@ pub(super) fn make(
 
     // At the polished centre the inverse is better.
     let inverse = newton.inverse(&point)?;
-    let krawczyk = Krawczyk::new(&newton, &point, &inverse)?;
+    let krawczyk = GridKrawczyk::new(&newton, &point, &inverse)?;
 
     let mut bits = FIRST_GRID_BITS;
     loop {
@@ -80,9 +80,9 @@ pub(super) fn make(
 /// Puts the claim together: centre, radii and preconditioner as the file has them.
 fn claim(
     support: &[usize],
-    point: &Point,
+    point: &NewtonPoint,
     radius: &[Integer],
-    krawczyk: Krawczyk,
+    krawczyk: GridKrawczyk,
 ) -> EnclosedSolution {
     let mut center = Vec::new();
     let mut widths = Vec::new();
@@ -105,7 +105,7 @@ fn claim(
 /// ([`distance`]).
 fn require_near(
     newton: &Newton<'_>,
-    point: &Point,
+    point: &NewtonPoint,
     candidate: &Candidate,
 ) -> Result<(), AttemptFailure> {
     let order = point.x.len();
@@ -182,7 +182,7 @@ impl IntegerBall {
 /// The box of a claim: centre and radii in units of the point's grid.
 struct Enclosure<'a> {
     newton: &'a Newton<'a>,
-    point: &'a Point,
+    point: &'a NewtonPoint,
     radius: &'a [Integer],
 }
 

@@ -39,7 +39,7 @@ pub(super) fn make(
     support: &[usize],
     candidate: &Candidate,
 ) -> Result<ExactSolution, AttemptFailure> {
-    let on_support = Support {
+    let on_support = TriedSupport {
         pencil,
         rows,
         window,
@@ -84,7 +84,7 @@ fn finite(v: f64) -> Result<Rational, AttemptFailure> {
 }
 
 /// A candidate and the support it is tried with.
-struct Support<'a> {
+struct TriedSupport<'a> {
     pencil: &'a Pencil,
     rows: &'a IntegralRows,
     window: &'a Window,
@@ -94,7 +94,7 @@ struct Support<'a> {
 }
 
 // The values: where the active block is singular.
-impl Support<'_> {
+impl TriedSupport<'_> {
     /// The values near the candidate's at which the support may have a solution, nearest first.
     fn values_near(&self) -> Result<Vec<Algebraic>, AttemptFailure> {
         let a = self.active_block(|entry| &entry.a);
@@ -169,7 +169,7 @@ impl Support<'_> {
 }
 
 // The claim at one value.
-impl Support<'_> {
+impl TriedSupport<'_> {
     /// The claim at a value.
     ///
     /// Where the kernel has more than one dimension, y >= 0 may hold in a face y_i = 0 of it only,
@@ -291,7 +291,7 @@ impl Support<'_> {
 }
 
 // The kernel of the active block.
-impl Support<'_> {
+impl TriedSupport<'_> {
     /// The rows of the active variables and of `faces`, in the columns of the active ones.
     fn block(&self, faces: &[usize]) -> Vec<Vec<Poly>> {
         let mut block = Vec::new();

@@ -8,12 +8,12 @@ use mceip_check::Reason;
 #[derive(Debug, Clone, PartialEq)]
 pub struct NotCertified {
     /// Every support that was tried, in order.
-    pub attempts: Vec<Attempt>,
+    pub attempts: Vec<SupportAttempt>,
 }
 
 /// One support and what failed on it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Attempt {
+pub struct SupportAttempt {
     /// The complementarity variables taken as slipping.
     pub support: Vec<usize>,
     /// What failed.
@@ -110,7 +110,7 @@ impl NotCertified {
     /// A failure before any support was tried.
     pub(super) fn of(failure: AttemptFailure) -> Self {
         NotCertified {
-            attempts: vec![Attempt {
+            attempts: vec![SupportAttempt {
                 support: Vec::new(),
                 failure,
             }],
@@ -139,11 +139,11 @@ mod tests {
 
     #[test]
     fn every_attempt_is_told() {
-        let first = Attempt {
+        let first = SupportAttempt {
             support: vec![0, 2],
             failure: AttemptFailure::XNotPositive { index: 2 },
         };
-        let second = Attempt {
+        let second = SupportAttempt {
             support: vec![1],
             failure: AttemptFailure::NotContracting,
         };

@@ -25,7 +25,7 @@ pub(crate) mod rows;
 mod support;
 
 pub use accepted::{Certifier, Sifted, certify, sift};
-pub use failure::{Attempt, AttemptFailure, NotCertified};
+pub use failure::{AttemptFailure, NotCertified, SupportAttempt};
 pub use lifted::{flattened, lifted};
 pub(crate) use precise::precise_null;
 pub use proposals::{

@@ -8,7 +8,7 @@
 //! a sign is wrong. Input: the reduced pencil, the window of the problem, a candidate in doubles.
 //! Called by [`Certifier`](super::Certifier), which has the checker decide.
 
-use super::failure::{Attempt, AttemptFailure, NotCertified};
+use super::failure::{AttemptFailure, NotCertified, SupportAttempt};
 use super::rows::IntegralRows;
 use super::{enclose, exact_claim, support};
 use crate::candidate::Candidate;
@@ -45,15 +45,15 @@ pub enum Preference {
 
 /// The form of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Form {
+enum ClaimForm {
     Exact,
     Enclosed,
 }
 
 /// A support to be tried with this form of claim.
-struct Waiting {
+struct WaitingSupport {
     support: Vec<usize>,
-    form: Form,
+    form: ClaimForm,
 }
 
 /// A claim for one support, or what failed on it.
@@ -74,7 +74,7 @@ pub(super) struct Proposals<'a> {
     candidate: &'a Candidate,
     preference: Preference,
     /// What is to be tried, the next one first.
-    waiting: VecDeque<Waiting>,
+    waiting: VecDeque<WaitingSupport>,
     guesses: Vec<Vec<usize>>,
     /// Supports that come from another one, by a component that doubles cannot tell from zero.
     repaired: Vec<Vec<usize>>,
@@ -104,7 +104,9 @@ pub(super) fn proposals<'a>(
     };
     for support in guesses {
         let form = proposals.first_form(&support);
-        proposals.waiting.push_back(Waiting { support, form });
+        proposals
+            .waiting
+            .push_back(WaitingSupport { support, form });
     }
 
     Ok(proposals)
@@ -112,21 +114,21 @@ pub(super) fn proposals<'a>(
 
 impl Proposals<'_> {
     /// The form of claim that is tried first on a support.
-    fn first_form(&self, support: &[usize]) -> Form {
+    fn first_form(&self, support: &[usize]) -> ClaimForm {
         let exact_comes_first = match self.preference {
             Preference::Exact => true,
             Preference::Cheapest => self.active_order(support) <= EXACT_FIRST_ORDER,
         };
         if exact_comes_first && self.is_short(support) {
-            Form::Exact
+            ClaimForm::Exact
         } else {
-            Form::Enclosed
+            ClaimForm::Enclosed
         }
     }
 
     /// A claim about the solution with this support near the candidate.
-    fn claim(&self, waiting: &Waiting) -> Result<Claim, AttemptFailure> {
-        let Waiting { support, form } = waiting;
+    fn claim(&self, waiting: &WaitingSupport) -> Result<Claim, AttemptFailure> {
+        let WaitingSupport { support, form } = waiting;
         let order = self.active_order(support);
         if order > ENCLOSED_ORDER {
             return Err(AttemptFailure::TooLarge {
@@ -135,7 +137,7 @@ impl Proposals<'_> {
             });
         }
 
-        if *form == Form::Exact {
+        if *form == ClaimForm::Exact {
             let claim =
                 exact_claim::make(self.pencil, self.rows, self.window, support, self.candidate)?;
             return Ok(Claim::ExactSolution(claim));
@@ -182,9 +184,9 @@ impl Proposals<'_> {
         }
 
         self.repaired.push(repaired.clone());
-        self.waiting.push_front(Waiting {
+        self.waiting.push_front(WaitingSupport {
             support: repaired,
-            form: Form::Enclosed,
+            form: ClaimForm::Enclosed,
         });
     }
 }
@@ -195,12 +197,12 @@ impl Iterator for Proposals<'_> {
     fn next(&mut self) -> Option<Proposal> {
         let waiting = self.waiting.pop_front()?;
         let claim = self.claim(&waiting);
-        let Waiting { support, form } = waiting;
-        if form == Form::Enclosed && self.is_short(&support) {
+        let WaitingSupport { support, form } = waiting;
+        if form == ClaimForm::Enclosed && self.is_short(&support) {
             // Comes next unless this claim is accepted.
-            self.waiting.push_front(Waiting {
+            self.waiting.push_front(WaitingSupport {
                 support: support.clone(),
-                form: Form::Exact,
+                form: ClaimForm::Exact,
             });
         }
         if let Err(failure) = &claim {
@@ -230,7 +232,7 @@ pub fn propose(
     {
         match claim {
             Ok(claim) => return Ok(claim),
-            Err(failure) => attempts.push(Attempt { support, failure }),
+            Err(failure) => attempts.push(SupportAttempt { support, failure }),
         }
     }
 

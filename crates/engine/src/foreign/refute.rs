@@ -97,7 +97,7 @@ fn enumeration_cost(slip: u64, free: u64, bits: u64) -> u64 {
 }
 
 /// What an enumeration says of a candidate.
-pub(super) enum Enumerated {
+pub(super) enum EnumerationAnswer {
     /// Nothing is near.
     Refuted(Refutation),
     /// The nearest solution, in doubles.
@@ -110,11 +110,11 @@ pub(super) fn refute(
     reduced: &Reduced,
     candidate: &Candidate,
     effort: &mut Effort,
-) -> Result<Enumerated, String> {
+) -> Result<EnumerationAnswer, String> {
     let near = candidate.values_near(problem.window());
     let [lo, hi] = near.ok_or("its value is no finite number")?;
     let Ok(near) = Window::new(lo.clone(), Some(hi.clone())) else {
-        return Ok(Enumerated::Refuted(Refutation::OutsideWindow {
+        return Ok(EnumerationAnswer::Refuted(Refutation::OutsideWindow {
             value: candidate.value,
             window: problem.window().to_string(),
         }));
@@ -141,7 +141,7 @@ pub(super) fn refute(
 
     if let Some((solution, nearest)) = nearest(found.solutions(), &normalised, candidate) {
         return if candidate.has_support(&slip, &solution.slip) {
-            Ok(Enumerated::Near(nearest))
+            Ok(EnumerationAnswer::Near(nearest))
         } else {
             Err(OTHER_SUPPORT.into())
         };
@@ -151,7 +151,7 @@ pub(super) fn refute(
         0 => "there is none at all".to_string(),
         n => format!("{n} found with another x"),
     };
-    Ok(Enumerated::Refuted(Refutation::NothingNear {
+    Ok(EnumerationAnswer::Refuted(Refutation::NothingNear {
         lo: to_f64(&lo),
         hi: to_f64(&hi),
         x_radius: X_RADIUS,

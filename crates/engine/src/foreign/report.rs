@@ -182,7 +182,7 @@ where
 
 /// The file as it is.
 #[derive(Deserialize)]
-struct Raw {
+struct RawReport {
     problem_sha256: Option<String>,
     solutions: Vec<Object<RawSolution>>,
     #[serde(default, deserialize_with = "objects")]
@@ -212,7 +212,7 @@ impl ForeignReport {
     ) -> Result<ForeignReport, ForeignError> {
         require_format(text, SOLUTIONS_FORMAT)?;
         require_short_numbers(text)?;
-        let Object(raw): Object<Raw> = from_json_with_unique_keys(text)?;
+        let Object(raw): Object<RawReport> = from_json_with_unique_keys(text)?;
         let expected = problem.sha256();
         if let Some(got) = raw.problem_sha256.filter(|d| *d != expected) {
             return Err(ForeignError::Digest {

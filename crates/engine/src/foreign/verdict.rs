@@ -7,7 +7,7 @@
 //! and by the conformance runner; [`ForeignVerdict::line`] is what they print.
 
 use super::agreement::{Agreement, agreement};
-use super::refute::{Effort, Enumerated, refute};
+use super::refute::{Effort, EnumerationAnswer, refute};
 use super::report::Reported;
 use crate::candidate::{BACKWARD_ERROR_DIGITS, Candidate};
 use crate::certify::{Certifier, certify};
@@ -109,11 +109,15 @@ pub fn judge(
     let proved = match prove(problem, reduced, reported, candidate) {
         Ok(proved) => proved,
         Err(reason) => match refute(problem, reduced, candidate, effort) {
-            Ok(Enumerated::Refuted(refutation)) => return ForeignVerdict::Rejected(refutation),
-            Ok(Enumerated::Near(nearest)) => match prove(problem, reduced, reported, &nearest) {
-                Ok(proved) => proved,
-                Err(why) => return undecided(problem, candidate, &reason, &why),
-            },
+            Ok(EnumerationAnswer::Refuted(refutation)) => {
+                return ForeignVerdict::Rejected(refutation);
+            }
+            Ok(EnumerationAnswer::Near(nearest)) => {
+                match prove(problem, reduced, reported, &nearest) {
+                    Ok(proved) => proved,
+                    Err(why) => return undecided(problem, candidate, &reason, &why),
+                }
+            }
             Err(why) => return undecided(problem, candidate, &reason, &why),
         },
     };

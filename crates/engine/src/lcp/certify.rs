@@ -76,7 +76,7 @@ fn move_to_bounds(problem: &ExactMcp, point: &[f64], z: &mut [Rational]) -> Vec<
 /// Solves the rows F_I = 0 in the unknowns z_I, in steps from the given z; false if the rows
 /// contradict each other. Unknowns left undetermined keep their value.
 fn solve_rows(problem: &ExactMcp, inside: &[usize], z: &mut [Rational]) -> bool {
-    let mut system = Tableau::new(problem, inside, z);
+    let mut system = ExactTableau::new(problem, inside, z);
     system.eliminate();
     if system.has_contradiction() {
         return false;
@@ -90,7 +90,7 @@ fn solve_rows(problem: &ExactMcp, inside: &[usize], z: &mut [Rational]) -> bool 
 }
 
 /// Rows [M_II | -F_I] of the linear system for the step from z, in Gauss and Jordan's elimination.
-struct Tableau {
+struct ExactTableau {
     rows: Vec<Vec<Rational>>,
     /// Number of unknowns; the right-hand side is the column after them.
     order: usize,
@@ -98,8 +98,8 @@ struct Tableau {
     pivots: Vec<usize>,
 }
 
-impl Tableau {
-    fn new(problem: &ExactMcp, inside: &[usize], z: &[Rational]) -> Tableau {
+impl ExactTableau {
+    fn new(problem: &ExactMcp, inside: &[usize], z: &[Rational]) -> ExactTableau {
         let f = problem.function(z);
         let mut rows = Vec::with_capacity(inside.len());
         for &i in inside {
@@ -109,7 +109,7 @@ impl Tableau {
             rows.push(row);
         }
 
-        Tableau {
+        ExactTableau {
             rows,
             order: inside.len(),
             pivots: Vec::new(),

@@ -77,7 +77,7 @@ pub fn check(problem: &ExactMcp, z: &[Rational]) -> Result<(), Violated> {
             });
         }
 
-        let f_i = ScaledRow::new(problem, index, &point);
+        let f_i = ScaledComponent::new(problem, index, &point);
         let is_at_lower = lower == Some(z_i);
         let is_at_upper = upper == Some(z_i);
         let (holds, expected) = match (is_at_lower, is_at_upper) {
@@ -142,13 +142,13 @@ fn require_bits(bits: u64, allowed: u64) -> Result<(), Violated> {
 }
 
 /// F_i times a positive integer, and that integer.
-struct ScaledRow {
+struct ScaledComponent {
     multiple: Integer,
     factor: Integer,
 }
 
-impl ScaledRow {
-    fn new(problem: &ExactMcp, i: usize, z: &IntegerPoint) -> ScaledRow {
+impl ScaledComponent {
+    fn new(problem: &ExactMcp, i: usize, z: &IntegerPoint) -> ScaledComponent {
         let (row, q) = problem.row(i);
         let scale = common_denominator(row.iter().chain([q]));
 
@@ -159,7 +159,7 @@ impl ScaledRow {
             }
         }
 
-        ScaledRow {
+        ScaledComponent {
             multiple,
             factor: scale * &z.denominator,
         }

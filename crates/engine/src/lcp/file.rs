@@ -18,7 +18,7 @@ pub const SOLUTION_FORMAT: &str = "mceip-mcp-solution/1";
 /// A problem as it stands in the file; the format has been checked before.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Raw {
+struct RawProblemFile {
     #[serde(rename = "format")]
     _format: String,
     #[serde(rename = "name")]
@@ -62,7 +62,7 @@ pub enum FileError {
 /// ```
 pub fn read_mcp(text: &str) -> Result<ExactMcp, FileError> {
     require_format(text, MCP_FORMAT)?;
-    let raw: Raw = from_json(text)?;
+    let raw: RawProblemFile = from_json(text)?;
     let n = raw.q.len();
 
     let lower = match raw.lower {
@@ -91,7 +91,7 @@ fn exact_bounds(bounds: Vec<Option<Number>>) -> Vec<Option<Rational>> {
 /// A solution file as it stands; the format has been checked before.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RawSolution {
+struct RawSolutionFile {
     #[serde(rename = "format")]
     _format: String,
     problem_sha256: String,
@@ -124,7 +124,7 @@ pub fn write_solution(problem: &ExactMcp, points: &[Vec<Rational>]) -> String {
 /// [`FileError`].
 pub fn read_solution(text: &str) -> Result<McpCertificate, FileError> {
     require_format(text, SOLUTION_FORMAT)?;
-    let raw: RawSolution = from_json(text)?;
+    let raw: RawSolutionFile = from_json(text)?;
     Ok(McpCertificate {
         problem_sha256: raw.problem_sha256,
         points: raw.z.into_iter().map(exact).collect(),

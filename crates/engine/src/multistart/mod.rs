@@ -156,7 +156,7 @@ fn hunt_around_values(hunt: &mut Hunt<'_>) -> Result<(), SolverError> {
 mod tests {
     use super::*;
     use crate::candidate::Candidate;
-    use crate::certify::{Attempt, AttemptFailure, NotCertified, propose, sift};
+    use crate::certify::{AttemptFailure, NotCertified, SupportAttempt, propose, sift};
     use mceip_check::Reason;
     use mceip_check::certificate::Claim;
     use mceip_exact::{Sparse, whole};
@@ -184,7 +184,7 @@ mod tests {
             reason: Box::new(reason),
         };
         NotCertified {
-            attempts: vec![Attempt {
+            attempts: vec![SupportAttempt {
                 support: vec![0, 1],
                 failure,
             }],

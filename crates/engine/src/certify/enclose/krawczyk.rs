@@ -15,7 +15,7 @@
 //! passes is decided by the checker. Called by `enclose`.
 
 use super::super::failure::AttemptFailure;
-use super::newton::{Modulus, Newton, Point, Slope, scaled};
+use super::newton::{Modulus, Newton, NewtonPoint, Slope, scaled};
 use crate::magnitude::in_units;
 use crate::tolerance::{
     KRAWCZYK_MARGIN, KRAWCZYK_NOISE, PRECONDITIONER_BITS, PRECONDITIONER_LOSS_BITS,
@@ -31,7 +31,7 @@ const GROWTH_ROUNDS: usize = 60;
 const LARGEST_RADIUS: f64 = 1e9;
 
 /// The parts of Krawczyk's inequality that do not change when the grid becomes finer.
-pub(super) struct Krawczyk {
+pub(super) struct GridKrawczyk {
     /// Y in units of 2^-exponent.
     preconditioner: Vec<Vec<Integer>>,
     exponent: u32,
@@ -44,16 +44,16 @@ pub(super) struct Krawczyk {
     b: Vec<Vec<Modulus>>,
 }
 
-impl Krawczyk {
+impl GridKrawczyk {
     /// Rounds the inverse at a point to a preconditioner.
     ///
     /// # Errors
     /// A preconditioner with more bits than the checker takes.
     pub(super) fn new(
         newton: &Newton<'_>,
-        point: &Point,
+        point: &NewtonPoint,
         inverse: &[Vec<f64>],
-    ) -> Result<Krawczyk, AttemptFailure> {
+    ) -> Result<GridKrawczyk, AttemptFailure> {
         let jacobian = newton.jacobian(point);
         let units = units(point);
         let needed_bits = rounding_bits(&jacobian, &units);
@@ -68,7 +68,7 @@ impl Krawczyk {
         let preconditioner = round(inverse, &newton.scales, exponent);
         let y = rounded(&preconditioner, &newton.scales, exponent);
         let error = contraction(&y, &jacobian, &units);
-        Ok(Krawczyk {
+        Ok(GridKrawczyk {
             preconditioner,
             exponent,
             y,
@@ -84,7 +84,7 @@ impl Krawczyk {
     pub(super) fn radii(
         &self,
         newton: &Newton<'_>,
-        point: &Point,
+        point: &NewtonPoint,
     ) -> Result<Vec<Integer>, AttemptFailure> {
         let distance = self.distances(newton, point);
         let mut radius = Vec::new();
@@ -111,7 +111,7 @@ impl Krawczyk {
     }
 
     /// |Y F(c)| in units of the grid, with the rounding errors of its sums.
-    fn distances(&self, newton: &Newton<'_>, point: &Point) -> Vec<f64> {
+    fn distances(&self, newton: &Newton<'_>, point: &NewtonPoint) -> Vec<f64> {
         let residual = newton.scaled_residual(point);
         let mut distances = Vec::new();
         for (k, row) in self.y.iter().enumerate() {
@@ -125,7 +125,7 @@ impl Krawczyk {
     }
 
     /// The left side of the inequality in units of the grid.
-    fn bound(&self, point: &Point, distance: &[f64], radius: &[f64]) -> Vec<f64> {
+    fn bound(&self, point: &NewtonPoint, distance: &[f64], radius: &[f64]) -> Vec<f64> {
         let last = radius.len() - 1;
         let curvature = self.curvature(radius);
 
@@ -209,7 +209,7 @@ fn contraction(y: &[Vec<f64>], jacobian: &[Vec<Slope>], units: &[f64]) -> Vec<Ve
 }
 
 /// The unit of each component's grid, all divided by the first.
-fn units(point: &Point) -> Vec<f64> {
+fn units(point: &NewtonPoint) -> Vec<f64> {
     let unit_of_t = power(point.x_bits as i64 - point.t_bits as i64);
     let mut units = vec![1.0; point.x.len()];
     units.push(unit_of_t);

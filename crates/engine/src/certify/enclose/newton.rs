@@ -35,14 +35,14 @@ const LEAST_EXPONENT: i32 = -500;
 
 /// A point on a grid: x in units of 2^-`x_bits`, t in units of 2^-`t_bits`.
 #[derive(Debug, Clone)]
-pub(in crate::certify) struct Point {
+pub(in crate::certify) struct NewtonPoint {
     pub(in crate::certify) x: Vec<Integer>,
     pub(in crate::certify) t: Integer,
     pub(in crate::certify) x_bits: u64,
     pub(in crate::certify) t_bits: u64,
 }
 
-impl Point {
+impl NewtonPoint {
     /// Component k of x, or t after the last one, in units of its grid.
     pub(super) fn component(&self, k: usize) -> &Integer {
         self.x.get(k).unwrap_or(&self.t)
@@ -184,7 +184,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Row `index` of (A + tB) x, in units of 2^-(x_bits + t_bits).
-    pub(in crate::certify) fn y(&self, index: usize, point: &Point) -> Integer {
+    pub(in crate::certify) fn y(&self, index: usize, point: &NewtonPoint) -> Integer {
         let mut y = Integer::zero();
         for entry in self.active_entries(index) {
             let coefficient = point.coefficient(&entry);
@@ -203,7 +203,7 @@ impl<'a> Newton<'a> {
         &self,
         candidate: &Candidate,
         bits: u32,
-    ) -> Result<Point, AttemptFailure> {
+    ) -> Result<NewtonPoint, AttemptFailure> {
         let support = self.active.iter().filter(|i| self.in_support[**i]);
         let sum: f64 = support.map(|&i| candidate.x[i]).sum();
         let mut x = Vec::new();
@@ -226,7 +226,7 @@ impl<'a> Newton<'a> {
             x_on_grid.push(on_grid(component, x_bits)?);
         }
 
-        Ok(Point {
+        Ok(NewtonPoint {
             x: x_on_grid,
             t: on_grid(candidate.value, t_bits)?,
             x_bits,
@@ -235,7 +235,7 @@ impl<'a> Newton<'a> {
     }
 
     /// F'(z) = [[A + tB, Bx], [e_s', 0]] in doubles, row by row, as sparse rows.
-    pub(super) fn jacobian(&self, point: &Point) -> Vec<Vec<Slope>> {
+    pub(super) fn jacobian(&self, point: &NewtonPoint) -> Vec<Vec<Slope>> {
         let last = self.active.len();
         let x: Vec<f64> = (0..last).map(|k| to_f64(&point.value(k))).collect();
         let t = to_f64(&point.value(last));
@@ -318,7 +318,7 @@ impl<'a> Newton<'a> {
     /// [`AttemptFailure::SingularJacobian`] where F'(z) is singular in doubles.
     pub(in crate::certify) fn inverse(
         &self,
-        point: &Point,
+        point: &NewtonPoint,
     ) -> Result<Vec<Vec<f64>>, AttemptFailure> {
         let n = self.active.len() + 1;
         let mut dense = vec![vec![0.0; n]; n];
@@ -334,7 +334,7 @@ impl<'a> Newton<'a> {
     }
 
     /// F(z) in units of 2^-(x_bits + t_bits).
-    fn residual(&self, point: &Point) -> Vec<Integer> {
+    fn residual(&self, point: &NewtonPoint) -> Vec<Integer> {
         let mut residual = Vec::new();
         let mut sum = Integer::zero();
         for (&index, x) in self.active.iter().zip(&point.x) {
@@ -350,7 +350,7 @@ impl<'a> Newton<'a> {
     }
 
     /// F(z), rows divided by their powers of two, as doubles of order one times a power of two.
-    pub(super) fn scaled_residual(&self, point: &Point) -> ScaledResidual {
+    pub(super) fn scaled_residual(&self, point: &NewtonPoint) -> ScaledResidual {
         let residual = self.residual(point);
         let mut largest: Option<i64> = None;
         for (f, &scale) in residual.iter().zip(&self.scales) {
@@ -382,7 +382,7 @@ impl<'a> Newton<'a> {
     /// Newton's method with a fixed inverse, until a step moves no component by more than a unit of
     /// its grid, or until the steps grow: then there is no solution near, which the caller sees by
     /// where the point is.
-    pub(in crate::certify) fn polish(&self, point: &mut Point, inverse: &[Vec<f64>]) {
+    pub(in crate::certify) fn polish(&self, point: &mut NewtonPoint, inverse: &[Vec<f64>]) {
         let last = self.active.len();
         let mut longest_allowed = None;
         for _ in 0..NEWTON_STEPS {

@@ -282,7 +282,7 @@ fn roots_are_taken_near_the_candidate_nearest_first() {
 
     let p = identity(1, vec![]);
     let rows = IntegralRows::of(&p);
-    let on_support = Support {
+    let on_support = TriedSupport {
         pencil: &p,
         rows: &rows,
         window: &Window::all(),
