@@ -20,7 +20,7 @@ mod cost;
 use mceip_check::check;
 use mceip_engine::reduction::condense;
 use mceip_engine::run::{Cancel, Progress, Watch};
-use mceip_engine::search::complete::{CompleteError, Completed, Options, complete};
+use mceip_engine::search::complete::{CompleteError, CompleteOptions, Completed, complete};
 use mceip_exact::to_f64;
 use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Body, Problem, Unknown, Window};
@@ -167,9 +167,9 @@ impl Measured {
 /// `complete` includes one check: it is timed again and taken off.
 fn measure(problem: &Problem) -> Result<Measured, CompleteError> {
     let limit = limit_seconds() as f64;
-    let options = Options {
+    let options = CompleteOptions {
         threads: Some(1),
-        ..Options::default()
+        ..CompleteOptions::default()
     };
     let cancel = Cancel::new();
 

@@ -10,7 +10,9 @@
 mod families;
 
 use families::{Case, random_case, table1_cases};
-use mceip_engine::multistart::{Certified, Found, Origin, Search, multistart, same, support};
+use mceip_engine::multistart::{
+    CertifiedCandidate, MultistartFound, Origin, Search, multistart, same, support,
+};
 use mceip_engine::reduction::{Embedding, Side};
 use mceip_engine::run::Watch;
 use mceip_mcp::solver::{CurveEnd, Options, solve};
@@ -90,7 +92,7 @@ impl Tally {
         }
     }
 
-    fn add_search(&mut self, found: &Found, truth: &[Solution]) {
+    fn add_search(&mut self, found: &MultistartFound, truth: &[Solution]) {
         let mut seen = 0;
         let mut matching_claims = 0;
         for solution in truth {
@@ -154,7 +156,7 @@ fn percent(count: usize, total: usize) -> f64 {
 }
 
 /// The claims with the support of a solution and a value close to its value.
-fn count_of_claims(found: &Found, solution: &Solution) -> usize {
+fn count_of_claims(found: &MultistartFound, solution: &Solution) -> usize {
     let value: f64 = solution.decimal(17).parse().unwrap();
     let tolerance = 1e-6 * (1.0 + value);
 
@@ -167,7 +169,7 @@ fn count_of_claims(found: &Found, solution: &Solution) -> usize {
     count
 }
 
-fn assert_no_claim_is_made_twice(certified: &[Certified]) {
+fn assert_no_claim_is_made_twice(certified: &[CertifiedCandidate]) {
     for (i, later) in certified.iter().enumerate() {
         for earlier in &certified[..i] {
             assert!(!same(&later.claim, &earlier.claim));
@@ -176,13 +178,13 @@ fn assert_no_claim_is_made_twice(certified: &[Certified]) {
 }
 
 /// Is anything certified of the support of the solution?
-fn has_claim(found: &Found, solution: &Solution) -> bool {
+fn has_claim(found: &MultistartFound, solution: &Solution) -> bool {
     let mut certified = found.certified.iter();
     certified.any(|c| support(&c.claim) == solution.slip)
 }
 
 /// Prints the first solution of whose support nothing is certified, if there is one.
-fn print_first_missed(case: &Case, found: &Found, truth: &[Solution]) {
+fn print_first_missed(case: &Case, found: &MultistartFound, truth: &[Solution]) {
     let Some(missed) = truth.iter().find(|s| !has_claim(found, s)) else {
         return;
     };

@@ -16,7 +16,7 @@ use super::pictures;
 use super::question::load_system;
 use crate::Analyze;
 use crate::say::warnings_text;
-use mceip_engine::analysis::{Analysis, AnalysisError, Evidence, MAX_SAMPLES, Options};
+use mceip_engine::analysis::{Analysis, AnalysisError, AnalysisOptions, Evidence, MAX_SAMPLES};
 use mceip_engine::run::Kept;
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
@@ -43,7 +43,7 @@ pub(super) struct Args {
     samples: Option<usize>,
     /// Boxes that may be examined, in each piece of [0, infinity), to bound the critical mu from
     /// below, and to prove absence on a range of mu above it.
-    #[arg(long, default_value_t = Options::default().limits.boxes)]
+    #[arg(long, default_value_t = AnalysisOptions::default().limits.boxes)]
     boxes: usize,
     /// Write every certificate and its problem into this folder, for `mceip check`, each as soon as
     /// it is accepted.
@@ -183,7 +183,7 @@ fn samples(args: &Args, system: &System) -> Result<usize, CliError> {
     let usual = if is_large {
         0
     } else {
-        Options::default().samples
+        AnalysisOptions::default().samples
     };
 
     let samples = args.samples.unwrap_or(usual);

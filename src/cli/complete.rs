@@ -12,7 +12,7 @@ use super::output::Output;
 use super::question::{Question, load_question};
 use crate::SolutionSet;
 use mceip_check::certificate::Certificate;
-use mceip_engine::search::complete::Options;
+use mceip_engine::search::complete::CompleteOptions;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -50,7 +50,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
     /// Pieces the window is cut into; more of them for more shards.
-    #[arg(long, default_value_t = Options::default().pieces)]
+    #[arg(long, default_value_t = CompleteOptions::default().pieces)]
     pieces: usize,
     /// Threads (default: all cores). The certificate does not depend on it.
     #[arg(long)]

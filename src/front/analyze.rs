@@ -4,7 +4,7 @@
 use super::error::Error;
 use super::problem::Problem;
 use super::run::Watched;
-use mceip_engine::analysis::{Analysis, Options, analyse};
+use mceip_engine::analysis::{Analysis, AnalysisOptions, analyse};
 use mceip_engine::run::{Cancel, Kept, Progress};
 use mceip_exact::Rational;
 use mceip_model::file::SystemFile;
@@ -20,7 +20,7 @@ pub struct Analyze<'a> {
     name: Option<String>,
     warnings: &'a [String],
     friction: Option<Rational>,
-    options: Options,
+    options: AnalysisOptions,
     watched: Watched<'a>,
 }
 
@@ -49,7 +49,7 @@ impl Problem {
             name: problem.name.clone(),
             warnings: &problem.warnings,
             friction: None,
-            options: Options::default(),
+            options: AnalysisOptions::default(),
             watched: Watched::default(),
         }
     }
@@ -64,7 +64,7 @@ impl<'a> From<&'a SystemFile> for Analyze<'a> {
             name: file.name.clone(),
             warnings: &file.warnings,
             friction: None,
-            options: Options::default(),
+            options: AnalysisOptions::default(),
             watched: Watched::default(),
         }
     }

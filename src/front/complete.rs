@@ -10,7 +10,7 @@ use mceip_check::{OpenRegion, Proved, SolutionFamily};
 use mceip_engine::reduction::reversed;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_engine::run::{Cancel, Kept, Progress};
-use mceip_engine::search::complete::{Completed, Options, Shard, complete, merge, resume};
+use mceip_engine::search::complete::{CompleteOptions, Completed, Shard, complete, merge, resume};
 use mceip_exact::Rational;
 use mceip_model::reduction::reduce;
 use mceip_model::{Reduced, Window};
@@ -24,7 +24,7 @@ use std::time::Duration;
 pub struct Complete<'a> {
     problem: &'a Problem,
     earlier: Option<&'a Certificate>,
-    options: Options,
+    options: CompleteOptions,
     watched: Watched<'a>,
 }
 
@@ -162,7 +162,7 @@ impl Problem {
         Complete {
             problem: self,
             earlier: None,
-            options: Options::default(),
+            options: CompleteOptions::default(),
             watched: Watched::default(),
         }
     }

@@ -20,7 +20,7 @@ use super::run::Watched;
 use crate::say::{self, mu_text};
 use mceip_check::certificate::Certificate;
 use mceip_engine::analysis::{
-    Analysis, AnalysisError, Divergence, Options, Proof, Verdict, analyse, divergence_at,
+    Analysis, AnalysisError, AnalysisOptions, Divergence, Proof, Verdict, analyse, divergence_at,
 };
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{Integer, Rational, rational, whole};
@@ -439,7 +439,7 @@ impl<'a> FindOwnCritical<'a> {
             (PathEnd::AllApplied | PathEnd::NoFurtherEvent, Some(stretch)) => {
                 let equilibrium = stretch.last().clone();
                 let system = self.state(&equilibrium, &mu)?;
-                let options = Options::default();
+                let options = AnalysisOptions::default();
                 let earlier = (self.earlier)(&mu);
                 let (divergence, proof) =
                     divergence_at(&system, &mu, earlier.as_ref(), &options, &watch.quiet())?;
@@ -476,9 +476,9 @@ impl<'a> FindOwnCritical<'a> {
     ) -> Result<Analysis, Error> {
         watch.report(&Progress::stage("critical mu of the held contact states"));
         let system = self.state(equilibrium, mu)?;
-        let options = Options {
+        let options = AnalysisOptions {
             samples: 0,
-            ..Options::default()
+            ..AnalysisOptions::default()
         };
 
         Ok(analyse(None, &system, mu, &options, &watch.quiet())?)

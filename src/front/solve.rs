@@ -41,7 +41,7 @@ pub struct Found {
     reduced: Reduced,
     listed: Vec<Listed>,
     search: Search,
-    run: multistart::Found,
+    run: multistart::MultistartFound,
 }
 
 impl Found {
@@ -57,7 +57,7 @@ impl Found {
     }
 
     /// What the search has found, as the engine has it.
-    pub fn as_run(&self) -> &multistart::Found {
+    pub fn as_run(&self) -> &multistart::MultistartFound {
         &self.run
     }
 

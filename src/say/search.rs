@@ -1,10 +1,10 @@
 //! What a search from many starts was, in words.
 
 use super::counted;
-use mceip_engine::multistart::Found;
+use mceip_engine::multistart::MultistartFound;
 
 /// What the search was and how it went.
-pub(crate) fn evidence(found: &Found, seed: u64) -> String {
+pub(crate) fn evidence(found: &MultistartFound, seed: u64) -> String {
     let search = if found.interrupted {
         "an interrupted search of "
     } else {

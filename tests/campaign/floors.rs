@@ -6,7 +6,7 @@
 #![cfg(feature = "testkit")]
 
 use crate::solver_targets::{SOLVER_TARGETS, random_bytes};
-use mceip_engine::multistart::{Found, Search, SearchError, multistart};
+use mceip_engine::multistart::{MultistartFound, Search, SearchError, multistart};
 use mceip_engine::run::{Cancel, Watch};
 use mceip_model::{Problem, Reduced};
 use mceip_paper::PublishedState;
@@ -28,8 +28,8 @@ fn finds_nothing(
     _: &Reduced,
     _: &Search,
     _: &Watch<'_>,
-) -> Result<Found, SearchError> {
-    Ok(Found::default())
+) -> Result<MultistartFound, SearchError> {
+    Ok(MultistartFound::default())
 }
 
 /// A solver that forgets every second solution of an instance, the first one among them.
@@ -38,7 +38,7 @@ fn drops_every_second(
     reduced: &Reduced,
     search: &Search,
     watch: &Watch<'_>,
-) -> Result<Found, SearchError> {
+) -> Result<MultistartFound, SearchError> {
     let found = multistart(problem, reduced, search, watch)?;
     Ok(every_second_from(1, found))
 }
@@ -49,12 +49,12 @@ fn keeps_every_first(
     reduced: &Reduced,
     search: &Search,
     watch: &Watch<'_>,
-) -> Result<Found, SearchError> {
+) -> Result<MultistartFound, SearchError> {
     let found = multistart(problem, reduced, search, watch)?;
     Ok(every_second_from(0, found))
 }
 
-fn every_second_from(first: usize, mut found: Found) -> Found {
+fn every_second_from(first: usize, mut found: MultistartFound) -> MultistartFound {
     found.certified = found.certified.into_iter().skip(first).step_by(2).collect();
     found
 }

@@ -8,7 +8,7 @@ use mceip_check::check;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, propose};
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::to_f64;
 use mceip_model::file::read_problem;
 use mceip_model::reduction::reduce;
@@ -58,7 +58,7 @@ fn exact(n: usize) -> Subject {
 }
 
 fn exact_claim(problem: &Problem, n: usize) -> Option<Claim> {
-    let found = complete(problem, &Options::default(), &Watch::nobody()).unwrap();
+    let found = complete(problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
     let pencil = reduce(problem).unwrap().pencil;
     for (solution, x) in found.solutions() {
         if 2 * solution.support.len() < n {

@@ -11,7 +11,7 @@ use crate::two_checkers::{falsehoods, nodes};
 use mceip_check::certificate::{Anchor, Certificate};
 use mceip_check::check;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::rational;
 use mceip_model::{Body, Problem, Unknown, Window};
 use mceip_testkit::generators::tails::{Mass, tails};
@@ -70,9 +70,9 @@ fn problem(rng: &mut ChaCha8Rng, number: usize) -> Problem {
 }
 
 fn judge_mutants(problem: &Problem, rng: &mut ChaCha8Rng, judged: &mut Judged) {
-    let options = Options {
+    let options = CompleteOptions {
         pieces: 4,
-        ..Options::default()
+        ..CompleteOptions::default()
     };
     let found = complete(problem, &options, &Watch::nobody()).unwrap();
     let good = found.proved.into_certificate();

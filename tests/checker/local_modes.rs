@@ -9,9 +9,9 @@ use mceip_check::certificate::{Certificate, Claim, EnclosedSolution};
 use mceip_check::check;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, propose, sift};
-use mceip_engine::multistart::{Found, Search, multistart};
+use mceip_engine::multistart::{MultistartFound, Search, multistart};
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Sparse, parse, rational, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
@@ -44,7 +44,7 @@ fn chain(end: i64) -> Problem {
     Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap()
 }
 
-fn found(problem: &Problem) -> Found {
+fn found(problem: &Problem) -> MultistartFound {
     let reduced = reduce(problem).unwrap();
     let search = Search {
         starts: 4,
@@ -62,7 +62,7 @@ fn enclosed(claim: &Claim) -> EnclosedSolution {
 }
 
 /// The certified claim with this support.
-fn with_support(found: &Found, support: &[usize]) -> Option<Claim> {
+fn with_support(found: &MultistartFound, support: &[usize]) -> Option<Claim> {
     let mut claims = found.certified.iter().map(|certified| &certified.claim);
     claims
         .find(|claim| enclosed(claim).support == support)
@@ -161,7 +161,7 @@ fn one_radius_for_all_components_is_refused() {
 fn the_complete_set_of_a_local_mode_closes() {
     for (end, support) in [(1, vec![0]), (-1, vec![0, LINKS + 1])] {
         let problem = chain(end);
-        let completed = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+        let completed = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
         let cover = &completed.cover;
         assert!(cover.open.is_empty(), "{:?}", cover.open);
 

@@ -18,7 +18,7 @@ use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{Accepted, check};
 use mceip_engine::certify::{certificate, certify, lifted};
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Sparse, rational};
 use mceip_model::file::{read_problem, write_problem};
 use mceip_model::reduction::reduce;
@@ -335,10 +335,10 @@ fn reversed_anchor() -> Problem {
 }
 
 fn covered(problem: &Problem) -> Option<Forgery> {
-    let options = Options {
+    let options = CompleteOptions {
         pieces: 2,
         nodes_per_piece: 200,
-        ..Options::default()
+        ..CompleteOptions::default()
     };
     let found = complete(problem, &options, &Watch::nobody()).ok()?;
     Some(Forgery {

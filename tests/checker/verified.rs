@@ -11,7 +11,7 @@
 use crate::corpus_reader::{ACCEPTED, Entry, UNDECIDED, entries};
 use crate::verified_checker::{checker, falsehoods};
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_model::file::read_problem;
 use mceip_testkit::conform::groups;
 use mceip_testkit::verified::{VerifiedCounts, VerifiedVerdict};
@@ -102,7 +102,7 @@ fn no_complete_set_of_the_conformance_pack_is_refused() {
 
     for draft in groups().unwrap().iter().flat_map(|group| &group.drafts) {
         let problem = &draft.problem;
-        let Ok(found) = complete(problem, &Options::default(), &Watch::nobody()) else {
+        let Ok(found) = complete(problem, &CompleteOptions::default(), &Watch::nobody()) else {
             continue;
         };
 

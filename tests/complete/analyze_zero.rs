@@ -8,7 +8,9 @@
 
 use mceip_check::{check, check_critical};
 use mceip_engine::analysis::absence::Limits;
-use mceip_engine::analysis::{Analysis, CertifiedSolution, Options, ProofCertificate, analyse};
+use mceip_engine::analysis::{
+    Analysis, AnalysisOptions, CertifiedSolution, ProofCertificate, analyse,
+};
 use mceip_engine::run::Watch;
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::reduction::reduce_system;
@@ -110,7 +112,7 @@ fn shares() -> Vec<Rational> {
 fn compare(index: u64, met: &mut Met) {
     let system = random_system(index);
     let friction = system.friction().unwrap().clone();
-    let options = Options {
+    let options = AnalysisOptions {
         samples: 0,
         threads: Some(1),
         limits: Limits { boxes: BOXES },

@@ -10,7 +10,7 @@
 use mceip_check::AcceptedClaim;
 use mceip_engine::analysis::conditions::excluded_at;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Completed, Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, Completed, complete};
 use mceip_exact::{parse, to_f64};
 use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Problem, Unknown, Window};
@@ -22,7 +22,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 fn search(problem: &Problem) -> Completed {
-    complete(problem, &Options::default(), &Watch::nobody()).unwrap()
+    complete(problem, &CompleteOptions::default(), &Watch::nobody()).unwrap()
 }
 
 /// A solution: its value, and the number of nodes that slip.

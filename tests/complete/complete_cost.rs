@@ -9,7 +9,7 @@
 use crate::cost::{CSV, HEAD, Run, SVG, picture, read};
 use mceip_check::check;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_model::reduction::reduce;
 use mceip_testkit::refined_block;
 
@@ -88,7 +88,7 @@ fn the_smallest_mesh_is_as_in_the_table() {
     let row = rows.find(|run| run.case == "all slip" && run.slip == slip);
     let row = row.unwrap();
 
-    let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+    let found = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
 
     let accepted = check(&problem, found.proved.certificate()).unwrap();
     let cover = accepted.cover.unwrap();

@@ -8,7 +8,7 @@
 use crate::cover::{disagreements, truth};
 use mceip_check::certificate::Certificate;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Completed, Options, complete, resume};
+use mceip_engine::search::complete::{CompleteOptions, Completed, complete, resume};
 use mceip_exact::{Integer, Rational, Sparse, rational, whole};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use num_traits::Signed;
@@ -24,9 +24,9 @@ fn problem_on(a: &Sparse, b: &Sparse, lo: &Rational, hi: Option<&Rational>) -> P
 }
 
 fn search(problem: &Problem) -> Completed {
-    let options = Options {
+    let options = CompleteOptions {
         pieces: 4,
-        ..Options::default()
+        ..CompleteOptions::default()
     };
     complete(problem, &options, &Watch::nobody()).unwrap()
 }
@@ -213,7 +213,7 @@ fn larger_supports_that_end_a_window_are_listed_through_their_claim() {
 
 /// The search of a problem, gone on with from a certificate.
 fn resumed(problem: &Problem, certificate: &Certificate) -> Result<Completed, String> {
-    let options = Options::default();
+    let options = CompleteOptions::default();
     let outcome = resume(problem, certificate, &options, &Watch::nobody());
     outcome.map_err(|error| error.to_string())
 }

@@ -9,7 +9,7 @@
 use crate::cover::{disagreements, family_disagreements, truth};
 use mceip_check::OpenRegion;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Completed, Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, Completed, complete};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
@@ -198,7 +198,7 @@ impl Case {
     }
 
     fn judge(&self) -> Outcome {
-        let run = || complete(&self.problem, &Options::default(), &Watch::nobody());
+        let run = || complete(&self.problem, &CompleteOptions::default(), &Watch::nobody());
         match std::panic::catch_unwind(run) {
             Ok(Ok(found)) => self.compare(&found),
             Ok(Err(error)) => self.failed(&error.to_string()),
@@ -482,7 +482,7 @@ fn an_irrational_double_root_is_isolated() {
     let window = Window::new(whole(0), Some(whole(4))).unwrap();
     let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap();
 
-    let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+    let found = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
 
     assert!(found.is_complete());
     assert!(!found.cover.solutions.is_empty());
@@ -506,9 +506,9 @@ fn families_with_known_answers_agree() {
 fn kept_games_do_not_depend_on_threads() {
     let problem = mechanical_pencil(18, Unknown::Mu, 1).unwrap();
     let by_threads = [1, 3].map(|threads| {
-        let options = Options {
+        let options = CompleteOptions {
             threads: Some(threads),
-            ..Options::default()
+            ..CompleteOptions::default()
         };
         complete(&problem, &options, &Watch::nobody()).unwrap()
     });
@@ -567,7 +567,7 @@ fn searches_that_keep_games_agree_with_enumeration() {
             .map(|pencil| Problem::new(Body::Pencil(pencil), unknown, Window::all()).unwrap());
 
         let truth = truth(&inner);
-        let found = complete(&outer, &Options::default(), &Watch::nobody()).unwrap();
+        let found = complete(&outer, &CompleteOptions::default(), &Watch::nobody()).unwrap();
 
         assert!(found.is_complete(), "{k}");
         assert_eq!(disagreements(&found.cover, &truth), [""; 0], "{k}");
@@ -583,7 +583,12 @@ fn searches_that_keep_games_agree_with_enumeration() {
 #[ignore = "minutes in release"]
 fn all_solutions_of_a_complete_graph_are_found() {
     let graph = known::complete_graph(14).unwrap();
-    let found = complete(&graph.problem, &Options::default(), &Watch::nobody()).unwrap();
+    let found = complete(
+        &graph.problem,
+        &CompleteOptions::default(),
+        &Watch::nobody(),
+    )
+    .unwrap();
 
     assert!(found.is_complete());
     let mut supports = BTreeSet::new();

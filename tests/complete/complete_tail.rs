@@ -9,7 +9,7 @@
 use crate::cover::{disagreements, family_disagreements, truth};
 use mceip_check::certificate::{CompleteSet, Node, RootOutcome};
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Completed, Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, Completed, complete};
 use mceip_exact::{Sparse, whole};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_testkit::generators::sparse;
@@ -19,7 +19,7 @@ use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
 
 fn search(problem: &Problem) -> Completed {
-    complete(problem, &Options::default(), &Watch::nobody()).unwrap()
+    complete(problem, &CompleteOptions::default(), &Watch::nobody()).unwrap()
 }
 
 fn problem_of(pencil: Pencil) -> Problem {

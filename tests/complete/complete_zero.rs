@@ -8,7 +8,7 @@
 
 use crate::cover::disagreements;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_model::reduction::reduce_system;
 use mceip_model::{Body, Problem, Window};
 use mceip_oracle::{Enumeration, enumerate_modes};
@@ -52,7 +52,7 @@ fn compare(index: u64, met: &mut Met) {
         return;
     }
 
-    let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+    let found = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
     met.systems += 1;
     let truth = Enumeration {
         solutions: all.solutions.clone(),

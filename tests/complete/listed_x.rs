@@ -8,7 +8,7 @@
 
 use mceip_engine::report::Listed;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Completed, Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, Completed, complete};
 use mceip_exact::{Integer, Rational, Sparse, rational, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{
@@ -24,7 +24,7 @@ fn problem_of(a: Sparse, b: Sparse, free: Vec<usize>, unknown: Unknown) -> Probl
 }
 
 fn searched(problem: &Problem) -> Completed {
-    complete(problem, &Options::default(), &Watch::nobody()).unwrap()
+    complete(problem, &CompleteOptions::default(), &Watch::nobody()).unwrap()
 }
 
 /// The solution of the enumerator that a listed one is.

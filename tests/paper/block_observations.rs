@@ -8,7 +8,7 @@
 use crate::paper_path::{path_of, slip_nodes};
 use mceip_engine::reduction::SparseCondensation;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_engine::search::levels::level_solutions;
 use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::{Body, ContactState, Pencil, Problem, Unknown, Window};
@@ -48,7 +48,7 @@ struct Observed {
 impl State {
     fn of(stretch: &Stretch, pencil: Pencil) -> State {
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all()).unwrap();
-        let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+        let found = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
 
         let mut set = Vec::new();
         for solution in &found.cover.solutions {

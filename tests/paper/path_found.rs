@@ -7,9 +7,11 @@
 
 use crate::paper_path::{path_of, slip_nodes};
 use mceip_check::certificate::Claim;
-use mceip_engine::multistart::{Certified, Found, Search, exact_value, multistart, support};
+use mceip_engine::multistart::{
+    CertifiedCandidate, MultistartFound, Search, exact_value, multistart, support,
+};
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::to_f64;
 use mceip_model::Problem;
 use mceip_model::reduction::reduce;
@@ -40,7 +42,7 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
         }
 
         let problem = block.problem(&stretch.states, None).unwrap();
-        let truth = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+        let truth = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
         assert!(truth.is_complete());
 
         let solutions = &truth.cover.solutions;
@@ -88,13 +90,17 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
 }
 
 /// What many starts find for a problem with unknown mu.
-fn search(problem: &Problem, how: &Search) -> Found {
+fn search(problem: &Problem, how: &Search) -> MultistartFound {
     let reduced = reduce(problem).unwrap();
     multistart(problem, &reduced, how, &Watch::nobody()).unwrap()
 }
 
 /// The certified solution with this slip set and, to 1e-6, this value.
-fn find<'a>(found: &'a Found, value: f64, slip: &[usize]) -> Option<&'a Certified> {
+fn find<'a>(
+    found: &'a MultistartFound,
+    value: f64,
+    slip: &[usize],
+) -> Option<&'a CertifiedCandidate> {
     found.certified.iter().find(|certified| {
         let error = (certified.candidate.value - value).abs();
         support(&certified.claim) == slip && error <= 1e-6 * value

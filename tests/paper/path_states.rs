@@ -22,7 +22,7 @@ use mceip_check::certificate::{Certificate, CompleteSet, Node, Piece};
 use mceip_check::{Accepted, Rejected, check};
 use mceip_engine::analysis::conditions::excluded_at;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Rational, rational, to_f64};
 use mceip_model::file::Number;
 use mceip_model::reduction::mu_family;
@@ -149,7 +149,7 @@ fn the_state_with_ten_slip_nodes_is_short() {
 
     let body = Body::Pencil(pencil(&ten[0].states));
     let problem = Problem::new(body, Unknown::Mu, Window::all()).unwrap();
-    let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+    let found = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
     assert!(found.is_complete());
     assert_eq!(found.cover.solutions.len(), 1);
 

@@ -9,7 +9,7 @@
 use mceip_check::certificate::Certificate;
 use mceip_check::check;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Sparse, parse, rational, to_f64, whole};
 use mceip_paper::PublishedState::{FifteenSlip, SeventeenSlip};
 use mceip_paper::{Block, MassKind};
@@ -38,7 +38,7 @@ fn with_k_in_four_decimals_both_printed_values_come_out() {
         [(SeventeenSlip, "1.70533", 17), (FifteenSlip, "60.8130", 14)]
     {
         let problem = state.problem(&printed).unwrap();
-        let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+        let found = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
 
         let read = Certificate::from_json(&found.proved.certificate().to_json()).unwrap();
         let cover = check(&problem, &read).unwrap().cover.unwrap();

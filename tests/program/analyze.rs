@@ -14,7 +14,7 @@ use crate::program::Folder;
 use mceip_check::{check, check_critical, check_presence};
 use mceip_engine::analysis::conditions::{Necessary, condensed};
 use mceip_engine::analysis::{
-    Analysis, Evidence, Mode, Obstacle, Options, ProofCertificate, Verdict, analyse,
+    Analysis, AnalysisOptions, Evidence, Mode, Obstacle, ProofCertificate, Verdict, analyse,
 };
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{
@@ -35,10 +35,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The analysis of a system, whose certificates the checker has accepted.
 #[track_caller]
 fn answer(system: &System, mu: &Rational, samples: usize) -> Analysis {
-    let options = Options {
+    let options = AnalysisOptions {
         samples,
         threads: Some(1),
-        ..Options::default()
+        ..AnalysisOptions::default()
     };
     let analysis = analyse(None, system, mu, &options, &Watch::nobody()).unwrap();
 
@@ -300,10 +300,10 @@ fn a_fold_lies_below_every_static_threshold() {
 /// answer says which bound was tried and why it is not proved.
 #[test]
 fn the_answer_says_why_a_bound_is_not_proved() {
-    let mut options = Options {
+    let mut options = AnalysisOptions {
         samples: 0,
         threads: Some(1),
-        ..Options::default()
+        ..AnalysisOptions::default()
     };
     options.limits.boxes = 1;
 
@@ -710,7 +710,7 @@ fn mu_zero_is_answered_by_a_theorem() {
         None,
         &system,
         &whole(-1),
-        &Options::default(),
+        &AnalysisOptions::default(),
         &Watch::nobody(),
     );
     assert!(negative.is_err());
@@ -1048,7 +1048,7 @@ fn the_report_draws_a_body_with_coordinates() {
 #[test]
 fn interrupted_work_is_undecided() {
     let stop = Cancel::requested();
-    let options = Options::default();
+    let options = AnalysisOptions::default();
 
     let watch = Watch::silent(&stop);
     let analysis = analyse(None, &fold_body(), &whole(2), &options, &watch).unwrap();
@@ -1079,7 +1079,14 @@ fn a_check_of_absence_can_be_interrupted() {
     };
 
     let watch = Watch::new(&stop, &stop_at_check);
-    let analysis = analyse(None, &fold_body(), &whole(2), &Options::default(), &watch).unwrap();
+    let analysis = analyse(
+        None,
+        &fold_body(),
+        &whole(2),
+        &AnalysisOptions::default(),
+        &watch,
+    )
+    .unwrap();
 
     assert_eq!(checks.load(Ordering::Relaxed), 1);
     assert!(analysis.interrupted);

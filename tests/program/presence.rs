@@ -13,7 +13,7 @@ use crate::program::Folder;
 use mceip_check::certificate::PresenceCertificate;
 use mceip_check::{Reason, check_critical, check_presence};
 use mceip_engine::analysis::{
-    Analysis, Evidence, Options, ProofCertificate, Sentence, Verdict, analyse,
+    Analysis, AnalysisOptions, Evidence, ProofCertificate, Sentence, Verdict, analyse,
 };
 use mceip_engine::run::Watch;
 use mceip_exact::{Rational, rational, to_f64, whole};
@@ -41,10 +41,10 @@ const ABSENT_ABOVE: [u64; 5] = [7, 9, 11, 13, 20];
 const NEAR_START: f64 = 1e-5;
 
 fn analysis(system: &System, mu: &Rational) -> Analysis {
-    let options = Options {
+    let options = AnalysisOptions {
         samples: 0,
         threads: Some(1),
-        ..Options::default()
+        ..AnalysisOptions::default()
     };
     analyse(None, system, mu, &options, &Watch::nobody()).unwrap()
 }
@@ -275,10 +275,10 @@ struct AbsentRanges {
 /// range that begins at the critical mu the certificate is refused.
 fn compare_absent_ranges(index: u64, met: &mut AbsentRanges) {
     let system = random_system(index);
-    let options = Options {
+    let options = AnalysisOptions {
         samples: 5,
         threads: Some(1),
-        ..Options::default()
+        ..AnalysisOptions::default()
     };
     let analysis = analyse(None, &system, &whole(2), &options, &Watch::nobody()).unwrap();
 

@@ -10,7 +10,7 @@
 use mceip_check::{AcceptedClaim, check};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, propose};
-use mceip_engine::multistart::{Found, Search, multistart};
+use mceip_engine::multistart::{MultistartFound, Search, multistart};
 use mceip_engine::run::Watch;
 use mceip_engine::search::near::{Near, near};
 use mceip_exact::{Rational, Sparse, from_f64, parse, to_f64, whole};
@@ -194,7 +194,7 @@ fn is_listed(claim: &AcceptedClaim, truth: &[Solution]) -> bool {
 
 /// What the search found, and how many solutions there are.
 struct Searched {
-    found: Found,
+    found: MultistartFound,
     truth: usize,
 }
 

@@ -7,7 +7,7 @@
 
 use crate::families::{Case, random_case, table1_cases};
 use crate::support::{Smooth, smooth};
-use mceip_engine::multistart::{Found, Search, multistart, support};
+use mceip_engine::multistart::{MultistartFound, Search, multistart, support};
 use mceip_engine::reduction::{Embedding, Side};
 use mceip_engine::run::Watch;
 use mceip_exact::Sparse;
@@ -297,7 +297,7 @@ fn the_curve_is_in_the_log_where_the_first_attempt_fails() {
 
 /// A search of ten fresh starts, and what it cost in pivots and factorisations.
 struct Searched {
-    found: Found,
+    found: MultistartFound,
     work: usize,
 }
 

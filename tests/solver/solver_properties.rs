@@ -8,7 +8,7 @@
 
 use mceip_check::{AcceptedClaim, check};
 use mceip_engine::certify::certificate;
-use mceip_engine::multistart::{Certified, Search};
+use mceip_engine::multistart::{CertifiedCandidate, Search};
 use mceip_engine::run::Watch;
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::reduction::reduce;
@@ -321,7 +321,7 @@ fn is_in_table(claim: &AcceptedClaim, truth: &[ClosedSolution]) -> bool {
 /// What the checker accepts of what is certified.
 fn accepted_claims(
     problem: &Problem,
-    certified: Vec<Certified>,
+    certified: Vec<CertifiedCandidate>,
 ) -> Result<Vec<AcceptedClaim>, String> {
     if certified.is_empty() {
         return Ok(Vec::new());

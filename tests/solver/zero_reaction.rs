@@ -10,7 +10,9 @@ use mceip_check::certificate::{Claim, EnclosedSolution};
 use mceip_check::check;
 use mceip_engine::certify::Preference;
 use mceip_engine::certify::certificate;
-use mceip_engine::multistart::{Certified, Found, Search, exact_value, multistart, support};
+use mceip_engine::multistart::{
+    CertifiedCandidate, MultistartFound, Search, exact_value, multistart, support,
+};
 use mceip_engine::reduction::{Embedding, Side};
 use mceip_engine::run::Watch;
 use mceip_mcp::mcp::Mcp;
@@ -55,7 +57,7 @@ fn random_problem(index: u64) -> Problem {
     Problem::new(Body::System(system), unknown(index), Window::all()).unwrap()
 }
 
-fn search(problem: &Problem) -> Found {
+fn search(problem: &Problem) -> MultistartFound {
     let reduced = reduce(problem).unwrap();
     // The list has exact values.
     let search = Search {
@@ -66,7 +68,7 @@ fn search(problem: &Problem) -> Found {
 }
 
 /// Is a certified solution that of the list?
-fn is_listed_as(certified: &Certified, solution: &Solution) -> bool {
+fn is_listed_as(certified: &CertifiedCandidate, solution: &Solution) -> bool {
     let mut value = exact_value(&certified.claim).unwrap();
     let has_same_value = value.equals(&mut solution.value.clone());
     has_same_value && support(&certified.claim) == solution.slip

@@ -10,7 +10,7 @@
 use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily, check};
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Algebraic, Interval, Rational, Sparse, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
@@ -344,9 +344,9 @@ fn is_on(region: &OpenRegion, value: &Algebraic) -> bool {
 
 /// The certificate of the complete set, which the checker accepts.
 pub fn proved(problem: &Problem) -> Certificate {
-    let options = Options {
+    let options = CompleteOptions {
         pieces: 6,
-        ..Options::default()
+        ..CompleteOptions::default()
     };
     let certificate = complete(problem, &options, &Watch::nobody())
         .unwrap()

@@ -8,7 +8,7 @@
 use super::*;
 use mceip_engine::report::Listed;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Sparse, parse, rational, to_f64, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{
@@ -434,7 +434,7 @@ fn system_of(instance: &Instance) -> &System {
 fn certified_modes(system: &System, equations: &Equations) -> Vec<Mode> {
     let body = Body::System(system.clone());
     let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
-    let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+    let found = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
     assert!(found.is_complete());
 
     let reduced = reduce(&problem).unwrap();

@@ -16,7 +16,7 @@ use mceip_engine::certify::certificate;
 use mceip_engine::multistart::{Search, SearchError, multistart};
 use mceip_engine::reduction::condense;
 use mceip_engine::run::{Progress, Watch};
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::to_f64;
 use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Pencil, Unknown};
@@ -140,7 +140,7 @@ pub fn block_state(
     watch.report(&Progress::stage(
         "proving that there are no other solutions",
     ));
-    let completed = complete(&problem, &Options::default(), &watch.quiet())?;
+    let completed = complete(&problem, &CompleteOptions::default(), &watch.quiet())?;
     watch.report(&Progress::stage("checking"));
 
     let mut uncertified = Vec::new();

@@ -24,7 +24,7 @@ use mceip_check::{Proved, check};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate};
 use mceip_engine::multistart::{
-    Found, Origin, Search, SearchError, exact_value, integer_x, multistart, support,
+    MultistartFound, Origin, Search, SearchError, exact_value, integer_x, multistart, support,
 };
 use mceip_engine::run::Watch;
 use mceip_exact::{Algebraic, Quadratic, Rational, Sign};
@@ -99,7 +99,8 @@ pub struct Reached {
 
 /// What is asked for the solutions of a problem: [`multistart`], [`from_interior`], or one that is
 /// wrong on purpose.
-pub type Solver = fn(&Problem, &Reduced, &Search, &Watch<'_>) -> Result<Found, SearchError>;
+pub type Solver =
+    fn(&Problem, &Reduced, &Search, &Watch<'_>) -> Result<MultistartFound, SearchError>;
 
 /// How an instance is treated.
 #[derive(Debug, Clone)]
@@ -505,7 +506,7 @@ struct Answered<'a> {
 fn compare_found(
     answered: &Answered<'_>,
     starts: Starts,
-    found: Found,
+    found: MultistartFound,
     report: &mut InstanceReport,
 ) {
     let oracle = answered.oracle;

@@ -7,7 +7,7 @@
 use super::disagreement::Disagreement;
 use mceip_check::{AcceptedClaim, AcceptedCover, SolutionFamily};
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{CompleteError, Completed, Options, complete};
+use mceip_engine::search::complete::{CompleteError, CompleteOptions, Completed, complete};
 use mceip_exact::Algebraic;
 use mceip_model::Problem;
 use mceip_oracle::{Cone, Enumeration, Piece, Solution, SupportRange};
@@ -36,10 +36,10 @@ pub(super) fn compare_within(
     oracle: &Enumeration,
     nodes: usize,
 ) -> Result<Option<Completed>, Disagreement> {
-    let options = Options {
+    let options = CompleteOptions {
         nodes_per_piece: nodes,
         threads: None,
-        ..Options::default()
+        ..CompleteOptions::default()
     };
 
     let completed = match complete(problem, &options, &Watch::nobody()) {

@@ -11,7 +11,7 @@
 
 use super::floors::Coverage;
 use mceip_engine::certify::Certifier;
-use mceip_engine::multistart::{Found, Origin, Search, SearchError};
+use mceip_engine::multistart::{MultistartFound, Origin, Search, SearchError};
 use mceip_engine::reduction::{Embedding, Side};
 use mceip_engine::run::Watch;
 use mceip_engine::tolerance::PATH_VALUE;
@@ -97,7 +97,7 @@ pub fn from_interior(
     reduced: &Reduced,
     search: &Search,
     _: &Watch<'_>,
-) -> Result<Found, SearchError> {
+) -> Result<MultistartFound, SearchError> {
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let bottom = to_f64(problem.window().min());
     let certifier = Certifier::new(problem, &reduced.pencil);
@@ -106,7 +106,7 @@ pub fn from_interior(
     let mut attempt = Attempt {
         certifier,
         embedding,
-        found: Found::default(),
+        found: MultistartFound::default(),
     };
 
     let mut points = Vec::new();
@@ -136,7 +136,7 @@ const PER_CURVE: usize = 16;
 struct Attempt<'a> {
     certifier: Certifier<'a>,
     embedding: Embedding,
-    found: Found,
+    found: MultistartFound,
 }
 
 impl Attempt<'_> {

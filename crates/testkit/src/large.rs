@@ -6,7 +6,7 @@
 
 use crate::error::TestkitError;
 use mceip_engine::run::{Cancel, Watch};
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
@@ -97,9 +97,9 @@ pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, TestkitError> 
 ///
 /// A complete search that is stopped at once leaves the condensation, and this matrix in it.
 fn elimination_in_doubles(problem: &Problem) -> Result<Option<Vec<Vec<f64>>>, TestkitError> {
-    let options = Options {
+    let options = CompleteOptions {
         threads: Some(1),
-        ..Options::default()
+        ..CompleteOptions::default()
     };
     let stopped = complete(problem, &options, &Watch::silent(&Cancel::requested()))?;
     let set = stopped.proved.into_certificate().complete_set;
@@ -213,7 +213,7 @@ mod tests {
             .problem(&Block::of_the_paper(mceip_paper::MassKind::Consistent))
             .unwrap();
         let small = condensed_in_doubles(&problem).unwrap();
-        let found = complete(&small, &Options::default(), &Watch::nobody()).unwrap();
+        let found = complete(&small, &CompleteOptions::default(), &Watch::nobody()).unwrap();
 
         assert_eq!(found.cover.solutions.len(), 1);
         assert!((to_f64(&found.cover.solutions[0].value.mid()) - 1.71).abs() < 0.01);

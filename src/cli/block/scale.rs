@@ -12,7 +12,7 @@ use mceip_engine::multistart::{AllSlip, all_slip};
 use mceip_engine::reduction::{CondensationResidual, SparseCondensation, SparseCondensed};
 use mceip_engine::report::Table;
 use mceip_engine::run::{Cancel, Watch};
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Sparse, from_f64};
 use mceip_mcp::linear::Symmetric;
 use mceip_model::file::write_problem;
@@ -223,7 +223,7 @@ fn complete_text(problem: &Problem, slip: usize, cancel: &Cancel) -> String {
     }
 
     let clock = Instant::now();
-    let found = match complete(problem, &Options::default(), &Watch::silent(cancel)) {
+    let found = match complete(problem, &CompleteOptions::default(), &Watch::silent(cancel)) {
         Ok(found) => found,
         Err(e) => return format!("failed: {e}"),
     };

@@ -15,7 +15,7 @@ use mceip_engine::reduction::{SparseCondensation, mode};
 use mceip_engine::report::{Table, six_digits};
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::complete::continua::joined;
-use mceip_engine::search::complete::{Completed, Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, Completed, complete};
 use mceip_exact::{
     Interval, Rational, enclosing_decimals, enclosing_doubles, to_f64, upper_decimal,
 };
@@ -179,7 +179,7 @@ fn condensed_set(
     watch: &Watch<'_>,
 ) -> Result<ProvedSet, CliError> {
     let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
-    let found = complete(&problem, &Options::default(), watch)?;
+    let found = complete(&problem, &CompleteOptions::default(), watch)?;
     let mut set = ProvedSet::of(&found, 0..states.len());
 
     if with_modes && !set.solutions.is_empty() {
@@ -208,7 +208,7 @@ fn uncondensed_set(
     };
     let system = body.with_states(states, mu.cloned())?;
     let problem = Problem::new(Body::System(system), unknown, Window::all())?;
-    let found = complete(&problem, &Options::default(), watch)?;
+    let found = complete(&problem, &CompleteOptions::default(), watch)?;
 
     let variables = reduce(&problem)?.variables;
     let free = variables

@@ -83,7 +83,7 @@ pub(super) fn text_of(problem: &Problem, found: &Found, all: bool) -> String {
     render(&Header::new(problem, found.search(), all), found.as_run())
 }
 
-fn render(header: &Header, found: &multistart::Found) -> String {
+fn render(header: &Header, found: &multistart::MultistartFound) -> String {
     let mut out = first_line(header);
     out.extend(found.trace.iter().map(String::as_str));
     for solution in &found.certified {

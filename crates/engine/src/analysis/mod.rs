@@ -40,7 +40,7 @@ pub use error::AnalysisError;
 pub use evidence::{Evidence, Proof, ProofCertificate};
 pub use flutter::{Flutter, Onset, Oscillation};
 pub use json::ANALYSIS_FORMAT;
-pub use model::{MAX_SAMPLES, Options};
+pub use model::{AnalysisOptions, MAX_SAMPLES};
 pub use modes::{Mode, ZeroMode};
 pub use ranges::{Range, Sample};
 pub use sentences::Sentence;
@@ -70,7 +70,7 @@ pub fn analyse(
     name: Option<String>,
     system: &System,
     friction: &Rational,
-    options: &Options,
+    options: &AnalysisOptions,
     watch: &Watch<'_>,
 ) -> Result<Analysis, AnalysisError> {
     error::require_question(system, friction)?;
@@ -161,7 +161,7 @@ pub fn divergence_at(
     system: &System,
     friction: &Rational,
     earlier: Option<&Certificate>,
-    options: &Options,
+    options: &AnalysisOptions,
     watch: &Watch<'_>,
 ) -> Result<(Divergence, Option<Proof>), AnalysisError> {
     error::require_question(system, friction)?;

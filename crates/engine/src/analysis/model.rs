@@ -18,7 +18,7 @@ pub const MAX_SAMPLES: usize = 10_000;
 
 /// How much work an analysis may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Options {
+pub struct AnalysisOptions {
     /// Values of mu at which divergence is decided, to find the ranges in which it exists; 0: none,
     /// at most [`MAX_SAMPLES`].
     pub samples: usize,
@@ -28,9 +28,9 @@ pub struct Options {
     pub limits: Limits,
 }
 
-impl Default for Options {
+impl Default for AnalysisOptions {
     fn default() -> Self {
-        Options {
+        AnalysisOptions {
             samples: 16,
             threads: None,
             limits: Limits::default(),
@@ -41,7 +41,7 @@ impl Default for Options {
 /// The system and how to search it.
 pub(super) struct AnalysisModel<'a> {
     pub(super) system: &'a System,
-    pub(super) options: &'a Options,
+    pub(super) options: &'a AnalysisOptions,
     /// What an earlier run has proved of one of the problems.
     pub(super) earlier: Option<&'a Certificate>,
     pub(super) watch: Watch<'a>,
@@ -106,9 +106,9 @@ impl AnalysisModel<'_> {
         let relay = |progress: &Progress<'_>| self.relay(stage, progress);
         self.watch.report(&Progress::stage(stage));
 
-        let options = complete::Options {
+        let options = complete::CompleteOptions {
             threads: self.options.threads,
-            ..complete::Options::default()
+            ..complete::CompleteOptions::default()
         };
 
         let watch = self.watch.heard_by(&relay).kept_by(keeper);

@@ -23,7 +23,7 @@ pub struct Uncertified {
 
 /// A certified solution (the checker has accepted its claim) and the start that led to it first.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Certified {
+pub struct CertifiedCandidate {
     /// The claim for the certificate.
     pub claim: Claim,
     /// The candidate it was made from.
@@ -47,9 +47,9 @@ pub enum Origin {
 
 /// What a search found. It never says that nothing else exists.
 #[derive(Debug, Clone, Default)]
-pub struct Found {
+pub struct MultistartFound {
     /// Distinct certified solutions, by value.
-    pub certified: Vec<Certified>,
+    pub certified: Vec<CertifiedCandidate>,
     /// Distinct candidates that stayed uncertified.
     pub uncertified: Vec<Uncertified>,
     /// Candidates outside the window (a search downwards may leave it): counted, not certified.
@@ -82,7 +82,7 @@ pub struct Found {
     pub first: Option<Outcome>,
 }
 
-impl Found {
+impl MultistartFound {
     /// Is `candidate` the same point as one that was found, certified or not, within rounding?
     pub fn knows(&self, candidate: &Candidate) -> bool {
         let certified = self.certified.iter().map(|entry| &entry.candidate);
@@ -135,7 +135,7 @@ impl Found {
         let mut listed = self.certified.iter().map(|entry| &entry.claim);
         let is_listed = listed.any(|listed| same(listed, &claim));
         if !is_listed {
-            self.certified.push(Certified {
+            self.certified.push(CertifiedCandidate {
                 claim,
                 candidate,
                 run,

@@ -9,7 +9,7 @@
 //! Every point where a run ends with small residuals is handed to the certifier and listed once.
 //! Called by [`multistart`](super::multistart).
 
-use super::found::{Found, Origin};
+use super::found::{MultistartFound, Origin};
 use super::ground::Ground;
 use super::same::support;
 use super::search::{Certify, Search};
@@ -38,7 +38,7 @@ pub(super) struct Hunt<'a> {
     pub(super) search: &'a Search,
     pub(super) certifier: &'a Certify<'a>,
     pub(super) watch: Watch<'a>,
-    pub(super) found: Found,
+    pub(super) found: MultistartFound,
 }
 
 impl Hunt<'_> {

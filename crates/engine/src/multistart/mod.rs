@@ -27,7 +27,7 @@ mod trace;
 pub use all_slip::{AllSlip, all_slip};
 pub use condensed::{CondensedFound, CondensedSearch, CondensedSolution, search_condensed};
 pub use error::SearchError;
-pub use found::{Certified, Found, Origin, Uncertified};
+pub use found::{CertifiedCandidate, MultistartFound, Origin, Uncertified};
 pub(crate) use same::claimed_root;
 pub use same::{exact_value, integer_x, is_about, same, same_x, support};
 pub(crate) use search::require_starts;
@@ -64,7 +64,7 @@ pub fn multistart(
     reduced: &Reduced,
     search: &Search,
     watch: &Watch<'_>,
-) -> Result<Found, SearchError> {
+) -> Result<MultistartFound, SearchError> {
     let pencil = &reduced.pencil;
     let admissible = Admissible::new(pencil, problem.unknown())?;
     let certifier = certify::Certifier::new(problem, pencil).with_preference(search.preference);
@@ -80,7 +80,7 @@ pub fn multistart(
             search,
             certifier: &|candidate| certifier.certify(&expansion.expand(candidate)),
             watch: *watch,
-            found: Found::default(),
+            found: MultistartFound::default(),
         });
     }
 
@@ -91,7 +91,7 @@ pub fn multistart(
         search,
         certifier: &|candidate| certifier.certify(candidate),
         watch: *watch,
-        found: Found::default(),
+        found: MultistartFound::default(),
     })
 }
 
@@ -109,7 +109,7 @@ fn require_dense_order(pencil: &Pencil) -> Result<(), SearchError> {
 }
 
 /// Searches the window, then above and below each value found, and sorts what was found.
-fn search_with(mut hunt: Hunt<'_>) -> Result<Found, SearchError> {
+fn search_with(mut hunt: Hunt<'_>) -> Result<MultistartFound, SearchError> {
     let search = hunt.search;
     let pencil = hunt.admissible.pencil();
     require_dense_order(pencil)?;
@@ -268,7 +268,7 @@ mod tests {
             search: &search,
             certifier: &|candidate| checked(&problem, wrong_above(&pencil, candidate)?),
             watch: Watch::nobody(),
-            found: Found::default(),
+            found: MultistartFound::default(),
         })
         .unwrap();
 

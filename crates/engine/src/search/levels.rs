@@ -5,7 +5,7 @@
 //! ([`SparseCondensation`]); its complete set is that of the rounded pencil. For pictures, and for
 //! starts of what is certified elsewhere. Called by `mceip path` and `analyze`.
 
-use super::complete::{CompleteError, Options, complete};
+use super::complete::{CompleteError, CompleteOptions, complete};
 use crate::reduction::{SparseCondensation, SparseCondensed};
 use crate::run::Watch;
 use mceip_exact::{Sparse, from_f64, to_f64};
@@ -36,7 +36,7 @@ pub fn level_solutions(
     let b = exact(&level.b).ok_or_else(singular)?;
     let pencil = Pencil::new(a, b, Vec::new())?;
     let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
-    let found = complete(&problem, &Options::default(), watch)?;
+    let found = complete(&problem, &CompleteOptions::default(), watch)?;
 
     let mut solutions = Vec::new();
     for (claim, x) in found.solutions() {

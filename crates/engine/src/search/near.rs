@@ -5,7 +5,7 @@
 //! window closes more easily and proves less. Called by `mceip certify` for candidates that no
 //! certificate could be made of.
 
-use super::complete::{CompleteError, Completed, Options, complete};
+use super::complete::{CompleteError, CompleteOptions, Completed, complete};
 use crate::candidate::{Candidate, distance};
 use crate::run::Watch;
 use crate::tolerance::{ABSENCE_RADII, X_RADIUS};
@@ -78,10 +78,10 @@ pub fn near(
         None => default_radii(&value),
     };
 
-    let options = Options {
+    let options = CompleteOptions {
         pieces: PIECES,
         nodes_per_piece: NODES_PER_PIECE,
-        ..Options::default()
+        ..CompleteOptions::default()
     };
 
     let mut last = Near::OutsideWindow;

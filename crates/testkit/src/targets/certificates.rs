@@ -12,7 +12,7 @@ use mceip_engine::certify::{certificate, propose};
 use mceip_engine::foreign::{BadPoint, ForeignReport, Reported};
 use mceip_engine::multistart::support;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Algebraic, Sparse, from_f64};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Pencil, Problem, Reduced, Unknown, Window};
@@ -261,10 +261,10 @@ fn is_within(value: &Algebraic, claim: &AcceptedClaim) -> bool {
 
 /// Certificates of every kind for the fixed problems: the seeds of the corpus.
 pub fn certificate_seeds() -> Vec<String> {
-    let options = Options {
+    let options = CompleteOptions {
         pieces: 2,
         nodes_per_piece: 200,
-        ..Options::default()
+        ..CompleteOptions::default()
     };
 
     let mut out = Vec::new();

@@ -12,7 +12,7 @@ use crate::families::Instance;
 use crate::generators::{gram_of, sparse};
 use mceip_check::check;
 use mceip_engine::run::Watch;
-use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::file::write_problem;
 use mceip_model::reduction::reduce;
@@ -358,10 +358,10 @@ fn products(matrix: &Sparse, left: &[Column], right: &[Column]) -> Sparse {
 /// A certificate of the complete set, as far as few nodes lead, has one verdict on the system and
 /// on its reduced pencil.
 fn same_verdict(problem: &Problem, pencil: &Pencil) {
-    let options = Options {
+    let options = CompleteOptions {
         nodes_per_piece: NODES,
         threads: None,
-        ..Options::default()
+        ..CompleteOptions::default()
     };
 
     let Ok(found) = complete(problem, &options, &Watch::nobody()) else {

@@ -226,7 +226,7 @@ fn has_ended(end: &Receiver<()>, wait: Duration) -> bool {
 mod tests {
     use super::*;
     use crate::run::{Kept, Watch};
-    use crate::search::complete::{Completed, Options, complete, resume};
+    use crate::search::complete::{CompleteOptions, Completed, complete, resume};
     use mceip_check::check;
     use mceip_exact::Sparse;
     use mceip_model::{Body, Pencil, Unknown, Window};
@@ -289,7 +289,7 @@ mod tests {
         let keeper = Keeper::new(Duration::from_millis(1), &keep);
         let watch = Watch::nobody().kept_by(Some(keeper));
 
-        let options = Options::default();
+        let options = CompleteOptions::default();
         let completed = match earlier {
             None => complete(problem, &options, &watch),
             Some(earlier) => resume(problem, earlier, &options, &watch),
@@ -308,7 +308,7 @@ mod tests {
     fn what_is_kept_is_accepted_and_loses_nothing_of_an_earlier_certificate() {
         let problem = graph(8);
         let (parts, completed) = kept(&problem, None);
-        let alone = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+        let alone = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
         assert_eq!(completed.proved, alone.proved);
         assert_eq!(completed.cover.solutions.len(), 255);
 

@@ -52,7 +52,7 @@ pub(crate) mod tree;
 
 pub use error::CompleteError;
 pub use merge::merge;
-pub use options::{Options, Shard};
+pub use options::{CompleteOptions, Shard};
 
 use crate::certify::certificate;
 use crate::run::Watch;
@@ -140,20 +140,20 @@ impl Completed {
 /// ```
 /// use mceip_exact::{whole, Sparse};
 /// use mceip_model::{Body, Pencil, Problem, Unknown, Window};
-/// use mceip_engine::search::complete::{complete, Options};
+/// use mceip_engine::search::complete::{complete, CompleteOptions};
 /// use mceip_engine::run::Watch;
 /// // The fold of spec/errata.md: lambda^2 = 2 and 3 and nothing else in [0, infinity).
 /// let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
 /// let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
 /// let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
-/// let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+/// let found = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
 /// assert!(found.is_complete());
 /// assert_eq!(found.cover.solutions.len(), 2);
 /// assert!(found.cover.solutions[0].value.contains(&whole(2)));
 /// ```
 pub fn complete(
     problem: &Problem,
-    options: &Options,
+    options: &CompleteOptions,
     watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
     let pencil = reduce(problem)?.pencil;
@@ -181,7 +181,7 @@ pub fn complete(
 pub fn resume(
     problem: &Problem,
     earlier: &Certificate,
-    options: &Options,
+    options: &CompleteOptions,
     watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
     let pencil = reduce(problem)?.pencil;
@@ -202,11 +202,11 @@ pub fn resume(
 fn with_fine_anchors(
     given: &Given<'_>,
     coarse: Prepared,
-    options: &Options,
+    options: &CompleteOptions,
     watch: &Watch<'_>,
 ) -> Prepared {
     // Every shard does this for all pieces, so that all shards have the same ones.
-    let all_pieces = Options {
+    let all_pieces = CompleteOptions {
         shard: None,
         ..*options
     };
@@ -227,7 +227,7 @@ fn with_fine_anchors(
 fn about_solutions(
     given: &Given<'_>,
     prepared: Prepared,
-    options: &Options,
+    options: &CompleteOptions,
     watch: &Watch<'_>,
 ) -> Prepared {
     let loose = prepared.without_remainders();
@@ -277,7 +277,7 @@ fn run(
     given: &Given<'_>,
     prepared: Prepared,
     certificate: Certificate,
-    options: &Options,
+    options: &CompleteOptions,
     watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
     let mut rounds = Rounds {

@@ -2,7 +2,7 @@
 
 /// How to search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Options {
+pub struct CompleteOptions {
     /// Pieces into which the window is cut before the search; the work is shared out by piece.
     pub pieces: usize,
     /// Nodes that one piece may use before the rest of it is left open.
@@ -22,9 +22,9 @@ pub struct Shard {
     pub count: usize,
 }
 
-impl Default for Options {
+impl Default for CompleteOptions {
     fn default() -> Self {
-        Options {
+        CompleteOptions {
             pieces: 16,
             nodes_per_piece: 2_000_000,
             threads: None,

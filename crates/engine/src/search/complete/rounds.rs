@@ -12,7 +12,7 @@ use super::audited::{Audited, audited};
 use super::checkpoint::{Checkpoints, Snapshots};
 use super::error::CompleteError;
 use super::given::Given;
-use super::options::Options;
+use super::options::CompleteOptions;
 use super::pieces::prepared::Prepared;
 use super::precise;
 use super::shares::Shares;
@@ -30,7 +30,7 @@ const MAX_REFUSED: usize = 200;
 /// A search under way.
 pub(super) struct Rounds<'a> {
     pub(super) given: &'a Given<'a>,
-    pub(super) options: &'a Options,
+    pub(super) options: &'a CompleteOptions,
     pub(super) prepared: Prepared,
 }
 
@@ -151,7 +151,7 @@ impl Rounds<'_> {
 /// Does a search leave regions open in the pieces next to the lower end of the window?
 pub(super) fn is_open_below(
     given: &Given<'_>,
-    options: &Options,
+    options: &CompleteOptions,
     prepared: &Prepared,
     watch: &Watch<'_>,
 ) -> bool {
@@ -164,7 +164,7 @@ pub(super) fn is_open_below(
 /// The values of the null vectors that a first search of an open cover meets, ascending.
 pub(super) fn values_met(
     given: &Given<'_>,
-    options: &Options,
+    options: &CompleteOptions,
     prepared: &Prepared,
     watch: &Watch<'_>,
 ) -> Vec<f64> {
@@ -177,7 +177,7 @@ pub(super) fn values_met(
 /// Searches an open cover, and tells nobody.
 fn first_look(
     given: &Given<'_>,
-    options: &Options,
+    options: &CompleteOptions,
     prepared: &Prepared,
     chosen: &Chosen,
     watch: &Watch<'_>,

@@ -9,7 +9,7 @@
 
 use super::checkpoint::{Copier, Snapshots};
 use super::given::Given;
-use super::options::Options;
+use super::options::CompleteOptions;
 use super::pieces::prepared::Prepared;
 use super::region::{Item, SearchRegion};
 use super::shares::Shares;
@@ -76,7 +76,7 @@ pub(super) struct Pass<'a> {
     pub(super) given: &'a Given<'a>,
     pub(super) prepared: &'a Prepared,
     pub(super) set: &'a CompleteSet,
-    pub(super) options: &'a Options,
+    pub(super) options: &'a CompleteOptions,
     pub(super) chosen: &'a Chosen,
     pub(super) shares: &'a Shares<'a>,
     /// Where copies of the trees are handed over, if anybody keeps them.

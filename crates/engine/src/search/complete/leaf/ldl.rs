@@ -216,7 +216,7 @@ fn is_strict(factor: &LdlFactor) -> bool {
 mod tests {
     use super::*;
     use crate::run::Watch;
-    use crate::search::complete::{Options, complete};
+    use crate::search::complete::{CompleteOptions, complete};
     use mceip_exact::{Sparse, whole};
     use mceip_model::{Body, Problem, Unknown};
 
@@ -238,7 +238,7 @@ mod tests {
 
         let body = Body::Pencil(pencil);
         let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
-        let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
+        let found = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
         assert!(found.is_complete());
         assert_eq!(found.cover.leaves, 1);
         assert!(found.cover.solutions.is_empty());
