@@ -38,7 +38,7 @@ pub struct Generators {
 /// assert_eq!((cone.lineality.len(), cone.rays.len()), (0, 2));
 /// ```
 pub fn cone_generators(rows: &[Vec<Poly>], dimension: usize, alpha: &mut Algebraic) -> Generators {
-    let mut cone = Cone::whole_space(dimension);
+    let mut cone = PartialCone::whole_space(dimension);
     for row in rows {
         cone.intersect(row, alpha);
     }
@@ -50,7 +50,7 @@ pub fn cone_generators(rows: &[Vec<Poly>], dimension: usize, alpha: &mut Algebra
 }
 
 /// The cone of the rows so far.
-struct Cone {
+struct PartialCone {
     lineality: Vec<Vec<Poly>>,
     rays: Vec<Ray>,
     /// Number of rows so far.
@@ -69,14 +69,14 @@ struct RowValue {
     sign: Sign,
 }
 
-impl Cone {
-    fn whole_space(dimension: usize) -> Cone {
+impl PartialCone {
+    fn whole_space(dimension: usize) -> PartialCone {
         let mut lineality = vec![vec![Poly::default(); dimension]; dimension];
         for (k, unit_vector) in lineality.iter_mut().enumerate() {
             unit_vector[k] = Poly::from_ints(&[1]);
         }
 
-        Cone {
+        PartialCone {
             lineality,
             rays: Vec::new(),
             rows: 0,

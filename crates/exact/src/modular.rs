@@ -74,7 +74,7 @@ pub fn schur_complement(
     require_shape("R", r, (r.rows(), n))?;
     require_shape("D", d, (r.rows(), c.cols()))?;
 
-    let bordered = Bordered::new(f, c, r, d);
+    let bordered = BorderedMatrix::new(f, c, r, d);
     let minors = bordered.minors()?;
     let det_f = &minors[0];
 
@@ -106,7 +106,7 @@ fn require_shape(
 }
 
 /// The integer matrix [F C; R D] in units of `unit`, as rows of (column, value).
-struct Bordered {
+struct BorderedMatrix {
     /// Order of F.
     n: usize,
     /// Columns of C and D.
@@ -117,8 +117,8 @@ struct Bordered {
     unit: Rational,
 }
 
-impl Bordered {
-    fn new(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> Bordered {
+impl BorderedMatrix {
+    fn new(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> BorderedMatrix {
         let n = f.rows();
         let mut rational = Vec::with_capacity(n + r.rows());
 
@@ -152,7 +152,7 @@ impl Bordered {
             .collect();
 
         let band = f.entries().map(|(i, j, _)| i.abs_diff(j)).max();
-        Bordered {
+        BorderedMatrix {
             n,
             cols: c.cols(),
             rows,
@@ -199,7 +199,7 @@ impl Bordered {
         bits.div_ceil(2)
     }
 
-    /// [`Bordered::minors`] modulo p, or `None` if a leading minor vanishes modulo p.
+    /// [`BorderedMatrix::minors`] modulo p, or `None` if a leading minor vanishes modulo p.
     fn minors_modulo(&self, p: u64) -> Option<Vec<u64>> {
         let mut matrix = self.modulo(p);
         let det = matrix.eliminate(self.n, self.band)?;

@@ -71,7 +71,7 @@ struct Squarefree {
 }
 
 /// An open interval whose ends are no roots, with the sign changes of the Sturm chain there.
-struct Section {
+struct SturmSection {
     lo: Rational,
     hi: Rational,
     changes_at_lo: usize,
@@ -108,7 +108,7 @@ impl Squarefree {
 
     /// Appends the roots in the open interval (lo, hi), ascending. Neither end is a root.
     fn isolate(&self, lo: Rational, hi: Rational, roots: &mut Vec<Algebraic>) {
-        let mut stack = vec![Section {
+        let mut stack = vec![SturmSection {
             changes_at_lo: variations(&self.chain, &lo),
             changes_at_hi: variations(&self.chain, &hi),
             lo,
@@ -131,17 +131,17 @@ impl Squarefree {
         }
     }
 
-    fn halves(&self, section: Section) -> [Section; 2] {
+    fn halves(&self, section: SturmSection) -> [SturmSection; 2] {
         let mid = self.split_point(&section.lo, &section.hi);
         let changes_at_mid = variations(&self.chain, &mid);
-        let lower = Section {
+        let lower = SturmSection {
             lo: section.lo,
             hi: mid.clone(),
             changes_at_lo: section.changes_at_lo,
             changes_at_hi: changes_at_mid,
         };
 
-        let upper = Section {
+        let upper = SturmSection {
             lo: mid,
             hi: section.hi,
             changes_at_lo: changes_at_mid,
