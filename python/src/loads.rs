@@ -6,7 +6,7 @@ use crate::{MceipError, NativeProblem, NotCertifiedError, Triplets};
 use crate::{matrix, number, refused, warnings};
 use mceip::{Error, FrictionGrid, FrictionGridError, LoadPath, Loads, Rational};
 use mceip_model::file::LoadsFile;
-use mceip_model::{Candidate, LoadStep, LoadedBody, LoadedParts};
+use mceip_model::{ContactCandidate, LoadStep, LoadedBody, LoadedParts};
 use pyo3::prelude::*;
 
 /// Values at degrees of freedom, as text.
@@ -56,7 +56,7 @@ impl NativeLoads {
             mass: mass.map(mceip::Matrix::into_exact),
             friction: Some(number("friction", friction)?),
             candidates: candidates
-                .map(|(particle, gap)| Candidate { particle, gap })
+                .map(|(particle, gap)| ContactCandidate { particle, gap })
                 .collect(),
             held,
             steps,

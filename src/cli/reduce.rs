@@ -5,7 +5,7 @@ use mceip_engine::reduction::condense;
 use mceip_exact::whole;
 use mceip_model::file::write_problem;
 use mceip_model::reduction::reduce;
-use mceip_model::{Admissible, Body, Problem, Reduced, Variable};
+use mceip_model::{Admissible, Body, Problem, Reduced, ReducedVariable};
 use std::path::PathBuf;
 
 /// Arguments of `reduce`.
@@ -62,10 +62,10 @@ fn comment(args: &Args, problem: &Problem, reduced: &Reduced) -> String {
 }
 
 /// A variable of the pencil in terms of the degrees of freedom: v_f, or -S v_T of a slip particle.
-fn variable_text(variable: &Variable) -> String {
+fn variable_text(variable: &ReducedVariable) -> String {
     match variable {
-        Variable::Free { dof } => format!("v[{dof}]"),
-        Variable::Slip { sign, tangent, .. } => {
+        ReducedVariable::Free { dof } => format!("v[{dof}]"),
+        ReducedVariable::Slip { sign, tangent, .. } => {
             let sign = whole(i64::from(*sign));
             let mut terms = Vec::new();
             for (dof, component) in tangent {
@@ -74,7 +74,7 @@ fn variable_text(variable: &Variable) -> String {
 
             terms.join(" + ")
         }
-        Variable::Zero {
+        ReducedVariable::Zero {
             variables, part, ..
         } => format!("{} of particle {}", part.word(), variables.particle),
     }

@@ -11,7 +11,7 @@
 use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator, rational, whole};
 use mceip_model::reduction::{Lifted, check_lines, lift, reduce};
 use mceip_model::{
-    Body, ContactState, Direction, Particle, Problem, System, Unknown, Variable, Window,
+    Body, ContactState, Direction, Particle, Problem, ReducedVariable, System, Unknown, Window,
 };
 use mceip_oracle::{
     Enumeration, Mode, Motion, Motions, PhysicalState, PhysicalSystem, TwoParticles, enumerate,
@@ -30,7 +30,7 @@ const FAMILY: u64 = 90;
 struct Reduced {
     found: Enumeration,
     pencil: mceip_model::Pencil,
-    variables: Vec<Variable>,
+    variables: Vec<ReducedVariable>,
 }
 
 fn reduced_route(system: &System, unknown: Unknown) -> Reduced {
@@ -60,11 +60,11 @@ fn denominator_of(first: &Direction, second: &Direction) -> Integer {
 }
 
 /// x of (10) for a motion v: v at free degrees of freedom, -S v_T at slip particles.
-fn x_of(variables: &[Variable], v: &[Poly]) -> Vec<Poly> {
+fn x_of(variables: &[ReducedVariable], v: &[Poly]) -> Vec<Poly> {
     // One factor for all entries, since x counts up to a positive factor.
     let mut coefficients = Vec::new();
     for variable in variables {
-        if let Variable::Slip { tangent, .. } = variable {
+        if let ReducedVariable::Slip { tangent, .. } = variable {
             coefficients.extend(tangent.iter().map(|(_, c)| c.clone()));
         }
     }
@@ -73,12 +73,12 @@ fn x_of(variables: &[Variable], v: &[Poly]) -> Vec<Poly> {
     let mut x = Vec::new();
     for variable in variables {
         x.push(match variable {
-            Variable::Free { dof } => v[*dof].scale(&clear),
-            Variable::Slip { sign, tangent, .. } => {
+            ReducedVariable::Free { dof } => v[*dof].scale(&clear),
+            ReducedVariable::Slip { sign, tangent, .. } => {
                 let sliding = combination(tangent, v, &clear);
                 sliding.scale(&(-i64::from(*sign)).into())
             }
-            Variable::Zero { .. } => panic!("the reduced route has no z particles"),
+            ReducedVariable::Zero { .. } => panic!("the reduced route has no z particles"),
         });
     }
 

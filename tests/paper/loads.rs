@@ -9,7 +9,7 @@
 
 use crate::elimination::solve;
 use mceip_exact::{Rational, Sparse, rational, whole};
-use mceip_model::{Candidate, ContactState, LoadStep, LoadedBody, LoadedParts, Particle};
+use mceip_model::{ContactCandidate, ContactState, LoadStep, LoadedBody, LoadedParts, Particle};
 use mceip_path::{Bound, Contact, Equilibrium, LoadSteps, LoadingPath, PathEnd, RateSolutions};
 use num_traits::{Signed, Zero};
 use rand::{RngExt, SeedableRng};
@@ -59,7 +59,7 @@ impl Instance {
         }
 
         let friction = rational(rng.random_range(1..9), 3);
-        let candidates = [0, 1].map(|k| Candidate {
+        let candidates = [0, 1].map(|k| ContactCandidate {
             particle: Particle::plain(2 * k, 2 * k + 1, ContactState::Free),
             gap: whole(0),
         });
@@ -70,7 +70,7 @@ impl Instance {
     fn of(
         stiffness: Sparse,
         friction: Rational,
-        candidates: Vec<Candidate>,
+        candidates: Vec<ContactCandidate>,
         steps: Vec<LoadStep>,
     ) -> Instance {
         let body = LoadedBody::new(LoadedParts {
@@ -171,7 +171,7 @@ fn stiffness(rng: &mut ChaCha8Rng, dofs: usize) -> Sparse {
     Sparse::from_entries(dofs, dofs, entries)
 }
 
-fn candidate(rng: &mut ChaCha8Rng, index: usize) -> Candidate {
+fn candidate(rng: &mut ChaCha8Rng, index: usize) -> ContactCandidate {
     let mut particle = Particle::plain(2 * index, 2 * index + 1, ContactState::Free);
     if rng.random_bool(0.3) {
         particle.normal_direction = -1;
@@ -189,7 +189,7 @@ fn candidate(rng: &mut ChaCha8Rng, index: usize) -> Candidate {
     } else {
         rational(rng.random_range(1..5), 4)
     };
-    Candidate { particle, gap }
+    ContactCandidate { particle, gap }
 }
 
 /// What (1), (2), (7) say of a candidate.

@@ -325,7 +325,7 @@ mod tests {
     use crate::certificate::SlipSign;
     use mceip_exact::{rational, whole};
     use mceip_model::file::Number;
-    use mceip_model::{Candidate, LoadStep, LoadedParts};
+    use mceip_model::{ContactCandidate, LoadStep, LoadedParts};
 
     /// K = [[2, -1, 0], [-1, 2, 0], [0, 0, 1]]; dof 1 is the tangential and dof 2 the normal one of
     /// a candidate with the gap 5 and the friction factor 2; loads 3 on dof 2 and 1 on dof 0.
@@ -344,7 +344,7 @@ mod tests {
             stiffness: Sparse::from_ints(&[&[2, -1, 0], &[-1, 2, 0], &[0, 0, 1]]),
             mass: None,
             friction: None,
-            candidates: vec![Candidate {
+            candidates: vec![ContactCandidate {
                 particle,
                 gap: whole(5),
             }],

@@ -9,7 +9,7 @@ use num_traits::{One, Signed};
 
 /// A node of a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Node {
+pub struct BodyNode {
     /// The degrees of freedom along x and along y.
     pub dofs: [Option<usize>; 2],
     /// (x, y), in the unit of length of the model.
@@ -19,7 +19,7 @@ pub struct Node {
 /// The nodes of a body, the edges between them, and the names of its particles.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Coordinates {
-    nodes: Vec<Node>,
+    nodes: Vec<BodyNode>,
     edges: Vec<[usize; 2]>,
     particles: Vec<String>,
 }
@@ -32,7 +32,7 @@ impl Coordinates {
     /// [`ModelError::Coordinates`]: no node, a degree of freedom out of range or at two places, a
     /// coordinate beyond 2^512, an edge to no node, another number of names than of particles.
     pub fn new(
-        nodes: Vec<Node>,
+        nodes: Vec<BodyNode>,
         edges: Vec<[usize; 2]>,
         particles: Vec<String>,
         system: &System,
@@ -66,7 +66,7 @@ impl Coordinates {
     }
 
     /// The nodes.
-    pub fn nodes(&self) -> &[Node] {
+    pub fn nodes(&self) -> &[BodyNode] {
         &self.nodes
     }
 
@@ -82,14 +82,14 @@ impl Coordinates {
 
     /// The node that a degree of freedom moves.
     pub fn node_of(&self, dof: usize) -> Option<usize> {
-        let moves = |node: &Node| node.dofs.contains(&Some(dof));
+        let moves = |node: &BodyNode| node.dofs.contains(&Some(dof));
         self.nodes.iter().position(moves)
     }
 }
 
 /// The degrees of freedom of a node are those of the system and of no node before it, and its
 /// coordinates at most 2^512, so that their differences are doubles.
-fn require_node(index: usize, node: &Node, is_taken: &mut [bool]) -> Result<(), ModelError> {
+fn require_node(index: usize, node: &BodyNode, is_taken: &mut [bool]) -> Result<(), ModelError> {
     for dof in node.dofs.into_iter().flatten() {
         match is_taken.get_mut(dof) {
             Some(taken) if !*taken => *taken = true,

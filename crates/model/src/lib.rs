@@ -23,11 +23,11 @@ mod system;
 mod window;
 
 pub use canonical::sha256;
-pub use coordinates::{Coordinates, Node};
+pub use coordinates::{BodyNode, Coordinates};
 pub use error::{ErrorLocation, ModelError};
-pub use loaded::{Candidate, LoadStep, LoadedBody, LoadedParts};
+pub use loaded::{ContactCandidate, LoadStep, LoadedBody, LoadedParts};
 pub use pencil::{Admissible, Pencil, Unknown};
 pub use problem::{Body, Problem};
-pub use reduced::{MuFamily, Reduced, Variable, ZeroPart, ZeroVariables};
+pub use reduced::{MuFamily, Reduced, ReducedVariable, ZeroPart, ZeroVariables};
 pub use system::{ContactState, Direction, Particle, Reaction, System};
 pub use window::Window;

@@ -17,7 +17,7 @@ use num_traits::{Signed, Zero};
 
 /// A contact candidate: a particle whose state is not known yet.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Candidate {
+pub struct ContactCandidate {
     /// Its dofs and directions; state and reaction play no part.
     pub particle: Particle,
     /// Its distance from the obstacle in the unloaded body, >= 0.
@@ -47,7 +47,7 @@ pub struct LoadedParts {
     /// mu.
     pub friction: Option<Rational>,
     /// What may come into contact.
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<ContactCandidate>,
     /// Dofs that do not move unless a step moves them.
     pub held: Vec<usize>,
     /// The loads, in the order in which they are applied.
@@ -251,7 +251,7 @@ fn require_forces(dofs: usize, steps: &[LoadStep], is_held: &[bool]) -> Result<(
 /// The candidate as a stuck particle of the body without the held dofs.
 fn particle(
     index: usize,
-    candidate: &Candidate,
+    candidate: &ContactCandidate,
     places: &[Option<usize>],
 ) -> Result<Particle, ModelError> {
     let place = |which: &'static str, dof: usize| match places.get(dof) {
@@ -277,7 +277,7 @@ fn particle(
     })
 }
 
-fn gap(index: usize, candidate: &Candidate) -> Result<Rational, ModelError> {
+fn gap(index: usize, candidate: &ContactCandidate) -> Result<Rational, ModelError> {
     if candidate.gap.is_negative() {
         let got = format!("candidate {index}, gap {}", candidate.gap);
         return Err(refused("gaps >= 0", &got));
@@ -331,7 +331,7 @@ mod tests {
             stiffness,
             mass: None,
             friction: Some(rational(1, 2)),
-            candidates: vec![Candidate {
+            candidates: vec![ContactCandidate {
                 particle: Particle::plain(3, 4, ContactState::Free),
                 gap: whole(0),
             }],

@@ -8,7 +8,7 @@ use num_traits::One;
 
 /// What a variable of the reduced pencil stands for.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Variable {
+pub enum ReducedVariable {
     /// x = v at a degree of freedom of f.
     Free {
         /// The degree of freedom.
@@ -89,18 +89,18 @@ impl ZeroVariables {
     }
 }
 
-impl Variable {
+impl ReducedVariable {
     /// Is it v+ or v- of a z particle, of which one is 0 in every motion?
     pub fn is_half(&self) -> bool {
-        matches!(self, Variable::Zero { part, .. } if *part != ZeroPart::Gap)
+        matches!(self, ReducedVariable::Zero { part, .. } if *part != ZeroPart::Gap)
     }
 
     /// The motion v that belongs to x = 1. // (10)
     pub fn column(&self) -> Direction {
         match self {
-            Variable::Free { dof } => vec![(*dof, Rational::one())],
-            Variable::Zero { column, .. } => column.clone(),
-            Variable::Slip { sign, tangent, .. } => {
+            ReducedVariable::Free { dof } => vec![(*dof, Rational::one())],
+            ReducedVariable::Zero { column, .. } => column.clone(),
+            ReducedVariable::Slip { sign, tangent, .. } => {
                 let minus_s = Rational::from_integer((-sign).into());
                 tangent.iter().map(|(d, c)| (*d, c * &minus_s)).collect()
             }
@@ -115,7 +115,7 @@ pub struct Reduced {
     /// The pencil of (12) or (21), with z particles that of the split form.
     pub pencil: Pencil,
     /// One entry per variable; empty for a problem that was given as a pencil.
-    pub variables: Vec<Variable>,
+    pub variables: Vec<ReducedVariable>,
     /// The variables of the z particles, in file order.
     pub zero: Vec<ZeroVariables>,
 }
@@ -136,7 +136,7 @@ impl Reduced {
     /// those of particles in contact with zero reaction.
     pub fn normalised(&self) -> Vec<usize> {
         let mut slip = self.pencil.slip();
-        slip.retain(|&i| !matches!(self.variables.get(i), Some(Variable::Zero { .. })));
+        slip.retain(|&i| !matches!(self.variables.get(i), Some(ReducedVariable::Zero { .. })));
         slip
     }
 }
@@ -149,5 +149,5 @@ pub struct MuFamily {
     /// M* = M0 + mu M1, where the system has a mass.
     pub mass: Option<Pencil>,
     /// What the variables stand for.
-    pub variables: Vec<Variable>,
+    pub variables: Vec<ReducedVariable>,
 }

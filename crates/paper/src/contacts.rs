@@ -30,7 +30,7 @@ use crate::plausibility::with_five_digits;
 use crate::rotation::{Frame, rotation_along, rotation_by_degrees};
 use crate::tolerance::CONE_SLACK;
 use mceip_exact::{Rational, parse, rational, to_f64, whole};
-use mceip_model::{Candidate, ContactState, Particle, Reaction};
+use mceip_model::{ContactCandidate, ContactState, Particle, Reaction};
 use num_traits::{One, Signed, Zero};
 
 /// Why a table of contacts is refused.
@@ -254,7 +254,7 @@ pub fn read_contacts(
 #[derive(Debug, Clone, PartialEq)]
 pub struct CandidateTable {
     /// One for each line.
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<ContactCandidate>,
     /// For each candidate, its label; empty where it has none.
     pub names: Vec<String>,
 }
@@ -462,14 +462,17 @@ impl Row<'_> {
     }
 
     /// A candidate, whose state and reaction are not known.
-    fn candidate(&self, dof: &dyn Fn(&str) -> Option<usize>) -> Result<Candidate, ContactsError> {
+    fn candidate(
+        &self,
+        dof: &dyn Fn(&str) -> Option<usize>,
+    ) -> Result<ContactCandidate, ContactsError> {
         let gap = self.number(Column::Gap)?.unwrap_or_default();
         if gap.is_negative() {
             return Err(self.unexpected(Column::Gap, "a number >= 0"));
         }
 
         let particle = self.without_reaction(ContactState::Free, dof)?;
-        Ok(Candidate { particle, gap })
+        Ok(ContactCandidate { particle, gap })
     }
 
     /// The particle in a state, whatever its reaction.

@@ -4,7 +4,7 @@ use super::block_model::BlockModel;
 use super::error::SourceError;
 use super::mesh::Mesh;
 use mceip_exact::{Rational, whole};
-use mceip_model::{Coordinates, Node, System};
+use mceip_model::{BodyNode, Coordinates, System};
 use std::collections::BTreeSet;
 
 impl BlockModel {
@@ -23,7 +23,7 @@ impl BlockModel {
         for (&(x, y), number) in mesh.points.iter().zip(&mesh.number) {
             let x = &half_width * Rational::from_integer(x.into());
             let y = &half_height * Rational::from_integer(y.into());
-            nodes.push(Node {
+            nodes.push(BodyNode {
                 dofs: [number.map(|node| 2 * node), number.map(|node| 2 * node + 1)],
                 place: [x, y],
             });

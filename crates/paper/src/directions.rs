@@ -243,7 +243,7 @@ fn angle_of_lines(a: Vector, b: Vector) -> f64 {
 mod tests {
     use super::*;
     use mceip_exact::{Rational, Sparse, from_f64, whole};
-    use mceip_model::{Node, Particle};
+    use mceip_model::{BodyNode, Particle};
 
     /// Nodes of an arc about the origin, eight elements to the quarter circle, and of another one
     /// of radius `depth` below or above it; K couples each node with the next ones. All nodes of
@@ -257,7 +257,7 @@ mod tests {
                 let index = layer * COUNT + k;
                 let angle = (k as f64 * 11.25).to_radians();
                 let place = [angle.cos() * radius, angle.sin() * radius];
-                nodes.push(Node {
+                nodes.push(BodyNode {
                     dofs: [Some(2 * index), Some(2 * index + 1)],
                     place: place.map(|x| from_f64(x).unwrap()),
                 });
@@ -333,7 +333,7 @@ mod tests {
         let slip = ContactState::Slip { sign: 1 };
         let particles = vec![Particle::plain(0, 1, slip), Particle::plain(3, 2, slip)];
         let system = System::new(stiffness, None, None, particles).unwrap();
-        let node = |dof: usize, x: i64| Node {
+        let node = |dof: usize, x: i64| BodyNode {
             dofs: [Some(dof), Some(dof + 1)],
             place: [whole(x), whole(0)],
         };
@@ -345,7 +345,7 @@ mod tests {
         let joined = Coordinates::new(nodes.clone(), vec![[0, 1]], vec![], &system).unwrap();
         assert_eq!(WrongDirections::of(&system, &joined).turned, [(1, 90.0)]);
 
-        let crossed = [[0, 3], [2, 1]].map(|[x, y]| Node {
+        let crossed = [[0, 3], [2, 1]].map(|[x, y]| BodyNode {
             dofs: [Some(x), Some(y)],
             place: [whole(x as i64), whole(0)],
         });

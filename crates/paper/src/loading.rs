@@ -12,7 +12,7 @@ use super::block_model::BlockModel;
 use super::error::SourceError;
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::file::LoadsFile;
-use mceip_model::{Candidate, ContactState, LoadStep, LoadedBody, LoadedParts};
+use mceip_model::{ContactCandidate, ContactState, LoadStep, LoadedBody, LoadedParts};
 use mceip_path::{Contact, LoadSteps, LoadingPath, PathEnd, PathError, require_positive};
 use num_traits::Zero;
 use std::ops::ControlFlow;
@@ -155,7 +155,7 @@ impl BlockModel {
         let states = vec![ContactState::Stick; block.contact.len()];
         let mut candidates = Vec::with_capacity(states.len());
         for particle in block.system(&states, None)?.particles() {
-            candidates.push(Candidate {
+            candidates.push(ContactCandidate {
                 particle: particle.clone(),
                 gap: Rational::zero(),
             });

@@ -11,14 +11,14 @@
 //! Lines that begin with # are comments.
 
 use crate::table::{Layout, TableError};
-use mceip_model::Node;
+use mceip_model::BodyNode;
 use std::collections::HashMap;
 
 /// A table of nodes, read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NodeTable {
     /// One for each line.
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<BodyNode>,
     /// Pairs of indices of nodes, each pair once, the smaller one first.
     pub edges: Vec<[usize; 2]>,
 }
@@ -62,7 +62,7 @@ pub fn read_nodes(
             return Err(row.unexpected(NODE, "a name, each once"));
         }
 
-        nodes.push(Node {
+        nodes.push(BodyNode {
             dofs: [row.dof(DOF_X, DOF, dof)?, row.dof(DOF_Y, DOF, dof)?],
             place: [row.number(X)?, row.number(Y)?],
         });

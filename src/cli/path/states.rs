@@ -20,7 +20,7 @@ use mceip_exact::{
     Interval, Rational, enclosing_decimals, enclosing_doubles, to_f64, upper_decimal,
 };
 use mceip_model::reduction::{mu_family, reduce};
-use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Variable, Window};
+use mceip_model::{Body, ContactState, Pencil, Problem, ReducedVariable, System, Unknown, Window};
 use mceip_path::{Equilibrium, LoadingPath, Stretch};
 use serde_json::{Value, json};
 
@@ -213,7 +213,7 @@ fn uncondensed_set(
     let variables = reduce(&problem)?.variables;
     let free = variables
         .iter()
-        .filter(|v| matches!(v, Variable::Free { .. }))
+        .filter(|v| matches!(v, ReducedVariable::Free { .. }))
         .count();
     let slip = states.iter().filter(|state| is_slip(state)).count();
     let mut set = ProvedSet::of(&found, free..free + slip);

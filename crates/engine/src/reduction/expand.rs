@@ -9,15 +9,15 @@
 //! `multistart`. At a single value, for B of any form, [`with_free_variables`] does the same by
 //! sparse factors; called for the x of complete sets.
 //!
-//! A variable stands for a motion d_j of the body ([`Variable::column`]), so v = sum_j x_j d_j. It
-//! is for pictures and text; [`lift`](super::lift) does the same exactly.
+//! A variable stands for a motion d_j of the body ([`ReducedVariable::column`]), so v = sum_j x_j
+//! d_j. It is for pictures and text; [`lift`](super::lift) does the same exactly.
 #![allow(clippy::float_arithmetic)]
 
 use crate::candidate::Candidate;
 use crate::dense::rounded;
 use mceip_exact::to_f64;
 use mceip_mcp::linear::{SparseLu, solve};
-use mceip_model::{Pencil, Variable};
+use mceip_model::{Pencil, ReducedVariable};
 
 /// From a candidate of the condensed pencil to one of the full pencil: x_f = -A_ff^-1 A_fs x_s.
 pub struct FreeExpansion {
@@ -110,7 +110,7 @@ fn free_variables(pencil: &Pencil, t: f64, x: &[f64]) -> Option<Vec<f64>> {
 ///
 /// A particle in contact with zero reaction moves by its gap and its slips to the right and to the
 /// left.
-pub fn mode(variables: &[Variable], x: &[f64], dofs: usize) -> Vec<f64> {
+pub fn mode(variables: &[ReducedVariable], x: &[f64], dofs: usize) -> Vec<f64> {
     let mut v = vec![0.0; dofs];
     for (variable, x_j) in variables.iter().zip(x) {
         for (dof, coefficient) in variable.column() {
@@ -157,14 +157,14 @@ mod tests {
             right: 3,
             left: 4,
         };
-        let zero = |part, column| Variable::Zero {
+        let zero = |part, column| ReducedVariable::Zero {
             part,
             variables: particle,
             column,
         };
         let variables = [
-            Variable::Free { dof: 0 },
-            Variable::Slip {
+            ReducedVariable::Free { dof: 0 },
+            ReducedVariable::Slip {
                 sign: -1,
                 tangent: direction(1, 1),
                 normal: direction(2, 1),

@@ -8,7 +8,7 @@
 //! which reads modes that other programs report.
 
 use mceip_exact::Rational;
-use mceip_model::Variable;
+use mceip_model::ReducedVariable;
 use num_traits::{Signed, Zero};
 use std::cmp::Reverse;
 
@@ -30,8 +30,8 @@ pub struct Projected {
 /// ```
 /// use mceip_exact::whole;
 /// use mceip_engine::reduction::project;
-/// use mceip_model::Variable;
-/// let slip = Variable::Slip {
+/// use mceip_model::ReducedVariable;
+/// let slip = ReducedVariable::Slip {
 ///     sign: 1,
 ///     tangent: vec![(0, whole(1))],
 ///     normal: vec![(1, whole(1))],
@@ -42,7 +42,7 @@ pub struct Projected {
 ///     (vec![whole(2)], Some((1, whole(1) / whole(2))))
 /// );
 /// ```
-pub fn project(variables: &[Variable], v: &[Rational]) -> Projected {
+pub fn project(variables: &[ReducedVariable], v: &[Rational]) -> Projected {
     let mut unexplained = v.to_vec();
     let mut x = Vec::with_capacity(variables.len());
     for variable in variables {

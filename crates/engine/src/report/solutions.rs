@@ -12,7 +12,7 @@ use mceip_exact::{
     Algebraic, Integer, Interval, Poly, Rational, enclosing_decimals, nearest_decimal, parse,
     to_decimal, whole,
 };
-use mceip_model::{Body, Problem, Reduced, Variable};
+use mceip_model::{Body, Problem, Reduced, ReducedVariable};
 use mceip_oracle::{Cone, End, Enumeration, Piece, SupportRange};
 use num_traits::Signed as _;
 use serde_json::{Value, json};
@@ -298,17 +298,17 @@ fn ray(s: &Listed) -> Value {
 }
 
 /// What a variable stands for.
-fn variable(v: &Variable) -> Value {
+fn variable(v: &ReducedVariable) -> Value {
     match v {
-        Variable::Free { dof } => json!({ "free": dof }),
-        Variable::Slip { sign, tangent, .. } => {
+        ReducedVariable::Free { dof } => json!({ "free": dof }),
+        ReducedVariable::Slip { sign, tangent, .. } => {
             let mut terms = Vec::with_capacity(tangent.len());
             for (dof, coefficient) in tangent {
                 terms.push(json!([dof, coefficient.to_string()]));
             }
             json!({ "slip": { "sign": sign, "tangent": terms } })
         }
-        Variable::Zero {
+        ReducedVariable::Zero {
             variables, part, ..
         } => json!({ "zero": { "particle": variables.particle, "part": part.word() } }),
     }
@@ -474,14 +474,14 @@ fn meaning(report: &Report<'_>) -> String {
     for i in printed_variables(report) {
         match report.reduced.variables.get(i) {
             None => {}
-            Some(Variable::Free { dof }) => meanings.push(format!("x[{i}] = v[{dof}]")),
-            Some(Variable::Slip { sign, tangent, .. }) => {
+            Some(ReducedVariable::Free { dof }) => meanings.push(format!("x[{i}] = v[{dof}]")),
+            Some(ReducedVariable::Slip { sign, tangent, .. }) => {
                 let dof = tangent.first().map_or(0, |(dof, _)| *dof);
                 meanings.push(format!(
                     "x[{i}] = -S v_T of the particle at dof {dof}, S = {sign:+}"
                 ));
             }
-            Some(Variable::Zero {
+            Some(ReducedVariable::Zero {
                 variables, part, ..
             }) => {
                 let particle = variables.particle;

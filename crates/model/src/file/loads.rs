@@ -4,7 +4,7 @@
 use super::matrix::RawMatrix;
 use super::raw::{RawCoordinates, RawParticle};
 use super::{Number, Object, from_json, require_format};
-use crate::loaded::{Candidate, LoadStep, LoadedBody, LoadedParts};
+use crate::loaded::{ContactCandidate, LoadStep, LoadedBody, LoadedParts};
 use crate::{Coordinates, ModelError};
 use mceip_exact::{Rational, whole};
 use serde::Deserialize;
@@ -137,13 +137,13 @@ impl RawBody {
 }
 
 impl RawCandidate {
-    fn build(self, index: usize) -> Result<Candidate, ModelError> {
+    fn build(self, index: usize) -> Result<ContactCandidate, ModelError> {
         let gap = self.gap.map_or_else(|| whole(0), |number| number.0);
         let particle = RawParticle::open(self.tangential, self.normal)
             .turned(self.normal_direction, self.frame)
             .with_friction_factor(self.friction_factor);
 
-        Ok(Candidate {
+        Ok(ContactCandidate {
             particle: particle.build(index)?,
             gap,
         })

@@ -80,7 +80,7 @@ struct Banner {
 }
 
 /// How the entries of the file map to places of the matrix.
-struct Layout {
+struct MarketLayout {
     banner: Banner,
     rows: usize,
     cols: usize,
@@ -88,7 +88,7 @@ struct Layout {
     count: usize,
 }
 
-impl Layout {
+impl MarketLayout {
     /// Place of the k-th value of an array file: column by column, lower triangle if symmetric.
     fn place_in_array(&self, k: usize) -> (usize, usize) {
         if !self.banner.symmetric {
@@ -165,7 +165,12 @@ impl Reader {
     }
 
     /// `rows columns entries` of a coordinate file, `rows columns` of an array.
-    fn size_line(&self, line: usize, text: &str, banner: Banner) -> Result<Layout, ModelError> {
+    fn size_line(
+        &self,
+        line: usize,
+        text: &str,
+        banner: Banner,
+    ) -> Result<MarketLayout, ModelError> {
         let sizes = self.integers(line, text, if banner.coordinate { 3 } else { 2 })?;
         let rows = sizes[0];
         let cols = sizes[1];
@@ -181,7 +186,7 @@ impl Reader {
             (false, false) => rows * cols,
         };
 
-        Ok(Layout {
+        Ok(MarketLayout {
             banner,
             rows,
             cols,
@@ -205,7 +210,7 @@ impl Reader {
         &self,
         line: usize,
         text: &str,
-        layout: &Layout,
+        layout: &MarketLayout,
         k: usize,
     ) -> Result<(usize, usize, Rational), ModelError> {
         let words: Vec<&str> = words_of(text).collect();

@@ -51,8 +51,8 @@ enum ReadAs {
 /// A list is dense, a map is one of the objects.
 impl<'de> Deserialize<'de> for RawMatrix {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Either;
-        impl<'de> Visitor<'de> for Either {
+        struct ListOrObject;
+        impl<'de> Visitor<'de> for ListOrObject {
             type Value = RawMatrix;
 
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -70,7 +70,7 @@ impl<'de> Deserialize<'de> for RawMatrix {
             }
         }
 
-        deserializer.deserialize_any(Either)
+        deserializer.deserialize_any(ListOrObject)
     }
 }
 

@@ -225,11 +225,11 @@ fn leads_out_of(folder: &Path, path: &Path) -> bool {
 /// [`ModelError::Json`] if the text is no JSON object, [`ModelError::Format`] for another version.
 pub fn require_format(text: &str, expected: &'static str) -> Result<(), ModelError> {
     #[derive(serde::Deserialize)]
-    struct Header {
+    struct FormatHeader {
         format: Option<serde_json::Value>,
     }
 
-    let Object(header): Object<Header> = from_json(text)?;
+    let Object(header): Object<FormatHeader> = from_json(text)?;
     match header.format {
         Some(serde_json::Value::String(s)) if s == expected => Ok(()),
         Some(other) => Err(ModelError::Format {

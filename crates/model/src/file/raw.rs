@@ -7,8 +7,8 @@
 use super::matrix::RawMatrix;
 use super::{Number, Object, SystemFile, Word};
 use crate::{
-    Body, ContactState, Coordinates, ModelError, Node, Particle, Pencil, Problem, Reaction, System,
-    Unknown, Window,
+    Body, BodyNode, ContactState, Coordinates, ModelError, Particle, Pencil, Problem, Reaction,
+    System, Unknown, Window,
 };
 use mceip_exact::{Rational, whole};
 use num_traits::Zero;
@@ -229,7 +229,7 @@ impl RawCoordinates {
     pub(super) fn build(self, system: &System) -> Result<Coordinates, ModelError> {
         let mut nodes = Vec::with_capacity(self.nodes.len());
         for (along_x, along_y, x, y) in self.nodes {
-            nodes.push(Node {
+            nodes.push(BodyNode {
                 dofs: [along_x, along_y],
                 place: [x.0, y.0],
             });

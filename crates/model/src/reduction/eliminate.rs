@@ -35,7 +35,7 @@
 
 use crate::{
     Body, ContactState, Direction, ModelError, MuFamily, Particle, Pencil, Problem, Reduced,
-    System, Unknown, Variable, ZeroPart, ZeroVariables,
+    ReducedVariable, System, Unknown, ZeroPart, ZeroVariables,
 };
 use mceip_exact::{Rational, Sparse};
 
@@ -101,7 +101,7 @@ pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
 }
 
 /// What each variable of a system's pencil stands for.
-pub fn variables(system: &System) -> Vec<Variable> {
+pub fn variables(system: &System) -> Vec<ReducedVariable> {
     Changes::of(system).variables
 }
 
@@ -142,7 +142,7 @@ impl Blocks {
 
 /// The changes of variables v = T x and y = (T + mu F)' w.
 struct Changes {
-    variables: Vec<Variable>,
+    variables: Vec<ReducedVariable>,
     /// T.
     motion: ByDof,
     /// F: -c n for each sliding variable.
@@ -158,11 +158,11 @@ impl Changes {
         };
 
         for dof in system.free_dofs() {
-            changes.add(Variable::Free { dof }, None);
+            changes.add(ReducedVariable::Free { dof }, None);
         }
 
         for (particle, sign) in system.slip_particles() {
-            let slip = Variable::Slip {
+            let slip = ReducedVariable::Slip {
                 sign,
                 tangent: particle.tangent(),
                 normal: particle.into_obstacle(),
@@ -188,7 +188,7 @@ impl Changes {
             (ZeroPart::Left, left),
         ] {
             let sliding = (part != ZeroPart::Gap).then_some(particle);
-            let variable = Variable::Zero {
+            let variable = ReducedVariable::Zero {
                 variables,
                 part,
                 column,
@@ -198,7 +198,7 @@ impl Changes {
     }
 
     /// The next variable, and the particle whose sliding it is.
-    fn add(&mut self, variable: Variable, sliding: Option<&Particle>) {
+    fn add(&mut self, variable: ReducedVariable, sliding: Option<&Particle>) {
         let place = self.variables.len();
         self.motion.add(place, &variable.column());
         if let Some(particle) = sliding {
@@ -210,7 +210,7 @@ impl Changes {
 
     /// The free variables of the pencil.
     fn free(&self) -> Vec<usize> {
-        let is_free = |&i: &usize| matches!(self.variables[i], Variable::Free { .. });
+        let is_free = |&i: &usize| matches!(self.variables[i], ReducedVariable::Free { .. });
         (0..self.variables.len()).filter(is_free).collect()
     }
 
@@ -292,7 +292,7 @@ mod tests {
         assert_eq!(*reduced.pencil.a(), k0);
         assert_eq!(*reduced.pencil.b(), k1);
         assert_eq!(reduced.pencil.free(), &[0]);
-        assert_eq!(reduced.variables[0], Variable::Free { dof: 0 });
+        assert_eq!(reduced.variables[0], ReducedVariable::Free { dof: 0 });
 
         // Two slip with S = diag(1, -1): K_NT = [2 4; 3 5] is not symmetric, so its place and side
         // of S count.

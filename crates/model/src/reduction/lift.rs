@@ -8,7 +8,7 @@
 //!
 //! Called by `engine` for reports; [`super::check_lines`] holds the result against (9).
 
-use crate::{System, Unknown, Variable};
+use crate::{ReducedVariable, System, Unknown};
 use mceip_exact::{Integer, Poly, Rational, Sparse, cleared, common_denominator};
 use num_traits::Zero;
 
@@ -28,7 +28,12 @@ pub struct Lifted {
 /// Lifts x (integer polynomials in t) to v (10) and w = (t M + K) v (9), or w = K v for MCEIP-mu.
 ///
 /// `variables` says what each entry of `x` stands for, as [`super::reduce`] gave it.
-pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly]) -> Lifted {
+pub fn lift(
+    system: &System,
+    unknown: Unknown,
+    variables: &[ReducedVariable],
+    x: &[Poly],
+) -> Lifted {
     let mut v = RationalVector::zero(system.dofs());
     for (variable, x_j) in variables.iter().zip(x) {
         for (dof, coefficient) in variable.column() {

@@ -82,11 +82,16 @@ pub fn check_lines(
 
     for dof in system.free_dofs() {
         let w_f = value.sign_of(&lifted.w[dof]);
-        require(w_f == Sign::Zero, Line::FreeReaction, Place::Dof(dof), w_f)?;
+        require(
+            w_f == Sign::Zero,
+            Line::FreeReaction,
+            LineSubject::Dof(dof),
+            w_f,
+        )?;
     }
 
     for (index, particle) in system.particles().iter().enumerate() {
-        let place = Place::Particle(index);
+        let place = LineSubject::Particle(index);
         match particle.state {
             ContactState::Free => {}
             ContactState::Stick => {
@@ -115,19 +120,19 @@ pub fn check_lines(
 }
 
 /// The coefficient of friction in (9).
-enum Friction {
+enum FrictionTerm {
     /// mu as the system gives it (MCEIP-lambda2).
     Given(Rational),
     /// mu is the number t itself (MCEIP-mu).
     IsUnknown,
 }
 
-fn friction(system: &System, unknown: Unknown) -> Friction {
+fn friction(system: &System, unknown: Unknown) -> FrictionTerm {
     match (unknown, system.friction()) {
-        (Unknown::Mu, _) => Friction::IsUnknown,
-        (Unknown::Lambda2, Some(mu)) => Friction::Given(mu.clone()),
+        (Unknown::Mu, _) => FrictionTerm::IsUnknown,
+        (Unknown::Lambda2, Some(mu)) => FrictionTerm::Given(mu.clone()),
         // A system without mu has no MCEIP-lambda2: `System::require_for` refuses it.
-        (Unknown::Lambda2, None) => Friction::Given(Rational::one()),
+        (Unknown::Lambda2, None) => FrictionTerm::Given(Rational::one()),
     }
 }
 
@@ -142,7 +147,7 @@ struct SlipSides {
 }
 
 impl SlipSides {
-    fn check(&self, place: Place, value: &mut Algebraic) -> Result<(), LineViolated> {
+    fn check(&self, place: LineSubject, value: &mut Algebraic) -> Result<(), LineViolated> {
         let v_n = value.sign_of(&self.v_n);
         require(v_n == Sign::Zero, Line::NormalRate, place, v_n)?;
 
@@ -175,7 +180,7 @@ struct ZeroSides {
 }
 
 impl ZeroSides {
-    fn of(particle: &Particle, friction: &Friction, lifted: &Lifted) -> ZeroSides {
+    fn of(particle: &Particle, friction: &FrictionTerm, lifted: &Lifted) -> ZeroSides {
         let one = Rational::one();
         ZeroSides {
             v_t: positive_multiple(&particle.tangent(), &one, &lifted.v),
@@ -186,7 +191,7 @@ impl ZeroSides {
         }
     }
 
-    fn check(&self, place: Place, value: &mut Algebraic) -> Result<(), LineViolated> {
+    fn check(&self, place: LineSubject, value: &mut Algebraic) -> Result<(), LineViolated> {
         let v_n = value.sign_of(&self.v_n);
         require(v_n != Sign::Positive, Line::GapRate, place, v_n)?;
 
@@ -213,19 +218,19 @@ impl ZeroSides {
 
 /// What a line of (9) is about.
 #[derive(Clone, Copy)]
-enum Place {
+enum LineSubject {
     Dof(usize),
     Particle(usize),
 }
 
-fn require(holds: bool, line: Line, place: Place, got: Sign) -> Result<(), LineViolated> {
+fn require(holds: bool, line: Line, place: LineSubject, got: Sign) -> Result<(), LineViolated> {
     if holds {
         return Ok(());
     }
 
     let (place, index) = match place {
-        Place::Dof(dof) => ("dof", dof),
-        Place::Particle(particle) => ("particle", particle),
+        LineSubject::Dof(dof) => ("dof", dof),
+        LineSubject::Particle(particle) => ("particle", particle),
     };
 
     Err(LineViolated {
@@ -237,10 +242,10 @@ fn require(holds: bool, line: Line, place: Place, got: Sign) -> Result<(), LineV
 }
 
 /// A positive multiple of S t'w + mu n'w.
-fn cone_side(particle: &Particle, s: &Rational, friction: &Friction, w: &[Poly]) -> Poly {
+fn cone_side(particle: &Particle, s: &Rational, friction: &FrictionTerm, w: &[Poly]) -> Poly {
     let (mu, power) = match friction {
-        Friction::Given(mu) => (mu.clone(), 0),
-        Friction::IsUnknown => (Rational::one(), 1),
+        FrictionTerm::Given(mu) => (mu.clone(), 0),
+        FrictionTerm::IsUnknown => (Rational::one(), 1),
     };
 
     let tangential = times(&particle.tangent(), s);
