@@ -13,7 +13,8 @@ use crate::{Solution, SolutionSet};
 use mceip_exact::to_f64;
 use mceip_model::{Body, ModelError, Particle, Problem, System, Unknown, Window};
 use mceip_motion::{
-    AfterImpulse, Agreement, Equations, Mode, MotionClass, Plan, StepSolutions, Stepper, along_mode,
+    AfterImpulse, Equations, GrowthAgreement, GrowthMode, MotionClass, Plan, StepSolutions,
+    Stepper, along_mode,
 };
 use report::{SimulatedImpulse, SimulatedMode, Simulation};
 use std::path::PathBuf;
@@ -160,7 +161,7 @@ fn along_modes(
 
         job.say(format!("mode {}", modes.len() + 1));
         let v = solution.v.as_deref().unwrap_or_default();
-        let mode = Mode {
+        let mode = GrowthMode {
             lambda2: solution.value,
             displacement: equations.coordinates(v)?,
         };
@@ -215,16 +216,16 @@ fn exit_code(simulation: &Simulation) -> u8 {
     let is_absent = simulation.is_proved_absent();
     let is_contradicted = is_absent && simulation.impulses.iter().any(grows_along_a_direction);
     let agreements = simulation.modes.iter().map(|mode| mode.growth.agreement());
-    let agreements: Vec<Agreement> = agreements.collect();
+    let agreements: Vec<GrowthAgreement> = agreements.collect();
     let is_open = simulation.solutions_of_a_step != StepSolutions::One
         || !simulation.is_complete
         || simulation.unknown > 0
-        || agreements.contains(&Agreement::TooShort)
-        || agreements.contains(&Agreement::NotResolved);
+        || agreements.contains(&GrowthAgreement::TooShort)
+        || agreements.contains(&GrowthAgreement::NotResolved);
 
     if simulation.is_interrupted {
         exit::INTERRUPTED
-    } else if is_contradicted || agreements.contains(&Agreement::Disagrees) {
+    } else if is_contradicted || agreements.contains(&GrowthAgreement::Disagrees) {
         exit::REJECTED
     } else if is_open {
         exit::UNDECIDED

@@ -75,12 +75,12 @@ pub struct Equations {
     pub(crate) stiffness: DMatrix<f64>,
     pub(crate) energy_mass: DMatrix<f64>,
     pub(crate) energy_stiffness: DMatrix<f64>,
-    pub(crate) watched: Vec<Watched>,
+    pub(crate) watched: Vec<WatchedParticle>,
 }
 
 /// A particle in contact whose reaction at equilibrium is known.
 #[derive(Debug, Clone)]
-pub(crate) struct Watched {
+pub(crate) struct WatchedParticle {
     pub(crate) particle: usize,
     /// Where it may slip.
     pub(crate) slip: Option<WatchedSlip>,
@@ -136,10 +136,10 @@ impl Equations {
             }
         }
 
-        let motions = Motions::new(mass, system, &moved);
+        let motions = AdmittedMotions::new(mass, system, &moved);
         let mut watched = Vec::new();
         for index in 0..system.particles().len() {
-            watched.extend(Watched::new(system, &motions, index, friction));
+            watched.extend(WatchedParticle::new(system, &motions, index, friction));
         }
 
         let equations = Equations {
@@ -267,9 +267,14 @@ impl Equations {
     }
 }
 
-impl Watched {
+impl WatchedParticle {
     /// `None` for a particle out of contact, or whose reaction is not given.
-    fn new(system: &System, motions: &Motions<'_>, index: usize, mu: f64) -> Option<Watched> {
+    fn new(
+        system: &System,
+        motions: &AdmittedMotions<'_>,
+        index: usize,
+        mu: f64,
+    ) -> Option<WatchedParticle> {
         let particle = &system.particles()[index];
         let reaction = particle.reaction.as_ref()?;
         let before = &system.particles()[..index];
@@ -285,7 +290,7 @@ impl Watched {
             }),
         };
 
-        Some(Watched {
+        Some(WatchedParticle {
             particle: index,
             slip,
             friction: mu * to_f64(&particle.friction_factor),
@@ -317,15 +322,15 @@ fn times(factor: f64, direction: &Direction) -> Pairs {
 }
 
 /// The admitted motions by degree of freedom: which coordinates move it, and how far.
-struct Motions<'a> {
+struct AdmittedMotions<'a> {
     mass: &'a Sparse,
     stiffness: &'a Sparse,
     order: usize,
     by_dof: Vec<Pairs>,
 }
 
-impl<'a> Motions<'a> {
-    fn new(mass: &'a Sparse, system: &'a System, moved: &[Pairs]) -> Motions<'a> {
+impl<'a> AdmittedMotions<'a> {
+    fn new(mass: &'a Sparse, system: &'a System, moved: &[Pairs]) -> AdmittedMotions<'a> {
         let mut by_dof = vec![Vec::new(); system.dofs()];
         for (c, motion) in moved.iter().enumerate() {
             for (dof, coefficient) in motion {
@@ -333,7 +338,7 @@ impl<'a> Motions<'a> {
             }
         }
 
-        Motions {
+        AdmittedMotions {
             mass,
             stiffness: system.stiffness(),
             order: moved.len(),

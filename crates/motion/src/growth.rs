@@ -18,7 +18,7 @@ use nalgebra::DVector;
 
 /// A solution of (9): v and lambda^2.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mode {
+pub struct GrowthMode {
     /// lambda^2 >= 0.
     pub lambda2: f64,
     /// v in the coordinates of [`Equations`].
@@ -67,7 +67,7 @@ const COMPARED_FROM: f64 = 1.1;
 
 /// Does the motion grow as (8) predicts, within the error it states?
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Agreement {
+pub enum GrowthAgreement {
     /// It does, as long as it is along v.
     Agrees,
     /// It does not, or leaves v before alpha has grown by a tenth.
@@ -80,20 +80,20 @@ pub enum Agreement {
 
 impl Growth {
     /// The motion held against its prediction.
-    pub fn agreement(&self) -> Agreement {
+    pub fn agreement(&self) -> GrowthAgreement {
         let compared_to = self.points.last().map_or(0.0, |point| point.predicted);
         let has_grown = compared_to >= COMPARED_FROM;
         let is_resolved = self.stated_error <= UNRESOLVED; // not so if it is not a number
         let is_accurate = self.error <= NEXT_TERMS * self.stated_error;
 
         if !is_resolved {
-            Agreement::NotResolved
+            GrowthAgreement::NotResolved
         } else if is_accurate && has_grown {
-            Agreement::Agrees
+            GrowthAgreement::Agrees
         } else if is_accurate && self.overtaken.is_none() {
-            Agreement::TooShort
+            GrowthAgreement::TooShort
         } else {
-            Agreement::Disagrees
+            GrowthAgreement::Disagrees
         }
     }
 
@@ -106,7 +106,7 @@ impl Growth {
     }
 }
 
-impl Mode {
+impl GrowthMode {
     /// lambda.
     pub fn rate(&self) -> f64 {
         self.lambda2.max(0.0).sqrt()
@@ -152,7 +152,11 @@ impl Mode {
 ///
 /// # Errors
 /// [`MotionError`]: as [`super::run`].
-pub fn along_mode(equations: &Equations, mode: &Mode, plan: Plan) -> Result<Growth, MotionError> {
+pub fn along_mode(
+    equations: &Equations,
+    mode: &GrowthMode,
+    plan: Plan,
+) -> Result<Growth, MotionError> {
     let stride = plan.stride();
     let start = mode.start(equations, plan.duration);
     let coarse = run_every(equations, start.clone(), plan, stride)?;
@@ -214,7 +218,7 @@ struct Along {
 }
 
 impl Along {
-    fn of(equations: &Equations, mode: &Mode, at: &Instant) -> Along {
+    fn of(equations: &Equations, mode: &GrowthMode, at: &Instant) -> Along {
         let v = &mode.displacement;
         let forces = &equations.energy_stiffness * v;
         let alpha = at.displacement.dot(&forces) / v.dot(&forces);

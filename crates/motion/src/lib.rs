@@ -14,7 +14,8 @@
 //!
 //! Unlike (9) this is about the *velocity*: a particle that has slipped may come to rest and stick
 //! where it is. Within the range nothing is neglected: K and M are constant, and the law above is
-//! (2). The conditions are homogeneous, so the range bounds the amplitude only ([`Range`]).
+//! (2). The conditions are homogeneous, so the range bounds the amplitude only
+//! ([`AmplitudeRange`]).
 //!
 //! Input: a system with M and mu. The crate uses no reduction, solver or search of this project: it
 //! is there to hold their answers against the motion itself. Nothing here is proved.
@@ -35,10 +36,11 @@ mod trajectory;
 mod uniqueness;
 
 pub use equations::{Equations, MotionError};
-pub use growth::{Agreement, Growth, GrowthPoint, Mode, along_mode};
+pub use growth::{Growth, GrowthAgreement, GrowthMode, GrowthPoint, along_mode};
 pub use step::{Instant, Stepper};
 pub use trajectory::{
-    AfterImpulse, Limit, MotionClass, Plan, Range, Sample, Trajectory, impulse, run,
+    AfterImpulse, AmplitudeRange, Limit, MotionClass, Plan, Trajectory, TrajectorySample, impulse,
+    run,
 };
 pub use uniqueness::StepSolutions;
 

@@ -51,7 +51,7 @@ fn a_mode_of_table_1_grows_as_predicted_with_errors_of_second_order() {
     ];
 
     for (lambda2, displacement) in modes {
-        let mode = Mode {
+        let mode = GrowthMode {
             lambda2,
             displacement,
         };
@@ -59,7 +59,7 @@ fn a_mode_of_table_1_grows_as_predicted_with_errors_of_second_order() {
 
         let growth = along_mode(&equations, &mode, plan(duration, 400)).unwrap();
 
-        assert_eq!(growth.agreement(), Agreement::Agrees);
+        assert_eq!(growth.agreement(), GrowthAgreement::Agrees);
         assert!((growth.order().unwrap() - 2.0).abs() < 0.01);
 
         // The trapezoidal rule: lambda^3 h^2 t / 12 in steps of h/2.
@@ -79,7 +79,7 @@ fn a_mode_that_is_none_does_not_agree() {
     ];
 
     for (lambda2, displacement) in near_misses {
-        let mode = Mode {
+        let mode = GrowthMode {
             lambda2,
             displacement,
         };
@@ -87,7 +87,7 @@ fn a_mode_that_is_none_does_not_agree() {
 
         let growth = along_mode(&equations, &mode, plan(duration, 400)).unwrap();
 
-        assert_eq!(growth.agreement(), Agreement::Disagrees, "{lambda2}");
+        assert_eq!(growth.agreement(), GrowthAgreement::Disagrees, "{lambda2}");
     }
 }
 
@@ -96,7 +96,7 @@ fn a_mode_that_is_none_does_not_agree() {
 #[test]
 fn long_runs_agree_and_long_steps_say_nothing() {
     let equations = figure_1();
-    let mode = Mode {
+    let mode = GrowthMode {
         lambda2: 37.0 / 25.0,
         displacement: dvector![1.0, 1.0],
     };
@@ -106,9 +106,9 @@ fn long_runs_agree_and_long_steps_say_nothing() {
     };
 
     let usual = mode.usual_duration(1.0);
-    assert_eq!(judged(usual, 500_000), Agreement::Agrees);
-    assert_eq!(judged(30.0 * usual, 400), Agreement::NotResolved);
-    assert_eq!(judged(1e3, 4000), Agreement::NotResolved);
+    assert_eq!(judged(usual, 500_000), GrowthAgreement::Agrees);
+    assert_eq!(judged(30.0 * usual, 400), GrowthAgreement::NotResolved);
+    assert_eq!(judged(1e3, 4000), GrowthAgreement::NotResolved);
 }
 
 /// From -x the accelerations would be against the slip direction: the particles stay where they
@@ -146,7 +146,7 @@ fn the_range_ends_where_the_first_particle_lifts_off() {
     )
     .unwrap();
     let equations = Equations::new(&system).unwrap();
-    let mode = Mode {
+    let mode = GrowthMode {
         lambda2: 37.0 / 25.0,
         displacement: dvector![1.0, 1.0],
     };
@@ -370,7 +370,7 @@ fn compare(instance: &Instance, met: &mut Met) {
         let along_v = along_mode(&equations, mode, plan(mode.usual_duration(unit), 400)).unwrap();
         assert_eq!(
             along_v.agreement(),
-            Agreement::Agrees,
+            GrowthAgreement::Agrees,
             "{}: {mode:?}",
             instance.label
         );
@@ -405,7 +405,7 @@ fn compare(instance: &Instance, met: &mut Met) {
 
 /// Is a growth along a constant direction one with a certified lambda? In steps of h the
 /// trapezoidal rule gives it the rate (2/h) artanh(h lambda / 2).
-fn has_certified_rate(trajectory: &Trajectory, step: f64, modes: &[Mode]) -> bool {
+fn has_certified_rate(trajectory: &Trajectory, step: f64, modes: &[GrowthMode]) -> bool {
     if trajectory.class != MotionClass::ConstantDirection {
         return false;
     }
@@ -431,7 +431,7 @@ fn system_of(instance: &Instance) -> &System {
 }
 
 /// All solutions of MCEIP-lambda2, by a certificate that the checker has accepted.
-fn certified_modes(system: &System, equations: &Equations) -> Vec<Mode> {
+fn certified_modes(system: &System, equations: &Equations) -> Vec<GrowthMode> {
     let body = Body::System(system.clone());
     let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
     let found = complete(&problem, &CompleteOptions::default(), &Watch::nobody()).unwrap();
@@ -442,7 +442,7 @@ fn certified_modes(system: &System, equations: &Equations) -> Vec<Mode> {
     for (_, listed) in Listed::of_cover(&problem, &reduced, &found) {
         let (v, _) = listed.lifted.unwrap();
         let v: Vec<f64> = v.iter().map(|decimal| decimal.parse().unwrap()).collect();
-        modes.push(Mode {
+        modes.push(GrowthMode {
             lambda2: listed.value.parse().unwrap(),
             displacement: equations.coordinates(&v).unwrap(),
         });

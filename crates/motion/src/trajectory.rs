@@ -14,7 +14,7 @@
 //! linear motion that oscillates and grows a slip velocity changes its sign, which (2) does not
 //! admit. What begins as flutter goes on as one of the other classes.
 
-use super::equations::{Equations, MotionError, Watched, WatchedSlip};
+use super::equations::{Equations, MotionError, WatchedParticle, WatchedSlip};
 use super::step::{Instant, Stepper};
 use super::tolerance::{SAME_RATE, TURN};
 use super::uniqueness::StepSolutions;
@@ -68,7 +68,7 @@ impl Plan {
 
 /// A state of a run with its energy norm.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sample {
+pub struct TrajectorySample {
     /// The state.
     pub at: Instant,
     /// Energy norm.
@@ -126,7 +126,7 @@ impl Limit {
 /// The largest factor of a start for which (1)-(3) hold in the middle of every step of its run. A
 /// motion that still grows leaves them within the half step after its last middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Range {
+pub struct AmplitudeRange {
     /// The factor.
     pub amplitude: f64,
     /// The particle that bounds it.
@@ -141,7 +141,7 @@ pub struct Range {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     /// States from the start on, at equal distances in time.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<TrajectorySample>,
     /// Steps after which another set of particles slips.
     pub changes: usize,
     /// What kind of motion it is.
@@ -149,7 +149,7 @@ pub struct Trajectory {
     /// Mean growth rate of the energy norm over the last quarter.
     pub rate: f64,
     /// Where the law ends; `None` if no reaction at equilibrium is known or none bounds it.
-    pub range: Option<Range>,
+    pub range: Option<AmplitudeRange>,
 }
 
 /// Energy norm, relative to the start, at which a run ends early: the motion is homogeneous.
@@ -177,7 +177,7 @@ pub(crate) fn run_every(
         return Err(MotionError::LongStep { step });
     }
 
-    let first = Sample::of(equations, start);
+    let first = TrajectorySample::of(equations, start);
     let end_norm = LARGE * first.norm;
 
     let mut at = first.at.clone();
@@ -193,7 +193,7 @@ pub(crate) fn run_every(
         at = next;
 
         if k % stride == 0 {
-            let sample = Sample::of(equations, at.clone());
+            let sample = TrajectorySample::of(equations, at.clone());
             let norm = sample.norm;
             samples.push(sample);
             if !norm.is_finite() {
@@ -262,9 +262,9 @@ pub fn impulse(equations: &Equations, seed: u64) -> Instant {
     Instant::start(equations, DVector::zeros(order), velocity)
 }
 
-impl Sample {
-    fn of(equations: &Equations, at: Instant) -> Sample {
-        Sample {
+impl TrajectorySample {
+    fn of(equations: &Equations, at: Instant) -> TrajectorySample {
+        TrajectorySample {
             norm: equations.energy_norm(&at.displacement, &at.velocity),
             at,
         }
@@ -272,7 +272,7 @@ impl Sample {
 }
 
 /// The class of a run by the definitions of this file.
-fn class(equations: &Equations, samples: &[Sample]) -> MotionClass {
+fn class(equations: &Equations, samples: &[TrajectorySample]) -> MotionClass {
     let n = samples.len();
     let second = &samples[n / 4..n / 2 + 1];
     let last = last_quarter(samples);
@@ -295,17 +295,17 @@ fn class(equations: &Equations, samples: &[Sample]) -> MotionClass {
     }
 }
 
-fn last_quarter(samples: &[Sample]) -> &[Sample] {
+fn last_quarter(samples: &[TrajectorySample]) -> &[TrajectorySample] {
     let n = samples.len();
     &samples[n - n.div_ceil(4)..]
 }
 
-fn largest_norm(samples: &[Sample]) -> f64 {
+fn largest_norm(samples: &[TrajectorySample]) -> f64 {
     samples.iter().map(|sample| sample.norm).fold(0.0, f64::max)
 }
 
 /// The largest distance of unit displacements from the last one.
-fn turn(equations: &Equations, samples: &[Sample]) -> f64 {
+fn turn(equations: &Equations, samples: &[TrajectorySample]) -> f64 {
     let Some(end) = samples.last().map(|sample| unit(equations, sample)) else {
         return 0.0;
     };
@@ -319,13 +319,13 @@ fn turn(equations: &Equations, samples: &[Sample]) -> f64 {
 }
 
 /// The displacement divided by its elastic norm.
-fn unit(equations: &Equations, sample: &Sample) -> DVector<f64> {
+fn unit(equations: &Equations, sample: &TrajectorySample) -> DVector<f64> {
     let norm = equations.elastic_norm(&sample.at.displacement);
     &sample.at.displacement / norm
 }
 
 /// The mean growth rate of the norm over the samples.
-fn rate(samples: &[Sample]) -> f64 {
+fn rate(samples: &[TrajectorySample]) -> f64 {
     let (Some(from), Some(to)) = (samples.first(), samples.last()) else {
         return 0.0;
     };
@@ -335,7 +335,12 @@ fn rate(samples: &[Sample]) -> f64 {
 /// Narrows the range by the reactions of one particle in the middle of one step.
 ///
 /// A condition is g^0 + a g <= 0 with g^0 < 0 at equilibrium; it holds up to a = -g^0 / g.
-fn narrow(range: &mut Option<Range>, watched: &Watched, from: &Instant, to: &Instant) {
+fn narrow(
+    range: &mut Option<AmplitudeRange>,
+    watched: &WatchedParticle,
+    from: &Instant,
+    to: &Instant,
+) {
     let h = to.time - from.time;
     let displacement = (&from.displacement + &to.displacement) / 2.0;
     let acceleration = (&to.velocity - &from.velocity) / h;
@@ -369,7 +374,7 @@ fn narrow(range: &mut Option<Range>, watched: &Watched, from: &Instant, to: &Ins
 
         let amplitude = -at_rest / change;
         if range.is_none_or(|range| amplitude < range.amplitude) {
-            *range = Some(Range {
+            *range = Some(AmplitudeRange {
                 amplitude,
                 particle: watched.particle,
                 limit,

@@ -4,7 +4,8 @@ use crate::picture::{MotionSeries, Picture, Spread, motion_picture};
 use mceip_engine::report::{Table, six_digits};
 use mceip_exact::{Interval, enclosing_decimals};
 use mceip_motion::{
-    AfterImpulse, Agreement, Growth, GrowthPoint, MotionClass, Range, StepSolutions, Trajectory,
+    AfterImpulse, AmplitudeRange, Growth, GrowthAgreement, GrowthPoint, MotionClass, StepSolutions,
+    Trajectory,
 };
 use serde_json::{Value, json};
 
@@ -158,10 +159,10 @@ fn mode_text(number: usize, mode: &SimulatedMode) -> String {
 /// The verdict of a comparison.
 fn agreement_word(growth: &Growth) -> &'static str {
     match growth.agreement() {
-        Agreement::Agrees => "AGREES",
-        Agreement::Disagrees => "DISAGREES",
-        Agreement::TooShort => "TOO SHORT",
-        Agreement::NotResolved => "NOT RESOLVED",
+        GrowthAgreement::Agrees => "AGREES",
+        GrowthAgreement::Disagrees => "DISAGREES",
+        GrowthAgreement::TooShort => "TOO SHORT",
+        GrowthAgreement::NotResolved => "NOT RESOLVED",
     }
 }
 
@@ -186,7 +187,7 @@ fn cells(point: &GrowthPoint, duration: f64) -> Vec<String> {
     ]
 }
 
-fn range_text(range: Option<&Range>, duration: f64) -> String {
+fn range_text(range: Option<&AmplitudeRange>, duration: f64) -> String {
     let Some(range) = range else {
         return String::new();
     };
@@ -276,7 +277,7 @@ fn mode_json(mode: &SimulatedMode) -> Value {
     })
 }
 
-fn range_json(range: &Range) -> Value {
+fn range_json(range: &AmplitudeRange) -> Value {
     json!({
         "amplitude": range.amplitude,
         "particle": range.particle,
