@@ -11,7 +11,7 @@ use mceip_exact::{
 };
 use mceip_model::{Pencil, Window};
 use mceip_oracle::{
-    Cone, Enumeration, Piece, SupportRange, enumerate, is_rational_solution, is_solution,
+    Cone, Enumeration, SupportRange, ValueInterval, enumerate, is_rational_solution, is_solution,
 };
 
 /// (t - 1) I of order 3.
@@ -36,7 +36,7 @@ fn decimal(value: &Algebraic, digits: usize) -> String {
 }
 
 /// "[1, 2)" and the like, five digits.
-fn interval_text(piece: &Piece) -> String {
+fn interval_text(piece: &ValueInterval) -> String {
     let opening = if piece.from.included { "[" } else { "(" };
     let from = decimal(&piece.from.value, 5);
 

@@ -9,8 +9,8 @@ use crate::small::{constants, integer, pencil, sparse};
 use mceip_exact::{Algebraic, Poly, Rational, Sparse, parse, rational, whole};
 use mceip_model::{Pencil, Window};
 use mceip_oracle::{
-    Cone, End, Enumeration, MAX_FREE, MAX_SLIP, OracleError, Piece, Solution, SupportRange,
-    Undescribed, WideKernel, enumerate, enumerate_with, examine_support, is_rational_solution,
+    Cone, End, Enumeration, MAX_FREE, MAX_SLIP, OracleError, Solution, SupportRange, Undescribed,
+    ValueInterval, WideKernel, enumerate, enumerate_with, examine_support, is_rational_solution,
     is_solution,
 };
 use std::ops::ControlFlow;
@@ -60,7 +60,7 @@ fn excluded(value: i64) -> End {
 
 /// The support has solutions from one value to the other, both included, or without end.
 fn range(support: &[usize], from: i64, to: Option<i64>) -> SupportRange {
-    let piece = Piece {
+    let piece = ValueInterval {
         from: included(from),
         to: to.map(included),
     };
@@ -212,8 +212,8 @@ fn an_answer_holds_what_it_lists_and_nothing_else() {
 }
 
 /// From the first value, included, to the second, excluded.
-fn piece(from: i64, to: Option<i64>) -> Piece {
-    Piece {
+fn piece(from: i64, to: Option<i64>) -> ValueInterval {
+    ValueInterval {
         from: included(from),
         to: to.map(excluded),
     }

@@ -14,8 +14,8 @@ use mceip_model::{
     Body, ContactState, Direction, Particle, Problem, ReducedVariable, System, Unknown, Window,
 };
 use mceip_oracle::{
-    Enumeration, Mode, Motion, Motions, PhysicalState, PhysicalSystem, TwoParticles, enumerate,
-    enumerate_motions,
+    Enumeration, Motion, Motions, ParticleMode, PhysicalState, PhysicalSystem, TwoParticles,
+    enumerate, enumerate_motions,
 };
 use mceip_paper::{pythagorean_angles, two_particles};
 use mceip_testkit::generators::{rng, states};
@@ -258,11 +258,11 @@ const STATES_OF_ZERO: [ContactState; 4] = [
 ];
 
 /// The mode of a z particle that is treated as one of this state.
-fn mode_of(state: ContactState) -> Mode {
+fn mode_of(state: ContactState) -> ParticleMode {
     match state {
-        ContactState::Free | ContactState::Zero => Mode::Open,
-        ContactState::Stick => Mode::Sticking,
-        ContactState::Slip { sign } => Mode::Slipping { sign },
+        ContactState::Free | ContactState::Zero => ParticleMode::Open,
+        ContactState::Stick => ParticleMode::Sticking,
+        ContactState::Slip { sign } => ParticleMode::Slipping { sign },
     }
 }
 
@@ -302,7 +302,7 @@ fn cone(particle: &Particle, sign: i8, mu: Option<&Rational>, w: &[Poly]) -> Pol
 /// Does a z particle of this mode satisfy its inequalities?
 fn zero_admits(
     particle: &Particle,
-    mode: Mode,
+    mode: ParticleMode,
     mu: Option<&Rational>,
     lifted: &Lifted,
     value: &mut Algebraic,
@@ -315,13 +315,13 @@ fn zero_admits(
     let w_normal = combination(&normal, &lifted.w, &clear);
 
     match mode {
-        Mode::Open => value.sign_of(&v_normal) == Sign::Negative,
-        Mode::Sticking => {
+        ParticleMode::Open => value.sign_of(&v_normal) == Sign::Negative,
+        ParticleMode::Sticking => {
             value.sign_of(&cone(particle, 1, mu, &lifted.w)) != Sign::Positive
                 && value.sign_of(&cone(particle, -1, mu, &lifted.w)) != Sign::Positive
                 && value.sign_of(&w_normal) != Sign::Positive
         }
-        Mode::Slipping { sign } => {
+        ParticleMode::Slipping { sign } => {
             let against = v_tangential.scale(&i64::from(sign).into());
             value.sign_of(&against) == Sign::Negative && value.sign_of(&w_normal) != Sign::Positive
         }
@@ -443,7 +443,7 @@ fn has_unloading_slip(system: &PhysicalSystem, motion: &Motion) -> bool {
         .zip(&motion.modes)
         .any(|(particle, mode)| {
             let is_s = matches!(particle.state, PhysicalState::Slip { .. });
-            let slips = matches!(mode, Mode::Slipping { .. });
+            let slips = matches!(mode, ParticleMode::Slipping { .. });
             let clear = denominator_of(&particle.normal, &particle.tangent);
             let w_normal = combination(&particle.normal, &w, &clear);
             is_s && slips && value.sign_of(&w_normal) == Sign::Positive
@@ -519,7 +519,7 @@ fn assert_closed_form(data: &TwoParticles, sign: i8, zero: usize) -> usize {
     assert_eq!(found.motions.len(), expected, "{data:?}, z = {zero}");
 
     for motion in &found.motions {
-        assert_eq!(motion.modes, [Mode::Slipping { sign }; 2]);
+        assert_eq!(motion.modes, [ParticleMode::Slipping { sign }; 2]);
 
         // (t + c^2 + 1)^2 = 1 + mu^2 c^2 s^2
         let p = c * c + whole(1);

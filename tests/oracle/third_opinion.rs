@@ -14,7 +14,7 @@ use dashu_int::IBig;
 use dashu_ratio::RBig;
 use mceip_exact::{Algebraic, Poly, Rational, rational};
 use mceip_model::{Pencil, Window};
-use mceip_oracle::{Cone, End, Enumeration, Piece, Solution, SupportRange, enumerate};
+use mceip_oracle::{Cone, End, Enumeration, Solution, SupportRange, ValueInterval, enumerate};
 use num_bigint::BigInt;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -392,7 +392,7 @@ fn range_holds(range: &SupportRange, alpha: &mut Alpha) -> bool {
     range.pieces.iter().any(|piece| piece_holds(piece, alpha))
 }
 
-fn piece_holds(piece: &Piece, alpha: &mut Alpha) -> bool {
+fn piece_holds(piece: &ValueInterval, alpha: &mut Alpha) -> bool {
     let from = compare_with_end(alpha, &piece.from);
     let is_after_from = from > 0 || (from == 0 && piece.from.included);
 

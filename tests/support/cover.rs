@@ -14,7 +14,9 @@ use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Algebraic, Interval, Rational, Sparse, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
-use mceip_oracle::{End, Enumeration, Piece, Solution, SupportRange, enumerate, examine_support};
+use mceip_oracle::{
+    End, Enumeration, Solution, SupportRange, ValueInterval, enumerate, examine_support,
+};
 use mceip_testkit::random_pencils;
 use std::cmp::Ordering;
 
@@ -201,14 +203,14 @@ fn is_last_of_range(truth: &Enumeration, listed: &AcceptedClaim) -> bool {
 fn pieces_of<'a>(
     truth: &'a Enumeration,
     support: &'a [usize],
-) -> impl Iterator<Item = &'a Piece> + 'a {
+) -> impl Iterator<Item = &'a ValueInterval> + 'a {
     let ranges = truth.ranges.iter();
     ranges
         .filter(move |range| range.support == support)
         .flat_map(|range| &range.pieces)
 }
 
-fn is_one_value(piece: &Piece) -> bool {
+fn is_one_value(piece: &ValueInterval) -> bool {
     let Some(to) = &piece.to else { return false };
     to.value.clone().equals(&mut piece.from.value.clone())
 }
@@ -233,7 +235,7 @@ fn values_in_ranges(truth: &Enumeration, support: &[usize]) -> Vec<Algebraic> {
 }
 
 /// The ends of a piece that belong to it, and a number inside.
-fn probes(piece: &Piece) -> Vec<Algebraic> {
+fn probes(piece: &ValueInterval) -> Vec<Algebraic> {
     let ends = std::iter::once(&piece.from).chain(&piece.to);
     let included = ends.filter(|end| end.included);
     let mut values: Vec<Algebraic> = included.map(|end| end.value.clone()).collect();
@@ -243,7 +245,7 @@ fn probes(piece: &Piece) -> Vec<Algebraic> {
 }
 
 /// A rational number strictly between the ends of a piece, if it has more than one value.
-fn inside(piece: &Piece) -> Option<Rational> {
+fn inside(piece: &ValueInterval) -> Option<Rational> {
     let mut from = piece.from.value.clone();
     let Some(end) = &piece.to else {
         return Some(from.interval().hi() + whole(1));

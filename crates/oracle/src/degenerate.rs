@@ -112,7 +112,7 @@ pub struct SupportRange {
     /// The support.
     pub support: Vec<usize>,
     /// Disjoint intervals, ascending, each as long as it can be within the window.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<ValueInterval>,
     /// A basis over Q(t) of the kernel on the support and the free variables, as vectors over all
     /// variables. With one vector, it or its negative is the solution x(t) wherever it is not zero.
     pub kernel: Vec<Vec<Poly>>,
@@ -127,14 +127,14 @@ impl SupportRange {
 
 /// An interval of values; `to` is `None` where it has no upper end.
 #[derive(Debug, Clone)]
-pub struct Piece {
+pub struct ValueInterval {
     /// Lower end.
     pub from: End,
     /// Upper end.
     pub to: Option<End>,
 }
 
-impl Piece {
+impl ValueInterval {
     /// Is this number in the interval?
     pub fn contains(&self, value: &Algebraic) -> bool {
         let is_below_from = match self.from.place_of(value) {

@@ -42,13 +42,13 @@ mod range;
 mod solution;
 mod table1;
 
-pub use degenerate::{Cone, End, Piece, SupportRange, Undescribed};
+pub use degenerate::{Cone, End, SupportRange, Undescribed, ValueInterval};
 pub use enumeration::{Enumeration, WideKernel};
 pub use member::{is_rational_solution, is_solution};
 pub use modes::{DegenerateChoice, ModeList, enumerate_modes, enumerate_modes_with};
 pub use physical::{
-    DegenerateModes, Mode, Motion, Motions, PhysicalParticle, PhysicalState, PhysicalSystem,
-    enumerate_motions,
+    DegenerateModes, Motion, Motions, ParticleMode, PhysicalParticle, PhysicalState,
+    PhysicalSystem, enumerate_motions,
 };
 pub use plain::{
     MAX_BITS, MAX_FREE, MAX_SLIP, OracleError, coefficient_bits, enumerate, enumerate_with,

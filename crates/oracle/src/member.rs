@@ -8,7 +8,7 @@
 //! alone. Called by tests of everything that claims a solution.
 
 use super::degenerate::constants;
-use super::degenerate::{Cone, End, Piece, SupportRange};
+use super::degenerate::{Cone, End, SupportRange, ValueInterval};
 use super::enumeration::Enumeration;
 use super::solution::Solution;
 use super::solution::equal_values;
@@ -223,8 +223,8 @@ impl PartialEq for End {
     }
 }
 
-impl PartialEq for Piece {
-    fn eq(&self, other: &Piece) -> bool {
+impl PartialEq for ValueInterval {
+    fn eq(&self, other: &ValueInterval) -> bool {
         let is_same_beginning = self.from == other.from;
         is_same_beginning && self.to == other.to
     }

@@ -21,7 +21,7 @@
 
 use super::describe::compare_places;
 use super::integer_pencil::{Eigenspace, IntegerPencil};
-use super::physical::Mode;
+use super::physical::ParticleMode;
 use super::plain::{OracleError, multiplicity, require_size};
 use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
@@ -34,7 +34,7 @@ pub struct DegenerateChoice {
     /// The variables of the s particles that slip.
     pub slip: Vec<usize>,
     /// The mode of each z particle.
-    pub zero: Vec<Mode>,
+    pub zero: Vec<ParticleMode>,
     /// The value with a kernel of more than one dimension; `None`: singular at every value.
     pub value: Option<Algebraic>,
 }
@@ -143,17 +143,17 @@ fn members(variables: &[usize], number: u64) -> Vec<usize> {
 }
 
 /// The modes of a z particle. A particle that slides to the right has the sign -1.
-const MODES: [Mode; 4] = [
-    Mode::Open,
-    Mode::Sticking,
+const MODES: [ParticleMode; 4] = [
+    ParticleMode::Open,
+    ParticleMode::Sticking,
     RIGHT,
-    Mode::Slipping { sign: 1 },
+    ParticleMode::Slipping { sign: 1 },
 ];
-const RIGHT: Mode = Mode::Slipping { sign: -1 };
+const RIGHT: ParticleMode = ParticleMode::Slipping { sign: -1 };
 
 /// Every choice of a mode for each of so many particles.
-fn choices_of_modes(particles: usize) -> Vec<Vec<Mode>> {
-    let mut choices: Vec<Vec<Mode>> = vec![Vec::new()];
+fn choices_of_modes(particles: usize) -> Vec<Vec<ParticleMode>> {
+    let mut choices: Vec<Vec<ParticleMode>> = vec![Vec::new()];
     for _ in 0..particles {
         let mut longer = Vec::new();
         for choice in &choices {
@@ -170,12 +170,12 @@ fn choices_of_modes(particles: usize) -> Vec<Vec<Mode>> {
 }
 
 /// The variables of the block of a z particle in a mode.
-fn block_of(variables: &ZeroVariables, mode: Mode) -> Vec<usize> {
+fn block_of(variables: &ZeroVariables, mode: ParticleMode) -> Vec<usize> {
     match mode {
-        Mode::Open => vec![variables.gap, variables.right],
-        Mode::Sticking => vec![],
+        ParticleMode::Open => vec![variables.gap, variables.right],
+        ParticleMode::Sticking => vec![],
         RIGHT => vec![variables.right],
-        Mode::Slipping { .. } => vec![variables.left],
+        ParticleMode::Slipping { .. } => vec![variables.left],
     }
 }
 
@@ -183,7 +183,7 @@ fn block_of(variables: &ZeroVariables, mode: Mode) -> Vec<usize> {
 struct Choice<'a> {
     split: &'a Reduced,
     slip: &'a [usize],
-    zero: &'a [Mode],
+    zero: &'a [ParticleMode],
 }
 
 impl Choice<'_> {
@@ -242,12 +242,12 @@ impl Choice<'_> {
         let mut positive = self.slip.to_vec();
         for (variables, &mode) in self.split.zero.iter().zip(self.zero) {
             match mode {
-                Mode::Open => {
+                ParticleMode::Open => {
                     positive.push(variables.gap);
                     positive.extend(split_sliding(&mut x, variables, &mut value));
                 }
-                Mode::Sticking => {}
-                Mode::Slipping { .. } => positive.extend(block_of(variables, mode)),
+                ParticleMode::Sticking => {}
+                ParticleMode::Slipping { .. } => positive.extend(block_of(variables, mode)),
             }
         }
 

@@ -121,7 +121,7 @@ impl PhysicalSystem {
 
 /// What a particle does in a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Mode {
+pub enum ParticleMode {
     /// It has no reaction.
     Open,
     /// It does not move.
@@ -139,7 +139,7 @@ pub struct Motion {
     /// lambda^2, or mu.
     pub value: Algebraic,
     /// The mode of each particle.
-    pub modes: Vec<Mode>,
+    pub modes: Vec<ParticleMode>,
     /// v over all degrees of freedom: integer polynomials to be evaluated at `value`.
     pub v: Vec<Poly>,
 }
@@ -148,7 +148,7 @@ pub struct Motion {
 #[derive(Debug, Clone)]
 pub struct DegenerateModes {
     /// The mode of each particle.
-    pub modes: Vec<Mode>,
+    pub modes: Vec<ParticleMode>,
     /// The value with a kernel of more than one dimension; `None`: singular at every value.
     pub value: Option<Algebraic>,
 }
@@ -181,23 +181,25 @@ pub fn enumerate_motions(system: &PhysicalSystem, window: &Window) -> Result<Mot
 }
 
 /// The modes that a state admits.
-fn admitted(state: PhysicalState) -> Vec<Mode> {
+fn admitted(state: PhysicalState) -> Vec<ParticleMode> {
     match state {
-        PhysicalState::Free => vec![Mode::Open],
-        PhysicalState::Stick => vec![Mode::Sticking],
-        PhysicalState::Slip { sign } => vec![Mode::Sticking, Mode::Slipping { sign }],
+        PhysicalState::Free => vec![ParticleMode::Open],
+        PhysicalState::Stick => vec![ParticleMode::Sticking],
+        PhysicalState::Slip { sign } => {
+            vec![ParticleMode::Sticking, ParticleMode::Slipping { sign }]
+        }
         PhysicalState::Zero => vec![
-            Mode::Open,
-            Mode::Sticking,
-            Mode::Slipping { sign: 1 },
-            Mode::Slipping { sign: -1 },
+            ParticleMode::Open,
+            ParticleMode::Sticking,
+            ParticleMode::Slipping { sign: 1 },
+            ParticleMode::Slipping { sign: -1 },
         ],
     }
 }
 
 /// Every choice of one admitted mode for each particle.
-fn all_choices(particles: &[PhysicalParticle]) -> Vec<Vec<Mode>> {
-    let mut choices: Vec<Vec<Mode>> = vec![Vec::new()];
+fn all_choices(particles: &[PhysicalParticle]) -> Vec<Vec<ParticleMode>> {
+    let mut choices: Vec<Vec<ParticleMode>> = vec![Vec::new()];
     for particle in particles {
         let mut longer = Vec::new();
         for choice in &choices {
@@ -216,7 +218,7 @@ fn all_choices(particles: &[PhysicalParticle]) -> Vec<Vec<Mode>> {
 /// One choice of modes: its equations, the roots of their determinant, the kernels there.
 fn examine(
     system: &PhysicalSystem,
-    modes: &[Mode],
+    modes: &[ParticleMode],
     window: &Window,
     found: &mut Motions,
 ) -> Result<(), ModelError> {
@@ -349,21 +351,21 @@ impl Form {
 }
 
 /// The N equations of a choice of modes.
-fn equations(system: &PhysicalSystem, modes: &[Mode]) -> Vec<Form> {
+fn equations(system: &PhysicalSystem, modes: &[ParticleMode]) -> Vec<Form> {
     let n = system.stiffness.rows();
     let mut equations = Vec::new();
 
     for (particle, mode) in system.particles.iter().zip(modes) {
         match mode {
-            Mode::Open => {
+            ParticleMode::Open => {
                 equations.push(Form::reaction(system, &particle.tangent));
                 equations.push(Form::reaction(system, &particle.normal));
             }
-            Mode::Sticking => {
+            ParticleMode::Sticking => {
                 equations.push(Form::motion(n, &particle.tangent));
                 equations.push(Form::motion(n, &particle.normal));
             }
-            Mode::Slipping { sign } => {
+            ParticleMode::Slipping { sign } => {
                 equations.push(Form::motion(n, &particle.normal));
                 equations.push(Form::cone(system, particle, *sign));
             }
@@ -413,7 +415,7 @@ fn square_pencil(equations: &[Form]) -> Result<Pencil, ModelError> {
 /// Do the inequalities of the modes hold?
 fn satisfies_inequalities(
     system: &PhysicalSystem,
-    modes: &[Mode],
+    modes: &[ParticleMode],
     v: &[Poly],
     value: &mut Algebraic,
 ) -> bool {
@@ -428,7 +430,7 @@ fn satisfies_inequalities(
 fn admits(
     system: &PhysicalSystem,
     particle: &PhysicalParticle,
-    mode: Mode,
+    mode: ParticleMode,
     v: &[Poly],
     value: &mut Algebraic,
 ) -> bool {
@@ -438,21 +440,21 @@ fn admits(
     match (particle.state, mode) {
         (PhysicalState::Free | PhysicalState::Stick, _) => true,
 
-        (PhysicalState::Slip { sign }, Mode::Sticking) => {
+        (PhysicalState::Slip { sign }, ParticleMode::Sticking) => {
             let cone = Form::cone(system, particle, sign);
             cone.sign(v, value) != Sign::Positive
         }
 
-        (PhysicalState::Slip { .. }, Mode::Slipping { sign }) => {
+        (PhysicalState::Slip { .. }, ParticleMode::Slipping { sign }) => {
             slides(n, particle, sign, v, value)
         }
 
-        (PhysicalState::Zero, Mode::Open) => {
+        (PhysicalState::Zero, ParticleMode::Open) => {
             let normal_motion = Form::motion(n, &particle.normal);
             normal_motion.sign(v, value) == Sign::Negative
         }
 
-        (PhysicalState::Zero, Mode::Sticking) => {
+        (PhysicalState::Zero, ParticleMode::Sticking) => {
             let right = Form::cone(system, particle, -1);
             let left = Form::cone(system, particle, 1);
             right.sign(v, value) != Sign::Positive
@@ -460,11 +462,11 @@ fn admits(
                 && normal_reaction.sign(v, value) != Sign::Positive
         }
 
-        (PhysicalState::Zero, Mode::Slipping { sign }) => {
+        (PhysicalState::Zero, ParticleMode::Slipping { sign }) => {
             slides(n, particle, sign, v, value) && normal_reaction.sign(v, value) != Sign::Positive
         }
 
-        (PhysicalState::Slip { .. }, Mode::Open) => false,
+        (PhysicalState::Slip { .. }, ParticleMode::Open) => false,
     }
 }
 

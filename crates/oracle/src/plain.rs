@@ -174,7 +174,7 @@ fn examine(
 
         if let [vector] = &basis[..] {
             let multiplicity = multiplicity(&det, &mut value);
-            let line = Line {
+            let line = KernelLine {
                 x: pencil.extend(&active, vector),
                 value,
                 multiplicity,
@@ -204,13 +204,13 @@ pub(super) fn multiplicity(det: &Poly, value: &mut Algebraic) -> usize {
 }
 
 /// A kernel of one dimension: the multiples of x, a vector over all variables.
-struct Line {
+struct KernelLine {
     x: Vec<Poly>,
     value: Algebraic,
     multiplicity: usize,
 }
 
-impl Line {
+impl KernelLine {
     /// The rays of the line that satisfy (26): at most one, but without slip variables both x and
     /// -x may.
     fn solutions(mut self, pencil: &IntegerPencil<'_>, support: &[usize]) -> Vec<Solution> {

@@ -18,7 +18,7 @@
 //! Input: a support whose determinant vanishes identically, and the window. Called by `solution`.
 
 use super::cone::cone_at;
-use super::degenerate::{End, Piece, SupportRange, Undescribed};
+use super::degenerate::{End, SupportRange, Undescribed, ValueInterval};
 use super::enumeration::{Enumeration, WideKernel};
 use super::integer_pencil::IntegerPencil;
 use mceip_exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots};
@@ -148,9 +148,9 @@ fn binomial(n: usize, k: usize) -> usize {
 }
 
 /// The values >= 0 at which something exists.
-struct Extent {
+struct ValueSet {
     /// Maximal intervals, cut to [0, infinity).
-    intervals: Vec<Piece>,
+    intervals: Vec<ValueInterval>,
     /// Values that are isolated on the whole real line.
     isolated: Vec<Algebraic>,
 }
@@ -175,12 +175,12 @@ impl SingularSupport<'_> {
     ///
     /// A sample below 0 tells whether 0 is an isolated value or belongs to an interval that begins
     /// below it. Only values from 0 on are returned.
-    fn extent(&self, critical: &Poly) -> Extent {
+    fn extent(&self, critical: &Poly) -> ValueSet {
         let below_zero = Algebraic::rational(sample_below_zero(critical));
         let exists_below_zero = self.exists_at(&below_zero);
         let mut critical = nonnegative_roots(critical);
 
-        let mut extent = Extent {
+        let mut extent = ValueSet {
             intervals: Vec::new(),
             isolated: Vec::new(),
         };
@@ -211,7 +211,7 @@ impl SingularSupport<'_> {
                 included: exists_here,
             };
             if let Some(from) = begun.take() {
-                extent.intervals.push(Piece {
+                extent.intervals.push(ValueInterval {
                     from,
                     to: Some(end.clone()),
                 });
@@ -228,7 +228,7 @@ impl SingularSupport<'_> {
         }
 
         if let Some(from) = begun {
-            extent.intervals.push(Piece { from, to: None });
+            extent.intervals.push(ValueInterval { from, to: None });
         }
 
         extent
@@ -287,13 +287,13 @@ fn is_within(value: &mut Algebraic, window: &Window) -> bool {
 
 /// The part of a piece in the closed window.
 enum Clipped {
-    Interval(Piece),
+    Interval(ValueInterval),
     /// Solutions at one value are solutions or a cone, and no range.
     SingleValue(Algebraic),
 }
 
 /// The part of a piece in the closed window; `None` where they do not meet.
-fn clip(mut piece: Piece, window: &Window) -> Option<Clipped> {
+fn clip(mut piece: ValueInterval, window: &Window) -> Option<Clipped> {
     if piece.from.value.cmp_rational(window.min()) == Ordering::Less {
         piece.from = closed_end(window.min());
     }

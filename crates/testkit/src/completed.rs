@@ -10,7 +10,7 @@ use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteError, CompleteOptions, Completed, complete};
 use mceip_exact::Algebraic;
 use mceip_model::Problem;
-use mceip_oracle::{Cone, Enumeration, Piece, Solution, SupportRange};
+use mceip_oracle::{Cone, Enumeration, Solution, SupportRange, ValueInterval};
 
 /// Nodes per piece in comparisons: instances are small, what needs more is degenerate.
 pub(super) const NODES: usize = 20_000;
@@ -119,7 +119,7 @@ fn is_between(value: &Algebraic, family: &SolutionFamily) -> bool {
 }
 
 /// Does the piece meet the family's values?
-fn meets(piece: &Piece, family: &SolutionFamily) -> bool {
+fn meets(piece: &ValueInterval, family: &SolutionFamily) -> bool {
     let is_below = match &piece.to {
         Some(to) => to.value.clone().cmp_rational(family.from.lo()).is_ge(),
         None => true,

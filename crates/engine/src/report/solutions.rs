@@ -13,7 +13,7 @@ use mceip_exact::{
     to_decimal, whole,
 };
 use mceip_model::{Body, Problem, Reduced, ReducedVariable};
-use mceip_oracle::{Cone, End, Enumeration, Piece, SupportRange};
+use mceip_oracle::{Cone, End, Enumeration, SupportRange, ValueInterval};
 use num_traits::Signed as _;
 use serde_json::{Value, json};
 
@@ -226,7 +226,7 @@ fn range(range: &SupportRange) -> Value {
     })
 }
 
-fn interval(piece: &Piece) -> Value {
+fn interval(piece: &ValueInterval) -> Value {
     json!({ "from": end(&piece.from), "to": piece.to.as_ref().map(end) })
 }
 
@@ -428,7 +428,7 @@ fn cone_text(report: &Report<'_>, cone: &Cone) -> String {
     out
 }
 
-fn interval_text(piece: &Piece) -> String {
+fn interval_text(piece: &ValueInterval) -> String {
     let bracket = if piece.from.included { "[" } else { "(" };
     let from = end_text(&piece.from);
     let Some(to) = &piece.to else {
