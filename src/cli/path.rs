@@ -22,7 +22,7 @@ use mceip_engine::run::{Kept, Progress, Watch};
 use mceip_exact::Rational;
 use mceip_model::Unknown;
 use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
-use mceip_path::{LoadingPath, PathEnd};
+use mceip_path::{LoadingPath, LoadingPathEnd};
 use pages::{CheckedOn, Shown};
 use serde_json::{Value, json};
 use states::{ProvedState, Wanted};
@@ -527,7 +527,8 @@ const INTERRUPTED: &str = "INTERRUPTED: what is not listed was not examined\n";
 
 /// Undecided is a path that may go on, and a state with open regions.
 fn exit_code(path: &LoadingPath, states: Option<&[ProvedState]>, is_interrupted: bool) -> u8 {
-    let is_unproved = matches!(&path.end, PathEnd::NoContinuation { why, .. } if !why.is_proved());
+    let is_unproved =
+        matches!(&path.end, LoadingPathEnd::NoContinuation { why, .. } if !why.is_proved());
     let is_open = states.is_some_and(|states| states.iter().any(ProvedState::is_open));
 
     if is_interrupted {

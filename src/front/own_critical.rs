@@ -25,7 +25,7 @@ use mceip_engine::analysis::{
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::{Integer, Rational, rational, whole};
 use mceip_model::{ModelError, System};
-use mceip_path::{Equilibrium, LoadSteps, LoadingPath, PathEnd};
+use mceip_path::{Equilibrium, LoadSteps, LoadingPath, LoadingPathEnd};
 use num_traits::{One, Signed};
 use serde_json::Value;
 use std::ops::ControlFlow;
@@ -223,7 +223,7 @@ impl FrictionPoint {
     pub fn answer(&self) -> FrictionAnswer {
         match (&self.end_state, &self.path.end) {
             (Some(end), _) => FrictionAnswer::Equilibrium(end.divergence.verdict),
-            (None, PathEnd::NoContinuation { why, .. }) => FrictionAnswer::NoPath {
+            (None, LoadingPathEnd::NoContinuation { why, .. }) => FrictionAnswer::NoPath {
                 is_certain: why.is_proved(),
             },
             (None, _) => FrictionAnswer::NoPath { is_certain: false },
@@ -433,10 +433,10 @@ impl<'a> FindOwnCritical<'a> {
         })?;
 
         let end_state = match (&path.end, path.stretches.last()) {
-            (PathEnd::Interrupted, _) => return Ok(None),
-            (PathEnd::NoContinuation { .. }, _) => None,
-            (PathEnd::AllApplied | PathEnd::NoFurtherEvent, None) => return Ok(None),
-            (PathEnd::AllApplied | PathEnd::NoFurtherEvent, Some(stretch)) => {
+            (LoadingPathEnd::Interrupted, _) => return Ok(None),
+            (LoadingPathEnd::NoContinuation { .. }, _) => None,
+            (LoadingPathEnd::AllApplied | LoadingPathEnd::NoFurtherEvent, None) => return Ok(None),
+            (LoadingPathEnd::AllApplied | LoadingPathEnd::NoFurtherEvent, Some(stretch)) => {
                 let equilibrium = stretch.last().clone();
                 let system = self.state(&equilibrium, &mu)?;
                 let options = AnalysisOptions::default();

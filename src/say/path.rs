@@ -7,7 +7,7 @@ use crate::front::LoadPath;
 use mceip_engine::report::fixed_decimals;
 use mceip_exact::to_f64;
 use mceip_model::ContactState;
-use mceip_path::{Bound, Equilibrium, Event, LoadingPath, PathEnd, RateSolutions, Stretch};
+use mceip_path::{Bound, Equilibrium, Event, LoadingPath, LoadingPathEnd, RateSolutions, Stretch};
 use serde_json::{Value, json};
 
 /// The path: its stretches as a table, why it ends, whether it is the only one.
@@ -51,13 +51,13 @@ pub(crate) fn state_word(state: ContactState) -> &'static str {
 /// Why the path ends.
 pub(crate) fn end_text(path: &LoadingPath) -> String {
     match &path.end {
-        PathEnd::NoFurtherEvent if path.slides() => {
+        LoadingPathEnd::NoFurtherEvent if path.slides() => {
             "the body slides: no state changes any more".into()
         }
-        PathEnd::NoFurtherEvent => "no further event: no state changes any more".into(),
-        PathEnd::AllApplied => "all loads are applied".into(),
-        PathEnd::Interrupted => "INTERRUPTED".into(),
-        PathEnd::NoContinuation { causes, why } => {
+        LoadingPathEnd::NoFurtherEvent => "no further event: no state changes any more".into(),
+        LoadingPathEnd::AllApplied => "all loads are applied".into(),
+        LoadingPathEnd::Interrupted => "INTERRUPTED".into(),
+        LoadingPathEnd::NoContinuation { causes, why } => {
             let causes = causes_text(causes);
             if why.is_proved() {
                 format!("the quasi-static path ends ({causes}): {why}")

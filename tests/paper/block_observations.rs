@@ -13,7 +13,7 @@ use mceip_engine::search::levels::level_solutions;
 use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::{Body, ContactState, Pencil, Problem, Unknown, Window};
 use mceip_paper::{Block, BlockModel, MassKind, MeshKind, Plane};
-use mceip_path::{PathEnd, Stretch};
+use mceip_path::{LoadingPathEnd, Stretch};
 use std::time::Instant;
 
 /// A solution of MCEIP-mu.
@@ -93,16 +93,18 @@ impl Observed {
         }
 
         let end = match &path.end {
-            PathEnd::NoFurtherEvent if path.slides() => "slides",
-            PathEnd::NoFurtherEvent => "some stick for ever",
-            PathEnd::NoContinuation { why, .. } if why.is_proved() => "no continuation (proved)",
-            PathEnd::NoContinuation { .. } => "no continuation (undecided)",
+            LoadingPathEnd::NoFurtherEvent if path.slides() => "slides",
+            LoadingPathEnd::NoFurtherEvent => "some stick for ever",
+            LoadingPathEnd::NoContinuation { why, .. } if why.is_proved() => {
+                "no continuation (proved)"
+            }
+            LoadingPathEnd::NoContinuation { .. } => "no continuation (undecided)",
             _ => "other",
         };
 
         Observed {
             dofs: block.stiffness.rows(),
-            slides: path.slides() && path.end == PathEnd::NoFurtherEvent,
+            slides: path.slides() && path.end == LoadingPathEnd::NoFurtherEvent,
             end,
             states,
             above,

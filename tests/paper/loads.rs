@@ -10,7 +10,9 @@
 use crate::elimination::solve;
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{ContactCandidate, ContactState, LoadStep, LoadedBody, LoadedParts, Particle};
-use mceip_path::{Bound, Contact, Equilibrium, LoadSteps, LoadingPath, PathEnd, RateSolutions};
+use mceip_path::{
+    Bound, Contact, Equilibrium, LoadSteps, LoadingPath, LoadingPathEnd, RateSolutions,
+};
 use num_traits::{Signed, Zero};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -463,7 +465,7 @@ fn compare(seed: u64, met: &mut BTreeMap<&'static str, usize>) {
         }
     }
 
-    if let PathEnd::NoContinuation { why, .. } = &path.end {
+    if let LoadingPathEnd::NoContinuation { why, .. } = &path.end {
         let last = path.stretches.last();
         let (step, at) = match last {
             Some(last) => (last.step, last.stop.as_ref()),
@@ -480,8 +482,8 @@ fn compare(seed: u64, met: &mut BTreeMap<&'static str, usize>) {
         }
     }
     count(match path.end {
-        PathEnd::NoFurtherEvent => "no further event",
-        PathEnd::AllApplied => "all applied",
+        LoadingPathEnd::NoFurtherEvent => "no further event",
+        LoadingPathEnd::AllApplied => "all applied",
         _ => "ended before",
     });
 }

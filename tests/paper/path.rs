@@ -16,7 +16,7 @@ use mceip_model::{
 };
 use mceip_paper::{Block, BlockModel, Loading, MeshKind, Plane, PublishedState};
 use mceip_path::{
-    Bound, Contact, Equilibrium, Finder, LoadSteps, LoadingPath, PathEnd, PathError, Stretch,
+    Bound, Contact, Equilibrium, Finder, LoadSteps, LoadingPath, LoadingPathEnd, PathError, Stretch,
 };
 use std::ops::ControlFlow;
 
@@ -277,12 +277,12 @@ fn a_range_an_interrupt_and_refusals() {
     let short = follow_contact(&contact, &limited).unwrap().motion;
     let last_stop = short.stretches.last().unwrap().stop.as_ref().unwrap();
 
-    assert_eq!(short.end, PathEnd::AllApplied);
+    assert_eq!(short.end, LoadingPathEnd::AllApplied);
     assert_eq!(last_stop.amount(), &until);
 
     let steps = standard.steps(&contact).unwrap();
     let stopped = LoadingPath::follow(&contact, &steps, &|at| stop_at(1, at.stretch)).unwrap();
-    assert_eq!(stopped.end, PathEnd::Interrupted);
+    assert_eq!(stopped.end, LoadingPathEnd::Interrupted);
     assert_eq!(stopped.stretches.len(), 1);
 
     let whole_path = follow_contact(&contact, &standard).unwrap();
@@ -367,7 +367,7 @@ fn not_positive() -> [(Loading, &'static str); 3] {
 fn a_jammed_block_does_not_slide() {
     let block = block(6, 3, MeshKind::Crossed, Plane::Stress);
     let path = follow(&block, &paper(whole(10)));
-    assert_eq!(path.motion.end, PathEnd::NoFurtherEvent);
+    assert_eq!(path.motion.end, LoadingPathEnd::NoFurtherEvent);
     assert!(!path.motion.slides());
 
     let last = path.motion.stretches.last().unwrap();
@@ -390,7 +390,7 @@ fn a_path_may_end_without_continuation() {
     assert_eq!(path.motion.stretches.len(), 1);
     assert!(!path.motion.slides());
 
-    let PathEnd::NoContinuation { causes, why } = &path.motion.end else {
+    let LoadingPathEnd::NoContinuation { causes, why } = &path.motion.end else {
         panic!("{:?}", path.motion.end)
     };
 
@@ -436,7 +436,7 @@ fn a_gap_that_closes_is_passed_too() {
         .collect();
 
     assert_eq!(closing.len(), 1);
-    assert_eq!(path.motion.end, PathEnd::AllApplied);
+    assert_eq!(path.motion.end, LoadingPathEnd::AllApplied);
 
     let closing = closing[0];
     assert_eq!(closing.begin.finder, Finder::Enumeration);

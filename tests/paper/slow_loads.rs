@@ -10,7 +10,7 @@
 use crate::loads::Instance;
 use mceip_exact::{to_f64, whole};
 use mceip_model::{ContactState, Direction};
-use mceip_path::{LoadingPath, PathEnd, RateSolutions};
+use mceip_path::{LoadingPath, LoadingPathEnd, RateSolutions};
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -206,7 +206,7 @@ fn is_the_only_one(instance: &Instance, path: &LoadingPath) -> bool {
         ways == RateSolutions::OneForEveryLoad
     };
 
-    path.end == PathEnd::AllApplied && (0..path.stretches.len()).all(&mut has_one_way)
+    path.end == LoadingPathEnd::AllApplied && (0..path.stretches.len()).all(&mut has_one_way)
 }
 
 /// Periods are of the order of 1. The path at half the friction is another one, where candidates

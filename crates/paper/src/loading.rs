@@ -13,7 +13,7 @@ use super::error::SourceError;
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::file::LoadsFile;
 use mceip_model::{ContactCandidate, ContactState, LoadStep, LoadedBody, LoadedParts};
-use mceip_path::{Contact, LoadSteps, LoadingPath, PathEnd, PathError, require_positive};
+use mceip_path::{Contact, LoadSteps, LoadingPath, LoadingPathEnd, PathError, require_positive};
 use num_traits::Zero;
 use std::ops::ControlFlow;
 
@@ -77,7 +77,7 @@ impl Loading {
 fn normal_force_per_mm(contact: &Contact, friction: &Rational) -> Result<Rational, PathError> {
     let steps = LoadSteps::new(friction.clone(), vec![Some(whole(1))]);
     let path = LoadingPath::follow(contact, &steps, &|_| ControlFlow::Continue(()))?;
-    if let PathEnd::NoContinuation { why, .. } = path.end {
+    if let LoadingPathEnd::NoContinuation { why, .. } = path.end {
         return Err(PathError::NoContinuation(why));
     }
 

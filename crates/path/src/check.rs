@@ -5,9 +5,9 @@
 //! Shares nothing with the search for states but the numbers it checks. Called by `trace` at both
 //! ends of every stretch.
 
-use super::contact::{Contact, Friction};
+use super::contact::{Contact, FrictionCoefficients};
 use super::error::LawFailure;
-use super::line::{Amount, AppliedLoad, Class, Line};
+use super::line::{Amount, AppliedLoad, Class, EquilibriumLine};
 use mceip_exact::{Integer, Rational};
 use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
@@ -15,9 +15,9 @@ use num_traits::{Signed, Zero};
 /// A point of the path, with the states and rates that are taken to hold there.
 pub(super) struct PathPoint<'a> {
     pub(super) contact: &'a Contact,
-    pub(super) friction: &'a Friction,
+    pub(super) friction: &'a FrictionCoefficients,
     pub(super) states: &'a [ContactState],
-    pub(super) line: &'a Line,
+    pub(super) line: &'a EquilibriumLine,
     /// How much of each load is applied.
     pub(super) applied: &'a [AppliedLoad],
     /// The amount of the load that grows.
@@ -248,7 +248,7 @@ mod tests {
     fn check_at(
         state: ContactState,
         a: Rational,
-        change: impl Fn(&mut Line),
+        change: impl Fn(&mut EquilibriumLine),
     ) -> Result<(), LawFailure> {
         let contact = Contact::plain(
             vec![vec![whole(2), whole(0)], vec![whole(0), whole(3)]],
@@ -265,12 +265,12 @@ mod tests {
             },
         ];
         let mut line = match state {
-            ContactState::Stick => Line {
+            ContactState::Stick => EquilibriumLine {
                 denominator: 1.into(),
                 w: affine([0, 0, 1, 0, 0], [0, 0, 0, 1, 0]),
                 r: affine([0, -3], [2, 0]),
             },
-            _ => Line {
+            _ => EquilibriumLine {
                 denominator: 2.into(),
                 w: affine([3, 0, 2, 0, 0], [-2, 0, 0, 2, 0]),
                 r: affine([6, -6], [0, 0]),
@@ -280,7 +280,7 @@ mod tests {
 
         let point = PathPoint {
             contact: &contact,
-            friction: &Friction::new(&whole(1), &contact),
+            friction: &FrictionCoefficients::new(&whole(1), &contact),
             states: &[state],
             line: &line,
             applied: &applied,
@@ -289,28 +289,28 @@ mod tests {
         point.check()
     }
 
-    fn unchanged(_: &mut Line) {}
+    fn unchanged(_: &mut EquilibriumLine) {}
 
     /// r_T is not what C gives.
-    fn reaction_differs(line: &mut Line) {
+    fn reaction_differs(line: &mut EquilibriumLine) {
         line.r.constant[0] += 1;
     }
 
     /// In equilibrium, but the node stands in the obstacle, which pulls: u_N = 2, r_N = 3.
-    fn obstacle_pulls(line: &mut Line) {
+    fn obstacle_pulls(line: &mut EquilibriumLine) {
         line.w.constant[1] = 2.into();
         line.r.constant[1] = 3.into();
     }
 
     /// Half as much again of the second load as asked for, with its reaction.
-    fn load_differs(line: &mut Line) {
+    fn load_differs(line: &mut EquilibriumLine) {
         line.w.slope[3] = 3.into();
         line.r.slope[0] = 3.into();
     }
 
     /// Equilibrium with r = (3, -3) at a = 2, but sliding to the right, where r_T > 0 drives:
     /// u_T = a - 5/2.
-    fn slides_backwards(line: &mut Line) {
+    fn slides_backwards(line: &mut EquilibriumLine) {
         line.w = affine([-5, 0, 2, 0, 0], [2, 0, 0, 2, 0]);
         line.r = affine([-10, -6], [8, 0]);
     }

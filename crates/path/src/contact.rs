@@ -303,7 +303,7 @@ pub(super) struct NodalValues<'a> {
 
 /// The coefficient of friction of each candidate, mu times its factor.
 #[derive(Debug, Clone)]
-pub(super) struct Friction {
+pub(super) struct FrictionCoefficients {
     coefficients: Vec<Rational>,
 }
 
@@ -314,10 +314,10 @@ pub(super) struct ConeRow {
     pub(super) normal: Integer,
 }
 
-impl Friction {
-    pub(super) fn new(mu: &Rational, contact: &Contact) -> Friction {
+impl FrictionCoefficients {
+    pub(super) fn new(mu: &Rational, contact: &Contact) -> FrictionCoefficients {
         let factors = contact.friction_factors().iter();
-        Friction {
+        FrictionCoefficients {
             coefficients: factors.map(|factor| mu * factor).collect(),
         }
     }

@@ -61,7 +61,7 @@ pub enum PathError {
         got: String,
     },
     /// No states satisfy the rate conditions. (A path ends instead of failing:
-    /// [`super::PathEnd::NoContinuation`].)
+    /// [`super::LoadingPathEnd::NoContinuation`].)
     #[error("rate problem: {0}")]
     NoContinuation(Unsolved),
     /// What fails on the way.

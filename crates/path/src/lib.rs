@@ -55,7 +55,7 @@ pub use contact::{Contact, ContactSide};
 pub use error::PathError;
 pub use line::{Bound, Equilibrium};
 pub use load_steps::{LoadSteps, require_positive};
-pub use loading_path::{LoadingPath, PathEnd};
+pub use loading_path::{LoadingPath, LoadingPathEnd};
 pub use pencils::Pencils;
 pub use rates::{Finder, Unsolved};
 pub use stretch::{Change, Event, Stretch};
@@ -70,7 +70,7 @@ impl LoadingPath {
     ///
     /// # Errors
     /// [`PathError`]: steps that do not fit the loads. A path that cannot go on is no error, but a
-    /// [`PathEnd`].
+    /// [`LoadingPathEnd`].
     ///
     /// ```
     /// use mceip_exact::{Sparse, rational, whole};

@@ -10,7 +10,7 @@
 //! the [`Response`] to each load in the states of the stretch. Called by `trace`, which follows the
 //! path; `check` and `rates` read lines and classes.
 
-use super::contact::{Contact, Friction, Load, NodalValues, Response};
+use super::contact::{Contact, FrictionCoefficients, Load, NodalValues, Response};
 use super::error::LawFailure;
 use mceip_exact::{Integer, Rational, common_denominator, to_f64};
 use mceip_model::ContactState;
@@ -75,15 +75,19 @@ pub(super) enum Amount {
 
 /// Displacements and reactions w(a) = (w0 + a w1) / denominator, r(a) = (r0 + a r1) / (denominator
 /// times that of the contact).
-pub(super) struct Line {
+pub(super) struct EquilibriumLine {
     pub(super) denominator: Integer,
     pub(super) w: Affine,
     pub(super) r: Affine,
 }
 
-impl Line {
+impl EquilibriumLine {
     /// The sum of all loads as they are applied. `loads` belong to `response`.
-    pub(super) fn new(response: &Response, loads: &[AppliedLoad], contact: &Contact) -> Line {
+    pub(super) fn new(
+        response: &Response,
+        loads: &[AppliedLoad],
+        contact: &Contact,
+    ) -> EquilibriumLine {
         let fixed = loads.iter().filter_map(|applied| match &applied.amount {
             Amount::Fixed(amount) => Some(amount),
             Amount::Growing => None,
@@ -101,7 +105,7 @@ impl Line {
             r.add(grows, &factor, &response.r[k]);
         }
 
-        Line {
+        EquilibriumLine {
             denominator: &response.denominator * clear,
             w,
             r,
@@ -109,7 +113,7 @@ impl Line {
     }
 
     /// The unloaded body: every candidate at its gap, no reaction.
-    pub(super) fn unloaded(contact: &Contact) -> Line {
+    pub(super) fn unloaded(contact: &Contact) -> EquilibriumLine {
         let denominator = common_denominator(contact.gaps());
         let mut w = Affine::zeros(contact.columns());
         for (node, gap) in contact.gaps().iter().enumerate() {
@@ -117,7 +121,7 @@ impl Line {
         }
         w.constant[contact.component(Load::Gaps)] = denominator.clone();
 
-        Line {
+        EquilibriumLine {
             denominator,
             w,
             r: Affine::zeros(contact.rows().len()),
@@ -142,7 +146,7 @@ impl Line {
 
     /// Is it at `a` the same state as `other` at `b`, reaction for reaction and displacement for
     /// displacement?
-    pub(super) fn meets(&self, a: &Rational, other: &Line, b: &Rational) -> bool {
+    pub(super) fn meets(&self, a: &Rational, other: &EquilibriumLine, b: &Rational) -> bool {
         let here = &self.denominator * a.denom();
         let there = &other.denominator * b.denom();
         let components = self.r.constant.len();
@@ -161,7 +165,7 @@ impl Line {
         &self,
         a: &Rational,
         contact: &Contact,
-        friction: &Friction,
+        friction: &FrictionCoefficients,
     ) -> Result<Equilibrium, LawFailure> {
         let classes = classify(self, a, friction)?;
         let unit = a.denom() * &self.denominator;
@@ -221,7 +225,7 @@ impl Bound {
     }
 
     /// Its value for these displacements and reactions, up to a positive factor.
-    pub(super) fn value(self, values: NodalValues<'_>, friction: &Friction) -> Integer {
+    pub(super) fn value(self, values: NodalValues<'_>, friction: &FrictionCoefficients) -> Integer {
         match self {
             Bound::Gap { node } => -&values.w[2 * node + 1],
             Bound::Pressure { node } => -&values.r[2 * node + 1],
@@ -235,7 +239,7 @@ impl Bound {
     }
 
     /// With rates for the displacements and reactions: is it about to become negative?
-    pub(super) fn falls(self, rates: NodalValues<'_>, friction: &Friction) -> bool {
+    pub(super) fn falls(self, rates: NodalValues<'_>, friction: &FrictionCoefficients) -> bool {
         self.value(rates, friction).is_negative()
     }
 
@@ -265,8 +269,8 @@ pub(super) struct NextEvent {
 /// The first amount at which a bound of these states becomes zero on its way down, and every bound
 /// that does so there; `None` if none ever does.
 pub(super) fn next_event(
-    line: &Line,
-    friction: &Friction,
+    line: &EquilibriumLine,
+    friction: &FrictionCoefficients,
     states: &[ContactState],
 ) -> Option<NextEvent> {
     let mut first: Option<NextEvent> = None;
@@ -455,9 +459,9 @@ impl Class {
 /// # Errors
 /// The first candidate at which (1) or (7) fails.
 pub(super) fn classify(
-    line: &Line,
+    line: &EquilibriumLine,
     a: &Rational,
-    friction: &Friction,
+    friction: &FrictionCoefficients,
 ) -> Result<Vec<Class>, LawFailure> {
     let w = line.w.all_at(a);
     let r = line.r.all_at(a);
@@ -472,7 +476,7 @@ pub(super) fn classify(
 fn class_of(
     node: usize,
     values: NodalValues<'_>,
-    friction: &Friction,
+    friction: &FrictionCoefficients,
 ) -> Result<Class, LawFailure> {
     let gap = Bound::Gap { node }.value(values, friction);
     let pressure = Bound::Pressure { node }.value(values, friction);
@@ -522,8 +526,8 @@ mod tests {
         }
     }
 
-    fn line(w: Affine, r: Affine) -> Line {
-        Line {
+    fn line(w: Affine, r: Affine) -> EquilibriumLine {
+        EquilibriumLine {
             denominator: 1.into(),
             w,
             r,
@@ -540,8 +544,8 @@ mod tests {
         Contact::plain(stiffness, vec![vec![whole(0); 2 * nodes]; 2])
     }
 
-    fn mu_two() -> Friction {
-        Friction::new(&whole(2), &candidates(2))
+    fn mu_two() -> FrictionCoefficients {
+        FrictionCoefficients::new(&whole(2), &candidates(2))
     }
 
     fn event(a: Rational, causes: Vec<Bound>) -> NextEvent {
@@ -642,16 +646,16 @@ mod tests {
         ];
 
         let contact = candidates(1);
-        let sum = Line::new(&response, &loads, &contact);
+        let sum = EquilibriumLine::new(&response, &loads, &contact);
 
         // Twice everything, over twice the denominator, because of the half.
         assert_eq!(sum.denominator, Integer::from(6));
         assert_eq!(sum.w, affine(&[2 - 7, 0, 6, 0, 0], &[10, 0, 0, 6, 0]));
         assert_eq!(sum.r, affine(&[4 - 6, 0], &[8, 0]));
 
-        let other_slope = Line {
+        let other_slope = EquilibriumLine {
             w: affine(&[-5, 0, 6, 0, 0], &[11, 0, 0, 6, 0]),
-            ..Line::new(&response, &loads, &contact)
+            ..EquilibriumLine::new(&response, &loads, &contact)
         };
         assert!(sum.meets(&whole(0), &other_slope, &whole(0)));
         assert!(!sum.meets(&whole(1), &other_slope, &whole(1)));

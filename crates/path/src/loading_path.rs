@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 
 /// Why a path ends.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum PathEnd {
+pub enum LoadingPathEnd {
     /// The last stretch never ends: as a rule all candidates in contact slide
     /// ([`LoadingPath::slides`]).
     NoFurtherEvent,
@@ -38,14 +38,14 @@ pub struct LoadingPath {
     /// The stretches, in order.
     pub stretches: Vec<Stretch>,
     /// Why it ends.
-    pub end: PathEnd,
+    pub end: LoadingPathEnd,
 }
 
 impl LoadingPath {
     /// Does the path end in sliding: some candidate slides for ever, and none sticks?
     pub fn slides(&self) -> bool {
         let last = self.stretches.last();
-        let Some(last) = last.filter(|_| self.end == PathEnd::NoFurtherEvent) else {
+        let Some(last) = last.filter(|_| self.end == LoadingPathEnd::NoFurtherEvent) else {
             return false;
         };
 

@@ -51,7 +51,7 @@ impl Pencils<'_> {
         }
 
         let moved = self.reactions(states).ok_or(PathError::SingularFreeNodes)?;
-        let scale = Scale::of(&moved.denominator, &moved.reactions);
+        let scale = SharedDenominator::of(&moved.denominator, &moved.reactions);
 
         let order = moved.slip.len();
         let mut a = Vec::with_capacity(order * order);
@@ -108,10 +108,10 @@ impl Pencils<'_> {
 
     /// Reactions for v_T = 1 at each slip node in turn, over a common denominator. `None` if the
     /// stiffness of the free nodes is singular, also where nothing slips.
-    fn reactions(&mut self, states: &[ContactState]) -> Option<Moved> {
+    fn reactions(&mut self, states: &[ContactState]) -> Option<SlipReactions> {
         let slip = slip_nodes(states);
         let moved = self.move_each(&slip, states)?;
-        Some(Moved {
+        Some(SlipReactions {
             reactions: moved.w.iter().map(|w| self.contact.times(w)).collect(),
             denominator: moved.denominator * self.contact.denominator(),
             slip,
@@ -168,7 +168,7 @@ impl Pencils<'_> {
 }
 
 /// The reactions for v_T = 1 at each slip node in turn.
-struct Moved {
+struct SlipReactions {
     slip: Vec<SlipNode>,
     /// Numerators, by the node that moves.
     reactions: Vec<Vec<Integer>>,
@@ -176,7 +176,7 @@ struct Moved {
     denominator: Integer,
 }
 
-impl Moved {
+impl SlipReactions {
     /// Numerators of S C_TT S and of C_NT S.
     fn entry(&self, i: usize, j: usize) -> [Integer; 2] {
         let at = &self.slip[i];
@@ -202,13 +202,13 @@ fn slip_nodes(states: &[ContactState]) -> Vec<SlipNode> {
 
 /// A common denominator, and the factor that it shares with all numerators: dividing it out first
 /// halves the numbers whose fractions are then reduced one by one.
-struct Scale {
+struct SharedDenominator {
     denominator: Integer,
     shared: Integer,
 }
 
-impl Scale {
-    fn of(denominator: &Integer, numerators: &[Vec<Integer>]) -> Scale {
+impl SharedDenominator {
+    fn of(denominator: &Integer, numerators: &[Vec<Integer>]) -> SharedDenominator {
         let mut shared = denominator.clone();
         for numerator in numerators.iter().flatten() {
             // A long gcd only while it still changes. (Zero is a multiple of everything.)
@@ -217,7 +217,7 @@ impl Scale {
             }
         }
 
-        Scale {
+        SharedDenominator {
             denominator: denominator / &shared,
             shared,
         }

@@ -9,7 +9,7 @@
 //! name the states. Called by `rates`.
 #![allow(clippy::float_arithmetic)]
 
-use super::contact::{Contact, Friction, Load};
+use super::contact::{Contact, FrictionCoefficients, Load};
 use super::line::Class;
 use mceip_exact::to_f64;
 use mceip_mcp::mcp::LinearMcp;
@@ -57,7 +57,7 @@ impl RateUnknown {
 /// States proposed by Lemke's method, `None` if it ends without a solution.
 pub(super) fn propose(
     contact: &Contact,
-    friction: &Friction,
+    friction: &FrictionCoefficients,
     classes: &[Class],
     growing: Load,
 ) -> Option<Vec<ContactState>> {

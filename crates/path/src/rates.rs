@@ -8,7 +8,7 @@
 //! violated nodes at once and then one at a time; what Lemke's method proposes (`propose`); every
 //! set there is. All signs are exact. Called by `trace` once for each event.
 
-use super::contact::{Contact, Friction, Load, NodalValues, Response};
+use super::contact::{Contact, FrictionCoefficients, Load, NodalValues, Response};
 use super::error::PathError;
 use super::line::{Bound, Class};
 use super::linear::Images;
@@ -86,7 +86,7 @@ const ENUMERATED: usize = 1024;
 /// The rate problem of one moment.
 pub(super) struct Rates<'a> {
     pub(super) contact: &'a Contact,
-    pub(super) friction: &'a Friction,
+    pub(super) friction: &'a FrictionCoefficients,
     /// The class of each node at this moment.
     pub(super) classes: &'a [Class],
     /// The bounds that candidates have just reached.
@@ -277,7 +277,7 @@ impl Rates<'_> {
     }
 
     /// The response in these states and what contradicts them; `None` if singular.
-    fn attempt(&self, images: &mut Images, states: &[ContactState]) -> Option<Attempt> {
+    fn attempt(&self, images: &mut Images, states: &[ContactState]) -> Option<TriedStates> {
         let loads = (self.loads)(states);
         let response = respond(self.contact, images, self.friction, states, &loads)?;
 
@@ -293,7 +293,7 @@ impl Rates<'_> {
             }
         }
 
-        Some(Attempt {
+        Some(TriedStates {
             loads,
             response,
             corrections,
@@ -302,7 +302,7 @@ impl Rates<'_> {
 }
 
 /// A set of states tried.
-struct Attempt {
+struct TriedStates {
     loads: Vec<Load>,
     response: Response,
     corrections: Vec<Correction>,
@@ -315,7 +315,7 @@ struct Correction {
     state: ContactState,
 }
 
-impl Attempt {
+impl TriedStates {
     fn solved(self, states: Vec<ContactState>, finder: Finder, tried: usize) -> Solved {
         Solved {
             states,
@@ -362,7 +362,7 @@ fn better(
     class: Class,
     state: ContactState,
     rates: NodalValues<'_>,
-    friction: &Friction,
+    friction: &FrictionCoefficients,
 ) -> Option<ContactState> {
     match class {
         Class::Free | Class::Stick => None,
@@ -378,7 +378,7 @@ fn better_on_cone(
     side: i8,
     state: ContactState,
     rates: NodalValues<'_>,
-    friction: &Friction,
+    friction: &FrictionCoefficients,
 ) -> Option<ContactState> {
     match state {
         ContactState::Free | ContactState::Zero => None,
@@ -399,7 +399,7 @@ fn better_without_reaction(
     node: usize,
     state: ContactState,
     rates: NodalValues<'_>,
-    friction: &Friction,
+    friction: &FrictionCoefficients,
 ) -> Option<ContactState> {
     if state == ContactState::Free {
         let gap = Bound::Gap { node };

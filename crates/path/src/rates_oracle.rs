@@ -1,7 +1,7 @@
 //! The rate problem against plain enumeration: every set of states tried by elimination in
 //! fractions, the lines of (9) written out. For tests; shares nothing with the solver.
 
-use super::contact::{Contact, Friction, Load};
+use super::contact::{Contact, FrictionCoefficients, Load};
 use super::error::PathError;
 use super::line::Class;
 use super::linear::Images;
@@ -28,20 +28,20 @@ impl Dice {
 }
 
 /// A rate problem in small numbers.
-struct Instance {
+struct RateInstance {
     /// C in (T, N) of each node.
     stiffness: Vec<Vec<i64>>,
     mu: Rational,
     classes: Vec<Class>,
 }
 
-impl Instance {
+impl RateInstance {
     /// Every fifth body can move without force where its candidates are open.
-    fn random(dice: &mut Dice, nodes: usize, mu: Rational) -> Instance {
+    fn random(dice: &mut Dice, nodes: usize, mu: Rational) -> RateInstance {
         let is_singular = dice.roll(2) == 2;
         let stiffness = random_stiffness(dice, 2 * nodes, is_singular);
         let classes = (0..nodes).map(|_| random_class(dice)).collect();
-        Instance {
+        RateInstance {
             stiffness,
             mu,
             classes,
@@ -118,7 +118,7 @@ struct VelocityAndReaction {
 }
 
 /// (v, w) in these states by Gauss-Jordan elimination, `None` if singular; g = e_T to be overcome.
-fn rates(instance: &Instance, states: &[ContactState]) -> Option<VelocityAndReaction> {
+fn rates(instance: &RateInstance, states: &[ContactState]) -> Option<VelocityAndReaction> {
     let order = instance.stiffness.len();
     let mut rows = equations(instance, states);
     eliminate(&mut rows)?;
@@ -134,7 +134,7 @@ fn rates(instance: &Instance, states: &[ContactState]) -> Option<VelocityAndReac
 
 /// The equations for the unknowns (v, w), each row with its right side at the end: C v - w = -C g,
 /// and two conditions for each node.
-fn equations(instance: &Instance, states: &[ContactState]) -> Vec<Vec<Rational>> {
+fn equations(instance: &RateInstance, states: &[ContactState]) -> Vec<Vec<Rational>> {
     let stiffness = &instance.stiffness;
     let order = stiffness.len();
     let mut rows = vec![vec![whole(0); 2 * order + 1]; 2 * order];
@@ -225,7 +225,7 @@ fn holds(class: Class, v: &[Rational], w: &[Rational], mu: &Rational) -> bool {
 }
 
 /// What plain enumeration finds.
-struct Enumerated {
+struct EnumeratedRates {
     /// Every set of states that solves the rate problem.
     solutions: Vec<Vec<ContactState>>,
     /// Their rates, the same ones once.
@@ -234,7 +234,7 @@ struct Enumerated {
     singular: bool,
 }
 
-fn enumerate(instance: &Instance) -> Enumerated {
+fn enumerate(instance: &RateInstance) -> EnumeratedRates {
     let mut sets: Vec<Vec<ContactState>> = vec![Vec::new()];
     for &class in &instance.classes {
         let mut longer = Vec::new();
@@ -265,14 +265,14 @@ fn enumerate(instance: &Instance) -> Enumerated {
         }
     }
 
-    Enumerated {
+    EnumeratedRates {
         solutions,
         distinct,
         singular,
     }
 }
 
-fn all_hold(instance: &Instance, rates: &VelocityAndReaction) -> bool {
+fn all_hold(instance: &RateInstance, rates: &VelocityAndReaction) -> bool {
     let nodes = rates.v.chunks(2).zip(rates.w.chunks(2));
     instance
         .classes
@@ -285,7 +285,7 @@ fn all_hold(instance: &Instance, rates: &VelocityAndReaction) -> bool {
 fn compare(
     round: usize,
     found: &Result<Solved, PathError>,
-    expected: &Enumerated,
+    expected: &EnumeratedRates,
     classes: &[Class],
 ) -> &'static str {
     let solutions = &expected.solutions;
@@ -325,9 +325,9 @@ fn rate_problems_agree_with_enumeration() {
     for round in 0..600 {
         let nodes = 2 + round % 2;
         let mu = [whole(1) / whole(2), whole(1), whole(3)][round % 3].clone();
-        let instance = Instance::random(&mut dice, nodes, mu);
+        let instance = RateInstance::random(&mut dice, nodes, mu);
         let contact = instance.contact();
-        let friction = Friction::new(&instance.mu, &contact);
+        let friction = FrictionCoefficients::new(&instance.mu, &contact);
         let classes = &instance.classes;
 
         let expected = enumerate(&instance);

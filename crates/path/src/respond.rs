@@ -5,7 +5,7 @@
 //! where S is the sign of r_T. The unknowns are therefore w_T and w_N of free candidates and w_T of
 //! slip candidates. Called by `rates`.
 
-use super::contact::{Contact, Friction, Load, Response};
+use super::contact::{Contact, FrictionCoefficients, Load, Response};
 use super::linear::{ContactEquations, Equation, Images, Term, no_reaction};
 use mceip_model::ContactState;
 
@@ -15,7 +15,7 @@ use mceip_model::ContactState;
 pub(super) fn respond(
     contact: &Contact,
     images: &mut Images,
-    friction: &Friction,
+    friction: &FrictionCoefficients,
     states: &[ContactState],
     loads: &[Load],
 ) -> Option<Response> {
@@ -55,7 +55,7 @@ pub(super) fn respond(
 }
 
 /// r_T + S mu r_N = 0. // (7)
-fn on_cone(node: usize, friction: &Friction, sign: i8) -> Equation {
+fn on_cone(node: usize, friction: &FrictionCoefficients, sign: i8) -> Equation {
     let row = friction.on_cone(node, sign);
     vec![
         Term {

@@ -12,12 +12,14 @@
 //! loads that were given ([`LoadUnits`]).
 
 use super::check::PathPoint;
-use super::contact::{Contact, Friction, Load};
+use super::contact::{Contact, FrictionCoefficients, Load};
 use super::error::PathError;
-use super::line::{Amount, AppliedLoad, Bound, Class, Line, NextEvent, classify, next_event};
+use super::line::{
+    Amount, AppliedLoad, Bound, Class, EquilibriumLine, NextEvent, classify, next_event,
+};
 use super::linear::Images;
 use super::load_steps::LoadSteps;
-use super::loading_path::{LoadingPath, PathEnd};
+use super::loading_path::{LoadingPath, LoadingPathEnd};
 use super::rates::{AllRates, Rates, Solved};
 use super::stretch::{Change, Event, Stretch};
 use mceip_exact::{Rational, simplest_between, to_f64, whole};
@@ -43,7 +45,7 @@ pub struct PathProgress<'a> {
 /// What is common to the stretches of a path.
 struct Tracer<'a> {
     contact: &'a Contact,
-    friction: Friction,
+    friction: FrictionCoefficients,
     units: LoadUnits,
     /// How much of h each load becomes, on this scale.
     amounts: Vec<Option<Rational>>,
@@ -57,7 +59,7 @@ struct Tracer<'a> {
 struct SolvedStretch {
     solved: Solved,
     applied: Vec<AppliedLoad>,
-    line: Line,
+    line: EquilibriumLine,
 }
 
 /// Where the path has got to.
@@ -71,7 +73,7 @@ struct Position {
     causes: Vec<Bound>,
     /// The stretch that ends there, and its own amount there.
     states: Vec<ContactState>,
-    line: Line,
+    line: EquilibriumLine,
     end_of_line: Rational,
 }
 
@@ -115,7 +117,7 @@ pub(super) fn trace(
             amount: &amount,
         };
         if progress(here).is_break() {
-            break PathEnd::Interrupted;
+            break LoadingPathEnd::Interrupted;
         }
 
         if stretches.len() > events_allowed {
@@ -127,7 +129,7 @@ pub(super) fn trace(
         let stretch = match tracer.pass(&position, stretches.len()) {
             Ok(stretch) => stretch,
             Err(PathError::NoContinuation(why)) => {
-                break PathEnd::NoContinuation {
+                break LoadingPathEnd::NoContinuation {
                     causes: position.causes,
                     why,
                 };
@@ -142,9 +144,9 @@ pub(super) fn trace(
         stretches.push(finished);
 
         position = match stretch_end {
-            StretchEnd::Never => break PathEnd::NoFurtherEvent,
+            StretchEnd::Never => break LoadingPathEnd::NoFurtherEvent,
             StretchEnd::Step(_) if position.step + 1 == steps.amounts.len() => {
-                break PathEnd::AllApplied;
+                break LoadingPathEnd::AllApplied;
             }
             StretchEnd::Step(end) => Position {
                 step: position.step + 1,
@@ -167,7 +169,7 @@ pub(super) fn trace(
 
     let mut asked = steps.taken.keys();
     if let Some(stretch) = asked.find(|&&stretch| stretch >= stretches.len())
-        && end != PathEnd::Interrupted
+        && end != LoadingPathEnd::Interrupted
     {
         return Err(PathError::Steps {
             expected: format!(
@@ -195,7 +197,7 @@ impl<'a> Tracer<'a> {
 
         Tracer {
             contact,
-            friction: Friction::new(&steps.friction, contact),
+            friction: FrictionCoefficients::new(&steps.friction, contact),
             units,
             amounts,
             taken: &steps.taken,
@@ -220,7 +222,7 @@ impl<'a> Tracer<'a> {
             a: Rational::zero(),
             causes: Vec::new(),
             states,
-            line: Line::unloaded(self.contact),
+            line: EquilibriumLine::unloaded(self.contact),
             end_of_line: Rational::zero(),
         }
     }
@@ -237,7 +239,7 @@ impl<'a> Tracer<'a> {
             applied.push(AppliedLoad { load, amount });
         }
 
-        let line = Line::new(&solved.response, &applied, self.contact);
+        let line = EquilibriumLine::new(&solved.response, &applied, self.contact);
         if !line.meets(&position.a, &position.line, &position.end_of_line) {
             return Err(PathError::Discontinuous);
         }

@@ -18,7 +18,7 @@
 //! Where that fails every set of states is tried for the load that grows ([`super::rates`]). All
 //! of it is exact; none of it is the work of the checker.
 
-use super::contact::{Friction, Load};
+use super::contact::{FrictionCoefficients, Load};
 use super::error::PathError;
 use super::line::Class;
 use super::loading_path::LoadingPath;
@@ -89,7 +89,7 @@ impl LoadingPath {
         let growing = Load::Step(stretch.step);
         let problem = Rates {
             contact,
-            friction: &Friction::new(&self.steps.friction, contact),
+            friction: &FrictionCoefficients::new(&self.steps.friction, contact),
             classes: &classes,
             causes: &[],
             loads: &|_| vec![growing],
