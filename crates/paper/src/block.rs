@@ -9,7 +9,7 @@
 //! plane stress, side CD (the top) glued and eliminated, slip to the left (S = 1).
 
 use super::block_model::BlockModel;
-use super::element::{MassKind, Point, mass, stiffness};
+use super::element::{MassKind, PlanePoint, mass, stiffness};
 use super::error::SourceError;
 use super::mesh::{Mesh, Shape};
 use mceip_exact::{Rational, Sparse, whole};
@@ -24,7 +24,7 @@ pub struct Block {
     /// M over the same dofs, t.
     pub mass: Sparse,
     /// Position of each node, mm; node k owns dofs 2k (x) and 2k + 1 (y).
-    pub nodes: Vec<Point>,
+    pub nodes: Vec<PlanePoint>,
     /// Nodes on the contact side AB, left to right.
     pub contact: Vec<usize>,
     /// Triangles, over all nodes of the mesh including the glued ones.
@@ -164,7 +164,7 @@ struct ElementMatrices {
 }
 
 impl ElementMatrices {
-    fn new(vertices: &[Point; 3], model: &BlockModel) -> ElementMatrices {
+    fn new(vertices: &[PlanePoint; 3], model: &BlockModel) -> ElementMatrices {
         let mut couplings = vec![vec![whole(0); 3]; 3];
         for a in 0..3 {
             for b in 0..3 {
@@ -186,12 +186,12 @@ struct HalfCell {
 }
 
 impl HalfCell {
-    fn point(&self, x: i64, y: i64) -> Point {
+    fn point(&self, x: i64, y: i64) -> PlanePoint {
         (&self.width * whole(x), &self.height * whole(y))
     }
 
     /// The triangle of this shape with its first vertex at the origin.
-    fn triangle(&self, shape: Shape) -> [Point; 3] {
+    fn triangle(&self, shape: Shape) -> [PlanePoint; 3] {
         let [first, second] = shape;
         [
             self.point(0, 0),
@@ -330,7 +330,7 @@ mod tests {
 
     /// Off the sides of the block of [`patch_test`], and off the row of nodes below the glued side,
     /// which misses the forces of the glued nodes.
-    fn is_interior((x, y): &Point) -> bool {
+    fn is_interior((x, y): &PlanePoint) -> bool {
         let top = rational(5, 1);
         *x > whole(0) && *x < whole(8) && *y > whole(0) && *y < top
     }

@@ -132,13 +132,13 @@ pub fn read_triangle(text: &str, order: usize) -> Result<Sparse, CalculixError> 
 }
 
 /// An entry, indices from 0.
-struct Entry {
+struct TriangleEntry {
     row: usize,
     column: usize,
     value: Rational,
 }
 
-fn read_entry(line: &TextLine<'_>, order: usize) -> Result<Entry, CalculixError> {
+fn read_entry(line: &TextLine<'_>, order: usize) -> Result<TriangleEntry, CalculixError> {
     let words: Vec<&str> = line.text.split_whitespace().collect();
     let [row, column, value] = words[..] else {
         return Err(line.refuse("row column value"));
@@ -148,7 +148,7 @@ fn read_entry(line: &TextLine<'_>, order: usize) -> Result<Entry, CalculixError>
     let row = read_index(row, order).ok_or_else(|| line.refuse(indices_expected))?;
     let column = read_index(column, order).ok_or_else(|| line.refuse(indices_expected))?;
     match parse(value) {
-        Ok(value) => Ok(Entry { row, column, value }),
+        Ok(value) => Ok(TriangleEntry { row, column, value }),
         Err(_) => Err(line.refuse("a number")),
     }
 }

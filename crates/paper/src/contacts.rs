@@ -275,7 +275,7 @@ pub fn read_candidates(
 fn read_rows<T>(
     text: &str,
     columns: &Columns,
-    read: &dyn Fn(&Row<'_>) -> Result<T, ContactsError>,
+    read: &dyn Fn(&ContactRow<'_>) -> Result<T, ContactsError>,
 ) -> Result<(Vec<T>, Vec<String>), ContactsError> {
     let mut lines = lines_with_content(text).into_iter();
     let header = lines.next().map_or("", |line| line.text);
@@ -400,7 +400,7 @@ impl Table {
         })
     }
 
-    fn row<'a>(&'a self, line: TextLine<'a>) -> Result<Row<'a>, ContactsError> {
+    fn row<'a>(&'a self, line: TextLine<'a>) -> Result<ContactRow<'a>, ContactsError> {
         let cells: Vec<&str> = line.text.split(',').map(str::trim).collect();
         if cells.len() != self.width {
             return Err(ContactsError::Cells {
@@ -410,7 +410,7 @@ impl Table {
             });
         }
 
-        Ok(Row {
+        Ok(ContactRow {
             table: self,
             line: line.number,
             cells,
@@ -419,14 +419,14 @@ impl Table {
 }
 
 /// A line of the table, cut into cells.
-struct Row<'a> {
+struct ContactRow<'a> {
     table: &'a Table,
     /// Line of the file, from 1.
     line: usize,
     cells: Vec<&'a str>,
 }
 
-impl Row<'_> {
+impl ContactRow<'_> {
     /// The particle, and the reaction as the table gives it.
     fn particle(
         &self,

@@ -34,7 +34,7 @@ pub(crate) struct WrongDirections {
 impl WrongDirections {
     /// Looks at every particle in contact whose node is known.
     pub(crate) fn of(system: &System, coordinates: &Coordinates) -> WrongDirections {
-        let body = Body::new(system, coordinates);
+        let body = MeshedBody::new(system, coordinates);
         let mut wrong = WrongDirections::default();
 
         for (index, particle) in system.particles().iter().enumerate() {
@@ -80,7 +80,7 @@ struct Moved {
 }
 
 /// A body with its nodes.
-struct Body<'a> {
+struct MeshedBody<'a> {
     system: &'a System,
     coordinates: &'a Coordinates,
     /// Of each node.
@@ -91,8 +91,8 @@ struct Body<'a> {
     has_particle: Vec<bool>,
 }
 
-impl<'a> Body<'a> {
-    fn new(system: &'a System, coordinates: &'a Coordinates) -> Body<'a> {
+impl<'a> MeshedBody<'a> {
+    fn new(system: &'a System, coordinates: &'a Coordinates) -> MeshedBody<'a> {
         let mut places = Vec::new();
         let mut moved = vec![None; system.dofs()];
         for (node, given) in coordinates.nodes().iter().enumerate() {
@@ -111,7 +111,7 @@ impl<'a> Body<'a> {
             }
         }
 
-        Body {
+        MeshedBody {
             system,
             coordinates,
             places,

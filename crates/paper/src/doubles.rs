@@ -62,14 +62,14 @@ impl DoubleBlock {
         let half_width = to_f64(&model.cell.0) / 2.0;
         let half_height = to_f64(&model.cell.1) / 2.0;
 
-        let mut shapes: BTreeMap<Shape, ElementMatrices> = BTreeMap::new();
+        let mut shapes: BTreeMap<Shape, DoubleElement> = BTreeMap::new();
         let mut stiffness = Vec::new();
         let mut mass = Vec::new();
         for triangle in &mesh.triangles {
             let shape = mesh.shape(triangle);
             let element = shapes.entry(shape).or_insert_with(|| {
                 let edges = Edges::of(shape, half_width, half_height);
-                ElementMatrices::new(&edges, model)
+                DoubleElement::new(&edges, model)
             });
 
             for i in 0..6 {
@@ -163,16 +163,16 @@ impl Edges {
 }
 
 /// The matrices of one shape of triangle.
-struct ElementMatrices {
+struct DoubleElement {
     /// Of the six dofs, N/mm.
     stiffness: [[f64; 6]; 6],
     /// Of the three vertices, t.
     mass: [[f64; 3]; 3],
 }
 
-impl ElementMatrices {
-    fn new(edges: &Edges, model: &BlockModel) -> ElementMatrices {
-        ElementMatrices {
+impl DoubleElement {
+    fn new(edges: &Edges, model: &BlockModel) -> DoubleElement {
+        DoubleElement {
             stiffness: stiffness(edges, model),
             mass: mass(edges, model),
         }

@@ -116,10 +116,10 @@ pub enum MassKind {
 }
 
 /// A point of the plane, mm.
-pub type Point = (Rational, Rational);
+pub type PlanePoint = (Rational, Rational);
 
 /// Twice the signed area of a triangle, mm^2.
-pub(super) fn twice_area(p: &[Point; 3]) -> Rational {
+pub(super) fn twice_area(p: &[PlanePoint; 3]) -> Rational {
     let [(x0, y0), (x1, y1), (x2, y2)] = p;
     let first_edge = (x1 - x0, y1 - y0);
     let second_edge = (x2 - x0, y2 - y0);
@@ -127,7 +127,11 @@ pub(super) fn twice_area(p: &[Point; 3]) -> Rational {
 }
 
 /// Element stiffness, 6 x 6 in (u_x, u_y) per vertex, N/mm: t A B'DB with constant strain.
-pub(super) fn stiffness(p: &[Point; 3], material: &Material, plane: Plane) -> Vec<Vec<Rational>> {
+pub(super) fn stiffness(
+    p: &[PlanePoint; 3],
+    material: &Material,
+    plane: Plane,
+) -> Vec<Vec<Rational>> {
     let elasticity = material.elasticity(plane);
     let gradients = Gradients::of(p);
     let scale = &material.thickness / (whole(2) * twice_area(p)); // t / 4A
@@ -156,7 +160,7 @@ struct Gradients {
 }
 
 impl Gradients {
-    fn of(p: &[Point; 3]) -> Gradients {
+    fn of(p: &[PlanePoint; 3]) -> Gradients {
         let [(x0, y0), (x1, y1), (x2, y2)] = p;
         Gradients {
             x: [y1 - y2, y2 - y0, y0 - y1],
@@ -181,7 +185,7 @@ impl Gradients {
 
 /// Mass coupling of vertices a and b in each direction, t.
 pub(super) fn mass(
-    p: &[Point; 3],
+    p: &[PlanePoint; 3],
     material: &Material,
     kind: MassKind,
     a: usize,
@@ -201,7 +205,7 @@ pub(super) fn mass(
 mod tests {
     use super::*;
 
-    fn triangle() -> [Point; 3] {
+    fn triangle() -> [PlanePoint; 3] {
         [
             (whole(0), whole(0)),
             (whole(4), whole(0)),

@@ -48,7 +48,7 @@ pub use contacts::{
     CandidateTable, ContactTable, ContactsError, TableReaction, read_candidates, read_contacts,
 };
 pub use doubles::{DoubleBlock, DoubleMatrix};
-pub use element::{MassKind, Material, Point};
+pub use element::{MassKind, Material, PlanePoint};
 pub use error::SourceError;
 pub use loading::Loading;
 pub use mesh::{MAX_CELLS, MeshKind};

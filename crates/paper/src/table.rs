@@ -64,15 +64,15 @@ pub(crate) struct Layout<const N: usize> {
 }
 
 /// A table, cut into cells.
-pub(crate) struct Table<'a, const N: usize> {
-    pub(crate) rows: Vec<Row<'a, N>>,
+pub(crate) struct CellTable<'a, const N: usize> {
+    pub(crate) rows: Vec<TableRow<'a, N>>,
     /// Which of the columns the table has.
     pub(crate) has: [bool; N],
 }
 
 impl<const N: usize> Layout<N> {
     /// Cuts a text into cells.
-    pub(crate) fn read<'a>(&'a self, text: &'a str) -> Result<Table<'a, N>, TableError> {
+    pub(crate) fn read<'a>(&'a self, text: &'a str) -> Result<CellTable<'a, N>, TableError> {
         let mut lines = lines_with_content(text).into_iter();
         let header = lines.next().map_or("", |line| line.text);
         let places = self.places(header)?;
@@ -82,7 +82,7 @@ impl<const N: usize> Layout<N> {
         for line in lines {
             rows.push(self.row(&line, &places, width)?);
         }
-        Ok(Table {
+        Ok(CellTable {
             rows,
             has: places.map(|place| place.is_some()),
         })
@@ -116,7 +116,7 @@ impl<const N: usize> Layout<N> {
         line: &TextLine<'a>,
         places: &[Option<usize>; N],
         width: usize,
-    ) -> Result<Row<'a, N>, TableError> {
+    ) -> Result<TableRow<'a, N>, TableError> {
         let given: Vec<&str> = line.text.split(',').map(str::trim).collect();
         if given.len() != width {
             return Err(TableError::Cells {
@@ -127,7 +127,7 @@ impl<const N: usize> Layout<N> {
             });
         }
 
-        Ok(Row {
+        Ok(TableRow {
             layout: self,
             line: line.number,
             cells: places.map(|place| place.map_or("", |place| given[place])),
@@ -136,7 +136,7 @@ impl<const N: usize> Layout<N> {
 }
 
 /// A line of a table.
-pub(crate) struct Row<'a, const N: usize> {
+pub(crate) struct TableRow<'a, const N: usize> {
     layout: &'a Layout<N>,
     /// Line of the file, from 1.
     line: usize,
@@ -144,7 +144,7 @@ pub(crate) struct Row<'a, const N: usize> {
     pub(crate) cells: [&'a str; N],
 }
 
-impl<const N: usize> Row<'_, N> {
+impl<const N: usize> TableRow<'_, N> {
     /// The error that something else was expected in a column.
     pub(crate) fn unexpected(&self, column: usize, expected: &'static str) -> TableError {
         TableError::Cell {
