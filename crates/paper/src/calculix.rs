@@ -4,7 +4,7 @@
 //! has a line `node.direction` for each row. Degrees of freedom that `*BOUNDARY` fixes do not
 //! appear. `mceip convert` reads K, M and the names of dofs from here.
 
-use crate::contacts::shown;
+use crate::lines::{TextLine, lines_not_empty, shown};
 use mceip_exact::{Rational, Sparse, parse};
 use std::collections::{BTreeMap, HashMap};
 
@@ -31,33 +31,15 @@ impl CalculixError {
     }
 }
 
-/// A line of the file that is not empty.
-struct TextLine<'a> {
-    /// From 1.
-    number: usize,
-    /// Without space at both ends.
-    text: &'a str,
+/// The lines that are not empty.
+fn lines_of(text: &str) -> Vec<TextLine<'_>> {
+    lines_not_empty(text, |line| line)
 }
 
 impl TextLine<'_> {
     fn refuse(&self, expected: &'static str) -> CalculixError {
         CalculixError::at(self.number, expected, self.text)
     }
-}
-
-fn lines_with_content(text: &str) -> Vec<TextLine<'_>> {
-    let mut lines = Vec::new();
-    for (index, line) in text.lines().enumerate() {
-        let text = line.trim();
-        if !text.is_empty() {
-            lines.push(TextLine {
-                number: index + 1,
-                text,
-            });
-        }
-    }
-
-    lines
 }
 
 /// The names `node.direction` of the rows, in order, with their 0-based index.
@@ -67,7 +49,7 @@ fn lines_with_content(text: &str) -> Vec<TextLine<'_>> {
 /// all.
 pub fn read_dofs(text: &str) -> Result<HashMap<String, usize>, CalculixError> {
     let mut names = HashMap::new();
-    for line in lines_with_content(text) {
+    for line in lines_of(text) {
         if !is_dof(line.text) {
             return Err(line.refuse("node.direction"));
         }
@@ -111,7 +93,7 @@ fn is_dof(text: &str) -> bool {
 /// ```
 pub fn read_triangle(text: &str, order: usize) -> Result<Sparse, CalculixError> {
     let mut upper: BTreeMap<(usize, usize), Rational> = BTreeMap::new();
-    for line in lines_with_content(text) {
+    for line in lines_of(text) {
         let entry = read_entry(&line, order)?;
         let place = (entry.row.min(entry.column), entry.row.max(entry.column));
         if upper.insert(place, entry.value).is_some() {

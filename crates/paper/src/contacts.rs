@@ -26,6 +26,7 @@
 //! to satisfy (7), |r_T| <= mu |r_N|, with equality for slip. Directions become exact rotations
 //! (`rotation.rs`).
 
+use crate::lines::{TextLine, lines_with_content, shown};
 use crate::plausibility::with_five_digits;
 use crate::rotation::{Frame, rotation_along, rotation_by_degrees};
 use crate::tolerance::CONE_SLACK;
@@ -293,29 +294,6 @@ fn read_rows<T>(
         return Err(ContactsError::Empty);
     }
     Ok((rows, names))
-}
-
-/// A line of the file.
-pub(crate) struct TextLine<'a> {
-    /// From 1.
-    pub(crate) number: usize,
-    pub(crate) text: &'a str,
-}
-
-/// The lines that are neither empty nor comments, without a byte order mark.
-pub(crate) fn lines_with_content(text: &str) -> Vec<TextLine<'_>> {
-    let mut lines = Vec::new();
-    for (index, line) in text.lines().enumerate() {
-        let text = line.trim_start_matches('\u{feff}').trim();
-        if !text.is_empty() && !text.starts_with('#') {
-            lines.push(TextLine {
-                number: index + 1,
-                text,
-            });
-        }
-    }
-
-    lines
 }
 
 /// What the header says.
@@ -776,11 +754,6 @@ fn slack(pressure: &Rational, friction: &Rational) -> Rational {
 /// A reaction for people: rotations make fractions of sixty digits of it.
 fn with_seven_digits(reaction: &Rational) -> String {
     format!("{:.6e}", to_f64(reaction))
-}
-
-/// The beginning of a text, fit to be printed.
-pub(crate) fn shown(text: &str) -> String {
-    text.chars().filter(|c| !c.is_control()).take(60).collect()
 }
 
 #[cfg(test)]

@@ -29,6 +29,7 @@ mod doubles;
 mod element;
 mod error;
 mod frequencies;
+mod lines;
 mod loading;
 mod mesh;
 mod nodes;

@@ -17,10 +17,11 @@
 //! All in doubles, all for a reader: nothing here changes the problem or refuses it.
 #![allow(clippy::float_arithmetic)]
 
-use crate::contacts::{TableReaction, shown};
+use crate::contacts::TableReaction;
 use crate::directions::WrongDirections;
 use crate::doubles::DoubleMatrix;
 use crate::frequencies::lowest_frequencies;
+use crate::lines::shown;
 use crate::tolerance::{
     BALANCED_ROWS, CONE_SLACK, EQUAL_MASSES, NEAR_SUPPORTS, REACTION_MISMATCH, USUAL_FREQUENCIES,
 };

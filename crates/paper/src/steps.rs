@@ -15,7 +15,7 @@
 //! files.
 
 use crate::calculix::CalculixError;
-use crate::contacts::lines_with_content;
+use crate::lines::lines_with_content;
 use crate::table::{Layout, TableError};
 use mceip_exact::{Rational, parse};
 use mceip_model::LoadStep;

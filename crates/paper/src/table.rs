@@ -3,7 +3,7 @@
 //!
 //! Lines that begin with # are comments; a cell may be empty where its column says so.
 
-use crate::contacts::{TextLine, lines_with_content, shown};
+use crate::lines::{TextLine, lines_with_content, shown};
 use mceip_exact::{Rational, parse};
 
 /// Why a table is refused.
