@@ -29,6 +29,7 @@
 use crate::lines::{TextLine, lines_with_content, shown};
 use crate::plausibility::with_five_digits;
 use crate::rotation::{Frame, rotation_along, rotation_by_degrees};
+use crate::table::ColumnPlaces;
 use crate::tolerance::CONE_SLACK;
 use mceip_exact::{Rational, parse, rational, to_f64, whole};
 use mceip_model::{ContactCandidate, ContactState, Particle, Reaction};
@@ -202,10 +203,6 @@ impl Column {
             Column::Gap => "gap",
         }
     }
-
-    fn named(name: &str) -> Option<Column> {
-        Column::ALL.into_iter().find(|column| column.name() == name)
-    }
 }
 
 /// A table of contacts, read.
@@ -280,12 +277,12 @@ fn read_rows<T>(
 ) -> Result<(Vec<T>, Vec<String>), ContactsError> {
     let mut lines = lines_with_content(text).into_iter();
     let header = lines.next().map_or("", |line| line.text);
-    let table = Table::new(header, columns)?;
+    let places = places_of(header, columns)?;
 
     let mut rows = Vec::new();
     let mut names = Vec::new();
     for line in lines {
-        let row = table.row(line)?;
+        let row = ContactRow::cut(&line, &places)?;
         names.push(row.cell(Column::Particle).unwrap_or("").to_string());
         rows.push(read(&row)?);
     }
@@ -294,14 +291,6 @@ fn read_rows<T>(
         return Err(ContactsError::Empty);
     }
     Ok((rows, names))
-}
-
-/// What the header says.
-struct Table {
-    /// Place of each column, in the order of [`Column::ALL`].
-    place: [Option<usize>; 12],
-    /// Number of cells.
-    width: usize,
 }
 
 /// The columns of a kind of table.
@@ -329,82 +318,70 @@ const CANDIDATES: Columns = Columns {
     why: "with --loads the states and reactions follow from the loads",
 };
 
-impl Table {
-    fn new(header: &str, columns: &Columns) -> Result<Table, ContactsError> {
-        if !header.contains(',')
-            && let Some(got) = header.chars().find(|c| matches!(c, ';' | '\t'))
-        {
-            return Err(ContactsError::Separator { got });
-        }
+/// Where the columns stand, in the order of [`Column::ALL`]; refuses a header without those needed
+/// and one with those of another kind of table.
+fn places_of(header: &str, columns: &Columns) -> Result<ColumnPlaces<12>, ContactsError> {
+    if !header.contains(',')
+        && let Some(got) = header.chars().find(|c| matches!(c, ';' | '\t'))
+    {
+        return Err(ContactsError::Separator { got });
+    }
 
-        if header.trim().is_empty() {
+    if header.trim().is_empty() {
+        return Err(ContactsError::MissingColumn {
+            column: columns.needed[0].name(),
+            got: String::new(),
+        });
+    }
+
+    let names = Column::ALL.map(Column::name);
+    let places = ColumnPlaces::of(header, &names)
+        .map_err(|name| ContactsError::Column { got: shown(name) })?;
+
+    for column in columns.needed {
+        if !places.has(*column as usize) {
             return Err(ContactsError::MissingColumn {
-                column: columns.needed[0].name(),
-                got: String::new(),
+                column: column.name(),
+                got: shown(header),
             });
         }
-
-        let names: Vec<&str> = header.split(',').map(str::trim).collect();
-        let mut place = [None; 12];
-        for (k, name) in names.iter().enumerate() {
-            match Column::named(name) {
-                Some(column) if place[column as usize].is_none() => {
-                    place[column as usize] = Some(k);
-                }
-                _ => return Err(ContactsError::Column { got: shown(name) }),
-            }
-        }
-
-        for column in columns.needed {
-            if place[*column as usize].is_none() {
-                return Err(ContactsError::MissingColumn {
-                    column: column.name(),
-                    got: shown(header),
-                });
-            }
-        }
-        for column in columns.foreign {
-            if place[*column as usize].is_some() {
-                return Err(ContactsError::OfOtherTable {
-                    column: column.name(),
-                    why: columns.why,
-                });
-            }
-        }
-
-        Ok(Table {
-            place,
-            width: names.len(),
-        })
     }
-
-    fn row<'a>(&'a self, line: TextLine<'a>) -> Result<ContactRow<'a>, ContactsError> {
-        let cells: Vec<&str> = line.text.split(',').map(str::trim).collect();
-        if cells.len() != self.width {
-            return Err(ContactsError::Cells {
-                line: line.number,
-                expected: self.width,
-                got: cells.len(),
+    for column in columns.foreign {
+        if places.has(*column as usize) {
+            return Err(ContactsError::OfOtherTable {
+                column: column.name(),
+                why: columns.why,
             });
         }
-
-        Ok(ContactRow {
-            table: self,
-            line: line.number,
-            cells,
-        })
     }
+
+    Ok(places)
 }
 
 /// A line of the table, cut into cells.
 struct ContactRow<'a> {
-    table: &'a Table,
     /// Line of the file, from 1.
     line: usize,
-    cells: Vec<&'a str>,
+    /// What stands in each column, in the order of [`Column::ALL`].
+    cells: [&'a str; 12],
 }
 
-impl ContactRow<'_> {
+impl<'a> ContactRow<'a> {
+    fn cut(line: &TextLine<'a>, places: &ColumnPlaces<12>) -> Result<Self, ContactsError> {
+        let cells = places
+            .cells(line.text)
+            .map_err(|got| ContactsError::Cells {
+                line: line.number,
+                expected: places.width,
+                got,
+            })?;
+
+        Ok(ContactRow {
+            line: line.number,
+            cells,
+        })
+    }
+
     /// The particle, and the reaction as the table gives it.
     fn particle(
         &self,
@@ -472,8 +449,7 @@ impl ContactRow<'_> {
 
     /// What stands in a column, if it is there and not empty.
     fn cell(&self, column: Column) -> Option<&str> {
-        let place = self.table.place[column as usize]?;
-        let text = self.cells[place];
+        let text = self.cells[column as usize];
         (!text.is_empty()).then_some(text)
     }
 

@@ -1,6 +1,8 @@
 //! Tables with named columns in any order, cells separated by commas: lines, header, cells, numbers
 //! and degrees of freedom. `nodes` and `steps` read their tables through this.
 //!
+//! A table of contacts has errors of its own and takes [`ColumnPlaces`] alone from here.
+//!
 //! Lines that begin with # are comments; a cell may be empty where its column says so.
 
 use crate::lines::{TextLine, lines_with_content, shown};
@@ -76,62 +78,88 @@ impl<const N: usize> Layout<N> {
         let mut lines = lines_with_content(text).into_iter();
         let header = lines.next().map_or("", |line| line.text);
         let places = self.places(header)?;
-        let width = header.split(',').count();
 
         let mut rows = Vec::new();
         for line in lines {
-            rows.push(self.row(&line, &places, width)?);
+            rows.push(self.row(&line, &places)?);
         }
         Ok(CellTable {
             rows,
-            has: places.map(|place| place.is_some()),
+            has: std::array::from_fn(|column| places.has(column)),
         })
     }
 
-    /// Where each column stands in the header.
-    fn places(&self, header: &str) -> Result<[Option<usize>; N], TableError> {
-        let refused = || TableError::Header {
+    /// Where each column stands in the header, the needed ones among them.
+    fn places(&self, header: &str) -> Result<ColumnPlaces<N>, TableError> {
+        let places = ColumnPlaces::of(header, &self.columns).ok();
+        let complete = places.filter(|places| (0..self.needed).all(|column| places.has(column)));
+
+        complete.ok_or_else(|| TableError::Header {
             table: self.table,
             columns: self.in_words,
             got: shown(header),
-        };
-
-        let mut places = [None; N];
-        for (place, name) in header.split(',').map(str::trim).enumerate() {
-            let known = self.columns.iter().position(|column| *column == name);
-            match known {
-                Some(column) if places[column].is_none() => places[column] = Some(place),
-                _ => return Err(refused()),
-            }
-        }
-
-        if places[..self.needed].contains(&None) {
-            return Err(refused());
-        }
-        Ok(places)
+        })
     }
 
     fn row<'a>(
         &'a self,
         line: &TextLine<'a>,
-        places: &[Option<usize>; N],
-        width: usize,
+        places: &ColumnPlaces<N>,
     ) -> Result<TableRow<'a, N>, TableError> {
-        let given: Vec<&str> = line.text.split(',').map(str::trim).collect();
-        if given.len() != width {
-            return Err(TableError::Cells {
-                table: self.table,
-                line: line.number,
-                expected: width,
-                got: given.len(),
-            });
-        }
+        let cells = places.cells(line.text).map_err(|got| TableError::Cells {
+            table: self.table,
+            line: line.number,
+            expected: places.width,
+            got,
+        })?;
 
         Ok(TableRow {
             layout: self,
             line: line.number,
-            cells: places.map(|place| place.map_or("", |place| given[place])),
+            cells,
         })
+    }
+}
+
+/// Where each of N columns stands in a header.
+pub(crate) struct ColumnPlaces<const N: usize> {
+    places: [Option<usize>; N],
+    /// Number of cells.
+    pub(crate) width: usize,
+}
+
+impl<const N: usize> ColumnPlaces<N> {
+    /// Finds the columns of these names. The error is a name that is none of them or stands twice.
+    pub(crate) fn of<'a>(header: &'a str, columns: &[&str; N]) -> Result<ColumnPlaces<N>, &'a str> {
+        let mut places = [None; N];
+        let mut width = 0;
+        for name in header.split(',').map(str::trim) {
+            let known = columns.iter().position(|column| *column == name);
+            match known {
+                Some(column) if places[column].is_none() => places[column] = Some(width),
+                _ => return Err(name),
+            }
+            width += 1;
+        }
+
+        Ok(ColumnPlaces { places, width })
+    }
+
+    pub(crate) fn has(&self, column: usize) -> bool {
+        self.places[column].is_some()
+    }
+
+    /// What a line has in each column, empty where there is no such column. The error is its number
+    /// of cells, where that is not the header's.
+    pub(crate) fn cells<'a>(&self, line: &'a str) -> Result<[&'a str; N], usize> {
+        let given: Vec<&str> = line.split(',').map(str::trim).collect();
+        if given.len() != self.width {
+            return Err(given.len());
+        }
+
+        Ok(self
+            .places
+            .map(|place| place.map_or("", |place| given[place])))
     }
 }
 
