@@ -12,7 +12,8 @@ use super::output::{Output, make};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mceip_engine::run::in_threads;
 use mceip_testkit::campaign::{
-    Campaign, Event, FAMILIES, Limit, MAX_INSTANCES, Replay, State, family_error, judge, standard,
+    Campaign, CampaignEvent, CampaignLimit, FAMILIES, MAX_INSTANCES, Replay, State, family_error,
+    judge, standard,
 };
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -73,8 +74,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 
     let limit = match (args.seconds, args.count) {
-        (Some(seconds), _) => Limit::For(Duration::from_secs(seconds)),
-        (None, count) => Limit::Count(count.unwrap_or_default()),
+        (Some(seconds), _) => CampaignLimit::For(Duration::from_secs(seconds)),
+        (None, count) => CampaignLimit::Count(count.unwrap_or_default()),
     };
     let state = start(args)?;
     require_threads(args.threads)?;
@@ -91,13 +92,13 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         saved: Instant::now(),
         failed: None,
     };
-    let mut on_event = |event: Event<'_>| {
+    let mut on_event = |event: CampaignEvent<'_>| {
         match event {
-            Event::Wave(state) => {
+            CampaignEvent::Wave(state) => {
                 bars.show(state);
                 keeper.keep(state, false);
             }
-            Event::Disagreement(replay) => keeper.write(replay, &bars),
+            CampaignEvent::Disagreement(replay) => keeper.write(replay, &bars),
         }
 
         // What cannot be kept need not be computed.
@@ -259,10 +260,10 @@ struct Bars {
 }
 
 impl Bars {
-    fn new(state: &State, limit: Limit) -> Bars {
+    fn new(state: &State, limit: CampaignLimit) -> Bars {
         let template = match limit {
-            Limit::Count(_) => "{msg:14} [{bar:30}] {pos}/{len} {per_sec}",
-            Limit::For(_) => "{msg:14} {pos} {per_sec} {elapsed}",
+            CampaignLimit::Count(_) => "{msg:14} [{bar:30}] {pos}/{len} {per_sec}",
+            CampaignLimit::For(_) => "{msg:14} {pos} {per_sec} {elapsed}",
         };
         let style = ProgressStyle::with_template(template);
 
@@ -273,8 +274,8 @@ impl Bars {
         let mut each = Vec::new();
         for name in &state.families {
             let bar = all.add(match limit {
-                Limit::Count(n) => ProgressBar::new(n),
-                Limit::For(_) => ProgressBar::no_length(),
+                CampaignLimit::Count(n) => ProgressBar::new(n),
+                CampaignLimit::For(_) => ProgressBar::no_length(),
             });
             if let Ok(style) = &style {
                 bar.set_style(style.clone());

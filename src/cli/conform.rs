@@ -8,8 +8,8 @@ use super::job::Job;
 use super::output::{Output, make};
 use mceip_model::file::write_problem;
 use mceip_testkit::conform::{
-    Case, Flag, Group, INDEX_FORMAT, Limits, PACK_FORMAT, Plan, groups, pack_files, read_pack, run,
-    summarise,
+    Case, ConformPlan, Flag, Group, INDEX_FORMAT, PACK_FORMAT, ProcessLimits, groups, pack_files,
+    read_pack, run, summarise,
 };
 use std::path::{Path, PathBuf};
 
@@ -157,21 +157,21 @@ fn settings(args: &Args) -> String {
 }
 
 /// What is to be run, as the options say.
-fn plan(args: &Args, groups: Vec<Group>) -> Result<Plan, CliError> {
+fn plan(args: &Args, groups: Vec<Group>) -> Result<ConformPlan, CliError> {
     let time = seconds("time-limit", args.time_limit)?;
     require_count("count", args.count as u64, 0..=MAX_RANDOM)?;
     require_threads(args.threads)?;
 
-    Ok(Plan {
+    Ok(ConformPlan {
         groups,
         random: args.count,
         seed: args.seed,
         as_pencil: args.as_pencil,
         by_lines: args.lines,
         only: flags(&args.only)?,
-        limits: Limits {
+        limits: ProcessLimits {
             time,
-            ..Limits::default()
+            ..ProcessLimits::default()
         },
         threads: args.threads,
     })

@@ -10,8 +10,8 @@ use mceip_model::{Body, Pencil, Window};
 use mceip_oracle::{Enumeration, enumerate};
 use mceip_testkit::Corner;
 use mceip_testkit::campaign::{
-    Campaign, Case, Engine, Enumerator, Event, FAMILIES, Finding, Id, Limit, Replay, State, case,
-    judge, shrink, smaller, standard,
+    Campaign, CampaignCase, CampaignEvent, CampaignLimit, Engine, Enumerator, FAMILIES, Finding,
+    Id, Replay, State, case, judge, shrink, smaller, standard,
 };
 use std::collections::BTreeSet;
 
@@ -34,10 +34,10 @@ fn run(engines: &[Box<dyn Engine>], state: State, count: u64) -> Outcome {
     let mut replays = Vec::new();
     let campaign = Campaign {
         engines,
-        limit: Limit::Count(count),
+        limit: CampaignLimit::Count(count),
     };
     let state = campaign.run(state, &Cancel::new(), &mut |event| {
-        if let Event::Disagreement(replay) = event {
+        if let CampaignEvent::Disagreement(replay) = event {
             replays.push(replay.clone());
         }
     });
@@ -58,7 +58,7 @@ fn wrong(
 }
 
 /// An instance of seed 1.
-fn instance(family: &str, index: u64) -> Case {
+fn instance(family: &str, index: u64) -> CampaignCase {
     let id = Id {
         family: family.into(),
         seed: 1,
@@ -163,7 +163,7 @@ fn a_campaign_goes_on_from_its_state_file() {
     // A stopped campaign has done nothing more.
     let campaign = Campaign {
         engines: &[],
-        limit: Limit::Count(8),
+        limit: CampaignLimit::Count(8),
     };
     let stopped = campaign.run(first.clone(), &Cancel::requested(), &mut |_| {});
 
@@ -295,7 +295,7 @@ fn wrong_answers_known_by_construction_and_panics_are_disagreements() {
 }
 
 #[track_caller]
-fn contradicts_the_known_answer(case: &Case) {
+fn contradicts_the_known_answer(case: &CampaignCase) {
     let findings = judge(case, &standard(1)).findings;
     assert_eq!(findings[0].kind(), ("known answer", "known-answer"));
 }

@@ -10,11 +10,11 @@ use mceip_engine::multistart::{MultistartFound, Search, SearchError, multistart}
 use mceip_engine::run::{Cancel, Watch};
 use mceip_model::{Problem, Reduced};
 use mceip_paper::PublishedState;
-use mceip_testkit::campaign::{Campaign, Engine, Limit, Pipeline, State, treatment};
+use mceip_testkit::campaign::{Campaign, CampaignLimit, Engine, Pipeline, State, treatment};
 use mceip_testkit::floors::{Coverage, Shortfall, Starts, shortfalls};
 use mceip_testkit::targets::{Counter, fuzz_treatment};
 use mceip_testkit::{
-    BLOCK_STARTS, Instance, Solver, Treatment, Verification, degenerate, mechanical,
+    BLOCK_STARTS, Instance, SearchFunction, Treatment, Verification, degenerate, mechanical,
 };
 use mceip_testkit::{random_pencils, table1_grid, verify_family};
 use rand::SeedableRng;
@@ -60,7 +60,7 @@ fn every_second_from(first: usize, mut found: MultistartFound) -> MultistartFoun
 }
 
 /// The solvers with a fault.
-const PLANTS: [(&str, Solver); 3] = [
+const PLANTS: [(&str, SearchFunction); 3] = [
     ("finds nothing", finds_nothing),
     ("drops every second", drops_every_second),
     ("keeps every first", keeps_every_first),
@@ -165,7 +165,7 @@ fn campaign_of_two_families(treatment: Treatment) -> State {
     let engines: [Box<dyn Engine>; 1] = [Box::new(pipeline)];
     let campaign = Campaign {
         engines: &engines,
-        limit: Limit::Count(40),
+        limit: CampaignLimit::Count(40),
     };
 
     let state = State::new(3, (0, 1), families);

@@ -99,7 +99,7 @@ pub struct Reached {
 
 /// What is asked for the solutions of a problem: [`multistart`], [`from_interior`], or one that is
 /// wrong on purpose.
-pub type Solver =
+pub type SearchFunction =
     fn(&Problem, &Reduced, &Search, &Watch<'_>) -> Result<MultistartFound, SearchError>;
 
 /// How an instance is treated.
@@ -108,9 +108,9 @@ pub struct Treatment {
     /// How the solver searches.
     pub search: Search,
     /// The search for solutions.
-    pub solver: Solver,
+    pub solver: SearchFunction,
     /// Runs from interior starts, for instances of Table 1.
-    pub interior: Solver,
+    pub interior: SearchFunction,
     /// Nodes per piece of the complete search.
     pub nodes: usize,
     /// The verified checker, to which each accepted certificate is given.
@@ -131,7 +131,7 @@ impl Treatment {
 
     /// The same with another solver in both places.
     #[must_use]
-    pub fn with_solver(self, solver: Solver) -> Treatment {
+    pub fn with_solver(self, solver: SearchFunction) -> Treatment {
         Treatment {
             solver,
             interior: solver,

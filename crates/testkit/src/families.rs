@@ -163,15 +163,15 @@ fn table1_instance(data: TwoParticles, is_threshold: bool) -> Result<Instance, M
 }
 
 /// A coefficient of friction of the grid.
-struct Friction {
+struct GridFriction {
     mu: Rational,
     /// Is it exactly on a rational threshold of Table 1?
     is_threshold: bool,
 }
 
-impl Friction {
-    fn plain(mu: Rational) -> Friction {
-        Friction {
+impl GridFriction {
+    fn plain(mu: Rational) -> GridFriction {
+        GridFriction {
             mu,
             is_threshold: false,
         }
@@ -179,9 +179,9 @@ impl Friction {
 }
 
 /// Coefficients of friction for one angle.
-fn frictions(c: &Rational, s: &Rational) -> Vec<Friction> {
+fn frictions(c: &Rational, s: &Rational) -> Vec<GridFriction> {
     let plain = [rational(1, 2), whole(2), whole(5), whole(20)];
-    let mut list: Vec<Friction> = plain.map(Friction::plain).into_iter().collect();
+    let mut list: Vec<GridFriction> = plain.map(GridFriction::plain).into_iter().collect();
 
     let cs = c * s;
     if cs.is_zero() {
@@ -191,12 +191,12 @@ fn frictions(c: &Rational, s: &Rational) -> Vec<Friction> {
     let tiny = rational(1, 1_000_000_000);
     for top in [c * c + Rational::one(), c * c + whole(2)] {
         let threshold = top / &cs;
-        list.push(Friction::plain(&threshold - &tiny));
-        list.push(Friction {
+        list.push(GridFriction::plain(&threshold - &tiny));
+        list.push(GridFriction {
             mu: threshold.clone(),
             is_threshold: true,
         });
-        list.push(Friction::plain(threshold + &tiny));
+        list.push(GridFriction::plain(threshold + &tiny));
     }
     list
 }
@@ -358,16 +358,16 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
 }
 
 /// A matrix of small integers by rows.
-pub(crate) type Rows<'a> = &'a [&'a [i64]];
+pub(crate) type SmallRows<'a> = &'a [&'a [i64]];
 
 /// Identity matrices.
-pub(crate) const I2: Rows<'_> = &[&[1, 0], &[0, 1]];
-pub(crate) const I3: Rows<'_> = &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]];
+pub(crate) const I2: SmallRows<'_> = &[&[1, 0], &[0, 1]];
+pub(crate) const I3: SmallRows<'_> = &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]];
 
 /// The pencil of small integers A and B over [0, infinity).
 pub(crate) fn small_problem(
-    a: Rows<'_>,
-    b: Rows<'_>,
+    a: SmallRows<'_>,
+    b: SmallRows<'_>,
     free: &[usize],
     unknown: Unknown,
 ) -> Result<Problem, ModelError> {
@@ -376,7 +376,14 @@ pub(crate) fn small_problem(
 }
 
 /// A degenerate pencil of small integers: name, A, B, free variables, unknown, corner.
-type Degenerate<'a> = (&'a str, Rows<'a>, Rows<'a>, &'a [usize], Unknown, Corner);
+type Degenerate<'a> = (
+    &'a str,
+    SmallRows<'a>,
+    SmallRows<'a>,
+    &'a [usize],
+    Unknown,
+    Corner,
+);
 
 fn degenerate_instance(
     (name, a, b, free, unknown, corner): Degenerate<'_>,

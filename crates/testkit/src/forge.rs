@@ -28,7 +28,7 @@ pub struct Forgery {
 }
 
 /// A change that breaks one obligation of an accepted `T` (a certificate or a claim).
-struct Change<T> {
+struct Tampering<T> {
     /// The bug it stands for.
     name: &'static str,
     /// What is changed.
@@ -37,7 +37,7 @@ struct Change<T> {
     expected: fn(&Reason) -> bool,
 }
 
-impl<T: Clone> Change<T> {
+impl<T: Clone> Tampering<T> {
     /// The change of an accepted `T`, of which `wrap` makes a certificate.
     fn forged(&self, good: &T, wrap: impl Fn(T) -> Certificate) -> Forgery {
         let mut forged = good.clone();
@@ -53,7 +53,7 @@ impl<T: Clone> Change<T> {
 /// A table of changes: name, change, reason.
 macro_rules! changes {
     ($($name:literal: $apply:expr => $($reason:pat_param)|+,)+) => {
-        &[$(Change { name: $name, apply: $apply, expected: |r| matches!(r, $($reason)|+) }),+]
+        &[$(Tampering { name: $name, apply: $apply, expected: |r| matches!(r, $($reason)|+) }),+]
     };
 }
 
@@ -122,7 +122,7 @@ fn upper_bound(claim: &Claim) -> Rational {
 }
 
 /// Changes of what stands around the claims.
-static OF_THE_FRAME: &[Change<Certificate>] = changes! {
+static OF_THE_FRAME: &[Tampering<Certificate>] = changes! {
     "another problem's digest":
         |c| c.problem_sha256 = c.problem_sha256.chars().rev().collect() => Reason::Digest { .. },
     "the other unknown": |c| c.unknown = other(c.unknown) => Reason::Unknown { .. },
@@ -137,8 +137,8 @@ fn other(unknown: Unknown) -> Unknown {
 }
 
 /// The changes that apply to an exact claim.
-fn changes_of_exact(claim: &ExactSolution) -> Vec<&'static Change<ExactSolution>> {
-    let mut out: Vec<&Change<ExactSolution>> = OF_EXACT.iter().collect();
+fn changes_of_exact(claim: &ExactSolution) -> Vec<&'static Tampering<ExactSolution>> {
+    let mut out: Vec<&Tampering<ExactSolution>> = OF_EXACT.iter().collect();
     if !claim.support.is_empty() {
         out.extend(OF_EXACT_WITH_A_SUPPORT);
     }
@@ -156,7 +156,7 @@ fn changes_of_exact(claim: &ExactSolution) -> Vec<&'static Change<ExactSolution>
 }
 
 /// Changes of any exact claim. The point that is no root is one of 1 + t^2, which has none.
-static OF_EXACT: &[Change<ExactSolution>] = changes! {
+static OF_EXACT: &[Tampering<ExactSolution>] = changes! {
     "constant polynomial": |c| c.polynomial.truncate(1) => Reason::ConstantPolynomial { .. },
     "x one variable short": |c| drop(c.x.pop()) => Reason::Length { what: "x", .. },
     "x = 0": |c| c.x.iter_mut().for_each(Vec::clear) => Reason::XNotPositive { .. } | Reason::XZero,
@@ -171,7 +171,7 @@ static OF_EXACT: &[Change<ExactSolution>] = changes! {
 };
 
 /// Changes of an exact claim whose support is not empty.
-static OF_EXACT_WITH_A_SUPPORT: &[Change<ExactSolution>] = changes! {
+static OF_EXACT_WITH_A_SUPPORT: &[Tampering<ExactSolution>] = changes! {
     "x negative":
         |c| c.x.iter_mut().flatten().for_each(|v| v.0 = -v.0.clone())
             => Reason::XNotPositive { .. },
@@ -186,13 +186,13 @@ static OF_EXACT_WITH_A_SUPPORT: &[Change<ExactSolution>] = changes! {
 };
 
 /// Changes of an exact claim with biactive indices.
-static OF_EXACT_WITH_BIACTIVE: &[Change<ExactSolution>] = changes! {
+static OF_EXACT_WITH_BIACTIVE: &[Tampering<ExactSolution>] = changes! {
     "biactive index hidden":
         |c| c.biactive.truncate(c.biactive.len() - 1) => Reason::Biactive { expected: true, .. },
 };
 
 /// Changes of an exact claim whose value is enclosed by an interval of positive width.
-static OF_EXACT_WITH_AN_INTERVAL: &[Change<ExactSolution>] = changes! {
+static OF_EXACT_WITH_AN_INTERVAL: &[Tampering<ExactSolution>] = changes! {
     "interval reversed": |c| c.interval.swap(0, 1) => Reason::ReversedInterval { .. },
     "end of the interval as the value":
         |c| c.interval[1] = c.interval[0].clone() => Reason::NotARoot { .. },
@@ -210,8 +210,8 @@ fn power(p: &[Integer], exponent: u32) -> Vec<Integer> {
 }
 
 /// The changes that apply to a lifted claim.
-fn changes_of_lifted(claim: &LiftedSolution) -> Vec<&'static Change<LiftedSolution>> {
-    let mut out: Vec<&Change<LiftedSolution>> = OF_LIFTED.iter().collect();
+fn changes_of_lifted(claim: &LiftedSolution) -> Vec<&'static Tampering<LiftedSolution>> {
+    let mut out: Vec<&Tampering<LiftedSolution>> = OF_LIFTED.iter().collect();
     if !claim.support.is_empty() {
         out.extend(OF_LIFTED_WITH_A_SUPPORT);
     }
@@ -219,7 +219,7 @@ fn changes_of_lifted(claim: &LiftedSolution) -> Vec<&'static Change<LiftedSoluti
 }
 
 /// Changes of any lifted claim.
-static OF_LIFTED: &[Change<LiftedSolution>] = changes! {
+static OF_LIFTED: &[Tampering<LiftedSolution>] = changes! {
     "v = w = 0":
         |c| c.v.iter_mut().chain(&mut c.w).for_each(Vec::clear)
             => Reason::Line { .. } | Reason::XZero,
@@ -233,7 +233,7 @@ static OF_LIFTED: &[Change<LiftedSolution>] = changes! {
 };
 
 /// Changes of a lifted claim whose support is not empty.
-static OF_LIFTED_WITH_A_SUPPORT: &[Change<LiftedSolution>] = changes! {
+static OF_LIFTED_WITH_A_SUPPORT: &[Tampering<LiftedSolution>] = changes! {
     "everything moves backwards":
         |c| {
             let components = c.v.iter_mut().chain(&mut c.w);
@@ -246,7 +246,7 @@ static OF_LIFTED_WITH_A_SUPPORT: &[Change<LiftedSolution>] = changes! {
 
 /// Changes of an enclosed claim: its box, its centre, its preconditioner Y. Half of Y would still
 /// contract; four times Y makes I - YJ about -3I, which does not.
-static OF_ENCLOSED: &[Change<EnclosedSolution>] = changes! {
+static OF_ENCLOSED: &[Tampering<EnclosedSolution>] = changes! {
     "zero row in the preconditioner":
         |c| c.preconditioner[0].fill(Integer::default()) => Reason::NotContracting { .. },
     "box without width": |c| c.radius[0] = Number(whole(0)) => Reason::Radius { .. },

@@ -103,7 +103,7 @@ pub fn from_interior(
     let certifier = Certifier::new(problem, &reduced.pencil);
     let embedding = Embedding::new(&admissible, Side::Above(bottom));
 
-    let mut attempt = Attempt {
+    let mut attempt = InteriorRuns {
         certifier,
         embedding,
         found: MultistartFound::default(),
@@ -133,13 +133,13 @@ pub fn from_interior(
 const PER_CURVE: usize = 16;
 
 /// Runs on one problem, and what they found.
-struct Attempt<'a> {
+struct InteriorRuns<'a> {
     certifier: Certifier<'a>,
     embedding: Embedding,
     found: MultistartFound,
 }
 
-impl Attempt<'_> {
+impl InteriorRuns<'_> {
     /// The curve of the Newton homotopy from the point in one sense, and a run from each solution
     /// on it.
     fn follow(

@@ -429,7 +429,7 @@ fn symmetric(n: usize, edges: &[(usize, usize)], entry: i64) -> Sparse {
 
 /// All maximal sets of pairwise compatible members (Bron and Kerbosch 1973, without pivoting).
 fn maximal_families(count: usize, compatible: &dyn Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
-    let mut families = Families {
+    let mut families = CliqueSearch {
         compatible,
         found: Vec::new(),
     };
@@ -438,12 +438,12 @@ fn maximal_families(count: usize, compatible: &dyn Fn(usize, usize) -> bool) -> 
 }
 
 /// The state of the algorithm of Bron and Kerbosch.
-struct Families<'a> {
+struct CliqueSearch<'a> {
     compatible: &'a dyn Fn(usize, usize) -> bool,
     found: Vec<Vec<usize>>,
 }
 
-impl Families<'_> {
+impl CliqueSearch<'_> {
     /// Finds all maximal sets that hold `chosen`, members of `open`, and nothing else. `open` and
     /// `done` are compatible with all of `chosen`; sets with a member of `done` were found before.
     fn grow(&mut self, chosen: &[usize], open: &[usize], mut done: Vec<usize>) {

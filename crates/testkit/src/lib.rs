@@ -40,7 +40,8 @@ mod verify;
 
 pub use block::{AcceptedState, BLOCK_STARTS, BlockReport, block_state};
 pub use compare::{
-    InstanceReport, Reached, Solver, Treatment, compare, compare_by, coverage_of, in_doubles,
+    InstanceReport, Reached, SearchFunction, Treatment, compare, compare_by, coverage_of,
+    in_doubles,
 };
 pub use completed::compare_complete;
 pub use disagreement::Disagreement;

@@ -3,7 +3,7 @@
 
 use crate::cli::verify::{coverage_text, covered_json};
 use mceip_engine::report::Table;
-use mceip_testkit::campaign::{Judgement, Replay, State, Tally};
+use mceip_testkit::campaign::{CaseFindings, Replay, State, Tally};
 use serde_json::{Value, json};
 
 /// The summary for people.
@@ -143,7 +143,7 @@ fn family_json(name: &str, tally: &Tally) -> Value {
 }
 
 /// What a replay file was about, and what its case gives when it is judged again.
-pub(super) fn replay_text(replay: &Replay, judged: &Judgement) -> String {
+pub(super) fn replay_text(replay: &Replay, judged: &CaseFindings) -> String {
     let mut out = format!(
         "{}:{}:{} was: {}: {}\n",
         replay.family, replay.seed, replay.index, replay.engine, replay.disagreement
@@ -165,7 +165,7 @@ pub(super) fn replay_text(replay: &Replay, judged: &Judgement) -> String {
 }
 
 /// The same for programs.
-pub(super) fn replay_json(replay: &Replay, judged: &Judgement) -> Value {
+pub(super) fn replay_json(replay: &Replay, judged: &CaseFindings) -> Value {
     let mut now = Vec::new();
     for finding in &judged.findings {
         now.push(json!({

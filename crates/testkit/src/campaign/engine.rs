@@ -4,7 +4,7 @@
 //! enumerator's answer or with what is known of the case by construction. A panic of an engine is a
 //! finding too. Called by the campaign's run, by `shrink`, and by `mceip campaign --replay`.
 
-use super::family::Case;
+use super::family::CampaignCase;
 use crate::compare::{InstanceReport, Treatment, compare_with, engines, observed};
 use crate::disagreement::Disagreement;
 use crate::families::Corner;
@@ -28,7 +28,7 @@ pub trait Engine: Sync {
     fn name(&self) -> &str;
 
     /// Compares it with the enumerator's answer: disagreements and counts are added to the report.
-    fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport);
+    fn compare(&self, case: &CampaignCase, truth: &Truth, report: &mut InstanceReport);
 }
 
 /// Another enumerator: the same answer, or a disagreement.
@@ -46,7 +46,7 @@ impl<F: Fn(&Pencil, &Window) -> Result<Option<Enumeration>, String> + Sync> Engi
         self.name
     }
 
-    fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
+    fn compare(&self, case: &CampaignCase, truth: &Truth, report: &mut InstanceReport) {
         match (self.answer)(&truth.reduced.pencil, case.instance.problem.window()) {
             Ok(Some(answer)) if answer == truth.enumeration => {}
             Ok(Some(answer)) => report.disagreements.push(Disagreement::Enumerators {
@@ -74,7 +74,7 @@ impl Engine for Pipeline {
         "pipeline"
     }
 
-    fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
+    fn compare(&self, case: &CampaignCase, truth: &Truth, report: &mut InstanceReport) {
         compare_with(
             &case.instance,
             &truth.reduced,
@@ -93,7 +93,7 @@ impl Engine for KnownAnswer {
         "known answer"
     }
 
-    fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
+    fn compare(&self, case: &CampaignCase, truth: &Truth, report: &mut InstanceReport) {
         let found = &truth.enumeration;
         for expected in contradicted(case, truth) {
             report.disagreements.push(Disagreement::Known {
@@ -105,7 +105,7 @@ impl Engine for KnownAnswer {
 }
 
 /// What is known by construction and not true of the enumerator's answer, in words.
-fn contradicted(case: &Case, truth: &Truth) -> Vec<String> {
+fn contradicted(case: &CampaignCase, truth: &Truth) -> Vec<String> {
     let found = &truth.enumeration;
     let mut out = Vec::new();
 
@@ -200,7 +200,7 @@ impl Finding {
 
 /// What came of a case.
 #[derive(Debug, Clone, Default)]
-pub struct Judgement {
+pub struct CaseFindings {
     /// Counts and corners.
     pub report: InstanceReport,
     /// Disagreements, with the engine.
@@ -209,7 +209,7 @@ pub struct Judgement {
 
 /// Holds every engine against the plain enumerator. A panic of an engine is a disagreement like any
 /// other.
-pub fn judge(case: &Case, all: &[Box<dyn Engine>]) -> Judgement {
+pub fn judge(case: &CampaignCase, all: &[Box<dyn Engine>]) -> CaseFindings {
     let mut report = InstanceReport {
         label: case.instance.label.clone(),
         corners: case.instance.corners.clone(),
@@ -242,7 +242,7 @@ pub fn judge(case: &Case, all: &[Box<dyn Engine>]) -> Judgement {
 
     report.corners.sort();
     report.corners.dedup();
-    Judgement { report, findings }
+    CaseFindings { report, findings }
 }
 
 /// Corners of the answer and of the shape.

@@ -13,7 +13,7 @@ use std::fmt;
 
 /// An instance of a family, and what is known of it.
 #[derive(Debug, Clone)]
-pub struct Case {
+pub struct CampaignCase {
     /// Its three numbers.
     pub id: Id,
     /// The problem, with Table 1's data and the corners known by construction.
@@ -91,7 +91,7 @@ pub const FAMILIES: [(&str, &str, Make); 20] = [
 /// # Errors
 /// [`TestkitError::Family`]; [`ModelError`] as text cannot occur for the families as they are, and
 /// is a disagreement of the campaign if it does.
-pub fn case(id: &Id) -> Result<Result<Case, ModelError>, TestkitError> {
+pub fn case(id: &Id) -> Result<Result<CampaignCase, ModelError>, TestkitError> {
     let number = FAMILIES
         .iter()
         .position(|f| f.0 == id.family)
@@ -104,7 +104,7 @@ pub fn case(id: &Id) -> Result<Result<Case, ModelError>, TestkitError> {
         index: id.index,
     });
 
-    Ok(made.map(|made| Case {
+    Ok(made.map(|made| CampaignCase {
         id: id.clone(),
         instance: Instance {
             label: id.to_string(),

@@ -22,12 +22,12 @@ mod shrink;
 mod state;
 
 pub use engine::{
-    Engine, Enumerator, Finding, Judgement, KnownAnswer, Pipeline, Truth, judge, standard,
+    CaseFindings, Engine, Enumerator, Finding, KnownAnswer, Pipeline, Truth, judge, standard,
     treatment,
 };
 pub use expected::{Expected, Made};
-pub use family::{Case, FAMILIES, Id, case, family_error};
+pub use family::{CampaignCase, FAMILIES, Id, case, family_error};
 pub use replay::{REPLAY_FORMAT, Replay};
-pub use run::{Campaign, Event, Limit};
+pub use run::{Campaign, CampaignEvent, CampaignLimit};
 pub use shrink::{MAX_TRIES, shrink, smaller};
 pub use state::{MAX_INSTANCES, STATE_FORMAT, State, Tally};

@@ -6,7 +6,7 @@
 
 use super::engine::Finding;
 use super::expected::Expected;
-use super::family::{Case, Id, case};
+use super::family::{CampaignCase, Id, case};
 use crate::error::TestkitError;
 use crate::families::Instance;
 use mceip_exact::parse;
@@ -61,7 +61,7 @@ pub struct ClosedForm {
 impl Replay {
     /// The file for a finding: the case as drawn with what it said, and the shrunk one with what
     /// that says.
-    pub fn new(drawn: (&Case, &Finding), shrunk: (&Case, &Finding)) -> Replay {
+    pub fn new(drawn: (&CampaignCase, &Finding), shrunk: (&CampaignCase, &Finding)) -> Replay {
         let (case, finding) = shrunk;
         let (drawn_case, drawn_finding) = drawn;
         let closed_form = case.instance.closed_form.as_ref().map(ClosedForm::of);
@@ -117,7 +117,7 @@ impl Replay {
     ///
     /// # Errors
     /// [`TestkitError`] for a problem or data that are refused.
-    pub fn case(&self) -> Result<Case, TestkitError> {
+    pub fn case(&self) -> Result<CampaignCase, TestkitError> {
         let id = Id {
             family: self.family.clone(),
             seed: self.seed,
@@ -147,7 +147,7 @@ impl Replay {
             corners: Vec::new(),
         };
 
-        Ok(Case {
+        Ok(CampaignCase {
             id,
             instance,
             expected,

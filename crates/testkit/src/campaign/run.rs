@@ -4,8 +4,8 @@
 //! that were judged. The caller hears of every wave, so that it can write the state to a file, and
 //! of every disagreement, already shrunk. Called by `mceip campaign`.
 
-use super::engine::{Engine, Finding, Judgement, judge};
-use super::family::{Case, Id, case};
+use super::engine::{CaseFindings, Engine, Finding, judge};
+use super::family::{CampaignCase, Id, case};
 use super::replay::Replay;
 use super::shrink;
 use super::state::State;
@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 /// When a campaign ends by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Limit {
+pub enum CampaignLimit {
     /// So many instances of each family, in all; with a state that has some of them, the rest.
     Count(u64),
     /// So long, this time.
@@ -24,7 +24,7 @@ pub enum Limit {
 }
 
 /// What is told while a campaign runs.
-pub enum Event<'a> {
+pub enum CampaignEvent<'a> {
     /// A wave is done: what is in the state will not be lost.
     Wave(&'a State),
     /// A disagreement, already shrunk.
@@ -36,7 +36,7 @@ pub struct Campaign<'a> {
     /// The engines, each held against the plain enumerator.
     pub engines: &'a [Box<dyn Engine>],
     /// When it ends.
-    pub limit: Limit,
+    pub limit: CampaignLimit,
 }
 
 /// Instances between two looks at the clock. They take milliseconds each, so a wave takes about a
@@ -45,16 +45,21 @@ const WAVE: u64 = 40;
 
 impl Campaign<'_> {
     /// Runs from `state` on until the limit, or until it is cancelled; a wave that has begun is
-    /// finished. The state for [`Limit::Count`] does not depend on the number of threads.
-    pub fn run(&self, mut state: State, cancel: &Cancel, hear: &mut dyn FnMut(Event<'_>)) -> State {
+    /// finished. The state for [`CampaignLimit::Count`] does not depend on the number of threads.
+    pub fn run(
+        &self,
+        mut state: State,
+        cancel: &Cancel,
+        hear: &mut dyn FnMut(CampaignEvent<'_>),
+    ) -> State {
         let begun = Instant::now();
         let count = state.families.len() as u64;
 
         loop {
             let left = match self.limit {
-                Limit::Count(each) => (each * count).saturating_sub(state.done),
-                Limit::For(time) if begun.elapsed() >= time => 0,
-                Limit::For(_) => WAVE,
+                CampaignLimit::Count(each) => (each * count).saturating_sub(state.done),
+                CampaignLimit::For(time) if begun.elapsed() >= time => 0,
+                CampaignLimit::For(_) => WAVE,
             };
 
             if left == 0 || cancel.is_requested() {
@@ -65,7 +70,7 @@ impl Campaign<'_> {
                 .map(|k| state.id(k))
                 .collect();
             // Results come in the order of the wave.
-            let judged: Vec<Judged> = wave.par_iter().map(|id| self.judge(id)).collect();
+            let judged: Vec<JudgedCase> = wave.par_iter().map(|id| self.judge(id)).collect();
 
             for (id, judged) in wave.iter().zip(judged) {
                 let family = (state.done % count) as usize;
@@ -73,31 +78,31 @@ impl Campaign<'_> {
                 state.done += 1;
 
                 for replay in self.replays(&judged) {
-                    hear(Event::Disagreement(&replay));
+                    hear(CampaignEvent::Disagreement(&replay));
                 }
             }
 
-            hear(Event::Wave(&state));
+            hear(CampaignEvent::Wave(&state));
         }
     }
 
     /// Makes the instance and judges it. An instance that the generator refuses is a disagreement.
-    fn judge(&self, id: &Id) -> Judged {
+    fn judge(&self, id: &Id) -> JudgedCase {
         match case(id) {
             Ok(Ok(case)) => {
                 let judgement = judge(&case, self.engines);
-                Judged {
+                JudgedCase {
                     case: Some(case),
                     judgement,
                 }
             }
-            Ok(Err(e)) => Judged::refused(&e),
-            Err(e) => Judged::refused(&e),
+            Ok(Err(e)) => JudgedCase::refused(&e),
+            Err(e) => JudgedCase::refused(&e),
         }
     }
 
     /// One replay per engine and kind.
-    fn replays(&self, judged: &Judged) -> Vec<Replay> {
+    fn replays(&self, judged: &JudgedCase) -> Vec<Replay> {
         let Some(case) = &judged.case else {
             return Vec::new();
         };
@@ -118,25 +123,25 @@ impl Campaign<'_> {
 }
 
 /// An instance of a wave, and what came of it.
-struct Judged {
+struct JudgedCase {
     /// `None` if the generator refused to make it.
-    case: Option<Case>,
-    judgement: Judgement,
+    case: Option<CampaignCase>,
+    judgement: CaseFindings,
 }
 
-impl Judged {
+impl JudgedCase {
     /// An instance that the generator refused to make: a disagreement.
-    fn refused(reason: &dyn std::fmt::Display) -> Judged {
+    fn refused(reason: &dyn std::fmt::Display) -> JudgedCase {
         let finding = Finding {
             engine: "generator".into(),
             disagreement: Disagreement::refused("generator", reason),
         };
 
-        Judged {
+        JudgedCase {
             case: None,
-            judgement: Judgement {
+            judgement: CaseFindings {
                 findings: vec![finding],
-                ..Judgement::default()
+                ..CaseFindings::default()
             },
         }
     }

@@ -8,7 +8,7 @@
 
 use super::engine::{Engine, Finding, judge};
 use super::expected::Expected;
-use super::family::Case;
+use super::family::CampaignCase;
 use crate::families::Instance;
 use mceip_exact::{Integer, Rational, Sparse, rational, whole};
 use mceip_model::{Body, ModelError, Particle, Pencil, Problem, System, Window};
@@ -22,7 +22,11 @@ pub const MAX_TRIES: usize = 400;
 /// Shrinks a case as long as `engines` still find a disagreement of this engine and kind, and
 /// returns it with what it then says. What is known by construction goes with the first change of
 /// the problem itself.
-pub fn shrink(case: &Case, finding: &Finding, engines: &[Box<dyn Engine>]) -> (Case, Finding) {
+pub fn shrink(
+    case: &CampaignCase,
+    finding: &Finding,
+    engines: &[Box<dyn Engine>],
+) -> (CampaignCase, Finding) {
     let mut best = case.clone();
     let mut says = finding.clone();
     let mut tries = MAX_TRIES;
@@ -55,7 +59,7 @@ pub fn shrink(case: &Case, finding: &Finding, engines: &[Box<dyn Engine>]) -> (C
 
 /// Cases next to this one and smaller, those that drop most first. Every one has fewer variables,
 /// or fewer entries and features, or shorter numbers, so that shrinking ends.
-pub fn smaller(case: &Case) -> Vec<Case> {
+pub fn smaller(case: &CampaignCase) -> Vec<CampaignCase> {
     let problem = &case.instance.problem;
     let mut out = Vec::new();
 
@@ -93,7 +97,7 @@ struct Size {
 }
 
 impl Size {
-    fn of(case: &Case) -> Size {
+    fn of(case: &CampaignCase) -> Size {
         let problem = &case.instance.problem;
         let mut size = match problem.body() {
             Body::Pencil(pencil) => Size::of_pencil(pencil),
@@ -150,8 +154,8 @@ fn bits_of_matrix(matrix: &Sparse) -> u64 {
 }
 
 /// The case with another problem, of whose answer nothing is known.
-fn with_problem(case: &Case, problem: Problem) -> Case {
-    Case {
+fn with_problem(case: &CampaignCase, problem: Problem) -> CampaignCase {
+    CampaignCase {
         id: case.id.clone(),
         instance: Instance {
             problem,
@@ -163,7 +167,7 @@ fn with_problem(case: &Case, problem: Problem) -> Case {
 }
 
 /// The case with other data of Table 1, and the problem that they make.
-fn with_data(case: &Case, data: TwoParticles) -> Result<Case, ModelError> {
+fn with_data(case: &CampaignCase, data: TwoParticles) -> Result<CampaignCase, ModelError> {
     let body = Body::System(two_particles(&data)?);
     let unknown = case.instance.problem.unknown();
     let problem = Problem::new(body, unknown, Window::all())?;
@@ -260,10 +264,10 @@ fn smaller_pencils(pencil: &Pencil) -> Tried<Pencil> {
         out.push(Pencil::new(a, b, free));
     }
 
-    for a in simpler_matrices(pencil.a(), Shape::Any) {
+    for a in simpler_matrices(pencil.a(), MatrixShape::Any) {
         out.push(Pencil::new(a, pencil.b().clone(), pencil.free().to_vec()));
     }
-    for b in simpler_matrices(pencil.b(), Shape::Any) {
+    for b in simpler_matrices(pencil.b(), MatrixShape::Any) {
         out.push(Pencil::new(pencil.a().clone(), b, pencil.free().to_vec()));
     }
     out
@@ -290,13 +294,13 @@ fn smaller_systems(system: &System) -> Tried<System> {
         out.push(System::new(stiffness, mass, Some(mu), particles));
     }
 
-    for stiffness in simpler_matrices(system.stiffness(), Shape::Symmetric) {
+    for stiffness in simpler_matrices(system.stiffness(), MatrixShape::Symmetric) {
         let mass = system.mass().cloned();
         let particles = system.particles().to_vec();
         out.push(rebuilt(system, stiffness, mass, particles));
     }
     if let Some(mass) = system.mass() {
-        for mass in simpler_matrices(mass, Shape::Symmetric) {
+        for mass in simpler_matrices(mass, MatrixShape::Symmetric) {
             let stiffness = system.stiffness().clone();
             let particles = system.particles().to_vec();
             out.push(rebuilt(system, stiffness, Some(mass), particles));
@@ -375,19 +379,19 @@ fn with_particle(
 
 /// What has to stay true of a matrix.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Shape {
+enum MatrixShape {
     Any,
     Symmetric,
 }
 
 /// The matrix with one entry (and its mirror image, if it is to stay symmetric) zero or simpler,
 /// zeros first.
-fn simpler_matrices(matrix: &Sparse, shape: Shape) -> Vec<Sparse> {
+fn simpler_matrices(matrix: &Sparse, shape: MatrixShape) -> Vec<Sparse> {
     let mut with_a_zero = Vec::new();
     let mut with_a_simpler_entry = Vec::new();
 
     for (i, j, v) in matrix.entries() {
-        let is_mirror_image = shape == Shape::Symmetric && i > j;
+        let is_mirror_image = shape == MatrixShape::Symmetric && i > j;
         if is_mirror_image {
             continue;
         }
@@ -403,11 +407,16 @@ fn simpler_matrices(matrix: &Sparse, shape: Shape) -> Vec<Sparse> {
 }
 
 /// The matrix with `new` in one place (and its mirror image, if it is to stay symmetric).
-fn with_entry(matrix: &Sparse, place: (usize, usize), new: &Rational, shape: Shape) -> Sparse {
+fn with_entry(
+    matrix: &Sparse,
+    place: (usize, usize),
+    new: &Rational,
+    shape: MatrixShape,
+) -> Sparse {
     let mut entries = Vec::new();
     for (row, column, old) in matrix.entries() {
         let is_here = (row, column) == place;
-        let is_mirror_image = shape == Shape::Symmetric && (column, row) == place;
+        let is_mirror_image = shape == MatrixShape::Symmetric && (column, row) == place;
         let value = if is_here || is_mirror_image { new } else { old };
         entries.push((row, column, value.clone()));
     }

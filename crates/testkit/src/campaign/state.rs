@@ -4,7 +4,7 @@
 //! format is `mceip-campaign/1`. Written and read by `mceip campaign --state`; the counts are held
 //! against the floors of `floors`.
 
-use super::engine::Judgement;
+use super::engine::CaseFindings;
 use super::family::Id;
 use crate::error::TestkitError;
 use crate::floors::{Coverage, Covered, Shortfall, Starts};
@@ -51,7 +51,7 @@ pub struct Tally {
 
 impl Tally {
     /// Adds what came of one instance.
-    pub fn add(&mut self, id: &Id, judged: &Judgement) {
+    pub fn add(&mut self, id: &Id, judged: &CaseFindings) {
         let report = &judged.report;
         self.instances += 1;
         self.solutions += report.oracle as u64;

@@ -79,7 +79,7 @@ impl Flag {
 
 /// Every flag that the problem and its exact answer show.
 pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration) -> BTreeSet<Flag> {
-    let mut shown = Shown::default();
+    let mut shown = ShownFlags::default();
     shown.look_at_problem(problem);
     shown.look_at_pencil(&reduced.pencil);
     shown.look_at_window(problem.window(), answer);
@@ -90,11 +90,11 @@ pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration)
 
 /// The flags seen so far.
 #[derive(Default)]
-struct Shown {
+struct ShownFlags {
     flags: BTreeSet<Flag>,
 }
 
-impl Shown {
+impl ShownFlags {
     /// Adds the flag if it holds.
     fn put(&mut self, flag: Flag, holds: bool) {
         if holds {

@@ -7,7 +7,7 @@
 use super::case::{Draft, Group};
 use super::flag::Flag;
 use crate::error::TestkitError;
-use crate::families::{I2, I3, Instance, Rows, mechanical, random_pencils, small_problem};
+use crate::families::{I2, I3, Instance, SmallRows, mechanical, random_pencils, small_problem};
 use crate::{known, pareto};
 use mceip_engine::reduction::condense;
 use mceip_exact::{Rational, Sparse, rational, whole};
@@ -226,7 +226,7 @@ fn static_thresholds() -> Result<Group, ModelError> {
 }
 
 /// Comment, A, B and the free variables of a pencil of small integers.
-type SmallPencil<'a> = (&'a str, Rows<'a>, Rows<'a>, &'a [usize]);
+type SmallPencil<'a> = (&'a str, SmallRows<'a>, SmallRows<'a>, &'a [usize]);
 
 /// The corners of `testkit`, and more: order 1, repeated roots, biactive indices, zero values, wide
 /// kernels.
@@ -419,7 +419,7 @@ fn tiny_components() -> Result<Vec<Draft>, ModelError> {
 }
 
 /// A of the fold with the solutions 2 and 3; its B is the identity.
-const FOLD: Rows<'_> = &[&[1, -6], &[2, -6]];
+const FOLD: SmallRows<'_> = &[&[1, -6], &[2, -6]];
 
 /// The fold with all entries times one factor: the same solutions.
 fn scaled_fold(name: &str, factor: &Rational) -> Result<Draft, ModelError> {

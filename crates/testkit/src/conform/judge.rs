@@ -105,7 +105,7 @@ pub(super) fn judge_until(case: &Case, text: &str, is_over: &dyn Fn() -> bool) -
         return Judgement::new(Label::Malformed, why);
     }
 
-    let mut met = Met::nothing(case);
+    let mut met = MetParts::nothing(case);
     let first_inaccurate = match met.place_report(&report, is_over) {
         Ok(first) => first,
         Err(judgement) => return judgement,
@@ -127,17 +127,17 @@ enum NoPlace {
 }
 
 /// Which parts of a case's answer a report has met.
-struct Met<'a> {
+struct MetParts<'a> {
     case: &'a Case,
     solutions: Vec<bool>,
     cones: Vec<bool>,
     ranges: Vec<bool>,
 }
 
-impl Met<'_> {
+impl MetParts<'_> {
     /// Nothing of the answer is met.
-    fn nothing(case: &Case) -> Met<'_> {
-        Met {
+    fn nothing(case: &Case) -> MetParts<'_> {
+        MetParts {
             case,
             solutions: vec![false; case.answer.solutions.len()],
             cones: vec![false; case.answer.cones.len()],

@@ -7,7 +7,9 @@
 //! before may be what another case has left behind ([`LineProgram::has_answered_before`]), and
 //! `run` takes it for the answer only if it is right.
 
-use super::process::{Ending, GRACE, Limits, Reader, SLICE, kill, spawn, telling_line};
+use super::process::{
+    GRACE, PipeReader, ProcessEnding, ProcessLimits, SLICE, kill, spawn, telling_line,
+};
 use crate::error::TestkitError;
 use mceip_engine::run::Watch;
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
@@ -21,7 +23,7 @@ use wait_timeout::ChildExt as _;
 /// A program that answers line by line; not running before the first question.
 pub(super) struct LineProgram<'a> {
     command: &'a [String],
-    limits: Limits,
+    limits: ProcessLimits,
     running: Option<Running>,
     has_answered_before: bool,
 }
@@ -31,7 +33,7 @@ struct Running {
     child: Child,
     questions: Sender<String>,
     answers: Receiver<Answer>,
-    complaint: Reader,
+    complaint: PipeReader,
 }
 
 /// What comes from stdout.
@@ -43,7 +45,7 @@ enum Answer {
 }
 
 impl<'a> LineProgram<'a> {
-    pub(super) fn new(command: &'a [String], limits: Limits) -> LineProgram<'a> {
+    pub(super) fn new(command: &'a [String], limits: ProcessLimits) -> LineProgram<'a> {
         LineProgram {
             command,
             limits,
@@ -68,7 +70,11 @@ impl<'a> LineProgram<'a> {
     ///
     /// # Errors
     /// [`TestkitError::Start`] if the program does not start.
-    pub(super) fn ask(&mut self, problem: &str, watch: &Watch<'_>) -> Result<Ending, TestkitError> {
+    pub(super) fn ask(
+        &mut self,
+        problem: &str,
+        watch: &Watch<'_>,
+    ) -> Result<ProcessEnding, TestkitError> {
         let start = Instant::now();
         let mut running = self.waiting()?;
 
@@ -78,7 +84,7 @@ impl<'a> LineProgram<'a> {
 
         let ending = running.answer(start, &self.limits, watch);
         match ending {
-            Some(answered @ Ending::Ended { .. }) => {
+            Some(answered @ ProcessEnding::Ended { .. }) => {
                 self.running = Some(running);
                 Ok(answered)
             }
@@ -125,7 +131,7 @@ impl Running {
         if let Some(stdout) = child.stdout.take() {
             std::thread::spawn(move || read_lines(stdout, longest, &send));
         }
-        let complaint = Reader::of_stderr(&mut child);
+        let complaint = PipeReader::of_stderr(&mut child);
 
         Ok(Running {
             child,
@@ -136,17 +142,24 @@ impl Running {
     }
 
     /// Waits for a line. `None` where the program has closed its stdout, or has ended.
-    fn answer(&mut self, start: Instant, limits: &Limits, watch: &Watch<'_>) -> Option<Ending> {
+    fn answer(
+        &mut self,
+        start: Instant,
+        limits: &ProcessLimits,
+        watch: &Watch<'_>,
+    ) -> Option<ProcessEnding> {
         loop {
             let left = limits.time.saturating_sub(start.elapsed());
             match self.answers.recv_timeout(left.min(SLICE)) {
                 Ok(Answer::Line(stdout)) => return Some(answered(stdout)),
-                Ok(Answer::TooLong) => return Some(Ending::TooLong),
+                Ok(Answer::TooLong) => return Some(ProcessEnding::TooLong),
                 Err(RecvTimeoutError::Disconnected) => return None,
                 Err(RecvTimeoutError::Timeout) if watch.is_cancelled() => {
-                    return Some(Ending::Interrupted);
+                    return Some(ProcessEnding::Interrupted);
                 }
-                Err(RecvTimeoutError::Timeout) if left.is_zero() => return Some(Ending::TimedOut),
+                Err(RecvTimeoutError::Timeout) if left.is_zero() => {
+                    return Some(ProcessEnding::TimedOut);
+                }
                 Err(RecvTimeoutError::Timeout) if self.has_ended() => return self.last_line(),
                 Err(RecvTimeoutError::Timeout) => (),
             }
@@ -159,17 +172,17 @@ impl Running {
     }
 
     /// The line that a program has printed just before its end.
-    fn last_line(&self) -> Option<Ending> {
+    fn last_line(&self) -> Option<ProcessEnding> {
         match self.answers.recv_timeout(GRACE) {
             Ok(Answer::Line(stdout)) => Some(answered(stdout)),
-            Ok(Answer::TooLong) => Some(Ending::TooLong),
+            Ok(Answer::TooLong) => Some(ProcessEnding::TooLong),
             Err(_) => None,
         }
     }
 
     /// The program has given no answer and closed its stdout, or ended: its exit code and its
     /// complaint. One that goes on without its stdout has printed no report, as with code 0.
-    fn ended(mut self) -> Ending {
+    fn ended(mut self) -> ProcessEnding {
         let code = match self.child.wait_timeout(GRACE) {
             Ok(Some(status)) => status.code(),
             Ok(None) => Some(0),
@@ -177,7 +190,7 @@ impl Running {
         };
         kill(&mut self.child);
 
-        Ending::Ended {
+        ProcessEnding::Ended {
             code,
             stdout: Vec::new(),
             complaint: telling_line(&self.complaint.received()),
@@ -190,8 +203,8 @@ impl Running {
 }
 
 /// A line as the output of a program that ended well.
-fn answered(stdout: Vec<u8>) -> Ending {
-    Ending::Ended {
+fn answered(stdout: Vec<u8>) -> ProcessEnding {
+    ProcessEnding::Ended {
         code: Some(0),
         stdout,
         complaint: String::new(),
@@ -240,19 +253,19 @@ mod tests {
         vec!["sh".to_owned(), "-c".into(), script.into()]
     }
 
-    fn limits() -> Limits {
-        Limits {
+    fn limits() -> ProcessLimits {
+        ProcessLimits {
             time: std::time::Duration::from_millis(2000),
             output: 1000,
         }
     }
 
-    fn line(text: &str) -> Ending {
+    fn line(text: &str) -> ProcessEnding {
         answered(text.as_bytes().to_vec())
     }
 
     /// The endings of these questions, one after the other.
-    fn endings(script: &str, questions: &[&str]) -> Vec<Ending> {
+    fn endings(script: &str, questions: &[&str]) -> Vec<ProcessEnding> {
         let command = shell(script);
         let mut program = LineProgram::new(&command, limits());
         let ask = |question: &&str| program.ask(question, &Watch::nobody()).unwrap();
@@ -271,7 +284,7 @@ mod tests {
         // It answers once, then ends with a complaint.
         let script = "read -r line; echo \"$line\"; read -r line; echo oops >&2; exit 7";
         let found = endings(script, &["a", "b", "c"]);
-        let ended = Ending::Ended {
+        let ended = ProcessEnding::Ended {
             code: Some(7),
             stdout: Vec::new(),
             complaint: "oops".into(),
@@ -284,9 +297,9 @@ mod tests {
         let found = endings(script, &["a", "hang", "b", "long", "c"]);
         let expected = [
             line("a"),
-            Ending::TimedOut,
+            ProcessEnding::TimedOut,
             line("b"),
-            Ending::TooLong,
+            ProcessEnding::TooLong,
             line("c"),
         ];
         assert_eq!(found, expected);
@@ -317,12 +330,12 @@ mod tests {
     #[test]
     fn a_program_without_an_answer_is_not_waited_for() {
         let start = Instant::now();
-        let no_answer = |code| Ending::Ended {
+        let no_answer = |code| ProcessEnding::Ended {
             code: Some(code),
             stdout: Vec::new(),
             complaint: String::new(),
         };
-        let patient = Limits {
+        let patient = ProcessLimits {
             time: std::time::Duration::from_secs(60),
             output: 1000,
         };
@@ -341,7 +354,7 @@ mod tests {
         let stopped = Cancel::requested();
         let mut program = LineProgram::new(&sleep, limits());
         let ending = program.ask("a", &Watch::silent(&stopped)).unwrap();
-        assert_eq!(ending, Ending::Interrupted);
+        assert_eq!(ending, ProcessEnding::Interrupted);
 
         let nothing = ["/nowhere/solver".to_owned()];
         let refused = LineProgram::new(&nothing, limits()).ask("a", &Watch::nobody());

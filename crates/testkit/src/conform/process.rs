@@ -16,16 +16,16 @@ use wait_timeout::ChildExt as _;
 
 /// What a run may use.
 #[derive(Debug, Clone, Copy)]
-pub struct Limits {
+pub struct ProcessLimits {
     /// Time for one problem.
     pub time: Duration,
     /// Bytes on stdout.
     pub output: u64,
 }
 
-impl Default for Limits {
+impl Default for ProcessLimits {
     fn default() -> Self {
-        Limits {
+        ProcessLimits {
             time: Duration::from_secs(10),
             output: 16 << 20,
         }
@@ -34,7 +34,7 @@ impl Default for Limits {
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Ending {
+pub enum ProcessEnding {
     /// It ended by itself: exit code (`None`: by a signal), stdout, the beginning of stderr.
     Ended {
         /// Exit code.
@@ -66,28 +66,28 @@ const COMPLAINT: u64 = 4096;
 pub fn run_once(
     command: &[String],
     input: &str,
-    limits: &Limits,
+    limits: &ProcessLimits,
     watch: &Watch<'_>,
-) -> Result<Ending, TestkitError> {
+) -> Result<ProcessEnding, TestkitError> {
     let start = Instant::now();
     let mut child = spawn(command)?;
     let too_long = Arc::new(AtomicBool::new(false));
     feed(&mut child, input);
 
     let pipe = child.stdout.take();
-    let stdout = Reader(pipe.map(|pipe| drain(pipe, limits.output, Some(too_long.clone()))));
-    let stderr = Reader::of_stderr(&mut child);
+    let stdout = PipeReader(pipe.map(|pipe| drain(pipe, limits.output, Some(too_long.clone()))));
+    let stderr = PipeReader::of_stderr(&mut child);
     let ended = wait(&mut child, start, limits, watch, &too_long);
     kill(&mut child); // and whatever it has left behind
 
     let stdout = stdout.received();
     let complaint = stderr.received();
     if too_long.load(Ordering::Relaxed) {
-        return Ok(Ending::TooLong);
+        return Ok(ProcessEnding::TooLong);
     }
 
     Ok(match ended {
-        Ok(status) => Ending::Ended {
+        Ok(status) => ProcessEnding::Ended {
             code: status.code(),
             stdout,
             complaint: telling_line(&complaint),
@@ -123,7 +123,7 @@ pub(super) fn spawn(command: &[String]) -> Result<Child, TestkitError> {
 }
 
 /// A pipe that a thread reads to its end.
-pub(super) struct Reader(Option<Drain>);
+pub(super) struct PipeReader(Option<Drain>);
 
 /// What a thread has read of a pipe, and the word that it is done.
 struct Drain {
@@ -131,11 +131,11 @@ struct Drain {
     done: Receiver<()>,
 }
 
-impl Reader {
+impl PipeReader {
     /// Of what a program complains.
-    pub(super) fn of_stderr(child: &mut Child) -> Reader {
+    pub(super) fn of_stderr(child: &mut Child) -> PipeReader {
         let pipe = child.stderr.take();
-        Reader(pipe.map(|pipe| drain(pipe, COMPLAINT, None)))
+        PipeReader(pipe.map(|pipe| drain(pipe, COMPLAINT, None)))
     }
 
     /// What was read; of a pipe that something left behind holds open, what came in the time of
@@ -211,18 +211,18 @@ fn drain(
 fn wait(
     child: &mut Child,
     start: Instant,
-    limits: &Limits,
+    limits: &ProcessLimits,
     watch: &Watch<'_>,
     too_long: &AtomicBool,
-) -> Result<ExitStatus, Ending> {
+) -> Result<ExitStatus, ProcessEnding> {
     loop {
         let left = limits.time.saturating_sub(start.elapsed());
         match child.wait_timeout(left.min(SLICE)) {
             Ok(Some(status)) => return Ok(status),
-            Err(_) => return Err(Ending::Interrupted), // the child cannot be waited for
-            Ok(None) if too_long.load(Ordering::Relaxed) => return Err(Ending::TooLong),
-            Ok(None) if watch.is_cancelled() => return Err(Ending::Interrupted),
-            Ok(None) if left.is_zero() => return Err(Ending::TimedOut),
+            Err(_) => return Err(ProcessEnding::Interrupted), // the child cannot be waited for
+            Ok(None) if too_long.load(Ordering::Relaxed) => return Err(ProcessEnding::TooLong),
+            Ok(None) if watch.is_cancelled() => return Err(ProcessEnding::Interrupted),
+            Ok(None) if left.is_zero() => return Err(ProcessEnding::TimedOut),
             Ok(None) => {}
         }
     }
@@ -262,21 +262,21 @@ mod tests {
     use mceip_engine::run::Cancel;
 
     /// Runs a shell script that is sent a megabyte.
-    fn run_script(script: &str, limits: &Limits) -> Ending {
+    fn run_script(script: &str, limits: &ProcessLimits) -> ProcessEnding {
         let command = ["sh".to_string(), "-c".into(), script.into()];
         let input = "x".repeat(1 << 20); // more than a pipe holds
         run_once(&command, &input, limits, &Watch::nobody()).unwrap()
     }
 
-    fn quick() -> Limits {
-        Limits {
+    fn quick() -> ProcessLimits {
+        ProcessLimits {
             time: Duration::from_millis(400),
             output: 1000,
         }
     }
 
-    fn ended(code: i32, stdout: &str) -> Ending {
-        Ending::Ended {
+    fn ended(code: i32, stdout: &str) -> ProcessEnding {
+        ProcessEnding::Ended {
             code: Some(code),
             stdout: stdout.as_bytes().to_vec(),
             complaint: String::new(),
@@ -285,7 +285,7 @@ mod tests {
 
     #[test]
     fn hostile_programs_are_survived() {
-        let long = Limits::default();
+        let long = ProcessLimits::default();
 
         // A program that reads everything, one that closes its stdin, one that kills itself.
         assert_eq!(
@@ -297,7 +297,7 @@ mod tests {
             ended(7, "a\n")
         );
         let killed = run_script("echo oops >&2; kill -9 $$", &long);
-        let Ending::Ended {
+        let ProcessEnding::Ended {
             code, complaint, ..
         } = killed
         else {
@@ -307,19 +307,19 @@ mod tests {
         assert_eq!(complaint, "oops");
 
         // Programs that do not end.
-        assert_eq!(run_script("sleep 100", &quick()), Ending::TimedOut);
+        assert_eq!(run_script("sleep 100", &quick()), ProcessEnding::TimedOut);
         let pipeline = run_script("sleep 100 | sleep 100", &quick());
-        assert_eq!(pipeline, Ending::TimedOut);
+        assert_eq!(pipeline, ProcessEnding::TimedOut);
 
         // Programs that print without end, to stdout and to stderr.
         let start = Instant::now();
-        assert_eq!(run_script("yes", &long), Ending::TooLong);
+        assert_eq!(run_script("yes", &long), ProcessEnding::TooLong);
         let noisy = run_script("yes >&2 & sleep 0.1; kill $!; echo done", &long);
-        assert!(matches!(noisy, Ending::Ended { code: Some(0), .. }));
+        assert!(matches!(noisy, ProcessEnding::Ended { code: Some(0), .. }));
 
         // A grandchild that holds the pipe open for long.
         let parent = run_script("sleep 100 & echo done", &long);
-        let Ending::Ended { code, stdout, .. } = parent else {
+        let ProcessEnding::Ended { code, stdout, .. } = parent else {
             panic!("{parent:?}")
         };
         assert_eq!(code, Some(0));
@@ -327,7 +327,7 @@ mod tests {
 
         // One that has left the process group, which is not killed.
         let daemon = run_script("setsid sleep 5 & echo done", &long);
-        let Ending::Ended { code, stdout, .. } = daemon else {
+        let ProcessEnding::Ended { code, stdout, .. } = daemon else {
             panic!("{daemon:?}")
         };
         assert_eq!(code, Some(0));
@@ -351,12 +351,23 @@ mod tests {
         let sleep = ["sleep".to_string(), "100".into()];
 
         assert_eq!(
-            run_once(&sleep, "", &Limits::default(), &Watch::silent(&stopped)).unwrap(),
-            Ending::Interrupted
+            run_once(
+                &sleep,
+                "",
+                &ProcessLimits::default(),
+                &Watch::silent(&stopped)
+            )
+            .unwrap(),
+            ProcessEnding::Interrupted
         );
 
         let nothing = ["/nowhere/solver".to_string()];
-        let refused = run_once(&nothing, "", &Limits::default(), &Watch::silent(&stopped));
+        let refused = run_once(
+            &nothing,
+            "",
+            &ProcessLimits::default(),
+            &Watch::silent(&stopped),
+        );
         let Err(TestkitError::Start { command, .. }) = refused else {
             panic!("{refused:?}")
         };

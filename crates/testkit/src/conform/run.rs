@@ -9,7 +9,7 @@ use super::flag::Flag;
 use super::groups::random_draft;
 use super::judge::{Judgement, Label, judge_until};
 use super::lines::LineProgram;
-use super::process::{Ending, Limits, run_once};
+use super::process::{ProcessEnding, ProcessLimits, run_once};
 use crate::error::TestkitError;
 use mceip_engine::run::{Progress, Watch, in_threads};
 use mceip_model::file::write_problem;
@@ -21,7 +21,7 @@ use std::time::Instant;
 
 /// What to run.
 #[derive(Debug, Clone)]
-pub struct Plan {
+pub struct ConformPlan {
     /// Cases of the pack.
     pub groups: Vec<Group>,
     /// Random cases besides.
@@ -35,14 +35,14 @@ pub struct Plan {
     /// Does the program answer many problems, a line each, or is it started for each?
     pub by_lines: bool,
     /// Limits of one answer.
-    pub limits: Limits,
+    pub limits: ProcessLimits,
     /// Threads; `None`: all cores.
     pub threads: Option<usize>,
 }
 
 /// What came of one case.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Outcome {
+pub struct CaseOutcome {
     /// The case.
     pub id: String,
     /// What it is about.
@@ -58,10 +58,10 @@ pub struct Outcome {
 /// # Errors
 /// [`TestkitError`] if the command does not start, or a problem is beyond the plain oracle.
 pub fn run(
-    plan: &Plan,
+    plan: &ConformPlan,
     command: &[String],
     watch: &Watch<'_>,
-) -> Result<Vec<Outcome>, TestkitError> {
+) -> Result<Vec<CaseOutcome>, TestkitError> {
     let fixed: Vec<&Draft> = plan.groups.iter().flat_map(|g| &g.drafts).collect();
     let total = fixed.len() + plan.random;
     let run = Run {
@@ -88,7 +88,7 @@ pub fn run(
 
 /// A run at work, shared by its threads.
 struct Run<'a> {
-    plan: &'a Plan,
+    plan: &'a ConformPlan,
     /// The cases of the pack; the random ones come after them.
     fixed: Vec<&'a Draft>,
     command: &'a [String],
@@ -102,7 +102,7 @@ struct Run<'a> {
 impl Run<'_> {
     /// What comes of the `k`-th case. `None` for a case that the plan leaves out or that was
     /// interrupted.
-    fn outcome(&self, k: usize) -> Result<Option<Outcome>, TestkitError> {
+    fn outcome(&self, k: usize) -> Result<Option<CaseOutcome>, TestkitError> {
         if self.watch.is_cancelled() {
             return Ok(None);
         }
@@ -118,7 +118,7 @@ impl Run<'_> {
         let progress = Progress::of("cases", finished, self.total);
         self.watch.report(&progress);
 
-        Ok(judgement.map(|judgement| Outcome {
+        Ok(judgement.map(|judgement| CaseOutcome {
             id: case.id,
             flags: case.flags,
             judgement,
@@ -171,23 +171,23 @@ impl Run<'_> {
     }
 
     /// The judgement on how the program ended. `None` if it was interrupted.
-    fn judged(&self, case: &Case, ending: Ending) -> Option<Judgement> {
+    fn judged(&self, case: &Case, ending: ProcessEnding) -> Option<Judgement> {
         let limits = &self.plan.limits;
         let watch = self.watch;
         let judgement = match ending {
-            Ending::Interrupted => return None,
-            Ending::TimedOut => {
+            ProcessEnding::Interrupted => return None,
+            ProcessEnding::TimedOut => {
                 let seconds = limits.time.as_secs_f64();
                 Judgement::new(Label::TimedOut, format!("still running after {seconds} s"))
             }
-            Ending::TooLong => {
+            ProcessEnding::TooLong => {
                 let bytes = limits.output;
                 Judgement::new(
                     Label::Malformed,
                     format!("more than {bytes} bytes on stdout"),
                 )
             }
-            Ending::Ended {
+            ProcessEnding::Ended {
                 code: Some(0 | 3),
                 stdout,
                 ..
@@ -199,7 +199,7 @@ impl Run<'_> {
                 }
                 Err(_) => Judgement::new(Label::Malformed, "stdout is no UTF-8"),
             },
-            Ending::Ended {
+            ProcessEnding::Ended {
                 code, complaint, ..
             } => crashed(code, &complaint),
         };

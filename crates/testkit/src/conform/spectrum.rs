@@ -14,7 +14,7 @@ use mceip_oracle::Solution;
 
 /// What the eigenvector of a support looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum EigenvectorKind {
     /// x > 0 on the support, y >= 0 elsewhere.
     Admissible,
     /// x > 0 on the support, y < 0 somewhere.
@@ -29,7 +29,7 @@ pub(super) fn eigenpairs(
     pencil: &Pencil,
     min: &Rational,
     max: Option<&Rational>,
-) -> Vec<(Kind, Solution)> {
+) -> Vec<(EigenvectorKind, Solution)> {
     let integral = IntegralPencil::of(pencil);
     let slip = pencil.slip();
 
@@ -79,7 +79,7 @@ impl IntegralPencil<'_> {
         support: &[usize],
         min: &Rational,
         max: Option<&Rational>,
-    ) -> Vec<(Kind, Solution)> {
+    ) -> Vec<(EigenvectorKind, Solution)> {
         let mut active: Vec<usize> = self.free.iter().chain(support).copied().collect();
         active.sort_unstable();
 
@@ -126,7 +126,7 @@ impl IntegralPencil<'_> {
         mut x: Vec<Poly>,
         support: &[usize],
         active: &[usize],
-    ) -> Option<(Kind, Solution)> {
+    ) -> Option<(EigenvectorKind, Solution)> {
         let first = support
             .iter()
             .map(|&i| value.sign_of(&x[i]))
@@ -142,9 +142,9 @@ impl IntegralPencil<'_> {
             .filter(|i| !active.contains(i))
             .any(|i| value.sign_of(&self.image(i, &x)) == Sign::Negative);
         let kind = match (x_is_positive, y_is_negative) {
-            (false, _) => Kind::MixedX,
-            (true, true) => Kind::NegativeY,
-            (true, false) => Kind::Admissible,
+            (false, _) => EigenvectorKind::MixedX,
+            (true, true) => EigenvectorKind::NegativeY,
+            (true, false) => EigenvectorKind::Admissible,
         };
 
         let mut sum = Poly::default();

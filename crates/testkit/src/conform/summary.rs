@@ -5,7 +5,7 @@
 
 use super::flag::Flag;
 use super::judge::Label;
-use super::run::Outcome;
+use super::run::CaseOutcome;
 use mceip_engine::report::Table;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -20,11 +20,11 @@ pub struct Summary {
     /// Cases per flag and label; a case counts for each of its flags.
     pub flags: BTreeMap<Flag, BTreeMap<Label, usize>>,
     /// What was not correct, in the order of the cases.
-    pub failures: Vec<Outcome>,
+    pub failures: Vec<CaseOutcome>,
 }
 
 /// Counts outcomes.
-pub fn summarise(outcomes: &[Outcome]) -> Summary {
+pub fn summarise(outcomes: &[CaseOutcome]) -> Summary {
     let mut summary = Summary {
         cases: outcomes.len(),
         labels: BTreeMap::new(),
@@ -181,7 +181,7 @@ fn counts_json(counts: &BTreeMap<Label, usize>) -> Value {
 }
 
 /// A case that is not correct.
-fn failure_json(failure: &Outcome) -> Value {
+fn failure_json(failure: &CaseOutcome) -> Value {
     let flags: Vec<&str> = failure.flags.iter().map(|f| f.word()).collect();
     json!({
         "case": failure.id,
@@ -196,8 +196,8 @@ mod tests {
     use super::*;
     use crate::conform::Judgement;
 
-    fn outcome(id: &str, label: Label, flags: &[Flag]) -> Outcome {
-        Outcome {
+    fn outcome(id: &str, label: Label, flags: &[Flag]) -> CaseOutcome {
+        CaseOutcome {
             id: id.into(),
             flags: flags.iter().copied().collect(),
             judgement: Judgement {

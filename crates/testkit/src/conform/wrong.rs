@@ -6,7 +6,7 @@
 
 use super::case::Case;
 use super::judge::Label;
-use super::spectrum::{Kind, eigenpairs};
+use super::spectrum::{EigenvectorKind, eigenpairs};
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_exact::{Rational, parse, rational, whole};
 use mceip_model::Window;
@@ -195,10 +195,10 @@ fn spurious(case: &Case) -> Vec<Spurious> {
     let mut found = Vec::new();
     for (kind, pair) in eigenpairs(pencil, window.min(), window.max()) {
         match kind {
-            Kind::MixedX if is_clearly_mixed(&pair, &slip) => {
+            EigenvectorKind::MixedX if is_clearly_mixed(&pair, &slip) => {
                 keep_the_first(&mut found, Bug::MixedSigns, pair);
             }
-            Kind::NegativeY => keep_the_first(&mut found, Bug::ComplementIgnored, pair),
+            EigenvectorKind::NegativeY => keep_the_first(&mut found, Bug::ComplementIgnored, pair),
             _ => {}
         }
     }
@@ -207,7 +207,7 @@ fn spurious(case: &Case) -> Vec<Spurious> {
         let zero = Rational::zero();
         for (kind, pair) in eigenpairs(pencil, &whole(-1_000_000), Some(&zero)) {
             let is_negative = pair.value.clone().cmp_rational(&zero).is_lt();
-            if kind != Kind::Admissible || !is_negative {
+            if kind != EigenvectorKind::Admissible || !is_negative {
                 continue;
             }
 

@@ -252,12 +252,12 @@ fn two_particle_data(data: &[u8]) -> TwoParticles {
 }
 
 /// Columns over the degrees of freedom, dense.
-struct Column(Vec<Rational>);
+struct DofVector(Vec<Rational>);
 
-impl Column {
+impl DofVector {
     /// The column times a number.
-    fn times(&self, factor: &Rational) -> Column {
-        Column(self.0.iter().map(|v| v * factor).collect())
+    fn times(&self, factor: &Rational) -> DofVector {
+        DofVector(self.0.iter().map(|v| v * factor).collect())
     }
 }
 
@@ -274,8 +274,8 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
     for dof in system.free_dofs() {
         let mut unit = vec![Rational::zero(); n];
         unit[dof] = Rational::one();
-        motion.push(Column(unit));
-        normal.push(Column(vec![Rational::zero(); n]));
+        motion.push(DofVector(unit));
+        normal.push(DofVector(vec![Rational::zero(); n]));
     }
 
     let free = motion.len();
@@ -311,9 +311,9 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
 /// The two directions of a particle, written out from its frame.
 struct Axes {
     /// Along the obstacle.
-    tangent: Column,
+    tangent: DofVector,
     /// Into the obstacle.
-    into: Column,
+    into: DofVector,
 }
 
 impl Axes {
@@ -332,14 +332,14 @@ impl Axes {
         }
 
         Axes {
-            tangent: Column(tangent),
-            into: Column(into),
+            tangent: DofVector(tangent),
+            into: DofVector(into),
         }
     }
 }
 
 /// The matrix of all p' K t.
-fn products(matrix: &Sparse, left: &[Column], right: &[Column]) -> Sparse {
+fn products(matrix: &Sparse, left: &[DofVector], right: &[DofVector]) -> Sparse {
     let mut entries = Vec::new();
     for (i, p) in left.iter().enumerate() {
         for (j, t) in right.iter().enumerate() {

@@ -23,7 +23,7 @@ pub use counts::{KindCounts, VerifiedCounts};
 pub use kinds::kinds_of;
 pub use verdict::VerifiedVerdict;
 
-use crate::conform::{Ending, Limits, run_once};
+use crate::conform::{ProcessEnding, ProcessLimits, run_once};
 use crate::error::TestkitError;
 use mceip_check::certificate::Certificate;
 use mceip_engine::run::Watch;
@@ -82,7 +82,7 @@ impl VerifiedChecker {
         let command = [self.program.display().to_string()];
         let ending = run_once(&command, "", &limits(), &Watch::nobody());
         match ending {
-            Ok(Ending::Ended { complaint, .. }) => complaint.starts_with(USAGE),
+            Ok(ProcessEnding::Ended { complaint, .. }) => complaint.starts_with(USAGE),
             _ => false,
         }
     }
@@ -105,7 +105,7 @@ impl VerifiedChecker {
         }
     }
 
-    fn run(&self, problem: &str, certificate: &str) -> Result<Ending, TestkitError> {
+    fn run(&self, problem: &str, certificate: &str) -> Result<ProcessEnding, TestkitError> {
         let folder = tempfile::tempdir().map_err(|e| TestkitError::scratch(&e))?;
         let problem_path = folder.path().join("problem.json");
         let certificate_path = folder.path().join("certificate.json");
@@ -118,9 +118,9 @@ impl VerifiedChecker {
     }
 }
 
-fn verdict_of(ending: Ending) -> VerifiedVerdict {
+fn verdict_of(ending: ProcessEnding) -> VerifiedVerdict {
     match ending {
-        Ending::Ended {
+        ProcessEnding::Ended {
             code,
             stdout,
             complaint,
@@ -128,19 +128,19 @@ fn verdict_of(ending: Ending) -> VerifiedVerdict {
             let output = String::from_utf8_lossy(&stdout);
             VerifiedVerdict::read(code, &output).unwrap_or_else(|| no_verdict(code, &complaint))
         }
-        Ending::TimedOut => {
+        ProcessEnding::TimedOut => {
             let seconds = TIME_FOR_ONE.as_secs();
             VerifiedVerdict::None(format!("still running after {seconds} s"))
         }
-        Ending::TooLong => VerifiedVerdict::None("output without end".into()),
-        Ending::Interrupted => VerifiedVerdict::None("interrupted".into()),
+        ProcessEnding::TooLong => VerifiedVerdict::None("output without end".into()),
+        ProcessEnding::Interrupted => VerifiedVerdict::None("interrupted".into()),
     }
 }
 
-fn limits() -> Limits {
-    Limits {
+fn limits() -> ProcessLimits {
+    ProcessLimits {
         time: TIME_FOR_ONE,
-        ..Limits::default()
+        ..ProcessLimits::default()
     }
 }
 
