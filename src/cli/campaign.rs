@@ -87,7 +87,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         limit,
     };
     let bars = Bars::new(&state, limit);
-    let mut keeper = Keeper {
+    let mut keeper = StateKeeper {
         args,
         saved: Instant::now(),
         failed: None,
@@ -205,7 +205,7 @@ fn replay(args: &Args, path: &Path) -> Result<u8, CliError> {
 }
 
 /// Writes the state now and then and at the end, and replays at once.
-struct Keeper<'a> {
+struct StateKeeper<'a> {
     args: &'a Args,
     saved: Instant,
     /// The first write that failed.
@@ -215,7 +215,7 @@ struct Keeper<'a> {
 /// Time between two writes of the state.
 const SAVE_EVERY: Duration = Duration::from_secs(5);
 
-impl Keeper<'_> {
+impl StateKeeper<'_> {
     /// Writes the state if it is time, or if it is the last one.
     fn keep(&mut self, state: &State, is_last: bool) {
         let Some(path) = &self.args.state else {

@@ -114,12 +114,12 @@ struct Judged {
 struct Refused {
     /// Its place in the report, from 0.
     index: usize,
-    finding: Finding,
+    finding: Examination,
 }
 
 /// What was found about a solution that has no certificate of its own.
-struct Finding {
-    verdict: Verdict,
+struct Examination {
+    verdict: ExaminationVerdict,
     /// For people, one line.
     text: String,
     /// The complete set near its value.
@@ -128,14 +128,14 @@ struct Finding {
     solution: Option<AcceptedClaim>,
 }
 
-impl Finding {
+impl Examination {
     /// Are the solutions of two findings one? Surely so if that of one lies in the window of the
     /// other's cover and can be no other solution there.
-    fn is_of_one_solution_with(&self, other: &Finding) -> bool {
+    fn is_of_one_solution_with(&self, other: &Examination) -> bool {
         self.lists_solution_of(other) || other.lists_solution_of(self)
     }
 
-    fn lists_solution_of(&self, other: &Finding) -> bool {
+    fn lists_solution_of(&self, other: &Examination) -> bool {
         let (Some(proof), Some(own), Some(others)) = (&self.proof, &self.solution, &other.solution)
         else {
             return false;
@@ -150,9 +150,9 @@ impl Finding {
     }
 
     /// What is no vector of the problem is no solution.
-    fn no_vector(bad: &BadPoint) -> Finding {
-        Finding {
-            verdict: Verdict::Disproved,
+    fn no_vector(bad: &BadPoint) -> Examination {
+        Examination {
+            verdict: ExaminationVerdict::Disproved,
             text: format!("REFUSED: {bad}"),
             proof: None,
             solution: None,
@@ -161,7 +161,7 @@ impl Finding {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Verdict {
+enum ExaminationVerdict {
     /// Not a solution, proved.
     Disproved,
     /// A solution after all: the complete set near its value lists it.
@@ -185,8 +185,8 @@ impl Judged {
         for (index, reason) in sifted.refused {
             let text = format!("undecided: the checker refuses the lifted claim: {reason}");
             aside(&format!("claim {index}: {text}"));
-            let finding = Finding {
-                verdict: Verdict::Undecided,
+            let finding = Examination {
+                verdict: ExaminationVerdict::Undecided,
                 text,
                 proof: None,
                 solution: None,
@@ -195,18 +195,18 @@ impl Judged {
         }
     }
 
-    fn count(&self, verdict: Verdict) -> usize {
+    fn count(&self, verdict: ExaminationVerdict) -> usize {
         let refused = self.refused.iter();
         refused.filter(|r| r.finding.verdict == verdict).count()
     }
 
     /// Is the solution of a finding claimed, or listed by an earlier cover?
-    fn has(&self, finding: &Finding) -> bool {
+    fn has(&self, finding: &Examination) -> bool {
         let mut earlier = self.refused.iter();
         self.is_claimed(finding) || earlier.any(|r| r.finding.is_of_one_solution_with(finding))
     }
 
-    fn is_claimed(&self, finding: &Finding) -> bool {
+    fn is_claimed(&self, finding: &Examination) -> bool {
         let Some(solution) = &finding.solution else {
             return false;
         };
@@ -224,9 +224,9 @@ impl Judged {
 
     /// Says what became of so many reported solutions, of which `claimed` have claims of their own.
     fn say_counts(&self, claimed: usize, reported: usize) {
-        let disproved = self.count(Verdict::Disproved);
-        let undecided = self.count(Verdict::Undecided);
-        let certified = claimed + self.count(Verdict::Present);
+        let disproved = self.count(ExaminationVerdict::Disproved);
+        let undecided = self.count(ExaminationVerdict::Undecided);
+        let certified = claimed + self.count(ExaminationVerdict::Present);
         aside(&format!(
             "{certified} distinct solutions certified, {disproved} of {reported} disproved, \
              {undecided} undecided"
@@ -248,9 +248,9 @@ impl Judged {
 
     /// The exit code of a run that was not interrupted.
     fn exit_code(&self, reported: usize) -> u8 {
-        if self.count(Verdict::Disproved) > 0 {
+        if self.count(ExaminationVerdict::Disproved) > 0 {
             exit::REJECTED
-        } else if self.count(Verdict::Undecided) > 0 || reported == 0 {
+        } else if self.count(ExaminationVerdict::Undecided) > 0 || reported == 0 {
             exit::UNDECIDED
         } else {
             exit::DONE
@@ -334,7 +334,7 @@ impl Certifying<'_> {
             let candidate = match point {
                 Ok(reported) => &reported.candidate,
                 Err(bad) => {
-                    let finding = Finding::no_vector(bad);
+                    let finding = Examination::no_vector(bad);
                     let text = &finding.text;
                     self.job.note(&format!("solution {index}: {text}"));
                     judged.refused.push(Refused { index, finding });
@@ -373,7 +373,7 @@ impl Certifying<'_> {
     }
 
     /// Searches for all solutions near a point that was not certified for this reason.
-    fn look_nearby(&self, candidate: &Candidate, reason: &NotCertified) -> Finding {
+    fn look_nearby(&self, candidate: &Candidate, reason: &NotCertified) -> Examination {
         let problem = self.problem;
         self.job
             .say("no certificate: looking for a proof that there is no solution nearby");
@@ -382,14 +382,14 @@ impl Certifying<'_> {
             .watched(|watch| near(problem, candidate, self.radius, watch));
 
         match found {
-            Ok(Near::OutsideWindow) => Finding {
-                verdict: Verdict::Disproved,
+            Ok(Near::OutsideWindow) => Examination {
+                verdict: ExaminationVerdict::Disproved,
                 text: "REFUSED: its value lies outside the problem's window".into(),
                 proof: None,
                 solution: None,
             },
-            Ok(Near::Absent(proved)) => Finding {
-                verdict: Verdict::Disproved,
+            Ok(Near::Absent(proved)) => Examination {
+                verdict: ExaminationVerdict::Disproved,
                 text: format!(
                     "REFUSED: no solution {} (proved)",
                     interval(problem, &proved)
@@ -397,8 +397,8 @@ impl Certifying<'_> {
                 proof: Some(proved.proved),
                 solution: None,
             },
-            Ok(Near::Others(proved)) => Finding {
-                verdict: Verdict::Disproved,
+            Ok(Near::Others(proved)) => Examination {
+                verdict: ExaminationVerdict::Disproved,
                 text: format!(
                     "REFUSED: {} there is only {} (proved), with another x: {reason}",
                     interval(problem, &proved),
@@ -407,8 +407,8 @@ impl Certifying<'_> {
                 proof: Some(proved.proved),
                 solution: None,
             },
-            Ok(Near::Present(proved, solution)) => Finding {
-                verdict: Verdict::Present,
+            Ok(Near::Present(proved, solution)) => Examination {
+                verdict: ExaminationVerdict::Present,
                 text: format!(
                     "certified: listed by a cover {}",
                     interval(problem, &proved)
@@ -416,8 +416,8 @@ impl Certifying<'_> {
                 proof: Some(proved.proved),
                 solution: Some(solution),
             },
-            Ok(Near::Open(searched)) => Finding {
-                verdict: Verdict::Undecided,
+            Ok(Near::Open(searched)) => Examination {
+                verdict: ExaminationVerdict::Undecided,
                 text: format!(
                     "undecided: {reason}; {} regions stay open and {} families of solutions lie \
                      {}{}",
@@ -433,8 +433,8 @@ impl Certifying<'_> {
                 proof: None,
                 solution: None,
             },
-            Err(why) => Finding {
-                verdict: Verdict::Undecided,
+            Err(why) => Examination {
+                verdict: ExaminationVerdict::Undecided,
                 text: format!("undecided: {reason}; no proof of absence either: {why}"),
                 proof: None,
                 solution: None,

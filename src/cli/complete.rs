@@ -6,7 +6,7 @@
 use super::common::{
     CliError, exit, part, print, require_count, require_threads, seconds, shell_word, text,
 };
-use super::infinity::{AtInfinity, Files, Limit};
+use super::infinity::{AtInfinity, Files, LimitProblem};
 use super::job::{CHECKPOINT, Job, is_quiet};
 use super::output::Output;
 use super::question::{Question, load_question};
@@ -76,7 +76,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     require_threads(args.threads)?;
     require_count("pieces", args.pieces as u64, 1..=MAX_PIECES)?;
     let limit = if args.infinity {
-        Some(Limit::of(&problem)?)
+        Some(LimitProblem::of(&problem)?)
     } else {
         None
     };

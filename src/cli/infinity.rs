@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// The limit of a problem, to be searched.
-pub(super) struct Limit(Problem);
+pub(super) struct LimitProblem(Problem);
 
 /// What there is at infinity.
 pub(super) struct AtInfinity {
@@ -47,16 +47,16 @@ fn with_ending(path: &Path, ending: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-impl Limit {
+impl LimitProblem {
     /// Of a problem whose window has no upper end.
-    pub(super) fn of(problem: &Problem) -> Result<Limit, CliError> {
+    pub(super) fn of(problem: &Problem) -> Result<LimitProblem, CliError> {
         let limit = problem.at_infinity()?;
         if problem.window().max().is_some() {
             let expected = "a window without upper end";
             return Err(CliError::option("infinity", expected, "one that ends"));
         }
 
-        Ok(Limit(limit))
+        Ok(LimitProblem(limit))
     }
 
     /// All solutions there.

@@ -235,7 +235,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     job.end();
 
-    let outcome = Outcome {
+    let outcome = PathOutcome {
         followed: &followed,
         names: &names,
         proved,
@@ -340,7 +340,7 @@ pub(super) fn read_loads_of(text: &str, path: &Path) -> Result<Loads, CliError> 
 }
 
 /// What came out.
-struct Outcome<'a> {
+struct PathOutcome<'a> {
     followed: &'a LoadPath,
     /// Names of the steps.
     names: &'a [&'a str],
@@ -349,11 +349,11 @@ struct Outcome<'a> {
     /// The own critical friction, if asked for.
     own: Option<OwnCritical>,
     /// Whether the contact states inside each stretch are certified, if asked for.
-    certified: Option<Vec<Certified>>,
+    certified: Option<Vec<StretchCertification>>,
     is_interrupted: bool,
 }
 
-impl Outcome<'_> {
+impl PathOutcome<'_> {
     fn file(&self) -> &LoadsFile {
         self.followed.loads().as_file()
     }
@@ -434,7 +434,7 @@ impl Outcome<'_> {
 }
 
 /// What is certified of a stretch.
-struct Certified {
+struct StretchCertification {
     /// The contact states inside it, or why not.
     states: Result<(), StatesNotCertified>,
     /// That the rates in these states are the only ones.
@@ -448,7 +448,7 @@ fn certify_stretches(
     followed: &LoadPath,
     folder: &Folder,
     job: &Job,
-) -> Result<Vec<Certified>, CliError> {
+) -> Result<Vec<StretchCertification>, CliError> {
     let mut certified = Vec::new();
     let mut written = Vec::new();
     let mut unique = Vec::new();
@@ -481,7 +481,7 @@ fn certify_stretches(
             });
             unique.push(k);
         }
-        certified.push(Certified {
+        certified.push(StretchCertification {
             states,
             is_unique: rates.is_some(),
         });
@@ -496,7 +496,7 @@ fn certify_stretches(
 }
 
 /// Of how many stretches the contact states are certified, and why others are not.
-fn certified_text(certified: &[Certified]) -> String {
+fn certified_text(certified: &[StretchCertification]) -> String {
     let proved = certified
         .iter()
         .filter(|stretch| stretch.states.is_ok())

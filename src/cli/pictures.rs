@@ -3,7 +3,7 @@
 
 use super::common::CliError;
 use super::output::Folder;
-use crate::picture::{BranchPoint, Content, Picture};
+use crate::picture::{ChartPoint, Content, Picture};
 use mceip_engine::reduction::SparseCondensation;
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::{level_solutions, static_frequency2};
@@ -59,7 +59,7 @@ pub(super) const LEVELS_CAPTION: &str = "Points: every solution found at that \u
 pub(super) fn levels_of(
     system: &System,
     watch: &Watch<'_>,
-) -> Result<Vec<Vec<BranchPoint>>, CliError> {
+) -> Result<Vec<Vec<ChartPoint>>, CliError> {
     let condensation = SparseCondensation::of_system(system)?;
     let unit = static_frequency2(&condensation).unwrap_or(1.0);
     let mut levels = Vec::with_capacity(LEVELS.len());
@@ -80,7 +80,7 @@ pub(super) fn levels_of(
 }
 
 /// Leaves out what lies at larger mu: far above the mu that matter, curves of other motions begin.
-pub(super) fn keep_below(levels: &mut [Vec<BranchPoint>], top: f64) {
+pub(super) fn keep_below(levels: &mut [Vec<ChartPoint>], top: f64) {
     for level in levels {
         level.retain(|point| point.mu <= top);
     }
@@ -91,11 +91,11 @@ fn level_points(
     condensation: &SparseCondensation,
     lambda2: f64,
     watch: &Watch<'_>,
-) -> Result<Vec<BranchPoint>, CliError> {
+) -> Result<Vec<ChartPoint>, CliError> {
     let (found, _) = level_solutions(&condensation.at(lambda2)?, &watch.quiet())?;
     let mut points = Vec::with_capacity(found.len());
     for solution in found {
-        points.push(BranchPoint {
+        points.push(ChartPoint {
             mu: solution.mu,
             lambda2,
             support: solution.support,

@@ -47,7 +47,7 @@ pub(super) struct Args {
 }
 
 /// A solution of one of the four sign patterns.
-struct Line {
+struct SignedSolution {
     signs: (i8, i8),
     listed: Listed,
     /// The exact polynomial of which lambda^2 is a root.
@@ -56,7 +56,7 @@ struct Line {
 
 /// One sign pattern, solved in three ways.
 struct Pattern {
-    lines: Vec<Line>,
+    lines: Vec<SignedSolution>,
     /// Do closed form, enumerator and solver agree?
     agrees: bool,
     /// Points of the solver without a certificate.
@@ -151,7 +151,7 @@ fn pattern(data: TwoParticles) -> Result<Pattern, CliError> {
 
     let mut lines = Vec::new();
     for solution in &found.solutions {
-        lines.push(Line {
+        lines.push(SignedSolution {
             signs,
             listed: Listed::of_solution(&problem, &reduced, solution),
             polynomial: solution.value.poly().to_string(),
@@ -191,7 +191,7 @@ fn pattern(data: TwoParticles) -> Result<Pattern, CliError> {
     })
 }
 
-impl Line {
+impl SignedSolution {
     fn cells(&self) -> Vec<String> {
         let (s_1, s_2) = self.signs;
         let listed = &self.listed;

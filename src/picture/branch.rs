@@ -12,7 +12,7 @@ use super::scale::{Extent, Spread};
 
 /// A solution of MCEIP-lambda2 as a point of the (mu, lambda) plane.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BranchPoint {
+pub struct ChartPoint {
     /// Coefficient of friction.
     pub mu: f64,
     /// lambda^2, 1/s^2.
@@ -26,9 +26,9 @@ pub struct BranchPoint {
 pub struct Branches {
     /// Solutions at levels of lambda^2, level by level from lambda^2 = 0 upwards, every solution of
     /// a level.
-    pub levels: Vec<Vec<BranchPoint>>,
+    pub levels: Vec<Vec<ChartPoint>>,
     /// Certified solutions at chosen mu.
-    pub certified: Vec<BranchPoint>,
+    pub certified: Vec<ChartPoint>,
     /// A mu below which it is proved that there is no solution for any lambda^2 >= 0.
     pub absent_below: Option<f64>,
 }
@@ -59,7 +59,7 @@ const FIRST_KEY: f64 = 44.0;
 /// Distance between the rows of keys, px.
 const KEY_DISTANCE: f64 = TEXT + 3.0;
 
-impl BranchPoint {
+impl ChartPoint {
     fn place(&self) -> (f64, f64) {
         (self.mu, self.growth_rate())
     }
@@ -71,7 +71,7 @@ impl BranchPoint {
 }
 
 impl Branches {
-    fn points(&self) -> impl Iterator<Item = &BranchPoint> {
+    fn points(&self) -> impl Iterator<Item = &ChartPoint> {
         self.levels.iter().flatten().chain(&self.certified)
     }
 
@@ -104,7 +104,7 @@ impl Branches {
 
     /// The axis of lambda: even below the smallest positive value, logarithmic above it.
     fn rate_axis(&self) -> Axis<'static> {
-        let rates = || self.points().map(BranchPoint::growth_rate);
+        let rates = || self.points().map(ChartPoint::growth_rate);
         let all = Extent::of(rates());
         let positive = Extent::of(rates().filter(|rate| *rate > 0.0));
         let unit = if positive.low.is_finite() {
@@ -173,7 +173,7 @@ fn push_bound(picture: &mut Picture, chart: &Chart, mu: f64) {
 }
 
 /// A solution of a level: a large black dot for a threshold, a small white one above lambda^2 = 0.
-fn solution_dot(chart: &Chart, level: usize, point: &BranchPoint) -> Element {
+fn solution_dot(chart: &Chart, level: usize, point: &ChartPoint) -> Element {
     let is_threshold = level == 0 && point.lambda2 == 0.0;
     let radius = if is_threshold {
         THRESHOLD_RADIUS
@@ -193,13 +193,8 @@ fn solution_dot(chart: &Chart, level: usize, point: &BranchPoint) -> Element {
 }
 
 /// The lines between two neighbouring levels; whether one joins different supports.
-fn join(
-    picture: &mut Picture,
-    chart: &Chart,
-    below: &[BranchPoint],
-    above: &[BranchPoint],
-) -> bool {
-    let mut left_above: Vec<&BranchPoint> = above.iter().collect();
+fn join(picture: &mut Picture, chart: &Chart, below: &[ChartPoint], above: &[ChartPoint]) -> bool {
+    let mut left_above: Vec<&ChartPoint> = above.iter().collect();
     let mut left_below = Vec::new();
     for point in below {
         let same_support = left_above.iter().position(|b| b.support == point.support);
@@ -221,7 +216,7 @@ fn join(
     true
 }
 
-fn certified_square(chart: &Chart, point: &BranchPoint) -> Element {
+fn certified_square(chart: &Chart, point: &ChartPoint) -> Element {
     let (x, y) = chart.point(point.place());
     let tip = format!(
         "certified: mu = {}, lambda^2 = {:.9e}, lambda = {:.6} 1/s",

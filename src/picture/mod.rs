@@ -8,8 +8,8 @@
 //! `markup` a tree of elements, `drawing` the picture made of them, `scale` and `chart` axes,
 //! `marker` and `legend` the contact states; then a file for each picture: [`body_picture`],
 //! [`path_picture`], [`threshold_picture`], [`branch_picture`],
-//! [`presence_picture`], [`table1_picture`], [`cost_picture`], [`motion_picture`]; [`Report`] puts
-//! them into a page.
+//! [`presence_picture`], [`table1_picture`], [`cost_picture`], [`motion_picture`]; [`ReportPage`]
+//! puts them into a page.
 
 mod body;
 mod branch;
@@ -30,7 +30,7 @@ mod table1;
 mod threshold;
 
 pub use body::{BodyDrawing, BodyMode, body_picture};
-pub use branch::{BranchPoint, Branches, branch_picture};
+pub use branch::{Branches, ChartPoint, branch_picture};
 pub use cost::{CostSeries, cost_picture};
 pub use drawing::Picture;
 pub use marker::Mark;
@@ -40,7 +40,7 @@ pub use path::path_picture;
 #[cfg(feature = "png")]
 pub use png::PngError;
 pub use presence::{Presence, PresenceChart, PresenceRange, presence_picture};
-pub use report::{Content, Report, Section};
+pub use report::{Content, ReportPage, Section};
 pub use scale::{Scale, Spread};
 pub use table1::table1_picture;
 pub use threshold::{Threshold, ThresholdColumn, threshold_picture};

@@ -35,7 +35,7 @@ const RESULTANTS: &str = "resultants";
 /// each stretch, tied to its part of the load, with the mark of each candidate. The load is counted
 /// from the beginning of the first stretch, step after step.
 pub fn path_picture(title: &str, path: &LoadingPath) -> Picture {
-    let loads = Loads::of(path);
+    let loads = LoadsBefore::of(path);
     let ends = ends(path, &loads);
     let table = StateTable::of(path);
 
@@ -55,12 +55,12 @@ pub fn path_picture(title: &str, path: &LoadingPath) -> Picture {
 }
 
 /// The load before each step, counted from the first step that has a stretch.
-struct Loads {
+struct LoadsBefore {
     before: Vec<f64>,
 }
 
-impl Loads {
-    fn of(path: &LoadingPath) -> Loads {
+impl LoadsBefore {
+    fn of(path: &LoadingPath) -> LoadsBefore {
         let first = path.stretches.first().map_or(0, |stretch| stretch.step);
         let mut before = Vec::with_capacity(path.steps.amounts.len());
         let mut sum = 0.0;
@@ -71,7 +71,7 @@ impl Loads {
             }
         }
 
-        Loads { before }
+        LoadsBefore { before }
     }
 
     fn at(&self, step: usize, at: &Equilibrium) -> f64 {
@@ -81,7 +81,7 @@ impl Loads {
 
 /// Loads at which stretches begin, then where the last one ends; one without an end is drawn a
 /// tenth of the path long.
-fn ends(path: &LoadingPath, loads: &Loads) -> Vec<f64> {
+fn ends(path: &LoadingPath, loads: &LoadsBefore) -> Vec<f64> {
     let mut ends = Vec::new();
     for stretch in &path.stretches {
         ends.push(loads.at(stretch.step, &stretch.start));
@@ -154,7 +154,7 @@ fn beyond(last: &Stretch, start: Option<&Resultants>, load: f64) -> Resultants {
 }
 
 /// One of the curves of the chart.
-struct Curve {
+struct ChartCurve {
     class: &'static str,
     word: &'static str,
     dash: &'static str,
@@ -162,8 +162,8 @@ struct Curve {
     points: Vec<(f64, f64)>,
 }
 
-impl Curve {
-    fn all(resultants: &[Resultants], mu: f64) -> [Curve; 3] {
+impl ChartCurve {
+    fn all(resultants: &[Resultants], mu: f64) -> [ChartCurve; 3] {
         let mut tangential = Vec::new();
         let mut normal = Vec::new();
         let mut limit = Vec::new();
@@ -174,19 +174,19 @@ impl Curve {
         }
 
         [
-            Curve {
+            ChartCurve {
                 class: "T",
                 word: "T, tangential",
                 dash: "",
                 points: tangential,
             },
-            Curve {
+            ChartCurve {
                 class: "N",
                 word: "N, normal",
                 dash: "7 4",
                 points: normal,
             },
-            Curve {
+            ChartCurve {
                 class: "mu-N",
                 word: "\u{3bc} N",
                 dash: "2 3",
@@ -222,7 +222,7 @@ fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> C
     let chart = Chart::new(AREA, &x, &y);
     picture.push(chart.frame(&x, &y));
 
-    for (k, curve) in Curve::all(&resultants, mu).iter().enumerate() {
+    for (k, curve) in ChartCurve::all(&resultants, mu).iter().enumerate() {
         let drawn = chart.curve(&curve.points, 1.8, curve.dash);
         picture.push(drawn.with("class", format!("curve {}", curve.class)));
         push_key(picture, k, curve);
@@ -241,7 +241,7 @@ fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> C
 }
 
 /// The key of the curve k, in a row above the chart.
-fn push_key(picture: &mut Picture, k: usize, curve: &Curve) {
+fn push_key(picture: &mut Picture, k: usize, curve: &ChartCurve) {
     let x = LEFT + 20.0 + 160.0 * k as f64;
     let y = AREA.top - 10.0;
     let key = line((x, y), (x + 34.0, y), "#000", 1.8);

@@ -1,13 +1,13 @@
 //! A report as one HTML file: text, tables and pictures, nothing from outside, no scripts.
 //!
-//! `mceip path --report` and `mceip analyze --report` fill a [`Report`] with their answers.
+//! `mceip path --report` and `mceip analyze --report` fill a [`ReportPage`] with their answers.
 
 use super::drawing::Picture;
 use super::markup::Element;
 
 /// A page.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Report {
+pub struct ReportPage {
     /// Its heading.
     pub title: String,
     /// Its sections, in order.
@@ -74,16 +74,16 @@ const STYLE: &str = concat!(
 /// What made the page.
 const GENERATOR: &str = concat!("mceip ", env!("CARGO_PKG_VERSION"));
 
-impl Report {
+impl ReportPage {
     /// The page. Everything given is text: no markup in it comes through.
     ///
     /// ```
-    /// use mceip::picture::{Content, Report, Section};
+    /// use mceip::picture::{Content, ReportPage, Section};
     /// let section = Section {
     ///     title: "A & B".into(),
     ///     content: vec![Content::Paragraph("mu < 2".into())],
     /// };
-    /// let page = Report {
+    /// let page = ReportPage {
     ///     title: "Block".into(),
     ///     sections: vec![section],
     /// }
@@ -205,7 +205,7 @@ mod tests {
                 caption: hostile.into(),
             },
         ];
-        let report = Report {
+        let report = ReportPage {
             title: hostile.into(),
             sections: vec![Section {
                 title: hostile.into(),

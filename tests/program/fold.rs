@@ -16,7 +16,7 @@
 
 use crate::common::{example, exits_with_json, read};
 use crate::program::Folder;
-use mceip::picture::{BranchPoint, Branches, Picture, branch_picture};
+use mceip::picture::{Branches, ChartPoint, Picture, branch_picture};
 use mceip_exact::{Rational, from_f64, rational, to_f64, whole};
 use mceip_model::file::read_problem_file;
 use mceip_model::reduction::reduce;
@@ -49,8 +49,8 @@ fn roots(lambda2: f64) -> [f64; 2] {
     ]
 }
 
-fn point(mu: f64, lambda2: f64) -> BranchPoint {
-    BranchPoint {
+fn point(mu: f64, lambda2: f64) -> ChartPoint {
+    ChartPoint {
         mu,
         lambda2,
         support: vec![0, 1],

@@ -9,7 +9,7 @@
 use crate::common::{exit_code, exits, exits_with_json, read, refused};
 use crate::program::Folder;
 use mceip::picture::{
-    BodyDrawing, BodyMode, BranchPoint, Branches, CostSeries, Mark, Picture, Presence,
+    BodyDrawing, BodyMode, Branches, ChartPoint, CostSeries, Mark, Picture, Presence,
     PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture, branch_picture,
     cost_picture, path_picture, presence_picture, table1_picture, threshold_picture,
 };
@@ -390,8 +390,8 @@ fn column(stretch: usize, slip: usize, mu: &[f64]) -> ThresholdColumn {
     }
 }
 
-fn branch_point(mu: f64, lambda2: f64, support: &[usize]) -> BranchPoint {
-    BranchPoint {
+fn branch_point(mu: f64, lambda2: f64, support: &[usize]) -> ChartPoint {
+    ChartPoint {
         mu,
         lambda2,
         support: support.to_vec(),

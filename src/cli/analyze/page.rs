@@ -3,8 +3,8 @@
 use crate::cli::common::CliError;
 use crate::cli::pictures::{LEVELS_CAPTION, Named, keep_below, levels_of, warnings_of};
 use crate::picture::{
-    BodyDrawing, BodyMode, BranchPoint, Branches, Content, Presence, PresenceChart, PresenceRange,
-    Report, Section, body_picture, branch_picture, presence_picture,
+    BodyDrawing, BodyMode, Branches, ChartPoint, Content, Presence, PresenceChart, PresenceRange,
+    ReportPage, Section, body_picture, branch_picture, presence_picture,
 };
 use mceip_engine::analysis::{Analysis, Evidence, Mode, Verdict};
 use mceip_engine::run::Watch;
@@ -105,7 +105,7 @@ impl Drawn<'_> {
 /// The page.
 pub(super) fn page(analysis: &Analysis, drawn: &Drawn<'_>) -> String {
     let name = analysis.name.as_deref().unwrap_or("mechanical system");
-    let report = Report {
+    let report = ReportPage {
         title: format!("Divergence of {name}"),
         sections: vec![
             system(analysis, drawn),
@@ -214,7 +214,7 @@ pub(super) fn branches(
     }
 
     let modes = analysis.divergence.modes.iter();
-    let certified = modes.map(|mode| BranchPoint {
+    let certified = modes.map(|mode| ChartPoint {
         mu: to_f64(&analysis.friction),
         lambda2: to_f64(&mode.lambda2.mid()),
         support: mode.slipping.clone(),

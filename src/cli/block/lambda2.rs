@@ -29,37 +29,37 @@ use std::fmt;
 use std::time::Instant;
 
 /// A mesh with its contact states.
-struct Case {
+struct MeshCase {
     name: String,
     model: BlockModel,
     states: Vec<ContactState>,
 }
 
 /// A coefficient of friction with the text that gave it.
-struct Friction {
+struct SpeltFriction {
     mu: Rational,
     text: String,
 }
 
 /// For a solution: the certified value, or why there is none.
-type Evidence = Result<f64, Uncertified>;
+type CertifiedValue = Result<f64, WhyUncertified>;
 
 /// Why a solution is not certified.
-struct Uncertified {
+struct WhyUncertified {
     reason: String,
     /// The backward error for K and M in doubles, rounded up; on a large mesh only.
     backward_error: Option<String>,
 }
 
 /// What came of a case at one friction.
-struct Row {
+struct FrictionRow {
     name: String,
     mu: String,
     dofs: usize,
     slip: usize,
     found: CondensedFound,
     /// For each solution found.
-    evidence: Vec<Evidence>,
+    evidence: Vec<CertifiedValue>,
     /// Time of the search.
     seconds: f64,
 }
@@ -86,14 +86,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     job.end();
 
     let text = if args.json {
-        let rows: Vec<Value> = rows.iter().map(Row::json).collect();
+        let rows: Vec<Value> = rows.iter().map(FrictionRow::json).collect();
         format!("{}\n", json!({ "lambda2": rows }))
     } else {
         text_of(&rows, args.seed)
     };
     print(&text)?;
 
-    let is_certified = rows.iter().all(Row::is_certified);
+    let is_certified = rows.iter().all(FrictionRow::is_certified);
     Ok(if job.is_cancelled() {
         exit::INTERRUPTED
     } else if is_certified {
@@ -103,26 +103,26 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     })
 }
 
-fn frictions(texts: &[String]) -> Result<Vec<Friction>, CliError> {
+fn frictions(texts: &[String]) -> Result<Vec<SpeltFriction>, CliError> {
     let mut frictions = Vec::new();
     for text in texts {
         let expected = "a friction mu > 0";
         let mu = positive_number(text);
         let mu = mu.ok_or_else(|| CliError::option("lambda2", expected, text))?;
         let text = text.clone();
-        frictions.push(Friction { mu, text });
+        frictions.push(SpeltFriction { mu, text });
     }
 
     Ok(frictions)
 }
 
 /// The published states on the paper's mesh, or all-slip states on the meshes of --scale.
-fn cases(args: &Args) -> Result<Vec<Case>, CliError> {
+fn cases(args: &Args) -> Result<Vec<MeshCase>, CliError> {
     let mass = args.mass();
     let mut cases = Vec::new();
     if args.scale.is_empty() {
         for state in published(args.state)? {
-            cases.push(Case {
+            cases.push(MeshCase {
                 name: state.name().to_string(),
                 model: BlockModel {
                     mass,
@@ -141,7 +141,7 @@ fn cases(args: &Args) -> Result<Vec<Case>, CliError> {
             ..scale::model(text)?
         };
         let (nx, ny) = model.cells;
-        cases.push(Case {
+        cases.push(MeshCase {
             name: format!("{nx}x{ny} cells"),
             model,
             states: scale::states(nx),
@@ -151,14 +151,14 @@ fn cases(args: &Args) -> Result<Vec<Case>, CliError> {
     Ok(cases)
 }
 
-impl Case {
+impl MeshCase {
     /// Searches at each friction, until interrupted; a row for each.
     fn search(
         &self,
-        frictions: &[Friction],
+        frictions: &[SpeltFriction],
         search: &CondensedSearch,
         job: &Job,
-        rows: &mut Vec<Row>,
+        rows: &mut Vec<FrictionRow>,
     ) -> Result<(), CliError> {
         job.say(format!("{}: assembling", self.name));
         let block = CondensedBlock::new(&self.model, &self.states)?;
@@ -189,7 +189,7 @@ impl Case {
                     backward_errors(&block, &friction.mu, &found.solutions, job.cancel())?
                 }
             };
-            rows.push(Row {
+            rows.push(FrictionRow {
                 name: self.name.clone(),
                 mu: friction.text.clone(),
                 dofs: condensation.dofs(),
@@ -213,7 +213,7 @@ impl Case {
         mu: &Rational,
         solutions: &[CondensedSolution],
         cancel: &Cancel,
-    ) -> Result<Vec<Evidence>, CliError> {
+    ) -> Result<Vec<CertifiedValue>, CliError> {
         let mut states = self.states.clone();
         states.resize(block.contact.len(), ContactState::Free);
         let system = block.system(&states, Some(mu.clone()))?;
@@ -224,7 +224,7 @@ impl Case {
         let mut evidence = Vec::new();
         for solution in solutions {
             evidence.push(if cancel.is_requested() {
-                Err(Uncertified::because("interrupted".into()))
+                Err(WhyUncertified::because("interrupted".into()))
             } else {
                 accepted(&certifier, solution)
             });
@@ -235,9 +235,9 @@ impl Case {
 }
 
 /// The value of a solution that the checker accepts.
-fn accepted(certifier: &Certifier<'_>, solution: &CondensedSolution) -> Evidence {
+fn accepted(certifier: &Certifier<'_>, solution: &CondensedSolution) -> CertifiedValue {
     let certified = certifier.certify_with_verdict(&solution.candidate);
-    let (_, proved) = certified.map_err(|reason| Uncertified::because(reason.to_string()))?;
+    let (_, proved) = certified.map_err(|reason| WhyUncertified::because(reason.to_string()))?;
     Ok(to_f64(&proved.value.mid()))
 }
 
@@ -247,7 +247,7 @@ fn backward_errors(
     mu: &Rational,
     solutions: &[CondensedSolution],
     cancel: &Cancel,
-) -> Result<Vec<Evidence>, CliError> {
+) -> Result<Vec<CertifiedValue>, CliError> {
     let mut evidence = Vec::new();
     if solutions.is_empty() {
         return Ok(evidence);
@@ -256,7 +256,7 @@ fn backward_errors(
     let problem = block.problem(mu)?;
     for solution in solutions {
         evidence.push(Err(if cancel.is_requested() {
-            Uncertified::because("interrupted".into())
+            WhyUncertified::because("interrupted".into())
         } else {
             too_large(&problem, solution)
         }));
@@ -265,28 +265,28 @@ fn backward_errors(
     Ok(evidence)
 }
 
-fn too_large(problem: &Problem, solution: &CondensedSolution) -> Uncertified {
+fn too_large(problem: &Problem, solution: &CondensedSolution) -> WhyUncertified {
     let reason = format!("more than {ENCLOSED_ORDER} dofs");
     match solution.candidate.backward_error(problem) {
-        Ok(error) => Uncertified {
+        Ok(error) => WhyUncertified {
             reason,
             backward_error: Some(upper_decimal(&error, BACKWARD_ERROR_DIGITS)),
         },
-        Err(refusal) => Uncertified::because(format!("{reason}; {refusal}")),
+        Err(refusal) => WhyUncertified::because(format!("{reason}; {refusal}")),
     }
 }
 
-impl Uncertified {
+impl WhyUncertified {
     /// Without a backward error.
-    fn because(reason: String) -> Uncertified {
-        Uncertified {
+    fn because(reason: String) -> WhyUncertified {
+        WhyUncertified {
             reason,
             backward_error: None,
         }
     }
 }
 
-impl fmt::Display for Uncertified {
+impl fmt::Display for WhyUncertified {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "UNCERTIFIED: {}", self.reason)?;
         match &self.backward_error {
@@ -296,7 +296,7 @@ impl fmt::Display for Uncertified {
     }
 }
 
-fn text_of(rows: &[Row], seed: u64) -> String {
+fn text_of(rows: &[FrictionRow], seed: u64) -> String {
     let mut table = Table::new(&[
         "state",
         "dofs",
@@ -340,14 +340,14 @@ fn text_of(rows: &[Row], seed: u64) -> String {
 }
 
 /// lambda^2: the certified value if there is one, else that of the search.
-fn value_of(solution: &CondensedSolution, evidence: &Evidence) -> f64 {
+fn value_of(solution: &CondensedSolution, evidence: &CertifiedValue) -> f64 {
     match evidence {
         Ok(value) => *value,
         Err(_) => solution.candidate.value,
     }
 }
 
-impl Row {
+impl FrictionRow {
     /// Is there a solution, and is each certified?
     fn is_certified(&self) -> bool {
         !self.evidence.is_empty() && self.evidence.iter().all(Result::is_ok)

@@ -29,7 +29,7 @@ const COMPLETE_UP_TO: usize = 80;
 const PROBES: usize = 3;
 
 /// A line of the study.
-struct Row {
+struct StudyRow {
     cells: (usize, usize),
     dofs: usize,
     slip: usize,
@@ -76,7 +76,7 @@ pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result
     job.end();
 
     let text = if json {
-        let rows: Vec<Value> = rows.iter().map(Row::json).collect();
+        let rows: Vec<Value> = rows.iter().map(StudyRow::json).collect();
         format!("{}\n", json!({ "scale": rows }))
     } else {
         text_of(&rows)
@@ -117,7 +117,11 @@ pub(super) fn symmetric(what: &'static str, m: &DoubleMatrix) -> Result<Symmetri
 }
 
 /// One mesh; `None` if interrupted before its condensation was done.
-fn row(model: &BlockModel, output: Option<Output>, job: &Job) -> Result<Option<Row>, CliError> {
+fn row(
+    model: &BlockModel,
+    output: Option<Output>,
+    job: &Job,
+) -> Result<Option<StudyRow>, CliError> {
     let (nx, ny) = model.cells;
     let say = |what: &str| job.say(format!("{nx} x {ny} cells: {what}"));
     let clock = Instant::now();
@@ -158,7 +162,7 @@ fn row(model: &BlockModel, output: Option<Output>, job: &Job) -> Result<Option<R
     say("complete search of the condensed pencil");
     let complete = complete_text(&problem, condensation.slip_count(), job.cancel());
 
-    Ok(Some(Row {
+    Ok(Some(StudyRow {
         cells: model.cells,
         dofs: condensation.dofs(),
         slip: condensation.slip_count(),
@@ -239,7 +243,7 @@ fn complete_text(problem: &Problem, slip: usize, cancel: &Cancel) -> String {
     }
 }
 
-fn text_of(rows: &[Row]) -> String {
+fn text_of(rows: &[StudyRow]) -> String {
     let mut table = Table::new(&[
         "cells",
         "dofs",
@@ -280,7 +284,7 @@ fn listed(parts: Vec<String>) -> String {
     }
 }
 
-impl Row {
+impl StudyRow {
     /// A line of the table.
     fn cells(&self) -> Vec<String> {
         let (nx, ny) = self.cells;

@@ -4,8 +4,8 @@ use crate::cli::common::{CliError, positive};
 use crate::cli::output::Folder;
 use crate::cli::pictures::Named;
 use crate::picture::{
-    BranchPoint, Branches, Content, Presence, PresenceChart, PresenceRange, Section,
-    branch_picture, presence_picture,
+    Branches, ChartPoint, Content, Presence, PresenceChart, PresenceRange, Section, branch_picture,
+    presence_picture,
 };
 use crate::say::mu_text;
 use crate::say::own_critical::{HEADER, headlines, rows_of};
@@ -181,7 +181,7 @@ fn growth(own: &OwnCritical) -> Option<Named> {
     let mut certified = Vec::new();
     for point in &own.points {
         let modes = point.end_state.iter().flat_map(|end| &end.divergence.modes);
-        certified.extend(modes.map(|mode| BranchPoint {
+        certified.extend(modes.map(|mode| ChartPoint {
             mu: to_f64(point.friction()),
             lambda2: to_f64(&mode.lambda2.mid()),
             support: mode.slipping.clone(),

@@ -10,7 +10,7 @@ use super::states::{Growing, Holds, IN_A_REPORT, ProvedMode, ProvedSet, ProvedSt
 use crate::cli::common::CliError;
 use crate::cli::pictures::{LEVELS_CAPTION, Named, keep_below, levels_of, warnings_of};
 use crate::picture::{
-    BodyDrawing, BodyMode, BranchPoint, Branches, Content, Report, Section, Threshold,
+    BodyDrawing, BodyMode, Branches, ChartPoint, Content, ReportPage, Section, Threshold,
     ThresholdColumn, body_picture, branch_picture, path_picture, threshold_picture,
 };
 use crate::say::path::{
@@ -72,7 +72,7 @@ pub(super) fn branches(
     let mut certified = Vec::new();
     for growing in &state.growing {
         for solution in &growing.set.solutions {
-            certified.push(BranchPoint {
+            certified.push(ChartPoint {
                 mu: to_f64(&growing.mu),
                 lambda2: solution.value,
                 support: solution.moving.clone(),
@@ -102,10 +102,10 @@ pub(super) fn branches(
 }
 
 /// The solutions of MCEIP-mu as points with lambda^2 = 0.
-fn static_points(thresholds: &ProvedSet) -> Vec<BranchPoint> {
+fn static_points(thresholds: &ProvedSet) -> Vec<ChartPoint> {
     let mut points = Vec::new();
     for solution in &thresholds.solutions {
-        points.push(BranchPoint {
+        points.push(ChartPoint {
             mu: solution.value,
             lambda2: 0.0,
             support: solution.moving.clone(),
@@ -209,7 +209,7 @@ impl Shown<'_> {
     }
 
     /// The report.
-    pub(super) fn report(&self) -> Result<Report, ModelError> {
+    pub(super) fn report(&self) -> Result<ReportPage, ModelError> {
         let path = Section {
             title: "Loading path".into(),
             content: vec![
@@ -246,7 +246,7 @@ impl Shown<'_> {
         let mu = to_f64(&self.path().steps.friction);
         let title = format!("{name}: elastic body in frictional contact, \u{3bc} = {mu}");
 
-        Ok(Report { title, sections })
+        Ok(ReportPage { title, sections })
     }
 
     /// What a solution means, and what was checked.
