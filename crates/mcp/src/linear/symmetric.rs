@@ -50,7 +50,7 @@ pub enum SymmetricError {
 }
 
 /// Row, column and value.
-type Entry = (usize, usize, f64);
+type Triplet = (usize, usize, f64);
 
 /// A sparse symmetric matrix.
 ///
@@ -93,7 +93,7 @@ impl Symmetric {
         order: usize,
         entries: impl IntoIterator<Item = (usize, usize, f64)>,
     ) -> Result<Symmetric, SymmetricError> {
-        let entries: Vec<Entry> = entries.into_iter().collect();
+        let entries: Vec<Triplet> = entries.into_iter().collect();
         for &(row, col, got) in &entries {
             if row >= order || col >= order {
                 return Err(SymmetricError::Index { row, col, order });
@@ -272,7 +272,7 @@ impl Symmetric {
 
 /// Entries sorted into rows, within a row in the order given. `entries` is called twice: to count
 /// and to write.
-fn by_rows<I: Iterator<Item = Entry>>(
+fn by_rows<I: Iterator<Item = Triplet>>(
     order: usize,
     count: usize,
     entries: impl Fn() -> I,

@@ -115,11 +115,11 @@ pub(super) struct Corrected {
 }
 
 /// The factors of a bordered matrix.
-type Factors = nalgebra::LU<f64, nalgebra::Dyn, nalgebra::Dyn>;
+type BorderedFactors = nalgebra::LU<f64, nalgebra::Dyn, nalgebra::Dyn>;
 
 /// The unit vector along which the border, row k, grows with the sign given and the other rows
 /// stay.
-fn unit(factors: &Factors, k: usize, sign: f64) -> Option<DVector<f64>> {
+fn unit(factors: &BorderedFactors, k: usize, sign: f64) -> Option<DVector<f64>> {
     let mut right = DVector::zeros(k + 1);
     right[k] = sign;
     let v = factors.solve(&right)?;
@@ -210,7 +210,12 @@ impl<P: Mcp + ?Sized> HomotopySystem<'_, '_, P> {
     }
 
     /// Factors the bordered matrix, and counts it.
-    fn factor(&mut self, local: &Local, inside: &[usize], border: &DVector<f64>) -> Factors {
+    fn factor(
+        &mut self,
+        local: &Local,
+        inside: &[usize],
+        border: &DVector<f64>,
+    ) -> BorderedFactors {
         self.problem.counters.factorisations += 1;
         self.bordered(local, inside, border).lu()
     }
@@ -225,7 +230,7 @@ impl<P: Mcp + ?Sized> HomotopySystem<'_, '_, P> {
         let inside = self.places.inside();
         let mut at = predicted.clone();
         let mut last_size = f64::INFINITY;
-        let mut factors: Option<Factors> = None;
+        let mut factors: Option<BorderedFactors> = None;
 
         for steps in 0..=CURVE_STEPS {
             let local = self.local(&at.z)?;
