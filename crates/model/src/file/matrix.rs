@@ -172,14 +172,14 @@ fn dense(what: &'static str, rows: Vec<Vec<Number>>) -> Result<Sparse, ModelErro
 }
 
 /// An entry as it stands in a file: row, column, value.
-type Entry = (usize, usize, Number);
+type SpeltEntry = (usize, usize, Number);
 
 /// A matrix by its non-zero entries.
 fn general(
     what: &'static str,
     rows: usize,
     cols: usize,
-    entries: Vec<Entry>,
+    entries: Vec<SpeltEntry>,
 ) -> Result<Sparse, ModelError> {
     require_order(what, rows)?;
     require_order(what, cols)?;
@@ -204,7 +204,7 @@ fn symmetric(
     what: &'static str,
     rows: usize,
     cols: usize,
-    entries: Vec<Entry>,
+    entries: Vec<SpeltEntry>,
 ) -> Result<Sparse, ModelError> {
     require_order(what, rows)?;
     require_order(what, cols)?;
