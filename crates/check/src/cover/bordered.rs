@@ -114,12 +114,12 @@ pub(super) struct Bordered<'a> {
 
 /// The entries of a matrix on the support, each with its radius, in units of 1 / `scale`.
 pub(super) struct SupportBlock<'a> {
-    rows: Vec<Line<'a>>,
+    rows: Vec<BallLine<'a>>,
     scale: &'a Integer,
 }
 
 /// Entries of a row or of a column, each with its radius.
-pub(super) type Line<'a> = Vec<(&'a Integer, &'a Integer)>;
+pub(super) type BallLine<'a> = Vec<(&'a Integer, &'a Integer)>;
 
 impl SupportBlock<'_> {
     fn mirrored(&self) -> SupportBlock<'_> {
@@ -200,7 +200,7 @@ impl<'a> Bordered<'a> {
     }
 
     /// A row of a matrix on the support.
-    pub(super) fn line<'m>(&self, matrix: &'m BallMatrix<Integer>, row: usize) -> Line<'m> {
+    pub(super) fn line<'m>(&self, matrix: &'m BallMatrix<Integer>, row: usize) -> BallLine<'m> {
         let BallMatrix { m, r } = matrix;
         let columns = self.support.iter();
         columns.map(|&j| (&m[row][j], &r[row][j])).collect()
@@ -266,7 +266,7 @@ impl<'a> Bordered<'a> {
     }
 
     /// The product of a row and v.
-    pub(super) fn times_v(&self, line: &Line<'_>) -> Ball<Integer> {
+    pub(super) fn times_v(&self, line: &BallLine<'_>) -> Ball<Integer> {
         dot(&self.v, line.iter().copied())
     }
 
