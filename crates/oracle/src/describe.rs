@@ -74,10 +74,10 @@ impl Enumeration {
 }
 
 /// A value and a set of slip variables: what a list of solutions is sorted by.
-pub(super) type Place<'a> = (&'a Algebraic, &'a [usize]);
+pub(super) type ListPlace<'a> = (&'a Algebraic, &'a [usize]);
 
 /// By value, then by slip set. The comparison refines copies, the numbers stay as they are.
-pub(super) fn compare_places(a: Place<'_>, b: Place<'_>) -> Ordering {
+pub(super) fn compare_places(a: ListPlace<'_>, b: ListPlace<'_>) -> Ordering {
     let by_value = a.0.clone().cmp_exact(&mut b.0.clone());
     by_value.then_with(|| a.1.cmp(b.1))
 }
