@@ -1,10 +1,12 @@
 //! Laws of the workspace that can be read off manifests and sources: which crate depends on which,
-//! which part computes in floats, which test files run, how wide comments are.
+//! which part computes in floats, which test files run, how wide comments are, that no name of a
+//! type is declared twice.
 //!
 //! The truth is the tables of this file. A new dependency, a float in a part that decides, a second
 //! elimination or a test file that no binary names differs from its table and fails here.
 
 use crate::root;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The parts that are crates of their own.
@@ -374,6 +376,103 @@ fn one_oldest_rust_is_stated_everywhere() {
 
     let in_the_image = version_after(&read("Dockerfile"), "FROM rust:");
     assert!(in_the_image >= oldest, "{in_the_image:?} and {oldest:?}");
+}
+
+/// Names of types that are declared more than once, each with the reason.
+const SHARED_NAMES: [(&str, &str); 3] = [
+    ("Args", "the arguments of each command: clap reads them"),
+    (
+        "Problem",
+        "the front door's hides the parts of the model's, which it holds",
+    ),
+    (
+        "Solution",
+        "the enumerator's own beside the front door's, which the checker has accepted",
+    ),
+];
+
+/// One idea, one home, one name: whoever writes a second `Region` finds the first one here.
+#[test]
+fn no_name_of_a_type_is_declared_twice() {
+    let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
+
+    for file in rust_files(&["crates", "src"]) {
+        if is_of_tests(&file) {
+            continue;
+        }
+
+        let text = std::fs::read_to_string(&file).unwrap();
+        let code = text.split("#[cfg(test)]\nmod tests").next().unwrap();
+        for (index, line) in code.lines().enumerate() {
+            if let Some(name) = declared_type(line) {
+                let file = file.strip_prefix(root()).unwrap().display();
+                let place = format!("{file}:{}", index + 1);
+                places.entry(name.into()).or_default().push(place);
+            }
+        }
+    }
+
+    assert!(places.len() > 1_000, "{} names", places.len());
+    places.retain(|_, places| places.len() > 1);
+
+    for (name, reason) in SHARED_NAMES {
+        let is_shared = places.remove(name).is_some();
+        assert!(is_shared, "{name} ({reason}) is declared once: not shared");
+    }
+    assert!(places.is_empty(), "declared more than once: {places:#?}");
+}
+
+/// Is the file not a source of its crate, or one of unit tests?
+fn is_of_tests(file: &Path) -> bool {
+    let folders = || file.parent().unwrap().iter();
+    let is_source = folders().any(|folder| folder == "src");
+    let is_in_tests = folders().any(|folder| folder == "tests");
+
+    !is_source || is_in_tests || (file.ends_with("tests.rs") && is_for_tests(file))
+}
+
+/// The name of the type or trait that a line declares. Types of traits (`type Item = ...`), which
+/// are indented, are none.
+fn declared_type(line: &str) -> Option<&str> {
+    let item = line.trim_start();
+    let is_indented = item.len() < line.len();
+    let item = match item.strip_prefix("pub") {
+        Some(rest) if rest.starts_with('(') => rest.split_once(") ")?.1,
+        Some(rest) => rest.trim_start(),
+        None => item,
+    };
+
+    let (kind, rest) = item.split_once(' ')?;
+    let declares = match kind {
+        "struct" | "enum" | "union" | "trait" => true,
+        "type" => !is_indented,
+        _ => false,
+    };
+
+    let end = rest.find(|c: char| !c.is_alphanumeric())?;
+    declares.then_some(&rest[..end])
+}
+
+#[test]
+fn a_type_declared_in_any_way_would_be_noticed() {
+    for line in [
+        "struct Region {",
+        "pub enum Region {",
+        "    pub(super) struct Region;",
+        "pub(in crate::search) struct Region<'a> {",
+        "pub trait Region: Clone {",
+        "pub type Region = Vec<f64>;",
+    ] {
+        assert_eq!(declared_type(line), Some("Region"), "{line}");
+    }
+
+    for line in [
+        "    type Region = f64;",
+        "// struct Region {",
+        "impl Region {",
+    ] {
+        assert_eq!(declared_type(line), None, "{line}");
+    }
 }
 
 /// Cargo links the groups of `tests/`; a file that its group does not name would never run.
