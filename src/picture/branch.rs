@@ -124,8 +124,9 @@ impl Branches {
 
 /// Draws the solutions.
 ///
-/// Lines join points with the same support at neighbouring levels. Where each of two levels has one
-/// point that is left over, a dotted line joins these two: there the support changes.
+/// Lines join points with the same support at neighbouring levels, the nearest in mu first. Where
+/// each of two levels has one point that is left over, a dotted line joins these two: there the
+/// support changes.
 pub fn branch_picture(title: &str, branches: &Branches) -> Picture {
     let x = branches.mu_axis();
     let y = branches.rate_axis();
@@ -195,16 +196,12 @@ fn solution_dot(chart: &Chart, level: usize, point: &ChartPoint) -> Element {
 /// The lines between two neighbouring levels; whether one joins different supports.
 fn join(picture: &mut Picture, chart: &Chart, below: &[ChartPoint], above: &[ChartPoint]) -> bool {
     let mut left_above: Vec<&ChartPoint> = above.iter().collect();
-    let mut left_below = Vec::new();
-    for point in below {
-        let same_support = left_above.iter().position(|b| b.support == point.support);
-        match same_support {
-            Some(k) => {
-                let ends = [point.place(), left_above.remove(k).place()];
-                picture.push(chart.curve(&ends, 1.6, "").with("class", "branch"));
-            }
-            None => left_below.push(point),
-        }
+    let mut left_below: Vec<&ChartPoint> = below.iter().collect();
+    while let Some([lower, upper]) = nearest_alike(&left_below, &left_above) {
+        let lower = left_below.remove(lower);
+        let upper = left_above.remove(upper);
+        let line = chart.curve(&[lower.place(), upper.place()], 1.6, "");
+        picture.push(line.with("class", "branch"));
     }
 
     let ([a], [b]) = (left_below.as_slice(), left_above.as_slice()) else {
@@ -214,6 +211,23 @@ fn join(picture: &mut Picture, chart: &Chart, below: &[ChartPoint], above: &[Cha
     let line = chart.curve(&[a.place(), b.place()], 1.2, CHANGE_DASH);
     picture.push(line.with("class", "change"));
     true
+}
+
+/// Of the pairs of points with the same support the one with the least distance in mu.
+fn nearest_alike(below: &[&ChartPoint], above: &[&ChartPoint]) -> Option<[usize; 2]> {
+    let mut nearest = None;
+    let mut least = f64::INFINITY;
+    for (lower, one) in below.iter().enumerate() {
+        for (upper, other) in above.iter().enumerate() {
+            let distance = (one.mu - other.mu).abs();
+            if one.support == other.support && distance < least {
+                least = distance;
+                nearest = Some([lower, upper]);
+            }
+        }
+    }
+
+    nearest
 }
 
 fn certified_square(chart: &Chart, point: &ChartPoint) -> Element {

@@ -440,6 +440,39 @@ fn thresholds_and_branches_are_the_numbers_given() {
     assert_eq!(count(&tree, "certified"), 1);
     assert_eq!(data(&of_class(&tree, "absent"), "data-x"), [1.69]);
 
+    // A branch goes to the nearest point with its support, not to the first one.
+    let branches = Branches {
+        levels: vec![
+            vec![
+                branch_point(6.0, 4.0, &[0, 1]),
+                branch_point(1.7, 4.0, &[0]),
+            ],
+            vec![
+                branch_point(2.0, 9.0, &[0, 1]),
+                branch_point(8.5, 9.0, &[0, 1]),
+            ],
+        ],
+        ..Branches::default()
+    };
+    let text = sound(&branch_picture("n", &branches));
+    let tree = Document::parse(&text).unwrap();
+    let ends = |class: &str| -> Vec<String> {
+        let points = of_class(&tree, class)[0].attribute("points").unwrap();
+        points
+            .split(' ')
+            .map(|place| place.split(',').next().unwrap().into())
+            .collect()
+    };
+    let places = |mu: [f64; 2]| {
+        mu.map(|mu| {
+            let points = of_class(&tree, "point").into_iter();
+            let point = points.into_iter().find(|p| number(p, "data-x") == Some(mu));
+            point.unwrap().attribute("cx").unwrap().to_string()
+        })
+    };
+    assert_eq!(ends("branch"), places([6.0, 8.5]));
+    assert_eq!(ends("change"), places([1.7, 2.0]));
+
     // Pictures without data.
     sound(&branch_picture("e", &Branches::default()));
     sound(&threshold_picture("e", &[], 1.1));
