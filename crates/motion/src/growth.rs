@@ -11,7 +11,7 @@
 //! change of alpha. The agreement is judged by that stated error, and not at all where it is large.
 
 use super::equations::{Equations, MotionError};
-use super::step::Instant;
+use super::step::{Instant, Stepper};
 use super::tolerance::{BESIDE, OF_BESIDE, ROUNDING, UNRESOLVED};
 use super::trajectory::{Plan, Trajectory, run_every};
 use nalgebra::DVector;
@@ -32,8 +32,10 @@ pub struct Growth {
     pub step: f64,
     /// Samples, as long as the motion is along v.
     pub points: Vec<GrowthPoint>,
-    /// When another motion, set off by rounding, has taken over.
+    /// When another motion has taken over.
     pub overtaken: Option<f64>,
+    /// Is the first step along v, up to rounding? Of what is no mode it is not.
+    pub begins_along_v: bool,
     /// Largest relative error of alpha in steps of h.
     pub coarse_error: f64,
     /// Largest relative error of alpha in steps of h/2.
@@ -70,9 +72,9 @@ const COMPARED_FROM: f64 = 1.1;
 pub enum GrowthAgreement {
     /// It does, as long as it is along v.
     Agrees,
-    /// It does not, or leaves v before alpha has grown by a tenth.
+    /// It does not, or leaves v at once.
     Disagrees,
-    /// The run ends before alpha has grown by a tenth.
+    /// The run ends, or a motion set off by rounding takes over, before alpha has grown by a tenth.
     TooShort,
     /// The steps are too long for the run: the stated error is large, or alpha leaves the doubles.
     NotResolved,
@@ -90,7 +92,7 @@ impl Growth {
             GrowthAgreement::NotResolved
         } else if is_accurate && has_grown {
             GrowthAgreement::Agrees
-        } else if is_accurate && self.overtaken.is_none() {
+        } else if is_accurate && (self.overtaken.is_none() || self.begins_along_v) {
             GrowthAgreement::TooShort
         } else {
             GrowthAgreement::Disagrees
@@ -160,12 +162,18 @@ pub fn along_mode(
     let stride = plan.stride();
     let start = mode.start(equations, plan.duration);
     let coarse = run_every(equations, start.clone(), plan, stride)?;
-    let fine = run_every(equations, start, plan.halved(), 2 * stride)?;
+    let fine = run_every(equations, start.clone(), plan.halved(), 2 * stride)?;
+
+    let rounding = mode.rounding(equations, plan.halved());
+    let (first, _) = Stepper::new(equations, plan.step()?)?.advance(&start)?;
+    let begins_along_v = Along::of(equations, mode, &first).beside <= rounding;
 
     let mut points = Vec::new();
     let mut coarse_error: f64 = 0.0;
     let mut error: f64 = 0.0;
-    let mut difference: f64 = 0.0;
+    // A step that is longer than 1 / lambda follows no growth.
+    let is_long = plan.step()? * mode.rate() > 1.0;
+    let mut difference: f64 = if is_long { f64::INFINITY } else { 0.0 };
     let mut beside: f64 = 0.0;
     let mut overtaken = None;
     for (coarse, fine) in coarse.samples.iter().zip(&fine.samples) {
@@ -197,11 +205,11 @@ pub fn along_mode(
         points.push(point);
     }
 
-    let rounding = mode.rounding(equations, plan.halved());
     Ok(Growth {
         step: plan.step()?,
         points,
         overtaken,
+        begins_along_v,
         coarse_error,
         error,
         stated_error: difference / 3.0 + rounding + OF_BESIDE * beside,
