@@ -3,9 +3,9 @@
 
 use super::error::Error;
 use super::problem::Problem;
-use super::run::Watched;
+use super::run::{Watched, watched_question};
 use mceip_engine::analysis::{Analysis, AnalysisOptions, analyse};
-use mceip_engine::run::{Cancel, Kept, Progress};
+use mceip_engine::run::Kept;
 use mceip_exact::Rational;
 use mceip_model::file::SystemFile;
 use mceip_model::{Body, System};
@@ -70,6 +70,8 @@ impl<'a> From<&'a SystemFile> for Analyze<'a> {
     }
 }
 
+watched_question!(Analyze, "what is not done is left open");
+
 impl<'a> Analyze<'a> {
     /// The friction coefficient; the system's own if not said. At 0 a theorem answers.
     pub fn friction(mut self, friction: Rational) -> Self {
@@ -93,18 +95,6 @@ impl<'a> Analyze<'a> {
     /// Threads, at most 1024; all cores if not said. The answer does not depend on it.
     pub fn threads(mut self, threads: usize) -> Self {
         self.options.threads = Some(threads);
-        self
-    }
-
-    /// The switch that ends the analysis early; what is not done is left open.
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.watched.cancel(cancel);
-        self
-    }
-
-    /// Hears what is being done.
-    pub fn on_progress(mut self, hear: impl Fn(&Progress<'_>) + Sync + 'a) -> Self {
-        self.watched.on_progress(hear);
         self
     }
 

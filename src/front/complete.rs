@@ -2,14 +2,14 @@
 
 use super::error::Error;
 use super::problem::Problem;
-use super::run::Watched;
+use super::run::{Watched, watched_question};
 use super::solution::Solution;
 use crate::say;
 use mceip_check::certificate::Certificate;
 use mceip_check::{OpenRegion, Proved, SolutionFamily};
 use mceip_engine::reduction::reversed;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
-use mceip_engine::run::{Cancel, Kept, Progress};
+use mceip_engine::run::Kept;
 use mceip_engine::search::complete::{CompleteOptions, Completed, Shard, complete, merge, resume};
 use mceip_exact::Rational;
 use mceip_model::reduction::reduce;
@@ -193,6 +193,8 @@ impl Problem {
     }
 }
 
+watched_question!(Complete, "what is not done is left open");
+
 impl<'a> Complete<'a> {
     /// Threads, at most 1024; all cores if not said. The certificate does not depend on it.
     pub fn threads(mut self, threads: usize) -> Self {
@@ -216,18 +218,6 @@ impl<'a> Complete<'a> {
     /// Goes on with a certificate that leaves regions open: only these are searched.
     pub fn resume(mut self, earlier: &'a Certificate) -> Self {
         self.earlier = Some(earlier);
-        self
-    }
-
-    /// The switch that ends the search early; what is not done is left open.
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.watched.cancel(cancel);
-        self
-    }
-
-    /// Hears how far the search has come.
-    pub fn on_progress(mut self, hear: impl Fn(&Progress<'_>) + Sync + 'a) -> Self {
-        self.watched.on_progress(hear);
         self
     }
 

@@ -2,10 +2,10 @@
 
 use super::error::Error;
 use super::problem::Problem;
-use super::run::Watched;
+use super::run::{Watched, watched_question};
 use crate::say;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
-use mceip_engine::run::{Cancel, Progress};
+use mceip_engine::run::Progress;
 use mceip_model::Reduced;
 use mceip_model::reduction::reduce;
 use mceip_oracle::{Enumeration, ModeList, enumerate_modes_with, enumerate_with};
@@ -115,19 +115,9 @@ impl Problem {
     }
 }
 
+watched_question!(Enumerate, "what was examined is kept");
+
 impl<'a> Enumerate<'a> {
-    /// The switch that ends the enumeration early; what was examined is kept.
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.watched.cancel(cancel);
-        self
-    }
-
-    /// Hears how far the enumeration has come.
-    pub fn on_progress(mut self, hear: impl Fn(&Progress<'_>) + Sync + 'a) -> Self {
-        self.watched.on_progress(hear);
-        self
-    }
-
     /// Enumerates.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use super::complete::SolutionSet;
 use super::error::Error;
 use super::problem::Problem;
-use super::run::Watched;
+use super::run::{Watched, watched_question};
 use crate::say;
 use mceip_check::Proved;
 use mceip_check::certificate::{EquilibriumCertificate, SlipSign, StatedEquilibrium, StatedState};
@@ -108,6 +108,8 @@ pub struct FollowPath<'a> {
     watched: Watched<'a>,
 }
 
+watched_question!(FollowPath, "the stretches that were followed are kept");
+
 impl<'a> FollowPath<'a> {
     /// The friction coefficient; that of the file if not said.
     pub fn friction(mut self, friction: Rational) -> Self {
@@ -126,18 +128,6 @@ impl<'a> FollowPath<'a> {
     /// instead of the first that is met.
     pub fn take(mut self, stretch: usize, continuation: usize) -> Self {
         self.taken.insert(stretch, continuation);
-        self
-    }
-
-    /// The switch that ends the work early; the stretches that were followed are kept.
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.watched.cancel(cancel);
-        self
-    }
-
-    /// Hears what is being done.
-    pub fn on_progress(mut self, hear: impl Fn(&Progress<'_>) + Sync + 'a) -> Self {
-        self.watched.on_progress(hear);
         self
     }
 

@@ -16,15 +16,15 @@
 
 use super::error::Error;
 use super::loads::{LoadPath, Loads, ProvedStates, certify_states};
-use super::run::Watched;
+use super::run::{Watched, watched_question};
 use crate::say::{self, mu_text};
 use mceip_check::certificate::Certificate;
 use mceip_engine::analysis::{
     Analysis, AnalysisError, AnalysisOptions, Divergence, Proof, Verdict, analyse, divergence_at,
 };
-use mceip_engine::run::{Cancel, Progress, Watch};
+use mceip_engine::run::{Progress, Watch};
 use mceip_exact::{Integer, Rational, rational, whole};
-use mceip_model::{ModelError, System};
+use mceip_model::{LoadedBody, ModelError, System};
 use mceip_path::{Equilibrium, LoadSteps, LoadingPath, LoadingPathEnd};
 use num_traits::{One, Signed};
 use serde_json::Value;
@@ -297,6 +297,14 @@ impl OwnCritical {
     }
 }
 
+/// Without a mass there is no divergence in time to ask for.
+pub(crate) fn require_mass(body: &LoadedBody) -> Result<(), Error> {
+    match body.system().mass() {
+        Some(_) => Ok(()),
+        None => Err(AnalysisError::NoMass.into()),
+    }
+}
+
 /// The certificate about divergence that an earlier run has made at a mu.
 type Earlier<'a> = dyn Fn(&Rational) -> Option<Certificate> + 'a;
 
@@ -333,6 +341,8 @@ impl LoadPath {
     }
 }
 
+watched_question!(FindOwnCritical, "what was examined is kept");
+
 impl<'a> FindOwnCritical<'a> {
     /// Gives the certificate about divergence that an earlier run has made at a mu: if it is one of
     /// the problem met there, only what it leaves open is searched.
@@ -347,27 +357,12 @@ impl<'a> FindOwnCritical<'a> {
         self
     }
 
-    /// The switch that ends the work early; what is examined is kept.
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.watched.cancel(cancel);
-        self
-    }
-
-    /// Hears what is being done.
-    pub fn on_progress(mut self, hear: impl Fn(&Progress<'_>) + Sync + 'a) -> Self {
-        self.watched.on_progress(hear);
-        self
-    }
-
     /// Examines the grid, then mu between; what is examined when the work is cancelled stays.
     ///
     /// # Errors
     /// [`Error::Analyze`] for a body without mass, [`Error::Path`], [`Error::Model`].
     pub fn run(self) -> Result<OwnCritical, Error> {
-        if self.body().mass().is_none() {
-            return Err(AnalysisError::NoMass.into());
-        }
-
+        require_mass(self.load_path.loads().body())?;
         let watch = self.watched.watch();
         let mut points: Vec<FrictionPoint> = Vec::new();
         for mu in self.grid.values() {

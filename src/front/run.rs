@@ -38,3 +38,26 @@ impl<'a> Watched<'a> {
         watch.kept_by(keeping.map(|(every, keep)| Keeper::new(*every, keep.as_ref())))
     }
 }
+
+/// Gives a question the switch and the listener; `$kept` says what an early end leaves of it.
+macro_rules! watched_question {
+    ($Question:ident, $kept:literal) => {
+        impl<'a> $Question<'a> {
+            #[doc = concat!("The switch that ends the work early; ", $kept, ".")]
+            pub fn cancel(mut self, cancel: &mceip_engine::run::Cancel) -> Self {
+                self.watched.cancel(cancel);
+                self
+            }
+
+            /// Hears what is being done.
+            pub fn on_progress(
+                mut self,
+                hear: impl Fn(&mceip_engine::run::Progress<'_>) + Sync + 'a,
+            ) -> Self {
+                self.watched.on_progress(hear);
+                self
+            }
+        }
+    };
+}
+pub(super) use watched_question;

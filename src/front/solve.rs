@@ -2,7 +2,7 @@
 
 use super::error::Error;
 use super::problem::Problem;
-use super::run::Watched;
+use super::run::{Watched, watched_question};
 use super::solution::Solution;
 use crate::say;
 use mceip_check::Proved;
@@ -10,7 +10,6 @@ use mceip_check::certificate::{Certificate, Claim};
 use mceip_engine::certify::Preference;
 use mceip_engine::multistart::{self, Search, Uncertified, multistart};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
-use mceip_engine::run::{Cancel, Progress};
 use mceip_model::Reduced;
 use mceip_model::reduction::reduce;
 use serde_json::Value;
@@ -112,6 +111,8 @@ impl Problem {
     }
 }
 
+watched_question!(Solve, "what has been found is kept");
+
 impl<'a> Solve<'a> {
     /// Starts on the whole window; 22 if not said.
     pub fn starts(mut self, starts: usize) -> Self {
@@ -142,18 +143,6 @@ impl<'a> Solve<'a> {
     /// Gives every solution an exact value where that can be had, also where a box is cheaper.
     pub fn exact(mut self) -> Self {
         self.search.preference = Preference::Exact;
-        self
-    }
-
-    /// The switch that ends the search early; what has been found is kept.
-    pub fn cancel(mut self, cancel: &Cancel) -> Self {
-        self.watched.cancel(cancel);
-        self
-    }
-
-    /// Hears how far the search has come.
-    pub fn on_progress(mut self, hear: impl Fn(&Progress<'_>) + Sync + 'a) -> Self {
-        self.watched.on_progress(hear);
         self
     }
 
