@@ -13,6 +13,7 @@ use super::common::{CliError, exit, positive, print, text};
 use super::job::Job;
 use super::output::{Folder, Output};
 use super::pictures;
+use crate::front::require_mass;
 use crate::picture::path_picture;
 use crate::say::counted;
 use crate::say::path::end_text;
@@ -25,7 +26,7 @@ use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
 use mceip_path::{LoadingPath, LoadingPathEnd};
 use pages::{CheckedOn, Shown};
 use serde_json::{Value, json};
-use states::{ProvedState, Wanted};
+use states::{ExaminedStates, Wanted};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -152,6 +153,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         [] => None,
         ends => Some(own::grid_of(ends, args.grid, &args.width)?),
     };
+    if own_asked.is_some() || !at_mu.is_empty() {
+        require_mass(loads.body())?; // before the path takes its time
+    }
 
     let job = Job::begin("reading");
     if !args.doubles && is_slow(&loads) {
@@ -193,30 +197,26 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let own = own.transpose()?;
     // The states of this path are not those that the own critical friction tells of.
     let are_examined = args.complete || (is_shown && own.is_none());
-    let proved = if are_examined {
+    let examined = if are_examined {
         let wanted = Wanted {
             uncondensed,
             conditions: args.conditions || is_shown,
             at_mu: &at_mu,
             modes: args.modes || is_shown,
         };
-        Some(states::of(&followed, &wanted, &watch)?)
+        Some(states::of(&followed, &wanted, &watch))
     } else {
         None
     };
     let shown = if is_shown {
-        let states = proved.as_deref();
+        let examined = examined.as_ref();
+        let states = examined.map_or(&[][..], |examined| &examined.proved);
         Some(Shown {
             followed: &followed,
             names: &names,
-            states,
+            examined,
             own: own.as_ref(),
-            branches: pages::branches(
-                loads.body().system(),
-                path,
-                states.unwrap_or_default(),
-                &watch,
-            )?,
+            branches: pages::branches(loads.body().system(), path, states, &watch)?,
             checked_on: if uncondensed {
                 CheckedOn::Given
             } else {
@@ -238,7 +238,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let outcome = PathOutcome {
         followed: &followed,
         names: &names,
-        proved,
+        examined,
         own,
         certified,
         is_interrupted: job.is_cancelled(),
@@ -257,7 +257,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     })?;
     proofs.map_or(Ok(()), Folder::first_failure)?;
     states.and(picture).and(pages)?;
-    let code = exit_code(path, outcome.proved.as_deref(), outcome.is_interrupted);
+    let code = exit_code(path, outcome.examined.as_ref(), outcome.is_interrupted);
     let mut certified = outcome.certified.iter().flatten();
     let is_certified = certified.all(|stretch| stretch.states.is_ok());
     if code == exit::DONE && !is_certified {
@@ -345,7 +345,7 @@ struct PathOutcome<'a> {
     /// Names of the steps.
     names: &'a [&'a str],
     /// What is proved of the states, if asked for.
-    proved: Option<Vec<ProvedState>>,
+    examined: Option<ExaminedStates>,
     /// The own critical friction, if asked for.
     own: Option<OwnCritical>,
     /// Whether the contact states inside each stretch are certified, if asked for.
@@ -372,12 +372,10 @@ impl PathOutcome<'_> {
         if let Some(certified) = &self.certified {
             out += &certified_text(certified);
         }
-        match self.proved.as_deref() {
-            None => {}
-            Some([]) => out += "\nno candidate is in impending slip: no state to examine\n",
-            Some(proved) => out += &states::text_of(proved, self.path()),
+        if let Some(examined) = &self.examined {
+            out += &states::text_of(examined, self.path());
         }
-        if self.is_interrupted {
+        if self.is_interrupted && self.own.is_none() {
             out += INTERRUPTED;
         }
 
@@ -403,9 +401,10 @@ impl PathOutcome<'_> {
             let unique = certified.iter().map(|stretch| stretch.is_unique);
             out["rates_certified_unique"] = json!(unique.collect::<Vec<_>>());
         }
-        if let Some(proved) = &self.proved {
+        if let Some(examined) = &self.examined {
             let places = self.file().body.places();
-            out["complete_sets"] = states::json_of(proved, self.path(), places);
+            out["complete_sets"] = states::json_of(&examined.proved, self.path(), places);
+            out["not_examined"] = json!(examined.refused_json());
         }
         if let Some(own) = &self.own {
             out["own_critical"] = own.to_json();
@@ -414,8 +413,10 @@ impl PathOutcome<'_> {
         out
     }
 
-    /// The problem of each stretch with impending slip; those of an earlier path go.
+    /// The problem of each stretch with impending slip; those of an earlier path go. One that is
+    /// refused is told when the others are written.
     fn write_states(&self, folder: &Folder) -> Result<(), CliError> {
+        let mut refused = Ok(());
         let mut written = Vec::new();
         for (k, stretch) in self.path().stretches.iter().enumerate() {
             let states = stretch.equilibrium_states();
@@ -423,13 +424,18 @@ impl PathOutcome<'_> {
                 continue;
             }
 
-            let problem = self.followed.problem_in(k, Unknown::Mu)?;
-            let file = format!("stretch-{k:03}.json");
-            folder.write(&file, write_problem(&problem).as_bytes())?;
-            written.push(k);
+            match self.followed.problem_in(k, Unknown::Mu) {
+                Ok(problem) => {
+                    let file = format!("stretch-{k:03}.json");
+                    folder.write(&file, write_problem(&problem).as_bytes())?;
+                    written.push(k);
+                }
+                Err(why) => refused = refused.and(Err(why.into())),
+            }
         }
 
-        folder.keep_numbered("stretch", &written)
+        folder.keep_numbered("stretch", &written)?;
+        refused
     }
 }
 
@@ -526,10 +532,10 @@ const OWN_INTERRUPTED: &str = "INTERRUPTED: mu that are not listed were not exam
 const INTERRUPTED: &str = "INTERRUPTED: what is not listed was not examined\n";
 
 /// Undecided is a path that may go on, and a state with open regions.
-fn exit_code(path: &LoadingPath, states: Option<&[ProvedState]>, is_interrupted: bool) -> u8 {
+fn exit_code(path: &LoadingPath, states: Option<&ExaminedStates>, is_interrupted: bool) -> u8 {
     let is_unproved =
         matches!(&path.end, LoadingPathEnd::NoContinuation { why, .. } if !why.is_proved());
-    let is_open = states.is_some_and(|states| states.iter().any(ProvedState::is_open));
+    let is_open = states.is_some_and(ExaminedStates::are_open);
 
     if is_interrupted {
         exit::INTERRUPTED

@@ -36,6 +36,8 @@ pub(crate) use loads::left_behind_if;
 #[cfg(feature = "solver")]
 pub use loads::{FollowPath, LoadPath, Loads, ProvedStates};
 pub use matrix::Matrix;
+#[cfg(feature = "cli")]
+pub(crate) use own_critical::require_mass;
 #[cfg(feature = "solver")]
 pub use own_critical::{
     Bracket, EndState, FindOwnCritical, FrictionAnswer, FrictionGrid, FrictionGridError,

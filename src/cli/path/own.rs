@@ -17,6 +17,7 @@ use crate::{
 use mceip_engine::analysis::{Proof, Verdict};
 use mceip_engine::run::Kept;
 use mceip_exact::{Rational, to_f64};
+use mceip_model::file::read_text;
 
 /// The mu that are asked for by the options of the command line.
 pub(super) fn grid_of(
@@ -48,7 +49,7 @@ fn refused(option: &'static str, e: &FrictionGridError, given: &str) -> CliError
 /// The certificate about divergence of an earlier run in this folder.
 pub(super) fn earlier(folder: &Folder, mu: &Rational) -> Option<Certificate> {
     let path = folder.certificate_path(&name_of(mu));
-    let text = std::fs::read_to_string(path).ok()?;
+    let text = read_text("an earlier certificate", &path).ok()?;
     Certificate::from_json(&text).ok()
 }
 

@@ -6,7 +6,10 @@
 //! in doubles. Modes are drawn where the file says where its nodes are.
 
 use super::own;
-use super::states::{Growing, Holds, IN_A_REPORT, ProvedMode, ProvedSet, ProvedState, is_slip};
+use super::states::{
+    ExaminedStates, Growing, Holds, IN_A_REPORT, ProvedMode, ProvedSet, ProvedState, is_slip,
+    refused_text,
+};
 use crate::cli::common::CliError;
 use crate::cli::pictures::{LEVELS_CAPTION, Named, keep_below, levels_of, warnings_of};
 use crate::picture::{
@@ -30,7 +33,7 @@ pub(super) struct Shown<'a> {
     /// Names of the steps.
     pub(super) names: &'a [&'a str],
     /// What is proved of the states of the path, if that was asked for.
-    pub(super) states: Option<&'a [ProvedState]>,
+    pub(super) examined: Option<&'a ExaminedStates>,
     /// The own critical friction, if that was asked for.
     pub(super) own: Option<&'a OwnCritical>,
     pub(super) branches: Option<StateBranches>,
@@ -129,7 +132,7 @@ impl Shown<'_> {
     pub(super) fn pictures(&self) -> Result<Vec<Named>, ModelError> {
         let mut all = vec![self.path_chart()];
         all.extend(self.own.into_iter().flat_map(own::pictures));
-        if let Some(states) = self.states {
+        if let Some(ExaminedStates { proved: states, .. }) = self.examined {
             all.push(self.threshold_chart(states));
             all.extend(self.branch_chart());
             for state in states {
@@ -223,11 +226,20 @@ impl Shown<'_> {
         let mut sections = vec![self.model_section()];
         sections.extend(self.own.map(own::section));
         sections.push(path);
-        if let Some(states) = self.states {
+        if let Some(ExaminedStates {
+            proved: states,
+            refused,
+        }) = self.examined
+        {
             let mut thresholds = vec![
                 Content::Paragraph(self.meaning()),
                 self.threshold_chart(states).into_figure(),
             ];
+            thresholds.extend(
+                refused
+                    .iter()
+                    .map(|one| Content::Warning(refused_text(one))),
+            );
             thresholds.extend(self.branch_chart().map(Named::into_figure));
             sections.push(Section {
                 title: "Divergence instability along the path".into(),
@@ -527,10 +539,10 @@ const PATH_CAPTION: &str = "Each event is an exact rational number; (1), (2), (5
 
 /// What to read off the picture of the thresholds.
 const THRESHOLDS_CAPTION: &str = "The complete set of MCEIP-\u{3bc} for each state with slip, \
-     each set certified. A state in whose column no solution stands has none, unless its \
-     table says that there are continua, or that regions are open. \u{3bb} = 0 is the static threshold; divergence may begin at a \
-     lower \u{3bc} with \u{3bb}\u{b2} > 0. A necessary condition that holds from \u{3bc} = 0 on is \
-     not drawn.";
+     each set certified. A state in whose column no solution stands has none, unless its table \
+     gives a range of \u{3bc} or a cone, or says that regions are open. \u{3bb} = 0 is the static \
+     threshold; divergence may begin at a lower \u{3bc} with \u{3bb}\u{b2} > 0. A necessary \
+     condition that holds from \u{3bc} = 0 on is not drawn.";
 
 /// Stands above a state of which something is open.
 const OPEN_WARNING: &str = "Not everything is decided: regions are left open, and may hold more \

@@ -21,7 +21,7 @@ use mceip_exact::{
 };
 use mceip_model::reduction::{mu_family, reduce};
 use mceip_model::{Body, ContactState, Pencil, Problem, ReducedVariable, System, Unknown, Window};
-use mceip_path::{Equilibrium, LoadingPath, Stretch};
+use mceip_path::{Equilibrium, LoadingPath, Pencils, Stretch};
 use serde_json::{Value, json};
 
 /// What is asked of the states.
@@ -100,64 +100,85 @@ pub(super) struct ProvedMode {
     pub(super) displacement: Option<Vec<f64>>,
 }
 
-/// The states in which a node slips, until the work is cancelled.
-pub(super) fn of(
-    followed: &LoadPath,
-    wanted: &Wanted<'_>,
-    watch: &Watch<'_>,
-) -> Result<Vec<ProvedState>, CliError> {
-    let body = followed.loads().body().system();
+/// What is known of the states of a path.
+pub(super) struct ExaminedStates {
+    /// Those in which a node slips.
+    pub(super) proved: Vec<ProvedState>,
+    /// Stretches whose state is refused, and why.
+    pub(super) refused: Vec<(usize, String)>,
+}
+
+/// The states in which a node slips, until the work is cancelled. A state that is refused takes no
+/// other along.
+pub(super) fn of(followed: &LoadPath, wanted: &Wanted<'_>, watch: &Watch<'_>) -> ExaminedStates {
     let mut pencils = followed.contact().pencils();
-    let mut states = Vec::new();
+    let mut proved = Vec::new();
+    let mut refused = Vec::new();
     for (stretch, interval) in followed.as_path().stretches.iter().enumerate() {
-        let states_here = interval.equilibrium_states();
-        let slip = states_here.iter().filter(|state| is_slip(state)).count();
-        if slip == 0 || watch.is_cancelled() {
+        let states = interval.equilibrium_states();
+        if watch.is_cancelled() || !states.iter().any(is_slip) {
             continue;
         }
 
-        say(watch, stretch, "all solutions");
-        // The condensed pencil of candidates without reaction is not one of MCEIP-mu.
-        let has_zero = states_here.contains(&ContactState::Zero);
-        let thresholds = if wanted.uncondensed || has_zero {
-            uncondensed_set(body, states_here, None, wanted.modes, &watch.quiet())?
-        } else {
-            let pencil = pencils.of(states_here)?;
-            condensed_set(body, states_here, pencil, wanted.modes, &watch.quiet())?
-        };
-
-        let mut state = ProvedState {
-            stretch,
-            slip,
-            has_zero,
-            thresholds,
-            necessary: None,
-            growing: Vec::new(),
-        };
-
-        if wanted.conditions && !watch.is_cancelled() {
-            say(watch, stretch, "necessary condition");
-            // Z.4: with the candidates without reaction free.
-            let system = body.with_states(states_here, None)?.with_zero_free();
-            state.necessary = Some(Necessary::of(&mu_family(&system)?)?);
+        match examined(followed, stretch, wanted, &mut pencils, watch) {
+            Ok(state) => proved.push(state),
+            Err(why) => refused.push((stretch, why.to_string())),
         }
-
-        for mu in wanted.at_mu {
-            if watch.is_cancelled() {
-                break;
-            }
-
-            let what = format!("growth rates at mu = {}", to_f64(mu));
-            say(watch, stretch, &what);
-            let set = uncondensed_set(body, states_here, Some(mu), wanted.modes, &watch.quiet())?;
-            let mu = mu.clone();
-            state.growing.push(Growing { mu, set });
-        }
-
-        states.push(state);
     }
 
-    Ok(states)
+    ExaminedStates { proved, refused }
+}
+
+/// What is proved of the state of a stretch.
+fn examined(
+    followed: &LoadPath,
+    stretch: usize,
+    wanted: &Wanted<'_>,
+    pencils: &mut Pencils<'_>,
+    watch: &Watch<'_>,
+) -> Result<ProvedState, CliError> {
+    let body = followed.loads().body().system();
+    let states = followed.as_path().stretches[stretch].equilibrium_states();
+
+    say(watch, stretch, "all solutions");
+    // The condensed pencil of candidates without reaction is not one of MCEIP-mu.
+    let has_zero = states.contains(&ContactState::Zero);
+    let thresholds = if wanted.uncondensed || has_zero {
+        uncondensed_set(body, states, None, wanted.modes, &watch.quiet())?
+    } else {
+        let pencil = pencils.of(states)?;
+        condensed_set(body, states, pencil, wanted.modes, &watch.quiet())?
+    };
+
+    let mut state = ProvedState {
+        stretch,
+        slip: states.iter().filter(|state| is_slip(state)).count(),
+        has_zero,
+        thresholds,
+        necessary: None,
+        growing: Vec::new(),
+    };
+
+    if wanted.conditions && !watch.is_cancelled() {
+        say(watch, stretch, "necessary condition");
+        // Z.4: with the candidates without reaction free.
+        let system = body.with_states(states, None)?.with_zero_free();
+        state.necessary = Some(Necessary::of(&mu_family(&system)?)?);
+    }
+
+    for mu in wanted.at_mu {
+        if watch.is_cancelled() {
+            break;
+        }
+
+        let what = format!("growth rates at mu = {}", to_f64(mu));
+        say(watch, stretch, &what);
+        let set = uncondensed_set(body, states, Some(mu), wanted.modes, &watch.quiet())?;
+        let mu = mu.clone();
+        state.growing.push(Growing { mu, set });
+    }
+
+    Ok(state)
 }
 
 /// Is it impending slip?
@@ -401,6 +422,20 @@ impl ProvedState {
     }
 }
 
+impl ExaminedStates {
+    /// Is anything left open, or refused?
+    pub(super) fn are_open(&self) -> bool {
+        !self.refused.is_empty() || self.proved.iter().any(ProvedState::is_open)
+    }
+
+    /// The stretches that are refused, for programs.
+    pub(super) fn refused_json(&self) -> Vec<Value> {
+        let refused = self.refused.iter();
+        let refused = refused.map(|(stretch, why)| json!({ "stretch": stretch, "why": why }));
+        refused.collect()
+    }
+}
+
 impl ProvedMode {
     /// The value, enclosed to this many digits.
     pub(super) fn enclosure(&self, digits: usize) -> String {
@@ -419,13 +454,30 @@ impl ProvedMode {
 }
 
 /// The answers as tables for people.
-pub(super) fn text_of(states: &[ProvedState], path: &LoadingPath) -> String {
-    let mut out = format!("\n{}\n", thresholds_table(states, path));
+pub(super) fn text_of(examined: &ExaminedStates, path: &LoadingPath) -> String {
+    let mut stretches = path.stretches.iter();
+    if !stretches.any(|stretch| stretch.equilibrium_states().iter().any(is_slip)) {
+        return "\nno candidate is in impending slip: no state to examine\n".into();
+    }
+
+    let states = &examined.proved;
+    let mut out = String::from("\n");
+    if !states.is_empty() {
+        out += &format!("{}\n", thresholds_table(states, path));
+    }
     if states.iter().any(|state| !state.growing.is_empty()) {
         out += &format!("{}\n", growing_table(states));
     }
+    for refused in &examined.refused {
+        out += &format!("{}\n", refused_text(refused));
+    }
 
     out
+}
+
+/// That the state of a stretch is refused, and why.
+pub(super) fn refused_text((stretch, why): &(usize, String)) -> String {
+    format!("NOT EXAMINED: the state of stretch {stretch}: {why}")
 }
 
 fn thresholds_table(states: &[ProvedState], path: &LoadingPath) -> Table {

@@ -85,8 +85,8 @@ pub(super) fn text(simulation: &Simulation) -> String {
 
     if simulation.unknown > 0 {
         out += &format!(
-            "UNDECIDED: certified modes that are not followed, for their displacements are not known \
-             to doubles: {}.\n",
+            "UNDECIDED: certified modes that are not followed, for their displacements are not \
+             known to doubles: {}.\n",
             simulation.unknown
         );
     }
@@ -126,9 +126,10 @@ fn mode_text(number: usize, mode: &SimulatedMode) -> String {
     let growth = &mode.growth;
     let (lo, hi) = enclosing_decimals(&mode.lambda2, 12);
     let slipping = &mode.slipping;
+    let rate = six_digits(mode.rate);
     let mut out = format!(
-        "Mode {number} (certified): lambda2 in [{lo}, {hi}], lambda = {}, particles {slipping:?} slip\n",
-        six_digits(mode.rate)
+        "Mode {number} (certified): lambda2 in [{lo}, {hi}], lambda = {rate}, particles \
+         {slipping:?} slip\n"
     );
 
     let mut table = Table::new(&["  time", "alpha, predicted", "steps h", "steps h/2"]);
