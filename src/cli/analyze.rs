@@ -115,7 +115,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let analysis = question.run()?;
     let is_drawn = report.is_some() || pictures.is_some();
     let branches = if is_drawn {
-        job.watched(|watch| page::branches(&analysis, system, watch))?
+        let chart = job.watched(|watch| page::branches(&analysis, system, watch));
+        pictures::drawn(chart, &job)
     } else {
         None
     };

@@ -216,7 +216,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             names: &names,
             examined,
             own: own.as_ref(),
-            branches: pages::branches(loads.body().system(), path, states, &watch)?,
+            branches: pictures::drawn(
+                pages::branches(loads.body().system(), path, states, &watch),
+                &job,
+            ),
             checked_on: if uncondensed {
                 CheckedOn::Given
             } else {

@@ -2,6 +2,7 @@
 //! and as files in a folder; the levels of the chart of lambda against mu; warnings of the model.
 
 use super::common::CliError;
+use super::job::Job;
 use super::output::Folder;
 use crate::picture::{ChartPoint, Content, Picture};
 use mceip_engine::reduction::SparseCondensation;
@@ -77,6 +78,15 @@ pub(super) fn levels_of(
     }
 
     Ok(levels)
+}
+
+/// The chart of lambda against mu, if there is one. What keeps it from being drawn is told, and the
+/// answers are given without it.
+pub(super) fn drawn<T>(chart: Result<Option<T>, CliError>, job: &Job) -> Option<T> {
+    chart.unwrap_or_else(|why| {
+        job.note(&format!("mceip: lambda against mu is not drawn: {why}"));
+        None
+    })
 }
 
 /// Leaves out what lies at larger mu: far above the mu that matter, curves of other motions begin.

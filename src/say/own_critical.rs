@@ -28,9 +28,9 @@ pub(crate) fn text_of(own: &OwnCritical) -> String {
 
     format!(
         "{out}\n{warnings}\n{LETTERS}\n{table}\n\
-         Examined is the equilibrium at the end of the loads (in the last stretch, where one \
-         grows for ever) on the path that is followed at each mu. The path is exact, but has \
-         no certificate, and may be one of several. \"Proved\" rests on a certificate or a \
+         Examined is the equilibrium at the end of the loads on the path that is followed at each \
+         mu (of a load without end: one inside the last stretch). The path is exact, but has no \
+         certificate, and may be one of several. \"Proved\" rests on a certificate or a \
          theorem: that under these loads there is an equilibrium in these contact states, and \
          whether it can diverge. States before the end, and other mu, are not \
          examined.{rounded}\n"
@@ -148,7 +148,7 @@ fn frozen_text(frozen: &Analysis) -> String {
     let mu = mu_text(&frozen.friction);
     let critical = &frozen.critical;
     let bracket = match (&critical.absent_below, &critical.solution) {
-        (None, _) => "at no mu".into(),
+        (None, _) => "none, no divergence at any mu".into(),
         (Some(below), None) => format!("not below {}", rounded_down(below)),
         (Some(below), Some(solution)) => {
             let above = enclosing_decimals(&solution.mu, DIGITS).1;

@@ -57,8 +57,13 @@ impl Drawn<'_> {
     /// The k-th mode, from 0.
     fn mode(&self, k: usize, mode: &Mode) -> Option<Named> {
         let number = k + 1;
-        let rate = with_digits(mode.growth_rate, 7);
-        let title = format!("Mode {number}: grows with {rate} 1/s, without oscillation");
+        let how = if mode.growth_rate > 0.0 {
+            let rate = with_digits(mode.growth_rate, 7);
+            format!("grows with {rate} 1/s, without oscillation")
+        } else {
+            "lambda = 0, grows evenly in time".into()
+        };
+        let title = format!("Mode {number}: {how}");
         self.body(format!("mode-{number:02}"), &title, Some(mode))
     }
 
@@ -198,7 +203,7 @@ fn presence_chart(analysis: &Analysis) -> Named {
     }
 }
 
-/// Particles in impending slip up to which lambda^2 is drawn against mu: each level is a complete
+/// Particles in impending slip up to which lambda is drawn against mu: each level is a complete
 /// search.
 const MOST_SLIP: usize = 25;
 
