@@ -7,7 +7,9 @@
 //! So for one prime after the other:
 //!
 //! 1. F is eliminated modulo p, within its band, in the bordered matrix [F C; R D]; what is left of
-//!    D is the Schur complement modulo p, and the product of the pivots is det(F);
+//!    D is the Schur complement modulo p, and the product of the pivots is det(F). Where the first
+//!    columns of the bordered matrix are symmetric, as those of a stiffness beside loads, only what
+//!    is right of the diagonal is computed;
 //! 2. Garner's algorithm (Knuth, The Art of Computer Programming 2, section 4.3.2) adds the
 //!    residues to the numbers known modulo the primes before.
 //!
@@ -78,11 +80,15 @@ pub fn schur_complement(
     let minors = bordered.minors()?;
     let det_f = &minors[0];
 
-    let mut entries = Vec::with_capacity(minors.len() - 1);
+    let mut entries = Vec::new();
 
-    for (k, minor) in minors[1..].iter().enumerate() {
+    for ((i, j), minor) in bordered.places().zip(&minors[1..]) {
         let quotient = Rational::new(minor.clone(), det_f.clone());
-        entries.push((k / c.cols(), k % c.cols(), quotient * &bordered.unit));
+        let entry = quotient * &bordered.unit;
+        if bordered.is_mirrored(i, j) {
+            entries.push((j, i, entry.clone()));
+        }
+        entries.push((i, j, entry));
     }
 
     Ok(Sparse::from_entries(r.rows(), c.cols(), entries))
@@ -114,6 +120,8 @@ struct BorderedMatrix {
     rows: Vec<Vec<(usize, Integer)>>,
     /// Largest |i - j| of F.
     band: usize,
+    /// Whether entry (i, j) is entry (j, i) for all rows i and j.
+    symmetric: bool,
     unit: Rational,
 }
 
@@ -155,16 +163,32 @@ impl BorderedMatrix {
         BorderedMatrix {
             n,
             cols: c.cols(),
-            rows,
             band: band.unwrap_or(0),
+            symmetric: is_symmetric(f, c, r, d),
+            rows,
             unit: Rational::new(gcd, clear),
         }
     }
 
-    /// det F, then det F (D - R F^-1 C) row by row.
-    fn minors(&self) -> Result<Vec<Integer>, CondenseError> {
+    /// The entries of D - R F^-1 C that are computed, row by row: of a symmetric matrix those on
+    /// the diagonal and right of it.
+    fn places(&self) -> impl Iterator<Item = (usize, usize)> {
         let border_rows = self.rows.len() - self.n;
-        let mut residues = Residues::new(1 + border_rows * self.cols);
+        (0..border_rows).flat_map(move |i| {
+            let first = if self.symmetric { i } else { 0 };
+            (first..self.cols).map(move |j| (i, j))
+        })
+    }
+
+    /// Whether entry (i, j) of D - R F^-1 C gives entry (j, i) as well.
+    fn is_mirrored(&self, i: usize, j: usize) -> bool {
+        let border_rows = self.rows.len() - self.n;
+        self.symmetric && i < j && j < border_rows
+    }
+
+    /// det F, then det F (D - R F^-1 C) at each of the places.
+    fn minors(&self) -> Result<Vec<Integer>, CondenseError> {
+        let mut residues = Residues::new(1 + self.places().count());
         let bound = self.hadamard_bits() + 2; // the sign, and "exceeds"
 
         let mut skipped = 0;
@@ -202,16 +226,14 @@ impl BorderedMatrix {
     /// [`BorderedMatrix::minors`] modulo p, or `None` if a leading minor vanishes modulo p.
     fn minors_modulo(&self, p: u64) -> Option<Vec<u64>> {
         let mut matrix = self.modulo(p);
-        let det = matrix.eliminate(self.n, self.band)?;
+        let det = matrix.eliminate(self.n, self.band, self.symmetric)?;
 
         let mut minors = vec![matrix.field.leave(det)];
 
-        for i in self.n..self.rows.len() {
-            for j in self.n..matrix.width {
-                let entry = matrix.entries[i * matrix.width + j];
-                let minor = matrix.field.mul(det, entry);
-                minors.push(matrix.field.leave(minor));
-            }
+        for (i, j) in self.places() {
+            let entry = matrix.entries[(self.n + i) * matrix.width + self.n + j];
+            let minor = matrix.field.mul(det, entry);
+            minors.push(matrix.field.leave(minor));
         }
 
         Some(minors)
@@ -247,7 +269,10 @@ impl ModularMatrix {
     /// Eliminates the first n columns below the diagonal, where the first n rows have entries
     /// within the band and in the columns from n on. Returns the product of the pivots, or `None`
     /// if one is zero.
-    fn eliminate(&mut self, n: usize, band: usize) -> Option<u64> {
+    ///
+    /// What is left of a symmetric matrix after each pivot is symmetric: with `symmetric`, entries
+    /// left of the diagonal are neither read nor computed.
+    fn eliminate(&mut self, n: usize, band: usize, symmetric: bool) -> Option<u64> {
         let width = self.width;
         let rows = self.entries.len().checked_div(width).unwrap_or(0);
         let field = &self.field;
@@ -266,12 +291,17 @@ impl ModularMatrix {
             let pivot_row = &above[k * width..];
             for i in (k + 1..end).chain(n..rows) {
                 let row = &mut below[(i - k - 1) * width..(i - k) * width];
-                if row[k] == 0 {
+                let in_pivot_column = if symmetric { pivot_row[i] } else { row[k] };
+                if in_pivot_column == 0 {
                     continue;
                 }
-                let factor = field.mul(row[k], inverse);
-                for j in (k + 1..end).chain(n..width) {
-                    row[j] = field.sub(row[j], field.mul(factor, pivot_row[j]));
+                let factor = field.mul(in_pivot_column, inverse);
+                let first = if symmetric { i } else { k + 1 };
+                for columns in [first.min(end)..end, first.max(n)..width] {
+                    let above = &pivot_row[columns.clone()];
+                    for (entry, above) in row[columns].iter_mut().zip(above) {
+                        *entry = field.sub(*entry, field.mul(factor, *above));
+                    }
                 }
             }
         }
@@ -291,6 +321,20 @@ fn side_by_side(
         row.push((j + n, entry.clone()));
     }
     row
+}
+
+/// Whether [F C; R D] is symmetric but for columns of C and D beyond the rows of R and D.
+fn is_symmetric(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> bool {
+    if c.cols() < r.rows() {
+        return false;
+    }
+
+    let inner: Vec<usize> = (0..f.rows()).collect();
+    let border: Vec<usize> = (0..r.rows()).collect();
+    let is_mirrored = c.submatrix(&inner, &border).transpose() == *r;
+
+    let corner = d.submatrix(&border, &border);
+    is_mirrored && f.first_asymmetry().is_none() && corner.first_asymmetry().is_none()
 }
 
 /// Bits of the square of a row's Euclidean norm.
@@ -410,6 +454,26 @@ mod tests {
         let complement = schur_complement(&f, &c, &r, &d).unwrap();
 
         assert_eq!(complement, plain(&f, &c, &r, &d));
+    }
+
+    /// A stiffness beside a load: half of it is computed. With one entry that has no mirror image
+    /// nothing is left out.
+    #[test]
+    fn symmetric_matrices_beside_further_columns() {
+        let f = Sparse::from_ints(&[&[4, -1, 0], &[-1, 5, 3], &[0, 3, 6]]);
+        let c = Sparse::from_ints(&[&[1, 0, 7], &[0, 2, 0], &[-3, 1, 5]]);
+        let r = Sparse::from_ints(&[&[1, 0, -3], &[0, 2, 1]]);
+        let d = Sparse::from_ints(&[&[8, 1, -2], &[1, 9, 0]]);
+        let other_r = Sparse::from_ints(&[&[1, 0, -3], &[0, 2, 4]]);
+        let other_d = Sparse::from_ints(&[&[8, 1, -2], &[3, 9, 0]]);
+
+        assert!(is_symmetric(&f, &c, &r, &d));
+        assert!(!is_symmetric(&f, &c, &other_r, &d));
+        assert!(!is_symmetric(&f, &c, &r, &other_d));
+        for (r, d) in [(&r, &d), (&other_r, &d), (&r, &other_d)] {
+            let complement = schur_complement(&f, &c, r, d).unwrap();
+            assert_eq!(complement, plain(&f, &c, r, d));
+        }
     }
 
     #[test]
