@@ -127,8 +127,8 @@ fn zero_reaction_is_analysed() {
         &[
             "1 with zero reaction",
             "PRESENT",
-            "none below mu = 0.857142",
-            "there is at some mu up to 0.857142858",
+            "no such motion below mu = 0.857142",
+            "there is one at some mu up to 0.857142858",
             "particle 1 with zero reaction slides along its tangent",
             "(17)-(18): not defined",
             "Flutter: not examined",

@@ -425,7 +425,7 @@ fn absence_is_said_where_presence_is_sampled() {
     let command = format!("analyze {file} --json --samples 4 --certificates {proofs}");
     let report = exits_with_json(0, &command);
 
-    let bound = "There is none below mu = 0.1291712,";
+    let bound = "There is no such motion below mu = 0.1291712,";
     let summary = report["summary"].as_str().unwrap();
     assert!(summary.contains(bound), "{summary}");
     assert!(

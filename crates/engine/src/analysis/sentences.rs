@@ -17,7 +17,7 @@ use super::threshold::StaticThreshold;
 use crate::report::{short, six_digits};
 use mceip_check::{OpenRegion, SolutionFamily};
 use mceip_exact::{
-    Interval, Rational, enclosing_decimals, from_f64, nearest_decimal, to_f64, upper_decimal,
+    Interval, Rational, enclosing_decimals, from_f64, nearest_decimal, upper_decimal,
 };
 use num_traits::{Signed, Zero};
 
@@ -467,7 +467,7 @@ impl Analysis {
             Some([lambda2, mu]) => {
                 let mu = short(&from_f64(mu).unwrap_or_default());
                 let where_in_lambda2 = if lambda2.is_finite() {
-                    format!("at lambda^2 = {lambda2:.6e}")
+                    format!("at lambda^2 = {}", six_digits(lambda2))
                 } else {
                     "as lambda^2 tends to infinity".to_string()
                 };
@@ -517,11 +517,11 @@ impl Analysis {
             text: format!(
                 "Critical mu: growth is unbounded as mu {} this value: mu {mu}, where the mass \
                  matrix M* loses its property (0 <= x _|_ M* x >= 0 has a solution, as in the \
-                 paradox of Painleve). Beside it there is a solution with lambda^2 = {:.6e} 1/s^2, \
+                 paradox of Painleve). Beside it there is a solution with lambda^2 = {} 1/s^2, \
                  mu {}. Certificates prove both; that growth is unbounded takes the first to be \
                  regular (strict signs, a simple root).",
                 unbounded.verb(),
-                to_f64(&unbounded.beside.lambda2),
+                nearest_decimal(&unbounded.beside.lambda2, 7),
                 between(&unbounded.beside.mu)
             ),
             evidence: unbounded.evidence.clone(),

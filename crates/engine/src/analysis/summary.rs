@@ -12,7 +12,7 @@ use super::modes::Mode;
 use super::ranges::Range;
 use super::sentences::{between, down, exactly, up};
 use super::unbounded::UnboundedGrowth;
-use mceip_exact::{Interval, Rational, to_f64};
+use mceip_exact::{Interval, Rational, nearest_decimal, to_f64};
 use num_traits::Zero;
 
 impl Analysis {
@@ -41,26 +41,42 @@ impl Analysis {
         Some(to_f64(&((above - below) / above)))
     }
 
+    /// In an engineer's words, the paper's in parentheses.
     fn verdict_at_friction(&self) -> String {
         let mu = exactly(&self.friction);
         let verdict = match self.divergence.verdict {
-            Verdict::Present => "PRESENT",
-            Verdict::Absent => "ABSENT",
-            Verdict::Undecided => "UNDECIDED",
+            Verdict::Present => self.instability(),
+            Verdict::Absent => "no motion in a fixed direction can grow without oscillation \
+                                (divergence of the form (8) is ABSENT)"
+                .into(),
+            Verdict::Undecided => "it is not decided whether a motion in a fixed direction can \
+                                   grow without oscillation (divergence of the form (8) is \
+                                   UNDECIDED)"
+                .into(),
         };
 
+        format!("With these contact states held, at mu = {mu} {verdict}.")
+    }
+
+    fn instability(&self) -> String {
         // Families and open regions may hold something faster.
         let is_all = self.divergence.families == 0 && self.divergence.open.is_empty();
-        let fastest = self.divergence.modes.last().and_then(Mode::growth_text);
-        let growth = match fastest {
+        let fastest = self.divergence.modes.last();
+        let rate = fastest.and_then(Mode::growth_text);
+        let grows = match (&rate, fastest) {
+            (Some(_), _) => "grow exponentially, without oscillation",
+            (None, Some(_)) if is_all => "grow evenly in time, without oscillation",
+            (None, _) => "grow without oscillation",
+        };
+        let rate = match rate {
             None => String::new(),
-            Some(fastest) if is_all => format!(", growing at up to about {fastest} 1/s"),
-            Some(fastest) => format!(", with a mode that grows at about {fastest} 1/s"),
+            Some(rate) if is_all => format!(", at up to about {rate} 1/s"),
+            Some(rate) => format!(", one such motion at about {rate} 1/s"),
         };
 
         format!(
-            "With these contact states held, at mu = {mu} divergence of the form (8) is \
-             {verdict}{growth}."
+            "the equilibrium is unstable: a motion in a fixed direction can {grows} (divergence \
+             of the form (8) is PRESENT){rate}"
         )
     }
 
@@ -74,7 +90,7 @@ impl Analysis {
 
     fn bounds_text(&self) -> String {
         let Some(below) = &self.critical.absent_below else {
-            return "No mu has any.".into();
+            return "No mu has such a motion.".into();
         };
         if let Some(unbounded) = &self.unbounded {
             return self.unbounded_text(below, unbounded);
@@ -86,32 +102,29 @@ impl Analysis {
                 "No bound below which there is none is proved, and none is known.".into()
             }
             None => format!(
-                "There is none below mu = {}, and none is known.",
+                "There is no such motion below mu = {}, and none is known above.",
                 down(below)
             ),
         }
     }
 
     fn two_bounds(&self, below: &Rational, solution: &CertifiedSolution) -> String {
-        let is_static = to_f64(solution.lambda2.hi()) == 0.0;
-        let place = if is_static {
+        let place = if solution.lambda2.hi().is_zero() {
             "at lambda = 0, the static threshold".to_string()
         } else {
-            format!(
-                "at lambda^2 = {:.6e} 1/s^2",
-                to_f64(&solution.lambda2.mid())
-            )
+            let lambda2 = nearest_decimal(&solution.lambda2.mid(), 7);
+            format!("at lambda^2 = {lambda2} 1/s^2")
         };
 
         if below.is_zero() {
             return format!(
-                "There is some {}, {place}; no bound below which there is none is proved.",
+                "There is such a motion {}, {place}; no bound below which there is none is proved.",
                 at_some(&solution.mu)
             );
         }
 
         format!(
-            "There is none below mu = {}, and there is {}, {place}{}.",
+            "There is no such motion below mu = {}, and there is one {}, {place}{}.",
             down(below),
             at_some(&solution.mu),
             self.gap_text()
@@ -126,8 +139,8 @@ impl Analysis {
         };
 
         format!(
-            "There is none below mu = {}, and growth is unbounded as mu {} {place}, where the mass \
-             matrix M* loses its property (Painleve), its solution there taken to be regular{}.",
+            "There is no such motion below mu = {}, and growth is unbounded as mu {} {place}, where \
+             the mass matrix M* loses its property (Painleve), its solution there taken to be regular{}.",
             down(below),
             unbounded.verb(),
             self.gap_text()
