@@ -473,7 +473,8 @@ class Problem:
 
     @staticmethod
     def read_particle(obj, order, mu):
-        t, n, state, sign, direction, frame, factor, reaction = fields(obj, "tangential normal state", "sign normal_direction frame friction_factor reaction")
+        t, n, state, sign, direction, frame, factor, reaction, name = fields(obj, "tangential normal state", "sign normal_direction frame friction_factor reaction name")
+        Maybe(text_of)(name)
         t, n = index(t, order), index(n, order)
         if state not in ("free", "stick", "slip", "zero") or (sign is not None) != (state == "slip"):
             raise Unreadable("state is free, stick, slip or zero; sign exactly for slip")

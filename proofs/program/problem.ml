@@ -160,10 +160,11 @@ let unit_of what = function
      | -1 -> Some (-1)
      | _ -> malformed "%s is 1 or -1" what)
 
-let directions = ["normal_direction"; "frame"; "friction_factor"]
+let directions = ["normal_direction"; "frame"; "friction_factor"; "name"]
 
 (* A particle in this state, with the word whether it has a frame, which the digest shows. *)
 let read_directions order field contact_of =
+  (match field "name" with Null -> () | v -> ignore (text v));
   let friction_factor = match field "friction_factor" with Null -> Q.one | v -> rational v in
   if Q.sign friction_factor <= 0 then malformed "friction_factor must be positive";
   let t = index order (field "tangential") and n = index order (field "normal") in

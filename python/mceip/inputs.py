@@ -44,6 +44,7 @@ class Contact:
         frame: of an oblique contact: the tangent and the normal, each over the two degrees of
             freedom. A rotation in doubles becomes the nearest simple rational one.
         friction_factor: the coefficient of friction of this particle over the common one, > 0.
+        name: by which answers call it; without one it is called by its number.
     """
 
     tangential: int
@@ -53,6 +54,7 @@ class Contact:
     normal_direction: int = 1
     frame: Sequence[Sequence[Number]] | None = None
     friction_factor: Number = 1
+    name: str | None = None
 
 
 #: A list of `Contact`, or a table: a path to a CSV file, a pandas DataFrame, a mapping of columns,
@@ -221,6 +223,7 @@ def plain_contact(name: str, contact: Contact) -> Contact:
         normal_direction=int(contact.normal_direction),
         frame=None if contact.frame is None else spelt_frame(name, contact.frame),
         friction_factor=spelt(contact.friction_factor),
+        name=None if contact.name is None else str(contact.name),
     )
 
 

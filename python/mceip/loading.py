@@ -37,6 +37,7 @@ class Candidate:
             where it is positive away from it.
         frame: of an oblique contact, as in `Contact`.
         friction_factor: the coefficient of friction of this candidate over the common one, > 0.
+        name: by which answers call it; without one it is called by its number.
     """
 
     tangential: int
@@ -45,6 +46,7 @@ class Candidate:
     normal_direction: int = 1
     frame: Sequence[Sequence[Number]] | None = None
     friction_factor: Number = 1
+    name: str | None = None
 
 
 @dataclass(frozen=True)
@@ -285,6 +287,7 @@ def contact_of(place: int, candidate: Candidate) -> Contact:
         normal_direction=candidate.normal_direction,
         frame=candidate.frame,
         friction_factor=candidate.friction_factor,
+        name=candidate.name,
     )
     return plain_contact(f"candidate {place}", contact)
 

@@ -25,6 +25,7 @@ pub(crate) struct Contact {
     normal_direction: i8,
     frame: Option<[[String; 2]; 2]>,
     friction_factor: String,
+    name: Option<String>,
 }
 
 impl Contacts {
@@ -62,7 +63,6 @@ fn of_list(contacts: Vec<Contact>) -> PyResult<ContactTable> {
     make_frames_exact(&mut particles);
 
     Ok(ContactTable {
-        names: Vec::new(),
         reactions: vec![None; particles.len()],
         particles,
     })
@@ -87,6 +87,7 @@ fn of_entry((index, contact): (usize, Contact)) -> PyResult<Particle> {
     };
 
     let mut particle = Particle::plain(contact.tangential, contact.normal, state);
+    particle.name = contact.name.filter(|name| !name.is_empty());
     particle.normal_direction = contact.normal_direction;
     particle.friction_factor = number("friction_factor", &contact.friction_factor)?;
     if let Some([[a, b], [c, d]]) = contact.frame {

@@ -281,7 +281,6 @@ pub(crate) fn warnings(
 ) -> Vec<String> {
     let plausibility = Plausibility::new(&PlausibilityInput {
         system,
-        names: &table.names,
         reactions: &table.reactions,
         displacements: None,
         coordinates: None,

@@ -318,7 +318,8 @@ fn cover_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) -> S
 fn claim_text(problem: &Problem, claim: &AcceptedClaim, place: Option<Place>) -> String {
     let word = problem.unknown().word();
     let (lo, hi) = enclosing_decimals(&claim.value, 17);
-    let proved = format!("{word} in [{lo}, {hi}], slip {:?}", claim.support);
+    let slip = say::slip_text(problem, &claim.support);
+    let proved = format!("{word} in [{lo}, {hi}], {slip}");
 
     match place {
         None => format!("solution: {proved}\n"),

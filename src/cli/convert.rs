@@ -172,7 +172,7 @@ fn write_states(
     let coordinates = match &args.coordinates {
         Some(path) => {
             let table = read_node_table(path, &indices)?;
-            Some(coordinates(path, table, &contacts.names, &system)?)
+            Some(coordinates(path, table, &system)?)
         }
         None => None,
     };
@@ -180,7 +180,6 @@ fn write_states(
     let dofs = system.dofs();
     let plausibility = Plausibility::new(&PlausibilityInput {
         system: &system,
-        names: &contacts.names,
         reactions: &contacts.reactions,
         displacements: displacements.as_deref(),
         coordinates: coordinates.as_ref(),
@@ -218,8 +217,8 @@ fn write_body(
         let expected = "a CSV table of candidates with --loads";
         return Err(CliError::option("contacts", expected, "JSON"));
     }
-    let contacts = read_candidates(&contacts, &|name| indices.index(name));
-    let contacts = contacts.map_err(|e| CliError::other_file(&args.contacts, e))?;
+    let candidates = read_candidates(&contacts, &|name| indices.index(name));
+    let candidates = candidates.map_err(|e| CliError::other_file(&args.contacts, e))?;
     let steps = text("the loads", loads)?;
     let steps = read_steps(&steps, &|name| indices.index(name));
     let mut steps = steps.map_err(|e| CliError::other_file(loads, e))?;
@@ -231,7 +230,7 @@ fn write_body(
         stiffness,
         mass,
         friction,
-        candidates: contacts.candidates,
+        candidates,
         held: Vec::new(),
         steps,
     })?;
@@ -242,7 +241,7 @@ fn write_body(
             for dof in table.nodes.iter_mut().flat_map(|node| &mut node.dofs) {
                 *dof = dof.and_then(|given| body.places()[given]);
             }
-            Some(coordinates(path, table, &contacts.names, body.system())?)
+            Some(coordinates(path, table, body.system())?)
         }
         None => None,
     };
@@ -250,7 +249,6 @@ fn write_body(
     let dof_names = indices.names.map(|names| not_held(names, body.places()));
     let plausibility = Plausibility::new(&PlausibilityInput {
         system: body.system(),
-        names: &contacts.names,
         reactions: &vec![None; body.gaps().len()],
         displacements: None,
         coordinates: coordinates.as_ref(),
@@ -417,7 +415,6 @@ fn read_states(
         let reactions = vec![None; particles.len()];
         return Ok(ContactTable {
             particles,
-            names: Vec::new(),
             reactions,
         });
     }
@@ -432,16 +429,9 @@ fn read_node_table(path: &Path, indices: &DofIndices) -> Result<NodeTable, CliEr
     table.map_err(|e| CliError::other_file(path, e))
 }
 
-/// The nodes of a table, and the names of the particles if at least one has a name.
-fn coordinates(
-    path: &Path,
-    table: NodeTable,
-    names: &[String],
-    system: &System,
-) -> Result<Coordinates, CliError> {
-    let has_names = names.iter().any(|name| !name.is_empty());
-    let names = if has_names { names } else { &[] };
-    let coordinates = Coordinates::new(table.nodes, table.edges, names.to_vec(), system);
+/// The nodes of a table.
+fn coordinates(path: &Path, table: NodeTable, system: &System) -> Result<Coordinates, CliError> {
+    let coordinates = Coordinates::new(table.nodes, table.edges, system);
     coordinates.map_err(|source| CliError::file(path, source))
 }
 

@@ -16,7 +16,6 @@ use super::pictures;
 use crate::front::require_mass;
 use crate::picture::path_picture;
 use crate::say::counted;
-use crate::say::path::end_text;
 use crate::{FrictionGrid, LoadPath, Loads, OwnCritical};
 use mceip_engine::equilibrium::StatesNotCertified;
 use mceip_engine::run::{Kept, Progress, Watch};
@@ -394,7 +393,7 @@ impl PathOutcome<'_> {
             "condensed": if self.followed.is_in_doubles() { "in doubles" } else { "exactly" },
             "steps": self.names,
             "intervals": self.followed.to_json(),
-            "end": end_text(self.path()),
+            "end": self.followed.end_text(),
             "slides": self.path().slides(),
             "interrupted": self.is_interrupted,
         });

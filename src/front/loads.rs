@@ -11,7 +11,7 @@ use mceip_engine::equilibrium::{StatesNotCertified, certify_equilibrium};
 use mceip_engine::run::{Cancel, Progress};
 use mceip_exact::{Rational, from_f64, to_f64};
 use mceip_model::file::{LoadsFile, Number, folder_of, read_loads, read_text, write_loads};
-use mceip_model::{ContactState, LoadedBody, Unknown, Window};
+use mceip_model::{ContactState, LoadedBody, Particle, Unknown, Window};
 use mceip_path::{Contact, Equilibrium, LoadSteps, LoadingPath, RateSolutions, Stretch};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -63,6 +63,11 @@ impl Loads {
     /// The body, its held degrees of freedom eliminated.
     pub fn body(&self) -> &LoadedBody {
         &self.0.body
+    }
+
+    /// What may touch the obstacle, all stuck.
+    pub fn candidates(&self) -> &[Particle] {
+        self.body().system().particles()
     }
 
     /// Names of the steps.
@@ -361,7 +366,7 @@ impl LoadPath {
 
     /// Why it ends, in words.
     pub fn end_text(&self) -> String {
-        say::path::end_text(&self.path)
+        say::path::end_text(&self.path, self.loads.candidates())
     }
 
     /// The stretches for programs: those of `mceip path --json`.

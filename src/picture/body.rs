@@ -468,10 +468,8 @@ impl BodyDrawing<'_> {
 
     /// The first letters of a particle's name, or its number.
     fn name(&self, particle: usize) -> String {
-        match self.coordinates.particles().get(particle) {
-            Some(name) if !name.is_empty() => name.chars().take(LETTERS).collect(),
-            _ => particle.to_string(),
-        }
+        let name = self.particles[particle].name_or(particle);
+        name.chars().take(LETTERS).collect()
     }
 
     /// The markers that occur with their words, from (x, y) on.

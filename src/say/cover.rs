@@ -1,6 +1,6 @@
 //! What an accepted cover has proved, in lines: solutions, families, open regions, and the verdict.
 
-use super::counted;
+use super::{counted, slip_text};
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_engine::search::complete::continua::joined;
 use mceip_exact::{Interval, enclosing_decimals};
@@ -15,13 +15,13 @@ pub(crate) fn text(problem: &Problem, cover: &AcceptedCover) -> String {
     let mut out = String::new();
     for solution in &cover.solutions {
         let (lo, hi) = enclosing_decimals(&solution.value, 15);
-        let support = &solution.support;
-        out += &format!("solution: {word} in [{lo}, {hi}], slip {support:?}\n");
+        let slip = slip_text(problem, &solution.support);
+        out += &format!("solution: {word} in [{lo}, {hi}], {slip}\n");
     }
 
     let families = joined(&cover.families);
     for family in families.iter().take(SHOWN) {
-        out += &format!("family: {}\n", family_text(word, family));
+        out += &format!("family: {}\n", family_text(problem, family));
     }
 
     let more = families.len().saturating_sub(SHOWN);
@@ -89,10 +89,11 @@ fn open_text(word: &str, region: &OpenRegion) -> String {
     )
 }
 
-fn family_text(word: &str, family: &SolutionFamily) -> String {
-    let values = family_values(word, family);
+fn family_text(problem: &Problem, family: &SolutionFamily) -> String {
+    let values = family_values(problem.unknown().word(), family);
+    let slip = slip_text(problem, &family.support);
     let how_many = family_size(family);
-    format!("{values}, slip {:?}, {how_many}", family.support)
+    format!("{values}, {slip}, {how_many}")
 }
 
 /// Where the values of a family lie.

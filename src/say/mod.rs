@@ -11,6 +11,7 @@ pub(crate) mod search;
 pub(crate) mod stretches;
 
 use mceip_exact::{Rational, nearest_decimal, parse};
+use mceip_model::{Body, Problem};
 
 /// What looked wrong when a file was made, a line each.
 pub(crate) fn warnings_text(warnings: &[String]) -> String {
@@ -30,6 +31,29 @@ pub(crate) fn mu_text(mu: &Rational) -> String {
         decimal
     } else {
         mu.to_string()
+    }
+}
+
+/// "slip [0, 2]", the variables of a support; where all of them belong to particles with names,
+/// "slip [0, 2] (heel, toe)".
+pub(crate) fn slip_text(problem: &Problem, support: &[usize]) -> String {
+    let numbers = format!("slip {support:?}");
+    let Body::System(system) = problem.body() else {
+        return numbers;
+    };
+
+    // The variables of the slip particles follow the free ones, in the order of the particles.
+    let free = system.free_dofs().len();
+    let slipping = system.slip_particles();
+    let name_of = |variable: &usize| {
+        let (particle, _) = slipping.get(variable.checked_sub(free)?)?;
+        particle.name.as_deref()
+    };
+    let names: Option<Vec<&str>> = support.iter().map(name_of).collect();
+
+    match names {
+        Some(names) if !names.is_empty() => format!("{numbers} ({})", names.join(", ")),
+        _ => numbers,
     }
 }
 

@@ -6,6 +6,7 @@ use crate::front::{Bracket, EndState, FrictionPoint, OwnCritical};
 use mceip_engine::analysis::{Analysis, Verdict};
 use mceip_engine::report::{Table, six_digits};
 use mceip_exact::{Interval, Rational, enclosing_decimals};
+use mceip_model::Particle;
 use mceip_path::LoadingPath;
 use serde_json::{Value, json};
 
@@ -212,7 +213,9 @@ pub(crate) fn json_of(own: &OwnCritical) -> Value {
         Bracket::Undecided => ("undecided", Value::Null),
         Bracket::None => ("none", Value::Null),
     };
-    let points = own.points.iter().map(|point| point_json(point, &names));
+    let candidates = own.loads().candidates();
+    let points = own.points.iter();
+    let points = points.map(|point| point_json(point, &names, candidates));
 
     json!({
         "found": word,
@@ -234,7 +237,7 @@ fn frozen_json(frozen: &Analysis) -> Value {
     })
 }
 
-fn point_json(point: &FrictionPoint, names: &[&str]) -> Value {
+fn point_json(point: &FrictionPoint, names: &[&str], candidates: &[Particle]) -> Value {
     let mu = mu_text(point.friction());
     match &point.end_state {
         Some(end) => end_json(&mu, end),
@@ -242,7 +245,7 @@ fn point_json(point: &FrictionPoint, names: &[&str]) -> Value {
             "mu": mu,
             "no_path": {
                 "at": last_place(&point.path, names),
-                "why": end_text(&point.path),
+                "why": end_text(&point.path, candidates),
                 "all_tried": point.answer().is_critical(),
             },
         }),

@@ -6,7 +6,7 @@ use super::{counted, mu_text, warnings_text};
 use crate::front::LoadPath;
 use mceip_engine::report::fixed_decimals;
 use mceip_exact::to_f64;
-use mceip_model::ContactState;
+use mceip_model::{ContactState, Particle};
 use mceip_path::{Bound, Equilibrium, Event, LoadingPath, LoadingPathEnd, RateSolutions, Stretch};
 use serde_json::{Value, json};
 
@@ -17,8 +17,9 @@ pub(crate) fn text_of(followed: &LoadPath) -> String {
     let name = file.name.as_deref().unwrap_or("a body under loads");
     let mu = mu_text(&path.steps.friction);
     let warnings = warnings_text(&file.warnings);
-    let table = table_of(path, &followed.loads().step_names());
-    let end = end_text(path);
+    let candidates = followed.loads().candidates();
+    let table = table_of(path, &followed.loads().step_names(), candidates);
+    let end = end_text(path, candidates);
 
     let mut out = format!(
         "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
@@ -49,7 +50,7 @@ pub(crate) fn state_word(state: ContactState) -> &'static str {
 }
 
 /// Why the path ends.
-pub(crate) fn end_text(path: &LoadingPath) -> String {
+pub(crate) fn end_text(path: &LoadingPath, candidates: &[Particle]) -> String {
     match &path.end {
         LoadingPathEnd::NoFurtherEvent if path.slides() => {
             "the body slides: no state changes any more".into()
@@ -58,7 +59,7 @@ pub(crate) fn end_text(path: &LoadingPath) -> String {
         LoadingPathEnd::AllApplied => "all loads are applied".into(),
         LoadingPathEnd::Interrupted => "INTERRUPTED".into(),
         LoadingPathEnd::NoContinuation { causes, why } => {
-            let causes = causes_text(causes);
+            let causes = causes_text(causes, candidates);
             if why.is_proved() {
                 format!("the quasi-static path ends ({causes}): {why}")
             } else {
@@ -68,15 +69,20 @@ pub(crate) fn end_text(path: &LoadingPath) -> String {
     }
 }
 
-/// The bounds that are reached at an event, candidate by candidate (from 1).
-pub(crate) fn causes_text(causes: &[Bound]) -> String {
+/// The bounds that are reached at an event, candidate by candidate: by its name, or by its number
+/// from 1.
+pub(crate) fn causes_text(causes: &[Bound], candidates: &[Particle]) -> String {
     if causes.is_empty() {
         return "the step begins".into();
     }
 
     let mut reached = Vec::new();
     for bound in causes {
-        let text = format!("node {}: {}", bound.node() + 1, bound.word());
+        let who = match &candidates[bound.node()].name {
+            Some(name) => name.clone(),
+            None => format!("node {}", bound.node() + 1),
+        };
+        let text = format!("{who}: {}", bound.word());
         // At the tip of the cone both its sides are reached.
         if !reached.contains(&text) {
             reached.push(text);

@@ -2,11 +2,11 @@
 
 use super::path::{amount_text, causes_text};
 use mceip_engine::report::{Table, fixed_decimals};
-use mceip_model::ContactState;
+use mceip_model::{ContactState, Particle};
 use mceip_path::{Event, Finder, LoadingPath, Stretch};
 
 /// The table of the stretches; `steps` are the names of the steps, shown where there are several.
-pub(super) fn table_of(path: &LoadingPath, steps: &[&str]) -> Table {
+pub(super) fn table_of(path: &LoadingPath, steps: &[&str], candidates: &[Particle]) -> Table {
     let first = path.stretches.first().map(|stretch| stretch.step);
     let has_steps = path
         .stretches
@@ -41,7 +41,7 @@ pub(super) fn table_of(path: &LoadingPath, steps: &[&str]) -> Table {
         if has_steps {
             row.insert(1, steps[stretch.step].to_string());
         }
-        row.push(event_text(&stretch.begin));
+        row.push(event_text(&stretch.begin, candidates));
         table.row(row);
     }
 
@@ -73,8 +73,8 @@ pub(crate) fn stretch_cells(k: usize, stretch: &Stretch) -> Vec<String> {
 }
 
 /// Why the event happens, and how the states behind it were found.
-fn event_text(event: &Event) -> String {
-    let causes = causes_text(&event.causes);
+fn event_text(event: &Event, candidates: &[Particle]) -> String {
+    let causes = causes_text(&event.causes, candidates);
     match event.finder {
         Finder::ActiveSet => causes,
         Finder::OneByOne => format!("{causes} (states found one by one)"),

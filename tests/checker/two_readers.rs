@@ -140,30 +140,34 @@ fn system(particles: Value) -> Value {
     })
 }
 
-/// The friction factor of a particle is a positive number.
+/// The friction factor of a particle is a positive number, its name a text.
 #[test]
 #[cfg_attr(not(has_python3), ignore = "needs python3")]
-fn friction_factors_of_a_particle() {
+fn friction_factors_and_names_of_a_particle() {
     let folder = tempfile::tempdir().unwrap();
     let cases = [
-        (json!(null), READ),
-        (json!("1"), READ),
-        (json!("3/2"), READ),
-        (json!(0.25), READ),
-        (json!(0), REFUSED),
-        (json!("-1/2"), REFUSED),
-        (json!("rough"), REFUSED),
-        (json!("NaN"), REFUSED),
-        (json!([1]), REFUSED),
-        (json!(true), REFUSED),
+        ("friction_factor", json!(null), READ),
+        ("friction_factor", json!("1"), READ),
+        ("friction_factor", json!("3/2"), READ),
+        ("friction_factor", json!(0.25), READ),
+        ("friction_factor", json!(0), REFUSED),
+        ("friction_factor", json!("-1/2"), REFUSED),
+        ("friction_factor", json!("rough"), REFUSED),
+        ("friction_factor", json!("NaN"), REFUSED),
+        ("friction_factor", json!([1]), REFUSED),
+        ("friction_factor", json!(true), REFUSED),
+        ("name", json!(null), READ),
+        ("name", json!("heel"), READ),
+        ("name", json!(""), READ),
+        ("name", json!(1), REFUSED),
+        ("name", json!(["heel"]), REFUSED),
+        ("label", json!("heel"), REFUSED),
     ];
 
-    for (factor, expected) in cases {
-        let slip = json!({
-            "tangential": 0, "normal": 1, "state": "slip", "sign": 1,
-            "friction_factor": factor,
-        });
-        let what = format!("friction_factor {factor}");
+    for (field, value, expected) in cases {
+        let mut slip = json!({ "tangential": 0, "normal": 1, "state": "slip", "sign": 1 });
+        let what = format!("{field} {value}");
+        slip[field] = value;
         assert_verdict(folder.path(), &system(json!([slip])), expected, &what);
     }
 }

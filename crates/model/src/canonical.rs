@@ -105,10 +105,17 @@ fn write_particle(out: &mut String, particle: &Particle) {
         ContactState::Free | ContactState::Stick | ContactState::Zero => String::new(),
     };
 
-    let state = particle.state.word();
     let Particle {
-        tangential, normal, ..
+        tangential,
+        normal,
+        state,
+        normal_direction: _, // with the frame in the two directions
+        frame: _,
+        friction_factor,
+        reaction: _, // no part of what is asked
+        name: _,
     } = particle;
+    let state = state.word();
     line(
         out,
         &format!("particle {tangential} {normal} {state}{sign}"),
@@ -118,11 +125,8 @@ fn write_particle(out: &mut String, particle: &Particle) {
     write_direction(out, "normal", &particle.into_obstacle());
 
     // The factor 1 is not written: a problem without factors has the text it always had.
-    if !particle.friction_factor.is_one() {
-        line(
-            out,
-            &format!("friction_factor {}", particle.friction_factor),
-        );
+    if !friction_factor.is_one() {
+        line(out, &format!("friction_factor {friction_factor}"));
     }
 }
 

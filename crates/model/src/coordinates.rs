@@ -16,25 +16,22 @@ pub struct BodyNode {
     pub place: [Rational; 2],
 }
 
-/// The nodes of a body, the edges between them, and the names of its particles.
+/// The nodes of a body and the edges between them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Coordinates {
     nodes: Vec<BodyNode>,
     edges: Vec<[usize; 2]>,
-    particles: Vec<String>,
 }
 
 impl Coordinates {
-    /// The nodes of a system. `edges` (indices of nodes) and `particles` (a name for each particle
-    /// of the system) may be empty.
+    /// The nodes of a system. `edges` (indices of nodes) may be empty.
     ///
     /// # Errors
     /// [`ModelError::Coordinates`]: no node, a degree of freedom out of range or at two places, a
-    /// coordinate beyond 2^512, an edge to no node, another number of names than of particles.
+    /// coordinate beyond 2^512, an edge to no node.
     pub fn new(
         nodes: Vec<BodyNode>,
         edges: Vec<[usize; 2]>,
-        particles: Vec<String>,
         system: &System,
     ) -> Result<Coordinates, ModelError> {
         if nodes.is_empty() {
@@ -52,17 +49,7 @@ impl Coordinates {
             }
         }
 
-        let count = system.particles().len();
-        if !particles.is_empty() && particles.len() != count {
-            let got = format!("{} names for {count} particles", particles.len());
-            return Err(refused("a name for each particle, or none", got));
-        }
-
-        Ok(Coordinates {
-            nodes,
-            edges,
-            particles,
-        })
+        Ok(Coordinates { nodes, edges })
     }
 
     /// The nodes.
@@ -73,11 +60,6 @@ impl Coordinates {
     /// Pairs of nodes between which a line is drawn.
     pub fn edges(&self) -> &[[usize; 2]] {
         &self.edges
-    }
-
-    /// A name for each particle of the system; empty if they have none.
-    pub fn particles(&self) -> &[String] {
-        &self.particles
     }
 
     /// The node that a degree of freedom moves.
@@ -121,7 +103,7 @@ fn refused(expected: &'static str, got: String) -> ModelError {
 #[cfg(test)]
 mod tests {
     use super::super::file::{read_problem, write_problem};
-    use super::super::{ModelError, Problem};
+    use super::super::{Body, ModelError, Problem};
     use std::path::Path;
 
     fn read(coordinates: &str) -> Result<Problem, ModelError> {
@@ -151,6 +133,28 @@ mod tests {
         assert_eq!(again, with);
         assert_eq!(with.sha256(), without.sha256());
         assert!(!write_problem(&without).contains("coordinates"));
+    }
+
+    /// Older files have the names beside the coordinates; a file that is written has them in the
+    /// particles, and no file has them in both places.
+    #[test]
+    fn names_beside_coordinates_are_those_of_the_particles() {
+        let named = read(r#"{"nodes": [[0, 1, 0, 0]], "particles": ["left foot"]}"#).unwrap();
+        let unnamed = read(r#"{"nodes": [[0, 1, 0, 0]], "particles": [""]}"#).unwrap();
+
+        let name_of = |problem: &Problem| match problem.body() {
+            Body::System(system) => system.particles()[0].name.clone(),
+            Body::Pencil(_) => None,
+        };
+        assert_eq!(name_of(&named).as_deref(), Some("left foot"));
+        assert_eq!(name_of(&unnamed), None);
+        assert_eq!(named.sha256(), unnamed.sha256());
+
+        let written = write_problem(&named);
+        assert!(written.contains(r#""name":"left foot""#), "{written}");
+        let twice = written.replace(r#""nodes":"#, r#""particles":["foot"],"nodes":"#);
+        let refused = read_problem(&twice, Path::new("."));
+        assert!(matches!(refused, Err(ModelError::Coordinates { .. })));
     }
 
     #[test]

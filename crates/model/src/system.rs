@@ -83,6 +83,8 @@ pub struct Particle {
     pub friction_factor: Rational,
     /// The reaction at equilibrium, checked against (7) and the sign.
     pub reaction: Option<Reaction>,
+    /// A name for people: no answer and no digest depends on it.
+    pub name: Option<String>,
 }
 
 /// A direction in the space of degrees of freedom: a few (dof, coefficient) pairs.
@@ -99,6 +101,15 @@ impl Particle {
             frame: None,
             friction_factor: Rational::one(),
             reaction: None,
+            name: None,
+        }
+    }
+
+    /// Its name, or else its number.
+    pub fn name_or(&self, number: usize) -> String {
+        match &self.name {
+            Some(name) => name.clone(),
+            None => number.to_string(),
         }
     }
 

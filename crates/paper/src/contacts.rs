@@ -208,10 +208,8 @@ impl Column {
 /// A table of contacts, read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactTable {
-    /// One for each line.
+    /// One for each line, with its label as name.
     pub particles: Vec<Particle>,
-    /// For each particle, its label; empty where it has none.
-    pub names: Vec<String>,
     /// For each particle, the reaction that the table gives.
     pub reactions: Vec<Option<TableReaction>>,
 }
@@ -238,59 +236,47 @@ pub fn read_contacts(
     friction: &Rational,
     dof: &dyn Fn(&str) -> Option<usize>,
 ) -> Result<ContactTable, ContactsError> {
-    let (rows, names) = read_rows(text, &CONTACTS, &|row| row.particle(friction, dof))?;
+    let rows = read_rows(text, &CONTACTS, &|row| row.particle(friction, dof))?;
     let (particles, reactions) = rows.into_iter().unzip();
 
     Ok(ContactTable {
         particles,
-        names,
         reactions,
     })
 }
 
-/// A table of contact candidates, read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CandidateTable {
-    /// One for each line.
-    pub candidates: Vec<ContactCandidate>,
-    /// For each candidate, its label; empty where it has none.
-    pub names: Vec<String>,
-}
-
-/// Reads a table of contact candidates, whose states follow from loads; see [`read_contacts`].
+/// Reads a table of contact candidates, one for each line with its label as name, whose states
+/// follow from loads; see [`read_contacts`].
 ///
 /// # Errors
 /// [`ContactsError`] with line and column.
 pub fn read_candidates(
     text: &str,
     dof: &dyn Fn(&str) -> Option<usize>,
-) -> Result<CandidateTable, ContactsError> {
-    let (candidates, names) = read_rows(text, &CANDIDATES, &|row| row.candidate(dof))?;
-    Ok(CandidateTable { candidates, names })
+) -> Result<Vec<ContactCandidate>, ContactsError> {
+    read_rows(text, &CANDIDATES, &|row| row.candidate(dof))
 }
 
-/// What each line of a table says, and its label.
+/// What each line of a table says.
 fn read_rows<T>(
     text: &str,
     columns: &Columns,
     read: &dyn Fn(&ContactRow<'_>) -> Result<T, ContactsError>,
-) -> Result<(Vec<T>, Vec<String>), ContactsError> {
+) -> Result<Vec<T>, ContactsError> {
     let mut lines = lines_with_content(text).into_iter();
     let header = lines.next().map_or("", |line| line.text);
     let places = places_of(header, columns)?;
 
     let mut rows = Vec::new();
-    let mut names = Vec::new();
     for line in lines {
         let row = ContactRow::cut(&line, &places)?;
-        names.push(row.cell(Column::Particle).unwrap_or("").to_string());
         rows.push(read(&row)?);
     }
 
     if rows.is_empty() {
         return Err(ContactsError::Empty);
     }
-    Ok((rows, names))
+    Ok(rows)
 }
 
 /// The columns of a kind of table.
@@ -443,6 +429,7 @@ impl<'a> ContactRow<'a> {
             normal_direction: directions.normal_direction,
             frame: directions.frame,
             friction_factor: self.friction_factor()?,
+            name: self.cell(Column::Particle).map(String::from),
             ..Particle::plain(tangential, normal, state)
         })
     }

@@ -37,7 +37,7 @@ impl BlockModel {
         }
 
         let edges = edges.into_iter().collect();
-        Ok(Coordinates::new(nodes, edges, Vec::new(), system)?)
+        Ok(Coordinates::new(nodes, edges, system)?)
     }
 }
 

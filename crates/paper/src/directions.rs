@@ -283,7 +283,7 @@ mod tests {
 
         let stiffness = Sparse::from_entries(4 * COUNT, 4 * COUNT, entries);
         let system = System::new(stiffness, None, None, particles).unwrap();
-        let coordinates = Coordinates::new(nodes, vec![], vec![], &system).unwrap();
+        let coordinates = Coordinates::new(nodes, vec![], &system).unwrap();
         WrongDirections::of(&system, &coordinates)
     }
 
@@ -339,17 +339,17 @@ mod tests {
         };
         let nodes = vec![node(0, 0), node(2, 1)];
 
-        let full = Coordinates::new(nodes.clone(), vec![], vec![], &system).unwrap();
+        let full = Coordinates::new(nodes.clone(), vec![], &system).unwrap();
         assert!(WrongDirections::of(&system, &full).turned.is_empty());
 
-        let joined = Coordinates::new(nodes.clone(), vec![[0, 1]], vec![], &system).unwrap();
+        let joined = Coordinates::new(nodes.clone(), vec![[0, 1]], &system).unwrap();
         assert_eq!(WrongDirections::of(&system, &joined).turned, [(1, 90.0)]);
 
         let crossed = [[0, 3], [2, 1]].map(|[x, y]| BodyNode {
             dofs: [Some(x), Some(y)],
             place: [whole(x as i64), whole(0)],
         });
-        let crossed = Coordinates::new(crossed.to_vec(), vec![], vec![], &system).unwrap();
+        let crossed = Coordinates::new(crossed.to_vec(), vec![], &system).unwrap();
         assert_eq!(WrongDirections::of(&system, &crossed).of_two_nodes, [0, 1]);
     }
 }

@@ -45,9 +45,7 @@ mod two_particles;
 
 pub use block::Block;
 pub use block_model::BlockModel;
-pub use contacts::{
-    CandidateTable, ContactTable, ContactsError, TableReaction, read_candidates, read_contacts,
-};
+pub use contacts::{ContactTable, ContactsError, TableReaction, read_candidates, read_contacts};
 pub use doubles::{DoubleBlock, DoubleMatrix};
 pub use element::{MassKind, Material, PlanePoint};
 pub use error::SourceError;

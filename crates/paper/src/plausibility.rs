@@ -33,8 +33,6 @@ use std::collections::HashMap;
 pub struct PlausibilityInput<'a> {
     /// The body, with M and mu.
     pub system: &'a System,
-    /// The particles' names; empty if they have none.
-    pub names: &'a [String],
     /// For each particle, the reaction that the table of contacts gives.
     pub reactions: &'a [Option<TableReaction>],
     /// The displacements of the equilibrium, one for each degree of freedom.
@@ -225,7 +223,7 @@ impl Plausibility {
             self.figure("reactions, slip", text);
         }
         if let Some((ratio, index)) = stick {
-            let particle = listed(input.names, &[index]);
+            let particle = listed(input.system, &[index]);
             let at_most = rounded_up(ratio, 4);
             let text = format!("|r_T| at most {at_most} mu |r_N| ({particle})");
             self.figure("reactions, stick", text);
@@ -325,7 +323,7 @@ impl Plausibility {
 
         if !wrong.turned.is_empty() {
             let indices: Vec<usize> = wrong.turned.iter().map(|(index, _)| *index).collect();
-            let particles = listed(input.names, &indices);
+            let particles = listed(input.system, &indices);
             let degrees = wrong.turned.iter().map(|(_, degrees)| *degrees);
             let largest = degrees.fold(0.0, f64::max);
             let up_to = if indices.len() > 1 { "up to " } else { "" };
@@ -336,7 +334,7 @@ impl Plausibility {
         }
 
         if !wrong.into_body.is_empty() {
-            let particles = listed(input.names, &wrong.into_body);
+            let particles = listed(input.system, &wrong.into_body);
             self.warnings.push(format!(
                 "{particles}: the normal points into the body (normal_direction, angle, normal_x, \
                  normal_y)"
@@ -344,7 +342,7 @@ impl Plausibility {
         }
 
         if !wrong.of_two_nodes.is_empty() {
-            let particles = listed(input.names, &wrong.of_two_nodes);
+            let particles = listed(input.system, &wrong.of_two_nodes);
             self.warnings.push(format!(
                 "{particles}: the tangential and the normal dof move two different nodes"
             ));
@@ -356,13 +354,11 @@ impl Plausibility {
 const LISTED: usize = 5;
 
 /// Particles by their names, or by their indices.
-fn listed(names: &[String], indices: &[usize]) -> String {
+fn listed(system: &System, indices: &[usize]) -> String {
     let mut words = Vec::new();
     for index in indices.iter().take(LISTED) {
-        match names.get(*index) {
-            Some(name) if !name.is_empty() => words.push(shown(name)),
-            _ => words.push(index.to_string()),
-        }
+        let particle = &system.particles()[*index];
+        words.push(shown(&particle.name_or(*index)));
     }
 
     let plural = if indices.len() == 1 { "" } else { "s" };

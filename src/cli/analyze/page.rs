@@ -90,21 +90,6 @@ impl Drawn<'_> {
 
         all
     }
-
-    /// Particles by their names in the problem file, or by their numbers.
-    fn listed(&self, particles: &[usize]) -> String {
-        let names = self.coordinates.map_or(&[][..], Coordinates::particles);
-        let mut words = Vec::new();
-        for particle in particles {
-            match names.get(*particle) {
-                Some(name) if !name.is_empty() => words.push(name.clone()),
-                _ => words.push(particle.to_string()),
-            }
-        }
-
-        let separator = if names.is_empty() { " " } else { ", " };
-        words.join(separator)
-    }
 }
 
 /// The page.
@@ -292,7 +277,7 @@ fn modes(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
         };
         content.push(Content::Paragraph(none.into()));
     } else {
-        content.push(summary(modes, drawn));
+        content.push(summary(analysis));
     }
 
     for (k, mode) in modes.iter().enumerate() {
@@ -306,7 +291,8 @@ fn modes(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     }
 }
 
-fn summary(modes: &[Mode], drawn: &Drawn<'_>) -> Content {
+fn summary(analysis: &Analysis) -> Content {
+    let modes = &analysis.divergence.modes;
     let header = [
         "mode",
         "lambda^2 (1/s^2)",
@@ -324,11 +310,11 @@ fn summary(modes: &[Mode], drawn: &Drawn<'_>) -> Content {
             (k + 1).to_string(),
             with_digits(lambda2, 11),
             with_digits(mode.growth_rate, 7),
-            drawn.listed(&mode.slipping),
-            drawn.listed(&mode.sticking),
+            analysis.named(&mode.slipping),
+            analysis.named(&mode.sticking),
         ];
         if has_zero {
-            cells.push(zero_modes(mode));
+            cells.push(zero_modes(mode, &analysis.particles));
         }
         rows.push(cells);
     }
@@ -341,10 +327,10 @@ fn summary(modes: &[Mode], drawn: &Drawn<'_>) -> Content {
 }
 
 /// The number and the mode of each particle with zero reaction, such as "3 open, 4 right".
-fn zero_modes(mode: &Mode) -> String {
+fn zero_modes(mode: &Mode, particles: &[String]) -> String {
     let mut words = Vec::new();
     for (particle, what) in &mode.zero {
-        words.push(format!("{particle} {}", what.word()));
+        words.push(format!("{} {}", particles[*particle], what.word()));
     }
 
     words.join(", ")

@@ -16,9 +16,7 @@ use crate::picture::{
     BodyDrawing, BodyMode, Branches, ChartPoint, Content, ReportPage, Section, Threshold,
     ThresholdColumn, body_picture, branch_picture, path_picture, threshold_picture,
 };
-use crate::say::path::{
-    LETTERS, amount_text, causes_text, continuations_text, end_text, of_which_body,
-};
+use crate::say::path::{LETTERS, amount_text, causes_text, continuations_text, of_which_body};
 use crate::say::stretches::stretch_cells;
 use crate::{LoadPath, OwnCritical};
 use mceip_engine::run::Watch;
@@ -328,15 +326,16 @@ impl Shown<'_> {
             "T at start",
             "begins with",
         ];
+        let candidates = self.followed.loads().candidates();
         let mut rows = Vec::new();
         for (k, stretch) in self.path().stretches.iter().enumerate() {
             let mut row = stretch_cells(k, stretch);
             row.insert(1, self.names[stretch.step].into());
-            row.push(causes_text(&stretch.begin.causes));
+            row.push(causes_text(&stretch.begin.causes, candidates));
             rows.push(row);
         }
 
-        let end = end_text(self.path());
+        let end = self.followed.end_text();
         let caption = format!(
             "Stretches of the path; from and to are parts of the load of the step. {LETTERS}. How \
              it ends: {end}."

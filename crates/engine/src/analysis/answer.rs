@@ -26,6 +26,8 @@ pub struct Analysis {
     pub friction: Rational,
     /// Numbers of degrees of freedom, free degrees of freedom, slip particles, stick particles.
     pub sizes: [usize; 4],
+    /// The particles by their names, or by their numbers.
+    pub particles: Vec<String>,
     /// Number of particles with zero reaction.
     pub zero: usize,
     /// Divergence at mu.
@@ -55,4 +57,16 @@ pub struct Analysis {
     pub proofs: Vec<Proof>,
     /// Was the work interrupted?
     pub interrupted: bool,
+}
+
+impl Analysis {
+    /// These particles: "heel, toe", or "none".
+    pub fn named(&self, particles: &[usize]) -> String {
+        if particles.is_empty() {
+            return "none".into();
+        }
+
+        let names = particles.iter().map(|&k| self.particles[k].as_str());
+        names.collect::<Vec<_>>().join(", ")
+    }
 }

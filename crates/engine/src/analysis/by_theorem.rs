@@ -100,6 +100,7 @@ pub(super) fn nothing_slips(
         problem_sha256: None,
         friction: friction.clone(),
         sizes: super::sizes(system),
+        particles: super::names(system),
         zero: system.zero_particles().len(),
         divergence: Divergence {
             verdict: Verdict::Absent,

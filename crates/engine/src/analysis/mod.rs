@@ -134,6 +134,7 @@ pub fn analyse(
         problem_sha256: friction.is_positive().then(|| at_friction.problem.sha256()),
         friction: friction.clone(),
         sizes: sizes(system),
+        particles: names(system),
         zero: families.zero.len(),
         flutter,
         without_friction: by_theorem::without_friction(&necessary, families.zero.len()).verdict,
@@ -267,6 +268,12 @@ fn starts(found: &Completed, slip: &[usize], place: impl Fn(f64) -> [f64; 2]) ->
     }
 
     starts
+}
+
+/// The particles by their names, or by their numbers.
+fn names(system: &System) -> Vec<String> {
+    let particles = system.particles().iter().enumerate();
+    particles.map(|(k, particle)| particle.name_or(k)).collect()
 }
 
 /// Numbers of degrees of freedom, free degrees of freedom, slip particles, stick particles.

@@ -242,8 +242,8 @@ fn flutter_text(flutter: &Flutter) -> String {
     )
 }
 
-/// ", particle 3 with zero reaction opens" for each such particle.
-fn zero_text(mode: &Mode) -> String {
+/// "; particle 3 with zero reaction opens" for each such particle.
+fn zero_text(mode: &Mode, particles: &[String]) -> String {
     let mut text = String::new();
     for (particle, what) in &mode.zero {
         let does = match what {
@@ -252,7 +252,8 @@ fn zero_text(mode: &Mode) -> String {
             ZeroMode::Right => "slides along its tangent",
             ZeroMode::Left => "slides against its tangent",
         };
-        text += &format!(", particle {particle} with zero reaction {does}");
+        let name = &particles[*particle];
+        text += &format!("; particle {name} with zero reaction {does}");
     }
 
     text
@@ -354,14 +355,9 @@ impl Analysis {
             None => "growth rate 0 (a threshold: departure linear in time)".into(),
         };
 
-        let slipping = &mode.slipping;
-        let resting = match mode.sticking[..] {
-            [] => "none stays at rest".to_owned(),
-            [one] => format!("{one} stays at rest"),
-            _ => format!("{:?} stay at rest", mode.sticking),
-        };
-
-        let zero = zero_text(mode);
+        let slipping = self.named(&mode.slipping);
+        let resting = self.named(&mode.sticking);
+        let zero = zero_text(mode, &self.particles);
         let where_v_is = if number == 1 {
             "; v is in the JSON, over all degrees of freedom, with slip rates that sum to 1"
         } else {
@@ -369,7 +365,7 @@ impl Analysis {
         };
 
         let text = format!(
-            "Mode {number}: {growth}, lambda^2 {} 1/s^2; particles {slipping:?} slip, \
+            "Mode {number}: {growth}, lambda^2 {} 1/s^2; slipping: {slipping}; at rest: \
              {resting}{zero}{where_v_is}.",
             between(&mode.lambda2)
         );

@@ -62,6 +62,7 @@ struct RawCandidate {
     frame: Option<[[Number; 2]; 2]>,
     friction_factor: Option<Number>,
     gap: Option<Number>,
+    name: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -88,8 +89,12 @@ pub fn read_loads(text: &str, folder: &Path) -> Result<LoadsFile, ModelError> {
 }
 
 impl RawLoads {
-    fn build(self, folder: &Path) -> Result<LoadsFile, ModelError> {
-        let Object(system) = self.system;
+    fn build(mut self, folder: &Path) -> Result<LoadsFile, ModelError> {
+        let Object(mut system) = self.system;
+        if let Some(Object(coordinates)) = &mut self.coordinates {
+            let candidates = system.candidates.iter_mut();
+            coordinates.give_names(candidates.map(|Object(candidate)| &mut candidate.name))?;
+        }
         let mut steps = Vec::with_capacity(self.steps.len());
         for (index, Object(step)) in self.steps.into_iter().enumerate() {
             steps.push(step.build(index));
@@ -141,7 +146,8 @@ impl RawCandidate {
         let gap = self.gap.map_or_else(|| whole(0), |number| number.0);
         let particle = RawParticle::open(self.tangential, self.normal)
             .turned(self.normal_direction, self.frame)
-            .with_friction_factor(self.friction_factor);
+            .with_friction_factor(self.friction_factor)
+            .named(self.name);
 
         Ok(ContactCandidate {
             particle: particle.build(index)?,

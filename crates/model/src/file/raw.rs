@@ -64,6 +64,7 @@ pub(super) struct RawCoordinates {
     nodes: Vec<(Option<usize>, Option<usize>, Number, Number)>,
     #[serde(default)]
     edges: Vec<[usize; 2]>,
+    /// The names of the particles: older files have them here.
     #[serde(default)]
     particles: Vec<String>,
 }
@@ -79,6 +80,7 @@ pub(super) struct RawParticle {
     frame: Option<[[Number; 2]; 2]>,
     friction_factor: Option<Number>,
     reaction: Option<Object<RawReaction>>,
+    pub(super) name: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -99,7 +101,8 @@ struct RawReaction {
 
 impl RawProblem {
     /// Builds the problem; Matrix Market files that it names are looked for in `folder`.
-    pub(super) fn build(self, folder: &Path) -> Result<Problem, ModelError> {
+    pub(super) fn build(mut self, folder: &Path) -> Result<Problem, ModelError> {
+        self.name_particles()?;
         let window = RawWindow::build_given(self.window)?;
 
         let body = match (self.pencil, self.system) {
@@ -130,7 +133,8 @@ impl RawProblem {
     }
 
     /// Builds the system alone, without friction where that is 0; `None` for a pencil.
-    pub(super) fn build_system(self, folder: &Path) -> Result<Option<SystemFile>, ModelError> {
+    pub(super) fn build_system(mut self, folder: &Path) -> Result<Option<SystemFile>, ModelError> {
+        self.name_particles()?;
         let window = RawWindow::build_given(self.window)?;
         let mut raw = match (self.pencil, self.system) {
             (None, Some(Object(raw))) => raw,
@@ -159,6 +163,20 @@ impl RawProblem {
             system,
             friction,
         }))
+    }
+}
+
+impl RawProblem {
+    /// Gives the particles the names that stand beside the coordinates.
+    fn name_particles(&mut self) -> Result<(), ModelError> {
+        if let (Some(Object(coordinates)), Some(Object(system))) =
+            (&mut self.coordinates, &mut self.system)
+        {
+            let particles = system.particles.iter_mut();
+            coordinates.give_names(particles.map(|Object(particle)| &mut particle.name))?;
+        }
+
+        Ok(())
     }
 }
 
@@ -226,6 +244,39 @@ impl RawCoordinates {
         Ok(self)
     }
 
+    /// The names that stand here, to the particles; an empty one is none.
+    ///
+    /// # Errors
+    /// [`ModelError::Coordinates`] for another number of names than of particles, and for a
+    /// particle that has a name.
+    pub(super) fn give_names<'a>(
+        &mut self,
+        particles: impl ExactSizeIterator<Item = &'a mut Option<String>>,
+    ) -> Result<(), ModelError> {
+        let names = std::mem::take(&mut self.particles);
+        if names.is_empty() {
+            return Ok(());
+        }
+        if names.len() != particles.len() {
+            return Err(ModelError::Coordinates {
+                expected: "a name for each particle, or none",
+                got: format!("{} names for {} particles", names.len(), particles.len()),
+            });
+        }
+
+        for (own, name) in particles.zip(names) {
+            if own.is_some() {
+                return Err(ModelError::Coordinates {
+                    expected: "the name of a particle in one place",
+                    got: "one in the particle and one beside the coordinates".into(),
+                });
+            }
+            *own = Some(name).filter(|name| !name.is_empty());
+        }
+
+        Ok(())
+    }
+
     pub(super) fn build(self, system: &System) -> Result<Coordinates, ModelError> {
         let mut nodes = Vec::with_capacity(self.nodes.len());
         for (along_x, along_y, x, y) in self.nodes {
@@ -235,7 +286,7 @@ impl RawCoordinates {
             });
         }
 
-        Coordinates::new(nodes, self.edges, self.particles, system)
+        Coordinates::new(nodes, self.edges, system)
     }
 }
 
@@ -260,6 +311,7 @@ impl RawParticle {
             frame: None,
             friction_factor: None,
             reaction: None,
+            name: None,
         }
     }
 
@@ -282,6 +334,11 @@ impl RawParticle {
             friction_factor,
             ..self
         }
+    }
+
+    /// With this name.
+    pub(super) fn named(self, name: Option<String>) -> RawParticle {
+        RawParticle { name, ..self }
     }
 
     pub(super) fn build(self, index: usize) -> Result<Particle, ModelError> {
@@ -312,6 +369,7 @@ impl RawParticle {
             frame,
             friction_factor,
             reaction,
+            name: self.name.filter(|name| !name.is_empty()),
         })
     }
 }

@@ -138,9 +138,6 @@ fn write_coordinates(coordinates: &Coordinates) -> Value {
     if !coordinates.edges().is_empty() {
         out.insert("edges".into(), json!(coordinates.edges()));
     }
-    if !coordinates.particles().is_empty() {
-        out.insert("particles".into(), json!(coordinates.particles()));
-    }
 
     Value::Object(out)
 }
@@ -194,9 +191,12 @@ fn write_particle(particle: &Particle) -> Value {
     Value::Object(out)
 }
 
-/// Dofs, directions and friction factor: what a particle has in common with a candidate.
+/// Name, dofs, directions and friction factor: what a particle has in common with a candidate.
 fn write_directions(particle: &Particle) -> Map<String, Value> {
     let mut out = Map::new();
+    if let Some(name) = &particle.name {
+        out.insert("name".into(), json!(name));
+    }
     out.insert("tangential".into(), json!(particle.tangential));
     out.insert("normal".into(), json!(particle.normal));
     out.insert("normal_direction".into(), json!(particle.normal_direction));
