@@ -409,9 +409,6 @@ have [l|l] := ltnP j (size (right_inverse c)); first by rewrite (nth_map [::]) /
 by rewrite !nth_default ?size_map //= toR0 mul0r.
 Qed.
 
-Lemma width_elsewhere j : j \in variables -> j \notin K -> eps j = 0.
-Proof. by move=> Hj out; rewrite width_norm norm_elsewhere // toR0 mul0r. Qed.
-
 Lemma width_ge0 j : 0 <= eps j.
 Proof.
 have [_ [[_ _ _ W0] _]] := enclosed_parts.

@@ -99,9 +99,6 @@ under eq_bigr do rewrite exprMn; rewrite -mulr_sumr exprMn -normrX ger0_norm ?sq
 by rewrite ler_wpmul2l ?sqr_ge0.
 Qed.
 
-Lemma norm_opp z n : norm_le z n -> norm_le (fun k => - z k) n.
-Proof. by move=> [n0 le]; split=> //; under eq_bigr do rewrite sqrrN. Qed.
-
 (* A symmetric matrix whose rows have absolute sums of at most beta. *)
 Lemma bilinear_bound (M : nat -> nat -> R) beta y z a b :
   (forall i k, i \in l -> k \in l -> M i k = M k i) ->

@@ -86,8 +86,6 @@ Definition regular_sign (M Rd : matrix) :=
   let h := against_right p in
   row_slack p r <? (if regular_minus w then - h else h).
 
-Definition regular_corner (M Rd : matrix) (u : Z) := regular_rows M Rd u && regular_sign M Rd.
-
 End Checker.
 
 Section Rows.

@@ -384,12 +384,6 @@ rewrite -/(eval p u) toRD toR_abs (le_trans (ler_norm_add _ _)) // ler_add2l nor
 by apply: (le_trans _ IH); rewrite ler_pimull.
 Qed.
 
-Lemma norm1_ge0 p : 0 <= toR (norm1 p) :> R.
-Proof. by elim: p => //= a p IH; rewrite toRD toR_abs addr_ge0. Qed.
-
-Lemma spread_of_ge0 p : 0 <= toR (spread_of p) :> R.
-Proof. by elim: p => //= a p IH; rewrite toRD addr_ge0 ?norm1_ge0. Qed.
-
 Lemma total_norm1 p : `|toR (total p)| <= toR (norm1 p) :> R.
 Proof.
 elim: p => [|a p IH] /=; first by rewrite normr0.

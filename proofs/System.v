@@ -723,11 +723,6 @@ rewrite /slip_of (variables_of_motion wf) //.
 exact: (slip_indices (Q := Q) (mem_nth 0%N lt_j)).
 Qed.
 
-Lemma proportional_motion x x' : proportional Q x x' -> same_motion (motion s x) (motion s x').
-Proof.
-by move/motion_proportional=> [f f0 scaled]; exists f.
-Qed.
-
 (* x and x' give one motion only if they are proportional. *)
 Lemma motion_injective x x' : same_motion (motion s x) (motion s x') -> proportional Q x x'.
 Proof.

@@ -535,17 +535,6 @@ have [-> -> ->] := zero_parts 1 0 lambda2 x lt_j.
 by rewrite -/p -/w_T -/w_N toR0 toR1; split; ring.
 Qed.
 
-Lemma reaction_split_row m q lambda2 x i : i \in slip Q ->
-  reaction (zero_pencil z (Lambda2 m q)) lambda2 x i =
-  toR q * reaction (part_plain z) lambda2 x i + toR m * reaction (part_friction z) lambda2 x i.
-Proof.
-rewrite /part_plain /part_friction => /zero_slip_cases[[j lt_j ->]|[j lt_j cases]].
-  by rewrite !slip_part //= toR0 toR1; move: (along _ _ _) (along _ _ _) => *; ring.
-have [g0 r0 l0] := zero_parts 0 1 lambda2 x lt_j; have [g1 r1 l1] := zero_parts 1 0 lambda2 x lt_j.
-have [g r l] := zero_parts m q lambda2 x lt_j.
-by case: cases => ->; rewrite ?g ?g0 ?g1 ?r ?r0 ?r1 ?l ?l0 ?l1 toR0 toR1; ring.
-Qed.
-
 Lemma reaction_at_unknown t x i : i \in slip Q ->
   reaction Q t x i = row_factor R u * split_row (lambda2_of u t) (mu_of u t) x i.
 Proof.
