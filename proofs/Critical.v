@@ -179,7 +179,7 @@ have sol : box_solution (mixed low P P') (mixed high P P') (Ae low) (Be low) (Ae
     by move: (row i) (row' i) (factor i) => *; ring.
   by split; [exact: x0 | rewrite mulr_ge0 // ltW | rewrite mulrCA xy mulr0].
 case: l => [v|negative k k'|v|//|//] /= ok.
-- exact: (box_farkas_sound El Eh _ O bt ag f0 g0 fg sol ok).
+- exact: (box_farkas_sound O bt El Eh _ ag f0 g0 fg sol ok).
 - exact: (box_definite_sound El Eh _ O bt ag f0 g0 fg sol ok).
 exact: (box_regular_sound El Eh _ O bt ag f0 g0 fg sol ok).
 Qed.

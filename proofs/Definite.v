@@ -9,7 +9,8 @@
 
    Theorem [definite_sound]: if S_e is strictly covered by a factor (Covered.v) at the lower end,
    and at the upper end (covered without "strictly" if that end is infinity), then the region has
-   no solution.
+   no solution.  [box_definite_sound]: a sign that excludes the solutions of two pencils alike
+   excludes those of their combinations (Enclosed.v, box solutions).
 
    Page: spec/certificates.md, 5.9.  There the radius is taken off the diagonal by its row sums;
    taking it off entry by entry, as here, is enough because x >= 0.
@@ -59,9 +60,6 @@ rewrite /symmetric_part; move: (center P e i j) (center P e j i) => a b.
 move: (radius P e i j) (radius P e j i) => c d.
 by case: negative; lia.
 Qed.
-
-Lemma finite_end lo hi : ordered lo hi -> hi.2 <> 0%Z -> (0 <? hi.2)%Z.
-Proof. by case/and5P=> _ _ _ + _; move: hi.2 => q; lia. Qed.
 
 Section Sound.
 
@@ -186,31 +184,59 @@ Lemma form_between sg lo hi t x : ordered lo hi -> between t lo hi ->
   ((0 <? hi.2)%Z -> 0 < sg * quadratic P A B x hi) ->
   0 < sg * \sum_(i <- indices P) x i * image P A B t x i.
 Proof.
-move=> O W low high0 high1; have [a [b [a0 b0 Tab [ab a_gt0]]]] := T_between A B O W.
+move=> O W low high0 high1; have [a [b [a0 b0 Tab pos]]] := T_between A B O W.
 have -> : sg * (\sum_(i <- indices P) x i * image P A B t x i) =
     a * (sg * quadratic P A B x lo) + b * (sg * quadratic P A B x hi).
   rewrite !(mulrCA _ sg) -mulrDr; congr (_ * _).
   rewrite /quadratic !mulr_sumr -big_split; apply: eq_bigr => i _.
   rewrite /image !mulr_sumr -big_split; apply: eq_bigr => j _ /=; rewrite Tab.
   by move: (x i) (x j) (T_end _ _ _ _ _) (T_end _ _ _ _ _) => *; ring.
-case: ab => [a_pos|b_pos]; first by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0].
-have [infinite|finite] := eqVneq hi.2 0%Z.
-  by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0; first apply: a_gt0].
-have finite' := finite_end O (elimN eqP finite).
-by apply: ltr_paddl; [apply: mulr_ge0 => //; apply: ltW | apply: mulr_gt0 => //; apply: high1].
+exact: ends_gt0 O a0 b0 pos low high0 high1.
+Qed.
+
+Lemma definite_image negative r low high t x : ordered (lower r) (upper r) ->
+  between t (lower r) (upper r) -> definite P negative r low high ->
+  (forall i, i \in indices P -> 0 <= x i) -> agrees (size_of P) r x ->
+  (exists2 i, i \in indices P & x i != 0) ->
+  0 < sign R negative * \sum_(i <- indices P) x i * image P A B t x i.
+Proof.
+move=> O W /andP[L H] x0 ag nonzero; have [p q p' q'] := ordered_ge0 R O.
+have [_ low1] := definite_end_sound E x0 ag p q L.
+have [high0 high1] := definite_end_sound E x0 ag p' q' H.
+exact: form_between O W (low1 isT nonzero) high0 (fun st => high1 st nonzero).
 Qed.
 
 Theorem definite_sound negative r low high t x :
   ordered (lower r) (upper r) -> definite P negative r low high -> in_region_of P t x r ->
   solves P A B t x -> False.
 Proof.
-move=> O /andP[L H] [W ag] [_ x_nonzero compl].
-have [p q p' q'] := ordered_ge0 R O.
-have x0 i : i \in indices P -> 0 <= x i by case/compl.
-have [_ low1] := definite_end_sound E x0 ag p q L.
-have [high0 high1] := definite_end_sound E x0 ag p' q' H.
-have := form_between O W (low1 isT x_nonzero) high0 (fun st => high1 st x_nonzero).
-by rewrite sum_zero ?mulr0 ?ltxx // => i /compl[].
+move=> O ok [W ag] [_ nonzero rows].
+have := definite_image O W ok _ ag nonzero; rewrite sum_zero ?mulr0 ?ltxx => [pos|i /rows[]//].
+by suff : false by []; apply: pos => i /rows[].
 Qed.
 
 End Leaf.
+
+(* One sign for the enclosed pencils at both ends of an interval of another parameter. *)
+Definition box_definite P P' r negative (f f' : factor * factor) :=
+  definite P negative r f.1 f.2 && definite P' negative r f'.1 f'.2.
+
+Theorem box_definite_sound (R : realFieldType) P P' (A B A' B' : nat -> nat -> R) r t a b x
+    negative f f' : encloses P A B -> encloses P' A' B' -> size_of P' = size_of P ->
+  ordered (lower r) (upper r) -> between t (lower r) (upper r) -> agrees (size_of P) r x ->
+  0 <= a -> 0 <= b -> 0 < a \/ 0 < b -> box_solution P P' A B A' B' t a b x ->
+  box_definite P P' r negative f f' -> False.
+Proof.
+move=> E E' same O W ag a0 b0 ab [nonzero compl] /andP[low high].
+have x0 i : i \in indices P -> 0 <= x i by case/compl.
+have l := definite_image E O W low x0 ag nonzero.
+have h : 0 < sign R negative * \sum_(i <- indices P) x i * image P' A' B' t x i.
+  by rewrite -(same_indices same); apply: (definite_image E' O W high);
+     rewrite ?(same_indices same) ?same.
+have pos := combination_gt0 a0 b0 ab l h.
+suff zero : a * (sign R negative * \sum_(i <- indices P) x i * image P A B t x i) +
+            b * (sign R negative * \sum_(i <- indices P) x i * image P' A' B' t x i) = 0.
+  by rewrite zero ltxx in pos.
+rewrite !(mulrCA _ (sign R negative)) -mulrDr !mulr_sumr -big_split /= sum_zero ?mulr0 // => i Hi.
+by rewrite !(mulrCA _ (x i)) -mulrDr; case: (compl i Hi).
+Qed.

@@ -15,6 +15,11 @@
    of both matrices T_end with weights >= 0 (lemma [T_between]): one proof for finite and infinite
    ends.
 
+   For a second parameter mu between two values the matrix at t is a combination a T + b T' of those
+   at these values, with weights that are not negative and not both 0, and so are its images.  A
+   *box solution* is a vector x != 0 with 0 <= x _|_ a T x + b T' x >= 0.  A solution is one with
+   a = 1 and b = 0 ([solves_box]).
+
    Page: spec/certificates.md, 5.1 and 5.7.
    Rust: crates/check/src/cover/family.rs, ends.rs. *)
 
@@ -98,3 +103,24 @@ Proof. by move=> ag; rewrite mem_iota add0n => /= lt_i; apply: ag. Qed.
 End Pencil.
 
 Notation in_region_of P := (in_region (size_of P)).
+
+Lemma same_indices P P' : size_of P' = size_of P -> indices P' = indices P.
+Proof. by rewrite /indices => ->. Qed.
+
+(* A combination of the images of two pencils of one order, with weights a and b. *)
+Section Box.
+
+Variable R : realFieldType.
+Variables (P P' : enclosed) (A B A' B' : nat -> nat -> R) (t a b : R) (x : nat -> R).
+
+Definition box_image i := a * image P A B t x i + b * image P' A' B' t x i.
+
+Definition box_solution :=
+  (exists2 i, i \in indices P & x i != 0) /\
+  forall i, i \in indices P -> [/\ 0 <= x i, 0 <= box_image i & x i * box_image i = 0].
+
+End Box.
+
+Lemma solves_box (R : realFieldType) P (A B : nat -> nat -> R) t x :
+  solves P A B t x -> box_solution P P A B A B t 1 0 x.
+Proof. by case=> _ nonzero rows; split=> // i /rows; rewrite /box_image mul1r mul0r addr0. Qed.

@@ -201,4 +201,20 @@ rewrite /= in z; rewrite /a z toR0 mulr0 subr0 divr_gt0 //.
 by move: d0; rewrite /d z toR0 mulr0 subr0 pmulr_lgt0.
 Qed.
 
+Lemma finite_end lo hi : ordered lo hi -> hi.2 <> 0%Z -> (0 <? hi.2)%Z.
+Proof. by case/and5P=> _ _ _ + _; move: hi.2 => q; lia. Qed.
+
+(* With these weights: a combination of two values, of which that at infinity may be 0. *)
+Lemma ends_gt0 lo hi (a b low high : R) : ordered lo hi -> 0 <= a -> 0 <= b ->
+  (0 < a \/ 0 < b) /\ (hi.2 = 0%Z -> 0 < a) -> 0 < low -> 0 <= high ->
+  ((0 <? hi.2)%Z -> 0 < high) -> 0 < a * low + b * high.
+Proof.
+move=> O a0 b0 [ab a_gt0] low1 high0 high1.
+have a_part : 0 < a -> 0 < a * low + b * high.
+  by move=> a_pos; apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0].
+case: ab => [//|b_pos]; have [/a_gt0//|finite] := eqVneq hi.2 0%Z.
+have finite' := finite_end O (elimN eqP finite).
+by apply: ltr_paddl; [apply: mulr_ge0 => //; apply: ltW | apply: mulr_gt0 => //; apply: high1].
+Qed.
+
 End Ends.

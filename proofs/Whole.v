@@ -10,6 +10,7 @@
 
    Theorem [whole_sound]: if S_e is strictly covered by a factor at the lower end, and at the upper
    end (covered without "strictly" if that end is infinity), then the region has no solution.
+   [whole_image]: x' D (A + t B) x has one sign.
 
    This closes the leaves `ldl` (dense factor with weights) and `tail` (factor whose rows begin at
    their first entry) of a certificate.  An exact L D L' = S gives strict coverage of S after a
@@ -237,36 +238,37 @@ Qed.
 
 End Sound.
 
+Lemma whole_image (R : rcfType) Q r w (t : R) x :
+  wellformed Q -> ordered (lower r) (upper r) -> check_whole Q r w ->
+  between t (lower r) (upper r) -> agrees (size (slip Q)) r (slip_of Q x) ->
+  (exists2 i, i \in iota 0 (order Q) & x i != 0) ->
+  0 < sign R (whole_negative w) * \sum_(i <- iota 0 (order Q))
+        weight_of R (whole_weights w) i * (x i * reaction Q t x i).
+Proof.
+move=> wf O /andP[L H] bt ag nonzero.
+have [a [b [a0 b0 [one val] pos]]] := weights_of_ends O bt.
+set d := whole_weights w in L H *.
+have [low0 low1] := check_end_sound wf ag L.
+have [high0 high1] := check_end_sound wf ag H.
+set s := sign R (whole_negative w) in low0 low1 high0 high1 *.
+
+have -> : s * (\sum_(i <- iota 0 (order Q)) weight_of R d i * (x i * reaction Q t x i)) =
+          a * (s * whole_quadratic Q d x (lower r)) + b * (s * whole_quadratic Q d x (upper r)).
+  rewrite !(mulrCA _ s) -mulrDr; congr (_ * _).
+  rewrite /whole_quadratic !mulr_sumr -big_split; apply: eq_bigr => i _.
+  rewrite /reaction !mulr_sumr -big_split; apply: eq_bigr => j _ /=.
+  rewrite /end_entry -[X in X + t * _]mul1r -one -[in LHS]val.
+  by move: (weight_of _ _ _) (x i) (x j) (a_entry _ _ _ _) (b_entry _ _ _ _) => *; ring.
+
+exact: ends_gt0 O a0 b0 pos (low1 isT nonzero) high0 (fun st => high1 st nonzero).
+Qed.
+
 Theorem whole_sound (R : rcfType) Q r w (t : R) x :
   wellformed Q -> ordered (lower r) (upper r) -> check_whole Q r w ->
   between t (lower r) (upper r) -> agrees (size (slip Q)) r (slip_of Q x) ->
   solution Q t x -> False.
 Proof.
-move=> wf O /andP[L H] bt ag [_ x_nonzero rows_f rows_s].
-have [a [b [a0 b0 [one val] [ab a_gt0]]]] := weights_of_ends O bt.
-set d := whole_weights w in L H.
-have [low0 low1] := check_end_sound wf ag L.
-have [high0 high1] := check_end_sound wf ag H.
-set s := sign R (whole_negative w) in low0 low1 high0 high1.
-
-(* x'D(A + t B)x = x'Dy = 0 *)
-have zero : a * (s * whole_quadratic Q d x (lower r)) +
-            b * (s * whole_quadratic Q d x (upper r)) = 0.
-  transitivity (s * \sum_(i <- iota 0 (order Q)) weight_of R d i * (x i * reaction Q t x i));
-      last first.
-    rewrite sum_zero ?mulr0 // => i Hi; case/orP: (free_or_slip Hi) => [/rows_f->|/rows_s[_ _ ->]].
-      by rewrite !mulr0.
-    exact: mulr0.
-  rewrite !(mulrCA _ s) -mulrDr; congr (_ * _).
-  rewrite /whole_quadratic !mulr_sumr -big_split; apply: eq_bigr => i _.
-  rewrite /reaction !mulr_sumr -big_split; apply: eq_bigr => j _ /=.
-  rewrite /end_entry -[X in X + t * _]mul1r -one -[in RHS]val.
-  by move: (weight_of _ _ _) (x i) (x j) (a_entry _ _ _ _) (b_entry _ _ _ _) => *; ring.
-
-move: zero; apply/eqP; rewrite gt_eqF //; case: ab => [a_pos|b_pos].
-  by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0 => //; apply: low1].
-have [infinite|finite] := eqVneq (upper r).2 0%Z.
-  by apply: ltr_paddr; [apply: mulr_ge0 | apply: mulr_gt0; [apply: a_gt0 | apply: low1]].
-have finite' := finite_end O (elimN eqP finite).
-by apply: ltr_paddl; [apply: mulr_ge0 | apply: mulr_gt0 => //; apply: high1].
+move=> wf O ok bt ag [_ nonzero rows_f rows_s].
+have := whole_image wf O ok bt ag nonzero; rewrite sum_zero ?mulr0 ?ltxx // => i Hi.
+by case/orP: (free_or_slip Hi) => [/rows_f->|/rows_s[_ _ ->]]; rewrite !mulr0.
 Qed.

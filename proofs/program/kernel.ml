@@ -1333,6 +1333,27 @@ let farkas p r w =
     ((&&) (columns_at_most_zero p r w)
       ((||) (every_column_strict p r w) (some_moving_column_strict p r w)))
 
+(** val strict_in_both :
+    enclosed -> enclosed -> region -> Big_int_Z.big_int list -> int -> bool **)
+
+let strict_in_both p p' r w j =
+  (&&) (strict_column p r w j) (strict_column p' r w j)
+
+(** val box_farkas :
+    enclosed -> enclosed -> region -> Big_int_Z.big_int list -> bool **)
+
+let box_farkas p p' r w =
+  (&&) (signs_of_weights p r w)
+    ((&&) (columns_at_most_zero p r w)
+      ((&&) (columns_at_most_zero p' r w)
+        ((||)
+          (all (fun j ->
+            (||) (is_resting (state_of r j)) (strict_in_both p p' r w j))
+            (indices p))
+          (has (fun j ->
+            (&&) (is_moving (state_of r j)) (strict_in_both p p' r w j))
+            (indices p)))))
+
 (** val sum_from :
     (int -> 'a1 -> Big_int_Z.big_int) -> int -> 'a1 list -> Big_int_Z.big_int **)
 
@@ -1451,6 +1472,14 @@ let definite p negative0 r low high =
   (&&) (definite_end p negative0 true r.lower r low)
     (definite_end p negative0 (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
       r.upper r high)
+
+(** val box_definite :
+    enclosed -> enclosed -> region -> bool -> (factor * factor) ->
+    (factor * factor) -> bool **)
+
+let box_definite p p' r negative0 f f' =
+  (&&) (definite p negative0 r (fst f) (snd f))
+    (definite p' negative0 r (fst f') (snd f'))
 
 type box = { inverse : matrix; unit_low : Big_int_Z.big_int;
              unit_high : Big_int_Z.big_int; width : Big_int_Z.big_int }
@@ -5388,35 +5417,6 @@ let rec check_boxes n evidence0 tr r low high =
   | BoxLeaf l ->
     (&&) (ordered r.lower r.upper)
       ((&&) (ordered low high) (evidence0 r low high l))
-
-(** val strict_in_both :
-    enclosed -> enclosed -> region -> Big_int_Z.big_int list -> int -> bool **)
-
-let strict_in_both p p' r w j =
-  (&&) (strict_column p r w j) (strict_column p' r w j)
-
-(** val box_farkas :
-    enclosed -> enclosed -> region -> Big_int_Z.big_int list -> bool **)
-
-let box_farkas p p' r w =
-  (&&) (signs_of_weights p r w)
-    ((&&) (columns_at_most_zero p r w)
-      ((&&) (columns_at_most_zero p' r w)
-        ((||)
-          (all (fun j ->
-            (||) (is_resting (state_of r j)) (strict_in_both p p' r w j))
-            (indices p))
-          (has (fun j ->
-            (&&) (is_moving (state_of r j)) (strict_in_both p p' r w j))
-            (indices p)))))
-
-(** val box_definite :
-    enclosed -> enclosed -> region -> bool -> (factor * factor) ->
-    (factor * factor) -> bool **)
-
-let box_definite p p' r negative0 f f' =
-  (&&) (definite p negative0 r (fst f) (snd f))
-    (definite p' negative0 r (fst f') (snd f'))
 
 (** val mixed_matrix : point -> matrix -> matrix -> matrix **)
 

@@ -403,6 +403,12 @@ val some_moving_column_strict :
 
 val farkas : enclosed -> region -> Big_int_Z.big_int list -> bool
 
+val strict_in_both :
+  enclosed -> enclosed -> region -> Big_int_Z.big_int list -> int -> bool
+
+val box_farkas :
+  enclosed -> enclosed -> region -> Big_int_Z.big_int list -> bool
+
 val sum_from :
   (int -> 'a1 -> Big_int_Z.big_int) -> int -> 'a1 list -> Big_int_Z.big_int
 
@@ -444,6 +450,10 @@ val definite_end :
   enclosed -> bool -> bool -> point -> region -> factor -> bool
 
 val definite : enclosed -> bool -> region -> factor -> factor -> bool
+
+val box_definite :
+  enclosed -> enclosed -> region -> bool -> (factor * factor) ->
+  (factor * factor) -> bool
 
 type box = { inverse : matrix; unit_low : Big_int_Z.big_int;
              unit_high : Big_int_Z.big_int; width : Big_int_Z.big_int }
@@ -1718,16 +1728,6 @@ type 'leaf box_tree =
 val check_boxes :
   int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 box_tree -> region
   -> point -> point -> bool
-
-val strict_in_both :
-  enclosed -> enclosed -> region -> Big_int_Z.big_int list -> int -> bool
-
-val box_farkas :
-  enclosed -> enclosed -> region -> Big_int_Z.big_int list -> bool
-
-val box_definite :
-  enclosed -> enclosed -> region -> bool -> (factor * factor) ->
-  (factor * factor) -> bool
 
 val mixed_matrix : point -> matrix -> matrix -> matrix
 
