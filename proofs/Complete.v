@@ -110,11 +110,7 @@ Variables (R : rcfType) (Q : pencil).
 (* The solution (t, x) lies in a region. *)
 Definition lies_in (r : region) (t : R) x := in_region (size (slip Q)) t (slip_of Q x) r.
 
-Definition one_solution_in (y : yield) :=
-  exists t x, [/\ between t (yield_from y) (yield_to y), solution Q t x,
-    lies_in (yield_region y) t x &
-    forall t' x', solution Q t' x' -> lies_in (yield_region y) t' x' ->
-      t' = t /\ proportional Q x x'].
+Definition one_solution_in := has_one (solution Q) (proportional Q) lies_in.
 
 Lemma proportional_sym (x x' : nat -> R) : proportional Q x x' -> proportional Q x' x.
 Proof.
@@ -153,6 +149,11 @@ Definition known_solution (q : known) (t : R) x :=
             j \notin known_support q -> j \in known_biactive q ->
               reaction Q t x (nth 0%N (slip Q) j) = 0]].
 
+(* Such a solution lies in one of the regions. *)
+Definition known_in q (ys : seq yield) (rs : seq region) := exists t x, known_solution q t x /\
+  ((exists2 y, List.In y ys & between t (yield_from y) (yield_to y) /\
+                              lies_in (yield_region y) t x) \/ in_some lies_in rs t x).
+
 (* The solution of a claim. *)
 Lemma claimed_slip k : check_solution_claim Q k ->
   all (fun i => i \in slip Q) (claimed_support k) /\
@@ -187,17 +188,11 @@ Qed.
 
 (* Where the known solution lies in a cover. *)
 Lemma known_place q lo hi (ys : seq yield) (rs : seq region) :
-  (forall t x, solution Q t x -> between t lo hi ->
-     (exists2 y, List.In y ys & lies_in (yield_region y) t x) \/
-     (exists2 r, List.In r rs & lies_in r t x)) ->
-  (forall y, List.In y ys -> one_solution_in y) ->
+  covers (solution Q) (proportional Q) lies_in lo hi ys (in_some lies_in rs) ->
   (exists t x, known_solution q t x) -> within (known_from q, known_to q) (lo, hi) ->
-  exists t x, known_solution q t x /\
-    ((exists2 y, List.In y ys & between t (yield_from y) (yield_to y) /\
-                                lies_in (yield_region y) t x) \/
-     (exists2 r, List.In r rs & lies_in r t x)).
+  known_in q ys rs.
 Proof.
-move=> every each [t [x known]] inside; exists t, x; split=> //; have [bt sol _] := known.
+move=> [every each] [t [x known]] inside; exists t, x; split=> //; have [bt sol _] := known.
 have [[y y_in reg]|in_open] := every t x sol (within_between inside bt); last by right.
 left; exists y => //; have [t' [x' [bt' _ _ uniq]]] := each y y_in.
 by have [eq_t _] := uniq t x sol reg; split=> //; rewrite eq_t.
@@ -328,10 +323,7 @@ by rewrite /slip_of /X zero toR0 mulr0.
 Qed.
 
 Theorem complete_sound :
-  (forall t x, solution Q t x -> between t lo hi ->
-     (exists2 y, List.In y found & lies_in (yield_region y) t x) \/
-     (exists2 r, List.In r left_open & lies_in r t x)) /\
-  (forall y, List.In y found -> one_solution_in y).
+  covers (solution Q) (proportional Q) lies_in lo hi found (in_some lies_in left_open).
 Proof.
 have [wf con pos shp cover] := parts.
 have [every each] := cover_sound encloses_condensed known_sound whole_leaf_sound limit_sound cover.
@@ -357,62 +349,23 @@ Qed.
 
 Corollary complete_none : found = [::] -> left_open = [::] ->
   forall (t : R) x, solution Q t x -> between t lo hi -> False.
-Proof.
-move=> none closed t x sol bt; have [[y]|[r]] := complete_sound.1 t x sol bt.
-  by rewrite none.
-by rewrite closed.
-Qed.
+Proof. by move=> none no_open; have := complete_sound; rewrite none no_open; apply: covers_none. Qed.
 
 Theorem claim_place k : check_solution_claim Q k ->
   within (known_from (known_of Q k), known_to (known_of Q k)) (lo, hi) ->
-  exists (t : R) x, known_solution (known_of Q k) t x /\
-    ((exists2 y, List.In y found & between t (yield_from y) (yield_to y) /\
-                                   lies_in (yield_region y) t x) \/
-     (exists2 r, List.In r left_open & lies_in r t x)).
-Proof.
-by have [every each] := complete_sound; move/claim_known; apply: known_place every each.
-Qed.
+  known_in (known_of Q k) found left_open.
+Proof. by move/claim_known; apply: known_place complete_sound. Qed.
 
 Theorem complete_number ys : solutions_found Q claims tr lo hi = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
-        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
-                                 lies_in (yield_region y) s.1 s.2) ys l,
-        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
-        forall t x, solution Q t x -> between t lo hi ->
-          (exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x) \/
-          (exists2 r, List.In r left_open & lies_in r t x)].
+  all_listed (solution Q) (proportional Q) lies_in lo hi ys (in_some lies_in left_open).
 Proof.
-move=> dist; have [every each] := complete_sound.
-have has_one y : List.In y found -> exists s, the_solution ns (slip_of Q) (solution Q)
-    (proportional Q (R := R)) y s.
-  by move/each=> [t [x [bt sol reg uniq]]]; exists (t, x); split.
-have [l [[sols pairs] win all_found]] :=
-  distinct_sound proportional_slip proportional_sym proportional_trans has_one dist.
-exists l; split=> //.
-- exact/esym/(Forall2_size sols).
-- by move=> s sl; have [y _ [_ sol _ _]] := Forall2_in sols sl; split=> //; apply: win.
-- by apply: Forall2_impl sols => y s [bt _ reg _].
-move=> t x sol bt; case: (every t x sol bt) => [[y y_found reg]|]; last by right.
-by left; have [s sl one] := all_found y y_found t x sol reg; exists s.
+exact: (distinct_listed proportional_slip proportional_sym proportional_trans complete_sound).
 Qed.
 
 Corollary complete_exactly ys :
   solutions_found Q claims tr lo hi = Some ys -> left_open = [::] ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
-        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
-                                 lies_in (yield_region y) s.1 s.2) ys l,
-        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
-        forall t x, solution Q t x -> between t lo hi ->
-          exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x].
-Proof.
-move=> dist closed; have [l [sz sols vals pairs every]] := complete_number dist.
-exists l; split=> // t x sol bt; have [//|[r]] := every t x sol bt.
-by rewrite closed.
-Qed.
+  all_listed (solution Q) (proportional Q) lies_in lo hi ys no_other.
+Proof. by move=> /complete_number + no_open; apply: listed_weaken => t x; rewrite no_open => -[]. Qed.
 
 End Complete.
 

@@ -44,6 +44,115 @@ Local Open Scope ring_scope.
 
 Definition interval := (point * point)%type.
 
+(* A region with one solution, and an interval of its value. *)
+Record yield := Yield { yield_region : region; yield_from : point; yield_to : point }.
+
+Lemma Forall2_in T U (p : T -> U -> Prop) ys l : List.Forall2 p ys l ->
+  forall s, List.In s l -> exists2 y, List.In y ys & p y s.
+Proof.
+elim=> // y s ys' l' ps _ IH s' /= [<-|/IH[z zl pz]]; first by exists y => //; left.
+by exists z => //; right.
+Qed.
+
+(* What regions say of the solutions in a window, whatever a solution is, which vectors count as
+   the same, and what it is to lie in a region. *)
+Section Regions.
+
+Variables (R : realFieldType) (solution : R -> (nat -> R) -> Prop).
+Variables (same : (nat -> R) -> (nat -> R) -> Prop) (lies : region -> R -> (nat -> R) -> Prop).
+Variables (lo hi : point).
+
+(* The region has exactly one solution. *)
+Definition has_one (y : yield) := exists t x,
+  [/\ between t (yield_from y) (yield_to y), solution t x, lies (yield_region y) t x &
+      forall t' x', solution t' x' -> lies (yield_region y) t' x' -> t' = t /\ same x x'].
+
+Definition in_some (rs : seq region) t x := exists2 r, List.In r rs & lies r t x.
+
+(* Each region has exactly one solution, and every solution lies in one of them or is an other. *)
+Definition covers (ys : seq yield) (other : R -> (nat -> R) -> Prop) :=
+  (forall t x, solution t x -> between t lo hi ->
+     (exists2 y, List.In y ys & lies (yield_region y) t x) \/ other t x) /\
+  forall y, List.In y ys -> has_one y.
+
+(* As many different solutions as regions, one in each; every solution is one of them or an
+   other. *)
+Definition all_listed (ys : seq yield) (other : R -> (nat -> R) -> Prop) :=
+  exists l : seq (R * (nat -> R)),
+    [/\ size l = size ys,
+        forall s, List.In s l -> solution s.1 s.2 /\ between s.1 lo hi,
+        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
+                                 lies (yield_region y) s.1 s.2) ys l,
+        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ same s.2 s'.2)) l &
+        forall t x, solution t x -> between t lo hi ->
+          (exists2 s, List.In s l & t = s.1 /\ same s.2 x) \/ other t x].
+
+Lemma covers_none : covers [::] (in_some [::]) ->
+  forall t x, solution t x -> between t lo hi -> False.
+Proof. by case=> every _ t x sol bt; case: (every t x sol bt) => -[]. Qed.
+
+Lemma listed_weaken ys (other other' : R -> (nat -> R) -> Prop) :
+  (forall t x, other t x -> other' t x) -> all_listed ys other -> all_listed ys other'.
+Proof.
+move=> weaker [l [sz sols vals pairs every]]; exists l; split=> // t x sol bt.
+by case: (every t x sol bt) => [|/weaker]; [left | right].
+Qed.
+
+Definition no_other (t : R) (x : nat -> R) := False.
+
+Lemma listed_none : all_listed [::] no_other -> forall t x, solution t x -> between t lo hi -> False.
+Proof.
+by case=> -[|m l] [//_ _ _ _ every] t x sol bt; case: (every t x sol bt) => [[]|].
+Qed.
+
+End Regions.
+
+Arguments no_other {R} t x.
+
+(* A list of solutions of one sort as one of another sort: each good x becomes f x. *)
+Section Transfer.
+
+Variables (R : realFieldType) (solution solution' : R -> (nat -> R) -> Prop).
+Variables (same same' : (nat -> R) -> (nat -> R) -> Prop).
+Variables (lies lies' : region -> R -> (nat -> R) -> Prop).
+Variables (good : (nat -> R) -> Prop) (f : (nat -> R) -> nat -> R).
+Variables other other' : R -> (nat -> R) -> Prop.
+
+Hypothesis f_solution : forall t x, good x -> solution t x -> solution' t (f x).
+Hypothesis f_lies : forall r t x, good x -> lies r t x -> lies' r t (f x).
+Hypothesis f_same : forall x x', good x -> good x' -> same' (f x) (f x') -> same x x'.
+Hypothesis f_onto : forall t v, solution' t v -> exists x, [/\ solution t x,
+  forall x', good x' -> same x' x -> same' (f x') v & other t x -> other' t v].
+
+Lemma listed_transfer lo hi ys :
+  (forall y t x, List.In y ys -> solution t x -> lies (yield_region y) t x -> good x) ->
+  all_listed solution same lies lo hi ys other ->
+  all_listed solution' same' lies' lo hi ys other'.
+Proof.
+move=> good_in [l [sz sols vals pairs every]].
+have goods m : List.In m l -> good m.2.
+  move=> m_in; have [y y_in [_ reg]] := Forall2_in vals m_in.
+  by have [sol _] := sols m m_in; apply: good_in y_in sol reg.
+exists [seq (m.1, f m.2) | m <- l]; split.
+- by rewrite size_map.
+- move=> m /List.in_map_iff[m' [<- m'_in]] /=; have [sol bt] := sols _ m'_in.
+  by split=> //; apply: f_solution => //; apply: goods.
+- elim: vals goods {sz sols pairs every} => [|y m ys' l' [bt reg] _ IH] goods /=; constructor.
+    by split=> //; apply: f_lies => //; apply: goods; left.
+  by apply: IH => m' m'_in; apply: goods; right.
+- elim: pairs goods {sz sols vals every} => [|m l' different _ IH] goods /=; constructor.
+    apply/List.Forall_forall => m' /List.in_map_iff[m2 [<- m2_in]] /= [eq_t is_same].
+    have /List.Forall_forall/(_ _ m2_in) := different; apply; split=> //.
+    by apply: f_same is_same; apply: goods; [left | right].
+  by apply: IH => m' m'_in; apply: goods; right.
+move=> t v /f_onto[x [sol same_v other_v]] bt.
+have [[m m_in [-> is_same]]|oth] := every t x sol bt; last by right; apply: other_v.
+left; exists (m.1, f m.2); first by apply/List.in_map_iff; exists m.
+by split=> //=; apply: same_v is_same; apply: goods.
+Qed.
+
+End Transfer.
+
 Section Cover.
 
 (* Evidence about the whole pencil, of whatever kind. *)
@@ -58,9 +167,6 @@ Inductive leaf :=
   | Infinite of interval & pinning & seq Z
   | Whole of whole
   | Undecided.
-
-(* A region with one solution, and an interval of its value. *)
-Record yield := Yield { yield_region : region; yield_from : point; yield_to : point }.
 
 Definition extended (r : region) (h : interval) := Region h.1 h.2 (states r).
 
@@ -155,12 +261,6 @@ Hypothesis limit_sound : forall r k x, check_limit r k x -> exists2 xs : nat -> 
 Definition same_direction (x x' : nat -> R) :=
   exists2 f, 0 < f & forall i, i \in indices P -> x' i = f * x i.
 
-Definition has_exactly_one (y : yield) :=
-  exists t x, [/\ between t (yield_from y) (yield_to y), solves t x,
-    in_region_of P t x (yield_region y) &
-    forall t' x', solves t' x' -> in_region_of P t' x' (yield_region y) ->
-      t' = t /\ same_direction x x'].
-
 Lemma in_extended r h t (x : nat -> R) : ordered (lower r) (upper r) -> reaches r h ->
   in_region_of P t x r -> in_region_of P t x (extended r h).
 Proof.
@@ -223,7 +323,7 @@ have [[y yields_y reg_y]|l_open] := leaf_sound O ok reg sol.
 by right; exists r => //; apply/in_pmap; exists (r, l); rewrite // l_open.
 Qed.
 
-Lemma each_yield_has_one y : List.In y found -> has_exactly_one y.
+Lemma each_yield_has_one y : List.In y found -> has_one solves same_direction (fun r t x => in_region_of P t x r) y.
 Proof.
 case/in_pmap=> -[r l] in_leaves; rewrite /yielded /=.
 have [/= O] := leaves_are_checked checked in_leaves.
@@ -239,18 +339,13 @@ by exists t, x; case: sol0 => bt sol _; split=> // t' x' sol' reg'; have := uniq
 Qed.
 
 Theorem cover_sound :
-  (forall t x, solves t x -> between t lo hi ->
-     (exists2 y, List.In y found & in_region_of P t x (yield_region y)) \/
-     (exists2 r, List.In r left_open & in_region_of P t x r)) /\
-  (forall y, List.In y found -> has_exactly_one y).
+  covers solves same_direction (fun r t x => in_region_of P t x r) lo hi found
+    (in_some (fun r t x => in_region_of P t x r) left_open).
 Proof. by split; [exact: every_solution_is_yielded | exact: each_yield_has_one]. Qed.
 
 Theorem no_solution : found = [::] -> left_open = [::] ->
   forall t x, solves t x -> between t lo hi -> False.
-Proof.
-move=> none closed t x sol /(every_solution_is_yielded sol)[[y]|[r]]; first by rewrite none.
-by rewrite closed.
-Qed.
+Proof. by move=> none no_open; have := cover_sound; rewrite none no_open; apply: covers_none. Qed.
 
 End Checked.
 

@@ -27,7 +27,8 @@ Lemma by_computation (R : rcfType) s u w tr lo hi count :
 Proof.
 case/and3P=> checked /nilP closed.
 case number: solutions_found => [ys|] //= /eqP[<-].
-by have [l [? ? _ ? ?]] := system_exactly R checked number closed; exists l.
+have [l [? ? _ ? every]] := system_exactly R checked number closed; exists l; split=> // t v sat bt.
+by have [|[]] := every t v sat bt.
 Qed.
 
 Local Open Scope Z_scope.

@@ -162,16 +162,38 @@ elim: rs ls => //= a rs IH [|b ls] //= [sz] [<-|/(IH _ sz)[l rl]].
 by exists l; right.
 Qed.
 
+(* Solutions of a family, and what is not in a list: families, and solutions in open regions. *)
+Section Unlisted.
+
+Variables (R : rcfType) (lies : region -> R -> (nat -> R) -> Prop).
+
+Definition in_family (f : family) t x := lies f.1 t x /\ in_place (held_place f.2) t.
+
+Definition unlisted (fs : seq family) (rs : seq region) t x :=
+  (exists2 f, List.In f fs & in_family f t x) \/ in_some lies rs t x.
+
+(* Each value of the place has a solution in the region, and only one where it is called alone. *)
+Definition family_solved (solution : R -> (nat -> R) -> Prop)
+    (same : (nat -> R) -> (nat -> R) -> Prop) (f : family) :=
+  is_place R (held_place f.2) /\
+  forall t, in_place (held_place f.2) t ->
+    (exists x, solution t x /\ lies f.1 t x) /\
+    (held_alone f.2 -> forall x x', solution t x -> lies f.1 t x ->
+       solution t x' -> lies f.1 t x' -> same x x').
+
+Lemma unlisted_none t x : unlisted [::] [::] t x -> False.
+Proof. by case=> -[]. Qed.
+
+End Unlisted.
+
 Section Sound.
 
 Variables (R : rcfType) (Q : pencil).
 Implicit Types (t : R) (x : nat -> R).
 Notation ns := (size (slip Q)).
 
-Definition in_family (f : family) t x := lies_in Q f.1 t x /\ in_place (held_place f.2) t.
-
 (* What is said about a family. *)
-Definition family_holds (f : family) := holds R Q f.1 f.2.
+Definition family_holds := family_solved (lies_in Q) (solution Q) (proportional (R := R) Q).
 
 Lemma same_value_is v v' (s : R) : same_value v v' -> is_value v' s -> is_value v s.
 Proof.
@@ -268,7 +290,7 @@ Qed.
 
 Lemma leaf_covers t x : solution Q t x -> lies_in Q r t x ->
   (exists2 y, List.In y (isolated_in r l) & lies_in Q (yield_region y) t x) \/
-  (exists2 f, List.In f (families_in r l) & in_family f t x).
+  (exists2 f, List.In f (families_in r l) & in_family (lies_in Q) f t x).
 Proof.
 move=> sol reg; have [h h_in at_h] := support_covers O checked (conj sol reg).
 case iso: (isolated_value l h) => [v|].
@@ -290,17 +312,16 @@ by move=> rl; case/andP: checked => _ every; have /andP[] := all_In every rl.
 Qed.
 
 Theorem supports_cover r t x : List.In r rs -> solution Q t x -> lies_in Q r t x ->
-  [\/ exists2 y, List.In y (isolated_of rs ls) & lies_in Q (yield_region y) t x,
-      exists2 f, List.In f (families_of rs ls) & in_family f t x |
-      exists2 r', List.In r' (open_of rs ls) & lies_in Q r' t x].
+  (exists2 y, List.In y (isolated_of rs ls) & lies_in Q (yield_region y) t x) \/
+  unlisted (lies_in Q) (families_of rs ls) (open_of rs ls) t x.
 Proof.
 move=> r_in sol reg; have /andP[/eqP sz _] := checked.
 have [[l|] rl] := in_zip sz r_in; last first.
-  by apply: Or33; exists r => //; apply/in_pmap; exists (r, None).
+  by right; right; exists r => //; apply/in_pmap; exists (r, None).
 have [O ok] := leaf_checked rl.
 case: (leaf_covers O ok sol reg) => -[y y_in reg_y].
-  by apply: Or31; exists y => //; apply/in_flatten_map; exists (r, Some l).
-by apply: Or32; exists y => //; apply/in_flatten_map; exists (r, Some l).
+  by left; exists y => //; apply/in_flatten_map; exists (r, Some l).
+by right; left; exists y => //; apply/in_flatten_map; exists (r, Some l).
 Qed.
 
 Theorem supports_isolated y : List.In y (isolated_of rs ls) -> one_solution_in R Q y.
@@ -321,7 +342,7 @@ by split=> //; have [_ bt] := inside_sound R O ok_h ins.
 Qed.
 
 Lemma belongs_sound y f t x : List.In f (families_of rs ls) -> belongs ns y f ->
-  between t (yield_from y) (yield_to y) -> lies_in Q (yield_region y) t x -> in_family f t x.
+  between t (yield_from y) (yield_to y) -> lies_in Q (yield_region y) t x -> in_family (lies_in Q) f t x.
 Proof.
 move=> f_in /andP[inside states] bt [_ ag]; have [ok into] := family_inside f_in.
 suff at_t : in_place (held_place f.2) t.
@@ -350,7 +371,9 @@ Theorem supports_families f : List.In f (families_of rs ls) -> family_holds f.
 Proof.
 case/in_flatten_map=> -[r [l|]] //= rl; have [O ok] := leaf_checked rl.
 case/List.in_map_iff=> h [<- /in_filter[h_in _]].
-exact: (support_holds R O ok h_in).
+have [is_pl each] := support_holds R O ok h_in; split=> // t /each[[x sol] alone]; split.
+  by exists x.
+by move=> al x1 x2 sol1 reg1 sol2 reg2; apply: (alone al).
 Qed.
 
 End Sound.
@@ -366,60 +389,34 @@ Notation families := (families_of rs ls).
 Notation candidates := (yields ++ isolated_of rs ls).
 
 Hypothesis supports : check_supports Q rs ls.
-Hypothesis every : forall (t : R) x, solution Q t x -> between t lo hi ->
-  (exists2 y, List.In y yields & lies_in Q (yield_region y) t x) \/
-  (exists2 r, List.In r rs & lies_in Q r t x).
-Hypothesis each : forall y, List.In y yields -> one_solution_in R Q y.
+Hypothesis cover :
+  covers (solution Q) (proportional Q) (lies_in Q) lo hi yields (in_some (R := R) (lies_in Q) rs).
 
 Theorem cover_number ys :
   distinct_yields ns lo hi [seq y <- candidates | ~~ has (belongs ns y) families] = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
-        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
-                                 lies_in Q (yield_region y) s.1 s.2) ys l,
-        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
-        forall t x, solution Q t x -> between t lo hi ->
-          [\/ exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x,
-              exists2 f, List.In f families & in_family Q f t x |
-              exists2 r, List.In r (open_of rs ls) & lies_in Q r t x]].
+  all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys
+    (unlisted (R := R) (lies_in Q) families (open_of rs ls)).
 Proof.
-move=> dist.
+have [every each] := cover.
 have one_each y : List.In y candidates -> one_solution_in R Q y.
   by case/in_cat_or=> [/each|/(supports_isolated R supports)].
-have has_one y :
-    List.In y [seq y <- candidates | ~~ has (belongs ns y) families] ->
-    exists s, the_solution (R := R) ns (slip_of Q) (solution Q) (proportional Q) y s.
-  case/in_filter=> /one_each[t [x [bt sol reg uniq]]] _.
-  by exists (t, x); split.
-have [l [[sols pairs] win all_found]] :=
-  distinct_sound (@proportional_slip R Q) (@proportional_sym R Q) (@proportional_trans R Q)
-    has_one dist.
-have covered y t x : List.In y candidates -> solution Q t x ->
+pose kept := [seq y <- candidates | ~~ has (belongs ns y) families].
+have kept_or_family y (t : R) x : List.In y candidates -> solution Q t x ->
     lies_in Q (yield_region y) t x ->
-    (exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x) \/
-    (exists2 f, List.In f families & in_family Q f t x).
+    (exists2 y, List.In y kept & lies_in Q (yield_region y) t x) \/
+    unlisted (lies_in Q) families (open_of rs ls) t x.
   move=> y_in sol reg; case of_family: (has (belongs ns y) families).
     have [f f_in bel] := has_In_family of_family.
     have [t0 [x0 [bt _ _ uniq]]] := one_each y y_in; have [eq_t _] := uniq t x sol reg.
-    right; exists f => //; apply: (belongs_sound supports f_in bel) => //.
+    right; left; exists f => //; apply: (belongs_sound supports f_in bel) => //.
     by rewrite eq_t.
-  left; have [|s sl one] := all_found y _ t x sol reg; last by exists s.
-  by apply/in_filter; rewrite of_family.
-exists l; split=> //.
-- exact/esym/(Forall2_size sols).
-- by move=> s sl; have [y _ [_ sol _ _]] := Forall2_in sols sl; split=> //; apply: win.
-- by apply: Forall2_impl sols => y s [bt _ reg _].
-move=> t x sol bt; case: (every sol bt) => -[y y_in reg].
-  have [|one|fam] := covered y t x _ sol reg; first by apply/in_cat_or; left.
-    exact: Or31.
-  exact: Or32.
-have [[y' y'_in reg']|fam|op] := supports_cover supports y_in sol reg.
-- have [|one|fam] := covered y' t x _ sol reg'; first by apply/in_cat_or; right.
-    exact: Or31.
-  exact: Or32.
-- exact: Or32.
-exact: Or33.
+  by left; exists y => //; apply/in_filter; rewrite of_family.
+apply: (distinct_listed (@proportional_slip R Q) (@proportional_sym R Q)
+  (@proportional_trans R Q)); split=> [t x sol bt|y /in_filter[/one_each]] //.
+case: (every t x sol bt) => -[y y_in reg].
+  by apply: (kept_or_family y) => //; apply/in_cat_or; left.
+have [[y' y'_in reg']|] := supports_cover supports y_in sol reg; last by right.
+by apply: (kept_or_family y') => //; apply/in_cat_or; right.
 Qed.
 
 End Cover.
@@ -435,19 +432,11 @@ Notation families := (families tr lo hi ls).
 Notation still_open := (still_open tr lo hi ls).
 
 Theorem families_number ys : all_solutions Q claims tr lo hi ls = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
-        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
-                                 lies_in Q (yield_region y) s.1 s.2) ys l,
-        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
-        forall t x, solution Q t x -> between t lo hi ->
-          [\/ exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x,
-              exists2 f, List.In f families & in_family Q f t x |
-              exists2 r, List.In r still_open & lies_in Q r t x]].
+  all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys
+    (unlisted (R := R) (lies_in Q) families still_open).
 Proof.
-case/andP: checked => complete supports; have [every each] := complete_sound R complete.
-exact: (cover_number supports every each).
+case/andP: checked => complete supports.
+exact: (cover_number supports (complete_sound R complete)).
 Qed.
 
 Theorem families_hold f : List.In f families -> family_holds R Q f.
@@ -463,76 +452,25 @@ Hypothesis wf : system_wellformed s u.
 
 Notation Q := (pencil_of s u).
 
-(* The motion (t, v) belongs to a family. *)
-Definition motion_in_family (f : family) (t : R) v :=
-  motion_in s u f.1 t v /\ in_place (held_place f.2) t.
+Lemma motions_number ys fs rs :
+  all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys
+    (unlisted (R := R) (lies_in Q) fs rs) ->
+  all_listed (satisfies_9 s u) (same_motion s) (motion_in s u) lo hi ys
+    (unlisted (R := R) (motion_in s u) fs rs).
+Proof. exact: motions_listed. Qed.
 
-Lemma motions_number (ys : seq yield) (fs : seq family) (rs : seq region) :
-  (exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
-        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
-                                 lies_in Q (yield_region y) s.1 s.2) ys l,
-        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
-        forall t x, solution Q t x -> between t lo hi ->
-          [\/ exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x,
-              exists2 f, List.In f fs & in_family Q f t x |
-              exists2 r, List.In r rs & lies_in Q r t x]]) ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
-        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                                 motion_in s u (yield_region y) m.1 m.2) ys l,
-        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
-        forall t v, satisfies_9 s u t v -> between t lo hi ->
-          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
-              exists2 f, List.In f fs & motion_in_family f t v |
-              exists2 r, List.In r rs & motion_in s u r t v]].
+Lemma motions_hold f : family_holds R Q f ->
+  family_solved (motion_in s u) (satisfies_9 s u) (same_motion (R := R) s) f.
 Proof.
-case=> l [sz sols vals pairs every].
-exists [seq (p.1, motion s p.2) | p <- l]; split=> //.
-- by rewrite size_map.
-- move=> m /List.in_map_iff[p [<- /sols[sol bt]]]; split=> //=; exact/(system_pencil wf).
-- elim: vals => [|y p ys' l' [bt reg] _ IH] /=; constructor=> //.
-  by split=> //; apply: (lies_in_motion wf).
-- elim: pairs => [|p l' different _ IH] /=; constructor=> //.
-  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t].
-  move/(motion_injective wf) => prop.
-  by have /List.Forall_forall/(_ _ p'_in) := different; apply.
-move=> t v sat bt; have sol := solution_of_motion wf sat.
-have [[p p_in [-> prop]]|[f f_in [reg at_t]]|[r r_in reg]] := every t _ sol bt.
-- apply: Or31; exists (p.1, motion s p.2); first by apply/List.in_map_iff; exists p.
-  split=> //=; have [c c0 scaled] := motion_proportional prop.
-  by exists c => // d Hd; rewrite -scaled (system_onto wf sat).
-- by apply: Or32; exists f.
-by apply: Or33; exists r.
-Qed.
-
-Lemma motions_hold_at r (alone : bool) (t : R) :
-  (exists x, solution Q t x /\ lies_in Q r t x) /\
-  (alone -> forall x x', solution Q t x /\ lies_in Q r t x -> solution Q t x' /\ lies_in Q r t x' ->
-     proportional Q x x') ->
-  (exists v, satisfies_9 s u t v /\ motion_in s u r t v) /\
-  (alone -> forall v v', satisfies_9 s u t v -> motion_in s u r t v ->
-     satisfies_9 s u t v' -> motion_in s u r t v' -> same_motion s v v').
-Proof.
-case=> [[x [sol reg]] is_alone]; split.
+case=> is_pl each; split=> // t /each[[x [sol reg]] alone]; split.
   exists (motion s x); split; first exact/(system_pencil wf).
   exact: (lies_in_motion wf).
 move=> al v v' sat reg_v sat' reg_v'.
 have prop : proportional Q (variables_of s v) (variables_of s v').
-  by apply: (is_alone al); split=> //; apply: solution_of_motion.
+  by apply: (alone al) => //; apply: solution_of_motion.
 have [c c0 scaled] := motion_proportional prop.
 by exists c => // d Hd; rewrite -(system_onto wf sat') // scaled (system_onto wf sat).
 Qed.
-
-Lemma motions_hold f : family_holds R Q f ->
-  is_place R (held_place f.2) /\
-  forall t : R, in_place (held_place f.2) t ->
-    (exists v, satisfies_9 s u t v /\ motion_in s u f.1 t v) /\
-    (held_alone f.2 -> forall v v', satisfies_9 s u t v -> motion_in s u f.1 t v ->
-       satisfies_9 s u t v' -> motion_in s u f.1 t v' -> same_motion s v v').
-Proof. by case=> is_pl each; split=> // t /each/motions_hold_at. Qed.
 
 End Motions.
 
@@ -554,28 +492,14 @@ by split=> //; apply/andP.
 Qed.
 
 Theorem system_families_number ys : all_solutions Q claims tr lo hi ls = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
-        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                                 motion_in s u (yield_region y) m.1 m.2) ys l,
-        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
-        forall t v, satisfies_9 s u t v -> between t lo hi ->
-          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
-              exists2 f, List.In f families & motion_in_family s u f t v |
-              exists2 r, List.In r still_open & motion_in s u r t v]].
+  all_listed (satisfies_9 s u) (same_motion s) (motion_in s u) lo hi ys
+    (unlisted (R := R) (motion_in s u) families still_open).
 Proof.
 have [wf _ fam] := system_parts => /(families_number R fam); exact: motions_number.
 Qed.
 
 Theorem system_families_hold f : List.In f families ->
-  is_place R (held_place f.2) /\
-  forall t : R, in_place (held_place f.2) t ->
-    (exists v, satisfies_9 s u t v /\ motion_in s u f.1 t v) /\
-    (held_alone f.2 -> forall v v', satisfies_9 s u t v -> motion_in s u f.1 t v ->
-       satisfies_9 s u t v' -> motion_in s u f.1 t v' -> same_motion s v v').
-Proof.
-by have [wf _ fam] := system_parts => /(families_hold R fam); apply: motions_hold.
-Qed.
+  family_solved (motion_in s u) (satisfies_9 s u) (same_motion (R := R) s) f.
+Proof. by have [wf _ fam] := system_parts => /(families_hold R fam); apply: motions_hold. Qed.
 
 End Systems.

@@ -195,20 +195,28 @@ split=> [/pos|/zero|out /(bia out)|out /(free out)].
 by rewrite (sign_gt0 sg').
 Qed.
 
+(* [all_solutions_are], with one other beside the list. *)
+Lemma solutions_are (S : semantics R) lo hi c : all_solutions_are S lo hi c <->
+  all_listed (solves S) (same S) (lies_in_region S) lo hi (solutions_in c)
+    (unlisted (lies_in_region S) (families_of_set c) (open_regions c)).
+Proof.
+split=> -[l [sz sols vals pairs every]]; exists l; split=> // t v sol bt.
+  by case: (every t v sol bt) => ?; [left | right; left | right; right].
+by case: (every t v sol bt) => [|[]] ?; [apply: Or31 | apply: Or32 | apply: Or33].
+Qed.
+
 Lemma equivalent_solutions lo hi c : all_solutions_are P' lo hi c -> all_solutions_are P lo hi c.
 Proof.
-case=> l [sz sols vals pairs every]; exists l; split=> //.
-- by move=> m /sols[sol bt]; split=> //; apply/(same_solutions E).
-- elim: vals => [|y m ys l' [bt reg] _ IH]; constructor=> //.
-  by split=> //; apply/equivalent_region.
-- elim: pairs => [|m l' different _ IH]; constructor=> //.
-  apply/List.Forall_forall => m' m'_in [eq_t]; move/(same_multiples E) => prop.
-  by have /List.Forall_forall/(_ _ m'_in) := different; apply.
-move=> t v /(same_solutions E) sol bt.
-have [[m m_in [-> prop]]|[f f_in [reg at_t]]|[r r_in reg]] := every t v sol bt.
-- by apply: Or31; exists m => //; split=> //; apply/(same_multiples E).
-- by apply: Or32; exists f => //; split=> //; apply/equivalent_region.
-by apply: Or33; exists r => //; apply/equivalent_region.
+move=> /solutions_are listed; apply/solutions_are.
+apply: (listed_transfer (good := fun=> True) (f := id) _ _ _ _ _ listed) => //.
+- by move=> t v _ /(same_solutions E).
+- by move=> r t v _ /equivalent_region.
+- by move=> v v' _ _ /(same_multiples E).
+move=> t v /(same_solutions E) sol; exists v; split=> //.
+  by move=> v' _ /(same_multiples E).
+case=> [[f f_in [reg at_t]]|[r r_in reg]]; [left | right].
+  by exists f => //; split=> //; apply/equivalent_region.
+by exists r => //; apply/equivalent_region.
 Qed.
 
 Lemma equivalent_family f : family_exists P' f -> family_exists P f.

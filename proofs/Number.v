@@ -14,7 +14,7 @@
 
    Theorem [distinct_sound]: if the list that is kept has N members, there are N solutions in the
    window, one in each region kept, no two of them equal, and the solution of each region of the
-   list given is one of them.
+   list given is one of them.  [distinct_listed]: the same for a cover ([covers], Cover.v).
 
    The theorem does not depend on what a solution is: [solution] t x is any property, and
    [multiple] x x', for solutions of one value, says that they are positive multiples.
@@ -196,13 +196,6 @@ Qed.
 Lemma all_In (p : yield -> bool) l : all p l -> forall y, List.In y l -> p y.
 Proof. by elim: l => //= z l IH /andP[pz /IH pl] y [<-|/pl]. Qed.
 
-Lemma Forall2_in (p : yield -> pair_of_solution -> Prop) ys l : List.Forall2 p ys l ->
-  forall s, List.In s l -> exists2 y, List.In y ys & p y s.
-Proof.
-elim=> // y s ys' l' ps _ IH s' /= [<-|/IH[z zl pz]]; first by exists y => //; left.
-by exists z => //; right.
-Qed.
-
 Lemma Forall2_size (p : yield -> pair_of_solution -> Prop) ys l : List.Forall2 p ys l ->
   size ys = size l.
 Proof. by elim=> //= y s ys' l' _ _ ->. Qed.
@@ -267,6 +260,24 @@ have [l [sol win all_found]] := distinct_invariant has_one (none _) nothing (non
 exists l; split=> // [s sl|y y_found]; last by apply: all_found; right.
 have [y /win win_y [bt _ _ _]] := Forall2_in (proj1 sol) sl.
 exact: within_between win_y bt.
+Qed.
+
+(* Lists the solutions that a cover yields. *)
+Corollary distinct_listed found other ys :
+  covers solution multiple (fun r t x => in_region n t (slip_part x) r) lo hi found other ->
+  distinct_yields n lo hi found = Some ys ->
+  all_listed solution multiple (fun r t x => in_region n t (slip_part x) r) lo hi ys other.
+Proof.
+move=> [every each] dist.
+have has_one y : List.In y found -> exists s, the_solution y s.
+  by move/each=> [t [x [bt sol reg uniq]]]; exists (t, x); split.
+have [l [[sols pairs] win all_found]] := distinct_sound has_one dist.
+exists l; split=> //.
+- exact/esym/(Forall2_size sols).
+- by move=> s sl; have [y _ [_ sol _ _]] := Forall2_in sols sl; split=> //; apply: win.
+- by apply: Forall2_impl sols => y s [bt _ reg _].
+move=> t x sol bt; have [[y y_in reg]|] := every t x sol bt; last by right.
+by left; have [s sl one] := all_found y y_in t x sol reg; exists s.
 Qed.
 
 End Sound.

@@ -141,16 +141,8 @@ Lemma point_parts :
 Proof. by case/and3P: checked => finite fam _; split=> //; case/andP: fam => /and5P[]. Qed.
 
 Theorem point_number ys : all_solutions Qe claims tr e e ls = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 e e,
-        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
-                                 lies_in Q (yield_region y) s.1 s.2) ys l,
-        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
-        forall t x, solution Q t x -> between t e e ->
-          [\/ exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x,
-              exists2 f, List.In f families & in_family Q f t x |
-              exists2 r, List.In r still_open & lies_in Q r t x]].
+  all_listed (solution Q) (proportional Q) (lies_in Q) e e ys
+    (unlisted (R := R) (lies_in Q) families still_open).
 Proof.
 have [finite fam wf] := point_parts => /(families_number R fam)[l [sz sols vals pairs every]].
 exists l; split=> //.
@@ -158,19 +150,16 @@ exists l; split=> //.
 by move=> t x sol at_e; apply: every => //; apply/(point_solution finite x wf at_e).
 Qed.
 
-Theorem point_hold f : List.In f families -> is_place R (held_place f.2) /\
-  forall t : R, in_place (held_place f.2) t -> between t e e /\
-    (exists x, solution Q t x /\ lies_in Q f.1 t x) /\
-    (held_alone f.2 -> forall x x', solution Q t x -> lies_in Q f.1 t x ->
-       solution Q t x' -> lies_in Q f.1 t x' -> proportional Q x x').
+Theorem point_hold f : List.In f families ->
+  family_solved (R := R) (lies_in Q) (solution Q) (proportional Q) f /\
+  forall t : R, in_place (held_place f.2) t -> between t e e.
 Proof.
-have [finite fam wf] := point_parts => f_in.
-have [pl each] := families_hold R fam f_in; split=> // t at_t.
-have [[x [sol reg]] alone] := each t at_t.
-have bt : between t e e.
-  have /and3P[_ _ inside] := checked; have /andP[/eqP lo /eqP hi] := Support.all_In inside f_in.
-  by case: reg; rewrite lo hi.
-have same y := point_solution finite y wf bt; split=> //.
+have [finite fam wf] := point_parts => f_in; have [pl each] := families_hold R fam f_in.
+have at_e (t : R) : in_place (held_place f.2) t -> between t e e.
+  move=> /each[[x [_ [bt _]]] _]; have /and3P[_ _ inside] := checked.
+  by have /andP[/eqP lo /eqP hi] := Support.all_In inside f_in; rewrite lo hi in bt.
+split=> //; split=> // t at_t; have [[x [sol reg]] alone] := each t at_t.
+have same y := point_solution finite y wf (at_e t at_t).
 split; first by exists x; split=> //; apply/same.
 by move=> al y y' /same sol_y reg_y /same sol_y' reg_y'; apply: (alone al).
 Qed.
@@ -190,29 +179,15 @@ Notation families := (families tr e e ls).
 Notation still_open := (still_open tr e e ls).
 
 Theorem system_point_number ys : all_solutions (point_pencil Q e) claims tr e e ls = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 e e,
-        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                                 motion_in s u (yield_region y) m.1 m.2) ys l,
-        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
-        forall t v, satisfies_9 s u t v -> between t e e ->
-          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
-              exists2 f, List.In f families & motion_in_family s u f t v |
-              exists2 r, List.In r still_open & motion_in s u r t v]].
-Proof.
-by case/andP: checked => wf at_e /(point_number R at_e); apply: motions_number.
-Qed.
+  all_listed (satisfies_9 s u) (same_motion s) (motion_in s u) e e ys
+    (unlisted (R := R) (motion_in s u) families still_open).
+Proof. by case/andP: checked => wf at_e /(point_number R at_e); apply: motions_number. Qed.
 
-Theorem system_point_hold f : List.In f families -> is_place R (held_place f.2) /\
-  forall t : R, in_place (held_place f.2) t -> between t e e /\
-    (exists v, satisfies_9 s u t v /\ motion_in s u f.1 t v) /\
-    (held_alone f.2 -> forall v v', satisfies_9 s u t v -> motion_in s u f.1 t v ->
-       satisfies_9 s u t v' -> motion_in s u f.1 t v' -> same_motion s v v').
+Theorem system_point_hold f : List.In f families ->
+  family_solved (R := R) (motion_in s u) (satisfies_9 s u) (same_motion s) f /\
+  forall t : R, in_place (held_place f.2) t -> between t e e.
 Proof.
-case/andP: checked => wf at_e /(point_hold R at_e)[pl each]; split=> // t at_t.
-have [bt [some alone]] := each t at_t; split=> //; apply: (motions_hold_at wf).
-by split=> // al x x' [sol reg] []; apply: (alone al).
+by case/andP: checked => wf at_e /(point_hold R at_e)[held bt]; split=> //; apply: motions_hold.
 Qed.
 
 End Systems.
@@ -432,7 +407,7 @@ Theorem infinity_number ys :
         List.ForallOrdPairs (fun x x' => ~ proportional Q x x') l &
         forall x : nat -> R, at_infinity Q x ->
           [\/ exists2 x', List.In x' l & proportional Q x' x,
-              exists2 f, List.In f families & in_family Q f 0 x |
+              exists2 f, List.In f families & in_family (lies_in Q) f 0 x |
               exists2 r, List.In r still_open & lies_in Q r 0 x]].
 Proof.
 have wf := infinity_wellformed; move/(point_number R checked)=> [l [sz sols vals pairs every]].
@@ -449,9 +424,9 @@ exists [seq s.2 | s <- l]; split.
     have /List.Forall_forall/(_ _ s'_in) := different; apply; split=> //.
     by rewrite !value0 //; [left | right].
   by apply: IH => s' s'_in; apply: value0; right.
-move=> x /(reverse_at_zero wf) sol; have [|s_in|f_in|r_in] := every 0 x sol.
+move=> x /(reverse_at_zero wf) sol; have [|[s s_in [_ prop]]|[f_in|r_in]] := every 0 x sol.
 - exact/at_zero.
-- by have [s s_in' [_ prop]] := s_in; apply: Or31; exists s.2 => //; apply: List.in_map.
+- by apply: Or31; exists s.2 => //; apply: List.in_map.
 - exact: Or32.
 exact: Or33.
 Qed.
@@ -469,8 +444,9 @@ Theorem infinity_hold f : List.In f families ->
   (held_alone f.2 -> forall x x' : nat -> R, at_infinity Q x -> lies_in Q f.1 0 x ->
      at_infinity Q x' -> lies_in Q f.1 0 x' -> proportional Q x x').
 Proof.
-have wf := infinity_wellformed => /(point_hold R checked)[pl each].
-have [t at_t] := place_inhabited pl; have [/at_zero t0 [[x [sol reg]] alone]] := each t at_t.
+have wf := infinity_wellformed => /(point_hold R checked)[[pl each] value0].
+have [t at_t] := place_inhabited pl; have [[x [sol reg]] alone] := each t at_t.
+have /at_zero t0 := value0 t at_t.
 rewrite {t}t0 in sol reg alone {at_t}; split.
   by exists x; split=> //; apply/(reverse_at_zero wf).
 move=> al y y' /(reverse_at_zero wf) sol_y reg_y /(reverse_at_zero wf) sol_y' reg_y'.

@@ -731,6 +731,21 @@ rewrite -(variables_of_motion wf x' Hi) -(variables_of_motion wf x Hi).
 exact: (variables_scaled wf scaled Hi).
 Qed.
 
+(* The motions of a list of solutions. *)
+Lemma motions_listed lo hi ys (other other' : R -> (nat -> R) -> Prop) :
+  (forall t v, other t (variables_of s v) -> other' t v) ->
+  all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys other ->
+  all_listed (satisfies_9 s u) same_motion motion_in lo hi ys other'.
+Proof.
+move=> other_v; apply: (listed_transfer (good := fun=> True) (f := motion s)) => // {ys}.
+- by move=> t x _ /(system_pencil wf).
+- by move=> r t x _; apply: lies_in_motion.
+- by move=> x x' _ _; apply: motion_injective.
+move=> t v sat; exists (variables_of s v); split; [exact: solution_of_motion | | exact: other_v].
+move=> x' _ /motion_proportional[f f0 scaled]; exists f => // d Hd.
+by rewrite -scaled (system_onto wf sat).
+Qed.
+
 End Motions.
 
 Variables (claims : seq solution_claim).
@@ -742,14 +757,7 @@ Notation found := (found Q claims tr lo hi).
 Notation left_open := (left_open tr lo hi).
 
 Theorem system_complete :
-  (forall t v, satisfies_9 s u t v -> between t lo hi ->
-     (exists2 y, List.In y found & motion_in (yield_region y) t v) \/
-     (exists2 r, List.In r left_open & motion_in r t v)) /\
-  (forall y, List.In y found -> exists (t : R) v,
-     [/\ between t (yield_from y) (yield_to y), satisfies_9 s u t v,
-         motion_in (yield_region y) t v &
-      forall t' v', satisfies_9 s u t' v' -> motion_in (yield_region y) t' v' ->
-        t' = t /\ same_motion v v']).
+  covers (satisfies_9 s u) same_motion motion_in lo hi found (in_some motion_in left_open).
 Proof.
 case/andP: (checked) => wf complete; have [every each] := complete_sound R complete.
 split=> [t v sat bt|y in_found]; first exact: every (solution_of_motion wf sat) bt.
@@ -764,55 +772,20 @@ Qed.
 Corollary system_none : found = [::] -> left_open = [::] ->
   forall (t : R) v, satisfies_9 s u t v -> between t lo hi -> False.
 Proof.
-move=> none closed t v sat bt; have [[y]|[r]] := system_complete.1 t v sat bt.
-  by rewrite none.
-by rewrite closed.
+by move=> none no_open; have := system_complete; rewrite none no_open; apply: covers_none.
 Qed.
 
 Theorem system_number ys : solutions_found Q claims tr lo hi = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
-        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                                 motion_in (yield_region y) m.1 m.2) ys l,
-        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion m.2 m'.2)) l &
-        forall t v, satisfies_9 s u t v -> between t lo hi ->
-          (exists2 m, List.In m l & t = m.1 /\ same_motion m.2 v) \/
-          (exists2 r, List.In r left_open & motion_in r t v)].
+  all_listed (satisfies_9 s u) same_motion motion_in lo hi ys (in_some motion_in left_open).
 Proof.
-case/andP: (checked) => wf complete; case/(complete_number R complete).
-move=> l [sz sols vals pairs every].
-exists [seq (p.1, motion s p.2) | p <- l]; split=> //.
-- by rewrite size_map.
-- move=> m /List.in_map_iff[p [<- /sols[sol bt]]]; split=> //=; exact/(system_pencil wf).
-- elim: vals => [|y p ys' l' [bt reg] _ IH] /=; constructor=> //.
-  by split=> //; apply: (lies_in_motion wf).
-- elim: pairs => [|p l' different _ IH] /=; constructor=> //.
-  apply/List.Forall_forall => m /List.in_map_iff[p' [<- p'_in]] /= [eq_t].
-  move/(motion_injective wf) => prop.
-  by have /List.Forall_forall/(_ _ p'_in) := different; apply.
-move=> t v sat bt; have [[p p_in [-> prop]]|] := every t _ (solution_of_motion wf sat) bt.
-  left; exists (p.1, motion s p.2); first by apply/List.in_map_iff; exists p.
-  split=> //=; have [f f0 scaled] := motion_proportional prop.
-  by exists f => // d Hd; rewrite -scaled (system_onto wf sat).
-by right.
+case/andP: (checked) => wf complete /(complete_number R complete).
+exact: motions_listed.
 Qed.
 
 Corollary system_exactly ys :
   solutions_found Q claims tr lo hi = Some ys -> left_open = [::] ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
-        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                                 motion_in (yield_region y) m.1 m.2) ys l,
-        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion m.2 m'.2)) l &
-        forall t v, satisfies_9 s u t v -> between t lo hi ->
-          exists2 m, List.In m l & t = m.1 /\ same_motion m.2 v].
-Proof.
-move=> number closed; have [l [sz sols vals pairs every]] := system_number number.
-exists l; split=> // t v sat bt; have [//|[r]] := every t v sat bt.
-by rewrite closed.
-Qed.
+  all_listed (satisfies_9 s u) same_motion motion_in lo hi ys no_other.
+Proof. by move=> /system_number + no_open; apply: listed_weaken => t v; rewrite no_open => -[]. Qed.
 
 End Main.
 

@@ -468,10 +468,8 @@ exact: (claim_yields (r := extended r h) Oh at_a (known_exists lt_k) supports).
 Qed.
 
 Theorem varying_sound :
-  (forall (t : R) x, solution Q t x -> between t lo hi ->
-     (exists2 y, List.In y found & lies_in Q (yield_region y) t x) \/
-     (exists2 r, List.In r left_open & lies_in Q r t x)) /\
-  (forall y, List.In y found -> one_solution_in R Q y).
+  covers (solution Q) (proportional Q) (lies_in Q) lo hi found
+    (in_some (R := R) (lies_in Q) left_open).
 Proof.
 have [_ _ _ ok_tree] := varying_parts; split=> [t x sol bt|y].
   have [_ _ _ rows_s] := sol.
@@ -490,21 +488,12 @@ Qed.
 
 Corollary varying_none : found = [::] -> left_open = [::] ->
   forall (t : R) x, solution Q t x -> between t lo hi -> False.
-Proof.
-move=> none closed t x sol bt; have [[y]|[r]] := varying_sound.1 t x sol bt.
-  by rewrite none.
-by rewrite closed.
-Qed.
+Proof. by move=> none no_open; have := varying_sound; rewrite none no_open; apply: covers_none. Qed.
 
 Theorem varying_place k : check_solution_claim Q k ->
   within (known_from (known_of Q k), known_to (known_of Q k)) (lo, hi) ->
-  exists (t : R) x, known_solution Q (known_of Q k) t x /\
-    ((exists2 y, List.In y found & between t (yield_from y) (yield_to y) /\
-                                   lies_in Q (yield_region y) t x) \/
-     (exists2 r, List.In r left_open & lies_in Q r t x)).
-Proof.
-by have [every each] := varying_sound; move/(claim_known R); apply: known_place every each.
-Qed.
+  known_in R Q (known_of Q k) found left_open.
+Proof. by move/(claim_known R); apply: known_place varying_sound. Qed.
 
 End Sound.
 
@@ -519,36 +508,18 @@ Notation families := (varying_families tr lo hi ls).
 Notation still_open := (varying_still_open tr lo hi ls).
 
 Theorem varying_number ys : varying_solutions Q claims tr lo hi ls = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
-        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
-                                 lies_in Q (yield_region y) s.1 s.2) ys l,
-        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
-        forall t x, solution Q t x -> between t lo hi ->
-          [\/ exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x,
-              exists2 f, List.In f families & in_family Q f t x |
-              exists2 r, List.In r still_open & lies_in Q r t x]].
+  all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys
+    (unlisted (R := R) (lies_in Q) families still_open).
 Proof.
-case/andP: checked => varying supports; have [every each] := varying_sound R varying.
-exact: (cover_number supports every each).
+case/andP: checked => varying supports; exact: (cover_number supports (varying_sound R varying)).
 Qed.
 
 Corollary varying_exactly ys : varying_solutions Q claims tr lo hi ls = Some ys ->
   families = [::] -> still_open = [::] ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall s, List.In s l -> solution Q s.1 s.2 /\ between s.1 lo hi,
-        List.Forall2 (fun y s => between s.1 (yield_from y) (yield_to y) /\
-                                 lies_in Q (yield_region y) s.1 s.2) ys l,
-        List.ForallOrdPairs (fun s s' => ~ (s'.1 = s.1 /\ proportional Q s.2 s'.2)) l &
-        forall t x, solution Q t x -> between t lo hi ->
-          exists2 s, List.In s l & t = s.1 /\ proportional Q s.2 x].
+  all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys (no_other (R := R)).
 Proof.
-move=> dist no_family closed; have [l [sz sols vals pairs every]] := varying_number dist.
-exists l; split=> // t x sol bt; have [//|[f]|[r]] := every t x sol bt.
-  by rewrite no_family.
-by rewrite closed.
+move=> /varying_number + no_family no_open; rewrite no_family no_open.
+by apply: listed_weaken; apply: unlisted_none.
 Qed.
 
 Theorem varying_hold f : List.In f families -> family_holds R Q f.
@@ -567,54 +538,27 @@ Notation families := (varying_families tr lo hi ls).
 Notation still_open := (varying_still_open tr lo hi ls).
 
 Theorem system_varying_number ys : varying_solutions Q claims tr lo hi ls = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
-        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                                 motion_in s u (yield_region y) m.1 m.2) ys l,
-        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
-        forall t v, satisfies_9 s u t v -> between t lo hi ->
-          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
-              exists2 f, List.In f families & motion_in_family s u f t v |
-              exists2 r, List.In r still_open & motion_in s u r t v]].
+  all_listed (satisfies_9 s u) (same_motion s) (motion_in s u) lo hi ys
+    (unlisted (R := R) (motion_in s u) families still_open).
 Proof.
 by case/andP: checked => wf varying /(varying_number R varying); apply: motions_number.
 Qed.
 
 Corollary system_varying_exactly ys : varying_solutions Q claims tr lo hi ls = Some ys ->
   families = [::] -> still_open = [::] ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall m, List.In m l -> satisfies_9 s u m.1 m.2 /\ between m.1 lo hi,
-        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                                 motion_in s u (yield_region y) m.1 m.2) ys l,
-        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
-        forall t v, satisfies_9 s u t v -> between t lo hi ->
-          exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v].
+  all_listed (satisfies_9 s u) (same_motion s) (motion_in s u) lo hi ys (no_other (R := R)).
 Proof.
-move=> dist no_family closed; have [l [sz sols vals pairs every]] := system_varying_number dist.
-exists l; split=> // t v sat bt; have [//|[f]|[r]] := every t v sat bt.
-  by rewrite no_family.
-by rewrite closed.
+move=> /system_varying_number + no_family no_open; rewrite no_family no_open.
+by apply: listed_weaken; apply: unlisted_none.
 Qed.
 
 Corollary system_varying_none :
   varying_solutions Q claims tr lo hi ls = Some [::] -> families = [::] -> still_open = [::] ->
   forall (t : R) v, satisfies_9 s u t v -> between t lo hi -> False.
-Proof.
-move=> none no_family closed t v sat bt.
-have [[|m l] [//_ _ _ _ every]] := system_varying_exactly none no_family closed.
-by have [] := every t v sat bt.
-Qed.
+Proof. by move=> none no_family /(system_varying_exactly none no_family); apply: listed_none. Qed.
 
 Theorem system_varying_hold f : List.In f families ->
-  is_place R (held_place f.2) /\
-  forall t : R, in_place (held_place f.2) t ->
-    (exists v, satisfies_9 s u t v /\ motion_in s u f.1 t v) /\
-    (held_alone f.2 -> forall v v', satisfies_9 s u t v -> motion_in s u f.1 t v ->
-       satisfies_9 s u t v' -> motion_in s u f.1 t v' -> same_motion s v v').
-Proof.
-by case/andP: checked => wf varying /(varying_hold R varying); apply: motions_hold.
-Qed.
+  family_solved (motion_in s u) (satisfies_9 s u) (same_motion (R := R) s) f.
+Proof. by case/andP: checked => wf varying /(varying_hold R varying); apply: motions_hold. Qed.
 
 End Systems.

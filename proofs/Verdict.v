@@ -407,29 +407,18 @@ Qed.
 
 (* Covers. *)
 
-Lemma families_exist Q (fs : seq family) : (forall f, List.In f fs -> family_holds R Q f) ->
-  forall f, List.In f fs -> family_exists (sem (PencilProblem Q)) f.
-Proof.
-move=> each f /each[is_pl at_place]; split=> // t /at_place[[x sol] alone]; split.
-  by exists x.
-by move=> al x1 x2 sol1 reg1 sol2 reg2; apply: (alone al).
-Qed.
-
 Lemma answer_cover_sound Q lo hi c s : answer_cover Q lo hi c = Proved s ->
   holds_of (PencilProblem Q) s.
 Proof.
 case: c => [claims w tr _ ls|claims w tr ls|claims w tr _ ls] /=.
 - case: ifP => // ok; rewrite /told; case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
-  split; first exact: (families_number R ok eq).
-  by apply: families_exist => f; apply: (families_hold R ok).
+  by split; [apply/solutions_are; apply: (families_number R ok eq) | apply: (families_hold R ok)].
 - case: ifP => // /andP[_ ok]; rewrite /told.
   case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
-  split; first exact: (point_number R ok eq).
-  move=> f f_in; have [is_pl each] := point_hold R ok f_in; split=> // t /each[_ [some alone]].
-  by split.
+  split; first by apply/solutions_are; apply: (point_number R ok eq).
+  by move=> f /(point_hold R ok)[].
 case: ifP => // ok; rewrite /told; case eq: (varying_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
-split; first exact: (varying_number R ok eq).
-by apply: families_exist => f; apply: (varying_hold R ok).
+by split; [apply/solutions_are; apply: (varying_number R ok eq) | apply: (varying_hold R ok)].
 Qed.
 
 (* The motions of a system with this pencil. *)
@@ -441,10 +430,8 @@ have [lo' [hi' [set ->]]] : exists lo' hi' set, s = AllInWindow lo' hi' set.
   case: c is_s => [claims w tr _ ls|claims w tr ls|claims w tr _ ls] /=; case: ifP => // _;
     rewrite /told; case: (X in if X is Some _ then _ else _) => [ys|//] [<-]; do 3 eexists;
     reflexivity.
-case=> number each; split; first exact: (motions_number wf number).
-move=> f f_in; apply: (motions_hold wf); have [is_pl at_place] := each f f_in.
-split=> // t /at_place[[x [sol reg]] alone]; split; first by exists x.
-by move=> al x1 x2 [sol1 reg1] [sol2 reg2]; apply: (alone al).
+case=> /solutions_are number each; split; last by move=> f /each; apply: (motions_hold wf).
+exact/solutions_are/(motions_number wf number).
 Qed.
 
 Lemma zero_cover_sound z u lo hi c s : answer_zero_cover z u lo hi c = Proved s ->
@@ -452,11 +439,11 @@ Lemma zero_cover_sound z u lo hi c s : answer_zero_cover z u lo hi c = Proved s 
 Proof.
 case: c => [claims w tr bs ls|//|claims w tr bs ls] /=; case: ifP => // ok; rewrite /told.
   case eq: (zero_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /=.
-  split; first exact: (zero_complete_number R ok eq).
-  exact: (zero_complete_hold R ok eq).
+  split; last exact: (zero_complete_hold R ok eq).
+  exact/solutions_are/(zero_complete_number R ok eq).
 case eq: (zero_varying_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /=.
-split; first exact: (zero_varying_number R ok eq).
-exact: (zero_varying_hold R ok eq).
+split; last exact: (zero_varying_hold R ok eq).
+exact/solutions_are/(zero_varying_number R ok eq).
 Qed.
 
 Lemma infinity_sound p claims w tr ls s : (if p is PlainProblem _ then False else True) ->

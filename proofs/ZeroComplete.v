@@ -167,11 +167,8 @@ Notation ns := (size (slip Q)).
 Notation nz := (size (zero_particles z)).
 Notation total := (free_number s + size (particles s) + 3 * nz)%N.
 
-(* The motion (t, v) lies in a region, or belongs to a family. *)
+(* The motion (t, v) lies in a region. *)
 Definition zero_motion_in (r : region) t v := lies_in Q r t (zero_variables_of z v).
-
-Definition zero_motion_in_family (f : family) t v :=
-  zero_motion_in f.1 t v /\ in_place (held_place f.2) t.
 
 Lemma apart_split r t x : halves_apart z r -> solution Q t x -> lies_in Q r t x -> split z x.
 Proof.
@@ -210,62 +207,34 @@ Section Cover.
 
 Variables (lo hi : point) (yields : seq yield) (rs : seq region) (ls : seq (option support_leaf)).
 Hypothesis supports : check_supports Q rs ls.
-Hypothesis every : forall t x, solution Q t x -> between t lo hi ->
-  (exists2 y, List.In y yields & lies_in Q (yield_region y) t x) \/
-  (exists2 r, List.In r rs & lies_in Q r t x).
-Hypothesis each : forall y, List.In y yields -> one_solution_in R Q y.
+Hypothesis cover :
+  covers (solution Q) (proportional Q) (lies_in Q) lo hi yields (in_some (R := R) (lies_in Q) rs).
 
 Notation families := (families_of rs ls).
 
 Theorem zero_cover_number ys : zero_distinct z u lo hi yields rs ls = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall m, List.In m l -> satisfies_9z z u m.1 m.2 /\ between m.1 lo hi,
-        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                                 zero_motion_in (yield_region y) m.1 m.2) ys l,
-        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
-        forall t v, satisfies_9z z u t v -> between t lo hi ->
-          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
-              exists2 f, List.In f families & zero_motion_in_family f t v |
-              exists2 r, List.In r (zero_open z rs ls) & zero_motion_in r t v]].
+  all_listed (satisfies_9z z u) (same_motion s) zero_motion_in lo hi ys
+    (unlisted (R := R) zero_motion_in families (zero_open z rs ls)).
 Proof.
 rewrite /zero_distinct; case: ifP => // _; case dist: (distinct_yields _ _ _ _) => [ys'|] //.
 case: ifP => // apart [eq_ys]; move: dist apart; rewrite {ys'}eq_ys => dist apart.
-have [l [sz sols vals pairs all_found]] := cover_number supports every each dist.
-have splits m : List.In m l -> split z m.2.
-  move=> m_in; have [y y_in [_ reg]] := Forall2_in vals m_in; have [sol _] := sols _ m_in.
-  apply: apart_split reg => //; apply: (Support.all_In apart); exact: List.in_map.
-exists [seq (m.1, zero_motion z m.2) | m <- l]; split=> //.
-- by rewrite size_map.
-- move=> m /List.in_map_iff[m' [<- m'_in]] /=; have [sol bt] := sols _ m'_in.
-  by split=> //; apply: zero_pencil_motion (splits _ m'_in).
-- elim: vals splits {sz sols pairs all_found} => [|y m ys' l' [bt reg] _ IH] splits /=;
-    constructor.
-    by split=> //; apply: motion_lies_in reg; apply: splits; left.
-  by apply: IH => m' m'_in; apply: splits; right.
-- elim: pairs splits {sz sols vals all_found} => [|m l' different _ IH] splits /=; constructor.
-    apply/List.Forall_forall => m' /List.in_map_iff[m2 [<- m2_in]] /= [eq_t same].
-    have /List.Forall_forall/(_ _ m2_in) := different; apply; split=> //.
-    by apply: proportional_of_motions same; apply: splits; [left | right].
-  by apply: IH => m' m'_in; apply: splits; right.
-move=> t v sat bt; have sol := zero_pencil_solution wf sat.
-have split_v := split_variables (z := z) v; have same := zero_motion_of_variables wf sat.
-have [[m m_in [-> prop]]|[f f_in [reg at_t]]|[r r_in reg]] := all_found t _ sol bt.
-- apply: Or31; exists (m.1, zero_motion z m.2); first by apply/List.in_map_iff; exists m.
-  split=> //=; have [f f0 scaled] := same_motion_scaled prop.
-  by exists f => // d d_in; rewrite -scaled // same.
-- by apply: Or32; exists f.
-apply: Or33; exists r => //; apply/in_filter; split=> //.
-by apply/negP => both; case: reg => _ ag; apply: both_not_split ag both split_v.
+apply: (listed_transfer (good := split z) (f := zero_motion z) _ _ _ _ _
+  (cover_number supports cover dist)).
+- by move=> t x splits sol; apply: zero_pencil_motion.
+- by move=> r t x; apply: motion_lies_in.
+- by move=> x x'; apply: proportional_of_motions.
+- move=> t v sat; exists (zero_variables_of z v); split; first exact: (zero_pencil_solution wf sat).
+    move=> x' _ /same_motion_scaled[f f0 scaled]; exists f => // d d_in.
+    by rewrite -scaled // (zero_motion_of_variables wf sat).
+  case=> [|[r r_in reg]]; [by left | right; exists r => //; apply/in_filter; split=> //].
+  apply/negP => both; case: reg => _ ag.
+  by apply: both_not_split ag both (split_variables (z := z) v).
+move=> y t x y_in; apply: apart_split; apply: (Support.all_In apart); exact: List.in_map.
 Qed.
 
 Theorem zero_cover_hold ys : zero_distinct z u lo hi yields rs ls = Some ys ->
   forall f, List.In f families ->
-  is_place R (held_place f.2) /\
-  forall t, in_place (held_place f.2) t ->
-    (exists v, satisfies_9z z u t v /\ zero_motion_in f.1 t v) /\
-    (held_alone f.2 -> forall v v', satisfies_9z z u t v -> zero_motion_in f.1 t v ->
-       satisfies_9z z u t v' -> zero_motion_in f.1 t v' -> same_motion s v v').
+  family_solved zero_motion_in (satisfies_9z z u) (same_motion (R := R) s) f.
 Proof.
 rewrite /zero_distinct; case: ifP => // apart _ f f_in.
 have [is_pl each_value] := supports_families R supports f_in; split=> // t at_t.
@@ -276,7 +245,7 @@ have [[x [sol reg]] alone] := each_value t at_t; split.
   exact: motion_lies_in.
 move=> al v v' sat reg_v sat' reg_v'.
 have prop : proportional Q (zero_variables_of z v) (zero_variables_of z v').
-  by apply: (alone al); split=> //; apply: zero_pencil_solution.
+  by apply: (alone al) => //; apply: zero_pencil_solution.
 have [c c0 scaled] := same_motion_scaled prop.
 exists c => // d d_in; have := scaled d d_in.
 by rewrite (zero_motion_of_variables wf sat) // (zero_motion_of_variables wf sat').
@@ -333,33 +302,27 @@ Variables (alone : region -> pinned_box -> bool).
 Variables (yields : seq yield) (rs : seq region) (bs : seq (option pinned_box)).
 
 Hypothesis beside : check_beside z u rs bs alone.
-Hypothesis every : forall (t : R) x, solution Q t x -> between t lo hi ->
-  (exists2 y, List.In y yields & lies_in Q (yield_region y) t x) \/
-  (exists2 r, List.In r rs & lies_in Q r t x).
-Hypothesis each : forall y, List.In y yields -> one_solution_in R Q y.
+Hypothesis cover :
+  covers (solution Q) (proportional Q) (lies_in Q) lo hi yields (in_some (R := R) (lies_in Q) rs).
 Hypothesis alone_sound : forall r b, ordered (lower r) (upper r) -> alone r b ->
   (exists (t : R) x, known_solution Q (known_box z u b) t x) ->
   supports_region (enclosed_order ns) r (known_box z u b) ->
   one_solution_in R Q (Yield r (box_from (box_claim b)) (box_to (box_claim b))).
 
-Lemma beside_every (t : R) x : solution Q t x -> between t lo hi ->
-  (exists2 y, List.In y (yields ++ pinned_yields rs bs) & lies_in Q (yield_region y) t x) \/
-  (exists2 r, List.In r (not_pinned rs bs) & lies_in Q r t x).
+Lemma beside_covers :
+  covers (solution Q) (proportional Q) (lies_in Q) lo hi (yields ++ pinned_yields rs bs)
+    (in_some (R := R) (lies_in Q) (not_pinned rs bs)).
 Proof.
-have /andP[/eqP sz pinned_all] := beside => sol bt.
-have [[y y_in reg]|[r r_in reg]] := every sol bt.
-  by left; exists y => //; apply/in_cat_or; left.
-have [[b|] rb_in] := in_zip sz r_in; last first.
-  by right; exists r => //; apply/in_pmap; exists (r, None).
-left; exists (pinned_yield r b).
-  by apply/in_cat_or; right; apply/in_pmap; exists (r, Some b).
-have /and5P[O /and3P[o le_lo le_hi] _ _ _] := Support.all_In pinned_all rb_in.
-by case: reg => bt' ag; split=> //; apply: between_wider O o le_lo le_hi bt'.
-Qed.
-
-Lemma beside_each y : List.In y (yields ++ pinned_yields rs bs) -> one_solution_in R Q y.
-Proof.
-have /andP[_ pinned_all] := beside.
+have /andP[/eqP sz pinned_all] := beside; have [every each] := cover.
+split=> [t x sol bt|y].
+  have [[y y_in reg]|[r r_in reg]] := every t x sol bt.
+    by left; exists y => //; apply/in_cat_or; left.
+  have [[b|] rb_in] := in_zip sz r_in; last first.
+    by right; exists r => //; apply/in_pmap; exists (r, None).
+  left; exists (pinned_yield r b).
+    by apply/in_cat_or; right; apply/in_pmap; exists (r, Some b).
+  have /and5P[O /and3P[o le_lo le_hi] _ _ _] := Support.all_In pinned_all rb_in.
+  by case: reg => bt' ag; split=> //; apply: between_wider O o le_lo le_hi bt'.
 case/in_cat_or=> [/each|/in_pmap[[r [b|]] //= rb_in [<-]]] //.
 have /and5P[_ reach ok sup box] := Support.all_In pinned_all rb_in.
 apply: alone_sound => //; first by case/and3P: reach.
@@ -413,40 +376,26 @@ by apply: scaled; rewrite mem_iota.
 Qed.
 
 Theorem zero_complete_number ys : zero_solutions z u claims tr lo hi bs ls = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall m, List.In m l -> satisfies_9z z u m.1 m.2 /\ between m.1 lo hi,
-        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                                 zero_motion_in z u (yield_region y) m.1 m.2) ys l,
-        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
-        forall t v, satisfies_9z z u t v -> between t lo hi ->
-          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
-              exists2 f, List.In f (zero_families tr lo hi bs ls) &
-                zero_motion_in_family z u f t v |
-              exists2 r, List.In r (zero_still_open z tr lo hi bs ls) &
-                zero_motion_in z u r t v]].
+  all_listed (satisfies_9z z u) (same_motion s) (zero_motion_in z u) lo hi ys
+    (unlisted (R := R) (zero_motion_in z u) (zero_families tr lo hi bs ls)
+       (zero_still_open z tr lo hi bs ls)).
 Proof.
 have [wf complete beside supports] := zero_complete_parts.
-have [every each] := complete_sound R complete.
-exact: (zero_cover_number wf supports (beside_every beside every)
-  (beside_each wf beside each alone_constant)).
+exact: (zero_cover_number wf supports
+  (beside_covers wf beside (complete_sound R complete) alone_constant)).
 Qed.
 
 Corollary zero_none : zero_solutions z u claims tr lo hi bs ls = Some [::] ->
   zero_families tr lo hi bs ls = [::] -> zero_still_open z tr lo hi bs ls = [::] ->
   forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
 Proof.
-move=> /zero_complete_number[l [/size0nil-> _ _ _ every]] no_family closed t v sat bt.
-by have [[m]|[f]|[r]] := every t v sat bt; rewrite ?no_family ?closed.
+move=> /zero_complete_number + no_family no_open; rewrite no_family no_open => listed.
+exact/listed_none/(listed_weaken (@unlisted_none _ _) listed).
 Qed.
 
 Theorem zero_complete_hold ys : zero_solutions z u claims tr lo hi bs ls = Some ys ->
   forall f, List.In f (zero_families tr lo hi bs ls) ->
-  is_place R (held_place f.2) /\
-  forall t : R, in_place (held_place f.2) t ->
-    (exists v, satisfies_9z z u t v /\ zero_motion_in z u f.1 t v) /\
-    (held_alone f.2 -> forall v v', satisfies_9z z u t v -> zero_motion_in z u f.1 t v ->
-       satisfies_9z z u t v' -> zero_motion_in z u f.1 t v' -> same_motion s v v').
+  family_solved (zero_motion_in z u) (satisfies_9z z u) (same_motion (R := R) s) f.
 Proof.
 have [wf _ _ supports] := zero_complete_parts.
 exact: (zero_cover_hold R wf supports).
@@ -475,41 +424,26 @@ Lemma zero_varying_parts :
 Proof. by case/and4P: checked. Qed.
 
 Theorem zero_varying_number ys : zero_varying_solutions z u claims tr lo hi bs ls = Some ys ->
-  exists l : seq (R * (nat -> R)),
-    [/\ size l = size ys,
-        forall m, List.In m l -> satisfies_9z z u m.1 m.2 /\ between m.1 lo hi,
-        List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                                 zero_motion_in z u (yield_region y) m.1 m.2) ys l,
-        List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same_motion s m.2 m'.2)) l &
-        forall t v, satisfies_9z z u t v -> between t lo hi ->
-          [\/ exists2 m, List.In m l & t = m.1 /\ same_motion s m.2 v,
-              exists2 f, List.In f (zero_varying_families tr lo hi bs ls) &
-                zero_motion_in_family z u f t v |
-              exists2 r, List.In r (zero_varying_open z tr lo hi bs ls) &
-                zero_motion_in z u r t v]].
+  all_listed (satisfies_9z z u) (same_motion s) (zero_motion_in z u) lo hi ys
+    (unlisted (R := R) (zero_motion_in z u) (zero_varying_families tr lo hi bs ls)
+       (zero_varying_open z tr lo hi bs ls)).
 Proof.
 have [wf varying beside supports] := zero_varying_parts.
-have [every each] := varying_sound R varying.
-apply: (zero_cover_number wf supports (beside_every beside every)).
-apply: (beside_each wf beside each) => r b O ok known sup.
-exact: (claim_yields varying O ok known sup).
+apply: (zero_cover_number wf supports (beside_covers wf beside (varying_sound R varying) _)).
+by move=> r b O ok known sup; apply: (claim_yields varying O ok known sup).
 Qed.
 
 Corollary zero_varying_none : zero_varying_solutions z u claims tr lo hi bs ls = Some [::] ->
   zero_varying_families tr lo hi bs ls = [::] -> zero_varying_open z tr lo hi bs ls = [::] ->
   forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
 Proof.
-move=> /zero_varying_number[l [/size0nil-> _ _ _ every]] no_family closed t v sat bt.
-by have [[m]|[f]|[r]] := every t v sat bt; rewrite ?no_family ?closed.
+move=> /zero_varying_number + no_family no_open; rewrite no_family no_open => listed.
+exact/listed_none/(listed_weaken (@unlisted_none _ _) listed).
 Qed.
 
 Theorem zero_varying_hold ys : zero_varying_solutions z u claims tr lo hi bs ls = Some ys ->
   forall f, List.In f (zero_varying_families tr lo hi bs ls) ->
-  is_place R (held_place f.2) /\
-  forall t : R, in_place (held_place f.2) t ->
-    (exists v, satisfies_9z z u t v /\ zero_motion_in z u f.1 t v) /\
-    (held_alone f.2 -> forall v v', satisfies_9z z u t v -> zero_motion_in z u f.1 t v ->
-       satisfies_9z z u t v' -> zero_motion_in z u f.1 t v' -> same_motion s v v').
+  family_solved (zero_motion_in z u) (satisfies_9z z u) (same_motion (R := R) s) f.
 Proof.
 have [wf _ _ supports] := zero_varying_parts.
 exact: (zero_cover_hold R wf supports).

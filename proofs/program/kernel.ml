@@ -1933,6 +1933,8 @@ let check_infinite p r c =
 
 type interval = point * point
 
+type yield = { yield_region : region; yield_from : point; yield_to : point }
+
 type 'whole leaf =
 | Farkas of Big_int_Z.big_int list
 | Definite of bool * factor * factor
@@ -1942,8 +1944,6 @@ type 'whole leaf =
 | Infinite of interval * pinning * Big_int_Z.big_int list
 | Whole of 'whole
 | Undecided
-
-type yield = { yield_region : region; yield_from : point; yield_to : point }
 
 (** val extended : region -> interval -> region **)
 
