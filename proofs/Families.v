@@ -12,14 +12,11 @@
    Regions yielded whose value belongs to a family with the same moving variables are dropped: the
    value is one more of that family.
 
-   Theorem [families_number]: if the check succeeds and [all_solutions] gives a list of N regions,
-   then there are N solutions with a value in the window, one in each of them and no two of them
-   equal; every other solution in the window belongs to a family or lies in an open region.
-   [cover_number] is the same for any cover with undecided regions.
-   [families_hold]: at each value of a family there is a solution in its region, and any two are
-   positive multiples of each other if the family is called alone.
-
-   [system_families_number], [system_families_hold] say the same of motions with (9).
+   Theorem [cover_number]: of any cover with undecided regions it is said how many solutions there
+   are; every other one belongs to a family or lies in an open region.  [supports_families]: at each
+   value of a family there is a solution in its region, and any two are positive multiples of each
+   other if the family is called alone.  [motions_number], [motions_hold] say the same of motions
+   with (9).
 
    Page: spec/certificates.md, 5.12 (yields) and 5.15.
    Rust: crates/check/src/cover/support.rs, found.rs. *)
@@ -100,30 +97,6 @@ Definition belongs n (y : yield) (f : family) :=
       point_lt (end_of v) (yield_from y) && point_lt (yield_to y) (start_of v')
   | Above v => point_lt (end_of v) (yield_from y)
   end && all_same n (yield_region y) f.1.
-
-Section Complete.
-
-Variables (Q : pencil) (claims : seq solution_claim) (tr : tree (leaf whole)) (lo hi : point).
-Variable ls : seq (option support_leaf).
-
-Definition families := families_of (left_open tr lo hi) ls.
-
-Definition all_yields := found Q claims tr lo hi ++ isolated_of (left_open tr lo hi) ls.
-
-(* The solutions that do not belong to a family. *)
-Definition all_solutions :=
-  distinct_yields (size (slip Q)) lo hi
-    [seq y <- all_yields | ~~ has (belongs (size (slip Q)) y) families].
-
-Definition still_open := open_of (left_open tr lo hi) ls.
-
-Definition check_families w :=
-  check_complete Q claims w tr lo hi && check_supports Q (left_open tr lo hi) ls.
-
-End Complete.
-
-Definition check_system_families s u claims w tr lo hi ls :=
-  check_system s u claims w tr lo hi && check_supports (pencil_of s u) (left_open tr lo hi) ls.
 
 End Checker.
 
@@ -421,29 +394,6 @@ Qed.
 
 End Cover.
 
-Section Pencils.
-
-Variables (R : rcfType) (Q : pencil) (claims : seq solution_claim) (w : elimination).
-Variables (tr : tree (leaf whole)) (lo hi : point) (ls : seq (option support_leaf)).
-Hypothesis checked : check_families Q claims tr lo hi ls w.
-
-Notation ns := (size (slip Q)).
-Notation families := (families tr lo hi ls).
-Notation still_open := (still_open tr lo hi ls).
-
-Theorem families_number ys : all_solutions Q claims tr lo hi ls = Some ys ->
-  all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys
-    (unlisted (R := R) (lies_in Q) families still_open).
-Proof.
-case/andP: checked => complete supports.
-exact: (cover_number supports (complete_sound R complete)).
-Qed.
-
-Theorem families_hold f : List.In f families -> family_holds R Q f.
-Proof. by case/andP: checked => _ supports; apply: supports_families. Qed.
-
-End Pencils.
-
 (* The motions of the solutions that a cover lists. *)
 Section Motions.
 
@@ -473,33 +423,3 @@ by exists c => // d Hd; rewrite -(system_onto wf sat') // scaled (system_onto wf
 Qed.
 
 End Motions.
-
-Section Systems.
-
-Variables (R : rcfType) (s : system) (u : unknown) (claims : seq solution_claim) (w : elimination).
-Variables (tr : tree (leaf whole)) (lo hi : point) (ls : seq (option support_leaf)).
-Hypothesis checked : check_system_families s u claims w tr lo hi ls.
-
-Notation Q := (pencil_of s u).
-Notation families := (families tr lo hi ls).
-Notation still_open := (still_open tr lo hi ls).
-
-Lemma system_parts : [/\ system_wellformed s u, check_system s u claims w tr lo hi &
-  check_families Q claims tr lo hi ls w].
-Proof.
-case/andP: checked => sys supports; have [wf complete] := andP sys.
-by split=> //; apply/andP.
-Qed.
-
-Theorem system_families_number ys : all_solutions Q claims tr lo hi ls = Some ys ->
-  all_listed (satisfies_9 s u) (same_motion s) (motion_in s u) lo hi ys
-    (unlisted (R := R) (motion_in s u) families still_open).
-Proof.
-have [wf _ fam] := system_parts => /(families_number R fam); exact: motions_number.
-Qed.
-
-Theorem system_families_hold f : List.In f families ->
-  family_solved (motion_in s u) (satisfies_9 s u) (same_motion (R := R) s) f.
-Proof. by have [wf _ fam] := system_parts => /(families_hold R fam); apply: motions_hold. Qed.
-
-End Systems.

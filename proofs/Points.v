@@ -30,7 +30,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Cover Condensation Pencil.
-From Mceip Require Import Whole Complete System Signs Support Families.
+From Mceip Require Import Whole Complete System Signs Support Families Varying Covers.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -54,9 +54,9 @@ Definition point_pencil (e : point) : pencil :=
     (free Q).
 
 (* The families are in this value: in regions with no other. *)
-Definition check_at_value (e : point) claims w tr ls :=
-  [&& (0 <? e.2)%Z, check_families (point_pencil e) claims tr e e ls w &
-      all (fun f => (lower f.1 == e) && (upper f.1 == e)) (families tr e e ls)].
+Definition check_at_value (e : point) claims c ls :=
+  [&& (0 <? e.2)%Z, check_families (point_pencil e) claims c e e ls &
+      all (fun f => (lower f.1 == e) && (upper f.1 == e)) (families c e e ls)].
 
 (* Entries at one column may cancel. *)
 Definition zero_row (row : sparse_row) := all (fun c => lookup row c.1 =? 0)%Z row.
@@ -69,11 +69,11 @@ Definition reverse_pencil : pencil :=
 
 End Checker.
 
-Definition check_system_at_value s u (e : point) claims w tr ls :=
-  system_wellformed s u && check_at_value (pencil_of s u) e claims w tr ls.
+Definition check_system_at_value s u (e : point) claims c ls :=
+  system_wellformed s u && check_at_value (pencil_of s u) e claims c ls.
 
 (* Solutions at infinity: those of the reverse at 0. *)
-Definition check_infinity Q claims w tr ls := check_at_value (reverse_pencil Q) zero claims w tr ls.
+Definition check_infinity Q claims c ls := check_at_value (reverse_pencil Q) zero claims c ls.
 
 Lemma lookup_outside (row : sparse_row) j : j \notin [seq c.1 | c <- row] -> lookup row j = 0%Z.
 Proof.
@@ -128,19 +128,18 @@ End Point.
 Section Number.
 
 Variables (R : rcfType) (Q : pencil) (e : point).
-Variables (claims : seq solution_claim) (w : elimination).
-Variables (tr : tree (leaf whole)) (ls : seq (option support_leaf)).
-Hypothesis checked : check_at_value Q e claims w tr ls.
+Variables (claims : seq solution_claim) (c : cover) (ls : seq (option support_leaf)).
+Hypothesis checked : check_at_value Q e claims c ls.
 
 Notation Qe := (point_pencil Q e).
-Notation families := (families tr e e ls).
-Notation still_open := (still_open tr e e ls).
+Notation families := (families c e e ls).
+Notation still_open := (still_open c e e ls).
 
 Lemma point_parts :
-  [/\ (0 <? e.2)%Z, check_families Qe claims tr e e ls w & wellformed Q].
-Proof. by case/and3P: checked => finite fam _; split=> //; case/andP: fam => /and5P[]. Qed.
+  [/\ (0 <? e.2)%Z, check_families Qe claims c e e ls & wellformed Q].
+Proof. by case/and3P: checked => finite fam _; split=> //; case/andP: fam => /cover_wellformed. Qed.
 
-Theorem point_number ys : all_solutions Qe claims tr e e ls = Some ys ->
+Theorem point_number ys : all_solutions Qe claims c e e ls = Some ys ->
   all_listed (solution Q) (proportional Q) (lies_in Q) e e ys
     (unlisted (R := R) (lies_in Q) families still_open).
 Proof.
@@ -170,15 +169,14 @@ End Number.
 Section Systems.
 
 Variables (R : rcfType) (s : system) (u : unknown) (e : point).
-Variables (claims : seq solution_claim) (w : elimination).
-Variables (tr : tree (leaf whole)) (ls : seq (option support_leaf)).
-Hypothesis checked : check_system_at_value s u e claims w tr ls.
+Variables (claims : seq solution_claim) (c : cover) (ls : seq (option support_leaf)).
+Hypothesis checked : check_system_at_value s u e claims c ls.
 
 Notation Q := (pencil_of s u).
-Notation families := (families tr e e ls).
-Notation still_open := (still_open tr e e ls).
+Notation families := (families c e e ls).
+Notation still_open := (still_open c e e ls).
 
-Theorem system_point_number ys : all_solutions (point_pencil Q e) claims tr e e ls = Some ys ->
+Theorem system_point_number ys : all_solutions (point_pencil Q e) claims c e e ls = Some ys ->
   all_listed (satisfies_9 s u) (same_motion s) (motion_in s u) e e ys
     (unlisted (R := R) (motion_in s u) families still_open).
 Proof. by case/andP: checked => wf at_e /(point_number R at_e); apply: motions_number. Qed.
@@ -374,12 +372,12 @@ End Reverse.
 
 Section Infinity.
 
-Variables (R : rcfType) (Q : pencil) (claims : seq solution_claim) (w : elimination).
-Variables (tr : tree (leaf whole)) (ls : seq (option support_leaf)).
-Hypothesis checked : check_infinity Q claims w tr ls.
+Variables (R : rcfType) (Q : pencil) (claims : seq solution_claim) (c : cover).
+Variable ls : seq (option support_leaf).
+Hypothesis checked : check_infinity Q claims c ls.
 
-Notation families := (families tr zero zero ls).
-Notation still_open := (still_open tr zero zero ls).
+Notation families := (families c zero zero ls).
+Notation still_open := (still_open c zero zero ls).
 
 Lemma at_zero (t : R) : between t zero zero <-> t = 0.
 Proof.
@@ -400,7 +398,7 @@ by case=> s _ above; exists (s + 1); apply/above; rewrite ltr_addl ltr01.
 Qed.
 
 Theorem infinity_number ys :
-  all_solutions (point_pencil (reverse_pencil Q) zero) claims tr zero zero ls = Some ys ->
+  all_solutions (point_pencil (reverse_pencil Q) zero) claims c zero zero ls = Some ys ->
   exists l : seq (nat -> R),
     [/\ size l = size ys, forall x, List.In x l -> at_infinity Q x,
         List.Forall2 (fun y x => lies_in Q (yield_region y) 0 x) ys l,
@@ -432,7 +430,7 @@ exact: Or33.
 Qed.
 
 Corollary infinity_none :
-  all_solutions (point_pencil (reverse_pencil Q) zero) claims tr zero zero ls = Some [::] ->
+  all_solutions (point_pencil (reverse_pencil Q) zero) claims c zero zero ls = Some [::] ->
   families = [::] -> still_open = [::] -> forall x : nat -> R, at_infinity Q x -> False.
 Proof.
 move=> /infinity_number[l [/size0nil-> _ _ _ every]] no_family closed x sol.

@@ -14,7 +14,8 @@ From Coq Require Import Epsilon FunctionalExtensionality Reals Lra.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp.real_closed Require Import realalg.
 From Mceip Require Import Claim EnclosedClaim System Lifted ZeroReaction ZeroEnclosed PlainMcp.
-From Mceip Require Import Families Varying ZeroComplete Critical CriticalAnchors PresenceAnchors.
+From Mceip Require Import Families Varying Covers ZeroComplete Critical CriticalAnchors.
+From Mceip Require Import PresenceAnchors.
 From Mceip Require Import Points Equilibrium Unique Verdict.
 
 Set Implicit Arguments.

@@ -22,23 +22,14 @@
    [varying_none]: nothing yielded or left open, no solution in the window.  [varying_place]: where
    the solution of a claim lies.
 
-   As in Families.v, a support leaf (Support.v) may stand for each region left open.
-   [varying_number]: if [varying_solutions] gives a list of N regions, then there are N solutions in
-   the window, one in each of them and no two of them equal; every other one belongs to a family or
-   lies in a region still open.  [varying_exactly]: exactly N, if there is no family and nothing is
-   still open.  [varying_hold]: what is said of families.
-
-   [system_varying_number], [system_varying_exactly], [system_varying_hold], [system_varying_none]:
-   the same for the motions of a mechanical system with (9).
-
    Page: spec/certificates.md, 5.6, 5.11, 5.14, 5.15.
    Rust: crates/check/src/cover/condensed.rs, expanded.rs, family.rs, root.rs. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
-From Mceip Require Import Number Condensation Pencil Whole Claim Complete System Signs Support.
-From Mceip Require Import Families Series Anchor AnchorLeaf.
+From Mceip Require Import Number Condensation Pencil Whole Claim Complete System Series.
+From Mceip Require Import Anchor AnchorLeaf.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -166,28 +157,7 @@ Definition varying_found (tr : tree varying_leaf) (lo hi : point) :=
 Definition varying_open (tr : tree varying_leaf) (lo hi : point) :=
   pmap (fun rl => if rl.2 is LeftOpen then Some rl.1 else None) (leaves tr (window lo hi)).
 
-Section Supports.
-
-Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
-
-Definition varying_families := families_of (varying_open tr lo hi) ls.
-
-Definition varying_still_open := open_of (varying_open tr lo hi) ls.
-
-Definition varying_solutions :=
-  distinct_yields ns lo hi
-    [seq y <- varying_found tr lo hi ++ isolated_of (varying_open tr lo hi) ls
-         | ~~ has (belongs ns y) varying_families].
-
-Definition check_varying_families :=
-  check_varying tr lo hi && check_supports Q (varying_open tr lo hi) ls.
-
-End Supports.
-
 End Checker.
-
-Definition check_system_varying s u claims w tr lo hi ls :=
-  system_wellformed s u && check_varying_families (pencil_of s u) claims w tr lo hi ls.
 
 Section Swap.
 
@@ -496,69 +466,3 @@ Theorem varying_place k : check_solution_claim Q k ->
 Proof. by move/(claim_known R); apply: known_place varying_sound. Qed.
 
 End Sound.
-
-Section Number.
-
-Variables (R : rcfType) (Q : pencil) (claims : seq solution_claim) (w : anchoring).
-Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
-Hypothesis checked : check_varying_families Q claims w tr lo hi ls.
-
-Notation ns := (size (slip Q)).
-Notation families := (varying_families tr lo hi ls).
-Notation still_open := (varying_still_open tr lo hi ls).
-
-Theorem varying_number ys : varying_solutions Q claims tr lo hi ls = Some ys ->
-  all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys
-    (unlisted (R := R) (lies_in Q) families still_open).
-Proof.
-case/andP: checked => varying supports; exact: (cover_number supports (varying_sound R varying)).
-Qed.
-
-Corollary varying_exactly ys : varying_solutions Q claims tr lo hi ls = Some ys ->
-  families = [::] -> still_open = [::] ->
-  all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys (no_other (R := R)).
-Proof.
-move=> /varying_number + no_family no_open; rewrite no_family no_open.
-by apply: listed_weaken; apply: unlisted_none.
-Qed.
-
-Theorem varying_hold f : List.In f families -> family_holds R Q f.
-Proof. by case/andP: checked => _ supports; apply: supports_families. Qed.
-
-End Number.
-
-Section Systems.
-
-Variables (R : rcfType) (s : system) (u : unknown) (claims : seq solution_claim) (w : anchoring).
-Variables (tr : tree varying_leaf) (lo hi : point) (ls : seq (option support_leaf)).
-Hypothesis checked : check_system_varying s u claims w tr lo hi ls.
-
-Notation Q := (pencil_of s u).
-Notation families := (varying_families tr lo hi ls).
-Notation still_open := (varying_still_open tr lo hi ls).
-
-Theorem system_varying_number ys : varying_solutions Q claims tr lo hi ls = Some ys ->
-  all_listed (satisfies_9 s u) (same_motion s) (motion_in s u) lo hi ys
-    (unlisted (R := R) (motion_in s u) families still_open).
-Proof.
-by case/andP: checked => wf varying /(varying_number R varying); apply: motions_number.
-Qed.
-
-Corollary system_varying_exactly ys : varying_solutions Q claims tr lo hi ls = Some ys ->
-  families = [::] -> still_open = [::] ->
-  all_listed (satisfies_9 s u) (same_motion s) (motion_in s u) lo hi ys (no_other (R := R)).
-Proof.
-move=> /system_varying_number + no_family no_open; rewrite no_family no_open.
-by apply: listed_weaken; apply: unlisted_none.
-Qed.
-
-Corollary system_varying_none :
-  varying_solutions Q claims tr lo hi ls = Some [::] -> families = [::] -> still_open = [::] ->
-  forall (t : R) v, satisfies_9 s u t v -> between t lo hi -> False.
-Proof. by move=> none no_family /(system_varying_exactly none no_family); apply: listed_none. Qed.
-
-Theorem system_varying_hold f : List.In f families ->
-  family_solved (motion_in s u) (satisfies_9 s u) (same_motion (R := R) s) f.
-Proof. by case/andP: checked => wf varying /(varying_hold R varying); apply: motions_hold. Qed.
-
-End Systems.

@@ -15,7 +15,7 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Definite Cover Number Condensation Pencil.
 From Mceip Require Import Whole Claim EnclosedClaim Complete System Signs Support Families.
-From Mceip Require Import Lifted ZeroReaction ZeroEnclosed PlainMcp Varying ZeroPencil.
+From Mceip Require Import Lifted ZeroReaction ZeroEnclosed PlainMcp Varying Covers ZeroPencil.
 From Mceip Require Import ZeroComplete Boxes Critical CriticalAnchors Presence PresenceAnchors.
 From Mceip Require Import Points Rational Statement Integral Equilibrium Unique.
 
@@ -36,18 +36,13 @@ Inductive claim_evidence :=
   | OfZeroMotion of zero_claim
   | OfZeroBox of seq nat & enclosed_claim.
 
-(* Claims that root leaves refer to; the elimination of the free variables; the tree; and beside
-   each region that it leaves undecided a box with zero reaction, a support leaf, or nothing. *)
+(* Claims that root leaves refer to; the cover; and beside each region that its tree leaves open a
+   box with zero reaction, a support leaf, or nothing. *)
 Inductive cover_evidence :=
-  (* Free rows that do not depend on the unknown. *)
-  | ConstantCover of seq solution_claim & elimination & tree (leaf whole) &
-      seq (option pinned_box) & seq (option support_leaf)
-  (* The window is one value. *)
-  | CoverAtValue of seq solution_claim & elimination & tree (leaf whole) &
+  | CoverInWindow of seq solution_claim & cover & seq (option pinned_box) &
       seq (option support_leaf)
-  (* Free rows that do. *)
-  | VaryingCover of seq solution_claim & anchoring & tree varying_leaf &
-      seq (option pinned_box) & seq (option support_leaf).
+  (* The window is one value. *)
+  | CoverAtValue of seq solution_claim & cover & seq (option support_leaf).
 
 Inductive absence_evidence :=
   | ByElimination of option (elimination * (matrix * matrix)) & box_tree critical_leaf
@@ -56,8 +51,7 @@ Inductive absence_evidence :=
 Inductive evidence :=
   | ClaimsIn of point & point & seq claim_evidence
   | CoverOf of point & point & cover_evidence
-  | CoverAtInfinity of seq solution_claim & elimination & tree (leaf whole) &
-      seq (option support_leaf)
+  | CoverAtInfinity of seq solution_claim & cover & seq (option support_leaf)
   | Absence of point & point & absence_evidence
   | Presence of point & point & box_anchoring & seq presence_piece
   (* An interval of friction, the elimination, and a factor at each end. *)
@@ -140,50 +134,38 @@ Definition told (solutions : option (seq yield)) (make : seq yield -> statement)
   if solutions is Some ys then Proved (make ys) else NotToldApart.
 
 (* A cover of the pencil Q, without particles of zero reaction. *)
-Definition answer_cover Q lo hi (c : cover_evidence) : answered :=
-  match c with
-  | ConstantCover claims w tr _ ls =>
-      if check_families Q claims tr lo hi ls w
-      then told (all_solutions Q claims tr lo hi ls)
+Definition answer_cover Q lo hi (e : cover_evidence) : answered :=
+  match e with
+  | CoverInWindow claims c _ ls =>
+      if check_families Q claims c lo hi ls
+      then told (all_solutions Q claims c lo hi ls)
              (fun ys => AllInWindow lo hi
-               (SolutionSet ys (families tr lo hi ls) (still_open tr lo hi ls)))
+               (SolutionSet ys (families c lo hi ls) (still_open c lo hi ls)))
       else EvidenceRefused
-  | CoverAtValue claims w tr ls =>
-      if (lo == hi) && check_at_value Q lo claims w tr ls
-      then told (all_solutions (point_pencil Q lo) claims tr lo lo ls)
+  | CoverAtValue claims c ls =>
+      if (lo == hi) && check_at_value Q lo claims c ls
+      then told (all_solutions (point_pencil Q lo) claims c lo lo ls)
              (fun ys => AllInWindow lo lo
-               (SolutionSet ys (families tr lo lo ls) (still_open tr lo lo ls)))
-      else EvidenceRefused
-  | VaryingCover claims w tr _ ls =>
-      if check_varying_families Q claims w tr lo hi ls
-      then told (varying_solutions Q claims tr lo hi ls)
-             (fun ys => AllInWindow lo hi
-               (SolutionSet ys (varying_families tr lo hi ls) (varying_still_open tr lo hi ls)))
+               (SolutionSet ys (families c lo lo ls) (still_open c lo lo ls)))
       else EvidenceRefused
   end.
 
-Definition answer_zero_cover z u lo hi (c : cover_evidence) : answered :=
-  match c with
-  | ConstantCover claims w tr bs ls =>
-      if check_zero_complete z u claims w tr lo hi bs ls
-      then told (zero_solutions z u claims tr lo hi bs ls)
+Definition answer_zero_cover z u lo hi (e : cover_evidence) : answered :=
+  match e with
+  | CoverInWindow claims c bs ls =>
+      if check_zero_complete z u claims c lo hi bs ls
+      then told (zero_solutions z u claims c lo hi bs ls)
              (fun ys => AllInWindow lo hi (SolutionSet ys
-               (zero_families tr lo hi bs ls) (zero_still_open z tr lo hi bs ls)))
+               (zero_families c lo hi bs ls) (zero_still_open z c lo hi bs ls)))
       else EvidenceRefused
-  | VaryingCover claims w tr bs ls =>
-      if check_zero_varying z u claims w tr lo hi bs ls
-      then told (zero_varying_solutions z u claims tr lo hi bs ls)
-             (fun ys => AllInWindow lo hi (SolutionSet ys
-               (zero_varying_families tr lo hi bs ls) (zero_varying_open z tr lo hi bs ls)))
-      else EvidenceRefused
-  | CoverAtValue _ _ _ _ => EvidenceRefused
+  | CoverAtValue _ _ _ => EvidenceRefused
   end.
 
-Definition answer_infinity Q claims w tr ls : answered :=
-  if check_infinity Q claims w tr ls
-  then told (all_solutions (point_pencil (reverse_pencil Q) zero) claims tr zero zero ls)
+Definition answer_infinity Q claims c ls : answered :=
+  if check_infinity Q claims c ls
+  then told (all_solutions (point_pencil (reverse_pencil Q) zero) claims c zero zero ls)
          (fun ys => AllAtInfinity
-           (SolutionSet ys (families tr zero zero ls) (still_open tr zero zero ls)))
+           (SolutionSet ys (families c zero zero ls) (still_open c zero zero ls)))
   else EvidenceRefused.
 
 Definition check_absence z from bound (e : absence_evidence) :=
@@ -209,8 +191,8 @@ Definition integral_answer p (e : evidence) : answered :=
   | CoverOf lo hi c, SystemProblem s u =>
       if system_wellformed s u then answer_cover (pencil_of s u) lo hi c else EvidenceRefused
   | CoverOf lo hi c, ZeroProblem z u => answer_zero_cover z u lo hi c
-  | CoverAtInfinity _ _ _ _, PlainProblem _ => EvidenceRefused
-  | CoverAtInfinity claims w tr ls, _ => answer_infinity (pencil_of_integral p) claims w tr ls
+  | CoverAtInfinity _ _ _, PlainProblem _ => EvidenceRefused
+  | CoverAtInfinity claims c ls, _ => answer_infinity (pencil_of_integral p) claims c ls
   | Absence from bound a, _ =>
       if zero_system_of p is Some z
       then proved_if (check_absence z from bound a) (NoneForFriction from bound)
@@ -407,18 +389,16 @@ Qed.
 
 (* Covers. *)
 
-Lemma answer_cover_sound Q lo hi c s : answer_cover Q lo hi c = Proved s ->
+Lemma answer_cover_sound Q lo hi e s : answer_cover Q lo hi e = Proved s ->
   holds_of (PencilProblem Q) s.
 Proof.
-case: c => [claims w tr _ ls|claims w tr ls|claims w tr _ ls] /=.
-- case: ifP => // ok; rewrite /told; case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
+case: e => [claims c _ ls|claims c ls] /=.
+  case: ifP => // ok; rewrite /told; case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
   by split; [apply/solutions_are; apply: (families_number R ok eq) | apply: (families_hold R ok)].
-- case: ifP => // /andP[_ ok]; rewrite /told.
-  case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
-  split; first by apply/solutions_are; apply: (point_number R ok eq).
-  by move=> f /(point_hold R ok)[].
-case: ifP => // ok; rewrite /told; case eq: (varying_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
-by split; [apply/solutions_are; apply: (varying_number R ok eq) | apply: (varying_hold R ok)].
+case: ifP => // /andP[_ ok]; rewrite /told.
+case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=.
+split; first by apply/solutions_are; apply: (point_number R ok eq).
+by move=> f /(point_hold R ok)[].
 Qed.
 
 (* The motions of a system with this pencil. *)
@@ -427,27 +407,23 @@ Lemma system_cover_sound sys u lo hi c s : system_wellformed sys u ->
 Proof.
 move=> wf is_s; have := answer_cover_sound is_s.
 have [lo' [hi' [set ->]]] : exists lo' hi' set, s = AllInWindow lo' hi' set.
-  case: c is_s => [claims w tr _ ls|claims w tr ls|claims w tr _ ls] /=; case: ifP => // _;
-    rewrite /told; case: (X in if X is Some _ then _ else _) => [ys|//] [<-]; do 3 eexists;
+  case: c is_s => [claims c _ ls|claims c ls] /=; case: ifP => // _; rewrite /told; case: (X in if X is Some _ then _ else _) => [ys|//] [<-]; do 3 eexists;
     reflexivity.
 case=> /solutions_are number each; split; last by move=> f /each; apply: (motions_hold wf).
 exact/solutions_are/(motions_number wf number).
 Qed.
 
-Lemma zero_cover_sound z u lo hi c s : answer_zero_cover z u lo hi c = Proved s ->
+Lemma zero_cover_sound z u lo hi e s : answer_zero_cover z u lo hi e = Proved s ->
   holds_of (ZeroProblem z u) s.
 Proof.
-case: c => [claims w tr bs ls|//|claims w tr bs ls] /=; case: ifP => // ok; rewrite /told.
-  case eq: (zero_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /=.
-  split; last exact: (zero_complete_hold R ok eq).
-  exact/solutions_are/(zero_complete_number R ok eq).
-case eq: (zero_varying_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /=.
-split; last exact: (zero_varying_hold R ok eq).
-exact/solutions_are/(zero_varying_number R ok eq).
+case: e => [claims c bs ls|//] /=; case: ifP => // ok; rewrite /told.
+case eq: (zero_solutions _ _ _ _ _ _ _ _) => [ys|//] [<-]; rewrite /=.
+split; last exact: (zero_complete_hold R ok eq).
+exact/solutions_are/(zero_complete_number R ok eq).
 Qed.
 
-Lemma infinity_sound p claims w tr ls s : (if p is PlainProblem _ then False else True) ->
-  answer_infinity (pencil_of_integral p) claims w tr ls = Proved s -> holds_of p s.
+Lemma infinity_sound p claims c ls s : (if p is PlainProblem _ then False else True) ->
+  answer_infinity (pencil_of_integral p) claims c ls = Proved s -> holds_of p s.
 Proof.
 move=> is_pencil; rewrite /answer_infinity; case: ifP => // ok; rewrite /told.
 case eq: (all_solutions _ _ _ _ _ _) => [ys|//] [<-] /=; exists (pencil_of_integral p); split.
@@ -476,7 +452,7 @@ Qed.
 
 Lemma integral_sound p e s : integral_answer p e = Proved s -> holds_of p s.
 Proof.
-case: e => [lo hi l|lo hi c|claims w tr ls|from bound a|from bound w pieces|? ? ? ? ?|points|????].
+case: e => [lo hi l|lo hi c|claims c ls|from bound a|from bound w pieces|? ? ? ? ?|points|????].
 - exact: answer_claims_sound.
 - case: p => [Q|sys u|z u|m] //=; first exact: answer_cover_sound.
     by case: ifP => // wf; apply: system_cover_sound.
@@ -505,7 +481,7 @@ Qed.
 Theorem answer_sound p c e s : answer p c e = Proved s -> meaning R p s.
 Proof.
 case: p => [Q|B u|rows|B]; try exact: scaled_sound.
-  case: e => [???|???|????|???|????|lo hi w low high|?|????]; try exact: scaled_sound.
+  case: e => [???|???|???|???|????|lo hi w low high|?|????]; try exact: scaled_sound.
   by rewrite /= /proved_if; case: ifP => // ok [<-] mu; apply: (rates_sound ok).
 case: e => //= mu amounts states w; rewrite /proved_if; case: ifP => // ok [<-].
 exact: equilibrium_sound ok.

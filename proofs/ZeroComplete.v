@@ -22,8 +22,8 @@
    open region.  [zero_none]: no regions, no families, nothing open, no motion.
    [zero_complete_hold]: at each value of a family there is a motion in its region, and only one,
    up to a positive factor, where the family is called alone.
-   [zero_varying_number], [zero_varying_none], [zero_varying_hold]: the same where the free rows
-   depend on the unknown.
+   [zero_varying_number], [zero_varying_none], [zero_varying_hold]: the same by condensation about
+   anchors.
 
    Page: spec/certificates.md, 5.6, 5.11, 5.15; spec/zero-reaction.md, Z.3 (covers).
    Rust: crates/check/src/cover/walk.rs, root.rs. *)
@@ -32,7 +32,8 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
 From Mceip Require Import Number Condensation Pencil Whole Claim EnclosedClaim Complete Signs.
-From Mceip Require Import Support System Families Varying ZeroReaction ZeroEnclosed ZeroPencil.
+From Mceip Require Import Support System Families Varying Covers ZeroReaction ZeroEnclosed.
+From Mceip Require Import ZeroPencil.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -111,47 +112,32 @@ Definition zero_distinct lo hi (yields : seq yield) (rs : seq region)
 
 Definition zero_open rs ls := [seq r <- open_of rs ls | ~~ both_halves z r].
 
-Section Constant.
+Section Cover.
 
-Variables (claims : seq solution_claim) (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
+Variables (claims : seq solution_claim) (c : cover) (lo hi : point).
 Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
 
-Definition zero_undecided := not_pinned (left_open tr lo hi) bs.
+Notation rs := (regions_open c lo hi).
+
+Definition zero_undecided := not_pinned rs bs.
+
+Definition check_boxes_beside :=
+  match c with
+  | Eliminated w _ => check_beside rs bs (pinned_alone (condensed (blocks_of Q) w))
+  | Anchored w _ => check_beside rs bs (pinned_about w (expansions Q w))
+  end.
 
 Definition check_zero_complete :=
-  [&& zero_wellformed z u, check_complete Q claims w tr lo hi,
-      check_beside (left_open tr lo hi) bs (pinned_alone (condensed (blocks_of Q) w)) &
+  [&& zero_wellformed z u, check_cover_of Q claims c lo hi, check_boxes_beside &
       check_supports Q zero_undecided ls].
 
 Definition zero_solutions :=
-  zero_distinct lo hi (found Q claims tr lo hi ++ pinned_yields (left_open tr lo hi) bs)
-    zero_undecided ls.
+  zero_distinct lo hi (regions_found Q claims c lo hi ++ pinned_yields rs bs) zero_undecided ls.
 
 Definition zero_families := families_of zero_undecided ls.
 Definition zero_still_open := zero_open zero_undecided ls.
 
-End Constant.
-
-Section Varying.
-
-Variables (claims : seq solution_claim) (w : anchoring) (tr : tree varying_leaf) (lo hi : point).
-Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
-
-Notation undecided := (not_pinned (varying_open tr lo hi) bs).
-
-Definition check_zero_varying :=
-  [&& zero_wellformed z u, check_varying Q claims w tr lo hi,
-      check_beside (varying_open tr lo hi) bs (pinned_about w (expansions Q w)) &
-      check_supports Q undecided ls].
-
-Definition zero_varying_solutions :=
-  zero_distinct lo hi
-    (varying_found Q claims tr lo hi ++ pinned_yields (varying_open tr lo hi) bs) undecided ls.
-
-Definition zero_varying_families := families_of undecided ls.
-Definition zero_varying_open := zero_open undecided ls.
-
-End Varying.
+End Cover.
 
 End Checker.
 
@@ -331,36 +317,19 @@ Qed.
 
 End Beside.
 
-(* Free rows that do not depend on the unknown. *)
-Section Constant.
-
-Variables (R : rcfType) (z : zero_system) (u : unknown).
-Variables (claims : seq solution_claim) (w : elimination).
-Variables (tr : tree (leaf whole)) (lo hi : point).
-Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
-Hypothesis checked : check_zero_complete z u claims w tr lo hi bs ls.
-
-Notation s := (without_zero z).
-Notation Q := (zero_pencil z u).
-Notation P := (condensed (blocks_of Q) w).
-Notation A := (A_condensed R (blocks_of Q) w).
-Notation B := (B_condensed R (blocks_of Q) w).
-Notation rs := (left_open tr lo hi).
-Notation undecided := (zero_undecided tr lo hi bs).
-
-Lemma zero_complete_parts :
-  [/\ zero_wellformed z u, check_complete Q claims w tr lo hi,
-      check_beside z u rs bs (pinned_alone z u P) & check_supports Q undecided ls].
-Proof. by case/and4P: checked. Qed.
-
-Lemma alone_constant r b : ordered (lower r) (upper r) -> pinned_alone z u P r b ->
-  (exists (t : R) x, known_solution Q (known_box z u b) t x) ->
-  supports_region (enclosed_order (size (slip Q))) r (known_box z u b) ->
-  one_solution_in R Q (Yield r (box_from (box_claim b)) (box_to (box_claim b))).
+(* Where a claim is alone, its region has exactly one solution. *)
+Lemma alone_constant (R : rcfType) z u claims w tr lo hi r b :
+  check_complete (zero_pencil z u) claims w tr lo hi -> ordered (lower r) (upper r) ->
+  pinned_alone z u (condensed (blocks_of (zero_pencil z u)) w) r b ->
+  (exists (t : R) x, known_solution (zero_pencil z u) (known_box z u b) t x) ->
+  supports_region (enclosed_order (size (slip (zero_pencil z u)))) r (known_box z u b) ->
+  one_solution_in R (zero_pencil z u)
+    (Yield r (box_from (box_claim b)) (box_to (box_claim b))).
 Proof.
-have [_ complete _ _] := zero_complete_parts => O ok [t [x [bt sol signs]]] sup.
+set Q := zero_pencil z u => complete O ok [t [x [bt sol signs]]] sup.
 have [sol_s free_x] := condensed_solution complete sol.
-have known_s : is_known P A B (known_box z u b) t (slip_of Q x).
+have known_s : is_known (condensed (blocks_of Q) w) (A_condensed R (blocks_of Q) w)
+    (B_condensed R (blocks_of Q) w) (known_box z u b) t (slip_of Q x).
   split=> // j; rewrite mem_iota add0n /= => lt_j; have [pos zero _] := signs _ lt_j.
   by split.
 have [reg uniq] := claimed_sound (encloses_condensed R complete) O ok known_s sup.
@@ -375,78 +344,55 @@ rewrite -[LHS]/(slip_of Q x' k) -[X in _ = f * X]/(slip_of Q x k).
 by apply: scaled; rewrite mem_iota.
 Qed.
 
-Theorem zero_complete_number ys : zero_solutions z u claims tr lo hi bs ls = Some ys ->
-  all_listed (satisfies_9z z u) (same_motion s) (zero_motion_in z u) lo hi ys
-    (unlisted (R := R) (zero_motion_in z u) (zero_families tr lo hi bs ls)
-       (zero_still_open z tr lo hi bs ls)).
+Section Complete.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown) (claims : seq solution_claim) (c : cover).
+Variables (lo hi : point) (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
+Hypothesis checked : check_zero_complete z u claims c lo hi bs ls.
+
+Notation s := (without_zero z).
+Notation Q := (zero_pencil z u).
+
+Lemma zero_complete_parts : [/\ zero_wellformed z u, check_supports Q (zero_undecided c lo hi bs) ls &
+  covers (solution Q) (proportional Q) (lies_in Q) lo hi
+    (regions_found Q claims c lo hi ++ pinned_yields (regions_open c lo hi) bs)
+    (in_some (R := R) (lies_in Q) (zero_undecided c lo hi bs))].
 Proof.
-have [wf complete beside supports] := zero_complete_parts.
-exact: (zero_cover_number wf supports
-  (beside_covers wf beside (complete_sound R complete) alone_constant)).
+case/and4P: checked => wf ok beside supports; split=> //; have cover := cover_covers R ok.
+case: c ok beside cover => w tr ok beside cover; apply: (beside_covers wf beside cover) => r b O.
+  exact: alone_constant ok O.
+by move=> alone known sup; apply: (claim_yields ok O alone known sup).
 Qed.
 
-Corollary zero_none : zero_solutions z u claims tr lo hi bs ls = Some [::] ->
-  zero_families tr lo hi bs ls = [::] -> zero_still_open z tr lo hi bs ls = [::] ->
+Theorem zero_complete_number ys : zero_solutions z u claims c lo hi bs ls = Some ys ->
+  all_listed (satisfies_9z z u) (same_motion s) (zero_motion_in z u) lo hi ys
+    (unlisted (R := R) (zero_motion_in z u) (zero_families c lo hi bs ls)
+       (zero_still_open z c lo hi bs ls)).
+Proof. by have [wf supports cover] := zero_complete_parts; apply: (zero_cover_number wf supports). Qed.
+
+Corollary zero_none : zero_solutions z u claims c lo hi bs ls = Some [::] ->
+  zero_families c lo hi bs ls = [::] -> zero_still_open z c lo hi bs ls = [::] ->
   forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
 Proof.
 move=> /zero_complete_number + no_family no_open; rewrite no_family no_open => listed.
 exact/listed_none/(listed_weaken (@unlisted_none _ _) listed).
 Qed.
 
-Theorem zero_complete_hold ys : zero_solutions z u claims tr lo hi bs ls = Some ys ->
-  forall f, List.In f (zero_families tr lo hi bs ls) ->
+Theorem zero_complete_hold ys : zero_solutions z u claims c lo hi bs ls = Some ys ->
+  forall f, List.In f (zero_families c lo hi bs ls) ->
   family_solved (zero_motion_in z u) (satisfies_9z z u) (same_motion (R := R) s) f.
-Proof.
-have [wf _ _ supports] := zero_complete_parts.
-exact: (zero_cover_hold R wf supports).
-Qed.
+Proof. by have [wf supports _] := zero_complete_parts; apply: (zero_cover_hold R wf supports). Qed.
 
-End Constant.
+End Complete.
 
-(* Free rows that depend on the unknown. *)
-Section Varying.
+(* Condensation about anchors. *)
+Section Anchored.
 
-Variables (R : rcfType) (z : zero_system) (u : unknown).
-Variables (claims : seq solution_claim) (w : anchoring).
-Variables (tr : tree varying_leaf) (lo hi : point).
-Variables (bs : seq (option pinned_box)) (ls : seq (option support_leaf)).
-Hypothesis checked : check_zero_varying z u claims w tr lo hi bs ls.
+Variables (R : rcfType) (z : zero_system) (u : unknown) (claims : seq solution_claim).
+Variables (w : anchoring) (tr : tree varying_leaf).
 
-Notation s := (without_zero z).
-Notation Q := (zero_pencil z u).
+Definition zero_varying_number := @zero_complete_number R z u claims (Anchored w tr).
+Definition zero_varying_none := @zero_none R z u claims (Anchored w tr).
+Definition zero_varying_hold := @zero_complete_hold R z u claims (Anchored w tr).
 
-Notation rs := (varying_open tr lo hi).
-
-Lemma zero_varying_parts :
-  [/\ zero_wellformed z u, check_varying Q claims w tr lo hi,
-      check_beside z u rs bs (pinned_about z u w (expansions Q w)) &
-      check_supports Q (not_pinned rs bs) ls].
-Proof. by case/and4P: checked. Qed.
-
-Theorem zero_varying_number ys : zero_varying_solutions z u claims tr lo hi bs ls = Some ys ->
-  all_listed (satisfies_9z z u) (same_motion s) (zero_motion_in z u) lo hi ys
-    (unlisted (R := R) (zero_motion_in z u) (zero_varying_families tr lo hi bs ls)
-       (zero_varying_open z tr lo hi bs ls)).
-Proof.
-have [wf varying beside supports] := zero_varying_parts.
-apply: (zero_cover_number wf supports (beside_covers wf beside (varying_sound R varying) _)).
-by move=> r b O ok known sup; apply: (claim_yields varying O ok known sup).
-Qed.
-
-Corollary zero_varying_none : zero_varying_solutions z u claims tr lo hi bs ls = Some [::] ->
-  zero_varying_families tr lo hi bs ls = [::] -> zero_varying_open z tr lo hi bs ls = [::] ->
-  forall (t : R) v, satisfies_9z z u t v -> between t lo hi -> False.
-Proof.
-move=> /zero_varying_number + no_family no_open; rewrite no_family no_open => listed.
-exact/listed_none/(listed_weaken (@unlisted_none _ _) listed).
-Qed.
-
-Theorem zero_varying_hold ys : zero_varying_solutions z u claims tr lo hi bs ls = Some ys ->
-  forall f, List.In f (zero_varying_families tr lo hi bs ls) ->
-  family_solved (zero_motion_in z u) (satisfies_9z z u) (same_motion (R := R) s) f.
-Proof.
-have [wf _ _ supports] := zero_varying_parts.
-exact: (zero_cover_hold R wf supports).
-Qed.
-
-End Varying.
+End Anchored.

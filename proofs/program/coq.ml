@@ -107,7 +107,8 @@ let print s u w tr lo hi count =
 let print_answer question (evidence : Kernel.evidence) (statement : Kernel.statement) =
   match question, evidence, statement with
   | Kernel.SystemProblem (system, unknown),
-    CoverOf (lo, hi, ConstantCover (_, elimination, tree, _, _)), AllInWindow (_, _, all) ->
+    CoverOf (lo, hi, CoverInWindow (_, Eliminated (elimination, tree), _, _)),
+    AllInWindow (_, _, all) ->
     print system unknown elimination tree lo hi (List.length all.solutions_in)
   | SystemProblem _, _, _ -> Problem.not_verified "as a Coq file: condensation about anchors"
   | _ -> Problem.not_verified "Coq files are made for mechanical systems"

@@ -259,10 +259,14 @@ type question = {
   hi : Kernel.point;
   known_claims : Kernel.solution_claim list }
 
-let limit_yields yielded families =
-  if List.length yielded > 10_000 then
+let limit_yields ?boxes q cover supports =
+  let undecided = match boxes with
+    | Some boxes -> Kernel.zero_undecided cover q.lo q.hi boxes
+    | None -> Kernel.regions_open cover q.lo q.hi in
+  if List.length (Kernel.regions_found q.pencil q.known_claims cover q.lo q.hi) > 10_000 then
     Problem.not_verified "more than 10,000 regions with a solution";
-  if List.length families > 10_000 then Problem.not_verified "more than 10,000 families"
+  if List.length (Kernel.families_of undecided supports) > 10_000 then
+    Problem.not_verified "more than 10,000 families"
 
 let known q = Array.of_list (Kernel.known_solutions q.pencil q.known_claims)
 
@@ -309,14 +313,13 @@ let constant_cover q eliminate =
   let tree, supports =
     elaborate q ~leaf:(fun _ -> Elaborate.build_leaf context) ~left_open:Kernel.Undecided
       ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
-  limit_yields (Kernel.found q.pencil q.known_claims tree q.lo q.hi)
-    (Kernel.families tree q.lo q.hi supports);
-  elimination, tree, supports
+  let cover = Kernel.Eliminated (elimination, tree) in
+  limit_yields q cover supports;
+  cover, supports
 
 let of_constant q =
-  let elimination, tree, supports = constant_cover q Elaborate.elimination in
-  Kernel.CoverOf
-    (q.lo, q.hi, ConstantCover (q.known_claims, elimination, tree, [], supports))
+  let cover, supports = constant_cover q Elaborate.elimination in
+  Kernel.CoverOf (q.lo, q.hi, CoverInWindow (q.known_claims, cover, [], supports))
 
 (* A window that is one value: the pencil there.  Claims that the tree refers to are to hold of
    it. *)
@@ -331,14 +334,14 @@ let at_value q =
     | Some known -> known
     | None -> raise (no_witness "a window that is one value") in
   let known_claims = if q.known_claims = [] then [] else List.map known q.certificate.claims in
-  let elimination, tree, supports =
+  let cover, supports =
     constant_cover { q with problem; pencil; known_claims }
       (Elaborate.elimination_at (Problem.value_of q.lo) q.pencil) in
-  known_claims, elimination, tree, supports
+  known_claims, cover, supports
 
 let of_value q =
-  let claims, elimination, tree, supports = at_value q in
-  Kernel.CoverOf (q.lo, q.hi, CoverAtValue (claims, elimination, tree, supports))
+  let claims, cover, supports = at_value q in
+  Kernel.CoverOf (q.lo, q.hi, CoverAtValue (claims, cover, supports))
 
 (* Condensation about anchors, or leaves that speak of the whole pencil only. *)
 let condense_about q =
@@ -352,10 +355,9 @@ let of_varying q =
   let tree, supports =
     elaborate q ~leaf:(Elaborate.varying_leaf varying) ~left_open:Kernel.LeftOpen
       ~nothing:(Elaborate.whole_of varying "support") in
-  limit_yields (Kernel.varying_found q.pencil q.known_claims tree q.lo q.hi)
-    (Kernel.varying_families tree q.lo q.hi supports);
-  Kernel.CoverOf
-    (q.lo, q.hi, VaryingCover (q.known_claims, varying.anchoring, tree, [], supports))
+  let cover = Kernel.Anchored (varying.anchoring, tree) in
+  limit_yields q cover supports;
+  Kernel.CoverOf (q.lo, q.hi, CoverInWindow (q.known_claims, cover, [], supports))
 
 (* Claims about a system with particles in contact with zero reaction.  Of an exact or lifted claim
    the kernel checks the motion and its forces. *)
@@ -431,9 +433,11 @@ let opens q (zero : Kernel.zero_system) (region : Kernel.region) =
   opens
 
 (* The boxes, and the support leaves of the regions without a box. *)
-let boxes_and_supports beside =
-  List.map fst beside,
-  List.filter_map (function None, s -> Some s | Some _, _ -> None) beside
+let zero_cover q cover beside =
+  let boxes = List.map fst beside in
+  let supports = List.filter_map (function None, s -> Some s | Some _, _ -> None) beside in
+  limit_yields ~boxes q cover supports;
+  Kernel.CoverOf (q.lo, q.hi, CoverInWindow (q.known_claims, cover, boxes, supports))
 
 let of_zero_constant q zero unknown =
   let elimination, context = condense q Elaborate.elimination in
@@ -444,11 +448,7 @@ let of_zero_constant q zero unknown =
   let tree, beside =
     elaborate_zero q zero unknown ~leaf ~left_open:Kernel.Undecided
       ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
-  let boxes, supports = boxes_and_supports beside in
-  limit_yields (Kernel.found q.pencil q.known_claims tree q.lo q.hi)
-    (Kernel.zero_families tree q.lo q.hi boxes supports);
-  Kernel.CoverOf
-    (q.lo, q.hi, ConstantCover (q.known_claims, elimination, tree, boxes, supports))
+  zero_cover q (Eliminated (elimination, tree)) beside
 
 let of_zero_varying q zero unknown =
   let varying = condense_about q in
@@ -459,11 +459,7 @@ let of_zero_varying q zero unknown =
   let tree, beside =
     elaborate_zero q zero unknown ~leaf ~left_open:Kernel.LeftOpen
       ~nothing:(Elaborate.whole_of varying "support") in
-  let boxes, supports = boxes_and_supports beside in
-  limit_yields (Kernel.varying_found q.pencil q.known_claims tree q.lo q.hi)
-    (Kernel.zero_varying_families tree q.lo q.hi boxes supports);
-  Kernel.CoverOf
-    (q.lo, q.hi, VaryingCover (q.known_claims, varying.anchoring, tree, boxes, supports))
+  zero_cover q (Anchored (varying.anchoring, tree)) beside
 
 (* A claim as one of the split pencil, for the root leaves that refer to it. *)
 let zero_claim pencil claim =
@@ -647,8 +643,8 @@ let infinity (problem : Scaling.t) (certificate : Certificate.t) =
   if certificate.pieces = [] then raise (Rejected "no complete set");
   require_window (certificate.window = reversed.window) "[0, 0]" certificate;
   let cover_of q =
-    let claims, elimination, tree, supports = at_value q in
-    Kernel.CoverAtInfinity (claims, elimination, tree, supports) in
+    let claims, cover, supports = at_value q in
+    Kernel.CoverAtInfinity (claims, cover, supports) in
   let prove_claims make =
     let evidence = make () in
     match Kernel.integral_answer reversed.question evidence with

@@ -4577,45 +4577,6 @@ let belongs n y f =
      | Above v -> point_lt (end_of v) y.yield_from)
     (all_same n y.yield_region (fst f))
 
-(** val families :
-    whole leaf tree -> point -> point -> support_leaf option list -> family
-    list **)
-
-let families tr lo hi ls =
-  families_of (left_open tr lo hi) ls
-
-(** val all_yields :
-    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
-    support_leaf option list -> yield list **)
-
-let all_yields q claims tr lo hi ls =
-  cat (found q claims tr lo hi) (isolated_of (left_open tr lo hi) ls)
-
-(** val all_solutions :
-    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
-    support_leaf option list -> yield list option **)
-
-let all_solutions q claims tr lo hi ls =
-  distinct_yields (size0 (slip q)) lo hi
-    (filter (fun y ->
-      negb (has (belongs (size0 (slip q)) y) (families tr lo hi ls)))
-      (all_yields q claims tr lo hi ls))
-
-(** val still_open :
-    whole leaf tree -> point -> point -> support_leaf option list -> region
-    list **)
-
-let still_open tr lo hi ls =
-  open_of (left_open tr lo hi) ls
-
-(** val check_families :
-    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
-    support_leaf option list -> elimination -> bool **)
-
-let check_families q claims tr lo hi ls w =
-  (&&) (check_complete q claims w tr lo hi)
-    (check_supports q (left_open tr lo hi) ls)
-
 (** val add_lists :
     ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list **)
 
@@ -5355,38 +5316,63 @@ let varying_open tr lo hi =
                   | LeftOpen -> Some (fst rl)
                   | _ -> None) (leaves tr (window lo hi))
 
-(** val varying_families :
-    varying_leaf tree -> point -> point -> support_leaf option list -> family
-    list **)
+type cover =
+| Eliminated of elimination * whole leaf tree
+| Anchored of anchoring * varying_leaf tree
 
-let varying_families tr lo hi ls =
-  families_of (varying_open tr lo hi) ls
+(** val check_cover_of :
+    pencil -> solution_claim list -> cover -> point -> point -> bool **)
 
-(** val varying_still_open :
-    varying_leaf tree -> point -> point -> support_leaf option list -> region
-    list **)
+let check_cover_of q claims c lo hi =
+  match c with
+  | Eliminated (w, tr) -> check_complete q claims w tr lo hi
+  | Anchored (w, tr) -> check_varying q claims w tr lo hi
 
-let varying_still_open tr lo hi ls =
-  open_of (varying_open tr lo hi) ls
+(** val regions_found :
+    pencil -> solution_claim list -> cover -> point -> point -> yield list **)
 
-(** val varying_solutions :
-    pencil -> solution_claim list -> varying_leaf tree -> point -> point ->
-    support_leaf option list -> yield list option **)
+let regions_found q claims c lo hi =
+  match c with
+  | Eliminated (_, tr) -> found q claims tr lo hi
+  | Anchored (_, tr) -> varying_found q claims tr lo hi
 
-let varying_solutions q claims tr lo hi ls =
+(** val regions_open : cover -> point -> point -> region list **)
+
+let regions_open c lo hi =
+  match c with
+  | Eliminated (_, tr) -> left_open tr lo hi
+  | Anchored (_, tr) -> varying_open tr lo hi
+
+(** val families :
+    cover -> point -> point -> support_leaf option list -> family list **)
+
+let families c lo hi ls =
+  families_of (regions_open c lo hi) ls
+
+(** val still_open :
+    cover -> point -> point -> support_leaf option list -> region list **)
+
+let still_open c lo hi ls =
+  open_of (regions_open c lo hi) ls
+
+(** val all_solutions :
+    pencil -> solution_claim list -> cover -> point -> point -> support_leaf
+    option list -> yield list option **)
+
+let all_solutions q claims c lo hi ls =
   distinct_yields (size0 (slip q)) lo hi
     (filter (fun y ->
-      negb (has (belongs (size0 (slip q)) y) (varying_families tr lo hi ls)))
-      (cat (varying_found q claims tr lo hi)
-        (isolated_of (varying_open tr lo hi) ls)))
+      negb (has (belongs (size0 (slip q)) y) (families c lo hi ls)))
+      (cat (regions_found q claims c lo hi)
+        (isolated_of (regions_open c lo hi) ls)))
 
-(** val check_varying_families :
-    pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point
-    -> point -> support_leaf option list -> bool **)
+(** val check_families :
+    pencil -> solution_claim list -> cover -> point -> point -> support_leaf
+    option list -> bool **)
 
-let check_varying_families q claims w tr lo hi ls =
-  (&&) (check_varying q claims w tr lo hi)
-    (check_supports q (varying_open tr lo hi) ls)
+let check_families q claims c lo hi ls =
+  (&&) (check_cover_of q claims c lo hi)
+    (check_supports q (regions_open c lo hi) ls)
 
 type 'leaf box_tree =
 | CutValue of point * 'leaf box_tree * 'leaf box_tree
@@ -6245,86 +6231,57 @@ let zero_open z0 rs ls =
   filter (fun r -> negb (both_halves z0 r)) (open_of rs ls)
 
 (** val zero_undecided :
-    whole leaf tree -> point -> point -> pinned_box option list -> region list **)
+    cover -> point -> point -> pinned_box option list -> region list **)
 
-let zero_undecided tr lo hi bs =
-  not_pinned (left_open tr lo hi) bs
+let zero_undecided c lo hi bs =
+  not_pinned (regions_open c lo hi) bs
+
+(** val check_boxes_beside :
+    zero_system -> unknown -> cover -> point -> point -> pinned_box option
+    list -> bool **)
+
+let check_boxes_beside z0 u c lo hi bs =
+  match c with
+  | Eliminated (w, _) ->
+    check_beside z0 u (regions_open c lo hi) bs
+      (pinned_alone z0 u (condensed (blocks_of (zero_pencil z0 u)) w))
+  | Anchored (w, _) ->
+    check_beside z0 u (regions_open c lo hi) bs
+      (pinned_about z0 u w (expansions (zero_pencil z0 u) w))
 
 (** val check_zero_complete :
-    zero_system -> unknown -> solution_claim list -> elimination -> whole
-    leaf tree -> point -> point -> pinned_box option list -> support_leaf
-    option list -> bool **)
+    zero_system -> unknown -> solution_claim list -> cover -> point -> point
+    -> pinned_box option list -> support_leaf option list -> bool **)
 
-let check_zero_complete z0 u claims w tr lo hi bs ls =
+let check_zero_complete z0 u claims c lo hi bs ls =
   (&&) (zero_wellformed z0 u)
-    ((&&) (check_complete (zero_pencil z0 u) claims w tr lo hi)
-      ((&&)
-        (check_beside z0 u (left_open tr lo hi) bs
-          (pinned_alone z0 u (condensed (blocks_of (zero_pencil z0 u)) w)))
-        (check_supports (zero_pencil z0 u) (zero_undecided tr lo hi bs) ls)))
+    ((&&) (check_cover_of (zero_pencil z0 u) claims c lo hi)
+      ((&&) (check_boxes_beside z0 u c lo hi bs)
+        (check_supports (zero_pencil z0 u) (zero_undecided c lo hi bs) ls)))
 
 (** val zero_solutions :
-    zero_system -> unknown -> solution_claim list -> whole leaf tree -> point
-    -> point -> pinned_box option list -> support_leaf option list -> yield
-    list option **)
+    zero_system -> unknown -> solution_claim list -> cover -> point -> point
+    -> pinned_box option list -> support_leaf option list -> yield list option **)
 
-let zero_solutions z0 u claims tr lo hi bs ls =
+let zero_solutions z0 u claims c lo hi bs ls =
   zero_distinct z0 u lo hi
-    (cat (found (zero_pencil z0 u) claims tr lo hi)
-      (pinned_yields (left_open tr lo hi) bs)) (zero_undecided tr lo hi bs) ls
+    (cat (regions_found (zero_pencil z0 u) claims c lo hi)
+      (pinned_yields (regions_open c lo hi) bs)) (zero_undecided c lo hi bs)
+    ls
 
 (** val zero_families :
-    whole leaf tree -> point -> point -> pinned_box option list ->
-    support_leaf option list -> family list **)
+    cover -> point -> point -> pinned_box option list -> support_leaf option
+    list -> family list **)
 
-let zero_families tr lo hi bs ls =
-  families_of (zero_undecided tr lo hi bs) ls
+let zero_families c lo hi bs ls =
+  families_of (zero_undecided c lo hi bs) ls
 
 (** val zero_still_open :
-    zero_system -> whole leaf tree -> point -> point -> pinned_box option
-    list -> support_leaf option list -> region list **)
+    zero_system -> cover -> point -> point -> pinned_box option list ->
+    support_leaf option list -> region list **)
 
-let zero_still_open z0 tr lo hi bs ls =
-  zero_open z0 (zero_undecided tr lo hi bs) ls
-
-(** val check_zero_varying :
-    zero_system -> unknown -> solution_claim list -> anchoring ->
-    varying_leaf tree -> point -> point -> pinned_box option list ->
-    support_leaf option list -> bool **)
-
-let check_zero_varying z0 u claims w tr lo hi bs ls =
-  (&&) (zero_wellformed z0 u)
-    ((&&) (check_varying (zero_pencil z0 u) claims w tr lo hi)
-      ((&&)
-        (check_beside z0 u (varying_open tr lo hi) bs
-          (pinned_about z0 u w (expansions (zero_pencil z0 u) w)))
-        (check_supports (zero_pencil z0 u)
-          (not_pinned (varying_open tr lo hi) bs) ls)))
-
-(** val zero_varying_solutions :
-    zero_system -> unknown -> solution_claim list -> varying_leaf tree ->
-    point -> point -> pinned_box option list -> support_leaf option list ->
-    yield list option **)
-
-let zero_varying_solutions z0 u claims tr lo hi bs ls =
-  zero_distinct z0 u lo hi
-    (cat (varying_found (zero_pencil z0 u) claims tr lo hi)
-      (pinned_yields (varying_open tr lo hi) bs))
-    (not_pinned (varying_open tr lo hi) bs) ls
-
-(** val zero_varying_families :
-    varying_leaf tree -> point -> point -> pinned_box option list ->
-    support_leaf option list -> family list **)
-
-let zero_varying_families tr lo hi bs ls =
-  families_of (not_pinned (varying_open tr lo hi) bs) ls
-
-(** val zero_varying_open :
-    zero_system -> varying_leaf tree -> point -> point -> pinned_box option
-    list -> support_leaf option list -> region list **)
-
-let zero_varying_open z0 tr lo hi bs ls =
-  zero_open z0 (not_pinned (varying_open tr lo hi) bs) ls
+let zero_still_open z0 c lo hi bs ls =
+  zero_open z0 (zero_undecided c lo hi bs) ls
 
 (** val row_at : pencil -> point -> int -> sparse_row **)
 
@@ -6339,12 +6296,12 @@ let point_pencil q e =
     (nseq q.order []); free = q.free }
 
 (** val check_at_value :
-    pencil -> point -> solution_claim list -> elimination -> whole leaf tree
-    -> support_leaf option list -> bool **)
+    pencil -> point -> solution_claim list -> cover -> support_leaf option
+    list -> bool **)
 
-let check_at_value q e claims w tr ls =
+let check_at_value q e claims c ls =
   (&&) (Z.ltb Big_int_Z.zero_big_int (snd e))
-    ((&&) (check_families (point_pencil q e) claims tr e e ls w)
+    ((&&) (check_families (point_pencil q e) claims c e e ls)
       (all (fun f ->
         (&&)
           (eq_op
@@ -6352,7 +6309,7 @@ let check_at_value q e claims w tr ls =
             (Obj.magic (fst f).lower) (Obj.magic e))
           (eq_op
             (prod_eqType ZInstances.coq_Z_eqType ZInstances.coq_Z_eqType)
-            (Obj.magic (fst f).upper) (Obj.magic e))) (families tr e e ls)))
+            (Obj.magic (fst f).upper) (Obj.magic e))) (families c e e ls)))
 
 (** val zero_row0 : sparse_row -> bool **)
 
@@ -6370,11 +6327,10 @@ let reverse_pencil q =
   free = q.free }
 
 (** val check_infinity :
-    pencil -> solution_claim list -> elimination -> whole leaf tree ->
-    support_leaf option list -> bool **)
+    pencil -> solution_claim list -> cover -> support_leaf option list -> bool **)
 
-let check_infinity q claims w tr ls =
-  check_at_value (reverse_pencil q) zero claims w tr ls
+let check_infinity q claims c ls =
+  check_at_value (reverse_pencil q) zero claims c ls
 
 type rational0 = Big_int_Z.big_int * Big_int_Z.big_int
 
@@ -6977,12 +6933,9 @@ type claim_evidence =
 | OfZeroBox of int list * enclosed_claim
 
 type cover_evidence =
-| ConstantCover of solution_claim list * elimination * whole leaf tree
-   * pinned_box option list * support_leaf option list
-| CoverAtValue of solution_claim list * elimination * whole leaf tree
+| CoverInWindow of solution_claim list * cover * pinned_box option list
    * support_leaf option list
-| VaryingCover of solution_claim list * anchoring * varying_leaf tree
-   * pinned_box option list * support_leaf option list
+| CoverAtValue of solution_claim list * cover * support_leaf option list
 
 type absence_evidence =
 | ByElimination of (elimination * (matrix * matrix)) option
@@ -6992,8 +6945,7 @@ type absence_evidence =
 type evidence =
 | ClaimsIn of point * point * claim_evidence list
 | CoverOf of point * point * cover_evidence
-| CoverAtInfinity of solution_claim list * elimination * whole leaf tree
-   * support_leaf option list
+| CoverAtInfinity of solution_claim list * cover * support_leaf option list
 | Absence of point * point * absence_evidence
 | Presence of point * point * box_anchoring * presence_piece list
 | DefiniteRates of point * point * elimination * factor * factor
@@ -7109,59 +7061,45 @@ let told solutions make =
     pencil -> point -> point -> cover_evidence -> answered **)
 
 let answer_cover q lo hi = function
-| ConstantCover (claims, w, tr, _, ls) ->
-  if check_families q claims tr lo hi ls w
-  then told (all_solutions q claims tr lo hi ls) (fun ys -> AllInWindow (lo,
-         hi, { solutions_in = ys; families_of_set = (families tr lo hi ls);
-         open_regions = (still_open tr lo hi ls) }))
+| CoverInWindow (claims, c, _, ls) ->
+  if check_families q claims c lo hi ls
+  then told (all_solutions q claims c lo hi ls) (fun ys -> AllInWindow (lo,
+         hi, { solutions_in = ys; families_of_set = (families c lo hi ls);
+         open_regions = (still_open c lo hi ls) }))
   else EvidenceRefused
-| CoverAtValue (claims, w, tr, ls) ->
+| CoverAtValue (claims, c, ls) ->
   if (&&)
        (eq_op (prod_eqType ZInstances.coq_Z_eqType ZInstances.coq_Z_eqType)
-         (Obj.magic lo) (Obj.magic hi)) (check_at_value q lo claims w tr ls)
-  then told (all_solutions (point_pencil q lo) claims tr lo lo ls) (fun ys ->
+         (Obj.magic lo) (Obj.magic hi)) (check_at_value q lo claims c ls)
+  then told (all_solutions (point_pencil q lo) claims c lo lo ls) (fun ys ->
          AllInWindow (lo, lo, { solutions_in = ys; families_of_set =
-         (families tr lo lo ls); open_regions = (still_open tr lo lo ls) }))
-  else EvidenceRefused
-| VaryingCover (claims, w, tr, _, ls) ->
-  if check_varying_families q claims w tr lo hi ls
-  then told (varying_solutions q claims tr lo hi ls) (fun ys -> AllInWindow
-         (lo, hi, { solutions_in = ys; families_of_set =
-         (varying_families tr lo hi ls); open_regions =
-         (varying_still_open tr lo hi ls) }))
+         (families c lo lo ls); open_regions = (still_open c lo lo ls) }))
   else EvidenceRefused
 
 (** val answer_zero_cover :
     zero_system -> unknown -> point -> point -> cover_evidence -> answered **)
 
 let answer_zero_cover z0 u lo hi = function
-| ConstantCover (claims, w, tr, bs, ls) ->
-  if check_zero_complete z0 u claims w tr lo hi bs ls
-  then told (zero_solutions z0 u claims tr lo hi bs ls) (fun ys ->
-         AllInWindow (lo, hi, { solutions_in = ys; families_of_set =
-         (zero_families tr lo hi bs ls); open_regions =
-         (zero_still_open z0 tr lo hi bs ls) }))
+| CoverInWindow (claims, c, bs, ls) ->
+  if check_zero_complete z0 u claims c lo hi bs ls
+  then told (zero_solutions z0 u claims c lo hi bs ls) (fun ys -> AllInWindow
+         (lo, hi, { solutions_in = ys; families_of_set =
+         (zero_families c lo hi bs ls); open_regions =
+         (zero_still_open z0 c lo hi bs ls) }))
   else EvidenceRefused
-| CoverAtValue (_, _, _, _) -> EvidenceRefused
-| VaryingCover (claims, w, tr, bs, ls) ->
-  if check_zero_varying z0 u claims w tr lo hi bs ls
-  then told (zero_varying_solutions z0 u claims tr lo hi bs ls) (fun ys ->
-         AllInWindow (lo, hi, { solutions_in = ys; families_of_set =
-         (zero_varying_families tr lo hi bs ls); open_regions =
-         (zero_varying_open z0 tr lo hi bs ls) }))
-  else EvidenceRefused
+| CoverAtValue (_, _, _) -> EvidenceRefused
 
 (** val answer_infinity :
-    pencil -> solution_claim list -> elimination -> whole leaf tree ->
-    support_leaf option list -> answered **)
+    pencil -> solution_claim list -> cover -> support_leaf option list ->
+    answered **)
 
-let answer_infinity q claims w tr ls =
-  if check_infinity q claims w tr ls
+let answer_infinity q claims c ls =
+  if check_infinity q claims c ls
   then told
-         (all_solutions (point_pencil (reverse_pencil q) zero) claims tr zero
+         (all_solutions (point_pencil (reverse_pencil q) zero) claims c zero
            zero ls) (fun ys -> AllAtInfinity { solutions_in = ys;
-         families_of_set = (families tr zero zero ls); open_regions =
-         (still_open tr zero zero ls) })
+         families_of_set = (families c zero zero ls); open_regions =
+         (still_open c zero zero ls) })
   else EvidenceRefused
 
 (** val check_absence :
@@ -7201,10 +7139,10 @@ let integral_answer p = function
      else EvidenceRefused
    | ZeroProblem (z0, u) -> answer_zero_cover z0 u lo hi c
    | PlainProblem _ -> EvidenceRefused)
-| CoverAtInfinity (claims, w, tr, ls) ->
+| CoverAtInfinity (claims, c, ls) ->
   (match p with
    | PlainProblem _ -> EvidenceRefused
-   | _ -> answer_infinity (pencil_of_integral p) claims w tr ls)
+   | _ -> answer_infinity (pencil_of_integral p) claims c ls)
 | Absence (from, bound1, a) ->
   (match zero_system_of p with
    | Some z0 ->

@@ -1442,24 +1442,6 @@ val open_of : region list -> support_leaf option list -> region list
 
 val belongs : int -> yield -> family -> bool
 
-val families :
-  whole leaf tree -> point -> point -> support_leaf option list -> family list
-
-val all_yields :
-  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
-  support_leaf option list -> yield list
-
-val all_solutions :
-  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
-  support_leaf option list -> yield list option
-
-val still_open :
-  whole leaf tree -> point -> point -> support_leaf option list -> region list
-
-val check_families :
-  pencil -> solution_claim list -> whole leaf tree -> point -> point ->
-  support_leaf option list -> elimination -> bool
-
 val add_lists : ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list
 
 val add_matrix : matrix -> matrix -> matrix
@@ -1703,21 +1685,31 @@ val varying_found :
 
 val varying_open : varying_leaf tree -> point -> point -> region list
 
-val varying_families :
-  varying_leaf tree -> point -> point -> support_leaf option list -> family
-  list
+type cover =
+| Eliminated of elimination * whole leaf tree
+| Anchored of anchoring * varying_leaf tree
 
-val varying_still_open :
-  varying_leaf tree -> point -> point -> support_leaf option list -> region
-  list
+val check_cover_of :
+  pencil -> solution_claim list -> cover -> point -> point -> bool
 
-val varying_solutions :
-  pencil -> solution_claim list -> varying_leaf tree -> point -> point ->
-  support_leaf option list -> yield list option
+val regions_found :
+  pencil -> solution_claim list -> cover -> point -> point -> yield list
 
-val check_varying_families :
-  pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point ->
-  point -> support_leaf option list -> bool
+val regions_open : cover -> point -> point -> region list
+
+val families :
+  cover -> point -> point -> support_leaf option list -> family list
+
+val still_open :
+  cover -> point -> point -> support_leaf option list -> region list
+
+val all_solutions :
+  pencil -> solution_claim list -> cover -> point -> point -> support_leaf
+  option list -> yield list option
+
+val check_families :
+  pencil -> solution_claim list -> cover -> point -> point -> support_leaf
+  option list -> bool
 
 type 'leaf box_tree =
 | CutValue of point * 'leaf box_tree * 'leaf box_tree
@@ -1993,59 +1985,42 @@ val zero_open :
   zero_system -> region list -> support_leaf option list -> region list
 
 val zero_undecided :
-  whole leaf tree -> point -> point -> pinned_box option list -> region list
+  cover -> point -> point -> pinned_box option list -> region list
+
+val check_boxes_beside :
+  zero_system -> unknown -> cover -> point -> point -> pinned_box option list
+  -> bool
 
 val check_zero_complete :
-  zero_system -> unknown -> solution_claim list -> elimination -> whole leaf
-  tree -> point -> point -> pinned_box option list -> support_leaf option
-  list -> bool
+  zero_system -> unknown -> solution_claim list -> cover -> point -> point ->
+  pinned_box option list -> support_leaf option list -> bool
 
 val zero_solutions :
-  zero_system -> unknown -> solution_claim list -> whole leaf tree -> point
-  -> point -> pinned_box option list -> support_leaf option list -> yield
-  list option
+  zero_system -> unknown -> solution_claim list -> cover -> point -> point ->
+  pinned_box option list -> support_leaf option list -> yield list option
 
 val zero_families :
-  whole leaf tree -> point -> point -> pinned_box option list -> support_leaf
-  option list -> family list
+  cover -> point -> point -> pinned_box option list -> support_leaf option
+  list -> family list
 
 val zero_still_open :
-  zero_system -> whole leaf tree -> point -> point -> pinned_box option list
-  -> support_leaf option list -> region list
-
-val check_zero_varying :
-  zero_system -> unknown -> solution_claim list -> anchoring -> varying_leaf
-  tree -> point -> point -> pinned_box option list -> support_leaf option
-  list -> bool
-
-val zero_varying_solutions :
-  zero_system -> unknown -> solution_claim list -> varying_leaf tree -> point
-  -> point -> pinned_box option list -> support_leaf option list -> yield
-  list option
-
-val zero_varying_families :
-  varying_leaf tree -> point -> point -> pinned_box option list ->
-  support_leaf option list -> family list
-
-val zero_varying_open :
-  zero_system -> varying_leaf tree -> point -> point -> pinned_box option
-  list -> support_leaf option list -> region list
+  zero_system -> cover -> point -> point -> pinned_box option list ->
+  support_leaf option list -> region list
 
 val row_at : pencil -> point -> int -> sparse_row
 
 val point_pencil : pencil -> point -> pencil
 
 val check_at_value :
-  pencil -> point -> solution_claim list -> elimination -> whole leaf tree ->
-  support_leaf option list -> bool
+  pencil -> point -> solution_claim list -> cover -> support_leaf option list
+  -> bool
 
 val zero_row0 : sparse_row -> bool
 
 val reverse_pencil : pencil -> pencil
 
 val check_infinity :
-  pencil -> solution_claim list -> elimination -> whole leaf tree ->
-  support_leaf option list -> bool
+  pencil -> solution_claim list -> cover -> support_leaf option list -> bool
 
 type rational0 = Big_int_Z.big_int * Big_int_Z.big_int
 
@@ -2279,12 +2254,9 @@ type claim_evidence =
 | OfZeroBox of int list * enclosed_claim
 
 type cover_evidence =
-| ConstantCover of solution_claim list * elimination * whole leaf tree
-   * pinned_box option list * support_leaf option list
-| CoverAtValue of solution_claim list * elimination * whole leaf tree
+| CoverInWindow of solution_claim list * cover * pinned_box option list
    * support_leaf option list
-| VaryingCover of solution_claim list * anchoring * varying_leaf tree
-   * pinned_box option list * support_leaf option list
+| CoverAtValue of solution_claim list * cover * support_leaf option list
 
 type absence_evidence =
 | ByElimination of (elimination * (matrix * matrix)) option
@@ -2294,8 +2266,7 @@ type absence_evidence =
 type evidence =
 | ClaimsIn of point * point * claim_evidence list
 | CoverOf of point * point * cover_evidence
-| CoverAtInfinity of solution_claim list * elimination * whole leaf tree
-   * support_leaf option list
+| CoverAtInfinity of solution_claim list * cover * support_leaf option list
 | Absence of point * point * absence_evidence
 | Presence of point * point * box_anchoring * presence_piece list
 | DefiniteRates of point * point * elimination * factor * factor
@@ -2335,8 +2306,8 @@ val answer_zero_cover :
   zero_system -> unknown -> point -> point -> cover_evidence -> answered
 
 val answer_infinity :
-  pencil -> solution_claim list -> elimination -> whole leaf tree ->
-  support_leaf option list -> answered
+  pencil -> solution_claim list -> cover -> support_leaf option list ->
+  answered
 
 val check_absence : zero_system -> point -> point -> absence_evidence -> bool
 
