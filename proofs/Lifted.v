@@ -1,4 +1,4 @@
-(* Lifted solution claims: a motion of a mechanical system, given with its forces.
+(* Motions of a mechanical system, given with their forces: the tests of a claim.
 
    A claim gives a polynomial p with a root t in [a/d, b/d], the support and the biactive variables,
    and for each degree of freedom polynomials v_d and w_d with integer coefficients.  Remainders by
@@ -15,10 +15,8 @@
 
    The normal n has the friction factor of the particle as its length (System.v).
 
-   Theorem [lifted_sound]: if the claim is checked, then for some t in the interval the motion v(t)
-   satisfies (9), its forces are w(t), and it has the support and the biactive variables claimed.
-
-   The pencil plays no part in this.
+   ZeroReaction.v puts these tests together, for systems with particles in contact with zero
+   reaction and for those without ([lifted_sound]).
 
    Page: spec/certificates.md, 5.4.  Rust: crates/check/src/lifted_solution.rs. *)
 
@@ -104,15 +102,6 @@ Definition particle_states j :=
       else shows_zero k (rate_poly p) rate &
       if in_support j || is_biactive j then shows_zero k (cone_poly p) reaction
       else shows_negative k (cone_poly p) reaction].
-
-Definition slip_variables := all (fun i => (nf <= i) && (i < nf + ns))%N.
-
-Definition check_lifted :=
-  [&& system_wellformed s u, root_interval k, slip_variables (support k ++ biactive k),
-      all balanced (iota 0 (dofs s)), all without_force (free_dofs s),
-      all (fun d => (d \in moving_dofs s) || at_rest d) (iota 0 (dofs s)),
-      all particle_states (iota 0 ns) &
-      has in_support (iota 0 ns) || has dof_moves (free_dofs s)].
 
 End Checker.
 
@@ -259,39 +248,5 @@ by apply: contraTneq rate => v2; rewrite v1 v2 !mulr0 addr0 mulr0 ltxx.
 Qed.
 
 End AtRoot.
-
-Hypothesis checked : check_lifted s u l.
-
-Lemma lifted_parts :
-  [/\ system_wellformed s u, root_interval k & forall i, i \in all_dofs -> balanced s u l i] /\
-  [/\ forall i, i \in free_dofs s -> without_force l i,
-      forall i, i \in all_dofs -> i \notin moving_dofs s -> at_rest l i,
-      forall j, (j < ns)%N -> particle_states s u l j &
-      has (in_support s l) (iota 0 ns) || has (dof_moves l) (free_dofs s)].
-Proof.
-case/and5P: checked => wf interval _ /allP bal /and4P[/allP free /allP rest /allP ps nz].
-split; split=> //; last by move=> j lt_j; apply: ps; rewrite mem_iota.
-by move=> i Hi /negbTE out; have := rest _ Hi; rewrite /= out.
-Qed.
-
-Theorem lifted_sound : exists t : R,
-  [/\ toR a <= toR d * t /\ toR d * t <= toR b, satisfies_9 s u t (v_at t),
-      forall i, i \in all_dofs -> force s (lambda2_of u t) (v_at t) i = w_at t i &
-      has_support s u (support k) (biactive k) t (v_at t)].
-Proof.
-have [[wf interval bal] [free rest states nz]] := lifted_parts.
-have [a0 _ d0 _] := interval_parts R interval.
-have [t [at_ tb root_t]] := modulus_root R interval.
-have [lines signs] := slip_lines wf interval bal at_ tb root_t states.
-have free_in i : i \in free_dofs s -> i \in all_dofs.
-  by move=> Hi; apply: (moving_dof_in wf); rewrite mem_cat Hi.
-
-exists t; split=> //; last by move=> i Hi; apply: balance.
-apply/satisfies_9E; split; first by rewrite -(pmulr_rge0 _ d0); apply: le_trans at_.
-split=> //.
-- exact: (something_moves wf interval bal at_ tb root_t states free_in).
-- by move=> i Hi out; apply: (zero_at root_t (rest _ Hi out)).
-by move=> i Hi; rewrite balance ?free_in //; exact: (zero_at root_t (free _ Hi)).
-Qed.
 
 End Sound.

@@ -28,12 +28,11 @@ Import Order.Theory GRing.Theory Num.Theory.
 Delimit Scope Z_scope with Z.
 Local Open Scope ring_scope.
 
-(* A claim about the pencil; a motion with its forces; the same with particles of zero reaction; a
-   box around a motion with such particles. *)
+(* A claim about the pencil; a motion with its forces; a box around a motion with particles of zero
+   reaction. *)
 Inductive claim_evidence :=
   | OfPencil of solution_claim
-  | OfMotion of lifted
-  | OfZeroMotion of zero_claim
+  | OfMotion of zero_claim
   | OfZeroBox of seq nat & enclosed_claim.
 
 (* Claims that root leaves refer to; the cover; and beside each region that its tree leaves open a
@@ -75,8 +74,9 @@ Variable p : integral.
 Definition asserted_of k :=
   Asserted (claimed_from k) (claimed_to k) (claimed_support k) (claimed_biactive k).
 
-Definition asserted_motion (k : claim) := Asserted (claim_from k, claim_denominator k)
-  (claim_to k, claim_denominator k) (support k) (biactive k).
+Definition asserted_motion (c : zero_claim) := let k := motion_claim (lifted_part c) in
+  Asserted (claim_from k, claim_denominator k) (claim_to k, claim_denominator k) (support k)
+    (biactive k).
 
 (* What a claim asserts, if its check accepts it; Q is the pencil of a problem without particles of
    zero reaction. *)
@@ -84,10 +84,9 @@ Definition claim_answer (Q : pencil) (c : claim_evidence) : option asserted :=
   match p, c with
   | PencilProblem _, OfPencil k | SystemProblem _ _, OfPencil k =>
       if check_solution_claim Q k then Some (asserted_of k) else None
-  | SystemProblem s u, OfMotion l =>
-      if check_lifted s u l then Some (asserted_motion (motion_claim l)) else None
-  | ZeroProblem z u, OfZeroMotion c =>
-      if check_zero z u c then Some (asserted_motion (motion_claim (lifted_part c))) else None
+  | SystemProblem s u, OfMotion c =>
+      if check_zero (ZeroSystem s [::]) u c then Some (asserted_motion c) else None
+  | ZeroProblem z u, OfMotion c => if check_zero z u c then Some (asserted_motion c) else None
   | ZeroProblem z u, OfZeroBox support c =>
       if check_zero_enclosed z u support c
       then Some (Asserted (box_from c) (box_to c) support (resting_halves z support)) else None
@@ -343,24 +342,30 @@ Definition pencil_for_claims p :=
   | _ => Pencil 0 [::] [::] [::]
   end.
 
+Lemma motion_claim_sound z u c : check_zero z u c -> exists t : R,
+  let k := motion_claim (lifted_part c) in let v := v_at (lifted_part c) t in
+  [/\ between t (asserted_from (asserted_motion c)) (asserted_to (asserted_motion c)),
+      satisfies_9z z u t v, has_support (without_zero z) u (support k) (biactive k) t v &
+      has_zero_support z u (support k) (biactive k) t v].
+Proof.
+move=> /(zero_sound R)[t [[from_t t_to] sat _ sup sup_z]]; exists t; split=> //.
+by rewrite /between /= ![t * _]mulrC.
+Qed.
+
 Lemma claim_answer_sound p c a lo hi : needs_wellformed p ->
   claim_answer p (pencil_for_claims p) c = Some a -> in_window lo hi a ->
   asserted_holds (sem p) lo hi a.
 Proof.
-case: p => [Q|s u|z u|m] /= wf; case: c => [k|l|c|support c] //=; case: ifP => // ok [<-] inside.
+case: p => [Q|s u|z u|m] /= wf; case: c => [k|c|support c] //=; case: ifP => // ok [<-] inside.
 - exact: pencil_claim.
 - exact: system_claim_holds.
-- have [t [[from_t t_to] sat _ sup]] := lifted_sound R ok.
-  have bt : between t (asserted_from (asserted_motion (motion_claim l)))
-              (asserted_to (asserted_motion (motion_claim l))).
-    by rewrite /between /= ![t * _]mulrC.
-  exists t; eexists; split; [exact: sat | exact: (within_between inside bt) | exact: bt |].
-  exact: system_signs.
+- have [t [bt [t0 /no_zero_particles sat] sup _]] := motion_claim_sound ok.
+  exists t, (v_at (lifted_part c) t); split; last exact: system_signs.
+  - exact/satisfies_9E.
+  - exact: (within_between inside bt).
+  exact: bt.
 - have wf_z : zero_wellformed z u by case/and5P: ok.
-  have [t [[from_t t_to] sat _ sup sup_z]] := zero_sound R ok.
-  have bt : between t (asserted_from (asserted_motion (motion_claim (lifted_part c))))
-              (asserted_to (asserted_motion (motion_claim (lifted_part c)))).
-    by rewrite /between /= ![t * _]mulrC.
+  have [t [bt sat sup sup_z]] := motion_claim_sound ok.
   exists t; eexists; split; [exact: sat | exact: (within_between inside bt) | exact: bt |].
   exact: zero_signs.
 have wf_z : zero_wellformed z u by case/and5P: ok.

@@ -424,3 +424,18 @@ Lemma no_zero_particles (R : rcfType) s (lambda2 mu : R) v :
 Proof.
 by rewrite /conditions_9z /conditions_9 /moving_with_zero /zero_dofs /= cats0; split=> -[].
 Qed.
+
+(* A lifted claim about a system without z particles. *)
+Definition check_lifted s u l :=
+  check_zero (ZeroSystem s [::]) u (ZeroClaim l [::] [::] [::] [::] [::]).
+
+Corollary lifted_sound (R : rcfType) s u l : check_lifted s u l -> exists t : R,
+  [/\ toR (claim_from (motion_claim l)) <= toR (claim_denominator (motion_claim l)) * t /\
+      toR (claim_denominator (motion_claim l)) * t <= toR (claim_to (motion_claim l)),
+      satisfies_9 s u t (v_at l t),
+      forall i, i \in iota 0 (dofs s) -> force s (lambda2_of u t) (v_at l t) i = w_at l t i &
+      has_support s u (support (motion_claim l)) (biactive (motion_claim l)) t (v_at l t)].
+Proof.
+move=> checked; have [t [bt [t0 /no_zero_particles sat] forces sup _]] := zero_sound R checked.
+by exists t; split=> //; apply/satisfies_9E.
+Qed.

@@ -122,7 +122,8 @@ let lifted_evidence (problem : Scaling.t) pencil (l : Certificate.lifted) =
     fits_motion system.dofs l;
     not_twice l;
     let factor = Z.divexact problem.common system.unit_length in
-    Kernel.OfMotion (Elaborate.lifted_of system unknown factor l),
+    let zero = { Kernel.without_zero = system; zero_particles = [] } in
+    Kernel.OfMotion (Elaborate.zero_of zero unknown factor l),
     lazy (Kernel.ExactClaim (Elaborate.claim_of pencil (Elaborate.exact_of_lifted system l)))
   | _ -> raise (Rejected "a lifted solution of a pencil")
 
@@ -391,7 +392,7 @@ let zero_claims (problem : Scaling.t) (certificate : Certificate.t) (zero : Kern
   let of_motion (l : Certificate.lifted) =
     check_root certificate l.motion;
     not_twice l;
-    Kernel.OfZeroMotion (Elaborate.zero_of zero unknown factor l) in
+    Kernel.OfMotion (Elaborate.zero_of zero unknown factor l) in
   List.map (Either.fold ~left:of_motion ~right:(zero_box certificate zero unknown)) claims
 
 (* A complete set of such a system.  A branch on one half of v_T that moves puts the other half at

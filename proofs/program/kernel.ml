@@ -3394,34 +3394,6 @@ let particle_states s u l j =
        then shows_zero l.motion_claim (cone_poly u l p) reaction
        else shows_negative l.motion_claim (cone_poly u l p) reaction))
 
-(** val slip_variables : system -> int list -> bool **)
-
-let slip_variables s =
-  all (fun i ->
-    (&&) (leq (free_number s) i)
-      (leq (Natural.succ i) (addn (free_number s) (size0 s.particles))))
-
-(** val check_lifted : system -> unknown -> lifted -> bool **)
-
-let check_lifted s u l =
-  (&&) (system_wellformed s u)
-    ((&&) (root_interval l.motion_claim)
-      ((&&)
-        (slip_variables s
-          (cat l.motion_claim.support l.motion_claim.biactive))
-        ((&&) (all (balanced s u l) (iota 0 s.dofs))
-          ((&&) (all (without_force l) s.free_dofs)
-            ((&&)
-              (all (fun d ->
-                (||)
-                  (in_mem (Obj.magic d)
-                    (mem (seq_predType nat_eqType) (Obj.magic moving_dofs s)))
-                  (at_rest l d)) (iota 0 s.dofs))
-              ((&&)
-                (all (particle_states s u l) (iota 0 (size0 s.particles)))
-                ((||) (has (in_support s l) (iota 0 (size0 s.particles)))
-                  (has (dof_moves l) s.free_dofs))))))))
-
 type zero_system = { without_zero : system;
                      zero_particles : slip_particle list }
 
@@ -6928,8 +6900,7 @@ let check_given_rates c b lo hi w low high =
 
 type claim_evidence =
 | OfPencil of solution_claim
-| OfMotion of lifted
-| OfZeroMotion of zero_claim
+| OfMotion of zero_claim
 | OfZeroBox of int list * enclosed_claim
 
 type cover_evidence =
@@ -6966,12 +6937,13 @@ let asserted_of k =
     asserted_support = (claimed_support k); asserted_biactive =
     (claimed_biactive k) }
 
-(** val asserted_motion : claim -> asserted **)
+(** val asserted_motion : zero_claim -> asserted **)
 
-let asserted_motion k =
+let asserted_motion c =
+  let k = c.lifted_part.motion_claim in
   { asserted_from = (k.claim_from, k.claim_denominator); asserted_to =
-    (k.claim_to, k.claim_denominator); asserted_support = k.support;
-    asserted_biactive = k.biactive }
+  (k.claim_to, k.claim_denominator); asserted_support = k.support;
+  asserted_biactive = k.biactive }
 
 (** val claim_answer :
     integral -> pencil -> claim_evidence -> asserted option **)
@@ -6987,24 +6959,22 @@ let claim_answer p q c =
     (match c with
      | OfPencil k ->
        if check_solution_claim q k then Some (asserted_of k) else None
-     | OfMotion l ->
-       if check_lifted s u l
-       then Some (asserted_motion l.motion_claim)
+     | OfMotion c0 ->
+       if check_zero { without_zero = s; zero_particles = [] } u c0
+       then Some (asserted_motion c0)
        else None
-     | _ -> None)
+     | OfZeroBox (_, _) -> None)
   | ZeroProblem (z0, u) ->
     (match c with
-     | OfZeroMotion c0 ->
-       if check_zero z0 u c0
-       then Some (asserted_motion c0.lifted_part.motion_claim)
-       else None
+     | OfPencil _ -> None
+     | OfMotion c0 ->
+       if check_zero z0 u c0 then Some (asserted_motion c0) else None
      | OfZeroBox (support0, c0) ->
        if check_zero_enclosed z0 u support0 c0
        then Some { asserted_from = c0.box_from; asserted_to = c0.box_to;
               asserted_support = support0; asserted_biactive =
               (resting_halves z0 support0) }
-       else None
-     | _ -> None)
+       else None)
   | PlainProblem _ -> None
 
 (** val in_window : point -> point -> asserted -> bool **)

@@ -1128,10 +1128,6 @@ val is_biactive : system -> lifted -> int -> bool
 
 val particle_states : system -> unknown -> lifted -> int -> bool
 
-val slip_variables : system -> int list -> bool
-
-val check_lifted : system -> unknown -> lifted -> bool
-
 type zero_system = { without_zero : system;
                      zero_particles : slip_particle list }
 
@@ -2249,8 +2245,7 @@ val check_given_rates :
 
 type claim_evidence =
 | OfPencil of solution_claim
-| OfMotion of lifted
-| OfZeroMotion of zero_claim
+| OfMotion of zero_claim
 | OfZeroBox of int list * enclosed_claim
 
 type cover_evidence =
@@ -2282,7 +2277,7 @@ type answered =
 
 val asserted_of : solution_claim -> asserted
 
-val asserted_motion : claim -> asserted
+val asserted_motion : zero_claim -> asserted
 
 val claim_answer : integral -> pencil -> claim_evidence -> asserted option
 
